@@ -1,0 +1,2 @@
+//! The `alberti` command.
+fn main() {}

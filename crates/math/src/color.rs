@@ -1,0 +1,53 @@
+//! The packed colour that texels are read as and pixels are written from.
+
+/// A colour of four bytes, red in the low byte: in memory R, G, B, A on little-endian machines.
+///
+/// The bytes are sRGB-encoded wherever they come from a texture or go to a target; alpha is linear.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[repr(transparent)]
+pub struct Rgba8(u32);
+
+impl Rgba8 {
+    /// Opaque black.
+    pub const BLACK: Self = Self::new(0, 0, 0, 255);
+    /// Opaque white.
+    pub const WHITE: Self = Self::new(255, 255, 255, 255);
+
+    /// The colour with these four bytes.
+    #[must_use]
+    pub const fn new(r: u8, g: u8, b: u8, a: u8) -> Self {
+        Self(u32::from_le_bytes([r, g, b, a]))
+    }
+
+    /// The opaque colour `0xRRGGBB`.
+    #[must_use]
+    pub const fn from_rgb24(rgb: u32) -> Self {
+        let [_, r, g, b] = rgb.to_be_bytes();
+        Self::new(r, g, b, 255)
+    }
+
+    /// The colour whose bytes are R, G, B, A from the lowest to the highest.
+    #[must_use]
+    pub const fn from_bits(bits: u32) -> Self {
+        Self(bits)
+    }
+
+    /// R, G, B, A from the lowest byte to the highest.
+    #[must_use]
+    pub const fn to_bits(self) -> u32 {
+        self.0
+    }
+
+    /// The four bytes R, G, B, A.
+    #[must_use]
+    pub const fn to_bytes(self) -> [u8; 4] {
+        self.0.to_le_bytes()
+    }
+}
+
+impl core::fmt::Debug for Rgba8 {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let [r, g, b, a] = self.to_bytes();
+        write!(f, "Rgba8({r}, {g}, {b}, {a})")
+    }
+}
