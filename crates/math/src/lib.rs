@@ -1,6 +1,22 @@
 #![no_std]
 #![doc = include_str!("../README.md")]
 
-mod color;
+#[cfg(test)]
+extern crate std;
 
+mod barycentric;
+mod color;
+mod fixed;
+mod frame;
+mod round;
+mod space;
+mod varying;
+
+pub use barycentric::{interpolate, signed_area, triangle_weights};
 pub use color::Rgba8;
+pub use fixed::{Fixed, GUARD_PIXELS, Sub4, Sub8, Subpixel};
+pub use frame::Frame;
+pub use glam;
+pub use round::{floor_i32, round_half_up};
+pub use space::{Cube, Eye, Object, Point, Point2, Point3, Space, Vector, Vector2, Vector3, World};
+pub use varying::{Varying, blend2, blend3, hull3, is_finite};
