@@ -1,2 +1,19 @@
 #![no_std]
 #![doc = include_str!("../README.md")]
+
+#[cfg(test)]
+extern crate std;
+
+mod camera;
+mod clip;
+mod depth;
+mod error;
+mod perspective;
+mod viewport;
+
+pub use camera::look_at;
+pub use clip::{EyeVertex, MAX_POLYGON, Polygon, ProjectedVertex, SideBounds, clip_near_far, clip_sides};
+pub use depth::DepthMap;
+pub use error::ViewError;
+pub use perspective::Perspective;
+pub use viewport::Viewport;

@@ -1,0 +1,39 @@
+//! Why a view cannot be set up.
+
+use core::fmt;
+
+/// What is wrong with the parameters of a camera, a projection or a viewport.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ViewError {
+    /// A parameter is NaN or infinite.
+    NotFinite,
+    /// The eye is at the target, or so close that no direction can be told.
+    EyeAtTarget,
+    /// The up vector is zero or parallel to the direction of view.
+    UpAlongView,
+    /// The opening angle is not strictly between 0 and π, or its cotangent is too large for an `f32`.
+    Angle,
+    /// The aspect ratio is not positive.
+    Aspect,
+    /// Not 0 < near < far, or the two are too close to tell apart.
+    NearFar,
+    /// The viewport is empty, or reaches too far from the frame's origin for the guard band.
+    Viewport,
+}
+
+impl fmt::Display for ViewError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::NotFinite => "a parameter is NaN or infinite",
+            Self::EyeAtTarget => "the eye is at the target: no direction of view",
+            Self::UpAlongView => "the up vector is zero or parallel to the direction of view",
+            Self::Angle => "the opening angle must lie between 0 and 180 degrees",
+            Self::Aspect => "the aspect ratio must be positive",
+            Self::NearFar => "the planes must satisfy 0 < near < far",
+            Self::Viewport => "the viewport is empty or reaches more than 16384 pixels from the origin",
+        })
+    }
+}
+
+impl core::error::Error for ViewError {}
