@@ -1,0 +1,176 @@
+//! Depth buffers: what is stored for a pixel, and which of two is seen.
+
+use core::fmt::Debug;
+
+/// A format of depth values, and the comparison that goes with it.
+///
+/// Depths reach the buffer as zs in [0, 1], 0 at the near plane, or 1 there where [`REVERSED`](Self::REVERSED). A new
+/// fragment is seen if it is strictly nearer than what is stored; of two equal ones, the first drawn stays.
+pub trait DepthFormat: Copy + Debug + 'static {
+    /// What the buffer holds for a pixel.
+    type Stored: Copy + Debug + 'static;
+    /// Whether zs falls with distance.
+    const REVERSED: bool;
+    /// The farthest depth.
+    const FARTHEST: Self::Stored;
+    /// The stored value nearest to `zs`, which must be in [0, 1].
+    fn encode(zs: f32) -> Self::Stored;
+    /// Whether `new` is seen in front of `old`.
+    fn nearer(new: Self::Stored, old: Self::Stored) -> bool;
+}
+
+/// No depth buffer: everything is seen, in drawing order. Its buffer is a slice of `()`, which takes no memory; depth
+/// is not computed.
+#[derive(Clone, Copy, Debug)]
+pub enum NoDepth {}
+
+/// 16-bit integers: zs·65535 to the nearest, halves upwards.
+///
+/// # Precision
+/// Steps of 2^-16 in zs: at far plane B and near plane 1, surfaces 0.15 apart can be told apart for B = 100, 15 for
+/// B = 1000.
+#[derive(Clone, Copy, Debug)]
+pub enum D16 {}
+
+/// 24-bit integers in a `u32`: zs·(2^24 − 1) to the nearest, halves upwards.
+///
+/// # Precision
+/// Steps of 2^-24 in zs: 256 times finer than [`D16`].
+#[derive(Clone, Copy, Debug)]
+pub enum D24 {}
+
+/// `f32`, growing with distance.
+///
+/// # Precision
+/// Steps of 2^-24 near zs = 1, where perspective puts nearly everything: no better than [`D24`].
+#[derive(Clone, Copy, Debug)]
+pub enum F32 {}
+
+/// `f32`, falling with distance: the best there is, and no slower.
+///
+/// # Precision
+/// Relative steps of 2^-24 in z itself, at any ratio of the planes.
+#[derive(Clone, Copy, Debug)]
+pub enum F32Reversed {}
+
+impl DepthFormat for NoDepth {
+    type Stored = ();
+    const REVERSED: bool = false;
+    const FARTHEST: () = ();
+    #[inline]
+    fn encode(_: f32) {}
+    #[inline]
+    fn nearer((): (), (): ()) -> bool {
+        true
+    }
+}
+
+impl DepthFormat for D16 {
+    type Stored = u16;
+    const REVERSED: bool = false;
+    const FARTHEST: u16 = u16::MAX;
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "at most 2^16 - 1")]
+    fn encode(zs: f32) -> u16 {
+        quantize::<16>(zs) as u16
+    }
+    #[inline]
+    fn nearer(new: u16, old: u16) -> bool {
+        new < old
+    }
+}
+
+impl DepthFormat for D24 {
+    type Stored = u32;
+    const REVERSED: bool = false;
+    const FARTHEST: u32 = (1 << 24) - 1;
+    #[inline]
+    fn encode(zs: f32) -> u32 {
+        quantize::<24>(zs)
+    }
+    #[inline]
+    fn nearer(new: u32, old: u32) -> bool {
+        new < old
+    }
+}
+
+impl DepthFormat for F32 {
+    type Stored = f32;
+    const REVERSED: bool = false;
+    const FARTHEST: f32 = 1.0;
+    #[inline]
+    fn encode(zs: f32) -> f32 {
+        zs
+    }
+    #[inline]
+    fn nearer(new: f32, old: f32) -> bool {
+        new < old
+    }
+}
+
+impl DepthFormat for F32Reversed {
+    type Stored = f32;
+    const REVERSED: bool = true;
+    const FARTHEST: f32 = 0.0;
+    #[inline]
+    fn encode(zs: f32) -> f32 {
+        zs
+    }
+    #[inline]
+    fn nearer(new: f32, old: f32) -> bool {
+        new > old
+    }
+}
+
+/// zs·(2^BITS − 1) to the nearest integer, halves upwards, from the bits of `zs` in [0, 1]: exact, where a product in
+/// `f32` would round twice.
+#[inline]
+#[expect(clippy::cast_possible_truncation, reason = "the result has BITS <= 24 bits")]
+fn quantize<const BITS: u32>(zs: f32) -> u32 {
+    let bits = zs.to_bits();
+    // zs = mantissa * 2^-shift; the product has at most 48 bits, and from a shift of 49 on it rounds to 0.
+    let mantissa = u64::from((bits & 0x007f_ffff) | 0x0080_0000);
+    let shift = 150u32.saturating_sub(bits >> 23).clamp(1, 63);
+    ((mantissa * ((1 << BITS) - 1) + (1 << (shift - 1))) >> shift) as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// In 128 bits: floor((2 m (2^n - 1) + 2^s) / 2^(s+1)) with zs = m / 2^s and s fixed at 100.
+    fn exact(zs: f32, max: u128) -> u128 {
+        let scaled = f64::from(zs) * 2f64.powi(100);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an integer below 2^101")]
+        let m = scaled as u128;
+        (2 * m * max + (1 << 100)) >> 101
+    }
+
+    #[test]
+    fn quantisation_is_correctly_rounded() {
+        for bits in (0..=1.0f32.to_bits()).step_by(1013).chain([1.0f32.to_bits()]) {
+            let zs = f32::from_bits(bits);
+            if bits < 0x1000_0000 {
+                assert_eq!((D16::encode(zs), D24::encode(zs)), (0, 0), "{zs:e}");
+                continue;
+            }
+            assert_eq!(u128::from(D16::encode(zs)), exact(zs, 0xffff), "{zs:e}");
+            assert_eq!(u128::from(D24::encode(zs)), exact(zs, 0xff_ffff), "{zs:e}");
+        }
+    }
+
+    #[test]
+    fn halves_go_up_and_the_ends_are_the_ends() {
+        assert_eq!((D16::encode(0.0), D16::encode(1.0)), (0, D16::FARTHEST));
+        assert_eq!((D24::encode(0.0), D24::encode(1.0)), (0, D24::FARTHEST));
+        assert_eq!(D16::encode(0.5), 32768);
+        assert_eq!(D24::encode(0.5), 1 << 23);
+    }
+
+    #[test]
+    fn the_farthest_is_never_seen_before_itself() {
+        assert!(!D16::nearer(D16::FARTHEST, D16::FARTHEST));
+        assert!(F32::nearer(0.5, F32::FARTHEST) && !F32::nearer(1.0, F32::FARTHEST));
+        assert!(F32Reversed::nearer(0.5, F32Reversed::FARTHEST) && !F32Reversed::nearer(0.0, 0.0));
+    }
+}

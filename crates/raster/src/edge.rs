@@ -1,0 +1,107 @@
+//! Edge functions in integers: which side of an edge a sample lies on, exactly.
+//!
+//! ```text
+//!          A
+//!          |\          E_AB(P) = (Bx-Ax)(Py-Ay) - (By-Ay)(Px-Ax)
+//!          | \  P
+//!          |  \        twice the signed area of A B P, with y down:
+//!          +---B       positive when A, B, P run clockwise on the screen
+//! ```
+//!
+//! Everything is in subpixels. A sample on an edge belongs to the triangle if the edge is a top or a left one, which is
+//! the same as moving all samples by an infinitesimal (e, e²): every sample of a mesh lies in exactly one triangle.
+
+use core::fmt::Debug;
+use core::ops::{Add, Mul, Sub};
+
+/// An integer that edge functions are computed in: `i32` or `i64`.
+///
+/// Overflow is excluded by the bounds, not by the type: see [`FITS_I32`] and the guard band's proof in `alberti_math`.
+pub trait EdgeInt:
+    Copy + Ord + Debug + From<i32> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
+{
+    /// The nearest `f32`: exact up to 2^24, within ε = 2^-24 relative above.
+    fn to_f32(self) -> f32;
+}
+
+impl EdgeInt for i32 {
+    #[inline]
+    #[expect(clippy::cast_precision_loss, reason = "rounding to nearest is what is documented")]
+    fn to_f32(self) -> f32 {
+        self as f32
+    }
+}
+
+impl EdgeInt for i64 {
+    #[inline]
+    #[expect(clippy::cast_precision_loss, reason = "rounding to nearest is what is documented")]
+    fn to_f32(self) -> f32 {
+        self as f32
+    }
+}
+
+/// The largest product of a box's width and height, in subpixels and each a pixel more than the hull of the vertices,
+/// for which every edge function at every sample of that box and in the pixel around it fits `i32`.
+///
+/// An edge function is at most the area of a box that holds its three points, and so are its two products.
+pub const FITS_I32: i64 = i32::MAX as i64;
+
+/// The edge function of one directed edge, ready to be stepped over samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Edge<I> {
+    /// Its value at the reference sample.
+    pub value: I,
+    /// What a step of one pixel to the right adds.
+    pub step_x: I,
+    /// What a step of one pixel down adds.
+    pub step_y: I,
+    /// 0 for a top or left edge, -1 for another: a sample is inside when value + bias >= 0.
+    pub bias: I,
+}
+
+impl<I: EdgeInt> Edge<I> {
+    /// The edge from `a` to `b` with its value at `sample`; positions in subpixels, of which a pixel has `one`.
+    #[must_use]
+    #[inline]
+    pub fn new(a: [i32; 2], b: [i32; 2], sample: [i32; 2], one: i32) -> Self {
+        let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+        let [px, py] = [sample[0] - a[0], sample[1] - a[1]];
+        let top_left = dy < 0 || (dy == 0 && dx > 0);
+        Self {
+            value: I::from(dx) * I::from(py) - I::from(dy) * I::from(px),
+            step_x: I::from(-dy) * I::from(one),
+            step_y: I::from(dx) * I::from(one),
+            bias: I::from(if top_left { 0 } else { -1 }),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_lead_to_the_values_elsewhere() {
+        let (a, b) = ([-37, 1000], [512, -803]);
+        let at = |sample| Edge::<i64>::new(a, b, sample, 16);
+        let here = at([8, 24]);
+        assert_eq!(at([8 + 16, 24]).value, here.value + here.step_x);
+        assert_eq!(at([8, 24 + 16]).value, here.value + here.step_y);
+        assert_eq!(Edge::<i32>::new(a, b, [8, 24], 16).value, i32::try_from(here.value).expect("small"));
+    }
+
+    #[test]
+    fn an_edge_and_its_reverse_never_both_own_a_tie() {
+        for dx in -3..=3 {
+            for dy in -3..=3 {
+                if (dx, dy) == (0, 0) {
+                    continue;
+                }
+                let ab = Edge::<i32>::new([0, 0], [dx, dy], [0, 0], 16);
+                let ba = Edge::<i32>::new([dx, dy], [0, 0], [0, 0], 16);
+                assert_eq!(ab.value, 0);
+                assert_eq!(ab.bias + ba.bias, -1);
+            }
+        }
+    }
+}

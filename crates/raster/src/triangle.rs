@@ -1,0 +1,151 @@
+//! A triangle on the screen, its orientation and its box of samples.
+
+use crate::edge::FITS_I32;
+use alberti_math::{Fixed, Subpixel};
+use core::ops::Range;
+
+/// A vertex as the rasterizer takes it: everything after this hand-over uses the snapped position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vertex<S: Subpixel, V> {
+    /// Columns from the frame's left edge, snapped.
+    pub x: Fixed<S>,
+    /// Rows from the frame's top edge downwards, snapped.
+    pub y: Fixed<S>,
+    /// Screen depth in [0, 1].
+    pub zs: f32,
+    /// 1/z, greater than 0.
+    pub q: f32,
+    /// What the vertex carries; finite.
+    pub varying: V,
+}
+
+/// Which triangles are left out, by their orientation on the screen after snapping.
+///
+/// A front face is one whose vertices run counter-clockwise as seen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Cull {
+    /// Leave out back faces.
+    #[default]
+    Back,
+    /// Leave out front faces.
+    Front,
+    /// Draw both.
+    None,
+}
+
+impl Cull {
+    /// Whether a triangle with this doubled area (positive when clockwise on the screen) is left out.
+    #[inline]
+    pub(crate) fn drops(self, area: i64) -> bool {
+        match self {
+            Self::Back => area >= 0,
+            Self::Front => area <= 0,
+            Self::None => area == 0,
+        }
+    }
+}
+
+/// What became of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// Left out: it faces the wrong way, or has no area after snapping.
+    Culled,
+    /// It covers no sample of the band.
+    Missed,
+    /// Drawn: its box holds samples of the band.
+    Drawn,
+}
+
+/// Snapped positions in subpixels.
+pub(crate) type Corners = [[i32; 2]; 3];
+
+/// The box around three corners, in subpixels.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bounds {
+    min: [i32; 2],
+    max: [i32; 2],
+}
+
+impl Bounds {
+    #[inline]
+    pub(crate) fn of(&[a, b, c]: &Corners) -> Self {
+        let min = |axis: usize| a[axis].min(b[axis]).min(c[axis]);
+        let max = |axis: usize| a[axis].max(b[axis]).max(c[axis]);
+        Self { min: [min(0), min(1)], max: [max(0), max(1)] }
+    }
+
+    /// Whether edge functions fit `i32` everywhere in the box and in the pixel around it.
+    #[inline]
+    pub(crate) fn fits_i32(&self, one: i32) -> bool {
+        let side = |axis: usize| i64::from(self.max[axis] - self.min[axis] + one);
+        side(0) * side(1) <= FITS_I32
+    }
+
+    /// The columns or rows, within `limits`, whose sample lies within the box.
+    #[inline]
+    pub(crate) fn samples<S: Subpixel>(&self, axis: usize, limits: Range<i32>) -> Range<i32> {
+        // Sample i lies at i * ONE + HALF: the first at or after the minimum, the last at or before the maximum.
+        let first = (self.min[axis] + S::HALF - 1) >> S::BITS;
+        let end = ((self.max[axis] - S::HALF) >> S::BITS) + 1;
+        first.max(limits.start)..end.min(limits.end)
+    }
+}
+
+/// Twice the signed area, positive when the corners run clockwise on the screen.
+#[inline]
+pub(crate) fn doubled_area(&[a, b, c]: &Corners) -> i64 {
+    let [ux, uy, vx, vy] = [b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]].map(i64::from);
+    ux * vy - uy * vx
+}
+
+/// The order in which the corners are taken: clockwise, from the topmost (of two, the left one). The same for every
+/// order in which the triangle could be given, so that no bit depends on that.
+#[inline]
+pub(crate) fn canonical_order(corners: &Corners, area: i64) -> [usize; 3] {
+    let clockwise = if area > 0 { [0, 1, 2] } else { [0, 2, 1] };
+    let key = |k: usize| {
+        let [x, y] = corners[clockwise[k]];
+        (y, x)
+    };
+    let first = if key(1) < key(0) {
+        if key(2) < key(1) { 2 } else { 1 }
+    } else if key(2) < key(0) {
+        2
+    } else {
+        0
+    };
+    [clockwise[first], clockwise[(first + 1) % 3], clockwise[(first + 2) % 3]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alberti_math::Sub4;
+
+    #[test]
+    fn the_order_does_not_depend_on_how_a_triangle_is_given() {
+        let [a, b, c] = [[5, 9], [1, 2], [8, 2]];
+        for corners in [[a, b, c], [b, c, a], [c, a, b], [a, c, b], [c, b, a], [b, a, c]] {
+            let order = canonical_order(&corners, doubled_area(&corners));
+            assert_eq!(order.map(|k| corners[k]), [b, c, a]);
+        }
+    }
+
+    #[test]
+    fn facing_is_told_by_the_area() {
+        let clockwise = doubled_area(&[[0, 0], [16, 0], [0, 16]]);
+        assert_eq!(clockwise, 256);
+        assert!(Cull::Back.drops(clockwise) && !Cull::Front.drops(clockwise) && !Cull::None.drops(clockwise));
+        assert!(!Cull::Back.drops(-1) && Cull::Front.drops(-1) && !Cull::None.drops(-1));
+        assert!(Cull::Back.drops(0) && Cull::Front.drops(0) && Cull::None.drops(0));
+    }
+
+    #[test]
+    fn boxes_hold_the_samples_between_their_sides() {
+        let samples = |low, high| Bounds { min: [low; 2], max: [high; 2] }.samples::<Sub4>(0, -9..9);
+        assert_eq!(samples(8, 8), 0..1);
+        assert_eq!(samples(9, 23), 1..1);
+        assert_eq!(samples(-8, 24), -1..2);
+        assert_eq!(samples(-1000, 1000), -9..9);
+    }
+}
