@@ -1,2 +1,19 @@
 #![no_std]
 #![doc = include_str!("../README.md")]
+
+#[cfg(test)]
+extern crate std;
+
+mod blend;
+mod coordinate;
+mod filter;
+pub mod format;
+mod sampler;
+mod texture;
+mod wrap;
+
+pub use filter::{Bilinear, Filter, Nearest};
+pub use format::TexelFormat;
+pub use sampler::Sampler;
+pub use texture::{Texture, TextureError};
+pub use wrap::{Clamp, Mirror, Repeat, Wrap};

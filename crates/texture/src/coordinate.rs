@@ -1,0 +1,146 @@
+//! From a texture coordinate to fixed point: space in is `u` or `v` as any `f32`, space out is the coordinate
+//! modulo 2 with [`FRACTION_BITS`] bits of fraction.
+//!
+//! Everything after this is integers, so that there is one rounding to reason about, and it is none for every
+//! `f32` that matters. With sides of up to 2^14 texels, the borders between texels in the period from 0 to 1 are
+//! `j / size`; the first is at or beyond 2^-14. A float next to it or further out is at least 2^-15, its last bit
+//! is worth at least 2^-15-23 = 2^-38, and so 38 bits of fraction hold it exactly. A float below 2^-15 moves by
+//! at most 2^-39, which does not take it to the first border. The same holds for negative coordinates, except
+//! that those from -2^-39 to 0 become 0, the border that they lie just below.
+//!
+//! The budget of 64 bits: 39 for the coordinate modulo 2, 14 for the size, 8 for the weights of a filter.
+
+/// Bits of fraction of a fixed-point coordinate.
+pub(crate) const FRACTION_BITS: u32 = 38;
+
+/// 1.0 as a fixed-point coordinate.
+pub(crate) const ONE: u64 = 1 << FRACTION_BITS;
+
+/// The bits of a coordinate modulo 2.
+const MODULO_2: u64 = 2 * ONE - 1;
+
+/// Machines that add in `f64` in a cycle or so; the others decode the float as an integer.
+const HAS_F64: bool = cfg!(any(
+    target_arch = "x86_64",
+    target_arch = "x86",
+    target_arch = "aarch64",
+    target_arch = "riscv64",
+    target_arch = "loongarch64",
+    target_arch = "powerpc64",
+    target_arch = "s390x",
+    target_arch = "wasm32",
+    target_arch = "wasm64",
+));
+
+/// A float that is aligned so that the last bit of its sum with a small number is worth 2^-38:
+/// 2^14 <= `ALIGN` + u < 2^15 for |u| < 2^13.
+const ALIGN: f64 = 1.5 * 16384.0;
+
+/// The coordinate modulo 2, to the nearest multiple of 2^-38, ties to even; 0 for infinities and NaN.
+///
+/// # Cost
+/// A conversion, an addition, a move, a mask and a check of the exponent, for |u| < 2^13. Beyond, a call.
+#[inline]
+pub(crate) fn modulo_2(u: f32) -> u64 {
+    if !HAS_F64 {
+        return modulo_2_integer(u);
+    }
+    let sum = (f64::from(u) + ALIGN).to_bits();
+    if sum >> 52 == ALIGN.to_bits() >> 52 { sum & MODULO_2 } else { modulo_2_far(u) }
+}
+
+/// The coordinate clamped to 0 and 1 - 2^-38, to the nearest multiple of 2^-38, ties to even; 0 for NaN.
+///
+/// # Cost
+/// A conversion, an addition, a maximum, a minimum, a move and a mask, for all coordinates.
+#[inline]
+pub(crate) fn clamped(u: f32) -> u64 {
+    if !HAS_F64 {
+        return match u {
+            1.0.. => ONE - 1,
+            0.0..1.0 => modulo_2_integer(u),
+            _ => 0,
+        };
+    }
+    let sum = f64::from(u) + ALIGN;
+    // Below, NaN must become 0. Above, numbers are in order as integers too, and compilers carry a choice between
+    // float constants through all that follows.
+    let sum = if sum > ALIGN { sum } else { ALIGN };
+    (sum.to_bits() - ALIGN.to_bits()).min(ONE - 1)
+}
+
+#[cold]
+#[inline(never)]
+fn modulo_2_far(u: f32) -> u64 {
+    modulo_2_integer(u)
+}
+
+/// What [`modulo_2`] is, without floating point.
+#[inline]
+fn modulo_2_integer(u: f32) -> u64 {
+    /// The exponent field at which the significand counts units of 2^-38.
+    const UNIT: u32 = 127 + 23 - FRACTION_BITS;
+
+    let bits = u.to_bits();
+    let exponent = bits >> 23 & 0xff;
+    let significand = u64::from(bits & 0x007f_ffff | 0x0080_0000);
+    // Shifts of 39 and more leave a multiple of 2; so infinities and NaN come out as 0 too.
+    let magnitude = if exponent >= UNIT + 39 {
+        0
+    } else if exponent >= UNIT {
+        significand << (exponent - UNIT)
+    } else if exponent >= UNIT - 24 {
+        let shift = UNIT - exponent;
+        let odd = significand >> shift & 1;
+        (significand + (1 << (shift - 1)) - 1 + odd) >> shift
+    } else {
+        0
+    };
+    let signed = if bits >> 31 == 0 { magnitude } else { magnitude.wrapping_neg() };
+    signed & MODULO_2
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// In `f64`, where a scaling by a power of two, rounding and the remainder are exact.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an integer from 0 to 2^39")]
+    fn oracle(u: f32) -> u64 {
+        if !u.is_finite() {
+            return 0;
+        }
+        let scaled = (f64::from(u) * 2f64.powi(38)).round_ties_even();
+        scaled.rem_euclid(2f64.powi(39)) as u64
+    }
+
+    fn check(bits: u32) {
+        let u = f32::from_bits(bits);
+        let expected = oracle(u);
+        assert_eq!(modulo_2(u), expected, "{u:e}, {bits:#x}");
+        assert_eq!(modulo_2_integer(u), expected, "{u:e}, {bits:#x}");
+        let expected = match u {
+            0.0..1.0 => expected,
+            1.0.. => ONE - 1,
+            _ => 0,
+        };
+        assert_eq!(clamped(u), expected, "{u:e}, {bits:#x}");
+    }
+
+    /// All 2^32 of them take some minutes: `cargo xtask sweep`.
+    #[test]
+    fn every_257th_float() {
+        let step = if std::env::var_os("ALBERTI_SWEEP").is_some() { 1 } else { 257 };
+        (0..=u32::MAX).step_by(step).for_each(check);
+    }
+
+    #[test]
+    fn around_powers_of_two() {
+        for exponent in 0..=255u32 {
+            for low in (0..40).chain(0x007f_ffd8..0x0080_0000).chain(0x003f_fff0..0x0040_0010) {
+                check(exponent << 23 | low);
+                check(1 << 31 | exponent << 23 | low);
+            }
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! What a texture is outside of 0 to 1.
+
+use core::fmt::Debug;
+
+use crate::coordinate::{FRACTION_BITS, ONE, clamped, modulo_2};
+
+/// The continuation of a texture beyond its sides, along one axis: [`Repeat`], [`Clamp`] or [`Mirror`]. Other crates cannot
+/// add to them.
+///
+/// ```text
+///            -1        0         1         2        3
+///   Repeat    | A B C D | A B C D | A B C D | A B C D |
+///   Mirror    | D C B A | A B C D | D C B A | A B C D |
+///   Clamp     | A A A A | A B C D | D D D D | D D D D |
+/// ```
+///
+/// # Precision
+/// Defined for every `f32`. The coordinate is reduced to the period first and scaled by the size afterwards, and
+/// both are exact, so the texel does not depend on how far from 0 the texture is sampled, as far as the float itself
+/// can tell: from 2^23 on, floats are integers and have no fraction. Coordinates from -2^-39 to 0 count as 0.
+///
+/// | coordinate | `Repeat`, `Mirror` | `Clamp` |
+/// |---|---|---|
+/// | NaN | as 0 | as 0 |
+/// | +infinity | as 0 | as the last below 1 |
+/// | -infinity | as 0 | as 0 |
+pub trait Wrap: Axis + Copy + Debug + Default + 'static {
+    /// The texel that stands at the index `i` of a continued row (or column) of `size` texels: less than `size`,
+    /// or 0 if `size` is 0.
+    ///
+    /// # Cost
+    /// A comparison inside of the texture, a division outside, except that `Clamp` never divides.
+    fn index(i: i32, size: u32) -> u32;
+}
+
+/// The part of [`Wrap`] that works on fixed-point coordinates; not nameable outside, so that it can still change.
+pub trait Axis {
+    /// The coordinate in fixed point, in one period from 0.
+    fn reduce(u: f32) -> u64;
+
+    /// The texel whose cell holds the reduced coordinate.
+    fn cell(reduced: u64, size: u32) -> u32;
+
+    /// [`Wrap::index`] of `i` and of `i + 1`, without divisions, for the texels around a reduced coordinate: `i` is
+    /// -1 or more and less than the size (in `Mirror`, twice the size).
+    fn neighbours(i: i32, size: u32) -> (u32, u32);
+}
+
+/// The texture again and again: only the fraction of the coordinate counts, 1 is 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Repeat;
+
+/// The texels at the border, for ever.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Clamp;
+
+/// The texture and its mirror image in turn; neighbouring copies share the colour at their border.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Mirror;
+
+/// floor(coordinate * size).
+#[inline]
+fn scale(reduced: u64, size: u32) -> u32 {
+    // Of 39 + 14 bits, the shift leaves 15.
+    ((reduced * u64::from(size)) >> FRACTION_BITS) as u32
+}
+
+/// `Some(i)` inside of the texture.
+#[inline]
+fn inside(i: i32, size: u32) -> Option<u32> {
+    // Negative indices are 2^31 and more as unsigned. Sizes of textures are known to be less, and one comparison stays.
+    let i = i.cast_unsigned();
+    (i < size.min(1 << 31)).then_some(i)
+}
+
+/// The least non-negative remainder of `i` modulo `copies * size`, or 0 if that is 0.
+#[inline]
+fn remainder(i: i32, copies: u32, size: u32) -> u64 {
+    // `max` leaves no case of a division by zero.
+    let period = (i64::from(copies) * i64::from(size)).max(1);
+    i64::from(i).rem_euclid(period).unsigned_abs()
+}
+
+impl Axis for Repeat {
+    #[inline]
+    fn reduce(u: f32) -> u64 {
+        modulo_2(u) & (ONE - 1)
+    }
+
+    #[inline]
+    fn cell(reduced: u64, size: u32) -> u32 {
+        scale(reduced, size)
+    }
+
+    #[inline]
+    fn neighbours(i: i32, size: u32) -> (u32, u32) {
+        let next = i.wrapping_add(1).cast_unsigned();
+        let first = if next == 0 { size } else { next };
+        (first.wrapping_sub(1), if next == size { 0 } else { next })
+    }
+}
+
+impl Wrap for Repeat {
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "less than the size")]
+    fn index(i: i32, size: u32) -> u32 {
+        inside(i, size).unwrap_or_else(|| remainder(i, 1, size) as u32)
+    }
+}
+
+impl Axis for Clamp {
+    #[inline]
+    fn reduce(u: f32) -> u64 {
+        clamped(u)
+    }
+
+    #[inline]
+    fn cell(reduced: u64, size: u32) -> u32 {
+        scale(reduced, size)
+    }
+
+    #[inline]
+    fn neighbours(i: i32, size: u32) -> (u32, u32) {
+        let next = i.wrapping_add(1).cast_unsigned();
+        (next.saturating_sub(1), next.min(size.wrapping_sub(1)))
+    }
+}
+
+impl Wrap for Clamp {
+    #[inline]
+    fn index(i: i32, size: u32) -> u32 {
+        u32::try_from(i).unwrap_or(0).min(size.saturating_sub(1))
+    }
+}
+
+impl Axis for Mirror {
+    #[inline]
+    fn reduce(u: f32) -> u64 {
+        modulo_2(u)
+    }
+
+    #[inline]
+    fn cell(reduced: u64, size: u32) -> u32 {
+        let i = scale(reduced, size);
+        i.min(size.wrapping_mul(2).wrapping_sub(1).wrapping_sub(i))
+    }
+
+    #[inline]
+    fn neighbours(i: i32, size: u32) -> (u32, u32) {
+        let last = size.wrapping_mul(2).wrapping_sub(1).cast_signed();
+        // The lesser of an index and its image is the one in the texture, or -1 for the texel 0.
+        let fold = |i: i32| i.min(last.wrapping_sub(i)).max(0).cast_unsigned();
+        (fold(i), fold(i.wrapping_add(1)))
+    }
+}
+
+impl Wrap for Mirror {
+    #[inline]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the lesser of two that add up to twice the size, less 1"
+    )]
+    fn index(i: i32, size: u32) -> u32 {
+        inside(i, size).unwrap_or_else(|| {
+            let i = remainder(i, 2, size);
+            i.min((2 * u64::from(size)).saturating_sub(1).saturating_sub(i)) as u32
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The walk that sampling takes, against the definition.
+    #[test]
+    fn neighbours_are_indices() {
+        fn check<W: Wrap>(i: i32, size: u32) {
+            let expected = (W::index(i, size), W::index(i + 1, size));
+            assert_eq!(W::neighbours(i, size), expected, "{:?}, {i} of {size}", W::default());
+        }
+        for size in (1..=70u32).chain([255, 256, 1000, 16383, 16384]) {
+            let signed = size.cast_signed();
+            for i in -1..signed {
+                check::<Repeat>(i, size);
+                check::<Clamp>(i, size);
+            }
+            (-1..2 * signed).for_each(|i| check::<Mirror>(i, size));
+        }
+    }
+}

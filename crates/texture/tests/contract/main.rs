@@ -1,0 +1,15 @@
+//! What the crate promises, against answers that are found another way: exact integers and real numbers instead
+//! of fixed point, definitions instead of shortcuts.
+
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
+    reason = "small integers to floats and back, and coordinates that may be rounded"
+)]
+
+mod bilinear;
+mod hostile;
+mod nearest;
+mod oracle;
+mod texture;
+mod wrap;
