@@ -53,6 +53,9 @@ pub struct Fixed<S> {
 }
 
 impl<S: Subpixel> Fixed<S> {
+    /// The frame's origin.
+    pub const ZERO: Self = Self { subpixels: 0, precision: PhantomData };
+
     /// The outermost coordinate, `GUARD_PIXELS` from the origin.
     pub const GUARD: i32 = GUARD_PIXELS << S::BITS;
 

@@ -2,6 +2,7 @@
 
 use crate::{SideBounds, ViewError};
 use alberti_math::{Fixed, GUARD_PIXELS, Subpixel};
+use core::ops::Range;
 
 /// A rectangle of pixels on the target: where the window [-1, 1] x [-1, 1] appears.
 ///
@@ -10,7 +11,8 @@ use alberti_math::{Fixed, GUARD_PIXELS, Subpixel};
 pub struct Viewport {
     /// Twice the centre, so that odd sizes have an integer one.
     center: [i32; 2],
-    size: [u32; 2],
+    /// First and one past the last column, and row.
+    edges: [[i32; 2]; 2],
     half: [f32; 2],
 }
 
@@ -27,20 +29,21 @@ impl Viewport {
         let axis = |from: i32, length: u32| {
             let length = i32::try_from(length).ok()?;
             let to = from.checked_add(length)?;
-            (length > 0 && from >= -REACH && to <= REACH).then_some(from + to)
+            (length > 0 && from >= -REACH && to <= REACH).then_some([from, to])
         };
         let (Some(x), Some(y)) = (axis(x, width), axis(y, height)) else {
             return Err(ViewError::Viewport);
         };
         #[expect(clippy::cast_precision_loss, reason = "at most 2^15, so the half is exact")]
         let half = [width as f32 / 2.0, height as f32 / 2.0];
-        Ok(Self { center: [x, y], size: [width, height], half })
+        Ok(Self { center: [x, y].map(|[from, to]| from + to), edges: [x, y], half })
     }
 
-    /// Width and height in pixels.
+    /// The columns and the rows of its pixels.
     #[must_use]
-    pub const fn size(&self) -> [u32; 2] {
-        self.size
+    pub const fn pixels(&self) -> [Range<i32>; 2] {
+        let [[left, right], [top, bottom]] = self.edges;
+        [left..right, top..bottom]
     }
 
     /// The snapped screen position of a point of the window: xv = (xs + 1) W/2 + x0, yv = (1 − ys) H/2 + y0, to the

@@ -1,0 +1,221 @@
+//! The journey of a triangle: the view pipeline's steps, in the lectures' order.
+
+use crate::vertex::{Slot, Transformed, VertexStage, outside};
+use alberti_math::glam::Vec3;
+use alberti_math::{Eye, Frame, Object, Subpixel, Varying};
+use alberti_projection::{
+    DepthMap, EyeVertex, Perspective, ProjectedVertex, SideBounds, Viewport, clip_near_far, clip_sides,
+};
+use alberti_raster::{Band, Counters, Cull, DepthFormat, FragmentStage, Store, Vertex, draw_triangle};
+use core::cmp::Ordering;
+
+/// From where, through what pyramid and to which rectangle of the target a mesh is seen.
+#[derive(Clone, Copy, Debug)]
+pub struct View {
+    /// Step 1: from object to eye coordinates. The camera's frame inverted, times the model's frame.
+    pub to_eye: Frame<Object, Eye>,
+    /// Steps 2 to 4.
+    pub perspective: Perspective,
+    /// Step 6.
+    pub viewport: Viewport,
+}
+
+/// Which clip the sides of the view get.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sides {
+    /// Only what reaches beyond the fixed-point range is cut; the rest is left to the rows and columns that are
+    /// drawn. Faster, and edges are not moved.
+    #[default]
+    GuardBand,
+    /// The four sides of the cube, -1 <= xs <= 1 and -1 <= ys <= 1, as in the lectures.
+    Cube,
+}
+
+/// One mesh drawn in one way.
+#[derive(Clone, Copy, Debug)]
+pub struct Pass<'a, T, I, Vs, Fs> {
+    /// The view.
+    pub view: View,
+    /// The mesh's vertices, of any type that the vertex stage understands.
+    pub vertices: &'a [T],
+    /// Three indices a triangle, counter-clockwise seen from the front. One that is out of range drops the triangle.
+    pub triangles: &'a [[I; 3]],
+    /// From mesh vertex to object-space position and varying.
+    pub vertex_stage: Vs,
+    /// From varying to colour.
+    pub fragment_stage: Fs,
+    /// Which faces are left out.
+    pub cull: Cull,
+    /// Which clip the sides get.
+    pub sides: Sides,
+}
+
+/// Draws a mesh into a band, triangles in order.
+///
+/// `slots` keeps transformed vertices, and its element type says how finely positions are snapped: with as many slots as
+/// vertices each vertex is transformed once; with fewer they are a cache; with none, a cache of 16 on the stack is used.
+/// Vertices that are not finite, or larger than `f32::MAX`/16 in eye space, drop their triangles.
+///
+/// The pixels do not depend on the slots, on the counters, on the order of a triangle's vertices, or on how the frame
+/// is divided into bands.
+pub fn draw<S, T, I, Vs, Fs, C, D, K>(
+    pass: &Pass<'_, T, I, Vs, Fs>,
+    band: &mut Band<'_, C, D>,
+    slots: &mut [Slot<S, Vs::Varying>],
+    counters: &mut K,
+) where
+    S: Subpixel,
+    I: Copy + Into<u32>,
+    Vs: VertexStage<T>,
+    Fs: FragmentStage<Vs::Varying>,
+    C: Store<Fs::Color>,
+    D: DepthFormat,
+    K: Counters,
+{
+    let depth = pass.view.perspective.depth_map(D::REVERSED);
+    let [columns, rows] = pass.view.viewport.pixels();
+    let mut band = band.scissor(columns, rows);
+    let mut own_slots = [Slot::EMPTY; 16];
+    let slots = if slots.is_empty() { &mut own_slots } else { slots };
+    slots.fill(Slot::EMPTY);
+
+    for triangle in pass.triangles {
+        counters.submitted();
+        // Steps 1, 2, 4 and 6 for each vertex, where it allows them.
+        let Some(corners) = fetch(pass, &depth, slots, triangle.map(Into::into)) else {
+            counters.dropped();
+            continue;
+        };
+        let all = corners[0].outside | corners[1].outside | corners[2].outside;
+        let common = corners[0].outside & corners[1].outside & corners[2].outside;
+        if all & outside::NOWHERE != 0 || common & (outside::NEAR | outside::FAR | outside::SIDES) != 0 {
+            counters.dropped();
+            continue;
+        }
+        let sides = if pass.sides == Sides::Cube { outside::SIDES } else { 0 };
+        if all & (outside::NEAR | outside::FAR | outside::GUARD | sides) == 0 {
+            // Nothing to clip: step 7, the rasterizer.
+            let outcome = draw_triangle(
+                &mut band,
+                [&corners[0].screen, &corners[1].screen, &corners[2].screen],
+                pass.cull,
+                &pass.fragment_stage,
+                counters,
+            );
+            counters.rasterized(outcome);
+        } else {
+            counters.clipped();
+            clip_and_draw(pass, &depth, &mut band, corners, counters);
+        }
+    }
+}
+
+/// The triangle's vertices, transformed; `None` for an index out of range.
+#[inline]
+fn fetch<S, T, I, Vs, Fs>(
+    pass: &Pass<'_, T, I, Vs, Fs>,
+    depth: &DepthMap,
+    slots: &mut [Slot<S, Vs::Varying>],
+    triangle: [u32; 3],
+) -> Option<[Transformed<S, Vs::Varying>; 3]>
+where
+    S: Subpixel,
+    Vs: VertexStage<T>,
+{
+    let mut corner = |index: u32| {
+        let index = usize::try_from(index).ok()?;
+        let vertex = pass.vertices.get(index)?;
+        Some(Slot::fetch(slots, index, || {
+            let (point, varying) = pass.vertex_stage.shade(vertex);
+            Transformed::new(&pass.view, depth, point, varying)
+        }))
+    };
+    Some([corner(triangle[0])?, corner(triangle[1])?, corner(triangle[2])?])
+}
+
+/// Steps 3 to 7 for a triangle that crosses a plane.
+#[cold]
+#[inline(never)]
+fn clip_and_draw<S, T, I, Vs, Fs, C, D, K>(
+    pass: &Pass<'_, T, I, Vs, Fs>,
+    depth: &DepthMap,
+    band: &mut Band<'_, C, D>,
+    corners: [Transformed<S, Vs::Varying>; 3],
+    counters: &mut K,
+) where
+    S: Subpixel,
+    Vs: VertexStage<T>,
+    Fs: FragmentStage<Vs::Varying>,
+    C: Store<Fs::Color>,
+    D: DepthFormat,
+    K: Counters,
+{
+    let View { perspective, viewport, .. } = &pass.view;
+    let triangle = canonical(corners.map(|c| EyeVertex { position: c.position, varying: c.screen.varying }));
+    // 3. What lies between the near and the far plane.
+    let between = clip_near_far(triangle, perspective.near(), perspective.far());
+    // 4. Perspective with depth.
+    let projected = between.map(|v| perspective.project(depth, &v));
+    if !projected.vertices().iter().all(finite) {
+        counters.dropped();
+        return;
+    }
+    // 5. The sides.
+    let bounds = match pass.sides {
+        Sides::GuardBand => viewport.guard(),
+        Sides::Cube => SideBounds::CUBE,
+    };
+    let inside = clip_sides(projected, bounds);
+    // 6. Window-viewport, 7. the rasterizer, for the triangles of the fan.
+    for fan in inside.fan() {
+        let snapped = fan.map(|v| {
+            let [x, y] = viewport.to_screen(v.x, v.y)?;
+            Some(Vertex::<S, _> { x, y, zs: v.zs, q: v.q, varying: v.varying })
+        });
+        if let [Some(a), Some(b), Some(c)] = &snapped {
+            let outcome = draw_triangle(band, [a, b, c], pass.cull, &pass.fragment_stage, counters);
+            counters.rasterized(outcome);
+        }
+    }
+}
+
+/// Whether a projected vertex has a place: dividing by a tiny z may overflow.
+fn finite<V>(v: &ProjectedVertex<V>) -> bool {
+    v.x.abs() <= f32::MAX / 4.0 && v.y.abs() <= f32::MAX / 4.0 && v.q.is_finite()
+}
+
+/// The same cyclic order for the same triangle, whichever vertex it is given from: clipping and the fan start there.
+fn canonical<V: Varying>([a, b, c]: [EyeVertex<V>; 3]) -> [EyeVertex<V>; 3] {
+    let before =
+        |v: &EyeVertex<V>, w: &EyeVertex<V>| order(v.position.coords, w.position.coords) == Ordering::Less;
+    if before(&b, &a) && !before(&c, &b) {
+        [b, c, a]
+    } else if before(&c, &a) {
+        [c, a, b]
+    } else {
+        [a, b, c]
+    }
+}
+
+fn order(v: Vec3, w: Vec3) -> Ordering {
+    v.z.total_cmp(&w.z).then(v.y.total_cmp(&w.y)).then(v.x.total_cmp(&w.x))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alberti_math::Point3;
+
+    #[test]
+    fn any_rotation_becomes_the_same_one() {
+        let v = |x, y, z| EyeVertex { position: Point3::new(Vec3::new(x, y, z)), varying: x };
+        for [a, b, c] in [
+            [v(0.0, 0.0, 1.0), v(1.0, 0.0, 2.0), v(0.0, 1.0, 3.0)],
+            [v(0.0, 0.0, 1.0), v(1.0, 0.0, 1.0), v(0.0, 1.0, 1.0)],
+            [v(0.0, 0.0, 3.0), v(1.0, 0.0, 1.0), v(0.0, 1.0, 2.0)],
+        ] {
+            assert_eq!(canonical([a, b, c]), canonical([b, c, a]));
+            assert_eq!(canonical([a, b, c]), canonical([c, a, b]));
+        }
+    }
+}
