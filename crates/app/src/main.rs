@@ -1,2 +1,7 @@
 //! The `alberti` command.
-fn main() {}
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    ExitCode::from(alberti_app::run::run(std::env::args_os()))
+}

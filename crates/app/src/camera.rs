@@ -1,0 +1,300 @@
+//! Where to stand: a camera that shows a whole model, completed from whatever the user asked for.
+
+use crate::error::Error;
+use crate::normals::{cross, dot, length, narrow, normalize, sub};
+use crate::scene::{Camera, Model};
+
+/// The vertical opening angle unless the user gives one, degrees.
+pub const DEFAULT_FOV: f32 = 40.0;
+
+/// What the user asked for; the rest is automatic.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Wishes {
+    /// The view point.
+    pub eye: Option<[f32; 3]>,
+    /// The point looked at.
+    pub target: Option<[f32; 3]>,
+    /// Upwards.
+    pub up: Option<[f32; 3]>,
+    /// Full vertical opening angle, degrees.
+    pub fov: Option<f32>,
+    /// The front clipping plane.
+    pub near: Option<f32>,
+    /// The back clipping plane.
+    pub far: Option<f32>,
+}
+
+/// A ball around a model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sphere {
+    /// The middle of the bounding box.
+    pub center: [f64; 3],
+    /// Greater than 0.
+    pub radius: f64,
+}
+
+/// The ball around the model's bounding box's middle that contains all vertices: at most √3 times as large as
+/// the smallest one, and most often much closer. A model without vertices, or all in one point, gets radius 1.
+pub fn bounding_sphere(model: &Model) -> Sphere {
+    let points = || model.vertices.iter().map(|v| v.position.map(f64::from));
+    let mut low = [f64::INFINITY; 3];
+    let mut high = [f64::NEG_INFINITY; 3];
+    for point in points() {
+        for axis in 0..3 {
+            low[axis] = low[axis].min(point[axis]);
+            high[axis] = high[axis].max(point[axis]);
+        }
+    }
+    if low[0] > high[0] {
+        return Sphere { center: [0.0; 3], radius: 1.0 };
+    }
+    let center = [0, 1, 2].map(|axis| f64::midpoint(low[axis], high[axis]));
+    let radius = points().map(|p| length(sub(p, center))).fold(0.0, f64::max);
+    Sphere { center, radius: if radius > 0.0 { radius } else { 1.0 } }
+}
+
+/// The camera that the user wished for. What was not wished for comes from `base`, a scene's own camera, or else
+/// is chosen so that the ball fills the picture of `aspect` (width to height), seen from the front, the right and
+/// above. Near and far enclose the ball as seen from the eye that results, unless eye, target and base leave them
+/// as they were made.
+///
+/// # Errors
+/// The result is not a camera, as [`check`] says.
+pub fn frame(wishes: &Wishes, base: Option<&Camera>, ball: Sphere, aspect: f64) -> Result<Camera, Error> {
+    let fov = wishes.fov.or(base.map(|b| b.fov)).unwrap_or(DEFAULT_FOV);
+    check_fov(fov)?;
+    let target = wishes.target.or(base.map(|b| b.target)).unwrap_or(ball.center.map(narrow));
+    let wide = |v: [f32; 3]| v.map(f64::from);
+    let up = wishes.up.or(base.map(|b| b.up));
+    let eye = match wishes.eye.or(base.map(|b| b.eye)) {
+        Some(eye) => eye,
+        None => {
+            let away = three_quarter(wide(up.unwrap_or([0.0, 1.0, 0.0])));
+            let distance = distance(ball.radius, f64::from(fov).to_radians(), aspect);
+            let from = wide(target);
+            [0, 1, 2].map(|axis| narrow(from[axis] + away[axis] * distance))
+        }
+    };
+    let view = sub(wide(target), wide(eye));
+    let up = up.unwrap_or_else(|| {
+        // Looking straight up or down, y is no direction on the picture; away from the viewer is up then.
+        if parallel(view, [0.0, 1.0, 0.0]) { [0.0, 0.0, -1.0] } else { [0.0, 1.0, 0.0] }
+    });
+    let (near, far) = match base {
+        Some(base) if wishes.eye.is_none() && wishes.target.is_none() => (base.near, base.far),
+        _ => planes(sub(ball.center, wide(eye)), view, ball.radius),
+    };
+    let camera =
+        Camera { eye, target, up, fov, near: wishes.near.unwrap_or(near), far: wishes.far.unwrap_or(far) };
+    check(&camera)?;
+    Ok(camera)
+}
+
+/// Whether the ball lies wholly behind the camera, so that nothing of it can be seen.
+pub fn is_behind(camera: &Camera, ball: Sphere) -> bool {
+    let eye = camera.eye.map(f64::from);
+    let view = normalize(sub(camera.target.map(f64::from), eye)).unwrap_or([0.0; 3]);
+    dot(sub(ball.center, eye), view) < -ball.radius
+}
+
+/// Whether this is a camera: finite; 0 < near < far; an opening angle between 0 and 180 degrees; the eye apart
+/// from its target; and up not along the view.
+///
+/// # Errors
+/// The first of these that does not hold, with the option that sets it.
+pub fn check(camera: &Camera) -> Result<(), Error> {
+    let Camera { eye, target, up, fov, near, far } = *camera;
+    for (option, point) in [("--eye", eye), ("--target", target), ("--up", up)] {
+        if point.iter().any(|x| !x.is_finite()) {
+            let hint = "give --eye and --target nearer to the model";
+            return Err(Error::new(show(point), "finite coordinates").place(option).hint(hint));
+        }
+    }
+    check_fov(fov)?;
+    let hint = "both follow the model unless given; see --near and --far";
+    if !(near > 0.0 && near.is_finite()) {
+        return Err(Error::new(format!("near {near}"), "a finite number above 0").place("--near").hint(hint));
+    }
+    if !(far > near && far.is_finite()) {
+        let found = format!("near {near} and far {far}");
+        return Err(Error::new(found, "near < far, both finite").place("--far").hint(hint));
+    }
+    let view = sub(target.map(f64::from), eye.map(f64::from));
+    if normalize(view).is_none() {
+        let found = format!("the eye and its target both at {}", show(eye));
+        return Err(Error::new(found, "two points").place("--eye").hint("move --eye or --target"));
+    }
+    if parallel(view, up.map(f64::from)) {
+        let found = format!("{}, which is 0 or along the view", show(up));
+        return Err(Error::new(found, "a direction across the view")
+            .place("--up")
+            .hint("choose another axis"));
+    }
+    Ok(())
+}
+
+fn check_fov(fov: f32) -> Result<(), Error> {
+    if fov > 0.0 && fov < 180.0 {
+        return Ok(());
+    }
+    Err(Error::new(format!("{fov} degrees"), "an angle above 0 and below 180 degrees")
+        .place("--fov")
+        .hint("40 is usual"))
+}
+
+/// The unit vector from a model to a viewer in front of it, a third to the right and a little above. The front
+/// is +z when y is up, and -y when z is up, as modelling programs have it.
+fn three_quarter(up: [f64; 3]) -> [f64; 3] {
+    let up = normalize(up).unwrap_or([0.0, 1.0, 0.0]);
+    let front = normalize(cross([1.0, 0.0, 0.0], up)).unwrap_or([0.0, 0.0, 1.0]);
+    let right = cross(up, front);
+    let away = [0, 1, 2].map(|axis| front[axis] + 0.6 * right[axis] + 0.45 * up[axis]);
+    normalize(away).unwrap_or(front)
+}
+
+/// How far from its centre a ball just fits between the sides of the view, with a little room.
+fn distance(radius: f64, fov: f64, aspect: f64) -> f64 {
+    let vertical = fov / 2.0;
+    let horizontal = (vertical.tan() * aspect).atan();
+    1.05 * radius / vertical.min(horizontal).sin()
+}
+
+/// Near and far planes around a ball, with a little room. From within the ball, near is a thousandth of far: the
+/// depth buffer needs a ratio that it can resolve. For a ball behind the viewer, as if it were around him.
+fn planes(to_center: [f64; 3], view: [f64; 3], radius: f64) -> (f32, f32) {
+    let depth = dot(to_center, normalize(view).unwrap_or([0.0; 3]));
+    let far = if depth + radius > 0.0 { depth + 1.01 * radius } else { radius };
+    let near = (depth - 1.01 * radius).max(far / 1000.0);
+    (narrow(near), narrow(far))
+}
+
+/// Whether two directions are so close that their cross product says nothing in f32, or one of them is 0.
+fn parallel(a: [f64; 3], b: [f64; 3]) -> bool {
+    match (normalize(a), normalize(b)) {
+        (Some(a), Some(b)) => length(cross(a, b)) < 1e-6,
+        _ => true,
+    }
+}
+
+fn show([x, y, z]: [f32; 3]) -> String {
+    format!("{x},{y},{z}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Vertex;
+
+    const BALL: Sphere = Sphere { center: [1.0, 2.0, 3.0], radius: 2.0 };
+
+    fn of(wishes: Wishes) -> Camera {
+        frame(&wishes, None, BALL, 4.0 / 3.0).unwrap()
+    }
+
+    fn refused(wishes: Wishes) -> String {
+        frame(&wishes, None, BALL, 1.0).unwrap_err().to_string()
+    }
+
+    /// Whether the ball lies between all six planes.
+    fn contains(camera: &Camera, aspect: f64) -> bool {
+        let eye = camera.eye.map(f64::from);
+        let view = normalize(sub(camera.target.map(f64::from), eye)).unwrap();
+        let right = normalize(cross(view, camera.up.map(f64::from))).unwrap();
+        let up = cross(right, view);
+        let to = sub(BALL.center, eye);
+        let half = f64::from(camera.fov).to_radians() / 2.0;
+        let sides = [(up, half), (right, (half.tan() * aspect).atan())];
+        let fits = |(axis, half): ([f64; 3], f64)| {
+            dot(to, view) * half.sin() - dot(to, axis).abs() * half.cos() >= BALL.radius
+        };
+        let depth = dot(to, view);
+        sides.into_iter().all(fits)
+            && f64::from(camera.near) <= depth - BALL.radius
+            && f64::from(camera.far) >= depth + BALL.radius
+    }
+
+    #[test]
+    fn the_automatic_camera_shows_the_whole_ball() {
+        for aspect in [0.1, 0.5, 1.0, 16.0 / 9.0, 8.0] {
+            for fov in [1.0, 40.0, 100.0] {
+                for up in [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [1.0, 1.0, -1.0]] {
+                    let wishes = Wishes { fov: Some(fov), up: Some(up), ..Wishes::default() };
+                    let camera = frame(&wishes, None, BALL, aspect).unwrap();
+                    assert!(contains(&camera, aspect), "{aspect} {camera:?}");
+                }
+            }
+        }
+        let camera = of(Wishes::default());
+        assert_eq!((camera.target, camera.up, camera.fov), ([1.0, 2.0, 3.0], [0.0, 1.0, 0.0], DEFAULT_FOV));
+        assert!(camera.eye[0] > 1.0 && camera.eye[1] > 2.0 && camera.eye[2] > 3.0);
+    }
+
+    #[test]
+    fn planes_follow_the_eye() {
+        let camera = of(Wishes { eye: Some([1.0, 2.0, 13.0]), ..Wishes::default() });
+        assert!((camera.near - 7.98).abs() < 1e-5 && (camera.far - 12.02).abs() < 1e-5, "{camera:?}");
+        let inside = of(Wishes { eye: Some([1.0, 2.0, 4.0]), ..Wishes::default() });
+        assert!(inside.near > 0.0 && inside.far > 3.0);
+        let behind =
+            Wishes { eye: Some([1.0, 2.0, 13.0]), target: Some([1.0, 2.0, 20.0]), ..Wishes::default() };
+        assert!(is_behind(&of(behind), BALL) && !is_behind(&camera, BALL) && !is_behind(&inside, BALL));
+        let kept = of(Wishes { near: Some(0.5), far: Some(99.0), ..Wishes::default() });
+        assert_eq!((kept.near, kept.far), (0.5, 99.0));
+    }
+
+    #[test]
+    fn looking_down_needs_no_up() {
+        let camera = of(Wishes { eye: Some([1.0, 20.0, 3.0]), ..Wishes::default() });
+        assert_eq!(camera.up, [0.0, 0.0, -1.0]);
+    }
+
+    #[test]
+    fn a_scene_keeps_its_own_planes_unless_the_view_changes() {
+        let base =
+            Camera { eye: [9.0; 3], target: [0.0; 3], up: [0.0, 1.0, 0.0], fov: 50.0, near: 0.1, far: 77.0 };
+        assert_eq!(frame(&Wishes::default(), Some(&base), BALL, 1.0).unwrap(), base);
+        let moved = Wishes { eye: Some([0.0, 0.0, 50.0]), ..Wishes::default() };
+        assert!(frame(&moved, Some(&base), BALL, 1.0).unwrap().near > 40.0);
+    }
+
+    #[test]
+    fn what_is_not_a_camera_is_refused() {
+        let none = Wishes::default();
+        let nan = f32::NAN;
+        for (wishes, start) in [
+            (Wishes { near: Some(0.0), ..none }, "--near: found near 0, expected"),
+            (Wishes { near: Some(nan), ..none }, "--near: found near NaN, expected"),
+            (
+                Wishes { near: Some(5.0), far: Some(5.0), ..none },
+                "--far: found near 5 and far 5, expected near < far",
+            ),
+            (Wishes { near: Some(1e9), ..none }, "--far: found near 1000000000 and far"),
+            (Wishes { far: Some(f32::INFINITY), ..none }, "--far: found"),
+            (
+                Wishes { eye: Some([1.0, 2.0, 3.0]), ..none },
+                "--eye: found the eye and its target both at 1,2,3",
+            ),
+            (Wishes { eye: Some([nan, 2.0, 3.0]), ..none }, "--eye: found NaN,2,3"),
+            (Wishes { up: Some([0.0; 3]), ..none }, "--up: found 0,0,0"),
+            (Wishes { eye: Some([1.0, 9.0, 3.0]), up: Some([0.0, -4.0, 0.0]), ..none }, "--up: found 0,-4,0"),
+            (Wishes { fov: Some(180.0), ..none }, "--fov: found 180 degrees"),
+            (Wishes { fov: Some(0.0), ..none }, "--fov: found 0 degrees"),
+            (Wishes { fov: Some(nan), ..none }, "--fov: found NaN degrees"),
+        ] {
+            let message = refused(wishes);
+            assert!(message.starts_with(start), "{message}");
+        }
+        assert!(frame(&Wishes { fov: Some(1e-38), ..none }, None, BALL, 1.0).is_err());
+    }
+
+    #[test]
+    fn spheres_of_nothing_and_of_a_point_have_a_size() {
+        let mut model = Model::default();
+        assert_eq!(bounding_sphere(&model).radius.to_bits(), 1.0_f64.to_bits());
+        let vertex = Vertex { position: [5.0; 3], normal: [0.0; 3], uv: [0.0; 2], color: [0.0; 3] };
+        model.vertices.push(vertex);
+        assert_eq!(bounding_sphere(&model), Sphere { center: [5.0; 3], radius: 1.0 });
+        model.vertices.push(Vertex { position: [5.0, 5.0, 9.0], ..vertex });
+        assert_eq!(bounding_sphere(&model), Sphere { center: [5.0, 5.0, 7.0], radius: 2.0 });
+    }
+}

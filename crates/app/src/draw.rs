@@ -1,0 +1,190 @@
+//! From a scene and its options to pixels: the one place where names that a user picks at run time become the types
+//! that the pipeline is compiled for. Each choice is matched once per part, never per triangle or pixel.
+
+use crate::options::{Cull, Filter, RenderOptions, Shading, Wrap};
+use crate::scene::{Camera, Image, Model, Part, Vertex};
+use alberti::glam::{Vec2, Vec3};
+use alberti::shaders::{Flat, Lambert, Tinted, Unlit, VertexColor};
+use alberti::texture::{self, Texture, TextureError};
+use alberti::{
+    Band, Eye, FragmentStage, Frame, Object, Pass, Perspective, Point3, Rgba8, Sides, Slot, Stats, Sub8, Varying,
+    Vector3, VertexStage, View, ViewError, Viewport, World, draw, look_at,
+};
+
+/// Light that falls everywhere, and light that falls on what faces it.
+pub const AMBIENT: f32 = 0.3;
+/// See [`AMBIENT`].
+pub const DIFFUSE: f32 = 0.7;
+
+/// Triangles drawn between two reports of progress.
+const CHUNK: usize = 1 << 16;
+
+/// The view of a camera.
+///
+/// # Errors
+/// An impossible camera or size.
+pub fn view(camera: &Camera, width: u32, height: u32) -> Result<View, ViewError> {
+    let frame = frame(camera)?;
+    let viewport = Viewport::new(0, 0, width, height)?;
+    #[expect(clippy::cast_possible_truncation, reason = "rounded once")]
+    let aspect = (f64::from(width) / f64::from(height)) as f32;
+    Ok(View {
+        to_eye: frame.inverse_orthonormal() * Frame::<Object, World>::IDENTITY,
+        perspective: Perspective::new(camera.fov.to_radians(), aspect, camera.near, camera.far)?,
+        viewport,
+    })
+}
+
+fn frame(camera: &Camera) -> Result<Frame<Eye, World>, ViewError> {
+    let point = |p: [f32; 3]| Point3::new(Vec3::from_array(p));
+    look_at(point(camera.eye), point(camera.target), Vector3::new(Vec3::from_array(camera.up)))
+}
+
+/// The direction towards the light, in world space: from beside, above and behind the camera.
+#[must_use]
+pub fn to_light(camera: &Camera) -> Vec3 {
+    frame(camera).map_or(Vec3::Y, |frame| (frame.axes() * Vec3::new(-0.45, 0.6, -1.0)).normalize())
+}
+
+/// From names to types: the filter and the wrap mode.
+macro_rules! with_sampler {
+    ($texture:expr, $filter:expr, $wrap:expr, |$sampler:ident| $body:expr) => {
+        with_sampler!(@ $texture, $filter, $wrap, $sampler, $body,
+            Nearest Repeat, Nearest Clamp, Nearest Mirror, Bilinear Repeat, Bilinear Clamp, Bilinear Mirror)
+    };
+    (@ $texture:expr, $filter:expr, $wrap:expr, $sampler:ident, $body:expr, $($f:ident $w:ident),*) => {
+        match ($filter, $wrap) {
+            $((Filter::$f, Wrap::$w) => {
+                let $sampler = $texture.sampler::<texture::$f, texture::$w>();
+                $body
+            })*
+        }
+    };
+}
+
+/// A picture under way.
+pub(crate) struct Canvas<'a> {
+    model: &'a Model,
+    options: &'a RenderOptions,
+    view: View,
+    light: Vector3<World>,
+    textures: Vec<Texture<'a, Rgba8>>,
+    stats: Stats,
+}
+
+impl<'a> Canvas<'a> {
+    /// # Errors
+    /// What is wrong with the camera, the size or a texture, in words.
+    pub(crate) fn new(model: &'a Model, camera: &Camera, options: &'a RenderOptions) -> Result<Self, String> {
+        let view = view(camera, options.width, options.height).map_err(|e| e.to_string())?;
+        let borrow = |image: &'a Image| Texture::new(&image.texels, image.width, image.height);
+        let textures: Result<_, TextureError> = model.textures.iter().map(borrow).collect();
+        Ok(Self {
+            model,
+            options,
+            view,
+            light: Vector3::new(to_light(camera)),
+            textures: textures.map_err(|e| e.to_string())?,
+            stats: Stats::default(),
+        })
+    }
+
+    /// Draws the whole model into a band; `progress` hears how many of how many triangles are done.
+    pub(crate) fn draw_all<D: alberti::DepthFormat>(
+        mut self,
+        band: &mut Band<'_, Rgba8, D>,
+        progress: &mut dyn FnMut(u64, u64),
+    ) -> Stats {
+        let [r, g, b] = self.options.background;
+        band.clear(Rgba8::new(r, g, b, 255));
+        let total = self.model.parts.iter().map(|part| part.triangles.len() as u64).sum();
+        let mut done = 0;
+        for part in &self.model.parts {
+            for triangles in part.triangles.chunks(CHUNK) {
+                self.draw_part(part, triangles, band);
+                done += triangles.len() as u64;
+                progress(done, total);
+            }
+        }
+        self.stats
+    }
+
+    /// From names to types: what a part's surface shows.
+    fn draw_part<D: alberti::DepthFormat>(
+        &mut self,
+        part: &Part,
+        triangles: &[[u32; 3]],
+        band: &mut Band<'_, Rgba8, D>,
+    ) {
+        let tint = color(part.diffuse);
+        match part.texture.and_then(|t| self.textures.get(t)).copied() {
+            _ if self.options.shading == Shading::VertexColor => {
+                let vertex = |v: &Vertex| (position(v), Vec3::from_array(v.color));
+                self.draw(triangles, vertex, VertexColor, band);
+            }
+            None => self.draw_surface(Flat(tint), triangles, band),
+            Some(texture) => with_sampler!(texture, self.options.filter, self.options.wrap, |sampler| {
+                if tint == Rgba8::WHITE {
+                    self.draw_surface(Unlit(sampler), triangles, band);
+                } else {
+                    self.draw_surface(Tinted { surface: Unlit(sampler), tint }, triangles, band);
+                }
+            }),
+        }
+    }
+
+    /// From names to types: whether the surface is lit.
+    fn draw_surface<D, F>(&mut self, surface: F, triangles: &[[u32; 3]], band: &mut Band<'_, Rgba8, D>)
+    where
+        D: alberti::DepthFormat,
+        F: FragmentStage<Vec2, Color = Rgba8>,
+    {
+        let uv = |v: &Vertex| Vec2::from_array(v.uv);
+        if self.options.shading == Shading::Lambert {
+            let lambert = Lambert::new(surface, self.light, AMBIENT, DIFFUSE);
+            self.draw(triangles, |v: &Vertex| (position(v), (Vec3::from_array(v.normal), uv(v))), lambert, band);
+        } else {
+            self.draw(triangles, |v: &Vertex| (position(v), uv(v)), surface, band);
+        }
+    }
+
+    fn draw<D, V, F>(
+        &mut self,
+        triangles: &[[u32; 3]],
+        vertex_stage: impl VertexStage<Vertex, Varying = V>,
+        fragment_stage: F,
+        band: &mut Band<'_, Rgba8, D>,
+    ) where
+        D: alberti::DepthFormat,
+        V: Varying,
+        F: FragmentStage<V, Color = Rgba8>,
+    {
+        let vertices = &self.model.vertices;
+        let cull = match self.options.cull {
+            Cull::Back => alberti::Cull::Back,
+            Cull::Front => alberti::Cull::Front,
+            Cull::None => alberti::Cull::None,
+        };
+        let pass = Pass {
+            view: self.view,
+            vertices,
+            triangles,
+            vertex_stage,
+            fragment_stage,
+            cull,
+            sides: Sides::GuardBand,
+        };
+        let mut slots = vec![Slot::<Sub8, V>::EMPTY; vertices.len()];
+        draw(&pass, band, &mut slots, &mut self.stats);
+    }
+}
+
+fn position(v: &Vertex) -> Point3<Object> {
+    Point3::new(Vec3::from_array(v.position))
+}
+
+fn color(c: [f32; 3]) -> Rgba8 {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
+    let [r, g, b] = c.map(|x| (x * 255.0 + 0.5) as u8);
+    Rgba8::new(r, g, b, 255)
+}

@@ -1,0 +1,157 @@
+//! The one error type of the command: where, what was found, what was expected, what to do. Always one line.
+
+use std::fmt;
+use std::path::Path;
+
+/// Something that is not as it should be. Printed after `error: ` it ends the command; after `warning: ` it
+/// reports a repair.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Error {
+    place: Option<String>,
+    line: Option<usize>,
+    found: String,
+    expected: String,
+    hint: Option<String>,
+}
+
+impl Error {
+    /// `found …, expected …`: the parts that no message lacks.
+    pub fn new(found: impl Into<String>, expected: impl Into<String>) -> Self {
+        Self { place: None, line: None, found: found.into(), expected: expected.into(), hint: None }
+    }
+
+    /// The file it was found in.
+    #[must_use]
+    pub fn file(self, path: &Path) -> Self {
+        self.place(path.display().to_string())
+    }
+
+    /// Where it was found, when that is not a file: the name of an option.
+    #[must_use]
+    pub fn place(mut self, place: impl Into<String>) -> Self {
+        self.place = Some(place.into());
+        self
+    }
+
+    /// The line in the file, from 1. A line made with continuations counts as its first.
+    #[must_use]
+    pub fn line(mut self, line: usize) -> Self {
+        self.line = Some(line);
+        self
+    }
+
+    /// What to do about it, or what was done.
+    #[must_use]
+    pub fn hint(mut self, hint: impl Into<String>) -> Self {
+        self.hint = Some(hint.into());
+        self
+    }
+}
+
+impl std::error::Error for Error {}
+
+/// Repairs to report. Only the first few are kept: a file may have a million broken lines.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Warnings {
+    first: Vec<Error>,
+    more: usize,
+}
+
+impl Warnings {
+    /// How many are kept.
+    pub const KEPT: usize = 10;
+
+    /// Adds a warning, or counts it.
+    pub fn push(&mut self, warning: Error) {
+        if self.first.len() < Self::KEPT {
+            self.first.push(warning);
+        } else {
+            self.more += 1;
+        }
+    }
+
+    /// One line each, and one for those that were only counted.
+    pub fn lines(&self) -> impl Iterator<Item = String> {
+        let more = (self.more > 0).then(|| format!("{} more of this kind", self.more));
+        self.first.iter().map(ToString::to_string).chain(more)
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut message = String::new();
+        if let Some(place) = &self.place {
+            message.push_str(place);
+            if let Some(line) = self.line {
+                message.push_str(&format!(":{line}"));
+            }
+            message.push_str(": ");
+        }
+        message.push_str(&format!("found {}, expected {}", self.found, self.expected));
+        if let Some(hint) = &self.hint {
+            message.push_str("; ");
+            message.push_str(hint);
+        }
+        f.write_str(&one_line(&message))
+    }
+}
+
+/// A piece of input for a message: quoted, without control characters, and not longer than a message bears.
+pub fn quote(bytes: &[u8]) -> String {
+    const LONGEST: usize = 40;
+    // Cut before the conversion: a megabyte without a space is one word.
+    let head = &bytes[..bytes.len().min(4 * LONGEST + 4)];
+    let text = String::from_utf8_lossy(head);
+    let mut short: String = text.chars().take(LONGEST).collect();
+    if short.len() < bytes.len() && text.chars().count() > LONGEST {
+        short.push('…');
+    }
+    format!("\"{}\"", one_line(&short))
+}
+
+/// File names and file contents may hold line breaks and terminal escapes; messages may not.
+fn one_line(text: &str) -> String {
+    if !text.chars().any(char::is_control) {
+        return text.to_owned();
+    }
+    text.chars()
+        .flat_map(|c| {
+            let escaped = c.is_control().then(|| c.escape_default());
+            let plain = (!c.is_control()).then_some(c);
+            escaped.into_iter().flatten().chain(plain)
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_message_has_its_parts_in_order() {
+        let error = Error::new("a", "b").file(Path::new("x.obj")).line(3).hint("do c");
+        assert_eq!(error.to_string(), "x.obj:3: found a, expected b; do c");
+        assert_eq!(Error::new("a", "b").to_string(), "found a, expected b");
+    }
+
+    #[test]
+    fn a_message_is_one_line_whatever_the_input_holds() {
+        let error = Error::new(quote(b"a\nb\x1b[31m\xff"), "b").file(Path::new("x\n.obj"));
+        assert_eq!(error.to_string(), "x\\n.obj: found \"a\\nb\\u{1b}[31m\u{fffd}\", expected b");
+    }
+
+    #[test]
+    fn warnings_beyond_the_first_are_counted() {
+        let mut warnings = Warnings::default();
+        (0..13).for_each(|i| warnings.push(Error::new(i.to_string(), "b")));
+        let lines: Vec<_> = warnings.lines().collect();
+        assert_eq!(lines.len(), 11);
+        assert_eq!(lines[9..], ["found 9, expected b", "3 more of this kind"]);
+    }
+
+    #[test]
+    fn long_input_is_cut() {
+        assert_eq!(quote(&[b'x'; 1000]), format!("\"{}…\"", "x".repeat(40)));
+        assert_eq!(quote(&[b'x'; 40]), format!("\"{}\"", "x".repeat(40)));
+    }
+}

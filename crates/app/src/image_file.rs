@@ -1,0 +1,130 @@
+//! Textures from image files.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
+
+use crate::error::Error;
+use crate::input;
+use crate::scene::Image;
+
+/// The longest side of a texture.
+pub const MAX_SIDE: u32 = 16384;
+
+/// The most texels that all textures of a model may have together: half a gibibyte in memory.
+pub const MAX_TEXELS: u64 = 1 << 27;
+
+/// The largest image file that is read, in bytes.
+pub const MAX_FILE_BYTES: u64 = 1 << 30;
+
+const KIND: &str = "a PNG, JPEG, BMP or TGA image";
+
+/// Reads an image of at most `budget` texels, and of [`MAX_SIDE`] a side. The format is told by the contents, or
+/// else by the extension (TGA files have no mark of their own).
+///
+/// # Errors
+/// The file cannot be read, is not an image, is broken, or is too large. The size is taken from the header and
+/// checked before anything is decoded.
+pub fn load(path: &Path, budget: u64) -> Result<Image, Error> {
+    let bytes = input::read(path, KIND, MAX_FILE_BYTES)?;
+    let format = image::guess_format(&bytes).or_else(|_| ImageFormat::from_path(path));
+    let format = format.ok().filter(ImageFormat::reading_enabled).ok_or_else(|| {
+        let found = if bytes.is_empty() { "an empty file" } else { "a file of another format" };
+        Error::new(found, KIND).file(path).hint("convert it to PNG")
+    })?;
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    let mut limits = Limits::no_limits();
+    limits.max_image_width = Some(MAX_SIDE);
+    limits.max_image_height = Some(MAX_SIDE);
+    // 16 bits a channel, and something for the decoder itself. This limit is not strict for all formats, which
+    // is why the header is checked below.
+    limits.max_alloc = Some(budget.saturating_mul(8).saturating_add(1 << 26));
+    reader.limits(limits);
+    let mut decoder = reader.into_decoder().map_err(|e| broken(path, &e))?;
+    let (width, height) = decoder.dimensions();
+    let texels = u64::from(width) * u64::from(height);
+    if width == 0 || height == 0 || width > MAX_SIDE || height > MAX_SIDE || texels > budget {
+        return Err(too_large(format!("an image of {width}x{height}"), budget).file(path));
+    }
+    let orientation = decoder.orientation().map_err(|e| broken(path, &e))?;
+    let mut picture = DynamicImage::from_decoder(decoder).map_err(|e| broken(path, &e))?;
+    picture.apply_orientation(orientation);
+    let picture = picture.into_rgba8();
+    let (width, height) = picture.dimensions();
+    let texels = picture.pixels().map(|p| p.0).collect();
+    Ok(Image { width, height, texels })
+}
+
+fn too_large(found: String, budget: u64) -> Error {
+    Error::new(found, format!("1 to {MAX_SIDE} texels a side and at most {budget} in all")).hint("resize it")
+}
+
+fn broken(path: &Path, error: &ImageError) -> Error {
+    match error {
+        ImageError::Limits(_) => too_large("an image that is too large".to_owned(), MAX_TEXELS).file(path),
+        _ => Error::new(format!("a broken image ({error})"), KIND).file(path).hint("save it again as PNG"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::path::PathBuf;
+
+    use super::*;
+
+    fn file(folder: &tempfile::TempDir, name: &str, bytes: &[u8]) -> PathBuf {
+        let path = folder.path().join(name);
+        fs::write(&path, bytes).unwrap();
+        path
+    }
+
+    /// An uncompressed 24-bit TGA; a size that the data do not back is what a hostile file would claim.
+    fn tga(width: u16, height: u16, data: &[u8]) -> Vec<u8> {
+        let mut bytes = vec![0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+        bytes.extend(width.to_le_bytes());
+        bytes.extend(height.to_le_bytes());
+        bytes.extend([24, 0x20]);
+        bytes.extend(data);
+        bytes
+    }
+
+    #[test]
+    fn rows_come_from_the_top() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = file(&folder, "a.tga", &tga(1, 2, &[1, 2, 3, 4, 5, 6]));
+        let image = load(&path, MAX_TEXELS).unwrap();
+        assert_eq!(image, Image { width: 1, height: 2, texels: vec![[3, 2, 1, 255], [6, 5, 4, 255]] });
+    }
+
+    #[test]
+    fn sizes_are_checked_before_decoding() {
+        let folder = tempfile::tempdir().unwrap();
+        for (w, h) in [(0, 5), (5, 0), (65535, 65535), (16384, 16384), (16385, 1)] {
+            let path = file(&folder, "a.tga", &tga(w, h, &[]));
+            let message = load(&path, MAX_TEXELS).unwrap_err().to_string();
+            assert!(message.contains("a.tga: found") && message.contains("expected"), "{message}");
+        }
+        let path = file(&folder, "a.tga", &tga(3, 3, &[0; 27]));
+        assert!(load(&path, 9).is_ok());
+        assert!(load(&path, 8).unwrap_err().to_string().contains("3x3"));
+    }
+
+    #[test]
+    fn what_is_not_an_image_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, bytes) in
+            [("a.png", &b""[..]), ("a.txt", b"hello"), ("a.png", b"\x89PNG\r\n\x1a\n"), ("a.gif", b"GIF89a")]
+        {
+            let path = file(&folder, name, bytes);
+            let message = load(&path, MAX_TEXELS).unwrap_err().to_string();
+            assert!(message.contains("expected a PNG, JPEG, BMP or TGA image"), "{message}");
+            assert_eq!(message.lines().count(), 1);
+        }
+        assert!(load(folder.path(), MAX_TEXELS).unwrap_err().to_string().contains("found a directory"));
+        assert!(
+            load(&folder.path().join("no.png"), 1).unwrap_err().to_string().contains("found no such file")
+        );
+    }
+}

@@ -1,0 +1,167 @@
+//! OBJ models with their materials and textures.
+//!
+//! Polygons become fans of triangles, so concave ones may come out wrong. Missing normals are made
+//! ([`crate::normals`]), missing texture coordinates are (0, 0), missing colours white, missing materials grey.
+//! Texture coordinates are kept as they are, v up. Materials are looked for beside the model, textures beside the
+//! material library.
+
+use std::io::{self, BufRead, Read};
+use std::path::Path;
+
+use crate::error::{Error, Warnings};
+use crate::materials::Materials;
+use crate::obj_check::{self, CheckedObj};
+use crate::scene::{Model, Part, Vertex};
+use crate::{input, normals};
+
+/// The diffuse colour of a part without a material.
+pub const DEFAULT_DIFFUSE: [f32; 3] = [0.8; 3];
+
+/// A model, and what had to be repaired.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// At least one triangle.
+    pub model: Model,
+    /// Broken or missing materials and textures, each replaced by a default.
+    pub warnings: Warnings,
+    /// Whether any corner has a texture coordinate of its own.
+    pub has_uv: bool,
+}
+
+/// Loads a model. `progress` hears (done, total), in bytes.
+///
+/// # Errors
+/// The file cannot be read or has an error, which is named with its line. What is wrong with materials and
+/// textures is a warning.
+pub fn load(path: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<Loaded, Error> {
+    let bytes = input::read(path, obj_check::KIND, input::MAX_TEXT_BYTES)?;
+    // Checking takes about as long as reading what was checked.
+    let half = bytes.len() as u64;
+    let checked = obj_check::check(&bytes, path, &mut |done| progress(done as u64, 2 * half))?;
+    drop(bytes);
+
+    let mut warnings = Warnings::default();
+    if checked.colors_out_of_range > 0 {
+        let found = format!("{} vertex colours outside 0 to 1", checked.colors_out_of_range);
+        warnings.push(Error::new(found, "red, green and blue in 0 to 1").file(path).hint("they are clamped"));
+    }
+    let mut materials = Materials::read(path, &checked, &mut warnings);
+    let (objects, found) = read(&checked, &materials, &mut |done, total| {
+        progress(half + done * half / total.max(1), 2 * half);
+    })
+    .map_err(|e| e.file(path))?;
+
+    let mut model = Model { source: Some(path.to_owned()), ..Model::default() };
+    for object in &objects {
+        let material = object.mesh.material_id.and_then(|id| found.get(id));
+        let texture = material.and_then(|m| m.diffuse_texture.as_deref());
+        add_part(
+            &mut model,
+            object,
+            material.and_then(|m| m.diffuse).unwrap_or(DEFAULT_DIFFUSE),
+            texture.and_then(|map| materials.texture(map, &mut warnings)),
+        )
+        .map_err(|e| e.file(path))?;
+    }
+    model.textures = materials.into_textures();
+    normals::complete(&mut model);
+    Ok(Loaded { model, warnings, has_uv: checked.corners_with_uv > 0 })
+}
+
+/// The checked text through `tobj`.
+fn read(
+    checked: &CheckedObj,
+    materials: &Materials,
+    progress: &mut dyn FnMut(u64, u64),
+) -> Result<(Vec<tobj::Model>, Vec<tobj::Material>), Error> {
+    let options = tobj::LoadOptions { triangulate: true, single_index: true, ..tobj::LoadOptions::default() };
+    let texts = materials.texts();
+    // The libraries go by number: which files they are has been settled.
+    let libraries: String = (0..texts.len()).map(|i| format!("mtllib {i}\n")).collect();
+    let total = (checked.head.len() + libraries.len() + checked.body.len()) as u64;
+    let text = checked.head.as_bytes().chain(libraries.as_bytes()).chain(checked.body.as_bytes());
+    let mut reader =
+        Counting { inner: text, done: 0, reported: 0, report: &mut |done| progress(done, total) };
+    let by_number = |number: &Path| {
+        let text = number.to_str().and_then(|n| n.parse::<usize>().ok()).and_then(|n| texts.get(n));
+        tobj::load_mtl_buf(&mut text.map_or("", String::as_str).as_bytes())
+    };
+    let refused = |error: tobj::LoadError| {
+        Error::new(format!("a file that the OBJ reader refuses ({error})"), obj_check::KIND)
+            .hint("export the model again")
+    };
+    let (objects, found) = tobj::load_obj_buf(&mut reader, &options, by_number).map_err(refused)?;
+    Ok((objects, found.map_err(refused)?))
+}
+
+/// Appends the triangles of an object. One without triangles leaves no part.
+fn add_part(
+    model: &mut Model,
+    object: &tobj::Model,
+    diffuse: [f32; 3],
+    texture: Option<usize>,
+) -> Result<(), Error> {
+    let mesh = &object.mesh;
+    if mesh.indices.is_empty() {
+        return Ok(());
+    }
+    // The check gave each vertex all attributes, so these run in step.
+    let attributes = triples(&mesh.positions)
+        .zip(triples(&mesh.normals))
+        .zip(mesh.texcoords.chunks_exact(2).map(|uv| [uv[0], uv[1]]))
+        .zip(triples(&mesh.vertex_color));
+    let first = u32::try_from(model.vertices.len()).unwrap_or(u32::MAX);
+    model.vertices.extend(attributes.map(|(((position, normal), uv), color)| Vertex {
+        position,
+        normal,
+        uv,
+        color: color.map(|c| c.clamp(0.0, 1.0)),
+    }));
+    if u32::try_from(model.vertices.len()).is_err() {
+        return Err(Error::new("more than 4 billion vertices", "fewer").hint("reduce the model"));
+    }
+    model.parts.push(Part {
+        name: object.name.clone(),
+        triangles: mesh.indices.chunks_exact(3).map(|t| [first + t[0], first + t[1], first + t[2]]).collect(),
+        diffuse: diffuse.map(|c| c.clamp(0.0, 1.0)),
+        texture,
+    });
+    Ok(())
+}
+
+fn triples(flat: &[f32]) -> impl Iterator<Item = [f32; 3]> {
+    flat.chunks_exact(3).map(|x| [x[0], x[1], x[2]])
+}
+
+/// A reader that tells how far it has come, about every megabyte.
+struct Counting<'a, R> {
+    inner: R,
+    done: u64,
+    reported: u64,
+    report: &'a mut dyn FnMut(u64),
+}
+
+impl<R: Read> Read for Counting<'_, R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        self.inner.read(buffer)
+    }
+}
+
+impl<R: BufRead> BufRead for Counting<'_, R> {
+    fn fill_buf(&mut self) -> io::Result<&[u8]> {
+        self.inner.fill_buf()
+    }
+
+    fn consume(&mut self, amount: usize) {
+        self.inner.consume(amount);
+        self.done += amount as u64;
+        if self.done - self.reported >= 1 << 20 {
+            self.reported = self.done;
+            (self.report)(self.done);
+        }
+    }
+}
+
+#[cfg(test)]
+#[path = "obj_tests.rs"]
+mod tests;

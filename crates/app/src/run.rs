@@ -1,0 +1,206 @@
+//! The command itself: arguments in, a picture and an exit status out.
+
+use std::ffi::OsString;
+use std::io::{self, Write as _};
+use std::time::Instant;
+
+use clap::error::{ContextKind, ErrorKind};
+use clap::{CommandFactory as _, Parser as _};
+
+use crate::camera::{self, Wishes};
+use crate::cli::{Cli, Command, RenderArgs, StatsFormat};
+use crate::error::{Error, Warnings, quote};
+use crate::options::{Cull, DEFAULT_BACKGROUND, DepthFormat, Filter, RenderOptions, Shading, Wrap};
+use crate::output::Output;
+use crate::progress::Progress;
+use crate::render::render;
+use crate::scene::{Camera, Model};
+use crate::stats::{Report, Source, Times};
+use crate::{image_file, obj, scenes};
+
+/// The exit status for whatever the user can mend.
+pub const FAILURE: u8 = 2;
+
+/// Runs the command with these arguments, the program's name first. Messages go to standard error; the status is
+/// 0 or [`FAILURE`].
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        Err(error) => return usage(&error),
+    };
+    let result = match cli.command {
+        Some(Command::Render(arguments)) => draw(&arguments),
+        None => print(&Cli::command().render_help().to_string()),
+    };
+    match result {
+        Ok(()) => 0,
+        Err(error) => fail(&error),
+    }
+}
+
+/// Help and version are no errors. A value that cannot be read gets one line like any other input; for words that
+/// are not options, clap's suggestions are better.
+fn usage(error: &clap::Error) -> u8 {
+    if error.kind() == ErrorKind::ValueValidation
+        && let (Some(option), Some(value), Some(expected)) = (
+            error.get(ContextKind::InvalidArg),
+            error.get(ContextKind::InvalidValue),
+            std::error::Error::source(error),
+        )
+    {
+        let option = option.to_string();
+        let option = option.split(' ').next().unwrap_or_default();
+        let message = Error::new(quote(value.to_string().as_bytes()), expected.to_string());
+        return fail(&message.place(option).hint("see --help"));
+    }
+    // A closed pipe cannot be told about.
+    let _ = error.print();
+    if error.use_stderr() { FAILURE } else { 0 }
+}
+
+fn fail(error: &Error) -> u8 {
+    let _ = writeln!(io::stderr(), "error: {error}");
+    FAILURE
+}
+
+/// What is drawn, with the defaults for what the command line leaves open.
+struct Scene {
+    model: Model,
+    /// A scene's own camera; models have none.
+    camera: Option<Camera>,
+    defaults: (Shading, Filter, Wrap, Cull, DepthFormat),
+    background: [u8; 3],
+    /// Whether a texture has coordinates to follow.
+    has_uv: bool,
+}
+
+fn draw(arguments: &RenderArgs) -> Result<(), Error> {
+    let output = Output::new(&arguments.output)?;
+    for input in arguments.model.iter().chain(&arguments.texture) {
+        if output.is(input) {
+            let found = "a file that is also read";
+            return Err(Error::new(found, "another").file(output.name()).hint("choose another with -o"));
+        }
+    }
+    let start = Instant::now();
+    let mut scene = load(arguments)?;
+    put_texture(arguments, &mut scene)?;
+    let load = start.elapsed();
+
+    let (width, height) = arguments.size;
+    let RenderArgs { eye, target, up, fov, near, far, .. } = *arguments;
+    let wishes = Wishes { eye, target, up, fov, near, far };
+    let ball = camera::bounding_sphere(&scene.model);
+    let aspect = f64::from(width) / f64::from(height);
+    let camera = camera::frame(&wishes, scene.camera.as_ref(), ball, aspect)?;
+    if camera::is_behind(&camera, ball) {
+        warn(
+            &Error::new("a camera that looks away from the model", "the model in view")
+                .place("--eye")
+                .to_string(),
+        );
+    }
+
+    let (shading, filter, wrap, cull, depth) = scene.defaults;
+    let options = RenderOptions {
+        width,
+        height,
+        background: arguments.background.unwrap_or(scene.background),
+        shading: arguments.shading.unwrap_or(shading),
+        filter: arguments.filter.unwrap_or(filter),
+        wrap: arguments.wrap.unwrap_or(wrap),
+        cull: arguments.cull.unwrap_or(cull),
+        depth: arguments.depth.unwrap_or(depth),
+    };
+    let start = Instant::now();
+    let mut progress = Progress::new("drawing");
+    let picture = render(&scene.model, &camera, &options, &mut |done, total| progress.set(done, total))?;
+    drop(progress);
+    let rendered = start.elapsed();
+
+    let start = Instant::now();
+    output.write(&picture.image)?;
+    let times = Times { load, render: rendered, write: start.elapsed() };
+    let source = match &arguments.model {
+        Some(path) => Source::Model(path),
+        None => Source::Scene(name_of(arguments)),
+    };
+    let report = Report { output: output.name(), source, size: arguments.size, stats: picture.stats, times };
+    print(&match arguments.stats {
+        None => format!("{}\n", report.summary()),
+        Some(StatsFormat::Text) => format!("{}\n{}", report.summary(), report.text()),
+        Some(StatsFormat::Json) => format!("{}\n", report.json()),
+    })
+}
+
+fn name_of(arguments: &RenderArgs) -> &str {
+    arguments.scene.as_deref().or(scenes::NAMES.first().copied()).unwrap_or_default()
+}
+
+fn load(arguments: &RenderArgs) -> Result<Scene, Error> {
+    if let Some(path) = &arguments.model {
+        let mut progress = Progress::new("loading");
+        let loaded = obj::load(path, &mut |done, total| progress.set(done, total))?;
+        drop(progress);
+        warn_all(&loaded.warnings);
+        return Ok(Scene {
+            model: loaded.model,
+            camera: None,
+            defaults: Default::default(),
+            background: DEFAULT_BACKGROUND,
+            has_uv: loaded.has_uv,
+        });
+    }
+    let name = name_of(arguments);
+    let scene = scenes::by_name(name).ok_or_else(|| {
+        Error::new(quote(name.as_bytes()), format!("one of {}", scenes::NAMES.join(", "))).place("--scene")
+    })?;
+    Ok(Scene {
+        model: scene.model,
+        camera: Some(scene.camera),
+        defaults: (scene.shading, scene.filter, scene.wrap, scene.cull, scene.depth),
+        background: scene.background,
+        has_uv: true,
+    })
+}
+
+/// `--texture` replaces every texture of the model.
+fn put_texture(arguments: &RenderArgs, scene: &mut Scene) -> Result<(), Error> {
+    let Some(path) = &arguments.texture else {
+        return Ok(());
+    };
+    let texture = image_file::load(path, image_file::MAX_TEXELS)?;
+    if !scene.has_uv {
+        let found = "a model without texture coordinates (`vt` lines)";
+        let error = Error::new(found, "some for the texture").place("--texture");
+        warn(&error.hint("every surface gets one texel's colour").to_string());
+    }
+    scene.model.textures = vec![texture];
+    for part in &mut scene.model.parts {
+        part.texture = Some(0);
+    }
+    Ok(())
+}
+
+fn warn_all(warnings: &Warnings) {
+    for line in warnings.lines() {
+        warn(&line);
+    }
+}
+
+fn warn(line: &str) {
+    // Without standard error there is nobody to tell.
+    let _ = writeln!(io::stderr(), "warning: {line}");
+}
+
+/// Standard output that nobody reads any more is no failure: the picture is there.
+fn print(text: &str) -> Result<(), Error> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Error::new(format!("that writing fails ({error})"), "to print the result")
+                .place("standard output"))
+        }
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,67 @@
+//! Built-in scenes, made by formulas: pictures to look at, loads to time, and traps to fall into.
+//!
+//! | name | what |
+//! |---|---|
+//! | `hero` | a mazzocchio on a pedestal in a Florentine arcade: the default picture |
+//! | `fill` | 16 tilted textured screens with a depth test: fragments |
+//! | `mesh` | a textured knot of 5,900 triangles |
+//! | `gouraud` | a vertex-coloured lump of 69,312 triangles: vertices and setup |
+//! | `floor` | one plane from behind the camera to the horizon: the near plane |
+//! | `cube` | the colour cube |
+//! | `inside` | a grotto from within: triangles across all six sides of the view volume |
+//!
+//! Every scene is the same on every machine up to the last bit of `sin` and `cos`, which are taken in f64
+//! and rounded to f32. Front faces are counter-clockwise; space is right-handed, y up.
+
+mod arcade;
+mod build;
+mod hero;
+mod paint;
+mod pavement;
+mod solids;
+mod studies;
+mod trials;
+
+#[cfg(test)]
+mod tests;
+
+use crate::options::{Cull, DepthFormat, Filter, Shading, Wrap};
+use crate::scene::{Camera, Model};
+
+/// A scene that needs no file.
+#[derive(Clone, Debug)]
+pub struct BuiltIn {
+    /// What is drawn.
+    pub model: Model,
+    /// From where.
+    pub camera: Camera,
+    /// Behind the model, sRGB.
+    pub background: [u8; 3],
+    /// How it is shaded.
+    pub shading: Shading,
+    /// How textures are read.
+    pub filter: Filter,
+    /// How textures continue.
+    pub wrap: Wrap,
+    /// Which side is left out.
+    pub cull: Cull,
+    /// The depth buffer.
+    pub depth: DepthFormat,
+}
+
+/// The names that [`by_name`] knows, the default first.
+pub const NAMES: &[&str] = &["hero", "fill", "mesh", "gouraud", "floor", "cube", "inside"];
+
+/// The built-in scene of that name.
+pub fn by_name(name: &str) -> Option<BuiltIn> {
+    Some(match name {
+        "hero" => hero::hero(),
+        "fill" => trials::fill(),
+        "mesh" => trials::mesh(),
+        "gouraud" => trials::gouraud(),
+        "floor" => trials::floor(),
+        "cube" => studies::cube(),
+        "inside" => studies::inside(),
+        _ => return None,
+    })
+}

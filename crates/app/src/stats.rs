@@ -1,0 +1,164 @@
+//! What a picture took: counts from the pipeline and times from the clock, as text or as JSON.
+
+use alberti::Stats;
+use std::fmt::Write as _;
+use std::path::Path;
+use std::time::Duration;
+
+/// Wall-clock times.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Times {
+    /// Reading the model, or making it.
+    pub load: Duration,
+    /// Drawing.
+    pub render: Duration,
+    /// Encoding and writing the file.
+    pub write: Duration,
+}
+
+/// A report of one run.
+#[derive(Clone, Copy, Debug)]
+pub struct Report<'a> {
+    /// The picture's file.
+    pub output: &'a Path,
+    /// The model's file, or else the built-in scene's name.
+    pub source: Source<'a>,
+    /// The picture's size.
+    pub size: (u32, u32),
+    /// Counts.
+    pub stats: Stats,
+    /// Times.
+    pub times: Times,
+}
+
+/// Where the triangles came from.
+#[derive(Clone, Copy, Debug)]
+pub enum Source<'a> {
+    /// A file.
+    Model(&'a Path),
+    /// A built-in scene.
+    Scene(&'a str),
+}
+
+impl Report<'_> {
+    /// One line: what was made from what.
+    pub fn summary(&self) -> String {
+        let source = match self.source {
+            Source::Model(path) => path.display().to_string(),
+            Source::Scene(name) => format!("built-in scene {name}"),
+        };
+        let (width, height) = self.size;
+        format!(
+            "{source}: {} triangles drawn in {:.1} ms, {width}x{height} pixels in {}",
+            self.stats.submitted,
+            ms(self.times.render),
+            self.output.display()
+        )
+    }
+
+    /// A line each.
+    pub fn text(&self) -> String {
+        let mut text = String::new();
+        for (name, count) in self.counts() {
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "{name:<14}{count:>12}");
+        }
+        for (name, time) in self.durations() {
+            let _ = writeln!(text, "{name:<14}{:>12.3} ms", ms(time));
+        }
+        text
+    }
+
+    /// One JSON object on one line: `output`, `model` or `scene`, `width`, `height`, the counts (see [`Stats`]), and
+    /// `ms` with `load`, `render` and `write`.
+    pub fn json(&self) -> String {
+        let source = match self.source {
+            Source::Model(path) => ("model", path.display().to_string()),
+            Source::Scene(name) => ("scene", name.to_owned()),
+        };
+        let mut fields = vec![
+            ("output", json_string(&self.output.display().to_string())),
+            (source.0, json_string(&source.1)),
+            ("width", self.size.0.to_string()),
+            ("height", self.size.1.to_string()),
+        ];
+        fields.extend(self.counts().map(|(name, count)| (name, count.to_string())));
+        let times = self.durations().map(|(name, time)| (name, format!("{:.3}", ms(time))));
+        fields.push(("ms", json_object(&times)));
+        json_object(&fields)
+    }
+
+    fn counts(&self) -> [(&'static str, u64); 8] {
+        let s = self.stats;
+        [
+            ("triangles_in", s.submitted),
+            ("outside", s.dropped),
+            ("clipped", s.clipped),
+            ("culled", s.culled),
+            ("missed", s.missed),
+            ("drawn", s.drawn),
+            ("fragments", s.fragments),
+            ("written", s.written),
+        ]
+    }
+
+    fn durations(&self) -> [(&'static str, Duration); 3] {
+        [("load", self.times.load), ("render", self.times.render), ("write", self.times.write)]
+    }
+}
+
+fn ms(time: Duration) -> f64 {
+    time.as_secs_f64() * 1e3
+}
+
+fn json_object(fields: &[(&str, String)]) -> String {
+    let fields: Vec<String> = fields.iter().map(|(name, value)| format!("\"{name}\": {value}")).collect();
+    format!("{{{}}}", fields.join(", "))
+}
+
+fn json_string(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => quoted.extend(['\\', c]),
+            _ if c.is_control() => {
+                let _ = write!(quoted, "\\u{:04x}", u32::from(c));
+            }
+            _ => quoted.push(c),
+        }
+    }
+    quoted.push('"');
+    quoted
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn report<'a>(output: &'a Path, source: Source<'a>) -> Report<'a> {
+        let stats = Stats { submitted: 5, clipped: 4, culled: 3, drawn: 2, fragments: 1, ..Stats::default() };
+        let times = Times { load: Duration::from_micros(1500), ..Times::default() };
+        Report { output, source, size: (7, 6), stats, times }
+    }
+
+    #[test]
+    fn json_is_json() {
+        let output = Path::new("a\"\\\n\u{7f}é.png");
+        let text = report(output, Source::Scene("hero")).json();
+        let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(value["output"], "a\"\\\n\u{7f}é.png");
+        assert_eq!(value["scene"], "hero");
+        assert_eq!(value["width"], 7);
+        assert_eq!(value["triangles_in"], 5);
+        assert_eq!(value["fragments"], 1);
+        assert_eq!(value["ms"]["load"], 1.5);
+        assert!(!text.contains('\n'));
+    }
+
+    #[test]
+    fn text_names_everything() {
+        let report = report(Path::new("a.png"), Source::Model(Path::new("m.obj")));
+        assert_eq!(report.text().lines().count(), 11);
+        assert_eq!(report.summary(), "m.obj: 5 triangles drawn in 0.0 ms, 7x6 pixels in a.png");
+    }
+}

@@ -1,0 +1,210 @@
+//! Bad input: one line with the place, what was found and what was expected; status 2; no file.
+
+use std::fs;
+
+use crate::{Folder, TRIANGLE};
+
+/// The error for a model with these contents.
+fn model(contents: &[u8], parts: &[&str]) {
+    Folder::with(&[("m.obj", contents)]).fails(&["m.obj", "-o", "out.png"], parts);
+}
+
+#[test]
+fn files_that_are_not_models() {
+    model(b"", &["error: m.obj: found an empty file", "a Wavefront OBJ model"]);
+    model(b"\x89PNG\r\n\x1a\n\0\0\0\r", &["error: m.obj: found a binary file"]);
+    model(b"\x7fELF\x02\x01\x01\0", &["error: m.obj: found a binary file"]);
+    model(b"Dear reader,\nthis is no model.\n", &["error: m.obj: found no faces in 2 lines"]);
+    model(b"v 0 0 0\nv 1 0 0\nv 0 1 0\n", &["error: m.obj: found no faces in 3 lines"]);
+    model(b"\xff\xfev\0 \x001\0", &["error: m.obj: found UTF-16 text"]);
+    model(b"\xff\xff\xff\xff", &["error: m.obj: found no faces in 1 lines"]);
+}
+
+#[test]
+fn numbers_that_are_not_coordinates() {
+    for bad in ["nan", "NaN", "inf", "-inf", "1e400", "1e39", "one", "1,5", "0x1p3"] {
+        for keyword in ["v 0 0", "vt 0", "vn 0 1"] {
+            let text = format!("# comment\n\n{keyword} {bad}\n{TRIANGLE}");
+            model(
+                text.as_bytes(),
+                &["error: m.obj:3: ", &format!("found \"{bad}\", expected a finite number")],
+            );
+        }
+    }
+    model(b"v 1e30 0 0\n", &["m.obj:1: found a coordinate of 1e30, expected coordinates within"]);
+    model(b"v 1 2\n", &["m.obj:1: found `v` with 2 numbers, expected 3"]);
+    model(b"v 1 2 \\\n\\\n\nvt 0 x\n", &["m.obj:1: found `v` with 2 numbers"]);
+}
+
+#[test]
+fn indices_that_do_not_exist() {
+    for (face, found) in [
+        ("f 1 2 9", "found vertex index 9, expected 1 to 3"),
+        ("f 0 1 2", "found vertex index 0, expected 1 to 3"),
+        ("f 1/0 2/1 3/1", "found texture coordinate index 0, expected 1 to 3"),
+        ("f 1/-5 2/1 3/1", "found texture coordinate index -5, expected -1 to -3"),
+        ("f 1//2 2//1 3//1", "found normal index 2, expected 1 to 1"),
+        ("f 1//9223372036854775807 2//1 3//1", "found normal index 9223372036854775807"),
+        ("f 1//6148914691236517206 2//1 3//1", "found normal index 6148914691236517206"),
+        ("f 1//-9223372036854775808 2//1 3//1", "found normal index -9223372036854775808"),
+        ("f -4 -2 -1", "found vertex index -4, expected -1 to -3"),
+        ("f 99999999999999999999999 1 2", "found vertex index 9223372036854775807"),
+        ("f a b c", "found \"a\" in a face, expected whole numbers"),
+        ("f 1/1/1/1 2 3", "found \"1/1/1/1\" in a face"),
+        ("f 1 2", "found a face with 2 corners, expected at least 3"),
+        ("f", "found a face with 0 corners"),
+    ] {
+        model(format!("{TRIANGLE}{face}\n").as_bytes(), &["error: m.obj:9: ", found]);
+    }
+}
+
+#[test]
+fn messages_stay_on_one_line() {
+    model(b"v 0 0 \x1b[31mred\x07\xff\n", &["m.obj:1: found \"\\u{1b}[31mred\\u{7}\u{fffd}\""]);
+    model(format!("v 0 0 {}\n", "x".repeat(100_000)).as_bytes(), &["xxx…\", expected"]);
+    Folder::with(&[]).fails(&["a\nb.obj"], &["error: a\\nb.obj: found no such file"]);
+}
+
+#[test]
+fn files_that_cannot_be_read() {
+    let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes())]);
+    fs::create_dir(folder.path("d")).expect("a folder");
+    folder.fails(&["no.obj"], &["error: no.obj: found no such file, expected a Wavefront OBJ model"]);
+    folder.fails(&["d"], &["error: d: found a directory, expected a Wavefront OBJ model"]);
+    folder.fails(&["m.obj", "--texture", "no.png"], &["error: no.png: found no such file, expected a PNG"]);
+    folder.fails(&["m.obj", "--texture", "d"], &["error: d: found a directory, expected a PNG"]);
+    folder.fails(&["m.obj/x"], &["error: m.obj/x: found "]);
+    #[cfg(unix)]
+    folder.fails(&["/dev/null"], &["error: /dev/null: found a device or a pipe"]);
+}
+
+/// A BMP header that claims a size, without the pixels.
+fn bmp(width: i32, height: i32) -> Vec<u8> {
+    let mut bytes = b"BM".to_vec();
+    for field in [54, 0, 54, 40] {
+        bytes.extend(u32::to_le_bytes(field));
+    }
+    bytes.extend(width.to_le_bytes());
+    bytes.extend(height.to_le_bytes());
+    bytes.extend([1, 0, 24, 0]);
+    bytes.extend([0; 24]);
+    bytes
+}
+
+/// A PNG header that claims a size, with its checksum, without the pixels.
+fn png(width: u32, height: u32) -> Vec<u8> {
+    let mut chunk = b"IHDR".to_vec();
+    chunk.extend(width.to_be_bytes());
+    chunk.extend(height.to_be_bytes());
+    chunk.extend([8, 6, 0, 0, 0]);
+    let crc = chunk.iter().fold(u32::MAX, |crc, &byte| {
+        (0..8).fold(crc ^ u32::from(byte), |c, _| if c & 1 == 1 { c >> 1 ^ 0xedb8_8320 } else { c >> 1 })
+    });
+    let mut bytes = b"\x89PNG\r\n\x1a\n\0\0\0\r".to_vec();
+    bytes.extend(chunk);
+    bytes.extend((!crc).to_be_bytes());
+    bytes.extend(b"\0\0\0\0IDAT");
+    bytes
+}
+
+#[test]
+fn textures_that_are_not_images() {
+    let cases: [(&str, Vec<u8>); 11] = [
+        ("empty.png", Vec::new()),
+        ("text.png", b"hello".to_vec()),
+        ("cut.png", png(4, 4)),
+        ("zero.png", png(0, 4)),
+        ("huge.png", png(2_000_000_000, 2_000_000_000)),
+        ("wide.png", png(100_000, 1)),
+        ("much.png", png(16384, 16384)),
+        ("zero.bmp", bmp(0, 0)),
+        ("huge.bmp", bmp(i32::MAX, i32::MAX)),
+        ("wide.bmp", bmp(20_000, 1)),
+        ("min.bmp", bmp(1, i32::MIN)),
+    ];
+    for (name, bytes) in cases {
+        let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes()), (name, &bytes)]);
+        folder.fails(&["m.obj", "--texture", name], &[&format!("error: {name}: found ")]);
+    }
+}
+
+#[test]
+fn cameras_that_see_nothing() {
+    let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes())]);
+    for (arguments, parts) in [
+        ("--near 5 --far 5", "error: --far: found near 5 and far 5, expected near < far"),
+        ("--near 6 --far 5", "error: --far: found near 6 and far 5"),
+        ("--near 1e6", "error: --far: found near 1000000 and far "),
+        ("--near 0", "error: --near: found near 0, expected"),
+        ("--near -1", "error: --near: found near -1, expected"),
+        ("--near nan", "error: --near: found \"nan\", expected a finite number"),
+        ("--far inf", "error: --far: found \"inf\", expected a finite number"),
+        ("--eye 1,2,3 --target 1,2,3", "error: --eye: found the eye and its target both at 1,2,3"),
+        ("--eye 0,5,0 --target 0,0,0 --up 0,1,0", "error: --up: found 0,1,0, which is 0 or along the view"),
+        ("--up 0,0,0", "error: --up: found 0,0,0"),
+        ("--eye 1,nan,3", "error: --eye: found \"1,nan,3\", expected three finite numbers"),
+        ("--eye 1,2", "error: --eye: found \"1,2\", expected three finite numbers"),
+        ("--target 1e400,0,0", "error: --target: found \"1e400,0,0\""),
+        ("--up -inf,0,0", "error: --up: found \"-inf,0,0\""),
+        ("--fov 0", "error: --fov: found 0 degrees, expected an angle above 0 and below 180"),
+        ("--fov 180", "error: --fov: found 180 degrees"),
+        ("--fov -20", "error: --fov: found -20 degrees"),
+        ("--fov nan", "error: --fov: found \"nan\", expected a finite number"),
+    ] {
+        let arguments: Vec<_> = "m.obj -o out.png".split(' ').chain(arguments.split(' ')).collect();
+        folder.fails(&arguments, &[parts]);
+    }
+}
+
+#[test]
+fn sizes_and_colours_that_are_none() {
+    let folder = Folder::with(&[]);
+    for size in ["0x480", "640x0", "0x0", "100000x100000", "16385x1", "640", "axb", "-1x4", ""] {
+        folder
+            .fails(&["--size", size], &[&format!("error: --size: found \"{size}\", expected WIDTHxHEIGHT")]);
+    }
+    for color in ["red", "fff", "12345g", "+12345", "#12345", "1234567", ""] {
+        let found = format!("error: --background: found \"{color}\", expected six hexadecimal digits");
+        folder.fails(&["--background", color], &[&found]);
+    }
+}
+
+#[test]
+fn outputs_that_cannot_be_written() {
+    let folder = Folder::with(&[("file", b""), ("m.obj", b"broken"), ("t.png", b"")]);
+    fs::create_dir(folder.path("d.png")).expect("a folder");
+    folder.fails(
+        &["-o", "out.gif"],
+        &["error: out.gif: found the extension \".gif\"", ".png, .jpg, .jpeg, .bmp, .tga"],
+    );
+    folder.fails(&["-o", "out"], &["error: out: found no extension"]);
+    folder.fails(&["-o", "d.png"], &["error: d.png: found a directory"]);
+    folder.fails(&["-o", "no/out.png"], &["error: no/out.png: found a folder that does not exist"]);
+    // Before anything is read, so that nobody waits for a picture that has no place.
+    folder.fails(
+        &["m.obj", "-o", "file/out.png"],
+        &["error: file/out.png: found a folder that is not a folder"],
+    );
+    folder.fails(&["--texture", "t.png", "-o", "t.png"], &["error: t.png: found a file that is also read"]);
+}
+
+#[test]
+fn a_failure_leaves_the_old_picture() {
+    let folder = Folder::with(&[("m.obj", b"f 1 2 3\n"), ("out.png", b"old")]);
+    folder.fails(&["m.obj", "-o", "out.png"], &["error: m.obj:1: found vertex index 1, expected none"]);
+    assert_eq!(fs::read(folder.path("out.png")).expect("the old picture"), b"old");
+}
+
+#[test]
+fn usage_errors_have_the_same_status() {
+    let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes())]);
+    for arguments in
+        ["--no-such-option", "m.obj --scene hero", "--scene nowhere", "--filter cubic", "a.obj b.obj"]
+    {
+        let arguments: Vec<_> = arguments.split(' ').collect();
+        let run = folder.render(&arguments);
+        assert_eq!(run.status, Some(2), "{run:?}");
+        assert!(run.stderr.starts_with("error: "), "{run:?}");
+    }
+    assert_eq!(folder.names(), ["m.obj"]);
+}

@@ -1,0 +1,176 @@
+//! What works: pictures in every format and size, reports, and models with broken materials.
+
+use std::ffi::OsStr;
+use std::fs;
+
+use crate::{Folder, TRIANGLE, alberti};
+
+#[test]
+fn without_arguments_there_is_a_picture() {
+    let folder = Folder::with(&[]);
+    let run = folder.succeeds::<&str>(&[]);
+    assert_eq!(folder.names(), ["alberti.png"]);
+    let size = image::image_dimensions(folder.path("alberti.png")).expect("a picture");
+    assert_eq!(size, (640, 480));
+    assert_eq!(run.stderr, "");
+    assert_eq!(run.stdout.lines().count(), 1);
+    for part in ["hero", "640x480", " triangles", " ms", "alberti.png"] {
+        assert!(run.stdout.contains(part), "{part} is not in {}", run.stdout);
+    }
+}
+
+#[test]
+fn every_scene_draws() {
+    let folder = Folder::with(&[]);
+    for name in alberti_app::scenes::NAMES {
+        folder.succeeds(&["--scene", name, "--size", "32x24", "--eye", "3,2,9"]);
+    }
+}
+
+#[test]
+fn the_extension_says_the_format() {
+    let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes())]);
+    for (name, start) in [
+        ("a.png", &b"\x89PNG"[..]),
+        ("a.PNG", b"\x89PNG"),
+        ("a.jpg", b"\xff\xd8\xff"),
+        ("a.jpeg", b"\xff\xd8\xff"),
+        ("a.bmp", b"BM"),
+        ("a.tga", b"\0\0"),
+    ] {
+        folder.succeeds(&["m.obj", "-o", name, "--size", "17x5"]);
+        assert!(fs::read(folder.path(name)).expect("the picture").starts_with(start), "{name}");
+        assert_eq!(image::image_dimensions(folder.path(name)).expect("a picture"), (17, 5));
+    }
+}
+
+#[test]
+fn every_choice_is_accepted() {
+    let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes())]);
+    for (option, values) in [
+        ("--filter", &["nearest", "bilinear"][..]),
+        ("--wrap", &["repeat", "clamp", "mirror"]),
+        ("--shading", &["unlit", "vertex-color", "lambert"]),
+        ("--cull", &["back", "front", "none"]),
+        ("--depth", &["f32", "f32-reversed", "u24", "u16", "none"]),
+        ("--background", &["ff0000", "#00FF00"]),
+        ("--eye", &["-1,2,3"]),
+        ("--target", &["-1,-2,-3"]),
+        ("--up", &["-1,0,0", "0,0,1"]),
+        ("--fov", &["0.5", "90", "179"]),
+        ("--near", &["0.01"]),
+        ("--far", &["100"]),
+        ("--size", &["1x1", "16384x1", "1x16384"]),
+    ] {
+        for value in values {
+            folder.succeeds(&["m.obj", option, value]);
+        }
+    }
+    folder.succeeds(&["--scene", "hero", "--size", "8x8", "--filter", "nearest", "--near", "0.5"]);
+}
+
+#[test]
+fn background_and_size_reach_the_picture() {
+    let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes())]);
+    folder.succeeds(&["m.obj", "--size", "40x30", "--background", "0a141e"]);
+    let picture = image::open(folder.path("alberti.png")).expect("a picture").to_rgb8();
+    assert_eq!(picture.dimensions(), (40, 30));
+    // A corner, which a model in view leaves free.
+    assert_eq!(picture.get_pixel(0, 0).0, [10, 20, 30]);
+}
+
+#[test]
+fn statistics_come_as_text_or_json() {
+    let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes())]);
+    let run = folder.succeeds(&["m.obj", "--size", "64x48", "--stats", "json"]);
+    let json: serde_json::Value = serde_json::from_str(&run.stdout).expect("JSON alone");
+    assert_eq!(run.stdout.lines().count(), 1);
+    assert_eq!((&json["model"], &json["output"]), (&"m.obj".into(), &"alberti.png".into()));
+    assert_eq!((&json["width"], &json["height"]), (&64.into(), &48.into()));
+    assert_eq!(json["triangles_in"], 1);
+    for count in ["clipped", "culled", "drawn", "fragments"] {
+        assert!(json[count].is_u64(), "{json}");
+    }
+    for time in ["load", "render", "write"] {
+        assert!(json["ms"][time].is_f64(), "{json}");
+    }
+    let run = folder.succeeds(&["m.obj", "--stats"]);
+    assert!(run.stdout.contains("\nfragments"), "{run:?}");
+}
+
+#[test]
+fn broken_materials_are_warnings() {
+    let obj = format!("mtllib m.mtl\nusemtl red\n{TRIANGLE}usemtl blue\nf 1 2 3\n");
+    for (mtl, place) in [
+        (&b"newmtl red\nKd 1 2\n"[..], "warning: m.mtl:2: found `Kd` with 2 numbers"),
+        (b"newmtl red\nKd\n", "warning: m.mtl:2: found `Kd` with 0 numbers"),
+        (b"newmtl red\r\n\r\nKd x 1 1\r\n", "warning: m.mtl:3: found \"x\" after `Kd`"),
+        (b"newmtl red\nmap_Kd no.png\n", "warning: m.mtl:2: found a texture \"no.png\" that cannot be used"),
+        (b"newmtl red\nmap_Kd m.obj\n", "warning: m.mtl:2: found a texture \"m.obj\" that cannot be used"),
+        (b"newmtl red\nmap_Kd .\n", "warning: m.mtl:2: found a texture \".\" that cannot be used"),
+        (b"newmtl red\n", "warning: m.obj:11: found `usemtl` \"blue\""),
+        (b"\0\x01\x02", "warning: m.mtl: found a binary file"),
+        (b"", "warning: m.mtl: found an empty file"),
+    ] {
+        let folder = Folder::with(&[("m.obj", obj.as_bytes()), ("m.mtl", mtl)]);
+        let run = folder.succeeds(&["m.obj", "--size", "16x16"]);
+        assert!(run.stderr.lines().any(|line| line.starts_with(place)), "{place} is not in {}", run.stderr);
+        assert!(run.stderr.lines().all(|line| line.starts_with("warning: ")), "{run:?}");
+        assert_eq!(folder.names(), ["alberti.png", "m.mtl", "m.obj"]);
+    }
+    let folder = Folder::with(&[("m.obj", obj.as_bytes())]);
+    let run = folder.succeeds(&["m.obj"]);
+    assert!(run.stderr.starts_with("warning: m.obj:1: found no file \"m.mtl\", expected an MTL"), "{run:?}");
+    assert_eq!(run.stderr.lines().count(), 1);
+}
+
+#[test]
+fn files_are_found_from_another_folder() {
+    let folder = Folder::with(&[]);
+    fs::create_dir_all(folder.path("in/maps")).expect("folders");
+    fs::create_dir(folder.path("out")).expect("a folder");
+    fs::write(folder.path("in/m.obj"), format!("mtllib maps\\m.mtl\nusemtl a\n{TRIANGLE}")).expect("a file");
+    fs::write(folder.path("in/maps/m.mtl"), "newmtl a\nmap_Kd t.png\n").expect("a file");
+    image::RgbImage::new(2, 2).save(folder.path("in/maps/t.png")).expect("a file");
+    let run = folder.succeeds(&["in/m.obj", "-o", "out/p.png", "--texture", "in/maps/t.png"]);
+    assert_eq!(run.stderr, "");
+    assert!(folder.path("out/p.png").exists());
+}
+
+#[test]
+fn odd_views_are_warnings() {
+    let folder = Folder::with(&[("m.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")]);
+    let run = folder.succeeds(&["m.obj", "--eye", "0,0,9", "--target", "0,0,99"]);
+    assert!(run.stderr.starts_with("warning: --eye: found a camera that looks away"), "{run:?}");
+    image::RgbImage::new(2, 2).save(folder.path("t.png")).expect("a file");
+    let run = folder.succeeds(&["m.obj", "--texture", "t.png"]);
+    assert!(run.stderr.starts_with("warning: --texture: found a model without texture coord"), "{run:?}");
+}
+
+#[test]
+fn help_and_version_are_printed() {
+    let folder = Folder::with(&[]);
+    let run = |arguments: &[&str]| alberti(&folder.path("."), &[] as &[&OsStr], arguments);
+    for (arguments, part) in [
+        (&[][..], "Usage: alberti"),
+        (&["--help"], "Usage: alberti"),
+        (&["--version"], env!("CARGO_PKG_VERSION")),
+        (&["render", "--help"], "--fov <DEG>"),
+        (&["render", "-h"], "Examples:"),
+    ] {
+        let run = run(arguments);
+        assert!(run.status == Some(0) && run.stdout.contains(part) && run.stderr.is_empty(), "{run:?}");
+    }
+    assert!(folder.names().is_empty());
+}
+
+#[cfg(unix)]
+#[test]
+fn pictures_are_files_like_any_other() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let folder = Folder::with(&[("plain", b"")]);
+    folder.succeeds(&["--size", "8x8"]);
+    let mode = |name: &str| fs::metadata(folder.path(name)).expect("a file").permissions().mode();
+    fs::write(folder.path("new"), "").expect("a file");
+    assert_eq!(mode("alberti.png"), mode("new"));
+}
