@@ -1,7 +1,7 @@
 //! Signed area and barycentric coordinates in the plane.
 
 use crate::space::{Point2, Space};
-use crate::varying::Varying;
+use crate::varying::{Varying, combine};
 
 /// The signed area of the triangle `a b c`: positive when its vertices run counter-clockwise (with y up).
 ///
@@ -37,7 +37,7 @@ pub fn triangle_weights<S: Space>(p: Point2<S>, [a, b, c]: [Point2<S>; 3]) -> Op
 /// Within 3ε·(|α a| + |β b| + |γ c|) of the exact combination.
 #[must_use]
 pub fn interpolate<V: Varying>([alpha, beta, gamma]: [f32; 3], values: [V; 3]) -> V {
-    V::zip(values, &|[a, b, c]| alpha * a + beta * b + gamma * c)
+    combine(values, &|[a, b, c]| alpha * a + beta * b + gamma * c)
 }
 
 #[cfg(test)]

@@ -19,4 +19,4 @@ pub use frame::Frame;
 pub use glam;
 pub use round::{floor_i32, round_half_up};
 pub use space::{Cube, Eye, Object, Point, Point2, Point3, Space, Vector, Vector2, Vector3, World};
-pub use varying::{Varying, blend2, blend3, hull3, is_finite};
+pub use varying::{Varying, blend2, combine, hull3, is_finite};

@@ -1,13 +1,14 @@
 //! What a vertex carries beside its position, and how such values are combined.
 
+use core::array::from_fn;
 use core::cell::Cell;
 use glam::{Vec2, Vec3, Vec4};
 
 /// A value that is interpolated over a triangle: a bundle of `f32` components.
 ///
-/// The one method says how to reach the components, so that the clipper, the rasterizer and whoever needs it can
-/// combine values with any arithmetic. `()`, `f32`, arrays, glam's vectors and tuples are varyings; a struct of
-/// varyings becomes one by zipping each field:
+/// The methods say how to reach the components, so that the clipper, the rasterizer and whoever needs it can combine
+/// values with any arithmetic, for one sample or for several at a time. `()`, `f32`, arrays, glam's vectors and tuples
+/// are varyings; a struct becomes one by going through a tuple of its fields:
 ///
 /// ```
 /// use alberti_math::{Varying, glam::{Vec2, Vec3}};
@@ -19,59 +20,144 @@ use glam::{Vec2, Vec3, Vec4};
 /// }
 ///
 /// impl Varying for Lit {
-///     fn zip<const N: usize>(v: [Self; N], f: &impl Fn([f32; N]) -> f32) -> Self {
-///         Self { uv: Vec2::zip(v.map(|v| v.uv), f), normal: Vec3::zip(v.map(|v| v.normal), f) }
+///     type Of<T: Copy> = <(Vec2, Vec3) as Varying>::Of<T>;
+///
+///     fn gather<const N: usize>(values: [Self; N]) -> Self::Of<[f32; N]> {
+///         Varying::gather(values.map(|v| (v.uv, v.normal)))
+///     }
+///
+///     fn map<T: Copy, U: Copy>(bundle: &Self::Of<T>, f: &impl Fn(T) -> U) -> Self::Of<U> {
+///         <(Vec2, Vec3)>::map(bundle, f)
+///     }
+///
+///     fn from_components(bundle: &Self::Of<f32>) -> Self {
+///         let (uv, normal) = Varying::from_components(bundle);
+///         Self { uv, normal }
 ///     }
 /// }
 /// ```
 pub trait Varying: Copy {
-    /// Combines `N` values component by component.
+    /// The same bundle with components of type `T` instead of `f32`.
+    type Of<T: Copy>: Copy;
+
+    /// The components of `N` values, those that belong together side by side.
     #[must_use]
-    fn zip<const N: usize>(values: [Self; N], f: &impl Fn([f32; N]) -> f32) -> Self;
+    fn gather<const N: usize>(values: [Self; N]) -> Self::Of<[f32; N]>;
+
+    /// The bundle with every component mapped.
+    #[must_use]
+    fn map<T: Copy, U: Copy>(bundle: &Self::Of<T>, f: &impl Fn(T) -> U) -> Self::Of<U>;
+
+    /// The value with these components.
+    #[must_use]
+    fn from_components(bundle: &Self::Of<f32>) -> Self;
 }
 
 impl Varying for () {
-    #[inline]
-    fn zip<const N: usize>(_: [Self; N], _: &impl Fn([f32; N]) -> f32) -> Self {}
+    type Of<T: Copy> = ();
+
+    #[inline(always)]
+    fn gather<const N: usize>(_: [Self; N]) {}
+
+    #[inline(always)]
+    fn map<T: Copy, U: Copy>((): &(), _: &impl Fn(T) -> U) {}
+
+    #[inline(always)]
+    fn from_components((): &()) {}
 }
 
 impl Varying for f32 {
-    #[inline]
-    fn zip<const N: usize>(values: [Self; N], f: &impl Fn([f32; N]) -> f32) -> Self {
-        f(values)
+    type Of<T: Copy> = T;
+
+    #[inline(always)]
+    fn gather<const N: usize>(values: [Self; N]) -> [f32; N] {
+        values
+    }
+
+    #[inline(always)]
+    fn map<T: Copy, U: Copy>(bundle: &T, f: &impl Fn(T) -> U) -> U {
+        f(*bundle)
+    }
+
+    #[inline(always)]
+    fn from_components(bundle: &f32) -> Self {
+        *bundle
     }
 }
 
-impl<T: Varying, const K: usize> Varying for [T; K] {
-    #[inline]
-    fn zip<const N: usize>(values: [Self; N], f: &impl Fn([f32; N]) -> f32) -> Self {
-        core::array::from_fn(|k| T::zip(values.map(|v| v[k]), f))
+impl<V: Varying, const K: usize> Varying for [V; K] {
+    type Of<T: Copy> = [V::Of<T>; K];
+
+    #[inline(always)]
+    fn gather<const N: usize>(values: [Self; N]) -> Self::Of<[f32; N]> {
+        from_fn(|k| V::gather(from_fn(|n| values[n][k])))
+    }
+
+    #[inline(always)]
+    fn map<T: Copy, U: Copy>(bundle: &Self::Of<T>, f: &impl Fn(T) -> U) -> Self::Of<U> {
+        from_fn(|k| V::map(&bundle[k], f))
+    }
+
+    #[inline(always)]
+    fn from_components(bundle: &Self::Of<f32>) -> Self {
+        from_fn(|k| V::from_components(&bundle[k]))
     }
 }
 
 macro_rules! vectors {
-    ($($vector:ident),*) => {$(
+    ($($vector:ident $size:literal),*) => {$(
         impl Varying for $vector {
-            #[inline]
-            fn zip<const N: usize>(values: [Self; N], f: &impl Fn([f32; N]) -> f32) -> Self {
-                Self::from_array(Varying::zip(values.map(|v| v.to_array()), f))
+            type Of<T: Copy> = [T; $size];
+
+            #[inline(always)]
+            fn gather<const N: usize>(values: [Self; N]) -> [[f32; N]; $size] {
+                <[f32; $size]>::gather(from_fn(|n| values[n].to_array()))
+            }
+
+            #[inline(always)]
+            fn map<T: Copy, U: Copy>(bundle: &[T; $size], f: &impl Fn(T) -> U) -> [U; $size] {
+                <[f32; $size] as Varying>::map(bundle, f)
+            }
+
+            #[inline(always)]
+            fn from_components(bundle: &[f32; $size]) -> Self {
+                Self::from_array(*bundle)
             }
         }
     )*};
 }
-vectors!(Vec2, Vec3, Vec4);
+vectors!(Vec2 2, Vec3 3, Vec4 4);
 
 macro_rules! tuples {
     ($($($name:ident $index:tt),+);+) => {$(
         impl<$($name: Varying),+> Varying for ($($name,)+) {
-            #[inline]
-            fn zip<const N: usize>(values: [Self; N], f: &impl Fn([f32; N]) -> f32) -> Self {
-                ($($name::zip(values.map(|v| v.$index), f),)+)
+            type Of<Component: Copy> = ($($name::Of<Component>,)+);
+
+            #[inline(always)]
+            fn gather<const N: usize>(values: [Self; N]) -> Self::Of<[f32; N]> {
+                ($($name::gather(from_fn(|n| values[n].$index)),)+)
+            }
+
+            #[inline(always)]
+            fn map<T: Copy, U: Copy>(bundle: &Self::Of<T>, f: &impl Fn(T) -> U) -> Self::Of<U> {
+                ($($name::map(&bundle.$index, f),)+)
+            }
+
+            #[inline(always)]
+            fn from_components(bundle: &Self::Of<f32>) -> Self {
+                ($($name::from_components(&bundle.$index),)+)
             }
         }
     )+};
 }
 tuples!(A 0, B 1; A 0, B 1, C 2; A 0, B 1, C 2, D 3);
+
+/// Combines `N` values component by component into one.
+#[must_use]
+#[inline]
+pub fn combine<V: Varying, const N: usize>(values: [V; N], f: &impl Fn([f32; N]) -> f32) -> V {
+    V::from_components(&V::map(&V::gather(values), f))
+}
 
 /// `wa a + wb b` component by component, kept within the two values.
 ///
@@ -81,27 +167,14 @@ tuples!(A 0, B 1; A 0, B 1, C 2; A 0, B 1, C 2, D 3);
 #[must_use]
 #[inline]
 pub fn blend2<V: Varying>([wa, wb]: [f32; 2], values: [V; 2]) -> V {
-    V::zip(values, &|[a, b]| clamp(wa * a + wb * b, min(a, b), max(a, b)))
-}
-
-/// `(wa a + wb b + wc c) scale` component by component, kept within `lo` and `hi` (see [`hull3`]).
-///
-/// # Precision
-/// For non-negative weights, within 4ε·max(|a|, |b|, |c|)·(wa + wb + wc)·scale of the exact result.
-///
-/// # Cost
-/// A component: four multiplications, two additions, a minimum and a maximum.
-#[must_use]
-#[inline]
-pub fn blend3<V: Varying>([wa, wb, wc]: [f32; 3], scale: f32, [a, b, c]: [V; 3], [lo, hi]: [V; 2]) -> V {
-    V::zip([a, b, c, lo, hi], &|[a, b, c, lo, hi]| clamp((wa * a + wb * b + wc * c) * scale, lo, hi))
+    combine(values, &|[a, b]| clamp(wa * a + wb * b, min(a, b), max(a, b)))
 }
 
 /// The least and the greatest of three values, component by component.
 #[must_use]
 #[inline]
 pub fn hull3<V: Varying>(values: [V; 3]) -> [V; 2] {
-    [V::zip(values, &|[a, b, c]| min(min(a, b), c)), V::zip(values, &|[a, b, c]| max(max(a, b), c))]
+    [combine(values, &|[a, b, c]| min(min(a, b), c)), combine(values, &|[a, b, c]| max(max(a, b), c))]
 }
 
 /// Whether no component is infinite or NaN.
@@ -109,10 +182,7 @@ pub fn hull3<V: Varying>(values: [V; 3]) -> [V; 2] {
 #[inline]
 pub fn is_finite<V: Varying>(value: V) -> bool {
     let finite = Cell::new(true);
-    let _ = V::zip([value], &|[x]| {
-        finite.set(finite.get() & x.is_finite());
-        x
-    });
+    let _ = V::map(&V::gather([value]), &|[x]: [f32; 1]| finite.set(finite.get() & x.is_finite()));
     finite.get()
 }
 
@@ -141,7 +211,7 @@ mod tests {
     #[test]
     fn components_are_reached_in_every_kind_of_varying() {
         let value = ((), 1.0f32, [Vec2::new(2.0, 3.0); 2], (Vec3::new(4.0, 5.0, 6.0), Vec4::splat(7.0)));
-        let doubled = Varying::zip([value, value], &|[a, b]| a + b);
+        let doubled = combine([value, value], &|[a, b]| a + b);
         assert_eq!(
             doubled,
             ((), 2.0, [Vec2::new(4.0, 6.0); 2], (Vec3::new(8.0, 10.0, 12.0), Vec4::splat(14.0)))
@@ -154,7 +224,6 @@ mod tests {
             let u = f32::from_bits(bits);
             let t = f32::from(tenths) / 10.0;
             assert_eq!(blend2([t, 1.0 - t], [u, u]).to_bits(), u.to_bits());
-            assert_eq!(blend3([t, 1.0 - t, 0.25], 0.8, [u; 3], hull3([u; 3])).to_bits(), u.to_bits());
         }
     }
 

@@ -7,11 +7,13 @@ use crate::color::Store;
 use crate::counters::Counters;
 use crate::depth::DepthFormat;
 use crate::edge::{Edge, EdgeInt};
-use crate::exact::Exact;
+use crate::exact::{Exact, within};
 use crate::fragment::FragmentStage;
+use crate::lanes::Lanes;
 use crate::spans::SpanWalker;
 use crate::triangle::{Bounds, Corners, Cull, Outcome, Vertex, canonical_order, doubled_area};
-use alberti_math::{Subpixel, Varying, blend3, hull3};
+use alberti_math::glam::Vec4;
+use alberti_math::{Subpixel, Varying, hull3};
 use core::ops::Range;
 
 /// Draws one triangle into a band.
@@ -66,7 +68,7 @@ where
 }
 
 /// What is interpolated over a triangle, from the edge functions at a sample.
-struct Surface<V> {
+struct Surface<V: Varying> {
     /// zs over the doubled area, so that weights need not be normalised.
     zs: [f32; 3],
     nearest_farthest: [f32; 2],
@@ -76,7 +78,7 @@ struct Surface<V> {
 impl<V: Varying> Surface<V> {
     #[inline]
     fn new<S: Subpixel>(v: [&Vertex<S, V>; 3], doubled_area: i64) -> Self {
-        let area = doubled_area.to_f32();
+        let area = i64::to_f32(doubled_area.stepped());
         let zs = v.map(|v| v.zs);
         Self {
             zs: zs.map(|zs| zs / area),
@@ -86,9 +88,11 @@ impl<V: Varying> Surface<V> {
     }
 
     /// The screen depth: linear on the screen, kept within that of the vertices.
-    #[inline]
-    fn depth(&self, edges: [f32; 3]) -> f32 {
-        blend3(edges, 1.0, self.zs, self.nearest_farthest)
+    #[inline(always)]
+    fn depth<L: Lanes>(&self, edges: [L; 3]) -> L {
+        let [a, b, c] = self.zs;
+        let [lo, hi] = self.nearest_farthest;
+        within(edges[0] * L::splat(a) + edges[1] * L::splat(b) + edges[2] * L::splat(c), lo, hi)
     }
 }
 
@@ -115,11 +119,11 @@ fn fill<I, S, V, F, C, D, K>(
     // Each opposite the vertex whose weight it is.
     let mut edges = [(b, c), (c, a), (a, b)].map(|(from, to)| Edge::<I>::new(from, to, first_sample, S::ONE));
     let mut walker = SpanWalker::new(&edges, columns.end - columns.start);
+    let steps = edges.map(|e| e.step_x.stepped());
     for row in rows {
         let span = walker.span();
         if span.start < span.end {
-            let at_start = edges.map(|e| e.value + e.step_x * I::from(span.start));
-            let steps = edges.map(|e| e.step_x);
+            let at_start = edges.map(|e| (e.value + e.step_x * I::from(span.start)).stepped());
             let (color, depth) = band.span(row, columns.start + span.start, columns.start + span.end);
             let written = fill_span::<I, V, F, C, D>(color, depth, at_start, steps, surface, fragment);
             counters.span((span.end - span.start).unsigned_abs(), written);
@@ -136,8 +140,8 @@ fn fill<I, S, V, F, C, D, K>(
 fn fill_span<I, V, F, C, D>(
     color: &mut [C::Pixel],
     depth: &mut [D::Stored],
-    mut edges: [I; 3],
-    steps: [I; 3],
+    edges: [I::Stepped; 3],
+    steps: [I::Stepped; 3],
     surface: &Surface<V>,
     fragment: &F,
 ) -> u32
@@ -148,18 +152,97 @@ where
     C: Store<F::Color>,
     D: DepthFormat,
 {
+    let (color, last_color) = color.split_at_mut(color.len() - color.len() % Vec4::COUNT);
+    let (depth, last_depth) = depth.split_at_mut(color.len());
+    let stride = |step| step + step + step + step;
+    let strides = [stride(steps[0]), stride(steps[1]), stride(steps[2])];
+    let [mut e0, mut e1, mut e2] = [
+        Vec4::edge::<I>(edges[0], steps[0]),
+        Vec4::edge::<I>(edges[1], steps[1]),
+        Vec4::edge::<I>(edges[2], steps[2]),
+    ];
     let mut written = 0;
-    for (pixel, stored) in color.iter_mut().zip(depth) {
-        let weights = edges.map(I::to_f32);
-        let new = D::encode(surface.depth(weights));
-        if D::nearer(new, *stored)
-            && let Some(shaded) = fragment.shade(surface.attributes.at(weights))
-        {
-            *stored = new;
-            *pixel = C::pixel(shaded);
-            written += 1;
-        }
-        edges = [edges[0] + steps[0], edges[1] + steps[1], edges[2] + steps[2]];
+    for (color, depth) in color.chunks_exact_mut(Vec4::COUNT).zip(depth.chunks_exact_mut(Vec4::COUNT)) {
+        let weights = [Vec4::weight::<I>(e0), Vec4::weight::<I>(e1), Vec4::weight::<I>(e2)];
+        written += fill_lanes::<Vec4, V, F, C, D>(color, depth, weights, surface, fragment);
+        e0 = Vec4::advance::<I>(e0, strides[0]);
+        e1 = Vec4::advance::<I>(e1, strides[1]);
+        e2 = Vec4::advance::<I>(e2, strides[2]);
+    }
+    let [mut e0, mut e1, mut e2] = [e0[0], e1[0], e2[0]];
+    for (color, depth) in last_color.chunks_exact_mut(1).zip(last_depth.chunks_exact_mut(1)) {
+        let weights = [I::to_f32(e0), I::to_f32(e1), I::to_f32(e2)];
+        written += fill_lanes::<f32, V, F, C, D>(color, depth, weights, surface, fragment);
+        e0 = e0 + steps[0];
+        e1 = e1 + steps[1];
+        e2 = e2 + steps[2];
     }
     written
+}
+
+/// Fills as many covered samples as there are lanes. `weights` are the edge functions.
+#[inline(always)]
+fn fill_lanes<L, V, F, C, D>(
+    color: &mut [C::Pixel],
+    depth: &mut [D::Stored],
+    weights: [L; 3],
+    surface: &Surface<V>,
+    fragment: &F,
+) -> u32
+where
+    L: Lanes,
+    V: Varying,
+    F: FragmentStage<V>,
+    C: Store<F::Color>,
+    D: DepthFormat,
+{
+    let zs = surface.depth(weights);
+    let mut seen = 0u32;
+    for (k, &old) in depth.iter().enumerate() {
+        seen |= u32::from(D::nearer(D::encode(zs.lane(k)), old)) << k;
+    }
+    if seen == 0 {
+        return 0;
+    }
+    let varyings = surface.attributes.at::<L>(weights);
+    let mut written = 0;
+    // One after the other instead of in a loop, so that each takes its lane from registers.
+    written += u32::from(shade_lane::<0, L, V, F, C, D>(seen, zs, &varyings, color, depth, fragment));
+    if L::COUNT == 4 {
+        written += u32::from(shade_lane::<1, L, V, F, C, D>(seen, zs, &varyings, color, depth, fragment));
+        written += u32::from(shade_lane::<2, L, V, F, C, D>(seen, zs, &varyings, color, depth, fragment));
+        written += u32::from(shade_lane::<3, L, V, F, C, D>(seen, zs, &varyings, color, depth, fragment));
+    }
+    written
+}
+
+/// Shades sample `K` if it is seen, and says whether it was written.
+#[inline(always)]
+fn shade_lane<const K: usize, L, V, F, C, D>(
+    seen: u32,
+    zs: L,
+    varyings: &V::Of<L>,
+    color: &mut [C::Pixel],
+    depth: &mut [D::Stored],
+    fragment: &F,
+) -> bool
+where
+    L: Lanes,
+    V: Varying,
+    F: FragmentStage<V>,
+    C: Store<F::Color>,
+    D: DepthFormat,
+{
+    if seen >> K & 1 == 0 {
+        return false;
+    }
+    let varying = V::from_components(&V::map(varyings, &|lanes: L| lanes.lane(K)));
+    let (Some(shaded), Some(pixel), Some(stored)) =
+        (fragment.shade(varying), color.get_mut(K), depth.get_mut(K))
+    else {
+        return false;
+    };
+    *stored = D::encode(zs.lane(K));
+    *pixel = C::pixel(shaded);
+    true
 }

@@ -12,31 +12,75 @@
 //! the same as moving all samples by an infinitesimal (e, e²): every sample of a mesh lies in exactly one triangle.
 
 use core::fmt::Debug;
-use core::ops::{Add, Mul, Sub};
+use core::ops::{Add, Div, Mul, Sub};
 
 /// An integer that edge functions are computed in: `i32` or `i64`.
 ///
 /// Overflow is excluded by the bounds, not by the type: see [`FITS_I32`] and the guard band's proof in `alberti_math`.
 pub trait EdgeInt:
-    Copy + Ord + Debug + From<i32> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
+    Copy
+    + Ord
+    + Debug
+    + From<i32>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
 {
+    /// What is stepped along a span: holds the same integers exactly, and is quick to convert to `f32`.
+    type Stepped: Copy + Add<Output = Self::Stepped>;
+
+    /// The same integer, to be stepped.
+    fn stepped(self) -> Self::Stepped;
+
     /// The nearest `f32`: exact up to 2^24, within ε = 2^-24 relative above.
-    fn to_f32(self) -> f32;
+    fn to_f32(stepped: Self::Stepped) -> f32;
+
+    /// This number of columns, which is at most a band's width.
+    fn to_columns(self) -> i32;
 }
 
 impl EdgeInt for i32 {
+    type Stepped = i32;
+
+    #[inline]
+    fn stepped(self) -> i32 {
+        self
+    }
+
     #[inline]
     #[expect(clippy::cast_precision_loss, reason = "rounding to nearest is what is documented")]
-    fn to_f32(self) -> f32 {
-        self as f32
+    fn to_f32(stepped: i32) -> f32 {
+        stepped as f32
+    }
+
+    #[inline]
+    fn to_columns(self) -> i32 {
+        self
     }
 }
 
 impl EdgeInt for i64 {
+    /// Every edge function within the guard band is below 2^53 and so exact, and an `f64` becomes an `f32` in one
+    /// rounding, as the `i64` would.
+    type Stepped = f64;
+
     #[inline]
-    #[expect(clippy::cast_precision_loss, reason = "rounding to nearest is what is documented")]
-    fn to_f32(self) -> f32 {
-        self as f32
+    #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
+    fn stepped(self) -> f64 {
+        self as f64
+    }
+
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "rounding to nearest is what is documented")]
+    fn to_f32(stepped: f64) -> f32 {
+        stepped as f32
+    }
+
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "at most a band's width")]
+    fn to_columns(self) -> i32 {
+        self as i32
     }
 }
 

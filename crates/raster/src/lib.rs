@@ -12,6 +12,7 @@ mod draw;
 mod edge;
 mod exact;
 mod fragment;
+mod lanes;
 mod spans;
 mod triangle;
 
@@ -23,5 +24,6 @@ pub use draw::draw_triangle;
 pub use edge::{Edge, EdgeInt, FITS_I32};
 pub use exact::Exact;
 pub use fragment::FragmentStage;
+pub use lanes::Lanes;
 pub use spans::{Span, SpanWalker};
 pub use triangle::{Cull, Outcome, Vertex};

@@ -1,4 +1,4 @@
-//! The covered run of each row, from the integer edges, without a division.
+//! The covered run of each row, from the integer edges.
 //!
 //! A row meets a triangle in one run of samples [start, end). Along the row an edge whose value grows to the right
 //! bounds the run from the left, one whose value falls bounds it from the right:
@@ -8,8 +8,8 @@
 //!      . . | * * * * * | . .        *  value + bias >= 0 for all three edges
 //! ```
 //!
-//! From row to row each bound is walked to its new place by additions; over a whole triangle a bound walks at most the
-//! width of the box plus its height. Inside a span no coverage test is needed.
+//! From row to row each bound walks to its new place by additions, a few columns at most; farther ones, which only edges
+//! near the horizontal need, are found by a division. Inside a span no coverage test is needed.
 
 use crate::edge::{Edge, EdgeInt};
 
@@ -49,20 +49,51 @@ impl<I: EdgeInt> Crossing<I> {
         }
     }
 
-    /// Walks to the crossing of the current row, within columns [0, width]. A step of 0 walks to one of the ends.
+    /// Goes to the crossing of the current row, within columns [0, width]. A step of 0 goes to one of the ends.
     #[inline]
     fn settle(&mut self, width: i32) {
         let zero = I::from(0);
-        while self.value < zero && self.column < width {
-            self.value = self.value + self.step;
-            self.column += 1;
-        }
-        while self.column > 0 && self.value - self.step >= zero {
-            self.value = self.value - self.step;
-            self.column -= 1;
+        if self.value < zero {
+            for _ in 0..WALK {
+                if self.value >= zero || self.column == width {
+                    return;
+                }
+                self.go(1);
+            }
+            if self.value < zero {
+                // The least n with value + n step >= 0.
+                let room = width - self.column;
+                self.go(self.at_most(room, self.step - I::from(1) - self.value));
+            }
+        } else {
+            for _ in 0..WALK {
+                if self.value < self.step || self.column == 0 {
+                    return;
+                }
+                self.go(-1);
+            }
+            if self.value >= self.step {
+                // The greatest n with value - n step >= 0.
+                self.go(-self.at_most(self.column, self.value));
+            }
         }
     }
+
+    #[inline]
+    fn go(&mut self, columns: i32) {
+        self.value = self.value + self.step * I::from(columns);
+        self.column += columns;
+    }
+
+    /// `distance / step`, but no more than `room`.
+    #[inline]
+    fn at_most(&self, room: i32, distance: I) -> i32 {
+        if self.step == I::from(0) { room } else { (distance / self.step).min(I::from(room)).to_columns() }
+    }
 }
+
+/// How many columns a bound walks before a division is quicker.
+const WALK: usize = 3;
 
 /// Walks the rows of a triangle's box from the top.
 #[derive(Clone, Copy, Debug)]
