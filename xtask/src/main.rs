@@ -1,2 +1,132 @@
-//! Chores.
-fn main() {}
+//! The chores of this repository: `cargo xtask help` lists them.
+//!
+//! People and the continuous-integration script call the same commands, so "it passes here" and "it passes there"
+//! mean the same thing. The program has no dependencies: it must build quickly and before anything else works.
+
+mod checks;
+mod ci;
+mod command;
+mod embedded;
+mod golden;
+mod nostd;
+mod package;
+mod tidy;
+mod workspace;
+
+use std::process::ExitCode;
+
+use command::Outcome;
+
+/// One line of `cargo xtask help`, and what that line runs.
+struct Chore {
+    name: &'static str,
+    /// The arguments as the help shows them; empty for a chore that takes none.
+    arguments: &'static str,
+    about: &'static str,
+    run: fn(&[String]) -> Outcome,
+}
+
+/// All chores, in the order in which the help lists them.
+const CHORES: &[Chore] = &[
+    Chore {
+        name: "ci",
+        arguments: "[--tests-done]",
+        about: "every check below, in order, up to the first failure",
+        run: ci::run,
+    },
+    Chore {
+        name: "tidy",
+        arguments: "",
+        about: "test the repository itself: names, sizes, dependency arrows",
+        run: |_| tidy::run(),
+    },
+    Chore {
+        name: "fmt",
+        arguments: "",
+        about: "check the formatting (`cargo fmt --all` repairs it)",
+        run: |_| checks::fmt(),
+    },
+    Chore {
+        name: "lint",
+        arguments: "",
+        about: "clippy on all targets, warnings are errors",
+        run: |_| checks::lint(),
+    },
+    Chore {
+        name: "docs",
+        arguments: "",
+        about: "build the documentation, warnings are errors",
+        run: |_| checks::docs(),
+    },
+    Chore {
+        name: "test",
+        arguments: "",
+        about: "`cargo test`, then the tests of xtask",
+        run: |_| checks::test(),
+    },
+    Chore {
+        name: "package",
+        arguments: "",
+        about: "build the crates as they would be published",
+        run: |_| package::run(),
+    },
+    Chore {
+        name: "nostd",
+        arguments: "",
+        about: "build the libraries for Cortex-M0 and Cortex-M4F",
+        run: |_| nostd::run(),
+    },
+    Chore { name: "golden", arguments: "[test]", about: "write the golden images anew", run: golden::run },
+    Chore { name: "bench", arguments: "[filter]", about: "run the benchmarks", run: checks::bench },
+];
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let Some((name, rest)) = arguments.split_first() else {
+        print!("{}", help());
+        return ExitCode::from(2);
+    };
+    if matches!(name.as_str(), "help" | "--help" | "-h") {
+        print!("{}", help());
+        return ExitCode::SUCCESS;
+    }
+    let Some(chore) = CHORES.iter().find(|chore| chore.name == name) else {
+        eprintln!("xtask: there is no command `{name}`; `cargo xtask help` lists the commands");
+        return ExitCode::from(2);
+    };
+    if let (true, Some(extra)) = (chore.arguments.is_empty(), rest.first()) {
+        eprintln!("xtask: `{name}` takes no arguments, found `{extra}`");
+        return ExitCode::from(2);
+    }
+    match (chore.run)(rest) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("xtask {name}: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn help() -> String {
+    let mut text = String::from("usage: cargo xtask <command>\n\n");
+    for chore in CHORES {
+        let call = format!("{} {}", chore.name, chore.arguments);
+        text.push_str(&format!("  {call:<20}  {}\n", chore.about));
+    }
+    text.push_str("\n`ci --tests-done` leaves out `cargo test`: the caller has just run it on this tree.\n");
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn help_lists_every_chore_once() {
+        let text = help();
+        for chore in CHORES {
+            let lines = text.lines().filter(|line| line.split_whitespace().next() == Some(chore.name));
+            assert_eq!(lines.count(), 1, "{}", chore.name);
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! The checks that are one call of cargo each.
+
+use crate::command::{Outcome, cargo, run};
+
+/// Checks the formatting of every member.
+pub(crate) fn fmt() -> Outcome {
+    run(cargo().args(["fmt", "--all", "--check"]))
+}
+
+/// Runs clippy on every member and target, benchmarks included, with warnings as errors.
+pub(crate) fn lint() -> Outcome {
+    run(cargo().args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]))
+}
+
+/// Builds the documentation of every library with warnings as errors.
+pub(crate) fn docs() -> Outcome {
+    // Libraries only: the program of `alberti-app` is named `alberti`, and its pages would land on those of the
+    // library `alberti`, about which cargo warns.
+    run(cargo().env("RUSTDOCFLAGS", "-D warnings").args(["doc", "--workspace", "--no-deps", "--lib"]))
+}
+
+/// Runs the test command of the README, then the tests of this program.
+pub(crate) fn test() -> Outcome {
+    run(cargo().arg("test"))?;
+    test_xtask()
+}
+
+/// Runs the tests of this program, which `cargo test` leaves out because xtask is no default member.
+pub(crate) fn test_xtask() -> Outcome {
+    run(cargo().args(["test", "--quiet", "--package", "xtask"]))
+}
+
+/// Runs the benchmarks whose names contain the filter, or all of them.
+pub(crate) fn bench(arguments: &[String]) -> Outcome {
+    run(cargo().args(["bench", "--package", "alberti-benches", "--"]).args(arguments))
+}

@@ -1,0 +1,87 @@
+//! All checks in one run: what continuous integration calls, and what to call before a commit.
+
+use std::time::{Duration, Instant};
+
+use crate::command::Outcome;
+use crate::{checks, nostd, package, tidy};
+
+/// The name that the summary and a failure use, and the check.
+type Step = (&'static str, fn() -> Outcome);
+
+/// Runs every check in order and stops at the first that fails.
+///
+/// The order is by what a failure costs to find: text first, then one compilation, then the tests, then the builds
+/// that start from nothing.
+pub(crate) fn run(arguments: &[String]) -> Outcome {
+    let tests_done = match arguments {
+        [] => false,
+        [flag] if flag == "--tests-done" => true,
+        _ => return Err(format!("expected nothing or `--tests-done`, found `{}`", arguments.join(" "))),
+    };
+    run_steps(&steps(tests_done))
+}
+
+/// The checks in order. `tests_done` says that the caller has just run `cargo test` on this tree.
+fn steps(tests_done: bool) -> Vec<Step> {
+    let test: Step = if tests_done { ("test xtask", checks::test_xtask) } else { ("test", checks::test) };
+    vec![
+        ("tidy", tidy::run),
+        ("fmt", checks::fmt),
+        ("lint", checks::lint),
+        ("docs", checks::docs),
+        test,
+        ("package", package::run),
+        ("nostd", nostd::run),
+    ]
+}
+
+fn run_steps(steps: &[Step]) -> Outcome {
+    let start = Instant::now();
+    let mut summary = String::new();
+    for (index, (name, step)) in steps.iter().enumerate() {
+        println!("\n==> {name} ({} of {})", index + 1, steps.len());
+        let step_start = Instant::now();
+        let outcome = step();
+        let elapsed = seconds(step_start.elapsed());
+        if let Err(message) = outcome {
+            println!("==> {name} failed after {elapsed}");
+            return Err(format!("step `{name}`: {message}"));
+        }
+        println!("==> {name} passed in {elapsed}");
+        summary.push_str(&format!("    {name:<12}{elapsed:>9}\n"));
+    }
+    println!("\nxtask ci: all {} steps passed in {}\n{summary}", steps.len(), seconds(start.elapsed()));
+    Ok(())
+}
+
+fn seconds(duration: Duration) -> String {
+    format!("{:.1} s", duration.as_secs_f32())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failure_is_named_and_ends_the_run() {
+        let steps: [Step; 3] = [
+            ("good", || Ok(())),
+            ("bad", || Err("no".into())),
+            ("never", || panic!("a step after the failure ran")),
+        ];
+        assert_eq!(run_steps(&steps), Err("step `bad`: no".into()));
+    }
+
+    #[test]
+    fn only_the_test_step_depends_on_the_flag() {
+        let names = |done| steps(done).iter().map(|step| step.0).collect::<Vec<_>>();
+        let (with, without) = (names(false), names(true));
+        let differing = with.iter().zip(&without).filter(|(a, b)| a != b).collect::<Vec<_>>();
+        assert_eq!((with.len(), differing), (without.len(), vec![(&"test", &"test xtask")]));
+    }
+
+    #[test]
+    fn an_unknown_flag_is_refused() {
+        assert!(run(&["--fast".to_string()]).unwrap_err().contains("`--fast`"));
+    }
+}

@@ -1,0 +1,122 @@
+//! Compilers for targets without an operating system.
+//!
+//! There are two ways to get one, and every chore that builds for a microcontroller takes the first that is there:
+//!
+//! 1. The target's standard library is installed beside the active rustc (`rustup target add`).
+//! 2. Debian ships a rustc together with the source that matches it. The active toolchain's cargo drives that rustc
+//!    and builds `core` from that source (`-Z build-std`). The active rustc cannot take its place: `core` builds only
+//!    with the compiler of its own version.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::command::{cargo, output};
+use crate::workspace;
+
+/// Debian's rustc (package `rustc-web`).
+const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
+/// The library source that matches it (package `rust-web-src`).
+const DEBIAN_SOURCE: &str = "/usr/lib/rustlib/src/rust/library/core";
+
+/// A way to build for one target.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) enum Toolchain {
+    /// The active rustc has the target's library.
+    Installed,
+    /// Debian's rustc builds `core` from source; `linker` is the active toolchain's `rust-lld`.
+    BuildStd { linker: PathBuf },
+}
+
+impl Toolchain {
+    /// Finds the way to build for `target`, or says how to make one.
+    pub(crate) fn find(target: &str) -> Result<Toolchain, String> {
+        let sysroot =
+            output(Command::new("rustc").current_dir(workspace::root()).args(["--print", "sysroot"]))?;
+        let version = output(Command::new("rustc").current_dir(workspace::root()).arg("-vV"))?;
+        let rustlib = Path::new(sysroot.trim_end()).join("lib/rustlib");
+        let host = host(&version).ok_or("`rustc -vV` names no host")?;
+        let linker = rustlib.join(host).join("bin/rust-lld");
+        choose(
+            rustlib.join(target).join("lib").exists(),
+            Path::new(DEBIAN_RUSTC).exists() && Path::new(DEBIAN_SOURCE).exists(),
+            linker,
+        )
+        .ok_or_else(|| missing(target))
+    }
+
+    /// A cargo that runs `subcommand` for `target`.
+    pub(crate) fn cargo(&self, subcommand: &str, target: &str) -> Command {
+        let mut command = cargo();
+        command.args([subcommand, "--target", target]);
+        if let Toolchain::BuildStd { linker } = self {
+            command
+                .env("RUSTC", DEBIAN_RUSTC)
+                .env("RUSTC_BOOTSTRAP", "1")
+                .env(linker_variable(target), linker);
+            // Cargo lets this program find the active toolchain's libraries; Debian's rustc must find its own.
+            command.env_remove("LD_LIBRARY_PATH");
+            // A directory of its own, or each build would throw away what the other compiler has built.
+            command.args(["-Z", "build-std=core", "--target-dir"]);
+            command.arg(workspace::target_directory().join("build-std"));
+        }
+        command
+    }
+}
+
+/// What is chosen where; the installed target wins because it is what most users have.
+fn choose(installed: bool, debian: bool, linker: PathBuf) -> Option<Toolchain> {
+    match (installed, debian) {
+        (true, _) => Some(Toolchain::Installed),
+        (false, true) => Some(Toolchain::BuildStd { linker }),
+        (false, false) => None,
+    }
+}
+
+fn missing(target: &str) -> String {
+    format!(
+        "no compiler for {target}. Either `rustup target add {target}`, \
+         or on Debian `apt-get install rustc-web rust-web-src`; then run this again"
+    )
+}
+
+/// The variable in which cargo looks for the linker of `target`.
+fn linker_variable(target: &str) -> String {
+    format!("CARGO_TARGET_{}_LINKER", target.to_uppercase().replace(['-', '.'], "_"))
+}
+
+/// The host in the output of `rustc -vV`.
+fn host(version: &str) -> Option<&str> {
+    version.lines().find_map(|line| line.strip_prefix("host: "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_installed_target_wins() {
+        let linker = PathBuf::from("rust-lld");
+        assert_eq!(choose(true, true, linker.clone()), Some(Toolchain::Installed));
+        assert_eq!(choose(false, true, linker.clone()), Some(Toolchain::BuildStd { linker: linker.clone() }));
+        assert_eq!(choose(false, false, linker), None);
+    }
+
+    #[test]
+    fn the_message_names_both_ways() {
+        let message = missing("thumbv6m-none-eabi");
+        assert!(message.contains("rustup target add thumbv6m-none-eabi"));
+        assert!(message.contains("rustc-web rust-web-src"));
+    }
+
+    #[test]
+    fn names_of_targets() {
+        assert_eq!(
+            linker_variable("thumbv8m.main-none-eabihf"),
+            "CARGO_TARGET_THUMBV8M_MAIN_NONE_EABIHF_LINKER"
+        );
+        assert_eq!(
+            host("rustc 1.89.0\nbinary: rustc\nhost: x86_64-unknown-linux-gnu\n"),
+            Some("x86_64-unknown-linux-gnu")
+        );
+    }
+}

@@ -1,0 +1,28 @@
+//! Building the libraries for microcontrollers: the proof that they need neither std nor an allocator.
+
+use crate::command::{self, Outcome};
+use crate::embedded::Toolchain;
+use crate::workspace::LIBRARIES;
+
+/// The smallest core that is supported, and one with hardware for `f32`: between them both float ABIs, and both
+/// with and without atomic compare-and-swap.
+const TARGETS: &[&str] = &["thumbv6m-none-eabi", "thumbv7em-none-eabihf"];
+
+/// Builds every library for every target.
+pub(crate) fn run() -> Outcome {
+    for target in TARGETS {
+        let toolchain = Toolchain::find(target)?;
+        match &toolchain {
+            Toolchain::Installed => println!("{target}: the installed target"),
+            Toolchain::BuildStd { .. } => println!("{target}: not installed, core from Debian's source"),
+        }
+        for library in LIBRARIES {
+            // One crate a build: in one build for all, a feature that one crate forgets to pass on would be switched
+            // on by another, and hide the mistake.
+            let mut build = toolchain.cargo("build", target);
+            build.args(["--release", "--no-default-features", "--features", "libm"]);
+            command::run(build.args(["--package", library.package]))?;
+        }
+    }
+    Ok(())
+}
