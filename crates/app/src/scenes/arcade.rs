@@ -60,7 +60,7 @@ pub(super) fn arcade(b: &mut Builder, side: f64, stones: Stones) {
         column(b, [side * (HALF_WIDTH + WALL / 2.0), 0.0, FIRST - BAY * f64::from(k)], k);
     }
     b.part("wall", Some(stones.plaster));
-    // The first bay is the one behind the first column, out of which the picture's edge cuts a piece.
+    // The first bay comes before the first column: the picture's edge cuts through it.
     for k in 0..COLUMNS {
         bay(b, side, BAY * f64::from(k) - FIRST - BAY / 2.0, k);
     }

@@ -4,16 +4,27 @@ use super::build::Vec3;
 use crate::scene::Image;
 
 /// An image from a colour (sRGB, 0..=1) for each texel's centre in 0..1 by 0..1, v up.
-pub(super) fn paint(width: u32, height: u32, color: impl Fn(f64, f64) -> Vec3) -> Image {
-    let mut texels = Vec::new();
-    for row in 0..height {
+///
+/// Rows are shared out among threads; a texel does not depend on which one painted it.
+pub(super) fn paint(width: u32, height: u32, color: impl Fn(f64, f64) -> Vec3 + Sync) -> Image {
+    let row = |row: u32| {
         let v = 1.0 - (f64::from(row) + 0.5) / f64::from(height);
-        for column in 0..width {
+        let texel = |column: u32| {
             let u = (f64::from(column) + 0.5) / f64::from(width);
             let [r, g, b] = color(u, v).map(byte);
-            texels.push([r, g, b, 255]);
-        }
-    }
+            [r, g, b, 255]
+        };
+        (0..width).map(texel).collect::<Vec<_>>()
+    };
+    let threads = std::thread::available_parallelism().map_or(1, |n| u32::try_from(n.get()).unwrap_or(1));
+    let share = height.div_ceil(threads);
+    let texels = std::thread::scope(|scope| {
+        let painters: Vec<_> = (0..height)
+            .step_by(share as usize)
+            .map(|top| scope.spawn(move || (top..height.min(top + share)).flat_map(row).collect::<Vec<_>>()))
+            .collect();
+        painters.into_iter().flat_map(|painter| painter.join().expect("formulas do not panic")).collect()
+    });
     Image { width, height, texels }
 }
 

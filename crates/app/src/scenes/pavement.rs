@@ -17,7 +17,7 @@ const EDGE: f64 = 3.6;
 const SQUARE: f64 = 0.6;
 
 /// Where a shadow falls on the ground: how far outside the shadow's edge a point lies.
-pub(super) type Shadow<'a> = &'a dyn Fn(f64, f64) -> f64;
+pub(super) type Shadow<'a> = &'a (dyn Fn(f64, f64) -> f64 + Sync);
 
 /// The ground from `near` to `far` in front of an eye at `eye_z`, under the given shadow.
 pub(super) fn ground(b: &mut Builder, eye_z: f64, near: f64, far: f64, shadow: Shadow) {

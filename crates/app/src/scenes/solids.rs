@@ -85,8 +85,8 @@ pub(super) fn sphere_of_72(b: &mut Builder, middle: Vec3, radius: f64, texture: 
     }
 }
 
-/// The dodecahedron, lying on a face; `radius` is that of its corners. Returns nothing but triangles: its middle
-/// must be at 0.795 of the radius above the floor.
+/// The dodecahedron, a face turned straight down; `radius` is that of its corners. It lies on the floor when its middle
+/// is [`DODECAHEDRON_REST`] radii above.
 pub(super) fn dodecahedron(b: &mut Builder, middle: Vec3, radius: f64, texture: usize) {
     b.part("dodecahedron", Some(texture));
     let golden = f64::midpoint(1.0, 5.0_f64.sqrt());
@@ -204,7 +204,8 @@ pub(super) fn pentagon() -> Image {
 /// How far above the floor the dodecahedron's middle lies, as a part of its radius.
 pub(super) const DODECAHEDRON_REST: f64 = 0.794_654_472_291_766;
 
-/// The shadow of the ring: how far the point where a ray meets the ring's plane is from the tube's middle line.
+/// How far from the tube's middle line a ray passes through the ring's plane: the ring's shadow is where that is less
+/// than the tube's radius.
 pub(super) fn ring_distance(from: Vec3, toward: Vec3, middle: Vec3, frame: Frame, ring: f64) -> f64 {
     let (p, d) = (frame.to_local(sub(from, middle)), frame.to_local(toward));
     let t = -p[2] / d[2];
