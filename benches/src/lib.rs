@@ -64,8 +64,6 @@ pub fn renderers(scene: &Scene, size: Size) -> Vec<(&'static str, Box<dyn Render
         }
     }
     all.push(("euc", peer_euc::renderer(scene, size)));
-    if let Some(renderer) = peer_retrofire::renderer(scene, size) {
-        all.push(("retrofire", renderer));
-    }
+    all.extend(peer_retrofire::renderers(scene, size));
     all
 }

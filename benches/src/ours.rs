@@ -75,8 +75,8 @@ impl Canvas {
         Vs::Varying: Varying,
         Fs: FragmentStage<Vs::Varying, Color = Rgba8>,
     {
-        let mut band =
-            Band::<Rgba8, F32>::new(self.width, 0, &mut self.color, &mut self.depth).expect("buffers that fit");
+        let mut band = Band::<Rgba8, F32>::new(self.width, 0, &mut self.color, &mut self.depth)
+            .expect("buffers that fit");
         let [r, g, b, a] = self.background;
         band.clear(Rgba8::new(r, g, b, a));
         let pass = Pass {

@@ -1,8 +1,8 @@
 //! [retrofire-core](https://crates.io/crates/retrofire-core) 0.4: scanlines, typed spaces, a full clipper, 1/w as depth.
 //!
-//! What is done for it, as a user of its API could: the texture is read by a mask and a truncation instead of its own
-//! sampler, whose `floor` is a call on a default x86-64 build; the frame has the pixel format in which its colours need
-//! no conversion. It has no filter other than nearest, and one written as a shader would be our code, not its own, so
+//! It is timed twice: with its own sampler, as its users have it, and with a texture read by a mask and a truncation of
+//! ours, because its sampler's `floor` is a call on a default x86-64 build. The frame has the pixel format in which its
+//! colours need no conversion. It has no filter other than nearest, and one written as a shader would be our code, not its own, so
 //! bilinear scenes are left out.
 
 use crate::scene_data::{Scene, Texture};
@@ -11,18 +11,26 @@ use alberti_app::options::Filter;
 use retrofire_core::geom::{Tri, Vertex3, vertex};
 use retrofire_core::math::{Color3f, Color4, Mat4, ProjMat3, pt2, pt3, rgb, rgba, viewport};
 use retrofire_core::render::ctx::FaceCull;
+use retrofire_core::render::tex::{self, SamplerRepeatPot};
 use retrofire_core::render::{
     Colorbuf, Context, Frag, Framebuf, Model, Ndc, Screen, TexCoord, render, shader, uv,
 };
 use retrofire_core::util::{Buf2, Dims, pixfmt::Rgba8888};
 
-/// The scene at that size, or nothing if it needs a filter.
+/// The scene at that size by each of its ways to read a texture; nothing if it needs a filter.
 #[must_use]
-pub fn renderer(scene: &Scene, size: Size) -> Option<Box<dyn Renderer>> {
+pub fn renderers(scene: &Scene, size: Size) -> Vec<(&'static str, Box<dyn Renderer>)> {
     if scene.texture.is_some() && scene.built_in.filter == Filter::Bilinear {
-        return None;
+        return Vec::new();
     }
-    Some(Box::new(Retrofire::new(scene, size)))
+    let mut all: Vec<(&'static str, Box<dyn Renderer>)> =
+        vec![("retrofire", Box::new(Retrofire::new(scene, size)))];
+    if scene.texture.is_some() {
+        let mut masked = Retrofire::new(scene, size);
+        masked.own_sampler = None;
+        all.push(("retrofire-masked", Box::new(masked)));
+    }
+    all
 }
 
 struct Retrofire {
@@ -32,6 +40,7 @@ struct Retrofire {
     background: [u8; 4],
     triangles: Vec<Tri<usize>>,
     surface: Surface,
+    own_sampler: Option<(tex::Texture<Buf2<Color4>>, SamplerRepeatPot)>,
     target: Framebuf<Colorbuf<Buf2<[u8; 4]>, Rgba8888>, Buf2<f32>>,
 }
 
@@ -65,9 +74,17 @@ impl Retrofire {
             background: scene.background(),
             triangles: scene.triangles.iter().map(|t| Tri(t.map(|i| i as usize))).collect(),
             surface,
+            own_sampler: scene.texture.as_ref().map(own_sampler),
             target: Framebuf { color_buf: Colorbuf::new(Buf2::new(dims)), depth_buf: Buf2::new(dims) },
         }
     }
+}
+
+fn own_sampler(texture: &Texture) -> (tex::Texture<Buf2<Color4>>, SamplerRepeatPot) {
+    let texels = texture.data().iter().map(|&[r, g, b, a]| rgba(r, g, b, a));
+    let texture = Buf2::new_from(Dims(texture.width(), texture.height()), texels).into();
+    let sampler = SamplerRepeatPot::new(&texture);
+    (texture, sampler)
 }
 
 impl Renderer for Retrofire {
@@ -75,9 +92,16 @@ impl Renderer for Retrofire {
         self.target.color_buf.buf.fill(self.background);
         // Its depth is 1/w: nothing is farther than 0.
         self.target.depth_buf.fill(0.0);
-        let Self { project, to_screen, context, triangles, surface, target, .. } = self;
-        match surface {
-            Surface::Textured(vertices, texture) => {
+        let Self { project, to_screen, context, triangles, surface, own_sampler, target, .. } = self;
+        match (surface, own_sampler) {
+            (Surface::Textured(vertices, _), Some((texture, sampler))) => {
+                let shader = shader::new(
+                    |v: Vertex3<TexCoord>, m: &ProjMat3<Model>| vertex(m.apply(&v.pos), v.attrib),
+                    |frag: Frag<TexCoord>, _: &ProjMat3<Model>| sampler.sample_abs(texture, frag.var),
+                );
+                render(&*triangles, &*vertices, &shader, &*project, *to_screen, target, context);
+            }
+            (Surface::Textured(vertices, texture), None) => {
                 let shader = shader::new(
                     |v: Vertex3<TexCoord>, m: &ProjMat3<Model>| vertex(m.apply(&v.pos), v.attrib),
                     |frag: Frag<TexCoord>, _: &ProjMat3<Model>| {
@@ -87,7 +111,7 @@ impl Renderer for Retrofire {
                 );
                 render(&*triangles, &*vertices, &shader, &*project, *to_screen, target, context);
             }
-            Surface::Colored(vertices) => {
+            (Surface::Colored(vertices), _) => {
                 let shader = shader::new(
                     |v: Vertex3<Color3f>, m: &ProjMat3<Model>| vertex(m.apply(&v.pos), v.attrib),
                     |frag: Frag<Color3f>, _: &ProjMat3<Model>| -> Color4 {

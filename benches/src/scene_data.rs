@@ -122,6 +122,24 @@ impl Texture {
         }
     }
 
+    /// Columns.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Rows.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// The texels, rows from the top.
+    #[must_use]
+    pub fn data(&self) -> &[[u8; 4]] {
+        &self.data
+    }
+
     #[inline(always)]
     fn texel(&self, x: i32, y: i32) -> [u8; 4] {
         let (x, y) = (x as u32 & (self.width - 1), y as u32 & (self.height - 1));

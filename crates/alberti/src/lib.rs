@@ -14,7 +14,7 @@ pub use alberti_math::{
 };
 pub use alberti_projection::{Perspective, ViewError, Viewport, look_at};
 pub use alberti_raster::{
-    Band, BandError, Counters, Cull, D16, D24, DepthFormat, F32, F32Reversed, FragmentStage, NoDepth,
+    Band, BandError, ColorFormat, Counters, Cull, D16, D24, DepthFormat, F32, F32Reversed, FragmentStage, NoDepth,
     Rgb565Be, Rgb565Le, Store,
 };
 pub use alberti_texture as texture;

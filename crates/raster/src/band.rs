@@ -118,23 +118,26 @@ impl<'a, C: ColorFormat, D: DepthFormat> Band<'a, C, D> {
         let pixel = C::pixel(color);
         let [columns, rows] = self.limits();
         for row in rows {
-            let (color, depth) = self.span(row, columns.start, columns.end);
-            color.fill(pixel);
-            depth.fill(D::FARTHEST);
+            let (color, depth) = self.pixels_from(row, columns.start);
+            let count = columns.len();
+            color.iter_mut().take(count).for_each(|p| *p = pixel);
+            depth.iter_mut().take(count).for_each(|d| *d = D::FARTHEST);
         }
     }
 
-    /// The pixels `start..end` of the frame's row `row`; empty where the band has none.
+    /// The pixels from `column` of the frame's row `row` on, to the end of the band; none where the band has none.
     #[inline]
-    pub(crate) fn span(&mut self, row: i32, start: i32, end: i32) -> (&mut [C::Pixel], &mut [D::Stored]) {
-        let from = |x: i32| {
+    pub(crate) fn pixels_from(&mut self, row: i32, column: i32) -> (&mut [C::Pixel], &mut [D::Stored]) {
+        let start = |row: i32| {
             let row = usize::try_from(row).ok()?.checked_sub(self.first_row)?;
-            Some(row * self.width + usize::try_from(x).ok()?)
+            Some(row * self.width + usize::try_from(column).ok()?)
         };
-        let (Some(start), Some(end)) = (from(start), from(end)) else { return (&mut [], &mut []) };
-        match (self.color.get_mut(start..end), self.depth.get_mut(start..end)) {
-            (Some(color), Some(depth)) => (color, depth),
-            _ => (&mut [], &mut []),
+        match start(row) {
+            Some(start) => (
+                self.color.get_mut(start..).unwrap_or_default(),
+                self.depth.get_mut(start..).unwrap_or_default(),
+            ),
+            None => (&mut [], &mut []),
         }
     }
 }
@@ -181,13 +184,13 @@ mod tests {
     }
 
     #[test]
-    fn spans_outside_the_band_are_empty() {
+    fn there_are_no_pixels_outside_the_band() {
         let (mut color, mut depth) = ([0u32; 6], [(); 6]);
         let mut band = Band::<Rgba8, NoDepth>::new(3, 5, &mut color, &mut depth).expect("fits");
-        assert_eq!(band.span(5, 1, 3).0.len(), 2);
-        assert_eq!(band.span(4, 1, 3).0.len(), 0);
-        assert_eq!(band.span(7, 1, 3).0.len(), 0);
-        assert_eq!(band.span(-1, -1, 3).0.len(), 0);
-        assert_eq!(band.span(6, 3, 1).0.len(), 0);
+        assert_eq!(band.pixels_from(5, 1).0.len(), 5);
+        assert_eq!(band.pixels_from(6, 2).0.len(), 1);
+        assert_eq!(band.pixels_from(4, 1).0.len(), 0);
+        assert_eq!(band.pixels_from(7, 1).0.len(), 0);
+        assert_eq!(band.pixels_from(-1, -1).0.len(), 0);
     }
 }

@@ -27,31 +27,26 @@ pub trait EdgeInt:
     + Mul<Output = Self>
     + Div<Output = Self>
 {
-    /// What is stepped along a span: holds the same integers exactly, and is quick to convert to `f32`.
-    type Stepped: Copy + Add<Output = Self::Stepped>;
-
-    /// The same integer, to be stepped.
-    fn stepped(self) -> Self::Stepped;
-
     /// The nearest `f32`: exact up to 2^24, within ε = 2^-24 relative above.
-    fn to_f32(stepped: Self::Stepped) -> f32;
+    fn to_f32(self) -> f32;
+
+    /// The same number: every edge function within the guard band is below 2^53.
+    fn to_f64(self) -> f64;
 
     /// This number of columns, which is at most a band's width.
     fn to_columns(self) -> i32;
 }
 
 impl EdgeInt for i32 {
-    type Stepped = i32;
-
     #[inline]
-    fn stepped(self) -> i32 {
-        self
+    #[expect(clippy::cast_precision_loss, reason = "rounding to nearest is what is documented")]
+    fn to_f32(self) -> f32 {
+        self as f32
     }
 
     #[inline]
-    #[expect(clippy::cast_precision_loss, reason = "rounding to nearest is what is documented")]
-    fn to_f32(stepped: i32) -> f32 {
-        stepped as f32
+    fn to_f64(self) -> f64 {
+        f64::from(self)
     }
 
     #[inline]
@@ -61,20 +56,16 @@ impl EdgeInt for i32 {
 }
 
 impl EdgeInt for i64 {
-    /// Every edge function within the guard band is below 2^53 and so exact, and an `f64` becomes an `f32` in one
-    /// rounding, as the `i64` would.
-    type Stepped = f64;
-
     #[inline]
-    #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
-    fn stepped(self) -> f64 {
-        self as f64
+    #[expect(clippy::cast_precision_loss, reason = "rounding to nearest is what is documented")]
+    fn to_f32(self) -> f32 {
+        self as f32
     }
 
     #[inline]
-    #[expect(clippy::cast_possible_truncation, reason = "rounding to nearest is what is documented")]
-    fn to_f32(stepped: f64) -> f32 {
-        stepped as f32
+    #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
+    fn to_f64(self) -> f64 {
+        self as f64
     }
 
     #[inline]
@@ -84,10 +75,12 @@ impl EdgeInt for i64 {
     }
 }
 
-/// The largest product of a box's width and height, in subpixels and each a pixel more than the hull of the vertices,
-/// for which every edge function at every sample of that box and in the pixel around it fits `i32`.
+/// The largest product of a box's width plus two pixels and its height plus one, in subpixels, the box being the hull of
+/// the vertices, for which everything that is computed from the edges at its samples fits `i32`.
 ///
-/// An edge function is at most the area of a box that holds its three points, and so are its two products.
+/// An edge function is at most the area of a box that holds its three points, and so are its two products; the pixel
+/// more on each axis is for the sample after the last. The second pixel of width is for the sum of two remainders
+/// below `step_x` that a row makes, so twice `step_x` must fit as well.
 pub const FITS_I32: i64 = i32::MAX as i64;
 
 /// The edge function of one directed edge, ready to be stepped over samples.

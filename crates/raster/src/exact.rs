@@ -17,47 +17,47 @@ use alberti_math::{Varying, hull3};
 /// A fragment: three conversions, three products, two sums, one division; a component adds four products, two sums,
 /// a minimum and a maximum.
 #[derive(Clone, Copy)]
-pub struct Exact<V: Varying> {
-    q: [f32; 3],
-    /// For each component: at the three vertices, the least, the greatest.
-    values: V::Of<[f32; 5]>,
+pub struct Exact<L: Lanes, V: Varying> {
+    /// The three q, in every lane.
+    q: [L; 3],
+    /// For each component, in every lane: its values at the three vertices, the least, the greatest.
+    values: V::Of<[L; 5]>,
 }
 
-impl<V: Varying> Exact<V> {
+impl<L: Lanes, V: Varying> Exact<L, V> {
     /// Prepares a triangle with `q` > 0 and finite values.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn new(q: [f32; 3], [a, b, c]: [V; 3]) -> Self {
         let scale = power_of_two_near(q[0].max(q[1]).max(q[2]));
         let [lo, hi] = hull3([a, b, c]);
-        Self { q: [q[0] * scale, q[1] * scale, q[2] * scale], values: V::gather([a, b, c, lo, hi]) }
+        Self {
+            q: [L::splat(q[0] * scale), L::splat(q[1] * scale), L::splat(q[2] * scale)],
+            values: V::map(&V::gather([a, b, c, lo, hi]), &|[a, b, c, lo, hi]: [f32; 5]| {
+                [L::splat(a), L::splat(b), L::splat(c), L::splat(lo), L::splat(hi)]
+            }),
+        }
     }
 
     /// The value at each sample where the edge functions, rounded to `f32`, are `edges`.
     #[must_use]
     #[inline(always)]
-    pub fn at<L: Lanes>(&self, edges: [L; 3]) -> V::Of<L> {
-        let t0 = edges[0] * L::splat(self.q[0]);
-        let t1 = edges[1] * L::splat(self.q[1]);
-        let t2 = edges[2] * L::splat(self.q[2]);
+    pub fn at(&self, edges: [L; 3]) -> V::Of<L> {
+        let t0 = edges[0] * self.q[0];
+        let t1 = edges[1] * self.q[1];
+        let t2 = edges[2] * self.q[2];
         let scale = L::splat(1.0) / (t0 + t1 + t2);
-        V::map(&self.values, &|[a, b, c, lo, hi]: [f32; 5]| {
-            let sum = t0 * L::splat(a) + t1 * L::splat(b) + t2 * L::splat(c);
-            within(sum * scale, lo, hi)
+        V::map(&self.values, &|[a, b, c, lo, hi]: [L; 5]| {
+            let sum = t0 * a + t1 * b + t2 * c;
+            (sum * scale).max(lo).min(hi)
         })
     }
 }
 
-impl<V: Varying> core::fmt::Debug for Exact<V> {
+impl<L: Lanes, V: Varying> core::fmt::Debug for Exact<L, V> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.debug_struct("Exact").field("q", &self.q).finish_non_exhaustive()
+        f.debug_struct("Exact").finish_non_exhaustive()
     }
-}
-
-/// `x`, or the end of the range that it lies beyond.
-#[inline(always)]
-pub(crate) fn within<L: Lanes>(x: L, lo: f32, hi: f32) -> L {
-    x.max(L::splat(lo)).min(L::splat(hi))
 }
 
 /// The power of two s for which x s lies in [1, 2), so that no product with an edge function can overflow or lose
@@ -83,9 +83,9 @@ mod tests {
 
     #[test]
     fn the_middle_of_an_edge_is_nearer_in_space() {
-        let depth = Exact::new([1.0, 1.0 / 3.0, 1.0], [1.0f32, 3.0, 1.0]);
+        let depth = Exact::<f32, f32>::new([1.0, 1.0 / 3.0, 1.0], [1.0f32, 3.0, 1.0]);
         assert!((depth.at([100.0f32, 100.0, 0.0]) - 1.5).abs() < 1e-6);
         assert_eq!(depth.at([77.0f32, 0.0, 0.0]), 1.0);
-        assert_eq!(Exact::new([1e-9, 3.3, 0.7], [0.1f32; 3]).at([3.0f32, 5.0, 9e9]), 0.1);
+        assert_eq!(Exact::<f32, f32>::new([1e-9, 3.3, 0.7], [0.1f32; 3]).at([3.0f32, 5.0, 9e9]), 0.1);
     }
 }

@@ -6,6 +6,13 @@ use crate::edge::EdgeInt;
 use alberti_math::glam::Vec4;
 use core::ops::{Add, Div, Mul};
 
+/// As many as suit the machine that this is compiled for.
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128"))]
+pub(crate) type Native = Vec4;
+/// As many as suit the machine that this is compiled for.
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128")))]
+pub(crate) type Native = f32;
+
 /// A number of samples side by side along a row.
 pub trait Lanes: Copy + Add<Output = Self> + Mul<Output = Self> + Div<Output = Self> {
     /// How many.
@@ -22,16 +29,16 @@ pub trait Lanes: Copy + Add<Output = Self> + Mul<Output = Self> + Div<Output = S
     /// The greater of two, lane by lane; of equal ones the second.
     fn max(self, other: Self) -> Self;
     /// The edge function at the samples from the first, where it is `value`, in steps of `step`.
-    fn edge<I: EdgeInt>(value: I::Stepped, step: I::Stepped) -> Self::Edge<I>;
-    /// Goes on by `steps`, which is `COUNT` samples' worth.
-    fn advance<I: EdgeInt>(edge: Self::Edge<I>, steps: I::Stepped) -> Self::Edge<I>;
+    fn edge<I: EdgeInt>(value: I, step: I) -> Self::Edge<I>;
+    /// Goes on by `COUNT` samples in steps of `step`.
+    fn advance<I: EdgeInt>(edge: Self::Edge<I>, step: I) -> Self::Edge<I>;
     /// Rounds to `f32`.
     fn weight<I: EdgeInt>(edge: Self::Edge<I>) -> Self;
 }
 
 impl Lanes for f32 {
     const COUNT: usize = 1;
-    type Edge<I: EdgeInt> = I::Stepped;
+    type Edge<I: EdgeInt> = I;
 
     #[inline(always)]
     fn splat(x: f32) -> Self {
@@ -56,24 +63,25 @@ impl Lanes for f32 {
     }
 
     #[inline(always)]
-    fn edge<I: EdgeInt>(value: I::Stepped, _: I::Stepped) -> I::Stepped {
+    fn edge<I: EdgeInt>(value: I, _: I) -> I {
         value
     }
 
     #[inline(always)]
-    fn advance<I: EdgeInt>(edge: I::Stepped, steps: I::Stepped) -> I::Stepped {
-        edge + steps
+    fn advance<I: EdgeInt>(edge: I, step: I) -> I {
+        edge + step
     }
 
     #[inline(always)]
-    fn weight<I: EdgeInt>(edge: I::Stepped) -> f32 {
-        I::to_f32(edge)
+    fn weight<I: EdgeInt>(edge: I) -> f32 {
+        edge.to_f32()
     }
 }
 
 impl Lanes for Vec4 {
     const COUNT: usize = 4;
-    type Edge<I: EdgeInt> = [I::Stepped; 4];
+    /// In `f64`, which holds these integers exactly, adds them two at a time, and rounds to `f32` as an integer does.
+    type Edge<I: EdgeInt> = [f64; 4];
 
     #[inline(always)]
     fn splat(x: f32) -> Self {
@@ -109,19 +117,22 @@ impl Lanes for Vec4 {
     }
 
     #[inline(always)]
-    fn edge<I: EdgeInt>(value: I::Stepped, step: I::Stepped) -> Self::Edge<I> {
+    fn edge<I: EdgeInt>(value: I, step: I) -> [f64; 4] {
+        let [value, step] = [value.to_f64(), step.to_f64()];
         let next = value + step;
         let twice = step + step;
         [value, next, value + twice, next + twice]
     }
 
     #[inline(always)]
-    fn advance<I: EdgeInt>(edge: Self::Edge<I>, steps: I::Stepped) -> Self::Edge<I> {
+    fn advance<I: EdgeInt>(edge: [f64; 4], step: I) -> [f64; 4] {
+        let steps = step.to_f64() * 4.0;
         [edge[0] + steps, edge[1] + steps, edge[2] + steps, edge[3] + steps]
     }
 
     #[inline(always)]
-    fn weight<I: EdgeInt>(edge: Self::Edge<I>) -> Self {
-        Vec4::new(I::to_f32(edge[0]), I::to_f32(edge[1]), I::to_f32(edge[2]), I::to_f32(edge[3]))
+    #[expect(clippy::cast_possible_truncation, reason = "rounding to nearest is what is documented")]
+    fn weight<I: EdgeInt>(edge: [f64; 4]) -> Self {
+        Vec4::new(edge[0] as f32, edge[1] as f32, edge[2] as f32, edge[3] as f32)
     }
 }

@@ -20,7 +20,7 @@ pub use band::{Band, BandError};
 pub use color::{ColorFormat, Rgb565Be, Rgb565Le, Store, rgb565};
 pub use counters::Counters;
 pub use depth::{D16, D24, DepthFormat, F32, F32Reversed, NoDepth};
-pub use draw::draw_triangle;
+pub use draw::{draw_triangle, draw_triangle_by};
 pub use edge::{Edge, EdgeInt, FITS_I32};
 pub use exact::Exact;
 pub use fragment::FragmentStage;

@@ -8,8 +8,8 @@
 //!      . . | * * * * * | . .        *  value + bias >= 0 for all three edges
 //! ```
 //!
-//! From row to row each bound walks to its new place by additions, a few columns at most; farther ones, which only edges
-//! near the horizontal need, are found by a division. Inside a span no coverage test is needed.
+//! From row to row each bound moves by the same fraction of a column, whose integer part and remainder are found once by
+//! division; after that a row costs a few additions and no branch. Inside a span no coverage test is needed.
 
 use crate::edge::{Edge, EdgeInt};
 
@@ -22,117 +22,109 @@ pub struct Span {
     pub end: i32,
 }
 
-/// Where an edge's condition flips along the row: the first column at which `value >= 0`, with `step` >= 0.
+/// Where an edge's condition flips along the row: the first column at which its function is not negative.
 ///
 /// For an edge that bounds from the right the function is turned into -value-1, which is not negative exactly where
-/// the edge's own value is negative: the first column outside.
+/// the edge's own value is negative: the first column outside. A horizontal edge bounds rows, not columns, and gets a
+/// crossing that never moves.
 #[derive(Clone, Copy, Debug)]
 struct Crossing<I> {
-    column: i32,
+    column: I,
+    /// The function at `column`, less than `step`.
     value: I,
     step: I,
-    step_y: I,
+    /// What a row adds to the function: `whole * step + part`, with 0 <= `part` < `step`.
+    whole: I,
+    part: I,
     from_left: bool,
 }
 
 impl<I: EdgeInt> Crossing<I> {
     #[inline]
     fn new(edge: &Edge<I>) -> Self {
-        let zero = I::from(0);
-        let value = edge.value + edge.bias;
+        let [zero, one] = [I::from(0), I::from(1)];
         let from_left = edge.step_x >= zero;
-        if from_left {
-            Self { column: 0, value, step: edge.step_x, step_y: edge.step_y, from_left }
-        } else {
-            let value = zero - value - I::from(1);
-            Self { column: 0, value, step: zero - edge.step_x, step_y: zero - edge.step_y, from_left }
-        }
-    }
-
-    /// Goes to the crossing of the current row, within columns [0, width]. A step of 0 goes to one of the ends.
-    #[inline]
-    fn settle(&mut self, width: i32) {
-        let zero = I::from(0);
-        if self.value < zero {
-            for _ in 0..WALK {
-                if self.value >= zero || self.column == width {
-                    return;
-                }
-                self.go(1);
-            }
-            if self.value < zero {
-                // The least n with value + n step >= 0.
-                let room = width - self.column;
-                self.go(self.at_most(room, self.step - I::from(1) - self.value));
-            }
-        } else {
-            for _ in 0..WALK {
-                if self.value < self.step || self.column == 0 {
-                    return;
-                }
-                self.go(-1);
-            }
-            if self.value >= self.step {
-                // The greatest n with value - n step >= 0.
-                self.go(-self.at_most(self.column, self.value));
-            }
-        }
+        let value = edge.value + edge.bias;
+        let (value, step, step_y) = match from_left {
+            _ if edge.step_x == zero => (zero, one, zero),
+            true => (value, edge.step_x, edge.step_y),
+            false => (zero - value - one, zero - edge.step_x, zero - edge.step_y),
+        };
+        let (columns, value) = divide(value, step);
+        let (whole, part) = divide(step_y, step);
+        Self { column: zero - columns, value, step, whole, part, from_left }
     }
 
     #[inline]
-    fn go(&mut self, columns: i32) {
-        self.value = self.value + self.step * I::from(columns);
-        self.column += columns;
-    }
-
-    /// `distance / step`, but no more than `room`.
-    #[inline]
-    fn at_most(&self, room: i32, distance: I) -> i32 {
-        if self.step == I::from(0) { room } else { (distance / self.step).min(I::from(room)).to_columns() }
+    fn next_row(&mut self) {
+        let value = self.value + self.part;
+        let carry = value >= self.step;
+        self.value = if carry { value - self.step } else { value };
+        self.column = self.column - self.whole - I::from(i32::from(carry));
     }
 }
 
-/// How many columns a bound walks before a division is quicker.
-const WALK: usize = 3;
+/// The quotient rounded down, and the remainder, which is in [0, divisor).
+#[inline]
+fn divide<I: EdgeInt>(x: I, divisor: I) -> (I, I) {
+    let quotient = x / divisor;
+    let remainder = x - quotient * divisor;
+    if remainder < I::from(0) { (quotient - I::from(1), remainder + divisor) } else { (quotient, remainder) }
+}
 
 /// Walks the rows of a triangle's box from the top.
 #[derive(Clone, Copy, Debug)]
 pub struct SpanWalker<I> {
     crossings: [Crossing<I>; 3],
-    width: i32,
+    width: I,
+    rows: i32,
 }
 
 impl<I: EdgeInt> SpanWalker<I> {
-    /// Starts at the row of the edges' reference sample, which is column 0 of a box of `width` columns.
+    /// Starts at the row of the edges' reference sample, which is column 0 of a box of `width` columns and `rows` rows
+    /// of samples between the triangle's topmost and lowest vertex.
     #[must_use]
     #[inline]
-    pub fn new(edges: &[Edge<I>; 3], width: i32) -> Self {
+    pub fn new(edges: &[Edge<I>; 3], width: i32, rows: i32) -> Self {
+        // Of the rows only the last can be outside of a horizontal edge: when it lies exactly on a lower one.
+        let last = I::from(rows - 1);
+        let [a, b, c] = edges;
+        let cut = |e: &Edge<I>| e.step_x == I::from(0) && e.value + e.bias + e.step_y * last < I::from(0);
         Self {
-            crossings: [Crossing::new(&edges[0]), Crossing::new(&edges[1]), Crossing::new(&edges[2])],
-            width,
+            crossings: [Crossing::new(a), Crossing::new(b), Crossing::new(c)],
+            width: I::from(width),
+            rows: rows - i32::from(cut(a) || cut(b) || cut(c)),
         }
     }
 
-    /// The current row's span.
+    /// How many rows have spans, empty ones included.
+    #[must_use]
     #[inline]
-    pub fn span(&mut self) -> Span {
-        let mut span = Span { start: 0, end: self.width };
-        for crossing in &mut self.crossings {
-            crossing.settle(self.width);
+    pub fn rows(&self) -> i32 {
+        self.rows
+    }
+
+    /// The current row's span.
+    #[must_use]
+    #[inline]
+    pub fn span(&self) -> Span {
+        let (mut start, mut end) = (I::from(0), self.width);
+        for crossing in &self.crossings {
             if crossing.from_left {
-                span.start = span.start.max(crossing.column);
+                start = start.max(crossing.column);
             } else {
-                span.end = span.end.min(crossing.column);
+                end = end.min(crossing.column);
             }
         }
-        span
+        // Far outside of the box columns would not fit their type.
+        Span { start: start.min(self.width).to_columns(), end: end.max(I::from(0)).to_columns() }
     }
 
     /// Goes down one row.
     #[inline]
     pub fn next_row(&mut self) {
         for crossing in &mut self.crossings {
-            crossing.value = crossing.value + crossing.step_y;
+            crossing.next_row();
         }
     }
 }
@@ -150,14 +142,20 @@ mod tests {
         for a in vertices() {
             for b in vertices() {
                 for c in vertices() {
-                    let edge = |a, b| Edge::<i32>::new(a, b, [8, 8], 16);
+                    // The rows between the highest and the lowest vertex, as the walker demands.
+                    let sample = |y: i32| (y - 8) >> 4;
+                    let first = (sample(a[1].min(b[1]).min(c[1]) + 15)).max(0);
+                    let rows = sample(a[1].max(b[1]).max(c[1])) + 1 - first;
+                    let edge = |a, b| Edge::<i32>::new(a, b, [8, first * 16 + 8], 16);
                     let edges = [edge(b, c), edge(c, a), edge(a, b)];
-                    if edges.iter().map(|e| e.value).sum::<i32>() <= 0 {
+                    let area = edges.iter().map(|e| e.value).sum::<i32>();
+                    if area <= 0 || rows < 1 {
                         continue;
                     }
-                    let mut walker = SpanWalker::new(&edges, 3);
-                    for row in 0..3 {
+                    let mut walker = SpanWalker::new(&edges, 3, rows);
+                    for row in 0..rows {
                         let span = walker.span();
+                        let span = if row < walker.rows() { span } else { Span { start: 0, end: 0 } };
                         for column in 0..3 {
                             let inside = edges
                                 .iter()

@@ -74,11 +74,11 @@ impl Bounds {
         Self { min: [min(0), min(1)], max: [max(0), max(1)] }
     }
 
-    /// Whether edge functions fit `i32` everywhere in the box and in the pixel around it.
+    /// Whether edge functions fit `i32` everywhere in the box and in the pixel around it, see [`FITS_I32`].
     #[inline]
     pub(crate) fn fits_i32(&self, one: i32) -> bool {
-        let side = |axis: usize| i64::from(self.max[axis] - self.min[axis] + one);
-        side(0) * side(1) <= FITS_I32
+        let side = |axis: usize| i64::from(self.max[axis] - self.min[axis]);
+        (side(0) + 2 * i64::from(one)) * (side(1) + i64::from(one)) <= FITS_I32
     }
 
     /// The columns or rows, within `limits`, whose sample lies within the box.
