@@ -1,4 +1,4 @@
-//! The `alberti` command as a library: scenes, input, rendering, output.
+#![doc = include_str!("../README.md")]
 
 pub mod camera;
 pub mod cli;
