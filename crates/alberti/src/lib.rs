@@ -14,8 +14,8 @@ pub use alberti_math::{
 };
 pub use alberti_projection::{Perspective, ViewError, Viewport, look_at};
 pub use alberti_raster::{
-    Band, BandError, ColorFormat, Counters, Cull, D16, D24, DepthFormat, F32, F32Reversed, FragmentStage, NoDepth,
-    Rgb565Be, Rgb565Le, Store,
+    Band, BandError, ColorFormat, Counters, Cull, D16, D24, DepthFormat, F32, F32Reversed, FragmentStage,
+    NoDepth, Rgb565Be, Rgb565Le, Store,
 };
 pub use alberti_texture as texture;
 pub use pipeline::{Pass, Sides, View, draw};

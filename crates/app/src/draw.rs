@@ -7,8 +7,8 @@ use alberti::glam::{Vec2, Vec3};
 use alberti::shaders::{Flat, Lambert, Tinted, Unlit, VertexColor};
 use alberti::texture::{self, Texture, TextureError};
 use alberti::{
-    Band, Eye, FragmentStage, Frame, Object, Pass, Perspective, Point3, Rgba8, Sides, Slot, Stats, Sub8, Varying,
-    Vector3, VertexStage, View, ViewError, Viewport, World, draw, look_at,
+    Band, Eye, FragmentStage, Frame, Object, Pass, Perspective, Point3, Rgba8, Sides, Slot, Stats, Sub8,
+    Varying, Vector3, VertexStage, View, ViewError, Viewport, World, draw, look_at,
 };
 
 /// Light that falls everywhere, and light that falls on what faces it.
@@ -142,7 +142,12 @@ impl<'a> Canvas<'a> {
         let uv = |v: &Vertex| Vec2::from_array(v.uv);
         if self.options.shading == Shading::Lambert {
             let lambert = Lambert::new(surface, self.light, AMBIENT, DIFFUSE);
-            self.draw(triangles, |v: &Vertex| (position(v), (Vec3::from_array(v.normal), uv(v))), lambert, band);
+            self.draw(
+                triangles,
+                |v: &Vertex| (position(v), (Vec3::from_array(v.normal), uv(v))),
+                lambert,
+                band,
+            );
         } else {
             self.draw(triangles, |v: &Vertex| (position(v), uv(v)), surface, band);
         }

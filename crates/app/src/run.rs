@@ -164,7 +164,7 @@ fn load(arguments: &RenderArgs) -> Result<Scene, Error> {
     })
 }
 
-/// `--texture` replaces every texture of the model.
+/// `--texture` replaces every texture of the model, and is shown as it is, whatever the materials' colours.
 fn put_texture(arguments: &RenderArgs, scene: &mut Scene) -> Result<(), Error> {
     let Some(path) = &arguments.texture else {
         return Ok(());
@@ -178,6 +178,7 @@ fn put_texture(arguments: &RenderArgs, scene: &mut Scene) -> Result<(), Error> {
     scene.model.textures = vec![texture];
     for part in &mut scene.model.parts {
         part.texture = Some(0);
+        part.diffuse = [1.0; 3];
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Construction and access.
 
 use alberti_math::Rgba8;
-use alberti_texture::format::{L8, Rgb565, Rgb8};
+use alberti_texture::format::{L8, Rgb8, Rgb565};
 use alberti_texture::{Bilinear, Repeat, Sampler, Texture, TextureError};
 use glam::Vec2;
 

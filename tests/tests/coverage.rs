@@ -1,0 +1,294 @@
+//! Which samples a triangle covers: exhaustively on one pixel, adversarially up to the guard band, and at the bound
+//! between 32- and 64-bit edge functions. The oracle has no tie rule.
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    clippy::cast_sign_loss,
+    reason = "subpixels are within the guard band, in i32 here and in i64 there"
+)]
+
+use alberti_math::{GUARD_PIXELS, Rgba8, Sub4, Sub8, Subpixel};
+use alberti_oracle::cases;
+use alberti_oracle::coverage::{Triangle, area2, covers, weights};
+use alberti_oracle::rng::{Rng, run_seed};
+use alberti_raster::{
+    Band, Cull, Edge, EdgeInt, FITS_I32, NoDepth, Outcome, Span, SpanWalker, draw_triangle,
+};
+use alberti_tests::probe::{Covered, LARGEST, Probe, bare};
+
+/// All 289^3 ordered triples of 28.4 positions in the closed pixel, of which these have positive area, and so many of
+/// those the sample exactly on the line of an edge.
+const POSITIVE: u32 = 11_791_152;
+const ON_A_LINE: u32 = 744_192;
+
+#[test]
+fn every_triangle_within_a_pixel() {
+    const SAMPLE: [i64; 2] = [Sub4::HALF as i64; 2];
+    let points: Vec<[i64; 2]> = (0..289).map(|i| [i % 17, i / 17]).collect();
+    let (mut color, mut depth) = ([0u32], [()]);
+    let mut band = Band::<Rgba8, NoDepth>::new(1, 0, &mut color, &mut depth).expect("one pixel");
+    let mut draw = |tri: Triangle, cull: Cull| {
+        let [a, b, c] = bare::<Sub4>(tri);
+        let mut count = Covered::default();
+        let outcome = draw_triangle(&mut band, [&a, &b, &c], cull, &|()| Some(Rgba8::WHITE), &mut count);
+        (count.0, outcome)
+    };
+    let (mut positive, mut on_a_line, mut covered) = (0, 0, 0);
+    for &a in &points {
+        for &b in &points {
+            for &c in &points {
+                let tri = [a, b, c];
+                if area2(tri) <= 0 {
+                    continue;
+                }
+                positive += 1;
+                on_a_line += u32::from(weights(tri, SAMPLE).contains(&0));
+                let expected = u64::from(covers(tri, SAMPLE));
+                covered += expected;
+                assert_eq!(draw(tri, Cull::None).0, expected, "{tri:?}");
+                if positive % 17 == 0 {
+                    // Clockwise on the screen is a back face; the other way round it is a front face.
+                    let reversed = [a, c, b];
+                    assert_eq!(draw(tri, Cull::Front).0, expected, "{tri:?}");
+                    assert_eq!(draw(reversed, Cull::Back).0, expected, "{reversed:?}");
+                    assert_eq!(draw(reversed, Cull::None).0, expected, "{reversed:?}");
+                    assert_eq!(draw(tri, Cull::Back), (0, Outcome::Culled), "{tri:?}");
+                    assert_eq!(draw(reversed, Cull::Front), (0, Outcome::Culled), "{reversed:?}");
+                }
+            }
+        }
+    }
+    println!("{positive} triangles, {on_a_line} with the sample on a line, {covered} cover it");
+    assert_eq!((positive, on_a_line), (POSITIVE, ON_A_LINE));
+    assert!(covered > 1_000_000);
+}
+
+#[test]
+fn adversarial_samples_with_four_bits() {
+    adversarial::<Sub4>(4);
+}
+
+#[test]
+fn adversarial_samples_with_eight_bits() {
+    adversarial::<Sub8>(8);
+}
+
+/// Half of the 10^7 samples: through the edge functions wherever the sample lies, and through the rasterizer wherever
+/// a frame can have it.
+fn adversarial<S: Subpixel>(stream: u64) {
+    const SAMPLES: u64 = 5_000_000;
+    let guard = i64::from(GUARD_PIXELS) << S::BITS;
+    let mut rng = Rng::stream(run_seed(), stream);
+    let mut probe = Probe::<NoDepth>::default();
+    let (mut ties, mut covered, mut drawn, mut drawn_ties) = (0, 0, 0, 0);
+    for _ in 0..SAMPLES {
+        let case = cases::any(&mut rng, S::BITS, guard);
+        let (expected, tie) = (covers(case.tri, case.sample), on_a_line(case.tri, case.sample));
+        assert_eq!(inside::<S>(case.tri, case.sample), expected, "{case:?}");
+        ties += u64::from(tie);
+        covered += u64::from(expected);
+
+        // A frame has rows and columns from 0 on: mirrored there, the case is another one and as hard.
+        let mirror = case.sample.map(|c| c.signum());
+        let flip = |p: [i64; 2]| [p[0] * mirror[0], p[1] * mirror[1]];
+        let (tri, sample) = (case.tri.map(flip), flip(case.sample));
+        let [column, row] = sample.map(|c| (c >> S::BITS) as i32);
+        if column >= LARGEST || row >= LARGEST {
+            continue;
+        }
+        drawn += 1;
+        drawn_ties += u64::from(on_a_line(tri, sample));
+        let columns = (column - 1).max(0)..(column + 2).min(LARGEST);
+        let found = probe.covered::<S>(tri, columns.clone(), row);
+        for (column, &pixel) in columns.zip(found) {
+            let sample = cases::pixel_centre(i64::from(column), i64::from(row), S::BITS);
+            assert_eq!(pixel != 0, covers(tri, sample), "{tri:?} at {sample:?}");
+        }
+    }
+    println!("{SAMPLES} samples, {ties} ties, {covered} covered; {drawn} drawn, {drawn_ties} ties");
+    assert!(ties * 20 >= SAMPLES && drawn_ties * 20 >= drawn, "too few ties: {ties}, {drawn_ties}");
+    assert!(covered * 10 >= SAMPLES && drawn * 4 >= SAMPLES * 3, "{covered} {drawn}");
+}
+
+fn on_a_line(tri: Triangle, sample: [i64; 2]) -> bool {
+    weights(tri, sample).contains(&0)
+}
+
+/// What the edge functions in i64 say, without the rasterizer around them.
+fn inside<S: Subpixel>(tri: Triangle, sample: [i64; 2]) -> bool {
+    edges::<i64, S>(tri, sample.map(|c| c as i32)).iter().all(|e| e.value + e.bias >= 0)
+}
+
+/// The three edges, clockwise on the screen, with their values at `sample`.
+fn edges<I: EdgeInt, S: Subpixel>(tri: Triangle, sample: [i32; 2]) -> [Edge<I>; 3] {
+    let [a, b, c] = tri.map(|p| p.map(|c| c as i32));
+    let [b, c] = if area2(tri) > 0 { [b, c] } else { [c, b] };
+    [(b, c), (c, a), (a, b)].map(|(from, to)| Edge::new(from, to, sample, S::ONE))
+}
+
+#[test]
+fn both_widths_of_edge_functions_agree_at_the_bound_with_four_bits() {
+    widths_agree::<Sub4>(14);
+}
+
+#[test]
+fn both_widths_of_edge_functions_agree_at_the_bound_with_eight_bits() {
+    widths_agree::<Sub8>(18);
+}
+
+/// Boxes whose area, with a pixel more on each side, is the largest that 32 bits hold. An overflow would panic.
+fn widths_agree<S: Subpixel>(stream: u64) {
+    let mut rng = Rng::stream(run_seed(), stream);
+    let (mut largest, mut spans, mut covered) = (0i64, 0u64, 0u64);
+    for _ in 0..120_000 {
+        let size = largest_box::<S>(&mut rng);
+        let tri = spanning::<S>(&mut rng, size);
+        // The samples of the box, of which a band and a scissor may leave any part.
+        let [columns, rows] = [0, 1].map(|axis| samples::<S>(tri, axis));
+        if columns.is_empty() || rows.is_empty() {
+            continue;
+        }
+        let left = if rng.one_in(2) { columns.start } else { within(&mut rng, &columns) };
+        let right = if rng.one_in(2) { columns.end } else { within(&mut rng, &(left..columns.end)) + 1 };
+        let top = if rng.one_in(3) { rows.start } else { within(&mut rng, &rows) };
+        let count = (rows.end - top).min(24);
+        // The last rows of the box, every other time.
+        let top = if rng.one_in(2) { rows.end - count } else { top };
+        let first = [left, top].map(|i| i * S::ONE + S::HALF);
+        let narrow = walk(edges::<i32, S>(tri, first), right - left, count);
+        let wide = walk(edges::<i64, S>(tri, first), right - left, count);
+        assert_eq!(narrow, wide, "{tri:?} from {first:?}");
+        spans += narrow.len() as u64;
+        covered += narrow.iter().filter(|s| s.start < s.end).count() as u64;
+        let area = area2(tri).abs() as i64;
+        largest = largest.max(area);
+    }
+    println!("{spans} spans, {covered} not empty, largest area {:.6} of the bound", ratio(largest));
+    assert!(spans > 1_000_000 && covered > 300_000 && ratio(largest) > 0.98);
+}
+
+fn ratio(area: i64) -> f64 {
+    f64::from(area as i32) / f64::from(FITS_I32 as i32)
+}
+
+/// The spans of `rows` rows, going down past the last as the rasterizer does.
+fn walk<I: EdgeInt>(mut edges: [Edge<I>; 3], width: i32, rows: i32) -> Vec<Span> {
+    let mut walker = SpanWalker::new(&edges, width, rows);
+    (0..walker.rows())
+        .map(|_| {
+            let span = walker.span();
+            for edge in &mut edges {
+                // What a fragment's weights are made of.
+                let _ = edge.value + edge.step_x * I::from(span.start.max(span.end));
+                edge.value = edge.value + edge.step_y;
+            }
+            walker.next_row();
+            span
+        })
+        .collect()
+}
+
+/// At the bound and one subpixel beyond, the row that is drawn is the row of the oracle.
+#[test]
+fn rows_are_exact_on_both_sides_of_the_bound() {
+    let mut rng = Rng::stream(run_seed(), 3);
+    let mut probe = Probe::<NoDepth>::default();
+    let runs = [rows_exact::<Sub4>(&mut rng, &mut probe), rows_exact::<Sub8>(&mut rng, &mut probe)];
+    println!("rows with a run: {runs:?}");
+    assert!(runs.into_iter().flatten().all(|n| n > 1_000), "{runs:?}");
+}
+
+/// How many rows had covered samples, at the bound and beyond it.
+fn rows_exact<S: Subpixel>(rng: &mut Rng, probe: &mut Probe<NoDepth>) -> [u32; 2] {
+    let mut runs = [0; 2];
+    for i in 0..12_000 {
+        let beyond = i % 2;
+        let [width, height] = largest_box::<S>(rng);
+        let tri = spanning::<S>(rng, [width, height + beyond as i64]);
+        let rows = samples::<S>(tri, 1);
+        let rows = rows.start.max(0)..rows.end.min(LARGEST);
+        if rows.is_empty() {
+            continue;
+        }
+        let row = within(rng, &rows);
+        let found = probe.covered::<S>(tri, 0..LARGEST, row);
+        let covered =
+            |column: i32| covers(tri, cases::pixel_centre(i64::from(column), i64::from(row), S::BITS));
+        let count = found.iter().filter(|&&pixel| pixel != 0).count() as i32;
+        if let Some(start) = found.iter().position(|&pixel| pixel != 0) {
+            // What a row covers is an interval, so its ends tell all.
+            let (start, end) = (start as i32, start as i32 + count);
+            assert!(
+                found[start as usize..end as usize].iter().all(|&pixel| pixel != 0),
+                "a gap: {tri:?} {row}"
+            );
+            assert!(covered(start) && covered(end - 1), "{tri:?} in row {row}: {start}..{end}");
+            assert!(start == 0 || !covered(start - 1), "{tri:?} in row {row}: {start}..{end}");
+            assert!(end == LARGEST || !covered(end), "{tri:?} in row {row}: {start}..{end}");
+            runs[beyond] += 1;
+        } else {
+            let [left, right] =
+                [samples::<S>(tri, 0).start, samples::<S>(tri, 0).end].map(|c| c.clamp(0, LARGEST));
+            assert!((left..right).take(64).all(|column| !covered(column)), "{tri:?} in row {row}: nothing");
+            for _ in 0..64 {
+                let column = within(rng, &(0..LARGEST));
+                assert!(!covered(column), "{tri:?} in row {row}: nothing at {column}");
+            }
+        }
+    }
+    runs
+}
+
+/// Width and height of a box, in subpixels, for which a subpixel more in height would be too much for 32 bits.
+fn largest_box<S: Subpixel>(rng: &mut Rng) -> [i64; 2] {
+    let one = i64::from(S::ONE);
+    let longest = (i64::from(GUARD_PIXELS) << S::BITS).min(FITS_I32 / (2 * one));
+    let shortest = FITS_I32 / longest + 1;
+    let long = (shortest as f64 * ((longest as f64 / shortest as f64).ln() * rng.unit()).exp()) as i64;
+    let width = long.clamp(shortest, longest);
+    let height = FITS_I32 / width;
+    assert!(width * height <= FITS_I32 && width * (height + 1) > FITS_I32);
+    [width - one, height - one]
+}
+
+/// A triangle that touches all four sides of a box of this size, somewhere that a frame can show at least in part.
+fn spanning<S: Subpixel>(rng: &mut Rng, [width, height]: [i64; 2]) -> Triangle {
+    let guard = i64::from(GUARD_PIXELS) << S::BITS;
+    loop {
+        let mut any = |length: i64| match rng.index(6) {
+            0 => 0,
+            1 => length,
+            2 => rng.range(0, length.min(3)),
+            3 => length - rng.range(0, length.min(3)),
+            _ => rng.range(0, length),
+        };
+        let opposite = [any(width), any(height)];
+        let two_corners = [[0, 0], [width, height], opposite];
+        let one_corner = [[0, 0], [width, opposite[1]], [opposite[0], height]];
+        let tri = if rng.one_in(2) { two_corners } else { one_corner };
+        let mirror = [rng.one_in(2), rng.one_in(2)];
+        let from = [width, height]
+            .map(|length| rng.range((-length / 2).max(-guard), (guard - length).min(guard / 2)));
+        let place =
+            |c: i64, axis: usize| from[axis] + if mirror[axis] { [width, height][axis] - c } else { c };
+        let tri = tri.map(|[x, y]| [place(x, 0), place(y, 1)]);
+        if area2(tri) != 0 {
+            return tri;
+        }
+    }
+}
+
+/// The columns or rows whose samples lie within the triangle's box.
+fn samples<S: Subpixel>(tri: Triangle, axis: usize) -> std::ops::Range<i32> {
+    let (mut low, mut high) = (i64::MAX, i64::MIN);
+    for p in tri {
+        (low, high) = (low.min(p[axis]), high.max(p[axis]));
+    }
+    let (one, half) = (i64::from(S::ONE), i64::from(S::HALF));
+    let ceil = |n: i64| -(-n).div_euclid(one);
+    ceil(low - half) as i32..((high - half).div_euclid(one) + 1) as i32
+}
+
+fn within(rng: &mut Rng, range: &std::ops::Range<i32>) -> i32 {
+    rng.range(i64::from(range.start), i64::from(range.end) - 1) as i32
+}

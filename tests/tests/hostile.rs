@@ -1,0 +1,165 @@
+//! Any bits in vertices, matrices and indices: no panic, no endless loop, nothing outside the viewport, no NaN in a
+//! buffer.
+
+use alberti::glam::{Mat3, Vec2, Vec3};
+use alberti::shaders::{Lambert, Unlit, VertexColor};
+use alberti::texture::{Bilinear, Mirror, Texture};
+use alberti::{
+    Band, Cull, D16, D24, DepthFormat, Eye, F32, F32Reversed, FragmentStage, Frame, NoDepth, Object, Pass,
+    Perspective, Point3, Rgba8, Sides, Slot, Sub4, Sub8, Subpixel, Varying, Vector3, View, Viewport, draw,
+};
+use proptest::prelude::*;
+
+const WIDTH: u32 = 40;
+const HEIGHT: u32 = 30;
+const SENTINEL: u32 = 0xdead_beef;
+
+/// A float of any bits, or one of those that go wrong first.
+fn number() -> impl Strategy<Value = f32> {
+    prop_oneof![
+        4 => any::<u32>().prop_map(f32::from_bits),
+        4 => -4.0f32..4.0,
+        2 => prop::sample::select(vec![
+            0.0, -0.0, 1.0, -1.0, 0.1, 10.0, f32::MAX, f32::MIN, f32::MAX / 16.0, f32::MIN_POSITIVE, 1e-45,
+            f32::INFINITY, f32::NEG_INFINITY, f32::NAN, 1e9, 1e30, 16_777_217.0,
+        ]),
+    ]
+}
+
+fn numbers<const N: usize>() -> impl Strategy<Value = [f32; N]> {
+    prop::collection::vec(number(), N).prop_map(|v| v.try_into().expect("N numbers"))
+}
+
+type Corner = ([f32; 3], [f32; 5]);
+
+/// A mesh, mostly with a camera that makes sense and sometimes with any matrix at all.
+#[derive(Clone, Debug)]
+struct Case {
+    corners: Vec<Corner>,
+    triangles: Vec<[u32; 3]>,
+    matrix: Option<[f32; 12]>,
+    sides: Sides,
+    cull: Cull,
+}
+
+fn case() -> impl Strategy<Value = Case> {
+    let corner = (numbers::<3>(), numbers::<5>());
+    (
+        prop::collection::vec(corner, 3..8),
+        prop::collection::vec(prop::array::uniform3(0u32..9), 1..6),
+        prop::option::weighted(0.3, numbers::<12>()),
+        prop::sample::select(vec![Sides::GuardBand, Sides::Cube]),
+        prop::sample::select(vec![Cull::Back, Cull::Front, Cull::None]),
+    )
+        .prop_map(|(corners, triangles, matrix, sides, cull)| Case {
+            corners,
+            triangles,
+            matrix,
+            sides,
+            cull,
+        })
+}
+
+fn view(case: &Case, near: f32, far: f32) -> View {
+    let to_eye = match case.matrix {
+        None => Frame::at(Point3::<Eye>::new(Vec3::new(0.0, 0.0, 3.0))),
+        Some(m) => {
+            let column = |i: usize| Vec3::new(m[i], m[i + 1], m[i + 2]);
+            Frame::from_mat3(Mat3::from_cols(column(0), column(3), column(6)), Point3::new(column(9)))
+        }
+    };
+    View {
+        to_eye,
+        perspective: Perspective::new(1.0, 4.0 / 3.0, near, far).expect("a pyramid"),
+        // Away from the band's edges, so that what is written outside shows.
+        viewport: Viewport::new(5, 6, WIDTH - 12, HEIGHT - 11).expect("a viewport"),
+    }
+}
+
+/// Draws the case and looks at every pixel.
+fn check<D: DepthFormat, S: Subpixel, V: Varying>(
+    case: &Case,
+    planes: (f32, f32),
+    varying: impl Fn(&[f32; 5]) -> V,
+    fragment_stage: impl FragmentStage<V, Color = Rgba8>,
+    sound: impl Fn(D::Stored) -> bool,
+) {
+    let mut color = vec![SENTINEL; (WIDTH * HEIGHT) as usize];
+    let mut depth = vec![D::FARTHEST; color.len()];
+    let mut band = Band::<Rgba8, D>::new(WIDTH, 0, &mut color, &mut depth).expect("whole rows");
+    let view = view(case, planes.0, planes.1);
+    let [columns, rows] = view.viewport.pixels();
+    let pass = Pass {
+        view,
+        vertices: &case.corners,
+        triangles: &case.triangles,
+        vertex_stage: |(p, v): &Corner| (Point3::<Object>::new(Vec3::from_array(*p)), varying(v)),
+        fragment_stage,
+        cull: case.cull,
+        sides: case.sides,
+    };
+    draw(&pass, &mut band, &mut [Slot::<S, V>::EMPTY; 4], &mut ());
+    let places = (0i32..).flat_map(|y| (0i32..).take(WIDTH as usize).map(move |x| (x, y)));
+    for ((x, y), (&pixel, &stored)) in places.zip(color.iter().zip(&depth)) {
+        assert!(sound(stored), "a depth of {stored:?} at {x}, {y}");
+        assert!(
+            pixel == SENTINEL || columns.contains(&x) && rows.contains(&y),
+            "a pixel outside the viewport at {x}, {y}"
+        );
+    }
+}
+
+fn check_all(case: &Case) {
+    let texels = [[1u8, 2, 3, 255], [200, 100, 50, 255], [9, 99, 199, 255]];
+    let texture = Texture::<Rgba8>::new(&texels, 3, 1).expect("a texture");
+    let unlit = || Unlit(texture.sampler::<Bilinear, Mirror>());
+    let uv = |v: &[f32; 5]| Vec2::new(v[0], v[1]);
+    let unit = |d: f32| (0.0..=1.0).contains(&d);
+    check::<F32, Sub8, _>(case, (0.1, 100.0), uv, unlit(), unit);
+    check::<F32Reversed, Sub4, _>(case, (1e-3, 1e6), uv, unlit(), unit);
+    check::<D24, Sub8, _>(
+        case,
+        (1.0, 1.5),
+        |v| Vec3::new(v[2], v[3], v[4]),
+        VertexColor,
+        |d| d <= D24::FARTHEST,
+    );
+    check::<D16, Sub4, _>(
+        case,
+        (1e-20, 1e20),
+        |v| (Vec3::new(v[2], v[3], v[4]), uv(v)),
+        Lambert::new(unlit(), Vector3::new(Vec3::Y), 0.1, 0.9),
+        |_| true,
+    );
+    check::<NoDepth, Sub8, _>(case, (0.5, 3.4e37), |_| (), |()| Some(Rgba8::WHITE), |()| true);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 100_000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_mesh_is_drawn_within_its_viewport_or_not_at_all(case in case()) {
+        check_all(&case);
+    }
+}
+
+/// Half of the random meshes above may be dropped whole; this one is not, which shows that the check can see pixels.
+#[test]
+fn a_sound_mesh_fills_the_viewport() {
+    let far_out = |x: f32, y: f32| ([x, y, 0.0], [0.5; 5]);
+    let case = Case {
+        corners: vec![far_out(-1e4, -1e4), far_out(1e4, -1e4), far_out(0.0, 1e5)],
+        triangles: vec![[0, 1, 2]],
+        matrix: None,
+        sides: Sides::GuardBand,
+        cull: Cull::None,
+    };
+    check_all(&case);
+    let count = std::cell::Cell::new(0);
+    let counting = |(): ()| {
+        count.set(count.get() + 1);
+        Some(Rgba8::WHITE)
+    };
+    check::<NoDepth, Sub8, ()>(&case, (0.5, 10.0), |_| (), counting, |()| true);
+    assert_eq!(count.get(), (WIDTH - 12) * (HEIGHT - 11));
+}
