@@ -2,6 +2,7 @@
 //! ratios up to 10^12, triangles from a pixel to the largest frame, slivers, and values of both signs and many sizes.
 #![allow(
     clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
     clippy::cast_sign_loss,
     reason = "pixels and subpixels are within the guard band"
 )]

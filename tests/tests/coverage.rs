@@ -3,6 +3,7 @@
 #![allow(
     clippy::cast_possible_truncation,
     clippy::cast_possible_wrap,
+    clippy::cast_precision_loss,
     clippy::cast_sign_loss,
     reason = "subpixels are within the guard band, in i32 here and in i64 there"
 )]
@@ -80,11 +81,14 @@ fn adversarial<S: Subpixel>(stream: u64) {
     let guard = i64::from(GUARD_PIXELS) << S::BITS;
     let mut rng = Rng::stream(run_seed(), stream);
     let mut probe = Probe::<NoDepth>::default();
-    let (mut ties, mut covered, mut drawn, mut drawn_ties) = (0, 0, 0, 0);
+    let (mut ties, mut covered, mut spans, mut drawn, mut drawn_ties) = (0, 0, 0, 0, 0);
     for _ in 0..SAMPLES {
         let case = cases::any(&mut rng, S::BITS, guard);
         let (expected, tie) = (covers(case.tri, case.sample), on_a_line(case.tri, case.sample));
         assert_eq!(inside::<S>(case.tri, case.sample), expected, "{case:?}");
+        let walked = in_span::<S>(&mut rng, case.tri, case.sample);
+        assert_eq!(walked.unwrap_or(false), expected, "{case:?}");
+        spans += u64::from(walked.is_some());
         ties += u64::from(tie);
         covered += u64::from(expected);
 
@@ -105,9 +109,11 @@ fn adversarial<S: Subpixel>(stream: u64) {
             assert_eq!(pixel != 0, covers(tri, sample), "{tri:?} at {sample:?}");
         }
     }
-    println!("{SAMPLES} samples, {ties} ties, {covered} covered; {drawn} drawn, {drawn_ties} ties");
+    println!(
+        "{SAMPLES} samples, {ties} ties, {covered} covered, {spans} spans; {drawn} drawn, {drawn_ties} ties"
+    );
     assert!(ties * 20 >= SAMPLES && drawn_ties * 20 >= drawn, "too few ties: {ties}, {drawn_ties}");
-    assert!(covered * 10 >= SAMPLES && drawn * 4 >= SAMPLES * 3, "{covered} {drawn}");
+    assert!(covered * 10 >= SAMPLES && spans * 4 >= SAMPLES && drawn * 4 >= SAMPLES * 3);
 }
 
 fn on_a_line(tri: Triangle, sample: [i64; 2]) -> bool {
@@ -117,6 +123,28 @@ fn on_a_line(tri: Triangle, sample: [i64; 2]) -> bool {
 /// What the edge functions in i64 say, without the rasterizer around them.
 fn inside<S: Subpixel>(tri: Triangle, sample: [i64; 2]) -> bool {
     edges::<i64, S>(tri, sample.map(|c| c as i32)).iter().all(|e| e.value + e.bias >= 0)
+}
+
+/// Whether the sample lies in the span of its row, walked to from some rows above and columns to the left; `None` beside
+/// the triangle's box.
+fn in_span<S: Subpixel>(rng: &mut Rng, tri: Triangle, sample: [i64; 2]) -> Option<bool> {
+    let [column, row] = sample.map(|c| (c >> S::BITS) as i32);
+    let [columns, rows] = [0, 1].map(|axis| samples::<S>(tri, axis));
+    if !columns.contains(&column) || !rows.contains(&row) {
+        return None;
+    }
+    let left = column - within(rng, &(0..1 + (column - columns.start).min(12)));
+    let top = row - within(rng, &(0..1 + (row - rows.start).min(12)));
+    let first = [left, top].map(|i| i * S::ONE + S::HALF);
+    let mut walker = SpanWalker::new(&edges::<i64, S>(tri, first), columns.end - left, rows.end - top);
+    if row - top >= walker.rows() {
+        return Some(false);
+    }
+    for _ in top..row {
+        walker.next_row();
+    }
+    let span = walker.span();
+    Some((span.start..span.end).contains(&(column - left)))
 }
 
 /// The three edges, clockwise on the screen, with their values at `sample`.
