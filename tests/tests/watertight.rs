@@ -240,3 +240,41 @@ fn any_view(rng: &mut Rng, roam: f64) -> View {
         viewport: Viewport::new(0, 0, WIDTH as u32, HEIGHT as u32).expect("a frame"),
     }
 }
+
+/// Two triangles on either side of an edge that ends within a pixel of the guard band's: one of them is cut there because
+/// of its third vertex, and the edge must be cut alike in the other.
+#[test]
+fn an_edge_that_ends_at_the_guard_band_is_cut_in_both_triangles_or_in_neither() {
+    let mut rng = Rng::stream(run_seed(), 77);
+    let view = View {
+        to_eye: Frame::at(Point3::new(Vec3::ZERO)),
+        perspective: Perspective::new(std::f32::consts::FRAC_PI_2, 4.0 / 3.0, 1.0, 100.0).expect("a pyramid"),
+        viewport: Viewport::new(0, 0, WIDTH as u32, HEIGHT as u32).expect("a viewport"),
+    };
+    let mut covered = 0;
+    for i in 0..4000 {
+        // At depth 2, a scaled x of 0.75 x and a viewport of 640 columns about 320.
+        let at_column = |column: f64| ((column - 320.0) / 320.0 * 2.0 / 0.75) as f32;
+        let end = Vec3::new(at_column(rng.uniform(32766.5, 32768.5)), rng.uniform(-90.0, 90.0) as f32, 2.0);
+        let start = Vec3::new(rng.uniform(-2.6, 2.6) as f32, rng.uniform(-2.0, 2.0) as f32, 2.0);
+        let above = end + Vec3::new(230.0, 170.0, 0.0);
+        let below = end - Vec3::new(1.0, 125.0, 0.0);
+        let mut frame = Frame640::new();
+        let mut stats = Stats::default();
+        let mut band = frame.band();
+        let pass = Pass {
+            view,
+            vertices: &[end, start, above, below],
+            triangles: &[[0u16, 1, 2], [1, 0, 3]],
+            vertex_stage: |&p: &Vec3| (Point3::<Object>::new(p), ()),
+            fragment_stage: |()| Some(Rgba8::WHITE),
+            cull: Cull::None,
+            sides: Sides::GuardBand,
+        };
+        draw(&pass, &mut band, &mut [Slot::<Sub8, ()>::EMPTY; 4], &mut stats);
+        let pixels = frame.color.iter().filter(|&&pixel| pixel != 0).count() as u64;
+        assert_eq!(stats.fragments, pixels, "pixels drawn twice in pair {i}: {end} {start} {above} {below}");
+        covered += pixels;
+    }
+    assert!(covered > 10_000_000, "next to nothing was drawn");
+}

@@ -34,3 +34,8 @@ pub(crate) fn test_xtask() -> Outcome {
 pub(crate) fn bench(arguments: &[String]) -> Outcome {
     run(cargo().args(["bench", "--package", "alberti-benches", "--"]).args(arguments))
 }
+
+/// Runs the tests that can look at every single `f32` instead of some.
+pub(crate) fn sweep() -> Outcome {
+    run(cargo().env("ALBERTI_SWEEP", "1").args(["test", "--package", "alberti-texture", "every_257th_float"]))
+}

@@ -77,6 +77,12 @@ const CHORES: &[Chore] = &[
         run: |_| nostd::run(),
     },
     Chore { name: "golden", arguments: "[test]", about: "write the golden images anew", run: golden::run },
+    Chore {
+        name: "sweep",
+        arguments: "",
+        about: "the tests that can look at every single f32, for minutes",
+        run: |_| checks::sweep(),
+    },
     Chore { name: "bench", arguments: "[filter]", about: "run the benchmarks", run: checks::bench },
 ];
 

@@ -1,4 +1,4 @@
-//! The journey of a triangle: the view pipeline's steps, in the lectures' order.
+//! The journey of a triangle: the view pipeline's steps, in the order in which they are taught.
 
 use crate::vertex::{Slot, Transformed, VertexStage, outside};
 use alberti_math::glam::Vec3;
@@ -27,7 +27,7 @@ pub enum Sides {
     /// drawn. Faster, and edges are not moved.
     #[default]
     GuardBand,
-    /// The four sides of the cube, -1 <= xs <= 1 and -1 <= ys <= 1, as in the lectures.
+    /// The four sides of the cube, -1 <= xs <= 1 and -1 <= ys <= 1.
     Cube,
 }
 
@@ -56,8 +56,8 @@ pub struct Pass<'a, T, I, Vs, Fs> {
 /// vertices each vertex is transformed once; with fewer they are a cache; with none, a cache of 16 on the stack is used.
 /// Vertices that are not finite, or larger than `f32::MAX`/16 in eye space, drop their triangles.
 ///
-/// The pixels do not depend on the slots, on the counters, on the order of a triangle's vertices, or on how the frame
-/// is divided into bands.
+/// The pixels do not depend on the slots, on the counters, on which of a triangle's vertices comes first, or on how the
+/// frame is divided into bands.
 pub fn draw<S, T, I, Vs, Fs, C, D, K>(
     pass: &Pass<'_, T, I, Vs, Fs>,
     band: &mut Band<'_, C, D>,
@@ -72,17 +72,19 @@ pub fn draw<S, T, I, Vs, Fs, C, D, K>(
     D: DepthFormat,
     K: Counters,
 {
+    if slots.is_empty() {
+        return draw_with_own_slots::<S, T, I, Vs, Fs, C, D, K>(pass, band, counters);
+    }
+    slots.fill(Slot::EMPTY);
     let depth = pass.view.perspective.depth_map(D::REVERSED);
+    let guard = pass.view.viewport.guard();
     let [columns, rows] = pass.view.viewport.pixels();
     let mut band = band.scissor(columns, rows);
-    let mut own_slots = [Slot::EMPTY; 16];
-    let slots = if slots.is_empty() { &mut own_slots } else { slots };
-    slots.fill(Slot::EMPTY);
 
     for triangle in pass.triangles {
         counters.submitted();
         // Steps 1, 2, 4 and 6 for each vertex, where it allows them.
-        let Some(corners) = fetch(pass, &depth, slots, triangle.map(Into::into)) else {
+        let Some(corners) = fetch(pass, &depth, guard, slots, triangle.map(Into::into)) else {
             counters.dropped();
             continue;
         };
@@ -110,11 +112,30 @@ pub fn draw<S, T, I, Vs, Fs, C, D, K>(
     }
 }
 
+/// [`draw`] with a small cache, kept out of the frame of those who bring their own.
+#[inline(never)]
+fn draw_with_own_slots<S, T, I, Vs, Fs, C, D, K>(
+    pass: &Pass<'_, T, I, Vs, Fs>,
+    band: &mut Band<'_, C, D>,
+    counters: &mut K,
+) where
+    S: Subpixel,
+    I: Copy + Into<u32>,
+    Vs: VertexStage<T>,
+    Fs: FragmentStage<Vs::Varying>,
+    C: Store<Fs::Color>,
+    D: DepthFormat,
+    K: Counters,
+{
+    draw(pass, band, &mut [Slot::<S, Vs::Varying>::EMPTY; 16], counters);
+}
+
 /// The triangle's vertices, transformed; `None` for an index out of range.
 #[inline]
 fn fetch<S, T, I, Vs, Fs>(
     pass: &Pass<'_, T, I, Vs, Fs>,
     depth: &DepthMap,
+    guard: SideBounds,
     slots: &mut [Slot<S, Vs::Varying>],
     triangle: [u32; 3],
 ) -> Option<[Transformed<S, Vs::Varying>; 3]>
@@ -127,7 +148,7 @@ where
         let vertex = pass.vertices.get(index)?;
         Some(Slot::fetch(slots, index, || {
             let (point, varying) = pass.vertex_stage.shade(vertex);
-            Transformed::new(&pass.view, depth, point, varying)
+            Transformed::new(&pass.view, depth, guard, point, varying)
         }))
     };
     Some([corner(triangle[0])?, corner(triangle[1])?, corner(triangle[2])?])
@@ -157,7 +178,6 @@ fn clip_and_draw<S, T, I, Vs, Fs, C, D, K>(
     // 4. Perspective with depth.
     let projected = between.map(|v| perspective.project(depth, &v));
     if !projected.vertices().iter().all(finite) {
-        counters.dropped();
         return;
     }
     // 5. The sides.

@@ -101,7 +101,8 @@ impl<V, S: FragmentStage<V, Color = Rgba8>> FragmentStage<V> for Tinted<S> {
 /// three vertices of each triangle its [`face_normal`].
 ///
 /// # Precision
-/// Within 0.51 of a byte of the formula, from the wrapped stage's bytes.
+/// Within 0.51 of a byte of the formula, from the wrapped stage's bytes, for normals between 1e-18 and 1e18 long. A
+/// shorter or longer one has no direction that could be told, and gets a light between the ambient and the full one.
 ///
 /// # Cost
 /// A square root, a division and about twenty multiplications and additions a fragment.
@@ -129,8 +130,8 @@ impl<V, S: FragmentStage<V, Color = Rgba8>> FragmentStage<(Vec3, V)> for Lambert
     fn shade(&self, (normal, varying): (Vec3, V)) -> Option<Rgba8> {
         let [r, g, b, a] = self.surface.shade(varying)?.to_bytes();
         let cosine = normal.dot(self.to_light) / normal.length();
-        // A vanishing normal gives NaN here, which the comparison takes for no light.
-        let light = self.ambient + self.diffuse * if cosine > 0.0 { cosine } else { 0.0 };
+        // A zero normal gives NaN here, which the comparison takes for no light; one too short may give infinity.
+        let light = self.ambient + self.diffuse * if cosine > 0.0 { cosine.min(1.0) } else { 0.0 };
         let lit = |c: u8| byte(f32::from(c) * light);
         Some(Rgba8::new(lit(r), lit(g), lit(b), a))
     }

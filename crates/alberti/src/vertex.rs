@@ -2,7 +2,7 @@
 
 use crate::pipeline::View;
 use alberti_math::{Fixed, Object, Point3, Subpixel, Varying, is_finite};
-use alberti_projection::{DepthMap, EyeVertex};
+use alberti_projection::{DepthMap, EyeVertex, SideBounds};
 use alberti_raster::Vertex;
 
 /// Maps a mesh vertex to its place in object space and to what it carries.
@@ -68,7 +68,7 @@ pub(crate) mod outside {
     pub(crate) const RIGHT: u8 = 8;
     pub(crate) const BELOW: u8 = 16;
     pub(crate) const ABOVE: u8 = 32;
-    /// Beyond the guard band: it has no snapped position.
+    /// Beyond the guard band: sides must be clipped.
     pub(crate) const GUARD: u8 = 64;
     /// Not finite, or so large that arithmetic might overflow.
     pub(crate) const NOWHERE: u8 = 128;
@@ -81,7 +81,7 @@ pub(crate) struct Transformed<S: Subpixel, V> {
     pub(crate) position: Point3<alberti_math::Eye>,
     /// Bits of [`outside`].
     pub(crate) outside: u8,
-    /// On the screen; meaningless where `outside` has NEAR, FAR, GUARD or NOWHERE.
+    /// On the screen; where `outside` has NEAR, FAR, GUARD or NOWHERE only the varying has a meaning.
     pub(crate) screen: Vertex<S, V>,
 }
 
@@ -90,8 +90,16 @@ const LARGEST: f32 = f32::MAX / 16.0;
 
 impl<S: Subpixel, V: Varying> Transformed<S, V> {
     /// Steps 1 and 2, and for a vertex within the planes also 4 and 6.
+    ///
+    /// `guard` is the bound that the clip uses too: a vertex is clipped in all of its triangles or in none.
     #[inline]
-    pub(crate) fn new(view: &View, depth: &DepthMap, point: Point3<Object>, varying: V) -> Self {
+    pub(crate) fn new(
+        view: &View,
+        depth: &DepthMap,
+        guard: SideBounds,
+        point: Point3<Object>,
+        varying: V,
+    ) -> Self {
         let position = view.perspective.scale(view.to_eye.to_parent(point));
         let p = position.coords;
         let nowhere = Vertex { x: Fixed::ZERO, y: Fixed::ZERO, zs: 0.0, q: 0.0, varying };
@@ -111,7 +119,8 @@ impl<S: Subpixel, V: Varying> Transformed<S, V> {
             return Self { position, outside: sides | planes, screen: nowhere };
         }
         let projected = view.perspective.project(depth, &EyeVertex { position, varying });
-        match view.viewport.to_screen(projected.x, projected.y) {
+        let on_screen = view.viewport.to_screen(projected.x, projected.y);
+        match on_screen.filter(|_| projected.x.abs() <= guard.x && projected.y.abs() <= guard.y) {
             Some([x, y]) => {
                 let screen = Vertex { x, y, zs: projected.zs, q: projected.q, varying };
                 Self { position, outside: sides, screen }

@@ -171,7 +171,7 @@ fn planes(to_center: [f64; 3], view: [f64; 3], radius: f64) -> (f32, f32) {
 /// Whether two directions are so close that their cross product says nothing in f32, or one of them is 0.
 fn parallel(a: [f64; 3], b: [f64; 3]) -> bool {
     match (normalize(a), normalize(b)) {
-        (Some(a), Some(b)) => length(cross(a, b)) < 1e-6,
+        (Some(a), Some(b)) => length(cross(a, b)) < 2e-5,
         _ => true,
     }
 }

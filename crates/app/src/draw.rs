@@ -179,7 +179,10 @@ impl<'a> Canvas<'a> {
             cull,
             sides: Sides::GuardBand,
         };
-        let mut slots = vec![Slot::<Sub8, V>::EMPTY; vertices.len()];
+        // Enough for each vertex of these triangles; a model of many small parts must not pay for all of its vertices
+        // in each.
+        let slots = vertices.len().min(3 * triangles.len());
+        let mut slots = vec![Slot::<Sub8, V>::EMPTY; slots];
         draw(&pass, band, &mut slots, &mut self.stats);
     }
 }

@@ -49,7 +49,7 @@ impl Report<'_> {
         };
         let (width, height) = self.size;
         format!(
-            "{source}: {} triangles drawn in {:.1} ms, {width}x{height} pixels in {}",
+            "{source}: {} triangles in {:.1} ms, {width}x{height} pixels in {}",
             self.stats.submitted,
             ms(self.times.render),
             self.output.display()
@@ -159,6 +159,6 @@ mod tests {
     fn text_names_everything() {
         let report = report(Path::new("a.png"), Source::Model(Path::new("m.obj")));
         assert_eq!(report.text().lines().count(), 11);
-        assert_eq!(report.summary(), "m.obj: 5 triangles drawn in 0.0 ms, 7x6 pixels in a.png");
+        assert_eq!(report.summary(), "m.obj: 5 triangles in 0.0 ms, 7x6 pixels in a.png");
     }
 }

@@ -8,7 +8,7 @@ use alberti_math::{Eye, Frame, Point3, Vector3, World};
 ///
 /// Its axes are x to the right, y up, z forward, unit and perpendicular, so that
 /// [`inverse_orthonormal`](Frame::inverse_orthonormal) (rotation transposed, translation negated) gives the step from
-/// world to eye coordinates. The world is right-handed and the eye's frame is left-handed, as in the lectures: depth
+/// world to eye coordinates. The world is right-handed and the eye's frame is left-handed: depth
 /// grows with z.
 ///
 /// # Errors

@@ -64,8 +64,9 @@ impl DepthMap {
     /// The screen depth zs of a point at eye depth `z` in [A, B]; always in [0, 1].
     ///
     /// # Precision
-    /// Within 2ε of α + β/z, absolutely. Monotone: division and addition are correctly rounded, so a larger z never
-    /// gives a smaller zs (larger, for the reversed map).
+    /// Within (α + 1/2)ε of its own α + β/z, absolutely (α' + 1/2 for the reversed map), and within (3α + 1/2)ε of that
+    /// of the planes themselves: 1.5ε and 3ε for B/A >= 4, more as the planes approach each other. Monotone: division
+    /// and addition are correctly rounded, so a larger z never gives a smaller zs (larger, for the reversed map).
     #[must_use]
     #[inline]
     pub fn zs(&self, z: f32) -> f32 {

@@ -71,7 +71,7 @@ impl Perspective {
     /// The vertex is in eye space, scaled by [`scale`](Self::scale) and within the near and far planes, so ze >= A > 0.
     ///
     /// # Precision
-    /// xs, ys and q are correctly rounded quotients (within ε, relatively); zs within 2ε, absolutely.
+    /// xs, ys and q are correctly rounded quotients (within ε, relatively); for zs see [`DepthMap::zs`].
     #[must_use]
     #[inline]
     pub fn project<V: Varying>(&self, depth: &DepthMap, v: &EyeVertex<V>) -> ProjectedVertex<V> {
@@ -87,8 +87,9 @@ impl Perspective {
 fn cot_half(x: f64) -> f64 {
     let y = x / 4.0;
     let square = -y * y;
-    let series = |first: f64| {
-        let (mut term, mut sum, mut k) = (first, first, if first == 1.0 { 0.0 } else { 1.0 });
+    // From y^k on, every other power: cosine from 0, sine from 1.
+    let series = |first: f64, mut k: f64| {
+        let (mut term, mut sum) = (first, first);
         for _ in 0..9 {
             term *= square / ((k + 1.0) * (k + 2.0));
             sum += term;
@@ -96,7 +97,7 @@ fn cot_half(x: f64) -> f64 {
         }
         sum
     };
-    let (sine, cosine) = (series(y), series(1.0));
+    let (sine, cosine) = (series(y, 1.0), series(1.0, 0.0));
     (cosine - sine) * (cosine + sine) / (2.0 * sine * cosine)
 }
 

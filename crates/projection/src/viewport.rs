@@ -53,8 +53,8 @@ impl Viewport {
     /// every position by exactly as much.
     ///
     /// # Precision
-    /// The offset is a correctly rounded product: within ε·|offset| (at most 2^-10 pixel at the guard band's edge, 2^-14
-    /// within a 1024 pixel viewport) plus 2^-(BITS+1) pixel for the snapping.
+    /// The offset is a correctly rounded product: within ε·|offset| (2^-15 pixel within a 1024 pixel viewport, at most
+    /// 2^-8 at the far edge of the guard band) plus 2^-(BITS+1) pixel for the snapping.
     #[must_use]
     #[inline]
     pub fn to_screen<S: Subpixel>(&self, xs: f32, ys: f32) -> Option<[Fixed<S>; 2]> {

@@ -127,7 +127,8 @@ impl DepthFormat for F32Reversed {
 #[inline]
 #[expect(clippy::cast_possible_truncation, reason = "the result has BITS <= 24 bits")]
 fn quantize<const BITS: u32>(zs: f32) -> u32 {
-    let bits = zs.to_bits();
+    // Without the sign, so that -0 is 0.
+    let bits = zs.to_bits() & 0x7fff_ffff;
     // zs = mantissa * 2^-shift; the product has at most 48 bits, and from a shift of 49 on it rounds to 0.
     let mantissa = u64::from((bits & 0x007f_ffff) | 0x0080_0000);
     let shift = 150u32.saturating_sub(bits >> 23).clamp(1, 63);
@@ -163,6 +164,7 @@ mod tests {
     fn halves_go_up_and_the_ends_are_the_ends() {
         assert_eq!((D16::encode(0.0), D16::encode(1.0)), (0, D16::FARTHEST));
         assert_eq!((D24::encode(0.0), D24::encode(1.0)), (0, D24::FARTHEST));
+        assert_eq!((D16::encode(-0.0), D24::encode(-0.0)), (0, 0));
         assert_eq!(D16::encode(0.5), 32768);
         assert_eq!(D24::encode(0.5), 1 << 23);
     }

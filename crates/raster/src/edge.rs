@@ -98,6 +98,9 @@ pub struct Edge<I> {
 
 impl<I: EdgeInt> Edge<I> {
     /// The edge from `a` to `b` with its value at `sample`; positions in subpixels, of which a pixel has `one`.
+    ///
+    /// The three positions must be such that `I` holds what is computed: within the guard band for `i64`, and also within
+    /// [`FITS_I32`] for `i32`. Beyond, arithmetic overflows, which panics where overflow is checked.
     #[must_use]
     #[inline]
     pub fn new(a: [i32; 2], b: [i32; 2], sample: [i32; 2], one: i32) -> Self {

@@ -7,7 +7,8 @@ use alberti_math::{Varying, hull3};
 /// and qi = 1/zi.
 ///
 /// # Precision
-/// Within 9ε·max|ui| of the exact value at the sample, for any ratio of the qi (ε = 2^-24): ti carries two roundings
+/// Within 9ε·max|ui| of the exact value at the sample (ε = 2^-24; 5.1ε is the most that was measured, over ratios of the
+/// qi up to 10^12), barring over- and underflow: up to |ui| = 2^77 and ratios of 2^126. The reason: ti carries two roundings
 /// (Ei to f32, the product), the same in the numerator and the denominator, which changes a convex combination by at
 /// most ε·range <= 2ε·max|u|; the numerator's products and sums add 3ε, the denominator's sums 2ε, the reciprocal and
 /// its product ε each. Counted from zi instead of qi the bound is 10ε. The result never leaves the range of the three
@@ -60,7 +61,7 @@ impl<L: Lanes, V: Varying> core::fmt::Debug for Exact<L, V> {
     }
 }
 
-/// The power of two s for which x s lies in [1, 2), so that no product with an edge function can overflow or lose
+/// The power of two s for which x s lies in [1, 2), so that no weight can overflow or, for ratios of q up to 2^126, lose
 /// bits; multiplying by it is exact.
 #[inline]
 fn power_of_two_near(x: f32) -> f32 {

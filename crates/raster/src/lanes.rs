@@ -13,8 +13,8 @@ pub(crate) type Native = Vec4;
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64", target_feature = "simd128")))]
 pub(crate) type Native = f32;
 
-/// A number of samples side by side along a row.
-pub trait Lanes: Copy + Add<Output = Self> + Mul<Output = Self> + Div<Output = Self> {
+/// A number of samples side by side along a row: `f32` is one, `Vec4` four.
+pub trait Lanes: Sealed + Copy + Add<Output = Self> + Mul<Output = Self> + Div<Output = Self> {
     /// How many.
     const COUNT: usize;
     /// An edge function at each sample.
@@ -35,6 +35,12 @@ pub trait Lanes: Copy + Add<Output = Self> + Mul<Output = Self> + Div<Output = S
     /// Rounds to `f32`.
     fn weight<I: EdgeInt>(edge: Self::Edge<I>) -> Self;
 }
+
+/// Keeps other widths out, for which the kernel has no code.
+pub trait Sealed {}
+
+impl Sealed for f32 {}
+impl Sealed for Vec4 {}
 
 impl Lanes for f32 {
     const COUNT: usize = 1;

@@ -13,6 +13,7 @@ mod edge;
 mod exact;
 mod fragment;
 mod lanes;
+mod paint;
 mod spans;
 mod triangle;
 

@@ -82,7 +82,7 @@ pub struct SpanWalker<I> {
 
 impl<I: EdgeInt> SpanWalker<I> {
     /// Starts at the row of the edges' reference sample, which is column 0 of a box of `width` columns and `rows` rows
-    /// of samples between the triangle's topmost and lowest vertex.
+    /// of samples between the triangle's topmost and lowest vertex. The bounds of [`Edge::new`] hold for all of the box.
     #[must_use]
     #[inline]
     pub fn new(edges: &[Edge<I>; 3], width: i32, rows: i32) -> Self {
