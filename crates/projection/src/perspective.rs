@@ -108,7 +108,7 @@ mod tests {
     #[test]
     fn the_cotangent_is_that_of_the_standard_library() {
         let mut x = 1e-6f64;
-        while x < 3.1415 {
+        while x < core::f64::consts::PI - 1e-4 {
             let expected = 1.0 / (x / 2.0).tan();
             // Near π the reference's own argument reduction loses what the cotangent's zero amplifies.
             assert!((cot_half(x) - expected).abs() <= 1e-15 * expected.abs().max(1.0), "{x}");
