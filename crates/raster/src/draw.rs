@@ -23,7 +23,7 @@ use core::ops::Range;
 ///
 /// # Precision
 /// Coverage is exact. Depth is within 6ε of the plane through the three zs, relatively and barring underflow, and within their range;
-/// varyings are those of [`Exact`].
+/// varyings are those of [`Exact`](crate::Exact).
 ///
 /// # Cost
 /// Six integer divisions for the edges and three of `f32` for depth; 32-bit edge functions for triangles up to 179 pixels
