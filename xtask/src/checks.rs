@@ -1,15 +1,42 @@
 //! The checks that are one call of cargo each.
 
 use crate::command::{Outcome, cargo, run};
+use crate::workspace::{self, FIRMWARE};
 
-/// Checks the formatting of every member.
+/// Checks the formatting of every member, and of the firmware.
 pub(crate) fn fmt() -> Outcome {
-    run(cargo().args(["fmt", "--all", "--check"]))
+    run(cargo().args(["fmt", "--all", "--check"]))?;
+    // Not `--all`: it follows paths, and would read the crates again.
+    let (manifest, [programs, scenes]) = FIRMWARE;
+    run(cargo().args([
+        "fmt",
+        "--check",
+        "--manifest-path",
+        manifest,
+        "--package",
+        programs,
+        "--package",
+        scenes,
+    ]))
 }
 
-/// Runs clippy on every member and target, benchmarks included, with warnings as errors.
+/// Runs clippy on every member and target, benchmarks included, and on the firmware's scenes, with warnings as errors.
 pub(crate) fn lint() -> Outcome {
-    run(cargo().args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]))
+    run(cargo().args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]))?;
+    let (manifest, [_, scenes]) = FIRMWARE;
+    let mut clippy = cargo();
+    clippy.args([
+        "clippy",
+        "--manifest-path",
+        manifest,
+        "--package",
+        scenes,
+        "--features",
+        "std",
+        "--all-targets",
+    ]);
+    clippy.arg("--target-dir").arg(workspace::target_directory());
+    run(clippy.args(["--", "-D", "warnings"]))
 }
 
 /// Builds the documentation of every library with warnings as errors.

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use crate::command::Outcome;
-use crate::{checks, nostd, package, tidy};
+use crate::{checks, firmware, nostd, package, tidy};
 
 /// The name that the summary and a failure use, and the check.
 type Step = (&'static str, fn() -> Outcome);
@@ -11,7 +11,7 @@ type Step = (&'static str, fn() -> Outcome);
 /// Runs every check in order and stops at the first that fails.
 ///
 /// The order is by what a failure costs to find: text first, then one compilation, then the tests, then the builds
-/// that start from nothing.
+/// that start from nothing, and what runs in an emulator.
 pub(crate) fn run(arguments: &[String]) -> Outcome {
     let tests_done = match arguments {
         [] => false,
@@ -32,6 +32,7 @@ fn steps(tests_done: bool) -> Vec<Step> {
         test,
         ("package", package::run),
         ("nostd", nostd::run),
+        ("firmware", || firmware::run(&[])),
     ]
 }
 

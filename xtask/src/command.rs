@@ -34,7 +34,7 @@ pub(crate) fn output(command: &mut Command) -> Result<String, String> {
 }
 
 /// The command as a person would type it: the variables that were set for it, the program's bare name, the arguments.
-fn describe(command: &Command) -> String {
+pub(crate) fn describe(command: &Command) -> String {
     let mut words = Vec::new();
     for (name, value) in command.get_envs() {
         if let Some(value) = value {

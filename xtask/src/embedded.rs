@@ -55,11 +55,20 @@ impl Toolchain {
                 .env(linker_variable(target), linker);
             // Cargo lets this program find the active toolchain's libraries; Debian's rustc must find its own.
             command.env_remove("LD_LIBRARY_PATH");
-            // A directory of its own, or each build would throw away what the other compiler has built.
-            command.args(["-Z", "build-std=core", "--target-dir"]);
-            command.arg(workspace::target_directory().join("build-std"));
+            command.args(["-Z", "build-std=core"]);
         }
+        command.arg("--target-dir").arg(self.directory());
         command
+    }
+
+    /// Cargo's target directory in such builds, for packages outside this workspace too.
+    pub(crate) fn directory(&self) -> PathBuf {
+        let directory = workspace::target_directory();
+        match self {
+            Toolchain::Installed => directory,
+            // One of its own, or each build would throw away what the other compiler has built.
+            Toolchain::BuildStd { .. } => directory.join("build-std"),
+        }
     }
 }
 

@@ -7,6 +7,7 @@ mod checks;
 mod ci;
 mod command;
 mod embedded;
+mod firmware;
 mod golden;
 mod nostd;
 mod package;
@@ -76,6 +77,12 @@ const CHORES: &[Chore] = &[
         about: "build the libraries for Cortex-M0 and Cortex-M4F",
         run: |_| nostd::run(),
     },
+    Chore {
+        name: "firmware",
+        arguments: "[--board b]",
+        about: "run scenes in an emulator: same bits as here, instructions, code size (boards: m0, m4f, rv32)",
+        run: firmware::run,
+    },
     Chore { name: "golden", arguments: "[test]", about: "write the golden images anew", run: golden::run },
     Chore {
         name: "sweep",
@@ -117,7 +124,7 @@ fn help() -> String {
     let mut text = String::from("usage: cargo xtask <command>\n\n");
     for chore in CHORES {
         let call = format!("{} {}", chore.name, chore.arguments);
-        text.push_str(&format!("  {call:<20}  {}\n", chore.about));
+        text.push_str(&format!("  {call:<22}  {}\n", chore.about));
     }
     text.push_str("\n`ci --tests-done` leaves out `cargo test`: the caller has just run it on this tree.\n");
     text

@@ -14,7 +14,7 @@ pub(crate) struct Library {
 
 /// The crates that run on a microcontroller, each after the crates that it uses.
 pub(crate) const LIBRARIES: &[Library] = &[
-    Library { package: "alberti-math", folder: "math", may_use: &[] },
+    Library { package: "alberti-math", folder: "math", may_use: &["fearless_simd"] },
     Library { package: "alberti-projection", folder: "projection", may_use: &["alberti-math"] },
     Library { package: "alberti-raster", folder: "raster", may_use: &["alberti-math"] },
     Library { package: "alberti-texture", folder: "texture", may_use: &["alberti-math"] },
@@ -30,6 +30,11 @@ pub(crate) const EXTERNAL: &[&str] = &["glam", "libm"];
 
 /// The published crates that need an operating system, as (package, folder below `crates/`).
 pub(crate) const APPLICATIONS: &[(&str, &str)] = &[("alberti-app", "app")];
+
+/// The manifest of the workspace of programs for microcontrollers, and its packages: the programs, and the scenes that
+/// the host draws too.
+pub(crate) const FIRMWARE: (&str, [&str; 2]) =
+    ("tests/firmware/Cargo.toml", ["alberti-firmware", "alberti-firmware-scenes"]);
 
 /// Every package that would be published, each after the packages that it uses.
 pub(crate) fn published() -> impl Iterator<Item = &'static str> {

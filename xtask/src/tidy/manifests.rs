@@ -146,7 +146,7 @@ mod tests {
         assert_eq!(
             found("crates/math/Cargo.toml", &text),
             [
-                "crates/math/Cargo.toml:3: `alberti-math` must not depend on `alberti-raster`, only on glam, libm"
+                "crates/math/Cargo.toml:3: `alberti-math` must not depend on `alberti-raster`, only on fearless_simd, glam, libm"
             ]
         );
         assert_eq!(found("crates/texture/Cargo.toml", &text).len(), 1);

@@ -1,0 +1,200 @@
+//! The meshes and the texture, made at compile time, so that they lie in flash.
+//!
+//! Positions are in the eye's orientation: x right, y up, z away. The circles of the torus are made by the rational
+//! parametrisation ((1 - t²)/(1 + t²), 2t/(1 + t²)): sines and cosines would differ between platforms.
+
+use crate::{HEIGHT, WIDTH};
+use alberti::glam::{Mat3, Vec3};
+use alberti::texture::{Texture, format::Rgb565};
+use alberti::{Eye, Frame, Object, Point3};
+
+/// Width by height of the frame.
+#[expect(clippy::cast_precision_loss, reason = "small integers")]
+pub const ASPECT: f32 = WIDTH as f32 / HEIGHT as f32;
+
+/// All that the ways of drawing may carry.
+#[derive(Clone, Copy, Debug)]
+pub struct Vertex {
+    /// In object space.
+    pub position: [f32; 3],
+    /// Red, green and blue in [0, 1].
+    pub color: [f32; 3],
+    /// In textures: 1 is a whole one.
+    pub uv: [f32; 2],
+}
+
+impl Vertex {
+    const ZERO: Self = Self { position: [0.0; 3], color: [0.0; 3], uv: [0.0; 2] };
+}
+
+/// What a scene shows.
+#[derive(Clone, Copy, Debug)]
+pub struct Model {
+    /// The mesh's vertices.
+    pub vertices: &'static [Vertex],
+    /// Three indices each, counter-clockwise as seen from the front.
+    pub triangles: &'static [[u16; 3]],
+    /// Where the mesh stands.
+    pub to_eye: Frame<Object, Eye>,
+    /// What it wears where it is textured.
+    pub texture: Texture<'static, Rgb565>,
+}
+
+/// So many tilted quads over the whole frame and a quarter beyond, each nearer than those before it.
+#[must_use]
+pub const fn layers(count: usize) -> Model {
+    Model {
+        vertices: QUADS.split_at(4 * count).0,
+        triangles: QUAD_TRIANGLES.split_at(2 * count).0,
+        to_eye: Frame::IDENTITY,
+        texture: texture(&CHEQUER, 128),
+    }
+}
+
+/// A torus that is so many times its size, tilted by the angle of the triangle with the sides 3, 4 and 5.
+#[must_use]
+pub const fn torus(size: f32) -> Model {
+    let axes = Mat3::from_cols(
+        Vec3::new(size, 0.0, 0.0),
+        Vec3::new(0.0, 0.6 * size, 0.8 * size),
+        Vec3::new(0.0, -0.8 * size, 0.6 * size),
+    );
+    Model {
+        vertices: &TORUS_VERTEX_LIST,
+        triangles: &TORUS_TRIANGLE_LIST,
+        to_eye: Frame::from_mat3(axes, Point3::new(Vec3::new(0.0, 0.0, 2.35))),
+        texture: texture(&CHEQUER, 128),
+    }
+}
+
+/// What the programs draw whose size alone is of interest: one quad with four texels.
+pub static PROBE: Model = Model { texture: texture(&[0xf800, 0x07e0, 0x001f, 0xffff], 2), ..layers(1) };
+
+const fn texture(texels: &'static [u16], side: u32) -> Texture<'static, Rgb565> {
+    match Texture::new(texels, side, side) {
+        Ok(texture) => texture,
+        Err(_) => panic!("the texels are a square of this side"),
+    }
+}
+
+/// The most layers that there are.
+const LAYERS: usize = 4;
+
+static QUADS: [Vertex; 4 * LAYERS] = {
+    let corners = [[-1.25, -1.25], [1.25, -1.25], [1.25, 1.25], [-1.25, 1.25]];
+    let tilts = [[0.04, 0.024], [-0.04, 0.024], [-0.04, -0.024], [0.04, -0.024]];
+    let colors = [[1.0, 0.9, 0.2], [0.1, 0.8, 0.3], [0.2, 0.3, 1.0], [0.9, 0.1, 0.4]];
+    let mut vertices = [Vertex::ZERO; 4 * LAYERS];
+    // How near the layer is in the middle: one over its distance, which is linear on the screen.
+    let mut middle = 0.15;
+    let mut layer = 0;
+    while layer < LAYERS {
+        let mut k = 0;
+        while k < 4 {
+            let [x, y] = corners[k];
+            let q = middle + tilts[layer][0] * x + tilts[layer][1] * y;
+            let position = [x * ASPECT / q, y / q, 1.0 / q];
+            let uv = [position[0] * 0.5, position[1] * 0.5];
+            vertices[4 * layer + k] = Vertex { position, color: colors[(k + layer) % 4], uv };
+            k += 1;
+        }
+        middle += 0.2;
+        layer += 1;
+    }
+    vertices
+};
+
+static QUAD_TRIANGLES: [[u16; 3]; 2 * LAYERS] = {
+    let mut triangles = [[0; 3]; 2 * LAYERS];
+    let (mut layer, mut first) = (0, 0);
+    while layer < LAYERS {
+        triangles[2 * layer] = [first, first + 1, first + 2];
+        triangles[2 * layer + 1] = [first, first + 2, first + 3];
+        layer += 1;
+        first += 4;
+    }
+    triangles
+};
+
+/// Cells of the torus along its ring, and around its tube: multiples of four, for the quarters of a circle.
+const ALONG: u16 = 92;
+const AROUND: u16 = 32;
+/// Radius of the ring and of the tube.
+const RADII: [f32; 2] = [1.0, 0.45];
+
+/// The number of the torus's vertices: those of the seams are there twice, for their texture coordinates.
+pub const TORUS_VERTICES: usize = (ALONG as usize + 1) * (AROUND as usize + 1);
+const TORUS_TRIANGLES: usize = 2 * ALONG as usize * AROUND as usize;
+
+static TORUS_VERTEX_LIST: [Vertex; TORUS_VERTICES] = {
+    let mut vertices = [Vertex::ZERO; TORUS_VERTICES];
+    let (mut at, mut i) = (0, 0);
+    while i <= ALONG {
+        let [ring_x, ring_y] = circle(i, ALONG);
+        let mut j = 0;
+        while j <= AROUND {
+            let [out, up] = circle(j, AROUND);
+            let radius = RADII[0] + RADII[1] * out;
+            let position = [radius * ring_x, radius * ring_y, RADII[1] * up];
+            let color = [0.5 + 0.5 * ring_x, 0.5 + 0.5 * ring_y, 0.5 + 0.5 * up];
+            vertices[at] = Vertex { position, color, uv: [6.0 * part(i, ALONG), 2.0 * part(j, AROUND)] };
+            at += 1;
+            j += 1;
+        }
+        i += 1;
+    }
+    vertices
+};
+
+static TORUS_TRIANGLE_LIST: [[u16; 3]; TORUS_TRIANGLES] = {
+    let mut triangles = [[0; 3]; TORUS_TRIANGLES];
+    let row = AROUND + 1;
+    let (mut at, mut i) = (0, 0);
+    while i < ALONG {
+        let mut j = 0;
+        while j < AROUND {
+            let first = i * row + j;
+            triangles[at] = [first, first + row + 1, first + row];
+            triangles[at + 1] = [first, first + 1, first + row + 1];
+            at += 2;
+            j += 1;
+        }
+        i += 1;
+    }
+    triangles
+};
+
+/// The point `i` of `count` on the unit circle, the last being the first: equal steps of t in each quarter.
+const fn circle(i: u16, count: u16) -> [f32; 2] {
+    let quarter = count / 4;
+    let t = part(i % quarter, quarter);
+    let (x, y) = ((1.0 - t * t) / (1.0 + t * t), 2.0 * t / (1.0 + t * t));
+    match i / quarter % 4 {
+        0 => [x, y],
+        1 => [-y, x],
+        2 => [-x, -y],
+        _ => [y, -x],
+    }
+}
+
+const fn part(i: u16, count: u16) -> f32 {
+    i as f32 / count as f32
+}
+
+/// 128 by 128 texels; the squares are told apart by their colours.
+static CHEQUER: [u16; 128 * 128] = {
+    let mut texels = [0; 128 * 128];
+    let (mut at, mut y) = (0, 0_u16);
+    while y < 128 {
+        let mut x = 0;
+        while x < 128 {
+            let dark = (x / 16 + y / 16) % 2;
+            let (red, green, blue) = (x / 4, y / 2, 31 - (x ^ y) / 4);
+            texels[at] = (red >> dark) << 11 | (green >> dark) << 5 | blue >> dark;
+            at += 1;
+            x += 1;
+        }
+        y += 1;
+    }
+    texels
+};

@@ -1,0 +1,172 @@
+//! Running the firmware of `tests/firmware` in an emulator.
+//!
+//! The same scenes are drawn by each board and by the host. Every frame must have equal bits; what a frame costs is
+//! told in executed instructions, which are the same on every run, and the code in bytes of the programs that draw
+//! one thing and do nothing else.
+
+mod elf;
+mod emulator;
+mod frames;
+
+use std::fs;
+
+use crate::command::{self, Outcome, cargo, output};
+use crate::embedded::Toolchain;
+use crate::workspace::{self, FIRMWARE};
+use elf::Program;
+use emulator::Emulator;
+use frames::{Drawn, Expected};
+
+/// A machine that the firmware runs on.
+struct Board {
+    /// What `--board` takes.
+    name: &'static str,
+    /// For people.
+    core: &'static str,
+    target: &'static str,
+    emulator: Emulator,
+    /// A tick of `alberti_firmware::ticks` is so many instructions: a fraction.
+    instructions_per_tick: (u64, u64),
+}
+
+/// Every board, and the three kinds of core: without hardware for `f32`, with it, and another architecture.
+///
+/// The emulator's time advances by 2^shift ns with each instruction. The counter of the MPS2 ticks every 40 ns of it, so
+/// 32 ns an instruction are 4/5 of a tick, and 32 bits last for 5 thousand million instructions. RISC-V's counter of
+/// instructions counts nanoseconds in some versions of QEMU; with 1 ns an instruction these are the same.
+const BOARDS: &[Board] = &[
+    Board {
+        name: "m0",
+        core: "Cortex-M0 code on a Cortex-M3",
+        target: "thumbv6m-none-eabi",
+        emulator: Emulator { program: "qemu-system-arm", machine: &["-machine", "mps2-an385"], shift: 5 },
+        instructions_per_tick: (5, 4),
+    },
+    Board {
+        name: "m4f",
+        core: "Cortex-M4F",
+        target: "thumbv7em-none-eabihf",
+        emulator: Emulator { program: "qemu-system-arm", machine: &["-machine", "mps2-an386"], shift: 5 },
+        instructions_per_tick: (5, 4),
+    },
+    Board {
+        name: "rv32",
+        core: "RV32IMC",
+        target: "riscv32imc-unknown-none-elf",
+        emulator: Emulator {
+            program: "qemu-system-riscv32",
+            machine: &["-machine", "virt", "-bios", "none"],
+            shift: 0,
+        },
+        instructions_per_tick: (1, 1),
+    },
+];
+
+/// The program that draws all scenes, and those that are weighed.
+const FRAMES: &str = "alberti-firmware";
+const WEIGHED: &[&str] = &["size-flat", "size-textured"];
+
+/// Builds the firmware for the boards, runs it, compares and reports. Stops at the end only, so that a difference on
+/// one board is seen beside the others.
+pub(crate) fn run(arguments: &[String]) -> Outcome {
+    let boards = chosen(arguments)?;
+    // What is missing is said before anything is built.
+    for board in &boards {
+        board.emulator.find()?;
+        Toolchain::find(board.target)?;
+    }
+    let expected = expected()?;
+    let mut failures = Vec::new();
+    for board in boards {
+        failures.extend(check(board, &expected).err());
+    }
+    if failures.is_empty() { Ok(()) } else { Err(format!("there are failures:\n{}", failures.join("\n"))) }
+}
+
+/// The boards that the arguments name: one or all.
+fn chosen(arguments: &[String]) -> Result<Vec<&'static Board>, String> {
+    match arguments {
+        [] => Ok(BOARDS.iter().collect()),
+        [flag, name] if flag == "--board" => {
+            let board = BOARDS.iter().find(|board| board.name == name).ok_or_else(|| {
+                let names: Vec<&str> = BOARDS.iter().map(|board| board.name).collect();
+                format!("there is no board `{name}`, only {}", names.join(", "))
+            })?;
+            Ok(vec![board])
+        }
+        _ => Err(format!("expected nothing or `--board` and a name, found `{}`", arguments.join(" "))),
+    }
+}
+
+/// The frames as the host draws them.
+fn expected() -> Result<Vec<Expected>, String> {
+    let (manifest, [_, scenes]) = FIRMWARE;
+    let call = |subcommand: &str| {
+        let mut command = cargo();
+        command.args([subcommand, "--release", "--manifest-path", manifest, "--package", scenes]);
+        command.args(["--features", "std", "--target-dir"]).arg(workspace::target_directory());
+        command
+    };
+    // Built first and on its own, so that one sees what takes so long.
+    command::run(&mut call("build"))?;
+    frames::expected(&output(call("run").arg("--quiet"))?)
+}
+
+/// Builds for one board, runs there, prints the tables; frames that differ are the error.
+fn check(board: &Board, expected: &[Expected]) -> Outcome {
+    let toolchain = Toolchain::find(board.target)?;
+    let (manifest, [programs, _]) = FIRMWARE;
+    let mut build = toolchain.cargo("build", board.target);
+    command::run(build.args(["--release", "--manifest-path", manifest, "--package", programs]))?;
+    let folder = toolchain.directory().join(board.target).join("release");
+
+    let text = board
+        .emulator
+        .run(&folder.join(FRAMES))
+        .map_err(|message| format!("board {}: {message}", board.name))?;
+    let mut drawn = frames::drawn(&text).map_err(|message| format!("board {}: {message}", board.name))?;
+    let (numerator, denominator) = board.instructions_per_tick;
+    for Drawn { cost, .. } in &mut drawn {
+        *cost = *cost * numerator / denominator;
+    }
+
+    println!("\n{}: {} ({}, {})", board.name, board.core, board.target, board.emulator.machine[1]);
+    println!("\n{}", frames::table(expected, &drawn));
+    println!("    {:<18}{:>10}{:>10}{:>10}", "program, bytes", ".text", ".rodata", "both");
+    for name in WEIGHED {
+        let path = folder.join(name);
+        let file = fs::read(&path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+        let program = Program::read(&file).map_err(|message| format!("{}: {message}", path.display()))?;
+        let [text, rodata] = [program.text, program.rodata];
+        println!("    {name:<18}{text:>10}{rodata:>10}{:>10}", text + rodata);
+        if !program.panics.is_empty() {
+            println!("    {:<18}can panic: {}", "", program.panics.join(", "));
+        }
+    }
+    println!();
+    let differences = frames::differences(board.name, expected, &drawn);
+    if differences.is_empty() { Ok(()) } else { Err(differences.join("\n")) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(arguments: &[&str]) -> Result<Vec<&'static str>, String> {
+        let arguments: Vec<String> = arguments.iter().map(|argument| argument.to_string()).collect();
+        Ok(chosen(&arguments)?.iter().map(|board| board.name).collect())
+    }
+
+    #[test]
+    fn one_board_or_all() {
+        assert_eq!(names(&[]), Ok(vec!["m0", "m4f", "rv32"]));
+        assert_eq!(names(&["--board", "m4f"]), Ok(vec!["m4f"]));
+    }
+
+    #[test]
+    fn other_arguments_are_refused() {
+        assert_eq!(names(&["--board", "m7"]), Err("there is no board `m7`, only m0, m4f, rv32".into()));
+        assert!(names(&["m4f"]).unwrap_err().contains("`m4f`"));
+        assert!(names(&["--board"]).unwrap_err().contains("`--board`"));
+    }
+}

@@ -1,0 +1,161 @@
+//! What the programs print about their frames, the comparison, and the table.
+
+/// A frame as the host draws it: `frame NAME HASH TRIANGLES PIXELS`.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Expected {
+    name: String,
+    /// As it is printed; it is only compared.
+    hash: String,
+    /// Submitted triangles.
+    triangles: u64,
+    /// Written pixels, each as often as it is written.
+    pixels: u64,
+}
+
+/// A frame as a board draws it: `frame NAME HASH TICKS`.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Drawn {
+    name: String,
+    hash: String,
+    /// Of the drawing alone: ticks as printed; the caller turns them into instructions.
+    pub(super) cost: u64,
+}
+
+/// Reads what the host's program prints.
+pub(super) fn expected(text: &str) -> Result<Vec<Expected>, String> {
+    let frames = lines(text)?.into_iter().map(|(name, hash, numbers)| match numbers[..] {
+        [triangles, pixels] => Ok(Expected { name, hash, triangles, pixels }),
+        _ => Err(format!("the host's line of `{name}` has {} numbers, expected 2", numbers.len())),
+    });
+    let frames = frames.collect::<Result<Vec<_>, _>>()?;
+    if frames.is_empty() { Err("the host drew no frames".into()) } else { Ok(frames) }
+}
+
+/// Reads what a board prints.
+pub(super) fn drawn(text: &str) -> Result<Vec<Drawn>, String> {
+    let frames = lines(text)?.into_iter().map(|(name, hash, numbers)| match numbers[..] {
+        [cost] => Ok(Drawn { name, hash, cost }),
+        _ => Err(format!("the line of `{name}` has {} numbers, expected 1", numbers.len())),
+    });
+    frames.collect()
+}
+
+/// The lines as name, hash and numbers.
+fn lines(text: &str) -> Result<Vec<(String, String, Vec<u64>)>, String> {
+    let read = |line: &str| {
+        let mut words = line.split_whitespace();
+        let (Some("frame"), Some(name), Some(hash)) = (words.next(), words.next(), words.next()) else {
+            return None;
+        };
+        let numbers = words.map(|word| word.parse().ok()).collect::<Option<Vec<u64>>>()?;
+        Some((name.to_string(), hash.to_string(), numbers))
+    };
+    text.lines().map(|line| read(line).ok_or_else(|| format!("found `{line}`, expected a frame"))).collect()
+}
+
+/// One line for each frame that a board draws otherwise than the host, or not at all.
+pub(super) fn differences(board: &str, expected: &[Expected], drawn: &[Drawn]) -> Vec<String> {
+    let mut lines = Vec::new();
+    for Expected { name, hash, .. } in expected {
+        match drawn.iter().find(|frame| frame.name == *name) {
+            Some(frame) if frame.hash == *hash => {}
+            Some(frame) => lines.push(format!(
+                "board {board}, scene {name}: the frame's hash is {}, expected {hash} as on the host",
+                frame.hash
+            )),
+            None => {
+                lines.push(format!("board {board}, scene {name}: no frame, expected {hash} as on the host"));
+            }
+        }
+    }
+    let unknown = drawn.iter().filter(|frame| expected.iter().all(|known| known.name != frame.name));
+    lines.extend(
+        unknown.map(|frame| format!("board {board}, scene {}: the host has no such scene", frame.name)),
+    );
+    lines
+}
+
+/// The frames with their costs in instructions.
+pub(super) fn table(expected: &[Expected], drawn: &[Drawn]) -> String {
+    let mut text = format!(
+        "    {:<18}{:>10}{:>17}{:>12}{:>15}\n",
+        "scene", "bits", "instructions", "per pixel", "per triangle"
+    );
+    for scene in expected {
+        let name = &scene.name;
+        let Some(frame) = drawn.iter().find(|frame| frame.name == *name) else {
+            text.push_str(&format!("    {name:<18}{:>10}\n", "MISSING"));
+            continue;
+        };
+        let bits = if frame.hash == scene.hash { "equal" } else { "DIFFERENT" };
+        let tenths = 10 * frame.cost / scene.pixels.max(1);
+        text.push_str(&format!(
+            "    {name:<18}{bits:>10}{:>17}{:>12}{:>15}\n",
+            grouped(frame.cost),
+            format!("{}.{}", grouped(tenths / 10), tenths % 10),
+            grouped(frame.cost / scene.triangles.max(1)),
+        ));
+    }
+    text
+}
+
+/// The number with a comma after each group of three digits.
+fn grouped(number: u64) -> String {
+    if number < 1000 {
+        return number.to_string();
+    }
+    format!("{},{:03}", grouped(number / 1000), number % 1000)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HOST: &str = "frame flat aa 2 300\nframe mesh bb 4000 100\n";
+
+    fn compare(board: &str) -> Vec<String> {
+        differences("m0", &expected(HOST).unwrap(), &drawn(board).unwrap())
+    }
+
+    #[test]
+    fn equal_frames_pass_in_any_order() {
+        assert_eq!(compare("frame mesh bb 7\nframe flat aa 8\n"), [""; 0]);
+    }
+
+    #[test]
+    fn a_difference_names_board_scene_found_and_expected() {
+        assert_eq!(
+            compare("frame flat aa 8\nframe mesh cc 7\n"),
+            ["board m0, scene mesh: the frame's hash is cc, expected bb as on the host"]
+        );
+    }
+
+    #[test]
+    fn missing_and_unknown_frames_are_found() {
+        assert_eq!(
+            compare("frame flat aa 8\nframe new dd 7\n"),
+            [
+                "board m0, scene mesh: no frame, expected bb as on the host",
+                "board m0, scene new: the host has no such scene"
+            ]
+        );
+        assert_eq!(compare("").len(), 2);
+    }
+
+    #[test]
+    fn lines_of_another_form_are_refused() {
+        assert_eq!(drawn("hello\n"), Err("found `hello`, expected a frame".into()));
+        assert!(drawn("frame flat aa x\n").is_err());
+        assert_eq!(drawn("frame flat aa\n"), Err("the line of `flat` has 0 numbers, expected 1".into()));
+        assert!(expected("frame flat aa 1\n").is_err());
+        assert_eq!(expected(""), Err("the host drew no frames".into()));
+    }
+
+    #[test]
+    fn the_table_divides() {
+        let text = table(&expected(HOST).unwrap(), &drawn("frame flat aa 1234567\n").unwrap());
+        let words: Vec<Vec<&str>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
+        assert_eq!(words[1], ["flat", "equal", "1,234,567", "4,115.2", "617,283"]);
+        assert_eq!(words[2], ["mesh", "MISSING"]);
+    }
+}
