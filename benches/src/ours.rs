@@ -6,14 +6,15 @@ use alberti::glam::{Vec2, Vec3};
 use alberti::shaders::{Unlit, VertexColor};
 use alberti::texture::{Bilinear, Nearest, Repeat, Texture};
 use alberti::{
-    Band, Cull, F32, FragmentStage, Pass, Point3, Rgba8, Sides, Slot, Sub8, Varying, VertexStage, View, draw,
+    Band, Cull, Exact, F32, FragmentStage, Interpolation, Pass, Plane, Point3, Rgba8, Sides, Slot, Sub8,
+    Varying, VertexStage, View, draw,
 };
 use alberti_app::draw::view;
 use alberti_app::options::Filter;
 use alberti_app::scene::{Image, Vertex};
 
 /// The policies that are timed, by the name that the benchmark gets.
-pub const POLICIES: &[&str] = &["Exact"];
+pub const POLICIES: &[&str] = &["Exact", "Plane"];
 
 /// The pictures of these policies must be right: see [`crate::reference`].
 #[must_use]
@@ -43,17 +44,27 @@ pub fn renderer(policy: &str, scene: &Scene, size: Size) -> Option<Box<dyn Rende
         color: vec![0; size.pixels()],
         depth: vec![0.0; size.pixels()],
     };
+    let image = model.textures.first().filter(|_| scene.texture.is_some()).cloned();
     let bilinear = scene.built_in.filter == Filter::Bilinear;
-    Some(match model.textures.first().filter(|_| scene.texture.is_some()) {
-        Some(image) => {
-            let slots = vec![Slot::EMPTY; model.vertices.len()];
-            Box::new(Textured { canvas, slots, image: image.clone(), bilinear })
-        }
-        None => {
-            let slots = vec![Slot::EMPTY; model.vertices.len()];
-            Box::new(Colored { canvas, slots })
-        }
+    Some(match policy {
+        "Plane" => boxed(canvas, image, bilinear, Plane),
+        _ => boxed(canvas, image, bilinear, Exact),
     })
+}
+
+fn boxed<P: Interpolation>(
+    canvas: Canvas,
+    image: Option<Image>,
+    bilinear: bool,
+    interpolation: P,
+) -> Box<dyn Renderer> {
+    let vertices = canvas.vertices.len();
+    match image {
+        Some(image) => {
+            Box::new(Textured { canvas, slots: vec![Slot::EMPTY; vertices], image, bilinear, interpolation })
+        }
+        None => Box::new(Colored { canvas, slots: vec![Slot::EMPTY; vertices], interpolation }),
+    }
 }
 
 /// What both kinds of surface need.
@@ -69,8 +80,14 @@ struct Canvas {
 }
 
 impl Canvas {
-    fn render<Vs, Fs>(&mut self, slots: &mut [Slot<Sub8, Vs::Varying>], vertex_stage: Vs, fragment_stage: Fs)
-    where
+    fn render<Vs, Fs, P>(
+        &mut self,
+        slots: &mut [Slot<Sub8, Vs::Varying>],
+        vertex_stage: Vs,
+        fragment_stage: Fs,
+        interpolation: P,
+    ) where
+        P: Interpolation,
         Vs: VertexStage<Vertex>,
         Vs::Varying: Varying,
         Fs: FragmentStage<Vs::Varying, Color = Rgba8>,
@@ -87,6 +104,7 @@ impl Canvas {
             fragment_stage,
             cull: Cull::Back,
             sides: Sides::GuardBand,
+            interpolation,
         };
         draw(&pass, &mut band, slots, &mut ());
     }
@@ -97,22 +115,33 @@ fn position(v: &Vertex) -> Point3<alberti::Object> {
 }
 
 #[derive(Debug)]
-struct Textured {
+struct Textured<P> {
     canvas: Canvas,
     slots: Vec<Slot<Sub8, Vec2>>,
     image: Image,
     bilinear: bool,
+    interpolation: P,
 }
 
-impl Renderer for Textured {
+impl<P: Interpolation> Renderer for Textured<P> {
     fn render(&mut self) {
         let texture = Texture::<Rgba8>::new(&self.image.texels, self.image.width, self.image.height);
-        let texture = texture.expect("a texture");
+        let texture = texture.expect("a texture").power_of_two().expect("sides that are powers of two");
         let vertex = |v: &Vertex| (position(v), Vec2::from_array(v.uv));
         if self.bilinear {
-            self.canvas.render(&mut self.slots, vertex, Unlit(texture.sampler::<Bilinear, Repeat>()));
+            self.canvas.render(
+                &mut self.slots,
+                vertex,
+                Unlit(texture.sampler::<Bilinear, Repeat>()),
+                self.interpolation,
+            );
         } else {
-            self.canvas.render(&mut self.slots, vertex, Unlit(texture.sampler::<Nearest, Repeat>()));
+            self.canvas.render(
+                &mut self.slots,
+                vertex,
+                Unlit(texture.sampler::<Nearest, Repeat>()),
+                self.interpolation,
+            );
         }
     }
 
@@ -122,15 +151,16 @@ impl Renderer for Textured {
 }
 
 #[derive(Debug)]
-struct Colored {
+struct Colored<P> {
     canvas: Canvas,
     slots: Vec<Slot<Sub8, Vec3>>,
+    interpolation: P,
 }
 
-impl Renderer for Colored {
+impl<P: Interpolation> Renderer for Colored<P> {
     fn render(&mut self) {
         let vertex = |v: &Vertex| (position(v), Vec3::from_array(v.color));
-        self.canvas.render(&mut self.slots, vertex, VertexColor);
+        self.canvas.render(&mut self.slots, vertex, VertexColor, self.interpolation);
     }
 
     fn pixels(&self) -> &[[u8; 4]] {

@@ -1,10 +1,12 @@
 //! Asking the rasterizer about single pixels of the largest frame there can be.
 
-use alberti_math::{Fixed, Rgba8, Subpixel, Varying};
+use alberti_math::lanes::Machine;
+use alberti_math::{Fixed, Rgba8, Subpixel, Varying, for_lanes};
 use alberti_raster::{
-    Band, ColorFormat, Counters, Cull, DepthFormat, NoDepth, Outcome, Store, Vertex, draw_triangle,
+    Band, ColorFormat, Counters, Cull, DepthFormat, Exact, FragmentStage, NoDepth, Outcome, Store, Vertex,
+    draw_triangle,
 };
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::ops::Range;
 
 /// Columns and rows of the largest frame.
@@ -53,18 +55,58 @@ impl DepthFormat for Recorded {
     }
 }
 
-/// A colour format whose pixels are `N` numbers, to see interpolated values as they are.
+/// A colour format whose pixels are words as they come.
 #[derive(Clone, Copy, Debug)]
-pub enum Numbers<const N: usize> {}
+pub enum Words {}
 
-impl<const N: usize> ColorFormat for Numbers<N> {
-    type Pixel = [f32; N];
+impl ColorFormat for Words {
+    type Pixel = u32;
 }
 
-impl<const N: usize> Store<[f32; N]> for Numbers<N> {
-    fn pixel(color: [f32; N]) -> [f32; N] {
+impl Store<u32> for Words {
+    fn pixel(color: u32) -> u32 {
         color
     }
+}
+
+/// What fragments carried, to see interpolated values as they are: the colour is the place in this list.
+#[derive(Debug, Default)]
+pub struct Seen<V>(RefCell<Vec<V>>);
+
+impl<V: Copy> Seen<V> {
+    /// Keeps a value. Places count from 1.
+    pub fn keep(&self, value: V) -> Option<u32> {
+        self.0.borrow_mut().push(value);
+        u32::try_from(self.0.borrow().len()).ok()
+    }
+
+    /// The value at a place.
+    ///
+    /// # Panics
+    /// Where there is none.
+    pub fn at(&self, place: u32) -> V {
+        self.0.borrow()[place as usize - 1]
+    }
+}
+
+/// Draws with the widest lanes that there are.
+pub fn draw_widest<S, V, F, C, D, K>(
+    band: &mut Band<'_, C, D>,
+    vertices: [&Vertex<S, V>; 3],
+    cull: Cull,
+    fragment: &F,
+    counters: &mut K,
+) -> Outcome
+where
+    S: Subpixel,
+    V: Varying,
+    F: FragmentStage<V>,
+    C: Store<F::Color>,
+    D: DepthFormat,
+    K: Counters,
+{
+    let machine = Machine::all().next().expect("every machine has lanes");
+    for_lanes!(machine, lanes => draw_triangle(Exact, lanes, band, vertices, cull, fragment, counters))
 }
 
 /// One row of buffers, that serves as any row of the frame.
@@ -93,13 +135,7 @@ impl Probe<NoDepth> {
         let [a, b, c] = bare::<S>(tri);
         let mut count = Covered::default();
         let fragment = |()| Some(Rgba8::from_bits(1));
-        draw_triangle(
-            &mut band.scissor(columns, 0..LARGEST),
-            [&a, &b, &c],
-            Cull::None,
-            &fragment,
-            &mut count,
-        );
+        draw_widest(&mut band.scissor(columns, 0..LARGEST), [&a, &b, &c], Cull::None, &fragment, &mut count);
         let found = &self.color[places];
         let seen: u64 = found.iter().map(|&pixel| u64::from(pixel.to_le())).sum();
         assert_eq!(seen, count.0, "a span reached beyond the scissor: {tri:?} in row {row}");
@@ -121,7 +157,7 @@ impl Probe<Recorded> {
         };
         let mut band = band::<Recorded>(&mut self.color, &mut self.depth, row);
         let mut pixel = band.scissor(column..column + 1, row..row + 1);
-        let outcome = draw_triangle(&mut pixel, [a, b, c], Cull::None, &fragment, &mut ());
+        let outcome = draw_widest(&mut pixel, [a, b, c], Cull::None, &fragment, &mut ());
         assert!(found.get().is_none() || outcome == Outcome::Drawn);
         let zs = self.depth[column.unsigned_abs() as usize];
         found.get().map(|v| (v, zs))

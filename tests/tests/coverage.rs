@@ -12,10 +12,8 @@ use alberti_math::{GUARD_PIXELS, Rgba8, Sub4, Sub8, Subpixel};
 use alberti_oracle::cases;
 use alberti_oracle::coverage::{Triangle, area2, covers, weights};
 use alberti_oracle::rng::{Rng, run_seed};
-use alberti_raster::{
-    Band, Cull, Edge, EdgeInt, FITS_I32, NoDepth, Outcome, Span, SpanWalker, draw_triangle,
-};
-use alberti_tests::probe::{Covered, LARGEST, Probe, bare};
+use alberti_raster::{Band, Cull, Edge, EdgeInt, FITS_I32, NoDepth, Outcome, Span, SpanWalker};
+use alberti_tests::probe::{Covered, LARGEST, Probe, bare, draw_widest};
 
 /// All 289^3 ordered triples of 28.4 positions in the closed pixel, of which these have positive area, and so many of
 /// those the sample exactly on the line of an edge.
@@ -31,7 +29,7 @@ fn every_triangle_within_a_pixel() {
     let mut draw = |tri: Triangle, cull: Cull| {
         let [a, b, c] = bare::<Sub4>(tri);
         let mut count = Covered::default();
-        let outcome = draw_triangle(&mut band, [&a, &b, &c], cull, &|()| Some(Rgba8::WHITE), &mut count);
+        let outcome = draw_widest(&mut band, [&a, &b, &c], cull, &|()| Some(Rgba8::WHITE), &mut count);
         (count.0, outcome)
     };
     let (mut positive, mut on_a_line, mut covered) = (0, 0, 0);

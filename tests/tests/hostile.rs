@@ -97,6 +97,7 @@ fn check<D: DepthFormat, S: Subpixel, V: Varying>(
         fragment_stage,
         cull: case.cull,
         sides: case.sides,
+        interpolation: alberti::Exact,
     };
     draw(&pass, &mut band, &mut [Slot::<S, V>::EMPTY; 4], &mut ());
     let places = (0i32..).flat_map(|y| (0i32..).take(WIDTH as usize).map(move |x| (x, y)));

@@ -12,8 +12,8 @@ use alberti::pipeline::{Pass, Sides, View, draw};
 use alberti::{Cull, Frame, Perspective, Point3, Slot, Stats, Viewport};
 use alberti_math::{Sub4, Sub8, Subpixel};
 use alberti_oracle::rng::{Rng, run_seed};
-use alberti_raster::{Band, DepthFormat, F32, F32Reversed, Vertex, draw_triangle};
-use alberti_tests::probe::{Numbers, Probe, Recorded, vertex};
+use alberti_raster::{Band, DepthFormat, F32, F32Reversed, Vertex};
+use alberti_tests::probe::{Probe, Recorded, Seen, Words, draw_widest, vertex};
 
 const SIZE: i64 = 64;
 /// A pixel that nothing was drawn to: no depth is negative.
@@ -30,18 +30,22 @@ struct Picture {
 /// What a frame of `SIZE` x `SIZE` pixels from (0, `top`) on shows of a triangle, from column `left` on.
 fn picture<S: Subpixel>(triangle: [&Vertex<S, [f32; 2]>; 3], [left, top]: [i64; 2]) -> Picture {
     let width = (left + SIZE) as usize;
-    let mut color = vec![[0.0; 2]; width * SIZE as usize];
+    let mut color = vec![0; width * SIZE as usize];
     let mut depth = vec![f32::from_bits(NOTHING[2]); color.len()];
     let mut band =
-        Band::<Numbers<2>, Recorded>::new(width as u32, top as u32, &mut color, &mut depth).expect("a frame");
+        Band::<Words, Recorded>::new(width as u32, top as u32, &mut color, &mut depth).expect("a frame");
+    let seen = Seen::default();
     let mut shown = band.scissor(left as i32..width as i32, 0..i32::MAX);
     let mut stats = Stats::default();
-    draw_triangle(&mut shown, triangle, Cull::None, &|u: [f32; 2]| Some(u), &mut stats);
-    Picture { pixels: visible(&color, &depth, width, left as usize), fragments: stats.fragments }
+    draw_widest(&mut shown, triangle, Cull::None, &|u: [f32; 2]| seen.keep(u), &mut stats);
+    Picture { pixels: visible(&color, &seen, &depth, width, left as usize), fragments: stats.fragments }
 }
 
-fn visible(color: &[[f32; 2]], depth: &[f32], width: usize, left: usize) -> Vec<[u32; 3]> {
-    let bits = |i: usize| [color[i][0].to_bits(), color[i][1].to_bits(), depth[i].to_bits()];
+fn visible(color: &[u32], seen: &Seen<[f32; 2]>, depth: &[f32], width: usize, left: usize) -> Vec<[u32; 3]> {
+    let bits = |i: usize| {
+        let [u, v] = if color[i] == 0 { [0.0; 2] } else { seen.at(color[i]) };
+        [u.to_bits(), v.to_bits(), depth[i].to_bits()]
+    };
     (0..color.len()).filter(|i| i % width >= left).map(bits).collect()
 }
 
@@ -163,6 +167,7 @@ impl Scene {
     ) -> (Picture, Stats) {
         let triangles: Vec<[u32; 3]> = self.triangles.iter().map(|t| order.map(|k| t[k])).collect();
         let size = SIZE as u32;
+        let seen = Seen::default();
         let pass = Pass {
             view: View {
                 to_eye: Frame::at(Point3::new(Vec3::ZERO)),
@@ -172,18 +177,19 @@ impl Scene {
             vertices: &self.vertices,
             triangles: &triangles,
             vertex_stage: |&(p, u): &(Vec3, [f32; 2])| (Point3::new(p * power), u),
-            fragment_stage: |u: [f32; 2]| Some(u),
+            fragment_stage: |u: [f32; 2]| seen.keep(u),
             cull: Cull::None,
             sides,
+            interpolation: alberti::Exact,
         };
         let width = (left.max(0) + SIZE) as usize;
-        let mut color = vec![[0.0; 2]; width * SIZE as usize];
+        let mut color = vec![0; width * SIZE as usize];
         let mut depth = vec![D::FARTHEST; color.len()];
-        let mut band = Band::<Numbers<2>, D>::new(width as u32, top.max(0) as u32, &mut color, &mut depth)
-            .expect("a frame");
+        let mut band =
+            Band::<Words, D>::new(width as u32, top.max(0) as u32, &mut color, &mut depth).expect("a frame");
         let mut stats = Stats::default();
         draw(&pass, &mut band, &mut [Slot::<Sub8, [f32; 2]>::EMPTY; 24], &mut stats);
-        let pixels = visible(&color, &depth, width, left.max(0) as usize);
+        let pixels = visible(&color, &seen, &depth, width, left.max(0) as usize);
         (Picture { pixels, fragments: stats.fragments }, stats)
     }
 }

@@ -18,8 +18,8 @@ use alberti::{
 };
 use alberti_oracle::coverage::{area2, weights};
 use alberti_oracle::rng::{Rng, run_seed};
-use alberti_raster::{Band, draw_triangle};
-use alberti_tests::probe::bare;
+use alberti_raster::Band;
+use alberti_tests::probe::{bare, draw_widest};
 use std::collections::HashMap;
 use std::f64::consts::PI;
 
@@ -89,7 +89,7 @@ fn grids<S: Subpixel>(stream: u64) {
             assert!(area2(tri) > 0, "{tri:?}");
             let [a, b, c] = bare::<S>(tri);
             let white = |()| Some(Rgba8::WHITE);
-            draw_triangle(&mut band, [&a, &b, &c], Cull::None, &white, &mut stats);
+            draw_widest(&mut band, [&a, &b, &c], Cull::None, &white, &mut stats);
             let sample = tri[1].map(|c| (c >> S::BITS << S::BITS) + i64::from(S::HALF));
             at_vertices += u64::from(tri[1] == sample);
             on_edges += u64::from(tri[1] != sample && weights(tri, sample).contains(&0));
@@ -211,6 +211,7 @@ fn shells<S: Subpixel>(sides: Sides, stream: u64) {
             fragment_stage: |()| Some(Rgba8::WHITE),
             cull: Cull::None,
             sides,
+            interpolation: alberti::Exact,
         };
         let mut stats = Stats::default();
         draw(&pass, &mut frame.band(), &mut [Slot::<S, ()>::EMPTY; 0], &mut stats);
@@ -270,6 +271,7 @@ fn an_edge_that_ends_at_the_guard_band_is_cut_in_both_triangles_or_in_neither() 
             fragment_stage: |()| Some(Rgba8::WHITE),
             cull: Cull::None,
             sides: Sides::GuardBand,
+            interpolation: alberti::Exact,
         };
         draw(&pass, &mut band, &mut [Slot::<Sub8, ()>::EMPTY; 4], &mut stats);
         let pixels = frame.color.iter().filter(|&&pixel| pixel != 0).count() as u64;

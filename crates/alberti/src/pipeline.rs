@@ -2,11 +2,14 @@
 
 use crate::vertex::{Slot, Transformed, VertexStage, outside};
 use alberti_math::glam::Vec3;
-use alberti_math::{Eye, Frame, Object, Subpixel, Varying};
+use alberti_math::lanes::{Lanes, Machine};
+use alberti_math::{Eye, Frame, Object, Subpixel, Varying, for_lanes};
 use alberti_projection::{
     DepthMap, EyeVertex, Perspective, ProjectedVertex, SideBounds, Viewport, clip_near_far, clip_sides,
 };
-use alberti_raster::{Band, Counters, Cull, DepthFormat, FragmentStage, Store, Vertex, draw_triangle};
+use alberti_raster::{
+    Band, Counters, Cull, DepthFormat, Exact, FragmentStage, Interpolation, Store, Vertex, draw_triangle,
+};
 use core::cmp::Ordering;
 
 /// From where, through what pyramid and to which rectangle of the target a mesh is seen.
@@ -33,7 +36,7 @@ pub enum Sides {
 
 /// One mesh drawn in one way.
 #[derive(Clone, Copy, Debug)]
-pub struct Pass<'a, T, I, Vs, Fs> {
+pub struct Pass<'a, T, I, Vs, Fs, P = Exact> {
     /// The view.
     pub view: View,
     /// The mesh's vertices, of any type that the vertex stage understands.
@@ -48,6 +51,8 @@ pub struct Pass<'a, T, I, Vs, Fs> {
     pub cull: Cull,
     /// Which clip the sides get.
     pub sides: Sides,
+    /// How what the vertices carry comes to the samples.
+    pub interpolation: P,
 }
 
 /// Draws a mesh into a band, triangles in order.
@@ -58,8 +63,11 @@ pub struct Pass<'a, T, I, Vs, Fs> {
 ///
 /// The pixels do not depend on the slots, on the counters, on which of a triangle's vertices comes first, or on how the
 /// frame is divided into bands.
-pub fn draw<S, T, I, Vs, Fs, C, D, K>(
-    pass: &Pass<'_, T, I, Vs, Fs>,
+///
+/// With the feature `simd` it works on eight samples at a time, in the widest vector registers that the machine turns
+/// out to have (with `std`) or is known to have; the pixels are those of [`draw_by`] one sample at a time.
+pub fn draw<S, T, I, Vs, Fs, P, C, D, K>(
+    pass: &Pass<'_, T, I, Vs, Fs, P>,
     band: &mut Band<'_, C, D>,
     slots: &mut [Slot<S, Vs::Varying>],
     counters: &mut K,
@@ -68,12 +76,38 @@ pub fn draw<S, T, I, Vs, Fs, C, D, K>(
     I: Copy + Into<u32>,
     Vs: VertexStage<T>,
     Fs: FragmentStage<Vs::Varying>,
+    P: Interpolation,
+    C: Store<Fs::Color>,
+    D: DepthFormat,
+    K: Counters,
+{
+    // The first is the widest, and there always is one.
+    if let Some(machine) = Machine::all().next() {
+        for_lanes!(machine, lanes => draw_by(lanes, pass, band, slots, counters));
+    }
+}
+
+/// [`draw`] with as many samples at a time as there are `lanes`.
+pub fn draw_by<L, S, T, I, Vs, Fs, P, C, D, K>(
+    lanes: L,
+    pass: &Pass<'_, T, I, Vs, Fs, P>,
+    band: &mut Band<'_, C, D>,
+    slots: &mut [Slot<S, Vs::Varying>],
+    counters: &mut K,
+) where
+    L: Lanes,
+    S: Subpixel,
+    I: Copy + Into<u32>,
+    Vs: VertexStage<T>,
+    Fs: FragmentStage<Vs::Varying>,
+    P: Interpolation,
     C: Store<Fs::Color>,
     D: DepthFormat,
     K: Counters,
 {
     if slots.is_empty() {
-        return draw_with_own_slots::<S, T, I, Vs, Fs, C, D, K>(pass, band, counters);
+        draw_by(lanes, pass, band, &mut [Slot::<S, Vs::Varying>::EMPTY; 16], counters);
+        return;
     }
     slots.fill(Slot::EMPTY);
     let depth = pass.view.perspective.depth_map(D::REVERSED);
@@ -98,6 +132,8 @@ pub fn draw<S, T, I, Vs, Fs, C, D, K>(
         if all & (outside::NEAR | outside::FAR | outside::GUARD | sides) == 0 {
             // Nothing to clip: step 7, the rasterizer.
             let outcome = draw_triangle(
+                pass.interpolation,
+                lanes,
                 &mut band,
                 [&corners[0].screen, &corners[1].screen, &corners[2].screen],
                 pass.cull,
@@ -107,33 +143,15 @@ pub fn draw<S, T, I, Vs, Fs, C, D, K>(
             counters.rasterized(outcome);
         } else {
             counters.clipped();
-            clip_and_draw(pass, &depth, &mut band, corners, counters);
+            clip_and_draw(lanes, pass, &depth, &mut band, corners, counters);
         }
     }
 }
 
-/// [`draw`] with a small cache, kept out of the frame of those who bring their own.
-#[inline(never)]
-fn draw_with_own_slots<S, T, I, Vs, Fs, C, D, K>(
-    pass: &Pass<'_, T, I, Vs, Fs>,
-    band: &mut Band<'_, C, D>,
-    counters: &mut K,
-) where
-    S: Subpixel,
-    I: Copy + Into<u32>,
-    Vs: VertexStage<T>,
-    Fs: FragmentStage<Vs::Varying>,
-    C: Store<Fs::Color>,
-    D: DepthFormat,
-    K: Counters,
-{
-    draw(pass, band, &mut [Slot::<S, Vs::Varying>::EMPTY; 16], counters);
-}
-
 /// The triangle's vertices, transformed; `None` for an index out of range.
 #[inline]
-fn fetch<S, T, I, Vs, Fs>(
-    pass: &Pass<'_, T, I, Vs, Fs>,
+fn fetch<S, T, I, Vs, Fs, P>(
+    pass: &Pass<'_, T, I, Vs, Fs, P>,
     depth: &DepthMap,
     guard: SideBounds,
     slots: &mut [Slot<S, Vs::Varying>],
@@ -157,16 +175,19 @@ where
 /// Steps 3 to 7 for a triangle that crosses a plane.
 #[cold]
 #[inline(never)]
-fn clip_and_draw<S, T, I, Vs, Fs, C, D, K>(
-    pass: &Pass<'_, T, I, Vs, Fs>,
+fn clip_and_draw<L, S, T, I, Vs, Fs, P, C, D, K>(
+    lanes: L,
+    pass: &Pass<'_, T, I, Vs, Fs, P>,
     depth: &DepthMap,
     band: &mut Band<'_, C, D>,
     corners: [Transformed<S, Vs::Varying>; 3],
     counters: &mut K,
 ) where
+    L: Lanes,
     S: Subpixel,
     Vs: VertexStage<T>,
     Fs: FragmentStage<Vs::Varying>,
+    P: Interpolation,
     C: Store<Fs::Color>,
     D: DepthFormat,
     K: Counters,
@@ -193,7 +214,9 @@ fn clip_and_draw<S, T, I, Vs, Fs, C, D, K>(
             Some(Vertex::<S, _> { x, y, zs: v.zs, q: v.q, varying: v.varying })
         });
         if let [Some(a), Some(b), Some(c)] = &snapped {
-            let outcome = draw_triangle(band, [a, b, c], pass.cull, &pass.fragment_stage, counters);
+            let Pass { interpolation, cull, fragment_stage, .. } = pass;
+            let outcome =
+                draw_triangle(*interpolation, lanes, band, [a, b, c], *cull, fragment_stage, counters);
             counters.rasterized(outcome);
         }
     }

@@ -11,9 +11,11 @@
 //! All arithmetic is on sRGB bytes, as they are stored.
 
 use alberti_math::glam::{Vec2, Vec3};
-use alberti_math::{Point3, Rgba8, Space, Vector3, World};
+use alberti_math::lanes::{Lanes, One};
+use alberti_math::{Point3, Rgba8, Space, Varying, Vector3, World};
 use alberti_raster::FragmentStage;
-use alberti_texture::{Filter, Sampler, TexelFormat, Wrap};
+use alberti_texture::{Filter, Sampler, Size, TexelFormat, Wrap};
+use core::num::Wrapping;
 
 /// One colour for everything.
 ///
@@ -25,12 +27,17 @@ pub struct Flat(
     pub Rgba8,
 );
 
-impl<V> FragmentStage<V> for Flat {
+impl<V: Varying> FragmentStage<V> for Flat {
     type Color = Rgba8;
 
-    #[inline]
+    #[inline(always)]
     fn shade(&self, _: V) -> Option<Rgba8> {
         Some(self.0)
+    }
+
+    #[inline(always)]
+    fn shade_lanes<L: Lanes>(&self, lanes: L, _: &V::Of<L::F32>, mask: L::Mask) -> (L::U32, L::Mask) {
+        (lanes.word(self.0.to_bits()), mask)
     }
 }
 
@@ -44,9 +51,15 @@ pub struct VertexColor;
 impl FragmentStage<Vec3> for VertexColor {
     type Color = Rgba8;
 
-    #[inline]
+    #[inline(always)]
     fn shade(&self, color: Vec3) -> Option<Rgba8> {
-        Some(Rgba8::new(byte(color.x * 255.0), byte(color.y * 255.0), byte(color.z * 255.0), 255))
+        alone(self, color)
+    }
+
+    #[inline(always)]
+    fn shade_lanes<L: Lanes>(&self, lanes: L, color: &[L::F32; 3], mask: L::Mask) -> (L::U32, L::Mask) {
+        let [r, g, b] = *color;
+        (lit(lanes, [lanes.word(255); 4], [r, g, b]), mask)
     }
 }
 
@@ -57,12 +70,19 @@ pub struct Unlit<S>(
     pub S,
 );
 
-impl<F: TexelFormat, Fl: Filter, U: Wrap, V: Wrap> FragmentStage<Vec2> for Unlit<Sampler<'_, F, Fl, U, V>> {
+impl<F: TexelFormat, Fl: Filter, U: Wrap, V: Wrap, Z: Size> FragmentStage<Vec2>
+    for Unlit<Sampler<'_, F, Fl, U, V, Z>>
+{
     type Color = Rgba8;
 
-    #[inline]
+    #[inline(always)]
     fn shade(&self, uv: Vec2) -> Option<Rgba8> {
         Some(self.0.sample(uv))
+    }
+
+    #[inline(always)]
+    fn shade_lanes<L: Lanes>(&self, lanes: L, &[u, v]: &[L::F32; 2], mask: L::Mask) -> (L::U32, L::Mask) {
+        (self.0.sample_lanes(lanes, u, v), mask)
     }
 }
 
@@ -78,20 +98,36 @@ pub struct Tinted<S> {
     pub tint: Rgba8,
 }
 
-impl<V, S: FragmentStage<V, Color = Rgba8>> FragmentStage<V> for Tinted<S> {
+impl<V: Varying, S: FragmentStage<V, Color = Rgba8>> FragmentStage<V> for Tinted<S> {
     type Color = Rgba8;
 
-    #[inline]
+    #[inline(always)]
     fn shade(&self, varying: V) -> Option<Rgba8> {
-        let [r, g, b, a] = self.surface.shade(varying)?.to_bytes();
-        let [tint_r, tint_g, tint_b, _] = self.tint.to_bytes();
-        let times = |x: u8, y: u8| {
-            #[expect(clippy::cast_possible_truncation, reason = "at most 255")]
-            let product = ((u32::from(x) * u32::from(y) + 127) / 255) as u8;
-            product
-        };
-        Some(Rgba8::new(times(r, tint_r), times(g, tint_g), times(b, tint_b), a))
+        let surface = self.surface.shade(varying)?;
+        let tinted = times(One, unpack(One, Wrapping(surface.to_bits())), self.tint);
+        Some(Rgba8::from_bits(tinted.0))
     }
+
+    #[inline(always)]
+    fn shade_lanes<L: Lanes>(&self, lanes: L, varyings: &V::Of<L::F32>, mask: L::Mask) -> (L::U32, L::Mask) {
+        let (surface, mask) = self.surface.shade_lanes(lanes, varyings, mask);
+        (times(lanes, unpack(lanes, surface), self.tint), mask)
+    }
+}
+
+/// A colour's channels times a constant's, to the nearest byte; alpha is kept.
+#[inline(always)]
+fn times<L: Lanes>(lanes: L, [r, g, b, a]: [L::U32; 4], tint: Rgba8) -> L::U32 {
+    let [tint_r, tint_g, tint_b, _] = tint.to_bytes();
+    // x / 255 to the nearest is (x + 128) * 257 >> 16, for products of bytes.
+    let products = [
+        r * lanes.word(tint_r.into()) + lanes.word(128),
+        g * lanes.word(tint_g.into()) + lanes.word(128),
+        b * lanes.word(tint_b.into()) + lanes.word(128),
+    ];
+    let [r, g, b] = products;
+    let [r, g, b] = [r + lanes.shr(r, 8), g + lanes.shr(g, 8), b + lanes.shr(b, 8)];
+    pack(lanes, [lanes.shr(r, 8), lanes.shr(g, 8), lanes.shr(b, 8), a])
 }
 
 /// Another stage's colour under Lambert's cosine law, with one light at infinity:
@@ -123,18 +159,50 @@ impl<S> Lambert<S> {
     }
 }
 
-impl<V, S: FragmentStage<V, Color = Rgba8>> FragmentStage<(Vec3, V)> for Lambert<S> {
+impl<S> Lambert<S> {
+    /// What the channels of a surface with this normal are multiplied by.
+    #[inline(always)]
+    fn light<L: Lanes>(&self, lanes: L, [x, y, z]: [L::F32; 3]) -> L::F32 {
+        let Vec3 { x: lx, y: ly, z: lz } = self.to_light;
+        let [lx, ly, lz] = [lanes.splat(lx), lanes.splat(ly), lanes.splat(lz)];
+        let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
+        let cosine = (x * lx + y * ly + z * lz) / lanes.sqrt(x * x + y * y + z * z);
+        // A zero normal gives NaN here, which the comparison takes for no light; one too short may give infinity.
+        let facing = lanes.select(lanes.less(zero, cosine), lanes.min(cosine, one), zero);
+        lanes.splat(self.ambient) + lanes.splat(self.diffuse) * facing
+    }
+}
+
+impl<V: Varying, S: FragmentStage<V, Color = Rgba8>> FragmentStage<(Vec3, V)> for Lambert<S> {
     type Color = Rgba8;
 
-    #[inline]
+    #[inline(always)]
     fn shade(&self, (normal, varying): (Vec3, V)) -> Option<Rgba8> {
-        let [r, g, b, a] = self.surface.shade(varying)?.to_bytes();
-        let cosine = normal.dot(self.to_light) / normal.length();
-        // A zero normal gives NaN here, which the comparison takes for no light; one too short may give infinity.
-        let light = self.ambient + self.diffuse * if cosine > 0.0 { cosine.min(1.0) } else { 0.0 };
-        let lit = |c: u8| byte(f32::from(c) * light);
-        Some(Rgba8::new(lit(r), lit(g), lit(b), a))
+        let surface = self.surface.shade(varying)?;
+        let light = self.light(One, normal.to_array());
+        let lit = lit(One, unpack(One, Wrapping(surface.to_bits())), [light; 3]);
+        Some(Rgba8::from_bits(lit.0))
     }
+
+    #[inline(always)]
+    fn shade_lanes<L: Lanes>(
+        &self,
+        lanes: L,
+        (normal, varyings): &([L::F32; 3], V::Of<L::F32>),
+        mask: L::Mask,
+    ) -> (L::U32, L::Mask) {
+        let (surface, mask) = self.surface.shade_lanes(lanes, varyings, mask);
+        (lit(lanes, unpack(lanes, surface), [self.light(lanes, *normal); 3]), mask)
+    }
+}
+
+/// A colour's channels times `light`, to the nearest byte; alpha is kept.
+#[inline(always)]
+fn lit<L: Lanes>(lanes: L, [r, g, b, a]: [L::U32; 4], light: [L::F32; 3]) -> L::U32 {
+    let r = byte(lanes, lanes.to_numbers(r) * light[0]);
+    let g = byte(lanes, lanes.to_numbers(g) * light[1]);
+    let b = byte(lanes, lanes.to_numbers(b) * light[2]);
+    pack(lanes, [r, g, b, a])
 }
 
 /// The normal of the plane through three points, towards the side from which they run counter-clockwise. Its length is
@@ -144,12 +212,32 @@ pub fn face_normal<S: Space>([a, b, c]: [Point3<S>; 3]) -> Vector3<S> {
     Vector3::new((b - a).coords.cross((c - a).coords))
 }
 
+/// One sample's colour, by way of the code for several.
+#[inline(always)]
+fn alone<V: Varying>(stage: &impl FragmentStage<V, Color = Rgba8>, varying: V) -> Option<Rgba8> {
+    let components = V::map(&V::gather([varying]), &|[x]: [f32; 1]| x);
+    let (word, kept) = stage.shade_lanes(One, &components, true);
+    kept.then_some(Rgba8::from_bits(word.0))
+}
+
 /// The nearest byte; 0 below, 255 above, 0 for NaN.
-#[inline]
-fn byte(x: f32) -> u8 {
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
-    let nearest = (x + 0.5) as u8;
-    nearest
+#[inline(always)]
+fn byte<L: Lanes>(lanes: L, x: L::F32) -> L::U32 {
+    let rounded = lanes.max(x + lanes.splat(0.5), lanes.splat(0.0));
+    lanes.to_words(lanes.min(rounded, lanes.splat(255.0)))
+}
+
+/// The channels of colours.
+#[inline(always)]
+fn unpack<L: Lanes>(lanes: L, color: L::U32) -> [L::U32; 4] {
+    let byte = lanes.word(255);
+    [color & byte, lanes.shr(color, 8) & byte, lanes.shr(color, 16) & byte, lanes.shr(color, 24)]
+}
+
+/// Colours of these channels, which are bytes.
+#[inline(always)]
+fn pack<L: Lanes>(lanes: L, [r, g, b, a]: [L::U32; 4]) -> L::U32 {
+    (r | lanes.shl(g, 8)) | (lanes.shl(b, 16) | lanes.shl(a, 24))
 }
 
 #[cfg(test)]

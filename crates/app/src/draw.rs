@@ -7,8 +7,8 @@ use alberti::glam::{Vec2, Vec3};
 use alberti::shaders::{Flat, Lambert, Tinted, Unlit, VertexColor};
 use alberti::texture::{self, Texture, TextureError};
 use alberti::{
-    Band, Eye, FragmentStage, Frame, Object, Pass, Perspective, Point3, Rgba8, Sides, Slot, Stats, Sub8,
-    Varying, Vector3, VertexStage, View, ViewError, Viewport, World, draw, look_at,
+    Band, Exact, Eye, FragmentStage, Frame, Object, Pass, Perspective, Point3, Rgba8, Sides, Slot, Stats,
+    Sub8, Varying, Vector3, VertexStage, View, ViewError, Viewport, World, draw, look_at,
 };
 
 /// Light that falls everywhere, and light that falls on what faces it.
@@ -123,13 +123,23 @@ impl<'a> Canvas<'a> {
                 self.draw(triangles, vertex, VertexColor, band);
             }
             None => self.draw_surface(Flat(tint), triangles, band),
-            Some(texture) => with_sampler!(texture, self.options.filter, self.options.wrap, |sampler| {
-                if tint == Rgba8::WHITE {
-                    self.draw_surface(Unlit(sampler), triangles, band);
-                } else {
-                    self.draw_surface(Tinted { surface: Unlit(sampler), tint }, triangles, band);
-                }
-            }),
+            Some(texture) => match texture.power_of_two() {
+                Some(texture) => with_sampler!(texture, self.options.filter, self.options.wrap, |sampler| {
+                    if tint == Rgba8::WHITE {
+                        self.draw_surface(Unlit(sampler), triangles, band);
+                    } else {
+                        self.draw_surface(Tinted { surface: Unlit(sampler), tint }, triangles, band);
+                    }
+                }),
+                // The rarer sizes get one stage for all cases, so that they take less time to compile. A white tint and
+                // a light of 1 change no byte.
+                None => with_sampler!(texture, self.options.filter, self.options.wrap, |sampler| {
+                    let surface = Tinted { surface: Unlit(sampler), tint };
+                    let lit = self.options.shading == Shading::Lambert;
+                    let [ambient, diffuse] = if lit { [AMBIENT, DIFFUSE] } else { [1.0, 0.0] };
+                    self.draw_lit(surface, [ambient, diffuse], triangles, band);
+                }),
+            },
         }
     }
 
@@ -139,18 +149,25 @@ impl<'a> Canvas<'a> {
         D: alberti::DepthFormat,
         F: FragmentStage<Vec2, Color = Rgba8>,
     {
-        let uv = |v: &Vertex| Vec2::from_array(v.uv);
         if self.options.shading == Shading::Lambert {
-            let lambert = Lambert::new(surface, self.light, AMBIENT, DIFFUSE);
-            self.draw(
-                triangles,
-                |v: &Vertex| (position(v), (Vec3::from_array(v.normal), uv(v))),
-                lambert,
-                band,
-            );
+            self.draw_lit(surface, [AMBIENT, DIFFUSE], triangles, band);
         } else {
-            self.draw(triangles, |v: &Vertex| (position(v), uv(v)), surface, band);
+            self.draw(triangles, |v: &Vertex| (position(v), Vec2::from_array(v.uv)), surface, band);
         }
+    }
+
+    fn draw_lit<D, F>(
+        &mut self,
+        surface: F,
+        [ambient, diffuse]: [f32; 2],
+        triangles: &[[u32; 3]],
+        band: &mut Band<'_, Rgba8, D>,
+    ) where
+        D: alberti::DepthFormat,
+        F: FragmentStage<Vec2, Color = Rgba8>,
+    {
+        let vertex = |v: &Vertex| (position(v), (Vec3::from_array(v.normal), Vec2::from_array(v.uv)));
+        self.draw(triangles, vertex, Lambert::new(surface, self.light, ambient, diffuse), band);
     }
 
     fn draw<D, V, F>(
@@ -178,6 +195,7 @@ impl<'a> Canvas<'a> {
             fragment_stage,
             cull,
             sides: Sides::GuardBand,
+            interpolation: Exact,
         };
         // Enough for each vertex of these triangles; a model of many small parts must not pay for all of its vertices
         // in each.

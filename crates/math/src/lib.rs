@@ -1,13 +1,14 @@
 #![no_std]
 #![doc = include_str!("../README.md")]
 
-#[cfg(test)]
+#[cfg(any(test, feature = "std"))]
 extern crate std;
 
 mod barycentric;
 mod color;
 mod fixed;
 mod frame;
+pub mod lanes;
 mod round;
 mod space;
 mod varying;

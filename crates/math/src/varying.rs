@@ -93,9 +93,15 @@ impl<V: Varying, const K: usize> Varying for [V; K] {
         from_fn(|k| V::gather(from_fn(|n| values[n][k])))
     }
 
+    // With from_fn, compilers do not inline `f` where it has vector instructions that the standard library has not.
     #[inline(always)]
     fn map<T: Copy, U: Copy>(bundle: &Self::Of<T>, f: &impl Fn(T) -> U) -> Self::Of<U> {
-        from_fn(|k| V::map(&bundle[k], f))
+        let Some(first) = bundle.first() else { return from_fn(|k| V::map(&bundle[k], f)) };
+        let mut mapped = [V::map(first, f); K];
+        for k in 1..K {
+            mapped[k] = V::map(&bundle[k], f);
+        }
+        mapped
     }
 
     #[inline(always)]
@@ -105,7 +111,7 @@ impl<V: Varying, const K: usize> Varying for [V; K] {
 }
 
 macro_rules! vectors {
-    ($($vector:ident $size:literal),*) => {$(
+    ($($vector:ident $size:literal: $($k:literal)+),*) => {$(
         impl Varying for $vector {
             type Of<T: Copy> = [T; $size];
 
@@ -116,7 +122,7 @@ macro_rules! vectors {
 
             #[inline(always)]
             fn map<T: Copy, U: Copy>(bundle: &[T; $size], f: &impl Fn(T) -> U) -> [U; $size] {
-                <[f32; $size] as Varying>::map(bundle, f)
+                [$(f(bundle[$k])),+]
             }
 
             #[inline(always)]
@@ -126,7 +132,7 @@ macro_rules! vectors {
         }
     )*};
 }
-vectors!(Vec2 2, Vec3 3, Vec4 4);
+vectors!(Vec2 2: 0 1, Vec3 3: 0 1 2, Vec4 4: 0 1 2 3);
 
 macro_rules! tuples {
     ($($($name:ident $index:tt),+);+) => {$(

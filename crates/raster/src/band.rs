@@ -1,6 +1,6 @@
 //! The thing drawn into: a band of rows of a frame.
 
-use crate::color::{ColorFormat, Store};
+use crate::color::{Color, ColorFormat, Store};
 use crate::depth::DepthFormat;
 use core::fmt;
 use core::ops::Range;
@@ -111,9 +111,9 @@ impl<'a, C: ColorFormat, D: DepthFormat> Band<'a, C, D> {
     }
 
     /// Gives every pixel this colour and the farthest depth.
-    pub fn clear<Color>(&mut self, color: Color)
+    pub fn clear<Shade: Color>(&mut self, color: Shade)
     where
-        C: Store<Color>,
+        C: Store<Shade>,
     {
         let pixel = C::pixel(color);
         let [columns, rows] = self.limits();

@@ -1,6 +1,7 @@
 //! Colour targets: what a pixel is stored as. A new one is one small type.
 
 use alberti_math::Rgba8;
+use alberti_math::lanes::Lanes;
 use core::fmt::Debug;
 
 /// A pixel format of a target.
@@ -9,10 +10,53 @@ pub trait ColorFormat: Copy + Debug + 'static {
     type Pixel: Copy + Debug + 'static;
 }
 
-/// A format that can take colours of type `Color`, as fragment stages make them.
-pub trait Store<Color>: ColorFormat {
+/// What a fragment stage makes: any colour that fits a word of 32 bits, in which several of them travel.
+pub trait Color: Copy {
+    /// As a word.
+    fn to_word(self) -> u32;
+    /// From the word that [`to_word`](Self::to_word) gave.
+    fn from_word(word: u32) -> Self;
+}
+
+impl Color for Rgba8 {
+    #[inline(always)]
+    fn to_word(self) -> u32 {
+        self.to_bits()
+    }
+
+    #[inline(always)]
+    fn from_word(word: u32) -> Self {
+        Self::from_bits(word)
+    }
+}
+
+/// Any word: packed colours, or indices into a palette.
+impl Color for u32 {
+    #[inline(always)]
+    fn to_word(self) -> u32 {
+        self
+    }
+
+    #[inline(always)]
+    fn from_word(word: u32) -> Self {
+        word
+    }
+}
+
+/// A format that can take colours of type `Shade`, as fragment stages make them.
+pub trait Store<Shade: Color>: ColorFormat {
     /// The pixel for this colour.
-    fn pixel(color: Color) -> Self::Pixel;
+    fn pixel(color: Shade) -> Self::Pixel;
+
+    /// Stores the pixels for the samples in `mask`, whose colours are words.
+    #[inline(always)]
+    fn store<L: Lanes>(lanes: L, colors: L::U32, mask: L::Mask, pixels: &mut L::Each<Self::Pixel>) {
+        let (words, bits) = (lanes.store_words(colors), lanes.bits(mask));
+        for (k, (pixel, &word)) in pixels.as_mut().iter_mut().zip(words.as_ref()).enumerate() {
+            let new = Self::pixel(Shade::from_word(word));
+            *pixel = if bits >> k & 1 != 0 { new } else { *pixel };
+        }
+    }
 }
 
 /// Four bytes a pixel, in memory R, G, B, A.
@@ -21,9 +65,15 @@ impl ColorFormat for Rgba8 {
 }
 
 impl Store<Rgba8> for Rgba8 {
-    #[inline]
+    #[inline(always)]
     fn pixel(color: Rgba8) -> u32 {
         color.to_bits().to_le()
+    }
+
+    #[cfg(target_endian = "little")]
+    #[inline(always)]
+    fn store<L: Lanes>(lanes: L, colors: L::U32, mask: L::Mask, pixels: &mut L::Each<u32>) {
+        *pixels = lanes.store_words(lanes.select_words(mask, colors, lanes.load_words(pixels)));
     }
 }
 

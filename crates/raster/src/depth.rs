@@ -1,5 +1,6 @@
 //! Depth buffers: what is stored for a pixel, and which of two is seen.
 
+use alberti_math::lanes::Lanes;
 use core::fmt::Debug;
 
 /// A format of depth values, and the comparison that goes with it.
@@ -17,6 +18,48 @@ pub trait DepthFormat: Copy + Debug + 'static {
     fn encode(zs: f32) -> Self::Stored;
     /// Whether `new` is seen in front of `old`.
     fn nearer(new: Self::Stored, old: Self::Stored) -> bool;
+
+    /// [`encode`](Self::encode) for several samples.
+    #[inline(always)]
+    fn encode_lanes<L: Lanes>(lanes: L, zs: L::F32) -> L::Each<Self::Stored> {
+        let zs = lanes.store(zs);
+        lanes.each(|k| Self::encode(at(zs.as_ref(), k)))
+    }
+
+    /// Those of the samples in `mask` for which `new` is [`nearer`](Self::nearer) than `old`.
+    #[inline(always)]
+    fn seen<L: Lanes>(
+        lanes: L,
+        new: &L::Each<Self::Stored>,
+        old: &L::Each<Self::Stored>,
+        mask: L::Mask,
+    ) -> L::Mask {
+        let nearer = lanes.each(|k| match (new.as_ref().get(k), old.as_ref().get(k)) {
+            (Some(&new), Some(&old)) => u32::from(Self::nearer(new, old)) << k,
+            _ => 0,
+        });
+        mask & lanes.mask(nearer.as_ref().iter().fold(0, |bits, bit| bits | bit))
+    }
+
+    /// Stores `new` for the samples in `mask`.
+    #[inline(always)]
+    fn keep<L: Lanes>(
+        lanes: L,
+        new: &L::Each<Self::Stored>,
+        mask: L::Mask,
+        stored: &mut L::Each<Self::Stored>,
+    ) {
+        let bits = lanes.bits(mask);
+        for (k, (stored, new)) in stored.as_mut().iter_mut().zip(new.as_ref()).enumerate() {
+            *stored = if bits >> k & 1 != 0 { *new } else { *stored };
+        }
+    }
+}
+
+/// Element `k`, which there is.
+#[inline(always)]
+fn at(values: &[f32], k: usize) -> f32 {
+    values.get(k).copied().unwrap_or_default()
 }
 
 /// No depth buffer: everything is seen, in drawing order. Its buffer is a slice of `()`, which takes no memory; depth
@@ -63,6 +106,10 @@ impl DepthFormat for NoDepth {
     fn nearer((): (), (): ()) -> bool {
         true
     }
+    #[inline(always)]
+    fn seen<L: Lanes>(_: L, _: &L::Each<()>, _: &L::Each<()>, mask: L::Mask) -> L::Mask {
+        mask
+    }
 }
 
 impl DepthFormat for D16 {
@@ -106,6 +153,18 @@ impl DepthFormat for F32 {
     fn nearer(new: f32, old: f32) -> bool {
         new < old
     }
+    #[inline(always)]
+    fn encode_lanes<L: Lanes>(lanes: L, zs: L::F32) -> L::Each<f32> {
+        lanes.store(zs)
+    }
+    #[inline(always)]
+    fn seen<L: Lanes>(lanes: L, new: &L::Each<f32>, old: &L::Each<f32>, mask: L::Mask) -> L::Mask {
+        mask & lanes.less(lanes.load(new), lanes.load(old))
+    }
+    #[inline(always)]
+    fn keep<L: Lanes>(lanes: L, new: &L::Each<f32>, mask: L::Mask, stored: &mut L::Each<f32>) {
+        *stored = lanes.store(lanes.select(mask, lanes.load(new), lanes.load(stored)));
+    }
 }
 
 impl DepthFormat for F32Reversed {
@@ -119,6 +178,18 @@ impl DepthFormat for F32Reversed {
     #[inline]
     fn nearer(new: f32, old: f32) -> bool {
         new > old
+    }
+    #[inline(always)]
+    fn encode_lanes<L: Lanes>(lanes: L, zs: L::F32) -> L::Each<f32> {
+        lanes.store(zs)
+    }
+    #[inline(always)]
+    fn seen<L: Lanes>(lanes: L, new: &L::Each<f32>, old: &L::Each<f32>, mask: L::Mask) -> L::Mask {
+        mask & lanes.less(lanes.load(old), lanes.load(new))
+    }
+    #[inline(always)]
+    fn keep<L: Lanes>(lanes: L, new: &L::Each<f32>, mask: L::Mask, stored: &mut L::Each<f32>) {
+        *stored = lanes.store(lanes.select(mask, lanes.load(new), lanes.load(stored)));
     }
 }
 

@@ -8,27 +8,33 @@ use crate::counters::Counters;
 use crate::depth::DepthFormat;
 use crate::edge::{Edge, EdgeInt};
 use crate::fragment::FragmentStage;
-use crate::lanes::{Lanes, Native};
-use crate::paint::{Painter, Rest};
-use crate::spans::SpanWalker;
+use crate::interpolation::{Interpolate, Interpolation};
+use crate::mask::{NARROW, RowMask};
+use crate::paint::{Painter, Row};
+use crate::spans::Spans;
 use crate::triangle::{Bounds, Corners, Cull, Outcome, Vertex, canonical_order, doubled_area};
+use alberti_math::lanes::Lanes;
 use alberti_math::{Subpixel, Varying};
+use core::marker::PhantomData;
 use core::ops::Range;
 
-/// Draws one triangle into a band.
+/// Draws one triangle into a band, with as many samples at a time as there are `lanes`.
 ///
 /// Every sample (pixel centre) inside the snapped triangle is covered, exactly; one on an edge belongs to the triangle
 /// whose top or left edge it is, so triangles that share an edge neither leave a gap nor draw twice. The result does
-/// not depend on the order of the three vertices.
+/// not depend on the order of the three vertices, nor on the lanes.
 ///
 /// # Precision
-/// Coverage is exact. Depth is within 6ε of the plane through the three zs, relatively and barring underflow, and within their range;
-/// varyings are those of [`Exact`](crate::Exact).
+/// Coverage is exact. Depth and varyings are those of the `interpolation`, depth within 6ε of the plane through the three
+/// zs for [`Exact`](crate::Exact), relatively and barring underflow, and within their range for all.
 ///
 /// # Cost
-/// Six integer divisions for the edges and three of `f32` for depth; 32-bit edge functions for triangles up to 179 pixels
-/// (8 subpixel bits) or 2,894 (4 bits) in a square box, 64-bit ones above, with the same pixels.
-pub fn draw_triangle<S, V, F, C, D, K>(
+/// A triangle whose box is narrow (8 samples for one lane, 32 for several) has all samples of its rows tested, for a wider
+/// one six integer divisions give the ends of all spans. One that covers no sample is not prepared. Edge functions have 32 bits up to 179
+/// pixels (8 subpixel bits) or 2,894 (4 bits) in a square box, and 64 above, with the same pixels.
+pub fn draw_triangle<P, L, S, V, F, C, D, K>(
+    interpolation: P,
+    lanes: L,
     band: &mut Band<'_, C, D>,
     vertices: [&Vertex<S, V>; 3],
     cull: Cull,
@@ -36,25 +42,7 @@ pub fn draw_triangle<S, V, F, C, D, K>(
     counters: &mut K,
 ) -> Outcome
 where
-    S: Subpixel,
-    V: Varying,
-    F: FragmentStage<V>,
-    C: Store<F::Color>,
-    D: DepthFormat,
-    K: Counters,
-{
-    draw_triangle_by::<Native, S, V, F, C, D, K>(band, vertices, cull, fragment, counters)
-}
-
-/// [`draw_triangle`] with so many samples at a time: the same pixels, bit for bit.
-pub fn draw_triangle_by<L, S, V, F, C, D, K>(
-    band: &mut Band<'_, C, D>,
-    vertices: [&Vertex<S, V>; 3],
-    cull: Cull,
-    fragment: &F,
-    counters: &mut K,
-) -> Outcome
-where
+    P: Interpolation,
     L: Lanes,
     S: Subpixel,
     V: Varying,
@@ -69,60 +57,148 @@ where
         return Outcome::Culled;
     }
     let bounds = Bounds::of(&corners);
-    let [columns, rows] = band.limits();
-    let (columns, rows) = (bounds.samples::<S>(0, columns), bounds.samples::<S>(1, rows));
-    if columns.is_empty() || rows.is_empty() {
+    let [limits, rows] = band.limits();
+    let (columns, rows) = (bounds.samples::<S>(0, i32::MIN..i32::MAX), bounds.samples::<S>(1, rows));
+    if rows.is_empty() || columns.start.max(limits.start) >= columns.end.min(limits.end) {
         return Outcome::Missed;
     }
     let order = canonical_order(&corners, area);
     let vertices = order.map(|k| vertices[k]);
     let corners = order.map(|k| corners[k]);
-    let painter = Painter::<L, V, F>::new(vertices, area.abs(), fragment);
-    if bounds.fits_i32(S::ONE) {
-        fill::<i32, S, _, _, _, _, _, _>(band, &corners, columns, rows, &painter, counters);
-    } else {
-        fill::<i64, S, _, _, _, _, _, _>(band, &corners, columns, rows, &painter, counters);
+    let prepare = || Painter {
+        lanes,
+        triangle: P::Triangle::<L, V>::new(interpolation, lanes, vertices, &corners, area.abs()),
+        fragment,
+        types: PhantomData,
+    };
+    let samples = Samples { corners: &corners, columns, rows, limits };
+    lanes.vectorize(
+        #[inline(always)]
+        || {
+            let fits_i32 = bounds.fits_i32(S::ONE);
+            if L::COUNT > 1
+                && fits_i32
+                && samples.suit_masks(<P::Triangle<L, V> as Interpolate<P, L, V>>::RUN)
+            {
+                fill_masked::<S, _, _, _, _, _, _, _, _>(lanes, band, &samples, prepare, counters)
+            } else if L::COUNT == 1 && fits_i32 {
+                fill::<i32, S, _, _, _, _, _, _, _, _>(band, &samples, prepare, counters)
+            } else {
+                // Several lanes hold 64-bit edge functions as well as 32-bit ones.
+                fill::<i64, S, _, _, _, _, _, _, _, _>(band, &samples, prepare, counters)
+            }
+        },
+    )
+}
+
+/// The samples in a triangle's box, and which of them may be drawn to.
+struct Samples<'a> {
+    corners: &'a Corners,
+    columns: Range<i32>,
+    rows: Range<i32>,
+    /// The columns of the band.
+    limits: Range<i32>,
+}
+
+impl Samples<'_> {
+    /// Whether rows are best filled by testing every sample: the box is narrow, within the band, and in one run.
+    #[inline(always)]
+    fn suit_masks(&self, run: i32) -> bool {
+        let Range { start, end } = self.columns;
+        let one_run = (start ^ (end - 1)) & !(run - 1) == 0;
+        end - start <= NARROW && start >= self.limits.start && end <= self.limits.end && one_run
     }
-    Outcome::Drawn
+
+    /// The edges, each opposite the vertex whose weight it is, with their values at the box's first sample.
+    #[inline(always)]
+    fn edges<I: EdgeInt, S: Subpixel>(&self) -> [Edge<I>; 3] {
+        let first_sample = [self.columns.start, self.rows.start].map(|i| i * S::ONE + S::HALF);
+        let [a, b, c] = *self.corners;
+        [(b, c), (c, a), (a, b)].map(|(from, to)| Edge::new(from, to, first_sample, S::ONE))
+    }
 }
 
 /// Fills the covered samples of a box, row by row. `I` is wide enough for every edge function in it.
-#[inline]
-fn fill<I, S, L, V, F, C, D, K>(
+#[inline(always)]
+fn fill<'f, I, S, P, L, V, T, F, C, D, K>(
     band: &mut Band<'_, C, D>,
-    &[a, b, c]: &Corners,
-    columns: Range<i32>,
-    rows: Range<i32>,
-    painter: &Painter<'_, L, V, F>,
+    samples: &Samples<'_>,
+    prepare: impl Fn() -> Painter<'f, P, L, V, T, F>,
     counters: &mut K,
-) where
+) -> Outcome
+where
     I: EdgeInt,
     S: Subpixel,
     L: Lanes,
     V: Varying,
-    F: FragmentStage<V>,
+    P: Interpolation,
+    T: Interpolate<P, L, V>,
+    F: FragmentStage<V> + 'f,
     C: Store<F::Color>,
     D: DepthFormat,
     K: Counters,
 {
-    let first_sample = [columns.start, rows.start].map(|i| i * S::ONE + S::HALF);
-    // Each opposite the vertex whose weight it is.
-    let mut edges = [(b, c), (c, a), (a, b)].map(|(from, to)| Edge::<I>::new(from, to, first_sample, S::ONE));
-    let mut walker = SpanWalker::new(&edges, columns.end - columns.start, rows.end - rows.start);
-    let steps = edges.map(|e| e.step_x);
-    for row in rows.start..rows.start + walker.rows() {
-        let span = walker.span();
-        if span.start < span.end {
-            let at_start = edges.map(|e| e.value + e.step_x * I::from(span.start));
-            let (color, depth) = band.pixels_from(row, columns.start + span.start);
-            let covered = (span.end - span.start).unsigned_abs();
-            let mut rest = Rest::<C, D> { color, depth };
-            let written = painter.span(&mut rest, covered, at_start, steps);
+    let Samples { columns, rows, limits, .. } = samples;
+    let mut edges = samples.edges::<I, S>();
+    let [width, height] = [columns, rows].map(|range| range.end - range.start);
+    let mut spans = Spans::new(&edges, width, height);
+    // A triangle that covers no sample is not prepared.
+    let mut painter = None;
+    for row in rows.clone() {
+        let covered = spans.next_row().shifted(columns.start);
+        if covered.start < covered.end {
+            let painter = painter.get_or_insert_with(&prepare);
+            let row = Row { row, covered, origin: columns.start, edges: &edges };
+            let [covered, written] = painter.row(band, &row, limits);
             counters.span(covered, written);
         }
         for edge in &mut edges {
             edge.value = edge.value + edge.step_y;
         }
-        walker.next_row();
     }
+    if painter.is_some() { Outcome::Drawn } else { Outcome::Missed }
+}
+
+/// The same for several lanes and a box that [suits masks](Samples::suit_masks): without spans.
+#[inline(always)]
+fn fill_masked<'f, S, P, L, V, T, F, C, D, K>(
+    lanes: L,
+    band: &mut Band<'_, C, D>,
+    samples: &Samples<'_>,
+    prepare: impl Fn() -> Painter<'f, P, L, V, T, F>,
+    counters: &mut K,
+) -> Outcome
+where
+    S: Subpixel,
+    L: Lanes,
+    V: Varying,
+    P: Interpolation,
+    T: Interpolate<P, L, V>,
+    F: FragmentStage<V> + 'f,
+    C: Store<F::Color>,
+    D: DepthFormat,
+    K: Counters,
+{
+    let Samples { columns, rows, .. } = samples;
+    let mut mask = RowMask::new(lanes, samples.edges::<i32, S>(), columns.len(), rows.start);
+    let mut row = rows.start;
+    let mut bits = mask.bits();
+    // A triangle that covers no sample is not prepared.
+    while bits == 0 {
+        row += 1;
+        if row >= rows.end {
+            return Outcome::Missed;
+        }
+        bits = mask.next_row();
+    }
+    let painter = prepare();
+    while row < rows.end {
+        if bits != 0 {
+            let written = painter.masked(band, row, columns.start, bits, &mask);
+            counters.span(bits.count_ones(), written);
+        }
+        row += 1;
+        bits = mask.next_row();
+    }
+    Outcome::Drawn
 }

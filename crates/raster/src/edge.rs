@@ -11,6 +11,7 @@
 //! Everything is in subpixels. A sample on an edge belongs to the triangle if the edge is a top or a left one, which is
 //! the same as moving all samples by an infinitesimal (e, e²): every sample of a mesh lies in exactly one triangle.
 
+use alberti_math::lanes::Lanes;
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Sub};
 
@@ -27,50 +28,81 @@ pub trait EdgeInt:
     + Mul<Output = Self>
     + Div<Output = Self>
 {
-    /// The nearest `f32`: exact up to 2^24, within ε = 2^-24 relative above.
-    fn to_f32(self) -> f32;
+    /// An edge function at several samples.
+    type Of<L: Lanes>: Copy;
+
+    /// `value` at the first sample, `step` more at each that follows.
+    fn ramp<L: Lanes>(lanes: L, value: Self, step: Self) -> Self::Of<L>;
+
+    /// Each moved on by `step`.
+    fn advance<L: Lanes>(lanes: L, at: Self::Of<L>, step: Self) -> Self::Of<L>;
+
+    /// The nearest `f32` of each: exact up to 2^24, within ε = 2^-24 relative above.
+    fn weights<L: Lanes>(lanes: L, at: Self::Of<L>) -> L::F32;
 
     /// The same number: every edge function within the guard band is below 2^53.
     fn to_f64(self) -> f64;
 
-    /// This number of columns, which is at most a band's width.
-    fn to_columns(self) -> i32;
+    /// The same number, where it fits.
+    fn to_i32(self) -> i32;
 }
 
 impl EdgeInt for i32 {
-    #[inline]
-    #[expect(clippy::cast_precision_loss, reason = "rounding to nearest is what is documented")]
-    fn to_f32(self) -> f32 {
-        self as f32
+    type Of<L: Lanes> = L::Int;
+
+    #[inline(always)]
+    fn ramp<L: Lanes>(lanes: L, value: Self, step: Self) -> L::Int {
+        lanes.int_ramp(value, step)
     }
 
-    #[inline]
+    #[inline(always)]
+    fn advance<L: Lanes>(lanes: L, at: L::Int, step: Self) -> L::Int {
+        at + lanes.int(step)
+    }
+
+    #[inline(always)]
+    fn weights<L: Lanes>(lanes: L, at: L::Int) -> L::F32 {
+        lanes.int_to_f32(at)
+    }
+
+    #[inline(always)]
     fn to_f64(self) -> f64 {
         f64::from(self)
     }
 
-    #[inline]
-    fn to_columns(self) -> i32 {
+    #[inline(always)]
+    fn to_i32(self) -> i32 {
         self
     }
 }
 
 impl EdgeInt for i64 {
-    #[inline]
-    #[expect(clippy::cast_precision_loss, reason = "rounding to nearest is what is documented")]
-    fn to_f32(self) -> f32 {
-        self as f32
+    type Of<L: Lanes> = L::Long;
+
+    #[inline(always)]
+    fn ramp<L: Lanes>(lanes: L, value: Self, step: Self) -> L::Long {
+        lanes.long_ramp(value, step)
     }
 
-    #[inline]
+    #[inline(always)]
+    fn advance<L: Lanes>(lanes: L, at: L::Long, step: Self) -> L::Long {
+        lanes.long_add(at, step)
+    }
+
+    #[inline(always)]
+    fn weights<L: Lanes>(lanes: L, at: L::Long) -> L::F32 {
+        lanes.long_to_f32(at)
+    }
+
+    #[inline(always)]
     #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
     fn to_f64(self) -> f64 {
         self as f64
     }
 
-    #[inline]
-    #[expect(clippy::cast_possible_truncation, reason = "at most a band's width")]
-    fn to_columns(self) -> i32 {
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "where it fits")]
+    fn to_i32(self) -> i32 {
         self as i32
     }
 }

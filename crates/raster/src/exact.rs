@@ -1,10 +1,14 @@
 //! Hyperbolic (perspective-correct) interpolation from the exact integer edges.
 
-use crate::lanes::Lanes;
-use alberti_math::{Varying, hull3};
+use crate::interpolation::{Interpolate, Interpolation};
+use crate::spans::Span;
+use crate::triangle::{Corners, Vertex};
+use alberti_math::lanes::Lanes;
+use alberti_math::{Subpixel, Varying, hull3};
+use core::fmt;
 
-/// The `Exact` perspective: at a sample, ti = Ei qi and u = Σ ti ui / Σ ti, with the edge function Ei opposite vertex i
-/// and qi = 1/zi.
+/// From the exact integer edges: at a sample, ti = Ei qi and u = Σ ti ui / Σ ti, with the edge function Ei opposite
+/// vertex i and qi = 1/zi. Screen depth is Σ Ei zsi / Σ Ei.
 ///
 /// # Precision
 /// Within 9ε·max|ui| of the exact value at the sample (ε = 2^-24; 5.1ε is the most that was measured, over ratios of the
@@ -17,54 +21,114 @@ use alberti_math::{Varying, hull3};
 /// # Cost
 /// A fragment: three conversions, three products, two sums, one division; a component adds four products, two sums,
 /// a minimum and a maximum.
-#[derive(Clone, Copy)]
-pub struct Exact<L: Lanes, V: Varying> {
-    /// The three q, in every lane.
-    q: [L; 3],
-    /// For each component, in every lane: its values at the three vertices, the least, the greatest.
-    values: V::Of<[L; 5]>,
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Exact;
+
+impl Interpolation for Exact {
+    type Triangle<L: Lanes, V: Varying> = ExactTriangle<L, V>;
 }
 
-impl<L: Lanes, V: Varying> Exact<L, V> {
-    /// Prepares a triangle with `q` > 0 and finite values.
+/// A triangle prepared for [`Exact`].
+#[derive(Clone, Copy)]
+pub struct ExactTriangle<L: Lanes, V: Varying> {
+    lanes: L,
+    /// zs over the doubled area, so that weights need not be normalised.
+    zs: [L::F32; 3],
+    nearest_farthest: [L::F32; 2],
+    /// The three q.
+    q: [L::F32; 3],
+    /// For each component: its values at the three vertices, the least, the greatest.
+    values: V::Of<[L::F32; 5]>,
+}
+
+impl<L: Lanes, V: Varying> ExactTriangle<L, V> {
+    /// The attributes of a triangle with `q` > 0 and finite values, without its depth.
     #[must_use]
     #[inline(always)]
-    pub fn new(q: [f32; 3], [a, b, c]: [V; 3]) -> Self {
+    pub fn of_attributes(lanes: L, q: [f32; 3], values: [V; 3]) -> Self {
+        Self::with_depth(lanes, [0.0; 3], 1.0, q, values)
+    }
+
+    #[inline(always)]
+    fn with_depth(lanes: L, zs: [f32; 3], area: f32, q: [f32; 3], [a, b, c]: [V; 3]) -> Self {
+        let splat = |x: f32| lanes.splat(x);
         let scale = power_of_two_near(q[0].max(q[1]).max(q[2]));
+        let [nearest, farthest] = hull3(zs);
         let [lo, hi] = hull3([a, b, c]);
         Self {
-            q: [L::splat(q[0] * scale), L::splat(q[1] * scale), L::splat(q[2] * scale)],
+            lanes,
+            zs: [splat(zs[0] / area), splat(zs[1] / area), splat(zs[2] / area)],
+            nearest_farthest: [splat(nearest), splat(farthest)],
+            q: [splat(q[0] * scale), splat(q[1] * scale), splat(q[2] * scale)],
             values: V::map(&V::gather([a, b, c, lo, hi]), &|[a, b, c, lo, hi]: [f32; 5]| {
-                [L::splat(a), L::splat(b), L::splat(c), L::splat(lo), L::splat(hi)]
+                [splat(a), splat(b), splat(c), splat(lo), splat(hi)]
             }),
         }
     }
 
-    /// The value at each sample where the edge functions, rounded to `f32`, are `edges`.
+    /// The attributes where the edge functions, rounded to `f32`, are `edges`.
     #[must_use]
     #[inline(always)]
-    pub fn at(&self, edges: [L; 3]) -> V::Of<L> {
+    pub fn at(&self, edges: &[L::F32; 3]) -> V::Of<L::F32> {
+        let lanes = self.lanes;
         let t0 = edges[0] * self.q[0];
         let t1 = edges[1] * self.q[1];
         let t2 = edges[2] * self.q[2];
-        let scale = L::splat(1.0) / (t0 + t1 + t2);
-        V::map(&self.values, &|[a, b, c, lo, hi]: [L; 5]| {
+        let scale = lanes.splat(1.0) / (t0 + t1 + t2);
+        V::map(&self.values, &|[a, b, c, lo, hi]: [L::F32; 5]| {
             let sum = t0 * a + t1 * b + t2 * c;
-            (sum * scale).max(lo).min(hi)
+            lanes.min(lanes.max(sum * scale, lo), hi)
         })
     }
 }
 
-impl<L: Lanes, V: Varying> core::fmt::Debug for Exact<L, V> {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.debug_struct("Exact").finish_non_exhaustive()
+impl<L: Lanes, V: Varying> Interpolate<Exact, L, V> for ExactTriangle<L, V> {
+    const RUN: i32 = 1 << 30;
+    type Cursor = ();
+
+    #[inline(always)]
+    fn new<S: Subpixel>(
+        _: Exact,
+        lanes: L,
+        [a, b, c]: [&Vertex<S, V>; 3],
+        _: &Corners,
+        doubled_area: i64,
+    ) -> Self {
+        #[expect(clippy::cast_precision_loss, reason = "rounding to nearest is within the bound")]
+        let area = doubled_area as f32;
+        let varyings = [a.varying, b.varying, c.varying];
+        Self::with_depth(lanes, [a.zs, b.zs, c.zs], area, [a.q, b.q, c.q], varyings)
+    }
+
+    #[inline(always)]
+    fn start(&self, _: i32, _: Span, _: i32) {}
+
+    #[inline(always)]
+    fn advance(&self, (): ()) {}
+
+    #[inline(always)]
+    fn depth(&self, (): &(), weights: &[L::F32; 3]) -> L::F32 {
+        let [nearest, farthest] = self.nearest_farthest;
+        let zs = weights[0] * self.zs[0] + weights[1] * self.zs[1] + weights[2] * self.zs[2];
+        self.lanes.min(self.lanes.max(zs, nearest), farthest)
+    }
+
+    #[inline(always)]
+    fn attributes(&self, (): &(), weights: &[L::F32; 3]) -> V::Of<L::F32> {
+        self.at(weights)
+    }
+}
+
+impl<L: Lanes, V: Varying> fmt::Debug for ExactTriangle<L, V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ExactTriangle").finish_non_exhaustive()
     }
 }
 
 /// The power of two s for which x s lies in [1, 2), so that no weight can overflow or, for ratios of q up to 2^126, lose
 /// bits; multiplying by it is exact.
 #[inline]
-fn power_of_two_near(x: f32) -> f32 {
+pub(crate) fn power_of_two_near(x: f32) -> f32 {
     let exponent = (x.to_bits() >> 23) & 0xff;
     // Exponents of subnormal and of the largest numbers have no normal counterpart: they keep what they have.
     f32::from_bits(254u32.saturating_sub(exponent).clamp(1, 253) << 23)
@@ -73,6 +137,7 @@ fn power_of_two_near(x: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use alberti_math::lanes::One;
 
     #[test]
     fn scaling_brings_every_number_near_one() {
@@ -84,9 +149,10 @@ mod tests {
 
     #[test]
     fn the_middle_of_an_edge_is_nearer_in_space() {
-        let depth = Exact::<f32, f32>::new([1.0, 1.0 / 3.0, 1.0], [1.0f32, 3.0, 1.0]);
-        assert!((depth.at([100.0f32, 100.0, 0.0]) - 1.5).abs() < 1e-6);
-        assert_eq!(depth.at([77.0f32, 0.0, 0.0]), 1.0);
-        assert_eq!(Exact::<f32, f32>::new([1e-9, 3.3, 0.7], [0.1f32; 3]).at([3.0f32, 5.0, 9e9]), 0.1);
+        let depth = ExactTriangle::of_attributes(One, [1.0, 1.0 / 3.0, 1.0], [1.0f32, 3.0, 1.0]);
+        assert!((depth.at(&[100.0, 100.0, 0.0]) - 1.5).abs() < 1e-6);
+        assert_eq!(depth.at(&[77.0, 0.0, 0.0]), 1.0);
+        let constant = ExactTriangle::of_attributes(One, [1e-9, 3.3, 0.7], [0.1f32; 3]);
+        assert_eq!(constant.at(&[3.0, 5.0, 9e9]), 0.1);
     }
 }

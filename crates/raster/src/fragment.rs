@@ -1,21 +1,46 @@
 //! The fragment stage: from interpolated attributes to a colour.
 
+use crate::color::Color;
+use alberti_math::Varying;
+use alberti_math::lanes::Lanes;
+
 /// Maps the varying of a covered sample that passed the depth test to a colour, or discards it.
 ///
-/// Any closure `Fn(V) -> Option<Color>` is one. What it does not use of the varying is not computed.
-pub trait FragmentStage<V> {
+/// Any closure `Fn(V) -> Option<Color>` is one, called for one sample after the other. What it does not use of the
+/// varying is not computed. A stage that is a type may also take all lanes at once.
+pub trait FragmentStage<V: Varying> {
     /// The colour it makes: one that the target's format can [store](crate::Store).
-    type Color;
+    type Color: Color;
 
     /// The colour, or `None` to leave the pixel and its depth as they are.
     fn shade(&self, varying: V) -> Option<Self::Color>;
+
+    /// The colours of the samples in `mask`, as words, and those of them that are not discarded. Other samples may get
+    /// any color; their varyings are finite, but without a meaning.
+    #[inline(always)]
+    fn shade_lanes<L: Lanes>(&self, lanes: L, varyings: &V::Of<L::F32>, mask: L::Mask) -> (L::U32, L::Mask) {
+        let in_memory = V::map(varyings, &|numbers: L::F32| lanes.store(numbers));
+        let mut bits = lanes.bits(mask);
+        let colors = lanes.each(|k| {
+            if bits >> k & 1 == 0 {
+                return 0;
+            }
+            let lane = |each: L::Each<f32>| each.as_ref().get(k).copied().unwrap_or_default();
+            let color = self.shade(V::from_components(&V::map(&in_memory, &lane)));
+            if color.is_none() {
+                bits &= !(1 << k);
+            }
+            color.map_or(0, Color::to_word)
+        });
+        (lanes.load_words(&colors), lanes.mask(bits))
+    }
 }
 
-impl<V, Color, F: Fn(V) -> Option<Color>> FragmentStage<V> for F {
-    type Color = Color;
+impl<V: Varying, C: Color, F: Fn(V) -> Option<C>> FragmentStage<V> for F {
+    type Color = C;
 
-    #[inline]
-    fn shade(&self, varying: V) -> Option<Color> {
+    #[inline(always)]
+    fn shade(&self, varying: V) -> Option<C> {
         self(varying)
     }
 }

@@ -1,168 +1,220 @@
-//! From a span of covered samples to pixels: weights, depth, attributes, colour, as many samples at a time as there are
-//! lanes. This is the loop in which the time goes.
+//! From a span of covered samples to pixels: depth, attributes, colour, as many samples at a time as there are lanes.
+//! This is the loop in which the time goes.
 
-use crate::color::{ColorFormat, Store};
+use crate::band::Band;
+use crate::color::Store;
 use crate::depth::DepthFormat;
-use crate::edge::EdgeInt;
-use crate::exact::Exact;
+use crate::edge::{Edge, EdgeInt};
 use crate::fragment::FragmentStage;
-use crate::lanes::Lanes;
-use crate::triangle::Vertex;
-use alberti_math::{Subpixel, Varying, hull3};
+use crate::interpolation::{Interpolate, Interpolation};
+use crate::mask::RowMask;
+use crate::spans::Span;
+use alberti_math::Varying;
+use alberti_math::lanes::Lanes;
+use core::marker::PhantomData;
+use core::ops::Range;
 
 /// What a triangle looks like: what is interpolated over it, and the stage that makes colours of that.
-pub(crate) struct Painter<'a, L: Lanes, V: Varying, F> {
-    /// zs over the doubled area, so that weights need not be normalised.
-    zs: [L; 3],
-    nearest_farthest: [L; 2],
-    attributes: Exact<L, V>,
-    fragment: &'a F,
+pub(crate) struct Painter<'a, P, L, V, T, F> {
+    pub(crate) lanes: L,
+    pub(crate) triangle: T,
+    pub(crate) fragment: &'a F,
+    pub(crate) types: PhantomData<(P, V)>,
 }
 
-/// Pixels from some place on, with their depths; as many of the one as of the other.
-pub(crate) struct Rest<'a, C: ColorFormat, D: DepthFormat> {
-    pub(crate) color: &'a mut [C::Pixel],
-    pub(crate) depth: &'a mut [D::Stored],
+/// A row of a triangle: the covered columns, and the edge functions at one of them.
+pub(crate) struct Row<'a, I> {
+    pub(crate) row: i32,
+    pub(crate) covered: Span,
+    /// Column 0 of the edges.
+    pub(crate) origin: i32,
+    pub(crate) edges: &'a [Edge<I>; 3],
 }
 
-impl<'a, L: Lanes, V: Varying, F: FragmentStage<V>> Painter<'a, L, V, F> {
+impl<P, L, V, T, F> Painter<'_, P, L, V, T, F>
+where
+    P: Interpolation,
+    L: Lanes,
+    V: Varying,
+    T: Interpolate<P, L, V>,
+    F: FragmentStage<V>,
+{
+    /// Fills what a row of the triangle covers of the columns in `limits`, and counts the pixels covered and written.
     #[inline(always)]
-    pub(crate) fn new<S: Subpixel>(
-        [a, b, c]: [&Vertex<S, V>; 3],
-        doubled_area: i64,
-        fragment: &'a F,
-    ) -> Self {
-        let area = doubled_area.to_f32();
-        let [lo, hi] = hull3([a.zs, b.zs, c.zs]);
-        Self {
-            zs: [L::splat(a.zs / area), L::splat(b.zs / area), L::splat(c.zs / area)],
-            nearest_farthest: [L::splat(lo), L::splat(hi)],
-            attributes: Exact::new([a.q, b.q, c.q], [a.varying, b.varying, c.varying]),
-            fragment,
+    pub(crate) fn row<I, C, D>(
+        &self,
+        band: &mut Band<'_, C, D>,
+        row: &Row<'_, I>,
+        limits: &Range<i32>,
+    ) -> [u32; 2]
+    where
+        I: EdgeInt,
+        C: Store<F::Color>,
+        D: DepthFormat,
+    {
+        let mut counts = [0; 2];
+        let mut first = row.covered.start;
+        while first < row.covered.end {
+            let end = row.covered.end.min((first | (T::RUN - 1)) + 1);
+            let columns = first.max(limits.start)..end.min(limits.end);
+            if columns.start < columns.end {
+                let run = Span { start: first, end: end.min(row.covered.end - 1) };
+                let cursor = self.triangle.start(row.row, run, columns.start);
+                counts[0] += columns.len() as u32;
+                counts[1] += self.run(band, row, columns, cursor);
+            }
+            first = end;
+        }
+        counts
+    }
+
+    /// Fills those samples of a row whose bits are set, counted from column `left`; all of them lie in one run.
+    #[inline(always)]
+    pub(crate) fn masked<C, D>(
+        &self,
+        band: &mut Band<'_, C, D>,
+        row: i32,
+        left: i32,
+        mut bits: u32,
+        mask: &RowMask<L>,
+    ) -> u32
+    where
+        C: Store<F::Color>,
+        D: DepthFormat,
+    {
+        let first = left + bits.trailing_zeros().cast_signed();
+        let last = left + 31 - bits.leading_zeros().cast_signed();
+        let mut cursor = self.triangle.start(row, Span { start: first, end: last }, left);
+        let (mut colors, mut depths) = band.pixels_from(row, left);
+        let (mut values, mut written, mut column) = (mask.first(), 0, left);
+        loop {
+            let group = bits & ((1 << L::COUNT) - 1);
+            if colors.len() < L::COUNT || depths.len() < L::COUNT {
+                let edges = mask.edges(row, column - left);
+                return written + self.end::<i32, C, D>(colors, depths, group, cursor, &edges);
+            }
+            let (Some((color, next_colors)), Some((depth, next_depths))) =
+                (L::split(colors), L::split(depths))
+            else {
+                return written;
+            };
+            if group != 0 {
+                written += self.group::<C, D>(color, depth, group, &cursor, &mask.weights(values));
+            }
+            bits >>= L::COUNT;
+            if bits == 0 {
+                return written;
+            }
+            (colors, depths) = (next_colors, next_depths);
+            column += L::COUNT as i32;
+            cursor = self.triangle.advance(cursor);
+            values = mask.right(values);
         }
     }
 
-    /// Fills the first `covered` samples and counts those written. `edges` are the edge functions at the first. The last
-    /// lanes may look at pixels beyond the span, which they leave alone.
+    /// Fills a run of samples. The last lanes may look at pixels beyond it, which they leave alone.
     #[inline(always)]
-    pub(crate) fn span<I, C, D>(
+    fn run<I, C, D>(
         &self,
-        rest: &mut Rest<'_, C, D>,
-        covered: u32,
-        edges: [I; 3],
-        steps: [I; 3],
+        band: &mut Band<'_, C, D>,
+        row: &Row<'_, I>,
+        columns: Range<i32>,
+        mut cursor: T::Cursor,
     ) -> u32
     where
         I: EdgeInt,
         C: Store<F::Color>,
         D: DepthFormat,
     {
-        let mut e0 = L::edge::<I>(edges[0], steps[0]);
-        let mut e1 = L::edge::<I>(edges[1], steps[1]);
-        let mut e2 = L::edge::<I>(edges[2], steps[2]);
-        let (mut at, mut left, mut written) = (0, covered as usize, 0);
+        let lanes = self.lanes;
+        let offset = I::from(columns.start - row.origin);
+        let [a, b, c] = row.edges;
+        let ramp = |e: &Edge<I>| I::ramp(lanes, e.value + e.step_x * offset, e.step_x);
+        let mut edges = [ramp(a), ramp(b), ramp(c)];
+        let (mut colors, mut depths) = band.pixels_from(row.row, columns.start);
+        let (mut left, mut written) = (columns.len(), 0);
         loop {
-            let weights = [L::weight::<I>(e0), L::weight::<I>(e1), L::weight::<I>(e2)];
-            let lanes = if left < L::COUNT { (1 << left) - 1 } else { (1 << L::COUNT) - 1 };
-            let end = at + L::COUNT;
-            written += match (rest.color.get_mut(at..end), rest.depth.get_mut(at..end)) {
-                (Some(color), Some(depth)) => self.lanes(&mut Rest::<C, D> { color, depth }, lanes, weights),
-                _ => self.end(rest, at, lanes, weights),
+            let bits = if left < L::COUNT { (1 << left) - 1 } else { (1 << L::COUNT) - 1 };
+            if colors.len() < L::COUNT || depths.len() < L::COUNT {
+                let column = I::from(columns.end - left as i32 - row.origin);
+                let at = |e: &Edge<I>| Edge { value: e.value + e.step_x * column, ..*e };
+                return written + self.end::<I, C, D>(colors, depths, bits, cursor, &[at(a), at(b), at(c)]);
+            }
+            let (Some((color, next_colors)), Some((depth, next_depths))) =
+                (L::split(colors), L::split(depths))
+            else {
+                return written;
             };
+            let [ea, eb, ec] = edges;
+            let weights = [I::weights(lanes, ea), I::weights(lanes, eb), I::weights(lanes, ec)];
+            written += self.group::<C, D>(color, depth, bits, &cursor, &weights);
             if left <= L::COUNT {
                 return written;
             }
             left -= L::COUNT;
-            at = end;
-            e0 = L::advance::<I>(e0, steps[0]);
-            e1 = L::advance::<I>(e1, steps[1]);
-            e2 = L::advance::<I>(e2, steps[2]);
+            (colors, depths) = (next_colors, next_depths);
+            cursor = self.triangle.advance(cursor);
+            let advance = |at, e: &Edge<I>| I::advance(lanes, at, e.step_x * I::from(L::COUNT as i32));
+            edges = [advance(ea, a), advance(eb, b), advance(ec, c)];
         }
     }
 
-    /// Fills the last samples of a band, fewer than there are lanes, by way of a copy.
+    /// Fills the last samples of a band, fewer than there are lanes, by way of a copy. `edges` are those at the first.
     #[cold]
     #[inline(never)]
-    fn end<C, D>(&self, rest: &mut Rest<'_, C, D>, at: usize, lanes: u32, weights: [L; 3]) -> u32
-    where
-        C: Store<F::Color>,
-        D: DepthFormat,
-    {
-        let (Some(color), Some(depth)) = (rest.color.get_mut(at..), rest.depth.get_mut(at..)) else {
-            return 0;
-        };
-        let (Some(&first_color), Some(&first_depth)) = (color.first(), depth.first()) else { return 0 };
-        let (mut colors, mut depths) = ([first_color; 4], [first_depth; 4]);
-        colors.iter_mut().zip(&*color).for_each(|(copy, &pixel)| *copy = pixel);
-        depths.iter_mut().zip(&*depth).for_each(|(copy, &stored)| *copy = stored);
-        let written =
-            self.lanes(&mut Rest::<C, D> { color: &mut colors, depth: &mut depths }, lanes, weights);
-        color.iter_mut().zip(colors).for_each(|(pixel, copy)| *pixel = copy);
-        depth.iter_mut().zip(depths).for_each(|(stored, copy)| *stored = copy);
-        written
-    }
-
-    /// Fills those samples whose bits are set in `lanes`. `weights` are the edge functions.
-    #[inline(always)]
-    fn lanes<C, D>(&self, pixels: &mut Rest<'_, C, D>, lanes: u32, weights: [L; 3]) -> u32
-    where
-        C: Store<F::Color>,
-        D: DepthFormat,
-    {
-        // The screen depth is linear on the screen, and kept within that of the vertices.
-        let [nearest, farthest] = self.nearest_farthest;
-        let zs = weights[0] * self.zs[0] + weights[1] * self.zs[1] + weights[2] * self.zs[2];
-        let zs = zs.max(nearest).min(farthest);
-        // One sample after the other instead of in a loop, so that each takes its lane from a register.
-        let mut seen = sees::<0, L, D>(zs, pixels.depth);
-        if L::COUNT == 4 {
-            seen |= sees::<1, L, D>(zs, pixels.depth);
-            seen |= sees::<2, L, D>(zs, pixels.depth);
-            seen |= sees::<3, L, D>(zs, pixels.depth);
-        }
-        seen &= lanes;
-        if seen == 0 {
-            return 0;
-        }
-        let varyings = self.attributes.at(weights);
-        let mut written = self.shade::<0, C, D>(pixels, seen, zs, &varyings);
-        if L::COUNT == 4 {
-            written += self.shade::<1, C, D>(pixels, seen, zs, &varyings);
-            written += self.shade::<2, C, D>(pixels, seen, zs, &varyings);
-            written += self.shade::<3, C, D>(pixels, seen, zs, &varyings);
-        }
-        written
-    }
-
-    /// Shades sample `K` if it is seen, and counts whether it was written.
-    #[inline(always)]
-    fn shade<const K: usize, C, D>(
+    fn end<I, C, D>(
         &self,
-        pixels: &mut Rest<'_, C, D>,
-        seen: u32,
-        zs: L,
-        varyings: &V::Of<L>,
+        colors: &mut [C::Pixel],
+        depths: &mut [D::Stored],
+        bits: u32,
+        cursor: T::Cursor,
+        [a, b, c]: &[Edge<I>; 3],
+    ) -> u32
+    where
+        I: EdgeInt,
+        C: Store<F::Color>,
+        D: DepthFormat,
+    {
+        let lanes = self.lanes;
+        let (Some(&pixel), Some(&stored)) = (colors.first(), depths.first()) else { return 0 };
+        let mut color = lanes.each(|k| colors.get(k).copied().unwrap_or(pixel));
+        let mut depth = lanes.each(|k| depths.get(k).copied().unwrap_or(stored));
+        let written = lanes.vectorize(
+            #[inline(always)]
+            || {
+                let weight = |e: &Edge<I>| I::weights(lanes, I::ramp(lanes, e.value, e.step_x));
+                self.group::<C, D>(&mut color, &mut depth, bits, &cursor, &[weight(a), weight(b), weight(c)])
+            },
+        );
+        colors.iter_mut().zip(color.as_ref()).for_each(|(pixel, copy)| *pixel = *copy);
+        depths.iter_mut().zip(depth.as_ref()).for_each(|(stored, copy)| *stored = *copy);
+        written
+    }
+
+    /// Fills those samples of a group whose bits are set, and counts those written.
+    #[inline(always)]
+    fn group<C, D>(
+        &self,
+        color: &mut L::Each<C::Pixel>,
+        depth: &mut L::Each<D::Stored>,
+        bits: u32,
+        cursor: &T::Cursor,
+        weights: &[L::F32; 3],
     ) -> u32
     where
         C: Store<F::Color>,
         D: DepthFormat,
     {
-        if seen >> K & 1 == 0 {
+        let lanes = self.lanes;
+        let zs = D::encode_lanes(lanes, self.triangle.depth(cursor, weights));
+        let seen = D::seen(lanes, &zs, depth, lanes.mask(bits));
+        if lanes.bits(seen) == 0 {
             return 0;
         }
-        let varying = V::from_components(&V::map(varyings, &|lanes: L| lanes.lane(K)));
-        let place = (pixels.color.get_mut(K), pixels.depth.get_mut(K));
-        let (Some(color), (Some(pixel), Some(stored))) = (self.fragment.shade(varying), place) else {
-            return 0;
-        };
-        *stored = D::encode(zs.lane(K));
-        *pixel = C::pixel(color);
-        1
+        let varyings = self.triangle.attributes(cursor, weights);
+        let (words, kept) = self.fragment.shade_lanes(lanes, &varyings, seen);
+        C::store(lanes, words, kept, color);
+        D::keep(lanes, &zs, kept, depth);
+        lanes.bits(kept).count_ones()
     }
-}
-
-/// Bit `K` if there is a sample `K` and it is seen in front of what is stored.
-#[inline(always)]
-fn sees<const K: usize, L: Lanes, D: DepthFormat>(zs: L, depth: &[D::Stored]) -> u32 {
-    u32::from(depth.get(K).is_some_and(|&old| D::nearer(D::encode(zs.lane(K)), old))) << K
 }

@@ -22,6 +22,67 @@ pub struct Span {
     pub end: i32,
 }
 
+impl Span {
+    /// Counted from `columns` columns farther to the left.
+    #[inline(always)]
+    pub(crate) fn shifted(self, columns: i32) -> Self {
+        Self { start: self.start + columns, end: self.end + columns }
+    }
+}
+
+/// The covered samples of a triangle's rows from the top, found in the way that suits its box.
+pub(crate) enum Spans<I> {
+    /// By testing each sample of a row: the edges with their biases at the row's first.
+    Tested { edges: [Edge<I>; 3], width: i32 },
+    /// By following where the edges cross the rows.
+    Walked { walker: SpanWalker<I>, rows: i32 },
+}
+
+/// The columns of the widest box in which testing is cheaper than the divisions that following takes.
+const TESTED: i32 = 8;
+
+impl<I: EdgeInt> Spans<I> {
+    /// Starts at the row of the edges' reference sample, which is column 0 of a box of `width` columns and `rows` rows.
+    #[inline(always)]
+    pub(crate) fn new(edges: &[Edge<I>; 3], width: i32, rows: i32) -> Self {
+        if width <= TESTED {
+            Self::Tested { edges: edges.map(|e| Edge { value: e.value + e.bias, ..e }), width }
+        } else {
+            Self::Walked { walker: SpanWalker::new(edges, width, rows), rows: 0 }
+        }
+    }
+
+    /// The next row's span; `start` is not less than `end` when it covers nothing.
+    #[inline(always)]
+    pub(crate) fn next_row(&mut self) -> Span {
+        match self {
+            Self::Tested { edges: [a, b, c], width } => {
+                let zero = I::from(0);
+                let mut at = [a.value, b.value, c.value];
+                let (mut span, mut column) = (Span { start: *width, end: 0 }, 0);
+                while column < *width {
+                    if at[0] >= zero && at[1] >= zero && at[2] >= zero {
+                        span.start = span.start.min(column);
+                        span.end = column + 1;
+                    }
+                    at = [at[0] + a.step_x, at[1] + b.step_x, at[2] + c.step_x];
+                    column += 1;
+                }
+                for edge in [a, b, c] {
+                    edge.value = edge.value + edge.step_y;
+                }
+                span
+            }
+            Self::Walked { walker, rows } => {
+                let span = walker.span();
+                walker.next_row();
+                *rows += 1;
+                if *rows > walker.rows() { Span { start: 0, end: 0 } } else { span }
+            }
+        }
+    }
+}
+
 /// Where an edge's condition flips along the row: the first column at which its function is not negative.
 ///
 /// For an edge that bounds from the right the function is turned into -value-1, which is not negative exactly where
@@ -117,7 +178,7 @@ impl<I: EdgeInt> SpanWalker<I> {
             }
         }
         // Far outside of the box columns would not fit their type.
-        Span { start: start.min(self.width).to_columns(), end: end.max(I::from(0)).to_columns() }
+        Span { start: start.min(self.width).to_i32(), end: end.max(I::from(0)).to_i32() }
     }
 
     /// Goes down one row.

@@ -1,23 +1,17 @@
 //! The weighted mean of four colours, in integers with one rounding.
 
-use alberti_math::Rgba8;
+use alberti_math::lanes::Lanes;
 
-/// Bytes 0, 2, 4 and 6: four channels in lanes of 16 bits.
-const BYTES: u64 = 0x00ff_00ff_00ff_00ff;
+/// Bytes 0 and 2: two channels in lanes of 16 bits.
+const BYTES: u32 = 0x00ff_00ff;
 
-/// The low half of each 32-bit lane.
-const WORDS: u64 = 0x0000_ffff_0000_ffff;
-
-/// One half in each 32-bit lane of 16 bits of fraction.
-const HALVES: u64 = 0x0000_8000_0000_8000;
-
-/// Four neighbouring texels, named as in a diagram with u to the right and v up.
+/// Four neighbouring texels as words, named as in a diagram with u to the right and v up.
 #[derive(Clone, Copy)]
-pub(crate) struct Quad {
-    pub(crate) low_left: Rgba8,
-    pub(crate) low_right: Rgba8,
-    pub(crate) high_left: Rgba8,
-    pub(crate) high_right: Rgba8,
+pub(crate) struct Quad<L: Lanes> {
+    pub(crate) low_left: L::U32,
+    pub(crate) low_right: L::U32,
+    pub(crate) high_left: L::U32,
+    pub(crate) high_right: L::U32,
 }
 
 /// The colour at `right` 256ths of the way from left to right and `up` 256ths of the way up, both 0 to 256.
@@ -29,49 +23,60 @@ pub(crate) struct Quad {
 /// ```
 ///
 /// # Cost
-/// Four multiplications for the four channels.
-#[inline]
-#[expect(clippy::cast_possible_truncation, reason = "the colour is in the low 32 bits")]
-pub(crate) fn bilinear(quad: Quad, right: u64, up: u64) -> Rgba8 {
-    let low = across(quad.low_left, quad.low_right, right);
-    let high = across(quad.high_left, quad.high_right, right);
-    let red_green = rise(low & WORDS, high & WORDS, up);
-    let blue_alpha = rise(low >> 16 & WORDS, high >> 16 & WORDS, up);
-    // The bytes in the lanes of `spread`, and the way back: G and A move down by 24 bits.
-    let bytes = red_green >> 16 & 0x0000_00ff_0000_00ff | blue_alpha & 0x00ff_0000_00ff_0000;
-    let bits = bytes | bytes >> 24;
-    Rgba8::from_bits(bits as u32)
+/// Eight multiplications for the four channels.
+#[inline(always)]
+pub(crate) fn bilinear<L: Lanes>(lanes: L, quad: Quad<L>, right: L::U32, up: L::U32) -> L::U32 {
+    let Quad { low_left, low_right, high_left, high_right } = quad;
+    let bytes = lanes.word(BYTES);
+    let red_blue = rise(
+        lanes,
+        across(lanes, low_left & bytes, low_right & bytes, right),
+        across(lanes, high_left & bytes, high_right & bytes, right),
+        up,
+    );
+    let green_alpha = rise(
+        lanes,
+        across(lanes, lanes.shr(low_left, 8) & bytes, lanes.shr(low_right, 8) & bytes, right),
+        across(lanes, lanes.shr(high_left, 8) & bytes, lanes.shr(high_right, 8) & bytes, right),
+        up,
+    );
+    red_blue | lanes.shl(green_alpha, 8)
 }
 
-/// `(256 - t) * left + t * right` in lanes of 16 bits: red, blue, green, alpha from the lowest.
+/// `(256 - t) * left + t * right` in two lanes of 16 bits.
 ///
-/// A lane of the difference may be negative and borrow from the next, but lanes of the sum are 0 to 255 * 256,
-/// so as a number modulo 2^64 the sum is the four of them side by side.
-#[inline]
-fn across(left: Rgba8, right: Rgba8, t: u64) -> u64 {
-    let (left, right) = (spread(left), spread(right));
-    (left << 8).wrapping_add(right.wrapping_sub(left).wrapping_mul(t))
+/// A lane of the difference may be negative and borrow from the next, but lanes of the sum are 0 to 255 * 256, so as a
+/// number modulo 2^32 the sum is the two side by side.
+#[inline(always)]
+fn across<L: Lanes>(lanes: L, left: L::U32, right: L::U32, t: L::U32) -> L::U32 {
+    lanes.shl(left, 8) + (right - left) * t
 }
 
-/// `(256 - t) * low + t * high + 2^15` in two lanes of 32 bits, at most 255 * 2^16 + 2^15.
-#[inline]
-fn rise(low: u64, high: u64, t: u64) -> u64 {
-    ((low << 8) + HALVES).wrapping_add(high.wrapping_sub(low).wrapping_mul(t))
+/// `((256 - t) * low + t * high + 2^15) >> 16` of two lanes of 16 bits: bytes 0 and 2 of the result.
+#[inline(always)]
+fn rise<L: Lanes>(lanes: L, low: L::U32, high: L::U32, t: L::U32) -> L::U32 {
+    let words = lanes.word(0xffff);
+    let below = mean(lanes, low & words, high & words, t);
+    let above = mean(lanes, lanes.shr(low, 16), lanes.shr(high, 16), t);
+    // The upper half of that word is the channel, in place.
+    lanes.shr(below, 16) | above & lanes.word(0x00ff_0000)
 }
 
-/// The bytes R, G, B, A in lanes of 16 bits in the order R, B, G, A.
-#[inline]
-fn spread(color: Rgba8) -> u64 {
-    let bits = u64::from(color.to_bits());
-    (bits | bits << 24) & BYTES
+/// `(256 - t) * low + t * high + 2^15`, at most 255 * 2^16 + 2^15.
+#[inline(always)]
+fn mean<L: Lanes>(lanes: L, low: L::U32, high: L::U32, t: L::U32) -> L::U32 {
+    lanes.shl(low, 8) + (high - low) * t + lanes.word(1 << 15)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use alberti_math::Rgba8;
+    use alberti_math::lanes::One;
+    use core::num::Wrapping;
 
     /// The documented formula as a fraction, a channel at a time, rounded by a division.
-    fn mean(corners: [u8; 4], right: u64, up: u64) -> u8 {
+    fn mean(corners: [u8; 4], right: u32, up: u32) -> u8 {
         let (x, y) = (i128::from(right), i128::from(up));
         let weights = [(256 - x) * (256 - y), x * (256 - y), (256 - x) * y, x * y];
         assert_eq!(weights.iter().sum::<i128>(), 65536);
@@ -79,9 +84,11 @@ mod tests {
         u8::try_from((2 * sum + 65536).div_euclid(2 * 65536)).unwrap()
     }
 
-    fn check(corners: [[u8; 4]; 4], right: u64, up: u64) {
-        let [low_left, low_right, high_left, high_right] = corners.map(|[r, g, b, a]| Rgba8::new(r, g, b, a));
-        let found = bilinear(Quad { low_left, low_right, high_left, high_right }, right, up).to_bytes();
+    fn check(corners: [[u8; 4]; 4], right: u32, up: u32) {
+        let [low_left, low_right, high_left, high_right] =
+            corners.map(|[r, g, b, a]| Wrapping(Rgba8::new(r, g, b, a).to_bits()));
+        let quad = Quad::<One> { low_left, low_right, high_left, high_right };
+        let found = Rgba8::from_bits(bilinear(One, quad, Wrapping(right), Wrapping(up)).0).to_bytes();
         for channel in 0..4 {
             let values = corners.map(|corner| corner[channel]);
             assert_eq!(found[channel], mean(values, right, up), "{corners:?} at {right}, {up}");
@@ -119,7 +126,7 @@ mod tests {
             let bytes = noise.to_le_bytes();
             let corners =
                 core::array::from_fn(|corner| core::array::from_fn(|channel| bytes[corner * 4 + channel]));
-            check(corners, state >> 20 & 255, state >> 40 & 255);
+            check(corners, (state >> 20 & 255) as u32, (state >> 40 & 255) as u32);
         }
     }
 }

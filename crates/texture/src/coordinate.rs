@@ -4,9 +4,8 @@
 //! Everything after this is integers, so that there is one rounding to reason about, and it is none for every
 //! `f32` that matters. With sides of up to 2^14 texels, the borders between texels in the period from 0 to 1 are
 //! `j / size`; the first is at or beyond 2^-14. A float next to it or further out is at least 2^-15, its last bit
-//! is worth at least 2^-15-23 = 2^-38, and so 38 bits of fraction hold it exactly. A float below 2^-15 moves by
-//! at most 2^-39, which does not take it to the first border. The same holds for negative coordinates, except
-//! that those from -2^-39 to 0 become 0, the border that they lie just below.
+//! is worth at least 2^-15-23 = 2^-38, and so 38 bits of fraction hold it exactly. A float nearer to 0 is rounded
+//! down by less than 2^-38, which takes it neither to the first border nor from one side of 0 to the other.
 //!
 //! The budget of 64 bits: 39 for the coordinate modulo 2, 14 for the size, 8 for the weights of a filter.
 
@@ -36,23 +35,23 @@ const HAS_F64: bool = cfg!(any(
 /// 2^14 <= `ALIGN` + u < 2^15 for |u| < 2^13.
 const ALIGN: f64 = 1.5 * 16384.0;
 
-/// The coordinate modulo 2, to the nearest multiple of 2^-38, ties to even; 0 for infinities and NaN.
+/// The coordinate modulo 2, rounded down to a multiple of 2^-38; 0 for infinities and NaN.
 ///
 /// # Cost
-/// A conversion, an addition, a move, a mask and a check of the exponent, for |u| < 2^13. Beyond, a call.
+/// A conversion, two additions, a comparison, a move, a mask and a check of the exponent, for |u| < 2^13. Beyond, a call.
 #[inline]
 pub(crate) fn modulo_2(u: f32) -> u64 {
     if !HAS_F64 {
         return modulo_2_integer(u);
     }
-    let sum = (f64::from(u) + ALIGN).to_bits();
+    let sum = down(u);
     if sum >> 52 == ALIGN.to_bits() >> 52 { sum & MODULO_2 } else { modulo_2_far(u) }
 }
 
-/// The coordinate clamped to 0 and 1 - 2^-38, to the nearest multiple of 2^-38, ties to even; 0 for NaN.
+/// The coordinate clamped to 0 and 1 - 2^-38, rounded down to a multiple of 2^-38; 0 for NaN.
 ///
 /// # Cost
-/// A conversion, an addition, a maximum, a minimum, a move and a mask, for all coordinates.
+/// A conversion, two additions, a comparison, a maximum, a minimum, a move and a mask, for all coordinates.
 #[inline]
 pub(crate) fn clamped(u: f32) -> u64 {
     if !HAS_F64 {
@@ -62,11 +61,18 @@ pub(crate) fn clamped(u: f32) -> u64 {
             _ => 0,
         };
     }
-    let sum = f64::from(u) + ALIGN;
     // Below, NaN must become 0. Above, numbers are in order as integers too, and compilers carry a choice between
     // float constants through all that follows.
-    let sum = if sum > ALIGN { sum } else { ALIGN };
-    (sum.to_bits() - ALIGN.to_bits()).min(ONE - 1)
+    let u = if u > 0.0 { u } else { 0.0 };
+    (down(u) - ALIGN.to_bits()).min(ONE - 1)
+}
+
+/// The bits of `ALIGN` + u, rounded down, for |u| < 2^13.
+#[inline]
+fn down(u: f32) -> u64 {
+    let u = f64::from(u);
+    let sum = u + ALIGN;
+    sum.to_bits().wrapping_sub(u64::from(sum - ALIGN > u))
 }
 
 #[cold]
@@ -85,18 +91,17 @@ fn modulo_2_integer(u: f32) -> u64 {
     let exponent = bits >> 23 & 0xff;
     let significand = u64::from(bits & 0x007f_ffff | 0x0080_0000);
     // Shifts of 39 and more leave a multiple of 2; so infinities and NaN come out as 0 too.
-    let magnitude = if exponent >= UNIT + 39 {
-        0
+    let (magnitude, rest) = if exponent >= UNIT + 39 {
+        (0, 0)
     } else if exponent >= UNIT {
-        significand << (exponent - UNIT)
-    } else if exponent >= UNIT - 24 {
-        let shift = UNIT - exponent;
-        let odd = significand >> shift & 1;
-        (significand + (1 << (shift - 1)) - 1 + odd) >> shift
+        (significand << (exponent - UNIT), 0)
     } else {
-        0
+        // What is lost below makes a negative number one unit less. 0 and -0 have no significand.
+        let shift = (UNIT - exponent).min(24);
+        let significand = if bits << 1 == 0 { 0 } else { significand };
+        (significand >> shift, significand & ((1 << shift) - 1))
     };
-    let signed = if bits >> 31 == 0 { magnitude } else { magnitude.wrapping_neg() };
+    let signed = if bits >> 31 == 0 { magnitude } else { (magnitude + u64::from(rest != 0)).wrapping_neg() };
     signed & MODULO_2
 }
 
@@ -110,7 +115,7 @@ mod tests {
         if !u.is_finite() {
             return 0;
         }
-        let scaled = (f64::from(u) * 2f64.powi(38)).round_ties_even();
+        let scaled = (f64::from(u) * 2f64.powi(38)).floor();
         scaled.rem_euclid(2f64.powi(39)) as u64
     }
 

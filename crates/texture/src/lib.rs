@@ -9,11 +9,13 @@ mod coordinate;
 mod filter;
 pub mod format;
 mod sampler;
+mod size;
 mod texture;
 mod wrap;
 
 pub use filter::{Bilinear, Filter, Nearest};
 pub use format::TexelFormat;
 pub use sampler::Sampler;
+pub use size::{AnySize, PowerOfTwo, Size};
 pub use texture::{Texture, TextureError};
 pub use wrap::{Clamp, Mirror, Repeat, Wrap};

@@ -4,28 +4,29 @@ use core::fmt;
 use core::marker::PhantomData;
 
 use alberti_math::Rgba8;
+use alberti_math::lanes::{Lanes, One};
 use glam::Vec2;
 
 use crate::filter::Filter;
-use crate::{TexelFormat, Texture, Wrap};
+use crate::{AnySize, Size, TexelFormat, Texture, Wrap};
 
 /// A texture with a filter and a wrap mode for each axis: what a fragment asks for a colour.
 ///
 /// Made by [`Texture::sampler`] and [`Texture::sampler_per_axis`]; as cheap to copy as the texture.
-pub struct Sampler<'a, F: TexelFormat, Fl, U, V = U> {
-    texture: Texture<'a, F>,
+pub struct Sampler<'a, F: TexelFormat, Fl, U, V = U, Z = AnySize> {
+    texture: Texture<'a, F, Z>,
     modes: PhantomData<(Fl, U, V)>,
 }
 
-impl<'a, F: TexelFormat, Fl: Filter, U: Wrap, V: Wrap> Sampler<'a, F, Fl, U, V> {
+impl<'a, F: TexelFormat, Fl: Filter, U: Wrap, V: Wrap, Z: Size> Sampler<'a, F, Fl, U, V, Z> {
     #[inline]
-    pub(crate) const fn new(texture: Texture<'a, F>) -> Self {
+    pub(crate) const fn new(texture: Texture<'a, F, Z>) -> Self {
         Self { texture, modes: PhantomData }
     }
 
     /// The texture that is sampled.
     #[must_use]
-    pub const fn texture(&self) -> Texture<'a, F> {
+    pub const fn texture(&self) -> Texture<'a, F, Z> {
         self.texture
     }
 
@@ -38,20 +39,27 @@ impl<'a, F: TexelFormat, Fl: Filter, U: Wrap, V: Wrap> Sampler<'a, F, Fl, U, V> 
     #[inline]
     #[must_use]
     pub fn sample(&self, uv: Vec2) -> Rgba8 {
-        Fl::sample::<F, U, V>(&self.texture, uv)
+        let word = Fl::sample::<One, F, Z, U, V>(One, &self.texture, uv.x, uv.y);
+        Rgba8::from_bits(word.0)
+    }
+
+    /// [`sample`](Self::sample) at several places: the colours as words, as [`Rgba8::to_bits`] makes them.
+    #[inline(always)]
+    pub fn sample_lanes<L: Lanes>(&self, lanes: L, u: L::F32, v: L::F32) -> L::U32 {
+        Fl::sample::<L, F, Z, U, V>(lanes, &self.texture, u, v)
     }
 }
 
-impl<F: TexelFormat, Fl, U, V> Clone for Sampler<'_, F, Fl, U, V> {
+impl<F: TexelFormat, Fl, U, V, Z> Clone for Sampler<'_, F, Fl, U, V, Z> {
     #[inline]
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<F: TexelFormat, Fl, U, V> Copy for Sampler<'_, F, Fl, U, V> {}
+impl<F: TexelFormat, Fl, U, V, Z> Copy for Sampler<'_, F, Fl, U, V, Z> {}
 
-impl<F: TexelFormat, Fl: Filter, U: Wrap, V: Wrap> fmt::Debug for Sampler<'_, F, Fl, U, V> {
+impl<F: TexelFormat, Fl: Filter, U: Wrap, V: Wrap, Z> fmt::Debug for Sampler<'_, F, Fl, U, V, Z> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Sampler")
             .field("texture", &self.texture)

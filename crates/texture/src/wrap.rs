@@ -1,5 +1,6 @@
 //! What a texture is outside of 0 to 1.
 
+use alberti_math::lanes::Lanes;
 use core::fmt::Debug;
 
 use crate::coordinate::{FRACTION_BITS, ONE, clamped, modulo_2};
@@ -17,7 +18,7 @@ use crate::coordinate::{FRACTION_BITS, ONE, clamped, modulo_2};
 /// # Precision
 /// Defined for every `f32`. The coordinate is reduced to the period first and scaled by the size afterwards, and
 /// both are exact, so the texel does not depend on how far from 0 the texture is sampled, as far as the float itself
-/// can tell: from 2^23 on, floats are integers and have no fraction. Coordinates from -2^-39 to 0 count as 0.
+/// can tell: from 2^23 on, floats are integers and have no fraction.
 ///
 /// | coordinate | `Repeat`, `Mirror` | `Clamp` |
 /// |---|---|---|
@@ -44,6 +45,12 @@ pub trait Axis {
     /// [`Wrap::index`] of `i` and of `i + 1`, without divisions, for the texels around a reduced coordinate: `i` is
     /// -1 or more and less than the size (in `Mirror`, twice the size).
     fn neighbours(i: i32, size: u32) -> (u32, u32);
+
+    /// The coordinate in one period about 0 times `scale`, a power of two up to 2^22: exact. Defined for every `f32`.
+    fn scaled<L: Lanes>(lanes: L, u: L::F32, scale: f32) -> L::F32;
+
+    /// [`Wrap::index`] of a two's complement `i` for a `size` that is a power of two, from -1 to one beyond the period.
+    fn fold<L: Lanes>(lanes: L, i: L::U32, size: u32) -> L::U32;
 }
 
 /// The texture again and again: only the fraction of the coordinate counts, 1 is 0.
@@ -98,6 +105,16 @@ impl Axis for Repeat {
         let first = if next == 0 { size } else { next };
         (first.wrapping_sub(1), if next == size { 0 } else { next })
     }
+
+    #[inline(always)]
+    fn scaled<L: Lanes>(lanes: L, u: L::F32, scale: f32) -> L::F32 {
+        (u - lanes.trunc(u)) * lanes.splat(scale)
+    }
+
+    #[inline(always)]
+    fn fold<L: Lanes>(lanes: L, i: L::U32, size: u32) -> L::U32 {
+        i & lanes.word(size.wrapping_sub(1))
+    }
 }
 
 impl Wrap for Repeat {
@@ -123,6 +140,19 @@ impl Axis for Clamp {
     fn neighbours(i: i32, size: u32) -> (u32, u32) {
         let next = i.wrapping_add(1).cast_unsigned();
         (next.saturating_sub(1), next.min(size.wrapping_sub(1)))
+    }
+
+    #[inline(always)]
+    fn scaled<L: Lanes>(lanes: L, u: L::F32, scale: f32) -> L::F32 {
+        let scale = lanes.splat(scale);
+        lanes.min(lanes.max(u * scale, lanes.splat(0.0)), scale)
+    }
+
+    #[inline(always)]
+    fn fold<L: Lanes>(lanes: L, i: L::U32, size: u32) -> L::U32 {
+        // -1 becomes 0, as the least of two words: itself, or the word after it less 1, at least 0.
+        let next = i + lanes.word(1);
+        lanes.min_words(next - lanes.min_words(next, lanes.word(1)), lanes.word(size.wrapping_sub(1)))
     }
 }
 
@@ -151,6 +181,19 @@ impl Axis for Mirror {
         // The lesser of an index and its image is the one in the texture, or -1 for the texel 0.
         let fold = |i: i32| i.min(last.wrapping_sub(i)).max(0).cast_unsigned();
         (fold(i), fold(i.wrapping_add(1)))
+    }
+
+    #[inline(always)]
+    fn scaled<L: Lanes>(lanes: L, u: L::F32, scale: f32) -> L::F32 {
+        let half = u * lanes.splat(0.5);
+        (half - lanes.trunc(half)) * lanes.splat(2.0 * scale)
+    }
+
+    #[inline(always)]
+    fn fold<L: Lanes>(lanes: L, i: L::U32, size: u32) -> L::U32 {
+        let last = lanes.word(size.wrapping_mul(2).wrapping_sub(1));
+        let i = i & last;
+        lanes.min_words(i, last - i)
     }
 }
 

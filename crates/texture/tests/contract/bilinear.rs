@@ -1,7 +1,7 @@
 //! Bilinear is the documented integer formula, and close to the mean in real numbers.
 
 use alberti_math::Rgba8;
-use alberti_texture::{Bilinear, Clamp, Mirror, Repeat, Texture};
+use alberti_texture::{Bilinear, Clamp, Mirror, Repeat, Size, Texture};
 use glam::Vec2;
 
 use crate::oracle::{Mode, Random, SPECIAL};
@@ -9,9 +9,9 @@ use crate::oracle::{Mode, Random, SPECIAL};
 /// The texel before the coordinate, not wrapped, and the weight of the next, in 256ths.
 fn position(mode: Mode, u: f32, size: u32) -> (i128, i128) {
     let (significand, halvings) = mode.rational(u);
-    // As a multiple of 2^-38: the rounding of `f64`, where a scaling by a power of two is exact.
+    // As a multiple of 2^-38, rounded down; in `f64`, where a scaling by a power of two is exact.
     let exact = significand as f64 * 2f64.powi(-halvings);
-    let units = (exact * 2f64.powi(38)).round_ties_even() as i128;
+    let units = (exact * 2f64.powi(38)).floor() as i128;
     // floor(256 * (units / 2^38 * size - 1/2) + 1/2), all times two.
     let position = (units * 512 * i128::from(size) - (255 << 38)).div_euclid(1 << 39);
     (position.div_euclid(256), position.rem_euclid(256))
@@ -24,8 +24,15 @@ struct Case<'a> {
 
 impl Case<'_> {
     fn sample(&self, uv: Vec2) -> Rgba8 {
+        let color = self.sample_as(self.texture, uv);
+        if let Some(texture) = self.texture.power_of_two() {
+            assert_eq!(self.sample_as(texture, uv), color, "{:?} {texture:?} at {uv:?}", self.modes);
+        }
+        color
+    }
+
+    fn sample_as<Z: Size>(&self, t: Texture<'_, Rgba8, Z>, uv: Vec2) -> Rgba8 {
         use Mode::{Clamp as C, Mirror as M, Repeat as R};
-        let t = &self.texture;
         match self.modes {
             [R, R] => t.sampler::<Bilinear, Repeat>().sample(uv),
             [R, C] => t.sampler_per_axis::<Bilinear, Repeat, Clamp>().sample(uv),

@@ -1,33 +1,38 @@
 //! Nearest takes the texel that exact arithmetic takes.
 
-use alberti_texture::{Clamp, Mirror, Nearest, Repeat, Texture};
+use alberti_texture::{Clamp, Mirror, Nearest, Repeat, Size, Texture};
 use glam::Vec2;
 
 use crate::oracle::{Index, MODES, Mode, Random, SPECIAL};
 
 const SIZES: [u32; 14] = [1, 2, 3, 5, 7, 10, 64, 100, 255, 256, 1000, 12345, 16383, 16384];
 
-/// One row and one column of `size` texels, sampled at `u` along their length and at anything across.
+/// One row and one column of `size` texels, sampled at `u` along their length and at anything across; where the size is
+/// a power of two, by that type too.
 fn check(texels: &[u16], size: u32, u: f32, across: f32) {
     let row = Texture::<Index>::new(texels, size, 1).unwrap();
     let column = Texture::<Index>::new(texels, 1, size).unwrap();
     let (uv, vu) = (Vec2::new(u, across), Vec2::new(across, u));
     for mode in MODES {
-        let (x, y) = match mode {
-            Mode::Repeat => {
-                (row.sampler::<Nearest, Repeat>().sample(uv), column.sampler::<Nearest, Repeat>().sample(vu))
-            }
-            Mode::Clamp => {
-                (row.sampler::<Nearest, Clamp>().sample(uv), column.sampler::<Nearest, Clamp>().sample(vu))
-            }
-            Mode::Mirror => {
-                (row.sampler::<Nearest, Mirror>().sample(uv), column.sampler::<Nearest, Mirror>().sample(vu))
-            }
-        };
         let expected = mode.cell(u, size);
-        assert_eq!(x.to_bits(), expected, "{mode:?}, u = {u:e}, {size} columns");
-        assert_eq!(y.to_bits(), size - 1 - expected, "{mode:?}, v = {u:e}, {size} rows");
+        let check = |x: u32, y: u32, kind: &str| {
+            assert_eq!(x, expected, "{mode:?}, u = {u:e}, {size} columns, {kind}");
+            assert_eq!(y, size - 1 - expected, "{mode:?}, v = {u:e}, {size} rows, {kind}");
+        };
+        check(sample(row, mode, uv), sample(column, mode, vu), "any size");
+        if let (Some(row), Some(column)) = (row.power_of_two(), column.power_of_two()) {
+            check(sample(row, mode, uv), sample(column, mode, vu), "power of two");
+        }
     }
+}
+
+fn sample<Z: Size>(texture: Texture<'_, Index, Z>, mode: Mode, uv: Vec2) -> u32 {
+    let color = match mode {
+        Mode::Repeat => texture.sampler::<Nearest, Repeat>().sample(uv),
+        Mode::Clamp => texture.sampler::<Nearest, Clamp>().sample(uv),
+        Mode::Mirror => texture.sampler::<Nearest, Mirror>().sample(uv),
+    };
+    color.to_bits()
 }
 
 fn for_each_size(mut f: impl FnMut(&[u16], u32)) {

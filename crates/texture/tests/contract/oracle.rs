@@ -51,7 +51,6 @@ impl Mode {
             Self::Clamp if u <= -1e6 => (-1_000_000, 0),
             // A multiple of 2.
             _ if halvings < 0 => (0, 0),
-            _ if (-2f32.powi(-39)..0.0).contains(&u) => (0, 0),
             _ => (significand, halvings),
         }
     }
@@ -60,7 +59,7 @@ impl Mode {
     pub(crate) fn cell(self, u: f32, size: u32) -> u32 {
         let (significand, halvings) = self.rational(u);
         let n = match significand * i128::from(size) {
-            _ if halvings > 100 => 0,
+            scaled if halvings > 100 => -i128::from(scaled < 0),
             scaled => scaled.div_euclid(1 << halvings),
         };
         self.index(n, size)

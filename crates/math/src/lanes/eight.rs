@@ -1,0 +1,214 @@
+//! Eight samples at a time, in the vector registers that the machine has: one of 256 bits, or pairs of 128.
+
+use super::Lanes;
+use core::fmt::{Debug, Formatter, Result};
+use fearless_simd::{
+    Bytes, Select, Simd, SimdBase, SimdFloat, SimdInt, SimdInto, SimdMask, f32x8, f64x4, i32x8, mask32x8,
+    u32x8,
+};
+
+/// Eight samples at a time, on a machine with the instructions `S`.
+#[derive(Clone, Copy)]
+pub struct Eight<S: Simd>(
+    /// The proof that the machine has them, from a [`Level`].
+    pub S,
+);
+
+impl<S: Simd> Debug for Eight<S> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        write!(f, "Eight({:?})", self.0)
+    }
+}
+
+impl<S: Simd> Eight<S> {
+    /// 0, 1, 2, 3 in `f64`.
+    #[inline(always)]
+    fn four(self) -> f64x4<S> {
+        [0.0, 1.0, 2.0, 3.0].simd_into(self.0)
+    }
+}
+
+impl<S: Simd> Lanes for Eight<S> {
+    const COUNT: usize = 8;
+    type F32 = f32x8<S>;
+    type U32 = u32x8<S>;
+    type Int = i32x8<S>;
+    /// In `f64`, which holds these integers exactly and rounds to `f32` as an integer does.
+    type Long = [f64x4<S>; 2];
+    type Mask = mask32x8<S>;
+    type Each<T: Copy> = [T; 8];
+
+    #[inline(always)]
+    fn vectorize<R>(self, f: impl FnOnce() -> R) -> R {
+        self.0.vectorize(f)
+    }
+
+    #[inline(always)]
+    fn split<T: Copy>(slice: &mut [T]) -> Option<(&mut [T; 8], &mut [T])> {
+        slice.split_first_chunk_mut()
+    }
+
+    #[inline(always)]
+    fn each<T: Copy>(self, mut f: impl FnMut(usize) -> T) -> [T; 8] {
+        [f(0), f(1), f(2), f(3), f(4), f(5), f(6), f(7)]
+    }
+
+    #[inline(always)]
+    fn splat(self, x: f32) -> f32x8<S> {
+        f32x8::splat(self.0, x)
+    }
+
+    #[inline(always)]
+    fn word(self, x: u32) -> u32x8<S> {
+        u32x8::splat(self.0, x)
+    }
+
+    #[inline(always)]
+    fn ramp(self) -> f32x8<S> {
+        [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0].simd_into(self.0)
+    }
+
+    #[inline(always)]
+    fn load(self, values: &[f32; 8]) -> f32x8<S> {
+        (*values).simd_into(self.0)
+    }
+
+    #[inline(always)]
+    fn store(self, values: f32x8<S>) -> [f32; 8] {
+        values.into()
+    }
+
+    #[inline(always)]
+    fn load_words(self, values: &[u32; 8]) -> u32x8<S> {
+        (*values).simd_into(self.0)
+    }
+
+    #[inline(always)]
+    fn store_words(self, values: u32x8<S>) -> [u32; 8] {
+        values.into()
+    }
+
+    // Only x86's instructions choose the second of two equal ones; what others do with zeros of both signs is theirs.
+    #[inline(always)]
+    fn min(self, a: f32x8<S>, b: f32x8<S>) -> f32x8<S> {
+        if cfg!(target_arch = "x86_64") { a.min(b) } else { a.simd_lt(b).select(a, b) }
+    }
+
+    #[inline(always)]
+    fn max(self, a: f32x8<S>, b: f32x8<S>) -> f32x8<S> {
+        if cfg!(target_arch = "x86_64") { a.max(b) } else { a.simd_gt(b).select(a, b) }
+    }
+
+    #[inline(always)]
+    fn sqrt(self, x: f32x8<S>) -> f32x8<S> {
+        x.sqrt()
+    }
+
+    #[inline(always)]
+    fn trunc(self, x: f32x8<S>) -> f32x8<S> {
+        x.trunc()
+    }
+
+    #[inline(always)]
+    fn floor(self, x: f32x8<S>) -> u32x8<S> {
+        x.floor().to_int::<i32x8<S>>().bitcast()
+    }
+
+    #[inline(always)]
+    fn to_words(self, x: f32x8<S>) -> u32x8<S> {
+        x.to_int::<i32x8<S>>().bitcast()
+    }
+
+    #[inline(always)]
+    fn to_numbers(self, x: u32x8<S>) -> f32x8<S> {
+        self.int_to_f32(x.bitcast())
+    }
+
+    #[inline(always)]
+    fn shl(self, x: u32x8<S>, bits: u32) -> u32x8<S> {
+        x << bits
+    }
+
+    #[inline(always)]
+    fn shr(self, x: u32x8<S>, bits: u32) -> u32x8<S> {
+        x >> bits
+    }
+
+    #[inline(always)]
+    fn shr_signed(self, x: u32x8<S>, bits: u32) -> u32x8<S> {
+        (x.bitcast::<i32x8<S>>() >> bits).bitcast()
+    }
+
+    #[inline(always)]
+    fn min_words(self, a: u32x8<S>, b: u32x8<S>) -> u32x8<S> {
+        a.min(b)
+    }
+
+    #[inline(always)]
+    fn less(self, a: f32x8<S>, b: f32x8<S>) -> mask32x8<S> {
+        a.simd_lt(b)
+    }
+
+    #[inline(always)]
+    fn select(self, mask: mask32x8<S>, a: f32x8<S>, b: f32x8<S>) -> f32x8<S> {
+        mask.select(a, b)
+    }
+
+    #[inline(always)]
+    fn select_words(self, mask: mask32x8<S>, a: u32x8<S>, b: u32x8<S>) -> u32x8<S> {
+        mask.select(a, b)
+    }
+
+    #[inline(always)]
+    fn mask(self, bits: u32) -> mask32x8<S> {
+        mask32x8::from_bitmask(self.0, u64::from(bits))
+    }
+
+    #[inline(always)]
+    fn bits(self, mask: mask32x8<S>) -> u32 {
+        #[expect(clippy::cast_possible_truncation, reason = "eight bits")]
+        let bits = mask.to_bitmask() as u32;
+        bits
+    }
+
+    #[inline(always)]
+    fn int_ramp(self, value: i32, step: i32) -> i32x8<S> {
+        let steps: i32x8<S> = [0, 1, 2, 3, 4, 5, 6, 7].simd_into(self.0);
+        self.int(value) + steps * self.int(step)
+    }
+
+    #[inline(always)]
+    fn int(self, x: i32) -> i32x8<S> {
+        i32x8::splat(self.0, x)
+    }
+
+    #[inline(always)]
+    fn int_to_f32(self, x: i32x8<S>) -> f32x8<S> {
+        x.to_float::<f32x8<S>>()
+    }
+
+    #[inline(always)]
+    fn not_negative(self, x: i32x8<S>) -> mask32x8<S> {
+        x.simd_gt(self.int(-1))
+    }
+
+    #[inline(always)]
+    #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
+    fn long_ramp(self, value: i64, step: i64) -> [f64x4<S>; 2] {
+        let step = f64x4::splat(self.0, step as f64);
+        let low = f64x4::splat(self.0, value as f64) + step * self.four();
+        [low, low + step * f64x4::splat(self.0, 4.0)]
+    }
+
+    #[inline(always)]
+    #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
+    fn long_add(self, x: [f64x4<S>; 2], step: i64) -> [f64x4<S>; 2] {
+        let step = f64x4::splat(self.0, step as f64);
+        [x[0] + step, x[1] + step]
+    }
+
+    #[inline(always)]
+    fn long_to_f32(self, x: [f64x4<S>; 2]) -> f32x8<S> {
+        self.0.narrow_f64x4(x[0], x[1])
+    }
+}

@@ -1,0 +1,124 @@
+//! Which lanes the machine has, asked at run time.
+//!
+//! The cases are those of the module `here`, one for each kind of machine.
+
+#[cfg(all(feature = "simd", target_arch = "x86_64"))]
+mod here {
+    use crate::lanes::Eight;
+    use fearless_simd::{Avx2, Level, Sse2};
+
+    /// The lanes of a machine: what [`for_lanes!`](crate::for_lanes) turns into a [`Lanes`](super::super::Lanes) type.
+    #[derive(Clone, Copy, Debug)]
+    pub enum Machine {
+        /// Eight in a register of 256 bits.
+        Avx2(Eight<Avx2>),
+        /// Eight in two registers of 128 bits, which every x86-64 machine has.
+        Sse2(Eight<Sse2>),
+    }
+
+    impl Machine {
+        /// All that this machine turns out to have (with the feature `std`) or is known to have, the widest first.
+        pub fn all() -> impl Iterator<Item = Self> {
+            let level = Level::try_detect().unwrap_or(Level::baseline());
+            let avx2 = level.as_avx2().map(|proof| Self::Avx2(Eight(proof)));
+            let sse2 = Level::baseline().as_sse2().map(|proof| Self::Sse2(Eight(proof)));
+            avx2.into_iter().chain(sse2)
+        }
+    }
+
+    /// What [`for_lanes!`](crate::for_lanes) becomes.
+    #[doc(hidden)]
+    #[macro_export]
+    macro_rules! __for_lanes {
+        ($machine:expr, $lanes:ident => $body:expr) => {
+            match $machine {
+                $crate::lanes::Machine::Avx2($lanes) => $body,
+                $crate::lanes::Machine::Sse2($lanes) => $body,
+            }
+        };
+    }
+}
+
+#[cfg(all(feature = "simd", target_arch = "aarch64"))]
+mod here {
+    use crate::lanes::Eight;
+    use fearless_simd::{Level, Neon};
+
+    /// The lanes of a machine: what [`for_lanes!`](crate::for_lanes) turns into a [`Lanes`](super::super::Lanes) type.
+    #[derive(Clone, Copy, Debug)]
+    pub enum Machine {
+        /// Eight in two registers of 128 bits.
+        Neon(Eight<Neon>),
+    }
+
+    impl Machine {
+        /// What every aarch64 machine has.
+        pub fn all() -> impl Iterator<Item = Self> {
+            Level::baseline().as_neon().map(|proof| Self::Neon(Eight(proof))).into_iter()
+        }
+    }
+
+    /// What [`for_lanes!`](crate::for_lanes) becomes.
+    #[doc(hidden)]
+    #[macro_export]
+    macro_rules! __for_lanes {
+        ($machine:expr, $lanes:ident => $body:expr) => {
+            match $machine {
+                $crate::lanes::Machine::Neon($lanes) => $body,
+            }
+        };
+    }
+}
+
+#[cfg(not(all(feature = "simd", any(target_arch = "x86_64", target_arch = "aarch64"))))]
+mod here {
+    use crate::lanes::One;
+
+    /// The lanes of a machine: what [`for_lanes!`](crate::for_lanes) turns into a [`Lanes`](super::super::Lanes) type.
+    #[derive(Clone, Copy, Debug)]
+    pub enum Machine {
+        /// One sample at a time.
+        One(One),
+    }
+
+    impl Machine {
+        /// One sample at a time.
+        pub fn all() -> impl Iterator<Item = Self> {
+            core::iter::once(Self::One(One))
+        }
+    }
+
+    /// What [`for_lanes!`](crate::for_lanes) becomes.
+    #[doc(hidden)]
+    #[macro_export]
+    macro_rules! __for_lanes {
+        ($machine:expr, $lanes:ident => $body:expr) => {
+            match $machine {
+                $crate::lanes::Machine::One($lanes) => $body,
+            }
+        };
+    }
+}
+
+pub use here::Machine;
+
+/// Runs an expression over the lanes of a [`Machine`](crate::lanes::Machine), compiled once for each kind.
+///
+/// ```
+/// use alberti_math::for_lanes;
+/// use alberti_math::lanes::{Lanes, Machine};
+///
+/// fn count<L: Lanes>(_: L) -> usize {
+///     L::COUNT
+/// }
+/// for machine in Machine::all() {
+///     let lanes = for_lanes!(machine, lanes => count(lanes));
+///     assert!(lanes == 1 || lanes == 8);
+/// }
+/// ```
+#[macro_export]
+macro_rules! for_lanes {
+    ($machine:expr, $lanes:ident => $body:expr) => {
+        $crate::__for_lanes!($machine, $lanes => $body)
+    };
+}

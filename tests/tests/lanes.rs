@@ -1,0 +1,182 @@
+//! One lane and as many as the machine has, on each kind of vector register that it has, give the same bits.
+#![allow(clippy::cast_possible_truncation, reason = "random numbers within the range of what they become")]
+
+use alberti::glam::{Vec2, Vec3};
+use alberti::lanes::{Lanes, Machine, One};
+use alberti::shaders::{Lambert, Tinted, Unlit, VertexColor};
+use alberti::texture::{Bilinear, Filter, Mirror, Nearest, Repeat, Texture, Wrap};
+use alberti::{
+    Band, Cull, D16, D24, DepthFormat, Exact, F32, F32Reversed, Fixed, FragmentStage, Interpolation, Object,
+    Pass, Plane, Point3, Rgb565Be, Rgba8, Sides, Slot, Store, Sub8, Vector3, VertexStage, draw_by, for_lanes,
+};
+use alberti_app::draw::view;
+use alberti_app::scene::{Image, Vertex};
+use alberti_app::scenes::{BuiltIn, NAMES, by_name};
+use alberti_oracle::rng::{Rng, run_seed};
+use alberti_raster::draw_triangle;
+
+/// A random triangle in or about a small frame, often thin, with a wide range of depths.
+fn triangle(rng: &mut Rng) -> [alberti_raster::Vertex<Sub8, Vec3>; 3] {
+    let center = [rng.uniform(-20.0, 120.0), rng.uniform(-20.0, 90.0)];
+    let size = f64::from(rng.log_uniform(0.5, 4000.0));
+    std::array::from_fn(|_| {
+        let mut at = |axis: usize| {
+            let pixels = center[axis] + rng.uniform(-size, size);
+            Fixed::from_subpixels((pixels * 256.0) as i32).expect("within the guard band")
+        };
+        let (x, y) = (at(0), at(1));
+        let mut component = || rng.uniform(-1.0, 1.0) as f32;
+        let varying = Vec3::new(component(), component(), component());
+        alberti_raster::Vertex { x, y, zs: rng.unit() as f32, q: rng.log_uniform(1e-6, 1e3), varying }
+    })
+}
+
+/// Random triangles over each other: the colours have every bit of the varying.
+fn random_frame<D: DepthFormat<Stored: PartialEq>>(
+    interpolation: impl Interpolation,
+    lanes: impl Lanes,
+    seed: u64,
+) -> (Vec<u32>, Vec<D::Stored>) {
+    let (width, height) = (101u16, 70);
+    let mut color = vec![0; usize::from(width) * height];
+    let mut depth = vec![D::FARTHEST; color.len()];
+    let mut band = Band::<Rgba8, D>::new(u32::from(width), 0, &mut color, &mut depth).expect("whole rows");
+    band.clear(Rgba8::BLACK);
+    let shader = |v: Vec3| {
+        let bits = v.to_array().map(f32::to_bits);
+        (bits[0] & 7 != 3)
+            .then(|| Rgba8::from_bits(bits[0] ^ bits[1].rotate_left(9) ^ bits[2].rotate_left(21)))
+    };
+    let mut rng = Rng::new(seed);
+    for _ in 0..TRIANGLES {
+        let [a, b, c] = &triangle(&mut rng);
+        draw_triangle(interpolation, lanes, &mut band, [a, b, c], Cull::None, &shader, &mut ());
+    }
+    (color, depth)
+}
+
+const TRIANGLES: usize = 1000;
+
+fn random_triangles<D: DepthFormat<Stored: PartialEq>>(interpolation: impl Interpolation, stream: u64) {
+    // Ten million triangles take some minutes: `cargo xtask sweep`.
+    let frames = if std::env::var_os("ALBERTI_SWEEP").is_some() { 2500 } else { 60 };
+    for part in 0..frames {
+        let seed = run_seed() ^ part ^ stream << 32;
+        let one = random_frame::<D>(interpolation, One, seed);
+        assert!(one.0.iter().filter(|&&p| p != one.0[0]).count() > 3000, "next to nothing was drawn");
+        for machine in Machine::all() {
+            let several = for_lanes!(machine, lanes => random_frame::<D>(interpolation, lanes, seed));
+            assert!(one == several, "{interpolation:?}, {machine:?}, frame {part}");
+        }
+    }
+}
+
+#[test]
+fn random_triangles_with_exact_interpolation() {
+    random_triangles::<F32>(Exact, 1);
+    random_triangles::<D16>(Exact, 2);
+}
+
+#[test]
+fn random_triangles_with_planes() {
+    random_triangles::<F32Reversed>(Plane, 3);
+    random_triangles::<D24>(Plane, 4);
+}
+
+/// One mesh of a built-in scene, drawn with given lanes, shading and format.
+struct Shot<'a> {
+    scene: &'a BuiltIn,
+    triangles: &'a [[u32; 3]],
+}
+
+impl Shot<'_> {
+    fn take<C, D, F, Vs>(
+        &self,
+        lanes: impl Lanes,
+        interpolation: impl Interpolation,
+        vertex_stage: Vs,
+        fragment_stage: F,
+    ) -> (Vec<C::Pixel>, Vec<D::Stored>)
+    where
+        C: Store<Rgba8, Pixel: Default + PartialEq>,
+        D: DepthFormat<Stored: PartialEq>,
+        Vs: VertexStage<Vertex>,
+        F: FragmentStage<Vs::Varying, Color = Rgba8>,
+    {
+        let (width, height) = (253, 190);
+        let vertices = &self.scene.model.vertices;
+        let mut color = vec![C::Pixel::default(); (width * height) as usize];
+        let mut depth = vec![D::FARTHEST; color.len()];
+        let mut band = Band::<C, D>::new(width, 0, &mut color, &mut depth).expect("whole rows");
+        let pass = Pass {
+            view: view(&self.scene.camera, width, height).expect("a view"),
+            vertices,
+            triangles: self.triangles,
+            vertex_stage,
+            fragment_stage,
+            cull: Cull::None,
+            sides: Sides::GuardBand,
+            interpolation,
+        };
+        draw_by(lanes, &pass, &mut band, &mut vec![Slot::<Sub8, _>::EMPTY; vertices.len()], &mut ());
+        (color, depth)
+    }
+
+    fn coloured(&self, lanes: impl Lanes) -> (Vec<u16>, Vec<f32>) {
+        let vertex = |v: &Vertex| (position(v), Vec3::from_array(v.color));
+        self.take::<Rgb565Be, F32, _, _>(lanes, Plane, vertex, VertexColor)
+    }
+
+    /// Every wide stage at once: lit, tinted, textured.
+    fn textured<Fl: Filter, W: Wrap>(&self, lanes: impl Lanes, image: &Image) -> (Vec<u32>, Vec<u16>) {
+        let texture = Texture::<Rgba8>::new(&image.texels, image.width, image.height).expect("a texture");
+        let vertex = |v: &Vertex| (position(v), (Vec3::from_array(v.normal), Vec2::from_array(v.uv)));
+        let light = Vector3::new(Vec3::new(0.3, 0.8, -0.5));
+        let tint = Rgba8::new(250, 130, 70, 255);
+        match texture.power_of_two() {
+            Some(texture) => {
+                let surface = Tinted { surface: Unlit(texture.sampler::<Fl, W>()), tint };
+                self.take::<Rgba8, D16, _, _>(lanes, Exact, vertex, Lambert::new(surface, light, 0.2, 0.8))
+            }
+            None => {
+                let surface = Tinted { surface: Unlit(texture.sampler::<Fl, W>()), tint };
+                self.take::<Rgba8, D16, _, _>(lanes, Exact, vertex, Lambert::new(surface, light, 0.2, 0.8))
+            }
+        }
+    }
+}
+
+fn position(v: &Vertex) -> Point3<Object> {
+    Point3::new(Vec3::from_array(v.position))
+}
+
+#[test]
+fn all_scenes() {
+    // A texture whose sides are no powers of two, for the scenes that have none or others.
+    let mut rng = Rng::new(7);
+    let texels = (0..37 * 50).map(|_| (rng.u64() as u32).to_le_bytes()).collect();
+    let odd = Image { texels, width: 37, height: 50 };
+    let mut shots = 0;
+    for name in NAMES {
+        let scene = by_name(name).expect("a built-in scene");
+        for part in &scene.model.parts {
+            let shot = Shot { scene: &scene, triangles: &part.triangles };
+            let image = part.texture.map_or(&odd, |t| &scene.model.textures[t]);
+            let one = (
+                shot.coloured(One),
+                shot.textured::<Nearest, Mirror>(One, &odd),
+                shot.textured::<Bilinear, Repeat>(One, image),
+            );
+            for machine in Machine::all() {
+                let several = for_lanes!(machine, lanes => (
+                    shot.coloured(lanes),
+                    shot.textured::<Nearest, Mirror>(lanes, &odd),
+                    shot.textured::<Bilinear, Repeat>(lanes, image),
+                ));
+                assert!(one == several, "{name}, {machine:?}");
+                shots += 1;
+            }
+        }
+    }
+    assert!(shots >= 7);
+}
