@@ -6,8 +6,9 @@ use alberti::lanes::{Lanes, Machine, One};
 use alberti::shaders::{Lambert, Tinted, Unlit, VertexColor};
 use alberti::texture::{Bilinear, Filter, Mirror, Nearest, Repeat, Texture, Wrap};
 use alberti::{
-    Band, Cull, D16, D24, DepthFormat, Exact, F32, F32Reversed, Fixed, FragmentStage, Interpolation, Object,
-    Pass, Plane, Point3, Rgb565Be, Rgba8, Sides, Slot, Store, Sub8, Vector3, VertexStage, draw_by, for_lanes,
+    Affine, Band, Cull, D16, D24, D32, DepthFormat, Exact, F32, F32Reversed, Fixed, FragmentStage,
+    Interpolation, NoDepth, Object, OrEqual, Pass, Plane, Point3, Rgb565Be, Rgba8, Sides, Slot, Spans, Store,
+    Sub8, Vector3, VertexStage, draw_by, for_lanes,
 };
 use alberti_app::draw::view;
 use alberti_app::scene::{Image, Vertex};
@@ -15,13 +16,15 @@ use alberti_app::scenes::{BuiltIn, NAMES, by_name};
 use alberti_oracle::rng::{Rng, run_seed};
 use alberti_raster::draw_triangle;
 
-/// A random triangle in or about a small frame, often thin, with a wide range of depths.
+/// A random triangle in or about a small frame, often thin, sometimes a sliver as high as the guard band, with a wide
+/// range of depths.
 fn triangle(rng: &mut Rng) -> [alberti_raster::Vertex<Sub8, Vec3>; 3] {
     let center = [rng.uniform(-20.0, 120.0), rng.uniform(-20.0, 90.0)];
     let size = f64::from(rng.log_uniform(0.5, 4000.0));
+    let size = if rng.one_in(8) { [f64::from(rng.log_uniform(0.3, 20.0)), 30_000.0] } else { [size; 2] };
     std::array::from_fn(|_| {
         let mut at = |axis: usize| {
-            let pixels = center[axis] + rng.uniform(-size, size);
+            let pixels = center[axis] + rng.uniform(-size[axis], size[axis]);
             Fixed::from_subpixels((pixels * 256.0) as i32).expect("within the guard band")
         };
         let (x, y) = (at(0), at(1));
@@ -37,11 +40,20 @@ fn random_frame<D: DepthFormat<Stored: PartialEq>>(
     lanes: impl Lanes,
     seed: u64,
 ) -> (Vec<u32>, Vec<D::Stored>) {
-    let (width, height) = (101u16, 70);
-    let mut color = vec![0; usize::from(width) * height];
+    let mut color = vec![0; WIDTH * 70];
     let mut depth = vec![D::FARTHEST; color.len()];
-    let mut band = Band::<Rgba8, D>::new(u32::from(width), 0, &mut color, &mut depth).expect("whole rows");
+    let mut band = Band::<Rgba8, D>::new(WIDTH as u32, 0, &mut color, &mut depth).expect("whole rows");
     band.clear(Rgba8::BLACK);
+    draw_random(interpolation, lanes, &mut band, seed);
+    (color, depth)
+}
+
+fn draw_random<D: DepthFormat>(
+    interpolation: impl Interpolation,
+    lanes: impl Lanes,
+    band: &mut Band<'_, Rgba8, D>,
+    seed: u64,
+) {
     let shader = |v: Vec3| {
         let bits = v.to_array().map(f32::to_bits);
         (bits[0] & 7 != 3)
@@ -50,12 +62,12 @@ fn random_frame<D: DepthFormat<Stored: PartialEq>>(
     let mut rng = Rng::new(seed);
     for _ in 0..TRIANGLES {
         let [a, b, c] = &triangle(&mut rng);
-        draw_triangle(interpolation, lanes, &mut band, [a, b, c], Cull::None, &shader, &mut ());
+        draw_triangle(interpolation, lanes, band, [a, b, c], Cull::None, &shader, &mut ());
     }
-    (color, depth)
 }
 
 const TRIANGLES: usize = 1000;
+const WIDTH: usize = 101;
 
 fn random_triangles<D: DepthFormat<Stored: PartialEq>>(interpolation: impl Interpolation, stream: u64) {
     // Ten million triangles take some minutes: `cargo xtask sweep`.
@@ -81,6 +93,43 @@ fn random_triangles_with_exact_interpolation() {
 fn random_triangles_with_planes() {
     random_triangles::<F32Reversed>(Plane, 3);
     random_triangles::<D24>(Plane, 4);
+}
+
+#[test]
+fn random_triangles_with_straight_lines() {
+    random_triangles::<OrEqual<F32>>(Spans::<8>, 5);
+    random_triangles::<D32>(Spans::<32>, 6);
+    random_triangles::<NoDepth>(Affine, 7);
+}
+
+/// The frame in pieces: bands of some rows, each in scissors of some columns, which begin in the middle of runs.
+#[test]
+fn pieces_of_a_frame_are_the_frame() {
+    pieces(Exact, 8);
+    pieces(Plane, 9);
+    pieces(Spans::<16>, 10);
+    pieces(Affine, 11);
+}
+
+fn pieces(interpolation: impl Interpolation, stream: u64) {
+    let machine = Machine::all().next().expect("every machine has lanes");
+    for part in 0..20 {
+        let seed = run_seed() ^ part ^ stream << 32;
+        let whole = random_frame::<F32>(interpolation, One, seed);
+        let (mut color, mut depth) = (vec![0; whole.0.len()], vec![1.0; whole.0.len()]);
+        for (piece, rows) in [0..9, 9..10, 10..43, 43..70].into_iter().enumerate() {
+            let range = rows.start * WIDTH..rows.end * WIDTH;
+            let (color, depth) = (&mut color[range.clone()], &mut depth[range]);
+            let mut band =
+                Band::<Rgba8, F32>::new(WIDTH as u32, rows.start as u32, color, depth).expect("rows");
+            band.clear(Rgba8::BLACK);
+            for columns in [[0, 13, 101], [0, 64, 101], [0, 3, 101], [0, 99, 101]][piece].windows(2) {
+                let mut scissor = band.scissor(columns[0]..columns[1], 0..i32::MAX);
+                for_lanes!(machine, lanes => draw_random(interpolation, lanes, &mut scissor, seed));
+            }
+        }
+        assert!(whole == (color, depth), "{interpolation:?}, frame {part}");
+    }
 }
 
 /// One mesh of a built-in scene, drawn with given lanes, shading and format.

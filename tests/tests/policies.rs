@@ -134,10 +134,10 @@ fn spans_of_8_and_16() {
     spans::<16>(3);
 }
 
-fn spans<const N: usize>(stream: u64) {
+fn spans<const N: i32>(stream: u64) {
     let (mut worst, mut worst_depth, mut reached) = (0.0, 0.0, 0);
     each_sample(Spans::<N>, stream, 1_000_000, |case, column, u, zs| {
-        let [first, last] = case.run(column, N as i32);
+        let [first, last] = case.run(column, N);
         let [q0, q1] = [case.q_at(first), case.q_at(last)];
         let root = (f64::max(q0, q1) / f64::min(q0, q1)).sqrt();
         let missed = (case.hyperbolic(last) - case.hyperbolic(first)).abs() * (root - 1.0) / (root + 1.0);

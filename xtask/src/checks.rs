@@ -62,7 +62,14 @@ pub(crate) fn bench(arguments: &[String]) -> Outcome {
     run(cargo().args(["bench", "--package", "alberti-benches", "--"]).args(arguments))
 }
 
-/// Runs the tests that can look at every single `f32` instead of some.
+/// Runs the tests that can look at every single `f32`, or at ten million triangles and samples, instead of at some.
 pub(crate) fn sweep() -> Outcome {
-    run(cargo().env("ALBERTI_SWEEP", "1").args(["test", "--package", "alberti-texture", "every_257th_float"]))
+    run(cargo().env("ALBERTI_SWEEP", "1").args([
+        "test",
+        "--package",
+        "alberti-texture",
+        "every_257th_float",
+    ]))?;
+    let tests = ["test", "--package", "alberti-tests", "--test", "lanes", "--test", "policies"];
+    run(cargo().env("ALBERTI_SWEEP", "1").args(tests))
 }

@@ -87,7 +87,7 @@ const CHORES: &[Chore] = &[
     Chore {
         name: "sweep",
         arguments: "",
-        about: "the tests that can look at every single f32, for minutes",
+        about: "the tests that can look at every f32, or at ten million triangles, for minutes",
         run: |_| checks::sweep(),
     },
     Chore { name: "bench", arguments: "[filter]", about: "run the benchmarks", run: checks::bench },

@@ -15,8 +15,9 @@ pub use alberti_math::{
 };
 pub use alberti_projection::{Perspective, ViewError, Viewport, look_at};
 pub use alberti_raster::{
-    Affine, Band, BandError, Color, ColorFormat, Counters, Cull, D16, D24, DepthFormat, Exact, F32,
-    F32Reversed, FragmentStage, Interpolation, NoDepth, Plane, Rgb565Be, Rgb565Le, Spans, Store,
+    Affine, Band, BandError, Color, ColorFormat, Counters, Cull, D16, D24, D32, DepthFormat, Exact, F32,
+    F32Reversed, FragmentStage, Interpolation, NoDepth, OrEqual, Plane, ReadOnly, Rgb565Be, Rgb565Le, Spans,
+    Store,
 };
 pub use alberti_texture as texture;
 pub use pipeline::{Pass, Sides, View, draw, draw_by};

@@ -118,9 +118,28 @@ pub fn draw_by<L, S, T, I, Vs, Fs, P, C, D, K>(
     for triangle in pass.triangles {
         counters.submitted();
         // Steps 1, 2, 4 and 6 for each vertex, where it allows them.
-        let Some(corners) = fetch(pass, &depth, guard, slots, triangle.map(Into::into)) else {
+        let indices = triangle.map(|i| usize::try_from(i.into()).unwrap_or(usize::MAX));
+        let Some(vertices) = vertices(pass, indices) else {
             counters.dropped();
             continue;
+        };
+        let transform = |vertex: &T| {
+            let (point, varying) = pass.vertex_stage.shade(vertex);
+            Transformed::new(&pass.view, &depth, guard, point, varying)
+        };
+        let places = [
+            Slot::fill(slots, indices[0], || transform(vertices[0])),
+            Slot::fill(slots, indices[1], || transform(vertices[1])),
+            Slot::fill(slots, indices[2], || transform(vertices[2])),
+        ];
+        let kept = |k: usize| Slot::at(slots, places[k], indices[k]);
+        let afresh;
+        let corners = if let (Some(a), Some(b), Some(c)) = (kept(0), kept(1), kept(2)) {
+            [a, b, c]
+        } else {
+            // Two of the three share a slot.
+            afresh = vertices.map(transform);
+            afresh.each_ref()
         };
         let all = corners[0].outside | corners[1].outside | corners[2].outside;
         let common = corners[0].outside & corners[1].outside & corners[2].outside;
@@ -148,28 +167,14 @@ pub fn draw_by<L, S, T, I, Vs, Fs, P, C, D, K>(
     }
 }
 
-/// The triangle's vertices, transformed; `None` for an index out of range.
+/// The triangle's vertices; `None` for an index out of range.
 #[inline]
-fn fetch<S, T, I, Vs, Fs, P>(
-    pass: &Pass<'_, T, I, Vs, Fs, P>,
-    depth: &DepthMap,
-    guard: SideBounds,
-    slots: &mut [Slot<S, Vs::Varying>],
-    triangle: [u32; 3],
-) -> Option<[Transformed<S, Vs::Varying>; 3]>
-where
-    S: Subpixel,
-    Vs: VertexStage<T>,
-{
-    let mut corner = |index: u32| {
-        let index = usize::try_from(index).ok()?;
-        let vertex = pass.vertices.get(index)?;
-        Some(Slot::fetch(slots, index, || {
-            let (point, varying) = pass.vertex_stage.shade(vertex);
-            Transformed::new(&pass.view, depth, guard, point, varying)
-        }))
-    };
-    Some([corner(triangle[0])?, corner(triangle[1])?, corner(triangle[2])?])
+fn vertices<'a, T, I, Vs, Fs, P>(
+    pass: &Pass<'a, T, I, Vs, Fs, P>,
+    indices: [usize; 3],
+) -> Option<[&'a T; 3]> {
+    let vertex = |index: usize| pass.vertices.get(index);
+    Some([vertex(indices[0])?, vertex(indices[1])?, vertex(indices[2])?])
 }
 
 /// Steps 3 to 7 for a triangle that crosses a plane.
@@ -180,7 +185,7 @@ fn clip_and_draw<L, S, T, I, Vs, Fs, P, C, D, K>(
     pass: &Pass<'_, T, I, Vs, Fs, P>,
     depth: &DepthMap,
     band: &mut Band<'_, C, D>,
-    corners: [Transformed<S, Vs::Varying>; 3],
+    corners: [&Transformed<S, Vs::Varying>; 3],
     counters: &mut K,
 ) where
     L: Lanes,

@@ -36,22 +36,28 @@ impl<S: Subpixel, V> Slot<S, V> {
 }
 
 impl<S: Subpixel, V: Varying> Slot<S, V> {
-    /// Vertex `index`, from its slot or else from `transform`.
+    /// Makes sure that vertex `index` is in its slot, and says which that is.
     #[inline]
-    pub(crate) fn fetch(
+    pub(crate) fn fill(
         slots: &mut [Self],
         index: usize,
         transform: impl FnOnce() -> Transformed<S, V>,
-    ) -> Transformed<S, V> {
+    ) -> usize {
         let place = if index < slots.len() { index } else { index.checked_rem(slots.len()).unwrap_or(0) };
         match slots.get_mut(place) {
-            Some(Self(Some((kept, vertex)))) if *kept == index => *vertex,
-            Some(slot) => {
-                let vertex = transform();
-                *slot = Self(Some((index, vertex)));
-                vertex
-            }
-            None => transform(),
+            Some(Self(Some((kept, _)))) if *kept == index => {}
+            Some(slot) => *slot = Self(Some((index, transform()))),
+            None => {}
+        }
+        place
+    }
+
+    /// Vertex `index`, if it is in the slot `place`.
+    #[inline]
+    pub(crate) fn at(slots: &[Self], place: usize, index: usize) -> Option<&Transformed<S, V>> {
+        match slots.get(place) {
+            Some(Self(Some((kept, vertex)))) if *kept == index => Some(vertex),
+            _ => None,
         }
     }
 }

@@ -12,7 +12,8 @@ use crate::{image_file, input};
 /// The largest material library that is read, in bytes.
 const MAX_LIBRARY_BYTES: u64 = 1 << 26;
 
-/// The libraries of a model and the textures read so far. What is missing or broken becomes a warning.
+/// The libraries of a model and the textures read so far. What is missing or broken becomes a warning, but for the
+/// numbers of a `Kd`.
 #[derive(Debug)]
 pub(crate) struct Materials {
     checked: CheckedMtl,
@@ -25,7 +26,10 @@ pub(crate) struct Materials {
 
 impl Materials {
     /// Reads the libraries that the model at `path` names, and looks for the materials that it uses.
-    pub(crate) fn read(path: &Path, obj: &CheckedObj, warnings: &mut Warnings) -> Self {
+    ///
+    /// # Errors
+    /// A `Kd` whose numbers are missing or are none.
+    pub(crate) fn read(path: &Path, obj: &CheckedObj, warnings: &mut Warnings) -> Result<Self, Error> {
         let mut materials = Self {
             checked: CheckedMtl::default(),
             libraries: Vec::new(),
@@ -37,17 +41,22 @@ impl Materials {
         let mut complete = true;
         for named in &obj.libraries {
             for file in files_of(folder, named) {
-                if let Err(warning) = materials.add(path, named, file, warnings) {
-                    warnings.push(warning);
-                    complete = false;
+                match bytes_of(path, named, &file) {
+                    Ok(bytes) => materials.checked.add(&bytes, &file, warnings)?,
+                    Err(warning) => {
+                        warnings.push(warning);
+                        complete = false;
+                        continue;
+                    }
                 }
+                materials.libraries.push(file);
             }
         }
         // Without a library each of its names would be unknown, which says nothing new.
         if complete {
             materials.look_up(path, obj, warnings);
         }
-        materials
+        Ok(materials)
     }
 
     /// The libraries as text for the reader.
@@ -90,24 +99,6 @@ impl Materials {
         self.textures
     }
 
-    fn add(
-        &mut self,
-        obj: &Path,
-        named: &Named,
-        file: PathBuf,
-        warnings: &mut Warnings,
-    ) -> Result<(), Error> {
-        const HINT: &str = "the default material is used";
-        if !file.exists() {
-            let found = format!("no file \"{}\"", file.display());
-            return Err(Error::new(found, mtl_check::KIND).file(obj).line(named.line).hint(HINT));
-        }
-        let bytes = input::read(&file, mtl_check::KIND, MAX_LIBRARY_BYTES).map_err(|e| e.hint(HINT))?;
-        self.checked.add(&bytes, &file, warnings);
-        self.libraries.push(file);
-        Ok(())
-    }
-
     fn look_up(&self, path: &Path, obj: &CheckedObj, warnings: &mut Warnings) {
         let names: HashSet<&str> = self.checked.names.iter().map(String::as_str).collect();
         let expected = if obj.libraries.is_empty() {
@@ -124,6 +115,16 @@ impl Materials {
             );
         }
     }
+}
+
+/// The library that `obj` names.
+fn bytes_of(obj: &Path, named: &Named, file: &Path) -> Result<Vec<u8>, Error> {
+    const HINT: &str = "the default material is used";
+    if !file.exists() {
+        let found = format!("no file \"{}\"", file.display());
+        return Err(Error::new(found, mtl_check::KIND).file(obj).line(named.line).hint(HINT));
+    }
+    input::read(file, mtl_check::KIND, MAX_LIBRARY_BYTES).map_err(|e| e.hint(HINT))
 }
 
 /// A `mtllib` line names one file, with spaces perhaps, or several files.

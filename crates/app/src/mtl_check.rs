@@ -1,7 +1,8 @@
 //! An MTL file, reduced to the lines that are used and repaired where a line is broken.
 //!
-//! A picture with a wrong colour is better than none, so nothing here is an error: each broken line becomes a
-//! warning, and the material keeps its default. `tobj` gets only lines that it reads without a panic.
+//! A `Kd` whose numbers are missing or are none is an error. What else is broken or missing becomes a warning, and
+//! the material keeps its default: a picture with a wrong colour is better than none. `tobj` gets only lines that it
+//! reads without a panic.
 
 use std::path::Path;
 
@@ -35,67 +36,90 @@ pub(crate) struct CheckedMtl {
 
 impl CheckedMtl {
     /// Adds a library. `warnings` gets what had to be left out.
-    pub(crate) fn add(&mut self, bytes: &[u8], path: &Path, warnings: &mut Warnings) {
+    ///
+    /// # Errors
+    /// A `Kd` whose numbers are missing or are none.
+    pub(crate) fn add(&mut self, bytes: &[u8], path: &Path, warnings: &mut Warnings) -> Result<(), Error> {
         let mut text = String::new();
         if let Some(found) = not_text(bytes) {
             warnings.push(Error::new(found, KIND).file(path).hint("its materials are left out"));
         } else {
             let mut named = false;
             for (number, line) in Lines::new(bytes) {
-                if let Err(warning) = self.line(&line, number, &mut named, &mut text) {
-                    warnings.push(warning.file(path).line(number));
+                let place = |e: Error| e.file(path).line(number);
+                if let Some(warning) = self.line(&line, number, &mut named, &mut text).map_err(place)? {
+                    warnings.push(place(warning));
                 }
             }
         }
         self.texts.push(text);
+        Ok(())
     }
 
-    fn line(&mut self, line: &[u8], number: usize, named: &mut bool, text: &mut String) -> Result<(), Error> {
+    /// What there is to warn of in a line.
+    fn line(
+        &mut self,
+        line: &[u8],
+        number: usize,
+        named: &mut bool,
+        text: &mut String,
+    ) -> Result<Option<Error>, Error> {
         let (word, rest) = keyword(line);
         if word == b"newmtl" {
             let name = String::from_utf8_lossy(rest).trim().to_owned();
             *named = !name.is_empty();
             if name.is_empty() {
-                return Err(Error::new("`newmtl` without a name", "`newmtl NAME`")
-                    .hint("the lines up to the next one are left out"));
+                return Ok(Some(
+                    Error::new("`newmtl` without a name", "`newmtl NAME`")
+                        .hint("the lines up to the next one are left out"),
+                ));
             }
             text.push_str(&format!("newmtl {name}\n"));
             self.names.push(name);
-            return Ok(());
+            return Ok(None);
         }
         let lower = word.to_ascii_lowercase();
         let (numbers, map) = match lower.as_slice() {
             b"ka" | b"kd" | b"ks" | b"ke" => (3, false),
             b"ns" | b"ni" | b"d" | b"illum" => (1, false),
             b"map_kd" => (0, true),
-            _ => return Ok(()),
+            _ => return Ok(None),
         };
         if !*named {
-            return Err(Error::new(format!("{} before `newmtl`", quote(word)), "`newmtl NAME` first")
-                .hint("the line is left out"));
+            return Ok(Some(
+                Error::new(format!("{} before `newmtl`", quote(word)), "`newmtl NAME` first")
+                    .hint("the line is left out"),
+            ));
         }
         if map {
-            return self.map(rest, number, text);
+            return Ok(self.map(rest, number, text));
         }
-        let values = values(word, rest, numbers)?;
-        if let (b"kd", Some([r, g, b])) = (lower.as_slice(), values) {
+        let used = lower == b"kd";
+        let values = match values(word, rest, numbers) {
+            Ok(values) => values,
+            Err(error) if used => return Err(error.hint("correct the line")),
+            Err(warning) => return Ok(Some(warning.hint("the line is left out"))),
+        };
+        if let (true, Some([r, g, b])) = (used, values) {
             text.push_str(&format!("Kd {r} {g} {b}\n"));
         }
-        Ok(())
+        Ok(None)
     }
 
-    fn map(&mut self, rest: &[u8], line: usize, text: &mut String) -> Result<(), Error> {
+    fn map(&mut self, rest: &[u8], line: usize, text: &mut String) -> Option<Error> {
         let (name, options) = without_options(rest);
         if name.is_empty() {
-            return Err(Error::new("`map_Kd` without a file", "`map_Kd FILE`").hint("the line is left out"));
+            return Some(Error::new("`map_Kd` without a file", "`map_Kd FILE`").hint("the line is left out"));
         }
         text.push_str(&format!("map_Kd {}\n", self.maps.len()));
         let library = self.texts.len();
         self.maps.push(Map { name: String::from_utf8_lossy(name).trim().to_owned(), library, line });
         if options {
-            return Err(Error::new("`map_Kd` with options", "`map_Kd FILE`").hint("the options are left out"));
+            return Some(
+                Error::new("`map_Kd` with options", "`map_Kd FILE`").hint("the options are left out"),
+            );
         }
-        Ok(())
+        None
     }
 }
 
@@ -108,7 +132,7 @@ fn values(word: &[u8], rest: &[u8], wanted: usize) -> Result<Option<[f32; 3]>, E
     } else {
         format!("`{name}` and a number")
     };
-    let broken = |found: String| Error::new(found, expected.as_str()).hint("the line is left out");
+    let broken = |found: String| Error::new(found, expected.as_str());
     let mut values = [0.0; 3];
     let mut n = 0;
     for word in words(rest) {
@@ -161,7 +185,7 @@ mod tests {
 
     fn run(text: &[u8]) -> (CheckedMtl, Vec<String>) {
         let (mut checked, mut warnings) = (CheckedMtl::default(), Warnings::default());
-        checked.add(text, Path::new("m.mtl"), &mut warnings);
+        checked.add(text, Path::new("m.mtl"), &mut warnings).expect("numbers");
         (checked, warnings.lines().collect())
     }
 
@@ -176,13 +200,24 @@ mod tests {
     }
 
     #[test]
-    fn broken_lines_are_left_out_and_named() {
+    fn numbers_that_are_none_or_too_few_are_errors() {
         for (line, found) in [
             ("Kd 1 2", "found `Kd` with 2 numbers, expected `Kd r g b`"),
             ("Kd", "found `Kd` with 0 numbers"),
             ("Kd 1 x 1", "found \"x\" after `Kd`"),
             ("Kd nan 0 0", "found \"nan\" after `Kd`"),
             ("Kd 1e400 0 0", "found \"1e400\" after `Kd`"),
+        ] {
+            let text = format!("newmtl a\n{line}\n");
+            let (mut checked, mut warnings) = (CheckedMtl::default(), Warnings::default());
+            let error = checked.add(text.as_bytes(), Path::new("m.mtl"), &mut warnings).expect_err(line);
+            assert!(error.to_string().starts_with(&format!("m.mtl:2: {found}")), "{error}");
+        }
+    }
+
+    #[test]
+    fn broken_lines_are_left_out_and_named() {
+        for (line, found) in [
             ("Ks 1 2", "found `Ks` with 2 numbers"),
             ("Ns", "found `Ns` with 0 numbers, expected `Ns` and a number"),
             ("illum x", "found \"x\" after `illum`"),

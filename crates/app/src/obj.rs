@@ -31,7 +31,7 @@ pub struct Loaded {
 /// Loads a model. `progress` hears (done, total), in bytes.
 ///
 /// # Errors
-/// The file cannot be read or has an error, which is named with its line. What is wrong with materials and
+/// The file cannot be read or has an error, which is named with its line. What else is wrong with materials and
 /// textures is a warning.
 pub fn load(path: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<Loaded, Error> {
     let bytes = input::read(path, obj_check::KIND, input::MAX_TEXT_BYTES)?;
@@ -45,7 +45,7 @@ pub fn load(path: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<Loaded, E
         let found = format!("{} vertex colours outside 0 to 1", checked.colors_out_of_range);
         warnings.push(Error::new(found, "red, green and blue in 0 to 1").file(path).hint("they are clamped"));
     }
-    let mut materials = Materials::read(path, &checked, &mut warnings);
+    let mut materials = Materials::read(path, &checked, &mut warnings)?;
     let (objects, found) = read(&checked, &materials, &mut |done, total| {
         progress(half + done * half / total.max(1), 2 * half);
     })

@@ -21,8 +21,11 @@ use core::ops::{Add, BitAnd, BitOr, Div, Mul, Sub};
 /// The value itself holds nothing; it is the proof that the machine has the instructions. Code over it is inlined into
 /// the function that [`vectorize`](Self::vectorize) calls, which is compiled for those.
 pub trait Lanes: Copy + Debug {
-    /// How many, at most 8.
+    /// How many: a power of two, at most 8.
     const COUNT: usize;
+    /// The same as a number of columns.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "at most 8")]
+    const STEP: i32 = Self::COUNT as i32;
     /// A number for each.
     type F32: Copy
         + Add<Output = Self::F32>
@@ -63,6 +66,8 @@ pub trait Lanes: Copy + Debug {
     fn load(self, values: &Self::Each<f32>) -> Self::F32;
     /// Numbers to memory.
     fn store(self, values: Self::F32) -> Self::Each<f32>;
+    /// Numbers to memory, where the mask is set.
+    fn store_where(self, mask: Self::Mask, values: Self::F32, to: &mut Self::Each<f32>);
     /// Words from memory.
     fn load_words(self, values: &Self::Each<u32>) -> Self::U32;
     /// Words to memory.
@@ -76,7 +81,8 @@ pub trait Lanes: Copy + Debug {
     fn sqrt(self, x: Self::F32) -> Self::F32;
     /// Rounded towards zero, for every number.
     fn trunc(self, x: Self::F32) -> Self::F32;
-    /// Rounded down to an integer in two's complement, for |x| < 2^31. Beyond, any word.
+    /// Rounded down to an integer in two's complement, for |x| < 2^31. NaN gives a multiple of 2^31; what is beyond gives
+    /// any word.
     fn floor(self, x: Self::F32) -> Self::U32;
     /// Rounded towards zero, for 0 <= x < 2^31. Beyond, any word.
     fn to_words(self, x: Self::F32) -> Self::U32;

@@ -2,6 +2,7 @@
 
 use alberti_math::lanes::Lanes;
 use core::fmt::Debug;
+use core::marker::PhantomData;
 
 /// A format of depth values, and the comparison that goes with it.
 ///
@@ -82,6 +83,22 @@ pub enum D16 {}
 #[derive(Clone, Copy, Debug)]
 pub enum D24 {}
 
+/// 32-bit integers: zs·(2^32 − 1) to the nearest, halves upwards.
+///
+/// # Precision
+/// Finer than the `f32` that depths are computed in, for which see [`F32`]; the same for every distance.
+#[derive(Clone, Copy, Debug)]
+pub enum D32 {}
+
+/// `D`, but a fragment as near as what is stored is seen as well: of two equal ones, the last drawn stays. For passes that
+/// draw the same triangles again.
+#[derive(Clone, Copy, Debug)]
+pub struct OrEqual<D>(PhantomData<D>);
+
+/// `D`, tested and never written: what is drawn is hidden by what is nearer, and hides nothing.
+#[derive(Clone, Copy, Debug)]
+pub struct ReadOnly<D>(PhantomData<D>);
+
 /// `f32`, growing with distance.
 ///
 /// # Precision
@@ -141,6 +158,82 @@ impl DepthFormat for D24 {
     }
 }
 
+impl DepthFormat for D32 {
+    type Stored = u32;
+    const REVERSED: bool = false;
+    const FARTHEST: u32 = u32::MAX;
+    #[inline]
+    fn encode(zs: f32) -> u32 {
+        quantize::<32>(zs)
+    }
+    #[inline]
+    fn nearer(new: u32, old: u32) -> bool {
+        new < old
+    }
+}
+
+impl<D: DepthFormat> DepthFormat for OrEqual<D> {
+    type Stored = D::Stored;
+    const REVERSED: bool = D::REVERSED;
+    const FARTHEST: D::Stored = D::FARTHEST;
+    #[inline]
+    fn encode(zs: f32) -> D::Stored {
+        D::encode(zs)
+    }
+    #[inline]
+    fn nearer(new: D::Stored, old: D::Stored) -> bool {
+        D::nearer(new, old) || !D::nearer(old, new)
+    }
+    #[inline(always)]
+    fn encode_lanes<L: Lanes>(lanes: L, zs: L::F32) -> L::Each<D::Stored> {
+        D::encode_lanes(lanes, zs)
+    }
+    #[inline(always)]
+    fn seen<L: Lanes>(
+        lanes: L,
+        new: &L::Each<D::Stored>,
+        old: &L::Each<D::Stored>,
+        mask: L::Mask,
+    ) -> L::Mask {
+        let [nearer, farther] = [D::seen(lanes, new, old, mask), D::seen(lanes, old, new, mask)];
+        let (nearer, farther, all) = (lanes.bits(nearer), lanes.bits(farther), lanes.bits(mask));
+        lanes.mask(nearer | (all & !farther))
+    }
+    #[inline(always)]
+    fn keep<L: Lanes>(lanes: L, new: &L::Each<D::Stored>, mask: L::Mask, stored: &mut L::Each<D::Stored>) {
+        D::keep(lanes, new, mask, stored);
+    }
+}
+
+impl<D: DepthFormat> DepthFormat for ReadOnly<D> {
+    type Stored = D::Stored;
+    const REVERSED: bool = D::REVERSED;
+    const FARTHEST: D::Stored = D::FARTHEST;
+    #[inline]
+    fn encode(zs: f32) -> D::Stored {
+        D::encode(zs)
+    }
+    #[inline]
+    fn nearer(new: D::Stored, old: D::Stored) -> bool {
+        D::nearer(new, old)
+    }
+    #[inline(always)]
+    fn encode_lanes<L: Lanes>(lanes: L, zs: L::F32) -> L::Each<D::Stored> {
+        D::encode_lanes(lanes, zs)
+    }
+    #[inline(always)]
+    fn seen<L: Lanes>(
+        lanes: L,
+        new: &L::Each<D::Stored>,
+        old: &L::Each<D::Stored>,
+        mask: L::Mask,
+    ) -> L::Mask {
+        D::seen(lanes, new, old, mask)
+    }
+    #[inline(always)]
+    fn keep<L: Lanes>(_: L, _: &L::Each<D::Stored>, _: L::Mask, _: &mut L::Each<D::Stored>) {}
+}
+
 impl DepthFormat for F32 {
     type Stored = f32;
     const REVERSED: bool = false;
@@ -163,7 +256,7 @@ impl DepthFormat for F32 {
     }
     #[inline(always)]
     fn keep<L: Lanes>(lanes: L, new: &L::Each<f32>, mask: L::Mask, stored: &mut L::Each<f32>) {
-        *stored = lanes.store(lanes.select(mask, lanes.load(new), lanes.load(stored)));
+        lanes.store_where(mask, lanes.load(new), stored);
     }
 }
 
@@ -189,18 +282,18 @@ impl DepthFormat for F32Reversed {
     }
     #[inline(always)]
     fn keep<L: Lanes>(lanes: L, new: &L::Each<f32>, mask: L::Mask, stored: &mut L::Each<f32>) {
-        *stored = lanes.store(lanes.select(mask, lanes.load(new), lanes.load(stored)));
+        lanes.store_where(mask, lanes.load(new), stored);
     }
 }
 
 /// zs·(2^BITS − 1) to the nearest integer, halves upwards, from the bits of `zs` in [0, 1]: exact, where a product in
 /// `f32` would round twice.
 #[inline]
-#[expect(clippy::cast_possible_truncation, reason = "the result has BITS <= 24 bits")]
+#[expect(clippy::cast_possible_truncation, reason = "the result has BITS <= 32 bits")]
 fn quantize<const BITS: u32>(zs: f32) -> u32 {
     // Without the sign, so that -0 is 0.
     let bits = zs.to_bits() & 0x7fff_ffff;
-    // zs = mantissa * 2^-shift; the product has at most 48 bits, and from a shift of 49 on it rounds to 0.
+    // zs = mantissa * 2^-shift; the product has at most 56 bits, and from a shift of 57 on it rounds to 0.
     let mantissa = u64::from((bits & 0x007f_ffff) | 0x0080_0000);
     let shift = 150u32.saturating_sub(bits >> 23).clamp(1, 63);
     ((mantissa * ((1 << BITS) - 1) + (1 << (shift - 1))) >> shift) as u32
@@ -209,25 +302,27 @@ fn quantize<const BITS: u32>(zs: f32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use alberti_math::lanes::One;
 
-    /// In 128 bits: floor((2 m (2^n - 1) + 2^s) / 2^(s+1)) with zs = m / 2^s and s fixed at 100.
+    /// In 128 bits: floor((2 m (2^n - 1) + 2^s) / 2^(s+1)) with zs = m / 2^s and s fixed at 90.
     fn exact(zs: f32, max: u128) -> u128 {
-        let scaled = f64::from(zs) * 2f64.powi(100);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an integer below 2^101")]
+        let scaled = f64::from(zs) * 2f64.powi(90);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an integer below 2^91")]
         let m = scaled as u128;
-        (2 * m * max + (1 << 100)) >> 101
+        (2 * m * max + (1 << 90)) >> 91
     }
 
     #[test]
     fn quantisation_is_correctly_rounded() {
         for bits in (0..=1.0f32.to_bits()).step_by(1013).chain([1.0f32.to_bits()]) {
             let zs = f32::from_bits(bits);
-            if bits < 0x1000_0000 {
-                assert_eq!((D16::encode(zs), D24::encode(zs)), (0, 0), "{zs:e}");
+            if zs < 2f32.powi(-60) {
+                assert_eq!((D16::encode(zs), D24::encode(zs), D32::encode(zs)), (0, 0, 0), "{zs:e}");
                 continue;
             }
             assert_eq!(u128::from(D16::encode(zs)), exact(zs, 0xffff), "{zs:e}");
             assert_eq!(u128::from(D24::encode(zs)), exact(zs, 0xff_ffff), "{zs:e}");
+            assert_eq!(u128::from(D32::encode(zs)), exact(zs, 0xffff_ffff), "{zs:e}");
         }
     }
 
@@ -238,6 +333,27 @@ mod tests {
         assert_eq!((D16::encode(-0.0), D24::encode(-0.0)), (0, 0));
         assert_eq!(D16::encode(0.5), 32768);
         assert_eq!(D24::encode(0.5), 1 << 23);
+    }
+
+    #[test]
+    fn equal_depths_are_seen_where_the_type_says_so_and_a_read_only_buffer_stays() {
+        let depths = [0.25f32, 0.5, 0.75];
+        for new in depths {
+            for old in depths {
+                let (mut or_equal, mut read_only) = ([old], [old]);
+                let seen = OrEqual::<F32>::seen(One, &[new], &[old], true);
+                assert_eq!((seen, OrEqual::<F32>::nearer(new, old)), (new <= old, new <= old));
+                OrEqual::<F32>::keep(One, &[new], seen, &mut or_equal);
+                assert_eq!(or_equal, [new.min(old)]);
+                let reversed = OrEqual::<F32Reversed>::seen(One, &[new], &[old], true);
+                assert_eq!(reversed, new >= old);
+                assert_eq!(ReadOnly::<F32>::seen(One, &[new], &[old], true), new < old);
+                ReadOnly::<F32>::keep(One, &[new], true, &mut read_only);
+                assert_eq!(read_only, [old]);
+            }
+        }
+        assert!(!OrEqual::<D16>::seen(One, &[1], &[1], false));
+        assert!(OrEqual::<NoDepth>::seen(One, &[()], &[()], true));
     }
 
     #[test]

@@ -10,9 +10,9 @@ use crate::edge::{Edge, EdgeInt};
 use crate::fragment::FragmentStage;
 use crate::interpolation::{Interpolate, Interpolation};
 use crate::mask::{NARROW, RowMask};
-use crate::paint::{Painter, Row};
-use crate::spans::Spans;
-use crate::triangle::{Bounds, Corners, Cull, Outcome, Vertex, canonical_order, doubled_area};
+use crate::paint::{Painter, Row, aligned};
+use crate::spans::RowSpans;
+use crate::triangle::{Bounds, Corners, Cull, Outcome, Vertex, doubled_area, in_order};
 use alberti_math::lanes::Lanes;
 use alberti_math::{Subpixel, Varying};
 use core::marker::PhantomData;
@@ -29,9 +29,10 @@ use core::ops::Range;
 /// zs for [`Exact`](crate::Exact), relatively and barring underflow, and within their range for all.
 ///
 /// # Cost
-/// A triangle whose box is narrow (8 samples for one lane, 32 for several) has all samples of its rows tested, for a wider
-/// one six integer divisions give the ends of all spans. One that covers no sample is not prepared. Edge functions have 32 bits up to 179
-/// pixels (8 subpixel bits) or 2,894 (4 bits) in a square box, and 64 above, with the same pixels.
+/// A triangle that covers no sample is not prepared. With one lane, rows of a box of up to 8 samples are tested sample by
+/// sample, and six integer divisions give the ends of the spans of wider ones; edge functions have 32 bits up to 179
+/// pixels (8 subpixel bits) or 2,894 (4 bits) in a square box, and 64 above. With several lanes, boxes of up to 32
+/// samples that lie within the band's columns and one run are tested, all lanes at once. The pixels are the same.
 pub fn draw_triangle<P, L, S, V, F, C, D, K>(
     interpolation: P,
     lanes: L,
@@ -51,7 +52,8 @@ where
     D: DepthFormat,
     K: Counters,
 {
-    let corners = vertices.map(|v| [v.x.subpixels(), v.y.subpixels()]);
+    let corner = |v: &Vertex<S, V>| [v.x.subpixels(), v.y.subpixels()];
+    let corners = [corner(vertices[0]), corner(vertices[1]), corner(vertices[2])];
     let area = doubled_area(&corners);
     if cull.drops(area) {
         return Outcome::Culled;
@@ -62,15 +64,8 @@ where
     if rows.is_empty() || columns.start.max(limits.start) >= columns.end.min(limits.end) {
         return Outcome::Missed;
     }
-    let order = canonical_order(&corners, area);
-    let vertices = order.map(|k| vertices[k]);
-    let corners = order.map(|k| corners[k]);
-    let prepare = || Painter {
-        lanes,
-        triangle: P::Triangle::<L, V>::new(interpolation, lanes, vertices, &corners, area.abs()),
-        fragment,
-        types: PhantomData,
-    };
+    let (corners, vertices) = in_order(corners, vertices, area);
+    let unprepared = Unprepared { interpolation, lanes, vertices, corners: &corners, area, fragment };
     let samples = Samples { corners: &corners, columns, rows, limits };
     lanes.vectorize(
         #[inline(always)]
@@ -78,17 +73,36 @@ where
             let fits_i32 = bounds.fits_i32(S::ONE);
             if L::COUNT > 1
                 && fits_i32
-                && samples.suit_masks(<P::Triangle<L, V> as Interpolate<P, L, V>>::RUN)
+                && samples.suit_masks::<L>(<P::Triangle<L, V> as Interpolate<P, L, V>>::RUN)
             {
-                fill_masked::<S, _, _, _, _, _, _, _, _>(lanes, band, &samples, prepare, counters)
+                fill_masked(band, &samples, &unprepared, counters)
             } else if L::COUNT == 1 && fits_i32 {
-                fill::<i32, S, _, _, _, _, _, _, _, _>(band, &samples, prepare, counters)
+                fill::<i32, _, _, _, _, _, _, _, _>(band, &samples, &unprepared, counters)
             } else {
                 // Several lanes hold 64-bit edge functions as well as 32-bit ones.
-                fill::<i64, S, _, _, _, _, _, _, _, _>(band, &samples, prepare, counters)
+                fill::<i64, _, _, _, _, _, _, _, _>(band, &samples, &unprepared, counters)
             }
         },
     )
+}
+
+/// A triangle with which nothing was done yet that only its fragments need.
+struct Unprepared<'a, P, L, S: Subpixel, V, F> {
+    interpolation: P,
+    lanes: L,
+    vertices: [&'a Vertex<S, V>; 3],
+    corners: &'a Corners,
+    area: i64,
+    fragment: &'a F,
+}
+
+impl<'a, P: Interpolation, L: Lanes, S: Subpixel, V: Varying, F> Unprepared<'a, P, L, S, V, F> {
+    #[inline(always)]
+    fn prepare(&self) -> Painter<'a, P, L, V, P::Triangle<L, V>, F> {
+        let Self { interpolation, lanes, vertices, corners, area, fragment } = *self;
+        let triangle = P::Triangle::<L, V>::new(interpolation, lanes, vertices, corners, area.abs());
+        Painter { lanes, triangle, fragment, types: PhantomData }
+    }
 }
 
 /// The samples in a triangle's box, and which of them may be drawn to.
@@ -103,27 +117,31 @@ struct Samples<'a> {
 impl Samples<'_> {
     /// Whether rows are best filled by testing every sample: the box is narrow, within the band, and in one run.
     #[inline(always)]
-    fn suit_masks(&self, run: i32) -> bool {
+    fn suit_masks<L: Lanes>(&self, run: i32) -> bool {
         let Range { start, end } = self.columns;
         let one_run = (start ^ (end - 1)) & !(run - 1) == 0;
-        end - start <= NARROW && start >= self.limits.start && end <= self.limits.end && one_run
+        end - aligned::<L>(start) <= NARROW && start >= self.limits.start && end <= self.limits.end && one_run
     }
 
     /// The edges, each opposite the vertex whose weight it is, with their values at the box's first sample.
     #[inline(always)]
     fn edges<I: EdgeInt, S: Subpixel>(&self) -> [Edge<I>; 3] {
-        let first_sample = [self.columns.start, self.rows.start].map(|i| i * S::ONE + S::HALF);
+        let first_sample = [self.columns.start * S::ONE + S::HALF, self.rows.start * S::ONE + S::HALF];
         let [a, b, c] = *self.corners;
-        [(b, c), (c, a), (a, b)].map(|(from, to)| Edge::new(from, to, first_sample, S::ONE))
+        [
+            Edge::new(b, c, first_sample, S::ONE),
+            Edge::new(c, a, first_sample, S::ONE),
+            Edge::new(a, b, first_sample, S::ONE),
+        ]
     }
 }
 
 /// Fills the covered samples of a box, row by row. `I` is wide enough for every edge function in it.
 #[inline(always)]
-fn fill<'f, I, S, P, L, V, T, F, C, D, K>(
+fn fill<'f, I, S, P, L, V, F, C, D, K>(
     band: &mut Band<'_, C, D>,
     samples: &Samples<'_>,
-    prepare: impl Fn() -> Painter<'f, P, L, V, T, F>,
+    triangle: &Unprepared<'f, P, L, S, V, F>,
     counters: &mut K,
 ) -> Outcome
 where
@@ -132,7 +150,6 @@ where
     L: Lanes,
     V: Varying,
     P: Interpolation,
-    T: Interpolate<P, L, V>,
     F: FragmentStage<V> + 'f,
     C: Store<F::Color>,
     D: DepthFormat,
@@ -140,17 +157,20 @@ where
 {
     let Samples { columns, rows, limits, .. } = samples;
     let mut edges = samples.edges::<I, S>();
-    let [width, height] = [columns, rows].map(|range| range.end - range.start);
-    let mut spans = Spans::new(&edges, width, height);
+    let mut spans = RowSpans::new(&edges, columns.end - columns.start, rows.end - rows.start);
     // A triangle that covers no sample is not prepared.
     let mut painter = None;
     for row in rows.clone() {
         let covered = spans.next_row().shifted(columns.start);
-        if covered.start < covered.end {
-            let painter = painter.get_or_insert_with(&prepare);
-            let row = Row { row, covered, origin: columns.start, edges: &edges };
-            let [covered, written] = painter.row(band, &row, limits);
-            counters.span(covered, written);
+        if covered.start.max(limits.start) < covered.end.min(limits.end) {
+            if painter.is_none() {
+                painter = Some(triangle.prepare());
+            }
+            if let Some(painter) = &painter {
+                let row = Row { row, covered, origin: columns.start, edges: &edges };
+                let [covered, written] = painter.row(band, &row, limits);
+                counters.span(covered, written);
+            }
         }
         for edge in &mut edges {
             edge.value = edge.value + edge.step_y;
@@ -161,11 +181,10 @@ where
 
 /// The same for several lanes and a box that [suits masks](Samples::suit_masks): without spans.
 #[inline(always)]
-fn fill_masked<'f, S, P, L, V, T, F, C, D, K>(
-    lanes: L,
+fn fill_masked<'f, S, P, L, V, F, C, D, K>(
     band: &mut Band<'_, C, D>,
     samples: &Samples<'_>,
-    prepare: impl Fn() -> Painter<'f, P, L, V, T, F>,
+    triangle: &Unprepared<'f, P, L, S, V, F>,
     counters: &mut K,
 ) -> Outcome
 where
@@ -173,14 +192,15 @@ where
     L: Lanes,
     V: Varying,
     P: Interpolation,
-    T: Interpolate<P, L, V>,
     F: FragmentStage<V> + 'f,
     C: Store<F::Color>,
     D: DepthFormat,
     K: Counters,
 {
     let Samples { columns, rows, .. } = samples;
-    let mut mask = RowMask::new(lanes, samples.edges::<i32, S>(), columns.len(), rows.start);
+    let left = aligned::<L>(columns.start);
+    let first = [columns.start, rows.start];
+    let mut mask = RowMask::new(triangle.lanes, samples.edges::<i32, S>(), first, left, columns.end);
     let mut row = rows.start;
     let mut bits = mask.bits();
     // A triangle that covers no sample is not prepared.
@@ -191,10 +211,10 @@ where
         }
         bits = mask.next_row();
     }
-    let painter = prepare();
+    let painter = triangle.prepare();
     while row < rows.end {
         if bits != 0 {
-            let written = painter.masked(band, row, columns.start, bits, &mask);
+            let written = painter.masked(band, row, left, bits, &mask);
             counters.span(bits.count_ones(), written);
         }
         row += 1;

@@ -40,9 +40,6 @@ pub trait EdgeInt:
     /// The nearest `f32` of each: exact up to 2^24, within ε = 2^-24 relative above.
     fn weights<L: Lanes>(lanes: L, at: Self::Of<L>) -> L::F32;
 
-    /// The same number: every edge function within the guard band is below 2^53.
-    fn to_f64(self) -> f64;
-
     /// The same number, where it fits.
     fn to_i32(self) -> i32;
 }
@@ -63,11 +60,6 @@ impl EdgeInt for i32 {
     #[inline(always)]
     fn weights<L: Lanes>(lanes: L, at: L::Int) -> L::F32 {
         lanes.int_to_f32(at)
-    }
-
-    #[inline(always)]
-    fn to_f64(self) -> f64 {
-        f64::from(self)
     }
 
     #[inline(always)]
@@ -92,12 +84,6 @@ impl EdgeInt for i64 {
     #[inline(always)]
     fn weights<L: Lanes>(lanes: L, at: L::Long) -> L::F32 {
         lanes.long_to_f32(at)
-    }
-
-    #[inline(always)]
-    #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
-    fn to_f64(self) -> f64 {
-        self as f64
     }
 
     #[inline(always)]

@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | [`Exact`](crate::Exact) | 9ε | one a fragment |
 //! | [`Plane`](crate::Plane) | a few ε, times the ratio of q along 64 columns | one a fragment |
-//! | [`Spans<N>`](crate::Spans) | what a straight line misses along N columns | two every N columns |
+//! | [`Spans<N>`](crate::Spans) | what a straight line misses along N columns | three every N columns |
 //! | [`Affine`](crate::Affine) | what a straight line misses along the triangle | none |
 
 use crate::spans::Span;

@@ -24,7 +24,7 @@ mod triangle;
 pub use band::{Band, BandError};
 pub use color::{Color, ColorFormat, Rgb565Be, Rgb565Le, Store, rgb565};
 pub use counters::Counters;
-pub use depth::{D16, D24, DepthFormat, F32, F32Reversed, NoDepth};
+pub use depth::{D16, D24, D32, DepthFormat, F32, F32Reversed, NoDepth, OrEqual, ReadOnly};
 pub use draw::draw_triangle;
 pub use edge::{Edge, EdgeInt, FITS_I32};
 pub use exact::{Exact, ExactTriangle};

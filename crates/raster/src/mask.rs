@@ -8,8 +8,8 @@ pub(crate) const NARROW: i32 = 32;
 
 /// The lowest 1 to 32 bits.
 #[inline(always)]
-fn lowest(bits: usize) -> u32 {
-    u32::MAX >> (32usize.saturating_sub(bits) & 31)
+fn lowest(bits: i32) -> u32 {
+    u32::MAX >> ((32 - bits) & 31)
 }
 
 /// A row of a triangle's box, its three edge functions at the first lanes, and what leads to the others.
@@ -17,39 +17,42 @@ pub(crate) struct RowMask<L: Lanes> {
     lanes: L,
     /// The columns that are in the box.
     inside: u32,
-    groups: u32,
+    groups: i32,
     /// The functions plus their biases at the first lanes.
     values: [L::Int; 3],
     /// What a group of lanes to the right and a row down add.
     over: [L::Int; 3],
     down: [L::Int; 3],
     bias: [L::Int; 3],
-    /// The edges at the first lane of the first row, and which row that is.
+    /// The edges in the first row at the first column of the box, and which those are.
     edges: [Edge<i32>; 3],
-    first_row: i32,
+    first: [i32; 2],
 }
 
 impl<L: Lanes> RowMask<L> {
-    /// The row of the edges' reference sample, which is column 0 of a box of 1 to [`NARROW`] columns.
+    /// The row of the edges' reference sample, which is the box's `first` column and row. Lanes begin at the column `left`,
+    /// not after it, and up to [`NARROW`] of them reach to before the column `end`.
     #[inline(always)]
-    pub(crate) fn new(lanes: L, edges: [Edge<i32>; 3], columns: usize, first_row: i32) -> Self {
-        let [a, b, c] = edges;
-        // Beyond the box, functions may wrap.
-        let over = |e: &Edge<i32>| lanes.int(e.step_x.wrapping_mul(L::COUNT as i32));
+    pub(crate) fn new(lanes: L, edges: [Edge<i32>; 3], first: [i32; 2], left: i32, end: i32) -> Self {
+        let [a, b, c] = &edges;
+        // Outside of the box, functions may wrap.
+        let before = first[0] - left;
+        let start = |e: &Edge<i32>| (e.value + e.bias).wrapping_sub(e.step_x.wrapping_mul(before));
+        let over = |e: &Edge<i32>| lanes.int(e.step_x.wrapping_mul(L::STEP));
         Self {
             lanes,
-            inside: lowest(columns),
-            groups: columns.div_ceil(L::COUNT) as u32,
+            inside: lowest(end - left) & (u32::MAX << before),
+            groups: (end - left + L::STEP - 1) / L::STEP,
             values: [
-                lanes.int_ramp(a.value + a.bias, a.step_x),
-                lanes.int_ramp(b.value + b.bias, b.step_x),
-                lanes.int_ramp(c.value + c.bias, c.step_x),
+                lanes.int_ramp(start(a), a.step_x),
+                lanes.int_ramp(start(b), b.step_x),
+                lanes.int_ramp(start(c), c.step_x),
             ],
-            over: [over(&a), over(&b), over(&c)],
+            over: [over(a), over(b), over(c)],
             down: [lanes.int(a.step_y), lanes.int(b.step_y), lanes.int(c.step_y)],
             bias: [lanes.int(-a.bias), lanes.int(-b.bias), lanes.int(-c.bias)],
             edges,
-            first_row,
+            first,
         }
     }
 
@@ -59,7 +62,7 @@ impl<L: Lanes> RowMask<L> {
         let (mut bits, mut at) = (0, self.values);
         for group in 0..self.groups {
             let covered = self.lanes.not_negative(at[0] | at[1] | at[2]);
-            bits |= self.lanes.bits(covered) << (group * L::COUNT as u32);
+            bits |= self.lanes.bits(covered) << (group * L::STEP);
             at = self.right(at);
         }
         bits & self.inside
@@ -73,10 +76,13 @@ impl<L: Lanes> RowMask<L> {
         self.bits()
     }
 
-    /// The edges in some row and column of the box.
-    pub(crate) fn edges(&self, row: i32, column: i32) -> [Edge<i32>; 3] {
-        let rows = row - self.first_row;
-        self.edges.map(|e| Edge { value: e.value + e.step_x * column + e.step_y * rows, ..e })
+    /// The edges at a column and row.
+    pub(crate) fn edges(&self, at: [i32; 2]) -> [Edge<i64>; 3] {
+        let [columns, rows] = [i64::from(at[0] - self.first[0]), i64::from(at[1] - self.first[1])];
+        self.edges.map(|e| {
+            let [value, step_x, step_y, bias] = [e.value, e.step_x, e.step_y, e.bias].map(i64::from);
+            Edge { value: value + step_x * columns + step_y * rows, step_x, step_y, bias }
+        })
     }
 
     /// The functions, with their biases, at the first lanes.

@@ -52,15 +52,19 @@ where
         C: Store<F::Color>,
         D: DepthFormat,
     {
+        const {
+            assert!(T::RUN > 0 && T::RUN.count_ones() == 1, "a run's length must be a power of two");
+        }
         let mut counts = [0; 2];
-        let mut first = row.covered.start;
-        while first < row.covered.end {
+        // From the run that the limits begin in.
+        let mut first = row.covered.start.max(limits.start & !(T::RUN - 1));
+        while first < row.covered.end.min(limits.end) {
             let end = row.covered.end.min((first | (T::RUN - 1)) + 1);
             let columns = first.max(limits.start)..end.min(limits.end);
             if columns.start < columns.end {
                 let run = Span { start: first, end: end.min(row.covered.end - 1) };
-                let cursor = self.triangle.start(row.row, run, columns.start);
-                counts[0] += columns.len() as u32;
+                let cursor = self.triangle.start(row.row, run, aligned::<L>(columns.start));
+                counts[0] += columns.end.abs_diff(columns.start);
                 counts[1] += self.run(band, row, columns, cursor);
             }
             first = end;
@@ -88,10 +92,10 @@ where
         let (mut colors, mut depths) = band.pixels_from(row, left);
         let (mut values, mut written, mut column) = (mask.first(), 0, left);
         loop {
-            let group = bits & ((1 << L::COUNT) - 1);
+            let group = bits & all::<L>();
             if colors.len() < L::COUNT || depths.len() < L::COUNT {
-                let edges = mask.edges(row, column - left);
-                return written + self.end::<i32, C, D>(colors, depths, group, cursor, &edges);
+                let edges = mask.edges([column, row]);
+                return written + self.end::<i64, C, D>(colors, depths, group, cursor, &edges);
             }
             let (Some((color, next_colors)), Some((depth, next_depths))) =
                 (L::split(colors), L::split(depths))
@@ -106,7 +110,7 @@ where
                 return written;
             }
             (colors, depths) = (next_colors, next_depths);
-            column += L::COUNT as i32;
+            column += L::STEP;
             cursor = self.triangle.advance(cursor);
             values = mask.right(values);
         }
@@ -127,18 +131,23 @@ where
         D: DepthFormat,
     {
         let lanes = self.lanes;
-        let offset = I::from(columns.start - row.origin);
+        let mut column = aligned::<L>(columns.start);
+        let offset = I::from(column - row.origin);
         let [a, b, c] = row.edges;
         let ramp = |e: &Edge<I>| I::ramp(lanes, e.value + e.step_x * offset, e.step_x);
         let mut edges = [ramp(a), ramp(b), ramp(c)];
-        let (mut colors, mut depths) = band.pixels_from(row.row, columns.start);
-        let (mut left, mut written) = (columns.len(), 0);
+        let (mut colors, mut depths) = band.pixels_from(row.row, column);
+        let (mut bits, mut written) = (all::<L>() << (columns.start - column), 0);
         loop {
-            let bits = if left < L::COUNT { (1 << left) - 1 } else { (1 << L::COUNT) - 1 };
+            let left = columns.end - column;
+            if left < L::STEP {
+                bits &= (1 << left) - 1;
+            }
             if colors.len() < L::COUNT || depths.len() < L::COUNT {
-                let column = I::from(columns.end - left as i32 - row.origin);
-                let at = |e: &Edge<I>| Edge { value: e.value + e.step_x * column, ..*e };
-                return written + self.end::<I, C, D>(colors, depths, bits, cursor, &[at(a), at(b), at(c)]);
+                let offset = I::from(column - row.origin);
+                let at = |e: &Edge<I>| Edge { value: e.value + e.step_x * offset, ..*e };
+                let edges = [at(a), at(b), at(c)];
+                return written + self.end::<I, C, D>(colors, depths, bits & all::<L>(), cursor, &edges);
             }
             let (Some((color, next_colors)), Some((depth, next_depths))) =
                 (L::split(colors), L::split(depths))
@@ -147,14 +156,15 @@ where
             };
             let [ea, eb, ec] = edges;
             let weights = [I::weights(lanes, ea), I::weights(lanes, eb), I::weights(lanes, ec)];
-            written += self.group::<C, D>(color, depth, bits, &cursor, &weights);
-            if left <= L::COUNT {
+            written += self.group::<C, D>(color, depth, bits & all::<L>(), &cursor, &weights);
+            if left <= L::STEP {
                 return written;
             }
-            left -= L::COUNT;
             (colors, depths) = (next_colors, next_depths);
+            column += L::STEP;
+            bits = all::<L>();
             cursor = self.triangle.advance(cursor);
-            let advance = |at, e: &Edge<I>| I::advance(lanes, at, e.step_x * I::from(L::COUNT as i32));
+            let advance = |at, e: &Edge<I>| I::advance(lanes, at, e.step_x * I::from(L::STEP));
             edges = [advance(ea, a), advance(eb, b), advance(ec, c)];
         }
     }
@@ -217,4 +227,17 @@ where
         D::keep(lanes, &zs, kept, depth);
         lanes.bits(kept).count_ones()
     }
+}
+
+/// The column at which the lanes of a sample begin: a multiple of their number, so that all triangles read and write the
+/// same words of memory, which a machine can then pass on from one to the next before they have reached it.
+#[inline(always)]
+pub(crate) fn aligned<L: Lanes>(column: i32) -> i32 {
+    column & !(L::STEP - 1)
+}
+
+/// A bit for each lane.
+#[inline(always)]
+fn all<L: Lanes>() -> u32 {
+    (1 << L::COUNT) - 1
 }

@@ -17,7 +17,8 @@ use core::fmt;
 /// ratios in a triangle up to 2^24, beyond which the error of `f64` counts. Where q falls by half along 64 columns that
 /// is 20ε, where it grows at most 14ε. The reason: q and q·u each carry the rounding of the start and of the step, of their product
 /// with the columns and of the sum, which is (3 r + 3)ε relative to q; the reciprocal and the product add 2ε. The result
-/// never leaves the range of the three values, so a constant stays constant bit for bit.
+/// never leaves the range of the three values, so a constant stays constant bit for bit; for |ui| above 2^120, where
+/// q·u may overflow, that is all that holds.
 ///
 /// # Cost
 /// A fragment: one product, one sum, one division; a component adds two products, a sum, a minimum and a maximum.

@@ -31,7 +31,7 @@ impl Span {
 }
 
 /// The covered samples of a triangle's rows from the top, found in the way that suits its box.
-pub(crate) enum Spans<I> {
+pub(crate) enum RowSpans<I> {
     /// By testing each sample of a row: the edges with their biases at the row's first.
     Tested { edges: [Edge<I>; 3], width: i32 },
     /// By following where the edges cross the rows.
@@ -41,7 +41,7 @@ pub(crate) enum Spans<I> {
 /// The columns of the widest box in which testing is cheaper than the divisions that following takes.
 const TESTED: i32 = 8;
 
-impl<I: EdgeInt> Spans<I> {
+impl<I: EdgeInt> RowSpans<I> {
     /// Starts at the row of the edges' reference sample, which is column 0 of a box of `width` columns and `rows` rows.
     #[inline(always)]
     pub(crate) fn new(edges: &[Edge<I>; 3], width: i32, rows: i32) -> Self {

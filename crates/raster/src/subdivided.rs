@@ -17,12 +17,12 @@ use core::fmt;
 /// The first term is what the straight line misses, and is reached; the second is rounding.
 ///
 /// # Cost
-/// A fragment: a product, a sum, a minimum and a maximum for each component; no division. Every `N` columns: two `f64`
+/// A fragment: a product, a sum, a minimum and a maximum for each component; no division. Every `N` columns: three `f64`
 /// divisions, and about ten operations a component.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Spans<const N: usize>;
+pub struct Spans<const N: i32>;
 
-impl<const N: usize> Interpolation for Spans<N> {
+impl<const N: i32> Interpolation for Spans<N> {
     type Triangle<L: Lanes, V: Varying> = SubdividedTriangle<L, V>;
 }
 
@@ -55,10 +55,10 @@ impl<L: Lanes, V: Varying> SubdividedTriangle<L, V> {
     }
 }
 
-impl<const N: usize, L: Lanes, V: Varying> Interpolate<Spans<N>, L, V> for SubdividedTriangle<L, V> {
+impl<const N: i32, L: Lanes, V: Varying> Interpolate<Spans<N>, L, V> for SubdividedTriangle<L, V> {
     const RUN: i32 = {
-        assert!(N.is_power_of_two() && N <= 64, "Spans<N>: N must be a power of two up to 64");
-        N as i32
+        assert!(N.count_ones() == 1 && 0 < N && N <= 64, "Spans<N>: N must be a power of two up to 64");
+        N
     };
     type Cursor = LinearCursor<L, V>;
 

@@ -52,7 +52,7 @@ pub enum Outcome {
     Culled,
     /// It covers no sample of the band.
     Missed,
-    /// Drawn: its box holds samples of the band.
+    /// Drawn: it covers samples of the band, whether or not they were seen.
     Drawn,
 }
 
@@ -98,23 +98,19 @@ pub(crate) fn doubled_area(&[a, b, c]: &Corners) -> i64 {
     ux * vy - uy * vx
 }
 
-/// The order in which the corners are taken: clockwise, from the topmost (of two, the left one). The same for every
-/// order in which the triangle could be given, so that no bit depends on that.
+/// The corners, and what belongs to each, in the order in which they are taken: clockwise, from the topmost (of two, the
+/// left one). The same for every order in which the triangle could be given, so that no bit depends on that.
 #[inline]
-pub(crate) fn canonical_order(corners: &Corners, area: i64) -> [usize; 3] {
-    let clockwise = if area > 0 { [0, 1, 2] } else { [0, 2, 1] };
-    let key = |k: usize| {
-        let [x, y] = corners[clockwise[k]];
-        (y, x)
-    };
-    let first = if key(1) < key(0) {
-        if key(2) < key(1) { 2 } else { 1 }
-    } else if key(2) < key(0) {
-        2
+pub(crate) fn in_order<T>([a, b, c]: Corners, [x, y, z]: [T; 3], area: i64) -> (Corners, [T; 3]) {
+    let ([b, c], [y, z]) = if area > 0 { ([b, c], [y, z]) } else { ([c, b], [z, y]) };
+    let before = |p: [i32; 2], q: [i32; 2]| (p[1], p[0]) < (q[1], q[0]);
+    if before(b, a) && !before(c, b) {
+        ([b, c, a], [y, z, x])
+    } else if before(c, a) && before(c, b) {
+        ([c, a, b], [z, x, y])
     } else {
-        0
-    };
-    [clockwise[first], clockwise[(first + 1) % 3], clockwise[(first + 2) % 3]]
+        ([a, b, c], [x, y, z])
+    }
 }
 
 #[cfg(test)]
@@ -126,8 +122,8 @@ mod tests {
     fn the_order_does_not_depend_on_how_a_triangle_is_given() {
         let [a, b, c] = [[5, 9], [1, 2], [8, 2]];
         for corners in [[a, b, c], [b, c, a], [c, a, b], [a, c, b], [c, b, a], [b, a, c]] {
-            let order = canonical_order(&corners, doubled_area(&corners));
-            assert_eq!(order.map(|k| corners[k]), [b, c, a]);
+            let (ordered, carried) = in_order(corners, corners, doubled_area(&corners));
+            assert_eq!((ordered, carried), ([b, c, a], [b, c, a]));
         }
     }
 

@@ -15,7 +15,8 @@ pub trait Size: Scale + Copy + Debug + 'static {}
 #[derive(Clone, Copy, Debug)]
 pub enum AnySize {}
 
-/// Sides whose lengths are powers of two. Scaling by them is exact in `f32`, and the remainder is a mask.
+/// Sides whose lengths are powers of two. Scaling by them is exact in `f32`, and the remainder is a mask: of NaN, which
+/// becomes a multiple of 2^31, and so of an infinity less itself, it is 0.
 #[derive(Clone, Copy, Debug)]
 pub enum PowerOfTwo {}
 

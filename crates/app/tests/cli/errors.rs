@@ -37,6 +37,20 @@ fn numbers_that_are_not_coordinates() {
 }
 
 #[test]
+fn materials_without_their_numbers() {
+    for (mtl, found) in [
+        ("newmtl red\nKd 1 2\n", "m.mtl:2: found `Kd` with 2 numbers, expected `Kd r g b`"),
+        ("newmtl red\nKd\n", "m.mtl:2: found `Kd` with 0 numbers"),
+        ("newmtl red\r\n\r\nKd x 1 1\r\n", "m.mtl:3: found \"x\" after `Kd`"),
+        ("newmtl red\nKd nan 0 0\n", "m.mtl:2: found \"nan\" after `Kd`"),
+    ] {
+        let obj = format!("mtllib m.mtl\nusemtl red\n{TRIANGLE}");
+        let folder = Folder::with(&[("m.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes())]);
+        folder.fails(&["m.obj", "-o", "out.png"], &["error: ", found]);
+    }
+}
+
+#[test]
 fn indices_that_do_not_exist() {
     for (face, found) in [
         ("f 1 2 9", "found vertex index 9, expected 1 to 3"),

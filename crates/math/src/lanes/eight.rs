@@ -78,6 +78,14 @@ impl<S: Simd> Lanes for Eight<S> {
         values.into()
     }
 
+    // As words, because compilers make a masked store of a selection of numbers, which is slow on some machines, and
+    // from which no later load is served before it has reached memory.
+    #[inline(always)]
+    fn store_where(self, mask: mask32x8<S>, values: f32x8<S>, to: &mut [f32; 8]) {
+        let kept: u32x8<S> = self.load(to).bitcast();
+        *to = self.store(mask.select(values.bitcast(), kept).bitcast());
+    }
+
     #[inline(always)]
     fn load_words(self, values: &[u32; 8]) -> u32x8<S> {
         (*values).simd_into(self.0)

@@ -57,6 +57,13 @@ impl Lanes for One {
     }
 
     #[inline(always)]
+    fn store_where(self, mask: bool, values: f32, to: &mut [f32; 1]) {
+        if mask {
+            *to = [values];
+        }
+    }
+
+    #[inline(always)]
     fn load_words(self, values: &[u32; 1]) -> Wrapping<u32> {
         Wrapping(values[0])
     }
