@@ -14,7 +14,7 @@ pub(crate) struct Library {
 
 /// The crates that run on a microcontroller, each after the crates that it uses.
 pub(crate) const LIBRARIES: &[Library] = &[
-    Library { package: "alberti-math", folder: "math", may_use: &["fearless_simd"] },
+    Library { package: "alberti-math", folder: "math", may_use: &[] },
     Library { package: "alberti-projection", folder: "projection", may_use: &["alberti-math"] },
     Library { package: "alberti-raster", folder: "raster", may_use: &["alberti-math"] },
     Library { package: "alberti-texture", folder: "texture", may_use: &["alberti-math"] },
@@ -26,7 +26,7 @@ pub(crate) const LIBRARIES: &[Library] = &[
 ];
 
 /// What any library may depend on besides the crates of this workspace.
-pub(crate) const EXTERNAL: &[&str] = &["glam", "libm"];
+pub(crate) const EXTERNAL: &[&str] = &["fearless_simd", "glam", "libm"];
 
 /// The published crates that need an operating system, as (package, folder below `crates/`).
 pub(crate) const APPLICATIONS: &[(&str, &str)] = &[("alberti-app", "app")];
