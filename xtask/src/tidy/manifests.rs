@@ -157,7 +157,8 @@ mod tests {
     #[test]
     fn a_library_takes_no_other_crates() {
         let text = format!("[dependencies]\nserde = \"1\"\n{LINTS}");
-        let message = "`alberti-raster` must not depend on `serde`, only on alberti-math, fearless_simd, glam, libm";
+        let message =
+            "`alberti-raster` must not depend on `serde`, only on alberti-math, fearless_simd, glam, libm";
         assert_eq!(
             found("crates/raster/Cargo.toml", &text),
             [format!("crates/raster/Cargo.toml:2: {message}")]

@@ -6,8 +6,8 @@ use alberti::glam::{Vec2, Vec3};
 use alberti::shaders::{Flat, Unlit, VertexColor};
 use alberti::texture::{Nearest, Repeat};
 use alberti::{
-    Band, Counters, Cull, D16, Exact, FragmentStage, NoDepth, Object, Pass, Point3, Rgb565Le, Rgba8, Sides, Slot,
-    Sub4, VertexStage, View, draw,
+    Band, Counters, Cull, D16, Exact, FragmentStage, NoDepth, Object, Pass, Point3, Rgb565Le, Rgba8, Sides,
+    Slot, Sub4, VertexStage, View, draw,
 };
 
 /// One colour for all, with depth.
