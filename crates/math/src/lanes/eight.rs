@@ -10,7 +10,7 @@ use fearless_simd::{
 /// Eight samples at a time, on a machine with the instructions `S`.
 #[derive(Clone, Copy)]
 pub struct Eight<S: Simd>(
-    /// The proof that the machine has them, from a [`Level`].
+    /// The proof that the machine has them, from `fearless_simd`, see [`Machine`](super::Machine).
     pub S,
 );
 
