@@ -2,7 +2,7 @@
 #![allow(clippy::cast_possible_truncation, reason = "random numbers within the range of what they become")]
 
 use alberti::glam::{Vec2, Vec3};
-use alberti::lanes::{Lanes, Machine, One};
+use alberti::lanes::{Floating, Machine, One};
 use alberti::shaders::{Lambert, Tinted, Unlit, VertexColor};
 use alberti::texture::{Bilinear, Filter, Mirror, Nearest, Repeat, Texture, Wrap};
 use alberti::{
@@ -37,7 +37,7 @@ fn triangle(rng: &mut Rng) -> [alberti_raster::Vertex<Sub8, Vec3>; 3] {
 /// Random triangles over each other: the colours have every bit of the varying.
 fn random_frame<D: DepthFormat<Stored: PartialEq>>(
     interpolation: impl Interpolation,
-    lanes: impl Lanes,
+    lanes: impl Floating,
     seed: u64,
 ) -> (Vec<u32>, Vec<D::Stored>) {
     let mut color = vec![0; WIDTH * 70];
@@ -50,7 +50,7 @@ fn random_frame<D: DepthFormat<Stored: PartialEq>>(
 
 fn draw_random<D: DepthFormat>(
     interpolation: impl Interpolation,
-    lanes: impl Lanes,
+    lanes: impl Floating,
     band: &mut Band<'_, Rgba8, D>,
     seed: u64,
 ) {
@@ -141,7 +141,7 @@ struct Shot<'a> {
 impl Shot<'_> {
     fn take<C, D, F, Vs>(
         &self,
-        lanes: impl Lanes,
+        lanes: impl Floating,
         interpolation: impl Interpolation,
         vertex_stage: Vs,
         fragment_stage: F,
@@ -171,13 +171,13 @@ impl Shot<'_> {
         (color, depth)
     }
 
-    fn coloured(&self, lanes: impl Lanes) -> (Vec<u16>, Vec<f32>) {
+    fn coloured(&self, lanes: impl Floating) -> (Vec<u16>, Vec<f32>) {
         let vertex = |v: &Vertex| (position(v), Vec3::from_array(v.color));
         self.take::<Rgb565Be, F32, _, _>(lanes, Plane, vertex, VertexColor)
     }
 
     /// Every wide stage at once: lit, tinted, textured.
-    fn textured<Fl: Filter, W: Wrap>(&self, lanes: impl Lanes, image: &Image) -> (Vec<u32>, Vec<u16>) {
+    fn textured<Fl: Filter, W: Wrap>(&self, lanes: impl Floating, image: &Image) -> (Vec<u32>, Vec<u16>) {
         let texture = Texture::<Rgba8>::new(&image.texels, image.width, image.height).expect("a texture");
         let vertex = |v: &Vertex| (position(v), (Vec3::from_array(v.normal), Vec2::from_array(v.uv)));
         let light = Vector3::new(Vec3::new(0.3, 0.8, -0.5));

@@ -13,7 +13,7 @@ use alberti_oracle::cases::pixel_centre;
 use alberti_oracle::coverage::Triangle;
 use alberti_oracle::dd;
 use alberti_oracle::rng::{Rng, run_seed};
-use alberti_raster::{Affine, Band, Cull, Interpolation, Plane, Spans, draw_triangle};
+use alberti_raster::{Affine, Band, Bounded, Cull, FixedPoint, Interpolation, Plane, Spans, draw_triangle};
 use alberti_tests::probe::{Recorded, Seen, Words, vertex};
 
 const EPS: f64 = 1.0 / (1 << 24) as f64;
@@ -40,6 +40,33 @@ impl Case {
 
     fn hyperbolic(&self, column: i32) -> f64 {
         dd::hyperbolic(self.tri, Self::sample(column), self.q, self.u).to_f64()
+    }
+
+    /// What a straight line between two samples misses at most.
+    fn missed(&self, [first, last]: [i32; 2]) -> f64 {
+        let [q0, q1] = [self.q_at(first), self.q_at(last)];
+        let root = (f64::max(q0, q1) / f64::min(q0, q1)).sqrt();
+        (self.hyperbolic(last) - self.hyperbolic(first)).abs() * (root - 1.0) / (root + 1.0)
+    }
+
+    /// The greatest ratio of q.
+    fn ratio(&self) -> f64 {
+        let [least, greatest] =
+            [f32::min, f32::max].map(|pick| f64::from(self.q.into_iter().reduce(pick).unwrap_or(1.0)));
+        greatest / least
+    }
+
+    /// The greatest difference between two vertices.
+    fn spread(&self) -> f64 {
+        let [least, greatest] =
+            [f32::min, f32::max].map(|pick| f64::from(self.u.into_iter().reduce(pick).unwrap_or(0.0)));
+        greatest - least
+    }
+
+    /// What fixed point adds to the bound of a policy whose runs have so many columns.
+    fn fixed_point(&self, columns: i32) -> f64 {
+        const UNIT: f64 = 1.0 / 65536.0;
+        f64::from(columns + 3) * UNIT + self.spread() * (2f64.powi(-17) + self.ratio() * 2f64.powi(-30))
     }
 
     fn largest(&self) -> f64 {
@@ -138,9 +165,7 @@ fn spans<const N: i32>(stream: u64) {
     let (mut worst, mut worst_depth, mut reached) = (0.0, 0.0, 0);
     each_sample(Spans::<N>, stream, 1_000_000, |case, column, u, zs| {
         let [first, last] = case.run(column, N);
-        let [q0, q1] = [case.q_at(first), case.q_at(last)];
-        let root = (f64::max(q0, q1) / f64::min(q0, q1)).sqrt();
-        let missed = (case.hyperbolic(last) - case.hyperbolic(first)).abs() * (root - 1.0) / (root + 1.0);
+        let missed = case.missed([first, last]);
         let rounded = 6.0 * EPS * case.largest();
         let error = (u - case.hyperbolic(column)).abs();
         worst = f64::max(worst, error / (missed + rounded));
@@ -160,16 +185,72 @@ fn affine() {
         worst = f64::max(worst, (u - straight).abs() / (6.0 * EPS * case.largest()));
         worst_depth = f64::max(worst_depth, depth_error(case, column, zs));
         // What perspective would be lies within the formula, between any two vertices.
-        let [least, greatest] =
-            [f32::min, f32::max].map(|pick| f64::from(case.q.into_iter().reduce(pick).unwrap_or(1.0)));
-        let root = (greatest / least).sqrt();
-        let spread =
-            [f32::min, f32::max].map(|pick| f64::from(case.u.into_iter().reduce(pick).unwrap_or(0.0)));
-        let missed = (spread[1] - spread[0]) * (root - 1.0) / (root + 1.0);
+        let root = case.ratio().sqrt();
+        let missed = case.spread() * (root - 1.0) / (root + 1.0);
         let error = (u - case.hyperbolic(column)).abs();
         assert!(error <= missed + 6.0 * EPS * case.largest(), "{error:e} where {missed:e} is the bound");
         lines += u64::from(error > 0.3 * missed);
     });
     println!("Affine: {worst:.3} of the bound, depth {worst_depth:.3}; {lines} samples far from perspective");
     assert!(worst <= 1.0 && worst_depth <= 1.0 && worst > 0.1 && lines > 1000);
+}
+
+#[test]
+fn never_over_the_budget() {
+    for (stream, budget) in [(5, 1.0 / 16.0 / 256.0), (6, 0.5)] {
+        let (mut worst, mut worst_depth, mut reached) = (0.0, 0.0, 0);
+        each_sample(Bounded { budget }, stream, 500_000, |case, column, u, zs| {
+            let bound = f64::from(budget) + 6.0 * EPS * case.largest();
+            let error = (u - case.hyperbolic(column)).abs();
+            worst = f64::max(worst, error / bound);
+            worst_depth = f64::max(worst_depth, depth_error(case, column, zs));
+            reached += u64::from(error > 0.3 * f64::from(budget));
+        });
+        println!(
+            "Bounded {budget:.1e}: {worst:.3} of the bound, depth {worst_depth:.3}; {reached} samples near it"
+        );
+        assert!(worst <= 1.0 && worst_depth <= 1.0);
+        assert!(reached > 1000, "the budget is not used");
+    }
+}
+
+/// A unit of depth in fixed point.
+const DEPTH_UNIT: f64 = 1.0 / (1u32 << 31) as f64;
+
+fn fixed_point(
+    policy: impl Interpolation,
+    stream: u64,
+    columns: i32,
+    policy_bound: impl Fn(&Case, i32) -> [f64; 2],
+) {
+    let (mut worst, mut worst_depth, mut rounded) = (0.0, 0.0, 0);
+    each_sample(policy, stream, 1_000_000, |case, column, u, zs| {
+        let [exact, missed] = policy_bound(case, column);
+        let fixed = case.fixed_point(columns);
+        let error = (u - exact).abs();
+        worst = f64::max(worst, error / (missed + fixed));
+        rounded += u64::from(error > missed + 0.1 * fixed);
+        let depth = dd::linear(case.tri, Case::sample(column), case.zs).to_f64();
+        let depth_bound = (f64::from(columns) + 4.0) * DEPTH_UNIT + EPS;
+        worst_depth = f64::max(worst_depth, (zs - depth).abs() / depth_bound);
+    });
+    println!(
+        "{policy:?}: {worst:.3} of the bound, depth {worst_depth:.3}; {rounded} samples wrong by rounding"
+    );
+    assert!(worst <= 1.0 && worst_depth <= 1.0);
+    assert!(rounded > 100, "the bound is not tested");
+}
+
+#[test]
+fn lines_in_fixed_point() {
+    let line =
+        |n: i32| move |case: &Case, column: i32| [case.hyperbolic(column), case.missed(case.run(column, n))];
+    fixed_point(FixedPoint(Spans::<16>), 7, 16, line(16));
+    fixed_point(FixedPoint(Spans::<1>), 8, 1, line(1));
+    let straight =
+        |case: &Case, column: i32| [dd::linear(case.tri, Case::sample(column), case.u).to_f64(), 0.0];
+    fixed_point(FixedPoint(Affine), 9, 64, straight);
+    let budget = 1.0 / 256.0;
+    let within = |case: &Case, column: i32| [case.hyperbolic(column), f64::from(budget)];
+    fixed_point(FixedPoint(Bounded { budget }), 10, 64, within);
 }

@@ -10,14 +10,14 @@ mod stats;
 mod vertex;
 
 pub use alberti_math::{
-    Eye, Fixed, Frame, Object, Point3, Rgba8, Sub4, Sub8, Subpixel, Varying, Vector3, World, for_lanes, glam,
-    lanes,
+    Eye, Fixed, Flat, Frame, Linear, Mode, Object, Point3, Q16, Rgba8, Sub4, Sub8, Subpixel, Varying,
+    Vector3, World, for_lanes, glam, lanes,
 };
 pub use alberti_projection::{Perspective, ViewError, Viewport, look_at};
 pub use alberti_raster::{
-    Affine, Band, BandError, Color, ColorFormat, Counters, Cull, D16, D24, D32, DepthFormat, Exact, F32,
-    F32Reversed, FragmentStage, Interpolation, NoDepth, OrEqual, Plane, ReadOnly, Rgb565Be, Rgb565Le, Spans,
-    Store,
+    Affine, Band, BandError, Bounded, Color, ColorFormat, Counters, Cull, D16, D24, D32, DepthFormat, Exact,
+    F32, F32Reversed, FixedPoint, FragmentStage, Interpolation, NoDepth, OrEqual, Plane, ReadOnly, Rgb565Be,
+    Rgb565Le, Spans, Store,
 };
 pub use alberti_texture as texture;
 pub use pipeline::{Pass, Sides, View, draw, draw_by};

@@ -2,8 +2,8 @@
 
 use crate::vertex::{Slot, Transformed, VertexStage, outside};
 use alberti_math::glam::Vec3;
-use alberti_math::lanes::{Lanes, Machine};
-use alberti_math::{Eye, Frame, Object, Subpixel, Varying, for_lanes};
+use alberti_math::lanes::{Floating, Machine};
+use alberti_math::{Eye, Frame, Object, Subpixel, Varying, flatten, for_lanes};
 use alberti_projection::{
     DepthMap, EyeVertex, Perspective, ProjectedVertex, SideBounds, Viewport, clip_near_far, clip_sides,
 };
@@ -95,7 +95,7 @@ pub fn draw_by<L, S, T, I, Vs, Fs, P, C, D, K>(
     slots: &mut [Slot<S, Vs::Varying>],
     counters: &mut K,
 ) where
-    L: Lanes,
+    L: Floating,
     S: Subpixel,
     I: Copy + Into<u32>,
     Vs: VertexStage<T>,
@@ -188,7 +188,7 @@ fn clip_and_draw<L, S, T, I, Vs, Fs, P, C, D, K>(
     corners: [&Transformed<S, Vs::Varying>; 3],
     counters: &mut K,
 ) where
-    L: Lanes,
+    L: Floating,
     S: Subpixel,
     Vs: VertexStage<T>,
     Fs: FragmentStage<Vs::Varying>,
@@ -198,7 +198,11 @@ fn clip_and_draw<L, S, T, I, Vs, Fs, P, C, D, K>(
     K: Counters,
 {
     let View { perspective, viewport, .. } = &pass.view;
-    let triangle = canonical(corners.map(|c| EyeVertex { position: c.position, varying: c.screen.varying }));
+    let first = corners[0].screen.varying;
+    let triangle = canonical(corners.map(|c| {
+        let varying = flatten(first, c.screen.varying);
+        EyeVertex { position: c.position, varying }
+    }));
     // 3. What lies between the near and the far plane.
     let between = clip_near_far(triangle, perspective.near(), perspective.far());
     // 4. Perspective with depth.

@@ -2,9 +2,11 @@
 //!
 //! | stage | varying | colour |
 //! |---|---|---|
-//! | [`Flat`] | any | one for all |
+//! | [`Solid`] | any | one for all |
 //! | [`VertexColor`] | `Vec3` | the varying, red, green, blue in [0, 1] |
+//! | [`VertexColor565`] | `Vec3` | the same in 16 bits |
 //! | [`Unlit`] | `Vec2` | the texture at the varying |
+//! | [`Stored`] | `Vec2` | the same, in the texture's own format |
 //! | [`Tinted`] | the wrapped stage's | the wrapped stage's times a colour |
 //! | [`Lambert`] | `(Vec3, V)`: a normal and the wrapped stage's | the wrapped stage's, lit |
 //!
@@ -13,8 +15,8 @@
 use alberti_math::glam::{Vec2, Vec3};
 use alberti_math::lanes::{Lanes, One};
 use alberti_math::{Point3, Rgba8, Space, Varying, Vector3, World};
-use alberti_raster::FragmentStage;
-use alberti_texture::{Filter, Sampler, Size, TexelFormat, Wrap};
+use alberti_raster::{Color, FragmentStage};
+use alberti_texture::{Filter, Nearest, Sampler, Size, TexelFormat, Wrap};
 use core::num::Wrapping;
 
 /// One colour for everything.
@@ -22,22 +24,22 @@ use core::num::Wrapping;
 /// # Cost
 /// Nothing is interpolated.
 #[derive(Clone, Copy, Debug)]
-pub struct Flat(
-    /// The colour.
-    pub Rgba8,
+pub struct Solid<C = Rgba8>(
+    /// The colour, of any type that the target can store.
+    pub C,
 );
 
-impl<V: Varying> FragmentStage<V> for Flat {
-    type Color = Rgba8;
+impl<V: Varying, C: Color> FragmentStage<V> for Solid<C> {
+    type Color = C;
 
     #[inline(always)]
-    fn shade(&self, _: V) -> Option<Rgba8> {
+    fn shade(&self, _: V) -> Option<C> {
         Some(self.0)
     }
 
     #[inline(always)]
-    fn shade_lanes<L: Lanes>(&self, lanes: L, _: &V::Of<L::F32>, mask: L::Mask) -> (L::U32, L::Mask) {
-        (lanes.word(self.0.to_bits()), mask)
+    fn shade_lanes<L: Lanes>(&self, lanes: L, _: &V::Of<L::Number>, mask: L::Mask) -> (L::U32, L::Mask) {
+        (lanes.word(self.0.to_word()), mask)
     }
 }
 
@@ -57,9 +59,32 @@ impl FragmentStage<Vec3> for VertexColor {
     }
 
     #[inline(always)]
-    fn shade_lanes<L: Lanes>(&self, lanes: L, color: &[L::F32; 3], mask: L::Mask) -> (L::U32, L::Mask) {
+    fn shade_lanes<L: Lanes>(&self, lanes: L, color: &[L::Number; 3], mask: L::Mask) -> (L::U32, L::Mask) {
         let [r, g, b] = *color;
-        (lit(lanes, [lanes.word(255); 4], [r, g, b]), mask)
+        let [r, g, b] = [lanes.of_unit(r, 255), lanes.of_unit(g, 255), lanes.of_unit(b, 255)];
+        (pack(lanes, [r, g, b, lanes.word(255)]), mask)
+    }
+}
+
+/// [`VertexColor`] for targets of 16 bits, rounded once.
+#[derive(Clone, Copy, Debug)]
+pub struct VertexColor565;
+
+impl FragmentStage<Vec3> for VertexColor565 {
+    type Color = u16;
+
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "16 bits")]
+    fn shade(&self, color: Vec3) -> Option<u16> {
+        let (word, _) = self.shade_lanes(One, &color.to_array(), true);
+        Some(word.0 as u16)
+    }
+
+    #[inline(always)]
+    fn shade_lanes<L: Lanes>(&self, lanes: L, color: &[L::Number; 3], mask: L::Mask) -> (L::U32, L::Mask) {
+        let [r, g, b] = *color;
+        let [r, g, b] = [lanes.of_unit(r, 31), lanes.of_unit(g, 63), lanes.of_unit(b, 31)];
+        (lanes.shl(r, 11) | (lanes.shl(g, 5) | b), mask)
     }
 }
 
@@ -81,8 +106,33 @@ impl<F: TexelFormat, Fl: Filter, U: Wrap, V: Wrap, Z: Size> FragmentStage<Vec2>
     }
 
     #[inline(always)]
-    fn shade_lanes<L: Lanes>(&self, lanes: L, &[u, v]: &[L::F32; 2], mask: L::Mask) -> (L::U32, L::Mask) {
+    fn shade_lanes<L: Lanes>(&self, lanes: L, &[u, v]: &[L::Number; 2], mask: L::Mask) -> (L::U32, L::Mask) {
         (self.0.sample_lanes(lanes, u, v), mask)
+    }
+}
+
+/// The texture's nearest texel as it is stored, for targets of the same format: nothing is decoded nor encoded.
+#[derive(Clone, Copy, Debug)]
+pub struct Stored<S>(
+    /// The texture with its wrap mode.
+    pub S,
+);
+
+impl<F: TexelFormat<Texel: Color>, U: Wrap, V: Wrap, Z: Size> FragmentStage<Vec2>
+    for Stored<Sampler<'_, F, Nearest, U, V, Z>>
+{
+    type Color = F::Texel;
+
+    #[inline(always)]
+    fn shade(&self, uv: Vec2) -> Option<F::Texel> {
+        let (word, _) = self.shade_lanes(One, &uv.to_array(), true);
+        Some(Color::from_word(word.0))
+    }
+
+    #[inline(always)]
+    fn shade_lanes<L: Lanes>(&self, lanes: L, &[u, v]: &[L::Number; 2], mask: L::Mask) -> (L::U32, L::Mask) {
+        let words = self.0.stored_lanes(lanes, u, v, |texel| texel.map_or(0, Color::to_word));
+        (words, mask)
     }
 }
 
@@ -109,7 +159,12 @@ impl<V: Varying, S: FragmentStage<V, Color = Rgba8>> FragmentStage<V> for Tinted
     }
 
     #[inline(always)]
-    fn shade_lanes<L: Lanes>(&self, lanes: L, varyings: &V::Of<L::F32>, mask: L::Mask) -> (L::U32, L::Mask) {
+    fn shade_lanes<L: Lanes>(
+        &self,
+        lanes: L,
+        varyings: &V::Of<L::Number>,
+        mask: L::Mask,
+    ) -> (L::U32, L::Mask) {
         let (surface, mask) = self.surface.shade_lanes(lanes, varyings, mask);
         (times(lanes, unpack(lanes, surface), self.tint), mask)
     }
@@ -162,7 +217,7 @@ impl<S> Lambert<S> {
 impl<S> Lambert<S> {
     /// What the channels of a surface with this normal are multiplied by.
     #[inline(always)]
-    fn light<L: Lanes>(&self, lanes: L, [x, y, z]: [L::F32; 3]) -> L::F32 {
+    fn light<L: Lanes>(&self, lanes: L, [x, y, z]: [L::Number; 3]) -> L::Number {
         let Vec3 { x: lx, y: ly, z: lz } = self.to_light;
         let [lx, ly, lz] = [lanes.splat(lx), lanes.splat(ly), lanes.splat(lz)];
         let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
@@ -188,7 +243,7 @@ impl<V: Varying, S: FragmentStage<V, Color = Rgba8>> FragmentStage<(Vec3, V)> fo
     fn shade_lanes<L: Lanes>(
         &self,
         lanes: L,
-        (normal, varyings): &([L::F32; 3], V::Of<L::F32>),
+        (normal, varyings): &([L::Number; 3], V::Of<L::Number>),
         mask: L::Mask,
     ) -> (L::U32, L::Mask) {
         let (surface, mask) = self.surface.shade_lanes(lanes, varyings, mask);
@@ -198,10 +253,10 @@ impl<V: Varying, S: FragmentStage<V, Color = Rgba8>> FragmentStage<(Vec3, V)> fo
 
 /// A colour's channels times `light`, to the nearest byte; alpha is kept.
 #[inline(always)]
-fn lit<L: Lanes>(lanes: L, [r, g, b, a]: [L::U32; 4], light: [L::F32; 3]) -> L::U32 {
-    let r = byte(lanes, lanes.to_numbers(r) * light[0]);
-    let g = byte(lanes, lanes.to_numbers(g) * light[1]);
-    let b = byte(lanes, lanes.to_numbers(b) * light[2]);
+fn lit<L: Lanes>(lanes: L, [r, g, b, a]: [L::U32; 4], light: [L::Number; 3]) -> L::U32 {
+    let r = lanes.nearest_byte(lanes.to_numbers(r) * light[0]);
+    let g = lanes.nearest_byte(lanes.to_numbers(g) * light[1]);
+    let b = lanes.nearest_byte(lanes.to_numbers(b) * light[2]);
     pack(lanes, [r, g, b, a])
 }
 
@@ -218,13 +273,6 @@ fn alone<V: Varying>(stage: &impl FragmentStage<V, Color = Rgba8>, varying: V) -
     let components = V::map(&V::gather([varying]), &|[x]: [f32; 1]| x);
     let (word, kept) = stage.shade_lanes(One, &components, true);
     kept.then_some(Rgba8::from_bits(word.0))
-}
-
-/// The nearest byte; 0 below, 255 above, 0 for NaN.
-#[inline(always)]
-fn byte<L: Lanes>(lanes: L, x: L::F32) -> L::U32 {
-    let rounded = lanes.max(x + lanes.splat(0.5), lanes.splat(0.0));
-    lanes.to_words(lanes.min(rounded, lanes.splat(255.0)))
 }
 
 /// The channels of colours.
@@ -246,7 +294,7 @@ mod tests {
 
     #[test]
     fn light_falls_off_with_the_cosine() {
-        let white = Lambert::new(Flat(Rgba8::WHITE), Vector3::new(Vec3::new(0.0, 7.0, 0.0)), 0.2, 0.6);
+        let white = Lambert::new(Solid(Rgba8::WHITE), Vector3::new(Vec3::new(0.0, 7.0, 0.0)), 0.2, 0.6);
         let gray = |normal: Vec3| white.shade((normal, ())).expect("never discards").to_bytes()[0];
         assert_eq!(gray(Vec3::Y * 3.0), 204);
         assert_eq!(gray(Vec3::new(3f32.sqrt(), 1.0, 0.0)), 128);
@@ -258,7 +306,7 @@ mod tests {
     #[test]
     fn a_tint_multiplies_and_white_is_one() {
         for c in 0..=255u8 {
-            let tinted = |tint| Tinted { surface: Flat(Rgba8::new(c, c, c, 9)), tint }.shade(());
+            let tinted = |tint| Tinted { surface: Solid(Rgba8::new(c, c, c, 9)), tint }.shade(());
             assert_eq!(tinted(Rgba8::WHITE), Some(Rgba8::new(c, c, c, 9)));
             let half = (f32::from(c) * 100.0 / 255.0).round();
             let bytes = tinted(Rgba8::new(100, 0, 255, 0)).expect("never discards").to_bytes();

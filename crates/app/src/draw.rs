@@ -4,7 +4,7 @@
 use crate::options::{Cull, Filter, RenderOptions, Shading, Wrap};
 use crate::scene::{Camera, Image, Model, Part, Vertex};
 use alberti::glam::{Vec2, Vec3};
-use alberti::shaders::{Flat, Lambert, Tinted, Unlit, VertexColor};
+use alberti::shaders::{Lambert, Solid, Tinted, Unlit, VertexColor};
 use alberti::texture::{self, Texture, TextureError};
 use alberti::{
     Band, Exact, Eye, FragmentStage, Frame, Object, Pass, Perspective, Point3, Rgba8, Sides, Slot, Stats,
@@ -122,7 +122,7 @@ impl<'a> Canvas<'a> {
                 let vertex = |v: &Vertex| (position(v), Vec3::from_array(v.color));
                 self.draw(triangles, vertex, VertexColor, band);
             }
-            None => self.draw_surface(Flat(tint), triangles, band),
+            None => self.draw_surface(Solid(tint), triangles, band),
             Some(texture) => match texture.power_of_two() {
                 Some(texture) => with_sampler!(texture, self.options.filter, self.options.wrap, |sampler| {
                     if tint == Rgba8::WHITE {

@@ -1,17 +1,20 @@
-//! How many samples are worked on at a time: [`One`], or, behind the feature `simd`, [`Eight`] in vector registers.
+//! How many samples are worked on at a time, and in what numbers: [`One`], or, behind the feature `simd`, [`Eight`] in
+//! vector registers, in `f32`; [`OneFixed`] in fixed point.
 //!
-//! A kernel is written once, over a value of a [`Lanes`] type. Every lane does the same IEEE operations in the same
+//! A kernel is written once, over a value of a [`Lanes`] type. Every lane of `f32` does the same IEEE operations in the same
 //! order as one lane alone, so the width never changes a bit.
 
 #[cfg(feature = "simd")]
 mod eight;
 mod machine;
 mod one;
+mod one_fixed;
 
 #[cfg(feature = "simd")]
 pub use eight::Eight;
 pub use machine::Machine;
 pub use one::One;
+pub use one_fixed::OneFixed;
 
 use core::fmt::Debug;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Sub};
@@ -26,12 +29,14 @@ pub trait Lanes: Copy + Debug {
     /// The same as a number of columns.
     #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "at most 8")]
     const STEP: i32 = Self::COUNT as i32;
-    /// A number for each.
-    type F32: Copy
-        + Add<Output = Self::F32>
-        + Sub<Output = Self::F32>
-        + Mul<Output = Self::F32>
-        + Div<Output = Self::F32>;
+    /// A number for each: `f32`, or [`Q16`](crate::Q16).
+    type Number: Copy
+        + Add<Output = Self::Number>
+        + Sub<Output = Self::Number>
+        + Mul<Output = Self::Number>
+        + Div<Output = Self::Number>;
+    /// A screen depth for each.
+    type Depth: Copy;
     /// A word of 32 bits for each; arithmetic is modulo 2^32.
     type U32: Copy
         + Add<Output = Self::U32>
@@ -51,43 +56,57 @@ pub trait Lanes: Copy + Debug {
     /// Runs `f`, into which the code over these lanes is inlined.
     fn vectorize<R>(self, f: impl FnOnce() -> R) -> R;
 
-    /// The first lanes of a slice, and what follows, if it has as many.
-    fn split<T: Copy>(slice: &mut [T]) -> Option<(&mut Self::Each<T>, &mut [T])>;
+    /// A slice as whole groups of lanes, and what is left.
+    fn groups<T: Copy>(slice: &mut [T]) -> (&mut [Self::Each<T>], &mut [T]);
     /// A value for each, by lane number.
     fn each<T: Copy>(self, f: impl FnMut(usize) -> T) -> Self::Each<T>;
 
     /// The same number for each.
-    fn splat(self, x: f32) -> Self::F32;
+    fn splat(self, x: f32) -> Self::Number;
     /// The same word for each.
     fn word(self, x: u32) -> Self::U32;
     /// 0, 1, 2 and so on.
-    fn ramp(self) -> Self::F32;
+    fn ramp(self) -> Self::Number;
     /// Numbers from memory.
-    fn load(self, values: &Self::Each<f32>) -> Self::F32;
+    fn load(self, values: &Self::Each<f32>) -> Self::Number;
     /// Numbers to memory.
-    fn store(self, values: Self::F32) -> Self::Each<f32>;
-    /// Numbers to memory, where the mask is set.
-    fn store_where(self, mask: Self::Mask, values: Self::F32, to: &mut Self::Each<f32>);
+    fn store(self, values: Self::Number) -> Self::Each<f32>;
+    /// Copies what is in memory, where the mask is set.
+    fn copy_where(self, mask: Self::Mask, values: &Self::Each<f32>, to: &mut Self::Each<f32>);
+    /// Whether a < b in memory; not so where one is NaN.
+    fn less_in_memory(self, a: &Self::Each<f32>, b: &Self::Each<f32>) -> Self::Mask;
+    /// What `number` makes of each depth where these are numbers in [0, 1], or `raw` where they are integers below 2^31.
+    fn each_depth<T: Copy>(
+        self,
+        depth: Self::Depth,
+        number: impl Fn(f32) -> T,
+        raw: impl Fn(u32) -> T,
+    ) -> Self::Each<T>;
     /// Words from memory.
     fn load_words(self, values: &Self::Each<u32>) -> Self::U32;
     /// Words to memory.
     fn store_words(self, values: Self::U32) -> Self::Each<u32>;
 
     /// The lesser of two finite numbers; of equal ones the second.
-    fn min(self, a: Self::F32, b: Self::F32) -> Self::F32;
+    fn min(self, a: Self::Number, b: Self::Number) -> Self::Number;
     /// The greater of two finite numbers; of equal ones the second.
-    fn max(self, a: Self::F32, b: Self::F32) -> Self::F32;
+    fn max(self, a: Self::Number, b: Self::Number) -> Self::Number;
     /// The square root, correctly rounded.
-    fn sqrt(self, x: Self::F32) -> Self::F32;
-    /// Rounded towards zero, for every number.
-    fn trunc(self, x: Self::F32) -> Self::F32;
-    /// Rounded down to an integer in two's complement, for |x| < 2^31. NaN gives a multiple of 2^31; what is beyond gives
-    /// any word.
-    fn floor(self, x: Self::F32) -> Self::U32;
-    /// Rounded towards zero, for 0 <= x < 2^31. Beyond, any word.
-    fn to_words(self, x: Self::F32) -> Self::U32;
-    /// Words in two's complement as numbers, to the nearest.
-    fn to_numbers(self, x: Self::U32) -> Self::F32;
+    fn sqrt(self, x: Self::Number) -> Self::Number;
+    /// `x` less a multiple of 2^`period`: a number above -2^`period` and below 2^`period`. Exact; what is not finite gives NaN,
+    /// and where there is no NaN, any such number.
+    fn wrap(self, x: Self::Number, period: u32) -> Self::Number;
+    /// x·2^`bits` rounded down, in two's complement, for |x·2^`bits`| < 2^31 and `bits` up to 30. NaN gives a multiple of
+    /// 2^31; what is beyond gives any word.
+    fn floor_scaled(self, x: Self::Number, bits: u32) -> Self::U32;
+    /// The same to the nearest, halves up.
+    fn round_scaled(self, x: Self::Number, bits: u32) -> Self::U32;
+    /// The nearest word from 0 to 255, of halves the upper; 0 for NaN.
+    fn nearest_byte(self, x: Self::Number) -> Self::U32;
+    /// The nearest word to `greatest` times x, from 0 to `greatest`, which is at most 2^15 - 1; 0 for NaN.
+    fn of_unit(self, x: Self::Number, greatest: u16) -> Self::U32;
+    /// Words from 0 to 255 as numbers.
+    fn to_numbers(self, x: Self::U32) -> Self::Number;
     /// Bits moved up.
     fn shl(self, x: Self::U32, bits: u32) -> Self::U32;
     /// Bits moved down.
@@ -98,9 +117,9 @@ pub trait Lanes: Copy + Debug {
     fn min_words(self, a: Self::U32, b: Self::U32) -> Self::U32;
 
     /// Whether a < b; not so where one is NaN.
-    fn less(self, a: Self::F32, b: Self::F32) -> Self::Mask;
+    fn less(self, a: Self::Number, b: Self::Number) -> Self::Mask;
     /// `a` where the mask is set, elsewhere `b`.
-    fn select(self, mask: Self::Mask, a: Self::F32, b: Self::F32) -> Self::F32;
+    fn select(self, mask: Self::Mask, a: Self::Number, b: Self::Number) -> Self::Number;
     /// `a` where the mask is set, elsewhere `b`.
     fn select_words(self, mask: Self::Mask, a: Self::U32, b: Self::U32) -> Self::U32;
     /// The mask with these bits, lane 0 the lowest.
@@ -112,14 +131,17 @@ pub trait Lanes: Copy + Debug {
     fn int_ramp(self, value: i32, step: i32) -> Self::Int;
     /// The same integer for each.
     fn int(self, x: i32) -> Self::Int;
-    /// To the nearest `f32`.
-    fn int_to_f32(self, x: Self::Int) -> Self::F32;
+    /// To the nearest number.
+    fn int_to_number(self, x: Self::Int) -> Self::Number;
     /// Whether x >= 0.
     fn not_negative(self, x: Self::Int) -> Self::Mask;
     /// `value`, `value + step`, `value + 2 step` and so on.
     fn long_ramp(self, value: i64, step: i64) -> Self::Long;
     /// `x + step` for each.
     fn long_add(self, x: Self::Long, step: i64) -> Self::Long;
-    /// To the nearest `f32`.
-    fn long_to_f32(self, x: Self::Long) -> Self::F32;
+    /// To the nearest number.
+    fn long_to_number(self, x: Self::Long) -> Self::Number;
 }
+
+/// Lanes of `f32`, in which a depth is a number as well.
+pub trait Floating: Lanes<Depth = <Self as Lanes>::Number> {}

@@ -4,6 +4,41 @@ use core::array::from_fn;
 use core::cell::Cell;
 use glam::{Vec2, Vec3, Vec4};
 
+/// How a component comes from the vertices to the samples between them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// Linear in space, as everything is that has not been told otherwise.
+    Hyperbolic,
+    /// Linear on the screen.
+    Linear,
+    /// That of the first vertex everywhere.
+    Flat,
+}
+
+/// A value that is linear on the screen, without correction for perspective: what is already measured there, or what may
+/// be wrong for a lower cost.
+///
+/// # Cost
+/// No division for its sake; where all values are linear or flat, none at all.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Linear<V>(
+    /// The value.
+    pub V,
+);
+
+/// A value that is not interpolated: the whole triangle has that of its first vertex.
+///
+/// # Precision
+/// Bit for bit, also where the triangle is clipped.
+///
+/// # Cost
+/// None.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Flat<V>(
+    /// The value.
+    pub V,
+);
+
 /// A value that is interpolated over a triangle: a bundle of `f32` components.
 ///
 /// The methods say how to reach the components, so that the clipper, the rasterizer and whoever needs it can combine
@@ -11,7 +46,7 @@ use glam::{Vec2, Vec3, Vec4};
 /// are varyings; a struct becomes one by going through a tuple of its fields:
 ///
 /// ```
-/// use alberti_math::{Varying, glam::{Vec2, Vec3}};
+/// use alberti_math::{Mode, Varying, glam::{Vec2, Vec3}};
 ///
 /// #[derive(Clone, Copy)]
 /// struct Lit {
@@ -26,8 +61,8 @@ use glam::{Vec2, Vec3, Vec4};
 ///         Varying::gather(values.map(|v| (v.uv, v.normal)))
 ///     }
 ///
-///     fn map<T: Copy, U: Copy>(bundle: &Self::Of<T>, f: &impl Fn(T) -> U) -> Self::Of<U> {
-///         <(Vec2, Vec3)>::map(bundle, f)
+///     fn map_by_mode<T: Copy, U: Copy>(bundle: &Self::Of<T>, f: &impl Fn(Mode, T) -> U) -> Self::Of<U> {
+///         <(Vec2, Vec3)>::map_by_mode(bundle, f)
 ///     }
 ///
 ///     fn from_components(bundle: &Self::Of<f32>) -> Self {
@@ -44,9 +79,16 @@ pub trait Varying: Copy {
     #[must_use]
     fn gather<const N: usize>(values: [Self; N]) -> Self::Of<[f32; N]>;
 
+    /// The bundle with every component mapped, by a function that is told how each is interpolated.
+    #[must_use]
+    fn map_by_mode<T: Copy, U: Copy>(bundle: &Self::Of<T>, f: &impl Fn(Mode, T) -> U) -> Self::Of<U>;
+
     /// The bundle with every component mapped.
     #[must_use]
-    fn map<T: Copy, U: Copy>(bundle: &Self::Of<T>, f: &impl Fn(T) -> U) -> Self::Of<U>;
+    #[inline(always)]
+    fn map<T: Copy, U: Copy>(bundle: &Self::Of<T>, f: &impl Fn(T) -> U) -> Self::Of<U> {
+        Self::map_by_mode(bundle, &|_, component| f(component))
+    }
 
     /// The value with these components.
     #[must_use]
@@ -60,7 +102,7 @@ impl Varying for () {
     fn gather<const N: usize>(_: [Self; N]) {}
 
     #[inline(always)]
-    fn map<T: Copy, U: Copy>((): &(), _: &impl Fn(T) -> U) {}
+    fn map_by_mode<T: Copy, U: Copy>((): &(), _: &impl Fn(Mode, T) -> U) {}
 
     #[inline(always)]
     fn from_components((): &()) {}
@@ -75,8 +117,8 @@ impl Varying for f32 {
     }
 
     #[inline(always)]
-    fn map<T: Copy, U: Copy>(bundle: &T, f: &impl Fn(T) -> U) -> U {
-        f(*bundle)
+    fn map_by_mode<T: Copy, U: Copy>(bundle: &T, f: &impl Fn(Mode, T) -> U) -> U {
+        f(Mode::Hyperbolic, *bundle)
     }
 
     #[inline(always)]
@@ -95,11 +137,11 @@ impl<V: Varying, const K: usize> Varying for [V; K] {
 
     // With from_fn, compilers do not inline `f` where it has vector instructions that the standard library has not.
     #[inline(always)]
-    fn map<T: Copy, U: Copy>(bundle: &Self::Of<T>, f: &impl Fn(T) -> U) -> Self::Of<U> {
-        let Some(first) = bundle.first() else { return from_fn(|k| V::map(&bundle[k], f)) };
-        let mut mapped = [V::map(first, f); K];
+    fn map_by_mode<T: Copy, U: Copy>(bundle: &Self::Of<T>, f: &impl Fn(Mode, T) -> U) -> Self::Of<U> {
+        let Some(first) = bundle.first() else { return from_fn(|k| V::map_by_mode(&bundle[k], f)) };
+        let mut mapped = [V::map_by_mode(first, f); K];
         for k in 1..K {
-            mapped[k] = V::map(&bundle[k], f);
+            mapped[k] = V::map_by_mode(&bundle[k], f);
         }
         mapped
     }
@@ -108,6 +150,33 @@ impl<V: Varying, const K: usize> Varying for [V; K] {
     fn from_components(bundle: &Self::Of<f32>) -> Self {
         from_fn(|k| V::from_components(&bundle[k]))
     }
+}
+
+macro_rules! modes {
+    ($($name:ident: $mode:ident => $inner:expr;)*) => {$(
+        impl<V: Varying> Varying for $name<V> {
+            type Of<T: Copy> = V::Of<T>;
+
+            #[inline(always)]
+            fn gather<const N: usize>(values: [Self; N]) -> V::Of<[f32; N]> {
+                V::gather(from_fn(|n| values[n].0))
+            }
+
+            #[inline(always)]
+            fn map_by_mode<T: Copy, U: Copy>(bundle: &V::Of<T>, f: &impl Fn(Mode, T) -> U) -> V::Of<U> {
+                V::map_by_mode(bundle, &|$mode, component| f($inner, component))
+            }
+
+            #[inline(always)]
+            fn from_components(bundle: &V::Of<f32>) -> Self {
+                Self(V::from_components(bundle))
+            }
+        }
+    )*};
+}
+modes! {
+    Linear: mode => if mode == Mode::Flat { Mode::Flat } else { Mode::Linear };
+    Flat: _mode => Mode::Flat;
 }
 
 macro_rules! vectors {
@@ -121,8 +190,8 @@ macro_rules! vectors {
             }
 
             #[inline(always)]
-            fn map<T: Copy, U: Copy>(bundle: &[T; $size], f: &impl Fn(T) -> U) -> [U; $size] {
-                [$(f(bundle[$k])),+]
+            fn map_by_mode<T: Copy, U: Copy>(bundle: &[T; $size], f: &impl Fn(Mode, T) -> U) -> [U; $size] {
+                [$(f(Mode::Hyperbolic, bundle[$k])),+]
             }
 
             #[inline(always)]
@@ -145,8 +214,8 @@ macro_rules! tuples {
             }
 
             #[inline(always)]
-            fn map<T: Copy, U: Copy>(bundle: &Self::Of<T>, f: &impl Fn(T) -> U) -> Self::Of<U> {
-                ($($name::map(&bundle.$index, f),)+)
+            fn map_by_mode<T: Copy, U: Copy>(bundle: &Self::Of<T>, f: &impl Fn(Mode, T) -> U) -> Self::Of<U> {
+                ($($name::map_by_mode(&bundle.$index, f),)+)
             }
 
             #[inline(always)]
@@ -181,6 +250,14 @@ pub fn blend2<V: Varying>([wa, wb]: [f32; 2], values: [V; 2]) -> V {
 #[inline]
 pub fn hull3<V: Varying>(values: [V; 3]) -> [V; 2] {
     [combine(values, &|[a, b, c]| min(min(a, b), c)), combine(values, &|[a, b, c]| max(max(a, b), c))]
+}
+
+/// The value, with what is [`Flat`] taken from `first`.
+#[must_use]
+#[inline]
+pub fn flatten<V: Varying>(first: V, value: V) -> V {
+    let pick = |mode, [first, own]: [f32; 2]| if mode == Mode::Flat { first } else { own };
+    V::from_components(&V::map_by_mode(&V::gather([first, value]), &pick))
 }
 
 /// Whether no component is infinite or NaN.
@@ -222,6 +299,23 @@ mod tests {
             doubled,
             ((), 2.0, [Vec2::new(4.0, 6.0); 2], (Vec3::new(8.0, 10.0, 12.0), Vec4::splat(14.0)))
         );
+    }
+
+    #[test]
+    fn flat_values_come_from_the_first_vertex_wherever_they_are() {
+        let value = |x: f32| (x, Linear([Flat(x), Flat(-x)]), Flat((x, Linear(Vec2::splat(x)))));
+        let expected = (2.0, Linear([Flat(1.0), Flat(-1.0)]), Flat((1.0, Linear(Vec2::ONE))));
+        assert_eq!(flatten(value(1.0), value(2.0)), expected);
+    }
+
+    #[test]
+    fn modes_reach_the_components() {
+        let value = (0.0, Linear(Vec2::ZERO), Linear((Flat(0.0), 0.0)), Flat(Linear(0.0)));
+        fn modes_of<V: Varying>(value: V) -> V::Of<Mode> {
+            V::map_by_mode(&V::gather([value]), &|mode, _: [f32; 1]| mode)
+        }
+        let expected = (Mode::Hyperbolic, [Mode::Linear; 2], (Mode::Flat, Mode::Linear), Mode::Flat);
+        assert_eq!(modes_of(value), expected);
     }
 
     #[test]

@@ -43,6 +43,20 @@ impl Color for u32 {
     }
 }
 
+/// A word of 16 bits, such as a colour as a texture stores it.
+impl Color for u16 {
+    #[inline(always)]
+    fn to_word(self) -> u32 {
+        self.into()
+    }
+
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "what `to_word` gave")]
+    fn from_word(word: u32) -> Self {
+        word as u16
+    }
+}
+
 /// A format that can take colours of type `Shade`, as fragment stages make them.
 pub trait Store<Shade: Color>: ColorFormat {
     /// The pixel for this colour.
@@ -89,6 +103,14 @@ impl ColorFormat for Rgb565Le {
     type Pixel = u16;
 }
 
+/// 16 bits of the machine's byte order.
+impl Store<u16> for Rgb565Le {
+    #[inline(always)]
+    fn pixel(color: u16) -> u16 {
+        color.to_le()
+    }
+}
+
 impl Store<Rgba8> for Rgb565Le {
     #[inline]
     fn pixel(color: Rgba8) -> u16 {
@@ -98,6 +120,14 @@ impl Store<Rgba8> for Rgb565Le {
 
 impl ColorFormat for Rgb565Be {
     type Pixel = u16;
+}
+
+/// 16 bits of the machine's byte order.
+impl Store<u16> for Rgb565Be {
+    #[inline(always)]
+    fn pixel(color: u16) -> u16 {
+        color.to_be()
+    }
 }
 
 impl Store<Rgba8> for Rgb565Be {

@@ -17,14 +17,21 @@ pub trait DepthFormat: Copy + Debug + 'static {
     const FARTHEST: Self::Stored;
     /// The stored value nearest to `zs`, which must be in [0, 1].
     fn encode(zs: f32) -> Self::Stored;
+    /// The bits of a stored integer that is zs·(2^`BITS` − 1) to the nearest; for what is none, 31.
+    const BITS: u32 = 31;
+    /// The same for an integer below 2^31 of which the highest [`BITS`](Self::BITS) count, and have been rounded.
+    #[inline]
+    #[expect(clippy::cast_precision_loss, reason = "rounding to nearest")]
+    fn encode_integer(zs: u32) -> Self::Stored {
+        Self::encode((zs as f32 * (1.0 / 2_147_483_648.0)).min(1.0))
+    }
     /// Whether `new` is seen in front of `old`.
     fn nearer(new: Self::Stored, old: Self::Stored) -> bool;
 
     /// [`encode`](Self::encode) for several samples.
     #[inline(always)]
-    fn encode_lanes<L: Lanes>(lanes: L, zs: L::F32) -> L::Each<Self::Stored> {
-        let zs = lanes.store(zs);
-        lanes.each(|k| Self::encode(at(zs.as_ref(), k)))
+    fn encode_lanes<L: Lanes>(lanes: L, zs: L::Depth) -> L::Each<Self::Stored> {
+        lanes.each_depth(zs, Self::encode, Self::encode_integer)
     }
 
     /// Those of the samples in `mask` for which `new` is [`nearer`](Self::nearer) than `old`.
@@ -55,12 +62,6 @@ pub trait DepthFormat: Copy + Debug + 'static {
             *stored = if bits >> k & 1 != 0 { *new } else { *stored };
         }
     }
-}
-
-/// Element `k`, which there is.
-#[inline(always)]
-fn at(values: &[f32], k: usize) -> f32 {
-    values.get(k).copied().unwrap_or_default()
 }
 
 /// No depth buffer: everything is seen, in drawing order. Its buffer is a slice of `()`, which takes no memory; depth
@@ -120,6 +121,8 @@ impl DepthFormat for NoDepth {
     #[inline]
     fn encode(_: f32) {}
     #[inline]
+    fn encode_integer(_: u32) {}
+    #[inline]
     fn nearer((): (), (): ()) -> bool {
         true
     }
@@ -138,6 +141,12 @@ impl DepthFormat for D16 {
     fn encode(zs: f32) -> u16 {
         quantize::<16>(zs) as u16
     }
+    const BITS: u32 = 16;
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "16 bits")]
+    fn encode_integer(zs: u32) -> u16 {
+        (zs >> 15) as u16
+    }
     #[inline]
     fn nearer(new: u16, old: u16) -> bool {
         new < old
@@ -151,6 +160,11 @@ impl DepthFormat for D24 {
     #[inline]
     fn encode(zs: f32) -> u32 {
         quantize::<24>(zs)
+    }
+    const BITS: u32 = 24;
+    #[inline]
+    fn encode_integer(zs: u32) -> u32 {
+        zs >> 7
     }
     #[inline]
     fn nearer(new: u32, old: u32) -> bool {
@@ -167,6 +181,11 @@ impl DepthFormat for D32 {
         quantize::<32>(zs)
     }
     #[inline]
+    fn encode_integer(zs: u32) -> u32 {
+        // The highest bit again as the last, so that the greatest becomes the greatest.
+        zs << 1 | zs >> 30
+    }
+    #[inline]
     fn nearer(new: u32, old: u32) -> bool {
         new < old
     }
@@ -180,12 +199,17 @@ impl<D: DepthFormat> DepthFormat for OrEqual<D> {
     fn encode(zs: f32) -> D::Stored {
         D::encode(zs)
     }
+    const BITS: u32 = D::BITS;
+    #[inline]
+    fn encode_integer(zs: u32) -> D::Stored {
+        D::encode_integer(zs)
+    }
     #[inline]
     fn nearer(new: D::Stored, old: D::Stored) -> bool {
         D::nearer(new, old) || !D::nearer(old, new)
     }
     #[inline(always)]
-    fn encode_lanes<L: Lanes>(lanes: L, zs: L::F32) -> L::Each<D::Stored> {
+    fn encode_lanes<L: Lanes>(lanes: L, zs: L::Depth) -> L::Each<D::Stored> {
         D::encode_lanes(lanes, zs)
     }
     #[inline(always)]
@@ -213,12 +237,17 @@ impl<D: DepthFormat> DepthFormat for ReadOnly<D> {
     fn encode(zs: f32) -> D::Stored {
         D::encode(zs)
     }
+    const BITS: u32 = D::BITS;
+    #[inline]
+    fn encode_integer(zs: u32) -> D::Stored {
+        D::encode_integer(zs)
+    }
     #[inline]
     fn nearer(new: D::Stored, old: D::Stored) -> bool {
         D::nearer(new, old)
     }
     #[inline(always)]
-    fn encode_lanes<L: Lanes>(lanes: L, zs: L::F32) -> L::Each<D::Stored> {
+    fn encode_lanes<L: Lanes>(lanes: L, zs: L::Depth) -> L::Each<D::Stored> {
         D::encode_lanes(lanes, zs)
     }
     #[inline(always)]
@@ -247,16 +276,12 @@ impl DepthFormat for F32 {
         new < old
     }
     #[inline(always)]
-    fn encode_lanes<L: Lanes>(lanes: L, zs: L::F32) -> L::Each<f32> {
-        lanes.store(zs)
-    }
-    #[inline(always)]
     fn seen<L: Lanes>(lanes: L, new: &L::Each<f32>, old: &L::Each<f32>, mask: L::Mask) -> L::Mask {
-        mask & lanes.less(lanes.load(new), lanes.load(old))
+        mask & lanes.less_in_memory(new, old)
     }
     #[inline(always)]
     fn keep<L: Lanes>(lanes: L, new: &L::Each<f32>, mask: L::Mask, stored: &mut L::Each<f32>) {
-        lanes.store_where(mask, lanes.load(new), stored);
+        lanes.copy_where(mask, new, stored);
     }
 }
 
@@ -273,16 +298,12 @@ impl DepthFormat for F32Reversed {
         new > old
     }
     #[inline(always)]
-    fn encode_lanes<L: Lanes>(lanes: L, zs: L::F32) -> L::Each<f32> {
-        lanes.store(zs)
-    }
-    #[inline(always)]
     fn seen<L: Lanes>(lanes: L, new: &L::Each<f32>, old: &L::Each<f32>, mask: L::Mask) -> L::Mask {
-        mask & lanes.less(lanes.load(old), lanes.load(new))
+        mask & lanes.less_in_memory(old, new)
     }
     #[inline(always)]
     fn keep<L: Lanes>(lanes: L, new: &L::Each<f32>, mask: L::Mask, stored: &mut L::Each<f32>) {
-        lanes.store_where(mask, lanes.load(new), stored);
+        lanes.copy_where(mask, new, stored);
     }
 }
 

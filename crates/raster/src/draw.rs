@@ -8,12 +8,12 @@ use crate::counters::Counters;
 use crate::depth::DepthFormat;
 use crate::edge::{Edge, EdgeInt};
 use crate::fragment::FragmentStage;
-use crate::interpolation::{Interpolate, Interpolation};
+use crate::interpolation::{Interpolation, Oriented, Row};
 use crate::mask::{NARROW, RowMask};
-use crate::paint::{Painter, Row, aligned};
+use crate::paint::{Painter, aligned};
 use crate::spans::RowSpans;
 use crate::triangle::{Bounds, Corners, Cull, Outcome, Vertex, doubled_area, in_order};
-use alberti_math::lanes::Lanes;
+use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Subpixel, Varying};
 use core::marker::PhantomData;
 use core::ops::Range;
@@ -44,7 +44,7 @@ pub fn draw_triangle<P, L, S, V, F, C, D, K>(
 ) -> Outcome
 where
     P: Interpolation,
-    L: Lanes,
+    L: Floating,
     S: Subpixel,
     V: Varying,
     F: FragmentStage<V>,
@@ -64,19 +64,19 @@ where
     if rows.is_empty() || columns.start.max(limits.start) >= columns.end.min(limits.end) {
         return Outcome::Missed;
     }
+    let first = vertices[0].varying;
     let (corners, vertices) = in_order(corners, vertices, area);
-    let unprepared = Unprepared { interpolation, lanes, vertices, corners: &corners, area, fragment };
+    let oriented = Oriented { vertices, corners, doubled_area: area.abs(), first };
+    let unprepared = Unprepared { interpolation, lanes, oriented: &oriented, fragment: *fragment };
     let samples = Samples { corners: &corners, columns, rows, limits };
     lanes.vectorize(
         #[inline(always)]
         || {
             let fits_i32 = bounds.fits_i32(S::ONE);
-            if L::COUNT > 1
-                && fits_i32
-                && samples.suit_masks::<L>(<P::Triangle<L, V> as Interpolate<P, L, V>>::RUN)
-            {
+            let one = <P::Lanes<L> as Lanes>::COUNT == 1;
+            if !one && fits_i32 && samples.suit_masks::<P::Lanes<L>>(P::RUN) {
                 fill_masked(band, &samples, &unprepared, counters)
-            } else if L::COUNT == 1 && fits_i32 {
+            } else if one && fits_i32 {
                 fill::<i32, _, _, _, _, _, _, _, _>(band, &samples, &unprepared, counters)
             } else {
                 // Several lanes hold 64-bit edge functions as well as 32-bit ones.
@@ -90,18 +90,16 @@ where
 struct Unprepared<'a, P, L, S: Subpixel, V, F> {
     interpolation: P,
     lanes: L,
-    vertices: [&'a Vertex<S, V>; 3],
-    corners: &'a Corners,
-    area: i64,
-    fragment: &'a F,
+    oriented: &'a Oriented<'a, S, V>,
+    fragment: F,
 }
 
-impl<'a, P: Interpolation, L: Lanes, S: Subpixel, V: Varying, F> Unprepared<'a, P, L, S, V, F> {
+impl<P: Interpolation, L: Floating, S: Subpixel, V: Varying, F: Copy> Unprepared<'_, P, L, S, V, F> {
     #[inline(always)]
-    fn prepare(&self) -> Painter<'a, P, L, V, P::Triangle<L, V>, F> {
-        let Self { interpolation, lanes, vertices, corners, area, fragment } = *self;
-        let triangle = P::Triangle::<L, V>::new(interpolation, lanes, vertices, corners, area.abs());
-        Painter { lanes, triangle, fragment, types: PhantomData }
+    fn prepare<D: DepthFormat>(&self) -> Painter<P::Lanes<L>, V, P::Triangle<L, V>, F> {
+        let Self { interpolation, lanes, oriented, fragment } = *self;
+        let triangle = interpolation.prepare::<L, S, D, V>(lanes, oriented);
+        Painter { lanes: P::lanes(lanes), triangle, fragment, varying: PhantomData }
     }
 }
 
@@ -138,19 +136,19 @@ impl Samples<'_> {
 
 /// Fills the covered samples of a box, row by row. `I` is wide enough for every edge function in it.
 #[inline(always)]
-fn fill<'f, I, S, P, L, V, F, C, D, K>(
+fn fill<I, S, P, L, V, F, C, D, K>(
     band: &mut Band<'_, C, D>,
     samples: &Samples<'_>,
-    triangle: &Unprepared<'f, P, L, S, V, F>,
+    triangle: &Unprepared<'_, P, L, S, V, F>,
     counters: &mut K,
 ) -> Outcome
 where
     I: EdgeInt,
     S: Subpixel,
-    L: Lanes,
+    L: Floating,
     V: Varying,
     P: Interpolation,
-    F: FragmentStage<V> + 'f,
+    F: FragmentStage<V>,
     C: Store<F::Color>,
     D: DepthFormat,
     K: Counters,
@@ -164,7 +162,7 @@ where
         let covered = spans.next_row().shifted(columns.start);
         if covered.start.max(limits.start) < covered.end.min(limits.end) {
             if painter.is_none() {
-                painter = Some(triangle.prepare());
+                painter = Some(triangle.prepare::<D>());
             }
             if let Some(painter) = &painter {
                 let row = Row { row, covered, origin: columns.start, edges: &edges };
@@ -181,26 +179,27 @@ where
 
 /// The same for several lanes and a box that [suits masks](Samples::suit_masks): without spans.
 #[inline(always)]
-fn fill_masked<'f, S, P, L, V, F, C, D, K>(
+fn fill_masked<S, P, L, V, F, C, D, K>(
     band: &mut Band<'_, C, D>,
     samples: &Samples<'_>,
-    triangle: &Unprepared<'f, P, L, S, V, F>,
+    triangle: &Unprepared<'_, P, L, S, V, F>,
     counters: &mut K,
 ) -> Outcome
 where
     S: Subpixel,
-    L: Lanes,
+    L: Floating,
     V: Varying,
     P: Interpolation,
-    F: FragmentStage<V> + 'f,
+    F: FragmentStage<V>,
     C: Store<F::Color>,
     D: DepthFormat,
     K: Counters,
 {
     let Samples { columns, rows, .. } = samples;
-    let left = aligned::<L>(columns.start);
+    let left = aligned::<P::Lanes<L>>(columns.start);
     let first = [columns.start, rows.start];
-    let mut mask = RowMask::new(triangle.lanes, samples.edges::<i32, S>(), first, left, columns.end);
+    let mut mask =
+        RowMask::new(P::lanes(triangle.lanes), samples.edges::<i32, S>(), first, left, columns.end);
     let mut row = rows.start;
     let mut bits = mask.bits();
     // A triangle that covers no sample is not prepared.
@@ -211,7 +210,7 @@ where
         }
         bits = mask.next_row();
     }
-    let painter = triangle.prepare();
+    let painter = triangle.prepare::<D>();
     while row < rows.end {
         if bits != 0 {
             let written = painter.masked(band, row, left, bits, &mask);

@@ -37,11 +37,17 @@ pub trait EdgeInt:
     /// Each moved on by `step`.
     fn advance<L: Lanes>(lanes: L, at: Self::Of<L>, step: Self) -> Self::Of<L>;
 
-    /// The nearest `f32` of each: exact up to 2^24, within ε = 2^-24 relative above.
-    fn weights<L: Lanes>(lanes: L, at: Self::Of<L>) -> L::F32;
+    /// The nearest number of each: for `f32` exact up to 2^24, within ε = 2^-24 relative above.
+    fn weights<L: Lanes>(lanes: L, at: Self::Of<L>) -> L::Number;
 
     /// The same number, where it fits.
     fn to_i32(self) -> i32;
+
+    /// The same number, which is below 2^53.
+    fn to_f64(self) -> f64;
+
+    /// A number that is not negative without its last `bits`, where that fits.
+    fn without_last(self, bits: u32) -> u32;
 }
 
 impl EdgeInt for i32 {
@@ -58,13 +64,23 @@ impl EdgeInt for i32 {
     }
 
     #[inline(always)]
-    fn weights<L: Lanes>(lanes: L, at: L::Int) -> L::F32 {
-        lanes.int_to_f32(at)
+    fn weights<L: Lanes>(lanes: L, at: L::Int) -> L::Number {
+        lanes.int_to_number(at)
     }
 
     #[inline(always)]
     fn to_i32(self) -> i32 {
         self
+    }
+
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        self.into()
+    }
+
+    #[inline(always)]
+    fn without_last(self, bits: u32) -> u32 {
+        self.cast_unsigned() >> bits
     }
 }
 
@@ -82,14 +98,26 @@ impl EdgeInt for i64 {
     }
 
     #[inline(always)]
-    fn weights<L: Lanes>(lanes: L, at: L::Long) -> L::F32 {
-        lanes.long_to_f32(at)
+    fn weights<L: Lanes>(lanes: L, at: L::Long) -> L::Number {
+        lanes.long_to_number(at)
     }
 
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "where it fits")]
     fn to_i32(self) -> i32 {
         self as i32
+    }
+
+    #[inline(always)]
+    #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
+    fn to_f64(self) -> f64 {
+        self as f64
+    }
+
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "where it fits")]
+    fn without_last(self, bits: u32) -> u32 {
+        (self >> bits) as u32
     }
 }
 

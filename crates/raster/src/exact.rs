@@ -1,10 +1,10 @@
 //! Hyperbolic (perspective-correct) interpolation from the exact integer edges.
 
-use crate::interpolation::{Interpolate, Interpolation};
-use crate::spans::Span;
-use crate::triangle::{Corners, Vertex};
-use alberti_math::lanes::Lanes;
-use alberti_math::{Subpixel, Varying, hull3};
+use crate::depth::DepthFormat;
+use crate::edge::EdgeInt;
+use crate::interpolation::{Interpolate, Interpolation, Oriented, Row};
+use alberti_math::lanes::{Floating, Lanes};
+use alberti_math::{Mode, Subpixel, Varying, hull3};
 use core::fmt;
 
 /// From the exact integer edges: at a sample, ti = Ei qi and u = Σ ti ui / Σ ti, with the edge function Ei opposite
@@ -25,7 +25,26 @@ use core::fmt;
 pub struct Exact;
 
 impl Interpolation for Exact {
-    type Triangle<L: Lanes, V: Varying> = ExactTriangle<L, V>;
+    type Lanes<L: Floating> = L;
+    type Triangle<L: Floating, V: Varying> = ExactTriangle<L, V>;
+    const RUN: i32 = 1 << 30;
+
+    #[inline(always)]
+    fn lanes<L: Floating>(lanes: L) -> L {
+        lanes
+    }
+
+    #[inline(always)]
+    fn prepare<L: Floating, S: Subpixel, D: DepthFormat, V: Varying>(
+        self,
+        lanes: L,
+        triangle: &Oriented<'_, S, V>,
+    ) -> ExactTriangle<L, V> {
+        #[expect(clippy::cast_precision_loss, reason = "rounding to nearest is within the bound")]
+        let area = triangle.doubled_area as f32;
+        let [a, b, c] = triangle.vertices;
+        ExactTriangle::with_depth(lanes, [a.zs, b.zs, c.zs], area, [a.q, b.q, c.q], &triangle.values())
+    }
 }
 
 /// A triangle prepared for [`Exact`].
@@ -33,34 +52,34 @@ impl Interpolation for Exact {
 pub struct ExactTriangle<L: Lanes, V: Varying> {
     lanes: L,
     /// zs over the doubled area, so that weights need not be normalised.
-    zs: [L::F32; 3],
-    nearest_farthest: [L::F32; 2],
+    zs: [L::Number; 3],
+    nearest_farthest: [L::Number; 2],
     /// The three q.
-    q: [L::F32; 3],
+    q: [L::Number; 3],
     /// For each component: its values at the three vertices, the least, the greatest.
-    values: V::Of<[L::F32; 5]>,
+    values: V::Of<[L::Number; 5]>,
 }
 
-impl<L: Lanes, V: Varying> ExactTriangle<L, V> {
+impl<L: Floating, V: Varying> ExactTriangle<L, V> {
     /// The attributes of a triangle with `q` > 0 and finite values, without its depth.
     #[must_use]
     #[inline(always)]
-    pub fn of_attributes(lanes: L, q: [f32; 3], values: [V; 3]) -> Self {
-        Self::with_depth(lanes, [0.0; 3], 1.0, q, values)
+    pub fn of_attributes(lanes: L, q: [f32; 3], [a, b, c]: [V; 3]) -> Self {
+        Self::with_depth(lanes, [0.0; 3], 1.0, q, &V::gather([a, b, c, a]))
     }
 
     #[inline(always)]
-    fn with_depth(lanes: L, zs: [f32; 3], area: f32, q: [f32; 3], [a, b, c]: [V; 3]) -> Self {
+    fn with_depth(lanes: L, zs: [f32; 3], area: f32, q: [f32; 3], values: &V::Of<[f32; 4]>) -> Self {
         let splat = |x: f32| lanes.splat(x);
         let scale = power_of_two_near(q[0].max(q[1]).max(q[2]));
         let [nearest, farthest] = hull3(zs);
-        let [lo, hi] = hull3([a, b, c]);
         Self {
             lanes,
             zs: [splat(zs[0] / area), splat(zs[1] / area), splat(zs[2] / area)],
             nearest_farthest: [splat(nearest), splat(farthest)],
             q: [splat(q[0] * scale), splat(q[1] * scale), splat(q[2] * scale)],
-            values: V::map(&V::gather([a, b, c, lo, hi]), &|[a, b, c, lo, hi]: [f32; 5]| {
+            values: V::map_by_mode(values, &|mode, [a, b, c, first]: [f32; 4]| {
+                let [lo, hi] = if mode == Mode::Flat { [first; 2] } else { hull3([a, b, c]) };
                 [splat(a), splat(b), splat(c), splat(lo), splat(hi)]
             }),
         }
@@ -69,52 +88,46 @@ impl<L: Lanes, V: Varying> ExactTriangle<L, V> {
     /// The attributes where the edge functions, rounded to `f32`, are `edges`.
     #[must_use]
     #[inline(always)]
-    pub fn at(&self, edges: &[L::F32; 3]) -> V::Of<L::F32> {
+    pub fn at(&self, edges: &[L::Number; 3]) -> V::Of<L::Number> {
         let lanes = self.lanes;
-        let t0 = edges[0] * self.q[0];
-        let t1 = edges[1] * self.q[1];
-        let t2 = edges[2] * self.q[2];
-        let scale = lanes.splat(1.0) / (t0 + t1 + t2);
-        V::map(&self.values, &|[a, b, c, lo, hi]: [L::F32; 5]| {
-            let sum = t0 * a + t1 * b + t2 * c;
-            lanes.min(lanes.max(sum * scale, lo), hi)
+        let [e0, e1, e2] = *edges;
+        let t0 = e0 * self.q[0];
+        let t1 = e1 * self.q[1];
+        let t2 = e2 * self.q[2];
+        let one = lanes.splat(1.0);
+        // Where there is nothing linear, compilers leave the second division out.
+        let (scale, linear) = (one / (t0 + t1 + t2), one / (e0 + e1 + e2));
+        V::map_by_mode(&self.values, &|mode, [a, b, c, lo, hi]: [L::Number; 5]| {
+            let value = match mode {
+                Mode::Hyperbolic => (t0 * a + t1 * b + t2 * c) * scale,
+                Mode::Linear => (e0 * a + e1 * b + e2 * c) * linear,
+                Mode::Flat => return lo,
+            };
+            lanes.min(lanes.max(value, lo), hi)
         })
     }
 }
 
-impl<L: Lanes, V: Varying> Interpolate<Exact, L, V> for ExactTriangle<L, V> {
-    const RUN: i32 = 1 << 30;
+impl<L: Floating, V: Varying> Interpolate<L, V> for ExactTriangle<L, V> {
     type Cursor = ();
 
     #[inline(always)]
-    fn new<S: Subpixel>(
-        _: Exact,
-        lanes: L,
-        [a, b, c]: [&Vertex<S, V>; 3],
-        _: &Corners,
-        doubled_area: i64,
-    ) -> Self {
-        #[expect(clippy::cast_precision_loss, reason = "rounding to nearest is within the bound")]
-        let area = doubled_area as f32;
-        let varyings = [a.varying, b.varying, c.varying];
-        Self::with_depth(lanes, [a.zs, b.zs, c.zs], area, [a.q, b.q, c.q], varyings)
+    fn start<I: EdgeInt>(&self, row: &Row<'_, I>, _: i32, _: i32) -> ((), i32) {
+        ((), row.covered.end)
     }
-
-    #[inline(always)]
-    fn start(&self, _: i32, _: Span, _: i32) {}
 
     #[inline(always)]
     fn advance(&self, (): ()) {}
 
     #[inline(always)]
-    fn depth(&self, (): &(), weights: &[L::F32; 3]) -> L::F32 {
+    fn depth(&self, (): &(), weights: &[L::Number; 3]) -> L::Number {
         let [nearest, farthest] = self.nearest_farthest;
         let zs = weights[0] * self.zs[0] + weights[1] * self.zs[1] + weights[2] * self.zs[2];
         self.lanes.min(self.lanes.max(zs, nearest), farthest)
     }
 
     #[inline(always)]
-    fn attributes(&self, (): &(), weights: &[L::F32; 3]) -> V::Of<L::F32> {
+    fn attributes(&self, (): &(), weights: &[L::Number; 3]) -> V::Of<L::Number> {
         self.at(weights)
     }
 }

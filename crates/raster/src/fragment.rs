@@ -6,9 +6,10 @@ use alberti_math::lanes::Lanes;
 
 /// Maps the varying of a covered sample that passed the depth test to a colour, or discards it.
 ///
-/// Any closure `Fn(V) -> Option<Color>` is one, called for one sample after the other. What it does not use of the
-/// varying is not computed. A stage that is a type may also take all lanes at once.
-pub trait FragmentStage<V: Varying> {
+/// Any closure `Fn(V) -> Option<Color>` that captures references is one, called for one sample after the other. What it does
+/// not use of the varying is not computed. Stages are copied to where they are used, so that what they hold may be kept in
+/// registers. A stage that is a type may also take all lanes at once.
+pub trait FragmentStage<V: Varying>: Copy {
     /// The colour it makes: one that the target's format can [store](crate::Store).
     type Color: Color;
 
@@ -18,8 +19,13 @@ pub trait FragmentStage<V: Varying> {
     /// The colours of the samples in `mask`, as words, and those of them that are not discarded. Other samples may get
     /// any color; their varyings are finite, but without a meaning.
     #[inline(always)]
-    fn shade_lanes<L: Lanes>(&self, lanes: L, varyings: &V::Of<L::F32>, mask: L::Mask) -> (L::U32, L::Mask) {
-        let in_memory = V::map(varyings, &|numbers: L::F32| lanes.store(numbers));
+    fn shade_lanes<L: Lanes>(
+        &self,
+        lanes: L,
+        varyings: &V::Of<L::Number>,
+        mask: L::Mask,
+    ) -> (L::U32, L::Mask) {
+        let in_memory = V::map(varyings, &|numbers: L::Number| lanes.store(numbers));
         let mut bits = lanes.bits(mask);
         let colors = lanes.each(|k| {
             if bits >> k & 1 == 0 {
@@ -36,7 +42,7 @@ pub trait FragmentStage<V: Varying> {
     }
 }
 
-impl<V: Varying, C: Color, F: Fn(V) -> Option<C>> FragmentStage<V> for F {
+impl<V: Varying, C: Color, F: Fn(V) -> Option<C> + Copy> FragmentStage<V> for F {
     type Color = C;
 
     #[inline(always)]

@@ -5,18 +5,84 @@
 //! | [`Exact`](crate::Exact) | 9ε | one a fragment |
 //! | [`Plane`](crate::Plane) | a few ε, times the ratio of q along 64 columns | one a fragment |
 //! | [`Spans<N>`](crate::Spans) | what a straight line misses along N columns | three every N columns |
+//! | [`Bounded`](crate::Bounded) | what it is told | as many as that takes |
 //! | [`Affine`](crate::Affine) | what a straight line misses along the triangle | none |
+//! | [`FixedPoint<P>`](crate::FixedPoint) | that of `P`, and steps of 2^-16 a column | none: a table |
 
+use crate::depth::DepthFormat;
+use crate::edge::{Edge, EdgeInt};
 use crate::spans::Span;
 use crate::triangle::{Corners, Vertex};
-use alberti_math::lanes::Lanes;
+use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Subpixel, Varying};
 use core::fmt::Debug;
 
-/// A policy of interpolation: a type without values of its own, chosen once per draw.
+/// A policy of interpolation, chosen once per draw.
 pub trait Interpolation: Copy + Debug + 'static {
+    /// The lanes in which it works on a machine with the lanes `L`.
+    type Lanes<L: Floating>: Lanes;
     /// A triangle prepared for it.
-    type Triangle<L: Lanes, V: Varying>: Interpolate<Self, L, V>;
+    type Triangle<L: Floating, V: Varying>: Interpolate<Self::Lanes<L>, V>;
+    /// Whether triangles in narrow boxes may be filled without spans: then all of a row up to so many columns, a power of
+    /// two, at multiples of it, must be one run.
+    const RUN: i32;
+
+    /// The lanes in which it works.
+    fn lanes<L: Floating>(lanes: L) -> Self::Lanes<L>;
+
+    /// Prepares a triangle for a depth buffer of the format `D`.
+    fn prepare<L: Floating, S: Subpixel, D: DepthFormat, V: Varying>(
+        self,
+        lanes: L,
+        triangle: &Oriented<'_, S, V>,
+    ) -> Self::Triangle<L, V>;
+}
+
+/// A triangle of positive area, its corners clockwise, with `q` > 0 and finite values.
+#[derive(Clone, Copy, Debug)]
+pub struct Oriented<'a, S: Subpixel, V> {
+    /// The vertices.
+    pub vertices: [&'a Vertex<S, V>; 3],
+    /// Their positions in subpixels.
+    pub corners: Corners,
+    /// Twice the area, in subpixels squared.
+    pub doubled_area: i64,
+    /// Which value is that of the triangle's first vertex as it was given, for what is flat.
+    pub first: V,
+}
+
+impl<S: Subpixel, V: Varying> Oriented<'_, S, V> {
+    /// The components of the three values and of the first vertex.
+    #[inline(always)]
+    pub(crate) fn values(&self) -> V::Of<[f32; 4]> {
+        let [a, b, c] = self.vertices;
+        V::gather([a.varying, b.varying, c.varying, self.first])
+    }
+}
+
+/// A row of a triangle.
+#[derive(Clone, Copy, Debug)]
+pub struct Row<'a, I> {
+    /// Which.
+    pub row: i32,
+    /// The covered columns, of which there is at least one.
+    pub covered: Span,
+    /// The column of the edges' reference sample.
+    pub origin: i32,
+    /// The edges, each opposite the vertex whose weight it is.
+    pub edges: &'a [Edge<I>; 3],
+}
+
+impl<I: EdgeInt> Row<'_, I> {
+    /// The edge functions at a column.
+    #[inline(always)]
+    #[must_use]
+    pub fn at(&self, column: i32) -> [I; 3] {
+        let columns = I::from(column - self.origin);
+        let [a, b, c] = self.edges;
+        let at = |e: &Edge<I>| e.value + e.step_x * columns;
+        [at(a), at(b), at(c)]
+    }
 }
 
 /// A triangle of which depth and attributes can be had at any sample inside.
@@ -24,32 +90,20 @@ pub trait Interpolation: Copy + Debug + 'static {
 /// A row's samples are walked in runs: [`start`](Self::start) at a run's first lanes, [`advance`](Self::advance) by as
 /// many samples as there are lanes. Depth and attributes are asked for apart, so that what the depth test hides never
 /// pays for its attributes.
-pub trait Interpolate<P, L: Lanes, V: Varying> {
-    /// Columns between restarts, a power of two. Runs end at multiples of it, so that they do not depend on where a
-    /// band or a scissor begins.
-    const RUN: i32;
+pub trait Interpolate<L: Lanes, V: Varying> {
     /// What is known of a group of samples.
     type Cursor: Copy;
 
-    /// Prepares a triangle of positive area, its corners clockwise, with `q` > 0 and finite values.
-    fn new<S: Subpixel>(
-        policy: P,
-        lanes: L,
-        vertices: [&Vertex<S, V>; 3],
-        corners: &Corners,
-        doubled_area: i64,
-    ) -> Self;
-
-    /// The samples from `column` on, in a run of a row. `run` is its first sample and the next run's first, or the row's
-    /// last; both are in the triangle.
-    fn start(&self, row: i32, run: Span, column: i32) -> Self::Cursor;
+    /// The run that the covered `column` of a row is in: its samples from the column `left` on, with which lanes begin, and
+    /// the column that follows it. Runs do not depend on where a band or a scissor begins.
+    fn start<I: EdgeInt>(&self, row: &Row<'_, I>, column: i32, left: i32) -> (Self::Cursor, i32);
 
     /// The samples after those.
     fn advance(&self, cursor: Self::Cursor) -> Self::Cursor;
 
-    /// The screen depth at each; `weights` are the edge functions there, rounded to `f32`.
-    fn depth(&self, cursor: &Self::Cursor, weights: &[L::F32; 3]) -> L::F32;
+    /// The screen depth at each; `weights` are the edge functions there, rounded.
+    fn depth(&self, cursor: &Self::Cursor, weights: &[L::Number; 3]) -> L::Depth;
 
     /// The attributes at each.
-    fn attributes(&self, cursor: &Self::Cursor, weights: &[L::F32; 3]) -> V::Of<L::F32>;
+    fn attributes(&self, cursor: &Self::Cursor, weights: &[L::Number; 3]) -> V::Of<L::Number>;
 }

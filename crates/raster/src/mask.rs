@@ -100,8 +100,8 @@ impl<L: Lanes> RowMask<L> {
 
     /// The functions without their biases, rounded to `f32`.
     #[inline(always)]
-    pub(crate) fn weights(&self, [a, b, c]: [L::Int; 3]) -> [L::F32; 3] {
+    pub(crate) fn weights(&self, [a, b, c]: [L::Int; 3]) -> [L::Number; 3] {
         let (lanes, [bias_a, bias_b, bias_c]) = (self.lanes, self.bias);
-        [lanes.int_to_f32(a + bias_a), lanes.int_to_f32(b + bias_b), lanes.int_to_f32(c + bias_c)]
+        [lanes.int_to_number(a + bias_a), lanes.int_to_number(b + bias_b), lanes.int_to_number(c + bias_c)]
     }
 }

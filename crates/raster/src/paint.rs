@@ -6,7 +6,7 @@ use crate::color::Store;
 use crate::depth::DepthFormat;
 use crate::edge::{Edge, EdgeInt};
 use crate::fragment::FragmentStage;
-use crate::interpolation::{Interpolate, Interpolation};
+use crate::interpolation::{Interpolate, Row};
 use crate::mask::RowMask;
 use crate::spans::Span;
 use alberti_math::Varying;
@@ -15,28 +15,18 @@ use core::marker::PhantomData;
 use core::ops::Range;
 
 /// What a triangle looks like: what is interpolated over it, and the stage that makes colours of that.
-pub(crate) struct Painter<'a, P, L, V, T, F> {
+pub(crate) struct Painter<L, V, T, F> {
     pub(crate) lanes: L,
     pub(crate) triangle: T,
-    pub(crate) fragment: &'a F,
-    pub(crate) types: PhantomData<(P, V)>,
+    pub(crate) fragment: F,
+    pub(crate) varying: PhantomData<V>,
 }
 
-/// A row of a triangle: the covered columns, and the edge functions at one of them.
-pub(crate) struct Row<'a, I> {
-    pub(crate) row: i32,
-    pub(crate) covered: Span,
-    /// Column 0 of the edges.
-    pub(crate) origin: i32,
-    pub(crate) edges: &'a [Edge<I>; 3],
-}
-
-impl<P, L, V, T, F> Painter<'_, P, L, V, T, F>
+impl<L, V, T, F> Painter<L, V, T, F>
 where
-    P: Interpolation,
     L: Lanes,
     V: Varying,
-    T: Interpolate<P, L, V>,
+    T: Interpolate<L, V>,
     F: FragmentStage<V>,
 {
     /// Fills what a row of the triangle covers of the columns in `limits`, and counts the pixels covered and written.
@@ -52,22 +42,15 @@ where
         C: Store<F::Color>,
         D: DepthFormat,
     {
-        const {
-            assert!(T::RUN > 0 && T::RUN.count_ones() == 1, "a run's length must be a power of two");
-        }
         let mut counts = [0; 2];
-        // From the run that the limits begin in.
-        let mut first = row.covered.start.max(limits.start & !(T::RUN - 1));
-        while first < row.covered.end.min(limits.end) {
-            let end = row.covered.end.min((first | (T::RUN - 1)) + 1);
-            let columns = first.max(limits.start)..end.min(limits.end);
-            if columns.start < columns.end {
-                let run = Span { start: first, end: end.min(row.covered.end - 1) };
-                let cursor = self.triangle.start(row.row, run, aligned::<L>(columns.start));
-                counts[0] += columns.end.abs_diff(columns.start);
-                counts[1] += self.run(band, row, columns, cursor);
-            }
-            first = end;
+        let end = row.covered.end.min(limits.end);
+        let mut column = row.covered.start.max(limits.start);
+        while column < end {
+            let (cursor, next) = self.triangle.start(row, column, aligned::<L>(column));
+            let stop = next.min(end);
+            counts[0] += stop.abs_diff(column);
+            counts[1] += self.run(band, row, column..stop, cursor);
+            column = stop;
         }
         counts
     }
@@ -86,22 +69,18 @@ where
         C: Store<F::Color>,
         D: DepthFormat,
     {
-        let first = left + bits.trailing_zeros().cast_signed();
-        let last = left + 31 - bits.leading_zeros().cast_signed();
-        let mut cursor = self.triangle.start(row, Span { start: first, end: last }, left);
-        let (mut colors, mut depths) = band.pixels_from(row, left);
+        let covered = Span {
+            start: left + bits.trailing_zeros().cast_signed(),
+            end: left + 32 - bits.leading_zeros().cast_signed(),
+        };
+        let edges = mask.edges([left, row]);
+        let whole = Row { row, covered, origin: left, edges: &edges };
+        let (mut cursor, _) = self.triangle.start(&whole, covered.start, left);
+        let (colors, depths) = band.pixels_from(row, left);
+        let ((colors, last_colors), (depths, last_depths)) = (L::groups(colors), L::groups(depths));
         let (mut values, mut written, mut column) = (mask.first(), 0, left);
-        loop {
+        for (color, depth) in colors.iter_mut().zip(depths) {
             let group = bits & all::<L>();
-            if colors.len() < L::COUNT || depths.len() < L::COUNT {
-                let edges = mask.edges([column, row]);
-                return written + self.end::<i64, C, D>(colors, depths, group, cursor, &edges);
-            }
-            let (Some((color, next_colors)), Some((depth, next_depths))) =
-                (L::split(colors), L::split(depths))
-            else {
-                return written;
-            };
             if group != 0 {
                 written += self.group::<C, D>(color, depth, group, &cursor, &mask.weights(values));
             }
@@ -109,11 +88,12 @@ where
             if bits == 0 {
                 return written;
             }
-            (colors, depths) = (next_colors, next_depths);
             column += L::STEP;
             cursor = self.triangle.advance(cursor);
             values = mask.right(values);
         }
+        let edges = mask.edges([column, row]);
+        written + self.end::<i64, C, D>(last_colors, last_depths, bits & all::<L>(), cursor, &edges)
     }
 
     /// Fills a run of samples. The last lanes may look at pixels beyond it, which they leave alone.
@@ -131,42 +111,41 @@ where
         D: DepthFormat,
     {
         let lanes = self.lanes;
-        let mut column = aligned::<L>(columns.start);
-        let offset = I::from(column - row.origin);
-        let [a, b, c] = row.edges;
-        let ramp = |e: &Edge<I>| I::ramp(lanes, e.value + e.step_x * offset, e.step_x);
-        let mut edges = [ramp(a), ramp(b), ramp(c)];
-        let (mut colors, mut depths) = band.pixels_from(row.row, column);
-        let (mut bits, mut written) = (all::<L>() << (columns.start - column), 0);
-        loop {
-            let left = columns.end - column;
-            if left < L::STEP {
-                bits &= (1 << left) - 1;
+        let left = aligned::<L>(columns.start);
+        let ramp = |at: I, e: &Edge<I>| I::ramp(lanes, at, e.step_x);
+        let advance = |at, e: &Edge<I>| I::advance(lanes, at, e.step_x * I::from(L::STEP));
+        let ([a, b, c], at) = (row.edges, row.at(left));
+        let mut edges = [ramp(at[0], a), ramp(at[1], b), ramp(at[2], c)];
+
+        let (colors, depths) = band.pixels_from(row.row, left);
+        let wanted = (columns.end - left).unsigned_abs() as usize;
+        // Whole groups, if the band has them.
+        let pixels = wanted.next_multiple_of(L::COUNT).min(colors.len() / L::COUNT * L::COUNT);
+        let (colors, last_colors) = colors.split_at_mut_checked(pixels).unwrap_or_default();
+        let (depths, last_depths) = depths.split_at_mut_checked(pixels).unwrap_or_default();
+        let ((colors, _), (depths, _)) = (L::groups(colors), L::groups(depths));
+        let (mut bits, mut column, mut written) = (all::<L>() << (columns.start - left), left, 0);
+        for (color, depth) in colors.iter_mut().zip(depths) {
+            let remaining = columns.end - column;
+            if L::COUNT > 1 && remaining < L::STEP {
+                bits &= (1 << remaining) - 1;
             }
-            if colors.len() < L::COUNT || depths.len() < L::COUNT {
-                let offset = I::from(column - row.origin);
-                let at = |e: &Edge<I>| Edge { value: e.value + e.step_x * offset, ..*e };
-                let edges = [at(a), at(b), at(c)];
-                return written + self.end::<I, C, D>(colors, depths, bits & all::<L>(), cursor, &edges);
-            }
-            let (Some((color, next_colors)), Some((depth, next_depths))) =
-                (L::split(colors), L::split(depths))
-            else {
-                return written;
-            };
             let [ea, eb, ec] = edges;
             let weights = [I::weights(lanes, ea), I::weights(lanes, eb), I::weights(lanes, ec)];
             written += self.group::<C, D>(color, depth, bits & all::<L>(), &cursor, &weights);
-            if left <= L::STEP {
-                return written;
-            }
-            (colors, depths) = (next_colors, next_depths);
-            column += L::STEP;
             bits = all::<L>();
+            column += L::STEP;
             cursor = self.triangle.advance(cursor);
-            let advance = |at, e: &Edge<I>| I::advance(lanes, at, e.step_x * I::from(L::STEP));
             edges = [advance(ea, a), advance(eb, b), advance(ec, c)];
         }
+        if L::COUNT == 1 || pixels >= wanted {
+            return written;
+        }
+        let at = row.at(column);
+        let edge = |value, e: &Edge<I>| Edge { value, ..*e };
+        let edges = [edge(at[0], a), edge(at[1], b), edge(at[2], c)];
+        let bits = bits & ((1 << (columns.end - column)) - 1);
+        written + self.end::<I, C, D>(last_colors, last_depths, bits, cursor, &edges)
     }
 
     /// Fills the last samples of a band, fewer than there are lanes, by way of a copy. `edges` are those at the first.
@@ -209,7 +188,7 @@ where
         depth: &mut L::Each<D::Stored>,
         bits: u32,
         cursor: &T::Cursor,
-        weights: &[L::F32; 3],
+        weights: &[L::Number; 3],
     ) -> u32
     where
         C: Store<F::Color>,

@@ -1,11 +1,11 @@
-//! Interpolation from plane equations, in each sample: hyperbolic, or without correction.
+//! Hyperbolic interpolation from plane equations, in each sample.
 
-use crate::interpolation::{Interpolate, Interpolation};
-use crate::planes::{Planes, Ramp, along, count};
-use crate::spans::Span;
-use crate::triangle::{Corners, Vertex};
-use alberti_math::lanes::Lanes;
-use alberti_math::{Subpixel, Varying};
+use crate::depth::DepthFormat;
+use crate::edge::EdgeInt;
+use crate::interpolation::{Interpolate, Interpolation, Oriented, Row};
+use crate::planes::{Component, Plane3, Ramp, along, count, per_area, scaled_q, zs};
+use alberti_math::lanes::{Floating, Lanes};
+use alberti_math::{Mode, Subpixel, Varying};
 use core::fmt;
 
 /// From plane equations: q and every q·u are linear on the screen, so each is a value at the start of a run of samples
@@ -27,52 +27,99 @@ use core::fmt;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Plane;
 
+/// Columns of the longest run, a power of two.
+const RUN: i32 = 64;
+
 impl Interpolation for Plane {
-    type Triangle<L: Lanes, V: Varying> = PlaneTriangle<L, V>;
+    type Lanes<L: Floating> = L;
+    type Triangle<L: Floating, V: Varying> = PlaneTriangle<L, V>;
+    const RUN: i32 = RUN;
+
+    #[inline(always)]
+    fn lanes<L: Floating>(lanes: L) -> L {
+        lanes
+    }
+
+    #[inline(always)]
+    fn prepare<L: Floating, S: Subpixel, D: DepthFormat, V: Varying>(
+        self,
+        lanes: L,
+        triangle: &Oriented<'_, S, V>,
+    ) -> PlaneTriangle<L, V> {
+        let per_area = per_area(triangle);
+        // What a column adds to the edge functions of the two edges that end at the first corner, opposite the others:
+        // integers below 2^53.
+        let [a, b, c] = triangle.corners;
+        let step = |y: i32| f64::from(y) * f64::from(S::ONE) * per_area;
+        let across = [step(c[1] - a[1]), step(a[1] - b[1])];
+        let sloped = |component: Component| Sloped { across: component.plane.more(across), component };
+
+        let q = scaled_q(triangle);
+        let q_plane = Plane3::new(q);
+        PlaneTriangle {
+            lanes,
+            per_area,
+            zs: sloped(zs(triangle)),
+            q: (q_plane, q_plane.more(across)),
+            components: V::map_by_mode(&triangle.values(), &|mode, [a, b, c, first]: [f32; 4]| match mode {
+                Mode::Hyperbolic => {
+                    let component = Component::new([a, b, c]);
+                    let times_q = [f64::from(a) * q[0], f64::from(b) * q[1], f64::from(c) * q[2]];
+                    sloped(Component { plane: Plane3::new(times_q), ..component })
+                }
+                Mode::Linear => sloped(Component::new([a, b, c])),
+                Mode::Flat => sloped(Component::flat(first)),
+            }),
+        }
+    }
+}
+
+/// A component and what a column adds to it.
+#[derive(Clone, Copy)]
+struct Sloped {
+    component: Component,
+    across: f64,
 }
 
 /// A triangle prepared for [`Plane`].
 #[derive(Clone, Copy)]
 pub struct PlaneTriangle<L: Lanes, V: Varying> {
     lanes: L,
-    planes: Planes<V>,
+    per_area: f64,
+    zs: Sloped,
+    q: (Plane3, f64),
+    components: V::Of<Sloped>,
 }
 
 /// Where samples lie in a run, and what is linear along it.
 #[derive(Clone, Copy)]
 pub struct PlaneCursor<L: Lanes, V: Varying> {
-    along: L::F32,
+    along: L::Number,
     zs: Ramp<L>,
-    q: [L::F32; 2],
+    q: [L::Number; 2],
     components: V::Of<Ramp<L>>,
 }
 
-impl<L: Lanes, V: Varying> Interpolate<Plane, L, V> for PlaneTriangle<L, V> {
-    const RUN: i32 = 64;
+impl<L: Floating, V: Varying> Interpolate<L, V> for PlaneTriangle<L, V> {
     type Cursor = PlaneCursor<L, V>;
 
     #[inline(always)]
-    fn new<S: Subpixel>(
-        _: Plane,
-        lanes: L,
-        vertices: [&Vertex<S, V>; 3],
-        corners: &Corners,
-        doubled_area: i64,
-    ) -> Self {
-        Self { lanes, planes: Planes::new::<S, true>(vertices, corners, doubled_area) }
-    }
-
-    #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "rounded once")]
-    fn start(&self, row: i32, run: Span, column: i32) -> PlaneCursor<L, V> {
-        let Self { lanes, planes } = self;
-        let place = planes.place(run.start, row);
-        PlaneCursor {
-            along: along(*lanes, run.start, column),
-            zs: Ramp::of_plane(*lanes, &planes.zs, place),
-            q: [lanes.splat(planes.q.at(place) as f32), lanes.splat(planes.q.across as f32)],
-            components: V::map(&planes.components, &|c| Ramp::of_plane(*lanes, &c, place)),
-        }
+    fn start<I: EdgeInt>(&self, row: &Row<'_, I>, column: i32, left: i32) -> (PlaneCursor<L, V>, i32) {
+        let lanes = self.lanes;
+        let first = row.covered.start.max(column & !(RUN - 1));
+        let next = row.covered.end.min((column | (RUN - 1)) + 1);
+        let [_, b, c] = row.at(first);
+        let weights = [b.to_f64() * self.per_area, c.to_f64() * self.per_area];
+        let ramp = |s: Sloped| Ramp::new(lanes, s.component.plane.at(weights), s.across, &s.component);
+        let (q, q_across) = self.q;
+        let cursor = PlaneCursor {
+            along: along(lanes, first, left),
+            zs: ramp(self.zs),
+            q: [lanes.splat(q.at(weights) as f32), lanes.splat(q_across as f32)],
+            components: V::map(&self.components, &ramp),
+        };
+        (cursor, next)
     }
 
     #[inline(always)]
@@ -81,104 +128,30 @@ impl<L: Lanes, V: Varying> Interpolate<Plane, L, V> for PlaneTriangle<L, V> {
     }
 
     #[inline(always)]
-    fn depth(&self, cursor: &PlaneCursor<L, V>, _: &[L::F32; 3]) -> L::F32 {
+    fn depth(&self, cursor: &PlaneCursor<L, V>, _: &[L::Number; 3]) -> L::Number {
         cursor.zs.at(self.lanes, cursor.along)
     }
 
     #[inline(always)]
-    fn attributes(&self, cursor: &PlaneCursor<L, V>, _: &[L::F32; 3]) -> V::Of<L::F32> {
-        let z = self.lanes.splat(1.0) / (cursor.q[0] + cursor.q[1] * cursor.along);
-        V::map(&cursor.components, &|ramp: Ramp<L>| ramp.times(self.lanes, cursor.along, z))
+    fn attributes(&self, cursor: &PlaneCursor<L, V>, _: &[L::Number; 3]) -> V::Of<L::Number> {
+        let (lanes, along) = (self.lanes, cursor.along);
+        let z = lanes.splat(1.0) / (cursor.q[0] + cursor.q[1] * along);
+        V::map_by_mode(&cursor.components, &|mode, ramp: Ramp<L>| match mode {
+            Mode::Hyperbolic => ramp.times(lanes, along, z),
+            Mode::Linear => ramp.at(lanes, along),
+            Mode::Flat => ramp.start(),
+        })
     }
 }
 
-/// Without correction: what the vertices carry is linear on the screen.
-///
-/// # Precision
-/// Right only where the three vertices are equally far; with r their greatest ratio of q, off by up to
-/// |Δu|·(√r − 1)/(√r + 1), Δu being the difference between two vertices. Against the linear function itself: 6ε·max|ui|
-/// for depth and components. The result never leaves the range of the three values, so a constant stays constant.
-///
-/// # Cost
-/// A fragment: a product, a sum, a minimum and a maximum for each component; no division. Setup as for [`Plane`].
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Affine;
-
-impl Interpolation for Affine {
-    type Triangle<L: Lanes, V: Varying> = AffineTriangle<L, V>;
-}
-
-/// A triangle prepared for [`Affine`].
-#[derive(Clone, Copy)]
-pub struct AffineTriangle<L: Lanes, V: Varying> {
-    lanes: L,
-    planes: Planes<V>,
-}
-
-/// Where samples lie in a run in which all is linear.
-#[derive(Clone, Copy)]
-pub struct LinearCursor<L: Lanes, V: Varying> {
-    pub(crate) along: L::F32,
-    pub(crate) zs: Ramp<L>,
-    pub(crate) components: V::Of<Ramp<L>>,
-}
-
-impl<L: Lanes, V: Varying> LinearCursor<L, V> {
-    #[inline(always)]
-    pub(crate) fn attributes(&self, lanes: L) -> V::Of<L::F32> {
-        V::map(&self.components, &|ramp: Ramp<L>| ramp.at(lanes, self.along))
+impl<L: Lanes, V: Varying> fmt::Debug for PlaneTriangle<L, V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("PlaneTriangle").finish_non_exhaustive()
     }
 }
 
-impl<L: Lanes, V: Varying> Interpolate<Affine, L, V> for AffineTriangle<L, V> {
-    const RUN: i32 = 64;
-    type Cursor = LinearCursor<L, V>;
-
-    #[inline(always)]
-    fn new<S: Subpixel>(
-        _: Affine,
-        lanes: L,
-        vertices: [&Vertex<S, V>; 3],
-        corners: &Corners,
-        doubled_area: i64,
-    ) -> Self {
-        Self { lanes, planes: Planes::new::<S, false>(vertices, corners, doubled_area) }
-    }
-
-    #[inline(always)]
-    fn start(&self, row: i32, run: Span, column: i32) -> LinearCursor<L, V> {
-        let Self { lanes, planes } = self;
-        let place = planes.place(run.start, row);
-        LinearCursor {
-            along: along(*lanes, run.start, column),
-            zs: Ramp::of_plane(*lanes, &planes.zs, place),
-            components: V::map(&planes.components, &|c| Ramp::of_plane(*lanes, &c, place)),
-        }
-    }
-
-    #[inline(always)]
-    fn advance(&self, cursor: LinearCursor<L, V>) -> LinearCursor<L, V> {
-        LinearCursor { along: cursor.along + count(self.lanes), ..cursor }
-    }
-
-    #[inline(always)]
-    fn depth(&self, cursor: &LinearCursor<L, V>, _: &[L::F32; 3]) -> L::F32 {
-        cursor.zs.at(self.lanes, cursor.along)
-    }
-
-    #[inline(always)]
-    fn attributes(&self, cursor: &LinearCursor<L, V>, _: &[L::F32; 3]) -> V::Of<L::F32> {
-        cursor.attributes(self.lanes)
+impl<L: Lanes, V: Varying> fmt::Debug for PlaneCursor<L, V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("PlaneCursor").finish_non_exhaustive()
     }
 }
-
-macro_rules! opaque {
-    ($($name:ident)*) => {$(
-        impl<L: Lanes, V: Varying> fmt::Debug for $name<L, V> {
-            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.debug_struct(stringify!($name)).finish_non_exhaustive()
-            }
-        }
-    )*};
-}
-opaque!(PlaneTriangle PlaneCursor AffineTriangle LinearCursor);

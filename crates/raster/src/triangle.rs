@@ -57,7 +57,7 @@ pub enum Outcome {
 }
 
 /// Snapped positions in subpixels.
-pub(crate) type Corners = [[i32; 2]; 3];
+pub type Corners = [[i32; 2]; 3];
 
 /// The box around three corners, in subpixels.
 #[derive(Clone, Copy, Debug)]

@@ -18,8 +18,8 @@ pub trait Kernel {
     fn sample<L: Lanes, F: TexelFormat, Z: Size, U: Wrap, V: Wrap>(
         lanes: L,
         texture: &Texture<'_, F, Z>,
-        u: L::F32,
-        v: L::F32,
+        u: L::Number,
+        v: L::Number,
     ) -> L::U32;
 }
 
@@ -74,13 +74,25 @@ impl Kernel for Nearest {
     fn sample<L: Lanes, F: TexelFormat, Z: Size, U: Wrap, V: Wrap>(
         lanes: L,
         texture: &Texture<'_, F, Z>,
-        u: L::F32,
-        v: L::F32,
+        u: L::Number,
+        v: L::Number,
     ) -> L::U32 {
-        let column = Z::cell::<L, U>(lanes, u, texture.width());
-        let from_bottom = Z::cell::<L, V>(lanes, v, texture.height());
-        texture.fetch(lanes, row(lanes, texture, from_bottom), column)
+        let [row, column] = cell::<L, F, Z, U, V>(lanes, texture, u, v);
+        texture.fetch(lanes, row, column)
     }
+}
+
+/// The row, from the top, and the column of the texel whose cell holds a point.
+#[inline(always)]
+pub(crate) fn cell<L: Lanes, F: TexelFormat, Z: Size, U: Wrap, V: Wrap>(
+    lanes: L,
+    texture: &Texture<'_, F, Z>,
+    u: L::Number,
+    v: L::Number,
+) -> [L::U32; 2] {
+    let column = Z::cell::<L, U>(lanes, u, texture.width());
+    let from_bottom = Z::cell::<L, V>(lanes, v, texture.height());
+    [row(lanes, texture, from_bottom), column]
 }
 
 impl Filter for Bilinear {}
@@ -90,8 +102,8 @@ impl Kernel for Bilinear {
     fn sample<L: Lanes, F: TexelFormat, Z: Size, U: Wrap, V: Wrap>(
         lanes: L,
         texture: &Texture<'_, F, Z>,
-        u: L::F32,
-        v: L::F32,
+        u: L::Number,
+        v: L::Number,
     ) -> L::U32 {
         let [left, right, along] = Z::between::<L, U>(lanes, u, texture.width());
         let [low, high, up] = Z::between::<L, V>(lanes, v, texture.height());

@@ -7,8 +7,8 @@ use alberti_math::Rgba8;
 use alberti_math::lanes::{Lanes, One};
 use glam::Vec2;
 
-use crate::filter::Filter;
-use crate::{AnySize, Size, TexelFormat, Texture, Wrap};
+use crate::filter::{Filter, cell};
+use crate::{AnySize, Nearest, Size, TexelFormat, Texture, Wrap};
 
 /// A texture with a filter and a wrap mode for each axis: what a fragment asks for a colour.
 ///
@@ -45,8 +45,23 @@ impl<'a, F: TexelFormat, Fl: Filter, U: Wrap, V: Wrap, Z: Size> Sampler<'a, F, F
 
     /// [`sample`](Self::sample) at several places: the colours as words, as [`Rgba8::to_bits`] makes them.
     #[inline(always)]
-    pub fn sample_lanes<L: Lanes>(&self, lanes: L, u: L::F32, v: L::F32) -> L::U32 {
+    pub fn sample_lanes<L: Lanes>(&self, lanes: L, u: L::Number, v: L::Number) -> L::U32 {
         Fl::sample::<L, F, Z, U, V>(lanes, &self.texture, u, v)
+    }
+}
+
+impl<F: TexelFormat, U: Wrap, V: Wrap, Z: Size> Sampler<'_, F, Nearest, U, V, Z> {
+    /// What `word` makes of the texels as they are stored; there always is one.
+    #[inline(always)]
+    pub fn stored_lanes<L: Lanes>(
+        &self,
+        lanes: L,
+        u: L::Number,
+        v: L::Number,
+        word: impl Fn(Option<F::Texel>) -> u32,
+    ) -> L::U32 {
+        let [row, column] = cell::<L, F, Z, U, V>(lanes, &self.texture, u, v);
+        self.texture.words(lanes, row, column, |texel| word(texel.copied()))
     }
 }
 

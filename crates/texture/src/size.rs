@@ -23,13 +23,13 @@ pub enum PowerOfTwo {}
 /// The working part of [`Size`]; not nameable outside, so that it can still change.
 pub trait Scale {
     /// The texel whose cell holds the coordinate, along a side of `size` texels.
-    fn cell<L: Lanes, W: Wrap>(lanes: L, u: L::F32, size: u32) -> L::U32;
+    fn cell<L: Lanes, W: Wrap>(lanes: L, u: L::Number, size: u32) -> L::U32;
 
     /// The texels to the left and to the right of the coordinate, and the 256ths from the centre of the one to that of
     /// the other.
     ///
     /// A distance that rounds to 256 comes out as 0 from the next texel, which is the same colour.
-    fn between<L: Lanes, W: Wrap>(lanes: L, u: L::F32, size: u32) -> [L::U32; 3];
+    fn between<L: Lanes, W: Wrap>(lanes: L, u: L::Number, size: u32) -> [L::U32; 3];
 
     /// `row * width + column`.
     fn index<L: Lanes>(lanes: L, row: L::U32, column: L::U32, width: u32) -> L::U32;
@@ -39,13 +39,13 @@ impl Size for AnySize {}
 
 impl Scale for AnySize {
     #[inline(always)]
-    fn cell<L: Lanes, W: Wrap>(lanes: L, u: L::F32, size: u32) -> L::U32 {
+    fn cell<L: Lanes, W: Wrap>(lanes: L, u: L::Number, size: u32) -> L::U32 {
         let in_memory = lanes.store(u);
         lanes.load_words(&lanes.each(|k| W::cell(W::reduce(at(in_memory.as_ref(), k)), size)))
     }
 
     #[inline(always)]
-    fn between<L: Lanes, W: Wrap>(lanes: L, u: L::F32, size: u32) -> [L::U32; 3] {
+    fn between<L: Lanes, W: Wrap>(lanes: L, u: L::Number, size: u32) -> [L::U32; 3] {
         let in_memory = lanes.store(u);
         let each = lanes.each(|k| {
             let position = position(W::reduce(at(in_memory.as_ref(), k)), size);
@@ -68,18 +68,13 @@ impl Size for PowerOfTwo {}
 
 impl Scale for PowerOfTwo {
     #[inline(always)]
-    fn cell<L: Lanes, W: Wrap>(lanes: L, u: L::F32, size: u32) -> L::U32 {
-        W::fold(lanes, lanes.floor(W::scaled(lanes, u, exact(size))), size)
+    fn cell<L: Lanes, W: Wrap>(lanes: L, u: L::Number, size: u32) -> L::U32 {
+        W::fold(lanes, lanes.floor_scaled(W::in_period(lanes, u), size.trailing_zeros()), size)
     }
 
     #[inline(always)]
-    fn between<L: Lanes, W: Wrap>(lanes: L, u: L::F32, size: u32) -> [L::U32; 3] {
-        // floor(x + 1/2), without a sum that would have to be rounded.
-        let x = W::scaled(lanes, u, exact(size) * 256.0);
-        let below = lanes.floor(x);
-        // The greatest number below one half; NaN is not above it.
-        let up = lanes.less(lanes.splat(0.5f32.next_down()), x - lanes.to_numbers(below));
-        let nearest = lanes.select_words(up, below + lanes.word(1), below);
+    fn between<L: Lanes, W: Wrap>(lanes: L, u: L::Number, size: u32) -> [L::U32; 3] {
+        let nearest = lanes.round_scaled(W::in_period(lanes, u), size.trailing_zeros() + 8);
         // Half a texel to the left lies the centre from which distances count; one more keeps it positive.
         let position = nearest + lanes.word(128);
         let right = lanes.shr_signed(position, 8);
@@ -90,13 +85,6 @@ impl Scale for PowerOfTwo {
     fn index<L: Lanes>(lanes: L, row: L::U32, column: L::U32, width: u32) -> L::U32 {
         lanes.shl(row, width.trailing_zeros()) + column
     }
-}
-
-/// A side as a number.
-#[inline(always)]
-#[expect(clippy::cast_precision_loss, reason = "at most 2^14")]
-fn exact(size: u32) -> f32 {
-    size as f32
 }
 
 /// Element `k`, which there is.

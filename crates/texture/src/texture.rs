@@ -116,11 +116,23 @@ impl<'a, F: TexelFormat, Z: Size> Texture<'a, F, Z> {
     /// The colours of texels, which must lie in the texture, as words.
     #[inline(always)]
     pub(crate) fn fetch<L: Lanes>(&self, lanes: L, row: L::U32, column: L::U32) -> L::U32 {
+        self.words(lanes, row, column, |texel| texel.map_or(0, |&texel| F::decode(texel).to_bits()))
+    }
+
+    /// What `word` makes of texels, which must lie in the texture.
+    #[inline(always)]
+    pub(crate) fn words<L: Lanes>(
+        &self,
+        lanes: L,
+        row: L::U32,
+        column: L::U32,
+        word: impl Fn(Option<&F::Texel>) -> u32,
+    ) -> L::U32 {
         let indices = lanes.store_words(Z::index(lanes, row, column, self.width()));
         lanes.load_words(&lanes.each(|k| {
             let index = indices.as_ref().get(k).copied().unwrap_or_default() as usize;
             // There always is one, as `new` compares the size with the length.
-            self.texels.get(index).map_or(0, |&texel| F::decode(texel).to_bits())
+            word(self.texels.get(index))
         }))
     }
 }

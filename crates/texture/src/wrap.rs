@@ -46,8 +46,8 @@ pub trait Axis {
     /// -1 or more and less than the size (in `Mirror`, twice the size).
     fn neighbours(i: i32, size: u32) -> (u32, u32);
 
-    /// The coordinate in one period about 0 times `scale`, a power of two up to 2^22: exact. Defined for every `f32`.
-    fn scaled<L: Lanes>(lanes: L, u: L::F32, scale: f32) -> L::F32;
+    /// The coordinate in one period about 0: exact. Defined for every number.
+    fn in_period<L: Lanes>(lanes: L, u: L::Number) -> L::Number;
 
     /// [`Wrap::index`] of a two's complement `i` for a `size` that is a power of two, from -1 to one beyond the period.
     fn fold<L: Lanes>(lanes: L, i: L::U32, size: u32) -> L::U32;
@@ -107,8 +107,8 @@ impl Axis for Repeat {
     }
 
     #[inline(always)]
-    fn scaled<L: Lanes>(lanes: L, u: L::F32, scale: f32) -> L::F32 {
-        (u - lanes.trunc(u)) * lanes.splat(scale)
+    fn in_period<L: Lanes>(lanes: L, u: L::Number) -> L::Number {
+        lanes.wrap(u, 0)
     }
 
     #[inline(always)]
@@ -143,9 +143,8 @@ impl Axis for Clamp {
     }
 
     #[inline(always)]
-    fn scaled<L: Lanes>(lanes: L, u: L::F32, scale: f32) -> L::F32 {
-        let scale = lanes.splat(scale);
-        lanes.min(lanes.max(u * scale, lanes.splat(0.0)), scale)
+    fn in_period<L: Lanes>(lanes: L, u: L::Number) -> L::Number {
+        lanes.min(lanes.max(u, lanes.splat(0.0)), lanes.splat(1.0))
     }
 
     #[inline(always)]
@@ -184,9 +183,8 @@ impl Axis for Mirror {
     }
 
     #[inline(always)]
-    fn scaled<L: Lanes>(lanes: L, u: L::F32, scale: f32) -> L::F32 {
-        let half = u * lanes.splat(0.5);
-        (half - lanes.trunc(half)) * lanes.splat(2.0 * scale)
+    fn in_period<L: Lanes>(lanes: L, u: L::Number) -> L::Number {
+        lanes.wrap(u, 1)
     }
 
     #[inline(always)]

@@ -1,6 +1,7 @@
 //! Eight samples at a time, in the vector registers that the machine has: one of 256 bits, or pairs of 128.
 
-use super::Lanes;
+use super::one::power_of_two;
+use super::{Floating, Lanes};
 use core::fmt::{Debug, Formatter, Result};
 use fearless_simd::{
     Bytes, Select, Simd, SimdBase, SimdFloat, SimdInt, SimdInto, SimdMask, f32x8, f64x4, i32x8, mask32x8,
@@ -26,11 +27,19 @@ impl<S: Simd> Eight<S> {
     fn four(self) -> f64x4<S> {
         [0.0, 1.0, 2.0, 3.0].simd_into(self.0)
     }
+
+    /// The nearest integers from 0 to `greatest`.
+    #[inline(always)]
+    fn nearest(self, x: f32x8<S>, greatest: f32) -> u32x8<S> {
+        let rounded = self.max(x + self.splat(0.5), self.splat(0.0));
+        self.min(rounded, self.splat(greatest)).to_int::<i32x8<S>>().bitcast()
+    }
 }
 
 impl<S: Simd> Lanes for Eight<S> {
     const COUNT: usize = 8;
-    type F32 = f32x8<S>;
+    type Number = f32x8<S>;
+    type Depth = f32x8<S>;
     type U32 = u32x8<S>;
     type Int = i32x8<S>;
     /// In `f64`, which holds these integers exactly and rounds to `f32` as an integer does.
@@ -44,8 +53,8 @@ impl<S: Simd> Lanes for Eight<S> {
     }
 
     #[inline(always)]
-    fn split<T: Copy>(slice: &mut [T]) -> Option<(&mut [T; 8], &mut [T])> {
-        slice.split_first_chunk_mut()
+    fn groups<T: Copy>(slice: &mut [T]) -> (&mut [[T; 8]], &mut [T]) {
+        slice.as_chunks_mut()
     }
 
     #[inline(always)]
@@ -81,9 +90,29 @@ impl<S: Simd> Lanes for Eight<S> {
     // As words, because compilers make a masked store of a selection of numbers, which is slow on some machines, and
     // from which no later load is served before it has reached memory.
     #[inline(always)]
-    fn store_where(self, mask: mask32x8<S>, values: f32x8<S>, to: &mut [f32; 8]) {
-        let kept: u32x8<S> = self.load(to).bitcast();
-        *to = self.store(mask.select(values.bitcast(), kept).bitcast());
+    fn copy_where(self, mask: mask32x8<S>, values: &[f32; 8], to: &mut [f32; 8]) {
+        let (new, kept): (u32x8<S>, u32x8<S>) = (self.load(values).bitcast(), self.load(to).bitcast());
+        *to = self.store(mask.select(new, kept).bitcast());
+    }
+
+    #[inline(always)]
+    fn less_in_memory(self, a: &[f32; 8], b: &[f32; 8]) -> mask32x8<S> {
+        self.load(a).simd_lt(self.load(b))
+    }
+
+    #[inline(always)]
+    fn each_depth<T: Copy>(self, depth: f32x8<S>, number: impl Fn(f32) -> T, _: impl Fn(u32) -> T) -> [T; 8] {
+        let d = self.store(depth);
+        [
+            number(d[0]),
+            number(d[1]),
+            number(d[2]),
+            number(d[3]),
+            number(d[4]),
+            number(d[5]),
+            number(d[6]),
+            number(d[7]),
+        ]
     }
 
     #[inline(always)]
@@ -113,23 +142,41 @@ impl<S: Simd> Lanes for Eight<S> {
     }
 
     #[inline(always)]
-    fn trunc(self, x: f32x8<S>) -> f32x8<S> {
-        x.trunc()
+    fn wrap(self, x: f32x8<S>, period: u32) -> f32x8<S> {
+        let periods = x * self.splat(1.0 / power_of_two(period));
+        (periods - periods.trunc()) * self.splat(power_of_two(period))
     }
 
     #[inline(always)]
-    fn floor(self, x: f32x8<S>) -> u32x8<S> {
-        x.floor().to_int::<i32x8<S>>().bitcast()
+    fn floor_scaled(self, x: f32x8<S>, bits: u32) -> u32x8<S> {
+        (x * self.splat(power_of_two(bits))).floor().to_int::<i32x8<S>>().bitcast()
     }
 
     #[inline(always)]
-    fn to_words(self, x: f32x8<S>) -> u32x8<S> {
-        x.to_int::<i32x8<S>>().bitcast()
+    fn round_scaled(self, x: f32x8<S>, bits: u32) -> u32x8<S> {
+        // floor(x + 1/2), without a sum that would have to be rounded.
+        let x = x * self.splat(power_of_two(bits));
+        let below = x.floor();
+        // The greatest number below one half; NaN is not above it.
+        let up = self.splat(0.5f32.next_down()).simd_lt(x - below);
+        let below: u32x8<S> = below.to_int::<i32x8<S>>().bitcast();
+        up.select(below + self.word(1), below)
+    }
+
+    #[inline(always)]
+    fn nearest_byte(self, x: f32x8<S>) -> u32x8<S> {
+        self.nearest(x, 255.0)
+    }
+
+    #[inline(always)]
+    fn of_unit(self, x: f32x8<S>, greatest: u16) -> u32x8<S> {
+        let greatest = f32::from(greatest);
+        self.nearest(x * self.splat(greatest), greatest)
     }
 
     #[inline(always)]
     fn to_numbers(self, x: u32x8<S>) -> f32x8<S> {
-        self.int_to_f32(x.bitcast())
+        self.int_to_number(x.bitcast())
     }
 
     #[inline(always)]
@@ -191,7 +238,7 @@ impl<S: Simd> Lanes for Eight<S> {
     }
 
     #[inline(always)]
-    fn int_to_f32(self, x: i32x8<S>) -> f32x8<S> {
+    fn int_to_number(self, x: i32x8<S>) -> f32x8<S> {
         x.to_float::<f32x8<S>>()
     }
 
@@ -216,7 +263,9 @@ impl<S: Simd> Lanes for Eight<S> {
     }
 
     #[inline(always)]
-    fn long_to_f32(self, x: [f64x4<S>; 2]) -> f32x8<S> {
+    fn long_to_number(self, x: [f64x4<S>; 2]) -> f32x8<S> {
         self.0.narrow_f64x4(x[0], x[1])
     }
 }
+
+impl<S: Simd> Floating for Eight<S> {}

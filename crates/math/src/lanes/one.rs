@@ -1,44 +1,140 @@
 //! One sample at a time, in the plain numbers of the machine.
 
-use super::Lanes;
+use super::{Floating, Lanes};
 use core::num::Wrapping;
 
-/// One sample at a time: the plain code of a microcontroller, and what all others must equal.
+/// One sample at a time, in `f32`: what all others must equal.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct One;
 
+/// What one lane has that does not depend on its numbers.
+macro_rules! one_lane {
+    () => {
+        const COUNT: usize = 1;
+        type U32 = Wrapping<u32>;
+        type Int = i32;
+        type Long = i64;
+        type Mask = bool;
+        type Each<T: Copy> = [T; 1];
+
+        #[inline(always)]
+        fn vectorize<R>(self, f: impl FnOnce() -> R) -> R {
+            f()
+        }
+
+        #[inline(always)]
+        fn groups<T: Copy>(slice: &mut [T]) -> (&mut [[T; 1]], &mut [T]) {
+            slice.as_chunks_mut()
+        }
+
+        #[inline(always)]
+        fn each<T: Copy>(self, mut f: impl FnMut(usize) -> T) -> [T; 1] {
+            [f(0)]
+        }
+
+        #[inline(always)]
+        fn word(self, x: u32) -> Wrapping<u32> {
+            Wrapping(x)
+        }
+
+        #[inline(always)]
+        fn copy_where(self, mask: bool, values: &[f32; 1], to: &mut [f32; 1]) {
+            if mask {
+                *to = *values;
+            }
+        }
+
+        #[inline(always)]
+        fn less_in_memory(self, a: &[f32; 1], b: &[f32; 1]) -> bool {
+            a[0] < b[0]
+        }
+
+        #[inline(always)]
+        fn load_words(self, values: &[u32; 1]) -> Wrapping<u32> {
+            Wrapping(values[0])
+        }
+
+        #[inline(always)]
+        fn store_words(self, values: Wrapping<u32>) -> [u32; 1] {
+            [values.0]
+        }
+
+        #[inline(always)]
+        fn shl(self, x: Wrapping<u32>, bits: u32) -> Wrapping<u32> {
+            Wrapping(x.0.wrapping_shl(bits))
+        }
+
+        #[inline(always)]
+        fn shr(self, x: Wrapping<u32>, bits: u32) -> Wrapping<u32> {
+            Wrapping(x.0.wrapping_shr(bits))
+        }
+
+        #[inline(always)]
+        fn shr_signed(self, x: Wrapping<u32>, bits: u32) -> Wrapping<u32> {
+            Wrapping(x.0.cast_signed().wrapping_shr(bits).cast_unsigned())
+        }
+
+        #[inline(always)]
+        fn min_words(self, a: Wrapping<u32>, b: Wrapping<u32>) -> Wrapping<u32> {
+            a.min(b)
+        }
+
+        #[inline(always)]
+        fn select(self, mask: bool, a: Self::Number, b: Self::Number) -> Self::Number {
+            if mask { a } else { b }
+        }
+
+        #[inline(always)]
+        fn select_words(self, mask: bool, a: Wrapping<u32>, b: Wrapping<u32>) -> Wrapping<u32> {
+            if mask { a } else { b }
+        }
+
+        #[inline(always)]
+        fn mask(self, bits: u32) -> bool {
+            bits & 1 != 0
+        }
+
+        #[inline(always)]
+        fn bits(self, mask: bool) -> u32 {
+            u32::from(mask)
+        }
+
+        #[inline(always)]
+        fn int_ramp(self, value: i32, _: i32) -> i32 {
+            value
+        }
+
+        #[inline(always)]
+        fn int(self, x: i32) -> i32 {
+            x
+        }
+
+        #[inline(always)]
+        fn not_negative(self, x: i32) -> bool {
+            x >= 0
+        }
+
+        #[inline(always)]
+        fn long_ramp(self, value: i64, _: i64) -> i64 {
+            value
+        }
+
+        #[inline(always)]
+        fn long_add(self, x: i64, step: i64) -> i64 {
+            x + step
+        }
+    };
+}
+pub(super) use one_lane;
+
 impl Lanes for One {
-    const COUNT: usize = 1;
-    type F32 = f32;
-    type U32 = Wrapping<u32>;
-    type Int = i32;
-    type Long = i64;
-    type Mask = bool;
-    type Each<T: Copy> = [T; 1];
-
-    #[inline(always)]
-    fn vectorize<R>(self, f: impl FnOnce() -> R) -> R {
-        f()
-    }
-
-    #[inline(always)]
-    fn split<T: Copy>(slice: &mut [T]) -> Option<(&mut [T; 1], &mut [T])> {
-        slice.split_first_chunk_mut()
-    }
-
-    #[inline(always)]
-    fn each<T: Copy>(self, mut f: impl FnMut(usize) -> T) -> [T; 1] {
-        [f(0)]
-    }
+    type Number = f32;
+    type Depth = f32;
+    one_lane!();
 
     #[inline(always)]
     fn splat(self, x: f32) -> f32 {
         x
-    }
-
-    #[inline(always)]
-    fn word(self, x: u32) -> Wrapping<u32> {
-        Wrapping(x)
     }
 
     #[inline(always)]
@@ -57,20 +153,8 @@ impl Lanes for One {
     }
 
     #[inline(always)]
-    fn store_where(self, mask: bool, values: f32, to: &mut [f32; 1]) {
-        if mask {
-            *to = [values];
-        }
-    }
-
-    #[inline(always)]
-    fn load_words(self, values: &[u32; 1]) -> Wrapping<u32> {
-        Wrapping(values[0])
-    }
-
-    #[inline(always)]
-    fn store_words(self, values: Wrapping<u32>) -> [u32; 1] {
-        [values.0]
+    fn each_depth<T: Copy>(self, depth: f32, number: impl Fn(f32) -> T, _: impl Fn(u32) -> T) -> [T; 1] {
+        [number(depth)]
     }
 
     // For finite values these are single machine instructions, which f32::min and max, having to decide about NaN, are
@@ -94,54 +178,43 @@ impl Lanes for One {
     }
 
     #[inline(always)]
-    fn trunc(self, x: f32) -> f32 {
+    fn wrap(self, x: f32, period: u32) -> f32 {
+        let periods = x / power_of_two(period);
         // From 2^23 on, and for what is no number, there is nothing to round.
         #[expect(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "below 2^23")]
-        let below = x as i32 as f32;
-        if x.abs() < 8_388_608.0 { below } else { x }
+        let below = periods as i32 as f32;
+        (periods - if periods.abs() < 8_388_608.0 { below } else { periods }) * power_of_two(period)
     }
 
     #[inline(always)]
-    fn floor(self, x: f32) -> Wrapping<u32> {
-        #[expect(clippy::cast_possible_truncation, reason = "within the documented range")]
-        let towards_zero = x as i32;
+    fn floor_scaled(self, x: f32, bits: u32) -> Wrapping<u32> {
+        Wrapping(floor(x * power_of_two(bits)))
+    }
+
+    #[inline(always)]
+    fn round_scaled(self, x: f32, bits: u32) -> Wrapping<u32> {
+        let x = x * power_of_two(bits);
+        let below = floor(x);
         #[expect(clippy::cast_precision_loss, reason = "it came from an f32")]
-        let above = towards_zero as f32 > x;
-        Wrapping(towards_zero.cast_unsigned().wrapping_sub(u32::from(above)))
+        let fraction = x - below.cast_signed() as f32;
+        Wrapping(below.wrapping_add(u32::from(fraction >= 0.5)))
     }
 
     #[inline(always)]
-    fn to_words(self, x: f32) -> Wrapping<u32> {
-        #[expect(clippy::cast_possible_truncation, reason = "within the documented range")]
-        let towards_zero = x as i32;
-        Wrapping(towards_zero.cast_unsigned())
+    fn nearest_byte(self, x: f32) -> Wrapping<u32> {
+        nearest(x, 255.0)
+    }
+
+    #[inline(always)]
+    fn of_unit(self, x: f32, greatest: u16) -> Wrapping<u32> {
+        nearest(x * f32::from(greatest), greatest.into())
     }
 
     #[inline(always)]
     fn to_numbers(self, x: Wrapping<u32>) -> f32 {
-        #[expect(clippy::cast_precision_loss, reason = "rounding to nearest is what is documented")]
+        #[expect(clippy::cast_precision_loss, reason = "from 0 to 255")]
         let number = x.0.cast_signed() as f32;
         number
-    }
-
-    #[inline(always)]
-    fn shl(self, x: Wrapping<u32>, bits: u32) -> Wrapping<u32> {
-        Wrapping(x.0.wrapping_shl(bits))
-    }
-
-    #[inline(always)]
-    fn shr(self, x: Wrapping<u32>, bits: u32) -> Wrapping<u32> {
-        Wrapping(x.0.wrapping_shr(bits))
-    }
-
-    #[inline(always)]
-    fn shr_signed(self, x: Wrapping<u32>, bits: u32) -> Wrapping<u32> {
-        Wrapping(x.0.cast_signed().wrapping_shr(bits).cast_unsigned())
-    }
-
-    #[inline(always)]
-    fn min_words(self, a: Wrapping<u32>, b: Wrapping<u32>) -> Wrapping<u32> {
-        a.min(b)
     }
 
     #[inline(always)]
@@ -150,59 +223,41 @@ impl Lanes for One {
     }
 
     #[inline(always)]
-    fn select(self, mask: bool, a: f32, b: f32) -> f32 {
-        if mask { a } else { b }
-    }
-
-    #[inline(always)]
-    fn select_words(self, mask: bool, a: Wrapping<u32>, b: Wrapping<u32>) -> Wrapping<u32> {
-        if mask { a } else { b }
-    }
-
-    #[inline(always)]
-    fn mask(self, bits: u32) -> bool {
-        bits & 1 != 0
-    }
-
-    #[inline(always)]
-    fn bits(self, mask: bool) -> u32 {
-        u32::from(mask)
-    }
-
-    #[inline(always)]
-    fn int_ramp(self, value: i32, _: i32) -> i32 {
-        value
-    }
-
-    #[inline(always)]
-    fn int(self, x: i32) -> i32 {
-        x
-    }
-
-    #[inline(always)]
     #[expect(clippy::cast_precision_loss, reason = "rounding to nearest is what is documented")]
-    fn int_to_f32(self, x: i32) -> f32 {
+    fn int_to_number(self, x: i32) -> f32 {
         x as f32
     }
 
     #[inline(always)]
-    fn not_negative(self, x: i32) -> bool {
-        x >= 0
-    }
-
-    #[inline(always)]
-    fn long_ramp(self, value: i64, _: i64) -> i64 {
-        value
-    }
-
-    #[inline(always)]
-    fn long_add(self, x: i64, step: i64) -> i64 {
-        x + step
-    }
-
-    #[inline(always)]
     #[expect(clippy::cast_precision_loss, reason = "rounding to nearest is what is documented")]
-    fn long_to_f32(self, x: i64) -> f32 {
+    fn long_to_number(self, x: i64) -> f32 {
         x as f32
     }
+}
+
+impl Floating for One {}
+
+/// 2^`exponent`, for exponents below 128.
+#[inline(always)]
+pub(super) const fn power_of_two(exponent: u32) -> f32 {
+    f32::from_bits(127_u32.wrapping_add(exponent) << 23)
+}
+
+/// The nearest integer from 0 to `greatest`.
+#[inline(always)]
+fn nearest(x: f32, greatest: f32) -> Wrapping<u32> {
+    let rounded = One.min(One.max(x + 0.5, 0.0), greatest);
+    #[expect(clippy::cast_possible_truncation, reason = "from 0 to 65535")]
+    let towards_zero = rounded as i32;
+    Wrapping(towards_zero.cast_unsigned())
+}
+
+/// Rounded down, in two's complement.
+#[inline(always)]
+fn floor(x: f32) -> u32 {
+    #[expect(clippy::cast_possible_truncation, reason = "within the documented range")]
+    let towards_zero = x as i32;
+    #[expect(clippy::cast_precision_loss, reason = "it came from an f32")]
+    let above = towards_zero as f32 > x;
+    towards_zero.cast_unsigned().wrapping_sub(u32::from(above))
 }

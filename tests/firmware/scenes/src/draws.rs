@@ -3,20 +3,69 @@
 use crate::shapes::{Model, Vertex};
 use crate::{Camera, PIXELS, Target, WIDTH};
 use alberti::glam::{Vec2, Vec3};
-use alberti::shaders::{Flat, Unlit, VertexColor};
+use alberti::shaders::{Solid, Stored, VertexColor565};
 use alberti::texture::{Nearest, Repeat};
 use alberti::{
-    Band, Counters, Cull, D16, Exact, FragmentStage, NoDepth, Object, Pass, Point3, Rgb565Le, Rgba8, Sides,
-    Slot, Sub4, VertexStage, View, draw,
+    Affine, Band, Counters, Cull, D16, Exact, FixedPoint, FragmentStage, Interpolation, NoDepth, Object,
+    Pass, Point3, Rgb565Le, Rgba8, Sides, Slot, Spans, Sub4, VertexStage, View, draw,
 };
 
-/// One colour for all, with depth.
-pub fn flat<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
-    let pass = pass(camera, model, |v: &Vertex| (place(v), ()), Flat(ORANGE));
+/// Defines ways of drawing: a pass of its own for each, into colour and depth.
+macro_rules! draws {
+    ($($(#[$doc:meta])* $name:ident($model:ident): $interpolation:expr, $vertex_stage:expr, $fragment_stage:expr;)*) => {$(
+        $(#[$doc])*
+        pub fn $name<K: Counters>(target: &mut Target, camera: &Camera, $model: &Model, counters: &mut K) {
+            let pass = pass(camera, $model, $interpolation, $vertex_stage, $fragment_stage);
+            let Ok(mut band) = Band::<Rgb565Le, D16>::new(WIDTH, 0, &mut target.color, &mut target.depth) else {
+                return;
+            };
+            draw(&pass, &mut band, &mut [Slot::<Sub4, _>::EMPTY; 0], counters);
+        }
+    )*};
+}
+
+draws! {
+    /// One colour for all.
+    flat(model): Exact, |v: &Vertex| (place(v), ()), Solid(ORANGE);
+
+    /// The vertices' colours, in perspective.
+    gouraud(model): Exact, colored, VertexColor565;
+
+    /// One colour for all, in fixed point.
+    flat_fixed(model): FixedPoint(Affine), |v: &Vertex| (place(v), ()), Solid(ORANGE);
+
+    /// The vertices' colours without perspective, in fixed point.
+    gouraud_fixed(model): FixedPoint(Affine), colored, VertexColor565;
+
+    /// The nearest texel without perspective, in fixed point.
+    affine_fixed(model): FixedPoint(Affine), mapped, Stored(model.texture.sampler::<Nearest, Repeat>());
+}
+
+/// The nearest texel, in perspective, with depth. Each vertex has a slot of its own.
+pub fn textured<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    textured_by(Exact, target, camera, model, counters);
+}
+
+/// The same in fixed point, divided every 16 columns.
+pub fn textured_fixed<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    textured_by(FixedPoint(Spans::<16>), target, camera, model, counters);
+}
+
+#[inline]
+fn textured_by<P: Interpolation, K: Counters>(
+    interpolation: P,
+    target: &mut Target,
+    camera: &Camera,
+    model: &Model,
+    counters: &mut K,
+) {
+    let sampler = model.texture.sampler::<Nearest, Repeat>();
+    let pass = pass(camera, model, interpolation, mapped, Stored(sampler));
     let Ok(mut band) = Band::<Rgb565Le, D16>::new(WIDTH, 0, &mut target.color, &mut target.depth) else {
         return;
     };
-    draw(&pass, &mut band, &mut [Slot::<Sub4, _>::EMPTY; 0], counters);
+    let slots = target.slots.get_mut(..model.vertices.len()).unwrap_or_default();
+    draw(&pass, &mut band, slots, counters);
 }
 
 /// One colour for all, without depth: later triangles cover earlier ones.
@@ -26,7 +75,7 @@ pub fn flat_without_depth<K: Counters>(
     model: &Model,
     counters: &mut K,
 ) {
-    let pass = pass(camera, model, |v: &Vertex| (place(v), ()), Flat(ORANGE));
+    let pass = pass(camera, model, Exact, |v: &Vertex| (place(v), ()), Solid(ORANGE));
     let mut nothing = [(); PIXELS];
     let Ok(mut band) = Band::<Rgb565Le, NoDepth>::new(WIDTH, 0, &mut target.color, &mut nothing) else {
         return;
@@ -34,36 +83,17 @@ pub fn flat_without_depth<K: Counters>(
     draw(&pass, &mut band, &mut [Slot::<Sub4, _>::EMPTY; 0], counters);
 }
 
-/// The vertices' colours, in perspective, with depth.
-pub fn gouraud<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
-    let pass = pass(camera, model, |v: &Vertex| (place(v), Vec3::from_array(v.color)), VertexColor);
-    let Ok(mut band) = Band::<Rgb565Le, D16>::new(WIDTH, 0, &mut target.color, &mut target.depth) else {
-        return;
-    };
-    draw(&pass, &mut band, &mut [Slot::<Sub4, _>::EMPTY; 0], counters);
-}
-
-/// The nearest texel, in perspective, with depth. Each vertex has a slot of its own.
-pub fn textured<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
-    let vertex_stage = |v: &Vertex| (place(v), Vec2::from_array(v.uv));
-    let pass = pass(camera, model, vertex_stage, Unlit(model.texture.sampler::<Nearest, Repeat>()));
-    let Ok(mut band) = Band::<Rgb565Le, D16>::new(WIDTH, 0, &mut target.color, &mut target.depth) else {
-        return;
-    };
-    let slots = target.slots.get_mut(..model.vertices.len()).unwrap_or_default();
-    draw(&pass, &mut band, slots, counters);
-}
-
 const ORANGE: Rgba8 = Rgba8::new(230, 130, 40, 255);
 
 /// What all ways have in common.
 #[inline]
-fn pass<Vs: VertexStage<Vertex>, Fs: FragmentStage<Vs::Varying>>(
+fn pass<P: Interpolation, Vs: VertexStage<Vertex>, Fs: FragmentStage<Vs::Varying>>(
     camera: &Camera,
     model: &Model,
+    interpolation: P,
     vertex_stage: Vs,
     fragment_stage: Fs,
-) -> Pass<'static, Vertex, u16, Vs, Fs> {
+) -> Pass<'static, Vertex, u16, Vs, Fs, P> {
     Pass {
         view: View { to_eye: model.to_eye, perspective: camera.perspective, viewport: camera.viewport },
         vertices: model.vertices,
@@ -72,10 +102,18 @@ fn pass<Vs: VertexStage<Vertex>, Fs: FragmentStage<Vs::Varying>>(
         fragment_stage,
         cull: Cull::Back,
         sides: Sides::GuardBand,
-        interpolation: Exact,
+        interpolation,
     }
 }
 
 fn place(vertex: &Vertex) -> Point3<Object> {
     Point3::new(Vec3::from_array(vertex.position))
+}
+
+fn colored(vertex: &Vertex) -> (Point3<Object>, Vec3) {
+    (place(vertex), Vec3::from_array(vertex.color))
+}
+
+fn mapped(vertex: &Vertex) -> (Point3<Object>, Vec2) {
+    (place(vertex), Vec2::from_array(vertex.uv))
 }

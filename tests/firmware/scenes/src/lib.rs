@@ -9,7 +9,9 @@
 mod draws;
 pub mod shapes;
 
-pub use draws::{flat, flat_without_depth, gouraud, textured};
+pub use draws::{
+    affine_fixed, flat, flat_fixed, flat_without_depth, gouraud, gouraud_fixed, textured, textured_fixed,
+};
 pub use shapes::PROBE;
 
 use alberti::glam::Vec2;
@@ -39,20 +41,42 @@ pub struct Scene {
     pub count: Draw<Stats>,
 }
 
+macro_rules! scene {
+    ($name:literal, $model:expr, $draw:ident) => {
+        Scene { name: $name, model: $model, draw: $draw, count: $draw }
+    };
+}
+
+macro_rules! fill {
+    ($name:literal, $layers:literal, $draw:ident) => {
+        scene!($name, layers($layers), $draw)
+    };
+}
+
 /// All scenes.
 ///
 /// In the fills every layer is nearer than those before it and covers the frame, so each writes every pixel.
 pub static SCENES: &[Scene] = &[
-    Scene { name: "flat", model: layers(1), draw: flat, count: flat },
-    Scene { name: "flat-4", model: layers(4), draw: flat, count: flat },
-    Scene { name: "flat-no-depth", model: layers(1), draw: flat_without_depth, count: flat_without_depth },
-    Scene { name: "flat-no-depth-4", model: layers(4), draw: flat_without_depth, count: flat_without_depth },
-    Scene { name: "gouraud", model: layers(1), draw: gouraud, count: gouraud },
-    Scene { name: "gouraud-4", model: layers(4), draw: gouraud, count: gouraud },
-    Scene { name: "textured", model: layers(1), draw: textured, count: textured },
-    Scene { name: "textured-4", model: layers(4), draw: textured, count: textured },
-    Scene { name: "mesh", model: torus(1.0), draw: textured, count: textured },
-    Scene { name: "mesh-eighth", model: torus(0.125), draw: textured, count: textured },
+    fill!("flat", 1, flat),
+    fill!("flat-4", 4, flat),
+    fill!("flat-no-depth", 1, flat_without_depth),
+    fill!("flat-no-depth-4", 4, flat_without_depth),
+    fill!("gouraud", 1, gouraud),
+    fill!("gouraud-4", 4, gouraud),
+    fill!("textured", 1, textured),
+    fill!("textured-4", 4, textured),
+    scene!("mesh", torus(1.0), textured),
+    scene!("mesh-eighth", torus(0.125), textured),
+    fill!("fixed-flat", 1, flat_fixed),
+    fill!("fixed-flat-4", 4, flat_fixed),
+    fill!("fixed-gouraud", 1, gouraud_fixed),
+    fill!("fixed-gouraud-4", 4, gouraud_fixed),
+    fill!("fixed-affine", 1, affine_fixed),
+    fill!("fixed-affine-4", 4, affine_fixed),
+    fill!("fixed-textured", 1, textured_fixed),
+    fill!("fixed-textured-4", 4, textured_fixed),
+    scene!("fixed-mesh", torus(1.0), textured_fixed),
+    scene!("fixed-mesh-eighth", torus(0.125), textured_fixed),
 ];
 
 /// What all scenes are seen through.

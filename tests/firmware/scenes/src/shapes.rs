@@ -5,7 +5,7 @@
 
 use crate::{HEIGHT, WIDTH};
 use alberti::glam::{Mat3, Vec3};
-use alberti::texture::{Texture, format::Rgb565};
+use alberti::texture::{PowerOfTwo, Texture, format::Rgb565};
 use alberti::{Eye, Frame, Object, Point3};
 
 /// Width by height of the frame.
@@ -37,7 +37,7 @@ pub struct Model {
     /// Where the mesh stands.
     pub to_eye: Frame<Object, Eye>,
     /// What it wears where it is textured.
-    pub texture: Texture<'static, Rgb565>,
+    pub texture: Texture<'static, Rgb565, PowerOfTwo>,
 }
 
 /// So many tilted quads over the whole frame and a quarter beyond, each nearer than those before it.
@@ -70,11 +70,12 @@ pub const fn torus(size: f32) -> Model {
 /// What the programs draw whose size alone is of interest: one quad with four texels.
 pub static PROBE: Model = Model { texture: texture(&[0xf800, 0x07e0, 0x001f, 0xffff], 2), ..layers(1) };
 
-const fn texture(texels: &'static [u16], side: u32) -> Texture<'static, Rgb565> {
-    match Texture::new(texels, side, side) {
-        Ok(texture) => texture,
-        Err(_) => panic!("the texels are a square of this side"),
-    }
+const fn texture(texels: &'static [u16], side: u32) -> Texture<'static, Rgb565, PowerOfTwo> {
+    let Ok(texture) = Texture::new(texels, side, side) else {
+        panic!("the texels are a square of this side")
+    };
+    let Some(texture) = texture.power_of_two() else { panic!("the side is a power of two") };
+    texture
 }
 
 /// The most layers that there are.

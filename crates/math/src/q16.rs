@@ -1,0 +1,169 @@
+//! Numbers in fixed point: integers that count 65536ths.
+
+use core::fmt;
+use core::ops::{Add, Div, Mul, Sub};
+
+/// A number from -32768 to 32768 in steps of 2^-16, for machines without floating point.
+///
+/// # Precision
+/// Sums and differences are exact while they fit and wrap when they do not; products are rounded to the nearest step, halves
+/// up; quotients towards zero, and are 0 for a divisor of 0. Numbers from outside of the range become the nearest in it.
+#[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Q16(i32);
+
+impl Q16 {
+    /// 0.
+    pub const ZERO: Self = Self(0);
+    /// 1.
+    pub const ONE: Self = Self(1 << 16);
+
+    /// So many 65536ths.
+    #[must_use]
+    #[inline(always)]
+    pub const fn from_bits(bits: i32) -> Self {
+        Self(bits)
+    }
+
+    /// The number of 65536ths.
+    #[must_use]
+    #[inline(always)]
+    pub const fn to_bits(self) -> i32 {
+        self.0
+    }
+
+    /// The nearest to `x`, halves away from 0; NaN is 0.
+    ///
+    /// # Cost
+    /// About fifteen integer instructions, no floating point.
+    #[must_use]
+    #[inline]
+    pub const fn from_f32(x: f32) -> Self {
+        Self(scaled(x, 16))
+    }
+
+    /// The nearest `f32`: exact for numbers in (-256, 256).
+    #[must_use]
+    #[inline]
+    #[expect(clippy::cast_precision_loss, reason = "rounding to nearest is what is documented")]
+    pub const fn to_f32(self) -> f32 {
+        self.0 as f32 * (1.0 / 65536.0)
+    }
+}
+
+/// x·2^`bits` to the nearest integer, halves away from 0; the nearest `i32` from outside, 0 for NaN.
+///
+/// # Cost
+/// About fifteen integer instructions, no floating point.
+#[must_use]
+#[inline]
+pub const fn scaled(x: f32, bits: i32) -> i32 {
+    let word = x.to_bits();
+    let exponent = (word >> 23 & 0xff).cast_signed();
+    // x·2^bits = mantissa·2^-shift, the mantissa's highest bit being 2^31 but in a subnormal.
+    let [mantissa, exponent] = if exponent == 0 {
+        [word << 8 & i32::MAX as u32, 1]
+    } else {
+        [word << 8 | 1 << 31, exponent.cast_unsigned()]
+    };
+    let shift = 158 - bits - exponent.cast_signed();
+    let magnitude = if shift > 32 {
+        0
+    } else if shift > 0 {
+        // Half a unit to the last bit that goes; with a shift of 32 that bit is the highest.
+        let kept = if shift == 32 { 0 } else { mantissa >> shift };
+        kept + (mantissa >> (shift - 1) & 1)
+    } else if word << 1 > 0xff00_0000 {
+        0
+    } else {
+        u32::MAX
+    };
+    match (magnitude > i32::MAX as u32, word >> 31 != 0) {
+        (true, false) => i32::MAX,
+        (true, true) => i32::MIN,
+        (false, negative) => {
+            let magnitude = magnitude.cast_signed();
+            if negative { -magnitude } else { magnitude }
+        }
+    }
+}
+
+impl Add for Q16 {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self(self.0.wrapping_add(other.0))
+    }
+}
+
+impl Sub for Q16 {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self(self.0.wrapping_sub(other.0))
+    }
+}
+
+impl Mul for Q16 {
+    type Output = Self;
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "wraps, as documented for what does not fit")]
+    fn mul(self, other: Self) -> Self {
+        Self(((i64::from(self.0) * i64::from(other.0) + (1 << 15)) >> 16) as i32)
+    }
+}
+
+impl Div for Q16 {
+    type Output = Self;
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "clamped before")]
+    #[expect(clippy::suspicious_arithmetic_impl, reason = "the scale of a quotient of scaled numbers")]
+    fn div(self, other: Self) -> Self {
+        let quotient = (i64::from(self.0) << 16).checked_div(i64::from(other.0)).unwrap_or(0);
+        Self(quotient.clamp(i32::MIN.into(), i32::MAX.into()) as i32)
+    }
+}
+
+impl fmt::Debug for Q16 {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/65536", self.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// In `f64`, where scaling by a power of two is exact, and `round` goes away from 0.
+    #[test]
+    #[expect(clippy::cast_possible_truncation, reason = "saturation is the documented result")]
+    fn floats_become_the_nearest_integers() {
+        for bits in (0..=u32::MAX).step_by(1009).chain([0x7f80_0000, 0xff80_0000, 0x7fc0_0000, 0xffc0_0000]) {
+            let x = f32::from_bits(bits);
+            for scale in [-130, -20, 0, 1, 16, 30, 31, 100, 179] {
+                let expected = (f64::from(x) * 2f64.powi(scale)).round() as i32;
+                assert_eq!(scaled(x, scale), expected, "{x:e} by 2^{scale}");
+            }
+        }
+        for halves in -2000..2000i16 {
+            let x = f32::from(halves) / 131_072.0;
+            assert_eq!(i64::from(Q16::from_f32(x).to_bits()), (f64::from(halves) / 2.0).round() as i64);
+        }
+    }
+
+    #[test]
+    fn arithmetic_is_that_of_rationals_rounded() {
+        let numbers = [0, 1, -1, 5, 65536, -65536, 98_304, 1_000_003, -77_777_777, i32::MAX, i32::MIN];
+        for a in numbers {
+            for b in numbers {
+                let (x, y) = (Q16::from_bits(a), Q16::from_bits(b));
+                let (a, b) = (i128::from(a), i128::from(b));
+                let product = (a * b * 2 + 65536).div_euclid(131_072);
+                if let Ok(fits) = i32::try_from(product) {
+                    assert_eq!((x * y).to_bits(), fits);
+                }
+                let quotient = if b == 0 { 0 } else { a * 65536 / b };
+                assert_eq!(i128::from((x / y).to_bits()), quotient.clamp(i32::MIN.into(), i32::MAX.into()));
+            }
+        }
+    }
+}

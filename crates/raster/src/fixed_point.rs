@@ -1,0 +1,279 @@
+//! Lines in fixed point: integers only, from the vertices' numbers to the pixel.
+
+use crate::depth::DepthFormat;
+use crate::edge::EdgeInt;
+use crate::interpolation::{Interpolation, Oriented};
+use crate::lines::{LONGEST, LineTriangle, Lines, Numbers, Run, Subdivision};
+use alberti_math::lanes::{Floating, OneFixed};
+use alberti_math::{Mode, Q16, Subpixel, Varying, reciprocal, scaled};
+use core::cell::Cell;
+use core::fmt;
+
+/// The policy `P`, which is one of straight lines, in fixed point: for machines without floating point. One sample at a
+/// time, with as many additions as there are numbers; the same bits on every machine.
+///
+/// # Precision
+/// For components in ±16384, and r the greatest ratio of q in the triangle up to 2^20: the bound of `P`, and
+/// (N + 3)·2^-16 + |Δu|·(2^-17 + r·2^-30) with N the columns of a run and Δu the greatest difference between two vertices.
+/// What is beyond ±16384 counts as that. Depth has 31 bits, of which N/2 + 4 units may be wrong, and is rounded to the
+/// buffer's format.
+///
+/// # Cost
+/// A fragment: an addition for the depth and one for each component. A run: four products of 32 bits to 64 for the weights
+/// at each end, six with perspective, and three for each number. A triangle: about fifteen instructions for each number of
+/// each vertex, which comes as `f32`, and a table instead of a division.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FixedPoint<P>(
+    /// How rows are divided.
+    pub P,
+);
+
+impl<P: Subdivision> Interpolation for FixedPoint<P> {
+    type Lanes<L: Floating> = OneFixed;
+    type Triangle<L: Floating, V: Varying> = LineTriangle<P, FixedLines<V>>;
+    const RUN: i32 = P::RUN;
+
+    #[inline(always)]
+    fn lanes<L: Floating>(_: L) -> OneFixed {
+        OneFixed
+    }
+
+    #[inline(always)]
+    fn prepare<L: Floating, S: Subpixel, D: DepthFormat, V: Varying>(
+        self,
+        _: L,
+        triangle: &Oriented<'_, S, V>,
+    ) -> LineTriangle<P, FixedLines<V>> {
+        LineTriangle { policy: self.0, numbers: FixedLines::new::<S, D>(triangle) }
+    }
+}
+
+/// Bits of the fraction of weights.
+const WEIGHT: u32 = 30;
+
+/// What does not get near the ends of `i32` when two of it are subtracted.
+const LIMIT: i32 = (1 << 30) - 1;
+
+/// A number of the three vertices: at the first, and what the others have more.
+#[derive(Clone, Copy)]
+struct Corner {
+    first: i32,
+    more: [i32; 2],
+    least: i32,
+    greatest: i32,
+}
+
+impl Corner {
+    /// Numbers whose differences fit.
+    #[inline(always)]
+    fn new([a, b, c]: [i32; 3]) -> Self {
+        Self { first: a, more: [b - a, c - a], least: a.min(b).min(c), greatest: a.max(b).max(c) }
+    }
+
+    /// Where the others have these weights, to the nearest and within the range of the three.
+    #[inline(always)]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "within the range of the three but for the last bits"
+    )]
+    fn at(&self, [b, c]: [i32; 2]) -> i32 {
+        let sum = i64::from(self.more[0]) * i64::from(b) + i64::from(self.more[1]) * i64::from(c);
+        let value = self.first.wrapping_add(((sum + (1 << (WEIGHT - 1))) >> WEIGHT) as i32);
+        value.max(self.least).min(self.greatest)
+    }
+}
+
+/// What is interpolated over a triangle, in integers.
+#[derive(Clone, Copy)]
+pub struct FixedLines<V: Varying> {
+    /// Edge functions without their last bits, of which this is the number, are below 2^32.
+    dropped: u32,
+    /// So many bits bring the area to 2^31 or more, and this is 2^63 over that.
+    normalizing: u32,
+    per_area: u32,
+    /// The three q, the greatest from 2^30 to 2^31.
+    q: [u32; 3],
+    zs: Corner,
+    components: V::Of<Corner>,
+}
+
+impl<V: Varying> FixedLines<V> {
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive and below 2^32")]
+    fn new<S: Subpixel, D: DepthFormat>(triangle: &Oriented<'_, S, V>) -> Self {
+        let bits = 64 - triangle.doubled_area.leading_zeros();
+        let dropped = bits.saturating_sub(32);
+        let area = (triangle.doubled_area >> dropped) as u32;
+        let normalizing = area.leading_zeros();
+
+        let [a, b, c] = triangle.vertices;
+        // Positive floats are ordered as their words are. The greatest comes to lie from 2^30 to 2^31.
+        let greatest = a.q.to_bits().max(b.q.to_bits()).max(c.q.to_bits()) >> 23;
+        let q = |q: f32| scaled(q, 127 + 30 - greatest.cast_signed()).max(1).unsigned_abs();
+        Self {
+            dropped,
+            normalizing,
+            per_area: reciprocal::<2>(area << normalizing),
+            q: [q(a.q), q(b.q), q(c.q)],
+            zs: Corner::new([depth::<D>(a.zs), depth::<D>(b.zs), depth::<D>(c.zs)]),
+            components: V::map_by_mode(&triangle.values(), &|mode, [a, b, c, first]: [f32; 4]| {
+                let q16 = |x: f32| scaled(x, 16).clamp(-LIMIT, LIMIT);
+                if mode == Mode::Flat {
+                    Corner::new([q16(first); 3])
+                } else {
+                    Corner::new([q16(a), q16(b), q16(c)])
+                }
+            }),
+        }
+    }
+}
+
+/// `zs` in the unit in which it is interpolated: the last of a format's bits is worth 2^(31 - bits), and half of that is added
+/// for rounding.
+#[inline(always)]
+fn depth<D: DepthFormat>(zs: f32) -> i32 {
+    let fraction = scaled(zs, 31).max(0);
+    if D::BITS < 31 { fraction - (fraction >> D::BITS) + (1 << (30 - D::BITS)) } else { fraction }
+}
+
+/// A sample at which all is known.
+#[derive(Clone, Copy, Debug)]
+pub struct FixedEnd {
+    /// The weights of the second and the third vertex, for what is linear on the screen, and for what is so in space.
+    screen: [i32; 2],
+    space: [i32; 2],
+    /// Proportional to q.
+    q: u64,
+}
+
+impl FixedEnd {
+    #[inline(always)]
+    fn of(&self, mode: Mode, corner: &Corner) -> i32 {
+        corner.at(if mode == Mode::Hyperbolic { self.space } else { self.screen })
+    }
+}
+
+/// `part` over a whole that `normalizing` bits bring to 2^31 or more, and over which 2^63 is `per_whole` then; as a weight.
+#[inline(always)]
+fn weight(part: u32, normalizing: u32, per_whole: u32) -> i32 {
+    ((u64::from(part << normalizing) * u64::from(per_whole)) >> (63 - WEIGHT)) as i32
+}
+
+impl<V: Varying> Numbers for FixedLines<V> {
+    type End = FixedEnd;
+
+    #[inline(always)]
+    fn end<I: EdgeInt, const HYPERBOLIC: bool>(&self, edges: [I; 3]) -> FixedEnd {
+        let [a, b, c] = [
+            edges[0].without_last(self.dropped),
+            edges[1].without_last(self.dropped),
+            edges[2].without_last(self.dropped),
+        ];
+        let part = |e: u32| weight(e, self.normalizing, self.per_area);
+        let screen = [part(b), part(c)];
+        if !HYPERBOLIC {
+            return FixedEnd { screen, space: screen, q: 1 };
+        }
+        // All three together are not more than the area times the greatest q.
+        let times = |e: u32, q: u32| u64::from(e) * u64::from(q);
+        let [a, b, c] = [times(a, self.q[0]), times(b, self.q[1]), times(c, self.q[2])];
+        let q = a + b + c;
+        let normalizing = q.leading_zeros() & 63;
+        let high = |x: u64| ((x << normalizing) >> 32) as u32;
+        let per_q = reciprocal::<1>(high(q) | 1 << 31);
+        FixedEnd { screen, space: [weight(high(b), 0, per_q), weight(high(c), 0, per_q)], q }
+    }
+
+    #[inline(always)]
+    fn within(&self, [from, to]: &[FixedEnd; 2], budget: f32) -> bool {
+        // Of both the same bits, the highest one that is set being 2^30, and all else rounded towards what is missed.
+        let normalizing = (from.q | to.q).leading_zeros() & 63;
+        let [q0, q1] = [(from.q << normalizing) >> 33, (to.q << normalizing) >> 33];
+        let apart = q0.abs_diff(q1) + 1;
+        let budget = u64::from(scaled(budget, 16).clamp(0, LIMIT / 2).unsigned_abs());
+        let limit = budget * (q0.max(q1) + 3 * q0.min(q1));
+        let within = Cell::new(true);
+        let _ = V::map_by_mode(&self.components, &|mode, corner: Corner| {
+            let more = to.of(mode, &corner).abs_diff(from.of(mode, &corner));
+            within.set(within.get() & (mode != Mode::Hyperbolic || u64::from(more) * apart <= limit));
+        });
+        within.get()
+    }
+}
+
+/// Numbers at a sample, and what the next has more.
+#[derive(Clone, Copy)]
+pub struct FixedCursor<V: Varying> {
+    zs: [i32; 2],
+    components: V::Of<[i32; 2]>,
+}
+
+/// 2^32 / k, rounded down, and for 1 the greatest.
+#[expect(clippy::cast_possible_truncation, reason = "from 2 on, quotients fit")]
+static PER_COLUMN: [u32; LONGEST as usize + 1] = {
+    let mut table = [u32::MAX; LONGEST as usize + 1];
+    let mut k = 2;
+    while k < table.len() {
+        table[k] = ((1_u64 << 32) / k as u64) as u32;
+        k += 1;
+    }
+    table
+};
+
+impl<V: Varying> Lines<OneFixed, V> for FixedLines<V> {
+    type Cursor = FixedCursor<V>;
+
+    #[inline(always)]
+    fn line(&self, run: &Run<FixedEnd>, column: i32, _: i32) -> FixedCursor<V> {
+        let ([first, last], [from, to]) = (run.columns, run.ends);
+        let per_column = PER_COLUMN.get((last - first).unsigned_abs() as usize).copied().unwrap_or(0);
+        let along = column - first;
+        let number = |mode, corner: Corner| {
+            let [start, end] = [from.of(mode, &corner), to.of(mode, &corner)];
+            let more = i64::from(end.wrapping_sub(start));
+            // Towards zero, so that no step leads beyond the end.
+            let step = ((more * i64::from(per_column)) >> 32) as i32 + i32::from(more < 0);
+            [start.wrapping_add(step.wrapping_mul(along)), step]
+        };
+        FixedCursor {
+            zs: number(Mode::Linear, self.zs),
+            components: V::map_by_mode(&self.components, &|mode, corner: Corner| match mode {
+                Mode::Hyperbolic | Mode::Linear => number(mode, corner),
+                Mode::Flat => [corner.first, 0],
+            }),
+        }
+    }
+
+    #[inline(always)]
+    fn advance(&self, FixedCursor { zs, components }: FixedCursor<V>) -> FixedCursor<V> {
+        let next = |[value, step]: [i32; 2]| [value.wrapping_add(step), step];
+        FixedCursor {
+            zs: next(zs),
+            components: V::map_by_mode(&components, &|mode, number: [i32; 2]| {
+                if mode == Mode::Flat { number } else { next(number) }
+            }),
+        }
+    }
+
+    #[inline(always)]
+    fn depth(&self, cursor: &FixedCursor<V>) -> u32 {
+        cursor.zs[0].cast_unsigned()
+    }
+
+    #[inline(always)]
+    fn attributes(&self, cursor: &FixedCursor<V>) -> V::Of<Q16> {
+        V::map(&cursor.components, &|[value, _]: [i32; 2]| Q16::from_bits(value))
+    }
+}
+
+impl<V: Varying> fmt::Debug for FixedLines<V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("FixedLines").finish_non_exhaustive()
+    }
+}
+
+impl<V: Varying> fmt::Debug for FixedCursor<V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("FixedCursor").finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,209 @@
+//! Interpolation by straight lines along runs of a row's samples: the policies say how long a run is and whether its ends
+//! are corrected for perspective, the numbers are `f32` or fixed point.
+//!
+//! ```text
+//!   u |        .*          * right, at the ends of runs: u = Σ Ei qi ui / Σ Ei qi
+//!     |    .'  |           . the line between
+//!     |  *'    |
+//!     +--+-----+-------> column
+//!      first  last
+//! ```
+
+use crate::edge::EdgeInt;
+use crate::interpolation::{Interpolate, Row};
+use alberti_math::Varying;
+use alberti_math::lanes::Lanes;
+use core::fmt::Debug;
+
+/// A policy that divides rows into runs.
+pub trait Subdivision: Copy + Debug + 'static {
+    /// Whether the ends are corrected for perspective.
+    const HYPERBOLIC: bool;
+    /// The length of all runs, or 1 if there is none such, see [`Interpolation::RUN`](crate::Interpolation::RUN).
+    const RUN: i32;
+
+    /// The run that a covered column is in.
+    fn run<I: EdgeInt, N: Numbers>(&self, numbers: &N, row: &Row<'_, I>, column: i32) -> Run<N::End>;
+}
+
+/// A run of a row's samples.
+#[derive(Clone, Copy, Debug)]
+pub struct Run<E> {
+    /// The columns of its first sample and of the next run's first, or the row's last.
+    pub columns: [i32; 2],
+    /// What is known there.
+    pub ends: [E; 2],
+    /// The column that follows it.
+    pub next: i32,
+}
+
+/// What is linear or hyperbolic over a triangle, in some kind of numbers.
+pub trait Numbers {
+    /// What is known at an end of a run.
+    type End: Copy;
+
+    /// At a sample in the triangle with these edge functions.
+    fn end<I: EdgeInt, const HYPERBOLIC: bool>(&self, edges: [I; 3]) -> Self::End;
+
+    /// Whether a straight line between two ends misses no component by more than so much.
+    fn within(&self, ends: &[Self::End; 2], budget: f32) -> bool;
+}
+
+/// The same for several lanes, with what is needed at each sample.
+pub trait Lines<L: Lanes, V: Varying>: Numbers {
+    /// What is known of a group of samples.
+    type Cursor: Copy;
+
+    /// The line along a run, at the samples from the column `left` on, of which `column` is the first to be drawn.
+    fn line(&self, run: &Run<Self::End>, column: i32, left: i32) -> Self::Cursor;
+
+    /// The samples after those.
+    fn advance(&self, cursor: Self::Cursor) -> Self::Cursor;
+
+    /// The screen depth at each.
+    fn depth(&self, cursor: &Self::Cursor) -> L::Depth;
+
+    /// The attributes at each.
+    fn attributes(&self, cursor: &Self::Cursor) -> V::Of<L::Number>;
+}
+
+/// A triangle prepared for straight lines, divided by the policy `P`, in the numbers `N`.
+#[derive(Clone, Copy, Debug)]
+pub struct LineTriangle<P, N> {
+    pub(crate) policy: P,
+    pub(crate) numbers: N,
+}
+
+impl<P: Subdivision, L: Lanes, V: Varying, N: Lines<L, V>> Interpolate<L, V> for LineTriangle<P, N> {
+    type Cursor = N::Cursor;
+
+    #[inline(always)]
+    fn start<I: EdgeInt>(&self, row: &Row<'_, I>, column: i32, left: i32) -> (N::Cursor, i32) {
+        let run = self.policy.run(&self.numbers, row, column);
+        (self.numbers.line(&run, column, left), run.next)
+    }
+
+    #[inline(always)]
+    fn advance(&self, cursor: N::Cursor) -> N::Cursor {
+        self.numbers.advance(cursor)
+    }
+
+    #[inline(always)]
+    fn depth(&self, cursor: &N::Cursor, _: &[L::Number; 3]) -> L::Depth {
+        self.numbers.depth(cursor)
+    }
+
+    #[inline(always)]
+    fn attributes(&self, cursor: &N::Cursor, _: &[L::Number; 3]) -> V::Of<L::Number> {
+        self.numbers.attributes(cursor)
+    }
+}
+
+/// The columns of the longest run.
+pub(crate) const LONGEST: i32 = 64;
+
+/// Exact at a row's first and last sample and at every column that is a multiple of `N`, a power of two up to 64; linear
+/// between two of those.
+///
+/// # Precision
+/// With r >= 1 the ratio of q at two such columns, and Δu the difference of u there: |Δu|·(√r − 1)/(√r + 1) + 6ε·max|ui|.
+/// The first term is what the straight line misses, and is reached; the second is rounding.
+///
+/// # Cost
+/// A fragment: a product, a sum, a minimum and a maximum for each component; no division. Every `N` columns: three `f64`
+/// divisions, and about ten operations a component.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Spans<const N: i32>;
+
+impl<const N: i32> Subdivision for Spans<N> {
+    const HYPERBOLIC: bool = true;
+    const RUN: i32 = {
+        assert!(N.count_ones() == 1 && 0 < N && N <= LONGEST, "Spans<N>: N must be a power of two up to 64");
+        N
+    };
+
+    #[inline(always)]
+    fn run<I: EdgeInt, M: Numbers>(&self, numbers: &M, row: &Row<'_, I>, column: i32) -> Run<M::End> {
+        run_of::<I, M, true>(numbers, row, column, Self::RUN)
+    }
+}
+
+/// Straight lines as long as no component is missed by more than a budget: the runs are the longest of 1, 2, 4 to 64 columns,
+/// at multiples of their length, for which that is so.
+///
+/// # Precision
+/// The budget, and what is said of rounding at [`Spans`]; never more. The reason: a line misses what is hyperbolic by at most
+/// |Δu|·(√r − 1)/(√r + 1) = |Δu|·tanh(ln r/4), and that is not above |Δu|·|Δq|/(max q + 3 min q), which is compared.
+///
+/// # Cost
+/// That of [`Spans`] for each run that is looked at, of which up to six are too long; and a comparison a component.
+#[derive(Clone, Copy, Debug)]
+pub struct Bounded {
+    /// The greatest error of a component, in its own units.
+    pub budget: f32,
+}
+
+impl Bounded {
+    /// An error of so many texels in the coordinates of a texture with sides of up to `side` texels.
+    #[must_use]
+    pub fn texels(texels: f32, side: u16) -> Self {
+        Self { budget: texels / f32::from(side.max(1)) }
+    }
+}
+
+impl Subdivision for Bounded {
+    const HYPERBOLIC: bool = true;
+    const RUN: i32 = 1;
+
+    #[inline(always)]
+    fn run<I: EdgeInt, M: Numbers>(&self, numbers: &M, row: &Row<'_, I>, column: i32) -> Run<M::End> {
+        let mut length = LONGEST;
+        loop {
+            let run = run_of::<I, M, true>(numbers, row, column, length);
+            // A run of one sample has nothing between its ends.
+            if length == 1 || numbers.within(&run.ends, self.budget) {
+                return run;
+            }
+            length >>= 1;
+        }
+    }
+}
+
+/// Without correction: what the vertices carry is linear on the screen.
+///
+/// # Precision
+/// Right only where the three vertices are equally far; with r their greatest ratio of q, off by up to
+/// |Δu|·(√r − 1)/(√r + 1), Δu being the difference between two vertices. Against the linear function itself: 6ε·max|ui|
+/// for depth and components. The result never leaves the range of the three values, so a constant stays constant.
+///
+/// # Cost
+/// A fragment: a product, a sum, a minimum and a maximum for each component; no division. Every 64 columns one `f64`
+/// division, and about eight operations a component.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Affine;
+
+impl Subdivision for Affine {
+    const HYPERBOLIC: bool = false;
+    const RUN: i32 = LONGEST;
+
+    #[inline(always)]
+    fn run<I: EdgeInt, M: Numbers>(&self, numbers: &M, row: &Row<'_, I>, column: i32) -> Run<M::End> {
+        run_of::<I, M, false>(numbers, row, column, LONGEST)
+    }
+}
+
+/// The run of `length` columns, a power of two, that a covered column is in.
+#[inline(always)]
+fn run_of<I: EdgeInt, N: Numbers, const HYPERBOLIC: bool>(
+    numbers: &N,
+    row: &Row<'_, I>,
+    column: i32,
+    length: i32,
+) -> Run<N::End> {
+    let first = row.covered.start.max(column & !(length - 1));
+    let after = (column | (length - 1)) + 1;
+    let last = after.min(row.covered.end - 1);
+    let from = numbers.end::<I, HYPERBOLIC>(row.at(first));
+    let to = if last > first { numbers.end::<I, HYPERBOLIC>(row.at(last)) } else { from };
+    Run { columns: [first, last], ends: [from, to], next: after.min(row.covered.end) }
+}
