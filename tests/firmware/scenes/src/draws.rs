@@ -7,7 +7,7 @@ use alberti::shaders::{Solid, Stored, VertexColor565};
 use alberti::texture::{Nearest, Repeat};
 use alberti::{
     Affine, Band, Counters, Cull, D16, Exact, FixedPoint, FragmentStage, Interpolation, NoDepth, Object,
-    Pass, Point3, Rgb565Le, Rgba8, Sides, Slot, Spans, Sub4, VertexStage, View, draw,
+    Pass, Point3, Rgb565Le, Sides, Slot, Spans, Sub4, VertexStage, View, draw,
 };
 
 /// Defines ways of drawing: a pass of its own for each, into colour and depth.
@@ -83,7 +83,7 @@ pub fn flat_without_depth<K: Counters>(
     draw(&pass, &mut band, &mut [Slot::<Sub4, _>::EMPTY; 0], counters);
 }
 
-const ORANGE: Rgba8 = Rgba8::new(230, 130, 40, 255);
+const ORANGE: u16 = 0xe405;
 
 /// What all ways have in common.
 #[inline]
