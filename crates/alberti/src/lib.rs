@@ -5,6 +5,7 @@
 extern crate std;
 
 pub mod pipeline;
+mod prepared;
 pub mod shaders;
 mod stats;
 mod vertex;
@@ -21,5 +22,6 @@ pub use alberti_raster::{
 };
 pub use alberti_texture as texture;
 pub use pipeline::{Pass, Sides, View, draw, draw_by};
+pub use prepared::{Prepared, ScreenTriangle, prepare};
 pub use stats::Stats;
 pub use vertex::{Slot, VertexStage};

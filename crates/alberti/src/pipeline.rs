@@ -62,7 +62,7 @@ pub struct Pass<'a, T, I, Vs, Fs, P = Exact> {
 /// Vertices that are not finite, or larger than `f32::MAX`/16 in eye space, drop their triangles.
 ///
 /// The pixels do not depend on the slots, on the counters, on which of a triangle's vertices comes first, or on how the
-/// frame is divided into bands.
+/// frame is divided into bands. To share the vertex work between bands, see [`prepare`](crate::prepare).
 ///
 /// With the feature `simd` it works on eight samples at a time, in the widest vector registers that the machine turns
 /// out to have (with `std`) or is known to have; the pixels are those of [`draw_by`] one sample at a time.
@@ -105,27 +105,110 @@ pub fn draw_by<L, S, T, I, Vs, Fs, P, C, D, K>(
     D: DepthFormat,
     K: Counters,
 {
+    draw_from(0, lanes, pass, band, slots, counters);
+}
+
+/// Draws the pass's triangles from number `first` on.
+pub(crate) fn draw_from<L, S, T, I, Vs, Fs, P, C, D, K>(
+    first: usize,
+    lanes: L,
+    pass: &Pass<'_, T, I, Vs, Fs, P>,
+    band: &mut Band<'_, C, D>,
+    slots: &mut [Slot<S, Vs::Varying>],
+    counters: &mut K,
+) where
+    L: Floating,
+    S: Subpixel,
+    I: Copy + Into<u32>,
+    Vs: VertexStage<T>,
+    Fs: FragmentStage<Vs::Varying>,
+    P: Interpolation,
+    C: Store<Fs::Color>,
+    D: DepthFormat,
+    K: Counters,
+{
     if slots.is_empty() {
-        draw_by(lanes, pass, band, &mut [Slot::<S, Vs::Varying>::EMPTY; 16], counters);
+        draw_from(first, lanes, pass, band, &mut [Slot::<S, Vs::Varying>::EMPTY; 16], counters);
         return;
     }
-    slots.fill(Slot::EMPTY);
-    let depth = pass.view.perspective.depth_map(D::REVERSED);
-    let guard = pass.view.viewport.guard();
     let [columns, rows] = pass.view.viewport.pixels();
     let mut band = band.scissor(columns, rows);
+    let mut walk = Walk::new(pass, D::REVERSED, slots);
+    for triangle in pass.triangles.get(first..).unwrap_or_default() {
+        walk.triangle(*triangle, counters, |vertices, counters| {
+            rasterize(lanes, pass, &mut band, vertices, counters);
+        });
+    }
+}
 
-    for triangle in pass.triangles {
+/// Step 7: the rasterizer.
+#[inline(always)]
+pub(crate) fn rasterize<L, S, T, I, Vs, Fs, P, C, D, K>(
+    lanes: L,
+    pass: &Pass<'_, T, I, Vs, Fs, P>,
+    band: &mut Band<'_, C, D>,
+    vertices: [&Vertex<S, Vs::Varying>; 3],
+    counters: &mut K,
+) where
+    L: Floating,
+    S: Subpixel,
+    Vs: VertexStage<T>,
+    Fs: FragmentStage<Vs::Varying>,
+    P: Interpolation,
+    C: Store<Fs::Color>,
+    D: DepthFormat,
+    K: Counters,
+{
+    let Pass { interpolation, cull, fragment_stage, .. } = pass;
+    let outcome = draw_triangle(*interpolation, lanes, band, vertices, *cull, fragment_stage, counters);
+    counters.rasterized(outcome);
+}
+
+/// The way of a pass's triangles to the screen: steps 1 to 6.
+pub(crate) struct Walk<'a, 'm, S: Subpixel, T, I, Vs: VertexStage<T>, Fs, P> {
+    pass: &'a Pass<'m, T, I, Vs, Fs, P>,
+    slots: &'a mut [Slot<S, Vs::Varying>],
+    depth: DepthMap,
+    guard: SideBounds,
+}
+
+impl<'a, 'm, S, T, I, Vs, Fs, P> Walk<'a, 'm, S, T, I, Vs, Fs, P>
+where
+    S: Subpixel,
+    I: Copy + Into<u32>,
+    Vs: VertexStage<T>,
+{
+    /// `slots`, at least one, lose what they held. `reversed` says whether zs falls with distance.
+    #[inline]
+    pub(crate) fn new(
+        pass: &'a Pass<'m, T, I, Vs, Fs, P>,
+        reversed: bool,
+        slots: &'a mut [Slot<S, Vs::Varying>],
+    ) -> Self {
+        slots.fill(Slot::EMPTY);
+        let View { perspective, viewport, .. } = &pass.view;
+        Self { pass, slots, depth: perspective.depth_map(reversed), guard: viewport.guard() }
+    }
+
+    /// Hands `sink` what is seen of a triangle on the screen: nothing, the triangle, or the fan that clipping leaves.
+    #[inline(always)]
+    pub(crate) fn triangle<K: Counters>(
+        &mut self,
+        triangle: [I; 3],
+        counters: &mut K,
+        mut sink: impl FnMut([&Vertex<S, Vs::Varying>; 3], &mut K),
+    ) {
+        let Self { pass, slots, depth, guard } = self;
         counters.submitted();
         // Steps 1, 2, 4 and 6 for each vertex, where it allows them.
         let indices = triangle.map(|i| usize::try_from(i.into()).unwrap_or(usize::MAX));
         let Some(vertices) = vertices(pass, indices) else {
             counters.dropped();
-            continue;
+            return;
         };
         let transform = |vertex: &T| {
             let (point, varying) = pass.vertex_stage.shade(vertex);
-            Transformed::new(&pass.view, &depth, guard, point, varying)
+            Transformed::new(&pass.view, depth, *guard, point, varying)
         };
         let places = [
             Slot::fill(slots, indices[0], || transform(vertices[0])),
@@ -145,24 +228,14 @@ pub fn draw_by<L, S, T, I, Vs, Fs, P, C, D, K>(
         let common = corners[0].outside & corners[1].outside & corners[2].outside;
         if all & outside::NOWHERE != 0 || common & (outside::NEAR | outside::FAR | outside::SIDES) != 0 {
             counters.dropped();
-            continue;
+            return;
         }
         let sides = if pass.sides == Sides::Cube { outside::SIDES } else { 0 };
         if all & (outside::NEAR | outside::FAR | outside::GUARD | sides) == 0 {
-            // Nothing to clip: step 7, the rasterizer.
-            let outcome = draw_triangle(
-                pass.interpolation,
-                lanes,
-                &mut band,
-                [&corners[0].screen, &corners[1].screen, &corners[2].screen],
-                pass.cull,
-                &pass.fragment_stage,
-                counters,
-            );
-            counters.rasterized(outcome);
+            sink([&corners[0].screen, &corners[1].screen, &corners[2].screen], counters);
         } else {
             counters.clipped();
-            clip_and_draw(lanes, pass, &depth, &mut band, corners, counters);
+            clip(&pass.view, pass.sides, depth, corners, |vertices| sink(vertices, counters));
         }
     }
 }
@@ -177,27 +250,16 @@ fn vertices<'a, T, I, Vs, Fs, P>(
     Some([vertex(indices[0])?, vertex(indices[1])?, vertex(indices[2])?])
 }
 
-/// Steps 3 to 7 for a triangle that crosses a plane.
+/// Steps 3 to 6 for a triangle that crosses a plane.
 #[cold]
 #[inline(never)]
-fn clip_and_draw<L, S, T, I, Vs, Fs, P, C, D, K>(
-    lanes: L,
-    pass: &Pass<'_, T, I, Vs, Fs, P>,
+fn clip<S: Subpixel, V: Varying>(
+    View { perspective, viewport, .. }: &View,
+    sides: Sides,
     depth: &DepthMap,
-    band: &mut Band<'_, C, D>,
-    corners: [&Transformed<S, Vs::Varying>; 3],
-    counters: &mut K,
-) where
-    L: Floating,
-    S: Subpixel,
-    Vs: VertexStage<T>,
-    Fs: FragmentStage<Vs::Varying>,
-    P: Interpolation,
-    C: Store<Fs::Color>,
-    D: DepthFormat,
-    K: Counters,
-{
-    let View { perspective, viewport, .. } = &pass.view;
+    corners: [&Transformed<S, V>; 3],
+    mut sink: impl FnMut([&Vertex<S, V>; 3]),
+) {
     let first = corners[0].screen.varying;
     let triangle = canonical(corners.map(|c| {
         let varying = flatten(first, c.screen.varying);
@@ -211,22 +273,19 @@ fn clip_and_draw<L, S, T, I, Vs, Fs, P, C, D, K>(
         return;
     }
     // 5. The sides.
-    let bounds = match pass.sides {
+    let bounds = match sides {
         Sides::GuardBand => viewport.guard(),
         Sides::Cube => SideBounds::CUBE,
     };
     let inside = clip_sides(projected, bounds);
-    // 6. Window-viewport, 7. the rasterizer, for the triangles of the fan.
+    // 6. Window-viewport, for the triangles of the fan.
     for fan in inside.fan() {
         let snapped = fan.map(|v| {
             let [x, y] = viewport.to_screen(v.x, v.y)?;
             Some(Vertex::<S, _> { x, y, zs: v.zs, q: v.q, varying: v.varying })
         });
         if let [Some(a), Some(b), Some(c)] = &snapped {
-            let Pass { interpolation, cull, fragment_stage, .. } = pass;
-            let outcome =
-                draw_triangle(*interpolation, lanes, band, [a, b, c], *cull, fragment_stage, counters);
-            counters.rasterized(outcome);
+            sink([a, b, c]);
         }
     }
 }

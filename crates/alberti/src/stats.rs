@@ -23,6 +23,18 @@ pub struct Stats {
     pub written: u64,
 }
 
+impl Stats {
+    /// Counts again, for someone else, what happened before any sample was drawn.
+    pub(crate) fn repeat(&self, counters: &mut impl Counters) {
+        let Self { submitted, dropped, clipped, culled, missed, .. } = *self;
+        (0..submitted).for_each(|_| counters.submitted());
+        (0..dropped).for_each(|_| counters.dropped());
+        (0..clipped).for_each(|_| counters.clipped());
+        (0..culled).for_each(|_| counters.rasterized(Outcome::Culled));
+        (0..missed).for_each(|_| counters.rasterized(Outcome::Missed));
+    }
+}
+
 impl Counters for Stats {
     #[inline]
     fn submitted(&mut self) {

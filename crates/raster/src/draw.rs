@@ -52,18 +52,14 @@ where
     D: DepthFormat,
     K: Counters,
 {
-    let corner = |v: &Vertex<S, V>| [v.x.subpixels(), v.y.subpixels()];
-    let corners = [corner(vertices[0]), corner(vertices[1]), corner(vertices[2])];
+    let corners = corners(vertices);
     let area = doubled_area(&corners);
-    if cull.drops(area) {
-        return Outcome::Culled;
-    }
     let bounds = Bounds::of(&corners);
     let [limits, rows] = band.limits();
-    let (columns, rows) = (bounds.samples::<S>(0, i32::MIN..i32::MAX), bounds.samples::<S>(1, rows));
-    if rows.is_empty() || columns.start.max(limits.start) >= columns.end.min(limits.end) {
-        return Outcome::Missed;
-    }
+    let [columns, rows] = match within::<S>(area, &bounds, cull, [limits.clone(), rows]) {
+        Ok(samples) => samples,
+        Err(outcome) => return outcome,
+    };
     let first = vertices[0].varying;
     let (corners, vertices) = in_order(corners, vertices, area);
     let oriented = Oriented { vertices, corners, doubled_area: area.abs(), first };
@@ -84,6 +80,45 @@ where
             }
         },
     )
+}
+
+/// The columns and the rows in which a triangle may cover samples, the rows within the limits, or why there are none: it
+/// faces the wrong way or has no area, or its box holds no sample within `limits`. This is what [`draw_triangle`] finds out
+/// first.
+///
+/// # Errors
+/// [`Outcome::Culled`] and [`Outcome::Missed`].
+#[inline]
+pub fn reach<S: Subpixel, V>(
+    vertices: [&Vertex<S, V>; 3],
+    cull: Cull,
+    limits: [Range<i32>; 2],
+) -> Result<[Range<i32>; 2], Outcome> {
+    let corners = corners(vertices);
+    within::<S>(doubled_area(&corners), &Bounds::of(&corners), cull, limits)
+}
+
+#[inline(always)]
+fn within<S: Subpixel>(
+    area: i64,
+    bounds: &Bounds,
+    cull: Cull,
+    [limits, rows]: [Range<i32>; 2],
+) -> Result<[Range<i32>; 2], Outcome> {
+    if cull.drops(area) {
+        return Err(Outcome::Culled);
+    }
+    let (columns, rows) = (bounds.samples::<S>(0, i32::MIN..i32::MAX), bounds.samples::<S>(1, rows));
+    if rows.is_empty() || columns.start.max(limits.start) >= columns.end.min(limits.end) {
+        return Err(Outcome::Missed);
+    }
+    Ok([columns, rows])
+}
+
+/// The snapped positions.
+#[inline(always)]
+fn corners<S: Subpixel, V>([a, b, c]: [&Vertex<S, V>; 3]) -> Corners {
+    [a, b, c].map(|v| [v.x.subpixels(), v.y.subpixels()])
 }
 
 /// A triangle with which nothing was done yet that only its fragments need.

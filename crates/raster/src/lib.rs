@@ -27,7 +27,7 @@ pub use band::{Band, BandError};
 pub use color::{Color, ColorFormat, Rgb565Be, Rgb565Le, Store, rgb565};
 pub use counters::Counters;
 pub use depth::{D16, D24, D32, DepthFormat, F32, F32Reversed, NoDepth, OrEqual, ReadOnly};
-pub use draw::draw_triangle;
+pub use draw::{draw_triangle, reach};
 pub use edge::{Edge, EdgeInt, FITS_I32};
 pub use exact::{Exact, ExactTriangle};
 pub use fixed_point::{FixedCursor, FixedEnd, FixedLines, FixedPoint};
