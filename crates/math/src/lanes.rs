@@ -75,7 +75,7 @@ pub trait Lanes: Copy + Debug {
     fn copy_where(self, mask: Self::Mask, values: &Self::Each<f32>, to: &mut Self::Each<f32>);
     /// Whether a < b in memory; not so where one is NaN.
     fn less_in_memory(self, a: &Self::Each<f32>, b: &Self::Each<f32>) -> Self::Mask;
-    /// What `number` makes of each depth where these are numbers in [0, 1], or `raw` where they are integers below 2^31.
+    /// What `number` makes of each depth where these are numbers in [0, 1], or `raw` where they are words.
     fn each_depth<T: Copy>(
         self,
         depth: Self::Depth,

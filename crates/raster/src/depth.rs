@@ -17,13 +17,13 @@ pub trait DepthFormat: Copy + Debug + 'static {
     const FARTHEST: Self::Stored;
     /// The stored value nearest to `zs`, which must be in [0, 1].
     fn encode(zs: f32) -> Self::Stored;
-    /// The bits of a stored integer that is zs·(2^`BITS` − 1) to the nearest; for what is none, 31.
+    /// The bits of a stored integer that is zs·(2^`BITS` − 1) to the nearest, at most 31; 31 as well for all else.
     const BITS: u32 = 31;
-    /// The same for an integer below 2^31 of which the highest [`BITS`](Self::BITS) count, and have been rounded.
+    /// The same for an even word of which the highest [`BITS`](Self::BITS) count, and have been rounded.
     #[inline]
     #[expect(clippy::cast_precision_loss, reason = "rounding to nearest")]
     fn encode_integer(zs: u32) -> Self::Stored {
-        Self::encode((zs as f32 * (1.0 / 2_147_483_648.0)).min(1.0))
+        Self::encode((zs as f32 * (1.0 / 4_294_967_296.0)).min(1.0))
     }
     /// Whether `new` is seen in front of `old`.
     fn nearer(new: Self::Stored, old: Self::Stored) -> bool;
@@ -145,7 +145,7 @@ impl DepthFormat for D16 {
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "16 bits")]
     fn encode_integer(zs: u32) -> u16 {
-        (zs >> 15) as u16
+        (zs >> 16) as u16
     }
     #[inline]
     fn nearer(new: u16, old: u16) -> bool {
@@ -164,7 +164,7 @@ impl DepthFormat for D24 {
     const BITS: u32 = 24;
     #[inline]
     fn encode_integer(zs: u32) -> u32 {
-        zs >> 7
+        zs >> 8
     }
     #[inline]
     fn nearer(new: u32, old: u32) -> bool {
@@ -183,7 +183,7 @@ impl DepthFormat for D32 {
     #[inline]
     fn encode_integer(zs: u32) -> u32 {
         // The highest bit again as the last, so that the greatest becomes the greatest.
-        zs << 1 | zs >> 30
+        zs | zs >> 31
     }
     #[inline]
     fn nearer(new: u32, old: u32) -> bool {

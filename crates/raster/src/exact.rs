@@ -109,10 +109,11 @@ impl<L: Floating, V: Varying> ExactTriangle<L, V> {
 }
 
 impl<L: Floating, V: Varying> Interpolate<L, V> for ExactTriangle<L, V> {
+    type Left = ();
     type Cursor = ();
 
     #[inline(always)]
-    fn start<I: EdgeInt>(&self, row: &Row<'_, I>, _: i32, _: i32) -> ((), i32) {
+    fn start<I: EdgeInt>(&self, row: &Row<'_, I>, _: i32, _: i32, (): &mut ()) -> ((), i32) {
         ((), row.covered.end)
     }
 

@@ -59,27 +59,32 @@ const LIMIT: i32 = (1 << 30) - 1;
 struct Corner {
     first: i32,
     more: [i32; 2],
-    least: i32,
-    greatest: i32,
 }
 
 impl Corner {
     /// Numbers whose differences fit.
     #[inline(always)]
     fn new([a, b, c]: [i32; 3]) -> Self {
-        Self { first: a, more: [b - a, c - a], least: a.min(b).min(c), greatest: a.max(b).max(c) }
+        Self { first: a, more: [b - a, c - a] }
     }
 
-    /// Where the others have these weights, to the nearest and within the range of the three.
+    /// At a sample with these weights, for what is linear on the screen and for what is so in space.
     #[inline(always)]
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "within the range of the three but for the last bits"
-    )]
+    fn by(&self, mode: Mode, screen: [i32; 2], space: [i32; 2]) -> i32 {
+        match mode {
+            Mode::Hyperbolic => self.at(space),
+            Mode::Linear => self.at(screen),
+            Mode::Flat => self.first,
+        }
+    }
+
+    /// Where the others have these weights, to the nearest. Weights are never too large, together not above 1, and so this is
+    /// within the range of the three.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "not greater than the differences")]
     fn at(&self, [b, c]: [i32; 2]) -> i32 {
         let sum = i64::from(self.more[0]) * i64::from(b) + i64::from(self.more[1]) * i64::from(c);
-        let value = self.first.wrapping_add(((sum + (1 << (WEIGHT - 1))) >> WEIGHT) as i32);
-        value.max(self.least).min(self.greatest)
+        self.first.wrapping_add(((sum + (1 << (WEIGHT - 1))) >> WEIGHT) as i32)
     }
 }
 
@@ -136,43 +141,42 @@ fn depth<D: DepthFormat>(zs: f32) -> i32 {
     if D::BITS < 31 { fraction - (fraction >> D::BITS) + (1 << (30 - D::BITS)) } else { fraction }
 }
 
-/// A sample at which all is known.
-#[derive(Clone, Copy, Debug)]
-pub struct FixedEnd {
-    /// The weights of the second and the third vertex, for what is linear on the screen, and for what is so in space.
-    screen: [i32; 2],
-    space: [i32; 2],
+/// What is known at both ends of a run.
+#[derive(Clone, Copy)]
+pub struct FixedEnds<V: Varying> {
+    zs: [i32; 2],
     /// Proportional to q.
-    q: u64,
+    q: [u64; 2],
+    components: V::Of<Part>,
 }
 
-impl FixedEnd {
-    #[inline(always)]
-    fn of(&self, mode: Mode, corner: &Corner) -> i32 {
-        corner.at(if mode == Mode::Hyperbolic { self.space } else { self.screen })
-    }
+/// A component, and its values at the ends.
+#[derive(Clone, Copy)]
+struct Part {
+    corner: Corner,
+    ends: [i32; 2],
 }
 
-/// `part` over a whole that `normalizing` bits bring to 2^31 or more, and over which 2^63 is `per_whole` then; as a weight.
+/// A part of a whole, over which 2^63 is `per_whole`, as a weight.
 #[inline(always)]
-fn weight(part: u32, normalizing: u32, per_whole: u32) -> i32 {
-    ((u64::from(part << normalizing) * u64::from(per_whole)) >> (63 - WEIGHT)) as i32
+fn weight(part: u32, per_whole: u32) -> i32 {
+    ((u64::from(part) * u64::from(per_whole)) >> (63 - WEIGHT)) as i32
 }
 
-impl<V: Varying> Numbers for FixedLines<V> {
-    type End = FixedEnd;
-
+impl<V: Varying> FixedLines<V> {
+    /// At a sample with these edge functions: the weights of the second and the third vertex for what is linear on the screen
+    /// and for what is so in space, and q.
     #[inline(always)]
-    fn end<I: EdgeInt, const HYPERBOLIC: bool>(&self, edges: [I; 3]) -> FixedEnd {
+    fn at<I: EdgeInt, const HYPERBOLIC: bool>(&self, edges: [I; 3]) -> ([i32; 2], [i32; 2], u64) {
         let [a, b, c] = [
             edges[0].without_last(self.dropped),
             edges[1].without_last(self.dropped),
             edges[2].without_last(self.dropped),
         ];
-        let part = |e: u32| weight(e, self.normalizing, self.per_area);
+        let part = |e: u32| weight(e << self.normalizing, self.per_area);
         let screen = [part(b), part(c)];
         if !HYPERBOLIC {
-            return FixedEnd { screen, space: screen, q: 1 };
+            return (screen, screen, 1);
         }
         // All three together are not more than the area times the greatest q.
         let times = |e: u32, q: u32| u64::from(e) * u64::from(q);
@@ -181,21 +185,50 @@ impl<V: Varying> Numbers for FixedLines<V> {
         let normalizing = q.leading_zeros() & 63;
         let high = |x: u64| ((x << normalizing) >> 32) as u32;
         let per_q = reciprocal::<1>(high(q) | 1 << 31);
-        FixedEnd { screen, space: [weight(high(b), 0, per_q), weight(high(c), 0, per_q)], q }
+        (screen, [weight(high(b), per_q), weight(high(c), per_q)], q)
+    }
+}
+
+impl<V: Varying> Numbers for FixedLines<V> {
+    type Ends = FixedEnds<V>;
+
+    #[inline(always)]
+    fn begin<I: EdgeInt, const HYPERBOLIC: bool>(&self, edges: [I; 3]) -> FixedEnds<V> {
+        let (screen, space, q) = self.at::<I, HYPERBOLIC>(edges);
+        FixedEnds {
+            zs: [self.zs.at(screen); 2],
+            q: [q; 2],
+            components: V::map_by_mode(&self.components, &|mode, corner: Corner| Part {
+                corner,
+                ends: [corner.by(mode, screen, space); 2],
+            }),
+        }
     }
 
     #[inline(always)]
-    fn within(&self, [from, to]: &[FixedEnd; 2], budget: f32) -> bool {
+    fn extend<I: EdgeInt, const HYPERBOLIC: bool>(&self, ends: &FixedEnds<V>, edges: [I; 3]) -> FixedEnds<V> {
+        let (screen, space, q) = self.at::<I, HYPERBOLIC>(edges);
+        FixedEnds {
+            zs: [ends.zs[1], self.zs.at(screen)],
+            q: [ends.q[1], q],
+            components: V::map_by_mode(&ends.components, &|mode, Part { corner, ends: [_, start] }: Part| {
+                Part { corner, ends: [start, corner.by(mode, screen, space)] }
+            }),
+        }
+    }
+
+    #[inline(always)]
+    fn within(&self, ends: &FixedEnds<V>, budget: f32) -> bool {
         // Of both the same bits, the highest one that is set being 2^30, and all else rounded towards what is missed.
-        let normalizing = (from.q | to.q).leading_zeros() & 63;
-        let [q0, q1] = [(from.q << normalizing) >> 33, (to.q << normalizing) >> 33];
+        let normalizing = (ends.q[0] | ends.q[1]).leading_zeros() & 63;
+        let [q0, q1] = [(ends.q[0] << normalizing) >> 33, (ends.q[1] << normalizing) >> 33];
         let apart = q0.abs_diff(q1) + 1;
         let budget = u64::from(scaled(budget, 16).clamp(0, LIMIT / 2).unsigned_abs());
         let limit = budget * (q0.max(q1) + 3 * q0.min(q1));
         let within = Cell::new(true);
-        let _ = V::map_by_mode(&self.components, &|mode, corner: Corner| {
-            let more = to.of(mode, &corner).abs_diff(from.of(mode, &corner));
-            within.set(within.get() & (mode != Mode::Hyperbolic || u64::from(more) * apart <= limit));
+        let _ = V::map_by_mode(&ends.components, &|mode, Part { ends: [start, end], .. }: Part| {
+            let missed = u64::from(end.abs_diff(start)) * apart;
+            within.set(within.get() & (mode != Mode::Hyperbolic || missed <= limit));
         });
         within.get()
     }
@@ -224,22 +257,23 @@ impl<V: Varying> Lines<OneFixed, V> for FixedLines<V> {
     type Cursor = FixedCursor<V>;
 
     #[inline(always)]
-    fn line(&self, run: &Run<FixedEnd>, column: i32, _: i32) -> FixedCursor<V> {
-        let ([first, last], [from, to]) = (run.columns, run.ends);
+    fn line(&self, run: &Run<FixedEnds<V>>, column: i32, _: i32) -> FixedCursor<V> {
+        let [first, last] = run.columns;
         let per_column = PER_COLUMN.get((last - first).unsigned_abs() as usize).copied().unwrap_or(0);
         let along = column - first;
-        let number = |mode, corner: Corner| {
-            let [start, end] = [from.of(mode, &corner), to.of(mode, &corner)];
+        let number = |[start, end]: [i32; 2]| {
             let more = i64::from(end.wrapping_sub(start));
             // Towards zero, so that no step leads beyond the end.
             let step = ((more * i64::from(per_column)) >> 32) as i32 + i32::from(more < 0);
             [start.wrapping_add(step.wrapping_mul(along)), step]
         };
+        // What is interpolated has 31 bits, as differences have a sign; what comes of it has 32.
+        let [zs, step] = number(run.ends.zs);
         FixedCursor {
-            zs: number(Mode::Linear, self.zs),
-            components: V::map_by_mode(&self.components, &|mode, corner: Corner| match mode {
-                Mode::Hyperbolic | Mode::Linear => number(mode, corner),
-                Mode::Flat => [corner.first, 0],
+            zs: [zs << 1, step << 1],
+            components: V::map_by_mode(&run.ends.components, &|mode, part: Part| match mode {
+                Mode::Hyperbolic | Mode::Linear => number(part.ends),
+                Mode::Flat => [part.corner.first, 0],
             }),
         }
     }
@@ -275,5 +309,11 @@ impl<V: Varying> fmt::Debug for FixedLines<V> {
 impl<V: Varying> fmt::Debug for FixedCursor<V> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("FixedCursor").finish_non_exhaustive()
+    }
+}
+
+impl<V: Varying> fmt::Debug for FixedEnds<V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("FixedEnds").finish_non_exhaustive()
     }
 }

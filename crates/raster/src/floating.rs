@@ -4,7 +4,7 @@ use crate::depth::DepthFormat;
 use crate::edge::EdgeInt;
 use crate::interpolation::{Interpolation, Oriented};
 use crate::lines::{Affine, Bounded, LineTriangle, Lines, Numbers, Run, Spans, Subdivision};
-use crate::planes::{Component, Plane3, Ramp, along, count, per_area, scaled_q, zs};
+use crate::planes::{Component, Ramp, along, count, per_area, scaled_q, zs};
 use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Mode, Subpixel, Varying};
 use core::cell::Cell;
@@ -36,47 +36,79 @@ impl<L: Floating, V: Varying> FloatingLines<L, V> {
     }
 }
 
-/// A sample at which all is known.
-#[derive(Clone, Copy, Debug)]
-pub struct FloatingEnd {
-    /// The weights of the second and the third vertex, for what is linear on the screen, and for what is so in space.
-    screen: [f64; 2],
-    space: [f64; 2],
-    q: f64,
+/// What is known at both ends of a run.
+#[derive(Clone, Copy)]
+pub struct FloatingEnds<V: Varying> {
+    zs: [f64; 2],
+    q: [f64; 2],
+    components: V::Of<Part>,
 }
 
-impl FloatingEnd {
-    #[inline(always)]
-    fn of(&self, mode: Mode, plane: &Plane3) -> f64 {
-        plane.at(if mode == Mode::Hyperbolic { self.space } else { self.screen })
-    }
+/// A component, and its values at the ends.
+#[derive(Clone, Copy)]
+struct Part {
+    component: Component,
+    ends: [f64; 2],
 }
 
-impl<L: Lanes, V: Varying> Numbers for FloatingLines<L, V> {
-    type End = FloatingEnd;
-
+impl<L: Lanes, V: Varying> FloatingLines<L, V> {
+    /// At a sample with these edge functions: the weights of the second and the third vertex for what is linear on the screen
+    /// and for what is so in space, and q.
     #[inline(always)]
-    fn end<I: EdgeInt, const HYPERBOLIC: bool>(&self, edges: [I; 3]) -> FloatingEnd {
+    fn at<I: EdgeInt, const HYPERBOLIC: bool>(&self, edges: [I; 3]) -> ([f64; 2], [f64; 2], f64) {
         let [a, b, c] = [edges[0].to_f64(), edges[1].to_f64(), edges[2].to_f64()];
         let screen = [b * self.per_area, c * self.per_area];
         if !HYPERBOLIC {
-            return FloatingEnd { screen, space: screen, q: 1.0 };
+            return (screen, screen, 1.0);
         }
         let [qa, qb, qc] = self.q;
         let [a, b, c] = [a * qa, b * qb, c * qc];
         let q = a + b + c;
         let per_q = 1.0 / q;
-        FloatingEnd { screen, space: [b * per_q, c * per_q], q }
+        (screen, [b * per_q, c * per_q], q)
+    }
+}
+
+impl<L: Lanes, V: Varying> Numbers for FloatingLines<L, V> {
+    type Ends = FloatingEnds<V>;
+
+    #[inline(always)]
+    fn begin<I: EdgeInt, const HYPERBOLIC: bool>(&self, edges: [I; 3]) -> FloatingEnds<V> {
+        let (screen, space, q) = self.at::<I, HYPERBOLIC>(edges);
+        FloatingEnds {
+            zs: [self.zs.plane.at(screen); 2],
+            q: [q; 2],
+            components: V::map_by_mode(&self.components, &|mode, component: Component| {
+                let value = component.plane.at(if mode == Mode::Hyperbolic { space } else { screen });
+                Part { component, ends: [value; 2] }
+            }),
+        }
     }
 
     #[inline(always)]
-    fn within(&self, [from, to]: &[FloatingEnd; 2], budget: f32) -> bool {
-        let limit = f64::from(budget) * (from.q.max(to.q) + 3.0 * from.q.min(to.q));
-        let apart = (to.q - from.q).abs();
+    fn extend<I: EdgeInt, const HYPERBOLIC: bool>(
+        &self,
+        ends: &FloatingEnds<V>,
+        edges: [I; 3],
+    ) -> FloatingEnds<V> {
+        let (screen, space, q) = self.at::<I, HYPERBOLIC>(edges);
+        FloatingEnds {
+            zs: [ends.zs[1], self.zs.plane.at(screen)],
+            q: [ends.q[1], q],
+            components: V::map_by_mode(&ends.components, &|mode, part: Part| {
+                let value = part.component.plane.at(if mode == Mode::Hyperbolic { space } else { screen });
+                Part { ends: [part.ends[1], value], ..part }
+            }),
+        }
+    }
+
+    #[inline(always)]
+    fn within(&self, ends: &FloatingEnds<V>, budget: f32) -> bool {
+        let [q0, q1] = ends.q;
+        let (apart, limit) = ((q1 - q0).abs(), f64::from(budget) * (q0.max(q1) + 3.0 * q0.min(q1)));
         let within = Cell::new(true);
-        let _ = V::map_by_mode(&self.components, &|mode, c: Component| {
-            let more = to.of(mode, &c.plane) - from.of(mode, &c.plane);
-            within.set(within.get() & (mode != Mode::Hyperbolic || more.abs() * apart <= limit));
+        let _ = V::map_by_mode(&ends.components, &|mode, Part { ends: [start, end], .. }: Part| {
+            within.set(within.get() & (mode != Mode::Hyperbolic || (end - start).abs() * apart <= limit));
         });
         within.get()
     }
@@ -94,18 +126,17 @@ impl<L: Floating, V: Varying> Lines<L, V> for FloatingLines<L, V> {
     type Cursor = FloatingCursor<L, V>;
 
     #[inline(always)]
-    fn line(&self, run: &Run<FloatingEnd>, _: i32, left: i32) -> FloatingCursor<L, V> {
-        let ([first, last], [from, to]) = (run.columns, run.ends);
+    fn line(&self, run: &Run<FloatingEnds<V>>, _: i32, left: i32) -> FloatingCursor<L, V> {
+        let [first, last] = run.columns;
         // A run of a single sample has no step.
         let per_column = 1.0 / f64::from((last - first).max(1));
-        let ramp = |mode, c: Component| {
-            let [start, end] = [from.of(mode, &c.plane), to.of(mode, &c.plane)];
-            Ramp::new(self.lanes, start, (end - start) * per_column, &c)
+        let ramp = |component: &Component, [start, end]: [f64; 2]| {
+            Ramp::new(self.lanes, start, (end - start) * per_column, component)
         };
         FloatingCursor {
             along: along(self.lanes, first, left),
-            zs: ramp(Mode::Linear, self.zs),
-            components: V::map_by_mode(&self.components, &ramp),
+            zs: ramp(&self.zs, run.ends.zs),
+            components: V::map(&run.ends.components, &|part: Part| ramp(&part.component, part.ends)),
         }
     }
 
@@ -166,5 +197,11 @@ impl<L: Lanes, V: Varying> fmt::Debug for FloatingLines<L, V> {
 impl<L: Lanes, V: Varying> fmt::Debug for FloatingCursor<L, V> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("FloatingCursor").finish_non_exhaustive()
+    }
+}
+
+impl<V: Varying> fmt::Debug for FloatingEnds<V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("FloatingEnds").finish_non_exhaustive()
     }
 }

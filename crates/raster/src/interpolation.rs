@@ -91,12 +91,20 @@ impl<I: EdgeInt> Row<'_, I> {
 /// many samples as there are lanes. Depth and attributes are asked for apart, so that what the depth test hides never
 /// pays for its attributes.
 pub trait Interpolate<L: Lanes, V: Varying> {
+    /// What a run leaves for the next one of its row.
+    type Left: Default;
     /// What is known of a group of samples.
     type Cursor: Copy;
 
-    /// The run that the covered `column` of a row is in: its samples from the column `left` on, with which lanes begin, and
-    /// the column that follows it. Runs do not depend on where a band or a scissor begins.
-    fn start<I: EdgeInt>(&self, row: &Row<'_, I>, column: i32, left: i32) -> (Self::Cursor, i32);
+    /// The run that the covered `column` of a row is in: its samples from the column `aligned` on, with which lanes begin,
+    /// and the column that follows it. Runs do not depend on where a band or a scissor begins, nor on what is left.
+    fn start<I: EdgeInt>(
+        &self,
+        row: &Row<'_, I>,
+        column: i32,
+        aligned: i32,
+        left: &mut Self::Left,
+    ) -> (Self::Cursor, i32);
 
     /// The samples after those.
     fn advance(&self, cursor: Self::Cursor) -> Self::Cursor;

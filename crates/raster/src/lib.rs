@@ -30,11 +30,11 @@ pub use depth::{D16, D24, D32, DepthFormat, F32, F32Reversed, NoDepth, OrEqual, 
 pub use draw::{draw_triangle, reach};
 pub use edge::{Edge, EdgeInt, FITS_I32};
 pub use exact::{Exact, ExactTriangle};
-pub use fixed_point::{FixedCursor, FixedEnd, FixedLines, FixedPoint};
-pub use floating::{FloatingCursor, FloatingEnd, FloatingLines};
+pub use fixed_point::{FixedCursor, FixedEnds, FixedLines, FixedPoint};
+pub use floating::{FloatingCursor, FloatingEnds, FloatingLines};
 pub use fragment::FragmentStage;
 pub use interpolation::{Interpolate, Interpolation, Oriented, Row};
-pub use lines::{Affine, Bounded, LineTriangle, Lines, Numbers, Run, Spans, Subdivision};
+pub use lines::{Affine, Bounded, Left, LineTriangle, Lines, Numbers, Run, Spans, Subdivision};
 pub use plane::{Plane, PlaneCursor, PlaneTriangle};
 pub use spans::{Span, SpanWalker};
 pub use triangle::{Corners, Cull, Outcome, Vertex};

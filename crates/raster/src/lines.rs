@@ -22,9 +22,19 @@ pub trait Subdivision: Copy + Debug + 'static {
     /// The length of all runs, or 1 if there is none such, see [`Interpolation::RUN`](crate::Interpolation::RUN).
     const RUN: i32;
 
-    /// The run that a covered column is in.
-    fn run<I: EdgeInt, N: Numbers>(&self, numbers: &N, row: &Row<'_, I>, column: i32) -> Run<N::End>;
+    /// The columns of the run of a row that a covered column is in, and what is known at its ends. `left` is what
+    /// the run before has left, if it was drawn.
+    fn run<I: EdgeInt, N: Numbers>(
+        &self,
+        numbers: &N,
+        row: &Row<'_, I>,
+        column: i32,
+        left: &Left<N::Ends>,
+    ) -> Run<N::Ends>;
 }
+
+/// What the run before has left: its last column, which is this one's first, and what is known there.
+pub type Left<E> = Option<(i32, E)>;
 
 /// A run of a row's samples.
 #[derive(Clone, Copy, Debug)]
@@ -32,21 +42,24 @@ pub struct Run<E> {
     /// The columns of its first sample and of the next run's first, or the row's last.
     pub columns: [i32; 2],
     /// What is known there.
-    pub ends: [E; 2],
+    pub ends: E,
     /// The column that follows it.
     pub next: i32,
 }
 
 /// What is linear or hyperbolic over a triangle, in some kind of numbers.
 pub trait Numbers {
-    /// What is known at an end of a run.
-    type End: Copy;
+    /// What is known at both ends of a run.
+    type Ends: Copy;
 
-    /// At a sample in the triangle with these edge functions.
-    fn end<I: EdgeInt, const HYPERBOLIC: bool>(&self, edges: [I; 3]) -> Self::End;
+    /// A run of one sample in the triangle, with these edge functions.
+    fn begin<I: EdgeInt, const HYPERBOLIC: bool>(&self, edges: [I; 3]) -> Self::Ends;
 
-    /// Whether a straight line between two ends misses no component by more than so much.
-    fn within(&self, ends: &[Self::End; 2], budget: f32) -> bool;
+    /// The run from the end of another to a sample of the same row.
+    fn extend<I: EdgeInt, const HYPERBOLIC: bool>(&self, ends: &Self::Ends, edges: [I; 3]) -> Self::Ends;
+
+    /// Whether a straight line between the ends misses no component by more than so much.
+    fn within(&self, ends: &Self::Ends, budget: f32) -> bool;
 }
 
 /// The same for several lanes, with what is needed at each sample.
@@ -55,7 +68,7 @@ pub trait Lines<L: Lanes, V: Varying>: Numbers {
     type Cursor: Copy;
 
     /// The line along a run, at the samples from the column `left` on, of which `column` is the first to be drawn.
-    fn line(&self, run: &Run<Self::End>, column: i32, left: i32) -> Self::Cursor;
+    fn line(&self, run: &Run<Self::Ends>, column: i32, left: i32) -> Self::Cursor;
 
     /// The samples after those.
     fn advance(&self, cursor: Self::Cursor) -> Self::Cursor;
@@ -75,12 +88,20 @@ pub struct LineTriangle<P, N> {
 }
 
 impl<P: Subdivision, L: Lanes, V: Varying, N: Lines<L, V>> Interpolate<L, V> for LineTriangle<P, N> {
+    type Left = Left<N::Ends>;
     type Cursor = N::Cursor;
 
     #[inline(always)]
-    fn start<I: EdgeInt>(&self, row: &Row<'_, I>, column: i32, left: i32) -> (N::Cursor, i32) {
-        let run = self.policy.run(&self.numbers, row, column);
-        (self.numbers.line(&run, column, left), run.next)
+    fn start<I: EdgeInt>(
+        &self,
+        row: &Row<'_, I>,
+        column: i32,
+        aligned: i32,
+        left: &mut Left<N::Ends>,
+    ) -> (N::Cursor, i32) {
+        let run = self.policy.run(&self.numbers, row, column, left);
+        *left = Some((run.columns[1], run.ends));
+        (self.numbers.line(&run, column, aligned), run.next)
     }
 
     #[inline(always)]
@@ -123,8 +144,14 @@ impl<const N: i32> Subdivision for Spans<N> {
     };
 
     #[inline(always)]
-    fn run<I: EdgeInt, M: Numbers>(&self, numbers: &M, row: &Row<'_, I>, column: i32) -> Run<M::End> {
-        run_of::<I, M, true>(numbers, row, column, Self::RUN)
+    fn run<I: EdgeInt, M: Numbers>(
+        &self,
+        numbers: &M,
+        row: &Row<'_, I>,
+        column: i32,
+        left: &Left<M::Ends>,
+    ) -> Run<M::Ends> {
+        Sought::<I, M, true> { numbers, row, left }.run(column, N)
     }
 }
 
@@ -156,10 +183,16 @@ impl Subdivision for Bounded {
     const RUN: i32 = 1;
 
     #[inline(always)]
-    fn run<I: EdgeInt, M: Numbers>(&self, numbers: &M, row: &Row<'_, I>, column: i32) -> Run<M::End> {
+    fn run<I: EdgeInt, M: Numbers>(
+        &self,
+        numbers: &M,
+        row: &Row<'_, I>,
+        column: i32,
+        left: &Left<M::Ends>,
+    ) -> Run<M::Ends> {
         let mut length = LONGEST;
         loop {
-            let run = run_of::<I, M, true>(numbers, row, column, length);
+            let run = Sought::<I, M, true> { numbers, row, left }.run(column, length);
             // A run of one sample has nothing between its ends.
             if length == 1 || numbers.within(&run.ends, self.budget) {
                 return run;
@@ -187,23 +220,37 @@ impl Subdivision for Affine {
     const RUN: i32 = LONGEST;
 
     #[inline(always)]
-    fn run<I: EdgeInt, M: Numbers>(&self, numbers: &M, row: &Row<'_, I>, column: i32) -> Run<M::End> {
-        run_of::<I, M, false>(numbers, row, column, LONGEST)
+    fn run<I: EdgeInt, M: Numbers>(
+        &self,
+        numbers: &M,
+        row: &Row<'_, I>,
+        column: i32,
+        left: &Left<M::Ends>,
+    ) -> Run<M::Ends> {
+        Sought::<I, M, false> { numbers, row, left }.run(column, LONGEST)
     }
 }
 
-/// The run of `length` columns, a power of two, that a covered column is in.
-#[inline(always)]
-fn run_of<I: EdgeInt, N: Numbers, const HYPERBOLIC: bool>(
-    numbers: &N,
-    row: &Row<'_, I>,
-    column: i32,
-    length: i32,
-) -> Run<N::End> {
-    let first = row.covered.start.max(column & !(length - 1));
-    let after = (column | (length - 1)) + 1;
-    let last = after.min(row.covered.end - 1);
-    let from = numbers.end::<I, HYPERBOLIC>(row.at(first));
-    let to = if last > first { numbers.end::<I, HYPERBOLIC>(row.at(last)) } else { from };
-    Run { columns: [first, last], ends: [from, to], next: after.min(row.covered.end) }
+/// A row in which a run is sought.
+struct Sought<'a, I, N: Numbers, const HYPERBOLIC: bool> {
+    numbers: &'a N,
+    row: &'a Row<'a, I>,
+    left: &'a Left<N::Ends>,
+}
+
+impl<I: EdgeInt, N: Numbers, const HYPERBOLIC: bool> Sought<'_, I, N, HYPERBOLIC> {
+    /// The run of `length` columns, a power of two, that a covered column is in.
+    #[inline(always)]
+    fn run(&self, column: i32, length: i32) -> Run<N::Ends> {
+        let Self { numbers, row, left } = self;
+        let first = row.covered.start.max(column & !(length - 1));
+        let after = (column | (length - 1)) + 1;
+        let last = after.min(row.covered.end - 1);
+        let from = match left {
+            Some((place, ends)) if *place == first => *ends,
+            _ => numbers.begin::<I, HYPERBOLIC>(row.at(first)),
+        };
+        let ends = numbers.extend::<I, HYPERBOLIC>(&from, row.at(last));
+        Run { columns: [first, last], ends, next: after.min(row.covered.end) }
+    }
 }

@@ -42,17 +42,64 @@ where
         C: Store<F::Color>,
         D: DepthFormat,
     {
-        let mut counts = [0; 2];
+        let (mut counts, mut left) = ([0; 2], T::Left::default());
         let end = row.covered.end.min(limits.end);
         let mut column = row.covered.start.max(limits.start);
-        while column < end {
-            let (cursor, next) = self.triangle.start(row, column, aligned::<L>(column));
-            let stop = next.min(end);
-            counts[0] += stop.abs_diff(column);
-            counts[1] += self.run(band, row, column..stop, cursor);
-            column = stop;
+        if L::COUNT > 1 {
+            while column < end {
+                let (cursor, next) = self.triangle.start(row, column, aligned::<L>(column), &mut left);
+                let stop = next.min(end);
+                counts[0] += stop.abs_diff(column);
+                counts[1] += self.run(band, row, column..stop, cursor);
+                column = stop;
+            }
+        } else {
+            let mut rest = band.pixels_from(row.row, column);
+            while column < end {
+                let (cursor, next) = self.triangle.start(row, column, column, &mut left);
+                let stop = next.min(end);
+                let pixels;
+                (pixels, rest) = split(rest, stop.abs_diff(column) as usize);
+                counts[0] += stop.abs_diff(column);
+                counts[1] += self.alone::<I, C, D>(row, pixels, column, cursor);
+                column = stop;
+            }
         }
         counts
+    }
+
+    /// Fills pixels one by one, from `column` on. Not inlined, so that all that the loop needs is in registers.
+    #[inline(never)]
+    fn alone<I, C, D>(
+        &self,
+        row: &Row<'_, I>,
+        (colors, depths): (&mut [C::Pixel], &mut [D::Stored]),
+        column: i32,
+        mut cursor: T::Cursor,
+    ) -> u32
+    where
+        I: EdgeInt,
+        C: Store<F::Color>,
+        D: DepthFormat,
+    {
+        let lanes = self.lanes;
+        let ([a, b, c], at) = (row.edges, row.at(column));
+        let ramp = |at: I, e: &Edge<I>| I::ramp(lanes, at, e.step_x);
+        let mut edges = [ramp(at[0], a), ramp(at[1], b), ramp(at[2], c)];
+        let steps = [a.step_x, b.step_x, c.step_x];
+        let mut written = 0;
+        for (color, depth) in L::groups(colors).0.iter_mut().zip(L::groups(depths).0) {
+            let [ea, eb, ec] = edges;
+            let weights = [I::weights(lanes, ea), I::weights(lanes, eb), I::weights(lanes, ec)];
+            written += self.group::<C, D>(color, depth, 1, &cursor, &weights);
+            cursor = self.triangle.advance(cursor);
+            edges = [
+                I::advance(lanes, ea, steps[0]),
+                I::advance(lanes, eb, steps[1]),
+                I::advance(lanes, ec, steps[2]),
+            ];
+        }
+        written
     }
 
     /// Fills those samples of a row whose bits are set, counted from column `left`; all of them lie in one run.
@@ -75,7 +122,7 @@ where
         };
         let edges = mask.edges([left, row]);
         let whole = Row { row, covered, origin: left, edges: &edges };
-        let (mut cursor, _) = self.triangle.start(&whole, covered.start, left);
+        let (mut cursor, _) = self.triangle.start(&whole, covered.start, left, &mut T::Left::default());
         let (colors, depths) = band.pixels_from(row, left);
         let ((colors, last_colors), (depths, last_depths)) = (L::groups(colors), L::groups(depths));
         let (mut values, mut written, mut column) = (mask.first(), 0, left);
@@ -127,7 +174,7 @@ where
         let (mut bits, mut column, mut written) = (all::<L>() << (columns.start - left), left, 0);
         for (color, depth) in colors.iter_mut().zip(depths) {
             let remaining = columns.end - column;
-            if L::COUNT > 1 && remaining < L::STEP {
+            if remaining < L::STEP {
                 bits &= (1 << remaining) - 1;
             }
             let [ea, eb, ec] = edges;
@@ -138,7 +185,7 @@ where
             cursor = self.triangle.advance(cursor);
             edges = [advance(ea, a), advance(eb, b), advance(ec, c)];
         }
-        if L::COUNT == 1 || pixels >= wanted {
+        if pixels >= wanted {
             return written;
         }
         let at = row.at(column);
@@ -213,6 +260,17 @@ where
 #[inline(always)]
 pub(crate) fn aligned<L: Lanes>(column: i32) -> i32 {
     column & !(L::STEP - 1)
+}
+
+/// Colours and depths.
+type Pixels<'a, C, D> = (&'a mut [C], &'a mut [D]);
+
+/// The first `count` pixels, and the others.
+#[inline(always)]
+fn split<'a, C, D>((colors, depths): Pixels<'a, C, D>, count: usize) -> (Pixels<'a, C, D>, Pixels<'a, C, D>) {
+    let (color, colors) = colors.split_at_mut_checked(count).unwrap_or_default();
+    let (depth, depths) = depths.split_at_mut_checked(count).unwrap_or_default();
+    ((color, depth), (colors, depths))
 }
 
 /// A bit for each lane.

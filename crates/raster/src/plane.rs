@@ -101,11 +101,18 @@ pub struct PlaneCursor<L: Lanes, V: Varying> {
 }
 
 impl<L: Floating, V: Varying> Interpolate<L, V> for PlaneTriangle<L, V> {
+    type Left = ();
     type Cursor = PlaneCursor<L, V>;
 
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "rounded once")]
-    fn start<I: EdgeInt>(&self, row: &Row<'_, I>, column: i32, left: i32) -> (PlaneCursor<L, V>, i32) {
+    fn start<I: EdgeInt>(
+        &self,
+        row: &Row<'_, I>,
+        column: i32,
+        aligned: i32,
+        (): &mut (),
+    ) -> (PlaneCursor<L, V>, i32) {
         let lanes = self.lanes;
         let first = row.covered.start.max(column & !(RUN - 1));
         let next = row.covered.end.min((column | (RUN - 1)) + 1);
@@ -114,7 +121,7 @@ impl<L: Floating, V: Varying> Interpolate<L, V> for PlaneTriangle<L, V> {
         let ramp = |s: Sloped| Ramp::new(lanes, s.component.plane.at(weights), s.across, &s.component);
         let (q, q_across) = self.q;
         let cursor = PlaneCursor {
-            along: along(lanes, first, left),
+            along: along(lanes, first, aligned),
             zs: ramp(self.zs),
             q: [lanes.splat(q.at(weights) as f32), lanes.splat(q_across as f32)],
             components: V::map(&self.components, &ramp),

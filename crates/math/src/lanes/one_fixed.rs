@@ -8,7 +8,7 @@ use core::num::Wrapping;
 /// One sample at a time, in fixed point: for machines without floating point.
 ///
 /// # Precision
-/// That of [`Q16`]: steps of 2^-16. Depths are integers of 31 bits.
+/// That of [`Q16`]: steps of 2^-16. Depths are words.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OneFixed;
 

@@ -15,7 +15,7 @@ pub use draws::{
 pub use shapes::PROBE;
 
 use alberti::glam::Vec2;
-use alberti::{D16, DepthFormat, Perspective, Slot, Stats, Sub4, ViewError, Viewport};
+use alberti::{D16, DepthFormat, Perspective, Slot, Sub4, ViewError, Viewport};
 use shapes::{Model, TORUS_VERTICES, layers, torus};
 
 /// Columns of the frame.
@@ -37,13 +37,20 @@ pub struct Scene {
     pub model: Model,
     /// How it is drawn: this is what is measured.
     pub draw: Draw<()>,
-    /// The same, counting.
-    pub count: Draw<Stats>,
+    /// The same, counting: on the host, since a board must not pay for it.
+    #[cfg(feature = "std")]
+    pub count: Draw<alberti::Stats>,
 }
 
 macro_rules! scene {
     ($name:literal, $model:expr, $draw:ident) => {
-        Scene { name: $name, model: $model, draw: $draw, count: $draw }
+        Scene {
+            name: $name,
+            model: $model,
+            draw: $draw,
+            #[cfg(feature = "std")]
+            count: $draw,
+        }
     };
 }
 
