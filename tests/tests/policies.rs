@@ -231,7 +231,8 @@ fn fixed_point(
         worst = f64::max(worst, error / (missed + fixed));
         rounded += u64::from(error > missed + 0.1 * fixed);
         let depth = dd::linear(case.tri, Case::sample(column), case.zs).to_f64();
-        let depth_bound = (f64::from(columns) + 4.0) * DEPTH_UNIT + EPS;
+        let row = f64::from(case.covered.end - case.covered.start);
+        let depth_bound = (row + 8.0) * DEPTH_UNIT + EPS;
         worst_depth = f64::max(worst_depth, (zs - depth).abs() / depth_bound);
     });
     println!(

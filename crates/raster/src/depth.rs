@@ -143,7 +143,6 @@ impl DepthFormat for D16 {
     }
     const BITS: u32 = 16;
     #[inline]
-    #[expect(clippy::cast_possible_truncation, reason = "16 bits")]
     fn encode_integer(zs: u32) -> u16 {
         (zs >> 16) as u16
     }

@@ -109,11 +109,14 @@ impl<L: Floating, V: Varying> ExactTriangle<L, V> {
 }
 
 impl<L: Floating, V: Varying> Interpolate<L, V> for ExactTriangle<L, V> {
-    type Left = ();
+    type Row = ();
     type Cursor = ();
 
     #[inline(always)]
-    fn start<I: EdgeInt>(&self, row: &Row<'_, I>, _: i32, _: i32, (): &mut ()) -> ((), i32) {
+    fn row<I: EdgeInt>(&self, _: &Row<'_, I>) {}
+
+    #[inline(always)]
+    fn start<I: EdgeInt>(&self, row: &Row<'_, I>, (): &mut (), _: i32, _: i32) -> ((), i32) {
         ((), row.covered.end)
     }
 

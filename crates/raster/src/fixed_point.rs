@@ -2,7 +2,7 @@
 
 use crate::depth::DepthFormat;
 use crate::edge::EdgeInt;
-use crate::interpolation::{Interpolation, Oriented};
+use crate::interpolation::{Interpolation, Oriented, Row};
 use crate::lines::{LONGEST, LineTriangle, Lines, Numbers, Run, Subdivision};
 use alberti_math::lanes::{Floating, OneFixed};
 use alberti_math::{Mode, Q16, Subpixel, Varying, reciprocal, scaled};
@@ -15,8 +15,8 @@ use core::fmt;
 /// # Precision
 /// For components in ±16384, and r the greatest ratio of q in the triangle up to 2^20: the bound of `P`, and
 /// (N + 3)·2^-16 + |Δu|·(2^-17 + r·2^-30) with N the columns of a run and Δu the greatest difference between two vertices.
-/// What is beyond ±16384 counts as that. Depth has 31 bits, of which N/2 + 4 units may be wrong, and is rounded to the
-/// buffer's format.
+/// What is beyond ±16384 counts as that. Depth has 31 bits, of which 8 units and one for each column of the row may be wrong,
+/// and is rounded to the buffer's format.
 ///
 /// # Cost
 /// A fragment: an addition for the depth and one for each component. A run: four products of 32 bits to 64 for the weights
@@ -68,6 +68,12 @@ impl Corner {
         Self { first: a, more: [b - a, c - a] }
     }
 
+    /// What is added where so much is added to the weights.
+    #[inline(always)]
+    fn along(&self, [b, c]: [i32; 2]) -> i64 {
+        i64::from(self.more[0]) * i64::from(b) + i64::from(self.more[1]) * i64::from(c)
+    }
+
     /// At a sample with these weights, for what is linear on the screen and for what is so in space.
     #[inline(always)]
     fn by(&self, mode: Mode, screen: [i32; 2], space: [i32; 2]) -> i32 {
@@ -82,9 +88,8 @@ impl Corner {
     /// within the range of the three.
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "not greater than the differences")]
-    fn at(&self, [b, c]: [i32; 2]) -> i32 {
-        let sum = i64::from(self.more[0]) * i64::from(b) + i64::from(self.more[1]) * i64::from(c);
-        self.first.wrapping_add(((sum + (1 << (WEIGHT - 1))) >> WEIGHT) as i32)
+    fn at(&self, weights: [i32; 2]) -> i32 {
+        self.first.wrapping_sub(((self.along(weights) + (1 << (WEIGHT - 1))) >> WEIGHT) as i32)
     }
 }
 
@@ -93,13 +98,22 @@ impl Corner {
 pub struct FixedLines<V: Varying> {
     /// Edge functions without their last bits, of which this is the number, are below 2^32.
     dropped: u32,
-    /// So many bits bring the area to 2^31 or more, and this is 2^63 over that.
-    normalizing: u32,
-    per_area: u32,
+    /// The area without those bits.
+    area: Reciprocal,
     /// The three q, the greatest from 2^30 to 2^31.
     q: [u32; 3],
     zs: Corner,
+    /// What a column adds to the depth, and the range of the depth.
+    deeper: i32,
+    nearest_farthest: [i32; 2],
     components: V::Of<Corner>,
+}
+
+/// The depth along a row: where it begins, and in which column.
+#[derive(Clone, Copy, Debug)]
+pub struct DepthRow {
+    first: i32,
+    zs: i32,
 }
 
 impl<V: Varying> FixedLines<V> {
@@ -109,18 +123,25 @@ impl<V: Varying> FixedLines<V> {
         let bits = 64 - triangle.doubled_area.leading_zeros();
         let dropped = bits.saturating_sub(32);
         let area = (triangle.doubled_area >> dropped) as u32;
-        let normalizing = area.leading_zeros();
+        let area = Reciprocal::new(area);
 
         let [a, b, c] = triangle.vertices;
+        let zs = [depth::<D>(a.zs), depth::<D>(b.zs), depth::<D>(c.zs)];
+        let nearest_farthest = [zs[0].min(zs[1]).min(zs[2]), zs[0].max(zs[1]).max(zs[2])];
+        let zs = Corner::new(zs);
+        // What a column adds to the edge functions of the two edges that end at the first corner, opposite the others.
+        let [pa, pb, pc] = triangle.corners;
+        let across = [pc[1] - pa[1], pa[1] - pb[1]];
         // Positive floats are ordered as their words are. The greatest comes to lie from 2^30 to 2^31.
         let greatest = a.q.to_bits().max(b.q.to_bits()).max(c.q.to_bits()) >> 23;
         let q = |q: f32| scaled(q, 127 + 30 - greatest.cast_signed()).max(1).unsigned_abs();
         Self {
             dropped,
-            normalizing,
-            per_area: reciprocal::<2>(area << normalizing),
+            area,
             q: [q(a.q), q(b.q), q(c.q)],
-            zs: Corner::new([depth::<D>(a.zs), depth::<D>(b.zs), depth::<D>(c.zs)]),
+            zs,
+            deeper: slope(zs.along(across), area, S::BITS, dropped),
+            nearest_farthest,
             components: V::map_by_mode(&triangle.values(), &|mode, [a, b, c, first]: [f32; 4]| {
                 let q16 = |x: f32| scaled(x, 16).clamp(-LIMIT, LIMIT);
                 if mode == Mode::Flat {
@@ -131,6 +152,34 @@ impl<V: Varying> FixedLines<V> {
             }),
         }
     }
+}
+
+/// One over a word that is not 0.
+#[derive(Clone, Copy)]
+struct Reciprocal {
+    /// So many bits bring the word to 2^31 or more, and `quotient` is 2^63 over that.
+    normalizing: u32,
+    quotient: u32,
+}
+
+impl Reciprocal {
+    #[inline(always)]
+    fn new(x: u32) -> Self {
+        let normalizing = x.leading_zeros();
+        Self { normalizing, quotient: reciprocal::<2>(x << normalizing) }
+    }
+}
+
+/// `more` times 2^`bits` over the area, of which so many bits were dropped; towards 0, within the range of `i32`.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "the highest 32 bits of 64, and what was found to fit")]
+fn slope(more: i64, area: Reciprocal, bits: u32, dropped: u32) -> i32 {
+    let normalizing = more.unsigned_abs().leading_zeros() & 63;
+    let high = ((more.unsigned_abs() << normalizing) >> 32) as u32;
+    let product = u64::from(high) * u64::from(area.quotient);
+    let shift = (31 + normalizing + dropped).saturating_sub(bits + area.normalizing);
+    let magnitude = if shift < 64 { (product >> shift).min(i32::MAX as u64) as i32 } else { 0 };
+    if more < 0 { -magnitude } else { magnitude }
 }
 
 /// `zs` in the unit in which it is interpolated: the last of a format's bits is worth 2^(31 - bits), and half of that is added
@@ -144,7 +193,6 @@ fn depth<D: DepthFormat>(zs: f32) -> i32 {
 /// What is known at both ends of a run.
 #[derive(Clone, Copy)]
 pub struct FixedEnds<V: Varying> {
-    zs: [i32; 2],
     /// Proportional to q.
     q: [u64; 2],
     components: V::Of<Part>,
@@ -157,30 +205,35 @@ struct Part {
     ends: [i32; 2],
 }
 
-/// A part of a whole, over which 2^63 is `per_whole`, as a weight.
+/// A part of a whole, over which 2^63 is `per_whole`, as a weight. Weights are negative: compilers see that, and then have
+/// the one instruction that multiplies signed numbers.
 #[inline(always)]
 fn weight(part: u32, per_whole: u32) -> i32 {
-    ((u64::from(part) * u64::from(per_whole)) >> (63 - WEIGHT)) as i32
+    -(((u64::from(part) * u64::from(per_whole)) >> (63 - WEIGHT)) as i32)
 }
 
 impl<V: Varying> FixedLines<V> {
+    /// The weights of the second and the third vertex for what is linear on the screen.
+    #[inline(always)]
+    fn screen<I: EdgeInt>(&self, [_, b, c]: [I; 3]) -> [i32; 2] {
+        let part = |e: I| weight(e.without_last(self.dropped) << self.area.normalizing, self.area.quotient);
+        [part(b), part(c)]
+    }
+
     /// At a sample with these edge functions: the weights of the second and the third vertex for what is linear on the screen
     /// and for what is so in space, and q.
     #[inline(always)]
     fn at<I: EdgeInt, const HYPERBOLIC: bool>(&self, edges: [I; 3]) -> ([i32; 2], [i32; 2], u64) {
-        let [a, b, c] = [
-            edges[0].without_last(self.dropped),
-            edges[1].without_last(self.dropped),
-            edges[2].without_last(self.dropped),
-        ];
-        let part = |e: u32| weight(e << self.normalizing, self.per_area);
-        let screen = [part(b), part(c)];
+        let screen = self.screen(edges);
         if !HYPERBOLIC {
             return (screen, screen, 1);
         }
         // All three together are not more than the area times the greatest q.
         let times = |e: u32, q: u32| u64::from(e) * u64::from(q);
-        let [a, b, c] = [times(a, self.q[0]), times(b, self.q[1]), times(c, self.q[2])];
+        let [a, b, c] = edges;
+        let a = times(a.without_last(self.dropped), self.q[0]);
+        let b = times(b.without_last(self.dropped), self.q[1]);
+        let c = times(c.without_last(self.dropped), self.q[2]);
         let q = a + b + c;
         let normalizing = q.leading_zeros() & 63;
         let high = |x: u64| ((x << normalizing) >> 32) as u32;
@@ -190,13 +243,25 @@ impl<V: Varying> FixedLines<V> {
 }
 
 impl<V: Varying> Numbers for FixedLines<V> {
+    type Row = DepthRow;
     type Ends = FixedEnds<V>;
+
+    #[inline(always)]
+    fn row<I: EdgeInt>(&self, row: &Row<'_, I>) -> DepthRow {
+        let first = row.covered.start;
+        let columns = row.covered.end - 1 - first;
+        let zs = self.zs.at(self.screen(row.at(first)));
+        // What rounding adds to the end may lead beyond the range, and there is nothing beyond.
+        let more = self.deeper.wrapping_mul(columns);
+        let [nearest, farthest] = self.nearest_farthest;
+        let zs = zs.max(nearest - more.min(0)).min(farthest - more.max(0));
+        DepthRow { first, zs }
+    }
 
     #[inline(always)]
     fn begin<I: EdgeInt, const HYPERBOLIC: bool>(&self, edges: [I; 3]) -> FixedEnds<V> {
         let (screen, space, q) = self.at::<I, HYPERBOLIC>(edges);
         FixedEnds {
-            zs: [self.zs.at(screen); 2],
             q: [q; 2],
             components: V::map_by_mode(&self.components, &|mode, corner: Corner| Part {
                 corner,
@@ -209,7 +274,6 @@ impl<V: Varying> Numbers for FixedLines<V> {
     fn extend<I: EdgeInt, const HYPERBOLIC: bool>(&self, ends: &FixedEnds<V>, edges: [I; 3]) -> FixedEnds<V> {
         let (screen, space, q) = self.at::<I, HYPERBOLIC>(edges);
         FixedEnds {
-            zs: [ends.zs[1], self.zs.at(screen)],
             q: [ends.q[1], q],
             components: V::map_by_mode(&ends.components, &|mode, Part { corner, ends: [_, start] }: Part| {
                 Part { corner, ends: [start, corner.by(mode, screen, space)] }
@@ -257,7 +321,7 @@ impl<V: Varying> Lines<OneFixed, V> for FixedLines<V> {
     type Cursor = FixedCursor<V>;
 
     #[inline(always)]
-    fn line(&self, run: &Run<FixedEnds<V>>, column: i32, _: i32) -> FixedCursor<V> {
+    fn line(&self, row: &DepthRow, run: &Run<FixedEnds<V>>, column: i32, _: i32) -> FixedCursor<V> {
         let [first, last] = run.columns;
         let per_column = PER_COLUMN.get((last - first).unsigned_abs() as usize).copied().unwrap_or(0);
         let along = column - first;
@@ -268,9 +332,9 @@ impl<V: Varying> Lines<OneFixed, V> for FixedLines<V> {
             [start.wrapping_add(step.wrapping_mul(along)), step]
         };
         // What is interpolated has 31 bits, as differences have a sign; what comes of it has 32.
-        let [zs, step] = number(run.ends.zs);
+        let zs = row.zs.wrapping_add(self.deeper.wrapping_mul(column - row.first));
         FixedCursor {
-            zs: [zs << 1, step << 1],
+            zs: [zs << 1, self.deeper << 1],
             components: V::map_by_mode(&run.ends.components, &|mode, part: Part| match mode {
                 Mode::Hyperbolic | Mode::Linear => number(part.ends),
                 Mode::Flat => [part.corner.first, 0],

@@ -2,7 +2,7 @@
 
 use crate::depth::DepthFormat;
 use crate::edge::EdgeInt;
-use crate::interpolation::{Interpolation, Oriented};
+use crate::interpolation::{Interpolation, Oriented, Row};
 use crate::lines::{Affine, Bounded, LineTriangle, Lines, Numbers, Run, Spans, Subdivision};
 use crate::planes::{Component, Ramp, along, count, per_area, scaled_q, zs};
 use alberti_math::lanes::{Floating, Lanes};
@@ -70,7 +70,11 @@ impl<L: Lanes, V: Varying> FloatingLines<L, V> {
 }
 
 impl<L: Lanes, V: Varying> Numbers for FloatingLines<L, V> {
+    type Row = ();
     type Ends = FloatingEnds<V>;
+
+    #[inline(always)]
+    fn row<I: EdgeInt>(&self, _: &Row<'_, I>) {}
 
     #[inline(always)]
     fn begin<I: EdgeInt, const HYPERBOLIC: bool>(&self, edges: [I; 3]) -> FloatingEnds<V> {
@@ -126,7 +130,7 @@ impl<L: Floating, V: Varying> Lines<L, V> for FloatingLines<L, V> {
     type Cursor = FloatingCursor<L, V>;
 
     #[inline(always)]
-    fn line(&self, run: &Run<FloatingEnds<V>>, _: i32, left: i32) -> FloatingCursor<L, V> {
+    fn line(&self, (): &(), run: &Run<FloatingEnds<V>>, _: i32, aligned: i32) -> FloatingCursor<L, V> {
         let [first, last] = run.columns;
         // A run of a single sample has no step.
         let per_column = 1.0 / f64::from((last - first).max(1));
@@ -134,7 +138,7 @@ impl<L: Floating, V: Varying> Lines<L, V> for FloatingLines<L, V> {
             Ramp::new(self.lanes, start, (end - start) * per_column, component)
         };
         FloatingCursor {
-            along: along(self.lanes, first, left),
+            along: along(self.lanes, first, aligned),
             zs: ramp(&self.zs, run.ends.zs),
             components: V::map(&run.ends.components, &|part: Part| ramp(&part.component, part.ends)),
         }

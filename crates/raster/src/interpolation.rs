@@ -91,19 +91,22 @@ impl<I: EdgeInt> Row<'_, I> {
 /// many samples as there are lanes. Depth and attributes are asked for apart, so that what the depth test hides never
 /// pays for its attributes.
 pub trait Interpolate<L: Lanes, V: Varying> {
-    /// What a run leaves for the next one of its row.
-    type Left: Default;
+    /// What is known of a row, and what a run leaves for the next one of it.
+    type Row;
     /// What is known of a group of samples.
     type Cursor: Copy;
 
+    /// Begins a row.
+    fn row<I: EdgeInt>(&self, row: &Row<'_, I>) -> Self::Row;
+
     /// The run that the covered `column` of a row is in: its samples from the column `aligned` on, with which lanes begin,
-    /// and the column that follows it. Runs do not depend on where a band or a scissor begins, nor on what is left.
+    /// and the column that follows it. Runs do not depend on where a band or a scissor begins, nor on what is left of others.
     fn start<I: EdgeInt>(
         &self,
         row: &Row<'_, I>,
+        known: &mut Self::Row,
         column: i32,
         aligned: i32,
-        left: &mut Self::Left,
     ) -> (Self::Cursor, i32);
 
     /// The samples after those.

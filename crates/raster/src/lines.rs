@@ -49,8 +49,13 @@ pub struct Run<E> {
 
 /// What is linear or hyperbolic over a triangle, in some kind of numbers.
 pub trait Numbers {
+    /// What is known of a row.
+    type Row: Copy;
     /// What is known at both ends of a run.
     type Ends: Copy;
+
+    /// Begins a row.
+    fn row<I: EdgeInt>(&self, row: &Row<'_, I>) -> Self::Row;
 
     /// A run of one sample in the triangle, with these edge functions.
     fn begin<I: EdgeInt, const HYPERBOLIC: bool>(&self, edges: [I; 3]) -> Self::Ends;
@@ -67,8 +72,8 @@ pub trait Lines<L: Lanes, V: Varying>: Numbers {
     /// What is known of a group of samples.
     type Cursor: Copy;
 
-    /// The line along a run, at the samples from the column `left` on, of which `column` is the first to be drawn.
-    fn line(&self, run: &Run<Self::Ends>, column: i32, left: i32) -> Self::Cursor;
+    /// The line along a run, at the samples from the column `aligned` on, of which `column` is the first to be drawn.
+    fn line(&self, row: &Self::Row, run: &Run<Self::Ends>, column: i32, aligned: i32) -> Self::Cursor;
 
     /// The samples after those.
     fn advance(&self, cursor: Self::Cursor) -> Self::Cursor;
@@ -88,20 +93,25 @@ pub struct LineTriangle<P, N> {
 }
 
 impl<P: Subdivision, L: Lanes, V: Varying, N: Lines<L, V>> Interpolate<L, V> for LineTriangle<P, N> {
-    type Left = Left<N::Ends>;
+    type Row = (N::Row, Left<N::Ends>);
     type Cursor = N::Cursor;
+
+    #[inline(always)]
+    fn row<I: EdgeInt>(&self, row: &Row<'_, I>) -> Self::Row {
+        (self.numbers.row(row), None)
+    }
 
     #[inline(always)]
     fn start<I: EdgeInt>(
         &self,
         row: &Row<'_, I>,
+        (known, left): &mut Self::Row,
         column: i32,
         aligned: i32,
-        left: &mut Left<N::Ends>,
     ) -> (N::Cursor, i32) {
         let run = self.policy.run(&self.numbers, row, column, left);
         *left = Some((run.columns[1], run.ends));
-        (self.numbers.line(&run, column, aligned), run.next)
+        (self.numbers.line(known, &run, column, aligned), run.next)
     }
 
     #[inline(always)]

@@ -42,12 +42,12 @@ where
         C: Store<F::Color>,
         D: DepthFormat,
     {
-        let (mut counts, mut left) = ([0; 2], T::Left::default());
+        let (mut counts, mut known) = ([0; 2], self.triangle.row(row));
         let end = row.covered.end.min(limits.end);
         let mut column = row.covered.start.max(limits.start);
         if L::COUNT > 1 {
             while column < end {
-                let (cursor, next) = self.triangle.start(row, column, aligned::<L>(column), &mut left);
+                let (cursor, next) = self.triangle.start(row, &mut known, column, aligned::<L>(column));
                 let stop = next.min(end);
                 counts[0] += stop.abs_diff(column);
                 counts[1] += self.run(band, row, column..stop, cursor);
@@ -56,7 +56,7 @@ where
         } else {
             let mut rest = band.pixels_from(row.row, column);
             while column < end {
-                let (cursor, next) = self.triangle.start(row, column, column, &mut left);
+                let (cursor, next) = self.triangle.start(row, &mut known, column, column);
                 let stop = next.min(end);
                 let pixels;
                 (pixels, rest) = split(rest, stop.abs_diff(column) as usize);
@@ -122,7 +122,8 @@ where
         };
         let edges = mask.edges([left, row]);
         let whole = Row { row, covered, origin: left, edges: &edges };
-        let (mut cursor, _) = self.triangle.start(&whole, covered.start, left, &mut T::Left::default());
+        let mut known = self.triangle.row(&whole);
+        let (mut cursor, _) = self.triangle.start(&whole, &mut known, covered.start, left);
         let (colors, depths) = band.pixels_from(row, left);
         let ((colors, last_colors), (depths, last_depths)) = (L::groups(colors), L::groups(depths));
         let (mut values, mut written, mut column) = (mask.first(), 0, left);

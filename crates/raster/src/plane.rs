@@ -101,17 +101,20 @@ pub struct PlaneCursor<L: Lanes, V: Varying> {
 }
 
 impl<L: Floating, V: Varying> Interpolate<L, V> for PlaneTriangle<L, V> {
-    type Left = ();
+    type Row = ();
     type Cursor = PlaneCursor<L, V>;
+
+    #[inline(always)]
+    fn row<I: EdgeInt>(&self, _: &Row<'_, I>) {}
 
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "rounded once")]
     fn start<I: EdgeInt>(
         &self,
         row: &Row<'_, I>,
+        (): &mut (),
         column: i32,
         aligned: i32,
-        (): &mut (),
     ) -> (PlaneCursor<L, V>, i32) {
         let lanes = self.lanes;
         let first = row.covered.start.max(column & !(RUN - 1));

@@ -16,6 +16,6 @@ mod wrap;
 pub use filter::{Bilinear, Filter, Nearest};
 pub use format::TexelFormat;
 pub use sampler::Sampler;
-pub use size::{AnySize, PowerOfTwo, Size};
+pub use size::{AnySize, Known, PowerOfTwo, Size};
 pub use texture::{Texture, TextureError};
 pub use wrap::{Clamp, Mirror, Repeat, Wrap};

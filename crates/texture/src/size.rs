@@ -6,10 +6,14 @@ use core::fmt::Debug;
 use crate::Wrap;
 use crate::coordinate::FRACTION_BITS;
 
-/// [`AnySize`] or [`PowerOfTwo`]. Other crates cannot add to them.
+/// [`AnySize`], [`PowerOfTwo`] or [`Known`]. Other crates cannot add to them.
 ///
-/// Both find the same texels and weights where both apply; the second is faster, and works on many samples at once.
-pub trait Size: Scale + Copy + Debug + 'static {}
+/// All find the same texels and weights where they apply; the second is faster than the first, and works on many samples at
+/// once, and the third is faster again.
+pub trait Size: Scale + Copy + Debug + 'static {
+    /// Columns and rows, where they are known.
+    const SIDES: Option<[u32; 2]> = None;
+}
 
 /// Sides of any length. Coordinates are scaled in 64-bit integers, one sample after the other.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +23,10 @@ pub enum AnySize {}
 /// becomes a multiple of 2^31, and so of an infinity less itself, it is 0.
 #[derive(Clone, Copy, Debug)]
 pub enum PowerOfTwo {}
+
+/// Sides that are known when the program is compiled, powers of two: as [`PowerOfTwo`], with shifts and masks by constants.
+#[derive(Clone, Copy, Debug)]
+pub enum Known<const WIDTH: u32, const HEIGHT: u32> {}
 
 /// The working part of [`Size`]; not nameable outside, so that it can still change.
 pub trait Scale {
@@ -66,25 +74,40 @@ impl Scale for AnySize {
 
 impl Size for PowerOfTwo {}
 
-impl Scale for PowerOfTwo {
-    #[inline(always)]
-    fn cell<L: Lanes, W: Wrap>(lanes: L, u: L::Number, size: u32) -> L::U32 {
-        W::fold(lanes, lanes.floor_scaled(W::in_period(lanes, u), size.trailing_zeros()), size)
-    }
+impl<const WIDTH: u32, const HEIGHT: u32> Size for Known<WIDTH, HEIGHT> {
+    const SIDES: Option<[u32; 2]> = {
+        assert!(WIDTH.is_power_of_two() && HEIGHT.is_power_of_two(), "Known: sides must be powers of two");
+        Some([WIDTH, HEIGHT])
+    };
+}
 
-    #[inline(always)]
-    fn between<L: Lanes, W: Wrap>(lanes: L, u: L::Number, size: u32) -> [L::U32; 3] {
-        let nearest = lanes.round_scaled(W::in_period(lanes, u), size.trailing_zeros() + 8);
-        // Half a texel to the left lies the centre from which distances count; one more keeps it positive.
-        let position = nearest + lanes.word(128);
-        let right = lanes.shr_signed(position, 8);
-        [W::fold(lanes, right - lanes.word(1), size), W::fold(lanes, right, size), position & lanes.word(255)]
-    }
+macro_rules! powers_of_two {
+    ($(($($parameters:tt)*) $size:ty;)*) => {$(
+        impl<$($parameters)*> Scale for $size {
+            #[inline(always)]
+            fn cell<L: Lanes, W: Wrap>(lanes: L, u: L::Number, size: u32) -> L::U32 {
+                W::fold(lanes, lanes.floor_scaled(W::in_period(lanes, u), size.trailing_zeros()), size)
+            }
 
-    #[inline(always)]
-    fn index<L: Lanes>(lanes: L, row: L::U32, column: L::U32, width: u32) -> L::U32 {
-        lanes.shl(row, width.trailing_zeros()) + column
-    }
+            #[inline(always)]
+            fn between<L: Lanes, W: Wrap>(lanes: L, u: L::Number, size: u32) -> [L::U32; 3] {
+                let nearest = lanes.round_scaled(W::in_period(lanes, u), size.trailing_zeros() + 8);
+                // Half a texel to the left lies the centre from which distances count; one more keeps it positive.
+                let position = nearest + lanes.word(128);
+                let right = lanes.shr_signed(position, 8);
+                [W::fold(lanes, right - lanes.word(1), size), W::fold(lanes, right, size), position & lanes.word(255)]
+            }
+
+            #[inline(always)]
+            fn index<L: Lanes>(lanes: L, row: L::U32, column: L::U32, width: u32) -> L::U32 {
+                lanes.shl(row, width.trailing_zeros()) + column
+            }
+        }
+    )*};
+}
+powers_of_two! {
+    () PowerOfTwo;
+    (const WIDTH: u32, const HEIGHT: u32) Known<WIDTH, HEIGHT>;
 }
 
 /// Element `k`, which there is.

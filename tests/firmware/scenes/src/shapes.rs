@@ -5,7 +5,7 @@
 
 use crate::{HEIGHT, WIDTH};
 use alberti::glam::{Mat3, Vec3};
-use alberti::texture::{PowerOfTwo, Texture, format::Rgb565};
+use alberti::texture::{Known, Texture, format::Rgb565};
 use alberti::{Eye, Frame, Object, Point3};
 
 /// Width by height of the frame.
@@ -37,7 +37,7 @@ pub struct Model {
     /// Where the mesh stands.
     pub to_eye: Frame<Object, Eye>,
     /// What it wears where it is textured.
-    pub texture: Texture<'static, Rgb565, PowerOfTwo>,
+    pub texture: Texture<'static, Rgb565, Known<128, 128>>,
 }
 
 /// So many tilted quads over the whole frame and a quarter beyond, each nearer than those before it.
@@ -47,7 +47,7 @@ pub const fn layers(count: usize) -> Model {
         vertices: QUADS.split_at(4 * count).0,
         triangles: QUAD_TRIANGLES.split_at(2 * count).0,
         to_eye: Frame::IDENTITY,
-        texture: texture(&CHEQUER, 128),
+        texture: texture(),
     }
 }
 
@@ -63,18 +63,16 @@ pub const fn torus(size: f32) -> Model {
         vertices: &TORUS_VERTEX_LIST,
         triangles: &TORUS_TRIANGLE_LIST,
         to_eye: Frame::from_mat3(axes, Point3::new(Vec3::new(0.0, 0.0, 2.35))),
-        texture: texture(&CHEQUER, 128),
+        texture: texture(),
     }
 }
 
-/// What the programs draw whose size alone is of interest: one quad with four texels.
-pub static PROBE: Model = Model { texture: texture(&[0xf800, 0x07e0, 0x001f, 0xffff], 2), ..layers(1) };
+/// What the programs draw whose size alone is of interest: one quad.
+pub static PROBE: Model = layers(1);
 
-const fn texture(texels: &'static [u16], side: u32) -> Texture<'static, Rgb565, PowerOfTwo> {
-    let Ok(texture) = Texture::new(texels, side, side) else {
-        panic!("the texels are a square of this side")
-    };
-    let Some(texture) = texture.power_of_two() else { panic!("the side is a power of two") };
+const fn texture() -> Texture<'static, Rgb565, Known<128, 128>> {
+    let Ok(texture) = Texture::new(&CHEQUER, 128, 128) else { panic!("the texels are a square of this side") };
+    let Some(texture) = texture.known() else { panic!("its side is this") };
     texture
 }
 
