@@ -65,6 +65,10 @@ pub struct Flat<V>(
 ///         <(Vec2, Vec3)>::map_by_mode(bundle, f)
 ///     }
 ///
+///     fn zip<T: Copy, U: Copy>(first: &Self::Of<T>, second: &Self::Of<U>) -> Self::Of<(T, U)> {
+///         <(Vec2, Vec3)>::zip(first, second)
+///     }
+///
 ///     fn from_components(bundle: &Self::Of<f32>) -> Self {
 ///         let (uv, normal) = Varying::from_components(bundle);
 ///         Self { uv, normal }
@@ -82,6 +86,10 @@ pub trait Varying: Copy {
     /// The bundle with every component mapped, by a function that is told how each is interpolated.
     #[must_use]
     fn map_by_mode<T: Copy, U: Copy>(bundle: &Self::Of<T>, f: &impl Fn(Mode, T) -> U) -> Self::Of<U>;
+
+    /// Two bundles as one of pairs.
+    #[must_use]
+    fn zip<T: Copy, U: Copy>(first: &Self::Of<T>, second: &Self::Of<U>) -> Self::Of<(T, U)>;
 
     /// The bundle with every component mapped.
     #[must_use]
@@ -105,6 +113,9 @@ impl Varying for () {
     fn map_by_mode<T: Copy, U: Copy>((): &(), _: &impl Fn(Mode, T) -> U) {}
 
     #[inline(always)]
+    fn zip<T: Copy, U: Copy>((): &(), (): &()) {}
+
+    #[inline(always)]
     fn from_components((): &()) {}
 }
 
@@ -119,6 +130,11 @@ impl Varying for f32 {
     #[inline(always)]
     fn map_by_mode<T: Copy, U: Copy>(bundle: &T, f: &impl Fn(Mode, T) -> U) -> U {
         f(Mode::Hyperbolic, *bundle)
+    }
+
+    #[inline(always)]
+    fn zip<T: Copy, U: Copy>(first: &T, second: &U) -> (T, U) {
+        (*first, *second)
     }
 
     #[inline(always)]
@@ -147,6 +163,11 @@ impl<V: Varying, const K: usize> Varying for [V; K] {
     }
 
     #[inline(always)]
+    fn zip<T: Copy, U: Copy>(first: &Self::Of<T>, second: &Self::Of<U>) -> Self::Of<(T, U)> {
+        from_fn(|k| V::zip(&first[k], &second[k]))
+    }
+
+    #[inline(always)]
     fn from_components(bundle: &Self::Of<f32>) -> Self {
         from_fn(|k| V::from_components(&bundle[k]))
     }
@@ -165,6 +186,11 @@ macro_rules! modes {
             #[inline(always)]
             fn map_by_mode<T: Copy, U: Copy>(bundle: &V::Of<T>, f: &impl Fn(Mode, T) -> U) -> V::Of<U> {
                 V::map_by_mode(bundle, &|$mode, component| f($inner, component))
+            }
+
+            #[inline(always)]
+            fn zip<T: Copy, U: Copy>(first: &V::Of<T>, second: &V::Of<U>) -> V::Of<(T, U)> {
+                V::zip(first, second)
             }
 
             #[inline(always)]
@@ -195,6 +221,11 @@ macro_rules! vectors {
             }
 
             #[inline(always)]
+            fn zip<T: Copy, U: Copy>(first: &[T; $size], second: &[U; $size]) -> [(T, U); $size] {
+                [$((first[$k], second[$k])),+]
+            }
+
+            #[inline(always)]
             fn from_components(bundle: &[f32; $size]) -> Self {
                 Self::from_array(*bundle)
             }
@@ -216,6 +247,14 @@ macro_rules! tuples {
             #[inline(always)]
             fn map_by_mode<T: Copy, U: Copy>(bundle: &Self::Of<T>, f: &impl Fn(Mode, T) -> U) -> Self::Of<U> {
                 ($($name::map_by_mode(&bundle.$index, f),)+)
+            }
+
+            #[inline(always)]
+            fn zip<Left: Copy, Right: Copy>(
+                first: &Self::Of<Left>,
+                second: &Self::Of<Right>,
+            ) -> Self::Of<(Left, Right)> {
+                ($($name::zip(&first.$index, &second.$index),)+)
             }
 
             #[inline(always)]

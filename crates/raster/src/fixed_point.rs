@@ -74,16 +74,6 @@ impl Corner {
         i64::from(self.more[0]) * i64::from(b) + i64::from(self.more[1]) * i64::from(c)
     }
 
-    /// At a sample with these weights, for what is linear on the screen and for what is so in space.
-    #[inline(always)]
-    fn by(&self, mode: Mode, screen: [i32; 2], space: [i32; 2]) -> i32 {
-        match mode {
-            Mode::Hyperbolic => self.at(space),
-            Mode::Linear => self.at(screen),
-            Mode::Flat => self.first,
-        }
-    }
-
     /// Where the others have these weights, to the nearest. Weights are never too large, together not above 1, and so this is
     /// within the range of the three.
     #[inline(always)]
@@ -195,14 +185,7 @@ fn depth<D: DepthFormat>(zs: f32) -> i32 {
 pub struct FixedEnds<V: Varying> {
     /// Proportional to q.
     q: [u64; 2],
-    components: V::Of<Part>,
-}
-
-/// A component, and its values at the ends.
-#[derive(Clone, Copy)]
-struct Part {
-    corner: Corner,
-    ends: [i32; 2],
+    components: V::Of<[i32; 2]>,
 }
 
 /// A part of a whole, over which 2^63 is `per_whole`, as a weight. Weights are negative: compilers see that, and then have
@@ -213,32 +196,54 @@ fn weight(part: u32, per_whole: u32) -> i32 {
 }
 
 impl<V: Varying> FixedLines<V> {
+    /// Edge functions as words.
+    #[inline(always)]
+    fn words<I: EdgeInt>(&self, [a, b, c]: [I; 3]) -> [u32; 3] {
+        [a.without_last(self.dropped), b.without_last(self.dropped), c.without_last(self.dropped)]
+    }
+
     /// The weights of the second and the third vertex for what is linear on the screen.
     #[inline(always)]
-    fn screen<I: EdgeInt>(&self, [_, b, c]: [I; 3]) -> [i32; 2] {
-        let part = |e: I| weight(e.without_last(self.dropped) << self.area.normalizing, self.area.quotient);
+    fn screen(&self, [_, b, c]: [u32; 3]) -> [i32; 2] {
+        let part = |e: u32| weight(e << self.area.normalizing, self.area.quotient);
         [part(b), part(c)]
     }
 
-    /// At a sample with these edge functions: the weights of the second and the third vertex for what is linear on the screen
-    /// and for what is so in space, and q.
+    /// The same for what is linear in space, and what is proportional to q.
     #[inline(always)]
-    fn at<I: EdgeInt, const HYPERBOLIC: bool>(&self, edges: [I; 3]) -> ([i32; 2], [i32; 2], u64) {
-        let screen = self.screen(edges);
-        if !HYPERBOLIC {
-            return (screen, screen, 1);
-        }
+    fn space(&self, [a, b, c]: [u32; 3]) -> ([i32; 2], u64) {
         // All three together are not more than the area times the greatest q.
         let times = |e: u32, q: u32| u64::from(e) * u64::from(q);
-        let [a, b, c] = edges;
-        let a = times(a.without_last(self.dropped), self.q[0]);
-        let b = times(b.without_last(self.dropped), self.q[1]);
-        let c = times(c.without_last(self.dropped), self.q[2]);
+        let [a, b, c] = [times(a, self.q[0]), times(b, self.q[1]), times(c, self.q[2])];
         let q = a + b + c;
         let normalizing = q.leading_zeros() & 63;
         let high = |x: u64| ((x << normalizing) >> 32) as u32;
         let per_q = reciprocal::<1>(high(q) | 1 << 31);
-        (screen, [weight(high(b), per_q), weight(high(c), per_q)], q)
+        ([weight(high(b), per_q), weight(high(c), per_q)], q)
+    }
+
+    /// [`Numbers::extend`]. Not inlined, since more would then be kept from run to run than there are registers.
+    #[inline(never)]
+    fn extended<const HYPERBOLIC: bool>(&self, ends: &FixedEnds<V>, edges: [u32; 3]) -> FixedEnds<V> {
+        // Where nothing takes these, compilers leave them out.
+        let screen = self.screen(edges);
+        let (space, q) = if HYPERBOLIC { self.space(edges) } else { (screen, 1) };
+        FixedEnds {
+            q: [ends.q[1], q],
+            components: V::map_by_mode(&V::zip(&self.components, &ends.components), &|mode,
+                                                                                      (
+                corner,
+                [_, start],
+            ): (
+                Corner,
+                [i32; 2],
+            )| match mode
+            {
+                Mode::Hyperbolic => [start, corner.at(space)],
+                Mode::Linear => [start, corner.at(screen)],
+                Mode::Flat => [corner.first; 2],
+            }),
+        }
     }
 }
 
@@ -250,7 +255,7 @@ impl<V: Varying> Numbers for FixedLines<V> {
     fn row<I: EdgeInt>(&self, row: &Row<'_, I>) -> DepthRow {
         let first = row.covered.start;
         let columns = row.covered.end - 1 - first;
-        let zs = self.zs.at(self.screen(row.at(first)));
+        let zs = self.zs.at(self.screen(self.words(row.at(first))));
         // What rounding adds to the end may lead beyond the range, and there is nothing beyond.
         let more = self.deeper.wrapping_mul(columns);
         let [nearest, farthest] = self.nearest_farthest;
@@ -260,25 +265,13 @@ impl<V: Varying> Numbers for FixedLines<V> {
 
     #[inline(always)]
     fn begin<I: EdgeInt, const HYPERBOLIC: bool>(&self, edges: [I; 3]) -> FixedEnds<V> {
-        let (screen, space, q) = self.at::<I, HYPERBOLIC>(edges);
-        FixedEnds {
-            q: [q; 2],
-            components: V::map_by_mode(&self.components, &|mode, corner: Corner| Part {
-                corner,
-                ends: [corner.by(mode, screen, space); 2],
-            }),
-        }
+        let components = V::map(&self.components, &|_: Corner| [0; 2]);
+        self.extended::<HYPERBOLIC>(&FixedEnds { q: [0; 2], components }, self.words(edges))
     }
 
     #[inline(always)]
     fn extend<I: EdgeInt, const HYPERBOLIC: bool>(&self, ends: &FixedEnds<V>, edges: [I; 3]) -> FixedEnds<V> {
-        let (screen, space, q) = self.at::<I, HYPERBOLIC>(edges);
-        FixedEnds {
-            q: [ends.q[1], q],
-            components: V::map_by_mode(&ends.components, &|mode, Part { corner, ends: [_, start] }: Part| {
-                Part { corner, ends: [start, corner.by(mode, screen, space)] }
-            }),
-        }
+        self.extended::<HYPERBOLIC>(ends, self.words(edges))
     }
 
     #[inline(always)]
@@ -290,7 +283,7 @@ impl<V: Varying> Numbers for FixedLines<V> {
         let budget = u64::from(scaled(budget, 16).clamp(0, LIMIT / 2).unsigned_abs());
         let limit = budget * (q0.max(q1) + 3 * q0.min(q1));
         let within = Cell::new(true);
-        let _ = V::map_by_mode(&ends.components, &|mode, Part { ends: [start, end], .. }: Part| {
+        let _ = V::map_by_mode(&ends.components, &|mode, [start, end]: [i32; 2]| {
             let missed = u64::from(end.abs_diff(start)) * apart;
             within.set(within.get() & (mode != Mode::Hyperbolic || missed <= limit));
         });
@@ -335,9 +328,9 @@ impl<V: Varying> Lines<OneFixed, V> for FixedLines<V> {
         let zs = row.zs.wrapping_add(self.deeper.wrapping_mul(column - row.first));
         FixedCursor {
             zs: [zs << 1, self.deeper << 1],
-            components: V::map_by_mode(&run.ends.components, &|mode, part: Part| match mode {
-                Mode::Hyperbolic | Mode::Linear => number(part.ends),
-                Mode::Flat => [part.corner.first, 0],
+            components: V::map_by_mode(&run.ends.components, &|mode, ends: [i32; 2]| match mode {
+                Mode::Hyperbolic | Mode::Linear => number(ends),
+                Mode::Flat => [ends[0], 0],
             }),
         }
     }

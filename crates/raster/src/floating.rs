@@ -41,14 +41,7 @@ impl<L: Floating, V: Varying> FloatingLines<L, V> {
 pub struct FloatingEnds<V: Varying> {
     zs: [f64; 2],
     q: [f64; 2],
-    components: V::Of<Part>,
-}
-
-/// A component, and its values at the ends.
-#[derive(Clone, Copy)]
-struct Part {
-    component: Component,
-    ends: [f64; 2],
+    components: V::Of<[f64; 2]>,
 }
 
 impl<L: Lanes, V: Varying> FloatingLines<L, V> {
@@ -83,8 +76,7 @@ impl<L: Lanes, V: Varying> Numbers for FloatingLines<L, V> {
             zs: [self.zs.plane.at(screen); 2],
             q: [q; 2],
             components: V::map_by_mode(&self.components, &|mode, component: Component| {
-                let value = component.plane.at(if mode == Mode::Hyperbolic { space } else { screen });
-                Part { component, ends: [value; 2] }
+                [component.plane.at(if mode == Mode::Hyperbolic { space } else { screen }); 2]
             }),
         }
     }
@@ -99,9 +91,15 @@ impl<L: Lanes, V: Varying> Numbers for FloatingLines<L, V> {
         FloatingEnds {
             zs: [ends.zs[1], self.zs.plane.at(screen)],
             q: [ends.q[1], q],
-            components: V::map_by_mode(&ends.components, &|mode, part: Part| {
-                let value = part.component.plane.at(if mode == Mode::Hyperbolic { space } else { screen });
-                Part { ends: [part.ends[1], value], ..part }
+            components: V::map_by_mode(&V::zip(&self.components, &ends.components), &|mode,
+                                                                                      (
+                component,
+                [_, start],
+            ): (
+                Component,
+                [f64; 2],
+            )| {
+                [start, component.plane.at(if mode == Mode::Hyperbolic { space } else { screen })]
             }),
         }
     }
@@ -111,7 +109,7 @@ impl<L: Lanes, V: Varying> Numbers for FloatingLines<L, V> {
         let [q0, q1] = ends.q;
         let (apart, limit) = ((q1 - q0).abs(), f64::from(budget) * (q0.max(q1) + 3.0 * q0.min(q1)));
         let within = Cell::new(true);
-        let _ = V::map_by_mode(&ends.components, &|mode, Part { ends: [start, end], .. }: Part| {
+        let _ = V::map_by_mode(&ends.components, &|mode, [start, end]: [f64; 2]| {
             within.set(within.get() & (mode != Mode::Hyperbolic || (end - start).abs() * apart <= limit));
         });
         within.get()
@@ -140,7 +138,12 @@ impl<L: Floating, V: Varying> Lines<L, V> for FloatingLines<L, V> {
         FloatingCursor {
             along: along(self.lanes, first, aligned),
             zs: ramp(&self.zs, run.ends.zs),
-            components: V::map(&run.ends.components, &|part: Part| ramp(&part.component, part.ends)),
+            components: V::map(&V::zip(&self.components, &run.ends.components), &|(component, ends): (
+                Component,
+                [f64; 2],
+            )| {
+                ramp(&component, ends)
+            }),
         }
     }
 
