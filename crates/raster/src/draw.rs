@@ -201,8 +201,7 @@ where
             }
             if let Some(painter) = &painter {
                 let row = Row { row, covered, origin: columns.start, edges: &edges };
-                let [covered, written] = painter.row(band, &row, limits);
-                counters.span(covered, written);
+                painter.row(band, &row, limits, counters);
             }
         }
         for edge in &mut edges {

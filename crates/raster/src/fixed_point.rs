@@ -222,8 +222,8 @@ impl<V: Varying> FixedLines<V> {
         ([weight(high(b), per_q), weight(high(c), per_q)], q)
     }
 
-    /// [`Numbers::extend`]. Not inlined, since more would then be kept from run to run than there are registers.
-    #[inline(never)]
+    /// [`Numbers::extend`].
+    #[inline(always)]
     fn extended<const HYPERBOLIC: bool>(&self, ends: &FixedEnds<V>, edges: [u32; 3]) -> FixedEnds<V> {
         // Where nothing takes these, compilers leave them out.
         let screen = self.screen(edges);

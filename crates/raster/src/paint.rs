@@ -3,6 +3,7 @@
 
 use crate::band::Band;
 use crate::color::Store;
+use crate::counters::Counters;
 use crate::depth::DepthFormat;
 use crate::edge::{Edge, EdgeInt};
 use crate::fragment::FragmentStage;
@@ -29,46 +30,67 @@ where
     T: Interpolate<L, V>,
     F: FragmentStage<V>,
 {
-    /// Fills what a row of the triangle covers of the columns in `limits`, and counts the pixels covered and written.
+    /// Fills what a row of the triangle covers of the columns in `limits`.
     #[inline(always)]
-    pub(crate) fn row<I, C, D>(
+    pub(crate) fn row<I, C, D, K>(
         &self,
         band: &mut Band<'_, C, D>,
         row: &Row<'_, I>,
         limits: &Range<i32>,
-    ) -> [u32; 2]
-    where
+        counters: &mut K,
+    ) where
         I: EdgeInt,
         C: Store<F::Color>,
         D: DepthFormat,
+        K: Counters,
     {
-        let (mut counts, mut known) = ([0; 2], self.triangle.row(row));
         let end = row.covered.end.min(limits.end);
         let mut column = row.covered.start.max(limits.start);
-        if L::COUNT > 1 {
-            while column < end {
-                let (cursor, next) = self.triangle.start(row, &mut known, column, aligned::<L>(column));
-                let stop = next.min(end);
-                counts[0] += stop.abs_diff(column);
-                counts[1] += self.run(band, row, column..stop, cursor);
-                column = stop;
-            }
-        } else {
-            let mut rest = band.pixels_from(row.row, column);
-            while column < end {
-                let (cursor, next) = self.triangle.start(row, &mut known, column, column);
-                let stop = next.min(end);
-                let pixels;
-                (pixels, rest) = split(rest, stop.abs_diff(column) as usize);
-                counts[0] += stop.abs_diff(column);
-                counts[1] += self.alone::<I, C, D>(row, pixels, column, cursor);
-                column = stop;
-            }
+        if L::COUNT == 1 {
+            self.row_alone::<I, C, D, K>(row, band.pixels_from(row.row, column), column..end, counters);
+            return;
         }
-        counts
+        let (mut covered, mut written, mut known) = (0, 0, self.triangle.row(row));
+        while column < end {
+            let (cursor, next) = self.triangle.start(row, &mut known, column, aligned::<L>(column));
+            let stop = next.min(end);
+            covered += stop.abs_diff(column);
+            written += self.run(band, row, column..stop, cursor);
+            column = stop;
+        }
+        counters.span(covered, written);
     }
 
-    /// Fills pixels one by one, from `column` on. Not inlined, so that all that the loop needs is in registers.
+    /// [`row`](Self::row) for one lane, into the pixels from the first of `columns` on. Not inlined, so that what the loops
+    /// need is in registers.
+    #[inline(never)]
+    fn row_alone<I, C, D, K>(
+        &self,
+        row: &Row<'_, I>,
+        mut pixels: Pixels<'_, C::Pixel, D::Stored>,
+        columns: Range<i32>,
+        counters: &mut K,
+    ) where
+        I: EdgeInt,
+        C: Store<F::Color>,
+        D: DepthFormat,
+        K: Counters,
+    {
+        let (mut covered, mut written, mut known) = (0, 0, self.triangle.row(row));
+        let mut column = columns.start;
+        while column < columns.end {
+            let (cursor, next) = self.triangle.start(row, &mut known, column, column);
+            let stop = next.min(columns.end);
+            let here;
+            (here, pixels) = split(pixels, stop.abs_diff(column) as usize);
+            covered += stop.abs_diff(column);
+            written += self.alone::<I, C, D>(row, here, column, cursor);
+            column = stop;
+        }
+        counters.span(covered, written);
+    }
+
+    /// Fills pixels one by one, from `column` on. Not inlined, for the same reason.
     #[inline(never)]
     fn alone<I, C, D>(
         &self,
