@@ -66,7 +66,7 @@ impl Case {
     /// What fixed point adds to the bound of a policy whose runs have so many columns.
     fn fixed_point(&self, columns: i32) -> f64 {
         const UNIT: f64 = 1.0 / 65536.0;
-        f64::from(columns + 3) * UNIT + self.spread() * (2f64.powi(-17) + self.ratio() * 2f64.powi(-30))
+        f64::from(columns + 3) * UNIT + self.spread() * (2f64.powi(-17) + self.ratio() * 2f64.powi(-28))
     }
 
     fn largest(&self) -> f64 {

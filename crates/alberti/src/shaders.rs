@@ -66,9 +66,26 @@ impl FragmentStage<Vec3> for VertexColor {
     }
 }
 
-/// [`VertexColor`] for targets of 16 bits, rounded once.
+/// [`VertexColor`] for targets of 16 bits: the varying is a colour that a vertex stage has made [`ready`](Self::ready).
+///
+/// # Precision
+/// To the nearest step of each channel.
+///
+/// # Cost
+/// Shifts and masks: clamping and rounding are done at the vertices.
 #[derive(Clone, Copy, Debug)]
 pub struct VertexColor565;
+
+impl VertexColor565 {
+    /// What a vertex carries for this colour; components outside [0, 1] are clamped.
+    #[must_use]
+    #[inline]
+    pub fn ready(color: Vec3) -> Vec3 {
+        // floor(32 x) of these is what is nearest to 31 times the component.
+        let steps = Vec3::new(32.0, 64.0, 32.0);
+        (color.clamp(Vec3::ZERO, Vec3::ONE) * (steps - Vec3::ONE) + Vec3::splat(0.5)) / steps
+    }
+}
 
 impl FragmentStage<Vec3> for VertexColor565 {
     type Color = u16;
@@ -83,7 +100,7 @@ impl FragmentStage<Vec3> for VertexColor565 {
     #[inline(always)]
     fn shade_lanes<L: Lanes>(&self, lanes: L, color: &[L::Number; 3], mask: L::Mask) -> (L::U32, L::Mask) {
         let [r, g, b] = *color;
-        let [r, g, b] = [lanes.of_unit(r, 31), lanes.of_unit(g, 63), lanes.of_unit(b, 31)];
+        let [r, g, b] = [lanes.floor_scaled(r, 5), lanes.floor_scaled(g, 6), lanes.floor_scaled(b, 5)];
         (lanes.shl(r, 11) | (lanes.shl(g, 5) | b), mask)
     }
 }
@@ -318,6 +335,18 @@ mod tests {
     fn vertex_colours_are_rounded_and_clamped() {
         let color = VertexColor.shade(Vec3::new(0.5, -1.0, 2.0));
         assert_eq!(color, Some(Rgba8::new(128, 0, 255, 255)));
+    }
+
+    #[test]
+    fn colours_of_16_bits_are_the_nearest() {
+        for step in -100..1100_i16 {
+            let c = f32::from(step) / 1000.0;
+            let nearest = |steps: f32| (c.clamp(0.0, 1.0) * steps + 0.5).floor();
+            let packed = VertexColor565.shade(VertexColor565::ready(Vec3::splat(c))).expect("never discards");
+            assert_eq!(f32::from(packed >> 11), nearest(31.0), "red of {c}");
+            assert_eq!(f32::from(packed >> 5 & 63), nearest(63.0), "green of {c}");
+            assert_eq!(f32::from(packed & 31), nearest(31.0), "blue of {c}");
+        }
     }
 
     #[test]

@@ -14,7 +14,7 @@ use core::fmt;
 ///
 /// # Precision
 /// For components in ±16384, and r the greatest ratio of q in the triangle up to 2^20: the bound of `P`, and
-/// (N + 3)·2^-16 + |Δu|·(2^-17 + r·2^-30) with N the columns of a run and Δu the greatest difference between two vertices.
+/// (N + 3)·2^-16 + |Δu|·(2^-17 + r·2^-28) with N the columns of a run and Δu the greatest difference between two vertices.
 /// What is beyond ±16384 counts as that. Depth has 31 bits, of which 8 units and one for each column of the row may be wrong,
 /// and is rounded to the buffer's format.
 ///
@@ -184,8 +184,14 @@ fn depth<D: DepthFormat>(zs: f32) -> i32 {
 #[derive(Clone, Copy)]
 pub struct FixedEnds<V: Varying> {
     /// Proportional to q.
-    q: [u64; 2],
+    q: [u32; 2],
     components: V::Of<[i32; 2]>,
+}
+
+/// The highest 32 bits of a product.
+#[inline(always)]
+fn high(a: u32, b: u32) -> u32 {
+    ((u64::from(a) * u64::from(b)) >> 32) as u32
 }
 
 /// A part of a whole, over which 2^63 is `per_whole`, as a weight. Weights are negative: compilers see that, and then have
@@ -196,30 +202,28 @@ fn weight(part: u32, per_whole: u32) -> i32 {
 }
 
 impl<V: Varying> FixedLines<V> {
-    /// Edge functions as words.
+    /// Edge functions, in such units that the area has 32 bits.
     #[inline(always)]
     fn words<I: EdgeInt>(&self, [a, b, c]: [I; 3]) -> [u32; 3] {
-        [a.without_last(self.dropped), b.without_last(self.dropped), c.without_last(self.dropped)]
+        let word = |e: I| e.without_last(self.dropped) << self.area.normalizing;
+        [word(a), word(b), word(c)]
     }
 
     /// The weights of the second and the third vertex for what is linear on the screen.
     #[inline(always)]
     fn screen(&self, [_, b, c]: [u32; 3]) -> [i32; 2] {
-        let part = |e: u32| weight(e << self.area.normalizing, self.area.quotient);
-        [part(b), part(c)]
+        [weight(b, self.area.quotient), weight(c, self.area.quotient)]
     }
 
     /// The same for what is linear in space, and what is proportional to q.
     #[inline(always)]
-    fn space(&self, [a, b, c]: [u32; 3]) -> ([i32; 2], u64) {
-        // All three together are not more than the area times the greatest q.
-        let times = |e: u32, q: u32| u64::from(e) * u64::from(q);
-        let [a, b, c] = [times(a, self.q[0]), times(b, self.q[1]), times(c, self.q[2])];
-        let q = a + b + c;
-        let normalizing = q.leading_zeros() & 63;
-        let high = |x: u64| ((x << normalizing) >> 32) as u32;
-        let per_q = reciprocal::<1>(high(q) | 1 << 31);
-        ([weight(high(b), per_q), weight(high(c), per_q)], q)
+    fn space(&self, [a, b, c]: [u32; 3]) -> ([i32; 2], u32) {
+        // All three together are not more than the greatest q.
+        let [a, b, c] = [high(a, self.q[0]), high(b, self.q[1]), high(c, self.q[2])];
+        let q = (a + b + c).max(1);
+        let normalizing = q.leading_zeros();
+        let per_q = reciprocal::<1>(q << normalizing);
+        ([weight(b << normalizing, per_q), weight(c << normalizing, per_q)], q)
     }
 
     /// [`Numbers::extend`].
@@ -276,10 +280,9 @@ impl<V: Varying> Numbers for FixedLines<V> {
 
     #[inline(always)]
     fn within(&self, ends: &FixedEnds<V>, budget: f32) -> bool {
-        // Of both the same bits, the highest one that is set being 2^30, and all else rounded towards what is missed.
-        let normalizing = (ends.q[0] | ends.q[1]).leading_zeros() & 63;
-        let [q0, q1] = [(ends.q[0] << normalizing) >> 33, (ends.q[1] << normalizing) >> 33];
-        let apart = q0.abs_diff(q1) + 1;
+        let [q0, q1] = ends.q.map(u64::from);
+        // Each may be three too small.
+        let apart = q0.abs_diff(q1) + 3;
         let budget = u64::from(scaled(budget, 16).clamp(0, LIMIT / 2).unsigned_abs());
         let limit = budget * (q0.max(q1) + 3 * q0.min(q1));
         let within = Cell::new(true);

@@ -111,7 +111,7 @@ fn place(vertex: &Vertex) -> Point3<Object> {
 }
 
 fn colored(vertex: &Vertex) -> (Point3<Object>, Vec3) {
-    (place(vertex), Vec3::from_array(vertex.color))
+    (place(vertex), VertexColor565::ready(Vec3::from_array(vertex.color)))
 }
 
 fn mapped(vertex: &Vertex) -> (Point3<Object>, Vec2) {
