@@ -4,6 +4,7 @@ use crate::pipeline::View;
 use alberti_math::{Fixed, Object, Point3, Subpixel, Varying, is_finite};
 use alberti_projection::{DepthMap, EyeVertex, SideBounds};
 use alberti_raster::Vertex;
+use core::num::NonZeroUsize;
 
 /// Maps a mesh vertex to its place in object space and to what it carries.
 ///
@@ -28,7 +29,10 @@ impl<T, V: Varying, F: Fn(&T) -> (Point3<Object>, V)> VertexStage<T> for F {
 /// Where a transformed vertex is kept. A slice with a slot for each vertex of the mesh transforms each vertex once; a
 /// shorter one is a cache, in which vertex i shares the slot i modulo the length.
 #[derive(Clone, Copy, Debug)]
-pub struct Slot<S: Subpixel, V>(Option<(usize, Transformed<S, V>)>);
+pub struct Slot<S: Subpixel, V>(Option<(Place, Transformed<S, V>)>);
+
+/// A vertex's index plus one, so that it and the tag are one word.
+type Place = NonZeroUsize;
 
 impl<S: Subpixel, V> Slot<S, V> {
     /// A slot without a vertex.
@@ -44,10 +48,11 @@ impl<S: Subpixel, V: Varying> Slot<S, V> {
         transform: impl FnOnce() -> Transformed<S, V>,
     ) -> usize {
         let place = if index < slots.len() { index } else { index.checked_rem(slots.len()).unwrap_or(0) };
-        match slots.get_mut(place) {
-            Some(Self(Some((kept, _)))) if *kept == index => {}
-            Some(slot) => *slot = Self(Some((index, transform()))),
-            None => {}
+        let index = index.checked_add(1).and_then(Place::new);
+        match (slots.get_mut(place), index) {
+            (Some(Self(Some((kept, _)))), Some(index)) if *kept == index => {}
+            (Some(slot), Some(index)) => *slot = Self(Some((index, transform()))),
+            _ => {}
         }
         place
     }
@@ -56,7 +61,7 @@ impl<S: Subpixel, V: Varying> Slot<S, V> {
     #[inline]
     pub(crate) fn at(slots: &[Self], place: usize, index: usize) -> Option<&Transformed<S, V>> {
         match slots.get(place) {
-            Some(Self(Some((kept, vertex)))) if *kept == index => Some(vertex),
+            Some(Self(Some((kept, vertex)))) if kept.get() == index.wrapping_add(1) => Some(vertex),
             _ => None,
         }
     }

@@ -54,11 +54,13 @@ where
 {
     let corners = corners(vertices);
     let area = doubled_area(&corners);
+    if cull.drops(area) {
+        return Outcome::Culled;
+    }
     let bounds = Bounds::of(&corners);
     let [limits, rows] = band.limits();
-    let [columns, rows] = match within::<S>(area, &bounds, cull, [limits.clone(), rows]) {
-        Ok(samples) => samples,
-        Err(outcome) => return outcome,
+    let Some([columns, rows]) = bounds.within::<S>([limits.clone(), rows]) else {
+        return Outcome::Missed;
     };
     let first = vertices[0].varying;
     let (corners, vertices) = in_order(corners, vertices, area);
@@ -95,24 +97,10 @@ pub fn reach<S: Subpixel, V>(
     limits: [Range<i32>; 2],
 ) -> Result<[Range<i32>; 2], Outcome> {
     let corners = corners(vertices);
-    within::<S>(doubled_area(&corners), &Bounds::of(&corners), cull, limits)
-}
-
-#[inline(always)]
-fn within<S: Subpixel>(
-    area: i64,
-    bounds: &Bounds,
-    cull: Cull,
-    [limits, rows]: [Range<i32>; 2],
-) -> Result<[Range<i32>; 2], Outcome> {
-    if cull.drops(area) {
+    if cull.drops(doubled_area(&corners)) {
         return Err(Outcome::Culled);
     }
-    let (columns, rows) = (bounds.samples::<S>(0, i32::MIN..i32::MAX), bounds.samples::<S>(1, rows));
-    if rows.is_empty() || columns.start.max(limits.start) >= columns.end.min(limits.end) {
-        return Err(Outcome::Missed);
-    }
-    Ok([columns, rows])
+    Bounds::of(&corners).within::<S>(limits).ok_or(Outcome::Missed)
 }
 
 /// The snapped positions.

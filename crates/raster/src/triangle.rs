@@ -81,6 +81,14 @@ impl Bounds {
         (side(0) + 2 * i64::from(one)) * (side(1) + i64::from(one)) <= FITS_I32
     }
 
+    /// All columns, and the rows within the limits, whose samples lie within the box; `None` if the limits hold no sample.
+    #[inline]
+    pub(crate) fn within<S: Subpixel>(&self, [limits, rows]: [Range<i32>; 2]) -> Option<[Range<i32>; 2]> {
+        let (columns, rows) = (self.samples::<S>(0, i32::MIN..i32::MAX), self.samples::<S>(1, rows));
+        let none = rows.is_empty() || columns.start.max(limits.start) >= columns.end.min(limits.end);
+        (!none).then_some([columns, rows])
+    }
+
     /// The columns or rows, within `limits`, whose sample lies within the box.
     #[inline]
     pub(crate) fn samples<S: Subpixel>(&self, axis: usize, limits: Range<i32>) -> Range<i32> {

@@ -1,0 +1,29 @@
+//! Draws a textured mesh in perspective, with depth, and does nothing else: its size is that of the code a program needs for it.
+
+#![no_std]
+#![no_main]
+
+use alberti_firmware::target;
+use core::hint::{black_box, spin_loop};
+use core::panic::PanicInfo;
+use scenes::{Camera, SCENES, textured_fixed};
+
+#[cfg_attr(target_arch = "arm", cortex_m_rt::entry)]
+#[cfg_attr(target_arch = "riscv32", riscv_rt::entry)]
+fn main() -> ! {
+    if let (Some(target), Ok(camera)) = (target(), Camera::new()) {
+        // The compiler must not know what is drawn, nor that nobody looks.
+        textured_fixed(black_box(&mut *target), &camera, black_box(&SCENES[19].model), &mut ());
+        black_box(target);
+    }
+    loop {
+        spin_loop();
+    }
+}
+
+#[panic_handler]
+fn panic(_: &PanicInfo<'_>) -> ! {
+    loop {
+        spin_loop();
+    }
+}
