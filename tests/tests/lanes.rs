@@ -6,9 +6,9 @@ use alberti::lanes::{Floating, Machine, One};
 use alberti::shaders::{Lambert, Tinted, Unlit, VertexColor};
 use alberti::texture::{Bilinear, Filter, Mirror, Nearest, Repeat, Texture, Wrap};
 use alberti::{
-    Affine, Band, Cull, D16, D24, D32, DepthFormat, Exact, F32, F32Reversed, Fixed, FragmentStage,
-    Interpolation, NoDepth, Object, OrEqual, Pass, Plane, Point3, Rgb565Be, Rgba8, Sides, Slot, Spans, Store,
-    Sub8, Vector3, VertexStage, draw_by, for_lanes,
+    Affine, Band, Bounded, Cull, D16, D24, D32, DepthFormat, Exact, F32, F32Reversed, Fixed, FixedPoint,
+    FragmentStage, Interpolation, NoDepth, Object, OrEqual, Pass, Plane, Point3, Rgb565Be, Rgba8, Sides,
+    Slot, Spans, Store, Sub8, Vector3, VertexStage, draw_by, for_lanes,
 };
 use alberti_app::draw::view;
 use alberti_app::scene::{Image, Vertex};
@@ -100,6 +100,15 @@ fn random_triangles_with_straight_lines() {
     random_triangles::<OrEqual<F32>>(Spans::<8>, 5);
     random_triangles::<D32>(Spans::<32>, 6);
     random_triangles::<NoDepth>(Affine, 7);
+    random_triangles::<F32>(Bounded { budget: 0.01 }, 12);
+}
+
+/// One sample at a time whatever the machine has: this is about what bands and other machines may not change.
+#[test]
+fn random_triangles_in_fixed_point() {
+    random_triangles::<D16>(FixedPoint(Spans::<16>), 13);
+    random_triangles::<D32>(FixedPoint(Bounded { budget: 0.01 }), 14);
+    random_triangles::<F32>(FixedPoint(Affine), 15);
 }
 
 /// The frame in pieces: bands of some rows, each in scissors of some columns, which begin in the middle of runs.
@@ -109,6 +118,10 @@ fn pieces_of_a_frame_are_the_frame() {
     pieces(Plane, 9);
     pieces(Spans::<16>, 10);
     pieces(Affine, 11);
+    pieces(Bounded { budget: 0.01 }, 16);
+    pieces(FixedPoint(Spans::<8>), 17);
+    pieces(FixedPoint(Bounded { budget: 0.01 }), 18);
+    pieces(FixedPoint(Affine), 19);
 }
 
 fn pieces(interpolation: impl Interpolation, stream: u64) {
