@@ -5,8 +5,9 @@ use alberti::glam::{Mat3, Vec2, Vec3};
 use alberti::shaders::{Lambert, Unlit, VertexColor};
 use alberti::texture::{Bilinear, Mirror, Texture};
 use alberti::{
-    Band, Cull, D16, D24, DepthFormat, Eye, F32, F32Reversed, FragmentStage, Frame, NoDepth, Object, Pass,
-    Perspective, Point3, Rgba8, Sides, Slot, Sub4, Sub8, Subpixel, Varying, Vector3, View, Viewport, draw,
+    Affine, Band, Bounded, Cull, D16, D24, D32, DepthFormat, Exact, Eye, F32, F32Reversed, FixedPoint,
+    FragmentStage, Frame, Interpolation, NoDepth, Object, Pass, Perspective, Plane, Point3, Rgba8, Sides,
+    Slot, Spans, Sub4, Sub8, Subpixel, Varying, Vector3, View, Viewport, draw,
 };
 use proptest::prelude::*;
 
@@ -79,6 +80,7 @@ fn view(case: &Case, near: f32, far: f32) -> View {
 /// Draws the case and looks at every pixel.
 fn check<D: DepthFormat, S: Subpixel, V: Varying>(
     case: &Case,
+    interpolation: impl Interpolation,
     planes: (f32, f32),
     varying: impl Fn(&[f32; 5]) -> V,
     fragment_stage: impl FragmentStage<V, Color = Rgba8>,
@@ -97,7 +99,7 @@ fn check<D: DepthFormat, S: Subpixel, V: Varying>(
         fragment_stage,
         cull: case.cull,
         sides: case.sides,
-        interpolation: alberti::Exact,
+        interpolation,
     };
     draw(&pass, &mut band, &mut [Slot::<S, V>::EMPTY; 4], &mut ());
     let places = (0i32..).flat_map(|y| (0i32..).take(WIDTH as usize).map(move |x| (x, y)));
@@ -116,10 +118,11 @@ fn check_all(case: &Case) {
     let unlit = || Unlit(texture.sampler::<Bilinear, Mirror>());
     let uv = |v: &[f32; 5]| Vec2::new(v[0], v[1]);
     let unit = |d: f32| (0.0..=1.0).contains(&d);
-    check::<F32, Sub8, _>(case, (0.1, 100.0), uv, unlit(), unit);
-    check::<F32Reversed, Sub4, _>(case, (1e-3, 1e6), uv, unlit(), unit);
+    check::<F32, Sub8, _>(case, Exact, (0.1, 100.0), uv, unlit(), unit);
+    check::<F32Reversed, Sub4, _>(case, Plane, (1e-3, 1e6), uv, unlit(), unit);
     check::<D24, Sub8, _>(
         case,
+        FixedPoint(Spans::<16>),
         (1.0, 1.5),
         |v| Vec3::new(v[2], v[3], v[4]),
         VertexColor,
@@ -127,12 +130,29 @@ fn check_all(case: &Case) {
     );
     check::<D16, Sub4, _>(
         case,
+        Bounded { budget: 1e-3 },
         (1e-20, 1e20),
         |v| (Vec3::new(v[2], v[3], v[4]), uv(v)),
         Lambert::new(unlit(), Vector3::new(Vec3::Y), 0.1, 0.9),
         |_| true,
     );
-    check::<NoDepth, Sub8, _>(case, (0.5, 3.4e37), |_| (), |()| Some(Rgba8::WHITE), |()| true);
+    check::<D16, Sub4, _>(
+        case,
+        FixedPoint(Bounded { budget: 1e-3 }),
+        (1e-3, 1e3),
+        |v| (Vec3::new(v[2], v[3], v[4]), uv(v)),
+        Lambert::new(unlit(), Vector3::new(Vec3::Y), 0.1, 0.9),
+        |_| true,
+    );
+    check::<D32, Sub8, _>(
+        case,
+        FixedPoint(Affine),
+        (0.1, 1e9),
+        |v| v[0],
+        |x: f32| Some(Rgba8::from_bits(x.to_bits())),
+        |_| true,
+    );
+    check::<NoDepth, Sub8, _>(case, Exact, (0.5, 3.4e37), |_| (), |()| Some(Rgba8::WHITE), |()| true);
 }
 
 proptest! {
@@ -161,6 +181,6 @@ fn a_sound_mesh_fills_the_viewport() {
         count.set(count.get() + 1);
         Some(Rgba8::WHITE)
     };
-    check::<NoDepth, Sub8, ()>(&case, (0.5, 10.0), |_| (), counting, |()| true);
+    check::<NoDepth, Sub8, ()>(&case, Exact, (0.5, 10.0), |_| (), counting, |()| true);
     assert_eq!(count.get(), (WIDTH - 12) * (HEIGHT - 11));
 }
