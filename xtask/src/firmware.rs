@@ -27,6 +27,9 @@ struct Board {
     emulator: Emulator,
     /// A tick of `alberti_firmware::ticks` is so many instructions: a fraction.
     instructions_per_tick: (u64, u64),
+    /// The most instructions a written pixel that some scenes may take, in tenths: what a scene does not use must not come
+    /// back unnoticed. A division, a plane or a depth more a pixel would exceed them.
+    limits: &'static [(&'static str, u64)],
 }
 
 /// Every board, and the three kinds of core: without hardware for `f32`, with it, and another architecture.
@@ -41,6 +44,13 @@ const BOARDS: &[Board] = &[
         target: "thumbv6m-none-eabi",
         emulator: Emulator { program: "qemu-system-arm", machine: &["-machine", "mps2-an385"], shift: 5 },
         instructions_per_tick: (5, 4),
+        limits: &[
+            ("flat-no-depth", 40),
+            ("fixed-flat", 195),
+            ("fixed-gouraud", 635),
+            ("fixed-affine", 685),
+            ("fixed-textured", 1180),
+        ],
     },
     Board {
         name: "m4f",
@@ -48,6 +58,13 @@ const BOARDS: &[Board] = &[
         target: "thumbv7em-none-eabihf",
         emulator: Emulator { program: "qemu-system-arm", machine: &["-machine", "mps2-an386"], shift: 5 },
         instructions_per_tick: (5, 4),
+        limits: &[
+            ("flat-no-depth", 33),
+            ("fixed-flat", 130),
+            ("fixed-gouraud", 311),
+            ("fixed-affine", 283),
+            ("fixed-textured", 384),
+        ],
     },
     Board {
         name: "rv32",
@@ -59,6 +76,13 @@ const BOARDS: &[Board] = &[
             shift: 0,
         },
         instructions_per_tick: (1, 1),
+        limits: &[
+            ("flat-no-depth", 35),
+            ("fixed-flat", 136),
+            ("fixed-gouraud", 300),
+            ("fixed-affine", 302),
+            ("fixed-textured", 438),
+        ],
     },
 ];
 
@@ -133,6 +157,8 @@ fn check(board: &Board, expected: &[Expected]) -> Outcome {
     println!("\n{}: {} ({}, {})", board.name, board.core, board.target, board.emulator.machine[1]);
     println!("\n{}", frames::table(expected, &drawn));
     println!("    {:<18}{:>10}{:>10}{:>10}", "program, bytes", ".text", ".rodata", "both");
+    let mut failures = frames::differences(board.name, expected, &drawn);
+    failures.extend(frames::excesses(board.name, expected, &drawn, board.limits));
     for name in WEIGHED {
         let path = folder.join(name);
         let file = fs::read(&path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
@@ -140,12 +166,12 @@ fn check(board: &Board, expected: &[Expected]) -> Outcome {
         let [text, rodata] = [program.text, program.rodata];
         println!("    {name:<18}{text:>10}{rodata:>10}{:>10}", text + rodata);
         if !program.panics.is_empty() {
-            println!("    {:<18}can panic: {}", "", program.panics.join(", "));
+            let panics = program.panics.join(", ");
+            failures.push(format!("board {}: {name} can panic: {panics}", board.name));
         }
     }
     println!();
-    let differences = frames::differences(board.name, expected, &drawn);
-    if differences.is_empty() { Ok(()) } else { Err(differences.join("\n")) }
+    if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
 }
 
 #[cfg(test)]

@@ -75,6 +75,29 @@ pub(super) fn differences(board: &str, expected: &[Expected], drawn: &[Drawn]) -
     lines
 }
 
+/// One line for each scene that takes more instructions a written pixel than it may, in tenths.
+pub(super) fn excesses(
+    board: &str,
+    expected: &[Expected],
+    drawn: &[Drawn],
+    limits: &[(&str, u64)],
+) -> Vec<String> {
+    let exceeds = |(name, limit): &(&str, u64)| {
+        let pixels = expected.iter().find(|scene| scene.name == *name).map_or(1, |scene| scene.pixels.max(1));
+        match drawn.iter().find(|frame| frame.name == *name) {
+            Some(frame) if frame.cost * 10 <= limit * pixels => None,
+            Some(frame) => Some(format!(
+                "board {board}, scene {name}: {} instructions for {pixels} pixels, at most {}.{} each are expected",
+                frame.cost,
+                limit / 10,
+                limit % 10
+            )),
+            None => Some(format!("board {board}: there is a limit for `{name}`, which is no scene")),
+        }
+    };
+    limits.iter().filter_map(exceeds).collect()
+}
+
 /// The frames with their costs in instructions.
 pub(super) fn table(expected: &[Expected], drawn: &[Drawn]) -> String {
     let mut text = format!(
@@ -112,6 +135,21 @@ mod tests {
     use super::*;
 
     const HOST: &str = "frame flat aa 2 300\nframe mesh bb 4000 100\n";
+
+    #[test]
+    fn limits_are_kept_or_told() {
+        let drawn = drawn("frame flat aa 1200\nframe mesh bb 401\n").unwrap();
+        let told = |limits: &[(&str, u64)]| excesses("m0", &expected(HOST).unwrap(), &drawn, limits);
+        assert!(told(&[("flat", 40), ("mesh", 41)]).is_empty());
+        assert_eq!(
+            told(&[("flat", 39), ("mesh", 40), ("none", 1)]),
+            [
+                "board m0, scene flat: 1200 instructions for 300 pixels, at most 3.9 each are expected",
+                "board m0, scene mesh: 401 instructions for 100 pixels, at most 4.0 each are expected",
+                "board m0: there is a limit for `none`, which is no scene",
+            ]
+        );
+    }
 
     fn compare(board: &str) -> Vec<String> {
         differences("m0", &expected(HOST).unwrap(), &drawn(board).unwrap())
