@@ -46,7 +46,7 @@ const BOARDS: &[Board] = &[
         instructions_per_tick: (5, 4),
         limits: &[
             ("flat-no-depth", 40),
-            ("fixed-flat", 195),
+            ("fixed-flat", 194),
             ("fixed-gouraud", 635),
             ("fixed-affine", 685),
             ("fixed-textured", 1180),
@@ -77,7 +77,7 @@ const BOARDS: &[Board] = &[
         },
         instructions_per_tick: (1, 1),
         limits: &[
-            ("flat-no-depth", 35),
+            ("flat-no-depth", 47),
             ("fixed-flat", 136),
             ("fixed-gouraud", 300),
             ("fixed-affine", 302),

@@ -19,9 +19,9 @@ use core::fmt;
 /// and is rounded to the buffer's format.
 ///
 /// # Cost
-/// A fragment: an addition for the depth and one for each component. A run: four products of 32 bits to 64 for the weights
-/// at each end, six with perspective, and three for each number. A triangle: about fifteen instructions for each number of
-/// each vertex, which comes as `f32`, and a table instead of a division.
+/// A fragment: an addition for the depth and one for each component. A run: seven products of 32 bits to 64 with perspective,
+/// two without, and three for each component. A triangle: about fifteen instructions for each number of each vertex, which
+/// comes as `f32`, and a table instead of divisions. `docs/kernel.md` has counts for three kinds of core.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FixedPoint<P>(
     /// How rows are divided.

@@ -141,8 +141,8 @@ pub(crate) const LONGEST: i32 = 64;
 /// The first term is what the straight line misses, and is reached; the second is rounding.
 ///
 /// # Cost
-/// A fragment: a product, a sum, a minimum and a maximum for each component; no division. Every `N` columns: three `f64`
-/// divisions, and about ten operations a component.
+/// A fragment: a product, a sum, a minimum and a maximum for each component; no division. Every `N` columns: two `f64`
+/// divisions, and about eight operations a component.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Spans<const N: i32>;
 
