@@ -6,6 +6,7 @@ extern crate std;
 
 pub mod pipeline;
 mod prepared;
+mod profile;
 pub mod shaders;
 mod stats;
 mod vertex;
@@ -23,5 +24,8 @@ pub use alberti_raster::{
 pub use alberti_texture as texture;
 pub use pipeline::{Pass, Sides, View, draw, draw_by};
 pub use prepared::{Prepared, ScreenTriangle, prepare};
+pub use profile::{
+    BandOf, Desktop, Mcu, PassOf, PixelOf, Profile, Reference, ScreenTriangleOf, SlotOf, StoredOf, Tiny,
+};
 pub use stats::Stats;
 pub use vertex::{Slot, VertexStage};
