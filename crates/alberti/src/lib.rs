@@ -16,6 +16,7 @@ pub use alberti_math::{
     Vector3, World, for_lanes, glam, lanes,
 };
 pub use alberti_projection::{Perspective, ViewError, Viewport, look_at};
+pub use alberti_raster as raster;
 pub use alberti_raster::{
     Affine, Band, BandError, Bounded, Color, ColorFormat, Counters, Cull, D16, D24, D32, DepthFormat, Exact,
     F32, F32Reversed, FixedPoint, FragmentStage, Interpolation, NoDepth, OrEqual, Plane, ReadOnly, Rgb565Be,

@@ -5,7 +5,10 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use crate::options::{Cull, DepthFormat, Filter, MAX_SIDE, Shading, Wrap};
+use crate::options::{
+    ColorFormat, Cull, DepthFormat, Filter, Interpolation, MAX_SIDE, Numbers, Profile, Shading, Subpixel,
+    Wrap,
+};
 use crate::scenes;
 
 /// Draws 3D models on the CPU, with perspective done right.
@@ -34,6 +37,7 @@ Examples:
   alberti render                                     the built-in scene, into alberti.png
   alberti render teapot.obj -o teapot.png            a model, all of it in view
   alberti render cow.obj --texture cow.png --eye 2,1,-3
+  alberti render --scene floor --interpolation affine
   alberti render --scene floor --size 1920x1080 --stats json";
 
 /// The options of `alberti render`. Those that are absent are left to the model or the scene.
@@ -107,13 +111,40 @@ pub struct RenderArgs {
     #[arg(long, value_enum, value_name = "SIDE", help_heading = SURFACE)]
     pub cull: Option<Cull>,
 
+    /// A choice of all that follow, each of which overrides it [default: the scene's depth, else desktop].
+    #[arg(long, value_enum, value_name = "PROFILE", help_heading = PRECISION)]
+    pub profile: Option<Profile>,
+
+    /// How vertices' data comes to pixels: exact, plane, spans:N, bounded:TEXELS or affine [default: exact]
+    ///
+    /// exact: right to 9 units of 2^-24, a division a pixel;
+    /// plane: to tens of such units, a division a pixel but fewer operations beside it;
+    /// spans:N: exact every N = 4, 8, 16 or 32 columns, straight lines between, so textures are bent a little;
+    /// bounded:TEXELS: straight lines that miss no more than that much of the largest texture's texel, such as 0.0625;
+    /// affine: straight lines across a triangle, no division, textures swim and break along edges.
+    #[arg(long, value_name = "HOW", help_heading = PRECISION, verbatim_doc_comment, value_parser = Interpolation::parse)]
+    pub interpolation: Option<Interpolation>,
+
+    /// The numbers in which that is computed; fixed is for straight lines only [default: float].
+    #[arg(long, value_enum, value_name = "NUMBERS", help_heading = PRECISION)]
+    pub numbers: Option<Numbers>,
+
     /// What the depth buffer stores [default: f32].
-    #[arg(long, value_enum, value_name = "FORMAT", help_heading = SURFACE)]
+    #[arg(long, value_enum, value_name = "FORMAT", help_heading = PRECISION)]
     pub depth: Option<DepthFormat>,
+
+    /// What a pixel's colour is stored as [default: rgba8].
+    #[arg(long, value_enum, value_name = "FORMAT", help_heading = PRECISION)]
+    pub color: Option<ColorFormat>,
+
+    /// Bits of a pixel's fraction to which vertices are snapped [default: 8].
+    #[arg(long, value_enum, value_name = "BITS", help_heading = PRECISION)]
+    pub subpixel: Option<Subpixel>,
 }
 
 const CAMERA: &str = "Camera";
 const SURFACE: &str = "Surface";
+const PRECISION: &str = "Precision";
 
 /// How counts and times are printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -1,7 +1,11 @@
 //! From a scene and its options to pixels: the one place where names that a user picks at run time become the types
 //! that the pipeline is compiled for. Each choice is matched once per part, never per triangle or pixel.
+//!
+//! Compiling all of them with each other would take hours. So the default policies have a kernel for each fragment
+//! stage, in which the two are optimized together, and all others a kernel for each of the rasterizer's policies, which
+//! calls any stage through a pointer: see `draw/general.rs`.
 
-use crate::options::{Cull, Filter, RenderOptions, Shading, Wrap};
+use crate::options::{Cull, Filter, Interpolation, RenderOptions, Shading, Subpixel, Wrap};
 use crate::scene::{Camera, Image, Model, Part, Vertex};
 use alberti::glam::{Vec2, Vec3};
 use alberti::shaders::{Lambert, Solid, Tinted, Unlit, VertexColor};
@@ -10,6 +14,9 @@ use alberti::{
     Band, Exact, Eye, FragmentStage, Frame, Object, Pass, Perspective, Point3, Rgba8, Sides, Slot, Stats,
     Sub8, Varying, Vector3, VertexStage, View, ViewError, Viewport, World, draw, look_at,
 };
+
+mod erased;
+mod lines;
 
 /// Light that falls everywhere, and light that falls on what faces it.
 pub const AMBIENT: f32 = 0.3;
@@ -62,6 +69,9 @@ macro_rules! with_sampler {
     };
 }
 
+// After the macro, which it uses.
+mod general;
+
 /// A picture under way.
 pub(crate) struct Canvas<'a> {
     model: &'a Model,
@@ -71,6 +81,9 @@ pub(crate) struct Canvas<'a> {
     textures: Vec<Texture<'a, Rgba8>>,
     stats: Stats,
 }
+
+/// How triangles of a part are drawn.
+pub(crate) type DrawPart<'a, D> = fn(&mut Canvas<'a>, &Part, &[[u32; 3]], &mut Band<'_, Rgba8, D>);
 
 impl<'a> Canvas<'a> {
     /// # Errors
@@ -92,6 +105,7 @@ impl<'a> Canvas<'a> {
     /// Draws the whole model into a band; `progress` hears how many of how many triangles are done.
     pub(crate) fn draw_all<D: alberti::DepthFormat>(
         mut self,
+        draw_part: DrawPart<'a, D>,
         band: &mut Band<'_, Rgba8, D>,
         progress: &mut dyn FnMut(u64, u64),
     ) -> Stats {
@@ -101,12 +115,27 @@ impl<'a> Canvas<'a> {
         let mut done = 0;
         for part in &self.model.parts {
             for triangles in part.triangles.chunks(CHUNK) {
-                self.draw_part(part, triangles, band);
+                draw_part(&mut self, part, triangles, band);
                 done += triangles.len() as u64;
                 progress(done, total);
             }
         }
         self.stats
+    }
+
+    /// With a kernel for the stage, if the policies are those for which there is one; otherwise [`Self::in_general`].
+    pub(crate) fn by_default<D: alberti::DepthFormat>(
+        &mut self,
+        part: &Part,
+        triangles: &[[u32; 3]],
+        band: &mut Band<'_, Rgba8, D>,
+    ) {
+        let policies = self.options.policies;
+        if policies.interpolation == Interpolation::Exact && policies.subpixel == Subpixel::Sub8 {
+            self.draw_part(part, triangles, band);
+        } else {
+            self.in_general(part, triangles, band);
+        }
     }
 
     /// From names to types: what a part's surface shows.
@@ -131,14 +160,8 @@ impl<'a> Canvas<'a> {
                         self.draw_surface(Tinted { surface: Unlit(sampler), tint }, triangles, band);
                     }
                 }),
-                // The rarer sizes get one stage for all cases, so that they take less time to compile. A white tint and
-                // a light of 1 change no byte.
-                None => with_sampler!(texture, self.options.filter, self.options.wrap, |sampler| {
-                    let surface = Tinted { surface: Unlit(sampler), tint };
-                    let lit = self.options.shading == Shading::Lambert;
-                    let [ambient, diffuse] = if lit { [AMBIENT, DIFFUSE] } else { [1.0, 0.0] };
-                    self.draw_lit(surface, [ambient, diffuse], triangles, band);
-                }),
+                // For the rarer sizes, texels are found one by one, beside which a call is little.
+                None => self.in_general(part, triangles, band),
             },
         }
     }
@@ -150,24 +173,11 @@ impl<'a> Canvas<'a> {
         F: FragmentStage<Vec2, Color = Rgba8>,
     {
         if self.options.shading == Shading::Lambert {
-            self.draw_lit(surface, [AMBIENT, DIFFUSE], triangles, band);
+            let vertex = |v: &Vertex| (position(v), (Vec3::from_array(v.normal), Vec2::from_array(v.uv)));
+            self.draw(triangles, vertex, lambert(surface, self.light), band);
         } else {
             self.draw(triangles, |v: &Vertex| (position(v), Vec2::from_array(v.uv)), surface, band);
         }
-    }
-
-    fn draw_lit<D, F>(
-        &mut self,
-        surface: F,
-        [ambient, diffuse]: [f32; 2],
-        triangles: &[[u32; 3]],
-        band: &mut Band<'_, Rgba8, D>,
-    ) where
-        D: alberti::DepthFormat,
-        F: FragmentStage<Vec2, Color = Rgba8>,
-    {
-        let vertex = |v: &Vertex| (position(v), (Vec3::from_array(v.normal), Vec2::from_array(v.uv)));
-        self.draw(triangles, vertex, Lambert::new(surface, self.light, ambient, diffuse), band);
     }
 
     fn draw<D, V, F>(
@@ -181,28 +191,50 @@ impl<'a> Canvas<'a> {
         V: Varying,
         F: FragmentStage<V, Color = Rgba8>,
     {
-        let vertices = &self.model.vertices;
+        let pass = self.pass(triangles, vertex_stage, fragment_stage, Exact);
+        let mut slots = self.slots::<Sub8, V>(triangles);
+        draw(&pass, band, &mut slots, &mut self.stats);
+    }
+
+    fn pass<'t, Vs, F, P>(
+        &self,
+        triangles: &'t [[u32; 3]],
+        vertex_stage: Vs,
+        fragment_stage: F,
+        interpolation: P,
+    ) -> Pass<'t, Vertex, u32, Vs, F, P>
+    where
+        'a: 't,
+    {
         let cull = match self.options.cull {
             Cull::Back => alberti::Cull::Back,
             Cull::Front => alberti::Cull::Front,
             Cull::None => alberti::Cull::None,
         };
-        let pass = Pass {
+        Pass {
             view: self.view,
-            vertices,
+            vertices: &self.model.vertices,
             triangles,
             vertex_stage,
             fragment_stage,
             cull,
             sides: Sides::GuardBand,
-            interpolation: Exact,
-        };
-        // Enough for each vertex of these triangles; a model of many small parts must not pay for all of its vertices
-        // in each.
-        let slots = vertices.len().min(3 * triangles.len());
-        let mut slots = vec![Slot::<Sub8, V>::EMPTY; slots];
-        draw(&pass, band, &mut slots, &mut self.stats);
+            interpolation,
+        }
     }
+
+    /// Enough for each vertex of these triangles; a model of many small parts must not pay for all of its vertices in
+    /// each.
+    fn slots<S: alberti::Subpixel, V>(&self, triangles: &[[u32; 3]]) -> Vec<Slot<S, V>>
+    where
+        Slot<S, V>: Clone,
+    {
+        vec![Slot::EMPTY; self.model.vertices.len().min(3 * triangles.len())]
+    }
+}
+
+fn lambert<F>(surface: F, light: Vector3<World>) -> Lambert<F> {
+    Lambert::new(surface, light, AMBIENT, DIFFUSE)
 }
 
 fn position(v: &Vertex) -> Point3<Object> {

@@ -1,10 +1,12 @@
 //! From a scene to a picture.
 
-use crate::draw::Canvas;
+use crate::draw::{Canvas, DrawPart};
 use crate::error::Error;
-use crate::options::{DepthFormat, RenderOptions};
+use crate::options::{ColorFormat, DepthFormat, RenderOptions};
 use crate::scene::{Camera, Image, Model};
-use alberti::{Band, D16, D24, F32, F32Reversed, NoDepth, Rgba8, Stats};
+use alberti::raster::rgb565;
+use alberti::texture::{TexelFormat as _, format::Rgb565};
+use alberti::{Band, D16, D24, D32, F32, F32Reversed, NoDepth, Rgba8, Stats};
 
 /// A finished picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,29 +23,33 @@ pub struct Picture {
 /// within its arrays.
 ///
 /// # Errors
-/// The picture does not fit in memory, or the camera, the size or a texture cannot be drawn.
+/// The policies do not go together, the picture does not fit in memory, or the camera, the size or a texture cannot be
+/// drawn.
 pub fn render(
     model: &Model,
     camera: &Camera,
     options: &RenderOptions,
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<Picture, Error> {
+    options.policies.check()?;
     let canvas = Canvas::new(model, camera, options)
         .map_err(|found| Error::new(found, "a camera, a size and textures that can be drawn"))?;
     let stats_and_pixels = match options.depth {
-        DepthFormat::F32 => draw::<F32>(canvas, options, progress),
-        DepthFormat::F32Reversed => draw::<F32Reversed>(canvas, options, progress),
-        DepthFormat::U24 => draw::<D24>(canvas, options, progress),
-        DepthFormat::U16 => draw::<D16>(canvas, options, progress),
-        DepthFormat::None => draw::<NoDepth>(canvas, options, progress),
+        DepthFormat::F32 => draw::<F32>(canvas, Canvas::by_default, options, progress),
+        DepthFormat::F32Reversed => draw::<F32Reversed>(canvas, Canvas::by_default, options, progress),
+        DepthFormat::U32 => draw::<D32>(canvas, Canvas::in_general, options, progress),
+        DepthFormat::U24 => draw::<D24>(canvas, Canvas::by_default, options, progress),
+        DepthFormat::U16 => draw::<D16>(canvas, Canvas::by_default, options, progress),
+        DepthFormat::None => draw::<NoDepth>(canvas, Canvas::by_default, options, progress),
     };
     let (stats, texels) = stats_and_pixels?;
     Ok(Picture { image: Image { width: options.width, height: options.height, texels }, stats })
 }
 
 /// The picture with depth buffer `D`.
-fn draw<D: alberti::DepthFormat>(
-    canvas: Canvas<'_>,
+fn draw<'a, D: alberti::DepthFormat>(
+    canvas: Canvas<'a>,
+    draw_part: DrawPart<'a, D>,
     options: &RenderOptions,
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<(Stats, Vec<[u8; 4]>), Error> {
@@ -51,13 +57,24 @@ fn draw<D: alberti::DepthFormat>(
     let mut depth = buffer(options, D::FARTHEST)?;
     let mut band = Band::<Rgba8, D>::new(options.width, 0, &mut pixels, &mut depth)
         .map_err(|found| Error::new(found.to_string(), "a size that can be drawn"))?;
-    let stats = canvas.draw_all(&mut band, progress);
+    let stats = canvas.draw_all(draw_part, &mut band, progress);
     drop(depth);
     let mut texels = buffer(options, [0; 4])?;
     for (texel, pixel) in texels.iter_mut().zip(pixels) {
-        *texel = pixel.to_ne_bytes();
+        *texel = shown(options.policies.color, pixel.to_ne_bytes());
     }
     Ok((stats, texels))
+}
+
+/// What is to be seen of a colour where pixels are stored in this format.
+///
+/// Nothing that is drawn reads a colour back, so the last one to be stored is all that counts, and to round it
+/// afterwards gives the pixels that a buffer of that format would hold.
+fn shown(format: ColorFormat, [r, g, b, a]: [u8; 4]) -> [u8; 4] {
+    match format {
+        ColorFormat::Rgba8 => [r, g, b, a],
+        ColorFormat::Rgb565 => Rgb565::decode(rgb565(Rgba8::new(r, g, b, a))).to_bytes(),
+    }
 }
 
 /// One element a pixel, or an error instead of an abort where memory is short.

@@ -10,7 +10,9 @@ use clap::{CommandFactory as _, Parser as _};
 use crate::camera::{self, Wishes};
 use crate::cli::{Cli, Command, RenderArgs, StatsFormat};
 use crate::error::{Error, Warnings, quote};
-use crate::options::{Cull, DEFAULT_BACKGROUND, DepthFormat, Filter, RenderOptions, Shading, Wrap};
+use crate::options::{
+    Cull, DEFAULT_BACKGROUND, DepthFormat, Filter, Policies, Profile, RenderOptions, Shading, Wrap,
+};
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::render::render;
@@ -75,6 +77,8 @@ struct Scene {
 }
 
 fn draw(arguments: &RenderArgs) -> Result<(), Error> {
+    let (policies, depth) = choices(arguments);
+    policies.check()?;
     let output = Output::new(&arguments.output)?;
     for input in arguments.model.iter().chain(&arguments.texture) {
         if output.is(input) {
@@ -101,7 +105,7 @@ fn draw(arguments: &RenderArgs) -> Result<(), Error> {
         );
     }
 
-    let (shading, filter, wrap, cull, depth) = scene.defaults;
+    let (shading, filter, wrap, cull, scene_depth) = scene.defaults;
     let options = RenderOptions {
         width,
         height,
@@ -110,7 +114,8 @@ fn draw(arguments: &RenderArgs) -> Result<(), Error> {
         filter: arguments.filter.unwrap_or(filter),
         wrap: arguments.wrap.unwrap_or(wrap),
         cull: arguments.cull.unwrap_or(cull),
-        depth: arguments.depth.unwrap_or(depth),
+        depth: depth.unwrap_or(scene_depth),
+        policies,
     };
     let start = Instant::now();
     let mut progress = Progress::new("drawing");
@@ -131,6 +136,20 @@ fn draw(arguments: &RenderArgs) -> Result<(), Error> {
         Some(StatsFormat::Text) => format!("{}\n{}", report.summary(), report.text()),
         Some(StatsFormat::Json) => format!("{}\n", report.json()),
     })
+}
+
+/// The profile with what overrides it; no depth where neither says one.
+fn choices(arguments: &RenderArgs) -> (Policies, Option<DepthFormat>) {
+    let RenderArgs { profile, interpolation, numbers, depth, color, subpixel, .. } = *arguments;
+    let (chosen, profile_depth) = profile.map(Profile::policies).unzip();
+    let chosen = chosen.unwrap_or_default();
+    let policies = Policies {
+        interpolation: interpolation.unwrap_or(chosen.interpolation),
+        numbers: numbers.unwrap_or(chosen.numbers),
+        color: color.unwrap_or(chosen.color),
+        subpixel: subpixel.unwrap_or(chosen.subpixel),
+    };
+    (policies, depth.or(profile_depth))
 }
 
 fn name_of(arguments: &RenderArgs) -> &str {

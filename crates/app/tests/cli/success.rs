@@ -52,7 +52,7 @@ fn every_choice_is_accepted() {
         ("--wrap", &["repeat", "clamp", "mirror"]),
         ("--shading", &["unlit", "vertex-color", "lambert"]),
         ("--cull", &["back", "front", "none"]),
-        ("--depth", &["f32", "f32-reversed", "u24", "u16", "none"]),
+        ("--depth", &["f32", "f32-reversed", "u32", "u24", "u16", "none"]),
         ("--background", &["ff0000", "#00FF00"]),
         ("--eye", &["-1,2,3"]),
         ("--target", &["-1,-2,-3"]),

@@ -1,0 +1,199 @@
+//! Any policies with any fragment stage: a kernel for each of the rasterizer's policies, and the stage behind a
+//! pointer.
+
+use super::erased::{Carried, Erased, ErasedFixed, OfFirst, OfUv, erase, erase_fixed};
+use super::lines::Lines;
+use super::{Canvas, color, lambert, position};
+use crate::options::{Filter, Interpolation, Numbers, Shading, SpanLength, Subpixel, Wrap};
+use crate::scene::{Part, Vertex};
+use alberti::glam::{Vec2, Vec3};
+use alberti::lanes::{Floating, Machine, One};
+use alberti::shaders::{Solid, Tinted, Unlit, VertexColor};
+use alberti::texture::{self, Size, Texture};
+use alberti::{
+    Band, Bounded, DepthFormat, Exact, FixedPoint, FragmentStage, Object, Plane, Point3, Rgba8, Sub4, Sub8,
+    Vector3, World, draw_by, for_lanes,
+};
+
+/// The vertex stages: one type for all, whatever is carried.
+type VertexStage = fn(&Vertex) -> (Point3<Object>, Carried);
+
+/// Triangles of a part, and where they go.
+struct Triangles<'t, 'b, D: DepthFormat> {
+    triangles: &'t [[u32; 3]],
+    vertex_stage: VertexStage,
+    band: &'t mut Band<'b, Rgba8, D>,
+}
+
+impl<'a> Canvas<'a> {
+    /// From names to types: interpolation and numbers, then lanes, then subpixels.
+    pub(crate) fn in_general<D: DepthFormat>(
+        &mut self,
+        part: &Part,
+        triangles: &[[u32; 3]],
+        band: &mut Band<'_, Rgba8, D>,
+    ) {
+        let surface = self.surface(part);
+        let target = &mut Triangles { triangles, vertex_stage: surface.vertex_stage(), band };
+        let policies = self.options.policies;
+        match self.lines() {
+            None if policies.interpolation == Interpolation::Plane => self.in_floats(Plane, &surface, target),
+            None => self.in_floats(Exact, &surface, target),
+            Some(lines) if policies.numbers == Numbers::Float => self.in_floats(lines, &surface, target),
+            Some(lines) => surface.visit(&mut EraseFixed(&mut |stage| {
+                self.snapped(One, FixedPoint(lines), stage, target);
+            })),
+        }
+    }
+
+    fn in_floats<P: alberti::Interpolation, D: DepthFormat>(
+        &mut self,
+        interpolation: P,
+        surface: &Surface<'_>,
+        target: &mut Triangles<'_, '_, D>,
+    ) {
+        let Some(machine) = Machine::all().next() else { return };
+        for_lanes!(machine, lanes => surface.visit(&mut Erase {
+            lanes,
+            then: &mut |stage| self.snapped(lanes, interpolation, stage, target),
+        }));
+    }
+
+    fn snapped<L, P, F, D>(&mut self, lanes: L, interpolation: P, stage: F, target: &mut Triangles<'_, '_, D>)
+    where
+        L: Floating,
+        P: alberti::Interpolation,
+        F: FragmentStage<Carried, Color = Rgba8>,
+        D: DepthFormat,
+    {
+        match self.options.policies.subpixel {
+            Subpixel::Sub4 => self.draw_general::<Sub4, _, _, _, _>(lanes, interpolation, stage, target),
+            Subpixel::Sub8 => self.draw_general::<Sub8, _, _, _, _>(lanes, interpolation, stage, target),
+        }
+    }
+
+    fn draw_general<S, L, P, F, D>(
+        &mut self,
+        lanes: L,
+        interpolation: P,
+        stage: F,
+        Triangles { triangles, vertex_stage, band }: &mut Triangles<'_, '_, D>,
+    ) where
+        S: alberti::Subpixel,
+        L: Floating,
+        P: alberti::Interpolation,
+        F: FragmentStage<Carried, Color = Rgba8>,
+        D: DepthFormat,
+    {
+        let pass = self.pass(triangles, *vertex_stage, stage, interpolation);
+        draw_by(lanes, &pass, band, &mut self.slots::<S, Carried>(triangles), &mut self.stats);
+    }
+
+    /// The policy of straight lines, if it is one.
+    fn lines(&self) -> Option<Lines> {
+        let sides = self.textures.iter().map(|t| t.width().max(t.height()));
+        match self.options.policies.interpolation {
+            Interpolation::Exact | Interpolation::Plane => None,
+            Interpolation::Spans(SpanLength::Four) => Some(Lines::Spans4),
+            Interpolation::Spans(SpanLength::Eight) => Some(Lines::Spans8),
+            Interpolation::Spans(SpanLength::Sixteen) => Some(Lines::Spans16),
+            Interpolation::Spans(SpanLength::ThirtyTwo) => Some(Lines::Spans32),
+            Interpolation::Bounded(texels) => {
+                // Without a texture, a step of a colour.
+                let side = sides.max().and_then(|side| side.try_into().ok()).unwrap_or(255);
+                Some(Lines::Bounded(Bounded::texels(texels, side)))
+            }
+            Interpolation::Affine => Some(Lines::Affine),
+        }
+    }
+
+    fn surface(&self, part: &Part) -> Surface<'a> {
+        Surface {
+            texture: part.texture.and_then(|t| self.textures.get(t)).copied(),
+            tint: color(part.diffuse),
+            light: self.light,
+            shading: self.options.shading,
+            filter: self.options.filter,
+            wrap: self.options.wrap,
+        }
+    }
+}
+
+/// What a part looks like.
+struct Surface<'a> {
+    texture: Option<Texture<'a, Rgba8>>,
+    tint: Rgba8,
+    light: Vector3<World>,
+    shading: Shading,
+    filter: Filter,
+    wrap: Wrap,
+}
+
+impl Surface<'_> {
+    /// What the stage does not need is constant, so that it has no part in how far a straight line may go.
+    fn vertex_stage(&self) -> VertexStage {
+        let textured = self.texture.is_some();
+        match self.shading {
+            Shading::VertexColor => |v| (position(v), (Vec3::from_array(v.color), Vec2::ZERO)),
+            Shading::Unlit if textured => |v| (position(v), (Vec3::ZERO, Vec2::from_array(v.uv))),
+            Shading::Unlit => |v| (position(v), (Vec3::ZERO, Vec2::ZERO)),
+            Shading::Lambert if textured => {
+                |v| (position(v), (Vec3::from_array(v.normal), Vec2::from_array(v.uv)))
+            }
+            Shading::Lambert => |v| (position(v), (Vec3::from_array(v.normal), Vec2::ZERO)),
+        }
+    }
+
+    /// From names to types: the fragment stage.
+    fn visit(&self, visitor: &mut impl Visitor) {
+        match self.texture {
+            _ if self.shading == Shading::VertexColor => visitor.visit(OfFirst(VertexColor)),
+            None => self.visit_lit(Solid(self.tint), visitor),
+            Some(texture) => match texture.power_of_two() {
+                Some(texture) => self.visit_textured(texture, visitor),
+                None => self.visit_textured(texture, visitor),
+            },
+        }
+    }
+
+    /// A white tint changes no byte.
+    fn visit_textured<Z: Size>(&self, texture: Texture<'_, Rgba8, Z>, visitor: &mut impl Visitor) {
+        with_sampler!(texture, self.filter, self.wrap, |sampler| {
+            self.visit_lit(Tinted { surface: Unlit(sampler), tint: self.tint }, visitor);
+        });
+    }
+
+    fn visit_lit(&self, surface: impl FragmentStage<Vec2, Color = Rgba8>, visitor: &mut impl Visitor) {
+        if self.shading == Shading::Lambert {
+            visitor.visit(lambert(surface, self.light));
+        } else {
+            visitor.visit(OfUv(surface));
+        }
+    }
+}
+
+/// Something to do with a fragment stage of whatever type.
+trait Visitor {
+    fn visit(&mut self, stage: impl FragmentStage<Carried, Color = Rgba8>);
+}
+
+/// Goes on with the stage behind a pointer.
+struct Erase<'a, L: Floating> {
+    lanes: L,
+    then: &'a mut dyn FnMut(Erased<'_, L>),
+}
+
+impl<L: Floating> Visitor for Erase<'_, L> {
+    fn visit(&mut self, stage: impl FragmentStage<Carried, Color = Rgba8>) {
+        erase(self.lanes, stage, self.then);
+    }
+}
+
+/// The same in fixed point.
+struct EraseFixed<'a>(&'a mut dyn FnMut(ErasedFixed<'_>));
+
+impl Visitor for EraseFixed<'_> {
+    fn visit(&mut self, stage: impl FragmentStage<Carried, Color = Rgba8>) {
+        erase_fixed(stage, self.0);
+    }
+}

@@ -1,0 +1,136 @@
+//! Interpolation, numbers, formats and subpixels by name, one by one and in profiles.
+
+use image::RgbImage;
+
+use crate::Folder;
+
+/// A small picture of a built-in scene under these options.
+fn picture(scene: &str, arguments: &str) -> RgbImage {
+    let folder = Folder::with(&[]);
+    let all = format!("--scene {scene} --size 160x120 {arguments}");
+    folder.succeeds(&all.split_whitespace().collect::<Vec<_>>());
+    image::open(folder.path("alberti.png")).expect("a picture").to_rgb8()
+}
+
+/// The part of the pixels that differ.
+fn difference(a: &RgbImage, b: &RgbImage) -> f64 {
+    let differ: u32 = a.pixels().zip(b.pixels()).map(|(a, b)| u32::from(a != b)).sum();
+    f64::from(differ) / f64::from(a.width() * a.height())
+}
+
+#[test]
+fn every_value_draws() {
+    for arguments in [
+        "--interpolation exact",
+        "--interpolation plane",
+        "--interpolation spans:4",
+        "--interpolation spans:8",
+        "--interpolation spans:16",
+        "--interpolation spans:32",
+        "--interpolation bounded:0.5",
+        "--interpolation bounded:0",
+        "--interpolation spans:4 --numbers fixed",
+        "--interpolation bounded:1 --numbers fixed",
+        "--depth u16",
+        "--depth u24",
+        "--depth u32",
+        "--depth f32",
+        "--depth f32-reversed",
+        "--color rgba8",
+        "--color rgb565",
+        "--subpixel 4",
+        "--subpixel 8",
+        "--profile reference",
+        "--profile desktop",
+        "--profile mcu",
+    ] {
+        // The same scene, whatever it costs: no channel is far off but at edges.
+        let (found, expected) = (picture("mesh", arguments), picture("mesh", ""));
+        let off = |(a, b): (&u8, &u8)| a.abs_diff(*b) > 24;
+        let far = found.iter().zip(expected.iter()).filter(|pair| off(*pair)).count();
+        assert!(far < expected.len() / 25, "{arguments}: {far}");
+    }
+    for arguments in ["--profile tiny", "--depth none", "--interpolation affine --numbers fixed"] {
+        assert!(difference(&picture("mesh", arguments), &picture("mesh", "")) > 0.0, "{arguments}");
+    }
+}
+
+#[test]
+fn exact_is_the_default_and_others_miss_as_they_say() {
+    assert_eq!(picture("floor", "--interpolation exact"), picture("floor", ""));
+    // Rolled: in the scene's own view a row is equally far everywhere, and straight lines along it miss nothing.
+    let rolled = |policy: &str| picture("floor", &format!("--up 1,1,0 --interpolation {policy}"));
+    let exact = rolled("exact");
+    let missed = |policy: &str| difference(&rolled(policy), &exact);
+    assert!(missed("plane") < 0.001);
+    let (bounded, affine) = (missed("bounded:0.0625"), missed("affine"));
+    assert!(bounded > 0.0 && bounded < 0.01, "{bounded}");
+    assert!(affine > 0.5, "{affine}");
+    let all = ["bounded:0.0625", "spans:4", "spans:8", "spans:16", "spans:32", "affine"].map(missed);
+    assert!(all.is_sorted_by(|a, b| a < b), "{all:?}");
+}
+
+#[test]
+fn small_formats_are_seen() {
+    let small = picture("hero", "--color rgb565");
+    // Five bits widened: the lowest three repeat the highest.
+    assert!(small.pixels().all(|p| p.0[0] & 7 == p.0[0] >> 5 && p.0[1] & 3 == p.0[1] >> 6));
+    assert!(difference(&picture("hero", "--subpixel 4"), &picture("hero", "")) > 0.1);
+    assert!(difference(&picture("hero", "--near 0.01 --depth u16"), &picture("hero", "--near 0.01")) > 0.001);
+}
+
+#[test]
+fn a_profile_sets_what_nothing_overrides() {
+    let same = |a: &str, b: &str| assert_eq!(picture("floor", a), picture("floor", b), "{a} and {b}");
+    let mcu = "--interpolation spans:16 --numbers fixed --depth u16 --color rgb565 --subpixel 4";
+    same("--profile desktop", "");
+    same("--profile reference", "--depth f32-reversed");
+    same("--profile mcu", mcu);
+    same("--profile tiny", "--interpolation affine --numbers fixed --depth none --color rgb565 --subpixel 4");
+    same("--profile tiny --depth u16 --interpolation spans:16", mcu);
+    let reference = "--numbers float --interpolation exact --depth f32-reversed --color rgba8 --subpixel 8";
+    same(&format!("{reference} --profile tiny"), "--profile reference");
+}
+
+#[test]
+fn what_does_not_go_together_is_refused() {
+    let folder = Folder::with(&[]);
+    let fails = |arguments: &str, part: &str| {
+        folder.fails(&arguments.split(' ').collect::<Vec<_>>(), &[part]);
+    };
+    let lines = "expected spans:4, spans:8, spans:16, spans:32, bounded:TEXELS or affine; choose one";
+    for (arguments, found) in [
+        ("--numbers fixed", "found fixed with exact"),
+        ("--numbers fixed --interpolation plane", "found fixed with plane"),
+        ("--profile mcu --interpolation exact", "found fixed with exact"),
+        ("--profile desktop --numbers fixed", "found fixed with exact"),
+    ] {
+        fails(arguments, &format!("error: --numbers: {found}, {lines}"));
+    }
+    for value in [
+        "",
+        "exactly",
+        "spans",
+        "spans:",
+        "spans:5",
+        "spans:64",
+        "spans:016",
+        "spans:-4",
+        "bounded",
+        "bounded:",
+        "bounded:x",
+        "bounded:-1",
+        "bounded:nan",
+        "bounded:inf",
+        "affine:4",
+        "Exact",
+    ] {
+        let part = format!("error: --interpolation: found \"{value}\", expected exact, plane, spans:4");
+        folder.fails(&["--interpolation", value], &[&part]);
+    }
+    for arguments in ["--depth f16", "--color rgb888", "--subpixel 6", "--numbers int", "--profile fast"] {
+        let run = folder.render(&arguments.split(' ').collect::<Vec<_>>());
+        assert!(run.status == Some(2) && run.stderr.starts_with("error: "), "{run:?}");
+    }
+    assert!(folder.names().is_empty());
+}
