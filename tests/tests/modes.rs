@@ -2,6 +2,7 @@
 //! interpolation and through clipping.
 #![allow(
     clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
     clippy::cast_precision_loss,
     reason = "pixels and subpixels are small"
 )]

@@ -41,6 +41,7 @@ pub fn reciprocal<const STEPS: u32>(x: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::println;
 
     fn worst<const STEPS: u32>() -> f64 {
         let mut worst = 0.0;
