@@ -5,7 +5,8 @@
 //! * vertices are transformed once a frame; its own vertex stage runs for every corner, so here it only looks up;
 //! * attributes are interpolated with plain multiplications: its own types use `mul_add`, which on a default x86-64
 //!   build is a call;
-//! * it does not clip: a triangle with a vertex behind the eye is drawn wrongly or fills the screen. The scenes' triangles
+//! * it does not clip: a triangle with a vertex behind the eye is drawn wrongly or fills the screen. The scenes'
+//!   triangles
 //!   are therefore cut at the near plane once, outside of the time. Only `floor` has such triangles.
 
 use crate::scene_data::{Scene, Texture};

@@ -1,9 +1,10 @@
-//! [retrofire-core](https://crates.io/crates/retrofire-core) 0.4: scanlines, typed spaces, a full clipper, 1/w as depth.
+//! [retrofire-core](https://crates.io/crates/retrofire-core) 0.4: scanlines, typed spaces, a full clipper, 1/w as
+//! depth.
 //!
 //! It is timed twice: with its own sampler, as its users have it, and with a texture read by a mask and a truncation of
 //! ours, because its sampler's `floor` is a call on a default x86-64 build. The frame has the pixel format in which its
-//! colours need no conversion. It has no filter other than nearest, and one written as a shader would be our code, not its own, so
-//! bilinear scenes are left out.
+//! colours need no conversion. It has no filter other than nearest, and one written as a shader would be our code, not
+//! its own, so bilinear scenes are left out.
 
 use crate::scene_data::{Scene, Texture};
 use crate::{Renderer, Size};

@@ -234,8 +234,8 @@ fn rational_from_depths(case: &Case) -> Rational {
     numerator / t.iter().sum::<Rational>()
 }
 
-/// Where a sample is a vertex, two weights are zero: what comes out is what the vertex carries, but for the roundings of
-/// a product with the weight, of the weight's reciprocal, and of the product of the two.
+/// Where a sample is a vertex, two weights are zero: what comes out is what the vertex carries, but for the roundings
+/// of a product with the weight, of the weight's reciprocal, and of the product of the two.
 #[test]
 fn a_sample_on_a_vertex_sees_the_vertex() {
     let mut rng = Rng::stream(run_seed(), 2);

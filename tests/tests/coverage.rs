@@ -123,8 +123,8 @@ fn inside<S: Subpixel>(tri: Triangle, sample: [i64; 2]) -> bool {
     edges::<i64, S>(tri, sample.map(|c| c as i32)).iter().all(|e| e.value + e.bias >= 0)
 }
 
-/// Whether the sample lies in the span of its row, walked to from some rows above and columns to the left; `None` beside
-/// the triangle's box.
+/// Whether the sample lies in the span of its row, walked to from some rows above and columns to the left; `None`
+/// beside the triangle's box.
 fn in_span<S: Subpixel>(rng: &mut Rng, tri: Triangle, sample: [i64; 2]) -> Option<bool> {
     let [column, row] = sample.map(|c| (c >> S::BITS) as i32);
     let [columns, rows] = [0, 1].map(|axis| samples::<S>(tri, axis));

@@ -57,8 +57,9 @@ fn assert_close(f64_value: f64, exact: &Rational) {
     assert!(off.abs() <= 1e-4 * EPS, "{f64_value} is off by {off:e}");
 }
 
-/// From α and β as they are: the division's error, half an ulp of β/z, and the sum's, half an ulp of at most 1. From the
-/// planes α's and β's own roundings come on top. α = B/(B-A) is the largest |β/z|: for planes close together it is large.
+/// From α and β as they are: the division's error, half an ulp of β/z, and the sum's, half an ulp of at most 1. From
+/// the planes α's and β's own roundings come on top. α = B/(B-A) is the largest |β/z|: for planes close together it is
+/// large.
 #[test]
 fn screen_depth_is_within_its_bounds() {
     let mut rng = Rng::stream(run_seed(), 1);

@@ -1,8 +1,8 @@
 //! The application's pictures against an independent renderer in f64.
 //!
-//! Two references: the ideal one, which casts rays at the triangles as they are, and the snapped one, whose vertices lie
-//! where the rasterizer's snapping puts them. Where snapping moves a horizon, or a far vertex under a fine texture, the
-//! snapped one is the measure, and the ideal figure is printed beside it.
+//! Two references: the ideal one, which casts rays at the triangles as they are, and the snapped one, whose vertices
+//! lie where the rasterizer's snapping puts them. Where snapping moves a horizon, or a far vertex under a fine texture,
+//! the snapped one is the measure, and the ideal figure is printed beside it.
 
 use alberti_app::options::{DepthFormat, Filter, RenderOptions, Shading};
 use alberti_app::render::render;

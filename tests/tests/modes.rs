@@ -1,5 +1,5 @@
-//! What is declared linear is linear on the screen, and what is declared flat is the first vertex's, for every policy of
-//! interpolation and through clipping.
+//! What is declared linear is linear on the screen, and what is declared flat is the first vertex's, for every policy
+//! of interpolation and through clipping.
 #![allow(
     clippy::cast_possible_truncation,
     clippy::cast_possible_wrap,

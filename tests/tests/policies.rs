@@ -97,7 +97,8 @@ fn any_case(rng: &mut Rng) -> Case {
     Case { tri, q, zs: [(); 3].map(|()| rng.unit() as f32), u, covered: 0..0 }
 }
 
-/// Draws triangles with a policy and hands each of a row's samples to `check`: the case, the column, the value, the depth.
+/// Draws triangles with a policy and hands each of a row's samples to `check`: the case, the column, the value, the
+/// depth.
 fn each_sample(
     policy: impl Interpolation,
     stream: u64,

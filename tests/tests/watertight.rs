@@ -1,5 +1,5 @@
-//! Meshes without gaps and without double pixels: every sample of a frame belongs to exactly one triangle of a mesh that
-//! covers it, whether the mesh is drawn as it is or clipped on the way.
+//! Meshes without gaps and without double pixels: every sample of a frame belongs to exactly one triangle of a mesh
+//! that covers it, whether the mesh is drawn as it is or clipped on the way.
 //!
 //! As many fragments as pixels, and every pixel written, is every pixel exactly once.
 #![allow(
@@ -242,8 +242,8 @@ fn any_view(rng: &mut Rng, roam: f64) -> View {
     }
 }
 
-/// Two triangles on either side of an edge that ends within a pixel of the guard band's: one of them is cut there because
-/// of its third vertex, and the edge must be cut alike in the other.
+/// Two triangles on either side of an edge that ends within a pixel of the guard band's: one of them is cut there
+/// because of its third vertex, and the edge must be cut alike in the other.
 #[test]
 fn an_edge_that_ends_at_the_guard_band_is_cut_in_both_triangles_or_in_neither() {
     let mut rng = Rng::stream(run_seed(), 77);

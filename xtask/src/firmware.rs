@@ -27,15 +27,15 @@ struct Board {
     emulator: Emulator,
     /// A tick of `alberti_firmware::ticks` is so many instructions: a fraction.
     instructions_per_tick: (u64, u64),
-    /// The most instructions a written pixel that some scenes may take, in tenths: what a scene does not use must not come
-    /// back unnoticed. A division, a plane or a depth more a pixel would exceed them.
+    /// The most instructions a written pixel that some scenes may take, in tenths: what a scene does not use must not
+    /// come back unnoticed. A division, a plane or a depth more a pixel would exceed them.
     limits: &'static [(&'static str, u64)],
 }
 
 /// Every board, and the three kinds of core: without hardware for `f32`, with it, and another architecture.
 ///
-/// The emulator's time advances by 2^shift ns with each instruction. The counter of the MPS2 ticks every 40 ns of it, so
-/// 32 ns an instruction are 4/5 of a tick, and 32 bits last for 5 thousand million instructions. RISC-V's counter of
+/// The emulator's time advances by 2^shift ns with each instruction. The counter of the MPS2 ticks every 40 ns of it,
+/// so 32 ns an instruction are 4/5 of a tick, and 32 bits last for 5 thousand million instructions. RISC-V's counter of
 /// instructions counts nanoseconds in some versions of QEMU; with 1 ns an instruction these are the same.
 const BOARDS: &[Board] = &[
     Board {

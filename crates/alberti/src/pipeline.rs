@@ -57,9 +57,9 @@ pub struct Pass<'a, T, I, Vs, Fs, P = Exact> {
 
 /// Draws a mesh into a band, triangles in order.
 ///
-/// `slots` keeps transformed vertices, and its element type says how finely positions are snapped: with as many slots as
-/// vertices each vertex is transformed once; with fewer they are a cache; with none, a cache of 16 on the stack is used.
-/// Vertices that are not finite, or larger than `f32::MAX`/16 in eye space, drop their triangles.
+/// `slots` keeps transformed vertices, and its element type says how finely positions are snapped: with as many slots
+/// as vertices each vertex is transformed once; with fewer they are a cache; with none, a cache of 16 on the stack is
+/// used. Vertices that are not finite, or larger than `f32::MAX`/16 in eye space, drop their triangles.
 ///
 /// The pixels do not depend on the slots, on the counters, on which of a triangle's vertices comes first, or on how the
 /// frame is divided into bands. To share the vertex work between bands, see [`prepare`](crate::prepare).

@@ -85,7 +85,8 @@ use core::fmt::Debug;
 /// assert_eq!(Mine::PIXEL_BYTES, 4);
 /// ```
 ///
-/// What makes no sense does not compile: fixed point takes policies of straight lines, and `Exact` and `Plane` are none.
+/// What makes no sense does not compile: fixed point takes policies of straight lines, and `Exact` and `Plane` are
+/// none.
 ///
 /// ```compile_fail,E0277
 /// # use alberti::*;
@@ -172,12 +173,13 @@ impl Profile for Desktop {
 /// For microcontrollers with or without floating point, and a display of 16 bits a pixel.
 ///
 /// # Precision
-/// Attributes in steps of 2^-16 within ±16384, exact every 16 columns, and off between them by what a straight line misses:
-/// see [`FixedPoint`] and [`Spans`]. Depth in steps of 2^-16 of zs; vertices within 2^-5 pixel; 5 or 6 bits a channel.
+/// Attributes in steps of 2^-16 within ±16384, exact every 16 columns, and off between them by what a straight line
+/// misses: see [`FixedPoint`] and [`Spans`]. Depth in steps of 2^-16 of zs; vertices within 2^-5 pixel; 5 or 6 bits a
+/// channel.
 ///
 /// # Cost
-/// A fragment: an addition for the depth and one a component. Every 16 columns: a look into a table instead of a division.
-/// 4 bytes a pixel; edge functions of 32 bits up to 2,890 pixels.
+/// A fragment: an addition for the depth and one a component. Every 16 columns: a look into a table instead of a
+/// division. 4 bytes a pixel; edge functions of 32 bits up to 2,890 pixels.
 #[derive(Clone, Copy, Debug)]
 pub enum Mcu {}
 
@@ -189,12 +191,13 @@ impl Profile for Mcu {
     type Subpixel = Sub4;
 }
 
-/// For the least memory and the fewest instructions: no depth buffer, so that triangles have to come from back to front, and
-/// no perspective within a triangle, so that they have to be small, or face the viewer, where they carry textures.
+/// For the least memory and the fewest instructions: no depth buffer, so that triangles have to come from back to
+/// front, and no perspective within a triangle, so that they have to be small, or face the viewer, where they carry
+/// textures.
 ///
 /// # Precision
-/// Attributes as the [`FixedPoint`] of [`Affine`]: linear on the screen, in steps of 2^-16 within ±16384. Vertices within
-/// 2^-5 pixel; 5 or 6 bits a channel.
+/// Attributes as the [`FixedPoint`] of [`Affine`]: linear on the screen, in steps of 2^-16 within ±16384. Vertices
+/// within 2^-5 pixel; 5 or 6 bits a channel.
 ///
 /// # Cost
 /// A fragment: an addition a component. 2 bytes a pixel; edge functions of 32 bits up to 2,890 pixels.

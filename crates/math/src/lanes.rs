@@ -1,8 +1,8 @@
 //! How many samples are worked on at a time, and in what numbers: [`One`], or, behind the feature `simd`, [`Eight`] in
 //! vector registers, in `f32`; [`OneFixed`] in fixed point.
 //!
-//! A kernel is written once, over a value of a [`Lanes`] type. Every lane of `f32` does the same IEEE operations in the same
-//! order as one lane alone, so the width never changes a bit.
+//! A kernel is written once, over a value of a [`Lanes`] type. Every lane of `f32` does the same IEEE operations in the
+//! same order as one lane alone, so the width never changes a bit.
 
 #[cfg(feature = "simd")]
 mod eight;
@@ -93,11 +93,11 @@ pub trait Lanes: Copy + Debug {
     fn max(self, a: Self::Number, b: Self::Number) -> Self::Number;
     /// The square root, correctly rounded.
     fn sqrt(self, x: Self::Number) -> Self::Number;
-    /// `x` less a multiple of 2^`period`: a number above -2^`period` and below 2^`period`. Exact; what is not finite gives NaN,
-    /// and where there is no NaN, any such number.
+    /// `x` less a multiple of 2^`period`: a number above -2^`period` and below 2^`period`. Exact; what is not finite
+    /// gives NaN, and where there is no NaN, any such number.
     fn wrap(self, x: Self::Number, period: u32) -> Self::Number;
-    /// x·2^`bits` rounded down, in two's complement, for |x·2^`bits`| < 2^31 and `bits` up to 30. NaN gives a multiple of
-    /// 2^31; what is beyond gives any word.
+    /// x·2^`bits` rounded down, in two's complement, for |x·2^`bits`| < 2^31 and `bits` up to 30. NaN gives a multiple
+    /// of 2^31; what is beyond gives any word.
     fn floor_scaled(self, x: Self::Number, bits: u32) -> Self::U32;
     /// The same to the nearest, halves up.
     fn round_scaled(self, x: Self::Number, bits: u32) -> Self::U32;

@@ -1,7 +1,7 @@
 //! Reciprocals without a division: a table and Newton's steps.
 
-/// What the steps start from: 2^17/x for the middle of each 256th of [1, 2), to the nearest, without its highest bit, which
-/// all have.
+/// What the steps start from: 2^17/x for the middle of each 256th of [1, 2), to the nearest, without its highest bit,
+/// which all have.
 static TABLE: [u16; 256] = {
     let mut table = [0; 256];
     let (mut k, mut middle) = (0, (1 << 9) + 1);
@@ -18,7 +18,8 @@ static TABLE: [u16; 256] = {
 /// 2^63 / x for x from 2^31 to 2^32 - 1, at most 2^32 - 1, after so many of Newton's steps.
 ///
 /// # Precision
-/// Never too large. Relative to the exact quotient it falls short by less than 2^-17 after one step, and 2^-29 after two.
+/// Never too large. Relative to the exact quotient it falls short by less than 2^-17 after one step, and 2^-29 after
+/// two.
 ///
 /// # Cost
 /// A load from a table of 512 bytes, and two products of 32 bits to 64 for each step.

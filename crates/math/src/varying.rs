@@ -15,8 +15,8 @@ pub enum Mode {
     Flat,
 }
 
-/// A value that is linear on the screen, without correction for perspective: what is already measured there, or what may
-/// be wrong for a lower cost.
+/// A value that is linear on the screen, without correction for perspective: what is already measured there, or what
+/// may be wrong for a lower cost.
 ///
 /// # Cost
 /// No division for its sake; where all values are linear or flat, none at all.

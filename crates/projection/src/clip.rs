@@ -124,8 +124,9 @@ impl<T: Copy> Polygon<T> {
 /// A triangle wholly inside comes back with the same bits; clipping twice is clipping once.
 ///
 /// # Precision
-/// At each cut, new positions and varyings are within 4ε of the larger of the two ends (3.3ε measured), and never outside
-/// their range; z is exactly that of the plane. Coordinates up to `f32::MAX` / 16 neither overflow nor become NaN.
+/// At each cut, new positions and varyings are within 4ε of the larger of the two ends (3.3ε measured), and never
+/// outside their range; z is exactly that of the plane. Coordinates up to `f32::MAX` / 16 neither overflow nor become
+/// NaN.
 ///
 /// # Cost
 /// A subtraction and a comparison for each vertex and plane; a crossing costs two divisions and a blend.
@@ -149,8 +150,8 @@ pub fn clip_near_far<V: Varying>(triangle: [EyeVertex<V>; 3], near: f32, far: f3
 /// parameter t = τ z1 / (τ z1 + (1−τ) z2), whose weights are τ's times q, divided by their sum.
 ///
 /// # Precision
-/// At each cut, xs, ys, zs and q are within 4ε of the larger of the two ends, varyings within 7ε (3.3ε measured for both);
-/// xs or ys is exactly that of the plane.
+/// At each cut, xs, ys, zs and q are within 4ε of the larger of the two ends, varyings within 7ε (3.3ε measured for
+/// both); xs or ys is exactly that of the plane.
 #[must_use]
 pub fn clip_sides<V: Varying>(
     polygon: Polygon<ProjectedVertex<V>>,

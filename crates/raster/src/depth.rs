@@ -91,8 +91,8 @@ pub enum D24 {}
 #[derive(Clone, Copy, Debug)]
 pub enum D32 {}
 
-/// `D`, but a fragment as near as what is stored is seen as well: of two equal ones, the last drawn stays. For passes that
-/// draw the same triangles again.
+/// `D`, but a fragment as near as what is stored is seen as well: of two equal ones, the last drawn stays. For passes
+/// that draw the same triangles again.
 #[derive(Clone, Copy, Debug)]
 pub struct OrEqual<D>(PhantomData<D>);
 

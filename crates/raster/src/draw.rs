@@ -25,12 +25,12 @@ use core::ops::Range;
 /// not depend on the order of the three vertices, nor on the lanes.
 ///
 /// # Precision
-/// Coverage is exact. Depth and varyings are those of the `interpolation`, depth within 6ε of the plane through the three
-/// zs for [`Exact`](crate::Exact), relatively and barring underflow, and within their range for all.
+/// Coverage is exact. Depth and varyings are those of the `interpolation`, depth within 6ε of the plane through the
+/// three zs for [`Exact`](crate::Exact), relatively and barring underflow, and within their range for all.
 ///
 /// # Cost
-/// A triangle that covers no sample is not prepared. With one lane, rows of a box of up to 8 samples are tested sample by
-/// sample, and six integer divisions give the ends of the spans of wider ones; edge functions have 32 bits up to 179
+/// A triangle that covers no sample is not prepared. With one lane, rows of a box of up to 8 samples are tested sample
+/// by sample, and six integer divisions give the ends of the spans of wider ones; edge functions have 32 bits up to 179
 /// pixels (8 subpixel bits) or 2,894 (4 bits) in a square box, and 64 above. With several lanes, boxes of up to 32
 /// samples that lie within the band's columns and one run are tested, all lanes at once. The pixels are the same.
 pub fn draw_triangle<P, L, S, V, F, C, D, K>(
@@ -84,9 +84,9 @@ where
     )
 }
 
-/// The columns and the rows in which a triangle may cover samples, the rows within the limits, or why there are none: it
-/// faces the wrong way or has no area, or its box holds no sample within `limits`. This is what [`draw_triangle`] finds out
-/// first.
+/// The columns and the rows in which a triangle may cover samples, the rows within the limits, or why there are none:
+/// it faces the wrong way or has no area, or its box holds no sample within `limits`. This is what [`draw_triangle`]
+/// finds out first.
 ///
 /// # Errors
 /// [`Outcome::Culled`] and [`Outcome::Missed`].

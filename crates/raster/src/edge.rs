@@ -121,8 +121,8 @@ impl EdgeInt for i64 {
     }
 }
 
-/// The largest product of a box's width plus two pixels and its height plus one, in subpixels, the box being the hull of
-/// the vertices, for which everything that is computed from the edges at its samples fits `i32`.
+/// The largest product of a box's width plus two pixels and its height plus one, in subpixels, the box being the hull
+/// of the vertices, for which everything that is computed from the edges at its samples fits `i32`.
 ///
 /// An edge function is at most the area of a box that holds its three points, and so are its two products; the pixel
 /// more on each axis is for the sample after the last. The second pixel of width is for the sum of two remainders
@@ -145,8 +145,8 @@ pub struct Edge<I> {
 impl<I: EdgeInt> Edge<I> {
     /// The edge from `a` to `b` with its value at `sample`; positions in subpixels, of which a pixel has `one`.
     ///
-    /// The three positions must be such that `I` holds what is computed: within the guard band for `i64`, and also within
-    /// [`FITS_I32`] for `i32`. Beyond, arithmetic overflows, which panics where overflow is checked.
+    /// The three positions must be such that `I` holds what is computed: within the guard band for `i64`, and also
+    /// within [`FITS_I32`] for `i32`. Beyond, arithmetic overflows, which panics where overflow is checked.
     #[must_use]
     #[inline]
     pub fn new(a: [i32; 2], b: [i32; 2], sample: [i32; 2], one: i32) -> Self {

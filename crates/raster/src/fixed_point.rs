@@ -13,15 +13,16 @@ use core::fmt;
 /// time, with as many additions as there are numbers; the same bits on every machine.
 ///
 /// # Precision
-/// For components in ±16384, and r the greatest ratio of q in the triangle up to 2^20: the bound of `P`, and
-/// (N + 3)·2^-16 + |Δu|·(2^-17 + r·2^-28) with N the columns of a run and Δu the greatest difference between two vertices.
-/// What is beyond ±16384 counts as that. Depth has 31 bits, of which 8 units and one for each column of the row may be wrong,
-/// and is rounded to the buffer's format.
+/// For components in ±16384, and r the greatest ratio of q in the triangle up to 2^20: the bound of `P`, and (N +
+/// 3)·2^-16 + |Δu|·(2^-17 + r·2^-28) with N the columns of a run and Δu the greatest difference between two vertices.
+/// What is beyond ±16384 counts as that. Depth has 31 bits, of which 8 units and one for each column of the row may be
+/// wrong, and is rounded to the buffer's format.
 ///
 /// # Cost
-/// A fragment: an addition for the depth and one for each component. A run: seven products of 32 bits to 64 with perspective,
-/// two without, and three for each component. A triangle: about fifteen instructions for each number of each vertex, which
-/// comes as `f32`, and a table instead of divisions. `docs/kernel.md` has counts for three kinds of core.
+/// A fragment: an addition for the depth and one for each component. A run: seven products of 32 bits to 64 with
+/// perspective, two without, and three for each component. A triangle: about fifteen instructions for each number of
+/// each vertex, which comes as `f32`, and a table instead of divisions. `docs/kernel.md` has counts for three kinds of
+/// core.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FixedPoint<P>(
     /// How rows are divided.
@@ -74,8 +75,8 @@ impl Corner {
         i64::from(self.more[0]) * i64::from(b) + i64::from(self.more[1]) * i64::from(c)
     }
 
-    /// Where the others have these weights, to the nearest. Weights are never too large, together not above 1, and so this is
-    /// within the range of the three.
+    /// Where the others have these weights, to the nearest. Weights are never too large, together not above 1, and so
+    /// this is within the range of the three.
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "not greater than the differences")]
     fn at(&self, weights: [i32; 2]) -> i32 {
@@ -172,8 +173,8 @@ fn slope(more: i64, area: Reciprocal, bits: u32, dropped: u32) -> i32 {
     if more < 0 { -magnitude } else { magnitude }
 }
 
-/// `zs` in the unit in which it is interpolated: the last of a format's bits is worth 2^(31 - bits), and half of that is added
-/// for rounding.
+/// `zs` in the unit in which it is interpolated: the last of a format's bits is worth 2^(31 - bits), and half of that
+/// is added for rounding.
 #[inline(always)]
 fn depth<D: DepthFormat>(zs: f32) -> i32 {
     let fraction = scaled(zs, 31).max(0);
@@ -194,8 +195,8 @@ fn high(a: u32, b: u32) -> u32 {
     ((u64::from(a) * u64::from(b)) >> 32) as u32
 }
 
-/// A part of a whole, over which 2^63 is `per_whole`, as a weight. Weights are negative: compilers see that, and then have
-/// the one instruction that multiplies signed numbers.
+/// A part of a whole, over which 2^63 is `per_whole`, as a weight. Weights are negative: compilers see that, and then
+/// have the one instruction that multiplies signed numbers.
 #[inline(always)]
 fn weight(part: u32, per_whole: u32) -> i32 {
     -(((u64::from(part) * u64::from(per_whole)) >> (63 - WEIGHT)) as i32)

@@ -45,8 +45,8 @@ pub struct FloatingEnds<V: Varying> {
 }
 
 impl<L: Lanes, V: Varying> FloatingLines<L, V> {
-    /// At a sample with these edge functions: the weights of the second and the third vertex for what is linear on the screen
-    /// and for what is so in space, and q.
+    /// At a sample with these edge functions: the weights of the second and the third vertex for what is linear on the
+    /// screen and for what is so in space, and q.
     #[inline(always)]
     fn at<I: EdgeInt, const HYPERBOLIC: bool>(&self, edges: [I; 3]) -> ([f64; 2], [f64; 2], f64) {
         let [a, b, c] = [edges[0].to_f64(), edges[1].to_f64(), edges[2].to_f64()];

@@ -6,9 +6,9 @@ use alberti_math::lanes::Lanes;
 
 /// Maps the varying of a covered sample that passed the depth test to a colour, or discards it.
 ///
-/// Any closure `Fn(V) -> Option<Color>` that captures references is one, called for one sample after the other. What it does
-/// not use of the varying is not computed. Stages are copied to where they are used, so that what they hold may be kept in
-/// registers. A stage that is a type may also take all lanes at once.
+/// Any closure `Fn(V) -> Option<Color>` that captures references is one, called for one sample after the other. What it
+/// does not use of the varying is not computed. Stages are copied to where they are used, so that what they hold may be
+/// kept in registers. A stage that is a type may also take all lanes at once.
 pub trait FragmentStage<V: Varying>: Copy {
     /// The colour it makes: one that the target's format can [store](crate::Store).
     type Color: Color;

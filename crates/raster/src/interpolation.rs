@@ -23,8 +23,8 @@ pub trait Interpolation: Copy + Debug + 'static {
     type Lanes<L: Floating>: Lanes;
     /// A triangle prepared for it.
     type Triangle<L: Floating, V: Varying>: Interpolate<Self::Lanes<L>, V>;
-    /// Whether triangles in narrow boxes may be filled without spans: then all of a row up to so many columns, a power of
-    /// two, at multiples of it, must be one run.
+    /// Whether triangles in narrow boxes may be filled without spans: then all of a row up to so many columns, a power
+    /// of two, at multiples of it, must be one run.
     const RUN: i32;
 
     /// The lanes in which it works.
@@ -99,8 +99,9 @@ pub trait Interpolate<L: Lanes, V: Varying> {
     /// Begins a row.
     fn row<I: EdgeInt>(&self, row: &Row<'_, I>) -> Self::Row;
 
-    /// The run that the covered `column` of a row is in: its samples from the column `aligned` on, with which lanes begin,
-    /// and the column that follows it. Runs do not depend on where a band or a scissor begins, nor on what is left of others.
+    /// The run that the covered `column` of a row is in: its samples from the column `aligned` on, with which lanes
+    /// begin, and the column that follows it. Runs do not depend on where a band or a scissor begins, nor on what is
+    /// left of others.
     fn start<I: EdgeInt>(
         &self,
         row: &Row<'_, I>,

@@ -1,5 +1,5 @@
-//! Interpolation by straight lines along runs of a row's samples: the policies say how long a run is and whether its ends
-//! are corrected for perspective, the numbers are `f32` or fixed point.
+//! Interpolation by straight lines along runs of a row's samples: the policies say how long a run is and whether its
+//! ends are corrected for perspective, the numbers are `f32` or fixed point.
 //!
 //! ```text
 //!   u |        .*          * right, at the ends of runs: u = Σ Ei qi ui / Σ Ei qi
@@ -17,8 +17,6 @@ use core::fmt::Debug;
 
 /// A policy that divides rows into runs.
 pub trait Subdivision: Copy + Debug + 'static {
-    /// Whether the ends are corrected for perspective.
-    const HYPERBOLIC: bool;
     /// The length of all runs, or 1 if there is none such, see [`Interpolation::RUN`](crate::Interpolation::RUN).
     const RUN: i32;
 
@@ -133,12 +131,12 @@ impl<P: Subdivision, L: Lanes, V: Varying, N: Lines<L, V>> Interpolate<L, V> for
 /// The columns of the longest run.
 pub(crate) const LONGEST: i32 = 64;
 
-/// Exact at a row's first and last sample and at every column that is a multiple of `N`, a power of two up to 64; linear
-/// between two of those.
+/// Exact at a row's first and last sample and at every column that is a multiple of `N`, a power of two up to 64;
+/// linear between two of those.
 ///
 /// # Precision
-/// With r >= 1 the ratio of q at two such columns, and Δu the difference of u there: |Δu|·(√r − 1)/(√r + 1) + 6ε·max|ui|.
-/// The first term is what the straight line misses, and is reached; the second is rounding.
+/// With r >= 1 the ratio of q at two such columns, and Δu the difference of u there: |Δu|·(√r − 1)/(√r + 1) +
+/// 6ε·max|ui|. The first term is what the straight line misses, and is reached; the second is rounding.
 ///
 /// # Cost
 /// A fragment: a product, a sum, a minimum and a maximum for each component; no division. Every `N` columns: two `f64`
@@ -147,7 +145,6 @@ pub(crate) const LONGEST: i32 = 64;
 pub struct Spans<const N: i32>;
 
 impl<const N: i32> Subdivision for Spans<N> {
-    const HYPERBOLIC: bool = true;
     const RUN: i32 = {
         assert!(N.count_ones() == 1 && 0 < N && N <= LONGEST, "Spans<N>: N must be a power of two up to 64");
         N
@@ -165,11 +162,12 @@ impl<const N: i32> Subdivision for Spans<N> {
     }
 }
 
-/// Straight lines as long as no component is missed by more than a budget: the runs are the longest of 1, 2, 4 to 64 columns,
-/// at multiples of their length, for which that is so.
+/// Straight lines as long as no component is missed by more than a budget: the runs are the longest of 1, 2, 4 to 64
+/// columns, at multiples of their length, for which that is so.
 ///
 /// # Precision
-/// The budget, and what is said of rounding at [`Spans`]; never more. The reason: a line misses what is hyperbolic by at most
+/// The budget, and what is said of rounding at [`Spans`]; never more. The reason: a line misses what is hyperbolic by
+/// at most
 /// |Δu|·(√r − 1)/(√r + 1) = |Δu|·tanh(ln r/4), and that is not above |Δu|·|Δq|/(max q + 3 min q), which is compared.
 ///
 /// # Cost
@@ -189,7 +187,6 @@ impl Bounded {
 }
 
 impl Subdivision for Bounded {
-    const HYPERBOLIC: bool = true;
     const RUN: i32 = 1;
 
     #[inline(always)]
@@ -226,7 +223,6 @@ impl Subdivision for Bounded {
 pub struct Affine;
 
 impl Subdivision for Affine {
-    const HYPERBOLIC: bool = false;
     const RUN: i32 = LONGEST;
 
     #[inline(always)]

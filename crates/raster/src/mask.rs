@@ -1,4 +1,5 @@
-//! The covered samples of each row of a narrow box, by testing all of them: no division, and no branch on where they lie.
+//! The covered samples of each row of a narrow box, by testing all of them: no division, and no branch on where they
+//! lie.
 
 use crate::edge::Edge;
 use alberti_math::lanes::Lanes;
@@ -30,8 +31,8 @@ pub(crate) struct RowMask<L: Lanes> {
 }
 
 impl<L: Lanes> RowMask<L> {
-    /// The row of the edges' reference sample, which is the box's `first` column and row. Lanes begin at the column `left`,
-    /// not after it, and up to [`NARROW`] of them reach to before the column `end`.
+    /// The row of the edges' reference sample, which is the box's `first` column and row. Lanes begin at the column
+    /// `left`, not after it, and up to [`NARROW`] of them reach to before the column `end`.
     #[inline(always)]
     pub(crate) fn new(lanes: L, edges: [Edge<i32>; 3], first: [i32; 2], left: i32, end: i32) -> Self {
         let [a, b, c] = &edges;

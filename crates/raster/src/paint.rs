@@ -61,8 +61,8 @@ where
         counters.span(covered, written);
     }
 
-    /// [`row`](Self::row) for one lane, into the pixels from the first of `columns` on. Not inlined, so that what the loops
-    /// need is in registers.
+    /// [`row`](Self::row) for one lane, into the pixels from the first of `columns` on. Not inlined, so that what the
+    /// loops need is in registers.
     #[inline(never)]
     fn row_alone<I, C, D, K>(
         &self,
@@ -278,8 +278,8 @@ where
     }
 }
 
-/// The column at which the lanes of a sample begin: a multiple of their number, so that all triangles read and write the
-/// same words of memory, which a machine can then pass on from one to the next before they have reached it.
+/// The column at which the lanes of a sample begin: a multiple of their number, so that all triangles read and write
+/// the same words of memory, which a machine can then pass on from one to the next before they have reached it.
 #[inline(always)]
 pub(crate) fn aligned<L: Lanes>(column: i32) -> i32 {
     column & !(L::STEP - 1)

@@ -9,16 +9,16 @@ use alberti_math::{Mode, Subpixel, Varying};
 use core::fmt;
 
 /// From plane equations: q and every q·u are linear on the screen, so each is a value at the start of a run of samples
-/// and a step a column, and u = (q·u)/q. The planes are set up in `f64` and evaluated in it at the start of each run, of
-/// at most 64 columns, in the triangle; only what is added along a run is `f32`.
+/// and a step a column, and u = (q·u)/q. The planes are set up in `f64` and evaluated in it at the start of each run,
+/// of at most 64 columns, in the triangle; only what is added along a run is `f32`.
 ///
 /// # Precision
 /// With r the ratio of q at the start of a run to q at a sample of it: (6 r + 8)ε·max|ui|, and 6ε·max zs for depth; for
 /// ratios in a triangle up to 2^24, beyond which the error of `f64` counts. Where q falls by half along 64 columns that
-/// is 20ε, where it grows at most 14ε. The reason: q and q·u each carry the rounding of the start and of the step, of their product
-/// with the columns and of the sum, which is (3 r + 3)ε relative to q; the reciprocal and the product add 2ε. The result
-/// never leaves the range of the three values, so a constant stays constant bit for bit; for |ui| above 2^120, where
-/// q·u may overflow, that is all that holds.
+/// is 20ε, where it grows at most 14ε. The reason: q and q·u each carry the rounding of the start and of the step, of
+/// their product with the columns and of the sum, which is (3 r + 3)ε relative to q; the reciprocal and the product add
+/// 2ε. The result never leaves the range of the three values, so a constant stays constant bit for bit; for |ui| above
+/// 2^120, where q·u may overflow, that is all that holds.
 ///
 /// # Cost
 /// A fragment: one product, one sum, one division; a component adds two products, a sum, a minimum and a maximum.

@@ -8,8 +8,8 @@
 //!      . . | * * * * * | . .        *  value + bias >= 0 for all three edges
 //! ```
 //!
-//! From row to row each bound moves by the same fraction of a column, whose integer part and remainder are found once by
-//! division; after that a row costs a few additions and no branch. Inside a span no coverage test is needed.
+//! From row to row each bound moves by the same fraction of a column, whose integer part and remainder are found once
+//! by division; after that a row costs a few additions and no branch. Inside a span no coverage test is needed.
 
 use crate::edge::{Edge, EdgeInt};
 
@@ -143,7 +143,8 @@ pub struct SpanWalker<I> {
 
 impl<I: EdgeInt> SpanWalker<I> {
     /// Starts at the row of the edges' reference sample, which is column 0 of a box of `width` columns and `rows` rows
-    /// of samples between the triangle's topmost and lowest vertex. The bounds of [`Edge::new`] hold for all of the box.
+    /// of samples between the triangle's topmost and lowest vertex. The bounds of [`Edge::new`] hold for all of the
+    /// box.
     #[must_use]
     #[inline]
     pub fn new(edges: &[Edge<I>; 3], width: i32, rows: i32) -> Self {

@@ -81,7 +81,8 @@ impl Bounds {
         (side(0) + 2 * i64::from(one)) * (side(1) + i64::from(one)) <= FITS_I32
     }
 
-    /// All columns, and the rows within the limits, whose samples lie within the box; `None` if the limits hold no sample.
+    /// All columns, and the rows within the limits, whose samples lie within the box; `None` if the limits hold no
+    /// sample.
     #[inline]
     pub(crate) fn within<S: Subpixel>(&self, [limits, rows]: [Range<i32>; 2]) -> Option<[Range<i32>; 2]> {
         let (columns, rows) = (self.samples::<S>(0, i32::MIN..i32::MAX), self.samples::<S>(1, rows));
@@ -106,8 +107,8 @@ pub(crate) fn doubled_area(&[a, b, c]: &Corners) -> i64 {
     ux * vy - uy * vx
 }
 
-/// The corners, and what belongs to each, in the order in which they are taken: clockwise, from the topmost (of two, the
-/// left one). The same for every order in which the triangle could be given, so that no bit depends on that.
+/// The corners, and what belongs to each, in the order in which they are taken: clockwise, from the topmost (of two,
+/// the left one). The same for every order in which the triangle could be given, so that no bit depends on that.
 #[inline]
 pub(crate) fn in_order<T>([a, b, c]: Corners, [x, y, z]: [T; 3], area: i64) -> (Corners, [T; 3]) {
     let ([b, c], [y, z]) = if area > 0 { ([b, c], [y, z]) } else { ([c, b], [z, y]) };

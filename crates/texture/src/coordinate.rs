@@ -38,7 +38,8 @@ const ALIGN: f64 = 1.5 * 16384.0;
 /// The coordinate modulo 2, rounded down to a multiple of 2^-38; 0 for infinities and NaN.
 ///
 /// # Cost
-/// A conversion, two additions, a comparison, a move, a mask and a check of the exponent, for |u| < 2^13. Beyond, a call.
+/// A conversion, two additions, a comparison, a move, a mask and a check of the exponent, for |u| < 2^13. Beyond, a
+/// call.
 #[inline]
 pub(crate) fn modulo_2(u: f32) -> u64 {
     if !HAS_F64 {

@@ -31,8 +31,8 @@ pub trait Kernel {
 ///
 /// # Cost
 /// With [`PowerOfTwo`](crate::PowerOfTwo), six operations of `f32` an axis for [`Repeat`](crate::Repeat), on all lanes
-/// at once, and the load. With [`AnySize`](crate::AnySize) about 28 instructions on x86-64 for each sample, no division and no
-/// call; there, coordinates of 2^13 and more take a slower way to the same answer.
+/// at once, and the load. With [`AnySize`](crate::AnySize) about 28 instructions on x86-64 for each sample, no division
+/// and no call; there, coordinates of 2^13 and more take a slower way to the same answer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Nearest;
 

@@ -1,7 +1,8 @@
 //! How a stored texel becomes a colour.
 //!
-//! A format is a type without values of its own: [`Texture`](crate::Texture) carries it as a parameter, so that
-//! the decoding is compiled into the sampling. [`Rgba8`], what every format decodes to, is itself one. Types of other crates can be formats too, a palette for example.
+//! A format is a type without values of its own: [`Texture`](crate::Texture) carries it as a parameter, so that the
+//! decoding is compiled into the sampling. [`Rgba8`], what every format decodes to, is itself one. Types of other
+//! crates can be formats too, a palette for example.
 
 pub use alberti_math::Rgba8;
 

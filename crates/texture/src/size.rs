@@ -8,8 +8,8 @@ use crate::coordinate::FRACTION_BITS;
 
 /// [`AnySize`], [`PowerOfTwo`] or [`Known`]. Other crates cannot add to them.
 ///
-/// All find the same texels and weights where they apply; the second is faster than the first, and works on many samples at
-/// once, and the third is faster again.
+/// All find the same texels and weights where they apply; the second is faster than the first, and works on many
+/// samples at once, and the third is faster again.
 pub trait Size: Scale + Copy + Debug + 'static {
     /// Columns and rows, where they are known.
     const SIDES: Option<[u32; 2]> = None;
@@ -24,7 +24,8 @@ pub enum AnySize {}
 #[derive(Clone, Copy, Debug)]
 pub enum PowerOfTwo {}
 
-/// Sides that are known when the program is compiled, powers of two: as [`PowerOfTwo`], with shifts and masks by constants.
+/// Sides that are known when the program is compiled, powers of two: as [`PowerOfTwo`], with shifts and masks by
+/// constants.
 #[derive(Clone, Copy, Debug)]
 pub enum Known<const WIDTH: u32, const HEIGHT: u32> {}
 

@@ -68,8 +68,8 @@ impl<'a, F: TexelFormat> Texture<'a, F, AnySize> {
         }
     }
 
-    /// The same texture, known to have these sides, powers of two, if it has: for textures that are part of a program. It is
-    /// the fastest to sample, and shows the same.
+    /// The same texture, known to have these sides, powers of two, if it has: for textures that are part of a program.
+    /// It is the fastest to sample, and shows the same.
     ///
     /// ```
     /// use alberti_texture::{Known, Texture, format::L8};

@@ -5,8 +5,8 @@ use core::fmt::Debug;
 
 use crate::coordinate::{FRACTION_BITS, ONE, clamped, modulo_2};
 
-/// The continuation of a texture beyond its sides, along one axis: [`Repeat`], [`Clamp`] or [`Mirror`]. Other crates cannot
-/// add to them.
+/// The continuation of a texture beyond its sides, along one axis: [`Repeat`], [`Clamp`] or [`Mirror`]. Other crates
+/// cannot add to them.
 ///
 /// ```text
 ///            -1        0         1         2        3

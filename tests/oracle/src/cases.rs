@@ -80,7 +80,8 @@ pub fn near_tie(rng: &mut Rng, bits: u32, guard: i64) -> Case {
 }
 
 /// A sliver whose long edge passes exactly through the sample. Its third vertex is a lattice point nearest to the line,
-/// so that its doubled area is the number of primitive steps along the edge: often 2, over lengths up to the guard band.
+/// so that its doubled area is the number of primitive steps along the edge: often 2, over lengths up to the guard
+/// band.
 pub fn sliver_tie(rng: &mut Rng, bits: u32, guard: i64) -> Case {
     build(rng, bits, guard, Kind::SliverTie, |rng, p, reach| sliver_through(rng, p, reach, guard))
 }

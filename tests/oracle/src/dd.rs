@@ -110,9 +110,9 @@ impl Div for Dd {
 ///
 /// # Precision
 /// For a sample inside the triangle or on its border, positive `q` and coordinates up to `2^23`, the error is below
-/// `2^-100 * max|u|`: the weights are below `2^53`, so `t_i = E_i q_i` is exact; a product `t_i u_i` has `2u^2`; two sums
-/// of three terms have `6u^2` of the sum of the magnitudes, above and below the bar; the quotient has `15u^2`. Together
-/// `(2 + 6 + 6 + 15) u^2 max|u| = 29 * 2^-106 max|u|`.
+/// `2^-100 * max|u|`: the weights are below `2^53`, so `t_i = E_i q_i` is exact; a product `t_i u_i` has `2u^2`; two
+/// sums of three terms have `6u^2` of the sum of the magnitudes, above and below the bar; the quotient has `15u^2`.
+/// Together `(2 + 6 + 6 + 15) u^2 max|u| = 29 * 2^-106 max|u|`.
 ///
 /// # Cost
 /// About twenty f64 fused operations and six i128 products, some hundred times less than rationals.

@@ -1,7 +1,7 @@
 //! The picture without a pipeline: a ray through every pixel centre, met with the triangles in eye space.
 //!
-//! Nothing is projected, clipped, snapped or interpolated in `1/w`. The ray of a pixel has the direction `d` with
-//! `d.z = 1`, and a triangle `v0 v1 v2` is hit at `z d = b0 v0 + b1 v1 + b2 v2`, `b0 + b1 + b2 = 1`. Cramer's rule gives
+//! Nothing is projected, clipped, snapped or interpolated in `1/w`. The ray of a pixel has the direction `d` with `d.z
+//! = 1`, and a triangle `v0 v1 v2` is hit at `z d = b0 v0 + b1 v1 + b2 v2`, `b0 + b1 + b2 = 1`. Cramer's rule gives
 //!
 //! ```text
 //!   b0 / z = d . (v1 x v2) / det      b1 / z = d . (v2 x v0) / det      b2 / z = d . (v0 x v1) / det

@@ -83,7 +83,8 @@ pub fn clip_lerp(vi: &Rational, vj: &Rational, di: &Rational, dj: &Rational) -> 
     (dj * vi - di * vj) / (dj - di)
 }
 
-/// The exact screen depth `B/(B-A) - A B/((B-A) z)` at the distance `z`, 0 at the near plane `A` and 1 at the far one `B`.
+/// The exact screen depth `B/(B-A) - A B/((B-A) z)` at the distance `z`, 0 at the near plane `A` and 1 at the far one
+/// `B`.
 ///
 /// # Panics
 /// When `z` is zero, both planes are equal, or a value is not finite.

@@ -3,7 +3,8 @@
 /// The seed of every run that does not ask for another one.
 pub const FIXED_SEED: u64 = 0x0A1B_E271_1435_2026;
 
-/// The seed of this run: the environment variable `ALBERTI_SEED` (decimal, or hexadecimal after `0x`), or [`FIXED_SEED`].
+/// The seed of this run: the environment variable `ALBERTI_SEED` (decimal, or hexadecimal after `0x`), or
+/// [`FIXED_SEED`].
 ///
 /// It is printed, so that a failing test shows how to run it again.
 ///

@@ -7,6 +7,9 @@ use crate::workspace::LIBRARIES;
 /// The style asks for 150 to 400 lines; beyond this a file holds more than one idea.
 const MAX_LINES: usize = 500;
 
+/// The columns of a line.
+const MAX_WIDTH: usize = 120;
+
 /// Checks one Rust file, or one Markdown file, whose examples are Rust.
 pub(super) fn check(file: &str, text: &str) -> Vec<Problem> {
     let mut problems = Vec::new();
@@ -15,6 +18,7 @@ pub(super) fn check(file: &str, text: &str) -> Vec<Problem> {
         return problems;
     }
     size(file, text, &mut problems);
+    wide_comments(file, text, &mut problems);
     let code = code_only(text);
     unfinished(file, text, &code, &mut problems);
     if is_library_source(file) {
@@ -39,6 +43,19 @@ fn size(file: &str, text: &str, problems: &mut Vec<Problem>) {
             lines,
             format!("{lines} lines; {MAX_LINES} are the most: split the file"),
         ));
+    }
+}
+
+/// rustfmt does not wrap comments. Tables cannot be wrapped.
+fn wide_comments(file: &str, text: &str, problems: &mut Vec<Problem>) {
+    for (index, line) in text.lines().enumerate() {
+        let comment = line.trim_start();
+        let table = comment.trim_start_matches(['/', '!']).trim_start().starts_with('|');
+        let width = line.chars().count();
+        if comment.starts_with("//") && !table && width > MAX_WIDTH {
+            let told = format!("a comment of {width} columns; {MAX_WIDTH} are the most");
+            problems.push(Problem::new(file, index + 1, told));
+        }
     }
 }
 
@@ -111,6 +128,15 @@ mod tests {
 
     const NONE: [String; 0] = [];
     const RASTER: &str = "crates/raster/src/edge.rs";
+
+    #[test]
+    fn wide_comments_are_found_and_tables_are_not() {
+        let wide = "x".repeat(118);
+        assert_eq!(
+            found("a.rs", &format!("// short\n    // {wide}\n/// | {wide} |\n")),
+            ["a.rs:2: a comment of 125 columns; 120 are the most"]
+        );
+    }
 
     #[test]
     fn unfinished_work_is_found_with_its_line() {

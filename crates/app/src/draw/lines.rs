@@ -21,7 +21,6 @@ pub(super) enum Lines {
 }
 
 impl Subdivision for Lines {
-    const HYPERBOLIC: bool = true;
     const RUN: i32 = 1;
 
     #[inline(always)]

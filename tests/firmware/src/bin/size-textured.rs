@@ -1,4 +1,5 @@
-//! Draws a textured mesh in perspective, with depth, and does nothing else: its size is that of the code a program needs for it.
+//! Draws a textured mesh in perspective, with depth, and does nothing else: its size is that of the code a program
+//! needs for it.
 
 #![no_std]
 #![no_main]
