@@ -10,8 +10,8 @@
 //! | profile | precision of attributes | cost of a fragment |
 //! |---|---|---|
 //! | [`Reference`], [`Desktop`] | 9ε | a division; a component adds four products |
-//! | [`Mcu`] | 2^-16, and what a line misses along 16 columns | an addition a component; a table every 16 columns |
-//! | [`Tiny`] | 2^-16, and what a line misses along the triangle | an addition a component |
+//! | [`Mcu`] | 19 steps of 2^-16, and what a line misses along 16 columns | an addition a component; a table every 16 columns |
+//! | [`Tiny`] | 67 steps of 2^-16, and what a line misses along the triangle | an addition a component |
 //!
 //! A profile is for code that is to be drawn in several ways. Code that knows its way names the policies themselves.
 
@@ -173,8 +173,8 @@ impl Profile for Desktop {
 /// For microcontrollers with or without floating point, and a display of 16 bits a pixel.
 ///
 /// # Precision
-/// Attributes in steps of 2^-16 within ±16384, exact every 16 columns, and off between them by what a straight line
-/// misses: see [`FixedPoint`] and [`Spans`]. Depth in steps of 2^-16 of zs; vertices within 2^-5 pixel; 5 or 6 bits a
+/// Attributes in steps of 2^-16 within ±16384, right to a few of them every 16 columns, and off between by one a column
+/// and by what a straight line misses: see [`FixedPoint`] and [`Spans`]. Depth in steps of 2^-16 of zs; vertices within 2^-5 pixel; 5 or 6 bits a
 /// channel.
 ///
 /// # Cost

@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | [`Solid`] | any | one for all |
 //! | [`VertexColor`] | `Vec3` | the varying, red, green, blue in [0, 1] |
-//! | [`VertexColor565`] | `Vec3` | the same in 16 bits |
+//! | [`VertexColor565`] | [`Ready565`] | the same in 16 bits |
 //! | [`Unlit`] | `Vec2` | the texture at the varying |
 //! | [`Stored`] | `Vec2` | the same, in the texture's own format |
 //! | [`Tinted`] | the wrapped stage's | the wrapped stage's times a colour |
@@ -14,7 +14,7 @@
 
 use alberti_math::glam::{Vec2, Vec3};
 use alberti_math::lanes::{Lanes, One};
-use alberti_math::{Point3, Rgba8, Space, Varying, Vector3, World};
+use alberti_math::{Mode, Point3, Rgba8, Space, Varying, Vector3, World};
 use alberti_raster::{Color, FragmentStage};
 use alberti_texture::{Filter, Nearest, Sampler, Size, TexelFormat, Wrap};
 use core::num::Wrapping;
@@ -66,7 +66,7 @@ impl FragmentStage<Vec3> for VertexColor {
     }
 }
 
-/// [`VertexColor`] for targets of 16 bits: the varying is a colour that a vertex stage has made [`ready`](Self::ready).
+/// [`VertexColor`] for targets of 16 bits, of which the vertices carry [`Ready565`].
 ///
 /// # Precision
 /// To the nearest step of each channel.
@@ -76,27 +76,56 @@ impl FragmentStage<Vec3> for VertexColor {
 #[derive(Clone, Copy, Debug)]
 pub struct VertexColor565;
 
-impl VertexColor565 {
-    /// What a vertex carries for this colour; components outside [0, 1] are clamped.
+/// A colour of which the fragments need only take the highest bits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ready565(Vec3);
+
+impl Ready565 {
+    /// For this colour; components outside [0, 1] are clamped.
     #[must_use]
     #[inline]
-    pub fn ready(color: Vec3) -> Vec3 {
+    pub fn new(color: Vec3) -> Self {
         // floor(32 x) of these is what is nearest to 31 times the component.
         let steps = Vec3::new(32.0, 64.0, 32.0);
-        (color.clamp(Vec3::ZERO, Vec3::ONE) * (steps - Vec3::ONE) + Vec3::splat(0.5)) / steps
+        Self((color.clamp(Vec3::ZERO, Vec3::ONE) * (steps - Vec3::ONE) + Vec3::splat(0.5)) / steps)
     }
 }
 
-impl FragmentStage<Vec3> for VertexColor565 {
+impl Varying for Ready565 {
+    type Of<T: Copy> = [T; 3];
+
+    #[inline(always)]
+    fn gather<const N: usize>(values: [Self; N]) -> [[f32; N]; 3] {
+        Vec3::gather(values.map(|v| v.0))
+    }
+
+    #[inline(always)]
+    fn map_by_mode<T: Copy, U: Copy>(bundle: &[T; 3], f: &impl Fn(Mode, T) -> U) -> [U; 3] {
+        Vec3::map_by_mode(bundle, f)
+    }
+
+    #[inline(always)]
+    fn zip<T: Copy, U: Copy>(first: &[T; 3], second: &[U; 3]) -> [(T, U); 3] {
+        Vec3::zip(first, second)
+    }
+
+    #[inline(always)]
+    fn from_components(bundle: &[f32; 3]) -> Self {
+        Self(Vec3::from_components(bundle))
+    }
+}
+
+impl FragmentStage<Ready565> for VertexColor565 {
     type Color = u16;
 
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "16 bits")]
-    fn shade(&self, color: Vec3) -> Option<u16> {
+    fn shade(&self, Ready565(color): Ready565) -> Option<u16> {
         let (word, _) = self.shade_lanes(One, &color.to_array(), true);
         Some(word.0 as u16)
     }
 
+    // What is interpolated stays between what vertices carry, and so does not leave the channels.
     #[inline(always)]
     fn shade_lanes<L: Lanes>(&self, lanes: L, color: &[L::Number; 3], mask: L::Mask) -> (L::U32, L::Mask) {
         let [r, g, b] = *color;
@@ -210,7 +239,8 @@ fn times<L: Lanes>(lanes: L, [r, g, b, a]: [L::U32; 4], tint: Rgba8) -> L::U32 {
 ///
 /// # Precision
 /// Within 0.51 of a byte of the formula, from the wrapped stage's bytes, for normals between 1e-18 and 1e18 long. A
-/// shorter or longer one has no direction that could be told, and gets a light between the ambient and the full one.
+/// shorter or longer one has no direction that could be told, and gets a light between the ambient and the full one. In
+/// fixed point lengths must be between 0.1 and 100, and the light is within 2^-10 of the formula.
 ///
 /// # Cost
 /// A square root, a division and about twenty multiplications and additions a fragment.
@@ -278,7 +308,7 @@ fn lit<L: Lanes>(lanes: L, [r, g, b, a]: [L::U32; 4], light: [L::Number; 3]) -> 
 }
 
 /// The normal of the plane through three points, towards the side from which they run counter-clockwise. Its length is
-/// twice the triangle's area; zero where there is none.
+/// twice the triangle's area, which fixed point may not hold: normalize it there. Zero where there is none.
 #[must_use]
 pub fn face_normal<S: Space>([a, b, c]: [Point3<S>; 3]) -> Vector3<S> {
     Vector3::new((b - a).coords.cross((c - a).coords))
@@ -308,6 +338,8 @@ fn pack<L: Lanes>(lanes: L, [r, g, b, a]: [L::U32; 4]) -> L::U32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use alberti_math::Q16;
+    use alberti_math::lanes::OneFixed;
 
     #[test]
     fn light_falls_off_with_the_cosine() {
@@ -318,6 +350,21 @@ mod tests {
         assert_eq!(gray(Vec3::X), 51);
         assert_eq!(gray(Vec3::NEG_Y), 51);
         assert_eq!(gray(Vec3::ZERO), 51);
+    }
+
+    #[test]
+    fn light_in_fixed_point_keeps_its_bound() {
+        let to_light = Vec3::new(0.48, 0.6, 0.64);
+        let stage = Lambert::new(Solid(Rgba8::WHITE), Vector3::new(to_light), 0.2, 0.8);
+        let mut worst = 0.0f32;
+        for step in 0..20_000_u16 {
+            let [a, b] = [f32::from(step % 141) * 0.0446, f32::from(step / 141) * 0.0223];
+            let length = 0.1 * 1000f32.powf(f32::from(step % 97) / 96.0);
+            let unit = Vec3::new(a.cos() * b.sin(), a.sin() * b.sin(), b.cos());
+            let light = stage.light(OneFixed, (unit * length).to_array().map(Q16::from_f32)).to_f32();
+            worst = worst.max((light - (0.2 + 0.8 * unit.dot(to_light).max(0.0))).abs());
+        }
+        assert!((0.0002..1.0 / 1024.0).contains(&worst), "{worst}");
     }
 
     #[test]
@@ -342,7 +389,7 @@ mod tests {
         for step in -100..1100_i16 {
             let c = f32::from(step) / 1000.0;
             let nearest = |steps: f32| (c.clamp(0.0, 1.0) * steps + 0.5).floor();
-            let packed = VertexColor565.shade(VertexColor565::ready(Vec3::splat(c))).expect("never discards");
+            let packed = VertexColor565.shade(Ready565::new(Vec3::splat(c))).expect("never discards");
             assert_eq!(f32::from(packed >> 11), nearest(31.0), "red of {c}");
             assert_eq!(f32::from(packed >> 5 & 63), nearest(63.0), "green of {c}");
             assert_eq!(f32::from(packed & 31), nearest(31.0), "blue of {c}");

@@ -22,7 +22,7 @@ use core::ops::Range;
 ///
 /// Every sample (pixel centre) inside the snapped triangle is covered, exactly; one on an edge belongs to the triangle
 /// whose top or left edge it is, so triangles that share an edge neither leave a gap nor draw twice. The result does
-/// not depend on the order of the three vertices, nor on the lanes.
+/// not depend on the order of the three vertices, but for what is [`Flat`](alberti_math::Flat), nor on the lanes.
 ///
 /// # Precision
 /// Coverage is exact. Depth and varyings are those of the `interpolation`, depth within 6ε of the plane through the

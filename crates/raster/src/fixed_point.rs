@@ -13,9 +13,11 @@ use core::fmt;
 /// time, with as many additions as there are numbers; the same bits on every machine.
 ///
 /// # Precision
-/// For components in ±16384, and r the greatest ratio of q in the triangle up to 2^20: the bound of `P`, and (N +
-/// 3)·2^-16 + |Δu|·(2^-17 + r·2^-28) with N the columns of a run and Δu the greatest difference between two vertices.
-/// What is beyond ±16384 counts as that. Depth has 31 bits, of which 8 units and one for each column of the row may be
+/// For components in ±16384, and r the greatest ratio of q in the triangle up to 2^20: the bound of `P`, and
+/// (N + 3)·2^-16 + |Δu|·(2^-17 + r·2^-28) with N the columns of a run and Δu the greatest difference between two
+/// vertices; of [`Bounded`](crate::Bounded), whose budget includes the first term, only the second. Where the budget is
+/// below four steps, all runs are of one column. What vertices carry is rounded to 2^-16, and what is beyond ±16384
+/// counts as that. Depth has 31 bits, of which 8 units and one for each column of the row may be
 /// wrong, and is rounded to the buffer's format.
 ///
 /// # Cost
@@ -280,12 +282,14 @@ impl<V: Varying> Numbers for FixedLines<V> {
     }
 
     #[inline(always)]
-    fn within(&self, ends: &FixedEnds<V>, budget: f32) -> bool {
+    fn within(&self, ends: &FixedEnds<V>, columns: i32, budget: f32) -> bool {
+        // Each may be five too small.
         let [q0, q1] = ends.q.map(u64::from);
-        // Each may be three too small.
-        let apart = q0.abs_diff(q1) + 3;
-        let budget = u64::from(scaled(budget, 16).clamp(0, LIMIT / 2).unsigned_abs());
-        let limit = budget * (q0.max(q1) + 3 * q0.min(q1));
+        let apart = q0.abs_diff(q1) + 5;
+        // What rounding takes is not there for perspective.
+        let left = scaled(budget, 16).clamp(0, LIMIT / 2) - columns - ROUNDED;
+        let Ok(left) = u64::try_from(left) else { return false };
+        let limit = left * (q0.max(q1) + 3 * q0.min(q1));
         let within = Cell::new(true);
         let _ = V::map_by_mode(&ends.components, &|mode, [start, end]: [i32; 2]| {
             let missed = u64::from(end.abs_diff(start)) * apart;
@@ -294,6 +298,9 @@ impl<V: Varying> Numbers for FixedLines<V> {
         within.get()
     }
 }
+
+/// What the rounding of the ends of a run takes of a budget, beside a unit for each of its columns.
+const ROUNDED: i32 = 3;
 
 /// Numbers at a sample, and what the next has more.
 #[derive(Clone, Copy)]

@@ -105,7 +105,7 @@ impl<L: Lanes, V: Varying> Numbers for FloatingLines<L, V> {
     }
 
     #[inline(always)]
-    fn within(&self, ends: &FloatingEnds<V>, budget: f32) -> bool {
+    fn within(&self, ends: &FloatingEnds<V>, _: i32, budget: f32) -> bool {
         let [q0, q1] = ends.q;
         let (apart, limit) = ((q1 - q0).abs(), f64::from(budget) * (q0.max(q1) + 3.0 * q0.min(q1)));
         let within = Cell::new(true);
@@ -166,12 +166,25 @@ impl<L: Floating, V: Varying> Lines<L, V> for FloatingLines<L, V> {
     }
 }
 
+/// The policy `P`, which is one of straight lines, in `f32`: the counterpart of [`FixedPoint`](crate::FixedPoint).
+///
+/// # Precision
+/// That of `P`.
+///
+/// # Cost
+/// That of `P`. The policies of this crate need no such name, they are in `f32` by themselves.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FloatingPoint<P>(
+    /// How rows are divided.
+    pub P,
+);
+
 macro_rules! interpolations {
-    ($(($($parameters:tt)*) $policy:ty;)*) => {$(
+    ($(($($parameters:tt)*) $policy:ty: $divided:ty, $itself:ident => $division:expr;)*) => {$(
         impl<$($parameters)*> Interpolation for $policy {
             type Lanes<L: Floating> = L;
-            type Triangle<L: Floating, V: Varying> = LineTriangle<Self, FloatingLines<L, V>>;
-            const RUN: i32 = <Self as Subdivision>::RUN;
+            type Triangle<L: Floating, V: Varying> = LineTriangle<$divided, FloatingLines<L, V>>;
+            const RUN: i32 = <$divided as Subdivision>::RUN;
 
             #[inline(always)]
             fn lanes<L: Floating>(lanes: L) -> L {
@@ -183,16 +196,18 @@ macro_rules! interpolations {
                 self,
                 lanes: L,
                 triangle: &Oriented<'_, S, V>,
-            ) -> LineTriangle<Self, FloatingLines<L, V>> {
-                LineTriangle { policy: self, numbers: FloatingLines::new(lanes, triangle) }
+            ) -> LineTriangle<$divided, FloatingLines<L, V>> {
+                let $itself = self;
+                LineTriangle { policy: $division, numbers: FloatingLines::new(lanes, triangle) }
             }
         }
     )*};
 }
 interpolations! {
-    (const N: i32) Spans<N>;
-    () Bounded;
-    () Affine;
+    (const N: i32) Spans<N>: Self, spans => spans;
+    () Bounded: Self, bounded => bounded;
+    () Affine: Self, affine => affine;
+    (P: Subdivision) FloatingPoint<P>: P, wrapped => wrapped.0;
 }
 
 impl<L: Lanes, V: Varying> fmt::Debug for FloatingLines<L, V> {

@@ -31,7 +31,7 @@ pub use draw::{draw_triangle, reach};
 pub use edge::{Edge, EdgeInt, FITS_I32};
 pub use exact::{Exact, ExactTriangle};
 pub use fixed_point::{FixedCursor, FixedEnds, FixedLines, FixedPoint};
-pub use floating::{FloatingCursor, FloatingEnds, FloatingLines};
+pub use floating::{FloatingCursor, FloatingEnds, FloatingLines, FloatingPoint};
 pub use fragment::FragmentStage;
 pub use interpolation::{Interpolate, Interpolation, Oriented, Row};
 pub use lines::{Affine, Bounded, Left, LineTriangle, Lines, Numbers, Run, Spans, Subdivision};

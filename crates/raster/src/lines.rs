@@ -61,8 +61,8 @@ pub trait Numbers {
     /// The run from the end of another to a sample of the same row.
     fn extend<I: EdgeInt, const HYPERBOLIC: bool>(&self, ends: &Self::Ends, edges: [I; 3]) -> Self::Ends;
 
-    /// Whether a straight line between the ends misses no component by more than so much.
-    fn within(&self, ends: &Self::Ends, budget: f32) -> bool;
+    /// Whether a straight line of so many columns between the ends misses no component by more than the budget.
+    fn within(&self, ends: &Self::Ends, columns: i32, budget: f32) -> bool;
 }
 
 /// The same for several lanes, with what is needed at each sample.
@@ -201,7 +201,8 @@ impl Subdivision for Bounded {
         loop {
             let run = Sought::<I, M, true> { numbers, row, left }.run(column, length);
             // A run of one sample has nothing between its ends.
-            if length == 1 || numbers.within(&run.ends, self.budget) {
+            let [first, last] = run.columns;
+            if length == 1 || numbers.within(&run.ends, last - first, self.budget) {
                 return run;
             }
             length >>= 1;

@@ -8,7 +8,8 @@ use crate::coordinate::FRACTION_BITS;
 
 /// [`AnySize`], [`PowerOfTwo`] or [`Known`]. Other crates cannot add to them.
 ///
-/// All find the same texels and weights where they apply; the second is faster than the first, and works on many
+/// All find the same texels and weights where they apply (in fixed point [`AnySize`] goes through `f32`, which rounds
+/// beyond 256); the second is faster than the first, and works on many
 /// samples at once, and the third is faster again.
 pub trait Size: Scale + Copy + Debug + 'static {
     /// Columns and rows, where they are known.

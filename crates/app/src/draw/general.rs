@@ -8,6 +8,7 @@ use crate::options::{Filter, Interpolation, Numbers, Shading, SpanLength, Subpix
 use crate::scene::{Part, Vertex};
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::{Floating, Machine, One};
+use alberti::raster::FloatingPoint;
 use alberti::shaders::{Solid, Tinted, Unlit, VertexColor};
 use alberti::texture::{self, Size, Texture};
 use alberti::{
@@ -39,7 +40,9 @@ impl<'a> Canvas<'a> {
         match self.lines() {
             None if policies.interpolation == Interpolation::Plane => self.in_floats(Plane, &surface, target),
             None => self.in_floats(Exact, &surface, target),
-            Some(lines) if policies.numbers == Numbers::Float => self.in_floats(lines, &surface, target),
+            Some(lines) if policies.numbers == Numbers::Float => {
+                self.in_floats(FloatingPoint(lines), &surface, target);
+            }
             Some(lines) => surface.visit(&mut EraseFixed(&mut |stage| {
                 self.snapped(One, FixedPoint(lines), stage, target);
             })),

@@ -61,7 +61,7 @@ impl Lanes for OneFixed {
 
     #[inline(always)]
     fn wrap(self, x: Q16, period: u32) -> Q16 {
-        Q16::from_bits(x.to_bits() & ((1 << (16 + period)) - 1))
+        Q16::from_bits(x.to_bits() & ((1_u32 << (16 + period)) - 1).cast_signed())
     }
 
     #[inline(always)]
@@ -73,7 +73,10 @@ impl Lanes for OneFixed {
     #[inline(always)]
     fn round_scaled(self, x: Q16, bits: u32) -> Wrapping<u32> {
         let x = x.to_bits();
-        Wrapping(if bits < 16 { ((x >> (15 - bits)) + 1) >> 1 } else { x << (bits - 16) }.cast_unsigned())
+        Wrapping(
+            if bits < 16 { (x >> (15 - bits)).wrapping_add(1) >> 1 } else { x << (bits - 16) }
+                .cast_unsigned(),
+        )
     }
 
     #[inline(always)]

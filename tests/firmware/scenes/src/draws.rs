@@ -3,7 +3,7 @@
 use crate::shapes::{Model, Vertex};
 use crate::{Camera, PIXELS, Target, WIDTH};
 use alberti::glam::{Vec2, Vec3};
-use alberti::shaders::{Solid, Stored, VertexColor565};
+use alberti::shaders::{Ready565, Solid, Stored, VertexColor565};
 use alberti::texture::{Nearest, Repeat};
 use alberti::{
     Affine, Band, Counters, Cull, D16, Exact, FixedPoint, FragmentStage, Interpolation, NoDepth, Object,
@@ -110,8 +110,8 @@ fn place(vertex: &Vertex) -> Point3<Object> {
     Point3::new(Vec3::from_array(vertex.position))
 }
 
-fn colored(vertex: &Vertex) -> (Point3<Object>, Vec3) {
-    (place(vertex), VertexColor565::ready(Vec3::from_array(vertex.color)))
+fn colored(vertex: &Vertex) -> (Point3<Object>, Ready565) {
+    (place(vertex), Ready565::new(Vec3::from_array(vertex.color)))
 }
 
 fn mapped(vertex: &Vertex) -> (Point3<Object>, Vec2) {
