@@ -61,8 +61,9 @@ pub struct Pass<'a, T, I, Vs, Fs, P = Exact> {
 /// as vertices each vertex is transformed once; with fewer they are a cache; with none, a cache of 16 on the stack is
 /// used. Vertices that are not finite, or larger than `f32::MAX`/16 in eye space, drop their triangles.
 ///
-/// The pixels do not depend on the slots, on the counters, on which of a triangle's vertices comes first
-/// (but for what is [`Flat`](alberti_math::Flat)), or on how the frame is divided into bands. To share the vertex work between bands, see [`prepare`](crate::prepare).
+/// The pixels do not depend on the slots, on the counters, on which of a triangle's vertices comes first (but for what
+/// is [`Flat`](alberti_math::Flat)), or on how the frame is divided into bands. To share the vertex work between bands,
+/// see [`prepare`](crate::prepare).
 ///
 /// With the feature `simd` it works on eight samples at a time, in the widest vector registers that the machine turns
 /// out to have (with `std`) or is known to have; the pixels are those of [`draw_by`] one sample at a time.

@@ -174,8 +174,8 @@ impl Profile for Desktop {
 ///
 /// # Precision
 /// Attributes in steps of 2^-16 within ±16384, right to a few of them every 16 columns, and off between by one a column
-/// and by what a straight line misses: see [`FixedPoint`] and [`Spans`]. Depth in steps of 2^-16 of zs; vertices within 2^-5 pixel; 5 or 6 bits a
-/// channel.
+/// and by what a straight line misses: see [`FixedPoint`] and [`Spans`]. Depth in steps of 2^-16 of zs; vertices within
+/// 2^-5 pixel; 5 or 6 bits a channel.
 ///
 /// # Cost
 /// A fragment: an addition for the depth and one a component. Every 16 columns: a look into a table instead of a
