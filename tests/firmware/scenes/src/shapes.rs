@@ -71,7 +71,9 @@ pub const fn torus(size: f32) -> Model {
 pub static PROBE: Model = layers(1);
 
 const fn texture() -> Texture<'static, Rgb565, Known<128, 128>> {
-    let Ok(texture) = Texture::new(&CHEQUER, 128, 128) else { panic!("the texels are a square of this side") };
+    let Ok(texture) = Texture::new(&CHEQUER, 128, 128) else {
+        panic!("the texels are a square of this side")
+    };
     let Some(texture) = texture.known() else { panic!("its side is this") };
     texture
 }
