@@ -102,7 +102,9 @@ impl Interpolation {
             Some(("bounded", budget)) => texels(budget).map(Self::Bounded),
             Some(_) => None,
         };
-        found.ok_or_else(|| format!("exact, plane, {}, TEXELS a number from 0 on, such as 0.0625", Self::STRAIGHT))
+        found.ok_or_else(|| {
+            format!("exact, plane, {}, TEXELS a number from 0 on, such as 0.0625", Self::STRAIGHT)
+        })
     }
 }
 
