@@ -56,10 +56,14 @@ impl Case {
         greatest / least
     }
 
+    /// The least and the greatest value of the vertices.
+    fn range(&self) -> [f64; 2] {
+        [f32::min, f32::max].map(|pick| f64::from(self.u.into_iter().reduce(pick).unwrap_or(0.0)))
+    }
+
     /// The greatest difference between two vertices.
     fn spread(&self) -> f64 {
-        let [least, greatest] =
-            [f32::min, f32::max].map(|pick| f64::from(self.u.into_iter().reduce(pick).unwrap_or(0.0)));
+        let [least, greatest] = self.range();
         greatest - least
     }
 
@@ -94,7 +98,9 @@ fn any_case(rng: &mut Rng) -> Case {
     q.rotate_left(rng.index(3));
     let unit = rng.log_uniform(1e-3, 1e4);
     let u = [(); 3].map(|()| rng.uniform(-1.0, 1.0) as f32 * unit);
-    Case { tri, q, zs: [(); 3].map(|()| rng.unit() as f32), u, covered: 0..0 }
+    // Beyond 0 and 1 there is no depth.
+    let zs = [(); 3].map(|()| if rng.one_in(3) { rng.index(2) as f32 } else { rng.unit() as f32 });
+    Case { tri, q, zs, u, covered: 0..0 }
 }
 
 /// Draws triangles with a policy and hands each of a row's samples to `check`: the case, the column, the value, the
@@ -229,6 +235,13 @@ fn fixed_point(
         let [exact, missed] = policy_bound(case, column);
         let fixed = case.fixed_point(steps);
         let error = (u - exact).abs();
+        // Half a step for each vertex's rounding, and what an f32 cannot tell.
+        let outside = f64::max(case.range()[0] - u, u - case.range()[1]);
+        assert!(
+            outside <= 0.51 / 65536.0 + EPS * case.largest(),
+            "{u} is {outside:e} outside of {:?}",
+            case.u
+        );
         worst = f64::max(worst, error / (missed + fixed));
         near += u64::from(error > 0.25 * (missed + fixed));
         let depth = dd::linear(case.tri, Case::sample(column), case.zs).to_f64();

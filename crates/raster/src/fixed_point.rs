@@ -96,9 +96,8 @@ pub struct FixedLines<V: Varying> {
     /// The three q, the greatest from 2^30 to 2^31.
     q: [u32; 3],
     zs: Corner,
-    /// What a column adds to the depth, and the range of the depth.
+    /// What a column adds to the depth.
     deeper: i32,
-    nearest_farthest: [i32; 2],
     components: V::Of<Corner>,
 }
 
@@ -120,7 +119,6 @@ impl<V: Varying> FixedLines<V> {
 
         let [a, b, c] = triangle.vertices;
         let zs = [depth::<D>(a.zs), depth::<D>(b.zs), depth::<D>(c.zs)];
-        let nearest_farthest = [zs[0].min(zs[1]).min(zs[2]), zs[0].max(zs[1]).max(zs[2])];
         let zs = Corner::new(zs);
         // What a column adds to the edge functions of the two edges that end at the first corner, opposite the others.
         let [pa, pb, pc] = triangle.corners;
@@ -134,7 +132,6 @@ impl<V: Varying> FixedLines<V> {
             q: [q(a.q), q(b.q), q(c.q)],
             zs,
             deeper: slope(zs.along(across), area, S::BITS, dropped),
-            nearest_farthest,
             components: V::map_by_mode(&triangle.values(), &|mode, [a, b, c, first]: [f32; 4]| {
                 let q16 = |x: f32| scaled(x, 16).clamp(-LIMIT, LIMIT);
                 if mode == Mode::Flat {
@@ -261,13 +258,8 @@ impl<V: Varying> Numbers for FixedLines<V> {
     #[inline(always)]
     fn row<I: EdgeInt>(&self, row: &Row<'_, I>) -> DepthRow {
         let first = row.covered.start;
-        let columns = row.covered.end - 1 - first;
-        let zs = self.zs.at(self.screen(self.words(row.at(first))));
-        // What rounding adds to the end may lead beyond the range, and there is nothing beyond.
-        let more = self.deeper.wrapping_mul(columns);
-        let [nearest, farthest] = self.nearest_farthest;
-        let zs = zs.max(nearest - more.min(0)).min(farthest - more.max(0));
-        DepthRow { first, zs }
+        // The slope is rounded towards 0, so that no step leads beyond the range of the three.
+        DepthRow { first, zs: self.zs.at(self.screen(self.words(row.at(first)))) }
     }
 
     #[inline(always)]
