@@ -340,6 +340,8 @@ mod tests {
     use super::*;
     use alberti_math::Q16;
     use alberti_math::lanes::OneFixed;
+    use alberti_texture::format::Rgb565;
+    use alberti_texture::{Clamp, Mirror, Repeat, Texture};
 
     #[test]
     fn light_falls_off_with_the_cosine() {
@@ -365,6 +367,26 @@ mod tests {
             worst = worst.max((light - (0.2 + 0.8 * unit.dot(to_light).max(0.0))).abs());
         }
         assert!((0.0002..1.0 / 1024.0).contains(&worst), "{worst}");
+    }
+
+    /// Texels in fixed point, against the definition in integers: u is k / 65536, v is half a row up.
+    #[test]
+    fn stored_texels_are_those_of_their_cells_in_fixed_point() {
+        let texels: [u16; 16] = core::array::from_fn(|i| 1000 + u16::try_from(i).expect("small"));
+        let texture = Texture::<Rgb565>::new(&texels, 8, 2).expect("8 x 2").known::<8, 2>().expect("8 x 2");
+        let v = Q16::from_f32(0.25);
+        for k in (-300_000..300_000_i32).step_by(97).chain([-65_536, -1, 0, 65_535, 65_536]) {
+            let at = [Q16::from_bits(k), v];
+            let [repeat, mirror] = [k.rem_euclid(65_536) * 8 / 65_536, k.rem_euclid(131_072) * 8 / 65_536];
+            let texel = |column: i32| 1008 + column.unsigned_abs();
+            let stored = |(word, _): (Wrapping<u32>, bool)| word.0;
+            let wrapped = Stored(texture.sampler::<Nearest, Repeat>()).shade_lanes(OneFixed, &at, true);
+            assert_eq!(stored(wrapped), texel(repeat), "repeat {k}");
+            let folded = Stored(texture.sampler::<Nearest, Mirror>()).shade_lanes(OneFixed, &at, true);
+            assert_eq!(stored(folded), texel(mirror.min(15 - mirror)), "mirror {k}");
+            let clamped = Stored(texture.sampler::<Nearest, Clamp>()).shade_lanes(OneFixed, &at, true);
+            assert_eq!(stored(clamped), texel((k.clamp(0, 65_535)) * 8 / 65_536), "clamp {k}");
+        }
     }
 
     #[test]
