@@ -1,0 +1,118 @@
+//! How far each public function is from exact, by region of its inputs, against rationals.
+//!
+//! A [`Row`] is one function over one region, and the bound that the function's documentation states. The test
+//! `bounds` runs every row and enforces its bound; the program prints the tables of `docs/accuracy.md`, from more
+//! samples of the same rows. So a figure in the documentation, the test that holds it and the table that shows it
+//! cannot tell three stories.
+//!
+//! A new function gets its rows in the module of its area.
+
+use alberti_oracle::rational::{Rational, error_in_eps, error_in_ulp};
+use alberti_oracle::rng::Rng;
+use std::fmt;
+
+mod depth;
+
+/// Rows that belong together, under one heading.
+#[derive(Debug)]
+pub struct Table {
+    /// The heading.
+    pub title: &'static str,
+    /// What an error is relative to, and what else a reader must know; a sentence or two of Markdown.
+    pub about: &'static str,
+    /// The functions and regions.
+    pub rows: Vec<Row>,
+}
+
+/// One function over one region of its inputs.
+pub struct Row {
+    /// The function's name, as a user writes it: `DepthMap::zs`.
+    pub function: &'static str,
+    /// The region, in a few words.
+    pub region: String,
+    /// What the documentation promises there: the largest error in ε = 2^-24 of the table's scale; infinite where it
+    /// promises nothing, and the row shows why.
+    pub bound: f64,
+    /// Draws inputs from the region, calls the function, and judges the answer.
+    pub measure: Box<dyn Fn(&mut Rng) -> Sample>,
+}
+
+impl Row {
+    /// A row whose inputs, call and judgement are `measure`.
+    pub fn new(
+        function: &'static str,
+        region: impl Into<String>,
+        bound: f64,
+        measure: impl Fn(&mut Rng) -> Sample + 'static,
+    ) -> Self {
+        Self { function, region: region.into(), bound, measure: Box::new(measure) }
+    }
+}
+
+impl fmt::Debug for Row {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} ({}) <= {}ε", self.function, self.region, self.bound)
+    }
+}
+
+/// The error of one answer.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample {
+    /// In ε of the table's scale.
+    pub eps: f64,
+    /// In units in the last place of the exact answer.
+    pub ulp: f64,
+}
+
+impl Sample {
+    /// The error of `got`, in ε of `scale`.
+    #[must_use]
+    pub fn new(got: f32, exact: &Rational, scale: f64) -> Self {
+        Self { eps: error_in_eps(got, exact, scale).abs(), ulp: error_in_ulp(got, exact).abs() }
+    }
+
+    /// The larger error in each unit: for answers of several components.
+    #[must_use]
+    pub fn worst(self, other: Self) -> Self {
+        // A NaN must win, and `f64::max` would drop it.
+        let larger = |a: f64, b: f64| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) };
+        Self { eps: larger(self.eps, other.eps), ulp: larger(self.ulp, other.ulp) }
+    }
+}
+
+/// Every table, in the order in which a triangle meets the functions.
+#[must_use]
+pub fn tables() -> Vec<Table> {
+    depth::tables()
+}
+
+/// Maximum, 99.9 % and median of one unit of a row's errors.
+#[derive(Clone, Copy, Debug)]
+pub struct Spread {
+    /// The largest; infinite if an answer was infinite or NaN where it should not have been.
+    pub max: f64,
+    /// What 99.9 % of the errors do not exceed.
+    pub high: f64,
+    /// What half of them do not exceed.
+    pub median: f64,
+}
+
+impl Spread {
+    fn of(mut errors: Vec<f64>) -> Self {
+        errors.iter_mut().filter(|e| e.is_nan()).for_each(|e| *e = f64::INFINITY);
+        errors.sort_by(f64::total_cmp);
+        let at = |thousandths: usize| errors[(errors.len() - 1) * thousandths / 1000];
+        Self { max: at(1000), high: at(999), median: at(500) }
+    }
+}
+
+/// The spread of `samples` errors of a row, in ε and in units in the last place. The same seed gives the same figures.
+///
+/// # Panics
+/// When `samples` is 0.
+#[must_use]
+pub fn run(row: &Row, samples: usize, rng: &mut Rng) -> [Spread; 2] {
+    assert!(samples > 0, "a row without samples measures nothing");
+    let (eps, ulp) = (0..samples).map(|_| (row.measure)(rng)).map(|s| (s.eps, s.ulp)).unzip();
+    [Spread::of(eps), Spread::of(ulp)]
+}

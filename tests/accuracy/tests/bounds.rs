@@ -1,0 +1,23 @@
+//! Every row of the tables keeps the bound that the documentation states.
+
+use alberti_accuracy::{run, tables};
+use alberti_oracle::rng::{Rng, run_seed};
+
+/// Fewer than the tables have, so that the test takes seconds; another seed looks at others.
+const SAMPLES: usize = 4_000;
+
+#[test]
+fn every_function_keeps_its_bound() {
+    let seed = run_seed();
+    let rows: Vec<_> = tables().into_iter().flat_map(|table| table.rows).collect();
+    let mut broken = Vec::new();
+    for (index, row) in (0..).zip(&rows) {
+        let [eps, _] = run(row, SAMPLES, &mut Rng::stream(seed, index));
+        println!("{row:?}: max {:.3}ε, 99.9 % {:.3}ε, median {:.3}ε", eps.max, eps.high, eps.median);
+        if eps.max > row.bound {
+            broken.push(format!("{row:?}: {:.3}ε", eps.max));
+        }
+    }
+    assert!(broken.is_empty(), "beyond the bound:\n{}", broken.join("\n"));
+    assert!(rows.iter().filter(|row| row.bound.is_finite()).count() * 10 >= rows.len() * 8);
+}
