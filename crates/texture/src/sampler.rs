@@ -13,7 +13,7 @@ use crate::{AnySize, Nearest, Size, TexelFormat, Texture, Wrap};
 /// A texture with a filter and a wrap mode for each axis: what a fragment asks for a colour.
 ///
 /// Made by [`Texture::sampler`] and [`Texture::sampler_per_axis`]; as cheap to copy as the texture.
-pub struct Sampler<'a, F: TexelFormat, Fl, U, V = U, Z = AnySize> {
+pub struct Sampler<'a, F: TexelFormat, Fl, U, V = U, Z: Size = AnySize> {
     texture: Texture<'a, F, Z>,
     modes: PhantomData<(Fl, U, V)>,
 }
@@ -65,16 +65,16 @@ impl<F: TexelFormat, U: Wrap, V: Wrap, Z: Size> Sampler<'_, F, Nearest, U, V, Z>
     }
 }
 
-impl<F: TexelFormat, Fl, U, V, Z> Clone for Sampler<'_, F, Fl, U, V, Z> {
+impl<F: TexelFormat, Fl, U, V, Z: Size> Clone for Sampler<'_, F, Fl, U, V, Z> {
     #[inline]
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<F: TexelFormat, Fl, U, V, Z> Copy for Sampler<'_, F, Fl, U, V, Z> {}
+impl<F: TexelFormat, Fl, U, V, Z: Size> Copy for Sampler<'_, F, Fl, U, V, Z> {}
 
-impl<F: TexelFormat, Fl: Filter, U: Wrap, V: Wrap, Z> fmt::Debug for Sampler<'_, F, Fl, U, V, Z> {
+impl<F: TexelFormat, Fl: Filter, U: Wrap, V: Wrap, Z: Size> fmt::Debug for Sampler<'_, F, Fl, U, V, Z> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Sampler")
             .field("texture", &self.texture)

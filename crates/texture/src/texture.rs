@@ -21,8 +21,8 @@ use crate::{AnySize, Filter, Known, PowerOfTwo, Sampler, Size, TexelFormat, Wrap
 /// };
 /// assert_eq!(RAMP.texel(1, 0).to_bytes(), [85, 85, 85, 255]);
 /// ```
-pub struct Texture<'a, F: TexelFormat, Z = AnySize> {
-    texels: &'a [F::Texel],
+pub struct Texture<'a, F: TexelFormat, Z: Size = AnySize> {
+    texels: Z::Texels<'a, F::Texel>,
     // In 16 bits, so that compilers know that no product or sum of sizes overflows.
     width: u16,
     height: u16,
@@ -81,14 +81,18 @@ impl<'a, F: TexelFormat> Texture<'a, F, AnySize> {
     /// assert_eq!(RAMP.width(), 4);
     /// ```
     #[must_use]
-    pub const fn known<const WIDTH: u32, const HEIGHT: u32>(
+    pub const fn known<const WIDTH: usize, const HEIGHT: usize>(
         self,
     ) -> Option<Texture<'a, F, Known<WIDTH, HEIGHT>>> {
         let Self { texels, width, height, .. } = self;
-        if width as u32 == WIDTH && height as u32 == HEIGHT {
-            Some(Texture { texels, width, height, size: PhantomData })
+        let texels = if width as usize == WIDTH && height as usize == HEIGHT {
+            texels.as_chunks::<WIDTH>().0.first_chunk()
         } else {
             None
+        };
+        match texels {
+            Some(texels) => Some(Texture { texels, width, height, size: PhantomData }),
+            None => None,
         }
     }
 }
@@ -117,8 +121,8 @@ impl<'a, F: TexelFormat, Z: Size> Texture<'a, F, Z> {
     /// The texels as they are stored.
     #[inline]
     #[must_use]
-    pub const fn texels(&self) -> &'a [F::Texel] {
-        self.texels
+    pub fn texels(&self) -> &'a [F::Texel] {
+        Z::flattened(self.texels)
     }
 
     /// The colour in column `x` of row `y`, row 0 at the top; beyond the sides, that of the nearest texel.
@@ -126,7 +130,7 @@ impl<'a, F: TexelFormat, Z: Size> Texture<'a, F, Z> {
     #[must_use]
     pub fn texel(&self, x: u32, y: u32) -> Rgba8 {
         let (x, y) = (x.min(self.width().saturating_sub(1)), y.min(self.height().saturating_sub(1)));
-        self.texels.get((y * self.width() + x) as usize).copied().map_or_else(Rgba8::default, F::decode)
+        self.texels().get((y * self.width() + x) as usize).copied().map_or_else(Rgba8::default, F::decode)
     }
 
     /// A sampler with the same wrap mode on both axes: `texture.sampler::<Nearest, Repeat>()`.
@@ -158,25 +162,21 @@ impl<'a, F: TexelFormat, Z: Size> Texture<'a, F, Z> {
         column: L::U32,
         word: impl Fn(Option<&F::Texel>) -> u32,
     ) -> L::U32 {
-        let indices = lanes.store_words(Z::index(lanes, row, column, self.width()));
-        lanes.load_words(&lanes.each(|k| {
-            let index = indices.as_ref().get(k).copied().unwrap_or_default() as usize;
-            // There always is one, as `new` compares the size with the length.
-            word(self.texels.get(index))
-        }))
+        // There always is one, as `new` compares the size with the length.
+        Z::words(lanes, self.texels, [row, column], self.width(), word)
     }
 }
 
-impl<F: TexelFormat, Z> Clone for Texture<'_, F, Z> {
+impl<F: TexelFormat, Z: Size> Clone for Texture<'_, F, Z> {
     #[inline]
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<F: TexelFormat, Z> Copy for Texture<'_, F, Z> {}
+impl<F: TexelFormat, Z: Size> Copy for Texture<'_, F, Z> {}
 
-impl<F: TexelFormat, Z> fmt::Debug for Texture<'_, F, Z> {
+impl<F: TexelFormat, Z: Size> fmt::Debug for Texture<'_, F, Z> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Texture")
             .field("width", &self.width)
