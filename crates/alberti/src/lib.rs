@@ -18,9 +18,9 @@ pub use alberti_math::{
 pub use alberti_projection::{Perspective, ViewError, Viewport, look_at};
 pub use alberti_raster as raster;
 pub use alberti_raster::{
-    Affine, Band, BandError, Bounded, Color, ColorFormat, Counters, Cull, D16, D24, D32, DepthFormat, Exact,
-    F32, F32Reversed, FixedPoint, FragmentStage, Interpolation, NoDepth, OrEqual, Plane, ReadOnly, Rgb565Be,
-    Rgb565Le, Spans, Store,
+    Affine, Always, Band, BandError, Bounded, Color, ColorFormat, Counters, Cull, D16, D24, D32, DepthFormat,
+    Equal, Exact, F32, F32Reversed, Farther, FixedPoint, FragmentStage, Interpolation, NoDepth, OrEqual,
+    Plane, ReadOnly, Rgb565Be, Rgb565Le, Spans, Store,
 };
 pub use alberti_texture as texture;
 pub use pipeline::{Pass, Sides, View, draw, draw_by};

@@ -2,7 +2,6 @@
 
 use alberti_math::lanes::Lanes;
 use core::fmt::Debug;
-use core::marker::PhantomData;
 
 /// A format of depth values, and the comparison that goes with it.
 ///
@@ -74,6 +73,10 @@ pub enum NoDepth {}
 /// # Precision
 /// Steps of 2^-16 in zs: at far plane B and near plane 1, surfaces 0.15 apart can be told apart for B = 100, 15 for
 /// B = 1000.
+///
+/// # Cost
+/// Two bytes a pixel. From `f32`, rounding is a product of 64 bits: eight operations with several lanes, some 60
+/// instructions on a Cortex-M4F; in fixed point it is a shift.
 #[derive(Clone, Copy, Debug)]
 pub enum D16 {}
 
@@ -81,6 +84,9 @@ pub enum D16 {}
 ///
 /// # Precision
 /// Steps of 2^-24 in zs: 256 times finer than [`D16`].
+///
+/// # Cost
+/// Four bytes a pixel; else that of [`D16`].
 #[derive(Clone, Copy, Debug)]
 pub enum D24 {}
 
@@ -88,22 +94,19 @@ pub enum D24 {}
 ///
 /// # Precision
 /// Finer than the `f32` that depths are computed in, for which see [`F32`]; the same for every distance.
+///
+/// # Cost
+/// That of [`D24`].
 #[derive(Clone, Copy, Debug)]
 pub enum D32 {}
-
-/// `D`, but a fragment as near as what is stored is seen as well: of two equal ones, the last drawn stays. For passes
-/// that draw the same triangles again.
-#[derive(Clone, Copy, Debug)]
-pub struct OrEqual<D>(PhantomData<D>);
-
-/// `D`, tested and never written: what is drawn is hidden by what is nearer, and hides nothing.
-#[derive(Clone, Copy, Debug)]
-pub struct ReadOnly<D>(PhantomData<D>);
 
 /// `f32`, growing with distance.
 ///
 /// # Precision
 /// Steps of 2^-24 near zs = 1, where perspective puts nearly everything: no better than [`D24`].
+///
+/// # Cost
+/// Four bytes a pixel, stored as computed: the cheapest where there are floats.
 #[derive(Clone, Copy, Debug)]
 pub enum F32 {}
 
@@ -111,6 +114,9 @@ pub enum F32 {}
 ///
 /// # Precision
 /// Relative steps of 2^-24 in z itself, at any ratio of the planes.
+///
+/// # Cost
+/// That of [`F32`].
 #[derive(Clone, Copy, Debug)]
 pub enum F32Reversed {}
 
@@ -190,78 +196,6 @@ impl DepthFormat for D32 {
     }
 }
 
-impl<D: DepthFormat> DepthFormat for OrEqual<D> {
-    type Stored = D::Stored;
-    const REVERSED: bool = D::REVERSED;
-    const FARTHEST: D::Stored = D::FARTHEST;
-    #[inline]
-    fn encode(zs: f32) -> D::Stored {
-        D::encode(zs)
-    }
-    const BITS: u32 = D::BITS;
-    #[inline]
-    fn encode_integer(zs: u32) -> D::Stored {
-        D::encode_integer(zs)
-    }
-    #[inline]
-    fn nearer(new: D::Stored, old: D::Stored) -> bool {
-        D::nearer(new, old) || !D::nearer(old, new)
-    }
-    #[inline(always)]
-    fn encode_lanes<L: Lanes>(lanes: L, zs: L::Depth) -> L::Each<D::Stored> {
-        D::encode_lanes(lanes, zs)
-    }
-    #[inline(always)]
-    fn seen<L: Lanes>(
-        lanes: L,
-        new: &L::Each<D::Stored>,
-        old: &L::Each<D::Stored>,
-        mask: L::Mask,
-    ) -> L::Mask {
-        let [nearer, farther] = [D::seen(lanes, new, old, mask), D::seen(lanes, old, new, mask)];
-        let (nearer, farther, all) = (lanes.bits(nearer), lanes.bits(farther), lanes.bits(mask));
-        lanes.mask(nearer | (all & !farther))
-    }
-    #[inline(always)]
-    fn keep<L: Lanes>(lanes: L, new: &L::Each<D::Stored>, mask: L::Mask, stored: &mut L::Each<D::Stored>) {
-        D::keep(lanes, new, mask, stored);
-    }
-}
-
-impl<D: DepthFormat> DepthFormat for ReadOnly<D> {
-    type Stored = D::Stored;
-    const REVERSED: bool = D::REVERSED;
-    const FARTHEST: D::Stored = D::FARTHEST;
-    #[inline]
-    fn encode(zs: f32) -> D::Stored {
-        D::encode(zs)
-    }
-    const BITS: u32 = D::BITS;
-    #[inline]
-    fn encode_integer(zs: u32) -> D::Stored {
-        D::encode_integer(zs)
-    }
-    #[inline]
-    fn nearer(new: D::Stored, old: D::Stored) -> bool {
-        D::nearer(new, old)
-    }
-    #[inline(always)]
-    fn encode_lanes<L: Lanes>(lanes: L, zs: L::Depth) -> L::Each<D::Stored> {
-        D::encode_lanes(lanes, zs)
-    }
-    #[inline(always)]
-    fn seen<L: Lanes>(
-        lanes: L,
-        new: &L::Each<D::Stored>,
-        old: &L::Each<D::Stored>,
-        mask: L::Mask,
-    ) -> L::Mask {
-        D::seen(lanes, new, old, mask)
-    }
-    #[inline(always)]
-    fn keep<L: Lanes>(_: L, _: &L::Each<D::Stored>, _: L::Mask, _: &mut L::Each<D::Stored>) {}
-}
-
 impl DepthFormat for F32 {
     type Stored = f32;
     const REVERSED: bool = false;
@@ -322,7 +256,6 @@ fn quantize<const BITS: u32>(zs: f32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use alberti_math::lanes::One;
 
     /// In 128 bits: floor((2 m (2^n - 1) + 2^s) / 2^(s+1)) with zs = m / 2^s and s fixed at 90.
     fn exact(zs: f32, max: u128) -> u128 {
@@ -353,27 +286,6 @@ mod tests {
         assert_eq!((D16::encode(-0.0), D24::encode(-0.0)), (0, 0));
         assert_eq!(D16::encode(0.5), 32768);
         assert_eq!(D24::encode(0.5), 1 << 23);
-    }
-
-    #[test]
-    fn equal_depths_are_seen_where_the_type_says_so_and_a_read_only_buffer_stays() {
-        let depths = [0.25f32, 0.5, 0.75];
-        for new in depths {
-            for old in depths {
-                let (mut or_equal, mut read_only) = ([old], [old]);
-                let seen = OrEqual::<F32>::seen(One, &[new], &[old], true);
-                assert_eq!((seen, OrEqual::<F32>::nearer(new, old)), (new <= old, new <= old));
-                OrEqual::<F32>::keep(One, &[new], seen, &mut or_equal);
-                assert_eq!(or_equal, [new.min(old)]);
-                let reversed = OrEqual::<F32Reversed>::seen(One, &[new], &[old], true);
-                assert_eq!(reversed, new >= old);
-                assert_eq!(ReadOnly::<F32>::seen(One, &[new], &[old], true), new < old);
-                ReadOnly::<F32>::keep(One, &[new], true, &mut read_only);
-                assert_eq!(read_only, [old]);
-            }
-        }
-        assert!(!OrEqual::<D16>::seen(One, &[1], &[1], false));
-        assert!(OrEqual::<NoDepth>::seen(One, &[()], &[()], true));
     }
 
     #[test]
