@@ -70,7 +70,9 @@ impl Case {
     /// What fixed point adds to the bound of a policy, of which so many steps are rounding.
     fn fixed_point(&self, steps: i32) -> f64 {
         const UNIT: f64 = 1.0 / 65536.0;
-        f64::from(steps) * UNIT + self.spread() * (2f64.powi(-17) + self.ratio() * 2f64.powi(-28))
+        let columns = f64::from(self.covered.end - self.covered.start);
+        let slopes = self.ratio() * (columns + 4.0) * 2f64.powi(-28);
+        f64::from(steps) * UNIT + self.spread() * (2f64.powi(-17) + slopes)
     }
 
     fn largest(&self) -> f64 {
@@ -96,7 +98,7 @@ fn any_case(rng: &mut Rng) -> Case {
     let ratio = rng.log_uniform(1.0, 1e6);
     let mut q = [1.0, 1.0 / ratio, 1.0 / rng.log_uniform(1.0, ratio)];
     q.rotate_left(rng.index(3));
-    let unit = rng.log_uniform(1e-3, 1e4);
+    let unit = rng.log_uniform(1e-3, 4096.0);
     let u = [(); 3].map(|()| rng.uniform(-1.0, 1.0) as f32 * unit);
     // Beyond 0 and 1 there is no depth.
     let zs = [(); 3].map(|()| if rng.one_in(3) { rng.index(2) as f32 } else { rng.unit() as f32 });

@@ -173,7 +173,7 @@ impl Profile for Desktop {
 /// For microcontrollers with or without floating point, and a display of 16 bits a pixel.
 ///
 /// # Precision
-/// Attributes in steps of 2^-16 within ±16384, right to a few of them every 16 columns, and off between by one a column
+/// Attributes in steps of 2^-16 within ±4096, right to a few of them every 16 columns, and off between by one a column
 /// and by what a straight line misses: see [`FixedPoint`] and [`Spans`]. Depth in steps of 2^-16 of zs; vertices within
 /// 2^-5 pixel; 5 or 6 bits a channel.
 ///
@@ -196,7 +196,7 @@ impl Profile for Mcu {
 /// textures.
 ///
 /// # Precision
-/// Attributes as the [`FixedPoint`] of [`Affine`]: linear on the screen, in steps of 2^-16 within ±16384. Vertices
+/// Attributes as the [`FixedPoint`] of [`Affine`]: linear on the screen, in steps of 2^-16 within ±4096. Vertices
 /// within 2^-5 pixel; 5 or 6 bits a channel.
 ///
 /// # Cost

@@ -148,7 +148,7 @@ impl<V: Varying, const K: usize> Varying for [V; K] {
 
     #[inline(always)]
     fn gather<const N: usize>(values: [Self; N]) -> Self::Of<[f32; N]> {
-        from_fn(|k| V::gather(from_fn(|n| values[n][k])))
+        from_fn(|k| V::gather(values.map(|v| v[k])))
     }
 
     // With from_fn, compilers do not inline `f` where it has vector instructions that the standard library has not.
@@ -180,7 +180,7 @@ macro_rules! modes {
 
             #[inline(always)]
             fn gather<const N: usize>(values: [Self; N]) -> V::Of<[f32; N]> {
-                V::gather(from_fn(|n| values[n].0))
+                V::gather(values.map(|v| v.0))
             }
 
             #[inline(always)]
@@ -212,7 +212,7 @@ macro_rules! vectors {
 
             #[inline(always)]
             fn gather<const N: usize>(values: [Self; N]) -> [[f32; N]; $size] {
-                <[f32; $size]>::gather(from_fn(|n| values[n].to_array()))
+                [$(values.map(|v| v.to_array()[$k])),+]
             }
 
             #[inline(always)]
@@ -241,7 +241,7 @@ macro_rules! tuples {
 
             #[inline(always)]
             fn gather<const N: usize>(values: [Self; N]) -> Self::Of<[f32; N]> {
-                ($($name::gather(from_fn(|n| values[n].$index)),)+)
+                ($($name::gather(values.map(|v| v.$index)),)+)
             }
 
             #[inline(always)]

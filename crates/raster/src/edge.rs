@@ -46,7 +46,7 @@ pub trait EdgeInt:
     /// The same number, which is below 2^53.
     fn to_f64(self) -> f64;
 
-    /// A number that is not negative without its last `bits`, where that fits.
+    /// A number that is not negative without its last `bits`, where that fits; they are 0 for what fits `i32`.
     fn without_last(self, bits: u32) -> u32;
 }
 
@@ -79,8 +79,8 @@ impl EdgeInt for i32 {
     }
 
     #[inline(always)]
-    fn without_last(self, bits: u32) -> u32 {
-        self.cast_unsigned() >> bits
+    fn without_last(self, _: u32) -> u32 {
+        self.cast_unsigned()
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::depth::DepthFormat;
 use crate::edge::EdgeInt;
+use crate::fixed_plane::{Plane, Shape};
 use crate::interpolation::{Interpolation, Oriented, Row};
 use crate::lines::{LONGEST, LineTriangle, Lines, Numbers, Run, Subdivision};
 use alberti_math::lanes::{Floating, OneFixed};
@@ -13,18 +14,18 @@ use core::fmt;
 /// time, with as many additions as there are numbers; the same bits on every machine.
 ///
 /// # Precision
-/// For components in ±16384, and r the greatest ratio of q in the triangle up to 2^20: the bound of `P`, and
-/// (N + 3)·2^-16 + |Δu|·(2^-17 + r·2^-28) with N the columns of a run and Δu the greatest difference between two
-/// vertices; of [`Bounded`](crate::Bounded), whose budget includes the first term, only the second. Where the budget is
-/// below four steps, all runs are of one column. What vertices carry is rounded to 2^-16, and what is beyond ±16384
-/// counts as that. Depth has 31 bits, of which 8 units and one for each column of the row may be
-/// wrong, and is rounded to the buffer's format.
+/// For components in ±4096, r the greatest ratio of q in the triangle up to 2^20, and C the columns of the row: the
+/// bound of `P`, and (N + 3)·2^-16 + |Δu|·(2^-17 + r·(C + 4)·2^-28) with N the columns of a run and Δu the greatest
+/// difference between two vertices; of [`Bounded`](crate::Bounded), whose budget includes the first term, only the
+/// second. Where the budget is below four steps, all runs are of one column. What vertices carry is rounded to 2^-16,
+/// and what is beyond ±4096 counts as that. Depth has 31 bits, of which 8 units and one for each column of the row may
+/// be wrong, and is rounded to the buffer's format.
 ///
 /// # Cost
-/// A fragment: an addition for the depth and one for each component. A run: seven products of 32 bits to 64 with
-/// perspective, two without, and three for each component. A triangle: about fifteen instructions for each number of
-/// each vertex, which comes as `f32`, and a table instead of divisions. `docs/kernel.md` has counts for three kinds of
-/// core.
+/// A fragment: an addition for the depth and one for each component. A run: a product for each component, and with
+/// perspective one of 32 bits to 64 more and two for the reciprocal. A row: two of 32 bits to 64 for each number. A
+/// triangle: about fifteen instructions for each number of each vertex, which comes as `f32`, and some sixty for the
+/// plane through each three. `docs/kernel.md` has counts for three kinds of core.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FixedPoint<P>(
     /// How rows are divided.
@@ -47,130 +48,12 @@ impl<P: Subdivision> Interpolation for FixedPoint<P> {
         _: L,
         triangle: &Oriented<'_, S, V>,
     ) -> LineTriangle<P, FixedLines<V>> {
-        LineTriangle { policy: self.0, numbers: FixedLines::new::<S, D>(triangle) }
+        LineTriangle { policy: self.0, numbers: FixedLines::new::<P, S, D>(triangle) }
     }
 }
 
-/// Bits of the fraction of weights.
-const WEIGHT: u32 = 30;
-
-/// What does not get near the ends of `i32` when two of it are subtracted.
-const LIMIT: i32 = (1 << 30) - 1;
-
-/// A number of the three vertices: at the first, and what the others have more.
-#[derive(Clone, Copy)]
-struct Corner {
-    first: i32,
-    more: [i32; 2],
-}
-
-impl Corner {
-    /// Numbers whose differences fit.
-    #[inline(always)]
-    fn new([a, b, c]: [i32; 3]) -> Self {
-        Self { first: a, more: [b - a, c - a] }
-    }
-
-    /// What is added where so much is added to the weights.
-    #[inline(always)]
-    fn along(&self, [b, c]: [i32; 2]) -> i64 {
-        i64::from(self.more[0]) * i64::from(b) + i64::from(self.more[1]) * i64::from(c)
-    }
-
-    /// Where the others have these weights, to the nearest. Weights are never too large, together not above 1, and so
-    /// this is within the range of the three.
-    #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "not greater than the differences")]
-    fn at(&self, weights: [i32; 2]) -> i32 {
-        self.first.wrapping_sub(((self.along(weights) + (1 << (WEIGHT - 1))) >> WEIGHT) as i32)
-    }
-}
-
-/// What is interpolated over a triangle, in integers.
-#[derive(Clone, Copy)]
-pub struct FixedLines<V: Varying> {
-    /// Edge functions without their last bits, of which this is the number, are below 2^32.
-    dropped: u32,
-    /// The area without those bits.
-    area: Reciprocal,
-    /// The three q, the greatest from 2^30 to 2^31.
-    q: [u32; 3],
-    zs: Corner,
-    /// What a column adds to the depth.
-    deeper: i32,
-    components: V::Of<Corner>,
-}
-
-/// The depth along a row: where it begins, and in which column.
-#[derive(Clone, Copy, Debug)]
-pub struct DepthRow {
-    first: i32,
-    zs: i32,
-}
-
-impl<V: Varying> FixedLines<V> {
-    #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive and below 2^32")]
-    fn new<S: Subpixel, D: DepthFormat>(triangle: &Oriented<'_, S, V>) -> Self {
-        let bits = 64 - triangle.doubled_area.leading_zeros();
-        let dropped = bits.saturating_sub(32);
-        let area = (triangle.doubled_area >> dropped) as u32;
-        let area = Reciprocal::new(area);
-
-        let [a, b, c] = triangle.vertices;
-        let zs = [depth::<D>(a.zs), depth::<D>(b.zs), depth::<D>(c.zs)];
-        let zs = Corner::new(zs);
-        // What a column adds to the edge functions of the two edges that end at the first corner, opposite the others.
-        let [pa, pb, pc] = triangle.corners;
-        let across = [pc[1] - pa[1], pa[1] - pb[1]];
-        // Positive floats are ordered as their words are. The greatest comes to lie from 2^30 to 2^31.
-        let greatest = a.q.to_bits().max(b.q.to_bits()).max(c.q.to_bits()) >> 23;
-        let q = |q: f32| scaled(q, 127 + 30 - greatest.cast_signed()).max(1).unsigned_abs();
-        Self {
-            dropped,
-            area,
-            q: [q(a.q), q(b.q), q(c.q)],
-            zs,
-            deeper: slope(zs.along(across), area, S::BITS, dropped),
-            components: V::map_by_mode(&triangle.values(), &|mode, [a, b, c, first]: [f32; 4]| {
-                let q16 = |x: f32| scaled(x, 16).clamp(-LIMIT, LIMIT);
-                if mode == Mode::Flat {
-                    Corner::new([q16(first); 3])
-                } else {
-                    Corner::new([q16(a), q16(b), q16(c)])
-                }
-            }),
-        }
-    }
-}
-
-/// One over a word that is not 0.
-#[derive(Clone, Copy)]
-struct Reciprocal {
-    /// So many bits bring the word to 2^31 or more, and `quotient` is 2^63 over that.
-    normalizing: u32,
-    quotient: u32,
-}
-
-impl Reciprocal {
-    #[inline(always)]
-    fn new(x: u32) -> Self {
-        let normalizing = x.leading_zeros();
-        Self { normalizing, quotient: reciprocal::<2>(x << normalizing) }
-    }
-}
-
-/// `more` times 2^`bits` over the area, of which so many bits were dropped; towards 0, within the range of `i32`.
-#[inline(always)]
-#[expect(clippy::cast_possible_truncation, reason = "the highest 32 bits of 64, and what was found to fit")]
-fn slope(more: i64, area: Reciprocal, bits: u32, dropped: u32) -> i32 {
-    let normalizing = more.unsigned_abs().leading_zeros() & 63;
-    let high = ((more.unsigned_abs() << normalizing) >> 32) as u32;
-    let product = u64::from(high) * u64::from(area.quotient);
-    let shift = (31 + normalizing + dropped).saturating_sub(bits + area.normalizing);
-    let magnitude = if shift < 64 { (product >> shift).min(i32::MAX as u64) as i32 } else { 0 };
-    if more < 0 { -magnitude } else { magnitude }
-}
+/// What components are held to, so that two of them differ by less than 2^29.
+const LIMIT: i32 = (1 << 28) - 1;
 
 /// `zs` in the unit in which it is interpolated: the last of a format's bits is worth 2^(31 - bits), and half of that
 /// is added for rounding.
@@ -178,6 +61,99 @@ fn slope(more: i64, area: Reciprocal, bits: u32, dropped: u32) -> i32 {
 fn depth<D: DepthFormat>(zs: f32) -> i32 {
     let fraction = scaled(zs, 31).max(0);
     if D::BITS < 31 { fraction - (fraction >> D::BITS) + (1 << (30 - D::BITS)) } else { fraction }
+}
+
+/// What one component is over a triangle.
+#[derive(Clone, Copy)]
+struct Component {
+    /// At the first vertex; and the least and the greatest of the three.
+    first: i32,
+    least: i32,
+    greatest: i32,
+    /// What is more than at the first vertex, times a power of two, and times q where that is divided again.
+    plane: Plane,
+    /// So many bits are too many after that.
+    shift: u32,
+}
+
+impl Component {
+    /// `q` is what is proportional to it at the three vertices, for what is hyperbolic.
+    #[inline(always)]
+    fn new(shape: &Shape, values: [f32; 3], q: Option<[i32; 3]>) -> Self {
+        let q16 = |x: f32| scaled(x, 16).clamp(-LIMIT, LIMIT);
+        let [a, b, c] = [q16(values[0]), q16(values[1]), q16(values[2])];
+        let more = [b - a, c - a];
+        // The greatest comes to lie from 2^29 to 2^30, and so this is at least 1.
+        let shift = (more[0].unsigned_abs() | more[1].unsigned_abs() | 1).leading_zeros() - 2;
+        let more = [more[0] << shift, more[1] << shift];
+        let (more, shift) = match q {
+            Some([_, qb, qc]) => ([times(more[0], qb), times(more[1], qc)], shift - 1),
+            None => (more, shift),
+        };
+        Self {
+            first: a,
+            least: a.min(b).min(c),
+            greatest: a.max(b).max(c),
+            plane: shape.plane([0, more[0], more[1]]),
+            shift,
+        }
+    }
+
+    /// The component where there is so much more of it than at the first vertex.
+    #[inline(always)]
+    fn value(&self, more: i32) -> i32 {
+        self.first.wrapping_add(more >> self.shift).max(self.least).min(self.greatest)
+    }
+}
+
+/// What is interpolated over a triangle, in integers.
+#[derive(Clone, Copy)]
+pub struct FixedLines<V: Varying> {
+    shape: Shape,
+    /// At the first vertex, and over the triangle.
+    zs: (i32, Plane),
+    /// Proportional to q, the greatest of the three from 2^30 to 2^31.
+    q: (i32, Plane),
+    components: V::Of<Component>,
+}
+
+impl<V: Varying> FixedLines<V> {
+    #[inline(always)]
+    fn new<P: Subdivision, S: Subpixel, D: DepthFormat>(triangle: &Oriented<'_, S, V>) -> Self {
+        let shape = Shape::new(triangle);
+        let [a, b, c] = triangle.vertices;
+        let zs = [depth::<D>(a.zs), depth::<D>(b.zs), depth::<D>(c.zs)];
+        // Positive floats are ordered as their words are.
+        let greatest = a.q.to_bits().max(b.q.to_bits()).max(c.q.to_bits()) >> 23;
+        let q = |q: f32| scaled(q, 127 + 30 - greatest.cast_signed()).max(1);
+        let q = if P::PERSPECTIVE { [q(a.q), q(b.q), q(c.q)] } else { [1; 3] };
+        Self {
+            shape,
+            zs: (zs[0], shape.plane(zs)),
+            q: (q[0], if P::PERSPECTIVE { shape.plane(q) } else { Plane { more: [0; 2], slope: 0 } }),
+            components: V::map_by_mode(&triangle.values(), &|mode, [a, b, c, first]: [f32; 4]| match mode {
+                Mode::Hyperbolic if P::PERSPECTIVE => Component::new(&shape, [a, b, c], Some(q)),
+                Mode::Hyperbolic | Mode::Linear => Component::new(&shape, [a, b, c], None),
+                Mode::Flat => Component::new(&shape, [first; 3], None),
+            }),
+        }
+    }
+}
+
+/// The product of a number and a positive one over 2^31, rounded down.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "smaller than the first")]
+fn times(more: i32, q: i32) -> i32 {
+    ((i64::from(more) * i64::from(q)) >> 31) as i32
+}
+
+/// What is known of a row: at its first covered sample.
+#[derive(Clone, Copy)]
+pub struct FixedRow<V: Varying> {
+    first: i32,
+    zs: i32,
+    q: i32,
+    components: V::Of<i32>,
 }
 
 /// What is known at both ends of a run.
@@ -188,100 +164,90 @@ pub struct FixedEnds<V: Varying> {
     components: V::Of<[i32; 2]>,
 }
 
-/// The highest 32 bits of a product.
+/// More than at the first vertex, times q, at a sample where q has so many leading zeros and `per_q` is 2^62 over it
+/// without those: half of it divided by q.
 #[inline(always)]
-fn high(a: u32, b: u32) -> u32 {
-    ((u64::from(a) * u64::from(b)) >> 32) as u32
-}
-
-/// A part of a whole, over which 2^63 is `per_whole`, as a weight. Weights are negative: compilers see that, and then
-/// have the one instruction that multiplies signed numbers.
-#[inline(always)]
-fn weight(part: u32, per_whole: u32) -> i32 {
-    -(((u64::from(part) * u64::from(per_whole)) >> (63 - WEIGHT)) as i32)
-}
-
-impl<V: Varying> FixedLines<V> {
-    /// Edge functions, in such units that the area has 32 bits.
-    #[inline(always)]
-    fn words<I: EdgeInt>(&self, [a, b, c]: [I; 3]) -> [u32; 3] {
-        let word = |e: I| e.without_last(self.dropped) << self.area.normalizing;
-        [word(a), word(b), word(c)]
-    }
-
-    /// The weights of the second and the third vertex for what is linear on the screen.
-    #[inline(always)]
-    fn screen(&self, [_, b, c]: [u32; 3]) -> [i32; 2] {
-        [weight(b, self.area.quotient), weight(c, self.area.quotient)]
-    }
-
-    /// The same for what is linear in space, and what is proportional to q.
-    #[inline(always)]
-    fn space(&self, [a, b, c]: [u32; 3]) -> ([i32; 2], u32) {
-        // All three together are not more than the greatest q.
-        let [a, b, c] = [high(a, self.q[0]), high(b, self.q[1]), high(c, self.q[2])];
-        let q = (a + b + c).max(1);
-        let normalizing = q.leading_zeros();
-        let per_q = reciprocal::<1>(q << normalizing);
-        ([weight(b << normalizing, per_q), weight(c << normalizing, per_q)], q)
-    }
-
-    /// [`Numbers::extend`].
-    #[inline(always)]
-    fn extended<const HYPERBOLIC: bool>(&self, ends: &FixedEnds<V>, edges: [u32; 3]) -> FixedEnds<V> {
-        // Where nothing takes these, compilers leave them out.
-        let screen = self.screen(edges);
-        let (space, q) = if HYPERBOLIC { self.space(edges) } else { (screen, 1) };
-        FixedEnds {
-            q: [ends.q[1], q],
-            components: V::map_by_mode(&V::zip(&self.components, &ends.components), &|mode,
-                                                                                      (
-                corner,
-                [_, start],
-            ): (
-                Corner,
-                [i32; 2],
-            )| match mode
-            {
-                Mode::Hyperbolic => [start, corner.at(space)],
-                Mode::Linear => [start, corner.at(screen)],
-                Mode::Flat => [corner.first; 2],
-            }),
-        }
-    }
+fn divided(more: i32, normalizing: u32, per_q: i32) -> i32 {
+    let shifted = more << normalizing;
+    // Where q is as small as what was rounded, quotients may be anything.
+    let fits = shifted >> normalizing == more;
+    let shifted = if fits { shifted } else { (more >> 31) ^ i32::MAX };
+    ((i64::from(shifted) * i64::from(per_q)) >> 32) as i32
 }
 
 impl<V: Varying> Numbers for FixedLines<V> {
-    type Row = DepthRow;
+    type Row = FixedRow<V>;
     type Ends = FixedEnds<V>;
 
     #[inline(always)]
-    fn row<I: EdgeInt>(&self, row: &Row<'_, I>) -> DepthRow {
+    fn row<I: EdgeInt, P: Subdivision>(&self, row: &Row<'_, I>) -> FixedRow<V> {
         let first = row.covered.start;
-        // The slope is rounded towards 0, so that no step leads beyond the range of the three.
-        DepthRow { first, zs: self.zs.at(self.screen(self.words(row.at(first)))) }
+        let weights = self.shape.weights(row.at(first));
+        FixedRow {
+            first,
+            // Slopes are rounded towards 0, so that no step leads beyond the range of the three.
+            zs: self.zs.0.wrapping_add(self.zs.1.at(weights)),
+            q: if P::PERSPECTIVE { self.q.0.wrapping_add(self.q.1.at(weights)) } else { 1 },
+            components: V::map(&self.components, &|component: Component| component.plane.at(weights)),
+        }
     }
 
     #[inline(always)]
-    fn begin<I: EdgeInt, const HYPERBOLIC: bool>(&self, edges: [I; 3]) -> FixedEnds<V> {
-        let components = V::map(&self.components, &|_: Corner| [0; 2]);
-        self.extended::<HYPERBOLIC>(&FixedEnds { q: [0; 2], components }, self.words(edges))
+    fn begin<I: EdgeInt, P: Subdivision>(
+        &self,
+        row: &Row<'_, I>,
+        known: &FixedRow<V>,
+        column: i32,
+    ) -> FixedEnds<V> {
+        let components = V::map(&self.components, &|_: Component| [0; 2]);
+        let FixedEnds { q: [_, q], components } =
+            self.extend::<I, P>(row, known, &FixedEnds { q: [0; 2], components }, column);
+        FixedEnds { q: [q; 2], components: V::map(&components, &|[_, value]: [i32; 2]| [value; 2]) }
     }
 
     #[inline(always)]
-    fn extend<I: EdgeInt, const HYPERBOLIC: bool>(&self, ends: &FixedEnds<V>, edges: [I; 3]) -> FixedEnds<V> {
-        self.extended::<HYPERBOLIC>(ends, self.words(edges))
+    fn extend<I: EdgeInt, P: Subdivision>(
+        &self,
+        _: &Row<'_, I>,
+        known: &FixedRow<V>,
+        ends: &FixedEnds<V>,
+        column: i32,
+    ) -> FixedEnds<V> {
+        let columns = column - known.first;
+        let along = |first: i32, plane: &Plane| first.wrapping_add(plane.slope.wrapping_mul(columns));
+        let q = if P::PERSPECTIVE { along(known.q, &self.q.1).max(1).cast_unsigned() } else { 1 };
+        let normalizing = q.leading_zeros();
+        let per_q = if P::PERSPECTIVE { (reciprocal::<1>(q << normalizing) >> 1).cast_signed() } else { 0 };
+        let components = V::zip(&V::zip(&self.components, &known.components), &ends.components);
+        FixedEnds {
+            q: [ends.q[1], q],
+            components: V::map_by_mode(&components, &|mode,
+                                                      ((component, known), [_, start]): (
+                (Component, i32),
+                [i32; 2],
+            )| {
+                let more = along(known, &component.plane);
+                match mode {
+                    Mode::Hyperbolic if P::PERSPECTIVE => {
+                        [start, component.value(divided(more, normalizing, per_q))]
+                    }
+                    Mode::Hyperbolic | Mode::Linear => [start, component.value(more)],
+                    Mode::Flat => [component.first; 2],
+                }
+            }),
+        }
     }
 
     #[inline(always)]
-    fn within(&self, ends: &FixedEnds<V>, columns: i32, budget: f32) -> bool {
-        // Each may be five too small.
+    fn within(&self, known: &FixedRow<V>, ends: &FixedEnds<V>, [first, last]: [i32; 2], budget: f32) -> bool {
+        // Each may be off by a unit for each column of the row, and a few at its first.
+        let off = u64::from((last - known.first).cast_unsigned()) + 5;
         let [q0, q1] = ends.q.map(u64::from);
-        let apart = q0.abs_diff(q1) + 5;
+        let apart = q0.abs_diff(q1) + 2 * off;
         // What rounding takes is not there for perspective.
-        let left = scaled(budget, 16).clamp(0, LIMIT / 2) - columns - ROUNDED;
+        let left = scaled(budget, 16).clamp(0, LIMIT / 2) - (last - first) - ROUNDED;
         let Ok(left) = u64::try_from(left) else { return false };
-        let limit = left * (q0.max(q1) + 3 * q0.min(q1));
+        let limit = left * (q0.max(q1) + 3 * q0.min(q1)).saturating_sub(4 * off);
         let within = Cell::new(true);
         let _ = V::map_by_mode(&ends.components, &|mode, [start, end]: [i32; 2]| {
             let missed = u64::from(end.abs_diff(start)) * apart;
@@ -297,8 +263,10 @@ const ROUNDED: i32 = 3;
 /// Numbers at a sample, and what the next has more.
 #[derive(Clone, Copy)]
 pub struct FixedCursor<V: Varying> {
-    zs: [i32; 2],
-    components: V::Of<[i32; 2]>,
+    zs: u32,
+    deeper: u32,
+    components: V::Of<i32>,
+    steps: V::Of<i32>,
 }
 
 /// 2^32 / k, rounded down, and for 1 the greatest.
@@ -317,52 +285,69 @@ impl<V: Varying> Lines<OneFixed, V> for FixedLines<V> {
     type Cursor = FixedCursor<V>;
 
     #[inline(always)]
-    fn line(&self, row: &DepthRow, run: &Run<FixedEnds<V>>, column: i32, _: i32) -> FixedCursor<V> {
+    fn line(&self, row: &FixedRow<V>, run: &Run<FixedEnds<V>>, column: i32, _: i32) -> FixedCursor<V> {
         let [first, last] = run.columns;
-        let per_column = PER_COLUMN.get((last - first).unsigned_abs() as usize).copied().unwrap_or(0);
-        let along = column - first;
+        let (columns, along) = (last - first, column - first);
+        let whole = columns == run.length;
+        let per_column = || PER_COLUMN.get(columns.cast_unsigned() as usize).copied().unwrap_or(0);
+        let per_column = if whole { 0 } else { per_column() };
         let number = |[start, end]: [i32; 2]| {
-            let more = i64::from(end.wrapping_sub(start));
+            let more = end.wrapping_sub(start);
             // Towards zero, so that no step leads beyond the end.
-            let step = ((more * i64::from(per_column)) >> 32) as i32 + i32::from(more < 0);
+            let step = if whole {
+                more.wrapping_add((more >> 31) & (run.length - 1)) >> run.length.trailing_zeros()
+            } else {
+                ((i64::from(more) * i64::from(per_column)) >> 32) as i32 + i32::from(more < 0)
+            };
             [start.wrapping_add(step.wrapping_mul(along)), step]
         };
         // What is interpolated has 31 bits, as differences have a sign; what comes of it has 32.
-        let zs = row.zs.wrapping_add(self.deeper.wrapping_mul(column - row.first));
+        let slope = self.zs.1.slope;
+        let zs = row.zs.wrapping_add(slope.wrapping_mul(column - row.first));
+        let lines = V::map_by_mode(&run.ends.components, &|mode, ends: [i32; 2]| match mode {
+            Mode::Hyperbolic | Mode::Linear => number(ends),
+            Mode::Flat => [ends[0], 0],
+        });
         FixedCursor {
-            zs: [zs << 1, self.deeper << 1],
-            components: V::map_by_mode(&run.ends.components, &|mode, ends: [i32; 2]| match mode {
-                Mode::Hyperbolic | Mode::Linear => number(ends),
-                Mode::Flat => [ends[0], 0],
-            }),
+            zs: (zs << 1).cast_unsigned(),
+            deeper: (slope << 1).cast_unsigned(),
+            components: V::map(&lines, &|[start, _]: [i32; 2]| start),
+            steps: V::map(&lines, &|[_, step]: [i32; 2]| step),
         }
     }
 
     #[inline(always)]
-    fn advance(&self, FixedCursor { zs, components }: FixedCursor<V>) -> FixedCursor<V> {
-        let next = |[value, step]: [i32; 2]| [value.wrapping_add(step), step];
+    fn advance(&self, cursor: FixedCursor<V>) -> FixedCursor<V> {
+        let numbers = V::zip(&cursor.components, &cursor.steps);
         FixedCursor {
-            zs: next(zs),
-            components: V::map_by_mode(&components, &|mode, number: [i32; 2]| {
-                if mode == Mode::Flat { number } else { next(number) }
+            zs: cursor.zs.wrapping_add(cursor.deeper),
+            components: V::map_by_mode(&numbers, &|mode, (value, step): (i32, i32)| {
+                if mode == Mode::Flat { value } else { value.wrapping_add(step) }
             }),
+            ..cursor
         }
     }
 
     #[inline(always)]
     fn depth(&self, cursor: &FixedCursor<V>) -> u32 {
-        cursor.zs[0].cast_unsigned()
+        cursor.zs
     }
 
     #[inline(always)]
     fn attributes(&self, cursor: &FixedCursor<V>) -> V::Of<Q16> {
-        V::map(&cursor.components, &|[value, _]: [i32; 2]| Q16::from_bits(value))
+        V::map(&cursor.components, &Q16::from_bits)
     }
 }
 
 impl<V: Varying> fmt::Debug for FixedLines<V> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("FixedLines").finish_non_exhaustive()
+    }
+}
+
+impl<V: Varying> fmt::Debug for FixedRow<V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("FixedRow").finish_non_exhaustive()
     }
 }
 

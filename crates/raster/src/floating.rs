@@ -48,10 +48,10 @@ impl<L: Lanes, V: Varying> FloatingLines<L, V> {
     /// At a sample with these edge functions: the weights of the second and the third vertex for what is linear on the
     /// screen and for what is so in space, and q.
     #[inline(always)]
-    fn at<I: EdgeInt, const HYPERBOLIC: bool>(&self, edges: [I; 3]) -> ([f64; 2], [f64; 2], f64) {
+    fn at<I: EdgeInt, P: Subdivision>(&self, edges: [I; 3]) -> ([f64; 2], [f64; 2], f64) {
         let [a, b, c] = [edges[0].to_f64(), edges[1].to_f64(), edges[2].to_f64()];
         let screen = [b * self.per_area, c * self.per_area];
-        if !HYPERBOLIC {
+        if !P::PERSPECTIVE {
             return (screen, screen, 1.0);
         }
         let [qa, qb, qc] = self.q;
@@ -67,11 +67,11 @@ impl<L: Lanes, V: Varying> Numbers for FloatingLines<L, V> {
     type Ends = FloatingEnds<V>;
 
     #[inline(always)]
-    fn row<I: EdgeInt>(&self, _: &Row<'_, I>) {}
+    fn row<I: EdgeInt, P: Subdivision>(&self, _: &Row<'_, I>) {}
 
     #[inline(always)]
-    fn begin<I: EdgeInt, const HYPERBOLIC: bool>(&self, edges: [I; 3]) -> FloatingEnds<V> {
-        let (screen, space, q) = self.at::<I, HYPERBOLIC>(edges);
+    fn begin<I: EdgeInt, P: Subdivision>(&self, row: &Row<'_, I>, (): &(), column: i32) -> FloatingEnds<V> {
+        let (screen, space, q) = self.at::<I, P>(row.at(column));
         FloatingEnds {
             zs: [self.zs.plane.at(screen); 2],
             q: [q; 2],
@@ -82,12 +82,14 @@ impl<L: Lanes, V: Varying> Numbers for FloatingLines<L, V> {
     }
 
     #[inline(always)]
-    fn extend<I: EdgeInt, const HYPERBOLIC: bool>(
+    fn extend<I: EdgeInt, P: Subdivision>(
         &self,
+        row: &Row<'_, I>,
+        (): &(),
         ends: &FloatingEnds<V>,
-        edges: [I; 3],
+        column: i32,
     ) -> FloatingEnds<V> {
-        let (screen, space, q) = self.at::<I, HYPERBOLIC>(edges);
+        let (screen, space, q) = self.at::<I, P>(row.at(column));
         FloatingEnds {
             zs: [ends.zs[1], self.zs.plane.at(screen)],
             q: [ends.q[1], q],
@@ -105,7 +107,7 @@ impl<L: Lanes, V: Varying> Numbers for FloatingLines<L, V> {
     }
 
     #[inline(always)]
-    fn within(&self, ends: &FloatingEnds<V>, _: i32, budget: f32) -> bool {
+    fn within(&self, (): &(), ends: &FloatingEnds<V>, _: [i32; 2], budget: f32) -> bool {
         let [q0, q1] = ends.q;
         let (apart, limit) = ((q1 - q0).abs(), f64::from(budget) * (q0.max(q1) + 3.0 * q0.min(q1)));
         let within = Cell::new(true);

@@ -6,11 +6,13 @@ extern crate std;
 
 mod band;
 mod color;
+mod comparison;
 mod counters;
 mod depth;
 mod draw;
 mod edge;
 mod exact;
+mod fixed_plane;
 mod fixed_point;
 mod floating;
 mod fragment;
@@ -25,8 +27,9 @@ mod triangle;
 
 pub use band::{Band, BandError};
 pub use color::{Color, ColorFormat, Rgb565Be, Rgb565Le, Store, rgb565};
+pub use comparison::{Always, Equal, Farther, OrEqual, ReadOnly};
 pub use counters::Counters;
-pub use depth::{D16, D24, D32, DepthFormat, F32, F32Reversed, NoDepth, OrEqual, ReadOnly};
+pub use depth::{D16, D24, D32, DepthFormat, F32, F32Reversed, NoDepth};
 pub use draw::{draw_triangle, reach};
 pub use edge::{Edge, EdgeInt, FITS_I32};
 pub use exact::{Exact, ExactTriangle};

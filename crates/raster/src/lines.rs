@@ -19,20 +19,44 @@ use core::fmt::Debug;
 pub trait Subdivision: Copy + Debug + 'static {
     /// The length of all runs, or 1 if there is none such, see [`Interpolation::RUN`](crate::Interpolation::RUN).
     const RUN: i32;
+    /// Whether what is hyperbolic is so at the ends of runs, or linear on the screen like the rest.
+    const PERSPECTIVE: bool;
 
-    /// The columns of the run of a row that a covered column is in, and what is known at its ends. `left` is what
-    /// the run before has left, if it was drawn.
-    fn run<I: EdgeInt, N: Numbers>(
-        &self,
-        numbers: &N,
-        row: &Row<'_, I>,
-        column: i32,
-        left: &Left<N::Ends>,
-    ) -> Run<N::Ends>;
+    /// The columns of the run of a row that a covered column is in, and what is known at its ends.
+    fn run<I: EdgeInt, N: Numbers>(&self, row: &KnownRow<'_, I, N>, column: i32) -> Run<N::Ends>;
 }
 
-/// What the run before has left: its last column, which is this one's first, and what is known there.
-pub type Left<E> = Option<(i32, E)>;
+/// What the run before has left: what is known at its last column, which is this one's first.
+pub type Left<E> = Option<E>;
+
+/// A row, what is known of it, and what the run before has left, if it was drawn.
+#[derive(Debug)]
+pub struct KnownRow<'a, I, N: Numbers> {
+    numbers: &'a N,
+    row: &'a Row<'a, I>,
+    known: &'a N::Row,
+    left: &'a Left<N::Ends>,
+}
+
+impl<I: EdgeInt, N: Numbers> KnownRow<'_, I, N> {
+    /// The run of `length` columns, a power of two, that a covered column is in.
+    #[inline(always)]
+    fn run<P: Subdivision>(&self, column: i32, length: i32) -> Run<N::Ends> {
+        let Self { numbers, row, known, left } = self;
+        let after = (column | (length - 1)) + 1;
+        let last = after.min(row.covered.end - 1);
+        // What the run before has left is that of this column.
+        let (first, ends) = if let Some(ends) = left {
+            (column, numbers.extend::<I, P>(row, known, ends, last))
+        } else {
+            let first = row.covered.start.max(column & !(length - 1));
+            let ends = numbers.begin::<I, P>(row, known, first);
+            let alone = last == first;
+            (first, if alone { ends } else { numbers.extend::<I, P>(row, known, &ends, last) })
+        };
+        Run { columns: [first, last], ends, next: after.min(row.covered.end), length }
+    }
+}
 
 /// A run of a row's samples.
 #[derive(Clone, Copy, Debug)]
@@ -43,6 +67,8 @@ pub struct Run<E> {
     pub ends: E,
     /// The column that follows it.
     pub next: i32,
+    /// So many columns, a power of two, are between the ends of a run that is whole.
+    pub length: i32,
 }
 
 /// What is linear or hyperbolic over a triangle, in some kind of numbers.
@@ -53,16 +79,28 @@ pub trait Numbers {
     type Ends: Copy;
 
     /// Begins a row.
-    fn row<I: EdgeInt>(&self, row: &Row<'_, I>) -> Self::Row;
+    fn row<I: EdgeInt, P: Subdivision>(&self, row: &Row<'_, I>) -> Self::Row;
 
-    /// A run of one sample in the triangle, with these edge functions.
-    fn begin<I: EdgeInt, const HYPERBOLIC: bool>(&self, edges: [I; 3]) -> Self::Ends;
+    /// The run of one sample, a covered column of a row.
+    fn begin<I: EdgeInt, P: Subdivision>(
+        &self,
+        row: &Row<'_, I>,
+        known: &Self::Row,
+        column: i32,
+    ) -> Self::Ends;
 
-    /// The run from the end of another to a sample of the same row.
-    fn extend<I: EdgeInt, const HYPERBOLIC: bool>(&self, ends: &Self::Ends, edges: [I; 3]) -> Self::Ends;
+    /// The run from the end of another to another covered column of the same row.
+    fn extend<I: EdgeInt, P: Subdivision>(
+        &self,
+        row: &Row<'_, I>,
+        known: &Self::Row,
+        ends: &Self::Ends,
+        column: i32,
+    ) -> Self::Ends;
 
-    /// Whether a straight line of so many columns between the ends misses no component by more than the budget.
-    fn within(&self, ends: &Self::Ends, columns: i32, budget: f32) -> bool;
+    /// Whether a straight line between the ends, which are at these columns, misses no component by more than the
+    /// budget.
+    fn within(&self, known: &Self::Row, ends: &Self::Ends, columns: [i32; 2], budget: f32) -> bool;
 }
 
 /// The same for several lanes, with what is needed at each sample.
@@ -96,7 +134,7 @@ impl<P: Subdivision, L: Lanes, V: Varying, N: Lines<L, V>> Interpolate<L, V> for
 
     #[inline(always)]
     fn row<I: EdgeInt>(&self, row: &Row<'_, I>) -> Self::Row {
-        (self.numbers.row(row), None)
+        (self.numbers.row::<I, P>(row), None)
     }
 
     #[inline(always)]
@@ -107,8 +145,8 @@ impl<P: Subdivision, L: Lanes, V: Varying, N: Lines<L, V>> Interpolate<L, V> for
         column: i32,
         aligned: i32,
     ) -> (N::Cursor, i32) {
-        let run = self.policy.run(&self.numbers, row, column, left);
-        *left = Some((run.columns[1], run.ends));
+        let run = self.policy.run(&KnownRow { numbers: &self.numbers, row, known, left }, column);
+        *left = Some(run.ends);
         (self.numbers.line(known, &run, column, aligned), run.next)
     }
 
@@ -149,16 +187,11 @@ impl<const N: i32> Subdivision for Spans<N> {
         assert!(N.count_ones() == 1 && 0 < N && N <= LONGEST, "Spans<N>: N must be a power of two up to 64");
         N
     };
+    const PERSPECTIVE: bool = true;
 
     #[inline(always)]
-    fn run<I: EdgeInt, M: Numbers>(
-        &self,
-        numbers: &M,
-        row: &Row<'_, I>,
-        column: i32,
-        left: &Left<M::Ends>,
-    ) -> Run<M::Ends> {
-        Sought::<I, M, true> { numbers, row, left }.run(column, N)
+    fn run<I: EdgeInt, M: Numbers>(&self, row: &KnownRow<'_, I, M>, column: i32) -> Run<M::Ends> {
+        row.run::<Self>(column, N)
     }
 }
 
@@ -188,21 +221,15 @@ impl Bounded {
 
 impl Subdivision for Bounded {
     const RUN: i32 = 1;
+    const PERSPECTIVE: bool = true;
 
     #[inline(always)]
-    fn run<I: EdgeInt, M: Numbers>(
-        &self,
-        numbers: &M,
-        row: &Row<'_, I>,
-        column: i32,
-        left: &Left<M::Ends>,
-    ) -> Run<M::Ends> {
+    fn run<I: EdgeInt, M: Numbers>(&self, row: &KnownRow<'_, I, M>, column: i32) -> Run<M::Ends> {
         let mut length = LONGEST;
         loop {
-            let run = Sought::<I, M, true> { numbers, row, left }.run(column, length);
+            let run = row.run::<Self>(column, length);
             // A run of one sample has nothing between its ends.
-            let [first, last] = run.columns;
-            if length == 1 || numbers.within(&run.ends, last - first, self.budget) {
+            if length == 1 || row.numbers.within(row.known, &run.ends, run.columns, self.budget) {
                 return run;
             }
             length >>= 1;
@@ -225,39 +252,10 @@ pub struct Affine;
 
 impl Subdivision for Affine {
     const RUN: i32 = LONGEST;
+    const PERSPECTIVE: bool = false;
 
     #[inline(always)]
-    fn run<I: EdgeInt, M: Numbers>(
-        &self,
-        numbers: &M,
-        row: &Row<'_, I>,
-        column: i32,
-        left: &Left<M::Ends>,
-    ) -> Run<M::Ends> {
-        Sought::<I, M, false> { numbers, row, left }.run(column, LONGEST)
-    }
-}
-
-/// A row in which a run is sought.
-struct Sought<'a, I, N: Numbers, const HYPERBOLIC: bool> {
-    numbers: &'a N,
-    row: &'a Row<'a, I>,
-    left: &'a Left<N::Ends>,
-}
-
-impl<I: EdgeInt, N: Numbers, const HYPERBOLIC: bool> Sought<'_, I, N, HYPERBOLIC> {
-    /// The run of `length` columns, a power of two, that a covered column is in.
-    #[inline(always)]
-    fn run(&self, column: i32, length: i32) -> Run<N::Ends> {
-        let Self { numbers, row, left } = self;
-        let first = row.covered.start.max(column & !(length - 1));
-        let after = (column | (length - 1)) + 1;
-        let last = after.min(row.covered.end - 1);
-        let from = match left {
-            Some((place, ends)) if *place == first => *ends,
-            _ => numbers.begin::<I, HYPERBOLIC>(row.at(first)),
-        };
-        let ends = numbers.extend::<I, HYPERBOLIC>(&from, row.at(last));
-        Run { columns: [first, last], ends, next: after.min(row.covered.end) }
+    fn run<I: EdgeInt, M: Numbers>(&self, row: &KnownRow<'_, I, M>, column: i32) -> Run<M::Ends> {
+        row.run::<Self>(column, LONGEST)
     }
 }

@@ -81,10 +81,11 @@ where
         while column < columns.end {
             let (cursor, next) = self.triangle.start(row, &mut known, column, column);
             let stop = next.min(columns.end);
+            let count = (stop - column).cast_unsigned();
             let here;
-            (here, pixels) = split(pixels, stop.abs_diff(column) as usize);
-            covered += stop.abs_diff(column);
-            written += self.alone::<I, C, D>(row, here, column, cursor);
+            (here, pixels) = split(pixels, count as usize);
+            covered += count;
+            written += self.alone::<I, C, D>(row, here, column, &cursor);
             column = stop;
         }
         counters.span(covered, written);
@@ -97,14 +98,14 @@ where
         row: &Row<'_, I>,
         (colors, depths): (&mut [C::Pixel], &mut [D::Stored]),
         column: i32,
-        mut cursor: T::Cursor,
+        first: &T::Cursor,
     ) -> u32
     where
         I: EdgeInt,
         C: Store<F::Color>,
         D: DepthFormat,
     {
-        let lanes = self.lanes;
+        let (lanes, mut cursor) = (self.lanes, *first);
         let ([a, b, c], at) = (row.edges, row.at(column));
         let ramp = |at: I, e: &Edge<I>| I::ramp(lanes, at, e.step_x);
         let mut edges = [ramp(at[0], a), ramp(at[1], b), ramp(at[2], c)];

@@ -12,6 +12,7 @@
 //! by division; after that a row costs a few additions and no branch. Inside a span no coverage test is needed.
 
 use crate::edge::{Edge, EdgeInt};
+use core::cmp::Ordering;
 
 /// The covered samples of one row, in columns counted from the left of the box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -136,6 +137,7 @@ fn divide<I: EdgeInt>(x: I, divisor: I) -> (I, I) {
 /// Walks the rows of a triangle's box from the top.
 #[derive(Clone, Copy, Debug)]
 pub struct SpanWalker<I> {
+    /// One that bounds from the left, one that bounds from the right, and the third edge's.
     crossings: [Crossing<I>; 3],
     width: I,
     rows: i32,
@@ -152,6 +154,17 @@ impl<I: EdgeInt> SpanWalker<I> {
         let last = I::from(rows - 1);
         let [a, b, c] = edges;
         let cut = |e: &Edge<I>| e.step_x == I::from(0) && e.value + e.bias + e.step_y * last < I::from(0);
+        // The three steps add up to 0, so not all have the same sign.
+        let is = |e: &Edge<I>, sign: Ordering| e.step_x.cmp(&I::from(0)) == sign;
+        let [a, b, c] = if is(a, Ordering::Greater) {
+            if is(b, Ordering::Less) { [a, b, c] } else { [a, c, b] }
+        } else if is(b, Ordering::Greater) {
+            if is(a, Ordering::Less) { [b, a, c] } else { [b, c, a] }
+        } else if is(a, Ordering::Less) {
+            [c, a, b]
+        } else {
+            [c, b, a]
+        };
         Self {
             crossings: [Crossing::new(a), Crossing::new(b), Crossing::new(c)],
             width: I::from(width),
@@ -170,13 +183,12 @@ impl<I: EdgeInt> SpanWalker<I> {
     #[must_use]
     #[inline]
     pub fn span(&self) -> Span {
-        let (mut start, mut end) = (I::from(0), self.width);
-        for crossing in &self.crossings {
-            if crossing.from_left {
-                start = start.max(crossing.column);
-            } else {
-                end = end.min(crossing.column);
-            }
+        let [left, right, third] = &self.crossings;
+        let (mut start, mut end) = (left.column.max(I::from(0)), right.column.min(self.width));
+        if third.from_left {
+            start = start.max(third.column);
+        } else {
+            end = end.min(third.column);
         }
         // Far outside of the box columns would not fit their type.
         Span { start: start.min(self.width).to_i32(), end: end.max(I::from(0)).to_i32() }
