@@ -29,15 +29,16 @@ pub fn from_f64(x: f64) -> Rational {
     let field = (bits >> 52) as i32 & 0x7ff;
     let fraction = bits & ((1 << 52) - 1);
     let (mantissa, exponent) = match field {
+        0 if fraction == 0 => return from_int(0),
         0 => (fraction, -1074),
         _ => (fraction | 1 << 52, field - 1075),
     };
+    // Odd over a power of two, so in lowest terms.
+    let zeros = mantissa.trailing_zeros();
+    let (odd, exponent) = (BigInt::from(mantissa >> zeros), exponent + zeros as i32);
     let power = BigInt::from(1) << exponent.unsigned_abs();
-    let magnitude = if exponent < 0 {
-        Rational::new(mantissa.into(), power)
-    } else {
-        Rational::from_integer(power * mantissa)
-    };
+    let magnitude =
+        if exponent < 0 { Rational::new_raw(odd, power) } else { Rational::from_integer(power * odd) };
     if x.is_sign_negative() { -magnitude } else { magnitude }
 }
 
@@ -128,8 +129,8 @@ pub fn error_in_eps(got: f32, exact: &Rational, scale: f64) -> f64 {
     if !got.is_finite() {
         return f64::from(got);
     }
-    let unit = from_f64(scale) / Rational::from_integer(BigInt::from(1) << 24);
-    to_f64(&((from_f32(got) - exact) / unit))
+    // Only the difference has to be exact.
+    to_f64(&(from_f32(got) - exact)) / (scale * (-24f64).exp2())
 }
 
 /// How far `got` is from `exact`, in units of the spacing of the f32 values around `exact`.
@@ -138,26 +139,14 @@ pub fn error_in_ulp(got: f32, exact: &Rational) -> f64 {
     if !got.is_finite() {
         return f64::from(got);
     }
-    // Halve or double until the magnitude lies in [1, 2); below the smallest normal number the spacing stays fixed.
-    let two = Rational::from_integer(2.into());
-    let mut ulp = from_f64((-23f64).exp2());
-    let mut magnitude = exact.abs();
-    let mut exponent = 0;
-    if magnitude.is_zero() {
-        exponent = -126;
-        ulp = from_f64((-149f64).exp2());
-    }
-    let one = from_int(1);
-    while exponent > -126 && magnitude < one {
-        magnitude *= &two;
-        ulp /= &two;
+    // The exponent of the nearest f64 is that of `exact`, or one more: below a power of two it may round up to it.
+    // Below the smallest normal number the spacing stays fixed.
+    let nearest = to_f64(exact).abs();
+    let mut exponent = ((nearest.to_bits() >> 52) as i32 - 1023).max(-126);
+    if exponent > -126 && nearest == f64::from(exponent).exp2() && exact.abs() < from_f64(nearest) {
         exponent -= 1;
     }
-    while magnitude >= two {
-        magnitude /= &two;
-        ulp *= &two;
-    }
-    to_f64(&((from_f32(got) - exact) / ulp))
+    to_f64(&(from_f32(got) - exact)) / f64::from(exponent - 23).exp2()
 }
 
 fn weighted_mean(t: [Rational; 3], u: [f32; 3]) -> Rational {
@@ -243,6 +232,10 @@ mod tests {
         close(error_in_ulp(0.1, &from_f32(0.1)), 0.0);
         close(error_in_ulp(f32::from_bits(3), &from_f32(f32::from_bits(1))), 2.0);
         close(error_in_ulp(f32::from_bits(3), &ratio(0, 1)), 3.0);
+        // Just below a power of two the spacing is that below it, also where the nearest f64 is the power itself.
+        let below = ratio(-2, 1) + Rational::new(1.into(), BigInt::from(1) << 70);
+        close(error_in_ulp(-2.0 + eps, &below), 1.0);
+        close(error_in_ulp(1e30, &(from_f32(1e30) + from_f32(7.555_786_4e22))), -1.0);
         assert!(error_in_eps(f32::NAN, &ratio(1, 1), 1.0).is_nan());
     }
 }
