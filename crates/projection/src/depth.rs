@@ -2,51 +2,87 @@
 
 use crate::ViewError;
 
-/// The map from eye depth z in [A, B] to screen depth zs in [0, 1].
+/// The map from eye depth z in [A, B] to screen depth zs in [0, 1], or in a range of your own.
 ///
 /// Being linear in 1/z it takes lines to lines and planes to planes, so that zs may be interpolated linearly over a
-/// screen triangle.
+/// screen triangle. It keeps the order of depths where β < 0 and reverses it where β > 0: of z1 < z2, 1/z1 is the
+/// larger.
+///
+/// ```
+/// use alberti_projection::DepthMap;
+///
+/// // α = B/(B-A) = 1.5 and β = -AB/(B-A) = -3.
+/// let depth = DepthMap::forward(2.0, 6.0)?;
+/// assert_eq!([2.0, 3.0, 6.0].map(|z| depth.zs(z)), [0.0, 0.5, 1.0]);
+/// assert_eq!(depth.z(0.5), 3.0);
+/// // Without a far plane α = 1 and β = -A.
+/// let endless = DepthMap::forward(2.0, f32::INFINITY)?;
+/// assert_eq!([2.0, 4.0, 8.0, 1e30].map(|z| endless.zs(z)), [0.0, 0.5, 0.75, 1.0]);
+/// # Ok::<(), alberti_projection::ViewError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DepthMap {
     alpha: f32,
     beta: f32,
+    /// The ends of the range, the smaller first.
+    range: [f32; 2],
 }
 
 impl DepthMap {
-    /// zs = 0 at the near plane z = A and 1 at the far plane z = B: α = B/(B−A), β = −AB/(B−A).
+    /// zs = 0 at the near plane z = A and 1 at the far plane z = B: α = B/(B−A), β = −AB/(B−A); of B = ∞, α = 1 and
+    /// β = −A.
     ///
     /// # Precision
-    /// α and β are correctly rounded but for a double rounding. Depth resolution at z is z²(B−A)/(AB) times the step
-    /// of zs, whatever the number format: at B/A = 10^6 an f32 forward map tells 18 depths apart in the far half.
+    /// α and β are correctly rounded but for a double rounding.
     ///
     /// # Errors
-    /// [`ViewError::NearFar`] unless 0 < A < B, both finite, and α and β are finite.
+    /// [`ViewError::NearFar`] unless 0 < A < B, A finite, and α and β are finite and β is not rounded to 0.
     pub fn forward(near: f32, far: f32) -> Result<Self, ViewError> {
-        let (a, b) = checked(near, far)?;
-        Self::new(b / (b - a), -(a * b) / (b - a))
+        Self::onto([0.0, 1.0], near, far)
     }
 
-    /// zs = 1 at the near plane and 0 at the far plane: α' = −A/(B−A), β' = AB/(B−A), computed directly.
+    /// zs = 1 at the near plane and 0 at the far plane: α' = −A/(B−A), β' = AB/(B−A), computed directly; of B = ∞,
+    /// α' = 0 and β' = A.
     ///
     /// # Precision
-    /// With a floating-point depth buffer the fine steps of small numbers meet the coarse ones of 1/z: the relative
-    /// error of z recovered from zs is within 4ε at any B/A up to 10^9. (1 − zs of the forward map would inherit all
-    /// of that map's error.)
+    /// As [`forward`](Self::forward). With a floating-point depth buffer the fine steps of small numbers meet the
+    /// coarse ones of 1/z: the relative error of z recovered from zs is within 4ε at any B/A. (1 − zs of the forward
+    /// map would inherit all of that map's error.)
     ///
     /// # Errors
     /// As [`forward`](Self::forward).
     pub fn reversed(near: f32, far: f32) -> Result<Self, ViewError> {
-        let (a, b) = checked(near, far)?;
-        Self::new(-a / (b - a), a * b / (b - a))
+        Self::onto([1.0, 0.0], near, far)
     }
 
-    fn new(alpha: f64, beta: f64) -> Result<Self, ViewError> {
+    /// zs = c at the near plane and d at the far plane: α = (dB − cA)/(B−A), β = (c−d)AB/(B−A); of B = ∞, α = d and
+    /// β = (c−d)A. Depth buffers take zs from [0, 1]; other systems want [−1, 1], say.
+    ///
+    /// # Precision
+    /// As [`forward`](Self::forward).
+    ///
+    /// # Errors
+    /// As [`forward`](Self::forward), and [`ViewError::DepthRange`] unless c and d are finite and differ.
+    pub fn onto([c, d]: [f32; 2], near: f32, far: f32) -> Result<Self, ViewError> {
+        if !(c.is_finite() && d.is_finite() && c != d) {
+            return Err(ViewError::DepthRange);
+        }
+        if !(near > 0.0 && far > near) {
+            return Err(ViewError::NearFar);
+        }
+        // In f64 a product of two f32 is exact, and a difference exact or nearly so.
+        let [from, to, a, b] = [c, d, near, far].map(f64::from);
+        let (alpha, beta) = if far.is_finite() {
+            ((to * b - from * a) / (b - a), (from - to) * (a * b) / (b - a))
+        } else {
+            (to, (from - to) * a)
+        };
         #[expect(clippy::cast_possible_truncation, reason = "rounded once, here")]
         let (alpha, beta) = (alpha as f32, beta as f32);
         if !(alpha.is_finite() && beta.is_finite()) || beta == 0.0 {
             return Err(ViewError::NearFar);
         }
-        Ok(Self { alpha, beta })
+        Ok(Self { alpha, beta, range: if c < d { [c, d] } else { [d, c] } })
     }
 
     /// α of zs = α + β/z.
@@ -55,43 +91,53 @@ impl DepthMap {
         self.alpha
     }
 
-    /// β of zs = α + β/z.
+    /// β of zs = α + β/z: negative where zs grows with distance.
     #[must_use]
     pub const fn beta(&self) -> f32 {
         self.beta
     }
 
-    /// The screen depth zs of a point at eye depth `z` in [A, B]; always in [0, 1].
+    /// The smallest and the largest zs.
+    #[must_use]
+    pub const fn range(&self) -> [f32; 2] {
+        self.range
+    }
+
+    /// The screen depth zs of a point at eye depth `z` in [A, B]; always within the range.
     ///
     /// # Precision
-    /// Within (α + 1/2)ε of its own α + β/z, absolutely (α' + 1/2 for the reversed map), and within (3α + 1/2)ε of that
-    /// of the planes themselves: 1.5ε and 3ε for B/A >= 4, more as the planes approach each other. Monotone: division
-    /// and addition are correctly rounded, so a larger z never gives a smaller zs (larger, for the reversed map).
+    /// Within (α + 1/2)ε of its own α + β/z, absolutely (|α'| + 1/2 for the reversed map), and within (3α + 1/2)ε of
+    /// that of the planes themselves: 1.5ε and 3ε for B/A >= 4, more as the planes approach each other. Onto any range,
+    /// within (|α| + 2|β|/A + m)ε of that of the planes, m the largest |zs|. Monotone: division and addition are
+    /// correctly rounded, so a larger z never gives a smaller zs (larger, for the reversed map).
     #[must_use]
     #[inline]
     pub fn zs(&self, z: f32) -> f32 {
-        // Rounding may step over an end of the range by an ulp.
-        (self.alpha + self.beta / z).clamp(0.0, 1.0)
+        let [least, most] = self.range;
+        let zs = self.alpha + self.beta / z;
+        // Rounding may step over an end of the range by an ulp. Not `clamp`, which panics where the ends are reversed.
+        if zs < least {
+            least
+        } else if zs > most {
+            most
+        } else {
+            zs
+        }
     }
 
-    /// The eye depth z = β/(zs − α) of a screen depth.
+    /// The eye depth z = β/(zs − α) of a screen depth within the range; infinite for that of infinity.
     ///
     /// # Precision
-    /// The subtraction cancels near the far plane of a forward map: the round trip is off by 3e-5 relative at
-    /// B/A = 10^3 and 2.9e-2 at 10^6; the reversed map keeps it within 4ε.
+    /// Within 2ε of the quotient of its own α and β, relatively. That does not make z good: zs comes rounded, and the
+    /// subtraction cancels near the far plane of a forward map. There and back, from z to zs to z, the relative error
+    /// is within r/(1 − r) + 4ε, r = (α + 1/2)ε·z/|β|: at the far plane 3e-5 was measured for B/A = 10^3, 2.9e-2 for
+    /// 10^6, and for 10^9 z comes back infinite. The reversed map keeps it within 4ε for any planes.
     #[must_use]
     #[inline]
     pub fn z(&self, zs: f32) -> f32 {
-        self.beta / (zs - self.alpha)
+        // The sign of a zero must not become that of infinity.
+        (self.beta / (zs - self.alpha)).abs()
     }
-}
-
-/// Both planes in f64, where their product and difference are exact or nearly so.
-fn checked(near: f32, far: f32) -> Result<(f64, f64), ViewError> {
-    if !(near > 0.0 && far > near && far.is_finite()) {
-        return Err(ViewError::NearFar);
-    }
-    Ok((f64::from(near), f64::from(far)))
 }
 
 #[cfg(test)]
@@ -111,17 +157,45 @@ mod tests {
 
     #[test]
     fn planes_that_make_no_range_are_refused() {
+        let endless = f32::INFINITY;
         for (near, far) in [
             (0.0, 1.0),
             (-1.0, 1.0),
             (1.0, 1.0),
             (2.0, 1.0),
-            (1.0, f32::INFINITY),
+            (endless, endless),
             (f32::NAN, 1.0),
             (1.0, f32::NAN),
+            (0.0, endless),
+            (3e38, 3.0000003e38),
         ] {
             assert_eq!(DepthMap::forward(near, far), Err(ViewError::NearFar), "{near} {far}");
             assert_eq!(DepthMap::reversed(near, far), Err(ViewError::NearFar), "{near} {far}");
         }
+        for range in [[0.0, 0.0], [f32::NAN, 1.0], [0.0, f32::NAN], [f32::NEG_INFINITY, 0.0], [0.0, endless]]
+        {
+            assert_eq!(DepthMap::onto(range, 1.0, 2.0), Err(ViewError::DepthRange), "{range:?}");
+        }
+    }
+
+    #[test]
+    fn any_range_has_its_ends_at_the_planes() {
+        let map = DepthMap::onto([-1.0, 1.0], 2.0, 6.0).expect("valid");
+        assert_eq!((map.alpha(), map.beta(), map.range()), (2.0, -6.0, [-1.0, 1.0]));
+        assert_eq!((map.zs(2.0), map.zs(3.0), map.zs(6.0)), (-1.0, 0.0, 1.0));
+        let falling = DepthMap::onto([8.0, -4.0], 2.0, 6.0).expect("valid");
+        assert_eq!((falling.zs(2.0), falling.zs(3.0), falling.zs(6.0)), (8.0, 2.0, -4.0));
+        assert_eq!((falling.z(2.0), falling.range()), (3.0, [-4.0, 8.0]));
+    }
+
+    #[test]
+    fn infinity_is_the_far_plane_of_an_endless_view() {
+        let forward = DepthMap::forward(2.0, f32::INFINITY).expect("valid");
+        let reversed = DepthMap::reversed(2.0, f32::INFINITY).expect("valid");
+        assert_eq!([forward, reversed].map(|map| (map.alpha(), map.beta())), [(1.0, -2.0), (0.0, 2.0)]);
+        assert_eq!([forward, reversed].map(|map| map.zs(8.0)), [0.75, 0.25]);
+        assert_eq!([forward.z(0.75), reversed.z(0.25)], [8.0, 8.0]);
+        assert_eq!([forward.z(1.0), reversed.z(0.0)], [f32::INFINITY; 2]);
+        assert_eq!([forward, reversed].map(|map| map.zs(f32::INFINITY)), [1.0, 0.0]);
     }
 }

@@ -20,6 +20,8 @@ pub enum ViewError {
     NearFar,
     /// The viewport is empty, or reaches too far from the frame's origin for the guard band.
     Viewport,
+    /// The ends of the range of screen depths are equal or not finite.
+    DepthRange,
 }
 
 impl fmt::Display for ViewError {
@@ -32,6 +34,7 @@ impl fmt::Display for ViewError {
             Self::Aspect => "the aspect ratio must be positive",
             Self::NearFar => "the planes must satisfy 0 < near < far",
             Self::Viewport => "the viewport is empty or reaches more than 16384 pixels from the origin",
+            Self::DepthRange => "the ends of the range of screen depths must be finite and differ",
         })
     }
 }
