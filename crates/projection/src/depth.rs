@@ -5,8 +5,8 @@ use crate::ViewError;
 /// The map from eye depth z in [A, B] to screen depth zs in [0, 1], or in a range of your own.
 ///
 /// Being linear in 1/z it takes lines to lines and planes to planes, so that zs may be interpolated linearly over a
-/// screen triangle. It keeps the order of depths where β < 0 and reverses it where β > 0: of z1 < z2, 1/z1 is the
-/// larger.
+/// screen triangle; see [`ScreenWeights`](crate::ScreenWeights). It keeps the order of depths where β < 0 and reverses
+/// it where β > 0: of z1 < z2, 1/z1 is the larger.
 ///
 /// ```
 /// use alberti_projection::DepthMap;

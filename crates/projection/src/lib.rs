@@ -9,6 +9,7 @@ mod clip;
 mod depth;
 mod error;
 mod perspective;
+mod relations;
 mod viewport;
 
 pub use camera::look_at;
@@ -16,4 +17,5 @@ pub use clip::{EyeVertex, MAX_POLYGON, Polygon, ProjectedVertex, SideBounds, cli
 pub use depth::DepthMap;
 pub use error::ViewError;
 pub use perspective::Perspective;
+pub use relations::{EyeWeights, ScreenWeights};
 pub use viewport::Viewport;
