@@ -6,7 +6,7 @@ use crate::ViewError;
 ///
 /// Being linear in 1/z it takes lines to lines and planes to planes, so that zs may be interpolated linearly over a
 /// screen triangle; see [`ScreenWeights`](crate::ScreenWeights). It keeps the order of depths where β < 0 and reverses
-/// it where β > 0: of z1 < z2, 1/z1 is the larger.
+/// it where β > 0: of z1 < z2, 1/z1 is the larger. How fine it is, [`resolution`](Self::resolution) tells.
 ///
 /// ```
 /// use alberti_projection::DepthMap;

@@ -10,6 +10,7 @@ mod depth;
 mod error;
 mod perspective;
 mod relations;
+mod resolution;
 mod viewport;
 
 pub use camera::look_at;
@@ -18,4 +19,5 @@ pub use depth::DepthMap;
 pub use error::ViewError;
 pub use perspective::Perspective;
 pub use relations::{EyeWeights, ScreenWeights};
+pub use resolution::DepthSteps;
 pub use viewport::Viewport;

@@ -1,0 +1,167 @@
+//! How far apart surfaces must be for a depth buffer to tell them apart.
+//!
+//! ```text
+//!    1 |                   _ . - '''      equal steps of zs, δ, are short steps of z near the eye
+//!      |          . - '                   and long ones far away:
+//!   zs |     . '
+//!      |   /                              dz = z·δ / (|β|/z + δ)
+//!    0 |__/___________________________
+//!         A                           B  z
+//! ```
+
+use crate::{DepthMap, ViewError};
+use alberti_math::lanes::{Lanes, One};
+
+/// The values that a depth buffer can hold, under the names of the rasterizer's formats.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DepthSteps {
+    /// 2^16 values, evenly: `D16`.
+    D16,
+    /// 2^24 values, evenly: `D24`.
+    D24,
+    /// 2^32 values, evenly, of which the `f32` that depths are computed in reach a part: `D32`.
+    D32,
+    /// All `f32`: `F32` with a forward map, `F32Reversed` with a reversed one.
+    F32,
+}
+
+impl DepthSteps {
+    /// The formats that the rasterizer has, the cheapest first, and whether each goes with a reversed map: by the bytes
+    /// of a pixel (2, then 4), then integers before floats.
+    pub const FORMATS: [(Self, bool); 5] =
+        [(Self::D16, false), (Self::D24, false), (Self::D32, false), (Self::F32, false), (Self::F32, true)];
+
+    /// The distance of two neighbours of an even format, on a range of zs of length 1.
+    const fn even(self) -> f64 {
+        match self {
+            Self::D16 => 1.0 / 65_535.0,
+            Self::D24 => 1.0 / 16_777_215.0,
+            Self::D32 => 1.0 / 4_294_967_295.0,
+            Self::F32 => 0.0,
+        }
+    }
+}
+
+impl DepthMap {
+    /// How far apart two surfaces must be to be told apart, the farther of them at depth `z`: dz = z·δ/(|β|/z + δ),
+    /// where zs is one step δ away. For small steps that is z²δ/|β|; it never exceeds z.
+    ///
+    /// δ is the format's step, or that of the `f32` zs or β/z there, if that is larger.
+    ///
+    /// ```
+    /// use alberti_projection::{DepthMap, DepthSteps};
+    ///
+    /// // At the far plane, a thousand times as far as the near one: metres, millimetres, a tenth of a millimetre.
+    /// let (near, far) = (1.0, 1000.0);
+    /// let (forward, reversed) = (DepthMap::forward(near, far)?, DepthMap::reversed(near, far)?);
+    /// assert!((forward.resolution(DepthSteps::D16, far) - 15.0).abs() < 0.1);
+    /// assert!((forward.resolution(DepthSteps::D24, far) - 0.06).abs() < 0.001);
+    /// assert!(reversed.resolution(DepthSteps::F32, far) < 0.0002);
+    /// # Ok::<(), alberti_projection::ViewError>(())
+    /// ```
+    ///
+    /// # Precision
+    /// Within 4ε of the formula for the planes with `D16`, relatively. As for what is really told apart: where
+    /// 2^-21·z <= dz <= z/4, the depths that are stored like `z` extend over between dz/2 and 2dz, so that surfaces 2dz
+    /// apart are told apart. Finer than that, where z, β/z and zs all round by about as much, it is between dz/4 and
+    /// 4dz. Depths that share the first or the last stored value are the exception: the planes cut there.
+    #[must_use]
+    pub fn resolution(&self, steps: DepthSteps, z: f32) -> f32 {
+        let quotient = self.beta() / z;
+        let step = self.step(steps).max(spacing(self.zs(z))).max(spacing(quotient));
+        narrow(f64::from(z) * step / (f64::from(quotient.abs()) + step))
+    }
+
+    /// The depth up to which two surfaces `gap` apart are told apart, that of the farther one: where
+    /// [`resolution`](Self::resolution) reaches `gap`. Beyond it they fight for the pixel. It may be nearer than the
+    /// near plane (nowhere) or farther than the far one (everywhere).
+    ///
+    /// z(z − gap) = gap·|β|/δ, thus z = gap/2 + √(gap·(gap/4 + |β|/δ)), and not beyond 2^23·gap, where the spacing of
+    /// `f32` is all there is.
+    ///
+    /// # Precision
+    /// With `D16` the resolution there is within 8ε of `gap`, relatively. Where the step varies with zs, as it does for
+    /// `F32`, the largest is taken: the resolution is at most `gap`·(1 + 8ε) up to there, and more than `gap` at twice
+    /// that depth, for maps onto [0, 1] or [−1, 1] either way round, from four times the near plane on. At a quarter of
+    /// it the surfaces are stored apart, but for the planes' values as above.
+    #[must_use]
+    pub fn separable_until(&self, steps: DepthSteps, gap: f32) -> f32 {
+        let [least, most] = self.range();
+        // With α <= 0 <= zs, zs is at most β/z, and so is its spacing.
+        let fine = self.alpha() <= 0.0 && least >= 0.0;
+        let float = if fine { 0.0 } else { spacing(most.max(-least)) };
+        let reach = narrow(f64::from(self.beta().abs()) / self.step(steps).max(float));
+        let z = 0.5 * gap + One.sqrt(gap) * One.sqrt(0.25 * gap + reach);
+        z.min(gap * 8_388_608.0)
+    }
+
+    /// The cheapest of [`DepthSteps::FORMATS`] that tells surfaces `gap` apart at the far plane, and the map to go with
+    /// it: [`reversed`](Self::reversed) or [`forward`](Self::forward). None where no format does.
+    ///
+    /// ```
+    /// use alberti_projection::{DepthMap, DepthSteps};
+    ///
+    /// let steps = |far, gap| DepthMap::cheapest(0.1, far, gap).map(|found| found.map(|(steps, _)| steps));
+    /// assert_eq!(steps(20.0, 0.1)?, Some(DepthSteps::D16));
+    /// assert_eq!(steps(200.0, 0.1)?, Some(DepthSteps::D24));
+    /// assert_eq!(steps(2000.0, 0.1)?, Some(DepthSteps::F32));
+    /// assert_eq!(steps(2e6, 0.1)?, None);
+    /// # Ok::<(), alberti_projection::ViewError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`forward`](Self::forward); of an infinite far plane, whose resolution is infinite, there is none to choose.
+    pub fn cheapest(near: f32, far: f32, gap: f32) -> Result<Option<(DepthSteps, Self)>, ViewError> {
+        let (forward, falling) = (Self::forward(near, far)?, Self::reversed(near, far)?);
+        Ok(DepthSteps::FORMATS
+            .map(|(steps, reversed)| (steps, if reversed { falling } else { forward }))
+            .into_iter()
+            .find(|(steps, map)| map.resolution(*steps, far) <= gap))
+    }
+
+    /// The step of zs of an even format, which divides the range; 0 for `f32`.
+    fn step(&self, steps: DepthSteps) -> f64 {
+        let [least, most] = self.range();
+        (f64::from(most) - f64::from(least)) * steps.even()
+    }
+}
+
+/// From `x` to the next `f32` towards 0.
+fn spacing(x: f32) -> f64 {
+    let x = x.abs();
+    // Of 0 the next one is as far as that after it.
+    f64::from(if x == 0.0 { x.next_up() } else { x - x.next_down() })
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "the one rounding that counts")]
+fn narrow(x: f64) -> f32 {
+    x as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of an endless view from z = 1 on, zs = 1 − 1/z: at z = 65535 one step of D16 is all that is left.
+    #[test]
+    fn one_step_nearer_is_half_as_far_where_one_step_is_left() {
+        for range in [[0.0, 1.0], [-1.0, 1.0], [1.0, -1.0]] {
+            let map = DepthMap::onto(range, 1.0, f32::INFINITY).expect("valid");
+            assert_eq!(map.resolution(DepthSteps::D16, 65_535.0), 32_767.5);
+            let until = map.separable_until(DepthSteps::D16, 32_767.5);
+            assert!((until - 65_535.0).abs() < 0.02, "{until}");
+            assert_eq!(map.resolution(DepthSteps::D16, f32::INFINITY), f32::INFINITY);
+        }
+    }
+
+    #[test]
+    fn a_reversed_float_is_as_fine_as_f32_itself() {
+        let map = DepthMap::reversed(1.0, f32::INFINITY).expect("valid");
+        for z in [1.0, 1024.0, 1e30] {
+            let resolution = map.resolution(DepthSteps::F32, z);
+            assert!(resolution > z / 33_554_432.0 && resolution <= z / 8_388_608.0, "{resolution} at {z}");
+        }
+        assert_eq!(map.separable_until(DepthSteps::F32, 0.25), 2_097_152.0);
+        assert_eq!(map.separable_until(DepthSteps::F32, 0.0), 0.0);
+    }
+}
