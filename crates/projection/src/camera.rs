@@ -15,8 +15,9 @@ use alberti_math::{Eye, Frame, Point3, Vector3, World};
 /// [`ViewError::EyeAtTarget`], [`ViewError::UpAlongView`] and [`ViewError::NotFinite`].
 ///
 /// # Precision
-/// Axes are unit and perpendicular to within 4ε, unless `up` is within a few degrees of the view direction, where the
-/// right axis's error grows with the inverse sine of that angle.
+/// Each component of forward is within 3ε of its exact value, those of right and up are within 4ε/sin φ, φ being the
+/// angle between `up` and the view: below a few degrees they get worse. Axes are unit within 3ε, and the cosines
+/// between them within 4ε/sin φ of 0.
 pub fn look_at(
     eye: Point3<World>,
     target: Point3<World>,

@@ -124,9 +124,9 @@ impl<T: Copy> Polygon<T> {
 /// A triangle wholly inside comes back with the same bits; clipping twice is clipping once.
 ///
 /// # Precision
-/// At each cut, new positions and varyings are within 4ε of the larger of the two ends (3.3ε measured), and never
-/// outside their range; z is exactly that of the plane. Coordinates up to `f32::MAX` / 16 neither overflow nor become
-/// NaN.
+/// At each cut, new positions and varyings are within 4ε of the larger of the two ends, or of 2^-126 if both are
+/// smaller (3.3ε measured), and never outside their range; z is exactly that of the plane. Coordinates up to
+/// `f32::MAX` / 16 neither overflow nor become NaN.
 ///
 /// # Cost
 /// A subtraction and a comparison for each vertex and plane; a crossing costs two divisions and a blend.
@@ -147,11 +147,12 @@ pub fn clip_near_far<V: Varying>(triangle: [EyeVertex<V>; 3], near: f32, far: f3
 /// Step 5: what lies within |xs| <= `bounds.x` and |ys| <= `bounds.y`, of a polygon after the division.
 ///
 /// xs, ys, zs and q are linear on the screen. The varyings are not: at the screen parameter τ they take the eye-space
-/// parameter t = τ z1 / (τ z1 + (1−τ) z2), whose weights are τ's times q, divided by their sum.
+/// parameter t = τ z1 / (τ z1 + (1−τ) z2), whose weights are τ's times q, divided by their sum: the relation of
+/// [`ScreenWeights::to_eye`](crate::ScreenWeights::to_eye), from the q that the vertices have.
 ///
 /// # Precision
-/// At each cut, xs, ys, zs and q are within 4ε of the larger of the two ends, varyings within 7ε (3.3ε measured for
-/// both); xs or ys is exactly that of the plane.
+/// At each cut, xs, ys, zs and q are within 4ε of the larger of the two ends, or of 2^-126 if both are smaller,
+/// varyings within 7ε (3.3ε measured for both); xs or ys is exactly that of the plane.
 #[must_use]
 pub fn clip_sides<V: Varying>(
     polygon: Polygon<ProjectedVertex<V>>,

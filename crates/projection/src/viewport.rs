@@ -49,6 +49,9 @@ impl Viewport {
     /// The snapped screen position of a point of the window: xv = (xs + 1) W/2 + x0, yv = (1 − ys) H/2 + y0, to the
     /// nearest subpixel. `None` beyond the guard band and for NaN.
     ///
+    /// That is the window translated by (1, 1) and scaled by (W/2, H/2), to the corner (x0, y0); with y turned over, as
+    /// rows count downwards: H − (ys + 1) H/2 = (1 − ys) H/2.
+    ///
     /// Computed as the viewport's centre plus the rounded offset, so that moving a viewport by whole pixels moves
     /// every position by exactly as much.
     ///
@@ -63,7 +66,10 @@ impl Viewport {
         Some([x, y])
     }
 
-    /// The largest |xs| and |ys| that [`to_screen`](Self::to_screen) keeps within the guard band.
+    /// The largest |xs| and |ys| that [`to_screen`](Self::to_screen) keeps within the guard band, a pixel short of it.
+    ///
+    /// # Precision
+    /// Within ε, relatively: correctly rounded quotients.
     #[must_use]
     pub fn guard(&self) -> SideBounds {
         let axis = |center: i32, half: f32| {
