@@ -1,11 +1,54 @@
-//! The depth map zs = α + β/z.
+//! The depth map zs = α + β/z, and how fine it is.
 
-use crate::{Row, Sample, Table};
-use alberti_oracle::rational;
+use crate::{Row, Sample, Table, brief};
+use alberti_oracle::rational::{Rational, depth, depth_reversed, from_f32, from_int, to_f64};
 use alberti_oracle::rng::Rng;
-use alberti_projection::DepthMap;
+use alberti_projection::{DepthMap, DepthSteps};
 
-/// Planes with this ratio of far to near.
+/// A way to make a map, and its ends at the near and the far plane.
+#[derive(Clone, Copy)]
+struct Kind {
+    name: [&'static str; 4],
+    make: fn(f32, f32) -> DepthMap,
+    ends: [i128; 2],
+}
+
+const FORWARD: Kind = Kind {
+    name: [
+        "DepthMap::forward, α and β",
+        "DepthMap::zs, forward",
+        "DepthMap::z, forward",
+        "DepthMap::z of zs, forward",
+    ],
+    make: |near, far| DepthMap::forward(near, far).expect("0 < near < far"),
+    ends: [0, 1],
+};
+
+const REVERSED: Kind = Kind {
+    name: [
+        "DepthMap::reversed, α and β",
+        "DepthMap::zs, reversed",
+        "DepthMap::z, reversed",
+        "DepthMap::z of zs, reversed",
+    ],
+    make: |near, far| DepthMap::reversed(near, far).expect("0 < near < far"),
+    ends: [1, 0],
+};
+
+const SYMMETRIC: Kind = Kind {
+    name: [
+        "DepthMap::onto [−1, 1], α and β",
+        "DepthMap::zs, onto [−1, 1]",
+        "DepthMap::z, onto [−1, 1]",
+        "DepthMap::z of zs, onto [−1, 1]",
+    ],
+    make: |near, far| DepthMap::onto([-1.0, 1.0], near, far).expect("0 < near < far"),
+    ends: [-1, 1],
+};
+
+const KINDS: [Kind; 3] = [FORWARD, REVERSED, SYMMETRIC];
+
+/// Planes with this ratio of far to near; without a far plane, of an infinite one.
 fn planes(rng: &mut Rng, ratio: f32) -> [f32; 2] {
     let near = rng.log_uniform(1e-4, 1e3);
     [near, near * ratio]
@@ -13,28 +56,148 @@ fn planes(rng: &mut Rng, ratio: f32) -> [f32; 2] {
 
 /// Between the planes: near one of them, or anywhere on a logarithmic scale.
 fn any_z(rng: &mut Rng, [near, far]: [f32; 2]) -> f32 {
+    let last = far.min(near * 1e30);
     let z = match rng.index(4) {
         0 => near * (1.0 + rng.log_uniform(1e-7, 1.0)),
-        1 => far * (1.0 - rng.log_uniform(1e-7, 0.5)),
-        _ => rng.log_uniform(near, far),
+        1 => last * (1.0 - rng.log_uniform(1e-7, 0.5)),
+        _ => rng.log_uniform(near, last),
     };
-    z.clamp(near, far)
+    z.clamp(near, last)
+}
+
+/// α and β of the planes: (dB − cA)/(B−A) and (c−d)AB/(B−A), or their limits.
+fn exact(kind: Kind, [near, far]: [f32; 2]) -> [Rational; 2] {
+    let ([c, d], a) = (kind.ends.map(from_int), from_f32(near));
+    if far == f32::INFINITY {
+        return [d.clone(), (c - d) * a];
+    }
+    let b = from_f32(far);
+    let range = &b - &a;
+    [(&d * &b - &c * &a) / &range, (c - d) * a * b / range]
+}
+
+fn about(ratio: f32) -> String {
+    if ratio.is_finite() { format!("B/A = {}", brief(ratio)) } else { "B = ∞".to_owned() }
 }
 
 pub(crate) fn tables() -> Vec<Table> {
-    let ratios = [4.0f32, 1e3, 1e6, 1e9];
-    let zs = ratios.map(|ratio| {
-        Row::new(
-            "DepthMap::zs, forward",
-            format!("B/A = {ratio:e}"),
-            3.0 * f64::from(ratio / (ratio - 1.0)) + 0.5,
-            move |rng| {
-                let [near, far] = planes(rng, ratio);
-                let z = any_z(rng, [near, far]);
-                let map = DepthMap::forward(near, far).expect("0 < near < far");
-                Sample::new(map.zs(z), &rational::depth(z, near, far), 1.0)
-            },
-        )
-    });
-    vec![Table { title: "Depth", about: "Errors of zs are absolute, in ε of 1.", rows: zs.into() }]
+    let ratios = [1.1f32, 4.0, 1e3, 1e6, 1e9, f32::INFINITY];
+    let (mut zs, mut z) = (Vec::new(), Vec::new());
+    for kind in KINDS {
+        for ratio in ratios {
+            zs.push(Row::new(kind.name[1], about(ratio), zs_bound(kind, ratio), move |rng| {
+                let planes = planes(rng, ratio);
+                let z = any_z(rng, planes);
+                let [alpha, beta] = exact(kind, planes);
+                let exact = match kind.ends {
+                    [0, 1] if ratio.is_finite() => depth(z, planes[0], planes[1]),
+                    [1, 0] if ratio.is_finite() => depth_reversed(z, planes[0], planes[1]),
+                    _ => alpha + beta / from_f32(z),
+                };
+                Sample::new((kind.make)(planes[0], planes[1]).zs(z), &exact, 1.0)
+            }));
+        }
+    }
+    for kind in KINDS {
+        for ratio in [1.1, 1e3, 1e9, f32::INFINITY] {
+            z.push(Row::new(kind.name[0], about(ratio), 1.001, move |rng| {
+                let planes = planes(rng, ratio);
+                let ([alpha, beta], map) = (exact(kind, planes), (kind.make)(planes[0], planes[1]));
+                Sample::relative(map.alpha(), &alpha).worst(Sample::relative(map.beta(), &beta))
+            }));
+            z.push(Row::new(kind.name[2], about(ratio), 2.0, move |rng| {
+                let planes = planes(rng, ratio);
+                let map = (kind.make)(planes[0], planes[1]);
+                let zs = map.zs(any_z(rng, planes));
+                let from_alpha = from_f32(zs) - from_f32(map.alpha());
+                if from_alpha == from_int(0) {
+                    // Where α is rounded to 1, a zs of 1 is that of infinity.
+                    return Sample { eps: if map.z(zs) == f32::INFINITY { 0.0 } else { f64::NAN }, ulp: 0.0 };
+                }
+                Sample::relative(map.z(zs), &(from_f32(map.beta()) / from_alpha))
+            }));
+        }
+    }
+    for kind in [FORWARD, REVERSED] {
+        for ratio in ratios {
+            z.push(Row::new(kind.name[3], about(ratio), round_trip_bound(kind, ratio), move |rng| {
+                let planes = planes(rng, ratio);
+                let (map, z) = ((kind.make)(planes[0], planes[1]), any_z(rng, planes));
+                Sample::relative(map.z(map.zs(z)), &from_f32(z))
+            }));
+        }
+    }
+    vec![
+        Table { title: "Depth", about: "Errors of zs are absolute, in ε of 1.", rows: zs },
+        Table { title: "Depth: the map and its inverse", about: INVERSE, rows: z },
+        Table { title: "Depth: resolution", about: RESOLUTION, rows: resolution() },
+    ]
+}
+
+const INVERSE: &str = "Errors are relative. `z` is judged by the map's own α and β, `z of zs` by the z that went in: \
+                       with a forward map the far half of the view comes back worse the farther B is from A, and beyond \
+                       B/A = 2^24 not at all.";
+
+const RESOLUTION: &str = "Errors are relative: of `resolution` against z·δ/(|β|/z + δ) of the planes, and of the gap \
+                          whose reach `separable_until` is against the one asked for. What formats really tell apart is \
+                          in `tests/tests/resolution.rs`.";
+
+/// As `DepthMap::zs` says.
+fn zs_bound(kind: Kind, ratio: f32) -> f64 {
+    let alpha = if ratio.is_finite() { f64::from(ratio) / (f64::from(ratio) - 1.0) } else { 1.0 };
+    match kind.ends {
+        // (B + A)/(B − A) = 2α − 1, and |β|/A is 2α.
+        [-1, 1] => (2.0 * alpha - 1.0) + 4.0 * alpha + 1.0,
+        _ => 3.0 * alpha + 0.5,
+    }
+}
+
+/// As `DepthMap::z` says, at the far plane.
+fn round_trip_bound(kind: Kind, ratio: f32) -> f64 {
+    if kind.ends == REVERSED.ends {
+        return 4.0;
+    }
+    let ratio = f64::from(ratio);
+    let eps = 2f64.powi(-24);
+    let r = (ratio / (ratio - 1.0) + 0.5) * eps * (ratio - 1.0);
+    if r < 1.0 { r / (1.0 - r) / eps + 4.0 } else { f64::INFINITY }
+}
+
+/// Of `D16`, whose step is the same everywhere.
+fn resolution() -> Vec<Row> {
+    let mut rows = Vec::new();
+    for ratio in [1.1, 1e3, 1e6, 1e9] {
+        // Twice the range has twice the steps and twice β: the same resolution.
+        for (function, kind) in
+            [("DepthMap::resolution, D16", FORWARD), ("DepthMap::resolution, D16, onto [−1, 1]", SYMMETRIC)]
+        {
+            rows.push(Row::new(function, about(ratio), 4.0, move |rng| {
+                let planes = planes(rng, ratio);
+                let z = any_z(rng, planes);
+                Sample::relative(kind.of(planes).resolution(DepthSteps::D16, z), &gap(planes, z))
+            }));
+        }
+        rows.push(Row::new("DepthMap::separable_until, D16", about(ratio), 8.0, move |rng| {
+            let planes = planes(rng, ratio);
+            let wanted = any_z(rng, planes) * rng.log_uniform(1e-4, 1e-1);
+            let reach = FORWARD.of(planes).separable_until(DepthSteps::D16, wanted);
+            let there = gap(planes, reach);
+            Sample::new(wanted, &there, to_f64(&there))
+        }));
+    }
+    rows
+}
+
+impl Kind {
+    fn of(self, [near, far]: [f32; 2]) -> DepthMap {
+        (self.make)(near, far)
+    }
+}
+
+/// z − z', where z' is one step of 1/65535 nearer.
+fn gap(planes: [f32; 2], z: f32) -> Rational {
+    let [alpha, beta] = exact(FORWARD, planes);
+    let z = from_f32(z);
+    let nearer = &alpha + &beta / &z - Rational::new(1.into(), 65_535.into());
+    &z - beta / (nearer - alpha)
 }

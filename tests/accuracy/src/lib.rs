@@ -6,12 +6,21 @@
 //! cannot tell three stories.
 //!
 //! A new function gets its rows in the module of its area.
+#![allow(
+    clippy::cast_possible_truncation,
+    reason = "random f64 and i64 become the f32 and i32 that are tested"
+)]
 
-use alberti_oracle::rational::{Rational, error_in_eps, error_in_ulp};
+use alberti_oracle::rational::{Rational, error_in_eps, error_in_ulp, to_f64};
 use alberti_oracle::rng::Rng;
 use std::fmt;
 
+mod camera;
+mod clip;
 mod depth;
+mod perspective;
+mod relations;
+mod viewport;
 
 /// Rows that belong together, under one heading.
 #[derive(Debug)]
@@ -55,6 +64,9 @@ impl fmt::Debug for Row {
     }
 }
 
+/// The smallest normal `f32`.
+const SMALLEST: f64 = f32::MIN_POSITIVE as f64;
+
 /// The error of one answer.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {
@@ -71,6 +83,13 @@ impl Sample {
         Self { eps: error_in_eps(got, exact, scale).abs(), ulp: error_in_ulp(got, exact).abs() }
     }
 
+    /// The error of `got`, in ε of the exact answer itself, or of the smallest normal number if that is larger: below
+    /// it the spacing of `f32` no longer shrinks.
+    #[must_use]
+    pub fn relative(got: f32, exact: &Rational) -> Self {
+        Self::new(got, exact, to_f64(exact).abs().max(SMALLEST))
+    }
+
     /// The larger error in each unit: for answers of several components.
     #[must_use]
     pub fn worst(self, other: Self) -> Self {
@@ -80,10 +99,22 @@ impl Sample {
     }
 }
 
+/// A number in a region's name: as it is, or as a power of ten where there are many digits.
+fn brief(x: f32) -> String {
+    if (0.01..1000.0).contains(&x) { x.to_string() } else { format!("{x:e}") }
+}
+
 /// Every table, in the order in which a triangle meets the functions.
 #[must_use]
 pub fn tables() -> Vec<Table> {
-    depth::tables()
+    let mut tables = Vec::new();
+    tables.extend(camera::tables());
+    tables.extend(clip::tables());
+    tables.extend(perspective::tables());
+    tables.extend(depth::tables());
+    tables.extend(relations::tables());
+    tables.extend(viewport::tables());
+    tables
 }
 
 /// Maximum, 99.9 % and median of one unit of a row's errors.

@@ -4,7 +4,7 @@ use alberti_accuracy::{run, tables};
 use alberti_oracle::rng::{Rng, run_seed};
 
 /// Fewer than the tables have, so that the test takes seconds; another seed looks at others.
-const SAMPLES: usize = 4_000;
+const SAMPLES: usize = 1_000;
 
 #[test]
 fn every_function_keeps_its_bound() {
