@@ -3,6 +3,7 @@
 //! People and the continuous-integration script call the same commands, so "it passes here" and "it passes there"
 //! mean the same thing. The program has no dependencies: it must build quickly and before anything else works.
 
+mod accuracy;
 mod checks;
 mod ci;
 mod command;
@@ -84,6 +85,12 @@ const CHORES: &[Chore] = &[
         run: firmware::run,
     },
     Chore { name: "golden", arguments: "[test]", about: "write the golden images anew", run: golden::run },
+    Chore {
+        name: "accuracy",
+        arguments: "",
+        about: "measure every function's error, and write docs/accuracy.md",
+        run: |_| accuracy::run(),
+    },
     Chore {
         name: "sweep",
         arguments: "",
