@@ -6,6 +6,7 @@
 //! |---|---|---|
 //! | is a sample covered? | edge functions and a tie rule | the sample moved by an infinitesimal: [`coverage`] |
 //! | what is an attribute worth? | f32 weights | rationals ([`rational`]), or 106-bit floats with a proven bound ([`dd`]) |
+//! | what are a point's coordinates? | quotients of determinants | linear systems in integers: [`linear`] |
 //! | what does a scene look like? | clip, project, interpolate `1/w` | rays against planes in eye space: [`ideal`] |
 //!
 //! [`snapped`] is the exception: an f64 pipeline of the usual shape, with exact coverage, so that what snapping does to
@@ -36,6 +37,7 @@ pub mod coverage;
 pub mod dd;
 pub mod ideal;
 pub mod image;
+pub mod linear;
 pub mod rational;
 pub mod rng;
 pub mod sampling;
