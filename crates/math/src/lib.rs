@@ -6,20 +6,26 @@ extern crate std;
 
 mod barycentric;
 mod color;
+mod exact;
 mod fixed;
 mod frame;
 pub mod lanes;
+mod orientation;
 mod q16;
 mod reciprocal;
 mod round;
 mod space;
 mod varying;
 
-pub use barycentric::{interpolate, signed_area, triangle_weights};
+pub use barycentric::{
+    interpolate, map_triangle, plane_coefficients, segment_parameter, segment_weights, tetrahedron_weights,
+    triangle_weights,
+};
 pub use color::Rgba8;
 pub use fixed::{Fixed, GUARD_PIXELS, Sub4, Sub8, Subpixel};
 pub use frame::Frame;
 pub use glam;
+pub use orientation::{Zone, orientation, signed_area};
 pub use q16::{Q16, scaled};
 pub use reciprocal::reciprocal;
 pub use round::{floor_i32, round_half_up};

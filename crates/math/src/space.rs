@@ -4,6 +4,7 @@
 //! a point, and two points cannot be added. The space is a type parameter without size, so that an eye-space point
 //! cannot be handed to code that wants an object-space one.
 
+use crate::varying::{Mode, Varying};
 use core::fmt;
 use core::marker::PhantomData;
 use core::ops::{Add, Mul, Neg, Sub};
@@ -122,6 +123,35 @@ impl<V: Neg<Output = V>, S: Space> Neg for Vector<V, S> {
         Self::new(-self.coords)
     }
 }
+
+macro_rules! varyings {
+    ($($name:ident),*) => {$(
+        impl<V: Varying, S: Space> Varying for $name<V, S> {
+            type Of<T: Copy> = V::Of<T>;
+
+            #[inline(always)]
+            fn gather<const N: usize>(values: [Self; N]) -> V::Of<[f32; N]> {
+                V::gather(values.map(|value| value.coords))
+            }
+
+            #[inline(always)]
+            fn map_by_mode<T: Copy, U: Copy>(bundle: &V::Of<T>, f: &impl Fn(Mode, T) -> U) -> V::Of<U> {
+                V::map_by_mode(bundle, f)
+            }
+
+            #[inline(always)]
+            fn zip<T: Copy, U: Copy>(first: &V::Of<T>, second: &V::Of<U>) -> V::Of<(T, U)> {
+                V::zip(first, second)
+            }
+
+            #[inline(always)]
+            fn from_components(bundle: &V::Of<f32>) -> Self {
+                Self::new(V::from_components(bundle))
+            }
+        }
+    )*};
+}
+varyings!(Point, Vector);
 
 #[cfg(test)]
 mod tests {
