@@ -157,7 +157,8 @@ pub fn interpolate<V: Varying>([alpha, beta, gamma]: [f32; 3], values: [V; 3]) -
 /// m is `f32::MIN_POSITIVE`·max(1, |a|, |b|, |c|).
 ///
 /// # Cost
-/// That of [`triangle_weights`] and [`interpolate`].
+/// That of [`triangle_weights`] and [`interpolate`]. To map many points, compose frames instead:
+/// `Frame2::of_triangle(to) * Frame2::of_triangle(from).inverse()?`, whose error grows with how flat `from` is.
 ///
 /// ```
 /// use alberti_math::{Point2, Point3, World, Object, glam::{Vec2, Vec3}, map_triangle};

@@ -70,6 +70,17 @@ pub(crate) fn det3([u, v, w]: [Column<3>; 3]) -> f64 {
     })
 }
 
+/// The coordinates of `right` along two columns, by Cramer's rule; `None` where they do not span the plane, or where
+/// a coordinate is not finite.
+pub(crate) fn cramer2(columns: [Column<2>; 2], right: Column<2>) -> Option<[f32; 2]> {
+    ratios(from_fn(|k| det2(replaced(columns, k, right))), det2(columns))
+}
+
+/// The coordinates of `right` along three columns, as [`cramer2`].
+pub(crate) fn cramer3(columns: [Column<3>; 3], right: Column<3>) -> Option<[f32; 3]> {
+    ratios(from_fn(|k| det3(replaced(columns, k, right))), det3(columns))
+}
+
 /// `all` with `new` in the place `k`.
 pub(crate) fn replaced<T, const N: usize>(mut all: [T; N], k: usize, new: T) -> [T; N] {
     all[k] = new;

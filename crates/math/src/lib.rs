@@ -9,6 +9,7 @@ mod color;
 mod exact;
 mod fixed;
 mod frame;
+mod frame2;
 pub mod lanes;
 mod orientation;
 mod q16;
@@ -24,6 +25,7 @@ pub use barycentric::{
 pub use color::Rgba8;
 pub use fixed::{Fixed, GUARD_PIXELS, Sub4, Sub8, Subpixel};
 pub use frame::Frame;
+pub use frame2::Frame2;
 pub use glam;
 pub use orientation::{Zone, orientation, signed_area};
 pub use q16::{Q16, scaled};
