@@ -15,6 +15,7 @@ use alberti_oracle::rational::{Rational, error_in_eps, error_in_ulp, to_f64};
 use alberti_oracle::rng::Rng;
 use std::fmt;
 
+mod affine;
 mod camera;
 mod clip;
 mod depth;
@@ -108,6 +109,7 @@ fn brief(x: f32) -> String {
 #[must_use]
 pub fn tables() -> Vec<Table> {
     let mut tables = Vec::new();
+    tables.extend(affine::tables());
     tables.extend(camera::tables());
     tables.extend(clip::tables());
     tables.extend(perspective::tables());
