@@ -136,7 +136,8 @@ pub enum SpanLength {
 impl SpanLength {
     const ALL: [Self; 4] = [Self::Four, Self::Eight, Self::Sixteen, Self::ThirtyTwo];
 
-    fn columns(self) -> u32 {
+    /// How many.
+    pub(crate) fn columns(self) -> i32 {
         match self {
             Self::Four => 4,
             Self::Eight => 8,
@@ -152,7 +153,7 @@ pub enum Numbers {
     /// 32-bit floats, several pixels at a time.
     #[default]
     Float,
-    /// Integers, as on a chip without floating point: steps of 2^-16, coordinates within ±16384, straight lines only,
+    /// Integers, as on a chip without floating point: steps of 2^-16, coordinates within ±4096, straight lines only,
     /// one pixel at a time.
     Fixed,
 }

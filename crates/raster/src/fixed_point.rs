@@ -48,7 +48,7 @@ impl<P: Subdivision> Interpolation for FixedPoint<P> {
         _: L,
         triangle: &Oriented<'_, S, V>,
     ) -> LineTriangle<P, FixedLines<V>> {
-        LineTriangle { policy: self.0, numbers: FixedLines::new::<P, S, D>(triangle) }
+        LineTriangle { policy: self.0, numbers: FixedLines::new::<P, S, D>(&self.0, triangle) }
     }
 }
 
@@ -119,20 +119,21 @@ pub struct FixedLines<V: Varying> {
 
 impl<V: Varying> FixedLines<V> {
     #[inline(always)]
-    fn new<P: Subdivision, S: Subpixel, D: DepthFormat>(triangle: &Oriented<'_, S, V>) -> Self {
+    fn new<P: Subdivision, S: Subpixel, D: DepthFormat>(policy: &P, triangle: &Oriented<'_, S, V>) -> Self {
+        let perspective = policy.perspective();
         let shape = Shape::new(triangle);
         let [a, b, c] = triangle.vertices;
         let zs = [depth::<D>(a.zs), depth::<D>(b.zs), depth::<D>(c.zs)];
         // Positive floats are ordered as their words are.
         let greatest = a.q.to_bits().max(b.q.to_bits()).max(c.q.to_bits()) >> 23;
         let q = |q: f32| scaled(q, 127 + 30 - greatest.cast_signed()).max(1);
-        let q = if P::PERSPECTIVE { [q(a.q), q(b.q), q(c.q)] } else { [1; 3] };
+        let q = if perspective { [q(a.q), q(b.q), q(c.q)] } else { [1; 3] };
         Self {
             shape,
             zs: (zs[0], shape.plane(zs)),
-            q: (q[0], if P::PERSPECTIVE { shape.plane(q) } else { Plane { more: [0; 2], slope: 0 } }),
+            q: (q[0], if perspective { shape.plane(q) } else { Plane { more: [0; 2], slope: 0 } }),
             components: V::map_by_mode(&triangle.values(), &|mode, [a, b, c, first]: [f32; 4]| match mode {
-                Mode::Hyperbolic if P::PERSPECTIVE => Component::new(&shape, [a, b, c], Some(q)),
+                Mode::Hyperbolic if perspective => Component::new(&shape, [a, b, c], Some(q)),
                 Mode::Hyperbolic | Mode::Linear => Component::new(&shape, [a, b, c], None),
                 Mode::Flat => Component::new(&shape, [first; 3], None),
             }),
@@ -180,14 +181,14 @@ impl<V: Varying> Numbers for FixedLines<V> {
     type Ends = FixedEnds<V>;
 
     #[inline(always)]
-    fn row<I: EdgeInt, P: Subdivision>(&self, row: &Row<'_, I>) -> FixedRow<V> {
+    fn row<I: EdgeInt, P: Subdivision>(&self, policy: &P, row: &Row<'_, I>) -> FixedRow<V> {
         let first = row.covered.start;
         let weights = self.shape.weights(row.at(first));
         FixedRow {
             first,
             // Slopes are rounded towards 0, so that no step leads beyond the range of the three.
             zs: self.zs.0.wrapping_add(self.zs.1.at(weights)),
-            q: if P::PERSPECTIVE { self.q.0.wrapping_add(self.q.1.at(weights)) } else { 1 },
+            q: if policy.perspective() { self.q.0.wrapping_add(self.q.1.at(weights)) } else { 1 },
             components: V::map(&self.components, &|component: Component| component.plane.at(weights)),
         }
     }
@@ -195,29 +196,32 @@ impl<V: Varying> Numbers for FixedLines<V> {
     #[inline(always)]
     fn begin<I: EdgeInt, P: Subdivision>(
         &self,
+        policy: &P,
         row: &Row<'_, I>,
         known: &FixedRow<V>,
         column: i32,
     ) -> FixedEnds<V> {
         let components = V::map(&self.components, &|_: Component| [0; 2]);
         let FixedEnds { q: [_, q], components } =
-            self.extend::<I, P>(row, known, &FixedEnds { q: [0; 2], components }, column);
+            self.extend(policy, row, known, &FixedEnds { q: [0; 2], components }, column);
         FixedEnds { q: [q; 2], components: V::map(&components, &|[_, value]: [i32; 2]| [value; 2]) }
     }
 
     #[inline(always)]
     fn extend<I: EdgeInt, P: Subdivision>(
         &self,
+        policy: &P,
         _: &Row<'_, I>,
         known: &FixedRow<V>,
         ends: &FixedEnds<V>,
         column: i32,
     ) -> FixedEnds<V> {
+        let perspective = policy.perspective();
         let columns = column - known.first;
         let along = |first: i32, plane: &Plane| first.wrapping_add(plane.slope.wrapping_mul(columns));
-        let q = if P::PERSPECTIVE { along(known.q, &self.q.1).max(1).cast_unsigned() } else { 1 };
+        let q = if perspective { along(known.q, &self.q.1).max(1).cast_unsigned() } else { 1 };
         let normalizing = q.leading_zeros();
-        let per_q = if P::PERSPECTIVE { (reciprocal::<1>(q << normalizing) >> 1).cast_signed() } else { 0 };
+        let per_q = if perspective { (reciprocal::<1>(q << normalizing) >> 1).cast_signed() } else { 0 };
         let components = V::zip(&V::zip(&self.components, &known.components), &ends.components);
         FixedEnds {
             q: [ends.q[1], q],
@@ -228,7 +232,7 @@ impl<V: Varying> Numbers for FixedLines<V> {
             )| {
                 let more = along(known, &component.plane);
                 match mode {
-                    Mode::Hyperbolic if P::PERSPECTIVE => {
+                    Mode::Hyperbolic if perspective => {
                         [start, component.value(divided(more, normalizing, per_q))]
                     }
                     Mode::Hyperbolic | Mode::Linear => [start, component.value(more)],

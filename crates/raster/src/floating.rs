@@ -48,10 +48,10 @@ impl<L: Lanes, V: Varying> FloatingLines<L, V> {
     /// At a sample with these edge functions: the weights of the second and the third vertex for what is linear on the
     /// screen and for what is so in space, and q.
     #[inline(always)]
-    fn at<I: EdgeInt, P: Subdivision>(&self, edges: [I; 3]) -> ([f64; 2], [f64; 2], f64) {
+    fn at<I: EdgeInt, P: Subdivision>(&self, policy: &P, edges: [I; 3]) -> ([f64; 2], [f64; 2], f64) {
         let [a, b, c] = [edges[0].to_f64(), edges[1].to_f64(), edges[2].to_f64()];
         let screen = [b * self.per_area, c * self.per_area];
-        if !P::PERSPECTIVE {
+        if !policy.perspective() {
             return (screen, screen, 1.0);
         }
         let [qa, qb, qc] = self.q;
@@ -67,11 +67,17 @@ impl<L: Lanes, V: Varying> Numbers for FloatingLines<L, V> {
     type Ends = FloatingEnds<V>;
 
     #[inline(always)]
-    fn row<I: EdgeInt, P: Subdivision>(&self, _: &Row<'_, I>) {}
+    fn row<I: EdgeInt, P: Subdivision>(&self, _: &P, _: &Row<'_, I>) {}
 
     #[inline(always)]
-    fn begin<I: EdgeInt, P: Subdivision>(&self, row: &Row<'_, I>, (): &(), column: i32) -> FloatingEnds<V> {
-        let (screen, space, q) = self.at::<I, P>(row.at(column));
+    fn begin<I: EdgeInt, P: Subdivision>(
+        &self,
+        policy: &P,
+        row: &Row<'_, I>,
+        (): &(),
+        column: i32,
+    ) -> FloatingEnds<V> {
+        let (screen, space, q) = self.at(policy, row.at(column));
         FloatingEnds {
             zs: [self.zs.plane.at(screen); 2],
             q: [q; 2],
@@ -84,12 +90,13 @@ impl<L: Lanes, V: Varying> Numbers for FloatingLines<L, V> {
     #[inline(always)]
     fn extend<I: EdgeInt, P: Subdivision>(
         &self,
+        policy: &P,
         row: &Row<'_, I>,
         (): &(),
         ends: &FloatingEnds<V>,
         column: i32,
     ) -> FloatingEnds<V> {
-        let (screen, space, q) = self.at::<I, P>(row.at(column));
+        let (screen, space, q) = self.at(policy, row.at(column));
         FloatingEnds {
             zs: [ends.zs[1], self.zs.plane.at(screen)],
             q: [ends.q[1], q],

@@ -37,7 +37,7 @@ pub use fixed_point::{FixedCursor, FixedEnds, FixedLines, FixedPoint};
 pub use floating::{FloatingCursor, FloatingEnds, FloatingLines, FloatingPoint};
 pub use fragment::FragmentStage;
 pub use interpolation::{Interpolate, Interpolation, Oriented, Row};
-pub use lines::{Affine, Bounded, Left, LineTriangle, Lines, Numbers, Run, Spans, Subdivision};
+pub use lines::{Affine, Bounded, KnownRow, Left, LineTriangle, Lines, Numbers, Run, Spans, Subdivision};
 pub use plane::{Plane, PlaneCursor, PlaneTriangle};
 pub use spans::{Span, SpanWalker};
 pub use triangle::{Corners, Cull, Outcome, Vertex};

@@ -19,8 +19,9 @@ use core::fmt::Debug;
 pub trait Subdivision: Copy + Debug + 'static {
     /// The length of all runs, or 1 if there is none such, see [`Interpolation::RUN`](crate::Interpolation::RUN).
     const RUN: i32;
+
     /// Whether what is hyperbolic is so at the ends of runs, or linear on the screen like the rest.
-    const PERSPECTIVE: bool;
+    fn perspective(&self) -> bool;
 
     /// The columns of the run of a row that a covered column is in, and what is known at its ends.
     fn run<I: EdgeInt, N: Numbers>(&self, row: &KnownRow<'_, I, N>, column: i32) -> Run<N::Ends>;
@@ -41,18 +42,18 @@ pub struct KnownRow<'a, I, N: Numbers> {
 impl<I: EdgeInt, N: Numbers> KnownRow<'_, I, N> {
     /// The run of `length` columns, a power of two, that a covered column is in.
     #[inline(always)]
-    fn run<P: Subdivision>(&self, column: i32, length: i32) -> Run<N::Ends> {
+    pub fn run<P: Subdivision>(&self, policy: &P, column: i32, length: i32) -> Run<N::Ends> {
         let Self { numbers, row, known, left } = self;
         let after = (column | (length - 1)) + 1;
         let last = after.min(row.covered.end - 1);
         // What the run before has left is that of this column.
         let (first, ends) = if let Some(ends) = left {
-            (column, numbers.extend::<I, P>(row, known, ends, last))
+            (column, numbers.extend(policy, row, known, ends, last))
         } else {
             let first = row.covered.start.max(column & !(length - 1));
-            let ends = numbers.begin::<I, P>(row, known, first);
+            let ends = numbers.begin(policy, row, known, first);
             let alone = last == first;
-            (first, if alone { ends } else { numbers.extend::<I, P>(row, known, &ends, last) })
+            (first, if alone { ends } else { numbers.extend(policy, row, known, &ends, last) })
         };
         Run { columns: [first, last], ends, next: after.min(row.covered.end), length }
     }
@@ -79,11 +80,12 @@ pub trait Numbers {
     type Ends: Copy;
 
     /// Begins a row.
-    fn row<I: EdgeInt, P: Subdivision>(&self, row: &Row<'_, I>) -> Self::Row;
+    fn row<I: EdgeInt, P: Subdivision>(&self, policy: &P, row: &Row<'_, I>) -> Self::Row;
 
     /// The run of one sample, a covered column of a row.
     fn begin<I: EdgeInt, P: Subdivision>(
         &self,
+        policy: &P,
         row: &Row<'_, I>,
         known: &Self::Row,
         column: i32,
@@ -92,6 +94,7 @@ pub trait Numbers {
     /// The run from the end of another to another covered column of the same row.
     fn extend<I: EdgeInt, P: Subdivision>(
         &self,
+        policy: &P,
         row: &Row<'_, I>,
         known: &Self::Row,
         ends: &Self::Ends,
@@ -134,7 +137,7 @@ impl<P: Subdivision, L: Lanes, V: Varying, N: Lines<L, V>> Interpolate<L, V> for
 
     #[inline(always)]
     fn row<I: EdgeInt>(&self, row: &Row<'_, I>) -> Self::Row {
-        (self.numbers.row::<I, P>(row), None)
+        (self.numbers.row(&self.policy, row), None)
     }
 
     #[inline(always)]
@@ -187,11 +190,15 @@ impl<const N: i32> Subdivision for Spans<N> {
         assert!(N.count_ones() == 1 && 0 < N && N <= LONGEST, "Spans<N>: N must be a power of two up to 64");
         N
     };
-    const PERSPECTIVE: bool = true;
+
+    #[inline(always)]
+    fn perspective(&self) -> bool {
+        true
+    }
 
     #[inline(always)]
     fn run<I: EdgeInt, M: Numbers>(&self, row: &KnownRow<'_, I, M>, column: i32) -> Run<M::Ends> {
-        row.run::<Self>(column, N)
+        row.run(self, column, N)
     }
 }
 
@@ -221,13 +228,17 @@ impl Bounded {
 
 impl Subdivision for Bounded {
     const RUN: i32 = 1;
-    const PERSPECTIVE: bool = true;
+
+    #[inline(always)]
+    fn perspective(&self) -> bool {
+        true
+    }
 
     #[inline(always)]
     fn run<I: EdgeInt, M: Numbers>(&self, row: &KnownRow<'_, I, M>, column: i32) -> Run<M::Ends> {
         let mut length = LONGEST;
         loop {
-            let run = row.run::<Self>(column, length);
+            let run = row.run(self, column, length);
             // A run of one sample has nothing between its ends.
             if length == 1 || row.numbers.within(row.known, &run.ends, run.columns, self.budget) {
                 return run;
@@ -252,10 +263,14 @@ pub struct Affine;
 
 impl Subdivision for Affine {
     const RUN: i32 = LONGEST;
-    const PERSPECTIVE: bool = false;
+
+    #[inline(always)]
+    fn perspective(&self) -> bool {
+        false
+    }
 
     #[inline(always)]
     fn run<I: EdgeInt, M: Numbers>(&self, row: &KnownRow<'_, I, M>, column: i32) -> Run<M::Ends> {
-        row.run::<Self>(column, LONGEST)
+        row.run(self, column, LONGEST)
     }
 }

@@ -4,7 +4,7 @@
 use super::erased::{Carried, Erased, ErasedFixed, OfFirst, OfUv, erase, erase_fixed};
 use super::lines::Lines;
 use super::{Canvas, color, lambert, position};
-use crate::options::{Filter, Interpolation, Numbers, Shading, SpanLength, Subpixel, Wrap};
+use crate::options::{Filter, Interpolation, Numbers, Shading, Subpixel, Wrap};
 use crate::scene::{Part, Vertex};
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::{Floating, Machine, One};
@@ -97,10 +97,7 @@ impl<'a> Canvas<'a> {
         let sides = self.textures.iter().map(|t| t.width().max(t.height()));
         match self.options.policies.interpolation {
             Interpolation::Exact | Interpolation::Plane => None,
-            Interpolation::Spans(SpanLength::Four) => Some(Lines::Spans4),
-            Interpolation::Spans(SpanLength::Eight) => Some(Lines::Spans8),
-            Interpolation::Spans(SpanLength::Sixteen) => Some(Lines::Spans16),
-            Interpolation::Spans(SpanLength::ThirtyTwo) => Some(Lines::Spans32),
+            Interpolation::Spans(length) => Some(Lines::Spans(length.columns())),
             Interpolation::Bounded(texels) => {
                 // Without a texture, a step of a colour.
                 let side = sides.max().and_then(|side| side.try_into().ok()).unwrap_or(255);
