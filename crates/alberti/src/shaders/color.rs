@@ -1,0 +1,145 @@
+//! One colour, or the vertices' colours.
+
+use super::{alone, pack};
+use alberti_math::glam::Vec3;
+use alberti_math::lanes::{Lanes, One};
+use alberti_math::{Mode, Rgba8, Varying};
+use alberti_raster::{Color, FragmentStage};
+
+/// One colour for everything.
+///
+/// # Cost
+/// Nothing is interpolated.
+#[derive(Clone, Copy, Debug)]
+pub struct Solid<C = Rgba8>(
+    /// The colour, of any type that the target can store.
+    pub C,
+);
+
+impl<V: Varying, C: Color> FragmentStage<V> for Solid<C> {
+    type Color = C;
+
+    #[inline(always)]
+    fn shade(&self, _: V) -> Option<C> {
+        Some(self.0)
+    }
+
+    #[inline(always)]
+    fn shade_lanes<L: Lanes>(&self, lanes: L, _: &V::Of<L::Number>, mask: L::Mask) -> (L::U32, L::Mask) {
+        (lanes.word(self.0.to_word()), mask)
+    }
+}
+
+/// The interpolated colour of the vertices; components outside [0, 1] are clamped.
+///
+/// # Precision
+/// To the nearest byte.
+#[derive(Clone, Copy, Debug)]
+pub struct VertexColor;
+
+impl FragmentStage<Vec3> for VertexColor {
+    type Color = Rgba8;
+
+    #[inline(always)]
+    fn shade(&self, color: Vec3) -> Option<Rgba8> {
+        alone(self, color)
+    }
+
+    #[inline(always)]
+    fn shade_lanes<L: Lanes>(&self, lanes: L, color: &[L::Number; 3], mask: L::Mask) -> (L::U32, L::Mask) {
+        let [r, g, b] = *color;
+        let [r, g, b] = [lanes.of_unit(r, 255), lanes.of_unit(g, 255), lanes.of_unit(b, 255)];
+        (pack(lanes, [r, g, b, lanes.word(255)]), mask)
+    }
+}
+
+/// [`VertexColor`] for targets of 16 bits, of which the vertices carry [`Ready565`].
+///
+/// # Precision
+/// To the nearest step of each channel.
+///
+/// # Cost
+/// Shifts and masks: clamping and rounding are done at the vertices.
+#[derive(Clone, Copy, Debug)]
+pub struct VertexColor565;
+
+/// A colour of which the fragments need only take the highest bits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ready565(Vec3);
+
+impl Ready565 {
+    /// For this colour; components outside [0, 1] are clamped.
+    #[must_use]
+    #[inline]
+    pub fn new(color: Vec3) -> Self {
+        // floor(32 x) of these is what is nearest to 31 times the component.
+        let steps = Vec3::new(32.0, 64.0, 32.0);
+        Self((color.clamp(Vec3::ZERO, Vec3::ONE) * (steps - Vec3::ONE) + Vec3::splat(0.5)) / steps)
+    }
+}
+
+impl Varying for Ready565 {
+    type Of<T: Copy> = [T; 3];
+
+    #[inline(always)]
+    fn gather<const N: usize>(values: [Self; N]) -> [[f32; N]; 3] {
+        Vec3::gather(values.map(|v| v.0))
+    }
+
+    #[inline(always)]
+    fn map_by_mode<T: Copy, U: Copy>(bundle: &[T; 3], f: &impl Fn(Mode, T) -> U) -> [U; 3] {
+        Vec3::map_by_mode(bundle, f)
+    }
+
+    #[inline(always)]
+    fn zip<T: Copy, U: Copy>(first: &[T; 3], second: &[U; 3]) -> [(T, U); 3] {
+        Vec3::zip(first, second)
+    }
+
+    #[inline(always)]
+    fn from_components(bundle: &[f32; 3]) -> Self {
+        Self(Vec3::from_components(bundle))
+    }
+}
+
+impl FragmentStage<Ready565> for VertexColor565 {
+    type Color = u16;
+
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "16 bits")]
+    fn shade(&self, Ready565(color): Ready565) -> Option<u16> {
+        let (word, _) = self.shade_lanes(One, &color.to_array(), true);
+        Some(word.0 as u16)
+    }
+
+    // What is interpolated stays between what vertices carry, and so does not leave the channels.
+    #[inline(always)]
+    fn shade_lanes<L: Lanes>(&self, lanes: L, color: &[L::Number; 3], mask: L::Mask) -> (L::U32, L::Mask) {
+        let [r, g, b] = *color;
+        let [r, g, b] = [lanes.floor_scaled(r, 5), lanes.floor_scaled(g, 6), lanes.floor_scaled(b, 5)];
+        (lanes.shl(r, 11) | (lanes.shl(g, 5) | b), mask)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn vertex_colours_are_rounded_and_clamped() {
+        let color = VertexColor.shade(Vec3::new(0.5, -1.0, 2.0));
+        assert_eq!(color, Some(Rgba8::new(128, 0, 255, 255)));
+    }
+
+    #[test]
+    fn colours_of_16_bits_are_the_nearest() {
+        for step in -100..1100_i16 {
+            let c = f32::from(step) / 1000.0;
+            let nearest = |steps: f32| (c.clamp(0.0, 1.0) * steps + 0.5).floor();
+            let packed = VertexColor565.shade(Ready565::new(Vec3::splat(c))).expect("never discards");
+            assert_eq!(f32::from(packed >> 11), nearest(31.0), "red of {c}");
+            assert_eq!(f32::from(packed >> 5 & 63), nearest(63.0), "green of {c}");
+            assert_eq!(f32::from(packed & 31), nearest(31.0), "blue of {c}");
+        }
+    }
+}
