@@ -16,7 +16,9 @@ pub enum ViewError {
     Angle,
     /// The aspect ratio is not positive.
     Aspect,
-    /// Not 0 < near < far, or the two are too close to tell apart.
+    /// The height of a parallel view is not positive, or the scale that it makes is too large or small for an `f32`.
+    Height,
+    /// Not near < far, in perspective not 0 < near < far, or the two are too close to tell apart or too far away.
     NearFar,
     /// The viewport is empty, or reaches too far from the frame's origin for the guard band.
     Viewport,
@@ -32,7 +34,8 @@ impl fmt::Display for ViewError {
             Self::UpAlongView => "the up vector is zero or parallel to the direction of view",
             Self::Angle => "the opening angle must lie between 0 and 180 degrees",
             Self::Aspect => "the aspect ratio must be positive",
-            Self::NearFar => "the planes must satisfy 0 < near < far",
+            Self::Height => "the height of the view must be positive",
+            Self::NearFar => "the planes must satisfy near < far, and 0 < near in perspective",
             Self::Viewport => "the viewport is empty or reaches more than 16384 pixels from the origin",
             Self::DepthRange => "the ends of the range of screen depths must be finite and differ",
         })

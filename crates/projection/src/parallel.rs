@@ -1,0 +1,192 @@
+//! Parallel projection: steps 2 and 4 without a vanishing point.
+
+use crate::clip::{EyeVertex, ProjectedVertex};
+use crate::{Projection, ViewError};
+use alberti_math::glam::Vec3;
+use alberti_math::{Eye, Point3, Varying};
+
+/// A box of view, seen from infinitely far: what is parallel stays parallel, and size does not tell distance.
+///
+/// ```
+/// use alberti_math::{Point3, glam::Vec3};
+/// use alberti_projection::{EyeVertex, Parallel, Projection};
+///
+/// // Two units high, three wide, from one unit behind the eye to three before it.
+/// let view = Parallel::new(2.0, 1.5, -1.0, 3.0)?;
+/// let depth = view.depth_map(false);
+/// for z in [-1.0, 1.0, 3.0] {
+///     let corner = EyeVertex { position: view.scale(Point3::new(Vec3::new(1.5, -1.0, z))), varying: () };
+///     let p = view.project(&depth, &corner);
+///     assert_eq!((p.x, p.y, p.zs, p.q), (1.0, -1.0, (z + 1.0) / 4.0, 1.0));
+/// }
+/// # Ok::<(), alberti_projection::ViewError>(())
+/// ```
+///
+/// # Precision
+/// xs and ys within 2ε of 2x/(height·aspect) and 2y/height, relatively, of a point in eye space; q is 1; for zs see
+/// [`LinearDepth::zs`].
+///
+/// # Cost
+/// Three multiplications and a subtraction a vertex, no division. With q = 1 at every vertex what is linear in space is
+/// linear on the screen, so the rasterizer's policy of straight lines is as right as that with a division a fragment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parallel {
+    scale_x: f32,
+    scale_y: f32,
+    near: f32,
+    far: f32,
+    forward: LinearDepth,
+    reversed: LinearDepth,
+}
+
+impl Parallel {
+    /// The box of the full `height` in units of eye space, `aspect` = width / height, between the clipping planes
+    /// z = `near` = A and z = `far` = B.
+    ///
+    /// Depths may have either sign: A < B is all that is asked, so that a plane may lie behind the eye.
+    ///
+    /// # Errors
+    /// [`ViewError::Height`], [`ViewError::Aspect`], and [`ViewError::NearFar`] unless A < B, neither beyond
+    /// `f32::MAX`/16, nor so close to each other that 1/(B−A) overflows.
+    pub fn new(height: f32, aspect: f32, near: f32, far: f32) -> Result<Self, ViewError> {
+        if !(height > 0.0 && height.is_finite()) {
+            return Err(ViewError::Height);
+        }
+        if !(aspect > 0.0 && aspect.is_finite()) {
+            return Err(ViewError::Aspect);
+        }
+        let scale = 2.0 / f64::from(height);
+        #[expect(clippy::cast_possible_truncation, reason = "rounded once, here")]
+        let (scale_x, scale_y) = ((scale / f64::from(aspect)) as f32, scale as f32);
+        if !(scale_x.is_normal() && scale_y.is_normal()) {
+            return Err(ViewError::Height);
+        }
+        let [forward, reversed] = LinearDepth::between(near, far)?;
+        Ok(Self { scale_x, scale_y, near, far, forward, reversed })
+    }
+}
+
+impl Projection for Parallel {
+    type Depth = LinearDepth;
+
+    #[inline]
+    fn near(&self) -> f32 {
+        self.near
+    }
+
+    #[inline]
+    fn far(&self) -> f32 {
+        self.far
+    }
+
+    #[inline]
+    fn depth_map(&self, reversed: bool) -> LinearDepth {
+        if reversed { self.reversed } else { self.forward }
+    }
+
+    #[inline]
+    fn scale(&self, p: Point3<Eye>) -> Point3<Eye> {
+        Point3::new(Vec3::new(p.coords.x * self.scale_x, p.coords.y * self.scale_y, p.coords.z))
+    }
+
+    #[inline]
+    fn side(&self, _: f32) -> f32 {
+        1.0
+    }
+
+    #[inline]
+    fn project<V: Varying>(&self, depth: &LinearDepth, v: &EyeVertex<V>) -> ProjectedVertex<V> {
+        let p = v.position.coords;
+        ProjectedVertex { x: p.x, y: p.y, zs: depth.zs(p.z), q: 1.0, varying: v.varying }
+    }
+}
+
+/// The depth of parallel projection: zs = (z − A)/(B − A), or reversed, zs = (B − z)/(B − A).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinearDepth {
+    /// The depth at which zs is 0.
+    zero: f32,
+    /// ±1/(B − A).
+    slope: f32,
+}
+
+/// As of eye coordinates: beyond this, differences might overflow.
+const LARGEST: f32 = f32::MAX / 16.0;
+
+impl LinearDepth {
+    /// Forward, and reversed.
+    fn between(near: f32, far: f32) -> Result<[Self; 2], ViewError> {
+        let slope = 1.0 / (f64::from(far) - f64::from(near));
+        #[expect(clippy::cast_possible_truncation, reason = "rounded once, here")]
+        let slope = slope as f32;
+        // Written so that NaN is none.
+        if !(near >= -LARGEST && far <= LARGEST && near < far && slope.is_finite()) {
+            return Err(ViewError::NearFar);
+        }
+        Ok([Self { zero: near, slope }, Self { zero: far, slope: -slope }])
+    }
+
+    /// The screen depth zs of a point at eye depth `z` in [A, B]; always in [0, 1].
+    ///
+    /// # Precision
+    /// Within 3ε·zs of the exact value, barring underflow: relatively, so that what is close to the plane where zs is 0
+    /// is told apart by a floating-point depth buffer as finely as eye depths can be. Exactly 0 there. Monotone.
+    #[must_use]
+    #[inline]
+    pub fn zs(&self, z: f32) -> f32 {
+        // The product is negative only as -0; rounding may step over 1 by an ulp.
+        ((z - self.zero) * self.slope).abs().min(1.0)
+    }
+
+    /// The eye depth z of a screen depth.
+    ///
+    /// # Precision
+    /// Within 3ε of the distance from the plane where zs is 0, and ε of z.
+    #[must_use]
+    #[inline]
+    pub fn z(&self, zs: f32) -> f32 {
+        self.zero + zs / self.slope
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_planes_map_to_the_ends_wherever_they_are() {
+        for (near, far) in [(2.0, 6.0), (-6.0, -2.0), (-2.0, 2.0), (0.0, 4.0)] {
+            let view = Parallel::new(1.0, 1.0, near, far).expect("valid");
+            let [forward, reversed] = [false, true].map(|reversed| view.depth_map(reversed));
+            let quarter = near + 1.0;
+            assert_eq!([near, quarter, far].map(|z| forward.zs(z)), [0.0, 0.25, 1.0]);
+            assert_eq!([near, quarter, far].map(|z| reversed.zs(z)), [1.0, 0.75, 0.0]);
+            assert_eq!(reversed.zs(far).to_bits(), 0);
+            assert_eq!((forward.z(0.25), reversed.z(0.75)), (quarter, quarter));
+        }
+    }
+
+    #[test]
+    fn impossible_boxes_are_refused() {
+        let (height, aspect, plane) = (ViewError::Height, ViewError::Aspect, ViewError::NearFar);
+        for (h, a, near, far, error) in [
+            (0.0, 1.0, 1.0, 2.0, height),
+            (-1.0, 1.0, 1.0, 2.0, height),
+            (f32::NAN, 1.0, 1.0, 2.0, height),
+            (f32::INFINITY, 1.0, 1.0, 2.0, height),
+            (1e-40, 1.0, 1.0, 2.0, height),
+            (1e38, 1e10, 1.0, 2.0, height),
+            (1.0, 0.0, 1.0, 2.0, aspect),
+            (1.0, f32::NAN, 1.0, 2.0, aspect),
+            (1.0, 1.0, 2.0, 2.0, plane),
+            (1.0, 1.0, 2.0, 1.0, plane),
+            (1.0, 1.0, f32::NAN, 1.0, plane),
+            (1.0, 1.0, 0.0, f32::NAN, plane),
+            (1.0, 1.0, 0.0, f32::INFINITY, plane),
+            (1.0, 1.0, -3e38, 1.0, plane),
+            (1.0, 1.0, 0.0, 1e-39, plane),
+        ] {
+            assert_eq!(Parallel::new(h, a, near, far), Err(error), "{h} {a} {near} {far}");
+        }
+    }
+}
