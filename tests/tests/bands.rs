@@ -155,7 +155,7 @@ impl Mesh {
             name: format!("random, {sides:?}, {width} x {height} pixels from {x}, {y}"),
             view: View {
                 to_eye: Frame::at(Point3::new(Vec3::ZERO)),
-                perspective: Perspective::new(1.5, 4.0 / 3.0, 0.004, 20.0).expect("a perspective"),
+                projection: Perspective::new(1.5, 4.0 / 3.0, 0.004, 20.0).expect("a perspective"),
                 viewport: viewport.expect("a viewport"),
             },
             vertices,
@@ -184,11 +184,11 @@ impl Mesh {
 
     /// How many vertices lie between near and far plane, but to the side of all that can be snapped.
     fn beyond_guard(&self) -> usize {
-        let View { to_eye, perspective, viewport } = self.view;
+        let View { to_eye, projection, viewport } = self.view;
         let guard = viewport.guard();
         let beyond = |p: &&Vec3| {
-            let p = perspective.scale(to_eye.to_parent(Point3::new(**p))).coords;
-            let between = (perspective.near()..perspective.far()).contains(&p.z);
+            let p = projection.scale(to_eye.to_parent(Point3::new(**p))).coords;
+            let between = (projection.near()..projection.far()).contains(&p.z);
             between && (p.x.abs() / p.z > guard.x || p.y.abs() / p.z > guard.y)
         };
         self.vertices.iter().filter(beyond).count()
@@ -234,7 +234,7 @@ fn check_prepared<D: DepthFormat<Stored: PartialEq>>(mesh: &Mesh, heights: &[&[u
     assert!(expected.written > 5000 && expected.drawn > 1, "{}: {expected:?}", mesh.name);
 
     let plenty = &mut vec![ScreenTriangle::<Sub8, Vec3>::EMPTY; 7 * mesh.triangles.len()];
-    let enough = prepare::<D, _, _, _, _, _, _, _>(&pass, plenty, &mut slots(0), &mut ()).0.kept();
+    let enough = prepare::<D, _, _, _, _, _, _, _, _>(&pass, plenty, &mut slots(0), &mut ()).0.kept();
     assert!(enough as u64 >= expected.drawn && enough as u64 <= expected.drawn + expected.missed);
     for (i, size) in [enough, enough + 9, enough - 1, enough / 2, 1, 0].into_iter().enumerate() {
         let room = &mut vec![ScreenTriangle::EMPTY; size];

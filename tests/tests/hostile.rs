@@ -71,7 +71,7 @@ fn view(case: &Case, near: f32, far: f32) -> View {
     };
     View {
         to_eye,
-        perspective: Perspective::new(1.0, 4.0 / 3.0, near, far).expect("a pyramid"),
+        projection: Perspective::new(1.0, 4.0 / 3.0, near, far).expect("a pyramid"),
         // Away from the band's edges, so that what is written outside shows.
         viewport: Viewport::new(5, 6, WIDTH - 12, HEIGHT - 11).expect("a viewport"),
     }

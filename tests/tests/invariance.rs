@@ -171,7 +171,7 @@ impl Scene {
         let pass = Pass {
             view: View {
                 to_eye: Frame::at(Point3::new(Vec3::ZERO)),
-                perspective: Perspective::new(1.0, 1.0, 0.5 * power, 20.0 * power).expect("a pyramid"),
+                projection: Perspective::new(1.0, 1.0, 0.5 * power, 20.0 * power).expect("a pyramid"),
                 viewport: Viewport::new(left as i32, top as i32, size, size).expect("a viewport"),
             },
             vertices: &self.vertices,

@@ -111,7 +111,7 @@ fn flat_values_survive_clipping() {
         let pass = Pass {
             view: View {
                 to_eye: Frame::IDENTITY,
-                perspective: Perspective::new(1.5, 1.5, 0.1, 60.0).expect("possible"),
+                projection: Perspective::new(1.5, 1.5, 0.1, 60.0).expect("possible"),
                 viewport: Viewport::new(0, 0, WIDTH as u32, HEIGHT as u32).expect("possible"),
             },
             vertices: &vertices,

@@ -237,7 +237,7 @@ fn any_view(rng: &mut Rng, roam: f64) -> View {
     let aspect = WIDTH as f32 / HEIGHT as f32;
     View {
         to_eye: camera.expect("a direction").inverse_orthonormal() * Frame::<Object, World>::IDENTITY,
-        perspective: Perspective::new(angle, aspect, near, 10.0).expect("a pyramid"),
+        projection: Perspective::new(angle, aspect, near, 10.0).expect("a pyramid"),
         viewport: Viewport::new(0, 0, WIDTH as u32, HEIGHT as u32).expect("a frame"),
     }
 }
@@ -249,7 +249,7 @@ fn an_edge_that_ends_at_the_guard_band_is_cut_in_both_triangles_or_in_neither() 
     let mut rng = Rng::stream(run_seed(), 77);
     let view = View {
         to_eye: Frame::at(Point3::new(Vec3::ZERO)),
-        perspective: Perspective::new(std::f32::consts::FRAC_PI_2, 4.0 / 3.0, 1.0, 100.0).expect("a pyramid"),
+        projection: Perspective::new(std::f32::consts::FRAC_PI_2, 4.0 / 3.0, 1.0, 100.0).expect("a pyramid"),
         viewport: Viewport::new(0, 0, WIDTH as u32, HEIGHT as u32).expect("a viewport"),
     };
     let mut covered = 0;

@@ -15,7 +15,7 @@ pub use alberti_math::{
     Eye, Fixed, Flat, Frame, Linear, Mode, Object, Point3, Q16, Rgba8, Sub4, Sub8, Subpixel, Varying,
     Vector3, World, for_lanes, glam, lanes,
 };
-pub use alberti_projection::{Perspective, ViewError, Viewport, look_at};
+pub use alberti_projection::{Parallel, Perspective, Projection, ViewError, Viewport, look_at};
 pub use alberti_raster as raster;
 pub use alberti_raster::{
     Affine, Always, Band, BandError, Bounded, Color, ColorFormat, Counters, Cull, D16, D24, D32, DepthFormat,
@@ -26,7 +26,8 @@ pub use alberti_texture as texture;
 pub use pipeline::{Pass, Sides, View, draw, draw_by};
 pub use prepared::{Prepared, ScreenTriangle, prepare};
 pub use profile::{
-    BandOf, Desktop, Mcu, PassOf, PixelOf, Profile, Reference, ScreenTriangleOf, SlotOf, StoredOf, Tiny,
+    BandOf, Desktop, Interpolated, Mcu, PassOf, PixelOf, Profile, Reference, ScreenTriangleOf, SlotOf,
+    StoredOf, Tiny,
 };
 pub use stats::Stats;
 pub use vertex::{Slot, VertexStage};

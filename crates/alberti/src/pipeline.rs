@@ -5,20 +5,20 @@ use alberti_math::glam::Vec3;
 use alberti_math::lanes::{Floating, Machine};
 use alberti_math::{Eye, Frame, Object, Subpixel, Varying, flatten, for_lanes};
 use alberti_projection::{
-    DepthMap, EyeVertex, Perspective, ProjectedVertex, SideBounds, Viewport, clip_near_far, clip_sides,
+    EyeVertex, Perspective, ProjectedVertex, Projection, SideBounds, Viewport, clip_near_far, clip_sides,
 };
 use alberti_raster::{
     Band, Counters, Cull, DepthFormat, Exact, FragmentStage, Interpolation, Store, Vertex, draw_triangle,
 };
 use core::cmp::Ordering;
 
-/// From where, through what pyramid and to which rectangle of the target a mesh is seen.
+/// From where, through what pyramid or box, and to which rectangle of the target a mesh is seen.
 #[derive(Clone, Copy, Debug)]
-pub struct View {
+pub struct View<Pr = Perspective> {
     /// Step 1: from object to eye coordinates. The camera's frame inverted, times the model's frame.
     pub to_eye: Frame<Object, Eye>,
     /// Steps 2 to 4.
-    pub perspective: Perspective,
+    pub projection: Pr,
     /// Step 6.
     pub viewport: Viewport,
 }
@@ -36,9 +36,9 @@ pub enum Sides {
 
 /// One mesh drawn in one way.
 #[derive(Clone, Copy, Debug)]
-pub struct Pass<'a, T, I, Vs, Fs, P = Exact> {
+pub struct Pass<'a, T, I, Vs, Fs, P = Exact, Pr = Perspective> {
     /// The view.
-    pub view: View,
+    pub view: View<Pr>,
     /// The mesh's vertices, of any type that the vertex stage understands.
     pub vertices: &'a [T],
     /// Three indices a triangle, counter-clockwise seen from the front. One that is out of range drops the triangle.
@@ -67,8 +67,8 @@ pub struct Pass<'a, T, I, Vs, Fs, P = Exact> {
 ///
 /// With the feature `simd` it works on eight samples at a time, in the widest vector registers that the machine turns
 /// out to have (with `std`) or is known to have; the pixels are those of [`draw_by`] one sample at a time.
-pub fn draw<S, T, I, Vs, Fs, P, C, D, K>(
-    pass: &Pass<'_, T, I, Vs, Fs, P>,
+pub fn draw<S, T, I, Vs, Fs, P, Pr, C, D, K>(
+    pass: &Pass<'_, T, I, Vs, Fs, P, Pr>,
     band: &mut Band<'_, C, D>,
     slots: &mut [Slot<S, Vs::Varying>],
     counters: &mut K,
@@ -78,6 +78,7 @@ pub fn draw<S, T, I, Vs, Fs, P, C, D, K>(
     Vs: VertexStage<T>,
     Fs: FragmentStage<Vs::Varying>,
     P: Interpolation,
+    Pr: Projection,
     C: Store<Fs::Color>,
     D: DepthFormat,
     K: Counters,
@@ -89,9 +90,9 @@ pub fn draw<S, T, I, Vs, Fs, P, C, D, K>(
 }
 
 /// [`draw`] with as many samples at a time as there are `lanes`.
-pub fn draw_by<L, S, T, I, Vs, Fs, P, C, D, K>(
+pub fn draw_by<L, S, T, I, Vs, Fs, P, Pr, C, D, K>(
     lanes: L,
-    pass: &Pass<'_, T, I, Vs, Fs, P>,
+    pass: &Pass<'_, T, I, Vs, Fs, P, Pr>,
     band: &mut Band<'_, C, D>,
     slots: &mut [Slot<S, Vs::Varying>],
     counters: &mut K,
@@ -102,6 +103,7 @@ pub fn draw_by<L, S, T, I, Vs, Fs, P, C, D, K>(
     Vs: VertexStage<T>,
     Fs: FragmentStage<Vs::Varying>,
     P: Interpolation,
+    Pr: Projection,
     C: Store<Fs::Color>,
     D: DepthFormat,
     K: Counters,
@@ -110,10 +112,10 @@ pub fn draw_by<L, S, T, I, Vs, Fs, P, C, D, K>(
 }
 
 /// Draws the pass's triangles from number `first` on.
-pub(crate) fn draw_from<L, S, T, I, Vs, Fs, P, C, D, K>(
+pub(crate) fn draw_from<L, S, T, I, Vs, Fs, P, Pr, C, D, K>(
     first: usize,
     lanes: L,
-    pass: &Pass<'_, T, I, Vs, Fs, P>,
+    pass: &Pass<'_, T, I, Vs, Fs, P, Pr>,
     band: &mut Band<'_, C, D>,
     slots: &mut [Slot<S, Vs::Varying>],
     counters: &mut K,
@@ -124,6 +126,7 @@ pub(crate) fn draw_from<L, S, T, I, Vs, Fs, P, C, D, K>(
     Vs: VertexStage<T>,
     Fs: FragmentStage<Vs::Varying>,
     P: Interpolation,
+    Pr: Projection,
     C: Store<Fs::Color>,
     D: DepthFormat,
     K: Counters,
@@ -144,9 +147,9 @@ pub(crate) fn draw_from<L, S, T, I, Vs, Fs, P, C, D, K>(
 
 /// Step 7: the rasterizer.
 #[inline(always)]
-pub(crate) fn rasterize<L, S, T, I, Vs, Fs, P, C, D, K>(
+pub(crate) fn rasterize<L, S, T, I, Vs, Fs, P, Pr, C, D, K>(
     lanes: L,
-    pass: &Pass<'_, T, I, Vs, Fs, P>,
+    pass: &Pass<'_, T, I, Vs, Fs, P, Pr>,
     band: &mut Band<'_, C, D>,
     vertices: [&Vertex<S, Vs::Varying>; 3],
     counters: &mut K,
@@ -166,29 +169,30 @@ pub(crate) fn rasterize<L, S, T, I, Vs, Fs, P, C, D, K>(
 }
 
 /// The way of a pass's triangles to the screen: steps 1 to 6.
-pub(crate) struct Walk<'a, 'm, S: Subpixel, T, I, Vs: VertexStage<T>, Fs, P> {
-    pass: &'a Pass<'m, T, I, Vs, Fs, P>,
+pub(crate) struct Walk<'a, 'm, S: Subpixel, T, I, Vs: VertexStage<T>, Fs, P, Pr: Projection> {
+    pass: &'a Pass<'m, T, I, Vs, Fs, P, Pr>,
     slots: &'a mut [Slot<S, Vs::Varying>],
-    depth: DepthMap,
+    depth: Pr::Depth,
     guard: SideBounds,
 }
 
-impl<'a, 'm, S, T, I, Vs, Fs, P> Walk<'a, 'm, S, T, I, Vs, Fs, P>
+impl<'a, 'm, S, T, I, Vs, Fs, P, Pr> Walk<'a, 'm, S, T, I, Vs, Fs, P, Pr>
 where
     S: Subpixel,
     I: Copy + Into<u32>,
     Vs: VertexStage<T>,
+    Pr: Projection,
 {
     /// `slots`, at least one, lose what they held. `reversed` says whether zs falls with distance.
     #[inline]
     pub(crate) fn new(
-        pass: &'a Pass<'m, T, I, Vs, Fs, P>,
+        pass: &'a Pass<'m, T, I, Vs, Fs, P, Pr>,
         reversed: bool,
         slots: &'a mut [Slot<S, Vs::Varying>],
     ) -> Self {
         slots.fill(Slot::EMPTY);
-        let View { perspective, viewport, .. } = &pass.view;
-        Self { pass, slots, depth: perspective.depth_map(reversed), guard: viewport.guard() }
+        let View { projection, viewport, .. } = &pass.view;
+        Self { pass, slots, depth: projection.depth_map(reversed), guard: viewport.guard() }
     }
 
     /// Hands `sink` what is seen of a triangle on the screen: nothing, the triangle, or the fan that clipping leaves.
@@ -243,8 +247,8 @@ where
 
 /// The triangle's vertices; `None` for an index out of range.
 #[inline]
-fn vertices<'a, T, I, Vs, Fs, P>(
-    pass: &Pass<'a, T, I, Vs, Fs, P>,
+fn vertices<'a, T, I, Vs, Fs, P, Pr>(
+    pass: &Pass<'a, T, I, Vs, Fs, P, Pr>,
     indices: [usize; 3],
 ) -> Option<[&'a T; 3]> {
     let vertex = |index: usize| pass.vertices.get(index);
@@ -254,10 +258,10 @@ fn vertices<'a, T, I, Vs, Fs, P>(
 /// Steps 3 to 6 for a triangle that crosses a plane.
 #[cold]
 #[inline(never)]
-fn clip<S: Subpixel, V: Varying>(
-    View { perspective, viewport, .. }: &View,
+fn clip<S: Subpixel, V: Varying, Pr: Projection>(
+    View { projection, viewport, .. }: &View<Pr>,
     sides: Sides,
-    depth: &DepthMap,
+    depth: &Pr::Depth,
     corners: [&Transformed<S, V>; 3],
     mut sink: impl FnMut([&Vertex<S, V>; 3]),
 ) {
@@ -267,9 +271,9 @@ fn clip<S: Subpixel, V: Varying>(
         EyeVertex { position: c.position, varying }
     }));
     // 3. What lies between the near and the far plane.
-    let between = clip_near_far(triangle, perspective.near(), perspective.far());
+    let between = clip_near_far(triangle, projection.near(), projection.far());
     // 4. Perspective with depth.
-    let projected = between.map(|v| perspective.project(depth, &v));
+    let projected = between.map(|v| projection.project(depth, &v));
     if !projected.vertices().iter().all(finite) {
         return;
     }

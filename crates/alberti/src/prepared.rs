@@ -5,6 +5,7 @@ use crate::stats::Stats;
 use crate::vertex::{Slot, VertexStage};
 use alberti_math::lanes::{Floating, Machine};
 use alberti_math::{Subpixel, for_lanes};
+use alberti_projection::Projection;
 use alberti_raster::{
     Band, Counters, Cull, DepthFormat, FragmentStage, Interpolation, Outcome, Store, Vertex, reach,
 };
@@ -65,7 +66,7 @@ pub struct Prepared<'a, D, S: Subpixel, V, P> {
 /// let pass = Pass {
 ///     view: View {
 ///         to_eye: Frame::at(Point3::new(Vec3::new(0.0, 0.0, 2.0))),
-///         perspective: Perspective::new(1.0, 32.0 / 24.0, 0.1, 10.0)?,
+///         projection: Perspective::new(1.0, 32.0 / 24.0, 0.1, 10.0)?,
 ///         viewport: Viewport::new(0, 0, 32, 24)?,
 ///     },
 ///     vertices: vertices.as_flattened(),
@@ -105,17 +106,18 @@ pub struct Prepared<'a, D, S: Subpixel, V, P> {
 /// What `draw` costs without the rasterizer, and a copy of each triangle that is kept. In return a band costs its
 /// fragments, the setup of the triangles that meet it, and a comparison for each of the others.
 #[expect(clippy::type_complexity, reason = "two things: what is prepared, and the room that is left")]
-pub fn prepare<'a, 'm, D, S, T, I, Vs, Fs, P, K>(
-    pass: &'a Pass<'m, T, I, Vs, Fs, P>,
+pub fn prepare<'a, 'm, D, S, T, I, Vs, Fs, P, Pr, K>(
+    pass: &'a Pass<'m, T, I, Vs, Fs, P, Pr>,
     room: &'a mut [ScreenTriangle<S, Vs::Varying>],
     slots: &mut [Slot<S, Vs::Varying>],
     counters: &mut K,
-) -> (PreparedPass<'a, 'm, D, S, T, I, Vs, Fs, P>, &'a mut [ScreenTriangle<S, Vs::Varying>])
+) -> (PreparedPass<'a, 'm, D, S, T, I, Vs, Fs, P, Pr>, &'a mut [ScreenTriangle<S, Vs::Varying>])
 where
     D: DepthFormat,
     S: Subpixel,
     I: Copy + Into<u32>,
     Vs: VertexStage<T>,
+    Pr: Projection,
     K: Counters,
 {
     if slots.is_empty() {
@@ -149,10 +151,10 @@ where
 }
 
 /// What [`prepare`] makes of a [`Pass`].
-type PreparedPass<'a, 'm, D, S, T, I, Vs, Fs, P> =
-    Prepared<'a, D, S, <Vs as VertexStage<T>>::Varying, Pass<'m, T, I, Vs, Fs, P>>;
+type PreparedPass<'a, 'm, D, S, T, I, Vs, Fs, P, Pr> =
+    Prepared<'a, D, S, <Vs as VertexStage<T>>::Varying, Pass<'m, T, I, Vs, Fs, P, Pr>>;
 
-impl<D, S, T, I, Vs, Fs, P> PreparedPass<'_, '_, D, S, T, I, Vs, Fs, P>
+impl<D, S, T, I, Vs, Fs, P, Pr> PreparedPass<'_, '_, D, S, T, I, Vs, Fs, P, Pr>
 where
     D: DepthFormat,
     S: Subpixel,
@@ -160,6 +162,7 @@ where
     Vs: VertexStage<T>,
     Fs: FragmentStage<Vs::Varying>,
     P: Interpolation,
+    Pr: Projection,
 {
     /// Draws into a band of the frame what [`draw`](crate::draw) would, in the same order and with the same pixels.
     ///

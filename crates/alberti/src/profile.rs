@@ -19,6 +19,7 @@ use crate::pipeline::Pass;
 use crate::prepared::ScreenTriangle;
 use crate::vertex::Slot;
 use alberti_math::{Rgba8, Sub4, Sub8, Subpixel};
+use alberti_projection::{Parallel, Perspective, Projection};
 use alberti_raster::{
     Affine, Band, ColorFormat, D16, DepthFormat, Exact, F32, F32Reversed, FixedPoint, Interpolation, NoDepth,
     Rgb565Be, Spans, Store,
@@ -37,7 +38,7 @@ use core::fmt::Debug;
 ///     let pass = Pass {
 ///         view: View {
 ///             to_eye: Frame::at(Point3::new(Vec3::new(0.0, 0.0, 2.0))),
-///             perspective: Perspective::new(1.0, 32.0 / 24.0, 0.1, 10.0)?,
+///             projection: Perspective::new(1.0, 32.0 / 24.0, 0.1, 10.0)?,
 ///             viewport: Viewport::new(0, 0, 32, 24)?,
 ///         },
 ///         vertices: &[(-0.9, -0.8, 0.0), (0.9, -0.8, 0.0), (0.0, 0.8, 1.0)],
@@ -113,6 +114,64 @@ pub trait Profile: Copy + Debug + 'static {
     type Subpixel: Subpixel;
     /// Memory for a pixel, with its depth.
     const PIXEL_BYTES: usize = size_of::<PixelOf<Self>>() + size_of::<StoredOf<Self>>();
+}
+
+/// A projection that knows the interpolation it needs: for scenes that are drawn through either.
+///
+/// | projection | interpolation | precision of attributes | divisions |
+/// |---|---|---|---|
+/// | [`Perspective`] | [`Exact`] | 9ε | one a fragment |
+/// | [`Parallel`] | [`Affine`] | 6ε | none |
+///
+/// In parallel projection all policies have the same result within their rounding, and [`Affine`] (in fixed point
+/// [`FixedPoint<Affine>`](FixedPoint)) is the cheapest of them.
+///
+/// ```
+/// use alberti::{glam::Vec3, shaders::VertexColor, *};
+///
+/// /// A triangle that leans away from the viewer; how many pixels it covers.
+/// fn pixels<Pr: Interpolated>(projection: Pr) -> Result<u64, Box<dyn core::error::Error>> {
+///     let pass = Pass {
+///         view: View {
+///             to_eye: Frame::at(Point3::new(Vec3::new(0.0, 0.0, 2.0))),
+///             projection,
+///             viewport: Viewport::new(0, 0, 32, 24)?,
+///         },
+///         vertices: &[(-0.9, -0.8, 0.0), (0.9, -0.8, 0.0), (0.0, 0.8, 1.0)],
+///         triangles: &[[0u16, 1, 2]],
+///         vertex_stage: |&(x, y, z): &(f32, f32, f32)| (Point3::new(Vec3::new(x, y, z)), Vec3::splat(z)),
+///         fragment_stage: VertexColor,
+///         cull: Cull::None,
+///         sides: Sides::GuardBand,
+///         interpolation: Pr::INTERPOLATION,
+///     };
+///     let (mut color, mut depth, mut stats) = ([0; 32 * 24], [1.0; 32 * 24], Stats::default());
+///     let mut band = Band::<Rgba8, F32>::new(32, 0, &mut color, &mut depth)?;
+///     draw(&pass, &mut band, &mut [Slot::<Sub8, _>::EMPTY; 3], &mut stats);
+///     Ok(stats.written)
+/// }
+///
+/// // Two units of height are seen at the distance 2, in parallel projection everywhere: nothing gets smaller.
+/// let perspective = pixels(Perspective::new(0.927_295_2, 32.0 / 24.0, 0.1, 10.0)?)?;
+/// let parallel = pixels(Parallel::new(2.0, 32.0 / 24.0, 0.1, 10.0)?)?;
+/// assert!(perspective < parallel);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+pub trait Interpolated: Projection {
+    /// The cheapest policy that is exact, but for rounding.
+    type Interpolation: Interpolation;
+    /// The same as a value.
+    const INTERPOLATION: Self::Interpolation;
+}
+
+impl Interpolated for Perspective {
+    type Interpolation = Exact;
+    const INTERPOLATION: Exact = Exact;
+}
+
+impl Interpolated for Parallel {
+    type Interpolation = Affine;
+    const INTERPOLATION: Affine = Affine;
 }
 
 /// What a profile's colour buffer holds for a pixel.

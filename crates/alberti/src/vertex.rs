@@ -2,7 +2,7 @@
 
 use crate::pipeline::View;
 use alberti_math::{Fixed, Object, Point3, Subpixel, Varying, is_finite};
-use alberti_projection::{DepthMap, EyeVertex, SideBounds};
+use alberti_projection::{EyeVertex, Projection, SideBounds};
 use alberti_raster::Vertex;
 use core::num::NonZeroUsize;
 
@@ -73,7 +73,7 @@ pub(crate) mod outside {
     pub(crate) const NEAR: u8 = 1;
     /// Farther than the far plane.
     pub(crate) const FAR: u8 = 2;
-    /// Beyond one of the sides of the pyramid.
+    /// Beyond one of the sides of the view.
     pub(crate) const SIDES: u8 = 4 + 8 + 16 + 32;
     pub(crate) const LEFT: u8 = 4;
     pub(crate) const RIGHT: u8 = 8;
@@ -104,14 +104,14 @@ impl<S: Subpixel, V: Varying> Transformed<S, V> {
     ///
     /// `guard` is the bound that the clip uses too: a vertex is clipped in all of its triangles or in none.
     #[inline]
-    pub(crate) fn new(
-        view: &View,
-        depth: &DepthMap,
+    pub(crate) fn new<Pr: Projection>(
+        view: &View<Pr>,
+        depth: &Pr::Depth,
         guard: SideBounds,
         point: Point3<Object>,
         varying: V,
     ) -> Self {
-        let position = view.perspective.scale(view.to_eye.to_parent(point));
+        let position = view.projection.scale(view.to_eye.to_parent(point));
         let p = position.coords;
         let nowhere = Vertex { x: Fixed::ZERO, y: Fixed::ZERO, zs: 0.0, q: 0.0, varying };
         // Written so that NaN is not within.
@@ -120,16 +120,17 @@ impl<S: Subpixel, V: Varying> Transformed<S, V> {
             return Self { position, outside: outside::NOWHERE, screen: nowhere };
         }
         let bit = |condition: bool, bit: u8| if condition { bit } else { 0 };
-        let sides = bit(p.x < -p.z, outside::LEFT)
-            | bit(p.x > p.z, outside::RIGHT)
-            | bit(p.y < -p.z, outside::BELOW)
-            | bit(p.y > p.z, outside::ABOVE);
-        let planes = bit(p.z < view.perspective.near(), outside::NEAR)
-            | bit(p.z > view.perspective.far(), outside::FAR);
+        let side = view.projection.side(p.z);
+        let sides = bit(p.x < -side, outside::LEFT)
+            | bit(p.x > side, outside::RIGHT)
+            | bit(p.y < -side, outside::BELOW)
+            | bit(p.y > side, outside::ABOVE);
+        let planes =
+            bit(p.z < view.projection.near(), outside::NEAR) | bit(p.z > view.projection.far(), outside::FAR);
         if planes != 0 {
             return Self { position, outside: sides | planes, screen: nowhere };
         }
-        let projected = view.perspective.project(depth, &EyeVertex { position, varying });
+        let projected = view.projection.project(depth, &EyeVertex { position, varying });
         let on_screen = view.viewport.to_screen(projected.x, projected.y);
         match on_screen.filter(|_| projected.x.abs() <= guard.x && projected.y.abs() <= guard.y) {
             Some([x, y]) => {

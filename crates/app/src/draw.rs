@@ -37,7 +37,7 @@ pub fn view(camera: &Camera, width: u32, height: u32) -> Result<View, ViewError>
     let aspect = (f64::from(width) / f64::from(height)) as f32;
     Ok(View {
         to_eye: frame.inverse_orthonormal() * Frame::<Object, World>::IDENTITY,
-        perspective: Perspective::new(camera.fov.to_radians(), aspect, camera.near, camera.far)?,
+        projection: Perspective::new(camera.fov.to_radians(), aspect, camera.near, camera.far)?,
         viewport,
     })
 }

@@ -95,7 +95,7 @@ fn pass<P: Interpolation, Vs: VertexStage<Vertex>, Fs: FragmentStage<Vs::Varying
     fragment_stage: Fs,
 ) -> Pass<'static, Vertex, u16, Vs, Fs, P> {
     Pass {
-        view: View { to_eye: model.to_eye, perspective: camera.perspective, viewport: camera.viewport },
+        view: View { to_eye: model.to_eye, projection: camera.perspective, viewport: camera.viewport },
         vertices: model.vertices,
         triangles: model.triangles,
         vertex_stage,
