@@ -23,19 +23,10 @@ impl Perspective {
     /// # Errors
     /// [`ViewError::Angle`], [`ViewError::Aspect`], [`ViewError::NearFar`].
     pub fn new(fov_y: f32, aspect: f32, near: f32, far: f32) -> Result<Self, ViewError> {
-        if !(fov_y > 0.0 && fov_y < core::f32::consts::PI) {
-            return Err(ViewError::Angle);
-        }
-        if !(aspect > 0.0 && aspect.is_finite()) {
-            return Err(ViewError::Aspect);
-        }
+        let scale = pyramid_scale(fov_y, aspect)?;
         let (forward, reversed) = (DepthMap::forward(near, far)?, DepthMap::reversed(near, far)?);
-        let scale = cot_half(f64::from(fov_y));
         #[expect(clippy::cast_possible_truncation, reason = "rounded once, here")]
-        let (scale_x, scale_y) = ((scale / f64::from(aspect)) as f32, scale as f32);
-        if !(scale_x.is_normal() && scale_y.is_normal()) {
-            return Err(ViewError::Angle);
-        }
+        let [scale_x, scale_y] = scale.map(|s| s as f32);
         Ok(Self { scale_x, scale_y, near, far, forward, reversed })
     }
 
@@ -78,6 +69,21 @@ impl Perspective {
         let p = v.position.coords;
         ProjectedVertex { x: p.x / p.z, y: p.y / p.z, zs: depth.zs(p.z), q: 1.0 / p.z, varying: v.varying }
     }
+}
+
+/// What x and y are multiplied by so that a pyramid's sides become x = ±z, y = ±z: cot(fov/2)/aspect and cot(fov/2).
+pub(crate) fn pyramid_scale(fov_y: f32, aspect: f32) -> Result<[f64; 2], ViewError> {
+    if !(fov_y > 0.0 && fov_y < core::f32::consts::PI) {
+        return Err(ViewError::Angle);
+    }
+    if !(aspect > 0.0 && aspect.is_finite()) {
+        return Err(ViewError::Aspect);
+    }
+    let scale = cot_half(f64::from(fov_y));
+    let scale = [scale / f64::from(aspect), scale];
+    #[expect(clippy::cast_possible_truncation, reason = "to see whether it can be rounded")]
+    let normal = scale.iter().all(|&s| (s as f32).is_normal());
+    if normal { Ok(scale) } else { Err(ViewError::Angle) }
 }
 
 /// cot(x/2) for x in (0, π), from IEEE basic operations, so that it is the same on every target.
