@@ -15,7 +15,9 @@ pub use alberti_math::{
     Eye, Fixed, Flat, Frame, Linear, Mode, Object, Point3, Q16, Rgba8, Sub4, Sub8, Subpixel, Varying,
     Vector3, World, for_lanes, glam, lanes,
 };
-pub use alberti_projection::{Parallel, Perspective, Projection, ViewError, Viewport, look_at};
+pub use alberti_projection::{
+    Homogeneous, Parallel, Perspective, Projection, Projector, ViewError, Viewport, look_at,
+};
 pub use alberti_raster as raster;
 pub use alberti_raster::{
     Affine, Always, Band, BandError, Bounded, Color, ColorFormat, Counters, Cull, D16, D24, D32, DepthFormat,

@@ -1,4 +1,4 @@
-//! Built-in fragment stages. The last two wrap another, so that a scene pays for what it uses.
+//! Built-in fragment stages. The last three wrap another, so that a scene pays for what it uses.
 //!
 //! | stage | varying | colour |
 //! |---|---|---|
@@ -9,16 +9,19 @@
 //! | [`Stored`] | `Vec2` | the same, in the texture's own format |
 //! | [`Tinted`] | the wrapped stage's | the wrapped stage's times a colour |
 //! | [`Lambert`] | `(Vec3, V)`: a normal and the wrapped stage's | the wrapped stage's, lit |
+//! | [`Slide`] | `(Homogeneous, V)`: a place on an image and the wrapped stage's | the wrapped stage's, the image on it |
 //!
 //! All arithmetic is on sRGB bytes, as they are stored.
 
 mod color;
 mod lambert;
+mod slide;
 mod texture;
 mod tinted;
 
 pub use color::{Ready565, Solid, VertexColor, VertexColor565};
 pub use lambert::{Lambert, face_normal};
+pub use slide::{Add, Mix, Modulate, Slide};
 pub use texture::{Stored, Unlit};
 pub use tinted::Tinted;
 
@@ -32,6 +35,14 @@ fn alone<V: Varying>(stage: &impl FragmentStage<V, Color = Rgba8>, varying: V) -
     let components = V::map(&V::gather([varying]), &|[x]: [f32; 1]| x);
     let (word, kept) = stage.shade_lanes(One, &components, true);
     kept.then_some(Rgba8::from_bits(word.0))
+}
+
+/// A product of bytes over 255, to the nearest.
+#[inline(always)]
+fn per_255<L: Lanes>(lanes: L, product: L::U32) -> L::U32 {
+    // x / 255 to the nearest is (x + 128) * 257 >> 16.
+    let x = product + lanes.word(128);
+    lanes.shr(x + lanes.shr(x, 8), 8)
 }
 
 /// The channels of colours.

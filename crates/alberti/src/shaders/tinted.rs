@@ -1,6 +1,6 @@
 //! A colour by which another stage's is multiplied.
 
-use super::{pack, unpack};
+use super::{pack, per_255, unpack};
 use alberti_math::lanes::{Lanes, One};
 use alberti_math::{Rgba8, Varying};
 use alberti_raster::FragmentStage;
@@ -44,15 +44,8 @@ impl<V: Varying, S: FragmentStage<V, Color = Rgba8>> FragmentStage<V> for Tinted
 #[inline(always)]
 fn times<L: Lanes>(lanes: L, [r, g, b, a]: [L::U32; 4], tint: Rgba8) -> L::U32 {
     let [tint_r, tint_g, tint_b, _] = tint.to_bytes();
-    // x / 255 to the nearest is (x + 128) * 257 >> 16, for products of bytes.
-    let products = [
-        r * lanes.word(tint_r.into()) + lanes.word(128),
-        g * lanes.word(tint_g.into()) + lanes.word(128),
-        b * lanes.word(tint_b.into()) + lanes.word(128),
-    ];
-    let [r, g, b] = products;
-    let [r, g, b] = [r + lanes.shr(r, 8), g + lanes.shr(g, 8), b + lanes.shr(b, 8)];
-    pack(lanes, [lanes.shr(r, 8), lanes.shr(g, 8), lanes.shr(b, 8), a])
+    let times = |channel: L::U32, tint: u8| per_255(lanes, channel * lanes.word(tint.into()));
+    pack(lanes, [times(r, tint_r), times(g, tint_g), times(b, tint_b), a])
 }
 
 #[cfg(test)]
