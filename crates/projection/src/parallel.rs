@@ -141,7 +141,7 @@ impl LinearDepth {
     /// The eye depth z of a screen depth.
     ///
     /// # Precision
-    /// Within 3ε of the distance from the plane where zs is 0, and ε of z.
+    /// Within 2ε of the distance from the plane where zs is 0, and ε of z.
     #[must_use]
     #[inline]
     pub fn z(&self, zs: f32) -> f32 {

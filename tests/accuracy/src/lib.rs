@@ -20,6 +20,7 @@ mod camera;
 mod clip;
 mod depth;
 mod perspective;
+mod projector;
 mod relations;
 mod viewport;
 
@@ -116,6 +117,7 @@ pub fn tables() -> Vec<Table> {
     tables.extend(depth::tables());
     tables.extend(relations::tables());
     tables.extend(viewport::tables());
+    tables.extend(projector::tables());
     tables
 }
 

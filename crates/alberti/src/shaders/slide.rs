@@ -56,8 +56,8 @@ use core::fmt::Debug;
 ///
 /// # Precision
 /// The image's colour is that of the sampler at ((u/q + 1)/2, (v/q + 1)/2), each within 2ε, for the u, v and q that are
-/// interpolated; whether there is an image follows from these exactly. In fixed point u, v and q are in steps of 2^-16,
-/// so the image is right to 2^-15/q, and q must stay below 16384.
+/// interpolated; whether there is an image follows from these exactly. In fixed point these and the quotients are in
+/// steps of 2^-16, so that q should not be much below 1, and it must not be above 16384.
 ///
 /// # Cost
 /// Three components to interpolate; two divisions, and where there is an image what the sampler costs.
