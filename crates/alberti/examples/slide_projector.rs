@@ -1,0 +1,117 @@
+//! A slide projector in a dim room: one image over two walls, the floor and a box, without a texture coordinate in the
+//! model. Writes `slide_projector.png`, or the file that is named.
+
+use alberti::glam::Vec3;
+use alberti::shaders::{Add, Lambert, Slide, VertexColor};
+use alberti::texture::{Bilinear, Clamp, Texture};
+use alberti::*;
+
+const SIZE: [u16; 2] = [960, 640];
+const SLIDE: [u16; 2] = [96, 64];
+
+/// A corner of a face.
+#[derive(Clone, Copy)]
+struct Corner {
+    position: Vec3,
+    normal: Vec3,
+    color: Vec3,
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let [width, height] = SIZE.map(u32::from);
+    let (vertices, triangles) = room();
+    let slide = slide();
+    let image = Texture::<Rgba8>::new(&slide, SLIDE[0].into(), SLIDE[1].into())?;
+
+    // From the right, across the room: closer to one wall than to the other.
+    let aspect = |[width, height]: [u16; 2]| f32::from(width) / f32::from(height);
+    let projector = Projector::new(looking([5.5, 2.6, 2.2], [0.0, 1.3, 0.9])?, 0.52, aspect(SLIDE))?;
+    let camera = looking([5.2, 3.6, 6.4], [0.9, 1.1, 0.7])?;
+
+    let pass = Pass {
+        view: View {
+            to_eye: camera.inverse_orthonormal() * Frame::<Object, World>::IDENTITY,
+            projection: Perspective::new(0.72, aspect(SIZE), 0.1, 50.0)?,
+            viewport: Viewport::new(0, 0, width, height)?,
+        },
+        vertices: &vertices,
+        triangles: &triangles,
+        // The room stands in the world where it was built. What the projector says is linear in space, so that vertices
+        // may carry it; the division is the fragments' affair.
+        vertex_stage: |corner: &Corner| {
+            let on_image = projector.project(Point3::new(corner.position));
+            (Point3::new(corner.position), (on_image, (corner.normal, corner.color)))
+        },
+        fragment_stage: Slide {
+            surface: Lambert::new(VertexColor, Vector3::new(Vec3::new(0.3, 1.0, 0.5)), 0.14, 0.26),
+            image: image.sampler::<Bilinear, Clamp>(),
+            mix: Add,
+        },
+        cull: Cull::Back,
+        sides: Sides::GuardBand,
+        interpolation: Exact,
+    };
+
+    let pixels = (width * height) as usize;
+    let (mut color, mut depth) = (vec![0; pixels], vec![1.0; pixels]);
+    let mut band = Band::<Rgba8, F32>::new(width, 0, &mut color, &mut depth)?;
+    band.clear(Rgba8::BLACK);
+    draw(&pass, &mut band, &mut vec![Slot::<Sub8, _>::EMPTY; vertices.len()], &mut ());
+
+    let path = std::env::args_os().nth(1).unwrap_or_else(|| "slide_projector.png".into());
+    let bytes: Vec<u8> = color.into_iter().flat_map(u32::to_ne_bytes).collect();
+    image::save_buffer(&path, &bytes, width, height, image::ColorType::Rgba8)?;
+    println!("{}", path.display());
+    Ok(())
+}
+
+/// At `eye`, pointed at `target`, upright: a camera's place, and a projector's.
+fn looking(eye: [f32; 3], target: [f32; 3]) -> Result<Frame<Eye, World>, ViewError> {
+    let at = |p| Point3::new(Vec3::from_array(p));
+    look_at(at(eye), at(target), Vector3::new(Vec3::Y))
+}
+
+/// The floor and two walls that meet in the origin, and a box in their corner.
+fn room() -> (Vec<Corner>, Vec<[u16; 3]>) {
+    let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+    // A parallelogram from `o` along `a`, then `b`: seen from where these run counter-clockwise.
+    let mut face = |o: Vec3, a: Vec3, b: Vec3, color: Vec3| {
+        let first = u16::try_from(vertices.len()).expect("a few faces");
+        let normal = a.cross(b).normalize();
+        vertices.extend([o, o + a, o + a + b, o + b].map(|position| Corner { position, normal, color }));
+        triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+    };
+    let [x, y, z] = [Vec3::X, Vec3::Y, Vec3::Z];
+    let (plaster, wood, paint) =
+        (Vec3::new(0.85, 0.84, 0.8), Vec3::new(0.75, 0.55, 0.4), Vec3::new(0.5, 0.7, 0.9));
+    face(Vec3::ZERO, z * 9.0, x * 9.0, wood);
+    face(Vec3::ZERO, x * 9.0, y * 4.0, plaster);
+    face(z * 9.0, z * -9.0, y * 4.0, plaster);
+    let (o, a, b, c) =
+        (Vec3::new(1.1, 0.0, 0.9), Vec3::new(0.8, 0.0, -0.3), y * 0.9, Vec3::new(0.3, 0.0, 0.8));
+    face(o + c, a, b, paint);
+    face(o + c + a, -c, b, paint);
+    face(o + b, c, a, paint);
+    (vertices, triangles)
+}
+
+/// A test card, its first row the top one: coloured fields, a white frame, and an arrow that points up and is longer to
+/// the right.
+fn slide() -> Vec<[u8; 4]> {
+    let [width, height] = SLIDE.map(i32::from);
+    let texel = |x: i32, y: i32| {
+        let (left, top) = (x.min(width - 1 - x), y.min(height - 1 - y));
+        let (dx, dy) = (x - width / 2, y - 12);
+        let head = (0..18).contains(&dy) && dx.abs() <= dy;
+        let shaft = (18..38).contains(&dy) && (-5..5).contains(&dx);
+        let foot = (30..38).contains(&dy) && (0..24).contains(&dx);
+        if left < 2 || top < 2 || head || shaft || foot {
+            return [210, 210, 200, 255];
+        }
+        let dark = (x / 8 + y / 8) % 2 == 0;
+        let ramp = |c: i32, length: i32| u8::try_from(20 + 160 * c / length).unwrap_or(u8::MAX);
+        let [r, g, b] = [ramp(x, width), ramp(height - y, height), ramp(width - x, width)];
+        if dark { [r / 3, g / 3, b / 3, 255] } else { [r, g, b, 255] }
+    };
+    (0..height).flat_map(|y| (0..width).map(move |x| texel(x, y))).collect()
+}
