@@ -15,6 +15,7 @@ pub use alberti_math::{
     Eye, Fixed, Flat, Frame, Linear, Mode, Object, Point3, Q16, Rgba8, Sub4, Sub8, Subpixel, Varying,
     Vector3, World, for_lanes, glam, lanes,
 };
+pub use alberti_projection as projection;
 pub use alberti_projection::{
     Homogeneous, Parallel, Perspective, Projection, Projector, ViewError, Viewport, look_at,
 };
