@@ -1,7 +1,7 @@
 //! The application's scenes as the oracle's.
 
 use alberti_app::draw::{AMBIENT, DIFFUSE, to_light};
-use alberti_app::options::{Cull, Filter, Policies, RenderOptions, Shading, Wrap};
+use alberti_app::options::{Cull, Filter, Policies, Projection, RenderOptions, Shading, Wrap};
 use alberti_app::scene::{Camera, Model};
 use alberti_app::scenes::BuiltIn;
 use alberti_oracle::scene as oracle;
@@ -18,6 +18,8 @@ pub fn options(scene: &BuiltIn, width: u32, height: u32) -> RenderOptions {
         wrap: scene.wrap,
         cull: scene.cull,
         depth: scene.depth,
+        projection: Projection::Perspective,
+        slide: None,
         policies: Policies::default(),
     }
 }

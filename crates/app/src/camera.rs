@@ -62,7 +62,7 @@ pub fn bounding_sphere(model: &Model) -> Sphere {
 /// The result is not a camera, as [`check`] says.
 pub fn frame(wishes: &Wishes, base: Option<&Camera>, ball: Sphere, aspect: f64) -> Result<Camera, Error> {
     let fov = wishes.fov.or(base.map(|b| b.fov)).unwrap_or(DEFAULT_FOV);
-    check_fov(fov)?;
+    check_fov(fov, &CAMERA)?;
     let target = wishes.target.or(base.map(|b| b.target)).unwrap_or(ball.center.map(narrow));
     let wide = |v: [f32; 3]| v.map(f64::from);
     let up = wishes.up.or(base.map(|b| b.up));
@@ -76,10 +76,7 @@ pub fn frame(wishes: &Wishes, base: Option<&Camera>, ball: Sphere, aspect: f64) 
         }
     };
     let view = sub(wide(target), wide(eye));
-    let up = up.unwrap_or_else(|| {
-        // Looking straight up or down, y is no direction on the picture; away from the viewer is up then.
-        if parallel(view, [0.0, 1.0, 0.0]) { [0.0, 0.0, -1.0] } else { [0.0, 1.0, 0.0] }
-    });
+    let up = up.unwrap_or_else(|| upwards(view));
     let (near, far) = match base {
         Some(base) if wishes.eye.is_none() && wishes.target.is_none() => (base.near, base.far),
         _ => planes(sub(ball.center, wide(eye)), view, ball.radius),
@@ -87,6 +84,23 @@ pub fn frame(wishes: &Wishes, base: Option<&Camera>, ball: Sphere, aspect: f64) 
     let camera =
         Camera { eye, target, up, fov, near: wishes.near.unwrap_or(near), far: wishes.far.unwrap_or(far) };
     check(&camera)?;
+    Ok(camera)
+}
+
+/// The height of what a camera with perspective sees at the distance of its target.
+pub fn window_height(camera: &Camera) -> f32 {
+    let distance = length(sub(camera.target.map(f64::from), camera.eye.map(f64::from)));
+    narrow(2.0 * distance * (f64::from(camera.fov).to_radians() / 2.0).tan())
+}
+
+/// The place and the opening angle of a projector, upright unless it points straight up or down.
+///
+/// # Errors
+/// As [`check`] says, with the options that set them.
+pub fn projector(eye: [f32; 3], target: [f32; 3], fov: f32) -> Result<Camera, Error> {
+    let view = sub(target.map(f64::from), eye.map(f64::from));
+    let camera = Camera { eye, target, up: upwards(view), fov, near: 1.0, far: 2.0 };
+    check_as(&camera, &PROJECTOR)?;
     Ok(camera)
 }
 
@@ -103,14 +117,36 @@ pub fn is_behind(camera: &Camera, ball: Sphere) -> bool {
 /// # Errors
 /// The first of these that does not hold, with the option that sets it.
 pub fn check(camera: &Camera) -> Result<(), Error> {
+    check_as(camera, &CAMERA)
+}
+
+/// The options that set a camera's parts.
+struct Names {
+    eye: &'static str,
+    target: &'static str,
+    up: &'static str,
+    fov: &'static str,
+}
+
+const CAMERA: Names = Names { eye: "--eye", target: "--target", up: "--up", fov: "--fov" };
+
+/// A projector's `up` is chosen so that it cannot be wrong.
+const PROJECTOR: Names = Names {
+    eye: "--projector-eye",
+    target: "--projector-target",
+    up: "--projector-target",
+    fov: "--projector-fov",
+};
+
+fn check_as(camera: &Camera, names: &Names) -> Result<(), Error> {
     let Camera { eye, target, up, fov, near, far } = *camera;
-    for (option, point) in [("--eye", eye), ("--target", target), ("--up", up)] {
+    for (option, point) in [(names.eye, eye), (names.target, target), (names.up, up)] {
         if point.iter().any(|x| !x.is_finite()) {
-            let hint = "give --eye and --target nearer to the model";
+            let hint = format!("give {} and {} nearer to the model", names.eye, names.target);
             return Err(Error::new(show(point), "finite coordinates").place(option).hint(hint));
         }
     }
-    check_fov(fov)?;
+    check_fov(fov, names)?;
     let hint = "both follow the model unless given; see --near and --far";
     if !(near > 0.0 && near.is_finite()) {
         return Err(Error::new(format!("near {near}"), "a finite number above 0").place("--near").hint(hint));
@@ -122,23 +158,24 @@ pub fn check(camera: &Camera) -> Result<(), Error> {
     let view = sub(target.map(f64::from), eye.map(f64::from));
     if normalize(view).is_none() {
         let found = format!("the eye and its target both at {}", show(eye));
-        return Err(Error::new(found, "two points").place("--eye").hint("move --eye or --target"));
+        let hint = format!("move {} or {}", names.eye, names.target);
+        return Err(Error::new(found, "two points").place(names.eye).hint(hint));
     }
     if parallel(view, up.map(f64::from)) {
         let found = format!("{}, which is 0 or along the view", show(up));
         return Err(Error::new(found, "a direction across the view")
-            .place("--up")
+            .place(names.up)
             .hint("choose another axis"));
     }
     Ok(())
 }
 
-fn check_fov(fov: f32) -> Result<(), Error> {
+fn check_fov(fov: f32, names: &Names) -> Result<(), Error> {
     if fov > 0.0 && fov < 180.0 {
         return Ok(());
     }
     Err(Error::new(format!("{fov} degrees"), "an angle above 0 and below 180 degrees")
-        .place("--fov")
+        .place(names.fov)
         .hint("40 is usual"))
 }
 
@@ -150,6 +187,12 @@ fn three_quarter(up: [f64; 3]) -> [f64; 3] {
     let right = cross(up, front);
     let away = [0, 1, 2].map(|axis| front[axis] + 0.6 * right[axis] + 0.45 * up[axis]);
     normalize(away).unwrap_or(front)
+}
+
+/// Up in a picture whose user has not said it: y, unless that is no direction across the view; when looking straight up
+/// or down, away from a viewer in front of the model.
+fn upwards(view: [f64; 3]) -> [f32; 3] {
+    if parallel(view, [0.0, 1.0, 0.0]) { [0.0, 0.0, -1.0] } else { [0.0, 1.0, 0.0] }
 }
 
 /// How far from its centre a ball just fits between the sides of the view, with a little room.
@@ -240,6 +283,30 @@ mod tests {
         assert!(is_behind(&of(behind), BALL) && !is_behind(&camera, BALL) && !is_behind(&inside, BALL));
         let kept = of(Wishes { near: Some(0.5), far: Some(99.0), ..Wishes::default() });
         assert_eq!((kept.near, kept.far), (0.5, 99.0));
+    }
+
+    #[test]
+    fn a_window_is_as_high_as_its_angle_says() {
+        let camera = of(Wishes { eye: Some([1.0, 2.0, 13.0]), fov: Some(90.0), ..Wishes::default() });
+        assert!((window_height(&camera) - 20.0).abs() < 1e-5);
+    }
+
+    #[test]
+    fn a_projector_is_a_camera_under_other_names() {
+        assert_eq!(projector([0.0, 9.0, 0.0], [0.0; 3], 30.0).map(|c| c.up), Ok([0.0, 0.0, -1.0]));
+        assert_eq!(projector([1.0, 9.0, 0.0], [0.0; 3], 30.0).map(|c| c.up), Ok([0.0, 1.0, 0.0]));
+        for (eye, fov, start) in [
+            (
+                [0.0; 3],
+                30.0,
+                "--projector-eye: found the eye and its target both at 0,0,0, expected two points; move --projector-eye or",
+            ),
+            ([f32::NAN; 3], 30.0, "--projector-eye: found NaN,NaN,NaN"),
+            ([1.0; 3], 180.0, "--projector-fov: found 180 degrees"),
+        ] {
+            let message = projector(eye, [0.0; 3], fov).unwrap_err().to_string();
+            assert!(message.starts_with(start), "{message}");
+        }
     }
 
     #[test]

@@ -38,6 +38,8 @@ Examples:
   alberti render teapot.obj -o teapot.png            a model, all of it in view
   alberti render cow.obj --texture cow.png --eye 2,1,-3
   alberti render --scene floor --interpolation affine
+  alberti render --scene cube --projection parallel
+  alberti render --projector slide.png --projector-eye 0,2,6 --projector-target 0,1,0
   alberti render --scene floor --size 1920x1080 --stats json";
 
 /// The options of `alberti render`. Those that are absent are left to the model or the scene.
@@ -91,6 +93,33 @@ pub struct RenderArgs {
     #[arg(long, value_name = "B", help_heading = CAMERA, allow_hyphen_values = true, value_parser = number)]
     pub far: Option<f32>,
 
+    /// Perspective, or along parallel lines, where size does not tell distance [default: perspective].
+    #[arg(long, value_enum, value_name = "HOW", help_heading = CAMERA)]
+    pub projection: Option<Projection>,
+
+    /// Height of what a parallel projection shows [default: that of the perspective view, at the target].
+    #[arg(long, value_name = "HEIGHT", help_heading = CAMERA, allow_hyphen_values = true, value_parser = number)]
+    pub view_height: Option<f32>,
+
+    /// Image that a slide projector throws on the model; it multiplies the colours that it falls on.
+    ///
+    /// It needs --projector-eye and --projector-target. The image is upright and as wide as its own shape says.
+    /// It falls on all that is before the projector within its pyramid, without shadows, and is read as --filter says.
+    #[arg(long, value_name = "FILE", help_heading = PROJECTOR)]
+    pub projector: Option<PathBuf>,
+
+    /// Where the projector is.
+    #[arg(long, value_name = "X,Y,Z", help_heading = PROJECTOR, allow_hyphen_values = true, value_parser = point)]
+    pub projector_eye: Option<[f32; 3]>,
+
+    /// The point in the middle of its image.
+    #[arg(long, value_name = "X,Y,Z", help_heading = PROJECTOR, allow_hyphen_values = true, value_parser = point)]
+    pub projector_target: Option<[f32; 3]>,
+
+    /// Its opening angle in degrees, from the bottom of the image to the top [default: 40].
+    #[arg(long, value_name = "DEG", help_heading = PROJECTOR, allow_hyphen_values = true, value_parser = number)]
+    pub projector_fov: Option<f32>,
+
     /// Image to put on every surface instead of the materials' textures.
     #[arg(long, value_name = "FILE", help_heading = SURFACE)]
     pub texture: Option<PathBuf>,
@@ -143,8 +172,18 @@ pub struct RenderArgs {
 }
 
 const CAMERA: &str = "Camera";
+const PROJECTOR: &str = "Projector";
 const SURFACE: &str = "Surface";
 const PRECISION: &str = "Precision";
+
+/// How space comes to the screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Projection {
+    /// What is farther away is smaller.
+    Perspective,
+    /// What is parallel stays parallel; straight lines unless --interpolation says otherwise, as they are exact then.
+    Parallel,
+}
 
 /// How counts and times are printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

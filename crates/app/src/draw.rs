@@ -5,18 +5,20 @@
 //! stage, in which the two are optimized together, and all others a kernel for each of the rasterizer's policies, which
 //! calls any stage through a pointer: see `draw/general.rs`.
 
-use crate::options::{Cull, Filter, Interpolation, RenderOptions, Shading, Subpixel, Wrap};
+use crate::options::{Cull, Filter, Interpolation, Projection, RenderOptions, Shading, Subpixel, Wrap};
 use crate::scene::{Camera, Image, Model, Part, Vertex};
 use alberti::glam::{Vec2, Vec3};
 use alberti::shaders::{Lambert, Solid, Tinted, Unlit, VertexColor};
 use alberti::texture::{self, Texture, TextureError};
 use alberti::{
-    Band, Exact, Eye, FragmentStage, Frame, Object, Pass, Perspective, Point3, Rgba8, Sides, Slot, Stats,
-    Sub8, Varying, Vector3, VertexStage, View, ViewError, Viewport, World, draw, look_at,
+    Band, Exact, Eye, FragmentStage, Frame, Object, Parallel, Pass, Perspective, Point3, Projector, Rgba8,
+    Sides, Slot, Stats, Sub8, Varying, Vector3, VertexStage, View, ViewError, Viewport, World, draw, look_at,
 };
+use projection::Either;
 
 mod erased;
 mod lines;
+mod projection;
 
 /// Light that falls everywhere, and light that falls on what faces it.
 pub const AMBIENT: f32 = 0.3;
@@ -26,20 +28,36 @@ pub const DIFFUSE: f32 = 0.7;
 /// Triangles drawn between two reports of progress.
 const CHUNK: usize = 1 << 16;
 
-/// The view of a camera.
+/// The view of a camera, in perspective.
 ///
 /// # Errors
 /// An impossible camera or size.
 pub fn view(camera: &Camera, width: u32, height: u32) -> Result<View, ViewError> {
     let frame = frame(camera)?;
     let viewport = Viewport::new(0, 0, width, height)?;
-    #[expect(clippy::cast_possible_truncation, reason = "rounded once")]
-    let aspect = (f64::from(width) / f64::from(height)) as f32;
+    let aspect = aspect(width, height);
     Ok(View {
         to_eye: frame.inverse_orthonormal() * Frame::<Object, World>::IDENTITY,
         projection: Perspective::new(camera.fov.to_radians(), aspect, camera.near, camera.far)?,
         viewport,
     })
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "rounded once")]
+fn aspect(width: u32, height: u32) -> f32 {
+    (f64::from(width) / f64::from(height)) as f32
+}
+
+/// The same through either projection.
+fn either(view: View, camera: &Camera, options: &RenderOptions) -> Result<View<Either>, ViewError> {
+    let projection = match options.projection {
+        Projection::Perspective => Either::Perspective(view.projection),
+        Projection::Parallel { height } => {
+            let aspect = aspect(options.width, options.height);
+            Either::Parallel(Parallel::new(height, aspect, camera.near, camera.far)?)
+        }
+    };
+    Ok(View { to_eye: view.to_eye, projection, viewport: view.viewport })
 }
 
 fn frame(camera: &Camera) -> Result<Frame<Eye, World>, ViewError> {
@@ -76,9 +94,14 @@ mod general;
 pub(crate) struct Canvas<'a> {
     model: &'a Model,
     options: &'a RenderOptions,
+    /// In perspective, for the kernels of the default policies.
     view: View,
+    /// As the options say, for all others.
+    either: View<Either>,
     light: Vector3<World>,
     textures: Vec<Texture<'a, Rgba8>>,
+    /// The projector and its image.
+    slide: Option<(Projector, Texture<'a, Rgba8>)>,
     stats: Stats,
 }
 
@@ -91,13 +114,22 @@ impl<'a> Canvas<'a> {
     pub(crate) fn new(model: &'a Model, camera: &Camera, options: &'a RenderOptions) -> Result<Self, String> {
         let view = view(camera, options.width, options.height).map_err(|e| e.to_string())?;
         let borrow = |image: &'a Image| Texture::new(&image.texels, image.width, image.height);
-        let textures: Result<_, TextureError> = model.textures.iter().map(borrow).collect();
+        let textures: Result<Vec<_>, TextureError> = model.textures.iter().map(borrow).collect();
+        let textures = textures.map_err(|e| e.to_string())?;
+        let slide = options.slide.and_then(|slide| Some((slide.projector, *textures.get(slide.texture)?)));
+        let slide = slide.map(|(camera, image)| {
+            let aspect = aspect(image.width(), image.height());
+            Ok((Projector::new(frame(&camera)?, camera.fov.to_radians(), aspect)?, image))
+        });
+        let in_words = |e: ViewError| e.to_string();
         Ok(Self {
             model,
             options,
             view,
+            either: either(view, camera, options).map_err(in_words)?,
             light: Vector3::new(to_light(camera)),
-            textures: textures.map_err(|e| e.to_string())?,
+            textures,
+            slide: slide.transpose().map_err(in_words)?,
             stats: Stats::default(),
         })
     }
@@ -130,8 +162,12 @@ impl<'a> Canvas<'a> {
         triangles: &[[u32; 3]],
         band: &mut Band<'_, Rgba8, D>,
     ) {
-        let policies = self.options.policies;
-        if policies.interpolation == Interpolation::Exact && policies.subpixel == Subpixel::Sub8 {
+        let RenderOptions { policies, projection, .. } = *self.options;
+        if policies.interpolation == Interpolation::Exact
+            && policies.subpixel == Subpixel::Sub8
+            && projection == Projection::Perspective
+            && self.slide.is_none()
+        {
             self.draw_part(part, triangles, band);
         } else {
             self.in_general(part, triangles, band);
@@ -191,18 +227,19 @@ impl<'a> Canvas<'a> {
         V: Varying,
         F: FragmentStage<V, Color = Rgba8>,
     {
-        let pass = self.pass(triangles, vertex_stage, fragment_stage, Exact);
+        let pass = self.pass(self.view, triangles, vertex_stage, fragment_stage, Exact);
         let mut slots = self.slots::<Sub8, V>(triangles);
         draw(&pass, band, &mut slots, &mut self.stats);
     }
 
-    fn pass<'t, Vs, F, P>(
+    fn pass<'t, Vs, F, P, Pr>(
         &self,
+        view: View<Pr>,
         triangles: &'t [[u32; 3]],
         vertex_stage: Vs,
         fragment_stage: F,
         interpolation: P,
-    ) -> Pass<'t, Vertex, u32, Vs, F, P>
+    ) -> Pass<'t, Vertex, u32, Vs, F, P, Pr>
     where
         'a: 't,
     {
@@ -212,7 +249,7 @@ impl<'a> Canvas<'a> {
             Cull::None => alberti::Cull::None,
         };
         Pass {
-            view: self.view,
+            view,
             vertices: &self.model.vertices,
             triangles,
             vertex_stage,

@@ -1,6 +1,7 @@
 //! How a scene is drawn: the choices that the command line offers and that a built-in scene makes for itself.
 
 use crate::error::Error;
+use crate::scene::Camera;
 use clap::ValueEnum;
 use std::fmt;
 
@@ -241,6 +242,28 @@ impl Profile {
     }
 }
 
+/// How space comes to the screen.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Projection {
+    /// With the camera's opening angle.
+    #[default]
+    Perspective,
+    /// Along parallel lines.
+    Parallel {
+        /// How much of the scene is seen, from the bottom of the picture to the top.
+        height: f32,
+    },
+}
+
+/// An image that a projector throws on the model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slide {
+    /// Index into [`Model::textures`](crate::scene::Model::textures).
+    pub texture: usize,
+    /// Where the projector stands and points to, and its vertical opening angle; its planes have no meaning.
+    pub projector: Camera,
+}
+
 /// Everything about a picture that is neither model nor camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RenderOptions {
@@ -260,6 +283,10 @@ pub struct RenderOptions {
     pub cull: Cull,
     /// The depth buffer.
     pub depth: DepthFormat,
+    /// How space comes to the screen.
+    pub projection: Projection,
+    /// What is thrown on the model, if anything.
+    pub slide: Option<Slide>,
     /// The other policies, which [`render`](crate::render::render) takes for ones that go together.
     pub policies: Policies,
 }

@@ -8,10 +8,11 @@ use clap::error::{ContextKind, ErrorKind};
 use clap::{CommandFactory as _, Parser as _};
 
 use crate::camera::{self, Wishes};
-use crate::cli::{Cli, Command, RenderArgs, StatsFormat};
+use crate::cli::{self, Cli, Command, RenderArgs, StatsFormat};
 use crate::error::{Error, Warnings, quote};
 use crate::options::{
-    Cull, DEFAULT_BACKGROUND, DepthFormat, Filter, Policies, Profile, RenderOptions, Shading, Wrap,
+    Cull, DEFAULT_BACKGROUND, DepthFormat, Filter, Interpolation, Policies, Profile, Projection,
+    RenderOptions, Shading, Slide, Wrap,
 };
 use crate::output::Output;
 use crate::progress::Progress;
@@ -79,8 +80,9 @@ struct Scene {
 fn draw(arguments: &RenderArgs) -> Result<(), Error> {
     let (policies, depth) = choices(arguments);
     policies.check()?;
+    check_partners(arguments)?;
     let output = Output::new(&arguments.output)?;
-    for input in arguments.model.iter().chain(&arguments.texture) {
+    for input in arguments.model.iter().chain(&arguments.texture).chain(&arguments.projector) {
         if output.is(input) {
             let found = "a file that is also read";
             return Err(Error::new(found, "another").file(output.name()).hint("choose another with -o"));
@@ -89,6 +91,7 @@ fn draw(arguments: &RenderArgs) -> Result<(), Error> {
     let start = Instant::now();
     let mut scene = load(arguments)?;
     put_texture(arguments, &mut scene)?;
+    let slide = put_slide(arguments, &mut scene.model)?;
     let load = start.elapsed();
 
     let (width, height) = arguments.size;
@@ -115,6 +118,8 @@ fn draw(arguments: &RenderArgs) -> Result<(), Error> {
         wrap: arguments.wrap.unwrap_or(wrap),
         cull: arguments.cull.unwrap_or(cull),
         depth: depth.unwrap_or(scene_depth),
+        projection: projection(arguments, &camera)?,
+        slide,
         policies,
     };
     let start = Instant::now();
@@ -143,8 +148,11 @@ fn choices(arguments: &RenderArgs) -> (Policies, Option<DepthFormat>) {
     let RenderArgs { profile, interpolation, numbers, depth, color, subpixel, .. } = *arguments;
     let (chosen, profile_depth) = profile.map(Profile::policies).unzip();
     let chosen = chosen.unwrap_or_default();
+    // Of a parallel projection straight lines are exact, and the cheapest.
+    let parallel = arguments.projection == Some(cli::Projection::Parallel);
+    let straight = if parallel { Interpolation::Affine } else { chosen.interpolation };
     let policies = Policies {
-        interpolation: interpolation.unwrap_or(chosen.interpolation),
+        interpolation: interpolation.unwrap_or(straight),
         numbers: numbers.unwrap_or(chosen.numbers),
         color: color.unwrap_or(chosen.color),
         subpixel: subpixel.unwrap_or(chosen.subpixel),
@@ -200,6 +208,57 @@ fn put_texture(arguments: &RenderArgs, scene: &mut Scene) -> Result<(), Error> {
         part.diffuse = [1.0; 3];
     }
     Ok(())
+}
+
+/// An option that does nothing without another is a mistake.
+fn check_partners(arguments: &RenderArgs) -> Result<(), Error> {
+    let alone = |option: &str, partner: &str| {
+        Err(Error::new(format!("it without {partner}"), "both, or neither").place(option))
+    };
+    let RenderArgs { projector, projector_eye, projector_target, projector_fov, .. } = arguments;
+    let of_projector = [
+        ("--projector-eye", projector_eye.is_some()),
+        ("--projector-target", projector_target.is_some()),
+        ("--projector-fov", projector_fov.is_some()),
+    ];
+    for (option, given) in of_projector {
+        if given && projector.is_none() {
+            return alone(option, "--projector");
+        }
+        if !given && projector.is_some() && option != "--projector-fov" {
+            return alone("--projector", option);
+        }
+    }
+    if arguments.view_height.is_some() && arguments.projection != Some(cli::Projection::Parallel) {
+        return alone("--view-height", "--projection parallel");
+    }
+    Ok(())
+}
+
+/// The projection that was asked for; a parallel one shows as much as the perspective one does around its target.
+fn projection(arguments: &RenderArgs, camera: &Camera) -> Result<Projection, Error> {
+    if arguments.projection != Some(cli::Projection::Parallel) {
+        return Ok(Projection::Perspective);
+    }
+    let height = arguments.view_height.unwrap_or_else(|| camera::window_height(camera));
+    if !(height > 0.0 && height.is_finite()) {
+        return Err(
+            Error::new(format!("a height of {height}"), "a finite number above 0").place("--view-height")
+        );
+    }
+    Ok(Projection::Parallel { height })
+}
+
+/// The projector that was asked for; its image becomes one more of the model's textures.
+fn put_slide(arguments: &RenderArgs, model: &mut Model) -> Result<Option<Slide>, Error> {
+    let RenderArgs { projector_eye, projector_target, projector_fov, .. } = *arguments;
+    let (Some(path), Some(eye), Some(target)) = (&arguments.projector, projector_eye, projector_target)
+    else {
+        return Ok(None);
+    };
+    let projector = camera::projector(eye, target, projector_fov.unwrap_or(camera::DEFAULT_FOV))?;
+    model.textures.push(image_file::load(path, image_file::MAX_TEXELS)?);
+    Ok(Some(Slide { texture: model.textures.len() - 1, projector }))
 }
 
 fn warn_all(warnings: &Warnings) {

@@ -2,12 +2,13 @@
 
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::One;
-use alberti::shaders::{Lambert, Unlit};
-use alberti::texture::{Bilinear, Nearest, Repeat, TexelFormat as _, Texture, format};
+use alberti::shaders::{Lambert, Modulate, Slide, Unlit};
+use alberti::texture::{Bilinear, Clamp, Nearest, Repeat, TexelFormat as _, Texture, format};
 use alberti::{
     Affine, Band, BandOf, Bounded, Cull, D16, D24, D32, DepthFormat as _, Exact, F32, FixedPoint,
-    FragmentStage, Mcu, NoDepth, Pass, PixelOf, Plane, Point3, Profile, Reference, Rgb565Le, Rgba8, Sides,
-    SlotOf, Spans, Sub4, Sub8, Tiny, Varying, Vector3, VertexStage, draw_by,
+    FragmentStage, Interpolated, Mcu, NoDepth, Parallel, Pass, PixelOf, Plane, Point3, Profile, Projector,
+    Reference, Rgb565Le, Rgba8, Sides, Slot, SlotOf, Spans, Sub4, Sub8, Tiny, Varying, Vector3, VertexStage,
+    View, draw, draw_by, look_at,
 };
 use alberti_app::draw::{AMBIENT, DIFFUSE, to_light, view};
 use alberti_app::options::{
@@ -15,7 +16,7 @@ use alberti_app::options::{
     SpanLength, Subpixel, Wrap,
 };
 use alberti_app::render::render;
-use alberti_app::scene::Vertex;
+use alberti_app::scene::{self, Vertex};
 use alberti_app::scenes::{self, BuiltIn};
 
 const SIZE: (u32, u32) = (160, 120);
@@ -81,9 +82,18 @@ fn by_name(
     filter: Filter,
     choice: (Policies, DepthFormat),
 ) -> Vec<[u8; 4]> {
+    let options = options(scene, shading, filter, choice);
+    render(&scene.model, &scene.camera, &options, &mut |_, _| {}).expect("a picture").image.texels
+}
+
+fn options(
+    scene: &BuiltIn,
+    shading: Shading,
+    filter: Filter,
+    (policies, depth): (Policies, DepthFormat),
+) -> RenderOptions {
     let (width, height) = SIZE;
-    let (policies, depth) = choice;
-    let options = RenderOptions {
+    RenderOptions {
         width,
         height,
         background: scene.background,
@@ -92,9 +102,10 @@ fn by_name(
         wrap: Wrap::Repeat,
         cull: options::Cull::Back,
         depth,
+        projection: options::Projection::Perspective,
+        slide: None,
         policies,
-    };
-    render(&scene.model, &scene.camera, &options, &mut |_, _| {}).expect("a picture").image.texels
+    }
 }
 
 /// A texture as it is, of the nearest texel, on the floor.
@@ -127,6 +138,63 @@ where
     let stage = Lambert::new(surface, Vector3::new(to_light(&scene.camera)), AMBIENT, DIFFUSE);
     let expected = by_library::<P, _>(&scene, vertex, stage, big_endian);
     assert!(by_name(&scene, Shading::Lambert, Filter::Bilinear, choice) == expected, "{choice:?}");
+}
+
+/// A slide on a textured floor, in parallel projection: types that only this test names.
+#[test]
+fn projections_and_projectors_are_those_of_the_library() {
+    let scene = scenes::by_name("floor").expect("a scene");
+    let (width, height) = SIZE;
+    let image = &scene.model.textures[0];
+    let texture = Texture::<Rgba8>::new(&image.texels, image.width, image.height).expect("a texture");
+    let projector = scene::Camera { eye: [1.0, 3.0, 0.5], fov: 60.0, ..scene.camera };
+    let place = look_at(
+        Point3::new(Vec3::from_array(projector.eye)),
+        Point3::new(Vec3::from_array(projector.target)),
+        Vector3::new(Vec3::from_array(projector.up)),
+    );
+    let thrown = Projector::new(place.expect("a place"), 60f32.to_radians(), 1.0).expect("a projector");
+    let View { to_eye, viewport, .. } = view(&scene.camera, width, height).expect("a view");
+    let scene::Camera { near, far, .. } = scene.camera;
+    let parallel = Parallel::new(4.0, 4.0 / 3.0, near, far).expect("a box");
+    let pass = Pass {
+        view: View { to_eye, projection: parallel, viewport },
+        vertices: &scene.model.vertices,
+        triangles: &scene.model.parts[0].triangles,
+        vertex_stage: |v: &Vertex| {
+            let position = Vec3::from_array(v.position);
+            (Point3::new(position), (thrown.project(Point3::new(position)), Vec2::from_array(v.uv)))
+        },
+        fragment_stage: Slide {
+            surface: Unlit(texture.sampler::<Nearest, Repeat>()),
+            image: texture.sampler::<Nearest, Clamp>(),
+            mix: Modulate,
+        },
+        cull: Cull::Back,
+        sides: Sides::GuardBand,
+        interpolation: Parallel::INTERPOLATION,
+    };
+    let (mut color, mut depth) = (vec![0; (width * height) as usize], vec![1.0; (width * height) as usize]);
+    let mut band = Band::<Rgba8, F32>::new(width, 0, &mut color, &mut depth).expect("whole rows");
+    let [r, g, b] = scene.background;
+    band.clear(Rgba8::new(r, g, b, 255));
+    draw(&pass, &mut band, &mut [Slot::<Sub8, _>::EMPTY; 16], &mut ());
+
+    let policies = Policies { interpolation: Interpolation::Affine, ..Policies::default() };
+    let plain = options(&scene, Shading::Unlit, Filter::Nearest, (policies, DepthFormat::F32));
+    let projection = options::Projection::Parallel { height: 4.0 };
+    let slide = Some(options::Slide { texture: 0, projector });
+    let drawn = |options: RenderOptions| {
+        render(&scene.model, &scene.camera, &options, &mut |_, _| {}).expect("a picture").image.texels
+    };
+    let expected: Vec<_> = color.into_iter().map(u32::to_ne_bytes).collect();
+    assert!(drawn(RenderOptions { projection, slide, ..plain }) == expected);
+    // Neither without the other, and not without both.
+    for other in [RenderOptions { projection, ..plain }, RenderOptions { slide, ..plain }, plain] {
+        let other = drawn(other);
+        let differ = other.iter().zip(&expected).filter(|(a, b)| a != b).count();
+        assert!(differ > expected.len() / 20, "{differ} pixels");
+    }
 }
 
 #[test]

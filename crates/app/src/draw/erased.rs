@@ -1,14 +1,19 @@
 //! Fragment stages behind a pointer, so that a kernel is compiled once for all of them. The pixels are the stage's own.
 //!
-//! What such a stage is handed is (a normal or a colour, texture coordinates); what it does not use of them is computed
-//! nevertheless. No stage discards.
+//! What such a stage is handed is a place on a projector's image, and (a normal or a colour, texture coordinates); what
+//! it does not use of them is computed nevertheless. No stage discards.
 
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::{Floating, Lanes, One, OneFixed};
-use alberti::{FragmentStage, Q16, Rgba8};
+use alberti::shaders::Slide;
+use alberti::texture::{Clamp, Filter, Sampler};
+use alberti::{FragmentStage, Homogeneous, Q16, Rgba8};
 
 /// What a vertex carries to such a stage.
-pub(super) type Carried = (Vec3, Vec2);
+pub(super) type Carried = (Homogeneous, Looks);
+
+/// What a surface needs of that: a normal or a colour, and texture coordinates.
+pub(super) type Looks = (Vec3, Vec2);
 
 /// A stage for so many samples at a time as there are lanes of floats: their numbers in memory, colours back.
 ///
@@ -20,7 +25,7 @@ pub(super) struct Erased<'a, L: Lanes> {
     shade: &'a Shade<'a, L>,
 }
 
-type Shade<'a, L> = dyn Fn(&[<L as Lanes>::Each<f32>; 5]) -> <L as Lanes>::Each<u32> + 'a;
+type Shade<'a, L> = dyn Fn(&[<L as Lanes>::Each<f32>; 8]) -> <L as Lanes>::Each<u32> + 'a;
 
 /// Calls `then` with `stage`, behind a pointer.
 pub(super) fn erase<L: Floating>(
@@ -28,12 +33,13 @@ pub(super) fn erase<L: Floating>(
     stage: impl FragmentStage<Carried, Color = Rgba8>,
     then: &mut dyn FnMut(Erased<'_, L>),
 ) {
-    let shade = |values: &[L::Each<f32>; 5]| {
+    let shade = |values: &[L::Each<f32>; 8]| {
         lanes.vectorize(
             #[inline(always)]
             || {
-                let [x, y, z, u, v] = values.map(|value| lanes.load(&value));
-                let (words, _) = stage.shade_lanes(lanes, &([x, y, z], [u, v]), lanes.mask(all::<L>()));
+                let [p, q, r, x, y, z, u, v] = values.map(|value| lanes.load(&value));
+                let carried = ([p, q, r], ([x, y, z], [u, v]));
+                let (words, _) = stage.shade_lanes(lanes, &carried, lanes.mask(all::<L>()));
                 lanes.store_words(words)
             },
         )
@@ -45,8 +51,8 @@ impl<L: Lanes> FragmentStage<Carried> for Erased<'_, L> {
     type Color = Rgba8;
 
     #[inline(always)]
-    fn shade(&self, (first, uv): Carried) -> Option<Rgba8> {
-        let (word, _) = self.shade_lanes(One, &(first.to_array(), uv.to_array()), true);
+    fn shade(&self, carried: Carried) -> Option<Rgba8> {
+        let (word, _) = self.shade_lanes(One, &components(carried), true);
         Some(Rgba8::from_bits(word.0))
     }
 
@@ -55,10 +61,10 @@ impl<L: Lanes> FragmentStage<Carried> for Erased<'_, L> {
     fn shade_lanes<M: Lanes>(
         &self,
         lanes: M,
-        ([x, y, z], [u, v]): &([M::Number; 3], [M::Number; 2]),
+        ([p, q, r], ([x, y, z], [u, v])): &Numbers<M>,
         mask: M::Mask,
     ) -> (M::U32, M::Mask) {
-        let values = [x, y, z, u, v].map(|number| {
+        let values = [p, q, r, x, y, z, u, v].map(|number| {
             let values = lanes.store(*number);
             self.lanes.each(|k| values.as_ref().get(k).copied().unwrap_or_default())
         });
@@ -70,15 +76,15 @@ impl<L: Lanes> FragmentStage<Carried> for Erased<'_, L> {
 
 /// A stage for one sample in fixed point.
 #[derive(Clone, Copy)]
-pub(super) struct ErasedFixed<'a>(&'a dyn Fn([Q16; 5]) -> u32);
+pub(super) struct ErasedFixed<'a>(&'a dyn Fn([Q16; 8]) -> u32);
 
 /// Calls `then` with `stage` in fixed point, behind a pointer.
 pub(super) fn erase_fixed(
     stage: impl FragmentStage<Carried, Color = Rgba8>,
     then: &mut dyn FnMut(ErasedFixed<'_>),
 ) {
-    let shade = |[x, y, z, u, v]: [Q16; 5]| {
-        let (word, _) = stage.shade_lanes(OneFixed, &([x, y, z], [u, v]), true);
+    let shade = |[p, q, r, x, y, z, u, v]: [Q16; 8]| {
+        let (word, _) = stage.shade_lanes(OneFixed, &([p, q, r], ([x, y, z], [u, v])), true);
         word.0
     };
     then(ErasedFixed(&shade));
@@ -88,8 +94,8 @@ impl FragmentStage<Carried> for ErasedFixed<'_> {
     type Color = Rgba8;
 
     #[inline(always)]
-    fn shade(&self, (first, uv): Carried) -> Option<Rgba8> {
-        let (word, _) = self.shade_lanes(One, &(first.to_array(), uv.to_array()), true);
+    fn shade(&self, carried: Carried) -> Option<Rgba8> {
+        let (word, _) = self.shade_lanes(One, &components(carried), true);
         Some(Rgba8::from_bits(word.0))
     }
 
@@ -97,11 +103,11 @@ impl FragmentStage<Carried> for ErasedFixed<'_> {
     fn shade_lanes<M: Lanes>(
         &self,
         lanes: M,
-        ([x, y, z], [u, v]): &([M::Number; 3], [M::Number; 2]),
+        ([p, q, r], ([x, y, z], [u, v])): &Numbers<M>,
         mask: M::Mask,
     ) -> (M::U32, M::Mask) {
         // In units of 2^-16, which is what numbers in fixed point are.
-        let bits = [x, y, z, u, v].map(|number| lanes.store_words(lanes.floor_scaled(*number, 16)));
+        let bits = [p, q, r, x, y, z, u, v].map(|number| lanes.store_words(lanes.floor_scaled(*number, 16)));
         let words = lanes.each(|k| {
             let at = |words: &M::Each<u32>| words.as_ref().get(k).copied().unwrap_or_default();
             (self.0)(bits.each_ref().map(|words| Q16::from_bits(at(words).cast_signed())))
@@ -110,15 +116,62 @@ impl FragmentStage<Carried> for ErasedFixed<'_> {
     }
 }
 
-/// A stage that takes the first of what is carried.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct OfFirst<F>(pub(super) F);
+/// What is carried, as numbers.
+type Numbers<L> = ([<L as Lanes>::Number; 3], ([<L as Lanes>::Number; 3], [<L as Lanes>::Number; 2]));
 
-impl<F: FragmentStage<Vec3, Color = Rgba8>> FragmentStage<Carried> for OfFirst<F> {
+fn components((Homogeneous { u, v, q }, (first, uv)): Carried) -> Numbers<One> {
+    ([u, v, q], (first.to_array(), uv.to_array()))
+}
+
+/// A surface, without an image on it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bare<F>(pub(super) F);
+
+impl<F: FragmentStage<Looks, Color = Rgba8>> FragmentStage<Carried> for Bare<F> {
     type Color = Rgba8;
 
     #[inline(always)]
-    fn shade(&self, (first, _): Carried) -> Option<Rgba8> {
+    fn shade(&self, (_, looks): Carried) -> Option<Rgba8> {
+        self.0.shade(looks)
+    }
+
+    #[inline(always)]
+    fn shade_lanes<L: Lanes>(&self, lanes: L, (_, looks): &Numbers<L>, mask: L::Mask) -> (L::U32, L::Mask) {
+        self.0.shade_lanes(lanes, looks, mask)
+    }
+}
+
+/// A stage with an image on it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Thrown<F, I>(pub(super) Slide<F, I>);
+
+impl<F, Fl> FragmentStage<Carried> for Thrown<F, Sampler<'_, Rgba8, Fl, Clamp>>
+where
+    F: FragmentStage<Carried, Color = Rgba8>,
+    Fl: Filter,
+{
+    type Color = Rgba8;
+
+    #[inline(always)]
+    fn shade(&self, carried: Carried) -> Option<Rgba8> {
+        self.0.shade((carried.0, carried))
+    }
+
+    #[inline(always)]
+    fn shade_lanes<L: Lanes>(&self, lanes: L, carried: &Numbers<L>, mask: L::Mask) -> (L::U32, L::Mask) {
+        self.0.shade_lanes(lanes, &(carried.0, *carried), mask)
+    }
+}
+
+/// A surface that takes the first of what is carried.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OfFirst<F>(pub(super) F);
+
+impl<F: FragmentStage<Vec3, Color = Rgba8>> FragmentStage<Looks> for OfFirst<F> {
+    type Color = Rgba8;
+
+    #[inline(always)]
+    fn shade(&self, (first, _): Looks) -> Option<Rgba8> {
         self.0.shade(first)
     }
 
@@ -137,11 +190,11 @@ impl<F: FragmentStage<Vec3, Color = Rgba8>> FragmentStage<Carried> for OfFirst<F
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OfUv<F>(pub(super) F);
 
-impl<F: FragmentStage<Vec2, Color = Rgba8>> FragmentStage<Carried> for OfUv<F> {
+impl<F: FragmentStage<Vec2, Color = Rgba8>> FragmentStage<Looks> for OfUv<F> {
     type Color = Rgba8;
 
     #[inline(always)]
-    fn shade(&self, (_, uv): Carried) -> Option<Rgba8> {
+    fn shade(&self, (_, uv): Looks) -> Option<Rgba8> {
         self.0.shade(uv)
     }
 

@@ -1,7 +1,7 @@
 //! Any policies with any fragment stage: a kernel for each of the rasterizer's policies, and the stage behind a
 //! pointer.
 
-use super::erased::{Carried, Erased, ErasedFixed, OfFirst, OfUv, erase, erase_fixed};
+use super::erased::{Bare, Carried, Erased, ErasedFixed, Looks, OfFirst, OfUv, Thrown, erase, erase_fixed};
 use super::lines::Lines;
 use super::{Canvas, color, lambert, position};
 use crate::options::{Filter, Interpolation, Numbers, Shading, Subpixel, Wrap};
@@ -9,20 +9,59 @@ use crate::scene::{Part, Vertex};
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::{Floating, Machine, One};
 use alberti::raster::FloatingPoint;
-use alberti::shaders::{Solid, Tinted, Unlit, VertexColor};
-use alberti::texture::{self, Size, Texture};
+use alberti::shaders::{Modulate, Slide, Solid, Tinted, Unlit, VertexColor};
+use alberti::texture::{self, Clamp, Size, Texture};
 use alberti::{
-    Band, Bounded, DepthFormat, Exact, FixedPoint, FragmentStage, Object, Plane, Point3, Rgba8, Sub4, Sub8,
-    Vector3, World, draw_by, for_lanes,
+    Band, Bounded, DepthFormat, Exact, FixedPoint, FragmentStage, Homogeneous, Object, Plane, Point3,
+    Projector, Rgba8, Sub4, Sub8, Vector3, VertexStage, World, draw_by, for_lanes,
 };
 
-/// The vertex stages: one type for all, whatever is carried.
-type VertexStage = fn(&Vertex) -> (Point3<Object>, Carried);
+/// From names to types: the filter of what is thrown on a surface.
+macro_rules! with_slide {
+    ($slide:expr, $surface:expr, |$stage:ident| $body:expr) => {
+        with_slide!(@ $slide, $surface, $stage, $body, Nearest, Bilinear)
+    };
+    (@ $slide:expr, $surface:expr, $stage:ident, $body:expr, $($filter:ident),*) => {
+        match $slide {
+            $((image, Filter::$filter) => {
+                let image = image.sampler::<texture::$filter, Clamp>();
+                let $stage = Thrown(Slide { surface: $surface, image, mix: Modulate });
+                $body
+            })*
+        }
+    };
+}
+
+/// The vertex stages: one type for all, whatever is carried. What the fragment stage does not need is constant, so that
+/// it has no part in how far a straight line may go.
+#[derive(Clone, Copy)]
+struct Carry {
+    shading: Shading,
+    textured: bool,
+    projector: Option<Projector>,
+}
+
+impl VertexStage<Vertex> for Carry {
+    type Varying = Carried;
+
+    fn shade(&self, v: &Vertex) -> (Point3<Object>, Carried) {
+        let first = match self.shading {
+            Shading::VertexColor => Vec3::from_array(v.color),
+            Shading::Unlit => Vec3::ZERO,
+            Shading::Lambert => Vec3::from_array(v.normal),
+        };
+        let uv = if self.textured { Vec2::from_array(v.uv) } else { Vec2::ZERO };
+        // The model stands in the world where it was made.
+        let world = Point3::new(Vec3::from_array(v.position));
+        let place = self.projector.map_or(Homogeneous::default(), |projector| projector.project(world));
+        (position(v), (place, (first, uv)))
+    }
+}
 
 /// Triangles of a part, and where they go.
 struct Triangles<'t, 'b, D: DepthFormat> {
     triangles: &'t [[u32; 3]],
-    vertex_stage: VertexStage,
+    vertex_stage: Carry,
     band: &'t mut Band<'b, Rgba8, D>,
 }
 
@@ -35,7 +74,7 @@ impl<'a> Canvas<'a> {
         band: &mut Band<'_, Rgba8, D>,
     ) {
         let surface = self.surface(part);
-        let target = &mut Triangles { triangles, vertex_stage: surface.vertex_stage(), band };
+        let target = &mut Triangles { triangles, vertex_stage: surface.carry(), band };
         let policies = self.options.policies;
         match self.lines() {
             None if policies.interpolation == Interpolation::Plane => self.in_floats(Plane, &surface, target),
@@ -43,9 +82,10 @@ impl<'a> Canvas<'a> {
             Some(lines) if policies.numbers == Numbers::Float => {
                 self.in_floats(FloatingPoint(lines), &surface, target);
             }
-            Some(lines) => surface.visit(&mut EraseFixed(&mut |stage| {
-                self.snapped(One, FixedPoint(lines), stage, target);
-            })),
+            Some(lines) => surface.visit(&mut EraseFixed {
+                slide: surface.slide,
+                then: &mut |stage| self.snapped(One, FixedPoint(lines), stage, target),
+            }),
         }
     }
 
@@ -58,6 +98,7 @@ impl<'a> Canvas<'a> {
         let Some(machine) = Machine::all().next() else { return };
         for_lanes!(machine, lanes => surface.visit(&mut Erase {
             lanes,
+            slide: surface.slide,
             then: &mut |stage| self.snapped(lanes, interpolation, stage, target),
         }));
     }
@@ -88,7 +129,7 @@ impl<'a> Canvas<'a> {
         F: FragmentStage<Carried, Color = Rgba8>,
         D: DepthFormat,
     {
-        let pass = self.pass(triangles, *vertex_stage, stage, interpolation);
+        let pass = self.pass(self.either, triangles, *vertex_stage, stage, interpolation);
         draw_by(lanes, &pass, band, &mut self.slots::<S, Carried>(triangles), &mut self.stats);
     }
 
@@ -115,6 +156,8 @@ impl<'a> Canvas<'a> {
             shading: self.options.shading,
             filter: self.options.filter,
             wrap: self.options.wrap,
+            projector: self.slide.map(|(projector, _)| projector),
+            slide: self.slide.map(|(_, image)| (image, self.options.filter)),
         }
     }
 }
@@ -127,21 +170,17 @@ struct Surface<'a> {
     shading: Shading,
     filter: Filter,
     wrap: Wrap,
+    projector: Option<Projector>,
+    slide: Option<SlideImage<'a>>,
 }
 
+/// What is thrown on a surface, and how it is read.
+type SlideImage<'a> = (Texture<'a, Rgba8>, Filter);
+
 impl Surface<'_> {
-    /// What the stage does not need is constant, so that it has no part in how far a straight line may go.
-    fn vertex_stage(&self) -> VertexStage {
-        let textured = self.texture.is_some();
-        match self.shading {
-            Shading::VertexColor => |v| (position(v), (Vec3::from_array(v.color), Vec2::ZERO)),
-            Shading::Unlit if textured => |v| (position(v), (Vec3::ZERO, Vec2::from_array(v.uv))),
-            Shading::Unlit => |v| (position(v), (Vec3::ZERO, Vec2::ZERO)),
-            Shading::Lambert if textured => {
-                |v| (position(v), (Vec3::from_array(v.normal), Vec2::from_array(v.uv)))
-            }
-            Shading::Lambert => |v| (position(v), (Vec3::from_array(v.normal), Vec2::ZERO)),
-        }
+    fn carry(&self) -> Carry {
+        let textured = self.texture.is_some() && self.shading != Shading::VertexColor;
+        Carry { shading: self.shading, textured, projector: self.projector }
     }
 
     /// From names to types: the fragment stage.
@@ -172,28 +211,40 @@ impl Surface<'_> {
     }
 }
 
-/// Something to do with a fragment stage of whatever type.
+/// Something to do with a surface of whatever type.
 trait Visitor {
-    fn visit(&mut self, stage: impl FragmentStage<Carried, Color = Rgba8>);
+    fn visit(&mut self, surface: impl FragmentStage<Looks, Color = Rgba8>);
 }
 
-/// Goes on with the stage behind a pointer.
-struct Erase<'a, L: Floating> {
+/// Goes on with the surface behind a pointer, and the image on it, if there is one, behind another.
+struct Erase<'t, 'a, L: Floating> {
     lanes: L,
-    then: &'a mut dyn FnMut(Erased<'_, L>),
+    slide: Option<SlideImage<'a>>,
+    then: &'t mut dyn FnMut(Erased<'_, L>),
 }
 
-impl<L: Floating> Visitor for Erase<'_, L> {
-    fn visit(&mut self, stage: impl FragmentStage<Carried, Color = Rgba8>) {
-        erase(self.lanes, stage, self.then);
+impl<L: Floating> Visitor for Erase<'_, '_, L> {
+    fn visit(&mut self, surface: impl FragmentStage<Looks, Color = Rgba8>) {
+        let Self { lanes, slide, then } = self;
+        erase(*lanes, Bare(surface), &mut |surface| match *slide {
+            None => then(surface),
+            Some(slide) => with_slide!(slide, surface, |stage| erase(*lanes, stage, *then)),
+        });
     }
 }
 
 /// The same in fixed point.
-struct EraseFixed<'a>(&'a mut dyn FnMut(ErasedFixed<'_>));
+struct EraseFixed<'t, 'a> {
+    slide: Option<SlideImage<'a>>,
+    then: &'t mut dyn FnMut(ErasedFixed<'_>),
+}
 
-impl Visitor for EraseFixed<'_> {
-    fn visit(&mut self, stage: impl FragmentStage<Carried, Color = Rgba8>) {
-        erase_fixed(stage, self.0);
+impl Visitor for EraseFixed<'_, '_> {
+    fn visit(&mut self, surface: impl FragmentStage<Looks, Color = Rgba8>) {
+        let Self { slide, then } = self;
+        erase_fixed(Bare(surface), &mut |surface| match *slide {
+            None => then(surface),
+            Some(slide) => with_slide!(slide, surface, |stage| erase_fixed(stage, *then)),
+        });
     }
 }

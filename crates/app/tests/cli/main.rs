@@ -2,6 +2,7 @@
 
 mod errors;
 mod policies;
+mod projection;
 mod success;
 
 use std::ffi::OsStr;
