@@ -46,14 +46,14 @@ impl<I: EdgeInt, N: Numbers> KnownRow<'_, I, N> {
         let Self { numbers, row, known, left } = self;
         let after = (column | (length - 1)) + 1;
         let last = after.min(row.covered.end - 1);
-        // What the run before has left is that of this column.
-        let (first, ends) = if let Some(ends) = left {
-            (column, numbers.extend(policy, row, known, ends, last))
-        } else {
-            let first = row.covered.start.max(column & !(length - 1));
-            let ends = numbers.begin(policy, row, known, first);
-            let alone = last == first;
-            (first, if alone { ends } else { numbers.extend(policy, row, known, &ends, last) })
+        let first = row.covered.start.max(column & !(length - 1));
+        let ends = match left {
+            // What the run before has left is that of this column.
+            Some(ends) if first == column => numbers.extend(policy, row, known, ends, last),
+            _ => {
+                let ends = numbers.begin(policy, row, known, first);
+                if last == first { ends } else { numbers.extend(policy, row, known, &ends, last) }
+            }
         };
         Run { columns: [first, last], ends, next: after.min(row.covered.end), length }
     }
