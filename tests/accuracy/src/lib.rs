@@ -58,6 +58,15 @@ impl Row {
     ) -> Self {
         Self { function, region: region.into(), bound, measure: Box::new(measure) }
     }
+
+    /// The number of this row's stream of samples: from its names (FNV-1a), so that its figures stay the same wherever
+    /// it stands and whatever rows come and go.
+    #[must_use]
+    pub fn stream(&self) -> u64 {
+        let bytes = self.function.bytes().chain(self.region.bytes());
+        bytes
+            .fold(0xCBF2_9CE4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3))
+    }
 }
 
 impl fmt::Debug for Row {
