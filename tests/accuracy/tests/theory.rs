@@ -1,0 +1,122 @@
+//! What docs/theory.md says is so: its files and tests are there, its functions too, and its figures are those of
+//! docs/accuracy.md.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+fn docs() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs")
+}
+
+fn read(path: &Path) -> String {
+    std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// What stands between backquotes, each with what follows up to the next.
+fn quoted(text: &str) -> impl Iterator<Item = (&str, &str)> {
+    let mut rest = text;
+    std::iter::from_fn(move || {
+        let (_, after) = rest.split_once('`')?;
+        let (inside, after) = after.split_once('`')?;
+        rest = after;
+        Some((inside, after.split('`').next().unwrap_or("")))
+    })
+}
+
+/// Whether an item of this name is declared.
+fn declares(source: &str, kinds: &[&str], name: &str) -> bool {
+    kinds.iter().any(|kind| {
+        let declaration = format!("{kind} {name}");
+        source.match_indices(&declaration).any(|(at, _)| {
+            let after = source[at + declaration.len()..].chars().next();
+            !after.is_some_and(|c| c.is_alphanumeric() || c == '_')
+        })
+    })
+}
+
+/// The files of a folder and of those in it, one after the other.
+fn sources(folder: &Path) -> String {
+    let entries = std::fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let paths = entries.map(|entry| entry.expect("a readable folder").path());
+    paths.map(|path| if path.is_dir() { sources(&path) } else { read(&path) }).collect()
+}
+
+/// The largest error and the bound, as printed, of a function's rows: of all, or of those of one region.
+fn figures(accuracy: &str, function: &str, region: Option<&str>) -> Option<[String; 2]> {
+    let rows = accuracy.lines().filter_map(|line| {
+        let cells: Vec<&str> = line.split(" | ").collect();
+        let [name, of, bound, max, ..] = cells[..] else { return None };
+        let wanted = name == format!("| `{function}`") && region.is_none_or(|region| region == of);
+        wanted.then_some([max, bound])
+    });
+    let larger = |a: &str, b: &str| {
+        let number = |x: &str| if x == "∞" { f64::INFINITY } else { x.parse().expect("a number") };
+        if number(a) < number(b) { b.to_owned() } else { a.to_owned() }
+    };
+    rows.map(|row| row.map(str::to_owned)).reduce(|[a, b], [c, d]| [larger(&a, &c), larger(&b, &d)])
+}
+
+/// "2.46 of 3.00" at the start of what follows a name and a colon, or a comma, a region and a colon.
+fn claim(after: &str) -> Option<(Option<&str>, [&str; 2])> {
+    let (before, claim) = after.split_once(": ")?;
+    let region = if before.is_empty() { None } else { Some(before.strip_prefix(", ")?) };
+    let (max, rest) = claim.split_once(" of ")?;
+    max.parse::<f64>().ok()?;
+    Some((region, [max, rest.split([' ', ';']).next()?]))
+}
+
+#[test]
+fn what_the_page_names_is_there() {
+    let (page, accuracy) = (read(&docs().join("theory.md")), read(&docs().join("accuracy.md")));
+    let links: HashMap<&str, &str> =
+        page.lines().filter_map(|line| line.strip_prefix('[')?.split_once("]: ")).collect();
+    let files: HashMap<&str, String> =
+        links.iter().map(|(&name, link)| (name, read(&docs().join(link)))).collect();
+    let crates = docs().join("../crates");
+    let mut libraries: HashMap<&str, String> = ["math", "projection", "raster", "texture"]
+        .map(|name| (name, sources(&crates.join(name).join("src"))))
+        .into();
+    libraries.insert("", sources(&crates.join("alberti/src")));
+
+    let (mut wrong, mut checked) = (Vec::new(), [0; 3]);
+    for cell in page.lines().flat_map(|line| line.split(" | ")) {
+        // Tests, behind the file that has them.
+        for part in cell.split('[').skip(1) {
+            let Some((name, after)) = part.split_once(']') else { continue };
+            if !name.ends_with(".rs") {
+                continue;
+            }
+            let Some(source) = files.get(name) else {
+                wrong.push(format!("[{name}] leads nowhere"));
+                continue;
+            };
+            for (test, _) in quoted(after) {
+                checked[0] += 1;
+                if !declares(source, &["fn"], test) {
+                    wrong.push(format!("[{name}] has no `{test}`"));
+                }
+            }
+        }
+        for (name, after) in quoted(cell) {
+            if let Some(path) = name.strip_prefix("alberti").filter(|path| path.contains("::")) {
+                checked[1] += 1;
+                let (library, path) = path.split_once("::").expect("a path");
+                let source = libraries.get(library.trim_start_matches('_'));
+                // The type and its function, or whatever the path leads to.
+                let kinds = ["fn", "struct", "enum", "trait", "mod"];
+                if !source.is_some_and(|s| path.split("::").all(|item| declares(s, &kinds, item))) {
+                    wrong.push(format!("there is no `{name}`"));
+                }
+            } else if let Some((region, [max, bound])) = claim(after) {
+                checked[2] += 1;
+                let found = figures(&accuracy, name, region);
+                if found.as_ref().is_none_or(|[m, b]| m != max || b != bound) {
+                    wrong.push(format!("`{name}` {region:?}: {max} of {bound}, found {found:?}"));
+                }
+            }
+        }
+    }
+    println!("{checked:?} tests, functions, figures");
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(checked.iter().all(|&n| n > 40), "{checked:?}");
+}
