@@ -12,6 +12,8 @@ mod color_triangle;
 mod depth_precision;
 #[path = "../../crates/alberti/examples/perspective_cube.rs"]
 mod perspective_cube;
+#[path = "../../crates/alberti/examples/slide_projector.rs"]
+mod slide_projector;
 
 use std::error::Error;
 use std::path::Path;
@@ -42,4 +44,9 @@ fn affine_and_hyperbolic_is_what_it_was() {
 #[test]
 fn depth_precision_is_what_it_was() {
     compare("depth_precision.png", depth_precision::picture());
+}
+
+#[test]
+fn slide_projector_is_what_it_was() {
+    compare("slide_projector.png", slide_projector::picture());
 }

@@ -1,12 +1,17 @@
 //! A slide projector in a dim room: one image over two walls, the floor and a box, without a texture coordinate in the
-//! model. Writes `slide_projector.png`, or the file that is named.
+//! model.
+//!
+//!     cargo run --release -p alberti --example slide_projector -- slide_projector.png
+
+mod common;
 
 use alberti::glam::Vec3;
 use alberti::shaders::{Add, Lambert, Slide, VertexColor};
 use alberti::texture::{Bilinear, Clamp, Texture};
 use alberti::*;
+use std::process::ExitCode;
 
-const SIZE: [u16; 2] = [960, 640];
+const SIZE: [u16; 2] = [480, 320];
 const SLIDE: [u16; 2] = [96, 64];
 
 /// A corner of a face.
@@ -17,7 +22,11 @@ struct Corner {
     color: Vec3,
 }
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+fn main() -> ExitCode {
+    common::write("slide_projector.png", picture)
+}
+
+pub(crate) fn picture() -> common::File {
     let [width, height] = SIZE.map(u32::from);
     let (vertices, triangles) = room();
     let slide = slide();
@@ -57,12 +66,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut band = Band::<Rgba8, F32>::new(width, 0, &mut color, &mut depth)?;
     band.clear(Rgba8::BLACK);
     draw(&pass, &mut band, &mut vec![Slot::<Sub8, _>::EMPTY; vertices.len()], &mut ());
-
-    let path = std::env::args_os().nth(1).unwrap_or_else(|| "slide_projector.png".into());
-    let bytes: Vec<u8> = color.into_iter().flat_map(u32::to_ne_bytes).collect();
-    image::save_buffer(&path, &bytes, width, height, image::ColorType::Rgba8)?;
-    println!("{}", path.display());
-    Ok(())
+    common::png(width, &color)
 }
 
 /// At `eye`, pointed at `target`, upright: a camera's place, and a projector's.
