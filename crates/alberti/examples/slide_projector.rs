@@ -1,5 +1,5 @@
 //! A slide projector in a dim room: one image over two walls, the floor and a box, without a texture coordinate in the
-//! model.
+//! model. Beside it what comes of dividing at the vertices instead of the fragments, which is wrong.
 //!
 //!     cargo run --release -p alberti --example slide_projector -- slide_projector.png
 
@@ -11,7 +11,8 @@ use alberti::texture::{Bilinear, Clamp, Texture};
 use alberti::*;
 use std::process::ExitCode;
 
-const SIZE: [u16; 2] = [480, 320];
+/// Of each of the two.
+const SIZE: [u16; 2] = [264, 198];
 const SLIDE: [u16; 2] = [96, 64];
 
 /// A corner of a face.
@@ -27,6 +28,22 @@ fn main() -> ExitCode {
 }
 
 pub(crate) fn picture() -> common::File {
+    let [width, height] = SIZE.map(u32::from);
+    let mut pixels = vec![0; 2 * (width * height) as usize];
+    let right = throw(|on_image| on_image)?;
+    // What is between two vertices is then not what is between their places on the image.
+    let wrong = throw(|Homogeneous { u, v, q }| Homogeneous { u: u / q, v: v / q, q: 1.0 })?;
+    let columns = width as usize;
+    let rows = right.chunks(columns).zip(wrong.chunks(columns));
+    for (both, (right, wrong)) in pixels.chunks_mut(2 * columns).zip(rows) {
+        both[..columns].copy_from_slice(right);
+        both[columns..].copy_from_slice(wrong);
+    }
+    common::png(2 * width, &pixels)
+}
+
+/// The room, whose vertices carry what `carried` makes of their places on the image.
+fn throw(carried: fn(Homogeneous) -> Homogeneous) -> Result<Vec<u32>, Box<dyn std::error::Error>> {
     let [width, height] = SIZE.map(u32::from);
     let (vertices, triangles) = room();
     let slide = slide();
@@ -48,7 +65,7 @@ pub(crate) fn picture() -> common::File {
         // The room stands in the world where it was built. What the projector says is linear in space, so that vertices
         // may carry it; the division is the fragments' affair.
         vertex_stage: |corner: &Corner| {
-            let on_image = projector.project(Point3::new(corner.position));
+            let on_image = carried(projector.project(Point3::new(corner.position)));
             (Point3::new(corner.position), (on_image, (corner.normal, corner.color)))
         },
         fragment_stage: Slide {
@@ -66,7 +83,7 @@ pub(crate) fn picture() -> common::File {
     let mut band = Band::<Rgba8, F32>::new(width, 0, &mut color, &mut depth)?;
     band.clear(Rgba8::BLACK);
     draw(&pass, &mut band, &mut vec![Slot::<Sub8, _>::EMPTY; vertices.len()], &mut ());
-    common::png(width, &color)
+    Ok(color)
 }
 
 /// At `eye`, pointed at `target`, upright: a camera's place, and a projector's.
