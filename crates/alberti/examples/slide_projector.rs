@@ -12,7 +12,7 @@ use alberti::*;
 use std::process::ExitCode;
 
 /// Of each of the two.
-const SIZE: [u16; 2] = [264, 198];
+const SIZE: [u16; 2] = [256, 192];
 const SLIDE: [u16; 2] = [96, 64];
 
 /// A corner of a face.
