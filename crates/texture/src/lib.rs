@@ -10,6 +10,7 @@ mod filter;
 pub mod format;
 mod sampler;
 mod size;
+pub mod surface;
 mod texture;
 mod wrap;
 

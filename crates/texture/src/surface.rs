@@ -1,0 +1,21 @@
+//! Detail on surfaces: tangent frames, and what height and normal maps do in them.
+//!
+//! A texture describes the detail in a frame that lies on the surface, the tangent frame: x along the direction in
+//! which u grows, y along that of v, z along the normal. So one map serves for all surfaces, however they bend.
+//!
+//! | step | from | to |
+//! |---|---|---|
+//! | tangent frame of a formula | [`Parametric`] | `Frame<Tangent, Object>` |
+//! | tangent frame of a triangle | [`triangle_frame`] | `Frame<Tangent, Object>` |
+//!
+//! Source: Blinn, "Simulation of wrinkled surfaces", SIGGRAPH 1978, for the frame and the bump; each function names its
+//! own.
+
+mod parametric;
+mod tangent;
+mod unit;
+
+pub use parametric::{Cylinder, Differences, Parametric, Plane, Sphere, Torus};
+pub use tangent::{
+    Tangent, frame_of_derivatives, frame_of_normal, orthonormal, triangle_directions, triangle_frame,
+};

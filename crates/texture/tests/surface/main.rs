@@ -1,0 +1,12 @@
+//! What the functions on surfaces promise, against closed forms and `f64`.
+
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
+    clippy::cast_sign_loss,
+    reason = "random numbers within the range of what they become"
+)]
+
+mod parametric;
+mod support;
+mod triangle;
