@@ -7,14 +7,17 @@
 //! |---|---|---|
 //! | tangent frame of a formula | [`Parametric`] | `Frame<Tangent, Object>` |
 //! | tangent frame of a triangle | [`triangle_frame`] | `Frame<Tangent, Object>` |
+//! | tangents of a mesh | [`vertex_tangents`], [`frame_of_tangent`] | as in glTF; `Frame<Tangent, Object>` |
 //!
 //! Source: Blinn, "Simulation of wrinkled surfaces", SIGGRAPH 1978, for the frame and the bump; each function names its
 //! own.
 
+mod mesh;
 mod parametric;
 mod tangent;
 mod unit;
 
+pub use mesh::{LengthError, frame_of_tangent, vertex_normals, vertex_tangents};
 pub use parametric::{Cylinder, Differences, Parametric, Plane, Sphere, Torus};
 pub use tangent::{
     Tangent, frame_of_derivatives, frame_of_normal, orthonormal, triangle_directions, triangle_frame,

@@ -7,6 +7,7 @@
     reason = "random numbers within the range of what they become"
 )]
 
+mod mesh;
 mod parametric;
 mod support;
 mod triangle;
