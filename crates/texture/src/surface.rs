@@ -8,16 +8,23 @@
 //! | tangent frame of a formula | [`Parametric`] | `Frame<Tangent, Object>` |
 //! | tangent frame of a triangle | [`triangle_frame`] | `Frame<Tangent, Object>` |
 //! | tangents of a mesh | [`vertex_tangents`], [`frame_of_tangent`] | as in glTF; `Frame<Tangent, Object>` |
+//! | normal map | [`normal`], [`normal_of_two`], [`strengthened`] | a normal in the frame |
+//! | out of the frame | [`normal_to_parent`] | a normal in object space |
 //!
 //! Source: Blinn, "Simulation of wrinkled surfaces", SIGGRAPH 1978, for the frame and the bump; each function names its
 //! own.
 
 mod mesh;
+mod normal;
 mod parametric;
 mod tangent;
 mod unit;
 
 pub use mesh::{LengthError, frame_of_tangent, vertex_normals, vertex_tangents};
+pub use normal::{
+    Centred, NormalEncoding, Unorm, normal, normal_lanes, normal_of_two, normal_of_two_lanes,
+    normal_to_parent, strengthened, strengthened_lanes,
+};
 pub use parametric::{Cylinder, Differences, Parametric, Plane, Sphere, Torus};
 pub use tangent::{
     Tangent, frame_of_derivatives, frame_of_normal, orthonormal, triangle_directions, triangle_frame,

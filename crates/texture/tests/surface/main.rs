@@ -8,6 +8,7 @@
 )]
 
 mod mesh;
+mod normal;
 mod parametric;
 mod support;
 mod triangle;

@@ -1,0 +1,168 @@
+//! Normal maps: a direction in each texel, instead of a colour.
+//!
+//! Space in: texels as words, as [`Rgba8::to_bits`] makes them and samplers return them. Space out: unit vectors, in
+//! the tangent frame or in object space, whichever the map was made for. One in object space fits one object; one in
+//! the tangent frame fits all.
+//!
+//! Everything is written over lanes; the functions on one texel are those on one lane, so they give the same bits.
+
+use super::tangent::Tangent;
+use alberti_math::lanes::{Floating, One};
+use alberti_math::{Frame, Rgba8, Space, Vector3};
+use core::fmt::Debug;
+use glam::Vec3;
+
+/// Which number a byte stands for: [`Unorm`] or [`Centred`].
+pub trait NormalEncoding: Copy + Debug + Default + 'static {
+    /// The numerator that stands for 1: 127 or more, at most 255.
+    const ONE: f32;
+
+    /// The number that a byte stands for, times [`ONE`](Self::ONE): an integer from -`ONE` to `ONE`.
+    fn numerator<L: Floating>(lanes: L, byte: L::U32) -> L::Number;
+}
+
+/// A byte c stands for 2c/255 − 1, as in glTF and as GPUs read `unorm` textures: -1 and 1 are exact, 0 does not exist.
+/// So the usual flat blue (128, 128, 255) is tilted by 0.32° towards the corner.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Unorm;
+
+/// A byte c stands for (c − 128)/127, and 0 for -1 as 1 does: 128 is exactly 0, and (128, 128, 255) is exactly flat. It
+/// is what `snorm` is, with the highest bit turned. (128, 128, 128), which has no direction, is flat.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Centred;
+
+impl NormalEncoding for Unorm {
+    const ONE: f32 = 255.0;
+
+    #[inline(always)]
+    fn numerator<L: Floating>(lanes: L, byte: L::U32) -> L::Number {
+        let number = lanes.to_numbers(byte);
+        number + number - lanes.splat(255.0)
+    }
+}
+
+impl NormalEncoding for Centred {
+    const ONE: f32 = 127.0;
+
+    #[inline(always)]
+    fn numerator<L: Floating>(lanes: L, byte: L::U32) -> L::Number {
+        lanes.max(lanes.to_numbers(byte) - lanes.splat(128.0), lanes.splat(-127.0))
+    }
+}
+
+/// The direction that red, green and blue stand for, as a unit vector of the space that the map was made for.
+///
+/// # Precision
+/// Each component is within 2ε of itself (ε = 2^-24), and the length within 2ε of 1, for all 2^24 texels; the
+/// direction, as all components share the error of the length, within 1.1ε radians.
+///
+/// # Cost
+/// A square root and three divisions.
+///
+/// ```
+/// use alberti_math::{Object, Rgba8};
+/// use alberti_texture::surface::{Centred, Tangent, Unorm, normal};
+/// use glam::Vec3;
+///
+/// let flat = Rgba8::new(128, 128, 255, 255);
+/// assert_eq!(normal::<Centred, Tangent>(flat).coords, Vec3::Z);
+/// assert!(normal::<Unorm, Tangent>(flat).coords.x > 0.0039);
+/// // In object space, any direction is one.
+/// assert_eq!(normal::<Centred, Object>(Rgba8::new(1, 128, 128, 255)).coords, Vec3::NEG_X);
+/// ```
+#[must_use]
+#[inline]
+pub fn normal<E: NormalEncoding, S: Space>(texel: Rgba8) -> Vector3<S> {
+    Vector3::new(Vec3::from(normal_lanes::<E, One>(One, core::num::Wrapping(texel.to_bits()))))
+}
+
+/// [`normal`] of several texels.
+#[must_use]
+#[inline(always)]
+pub fn normal_lanes<E: NormalEncoding, L: Floating>(lanes: L, texels: L::U32) -> [L::Number; 3] {
+    let channel = |bits| E::numerator(lanes, lanes.shr(texels, bits) & lanes.word(255));
+    // Squares of integers up to 255, so that their sum is exact.
+    unit_lanes(lanes, [channel(0), channel(8), channel(16)])
+}
+
+/// The direction of a tangent-space map that stores x and y only, in red and green: z is what is left of length 1, √(1
+/// − x² − y²), and 0 where x and y alone are longer, whose direction is kept.
+///
+/// Near the horizon, where z is small, the steps of x and y are steps of z: by up to 5.6° for bytes, and 0.6° where z
+/// is above one half.
+///
+/// # Precision
+/// Within 2ε of each component (ε = 2^-24), and of length 1, for all 2^16 pairs of bytes.
+///
+/// # Cost
+/// Two square roots and three divisions.
+#[must_use]
+#[inline]
+pub fn normal_of_two<E: NormalEncoding>(texel: Rgba8) -> Vector3<Tangent> {
+    Vector3::new(Vec3::from(normal_of_two_lanes::<E, One>(One, core::num::Wrapping(texel.to_bits()))))
+}
+
+/// [`normal_of_two`] of several texels.
+#[must_use]
+#[inline(always)]
+pub fn normal_of_two_lanes<E: NormalEncoding, L: Floating>(lanes: L, texels: L::U32) -> [L::Number; 3] {
+    let channel = |bits| E::numerator(lanes, lanes.shr(texels, bits) & lanes.word(255));
+    let [x, y] = [channel(0), channel(8)];
+    // All squares are integers below 2^24.
+    let (whole, across) = (lanes.splat(E::ONE * E::ONE), x * x + y * y);
+    let z = lanes.sqrt(lanes.max(whole - across, lanes.splat(0.0)));
+    let length = lanes.sqrt(lanes.max(whole, across));
+    [x / length, y / length, z / length]
+}
+
+/// The normal of a surface whose slopes are `strength` times those that this normal has: 0 is flat, 1 as it is,
+/// negative turns hills into valleys.
+///
+/// The slopes are −x/z and −y/z, so x and y are multiplied, and the vector made unit again. A `strength` beyond ±65536
+/// counts as that, and NaN as 0.
+///
+/// # Precision
+/// For a unit vector, each component is within 5ε of itself (ε = 2^-24), and the length within 4ε of 1.
+///
+/// # Cost
+/// A square root and three divisions.
+#[must_use]
+#[inline]
+pub fn strengthened(normal: Vector3<Tangent>, strength: f32) -> Vector3<Tangent> {
+    Vector3::new(Vec3::from(strengthened_lanes(One, normal.coords.to_array(), strength)))
+}
+
+/// [`strengthened`] for several normals.
+#[must_use]
+#[inline(always)]
+pub fn strengthened_lanes<L: Floating>(lanes: L, [x, y, z]: [L::Number; 3], strength: f32) -> [L::Number; 3] {
+    let strength = if strength.is_nan() { 0.0 } else { strength.clamp(-65536.0, 65536.0) };
+    let strength = lanes.splat(strength);
+    unit_lanes(lanes, [x * strength, y * strength, z])
+}
+
+/// A normal of the tangent frame as a unit vector of the frame's parent.
+///
+/// The frame is one with unit axes; those that are interpolated between vertices need not be made unit or perpendicular
+/// again, as maps that were made for MikkTSpace expect.
+///
+/// # Precision
+/// Within 6ε radians (ε = 2^-24) for axes at right angles, and the length within 3.1ε of 1, if the transformed vector
+/// is between 2^-60 and 2^60 long. (0, 0, 1) where it is zero.
+///
+/// # Cost
+/// Nine multiplications, a square root and three divisions.
+#[must_use]
+#[inline]
+pub fn normal_to_parent<P: Space>(frame: &Frame<Tangent, P>, normal: Vector3<Tangent>) -> Vector3<P> {
+    Vector3::new(Vec3::from(unit_lanes(One, frame.vector_to_parent(normal).coords.to_array())))
+}
+
+/// A vector divided by its length; (0, 0, 1) for zero. In `f32`, so lengths must be between 2^-60 and 2^60.
+#[inline(always)]
+pub(super) fn unit_lanes<L: Floating>(lanes: L, [x, y, z]: [L::Number; 3]) -> [L::Number; 3] {
+    let square = x * x + y * y + z * z;
+    let any = lanes.less(lanes.splat(0.0), square);
+    let length = lanes.select(any, lanes.sqrt(square), lanes.splat(1.0));
+    [x / length, y / length, lanes.select(any, z, lanes.splat(1.0)) / length]
+}
