@@ -9,6 +9,8 @@
 //! | tangent frame of a triangle | [`triangle_frame`] | `Frame<Tangent, Object>` |
 //! | tangents of a mesh | [`vertex_tangents`], [`frame_of_tangent`] | as in glTF; `Frame<Tangent, Object>` |
 //! | normal map | [`normal`], [`normal_of_two`], [`strengthened`] | a normal in the frame |
+//! | bump map | [`Relief::normal`], [`bilinear_height`] and [`normal_of_slope`] | a normal in the frame |
+//! | bump map on sheared axes | [`bump`] | a normal in object space |
 //! | out of the frame | [`normal_to_parent`] | a normal in object space |
 //!
 //! Source: Blinn, "Simulation of wrinkled surfaces", SIGGRAPH 1978, for the frame and the bump; each function names its
@@ -17,6 +19,7 @@
 mod mesh;
 mod normal;
 mod parametric;
+mod relief;
 mod tangent;
 mod unit;
 
@@ -26,6 +29,7 @@ pub use normal::{
     normal_to_parent, strengthened, strengthened_lanes,
 };
 pub use parametric::{Cylinder, Differences, Parametric, Plane, Sphere, Torus};
+pub use relief::{HeightMap, Relief, bilinear_height, bump, normal_of_slope};
 pub use tangent::{
     Tangent, frame_of_derivatives, frame_of_normal, orthonormal, triangle_directions, triangle_frame,
 };

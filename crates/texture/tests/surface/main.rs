@@ -7,6 +7,7 @@
     reason = "random numbers within the range of what they become"
 )]
 
+mod bump;
 mod mesh;
 mod normal;
 mod parametric;

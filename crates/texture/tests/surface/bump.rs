@@ -1,0 +1,181 @@
+//! Bump maps, against the normals of the surfaces that they stand for.
+
+use crate::support::{EPS, angle, axes, vec2, vec3};
+use alberti_math::{Frame, Object, Point3, Vector3};
+use alberti_oracle::rng::{Rng, run_seed};
+use alberti_texture::format::L8;
+use alberti_texture::surface::{
+    Parametric, Relief, Sphere, Tangent, bilinear_height, bump, frame_of_derivatives, normal_of_slope,
+};
+use alberti_texture::{Bilinear, Clamp, Mirror, Nearest, Repeat, Texture, Wrap};
+use glam::{DVec2, DVec3, Vec2, Vec3};
+use std::f64::consts::TAU;
+
+#[test]
+fn normals_of_slopes() {
+    let mut rng = Rng::new(run_seed());
+    let mut worst = [0.0f64; 3];
+    for _ in 0..500_000 {
+        let slope = vec2(&mut rng, 1.0).signum()
+            * Vec2::new(rng.log_uniform(1e-30, 1e17), rng.log_uniform(1e-30, 1e17));
+        let found = normal_of_slope(slope).coords.as_dvec3();
+        let exact = DVec3::new((-slope.x).into(), (-slope.y).into(), 1.0).normalize();
+        for i in 0..3 {
+            let error = (found[i] - exact[i]).abs();
+            worst[0] =
+                worst[0].max(if error <= 2f64.powi(-126) { 0.0 } else { error / exact[i].abs() / EPS });
+        }
+        worst[1] = worst[1].max((found.length() - 1.0).abs() / EPS);
+        worst[2] = worst[2].max(angle(found, exact) / EPS);
+    }
+    println!("components {:.3}ε, lengths {:.3}ε, directions {:.3}ε", worst[0], worst[1], worst[2]);
+    assert!(worst[0] <= 4.0 && worst[1] <= 3.1 && worst[2] <= 2.0);
+    for slope in [Vec2::NAN, Vec2::new(f32::INFINITY, 0.0), Vec2::splat(1e30)] {
+        assert_eq!(normal_of_slope(slope).coords, Vec3::Z);
+    }
+}
+
+/// h = (1 + sin 2πu cos 2πv)/2, whose third derivatives are at most (2π)³/2.
+#[test]
+fn central_differences_keep_their_bound() {
+    let wave = |uv: Vec2| {
+        let [u, v] = [uv.x, uv.y].map(|c| TAU * f64::from(c));
+        (0.5 + 0.5 * u.sin() * v.cos()) as f32
+    };
+    let mut rng = Rng::new(run_seed());
+    let mut shares = Vec::new();
+    for exponent in [-12, -8, -6, -4] {
+        let mut worst = 0.0f64;
+        for _ in 0..50_000 {
+            let (low, high) = (rng.uniform(-2.0, 0.0) as f32, rng.uniform(0.1, 2.0) as f32);
+            let extent = Vec2::new(rng.log_uniform(0.1, 10.0), rng.log_uniform(0.1, 10.0));
+            let relief = Relief { map: wave, low, high, extent };
+            let uv = vec2(&mut rng, 1.0);
+            let step = 2f32.powi(exponent);
+            let found = relief.slope(uv, Vec2::splat(step));
+            let [u, v] = [uv.x, uv.y].map(|c| TAU * f64::from(c));
+            let (range, s) = (f64::from(high) - f64::from(low), f64::from(step));
+            let exact =
+                DVec2::new(u.cos() * v.cos(), -u.sin() * v.sin()) * (TAU / 2.0 * range) / extent.as_dvec2();
+            for i in 0..2 {
+                let bend = range / f64::from(extent[i]) * (s * s / 6.0 * TAU.powi(3) / 2.0 + EPS / s);
+                let error = (f64::from(found[i]) - exact[i]).abs();
+                worst = worst.max(error / (bend + 4.0 * EPS * exact[i].abs()));
+            }
+            let height = f64::from(low) + range * f64::from(wave(uv));
+            let error = (f64::from(relief.height(uv)) - height).abs();
+            assert!(error <= 4.0 * EPS * f64::from(low.abs().max(high)), "{error}");
+            let normal = relief.normal(uv, Vec2::splat(step));
+            assert_eq!(normal, normal_of_slope(found));
+        }
+        shares.push((exponent, worst));
+    }
+    println!("shares of the bound by step 2^k: {shares:?}");
+    assert!(shares.iter().all(|&(_, share)| share <= 1.0 && share > 0.3));
+}
+
+/// Three frames: of any derivatives, and of heights over a plane, whose normal is known without Blinn's formula.
+#[test]
+fn bumps_on_planes_and_spheres() {
+    let mut rng = Rng::new(run_seed());
+    let mut worst = 0.0f64;
+    for _ in 0..200_000 {
+        let (du, dv) = (vec3(&mut rng, 1.0), vec3(&mut rng, 1.0) * rng.log_uniform(0.01, 100.0));
+        let frame = frame_of_derivatives(Point3::new(Vec3::ZERO), Vector3::new(du), Vector3::new(dv));
+        let gradient = vec2(&mut rng, 1.0) * rng.log_uniform(1e-3, 1e3);
+        let [x, y, z] = axes(frame).map(|axis| axis.as_dvec3());
+        let n = z.normalize();
+        let found = bump(&frame, gradient).coords.as_dvec3();
+        // The raised derivatives; the frame's z is rounded, which shows where x and y are near parallel.
+        let raised = (x + n * f64::from(gradient.x)).cross(y + n * f64::from(gradient.y));
+        let terms = z.length() + f64::from(gradient.length()) * x.length().max(y.length());
+        if raised.length() > 0.1 * terms && z.length() > 0.1 * x.length() * y.length() {
+            worst = worst.max(angle(found, raised) / EPS);
+        }
+    }
+    println!("directions {worst:.3}ε");
+    assert!(worst <= 2.0);
+
+    // A higher sphere is a sphere: the gradient of a constant bends nothing.
+    let sphere = Sphere { radius: 2.0 };
+    for _ in 0..1000 {
+        let uv = Vec2::new(rng.uniform(-1.0, 1.0) as f32, rng.uniform(0.01, 0.99) as f32);
+        let (frame, unit) = (sphere.tangent_frame(uv), sphere.orthonormal_frame(uv));
+        let flat = bump(&frame, Vec2::ZERO).coords.as_dvec3();
+        assert!(angle(flat, unit.axes().z_axis.as_dvec3()) < 4.0 * EPS);
+        // On unit axes at right angles, the frame's bump is that of the slope.
+        let slope = vec2(&mut rng, 2.0);
+        let direct = unit.vector_to_parent(normal_of_slope(slope)).coords.as_dvec3();
+        assert!(angle(bump(&unit, slope).coords.as_dvec3(), direct) < 8.0 * EPS);
+    }
+    let none = Frame::<Tangent, Object>::new(
+        Point3::new(Vec3::ZERO),
+        Vector3::new(Vec3::X),
+        Vector3::new(Vec3::X),
+        Vector3::new(Vec3::ZERO),
+    );
+    assert_eq!(bump(&none, Vec2::ONE).coords, Vec3::Z);
+    assert_eq!(bump(&Frame::IDENTITY, Vec2::NAN).coords, Vec3::Z);
+}
+
+fn check_bilinear<U: Wrap, V: Wrap>(rng: &mut Rng) -> [f64; 2] {
+    let (width, height) = (rng.range(1, 9) as u32, rng.range(1, 9) as u32);
+    let texels: Vec<u8> = (0..width * height).map(|_| rng.u64() as u8).collect();
+    let texture = Texture::<L8>::new(&texels, width, height).expect("as many");
+    let uv = vec2(rng, 2.5);
+    let (found, gradient) = bilinear_height::<_, _, U, V>(&texture, uv);
+    let size = [f64::from(width), f64::from(height)];
+    let [x, y] = [0, 1].map(|k| f64::from(uv[k]) * size[k] - 0.5);
+    let nearest = texture.sampler_per_axis::<Nearest, U, V>();
+    // A texel is what the nearest filter finds in its middle.
+    let at = |i: f64, j: f64| {
+        let middle = Vec2::new(((i + 0.5) / size[0]) as f32, ((j + 0.5) / size[1]) as f32);
+        f64::from(nearest.sample(middle).to_bytes()[0]) / 255.0
+    };
+    let (i, j) = (x.floor(), y.floor());
+    let (s, t) = (x - i, y - j);
+    let [a, b, c, d] = [at(i, j), at(i + 1.0, j), at(i, j + 1.0), at(i + 1.0, j + 1.0)];
+    let exact = (1.0 - s) * (1.0 - t) * a + s * (1.0 - t) * b + (1.0 - s) * t * c + s * t * d;
+    let du = (1.0 - t) * (b - a) + t * (d - c);
+    let dv = (1.0 - s) * (c - a) + s * (d - b);
+    let bytes = texture.sampler_per_axis::<Bilinear, U, V>().sample(uv).to_bytes()[0];
+    assert!((f64::from(bytes) / 255.0 - exact).abs() < 1.5 / 255.0);
+    let errors = [(f64::from(gradient.x) / size[0] - du).abs(), (f64::from(gradient.y) / size[1] - dv).abs()];
+    [(f64::from(found) - exact).abs() / EPS, errors[0].max(errors[1]) / EPS]
+}
+
+#[test]
+fn bilinear_heights_and_gradients() {
+    let mut rng = Rng::new(run_seed());
+    let mut worst = [0.0f64; 2];
+    for _ in 0..60_000 {
+        for [height, gradient] in [
+            check_bilinear::<Repeat, Clamp>(&mut rng),
+            check_bilinear::<Clamp, Mirror>(&mut rng),
+            check_bilinear::<Mirror, Repeat>(&mut rng),
+        ] {
+            worst = [worst[0].max(height), worst[1].max(gradient)];
+        }
+    }
+    println!("heights {:.3}ε, gradients {:.3}ε of the size", worst[0], worst[1]);
+    assert!(worst[0] <= 6.0 && worst[1] <= 6.0);
+    let texture = Texture::<L8>::new(&[0, 255], 2, 1).expect("as many");
+    assert_eq!(
+        bilinear_height::<_, _, Repeat, Repeat>(&texture, Vec2::new(0.5, 0.0)),
+        (0.5, Vec2::new(2.0, 0.0))
+    );
+    for bad in [f32::NAN, f32::INFINITY, f32::MIN, 1e30] {
+        let (height, gradient) = bilinear_height::<_, _, Repeat, Clamp>(&texture, Vec2::splat(bad));
+        assert!((0.0..=1.0).contains(&height) && gradient.abs().max_element() <= 2.0, "{bad}");
+    }
+}
+
+/// A sampler is a height map, of its red channel.
+#[test]
+fn samplers_are_heights() {
+    let texture = Texture::<L8>::new(&[0, 51, 102, 255], 4, 1).expect("as many");
+    let relief =
+        Relief { map: texture.sampler::<Nearest, Repeat>(), low: -1.0, high: 4.0, extent: Vec2::ONE };
+    let heights = [0.1, 0.3, 0.6, 0.9].map(|u| relief.height(Vec2::new(u, 0.0)));
+    assert_eq!(heights, [-1.0, 0.0, 1.0, 4.0]);
+}
