@@ -11,6 +11,7 @@
 //! | normal map | [`normal`], [`normal_of_two`], [`strengthened`] | a normal in the frame |
 //! | bump map | [`Relief::normal`], [`bilinear_height`] and [`normal_of_slope`] | a normal in the frame |
 //! | bump map on sheared axes | [`bump`] | a normal in object space |
+//! | parallax map | [`Relief::parallax`] | where to read the other maps |
 //! | out of the frame | [`normal_to_parent`] | a normal in object space |
 //!
 //! Source: Blinn, "Simulation of wrinkled surfaces", SIGGRAPH 1978, for the frame and the bump; each function names its
@@ -18,6 +19,7 @@
 
 mod mesh;
 mod normal;
+mod parallax;
 mod parametric;
 mod relief;
 mod tangent;
@@ -28,6 +30,7 @@ pub use normal::{
     Centred, NormalEncoding, Unorm, normal, normal_lanes, normal_of_two, normal_of_two_lanes,
     normal_to_parent, strengthened, strengthened_lanes,
 };
+pub use parallax::{Occlusion, Offset, OffsetLimited, Parallax, Steep};
 pub use parametric::{Cylinder, Differences, Parametric, Plane, Sphere, Torus};
 pub use relief::{HeightMap, Relief, bilinear_height, bump, normal_of_slope};
 pub use tangent::{

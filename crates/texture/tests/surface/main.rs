@@ -10,6 +10,7 @@
 mod bump;
 mod mesh;
 mod normal;
+mod parallax;
 mod parametric;
 mod support;
 mod triangle;
