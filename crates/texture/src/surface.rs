@@ -12,11 +12,13 @@
 //! | bump map | [`Relief::normal`], [`bilinear_height`] and [`normal_of_slope`] | a normal in the frame |
 //! | bump map on sheared axes | [`bump`] | a normal in object space |
 //! | parallax map | [`Relief::parallax`] | where to read the other maps |
+//! | displacement map | [`Grid`], [`Subdivision`], [`displace`], [`displaced_mesh`] | a mesh in object space |
 //! | out of the frame | [`normal_to_parent`] | a normal in object space |
 //!
 //! Source: Blinn, "Simulation of wrinkled surfaces", SIGGRAPH 1978, for the frame and the bump; each function names its
 //! own.
 
+mod displacement;
 mod mesh;
 mod normal;
 mod parallax;
@@ -25,6 +27,7 @@ mod relief;
 mod tangent;
 mod unit;
 
+pub use displacement::{Grid, MeshBuffers, Subdivision, displace, displaced, displaced_mesh};
 pub use mesh::{LengthError, frame_of_tangent, vertex_normals, vertex_tangents};
 pub use normal::{
     Centred, NormalEncoding, Unorm, normal, normal_lanes, normal_of_two, normal_of_two_lanes,

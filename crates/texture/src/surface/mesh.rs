@@ -31,6 +31,15 @@ pub fn vertex_normals(
 ) -> Result<(), LengthError> {
     LengthError::check(positions.len(), [normals.len()])?;
     normals.fill(Vec3::ZERO);
+    add_normals(positions, triangles, normals);
+    for normal in normals {
+        *normal = unit(normal.as_dvec3()).map_or(Vec3::Z, narrow);
+    }
+    Ok(())
+}
+
+/// Adds to each vertex the normals of its triangles, as long as their doubled areas are large.
+pub(super) fn add_normals(positions: &[Vec3], triangles: &[[u32; 3]], normals: &mut [Vec3]) {
     for &triangle in triangles {
         let Some(corners) = corners(positions, triangle) else { continue };
         let doubled = Frame::<Tangent, Object>::of_triangle(corners.map(Point3::new)).axes().z_axis;
@@ -42,10 +51,6 @@ pub fn vertex_normals(
             }
         }
     }
-    for normal in normals {
-        *normal = unit(normal.as_dvec3()).map_or(Vec3::Z, narrow);
-    }
-    Ok(())
 }
 
 /// The tangent of each vertex, as glTF has it: x, y and z are the unit vector in the direction of growing u, and w is
@@ -148,12 +153,12 @@ fn corners<T: Copy>(values: &[T], triangle: [u32; 3]) -> Option<[T; 3]> {
     Some([a?, b?, c?])
 }
 
-/// A buffer that does not hold one value for each vertex.
+/// A buffer of another length than the mesh has vertices, or triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LengthError {
     /// The length of the first such buffer.
     pub found: usize,
-    /// The number of vertices.
+    /// The length that it must have.
     pub expected: usize,
 }
 
@@ -168,7 +173,7 @@ impl LengthError {
 
 impl fmt::Display for LengthError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} values for {} vertices: each takes one", self.found, self.expected)
+        write!(f, "a buffer of {} values, which must hold {}", self.found, self.expected)
     }
 }
 

@@ -8,6 +8,7 @@
 )]
 
 mod bump;
+mod displacement;
 mod mesh;
 mod normal;
 mod parallax;

@@ -182,7 +182,7 @@ fn what_is_missing_is_chosen_or_named() {
     assert_eq!(tangents, [[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0]]);
     let error = vertex_tangents(&positions, &normals[..2], &same, &[], &mut tangents).unwrap_err();
     assert_eq!(error, LengthError { found: 2, expected: 3 });
-    assert_eq!(error.to_string(), "2 values for 3 vertices: each takes one");
+    assert_eq!(error.to_string(), "a buffer of 2 values, which must hold 3");
     let mut normals = [Vec3::ZERO; 3];
     vertex_normals(&positions, &[[0, 1, 2], [0, 1, 9]], &mut normals).expect("as many");
     assert_eq!(normals, [Vec3::Z; 3]);
