@@ -14,11 +14,13 @@
 //! | parallax map | [`Relief::parallax`] | where to read the other maps |
 //! | displacement map | [`Grid`], [`Subdivision`], [`displace`], [`displaced_mesh`] | a mesh in object space |
 //! | out of the frame | [`normal_to_parent`] | a normal in object space |
+//! | material maps | [`lambert`], [`phong`], [`blinn_phong`], [`shininess`], [`ambient_occlusion`], [`Wettable`] | shares |
 //!
 //! Source: Blinn, "Simulation of wrinkled surfaces", SIGGRAPH 1978, for the frame and the bump; each function names its
 //! own.
 
 mod displacement;
+mod material;
 mod mesh;
 mod normal;
 mod parallax;
@@ -28,6 +30,7 @@ mod tangent;
 mod unit;
 
 pub use displacement::{Grid, MeshBuffers, Subdivision, displace, displaced, displaced_mesh};
+pub use material::{Wettable, ambient_occlusion, blinn_phong, lambert, phong, power, shininess};
 pub use mesh::{LengthError, frame_of_tangent, vertex_normals, vertex_tangents};
 pub use normal::{
     Centred, NormalEncoding, Unorm, normal, normal_lanes, normal_of_two, normal_of_two_lanes,

@@ -9,6 +9,7 @@
 
 mod bump;
 mod displacement;
+mod material;
 mod mesh;
 mod normal;
 mod parallax;
