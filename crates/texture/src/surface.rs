@@ -3,11 +3,12 @@
 //! A texture describes the detail in a frame that lies on the surface, the tangent frame: x along the direction in
 //! which u grows, y along that of v, z along the normal. So one map serves for all surfaces, however they bend.
 //!
-//! | step | from | to |
+//! | what | how | result |
 //! |---|---|---|
 //! | tangent frame of a formula | [`Parametric`] | `Frame<Tangent, Object>` |
 //! | tangent frame of a triangle | [`triangle_frame`] | `Frame<Tangent, Object>` |
 //! | tangents of a mesh | [`vertex_tangents`], [`frame_of_tangent`] | as in glTF; `Frame<Tangent, Object>` |
+//! | the same, by MikkTSpace | `mikktspace`, with the feature of that name, which needs an allocator | as in glTF |
 //! | normal map | [`normal`], [`normal_of_two`], [`strengthened`] | a normal in the frame |
 //! | bump map | [`Relief::normal`], [`bilinear_height`] and [`normal_of_slope`] | a normal in the frame |
 //! | bump map on sheared axes | [`bump`] | a normal in object space |
@@ -22,6 +23,8 @@
 mod displacement;
 mod material;
 mod mesh;
+#[cfg(feature = "mikktspace")]
+mod mikktspace;
 mod normal;
 mod parallax;
 mod parametric;
@@ -32,6 +35,8 @@ mod unit;
 pub use displacement::{Grid, MeshBuffers, Subdivision, displace, displaced, displaced_mesh};
 pub use material::{Wettable, ambient_occlusion, blinn_phong, lambert, phong, power, shininess};
 pub use mesh::{LengthError, frame_of_tangent, vertex_normals, vertex_tangents};
+#[cfg(feature = "mikktspace")]
+pub use mikktspace::mikktspace;
 pub use normal::{
     Centred, NormalEncoding, Unorm, normal, normal_lanes, normal_of_two, normal_of_two_lanes,
     normal_to_parent, strengthened, strengthened_lanes,

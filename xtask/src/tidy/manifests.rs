@@ -1,7 +1,7 @@
 //! What the crates' `Cargo.toml` files say: lints, and the arrows of dependency.
 
 use super::Problem;
-use crate::workspace::{self, EXTERNAL, LIBRARIES, Library};
+use crate::workspace::{self, EXTERNAL, LIBRARIES, Library, OPTIONAL};
 
 /// Checks one manifest; those outside `crates/` are free.
 pub(super) fn check(file: &str, text: &str) -> Vec<Problem> {
@@ -26,7 +26,8 @@ pub(super) fn check(file: &str, text: &str) -> Vec<Problem> {
 
 /// Why `library` must not depend on `dependency`, if so.
 fn breach(library: &Library, dependency: &str) -> Option<String> {
-    if EXTERNAL.contains(&dependency) || library.may_use.contains(&dependency) {
+    let optional = OPTIONAL.contains(&(library.package, dependency));
+    if EXTERNAL.contains(&dependency) || library.may_use.contains(&dependency) || optional {
         return None;
     }
     let mut allowed: Vec<&str> = library.may_use.to_vec();
@@ -163,6 +164,14 @@ mod tests {
             found("crates/raster/Cargo.toml", &text),
             [format!("crates/raster/Cargo.toml:2: {message}")]
         );
+    }
+
+    #[test]
+    fn one_library_may_use_what_others_may_not() {
+        let text =
+            format!("[dependencies]\nbevy_mikktspace = {{ version = \"1\", optional = true }}\n{LINTS}");
+        assert_eq!(found("crates/texture/Cargo.toml", &text), [""; 0]);
+        assert_eq!(found("crates/raster/Cargo.toml", &text).len(), 1);
     }
 
     #[test]

@@ -11,6 +11,8 @@ mod bump;
 mod displacement;
 mod material;
 mod mesh;
+#[cfg(feature = "mikktspace")]
+mod mikktspace;
 mod normal;
 mod parallax;
 mod parametric;
