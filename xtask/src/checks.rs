@@ -52,6 +52,13 @@ pub(crate) fn test() -> Outcome {
     test_xtask()
 }
 
+/// Runs clippy and the tests on what a feature adds that is off unless asked for.
+pub(crate) fn features() -> Outcome {
+    let texture = ["--package", "alberti-texture", "--features", "mikktspace"];
+    run(cargo().arg("clippy").args(texture).args(["--all-targets", "--", "-D", "warnings"]))?;
+    run(cargo().arg("test").args(texture).args(["--test", "surface", "mikktspace"]))
+}
+
 /// Runs the tests of this program, which `cargo test` leaves out because xtask is no default member.
 pub(crate) fn test_xtask() -> Outcome {
     run(cargo().args(["test", "--quiet", "--package", "xtask"]))

@@ -30,6 +30,7 @@ fn steps(tests_done: bool) -> Vec<Step> {
         ("lint", checks::lint),
         ("docs", checks::docs),
         test,
+        ("features", checks::features),
         ("package", package::run),
         ("nostd", nostd::run),
         ("firmware", || firmware::run(&[])),

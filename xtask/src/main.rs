@@ -67,6 +67,12 @@ const CHORES: &[Chore] = &[
         run: |_| checks::test(),
     },
     Chore {
+        name: "features",
+        arguments: "",
+        about: "clippy and tests on what is off by default: MikkTSpace",
+        run: |_| checks::features(),
+    },
+    Chore {
         name: "package",
         arguments: "",
         about: "build the crates as they would be published",
