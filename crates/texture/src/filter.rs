@@ -7,7 +7,8 @@ use core::fmt::Debug;
 use alberti_math::lanes::Lanes;
 
 use crate::blend::{Quad, bilinear};
-use crate::{Size, TexelFormat, Texture, Wrap};
+use crate::format::Storage;
+use crate::{Size, Texture, Wrap};
 
 /// The way of reading a colour between texels: [`Nearest`] or [`Bilinear`]. Other crates cannot add to them.
 pub trait Filter: Kernel + Copy + Debug + Default + 'static {}
@@ -15,7 +16,7 @@ pub trait Filter: Kernel + Copy + Debug + Default + 'static {}
 /// The working part of [`Filter`]; not nameable outside, so that it can still change.
 pub trait Kernel {
     /// The colours of the texture at `u` and `v`, as words.
-    fn sample<L: Lanes, F: TexelFormat, Z: Size, U: Wrap, V: Wrap>(
+    fn sample<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
         lanes: L,
         texture: &Texture<'_, F, Z>,
         u: L::Number,
@@ -71,7 +72,7 @@ impl Filter for Nearest {}
 
 impl Kernel for Nearest {
     #[inline(always)]
-    fn sample<L: Lanes, F: TexelFormat, Z: Size, U: Wrap, V: Wrap>(
+    fn sample<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
         lanes: L,
         texture: &Texture<'_, F, Z>,
         u: L::Number,
@@ -84,7 +85,7 @@ impl Kernel for Nearest {
 
 /// The row, from the top, and the column of the texel whose cell holds a point.
 #[inline(always)]
-pub(crate) fn cell<L: Lanes, F: TexelFormat, Z: Size, U: Wrap, V: Wrap>(
+pub(crate) fn cell<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
     lanes: L,
     texture: &Texture<'_, F, Z>,
     u: L::Number,
@@ -99,7 +100,7 @@ impl Filter for Bilinear {}
 
 impl Kernel for Bilinear {
     #[inline(always)]
-    fn sample<L: Lanes, F: TexelFormat, Z: Size, U: Wrap, V: Wrap>(
+    fn sample<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
         lanes: L,
         texture: &Texture<'_, F, Z>,
         u: L::Number,
@@ -120,11 +121,7 @@ impl Kernel for Bilinear {
 
 /// The row, counted from the top, of one that is counted from the bottom.
 #[inline(always)]
-fn row<L: Lanes, F: TexelFormat, Z: Size>(
-    lanes: L,
-    texture: &Texture<'_, F, Z>,
-    from_bottom: L::U32,
-) -> L::U32 {
+fn row<L: Lanes, F: Storage, Z: Size>(lanes: L, texture: &Texture<'_, F, Z>, from_bottom: L::U32) -> L::U32 {
     // `from_bottom` is less than the height.
     lanes.word(texture.height().wrapping_sub(1)) - from_bottom
 }

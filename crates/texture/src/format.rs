@@ -2,11 +2,16 @@
 //!
 //! A format is a type without values of its own: [`Texture`](crate::Texture) carries it as a parameter, so that the
 //! decoding is compiled into the sampling. [`Rgba8`], what every format decodes to, is itself one. Types of other
-//! crates can be formats too, a palette for example.
+//! crates can be formats too. [`Indexed`] texels are places in a palette that the texture carries.
+
+mod indexed;
+mod storage;
 
 pub use alberti_math::Rgba8;
+pub use indexed::Indexed;
+pub use storage::Storage;
 
-/// A way of storing colours.
+/// A way of storing colours, each by itself.
 pub trait TexelFormat: 'static {
     /// One stored texel.
     type Texel: Copy + Send + Sync + 'static;
@@ -14,7 +19,8 @@ pub trait TexelFormat: 'static {
     /// The colour that the texel stands for.
     ///
     /// The formats of this module expand exactly: the least and the greatest value of a channel become 0 and 255,
-    /// and encoding the colour again, by dropping the low bits, gives the texel back.
+    /// and encoding the colour again, by dropping the low bits, gives the texel back. [`L16`] has more bits than a
+    /// colour, and gives the nearest.
     fn decode(texel: Self::Texel) -> Rgba8;
 }
 
@@ -67,6 +73,38 @@ impl TexelFormat for Rgb565 {
     }
 }
 
+/// [`Rgb565`] whose bytes in memory are big-endian, as many displays take them: `RRRRRGGG GGGBBBBB`. Opaque.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Rgb565Be;
+
+impl TexelFormat for Rgb565Be {
+    type Texel = u16;
+
+    #[inline]
+    fn decode(texel: u16) -> Rgba8 {
+        Rgb565::decode(u16::from_be(texel))
+    }
+}
+
+/// Four bits each in a `u16` of the machine's byte order, red highest, alpha lowest.
+///
+/// # Precision
+/// Exact: 255 is 17 times 15.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Rgba4444;
+
+impl TexelFormat for Rgba4444 {
+    type Texel = u16;
+
+    #[inline]
+    fn decode(texel: u16) -> Rgba8 {
+        let t = u32::from(texel);
+        // The fields, at the bottom of their bytes, in the byte order of `Rgba8`.
+        let low = (t >> 12) | (t & 0x0f00) | (t << 12 & 0x000f_0000) | (t << 24 & 0x0f00_0000);
+        Rgba8::from_bits(low * 17)
+    }
+}
+
 /// One byte of luminance: red, green and blue are equal. Opaque.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct L8;
@@ -77,6 +115,36 @@ impl TexelFormat for L8 {
     #[inline]
     fn decode(texel: u8) -> Rgba8 {
         Rgba8::from_bits((u32::from(texel) * 0x0001_0101) | 0xff00_0000)
+    }
+}
+
+/// Two bytes: luminance and alpha.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct La8;
+
+impl TexelFormat for La8 {
+    type Texel = [u8; 2];
+
+    #[inline]
+    fn decode([luminance, alpha]: [u8; 2]) -> Rgba8 {
+        Rgba8::new(luminance, luminance, luminance, alpha)
+    }
+}
+
+/// Sixteen bits of luminance in the machine's byte order, heights for example. Opaque.
+///
+/// # Precision
+/// As a colour the nearest of 256 steps. `stored_lanes` of a [`Sampler`](crate::Sampler) reads all bits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct L16;
+
+impl TexelFormat for L16 {
+    type Texel = u16;
+
+    #[inline]
+    fn decode(texel: u16) -> Rgba8 {
+        // 255/65535, rounded: 2^16 is that much above 65535, and 128 of 65535 makes up for it.
+        L8::decode(((u32::from(texel) * 255 + 32895) >> 16).to_le_bytes()[0])
     }
 }
 
@@ -110,6 +178,20 @@ mod tests {
             assert_eq!(L8::decode(byte), Rgba8::new(byte, byte, byte, 255));
             assert_eq!(Rgb8::decode([byte, 7, 255 - byte]), Rgba8::new(byte, 7, 255 - byte, 255));
             assert_eq!(Rgba8::decode([1, byte, 3, !byte]), Rgba8::new(1, byte, 3, !byte));
+            assert_eq!(La8::decode([byte, 7]), Rgba8::new(byte, byte, byte, 7));
+        }
+    }
+
+    #[test]
+    fn words_of_16_bits() {
+        for texel in 0..=u16::MAX {
+            let [high, low] = texel.to_be_bytes();
+            assert_eq!(Rgb565Be::decode(u16::from_ne_bytes([high, low])), Rgb565::decode(texel));
+            let wide = |digit: u8| digit * 16 + digit;
+            let fields = [high / 16, high % 16, low / 16, low % 16].map(wide);
+            assert_eq!(Rgba4444::decode(texel).to_bytes(), fields);
+            let nearest = u8::try_from((2 * 255 * u32::from(texel) + 65535) / (2 * 65535)).unwrap();
+            assert_eq!(L16::decode(texel), Rgba8::new(nearest, nearest, nearest, 255));
         }
     }
 }

@@ -8,17 +8,18 @@ use alberti_math::lanes::{Lanes, One};
 use glam::Vec2;
 
 use crate::filter::{Filter, cell};
+use crate::format::Storage;
 use crate::{AnySize, Nearest, Size, TexelFormat, Texture, Wrap};
 
 /// A texture with a filter and a wrap mode for each axis: what a fragment asks for a colour.
 ///
 /// Made by [`Texture::sampler`] and [`Texture::sampler_per_axis`]; as cheap to copy as the texture.
-pub struct Sampler<'a, F: TexelFormat, Fl, U, V = U, Z: Size = AnySize> {
+pub struct Sampler<'a, F: Storage, Fl, U, V = U, Z: Size = AnySize> {
     texture: Texture<'a, F, Z>,
     modes: PhantomData<(Fl, U, V)>,
 }
 
-impl<'a, F: TexelFormat, Fl: Filter, U: Wrap, V: Wrap, Z: Size> Sampler<'a, F, Fl, U, V, Z> {
+impl<'a, F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size> Sampler<'a, F, Fl, U, V, Z> {
     #[inline]
     pub(crate) const fn new(texture: Texture<'a, F, Z>) -> Self {
         Self { texture, modes: PhantomData }
@@ -65,16 +66,16 @@ impl<F: TexelFormat, U: Wrap, V: Wrap, Z: Size> Sampler<'_, F, Nearest, U, V, Z>
     }
 }
 
-impl<F: TexelFormat, Fl, U, V, Z: Size> Clone for Sampler<'_, F, Fl, U, V, Z> {
+impl<F: Storage, Fl, U, V, Z: Size> Clone for Sampler<'_, F, Fl, U, V, Z> {
     #[inline]
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<F: TexelFormat, Fl, U, V, Z: Size> Copy for Sampler<'_, F, Fl, U, V, Z> {}
+impl<F: Storage, Fl, U, V, Z: Size> Copy for Sampler<'_, F, Fl, U, V, Z> {}
 
-impl<F: TexelFormat, Fl: Filter, U: Wrap, V: Wrap, Z: Size> fmt::Debug for Sampler<'_, F, Fl, U, V, Z> {
+impl<F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size> fmt::Debug for Sampler<'_, F, Fl, U, V, Z> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Sampler")
             .field("texture", &self.texture)

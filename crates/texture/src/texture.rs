@@ -1,11 +1,13 @@
 //! A borrowed rectangle of texels.
 
 use core::marker::PhantomData;
+use core::num::Wrapping;
 use core::{error, fmt};
 
 use alberti_math::Rgba8;
-use alberti_math::lanes::Lanes;
+use alberti_math::lanes::{Lanes, One};
 
+use crate::format::{Indexed, Storage};
 use crate::{AnySize, Filter, Known, PowerOfTwo, Sampler, Size, TexelFormat, Wrap};
 
 /// A view of texels in rows, the top row of the image first, each row from left to right.
@@ -21,8 +23,9 @@ use crate::{AnySize, Filter, Known, PowerOfTwo, Sampler, Size, TexelFormat, Wrap
 /// };
 /// assert_eq!(RAMP.texel(1, 0).to_bytes(), [85, 85, 85, 255]);
 /// ```
-pub struct Texture<'a, F: TexelFormat, Z: Size = AnySize> {
-    texels: Z::Texels<'a, F::Texel>,
+pub struct Texture<'a, F: Storage, Z: Size = AnySize> {
+    texels: Z::Texels<'a, F::Element>,
+    palette: F::Palette<'a>,
     // In 16 bits, so that compilers know that no product or sum of sizes overflows.
     width: u16,
     height: u16,
@@ -30,18 +33,47 @@ pub struct Texture<'a, F: TexelFormat, Z: Size = AnySize> {
 }
 
 impl<'a, F: TexelFormat> Texture<'a, F, AnySize> {
+    /// The view of `width * height` texels. Sizes need not be powers of two, nor be equal.
+    ///
+    /// # Errors
+    /// If a side is 0 or greater than [`Self::MAX_SIZE`], or if there are more or fewer texels.
+    pub const fn new(texels: &'a [F::Texel], width: u32, height: u32) -> Result<Self, TextureError> {
+        Self::stored(texels, (), width, height, width)
+    }
+}
+
+impl<'a, const BITS: u32> Texture<'a, Indexed<BITS>, AnySize> {
+    /// The view of texels that are places in a palette, the first 0: see [`Indexed`] for their order.
+    ///
+    /// # Errors
+    /// If a side is 0 or greater than [`Self::MAX_SIZE`], or if there are more or fewer bytes than the rows take. The
+    /// palette may be shorter than the indices reach: what is beyond is transparent black.
+    pub const fn indexed(
+        bytes: &'a [u8],
+        palette: &'a [Rgba8],
+        width: u32,
+        height: u32,
+    ) -> Result<Self, TextureError> {
+        Self::stored(bytes, palette, width, height, Indexed::<BITS>::row_bytes(width))
+    }
+}
+
+impl<'a, F: Storage> Texture<'a, F, AnySize> {
     /// The greatest width and height.
     ///
     /// Up to here, coordinates with 38 bits of fraction find the exact texel, and with the size's 14 bits and
     /// a filter's 8 they fit in 64.
     pub const MAX_SIZE: u32 = 1 << 14;
 
-    /// The view of `width * height` texels. Sizes need not be powers of two, nor be equal.
-    ///
-    /// # Errors
-    /// If a side is 0 or greater than [`Self::MAX_SIZE`], or if there are more or fewer texels.
+    /// The view of rows of so many elements each.
     #[expect(clippy::cast_possible_truncation, reason = "`From` is not const; the sizes are at most 2^14")]
-    pub const fn new(texels: &'a [F::Texel], width: u32, height: u32) -> Result<Self, TextureError> {
+    const fn stored(
+        texels: &'a [F::Element],
+        palette: F::Palette<'a>,
+        width: u32,
+        height: u32,
+        elements: u32,
+    ) -> Result<Self, TextureError> {
         if width == 0 || height == 0 {
             return Err(TextureError::ZeroSize { width, height });
         }
@@ -49,25 +81,27 @@ impl<'a, F: TexelFormat> Texture<'a, F, AnySize> {
             return Err(TextureError::TooLarge { width, height });
         }
         // At most 2^28. Where `usize` has 16 bits the comparison is still that of the numbers.
-        let expected = width * height;
+        let expected = elements * height;
         if texels.len() as u64 != expected as u64 {
             return Err(TextureError::Length { found: texels.len(), expected });
         }
-        Ok(Self { texels, width: width as u16, height: height as u16, size: PhantomData })
+        Ok(Self { texels, palette, width: width as u16, height: height as u16, size: PhantomData })
     }
 
     /// The same texture, known to have sides that are powers of two, if they are. It is faster to sample, and shows the
     /// same.
     #[must_use]
     pub const fn power_of_two(self) -> Option<Texture<'a, F, PowerOfTwo>> {
-        let Self { texels, width, height, .. } = self;
+        let Self { texels, palette, width, height, .. } = self;
         if width.is_power_of_two() && height.is_power_of_two() {
-            Some(Texture { texels, width, height, size: PhantomData })
+            Some(Texture { texels, palette, width, height, size: PhantomData })
         } else {
             None
         }
     }
+}
 
+impl<'a, F: TexelFormat> Texture<'a, F, AnySize> {
     /// The same texture, known to have these sides, powers of two, if it has: for textures that are part of a program.
     /// It is the fastest to sample, and shows the same.
     ///
@@ -91,13 +125,13 @@ impl<'a, F: TexelFormat> Texture<'a, F, AnySize> {
             None
         };
         match texels {
-            Some(texels) => Some(Texture { texels, width, height, size: PhantomData }),
+            Some(texels) => Some(Texture { texels, palette: (), width, height, size: PhantomData }),
             None => None,
         }
     }
 }
 
-impl<'a, F: TexelFormat, Z: Size> Texture<'a, F, Z> {
+impl<'a, F: Storage, Z: Size> Texture<'a, F, Z> {
     /// The number of columns, 1 to [`Self::MAX_SIZE`].
     #[inline]
     #[must_use]
@@ -121,8 +155,15 @@ impl<'a, F: TexelFormat, Z: Size> Texture<'a, F, Z> {
     /// The texels as they are stored.
     #[inline]
     #[must_use]
-    pub fn texels(&self) -> &'a [F::Texel] {
+    pub fn texels(&self) -> &'a [F::Element] {
         Z::flattened(self.texels)
+    }
+
+    /// What stands beside the texels.
+    #[inline]
+    #[must_use]
+    pub const fn palette(&self) -> F::Palette<'a> {
+        self.palette
     }
 
     /// The colour in column `x` of row `y`, row 0 at the top; beyond the sides, that of the nearest texel.
@@ -130,7 +171,7 @@ impl<'a, F: TexelFormat, Z: Size> Texture<'a, F, Z> {
     #[must_use]
     pub fn texel(&self, x: u32, y: u32) -> Rgba8 {
         let (x, y) = (x.min(self.width().saturating_sub(1)), y.min(self.height().saturating_sub(1)));
-        self.texels().get((y * self.width() + x) as usize).copied().map_or_else(Rgba8::default, F::decode)
+        Rgba8::from_bits(self.fetch(One, Wrapping(y), Wrapping(x)).0)
     }
 
     /// A sampler with the same wrap mode on both axes: `texture.sampler::<Nearest, Repeat>()`.
@@ -150,9 +191,11 @@ impl<'a, F: TexelFormat, Z: Size> Texture<'a, F, Z> {
     /// The colours of texels, which must lie in the texture, as words.
     #[inline(always)]
     pub(crate) fn fetch<L: Lanes>(&self, lanes: L, row: L::U32, column: L::U32) -> L::U32 {
-        self.words(lanes, row, column, |texel| texel.map_or(0, |&texel| F::decode(texel).to_bits()))
+        F::fetch(lanes, self, row, column)
     }
+}
 
+impl<F: TexelFormat, Z: Size> Texture<'_, F, Z> {
     /// What `word` makes of texels, which must lie in the texture.
     #[inline(always)]
     pub(crate) fn words<L: Lanes>(
@@ -167,16 +210,16 @@ impl<'a, F: TexelFormat, Z: Size> Texture<'a, F, Z> {
     }
 }
 
-impl<F: TexelFormat, Z: Size> Clone for Texture<'_, F, Z> {
+impl<F: Storage, Z: Size> Clone for Texture<'_, F, Z> {
     #[inline]
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<F: TexelFormat, Z: Size> Copy for Texture<'_, F, Z> {}
+impl<F: Storage, Z: Size> Copy for Texture<'_, F, Z> {}
 
-impl<F: TexelFormat, Z: Size> fmt::Debug for Texture<'_, F, Z> {
+impl<F: Storage, Z: Size> fmt::Debug for Texture<'_, F, Z> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Texture")
             .field("width", &self.width)
@@ -203,11 +246,11 @@ pub enum TextureError {
         /// The height that was given.
         height: u32,
     },
-    /// The number of texels is not width times height.
+    /// The number of texels is not width times height; for [`Indexed`], that of bytes.
     Length {
-        /// The number of texels that was given.
+        /// How many were given.
         found: usize,
-        /// Width times height.
+        /// What the width and the height take.
         expected: u32,
     },
 }

@@ -1,0 +1,113 @@
+//! Texels that are places in a palette.
+
+use alberti_math::Rgba8;
+use alberti_math::lanes::Lanes;
+
+use super::Storage;
+use crate::{Size, Texture};
+
+/// Indices of 1, 2, 4 or 8 bits, whose colours are in a palette that the texture refers to: a texture in an eighth to a
+/// quarter of the memory of 32 bits a texel, and the palette can be another one for every view.
+///
+/// The leftmost texel is in the highest bits of a byte, and each row begins with a byte of its own, as in PNG and BMP
+/// files. An index beyond the palette is transparent black. Made by [`Texture::indexed`]; filters work on the colours.
+///
+/// ```
+/// use alberti_texture::{Texture, format::{Indexed, Rgba8}};
+///
+/// // A checkerboard of 3 x 2, and its colours.
+/// let bytes = [0b1010_0000, 0b0100_0000];
+/// let board = Texture::<Indexed<1>>::indexed(&bytes, &[Rgba8::BLACK, Rgba8::WHITE], 3, 2)?;
+/// assert_eq!(board.texel(0, 0), Rgba8::WHITE);
+/// assert_eq!(board.texel(0, 1), Rgba8::BLACK);
+/// # Ok::<(), alberti_texture::TextureError>(())
+/// ```
+///
+/// # Cost
+/// A texel takes two loads and two comparisons instead of one of each, and a shift and a mask.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Indexed<const BITS: u32>;
+
+impl<const BITS: u32> Indexed<BITS> {
+    /// How many texels a byte holds.
+    const IN_BYTE: u32 = {
+        assert!(BITS.is_power_of_two() && BITS <= 8, "Indexed: 1, 2, 4 or 8 bits");
+        8 / BITS
+    };
+
+    /// The bytes of a row of `width` texels.
+    #[must_use]
+    pub const fn row_bytes(width: u32) -> u32 {
+        width.div_ceil(Self::IN_BYTE)
+    }
+}
+
+impl<const BITS: u32> Storage for Indexed<BITS> {
+    type Element = u8;
+    type Palette<'a> = &'a [Rgba8];
+
+    #[inline(always)]
+    fn fetch<L: Lanes, Z: Size>(
+        lanes: L,
+        texture: &Texture<'_, Self, Z>,
+        row: L::U32,
+        column: L::U32,
+    ) -> L::U32 {
+        let (bytes, palette) = (texture.texels(), texture.palette());
+        let from_right = lanes.word(Self::IN_BYTE - 1) - (column & lanes.word(Self::IN_BYTE - 1));
+        let shifts = lanes.store_words(from_right * lanes.word(BITS));
+        let first = row * lanes.word(Self::row_bytes(texture.width()));
+        let places = lanes.store_words(first + lanes.shr(column, Self::IN_BYTE.trailing_zeros()));
+        let at = |words: &[u32], k: usize| words.get(k).copied().unwrap_or_default();
+        lanes.load_words(&lanes.each(|k| {
+            let byte = bytes.get(at(places.as_ref(), k) as usize).copied().unwrap_or_default();
+            let index = u32::from(byte).wrapping_shr(at(shifts.as_ref(), k)) & ((1 << BITS) - 1);
+            palette.get(index as usize).map_or(0, |color| color.to_bits())
+        }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All texels of odd and even widths, by the digits of the rows as numbers.
+    fn check<const BITS: u32>(palette: &[Rgba8]) {
+        for width in 1..=20 {
+            let row_bytes = (width * BITS).div_ceil(8);
+            let bytes: std::vec::Vec<u8> =
+                (0..row_bytes * 3).map(|i| (i * 151 + 77).to_le_bytes()[0]).collect();
+            let texture = Texture::<Indexed<BITS>>::indexed(&bytes, palette, width, 3).unwrap();
+            for y in 0..3 {
+                let row = &bytes[(y * row_bytes) as usize..][..row_bytes as usize];
+                // A row as one number of up to 160 bits, in two halves that no texel straddles.
+                let number = |bytes: &[u8]| bytes.iter().fold(0u128, |n, &b| n << 8 | u128::from(b));
+                for x in 0..width {
+                    let end = (x + 1) * BITS;
+                    let upto = &row[..end.div_ceil(8) as usize];
+                    let last = &upto[upto.len().saturating_sub(8)..];
+                    let index = (number(last) >> (end.next_multiple_of(8) - end)) as usize % (1 << BITS);
+                    let expected = palette.get(index).copied().unwrap_or_default();
+                    assert_eq!(texture.texel(x, y), expected, "{BITS} bits, {x} of {width}");
+                }
+            }
+            assert!(Texture::<Indexed<BITS>>::indexed(&bytes[1..], palette, width, 3).is_err());
+        }
+    }
+
+    #[test]
+    fn texels_are_digits_of_rows() {
+        let mut noise = 1u32;
+        let palette = [(); 256].map(|()| {
+            noise = noise.wrapping_mul(0x9e37_79b9);
+            Rgba8::from_bits(noise)
+        });
+        check::<1>(&palette[..2]);
+        check::<2>(&palette[..4]);
+        check::<4>(&palette[..16]);
+        check::<8>(&palette);
+        // Shorter than the indices reach.
+        check::<4>(&palette[..10]);
+        check::<1>(&[]);
+    }
+}
