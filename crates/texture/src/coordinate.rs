@@ -68,6 +68,18 @@ pub(crate) fn clamped(u: f32) -> u64 {
     (down(u) - ALIGN.to_bits()).min(ONE - 1)
 }
 
+/// The coordinate from -1 to 2, rounded down to a multiple of 2^-38, in two's complement.
+///
+/// # Cost
+/// A conversion, two additions, a comparison, a move and a subtraction.
+#[inline]
+pub(crate) fn bounded(u: f32) -> u64 {
+    if !HAS_F64 {
+        return modulo_2_integer(u).wrapping_sub(if u < 0.0 { 2 * ONE } else { 0 });
+    }
+    down(u).wrapping_sub(ALIGN.to_bits())
+}
+
 /// The bits of `ALIGN` + u, rounded down, for |u| < 2^13.
 #[inline]
 fn down(u: f32) -> u64 {
@@ -131,6 +143,10 @@ mod tests {
             _ => 0,
         };
         assert_eq!(clamped(u), expected, "{u:e}, {bits:#x}");
+        if (-1.0..2.0).contains(&u) {
+            let expected = oracle(u).cast_signed() - if u < 0.0 { 2 * ONE.cast_signed() } else { 0 };
+            assert_eq!(bounded(u).cast_signed(), expected, "{u:e}, {bits:#x}");
+        }
     }
 
     /// All 2^32 of them take some minutes: `cargo xtask sweep`.

@@ -78,12 +78,12 @@ impl Kernel for Nearest {
         u: L::Number,
         v: L::Number,
     ) -> L::U32 {
-        let [row, column] = cell::<L, F, Z, U, V>(lanes, texture, u, v);
-        texture.fetch(lanes, row, column)
+        let at = cell::<L, F, Z, U, V>(lanes, texture, u, v);
+        texel::<L, F, Z, U, V>(lanes, texture, at)
     }
 }
 
-/// The row, from the top, and the column of the texel whose cell holds a point.
+/// The column and the row, counted from the bottom, of the texel whose cell holds a point.
 #[inline(always)]
 pub(crate) fn cell<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
     lanes: L,
@@ -91,9 +91,7 @@ pub(crate) fn cell<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
     u: L::Number,
     v: L::Number,
 ) -> [L::U32; 2] {
-    let column = Z::cell::<L, U>(lanes, u, texture.width());
-    let from_bottom = Z::cell::<L, V>(lanes, v, texture.height());
-    [row(lanes, texture, from_bottom), column]
+    [Z::cell::<L, U>(lanes, u, texture.width()), Z::cell::<L, V>(lanes, v, texture.height())]
 }
 
 impl Filter for Bilinear {}
@@ -108,20 +106,54 @@ impl Kernel for Bilinear {
     ) -> L::U32 {
         let [left, right, along] = Z::between::<L, U>(lanes, u, texture.width());
         let [low, high, up] = Z::between::<L, V>(lanes, v, texture.height());
-        let (low, high) = (row(lanes, texture, low), row(lanes, texture, high));
         let quad = Quad {
-            low_left: texture.fetch(lanes, low, left),
-            low_right: texture.fetch(lanes, low, right),
-            high_left: texture.fetch(lanes, high, left),
-            high_right: texture.fetch(lanes, high, right),
+            low_left: texel::<L, F, Z, U, V>(lanes, texture, [left, low]),
+            low_right: texel::<L, F, Z, U, V>(lanes, texture, [right, low]),
+            high_left: texel::<L, F, Z, U, V>(lanes, texture, [left, high]),
+            high_right: texel::<L, F, Z, U, V>(lanes, texture, [right, high]),
         };
         bilinear(lanes, quad, along, up)
     }
 }
 
-/// The row, counted from the top, of one that is counted from the bottom.
+/// The colour in a column and in a row that is counted from the bottom, or that of the border.
 #[inline(always)]
-fn row<L: Lanes, F: Storage, Z: Size>(lanes: L, texture: &Texture<'_, F, Z>, from_bottom: L::U32) -> L::U32 {
-    // `from_bottom` is less than the height.
-    lanes.word(texture.height().wrapping_sub(1)) - from_bottom
+fn texel<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    lanes: L,
+    texture: &Texture<'_, F, Z>,
+    at: [L::U32; 2],
+) -> L::U32 {
+    let fetch = |row, column| texture.fetch(lanes, row, column);
+    bordered::<L, F, Z, U, V>(lanes, texture, at, [U::BORDER, V::BORDER], fetch)
+}
+
+/// What `fetch` finds in a row, counted from the top, and a column; where there is no column the first of `borders`,
+/// where there is no row the second.
+#[inline(always)]
+pub(crate) fn bordered<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    lanes: L,
+    texture: &Texture<'_, F, Z>,
+    [column, from_bottom]: [L::U32; 2],
+    borders: [Option<u32>; 2],
+    fetch: impl FnOnce(L::U32, L::U32) -> L::U32,
+) -> L::U32 {
+    // Rows from the bottom are less than the height.
+    let from_top = |from_bottom| lanes.word(texture.height().wrapping_sub(1)) - from_bottom;
+    if U::BORDER.is_none() && V::BORDER.is_none() {
+        return fetch(from_top(from_bottom), column);
+    }
+    let all = lanes.word(u32::MAX);
+    // Indices outside are all ones, and no others are negative.
+    let inside = |index, border: Option<u32>| match border {
+        Some(_) => all - lanes.shr_signed(index, 31),
+        None => all,
+    };
+    let [in_column, in_row] = [inside(column, U::BORDER), inside(from_bottom, V::BORDER)];
+    // Any texel, or none, outside.
+    let found = fetch(from_top(from_bottom), column);
+    let choose = |inside, a: L::U32, b: Option<u32>| match b {
+        Some(b) => (a & inside) | (lanes.word(b) & (all - inside)),
+        None => a,
+    };
+    choose(in_column, choose(in_row, found, borders[1]), borders[0])
 }

@@ -19,4 +19,4 @@ pub use format::TexelFormat;
 pub use sampler::Sampler;
 pub use size::{AnySize, Known, PowerOfTwo, Size};
 pub use texture::{Texture, TextureError};
-pub use wrap::{Clamp, Mirror, Repeat, Wrap};
+pub use wrap::{Border, Clamp, Mirror, Repeat, Wrap};

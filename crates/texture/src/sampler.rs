@@ -7,7 +7,7 @@ use alberti_math::Rgba8;
 use alberti_math::lanes::{Lanes, One};
 use glam::Vec2;
 
-use crate::filter::{Filter, cell};
+use crate::filter::{Filter, bordered, cell};
 use crate::format::Storage;
 use crate::{AnySize, Nearest, Size, TexelFormat, Texture, Wrap};
 
@@ -52,7 +52,7 @@ impl<'a, F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size> Sampler<'a, F, Fl, U
 }
 
 impl<F: TexelFormat, U: Wrap, V: Wrap, Z: Size> Sampler<'_, F, Nearest, U, V, Z> {
-    /// What `word` makes of the texels as they are stored; there always is one.
+    /// What `word` makes of the texels as they are stored; there always is one, but in a [`Border`](crate::Border).
     #[inline(always)]
     pub fn stored_lanes<L: Lanes>(
         &self,
@@ -61,8 +61,12 @@ impl<F: TexelFormat, U: Wrap, V: Wrap, Z: Size> Sampler<'_, F, Nearest, U, V, Z>
         v: L::Number,
         word: impl Fn(Option<F::Texel>) -> u32,
     ) -> L::U32 {
-        let [row, column] = cell::<L, F, Z, U, V>(lanes, &self.texture, u, v);
-        self.texture.words(lanes, row, column, |texel| word(texel.copied()))
+        let texture = &self.texture;
+        let at = cell::<L, F, Z, U, V>(lanes, texture, u, v);
+        let borders = [U::BORDER, V::BORDER].map(|border| border.map(|_| word(None)));
+        bordered::<L, F, Z, U, V>(lanes, texture, at, borders, |row, column| {
+            texture.words(lanes, row, column, |texel| word(texel.copied()))
+        })
     }
 }
 

@@ -209,6 +209,7 @@ fn position(reduced: u64, size: u32) -> i32 {
     // Half a unit to round to nearest, less half a texel. In 39 + 14 bits and a sign.
     const OFFSET: i64 = (1 << (SHIFT - 1)) - (128 << SHIFT);
 
-    let scaled = (reduced * u64::from(size)).cast_signed() + OFFSET;
+    // In `Border` it may be negative.
+    let scaled = reduced.cast_signed() * i64::from(size) + OFFSET;
     (scaled >> SHIFT) as i32
 }

@@ -188,7 +188,7 @@ impl<'a, F: Storage, Z: Size> Texture<'a, F, Z> {
         Sampler::new(*self)
     }
 
-    /// The colours of texels, which must lie in the texture, as words.
+    /// The colours of texels as words; anything for those that do not lie in the texture.
     #[inline(always)]
     pub(crate) fn fetch<L: Lanes>(&self, lanes: L, row: L::U32, column: L::U32) -> L::U32 {
         F::fetch(lanes, self, row, column)
@@ -196,7 +196,7 @@ impl<'a, F: Storage, Z: Size> Texture<'a, F, Z> {
 }
 
 impl<F: TexelFormat, Z: Size> Texture<'_, F, Z> {
-    /// What `word` makes of texels, which must lie in the texture.
+    /// What `word` makes of texels; of any, or none, for those that do not lie in the texture.
     #[inline(always)]
     pub(crate) fn words<L: Lanes>(
         &self,

@@ -3,16 +3,17 @@
 use alberti_math::lanes::Lanes;
 use core::fmt::Debug;
 
-use crate::coordinate::{FRACTION_BITS, ONE, clamped, modulo_2};
+use crate::coordinate::{FRACTION_BITS, ONE, bounded, clamped, modulo_2};
 
-/// The continuation of a texture beyond its sides, along one axis: [`Repeat`], [`Clamp`] or [`Mirror`]. Other crates
-/// cannot add to them.
+/// The continuation of a texture beyond its sides, along one axis: [`Repeat`], [`Clamp`], [`Mirror`] or [`Border`].
+/// Other crates cannot add to them.
 ///
 /// ```text
 ///            -1        0         1         2        3
 ///   Repeat    | A B C D | A B C D | A B C D | A B C D |
 ///   Mirror    | D C B A | A B C D | D C B A | A B C D |
 ///   Clamp     | A A A A | A B C D | D D D D | D D D D |
+///   Border    |         | A B C D |         |         |      a colour of its own outside
 /// ```
 ///
 /// # Precision
@@ -20,22 +21,25 @@ use crate::coordinate::{FRACTION_BITS, ONE, clamped, modulo_2};
 /// both are exact, so the texel does not depend on how far from 0 the texture is sampled, as far as the float itself
 /// can tell: from 2^23 on, floats are integers and have no fraction.
 ///
-/// | coordinate | `Repeat`, `Mirror` | `Clamp` |
-/// |---|---|---|
-/// | NaN | as 0 | as 0 |
-/// | +infinity | as 0 | as the last below 1 |
-/// | -infinity | as 0 | as 0 |
+/// | coordinate | `Repeat`, `Mirror` | `Clamp` | `Border` |
+/// |---|---|---|---|
+/// | NaN | as 0 | as 0 | outside |
+/// | +infinity | as 0 | as the last below 1 | outside |
+/// | -infinity | as 0 | as 0 | outside |
 pub trait Wrap: Axis + Copy + Debug + Default + 'static {
     /// The texel that stands at the index `i` of a continued row (or column) of `size` texels: less than `size`,
-    /// or 0 if `size` is 0.
+    /// or 0 if `size` is 0. In [`Border`] there is none outside: `u32::MAX`.
     ///
     /// # Cost
-    /// A comparison inside of the texture, a division outside, except that `Clamp` never divides.
+    /// A comparison inside of the texture, a division outside, except that `Clamp` and `Border` never divide.
     fn index(i: i32, size: u32) -> u32;
 }
 
 /// The part of [`Wrap`] that works on fixed-point coordinates; not nameable outside, so that it can still change.
 pub trait Axis {
+    /// The colour, as a word, that is outside: where indices are `u32::MAX`.
+    const BORDER: Option<u32> = None;
+
     /// The coordinate in fixed point, in one period from 0.
     fn reduce(u: f32) -> u64;
 
@@ -43,13 +47,14 @@ pub trait Axis {
     fn cell(reduced: u64, size: u32) -> u32;
 
     /// [`Wrap::index`] of `i` and of `i + 1`, without divisions, for the texels around a reduced coordinate: `i` is
-    /// -1 or more and less than the size (in `Mirror`, twice the size).
+    /// -1 or more and less than the size (in `Mirror`, twice the size; in `Border`, any).
     fn neighbours(i: i32, size: u32) -> (u32, u32);
 
     /// The coordinate in one period about 0: exact. Defined for every number.
     fn in_period<L: Lanes>(lanes: L, u: L::Number) -> L::Number;
 
-    /// [`Wrap::index`] of a two's complement `i` for a `size` that is a power of two, from -1 to one beyond the period.
+    /// [`Wrap::index`] of a two's complement `i` for a `size` that is a power of two, from -1 to one beyond the period;
+    /// in `Border`, of any.
     fn fold<L: Lanes>(lanes: L, i: L::U32, size: u32) -> L::U32;
 }
 
@@ -64,6 +69,27 @@ pub struct Clamp;
 /// The texture and its mirror image in turn; neighbouring copies share the colour at their border.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Mirror;
+
+/// A colour of its own outside of the texture: `COLOR`, as [`Rgba8::to_bits`](crate::format::Rgba8::to_bits) makes it,
+/// transparent black if none is named. Where both axes have a border and are outside, it is that of u.
+///
+/// Filters blend with it: a bilinear colour fades to the border over the texel's width about a side.
+///
+/// ```
+/// use alberti_texture::{Border, Nearest, Texture, format::{L8, Rgba8}};
+///
+/// const RED: u32 = Rgba8::new(255, 0, 0, 255).to_bits();
+/// let texture = Texture::<L8>::new(&[255], 1, 1)?;
+/// let sampler = texture.sampler::<Nearest, Border<RED>>();
+/// assert_eq!(sampler.sample([0.5, 0.5].into()), Rgba8::WHITE);
+/// assert_eq!(sampler.sample([1.5, 0.5].into()).to_bits(), RED);
+/// # Ok::<(), alberti_texture::TextureError>(())
+/// ```
+///
+/// # Cost
+/// Three operations a texel more for each axis than [`Clamp`] on all lanes at once.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Border<const COLOR: u32 = 0>;
 
 /// floor(coordinate * size).
 #[inline]
@@ -209,6 +235,51 @@ impl Wrap for Mirror {
     }
 }
 
+impl<const COLOR: u32> Axis for Border<COLOR> {
+    const BORDER: Option<u32> = Some(COLOR);
+
+    /// In two's complement, clamped to where nothing but the border counts for any size.
+    #[inline]
+    fn reduce(u: f32) -> u64 {
+        let u = if u > BORDER_BEGIN { u } else { BORDER_BEGIN };
+        bounded(if u < BORDER_END { u } else { BORDER_END })
+    }
+
+    #[inline]
+    fn cell(reduced: u64, size: u32) -> u32 {
+        Self::index(((reduced.cast_signed() * i64::from(size)) >> FRACTION_BITS) as i32, size)
+    }
+
+    #[inline]
+    fn neighbours(i: i32, size: u32) -> (u32, u32) {
+        (Self::index(i, size), Self::index(i.wrapping_add(1), size))
+    }
+
+    #[inline(always)]
+    fn in_period<L: Lanes>(lanes: L, u: L::Number) -> L::Number {
+        lanes.min(lanes.max(u, lanes.splat(BORDER_BEGIN)), lanes.splat(BORDER_END))
+    }
+
+    #[inline(always)]
+    fn fold<L: Lanes>(lanes: L, i: L::U32, size: u32) -> L::U32 {
+        // Negative indices are the greatest of words, so the difference is negative inside and 0 outside.
+        let size = lanes.word(size);
+        let inside = lanes.shr_signed(lanes.min_words(i, size) - size, 31);
+        (i & inside) | (lanes.word(u32::MAX) - inside)
+    }
+}
+
+/// Half a texture, and so at least half a texel, beyond either side.
+const BORDER_BEGIN: f32 = -0.5;
+const BORDER_END: f32 = 1.5;
+
+impl<const COLOR: u32> Wrap for Border<COLOR> {
+    #[inline]
+    fn index(i: i32, size: u32) -> u32 {
+        if size == 0 { 0 } else { inside(i, size).unwrap_or(u32::MAX) }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -227,6 +298,7 @@ mod tests {
                 check::<Clamp>(i, size);
             }
             (-1..2 * signed).for_each(|i| check::<Mirror>(i, size));
+            (-signed..2 * signed).for_each(|i| check::<Border<7>>(i, size));
         }
     }
 }

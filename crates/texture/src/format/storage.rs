@@ -13,7 +13,7 @@ pub trait Storage: Sized + 'static {
     /// What the texture refers to beside the texels: nothing, or colours.
     type Palette<'a>: Copy;
 
-    /// The colours, as words, of texels that must lie in the texture.
+    /// The colours of texels as words; anything for those that do not lie in the texture.
     fn fetch<L: Lanes, Z: Size>(
         lanes: L,
         texture: &Texture<'_, Self, Z>,

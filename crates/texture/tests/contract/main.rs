@@ -4,10 +4,12 @@
 #![allow(
     clippy::cast_possible_truncation,
     clippy::cast_precision_loss,
+    clippy::cast_sign_loss,
     reason = "small integers to floats and back, and coordinates that may be rounded"
 )]
 
 mod bilinear;
+mod border;
 mod hostile;
 mod nearest;
 mod oracle;
