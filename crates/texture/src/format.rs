@@ -4,10 +4,12 @@
 //! decoding is compiled into the sampling. [`Rgba8`], what every format decodes to, is itself one. Types of other
 //! crates can be formats too. [`Indexed`] texels are places in a palette that the texture carries.
 
+mod encode;
 mod indexed;
 mod storage;
 
 pub use alberti_math::Rgba8;
+pub use encode::Encode;
 pub use indexed::Indexed;
 pub use storage::Storage;
 

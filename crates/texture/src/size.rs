@@ -39,6 +39,13 @@ pub enum PowerOfTwo {}
 #[derive(Clone, Copy, Debug)]
 pub enum Known<const WIDTH: usize, const HEIGHT: usize> {}
 
+/// [`AnySize`] or [`PowerOfTwo`]: what the levels of a [`Mipmap`](crate::Mipmap) can have.
+pub trait LevelSize: Size {
+    /// Texels of any number.
+    #[doc(hidden)]
+    fn slice<T>(texels: &[T]) -> Self::Texels<'_, T>;
+}
+
 /// The working part of [`Size`]; not nameable outside, so that it can still change.
 pub trait Scale {
     /// The texel whose cell holds the coordinate, along a side of `size` texels.
@@ -77,6 +84,13 @@ fn indexed<L: Lanes, T>(lanes: L, texels: &[T], indices: L::U32, word: impl Fn(O
 }
 
 impl Size for AnySize {}
+
+impl LevelSize for AnySize {
+    #[inline(always)]
+    fn slice<T>(texels: &[T]) -> &[T] {
+        texels
+    }
+}
 
 impl Scale for AnySize {
     #[inline(always)]
@@ -119,6 +133,13 @@ impl Scale for AnySize {
 }
 
 impl Size for PowerOfTwo {}
+
+impl LevelSize for PowerOfTwo {
+    #[inline(always)]
+    fn slice<T>(texels: &[T]) -> &[T] {
+        texels
+    }
+}
 
 impl<const WIDTH: usize, const HEIGHT: usize> Size for Known<WIDTH, HEIGHT> {
     #[expect(clippy::cast_possible_truncation, reason = "there is no texture with larger sides")]

@@ -38,7 +38,7 @@ impl<'a, F: TexelFormat> Texture<'a, F, AnySize> {
     /// # Errors
     /// If a side is 0 or greater than [`Self::MAX_SIZE`], or if there are more or fewer texels.
     pub const fn new(texels: &'a [F::Texel], width: u32, height: u32) -> Result<Self, TextureError> {
-        Self::stored(texels, (), width, height, width)
+        Self::stored(texels, (), width, height, 1)
     }
 }
 
@@ -54,7 +54,7 @@ impl<'a, const BITS: u32> Texture<'a, Indexed<BITS>, AnySize> {
         width: u32,
         height: u32,
     ) -> Result<Self, TextureError> {
-        Self::stored(bytes, palette, width, height, Indexed::<BITS>::row_bytes(width))
+        Self::stored(bytes, palette, width, height, Indexed::<BITS>::IN_BYTE)
     }
 }
 
@@ -65,14 +65,14 @@ impl<'a, F: Storage> Texture<'a, F, AnySize> {
     /// a filter's 8 they fit in 64.
     pub const MAX_SIZE: u32 = 1 << 14;
 
-    /// The view of rows of so many elements each.
+    /// The view of elements that hold so many texels each.
     #[expect(clippy::cast_possible_truncation, reason = "`From` is not const; the sizes are at most 2^14")]
     const fn stored(
         texels: &'a [F::Element],
         palette: F::Palette<'a>,
         width: u32,
         height: u32,
-        elements: u32,
+        in_element: u32,
     ) -> Result<Self, TextureError> {
         if width == 0 || height == 0 {
             return Err(TextureError::ZeroSize { width, height });
@@ -81,7 +81,7 @@ impl<'a, F: Storage> Texture<'a, F, AnySize> {
             return Err(TextureError::TooLarge { width, height });
         }
         // At most 2^28. Where `usize` has 16 bits the comparison is still that of the numbers.
-        let expected = elements * height;
+        let expected = width.div_ceil(in_element) * height;
         if texels.len() as u64 != expected as u64 {
             return Err(TextureError::Length { found: texels.len(), expected });
         }
@@ -132,6 +132,16 @@ impl<'a, F: TexelFormat> Texture<'a, F, AnySize> {
 }
 
 impl<'a, F: Storage, Z: Size> Texture<'a, F, Z> {
+    /// The view of what is known to be a texture's.
+    #[inline]
+    pub(crate) const fn of_parts(
+        texels: Z::Texels<'a, F::Element>,
+        palette: F::Palette<'a>,
+        [width, height]: [u16; 2],
+    ) -> Self {
+        Self { texels, palette, width, height, size: PhantomData }
+    }
+
     /// The number of columns, 1 to [`Self::MAX_SIZE`].
     #[inline]
     #[must_use]

@@ -30,16 +30,10 @@ pub struct Indexed<const BITS: u32>;
 
 impl<const BITS: u32> Indexed<BITS> {
     /// How many texels a byte holds.
-    const IN_BYTE: u32 = {
+    pub(crate) const IN_BYTE: u32 = {
         assert!(BITS.is_power_of_two() && BITS <= 8, "Indexed: 1, 2, 4 or 8 bits");
         8 / BITS
     };
-
-    /// The bytes of a row of `width` texels.
-    #[must_use]
-    pub const fn row_bytes(width: u32) -> u32 {
-        width.div_ceil(Self::IN_BYTE)
-    }
 }
 
 impl<const BITS: u32> Storage for Indexed<BITS> {
@@ -56,7 +50,7 @@ impl<const BITS: u32> Storage for Indexed<BITS> {
         let (bytes, palette) = (texture.texels(), texture.palette());
         let from_right = lanes.word(Self::IN_BYTE - 1) - (column & lanes.word(Self::IN_BYTE - 1));
         let shifts = lanes.store_words(from_right * lanes.word(BITS));
-        let first = row * lanes.word(Self::row_bytes(texture.width()));
+        let first = row * lanes.word(texture.width().div_ceil(Self::IN_BYTE));
         let places = lanes.store_words(first + lanes.shr(column, Self::IN_BYTE.trailing_zeros()));
         let at = |words: &[u32], k: usize| words.get(k).copied().unwrap_or_default();
         lanes.load_words(&lanes.each(|k| {

@@ -1,0 +1,209 @@
+//! A texture at several sizes: each level half of the one before, down to one texel.
+//!
+//! ```text
+//! +---------------+-------+---+-+
+//! | level 0       | 1     | 2 |3|   max(1, floor(width / 2^level)) x max(1, floor(height / 2^level))
+//! |               |       +---+-+
+//! |               |       |
+//! |               +-------+
+//! |               |
+//! +---------------+
+//! ```
+//!
+//! The texels of all levels lie in one slice, level after level, so that a chain can be built in the caller's buffer
+//! ([`build`]), or before the program is, and be in flash. A [`Mipmap`] is a view of it.
+
+mod alpha;
+mod build;
+mod content;
+
+pub use alpha::preserve_coverage;
+pub use build::build;
+pub use content::{Content, Linear, Normals, Srgb};
+
+use core::fmt;
+use core::marker::PhantomData;
+
+use alberti_math::Rgba8;
+
+use crate::format::{Indexed, Storage};
+use crate::{AnySize, LevelSize, PowerOfTwo, Size, TexelFormat, Texture, TextureError};
+
+/// The greatest number of levels: of a side of 2^14 texels.
+pub const MAX_LEVELS: usize = 15;
+
+/// How many levels there are from `width` x `height` down to one texel.
+///
+/// ```
+/// assert_eq!(alberti_texture::mipmap::level_count(100, 7), 7); // 100, 50, 25, 12, 6, 3, 1
+/// ```
+#[must_use]
+pub const fn level_count(width: u32, height: u32) -> usize {
+    let greater = if width > height { width } else { height };
+    (u32::BITS - greater.leading_zeros()) as usize
+}
+
+/// How many texels all levels have together.
+///
+/// ```
+/// use alberti_texture::mipmap::texel_count;
+///
+/// let buffer = [0u16; texel_count(64, 64)];
+/// assert_eq!(buffer.len(), 5461);
+/// ```
+#[must_use]
+pub const fn texel_count(width: u32, height: u32) -> usize {
+    let mut sum = 0;
+    let mut level = 0;
+    while level < level_count(width, height) {
+        let [width, height] = size_of_level([width, height], level);
+        sum += width as usize * height as usize;
+        level += 1;
+    }
+    sum
+}
+
+/// The sides of a level.
+const fn size_of_level([width, height]: [u32; 2], level: usize) -> [u32; 2] {
+    const fn half(side: u32, level: usize) -> u32 {
+        let side = side >> level;
+        if side == 0 { 1 } else { side }
+    }
+    [half(width, level), half(height, level)]
+}
+
+/// A view of a texture at several sizes. It owns nothing, so the texels may be in flash:
+///
+/// ```
+/// use alberti_texture::{Mipmap, format::L8};
+///
+/// static BOARD: Mipmap<'static, L8> = match Mipmap::new(&[0, 255, 255, 0, 188], 2, 2) {
+///     Ok(mipmap) => mipmap,
+///     Err(_) => panic!("a level of 2 x 2 and one of 1 x 1"),
+/// };
+/// assert_eq!(BOARD.level(1).texel(0, 0).to_bytes(), [188, 188, 188, 255]);
+/// ```
+pub struct Mipmap<'a, F: Storage, Z: Size = AnySize> {
+    elements: &'a [F::Element],
+    palette: F::Palette<'a>,
+    /// Where levels begin, and behind them where the last ends.
+    begin: [u32; MAX_LEVELS + 1],
+    levels: u8,
+    width: u16,
+    height: u16,
+    size: PhantomData<Z>,
+}
+
+impl<'a, F: TexelFormat> Mipmap<'a, F> {
+    /// The view of the levels of a texture, one after the other: all, or as many as there are texels for.
+    ///
+    /// # Errors
+    /// If a side is 0 or greater than [`Texture::MAX_SIZE`], or if these are not the texels of whole levels.
+    pub const fn new(texels: &'a [F::Texel], width: u32, height: u32) -> Result<Self, TextureError> {
+        Self::stored(texels, (), width, height, 1)
+    }
+}
+
+impl<'a, const BITS: u32> Mipmap<'a, Indexed<BITS>> {
+    /// The same for texels that are places in a palette: see [`Indexed`] for their order.
+    ///
+    /// # Errors
+    /// As [`new`](Mipmap::new), of bytes.
+    pub const fn indexed(
+        bytes: &'a [u8],
+        palette: &'a [Rgba8],
+        width: u32,
+        height: u32,
+    ) -> Result<Self, TextureError> {
+        Self::stored(bytes, palette, width, height, Indexed::<BITS>::IN_BYTE)
+    }
+}
+
+impl<'a, F: Storage> Mipmap<'a, F> {
+    /// The view of elements that hold so many texels each.
+    #[expect(clippy::cast_possible_truncation, reason = "sides are at most 2^14, texels at most 4/3 of 2^28")]
+    const fn stored(
+        elements: &'a [F::Element],
+        palette: F::Palette<'a>,
+        width: u32,
+        height: u32,
+        in_element: u32,
+    ) -> Result<Self, TextureError> {
+        if width == 0 || height == 0 {
+            return Err(TextureError::ZeroSize { width, height });
+        }
+        if width > Texture::<F>::MAX_SIZE || height > Texture::<F>::MAX_SIZE {
+            return Err(TextureError::TooLarge { width, height });
+        }
+        let mut begin = [0; MAX_LEVELS + 1];
+        let mut levels = 0;
+        while levels < level_count(width, height)
+            && (levels == 0 || (begin[levels] as usize) < elements.len())
+        {
+            let [width, height] = size_of_level([width, height], levels);
+            begin[levels + 1] = begin[levels] + width.div_ceil(in_element) * height;
+            levels += 1;
+        }
+        let expected = begin[levels];
+        if elements.len() as u64 != expected as u64 {
+            return Err(TextureError::Length { found: elements.len(), expected });
+        }
+        let (levels, width, height) = (levels as u8, width as u16, height as u16);
+        Ok(Self { elements, palette, begin, levels, width, height, size: PhantomData })
+    }
+
+    /// The same levels, known to have sides that are powers of two, if they have. They are faster to sample, and show
+    /// the same.
+    #[must_use]
+    pub const fn power_of_two(self) -> Option<Mipmap<'a, F, PowerOfTwo>> {
+        let Self { elements, palette, begin, levels, width, height, .. } = self;
+        if width.is_power_of_two() && height.is_power_of_two() {
+            Some(Mipmap { elements, palette, begin, levels, width, height, size: PhantomData })
+        } else {
+            None
+        }
+    }
+}
+
+impl<'a, F: Storage, Z: LevelSize> Mipmap<'a, F, Z> {
+    /// How many levels there are, 1 to [`MAX_LEVELS`].
+    #[inline]
+    #[must_use]
+    pub const fn levels(&self) -> usize {
+        self.levels as usize
+    }
+
+    /// A level, 0 the largest; beyond the last, the last.
+    ///
+    /// # Cost
+    /// Two loads, two shifts and a few comparisons.
+    #[inline]
+    #[must_use]
+    pub fn level(&self, level: usize) -> Texture<'a, F, Z> {
+        let level = level.min(self.levels().saturating_sub(1));
+        let at = |level: usize| self.begin.get(level).copied().unwrap_or_default() as usize;
+        // They are there, as `stored` has compared.
+        let elements = self.elements.get(at(level)..at(level + 1)).unwrap_or_default();
+        let size = [self.width, self.height].map(|side| (side >> level).max(1));
+        Texture::of_parts(Z::slice(elements), self.palette, size)
+    }
+}
+
+impl<F: Storage, Z: Size> Clone for Mipmap<'_, F, Z> {
+    #[inline]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<F: Storage, Z: Size> Copy for Mipmap<'_, F, Z> {}
+
+impl<F: Storage, Z: Size> fmt::Debug for Mipmap<'_, F, Z> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Mipmap")
+            .field("width", &self.width)
+            .field("height", &self.height)
+            .field("levels", &self.levels)
+            .finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,84 @@
+//! Filling the smaller levels.
+
+use super::content::Content;
+use super::{level_count, size_of_level, texel_count};
+use crate::{TexelFormat, Texture, TextureError};
+
+/// Fills all levels from level 0, which is at the beginning of `texels`.
+///
+/// A texel is the mean of the part of level 0 that it covers, whose texels count by how much of them that is, also
+/// where sides are not powers of two:
+///
+/// ```text
+///  5 texels   |   |   |   |   |   |      the first of two counts 1, 1 and 1/2
+///  2 texels   |         |         |
+/// ```
+///
+/// ```
+/// use alberti_texture::{Mipmap, format::L8, mipmap::{self, Srgb}};
+///
+/// let mut texels = [0; mipmap::texel_count(2, 2)];
+/// texels[..4].copy_from_slice(&[0, 255, 255, 0]);
+/// mipmap::build::<L8, Srgb>(&mut texels, 2, 2)?;
+/// let board = Mipmap::<L8>::new(&texels, 2, 2)?;
+/// // Half of the light is far above half of the byte.
+/// assert_eq!(board.level(1).texels(), [188]);
+/// # Ok::<(), alberti_texture::TextureError>(())
+/// ```
+///
+/// # Precision
+/// That of the [`Content`], for every level, as none is made from a rounded one.
+///
+/// # Cost
+/// Each level reads all of level 0: for a side of 256 texels that is eight times. No memory.
+///
+/// # Errors
+/// If a side is 0 or greater than [`Texture::MAX_SIZE`], or if there are not [`texel_count`] texels.
+pub fn build<F: TexelFormat, C: Content<F>>(
+    texels: &mut [F::Texel],
+    width: u32,
+    height: u32,
+) -> Result<(), TextureError> {
+    let area = width.saturating_mul(height) as usize;
+    // Says what is wrong with the sides.
+    Texture::<F>::new(texels.get(..area).unwrap_or(texels), width, height)?;
+    let (found, expected) = (texels.len(), texel_count(width, height));
+    if found != expected {
+        #[expect(clippy::cast_possible_truncation, reason = "at most 4/3 of 2^28")]
+        return Err(TextureError::Length { found, expected: expected as u32 });
+    }
+    let (base, mut rest) = texels.split_at_mut_checked(area).unwrap_or_default();
+    for level in 1..level_count(width, height) {
+        let [columns, rows] = size_of_level([width, height], level);
+        let (own, below) = rest.split_at_mut_checked((columns * rows) as usize).unwrap_or_default();
+        for (texels, row) in own.chunks_exact_mut(columns as usize).zip(0..) {
+            for (texel, column) in texels.iter_mut().zip(0..) {
+                let mut sum = C::Sum::default();
+                for (texels, weight) in covered(base.chunks_exact(width as usize), row, [height, rows]) {
+                    for (&texel, part) in covered(texels.iter(), column, [width, columns]) {
+                        C::add(&mut sum, weight * part, texel);
+                    }
+                }
+                *texel = C::mean(&sum, u64::from(width) * u64::from(height));
+            }
+        }
+        rest = below;
+    }
+    Ok(())
+}
+
+/// Of `all` things in a row, those that place `i` of `places` covers, and how much of them: in `places`ths, in all
+/// `all` of these.
+fn covered<I: ExactSizeIterator>(
+    things: I,
+    i: u32,
+    [all, places]: [u32; 2],
+) -> impl Iterator<Item = (I::Item, u64)> {
+    let [begin, end] = [i * all, (i + 1) * all];
+    let first = begin / places;
+    let count = end.div_ceil(places) - first;
+    things.skip(first as usize).take(count as usize).zip(first..).map(move |(thing, k)| {
+        let part = end.min((k + 1) * places) - begin.max(k * places);
+        (thing, part.into())
+    })
+}
