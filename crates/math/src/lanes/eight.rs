@@ -1,7 +1,7 @@
 //! Eight samples at a time, in the vector registers that the machine has: one of 256 bits, or pairs of 128.
 
 use super::one::power_of_two;
-use super::{Floating, Lanes};
+use super::{Floating, Lanes, half_log2};
 use core::fmt::{Debug, Formatter, Result};
 use fearless_simd::{
     Bytes, Select, Simd, SimdBase, SimdFloat, SimdInt, SimdInto, SimdMask, f32x8, f64x4, i32x8, mask32x8,
@@ -139,6 +139,16 @@ impl<S: Simd> Lanes for Eight<S> {
     #[inline(always)]
     fn sqrt(self, x: f32x8<S>) -> f32x8<S> {
         x.sqrt()
+    }
+
+    #[inline(always)]
+    fn log2_length(self, x: f32x8<S>, y: f32x8<S>, scale: [u32; 2]) -> f32x8<S> {
+        #[expect(clippy::cast_precision_loss, reason = "up to 2^15")]
+        let [a, b] = scale.map(|scale| self.splat(scale as f32));
+        let (x, y) = (x * a, y * b);
+        let bits = (x * x + y * y).bitcast::<u32x8<S>>();
+        let mantissa = (bits & self.word(0x007f_ffff) | self.word(0x3f80_0000)).bitcast();
+        half_log2(self, self.to_numbers(bits >> 23), mantissa)
     }
 
     #[inline(always)]

@@ -59,6 +59,24 @@ impl Lanes for OneFixed {
         Q16::from_bits((square.isqrt() as u32).cast_signed())
     }
 
+    #[inline]
+    fn log2_length(self, x: Q16, y: Q16, scale: [u32; 2]) -> Q16 {
+        const LOG2: [i32; 2] =
+            [Q16::from_f32(super::LOG2[0]).to_bits(), Q16::from_f32(super::LOG2[1]).to_bits()];
+
+        let scaled =
+            |x: Q16, scale: u32| (i64::from(x.to_bits()) * i64::from(scale)).unsigned_abs().min(1 << 31);
+        let (x, y) = (scaled(x, scale[0]), scaled(y, scale[1]));
+        // In units of 2^-32, at most 2^63.
+        let square = (x * x + y * y).max(1);
+        let zeros = square.leading_zeros();
+        // The bits behind the first, as 65536ths.
+        let m = ((square << zeros << 1) >> 48) as i32;
+        let correction = ((m * ((1 << 16) - m)) >> 16) * (LOG2[0] + ((LOG2[1] * m) >> 16));
+        let log2 = ((31 - zeros.cast_signed()) << 16) + m + (correction >> 16);
+        Q16::from_bits((log2 + 1) >> 1)
+    }
+
     #[inline(always)]
     fn wrap(self, x: Q16, period: u32) -> Q16 {
         Q16::from_bits(x.to_bits() & ((1_u32 << (16 + period)) - 1).cast_signed())
