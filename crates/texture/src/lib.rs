@@ -8,6 +8,7 @@ mod blend;
 mod coordinate;
 mod filter;
 pub mod format;
+mod lod;
 pub mod mipmap;
 mod sampler;
 mod size;
@@ -18,6 +19,7 @@ mod wrap;
 
 pub use filter::{Bilinear, Filter, Nearest};
 pub use format::TexelFormat;
+pub use lod::{Derivatives, LodBounds};
 pub use mipmap::Mipmap;
 pub use sampler::Sampler;
 pub use size::{AnySize, Known, LevelSize, PowerOfTwo, Size};

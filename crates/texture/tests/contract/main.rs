@@ -11,6 +11,7 @@
 mod bilinear;
 mod border;
 mod hostile;
+mod lod;
 mod mipmap;
 mod nearest;
 mod oracle;

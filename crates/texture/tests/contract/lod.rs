@@ -1,0 +1,148 @@
+//! The level of detail against real numbers.
+
+use alberti_math::lanes::{Lanes, Machine, OneFixed};
+use alberti_math::{Q16, for_lanes};
+use alberti_texture::{Derivatives, LodBounds};
+use glam::Vec2;
+
+use crate::oracle::Random;
+
+/// The definition, in `f64`.
+fn exact(d: Derivatives<f64>, [width, height]: [u32; 2]) -> f64 {
+    let (w, h) = (f64::from(width), f64::from(height));
+    (d.du_dx * w).hypot(d.dv_dx * h).max((d.du_dy * w).hypot(d.dv_dy * h)).log2()
+}
+
+fn map<A: Copy, B>(d: Derivatives<A>, mut f: impl FnMut(A) -> B) -> Derivatives<B> {
+    Derivatives { du_dx: f(d.du_dx), dv_dx: f(d.dv_dx), du_dy: f(d.du_dy), dv_dy: f(d.dv_dy) }
+}
+
+/// A pixel as a rectangle in the texture, `long` x `long / ratio` texels, turned by `angle` on the texture and by
+/// `turn` on the screen.
+fn footprint(long: f64, ratio: f64, angle: f64, turn: f64, [width, height]: [u32; 2]) -> Derivatives<f64> {
+    let axes =
+        [(angle.cos() * long, angle.sin() * long), (-angle.sin() * long / ratio, angle.cos() * long / ratio)];
+    let mix = |a: f64, b: f64, part: fn((f64, f64)) -> f64| part(axes[0]) * a + part(axes[1]) * b;
+    let (c, s) = (turn.cos(), turn.sin());
+    Derivatives {
+        du_dx: mix(c, s, |axis| axis.0) / f64::from(width),
+        dv_dx: mix(c, s, |axis| axis.1) / f64::from(height),
+        du_dy: mix(-s, c, |axis| axis.0) / f64::from(width),
+        dv_dy: mix(-s, c, |axis| axis.1) / f64::from(height),
+    }
+}
+
+/// 10^5 rotations, anisotropy up to 1000, every kind of lanes.
+#[test]
+fn rotations_and_anisotropy() {
+    let mut random = Random(70);
+    let mut worst = [0.0f64; 2];
+    let mut unit = || f64::from(random.bits()) / 2f64.powi(32);
+    for i in 0..100_000 {
+        let size = [[256, 256], [1000, 37], [16384, 1], [2, 512]][i % 4];
+        let angle = i as f64 * std::f64::consts::TAU / 100_000.0;
+        let (ratio, long) = (1000f64.powf(unit()), 2f64.powf(unit() * 16.0 - 2.0));
+        let d = footprint(long, ratio, angle, unit() * 7.0, size);
+        let floats = map(d, |d| d as f32);
+        let found = floats.lod(size[0], size[1]);
+        // The derivatives are rounded before, by up to ε.
+        worst[0] = worst[0].max((f64::from(found) - exact(d, size)).abs());
+        for machine in Machine::all() {
+            let same = for_lanes!(machine, lanes => {
+                let d = map(floats, |d| lanes.splat(d));
+                let d = Derivatives::between([lanes.splat(0.0); 2], [d.du_dx, d.dv_dx], [d.du_dy, d.dv_dy]);
+                lanes.store(d.lod_lanes(lanes, size)).as_ref()[0]
+            });
+            assert_eq!(same.to_bits(), found.to_bits());
+        }
+        let fixed = map(floats, Q16::from_f32);
+        let rounded = map(fixed, |d| f64::from(d.to_bits()) / 65536.0);
+        let expected = exact(rounded, size);
+        if expected < 15.0 && expected > -16.0 {
+            let found = f64::from(fixed.lod_lanes(OneFixed, size).to_bits()) / 65536.0;
+            worst[1] = worst[1].max((found - expected).abs());
+        }
+    }
+    println!("λ: at most {:?} of 2^-11 off, floats and integers", worst.map(|worst| worst * 2048.0));
+    assert!(worst.iter().all(|&worst| worst > 0.8 / 2048.0 && worst <= 1.0 / 2048.0), "{worst:?}");
+}
+
+#[test]
+fn defined_for_any_bits() {
+    let mut random = Random(71);
+    for _ in 0..200_000 {
+        let d = map(Derivatives::default(), |()| random.float());
+        let lambda = d.lod(16384, 16384);
+        assert!((-63.5..=64.0).contains(&lambda), "{d:?}: {lambda}");
+        let q = map(Derivatives::default(), |()| Q16::from_bits(random.bits().cast_signed()));
+        let lambda = q.lod_lanes(OneFixed, [16384, 16384]);
+        assert!((Q16::from_bits(-16 << 16)..=Q16::from_bits(16 << 16)).contains(&lambda));
+    }
+    assert!((Derivatives::<f32>::default().lod(64, 64) + 63.5).abs() <= 0.0);
+    let bounds = LodBounds { bias: 1.0, least: -2.0, greatest: 5.0 };
+    assert_eq!([-9.0, 0.5, 7.0, f32::NAN].map(|lambda| bounds.bound(lambda)), [-2.0, 1.5, 5.0, -2.0]);
+}
+
+/// A plane in perspective: U, V and Q linear in x and y. The derivatives of u = U/Q in `f64`, by the quotient rule
+/// written out, and by differences of a thousandth of a pixel.
+#[test]
+fn of_planes_within_the_bound() {
+    let mut random = Random(72);
+    let mut worst = 0.0f64;
+    for _ in 0..200_000 {
+        let mut number = || (f64::from(random.bits()) / 2f64.powi(31) - 1.0) as f32;
+        let [dx, dy] = [[number(), number(), number()], [number(), number(), number()]];
+        let [u, v, q] = [number() * 3.0, number() * 3.0, number().abs() + 0.1];
+        let depth = 1.0 / q;
+        let found = Derivatives::of_planes([u, v], depth, dx, dy);
+        let each = [
+            (found.du_dx, u, dx[0], dx[2]),
+            (found.dv_dx, v, dx[1], dx[2]),
+            (found.du_dy, u, dy[0], dy[2]),
+            (found.dv_dy, v, dy[1], dy[2]),
+        ];
+        for (found, value, numerator, of_q) in each {
+            let [value, n, of_q] = [value, numerator, of_q].map(f64::from);
+            let depth = f64::from(depth);
+            let exact = (n - value * of_q) * depth;
+            // The product is rounded, the difference, and the product with the depth.
+            let bound = (2.0 * n.abs() + 3.0 * (value * of_q).abs()) * depth;
+            worst = worst.max((f64::from(found) - exact).abs() / bound * 2f64.powi(24));
+        }
+        // U = (u + ∂u/∂x h)(Q + ∂Q/∂x h) + O(h²)
+        let h = 1e-3 * f64::from(q);
+        let at = |slopes: [f32; 3], i: usize, value: f32| {
+            let numerator = f64::from(value) * f64::from(q) + f64::from(slopes[i]) * h;
+            (numerator / (f64::from(q) + f64::from(slopes[2]) * h) - f64::from(value)) / h
+        };
+        for (found, difference) in [(found.du_dx, at(dx, 0, u)), (found.dv_dy, at(dy, 1, v))] {
+            let scale = 4.0 * f64::from(depth) * 2e-3;
+            assert!((f64::from(found) - difference).abs() <= scale * 2.0, "{found} {difference}");
+        }
+    }
+    println!("derivatives of planes: at most {worst:.3} of the bound");
+    assert!((0.5..=1.0).contains(&worst));
+}
+
+#[test]
+fn of_triangles() {
+    let mut random = Random(73);
+    for _ in 0..100_000 {
+        // Small integers, so that all products are exact; the texture is 3x - y + 2, x + 4y - 5 of the screen's 8ths.
+        let mut corner = || Vec2::new((random.bits() % 64) as f32, (random.bits() % 64) as f32);
+        let screen = [corner(), corner(), corner()];
+        let texture = screen.map(|p| Vec2::new(3.0 * p.x - p.y + 2.0, p.x + 4.0 * p.y - 5.0) / 8.0);
+        let found = Derivatives::of_triangle(screen, texture);
+        let [a, b, c] = screen;
+        if (b - a).perp_dot(c - a).abs() < 0.5 {
+            assert_eq!(found, None);
+            continue;
+        }
+        let d = found.unwrap();
+        for (found, exact) in [(d.du_dx, 0.375), (d.du_dy, -0.125), (d.dv_dx, 0.125), (d.dv_dy, 0.5)] {
+            assert!((found - exact).abs() < 2e-4, "{screen:?}: {d:?}");
+        }
+    }
+    let not_finite = [Vec2::ZERO, Vec2::X, Vec2::new(f32::NAN, 1.0)];
+    assert_eq!(Derivatives::of_triangle(not_finite, [Vec2::ZERO, Vec2::X, Vec2::Y]), None);
+}
