@@ -26,21 +26,62 @@ pub(crate) struct Quad<L: Lanes> {
 /// Eight multiplications for the four channels.
 #[inline(always)]
 pub(crate) fn bilinear<L: Lanes>(lanes: L, quad: Quad<L>, right: L::U32, up: L::U32) -> L::U32 {
+    let [red, green, blue, alpha] = sums(lanes, quad, right, up);
+    let half = lanes.word(1 << 15);
+    // The upper halves of these words are the channels.
+    let pair = |low, high| lanes.shr(low + half, 16) | (high + half) & lanes.word(0x00ff_0000);
+    pair(red, blue) | lanes.shl(pair(green, alpha), 8)
+}
+
+/// The sums of [`bilinear`] before they are rounded, of red, green, blue and alpha: at most 255 * 2^16.
+#[inline(always)]
+pub(crate) fn sums<L: Lanes>(lanes: L, quad: Quad<L>, right: L::U32, up: L::U32) -> [L::U32; 4] {
     let Quad { low_left, low_right, high_left, high_right } = quad;
     let bytes = lanes.word(BYTES);
-    let red_blue = rise(
+    let [red, blue] = rise(
         lanes,
         across(lanes, low_left & bytes, low_right & bytes, right),
         across(lanes, high_left & bytes, high_right & bytes, right),
         up,
     );
-    let green_alpha = rise(
+    let [green, alpha] = rise(
         lanes,
         across(lanes, lanes.shr(low_left, 8) & bytes, lanes.shr(low_right, 8) & bytes, right),
         across(lanes, lanes.shr(high_left, 8) & bytes, lanes.shr(high_right, 8) & bytes, right),
         up,
     );
-    red_blue | lanes.shl(green_alpha, 8)
+    [red, green, blue, alpha]
+}
+
+/// A colour's channels times 2^16: its [`sums`] as a mean of itself.
+#[inline(always)]
+pub(crate) fn spread<L: Lanes>(lanes: L, color: L::U32) -> [L::U32; 4] {
+    let channel = lanes.word(0x00ff_0000);
+    [
+        lanes.shl(color, 16) & channel,
+        lanes.shl(color, 8) & channel,
+        color & channel,
+        lanes.shr(color, 8) & channel,
+    ]
+}
+
+/// The colour at `along` 256ths of the way, 0 to 256, from one colour to another that are given by [`sums`]:
+///
+/// ```text
+/// ((256 - along)*near + along*far + 2^23) >> 24
+/// ```
+///
+/// # Cost
+/// Four multiplications.
+#[inline(always)]
+pub(crate) fn between<L: Lanes>(lanes: L, near: [L::U32; 4], far: [L::U32; 4], along: L::U32) -> L::U32 {
+    // Below 2^32 in the end, and so modulo 2^32 before.
+    let mean = |k: usize| lanes.shl(near[k], 8) + (far[k] - near[k]) * along + lanes.word(1 << 23);
+    let [red, green, blue, alpha] = [mean(0), mean(1), mean(2), mean(3)];
+    lanes.shr(red, 24)
+        | lanes.shr(green, 16) & lanes.word(0x0000_ff00)
+        | lanes.shr(blue, 8) & lanes.word(0x00ff_0000)
+        | alpha & lanes.word(0xff00_0000)
 }
 
 /// `(256 - t) * left + t * right` in two lanes of 16 bits.
@@ -52,20 +93,12 @@ fn across<L: Lanes>(lanes: L, left: L::U32, right: L::U32, t: L::U32) -> L::U32 
     lanes.shl(left, 8) + (right - left) * t
 }
 
-/// `((256 - t) * low + t * high + 2^15) >> 16` of two lanes of 16 bits: bytes 0 and 2 of the result.
+/// `(256 - t) * low + t * high` of two lanes of 16 bits: the lower, the upper.
 #[inline(always)]
-fn rise<L: Lanes>(lanes: L, low: L::U32, high: L::U32, t: L::U32) -> L::U32 {
+fn rise<L: Lanes>(lanes: L, low: L::U32, high: L::U32, t: L::U32) -> [L::U32; 2] {
     let words = lanes.word(0xffff);
-    let below = mean(lanes, low & words, high & words, t);
-    let above = mean(lanes, lanes.shr(low, 16), lanes.shr(high, 16), t);
-    // The upper half of that word is the channel, in place.
-    lanes.shr(below, 16) | above & lanes.word(0x00ff_0000)
-}
-
-/// `(256 - t) * low + t * high + 2^15`, at most 255 * 2^16 + 2^15.
-#[inline(always)]
-fn mean<L: Lanes>(lanes: L, low: L::U32, high: L::U32, t: L::U32) -> L::U32 {
-    lanes.shl(low, 8) + (high - low) * t + lanes.word(1 << 15)
+    let mean = |low, high| lanes.shl(low, 8) + (high - low) * t;
+    [mean(low & words, high & words), mean(lanes.shr(low, 16), lanes.shr(high, 16))]
 }
 
 #[cfg(test)]
@@ -111,6 +144,49 @@ mod tests {
                     });
                     check(corners, right, up);
                 }
+            }
+        }
+    }
+
+    /// Two means of four, and the mean of these: linear in each of the eight corners.
+    #[test]
+    fn between_two_levels() {
+        let word = |bytes: [u8; 4]| Wrapping(u32::from_le_bytes(bytes));
+        for (right, up) in [(0, 0), (255, 255), (128, 1), (77, 200), (1, 254)] {
+            for along in 0..=256 {
+                for pattern in 0..=255u8 {
+                    // Other corners, of other colours, for each channel.
+                    let corner = |corner: u32| {
+                        [pattern, !pattern, pattern.rotate_left(3), pattern ^ 0xa5]
+                            .map(|c| if c >> corner & 1 == 1 { 255 } else { 0 })
+                    };
+                    let colors: [[u8; 4]; 8] = core::array::from_fn(|k| corner(u32::try_from(k).unwrap()));
+                    let level = |k: usize| {
+                        let [low_left, low_right, high_left, high_right] =
+                            [0, 1, 2, 3].map(|corner| word(colors[k + corner]));
+                        let quad = Quad::<One> { low_left, low_right, high_left, high_right };
+                        sums(One, quad, Wrapping(right), Wrapping(up))
+                    };
+                    let found = between(One, level(0), level(4), Wrapping(along)).0.to_le_bytes();
+                    for channel in 0..4 {
+                        let weights = |k: usize| {
+                            let (right, up) = (u64::from(right), u64::from(up));
+                            (if k & 1 == 0 { 256 - right } else { right })
+                                * (if k & 2 == 0 { 256 - up } else { up })
+                                * u64::from(if k & 4 == 0 { 256 - along } else { along })
+                        };
+                        let sum: u64 = (0..8).map(|k| weights(k) * u64::from(colors[k][channel])).sum();
+                        assert_eq!(u64::from(found[channel]), (2 * sum + (1 << 24)) / (1 << 25));
+                    }
+                }
+            }
+        }
+        for color in [0, 0x0123_4567, 0x89ab_cdef, u32::MAX] {
+            for (right, up) in [(0, 0), (99, 201), (256, 256)] {
+                let color = Wrapping(color);
+                let quad =
+                    Quad::<One> { low_left: color, low_right: color, high_left: color, high_right: color };
+                assert_eq!(sums(One, quad, Wrapping(right), Wrapping(up)), spread(One, color));
             }
         }
     }

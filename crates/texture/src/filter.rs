@@ -6,7 +6,7 @@ use core::fmt::Debug;
 
 use alberti_math::lanes::Lanes;
 
-use crate::blend::{Quad, bilinear};
+use crate::blend::{Quad, bilinear, spread, sums};
 use crate::format::Storage;
 use crate::{Size, Texture, Wrap};
 
@@ -22,6 +22,14 @@ pub trait Kernel {
         u: L::Number,
         v: L::Number,
     ) -> L::U32;
+
+    /// Red, green, blue and alpha times 2^16, before they are rounded.
+    fn sums<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+        lanes: L,
+        texture: &Texture<'_, F, Z>,
+        u: L::Number,
+        v: L::Number,
+    ) -> [L::U32; 4];
 }
 
 /// The texel whose cell holds the point: column floor(u * width), row height - 1 - floor(v * height).
@@ -81,6 +89,16 @@ impl Kernel for Nearest {
         let at = cell::<L, F, Z, U, V>(lanes, texture, u, v);
         texel::<L, F, Z, U, V>(lanes, texture, at)
     }
+
+    #[inline(always)]
+    fn sums<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+        lanes: L,
+        texture: &Texture<'_, F, Z>,
+        u: L::Number,
+        v: L::Number,
+    ) -> [L::U32; 4] {
+        spread(lanes, Self::sample::<L, F, Z, U, V>(lanes, texture, u, v))
+    }
 }
 
 /// The column and the row, counted from the bottom, of the texel whose cell holds a point.
@@ -104,16 +122,39 @@ impl Kernel for Bilinear {
         u: L::Number,
         v: L::Number,
     ) -> L::U32 {
-        let [left, right, along] = Z::between::<L, U>(lanes, u, texture.width());
-        let [low, high, up] = Z::between::<L, V>(lanes, v, texture.height());
-        let quad = Quad {
-            low_left: texel::<L, F, Z, U, V>(lanes, texture, [left, low]),
-            low_right: texel::<L, F, Z, U, V>(lanes, texture, [right, low]),
-            high_left: texel::<L, F, Z, U, V>(lanes, texture, [left, high]),
-            high_right: texel::<L, F, Z, U, V>(lanes, texture, [right, high]),
-        };
+        let (quad, along, up) = surrounding::<L, F, Z, U, V>(lanes, texture, u, v);
         bilinear(lanes, quad, along, up)
     }
+
+    #[inline(always)]
+    fn sums<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+        lanes: L,
+        texture: &Texture<'_, F, Z>,
+        u: L::Number,
+        v: L::Number,
+    ) -> [L::U32; 4] {
+        let (quad, along, up) = surrounding::<L, F, Z, U, V>(lanes, texture, u, v);
+        sums(lanes, quad, along, up)
+    }
+}
+
+/// The four texels about a point, and its 256ths of the way to the right and upwards.
+#[inline(always)]
+fn surrounding<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    lanes: L,
+    texture: &Texture<'_, F, Z>,
+    u: L::Number,
+    v: L::Number,
+) -> (Quad<L>, L::U32, L::U32) {
+    let [left, right, along] = Z::between::<L, U>(lanes, u, texture.width());
+    let [low, high, up] = Z::between::<L, V>(lanes, v, texture.height());
+    let quad = Quad {
+        low_left: texel::<L, F, Z, U, V>(lanes, texture, [left, low]),
+        low_right: texel::<L, F, Z, U, V>(lanes, texture, [right, low]),
+        high_left: texel::<L, F, Z, U, V>(lanes, texture, [left, high]),
+        high_right: texel::<L, F, Z, U, V>(lanes, texture, [right, high]),
+    };
+    (quad, along, up)
 }
 
 /// The colour in a column and in a row that is counted from the bottom, or that of the border.

@@ -27,7 +27,9 @@ use core::marker::PhantomData;
 use alberti_math::Rgba8;
 
 use crate::format::{Indexed, Storage};
-use crate::{AnySize, LevelSize, PowerOfTwo, Size, TexelFormat, Texture, TextureError};
+use crate::{
+    AnySize, LevelSize, MipFilter, MipSampler, PowerOfTwo, Size, TexelFormat, Texture, TextureError, Wrap,
+};
 
 /// The greatest number of levels: of a side of 2^14 texels.
 pub const MAX_LEVELS: usize = 15;
@@ -171,6 +173,32 @@ impl<'a, F: Storage, Z: LevelSize> Mipmap<'a, F, Z> {
     #[must_use]
     pub const fn levels(&self) -> usize {
         self.levels as usize
+    }
+
+    /// The number of the last level.
+    #[inline(always)]
+    pub(crate) fn last(&self) -> i32 {
+        i32::from(self.levels) - 1
+    }
+
+    /// The sides of level 0.
+    #[inline(always)]
+    pub(crate) fn size(&self) -> [u32; 2] {
+        [self.width.into(), self.height.into()]
+    }
+
+    /// A sampler with the same wrap mode on both axes: `mipmap.sampler::<Trilinear, Repeat>()`.
+    #[inline]
+    #[must_use]
+    pub const fn sampler<M: MipFilter, W: Wrap>(&self) -> MipSampler<'a, F, M, W, W, Z> {
+        MipSampler::new(*self)
+    }
+
+    /// A sampler with the wrap mode `U` from left to right and `V` from bottom to top.
+    #[inline]
+    #[must_use]
+    pub const fn sampler_per_axis<M: MipFilter, U: Wrap, V: Wrap>(&self) -> MipSampler<'a, F, M, U, V, Z> {
+        MipSampler::new(*self)
     }
 
     /// A level, 0 the largest; beyond the last, the last.

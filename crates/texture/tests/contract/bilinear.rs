@@ -7,7 +7,7 @@ use glam::Vec2;
 use crate::oracle::{Mode, Random, SPECIAL};
 
 /// The texel before the coordinate, not wrapped, and the weight of the next, in 256ths.
-fn position(mode: Mode, u: f32, size: u32) -> (i128, i128) {
+pub(crate) fn position(mode: Mode, u: f32, size: u32) -> (i128, i128) {
     let (significand, halvings) = mode.rational(u);
     // As a multiple of 2^-38, rounded down; in `f64`, where a scaling by a power of two is exact.
     let exact = significand as f64 * 2f64.powi(-halvings);

@@ -12,6 +12,7 @@ mod bilinear;
 mod border;
 mod hostile;
 mod lod;
+mod minify;
 mod mipmap;
 mod nearest;
 mod oracle;

@@ -1,0 +1,117 @@
+//! A mip map together with the way of reading it.
+
+use core::fmt;
+use core::marker::PhantomData;
+
+use alberti_math::Rgba8;
+use alberti_math::lanes::{Lanes, One};
+use glam::Vec2;
+
+use crate::format::Storage;
+use crate::minify::MipFilter;
+use crate::{AnySize, Derivatives, LevelSize, Mipmap, Size, Wrap};
+
+/// A mip map with a filter and a wrap mode for each axis: what a fragment that knows its size asks for a colour.
+///
+/// Made by [`Mipmap::sampler`] and [`Mipmap::sampler_per_axis`].
+///
+/// ```
+/// use alberti_texture::format::L8;
+/// use alberti_texture::{Derivatives, Mipmap, Repeat, Trilinear};
+/// use glam::Vec2;
+///
+/// let board = Mipmap::<L8>::new(&[0, 255, 255, 0, 188], 2, 2)?;
+/// let sampler = board.sampler::<Trilinear, Repeat>();
+/// let uv = Vec2::new(0.25, 0.25);
+/// // Pixels as large as texels, four times as large, and in between.
+/// assert_eq!(sampler.sample_lod(uv, 0.0).to_bytes()[0], 255);
+/// assert_eq!(sampler.sample_lod(uv, 1.0).to_bytes()[0], 188);
+/// assert_eq!(sampler.sample_lod(uv, 0.5).to_bytes()[0], 222);
+/// // A texel across and two down.
+/// let derivatives = Derivatives { du_dx: 0.5, dv_dx: 0.0, du_dy: 0.0, dv_dy: 1.0 };
+/// assert_eq!(sampler.sample_grad(uv, derivatives).to_bytes()[0], 188);
+/// # Ok::<(), alberti_texture::TextureError>(())
+/// ```
+pub struct MipSampler<'a, F: Storage, M, U, V = U, Z: Size = AnySize> {
+    mipmap: Mipmap<'a, F, Z>,
+    modes: PhantomData<(M, U, V)>,
+}
+
+impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize> MipSampler<'a, F, M, U, V, Z> {
+    #[inline]
+    pub(crate) const fn new(mipmap: Mipmap<'a, F, Z>) -> Self {
+        Self { mipmap, modes: PhantomData }
+    }
+
+    /// The mip map that is sampled.
+    #[must_use]
+    pub const fn mipmap(&self) -> Mipmap<'a, F, Z> {
+        self.mipmap
+    }
+
+    /// The colour at `uv` for a level of detail of λ, which [`Derivatives::lod`] tells.
+    ///
+    /// Any three floats have a colour: see [`Wrap`]; of λ, NaN is a pixel smaller than texels, and infinities are the
+    /// last level or such a pixel.
+    ///
+    /// # Precision
+    /// That of the filter.
+    #[inline]
+    #[must_use]
+    pub fn sample_lod(&self, uv: Vec2, lambda: f32) -> Rgba8 {
+        Rgba8::from_bits(self.sample_lod_lanes(One, uv.x, uv.y, lambda).0)
+    }
+
+    /// [`sample_lod`](Self::sample_lod) at several places: the colours as words, as [`Rgba8::to_bits`] makes them.
+    #[inline(always)]
+    pub fn sample_lod_lanes<L: Lanes>(
+        &self,
+        lanes: L,
+        u: L::Number,
+        v: L::Number,
+        lambda: L::Number,
+    ) -> L::U32 {
+        M::at_lod::<L, F, Z, U, V>(lanes, &self.mipmap, u, v, lambda)
+    }
+
+    /// The colour at `uv` of a pixel with these derivatives.
+    ///
+    /// # Precision
+    /// That of the filter and of [`Derivatives::lod`].
+    #[inline]
+    #[must_use]
+    pub fn sample_grad(&self, uv: Vec2, derivatives: Derivatives<f32>) -> Rgba8 {
+        Rgba8::from_bits(self.sample_grad_lanes(One, uv.x, uv.y, derivatives).0)
+    }
+
+    /// [`sample_grad`](Self::sample_grad) at several places: the colours as words, as [`Rgba8::to_bits`] makes them.
+    #[inline(always)]
+    pub fn sample_grad_lanes<L: Lanes>(
+        &self,
+        lanes: L,
+        u: L::Number,
+        v: L::Number,
+        derivatives: Derivatives<L::Number>,
+    ) -> L::U32 {
+        M::in_footprint::<L, F, Z, U, V>(lanes, &self.mipmap, u, v, derivatives)
+    }
+}
+
+impl<F: Storage, M, U, V, Z: Size> Clone for MipSampler<'_, F, M, U, V, Z> {
+    #[inline]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<F: Storage, M, U, V, Z: Size> Copy for MipSampler<'_, F, M, U, V, Z> {}
+
+impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: Size> fmt::Debug for MipSampler<'_, F, M, U, V, Z> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("MipSampler")
+            .field("mipmap", &self.mipmap)
+            .field("filter", &M::default())
+            .field("wrap", &(U::default(), V::default()))
+            .finish()
+    }
+}
