@@ -84,6 +84,22 @@ pub(crate) fn between<L: Lanes>(lanes: L, near: [L::U32; 4], far: [L::U32; 4], a
         | alpha & lanes.word(0xff00_0000)
 }
 
+/// The mean of 2^`count` colours, of halves the upper, with `count` up to 8.
+#[inline(always)]
+pub(crate) fn mean_of<L: Lanes>(lanes: L, count: u32, mut color: impl FnMut(u32) -> L::U32) -> L::U32 {
+    let bytes = lanes.word(BYTES);
+    // Half of the count in both lanes of 16 bits; half of one is below no channel.
+    let mut red_blue = lanes.word((0x0001_0001 << count) >> 1);
+    let mut green_alpha = red_blue;
+    for k in 0..1 << count {
+        let color = color(k);
+        red_blue = red_blue + (color & bytes);
+        green_alpha = green_alpha + (lanes.shr(color, 8) & bytes);
+    }
+    let [red_blue, green_alpha] = [red_blue, green_alpha].map(|sum| lanes.shr(sum, count) & bytes);
+    red_blue | lanes.shl(green_alpha, 8)
+}
+
 /// `(256 - t) * left + t * right` in two lanes of 16 bits.
 ///
 /// A lane of the difference may be negative and borrow from the next, but lanes of the sum are 0 to 255 * 256, so as a
@@ -187,6 +203,20 @@ mod tests {
                 let quad =
                     Quad::<One> { low_left: color, low_right: color, high_left: color, high_right: color };
                 assert_eq!(sums(One, quad, Wrapping(right), Wrapping(up)), spread(One, color));
+            }
+        }
+    }
+
+    #[test]
+    fn means_of_many() {
+        for count in 0..=8 {
+            for bytes in [[255; 4], [0; 4], [255, 0, 255, 0], [0, 255, 0, 255], [1, 2, 3, 254]] {
+                let colors = |k: u32| if k.is_multiple_of(3) { bytes } else { bytes.map(|byte| byte / 2) };
+                let found = mean_of(One, count, |k| Wrapping(u32::from_le_bytes(colors(k)))).0.to_le_bytes();
+                for (channel, found) in found.into_iter().enumerate() {
+                    let sum: u32 = (0..1 << count).map(|k| u32::from(colors(k)[channel])).sum();
+                    assert_eq!(u32::from(found), (2 * sum + (1 << count)) / (2 << count));
+                }
             }
         }
     }

@@ -4,6 +4,7 @@
 #[cfg(test)]
 extern crate std;
 
+mod anisotropic;
 mod blend;
 mod coordinate;
 mod filter;
@@ -19,6 +20,7 @@ pub mod srgb;
 mod texture;
 mod wrap;
 
+pub use anisotropic::Anisotropic;
 pub use filter::{Bilinear, Filter, Nearest};
 pub use format::TexelFormat;
 pub use lod::{Derivatives, LodBounds};

@@ -13,7 +13,8 @@ use crate::filter::{Bilinear, Filter};
 use crate::format::Storage;
 use crate::{Derivatives, LevelSize, Mipmap, Wrap};
 
-/// The way of reading a [`Mipmap`]: [`Minify`], [`Trilinear`] for one. Other crates cannot add to
+/// The way of reading a [`Mipmap`]: [`Minify`], [`Trilinear`] for one, or
+/// [`Anisotropic`](crate::Anisotropic). Other crates cannot add to
 /// them.
 pub trait MipFilter: MipKernel + Copy + Debug + Default + 'static {}
 

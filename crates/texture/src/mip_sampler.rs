@@ -74,7 +74,8 @@ impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize> MipSampler<'a
         M::at_lod::<L, F, Z, U, V>(lanes, &self.mipmap, u, v, lambda)
     }
 
-    /// The colour at `uv` of a pixel with these derivatives.
+    /// The colour at `uv` of a pixel with these derivatives: for λ, or with its shape
+    /// ([`Anisotropic`](crate::Anisotropic)).
     ///
     /// # Precision
     /// That of the filter and of [`Derivatives::lod`].

@@ -8,6 +8,7 @@
     reason = "small integers to floats and back, and coordinates that may be rounded"
 )]
 
+mod anisotropic;
 mod bilinear;
 mod border;
 mod hostile;
