@@ -15,8 +15,8 @@ mod mip_sampler;
 pub mod mipmap;
 mod sampler;
 mod size;
-pub mod surface;
 pub mod srgb;
+pub mod surface;
 mod texture;
 mod wrap;
 
