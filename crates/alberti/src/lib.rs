@@ -11,6 +11,7 @@ pub mod shaders;
 mod stats;
 mod vertex;
 
+pub use alberti_math as math;
 pub use alberti_math::{
     Eye, Fixed, Flat, Frame, Linear, Mode, Object, Point3, Q16, Rgba8, Sub4, Sub8, Subpixel, Varying,
     Vector3, World, for_lanes, glam, lanes,

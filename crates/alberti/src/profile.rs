@@ -121,10 +121,11 @@ pub trait Profile: Copy + Debug + 'static {
 /// | projection | interpolation | precision of attributes | divisions |
 /// |---|---|---|---|
 /// | [`Perspective`] | [`Exact`] | 9ε | one a fragment |
-/// | [`Parallel`] | [`Affine`] | 6ε | none |
+/// | [`Parallel`] | [`Affine`] | 6ε | one every 64 columns |
 ///
 /// In parallel projection all policies have the same result within their rounding, and [`Affine`] (in fixed point
-/// [`FixedPoint<Affine>`](FixedPoint)) is the cheapest of them.
+/// [`FixedPoint<Affine>`](FixedPoint)) does the least for a pixel. Where triangles have a few pixels each, what a run
+/// costs counts for more, and with several lanes [`Exact`] may be faster.
 ///
 /// ```
 /// use alberti::{glam::Vec3, shaders::VertexColor, *};

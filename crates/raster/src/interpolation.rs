@@ -6,7 +6,7 @@
 //! | [`Plane`](crate::Plane) | a few ε, times the ratio of q along 64 columns | one a fragment |
 //! | [`Spans<N>`](crate::Spans) | what a straight line misses along N columns | two every N columns |
 //! | [`Bounded`](crate::Bounded) | what it is told | as many as that takes |
-//! | [`Affine`](crate::Affine) | what a straight line misses along the triangle | none |
+//! | [`Affine`](crate::Affine) | what a straight line misses along the triangle | one every 64 columns |
 //! | [`FixedPoint<P>`](crate::FixedPoint) | that of `P`, and steps of 2^-16 a column | none: a table |
 
 use crate::depth::DepthFormat;

@@ -211,7 +211,7 @@ impl<const N: i32> Subdivision for Spans<N> {
 /// |Δu|·(√r − 1)/(√r + 1) = |Δu|·tanh(ln r/4), and that is not above |Δu|·|Δq|/(max q + 3 min q), which is compared.
 ///
 /// # Cost
-/// That of [`Spans`] for each run that is looked at, of which up to six are too long; and a comparison a component.
+/// That of [`Spans`] for each run that is looked at, of which some are too long; and a comparison a component.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounded {
     /// The greatest error of a component, in its own units.
@@ -236,7 +236,11 @@ impl Subdivision for Bounded {
 
     #[inline(always)]
     fn run<I: EdgeInt, M: Numbers>(&self, row: &KnownRow<'_, I, M>, column: i32) -> Run<M::Ends> {
-        let mut length = LONGEST;
+        // What begins where another run has ended is not part of a longer one that began before: that was too long.
+        let mut length = match row.left {
+            Some(_) => 1 << column.trailing_zeros().min(LONGEST.trailing_zeros()),
+            None => LONGEST,
+        };
         loop {
             let run = row.run(self, column, length);
             // A run of one sample has nothing between its ends.

@@ -36,7 +36,7 @@ pub(crate) enum RowSpans<I> {
     /// By testing each sample of a row: the edges with their biases at the row's first.
     Tested { edges: [Edge<I>; 3], width: i32 },
     /// By following where the edges cross the rows.
-    Walked { walker: SpanWalker<I>, rows: i32 },
+    Walked { walker: SpanWalker<I>, walked: i32 },
 }
 
 /// The columns of the widest box in which testing is cheaper than the divisions that following takes.
@@ -49,7 +49,7 @@ impl<I: EdgeInt> RowSpans<I> {
         if width <= TESTED {
             Self::Tested { edges: edges.map(|e| Edge { value: e.value + e.bias, ..e }), width }
         } else {
-            Self::Walked { walker: SpanWalker::new(edges, width, rows), rows: 0 }
+            Self::Walked { walker: SpanWalker::new(edges, width, rows), walked: 0 }
         }
     }
 
@@ -74,11 +74,11 @@ impl<I: EdgeInt> RowSpans<I> {
                 }
                 span
             }
-            Self::Walked { walker, rows } => {
+            Self::Walked { walker, walked } => {
                 let span = walker.span();
                 walker.next_row();
-                *rows += 1;
-                if *rows > walker.rows() { Span { start: 0, end: 0 } } else { span }
+                *walked += 1;
+                if *walked > walker.rows() { Span { start: 0, end: 0 } } else { span }
             }
         }
     }

@@ -34,6 +34,33 @@ fn declares(source: &str, kinds: &[&str], name: &str) -> bool {
     })
 }
 
+/// Whether there is a test of this name: a function under the attribute.
+fn tests(source: &str, name: &str) -> bool {
+    let lines: Vec<&str> = source.lines().map(str::trim).collect();
+    let attribute = |line: &&&str| line.starts_with("#[") && !line.starts_with("#[test]");
+    lines.iter().enumerate().any(|(i, line)| {
+        let above = lines[..i].iter().rev().find(|line| !attribute(line));
+        declares(line, &["fn"], name) && above.is_some_and(|line| line.starts_with("#[test]"))
+    })
+}
+
+/// Whether what is at this path is declared: an item, or a function in an `impl` or `trait` of its type.
+fn reachable(source: &str, path: &str) -> bool {
+    const ITEMS: [&str; 5] = ["pub fn", "pub struct", "pub enum", "pub trait", "pub mod"];
+    let Some((of, function)) = path.rsplit_once("::") else { return declares(source, &ITEMS, path) };
+    let of = of.rsplit("::").next().unwrap_or(of);
+    if of.starts_with(char::is_lowercase) {
+        return declares(source, &["pub mod", "mod"], of) && declares(source, &ITEMS, function);
+    }
+    let mut inside = false;
+    source.lines().any(|line| {
+        if line.starts_with("impl") || line.starts_with("pub trait") {
+            inside = line.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == of);
+        }
+        inside && declares(line, &["fn"], function)
+    })
+}
+
 /// The files of a folder and of those in it, one after the other.
 fn sources(folder: &Path) -> String {
     let entries = std::fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
@@ -92,7 +119,7 @@ fn what_the_page_names_is_there() {
             };
             for (test, _) in quoted(after) {
                 checked[0] += 1;
-                if !declares(source, &["fn"], test) {
+                if !tests(source, test) {
                     wrong.push(format!("[{name}] has no `{test}`"));
                 }
             }
@@ -102,9 +129,7 @@ fn what_the_page_names_is_there() {
                 checked[1] += 1;
                 let (library, path) = path.split_once("::").expect("a path");
                 let source = libraries.get(library.trim_start_matches('_'));
-                // The type and its function, or whatever the path leads to.
-                let kinds = ["fn", "struct", "enum", "trait", "mod"];
-                if !source.is_some_and(|s| path.split("::").all(|item| declares(s, &kinds, item))) {
+                if !source.is_some_and(|source| reachable(source, path)) {
                     wrong.push(format!("there is no `{name}`"));
                 }
             } else if let Some((region, [max, bound])) = claim(after) {

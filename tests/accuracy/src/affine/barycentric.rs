@@ -32,7 +32,7 @@ pub(super) fn table() -> Table {
         rows.push(row("plane_coefficients", region, QUOTIENT, plane));
         rows.push(row("segment_weights, 2D", region, QUOTIENT, segment::<2>));
         rows.push(row("segment_weights, 5D", region, QUOTIENT, segment::<5>));
-        rows.push(row("segment_parameter", region, 3.0, parameter));
+        rows.push(row("segment_parameter", region, 1.05, parameter));
         rows.push(row("map_triangle", region, 4.1, map));
         rows.push(row("interpolate", region, 3.0, combination));
     }
