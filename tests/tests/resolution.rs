@@ -136,6 +136,36 @@ fn surfaces_are_separable_until_the_depth_that_is_named() {
     assert!(inside > 100_000 && beyond > 20_000 && stored > 50_000);
 }
 
+/// Gaps down to the least that the format is chosen for, where it has the least to spare.
+#[test]
+fn the_cheapest_format_stores_the_gap_before_the_far_plane() {
+    let mut rng = Rng::stream(run_seed(), 5);
+    let mut checked = [0; 5];
+    for i in 0..40_000 {
+        let near = rng.log_uniform(1e-3, 1e3);
+        let far = near * (1.0 + rng.log_uniform(1e-2, 1e9));
+        // At each format in turn: about its own limit, from below and from above.
+        let format = FORMATS[i % 5];
+        let resolution = format.map(near, far).resolution(format.steps, far);
+        let gap = resolution * rng.log_uniform(0.9, 8.0);
+        let Some((steps, map)) = DepthMap::cheapest(near, far, gap).expect("0 < near < far") else {
+            continue;
+        };
+        let nearer = far - gap;
+        if nearer < near {
+            continue;
+        }
+        let reversed = map.beta() > 0.0;
+        let index =
+            FORMATS.iter().position(|f| f.steps == steps && f.reversed == reversed).expect("a format");
+        let [a, b] = [far, nearer].map(|z| FORMATS[index].stored(&map, z));
+        assert!(a != b, "{steps:?}, reversed {reversed}: {far} and {nearer}, near {near}, gap {gap}");
+        checked[index] += 1;
+    }
+    println!("stored apart: {checked:?}");
+    assert!([checked[0], checked[1], checked[4]].iter().all(|&n| n > 2_000), "{checked:?}");
+}
+
 /// Against z - z' in f64, z' being one step nearer, where the answer is beyond doubt.
 #[test]
 fn the_cheapest_format_that_does_is_found() {
@@ -149,8 +179,9 @@ fn the_cheapest_format_that_does_is_found() {
         // zs = 1 - step at z' = AB / (A + step (B - A)).
         let dz = |step: f64| b - a * b / (a + step * (b - a));
         let clear = |dz: f64| !(0.999..1.001).contains(&(dz / wanted));
-        let integers = [dz(1.0 / 65_535.0), dz(1.0 / 16_777_215.0)];
-        let float = [b * 2f64.powi(-24), b * 2f64.powi(-23)];
+        // Twice that, or four times where f32 is as coarse as the format.
+        let integers = [2.0 * dz(1.0 / 65_535.0), 4.0 * dz(1.0 / 16_777_215.0)];
+        let float = [4.0 * b * 2f64.powi(-24), 4.0 * b * 2f64.powi(-23)];
         let expected = match () {
             () if !integers.into_iter().all(clear) => continue,
             () if integers[0] < wanted => Some((DepthSteps::D16, false)),

@@ -37,7 +37,7 @@ fn main() -> ExitCode {
 
 pub(crate) fn picture() -> common::File {
     println!("The depth that one step of the buffer takes; cards are {GAP} of their distance apart:\n");
-    println!("{:>12}{}  1 apart until", "distance", DISTANCES.map(|z| format!("{z:>10}")).concat());
+    println!("{:>12}{}  dz = 1 at", "distance", DISTANCES.map(|z| format!("{z:>10}")).concat());
 
     let mut color = vec![0; 4 * PANEL];
     let mut panels = color.chunks_exact_mut(PANEL);
@@ -83,7 +83,7 @@ fn draw_cards<D: DepthFormat>(
 
     let map: DepthMap = perspective.depth_map(D::REVERSED);
     let numbers = DISTANCES.map(|z| format!("{:>10.1e}", map.resolution(steps, z))).concat();
-    println!("{name:>12}{numbers}{:>15.0}", map.separable_until(steps, 1.0));
+    println!("{name:>12}{numbers}{:>11.0}", map.separable_until(steps, 1.0));
     Ok(())
 }
 

@@ -72,9 +72,9 @@ impl DepthMap {
         narrow(f64::from(z) * step / (f64::from(quotient.abs()) + step))
     }
 
-    /// The depth up to which two surfaces `gap` apart are told apart, that of the farther one: where
-    /// [`resolution`](Self::resolution) reaches `gap`. Beyond it they fight for the pixel. It may be nearer than the
-    /// near plane (nowhere) or farther than the far one (everywhere).
+    /// The depth, of the farther of two surfaces `gap` apart, where [`resolution`](Self::resolution) reaches `gap`. Up
+    /// to a quarter of it they are told apart for certain, but for depths stored like one of the planes; farther
+    /// away they may fight for the pixel. It may be nearer than the near plane or farther than the far one.
     ///
     /// z(z − gap) = gap·|β|/δ, thus z = gap/2 + √(gap·(gap/4 + |β|/δ)), and not beyond 2^23·gap, where the spacing of
     /// `f32` is all there is.
@@ -82,8 +82,7 @@ impl DepthMap {
     /// # Precision
     /// With `D16` the resolution there is within 8ε of `gap`, relatively. Where the step varies with zs, as it does for
     /// `F32`, the largest is taken: the resolution is at most `gap`·(1 + 8ε) up to there, and more than `gap` at twice
-    /// that depth, for maps onto [0, 1] or [−1, 1] either way round, from four times the near plane on. At a quarter of
-    /// it the surfaces are stored apart, but for the planes' values as above.
+    /// that depth, for maps onto [0, 1] or [−1, 1] either way round, from four times the near plane on.
     #[must_use]
     pub fn separable_until(&self, steps: DepthSteps, gap: f32) -> f32 {
         let [least, most] = self.range();
@@ -95,15 +94,19 @@ impl DepthMap {
         z.min(gap * 8_388_608.0)
     }
 
-    /// The cheapest of [`DepthSteps::FORMATS`] that tells surfaces `gap` apart at the far plane, and the map to go with
-    /// it: [`reversed`](Self::reversed) or [`forward`](Self::forward). None where no format does.
+    /// The cheapest of [`DepthSteps::FORMATS`] that tells surfaces `gap` apart at the far plane for certain, and the
+    /// map to go with it: [`reversed`](Self::reversed) or [`forward`](Self::forward). None where no format does.
+    ///
+    /// That takes a [`resolution`](Self::resolution) of at most half the gap with `D16`, and of a quarter with the
+    /// finer formats, where the roundings of `f32` count: then zs of the far plane and of all that is `gap` or more
+    /// before it are stored differently.
     ///
     /// ```
     /// use alberti_projection::{DepthMap, DepthSteps};
     ///
     /// let steps = |far, gap| DepthMap::cheapest(0.1, far, gap).map(|found| found.map(|(steps, _)| steps));
-    /// assert_eq!(steps(20.0, 0.1)?, Some(DepthSteps::D16));
-    /// assert_eq!(steps(200.0, 0.1)?, Some(DepthSteps::D24));
+    /// assert_eq!(steps(15.0, 0.1)?, Some(DepthSteps::D16));
+    /// assert_eq!(steps(100.0, 0.1)?, Some(DepthSteps::D24));
     /// assert_eq!(steps(2000.0, 0.1)?, Some(DepthSteps::F32));
     /// assert_eq!(steps(2e6, 0.1)?, None);
     /// # Ok::<(), alberti_projection::ViewError>(())
@@ -116,7 +119,17 @@ impl DepthMap {
         Ok(DepthSteps::FORMATS
             .map(|(steps, reversed)| (steps, if reversed { falling } else { forward }))
             .into_iter()
-            .find(|(steps, map)| map.resolution(*steps, far) <= gap))
+            .find(|(steps, map)| map.apart(*steps, far) <= gap))
+    }
+
+    /// How far apart surfaces are stored apart for certain, the farther of them at depth `z`, be it the far plane:
+    /// twice the resolution. Four times where `f32` is hardly finer than the format, as its roundings then count: of α,
+    /// which may shift what is stored as the far plane is, of β/z and of zs.
+    fn apart(&self, steps: DepthSteps, z: f32) -> f32 {
+        let float = spacing(self.zs(z)).max(spacing(self.beta() / z));
+        let dz = self.resolution(steps, z);
+        let factor = if self.step(steps) < 8.0 * float || dz < z / 2_097_152.0 { 4.0 } else { 2.0 };
+        factor * dz
     }
 
     /// The step of zs of an even format, which divides the range; 0 for `f32`.
