@@ -131,7 +131,7 @@ fn check_all(case: &Case) {
     check::<D16, Sub4, _>(
         case,
         Bounded { budget: 1e-3 },
-        (1e-20, 1e20),
+        (1e-20, 8e17),
         |v| (Vec3::new(v[2], v[3], v[4]), uv(v)),
         Lambert::new(unlit(), Vector3::new(Vec3::Y), 0.1, 0.9),
         |_| true,

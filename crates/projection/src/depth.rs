@@ -33,10 +33,12 @@ impl DepthMap {
     /// β = −A.
     ///
     /// # Precision
-    /// α and β are correctly rounded but for a double rounding.
+    /// α and β are correctly rounded but for a double rounding: within 1.001ε, relatively.
     ///
     /// # Errors
-    /// [`ViewError::NearFar`] unless 0 < A < B, A finite, and α and β are finite and β is not rounded to 0.
+    /// [`ViewError::NearFar`] unless 0 < A < B, A finite, and α and β are normal `f32`; only α may be 0. A subnormal
+    /// one would have lost the precision that is promised, so subnormal near planes are refused, and so are planes
+    /// beyond B/A = 2^126: take B = ∞.
     pub fn forward(near: f32, far: f32) -> Result<Self, ViewError> {
         Self::onto([0.0, 1.0], near, far)
     }
@@ -46,8 +48,9 @@ impl DepthMap {
     ///
     /// # Precision
     /// As [`forward`](Self::forward). With a floating-point depth buffer the fine steps of small numbers meet the
-    /// coarse ones of 1/z: the relative error of z recovered from zs is within 4ε at any B/A. (1 − zs of the forward
-    /// map would inherit all of that map's error.)
+    /// coarse ones of 1/z: the relative error of z recovered from zs is within 4ε at any B/A that is accepted, and of
+    /// B = ∞ up to z = 2^126·A, where zs becomes subnormal. (1 − zs of the forward map would inherit all of that map's
+    /// error.)
     ///
     /// # Errors
     /// As [`forward`](Self::forward).
@@ -62,7 +65,8 @@ impl DepthMap {
     /// As [`forward`](Self::forward).
     ///
     /// # Errors
-    /// As [`forward`](Self::forward), and [`ViewError::DepthRange`] unless c and d are finite and differ.
+    /// As [`forward`](Self::forward), for α and β of this range, and [`ViewError::DepthRange`] unless c and d are
+    /// finite and differ.
     pub fn onto([c, d]: [f32; 2], near: f32, far: f32) -> Result<Self, ViewError> {
         if !(c.is_finite() && d.is_finite() && c != d) {
             return Err(ViewError::DepthRange);
@@ -79,7 +83,7 @@ impl DepthMap {
         };
         #[expect(clippy::cast_possible_truncation, reason = "rounded once, here")]
         let (alpha, beta) = (alpha as f32, beta as f32);
-        if !(alpha.is_finite() && beta.is_finite()) || beta == 0.0 {
+        if !((alpha.is_normal() || alpha == 0.0) && beta.is_normal()) {
             return Err(ViewError::NearFar);
         }
         Ok(Self { alpha, beta, range: if c < d { [c, d] } else { [d, c] } })
@@ -131,7 +135,8 @@ impl DepthMap {
     /// Within 2ε of the quotient of its own α and β, relatively. That does not make z good: zs comes rounded, and the
     /// subtraction cancels near the far plane of a forward map. There and back, from z to zs to z, the relative error
     /// is within r/(1 − r) + 4ε, r = (α + 1/2)ε·z/|β|: at the far plane 3e-5 was measured for B/A = 10^3, 2.9e-2 for
-    /// 10^6, and for 10^9 z comes back infinite. The reversed map keeps it within 4ε for any planes.
+    /// 10^6, and for 10^9 z comes back infinite. The reversed map keeps it within 4ε for any planes, as far
+    /// as [`reversed`](Self::reversed) says.
     #[must_use]
     #[inline]
     pub fn z(&self, zs: f32) -> f32 {
@@ -168,6 +173,8 @@ mod tests {
             (1.0, f32::NAN),
             (0.0, endless),
             (3e38, 3.0000003e38),
+            (f32::from_bits(1), 1.0),
+            (1e-39, endless),
         ] {
             assert_eq!(DepthMap::forward(near, far), Err(ViewError::NearFar), "{near} {far}");
             assert_eq!(DepthMap::reversed(near, far), Err(ViewError::NearFar), "{near} {far}");
@@ -176,6 +183,17 @@ mod tests {
         {
             assert_eq!(DepthMap::onto(range, 1.0, 2.0), Err(ViewError::DepthRange), "{range:?}");
         }
+    }
+
+    /// α of the reversed map is −A/(B − A): normal, it has all its bits; beyond B/A = 2^126 it would be subnormal.
+    #[test]
+    fn planes_so_far_apart_that_a_coefficient_loses_bits_are_refused() {
+        let far = 2f32.powi(100);
+        let [within, beyond] = [-26, -27].map(|e| DepthMap::reversed(2f32.powi(e), far));
+        assert_eq!(within.expect("normal").alpha(), -f32::MIN_POSITIVE);
+        assert_eq!(beyond, Err(ViewError::NearFar));
+        let barely = DepthMap::reversed(f32::MIN_POSITIVE, f32::INFINITY).expect("normal");
+        assert_eq!((barely.alpha(), barely.beta()), (0.0, f32::MIN_POSITIVE));
     }
 
     #[test]
