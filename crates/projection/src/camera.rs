@@ -12,7 +12,8 @@ use alberti_math::{Eye, Frame, Point3, Vector3, World};
 /// grows with z.
 ///
 /// # Errors
-/// [`ViewError::EyeAtTarget`], [`ViewError::UpAlongView`] and [`ViewError::NotFinite`].
+/// [`ViewError::EyeAtTarget`], [`ViewError::UpAlongView`] and [`ViewError::NotFinite`], also where the difference
+/// between `eye` and `target` overflows.
 ///
 /// # Precision
 /// Each component of forward is within 3ε of its exact value, those of right and up are within 4ε/sin φ, φ being the
@@ -27,7 +28,11 @@ pub fn look_at(
     if !(e.is_finite() && t.is_finite() && u.is_finite()) {
         return Err(ViewError::NotFinite);
     }
-    let forward = direction(t - e).ok_or(ViewError::EyeAtTarget)?;
+    let toward = t - e;
+    if !toward.is_finite() {
+        return Err(ViewError::NotFinite);
+    }
+    let forward = direction(toward).ok_or(ViewError::EyeAtTarget)?;
     let up = direction(u).ok_or(ViewError::UpAlongView)?;
     let across = forward.cross(up);
     // An angle under a thousandth of a degree leaves fewer than eight good bits in the cross product.
@@ -39,10 +44,10 @@ pub fn look_at(
     Ok(Frame::from_mat3(Mat3::from_cols(right, up, forward), eye))
 }
 
-/// The unit vector along `v`, whatever its length; `None` for zero or overflow.
+/// The unit vector along a finite `v`, whatever its length; `None` for zero.
 fn direction(v: Vec3) -> Option<Vec3> {
     let largest = v.abs().max_element();
-    if largest == 0.0 || !largest.is_finite() {
+    if largest == 0.0 {
         return None;
     }
     // Dividing by the largest component first keeps the squares from overflowing or vanishing.
@@ -97,5 +102,6 @@ mod tests {
             Err(ViewError::UpAlongView)
         );
         assert_eq!(look_at(at(f32::NAN, 9.0, 0.0), at(1.0, 1.0, 0.0), up), Err(ViewError::NotFinite));
+        assert_eq!(look_at(at(-3e38, 0.0, 0.0), at(3e38, 0.0, 0.0), up), Err(ViewError::NotFinite));
     }
 }
