@@ -23,8 +23,8 @@ use alberti_math::{Eye, Point3, Varying};
 /// ```
 ///
 /// # Precision
-/// xs and ys within 2ε of 2x/(height·aspect) and 2y/height, relatively, of a point in eye space; q is 1; for zs see
-/// [`LinearDepth::zs`].
+/// xs within 2ε·max(|xs|, `f32::MIN_POSITIVE`) of 2x/(height·aspect), of a point in eye space, and ys so of 2y/height,
+/// barring overflow; q is 1; for zs see [`LinearDepth::zs`].
 ///
 /// # Cost
 /// Three multiplications and a subtraction a vertex, no division. With q = 1 at every vertex what is linear in space is
@@ -129,8 +129,9 @@ impl LinearDepth {
     /// The screen depth zs of a point at eye depth `z` in [A, B]; always in [0, 1].
     ///
     /// # Precision
-    /// Within 3ε·zs of the exact value, barring underflow: relatively, so that what is close to the plane where zs is 0
-    /// is told apart by a floating-point depth buffer as finely as eye depths can be. Exactly 0 there. Monotone.
+    /// Within 3ε·max(zs, `f32::MIN_POSITIVE`) of the exact value: relatively, so that what is close to the plane where
+    /// zs is 0 is told apart by a floating-point depth buffer as finely as eye depths can be. Exactly 0 there.
+    /// Monotone.
     #[must_use]
     #[inline]
     pub fn zs(&self, z: f32) -> f32 {
@@ -141,7 +142,8 @@ impl LinearDepth {
     /// The eye depth z of a screen depth.
     ///
     /// # Precision
-    /// Within 2ε of the distance from the plane where zs is 0, and ε of z.
+    /// Within 2ε of the distance from the plane where zs is 0, or of `f32::MIN_POSITIVE` if that is larger, plus ε of
+    /// z.
     #[must_use]
     #[inline]
     pub fn z(&self, zs: f32) -> f32 {

@@ -49,7 +49,8 @@ impl Projector {
     /// `aspect` the image's width / height.
     ///
     /// # Errors
-    /// [`ViewError::Angle`], [`ViewError::Aspect`].
+    /// [`ViewError::Angle`], [`ViewError::Aspect`], and [`ViewError::NotFinite`] of a frame that is not finite, or too
+    /// large to be scaled.
     pub fn new(place: Frame<Eye, World>, fov_y: f32, aspect: f32) -> Result<Self, ViewError> {
         let [scale_x, scale_y] = pyramid_scale(fov_y, aspect)?;
         let axes = place.axes();
@@ -58,6 +59,9 @@ impl Projector {
             Vec3::from_array(axis.to_array().map(|c| (f64::from(c) * scale) as f32))
         };
         let rows = Mat3::from_cols(scaled(axes.x_axis, scale_x), scaled(axes.y_axis, scale_y), axes.z_axis);
+        if !(rows.is_finite() && place.origin().coords.is_finite()) {
+            return Err(ViewError::NotFinite);
+        }
         let rows = Frame::from_mat3(rows.transpose(), Point3::new(Vec3::ZERO));
         Ok(Self { eye: place.origin(), rows })
     }
@@ -70,8 +74,9 @@ impl Projector {
     ///
     /// # Precision
     /// u, v and q within 5ε of the sum of the magnitudes of their three terms, each a product of a component of the
-    /// displacement from the projector and one of the scaled axis, exact for the frame as given. The origin of the
-    /// world plays no part.
+    /// displacement from the projector and one of the scaled axis, exact for the frame as given. In that sum, what is
+    /// below `f32::MIN_POSITIVE` of an axis counts as that, and so does the sum itself. Barring overflow. The origin of
+    /// the world plays no part.
     ///
     /// # Cost
     /// Nine multiplications and nine additions.
@@ -227,5 +232,14 @@ mod tests {
         assert_eq!(new(3.2, 1.0), Err(ViewError::Angle));
         assert_eq!(new(1.0, 0.0), Err(ViewError::Aspect));
         assert_eq!(new(1.0, f32::NAN), Err(ViewError::Aspect));
+        let at_frame = |axis: f32, origin: f32| {
+            let place =
+                Frame::from_mat3(Mat3::from_diagonal(Vec3::new(1.0, axis, 1.0)), at(origin, 0.0, 0.0));
+            Projector::new(place, 1e-3, 1.0).map(|_| ())
+        };
+        assert_eq!(at_frame(1.0, 0.0), Ok(()));
+        for (axis, origin) in [(f32::NAN, 0.0), (1.0, f32::NAN), (1.0, f32::INFINITY), (1e38, 0.0)] {
+            assert_eq!(at_frame(axis, origin), Err(ViewError::NotFinite), "{axis} {origin}");
+        }
     }
 }
