@@ -17,7 +17,7 @@ use crate::DepthMap;
 ///
 /// The other kind are [`ScreenWeights`]; one is not taken for the other:
 ///
-/// ```compile_fail
+/// ```compile_fail,E0308
 /// use alberti_projection::{EyeWeights, ScreenWeights};
 ///
 /// let middle_of_the_screen = ScreenWeights([0.5, 0.5]);
@@ -130,7 +130,8 @@ impl<const N: usize> ScreenWeights<N> {
     ///
     /// # Precision
     /// Within 1.001ε of the exact value of the latter for the map's own α and β, relatively. The vertices' zs come
-    /// rounded, and bring their errors along: as in [`DepthMap::z`], which takes the zs of one point.
+    /// rounded, and bring their errors along, as in [`DepthMap::z`], which takes the zs of one point: of zs that a
+    /// reversed map gave, it is within 4ε of the z of the point itself, as far as [`DepthMap::reversed`] says.
     #[must_use]
     pub fn z_of_depths(self, zs: [f32; N], map: &DepthMap) -> f32 {
         let from_alpha = each(self.0, zs, |w, zs| w * (zs - f64::from(map.alpha())));
