@@ -83,7 +83,8 @@ const SMALLEST: f64 = f32::MIN_POSITIVE as f64;
 pub struct Sample {
     /// In ε of the table's scale.
     pub eps: f64,
-    /// In units in the last place of the exact answer.
+    /// In units in the last place of the exact answer; NaN where that is 0, which has no last place, and the answer
+    /// not.
     pub ulp: f64,
 }
 
@@ -91,7 +92,12 @@ impl Sample {
     /// The error of `got`, in ε of `scale`.
     #[must_use]
     pub fn new(got: f32, exact: &Rational, scale: f64) -> Self {
-        Self { eps: error_in_eps(got, exact, scale).abs(), ulp: error_in_ulp(got, exact).abs() }
+        let ulp = match error_in_ulp(got, exact).abs() {
+            error if error.is_nan() => f64::INFINITY,
+            error if error > 0.0 && error.is_finite() && to_f64(exact) == 0.0 => f64::NAN,
+            error => error,
+        };
+        Self { eps: error_in_eps(got, exact, scale).abs(), ulp }
     }
 
     /// The error of `got`, in ε of the exact answer itself, or of the smallest normal number if that is larger: below
@@ -133,7 +139,8 @@ pub fn tables() -> Vec<Table> {
 /// Maximum, 99.9 % and median of one unit of a row's errors.
 #[derive(Clone, Copy, Debug)]
 pub struct Spread {
-    /// The largest; infinite if an answer was infinite or NaN where it should not have been.
+    /// The largest; infinite if an answer was infinite or NaN where it should not have been. Of units in the last
+    /// place, NaN if there were none, as of an exact answer of 0: that counts as the largest of all.
     pub max: f64,
     /// What 99.9 % of the errors do not exceed.
     pub high: f64,
@@ -143,7 +150,7 @@ pub struct Spread {
 
 impl Spread {
     fn of(mut errors: Vec<f64>) -> Self {
-        errors.iter_mut().filter(|e| e.is_nan()).for_each(|e| *e = f64::INFINITY);
+        // NaN comes last, as here it always has its sign from `abs`.
         errors.sort_by(f64::total_cmp);
         let at = |thousandths: usize| errors[(errors.len() - 1) * thousandths / 1000];
         Self { max: at(1000), high: at(999), median: at(500) }
@@ -157,6 +164,27 @@ impl Spread {
 #[must_use]
 pub fn run(row: &Row, samples: usize, rng: &mut Rng) -> [Spread; 2] {
     assert!(samples > 0, "a row without samples measures nothing");
-    let (eps, ulp) = (0..samples).map(|_| (row.measure)(rng)).map(|s| (s.eps, s.ulp)).unzip();
+    let not_nan = |eps: f64| if eps.is_nan() { f64::INFINITY } else { eps };
+    let (eps, ulp) = (0..samples).map(|_| (row.measure)(rng)).map(|s| (not_nan(s.eps), s.ulp)).unzip();
     [Spread::of(eps), Spread::of(ulp)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alberti_oracle::rational::from_int;
+
+    #[test]
+    fn beside_an_exact_zero_there_are_no_last_places_to_count() {
+        let [zero, one] = [0, 1].map(from_int);
+        assert!(Sample::new(1e-9, &zero, 1.0).ulp.is_nan());
+        assert_eq!(Sample::new(0.0, &zero, 1.0).ulp, 0.0);
+        assert_eq!(Sample::new(1.0f32.next_up(), &one, 1.0).ulp, 1.0);
+        assert_eq!(Sample::new(f32::NAN, &one, 1.0).ulp, f64::INFINITY);
+        let row = Row::new("zero", "half of the samples", 1.0, move |rng| {
+            Sample::new(if rng.one_in(2) { 1e-9 } else { 0.0 }, &zero, 1.0)
+        });
+        let [eps, ulp] = run(&row, 100, &mut Rng::stream(1, 1));
+        assert!(eps.max < 0.02 && ulp.max.is_nan() && ulp.high.is_nan(), "{eps:?} {ulp:?}");
+    }
 }

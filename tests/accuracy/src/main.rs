@@ -22,9 +22,10 @@ fn cells(spread: Spread) -> String {
     [spread.max, spread.high, spread.median].map(number).join(" | ")
 }
 
-/// Two decimals where they tell something, powers of ten where there are many digits.
+/// Two decimals where they tell something, powers of ten where there are many digits; a dash for what there is not.
 fn number(x: f64) -> String {
     match x {
+        _ if x.is_nan() => "–".to_owned(),
         _ if x.is_infinite() => "∞".to_owned(),
         _ if x >= 1000.0 => format!("{x:.1e}"),
         _ => format!("{x:.2}"),
