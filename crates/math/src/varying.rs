@@ -276,8 +276,9 @@ pub fn combine<V: Varying, const N: usize>(values: [V; N], f: &impl Fn([f32; N])
 /// `wa a + wb b` component by component, kept within the two values.
 ///
 /// # Precision
-/// For non-negative weights whose exact sum is 1, within 2ε·max(|a|, |b|) of the exact combination, and never outside
-/// the values' range: equal values give that value, bit for bit. Exchanging the two pairs changes no bit.
+/// For non-negative weights whose exact sum is 1, within 2ε·max(|a|, |b|, `f32::MIN_POSITIVE`) of the exact
+/// combination, and never outside the values' range: equal values give that value, bit for bit. Exchanging the two
+/// pairs changes no bit.
 #[must_use]
 #[inline]
 pub fn blend2<V: Varying>([wa, wb]: [f32; 2], values: [V; 2]) -> V {

@@ -61,10 +61,11 @@ impl DepthMap {
     /// ```
     ///
     /// # Precision
-    /// Within 4ε of the formula for the planes with `D16`, relatively. As for what is really told apart: where
-    /// 2^-21·z <= dz <= z/4, the depths that are stored like `z` extend over between dz/2 and 2dz, so that surfaces 2dz
-    /// apart are told apart. Finer than that, where z, β/z and zs all round by about as much, it is between dz/4 and
-    /// 4dz. Depths that share the first or the last stored value are the exception: the planes cut there.
+    /// Within 4ε of the formula for the planes, relatively, with δ for zs and β/z as computed. As for what is really
+    /// told apart: where 2^-21·z <= dz <= z/4, the depths that are stored like `z` extend over between dz/2 and 2dz, so
+    /// that surfaces 2dz apart are told apart. Finer than that, where z, β/z and zs all round by about as much, it is
+    /// between dz/4 and 4dz. Depths that share the first or the last stored value are the exception: the planes cut
+    /// there.
     #[must_use]
     pub fn resolution(&self, steps: DepthSteps, z: f32) -> f32 {
         let quotient = self.beta() / z;

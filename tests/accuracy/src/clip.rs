@@ -1,8 +1,8 @@
 //! The clip against near and far, and against the sides.
 
 use crate::{Row, SMALLEST, Sample, Table, brief};
-use alberti_math::Point3;
 use alberti_math::glam::Vec3;
+use alberti_math::{Point3, blend2};
 use alberti_oracle::rational::{Rational, clip_lerp, from_f32};
 use alberti_oracle::rng::Rng;
 use alberti_projection::{EyeVertex, Polygon, ProjectedVertex, SideBounds, clip_near_far, clip_sides};
@@ -36,9 +36,17 @@ pub(crate) fn tables() -> Vec<Table> {
     ] {
         rows.push(Row::new("clip_sides", region, HYPERBOLIC, move |rng| sides(rng, 1e12, sizes, true)));
     }
+    for (region, sizes) in [
+        ("values from 0.1 to 10", [0.1f32, 10.0]),
+        ("values up to 1e38", [1e-38, 1e38]),
+        ("subnormal values", [f32::from_bits(1), f32::MIN_POSITIVE]),
+    ] {
+        rows.push(Row::new("blend2", region, 2.0, move |rng| blended(rng, sizes)));
+    }
     vec![Table {
         title: "Clipping",
-        about: "Errors of new vertices are in ε of the larger of the two ends, or of the smallest normal number.",
+        about: "Errors of new vertices, and of `blend2`, are in ε of the larger of the two ends, or of the smallest \
+                normal number.",
         rows,
     }]
 }
@@ -46,6 +54,16 @@ pub(crate) fn tables() -> Vec<Table> {
 fn signed(rng: &mut Rng, [least, most]: [f32; 2]) -> f32 {
     let size = rng.log_uniform(least, most);
     if rng.one_in(2) { -size } else { size }
+}
+
+/// Two values at weights that sum to 1 exactly.
+fn blended(rng: &mut Rng, sizes: [f32; 2]) -> Sample {
+    let [a, b] = [(); 2].map(|()| signed(rng, sizes));
+    // A multiple of 2^-23 up to 1, so that 1 minus it is one too.
+    let weight = rng.uniform(1.0, 2.0) as f32 - 1.0;
+    let weights = if rng.one_in(2) { [weight, 1.0 - weight] } else { [1.0 - weight, weight] };
+    let exact = from_f32(weights[0]) * from_f32(a) + from_f32(weights[1]) * from_f32(b);
+    Sample::new(blend2(weights, [a, b]), &exact, scale(a, b))
 }
 
 fn scale(a: f32, b: f32) -> f64 {

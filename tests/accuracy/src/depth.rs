@@ -76,7 +76,7 @@ fn exact(kind: Kind, [near, far]: [f32; 2]) -> [Rational; 2] {
     [(&d * &b - &c * &a) / &range, (c - d) * a * b / range]
 }
 
-fn about(ratio: f32) -> String {
+pub(crate) fn about(ratio: f32) -> String {
     if ratio.is_finite() { format!("B/A = {}", brief(ratio)) } else { "B = ∞".to_owned() }
 }
 
@@ -138,7 +138,8 @@ const INVERSE: &str = "Errors are relative. `z` is judged by the map's own α an
                        with a forward map the far half of the view comes back worse the farther B is from A, and beyond \
                        B/A = 2^24 not at all.";
 
-const RESOLUTION: &str = "Errors are relative: of `resolution` against z·δ/(|β|/z + δ) of the planes, and of the gap \
+const RESOLUTION: &str = "Errors are relative: of `resolution` against z·δ/(|β|/z + δ) of the planes, δ being that of the \
+                          zs and β/z that were computed, and of the gap \
                           whose reach `separable_until` is against the one asked for. What formats really tell apart is \
                           in `tests/tests/resolution.rs`.";
 
@@ -163,7 +164,7 @@ fn round_trip_bound(kind: Kind, ratio: f32) -> f64 {
     if r < 1.0 { r / (1.0 - r) / eps + 4.0 } else { f64::INFINITY }
 }
 
-/// Of `D16`, whose step is the same everywhere.
+/// Of `D16`, whose step is the same everywhere, and of those where the step of `f32` counts.
 fn resolution() -> Vec<Row> {
     let mut rows = Vec::new();
     for ratio in [1.1, 1e3, 1e6, 1e9] {
@@ -175,6 +176,26 @@ fn resolution() -> Vec<Row> {
                 let planes = planes(rng, ratio);
                 let z = any_z(rng, planes);
                 Sample::relative(kind.of(planes).resolution(DepthSteps::D16, z), &gap(planes, z))
+            }));
+        }
+        for (function, kind, steps, [part, of]) in [
+            ("DepthMap::resolution, D24", FORWARD, DepthSteps::D24, [1u32, 16_777_215]),
+            ("DepthMap::resolution, D32", FORWARD, DepthSteps::D32, [1, 4_294_967_295]),
+            ("DepthMap::resolution, F32", FORWARD, DepthSteps::F32, [0, 1]),
+            ("DepthMap::resolution, F32, reversed", REVERSED, DepthSteps::F32, [0, 1]),
+        ] {
+            rows.push(Row::new(function, about(ratio), 4.0, move |rng| {
+                let planes = planes(rng, ratio);
+                let (map, z) = (kind.of(planes), any_z(rng, planes));
+                let rounded = [map.zs(z), map.beta() / z];
+                // What an f32 loses at least, or a step of the format.
+                let step = rounded
+                    .map(towards_zero)
+                    .into_iter()
+                    .chain([Rational::new(part.into(), of.into())])
+                    .reduce(|a, b| if a > b { a } else { b })
+                    .expect("three steps");
+                Sample::relative(map.resolution(steps, z), &distance(exact(kind, planes), z, step))
             }));
         }
         rows.push(Row::new("DepthMap::separable_until, D16", about(ratio), 8.0, move |rng| {
@@ -196,8 +217,19 @@ impl Kind {
 
 /// z − z', where z' is one step of 1/65535 nearer.
 fn gap(planes: [f32; 2], z: f32) -> Rational {
-    let [alpha, beta] = exact(FORWARD, planes);
+    distance(exact(FORWARD, planes), z, Rational::new(1.into(), 65_535.into()))
+}
+
+/// z − z', where zs of z' is so far from that of z, on the near side.
+fn distance([alpha, beta]: [Rational; 2], z: f32, step: Rational) -> Rational {
     let z = from_f32(z);
-    let nearer = &alpha + &beta / &z - Rational::new(1.into(), 65_535.into());
-    &z - beta / (nearer - alpha)
+    let zs = &alpha + &beta / &z;
+    let nearer = if beta < from_int(0) { zs - step } else { zs + step };
+    z - beta / (nearer - alpha)
+}
+
+/// The distance to the next f32 towards 0; from 0, to any other.
+fn towards_zero(x: f32) -> Rational {
+    let x = x.abs();
+    from_f32(if x == 0.0 { x.next_up() } else { x - x.next_down() })
 }

@@ -1,6 +1,7 @@
 //! Weights in eye space and on the screen.
 
-use crate::{Row, Sample, Table, brief};
+use crate::depth::about;
+use crate::{Row, Sample, Table};
 use alberti_oracle::rational::{Rational, from_f32, from_int};
 use alberti_oracle::rng::Rng;
 use alberti_projection::{DepthMap, EyeWeights, ScreenWeights};
@@ -46,17 +47,17 @@ pub(crate) fn tables() -> Vec<Table> {
             Sample::relative(ScreenWeights(w).q(z), &terms(w, z, |w, z| w / z).iter().sum())
         }));
     }
-    for ratio in [1.1f32, 1e3, 1e9] {
+    for ratio in [1.1f32, 1e3, 1e9, f32::INFINITY] {
         for (function, reversed) in
             [("ScreenWeights::z_of_depths, forward", false), ("ScreenWeights::z_of_depths, reversed", true)]
         {
-            let region = format!("zs as they are, B/A = {}", brief(ratio));
+            let region = format!("zs as they are, {}", about(ratio));
             rows.push(Row::new(function, region, WEIGHTS, move |rng| {
                 z_of_depths(rng, ratio, reversed, true)
             }));
         }
         let (function, region) =
-            ("ScreenWeights::z_of_depths, reversed", format!("zs of the map, B/A = {}", brief(ratio)));
+            ("ScreenWeights::z_of_depths, reversed", format!("zs of the map, {}", about(ratio)));
         rows.push(Row::new(function, region, 4.0, move |rng| z_of_depths(rng, ratio, true, false)));
     }
     vec![Table {
@@ -134,7 +135,8 @@ fn z_of_depths(rng: &mut Rng, ratio: f32, reversed: bool, own: bool) -> Sample {
     let far = near * ratio;
     let map = if reversed { DepthMap::reversed(near, far) } else { DepthMap::forward(near, far) };
     let map = map.expect("0 < near < far");
-    let (w, z) = (weights::<3>(rng), [(); 3].map(|()| rng.log_uniform(near, far)));
+    let last = far.min(near * 1e30);
+    let (w, z) = (weights::<3>(rng), [(); 3].map(|()| rng.log_uniform(near, last)));
     let zs = z.map(|z| map.zs(z));
     let got = ScreenWeights(w).z_of_depths(zs, &map);
     let sum: Rational = if own {

@@ -3,7 +3,7 @@
 use super::{Region, magnitude, one_of, point_near, relative, row};
 use crate::{Row, Sample, Table};
 use alberti_math::glam::{Mat2, Mat3, Vec2, Vec3};
-use alberti_math::{Frame, Frame2, Object, Point, World};
+use alberti_math::{Frame, Frame2, Object, Point, Vector, World};
 use alberti_oracle::linear::{integer, quotient, solve};
 use alberti_oracle::rational::{Rational, from_f32, to_f64};
 use alberti_oracle::rng::Rng;
@@ -17,6 +17,8 @@ type Given<const N: usize> = ([[f32; N]; N], [f32; N]);
 struct Functions<const N: usize> {
     to_parent: fn(Given<N>, [f32; N]) -> [f32; N],
     from_parent: fn(Given<N>, [f32; N]) -> Option<[f32; N]>,
+    vector_to_parent: fn(Given<N>, [f32; N]) -> [f32; N],
+    vector_from_parent: fn(Given<N>, [f32; N]) -> Option<[f32; N]>,
     inverse: fn(Given<N>) -> Option<Given<N>>,
     inverse_orthonormal: fn(Given<N>) -> Given<N>,
     composed: fn(Given<N>, Given<N>) -> Given<N>,
@@ -34,6 +36,10 @@ fn frame3((axes, origin): Given<3>) -> Frame<Object, World> {
 const IN_THE_PLANE: Functions<2> = Functions {
     to_parent: |frame, p| frame2(frame).to_parent(Point::new(Vec2::from(p))).coords.to_array(),
     from_parent: |frame, p| Some(frame2(frame).from_parent(Point::new(Vec2::from(p)))?.coords.to_array()),
+    vector_to_parent: |frame, v| frame2(frame).vector_to_parent(Vector::new(Vec2::from(v))).coords.to_array(),
+    vector_from_parent: |frame, v| {
+        Some(frame2(frame).vector_from_parent(Vector::new(Vec2::from(v)))?.coords.to_array())
+    },
     inverse: |frame| {
         frame2(frame).inverse().map(|f| (f.axes().to_cols_array_2d(), f.origin().coords.to_array()))
     },
@@ -56,6 +62,10 @@ const IN_THE_PLANE: Functions<2> = Functions {
 const IN_SPACE: Functions<3> = Functions {
     to_parent: |frame, p| frame3(frame).to_parent(Point::new(Vec3::from(p))).coords.to_array(),
     from_parent: |frame, p| Some(frame3(frame).from_parent(Point::new(Vec3::from(p)))?.coords.to_array()),
+    vector_to_parent: |frame, v| frame3(frame).vector_to_parent(Vector::new(Vec3::from(v))).coords.to_array(),
+    vector_from_parent: |frame, v| {
+        Some(frame3(frame).vector_from_parent(Vector::new(Vec3::from(v)))?.coords.to_array())
+    },
     inverse: |frame| {
         frame3(frame).inverse().map(|f| (f.axes().to_cols_array_2d(), f.origin().coords.to_array()))
     },
@@ -85,6 +95,8 @@ pub(super) fn table() -> Table {
             "Frame2 * Frame2, axes",
             "Frame2 * Frame2, origin",
             "Frame2::of_triangle, edges",
+            "Frame2::vector_to_parent",
+            "Frame2::vector_from_parent",
         ],
         &IN_THE_PLANE,
     );
@@ -97,6 +109,8 @@ pub(super) fn table() -> Table {
             "Frame * Frame, axes",
             "Frame * Frame, origin",
             "Frame::of_triangle, edges",
+            "Frame::vector_to_parent",
+            "Frame::vector_from_parent",
         ],
         &IN_SPACE,
     ));
@@ -112,7 +126,7 @@ pub(super) fn table() -> Table {
     }
 }
 
-fn rows<const N: usize>(names: [&'static str; 7], functions: &'static Functions<N>) -> Vec<Row> {
+fn rows<const N: usize>(names: [&'static str; 9], functions: &'static Functions<N>) -> Vec<Row> {
     // One rounding for each product, and one for each addition but the first.
     let terms = (N + 1) as f64;
     let mut rows = Vec::new();
@@ -159,6 +173,17 @@ fn rows<const N: usize>(names: [&'static str; 7], functions: &'static Functions<
             let exact = from_f32(corners[k + 1][i]) - from_f32(origin[i]);
             let size = to_f64(&exact).abs();
             (size < f64::from(f32::MAX)).then(|| relative(axes[k][i], &exact, size))
+        }));
+        rows.push(row(names[7], region, terms - 1.0, move |rng, region| {
+            let (frame, p) = drawn(rng, region);
+            let k = rng.index(N);
+            let local = [p, frame.0[rng.index(N)]][rng.index(2)];
+            sum((functions.vector_to_parent)(frame, local)[k], &frame.0.map(|axis| axis[k]), &local)
+        }));
+        rows.push(row(names[8], region, 1.05, move |rng, region| {
+            let (frame, v) = drawn(rng, region);
+            let exact = solved(frame.0, v.map(integer));
+            one_of(rng, (functions.vector_from_parent)(frame, v), exact, magnitude)
         }));
     }
     rows
