@@ -48,15 +48,19 @@ const SYMMETRIC: Kind = Kind {
 
 const KINDS: [Kind; 3] = [FORWARD, REVERSED, SYMMETRIC];
 
+/// Nearly the largest ratio of the planes that is accepted, 2^126.
+const FARTHEST: f32 = 8.5e37;
+
 /// Planes with this ratio of far to near; without a far plane, of an infinite one.
 fn planes(rng: &mut Rng, ratio: f32) -> [f32; 2] {
-    let near = rng.log_uniform(1e-4, 1e3);
+    let most = if ratio.is_finite() { f32::MAX / 2.0 / ratio } else { 1e3 };
+    let near = rng.log_uniform(1e-4, most.min(1e3));
     [near, near * ratio]
 }
 
 /// Between the planes: near one of them, or anywhere on a logarithmic scale.
 fn any_z(rng: &mut Rng, [near, far]: [f32; 2]) -> f32 {
-    let last = far.min(near * 1e30);
+    let last = if far.is_finite() { far } else { near * 1e35 };
     let z = match rng.index(4) {
         0 => near * (1.0 + rng.log_uniform(1e-7, 1.0)),
         1 => last * (1.0 - rng.log_uniform(1e-7, 0.5)),
@@ -81,7 +85,7 @@ pub(crate) fn about(ratio: f32) -> String {
 }
 
 pub(crate) fn tables() -> Vec<Table> {
-    let ratios = [1.1f32, 4.0, 1e3, 1e6, 1e9, f32::INFINITY];
+    let ratios = [1.1f32, 4.0, 1e3, 1e6, 1e9, FARTHEST, f32::INFINITY];
     let (mut zs, mut z) = (Vec::new(), Vec::new());
     for kind in KINDS {
         for ratio in ratios {
@@ -99,7 +103,7 @@ pub(crate) fn tables() -> Vec<Table> {
         }
     }
     for kind in KINDS {
-        for ratio in [1.1, 1e3, 1e9, f32::INFINITY] {
+        for ratio in [1.1, 1e3, 1e9, FARTHEST, f32::INFINITY] {
             z.push(Row::new(kind.name[0], about(ratio), 1.001, move |rng| {
                 let planes = planes(rng, ratio);
                 let ([alpha, beta], map) = (exact(kind, planes), (kind.make)(planes[0], planes[1]));
@@ -127,6 +131,12 @@ pub(crate) fn tables() -> Vec<Table> {
             }));
         }
     }
+    z.push(Row::new(REVERSED.name[3], "A down to `f32::MIN_POSITIVE`", 4.0, |rng| {
+        let near = rng.log_uniform(f32::MIN_POSITIVE, 1e-36);
+        let planes = [near, if rng.one_in(2) { f32::INFINITY } else { near * rng.log_uniform(1.1, 1e30) }];
+        let z = any_z(rng, planes);
+        Sample::relative(REVERSED.of(planes).z(REVERSED.of(planes).zs(z)), &from_f32(z))
+    }));
     vec![
         Table { title: "Depth", about: "Errors of zs are absolute, in ε of 1.", rows: zs },
         Table { title: "Depth: the map and its inverse", about: INVERSE, rows: z },
