@@ -154,7 +154,7 @@ fn projector() -> Vec<Row> {
         ("far from the origin", 1e4, 10.0),
         ("points close to it", 1.0, 1e-3),
         ("within 1e-38 of the origin, points as close", 1e-38, 1e-38),
-        ("within 1e36 of the origin, points in 1e36", 1e36, 1e36),
+        ("within 1e34 of the origin, points in 1e34", 1e34, 1e34),
     ];
     let rows = rows.into_iter().map(|(region, far, reach)| {
         Row::new("Projector::project", region, 5.0, move |rng| coordinates(rng, far, reach))
@@ -173,13 +173,15 @@ pub(crate) fn tables() -> Vec<Table> {
     vec![
         Table {
             title: "Parallel projection",
-            about: "Errors are in ε of the exact value; those of `LinearDepth::z` in ε of 2 |z − A| + |z|.",
+            about: "Errors are in ε of the exact value, or of the smallest normal number if that is larger; those of \
+                    `LinearDepth::z` in ε of 2 |z − A| + |z|, or 2 |z − B| + |z| reversed, with the same least distance.",
             rows: parallel(),
         },
         Table {
             title: "Projector",
             about: "Errors of u, v and q are in ε of the sum of the magnitudes of their three terms, the worst of the \
-                    three; those of `divide` in ε of the quotient.",
+                    three, where what is below the smallest normal number of an axis or a sum counts as that; those of \
+                    `divide` in ε of the quotient.",
             rows: projector(),
         },
     ]
