@@ -212,25 +212,24 @@ fn put_texture(arguments: &RenderArgs, scene: &mut Scene) -> Result<(), Error> {
 
 /// An option that does nothing without another is a mistake.
 fn check_partners(arguments: &RenderArgs) -> Result<(), Error> {
-    let alone = |option: &str, partner: &str| {
-        Err(Error::new(format!("it without {partner}"), "both, or neither").place(option))
-    };
     let RenderArgs { projector, projector_eye, projector_target, projector_fov, .. } = arguments;
-    let of_projector = [
+    let together = [
+        ("--projector", projector.is_some()),
         ("--projector-eye", projector_eye.is_some()),
         ("--projector-target", projector_target.is_some()),
-        ("--projector-fov", projector_fov.is_some()),
     ];
-    for (option, given) in of_projector {
-        if given && projector.is_none() {
-            return alone(option, "--projector");
-        }
-        if !given && projector.is_some() && option != "--projector-fov" {
-            return alone("--projector", option);
-        }
+    let names = |with: bool| together.into_iter().filter(move |o| o.1 == with).map(|o| o.0);
+    let missing = names(false).collect::<Vec<_>>().join(" and ");
+    let given = names(true).next().or(projector_fov.map(|_| "--projector-fov"));
+    if let Some(option) = given
+        && !missing.is_empty()
+    {
+        let expected = format!("all three of {}", together.map(|o| o.0).join(", "));
+        return Err(Error::new(format!("it without {missing}"), expected).place(option));
     }
     if arguments.view_height.is_some() && arguments.projection != Some(cli::Projection::Parallel) {
-        return alone("--view-height", "--projection parallel");
+        let error = Error::new("it without --projection parallel", "both, or neither");
+        return Err(error.place("--view-height"));
     }
     Ok(())
 }

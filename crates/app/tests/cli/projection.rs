@@ -122,14 +122,27 @@ fn options_without_their_partners_are_refused() {
     for (arguments, message) in [
         (
             "--projector-eye 1,2,3",
-            "error: --projector-eye: found it without --projector, expected both, or neither",
+            "error: --projector-eye: found it without --projector and --projector-target, expected all three",
         ),
-        ("--projector-target 1,2,3", "error: --projector-target: found it without --projector,"),
-        ("--projector-fov 30", "error: --projector-fov: found it without --projector,"),
-        ("--projector s.png", "error: --projector: found it without --projector-eye,"),
         (
-            "--projector s.png --projector-eye 1,2,3",
-            "error: --projector: found it without --projector-target,",
+            "--projector-target 1,2,3",
+            "error: --projector-target: found it without --projector and --projector-eye, expected all three",
+        ),
+        (
+            at,
+            "error: --projector-eye: found it without --projector, expected all three of --projector, --proj",
+        ),
+        (
+            "--projector-fov 30",
+            "error: --projector-fov: found it without --projector and --projector-eye and --projector-target,",
+        ),
+        (
+            "--projector s.png",
+            "error: --projector: found it without --projector-eye and --projector-target, expected all three",
+        ),
+        (
+            "--projector s.png --projector-eye 1,2,3 --projector-fov 9",
+            "error: --projector: found it without --projector-target, expected all three",
         ),
         (
             "--projector s.png --projector-eye 1,2",
