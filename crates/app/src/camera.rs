@@ -1,8 +1,10 @@
 //! Where to stand: a camera that shows a whole model, completed from whatever the user asked for.
 
-use crate::error::Error;
+use crate::error::{Error, number};
 use crate::normals::{cross, dot, length, narrow, normalize, sub};
+use crate::options::Projection;
 use crate::scene::{Camera, Model};
+use alberti::ViewError;
 
 /// The vertical opening angle unless the user gives one, degrees.
 pub const DEFAULT_FOV: f32 = 40.0;
@@ -22,6 +24,8 @@ pub struct Wishes {
     pub near: Option<f32>,
     /// The back clipping plane.
     pub far: Option<f32>,
+    /// To see along parallel lines, for which planes may also lie behind the eye.
+    pub parallel: bool,
 }
 
 /// A ball around a model.
@@ -59,7 +63,9 @@ pub fn bounding_sphere(model: &Model) -> Sphere {
 /// as they were made.
 ///
 /// # Errors
-/// The result is not a camera, as [`check`] says.
+/// The first of these that does not hold, with the option that sets it: all is finite; the opening angle is between 0
+/// and 180 degrees; the eye is apart from its target; up is not along the view; near < far, and 0 < near unless the
+/// view is parallel.
 pub fn frame(wishes: &Wishes, base: Option<&Camera>, ball: Sphere, aspect: f64) -> Result<Camera, Error> {
     let fov = wishes.fov.or(base.map(|b| b.fov)).unwrap_or(DEFAULT_FOV);
     check_fov(fov, &CAMERA)?;
@@ -83,7 +89,8 @@ pub fn frame(wishes: &Wishes, base: Option<&Camera>, ball: Sphere, aspect: f64) 
     };
     let camera =
         Camera { eye, target, up, fov, near: wishes.near.unwrap_or(near), far: wishes.far.unwrap_or(far) };
-    check(&camera)?;
+    check(&camera, &CAMERA)?;
+    check_planes(&camera, wishes.parallel, [near, far])?;
     Ok(camera)
 }
 
@@ -96,50 +103,76 @@ pub fn window_height(camera: &Camera) -> f32 {
 /// The place and the opening angle of a projector, upright unless it points straight up or down.
 ///
 /// # Errors
-/// As [`check`] says, with the options that set them.
+/// As those of [`frame`], with the options that set them.
 pub fn projector(eye: [f32; 3], target: [f32; 3], fov: f32) -> Result<Camera, Error> {
     let view = sub(target.map(f64::from), eye.map(f64::from));
     let camera = Camera { eye, target, up: upwards(view), fov, near: 1.0, far: 2.0 };
-    check_as(&camera, &PROJECTOR)?;
+    check(&camera, &PROJECTOR)?;
     Ok(camera)
 }
 
-/// Whether the ball lies wholly behind the camera, so that nothing of it can be seen.
+/// Whether the ball lies wholly behind the camera, so that nothing of it can be seen. Of a parallel view, behind a front
+/// plane that lies behind the eye.
 pub fn is_behind(camera: &Camera, ball: Sphere) -> bool {
     let eye = camera.eye.map(f64::from);
     let view = normalize(sub(camera.target.map(f64::from), eye)).unwrap_or([0.0; 3]);
-    dot(sub(ball.center, eye), view) < -ball.radius
-}
-
-/// Whether this is a camera: finite; 0 < near < far; an opening angle between 0 and 180 degrees; the eye apart
-/// from its target; and up not along the view.
-///
-/// # Errors
-/// The first of these that does not hold, with the option that sets it.
-pub fn check(camera: &Camera) -> Result<(), Error> {
-    check_as(camera, &CAMERA)
+    dot(sub(ball.center, eye), view) < f64::from(camera.near).min(0.0) - ball.radius
 }
 
 /// The options that set a camera's parts.
-struct Names {
+pub(crate) struct Names {
     eye: &'static str,
     target: &'static str,
     up: &'static str,
     fov: &'static str,
+    shape: &'static str,
 }
 
-const CAMERA: Names = Names { eye: "--eye", target: "--target", up: "--up", fov: "--fov" };
+/// The camera's own.
+pub(crate) const CAMERA: Names =
+    Names { eye: "--eye", target: "--target", up: "--up", fov: "--fov", shape: "--size" };
 
 /// A projector's `up` is chosen so that it cannot be wrong.
-const PROJECTOR: Names = Names {
+pub(crate) const PROJECTOR: Names = Names {
     eye: "--projector-eye",
     target: "--projector-target",
     up: "--projector-target",
     fov: "--projector-fov",
+    shape: "--projector",
 };
 
-fn check_as(camera: &Camera, names: &Names) -> Result<(), Error> {
-    let Camera { eye, target, up, fov, near, far } = *camera;
+/// What the library refuses of a camera that has passed the checks here: numbers too small or too large for it.
+pub(crate) fn refused(why: ViewError, camera: &Camera, projection: Projection, names: &Names) -> Error {
+    let Camera { eye, target, near, far, .. } = *camera;
+    match (why, projection) {
+        (ViewError::NotFinite | ViewError::EyeAtTarget, _) => {
+            let found = format!("no direction from {} to {}", show(eye), show(target));
+            Error::new(found, "two points whose difference fits a 32-bit float").place(names.eye)
+        }
+        (ViewError::UpAlongView, _) => up_along_view(camera, names),
+        (ViewError::Angle, _) => {
+            let found = format!("{} degrees, too small or too large for 32-bit floats", number(camera.fov));
+            Error::new(found, "an angle from 1e-30 to 179 degrees").place(names.fov).hint("40 is usual")
+        }
+        (ViewError::Height, Projection::Parallel { height }) => {
+            let found = format!("a height of {}, too small or too large for 32-bit floats", number(height));
+            Error::new(found, "a height from 1e-30 to 1e30").place("--view-height")
+        }
+        (ViewError::NearFar, _) => {
+            let found = format!("near {} and far {}", number(near), number(far));
+            let expected = "planes farther apart, and neither too near nor too far for 32-bit floats";
+            // With what is far, as far as that is usable.
+            let far = far.clamp(-1e30, 1e30);
+            let near = if far > 1e-30 { far / 1000.0 } else { 2.0 * far - 1.0 };
+            let hint = format!("try --near {} --far {}", number(near), number(far));
+            Error::new(found, expected).place("--near").hint(hint)
+        }
+        _ => Error::new(why.to_string(), "a shape that can be drawn").place(names.shape),
+    }
+}
+
+fn check(camera: &Camera, names: &Names) -> Result<(), Error> {
+    let Camera { eye, target, up, fov, .. } = *camera;
     for (option, point) in [(names.eye, eye), (names.target, target), (names.up, up)] {
         if point.iter().any(|x| !x.is_finite()) {
             let hint = format!("give {} and {} nearer to the model", names.eye, names.target);
@@ -147,14 +180,6 @@ fn check_as(camera: &Camera, names: &Names) -> Result<(), Error> {
         }
     }
     check_fov(fov, names)?;
-    let hint = "both follow the model unless given; see --near and --far";
-    if !(near > 0.0 && near.is_finite()) {
-        return Err(Error::new(format!("near {near}"), "a finite number above 0").place("--near").hint(hint));
-    }
-    if !(far > near && far.is_finite()) {
-        let found = format!("near {near} and far {far}");
-        return Err(Error::new(found, "near < far, both finite").place("--far").hint(hint));
-    }
     let view = sub(target.map(f64::from), eye.map(f64::from));
     if normalize(view).is_none() {
         let found = format!("the eye and its target both at {}", show(eye));
@@ -162,10 +187,28 @@ fn check_as(camera: &Camera, names: &Names) -> Result<(), Error> {
         return Err(Error::new(found, "two points").place(names.eye).hint(hint));
     }
     if parallel(view, up.map(f64::from)) {
-        let found = format!("{}, which is 0 or along the view", show(up));
-        return Err(Error::new(found, "a direction across the view")
-            .place(names.up)
-            .hint("choose another axis"));
+        return Err(up_along_view(camera, names));
+    }
+    Ok(())
+}
+
+fn up_along_view(camera: &Camera, names: &Names) -> Error {
+    let found = format!("{}, which is 0 or along the view", show(camera.up));
+    Error::new(found, "a direction across the view").place(names.up).hint("choose another axis")
+}
+
+/// `usable` is what the planes are unless they are given.
+fn check_planes(camera: &Camera, parallel: bool, usable: [f32; 2]) -> Result<(), Error> {
+    let Camera { near, far, .. } = *camera;
+    let hint = format!("try --near {} --far {}", number(usable[0]), number(usable[1]));
+    if !near.is_finite() || (near <= 0.0 && !parallel) {
+        let expected = if parallel { "a finite number" } else { "a finite number above 0" };
+        let found = format!("near {}", number(near));
+        return Err(Error::new(found, expected).place("--near").hint(hint));
+    }
+    if !(far > near && far.is_finite()) {
+        let found = format!("near {} and far {}", number(near), number(far));
+        return Err(Error::new(found, "near < far, both finite").place("--far").hint(hint));
     }
     Ok(())
 }
@@ -174,7 +217,7 @@ fn check_fov(fov: f32, names: &Names) -> Result<(), Error> {
     if fov > 0.0 && fov < 180.0 {
         return Ok(());
     }
-    Err(Error::new(format!("{fov} degrees"), "an angle above 0 and below 180 degrees")
+    Err(Error::new(format!("{} degrees", number(fov)), "an angle above 0 and below 180 degrees")
         .place(names.fov)
         .hint("40 is usual"))
 }
@@ -281,6 +324,8 @@ mod tests {
         let behind =
             Wishes { eye: Some([1.0, 2.0, 13.0]), target: Some([1.0, 2.0, 20.0]), ..Wishes::default() };
         assert!(is_behind(&of(behind), BALL) && !is_behind(&camera, BALL) && !is_behind(&inside, BALL));
+        let all = Wishes { near: Some(-20.0), parallel: true, ..behind };
+        assert!(!is_behind(&of(all), BALL) && is_behind(&of(Wishes { near: Some(-7.0), ..all }), BALL));
         let kept = of(Wishes { near: Some(0.5), far: Some(99.0), ..Wishes::default() });
         assert_eq!((kept.near, kept.far), (0.5, 99.0));
     }
@@ -329,7 +374,18 @@ mod tests {
         let none = Wishes::default();
         let nan = f32::NAN;
         for (wishes, start) in [
-            (Wishes { near: Some(0.0), ..none }, "--near: found near 0, expected"),
+            (
+                Wishes { near: Some(0.0), ..none },
+                "--near: found near 0, expected a finite number above 0; try --near",
+            ),
+            (
+                Wishes { near: Some(nan), parallel: true, ..none },
+                "--near: found near NaN, expected a finite number;",
+            ),
+            (
+                Wishes { near: Some(-1.0), far: Some(-2.0), parallel: true, ..none },
+                "--far: found near -1 and far -2",
+            ),
             (Wishes { near: Some(nan), ..none }, "--near: found near NaN, expected"),
             (
                 Wishes { near: Some(5.0), far: Some(5.0), ..none },
@@ -352,6 +408,9 @@ mod tests {
             assert!(message.starts_with(start), "{message}");
         }
         assert!(frame(&Wishes { fov: Some(1e-38), ..none }, None, BALL, 1.0).is_err());
+        // What is advised is taken.
+        let message = refused(Wishes { near: Some(1e9), eye: Some([1.0, 2.0, 13.0]), ..none });
+        assert!(message.ends_with("; try --near 7.98 --far 12.02"), "{message}");
     }
 
     #[test]

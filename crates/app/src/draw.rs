@@ -5,6 +5,8 @@
 //! stage, in which the two are optimized together, and all others a kernel for each of the rasterizer's policies, which
 //! calls any stage through a pointer: see `draw/general.rs`.
 
+use crate::camera::{self, CAMERA, PROJECTOR};
+use crate::error::Error;
 use crate::options::{Cull, Filter, Interpolation, Projection, RenderOptions, Shading, Subpixel, Wrap};
 use crate::scene::{Camera, Image, Model, Part, Vertex};
 use alberti::glam::{Vec2, Vec3};
@@ -33,13 +35,10 @@ const CHUNK: usize = 1 << 16;
 /// # Errors
 /// An impossible camera or size.
 pub fn view(camera: &Camera, width: u32, height: u32) -> Result<View, ViewError> {
-    let frame = frame(camera)?;
-    let viewport = Viewport::new(0, 0, width, height)?;
-    let aspect = aspect(width, height);
     Ok(View {
-        to_eye: frame.inverse_orthonormal() * Frame::<Object, World>::IDENTITY,
-        projection: Perspective::new(camera.fov.to_radians(), aspect, camera.near, camera.far)?,
-        viewport,
+        to_eye: to_eye(camera)?,
+        projection: perspective(camera, aspect(width, height))?,
+        viewport: Viewport::new(0, 0, width, height)?,
     })
 }
 
@@ -49,15 +48,28 @@ fn aspect(width: u32, height: u32) -> f32 {
 }
 
 /// The same through either projection.
-fn either(view: View, camera: &Camera, options: &RenderOptions) -> Result<View<Either>, ViewError> {
-    let projection = match options.projection {
-        Projection::Perspective => Either::Perspective(view.projection),
-        Projection::Parallel { height } => {
-            let aspect = aspect(options.width, options.height);
-            Either::Parallel(Parallel::new(height, aspect, camera.near, camera.far)?)
-        }
-    };
-    Ok(View { to_eye: view.to_eye, projection, viewport: view.viewport })
+fn either(camera: &Camera, options: &RenderOptions) -> Result<View<Either>, ViewError> {
+    let RenderOptions { width, height, .. } = *options;
+    let aspect = aspect(width, height);
+    Ok(View {
+        to_eye: to_eye(camera)?,
+        projection: match options.projection {
+            Projection::Perspective => Either::Perspective(perspective(camera, aspect)?),
+            Projection::Parallel { height } => {
+                Either::Parallel(Parallel::new(height, aspect, camera.near, camera.far)?)
+            }
+        },
+        viewport: Viewport::new(0, 0, width, height)?,
+    })
+}
+
+/// The model stands in the world where it was made.
+fn to_eye(camera: &Camera) -> Result<Frame<Object, Eye>, ViewError> {
+    Ok(frame(camera)?.inverse_orthonormal() * Frame::<Object, World>::IDENTITY)
+}
+
+fn perspective(camera: &Camera, aspect: f32) -> Result<Perspective, ViewError> {
+    Perspective::new(camera.fov.to_radians(), aspect, camera.near, camera.far)
 }
 
 fn frame(camera: &Camera) -> Result<Frame<Eye, World>, ViewError> {
@@ -94,10 +106,7 @@ mod general;
 pub(crate) struct Canvas<'a> {
     model: &'a Model,
     options: &'a RenderOptions,
-    /// In perspective, for the kernels of the default policies.
-    view: View,
-    /// As the options say, for all others.
-    either: View<Either>,
+    view: View<Either>,
     light: Vector3<World>,
     textures: Vec<Texture<'a, Rgba8>>,
     /// The projector and its image.
@@ -110,26 +119,28 @@ pub(crate) type DrawPart<'a, D> = fn(&mut Canvas<'a>, &Part, &[[u32; 3]], &mut B
 
 impl<'a> Canvas<'a> {
     /// # Errors
-    /// What is wrong with the camera, the size or a texture, in words.
-    pub(crate) fn new(model: &'a Model, camera: &Camera, options: &'a RenderOptions) -> Result<Self, String> {
-        let view = view(camera, options.width, options.height).map_err(|e| e.to_string())?;
+    /// What is wrong with the camera, the size, the projector or a texture.
+    pub(crate) fn new(model: &'a Model, camera: &Camera, options: &'a RenderOptions) -> Result<Self, Error> {
+        let view =
+            either(camera, options).map_err(|e| camera::refused(e, camera, options.projection, &CAMERA))?;
         let borrow = |image: &'a Image| Texture::new(&image.texels, image.width, image.height);
         let textures: Result<Vec<_>, TextureError> = model.textures.iter().map(borrow).collect();
-        let textures = textures.map_err(|e| e.to_string())?;
+        let textures = textures.map_err(|e| Error::new(e.to_string(), "textures that can be drawn"))?;
         let slide = options.slide.and_then(|slide| Some((slide.projector, *textures.get(slide.texture)?)));
         let slide = slide.map(|(camera, image)| {
             let aspect = aspect(image.width(), image.height());
-            Ok((Projector::new(frame(&camera)?, camera.fov.to_radians(), aspect)?, image))
+            let new = |place| Projector::new(place, camera.fov.to_radians(), aspect);
+            let projector = frame(&camera).and_then(new);
+            let refused = |e| camera::refused(e, &camera, Projection::Perspective, &PROJECTOR);
+            Ok((projector.map_err(refused)?, image))
         });
-        let in_words = |e: ViewError| e.to_string();
         Ok(Self {
             model,
             options,
             view,
-            either: either(view, camera, options).map_err(in_words)?,
             light: Vector3::new(to_light(camera)),
             textures,
-            slide: slide.transpose().map_err(in_words)?,
+            slide: slide.transpose()?,
             stats: Stats::default(),
         })
     }
@@ -162,10 +173,10 @@ impl<'a> Canvas<'a> {
         triangles: &[[u32; 3]],
         band: &mut Band<'_, Rgba8, D>,
     ) {
-        let RenderOptions { policies, projection, .. } = *self.options;
+        let policies = self.options.policies;
         if policies.interpolation == Interpolation::Exact
             && policies.subpixel == Subpixel::Sub8
-            && projection == Projection::Perspective
+            && self.in_perspective().is_some()
             && self.slide.is_none()
         {
             self.draw_part(part, triangles, band);
@@ -227,9 +238,19 @@ impl<'a> Canvas<'a> {
         V: Varying,
         F: FragmentStage<V, Color = Rgba8>,
     {
-        let pass = self.pass(self.view, triangles, vertex_stage, fragment_stage, Exact);
+        let Some(view) = self.in_perspective() else { return };
+        let pass = self.pass(view, triangles, vertex_stage, fragment_stage, Exact);
         let mut slots = self.slots::<Sub8, V>(triangles);
         draw(&pass, band, &mut slots, &mut self.stats);
+    }
+
+    /// The view, if it is of the kind that the kernels of the default policies are for.
+    fn in_perspective(&self) -> Option<View> {
+        let View { to_eye, projection, viewport } = self.view;
+        match projection {
+            Either::Perspective(projection) => Some(View { to_eye, projection, viewport }),
+            Either::Parallel(_) => None,
+        }
     }
 
     fn pass<'t, Vs, F, P, Pr>(

@@ -109,6 +109,11 @@ pub fn quote(bytes: &[u8]) -> String {
     format!("\"{}\"", one_line(&short))
 }
 
+/// A number for a message: not with dozens of zeros.
+pub fn number(x: f32) -> String {
+    if x == 0.0 || (1e-5..1e10).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") }
+}
+
 /// File names and file contents may hold line breaks and terminal escapes; messages may not.
 fn one_line(text: &str) -> String {
     if !text.chars().any(char::is_control) {
@@ -147,6 +152,12 @@ mod tests {
         let lines: Vec<_> = warnings.lines().collect();
         assert_eq!(lines.len(), 11);
         assert_eq!(lines[9..], ["found 9, expected b", "3 more of this kind"]);
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        let shown = [0.0, -0.25, 1e6, 1e-40, -3e38, f32::INFINITY].map(number);
+        assert_eq!(shown, ["0", "-0.25", "1000000", "1e-40", "-3e38", "inf"]);
     }
 
     #[test]

@@ -19,7 +19,7 @@ pub struct Picture {
 
 /// Draws the model. `progress` hears (triangles done, all triangles).
 ///
-/// The camera has passed [`crate::camera::check`], the size is within its limits, and every index of the model is
+/// The camera is as [`crate::camera::frame`] makes them, the size is within its limits, and every index of the model is
 /// within its arrays.
 ///
 /// # Errors
@@ -32,8 +32,7 @@ pub fn render(
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<Picture, Error> {
     options.policies.check()?;
-    let canvas = Canvas::new(model, camera, options)
-        .map_err(|found| Error::new(found, "a camera, a size and textures that can be drawn"))?;
+    let canvas = Canvas::new(model, camera, options)?;
     let stats_and_pixels = match options.depth {
         DepthFormat::F32 => draw::<F32>(canvas, Canvas::by_default, options, progress),
         DepthFormat::F32Reversed => draw::<F32Reversed>(canvas, Canvas::by_default, options, progress),

@@ -9,7 +9,7 @@ use clap::{CommandFactory as _, Parser as _};
 
 use crate::camera::{self, Wishes};
 use crate::cli::{self, Cli, Command, RenderArgs, StatsFormat};
-use crate::error::{Error, Warnings, quote};
+use crate::error::{Error, Warnings, number, quote};
 use crate::options::{
     Cull, DEFAULT_BACKGROUND, DepthFormat, Filter, Interpolation, Policies, Profile, Projection,
     RenderOptions, Shading, Slide, Wrap,
@@ -96,7 +96,8 @@ fn draw(arguments: &RenderArgs) -> Result<(), Error> {
 
     let (width, height) = arguments.size;
     let RenderArgs { eye, target, up, fov, near, far, .. } = *arguments;
-    let wishes = Wishes { eye, target, up, fov, near, far };
+    let parallel = arguments.projection == Some(cli::Projection::Parallel);
+    let wishes = Wishes { eye, target, up, fov, near, far, parallel };
     let ball = camera::bounding_sphere(&scene.model);
     let aspect = f64::from(width) / f64::from(height);
     let camera = camera::frame(&wishes, scene.camera.as_ref(), ball, aspect)?;
@@ -241,9 +242,8 @@ fn projection(arguments: &RenderArgs, camera: &Camera) -> Result<Projection, Err
     }
     let height = arguments.view_height.unwrap_or_else(|| camera::window_height(camera));
     if !(height > 0.0 && height.is_finite()) {
-        return Err(
-            Error::new(format!("a height of {height}"), "a finite number above 0").place("--view-height")
-        );
+        let found = format!("a height of {}", number(height));
+        return Err(Error::new(found, "a finite number above 0").place("--view-height"));
     }
     Ok(Projection::Parallel { height })
 }

@@ -32,10 +32,10 @@ impl fmt::Display for ViewError {
             Self::NotFinite => "a parameter is NaN or infinite",
             Self::EyeAtTarget => "the eye is at the target: no direction of view",
             Self::UpAlongView => "the up vector is zero or parallel to the direction of view",
-            Self::Angle => "the opening angle must lie between 0 and 180 degrees",
+            Self::Angle => "the opening angle must lie between 0 and 180 degrees, and its scale be a normal f32",
             Self::Aspect => "the aspect ratio must be positive",
-            Self::Height => "the height of the view must be positive",
-            Self::NearFar => "the planes must satisfy near < far, and 0 < near in perspective",
+            Self::Height => "the height of the view must be positive, and its scale a normal f32",
+            Self::NearFar => "the planes must satisfy near < far (in perspective, 0 < near), as numbers that f32 tells apart",
             Self::Viewport => "the viewport is empty or reaches more than 16384 pixels from the origin",
             Self::DepthRange => "the ends of the range of screen depths must be finite and differ",
         })

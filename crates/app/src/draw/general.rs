@@ -129,7 +129,7 @@ impl<'a> Canvas<'a> {
         F: FragmentStage<Carried, Color = Rgba8>,
         D: DepthFormat,
     {
-        let pass = self.pass(self.either, triangles, *vertex_stage, stage, interpolation);
+        let pass = self.pass(self.view, triangles, *vertex_stage, stage, interpolation);
         draw_by(lanes, &pass, band, &mut self.slots::<S, Carried>(triangles), &mut self.stats);
     }
 

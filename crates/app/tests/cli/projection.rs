@@ -115,6 +115,82 @@ fn in_parallel_projection_policies_do_not_differ() {
 }
 
 #[test]
+fn in_parallel_projection_planes_may_lie_behind_the_eye() {
+    let folder = Folder::with(&[("m.obj", square(12.0).as_bytes())]);
+    let view = "m.obj --size 64x64 --eye 0,0,8 --target 0,0,0 --shading unlit --background 010203";
+    let seen = |arguments: &str| {
+        let run = folder.succeeds(&format!("{view} {arguments}").split(' ').collect::<Vec<_>>());
+        (covered(&image::open(folder.path("alberti.png")).expect("a picture").to_rgb8()), run.stderr)
+    };
+    let parallel = "--projection parallel --view-height 8";
+    assert_eq!(seen(&format!("{parallel} --near -5 --far -3")), (16 * 16, String::new()));
+    assert_eq!(seen(&format!("{parallel} --near -5 --far 0")), (16 * 16, String::new()));
+    let warning =
+        "warning: --eye: found a camera that looks away from the model, expected the model in view\n";
+    assert_eq!(seen(&format!("{parallel} --near 0 --far 3")), (0, warning.to_owned()));
+    let refused = |arguments: &str, message: &str| {
+        folder.fails(&format!("{view} {arguments}").split(' ').collect::<Vec<_>>(), &[message]);
+    };
+    refused(
+        &format!("{parallel} --near -3 --far -5"),
+        "error: --far: found near -3 and far -5, expected near < far",
+    );
+    refused(
+        "--near -5 --far 3",
+        "error: --near: found near -5, expected a finite number above 0; try --near ",
+    );
+}
+
+/// Each names the option, and what it calls usable is.
+#[test]
+fn what_is_too_large_or_too_small_is_told_from_what_is_impossible() {
+    let folder = Folder::with(&[("m.obj", square(0.0).as_bytes())]);
+    RgbImage::new(2, 2).save(folder.path("s.png")).expect("a file");
+    let slide = "--projector s.png --projector-eye 0,0,3 --projector-target 0,0,0";
+    let height = "too small or too large for 32-bit floats, expected a height from 1e-30 to 1e30";
+    let angle =
+        "too small or too large for 32-bit floats, expected an angle from 1e-30 to 179 degrees; 40 is";
+    let planes = "expected planes farther apart, and neither too near nor too far for 32-bit floats; try";
+    for (view, bad, message, good) in [
+        (
+            "--projection parallel",
+            "--view-height 1e-40",
+            format!("error: --view-height: found a height of 1e-40, {height}"),
+            "--view-height 1e-30",
+        ),
+        (
+            "--projection parallel",
+            "--view-height 3e38",
+            format!("error: --view-height: found a height of 3e38, {height}"),
+            "--view-height 1e30",
+        ),
+        ("--eye 0,0,8", "--fov 1e-38", format!("error: --fov: found 1e-38 degrees, {angle}"), "--fov 1e-30"),
+        (
+            slide,
+            "--projector-fov 1e-38",
+            format!("error: --projector-fov: found 1e-38 degrees, {angle}"),
+            "--projector-fov 1e-30",
+        ),
+        (
+            "--eye 0,0,8",
+            "--near 3e38 --far 3.0000003e38",
+            format!("error: --near: found near 3e38 and far 3.0000002e38, {planes} --near 1e27 --far 1e30"),
+            "--near 1e27 --far 1e30",
+        ),
+        (
+            "--projection parallel",
+            "--near -3.1e38 --far -3e38",
+            format!("error: --near: found near -3.1e38 and far -3e38, {planes} --near -2e30 --far -1e30"),
+            "--near -2e30 --far -1e30",
+        ),
+    ] {
+        let split = |more| format!("m.obj {view} {more}").split(' ').map(str::to_owned).collect::<Vec<_>>();
+        folder.fails(&split(bad), &[&message]);
+        folder.succeeds(&split(good));
+    }
+}
+
+#[test]
 fn options_without_their_partners_are_refused() {
     let folder = Folder::with(&[("m.obj", square(0.0).as_bytes()), ("broken.png", b"")]);
     RgbImage::new(2, 2).save(folder.path("s.png")).expect("a file");
