@@ -56,8 +56,10 @@ use core::fmt::Debug;
 ///
 /// # Precision
 /// The image's colour is that of the sampler at ((u/q + 1)/2, (v/q + 1)/2), each within 2ε, for the u, v and q that are
-/// interpolated; whether there is an image follows from these exactly. In fixed point these and the quotients are in
-/// steps of 2^-16, so that q should not be much below 1, and it must not be above 16384.
+/// interpolated; whether there is an image follows from these exactly. A miss of up to e in each of u, v and q becomes
+/// one of up to about 2e/q in u/q and v/q. The budget of [`Bounded`](crate::Bounded) is such an e, so it does not cover
+/// the image, least of all close to the projector. In fixed point u, v, q and the quotients are in steps of 2^-16, so
+/// that q should not be much below 1, and |u|, |v| and q may be up to 4096, to which they are clamped.
 ///
 /// # Cost
 /// Three components to interpolate; two divisions, and where there is an image what the sampler costs.
