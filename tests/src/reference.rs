@@ -19,7 +19,6 @@ pub fn options(scene: &BuiltIn, width: u32, height: u32) -> RenderOptions {
         cull: scene.cull,
         depth: scene.depth,
         projection: Projection::Perspective,
-        slide: None,
         policies: Policies::default(),
     }
 }

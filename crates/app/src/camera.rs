@@ -111,8 +111,8 @@ pub fn projector(eye: [f32; 3], target: [f32; 3], fov: f32) -> Result<Camera, Er
     Ok(camera)
 }
 
-/// Whether the ball lies wholly behind the camera, so that nothing of it can be seen. Of a parallel view, behind a front
-/// plane that lies behind the eye.
+/// Whether the ball lies wholly behind the camera, or behind a front plane that lies behind the eye, so that nothing of
+/// it can be seen.
 pub fn is_behind(camera: &Camera, ball: Sphere) -> bool {
     let eye = camera.eye.map(f64::from);
     let view = normalize(sub(camera.target.map(f64::from), eye)).unwrap_or([0.0; 3]);

@@ -149,7 +149,8 @@ pub struct RenderArgs {
     /// exact: right to 9 units of 2^-24, a division a pixel;
     /// plane: to tens of such units, a division a pixel but fewer operations beside it;
     /// spans:N: exact every N = 4, 8, 16 or 32 columns, straight lines between, so textures are bent a little;
-    /// bounded:TEXELS: straight lines that miss no more than that much of the largest texture's texel, such as 0.0625;
+    /// bounded:TEXELS: straight lines that miss no more than that much of the largest texture's texel, such as 0.0625
+    /// (a projector's image has no part in this, and may be bent more);
     /// affine: straight lines across a triangle, no division, textures swim and break along edges.
     #[arg(long, value_name = "HOW", help_heading = PRECISION, verbatim_doc_comment, value_parser = Interpolation::parse)]
     pub interpolation: Option<Interpolation>,

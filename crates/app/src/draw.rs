@@ -5,10 +5,11 @@
 //! stage, in which the two are optimized together, and all others a kernel for each of the rasterizer's policies, which
 //! calls any stage through a pointer: see `draw/general.rs`.
 
-use crate::camera::{self, CAMERA, PROJECTOR};
+use crate::camera::{self, CAMERA};
 use crate::error::Error;
 use crate::options::{Cull, Filter, Interpolation, Projection, RenderOptions, Shading, Subpixel, Wrap};
 use crate::scene::{Camera, Image, Model, Part, Vertex};
+use crate::slide;
 use alberti::glam::{Vec2, Vec3};
 use alberti::shaders::{Lambert, Solid, Tinted, Unlit, VertexColor};
 use alberti::texture::{self, Texture, TextureError};
@@ -43,7 +44,7 @@ pub fn view(camera: &Camera, width: u32, height: u32) -> Result<View, ViewError>
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "rounded once")]
-fn aspect(width: u32, height: u32) -> f32 {
+pub(crate) fn aspect(width: u32, height: u32) -> f32 {
     (f64::from(width) / f64::from(height)) as f32
 }
 
@@ -72,7 +73,7 @@ fn perspective(camera: &Camera, aspect: f32) -> Result<Perspective, ViewError> {
     Perspective::new(camera.fov.to_radians(), aspect, camera.near, camera.far)
 }
 
-fn frame(camera: &Camera) -> Result<Frame<Eye, World>, ViewError> {
+pub(crate) fn frame(camera: &Camera) -> Result<Frame<Eye, World>, ViewError> {
     let point = |p: [f32; 3]| Point3::new(Vec3::from_array(p));
     look_at(point(camera.eye), point(camera.target), Vector3::new(Vec3::from_array(camera.up)))
 }
@@ -125,14 +126,11 @@ impl<'a> Canvas<'a> {
             either(camera, options).map_err(|e| camera::refused(e, camera, options.projection, &CAMERA))?;
         let borrow = |image: &'a Image| Texture::new(&image.texels, image.width, image.height);
         let textures: Result<Vec<_>, TextureError> = model.textures.iter().map(borrow).collect();
-        let textures = textures.map_err(|e| Error::new(e.to_string(), "textures that can be drawn"))?;
-        let slide = options.slide.and_then(|slide| Some((slide.projector, *textures.get(slide.texture)?)));
-        let slide = slide.map(|(camera, image)| {
-            let aspect = aspect(image.width(), image.height());
-            let new = |place| Projector::new(place, camera.fov.to_radians(), aspect);
-            let projector = frame(&camera).and_then(new);
-            let refused = |e| camera::refused(e, &camera, Projection::Perspective, &PROJECTOR);
-            Ok((projector.map_err(refused)?, image))
+        let in_words = |e: TextureError| Error::new(e.to_string(), "textures that can be drawn");
+        let textures = textures.map_err(in_words)?;
+        let slide = model.slide.as_ref().map(|slide| {
+            let image = borrow(&slide.image).map_err(|e| in_words(e).place("--projector"))?;
+            Ok((slide::projector(slide)?, image))
         });
         Ok(Self {
             model,

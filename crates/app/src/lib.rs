@@ -14,6 +14,7 @@ pub mod render;
 pub mod run;
 pub mod scene;
 pub mod scenes;
+pub mod slide;
 pub mod stats;
 
 mod materials;

@@ -1,7 +1,6 @@
 //! How a scene is drawn: the choices that the command line offers and that a built-in scene makes for itself.
 
 use crate::error::Error;
-use crate::scene::Camera;
 use clap::ValueEnum;
 use std::fmt;
 
@@ -255,15 +254,6 @@ pub enum Projection {
     },
 }
 
-/// An image that a projector throws on the model.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Slide {
-    /// Index into [`Model::textures`](crate::scene::Model::textures).
-    pub texture: usize,
-    /// Where the projector stands and points to, and its vertical opening angle; its planes have no meaning.
-    pub projector: Camera,
-}
-
 /// Everything about a picture that is neither model nor camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RenderOptions {
@@ -285,8 +275,6 @@ pub struct RenderOptions {
     pub depth: DepthFormat,
     /// How space comes to the screen.
     pub projection: Projection,
-    /// What is thrown on the model, if anything.
-    pub slide: Option<Slide>,
     /// The other policies, which [`render`](crate::render::render) takes for ones that go together.
     pub policies: Policies,
 }

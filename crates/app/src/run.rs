@@ -12,14 +12,14 @@ use crate::cli::{self, Cli, Command, RenderArgs, StatsFormat};
 use crate::error::{Error, Warnings, number, quote};
 use crate::options::{
     Cull, DEFAULT_BACKGROUND, DepthFormat, Filter, Interpolation, Policies, Profile, Projection,
-    RenderOptions, Shading, Slide, Wrap,
+    RenderOptions, Shading, Wrap,
 };
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::render::render;
 use crate::scene::{Camera, Model};
 use crate::stats::{Report, Source, Times};
-use crate::{image_file, obj, scenes};
+use crate::{image_file, obj, scenes, slide};
 
 /// The exit status for whatever the user can mend.
 pub const FAILURE: u8 = 2;
@@ -91,7 +91,7 @@ fn draw(arguments: &RenderArgs) -> Result<(), Error> {
     let start = Instant::now();
     let mut scene = load(arguments)?;
     put_texture(arguments, &mut scene)?;
-    let slide = put_slide(arguments, &mut scene.model)?;
+    scene.model.slide = slide::load(arguments)?;
     let load = start.elapsed();
 
     let (width, height) = arguments.size;
@@ -108,6 +108,12 @@ fn draw(arguments: &RenderArgs) -> Result<(), Error> {
                 .to_string(),
         );
     }
+    if let Some(slide) = &scene.model.slide
+        && slide::misses(&slide::projector(slide)?, &scene.model)
+    {
+        let found = "an image that falls nowhere on the model";
+        warn(&Error::new(found, "the model before the projector").place("--projector-target").to_string());
+    }
 
     let (shading, filter, wrap, cull, scene_depth) = scene.defaults;
     let options = RenderOptions {
@@ -120,7 +126,6 @@ fn draw(arguments: &RenderArgs) -> Result<(), Error> {
         cull: arguments.cull.unwrap_or(cull),
         depth: depth.unwrap_or(scene_depth),
         projection: projection(arguments, &camera)?,
-        slide,
         policies,
     };
     let start = Instant::now();
@@ -246,18 +251,6 @@ fn projection(arguments: &RenderArgs, camera: &Camera) -> Result<Projection, Err
         return Err(Error::new(found, "a finite number above 0").place("--view-height"));
     }
     Ok(Projection::Parallel { height })
-}
-
-/// The projector that was asked for; its image becomes one more of the model's textures.
-fn put_slide(arguments: &RenderArgs, model: &mut Model) -> Result<Option<Slide>, Error> {
-    let RenderArgs { projector_eye, projector_target, projector_fov, .. } = *arguments;
-    let (Some(path), Some(eye), Some(target)) = (&arguments.projector, projector_eye, projector_target)
-    else {
-        return Ok(None);
-    };
-    let projector = camera::projector(eye, target, projector_fov.unwrap_or(camera::DEFAULT_FOV))?;
-    model.textures.push(image_file::load(path, image_file::MAX_TEXELS)?);
-    Ok(Some(Slide { texture: model.textures.len() - 1, projector }))
 }
 
 fn warn_all(warnings: &Warnings) {

@@ -49,8 +49,19 @@ pub struct Model {
     pub parts: Vec<Part>,
     /// Shared by all parts.
     pub textures: Vec<Image>,
+    /// What a projector throws on all parts, if anything.
+    pub slide: Option<Slide>,
     /// Where it came from, when it came from a file.
     pub source: Option<PathBuf>,
+}
+
+/// An image that a projector throws on the model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Slide {
+    /// What is thrown.
+    pub image: Image,
+    /// Where the projector stands and points to, and its vertical opening angle; its planes have no meaning.
+    pub projector: Camera,
 }
 
 /// A camera in world space.

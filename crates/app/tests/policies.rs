@@ -103,7 +103,6 @@ fn options(
         cull: options::Cull::Back,
         depth,
         projection: options::Projection::Perspective,
-        slide: None,
         policies,
     }
 }
@@ -183,15 +182,17 @@ fn projections_and_projectors_are_those_of_the_library() {
     let policies = Policies { interpolation: Interpolation::Affine, ..Policies::default() };
     let plain = options(&scene, Shading::Unlit, Filter::Nearest, (policies, DepthFormat::F32));
     let projection = options::Projection::Parallel { height: 4.0 };
-    let slide = Some(options::Slide { texture: 0, projector });
-    let drawn = |options: RenderOptions| {
-        render(&scene.model, &scene.camera, &options, &mut |_, _| {}).expect("a picture").image.texels
+    let slide = Some(scene::Slide { image: image.clone(), projector });
+    let lit = scene::Model { slide, ..scene.model.clone() };
+    let drawn = |model: &scene::Model, options: RenderOptions| {
+        render(model, &scene.camera, &options, &mut |_, _| {}).expect("a picture").image.texels
     };
     let expected: Vec<_> = color.into_iter().map(u32::to_ne_bytes).collect();
-    assert!(drawn(RenderOptions { projection, slide, ..plain }) == expected);
+    let parallel = RenderOptions { projection, ..plain };
+    assert!(drawn(&lit, parallel) == expected);
     // Neither without the other, and not without both.
-    for other in [RenderOptions { projection, ..plain }, RenderOptions { slide, ..plain }, plain] {
-        let other = drawn(other);
+    for (model, options) in [(&scene.model, parallel), (&lit, plain), (&scene.model, plain)] {
+        let other = drawn(model, options);
         let differ = other.iter().zip(&expected).filter(|(a, b)| a != b).count();
         assert!(differ > expected.len() / 20, "{differ} pixels");
     }

@@ -76,6 +76,42 @@ fn a_projector_colours_what_is_before_it() {
 }
 
 #[test]
+fn a_projector_that_misses_the_model_is_warned_of() {
+    let folder = Folder::with(&[("m.obj", square(0.0).as_bytes())]);
+    RgbImage::new(2, 2).save(folder.path("s.png")).expect("a file");
+    let said = |target: &str| {
+        let slide = ["--projector", "s.png", "--projector-eye", "0,0,1", "--projector-target", target];
+        folder.succeeds(&[&["m.obj", "--size", "16x16"][..], &slide].concat()).stderr
+    };
+    let warning = "warning: --projector-target: found an image that falls nowhere on the model, expected the model \
+                   before the projector\n";
+    assert_eq!([said("0,0,0"), said("0,0,2"), said("9,0,1")], ["", warning, warning]);
+}
+
+/// What `bounded:TEXELS` means for the model's own texture does not depend on the projected image's size.
+#[test]
+fn a_projected_image_has_no_part_in_a_budget_of_texels() {
+    let folder = Folder::with(&[(
+        "m.obj",
+        b"v -9 0 -9\nv 9 0 -9\nv 9 0 9\nv -9 0 9\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 4/4 3/3 2/2\n",
+    )]);
+    RgbImage::from_fn(16, 16, |x, y| if (x + y) % 2 == 0 { RED } else { BLUE })
+        .save(folder.path("t.png"))
+        .expect("a file");
+    let drawn = |side: u32, texels: f32| {
+        RgbImage::from_pixel(side, side, Rgb([255; 3])).save(folder.path("s.png")).expect("a file");
+        let arguments = format!(
+            "m.obj --size 64x64 --eye 0,1,10 --target 0,0,0 --up 1,1,0 --shading unlit --filter nearest --texture \
+             t.png --projector s.png --projector-eye 0,0.2,0 --projector-target 0,0,0 --interpolation bounded:{texels}"
+        );
+        folder.succeeds(&arguments.split(' ').collect::<Vec<_>>());
+        image::open(folder.path("alberti.png")).expect("a picture").to_rgb8()
+    };
+    assert_eq!(drawn(1, 4.0), drawn(1024, 4.0));
+    assert_ne!(drawn(1, 4.0), drawn(1, 4.0 * 16.0 / 1024.0));
+}
+
+#[test]
 fn both_go_with_all_policies() {
     let front = "--projector slide.png --projector-eye 0.3,0,2 --projector-target 0,0,0";
     let expected = picture(-1.0, front);

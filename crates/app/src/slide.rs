@@ -1,0 +1,81 @@
+//! The image that a projector throws on the model.
+
+use crate::camera::{self, PROJECTOR};
+use crate::cli::RenderArgs;
+use crate::draw::{aspect, frame};
+use crate::error::Error;
+use crate::image_file;
+use crate::options::Projection;
+use crate::scene::{Model, Slide};
+use alberti::glam::Vec3;
+use alberti::{Homogeneous, Point3, Projector};
+
+/// The projector that was asked for, with its image.
+///
+/// # Errors
+/// The projector or its image cannot be.
+pub fn load(arguments: &RenderArgs) -> Result<Option<Slide>, Error> {
+    let RenderArgs { projector_eye, projector_target, projector_fov, .. } = *arguments;
+    let (Some(path), Some(eye), Some(target)) = (&arguments.projector, projector_eye, projector_target)
+    else {
+        return Ok(None);
+    };
+    let projector = camera::projector(eye, target, projector_fov.unwrap_or(camera::DEFAULT_FOV))?;
+    Ok(Some(Slide { image: image_file::load(path, image_file::MAX_TEXELS)?, projector }))
+}
+
+/// The library's projector for it.
+///
+/// # Errors
+/// Its numbers are too small or too large.
+pub fn projector(slide: &Slide) -> Result<Projector, Error> {
+    let aspect = aspect(slide.image.width, slide.image.height);
+    frame(&slide.projector)
+        .and_then(|place| Projector::new(place, slide.projector.fov.to_radians(), aspect))
+        .map_err(|e| camera::refused(e, &slide.projector, Projection::Perspective, &PROJECTOR))
+}
+
+/// Whether the image falls nowhere on the model for certain: all of it lies behind the projector, or beyond the same
+/// side of the projector's pyramid.
+pub fn misses(projector: &Projector, model: &Model) -> bool {
+    let beyond = model.vertices.iter().fold([true; 5], |beyond, vertex| {
+        let Homogeneous { u, v, q } = projector.project(Point3::new(Vec3::from_array(vertex.position)));
+        let [behind, left, right, below, above] = beyond;
+        [behind && q <= 0.0, left && u <= -q, right && u >= q, below && v <= -q, above && v >= q]
+    });
+    beyond.contains(&true)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Image, Vertex};
+
+    /// Whether the segment from (-1, 0, 0) to (1, 0, 0) is missed from there.
+    fn missed(eye: [f32; 3], target: [f32; 3]) -> bool {
+        let vertex = |x| Vertex { position: [x, 0.0, 0.0], normal: [0.0; 3], uv: [0.0; 2], color: [0.0; 3] };
+        let model = Model { vertices: vec![vertex(-1.0), vertex(1.0)], ..Model::default() };
+        let image = Image { width: 2, height: 1, texels: vec![[0; 4]; 2] };
+        // At a distance of 1, it is 2 units high and 4 wide.
+        let projector = camera::projector(eye, target, 90.0).expect("a projector");
+        misses(&projector_of(Slide { image, projector }), &model)
+    }
+
+    fn projector_of(slide: Slide) -> Projector {
+        projector(&slide).expect("a projector")
+    }
+
+    #[test]
+    fn models_behind_or_beside_a_projector_are_missed() {
+        assert!(!missed([0.0, 0.0, 1.0], [0.0; 3]));
+        assert!(missed([0.0, 0.0, 1.0], [0.0, 0.0, 2.0]));
+        for (beside, on) in [([3.1, 0.0], [2.9, 0.0]), ([0.0, 1.1], [0.0, 0.9])] {
+            for sign in [-1.0, 1.0] {
+                let from = |[x, y]: [f32; 2]| missed([sign * x, sign * y, 1.0], [sign * x, sign * y, 0.0]);
+                assert!(from(beside) && !from(on), "{sign} {beside:?}");
+            }
+        }
+        // One end before it, the other behind.
+        assert!(!missed([0.0, 0.0, 0.1], [1.0, 0.0, 0.1]));
+    }
+}
