@@ -24,8 +24,6 @@ pub(super) fn table() -> Table {
             rows.push(row("signed_area", region, QUOTIENT, area));
         }
         rows.push(row("triangle_weights, 2D", region, QUOTIENT, in_the_plane));
-    }
-    for region in Region::FEW {
         rows.push(row("triangle_weights, 3D", region, QUOTIENT, in_space::<3>));
         rows.push(row("triangle_weights, 5D", region, QUOTIENT, in_space::<5>));
         rows.push(row("tetrahedron_weights", region, QUOTIENT, tetrahedron));
@@ -172,6 +170,12 @@ fn map(rng: &mut Rng, region: Region) -> Option<Sample> {
     let (got, (weights, d)) = match (image, exact) {
         (Some(image), Some(exact)) => (image.coords.to_array(), exact),
         (None, None) => return None,
+        // Weights that are no f32, as a point far beside a triangle that is nearly a line has them.
+        (None, Some((weights, d)))
+            if weights.iter().any(|w| to_f64(&quotient(w, &d)).abs() > f64::from(f32::MAX)) =>
+        {
+            return None;
+        }
         _ => return Some(Sample { eps: f64::NAN, ulp: f64::NAN }),
     };
     let k = rng.index(3);
