@@ -1,4 +1,4 @@
-//! How many samples are worked on at a time, and in what numbers: [`One`], or, behind the feature `simd`, [`Eight`] in
+//! How many samples are worked on at a time, and in what numbers: [`One`], or, behind the feature `simd`, `Eight` in
 //! vector registers, in `f32`; [`OneFixed`] in fixed point.
 //!
 //! A kernel is written once, over a value of a [`Lanes`] type. Every lane of `f32` does the same IEEE operations in the
