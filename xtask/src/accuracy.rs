@@ -26,7 +26,8 @@ from 20,000 samples a row, the same ones in every run.
 
 /// Writes the page anew.
 pub(crate) fn run() -> Outcome {
-    let tables = output(cargo().args(["run", "--quiet", "--release", "--package", "alberti-accuracy"]))?;
+    let package = ["--package", "alberti-accuracy", "--example", "tables"];
+    let tables = output(cargo().args(["run", "--quiet", "--release"]).args(package))?;
     let path = workspace::root().join(PAGE);
     std::fs::write(&path, format!("{HEADING}{tables}"))
         .map_err(|error| format!("cannot write {}: {error}", path.display()))?;

@@ -52,6 +52,12 @@ pub(crate) fn test() -> Outcome {
     test_xtask()
 }
 
+/// Runs the command of the README as far as its version, built as for the tests: `cargo run` must know which program is
+/// meant.
+pub(crate) fn command() -> Outcome {
+    run(cargo().args(["run", "--quiet", "--profile", "test", "--", "--version"]))
+}
+
 /// Runs clippy and the tests on what a feature adds that is off unless asked for.
 pub(crate) fn features() -> Outcome {
     let texture = ["--package", "alberti-texture", "--features", "mikktspace"];

@@ -30,6 +30,7 @@ fn steps(tests_done: bool) -> Vec<Step> {
         ("lint", checks::lint),
         ("docs", checks::docs),
         test,
+        ("command", checks::command),
         ("features", checks::features),
         ("package", package::run),
         ("nostd", nostd::run),
