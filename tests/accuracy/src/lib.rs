@@ -1,7 +1,7 @@
 //! How far each public function is from exact, by region of its inputs, against rationals.
 //!
-//! A [`Row`] is one function over one region, and the bound that the function's documentation states. The test
-//! `bounds` runs every row and enforces its bound; the example `tables` prints the tables of `docs/accuracy.md`, from more
+//! A [`Row`] is one function over one region, and the bound that the function's documentation states. The test `bounds`
+//! runs every row and enforces its bound; the example `tables` prints the tables of `docs/accuracy.md`, from more
 //! samples of the same rows. So a figure in the documentation, the test that holds it and the table that shows it
 //! cannot tell three stories.
 //!
