@@ -45,7 +45,7 @@ macro_rules! compared {
             $(#[$doc])*
             ///
             /// # Cost
-            /// Two comparisons instead of one, where both count.
+            /// As many comparisons, of none to two, as it takes to know that.
             $name {
                 #[inline]
                 fn nearer(new: D::Stored, old: D::Stored) -> bool {
@@ -90,35 +90,12 @@ compared! {
     /// `D`, but a fragment is seen if it is strictly farther than what is stored: for backs of things, in a buffer that
     /// holds their fronts.
     Farther: |_nearer, farther| farther;
+
+    /// `D`, written and never tested: what is drawn last hides all.
+    Always: |_nearer, _farther| !0;
 }
 
 like! {
-    /// `D`, written and never tested: what is drawn last hides all.
-    ///
-    /// # Cost
-    /// No comparison, and no load of what is stored.
-    Always {
-        #[inline]
-        fn nearer(_: D::Stored, _: D::Stored) -> bool {
-            true
-        }
-
-        #[inline(always)]
-        fn seen<L: Lanes>(_: L, _: &L::Each<D::Stored>, _: &L::Each<D::Stored>, mask: L::Mask) -> L::Mask {
-            mask
-        }
-
-        #[inline(always)]
-        fn keep<L: Lanes>(
-            lanes: L,
-            new: &L::Each<D::Stored>,
-            mask: L::Mask,
-            stored: &mut L::Each<D::Stored>,
-        ) {
-            D::keep(lanes, new, mask, stored);
-        }
-    }
-
     /// `D`, tested and never written: what is drawn is hidden by what is nearer, and hides nothing.
     ///
     /// # Cost
