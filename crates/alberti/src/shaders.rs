@@ -22,18 +22,19 @@ mod tinted;
 pub use color::{Ready565, Solid, VertexColor, VertexColor565};
 pub use lambert::{Lambert, face_normal};
 pub use slide::{Add, Mix, Modulate, Slide};
-pub use texture::{Stored, Unlit};
+pub use texture::{Differentiated, Stored, Unlit};
 pub use tinted::Tinted;
 
 use alberti_math::lanes::{Lanes, One};
 use alberti_math::{Rgba8, Varying};
-use alberti_raster::FragmentStage;
+use alberti_raster::{FragmentStage, Gradient};
 
 /// One sample's colour, by way of the code for several.
 #[inline(always)]
 fn alone<V: Varying>(stage: &impl FragmentStage<V, Color = Rgba8>, varying: V) -> Option<Rgba8> {
     let components = V::map(&V::gather([varying]), &|[x]: [f32; 1]| x);
-    let (word, kept) = stage.shade_lanes(One, &components, true);
+    let steady = V::map(&components, &|_| 0.0);
+    let (word, kept) = stage.shade_lanes(One, &components, &Gradient { dx: steady, dy: steady }, true);
     kept.then_some(Rgba8::from_bits(word.0))
 }
 

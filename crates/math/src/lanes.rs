@@ -29,6 +29,8 @@ pub trait Lanes: Copy + Debug {
     /// The same as a number of columns.
     #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "at most 8")]
     const STEP: i32 = Self::COUNT as i32;
+    /// Whether numbers are in fixed point.
+    const FIXED: bool;
     /// A number for each: `f32`, or [`Q16`](crate::Q16).
     type Number: Copy
         + Add<Output = Self::Number>

@@ -8,6 +8,7 @@ use crate::counters::Counters;
 use crate::depth::DepthFormat;
 use crate::edge::{Edge, EdgeInt};
 use crate::fragment::FragmentStage;
+use crate::gradient::Differentiation;
 use crate::interpolation::{Interpolation, Oriented, Row};
 use crate::mask::{NARROW, RowMask};
 use crate::paint::{Painter, aligned};
@@ -117,12 +118,15 @@ struct Unprepared<'a, P, L, S: Subpixel, V, F> {
     fragment: F,
 }
 
-impl<P: Interpolation, L: Floating, S: Subpixel, V: Varying, F: Copy> Unprepared<'_, P, L, S, V, F> {
+impl<P: Interpolation, L: Floating, S: Subpixel, V: Varying, F: FragmentStage<V>>
+    Unprepared<'_, P, L, S, V, F>
+{
     #[inline(always)]
     fn prepare<D: DepthFormat>(&self) -> Painter<P::Lanes<L>, V, P::Triangle<L, V>, F> {
         let Self { interpolation, lanes, oriented, fragment } = *self;
         let triangle = interpolation.prepare::<L, S, D, V>(lanes, oriented);
-        Painter { lanes: P::lanes(lanes), triangle, fragment, varying: PhantomData }
+        let derivatives = F::Derivatives::prepare(oriented);
+        Painter { lanes: P::lanes(lanes), triangle, derivatives, fragment, varying: PhantomData }
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::depth::DepthFormat;
 use crate::edge::EdgeInt;
 use crate::interpolation::{Interpolate, Interpolation, Oriented, Row};
+use crate::spans::Span;
 use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Mode, Subpixel, Varying, hull3};
 use core::fmt;
@@ -116,8 +117,8 @@ impl<L: Floating, V: Varying> Interpolate<L, V> for ExactTriangle<L, V> {
     fn row<I: EdgeInt>(&self, _: &Row<'_, I>) {}
 
     #[inline(always)]
-    fn start<I: EdgeInt>(&self, row: &Row<'_, I>, (): &mut (), _: i32, _: i32) -> ((), i32) {
-        ((), row.covered.end)
+    fn start<I: EdgeInt>(&self, row: &Row<'_, I>, (): &mut (), _: i32, _: i32) -> ((), Span) {
+        ((), row.covered)
     }
 
     #[inline(always)]

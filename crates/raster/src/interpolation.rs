@@ -100,7 +100,7 @@ pub trait Interpolate<L: Lanes, V: Varying> {
     fn row<I: EdgeInt>(&self, row: &Row<'_, I>) -> Self::Row;
 
     /// The run that the covered `column` of a row is in: its samples from the column `aligned` on, with which lanes
-    /// begin, and the column that follows it. Runs do not depend on where a band or a scissor begins, nor on what is
+    /// begin, and all its columns. Runs do not depend on where a band or a scissor begins, nor on what is
     /// left of others.
     fn start<I: EdgeInt>(
         &self,
@@ -108,7 +108,7 @@ pub trait Interpolate<L: Lanes, V: Varying> {
         known: &mut Self::Row,
         column: i32,
         aligned: i32,
-    ) -> (Self::Cursor, i32);
+    ) -> (Self::Cursor, Span);
 
     /// The samples after those.
     fn advance(&self, cursor: Self::Cursor) -> Self::Cursor;

@@ -16,6 +16,7 @@ mod fixed_plane;
 mod fixed_point;
 mod floating;
 mod fragment;
+mod gradient;
 mod interpolation;
 mod lines;
 mod mask;
@@ -36,6 +37,10 @@ pub use exact::{Exact, ExactTriangle};
 pub use fixed_point::{FixedCursor, FixedEnds, FixedLines, FixedPoint};
 pub use floating::{FloatingCursor, FloatingEnds, FloatingLines, FloatingPoint};
 pub use fragment::FragmentStage;
+pub use gradient::{
+    Differentiation, Gradient, Neighbours, NoDerivatives, PerPixel, PerSpan, PerTriangle, Quotients,
+    RunQuotients, Samples,
+};
 pub use interpolation::{Interpolate, Interpolation, Oriented, Row};
 pub use lines::{Affine, Bounded, KnownRow, Left, LineTriangle, Lines, Numbers, Run, Spans, Subdivision};
 pub use plane::{Plane, PlaneCursor, PlaneTriangle};

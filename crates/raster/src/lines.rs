@@ -11,6 +11,7 @@
 
 use crate::edge::EdgeInt;
 use crate::interpolation::{Interpolate, Row};
+use crate::spans::Span;
 use alberti_math::Varying;
 use alberti_math::lanes::Lanes;
 use core::fmt::Debug;
@@ -147,10 +148,11 @@ impl<P: Subdivision, L: Lanes, V: Varying, N: Lines<L, V>> Interpolate<L, V> for
         (known, left): &mut Self::Row,
         column: i32,
         aligned: i32,
-    ) -> (N::Cursor, i32) {
+    ) -> (N::Cursor, Span) {
         let run = self.policy.run(&KnownRow { numbers: &self.numbers, row, known, left }, column);
         *left = Some(run.ends);
-        (self.numbers.line(known, &run, column, aligned), run.next)
+        let columns = Span { start: run.columns[0], end: run.next };
+        (self.numbers.line(known, &run, column, aligned), columns)
     }
 
     #[inline(always)]

@@ -7,6 +7,7 @@ use crate::counters::Counters;
 use crate::depth::DepthFormat;
 use crate::edge::{Edge, EdgeInt};
 use crate::fragment::FragmentStage;
+use crate::gradient::{Differentiation, Samples};
 use crate::interpolation::{Interpolate, Row};
 use crate::mask::RowMask;
 use crate::spans::Span;
@@ -16,12 +17,16 @@ use core::marker::PhantomData;
 use core::ops::Range;
 
 /// What a triangle looks like: what is interpolated over it, and the stage that makes colours of that.
-pub(crate) struct Painter<L, V, T, F> {
+pub(crate) struct Painter<L, V: Varying, T, F: FragmentStage<V>> {
     pub(crate) lanes: L,
     pub(crate) triangle: T,
+    pub(crate) derivatives: <F::Derivatives as Differentiation>::Triangle<V>,
     pub(crate) fragment: F,
     pub(crate) varying: PhantomData<V>,
 }
+
+/// What is known of a run of samples: for attributes, and for their derivatives.
+type Known<C, D, L, V> = (C, <D as Differentiation>::Run<L, V>);
 
 impl<L, V, T, F> Painter<L, V, T, F>
 where
@@ -52,8 +57,8 @@ where
         }
         let (mut covered, mut written, mut known) = (0, 0, self.triangle.row(row));
         while column < end {
-            let (cursor, next) = self.triangle.start(row, &mut known, column, aligned::<L>(column));
-            let stop = next.min(end);
+            let (cursor, run) = self.start(row, &mut known, column, aligned::<L>(column));
+            let stop = run.end.min(end);
             covered += stop.abs_diff(column);
             written += self.run(band, row, column..stop, cursor);
             column = stop;
@@ -79,8 +84,8 @@ where
         let (mut covered, mut written, mut known) = (0, 0, self.triangle.row(row));
         let mut column = columns.start;
         while column < columns.end {
-            let (cursor, next) = self.triangle.start(row, &mut known, column, column);
-            let stop = next.min(columns.end);
+            let (cursor, run) = self.start(row, &mut known, column, column);
+            let stop = run.end.min(columns.end);
             let count = (stop - column).cast_unsigned();
             let here;
             (here, pixels) = split(pixels, count as usize);
@@ -91,6 +96,19 @@ where
         counters.span(covered, written);
     }
 
+    /// The run that a column is in, and what is known of it at the samples from `aligned` on.
+    #[inline(always)]
+    fn start<I: EdgeInt>(
+        &self,
+        row: &Row<'_, I>,
+        known: &mut T::Row,
+        column: i32,
+        aligned: i32,
+    ) -> (Known<T::Cursor, F::Derivatives, L, V>, Span) {
+        let (cursor, run) = self.triangle.start(row, known, column, aligned);
+        ((cursor, F::Derivatives::run(self.lanes, &self.derivatives, row, run)), run)
+    }
+
     /// Fills pixels one by one, from `column` on. Not inlined, for the same reason.
     #[inline(never)]
     fn alone<I, C, D>(
@@ -98,7 +116,7 @@ where
         row: &Row<'_, I>,
         (colors, depths): (&mut [C::Pixel], &mut [D::Stored]),
         column: i32,
-        first: &T::Cursor,
+        (first, derivatives): &Known<T::Cursor, F::Derivatives, L, V>,
     ) -> u32
     where
         I: EdgeInt,
@@ -111,10 +129,11 @@ where
         let mut edges = [ramp(at[0], a), ramp(at[1], b), ramp(at[2], c)];
         let steps = [a.step_x, b.step_x, c.step_x];
         let mut written = 0;
-        for (color, depth) in L::groups(colors).0.iter_mut().zip(L::groups(depths).0) {
+        for ((color, depth), column) in L::groups(colors).0.iter_mut().zip(L::groups(depths).0).zip(column..)
+        {
             let [ea, eb, ec] = edges;
             let weights = [I::weights(lanes, ea), I::weights(lanes, eb), I::weights(lanes, ec)];
-            written += self.group::<C, D>(color, depth, 1, &cursor, &weights);
+            written += self.group::<C, D>(color, depth, 1, (&cursor, derivatives), (column, &weights));
             cursor = self.triangle.advance(cursor);
             edges = [
                 I::advance(lanes, ea, steps[0]),
@@ -146,14 +165,16 @@ where
         let edges = mask.edges([left, row]);
         let whole = Row { row, covered, origin: left, edges: &edges };
         let mut known = self.triangle.row(&whole);
-        let (mut cursor, _) = self.triangle.start(&whole, &mut known, covered.start, left);
+        let ((mut cursor, derivatives), _) = self.start(&whole, &mut known, covered.start, left);
         let (colors, depths) = band.pixels_from(row, left);
         let ((colors, last_colors), (depths, last_depths)) = (L::groups(colors), L::groups(depths));
         let (mut values, mut written, mut column) = (mask.first(), 0, left);
         for (color, depth) in colors.iter_mut().zip(depths) {
             let group = bits & all::<L>();
             if group != 0 {
-                written += self.group::<C, D>(color, depth, group, &cursor, &mask.weights(values));
+                let weights = mask.weights(values);
+                written +=
+                    self.group::<C, D>(color, depth, group, (&cursor, &derivatives), (column, &weights));
             }
             bits >>= L::COUNT;
             if bits == 0 {
@@ -164,7 +185,14 @@ where
             values = mask.right(values);
         }
         let edges = mask.edges([column, row]);
-        written + self.end::<i64, C, D>(last_colors, last_depths, bits & all::<L>(), cursor, &edges)
+        written
+            + self.end::<i64, C, D>(
+                last_colors,
+                last_depths,
+                bits & all::<L>(),
+                (cursor, derivatives),
+                (column, &edges),
+            )
     }
 
     /// Fills a run of samples. The last lanes may look at pixels beyond it, which they leave alone.
@@ -174,7 +202,7 @@ where
         band: &mut Band<'_, C, D>,
         row: &Row<'_, I>,
         columns: Range<i32>,
-        mut cursor: T::Cursor,
+        (mut cursor, derivatives): Known<T::Cursor, F::Derivatives, L, V>,
     ) -> u32
     where
         I: EdgeInt,
@@ -203,7 +231,8 @@ where
             }
             let [ea, eb, ec] = edges;
             let weights = [I::weights(lanes, ea), I::weights(lanes, eb), I::weights(lanes, ec)];
-            written += self.group::<C, D>(color, depth, bits & all::<L>(), &cursor, &weights);
+            let known = (&cursor, &derivatives);
+            written += self.group::<C, D>(color, depth, bits & all::<L>(), known, (column, &weights));
             bits = all::<L>();
             column += L::STEP;
             cursor = self.triangle.advance(cursor);
@@ -216,10 +245,11 @@ where
         let edge = |value, e: &Edge<I>| Edge { value, ..*e };
         let edges = [edge(at[0], a), edge(at[1], b), edge(at[2], c)];
         let bits = bits & ((1 << (columns.end - column)) - 1);
-        written + self.end::<I, C, D>(last_colors, last_depths, bits, cursor, &edges)
+        written + self.end::<I, C, D>(last_colors, last_depths, bits, (cursor, derivatives), (column, &edges))
     }
 
-    /// Fills the last samples of a band, fewer than there are lanes, by way of a copy. `edges` are those at the first.
+    /// Fills the last samples of a band, fewer than there are lanes, by way of a copy. The first is in a column with these
+    /// edges.
     #[cold]
     #[inline(never)]
     fn end<I, C, D>(
@@ -227,8 +257,8 @@ where
         colors: &mut [C::Pixel],
         depths: &mut [D::Stored],
         bits: u32,
-        cursor: T::Cursor,
-        [a, b, c]: &[Edge<I>; 3],
+        (cursor, derivatives): Known<T::Cursor, F::Derivatives, L, V>,
+        (column, [a, b, c]): (i32, &[Edge<I>; 3]),
     ) -> u32
     where
         I: EdgeInt,
@@ -243,7 +273,8 @@ where
             #[inline(always)]
             || {
                 let weight = |e: &Edge<I>| I::weights(lanes, I::ramp(lanes, e.value, e.step_x));
-                self.group::<C, D>(&mut color, &mut depth, bits, &cursor, &[weight(a), weight(b), weight(c)])
+                let weights = [weight(a), weight(b), weight(c)];
+                self.group::<C, D>(&mut color, &mut depth, bits, (&cursor, &derivatives), (column, &weights))
             },
         );
         colors.iter_mut().zip(color.as_ref()).for_each(|(pixel, copy)| *pixel = *copy);
@@ -258,8 +289,8 @@ where
         color: &mut L::Each<C::Pixel>,
         depth: &mut L::Each<D::Stored>,
         bits: u32,
-        cursor: &T::Cursor,
-        weights: &[L::Number; 3],
+        (cursor, derivatives): (&T::Cursor, &<F::Derivatives as Differentiation>::Run<L, V>),
+        (column, weights): (i32, &[L::Number; 3]),
     ) -> u32
     where
         C: Store<F::Color>,
@@ -272,7 +303,9 @@ where
             return 0;
         }
         let varyings = self.triangle.attributes(cursor, weights);
-        let (words, kept) = self.fragment.shade_lanes(lanes, &varyings, seen);
+        let at = Samples { column, weights, values: &varyings };
+        let gradient = F::Derivatives::at(lanes, &self.derivatives, derivatives, &at);
+        let (words, kept) = self.fragment.shade_lanes(lanes, &varyings, &gradient, seen);
         C::store(lanes, words, kept, color);
         D::keep(lanes, &zs, kept, depth);
         lanes.bits(kept).count_ones()

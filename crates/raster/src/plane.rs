@@ -4,6 +4,7 @@ use crate::depth::DepthFormat;
 use crate::edge::EdgeInt;
 use crate::interpolation::{Interpolate, Interpolation, Oriented, Row};
 use crate::planes::{Component, Plane3, Ramp, along, count, per_area, scaled_q, zs};
+use crate::spans::Span;
 use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Mode, Subpixel, Varying};
 use core::fmt;
@@ -115,10 +116,10 @@ impl<L: Floating, V: Varying> Interpolate<L, V> for PlaneTriangle<L, V> {
         (): &mut (),
         column: i32,
         aligned: i32,
-    ) -> (PlaneCursor<L, V>, i32) {
+    ) -> (PlaneCursor<L, V>, Span) {
         let lanes = self.lanes;
         let first = row.covered.start.max(column & !(RUN - 1));
-        let next = row.covered.end.min((column | (RUN - 1)) + 1);
+        let end = row.covered.end.min((column | (RUN - 1)) + 1);
         let [_, b, c] = row.at(first);
         let weights = [b.to_f64() * self.per_area, c.to_f64() * self.per_area];
         let ramp = |s: Sloped| Ramp::new(lanes, s.component.plane.at(weights), s.across, &s.component);
@@ -129,7 +130,7 @@ impl<L: Floating, V: Varying> Interpolate<L, V> for PlaneTriangle<L, V> {
             q: [lanes.splat(q.at(weights) as f32), lanes.splat(q_across as f32)],
             components: V::map(&self.components, &ramp),
         };
-        (cursor, next)
+        (cursor, Span { start: first, end })
     }
 
     #[inline(always)]

@@ -4,7 +4,7 @@ use super::{alone, pack};
 use alberti_math::glam::Vec3;
 use alberti_math::lanes::{Lanes, One};
 use alberti_math::{Mode, Rgba8, Varying};
-use alberti_raster::{Color, FragmentStage};
+use alberti_raster::{Color, FragmentStage, Gradient, NoDerivatives};
 
 /// One colour for everything.
 ///
@@ -18,6 +18,7 @@ pub struct Solid<C = Rgba8>(
 
 impl<V: Varying, C: Color> FragmentStage<V> for Solid<C> {
     type Color = C;
+    type Derivatives = NoDerivatives;
 
     #[inline(always)]
     fn shade(&self, _: V) -> Option<C> {
@@ -25,7 +26,13 @@ impl<V: Varying, C: Color> FragmentStage<V> for Solid<C> {
     }
 
     #[inline(always)]
-    fn shade_lanes<L: Lanes>(&self, lanes: L, _: &V::Of<L::Number>, mask: L::Mask) -> (L::U32, L::Mask) {
+    fn shade_lanes<L: Lanes>(
+        &self,
+        lanes: L,
+        _: &V::Of<L::Number>,
+        _: &Gradient<V::Of<L::Number>>,
+        mask: L::Mask,
+    ) -> (L::U32, L::Mask) {
         (lanes.word(self.0.to_word()), mask)
     }
 }
@@ -39,6 +46,7 @@ pub struct VertexColor;
 
 impl FragmentStage<Vec3> for VertexColor {
     type Color = Rgba8;
+    type Derivatives = NoDerivatives;
 
     #[inline(always)]
     fn shade(&self, color: Vec3) -> Option<Rgba8> {
@@ -46,7 +54,13 @@ impl FragmentStage<Vec3> for VertexColor {
     }
 
     #[inline(always)]
-    fn shade_lanes<L: Lanes>(&self, lanes: L, color: &[L::Number; 3], mask: L::Mask) -> (L::U32, L::Mask) {
+    fn shade_lanes<L: Lanes>(
+        &self,
+        lanes: L,
+        color: &[L::Number; 3],
+        _: &Gradient<[L::Number; 3]>,
+        mask: L::Mask,
+    ) -> (L::U32, L::Mask) {
         let [r, g, b] = *color;
         let [r, g, b] = [lanes.of_unit(r, 255), lanes.of_unit(g, 255), lanes.of_unit(b, 255)];
         (pack(lanes, [r, g, b, lanes.word(255)]), mask)
@@ -104,17 +118,24 @@ impl Varying for Ready565 {
 
 impl FragmentStage<Ready565> for VertexColor565 {
     type Color = u16;
+    type Derivatives = NoDerivatives;
 
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "16 bits")]
     fn shade(&self, Ready565(color): Ready565) -> Option<u16> {
-        let (word, _) = self.shade_lanes(One, &color.to_array(), true);
+        let (word, _) = self.shade_lanes(One, &color.to_array(), &Gradient::default(), true);
         Some(word.0 as u16)
     }
 
     // What is interpolated stays between what vertices carry, and so does not leave the channels.
     #[inline(always)]
-    fn shade_lanes<L: Lanes>(&self, lanes: L, color: &[L::Number; 3], mask: L::Mask) -> (L::U32, L::Mask) {
+    fn shade_lanes<L: Lanes>(
+        &self,
+        lanes: L,
+        color: &[L::Number; 3],
+        _: &Gradient<[L::Number; 3]>,
+        mask: L::Mask,
+    ) -> (L::U32, L::Mask) {
         let [r, g, b] = *color;
         let [r, g, b] = [lanes.floor_scaled(r, 5), lanes.floor_scaled(g, 6), lanes.floor_scaled(b, 5)];
         (lanes.shl(r, 11) | (lanes.shl(g, 5) | b), mask)

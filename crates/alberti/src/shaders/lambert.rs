@@ -4,7 +4,7 @@ use super::{pack, unpack};
 use alberti_math::glam::Vec3;
 use alberti_math::lanes::{Lanes, One};
 use alberti_math::{Point3, Rgba8, Space, Varying, Vector3, World};
-use alberti_raster::FragmentStage;
+use alberti_raster::{FragmentStage, Gradient};
 use core::num::Wrapping;
 
 /// Another stage's colour under Lambert's cosine law, with one light at infinity:
@@ -53,6 +53,7 @@ impl<S> Lambert<S> {
 
 impl<V: Varying, S: FragmentStage<V, Color = Rgba8>> FragmentStage<(Vec3, V)> for Lambert<S> {
     type Color = Rgba8;
+    type Derivatives = S::Derivatives;
 
     #[inline(always)]
     fn shade(&self, (normal, varying): (Vec3, V)) -> Option<Rgba8> {
@@ -67,9 +68,11 @@ impl<V: Varying, S: FragmentStage<V, Color = Rgba8>> FragmentStage<(Vec3, V)> fo
         &self,
         lanes: L,
         (normal, varyings): &([L::Number; 3], V::Of<L::Number>),
+        gradient: &Gradient<([L::Number; 3], V::Of<L::Number>)>,
         mask: L::Mask,
     ) -> (L::U32, L::Mask) {
-        let (surface, mask) = self.surface.shade_lanes(lanes, varyings, mask);
+        let gradient = gradient.map(|(_, of_surface)| of_surface);
+        let (surface, mask) = self.surface.shade_lanes(lanes, varyings, &gradient, mask);
         (lit(lanes, unpack(lanes, surface), [self.light(lanes, *normal); 3]), mask)
     }
 }

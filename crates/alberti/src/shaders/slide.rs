@@ -4,8 +4,9 @@ use super::{alone, pack, per_255, unpack};
 use alberti_math::lanes::Lanes;
 use alberti_math::{Rgba8, Varying};
 use alberti_projection::Homogeneous;
-use alberti_raster::FragmentStage;
-use alberti_texture::{Clamp, Filter, Sampler, Size, TexelFormat};
+use alberti_raster::{FragmentStage, Gradient};
+use alberti_texture::format::Storage;
+use alberti_texture::{Clamp, Filter, Sampler, Size};
 use core::fmt::Debug;
 
 /// Another stage's colour with the image of a [`Projector`](crate::Projector) on it.
@@ -105,12 +106,13 @@ impl<V, S, F, Fl, Z, M> FragmentStage<(Homogeneous, V)> for Slide<S, Sampler<'_,
 where
     V: Varying,
     S: FragmentStage<V, Color = Rgba8>,
-    F: TexelFormat,
+    F: Storage,
     Fl: Filter,
     Z: Size,
     M: Mix,
 {
     type Color = Rgba8;
+    type Derivatives = S::Derivatives;
 
     #[inline(always)]
     fn shade(&self, varying: (Homogeneous, V)) -> Option<Rgba8> {
@@ -122,9 +124,11 @@ where
         &self,
         lanes: L,
         (place, varyings): &([L::Number; 3], V::Of<L::Number>),
+        gradient: &Gradient<([L::Number; 3], V::Of<L::Number>)>,
         mask: L::Mask,
     ) -> (L::U32, L::Mask) {
-        let (surface, mask) = self.surface.shade_lanes(lanes, varyings, mask);
+        let gradient = gradient.map(|(_, of_surface)| of_surface);
+        let (surface, mask) = self.surface.shade_lanes(lanes, varyings, &gradient, mask);
         let ([u, v], inside) = Homogeneous::divide_lanes(lanes, place);
         // Most surfaces see little of a projector.
         if lanes.bits(inside & mask) == 0 {

@@ -3,7 +3,7 @@
 use super::{pack, per_255, unpack};
 use alberti_math::lanes::{Lanes, One};
 use alberti_math::{Rgba8, Varying};
-use alberti_raster::FragmentStage;
+use alberti_raster::{FragmentStage, Gradient};
 use core::num::Wrapping;
 
 /// Another stage's colour times a constant one.
@@ -20,6 +20,7 @@ pub struct Tinted<S> {
 
 impl<V: Varying, S: FragmentStage<V, Color = Rgba8>> FragmentStage<V> for Tinted<S> {
     type Color = Rgba8;
+    type Derivatives = S::Derivatives;
 
     #[inline(always)]
     fn shade(&self, varying: V) -> Option<Rgba8> {
@@ -33,9 +34,10 @@ impl<V: Varying, S: FragmentStage<V, Color = Rgba8>> FragmentStage<V> for Tinted
         &self,
         lanes: L,
         varyings: &V::Of<L::Number>,
+        gradient: &Gradient<V::Of<L::Number>>,
         mask: L::Mask,
     ) -> (L::U32, L::Mask) {
-        let (surface, mask) = self.surface.shade_lanes(lanes, varyings, mask);
+        let (surface, mask) = self.surface.shade_lanes(lanes, varyings, gradient, mask);
         (times(lanes, unpack(lanes, surface), self.tint), mask)
     }
 }

@@ -5,6 +5,7 @@
 
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::{Floating, Lanes, One, OneFixed};
+use alberti::raster::{Gradient, NoDerivatives};
 use alberti::shaders::Slide;
 use alberti::texture::{Clamp, Filter, Sampler};
 use alberti::{FragmentStage, Homogeneous, Q16, Rgba8};
@@ -39,7 +40,7 @@ pub(super) fn erase<L: Floating>(
             || {
                 let [p, q, r, x, y, z, u, v] = values.map(|value| lanes.load(&value));
                 let carried = ([p, q, r], ([x, y, z], [u, v]));
-                let (words, _) = stage.shade_lanes(lanes, &carried, lanes.mask(all::<L>()));
+                let (words, _) = stage.shade_lanes(lanes, &carried, &steady(lanes), lanes.mask(all::<L>()));
                 lanes.store_words(words)
             },
         )
@@ -49,10 +50,11 @@ pub(super) fn erase<L: Floating>(
 
 impl<L: Lanes> FragmentStage<Carried> for Erased<'_, L> {
     type Color = Rgba8;
+    type Derivatives = NoDerivatives;
 
     #[inline(always)]
     fn shade(&self, carried: Carried) -> Option<Rgba8> {
-        let (word, _) = self.shade_lanes(One, &components(carried), true);
+        let (word, _) = self.shade_lanes(One, &components(carried), &steady(One), true);
         Some(Rgba8::from_bits(word.0))
     }
 
@@ -62,6 +64,7 @@ impl<L: Lanes> FragmentStage<Carried> for Erased<'_, L> {
         &self,
         lanes: M,
         ([p, q, r], ([x, y, z], [u, v])): &Numbers<M>,
+        _: &Gradient<Numbers<M>>,
         mask: M::Mask,
     ) -> (M::U32, M::Mask) {
         let values = [p, q, r, x, y, z, u, v].map(|number| {
@@ -84,7 +87,8 @@ pub(super) fn erase_fixed(
     then: &mut dyn FnMut(ErasedFixed<'_>),
 ) {
     let shade = |[p, q, r, x, y, z, u, v]: [Q16; 8]| {
-        let (word, _) = stage.shade_lanes(OneFixed, &([p, q, r], ([x, y, z], [u, v])), true);
+        let (word, _) =
+            stage.shade_lanes(OneFixed, &([p, q, r], ([x, y, z], [u, v])), &steady(OneFixed), true);
         word.0
     };
     then(ErasedFixed(&shade));
@@ -92,10 +96,11 @@ pub(super) fn erase_fixed(
 
 impl FragmentStage<Carried> for ErasedFixed<'_> {
     type Color = Rgba8;
+    type Derivatives = NoDerivatives;
 
     #[inline(always)]
     fn shade(&self, carried: Carried) -> Option<Rgba8> {
-        let (word, _) = self.shade_lanes(One, &components(carried), true);
+        let (word, _) = self.shade_lanes(One, &components(carried), &steady(One), true);
         Some(Rgba8::from_bits(word.0))
     }
 
@@ -104,6 +109,7 @@ impl FragmentStage<Carried> for ErasedFixed<'_> {
         &self,
         lanes: M,
         ([p, q, r], ([x, y, z], [u, v])): &Numbers<M>,
+        _: &Gradient<Numbers<M>>,
         mask: M::Mask,
     ) -> (M::U32, M::Mask) {
         // In units of 2^-16, which is what numbers in fixed point are.
@@ -119,6 +125,13 @@ impl FragmentStage<Carried> for ErasedFixed<'_> {
 /// What is carried, as numbers.
 type Numbers<L> = ([<L as Lanes>::Number; 3], ([<L as Lanes>::Number; 3], [<L as Lanes>::Number; 2]));
 
+/// What does not change between pixels.
+fn steady<L: Lanes>(lanes: L) -> Gradient<Numbers<L>> {
+    let zero = lanes.splat(0.0);
+    let zeros = ([zero; 3], ([zero; 3], [zero; 2]));
+    Gradient { dx: zeros, dy: zeros }
+}
+
 fn components((Homogeneous { u, v, q }, (first, uv)): Carried) -> Numbers<One> {
     ([u, v, q], (first.to_array(), uv.to_array()))
 }
@@ -129,6 +142,7 @@ pub(super) struct Bare<F>(pub(super) F);
 
 impl<F: FragmentStage<Looks, Color = Rgba8>> FragmentStage<Carried> for Bare<F> {
     type Color = Rgba8;
+    type Derivatives = NoDerivatives;
 
     #[inline(always)]
     fn shade(&self, (_, looks): Carried) -> Option<Rgba8> {
@@ -136,8 +150,14 @@ impl<F: FragmentStage<Looks, Color = Rgba8>> FragmentStage<Carried> for Bare<F> 
     }
 
     #[inline(always)]
-    fn shade_lanes<L: Lanes>(&self, lanes: L, (_, looks): &Numbers<L>, mask: L::Mask) -> (L::U32, L::Mask) {
-        self.0.shade_lanes(lanes, looks, mask)
+    fn shade_lanes<L: Lanes>(
+        &self,
+        lanes: L,
+        (_, looks): &Numbers<L>,
+        gradient: &Gradient<Numbers<L>>,
+        mask: L::Mask,
+    ) -> (L::U32, L::Mask) {
+        self.0.shade_lanes(lanes, looks, &gradient.map(|(_, looks)| looks), mask)
     }
 }
 
@@ -151,6 +171,7 @@ where
     Fl: Filter,
 {
     type Color = Rgba8;
+    type Derivatives = NoDerivatives;
 
     #[inline(always)]
     fn shade(&self, carried: Carried) -> Option<Rgba8> {
@@ -158,8 +179,14 @@ where
     }
 
     #[inline(always)]
-    fn shade_lanes<L: Lanes>(&self, lanes: L, carried: &Numbers<L>, mask: L::Mask) -> (L::U32, L::Mask) {
-        self.0.shade_lanes(lanes, &(carried.0, *carried), mask)
+    fn shade_lanes<L: Lanes>(
+        &self,
+        lanes: L,
+        carried: &Numbers<L>,
+        gradient: &Gradient<Numbers<L>>,
+        mask: L::Mask,
+    ) -> (L::U32, L::Mask) {
+        self.0.shade_lanes(lanes, &(carried.0, *carried), &gradient.map(|carried| (carried.0, carried)), mask)
     }
 }
 
@@ -169,6 +196,7 @@ pub(super) struct OfFirst<F>(pub(super) F);
 
 impl<F: FragmentStage<Vec3, Color = Rgba8>> FragmentStage<Looks> for OfFirst<F> {
     type Color = Rgba8;
+    type Derivatives = NoDerivatives;
 
     #[inline(always)]
     fn shade(&self, (first, _): Looks) -> Option<Rgba8> {
@@ -180,9 +208,10 @@ impl<F: FragmentStage<Vec3, Color = Rgba8>> FragmentStage<Looks> for OfFirst<F> 
         &self,
         lanes: L,
         (first, _): &([L::Number; 3], [L::Number; 2]),
+        gradient: &Gradient<([L::Number; 3], [L::Number; 2])>,
         mask: L::Mask,
     ) -> (L::U32, L::Mask) {
-        self.0.shade_lanes(lanes, first, mask)
+        self.0.shade_lanes(lanes, first, &gradient.map(|(first, _)| first), mask)
     }
 }
 
@@ -192,6 +221,7 @@ pub(super) struct OfUv<F>(pub(super) F);
 
 impl<F: FragmentStage<Vec2, Color = Rgba8>> FragmentStage<Looks> for OfUv<F> {
     type Color = Rgba8;
+    type Derivatives = NoDerivatives;
 
     #[inline(always)]
     fn shade(&self, (_, uv): Looks) -> Option<Rgba8> {
@@ -203,9 +233,10 @@ impl<F: FragmentStage<Vec2, Color = Rgba8>> FragmentStage<Looks> for OfUv<F> {
         &self,
         lanes: L,
         (_, uv): &([L::Number; 3], [L::Number; 2]),
+        gradient: &Gradient<([L::Number; 3], [L::Number; 2])>,
         mask: L::Mask,
     ) -> (L::U32, L::Mask) {
-        self.0.shade_lanes(lanes, uv, mask)
+        self.0.shade_lanes(lanes, uv, &gradient.map(|(_, uv)| uv), mask)
     }
 }
 

@@ -38,6 +38,7 @@ impl<S: Simd> Eight<S> {
 
 impl<S: Simd> Lanes for Eight<S> {
     const COUNT: usize = 8;
+    const FIXED: bool = false;
     type Number = f32x8<S>;
     type Depth = f32x8<S>;
     type U32 = u32x8<S>;

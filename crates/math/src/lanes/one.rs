@@ -128,6 +128,7 @@ macro_rules! one_lane {
 pub(super) use one_lane;
 
 impl Lanes for One {
+    const FIXED: bool = false;
     type Number = f32;
     type Depth = f32;
     one_lane!();

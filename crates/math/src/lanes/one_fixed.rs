@@ -13,6 +13,7 @@ use core::num::Wrapping;
 pub struct OneFixed;
 
 impl Lanes for OneFixed {
+    const FIXED: bool = true;
     type Number = Q16;
     type Depth = u32;
     one_lane!();

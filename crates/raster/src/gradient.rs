@@ -1,0 +1,427 @@
+//! How fast attributes change from a pixel to the next: what the level of detail of a texture comes from.
+//!
+//! Space in: an oriented triangle and a sample of it. Space out: derivatives by columns and by rows.
+//!
+//! | policy | where it is right | divisions |
+//! |---|---|---|
+//! | [`NoDerivatives`] | | none |
+//! | [`PerPixel`] | at each sample | one a fragment, which [`Exact`](crate::Exact) shares |
+//! | [`Neighbours`] | between a sample and the next ones | three a fragment |
+//! | [`PerSpan`] | in the middle of each run of samples | one a run |
+//! | [`PerTriangle`] | at the triangle's centroid | one a triangle |
+//!
+//! An attribute u = U/T is the quotient of two functions that are linear on the screen, U = Σ Ei qi ui and T = Σ Ei qi.
+//! Its derivatives are quotients of something simple as well, as in the numerators x, or y, cancels:
+//!
+//! ```text
+//! ∂u/∂x = (Ux T − U Tx)/T² = (A + J y)/T²        A = Ux T − U Tx,  B = Uy T − U Ty  at the origin
+//! ∂u/∂y = (Uy T − U Ty)/T² = (B − J x)/T²        J = Ux Ty − Uy Tx
+//! ```
+//!
+//! The origin is the first corner, and u is counted from the value there, so that U is 0 at the origin.
+
+use crate::edge::EdgeInt;
+use crate::interpolation::{Oriented, Row};
+use crate::planes::scaled_q;
+use crate::spans::Span;
+use alberti_math::lanes::Lanes;
+use alberti_math::{Mode, Subpixel, Varying};
+use core::fmt::{self, Debug};
+
+/// The derivatives of attributes by the column and by the row of a pixel.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Gradient<T> {
+    /// To the right.
+    pub dx: T,
+    /// Downwards.
+    pub dy: T,
+}
+
+impl<T> Gradient<T> {
+    /// The same part of both.
+    #[inline(always)]
+    pub fn map<U>(self, f: impl Fn(T) -> U) -> Gradient<U> {
+        Gradient { dx: f(self.dx), dy: f(self.dy) }
+    }
+}
+
+/// A policy of differentiation, which a [`FragmentStage`](crate::FragmentStage) chooses.
+///
+/// In fixed point, where weights are not at hand as numbers, [`PerPixel`] and [`Neighbours`] are [`PerSpan`].
+pub trait Differentiation: Copy + Debug + Default + 'static {
+    /// What a stage takes whose parts take this and `D`: the first of the two that is not [`NoDerivatives`].
+    type With<D: Differentiation>: Differentiation;
+    /// What is known of a triangle.
+    type Triangle<V: Varying>: Copy;
+    /// What is known of a run of samples.
+    type Run<L: Lanes, V: Varying>: Copy;
+
+    /// Prepares a triangle.
+    fn prepare<S: Subpixel, V: Varying>(triangle: &Oriented<'_, S, V>) -> Self::Triangle<V>;
+
+    /// Begins a run of a row's samples.
+    fn run<L: Lanes, V: Varying, I: EdgeInt>(
+        lanes: L,
+        triangle: &Self::Triangle<V>,
+        row: &Row<'_, I>,
+        run: Span,
+    ) -> Self::Run<L, V>;
+
+    /// The derivatives at the samples `at`.
+    fn at<L: Lanes, V: Varying>(
+        lanes: L,
+        triangle: &Self::Triangle<V>,
+        run: &Self::Run<L, V>,
+        at: &Samples<'_, L, V>,
+    ) -> Gradient<V::Of<L::Number>>;
+}
+
+/// Samples side by side.
+#[derive(Clone, Copy)]
+pub struct Samples<'a, L: Lanes, V: Varying> {
+    /// The column of the first.
+    pub column: i32,
+    /// The edge functions, rounded.
+    pub weights: &'a [L::Number; 3],
+    /// The attributes.
+    pub values: &'a V::Of<L::Number>,
+}
+
+impl<L: Lanes, V: Varying> Debug for Samples<'_, L, V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Samples").field("column", &self.column).finish_non_exhaustive()
+    }
+}
+
+/// None are asked for: all are 0.
+///
+/// # Cost
+/// None.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct NoDerivatives;
+
+impl Differentiation for NoDerivatives {
+    type With<D: Differentiation> = D;
+    type Triangle<V: Varying> = ();
+    type Run<L: Lanes, V: Varying> = ();
+
+    #[inline(always)]
+    fn prepare<S: Subpixel, V: Varying>(_: &Oriented<'_, S, V>) {}
+
+    #[inline(always)]
+    fn run<L: Lanes, V: Varying, I: EdgeInt>(_: L, (): &(), _: &Row<'_, I>, _: Span) {}
+
+    #[inline(always)]
+    fn at<L: Lanes, V: Varying>(
+        lanes: L,
+        (): &(),
+        (): &(),
+        at: &Samples<'_, L, V>,
+    ) -> Gradient<V::Of<L::Number>> {
+        let zeros = V::map(at.values, &|_| lanes.splat(0.0));
+        Gradient { dx: zeros, dy: zeros }
+    }
+}
+
+/// At each sample.
+///
+/// # Precision
+/// Within 12ε of ∂u/∂x, relatively (ε = 2^-24), and ∂u/∂y within 12ε·(|∂u/∂y| + 2|J x|/T²), where J is that of the
+/// module and x the columns from the first corner; barring over- and underflow.
+///
+/// # Cost
+/// A triangle: some 30 operations in `f64`, and 12 for each component; a row, two in `f64` a component. A fragment:
+/// three products, two sums, a division and a product, which [`Exact`](crate::Exact) has in common with it but for the
+/// last, and three products and a difference a component.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct PerPixel;
+
+/// By differences: what the attribute is at the next sample to the right, or below, less what it is here.
+///
+/// The samples need not be covered, and where the plane of the triangle has its horizon between the two, the difference
+/// means nothing. It is that of the functions, so it does not depend on the triangles that are drawn there.
+///
+/// # Precision
+/// Against the derivatives, off by half of the second derivative; as differences, like [`PerPixel`].
+///
+/// # Cost
+/// That of [`PerPixel`], and two divisions, two sums and four products.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Neighbours;
+
+/// In the middle of each run of samples: as many columns as the policy of interpolation says, or a whole row of the
+/// triangle.
+///
+/// # Precision
+/// There, like [`PerPixel`]. With r >= 1 the ratio of q in the middle and at an end, ∂u/∂x is off by a factor of r²,
+/// the level of detail so by 2 log2 r.
+///
+/// # Cost
+/// A run: some ten operations and a division in `f64`, and four a component.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct PerSpan;
+
+/// At the centroid of each triangle.
+///
+/// # Precision
+/// There, like [`PerPixel`]. With r >= 1 the ratio of q there and at a vertex, ∂u/∂x is off by up to a factor of r². A
+/// triangle that was clipped counts as the pieces that are drawn.
+///
+/// # Cost
+/// A triangle: some 30 operations in `f64`, and 12 for each component.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct PerTriangle;
+
+/// The quotients of a triangle.
+#[derive(Clone, Copy)]
+pub struct Quotients<V: Varying> {
+    q: [f64; 3],
+    /// What T is at the first corner.
+    t: f64,
+    /// What a column and a row add to T.
+    slope: [f64; 2],
+    /// The first corner and the centroid, in pixels.
+    origin: [f64; 2],
+    centroid: [f64; 2],
+    /// A, B and J; of what is not hyperbolic the derivatives themselves.
+    numerators: V::Of<[f64; 3]>,
+}
+
+impl<V: Varying> Debug for Quotients<V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Quotients").finish_non_exhaustive()
+    }
+}
+
+impl<V: Varying> Quotients<V> {
+    #[inline(always)]
+    fn new<S: Subpixel>(triangle: &Oriented<'_, S, V>) -> Self {
+        let q = scaled_q(triangle);
+        let corners = triangle.corners.map(|corner| corner.map(f64::from));
+        let [a, b, c] = corners;
+        let one = f64::from(S::ONE);
+        // What a pixel to the right, and one down, adds to the edge functions of the second and the third vertex.
+        let of_b = [(c[1] - a[1]) * one, (a[0] - c[0]) * one];
+        let of_c = [(a[1] - b[1]) * one, (b[0] - a[0]) * one];
+        #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
+        let area = triangle.doubled_area as f64;
+        let t = area * q[0];
+        let axis = |k: usize| of_b[k] * (q[1] - q[0]) + of_c[k] * (q[2] - q[0]);
+        let slope = [axis(0), axis(1)];
+        let numerators = V::map_by_mode(&triangle.values(), &|mode, [u, v, w, _]: [f32; 4]| {
+            let [v, w] = [f64::from(v) - f64::from(u), f64::from(w) - f64::from(u)];
+            match mode {
+                Mode::Hyperbolic => {
+                    let [v, w] = [v * q[1], w * q[2]];
+                    let [x, y] = [of_b[0] * v + of_c[0] * w, of_b[1] * v + of_c[1] * w];
+                    [x * t, y * t, x * slope[1] - y * slope[0]]
+                }
+                Mode::Linear => {
+                    let per = |k: usize| (of_b[k] * v + of_c[k] * w) / area;
+                    [per(0), per(1), 0.0]
+                }
+                Mode::Flat => [0.0; 3],
+            }
+        });
+        let middle = |k: usize| (a[k] + b[k] + c[k]) / (3.0 * one);
+        Self { q, t, slope, origin: [a[0] / one, a[1] / one], centroid: [middle(0), middle(1)], numerators }
+    }
+
+    /// The derivatives by column and row at a place in pixels, where T is given.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "rounded once")]
+    fn at(&self, [x, y]: [f64; 2], t: f64) -> V::Of<[f32; 2]> {
+        let [x, y] = [x - self.origin[0], y - self.origin[1]];
+        let per = 1.0 / (t * t);
+        V::map_by_mode(&self.numerators, &|mode, [a, b, j]: [f64; 3]| {
+            let [dx, dy] =
+                if mode == Mode::Hyperbolic { [(a + j * y) * per, (b - j * x) * per] } else { [a, b] };
+            [dx as f32, dy as f32]
+        })
+    }
+
+    /// The three q.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "they were f32")]
+    fn q_lanes<L: Lanes>(&self, lanes: L) -> [L::Number; 3] {
+        let [a, b, c] = self.q;
+        [lanes.splat(a as f32), lanes.splat(b as f32), lanes.splat(c as f32)]
+    }
+
+    /// In the middle of a run of a row.
+    #[inline(always)]
+    fn in_middle<I: EdgeInt>(&self, row: &Row<'_, I>, run: Span) -> V::Of<[f32; 2]> {
+        let column = run.start + ((run.end - run.start) >> 1);
+        let [ea, eb, ec] = row.at(column);
+        let [qa, qb, qc] = self.q;
+        let t = ea.to_f64() * qa + eb.to_f64() * qb + ec.to_f64() * qc;
+        self.at([f64::from(column) + 0.5, f64::from(row.row) + 0.5], t)
+    }
+
+    /// At the centroid.
+    #[inline(always)]
+    fn in_centroid(&self) -> V::Of<[f32; 2]> {
+        let [x, y] = [self.centroid[0] - self.origin[0], self.centroid[1] - self.origin[1]];
+        self.at(self.centroid, self.t + x * self.slope[0] + y * self.slope[1])
+    }
+}
+
+/// A run, to differentiate at its samples.
+#[derive(Clone, Copy)]
+pub struct RunQuotients<L: Lanes, V: Varying> {
+    /// The column from which x is counted.
+    start: i32,
+    /// What a column and a row add to T.
+    slope: [L::Number; 2],
+    /// A + J y, B and J; of what is not hyperbolic, and in fixed point of everything, the derivatives themselves.
+    numerators: V::Of<[L::Number; 3]>,
+}
+
+impl<L: Lanes, V: Varying> Debug for RunQuotients<L, V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("RunQuotients").finish_non_exhaustive()
+    }
+}
+
+impl<L: Lanes, V: Varying> RunQuotients<L, V> {
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "rounded once")]
+    fn new<I: EdgeInt>(lanes: L, of: &Quotients<V>, row: &Row<'_, I>, run: Span) -> Self {
+        let splat = |x: f64| lanes.splat(x as f32);
+        if L::FIXED {
+            let derivatives = of.in_middle(row, run);
+            let numerators = V::map(&derivatives, &|[dx, dy]: [f32; 2]| {
+                [lanes.splat(dx), lanes.splat(dy), lanes.splat(0.0)]
+            });
+            return Self { start: 0, slope: [lanes.splat(0.0); 2], numerators };
+        }
+        let x = f64::from(run.start) + 0.5 - of.origin[0];
+        let y = f64::from(row.row) + 0.5 - of.origin[1];
+        Self {
+            start: run.start,
+            slope: [splat(of.slope[0]), splat(of.slope[1])],
+            numerators: V::map_by_mode(&of.numerators, &|mode, [a, b, j]: [f64; 3]| match mode {
+                Mode::Hyperbolic => [splat(a + j * y), splat(b - j * x), splat(j)],
+                _ => [splat(a), splat(b), splat(j)],
+            }),
+        }
+    }
+
+    /// The derivatives where T is given, or what `per` makes of 1/T for the two directions instead of 1/T².
+    #[inline(always)]
+    fn at(
+        &self,
+        lanes: L,
+        of: &Quotients<V>,
+        at: &Samples<'_, L, V>,
+        per: impl Fn(L::Number, [L::Number; 2]) -> [L::Number; 2],
+    ) -> Gradient<V::Of<L::Number>> {
+        let derivatives = if L::FIXED {
+            V::map(&self.numerators, &|[dx, dy, _]: [L::Number; 3]| [dx, dy])
+        } else {
+            let [ea, eb, ec] = *at.weights;
+            let [qa, qb, qc] = of.q_lanes(lanes);
+            let t = ea * qa + eb * qb + ec * qc;
+            let per = per(t, self.slope);
+            #[expect(clippy::cast_precision_loss, reason = "columns are below 2^24")]
+            let x = lanes.ramp() + lanes.splat((at.column - self.start) as f32);
+            V::map_by_mode(&self.numerators, &|mode, [a, b, j]: [L::Number; 3]| match mode {
+                Mode::Hyperbolic => [a * per[0], (b - j * x) * per[1]],
+                _ => [a, b],
+            })
+        };
+        of_pairs::<V, _>(&derivatives)
+    }
+}
+
+/// A pair for each component as a pair of bundles.
+#[inline(always)]
+fn of_pairs<V: Varying, N: Copy>(pairs: &V::Of<[N; 2]>) -> Gradient<V::Of<N>> {
+    Gradient { dx: V::map(pairs, &|[dx, _]: [N; 2]| dx), dy: V::map(pairs, &|[_, dy]: [N; 2]| dy) }
+}
+
+/// The policies that differentiate at each sample: what they divide by, for 1/T².
+macro_rules! at_samples {
+    ($($policy:ident: |$lanes:ident, $t:ident, $slope:ident| $per:expr;)*) => {$(
+        impl Differentiation for $policy {
+            type With<D: Differentiation> = Self;
+            type Triangle<V: Varying> = Quotients<V>;
+            type Run<L: Lanes, V: Varying> = RunQuotients<L, V>;
+
+            #[inline(always)]
+            fn prepare<S: Subpixel, V: Varying>(triangle: &Oriented<'_, S, V>) -> Quotients<V> {
+                Quotients::new(triangle)
+            }
+
+            #[inline(always)]
+            fn run<L: Lanes, V: Varying, I: EdgeInt>(
+                lanes: L,
+                triangle: &Quotients<V>,
+                row: &Row<'_, I>,
+                run: Span,
+            ) -> RunQuotients<L, V> {
+                RunQuotients::new(lanes, triangle, row, run)
+            }
+
+            #[inline(always)]
+            fn at<L: Lanes, V: Varying>(
+                $lanes: L,
+                triangle: &Quotients<V>,
+                run: &RunQuotients<L, V>,
+                at: &Samples<'_, L, V>,
+            ) -> Gradient<V::Of<L::Number>> {
+                run.at($lanes, triangle, at, |$t, $slope| $per)
+            }
+        }
+    )*};
+}
+at_samples! {
+    PerPixel: |lanes, t, _slope| {
+        let per = lanes.splat(1.0) / t;
+        [per * per; 2]
+    };
+    Neighbours: |lanes, t, slope| {
+        let (one, per) = (lanes.splat(1.0), lanes.splat(1.0) / t);
+        [per * (one / (t + slope[0])), per * (one / (t + slope[1]))]
+    };
+}
+
+/// The policies that have the same derivatives along a whole run.
+macro_rules! along_runs {
+    ($($policy:ident: $Triangle:ty, |$of:ident| $prepare:expr, |$triangle:ident, $row:ident, $run:ident| $at:expr;)*) => {$(
+        impl Differentiation for $policy {
+            type With<D: Differentiation> = Self;
+            type Triangle<V: Varying> = $Triangle;
+            type Run<L: Lanes, V: Varying> = V::Of<[L::Number; 2]>;
+
+            #[inline(always)]
+            fn prepare<S: Subpixel, V: Varying>($of: &Oriented<'_, S, V>) -> Self::Triangle<V> {
+                $prepare
+            }
+
+            #[inline(always)]
+            fn run<L: Lanes, V: Varying, I: EdgeInt>(
+                lanes: L,
+                $triangle: &Self::Triangle<V>,
+                $row: &Row<'_, I>,
+                $run: Span,
+            ) -> Self::Run<L, V> {
+                V::map(&$at, &|[dx, dy]: [f32; 2]| [lanes.splat(dx), lanes.splat(dy)])
+            }
+
+            #[inline(always)]
+            fn at<L: Lanes, V: Varying>(
+                _: L,
+                _: &Self::Triangle<V>,
+                run: &Self::Run<L, V>,
+                _: &Samples<'_, L, V>,
+            ) -> Gradient<V::Of<L::Number>> {
+                of_pairs::<V, _>(run)
+            }
+        }
+    )*};
+}
+along_runs! {
+    PerSpan: Quotients<V>, |of| Quotients::new(of), |triangle, row, run| triangle.in_middle(row, run);
+    PerTriangle: V::Of<[f32; 2]>, |of| Quotients::new(of).in_centroid(), |triangle, _row, _run| *triangle;
+}
