@@ -17,6 +17,9 @@
 //! | out of the frame | [`normal_to_parent`] | a normal in object space |
 //! | material maps | [`lambert`], [`phong`], [`blinn_phong`], [`shininess`], [`ambient_occlusion`], [`Wettable`] | shares |
 //!
+//! What fragments ask has a form over lanes too, `..._lanes`, for several samples at a time, in `f32` and in fixed
+//! point: the plain function is that on one lane, so both give the same bits.
+//!
 //! Source: Blinn, "Simulation of wrinkled surfaces", SIGGRAPH 1978, for the frame and the bump; each function names its
 //! own.
 
@@ -31,15 +34,20 @@ mod parametric;
 mod relief;
 mod tangent;
 mod unit;
+mod vector;
 
 pub use displacement::{Grid, MeshBuffers, Subdivision, displace, displaced, displaced_mesh};
-pub use material::{Wettable, ambient_occlusion, blinn_phong, lambert, phong, power, shininess};
+pub use material::{
+    Wettable, ambient_occlusion, ambient_occlusion_lanes, blinn_phong, blinn_phong_cosine_lanes,
+    blinn_phong_lanes, lambert, lambert_lanes, phong, phong_cosine_lanes, phong_lanes, power,
+    power_each_lanes, power_lanes, shininess, shininess_lanes, wet_lanes,
+};
 pub use mesh::{LengthError, frame_of_tangent, vertex_normals, vertex_tangents};
 #[cfg(feature = "mikktspace")]
 pub use mikktspace::mikktspace;
 pub use normal::{
     Centred, NormalEncoding, Unorm, normal, normal_lanes, normal_of_two, normal_of_two_lanes,
-    normal_to_parent, strengthened, strengthened_lanes,
+    normal_to_parent, strengthened, strengthened_lanes, to_parent_lanes,
 };
 pub use parallax::{Occlusion, Offset, OffsetLimited, Parallax, Steep};
 pub use parametric::{Cylinder, Differences, Parametric, Plane, Sphere, Torus};
@@ -47,3 +55,4 @@ pub use relief::{HeightMap, Relief, bilinear_height, bump, normal_of_slope};
 pub use tangent::{
     Tangent, frame_of_derivatives, frame_of_normal, orthonormal, triangle_directions, triangle_frame,
 };
+pub use vector::unit_lanes;

@@ -7,7 +7,8 @@
 //! Everything is written over lanes; the functions on one texel are those on one lane, so they give the same bits.
 
 use super::tangent::Tangent;
-use alberti_math::lanes::{Floating, One};
+use super::vector::{dot_lanes, has_range, over_length, unit_lanes};
+use alberti_math::lanes::{Lanes, One};
 use alberti_math::{Frame, Rgba8, Space, Vector3};
 use core::fmt::Debug;
 use glam::Vec3;
@@ -18,7 +19,7 @@ pub trait NormalEncoding: Copy + Debug + Default + 'static {
     const ONE: f32;
 
     /// The number that a byte stands for, times [`ONE`](Self::ONE): an integer from -`ONE` to `ONE`.
-    fn numerator<L: Floating>(lanes: L, byte: L::U32) -> L::Number;
+    fn numerator<L: Lanes>(lanes: L, byte: L::U32) -> L::Number;
 }
 
 /// A byte c stands for 2c/255 − 1, as in glTF and as GPUs read `unorm` textures: -1 and 1 are exact, 0 does not exist.
@@ -35,7 +36,7 @@ impl NormalEncoding for Unorm {
     const ONE: f32 = 255.0;
 
     #[inline(always)]
-    fn numerator<L: Floating>(lanes: L, byte: L::U32) -> L::Number {
+    fn numerator<L: Lanes>(lanes: L, byte: L::U32) -> L::Number {
         let number = lanes.to_numbers(byte);
         number + number - lanes.splat(255.0)
     }
@@ -45,7 +46,7 @@ impl NormalEncoding for Centred {
     const ONE: f32 = 127.0;
 
     #[inline(always)]
-    fn numerator<L: Floating>(lanes: L, byte: L::U32) -> L::Number {
+    fn numerator<L: Lanes>(lanes: L, byte: L::U32) -> L::Number {
         lanes.max(lanes.to_numbers(byte) - lanes.splat(128.0), lanes.splat(-127.0))
     }
 }
@@ -77,12 +78,20 @@ pub fn normal<E: NormalEncoding, S: Space>(texel: Rgba8) -> Vector3<S> {
 }
 
 /// [`normal`] of several texels.
+///
+/// # Precision
+/// In fixed point each component is within 1.1·2^-16.
 #[must_use]
 #[inline(always)]
-pub fn normal_lanes<E: NormalEncoding, L: Floating>(lanes: L, texels: L::U32) -> [L::Number; 3] {
-    let channel = |bits| E::numerator(lanes, lanes.shr(texels, bits) & lanes.word(255));
-    // Squares of integers up to 255, so that their sum is exact.
-    unit_lanes(lanes, [channel(0), channel(8), channel(16)])
+pub fn normal_lanes<E: NormalEncoding, L: Lanes>(lanes: L, texels: L::U32) -> [L::Number; 3] {
+    over_length(lanes, [0, 8, 16].map(|bits| quarter::<E, L>(lanes, texels, bits)))
+}
+
+/// A quarter of a channel's numerator. Squares of quarters of integers up to 255 are exact, and so is the sum of three,
+/// in fixed point also.
+#[inline(always)]
+fn quarter<E: NormalEncoding, L: Lanes>(lanes: L, texels: L::U32, bits: u32) -> L::Number {
+    E::numerator(lanes, lanes.shr(texels, bits) & lanes.word(255)) * lanes.splat(0.25)
 }
 
 /// The direction of a tangent-space map that stores x and y only, in red and green: z is what is left of length 1, √(1
@@ -103,13 +112,14 @@ pub fn normal_of_two<E: NormalEncoding>(texel: Rgba8) -> Vector3<Tangent> {
 }
 
 /// [`normal_of_two`] of several texels.
+///
+/// # Precision
+/// In fixed point each component is within 1.1·2^-16.
 #[must_use]
 #[inline(always)]
-pub fn normal_of_two_lanes<E: NormalEncoding, L: Floating>(lanes: L, texels: L::U32) -> [L::Number; 3] {
-    let channel = |bits| E::numerator(lanes, lanes.shr(texels, bits) & lanes.word(255));
-    let [x, y] = [channel(0), channel(8)];
-    // All squares are integers below 2^24.
-    let (whole, across) = (lanes.splat(E::ONE * E::ONE), x * x + y * y);
+pub fn normal_of_two_lanes<E: NormalEncoding, L: Lanes>(lanes: L, texels: L::U32) -> [L::Number; 3] {
+    let [x, y] = [0, 8].map(|bits| quarter::<E, L>(lanes, texels, bits));
+    let (whole, across) = (lanes.splat(E::ONE * E::ONE / 16.0), x * x + y * y);
     let z = lanes.sqrt(lanes.max(whole - across, lanes.splat(0.0)));
     let length = lanes.sqrt(lanes.max(whole, across));
     [x / length, y / length, z / length]
@@ -133,11 +143,15 @@ pub fn strengthened(normal: Vector3<Tangent>, strength: f32) -> Vector3<Tangent>
 }
 
 /// [`strengthened`] for several normals.
+///
+/// # Precision
+/// In fixed point each component is within (3 + 1.5/r)·2^-16, where r is the length of the vector before it is made
+/// unit again, and a `strength` beyond ±16384 counts as that.
 #[must_use]
 #[inline(always)]
-pub fn strengthened_lanes<L: Floating>(lanes: L, [x, y, z]: [L::Number; 3], strength: f32) -> [L::Number; 3] {
+pub fn strengthened_lanes<L: Lanes>(lanes: L, [x, y, z]: [L::Number; 3], strength: f32) -> [L::Number; 3] {
     let strength = if strength.is_nan() { 0.0 } else { strength.clamp(-65536.0, 65536.0) };
-    let strength = lanes.splat(strength);
+    let strength = lanes.splat(if has_range(lanes) { strength } else { strength.clamp(-16384.0, 16384.0) });
     unit_lanes(lanes, [x * strength, y * strength, z])
 }
 
@@ -155,14 +169,22 @@ pub fn strengthened_lanes<L: Floating>(lanes: L, [x, y, z]: [L::Number; 3], stre
 #[must_use]
 #[inline]
 pub fn normal_to_parent<P: Space>(frame: &Frame<Tangent, P>, normal: Vector3<Tangent>) -> Vector3<P> {
-    Vector3::new(Vec3::from(unit_lanes(One, frame.vector_to_parent(normal).coords.to_array())))
+    let axes = frame.axes();
+    let axes = [axes.x_axis, axes.y_axis, axes.z_axis].map(|axis| axis.to_array());
+    Vector3::new(Vec3::from(to_parent_lanes(One, axes, normal.coords.to_array())))
 }
 
-/// A vector divided by its length; (0, 0, 1) for zero. In `f32`, so lengths must be between 2^-60 and 2^60.
+/// [`normal_to_parent`] for several normals, and a frame for each, by its x, y and z axis.
+///
+/// # Precision
+/// In fixed point each component is within 4·2^-16 for axes at right angles.
+#[must_use]
 #[inline(always)]
-pub(super) fn unit_lanes<L: Floating>(lanes: L, [x, y, z]: [L::Number; 3]) -> [L::Number; 3] {
-    let square = x * x + y * y + z * z;
-    let any = lanes.less(lanes.splat(0.0), square);
-    let length = lanes.select(any, lanes.sqrt(square), lanes.splat(1.0));
-    [x / length, y / length, lanes.select(any, z, lanes.splat(1.0)) / length]
+pub fn to_parent_lanes<L: Lanes>(
+    lanes: L,
+    [x_axis, y_axis, z_axis]: [[L::Number; 3]; 3],
+    normal: [L::Number; 3],
+) -> [L::Number; 3] {
+    let component = |k: usize| dot_lanes([x_axis[k], y_axis[k], z_axis[k]], normal);
+    unit_lanes(lanes, [component(0), component(1), component(2)])
 }

@@ -9,6 +9,7 @@
 
 mod bump;
 mod displacement;
+mod lanes;
 mod material;
 mod mesh;
 #[cfg(feature = "mikktspace")]
