@@ -73,7 +73,7 @@ pub fn with_scene<R>(
         shading: match options.shading {
             Shading::Unlit => oracle::Shading::Unlit,
             Shading::VertexColor => oracle::Shading::VertexColor,
-            Shading::Lambert => oracle::Shading::Lambert {
+            _ => oracle::Shading::Lambert {
                 light_dir: wide(to_light(camera).to_array()),
                 ambient: f64::from(AMBIENT),
                 diffuse: f64::from(DIFFUSE),
@@ -81,7 +81,7 @@ pub fn with_scene<R>(
         },
         filter: match options.filter {
             Filter::Nearest => oracle::Filter::Nearest,
-            Filter::Bilinear => oracle::Filter::Bilinear,
+            _ => oracle::Filter::Bilinear,
         },
         wrap: match options.wrap {
             Wrap::Repeat => oracle::Wrap::Repeat,

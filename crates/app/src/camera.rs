@@ -417,7 +417,7 @@ mod tests {
     fn spheres_of_nothing_and_of_a_point_have_a_size() {
         let mut model = Model::default();
         assert_eq!(bounding_sphere(&model).radius.to_bits(), 1.0_f64.to_bits());
-        let vertex = Vertex { position: [5.0; 3], normal: [0.0; 3], uv: [0.0; 2], color: [0.0; 3] };
+        let vertex = Vertex { position: [5.0; 3], ..Vertex::default() };
         model.vertices.push(vertex);
         assert_eq!(bounding_sphere(&model), Sphere { center: [5.0; 3], radius: 1.0 });
         model.vertices.push(Vertex { position: [5.0, 5.0, 9.0], ..vertex });

@@ -6,10 +6,15 @@ use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::options::{
-    ColorFormat, Cull, DepthFormat, Filter, Interpolation, MAX_SIDE, Numbers, Profile, Shading, Subpixel,
-    Wrap,
+    ColorFormat, Cull, DepthFormat, Filter, Interpolation, Numbers, Profile, Shading, Subpixel, Wrap,
 };
 use crate::scenes;
+
+mod material;
+pub(crate) mod values;
+
+pub use material::MaterialArgs;
+use values::{color, number, point, size};
 
 /// Draws 3D models on the CPU, with perspective done right.
 #[derive(Clone, Debug, Parser)]
@@ -124,8 +129,14 @@ pub struct RenderArgs {
     #[arg(long, value_name = "FILE", help_heading = SURFACE)]
     pub texture: Option<PathBuf>,
 
-    /// How textures are read between their texels [default: bilinear].
-    #[arg(long, value_enum, value_name = "FILTER", help_heading = SURFACE)]
+    /// How textures are read: nearest, bilinear, trilinear or anisotropic:N [default: bilinear]
+    ///
+    /// nearest: the texel that contains the point;
+    /// bilinear: a weighted mean of the four texels around the point;
+    /// trilinear: a mean of that in the two nearest levels of a mip map, so that the distance does not shimmer;
+    /// anisotropic:N: up to N = 2, 4, 8 or 16 of those along the direction in which the texture is squeezed most, so
+    /// that it stays sharp at flat angles.
+    #[arg(long, value_name = "FILTER", help_heading = SURFACE, verbatim_doc_comment, value_parser = Filter::parse)]
     pub filter: Option<Filter>,
 
     /// What textures show outside 0 to 1 [default: repeat].
@@ -139,6 +150,10 @@ pub struct RenderArgs {
     /// Which triangles to leave out by the side they show [default: none].
     #[arg(long, value_enum, value_name = "SIDE", help_heading = SURFACE)]
     pub cull: Option<Cull>,
+
+    /// Parts of every material.
+    #[command(flatten)]
+    pub material: MaterialArgs,
 
     /// A choice of all that follow, each of which overrides it [default: the scene's depth, else desktop].
     #[arg(long, value_enum, value_name = "PROFILE", help_heading = PRECISION)]
@@ -195,36 +210,6 @@ pub enum StatsFormat {
     Json,
 }
 
-fn size(text: &str) -> Result<(u32, u32), String> {
-    let sides = text.split_once(['x', 'X', '×']).and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
-    sides
-        .filter(|(w, h)| (1..=MAX_SIDE).contains(w) && (1..=MAX_SIDE).contains(h))
-        .ok_or_else(|| format!("WIDTHxHEIGHT with 1 to {MAX_SIDE} pixels each, such as 640x480"))
-}
-
-fn point(text: &str) -> Result<[f32; 3], String> {
-    let expected = || "three finite numbers X,Y,Z without spaces, such as 0,1.5,-3".to_owned();
-    let numbers: Vec<f32> = text.split(',').map(finite).collect::<Option<_>>().ok_or_else(expected)?;
-    numbers.try_into().map_err(|_| expected())
-}
-
-fn number(text: &str) -> Result<f32, String> {
-    finite(text).ok_or_else(|| "a finite number".to_owned())
-}
-
-fn finite(text: &str) -> Option<f32> {
-    text.trim().parse().ok().filter(|x: &f32| x.is_finite())
-}
-
-fn color(text: &str) -> Result<[u8; 3], String> {
-    let digits = text.strip_prefix('#').unwrap_or(text);
-    let value = u32::from_str_radix(digits, 16).ok();
-    // from_str_radix takes a sign as well.
-    let value = value.filter(|_| digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_hexdigit()));
-    let [_, r, g, b] = value.ok_or("six hexadecimal digits RRGGBB, such as 20242c")?.to_be_bytes();
-    Ok([r, g, b])
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -233,28 +218,5 @@ mod tests {
     fn the_declaration_is_consistent() {
         use clap::CommandFactory as _;
         Cli::command().debug_assert();
-    }
-
-    #[test]
-    fn values_are_read() {
-        assert_eq!(size("640x480"), Ok((640, 480)));
-        assert_eq!(size("16384X1"), Ok((16384, 1)));
-        assert_eq!(point("-1,2.5,3e2"), Ok([-1.0, 2.5, 300.0]));
-        assert_eq!(color("20242c"), Ok([0x20, 0x24, 0x2c]));
-        assert_eq!(color("#FFffFF"), Ok([255; 3]));
-    }
-
-    #[test]
-    fn what_is_no_value_is_refused() {
-        for text in ["", "640", "0x480", "640x0", "100000x100000", "16385x1", "-1x5", "axb", "1x2x3"] {
-            assert!(size(text).is_err(), "{text}");
-        }
-        for text in ["", "1,2", "1,2,3,4", "1,2,x", "nan,0,0", "inf,0,0", "1e400,0,0"] {
-            assert!(point(text).is_err(), "{text}");
-        }
-        for text in ["", "fff", "gggggg", "+12345", "-12345", "1234567", "ééé"] {
-            assert!(color(text).is_err(), "{text}");
-        }
-        assert!(number("nan").is_err() && number("1e400").is_err());
     }
 }

@@ -84,6 +84,19 @@ pub fn to_light(camera: &Camera) -> Vec3 {
     frame(camera).map_or(Vec3::Y, |frame| (frame.axes() * Vec3::new(-0.45, 0.6, -1.0)).normalize())
 }
 
+/// What there is of the filters so far.
+#[derive(Clone, Copy)]
+enum Taps {
+    Nearest,
+    Bilinear,
+}
+
+impl Taps {
+    fn of(filter: Filter) -> Self {
+        if filter == Filter::Nearest { Self::Nearest } else { Self::Bilinear }
+    }
+}
+
 /// From names to types: the filter and the wrap mode.
 macro_rules! with_sampler {
     ($texture:expr, $filter:expr, $wrap:expr, |$sampler:ident| $body:expr) => {
@@ -91,8 +104,8 @@ macro_rules! with_sampler {
             Nearest Repeat, Nearest Clamp, Nearest Mirror, Bilinear Repeat, Bilinear Clamp, Bilinear Mirror)
     };
     (@ $texture:expr, $filter:expr, $wrap:expr, $sampler:ident, $body:expr, $($f:ident $w:ident),*) => {
-        match ($filter, $wrap) {
-            $((Filter::$f, Wrap::$w) => {
+        match (Taps::of($filter), $wrap) {
+            $((Taps::$f, Wrap::$w) => {
                 let $sampler = $texture.sampler::<texture::$f, texture::$w>();
                 $body
             })*
@@ -217,7 +230,7 @@ impl<'a> Canvas<'a> {
         D: alberti::DepthFormat,
         F: FragmentStage<Vec2, Color = Rgba8>,
     {
-        if self.options.shading == Shading::Lambert {
+        if self.options.shading.is_lit() {
             let vertex = |v: &Vertex| (position(v), (Vec3::from_array(v.normal), Vec2::from_array(v.uv)));
             self.draw(triangles, vertex, lambert(surface, self.light), band);
         } else {

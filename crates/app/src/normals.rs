@@ -95,9 +95,8 @@ mod tests {
     use crate::scene::{Part, Vertex};
 
     fn model(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Model {
-        let vertex = |&position| Vertex { position, normal: [0.0; 3], uv: [0.0; 2], color: [1.0; 3] };
-        let part =
-            Part { name: String::new(), triangles: triangles.to_vec(), diffuse: [1.0; 3], texture: None };
+        let vertex = |&position| Vertex { position, ..Vertex::default() };
+        let part = Part { triangles: triangles.to_vec(), ..Part::default() };
         Model { vertices: positions.iter().map(vertex).collect(), parts: vec![part], ..Model::default() }
     }
 

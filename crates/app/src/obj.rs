@@ -116,6 +116,7 @@ fn add_part(
         normal,
         uv,
         color: color.map(|c| c.clamp(0.0, 1.0)),
+        ..Vertex::default()
     }));
     if u32::try_from(model.vertices.len()).is_err() {
         return Err(Error::new("more than 4 billion vertices", "fewer").hint("reduce the model"));
@@ -125,6 +126,7 @@ fn add_part(
         triangles: mesh.indices.chunks_exact(3).map(|t| [first + t[0], first + t[1], first + t[2]]).collect(),
         diffuse: diffuse.map(|c| c.clamp(0.0, 1.0)),
         texture,
+        ..Part::default()
     });
     Ok(())
 }

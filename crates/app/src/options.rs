@@ -4,6 +4,10 @@ use crate::error::Error;
 use clap::ValueEnum;
 use std::fmt;
 
+mod filter;
+
+pub use filter::{Filter, Probes};
+
 /// How a fragment gets its colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
 pub enum Shading {
@@ -14,16 +18,20 @@ pub enum Shading {
     /// Diffuse light from beside the camera on the texture or the material's colour.
     #[default]
     Lambert,
+    /// Diffuse light and highlights, found at the vertices and interpolated: small highlights are lost.
+    Gouraud,
+    /// Diffuse light and highlights about the mirrored light, found at each pixel.
+    Phong,
+    /// Diffuse light and highlights about the direction halfway between light and eye, found at each pixel.
+    Blinn,
 }
 
-/// How a texture is read between its texels.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
-pub enum Filter {
-    /// The texel that contains the point.
-    Nearest,
-    /// A weighted mean of the four texels around the point.
-    #[default]
-    Bilinear,
+impl Shading {
+    /// Whether light has a part in it.
+    #[must_use]
+    pub fn is_lit(self) -> bool {
+        !matches!(self, Self::Unlit | Self::VertexColor)
+    }
 }
 
 /// What a texture shows outside 0..=1.

@@ -3,6 +3,12 @@
 
 use std::path::PathBuf;
 
+mod detail;
+
+pub use detail::{
+    Detail, Environment, EnvironmentKind, HeightImage, HeightMap, Light, Map, NormalMap, NormalSpace, Relief,
+};
+
 /// A vertex as a file or a generator gives it. Positions and normals are in object space (right-handed, y up).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex {
@@ -14,6 +20,16 @@ pub struct Vertex {
     pub uv: [f32; 2],
     /// sRGB in 0..=1.
     pub color: [f32; 3],
+    /// Object space, as in glTF: the unit vector along which u grows, and 1 or -1, by which normal × tangent is to be
+    /// multiplied for the one along which v grows. (0, 0, 0, 0) where no map needs it.
+    pub tangent: [f32; 4],
+}
+
+impl Default for Vertex {
+    /// White at the origin, without a normal.
+    fn default() -> Self {
+        Self { position: [0.0; 3], normal: [0.0; 3], uv: [0.0; 2], color: [1.0; 3], tangent: [0.0; 4] }
+    }
 }
 
 /// An image in memory: rows from the top, R, G, B, A per texel.
@@ -28,7 +44,7 @@ pub struct Image {
 }
 
 /// Triangles that share a material.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Part {
     /// The object's or group's name, for messages.
     pub name: String,
@@ -38,6 +54,8 @@ pub struct Part {
     pub diffuse: [f32; 3],
     /// Index into [`Model::textures`].
     pub texture: Option<usize>,
+    /// All else.
+    pub detail: Detail,
 }
 
 /// Everything that is drawn.
@@ -49,6 +67,12 @@ pub struct Model {
     pub parts: Vec<Part>,
     /// Shared by all parts.
     pub textures: Vec<Image>,
+    /// Shared by all parts.
+    pub heights: Vec<HeightImage>,
+    /// Without any, there is a lamp beside the camera.
+    pub lights: Vec<Light>,
+    /// Light from everywhere, as a linear factor; `None`: as much as suits the lamp beside the camera.
+    pub ambient: Option<[f32; 3]>,
     /// What a projector throws on all parts, if anything.
     pub slide: Option<Slide>,
     /// Where it came from, when it came from a file.

@@ -53,7 +53,7 @@ mod tests {
 
     /// Whether the segment from (-1, 0, 0) to (1, 0, 0) is missed from there.
     fn missed(eye: [f32; 3], target: [f32; 3]) -> bool {
-        let vertex = |x| Vertex { position: [x, 0.0, 0.0], normal: [0.0; 3], uv: [0.0; 2], color: [0.0; 3] };
+        let vertex = |x| Vertex { position: [x, 0.0, 0.0], ..Vertex::default() };
         let model = Model { vertices: vec![vertex(-1.0), vertex(1.0)], ..Model::default() };
         let image = Image { width: 2, height: 1, texels: vec![[0; 4]; 2] };
         // At a distance of 1, it is 2 units high and 4 wide.

@@ -3,7 +3,7 @@
 
 use super::erased::{Bare, Carried, Erased, ErasedFixed, Looks, OfFirst, OfUv, Thrown, erase, erase_fixed};
 use super::lines::Lines;
-use super::{Canvas, color, lambert, position};
+use super::{Canvas, Taps, color, lambert, position};
 use crate::options::{Filter, Interpolation, Numbers, Shading, Subpixel, Wrap};
 use crate::scene::{Part, Vertex};
 use alberti::glam::{Vec2, Vec3};
@@ -22,8 +22,8 @@ macro_rules! with_slide {
         with_slide!(@ $slide, $surface, $stage, $body, Nearest, Bilinear)
     };
     (@ $slide:expr, $surface:expr, $stage:ident, $body:expr, $($filter:ident),*) => {
-        match $slide {
-            $((image, Filter::$filter) => {
+        match ($slide.0, Taps::of($slide.1)) {
+            $((image, Taps::$filter) => {
                 let image = image.sampler::<texture::$filter, Clamp>();
                 let $stage = Thrown(Slide { surface: $surface, image, mix: Modulate });
                 $body
@@ -48,7 +48,7 @@ impl VertexStage<Vertex> for Carry {
         let first = match self.shading {
             Shading::VertexColor => Vec3::from_array(v.color),
             Shading::Unlit => Vec3::ZERO,
-            Shading::Lambert => Vec3::from_array(v.normal),
+            _ => Vec3::from_array(v.normal),
         };
         let uv = if self.textured { Vec2::from_array(v.uv) } else { Vec2::ZERO };
         // The model stands in the world where it was made.
@@ -203,7 +203,7 @@ impl Surface<'_> {
     }
 
     fn visit_lit(&self, surface: impl FragmentStage<Vec2, Color = Rgba8>, visitor: &mut impl Visitor) {
-        if self.shading == Shading::Lambert {
+        if self.shading.is_lit() {
             visitor.visit(lambert(surface, self.light));
         } else {
             visitor.visit(OfUv(surface));

@@ -83,7 +83,7 @@ impl Builder {
 
     /// Starts a part; all triangles up to the next call belong to it.
     pub(super) fn part(&mut self, name: &str, texture: Option<usize>) {
-        self.model.parts.push(Part { name: name.into(), triangles: Vec::new(), diffuse: [1.0; 3], texture });
+        self.model.parts.push(Part { name: name.into(), diffuse: [1.0; 3], texture, ..Part::default() });
     }
 
     /// Adds a vertex and returns its index.
@@ -94,6 +94,7 @@ impl Builder {
             normal: c.normal.map(round),
             uv: c.uv.map(round),
             color: c.color.map(round),
+            ..Vertex::default()
         });
         index
     }

@@ -1,0 +1,209 @@
+//! What a surface has beyond its colour and its texture: relief, and how it takes light.
+
+use clap::ValueEnum;
+
+use crate::options::{Filter, Wrap};
+
+/// An image on a surface, and how it is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Map {
+    /// Index into [`Model::textures`](super::Model::textures).
+    pub image: usize,
+    /// `None`: the picture's.
+    pub filter: Option<Filter>,
+    /// `None`: the picture's.
+    pub wrap: Option<Wrap>,
+}
+
+/// All of a surface but its colour and its texture. The default is a surface without relief, with a faint highlight
+/// where the shading has highlights.
+///
+/// Where there is a map, the constant beside it is multiplied by the map: by its colour, or by its red channel from 0
+/// to 1 for what is one number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Detail {
+    /// How the texture is read; `None`: as the picture's others.
+    pub filter: Option<Filter>,
+    /// How the texture continues; `None`: as the picture's others.
+    pub wrap: Option<Wrap>,
+    /// Where the surface points.
+    pub normal: Option<NormalMap>,
+    /// How high it is.
+    pub height: Option<HeightMap>,
+    /// How much of the surroundings' light arrives: the red channel.
+    pub occlusion: Option<Map>,
+    /// From 0, dry, to 1.
+    pub wetness: f32,
+    /// Multiplies `wetness`.
+    pub wetness_map: Option<Map>,
+    /// The highlight's colour, sRGB in 0..=1.
+    pub specular: [f32; 3],
+    /// Multiplies `specular`.
+    pub specular_map: Option<Map>,
+    /// The highlight's exponent where the map is 0 and where it is 1; without a map it is the second.
+    pub shininess: [f32; 2],
+    /// From the first to the second of `shininess`.
+    pub shininess_map: Option<Map>,
+    /// Light of its own, sRGB in 0..=1.
+    pub emissive: [f32; 3],
+    /// Multiplies `emissive`.
+    pub emissive_map: Option<Map>,
+    /// What is mirrored.
+    pub environment: Option<Environment>,
+    /// How much of it: from 0 to 1, a mirror.
+    pub reflection: f32,
+    /// Multiplies `reflection`.
+    pub reflection_map: Option<Map>,
+}
+
+impl Default for Detail {
+    fn default() -> Self {
+        Self {
+            filter: None,
+            wrap: None,
+            normal: None,
+            height: None,
+            occlusion: None,
+            wetness: 0.0,
+            wetness_map: None,
+            specular: [0.25; 3],
+            specular_map: None,
+            shininess: [1.0, 32.0],
+            shininess_map: None,
+            emissive: [0.0; 3],
+            emissive_map: None,
+            environment: None,
+            reflection: 0.0,
+            reflection_map: None,
+        }
+    }
+}
+
+impl Detail {
+    /// Whether it needs the vertices' tangents.
+    #[must_use]
+    pub fn needs_tangents(&self) -> bool {
+        self.normal.is_some_and(|normal| normal.space == NormalSpace::Tangent)
+            || self.height.is_some_and(|height| height.relief != Relief::Displacement)
+    }
+}
+
+/// A normal in each texel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NormalMap {
+    /// Red, green and blue are x, y and z, from -1 to 1.
+    pub map: Map,
+    /// Between which axes.
+    pub space: NormalSpace,
+    /// How steep: 0 makes the surface smooth, 1 leaves the map as it is.
+    pub strength: f32,
+}
+
+/// Between which axes a map's normals are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
+pub enum NormalSpace {
+    /// Those of the texture on the surface: one map serves for all surfaces.
+    #[default]
+    Tangent,
+    /// The object's own.
+    Object,
+}
+
+/// A height in each texel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeightMap {
+    /// Index into [`Model::heights`](super::Model::heights).
+    pub heights: usize,
+    /// How the heights continue; `None`: as the picture's textures.
+    pub wrap: Option<Wrap>,
+    /// What is made of them.
+    pub relief: Relief,
+    /// What black and white stand for: along the normal, in the units of object space.
+    pub range: [f32; 2],
+    /// How long one unit of u and one of v are on the surface, in the units of object space.
+    pub extent: [f32; 2],
+}
+
+/// What is made of heights.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
+pub enum Relief {
+    /// Normals: light and shade as of the heights, on a surface that stays as it is.
+    #[default]
+    Bump,
+    /// Normals, and textures moved by one step along the view: breaks at grazing angles.
+    Parallax,
+    /// Normals, and a march along the view to the first height below it, in layers.
+    Steep,
+    /// The same with a line between the last two layers: smoother.
+    Occlusion,
+    /// Vertices moved along their normals, on a mesh that is fine enough: right up to the outline.
+    Displacement,
+}
+
+/// What a surface mirrors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Environment {
+    /// Index into [`Model::textures`](super::Model::textures).
+    pub image: usize,
+    /// How it shows all directions.
+    pub kind: EnvironmentKind,
+}
+
+/// How an image shows all directions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
+pub enum EnvironmentKind {
+    /// Longitude to the right, latitude upwards; -z is in the middle.
+    #[default]
+    LatLong,
+    /// Six squares beside each other: +x, -x, +y, -y, +z, -z.
+    Cube,
+    /// A mirror ball, as the camera sees it from the front.
+    Sphere,
+}
+
+/// Heights in memory: rows from the top.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct HeightImage {
+    /// Texels a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// `width * height` heights, black 0 to white 65535.
+    pub heights: Vec<u16>,
+}
+
+/// A light in world space. Colours are factors of what a white surface sends back, linear and not limited to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Light {
+    /// From so far away that it comes from one direction.
+    Directional {
+        /// Towards the light, unit length.
+        to_light: [f32; 3],
+        /// Colour times intensity.
+        color: [f32; 3],
+    },
+    /// From a point.
+    Point {
+        /// Where.
+        position: [f32; 3],
+        /// Colour times intensity.
+        color: [f32; 3],
+        /// The distance at which it is half as strong: 1 / (1 + (d / range)²). Infinite: no weaker anywhere.
+        range: f32,
+    },
+    /// From a point, within a cone.
+    Spot {
+        /// Where.
+        position: [f32; 3],
+        /// Where it points, unit length.
+        direction: [f32; 3],
+        /// Colour times intensity.
+        color: [f32; 3],
+        /// As of a point.
+        range: f32,
+        /// Degrees from the axis up to which it is full.
+        inner: f32,
+        /// Degrees from the axis from which there is none; not below `inner`.
+        outer: f32,
+    },
+}
