@@ -16,6 +16,7 @@ mod q16;
 mod reciprocal;
 mod round;
 mod space;
+mod structs;
 mod varying;
 
 pub use barycentric::{

@@ -43,38 +43,7 @@ pub struct Flat<V>(
 ///
 /// The methods say how to reach the components, so that the clipper, the rasterizer and whoever needs it can combine
 /// values with any arithmetic, for one sample or for several at a time. `()`, `f32`, arrays, glam's vectors and tuples
-/// are varyings; a struct becomes one by going through a tuple of its fields:
-///
-/// ```
-/// use alberti_math::{Mode, Varying, glam::{Vec2, Vec3}};
-///
-/// #[derive(Clone, Copy)]
-/// struct Lit {
-///     uv: Vec2,
-///     normal: Vec3,
-/// }
-///
-/// impl Varying for Lit {
-///     type Of<T: Copy> = <(Vec2, Vec3) as Varying>::Of<T>;
-///
-///     fn gather<const N: usize>(values: [Self; N]) -> Self::Of<[f32; N]> {
-///         Varying::gather(values.map(|v| (v.uv, v.normal)))
-///     }
-///
-///     fn map_by_mode<T: Copy, U: Copy>(bundle: &Self::Of<T>, f: &impl Fn(Mode, T) -> U) -> Self::Of<U> {
-///         <(Vec2, Vec3)>::map_by_mode(bundle, f)
-///     }
-///
-///     fn zip<T: Copy, U: Copy>(first: &Self::Of<T>, second: &Self::Of<U>) -> Self::Of<(T, U)> {
-///         <(Vec2, Vec3)>::zip(first, second)
-///     }
-///
-///     fn from_components(bundle: &Self::Of<f32>) -> Self {
-///         let (uv, normal) = Varying::from_components(bundle);
-///         Self { uv, normal }
-///     }
-/// }
-/// ```
+/// are varyings; [`varying!`](crate::varying) makes one of a struct.
 pub trait Varying: Copy {
     /// The same bundle with components of type `T` instead of `f32`.
     type Of<T: Copy>: Copy;

@@ -70,7 +70,7 @@ impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize> FragmentStage<Vec
 
 /// The derivatives of texture coordinates as samplers take them.
 #[inline(always)]
-fn footprint<N: Copy>(
+pub(super) fn footprint<N: Copy>(
     &Gradient { dx: [du_dx, dv_dx], dy: [du_dy, dv_dy] }: &Gradient<[N; 2]>,
 ) -> Derivatives<N> {
     Derivatives { du_dx, dv_dx, du_dy, dv_dy }

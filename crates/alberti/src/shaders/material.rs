@@ -1,0 +1,175 @@
+//! Materials: what a surface is made of, as layers, and how lights make a colour of it.
+//!
+//! ```text
+//! vertex:    position, axes, texture coordinates          Placed or Framed
+//! fragment:  where to look      Parallax                  layers, in the order in which they are given,
+//!            which way it faces Bump, NormalMap, ...      each of which changes what is known of the Surface
+//!            what it is         Color, Specular, Gloss, Wetness, Occlusion, Emission, Reflection
+//!            what is seen       Lighting: lights, a reflectance, the viewer
+//! ```
+//!
+//! A [`Material`] is compiled for its layers: one that is absent is no code. Everything is wide, and the same at every
+//! width. Directions and places are in world space; colours are numbers from 0 to 1 in the encoding of the texels, like
+//! those of all built-in stages.
+//!
+//! ```
+//! use alberti::shaders::material::{
+//!     BlinnPhong, Color, Directional, Lighting, Material, Placed, Specular, Viewer,
+//! };
+//! use alberti::{FragmentStage, Point3, Rgba8, Vector3, World, glam::{Vec2, Vec3}};
+//!
+//! let eye = Point3::<World>::new(Vec3::new(0.0, 0.0, 5.0));
+//! let brass = Material {
+//!     layers: (Color(Rgba8::from_rgb24(0xb0_80_30)), Specular(Rgba8::from_rgb24(0x80_80_60))),
+//!     lighting: Lighting {
+//!         viewer: Viewer::at(eye),
+//!         ambient: Vec3::splat(0.2),
+//!         lights: Directional::new(Vector3::new(Vec3::Z), Vec3::splat(0.8)),
+//!         reflectance: BlinnPhong(20),
+//!     },
+//! };
+//! // Between the light and the eye, the highlight is on top.
+//! let facing = Placed { position: Vec3::ZERO, normal: Vec3::Z, uv: Vec2::ZERO };
+//! assert_eq!(brass.shade(facing), Some(Rgba8::from_rgb24(0xff_e6_7d)));
+//! // From the side there is the ambient light.
+//! let aside = Placed { normal: Vec3::X, ..facing };
+//! assert_eq!(brass.shade(aside), Some(Rgba8::from_rgb24(0x23_1a_0a)));
+//! ```
+
+mod layers;
+mod light;
+mod map;
+mod reflectance;
+mod surface;
+mod vector;
+
+pub use layers::{Color, Emission, Gloss, Occlusion, Specular, Tint, Wetness};
+pub use light::{Directional, Light, PointLight, SpotLight};
+pub use map::Map;
+pub use reflectance::{BlinnPhong, Lambert, Phong, Reflectance, Shininess};
+pub use surface::{Axes, Framed, Layer, OnSurface, Placed, Surface, Viewer};
+
+use super::{alone, pack};
+use alberti_math::glam::Vec3;
+use alberti_math::lanes::{Lanes, One};
+use alberti_math::{Point3, Rgba8, Vector3, World};
+use alberti_raster::{FragmentStage, Gradient};
+use alberti_texture::surface::unit_lanes;
+use vector::{by, plus, splat, times};
+
+/// A surface of layers under lights, fragment by fragment.
+///
+/// # Precision
+/// The maps' formulas are those of [`alberti_texture::surface`], with their bounds. Each channel is rounded once.
+///
+/// # Cost
+/// The layers', and the lighting's. Normals and the direction to the viewer are made unit once each, if something asks
+/// for them.
+#[derive(Clone, Copy, Debug)]
+pub struct Material<M, Ls, R> {
+    /// What it is made of: a [`Layer`], or a tuple of layers.
+    pub layers: M,
+    /// What falls on it.
+    pub lighting: Lighting<Ls, R>,
+}
+
+impl<V, M, Ls, R> FragmentStage<V> for Material<M, Ls, R>
+where
+    V: OnSurface,
+    M: Layer<V>,
+    Ls: Light,
+    R: Reflectance,
+{
+    type Color = Rgba8;
+    type Derivatives = M::Derivatives;
+
+    #[inline(always)]
+    fn shade(&self, varying: V) -> Option<Rgba8> {
+        alone(self, varying)
+    }
+
+    #[inline(always)]
+    fn shade_lanes<L: Lanes>(
+        &self,
+        lanes: L,
+        varyings: &V::Of<L::Number>,
+        gradient: &Gradient<V::Of<L::Number>>,
+        mask: L::Mask,
+    ) -> (L::U32, L::Mask) {
+        let mut surface = Surface::new::<V>(lanes, varyings, gradient, self.lighting.viewer);
+        self.layers.apply(lanes, varyings, &mut surface);
+        (self.lighting.color(lanes, &surface), mask)
+    }
+}
+
+/// What falls on surfaces, and how these reflect it: ambient light, lights, a reflectance.
+///
+/// A channel of the colour is
+///
+/// ```text
+/// emission + diffuse (ambient occlusion + Σ light max(n·l, 0)) + specular Σ light s
+/// ```
+///
+/// with s the [`Reflectance`]'s specular share.
+#[derive(Clone, Copy, Debug)]
+pub struct Lighting<Ls, R> {
+    /// From where surfaces are seen.
+    pub viewer: Viewer,
+    /// The light that falls everywhere: red, green and blue.
+    pub ambient: Vec3,
+    /// A [`Light`], or a tuple, an array or a slice of lights.
+    pub lights: Ls,
+    /// [`Lambert`], [`Phong`] or [`BlinnPhong`].
+    pub reflectance: R,
+}
+
+impl<Ls: Light, R: Reflectance> Lighting<Ls, R> {
+    /// The light that a place scatters and mirrors towards the viewer, for white diffuse and specular colours: for
+    /// lighting by vertex, whose results [`Gouraud`](super::Gouraud) takes.
+    ///
+    /// Both are finite if position and normal are.
+    ///
+    /// # Cost
+    /// That of a fragment, once a vertex.
+    #[must_use]
+    pub fn at_vertex(&self, position: Point3<World>, normal: Vector3<World>) -> [Vec3; 2] {
+        let (position, normal) = (position.coords.to_array(), unit_lanes(One, normal.coords.to_array()));
+        let to_viewer = self.viewer.direction(One, position);
+        let [diffuse, specular] = self.shine(One, position, normal, to_viewer, 1.0);
+        [self.ambient + Vec3::from(diffuse), Vec3::from(specular)]
+    }
+
+    /// What all lights scatter and mirror.
+    #[inline(always)]
+    fn shine<L: Lanes>(
+        &self,
+        lanes: L,
+        position: [L::Number; 3],
+        normal: [L::Number; 3],
+        to_viewer: [L::Number; 3],
+        gloss: L::Number,
+    ) -> [[L::Number; 3]; 2] {
+        let none = [[lanes.splat(0.0); 3]; 2];
+        self.lights.fold(
+            lanes,
+            position,
+            none,
+            #[inline(always)]
+            |[scattered, mirrored], to_light, color| {
+                let [diffuse, specular] = self.reflectance.shares(lanes, normal, to_light, to_viewer, gloss);
+                [plus(scattered, times(color, diffuse)), plus(mirrored, times(color, specular))]
+            },
+        )
+    }
+
+    /// The colours that are seen.
+    #[inline(always)]
+    fn color<L: Lanes>(&self, lanes: L, surface: &Surface<L>) -> L::U32 {
+        let Surface { position, normal, to_viewer, gloss, .. } = *surface;
+        let [scattered, mirrored] = self.shine(lanes, position, normal, to_viewer, gloss);
+        let scattered = plus(scattered, times(splat(lanes, self.ambient), surface.openness));
+        let seen = plus(by(surface.diffuse, scattered), by(surface.specular, mirrored));
+        let [r, g, b] = times(plus(surface.emission, seen), lanes.splat(255.0));
+        pack(lanes, [lanes.nearest_byte(r), lanes.nearest_byte(g), lanes.nearest_byte(b), surface.alpha])
+    }
+}

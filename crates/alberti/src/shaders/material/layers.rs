@@ -1,0 +1,124 @@
+//! What a surface is made of: the maps of colours and numbers.
+
+use super::map::Map;
+use super::surface::{Layer, OnSurface, Surface};
+use super::vector::{by, plus};
+use crate::shaders::unpack;
+use alberti_math::Rgba8;
+use alberti_math::lanes::Lanes;
+use alberti_raster::NoDerivatives;
+use alberti_texture::surface::{ambient_occlusion_lanes, wet_lanes};
+
+/// The diffuse colour and the alpha.
+#[derive(Clone, Copy, Debug)]
+pub struct Color<M>(
+    /// A [`Map`].
+    pub M,
+);
+
+/// A factor of the diffuse colour: white is one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tint(
+    /// The factor of each channel.
+    pub Rgba8,
+);
+
+/// The specular colour: how much of each colour a highlight mirrors.
+#[derive(Clone, Copy, Debug)]
+pub struct Specular<M>(
+    /// A [`Map`].
+    pub M,
+);
+
+/// A shininess map, in the red channel: how sharp highlights are between the two exponents of the
+/// [`Reflectance`](super::Reflectance).
+#[derive(Clone, Copy, Debug)]
+pub struct Gloss<M>(
+    /// A [`Map`].
+    pub M,
+);
+
+/// A wetness map, in the red channel: water darkens the diffuse colour and sharpens the highlight, as
+/// [`Wettable::wet`](alberti_texture::surface::Wettable::wet) says. It comes after [`Color`] and [`Gloss`].
+#[derive(Clone, Copy, Debug)]
+pub struct Wetness<M>(
+    /// A [`Map`].
+    pub M,
+);
+
+/// An ambient occlusion map, in the red channel: the share of the ambient light that arrives, as
+/// [`ambient_occlusion`](alberti_texture::surface::ambient_occlusion) says.
+#[derive(Clone, Copy, Debug)]
+pub struct Occlusion<M> {
+    /// A [`Map`].
+    pub map: M,
+    /// How much of it there is, from 0 to 1.
+    pub strength: f32,
+}
+
+/// Light that the surface itself sends out.
+#[derive(Clone, Copy, Debug)]
+pub struct Emission<M>(
+    /// A [`Map`].
+    pub M,
+);
+
+/// The three colours of words, from 0 to 1.
+#[inline(always)]
+pub(super) fn colors<L: Lanes>(lanes: L, words: L::U32) -> [L::Number; 3] {
+    let [r, g, b, _] = unpack(lanes, words);
+    [unit(lanes, r), unit(lanes, g), unit(lanes, b)]
+}
+
+/// The first of them.
+#[inline(always)]
+pub(super) fn red<L: Lanes>(lanes: L, words: L::U32) -> L::Number {
+    unit(lanes, words & lanes.word(255))
+}
+
+/// A byte over 255.
+#[inline(always)]
+fn unit<L: Lanes>(lanes: L, byte: L::U32) -> L::Number {
+    lanes.to_numbers(byte) / lanes.splat(255.0)
+}
+
+/// Layers that read one map.
+macro_rules! of_one_map {
+    ($($name:ident: |$layer:ident, $lanes:ident, $surface:ident| $map:expr => |$words:ident| $change:expr;)+) => {$(
+        impl<V: OnSurface, M: Map> Layer<V> for $name<M> {
+            type Derivatives = M::Derivatives;
+
+            #[inline(always)]
+            fn apply<L: Lanes>(&self, $lanes: L, _: &V::Of<L::Number>, $surface: &mut Surface<L>) {
+                let $layer = self;
+                let $words = $map.read($lanes, $surface.uv, &$surface.gradient);
+                $change;
+            }
+        }
+    )+};
+}
+of_one_map! {
+    Color: |layer, lanes, surface| layer.0 => |words| {
+        surface.diffuse = colors(lanes, words);
+        surface.alpha = lanes.shr(words, 24);
+    };
+    Specular: |layer, lanes, surface| layer.0 => |words| surface.specular = colors(lanes, words);
+    Gloss: |layer, lanes, surface| layer.0 => |words| surface.gloss = red(lanes, words);
+    Wetness: |layer, lanes, surface| layer.0 => |words| {
+        let wetness = red(lanes, words);
+        (surface.diffuse, surface.gloss) = wet_lanes(lanes, surface.diffuse, surface.gloss, wetness);
+    };
+    Occlusion: |layer, lanes, surface| layer.map => |words| {
+        surface.openness = ambient_occlusion_lanes(lanes, red(lanes, words), layer.strength);
+    };
+    Emission: |layer, lanes, surface| layer.0 => |words| surface.emission = plus(surface.emission, colors(lanes, words));
+}
+
+impl<V: OnSurface> Layer<V> for Tint {
+    type Derivatives = NoDerivatives;
+
+    #[inline(always)]
+    fn apply<L: Lanes>(&self, lanes: L, _: &V::Of<L::Number>, surface: &mut Surface<L>) {
+        surface.diffuse = by(surface.diffuse, colors(lanes, lanes.word(self.0.to_bits())));
+    }
+}

@@ -1,0 +1,193 @@
+//! What falls on a surface, and from where.
+
+use super::vector::{splat, times};
+use alberti_math::glam::Vec3;
+use alberti_math::lanes::Lanes;
+use alberti_math::{Point3, Vector3, World};
+use alberti_texture::surface::unit_lanes;
+use core::fmt::Debug;
+
+/// A light, or several: tuples, arrays and slices of lights are lights, and `()` is none.
+pub trait Light: Copy + Debug {
+    /// Adds up what `and` makes of the `sum` and of each light: of the unit vectors from the positions towards it, and of
+    /// how much of each colour arrives where the surface faces it.
+    fn fold<L: Lanes, T>(
+        &self,
+        lanes: L,
+        position: [L::Number; 3],
+        sum: T,
+        and: impl Fn(T, [L::Number; 3], [L::Number; 3]) -> T + Copy,
+    ) -> T;
+}
+
+/// A light so far away that it shines in one direction, such as the sun.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Directional {
+    to_light: Vec3,
+    color: Vec3,
+}
+
+impl Directional {
+    /// Light from the direction `to_light`, of any length but zero.
+    #[must_use]
+    pub fn new(to_light: Vector3<World>, color: Vec3) -> Self {
+        Self { to_light: to_light.coords.normalize_or_zero(), color }
+    }
+}
+
+impl Light for Directional {
+    #[inline(always)]
+    fn fold<L: Lanes, T>(
+        &self,
+        lanes: L,
+        _: [L::Number; 3],
+        sum: T,
+        and: impl Fn(T, [L::Number; 3], [L::Number; 3]) -> T + Copy,
+    ) -> T {
+        and(sum, splat(lanes, self.to_light), splat(lanes, self.color))
+    }
+}
+
+/// A light that shines from a point in all directions, such as a bulb.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointLight {
+    /// Where it is.
+    pub position: Point3<World>,
+    /// How much of each colour arrives at a distance where the falloff is 1.
+    pub color: Vec3,
+    /// How that falls off: \[c, l, q\] for 1/(c + l d + q d²) at the distance d. Not all zero, and none below zero.
+    pub falloff: [f32; 3],
+}
+
+impl PointLight {
+    /// The unit vectors towards it, and what arrives.
+    #[inline(always)]
+    fn arrives<L: Lanes>(&self, lanes: L, position: [L::Number; 3]) -> [[L::Number; 3]; 2] {
+        let [x, y, z] = position;
+        let [a, b, c] = splat(lanes, self.position.coords);
+        let to_light = [a - x, b - y, c - z];
+        let [a, b, c] = to_light;
+        let square = a * a + b * b + c * c;
+        let [constant, linear, quadratic] = self.falloff.map(|k| lanes.splat(k));
+        let falloff = lanes.splat(1.0) / (constant + linear * lanes.sqrt(square) + quadratic * square);
+        [unit_lanes(lanes, to_light), times(splat(lanes, self.color), falloff)]
+    }
+}
+
+impl Light for PointLight {
+    #[inline(always)]
+    fn fold<L: Lanes, T>(
+        &self,
+        lanes: L,
+        position: [L::Number; 3],
+        sum: T,
+        and: impl Fn(T, [L::Number; 3], [L::Number; 3]) -> T + Copy,
+    ) -> T {
+        let [to_light, color] = self.arrives(lanes, position);
+        and(sum, to_light, color)
+    }
+}
+
+/// A light that shines from a point into a cone, such as a stage light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpotLight {
+    point: PointLight,
+    /// Away from the light.
+    axis: Vec3,
+    /// The cosine beyond which nothing arrives, and what a step of one has more.
+    outer: f32,
+    slope: f32,
+}
+
+impl SpotLight {
+    /// A light that shines along `axis`, of any length but zero, whole up to the angle with the cosine `inner` from it,
+    /// and then less, linearly in the cosine, up to the angle with the cosine `outer`, which is the lesser of the two.
+    #[must_use]
+    pub fn new(point: PointLight, axis: Vector3<World>, [inner, outer]: [f32; 2]) -> Self {
+        // A sharp edge is as steep as numbers in fixed point can tell.
+        let slope = 1.0 / (inner - outer).max(1.0 / 4096.0);
+        Self { point, axis: axis.coords.normalize_or_zero(), outer, slope }
+    }
+}
+
+impl Light for SpotLight {
+    #[inline(always)]
+    fn fold<L: Lanes, T>(
+        &self,
+        lanes: L,
+        position: [L::Number; 3],
+        sum: T,
+        and: impl Fn(T, [L::Number; 3], [L::Number; 3]) -> T + Copy,
+    ) -> T {
+        let [to_light, color] = self.point.arrives(lanes, position);
+        let ([x, y, z], [a, b, c]) = (to_light, splat(lanes, self.axis));
+        let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
+        let inside = zero - (x * a + y * b + z * c) - lanes.splat(self.outer);
+        let share = lanes.min(lanes.max(inside * lanes.splat(self.slope), zero), one);
+        and(sum, to_light, times(color, share))
+    }
+}
+
+impl Light for () {
+    #[inline(always)]
+    fn fold<L: Lanes, T>(
+        &self,
+        _: L,
+        _: [L::Number; 3],
+        sum: T,
+        _: impl Fn(T, [L::Number; 3], [L::Number; 3]) -> T + Copy,
+    ) -> T {
+        sum
+    }
+}
+
+/// Lights that are several.
+macro_rules! several {
+    ($([$($generics:tt)*] $lights:ty: |$self:ident| $each:expr;)+) => {$(
+        impl<$($generics)*> Light for $lights {
+            #[inline(always)]
+            fn fold<L: Lanes, T>(
+                &self,
+                lanes: L,
+                position: [L::Number; 3],
+                sum: T,
+                and: impl Fn(T, [L::Number; 3], [L::Number; 3]) -> T + Copy,
+            ) -> T {
+                let $self = self;
+                let mut sum = sum;
+                for light in $each {
+                    sum = light.fold(lanes, position, sum, and);
+                }
+                sum
+            }
+        }
+    )+};
+}
+several! {
+    [A: Light, const N: usize] [A; N]: |lights| lights;
+    [A: Light] &[A]: |lights| *lights;
+}
+
+macro_rules! tuples {
+    ($($($name:ident $index:tt)+;)+) => {$(
+        impl<$($name: Light),+> Light for ($($name,)+) {
+            #[inline(always)]
+            fn fold<L: Lanes, T>(
+                &self,
+                lanes: L,
+                position: [L::Number; 3],
+                sum: T,
+                and: impl Fn(T, [L::Number; 3], [L::Number; 3]) -> T + Copy,
+            ) -> T {
+                $(let sum = self.$index.fold(lanes, position, sum, and);)+
+                sum
+            }
+        }
+    )+};
+}
+tuples! {
+    A 0;
+    A 0 B 1;
+    A 0 B 1 C 2;
+    A 0 B 1 C 2 D 3;
+}

@@ -1,0 +1,50 @@
+//! What is read at texture coordinates.
+
+use crate::shaders::texture::footprint;
+use alberti_math::Rgba8;
+use alberti_math::lanes::Lanes;
+use alberti_raster::{Differentiation, Gradient, NoDerivatives, PerPixel};
+use alberti_texture::format::Storage;
+use alberti_texture::{Filter, LevelSize, MipFilter, MipSampler, Sampler, Size, Wrap};
+use core::fmt::Debug;
+
+/// A colour for each place on a surface: a sampler, one of mip maps, or an [`Rgba8`], which is the same everywhere.
+pub trait Map: Copy + Debug {
+    /// What it needs to know of neighbouring pixels.
+    type Derivatives: Differentiation;
+
+    /// The colours at `uv`, which changes that fast, as words.
+    fn read<L: Lanes>(&self, lanes: L, uv: [L::Number; 2], gradient: &Gradient<[L::Number; 2]>) -> L::U32;
+}
+
+impl Map for Rgba8 {
+    type Derivatives = NoDerivatives;
+
+    #[inline(always)]
+    fn read<L: Lanes>(&self, lanes: L, _: [L::Number; 2], _: &Gradient<[L::Number; 2]>) -> L::U32 {
+        lanes.word(self.to_bits())
+    }
+}
+
+impl<F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size> Map for Sampler<'_, F, Fl, U, V, Z> {
+    type Derivatives = NoDerivatives;
+
+    #[inline(always)]
+    fn read<L: Lanes>(&self, lanes: L, [u, v]: [L::Number; 2], _: &Gradient<[L::Number; 2]>) -> L::U32 {
+        self.sample_lanes(lanes, u, v)
+    }
+}
+
+impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize> Map for MipSampler<'_, F, M, U, V, Z> {
+    type Derivatives = PerPixel;
+
+    #[inline(always)]
+    fn read<L: Lanes>(
+        &self,
+        lanes: L,
+        [u, v]: [L::Number; 2],
+        gradient: &Gradient<[L::Number; 2]>,
+    ) -> L::U32 {
+        self.sample_grad_lanes(lanes, u, v, footprint(gradient))
+    }
+}

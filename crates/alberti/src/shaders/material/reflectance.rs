@@ -1,0 +1,102 @@
+//! How much of a light a surface sends towards the viewer.
+
+use alberti_math::lanes::Lanes;
+use alberti_texture::surface::{
+    blinn_phong_cosine_lanes, lambert_lanes, phong_cosine_lanes, power_each_lanes, power_lanes,
+    shininess_lanes,
+};
+use core::fmt::Debug;
+
+/// A model of reflection: [`Lambert`], [`Phong`] or [`BlinnPhong`].
+pub trait Reflectance: Copy + Debug {
+    /// The shares of a light that are scattered, and that are mirrored, for unit vectors: the normal, and from the
+    /// surface to the light and to the viewer.
+    fn shares<L: Lanes>(
+        &self,
+        lanes: L,
+        normal: [L::Number; 3],
+        to_light: [L::Number; 3],
+        to_viewer: [L::Number; 3],
+        gloss: L::Number,
+    ) -> [L::Number; 2];
+}
+
+/// Light is scattered evenly: [`lambert`](alberti_texture::surface::lambert). Nothing is mirrored.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Lambert;
+
+/// And some of it is mirrored as by [`phong`](alberti_texture::surface::phong), with this [`Shininess`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Phong<E = u32>(
+    /// The exponent.
+    pub E,
+);
+
+/// And some of it is mirrored as by [`blinn_phong`](alberti_texture::surface::blinn_phong), with this [`Shininess`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BlinnPhong<E = u32>(
+    /// The exponent.
+    pub E,
+);
+
+/// The exponent of a highlight: a number, which takes no notice of the gloss; or what the gloss makes between the first
+/// and the second of two, as [`shininess`](alberti_texture::surface::shininess) says. Up to 2^16.
+pub trait Shininess: Copy + Debug {
+    /// The cosine to that power.
+    fn power<L: Lanes>(&self, lanes: L, cosine: L::Number, gloss: L::Number) -> L::Number;
+}
+
+impl Shininess for u32 {
+    #[inline(always)]
+    fn power<L: Lanes>(&self, lanes: L, cosine: L::Number, _: L::Number) -> L::Number {
+        power_lanes(lanes, cosine, *self)
+    }
+}
+
+impl Shininess for [u32; 2] {
+    #[inline(always)]
+    fn power<L: Lanes>(&self, lanes: L, cosine: L::Number, gloss: L::Number) -> L::Number {
+        let [least, greatest] = *self;
+        power_each_lanes(lanes, cosine, shininess_lanes(lanes, gloss, *self), least.max(greatest))
+    }
+}
+
+impl Reflectance for Lambert {
+    #[inline(always)]
+    fn shares<L: Lanes>(
+        &self,
+        lanes: L,
+        normal: [L::Number; 3],
+        to_light: [L::Number; 3],
+        _: [L::Number; 3],
+        _: L::Number,
+    ) -> [L::Number; 2] {
+        [lambert_lanes(lanes, normal, to_light), lanes.splat(0.0)]
+    }
+}
+
+/// Those that differ in the cosine only.
+macro_rules! with_highlight {
+    ($($name:ident: $cosine:ident;)+) => {$(
+        impl<E: Shininess> Reflectance for $name<E> {
+            #[inline(always)]
+            fn shares<L: Lanes>(
+                &self,
+                lanes: L,
+                normal: [L::Number; 3],
+                to_light: [L::Number; 3],
+                to_viewer: [L::Number; 3],
+                gloss: L::Number,
+            ) -> [L::Number; 2] {
+                let cosine = $cosine(lanes, normal, to_light, to_viewer);
+                let seen = lanes.less(lanes.splat(0.0), cosine);
+                let mirrored = lanes.select(seen, self.0.power(lanes, cosine, gloss), lanes.splat(0.0));
+                [lambert_lanes(lanes, normal, to_light), mirrored]
+            }
+        }
+    )+};
+}
+with_highlight! {
+    Phong: phong_cosine_lanes;
+    BlinnPhong: blinn_phong_cosine_lanes;
+}

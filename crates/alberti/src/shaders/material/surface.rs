@@ -1,0 +1,199 @@
+//! What is known of a surface at a fragment, and the layers that change it.
+
+use alberti_math::glam::{Vec2, Vec3};
+use alberti_math::lanes::Lanes;
+use alberti_math::{Point3, Varying, Vector3, World, varying};
+use alberti_raster::{Differentiation, Gradient, NoDerivatives};
+use alberti_texture::surface::unit_lanes;
+use core::fmt::Debug;
+
+/// What a vertex of a lit surface carries.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Placed {
+    /// In world space.
+    pub position: Vec3,
+    /// In world space, of any length.
+    pub normal: Vec3,
+    /// Texture coordinates.
+    pub uv: Vec2,
+}
+
+varying!(Placed { position: Vec3, normal: Vec3, uv: Vec2 });
+
+/// What a vertex carries where maps are relative to the tangent frame: bump, normal and parallax maps.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Framed {
+    /// In world space.
+    pub position: Vec3,
+    /// The directions of growing u and v, and the normal, in world space: unit vectors, which are interpolated as they
+    /// are.
+    pub axes: [Vec3; 3],
+    /// Texture coordinates.
+    pub uv: Vec2,
+}
+
+varying!(Framed { position: Vec3, axes: [Vec3; 3], uv: Vec2 });
+
+/// A varying with a place, a normal and texture coordinates: [`Placed`], [`Framed`], or one of yours.
+pub trait OnSurface: Varying {
+    /// The three of a bundle.
+    fn parts<N: Copy>(bundle: &Self::Of<N>) -> ([N; 3], [N; 3], [N; 2]);
+}
+
+/// An [`OnSurface`] with a tangent frame.
+pub trait Axes: OnSurface {
+    /// Its axes: the directions of u and v, and the normal.
+    fn axes<N: Copy>(bundle: &Self::Of<N>) -> [[N; 3]; 3];
+}
+
+impl OnSurface for Placed {
+    #[inline(always)]
+    fn parts<N: Copy>(bundle: &Self::Of<N>) -> ([N; 3], [N; 3], [N; 2]) {
+        *bundle
+    }
+}
+
+impl OnSurface for Framed {
+    #[inline(always)]
+    fn parts<N: Copy>(&(position, [_, _, normal], uv): &Self::Of<N>) -> ([N; 3], [N; 3], [N; 2]) {
+        (position, normal, uv)
+    }
+}
+
+impl Axes for Framed {
+    #[inline(always)]
+    fn axes<N: Copy>(&(_, axes, _): &Self::Of<N>) -> [[N; 3]; 3] {
+        axes
+    }
+}
+
+/// From where surfaces are seen: a point, or a direction if that is infinitely far.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Viewer {
+    place: Vec3,
+    /// 1 for a point, 0 for a direction.
+    weight: f32,
+}
+
+impl Viewer {
+    /// From a point: the camera of a perspective.
+    #[must_use]
+    pub const fn at(place: Point3<World>) -> Self {
+        Self { place: place.coords, weight: 1.0 }
+    }
+
+    /// From infinity, in a direction from the surface: that of a parallel projection.
+    #[must_use]
+    pub const fn towards(direction: Vector3<World>) -> Self {
+        Self { place: direction.coords, weight: 0.0 }
+    }
+
+    /// The unit vector from a position towards it; (0, 0, 1) where there is none.
+    #[inline(always)]
+    pub(super) fn direction<L: Lanes>(self, lanes: L, [x, y, z]: [L::Number; 3]) -> [L::Number; 3] {
+        let weight = lanes.splat(self.weight);
+        let [a, b, c] = self.place.to_array().map(|k| lanes.splat(k));
+        unit_lanes(lanes, [a - x * weight, b - y * weight, c - z * weight])
+    }
+}
+
+/// What is known of the surface at several fragments, which the layers change one after the other.
+#[derive(Clone, Copy, Debug)]
+pub struct Surface<L: Lanes> {
+    /// Texture coordinates at which maps are read.
+    pub uv: [L::Number; 2],
+    /// How fast these change from pixel to pixel.
+    pub gradient: Gradient<[L::Number; 2]>,
+    /// In world space.
+    pub position: [L::Number; 3],
+    /// The unit normal, in world space.
+    pub normal: [L::Number; 3],
+    /// The unit vector towards the viewer, in world space.
+    pub to_viewer: [L::Number; 3],
+    /// The share of each colour that is scattered: 1 to begin with.
+    pub diffuse: [L::Number; 3],
+    /// The share of each colour that is mirrored where lights are: 0 to begin with.
+    pub specular: [L::Number; 3],
+    /// How sharp that is, from 0 to 1: 1 to begin with. A [`Reflectance`](super::Reflectance) makes an exponent of it.
+    pub gloss: L::Number,
+    /// The share of the ambient light that arrives: 1 to begin with.
+    pub openness: L::Number,
+    /// Light that is added: 0 to begin with.
+    pub emission: [L::Number; 3],
+    /// The alpha that is stored, a byte: 255 to begin with.
+    pub alpha: L::U32,
+}
+
+impl<L: Lanes> Surface<L> {
+    /// White, and matt.
+    #[inline(always)]
+    pub(super) fn new<V: OnSurface>(
+        lanes: L,
+        varyings: &V::Of<L::Number>,
+        gradient: &Gradient<V::Of<L::Number>>,
+        viewer: Viewer,
+    ) -> Self {
+        let (position, normal, uv) = V::parts(varyings);
+        let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
+        Self {
+            uv,
+            gradient: gradient.map(|bundle| V::parts(&bundle).2),
+            position,
+            normal: unit_lanes(lanes, normal),
+            to_viewer: viewer.direction(lanes, position),
+            diffuse: [one; 3],
+            specular: [zero; 3],
+            gloss: one,
+            openness: one,
+            emission: [zero; 3],
+            alpha: lanes.word(255),
+        }
+    }
+}
+
+/// A part of a material, for vertices that carry `V`: it changes what is known of the surface.
+///
+/// Tuples of up to eight are layers, one after the other, and so is `()`, which changes nothing.
+pub trait Layer<V: OnSurface>: Copy + Debug {
+    /// What its maps need to know of neighbouring pixels.
+    type Derivatives: Differentiation;
+
+    /// Changes the surface.
+    fn apply<L: Lanes>(&self, lanes: L, varyings: &V::Of<L::Number>, surface: &mut Surface<L>);
+}
+
+impl<V: OnSurface> Layer<V> for () {
+    type Derivatives = NoDerivatives;
+
+    #[inline(always)]
+    fn apply<L: Lanes>(&self, _: L, _: &V::Of<L::Number>, _: &mut Surface<L>) {}
+}
+
+/// What several parts need to know of neighbouring pixels.
+macro_rules! together {
+    ($first:ident) => { $first::Derivatives };
+    ($first:ident $($rest:ident)+) => { <$first::Derivatives as Differentiation>::With<together!($($rest)+)> };
+}
+
+macro_rules! tuples {
+    ($($($name:ident $index:tt)+;)+) => {$(
+        impl<V: OnSurface, $($name: Layer<V>),+> Layer<V> for ($($name,)+) {
+            type Derivatives = together!($($name)+);
+
+            #[inline(always)]
+            fn apply<L: Lanes>(&self, lanes: L, varyings: &V::Of<L::Number>, surface: &mut Surface<L>) {
+                $(self.$index.apply(lanes, varyings, surface);)+
+            }
+        }
+    )+};
+}
+tuples! {
+    A 0;
+    A 0 B 1;
+    A 0 B 1 C 2;
+    A 0 B 1 C 2 D 3;
+    A 0 B 1 C 2 D 3 E 4;
+    A 0 B 1 C 2 D 3 E 4 F 5;
+    A 0 B 1 C 2 D 3 E 4 F 5 G 6;
+    A 0 B 1 C 2 D 3 E 4 F 5 G 6 H 7;
+}
