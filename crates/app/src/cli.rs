@@ -48,7 +48,7 @@ Examples:
   alberti render --scene floor --size 1920x1080 --stats json";
 
 /// The options of `alberti render`. Those that are absent are left to the model or the scene.
-#[derive(Clone, Debug, Args)]
+#[derive(Clone, Debug, Default, Args)]
 pub struct RenderArgs {
     /// Wavefront OBJ model to draw; materials and textures are found beside it.
     #[arg(value_name = "MODEL.obj")]
@@ -58,13 +58,13 @@ pub struct RenderArgs {
     #[arg(long, value_name = "NAME", conflicts_with = "model", value_parser = PossibleValuesParser::new(scenes::NAMES))]
     pub scene: Option<String>,
 
-    /// Image to write; the extension says the format: png, jpg, bmp or tga.
-    #[arg(short, long, value_name = "FILE", default_value = "alberti.png")]
-    pub output: PathBuf,
+    /// Image to write; the extension says the format: png, jpg, bmp or tga [default: alberti.png].
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
 
-    /// Width and height of the image in pixels, each up to 16384.
-    #[arg(long, value_name = "WxH", default_value = "640x480", allow_hyphen_values = true, value_parser = size)]
-    pub size: (u32, u32),
+    /// Width and height of the image in pixels, each up to 16384 [default: 640x480].
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = size)]
+    pub size: Option<(u32, u32)>,
 
     /// Colour behind the model, as hexadecimal sRGB [default: 20242c for a model].
     #[arg(long, value_name = "RRGGBB", allow_hyphen_values = true, value_parser = color)]

@@ -7,17 +7,25 @@ use std::path::Path;
 /// reports a repair.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Error {
-    place: Option<String>,
+    place: Option<Box<str>>,
     line: Option<usize>,
+    key: Option<Box<str>>,
     found: String,
     expected: String,
-    hint: Option<String>,
+    hint: Option<Box<str>>,
 }
 
 impl Error {
     /// `found …, expected …`: the parts that no message lacks.
     pub fn new(found: impl Into<String>, expected: impl Into<String>) -> Self {
-        Self { place: None, line: None, found: found.into(), expected: expected.into(), hint: None }
+        Self {
+            place: None,
+            line: None,
+            key: None,
+            found: found.into(),
+            expected: expected.into(),
+            hint: None,
+        }
     }
 
     /// The file it was found in.
@@ -28,7 +36,7 @@ impl Error {
 
     /// Where it was found, when that is not a file: the name of an option.
     #[must_use]
-    pub fn place(mut self, place: impl Into<String>) -> Self {
+    pub fn place(mut self, place: impl Into<Box<str>>) -> Self {
         self.place = Some(place.into());
         self
     }
@@ -40,9 +48,16 @@ impl Error {
         self
     }
 
+    /// What it is called in the file, where lines are not enough.
+    #[must_use]
+    pub fn key(mut self, key: impl Into<Box<str>>) -> Self {
+        self.key = Some(key.into());
+        self
+    }
+
     /// What to do about it, or what was done.
     #[must_use]
-    pub fn hint(mut self, hint: impl Into<String>) -> Self {
+    pub fn hint(mut self, hint: impl Into<Box<str>>) -> Self {
         self.hint = Some(hint.into());
         self
     }
@@ -86,6 +101,9 @@ impl fmt::Display for Error {
                 message.push_str(&format!(":{line}"));
             }
             message.push_str(": ");
+        }
+        if let Some(key) = &self.key {
+            message.push_str(&format!("{key}: "));
         }
         message.push_str(&format!("found {}, expected {}", self.found, self.expected));
         if let Some(hint) = &self.hint {
@@ -137,6 +155,8 @@ mod tests {
         let error = Error::new("a", "b").file(Path::new("x.obj")).line(3).hint("do c");
         assert_eq!(error.to_string(), "x.obj:3: found a, expected b; do c");
         assert_eq!(Error::new("a", "b").to_string(), "found a, expected b");
+        let error = error.key("c.d");
+        assert_eq!(error.to_string(), "x.obj:3: c.d: found a, expected b; do c");
     }
 
     #[test]

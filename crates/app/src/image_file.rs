@@ -3,11 +3,11 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
+use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 
 use crate::error::Error;
 use crate::input;
-use crate::scene::Image;
+use crate::scene::{HeightImage, Image};
 
 /// The longest side of a texture.
 pub const MAX_SIDE: u32 = 16384;
@@ -27,6 +27,33 @@ const KIND: &str = "a PNG, JPEG, BMP or TGA image";
 /// The file cannot be read, is not an image, is broken, or is too large. The size is taken from the header and
 /// checked before anything is decoded.
 pub fn load(path: &Path, budget: u64) -> Result<Image, Error> {
+    let picture = decode(path, budget)?.into_rgba8();
+    let (width, height) = picture.dimensions();
+    let texels = picture.pixels().map(|p| p.0).collect();
+    Ok(Image { width, height, texels })
+}
+
+/// Reads an image as heights: its grey, or the luminance of its colours. 16 bits stay as they are, 8 bits are widened
+/// so that white stays white.
+///
+/// # Errors
+/// As those of [`load`].
+pub fn load_heights(path: &Path, budget: u64) -> Result<HeightImage, Error> {
+    let picture = decode(path, budget)?;
+    let wide = matches!(
+        picture.color(),
+        ColorType::L16 | ColorType::La16 | ColorType::Rgb16 | ColorType::Rgba16 | ColorType::Rgb32F
+    );
+    let (width, height) = (picture.width(), picture.height());
+    let heights = if wide {
+        picture.into_luma16().into_raw()
+    } else {
+        picture.into_luma8().into_raw().into_iter().map(|byte| u16::from(byte) * 257).collect()
+    };
+    Ok(HeightImage { width, height, heights })
+}
+
+fn decode(path: &Path, budget: u64) -> Result<DynamicImage, Error> {
     let bytes = input::read(path, KIND, MAX_FILE_BYTES)?;
     let format = image::guess_format(&bytes).or_else(|_| ImageFormat::from_path(path));
     let format = format.ok().filter(ImageFormat::reading_enabled).ok_or_else(|| {
@@ -50,10 +77,7 @@ pub fn load(path: &Path, budget: u64) -> Result<Image, Error> {
     let orientation = decoder.orientation().map_err(|e| broken(path, &e))?;
     let mut picture = DynamicImage::from_decoder(decoder).map_err(|e| broken(path, &e))?;
     picture.apply_orientation(orientation);
-    let picture = picture.into_rgba8();
-    let (width, height) = picture.dimensions();
-    let texels = picture.pixels().map(|p| p.0).collect();
-    Ok(Image { width, height, texels })
+    Ok(picture)
 }
 
 fn too_large(found: String, budget: u64) -> Error {
@@ -96,6 +120,27 @@ mod tests {
         let path = file(&folder, "a.tga", &tga(1, 2, &[1, 2, 3, 4, 5, 6]));
         let image = load(&path, MAX_TEXELS).unwrap();
         assert_eq!(image, Image { width: 1, height: 2, texels: vec![[3, 2, 1, 255], [6, 5, 4, 255]] });
+    }
+
+    #[test]
+    fn heights_keep_their_bits() {
+        let folder = tempfile::tempdir().unwrap();
+        let deep = [0, 1, 255, 256, 257, 0x1234, 0x8001, 0xffff];
+        let grey = |values: [u16; 8]| image::ImageBuffer::from_raw(4, 2, values.to_vec()).unwrap();
+        let path = folder.path().join("deep.png");
+        DynamicImage::ImageLuma16(grey(deep)).save(&path).unwrap();
+        let found = load_heights(&path, MAX_TEXELS).unwrap();
+        assert_eq!((found.width, found.height, found.heights), (4, 2, deep.to_vec()));
+        let three = deep.into_iter().flat_map(|x| [x; 3]).collect();
+        let colors = image::ImageBuffer::from_raw(4, 2, three).unwrap();
+        DynamicImage::ImageRgb16(colors).save(&path).unwrap();
+        assert_eq!(load_heights(&path, MAX_TEXELS).unwrap().heights, deep);
+        // Blue, green, red; the first row at the top.
+        let path = file(&folder, "a.tga", &tga(1, 3, &[0, 0, 0, 7, 7, 7, 255, 255, 255]));
+        assert_eq!(load_heights(&path, MAX_TEXELS).unwrap().heights, [0, 7 * 257, 0xffff]);
+        let path = folder.path().join("a.jpg");
+        image::GrayImage::from_pixel(8, 8, image::Luma([100])).save(&path).unwrap();
+        assert_eq!(load_heights(&path, MAX_TEXELS).unwrap().heights, [100 * 257; 64]);
     }
 
     #[test]

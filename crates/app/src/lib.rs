@@ -17,7 +17,13 @@ pub mod scenes;
 pub mod slide;
 pub mod stats;
 
+mod displace;
+mod images;
+mod material;
 mod materials;
 mod mtl_check;
 mod obj_check;
+mod partners;
+mod prepare;
 mod progress;
+mod tangents;

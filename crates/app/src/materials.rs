@@ -1,13 +1,15 @@
 //! The materials of an OBJ model: its libraries, and the textures that they name.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Warnings, quote};
+use crate::images::Images;
+use crate::input;
+use crate::material::Material;
 use crate::mtl_check::{self, CheckedMtl};
 use crate::obj_check::{CheckedObj, Named};
-use crate::scene::Image;
-use crate::{image_file, input};
+use crate::scene::{Model, Part};
 
 /// The largest material library that is read, in bytes.
 const MAX_LIBRARY_BYTES: u64 = 1 << 26;
@@ -17,11 +19,7 @@ const MAX_LIBRARY_BYTES: u64 = 1 << 26;
 #[derive(Debug)]
 pub(crate) struct Materials {
     checked: CheckedMtl,
-    libraries: Vec<PathBuf>,
-    /// None for a file that has been warned of.
-    by_path: HashMap<PathBuf, Option<usize>>,
-    textures: Vec<Image>,
-    texels_left: u64,
+    images: Images,
 }
 
 impl Materials {
@@ -30,13 +28,7 @@ impl Materials {
     /// # Errors
     /// A `Kd` whose numbers are missing or are none.
     pub(crate) fn read(path: &Path, obj: &CheckedObj, warnings: &mut Warnings) -> Result<Self, Error> {
-        let mut materials = Self {
-            checked: CheckedMtl::default(),
-            libraries: Vec::new(),
-            by_path: HashMap::new(),
-            textures: Vec::new(),
-            texels_left: image_file::MAX_TEXELS,
-        };
+        let mut materials = Self { checked: CheckedMtl::default(), images: Images::new() };
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut complete = true;
         for named in &obj.libraries {
@@ -46,10 +38,8 @@ impl Materials {
                     Err(warning) => {
                         warnings.push(warning);
                         complete = false;
-                        continue;
                     }
                 }
-                materials.libraries.push(file);
             }
         }
         // Without a library each of its names would be unknown, which says nothing new.
@@ -64,39 +54,25 @@ impl Materials {
         &self.checked.texts
     }
 
-    /// The texture that a `map_Kd` of [`Self::texts`] means, as an index into what [`Self::into_textures`] gives.
-    pub(crate) fn texture(&mut self, map: &str, warnings: &mut Warnings) -> Option<usize> {
-        let map = self.checked.maps.get(map.parse::<usize>().ok()?)?;
-        let library = self.libraries.get(map.library)?;
-        let folder = library.parent().unwrap_or(Path::new(""));
-        let file = existing(folder, &map.name).unwrap_or_else(|| folder.join(&map.name));
-        if let Some(&known) = self.by_path.get(&file) {
-            return known;
+    /// Gives a part of a model of this radius all of the material with that index in [`Self::texts`] but its `Kd`.
+    /// What cannot be used becomes a warning.
+    pub(crate) fn apply(&mut self, index: &str, part: &mut Part, radius: f32, warnings: &mut Warnings) {
+        let material = index.parse().ok().and_then(|index: usize| self.checked.materials.get_mut(index));
+        let Some(material) = material else { return };
+        if let Some(warning) = normals_as_bump(material, &mut self.images) {
+            warnings.push(warning);
         }
-        let index = match image_file::load(&file, self.texels_left) {
-            Ok(texture) => {
-                self.texels_left = self.texels_left.saturating_sub(texture.texels.len() as u64);
-                self.textures.push(texture);
-                Some(self.textures.len() - 1)
-            }
-            Err(error) => {
-                let found = format!("a texture {} that cannot be used ({error})", quote(map.name.as_bytes()));
-                warnings.push(
-                    Error::new(found, "an image beside the library")
-                        .file(library)
-                        .line(map.line)
-                        .hint("the material's colour is used"),
-                );
-                None
-            }
+        let mut warn = |error: Error| {
+            warnings.push(error.hint("the surface goes without"));
+            Ok(())
         };
-        self.by_path.insert(file, index);
-        index
+        // Errors have become warnings.
+        let _ = material.apply(part, radius, &mut self.images, &mut warn);
     }
 
-    /// The textures read.
-    pub(crate) fn into_textures(self) -> Vec<Image> {
-        self.textures
+    /// Gives the model the images read.
+    pub(crate) fn give_images(self, model: &mut Model) {
+        self.images.give(model);
     }
 
     fn look_up(&self, path: &Path, obj: &CheckedObj, warnings: &mut Warnings) {
@@ -115,6 +91,22 @@ impl Materials {
             );
         }
     }
+}
+
+/// Exporters write normal maps into `bump` as well. They are used as what they are.
+fn normals_as_bump(material: &mut Material, images: &mut Images) -> Option<Error> {
+    let map = material.height_map.as_ref().filter(|_| material.normal_map.is_none())?;
+    // What is wrong with the file is told when it is used.
+    let index = images.texture(map).ok().flatten()?;
+    if !images.looks_like_normals(index) {
+        return None;
+    }
+    let origin = map.origin.clone()?;
+    material.normal_map = material.height_map.take();
+    material.normal_strength = material.height_scale.map(|scale| scale.clamp(0.0, 100.0));
+    let found = format!("normals in {} of `bump`", quote(origin.text.as_bytes()));
+    let warning = Error::new(found, "heights").file(&origin.file).line(origin.line);
+    Some(warning.hint("they are used as `norm` has them"))
 }
 
 /// The library that `obj` names.
@@ -141,7 +133,7 @@ fn files_of(folder: &Path, named: &Named) -> Vec<PathBuf> {
 }
 
 /// The file of that name in the folder. Files written on Windows may have `\` between folders.
-fn existing(folder: &Path, name: &str) -> Option<PathBuf> {
+pub(crate) fn existing(folder: &Path, name: &str) -> Option<PathBuf> {
     let as_is = folder.join(name);
     let with_slashes = || folder.join(name.replace('\\', "/"));
     if name.is_empty() {

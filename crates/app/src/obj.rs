@@ -12,7 +12,7 @@ use crate::error::{Error, Warnings};
 use crate::materials::Materials;
 use crate::obj_check::{self, CheckedObj};
 use crate::scene::{Model, Part, Vertex};
-use crate::{input, normals};
+use crate::{camera, input, mtl_check, normals};
 
 /// The diffuse colour of a part without a material.
 pub const DEFAULT_DIFFUSE: [f32; 3] = [0.8; 3];
@@ -52,18 +52,20 @@ pub fn load(path: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<Loaded, E
     .map_err(|e| e.file(path))?;
 
     let mut model = Model { source: Some(path.to_owned()), ..Model::default() };
-    for object in &objects {
+    let mut indices = Vec::new();
+    for object in objects.iter().filter(|object| !object.mesh.indices.is_empty()) {
         let material = object.mesh.material_id.and_then(|id| found.get(id));
-        let texture = material.and_then(|m| m.diffuse_texture.as_deref());
-        add_part(
-            &mut model,
-            object,
-            material.and_then(|m| m.diffuse).unwrap_or(DEFAULT_DIFFUSE),
-            texture.and_then(|map| materials.texture(map, &mut warnings)),
-        )
-        .map_err(|e| e.file(path))?;
+        let diffuse = material.and_then(|m| m.diffuse).unwrap_or(DEFAULT_DIFFUSE);
+        add_part(&mut model, object, diffuse).map_err(|e| e.file(path))?;
+        indices.push(material.and_then(|m| m.unknown_param.get(mtl_check::INDEX)));
     }
-    model.textures = materials.into_textures();
+    let radius = normals::narrow(camera::bounding_sphere(&model).radius);
+    for (part, index) in model.parts.iter_mut().zip(indices) {
+        if let Some(index) = index {
+            materials.apply(index, part, radius, &mut warnings);
+        }
+    }
+    materials.give_images(&mut model);
     normals::complete(&mut model);
     Ok(Loaded { model, warnings, has_uv: checked.corners_with_uv > 0 })
 }
@@ -94,17 +96,9 @@ fn read(
     Ok((objects, found.map_err(refused)?))
 }
 
-/// Appends the triangles of an object. One without triangles leaves no part.
-fn add_part(
-    model: &mut Model,
-    object: &tobj::Model,
-    diffuse: [f32; 3],
-    texture: Option<usize>,
-) -> Result<(), Error> {
+/// Appends the triangles of an object.
+fn add_part(model: &mut Model, object: &tobj::Model, diffuse: [f32; 3]) -> Result<(), Error> {
     let mesh = &object.mesh;
-    if mesh.indices.is_empty() {
-        return Ok(());
-    }
     // The check gave each vertex all attributes, so these run in step.
     let attributes = triples(&mesh.positions)
         .zip(triples(&mesh.normals))
@@ -125,7 +119,6 @@ fn add_part(
         name: object.name.clone(),
         triangles: mesh.indices.chunks_exact(3).map(|t| [first + t[0], first + t[1], first + t[2]]).collect(),
         diffuse: diffuse.map(|c| c.clamp(0.0, 1.0)),
-        texture,
         ..Part::default()
     });
     Ok(())

@@ -2,14 +2,17 @@
 
 use std::ffi::OsString;
 use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::error::{ContextKind, ErrorKind};
 use clap::{CommandFactory as _, Parser as _};
 
 use crate::camera::{self, Wishes};
-use crate::cli::{self, Cli, Command, RenderArgs, StatsFormat};
+use crate::cli::{self, Cli, Command, MaterialArgs, RenderArgs, StatsFormat};
 use crate::error::{Error, Warnings, number, quote};
+use crate::images::{Images, MapFile};
+use crate::material::Material;
 use crate::options::{
     Cull, DEFAULT_BACKGROUND, DepthFormat, Filter, Interpolation, Policies, Profile, Projection,
     RenderOptions, Shading, Wrap,
@@ -19,7 +22,13 @@ use crate::progress::Progress;
 use crate::render::render;
 use crate::scene::{Camera, Model};
 use crate::stats::{Report, Source, Times};
-use crate::{image_file, obj, scenes, slide};
+use crate::{obj, partners, prepare, scenes, slide};
+
+/// The picture's file, unless the user names one.
+const DEFAULT_OUTPUT: &str = "alberti.png";
+
+/// Its width and height, unless the user does.
+const DEFAULT_SIZE: (u32, u32) = (640, 480);
 
 /// The exit status for whatever the user can mend.
 pub const FAILURE: u8 = 2;
@@ -80,9 +89,9 @@ struct Scene {
 fn draw(arguments: &RenderArgs) -> Result<(), Error> {
     let (policies, depth) = choices(arguments);
     policies.check()?;
-    check_partners(arguments)?;
-    let output = Output::new(&arguments.output)?;
-    for input in arguments.model.iter().chain(&arguments.texture).chain(&arguments.projector) {
+    partners::check(arguments)?;
+    let output = Output::new(arguments.output.as_deref().unwrap_or(Path::new(DEFAULT_OUTPUT)))?;
+    for input in inputs(arguments) {
         if output.is(input) {
             let found = "a file that is also read";
             return Err(Error::new(found, "another").file(output.name()).hint("choose another with -o"));
@@ -90,11 +99,11 @@ fn draw(arguments: &RenderArgs) -> Result<(), Error> {
     }
     let start = Instant::now();
     let mut scene = load(arguments)?;
-    put_texture(arguments, &mut scene)?;
+    put_materials(arguments, &mut scene)?;
     scene.model.slide = slide::load(arguments)?;
     let load = start.elapsed();
 
-    let (width, height) = arguments.size;
+    let (width, height) = arguments.size.unwrap_or(DEFAULT_SIZE);
     let RenderArgs { eye, target, up, fov, near, far, .. } = *arguments;
     let parallel = arguments.projection == Some(cli::Projection::Parallel);
     let wishes = Wishes { eye, target, up, fov, near, far, parallel };
@@ -141,7 +150,7 @@ fn draw(arguments: &RenderArgs) -> Result<(), Error> {
         Some(path) => Source::Model(path),
         None => Source::Scene(name_of(arguments)),
     };
-    let report = Report { output: output.name(), source, size: arguments.size, stats: picture.stats, times };
+    let report = Report { output: output.name(), source, size: (width, height), stats: picture.stats, times };
     print(&match arguments.stats {
         None => format!("{}\n", report.summary()),
         Some(StatsFormat::Text) => format!("{}\n{}", report.summary(), report.text()),
@@ -197,47 +206,53 @@ fn load(arguments: &RenderArgs) -> Result<Scene, Error> {
     })
 }
 
-/// `--texture` replaces every texture of the model, and is shown as it is, whatever the materials' colours.
-fn put_texture(arguments: &RenderArgs, scene: &mut Scene) -> Result<(), Error> {
-    let Some(path) = &arguments.texture else {
-        return Ok(());
-    };
-    let texture = image_file::load(path, image_file::MAX_TEXELS)?;
-    if !scene.has_uv {
+/// `--texture` and the options of materials replace what all materials say. A texture is shown as it is, whatever the
+/// materials' colours.
+fn put_materials(arguments: &RenderArgs, scene: &mut Scene) -> Result<(), Error> {
+    let mut images = Images::new();
+    images.adopt(&mut scene.model);
+    let mut material = Material::given(&arguments.material);
+    if let Some(path) = &arguments.texture {
+        material.color_map = Some(MapFile::given(path));
+        material.color = Some([1.0; 3]);
+    }
+    prepare::replace_materials(&mut scene.model, &material, &mut images)?;
+    if let Some(option) = mapped(arguments)
+        && !scene.has_uv
+    {
         let found = "a model without texture coordinates (`vt` lines)";
-        let error = Error::new(found, "some for the texture").place("--texture");
+        let error = Error::new(found, "some for the texture").place(option);
         warn(&error.hint("every surface gets one texel's colour").to_string());
     }
-    scene.model.textures = vec![texture];
-    for part in &mut scene.model.parts {
-        part.texture = Some(0);
-        part.diffuse = [1.0; 3];
-    }
+    let mut warnings = Warnings::default();
+    let wrap = arguments.wrap.unwrap_or(scene.defaults.2);
+    prepare::complete(&mut scene.model, &images, wrap, &mut warnings);
+    warn_all(&warnings);
+    images.give(&mut scene.model);
     Ok(())
 }
 
-/// An option that does nothing without another is a mistake.
-fn check_partners(arguments: &RenderArgs) -> Result<(), Error> {
-    let RenderArgs { projector, projector_eye, projector_target, projector_fov, .. } = arguments;
-    let together = [
-        ("--projector", projector.is_some()),
-        ("--projector-eye", projector_eye.is_some()),
-        ("--projector-target", projector_target.is_some()),
+/// The first option that puts an image on surfaces.
+fn mapped(arguments: &RenderArgs) -> Option<&'static str> {
+    let MaterialArgs { normal_map, height_map, ao, shininess_map, wetness_map, .. } = &arguments.material;
+    let maps = [
+        ("--texture", &arguments.texture),
+        ("--normal-map", normal_map),
+        ("--height-map", height_map),
+        ("--ao", ao),
+        ("--shininess-map", shininess_map),
+        ("--wetness-map", wetness_map),
     ];
-    let names = |with: bool| together.into_iter().filter(move |o| o.1 == with).map(|o| o.0);
-    let missing = names(false).collect::<Vec<_>>().join(" and ");
-    let given = names(true).next().or(projector_fov.map(|_| "--projector-fov"));
-    if let Some(option) = given
-        && !missing.is_empty()
-    {
-        let expected = format!("all three of {}", together.map(|o| o.0).join(", "));
-        return Err(Error::new(format!("it without {missing}"), expected).place(option));
-    }
-    if arguments.view_height.is_some() && arguments.projection != Some(cli::Projection::Parallel) {
-        let error = Error::new("it without --projection parallel", "both, or neither");
-        return Err(error.place("--view-height"));
-    }
-    Ok(())
+    maps.into_iter().find(|(_, map)| map.is_some()).map(|(option, _)| option)
+}
+
+/// All files that are read, as far as the command line names them.
+fn inputs(arguments: &RenderArgs) -> impl Iterator<Item = &PathBuf> {
+    let MaterialArgs { normal_map, height_map, ao, shininess_map, wetness_map, environment, .. } =
+        &arguments.material;
+    let RenderArgs { model, texture, projector, .. } = arguments;
+    let maps = [normal_map, height_map, ao, shininess_map, wetness_map, environment];
+    maps.into_iter().chain([model, texture, projector]).flatten()
 }
 
 /// The projection that was asked for; a parallel one shows as much as the perspective one does around its target.

@@ -37,9 +37,12 @@ pub(super) fn shininess(text: &str) -> Result<[f32; 2], String> {
 /// See [`is_shininess`].
 pub(crate) const SHININESS: &str = "a number from 0 to 100000, or a least and a greatest";
 
+/// The greatest exponent of a highlight.
+pub(crate) const MAX_SHININESS: f32 = 100_000.0;
+
 /// Whether these are exponents of a highlight.
 pub(crate) fn is_shininess([least, greatest]: &[f32; 2]) -> bool {
-    least <= greatest && *least >= 0.0 && *greatest <= 1e5
+    least <= greatest && *least >= 0.0 && *greatest <= MAX_SHININESS
 }
 
 /// From 0 to 1.

@@ -86,6 +86,21 @@ impl Detail {
         self.normal.is_some_and(|normal| normal.space == NormalSpace::Tangent)
             || self.height.is_some_and(|height| height.relief != Relief::Displacement)
     }
+
+    /// The indices of all textures but the surface's own.
+    pub(crate) fn images_mut(&mut self) -> impl Iterator<Item = &mut usize> {
+        let maps = [
+            self.normal.as_mut().map(|normal| &mut normal.map),
+            self.occlusion.as_mut(),
+            self.wetness_map.as_mut(),
+            self.specular_map.as_mut(),
+            self.shininess_map.as_mut(),
+            self.emissive_map.as_mut(),
+            self.reflection_map.as_mut(),
+        ];
+        let environment = self.environment.as_mut().map(|environment| &mut environment.image);
+        maps.into_iter().flatten().map(|map| &mut map.image).chain(environment)
+    }
 }
 
 /// A normal in each texel.
@@ -97,6 +112,14 @@ pub struct NormalMap {
     pub space: NormalSpace,
     /// How steep: 0 makes the surface smooth, 1 leaves the map as it is.
     pub strength: f32,
+    /// The object's x, y and z in the model's space, for [`NormalSpace::Object`]: other than
+    /// [`UNTURNED`](Self::UNTURNED) where a scene has turned it.
+    pub axes: [[f32; 3]; 3],
+}
+
+impl NormalMap {
+    /// The axes of an object that stands as it was made.
+    pub const UNTURNED: [[f32; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 }
 
 /// Between which axes a map's normals are.

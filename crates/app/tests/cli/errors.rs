@@ -184,6 +184,37 @@ fn sizes_and_colours_that_are_none() {
 }
 
 #[test]
+fn options_of_materials_that_are_none() {
+    let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes())]);
+    for (arguments, part) in [
+        ("--filter cubic", "error: --filter: found \"cubic\", expected nearest, bilinear, trilinear or"),
+        ("--filter anisotropic:3", "expected nearest, bilinear, trilinear or anisotropic:N with N = 2, 4, 8"),
+        (
+            "--normal-space object",
+            "error: --normal-space: found it without --normal-map, expected both, or neither",
+        ),
+        ("--normal-strength 2", "error: --normal-strength: found it without --normal-map"),
+        ("--relief steep", "error: --relief: found it without --height-map"),
+        ("--height-range 0,1", "error: --height-range: found it without --height-map"),
+        ("--environment-kind cube", "error: --environment-kind: found it without --environment"),
+        ("--reflection 1", "error: --reflection: found it without --environment"),
+        ("--reflection 2", "error: --reflection: found \"2\", expected a number from 0 to 1"),
+        ("--height-range 1", "error: --height-range: found \"1\", expected two finite numbers LO,HI"),
+        ("--normal-strength -1", "error: --normal-strength: found \"-1\", expected a number from 0 to 100"),
+        (
+            "--shininess 9,8",
+            "error: --shininess: found \"9,8\", expected a number from 0 to 100000, or a least",
+        ),
+        ("--specular red", "error: --specular: found \"red\", expected six hexadecimal digits"),
+        ("--normal-map no.png", "error: no.png: found no such file"),
+        ("--height-map m.obj", "error: m.obj: found a file of another format"),
+    ] {
+        let arguments: Vec<_> = "m.obj -o out.png".split(' ').chain(arguments.split(' ')).collect();
+        folder.fails(&arguments, &[part]);
+    }
+}
+
+#[test]
 fn outputs_that_cannot_be_written() {
     let folder = Folder::with(&[("file", b""), ("m.obj", b"broken"), ("t.png", b"")]);
     fs::create_dir(folder.path("d.png")).expect("a folder");
@@ -213,7 +244,7 @@ fn a_failure_leaves_the_old_picture() {
 fn usage_errors_have_the_same_status() {
     let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes())]);
     for arguments in
-        ["--no-such-option", "m.obj --scene hero", "--scene nowhere", "--filter cubic", "a.obj b.obj"]
+        ["--no-such-option", "m.obj --scene hero", "--scene nowhere", "--wrap round", "a.obj b.obj"]
     {
         let arguments: Vec<_> = arguments.split(' ').collect();
         let run = folder.render(&arguments);

@@ -48,9 +48,11 @@ fn the_extension_says_the_format() {
 fn every_choice_is_accepted() {
     let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes())]);
     for (option, values) in [
-        ("--filter", &["nearest", "bilinear"][..]),
+        ("--filter", &["nearest", "bilinear", "trilinear", "anisotropic:8"][..]),
         ("--wrap", &["repeat", "clamp", "mirror"]),
-        ("--shading", &["unlit", "vertex-color", "lambert"]),
+        ("--shading", &["unlit", "vertex-color", "lambert", "gouraud", "phong", "blinn"]),
+        ("--specular", &["ff8000"]),
+        ("--shininess", &["0", "8,64"]),
         ("--cull", &["back", "front", "none"]),
         ("--depth", &["f32", "f32-reversed", "u32", "u24", "u16", "none"]),
         ("--background", &["ff0000", "#00FF00"]),

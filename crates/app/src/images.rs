@@ -1,0 +1,176 @@
+//! The images of a model, each file read once.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use crate::error::{Error, quote};
+use crate::image_file;
+use crate::options::{Filter, Wrap};
+use crate::scene::{HeightImage, Image, Model};
+
+/// An image that a material names.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct MapFile {
+    /// Where it is.
+    pub(crate) path: PathBuf,
+    /// Where it is named; `None` on the command line.
+    pub(crate) origin: Option<Origin>,
+    /// How it is read, if that is said.
+    pub(crate) filter: Option<Filter>,
+    /// How it continues, if that is said.
+    pub(crate) wrap: Option<Wrap>,
+}
+
+impl MapFile {
+    /// A file that the command line names.
+    pub(crate) fn given(path: &Path) -> Self {
+        Self { path: path.to_owned(), ..Self::default() }
+    }
+}
+
+/// A place in a file of text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Origin {
+    pub(crate) file: PathBuf,
+    pub(crate) line: usize,
+    /// What it is called there, if lines are not enough.
+    pub(crate) key: Option<String>,
+    /// What stands there.
+    pub(crate) text: String,
+}
+
+/// Images read so far. `None` is a file of which an error has been told.
+#[derive(Debug)]
+pub(crate) struct Images {
+    textures: Vec<Image>,
+    heights: Vec<HeightImage>,
+    texture_at: HashMap<PathBuf, Option<usize>>,
+    heights_at: HashMap<PathBuf, Option<usize>>,
+    texels_left: u64,
+}
+
+impl Images {
+    /// None yet.
+    pub(crate) fn new() -> Self {
+        Self {
+            textures: Vec::new(),
+            heights: Vec::new(),
+            texture_at: HashMap::new(),
+            heights_at: HashMap::new(),
+            texels_left: image_file::MAX_TEXELS,
+        }
+    }
+
+    /// The index of a texture; `None` where an error has been told before.
+    ///
+    /// # Errors
+    /// The file cannot be read, or is no image.
+    pub(crate) fn texture(&mut self, map: &MapFile) -> Result<Option<usize>, Error> {
+        if let Some(&known) = self.texture_at.get(&map.path) {
+            return Ok(known);
+        }
+        let image = image_file::load(&map.path, self.texels_left);
+        let index = image.map(|image| {
+            self.texels_left = self.texels_left.saturating_sub(image.texels.len() as u64);
+            self.textures.push(image);
+            self.textures.len() - 1
+        });
+        self.texture_at.insert(map.path.clone(), index.as_ref().ok().copied());
+        index.map(Some).map_err(|error| unusable(map, error))
+    }
+
+    /// The index of a height image; `None` where an error has been told before.
+    ///
+    /// # Errors
+    /// The file cannot be read, or is no image.
+    pub(crate) fn heights(&mut self, map: &MapFile) -> Result<Option<usize>, Error> {
+        if let Some(&known) = self.heights_at.get(&map.path) {
+            return Ok(known);
+        }
+        let image = image_file::load_heights(&map.path, self.texels_left);
+        let index = image.map(|image| {
+            self.texels_left = self.texels_left.saturating_sub(image.heights.len() as u64);
+            self.heights.push(image);
+            self.heights.len() - 1
+        });
+        self.heights_at.insert(map.path.clone(), index.as_ref().ok().copied());
+        index.map(Some).map_err(|error| unusable(map, error))
+    }
+
+    /// Heights that have been read.
+    pub(crate) fn height_image(&self, index: usize) -> Option<&HeightImage> {
+        self.heights.get(index)
+    }
+
+    /// Whether a texture is blue all over, as normals in tangent space are and heights are not.
+    pub(crate) fn looks_like_normals(&self, index: usize) -> bool {
+        let Some(image) = self.textures.get(index) else { return false };
+        let sums = image.texels.iter().fold([0_u64; 3], |[r, g, b], &[x, y, z, _]| {
+            [r + u64::from(x), g + u64::from(y), b + u64::from(z)]
+        });
+        let count = image.texels.len() as u64;
+        // Means as of bytes: blue above 0.8, red and green within 0.1 of 0.5.
+        let [red, green, blue] = sums.map(|sum| sum / count.max(1));
+        blue > 204 && (102..=153).contains(&red) && (102..=153).contains(&green)
+    }
+
+    /// Takes over the images of a model, whose parts are told their new indices.
+    pub(crate) fn adopt(&mut self, model: &mut Model) {
+        let (textures, heights) = (self.textures.len(), self.heights.len());
+        for part in &mut model.parts {
+            part.texture.iter_mut().chain(part.detail.images_mut()).for_each(|index| *index += textures);
+            part.detail.height.iter_mut().for_each(|height| height.heights += heights);
+        }
+        let texels: u64 = model.textures.iter().map(|image| image.texels.len() as u64).sum();
+        self.texels_left = self.texels_left.saturating_sub(texels);
+        self.textures.append(&mut model.textures);
+        self.heights.append(&mut model.heights);
+    }
+
+    /// Gives a model the images that its parts name, and drops the others.
+    pub(crate) fn give(self, model: &mut Model) {
+        let mut textures = Renumbered::new(self.textures);
+        let mut heights = Renumbered::new(self.heights);
+        for part in &mut model.parts {
+            part.texture
+                .iter_mut()
+                .chain(part.detail.images_mut())
+                .for_each(|index| textures.renumber(index));
+            part.detail.height.iter_mut().for_each(|height| heights.renumber(&mut height.heights));
+        }
+        (model.textures, model.heights) = (textures.used, heights.used);
+    }
+}
+
+/// Images in the order in which they are named.
+struct Renumbered<T> {
+    all: Vec<Option<T>>,
+    index: Vec<usize>,
+    used: Vec<T>,
+}
+
+impl<T> Renumbered<T> {
+    fn new(all: Vec<T>) -> Self {
+        let index = vec![0; all.len()];
+        Self { all: all.into_iter().map(Some).collect(), index, used: Vec::new() }
+    }
+
+    fn renumber(&mut self, index: &mut usize) {
+        if let Some(image) = self.all[*index].take() {
+            self.index[*index] = self.used.len();
+            self.used.push(image);
+        }
+        *index = self.index[*index];
+    }
+}
+
+/// Where a file names an image, the message names that file and line, and what is wrong with the image.
+fn unusable(map: &MapFile, error: Error) -> Error {
+    let Some(origin) = &map.origin else { return error };
+    let found = format!("a texture {} that cannot be used ({error})", quote(origin.text.as_bytes()));
+    let error = Error::new(found, "an image").file(&origin.file).line(origin.line);
+    match &origin.key {
+        Some(key) => error.key(key.as_str()),
+        None => error,
+    }
+}

@@ -1,0 +1,65 @@
+//! Options that mean nothing without others.
+
+use crate::cli::{Projection, RenderArgs};
+use crate::error::Error;
+
+/// An option that does nothing without another is a mistake.
+///
+/// # Errors
+/// There is one.
+pub(crate) fn check(arguments: &RenderArgs) -> Result<(), Error> {
+    let RenderArgs { projector, projector_eye, projector_target, projector_fov, .. } = arguments;
+    let together = [
+        ("--projector", projector.is_some()),
+        ("--projector-eye", projector_eye.is_some()),
+        ("--projector-target", projector_target.is_some()),
+    ];
+    let names = |with: bool| together.into_iter().filter(move |o| o.1 == with).map(|o| o.0);
+    let missing = names(false).collect::<Vec<_>>().join(" and ");
+    let given = names(true).next().or(projector_fov.map(|_| "--projector-fov"));
+    if let Some(option) = given
+        && !missing.is_empty()
+    {
+        let expected = format!("all three of {}", together.map(|o| o.0).join(", "));
+        return Err(Error::new(format!("it without {missing}"), expected).place(option));
+    }
+    let material = &arguments.material;
+    let with_map = |map: bool, name: &'static str, options: &[(&'static str, bool)]| {
+        let given = options.iter().filter(|(_, given)| *given && !map);
+        given.map(|&(option, _)| (option, name)).next()
+    };
+    let lonely = [
+        with_map(
+            arguments.projection == Some(Projection::Parallel),
+            "--projection parallel",
+            &[("--view-height", arguments.view_height.is_some())],
+        ),
+        with_map(
+            material.normal_map.is_some(),
+            "--normal-map",
+            &[
+                ("--normal-space", material.normal_space.is_some()),
+                ("--normal-strength", material.normal_strength.is_some()),
+            ],
+        ),
+        with_map(
+            material.height_map.is_some(),
+            "--height-map",
+            &[("--relief", material.relief.is_some()), ("--height-range", material.height_range.is_some())],
+        ),
+        with_map(
+            material.environment.is_some(),
+            "--environment",
+            &[
+                ("--environment-kind", material.environment_kind.is_some()),
+                ("--reflection", material.reflection.is_some()),
+            ],
+        ),
+    ];
+    match lonely.into_iter().flatten().next() {
+        Some((option, partner)) => {
+            Err(Error::new(format!("it without {partner}"), "both, or neither").place(option))
+        }
+        None => Ok(()),
+    }
+}

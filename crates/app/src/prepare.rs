@@ -1,0 +1,37 @@
+//! From a model as it was loaded, with what is said of its materials, to one that can be drawn.
+
+use crate::camera;
+use crate::error::{Error, Warnings};
+use crate::images::Images;
+use crate::material::Material;
+use crate::normals::narrow;
+use crate::options::Wrap;
+use crate::scene::{Model, Relief};
+use crate::{displace, tangents};
+
+/// Gives all parts of a model what is said of its material.
+///
+/// # Errors
+/// An image cannot be used.
+pub(crate) fn replace_materials(
+    model: &mut Model,
+    material: &Material,
+    images: &mut Images,
+) -> Result<(), Error> {
+    let radius = narrow(camera::bounding_sphere(model).radius);
+    model.parts.iter_mut().try_for_each(|part| material.apply(part, radius, images, &mut Err))
+}
+
+/// Moves the vertices where a height map says so, and completes what maps need: the lengths of the textures' sides on
+/// the surface, and tangents. `wrap` is how heights continue where their map does not say.
+pub(crate) fn complete(model: &mut Model, images: &Images, wrap: Wrap, warnings: &mut Warnings) {
+    for part in &mut model.parts {
+        let extent = tangents::extent(&model.vertices, part);
+        part.detail.height.iter_mut().for_each(|height| height.extent = extent);
+    }
+    let displaced = |height: &crate::scene::HeightMap| height.relief == Relief::Displacement;
+    if model.parts.iter().any(|part| part.detail.height.as_ref().is_some_and(displaced)) {
+        displace::displace(model, images, wrap, warnings);
+    }
+    tangents::complete(model);
+}
