@@ -9,7 +9,6 @@
 //! | [`Stored`] | `Vec2` | the same, in the texture's own format |
 //! | [`Tinted`] | the wrapped stage's | the wrapped stage's times a colour |
 //! | [`Lambert`] | `(Vec3, V)`: a normal and the wrapped stage's | the wrapped stage's, lit |
-//! | [`Gouraud`] | `(Vec3, (Vec3, V))`: two lights and the wrapped stage's | the wrapped stage's, lit |
 //! | [`Slide`] | `(Homogeneous, V)`: a place on an image and the wrapped stage's | the wrapped stage's, the image on it |
 //!
 //! [`material`] has stages that are composed of maps and lights.
@@ -17,7 +16,6 @@
 //! All arithmetic is on sRGB bytes, as they are stored.
 
 mod color;
-mod gouraud;
 mod lambert;
 pub mod material;
 mod slide;
@@ -25,7 +23,6 @@ mod texture;
 mod tinted;
 
 pub use color::{Ready565, Solid, VertexColor, VertexColor565};
-pub use gouraud::Gouraud;
 pub use lambert::{Lambert, face_normal};
 pub use slide::{Add, Mix, Modulate, Slide};
 pub use texture::{Differentiated, Stored, Unlit};

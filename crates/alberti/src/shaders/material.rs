@@ -5,7 +5,7 @@
 //! fragment:  where to look      Parallax                  layers, in the order in which they are given,
 //!            which way it faces Bump, NormalMap, ...      each of which changes what is known of the Surface
 //!            what it is         Color, Specular, Gloss, Wetness, Occlusion, Emission, Reflection
-//!            what is seen       Lighting: lights, a reflectance, the viewer
+//!            what is seen       Lighting: lights, a reflectance, the viewer; or what was found at the vertices
 //! ```
 //!
 //! A [`Material`] is compiled for its layers: one that is absent is no code. Everything is wide, and the same at every
@@ -45,17 +45,17 @@ mod vector;
 
 pub use layers::{Color, Emission, Gloss, Occlusion, Specular, Tint, Wetness};
 pub use light::{Directional, Light, PointLight, SpotLight};
-pub use map::Map;
+pub use map::{Map, Times};
 pub use reflectance::{BlinnPhong, Lambert, Phong, Reflectance, Shininess};
-pub use surface::{Axes, Framed, Layer, OnSurface, Placed, Surface, Viewer};
+pub use surface::{Axes, Framed, Layer, OnSurface, Placed, Surface, Textured, Viewer};
 
-use super::{alone, pack};
+use super::alone;
 use alberti_math::glam::Vec3;
 use alberti_math::lanes::{Lanes, One};
 use alberti_math::{Point3, Rgba8, Vector3, World};
 use alberti_raster::{FragmentStage, Gradient};
 use alberti_texture::surface::unit_lanes;
-use vector::{by, plus, splat, times};
+use vector::{plus, splat, times};
 
 /// A surface of layers under lights, fragment by fragment.
 ///
@@ -96,7 +96,8 @@ where
         gradient: &Gradient<V::Of<L::Number>>,
         mask: L::Mask,
     ) -> (L::U32, L::Mask) {
-        let mut surface = Surface::new::<V>(lanes, varyings, gradient, self.lighting.viewer);
+        let surface = Surface::new::<V>(lanes, varyings, gradient);
+        let mut surface = surface.placed::<V>(lanes, varyings, self.lighting.viewer);
         self.layers.apply(lanes, varyings, &mut surface);
         (self.lighting.color(lanes, &surface), mask)
     }
@@ -125,7 +126,7 @@ pub struct Lighting<Ls, R> {
 
 impl<Ls: Light, R: Reflectance> Lighting<Ls, R> {
     /// The light that a place scatters and mirrors towards the viewer, for white diffuse and specular colours: for
-    /// lighting by vertex, whose results [`Gouraud`](super::Gouraud) takes.
+    /// lighting by vertex, whose results [`Gouraud`] takes.
     ///
     /// Both are finite if position and normal are.
     ///
@@ -167,9 +168,50 @@ impl<Ls: Light, R: Reflectance> Lighting<Ls, R> {
     fn color<L: Lanes>(&self, lanes: L, surface: &Surface<L>) -> L::U32 {
         let Surface { position, normal, to_viewer, gloss, .. } = *surface;
         let [scattered, mirrored] = self.shine(lanes, position, normal, to_viewer, gloss);
-        let scattered = plus(scattered, times(splat(lanes, self.ambient), surface.openness));
-        let seen = plus(by(surface.diffuse, scattered), by(surface.specular, mirrored));
-        let [r, g, b] = times(plus(surface.emission, seen), lanes.splat(255.0));
-        pack(lanes, [lanes.nearest_byte(r), lanes.nearest_byte(g), lanes.nearest_byte(b), surface.alpha])
+        let ambient = times(splat(lanes, self.ambient), surface.openness);
+        surface.seen(lanes, plus(scattered, ambient), mirrored)
+    }
+}
+
+/// A surface of layers under lights that were found at the vertices and are interpolated.
+///
+/// The varying is (scattered, (mirrored, the layers')): the two that [`Lighting::at_vertex`] gives. With a bare `Vec2`
+/// for the layers, nothing else is carried.
+///
+/// Source: Gouraud, "Continuous shading of curved surfaces", IEEE Transactions on Computers 20 (1971).
+///
+/// # Precision
+/// Each channel is rounded once. Highlights smaller than triangles are lost, or flicker as their vertices turn;
+/// [`Material`] lights each fragment. Occlusion, which is for ambient light alone, and a bent normal change nothing.
+///
+/// # Cost
+/// The layers', six components to interpolate, and four operations a channel; no root and no division.
+#[derive(Clone, Copy, Debug)]
+pub struct Gouraud<M> {
+    /// What it is made of: a [`Layer`], or a tuple of layers.
+    pub layers: M,
+}
+
+impl<V: Textured, M: Layer<V>> FragmentStage<(Vec3, (Vec3, V))> for Gouraud<M> {
+    type Color = Rgba8;
+    type Derivatives = M::Derivatives;
+
+    #[inline(always)]
+    fn shade(&self, varying: (Vec3, (Vec3, V))) -> Option<Rgba8> {
+        alone(self, varying)
+    }
+
+    #[inline(always)]
+    fn shade_lanes<L: Lanes>(
+        &self,
+        lanes: L,
+        (scattered, (mirrored, varyings)): &([L::Number; 3], ([L::Number; 3], V::Of<L::Number>)),
+        gradient: &Gradient<([L::Number; 3], ([L::Number; 3], V::Of<L::Number>))>,
+        mask: L::Mask,
+    ) -> (L::U32, L::Mask) {
+        let gradient = gradient.map(|(_, (_, of_layers))| of_layers);
+        let mut surface = Surface::new::<V>(lanes, varyings, &gradient);
+        self.layers.apply(lanes, varyings, &mut surface);
+        (surface.seen(lanes, *scattered, *mirrored), mask)
     }
 }

@@ -44,7 +44,7 @@ impl<V: Varying, S: FragmentStage<V, Color = Rgba8>> FragmentStage<V> for Tinted
 
 /// A colour's channels times a constant's, to the nearest byte; alpha is kept.
 #[inline(always)]
-fn times<L: Lanes>(lanes: L, [r, g, b, a]: [L::U32; 4], tint: Rgba8) -> L::U32 {
+pub(super) fn times<L: Lanes>(lanes: L, [r, g, b, a]: [L::U32; 4], tint: Rgba8) -> L::U32 {
     let [tint_r, tint_g, tint_b, _] = tint.to_bytes();
     let times = |channel: L::U32, tint: u8| per_255(lanes, channel * lanes.word(tint.into()));
     pack(lanes, [times(r, tint_r), times(g, tint_g), times(b, tint_b), a])

@@ -1,7 +1,7 @@
 //! What a surface is made of: the maps of colours and numbers.
 
 use super::map::Map;
-use super::surface::{Layer, OnSurface, Surface};
+use super::surface::{Layer, Surface, Textured};
 use super::vector::{by, plus};
 use crate::shaders::unpack;
 use alberti_math::Rgba8;
@@ -85,7 +85,7 @@ fn unit<L: Lanes>(lanes: L, byte: L::U32) -> L::Number {
 /// Layers that read one map.
 macro_rules! of_one_map {
     ($($name:ident: |$layer:ident, $lanes:ident, $surface:ident| $map:expr => |$words:ident| $change:expr;)+) => {$(
-        impl<V: OnSurface, M: Map> Layer<V> for $name<M> {
+        impl<V: Textured, M: Map> Layer<V> for $name<M> {
             type Derivatives = M::Derivatives;
 
             #[inline(always)]
@@ -114,7 +114,7 @@ of_one_map! {
     Emission: |layer, lanes, surface| layer.0 => |words| surface.emission = plus(surface.emission, colors(lanes, words));
 }
 
-impl<V: OnSurface> Layer<V> for Tint {
+impl<V: Textured> Layer<V> for Tint {
     type Derivatives = NoDerivatives;
 
     #[inline(always)]

@@ -1,6 +1,8 @@
 //! What is read at texture coordinates.
 
 use crate::shaders::texture::footprint;
+use crate::shaders::tinted::times;
+use crate::shaders::unpack;
 use alberti_math::Rgba8;
 use alberti_math::lanes::Lanes;
 use alberti_raster::{Differentiation, Gradient, NoDerivatives, PerPixel};
@@ -46,5 +48,23 @@ impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize> Map for MipSample
         gradient: &Gradient<[L::Number; 2]>,
     ) -> L::U32 {
         self.sample_grad_lanes(lanes, u, v, footprint(gradient))
+    }
+}
+
+/// A map times a constant, to the nearest byte; the map's alpha is kept.
+#[derive(Clone, Copy, Debug)]
+pub struct Times<M> {
+    /// A [`Map`].
+    pub map: M,
+    /// The factor of each channel, in bytes: 255 is one.
+    pub factor: Rgba8,
+}
+
+impl<M: Map> Map for Times<M> {
+    type Derivatives = M::Derivatives;
+
+    #[inline(always)]
+    fn read<L: Lanes>(&self, lanes: L, uv: [L::Number; 2], gradient: &Gradient<[L::Number; 2]>) -> L::U32 {
+        times(lanes, unpack(lanes, self.map.read(lanes, uv, gradient)), self.factor)
     }
 }

@@ -7,6 +7,9 @@ use alberti_raster::{Differentiation, Gradient, NoDerivatives};
 use alberti_texture::surface::unit_lanes;
 use core::fmt::Debug;
 
+use super::vector::{by, plus, times};
+use crate::shaders::pack;
+
 /// What a vertex of a lit surface carries.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Placed {
@@ -34,10 +37,16 @@ pub struct Framed {
 
 varying!(Framed { position: Vec3, axes: [Vec3; 3], uv: Vec2 });
 
-/// A varying with a place, a normal and texture coordinates: [`Placed`], [`Framed`], or one of yours.
-pub trait OnSurface: Varying {
-    /// The three of a bundle.
-    fn parts<N: Copy>(bundle: &Self::Of<N>) -> ([N; 3], [N; 3], [N; 2]);
+/// A varying with texture coordinates: [`Placed`], [`Framed`], a bare `Vec2`, or one of yours.
+pub trait Textured: Varying {
+    /// The coordinates of a bundle.
+    fn uv<N: Copy>(bundle: &Self::Of<N>) -> [N; 2];
+}
+
+/// A [`Textured`] one with a place and a normal.
+pub trait OnSurface: Textured {
+    /// Both of a bundle.
+    fn place<N: Copy>(bundle: &Self::Of<N>) -> [[N; 3]; 2];
 }
 
 /// An [`OnSurface`] with a tangent frame.
@@ -46,17 +55,38 @@ pub trait Axes: OnSurface {
     fn axes<N: Copy>(bundle: &Self::Of<N>) -> [[N; 3]; 3];
 }
 
+impl Textured for Vec2 {
+    #[inline(always)]
+    fn uv<N: Copy>(bundle: &[N; 2]) -> [N; 2] {
+        *bundle
+    }
+}
+
+impl Textured for Placed {
+    #[inline(always)]
+    fn uv<N: Copy>(&(_, _, uv): &Self::Of<N>) -> [N; 2] {
+        uv
+    }
+}
+
 impl OnSurface for Placed {
     #[inline(always)]
-    fn parts<N: Copy>(bundle: &Self::Of<N>) -> ([N; 3], [N; 3], [N; 2]) {
-        *bundle
+    fn place<N: Copy>(&(position, normal, _): &Self::Of<N>) -> [[N; 3]; 2] {
+        [position, normal]
+    }
+}
+
+impl Textured for Framed {
+    #[inline(always)]
+    fn uv<N: Copy>(&(_, _, uv): &Self::Of<N>) -> [N; 2] {
+        uv
     }
 }
 
 impl OnSurface for Framed {
     #[inline(always)]
-    fn parts<N: Copy>(&(position, [_, _, normal], uv): &Self::Of<N>) -> ([N; 3], [N; 3], [N; 2]) {
-        (position, normal, uv)
+    fn place<N: Copy>(&(position, [_, _, normal], _): &Self::Of<N>) -> [[N; 3]; 2] {
+        [position, normal]
     }
 }
 
@@ -104,7 +134,7 @@ pub struct Surface<L: Lanes> {
     pub uv: [L::Number; 2],
     /// How fast these change from pixel to pixel.
     pub gradient: Gradient<[L::Number; 2]>,
-    /// In world space.
+    /// In world space; 0 where vertices do not carry it, like the next two.
     pub position: [L::Number; 3],
     /// The unit normal, in world space.
     pub normal: [L::Number; 3],
@@ -125,22 +155,20 @@ pub struct Surface<L: Lanes> {
 }
 
 impl<L: Lanes> Surface<L> {
-    /// White, and matt.
+    /// White, matt, and nowhere.
     #[inline(always)]
-    pub(super) fn new<V: OnSurface>(
+    pub(super) fn new<V: Textured>(
         lanes: L,
         varyings: &V::Of<L::Number>,
         gradient: &Gradient<V::Of<L::Number>>,
-        viewer: Viewer,
     ) -> Self {
-        let (position, normal, uv) = V::parts(varyings);
         let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
         Self {
-            uv,
-            gradient: gradient.map(|bundle| V::parts(&bundle).2),
-            position,
-            normal: unit_lanes(lanes, normal),
-            to_viewer: viewer.direction(lanes, position),
+            uv: V::uv(varyings),
+            gradient: gradient.map(|bundle| V::uv(&bundle)),
+            position: [zero; 3],
+            normal: [zero; 3],
+            to_viewer: [zero; 3],
             diffuse: [one; 3],
             specular: [zero; 3],
             gloss: one,
@@ -149,12 +177,28 @@ impl<L: Lanes> Surface<L> {
             alpha: lanes.word(255),
         }
     }
+
+    /// The same in its place.
+    #[inline(always)]
+    pub(super) fn placed<V: OnSurface>(self, lanes: L, varyings: &V::Of<L::Number>, viewer: Viewer) -> Self {
+        let [position, normal] = V::place(varyings);
+        let (normal, to_viewer) = (unit_lanes(lanes, normal), viewer.direction(lanes, position));
+        Self { position, normal, to_viewer, ..self }
+    }
+
+    /// The colours that are seen where so much light is scattered, and mirrored.
+    #[inline(always)]
+    pub(super) fn seen(&self, lanes: L, scattered: [L::Number; 3], mirrored: [L::Number; 3]) -> L::U32 {
+        let seen = plus(by(self.diffuse, scattered), by(self.specular, mirrored));
+        let [r, g, b] = times(plus(self.emission, seen), lanes.splat(255.0));
+        pack(lanes, [lanes.nearest_byte(r), lanes.nearest_byte(g), lanes.nearest_byte(b), self.alpha])
+    }
 }
 
 /// A part of a material, for vertices that carry `V`: it changes what is known of the surface.
 ///
 /// Tuples of up to eight are layers, one after the other, and so is `()`, which changes nothing.
-pub trait Layer<V: OnSurface>: Copy + Debug {
+pub trait Layer<V: Textured>: Copy + Debug {
     /// What its maps need to know of neighbouring pixels.
     type Derivatives: Differentiation;
 
@@ -162,7 +206,7 @@ pub trait Layer<V: OnSurface>: Copy + Debug {
     fn apply<L: Lanes>(&self, lanes: L, varyings: &V::Of<L::Number>, surface: &mut Surface<L>);
 }
 
-impl<V: OnSurface> Layer<V> for () {
+impl<V: Textured> Layer<V> for () {
     type Derivatives = NoDerivatives;
 
     #[inline(always)]
@@ -177,7 +221,7 @@ macro_rules! together {
 
 macro_rules! tuples {
     ($($($name:ident $index:tt)+;)+) => {$(
-        impl<V: OnSurface, $($name: Layer<V>),+> Layer<V> for ($($name,)+) {
+        impl<V: Textured, $($name: Layer<V>),+> Layer<V> for ($($name,)+) {
             type Derivatives = together!($($name)+);
 
             #[inline(always)]
