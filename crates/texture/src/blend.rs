@@ -14,6 +14,24 @@ pub(crate) struct Quad<L: Lanes> {
     pub(crate) high_right: L::U32,
 }
 
+impl<L: Lanes> Quad<L> {
+    /// What `texel` finds in the left and the right column and in the lower and the upper row, which come with how far
+    /// between them the point is.
+    #[inline(always)]
+    pub(crate) fn about(
+        [left, right, _]: [L::U32; 3],
+        [low, high, _]: [L::U32; 3],
+        texel: impl Fn([L::U32; 2]) -> L::U32,
+    ) -> Self {
+        Self {
+            low_left: texel([left, low]),
+            low_right: texel([right, low]),
+            high_left: texel([left, high]),
+            high_right: texel([right, high]),
+        }
+    }
+}
+
 /// The colour at `right` 256ths of the way from left to right and `up` 256ths of the way up, both 0 to 256.
 ///
 /// For each channel, with `l = 256 - right` and `d = 256 - up`:
@@ -51,6 +69,38 @@ pub(crate) fn sums<L: Lanes>(lanes: L, quad: Quad<L>, right: L::U32, up: L::U32)
         up,
     );
     [red, green, blue, alpha]
+}
+
+/// The formula of [`bilinear`] for numbers of 16 bits instead of channels.
+///
+/// # Cost
+/// Three multiplications.
+#[inline(always)]
+pub(crate) fn bilinear_scalar<L: Lanes>(lanes: L, quad: Quad<L>, right: L::U32, up: L::U32) -> L::U32 {
+    let Quad { low_left, low_right, high_left, high_right } = quad;
+    // In the end at most 65535 * 2^16 + 2^15, below 2^32, and so modulo 2^32 before.
+    let low = lanes.shl(low_left, 8) + (low_right - low_left) * right;
+    let high = lanes.shl(high_left, 8) + (high_right - high_left) * right;
+    lanes.shr(lanes.shl(low, 8) + (high - low) * up + lanes.word(1 << 15), 16)
+}
+
+/// A number from 0 to 1 of a count of 65535ths.
+///
+/// # Precision
+/// In `f32` correctly rounded, in fixed point rounded down.
+#[inline(always)]
+pub(crate) fn scalar_number<L: Lanes>(lanes: L, count: L::U32) -> L::Number {
+    in_256ths(lanes, count) / lanes.splat(SCALAR_ONE)
+}
+
+/// What counts 1 in [`in_256ths`].
+pub(crate) const SCALAR_ONE: f32 = 65535.0 / 256.0;
+
+/// A word of 16 bits as a number of 256ths: exact.
+#[inline(always)]
+pub(crate) fn in_256ths<L: Lanes>(lanes: L, word: L::U32) -> L::Number {
+    let [high, low] = [lanes.shr(word, 8), word & lanes.word(255)].map(|byte| lanes.to_numbers(byte));
+    high + low * lanes.splat(1.0 / 256.0)
 }
 
 /// A colour's channels times 2^16: its [`sums`] as a mean of itself.
@@ -218,6 +268,29 @@ mod tests {
                     assert_eq!(u32::from(found), (2 * sum + (1 << count)) / (2 << count));
                 }
             }
+        }
+    }
+
+    /// The formula as a fraction, for all weights at all extremes of 16 bits.
+    #[test]
+    fn numbers_of_16_bits() {
+        for extremes in 0..16u32 {
+            let corners = [0, 1, 2, 3].map(|corner| (extremes >> corner & 1) * 65535);
+            let [low_left, low_right, high_left, high_right] = corners.map(Wrapping);
+            let quad = Quad::<One> { low_left, low_right, high_left, high_right };
+            for right in 0..=256 {
+                for up in 0..=256 {
+                    let found = bilinear_scalar(One, quad, Wrapping(right), Wrapping(up));
+                    let (x, y) = (u64::from(right), u64::from(up));
+                    let weights = [(256 - x) * (256 - y), x * (256 - y), (256 - x) * y, x * y];
+                    let sum: u64 = weights.iter().zip(corners).map(|(w, c)| w * u64::from(c)).sum();
+                    assert_eq!(u64::from(found.0), (2 * sum + 65536) / 131_072);
+                }
+            }
+        }
+        for word in 0..=u16::MAX {
+            let found = scalar_number(One, Wrapping(word.into()));
+            assert_eq!(found.to_bits(), (f32::from(word) / 65535.0).to_bits());
         }
     }
 

@@ -6,7 +6,7 @@ use core::fmt::Debug;
 
 use alberti_math::lanes::Lanes;
 
-use crate::blend::{Quad, bilinear, spread, sums};
+use crate::blend::{Quad, bilinear, bilinear_scalar, spread, sums};
 use crate::format::Storage;
 use crate::{Size, Texture, Wrap};
 
@@ -30,6 +30,14 @@ pub trait Kernel {
         u: L::Number,
         v: L::Number,
     ) -> [L::U32; 4];
+
+    /// The texture as a map of numbers, which count 65535ths.
+    fn scalars<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+        lanes: L,
+        texture: &Texture<'_, F, Z>,
+        u: L::Number,
+        v: L::Number,
+    ) -> L::U32;
 }
 
 /// The texel whose cell holds the point: column floor(u * width), row height - 1 - floor(v * height).
@@ -99,6 +107,17 @@ impl Kernel for Nearest {
     ) -> [L::U32; 4] {
         spread(lanes, Self::sample::<L, F, Z, U, V>(lanes, texture, u, v))
     }
+
+    #[inline(always)]
+    fn scalars<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+        lanes: L,
+        texture: &Texture<'_, F, Z>,
+        u: L::Number,
+        v: L::Number,
+    ) -> L::U32 {
+        let at = cell::<L, F, Z, U, V>(lanes, texture, u, v);
+        scalar::<L, F, Z, U, V>(lanes, texture, at)
+    }
 }
 
 /// The column and the row, counted from the bottom, of the texel whose cell holds a point.
@@ -122,8 +141,9 @@ impl Kernel for Bilinear {
         u: L::Number,
         v: L::Number,
     ) -> L::U32 {
-        let (quad, along, up) = surrounding::<L, F, Z, U, V>(lanes, texture, u, v);
-        bilinear(lanes, quad, along, up)
+        let [columns, rows] = surrounding::<L, F, Z, U, V>(lanes, texture, u, v);
+        let quad = Quad::about(columns, rows, |at| texel::<L, F, Z, U, V>(lanes, texture, at));
+        bilinear(lanes, quad, columns[2], rows[2])
     }
 
     #[inline(always)]
@@ -133,28 +153,33 @@ impl Kernel for Bilinear {
         u: L::Number,
         v: L::Number,
     ) -> [L::U32; 4] {
-        let (quad, along, up) = surrounding::<L, F, Z, U, V>(lanes, texture, u, v);
-        sums(lanes, quad, along, up)
+        let [columns, rows] = surrounding::<L, F, Z, U, V>(lanes, texture, u, v);
+        let quad = Quad::about(columns, rows, |at| texel::<L, F, Z, U, V>(lanes, texture, at));
+        sums(lanes, quad, columns[2], rows[2])
+    }
+
+    #[inline(always)]
+    fn scalars<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+        lanes: L,
+        texture: &Texture<'_, F, Z>,
+        u: L::Number,
+        v: L::Number,
+    ) -> L::U32 {
+        let [columns, rows] = surrounding::<L, F, Z, U, V>(lanes, texture, u, v);
+        let quad = Quad::about(columns, rows, |at| scalar::<L, F, Z, U, V>(lanes, texture, at));
+        bilinear_scalar(lanes, quad, columns[2], rows[2])
     }
 }
 
-/// The four texels about a point, and its 256ths of the way to the right and upwards.
+/// The two columns about a point, and its 256ths of the way from the one to the other; the same of rows.
 #[inline(always)]
 fn surrounding<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
     lanes: L,
     texture: &Texture<'_, F, Z>,
     u: L::Number,
     v: L::Number,
-) -> (Quad<L>, L::U32, L::U32) {
-    let [left, right, along] = Z::between::<L, U>(lanes, u, texture.width());
-    let [low, high, up] = Z::between::<L, V>(lanes, v, texture.height());
-    let quad = Quad {
-        low_left: texel::<L, F, Z, U, V>(lanes, texture, [left, low]),
-        low_right: texel::<L, F, Z, U, V>(lanes, texture, [right, low]),
-        high_left: texel::<L, F, Z, U, V>(lanes, texture, [left, high]),
-        high_right: texel::<L, F, Z, U, V>(lanes, texture, [right, high]),
-    };
-    (quad, along, up)
+) -> [[L::U32; 3]; 2] {
+    [Z::between::<L, U>(lanes, u, texture.width()), Z::between::<L, V>(lanes, v, texture.height())]
 }
 
 /// The colour in a column and in a row that is counted from the bottom, or that of the border.
@@ -166,6 +191,18 @@ fn texel<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
 ) -> L::U32 {
     let fetch = |row, column| texture.fetch(lanes, row, column);
     bordered::<L, F, Z, U, V>(lanes, texture, at, [U::BORDER, V::BORDER], fetch)
+}
+
+/// The number in a column and in a row that is counted from the bottom, or that of the border, as a count of 65535ths.
+#[inline(always)]
+pub(crate) fn scalar<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    lanes: L,
+    texture: &Texture<'_, F, Z>,
+    at: [L::U32; 2],
+) -> L::U32 {
+    let borders = [U::BORDER, V::BORDER].map(|border| border.map(|color| (color & 255) * 257));
+    let fetch = |row, column| texture.fetch_scalars(lanes, row, column);
+    bordered::<L, F, Z, U, V>(lanes, texture, at, borders, fetch)
 }
 
 /// What `fetch` finds in a row, counted from the top, and a column; where there is no column the first of `borders`,

@@ -24,6 +24,14 @@ pub trait TexelFormat: 'static {
     /// and encoding the colour again, by dropping the low bits, gives the texel back. [`L16`] has more bits than a
     /// colour, and gives the nearest.
     fn decode(texel: Self::Texel) -> Rgba8;
+
+    /// The number from 0 to 1 that the texel stands for in a map of numbers, such as heights, as a count of 65535ths:
+    /// red, and of [`L16`] all bits.
+    #[inline]
+    fn scalar(texel: Self::Texel) -> u16 {
+        let [red, ..] = Self::decode(texel).to_bytes();
+        u16::from(red) * 257
+    }
 }
 
 /// Four bytes: red, green, blue, alpha. Decoding is one 32-bit load.
@@ -136,7 +144,8 @@ impl TexelFormat for La8 {
 /// Sixteen bits of luminance in the machine's byte order, heights for example. Opaque.
 ///
 /// # Precision
-/// As a colour the nearest of 256 steps. `stored_lanes` of a [`Sampler`](crate::Sampler) reads all bits.
+/// As a colour the nearest of 256 steps. As a number, which [`Sampler::scalar_lanes`](crate::Sampler::scalar_lanes)
+/// reads, exact.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct L16;
 
@@ -147,6 +156,11 @@ impl TexelFormat for L16 {
     fn decode(texel: u16) -> Rgba8 {
         // 255/65535, rounded: 2^16 is that much above 65535, and 128 of 65535 makes up for it.
         L8::decode(((u32::from(texel) * 255 + 32895) >> 16).to_le_bytes()[0])
+    }
+
+    #[inline]
+    fn scalar(texel: u16) -> u16 {
+        texel
     }
 }
 

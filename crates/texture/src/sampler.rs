@@ -7,6 +7,7 @@ use alberti_math::Rgba8;
 use alberti_math::lanes::{Lanes, One};
 use glam::Vec2;
 
+use crate::blend::scalar_number;
 use crate::filter::{Filter, bordered, cell};
 use crate::format::Storage;
 use crate::{AnySize, Nearest, Size, TexelFormat, Texture, Wrap};
@@ -48,6 +49,18 @@ impl<'a, F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size> Sampler<'a, F, Fl, U
     #[inline(always)]
     pub fn sample_lanes<L: Lanes>(&self, lanes: L, u: L::Number, v: L::Number) -> L::U32 {
         Fl::sample::<L, F, Z, U, V>(lanes, &self.texture, u, v)
+    }
+
+    /// The numbers from 0 to 1 at several places of a map of numbers, such as heights: the red channel, in steps of
+    /// 1/65535, as a filter's mean has them, and [`L16`](crate::format::L16) in each texel.
+    ///
+    /// # Precision
+    /// In [`Nearest`], the texel's number correctly rounded. In [`Bilinear`](crate::Bilinear), the formula of its
+    /// documentation with 65535ths instead of bytes: within 1/256 of the texels' difference, and 0.5/65535, of the
+    /// filter in real numbers. In fixed point rounded down.
+    #[inline(always)]
+    pub fn scalar_lanes<L: Lanes>(&self, lanes: L, u: L::Number, v: L::Number) -> L::Number {
+        scalar_number(lanes, Fl::scalars::<L, F, Z, U, V>(lanes, &self.texture, u, v))
     }
 }
 

@@ -57,6 +57,9 @@ pub trait Scale {
     /// A distance that rounds to 256 comes out as 0 from the next texel, which is the same colour.
     fn between<L: Lanes, W: Wrap>(lanes: L, u: L::Number, size: u32) -> [L::U32; 3];
 
+    /// [`Wrap::index`] of a two's complement `i`, from -1 to one beyond the period.
+    fn wrapped<L: Lanes, W: Wrap>(lanes: L, i: L::U32, size: u32) -> L::U32;
+
     /// Texels in rows, as many as that is.
     type Texels<'a, T: 'a>: Copy;
 
@@ -113,6 +116,14 @@ impl Scale for AnySize {
         [words(0), words(1), words(2)]
     }
 
+    #[inline(always)]
+    fn wrapped<L: Lanes, W: Wrap>(lanes: L, i: L::U32, size: u32) -> L::U32 {
+        let each = lanes.store_words(i);
+        lanes.load_words(
+            &lanes.each(|k| W::index(each.as_ref().get(k).copied().unwrap_or_default().cast_signed(), size)),
+        )
+    }
+
     type Texels<'a, T: 'a> = &'a [T];
 
     #[inline(always)]
@@ -166,6 +177,11 @@ macro_rules! powers_of_two {
                 let position = nearest + lanes.word(128);
                 let right = lanes.shr_signed(position, 8);
                 [W::fold(lanes, right - lanes.word(1), size), W::fold(lanes, right, size), position & lanes.word(255)]
+            }
+
+            #[inline(always)]
+            fn wrapped<L: Lanes, W: Wrap>(lanes: L, i: L::U32, size: u32) -> L::U32 {
+                W::fold(lanes, i, size)
             }
         }
     )*};

@@ -24,6 +24,7 @@
 //! own.
 
 mod displacement;
+mod height;
 mod material;
 mod mesh;
 #[cfg(feature = "mikktspace")]
@@ -37,6 +38,7 @@ mod unit;
 mod vector;
 
 pub use displacement::{Grid, MeshBuffers, Subdivision, displace, displaced, displaced_mesh};
+pub use height::{HeightMap, bilinear_height, bilinear_height_lanes};
 pub use material::{
     Wettable, ambient_occlusion, ambient_occlusion_lanes, blinn_phong, blinn_phong_cosine_lanes,
     blinn_phong_lanes, lambert, lambert_lanes, phong, phong_cosine_lanes, phong_lanes, power,
@@ -51,7 +53,7 @@ pub use normal::{
 };
 pub use parallax::{Occlusion, Offset, OffsetLimited, Parallax, Steep};
 pub use parametric::{Cylinder, Differences, Parametric, Plane, Sphere, Torus};
-pub use relief::{HeightMap, Relief, bilinear_height, bump, normal_of_slope};
+pub use relief::{Relief, bump, bump_lanes, normal_of_slope, normal_of_slope_lanes};
 pub use tangent::{
     Tangent, frame_of_derivatives, frame_of_normal, orthonormal, triangle_directions, triangle_frame,
 };

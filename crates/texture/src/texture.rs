@@ -203,6 +203,12 @@ impl<'a, F: Storage, Z: Size> Texture<'a, F, Z> {
     pub(crate) fn fetch<L: Lanes>(&self, lanes: L, row: L::U32, column: L::U32) -> L::U32 {
         F::fetch(lanes, self, row, column)
     }
+
+    /// The texels as counts of 65535ths; anything up to that for those that do not lie in the texture.
+    #[inline(always)]
+    pub(crate) fn fetch_scalars<L: Lanes>(&self, lanes: L, row: L::U32, column: L::U32) -> L::U32 {
+        F::fetch_scalars(lanes, self, row, column)
+    }
 }
 
 impl<F: TexelFormat, Z: Size> Texture<'_, F, Z> {

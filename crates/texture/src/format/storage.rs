@@ -20,6 +20,18 @@ pub trait Storage: Sized + 'static {
         row: L::U32,
         column: L::U32,
     ) -> L::U32;
+
+    /// The texels as numbers, which count 65535ths: [`TexelFormat::scalar`]. Anything from 0 to 65535 for those that do
+    /// not lie in the texture.
+    #[inline(always)]
+    fn fetch_scalars<L: Lanes, Z: Size>(
+        lanes: L,
+        texture: &Texture<'_, Self, Z>,
+        row: L::U32,
+        column: L::U32,
+    ) -> L::U32 {
+        (Self::fetch(lanes, texture, row, column) & lanes.word(255)) * lanes.word(257)
+    }
 }
 
 impl<F: TexelFormat> Storage for F {
@@ -34,5 +46,15 @@ impl<F: TexelFormat> Storage for F {
         column: L::U32,
     ) -> L::U32 {
         texture.words(lanes, row, column, |texel| texel.map_or(0, |&texel| F::decode(texel).to_bits()))
+    }
+
+    #[inline(always)]
+    fn fetch_scalars<L: Lanes, Z: Size>(
+        lanes: L,
+        texture: &Texture<'_, F, Z>,
+        row: L::U32,
+        column: L::U32,
+    ) -> L::U32 {
+        texture.words(lanes, row, column, |texel| texel.map_or(0, |&texel| F::scalar(texel).into()))
     }
 }

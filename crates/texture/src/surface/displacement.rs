@@ -2,9 +2,10 @@
 //!
 //! Space in: coordinates (u, v), points and normals in object space. Space out: vertices in object space.
 
+use super::height::HeightMap;
 use super::mesh::{LengthError, add_normals};
 use super::parametric::Parametric;
-use super::relief::{HeightMap, Relief};
+use super::relief::Relief;
 use super::unit::{narrow, unit};
 use alberti_math::{Object, Point3, Vector3};
 use glam::{Vec2, Vec3};

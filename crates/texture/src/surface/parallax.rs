@@ -2,11 +2,14 @@
 //!
 //! Space in: coordinates (u, v) and a vector to the eye in the tangent frame, with unit axes. Space out: (u, v).
 
-use super::relief::{HeightMap, Relief};
+use super::height::HeightMap;
+use super::relief::Relief;
 use super::tangent::Tangent;
-use super::unit::unit;
+use super::vector::unit_lanes;
 use alberti_math::Vector3;
+use alberti_math::lanes::{Lanes, One};
 use core::fmt::Debug;
+use core::ops::{Add, Mul};
 use glam::Vec2;
 
 /// A way of finding where a ray of sight meets the heights; they are sorted by what they cost.
@@ -15,14 +18,20 @@ use glam::Vec2;
 /// |---|---|---|---|
 /// | [`Offset`] | 1 | are the same at both ends of the shift | at grazing angles: the shift is unbounded |
 /// | [`OffsetLimited`] | 1 | as above, seen from straight above | nowhere, but flattens: too little at grazing angles |
-/// | [`Steep<N>`](Steep) | 1 to N + 1 | are one of N layers | layers show; peaks thinner than a step are missed |
-/// | [`Occlusion<N>`](Occlusion) | 2 to N + 1 | are linear across a step | peaks thinner than a step are missed |
+/// | [`Steep`] of N layers | 1 to N + 1 | are one of the layers | layers show; peaks thinner than a step are missed |
+/// | [`Occlusion`] of N layers | 2 to N + 1 | are linear across a step | peaks thinner than a step are missed |
 ///
 /// The ray meets the surface itself at (u, v). Heights above it, where they are positive, shift what is seen towards
 /// the eye; heights below it, away from it.
-pub trait Parallax: Copy + Debug + Default + 'static {
-    /// The coordinates where the ray from `uv`, which rises by 1 while it moves by `slant`, meets the heights.
-    fn meet<H: HeightMap>(relief: &Relief<H>, uv: Vec2, slant: Vec2) -> Vec2;
+pub trait Parallax: Copy + Debug + 'static {
+    /// The coordinates where the rays from `uv`, which rise by 1 while they move by `slant`, meet the heights.
+    fn meet<H: HeightMap, L: Lanes>(
+        &self,
+        lanes: L,
+        relief: &Relief<H>,
+        uv: [L::Number; 2],
+        slant: [L::Number; 2],
+    ) -> [L::Number; 2];
 }
 
 /// u + h(u)/Vz·Vx: the height at (u, v) is taken for that where the ray ends.
@@ -41,15 +50,19 @@ pub struct Offset;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct OffsetLimited;
 
-/// The first of `N` layers between the greatest and the least height, from above, at which the ray is not above the
+/// The first of N `layers` between the greatest and the least height, from above, at which the ray is not above the
 /// heights.
 ///
 /// The place is off by at most one layer along the ray: |high − low|/N·|Vxy|/Vz on the surface, if no peak is thinner
-/// than that. N for 8 to 64 is usual; at grazing angles it takes more, so choose it by the slant.
+/// than that. N from 8 to 64 is usual; at grazing angles it takes more, so choose it by the slant. Of several samples,
+/// the search ends when all have met the heights.
 ///
 /// Source: McGuire and McGuire, "Steep parallax mapping", I3D 2005.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Steep<const N: u32>;
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Steep {
+    /// At least 1, and less than 2^15: what is beyond counts as that.
+    pub layers: u32,
+}
 
 /// [`Steep`], and between that layer and the one above, the place where a straight line between the heights at both
 /// meets the ray.
@@ -60,21 +73,24 @@ pub struct Steep<const N: u32>;
 /// found, or both missed.
 ///
 /// Source: Tatarchuk, "Dynamic parallax occlusion mapping with approximate soft shadows", I3D 2006.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Occlusion<const N: u32>;
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Occlusion {
+    /// At least 1, and less than 2^15: what is beyond counts as that.
+    pub layers: u32,
+}
 
 impl<H: HeightMap> Relief<H> {
     /// The coordinates of what is seen at `uv` along `view`, a vector of any length from the surface towards the eye:
-    /// `relief.parallax::<Occlusion<16>>(uv, view)`.
+    /// `relief.parallax(Occlusion { layers: 16 }, uv, view)`.
     ///
     /// `uv` itself where the eye is not above the surface, or where the result is not finite.
     ///
     /// # Precision
     /// [`Parallax`] says how far each policy is from the place that is seen; beyond that, rounding moves it by
-    /// 16ε·(|uv| + |slant|·max(|low|, |high|)) (ε = 2^-24).
+    /// 16ε·(|uv| + |slant|·max(|low|, |high|)) (ε = 2^-24). Where the slant |Vxy|/Vz is above 2^60, any coordinates.
     ///
     /// # Cost
-    /// The heights that the policy reads, and some divisions; [`OffsetLimited`] a square root in `f64`.
+    /// The heights that the policy reads, and some divisions; [`OffsetLimited`] a square root more.
     ///
     /// ```
     /// use alberti_math::Vector3;
@@ -84,70 +100,144 @@ impl<H: HeightMap> Relief<H> {
     /// // A plain, half a unit above the surface, seen at 45°.
     /// let plain = Relief { map: |_: Vec2| 0.5, low: 0.0, high: 1.0, extent: Vec2::ONE };
     /// let view = Vector3::new(Vec3::new(1.0, 0.0, 1.0));
-    /// assert_eq!(plain.parallax::<Offset>(Vec2::ZERO, view), Vec2::new(0.5, 0.0));
+    /// assert_eq!(plain.parallax(Offset, Vec2::ZERO, view), Vec2::new(0.5, 0.0));
     /// ```
     #[must_use]
-    pub fn parallax<P: Parallax>(&self, uv: Vec2, view: Vector3<Tangent>) -> Vec2 {
-        let slant = view.coords.truncate() / view.coords.z / self.extent;
-        if !(view.coords.z > 0.0 && slant.is_finite()) {
-            return uv;
-        }
-        let found = P::meet(self, uv, slant);
-        if found.is_finite() { found } else { uv }
+    pub fn parallax(&self, policy: impl Parallax, uv: Vec2, view: Vector3<Tangent>) -> Vec2 {
+        Vec2::from(self.parallax_lanes(policy, One, uv.to_array(), view.coords.to_array()))
+    }
+
+    /// [`parallax`](Self::parallax) at several places.
+    ///
+    /// # Precision
+    /// In fixed point rounding moves the place by (4·|slant| + 4·max(|low|, |high|) + 4)·2^-16, for shifts and slants
+    /// below 2^14; beyond, to any coordinates.
+    #[must_use]
+    #[inline(always)]
+    pub fn parallax_lanes<L: Lanes>(
+        &self,
+        policy: impl Parallax,
+        lanes: L,
+        uv: [L::Number; 2],
+        [x, y, z]: [L::Number; 3],
+    ) -> [L::Number; 2] {
+        let [width, height] = self.extent.to_array().map(|extent| lanes.splat(extent));
+        let slant = [x / z / width, y / z / height];
+        let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
+        // 0 times what is not finite is NaN.
+        let finite = |[u, v]: [L::Number; 2]| lanes.less(u * zero, one) & lanes.less(v * zero, one);
+        let seen = finite(slant) & lanes.less(zero, z);
+        let found = policy.meet(lanes, self, uv, slant.map(|along| lanes.select(seen, along, zero)));
+        let met = seen & finite(found);
+        [lanes.select(met, found[0], uv[0]), lanes.select(met, found[1], uv[1])]
     }
 }
 
 impl Parallax for Offset {
-    fn meet<H: HeightMap>(relief: &Relief<H>, uv: Vec2, slant: Vec2) -> Vec2 {
-        uv + slant * relief.height(uv)
+    #[inline(always)]
+    fn meet<H: HeightMap, L: Lanes>(
+        &self,
+        lanes: L,
+        relief: &Relief<H>,
+        uv: [L::Number; 2],
+        slant: [L::Number; 2],
+    ) -> [L::Number; 2] {
+        along(uv, slant, relief.height_lanes(lanes, uv))
     }
 }
 
 impl Parallax for OffsetLimited {
-    fn meet<H: HeightMap>(relief: &Relief<H>, uv: Vec2, slant: Vec2) -> Vec2 {
-        // The ray in object units, of which the z of a unit vector along it is 1/length.
-        let ray = slant * relief.extent;
-        let upright = unit(ray.extend(1.0).as_dvec3()).map_or(0.0, |ray| ray.z);
-        #[expect(clippy::cast_possible_truncation, reason = "rounding is what is asked for")]
-        let upright = upright as f32;
-        uv + slant * (relief.height(uv) * upright)
+    #[inline(always)]
+    fn meet<H: HeightMap, L: Lanes>(
+        &self,
+        lanes: L,
+        relief: &Relief<H>,
+        uv: [L::Number; 2],
+        slant: [L::Number; 2],
+    ) -> [L::Number; 2] {
+        // The ray in object units, and the z of a unit vector along it.
+        let [width, height] = relief.extent.to_array().map(|extent| lanes.splat(extent));
+        let [_, _, upright] = unit_lanes(lanes, [slant[0] * width, slant[1] * height, lanes.splat(1.0)]);
+        along(uv, slant, relief.height_lanes(lanes, uv) * upright)
     }
 }
 
-impl<const N: u32> Parallax for Steep<N> {
-    fn meet<H: HeightMap>(relief: &Relief<H>, uv: Vec2, slant: Vec2) -> Vec2 {
-        let [_, [found, _]] = first_hit(relief, uv, slant, N);
-        uv + slant * found
+impl Parallax for Steep {
+    #[inline(always)]
+    fn meet<H: HeightMap, L: Lanes>(
+        &self,
+        lanes: L,
+        relief: &Relief<H>,
+        uv: [L::Number; 2],
+        slant: [L::Number; 2],
+    ) -> [L::Number; 2] {
+        let Hit { found, .. } = first_hit(lanes, relief, uv, slant, self.layers);
+        along(uv, slant, found)
     }
 }
 
-impl<const N: u32> Parallax for Occlusion<N> {
-    fn meet<H: HeightMap>(relief: &Relief<H>, uv: Vec2, slant: Vec2) -> Vec2 {
-        let [[above, clear], [found, depth]] = first_hit(relief, uv, slant, N);
+impl Parallax for Occlusion {
+    #[inline(always)]
+    fn meet<H: HeightMap, L: Lanes>(
+        &self,
+        lanes: L,
+        relief: &Relief<H>,
+        uv: [L::Number; 2],
+        slant: [L::Number; 2],
+    ) -> [L::Number; 2] {
+        let Hit { above, clear, found, depth } = first_hit(lanes, relief, uv, slant, self.layers);
         // `clear` above the heights at one end, `depth` below them at the other.
-        let whole = clear + depth;
-        let back = if whole > 0.0 { depth / whole } else { 0.0 };
-        uv + slant * (found + (above - found) * back)
+        let (zero, whole) = (lanes.splat(0.0), clear + depth);
+        let back = lanes.select(lanes.less(zero, whole), depth / whole, zero);
+        along(uv, slant, found + (above - found) * back)
     }
 }
 
-/// The last layer at which the ray is above the heights and by how much, and the first at which it is not and by how
-/// much it is below; the latter twice where that is the highest.
-fn first_hit<H: HeightMap>(relief: &Relief<H>, uv: Vec2, slant: Vec2, layers: u32) -> [[f32; 2]; 2] {
-    let layers = layers.max(1);
-    let (top, bottom) =
-        if relief.low < relief.high { (relief.high, relief.low) } else { (relief.low, relief.high) };
-    let mut above = None;
+/// A ray at the height z.
+#[inline(always)]
+fn along<N: Copy + Add<Output = N> + Mul<Output = N>>(uv: [N; 2], slant: [N; 2], z: N) -> [N; 2] {
+    [uv[0] + slant[0] * z, uv[1] + slant[1] * z]
+}
+
+/// The last layer at which a ray is above the heights and by how much, and the first at which it is not and by how much
+/// it is below; where that is the highest, it is both.
+struct Hit<N> {
+    above: N,
+    clear: N,
+    found: N,
+    depth: N,
+}
+
+#[inline(always)]
+fn first_hit<H: HeightMap, L: Lanes>(
+    lanes: L,
+    relief: &Relief<H>,
+    uv: [L::Number; 2],
+    slant: [L::Number; 2],
+    layers: u32,
+) -> Hit<L::Number> {
+    let layers = layers.clamp(1, (1 << 15) - 1).cast_signed();
+    let ends = if relief.low < relief.high { [relief.high, relief.low] } else { [relief.low, relief.high] };
+    let ([top, bottom], zero) = (ends.map(|end| lanes.splat(end)), lanes.splat(0.0));
+    let whole = lanes.int_to_number(lanes.int(layers));
+    let mut hit = Hit { above: top, clear: zero, found: bottom, depth: zero };
+    let mut searching = lanes.bits(lanes.less(zero, lanes.splat(1.0)));
     for k in 0..layers {
-        #[expect(clippy::cast_precision_loss, reason = "rounding moves the layers, and that is all")]
-        let z = top + (bottom - top) * (k as f32 / layers as f32);
-        let clear = z - relief.height(uv + slant * z);
-        if clear > 0.0 {
-            above = Some([z, clear]);
-        } else {
-            return [above.unwrap_or([z, 0.0]), [z, -clear]];
+        let z = top + (bottom - top) * (lanes.int_to_number(lanes.int(k)) / whole);
+        let clear = z - relief.height_lanes(lanes, along(uv, slant, z));
+        let above = lanes.bits(lanes.less(zero, clear));
+        let met = lanes.mask(searching & !above);
+        hit.found = lanes.select(met, z, hit.found);
+        hit.depth = lanes.select(met, zero - clear, hit.depth);
+        searching &= above;
+        if searching == 0 {
+            return hit;
         }
+        let above = lanes.mask(searching);
+        hit.above = lanes.select(above, z, hit.above);
+        hit.clear = lanes.select(above, clear, hit.clear);
     }
-    let depth = (relief.height(uv + slant * bottom) - bottom).max(0.0);
-    [above.unwrap_or([bottom, 0.0]), [bottom, depth]]
+    let depth = lanes.max(relief.height_lanes(lanes, along(uv, slant, bottom)) - bottom, zero);
+    hit.depth = lanes.select(lanes.mask(searching), depth, hit.depth);
+    hit
 }

@@ -2,36 +2,14 @@
 //!
 //! Space in: coordinates (u, v). Space out: heights in object units, normals in the tangent frame.
 
+use super::height::HeightMap;
+use super::normal::to_parent_lanes;
 use super::tangent::Tangent;
 use super::unit::{narrow, unit};
-use crate::{Filter, Sampler, Size, TexelFormat, Texture, Wrap};
+use super::vector::{absolute, has_range, over_length};
 use alberti_math::lanes::{Lanes, One};
 use alberti_math::{Frame, Object, Vector3};
 use glam::{Vec2, Vec3};
-
-/// A height for each (u, v), from 0 to 1.
-///
-/// A closure is one, and so is a [`Sampler`], of which it is the red channel, in steps of 1/255: as a filter gives no
-/// finer ones, the differences of a magnified map have steps too, and [`bilinear_height`] is for those.
-pub trait HeightMap {
-    /// The height at (u, v).
-    fn height(&self, uv: Vec2) -> f32;
-}
-
-impl<F: Fn(Vec2) -> f32> HeightMap for F {
-    #[inline]
-    fn height(&self, uv: Vec2) -> f32 {
-        self(uv)
-    }
-}
-
-impl<F: TexelFormat, Fl: Filter, U: Wrap, V: Wrap, Z: Size> HeightMap for Sampler<'_, F, Fl, U, V, Z> {
-    #[inline]
-    fn height(&self, uv: Vec2) -> f32 {
-        let [red, ..] = self.sample(uv).to_bytes();
-        f32::from(red) / 255.0
-    }
-}
 
 /// A height map as it lies on a surface: what 0 and 1 stand for, and how large one unit of u and v is, all in the units
 /// of object space.
@@ -68,7 +46,22 @@ impl<H: HeightMap> Relief<H> {
     /// Within 4ε·max(|low|, |high|) of that of the map's number (ε = 2^-24).
     #[inline]
     pub fn height(&self, uv: Vec2) -> f32 {
-        self.low + (self.high - self.low) * self.map.height(uv)
+        self.height_lanes(One, uv.to_array())
+    }
+
+    /// [`height`](Self::height) at several places.
+    ///
+    /// # Precision
+    /// In fixed point within 1.6·2^-16, and (|low| + |high|)·2^-16 of the map's number.
+    #[inline(always)]
+    pub fn height_lanes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2]) -> L::Number {
+        lanes.splat(self.low) + self.range(lanes) * self.map.height_lanes(lanes, uv)
+    }
+
+    /// From the least to the greatest height.
+    #[inline(always)]
+    fn range<L: Lanes>(&self, lanes: L) -> L::Number {
+        lanes.splat(self.high) - lanes.splat(self.low)
     }
 
     /// How steeply the surface rises along u and v, by central differences over `step` to either side, which usually is
@@ -81,14 +74,23 @@ impl<H: HeightMap> Relief<H> {
     /// # Cost
     /// Four heights and two divisions.
     pub fn slope(&self, uv: Vec2, step: Vec2) -> Vec2 {
-        let along = |step: Vec2| {
-            let (from, to) = (uv - step, uv + step);
-            // What the coordinates were rounded to; one component is the step, the other is zero.
-            let between = to - from;
-            (self.map.height(to) - self.map.height(from)) / (between.x + between.y)
-        };
-        let steepness = Vec2::new(along(Vec2::new(step.x, 0.0)), along(Vec2::new(0.0, step.y)));
-        steepness * (self.high - self.low) / self.extent
+        Vec2::from(self.slope_lanes(One, uv.to_array(), step))
+    }
+
+    /// [`slope`](Self::slope) at several places.
+    ///
+    /// # Precision
+    /// In fixed point within |high − low|/extent·(s²/6·max|∂³h/∂u³| + 2^-16/s) + 2^-14, if steps and extents are exact.
+    #[inline(always)]
+    pub fn slope_lanes<L: Lanes>(&self, lanes: L, [u, v]: [L::Number; 2], step: Vec2) -> [L::Number; 2] {
+        let [du, dv] = step.to_array().map(|step| lanes.splat(step));
+        let height = |u, v| self.map.height_lanes(lanes, [u, v]);
+        // Over what the coordinates were rounded to.
+        let ([left, right], [down, up]) = ([u - du, u + du], [v - dv, v + dv]);
+        let along_u = (height(right, v) - height(left, v)) / (right - left);
+        let along_v = (height(u, up) - height(u, down)) / (up - down);
+        let [width, height] = self.extent.to_array().map(|extent| lanes.splat(extent));
+        [along_u * self.range(lanes) / width, along_v * self.range(lanes) / height]
     }
 
     /// The normal of the heights: that of a bump map, by central differences.
@@ -100,6 +102,13 @@ impl<H: HeightMap> Relief<H> {
     /// Four heights, five divisions and a square root.
     pub fn normal(&self, uv: Vec2, step: Vec2) -> Vector3<Tangent> {
         normal_of_slope(self.slope(uv, step))
+    }
+
+    /// [`normal`](Self::normal) at several places.
+    #[must_use]
+    #[inline(always)]
+    pub fn normal_lanes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2], step: Vec2) -> [L::Number; 3] {
+        normal_of_slope_lanes(lanes, self.slope_lanes(lanes, uv, step))
     }
 }
 
@@ -114,13 +123,46 @@ impl<H: HeightMap> Relief<H> {
 #[must_use]
 #[inline]
 pub fn normal_of_slope(slope: Vec2) -> Vector3<Tangent> {
-    let square = slope.x * slope.x + slope.y * slope.y + 1.0;
-    // 2^120.
-    if square.is_nan() || square > 1.329_227_9e36 {
-        return Vector3::new(Vec3::Z);
+    Vector3::new(Vec3::from(normal_of_slope_lanes(One, slope.to_array())))
+}
+
+/// [`normal_of_slope`] of several slopes.
+///
+/// # Precision
+/// In fixed point each component is within 3·2^-16, for any slopes.
+#[must_use]
+#[inline(always)]
+pub fn normal_of_slope_lanes<L: Lanes>(lanes: L, slope: [L::Number; 2]) -> [L::Number; 3] {
+    over_length(lanes, raised(lanes, slope))
+}
+
+/// The normal of heights that rise by these slopes along the x and y axis of a frame, as a unit vector of the frame's
+/// parent: −∂h/∂u x − ∂h/∂v y + z, made unit. The frame is one with unit axes, as for
+/// [`to_parent_lanes`]; of axes at right angles, what [`bump`] gives. The frame's z where a slope is not finite, or
+/// above 2^60.
+///
+/// # Precision
+/// Within 8ε radians (ε = 2^-24) for axes at right angles; in fixed point each component is within 6·2^-16.
+///
+/// # Cost
+/// That of [`to_parent_lanes`], and some comparisons.
+#[must_use]
+#[inline(always)]
+pub fn bump_lanes<L: Lanes>(lanes: L, axes: [[L::Number; 3]; 3], slope: [L::Number; 2]) -> [L::Number; 3] {
+    to_parent_lanes(lanes, axes, raised(lanes, slope))
+}
+
+/// A vector along (−a, −b, 1), whose components have squares.
+#[inline(always)]
+fn raised<L: Lanes>(lanes: L, [a, b]: [L::Number; 2]) -> [L::Number; 3] {
+    let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
+    if has_range(lanes) {
+        // 2^120; and not so for NaN.
+        let finite = lanes.less(a * a + b * b + one, lanes.splat(1.329_227_9e36));
+        return [lanes.select(finite, zero - a, zero), lanes.select(finite, zero - b, zero), one];
     }
-    let length = One.sqrt(square);
-    Vector3::new(Vec3::new(-slope.x / length, -slope.y / length, 1.0 / length))
+    let greatest = lanes.max(lanes.max(absolute(lanes, a), absolute(lanes, b)), one);
+    [(zero - a) / greatest, (zero - b) / greatest, one / greatest]
 }
 
 /// The normal of heights on any surface, whose ∂f/∂u and ∂f/∂v are of any length and at any angle, as a unit vector:
@@ -151,50 +193,4 @@ pub fn bump(frame: &Frame<Tangent, Object>, gradient: Vec2) -> Vector3<Object> {
     let Some(n) = unit(z) else { return Vector3::new(Vec3::Z) };
     let bent = z + n.cross(y) * f64::from(gradient.x) + x.cross(n) * f64::from(gradient.y);
     Vector3::new(narrow(unit(bent).unwrap_or(n)))
-}
-
-/// The height of a texture's red channel at (u, v), from 0 to 1, and its gradient there, ∂h/∂u and ∂h/∂v: those of the
-/// bilinear surface through the four texel centres around the point, without the steps of 8 bits that
-/// [`Bilinear`](crate::Bilinear) rounds to.
-///
-/// The height is continuous, the gradient jumps from one square of texel centres to the next.
-///
-/// # Precision
-/// The height is within 6ε (ε = 2^-24), the gradient within 6ε·width, or ·height, of those at the given coordinates,
-/// for
-/// |u·width| and |v·height| below 2^31. Beyond, and for what is not finite, they are those at some other place.
-///
-/// # Cost
-/// Four texels and about 30 operations, six of them in `f64`, in software on a core without it.
-#[must_use]
-pub fn bilinear_height<F: TexelFormat, Z: Size, U: Wrap, V: Wrap>(
-    texture: &Texture<'_, F, Z>,
-    uv: Vec2,
-) -> (f32, Vec2) {
-    let (width, height) = (texture.width(), texture.height());
-    let ((i, s), (j, t)) = (cell(uv.x, width), cell(uv.y, height));
-    let at = |i: i32, j: i32| {
-        let row = height.saturating_sub(1).saturating_sub(V::index(j, height));
-        let [red, ..] = texture.texel(U::index(i, width), row).to_bytes();
-        f32::from(red)
-    };
-    let (right, up) = (i.saturating_add(1), j.saturating_add(1));
-    let [low_left, low_right, high_left, high_right] = [at(i, j), at(right, j), at(i, up), at(right, up)];
-    let (low, high) = (low_right - low_left, high_right - high_left);
-    let (left, rise) = (high_left - low_left, high - low);
-    #[expect(clippy::cast_precision_loss, reason = "at most 2^14")]
-    let size = Vec2::new(width as f32, height as f32);
-    let value = (1.0 - t) * (low_left + s * low) + t * (high_left + s * high);
-    (value / 255.0, Vec2::new(low + t * rise, left + s * rise) * size / 255.0)
-}
-
-/// The texel centre below a coordinate, and how far above it that is, from 0 to 1.
-#[expect(clippy::cast_possible_truncation, reason = "saturation, or rounding")]
-fn cell(u: f32, size: u32) -> (i32, f32) {
-    let x = f64::from(u) * f64::from(size) - 0.5;
-    let towards_zero = x as i32;
-    let below = if f64::from(towards_zero) > x { towards_zero.saturating_sub(1) } else { towards_zero };
-    let above = (x - f64::from(below)) as f32;
-    // Beyond the integers there is no fraction.
-    (below, if (0.0..=1.0).contains(&above) { above } else { 0.0 })
 }

@@ -1,13 +1,15 @@
 //! Bump maps, against the normals of the surfaces that they stand for.
 
 use crate::support::{EPS, angle, axes, vec2, vec3};
-use alberti_math::{Frame, Object, Point3, Vector3};
+use alberti_math::lanes::{One, OneFixed};
+use alberti_math::{Frame, Object, Point3, Q16, Rgba8, Vector3};
 use alberti_oracle::rng::{Rng, run_seed};
-use alberti_texture::format::L8;
+use alberti_texture::format::{Indexed, L8, L16};
 use alberti_texture::surface::{
-    Parametric, Relief, Sphere, Tangent, bilinear_height, bump, frame_of_derivatives, normal_of_slope,
+    HeightMap, Parametric, Relief, Sphere, Tangent, bilinear_height, bilinear_height_lanes, bump,
+    frame_of_derivatives, normal_of_slope,
 };
-use alberti_texture::{Bilinear, Clamp, Mirror, Nearest, Repeat, Texture, Wrap};
+use alberti_texture::{Bilinear, Border, Clamp, Mirror, Nearest, Repeat, Texture, Wrap};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use std::f64::consts::TAU;
 
@@ -118,30 +120,75 @@ fn bumps_on_planes_and_spheres() {
     assert_eq!(bump(&Frame::IDENTITY, Vec2::NAN).coords, Vec3::Z);
 }
 
+/// A height of 16 bits at an index of the continued image.
+fn texel<U: Wrap, V: Wrap>(texture: Texture<'_, L16>, i: i64, j: i64) -> f64 {
+    let index = |i: i64, wrap: fn(i32, u32) -> u32, size| wrap(i32::try_from(i).unwrap(), size);
+    let (column, row) = (index(i, U::index, texture.width()), index(j, V::index, texture.height()));
+    let from_top = texture.height() - 1 - row;
+    f64::from(texture.texels()[(from_top * texture.width() + column) as usize]) / 65535.0
+}
+
+/// The bilinear surface about a point in texels, and the fractions.
+struct Surface {
+    height: f64,
+    slope: [f64; 2],
+    steepest: [f64; 2],
+    twist: f64,
+    fractions: [f64; 2],
+}
+
+fn surface<U: Wrap, V: Wrap>(texture: Texture<'_, L16>, [x, y]: [f64; 2]) -> Surface {
+    let (i, j) = (x.floor() as i64, y.floor() as i64);
+    let (s, t) = (x - x.floor(), y - y.floor());
+    let at = |di, dj| texel::<U, V>(texture, i + di, j + dj);
+    let [a, b, c, d] = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)];
+    Surface {
+        height: (1.0 - s) * (1.0 - t) * a + s * (1.0 - t) * b + (1.0 - s) * t * c + s * t * d,
+        slope: [(1.0 - t) * (b - a) + t * (d - c), (1.0 - s) * (c - a) + s * (d - b)],
+        steepest: [(b - a).abs().max((d - c).abs()), (c - a).abs().max((d - b).abs())],
+        twist: (d - c - b + a).abs(),
+        fractions: [s, t],
+    }
+}
+
+/// Random heights of 16 bits, of 8 where `bytes`.
+fn heights(rng: &mut Rng, width: u32, height: u32, bytes: bool) -> Vec<u16> {
+    let mut height_of = || if bytes { u16::from(rng.u64() as u8) * 257 } else { rng.u64() as u16 };
+    (0..width * height).map(|_| height_of()).collect()
+}
+
+/// Errors of the height and of the gradient, as shares of their bounds.
 fn check_bilinear<U: Wrap, V: Wrap>(rng: &mut Rng) -> [f64; 2] {
-    let (width, height) = (rng.range(1, 9) as u32, rng.range(1, 9) as u32);
-    let texels: Vec<u8> = (0..width * height).map(|_| rng.u64() as u8).collect();
-    let texture = Texture::<L8>::new(&texels, width, height).expect("as many");
-    let uv = vec2(rng, 2.5);
+    let (width, height) = (rng.log_integer(300) as u32, rng.log_integer(40) as u32);
+    let texels = heights(rng, width, height, false);
+    let texture = Texture::<L16>::new(&texels, width, height).expect("as many");
+    let far = if rng.one_in(3) { rng.log_uniform(1.0, 1_048_576.0) } else { 1.0 };
+    let uv = vec2(rng, 2.5) * far;
     let (found, gradient) = bilinear_height::<_, _, U, V>(&texture, uv);
+    if let Some(texture) = texture.power_of_two() {
+        assert_eq!(bilinear_height::<_, _, U, V>(&texture, uv), (found, gradient));
+    }
     let size = [f64::from(width), f64::from(height)];
-    let [x, y] = [0, 1].map(|k| f64::from(uv[k]) * size[k] - 0.5);
-    let nearest = texture.sampler_per_axis::<Nearest, U, V>();
-    // A texel is what the nearest filter finds in its middle.
-    let at = |i: f64, j: f64| {
-        let middle = Vec2::new(((i + 0.5) / size[0]) as f32, ((j + 0.5) / size[1]) as f32);
-        f64::from(nearest.sample(middle).to_bytes()[0]) / 255.0
-    };
-    let (i, j) = (x.floor(), y.floor());
-    let (s, t) = (x - i, y - j);
-    let [a, b, c, d] = [at(i, j), at(i + 1.0, j), at(i, j + 1.0), at(i + 1.0, j + 1.0)];
-    let exact = (1.0 - s) * (1.0 - t) * a + s * (1.0 - t) * b + (1.0 - s) * t * c + s * t * d;
-    let du = (1.0 - t) * (b - a) + t * (d - c);
-    let dv = (1.0 - s) * (c - a) + s * (d - b);
-    let bytes = texture.sampler_per_axis::<Bilinear, U, V>().sample(uv).to_bytes()[0];
-    assert!((f64::from(bytes) / 255.0 - exact).abs() < 1.5 / 255.0);
-    let errors = [(f64::from(gradient.x) / size[0] - du).abs(), (f64::from(gradient.y) / size[1] - dv).abs()];
-    [(f64::from(found) - exact).abs() / EPS, errors[0].max(errors[1]) / EPS]
+    let exact = surface::<U, V>(texture, [0, 1].map(|k| f64::from(uv[k]) * size[k] - 0.5));
+    // What coordinates may be moved by, in texels.
+    let moved = size.map(|size| 5.0 * EPS * size);
+    let at_border = (0..2).any(|k| (exact.fractions[k] - 0.5).abs() > 0.5 - moved[k]);
+    if at_border {
+        // The slope is another one beyond, the height nearly the same.
+        assert!((f64::from(found) - exact.height).abs() <= 6.0 * EPS + moved[0] + moved[1]);
+        return [0.0; 2];
+    }
+    let bound = 6.0 * EPS + moved[0] * exact.steepest[0] + moved[1] * exact.steepest[1];
+    let share = (f64::from(found) - exact.height).abs() / bound;
+    let shares = [0, 1].map(|k| {
+        let error = (f64::from(gradient[k]) / size[k] - exact.slope[k]).abs();
+        error / (6.0 * EPS + moved[1 - k] * exact.twist)
+    });
+    // The filter's weights have 8 bits.
+    let filtered = texture.sampler_per_axis::<Bilinear, U, V>().scalar_lanes(One, uv.x, uv.y);
+    let steep = (exact.steepest[0] + exact.steepest[1]) / 512.0;
+    assert!((f64::from(filtered) - exact.height).abs() <= steep + 0.51 / 65535.0 + moved[0] + moved[1]);
+    [share, shares[0].max(shares[1])]
 }
 
 #[test]
@@ -157,8 +204,8 @@ fn bilinear_heights_and_gradients() {
             worst = [worst[0].max(height), worst[1].max(gradient)];
         }
     }
-    println!("heights {:.3}ε, gradients {:.3}ε of the size", worst[0], worst[1]);
-    assert!(worst[0] <= 6.0 && worst[1] <= 6.0);
+    println!("shares of the bounds: heights {:.3}, gradients {:.3}", worst[0], worst[1]);
+    assert!(worst.iter().all(|&share| share <= 1.0 && share > 0.3));
     let texture = Texture::<L8>::new(&[0, 255], 2, 1).expect("as many");
     assert_eq!(
         bilinear_height::<_, _, Repeat, Repeat>(&texture, Vec2::new(0.5, 0.0)),
@@ -168,6 +215,67 @@ fn bilinear_heights_and_gradients() {
         let (height, gradient) = bilinear_height::<_, _, Repeat, Clamp>(&texture, Vec2::splat(bad));
         assert!((0.0..=1.0).contains(&height) && gradient.abs().max_element() <= 2.0, "{bad}");
     }
+}
+
+/// In fixed point too, with bounds of its own, for coordinates and sides that it holds.
+#[test]
+fn fixed_bilinear_heights() {
+    const STEP: f64 = 1.0 / 65536.0;
+    let mut rng = Rng::new(run_seed());
+    let mut worst = [0.0f64; 2];
+    for _ in 0..100_000 {
+        let (width, height) = (rng.log_integer(1000) as u32, rng.range(1, 5) as u32);
+        let texels = heights(&mut rng, width, height, false);
+        let texture = Texture::<L16>::new(&texels, width, height).expect("as many");
+        let uv = [0, 1].map(|_| Q16::from_bits(rng.range(0, 1 << 19) as i32 - (1 << 18)));
+        let (found, gradient) = bilinear_height_lanes::<_, _, _, Repeat, Mirror>(OneFixed, &texture, uv);
+        let size = [f64::from(width), f64::from(height)];
+        let real = |x: Q16| f64::from(x.to_bits()) * STEP;
+        let exact = surface::<Repeat, Mirror>(texture, [0, 1].map(|k| real(uv[k]) * size[k] - 0.5));
+        // Products of coordinates and sides are exact, so that there is no border to cross.
+        worst[0] = worst[0].max((real(found) - exact.height).abs() / STEP);
+        for k in 0..2 {
+            worst[1] = worst[1].max((real(gradient[k]) / size[k] - exact.slope[k]).abs() / STEP);
+        }
+    }
+    println!("heights {:.3}, gradients {:.3} steps", worst[0], worst[1]);
+    assert!(worst[0] <= 2.0 && worst[1] <= 2.0 && worst[0] > 0.8);
+}
+
+/// One height in three formats, and the numbers that samplers make of it.
+#[test]
+fn formats_of_heights() {
+    let mut rng = Rng::new(run_seed());
+    for _ in 0..2000 {
+        let (width, height) = (rng.range(1, 9) as u32, rng.range(1, 9) as u32);
+        let wide = heights(&mut rng, width, height, true);
+        let bytes: Vec<u8> = wide.iter().map(|&height| (height / 257) as u8).collect();
+        let palette: Vec<Rgba8> = (0..=255).map(|byte| Rgba8::new(byte, !byte, 7, 3)).collect();
+        let eight = Texture::<L8>::new(&bytes, width, height).expect("as many");
+        let sixteen = Texture::<L16>::new(&wide, width, height).expect("as many");
+        let indexed = Texture::<Indexed<8>>::indexed(&bytes, &palette, width, height).expect("as many");
+        let uv = vec2(&mut rng, 2.5);
+        let height = bilinear_height::<_, _, Repeat, Mirror>(&eight, uv);
+        assert_eq!(bilinear_height::<_, _, Repeat, Mirror>(&sixteen, uv), height);
+        assert_eq!(bilinear_height::<_, _, Repeat, Mirror>(&indexed, uv), height);
+        let height = eight.sampler::<Bilinear, Mirror>().height(uv);
+        assert_eq!(sixteen.sampler::<Bilinear, Mirror>().height(uv), height);
+        assert_eq!(indexed.sampler::<Bilinear, Mirror>().height(uv), height);
+        let red = eight.sampler::<Nearest, Mirror>().sample(uv).to_bytes()[0];
+        assert_eq!(sixteen.sampler::<Nearest, Mirror>().height(uv), f32::from(red) / 255.0);
+        assert_eq!(indexed.sampler::<Nearest, Mirror>().height(uv), f32::from(red) / 255.0);
+    }
+    // All bits of a texel, and a border's red.
+    for texel in 0..=u16::MAX {
+        let texels = [texel];
+        let texture = Texture::<L16>::new(&texels, 1, 1).expect("as many");
+        let found = texture.sampler::<Nearest, Border<0xff00_3300>>();
+        assert_eq!(found.height(Vec2::splat(0.5)), f32::from(texel) / 65535.0);
+        assert_eq!(found.height(Vec2::splat(-0.5)), 0.0);
+    }
+    let texture = Texture::<L8>::new(&[255], 1, 1).expect("as many");
+    assert_eq!(texture.sampler::<Bilinear, Border<0x33>>().height(Vec2::splat(-0.5)), 0.2);
+    assert_eq!(bilinear_height::<_, _, Border<0x33>, Border>(&texture, Vec2::splat(-0.5)).0, 0.2);
 }
 
 /// A sampler is a height map, of its red channel.

@@ -19,3 +19,4 @@ mod parallax;
 mod parametric;
 mod support;
 mod triangle;
+mod wide_relief;
