@@ -10,7 +10,7 @@
 //! | tangents of a mesh | [`vertex_tangents`], [`frame_of_tangent`] | as in glTF; `Frame<Tangent, Object>` |
 //! | the same, by MikkTSpace | `mikktspace`, with the feature of that name, which needs an allocator | as in glTF |
 //! | normal map | [`normal`], [`normal_of_two`], [`strengthened`] | a normal in the frame |
-//! | bump map | [`Relief::normal`], [`bilinear_height`] and [`normal_of_slope`] | a normal in the frame |
+//! | bump map | [`Relief::normal`], [`Slopes`] and [`normal_of_slope`] | a normal in the frame |
 //! | bump map on sheared axes | [`bump`] | a normal in object space |
 //! | parallax map | [`Relief::parallax`] | where to read the other maps |
 //! | displacement map | [`Grid`], [`Subdivision`], [`displace`], [`displaced_mesh`] | a mesh in object space |
@@ -33,6 +33,7 @@ mod normal;
 mod parallax;
 mod parametric;
 mod relief;
+mod slopes;
 mod tangent;
 mod unit;
 mod vector;
@@ -54,6 +55,7 @@ pub use normal::{
 pub use parallax::{Occlusion, Offset, OffsetLimited, Parallax, Steep};
 pub use parametric::{Cylinder, Differences, Parametric, Plane, Sphere, Torus};
 pub use relief::{Relief, bump, bump_lanes, normal_of_slope, normal_of_slope_lanes};
+pub use slopes::{BilinearHeights, CentralDifferences, Slopes};
 pub use tangent::{
     Tangent, frame_of_derivatives, frame_of_normal, orthonormal, triangle_directions, triangle_frame,
 };

@@ -82,13 +82,8 @@ impl<H: HeightMap> Relief<H> {
     /// # Precision
     /// In fixed point within |high − low|/extent·(s²/6·max|∂³h/∂u³| + 2^-16/s) + 2^-14, if steps and extents are exact.
     #[inline(always)]
-    pub fn slope_lanes<L: Lanes>(&self, lanes: L, [u, v]: [L::Number; 2], step: Vec2) -> [L::Number; 2] {
-        let [du, dv] = step.to_array().map(|step| lanes.splat(step));
-        let height = |u, v| self.map.height_lanes(lanes, [u, v]);
-        // Over what the coordinates were rounded to.
-        let ([left, right], [down, up]) = ([u - du, u + du], [v - dv, v + dv]);
-        let along_u = (height(right, v) - height(left, v)) / (right - left);
-        let along_v = (height(u, up) - height(u, down)) / (up - down);
+    pub fn slope_lanes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2], step: Vec2) -> [L::Number; 2] {
+        let [along_u, along_v] = differences(lanes, &self.map, uv, step);
         let [width, height] = self.extent.to_array().map(|extent| lanes.splat(extent));
         [along_u * self.range(lanes) / width, along_v * self.range(lanes) / height]
     }
@@ -110,6 +105,23 @@ impl<H: HeightMap> Relief<H> {
     pub fn normal_lanes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2], step: Vec2) -> [L::Number; 3] {
         normal_of_slope_lanes(lanes, self.slope_lanes(lanes, uv, step))
     }
+}
+
+/// The central differences of a map over `step` to either side.
+#[inline(always)]
+pub(super) fn differences<L: Lanes>(
+    lanes: L,
+    map: &impl HeightMap,
+    [u, v]: [L::Number; 2],
+    step: Vec2,
+) -> [L::Number; 2] {
+    let [du, dv] = step.to_array().map(|step| lanes.splat(step));
+    let height = |u, v| map.height_lanes(lanes, [u, v]);
+    // Over what the coordinates were rounded to.
+    let ([left, right], [down, up]) = ([u - du, u + du], [v - dv, v + dv]);
+    let along_u = (height(right, v) - height(left, v)) / (right - left);
+    let along_v = (height(u, up) - height(u, down)) / (up - down);
+    [along_u, along_v]
 }
 
 /// The unit normal of a surface that rises by these slopes along u and v, which are at right angles: (−∂h/∂u, −∂h/∂v,
