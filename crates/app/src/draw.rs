@@ -20,8 +20,14 @@ use alberti::{
 use projection::Either;
 
 mod erased;
+mod lamps;
 mod lines;
+mod lit;
+mod maps;
+mod painted;
 mod projection;
+
+pub(crate) use lit::Studio;
 
 /// Light that falls everywhere, and light that falls on what faces it.
 pub const AMBIENT: f32 = 0.3;
@@ -121,7 +127,10 @@ pub(crate) struct Canvas<'a> {
     model: &'a Model,
     options: &'a RenderOptions,
     view: View<Either>,
+    /// Where the camera stands.
+    camera: Frame<Eye, World>,
     light: Vector3<World>,
+    studio: &'a Studio,
     textures: Vec<Texture<'a, Rgba8>>,
     /// The projector and its image.
     slide: Option<(Projector, Texture<'a, Rgba8>)>,
@@ -134,7 +143,12 @@ pub(crate) type DrawPart<'a, D> = fn(&mut Canvas<'a>, &Part, &[[u32; 3]], &mut B
 impl<'a> Canvas<'a> {
     /// # Errors
     /// What is wrong with the camera, the size, the projector or a texture.
-    pub(crate) fn new(model: &'a Model, camera: &Camera, options: &'a RenderOptions) -> Result<Self, Error> {
+    pub(crate) fn new(
+        model: &'a Model,
+        camera: &Camera,
+        options: &'a RenderOptions,
+        studio: &'a Studio,
+    ) -> Result<Self, Error> {
         let view =
             either(camera, options).map_err(|e| camera::refused(e, camera, options.projection, &CAMERA))?;
         let borrow = |image: &'a Image| Texture::new(&image.texels, image.width, image.height);
@@ -149,7 +163,9 @@ impl<'a> Canvas<'a> {
             model,
             options,
             view,
+            camera: frame(camera).map_err(|e| camera::refused(e, camera, options.projection, &CAMERA))?,
             light: Vector3::new(to_light(camera)),
+            studio,
             textures,
             slide: slide.transpose()?,
             stats: Stats::default(),
@@ -169,7 +185,11 @@ impl<'a> Canvas<'a> {
         let mut done = 0;
         for part in &self.model.parts {
             for triangles in part.triangles.chunks(CHUNK) {
-                draw_part(&mut self, part, triangles, band);
+                if lit::is_lit(part, self.model, self.options) {
+                    self.draw_lit(part, triangles, band);
+                } else {
+                    draw_part(&mut self, part, triangles, band);
+                }
                 done += triangles.len() as u64;
                 progress(done, total);
             }
@@ -253,6 +273,10 @@ impl<'a> Canvas<'a> {
         let pass = self.pass(view, triangles, vertex_stage, fragment_stage, Exact);
         let mut slots = self.slots::<Sub8, V>(triangles);
         draw(&pass, band, &mut slots, &mut self.stats);
+    }
+
+    fn projector(&self) -> Option<Projector> {
+        self.slide.map(|(projector, _)| projector)
     }
 
     /// The view, if it is of the kind that the kernels of the default policies are for.

@@ -1,6 +1,6 @@
 //! From a scene to a picture.
 
-use crate::draw::{Canvas, DrawPart};
+use crate::draw::{Canvas, DrawPart, Studio};
 use crate::error::Error;
 use crate::options::{ColorFormat, DepthFormat, RenderOptions};
 use crate::scene::{Camera, Image, Model};
@@ -32,7 +32,8 @@ pub fn render(
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<Picture, Error> {
     options.policies.check()?;
-    let canvas = Canvas::new(model, camera, options)?;
+    let studio = Studio::new(model, camera, options)?;
+    let canvas = Canvas::new(model, camera, options, &studio)?;
     let stats_and_pixels = match options.depth {
         DepthFormat::F32 => draw::<F32>(canvas, Canvas::by_default, options, progress),
         DepthFormat::F32Reversed => draw::<F32Reversed>(canvas, Canvas::by_default, options, progress),

@@ -1,7 +1,9 @@
 //! Any policies with any fragment stage: a kernel for each of the rasterizer's policies, and the stage behind a
 //! pointer.
 
-use super::erased::{Bare, Carried, Erased, ErasedFixed, Looks, OfFirst, OfUv, Thrown, erase, erase_fixed};
+use super::erased::{
+    Bare, Carried, Differentiable, Erased, ErasedFixed, Looks, OfFirst, OfUv, Thrown, erase, erase_fixed,
+};
 use super::lines::Lines;
 use super::{Canvas, Taps, color, lambert, position};
 use crate::options::{Filter, Interpolation, Numbers, Shading, Subpixel, Wrap};
@@ -32,8 +34,8 @@ macro_rules! with_slide {
     };
 }
 
-/// The vertex stages: one type for all, whatever is carried. What the fragment stage does not need is constant, so that
-/// it has no part in how far a straight line may go.
+/// The vertex stages of plain surfaces: one type for all, whatever is carried. What the fragment stage does not need is
+/// constant, so that it has no part in how far a straight line may go.
 #[derive(Clone, Copy)]
 struct Carry {
     shading: Shading,
@@ -42,31 +44,40 @@ struct Carry {
 }
 
 impl VertexStage<Vertex> for Carry {
-    type Varying = Carried;
+    type Varying = Carried<Looks>;
 
-    fn shade(&self, v: &Vertex) -> (Point3<Object>, Carried) {
+    fn shade(&self, v: &Vertex) -> (Point3<Object>, Carried<Looks>) {
         let first = match self.shading {
             Shading::VertexColor => Vec3::from_array(v.color),
             Shading::Unlit => Vec3::ZERO,
             _ => Vec3::from_array(v.normal),
         };
         let uv = if self.textured { Vec2::from_array(v.uv) } else { Vec2::ZERO };
-        // The model stands in the world where it was made.
-        let world = Point3::new(Vec3::from_array(v.position));
-        let place = self.projector.map_or(Homogeneous::default(), |projector| projector.project(world));
-        (position(v), (place, (first, uv)))
+        (position(v), (on_image(self.projector, v), (first, uv)))
     }
 }
 
-/// Triangles of a part, and where they go.
-struct Triangles<'t, 'b, D: DepthFormat> {
-    triangles: &'t [[u32; 3]],
-    vertex_stage: Carry,
-    band: &'t mut Band<'b, Rgba8, D>,
+/// Where a projector's image meets a vertex. The model stands in the world where it was made.
+pub(super) fn on_image(projector: Option<Projector>, v: &Vertex) -> Homogeneous {
+    let world = Point3::new(Vec3::from_array(v.position));
+    projector.map_or(Homogeneous::default(), |projector| projector.project(world))
+}
+
+/// Triangles of a part, with what their vertices carry, and where they go.
+pub(super) struct Triangles<'t, 'b, Vs, D: DepthFormat> {
+    pub(super) triangles: &'t [[u32; 3]],
+    pub(super) vertex_stage: Vs,
+    pub(super) band: &'t mut Band<'b, Rgba8, D>,
+}
+
+/// What becomes a fragment stage when it is asked for.
+pub(super) trait Look<V: Differentiable> {
+    /// Has the stage visited.
+    fn visit(&self, visitor: &mut impl Visitor<V>);
 }
 
 impl<'a> Canvas<'a> {
-    /// From names to types: interpolation and numbers, then lanes, then subpixels.
+    /// A plain surface, by any policies.
     pub(crate) fn in_general<D: DepthFormat>(
         &mut self,
         part: &Part,
@@ -74,63 +85,95 @@ impl<'a> Canvas<'a> {
         band: &mut Band<'_, Rgba8, D>,
     ) {
         let surface = self.surface(part);
-        let target = &mut Triangles { triangles, vertex_stage: surface.carry(), band };
+        self.by_policies(&surface, &mut Triangles { triangles, vertex_stage: surface.carry(), band });
+    }
+
+    /// From names to types: interpolation and numbers, then lanes, then subpixels.
+    pub(super) fn by_policies<V, Vs, D>(&mut self, look: &impl Look<V>, target: &mut Triangles<'_, '_, Vs, D>)
+    where
+        V: Differentiable,
+        Vs: VertexStage<Vertex, Varying = Carried<V>> + Copy,
+        D: DepthFormat,
+    {
         let policies = self.options.policies;
         match self.lines() {
-            None if policies.interpolation == Interpolation::Plane => self.in_floats(Plane, &surface, target),
-            None => self.in_floats(Exact, &surface, target),
+            None if policies.interpolation == Interpolation::Plane => self.in_floats(Plane, look, target),
+            None => self.in_floats(Exact, look, target),
             Some(lines) if policies.numbers == Numbers::Float => {
-                self.in_floats(FloatingPoint(lines), &surface, target);
+                self.in_floats(FloatingPoint(lines), look, target);
             }
-            Some(lines) => surface.visit(&mut EraseFixed {
-                slide: surface.slide,
+            Some(lines) => look.visit(&mut EraseFixed {
+                slide: self.thrown(),
                 then: &mut |stage| self.snapped(One, FixedPoint(lines), stage, target),
             }),
         }
     }
 
-    fn in_floats<P: alberti::Interpolation, D: DepthFormat>(
+    fn in_floats<P, V, Vs, D>(
         &mut self,
         interpolation: P,
-        surface: &Surface<'_>,
-        target: &mut Triangles<'_, '_, D>,
-    ) {
+        look: &impl Look<V>,
+        target: &mut Triangles<'_, '_, Vs, D>,
+    ) where
+        P: alberti::Interpolation,
+        V: Differentiable,
+        Vs: VertexStage<Vertex, Varying = Carried<V>> + Copy,
+        D: DepthFormat,
+    {
         let Some(machine) = Machine::all().next() else { return };
-        for_lanes!(machine, lanes => surface.visit(&mut Erase {
+        for_lanes!(machine, lanes => look.visit(&mut Erase {
             lanes,
-            slide: surface.slide,
+            slide: self.thrown(),
             then: &mut |stage| self.snapped(lanes, interpolation, stage, target),
         }));
     }
 
-    fn snapped<L, P, F, D>(&mut self, lanes: L, interpolation: P, stage: F, target: &mut Triangles<'_, '_, D>)
-    where
-        L: Floating,
-        P: alberti::Interpolation,
-        F: FragmentStage<Carried, Color = Rgba8>,
-        D: DepthFormat,
-    {
-        match self.options.policies.subpixel {
-            Subpixel::Sub4 => self.draw_general::<Sub4, _, _, _, _>(lanes, interpolation, stage, target),
-            Subpixel::Sub8 => self.draw_general::<Sub8, _, _, _, _>(lanes, interpolation, stage, target),
-        }
-    }
-
-    fn draw_general<S, L, P, F, D>(
+    fn snapped<L, P, F, V, Vs, D>(
         &mut self,
         lanes: L,
         interpolation: P,
         stage: F,
-        Triangles { triangles, vertex_stage, band }: &mut Triangles<'_, '_, D>,
+        target: &mut Triangles<'_, '_, Vs, D>,
+    ) where
+        L: Floating,
+        P: alberti::Interpolation,
+        V: Differentiable,
+        F: FragmentStage<Carried<V>, Color = Rgba8>,
+        Vs: VertexStage<Vertex, Varying = Carried<V>> + Copy,
+        D: DepthFormat,
+    {
+        match self.options.policies.subpixel {
+            Subpixel::Sub4 => {
+                self.draw_general::<Sub4, _, _, _, _, _, _>(lanes, interpolation, stage, target)
+            }
+            Subpixel::Sub8 => {
+                self.draw_general::<Sub8, _, _, _, _, _, _>(lanes, interpolation, stage, target)
+            }
+        }
+    }
+
+    fn draw_general<S, L, P, F, V, Vs, D>(
+        &mut self,
+        lanes: L,
+        interpolation: P,
+        stage: F,
+        Triangles { triangles, vertex_stage, band }: &mut Triangles<'_, '_, Vs, D>,
     ) where
         S: alberti::Subpixel,
         L: Floating,
         P: alberti::Interpolation,
-        F: FragmentStage<Carried, Color = Rgba8>,
+        V: Differentiable,
+        F: FragmentStage<Carried<V>, Color = Rgba8>,
+        Vs: VertexStage<Vertex, Varying = Carried<V>> + Copy,
         D: DepthFormat,
     {
         let pass = self.pass(self.view, triangles, *vertex_stage, stage, interpolation);
-        draw_by(lanes, &pass, band, &mut self.slots::<S, Carried>(triangles), &mut self.stats);
+        draw_by(lanes, &pass, band, &mut self.slots::<S, Carried<V>>(triangles), &mut self.stats);
+    }
+
+    /// A projector's image, and how it is read.
+    fn thrown(&self) -> Option<SlideImage<'a>> {
+        self.slide.map(|(_, image)| (image, self.options.filter))
     }
 
     /// The policy of straight lines, if it is one.
@@ -156,8 +199,7 @@ impl<'a> Canvas<'a> {
             shading: self.options.shading,
             filter: self.options.filter,
             wrap: self.options.wrap,
-            projector: self.slide.map(|(projector, _)| projector),
-            slide: self.slide.map(|(_, image)| (image, self.options.filter)),
+            projector: self.projector(),
         }
     }
 }
@@ -171,7 +213,6 @@ struct Surface<'a> {
     filter: Filter,
     wrap: Wrap,
     projector: Option<Projector>,
-    slide: Option<SlideImage<'a>>,
 }
 
 /// What is thrown on a surface, and how it is read.
@@ -183,8 +224,25 @@ impl Surface<'_> {
         Carry { shading: self.shading, textured, projector: self.projector }
     }
 
-    /// From names to types: the fragment stage.
-    fn visit(&self, visitor: &mut impl Visitor) {
+    /// A white tint changes no byte.
+    fn visit_textured<Z: Size>(&self, texture: Texture<'_, Rgba8, Z>, visitor: &mut impl Visitor<Looks>) {
+        with_sampler!(texture, self.filter, self.wrap, |sampler| {
+            self.visit_lit(Tinted { surface: Unlit(sampler), tint: self.tint }, visitor);
+        });
+    }
+
+    fn visit_lit(&self, surface: impl FragmentStage<Vec2, Color = Rgba8>, visitor: &mut impl Visitor<Looks>) {
+        if self.shading.is_lit() {
+            visitor.visit(lambert(surface, self.light));
+        } else {
+            visitor.visit(OfUv(surface));
+        }
+    }
+}
+
+impl Look<Looks> for Surface<'_> {
+    /// From names to types.
+    fn visit(&self, visitor: &mut impl Visitor<Looks>) {
         match self.texture {
             _ if self.shading == Shading::VertexColor => visitor.visit(OfFirst(VertexColor)),
             None => self.visit_lit(Solid(self.tint), visitor),
@@ -194,37 +252,22 @@ impl Surface<'_> {
             },
         }
     }
-
-    /// A white tint changes no byte.
-    fn visit_textured<Z: Size>(&self, texture: Texture<'_, Rgba8, Z>, visitor: &mut impl Visitor) {
-        with_sampler!(texture, self.filter, self.wrap, |sampler| {
-            self.visit_lit(Tinted { surface: Unlit(sampler), tint: self.tint }, visitor);
-        });
-    }
-
-    fn visit_lit(&self, surface: impl FragmentStage<Vec2, Color = Rgba8>, visitor: &mut impl Visitor) {
-        if self.shading.is_lit() {
-            visitor.visit(lambert(surface, self.light));
-        } else {
-            visitor.visit(OfUv(surface));
-        }
-    }
 }
 
 /// Something to do with a surface of whatever type.
-trait Visitor {
-    fn visit(&mut self, surface: impl FragmentStage<Looks, Color = Rgba8>);
+pub(super) trait Visitor<V: Differentiable> {
+    fn visit(&mut self, surface: impl FragmentStage<V, Color = Rgba8>);
 }
 
 /// Goes on with the surface behind a pointer, and the image on it, if there is one, behind another.
-struct Erase<'t, 'a, L: Floating> {
+struct Erase<'t, 'a, L: Floating, V: Differentiable> {
     lanes: L,
     slide: Option<SlideImage<'a>>,
-    then: &'t mut dyn FnMut(Erased<'_, L>),
+    then: &'t mut dyn FnMut(Erased<'_, L, V>),
 }
 
-impl<L: Floating> Visitor for Erase<'_, '_, L> {
-    fn visit(&mut self, surface: impl FragmentStage<Looks, Color = Rgba8>) {
+impl<L: Floating, V: Differentiable> Visitor<V> for Erase<'_, '_, L, V> {
+    fn visit(&mut self, surface: impl FragmentStage<V, Color = Rgba8>) {
         let Self { lanes, slide, then } = self;
         erase(*lanes, Bare(surface), &mut |surface| match *slide {
             None => then(surface),
@@ -234,13 +277,13 @@ impl<L: Floating> Visitor for Erase<'_, '_, L> {
 }
 
 /// The same in fixed point.
-struct EraseFixed<'t, 'a> {
+struct EraseFixed<'t, 'a, V: Differentiable> {
     slide: Option<SlideImage<'a>>,
-    then: &'t mut dyn FnMut(ErasedFixed<'_>),
+    then: &'t mut dyn FnMut(ErasedFixed<'_, V>),
 }
 
-impl Visitor for EraseFixed<'_, '_> {
-    fn visit(&mut self, surface: impl FragmentStage<Looks, Color = Rgba8>) {
+impl<V: Differentiable> Visitor<V> for EraseFixed<'_, '_, V> {
+    fn visit(&mut self, surface: impl FragmentStage<V, Color = Rgba8>) {
         let Self { slide, then } = self;
         erase_fixed(Bare(surface), &mut |surface| match *slide {
             None => then(surface),

@@ -1,0 +1,148 @@
+//! Lights, reflectances, environments and parallax maps whose kind is chosen at run time.
+
+use super::{AMBIENT, DIFFUSE};
+use crate::scene::{self, Camera, Model};
+use alberti::glam::Vec3;
+use alberti::lanes::Lanes;
+use alberti::shaders::material::{
+    BlinnPhong, Directional, Lambert, Light, Phong, PointLight, Reflectance, SpotLight, Viewer,
+};
+use alberti::texture::surface::{HeightMap, Occlusion, OffsetLimited, Parallax, Relief, Steep};
+use alberti::{Point3, Vector3};
+
+/// What falls on a picture's surfaces.
+#[derive(Clone, Debug)]
+pub(crate) struct Lamps {
+    pub(super) ambient: Vec3,
+    pub(super) lights: Vec<Lamp>,
+    pub(super) viewer: Viewer,
+}
+
+impl Lamps {
+    /// A model's, or else light from the direction `to_light`.
+    pub(super) fn new(model: &Model, camera: &Camera, parallel: bool, to_light: Vec3) -> Self {
+        let lights: Vec<Lamp> = model.lights.iter().map(Lamp::new).collect();
+        let own = lights.is_empty() && model.ambient.is_none();
+        let beside = Lamp::Directional(Directional::new(Vector3::new(to_light), Vec3::splat(DIFFUSE)));
+        let [eye, target] = [camera.eye, camera.target].map(Vec3::from_array);
+        Self {
+            ambient: model.ambient.map_or(Vec3::splat(AMBIENT), Vec3::from_array),
+            lights: if own { vec![beside] } else { lights },
+            viewer: if parallel {
+                Viewer::towards(Vector3::new(eye - target))
+            } else {
+                Viewer::at(Point3::new(eye))
+            },
+        }
+    }
+}
+
+/// A light of any kind.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Lamp {
+    Directional(Directional),
+    Point(PointLight),
+    Spot(SpotLight),
+}
+
+impl Lamp {
+    fn new(light: &scene::Light) -> Self {
+        let point = |position: [f32; 3], color: [f32; 3], range: f32| PointLight {
+            position: Point3::new(Vec3::from_array(position)),
+            color: Vec3::from_array(color),
+            falloff: [1.0, 0.0, 1.0 / (range * range)],
+        };
+        match *light {
+            scene::Light::Directional { to_light, color } => {
+                let to_light = Vector3::new(Vec3::from_array(to_light));
+                Self::Directional(Directional::new(to_light, Vec3::from_array(color)))
+            }
+            scene::Light::Point { position, color, range } => Self::Point(point(position, color, range)),
+            scene::Light::Spot { position, direction, color, range, inner, outer } => {
+                let axis = Vector3::new(Vec3::from_array(direction));
+                let cosines = [inner, outer].map(|angle| angle.to_radians().cos());
+                Self::Spot(SpotLight::new(point(position, color, range), axis, cosines))
+            }
+        }
+    }
+}
+
+/// What all kinds have, of the one that it is.
+macro_rules! of_kind {
+    ($this:expr, $kind:ident: $($name:ident)+, |$it:ident| $body:expr) => {
+        match $this {
+            $($kind::$name($it) => $body,)+
+        }
+    };
+}
+
+impl Light for Lamp {
+    #[inline(always)]
+    fn fold<L: Lanes, T>(
+        &self,
+        lanes: L,
+        position: [L::Number; 3],
+        sum: T,
+        and: impl Fn(T, [L::Number; 3], [L::Number; 3]) -> T + Copy,
+    ) -> T {
+        of_kind!(self, Self: Directional Point Spot, |light| light.fold(lanes, position, sum, and))
+    }
+}
+
+/// A reflectance of any kind.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum AnyReflectance {
+    Lambert(Lambert),
+    Phong(Phong<[u32; 2]>),
+    Blinn(BlinnPhong<[u32; 2]>),
+}
+
+impl Reflectance for AnyReflectance {
+    #[inline(always)]
+    fn shares<L: Lanes>(
+        &self,
+        lanes: L,
+        normal: [L::Number; 3],
+        to_light: [L::Number; 3],
+        to_viewer: [L::Number; 3],
+        gloss: L::Number,
+    ) -> [L::Number; 2] {
+        of_kind!(self, Self: Lambert Phong Blinn, |it| it.shares(lanes, normal, to_light, to_viewer, gloss))
+    }
+}
+
+/// A way of reading a parallax map.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum AnyParallax {
+    Limited(OffsetLimited),
+    Steep(Steep),
+    Occlusion(Occlusion),
+}
+
+/// The layers in which steep heights are searched.
+const LAYERS: u32 = 48;
+
+impl AnyParallax {
+    /// Of what is made of heights, if it is a parallax map.
+    pub(super) fn of(relief: scene::Relief) -> Option<Self> {
+        match relief {
+            scene::Relief::Bump | scene::Relief::Displacement => None,
+            scene::Relief::Parallax => Some(Self::Limited(OffsetLimited)),
+            scene::Relief::Steep => Some(Self::Steep(Steep { layers: LAYERS })),
+            scene::Relief::Occlusion => Some(Self::Occlusion(Occlusion { layers: LAYERS })),
+        }
+    }
+}
+
+impl Parallax for AnyParallax {
+    #[inline(always)]
+    fn meet<H: HeightMap, L: Lanes>(
+        &self,
+        lanes: L,
+        relief: &Relief<H>,
+        uv: [L::Number; 2],
+        slant: [L::Number; 2],
+    ) -> [L::Number; 2] {
+        of_kind!(self, Self: Limited Steep Occlusion, |policy| policy.meet(lanes, relief, uv, slant))
+    }
+}

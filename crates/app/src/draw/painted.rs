@@ -1,0 +1,140 @@
+//! The materials of parts, as layers that are there or not at run time, under lights of any kind. Which they are is
+//! asked for the samples that are worked on together; the colours are those of the library's layers.
+
+use super::color;
+use super::lamps::{AnyParallax, AnyReflectance, Lamp, Lamps};
+use super::maps::{AnyHeights, AnyMap, Chains, Meaning, Scaled};
+use crate::options::{RenderOptions, Shading};
+use crate::scene::{self, Model, NormalSpace, Part};
+use alberti::glam::{Vec2, Vec3};
+use alberti::lanes::Lanes;
+use alberti::raster::PerPixel;
+use alberti::shaders::material::{
+    BlinnPhong, Bump, Color, Emission, Framed, Gloss, Lambert, Layer, Lighting, Material, NormalMap,
+    ObjectNormals, Occlusion, Parallax, Phong, Specular, Surface, Wetness,
+};
+use alberti::texture::surface::{Relief, Unorm};
+use alberti::{Eye, Frame, Object, Varying, World};
+
+/// What a part is made of.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Painted<'a> {
+    parallax: Option<Parallax<AnyHeights<'a>, AnyParallax>>,
+    normal: Facing<'a>,
+    color: Color<Scaled<'a>>,
+    specular: Option<Specular<Scaled<'a>>>,
+    gloss: Option<Gloss<AnyMap<'a>>>,
+    wetness: Option<Wetness<Scaled<'a>>>,
+    occlusion: Option<Occlusion<AnyMap<'a>>>,
+    emission: Option<Emission<Scaled<'a>>>,
+}
+
+/// Which way it faces.
+#[derive(Clone, Copy, Debug)]
+enum Facing<'a> {
+    AsVertices,
+    Tangent(NormalMap<AnyMap<'a>, Unorm, f32>),
+    Object(ObjectNormals<AnyMap<'a>>),
+    Bump(Bump<AnyHeights<'a>>),
+}
+
+impl Layer<Framed> for Painted<'_> {
+    type Derivatives = PerPixel;
+
+    #[inline(always)]
+    fn apply<L: Lanes>(
+        &self,
+        lanes: L,
+        varyings: &<Framed as Varying>::Of<L::Number>,
+        surface: &mut Surface<L>,
+    ) {
+        /// Applies layers that are there.
+        macro_rules! apply {
+            ($($layer:expr),+) => {$(
+                if let Some(layer) = &$layer {
+                    Layer::<Framed>::apply(layer, lanes, varyings, surface);
+                }
+            )+};
+        }
+        apply!(self.parallax);
+        match self.normal {
+            Facing::AsVertices => {}
+            Facing::Tangent(layer) => Layer::<Framed>::apply(&layer, lanes, varyings, surface),
+            Facing::Object(layer) => Layer::<Framed>::apply(&layer, lanes, varyings, surface),
+            Facing::Bump(layer) => Layer::<Framed>::apply(&layer, lanes, varyings, surface),
+        }
+        Layer::<Framed>::apply(&self.color, lanes, varyings, surface);
+        apply!(self.specular, self.gloss, self.wetness, self.occlusion, self.emission);
+    }
+}
+
+impl<'a> Painted<'a> {
+    /// A part's, in a picture with these options, seen from a frame with these axes.
+    pub(super) fn new(
+        part: &Part,
+        model: &'a Model,
+        chains: &'a Chains,
+        options: &RenderOptions,
+        _: Frame<Eye, World>,
+    ) -> Self {
+        let detail = &part.detail;
+        let map = |map: scene::Map, meaning| AnyMap::new(model, chains, options, map, meaning);
+        let numbers = |of: Option<scene::Map>| of.and_then(|of| map(of, Meaning::Numbers));
+        let colors = |of: Option<scene::Map>| of.and_then(|of| map(of, Meaning::Colors));
+        let scaled = |factor: [f32; 3], map| Scaled { factor: color(factor), map };
+
+        let relief = detail.height.and_then(|height| {
+            let image = model.heights.get(height.heights)?;
+            let [low, high] = height.range;
+            let map = AnyHeights::new(image, height.wrap.unwrap_or(options.wrap))?;
+            Some((height.relief, Relief { map, low, high, extent: Vec2::from_array(height.extent) }))
+        });
+        let parallax =
+            relief.and_then(|(kind, relief)| Some(Parallax { relief, policy: AnyParallax::of(kind)? }));
+        let own = detail.normal.and_then(|normal| {
+            let map = map(normal.map, Meaning::Normals)?;
+            Some(match normal.space {
+                NormalSpace::Tangent => Facing::Tangent(NormalMap::new(map, normal.strength)),
+                NormalSpace::Object => {
+                    Facing::Object(ObjectNormals::new(map, Frame::<Object, World>::IDENTITY))
+                }
+            })
+        });
+        let bump = relief.filter(|(kind, _)| *kind != scene::Relief::Displacement);
+        let normal = own.or(bump.map(|(_, relief)| Facing::Bump(Bump(relief))));
+        let highlights = matches!(options.shading, Shading::Phong | Shading::Blinn | Shading::Gouraud);
+        Self {
+            parallax,
+            normal: normal.unwrap_or(Facing::AsVertices),
+            color: Color(scaled(part.diffuse, colors(part.color_map()))),
+            specular: highlights.then(|| Specular(scaled(detail.specular, colors(detail.specular_map)))),
+            gloss: numbers(detail.shininess_map).map(Gloss),
+            wetness: (detail.wetness > 0.0)
+                .then(|| Wetness(scaled([detail.wetness; 3], numbers(detail.wetness_map)))),
+            occlusion: numbers(detail.occlusion).map(|map| Occlusion { map, strength: 1.0 }),
+            emission: (detail.emissive != [0.0; 3])
+                .then(|| Emission(scaled(detail.emissive, colors(detail.emissive_map)))),
+        }
+    }
+
+    /// Under a picture's lights.
+    pub(super) fn lit(
+        self,
+        shading: Shading,
+        exponents: [f32; 2],
+        lamps: &'a Lamps,
+    ) -> Material<Self, &'a [Lamp], AnyReflectance> {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
+        let exponents = exponents.map(|exponent| (exponent + 0.5) as u32);
+        let reflectance = match shading {
+            Shading::Phong => AnyReflectance::Phong(Phong(exponents)),
+            Shading::Blinn | Shading::Gouraud => AnyReflectance::Blinn(BlinnPhong(exponents)),
+            _ => AnyReflectance::Lambert(Lambert),
+        };
+        let (ambient, lights) = match shading {
+            Shading::Unlit | Shading::VertexColor => (Vec3::ONE, &[][..]),
+            _ => (lamps.ambient, &lamps.lights[..]),
+        };
+        Material { layers: self, lighting: Lighting { viewer: lamps.viewer, ambient, lights, reflectance } }
+    }
+}
