@@ -42,6 +42,7 @@ Examples:
   alberti render                                     the built-in scene, into alberti.png
   alberti render teapot.obj -o teapot.png            a model, all of it in view
   alberti render cow.obj --texture cow.png --eye 2,1,-3
+  alberti render wet.toml --shading phong            a scene file, drawn with other light
   alberti render --scene floor --interpolation affine
   alberti render --scene cube --projection parallel
   alberti render --projector slide.png --projector-eye 0,2,6 --projector-target 0,1,0
@@ -50,8 +51,9 @@ Examples:
 /// The options of `alberti render`. Those that are absent are left to the model or the scene.
 #[derive(Clone, Debug, Default, Args)]
 pub struct RenderArgs {
-    /// Wavefront OBJ model to draw; materials and textures are found beside it.
-    #[arg(value_name = "MODEL.obj")]
+    /// Wavefront OBJ model to draw, with the materials and textures that it names; or a scene file, whose name ends in
+    /// .toml, and which options override.
+    #[arg(value_name = "MODEL.obj or SCENE.toml")]
     pub model: Option<PathBuf>,
 
     /// Built-in scene to draw instead of a model [default: hero].

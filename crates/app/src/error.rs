@@ -41,6 +41,11 @@ impl Error {
         self
     }
 
+    /// What [`Self::place`] was given.
+    pub(crate) fn place_name(&self) -> Option<&str> {
+        self.place.as_deref()
+    }
+
     /// The line in the file, from 1. A line made with continuations counts as its first.
     #[must_use]
     pub fn line(mut self, line: usize) -> Self {
@@ -83,6 +88,11 @@ impl Warnings {
         } else {
             self.more += 1;
         }
+    }
+
+    /// Hands each on that is kept.
+    pub(crate) fn each(self, hear: impl FnMut(Error)) {
+        self.first.into_iter().for_each(hear);
     }
 
     /// One line each, and one for those that were only counted.

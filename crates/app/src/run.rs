@@ -21,6 +21,7 @@ use crate::output::Output;
 use crate::progress::Progress;
 use crate::render::render;
 use crate::scene::{Camera, Model};
+use crate::scene_file::{self, SceneFile};
 use crate::stats::{Report, Source, Times};
 use crate::{obj, partners, prepare, scenes, slide};
 
@@ -87,19 +88,40 @@ struct Scene {
 }
 
 fn draw(arguments: &RenderArgs) -> Result<(), Error> {
+    let Some(path) = arguments.model.as_deref().filter(|path| scene_file::is_scene(path)) else {
+        return draw_from(arguments, None);
+    };
+    let mut file = SceneFile::read(path)?;
+    let mut arguments = arguments.clone();
+    file.fill(&mut arguments)?;
+    draw_from(&arguments, Some(&file)).map_err(|error| file.relocate(error))
+}
+
+fn draw_from(arguments: &RenderArgs, file: Option<&SceneFile>) -> Result<(), Error> {
     let (policies, depth) = choices(arguments);
     policies.check()?;
     partners::check(arguments)?;
     let output = Output::new(arguments.output.as_deref().unwrap_or(Path::new(DEFAULT_OUTPUT)))?;
-    for input in inputs(arguments) {
+    let named = file.map(SceneFile::inputs).unwrap_or_default();
+    for input in inputs(arguments).chain(&named) {
         if output.is(input) {
             let found = "a file that is also read";
             return Err(Error::new(found, "another").file(output.name()).hint("choose another with -o"));
         }
     }
     let start = Instant::now();
-    let mut scene = load(arguments)?;
-    put_materials(arguments, &mut scene)?;
+    let mut scene = match file {
+        Some(file) => load_scene_file(arguments, file)?,
+        None => load(arguments)?,
+    };
+    if file.is_none() {
+        put_materials(arguments, &mut scene)?;
+    }
+    if let (Some(option), false) = (mapped(arguments), scene.has_uv) {
+        let found = "a model without texture coordinates (`vt` lines)";
+        let error = Error::new(found, "some for the texture").place(option);
+        warn(&error.hint("every surface gets one texel's colour").to_string());
+    }
     scene.model.slide = slide::load(arguments)?;
     let load = start.elapsed();
 
@@ -211,25 +233,34 @@ fn load(arguments: &RenderArgs) -> Result<Scene, Error> {
 fn put_materials(arguments: &RenderArgs, scene: &mut Scene) -> Result<(), Error> {
     let mut images = Images::new();
     images.adopt(&mut scene.model);
-    let mut material = Material::given(&arguments.material);
-    if let Some(path) = &arguments.texture {
-        material.color_map = Some(MapFile::given(path));
-        material.color = Some([1.0; 3]);
-    }
-    prepare::replace_materials(&mut scene.model, &material, &mut images)?;
-    if let Some(option) = mapped(arguments)
-        && !scene.has_uv
-    {
-        let found = "a model without texture coordinates (`vt` lines)";
-        let error = Error::new(found, "some for the texture").place(option);
-        warn(&error.hint("every surface gets one texel's colour").to_string());
-    }
+    prepare::replace_materials(&mut scene.model, &given_material(arguments), &mut images)?;
     let mut warnings = Warnings::default();
     let wrap = arguments.wrap.unwrap_or(scene.defaults.2);
     prepare::complete(&mut scene.model, &images, wrap, &mut warnings);
     warn_all(&warnings);
     images.give(&mut scene.model);
     Ok(())
+}
+
+fn given_material(arguments: &RenderArgs) -> Material {
+    let mut material = Material::given(&arguments.material);
+    if let Some(path) = &arguments.texture {
+        material.color_map = Some(MapFile::given(path));
+        material.color = Some([1.0; 3]);
+    }
+    material
+}
+
+/// What a scene file describes.
+fn load_scene_file(arguments: &RenderArgs, file: &SceneFile) -> Result<Scene, Error> {
+    let mut warnings = Warnings::default();
+    let mut progress = Progress::new("loading");
+    let over = given_material(arguments);
+    let (model, has_uv) =
+        file.build(&over, arguments, &mut warnings, &mut |done, total| progress.set(done, total))?;
+    drop(progress);
+    warn_all(&warnings);
+    Ok(Scene { model, camera: None, defaults: Default::default(), background: DEFAULT_BACKGROUND, has_uv })
 }
 
 /// The first option that puts an image on surfaces.

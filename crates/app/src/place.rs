@@ -1,0 +1,137 @@
+//! Where an object of a scene stands.
+
+use crate::normals::{dot, narrow, normalize};
+use crate::scene::Model;
+
+/// First the scale, then the turns about x, y and z, then the shift.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Placement {
+    pub(crate) position: [f64; 3],
+    /// Degrees about x, y and z, one after the other, counter-clockwise seen from the axis' end.
+    pub(crate) rotation: [f64; 3],
+    /// Not 0. Negative ones mirror.
+    pub(crate) scale: [f64; 3],
+}
+
+impl Placement {
+    /// Puts all vertices of a model there. Front faces stay front faces, and unit vectors stay unit vectors.
+    pub(crate) fn apply(&self, model: &mut Model) {
+        if *self == (Self { position: [0.0; 3], rotation: [0.0; 3], scale: [1.0; 3] }) {
+            return;
+        }
+        let rows = self.turned();
+        let turn = |v: [f64; 3]| rows.map(|row| dot(row, v));
+        let scaled = |v: [f64; 3]| [0, 1, 2].map(|axis| v[axis] * self.scale[axis]);
+        let unscaled = |v: [f64; 3]| [0, 1, 2].map(|axis| v[axis] / self.scale[axis]);
+        let mirrored = self.scale.iter().product::<f64>() < 0.0;
+        for vertex in &mut model.vertices {
+            let point = turn(scaled(vertex.position.map(f64::from)));
+            vertex.position = [0, 1, 2].map(|axis| narrow(point[axis] + self.position[axis]));
+            let normal = normalize(turn(unscaled(vertex.normal.map(f64::from)))).unwrap_or([0.0, 0.0, 1.0]);
+            vertex.normal = normal.map(narrow);
+            let [x, y, z, handedness] = vertex.tangent;
+            let along = turn(scaled([x, y, z].map(f64::from)));
+            // A scale that is not the same everywhere leaves no right angles.
+            let off = dot(along, normal);
+            let across = [0, 1, 2].map(|axis| along[axis] - normal[axis] * off);
+            if let Some(tangent) = normalize(across) {
+                let [x, y, z] = tangent.map(narrow);
+                vertex.tangent = [x, y, z, if mirrored { -handedness } else { handedness }];
+            }
+        }
+        let axis = |k: usize| {
+            let unit = [0, 1, 2].map(|axis| if axis == k { self.scale[k].signum() } else { 0.0 });
+            turn(unit).map(narrow)
+        };
+        for part in &mut model.parts {
+            if let Some(normal) = &mut part.detail.normal {
+                normal.axes = [axis(0), axis(1), axis(2)];
+            }
+            if mirrored {
+                part.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+            }
+        }
+    }
+
+    /// The rows of the rotation.
+    fn turned(&self) -> [[f64; 3]; 3] {
+        let [[sx, cx], [sy, cy], [sz, cz]] = self.rotation.map(|degrees| {
+            // Quarters are exact.
+            let (quarters, rest) = ((degrees / 90.0).round(), degrees % 90.0);
+            let (sine, cosine) = (degrees - 90.0 * quarters).to_radians().sin_cos();
+            let exact = if rest.abs() <= 0.0 { (0.0, 1.0) } else { (sine, cosine) };
+            match quarters.rem_euclid(4.0) {
+                q if q < 0.5 => [exact.0, exact.1],
+                q if q < 1.5 => [exact.1, -exact.0],
+                q if q < 2.5 => [-exact.0, -exact.1],
+                _ => [-exact.1, exact.0],
+            }
+        });
+        [
+            [cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx],
+            [sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx],
+            [-sy, cy * sx, cy * cx],
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::normals::{cross, sub};
+    use crate::scene::{Part, Vertex};
+
+    const STILL: Placement = Placement { position: [0.0; 3], rotation: [0.0; 3], scale: [1.0; 3] };
+
+    fn model() -> Model {
+        let vertex = |position: [f32; 3]| Vertex {
+            position,
+            normal: [0.0, 0.0, 1.0],
+            uv: [position[0], position[1]],
+            tangent: [1.0, 0.0, 0.0, 1.0],
+            ..Vertex::default()
+        };
+        let vertices = vec![vertex([1.0, 2.0, 3.0]), vertex([2.0, 2.0, 3.0]), vertex([1.0, 3.0, 3.0])];
+        let parts = vec![Part { triangles: vec![[0, 1, 2]], ..Part::default() }];
+        Model { vertices, parts, ..Model::default() }
+    }
+
+    fn first(placement: Placement) -> [f32; 3] {
+        let mut model = model();
+        placement.apply(&mut model);
+        model.vertices[0].position
+    }
+
+    #[test]
+    fn turns_go_about_x_then_y_then_z() {
+        assert_eq!(first(Placement { rotation: [90.0, 0.0, 0.0], ..STILL }), [1.0, -3.0, 2.0]);
+        assert_eq!(first(Placement { rotation: [0.0, 90.0, 0.0], ..STILL }), [3.0, 2.0, -1.0]);
+        assert_eq!(first(Placement { rotation: [0.0, 0.0, -270.0], ..STILL }), [-2.0, 1.0, 3.0]);
+        assert_eq!(first(Placement { rotation: [90.0, 90.0, 0.0], ..STILL }), [2.0, -3.0, -1.0]);
+        let all =
+            Placement { position: [10.0, 0.0, 0.0], rotation: [0.0, 180.0, 0.0], scale: [2.0, 1.0, 1.0] };
+        assert_eq!(first(all), [8.0, 2.0, -3.0]);
+        let small = first(Placement { rotation: [0.0, 0.0, 30.0], ..STILL });
+        let wanted = [0.75_f32.sqrt() - 1.0, 0.5 + 2.0 * 0.75_f32.sqrt(), 3.0];
+        assert!(small.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-6), "{small:?}");
+    }
+
+    #[test]
+    fn normals_tangents_and_front_faces_go_along() {
+        for scale in [[1.0, 1.0, 1.0], [-2.0, 1.0, 3.0], [1.0, -1.0, -1.0], [0.5, 4.0, -1.0]] {
+            let mut model = model();
+            Placement { position: [1.0, 2.0, 3.0], rotation: [20.0, 30.0, 40.0], scale }.apply(&mut model);
+            let [a, b, c] = model.parts[0].triangles[0].map(|i| model.vertices[i as usize]);
+            let [p, q, r] = [a, b, c].map(|v| v.position.map(f64::from));
+            let across = normalize(cross(sub(q, p), sub(r, p))).unwrap();
+            assert!(dot(across, a.normal.map(f64::from)) > 1.0 - 1e-6, "{scale:?}");
+            // u grows from vertex 0 to 1 of the file, v from 0 to 2, whichever way the triangle turns now.
+            let at = |i: usize| model.vertices[i].position.map(f64::from);
+            let (du, dv) = (sub(at(1), at(0)), sub(at(2), at(0)));
+            let [x, y, z, w] = a.tangent.map(f64::from);
+            assert!(dot(normalize(du).unwrap(), [x, y, z]) > 1.0 - 1e-6, "{scale:?}");
+            let up = cross(a.normal.map(f64::from), [x, y, z]).map(|x| x * w);
+            assert!(dot(normalize(dv).unwrap(), up) > 1.0 - 1e-6, "{scale:?}");
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! A scene file as text, and messages that name the line and the key of what is wrong in it.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::tables::File;
+use crate::error::{Error, quote};
+use crate::images::Origin;
+use crate::input;
+
+/// What a scene file is called in messages.
+const KIND: &str = "a scene file in TOML";
+
+/// The largest scene file that is read, in bytes.
+const MAX_BYTES: u64 = 1 << 24;
+
+/// The text, and where its keys are.
+#[derive(Debug)]
+pub(super) struct Source {
+    path: PathBuf,
+    text: String,
+    keys: Vec<Key>,
+}
+
+/// A key and its value.
+#[derive(Debug)]
+struct Key {
+    key: Range<usize>,
+    value: Range<usize>,
+    /// With the tables that it is in.
+    name: String,
+}
+
+impl Source {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// The file cannot be read, is no TOML, or has a key that there is none of, or a value of another kind.
+    pub(super) fn read(path: &Path) -> Result<(Self, File), Error> {
+        let bytes = input::read(path, KIND, MAX_BYTES)?;
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let valid = error.utf8_error().valid_up_to();
+            let line = 1 + error.as_bytes()[..valid].iter().filter(|&&byte| byte == b'\n').count();
+            Error::new("a byte that is not UTF-8", KIND).file(path).line(line)
+        })?;
+        // As far as it can be read: what is wrong is told below.
+        let mut keys = Vec::new();
+        collect(DeTable::parse_recoverable(&text).0.get_ref(), "", &mut keys);
+        let source = Self { path: path.to_owned(), text, keys };
+        match toml::from_str(&source.text) {
+            Ok(file) => Ok((source, file)),
+            Err(error) => Err(source.refused(&error)),
+        }
+    }
+
+    /// A path in the file, which starts where the file is.
+    pub(super) fn beside(&self, name: &str) -> PathBuf {
+        self.path.parent().unwrap_or(Path::new("")).join(name)
+    }
+
+    /// The file itself.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Puts an error where this value stands.
+    pub(super) fn place(&self, error: Error, at: &Range<usize>) -> Error {
+        let error = error.file(&self.path).line(self.line(at));
+        match self.key(at) {
+            Some(key) => error.key(key),
+            None => error,
+        }
+    }
+
+    /// What is wrong with this value.
+    pub(super) fn error(
+        &self,
+        at: &Range<usize>,
+        found: impl Into<String>,
+        expected: impl Into<String>,
+    ) -> Error {
+        self.place(Error::new(found, expected), at)
+    }
+
+    /// Where the name of a file stands.
+    pub(super) fn origin(&self, name: &str, at: &Range<usize>) -> Origin {
+        let key = self.key(at).map(str::to_owned);
+        Origin { file: self.path.clone(), line: self.line(at), key, text: name.to_owned() }
+    }
+
+    fn line(&self, at: &Range<usize>) -> usize {
+        1 + self.text.bytes().take(at.start).filter(|&byte| byte == b'\n').count()
+    }
+
+    /// The innermost key that has this place in its name or its value.
+    fn key(&self, at: &Range<usize>) -> Option<&str> {
+        let within = |range: &Range<usize>| range.start <= at.start && at.end <= range.end;
+        let here = self.keys.iter().filter(|key| within(&key.key) || within(&key.value));
+        let size = |key: &&Key| if within(&key.key) { key.key.len() } else { key.value.len() };
+        here.min_by_key(size).map(|key| key.name.as_str())
+    }
+
+    /// What a line that cannot be read gives a value to.
+    fn key_on_line(&self, at: &Range<usize>) -> Option<&str> {
+        let start = self.text.get(..at.start)?.rfind('\n').map_or(0, |end| end + 1);
+        let (key, _) = self.text.get(start..)?.lines().next()?.split_once('=')?;
+        let key = key.trim();
+        let usual = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+        (!key.is_empty() && key.chars().all(usual)).then_some(key)
+    }
+
+    /// A message of the reader's, in the form that all messages have.
+    fn refused(&self, error: &toml::de::Error) -> Error {
+        let message = error.message().replace('\n', ", ");
+        let (found, expected) = message.split_once("expected ").unwrap_or((&message, KIND));
+        let found = found.trim_end_matches([',', ' ']);
+        let kinds = ["invalid type: ", "invalid value: "];
+        let found = kinds.iter().find_map(|kind| found.strip_prefix(kind)).unwrap_or(found);
+        let unknown = found.strip_prefix("unknown field ").map(|key| key.trim_matches('`'));
+        let missing = found.strip_prefix("missing field ");
+        let at = error.span().unwrap_or(0..0);
+        let (found, expected) = match (unknown, missing) {
+            (Some(key), _) => (format!("the unknown key {}", quote(key.as_bytes())), plain(expected)),
+            (None, Some(key)) => (format!("no {key}"), "one".to_owned()),
+            (None, None) if found.is_empty() => (self.found(&at), plain(expected)),
+            (None, None) => (found.to_owned(), plain(expected)),
+        };
+        let found = plain(&found);
+        let mut error = self.error(&at, found, expected.clone());
+        if let (None, Some(key)) = (self.key(&at), self.key_on_line(&at)) {
+            error = error.key(key);
+        }
+        match unknown.and_then(|key| nearest(key, &expected)) {
+            Some(key) => error.hint(format!("did you mean {key}?")),
+            None => error,
+        }
+    }
+
+    /// What stands there.
+    fn found(&self, at: &Range<usize>) -> String {
+        match self.text.get(at.clone()).filter(|text| !text.trim().is_empty()) {
+            Some(text) => quote(text.as_bytes()),
+            None => "the end of the line".to_owned(),
+        }
+    }
+}
+
+/// Without the marks around names.
+fn plain(expected: &str) -> String {
+    expected.replace('`', "")
+}
+
+/// The known key that is most like this one, if one is at all.
+fn nearest<'a>(key: &str, expected: &'a str) -> Option<&'a str> {
+    let known = expected.strip_prefix("one of ").unwrap_or(expected);
+    let known = known.split([',', ' ']).filter(|known| !known.is_empty() && *known != "or");
+    let (distance, found) = known.map(|known| (distance(key, known), known)).min()?;
+    (3 * distance <= key.chars().count().max(3)).then_some(found)
+}
+
+/// How many letters have to be put in, taken out or exchanged (Levenshtein).
+fn distance(a: &str, b: &str) -> usize {
+    let mut row: Vec<usize> = (0..=b.chars().count()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut corner = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.chars().enumerate() {
+            let replaced = corner + usize::from(x != y);
+            corner = row[j + 1];
+            row[j + 1] = replaced.min(row[j] + 1).min(corner + 1);
+        }
+    }
+    row[row.len() - 1]
+}
+
+fn collect(table: &DeTable<'_>, prefix: &str, keys: &mut Vec<Key>) {
+    for (key, value) in table {
+        let name =
+            if prefix.is_empty() { key.get_ref().to_string() } else { format!("{prefix}.{}", key.get_ref()) };
+        collect_value(value, &name, keys);
+        keys.push(Key { key: key.span(), value: value.span(), name });
+    }
+}
+
+fn collect_value(value: &Spanned<DeValue<'_>>, name: &str, keys: &mut Vec<Key>) {
+    match value.get_ref() {
+        DeValue::Table(table) => collect(table, name, keys),
+        DeValue::Array(array) => {
+            for value in array {
+                collect_value(value, name, keys);
+                keys.push(Key { key: value.span(), value: value.span(), name: name.to_owned() });
+            }
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,377 @@
+use super::*;
+use crate::options::{Filter, Probes, Shading};
+use crate::scene::{EnvironmentKind, Light, NormalSpace, Relief};
+use std::fs;
+
+const MINIMAL: &str = "[[object]]\nsurface = \"plane\"\n";
+
+/// Writes the files and reads the first.
+fn read(files: &[(&str, &[u8])]) -> Result<(tempfile::TempDir, SceneFile, RenderArgs), Error> {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    for (name, bytes) in files {
+        fs::write(folder.path().join(name), bytes).expect("a file for the test");
+    }
+    let mut scene = SceneFile::read(&folder.path().join(files[0].0))?;
+    let mut arguments = RenderArgs::default();
+    scene.fill(&mut arguments)?;
+    crate::partners::check(&arguments).map_err(|error| scene.relocate(error))?;
+    Ok((folder, scene, arguments))
+}
+
+fn build(files: &[(&str, &[u8])]) -> Result<Model, Error> {
+    let (_folder, scene, arguments) = read(files)?;
+    let mut warnings = Warnings::default();
+    let (model, _) = scene.build(&Material::default(), &arguments, &mut warnings, &mut |_, _| ())?;
+    assert_eq!(warnings.lines().collect::<Vec<_>>(), Vec::<String>::new());
+    Ok(model)
+}
+
+fn png(texels: &[[u8; 3]]) -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let width = u32::try_from(texels.len()).expect("a short row");
+    let raw = texels.concat();
+    image::RgbImage::from_raw(width, 1, raw)
+        .expect("an image")
+        .write_to(&mut bytes, image::ImageFormat::Png)
+        .expect("encoding");
+    bytes.into_inner()
+}
+
+/// The message without the folder.
+fn refused(text: &str) -> String {
+    let image = png(&[[1, 2, 3]]);
+    let broken = b"v 0 0 0\nf 1 2 3\n";
+    let error = build(&[("s.toml", text.as_bytes()), ("a.png", &image), ("b.obj", broken)]).expect_err(text);
+    let message = error.to_string();
+    let start = message.find("s.toml").unwrap_or_else(|| panic!("{message}"));
+    message[start..].to_owned()
+}
+
+#[test]
+fn errors_name_line_and_key() {
+    let with = |text: &str| format!("{MINIMAL}{text}");
+    for (text, wanted) in [
+        ("", "s.toml: found no [[object]], expected at least one; the README of"),
+        ("size = [1,", "s.toml:1: size: found unclosed array, expected ]"),
+        ("a\n", "s.toml:1: found "),
+        ("[camera\n", "s.toml:1: camera: found unclosed table, expected ]"),
+        ("[camera]\nfov = 1\nfov = 2\n", "s.toml:3: fov: found duplicate key, expected "),
+        (
+            &with("[camera]\nfow = 40\n"),
+            "s.toml:4: camera.fow: found the unknown key \"fow\", expected one of eye, ",
+        ),
+        (
+            &with("[camera]\n\n\nfov = \"wide\"\n"),
+            "s.toml:6: camera.fov: found string \"wide\", expected a finite number",
+        ),
+        (
+            &with("[camera]\neye = [1, 2]\n"),
+            "s.toml:4: camera.eye: found 2 in brackets, expected three finite numbers in brackets",
+        ),
+        (&with("[camera]\neye = [1, nan, 2]\n"), "s.toml:4: camera.eye: found NaN, expected a finite number"),
+        (
+            &with("[camera]\neye = 5\n"),
+            "s.toml:4: camera.eye: found 5, expected three finite numbers in brackets",
+        ),
+        (
+            &with("[camera]\nview-height = 5\n"),
+            "s.toml:4: camera.view-height: found it without --projection parallel",
+        ),
+        (
+            &with("[camera]\nprojection = \"flat\"\n"),
+            "s.toml:4: camera.projection: found \"flat\", expected one of perspective, parallel",
+        ),
+        (
+            &format!("size = [0, 5]\n{MINIMAL}"),
+            "s.toml:1: size: found 0, expected a whole number from 1 to 16384",
+        ),
+        (
+            &format!("size = [1.5, 5]\n{MINIMAL}"),
+            "s.toml:1: size: found 1.5, expected a whole number from 1 to 16384",
+        ),
+        (
+            &format!("background = \"red\"\n{MINIMAL}"),
+            "s.toml:1: background: found \"red\", expected six hexadecimal digits",
+        ),
+        (
+            &format!("size = [1, 1]\n{MINIMAL}[render]\nsize = [1, 1]\n"),
+            "s.toml:5: render.size: found it at the top of the file as well",
+        ),
+        (
+            &with("[render]\nshading = \"shiny\"\n"),
+            "s.toml:4: render.shading: found \"shiny\", expected one of unlit, vertex-color, lambert",
+        ),
+        (
+            &with("[render]\nfilter = \"cubic\"\n"),
+            "s.toml:4: render.filter: found \"cubic\", expected nearest, bilinear, trilinear or",
+        ),
+        (&with("[render]\ndepth = 3\n"), "s.toml:4: render.depth: found integer 3, expected a string"),
+        (
+            &with("[projector]\neye = [1, 2, 3]\n"),
+            "s.toml:4: projector.eye: found it without --projector and --projector-target",
+        ),
+        (
+            "[[object]]\nmodel = \"no.obj\"\n",
+            "s.toml:2: object.model: found a model \"no.obj\" that cannot be used (",
+        ),
+        (
+            "[[object]]\nmodel = \"b.obj\"\n",
+            "s.toml:2: object.model: found a model \"b.obj\" that cannot be used (",
+        ),
+        ("[[object]]\nposition = [1, 2, 3]\n", "s.toml:1: object: found an object without model and surface"),
+        (
+            "[[object]]\nmodel = \"b.obj\"\nsurface = \"plane\"\n",
+            "s.toml:3: object.surface: found a model as well",
+        ),
+        (
+            "[[object]]\nsurface = \"cone\"\n",
+            "s.toml:2: object.surface: found \"cone\", expected one of plane, sphere, torus, cylinder",
+        ),
+        (
+            &with("radius = 1\n"),
+            "s.toml:3: object.radius: found a key that has no use here, expected a sphere or a cylinder",
+        ),
+        (
+            &with("segments = [9000, 9000]\n"),
+            "s.toml:3: object.segments: found 81000000 cells, expected at most 1048576",
+        ),
+        (&with("scale = 0\n"), "s.toml:3: object.scale: found 0, expected a number, not 0,"),
+        (&with("scale = [1, 0, 1]\n"), "s.toml:3: object.scale: found 0, expected a number, not 0,"),
+        (
+            &with("size = [1e9, 1]\n"),
+            "s.toml:3: object.size: found 1000000000, expected a number from 1e-6 to 1e6",
+        ),
+        (
+            &with("material = \"stone\"\n"),
+            "s.toml:3: object.material: found the unknown material \"stone\", expected a table [material.stone]",
+        ),
+        (
+            &with("material = \"stone\"\n[material.stome]\n"),
+            "s.toml:3: object.material: found the unknown material \"stone\", expected one of stome",
+        ),
+        (
+            &with("[material.a]\ncolour = \"ffffff\"\n"),
+            "s.toml:4: material.a.colour: found the unknown key \"colour\", expected one of color, color-map,",
+        ),
+        (
+            &with("[material.a]\nnormal-space = \"object\"\n"),
+            "s.toml:4: material.a.normal-space: found it without normal-map, expected both, or neither",
+        ),
+        (
+            &with("[material.a]\nrelief = \"bump\"\n"),
+            "s.toml:4: material.a.relief: found it without height-map",
+        ),
+        (
+            &with("[material.a]\nheight-range = [0, 1]\n"),
+            "s.toml:4: material.a.height-range: found it without height-map",
+        ),
+        (
+            &with("[material.a]\nreflection = 0.5\n"),
+            "s.toml:4: material.a.reflection: found it without environment",
+        ),
+        (
+            &with("[material.a]\nwetness = 1.5\n"),
+            "s.toml:4: material.a.wetness: found 1.5, expected a number from 0 to 1",
+        ),
+        (
+            &with("[material.a]\nshininess = [9, 8]\n"),
+            "s.toml:4: material.a.shininess: found 9 and 8, expected a number from 0 to 100000, or",
+        ),
+        (
+            &with("[material.a]\ncolor-map = 5\n"),
+            "s.toml:4: material.a.color-map: found integer 5, expected the name of a file, or {",
+        ),
+        (
+            &with("[material.a]\ncolor-map = { filter = \"nearest\" }\n"),
+            "s.toml:4: material.a.color-map: found no file, expected one",
+        ),
+        (
+            &with("[material.a]\ncolor-map = { file = \"a.png\", wrp = \"clamp\" }\n"),
+            "s.toml:4: material.a.color-map.wrp: found the unknown key \"wrp\", expected one of file, filter, wrap; did you mean wrap?",
+        ),
+        (
+            &with("material = \"a\"\n[material.a]\n\nnormal-map = \"no.png\"\n"),
+            "s.toml:6: material.a.normal-map: found a texture \"no.png\" that cannot be used (",
+        ),
+        (
+            &with("material = \"a\"\n[material.a]\nheight-map = \"b.obj\"\n"),
+            "s.toml:5: material.a.height-map: found a texture \"b.obj\" that cannot be used (",
+        ),
+        (
+            &with("[ambient]\nintensity = -1\n"),
+            "s.toml:4: ambient.intensity: found -1, expected a number from 0 to 1000000",
+        ),
+        (
+            &with("[[light]]\nintensity = 1\n"),
+            "s.toml:3: light: found a light without kind, expected directional, point or spot",
+        ),
+        (&with("[[light]]\nkind = \"directional\"\n"), "s.toml:3: light: found a light that points nowhere"),
+        (&with("[[light]]\nkind = \"point\"\n"), "s.toml:3: light: found a light without position"),
+        (
+            &with("[[light]]\nkind = \"point\"\nangle = 30\n"),
+            "s.toml:5: light.angle: found a key that has no use here, expected a spot light",
+        ),
+        (
+            &with("[[light]]\nkind = \"directional\"\ndirection = [0, 0, 0]\n"),
+            "s.toml:5: light.direction: found no direction",
+        ),
+        (
+            &with(
+                "[[light]]\nkind = \"spot\"\nposition = [0, 0, 0]\ndirection = [0, 1, 0]\nangle = [30, 20]\n",
+            ),
+            "s.toml:7: light.angle: found 30 and 20 degrees",
+        ),
+        (
+            &with("[[light]]\nkind = \"spot\"\nangle = 91\n"),
+            "s.toml:5: light.angle: found 91, expected an angle above 0 and up to 90 degrees",
+        ),
+    ] {
+        let message = refused(text);
+        assert!(message.starts_with(wanted), "{text:?}\n   {message}\n   {wanted}");
+        assert_eq!(message.lines().count(), 1);
+        assert!(message.contains("found ") && message.contains(", expected "), "{message}");
+    }
+}
+
+#[test]
+fn unknown_keys_get_a_suggestion() {
+    let message = refused("[[object]]\nsurfaec = \"plane\"\n");
+    assert!(message.ends_with("; did you mean surface?"), "{message}");
+    let message = refused(&format!("{MINIMAL}[camra]\n"));
+    assert!(
+        message.starts_with("s.toml:3: camra: ") && message.ends_with("; did you mean camera?"),
+        "{message}"
+    );
+    let message = refused(&format!("{MINIMAL}[zebra]\n"));
+    assert!(!message.contains("did you mean"), "{message}");
+}
+
+#[test]
+fn options_are_filled_in_and_the_command_line_comes_first() {
+    let text = "size = [320, 200]\nbackground = \"102030\"\noutput = \"out.png\"\n[camera]\neye = [1, 2.5, 3]\nfov = 30\n\
+         [render]\nshading = \"blinn\"\nfilter = \"anisotropic:8\"\ncolor-format = \"rgb565\"\n[[object]]\nsurface = \"sphere\"\n";
+    let (folder, _, arguments) = read(&[("s.toml", text.as_bytes())]).unwrap();
+    assert_eq!((arguments.size, arguments.eye), (Some((320, 200)), Some([1.0, 2.5, 3.0])));
+    assert_eq!(arguments.background, Some([0x10, 0x20, 0x30]));
+    assert_eq!(arguments.output, Some(folder.path().join("out.png")));
+    assert_eq!((arguments.fov, arguments.shading), (Some(30.0), Some(Shading::Blinn)));
+    assert_eq!(arguments.filter, Some(Filter::Anisotropic(Probes::Eight)));
+    assert_eq!(arguments.color, Some(crate::options::ColorFormat::Rgb565));
+    let given = RenderArgs { fov: Some(50.0), shading: Some(Shading::Unlit), ..RenderArgs::default() };
+    let mut filled = given.clone();
+    let mut scene = SceneFile::read(&folder.path().join("s.toml")).unwrap();
+    scene.fill(&mut filled).unwrap();
+    assert_eq!((filled.fov, filled.shading, filled.size), (given.fov, given.shading, Some((320, 200))));
+    // What the command line said is not the file's fault.
+    let error = || Error::new("a", "b");
+    assert_eq!(scene.relocate(error().place("--fov")), error().place("--fov"));
+    let moved = scene.relocate(error().place("--eye")).to_string();
+    assert!(moved.ends_with("s.toml:5: camera.eye: found a, expected b"), "{moved}");
+    let moved = scene.relocate(error().place("--up")).to_string();
+    assert!(moved.ends_with("s.toml:5: camera.eye: found a, expected b"), "{moved}");
+}
+
+#[test]
+fn materials_lights_and_places_arrive() {
+    let text = "[[object]]\nsurface = \"plane\"\nmaterial = \"all\"\nposition = [0, 5, 0]\nscale = 2\nrotation = [90, 0, 0]\n\
+        [material.all]\ncolor = \"ff0000\"\ncolor-map = { file = \"a.png\", filter = \"nearest\", wrap = \"mirror\" }\n\
+        normal-map = \"a.png\"\nnormal-space = \"object\"\nnormal-strength = 2\nheight-map = \"b.png\"\nrelief = \"steep\"\n\
+        height-range = [-0.1, 0]\nwetness-map = \"a.png\"\nshininess = [2, 64]\nshininess-map = \"b.png\"\nspecular = \"ffffff\"\n\
+        emissive-map = \"a.png\"\nenvironment = \"b.png\"\nenvironment-kind = \"cube\"\nuv-scale = [3, 4]\nwrap = \"clamp\"\n\
+        [ambient]\nintensity = 0.25\n\
+        [[light]]\nkind = \"directional\"\ndirection = [0, -2, 0]\n\
+        [[light]]\nkind = \"point\"\nposition = [1, 2, 3]\ncolor = \"00ff00\"\nintensity = 2\nrange = 10\n\
+        [[light]]\nkind = \"spot\"\nposition = [0, 4, 0]\ntarget = [0, 0, 0]\nangle = [10, 40]\n";
+    let (a, b) = (png(&[[1, 2, 3]]), png(&[[0, 0, 0], [255, 255, 255]]));
+    let model = build(&[("s.toml", text.as_bytes()), ("a.png", &a), ("b.png", &b)]).unwrap();
+    assert_eq!((model.textures.len(), model.heights.len()), (2, 1));
+    assert_eq!(model.heights[0].heights, [0, 65535]);
+    let part = &model.parts[0];
+    assert_eq!(
+        (part.diffuse, part.texture, part.detail.filter),
+        ([1.0, 0.0, 0.0], Some(0), Some(Filter::Nearest))
+    );
+    let detail = &part.detail;
+    let normal = detail.normal.unwrap();
+    assert_eq!(
+        (normal.map.image, normal.space, normal.strength.to_bits()),
+        (0, NormalSpace::Object, 2.0_f32.to_bits())
+    );
+    assert_eq!(normal.axes, [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]]);
+    assert_eq!(
+        (detail.wrap, normal.map.wrap),
+        (Some(crate::options::Wrap::Mirror), Some(crate::options::Wrap::Clamp))
+    );
+    let height = detail.height.unwrap();
+    assert_eq!((height.relief, height.range), (Relief::Steep, [-0.1, 0.0]));
+    // Two units long and the texture three and four times on them.
+    assert!((height.extent[0] - 2.0 / 3.0).abs() < 1e-6 && (height.extent[1] - 0.5).abs() < 1e-6);
+    assert_eq!((detail.wetness.to_bits(), detail.shininess), (1.0_f32.to_bits(), [2.0, 64.0]));
+    assert_eq!((detail.specular, detail.emissive), ([1.0; 3], [1.0; 3]));
+    let environment = detail.environment.unwrap();
+    assert_eq!((environment.image, environment.kind), (1, EnvironmentKind::Cube));
+    assert_eq!(detail.reflection.to_bits(), 0.5_f32.to_bits());
+    // From above, twice as large, and upright.
+    let corners: Vec<_> = model.vertices.iter().map(|v| v.position).collect();
+    assert_eq!(corners, [[-2.0, 3.0, 0.0], [2.0, 3.0, 0.0], [-2.0, 7.0, 0.0], [2.0, 7.0, 0.0]]);
+    assert!(model.vertices.iter().all(|v| v.normal == [0.0, 0.0, 1.0] && v.tangent == [1.0, 0.0, 0.0, 1.0]));
+    assert_eq!(model.ambient, Some([0.25; 3]));
+    let color = [1.0; 3];
+    assert_eq!(
+        model.lights,
+        [
+            Light::Directional { to_light: [0.0, 1.0, 0.0], color },
+            Light::Point { position: [1.0, 2.0, 3.0], color: [0.0, 2.0, 0.0], range: 10.0 },
+            Light::Spot {
+                position: [0.0, 4.0, 0.0],
+                direction: [0.0, -1.0, 0.0],
+                color,
+                range: f32::INFINITY,
+                inner: 10.0,
+                outer: 40.0
+            },
+        ]
+    );
+}
+
+#[test]
+fn objects_come_together() {
+    let obj = b"mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n";
+    let mtl = b"newmtl m\nKd 0 0 1\nmap_Kd b.png\nnorm a.png\n";
+    let text = "[[object]]\nsurface = \"plane\"\nmaterial = \"a\"\n[[object]]\nmodel = \"m.obj\"\nposition = [0, 9, 0]\n\
+        [[object]]\nmodel = \"m.obj\"\nmaterial = \"a\"\n[material.a]\ncolor-map = \"a.png\"\n";
+    let (a, b) = (png(&[[1, 1, 1]]), png(&[[2, 2, 2]]));
+    let files =
+        [("s.toml", text.as_bytes()), ("m.obj", &obj[..]), ("m.mtl", mtl), ("a.png", &a), ("b.png", &b)];
+    let model = build(&files).unwrap();
+    assert_eq!(model.parts.len(), 3);
+    let texel = |k: usize| model.parts[k].texture.map(|t| model.textures[t].texels[0][0]);
+    assert_eq!([0, 1, 2].map(texel), [Some(1), Some(2), Some(1)]);
+    let normal = model.parts[1].detail.normal.unwrap();
+    assert_eq!(model.textures[normal.map.image].texels[0][0], 1);
+    assert_eq!((model.parts[1].diffuse, model.parts[2].diffuse), ([0.0, 0.0, 1.0], [1.0; 3]));
+    assert_eq!(model.parts[2].detail.normal, None);
+    let at = |k: usize| model.parts[k].triangles[0].map(|i| model.vertices[i as usize].position);
+    assert_eq!(at(1), [[0.0, 9.0, 0.0], [1.0, 9.0, 0.0], [0.0, 10.0, 0.0]]);
+    // Only where a map needs it.
+    let tangent = |k: usize| model.vertices[model.parts[k].triangles[0][0] as usize].tangent;
+    assert_eq!((tangent(1), tangent(2)), ([1.0, 0.0, 0.0, 1.0], [0.0; 4]));
+}
+
+#[test]
+fn displaced_surfaces_have_a_vertex_for_each_texel_and_no_hole() {
+    let text = "[[object]]\nsurface = \"torus\"\nsegments = [3, 3]\nmaterial = \"a\"\n\
+        [material.a]\nheight-map = \"h.png\"\nrelief = \"displacement\"\nheight-range = [0, 0.1]\n";
+    let rows: Vec<_> = (0..20_u8).map(|x| [x.wrapping_mul(97); 3]).collect();
+    let model = build(&[("s.toml", text.as_bytes()), ("h.png", &png(&rows))]).unwrap();
+    assert_eq!(model.parts[0].triangles.len(), 2 * 20 * 3);
+    let mut edges = std::collections::HashMap::new();
+    for triangle in &model.parts[0].triangles {
+        let at = triangle.map(|i| model.vertices[i as usize].position.map(|x| (x + 0.0).to_bits()));
+        for (a, b) in [(at[0], at[1]), (at[1], at[2]), (at[2], at[0])] {
+            *edges.entry([a.min(b), a.max(b)]).or_insert(0) += if a < b { 1 } else { -1 };
+        }
+    }
+    assert_eq!(edges.len(), 3 * 20 * 3);
+    assert!(edges.values().all(|&n| n == 0));
+}
