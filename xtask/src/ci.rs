@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use crate::command::Outcome;
-use crate::{checks, firmware, nostd, package, tidy};
+use crate::{assets, checks, firmware, nostd, package, tidy};
 
 /// The name that the summary and a failure use, and the check.
 type Step = (&'static str, fn() -> Outcome);
@@ -26,6 +26,7 @@ fn steps(tests_done: bool) -> Vec<Step> {
     let test: Step = if tests_done { ("test xtask", checks::test_xtask) } else { ("test", checks::test) };
     vec![
         ("tidy", tidy::run),
+        ("assets", assets::check),
         ("fmt", checks::fmt),
         ("lint", checks::lint),
         ("docs", checks::docs),

@@ -1,9 +1,11 @@
 //! The chores of this repository: `cargo xtask help` lists them.
 //!
 //! People and the continuous-integration script call the same commands, so "it passes here" and "it passes there"
-//! mean the same thing. The program has no dependencies: it must build quickly and before anything else works.
+//! mean the same thing. The program uses no crate of this workspace, and of others only a PNG encoder: it must build
+//! quickly and before anything else works.
 
 mod accuracy;
+mod assets;
 mod checks;
 mod ci;
 mod command;
@@ -96,6 +98,12 @@ const CHORES: &[Chore] = &[
         arguments: "",
         about: "measure every function's error, and write docs/accuracy.md",
         run: |_| accuracy::run(),
+    },
+    Chore {
+        name: "assets",
+        arguments: "[--check]",
+        about: "write the textures of crates/app/scenes, which code makes, or check that they are the same",
+        run: assets::run,
     },
     Chore {
         name: "sweep",
