@@ -11,6 +11,7 @@ mod ci;
 mod command;
 mod embedded;
 mod firmware;
+mod gallery;
 mod golden;
 mod nostd;
 mod package;
@@ -104,6 +105,12 @@ const CHORES: &[Chore] = &[
         arguments: "[--check]",
         about: "write the textures of crates/app/scenes, which code makes, or check that they are the same",
         run: assets::run,
+    },
+    Chore {
+        name: "gallery",
+        arguments: "[scene]",
+        about: "render the scenes of crates/app/scenes, and write docs/gallery.md",
+        run: gallery::run,
     },
     Chore {
         name: "sweep",

@@ -13,7 +13,7 @@ use std::fs;
 use std::process::Command;
 
 use crate::command::{Outcome, output};
-use crate::workspace;
+use crate::{gallery, workspace};
 
 /// A breach of a rule.
 #[derive(Debug, PartialEq, Eq)]
@@ -40,6 +40,8 @@ impl fmt::Display for Problem {
 pub(crate) fn run() -> Outcome {
     let files = tracked_files()?;
     let mut problems = layout::check(&files);
+    let gallery = gallery::problems(&files)?;
+    problems.extend(gallery.into_iter().map(|(file, message)| Problem::new(&file, 1, message)));
     for file in &files {
         let is_manifest = file.ends_with("Cargo.toml");
         if !(is_manifest || file.ends_with(".rs") || file.ends_with(".md")) {
