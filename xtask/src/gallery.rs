@@ -117,8 +117,28 @@ pub(crate) fn problems(files: &[String]) -> Result<Vec<(String, String)>, String
             let told = "not what the heads of the scene files say: `cargo xtask gallery` writes it anew";
             problems.push((PAGE.to_string(), told.to_string()));
         }
+        let scenes = scenes.iter().flat_map(|(_, scenes)| scenes);
+        let shown = scenes.flat_map(|(scene, header)| pictures(scene, header)).map(|picture| picture.file());
+        problems.extend(missing_and_stray(&shown.collect::<Vec<_>>(), files));
     }
     Ok(problems)
+}
+
+/// The pictures that the page shows and `files` lacks, and those that `files` has and the page does not show.
+fn missing_and_stray(shown: &[String], files: &[String]) -> Vec<(String, String)> {
+    let mut problems = Vec::new();
+    let path = |picture: &String| format!("docs/{PICTURES}/{picture}");
+    for picture in shown.iter().map(path).filter(|picture| !files.contains(picture)) {
+        problems
+            .push((picture, "a picture of the gallery is missing: `cargo xtask gallery` renders it".into()));
+    }
+    let folder = path(&String::new());
+    for file in files.iter().filter(|file| file.starts_with(&folder)) {
+        if !shown.iter().any(|picture| path(picture) == *file) {
+            problems.push((file.clone(), "a picture that the gallery does not show".into()));
+        }
+    }
+    problems
 }
 
 /// The scene files that the page does not list, and those that are listed and missing.
@@ -198,6 +218,15 @@ mod tests {
         files[0] = format!("{SCENES}/stray.toml");
         let found: Vec<String> = listing(&files).into_iter().map(|(file, _)| file).collect();
         assert_eq!(found, [format!("{SCENES}/floor.toml"), format!("{SCENES}/stray.toml")]);
+    }
+
+    #[test]
+    fn a_picture_is_shown_and_a_shown_one_exists() {
+        let shown = ["a.png".to_string(), "b.jpg".to_string()];
+        let files = ["docs/gallery.md", "docs/gallery/b.jpg", "docs/gallery/c.jpg"].map(str::to_string);
+        let found: Vec<String> =
+            missing_and_stray(&shown, &files).into_iter().map(|(file, _)| file).collect();
+        assert_eq!(found, ["docs/gallery/a.png", "docs/gallery/c.jpg"]);
     }
 
     #[test]
