@@ -93,3 +93,56 @@ fn sphere() -> Picture {
         light([2.0 * z * x, 2.0 * z * y, 2.0 * z * z - 1.0])
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::assets::picture::Pixels;
+
+    /// The texel at (s, t), t from the top, from 0 to 1.
+    fn texel(picture: &Picture, [s, t]: [f64; 2]) -> [f64; 3] {
+        let Pixels::Rgb(pixels) = &picture.pixels else { panic!() };
+        let height = pixels.len() / picture.width;
+        let index = |x: f64, side: usize| ((x * side as f64) as usize).min(side - 1);
+        pixels[index(t, height) * picture.width + index(s, picture.width)].map(f64::from)
+    }
+
+    /// Where OpenGL looks for a direction in a cube map: table 8.19 of the specification.
+    fn place_on_cube([x, y, z]: [f64; 3]) -> [f64; 2] {
+        let [ax, ay, az] = [x, y, z].map(f64::abs);
+        let (face, s, t, major) = if ax >= ay && ax >= az {
+            if x > 0.0 { (0.0, -z, -y, ax) } else { (1.0, z, -y, ax) }
+        } else if ay >= az {
+            if y > 0.0 { (2.0, x, z, ay) } else { (3.0, x, -z, ay) }
+        } else if z > 0.0 {
+            (4.0, x, -y, az)
+        } else {
+            (5.0, -x, -y, az)
+        };
+        [(s / major + 1.0) / 2.0, (face + (t / major + 1.0) / 2.0) / 6.0]
+    }
+
+    #[test]
+    fn the_three_maps_show_the_same() {
+        let maps: Vec<Picture> = maps().into_iter().map(|(_, map)| map).collect();
+        let (mut differences, mut count) = ([0.0; 2], 0.0);
+        for step in 0..2000 {
+            let t = (f64::from(step) + 0.5) / 2000.0;
+            let (up, [cos, sin]) = (1.0 - 2.0 * t, turn(t * 618.0));
+            let out = (1.0 - up * up).sqrt();
+            let d @ [x, y, z] = [sin * out, up, cos * out];
+            let latitude = y.asin() / std::f64::consts::PI;
+            let longitude = x.atan2(-z) / std::f64::consts::TAU;
+            let truth = texel(&maps[0], [0.5 + longitude, 0.5 - latitude]);
+            let m = 2.0 * (x * x + y * y + (z + 1.0) * (z + 1.0)).sqrt();
+            let places = [place_on_cube(d), [x / m + 0.5, 0.5 - y / m]];
+            for (index, place) in places.into_iter().enumerate() {
+                let found = texel(&maps[index + 1], place);
+                differences[index] += (0..3).map(|i| (found[i] - truth[i]).abs()).sum::<f64>() / 3.0;
+            }
+            count += 1.0;
+        }
+        // Texels are of different sizes; one face of the six that is mirrored makes it 6.
+        assert!(differences.iter().all(|sum| sum / count < 4.5), "{:?}", differences.map(|sum| sum / count));
+    }
+}
