@@ -7,6 +7,7 @@ extern crate std;
 mod anisotropic;
 mod blend;
 mod coordinate;
+pub mod environment;
 mod filter;
 pub mod format;
 mod lod;

@@ -60,3 +60,4 @@ pub use tangent::{
     Tangent, frame_of_derivatives, frame_of_normal, orthonormal, triangle_directions, triangle_frame,
 };
 pub use vector::unit_lanes;
+pub(crate) use vector::{absolute, clamped_lanes, dot_lanes, has_range};

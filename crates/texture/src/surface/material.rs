@@ -4,6 +4,7 @@
 //! Space out: shares of the light. Nothing here needs a library function, so that the bits are the same everywhere.
 
 use super::vector::{clamped_lanes, dot_lanes, unit_lanes};
+use crate::environment::reflect_lanes;
 use alberti_math::lanes::{Lanes, One};
 use alberti_math::{Space, Vector3};
 use glam::Vec3;
@@ -77,10 +78,9 @@ pub fn phong_cosine_lanes<L: Lanes>(
     v: [L::Number; 3],
 ) -> L::Number {
     let cosine = dot_lanes(n, l);
-    let twice = cosine + cosine;
-    let mirrored = [n[0] * twice - l[0], n[1] * twice - l[1], n[2] * twice - l[2]];
+    let along = dot_lanes(reflect_lanes(lanes, n, l), v);
     let zero = lanes.splat(0.0);
-    lanes.select(lanes.less(zero, cosine), clamped_lanes(lanes, dot_lanes(mirrored, v)), zero)
+    lanes.select(lanes.less(zero, cosine), clamped_lanes(lanes, along), zero)
 }
 
 /// The specular share of the light by Blinn: (n·h)^shininess, where h is halfway between l and v; 0 where the light is

@@ -34,7 +34,7 @@ pub(super) fn over_length<L: Lanes>(lanes: L, [x, y, z]: [L::Number; 3]) -> [L::
 
 /// Written out, so that the order of the operations is the same on every target.
 #[inline(always)]
-pub(super) fn dot_lanes<N: Copy + core::ops::Add<Output = N> + core::ops::Mul<Output = N>>(
+pub(crate) fn dot_lanes<N: Copy + core::ops::Add<Output = N> + core::ops::Mul<Output = N>>(
     [ax, ay, az]: [N; 3],
     [bx, by, bz]: [N; 3],
 ) -> N {
@@ -43,19 +43,19 @@ pub(super) fn dot_lanes<N: Copy + core::ops::Add<Output = N> + core::ops::Mul<Ou
 
 /// Between 0 and 1; 0 for NaN.
 #[inline(always)]
-pub(super) fn clamped_lanes<L: Lanes>(lanes: L, x: L::Number) -> L::Number {
+pub(crate) fn clamped_lanes<L: Lanes>(lanes: L, x: L::Number) -> L::Number {
     // Of a comparison with NaN, the second.
     lanes.min(lanes.max(x, lanes.splat(0.0)), lanes.splat(1.0))
 }
 
 /// |x|.
 #[inline(always)]
-pub(super) fn absolute<L: Lanes>(lanes: L, x: L::Number) -> L::Number {
+pub(crate) fn absolute<L: Lanes>(lanes: L, x: L::Number) -> L::Number {
     lanes.max(x, lanes.splat(0.0) - x)
 }
 
 /// Whether there are numbers beyond 2^15, and so squares of large ones, as in floating point: known when compiling.
 #[inline(always)]
-pub(super) fn has_range<L: Lanes>(lanes: L) -> bool {
+pub(crate) fn has_range<L: Lanes>(lanes: L) -> bool {
     lanes.bits(lanes.less(lanes.splat(32768.0), lanes.splat(65536.0))) != 0
 }

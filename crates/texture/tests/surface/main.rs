@@ -9,6 +9,7 @@
 
 mod bump;
 mod displacement;
+mod environment;
 mod lanes;
 mod material;
 mod mesh;
