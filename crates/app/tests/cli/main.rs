@@ -3,6 +3,7 @@
 mod errors;
 mod policies;
 mod projection;
+mod scenes;
 mod success;
 
 use std::ffi::OsStr;

@@ -1,0 +1,114 @@
+//! Scene files.
+
+use super::{Folder, TRIANGLE};
+
+const SCENE: &str = "size = [40, 30]\nbackground = \"0a141e\"\noutput = \"from-file.png\"\n\
+    [camera]\neye = [0, 0, 5]\ntarget = [0, 0, 0]\nfov = 40\n\
+    [render]\nshading = \"unlit\"\n\
+    [[object]]\nsurface = \"sphere\"\nsegments = [24, 12]\nmaterial = \"red\"\n\
+    [material.red]\ncolor = \"ff0000\"\n";
+
+fn pixel(folder: &Folder, name: &str, x: u32, y: u32) -> [u8; 3] {
+    image::open(folder.path(name)).expect("a picture").to_rgb8().get_pixel(x, y).0
+}
+
+#[test]
+fn a_scene_is_drawn_as_its_file_says() {
+    let folder = Folder::with(&[("s.toml", SCENE.as_bytes())]);
+    let run = folder.succeeds(&["s.toml"]);
+    assert!(run.stdout.starts_with("s.toml: 576 triangles in "), "{run:?}");
+    assert_eq!(run.stderr, "");
+    let size = image::image_dimensions(folder.path("from-file.png")).expect("a picture");
+    assert_eq!(size, (40, 30));
+    assert_eq!(pixel(&folder, "from-file.png", 20, 15), [255, 0, 0]);
+    assert_eq!(pixel(&folder, "from-file.png", 0, 0), [10, 20, 30]);
+}
+
+#[test]
+fn options_override_a_scene() {
+    let folder = Folder::with(&[("s.toml", SCENE.as_bytes())]);
+    folder.succeeds(&["s.toml", "-o", "a.png", "--size", "20x10", "--background", "ffffff"]);
+    assert_eq!(image::image_dimensions(folder.path("a.png")).expect("a picture"), (20, 10));
+    assert_eq!(pixel(&folder, "a.png", 0, 0), [255; 3]);
+    assert_eq!(folder.names(), ["a.png", "s.toml"]);
+    // From so far away it is smaller than half a pixel.
+    folder.succeeds(&["s.toml", "--eye", "0.3,0.3,900"]);
+    assert_eq!(pixel(&folder, "from-file.png", 15, 10), [10, 20, 30]);
+}
+
+#[test]
+fn paths_start_where_the_scene_is() {
+    let scene = "[[object]]\nmodel = \"m.obj\"\n";
+    let folder = Folder::with(&[]);
+    std::fs::create_dir(folder.path("sub")).expect("a folder");
+    std::fs::write(folder.path("sub/s.TOML"), scene).expect("a file");
+    std::fs::write(folder.path("sub/m.obj"), TRIANGLE).expect("a file");
+    folder.succeeds(&["sub/s.TOML"]);
+    assert_eq!(folder.names(), ["alberti.png", "sub"]);
+}
+
+#[test]
+fn what_is_wrong_with_a_scene_is_named_with_line_and_key() {
+    let plane = "[[object]]\nsurface = \"plane\"\n";
+    let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes()), ("binary.toml", b"a = \"\xff\"")]);
+    for (text, part) in [
+        (
+            "[camera]\neye = [1, 2, 3]\ntarget = [1, 2, 3]\n",
+            "s.toml:4: camera.eye: found the eye and its target both",
+        ),
+        (
+            "[camera]\nfov = 200\n",
+            "s.toml:4: camera.fov: found 200 degrees, expected an angle above 0 and below",
+        ),
+        ("[camera]\nnear = 5\nfar = 2\n", "s.toml:5: camera.far: found near 5 and far 2"),
+        ("[camera]\nnear = 1e9\n", "s.toml:4: camera.near: found near 1000000000 and far"),
+        ("[camera]\nup = [0, 0, 0]\n", "s.toml:4: camera.up: found 0,0,0, which is 0 or along the view"),
+        ("[render]\nnumbers = \"fixed\"\n", "s.toml:4: render.numbers: found fixed with exact"),
+        ("[render]\noutput = \"a.gif\"\n", "s.toml:4: render.output: found the extension \".gif\""),
+        ("[render]\noutput = \"s.toml\"\n", "s.toml:4: render.output: found the extension \".toml\""),
+        (
+            "[projector]\nimage = \"no.png\"\neye = [0, 5, 0]\ntarget = [0, 0, 0]\n",
+            "s.toml:4: projector.image: found no such file",
+        ),
+        (
+            "[projector]\nimage = \"no.png\"\neye = [0, 5, 0]\n",
+            "s.toml:4: projector.image: found it without --projector-target",
+        ),
+        (
+            "[camera]\nprojection = \"parallel\"\nview-height = -1\n",
+            "s.toml:5: camera.view-height: found a height of -1",
+        ),
+    ] {
+        std::fs::write(folder.path("s.toml"), format!("{plane}{text}")).expect("a file");
+        folder.fails(&["s.toml"], &[&format!("error: {part}")]);
+    }
+    folder.fails(&["no.toml"], &["error: no.toml: found no such file, expected a scene file in TOML"]);
+    folder.fails(&["binary.toml"], &["error: binary.toml:1: found a byte that is not UTF-8"]);
+    // What the command line says is not the file's.
+    std::fs::write(folder.path("s.toml"), plane).expect("a file");
+    folder.fails(&["s.toml", "--fov", "0"], &["error: --fov: found 0 degrees"]);
+}
+
+#[test]
+fn a_picture_does_not_overwrite_what_a_scene_reads() {
+    let scene = "[[object]]\nsurface = \"plane\"\nmaterial = \"a\"\n[material.a]\ncolor-map = \"a.png\"\n";
+    let folder = Folder::with(&[("s.toml", scene.as_bytes()), ("a.png", b"")]);
+    folder.fails(&["s.toml", "-o", "a.png"], &["error: a.png: found a file that is also read"]);
+}
+
+#[test]
+fn options_of_materials_override_those_of_a_scene() {
+    let folder = Folder::with(&[("s.toml", SCENE.as_bytes()), ("m.obj", TRIANGLE.as_bytes())]);
+    image::RgbImage::from_pixel(2, 2, image::Rgb([0, 255, 0]))
+        .save(folder.path("green.png"))
+        .expect("a file");
+    folder.succeeds(&["s.toml", "--texture", "green.png"]);
+    assert_eq!(pixel(&folder, "from-file.png", 20, 15), [0, 255, 0]);
+    // A displaced triangle, of 2x2 heights.
+    let options = ["--height-map", "green.png", "--relief", "displacement", "--height-range", "0,0.5"];
+    let mut arguments = vec!["m.obj", "--size", "8x8"];
+    arguments.extend(options);
+    let run = folder.succeeds(&arguments);
+    assert!(run.stdout.starts_with("m.obj: 4 triangles"), "{run:?}");
+    assert_eq!(run.stderr, "");
+}
