@@ -8,7 +8,7 @@
 //! | [`SphereMap`]: a mirror ball | eye | `Clamp` | six divisions and two square roots |
 //! | [`Cube`]: six faces | world | `Clamp` | two divisions |
 //!
-//! All work over lanes, in `f32` and in fixed point. A direction that is zero or not finite has a place too: each says
+//! [`Turned`] gives any of them another frame. All work over lanes, in `f32` and in fixed point. A direction that is zero or not finite has a place too: each says
 //! which.
 //!
 //! ```
@@ -29,10 +29,12 @@
 mod cube;
 mod lat_long;
 mod sphere_map;
+mod turned;
 
 pub use cube::Cube;
 pub use lat_long::LatLong;
 pub use sphere_map::SphereMap;
+pub use turned::Turned;
 
 use crate::surface::dot_lanes;
 use alberti_math::lanes::Lanes;

@@ -40,6 +40,7 @@ mod layers;
 mod light;
 mod map;
 mod reflectance;
+mod reflection;
 mod relief;
 mod surface;
 mod vector;
@@ -48,6 +49,7 @@ pub use layers::{Color, Emission, Gloss, Occlusion, Specular, Tint, Wetness};
 pub use light::{Directional, Light, PointLight, SpotLight};
 pub use map::{Map, Times};
 pub use reflectance::{BlinnPhong, Lambert, Phong, Reflectance, Shininess};
+pub use reflection::Reflection;
 pub use relief::{Bump, NormalMap, ObjectNormals, Parallax, Strength, TwoChannels};
 pub use surface::{Axes, Framed, Layer, OnSurface, Placed, Surface, Textured, Viewer};
 

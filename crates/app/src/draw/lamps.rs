@@ -1,14 +1,15 @@
 //! Lights, reflectances, environments and parallax maps whose kind is chosen at run time.
 
 use super::{AMBIENT, DIFFUSE};
-use crate::scene::{self, Camera, Model};
+use crate::scene::{self, Camera, EnvironmentKind, Image, Model};
 use alberti::glam::Vec3;
 use alberti::lanes::Lanes;
 use alberti::shaders::material::{
     BlinnPhong, Directional, Lambert, Light, Phong, PointLight, Reflectance, SpotLight, Viewer,
 };
+use alberti::texture::environment::{Cube, Environment, LatLong, SphereMap, Turned};
 use alberti::texture::surface::{HeightMap, Occlusion, OffsetLimited, Parallax, Relief, Steep};
-use alberti::{Point3, Vector3};
+use alberti::{Eye, Frame, Point3, Vector3, World};
 
 /// What falls on a picture's surfaces.
 #[derive(Clone, Debug)]
@@ -144,5 +145,47 @@ impl Parallax for AnyParallax {
         slant: [L::Number; 2],
     ) -> [L::Number; 2] {
         of_kind!(self, Self: Limited Steep Occlusion, |policy| policy.meet(lanes, relief, uv, slant))
+    }
+}
+
+/// How an image shows all directions.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum AnyEnvironment {
+    LatLong(Upright),
+    Cube(Cube),
+    Sphere(Turned<SphereMap>),
+}
+
+impl AnyEnvironment {
+    /// Of an image, for a camera that stands so.
+    pub(super) fn new(kind: EnvironmentKind, image: &Image, camera: Frame<Eye, World>) -> Self {
+        match kind {
+            EnvironmentKind::LatLong => Self::LatLong(Upright { rows: image.height }),
+            EnvironmentKind::Cube => Self::Cube(Cube { side: image.width }),
+            EnvironmentKind::Sphere => Self::Sphere(Turned { environment: SphereMap, axes: camera.axes() }),
+        }
+    }
+}
+
+impl Environment for AnyEnvironment {
+    #[inline(always)]
+    fn place<L: Lanes>(&self, lanes: L, direction: [L::Number; 3]) -> [L::Number; 2] {
+        of_kind!(self, Self: LatLong Cube Sphere, |environment| environment.place(lanes, direction))
+    }
+}
+
+/// [`LatLong`] for images that repeat in both directions: the poles stay in their rows.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Upright {
+    rows: u32,
+}
+
+impl Environment for Upright {
+    #[inline(always)]
+    #[expect(clippy::cast_precision_loss, reason = "at most 2^14")]
+    fn place<L: Lanes>(&self, lanes: L, direction: [L::Number; 3]) -> [L::Number; 2] {
+        let [u, v] = LatLong.place(lanes, direction);
+        let half = 0.5 / self.rows.max(1) as f32;
+        [u, lanes.min(lanes.max(v, lanes.splat(half)), lanes.splat(1.0 - half))]
     }
 }

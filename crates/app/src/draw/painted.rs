@@ -2,19 +2,19 @@
 //! asked for the samples that are worked on together; the colours are those of the library's layers.
 
 use super::color;
-use super::lamps::{AnyParallax, AnyReflectance, Lamp, Lamps};
+use super::lamps::{AnyEnvironment, AnyParallax, AnyReflectance, Lamp, Lamps};
 use super::maps::{AnyHeights, AnyMap, Chains, Meaning, Scaled};
-use crate::options::{RenderOptions, Shading};
+use crate::options::{Filter, RenderOptions, Shading, Wrap};
 use crate::scene::{self, Model, NormalSpace, Part};
-use alberti::glam::{Vec2, Vec3};
+use alberti::glam::{Mat3, Vec2, Vec3};
 use alberti::lanes::Lanes;
 use alberti::raster::PerPixel;
 use alberti::shaders::material::{
     BlinnPhong, Bump, Color, Emission, Framed, Gloss, Lambert, Layer, Lighting, Material, NormalMap,
-    ObjectNormals, Occlusion, Parallax, Phong, Specular, Surface, Wetness,
+    ObjectNormals, Occlusion, Parallax, Phong, Reflection, Specular, Surface, Wetness,
 };
 use alberti::texture::surface::{Relief, Unorm};
-use alberti::{Eye, Frame, Object, Varying, World};
+use alberti::{Eye, Frame, Point3, Varying, World};
 
 /// What a part is made of.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +27,7 @@ pub(super) struct Painted<'a> {
     wetness: Option<Wetness<Scaled<'a>>>,
     occlusion: Option<Occlusion<AnyMap<'a>>>,
     emission: Option<Emission<Scaled<'a>>>,
+    reflection: Option<Reflection<AnyEnvironment, AnyMap<'a>, Scaled<'a>>>,
 }
 
 /// Which way it faces.
@@ -64,7 +65,7 @@ impl Layer<Framed> for Painted<'_> {
             Facing::Bump(layer) => Layer::<Framed>::apply(&layer, lanes, varyings, surface),
         }
         Layer::<Framed>::apply(&self.color, lanes, varyings, surface);
-        apply!(self.specular, self.gloss, self.wetness, self.occlusion, self.emission);
+        apply!(self.specular, self.gloss, self.wetness, self.occlusion, self.emission, self.reflection);
     }
 }
 
@@ -75,7 +76,7 @@ impl<'a> Painted<'a> {
         model: &'a Model,
         chains: &'a Chains,
         options: &RenderOptions,
-        _: Frame<Eye, World>,
+        camera: Frame<Eye, World>,
     ) -> Self {
         let detail = &part.detail;
         let map = |map: scene::Map, meaning| AnyMap::new(model, chains, options, map, meaning);
@@ -95,13 +96,23 @@ impl<'a> Painted<'a> {
             let map = map(normal.map, Meaning::Normals)?;
             Some(match normal.space {
                 NormalSpace::Tangent => Facing::Tangent(NormalMap::new(map, normal.strength)),
-                NormalSpace::Object => {
-                    Facing::Object(ObjectNormals::new(map, Frame::<Object, World>::IDENTITY))
-                }
+                NormalSpace::Object => Facing::Object(ObjectNormals::new(
+                    map,
+                    Frame::from_mat3(Mat3::from_cols_array_2d(&normal.axes), Point3::new(Vec3::ZERO)),
+                )),
             })
         });
         let bump = relief.filter(|(kind, _)| *kind != scene::Relief::Displacement);
         let normal = own.or(bump.map(|(_, relief)| Facing::Bump(Bump(relief))));
+        let environment = detail.environment.and_then(|environment| {
+            let map = scene::Map {
+                image: environment.image,
+                filter: Some(Filter::Bilinear),
+                wrap: Some(Wrap::Repeat),
+            };
+            let image = model.textures.get(environment.image)?;
+            Some((AnyEnvironment::new(environment.kind, image, camera), colors(Some(map))?))
+        });
         let highlights = matches!(options.shading, Shading::Phong | Shading::Blinn | Shading::Gouraud);
         Self {
             parallax,
@@ -114,6 +125,12 @@ impl<'a> Painted<'a> {
             occlusion: numbers(detail.occlusion).map(|map| Occlusion { map, strength: 1.0 }),
             emission: (detail.emissive != [0.0; 3])
                 .then(|| Emission(scaled(detail.emissive, colors(detail.emissive_map)))),
+            reflection: environment.map(|(environment, image)| Reflection {
+                environment,
+                image,
+                strength: scaled([detail.reflection; 3], numbers(detail.reflection_map)),
+                facing: 1.0,
+            }),
         }
     }
 

@@ -1,0 +1,55 @@
+//! What a surface mirrors of its surroundings.
+
+use super::layers::{colors, red};
+use super::map::Map;
+use super::surface::{Layer, OnSurface, Surface};
+use super::vector::{plus, times};
+use alberti_math::lanes::Lanes;
+use alberti_raster::Gradient;
+use alberti_texture::environment::{Environment, reflect_lanes};
+
+/// A reflection map: what the surface mirrors of its surroundings, which are far away. It comes after whatever bends
+/// the normal.
+///
+/// The share of what is mirrored is, by Schlick, strength (f + (1 − f) (1 − n·v)^5), where f is what the surface
+/// mirrors when looked at from above: 1 for a mirror, 0.04 for glass or lacquer, 0.02 for water.
+///
+/// Source: Blinn and Newell, "Texture and reflection in computer generated images", CACM 19 (1976); Schlick, "An
+/// inexpensive BRDF model for physically-based rendering", Eurographics 1994.
+///
+/// # Cost
+/// The direction's place in the image, as its [`Environment`] says, two maps, and some 20 operations. How fast the
+/// mirrored direction changes from pixel to pixel is not known, so of mip maps level 0 is read.
+#[derive(Clone, Copy, Debug)]
+pub struct Reflection<E, I, M> {
+    /// How a direction is a place in the image, see [`alberti_texture::environment`].
+    pub environment: E,
+    /// The image, a [`Map`].
+    pub image: I,
+    /// A [`Map`] of the strength, in the red channel.
+    pub strength: M,
+    /// f, from 0 to 1.
+    pub facing: f32,
+}
+
+impl<V: OnSurface, E: Environment, I: Map, M: Map> Layer<V> for Reflection<E, I, M> {
+    type Derivatives = M::Derivatives;
+
+    #[inline(always)]
+    fn apply<L: Lanes>(&self, lanes: L, _: &V::Of<L::Number>, surface: &mut Surface<L>) {
+        let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
+        let ([nx, ny, nz], [vx, vy, vz]) = (surface.normal, surface.to_viewer);
+        let direction = reflect_lanes(lanes, surface.normal, surface.to_viewer);
+        let uv = self.environment.place(lanes, direction);
+        let steady = Gradient { dx: [zero; 2], dy: [zero; 2] };
+        let mirrored = colors(lanes, self.image.read(lanes, uv, &steady));
+        let strength = red(lanes, self.strength.read(lanes, surface.uv, &surface.gradient));
+
+        let cosine = lanes.min(lanes.max(nx * vx + ny * vy + nz * vz, zero), one);
+        let aside = one - cosine;
+        let square = aside * aside;
+        let facing = lanes.splat(self.facing);
+        let share = strength * (facing + (one - facing) * (square * square * aside));
+        surface.emission = plus(surface.emission, times(mirrored, share));
+    }
+}

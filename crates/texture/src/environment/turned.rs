@@ -1,0 +1,52 @@
+//! Environments in other frames.
+
+use super::Environment;
+use alberti_math::lanes::Lanes;
+use glam::Mat3;
+
+/// An environment that stands turned: directions are given in one frame, such as the world's, and looked up in another,
+/// such as the eye's, for which a [`SphereMap`](super::SphereMap) is made.
+///
+/// # Precision
+/// The direction is within 3ε radians (ε = 2^-24), besides what the environment's place is within.
+///
+/// # Cost
+/// Nine multiplications.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turned<E> {
+    /// What is looked up.
+    pub environment: E,
+    /// Its axes x, y and z, as columns in the frame in which directions are given: unit vectors at right angles.
+    pub axes: Mat3,
+}
+
+impl<E: Environment> Environment for Turned<E> {
+    #[inline(always)]
+    fn place<L: Lanes>(&self, lanes: L, [x, y, z]: [L::Number; 3]) -> [L::Number; 2] {
+        let [a, b, c] = self.axes.to_cols_array_2d().map(|axis| {
+            let [ax, ay, az] = axis.map(|k| lanes.splat(k));
+            ax * x + ay * y + az * z
+        });
+        self.environment.place(lanes, [a, b, c])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::environment::SphereMap;
+    use alberti_math::lanes::One;
+    use glam::Vec3;
+
+    #[test]
+    fn directions_are_looked_up_in_the_frame() {
+        // An eye that looks along x: its x axis is along z, and -x, backwards, is the middle of the ball.
+        let axes = Mat3::from_cols(Vec3::Z, Vec3::Y, Vec3::X);
+        let turned = Turned { environment: SphereMap, axes };
+        assert_eq!(turned.place(One, [-1.0, 0.0, 0.0]), [0.5, 0.5]);
+        for direction in [[0.6, 0.0, 0.8], [0.0, -0.6, 0.8], [0.48, 0.6, 0.64]] {
+            let [x, y, z] = direction;
+            assert_eq!(turned.place(One, [z, y, x]), SphereMap.place(One, direction));
+        }
+    }
+}
