@@ -4,6 +4,7 @@ use alberti::glam::{Vec2, Vec3};
 use alberti::math::{Object, Point3, Vector3};
 use alberti::texture::surface::{Cylinder, Grid, Parametric, Plane, Sphere, Torus};
 
+use crate::obj::DEFAULT_DIFFUSE;
 use crate::scene::{Model, Part, Vertex};
 
 /// A surface that a formula gives, about the origin.
@@ -65,7 +66,7 @@ fn mesh(surface: &impl Parametric, [columns, rows]: [u32; 2], uv_scale: [f32; 2]
     };
     let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
     let triangles = (0..count(grid.triangles())).map(|t| grid.triangle(t)).collect();
-    let part = Part { triangles, ..Part::default() };
+    let part = Part { triangles, diffuse: DEFAULT_DIFFUSE, ..Part::default() };
     let vertices = (0..count(grid.vertices())).map(vertex).collect();
     Model { vertices, parts: vec![part], ..Model::default() }
 }
