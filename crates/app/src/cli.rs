@@ -28,7 +28,7 @@ pub struct Cli {
 /// What `alberti` can do.
 #[derive(Clone, Debug, Subcommand)]
 pub enum Command {
-    /// Draw a model or a built-in scene into an image file.
+    /// Draw a model, a scene file or a built-in scene into an image file.
     ///
     /// Without arguments, a built-in scene is drawn into alberti.png. A model is looked at from the front, the
     /// right and above, from where all of it is in the picture; camera options that are given replace parts of

@@ -335,6 +335,15 @@ fn materials_lights_and_places_arrive() {
 }
 
 #[test]
+fn surfaces_without_a_material_are_grey() {
+    let model = build(&[("s.toml", MINIMAL.as_bytes())]).unwrap();
+    assert_eq!(
+        (model.parts[0].diffuse, model.ambient, model.lights.len()),
+        (crate::obj::DEFAULT_DIFFUSE, None, 0)
+    );
+}
+
+#[test]
 fn objects_come_together() {
     let obj = b"mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n";
     let mtl = b"newmtl m\nKd 0 0 1\nmap_Kd b.png\nnorm a.png\n";
@@ -374,4 +383,28 @@ fn displaced_surfaces_have_a_vertex_for_each_texel_and_no_hole() {
     }
     assert_eq!(edges.len(), 3 * 20 * 3);
     assert!(edges.values().all(|&n| n == 0));
+}
+
+#[test]
+fn the_example_of_the_readme_is_a_scene() {
+    let readme = include_str!("../../README.md");
+    let example =
+        readme.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("an example");
+    let (_folder, scene, arguments) = read(&[("s.toml", example.as_bytes())]).expect(example);
+    assert_eq!((scene.file.object.len(), scene.file.material.len(), scene.file.light.len()), (2, 2, 2));
+    assert_eq!((arguments.size, arguments.shading), (Some((640, 480)), Some(Shading::Blinn)));
+}
+
+#[test]
+fn the_readme_has_every_key() {
+    let readme = include_str!("../../README.md");
+    let tables = include_str!("tables.rs");
+    let keys = tables.lines().filter_map(|line| line.trim().strip_prefix("pub(super) ")?.split_once(": At<"));
+    let mut count = 0;
+    for (key, _) in keys {
+        let key = format!("`{}`", key.replace('_', "-"));
+        assert!(readme.contains(&key), "{key}");
+        count += 1;
+    }
+    assert!(count > 60, "{count}");
 }
