@@ -24,7 +24,7 @@ pub fn renderer(scene: &Scene, size: Size) -> Box<dyn Renderer> {
     match (&scene.texture, scene.built_in.filter) {
         (None, _) => stage(Shade::Color),
         (Some(_), Filter::Nearest) => stage(Shade::Nearest),
-        (Some(_), Filter::Bilinear) => stage(Shade::Bilinear),
+        (Some(_), _) => stage(Shade::Bilinear),
     }
 }
 
