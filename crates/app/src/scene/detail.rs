@@ -178,7 +178,7 @@ pub enum EnvironmentKind {
     /// Longitude to the right, latitude upwards; -z is in the middle.
     #[default]
     LatLong,
-    /// Six squares beside each other: +x, -x, +y, -y, +z, -z.
+    /// Six squares, one below the other: +x, -x, +y, -y, +z, -z, each as OpenGL stores it.
     Cube,
     /// A mirror ball, as the camera sees it from the front.
     Sphere,
