@@ -34,13 +34,14 @@ pub fn render(
     options.policies.check()?;
     let studio = Studio::new(model, camera, options)?;
     let canvas = Canvas::new(model, camera, options, &studio)?;
+    // Each format with kernels for each stage takes a minute to compile.
     let stats_and_pixels = match options.depth {
         DepthFormat::F32 => draw::<F32>(canvas, Canvas::by_default, options, progress),
         DepthFormat::F32Reversed => draw::<F32Reversed>(canvas, Canvas::by_default, options, progress),
         DepthFormat::U32 => draw::<D32>(canvas, Canvas::in_general, options, progress),
-        DepthFormat::U24 => draw::<D24>(canvas, Canvas::by_default, options, progress),
-        DepthFormat::U16 => draw::<D16>(canvas, Canvas::by_default, options, progress),
-        DepthFormat::None => draw::<NoDepth>(canvas, Canvas::by_default, options, progress),
+        DepthFormat::U24 => draw::<D24>(canvas, Canvas::in_general, options, progress),
+        DepthFormat::U16 => draw::<D16>(canvas, Canvas::in_general, options, progress),
+        DepthFormat::None => draw::<NoDepth>(canvas, Canvas::in_general, options, progress),
     };
     let (stats, texels) = stats_and_pixels?;
     Ok(Picture { image: Image { width: options.width, height: options.height, texels }, stats })

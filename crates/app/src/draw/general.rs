@@ -144,10 +144,10 @@ impl<'a> Canvas<'a> {
     {
         match self.options.policies.subpixel {
             Subpixel::Sub4 => {
-                self.draw_general::<Sub4, _, _, _, _, _, _>(lanes, interpolation, stage, target)
+                self.draw_general::<Sub4, _, _, _, _, _, _>(lanes, interpolation, stage, target);
             }
             Subpixel::Sub8 => {
-                self.draw_general::<Sub8, _, _, _, _, _, _>(lanes, interpolation, stage, target)
+                self.draw_general::<Sub8, _, _, _, _, _, _>(lanes, interpolation, stage, target);
             }
         }
     }

@@ -43,6 +43,9 @@ impl Look<Framed> for Lit<'_> {
     }
 }
 
+/// The bundle of several samples.
+type FramedOf<L> = <Framed as Varying>::Of<<L as Lanes>::Number>;
+
 /// A surface whose first two axes are lights.
 #[derive(Clone, Copy, Debug)]
 struct ByVertex<M>(Gouraud<M>);
@@ -64,18 +67,14 @@ where
     fn shade_lanes<L: Lanes>(
         &self,
         lanes: L,
-        framed: &<Framed as Varying>::Of<L::Number>,
-        gradient: &Gradient<<Framed as Varying>::Of<L::Number>>,
+        framed: &FramedOf<L>,
+        gradient: &Gradient<FramedOf<L>>,
         mask: L::Mask,
     ) -> (L::U32, L::Mask) {
-        /// The lights, and all.
-        #[inline(always)]
-        fn apart<N: Copy>(
-            framed: <Framed as Varying>::Of<N>,
-        ) -> ([N; 3], ([N; 3], <Framed as Varying>::Of<N>)) {
+        let apart = |framed: FramedOf<L>| {
             let (_, [scattered, mirrored, _], _) = framed;
             (scattered, (mirrored, framed))
-        }
+        };
         self.0.shade_lanes(lanes, &apart(*framed), &gradient.map(apart), mask)
     }
 }
