@@ -15,12 +15,11 @@ pub(crate) struct Quad<L: Lanes> {
 }
 
 impl<L: Lanes> Quad<L> {
-    /// What `texel` finds in the left and the right column and in the lower and the upper row, which come with how far
-    /// between them the point is.
+    /// What `texel` finds in the left and the right column and in the lower and the upper row.
     #[inline(always)]
     pub(crate) fn about(
-        [left, right, _]: [L::U32; 3],
-        [low, high, _]: [L::U32; 3],
+        [left, right]: [L::U32; 2],
+        [low, high]: [L::U32; 2],
         texel: impl Fn([L::U32; 2]) -> L::U32,
     ) -> Self {
         Self {
@@ -99,7 +98,7 @@ pub(crate) const SCALAR_ONE: f32 = 65535.0 / 256.0;
 /// A word of 16 bits as a number of 256ths: exact.
 #[inline(always)]
 pub(crate) fn in_256ths<L: Lanes>(lanes: L, word: L::U32) -> L::Number {
-    let [high, low] = [lanes.shr(word, 8), word & lanes.word(255)].map(|byte| lanes.to_numbers(byte));
+    let (high, low) = (lanes.to_numbers(lanes.shr(word, 8)), lanes.to_numbers(word & lanes.word(255)));
     high + low * lanes.splat(1.0 / 256.0)
 }
 

@@ -61,10 +61,9 @@ pub fn reflect_lanes<L: Lanes>(_: L, n: [L::Number; 3], v: [L::Number; 3]) -> [L
 
 /// The direction, and zero where it is not finite.
 #[inline(always)]
-fn finite_or_zero<L: Lanes>(lanes: L, direction: [L::Number; 3]) -> [L::Number; 3] {
-    let [x, y, z] = direction;
+fn finite_or_zero<L: Lanes>(lanes: L, [x, y, z]: [L::Number; 3]) -> [L::Number; 3] {
     let zero = lanes.splat(0.0);
     // 0 times what is not finite is NaN.
     let finite = lanes.less(x * zero + y * zero + z * zero, lanes.splat(1.0));
-    direction.map(|component| lanes.select(finite, component, zero))
+    [lanes.select(finite, x, zero), lanes.select(finite, y, zero), lanes.select(finite, z, zero)]
 }

@@ -141,9 +141,14 @@ impl Kernel for Bilinear {
         u: L::Number,
         v: L::Number,
     ) -> L::U32 {
-        let [columns, rows] = surrounding::<L, F, Z, U, V>(lanes, texture, u, v);
-        let quad = Quad::about(columns, rows, |at| texel::<L, F, Z, U, V>(lanes, texture, at));
-        bilinear(lanes, quad, columns[2], rows[2])
+        let [[left, right, along], [low, high, up]] = surrounding::<L, F, Z, U, V>(lanes, texture, u, v);
+        let quad = Quad::about(
+            [left, right],
+            [low, high],
+            #[inline(always)]
+            |at| texel::<L, F, Z, U, V>(lanes, texture, at),
+        );
+        bilinear(lanes, quad, along, up)
     }
 
     #[inline(always)]
@@ -153,9 +158,14 @@ impl Kernel for Bilinear {
         u: L::Number,
         v: L::Number,
     ) -> [L::U32; 4] {
-        let [columns, rows] = surrounding::<L, F, Z, U, V>(lanes, texture, u, v);
-        let quad = Quad::about(columns, rows, |at| texel::<L, F, Z, U, V>(lanes, texture, at));
-        sums(lanes, quad, columns[2], rows[2])
+        let [[left, right, along], [low, high, up]] = surrounding::<L, F, Z, U, V>(lanes, texture, u, v);
+        let quad = Quad::about(
+            [left, right],
+            [low, high],
+            #[inline(always)]
+            |at| texel::<L, F, Z, U, V>(lanes, texture, at),
+        );
+        sums(lanes, quad, along, up)
     }
 
     #[inline(always)]
@@ -165,9 +175,14 @@ impl Kernel for Bilinear {
         u: L::Number,
         v: L::Number,
     ) -> L::U32 {
-        let [columns, rows] = surrounding::<L, F, Z, U, V>(lanes, texture, u, v);
-        let quad = Quad::about(columns, rows, |at| scalar::<L, F, Z, U, V>(lanes, texture, at));
-        bilinear_scalar(lanes, quad, columns[2], rows[2])
+        let [[left, right, along], [low, high, up]] = surrounding::<L, F, Z, U, V>(lanes, texture, u, v);
+        let quad = Quad::about(
+            [left, right],
+            [low, high],
+            #[inline(always)]
+            |at| scalar::<L, F, Z, U, V>(lanes, texture, at),
+        );
+        bilinear_scalar(lanes, quad, along, up)
     }
 }
 
@@ -189,8 +204,14 @@ fn texel<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
     texture: &Texture<'_, F, Z>,
     at: [L::U32; 2],
 ) -> L::U32 {
-    let fetch = |row, column| texture.fetch(lanes, row, column);
-    bordered::<L, F, Z, U, V>(lanes, texture, at, [U::BORDER, V::BORDER], fetch)
+    bordered::<L, F, Z, U, V>(
+        lanes,
+        texture,
+        at,
+        [U::BORDER, V::BORDER],
+        #[inline(always)]
+        |row, column| texture.fetch(lanes, row, column),
+    )
 }
 
 /// The number in a column and in a row that is counted from the bottom, or that of the border, as a count of 65535ths.
@@ -201,8 +222,14 @@ pub(crate) fn scalar<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
     at: [L::U32; 2],
 ) -> L::U32 {
     let borders = [U::BORDER, V::BORDER].map(|border| border.map(|color| (color & 255) * 257));
-    let fetch = |row, column| texture.fetch_scalars(lanes, row, column);
-    bordered::<L, F, Z, U, V>(lanes, texture, at, borders, fetch)
+    bordered::<L, F, Z, U, V>(
+        lanes,
+        texture,
+        at,
+        borders,
+        #[inline(always)]
+        |row, column| texture.fetch_scalars(lanes, row, column),
+    )
 }
 
 /// What `fetch` finds in a row, counted from the top, and a column; where there is no column the first of `borders`,

@@ -45,35 +45,28 @@ impl Environment for Cube {
     fn place<L: Lanes>(&self, lanes: L, direction: [L::Number; 3]) -> [L::Number; 2] {
         let [x, y, z] = finite_or_zero(lanes, direction);
         let (zero, half) = (lanes.splat(0.0), lanes.splat(0.5));
-        // Positive and negative: the face, to the right and downwards, times the axis.
-        let face = |axis, positive: [L::Number; 3], negative: [L::Number; 3]| {
-            let mask = lanes.less(axis, zero);
-            [0, 1, 2].map(|k| lanes.select(mask, negative[k], positive[k]))
-        };
-        let [back, down, left] = [z, y, x].map(|component| zero - component);
-        let number = |k| lanes.int_to_number(lanes.int(k));
-        let faces = [
-            face(x, [number(0), back, down], [number(1), z, down]),
-            face(y, [number(2), x, z], [number(3), x, back]),
-            face(z, [number(4), x, down], [number(5), left, down]),
-        ];
-        let [across, up, along] = [x, y, z].map(|component| absolute(lanes, component));
+        let (across, up, along) = (absolute(lanes, x), absolute(lanes, y), absolute(lanes, z));
         let (is_y, level) = (lanes.less(across, up), lanes.max(across, up));
-        let is_z = lanes.less(level, along);
-        let chosen =
-            [0, 1, 2].map(|k| lanes.select(is_z, faces[2][k], lanes.select(is_y, faces[1][k], faces[0][k])));
+        let (is_z, axis) = (lanes.less(level, along), lanes.max(level, along));
+        let behind = [lanes.less(x, zero), lanes.less(y, zero), lanes.less(z, zero)];
+        let [back, down, left] = [zero - z, zero - y, zero - x];
 
-        let axis = lanes.max(level, along);
+        // On the faces of each axis; then on those of the greatest.
+        let right = [lanes.select(behind[0], z, back), x, lanes.select(behind[2], left, x)];
+        let below = lanes.select(behind[1], back, z);
+        let right = lanes.select(is_z, right[2], lanes.select(is_y, right[1], right[0]));
+        let below = lanes.select(is_z, down, lanes.select(is_y, below, down));
+        let first = lanes.select(is_z, lanes.splat(4.0), lanes.select(is_y, lanes.splat(2.0), zero));
+        let sign = lanes.select(is_z, z, lanes.select(is_y, y, x));
+        let face = lanes.select(lanes.less(sign, zero), first + lanes.splat(1.0), first);
+
         let axis = lanes.select(lanes.less(zero, axis), axis, lanes.splat(1.0));
         #[expect(clippy::cast_precision_loss, reason = "rounding of half a texel")]
         let margin = 0.5 / self.side.max(1) as f32 + if has_range(lanes) { FINE } else { COARSE };
-        let (least, greatest) = (lanes.splat(margin.min(0.5)), lanes.splat(1.0 - margin.min(0.5)));
-        let on_face = |component| {
-            let place = half + half * (component / axis);
-            lanes.min(lanes.max(place, least), greatest)
-        };
-        let (s, t) = (on_face(chosen[1]), on_face(chosen[2]));
-        [s, lanes.splat(1.0) - (chosen[0] + t) / lanes.splat(6.0)]
+        let ends = [lanes.splat(margin.min(0.5)), lanes.splat(1.0 - margin.min(0.5))];
+        let s = lanes.min(lanes.max(half + half * (right / axis), ends[0]), ends[1]);
+        let t = lanes.min(lanes.max(half + half * (below / axis), ends[0]), ends[1]);
+        [s, lanes.splat(1.0) - (face + t) / lanes.splat(6.0)]
     }
 }
 

@@ -35,13 +35,13 @@ impl Environment for LatLong {
     fn place<L: Lanes>(&self, lanes: L, direction: [L::Number; 3]) -> [L::Number; 2] {
         let [x, y, z] = finite_or_zero(lanes, direction);
         let (zero, half) = (lanes.splat(0.0), lanes.splat(0.5));
-        let [across, up, along] = [x, y, z].map(|component| absolute(lanes, component));
+        let (across, up, along) = (absolute(lanes, x), absolute(lanes, y), absolute(lanes, z));
         let around = first_quarter(lanes, across, along);
         let around = lanes.select(lanes.less(zero, z), half - around, around);
         let u = half + lanes.select(lanes.less(x, zero), zero - around, around);
 
         // Halved, as the length may be √2 times as much.
-        let [across, up, along] = [across, up, along].map(|component| component * half);
+        let (across, up, along) = (across * half, up * half, along * half);
         let greatest = lanes.max(across, along);
         let ratio = quotient(lanes, lanes.min(across, along), greatest);
         let level = greatest * lanes.sqrt(lanes.splat(1.0) + ratio * ratio);
@@ -66,7 +66,10 @@ fn first_quarter<L: Lanes>(lanes: L, y: L::Number, x: L::Number) -> L::Number {
     ];
     let t = quotient(lanes, lanes.min(x, y), lanes.max(x, y));
     let square = t * t;
-    let sum = ATAN.iter().rev().fold(lanes.splat(0.0), |sum, &c| sum * square + lanes.splat(c));
+    let mut sum = lanes.splat(0.0);
+    for &coefficient in ATAN.iter().rev() {
+        sum = sum * square + lanes.splat(coefficient);
+    }
     let turns = sum * t;
     lanes.select(lanes.less(x, y), lanes.splat(0.25) - turns, turns)
 }

@@ -36,6 +36,6 @@ impl Environment for SphereMap {
         let [x, y, z] = unit_lanes(lanes, finite_or_zero(lanes, direction));
         let [x, y, _] = unit_lanes(lanes, [x, y, z - lanes.splat(1.0)]);
         // Only next to straight forward, where squares vanish, components may be above 1.
-        [x, y].map(|component| clamped_lanes(lanes, component * half + half))
+        [clamped_lanes(lanes, x * half + half), clamped_lanes(lanes, y * half + half)]
     }
 }

@@ -1,8 +1,9 @@
 //! Environments in other frames.
 
 use super::Environment;
+use crate::surface::dot_lanes;
 use alberti_math::lanes::Lanes;
-use glam::Mat3;
+use glam::{Mat3, Vec3};
 
 /// An environment that stands turned: directions are given in one frame, such as the world's, and looked up in another,
 /// such as the eye's, for which a [`SphereMap`](super::SphereMap) is made.
@@ -23,11 +24,11 @@ pub struct Turned<E> {
 impl<E: Environment> Environment for Turned<E> {
     #[inline(always)]
     fn place<L: Lanes>(&self, lanes: L, [x, y, z]: [L::Number; 3]) -> [L::Number; 2] {
-        let [a, b, c] = self.axes.to_cols_array_2d().map(|axis| {
-            let [ax, ay, az] = axis.map(|k| lanes.splat(k));
-            ax * x + ay * y + az * z
-        });
-        self.environment.place(lanes, [a, b, c])
+        let splat = |axis: Vec3| [lanes.splat(axis.x), lanes.splat(axis.y), lanes.splat(axis.z)];
+        let Mat3 { x_axis, y_axis, z_axis } = self.axes;
+        let along = |axis| dot_lanes([x, y, z], axis);
+        let turned = [along(splat(x_axis)), along(splat(y_axis)), along(splat(z_axis))];
+        self.environment.place(lanes, turned)
     }
 }
 
@@ -36,7 +37,6 @@ mod tests {
     use super::*;
     use crate::environment::SphereMap;
     use alberti_math::lanes::One;
-    use glam::Vec3;
 
     #[test]
     fn directions_are_looked_up_in_the_frame() {

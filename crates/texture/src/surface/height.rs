@@ -2,7 +2,7 @@
 //!
 //! Space in: coordinates (u, v). Space out: numbers without a unit, which [`Relief`](super::Relief) gives one.
 
-use crate::blend::{SCALAR_ONE, in_256ths};
+use crate::blend::{Quad, SCALAR_ONE, in_256ths};
 use crate::filter::scalar;
 use crate::format::Storage;
 use crate::{Filter, Sampler, Size, Texture, Wrap};
@@ -76,20 +76,31 @@ pub fn bilinear_height_lanes<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
 ) -> (L::Number, [L::Number; 2]) {
     let (columns, s) = cell::<L, Z, U>(lanes, u, texture.width());
     let (rows, t) = cell::<L, Z, V>(lanes, v, texture.height());
-    let at =
-        |i: usize, j: usize| in_256ths(lanes, scalar::<L, F, Z, U, V>(lanes, texture, [columns[i], rows[j]]));
-    let (low, high) = (at(1, 0) - at(0, 0), at(1, 1) - at(0, 1));
-    let (left, rise) = (at(0, 1) - at(0, 0), high - low);
-    let below = at(0, 0) + s * low;
-    let value = below + t * (at(0, 1) + s * high - below);
-    // Times the side and by 65535/256, without numbers above 2^15.
-    let per_side = |slope: L::Number, side: u32| {
-        #[expect(clippy::cast_precision_loss, reason = "at most 2^14")]
-        let scaled = slope * lanes.splat(side as f32 / 256.0);
-        scaled / lanes.splat(SCALAR_ONE / 256.0)
-    };
-    let gradient = [per_side(low + t * rise, texture.width()), per_side(left + s * rise, texture.height())];
+    let quad = Quad::<L>::about(
+        columns,
+        rows,
+        #[inline(always)]
+        |at| scalar::<L, F, Z, U, V>(lanes, texture, at),
+    );
+    let (low_left, high_left) = (in_256ths(lanes, quad.low_left), in_256ths(lanes, quad.high_left));
+    let low = in_256ths(lanes, quad.low_right) - low_left;
+    let high = in_256ths(lanes, quad.high_right) - high_left;
+    let below = low_left + s * low;
+    let value = below + t * (high_left + s * high - below);
+    let (left, rise) = (high_left - low_left, high - low);
+    let gradient = [
+        per_side(lanes, low + t * rise, texture.width()),
+        per_side(lanes, left + s * rise, texture.height()),
+    ];
     (value / lanes.splat(SCALAR_ONE), gradient)
+}
+
+/// A slope of numbers of 256ths per texel as one of heights per side, without numbers above 2^15.
+#[inline(always)]
+fn per_side<L: Lanes>(lanes: L, slope: L::Number, side: u32) -> L::Number {
+    #[expect(clippy::cast_precision_loss, reason = "at most 2^14")]
+    let scaled = slope * lanes.splat(side as f32 / 256.0);
+    scaled / lanes.splat(SCALAR_ONE / 256.0)
 }
 
 /// The texels whose centres are below and above a coordinate, and how far above the first it is, from 0 to 1.
@@ -103,7 +114,7 @@ fn cell<L: Lanes, Z: Size, W: Wrap>(lanes: L, u: L::Number, size: u32) -> ([L::U
     let below = lanes.floor_scaled(x, 0);
     // From -2^15 to 2^15: two bytes, and their numbers.
     let biased = below + lanes.word(1 << 15);
-    let [high, low] = [lanes.shr(biased, 8), biased & lanes.word(255)].map(|byte| lanes.to_numbers(byte));
+    let (high, low) = (lanes.to_numbers(lanes.shr(biased, 8)), lanes.to_numbers(biased & lanes.word(255)));
     let number = (high - lanes.splat(128.0)) * lanes.splat(256.0) + low;
     let next = below + lanes.word(1);
     let texels = [Z::wrapped::<L, W>(lanes, below, size), Z::wrapped::<L, W>(lanes, next, size)];

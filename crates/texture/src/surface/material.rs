@@ -310,5 +310,5 @@ pub fn wet_lanes<L: Lanes>(
     let (one, wetness) = (lanes.splat(1.0), clamped_lanes(lanes, wetness));
     let left = one - lanes.splat(0.7) * wetness;
     let gloss = gloss * (one + lanes.splat(1.5) * wetness);
-    (diffuse.map(|share| share * left), lanes.min(gloss, one))
+    ([diffuse[0] * left, diffuse[1] * left, diffuse[2] * left], lanes.min(gloss, one))
 }

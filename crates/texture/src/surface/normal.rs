@@ -84,7 +84,8 @@ pub fn normal<E: NormalEncoding, S: Space>(texel: Rgba8) -> Vector3<S> {
 #[must_use]
 #[inline(always)]
 pub fn normal_lanes<E: NormalEncoding, L: Lanes>(lanes: L, texels: L::U32) -> [L::Number; 3] {
-    over_length(lanes, [0, 8, 16].map(|bits| quarter::<E, L>(lanes, texels, bits)))
+    let (x, y) = (quarter::<E, L>(lanes, texels, 0), quarter::<E, L>(lanes, texels, 8));
+    over_length(lanes, [x, y, quarter::<E, L>(lanes, texels, 16)])
 }
 
 /// A quarter of a channel's numerator. Squares of quarters of integers up to 255 are exact, and so is the sum of three,
@@ -118,7 +119,7 @@ pub fn normal_of_two<E: NormalEncoding>(texel: Rgba8) -> Vector3<Tangent> {
 #[must_use]
 #[inline(always)]
 pub fn normal_of_two_lanes<E: NormalEncoding, L: Lanes>(lanes: L, texels: L::U32) -> [L::Number; 3] {
-    let [x, y] = [0, 8].map(|bits| quarter::<E, L>(lanes, texels, bits));
+    let (x, y) = (quarter::<E, L>(lanes, texels, 0), quarter::<E, L>(lanes, texels, 8));
     let (whole, across) = (lanes.splat(E::ONE * E::ONE / 16.0), x * x + y * y);
     let z = lanes.sqrt(lanes.max(whole - across, lanes.splat(0.0)));
     let length = lanes.sqrt(lanes.max(whole, across));
@@ -185,6 +186,7 @@ pub fn to_parent_lanes<L: Lanes>(
     [x_axis, y_axis, z_axis]: [[L::Number; 3]; 3],
     normal: [L::Number; 3],
 ) -> [L::Number; 3] {
-    let component = |k: usize| dot_lanes([x_axis[k], y_axis[k], z_axis[k]], normal);
-    unit_lanes(lanes, [component(0), component(1), component(2)])
+    let x = dot_lanes([x_axis[0], y_axis[0], z_axis[0]], normal);
+    let y = dot_lanes([x_axis[1], y_axis[1], z_axis[1]], normal);
+    unit_lanes(lanes, [x, y, dot_lanes([x_axis[2], y_axis[2], z_axis[2]], normal)])
 }

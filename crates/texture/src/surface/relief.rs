@@ -84,7 +84,7 @@ impl<H: HeightMap> Relief<H> {
     #[inline(always)]
     pub fn slope_lanes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2], step: Vec2) -> [L::Number; 2] {
         let [along_u, along_v] = differences(lanes, &self.map, uv, step);
-        let [width, height] = self.extent.to_array().map(|extent| lanes.splat(extent));
+        let (width, height) = (lanes.splat(self.extent.x), lanes.splat(self.extent.y));
         [along_u * self.range(lanes) / width, along_v * self.range(lanes) / height]
     }
 
@@ -115,13 +115,12 @@ pub(super) fn differences<L: Lanes>(
     [u, v]: [L::Number; 2],
     step: Vec2,
 ) -> [L::Number; 2] {
-    let [du, dv] = step.to_array().map(|step| lanes.splat(step));
-    let height = |u, v| map.height_lanes(lanes, [u, v]);
-    // Over what the coordinates were rounded to.
+    let (du, dv) = (lanes.splat(step.x), lanes.splat(step.y));
     let ([left, right], [down, up]) = ([u - du, u + du], [v - dv, v + dv]);
-    let along_u = (height(right, v) - height(left, v)) / (right - left);
-    let along_v = (height(u, up) - height(u, down)) / (up - down);
-    [along_u, along_v]
+    let along_u = map.height_lanes(lanes, [right, v]) - map.height_lanes(lanes, [left, v]);
+    let along_v = map.height_lanes(lanes, [u, up]) - map.height_lanes(lanes, [u, down]);
+    // Over what the coordinates were rounded to.
+    [along_u / (right - left), along_v / (up - down)]
 }
 
 /// The unit normal of a surface that rises by these slopes along u and v, which are at right angles: (−∂h/∂u, −∂h/∂v,

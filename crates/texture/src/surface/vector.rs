@@ -17,10 +17,11 @@ pub fn unit_lanes<L: Lanes>(lanes: L, v: [L::Number; 3]) -> [L::Number; 3] {
     if has_range(lanes) {
         return over_length(lanes, v);
     }
-    let [x, y, z] = v.map(|component| absolute(lanes, component));
+    let [x, y, z] = v;
+    let level = lanes.max(absolute(lanes, x), absolute(lanes, y));
     // At least one step, which changes nothing but 0.
-    let greatest = lanes.max(lanes.max(lanes.max(x, y), z), lanes.splat(1.0 / 65536.0));
-    over_length(lanes, v.map(|component| component / greatest))
+    let greatest = lanes.max(lanes.max(level, absolute(lanes, z)), lanes.splat(1.0 / 65536.0));
+    over_length(lanes, [x / greatest, y / greatest, z / greatest])
 }
 
 /// A vector divided by its length; (0, 0, 1) for zero, also where squares round to it.

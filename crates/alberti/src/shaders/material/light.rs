@@ -68,7 +68,7 @@ impl PointLight {
         let to_light = [a - x, b - y, c - z];
         let [a, b, c] = to_light;
         let square = a * a + b * b + c * c;
-        let [constant, linear, quadratic] = self.falloff.map(|k| lanes.splat(k));
+        let [constant, linear, quadratic] = splat(lanes, Vec3::from_array(self.falloff));
         let falloff = lanes.splat(1.0) / (constant + linear * lanes.sqrt(square) + quadratic * square);
         [unit_lanes(lanes, to_light), times(splat(lanes, self.color), falloff)]
     }

@@ -121,7 +121,7 @@ impl<V: OnSurface, M: Map, E: NormalEncoding> Layer<V> for ObjectNormals<M, E> {
     fn apply<L: Lanes>(&self, lanes: L, _: &V::Of<L::Number>, surface: &mut Surface<L>) {
         let texels = self.map.read(lanes, surface.uv, &surface.gradient);
         let axes = self.to_world.axes();
-        let axes = [axes.x_axis, axes.y_axis, axes.z_axis].map(|axis| splat(lanes, axis));
+        let axes = [splat(lanes, axes.x_axis), splat(lanes, axes.y_axis), splat(lanes, axes.z_axis)];
         surface.normal = to_parent_lanes(lanes, axes, normal_lanes::<E, L>(lanes, texels));
     }
 }

@@ -7,7 +7,7 @@ use alberti_raster::{Differentiation, Gradient, NoDerivatives};
 use alberti_texture::surface::unit_lanes;
 use core::fmt::Debug;
 
-use super::vector::{by, plus, times};
+use super::vector::{by, plus, splat, times};
 use crate::shaders::pack;
 
 /// What a vertex of a lit surface carries.
@@ -122,7 +122,7 @@ impl Viewer {
     #[inline(always)]
     pub(super) fn direction<L: Lanes>(self, lanes: L, [x, y, z]: [L::Number; 3]) -> [L::Number; 3] {
         let weight = lanes.splat(self.weight);
-        let [a, b, c] = self.place.to_array().map(|k| lanes.splat(k));
+        let [a, b, c] = splat(lanes, self.place);
         unit_lanes(lanes, [a - x * weight, b - y * weight, c - z * weight])
     }
 }
