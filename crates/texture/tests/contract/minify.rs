@@ -3,7 +3,7 @@
 use alberti_math::lanes::{Lanes, Machine, OneFixed};
 use alberti_math::{Q16, Rgba8, for_lanes};
 use alberti_texture::format::{Indexed, Storage};
-use alberti_texture::mipmap::{Srgb, build, texel_count};
+use alberti_texture::mipmap::{Linear, Srgb, build, texel_count};
 use alberti_texture::{
     AnySize, BaseLevel, BetweenLevels, Bilinear, Border, Clamp, Derivatives, LevelSize, Minify, MipFilter,
     Mipmap, Mirror, Nearest, NearestLevel, PowerOfTwo, Repeat, Texture, Trilinear, Wrap,
@@ -156,7 +156,28 @@ fn the_documented_formulas() {
     }
 }
 
-/// Against means in `f64` of `f64` weights.
+/// The trilinear mean in `f64`, with weights of `f64`.
+fn in_real_numbers(mipmap: Mipmap<'_, Rgba8>, uv: Vec2, lambda: f32) -> [f64; 4] {
+    let level = |level: usize| {
+        let level = mipmap.level(level);
+        let x = f64::from(uv.x) * f64::from(level.width()) - 0.5;
+        let y = f64::from(uv.y) * f64::from(level.height()) - 0.5;
+        let (s, t) = (x - x.floor(), y - y.floor());
+        let at = |di: i128, dj: i128| {
+            let column = Mode::Repeat.index(x.floor() as i128 + di, level.width());
+            let row = Mode::Repeat.index(y.floor() as i128 + dj, level.height());
+            level.texel(column, level.height() - 1 - row).to_bytes().map(f64::from)
+        };
+        let [a, b, c, d] = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)];
+        [0, 1, 2, 3].map(|k| (a[k] * (1.0 - s) + b[k] * s) * (1.0 - t) + (c[k] * (1.0 - s) + d[k] * s) * t)
+    };
+    let near = (f64::from(lambda).floor() as usize).min(mipmap.levels() - 1);
+    let part = f64::from(lambda) - near as f64;
+    let (near, far) = (level(near), level(near + 1));
+    [0, 1, 2, 3].map(|k| near[k] * (1.0 - part) + far[k] * part)
+}
+
+/// Levels of noise of extreme bytes, which no image has.
 #[test]
 fn within_two_of_real_numbers() {
     let mut random = Random(81);
@@ -170,31 +191,53 @@ fn within_two_of_real_numbers() {
             let uv = Vec2::new(random.near_zero(), random.near_zero());
             let lambda = last as f32 * (random.bits() as f32 / 2f32.powi(32));
             let lambda = if i % 2 == 0 { lambda } else { (lambda * 256.0).round() / 256.0 };
-            let level = |level: usize| {
-                let level = mipmap.level(level);
-                let x = f64::from(uv.x) * f64::from(level.width()) - 0.5;
-                let y = f64::from(uv.y) * f64::from(level.height()) - 0.5;
-                let (s, t) = (x - x.floor(), y - y.floor());
-                let at = |di: i128, dj: i128| {
-                    let column = Mode::Repeat.index(x.floor() as i128 + di, level.width());
-                    let row = Mode::Repeat.index(y.floor() as i128 + dj, level.height());
-                    level.texel(column, level.height() - 1 - row).to_bytes().map(f64::from)
-                };
-                let [a, b, c, d] = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)];
-                [0, 1, 2, 3]
-                    .map(|k| (a[k] * (1.0 - s) + b[k] * s) * (1.0 - t) + (c[k] * (1.0 - s) + d[k] * s) * t)
-            };
-            let near = (f64::from(lambda).floor() as usize).min(last);
-            let part = f64::from(lambda) - near as f64;
-            let (near, far) = (level(near), level(near + 1));
+            let exact = in_real_numbers(mipmap, uv, lambda);
             for (k, byte) in sampler.sample_lod(uv, lambda).to_bytes().into_iter().enumerate() {
-                let error = (f64::from(byte) - (near[k] * (1.0 - part) + far[k] * part)).abs();
-                worst[i % 2] = worst[i % 2].max(error);
+                worst[i % 2] = worst[i % 2].max((f64::from(byte) - exact[k]).abs());
             }
         }
     }
     println!("trilinear: at most {:.3} off, {:.3} where λ is a whole number of 256ths", worst[0], worst[1]);
     assert!((1.0..2.0).contains(&worst[0]) && (1.0..1.5).contains(&worst[1]), "{worst:?}");
+}
+
+/// Images minified as floors are, whose levels are means: at most one step, and half a step of rounding.
+#[test]
+fn images_within_one_step_and_rounding() {
+    let mut random = Random(82);
+    let mut worst = [0.0f64; 3];
+    let wave = |i: u32, j: u32| {
+        let [x, y] = [i, j].map(|i| f64::from(i % 64) * std::f64::consts::TAU / 64.0);
+        let byte = |x: f64| (127.5 + 127.5 * x) as u8;
+        [byte(x.sin()), byte((3.0 * y).cos()), byte((x + 2.0 * y).sin()), byte((5.0 * x).cos() * y.sin())]
+    };
+    let board = |i: u32, j: u32| [255 * ((i / 8 + j / 8) % 2) as u8; 4];
+    let mut images = [noise(&mut random, 64, 64, true), noise(&mut random, 64, 64, false), Vec::new()];
+    images[1][..64 * 64].iter_mut().enumerate().for_each(|(i, texel)| *texel = wave(i as u32, i as u32 / 64));
+    images[2] = images[0].clone();
+    let place = |i: usize| board(i as u32 % 64, i as u32 / 64);
+    images[2][..64 * 64].iter_mut().enumerate().for_each(|(i, texel)| *texel = place(i));
+    for (image, worst) in images.iter_mut().zip(&mut worst) {
+        build::<Rgba8, Linear>(image, 64, 64).unwrap();
+        let mipmap = Mipmap::<Rgba8>::new(image, 64, 64).unwrap();
+        let sampler = mipmap.sampler::<Trilinear, Repeat>();
+        for _ in 0..60 {
+            // A floor: rows of pixels that are the farther the higher.
+            let (turn, near) = (random.near_zero(), random.bits() as f32 / 2f32.powi(33) + 0.01);
+            for pixel in 0..4096u32 {
+                let (x, y) = ((pixel % 64) as f32 - 31.5, (pixel / 64) as f32 + 1.0);
+                let depth = near * 64.0 / y;
+                let uv = Vec2::from_angle(turn).rotate(Vec2::new(x * depth / 64.0, depth));
+                let lambda = (depth * 8.0).log2().clamp(0.0, 6.0);
+                let exact = in_real_numbers(mipmap, uv, lambda);
+                for (k, byte) in sampler.sample_lod(uv, lambda).to_bytes().into_iter().enumerate() {
+                    *worst = worst.max((f64::from(byte) - exact[k]).abs());
+                }
+            }
+        }
+    }
+    println!("images of noise, waves and a board: at most {worst:.3?} off");
+    assert!(worst.iter().all(|worst| (0.5..=1.5).contains(worst)), "{worst:?}");
 }
 
 /// Groups of lanes whose λ are in the same level, in two, and all over, with derivatives of all kinds.
