@@ -4,9 +4,9 @@
 //!
 //! | image | space in | wrap of u, v | what it costs |
 //! |---|---|---|---|
-//! | [`LatLong`]: longitude and latitude | world | `Repeat`, `Clamp` | four divisions and a square root |
+//! | [`LatLong`]: longitude and latitude | world | `Repeat`, `Clamp` | two divisions and a square root |
 //! | [`SphereMap`]: a mirror ball | eye | `Clamp` | six divisions and two square roots |
-//! | [`Cube`]: six faces | world | `Clamp` | two divisions |
+//! | [`Cube`]: six faces | world | `Clamp` | three divisions |
 //!
 //! [`Turned`] gives any of them another frame. All work over lanes, in `f32` and in fixed point. A direction that is zero or not finite has a place too: each says
 //! which.

@@ -12,6 +12,7 @@
 //! | normal map | [`normal`], [`normal_of_two`], [`strengthened`] | a normal in the frame |
 //! | bump map | [`Relief::normal`], [`Slopes`] and [`normal_of_slope`] | a normal in the frame |
 //! | bump map on sheared axes | [`bump`] | a normal in object space |
+//! | bump map out of the frame | [`bump_lanes`] | a normal in object space |
 //! | parallax map | [`Relief::parallax`] | where to read the other maps |
 //! | displacement map | [`Grid`], [`Subdivision`], [`displace`], [`displaced_mesh`] | a mesh in object space |
 //! | out of the frame | [`normal_to_parent`] | a normal in object space |

@@ -33,7 +33,7 @@ use alberti_math::lanes::Lanes;
 /// within 2ε (ε = 2^-24); in fixed point within 1.6·2^-16 and 2·2^-16.
 ///
 /// # Cost
-/// Two divisions, one by a constant, and some 30 operations.
+/// Three divisions, one of them by a constant, and some 30 operations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Cube {
     /// w, the side of a face in texels: at least 1.

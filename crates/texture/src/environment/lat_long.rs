@@ -18,7 +18,7 @@ use alberti_math::lanes::Lanes;
 ///
 /// The middle is −z, where a camera of world space looks if it is not turned, and u grows to the right as seen from
 /// inside. The seam, u = 0 and u = 1, is +z: (0, y, z) has u = 1. At the poles, x = z = 0, u is 1/2; what is zero or
-/// not finite is as (0, 0, −1).
+/// not finite is as (0, 0, −1). Differences of u between neighbouring pixels are no derivatives across the seam.
 ///
 /// # Precision
 /// u is within 2.5ε of a turn (ε = 2^-24), v within 3ε of 1, which is half a turn; the arc tangent is the polynomial of
@@ -26,7 +26,7 @@ use alberti_math::lanes::Lanes;
 /// or as many times more as the part across y is shorter than 1, for directions from 1 to 16384 long.
 ///
 /// # Cost
-/// Four divisions, a square root and some 50 operations.
+/// Two divisions, a square root and some 50 operations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct LatLong;
 
@@ -36,24 +36,22 @@ impl Environment for LatLong {
         let [x, y, z] = finite_or_zero(lanes, direction);
         let (zero, half) = (lanes.splat(0.0), lanes.splat(0.5));
         let (across, up, along) = (absolute(lanes, x), absolute(lanes, y), absolute(lanes, z));
-        let around = first_quarter(lanes, across, along);
+        let (around, ratio) = first_quarter(lanes, across, along);
         let around = lanes.select(lanes.less(zero, z), half - around, around);
         let u = half + lanes.select(lanes.less(x, zero), zero - around, around);
 
         // Halved, as the length may be √2 times as much.
-        let (across, up, along) = (across * half, up * half, along * half);
-        let greatest = lanes.max(across, along);
-        let ratio = quotient(lanes, lanes.min(across, along), greatest);
-        let level = greatest * lanes.sqrt(lanes.splat(1.0) + ratio * ratio);
-        let elevation = first_quarter(lanes, up, level);
+        let level = lanes.max(across, along) * half * lanes.sqrt(lanes.splat(1.0) + ratio * ratio);
+        let (elevation, _) = first_quarter(lanes, up * half, level);
         let elevation = elevation + elevation;
         [u, half + lanes.select(lanes.less(y, zero), zero - elevation, elevation)]
     }
 }
 
-/// atan2(y, x)/2π for x and y of at least 0: from 0 to 1/4; 0 for zeros.
+/// atan2(y, x)/2π for x and y of at least 0, from 0 to 1/4, and the lesser of x and y in parts of the greater; 0 for
+/// zeros.
 #[inline(always)]
-fn first_quarter<L: Lanes>(lanes: L, y: L::Number, x: L::Number) -> L::Number {
+fn first_quarter<L: Lanes>(lanes: L, y: L::Number, x: L::Number) -> (L::Number, L::Number) {
     /// Σ cₖ t^(2k + 1) is atan(t)/2π from 0 to 1.
     const ATAN: [f32; 7] = [
         0.159_154_33,
@@ -64,19 +62,13 @@ fn first_quarter<L: Lanes>(lanes: L, y: L::Number, x: L::Number) -> L::Number {
         -0.005_348_276_3,
         0.001_084_13,
     ];
-    let t = quotient(lanes, lanes.min(x, y), lanes.max(x, y));
+    let (zero, greater) = (lanes.splat(0.0), lanes.max(x, y));
+    let t = lanes.select(lanes.less(zero, greater), lanes.min(x, y) / greater, zero);
     let square = t * t;
-    let mut sum = lanes.splat(0.0);
+    let mut sum = zero;
     for &coefficient in ATAN.iter().rev() {
         sum = sum * square + lanes.splat(coefficient);
     }
     let turns = sum * t;
-    lanes.select(lanes.less(x, y), lanes.splat(0.25) - turns, turns)
-}
-
-/// a/b, and 0 where b is.
-#[inline(always)]
-fn quotient<L: Lanes>(lanes: L, a: L::Number, b: L::Number) -> L::Number {
-    let zero = lanes.splat(0.0);
-    lanes.select(lanes.less(zero, b), a / b, zero)
+    (lanes.select(lanes.less(x, y), lanes.splat(0.25) - turns, turns), t)
 }
