@@ -1,5 +1,6 @@
 //! What the tests across crates share.
 
+pub mod derivatives;
 pub mod errors;
 pub mod probe;
 pub mod reference;

@@ -19,6 +19,18 @@
 //! ```
 //!
 //! The origin is the first corner, and u is counted from the value there, so that U is 0 at the origin.
+//!
+//! A, B and J are found in `f64`, as sums of products of a distance, the area, two q and a difference of two u. Where
+//! these cancel, as all do where u is constant along a thin triangle, what `f64` leaves counts as well: 2^-48 M, with M
+//! what the derivative would be at most if nothing cancelled. With s the longer side of the triangle's box and Δu the
+//! greatest difference of u,
+//!
+//! ```text
+//! M = 2 area s Δu (qa qb + qb qc + qc qa)/T²
+//! ```
+//!
+//! That is part of the precision of all policies. Where the q are equal and a triangle is a quarter of a pixel thick,
+//! it is 2^-44 Δu.
 
 use crate::edge::EdgeInt;
 use crate::interpolation::{Oriented, Row};
@@ -126,8 +138,12 @@ impl Differentiation for NoDerivatives {
 /// At each sample.
 ///
 /// # Precision
-/// Within 12ε of ∂u/∂x, relatively (ε = 2^-24), and ∂u/∂y within 12ε·(|∂u/∂y| + 2|J x|/T²), where J is that of the
-/// module and x the columns from the first corner; barring over- and underflow.
+/// Within 13ε of ∂u/∂x, relatively (ε = 2^-24), and ∂u/∂y within 14ε·|∂u/∂y| + 3ε·|J x|/T², where J is that of the
+/// module and x the columns from the start of the run; barring over- and underflow. 7.1ε is the most that was measured
+/// of both where x is small. The reason: T is a sum of positive numbers, within 4ε with the rounding of the Ei; its
+/// reciprocal squared is within 11ε, and the numerator's rounding and the product add 2ε. For ∂u/∂y the numerator is
+/// a difference: ε for it, ε·(|∂u/∂y| + |J x|/T²) for its first part, and 2ε·|J x|/T² for the product. In fixed point
+/// that of [`PerSpan`].
 ///
 /// # Cost
 /// A triangle: some 30 operations in `f64`, and 12 for each component; a row, two in `f64` a component. A fragment:
@@ -142,7 +158,8 @@ pub struct PerPixel;
 /// means nothing. It is that of the functions, so it does not depend on the triangles that are drawn there.
 ///
 /// # Precision
-/// Against the derivatives, off by half of the second derivative; as differences, like [`PerPixel`].
+/// Against the derivatives, off by half of the second derivative. As differences, like [`PerPixel`] but for (1 + 6κ)ε
+/// more, with κ = |T' − T|/|T'| where T' is that of the next sample: T' is within 4ε T + ε |T' − T| + ε |T'|.
 ///
 /// # Cost
 /// That of [`PerPixel`], and two divisions, two sums and four products.
@@ -153,8 +170,8 @@ pub struct Neighbours;
 /// triangle.
 ///
 /// # Precision
-/// There, like [`PerPixel`]. With r >= 1 the ratio of q in the middle and at an end, ∂u/∂x is off by a factor of r²,
-/// the level of detail so by 2 log2 r.
+/// There, rounded once: within 1.001ε, in fixed point to the nearest step of 2^-16. With r >= 1 the ratio of q in the
+/// middle and at an end, ∂u/∂x is off by a factor of r², the level of detail so by 2 log2 r.
 ///
 /// # Cost
 /// A run: some ten operations and a division in `f64`, and four a component.
@@ -164,7 +181,7 @@ pub struct PerSpan;
 /// At the centroid of each triangle.
 ///
 /// # Precision
-/// There, like [`PerPixel`]. With r >= 1 the ratio of q there and at a vertex, ∂u/∂x is off by up to a factor of r². A
+/// Like [`PerSpan`] there. With r >= 1 the ratio of q there and at a vertex, ∂u/∂x is off by up to a factor of r². A
 /// triangle that was clipped counts as the pieces that are drawn.
 ///
 /// # Cost
@@ -176,7 +193,7 @@ pub struct PerTriangle;
 #[derive(Clone, Copy)]
 pub struct Quotients<V: Varying> {
     q: [f64; 3],
-    /// What T is at the first corner.
+    /// What T is at the centroid.
     t: f64,
     /// What a column and a row add to T.
     slope: [f64; 2],
@@ -206,6 +223,8 @@ impl<V: Varying> Quotients<V> {
         #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
         let area = triangle.doubled_area as f64;
         let t = area * q[0];
+        // What the areas by columns and rows have in common: nothing cancels in thin triangles.
+        let common = area * one * one;
         let axis = |k: usize| of_b[k] * (q[1] - q[0]) + of_c[k] * (q[2] - q[0]);
         let slope = [axis(0), axis(1)];
         let numerators = V::map_by_mode(&triangle.values(), &|mode, [u, v, w, _]: [f32; 4]| {
@@ -214,7 +233,7 @@ impl<V: Varying> Quotients<V> {
                 Mode::Hyperbolic => {
                     let [v, w] = [v * q[1], w * q[2]];
                     let [x, y] = [of_b[0] * v + of_c[0] * w, of_b[1] * v + of_c[1] * w];
-                    [x * t, y * t, x * slope[1] - y * slope[0]]
+                    [x * t, y * t, common * (v * (q[2] - q[0]) - w * (q[1] - q[0]))]
                 }
                 Mode::Linear => {
                     let per = |k: usize| (of_b[k] * v + of_c[k] * w) / area;
@@ -224,6 +243,7 @@ impl<V: Varying> Quotients<V> {
             }
         });
         let middle = |k: usize| (a[k] + b[k] + c[k]) / (3.0 * one);
+        let t = area * (q[0] + q[1] + q[2]) / 3.0;
         Self { q, t, slope, origin: [a[0] / one, a[1] / one], centroid: [middle(0), middle(1)], numerators }
     }
 
@@ -261,8 +281,7 @@ impl<V: Varying> Quotients<V> {
     /// At the centroid.
     #[inline(always)]
     fn in_centroid(&self) -> V::Of<[f32; 2]> {
-        let [x, y] = [self.centroid[0] - self.origin[0], self.centroid[1] - self.origin[1]];
-        self.at(self.centroid, self.t + x * self.slope[0] + y * self.slope[1])
+        self.at(self.centroid, self.t)
     }
 }
 

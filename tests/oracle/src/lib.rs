@@ -35,6 +35,7 @@
 pub mod cases;
 pub mod coverage;
 pub mod dd;
+pub mod gradient;
 pub mod ideal;
 pub mod image;
 pub mod linear;
