@@ -39,6 +39,7 @@ pub mod gradient;
 pub mod ideal;
 pub mod image;
 pub mod linear;
+pub mod material;
 pub mod rational;
 pub mod rng;
 pub mod sampling;

@@ -45,7 +45,7 @@ mod relief;
 mod surface;
 mod vector;
 
-pub use layers::{Color, Emission, Gloss, Occlusion, Specular, Tint, Wetness};
+pub use layers::{Color, Emission, Gloss, Occlusion, Specular, Wetness};
 pub use light::{Directional, Light, PointLight, SpotLight};
 pub use map::{Map, Times};
 pub use reflectance::{BlinnPhong, Lambert, Phong, Reflectance, Shininess};
@@ -64,7 +64,19 @@ use vector::{plus, splat, times};
 /// A surface of layers under lights, fragment by fragment.
 ///
 /// # Precision
-/// The maps' formulas are those of [`alberti_texture::surface`], with their bounds. Each channel is rounded once.
+/// Texels as they are read, each channel is rounded once: within ½ + (40 + 64 e)·2^-16·S of a byte of the exact colour,
+/// for normals from 2^-60 to 2^60 long, frames at right angles, the exponent e of the highlight (0 for [`Lambert`]) and
+/// S, 1 or the light that arrives with emission and ambient light in the brightest channel, whichever is more. For:
+/// 255ε is less than 2^-16 (ε = 2^-24), cosines of unit vectors that are computed are within 20ε, the falloff within
+/// 10ε of itself, sums and products take the rest of the 40; n·h is within 19ε and r·v within 34ε, and within 64ε with
+/// a normal that was read from a map, of which powers make e times that. To this comes,
+///
+/// * on the edge of a [`SpotLight`], 16·2^-16·S/(inner − outer);
+/// * for [`BlinnPhong`], where light and viewer are more than 120° apart, the factor 1/|l + v| of e, for unit vectors;
+/// * where a light comes in at right angles to the normal, within 20ε, all of its highlight or none.
+///
+/// A place, normal or direction that is not finite takes no light but the ambient one. A normal of length 0 is (0, 0,
+/// 1). In fixed point positions that are more than 100 from lights, and lights above 1 where they arrive, overflow.
 ///
 /// # Cost
 /// The layers', and the lighting's. Normals and the direction to the viewer are made unit once each, if something asks
@@ -132,7 +144,9 @@ impl<Ls: Light, R: Reflectance> Lighting<Ls, R> {
     /// The light that a place scatters and mirrors towards the viewer, for white diffuse and specular colours: for
     /// lighting by vertex, whose results [`Gouraud`] takes.
     ///
-    /// Both are finite if position and normal are.
+    /// # Precision
+    /// For unit vectors and light S that arrives, ambient light included, within (40 + 64 e)·S·ε of the exact sums, in
+    /// each channel, as in [`Material`]. Finite if position, normal and lights, below 2^100, are.
     ///
     /// # Cost
     /// That of a fragment, once a vertex.

@@ -7,7 +7,8 @@ use alberti_math::lanes::Lanes;
 /// # Precision
 /// In `f32` each component is within 4ε of itself (ε = 2^-24) for lengths between 2^-60 and 2^60, and the length within
 /// 3.1ε of 1. In fixed point components, which may be any between ±32767, are first divided by the greatest of them, as
-/// squares would not fit: each comes out within 2.5·2^-16. Any numbers for what is not finite.
+/// squares would not fit: each comes out within 2.5·2^-16. Of what is not finite, a component is NaN and the others are
+/// NaN or 0; of what is longer than 2^64, all may be 0.
 ///
 /// # Cost
 /// A square root and three divisions, in fixed point three more.
@@ -28,9 +29,11 @@ pub fn unit_lanes<L: Lanes>(lanes: L, v: [L::Number; 3]) -> [L::Number; 3] {
 #[inline(always)]
 pub(super) fn over_length<L: Lanes>(lanes: L, [x, y, z]: [L::Number; 3]) -> [L::Number; 3] {
     let square = dot_lanes([x, y, z], [x, y, z]);
-    let any = lanes.less(lanes.splat(0.0), square);
-    let length = lanes.select(any, lanes.sqrt(square), lanes.splat(1.0));
-    [x / length, y / length, lanes.select(any, z, lanes.splat(1.0)) / length]
+    // Not so for NaN, which all components become then.
+    let none =
+        lanes.less(square, lanes.splat(if has_range(lanes) { f32::from_bits(1) } else { 1.0 / 65536.0 }));
+    let length = lanes.select(none, lanes.splat(1.0), lanes.sqrt(square));
+    [x / length, y / length, lanes.select(none, lanes.splat(1.0), z) / length]
 }
 
 /// Written out, so that the order of the operations is the same on every target.

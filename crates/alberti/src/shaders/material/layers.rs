@@ -2,25 +2,16 @@
 
 use super::map::Map;
 use super::surface::{Layer, Surface, Textured};
-use super::vector::{by, plus};
+use super::vector::plus;
 use crate::shaders::unpack;
-use alberti_math::Rgba8;
 use alberti_math::lanes::Lanes;
-use alberti_raster::NoDerivatives;
 use alberti_texture::surface::{ambient_occlusion_lanes, wet_lanes};
 
-/// The diffuse colour and the alpha.
+/// The diffuse colour and the alpha. A factor of it is [`Times`](super::Times).
 #[derive(Clone, Copy, Debug)]
 pub struct Color<M>(
     /// A [`Map`].
     pub M,
-);
-
-/// A factor of the diffuse colour: white is one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Tint(
-    /// The factor of each channel.
-    pub Rgba8,
 );
 
 /// The specular colour: how much of each colour a highlight mirrors.
@@ -56,7 +47,7 @@ pub struct Occlusion<M> {
     pub strength: f32,
 }
 
-/// Light that the surface itself sends out.
+/// Light that the surface itself sends out, or that it sends on: what several layers send is added.
 #[derive(Clone, Copy, Debug)]
 pub struct Emission<M>(
     /// A [`Map`].
@@ -111,14 +102,7 @@ of_one_map! {
     Occlusion: |layer, lanes, surface| layer.map => |words| {
         surface.openness = ambient_occlusion_lanes(lanes, red(lanes, words), layer.strength);
     };
-    Emission: |layer, lanes, surface| layer.0 => |words| surface.emission = plus(surface.emission, colors(lanes, words));
-}
-
-impl<V: Textured> Layer<V> for Tint {
-    type Derivatives = NoDerivatives;
-
-    #[inline(always)]
-    fn apply<L: Lanes>(&self, lanes: L, _: &V::Of<L::Number>, surface: &mut Surface<L>) {
-        surface.diffuse = by(surface.diffuse, colors(lanes, lanes.word(self.0.to_bits())));
-    }
+    Emission: |layer, lanes, surface| layer.0 => |words| {
+        surface.emission = plus(surface.emission, colors(lanes, words));
+    };
 }

@@ -9,8 +9,8 @@ use core::fmt::Debug;
 
 /// A light, or several: tuples, arrays and slices of lights are lights, and `()` is none.
 pub trait Light: Copy + Debug {
-    /// Adds up what `and` makes of the `sum` and of each light: of the unit vectors from the positions towards it, and of
-    /// how much of each colour arrives where the surface faces it.
+    /// Adds up what `and` makes of the `sum` and of each light: of the unit vectors from the positions towards it, and
+    /// of how much of each colour arrives where the surface faces it.
     fn fold<L: Lanes, T>(
         &self,
         lanes: L,
@@ -28,10 +28,10 @@ pub struct Directional {
 }
 
 impl Directional {
-    /// Light from the direction `to_light`, of any length but zero.
+    /// Light from the direction `to_light`, of any length; none where that is zero or not finite.
     #[must_use]
     pub fn new(to_light: Vector3<World>, color: Vec3) -> Self {
-        Self { to_light: to_light.coords.normalize_or_zero(), color }
+        Self { to_light: direction(to_light), color }
     }
 }
 
@@ -48,14 +48,15 @@ impl Light for Directional {
     }
 }
 
-/// A light that shines from a point in all directions, such as a bulb.
+/// A light that shines from a point in all directions, such as a bulb. In its own place it shines from (0, 0, 1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointLight {
     /// Where it is.
     pub position: Point3<World>,
     /// How much of each colour arrives at a distance where the falloff is 1.
     pub color: Vec3,
-    /// How that falls off: \[c, l, q\] for 1/(c + l d + q d²) at the distance d. Not all zero, and none below zero.
+    /// How that falls off: \[c, l, q\] for 1/(c + l d + q d²) at the distance d, none of them below zero. A result
+    /// above 2^14 counts as that, such as the infinite one that a light has in its own place without c.
     pub falloff: [f32; 3],
 }
 
@@ -69,7 +70,8 @@ impl PointLight {
         let [a, b, c] = to_light;
         let square = a * a + b * b + c * c;
         let [constant, linear, quadratic] = splat(lanes, Vec3::from_array(self.falloff));
-        let falloff = lanes.splat(1.0) / (constant + linear * lanes.sqrt(square) + quadratic * square);
+        let decay = constant + linear * lanes.sqrt(square) + quadratic * square;
+        let falloff = lanes.splat(1.0) / lanes.max(decay, lanes.splat(1.0 / 16384.0));
         [unit_lanes(lanes, to_light), times(splat(lanes, self.color), falloff)]
     }
 }
@@ -101,12 +103,13 @@ pub struct SpotLight {
 
 impl SpotLight {
     /// A light that shines along `axis`, of any length but zero, whole up to the angle with the cosine `inner` from it,
-    /// and then less, linearly in the cosine, up to the angle with the cosine `outer`, which is the lesser of the two.
+    /// and then less, linearly in the cosine, up to the angle with the cosine `outer`. An `inner` that is not above
+    /// `outer` by at least 2^-12 counts as that: the edge is sharp.
     #[must_use]
     pub fn new(point: PointLight, axis: Vector3<World>, [inner, outer]: [f32; 2]) -> Self {
         // A sharp edge is as steep as numbers in fixed point can tell.
         let slope = 1.0 / (inner - outer).max(1.0 / 4096.0);
-        Self { point, axis: axis.coords.normalize_or_zero(), outer, slope }
+        Self { point, axis: direction(axis), outer, slope }
     }
 }
 
@@ -126,6 +129,12 @@ impl Light for SpotLight {
         let share = lanes.min(lanes.max(inside * lanes.splat(self.slope), zero), one);
         and(sum, to_light, times(color, share))
     }
+}
+
+/// The unit vector, each component within ε; zero where there is none.
+fn direction(v: Vector3<World>) -> Vec3 {
+    // Squares of `f32` neither overflow nor vanish in `f64`.
+    v.coords.as_dvec3().normalize_or_zero().as_vec3()
 }
 
 impl Light for () {

@@ -15,7 +15,7 @@ use crate::shaders::pack;
 pub struct Placed {
     /// In world space.
     pub position: Vec3,
-    /// In world space, of any length.
+    /// In world space, from 2^-60 to 2^60 long.
     pub normal: Vec3,
     /// Texture coordinates.
     pub uv: Vec2,
