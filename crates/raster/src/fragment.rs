@@ -16,7 +16,8 @@ pub trait FragmentStage<V: Varying>: Copy {
     /// How it learns how fast the varying changes from pixel to pixel: [`NoDerivatives`], unless it needs that.
     type Derivatives: Differentiation;
 
-    /// The colour, or `None` to leave the pixel and its depth as they are; of a varying that does not change between pixels.
+    /// The colour, or `None` to leave the pixel and its depth as they are; of a varying that does not change between
+    /// pixels.
     fn shade(&self, varying: V) -> Option<Self::Color>;
 
     /// The colours of the samples in `mask`, as words, and those of them that are not discarded. Other samples may get

@@ -248,8 +248,8 @@ where
         written + self.end::<I, C, D>(last_colors, last_depths, bits, (cursor, derivatives), (column, &edges))
     }
 
-    /// Fills the last samples of a band, fewer than there are lanes, by way of a copy. The first is in a column with these
-    /// edges.
+    /// Fills the last samples of a band, fewer than there are lanes, by way of a copy. The first is in a column with
+    /// these edges.
     #[cold]
     #[inline(never)]
     fn end<I, C, D>(

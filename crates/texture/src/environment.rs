@@ -8,8 +8,8 @@
 //! | [`SphereMap`]: a mirror ball | eye | `Clamp` | six divisions and two square roots |
 //! | [`Cube`]: six faces | world | `Clamp` | three divisions |
 //!
-//! [`Turned`] gives any of them another frame. All work over lanes, in `f32` and in fixed point. A direction that is zero or not finite has a place too: each says
-//! which.
+//! [`Turned`] gives any of them another frame. All work over lanes, in `f32` and in fixed point. A direction that is
+//! zero or not finite has a place too: each says which.
 //!
 //! ```
 //! use alberti_math::lanes::One;

@@ -79,7 +79,8 @@ pub(super) fn footprint<N: Copy>(
 /// Another stage that learns from `D` how fast its varying changes, whatever it would choose itself.
 ///
 /// ```
-/// use alberti::{raster::PerTriangle, shaders::{Differentiated, Unlit}, texture::{Mipmap, Repeat, Trilinear, format::L8}};
+/// use alberti::texture::{Mipmap, Repeat, Trilinear, format::L8};
+/// use alberti::{raster::PerTriangle, shaders::{Differentiated, Unlit}};
 ///
 /// let board = Mipmap::<L8>::new(&[0, 255, 255, 0, 188], 2, 2)?;
 /// // One level of detail for all of a triangle, found once.

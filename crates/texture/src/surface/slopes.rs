@@ -62,7 +62,8 @@ impl<F: Storage, U: Wrap, V: Wrap, Z: Size> fmt::Debug for BilinearHeights<'_, F
     }
 }
 
-/// A map whose slopes are central differences: (h(u + s) − h(u − s)) / 2s. [`Relief::slope`](super::Relief::slope) says how precise.
+/// A map whose slopes are central differences: (h(u + s) − h(u − s)) / 2s. [`Relief::slope`](super::Relief::slope)
+/// says how precise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CentralDifferences<H> {
     /// The heights.
