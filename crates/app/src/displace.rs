@@ -19,8 +19,8 @@ pub(crate) const MAX_VERTICES: u64 = 1 << 20;
 /// Divides all triangles of the parts that have a displacement map, each into equally many, and moves their vertices.
 ///
 /// Vertices at one place move to one place, by the mean of their heights along the mean of their normals: neither a
-/// seam in the texture nor a crease in the surface tears open. Normals are made anew from the triangles, once for
-/// vertices that had the same before, so creases stay.
+/// seam in the texture nor a crease in the surface tears open. Normals turn as those of the triangles do, once for
+/// vertices that had the same before, so creases stay, and what was smooth stays smooth.
 ///
 /// Where that takes more than [`MAX_VERTICES`] vertices, texels go without, with a warning.
 pub(crate) fn displace(model: &mut Model, images: &Images, wrap: Wrap, warnings: &mut Warnings) {
@@ -55,9 +55,11 @@ pub(crate) fn displace(model: &mut Model, images: &Images, wrap: Wrap, warnings:
         part.triangles = triangles;
     }
     let groups = Groups::of(&fine);
+    let triangles = || model.parts.iter().filter(|part| is_displaced(part)).flat_map(|part| &part.triangles);
+    let flat = groups.normals(&fine, triangles());
     groups.displace(&mut fine, &heights);
-    let triangles = model.parts.iter().filter(|part| is_displaced(part)).flat_map(|part| &part.triangles);
-    groups.renew_normals(&mut fine, triangles);
+    let displaced = groups.normals(&fine, triangles());
+    groups.bend_normals(&mut fine, &flat, &displaced);
     // What the other parts use stays in front.
     let first = keep_used(model, is_displaced);
     model.vertices.append(&mut fine);
@@ -199,8 +201,12 @@ impl Groups {
         }
     }
 
-    /// The mean of the triangles' normals, weighted by area. A vertex of triangles without an area keeps its own.
-    fn renew_normals<'t>(&self, vertices: &mut [Vertex], triangles: impl Iterator<Item = &'t [u32; 3]>) {
+    /// The mean of the triangles' normals, weighted by area, for each normal that vertices have; `None` without an area.
+    fn normals<'t>(
+        &self,
+        vertices: &[Vertex],
+        triangles: impl Iterator<Item = &'t [u32; 3]>,
+    ) -> Vec<Option<[f64; 3]>> {
         let mut sums = vec![[0.0; 3]; self.smooths];
         for triangle in triangles {
             let [a, b, c] = triangle.map(|i| vertices[i as usize].position.map(f64::from));
@@ -210,9 +216,21 @@ impl Groups {
                 *sum = [0, 1, 2].map(|axis| sum[axis] + across[axis]);
             }
         }
+        sums.into_iter().map(normalize).collect()
+    }
+
+    /// Bends normals as those of the triangles have turned, so that a model whose few triangles look smooth still does.
+    fn bend_normals(
+        &self,
+        vertices: &mut [Vertex],
+        flat: &[Option<[f64; 3]>],
+        displaced: &[Option<[f64; 3]>],
+    ) {
         for (vertex, &at) in vertices.iter_mut().zip(&self.smooth) {
-            let own = || normalize(vertex.normal.map(f64::from)).unwrap_or([0.0, 0.0, 1.0]);
-            vertex.normal = normalize(sums[at]).unwrap_or_else(own).map(narrow);
+            let own = normalize(vertex.normal.map(f64::from)).unwrap_or([0.0, 0.0, 1.0]);
+            let turned = flat[at].zip(displaced[at]).map(|(flat, displaced)| sub(displaced, flat));
+            let bent = turned.and_then(|turned| normalize([0, 1, 2].map(|axis| own[axis] + turned[axis])));
+            vertex.normal = bent.unwrap_or(own).map(narrow);
         }
     }
 }

@@ -117,3 +117,35 @@ fn parts_without_heights_stay() {
         model.parts[0].triangles.iter().flatten().map(|&i| model.vertices[i as usize]).collect();
     assert_eq!(before, after);
 }
+
+#[test]
+fn what_looks_smooth_stays_smooth() {
+    // One triangle, bulging by its normals, which all stay where no height moves them.
+    let corners = [[0.0f32, 0.0], [1.0, 0.0], [0.0, 1.0]];
+    let vertices = corners.map(|[x, y]| {
+        let normal = normalize([f64::from(x) - 0.3, f64::from(y) - 0.3, 1.0]).expect("not zero").map(narrow);
+        Vertex { position: [x, y, 0.0], normal, uv: [x, y], ..Vertex::default() }
+    });
+    let part = |range| Part { triangles: vec![[0, 1, 2]], detail: displacing(range), ..Part::default() };
+    let model = |range| {
+        let mut model = Model { vertices: vertices.to_vec(), parts: vec![part(range)], ..Model::default() };
+        assert!(run(&mut model, &images(&ROUGH, 4)).is_empty());
+        model
+    };
+    let (even, rough) = (model([0.0, 0.0]), model([0.0, 0.1]));
+    assert!(even.vertices.len() > 10);
+    let off = |model: &Model| {
+        let miss = |v: &Vertex| {
+            let [x, y, _] = v.position.map(f64::from);
+            // Between the corners normals are means of theirs.
+            let mean =
+                [(1.0 - x - y, 0), (x, 1), (y, 2)].map(|(w, k)| vertices[k].normal.map(|n| w * f64::from(n)));
+            let normal =
+                normalize([0, 1, 2].map(|k| mean[0][k] + mean[1][k] + mean[2][k])).expect("not zero");
+            sub(normal, v.normal.map(f64::from)).into_iter().fold(0.0_f64, |most, x| most.max(x.abs()))
+        };
+        model.vertices.iter().map(miss).fold(0.0_f64, f64::max)
+    };
+    assert!(off(&even) < 1e-6, "{}", off(&even));
+    assert!(off(&rough) > 0.1, "{}", off(&rough));
+}
