@@ -141,7 +141,23 @@ impl Material {
             let wrap = map.wrap.or(self.wrap);
             detail.height = Some(HeightMap { heights, wrap, relief, range, extent: [1.0; 2] });
         }
+        self.change_maps(detail);
         Ok(())
+    }
+
+    /// Changes what is said of maps that are there.
+    fn change_maps(&self, detail: &mut Detail) {
+        if let Some(normal) = &mut detail.normal {
+            normal.space = self.normal_space.unwrap_or(normal.space);
+            normal.strength = self.normal_strength.unwrap_or(normal.strength);
+        }
+        if let Some(height) = &mut detail.height {
+            height.relief = self.relief.unwrap_or(height.relief);
+            height.range = self.height_range.unwrap_or(height.range);
+        }
+        if let Some(environment) = &mut detail.environment {
+            environment.kind = self.environment_kind.unwrap_or(environment.kind);
+        }
     }
 
     fn set_constants(&self, part: &mut Part) {

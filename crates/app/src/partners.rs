@@ -2,8 +2,9 @@
 
 use crate::cli::{Projection, RenderArgs};
 use crate::error::Error;
+use crate::scene::{Detail, Model};
 
-/// An option that does nothing without another is a mistake.
+/// An option that does nothing without another is a mistake. What is said of maps may be meant for those of a model.
 ///
 /// # Errors
 /// There is one.
@@ -28,6 +29,7 @@ pub(crate) fn check(arguments: &RenderArgs) -> Result<(), Error> {
         let given = options.iter().filter(|(_, given)| *given && !map);
         given.map(|&(option, _)| (option, name)).next()
     };
+    let of_model = arguments.model.is_some();
     let lonely = [
         with_map(
             arguments.projection == Some(Projection::Parallel),
@@ -35,7 +37,7 @@ pub(crate) fn check(arguments: &RenderArgs) -> Result<(), Error> {
             &[("--view-height", arguments.view_height.is_some())],
         ),
         with_map(
-            material.normal_map.is_some(),
+            material.normal_map.is_some() || of_model,
             "--normal-map",
             &[
                 ("--normal-space", material.normal_space.is_some()),
@@ -43,12 +45,12 @@ pub(crate) fn check(arguments: &RenderArgs) -> Result<(), Error> {
             ],
         ),
         with_map(
-            material.height_map.is_some(),
+            material.height_map.is_some() || of_model,
             "--height-map",
             &[("--relief", material.relief.is_some()), ("--height-range", material.height_range.is_some())],
         ),
         with_map(
-            material.environment.is_some(),
+            material.environment.is_some() || of_model,
             "--environment",
             &[
                 ("--environment-kind", material.environment_kind.is_some()),
@@ -59,6 +61,31 @@ pub(crate) fn check(arguments: &RenderArgs) -> Result<(), Error> {
     match lonely.into_iter().flatten().next() {
         Some((option, partner)) => {
             Err(Error::new(format!("it without {partner}"), "both, or neither").place(option))
+        }
+        None => Ok(()),
+    }
+}
+
+/// What is said of maps that no part of a model has is a mistake as well.
+///
+/// # Errors
+/// There is one.
+pub(crate) fn check_maps(arguments: &RenderArgs, model: &Model) -> Result<(), Error> {
+    let material = &arguments.material;
+    let any = |has: fn(&Detail) -> bool| model.parts.iter().any(|part| has(&part.detail));
+    let (normal, height, environment) =
+        (any(|d| d.normal.is_some()), any(|d| d.height.is_some()), any(|d| d.environment.is_some()));
+    let said = [
+        ("--normal-space", material.normal_space.is_some(), normal, "a normal map"),
+        ("--normal-strength", material.normal_strength.is_some(), normal, "a normal map"),
+        ("--relief", material.relief.is_some(), height, "a height map"),
+        ("--height-range", material.height_range.is_some(), height, "a height map"),
+        ("--environment-kind", material.environment_kind.is_some(), environment, "an environment"),
+        ("--reflection", material.reflection.is_some(), environment, "an environment"),
+    ];
+    match said.into_iter().find(|(_, given, there, _)| *given && !there) {
+        Some((option, _, _, map)) => {
+            Err(Error::new(format!("a model without {map}"), "one that it can be said of").place(option))
         }
         None => Ok(()),
     }

@@ -234,6 +234,7 @@ fn put_materials(arguments: &RenderArgs, scene: &mut Scene) -> Result<(), Error>
     let mut images = Images::new();
     images.adopt(&mut scene.model);
     prepare::replace_materials(&mut scene.model, &given_material(arguments), &mut images)?;
+    partners::check_maps(arguments, &scene.model)?;
     let mut warnings = Warnings::default();
     let wrap = arguments.wrap.unwrap_or(scene.defaults.2);
     prepare::complete(&mut scene.model, &images, wrap, &mut warnings);

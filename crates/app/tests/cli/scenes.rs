@@ -112,3 +112,33 @@ fn options_of_materials_override_those_of_a_scene() {
     assert!(run.stdout.starts_with("m.obj: 4 triangles"), "{run:?}");
     assert_eq!(run.stderr, "");
 }
+
+#[test]
+fn options_say_what_is_made_of_a_scenes_maps() {
+    let scene = |relief: &str| {
+        let material = "[material.rough]\nheight-map = \"h.png\"\nheight-range = [-0.3, 0]\n";
+        let object = "[[object]]\nsurface = \"plane\"\nsegments = [1, 1]\nmaterial = \"rough\"\n";
+        format!("size = [32, 24]\n[camera]\neye = [0, 1, 2]\n{object}{material}relief = \"{relief}\"\n")
+    };
+    let files =
+        [("steep.toml", scene("steep")), ("bump.toml", scene("bump")), ("m.obj", TRIANGLE.to_owned())];
+    let folder = Folder::with(&files.each_ref().map(|(name, text)| (*name, text.as_bytes())));
+    let heights =
+        image::GrayImage::from_fn(4, 4, |x, y| image::Luma([[0, 255, 80, 30][((x + y) % 4) as usize]]));
+    heights.save(folder.path("h.png")).expect("a file");
+    let bytes = |arguments: &[&str]| {
+        folder.succeeds(&[arguments, &["-o", "p.png"]].concat());
+        std::fs::read(folder.path("p.png")).expect("a picture")
+    };
+    assert_eq!(bytes(&["bump.toml", "--relief", "steep"]), bytes(&["steep.toml"]));
+    assert_ne!(bytes(&["bump.toml"]), bytes(&["steep.toml"]));
+    assert_ne!(bytes(&["steep.toml", "--height-range", "-0.1,0"]), bytes(&["steep.toml"]));
+    folder.fails(
+        &["m.obj", "--relief", "steep"],
+        &["error: --relief: found a model without a height map, expected one that it can be said of"],
+    );
+    folder.fails(
+        &["steep.toml", "--normal-strength", "2"],
+        &["error: --normal-strength: found a model without a normal map"],
+    );
+}
