@@ -145,7 +145,7 @@ pub struct RenderArgs {
     #[arg(long, value_enum, value_name = "WRAP", help_heading = SURFACE)]
     pub wrap: Option<Wrap>,
 
-    /// How surfaces are coloured [default: lambert].
+    /// How surfaces are coloured [default: blinn if something is said of highlights, else lambert].
     #[arg(long, value_enum, value_name = "SHADING", help_heading = SURFACE)]
     pub shading: Option<Shading>,
 

@@ -20,7 +20,7 @@ use crate::options::{
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::render::render;
-use crate::scene::{Camera, Model};
+use crate::scene::{Camera, Model, Part};
 use crate::scene_file::{self, SceneFile};
 use crate::stats::{Report, Source, Times};
 use crate::{obj, partners, prepare, scenes, slide};
@@ -147,11 +147,12 @@ fn draw_from(arguments: &RenderArgs, file: Option<&SceneFile>) -> Result<(), Err
     }
 
     let (shading, filter, wrap, cull, scene_depth) = scene.defaults;
+    let shiny = shading == Shading::Lambert && has_highlights(arguments, &scene.model);
     let options = RenderOptions {
         width,
         height,
         background: arguments.background.unwrap_or(scene.background),
-        shading: arguments.shading.unwrap_or(shading),
+        shading: arguments.shading.unwrap_or(if shiny { Shading::Blinn } else { shading }),
         filter: arguments.filter.unwrap_or(filter),
         wrap: arguments.wrap.unwrap_or(wrap),
         cull: arguments.cull.unwrap_or(cull),
@@ -226,6 +227,13 @@ fn load(arguments: &RenderArgs) -> Result<Scene, Error> {
         background: scene.background,
         has_uv: true,
     })
+}
+
+/// Whether something is said of highlights, beside the faint one that every surface has.
+fn has_highlights(arguments: &RenderArgs, model: &Model) -> bool {
+    let material = &arguments.material;
+    let mapped = |part: &Part| part.detail.specular_map.is_some() || part.detail.shininess_map.is_some();
+    material.specular.is_some() || material.shininess.is_some() || model.parts.iter().any(mapped)
 }
 
 /// `--texture` and the options of materials replace what all materials say. A texture is shown as it is, whatever the
