@@ -117,6 +117,7 @@ fn draw_from(arguments: &RenderArgs, file: Option<&SceneFile>) -> Result<(), Err
     if file.is_none() {
         put_materials(arguments, &mut scene)?;
     }
+    partners::check_maps(arguments, &scene.model)?;
     if let (Some(option), false) = (mapped(arguments), scene.has_uv) {
         let found = "a model without texture coordinates (`vt` lines)";
         let error = Error::new(found, "some for the texture").place(option);
@@ -242,7 +243,6 @@ fn put_materials(arguments: &RenderArgs, scene: &mut Scene) -> Result<(), Error>
     let mut images = Images::new();
     images.adopt(&mut scene.model);
     prepare::replace_materials(&mut scene.model, &given_material(arguments), &mut images)?;
-    partners::check_maps(arguments, &scene.model)?;
     let mut warnings = Warnings::default();
     let wrap = arguments.wrap.unwrap_or(scene.defaults.2);
     prepare::complete(&mut scene.model, &images, wrap, &mut warnings);
