@@ -49,6 +49,12 @@ impl Light for Directional {
 }
 
 /// A light that shines from a point in all directions, such as a bulb. In its own place it shines from (0, 0, 1).
+///
+/// # Precision
+/// What arrives is within 10ε of itself (ε = 2^-24).
+///
+/// # Cost
+/// Two square roots and four divisions a fragment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointLight {
     /// Where it is.
@@ -91,6 +97,12 @@ impl Light for PointLight {
 }
 
 /// A light that shines from a point into a cone, such as a stage light.
+///
+/// # Precision
+/// As a [`PointLight`], and at the edge within 16ε/(inner − outer) of all that arrives (ε = 2^-24).
+///
+/// # Cost
+/// That of a [`PointLight`], and seven multiplications.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpotLight {
     point: PointLight,

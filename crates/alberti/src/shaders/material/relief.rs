@@ -17,6 +17,10 @@ use core::marker::PhantomData;
 ///
 /// Its texels are read as colours, so a filter's means are those of stored bytes; the result is made unit again. Build
 /// its mip map of [`Normals`](alberti_texture::mipmap::Normals).
+///
+/// # Cost
+/// The map, two square roots, six divisions and nine multiplications; with a strength of `f32` a root and three
+/// divisions more.
 #[derive(Clone, Copy, Debug)]
 pub struct NormalMap<M, E = surface::Unorm, S = ()> {
     map: M,
@@ -63,6 +67,15 @@ pub struct ObjectNormals<M, E = surface::Unorm> {
 }
 
 /// A bump map: the normal that heights would have, whose map has [`Slopes`].
+///
+/// The normal is that of the heights on a plane. On a curved surface it misses the share h/R of the slope, for heights h
+/// and the radius of curvature R.
+///
+/// # Precision
+/// That of the slopes, times |high − low|/extent, as an angle, and 8ε radians (ε = 2^-24), for frames at right angles.
+///
+/// # Cost
+/// The slopes, a square root, three divisions and eleven multiplications.
 #[derive(Clone, Copy, Debug)]
 pub struct Bump<H>(
     /// The heights, with what they are in world units.
@@ -70,6 +83,14 @@ pub struct Bump<H>(
 );
 
 /// A parallax map: what the heights would show of the surface, seen from aside. It comes before all that reads maps.
+///
+/// The level of detail of these stays that of the surface itself, and so does the place for lights.
+///
+/// # Precision
+/// [`Relief::parallax`] says how far the place is from the one that is seen, for frames at right angles.
+///
+/// # Cost
+/// The heights that the policy reads, nine multiplications and some divisions.
 #[derive(Clone, Copy, Debug)]
 pub struct Parallax<H, P> {
     /// The heights, with what they are in world units.
