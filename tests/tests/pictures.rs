@@ -10,6 +10,8 @@ mod affine_and_hyperbolic;
 mod color_triangle;
 #[path = "../../crates/alberti/examples/depth_precision.rs"]
 mod depth_precision;
+#[path = "../../crates/alberti/examples/materials.rs"]
+mod materials;
 #[path = "../../crates/alberti/examples/perspective_cube.rs"]
 mod perspective_cube;
 #[path = "../../crates/alberti/examples/slide_projector.rs"]
@@ -49,4 +51,9 @@ fn depth_precision_is_what_it_was() {
 #[test]
 fn slide_projector_is_what_it_was() {
     compare("slide_projector.png", slide_projector::picture());
+}
+
+#[test]
+fn materials_are_what_they_were() {
+    compare("materials.png", materials::picture());
 }
