@@ -50,6 +50,8 @@ const BOARDS: &[Board] = &[
             ("fixed-gouraud", 550),
             ("fixed-affine", 446),
             ("fixed-textured", 738),
+            ("fixed-floor-mip-nearest", 2214),
+            ("fixed-floor-trilinear", 5950),
         ],
     },
     Board {
@@ -64,6 +66,8 @@ const BOARDS: &[Board] = &[
             ("fixed-gouraud", 340),
             ("fixed-affine", 246),
             ("fixed-textured", 344),
+            ("fixed-floor-mip-nearest", 1147),
+            ("fixed-floor-trilinear", 3494),
         ],
     },
     Board {
@@ -85,6 +89,9 @@ const BOARDS: &[Board] = &[
         ],
     },
 ];
+
+/// Scenes that must take the same instructions: what a material has not costs nothing.
+const EQUAL: &[[&str; 2]] = &[["material", "material-absent"]];
 
 /// The program that draws all scenes, and those that are weighed.
 const FRAMES: &str = "alberti-firmware";
@@ -158,6 +165,7 @@ fn check(board: &Board, expected: &[Expected]) -> Outcome {
     println!("    {:<18}{:>10}{:>10}{:>10}", "program, bytes", ".text", ".rodata", "both");
     let mut failures = frames::differences(board.name, expected, &drawn);
     failures.extend(frames::excesses(board.name, expected, &drawn, board.limits));
+    failures.extend(frames::unequal(board.name, &drawn, EQUAL));
     for name in WEIGHED {
         let path = folder.join("small").join(name);
         let file = fs::read(&path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;

@@ -98,22 +98,41 @@ pub(super) fn excesses(
     limits.iter().filter_map(exceeds).collect()
 }
 
+/// By how many instructions equal costs may seem to differ: a tick is a little more than one.
+const TICKS: u64 = 3;
+
+/// One line for each pair of scenes that do not take the same instructions or whose frames differ.
+pub(super) fn unequal(board: &str, drawn: &[Drawn], pairs: &[[&str; 2]]) -> Vec<String> {
+    let find = |name: &str| drawn.iter().find(|frame| frame.name == name);
+    let differs = |pair: &[&str; 2]| match pair.map(find) {
+        [Some(a), Some(b)] if a.hash == b.hash && a.cost.abs_diff(b.cost) <= TICKS => None,
+        [Some(a), Some(b)] => Some(format!(
+            "board {board}: {} takes {} instructions, {} {}; the same are expected, and the same frame",
+            a.name, a.cost, b.name, b.cost
+        )),
+        _ => {
+            Some(format!("board {board}: {} and {} are compared, one of which is no scene", pair[0], pair[1]))
+        }
+    };
+    pairs.iter().filter_map(differs).collect()
+}
+
 /// The frames with their costs in instructions.
 pub(super) fn table(expected: &[Expected], drawn: &[Drawn]) -> String {
     let mut text = format!(
-        "    {:<18}{:>10}{:>17}{:>12}{:>15}\n",
+        "    {:<28}{:>10}{:>17}{:>12}{:>15}\n",
         "scene", "bits", "instructions", "per pixel", "per triangle"
     );
     for scene in expected {
         let name = &scene.name;
         let Some(frame) = drawn.iter().find(|frame| frame.name == *name) else {
-            text.push_str(&format!("    {name:<18}{:>10}\n", "MISSING"));
+            text.push_str(&format!("    {name:<28}{:>10}\n", "MISSING"));
             continue;
         };
         let bits = if frame.hash == scene.hash { "equal" } else { "DIFFERENT" };
         let tenths = 10 * frame.cost / scene.pixels.max(1);
         text.push_str(&format!(
-            "    {name:<18}{bits:>10}{:>17}{:>12}{:>15}\n",
+            "    {name:<28}{bits:>10}{:>17}{:>12}{:>15}\n",
             grouped(frame.cost),
             format!("{}.{}", grouped(tenths / 10), tenths % 10),
             grouped(frame.cost / scene.triangles.max(1)),
@@ -166,6 +185,17 @@ mod tests {
             compare("frame flat aa 8\nframe mesh cc 7\n"),
             ["board m0, scene mesh: the frame's hash is cc, expected bb as on the host"]
         );
+    }
+
+    #[test]
+    fn pairs_that_differ_are_told() {
+        let frames = drawn("frame a aa 8\nframe b aa 8\nframe c aa 80\nframe d bb 8\n").unwrap();
+        assert_eq!(unequal("m0", &frames, &[["a", "b"]]), [""; 0]);
+        assert_eq!(
+            unequal("m0", &frames, &[["a", "c"]]),
+            ["board m0: a takes 8 instructions, c 80; the same are expected, and the same frame"]
+        );
+        assert_eq!(unequal("m0", &frames, &[["a", "d"], ["a", "e"]]).len(), 2);
     }
 
     #[test]

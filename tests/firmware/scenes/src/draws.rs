@@ -1,10 +1,12 @@
 //! The ways of drawing that are measured: each is one call of [`alberti::draw`] on prepared memory.
 
-use crate::shapes::{Model, Vertex};
+use crate::shapes::{FLOOR_MIPMAP, Model, Vertex};
 use crate::{Camera, PIXELS, Target, WIDTH};
 use alberti::glam::{Vec2, Vec3};
-use alberti::shaders::{Ready565, Solid, Stored, VertexColor565};
-use alberti::texture::{Nearest, Repeat};
+use alberti::raster::{PerSpan, PerTriangle};
+use alberti::shaders::material::{Color, Emission, Gouraud};
+use alberti::shaders::{Differentiated, Ready565, Solid, Stored, Unlit, VertexColor565};
+use alberti::texture::{Bilinear, Minify, Nearest, NearestLevel, Repeat, Trilinear};
 use alberti::{
     Affine, Band, Counters, Cull, D16, Exact, FixedPoint, FragmentStage, Interpolation, NoDepth, Object,
     Pass, Point3, Rgb565Le, Sides, Slot, Spans, Sub4, VertexStage, View, draw,
@@ -36,6 +38,54 @@ draws! {
 
     /// The vertices' colours without perspective, in fixed point.
     gouraud_fixed(model): FixedPoint(Affine), colored, VertexColor565;
+
+    /// The nearest texel of the nearest level, one for each triangle.
+    mip_nearest(model): Exact, mapped,
+        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler::<NearestMip, Repeat>()));
+
+    /// Four texels of the nearest level, one for each triangle.
+    mip_bilinear(model): Exact, mapped,
+        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler::<BilinearMip, Repeat>()));
+
+    /// Between levels, by one level of detail for each triangle.
+    trilinear(model): Exact, mapped,
+        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler::<Trilinear, Repeat>()));
+
+    /// Between levels, by one level of detail for each row of a triangle.
+    trilinear_spans(model): Exact, mapped,
+        Differentiated::by(PerSpan, Unlit(FLOOR_MIPMAP.sampler::<Trilinear, Repeat>()));
+
+    /// The nearest texel of the nearest level, one for each triangle, in fixed point.
+    mip_nearest_fixed(model): FixedPoint(Spans::<16>), mapped,
+        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler::<NearestMip, Repeat>()));
+
+    /// Four texels of the nearest level, one for each triangle, in fixed point.
+    mip_bilinear_fixed(model): FixedPoint(Spans::<16>), mapped,
+        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler::<BilinearMip, Repeat>()));
+
+    /// Between levels, by one level of detail for each triangle, in fixed point.
+    trilinear_fixed(model): FixedPoint(Spans::<16>), mapped,
+        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler::<Trilinear, Repeat>()));
+
+    /// Between levels, by one level of detail for each 16 columns, in fixed point.
+    trilinear_spans_fixed(model): FixedPoint(Spans::<16>), mapped,
+        Differentiated::by(PerSpan, Unlit(FLOOR_MIPMAP.sampler::<Trilinear, Repeat>()));
+
+    /// The vertices' light on the nearest texel: a material of one map.
+    material(model): Exact, lit, Gouraud { layers: Color(model.texture.sampler::<Nearest, Repeat>()) };
+
+    /// The same, with the places of the maps that it has not.
+    material_absent(model): Exact, lit, Gouraud {
+        layers: ((), Color(model.texture.sampler::<Nearest, Repeat>()), (), ((), ()), ()),
+    };
+
+    /// And with one more.
+    material_emission(model): Exact, lit, Gouraud {
+        layers: (
+            Color(model.texture.sampler::<Nearest, Repeat>()),
+            Emission(model.texture.sampler::<Nearest, Repeat>()),
+        ),
+    };
 
     /// The nearest texel without perspective, in fixed point.
     affine_fixed(model): FixedPoint(Affine), mapped, Stored(model.texture.sampler::<Nearest, Repeat>());
@@ -83,6 +133,9 @@ pub fn flat_without_depth<K: Counters>(
     draw(&pass, &mut band, &mut [Slot::<Sub4, _>::EMPTY; 0], counters);
 }
 
+type NearestMip = Minify<Nearest, NearestLevel>;
+type BilinearMip = Minify<Bilinear, NearestLevel>;
+
 const ORANGE: u16 = 0xe405;
 
 /// What all ways have in common.
@@ -116,4 +169,10 @@ fn colored(vertex: &Vertex) -> (Point3<Object>, Ready565) {
 
 fn mapped(vertex: &Vertex) -> (Point3<Object>, Vec2) {
     (place(vertex), Vec2::from_array(vertex.uv))
+}
+
+/// The vertex's colour for the light that is scattered, and none that is mirrored.
+fn lit(vertex: &Vertex) -> (Point3<Object>, (Vec3, (Vec3, Vec2))) {
+    let (position, uv) = mapped(vertex);
+    (position, (Vec3::from_array(vertex.color), (Vec3::ZERO, uv)))
 }

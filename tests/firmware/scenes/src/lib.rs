@@ -10,13 +10,15 @@ mod draws;
 pub mod shapes;
 
 pub use draws::{
-    affine_fixed, flat, flat_fixed, flat_without_depth, gouraud, gouraud_fixed, textured, textured_fixed,
+    affine_fixed, flat, flat_fixed, flat_without_depth, gouraud, gouraud_fixed, material, material_absent,
+    material_emission, mip_bilinear, mip_bilinear_fixed, mip_nearest, mip_nearest_fixed, textured,
+    textured_fixed, trilinear, trilinear_fixed, trilinear_spans, trilinear_spans_fixed,
 };
 pub use shapes::PROBE;
 
 use alberti::glam::Vec2;
 use alberti::{D16, DepthFormat, Perspective, Slot, Sub4, ViewError, Viewport};
-use shapes::{Model, TORUS_VERTICES, layers, torus};
+use shapes::{Model, TORUS_VERTICES, floor, layers, torus};
 
 /// Columns of the frame.
 pub const WIDTH: u32 = 320;
@@ -84,6 +86,19 @@ pub static SCENES: &[Scene] = &[
     fill!("fixed-textured-4", 4, textured_fixed),
     scene!("fixed-mesh", torus(1.0), textured_fixed),
     scene!("fixed-mesh-eighth", torus(0.125), textured_fixed),
+    fill!("material", 1, material),
+    fill!("material-absent", 1, material_absent),
+    fill!("material-emission", 1, material_emission),
+    scene!("floor", floor(), textured),
+    scene!("floor-mip-nearest", floor(), mip_nearest),
+    scene!("floor-mip-bilinear", floor(), mip_bilinear),
+    scene!("floor-trilinear", floor(), trilinear),
+    scene!("floor-trilinear-spans", floor(), trilinear_spans),
+    scene!("fixed-floor", floor(), textured_fixed),
+    scene!("fixed-floor-mip-nearest", floor(), mip_nearest_fixed),
+    scene!("fixed-floor-mip-bilinear", floor(), mip_bilinear_fixed),
+    scene!("fixed-floor-trilinear", floor(), trilinear_fixed),
+    scene!("fixed-floor-trilinear-spans", floor(), trilinear_spans_fixed),
 ];
 
 /// What all scenes are seen through.

@@ -5,7 +5,7 @@
 
 use crate::{HEIGHT, WIDTH};
 use alberti::glam::{Mat3, Vec3};
-use alberti::texture::{Known, Texture, format::Rgb565};
+use alberti::texture::{Known, Mipmap, PowerOfTwo, Texture, format::Rgb565};
 use alberti::{Eye, Frame, Object, Point3};
 
 /// Width by height of the frame.
@@ -67,6 +67,27 @@ pub const fn torus(size: f32) -> Model {
     }
 }
 
+/// A plane that rises from below the frame to a distance of 40, in strips that are as high as one another on the
+/// screen: its texels are from twice to a 40th as large as pixels, and at most as long as wide.
+#[must_use]
+pub const fn floor() -> Model {
+    Model {
+        vertices: &FLOOR_VERTICES,
+        triangles: &FLOOR_TRIANGLES,
+        to_eye: Frame::IDENTITY,
+        texture: texture(),
+    }
+}
+
+/// What the floor wears, made by the build script.
+pub static FLOOR_MIPMAP: Mipmap<'static, Rgb565, PowerOfTwo> = {
+    static TEXELS: [u16; alberti::texture::mipmap::texel_count(64, 64)] =
+        include!(concat!(env!("OUT_DIR"), "/floor.rs"));
+    let Ok(mipmap) = Mipmap::new(&TEXELS, 64, 64) else { panic!("the levels of a square of this side") };
+    let Some(mipmap) = mipmap.power_of_two() else { panic!("its side is a power of two") };
+    mipmap
+};
+
 /// What the programs draw whose size alone is of interest: one quad.
 pub static PROBE: Model = layers(1);
 
@@ -113,6 +134,38 @@ static QUAD_TRIANGLES: [[u16; 3]; 2 * LAYERS] = {
         triangles[2 * layer + 1] = [first, first + 2, first + 3];
         layer += 1;
         first += 4;
+    }
+    triangles
+};
+
+const STRIPS: u16 = 16;
+
+static FLOOR_VERTICES: [Vertex; 2 * (STRIPS as usize + 1)] = {
+    let mut vertices = [Vertex::ZERO; 2 * (STRIPS as usize + 1)];
+    let (mut at, mut strip) = (0, 0);
+    while strip <= STRIPS {
+        let q = 1.1 + (0.025 - 1.1) * part(strip, STRIPS);
+        let z = 1.0 / q;
+        let mut side = -1.0;
+        while side < 2.0 {
+            let position = [1.25 * ASPECT * side * z, 0.9 * z - 1.9, z];
+            vertices[at] = Vertex { position, color: [0.5; 3], uv: [0.5 * position[0], 0.67 * z] };
+            at += 1;
+            side += 2.0;
+        }
+        strip += 1;
+    }
+    vertices
+};
+
+static FLOOR_TRIANGLES: [[u16; 3]; 2 * STRIPS as usize] = {
+    let mut triangles = [[0; 3]; 2 * STRIPS as usize];
+    let (mut at, mut left) = (0, 0);
+    while at < triangles.len() {
+        triangles[at] = [left, left + 1, left + 3];
+        triangles[at + 1] = [left, left + 3, left + 2];
+        at += 2;
+        left += 2;
     }
     triangles
 };
