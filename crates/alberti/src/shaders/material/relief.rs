@@ -68,8 +68,8 @@ pub struct ObjectNormals<M, E = surface::Unorm> {
 
 /// A bump map: the normal that heights would have, whose map has [`Slopes`].
 ///
-/// The normal is that of the heights on a plane. On a curved surface it misses the share h/R of the slope, for heights h
-/// and the radius of curvature R.
+/// The normal is that of the heights on a plane. On a curved surface it misses the share h/R of the slope, for heights
+/// h and the radius of curvature R.
 ///
 /// # Precision
 /// That of the slopes, times |high − low|/extent, as an angle, and 8ε radians (ε = 2^-24), for frames at right angles.
