@@ -86,6 +86,8 @@ const BOARDS: &[Board] = &[
             ("fixed-gouraud", 261),
             ("fixed-affine", 262),
             ("fixed-textured", 372),
+            ("fixed-floor-mip-nearest", 1185),
+            ("fixed-floor-trilinear", 3702),
         ],
     },
 ];

@@ -1,0 +1,362 @@
+//! What filters and maps cost: one scene of 1280x720, a receding floor between two tilted walls, read in many ways.
+//!
+//! Before a way is timed, its picture is held against the same drawn one sample at a time, which must not differ in a
+//! bit; the plain filters also against `f64`, from rays, at some hundred pixels. Figures are for written pixels, of
+//! drawing alone: without the clear. `PICTURES=folder` keeps the pictures there, as PPM files.
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
+    clippy::cast_sign_loss,
+    reason = "pixels, texels and bytes"
+)]
+
+use alberti::glam::{DVec2, DVec3, Vec2, Vec3};
+use alberti::lanes::{Floating, Machine, One};
+use alberti::raster::{Neighbours, PerSpan, PerTriangle};
+use alberti::shaders::material::{
+    Color, Directional, Emission, Framed, Gloss, Lambert, Lighting, Material, NormalMap, Occlusion, Parallax,
+    Placed, Specular, Viewer, Wetness,
+};
+use alberti::shaders::{Differentiated, Unlit, material};
+use alberti::texture::mipmap::{self, Linear, Normals, Srgb};
+use alberti::texture::surface::{OffsetLimited, Relief};
+use alberti::texture::{
+    Anisotropic, Bilinear, Minify, Mipmap, Nearest, NearestLevel, PowerOfTwo, Repeat, Texture, Trilinear,
+};
+use alberti::{
+    Band, Cull, Exact, Eye, F32, FragmentStage, Frame, Object, Pass, Perspective, Point3, Rgba8, Sides, Slot,
+    Stats, Sub8, Vector3, VertexStage, View, Viewport, draw_by, for_lanes,
+};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use std::path::Path;
+use std::time::Duration;
+
+const WIDTH: u32 = 1280;
+const HEIGHT: u32 = 720;
+const PIXELS: usize = (WIDTH * HEIGHT) as usize;
+/// Of all textures.
+const SIDE: u32 = 512;
+const FAR: f32 = 30.0;
+
+/// A corner of a plane, in the space of the eye: x right, y up, z away.
+#[derive(Clone, Copy, Debug)]
+struct Corner {
+    position: Vec3,
+    axes: [Vec3; 3],
+    uv: Vec2,
+}
+
+/// A plane through `origin` with a direction across; all of them go away along z.
+#[derive(Clone, Copy, Debug)]
+struct Wall {
+    origin: Vec3,
+    across: Vec3,
+    width: f32,
+}
+
+/// The floor and two walls, which lean outwards.
+const WALLS: [Wall; 3] = [
+    Wall { origin: Vec3::new(-1.5, -1.0, 0.0), across: Vec3::new(1.0, 0.0, 0.0), width: 3.0 },
+    Wall { origin: Vec3::new(-1.5, -1.0, 0.0), across: Vec3::new(-0.6, 0.8, 0.0), width: 60.0 },
+    Wall { origin: Vec3::new(1.5, -1.0, 0.0), across: Vec3::new(0.6, 0.8, 0.0), width: 60.0 },
+];
+
+/// Texture coordinates a unit of length.
+const PER_UNIT: f32 = 0.5;
+
+impl Wall {
+    fn corners(&self) -> [Corner; 4] {
+        let along = Vec3::Z;
+        let normal = self.across.cross(along) * if self.across.cross(along).y < 0.0 { -1.0 } else { 1.0 };
+        [[0.0, 0.4], [self.width, 0.4], [self.width, FAR], [0.0, FAR]].map(|[s, t]| Corner {
+            position: self.origin + self.across * s + along * t,
+            axes: [self.across, along, normal],
+            uv: Vec2::new(s, t) * PER_UNIT,
+        })
+    }
+
+    /// Where a ray from the eye meets it, if it does: the distance along z, and the texture coordinates.
+    fn meets(&self, ray: DVec3) -> Option<(f64, DVec2)> {
+        let (origin, across) = (self.origin.as_dvec3(), self.across.as_dvec3());
+        let normal = across.cross(DVec3::Z);
+        let z = origin.dot(normal) / ray.dot(normal);
+        let s = (ray * z - origin).dot(across);
+        let inside = z > 0.4 && z < f64::from(FAR) && s > 0.0 && s < f64::from(self.width);
+        inside.then(|| (z, DVec2::new(s, z) * f64::from(PER_UNIT)))
+    }
+}
+
+/// The texture coordinates at a place of the frame, in pixels.
+fn traced(x: f64, y: f64) -> Option<(usize, DVec2)> {
+    let half = [f64::from(WIDTH) / 2.0, f64::from(HEIGHT) / 2.0];
+    let ray = DVec3::new((x - half[0]) / half[1], (half[1] - y) / half[1], 1.0);
+    let met = WALLS.iter().enumerate().filter_map(|(i, wall)| Some((i, wall.meets(ray)?)));
+    met.min_by(|a, b| a.1.0.total_cmp(&b.1.0)).map(|(i, (_, uv))| (i, uv))
+}
+
+/// The maps, each with all its levels.
+struct Maps {
+    color: Vec<[u8; 4]>,
+    normal: Vec<[u8; 4]>,
+    other: Vec<[u8; 4]>,
+    height: Vec<u8>,
+}
+
+impl Maps {
+    /// Stones with joints, and a hue that tells where one is.
+    fn new() -> Self {
+        let count = mipmap::texel_count(SIDE, SIDE);
+        let height = |x: u32, y: u32| {
+            let [x, y] = [x % 64, y % 64].map(|c| (f64::from(c) - 31.5) / 32.0);
+            (1.0 - x.powi(8).max(y.powi(8))).max(0.0)
+        };
+        let mut color = vec![[0; 4]; count];
+        let (mut normal, mut other) = (color.clone(), color.clone());
+        let mut heights = vec![0; (SIDE * SIDE) as usize];
+        for y in 0..SIDE {
+            for x in 0..SIDE {
+                let at = (y * SIDE + x) as usize;
+                let h = height(x, y);
+                let stone = (x / 64 * 5 + y / 64 * 11) % 8;
+                let level = 60 + 20 * stone;
+                color[at] =
+                    [level * h as u32 + 40, (x ^ y) % 256, 255 - level, 255].map(|c| c.min(255) as u8);
+                let slope = [height(x + 1, y) - h, height(x, (y + 1) % SIDE) - h]
+                    .map(|d| (-4.0 * d).clamp(-1.0, 1.0));
+                let length = (slope[0] * slope[0] + slope[1] * slope[1] + 1.0).sqrt();
+                let unit =
+                    [slope[0], -slope[1], 1.0].map(|c| ((c / length * 0.5 + 0.5) * 255.0).round() as u8);
+                normal[at] = [unit[0], unit[1], unit[2], 255];
+                other[at] = [(255.0 * h) as u8, (x % 256) as u8, (y % 256) as u8, 255];
+                heights[at] = (255.0 * h).round() as u8;
+            }
+        }
+        mipmap::build::<Rgba8, Srgb>(&mut color, SIDE, SIDE).expect("levels");
+        mipmap::build::<Rgba8, Normals>(&mut normal, SIDE, SIDE).expect("levels");
+        mipmap::build::<Rgba8, Linear>(&mut other, SIDE, SIDE).expect("levels");
+        Self { color, normal, other, height: heights }
+    }
+}
+
+fn mip(texels: &[[u8; 4]]) -> Mipmap<'_, Rgba8, PowerOfTwo> {
+    Mipmap::new(texels, SIDE, SIDE).expect("levels").power_of_two().expect("a power of two")
+}
+
+/// The scene, ready to be drawn.
+struct Scene {
+    corners: Vec<Corner>,
+    triangles: Vec<[u32; 3]>,
+    view: View,
+    color: Vec<u32>,
+    depth: Vec<f32>,
+}
+
+impl Scene {
+    fn new() -> Self {
+        Self {
+            corners: WALLS.iter().flat_map(Wall::corners).collect(),
+            triangles: (0..3).flat_map(|i| [[0, 1, 2], [0, 2, 3]].map(|t| t.map(|k| 4 * i + k))).collect(),
+            view: View {
+                to_eye: Frame::<Object, Eye>::IDENTITY,
+                projection: Perspective::new(
+                    std::f32::consts::FRAC_PI_2,
+                    WIDTH as f32 / HEIGHT as f32,
+                    0.1,
+                    100.0,
+                )
+                .expect("a perspective"),
+                viewport: Viewport::new(0, 0, WIDTH, HEIGHT).expect("a viewport"),
+            },
+            color: vec![0; PIXELS],
+            depth: vec![1.0; PIXELS],
+        }
+    }
+
+    /// Colours alone: the depth of all is equal from frame to frame.
+    fn draw<Vs, Fs>(&mut self, lanes: impl Floating, vertex_stage: Vs, fragment_stage: Fs) -> u64
+    where
+        Vs: VertexStage<Corner>,
+        Fs: FragmentStage<Vs::Varying, Color = Rgba8>,
+    {
+        let pass = Pass {
+            view: self.view,
+            vertices: &self.corners,
+            triangles: &self.triangles,
+            vertex_stage,
+            fragment_stage,
+            cull: Cull::None,
+            sides: Sides::GuardBand,
+            interpolation: Exact,
+        };
+        let mut band =
+            Band::<Rgba8, alberti::raster::Always<F32>>::new(WIDTH, 0, &mut self.color, &mut self.depth)
+                .expect("buffers that fit");
+        let mut stats = Stats::default();
+        draw_by(lanes, &pass, &mut band, &mut [Slot::<Sub8, _>::EMPTY; 12], &mut stats);
+        stats.written
+    }
+}
+
+fn bare(c: &Corner) -> (Point3<Object>, Vec2) {
+    (Point3::new(c.position), c.uv)
+}
+
+fn placed(c: &Corner) -> (Point3<Object>, Placed) {
+    (Point3::new(c.position), Placed { position: c.position, normal: c.axes[2], uv: c.uv })
+}
+
+fn framed(c: &Corner) -> (Point3<Object>, Framed) {
+    (Point3::new(c.position), Framed { position: c.position, axes: c.axes, uv: c.uv })
+}
+
+/// What a filter ought to show of places, in `f64`.
+type Ideal<'a> = &'a dyn Fn(DVec2, f64) -> [f64; 3];
+
+/// A texel of a level, repeated.
+fn texel(texels: &[[u8; 4]], level: u32, [x, y]: [i64; 2]) -> [f64; 3] {
+    let begin: u32 = (0..level).map(|k| (SIDE >> k) * (SIDE >> k)).sum();
+    let side = i64::from(SIDE >> level);
+    // Rows run from the top, v from the bottom.
+    let [x, y] = [x.rem_euclid(side), (side - 1 - y).rem_euclid(side)];
+    let [r, g, b, _] = texels[begin as usize + (y * side + x) as usize];
+    [r, g, b].map(f64::from)
+}
+
+fn nearest(texels: &[[u8; 4]], uv: DVec2) -> [f64; 3] {
+    let at = uv * f64::from(SIDE);
+    texel(texels, 0, [at.x.floor() as i64, at.y.floor() as i64])
+}
+
+fn bilinear(texels: &[[u8; 4]], level: u32, uv: DVec2) -> [f64; 3] {
+    let at = uv * f64::from(SIDE >> level) - 0.5;
+    let (floor, part) = (at.floor(), at - at.floor());
+    let read = |dx, dy| texel(texels, level, [floor.x as i64 + dx, floor.y as i64 + dy]);
+    let [a, b, c, d] = [read(0, 0), read(1, 0), read(0, 1), read(1, 1)];
+    std::array::from_fn(|k| {
+        let (low, high) = (a[k] + (b[k] - a[k]) * part.x, c[k] + (d[k] - c[k]) * part.x);
+        low + (high - low) * part.y
+    })
+}
+
+fn trilinear(texels: &[[u8; 4]], uv: DVec2, lambda: f64) -> [f64; 3] {
+    let lambda = lambda.clamp(0.0, f64::from(SIDE.ilog2()));
+    let near = lambda.floor();
+    let [a, b] = [near as u32, (near as u32 + 1).min(SIDE.ilog2())].map(|level| bilinear(texels, level, uv));
+    std::array::from_fn(|k| a[k] + (b[k] - a[k]) * (lambda - near))
+}
+
+/// How many of some hundred pixels are off by more than 4 of 255, of which how many were looked at: away from the
+/// corners between the walls, and not beyond their far ends.
+fn off(color: &[u32], ideal: Ideal<'_>) -> (usize, usize) {
+    let (mut off, mut count) = (0, 0);
+    for (x, y) in (7..WIDTH).step_by(41).flat_map(|x| (5..HEIGHT).step_by(37).map(move |y| (x, y))) {
+        let at = |dx: f64, dy: f64| traced(f64::from(x) + 0.5 + dx, f64::from(y) + 0.5 + dy);
+        let around = [at(0.0, 0.0), at(0.01, 0.0), at(0.0, 0.01), at(3.0, 3.0), at(-3.0, -3.0)];
+        let [Some((wall, uv)), Some((_, right)), Some((_, below)), ..] = around else { continue };
+        if around.iter().any(|place| place.is_none_or(|(other, _)| other != wall)) {
+            continue;
+        }
+        let length = |other: DVec2| ((other - uv) * 100.0 * f64::from(SIDE)).length();
+        let ideal = ideal(uv, length(right).max(length(below)).log2());
+        let [r, g, b, _] = color[(y * WIDTH + x) as usize].to_ne_bytes();
+        let wrong = [r, g, b].iter().zip(ideal).any(|(&got, ideal)| (f64::from(got) - ideal).abs() > 4.0);
+        off += usize::from(wrong);
+        count += 1;
+    }
+    (off, count)
+}
+
+/// Writes a picture in the Portable Pixmap format.
+fn keep(folder: &Path, name: &str, color: &[u32]) {
+    let mut file = format!("P6\n{WIDTH} {HEIGHT}\n255\n").into_bytes();
+    file.extend(color.iter().flat_map(|p| {
+        let [r, g, b, _] = p.to_ne_bytes();
+        [r, g, b]
+    }));
+    std::fs::write(folder.join(name).with_extension("ppm"), file).expect("a file");
+}
+
+fn surface(criterion: &mut Criterion) {
+    let (maps, mut scene) = (Maps::new(), Scene::new());
+    let base = Texture::<Rgba8>::new(&maps.color[..(SIDE * SIDE) as usize], SIDE, SIDE).expect("a texture");
+    let base = base.power_of_two().expect("a power of two");
+    let color = mip(&maps.color).sampler::<Trilinear, Repeat>();
+    let normal = NormalMap::<_>::new(mip(&maps.normal).sampler::<Trilinear, Repeat>(), ());
+    let other = mip(&maps.other).sampler::<Trilinear, Repeat>();
+    let height = Texture::<alberti::texture::format::L8>::new(&maps.height, SIDE, SIDE).expect("a texture");
+    let height = height.power_of_two().expect("a power of two").sampler::<Bilinear, Repeat>();
+    let extent = Vec2::splat(1.0 / PER_UNIT);
+    let parallax =
+        Parallax { relief: Relief { map: height, low: -0.05, high: 0.0, extent }, policy: OffsetLimited };
+    let viewer = Viewer::at(Point3::new(Vec3::ZERO));
+    let lights = Directional::new(Vector3::new(Vec3::new(0.3, 0.8, -0.5)), Vec3::splat(0.8));
+    let ambient = Vec3::splat(0.2);
+    let lit = Lighting { viewer, ambient, lights, reflectance: Lambert };
+    let mirrored = Lighting { viewer, ambient, lights, reflectance: material::BlinnPhong([10, 200]) };
+    let all = (
+        parallax,
+        Color(color),
+        normal,
+        Specular(other),
+        Gloss(other),
+        Wetness(other),
+        Occlusion { map: other, strength: 1.0 },
+        Emission(Rgba8::from_rgb24(0x04_02_00)),
+    );
+
+    let mut group = criterion.benchmark_group("surface");
+    let machine = Machine::all().next().expect("every machine has lanes");
+    macro_rules! rows {
+        ($($name:literal: $vertex:expr, $fragment:expr $(, $ideal:expr)?;)+) => {$({
+            let written = scene.draw(One, $vertex, $fragment);
+            let alone = scene.color.clone();
+            scene.color.fill(0);
+            for_lanes!(machine, lanes => scene.draw(lanes, $vertex, $fragment));
+            assert!(scene.color == alone, "{}: one lane draws another picture", $name);
+            let distinct = alone.iter().collect::<std::collections::HashSet<_>>().len();
+            assert!(distinct > 300, "{}: {distinct} colours are no picture", $name);
+            eprintln!("{}: {written} pixels, {distinct} colours", $name);
+            $({
+                let (off, count) = off(&scene.color, &$ideal);
+                eprintln!("    {off} of {count} pixels off from f64");
+                assert!(count > 300 && off * 50 <= count, "{}: {off} of {count} are off", $name);
+            })?
+            if let Some(folder) = std::env::var_os("PICTURES") {
+                keep(Path::new(&folder), $name, &alone);
+            }
+            group.throughput(Throughput::Elements(written));
+            group.bench_function($name, |bencher| {
+                bencher.iter(|| for_lanes!(machine, lanes => scene.draw(lanes, $vertex, $fragment)));
+            });
+        })+};
+    }
+    let trilinear_unlit = Unlit(color);
+    rows! {
+        "nearest": bare, Unlit(base.sampler::<Nearest, Repeat>()), |uv, _| nearest(&maps.color, uv);
+        "bilinear": bare, Unlit(base.sampler::<Bilinear, Repeat>()), |uv, _| bilinear(&maps.color, 0, uv);
+        "nearest-mip": bare, Unlit(mip(&maps.color).sampler::<Minify<Nearest, NearestLevel>, Repeat>());
+        "bilinear-mip": bare, Unlit(mip(&maps.color).sampler::<Minify<Bilinear, NearestLevel>, Repeat>());
+        "trilinear": bare, trilinear_unlit, |uv, lambda| trilinear(&maps.color, uv, lambda);
+        "trilinear-neighbours": bare, Differentiated::by(Neighbours, trilinear_unlit);
+        "trilinear-per-span": bare, Differentiated::by(PerSpan, trilinear_unlit);
+        "trilinear-per-triangle": bare, Differentiated::by(PerTriangle, trilinear_unlit);
+        "anisotropic-4": bare, Unlit(mip(&maps.color).sampler::<Anisotropic<4>, Repeat>());
+        "anisotropic-8": bare, Unlit(mip(&maps.color).sampler::<Anisotropic<8>, Repeat>());
+        "anisotropic-16": bare, Unlit(mip(&maps.color).sampler::<Anisotropic<16>, Repeat>());
+        "lights": placed, Material { layers: (Color(color),), lighting: lit };
+        "normal-map": framed, Material { layers: (Color(color), normal), lighting: lit };
+        "parallax": framed, Material { layers: (parallax, Color(color), normal), lighting: lit };
+        "all": framed, Material { layers: all, lighting: mirrored };
+    }
+    group.finish();
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .sample_size(20)
+        .warm_up_time(Duration::from_secs(1))
+        .measurement_time(Duration::from_secs(2));
+    targets = surface
+}
+criterion_main!(benches);
