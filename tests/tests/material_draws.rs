@@ -54,7 +54,7 @@ fn sheet() -> (Vec<Framed>, Vec<[u16; 3]>) {
     const N: u16 = 12;
     let vertex = |i: u16, j: u16| {
         let [x, y] = [i, j].map(|k| 2.0 * f32::from(k) / f32::from(N) - 1.0);
-        let slope = 0.3 * if i % 3 == 0 { 1.0 } else { -0.5 };
+        let slope = 0.3 * if i.is_multiple_of(3) { 1.0 } else { -0.5 };
         let n = Vec3::new(slope, 0.9, -0.8).normalize();
         let u = (Vec3::X - n * n.x).normalize();
         Framed {
@@ -104,7 +104,7 @@ fn perspective() -> Perspective {
 /// Noise that is smooth enough for normals and heights.
 fn texels(stream: u64, side: u32) -> Vec<[u8; 4]> {
     let mut rng = Rng::stream(run_seed(), stream);
-    let mut byte = |least: i64, greatest: i64| rng.range(least, greatest) as u8;
+    let mut byte = |least: i64, greatest: i64| u8::try_from(rng.range(least, greatest)).expect("a byte");
     (0..texel_count(side, side))
         .map(|_| [byte(90, 165), byte(90, 165), byte(200, 255), byte(0, 255)])
         .collect()

@@ -20,7 +20,7 @@ use crate::options::{
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::render::render;
-use crate::scene::{Camera, Model, Part};
+use crate::scene::{Camera, Model, Part, Relief};
 use crate::scene_file::{self, SceneFile};
 use crate::stats::{Report, Source, Times};
 use crate::{obj, partners, prepare, scenes, slide};
@@ -161,6 +161,10 @@ fn draw_from(arguments: &RenderArgs, file: Option<&SceneFile>) -> Result<(), Err
         projection: projection(arguments, &camera)?,
         policies,
     };
+    if options.shading == Shading::Gouraud && scene.model.parts.iter().any(needs_fragments) {
+        let found = "gouraud with relief, normals, occlusion or reflections, which are left out";
+        warn(&Error::new(found, "phong or blinn for these").place("--shading").to_string());
+    }
     let start = Instant::now();
     let mut progress = Progress::new("drawing");
     let picture = render(&scene.model, &camera, &options, &mut |done, total| progress.set(done, total))?;
@@ -228,6 +232,13 @@ fn load(arguments: &RenderArgs) -> Result<Scene, Error> {
         background: scene.background,
         has_uv: true,
     })
+}
+
+/// Whether light by vertex leaves out something of a part.
+fn needs_fragments(part: &Part) -> bool {
+    let detail = &part.detail;
+    let relief = detail.height.is_some_and(|height| height.relief != Relief::Displacement);
+    relief || detail.normal.is_some() || detail.occlusion.is_some() || detail.environment.is_some()
 }
 
 /// Whether something is said of highlights, beside the faint one that every surface has.

@@ -413,3 +413,30 @@ fn lit_by_vertex_is_lit_by_fragment_at_the_vertices() {
         assert_eq!(by_vertex, Material { layers, lighting }.shade(placed));
     }
 }
+
+#[test]
+fn lights_that_are_given() {
+    let mut rng = Rng::stream(run_seed(), 12);
+    let mut worst = 0.0f64;
+    for _ in 0..100_000 {
+        let [color, specular, emission] = [(); 3].map(|()| (rng.u64() as u32).to_le_bytes());
+        let most = [1.0, 4.0][usize::from(rng.u64() & 1 == 1)];
+        let [scattered, mirrored] = [(); 2].map(|()| vector(&mut rng, most).abs());
+        let map = |[r, g, b, a]: [u8; 4]| Rgba8::new(r, g, b, a);
+        let layers = (Color(map(color)), Specular(map(specular)), Emission(map(emission)));
+        let found =
+            Gouraud { layers }.shade((scattered, (mirrored, Vec2::ZERO))).expect("never discards").to_bytes();
+        assert_eq!(found[3], color[3]);
+        for k in 0..3 {
+            let own = |bytes: [u8; 4]| f64::from(bytes[k]);
+            let (s, m) = (f64::from(scattered[k]), f64::from(mirrored[k]));
+            let exact = own(emission) + own(color) * s + own(specular) * m;
+            let sum = f64::max(1.0, 1.0 + s + m);
+            let off = (f64::from(found[k]) - exact.min(255.0)).abs();
+            assert!(off <= 0.5 + 6.0 * STEP * sum, "{off} of {exact}");
+            worst = worst.max(off);
+        }
+    }
+    println!("Gouraud: at most {worst:.5} of a byte off");
+    assert!(worst > 0.49);
+}

@@ -54,7 +54,7 @@ pub use relief::{Bump, NormalMap, ObjectNormals, Parallax, Strength, TwoChannels
 pub use surface::{Axes, Framed, Layer, OnSurface, Placed, Surface, Textured, Viewer};
 
 use super::alone;
-use alberti_math::glam::Vec3;
+use alberti_math::glam::{Vec2, Vec3};
 use alberti_math::lanes::{Lanes, One};
 use alberti_math::{Point3, Rgba8, Vector3, World};
 use alberti_raster::{FragmentStage, Gradient};
@@ -193,14 +193,15 @@ impl<Ls: Light, R: Reflectance> Lighting<Ls, R> {
 
 /// A surface of layers under lights that were found at the vertices and are interpolated.
 ///
-/// The varying is (scattered, (mirrored, the layers')): the two that [`Lighting::at_vertex`] gives. With a bare `Vec2`
-/// for the layers, nothing else is carried.
+/// The varying is (scattered, (mirrored, texture coordinates)): the first two are what [`Lighting::at_vertex`] gives.
+/// Layers that need a place or a frame, such as [`Reflection`], [`Occlusion`] or [`Bump`], do not fit.
 ///
 /// Source: Gouraud, "Continuous shading of curved surfaces", IEEE Transactions on Computers 20 (1971).
 ///
 /// # Precision
-/// Each channel is rounded once. Highlights smaller than triangles are lost, or flicker as their vertices turn;
-/// [`Material`] lights each fragment. Occlusion, which is for ambient light alone, and a bent normal change nothing.
+/// Texels as they are read, each channel is rounded once: within ½ + 6·2^-16·S of a byte of the exact colour of the
+/// interpolated lights, with S their greatest sum in a channel, or 1. Highlights smaller than triangles are lost, or flicker as their vertices turn;
+/// [`Material`] lights each fragment.
 ///
 /// # Cost
 /// The layers', six components to interpolate, and four operations a channel; no root and no division.
@@ -210,12 +211,12 @@ pub struct Gouraud<M> {
     pub layers: M,
 }
 
-impl<V: Textured, M: Layer<V>> FragmentStage<(Vec3, (Vec3, V))> for Gouraud<M> {
+impl<M: Layer<Vec2>> FragmentStage<(Vec3, (Vec3, Vec2))> for Gouraud<M> {
     type Color = Rgba8;
     type Derivatives = M::Derivatives;
 
     #[inline(always)]
-    fn shade(&self, varying: (Vec3, (Vec3, V))) -> Option<Rgba8> {
+    fn shade(&self, varying: (Vec3, (Vec3, Vec2))) -> Option<Rgba8> {
         alone(self, varying)
     }
 
@@ -223,13 +224,12 @@ impl<V: Textured, M: Layer<V>> FragmentStage<(Vec3, (Vec3, V))> for Gouraud<M> {
     fn shade_lanes<L: Lanes>(
         &self,
         lanes: L,
-        (scattered, (mirrored, varyings)): &([L::Number; 3], ([L::Number; 3], V::Of<L::Number>)),
-        gradient: &Gradient<([L::Number; 3], ([L::Number; 3], V::Of<L::Number>))>,
+        (scattered, (mirrored, uv)): &([L::Number; 3], ([L::Number; 3], [L::Number; 2])),
+        gradient: &Gradient<([L::Number; 3], ([L::Number; 3], [L::Number; 2]))>,
         mask: L::Mask,
     ) -> (L::U32, L::Mask) {
-        let gradient = gradient.map(|(_, (_, of_layers))| of_layers);
-        let mut surface = Surface::new::<V>(lanes, varyings, &gradient);
-        self.layers.apply(lanes, varyings, &mut surface);
+        let mut surface = Surface::new::<Vec2>(lanes, uv, &gradient.map(|(_, (_, of_uv))| of_uv));
+        self.layers.apply(lanes, uv, &mut surface);
         (surface.seen(lanes, *scattered, *mirrored), mask)
     }
 }

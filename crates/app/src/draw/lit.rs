@@ -31,7 +31,7 @@ pub(crate) fn is_lit(part: &Part, model: &Model, options: &RenderOptions) -> boo
 #[derive(Clone, Copy)]
 enum Lit<'a> {
     ByFragment(Material<Painted<'a>, &'a [Lamp], AnyReflectance>),
-    ByVertex(ByVertex<Painted<'a>>),
+    ByVertex(ByVertex<'a>),
 }
 
 impl Look<Framed> for Lit<'_> {
@@ -43,39 +43,29 @@ impl Look<Framed> for Lit<'_> {
     }
 }
 
-/// The bundle of several samples.
-type FramedOf<L> = <Framed as Varying>::Of<<L as Lanes>::Number>;
-
 /// A surface whose first two axes are lights.
 #[derive(Clone, Copy, Debug)]
-struct ByVertex<M>(Gouraud<M>);
+struct ByVertex<'a>(Gouraud<Painted<'a>>);
 
-impl<M: Copy> FragmentStage<Framed> for ByVertex<M>
-where
-    Gouraud<M>: FragmentStage<(Vec3, (Vec3, Framed)), Color = Rgba8>,
-{
+impl FragmentStage<Framed> for ByVertex<'_> {
     type Color = Rgba8;
     type Derivatives = PerPixel;
 
     #[inline(always)]
-    fn shade(&self, framed: Framed) -> Option<Rgba8> {
-        let [scattered, mirrored, _] = framed.axes;
-        self.0.shade((scattered, (mirrored, framed)))
+    fn shade(&self, Framed { axes: [scattered, mirrored, _], uv, .. }: Framed) -> Option<Rgba8> {
+        self.0.shade((scattered, (mirrored, uv)))
     }
 
     #[inline(always)]
     fn shade_lanes<L: Lanes>(
         &self,
         lanes: L,
-        framed: &FramedOf<L>,
-        gradient: &Gradient<FramedOf<L>>,
+        &(_, [scattered, mirrored, _], uv): &<Framed as Varying>::Of<L::Number>,
+        gradient: &Gradient<<Framed as Varying>::Of<L::Number>>,
         mask: L::Mask,
     ) -> (L::U32, L::Mask) {
-        let apart = |framed: FramedOf<L>| {
-            let (_, [scattered, mirrored, _], _) = framed;
-            (scattered, (mirrored, framed))
-        };
-        self.0.shade_lanes(lanes, &apart(*framed), &gradient.map(apart), mask)
+        let gradient = gradient.map(|(_, [scattered, mirrored, _], uv)| (scattered, (mirrored, uv)));
+        self.0.shade_lanes(lanes, &(scattered, (mirrored, uv)), &gradient, mask)
     }
 }
 

@@ -5,11 +5,12 @@ use crate::error::Error;
 use crate::options::{Filter, Probes, RenderOptions, Wrap};
 use crate::scene::{HeightImage, Image, Map, Model, Part};
 use alberti::Rgba8;
+use alberti::glam::Vec2;
 use alberti::lanes::Lanes;
 use alberti::raster::{Gradient, PerPixel};
 use alberti::shaders::material::{self, Times};
 use alberti::texture::mipmap::{self, Content};
-use alberti::texture::surface::{HeightMap, Slopes, bilinear_height_lanes};
+use alberti::texture::surface::{HeightMap, bilinear_height_lanes};
 use alberti::texture::{
     self, Anisotropic, Clamp, LevelSize, Mipmap, Mirror, PowerOfTwo, Repeat, Size, Texture, Trilinear,
     format::L16,
@@ -244,31 +245,30 @@ impl<'a> AnyHeights<'a> {
     pub(super) fn new(image: &'a HeightImage, wrap: Wrap) -> Option<Self> {
         Some(Self { texture: Texture::new(&image.heights, image.width, image.height).ok()?, wrap })
     }
+
+    /// The size of a texel in u and v.
+    #[expect(clippy::cast_precision_loss, reason = "at most 2^14")]
+    pub(super) fn texel(&self) -> Vec2 {
+        Vec2::new(1.0 / self.texture.width() as f32, 1.0 / self.texture.height() as f32)
+    }
 }
 
 impl HeightMap for AnyHeights<'_> {
     #[inline(always)]
     fn height_lanes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2]) -> L::Number {
-        by_wrap!(self.wrap, |W| surface::<L, W>(lanes, &self.texture, uv).0)
+        by_wrap!(self.wrap, |W| surface::<L, W>(lanes, &self.texture, uv))
     }
 }
 
-impl Slopes for AnyHeights<'_> {
-    #[inline(always)]
-    fn slopes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2]) -> [L::Number; 2] {
-        by_wrap!(self.wrap, |W| surface::<L, W>(lanes, &self.texture, uv).1)
-    }
-}
-
-/// The heights between texels, and their slopes.
+/// The heights between texels.
 #[inline(never)]
 fn surface<L: Lanes, W: texture::Wrap>(
     lanes: L,
     texture: &Texture<'_, L16>,
     uv: [L::Number; 2],
-) -> (L::Number, [L::Number; 2]) {
+) -> L::Number {
     lanes.vectorize(
         #[inline(always)]
-        || bilinear_height_lanes::<L, L16, _, W, W>(lanes, texture, uv),
+        || bilinear_height_lanes::<L, L16, _, W, W>(lanes, texture, uv).0,
     )
 }

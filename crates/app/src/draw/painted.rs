@@ -13,7 +13,7 @@ use alberti::shaders::material::{
     BlinnPhong, Bump, Color, Emission, Framed, Gloss, Lambert, Layer, Lighting, Material, NormalMap,
     ObjectNormals, Occlusion, Parallax, Phong, Reflection, Specular, Surface, Wetness,
 };
-use alberti::texture::surface::{Relief, Unorm};
+use alberti::texture::surface::{CentralDifferences, Relief, Unorm};
 use alberti::{Eye, Frame, Point3, Varying, World};
 
 /// What a part is made of.
@@ -36,7 +36,27 @@ enum Facing<'a> {
     AsVertices,
     Tangent(NormalMap<AnyMap<'a>, Unorm, f32>),
     Object(ObjectNormals<AnyMap<'a>>),
-    Bump(Bump<AnyHeights<'a>>),
+    Bump(Bump<CentralDifferences<AnyHeights<'a>>>),
+}
+
+/// Applies layers that are there to vertices of a kind.
+macro_rules! apply {
+    ($vertices:ty, ($lanes:expr, $varyings:expr, $surface:expr): $($layer:expr),+) => {$(
+        if let Some(layer) = &$layer {
+            Layer::<$vertices>::apply(layer, $lanes, $varyings, $surface);
+        }
+    )+};
+}
+
+/// With light by vertex: without what needs a place or a frame.
+impl Layer<Vec2> for Painted<'_> {
+    type Derivatives = PerPixel;
+
+    #[inline(always)]
+    fn apply<L: Lanes>(&self, lanes: L, uv: &[L::Number; 2], surface: &mut Surface<L>) {
+        Layer::<Vec2>::apply(&self.color, lanes, uv, surface);
+        apply!(Vec2, (lanes, uv, surface): self.specular, self.gloss, self.wetness, self.emission);
+    }
 }
 
 impl Layer<Framed> for Painted<'_> {
@@ -49,23 +69,15 @@ impl Layer<Framed> for Painted<'_> {
         varyings: &<Framed as Varying>::Of<L::Number>,
         surface: &mut Surface<L>,
     ) {
-        /// Applies layers that are there.
-        macro_rules! apply {
-            ($($layer:expr),+) => {$(
-                if let Some(layer) = &$layer {
-                    Layer::<Framed>::apply(layer, lanes, varyings, surface);
-                }
-            )+};
-        }
-        apply!(self.parallax);
+        apply!(Framed, (lanes, varyings, surface): self.parallax);
         match self.normal {
             Facing::AsVertices => {}
             Facing::Tangent(layer) => Layer::<Framed>::apply(&layer, lanes, varyings, surface),
             Facing::Object(layer) => Layer::<Framed>::apply(&layer, lanes, varyings, surface),
             Facing::Bump(layer) => Layer::<Framed>::apply(&layer, lanes, varyings, surface),
         }
-        Layer::<Framed>::apply(&self.color, lanes, varyings, surface);
-        apply!(self.specular, self.gloss, self.wetness, self.occlusion, self.emission, self.reflection);
+        Layer::<Vec2>::apply(self, lanes, &{ surface.uv }, surface);
+        apply!(Framed, (lanes, varyings, surface): self.occlusion, self.reflection);
     }
 }
 
@@ -103,7 +115,11 @@ impl<'a> Painted<'a> {
             })
         });
         let bump = relief.filter(|(kind, _)| *kind != scene::Relief::Displacement);
-        let normal = own.or(bump.map(|(_, relief)| Facing::Bump(Bump(relief))));
+        let normal = own.or(bump.map(|(_, relief)| {
+            // Over a texel: the heights' own slopes jump between texels, which shows where these are large.
+            let map = CentralDifferences { map: relief.map, step: relief.map.texel() };
+            Facing::Bump(Bump(Relief { map, low: relief.low, high: relief.high, extent: relief.extent }))
+        }));
         let environment = detail.environment.and_then(|environment| {
             let map = scene::Map {
                 image: environment.image,

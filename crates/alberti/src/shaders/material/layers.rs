@@ -1,7 +1,7 @@
 //! What a surface is made of: the maps of colours and numbers.
 
 use super::map::Map;
-use super::surface::{Layer, Surface, Textured};
+use super::surface::{Layer, OnSurface, Surface, Textured};
 use super::vector::plus;
 use crate::shaders::unpack;
 use alberti_math::lanes::Lanes;
@@ -75,8 +75,8 @@ fn unit<L: Lanes>(lanes: L, byte: L::U32) -> L::Number {
 
 /// Layers that read one map.
 macro_rules! of_one_map {
-    ($($name:ident: |$layer:ident, $lanes:ident, $surface:ident| $map:expr => |$words:ident| $change:expr;)+) => {$(
-        impl<V: Textured, M: Map> Layer<V> for $name<M> {
+    ($($name:ident of $bound:ident: |$layer:ident, $lanes:ident, $surface:ident| $map:expr => |$words:ident| $change:expr;)+) => {$(
+        impl<V: $bound, M: Map> Layer<V> for $name<M> {
             type Derivatives = M::Derivatives;
 
             #[inline(always)]
@@ -89,20 +89,20 @@ macro_rules! of_one_map {
     )+};
 }
 of_one_map! {
-    Color: |layer, lanes, surface| layer.0 => |words| {
+    Color of Textured: |layer, lanes, surface| layer.0 => |words| {
         surface.diffuse = colors(lanes, words);
         surface.alpha = lanes.shr(words, 24);
     };
-    Specular: |layer, lanes, surface| layer.0 => |words| surface.specular = colors(lanes, words);
-    Gloss: |layer, lanes, surface| layer.0 => |words| surface.gloss = red(lanes, words);
-    Wetness: |layer, lanes, surface| layer.0 => |words| {
+    Specular of Textured: |layer, lanes, surface| layer.0 => |words| surface.specular = colors(lanes, words);
+    Gloss of Textured: |layer, lanes, surface| layer.0 => |words| surface.gloss = red(lanes, words);
+    Wetness of Textured: |layer, lanes, surface| layer.0 => |words| {
         let wetness = red(lanes, words);
         (surface.diffuse, surface.gloss) = wet_lanes(lanes, surface.diffuse, surface.gloss, wetness);
     };
-    Occlusion: |layer, lanes, surface| layer.map => |words| {
+    Occlusion of OnSurface: |layer, lanes, surface| layer.map => |words| {
         surface.openness = ambient_occlusion_lanes(lanes, red(lanes, words), layer.strength);
     };
-    Emission: |layer, lanes, surface| layer.0 => |words| {
+    Emission of Textured: |layer, lanes, surface| layer.0 => |words| {
         surface.emission = plus(surface.emission, colors(lanes, words));
     };
 }
