@@ -18,7 +18,8 @@ use alberti::shaders::material::{
     Placed, Specular, Viewer, Wetness,
 };
 use alberti::shaders::{Differentiated, Unlit, material};
-use alberti::texture::mipmap::{self, Linear, Normals, Srgb};
+use alberti::texture::format::{Linear, Normals};
+use alberti::texture::mipmap;
 use alberti::texture::surface::{OffsetLimited, Relief};
 use alberti::texture::{
     Anisotropic, Bilinear, Minify, Mipmap, Nearest, NearestLevel, PowerOfTwo, Repeat, Texture, Trilinear,
@@ -131,9 +132,9 @@ impl Maps {
                 heights[at] = (255.0 * h).round() as u8;
             }
         }
-        mipmap::build::<Rgba8, Srgb>(&mut color, SIDE, SIDE).expect("levels");
-        mipmap::build::<Rgba8, Normals>(&mut normal, SIDE, SIDE).expect("levels");
-        mipmap::build::<Rgba8, Linear>(&mut other, SIDE, SIDE).expect("levels");
+        mipmap::build::<Rgba8>(&mut color, SIDE, SIDE).expect("levels");
+        mipmap::build::<Normals<Rgba8>>(&mut normal, SIDE, SIDE).expect("levels");
+        mipmap::build::<Linear<Rgba8>>(&mut other, SIDE, SIDE).expect("levels");
         Self { color, normal, other, height: heights }
     }
 }

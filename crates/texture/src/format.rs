@@ -3,12 +3,17 @@
 //! A format is a type without values of its own: [`Texture`](crate::Texture) carries it as a parameter, so that the
 //! decoding is compiled into the sampling. [`Rgba8`], what every format decodes to, is itself one. Types of other
 //! crates can be formats too. [`Indexed`] texels are places in a palette that the texture carries.
+//!
+//! What the colours stand for is part of the type: they are sRGB, unless the format is [`L16`] or wrapped in
+//! [`Linear`] or [`Normals`].
 
+mod content;
 mod encode;
 mod indexed;
 mod storage;
 
 pub use alberti_math::Rgba8;
+pub use content::{Content, Linear, Normals};
 pub use encode::Encode;
 pub use indexed::Indexed;
 pub use storage::Storage;
@@ -17,6 +22,9 @@ pub use storage::Storage;
 pub trait TexelFormat: 'static {
     /// One stored texel.
     type Texel: Copy + Send + Sync + 'static;
+
+    /// What the colours stand for.
+    const CONTENT: Content = Content::Srgb;
 
     /// The colour that the texel stands for.
     ///
@@ -141,7 +149,7 @@ impl TexelFormat for La8 {
     }
 }
 
-/// Sixteen bits of luminance in the machine's byte order, heights for example. Opaque.
+/// Sixteen bits of luminance in the machine's byte order, heights for example: [`Content::Linear`]. Opaque.
 ///
 /// # Precision
 /// As a colour the nearest of 256 steps. As a number, which [`Sampler::scalar_lanes`](crate::Sampler::scalar_lanes)
@@ -151,6 +159,7 @@ pub struct L16;
 
 impl TexelFormat for L16 {
     type Texel = u16;
+    const CONTENT: Content = Content::Linear;
 
     #[inline]
     fn decode(texel: u16) -> Rgba8 {

@@ -15,11 +15,11 @@
 
 mod alpha;
 mod build;
-mod content;
+mod mean;
 
 pub use alpha::preserve_coverage;
 pub use build::build;
-pub use content::{Content, Linear, Normals, Srgb};
+pub use mean::Mean;
 
 use core::fmt;
 use core::marker::PhantomData;

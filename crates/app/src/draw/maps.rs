@@ -9,28 +9,17 @@ use alberti::glam::Vec2;
 use alberti::lanes::Lanes;
 use alberti::raster::{Gradient, PerPixel};
 use alberti::shaders::material::{self, Times};
-use alberti::texture::mipmap::{self, Content};
+use alberti::texture::format::{Content, L16, Linear, Normals};
+use alberti::texture::mipmap::{self, Mean};
 use alberti::texture::surface::{HeightMap, bilinear_height_lanes};
 use alberti::texture::{
     self, Anisotropic, Clamp, LevelSize, Mipmap, Mirror, PowerOfTwo, Repeat, Size, Texture, Trilinear,
-    format::L16,
 };
 use std::collections::HashMap;
 
-/// What an image's bytes are, which says how the levels of its mip map come from it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Meaning {
-    /// sRGB.
-    Colors,
-    /// Numbers.
-    Numbers,
-    /// Directions.
-    Normals,
-}
-
 /// The mip maps that a model's surfaces are drawn with.
 #[derive(Debug, Default)]
-pub(crate) struct Chains(HashMap<(usize, Meaning), Vec<[u8; 4]>>);
+pub(crate) struct Chains(HashMap<(usize, Content), Vec<[u8; 4]>>);
 
 impl Chains {
     /// Those that are needed.
@@ -40,13 +29,13 @@ impl Chains {
     pub(crate) fn new(model: &Model, options: &RenderOptions) -> Result<Self, Error> {
         let mut chains = HashMap::new();
         for part in &model.parts {
-            for (map, meaning) in part.maps() {
+            for (map, content) in part.maps() {
                 let mipmapped =
                     !matches!(map.filter.unwrap_or(options.filter), Filter::Nearest | Filter::Bilinear);
                 if let Some(image) = model.textures.get(map.image).filter(|_| mipmapped)
-                    && !chains.contains_key(&(map.image, meaning))
+                    && !chains.contains_key(&(map.image, content))
                 {
-                    chains.insert((map.image, meaning), chain(image, meaning)?);
+                    chains.insert((map.image, content), chain(image, content)?);
                 }
             }
         }
@@ -61,31 +50,31 @@ impl Part {
         Some(Map { image, filter: self.detail.filter, wrap: self.detail.wrap })
     }
 
-    /// All images on it that may have mip maps, and what they mean.
-    fn maps(&self) -> impl Iterator<Item = (Map, Meaning)> {
+    /// All images on it that may have mip maps, and what their texels stand for.
+    fn maps(&self) -> impl Iterator<Item = (Map, Content)> {
         let detail = &self.detail;
         let colors = [self.color_map(), detail.specular_map, detail.emissive_map];
         let numbers = [detail.occlusion, detail.wetness_map, detail.shininess_map, detail.reflection_map];
         let normals = [detail.normal.map(|normal| normal.map)];
-        let meaning = |meaning| move |map: Option<Map>| Some((map?, meaning));
-        let colors = colors.into_iter().filter_map(meaning(Meaning::Colors));
-        let numbers = numbers.into_iter().filter_map(meaning(Meaning::Numbers));
-        colors.chain(numbers).chain(normals.into_iter().filter_map(meaning(Meaning::Normals)))
+        let content = |content| move |map: Option<Map>| Some((map?, content));
+        let colors = colors.into_iter().filter_map(content(Content::Srgb));
+        let numbers = numbers.into_iter().filter_map(content(Content::Linear));
+        colors.chain(numbers).chain(normals.into_iter().filter_map(content(Content::Normals)))
     }
 }
 
 /// All levels.
-fn chain(image: &Image, meaning: Meaning) -> Result<Vec<[u8; 4]>, Error> {
-    fn build<C: Content<Rgba8>>(image: &Image) -> Result<Vec<[u8; 4]>, texture::TextureError> {
+fn chain(image: &Image, content: Content) -> Result<Vec<[u8; 4]>, Error> {
+    fn build<F: Mean<Texel = [u8; 4]>>(image: &Image) -> Result<Vec<[u8; 4]>, texture::TextureError> {
         let mut texels = image.texels.clone();
         texels.resize(mipmap::texel_count(image.width, image.height), [0; 4]);
-        mipmap::build::<Rgba8, C>(&mut texels, image.width, image.height)?;
+        mipmap::build::<F>(&mut texels, image.width, image.height)?;
         Ok(texels)
     }
-    let built = match meaning {
-        Meaning::Colors => build::<mipmap::Srgb>(image),
-        Meaning::Numbers => build::<mipmap::Linear>(image),
-        Meaning::Normals => build::<mipmap::Normals>(image),
+    let built = match content {
+        Content::Srgb => build::<Rgba8>(image),
+        Content::Linear => build::<Linear<Rgba8>>(image),
+        Content::Normals => build::<Normals<Rgba8>>(image),
     };
     built.map_err(|e| Error::new(e.to_string(), "textures that can be drawn"))
 }
@@ -125,10 +114,10 @@ impl<'a> AnyMap<'a> {
         chains: &'a Chains,
         options: &RenderOptions,
         map: Map,
-        meaning: Meaning,
+        content: Content,
     ) -> Option<Self> {
         let image = model.textures.get(map.image)?;
-        let chain = chains.0.get(&(map.image, meaning));
+        let chain = chains.0.get(&(map.image, content));
         Some(Self {
             texture: Texture::new(&image.texels, image.width, image.height).ok()?,
             mipmap: chain.and_then(|texels| Mipmap::new(texels, image.width, image.height).ok()),

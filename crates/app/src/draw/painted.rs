@@ -3,7 +3,7 @@
 
 use super::color;
 use super::lamps::{AnyEnvironment, AnyParallax, AnyReflectance, Lamp, Lamps};
-use super::maps::{AnyHeights, AnyMap, Chains, Meaning, Scaled};
+use super::maps::{AnyHeights, AnyMap, Chains, Scaled};
 use crate::options::{Filter, RenderOptions, Shading, Wrap};
 use crate::scene::{self, Model, NormalSpace, Part};
 use alberti::glam::{Mat3, Vec2, Vec3};
@@ -13,6 +13,7 @@ use alberti::shaders::material::{
     BlinnPhong, Bump, Color, Emission, Framed, Gloss, Lambert, Layer, Lighting, Material, NormalMap,
     ObjectNormals, Occlusion, Parallax, Phong, Reflection, Specular, Surface, Wetness,
 };
+use alberti::texture::format::Content;
 use alberti::texture::surface::{CentralDifferences, Relief, Unorm};
 use alberti::{Eye, Frame, Point3, Varying, World};
 
@@ -91,9 +92,9 @@ impl<'a> Painted<'a> {
         camera: Frame<Eye, World>,
     ) -> Self {
         let detail = &part.detail;
-        let map = |map: scene::Map, meaning| AnyMap::new(model, chains, options, map, meaning);
-        let numbers = |of: Option<scene::Map>| of.and_then(|of| map(of, Meaning::Numbers));
-        let colors = |of: Option<scene::Map>| of.and_then(|of| map(of, Meaning::Colors));
+        let map = |map: scene::Map, content| AnyMap::new(model, chains, options, map, content);
+        let numbers = |of: Option<scene::Map>| of.and_then(|of| map(of, Content::Linear));
+        let colors = |of: Option<scene::Map>| of.and_then(|of| map(of, Content::Srgb));
         let scaled = |factor: [f32; 3], map| Scaled { factor: color(factor), map };
 
         let relief = detail.height.and_then(|height| {
@@ -105,7 +106,7 @@ impl<'a> Painted<'a> {
         let parallax =
             relief.and_then(|(kind, relief)| Some(Parallax { relief, policy: AnyParallax::of(kind)? }));
         let own = detail.normal.and_then(|normal| {
-            let map = map(normal.map, Meaning::Normals)?;
+            let map = map(normal.map, Content::Normals)?;
             Some(match normal.space {
                 NormalSpace::Tangent => Facing::Tangent(NormalMap::new(map, normal.strength)),
                 NormalSpace::Object => Facing::Object(ObjectNormals::new(

@@ -1,8 +1,8 @@
 //! Filling the smaller levels.
 
-use super::content::Content;
+use super::mean::Mean;
 use super::{level_count, size_of_level, texel_count};
-use crate::{TexelFormat, Texture, TextureError};
+use crate::{Texture, TextureError};
 
 /// Fills all levels from level 0, which is at the beginning of `texels`.
 ///
@@ -15,11 +15,11 @@ use crate::{TexelFormat, Texture, TextureError};
 /// ```
 ///
 /// ```
-/// use alberti_texture::{Mipmap, format::L8, mipmap::{self, Srgb}};
+/// use alberti_texture::{Mipmap, format::L8, mipmap};
 ///
 /// let mut texels = [0; mipmap::texel_count(2, 2)];
 /// texels[..4].copy_from_slice(&[0, 255, 255, 0]);
-/// mipmap::build::<L8, Srgb>(&mut texels, 2, 2)?;
+/// mipmap::build::<L8>(&mut texels, 2, 2)?;
 /// let board = Mipmap::<L8>::new(&texels, 2, 2)?;
 /// // Half of the light is far above half of the byte.
 /// assert_eq!(board.level(1).texels(), [188]);
@@ -27,18 +27,14 @@ use crate::{TexelFormat, Texture, TextureError};
 /// ```
 ///
 /// # Precision
-/// That of the [`Content`], for every level, as none is made from a rounded one.
+/// That of the format's [`Content`](crate::format::Content), for every level, as none is made from a rounded one.
 ///
 /// # Cost
 /// Each level reads all of level 0: for a side of 256 texels that is eight times. No memory.
 ///
 /// # Errors
 /// If a side is 0 or greater than [`Texture::MAX_SIZE`], or if there are not [`texel_count`] texels.
-pub fn build<F: TexelFormat, C: Content<F>>(
-    texels: &mut [F::Texel],
-    width: u32,
-    height: u32,
-) -> Result<(), TextureError> {
+pub fn build<F: Mean>(texels: &mut [F::Texel], width: u32, height: u32) -> Result<(), TextureError> {
     let area = width.saturating_mul(height) as usize;
     // Says what is wrong with the sides.
     Texture::<F>::new(texels.get(..area).unwrap_or(texels), width, height)?;
@@ -53,13 +49,11 @@ pub fn build<F: TexelFormat, C: Content<F>>(
         let (own, below) = rest.split_at_mut_checked((columns * rows) as usize).unwrap_or_default();
         for (texels, row) in own.chunks_exact_mut(columns as usize).zip(0..) {
             for (texel, column) in texels.iter_mut().zip(0..) {
-                let mut sum = C::Sum::default();
-                for (texels, weight) in covered(base.chunks_exact(width as usize), row, [height, rows]) {
-                    for (&texel, part) in covered(texels.iter(), column, [width, columns]) {
-                        C::add(&mut sum, weight * part, texel);
-                    }
-                }
-                *texel = C::mean(&sum, u64::from(width) * u64::from(height));
+                let rows = covered(base.chunks_exact(width as usize), row, [height, rows]);
+                *texel = F::mean(rows.flat_map(|(texels, weight)| {
+                    let parts = covered(texels.iter(), column, [width, columns]);
+                    parts.map(move |(&texel, part)| (texel, weight * part))
+                }));
             }
         }
         rest = below;

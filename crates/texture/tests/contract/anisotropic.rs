@@ -2,7 +2,8 @@
 
 use alberti_math::lanes::{Lanes, OneFixed};
 use alberti_math::{Q16, Rgba8};
-use alberti_texture::mipmap::{Linear, build};
+use alberti_texture::format::Linear;
+use alberti_texture::mipmap::build;
 use alberti_texture::{
     Anisotropic, AnySize, Bilinear, Derivatives, Minify, Mipmap, Mirror, Nearest, NearestLevel, PowerOfTwo,
     Repeat, Trilinear,
@@ -64,7 +65,7 @@ fn anisotropic_is_the_mean_of_its_probes() {
 fn anisotropic_is_sharper() {
     let mut random = Random(86);
     let mut texels = noise(&mut random, 64, 64, false);
-    build::<Rgba8, Linear>(&mut texels, 64, 64).unwrap();
+    build::<Linear<Rgba8>>(&mut texels, 64, 64).unwrap();
     let mipmap = Mipmap::<Rgba8>::new(&texels, 64, 64).unwrap();
     let d = Derivatives { du_dx: 1.0 / 64.0, dv_dx: 0.0, du_dy: 0.0, dv_dy: 16.0 / 64.0 };
     let (mut sharp, mut soft) = (0.0, 0.0);

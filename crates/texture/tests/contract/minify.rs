@@ -2,8 +2,8 @@
 
 use alberti_math::lanes::{Lanes, Machine, OneFixed};
 use alberti_math::{Q16, Rgba8, for_lanes};
-use alberti_texture::format::{Indexed, Storage};
-use alberti_texture::mipmap::{Linear, Srgb, build, texel_count};
+use alberti_texture::format::{Indexed, Linear, Storage};
+use alberti_texture::mipmap::{build, texel_count};
 use alberti_texture::{
     AnySize, BaseLevel, BetweenLevels, Bilinear, Border, Clamp, Derivatives, LevelSize, Minify, MipFilter,
     Mipmap, Mirror, Nearest, NearestLevel, PowerOfTwo, Repeat, Texture, Trilinear, Wrap,
@@ -218,7 +218,7 @@ fn images_within_one_step_and_rounding() {
     let place = |i: usize| board(i as u32 % 64, i as u32 / 64);
     images[2][..64 * 64].iter_mut().enumerate().for_each(|(i, texel)| *texel = place(i));
     for (image, worst) in images.iter_mut().zip(&mut worst) {
-        build::<Rgba8, Linear>(image, 64, 64).unwrap();
+        build::<Linear<Rgba8>>(image, 64, 64).unwrap();
         let mipmap = Mipmap::<Rgba8>::new(image, 64, 64).unwrap();
         let sampler = mipmap.sampler::<Trilinear, Repeat>();
         for _ in 0..60 {
@@ -369,7 +369,7 @@ fn palettes() {
     }
     // A chain that was built shows its levels.
     let mut texels = vec![[9, 9, 9, 255]; texel_count(4, 4)];
-    build::<Rgba8, Srgb>(&mut texels, 4, 4).unwrap();
+    build::<Rgba8>(&mut texels, 4, 4).unwrap();
     assert_eq!(
         Mipmap::<Rgba8>::new(&texels, 4, 4)
             .unwrap()

@@ -16,7 +16,7 @@ use core::marker::PhantomData;
 /// A normal map in the tangent frame.
 ///
 /// Its texels are read as colours, so a filter's means are those of stored bytes; the result is made unit again. Build
-/// its mip map of [`Normals`](alberti_texture::mipmap::Normals).
+/// its mip map in a format of [`Normals`](alberti_texture::format::Normals).
 ///
 /// # Cost
 /// The map, two square roots, six divisions and nine multiplications; with a strength of `f32` a root and three
