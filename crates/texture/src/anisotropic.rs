@@ -7,7 +7,7 @@ use alberti_math::lanes::Lanes;
 use crate::blend::mean_of;
 use crate::format::Storage;
 use crate::minify::{MipKernel, each_word};
-use crate::{Derivatives, LevelSize, MipFilter, Mipmap, Trilinear, Wrap};
+use crate::{Bounds, Derivatives, LevelSize, MipFilter, Mipmap, Trilinear, Wrap};
 
 /// The mean of up to `PROBES` (1, 2, 4, 8 or 16) colours of `M` along the longer axis of the pixel in the texture, as
 /// many as it is longer than the other one: sharp where a plane is seen at an angle.
@@ -20,6 +20,7 @@ use crate::{Derivatives, LevelSize, MipFilter, Mipmap, Trilinear, Wrap};
 /// ```
 ///
 /// The longer axis is that of the derivatives by x and by y. A level of detail alone has no shape: then it is `M`.
+/// [`LodBounds`](crate::LodBounds) are those of this λ; n and the places stay.
 ///
 /// # Precision
 /// Lengths as [`Derivatives::lod`] says; the mean is rounded once, halves up, after that of each probe. So equal texels
@@ -58,6 +59,7 @@ impl<const PROBES: u32, M: MipFilter> MipKernel for Anisotropic<PROBES, M> {
         u: L::Number,
         v: L::Number,
         derivatives: Derivatives<L::Number>,
+        bounds: impl Bounds,
     ) -> L::U32 {
         let [across, down] = derivatives.log2_lengths(lanes, mipmap.size());
         let (long, short) = (lanes.max(across, down), lanes.min(across, down));
@@ -66,7 +68,7 @@ impl<const PROBES: u32, M: MipFilter> MipKernel for Anisotropic<PROBES, M> {
         let dv = lanes.select(is_across, derivatives.dv_dx, derivatives.dv_dy);
         let greatest = Self::LOG2;
         let all = lanes.int_to_number(lanes.int(greatest.cast_signed()));
-        let lambda = lanes.max(short, long - all);
+        let lambda = bounds.bound_lanes(lanes, lanes.max(short, long - all));
         // The least integer that is not less than the difference.
         let count = lanes.word(0) - lanes.floor_scaled(short - long, 0);
         each_word(

@@ -24,7 +24,7 @@ mod wrap;
 pub use anisotropic::Anisotropic;
 pub use filter::{Bilinear, Filter, Nearest};
 pub use format::TexelFormat;
-pub use lod::{Derivatives, LodBounds};
+pub use lod::{Bounds, Derivatives, LodBounds};
 pub use minify::{BaseLevel, BetweenLevels, Levels, Minify, MipFilter, NearestLevel, Trilinear};
 pub use mip_sampler::MipSampler;
 pub use mipmap::Mipmap;

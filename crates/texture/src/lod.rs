@@ -8,6 +8,7 @@
 //! λ = 1/2 log2 max(|∂(u, v)/∂x|², |∂(u, v)/∂y|²)      with u and v in texels, and lengths that are Euclidean
 //! ```
 
+use core::fmt::Debug;
 use core::ops::{Div, Mul, Sub};
 
 use alberti_math::lanes::{Lanes, One};
@@ -138,7 +139,21 @@ impl Derivatives<f32> {
     }
 }
 
-/// What a scene makes of λ: min(max(λ + bias, least), greatest).
+/// What becomes of λ before levels are chosen: nothing (`()`), or what [`LodBounds`] say.
+pub trait Bounds: Copy + Debug + 'static {
+    /// The bounded λ, of several samples.
+    fn bound_lanes<L: Lanes>(self, lanes: L, lambda: L::Number) -> L::Number;
+}
+
+impl Bounds for () {
+    #[inline(always)]
+    fn bound_lanes<L: Lanes>(self, _: L, lambda: L::Number) -> L::Number {
+        lambda
+    }
+}
+
+/// A bias of λ, and its limits: min(max(λ + bias, least), greatest).
+/// [`MipSampler::bounded`](crate::MipSampler::bounded) takes them.
 ///
 /// ```
 /// use alberti_texture::LodBounds;
@@ -146,11 +161,17 @@ impl Derivatives<f32> {
 /// let sharper = LodBounds { bias: -0.5, greatest: 4.0, ..LodBounds::default() };
 /// assert_eq!([sharper.bound(2.0), sharper.bound(7.0)], [1.5, 4.0]);
 /// ```
+///
+/// # Precision
+/// One rounding, that of the sum; in fixed point none, but λ + bias is to be within ±2^15 there.
+///
+/// # Cost
+/// An addition and two comparisons a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LodBounds {
     /// What is added: below 0 for sharper pictures, above for softer ones.
     pub bias: f32,
-    /// The least that comes out.
+    /// The least that comes out. Above 0, the levels below it are never read, nor is the filter of magnification used.
     pub least: f32,
     /// The greatest that comes out.
     pub greatest: f32,
@@ -169,10 +190,11 @@ impl LodBounds {
     pub fn bound(self, lambda: f32) -> f32 {
         self.bound_lanes(One, lambda)
     }
+}
 
-    /// [`bound`](Self::bound) of several.
+impl Bounds for LodBounds {
     #[inline(always)]
-    pub fn bound_lanes<L: Lanes>(self, lanes: L, lambda: L::Number) -> L::Number {
+    fn bound_lanes<L: Lanes>(self, lanes: L, lambda: L::Number) -> L::Number {
         let biased = lambda + lanes.splat(self.bias);
         lanes.min(lanes.max(biased, lanes.splat(self.least)), lanes.splat(self.greatest))
     }

@@ -11,7 +11,7 @@ use alberti_math::lanes::Lanes;
 use crate::blend::between;
 use crate::filter::{Bilinear, Filter};
 use crate::format::Storage;
-use crate::{Derivatives, LevelSize, Mipmap, Wrap};
+use crate::{Bounds, Derivatives, LevelSize, Mipmap, Wrap};
 
 /// The way of reading a [`Mipmap`]: [`Minify`], [`Trilinear`] for one, or
 /// [`Anisotropic`](crate::Anisotropic). Other crates cannot add to
@@ -29,7 +29,7 @@ pub trait MipKernel {
         lambda: L::Number,
     ) -> L::U32;
 
-    /// The same for pixels that the derivatives tell the shapes of.
+    /// The same for pixels that the derivatives tell the shapes of, with their λ bounded.
     #[inline(always)]
     fn in_footprint<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap>(
         lanes: L,
@@ -37,8 +37,10 @@ pub trait MipKernel {
         u: L::Number,
         v: L::Number,
         derivatives: Derivatives<L::Number>,
+        bounds: impl Bounds,
     ) -> L::U32 {
-        Self::at_lod::<L, F, Z, U, V>(lanes, mipmap, u, v, derivatives.lod_lanes(lanes, mipmap.size()))
+        let lambda = bounds.bound_lanes(lanes, derivatives.lod_lanes(lanes, mipmap.size()));
+        Self::at_lod::<L, F, Z, U, V>(lanes, mipmap, u, v, lambda)
     }
 }
 

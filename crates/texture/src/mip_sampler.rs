@@ -9,11 +9,12 @@ use glam::Vec2;
 
 use crate::format::Storage;
 use crate::minify::MipFilter;
-use crate::{AnySize, Derivatives, LevelSize, Mipmap, Size, Wrap};
+use crate::{AnySize, Bounds, Derivatives, LevelSize, LodBounds, Mipmap, Size, Wrap};
 
 /// A mip map with a filter and a wrap mode for each axis: what a fragment that knows its size asks for a colour.
 ///
-/// Made by [`Mipmap::sampler`] and [`Mipmap::sampler_per_axis`].
+/// Made by [`Mipmap::sampler`] and [`Mipmap::sampler_per_axis`]; `B` is what becomes of λ, nothing but for
+/// [`bounded`](Self::bounded) ones.
 ///
 /// ```
 /// use alberti_texture::format::L8;
@@ -32,15 +33,38 @@ use crate::{AnySize, Derivatives, LevelSize, Mipmap, Size, Wrap};
 /// assert_eq!(sampler.sample_grad(uv, derivatives).to_bytes()[0], 188);
 /// # Ok::<(), alberti_texture::TextureError>(())
 /// ```
-pub struct MipSampler<'a, F: Storage, M, U, V = U, Z: Size = AnySize> {
+pub struct MipSampler<'a, F: Storage, M, U, V = U, Z: Size = AnySize, B = ()> {
     mipmap: Mipmap<'a, F, Z>,
+    bounds: B,
     modes: PhantomData<(M, U, V)>,
 }
 
 impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize> MipSampler<'a, F, M, U, V, Z> {
     #[inline]
     pub(crate) const fn new(mipmap: Mipmap<'a, F, Z>) -> Self {
-        Self { mipmap, modes: PhantomData }
+        Self { mipmap, bounds: (), modes: PhantomData }
+    }
+}
+
+impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize, B: Bounds>
+    MipSampler<'a, F, M, U, V, Z, B>
+{
+    /// The same sampler with a bias of λ and limits, in place of those that it may have had.
+    ///
+    /// ```
+    /// use alberti_texture::format::L8;
+    /// use alberti_texture::{LodBounds, Mipmap, Repeat, Trilinear};
+    /// use glam::Vec2;
+    ///
+    /// let board = Mipmap::<L8>::new(&[0, 255, 255, 0, 188], 2, 2)?;
+    /// let softer = board.sampler::<Trilinear, Repeat>().bounded(LodBounds { bias: 0.5, ..LodBounds::default() });
+    /// assert_eq!(softer.sample_lod(Vec2::new(0.25, 0.25), 0.0).to_bytes()[0], 222);
+    /// # Ok::<(), alberti_texture::TextureError>(())
+    /// ```
+    #[inline]
+    #[must_use]
+    pub const fn bounded(self, bounds: LodBounds) -> MipSampler<'a, F, M, U, V, Z, LodBounds> {
+        MipSampler { mipmap: self.mipmap, bounds, modes: PhantomData }
     }
 
     /// The mip map that is sampled.
@@ -71,7 +95,7 @@ impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize> MipSampler<'a
         v: L::Number,
         lambda: L::Number,
     ) -> L::U32 {
-        M::at_lod::<L, F, Z, U, V>(lanes, &self.mipmap, u, v, lambda)
+        M::at_lod::<L, F, Z, U, V>(lanes, &self.mipmap, u, v, self.bounds.bound_lanes(lanes, lambda))
     }
 
     /// The colour at `uv` of a pixel with these derivatives: for λ, or with its shape
@@ -94,23 +118,26 @@ impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize> MipSampler<'a
         v: L::Number,
         derivatives: Derivatives<L::Number>,
     ) -> L::U32 {
-        M::in_footprint::<L, F, Z, U, V>(lanes, &self.mipmap, u, v, derivatives)
+        M::in_footprint::<L, F, Z, U, V>(lanes, &self.mipmap, u, v, derivatives, self.bounds)
     }
 }
 
-impl<F: Storage, M, U, V, Z: Size> Clone for MipSampler<'_, F, M, U, V, Z> {
+impl<F: Storage, M, U, V, Z: Size, B: Copy> Clone for MipSampler<'_, F, M, U, V, Z, B> {
     #[inline]
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<F: Storage, M, U, V, Z: Size> Copy for MipSampler<'_, F, M, U, V, Z> {}
+impl<F: Storage, M, U, V, Z: Size, B: Copy> Copy for MipSampler<'_, F, M, U, V, Z, B> {}
 
-impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: Size> fmt::Debug for MipSampler<'_, F, M, U, V, Z> {
+impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: Size, B: Bounds> fmt::Debug
+    for MipSampler<'_, F, M, U, V, Z, B>
+{
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("MipSampler")
             .field("mipmap", &self.mipmap)
+            .field("bounds", &self.bounds)
             .field("filter", &M::default())
             .field("wrap", &(U::default(), V::default()))
             .finish()

@@ -11,6 +11,7 @@
 mod anisotropic;
 mod bilinear;
 mod border;
+mod bounds;
 mod hostile;
 mod lod;
 mod minify;
