@@ -5,7 +5,7 @@
 //! | [`Solid`] | any | one for all |
 //! | [`VertexColor`] | `Vec3` | the varying, red, green, blue in [0, 1] |
 //! | [`VertexColor565`] | [`Ready565`] | the same in 16 bits |
-//! | [`Unlit`] | `Vec2` | the texture at the varying |
+//! | [`Unlit`] | `Vec2` | a [`Map`]'s, a texture's for one, at the varying |
 //! | [`Stored`] | `Vec2` | the same, in the texture's own format |
 //! | [`Tinted`] | the wrapped stage's | the wrapped stage's times a colour |
 //! | [`Lambert`] | `(Vec3, V)`: a normal and the wrapped stage's | the wrapped stage's, lit |
@@ -17,6 +17,7 @@
 
 mod color;
 mod lambert;
+mod map;
 pub mod material;
 mod slide;
 mod texture;
@@ -24,6 +25,7 @@ mod tinted;
 
 pub use color::{Ready565, Solid, VertexColor, VertexColor565};
 pub use lambert::{Lambert, face_normal};
+pub use map::{Map, Times};
 pub use slide::{Add, Mix, Modulate, Slide};
 pub use texture::{Differentiated, Stored, Unlit};
 pub use tinted::Tinted;

@@ -38,7 +38,6 @@
 
 mod layers;
 mod light;
-mod map;
 mod reflectance;
 mod reflection;
 mod relief;
@@ -53,7 +52,7 @@ pub use reflection::Reflection;
 pub use relief::{Bump, NormalMap, ObjectNormals, Parallax, Strength, TwoChannels};
 pub use surface::{Axes, Framed, Layer, OnSurface, Placed, Surface, Textured, Viewer};
 
-use super::alone;
+use super::{alone, map};
 use alberti_math::glam::{Vec2, Vec3};
 use alberti_math::lanes::{Lanes, One};
 use alberti_math::{Point3, Rgba8, Vector3, World};

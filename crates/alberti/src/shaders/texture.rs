@@ -1,55 +1,28 @@
 //! A texture's colours as they are.
 
-use super::alone;
+use super::{Map, alone};
 use alberti_math::glam::Vec2;
 use alberti_math::lanes::{Lanes, One};
 use alberti_math::{Rgba8, Varying};
-use alberti_raster::{Color, Differentiation, FragmentStage, Gradient, NoDerivatives, PerPixel};
-use alberti_texture::format::Storage;
-use alberti_texture::{
-    Derivatives, Filter, LevelSize, MipFilter, MipSampler, Nearest, Sampler, Size, TexelFormat, Wrap,
-};
+use alberti_raster::{Color, Differentiation, FragmentStage, Gradient, NoDerivatives};
+use alberti_texture::{Nearest, Sampler, Size, TexelFormat, Wrap};
 use core::marker::PhantomData;
 
-/// The texture, read by a [`Sampler`].
+/// A map as it is: a texture, read by a [`Sampler`], or by a [`MipSampler`](alberti_texture::MipSampler) for what a
+/// pixel covers of it.
+///
+/// The derivatives are those that the map asks for, a mip map for those at each pixel; [`Differentiated`] chooses
+/// others. [`FragmentStage::shade`] alone, which knows of no other pixel, reads level 0 of a mip map, or the level that
+/// its bounds make of it.
 #[derive(Clone, Copy, Debug)]
-pub struct Unlit<S>(
-    /// The texture with its filter and wrap mode.
-    pub S,
+pub struct Unlit<M>(
+    /// A [`Map`].
+    pub M,
 );
 
-impl<F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size> FragmentStage<Vec2>
-    for Unlit<Sampler<'_, F, Fl, U, V, Z>>
-{
+impl<M: Map> FragmentStage<Vec2> for Unlit<M> {
     type Color = Rgba8;
-    type Derivatives = NoDerivatives;
-
-    #[inline(always)]
-    fn shade(&self, uv: Vec2) -> Option<Rgba8> {
-        Some(self.0.sample(uv))
-    }
-
-    #[inline(always)]
-    fn shade_lanes<L: Lanes>(
-        &self,
-        lanes: L,
-        &[u, v]: &[L::Number; 2],
-        _: &Gradient<[L::Number; 2]>,
-        mask: L::Mask,
-    ) -> (L::U32, L::Mask) {
-        (self.0.sample_lanes(lanes, u, v), mask)
-    }
-}
-
-/// A mip map, read by a [`MipSampler`] for what a pixel covers of it.
-///
-/// The derivatives are those at each pixel; [`Differentiated`] chooses others. [`FragmentStage::shade`] alone, which
-/// knows of no other pixel, reads level 0.
-impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize> FragmentStage<Vec2>
-    for Unlit<MipSampler<'_, F, M, U, V, Z>>
-{
-    type Color = Rgba8;
-    type Derivatives = PerPixel;
+    type Derivatives = M::Derivatives;
 
     #[inline(always)]
     fn shade(&self, uv: Vec2) -> Option<Rgba8> {
@@ -60,27 +33,20 @@ impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize> FragmentStage<Vec
     fn shade_lanes<L: Lanes>(
         &self,
         lanes: L,
-        &[u, v]: &[L::Number; 2],
+        &uv: &[L::Number; 2],
         gradient: &Gradient<[L::Number; 2]>,
         mask: L::Mask,
     ) -> (L::U32, L::Mask) {
-        (self.0.sample_grad_lanes(lanes, u, v, footprint(gradient)), mask)
+        (self.0.read(lanes, uv, gradient), mask)
     }
-}
-
-/// The derivatives of texture coordinates as samplers take them.
-#[inline(always)]
-pub(super) fn footprint<N: Copy>(
-    &Gradient { dx: [du_dx, dv_dx], dy: [du_dy, dv_dy] }: &Gradient<[N; 2]>,
-) -> Derivatives<N> {
-    Derivatives { du_dx, dv_dx, du_dy, dv_dy }
 }
 
 /// Another stage that learns from `D` how fast its varying changes, whatever it would choose itself.
 ///
 /// ```
+/// use alberti::raster::PerTriangle;
+/// use alberti::shaders::{Differentiated, Unlit};
 /// use alberti::texture::{Mipmap, Repeat, Trilinear, format::L8};
-/// use alberti::{raster::PerTriangle, shaders::{Differentiated, Unlit}};
 ///
 /// let board = Mipmap::<L8>::new(&[0, 255, 255, 0, 188], 2, 2)?;
 /// // One level of detail for all of a triangle, found once.
@@ -157,11 +123,40 @@ impl<F: TexelFormat<Texel: Color>, U: Wrap, V: Wrap, Z: Size> FragmentStage<Vec2
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::shaders::{Solid, Times, Tinted};
     use alberti_math::Q16;
     use alberti_math::lanes::OneFixed;
-    use alberti_texture::format::Rgb565;
-    use alberti_texture::{Clamp, Mirror, Repeat, Texture};
+    use alberti_texture::format::{L8, Rgb565};
+    use alberti_texture::{Clamp, Derivatives, LodBounds, Mipmap, Mirror, Repeat, Texture, Trilinear};
     use core::num::Wrapping;
+
+    /// A constant is [`Solid`], a map times a constant [`Tinted`], and a mip map what its sampler says, bounded or not.
+    #[test]
+    fn all_maps_are_unlit_alike() {
+        let board = Mipmap::<L8>::new(&[0, 255, 255, 0, 188], 2, 2).expect("2 x 2, and 1 x 1");
+        let factor = Rgba8::new(200, 100, 50, 9);
+        let nearest = board.level(0).sampler::<Nearest, Repeat>();
+        let trilinear = board.sampler::<Trilinear, Repeat>();
+        let softer = trilinear.bounded(LodBounds { bias: 0.25, ..LodBounds::default() });
+        let mut seen = 0;
+        for (k, [u, v]) in (0..64u8).map(|k| (k, [f32::from(k) / 16.0, f32::from(k % 8) / 8.0])) {
+            let uv = Vec2::new(u, v);
+            assert_eq!(Unlit(factor).shade(uv), Solid(factor).shade(uv));
+            assert_eq!(Unlit(nearest).shade(uv), Some(nearest.sample(uv)));
+            let tinted = Tinted { surface: Unlit(nearest), tint: factor };
+            assert_eq!(Unlit(Times { map: nearest, factor }).shade(uv), tinted.shade(uv));
+
+            let [dx, dy] = [[f32::from(k) / 64.0, 0.0], [0.0, 0.25]];
+            let d = Derivatives { du_dx: dx[0], dv_dx: dx[1], du_dy: dy[0], dv_dy: dy[1] };
+            let gradient = Gradient { dx, dy };
+            let (word, _) = Unlit(trilinear).shade_lanes(One, &[u, v], &gradient, true);
+            assert_eq!(Rgba8::from_bits(word.0), trilinear.sample_grad(uv, d));
+            let (bounded, _) = Unlit(softer).shade_lanes(One, &[u, v], &gradient, true);
+            assert_eq!(Rgba8::from_bits(bounded.0), softer.sample_grad(uv, d));
+            seen += u32::from(bounded != word);
+        }
+        assert!(seen > 10, "{seen}");
+    }
 
     /// Texels in fixed point, against the definition in integers: u is k / 65536, v is half a row up.
     #[test]

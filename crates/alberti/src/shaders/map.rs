@@ -1,16 +1,16 @@
 //! What is read at texture coordinates.
 
-use crate::shaders::texture::footprint;
-use crate::shaders::tinted::times;
-use crate::shaders::unpack;
+use super::tinted::times;
+use super::unpack;
 use alberti_math::Rgba8;
 use alberti_math::lanes::Lanes;
 use alberti_raster::{Differentiation, Gradient, NoDerivatives, PerPixel};
 use alberti_texture::format::Storage;
-use alberti_texture::{Filter, LevelSize, MipFilter, MipSampler, Sampler, Size, Wrap};
+use alberti_texture::{Bounds, Derivatives, Filter, LevelSize, MipFilter, MipSampler, Sampler, Size, Wrap};
 use core::fmt::Debug;
 
-/// A colour for each place on a surface: a sampler, one of mip maps, or an [`Rgba8`], which is the same everywhere.
+/// A colour for each place on a surface: a [`Sampler`], a [`MipSampler`], which reads what a pixel covers, an
+/// [`Rgba8`], which is the same everywhere, or [`Times`] one of them.
 pub trait Map: Copy + Debug {
     /// What it needs to know of neighbouring pixels.
     type Derivatives: Differentiation;
@@ -37,7 +37,9 @@ impl<F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size> Map for Sampler<'_, F, F
     }
 }
 
-impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize> Map for MipSampler<'_, F, M, U, V, Z> {
+impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize, B: Bounds> Map
+    for MipSampler<'_, F, M, U, V, Z, B>
+{
     type Derivatives = PerPixel;
 
     #[inline(always)]
@@ -45,9 +47,9 @@ impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize> Map for MipSample
         &self,
         lanes: L,
         [u, v]: [L::Number; 2],
-        gradient: &Gradient<[L::Number; 2]>,
+        &Gradient { dx: [du_dx, dv_dx], dy: [du_dy, dv_dy] }: &Gradient<[L::Number; 2]>,
     ) -> L::U32 {
-        self.sample_grad_lanes(lanes, u, v, footprint(gradient))
+        self.sample_grad_lanes(lanes, u, v, Derivatives { du_dx, dv_dx, du_dy, dv_dy })
     }
 }
 
