@@ -201,8 +201,8 @@ impl Groups {
         }
     }
 
-    /// The mean of the triangles' normals, weighted by area, for each normal that vertices have; `None` where there is no
-    /// area.
+    /// The mean of the triangles' normals, weighted by area, for each normal that vertices have; `None` where there is
+    /// no area.
     fn normals<'t>(
         &self,
         vertices: &[Vertex],

@@ -199,8 +199,8 @@ impl<Ls: Light, R: Reflectance> Lighting<Ls, R> {
 ///
 /// # Precision
 /// Texels as they are read, each channel is rounded once: within ½ + 6·2^-16·S of a byte of the exact colour of the
-/// interpolated lights, with S their greatest sum in a channel, or 1. Highlights smaller than triangles are lost, or flicker as their vertices turn;
-/// [`Material`] lights each fragment.
+/// interpolated lights, with S their greatest sum in a channel, or 1. Highlights smaller than triangles are lost, or
+/// flicker as their vertices turn; [`Material`] lights each fragment.
 ///
 /// # Cost
 /// The layers', six components to interpolate, and four operations a channel; no root and no division.

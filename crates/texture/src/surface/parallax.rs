@@ -23,6 +23,22 @@ use glam::Vec2;
 ///
 /// The ray meets the surface itself at (u, v). Heights above it, where they are positive, shift what is seen towards
 /// the eye; heights below it, away from it.
+///
+/// # Where they break
+/// With k = |Vxy|/Vz, the slant, h the height and a the slope of the heights along the ray:
+///
+/// * Grazing angles: the true shift is h k, and k has no bound (1 at 45° from the normal, 5.7 at 80°). [`Offset`]
+///   goes as far, to a place that has nothing to do with the one that is seen, as soon as h k is more than a detail
+///   is wide. [`OffsetLimited`] goes the share Vz of it, half at 60° and a sixth at 80°, so that the relief fades. A
+///   layer of [`Steep`] is (high − low)/N·k wide on the surface: below a pixel it cannot be seen, above a detail's
+///   width it misses the detail, and so does [`Occlusion`].
+/// * Steep heights: where a k is 1 and more, the heights hide what is behind them. The single steps do not know of
+///   it, and fold or tear the texture there; [`Steep`] and [`Occlusion`] find the front that hides. Sides as steep as
+///   that are seen stretched, as a few texels of the map are all that they have.
+/// * Any: only what is looked up moves. The outline and the depths stay those of the surface, and so do the
+///   derivatives that choose a mip level, although where one height hides another the place on the map jumps. A
+///   curved surface counts as flat, so that the shift is to be small beside the radius. Beyond the edge of the
+///   surface the map goes on as its wrap mode says.
 pub trait Parallax: Copy + Debug + 'static {
     /// The coordinates where the rays from `uv`, which rise by 1 while they move by `slant`, meet the heights.
     fn meet<H: HeightMap, L: Lanes>(

@@ -83,6 +83,7 @@ pub struct Bump<H>(
 );
 
 /// A parallax map: what the heights would show of the surface, seen from aside. It comes before all that reads maps.
+/// Where each policy breaks, at grazing angles and on steep heights, [`surface::Parallax`] says.
 ///
 /// The level of detail of these stays that of the surface itself, and so does the place for lights.
 ///
