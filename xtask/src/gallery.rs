@@ -32,6 +32,7 @@ const SECTIONS: &[(&str, &[&str])] = &[
             "parallax",
             "steep-parallax",
             "parallax-occlusion",
+            "grazing",
             "displacement",
         ],
     ),
