@@ -29,7 +29,7 @@ pub struct Lambert<S> {
 }
 
 impl<S> Lambert<S> {
-    /// Light from the direction `to_light` (any length but zero), in the space in which the normals are given.
+    /// Light from the direction `to_light`, from 2^-60 to 2^60 long, in the space in which the normals are given.
     /// `ambient` falls everywhere, `diffuse` where the surface faces the light.
     #[must_use]
     pub fn new(surface: S, to_light: Vector3<World>, ambient: f32, diffuse: f32) -> Self {
