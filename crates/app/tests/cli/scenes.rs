@@ -142,3 +142,16 @@ fn options_say_what_is_made_of_a_scenes_maps() {
         &["error: --normal-strength: found a model without a normal map"],
     );
 }
+
+#[test]
+fn light_by_vertex_says_what_it_leaves_out() {
+    let material = "[material.a]\ncolor = \"ff0000\"\nheight-map = \"h.png\"\n";
+    let object = "[[object]]\nsurface = \"plane\"\nmaterial = \"a\"\n";
+    let scene = format!("size = [8, 6]\n[camera]\neye = [0, 1, 2]\n{object}{material}");
+    let folder = Folder::with(&[("s.toml", scene.as_bytes())]);
+    image::GrayImage::from_pixel(2, 2, image::Luma([9])).save(folder.path("h.png")).expect("a file");
+    let warning = "warning: --shading: found gouraud with relief, normals, occlusion or reflections, which are left \
+                   out, expected phong or blinn for these\n";
+    assert_eq!(folder.succeeds(&["s.toml", "--shading", "gouraud"]).stderr, warning);
+    assert_eq!(folder.succeeds(&["s.toml", "--shading", "phong"]).stderr, "");
+}
