@@ -6,6 +6,7 @@
 
 #[cfg(feature = "simd")]
 mod eight;
+mod jacobi;
 mod machine;
 mod one;
 mod one_fixed;
@@ -107,6 +108,30 @@ pub trait Lanes: Copy + Debug {
     /// Nine multiplications, six additions, a minimum, a conversion and three operations on bits; no root, no table. In
     /// fixed point two products of 64 bits, and integers.
     fn log2_length(self, x: Self::Number, y: Self::Number, scale: [u32; 2]) -> Self::Number;
+    /// Cosine and sine of the Jacobi rotation of two plane vectors `x` and `y` whose components are multiplied by `scale`,
+    /// up to 2^15, before: it makes them orthogonal.
+    ///
+    /// ```text
+    /// cos x + sin y  is at right angles to  cos y - sin x:      tan 2θ = 2 x·y / (|x|² - |y|²),  -45° <= θ <= 45°
+    /// ```
+    ///
+    /// So these are the semi-axes of the ellipse into which (x y) turns the unit circle (one-sided Jacobi, Hestenes 1958),
+    /// and no length changes by more than the ellipse has to it. The rotation is none, exactly, where the vectors are at
+    /// right angles, or where one is not finite or longer than `f32` can tell.
+    ///
+    /// # Precision
+    /// The longer component of the scaled vectors being from 2^-63 to 2^63, and A and B the semi-axes: cos² + sin² is 1
+    /// within 6ε, and θ off by so little that |sin 2Δθ|·(A² - B²) <= 8ε·2A². In fixed point 2^-15 takes the place of 6ε
+    /// and 8ε both, over the whole range.
+    ///
+    /// # Cost
+    /// Two roots, three divisions, 16 multiplications. In fixed point two roots and three divisions of 64 bits.
+    fn jacobi_rotation(
+        self,
+        x: [Self::Number; 2],
+        y: [Self::Number; 2],
+        scale: [u32; 2],
+    ) -> [Self::Number; 2];
     /// `x` less a multiple of 2^`period`: a number above -2^`period` and below 2^`period`. Exact; what is not finite
     /// gives NaN, and where there is no NaN, any such number.
     fn wrap(self, x: Self::Number, period: u32) -> Self::Number;

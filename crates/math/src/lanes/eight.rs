@@ -1,7 +1,7 @@
 //! Eight samples at a time, in the vector registers that the machine has: one of 256 bits, or pairs of 128.
 
 use super::one::power_of_two;
-use super::{Floating, Lanes, half_log2};
+use super::{Floating, Lanes, half_log2, jacobi};
 use core::fmt::{Debug, Formatter, Result};
 use fearless_simd::{
     Bytes, Select, Simd, SimdBase, SimdFloat, SimdInt, SimdInto, SimdMask, f32x8, f64x4, i32x8, mask32x8,
@@ -150,6 +150,11 @@ impl<S: Simd> Lanes for Eight<S> {
         let bits = (x * x + y * y).bitcast::<u32x8<S>>();
         let mantissa = (bits & self.word(0x007f_ffff) | self.word(0x3f80_0000)).bitcast();
         half_log2(self, self.to_numbers(bits >> 23), mantissa)
+    }
+
+    #[inline(always)]
+    fn jacobi_rotation(self, x: [f32x8<S>; 2], y: [f32x8<S>; 2], scale: [u32; 2]) -> [f32x8<S>; 2] {
+        jacobi::floating(self, x, y, scale)
     }
 
     #[inline(always)]

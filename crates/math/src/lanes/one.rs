@@ -1,6 +1,6 @@
 //! One sample at a time, in the plain numbers of the machine.
 
-use super::{Floating, Lanes, half_log2};
+use super::{Floating, Lanes, half_log2, jacobi};
 use core::num::Wrapping;
 
 /// One sample at a time, in `f32`: what all others must equal.
@@ -186,6 +186,11 @@ impl Lanes for One {
         let bits = (x * x + y * y).to_bits();
         let mantissa = f32::from_bits(bits & 0x007f_ffff | 0x3f80_0000);
         half_log2(self, self.to_numbers(Wrapping(bits >> 23)), mantissa)
+    }
+
+    #[inline(always)]
+    fn jacobi_rotation(self, x: [f32; 2], y: [f32; 2], scale: [u32; 2]) -> [f32; 2] {
+        jacobi::floating(self, x, y, scale)
     }
 
     #[inline(always)]

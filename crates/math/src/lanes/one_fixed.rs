@@ -1,7 +1,7 @@
 //! One sample at a time, in integers.
 
-use super::Lanes;
 use super::one::one_lane;
+use super::{Lanes, jacobi};
 use crate::Q16;
 use core::num::Wrapping;
 
@@ -76,6 +76,11 @@ impl Lanes for OneFixed {
         let correction = ((m * ((1 << 16) - m)) >> 16) * (LOG2[0] + ((LOG2[1] * m) >> 16));
         let log2 = ((31 - zeros.cast_signed()) << 16) + m + (correction >> 16);
         Q16::from_bits((log2 + 1) >> 1)
+    }
+
+    #[inline]
+    fn jacobi_rotation(self, x: [Q16; 2], y: [Q16; 2], scale: [u32; 2]) -> [Q16; 2] {
+        jacobi::fixed(x, y, scale)
     }
 
     #[inline(always)]
