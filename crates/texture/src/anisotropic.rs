@@ -9,25 +9,27 @@ use crate::format::Storage;
 use crate::minify::{MipKernel, each_word};
 use crate::{Bounds, Derivatives, LevelSize, MipFilter, Mipmap, Trilinear, Wrap};
 
-/// The mean of up to `PROBES` (1, 2, 4, 8 or 16) colours of `M` along the longer axis of the pixel in the texture, as
-/// many as it is longer than the other one: sharp where a plane is seen at an angle.
+/// The mean of up to `PROBES` (1, 2, 4, 8 or 16) colours of `M` along the longer axis of the ellipse that a round pixel
+/// covers of the texture, as many as it is longer than the other one: sharp where a plane is seen at an angle.
 ///
 /// ```text
 ///         +---------------------------+
 ///  short  |   x      x      x      x  |     n = 2^k probes, k = ceil(log2(long / short)), at most PROBES
-///         +---------------------------+     at (i + 1/2)/n - 1/2 of the derivative, i from 0 to n - 1
+///         +---------------------------+     at (i + 1/2)/n - 1/2 of the axis, i from 0 to n - 1
 ///                    long                   λ = max(log2 short, log2 long - log2 PROBES)
 /// ```
 ///
-/// The longer axis is that of the derivatives by x and by y. A level of detail alone has no shape: then it is `M`.
+/// The axes are those of [`Derivatives::axes_lanes`], and stay where they are when the camera is rolled. A level of detail
+/// alone has no shape: then it is `M`.
 /// [`LodBounds`](crate::LodBounds) are those of this λ; n and the places stay.
 ///
 /// # Precision
-/// Lengths as [`Derivatives::lod`] says; the mean is rounded once, halves up, after that of each probe. So equal texels
-/// give their colour, and none is outside of the range of its texels.
+/// Axes as [`Derivatives::axes_lanes`] says, the logarithms of their lengths as [`Derivatives::lod`]; the mean is rounded
+/// once, halves up, after that of each probe. So equal texels give their colour, and none is outside of the range of its
+/// texels.
 ///
 /// # Cost
-/// n times that of `M`, and two logarithms.
+/// n times that of `M`, the axes and two logarithms.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Anisotropic<const PROBES: u32, M = Trilinear>(PhantomData<M>);
 
@@ -61,11 +63,12 @@ impl<const PROBES: u32, M: MipFilter> MipKernel for Anisotropic<PROBES, M> {
         derivatives: Derivatives<L::Number>,
         bounds: impl Bounds,
     ) -> L::U32 {
-        let [across, down] = derivatives.log2_lengths(lanes, mipmap.size());
+        let axes = derivatives.axes_lanes(lanes, mipmap.size());
+        let [across, down] = axes.log2_lengths(lanes, mipmap.size());
         let (long, short) = (lanes.max(across, down), lanes.min(across, down));
         let is_across = lanes.less(down, across);
-        let du = lanes.select(is_across, derivatives.du_dx, derivatives.du_dy);
-        let dv = lanes.select(is_across, derivatives.dv_dx, derivatives.dv_dy);
+        let du = lanes.select(is_across, axes.du_dx, axes.du_dy);
+        let dv = lanes.select(is_across, axes.dv_dx, axes.dv_dy);
         let greatest = Self::LOG2;
         let all = lanes.int_to_number(lanes.int(greatest.cast_signed()));
         let lambda = bounds.bound_lanes(lanes, lanes.max(short, long - all));

@@ -9,7 +9,7 @@
 //! ```
 
 use core::fmt::Debug;
-use core::ops::{Div, Mul, Sub};
+use core::ops::{Add, Div, Mul, Sub};
 
 use alberti_math::lanes::{Lanes, One};
 use glam::{Mat2, Vec2};
@@ -32,7 +32,7 @@ pub struct Derivatives<N = f32> {
     pub dv_dy: N,
 }
 
-impl<N: Copy + Sub<Output = N> + Mul<Output = N> + Div<Output = N>> Derivatives<N> {
+impl<N: Copy + Add<Output = N> + Sub<Output = N> + Mul<Output = N> + Div<Output = N>> Derivatives<N> {
     /// The derivatives of a perspective texture at a pixel: of u = U/Q and v = V/Q, where U = u/z, V = v/z and Q = 1/z
     /// are linear on the screen.
     ///
@@ -70,6 +70,33 @@ impl<N: Copy + Sub<Output = N> + Mul<Output = N> + Div<Output = N>> Derivatives<
             dv_dx: right[1] - here[1],
             du_dy: below[0] - here[0],
             dv_dy: below[1] - here[1],
+        }
+    }
+
+    /// The axes of the ellipse that a round pixel covers of a texture of these sides, one in the place of what is across,
+    /// the other of what is down: those of the same pixel turned on the screen, by at most 45 degrees, until they are at
+    /// right angles in texels ([`Lanes::jacobi_rotation`]). Derivatives at right angles stay as they are.
+    ///
+    /// With J the derivatives in texels, a = |∂/∂x|², c = |∂/∂y|² and b = ∂/∂x·∂/∂y, the squares of their lengths are the
+    /// eigenvalues of J Jᵀ: (a + c)/2 ± √(((a - c)/2)² + b²).
+    ///
+    /// # Precision
+    /// For lengths from 2^-63 to 2^63 texels, A being the longer one: each length within 8ε·A; the angle between them
+    /// such that the cosine times both lengths is at most 16ε·A². In fixed point 3·2^-16 of each component of the texture
+    /// besides, and 2^-15 for 8ε and 16ε. What is not finite, or too long or short for `f32`, is not turned.
+    ///
+    /// # Cost
+    /// Eight multiplications, four additions and the rotation.
+    #[must_use]
+    #[inline(always)]
+    pub fn axes_lanes<L: Lanes<Number = N>>(self, lanes: L, size: [u32; 2]) -> Self {
+        let Self { du_dx, dv_dx, du_dy, dv_dy } = self;
+        let [cosine, sine] = lanes.jacobi_rotation([du_dx, dv_dx], [du_dy, dv_dy], size);
+        Self {
+            du_dx: du_dx * cosine + du_dy * sine,
+            dv_dx: dv_dx * cosine + dv_dy * sine,
+            du_dy: du_dy * cosine - du_dx * sine,
+            dv_dy: dv_dy * cosine - dv_dx * sine,
         }
     }
 

@@ -1,6 +1,6 @@
 //! The level of detail against real numbers.
 
-use alberti_math::lanes::{Lanes, Machine, OneFixed};
+use alberti_math::lanes::{Lanes, Machine, One, OneFixed};
 use alberti_math::{Q16, for_lanes};
 use alberti_texture::{Derivatives, LodBounds};
 use glam::Vec2;
@@ -13,13 +13,19 @@ fn exact(d: Derivatives<f64>, [width, height]: [u32; 2]) -> f64 {
     (d.du_dx * w).hypot(d.dv_dx * h).max((d.du_dy * w).hypot(d.dv_dy * h)).log2()
 }
 
-fn map<A: Copy, B>(d: Derivatives<A>, mut f: impl FnMut(A) -> B) -> Derivatives<B> {
+pub(crate) fn map<A: Copy, B>(d: Derivatives<A>, mut f: impl FnMut(A) -> B) -> Derivatives<B> {
     Derivatives { du_dx: f(d.du_dx), dv_dx: f(d.dv_dx), du_dy: f(d.du_dy), dv_dy: f(d.dv_dy) }
 }
 
 /// A pixel as a rectangle in the texture, `long` x `long / ratio` texels, turned by `angle` on the texture and by
 /// `turn` on the screen.
-fn footprint(long: f64, ratio: f64, angle: f64, turn: f64, [width, height]: [u32; 2]) -> Derivatives<f64> {
+pub(crate) fn footprint(
+    long: f64,
+    ratio: f64,
+    angle: f64,
+    turn: f64,
+    [width, height]: [u32; 2],
+) -> Derivatives<f64> {
     let axes =
         [(angle.cos() * long, angle.sin() * long), (-angle.sin() * long / ratio, angle.cos() * long / ratio)];
     let mix = |a: f64, b: f64, part: fn((f64, f64)) -> f64| part(axes[0]) * a + part(axes[1]) * b;
@@ -81,6 +87,107 @@ fn defined_for_any_bits() {
     assert!((Derivatives::<f32>::default().lod(64, 64) + 63.5).abs() <= 0.0);
     let bounds = LodBounds { bias: 1.0, least: -2.0, greatest: 5.0 };
     assert_eq!([-9.0, 0.5, 7.0, f32::NAN].map(|lambda| bounds.bound(lambda)), [-2.0, 1.5, 5.0, -2.0]);
+}
+
+/// The axes of a footprint in texels, by the eigenvalues and eigenvectors of J Jᵀ in `f64`, the longer one first. All
+/// that cancels there is 2^-52 of the longer one's square.
+fn exact_axes(d: Derivatives<f64>, [width, height]: [u32; 2]) -> [[f64; 2]; 2] {
+    let (w, h) = (f64::from(width), f64::from(height));
+    let [x, y] = [[d.du_dx * w, d.dv_dx * h], [d.du_dy * w, d.dv_dy * h]];
+    let [uu, uv, vv] = [x[0] * x[0] + y[0] * y[0], x[0] * x[1] + y[0] * y[1], x[1] * x[1] + y[1] * y[1]];
+    let major = ((uu + vv) / 2.0 + ((uu - vv) / 2.0).hypot(uv)).sqrt();
+    let minor = (x[0] * y[1] - x[1] * y[0]).abs() / major;
+    let (s, c) = (uv.atan2((uu - vv) / 2.0) / 2.0).sin_cos();
+    [[c * major, s * major], [-s * minor, c * minor]]
+}
+
+/// How far found axes are off, as shares of the longer one, A: their lengths, and the cosine between them times both
+/// lengths; and how far the longer one is beside its line, times 1 - B²/A².
+fn off_axes(found: Derivatives<f64>, exact: [[f64; 2]; 2], [width, height]: [u32; 2]) -> [f64; 3] {
+    let (w, h) = (f64::from(width), f64::from(height));
+    let mut found = [[found.du_dx * w, found.dv_dx * h], [found.du_dy * w, found.dv_dy * h]];
+    let length = |v: [f64; 2]| v[0].hypot(v[1]);
+    if length(found[0]) < length(found[1]) {
+        found.swap(0, 1);
+    }
+    let [a, b] = exact.map(length);
+    let cross = |v: [f64; 2], w: [f64; 2]| (v[0] * w[1] - v[1] * w[0]).abs();
+    let [major, minor] = found;
+    let off = (length(major) - a).abs().max((length(minor) - b).abs()) / a;
+    let cosine = (major[0] * minor[0] + major[1] * minor[1]).abs() / (a * a);
+    [off, cosine, cross(major, exact[0]) / (a * a) * (1.0 - b * b / (a * a))]
+}
+
+/// Footprints turned by any angle on the texture and on the screen, axes up to 1000 times as long as the other one, every
+/// kind of lanes; lengths over all of the range.
+#[test]
+fn axes_are_those_of_the_ellipse() {
+    let mut random = Random(74);
+    let (mut floats, mut integers) = ([0.0f64; 3], [0.0f64; 3]);
+    let mut unit = || f64::from(random.bits()) / 2f64.powi(32);
+    for i in 0..100_000 {
+        let size = [[256, 256], [1000, 37], [16384, 1], [2, 512]][i % 4];
+        let (angle, turn) = (i as f64 * std::f64::consts::TAU / 100_000.0, unit() * 7.0);
+        let ratio = 1000f64.powf(unit());
+        let scale = 2f64.powf(unit() * 120.0 - 60.0);
+        let d = map(footprint(1.0, ratio, angle, turn, size), |d| (d * scale) as f32);
+        let found = Derivatives::axes_lanes(d, One, size);
+        let [rounded, axes] = [d, found].map(|d| map(d, |d| f64::from(d) / scale));
+        let each = off_axes(axes, exact_axes(rounded, size), size);
+        floats = std::array::from_fn(|k| floats[k].max(each[k] * 2f64.powi(24)));
+        for machine in Machine::all() {
+            let same = for_lanes!(machine, lanes => {
+                map(map(d, |d| lanes.splat(d)).axes_lanes(lanes, size), |d| lanes.store(d).as_ref()[5])
+            });
+            assert_eq!(map(same, f32::to_bits), map(found, f32::to_bits));
+        }
+        // From 2 steps of the shorter side on.
+        let long = 2f64.powf(unit() * 14.0) * f64::from(size[0].max(size[1])) / 32768.0;
+        let d = map(footprint(long, ratio, angle, turn, size), |d| Q16::from_f32(d as f32));
+        let float = |q: Q16| f64::from(q.to_bits()) / 65536.0;
+        let exact = exact_axes(map(d, float), size);
+        let each = off_axes(map(d.axes_lanes(OneFixed, size), float), exact, size);
+        // Steps of the texture, in texels, as a share of the longer axis.
+        let step =
+            f64::from(size[0]).hypot(f64::from(size[1])) * 3.0 / 65536.0 / exact[0][0].hypot(exact[0][1]);
+        let bound = step + 2f64.powi(-15);
+        integers = std::array::from_fn(|k| integers[k].max(each[k] / bound / if k == 0 { 1.0 } else { 2.0 }));
+    }
+    println!("axes: lengths, cosine, place {floats:.2?}ε; in integers {integers:.3?} of the bounds");
+    assert!(floats.iter().zip([8.0, 16.0, 16.0]).all(|(&off, bound)| (1.0..=bound).contains(&off)));
+    assert!(integers.iter().all(|share| (0.1..=1.0).contains(share)), "{integers:?}");
+}
+
+/// Where derivatives are at right angles they are the axes, bit for bit; what is no number stays none, and turns nothing.
+#[test]
+fn axes_of_any_bits() {
+    let mut random = Random(75);
+    for _ in 0..100_000 {
+        let (a, b) = (random.float(), random.float());
+        let (a, b) = (if a.is_finite() { a } else { 0.0 }, if b.is_finite() { b } else { 1.0 });
+        for d in [
+            Derivatives { du_dx: a, dv_dx: 0.0, du_dy: 0.0, dv_dy: b },
+            Derivatives { du_dx: 0.0, dv_dx: a, du_dy: b, dv_dy: 0.0 },
+        ] {
+            assert_eq!(d.axes_lanes(One, [64, 300]), d);
+            let q = map(d, Q16::from_f32);
+            assert_eq!(q.axes_lanes(OneFixed, [16384, 16384]), q);
+        }
+        let any = map(Derivatives::default(), |()| random.float());
+        let found = any.axes_lanes(One, [16384, 16384]);
+        for machine in Machine::all() {
+            let same = for_lanes!(machine, lanes => {
+                let axes = map(any, |d| lanes.splat(d)).axes_lanes(lanes, [16384, 16384]);
+                map(axes, |d| lanes.store(d).as_ref()[2])
+            });
+            let bits = |d: f32| if d.is_nan() { 0 } else { d.to_bits() };
+            assert_eq!(map(same, bits), map(found, bits), "{any:?}");
+        }
+        let q = map(Derivatives::default(), |()| Q16::from_bits(random.bits().cast_signed()));
+        let _ = q.axes_lanes(OneFixed, [16384, 1]);
+    }
+    let none = Derivatives::<f32>::default();
+    assert_eq!(none.axes_lanes(One, [1, 1]), none);
 }
 
 /// A plane in perspective: U, V and Q linear in x and y. The derivatives of u = U/Q in `f64`, by the quotient rule
