@@ -136,7 +136,9 @@ impl Material {
             let scale = HEIGHT * radius * self.height_scale.unwrap_or(1.0);
             let range = self.height_range.unwrap_or(match relief {
                 Relief::Bump | Relief::Displacement => [0.0, scale],
-                Relief::Parallax | Relief::Steep | Relief::Occlusion => [-scale, 0.0],
+                Relief::Parallax | Relief::ParallaxLimited | Relief::Steep | Relief::Occlusion => {
+                    [-scale, 0.0]
+                }
             });
             let wrap = map.wrap.or(self.wrap);
             detail.height = Some(HeightMap { heights, wrap, relief, range, extent: [1.0; 2] });

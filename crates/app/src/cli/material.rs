@@ -33,8 +33,8 @@ pub struct MaterialArgs {
 
     /// Heights of black and white, in units of the model; needs --height-map.
     ///
-    /// The default goes over a fiftieth of the model's radius: up to 0 with parallax, steep and occlusion, which press
-    /// the surface in, and from 0 on with bump and displacement.
+    /// The default goes over a fiftieth of the model's radius: from 0 on with bump and displacement, and up to 0 with
+    /// all others, which press the surface in.
     #[arg(long, value_name = "LO,HI", allow_hyphen_values = true, value_parser = range)]
     pub height_range: Option<[f32; 2]>,
 

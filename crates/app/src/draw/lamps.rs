@@ -8,7 +8,7 @@ use alberti::shaders::material::{
     BlinnPhong, Directional, Lambert, Light, Phong, PointLight, Reflectance, SpotLight, Viewer,
 };
 use alberti::texture::environment::{Cube, Environment, LatLong, SphereMap, Turned};
-use alberti::texture::surface::{HeightMap, Occlusion, OffsetLimited, Parallax, Relief, Steep};
+use alberti::texture::surface::{HeightMap, Occlusion, Offset, OffsetLimited, Parallax, Relief, Steep};
 use alberti::{Eye, Frame, Point3, Vector3, World};
 
 /// What falls on a picture's surfaces.
@@ -115,22 +115,27 @@ impl Reflectance for AnyReflectance {
 /// A way of reading a parallax map.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum AnyParallax {
+    Offset(Offset),
     Limited(OffsetLimited),
     Steep(Steep),
     Occlusion(Occlusion),
 }
 
-/// The layers in which steep heights are searched.
-const LAYERS: u32 = 48;
+/// The layers in which steep heights are searched: as many as show the technique, terraces and all.
+const STEEP_LAYERS: u32 = 16;
+
+/// The layers between which a line is drawn: as many as hide them, with an error that is a quarter with twice as many.
+const OCCLUSION_LAYERS: u32 = 32;
 
 impl AnyParallax {
     /// Of what is made of heights, if it is a parallax map.
     pub(super) fn of(relief: scene::Relief) -> Option<Self> {
         match relief {
             scene::Relief::Bump | scene::Relief::Displacement => None,
-            scene::Relief::Parallax => Some(Self::Limited(OffsetLimited)),
-            scene::Relief::Steep => Some(Self::Steep(Steep { layers: LAYERS })),
-            scene::Relief::Occlusion => Some(Self::Occlusion(Occlusion { layers: LAYERS })),
+            scene::Relief::Parallax => Some(Self::Offset(Offset)),
+            scene::Relief::ParallaxLimited => Some(Self::Limited(OffsetLimited)),
+            scene::Relief::Steep => Some(Self::Steep(Steep { layers: STEEP_LAYERS })),
+            scene::Relief::Occlusion => Some(Self::Occlusion(Occlusion { layers: OCCLUSION_LAYERS })),
         }
     }
 }
@@ -144,7 +149,7 @@ impl Parallax for AnyParallax {
         uv: [L::Number; 2],
         slant: [L::Number; 2],
     ) -> [L::Number; 2] {
-        of_kind!(self, Self: Limited Steep Occlusion, |policy| policy.meet(lanes, relief, uv, slant))
+        of_kind!(self, Self: Offset Limited Steep Occlusion, |policy| policy.meet(lanes, relief, uv, slant))
     }
 }
 
@@ -187,5 +192,32 @@ impl Environment for Upright {
         let [u, v] = LatLong.place(lanes, direction);
         let half = 0.5 / self.rows.max(1) as f32;
         [u, lanes.min(lanes.max(v, lanes.splat(half)), lanes.splat(1.0 - half))]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alberti::glam::Vec2;
+
+    /// Where the place (0, 0) is looked up, on a plain half a unit above the surface, seen at a slant of 3.
+    fn shift(relief: scene::Relief) -> Option<Vec2> {
+        let plain = Relief { map: |_: Vec2| 0.5, low: 0.0, high: 1.0, extent: Vec2::ONE };
+        let view = Vector3::new(Vec3::new(3.0, 0.0, 1.0));
+        AnyParallax::of(relief).map(|policy| plain.parallax(policy, Vec2::ZERO, view))
+    }
+
+    #[test]
+    fn each_relief_is_the_policy_of_its_name() {
+        use scene::Relief::{Bump, Displacement, Occlusion, Parallax, ParallaxLimited, Steep};
+        // h Vx/Vz, and h Vx of the unit vector V.
+        let (offset, limited) = (1.5, 0.5 * 3.0 / 10.0_f32.sqrt());
+        for (relief, wanted) in
+            [(Parallax, offset), (ParallaxLimited, limited), (Steep, offset), (Occlusion, offset)]
+        {
+            let found = shift(relief).unwrap();
+            assert!((found.x - wanted).abs() < 1e-5 && found.y.abs() <= 0.0, "{relief:?} {found}");
+        }
+        assert_eq!([Bump, Displacement].map(shift), [None; 2]);
     }
 }

@@ -155,9 +155,11 @@ pub enum Relief {
     Bump,
     /// Normals, and textures moved by one step along the view: breaks at grazing angles.
     Parallax,
-    /// Normals, and a march along the view to the first height below it, in layers.
+    /// The same with a step no longer than the height: does not break, but is flat at grazing angles.
+    ParallaxLimited,
+    /// Normals, and a march along the view to the first height below it, in 16 layers.
     Steep,
-    /// The same with a line between the last two layers: smoother.
+    /// The same with 32 layers and a line between the last two: smoother.
     Occlusion,
     /// Vertices moved along their normals, on a mesh that is fine enough: right up to the outline.
     Displacement,
