@@ -1,7 +1,8 @@
 //! Where an object of a scene stands.
 
 use crate::normals::{dot, narrow, normalize};
-use crate::scene::Model;
+use crate::scene::{HeightMap, Model, Relief};
+use crate::tangents;
 
 /// First the scale, then the turns about x, y and z, then the shift.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,6 +16,10 @@ pub(crate) struct Placement {
 
 impl Placement {
     /// Puts all vertices of a model there. Front faces stay front faces, and unit vectors stay unit vectors.
+    ///
+    /// Heights are stretched along the normal, as the parts of the surface are on average over their area: by their
+    /// volume's growth over their area's. Where scales are unequal that is the mean on a curved surface, and that heights
+    /// lean is left out.
     pub(crate) fn apply(&self, model: &mut Model) {
         if *self == (Self { position: [0.0; 3], rotation: [0.0; 3], scale: [1.0; 3] }) {
             return;
@@ -23,7 +28,9 @@ impl Placement {
         let turn = |v: [f64; 3]| rows.map(|row| dot(row, v));
         let scaled = |v: [f64; 3]| [0, 1, 2].map(|axis| v[axis] * self.scale[axis]);
         let unscaled = |v: [f64; 3]| [0, 1, 2].map(|axis| v[axis] / self.scale[axis]);
-        let mirrored = self.scale.iter().product::<f64>() < 0.0;
+        let volume = self.scale.iter().product::<f64>();
+        let mirrored = volume < 0.0;
+        let areas: Vec<f64> = model.parts.iter().map(|part| tangents::area(&model.vertices, part)).collect();
         for vertex in &mut model.vertices {
             let point = turn(scaled(vertex.position.map(f64::from)));
             vertex.position = [0, 1, 2].map(|axis| narrow(point[axis] + self.position[axis]));
@@ -39,13 +46,23 @@ impl Placement {
                 vertex.tangent = [x, y, z, if mirrored { -handedness } else { handedness }];
             }
         }
+        // Normals are turned by the inverse transpose.
         let axis = |k: usize| {
-            let unit = [0, 1, 2].map(|axis| if axis == k { self.scale[k].signum() } else { 0.0 });
-            turn(unit).map(narrow)
+            let unit = [0, 1, 2].map(|axis| if axis == k { 1.0 } else { 0.0 });
+            turn(unscaled(unit)).map(narrow)
         };
-        for part in &mut model.parts {
+        for (part, before) in model.parts.iter_mut().zip(areas) {
             if let Some(normal) = &mut part.detail.normal {
                 normal.axes = [axis(0), axis(1), axis(2)];
+            }
+            // What has been displaced is where it should be.
+            let after = tangents::area(&model.vertices, part);
+            let extent = tangents::extent(&model.vertices, part);
+            let drawn = |height: &&mut HeightMap| height.relief != Relief::Displacement && after > 0.0;
+            if let Some(height) = part.detail.height.as_mut().filter(drawn) {
+                let stretch = volume.abs() * before / after;
+                height.range = height.range.map(|bound| narrow(f64::from(bound) * stretch));
+                height.extent = extent;
             }
             if mirrored {
                 part.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
@@ -79,7 +96,7 @@ impl Placement {
 mod tests {
     use super::*;
     use crate::normals::{cross, sub};
-    use crate::scene::{Part, Vertex};
+    use crate::scene::{Map, NormalMap, NormalSpace, Part, Vertex};
 
     const STILL: Placement = Placement { position: [0.0; 3], rotation: [0.0; 3], scale: [1.0; 3] };
 
@@ -133,5 +150,50 @@ mod tests {
             let up = cross(a.normal.map(f64::from), [x, y, z]).map(|x| x * w);
             assert!(dot(normalize(dv).unwrap(), up) > 1.0 - 1e-6, "{scale:?}");
         }
+    }
+
+    #[test]
+    fn normals_of_a_map_stay_across_what_is_stretched() {
+        let map = Map { image: 0, filter: None, wrap: None };
+        let space = NormalSpace::Object;
+        let normal = NormalMap { map, space, strength: 1.0, axes: NormalMap::UNTURNED };
+        for scale in [[2.0, 1.0, 4.0], [1.0, -3.0, 0.5], [-0.25, 5.0, 5.0]] {
+            let mut model = model();
+            model.parts[0].detail.normal = Some(normal);
+            Placement { rotation: [20.0, 30.0, 40.0], scale, ..STILL }.apply(&mut model);
+            let axes = model.parts[0].detail.normal.unwrap().axes.map(|axis| axis.map(f64::from));
+            // Of the plane x + 2y + 3z = 0, and two directions in it.
+            let placed = [0, 1, 2].map(|k| axes[0][k] + 2.0 * axes[1][k] + 3.0 * axes[2][k]);
+            let placed = normalize(placed).unwrap();
+            let turn = Placement { rotation: [20.0, 30.0, 40.0], ..STILL }.turned();
+            for along in [[2.0, -1.0, 0.0], [0.0, 3.0, -2.0]] {
+                let moved = turn.map(|row| dot(row, [0, 1, 2].map(|k| along[k] * scale[k])));
+                assert!(dot(placed, moved).abs() < 1e-6, "{scale:?}");
+            }
+            // And on the same side: that of a point above the plane.
+            let above = turn.map(|row| dot(row, scale));
+            assert!(dot(placed, above) > 0.0, "{scale:?}");
+        }
+    }
+
+    #[test]
+    fn heights_are_stretched_along_the_normal() {
+        let placed = |relief, scale| {
+            let mut model = model();
+            let height = HeightMap { heights: 0, wrap: None, relief, range: [-1.0, 2.0], extent: [1.0; 2] };
+            model.parts[0].detail.height = Some(height);
+            Placement { rotation: [20.0, 30.0, 40.0], scale, ..STILL }.apply(&mut model);
+            model.parts[0].detail.height.unwrap()
+        };
+        // The triangle faces z, with u along x and v along y.
+        for scale in [[1.0, 1.0, 3.0], [2.0, 5.0, 0.5], [-2.0, 2.0, 2.0], [7.0, 1.0, -1.0]] {
+            let height = placed(Relief::Bump, scale);
+            let [x, y, z] = scale.map(|s| narrow(s.abs()));
+            let found = [height.extent[0], height.extent[1], height.range[0], height.range[1]];
+            let right = found.iter().zip([x, y, -z, 2.0 * z]).all(|(a, b)| (a - b).abs() < 1e-5 * b.abs());
+            assert!(right, "{scale:?} {height:?}");
+        }
+        // What has been displaced has grown with the object.
+        assert_eq!(placed(Relief::Displacement, [1.0, 1.0, 3.0]).range, [-1.0, 2.0]);
     }
 }

@@ -92,6 +92,15 @@ pub(crate) fn extent(vertices: &[Vertex], part: &Part) -> [f32; 2] {
     sums.map(|sum| if sum > 0.0 && area > 0.0 { narrow(sum / area) } else { 1.0 })
 }
 
+/// The area of a part.
+pub(crate) fn area(vertices: &[Vertex], part: &Part) -> f64 {
+    let doubled = part.triangles.iter().map(|triangle| {
+        let [a, b, c] = triangle.map(|i| vertices[i as usize].position.map(f64::from));
+        length(cross(sub(b, a), sub(c, a)))
+    });
+    doubled.sum::<f64>() / 2.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -112,8 +112,8 @@ pub struct NormalMap {
     pub space: NormalSpace,
     /// How steep: 0 makes the surface smooth, 1 leaves the map as it is.
     pub strength: f32,
-    /// The object's x, y and z in the model's space, for [`NormalSpace::Object`]: other than
-    /// [`UNTURNED`](Self::UNTURNED) where a scene has turned it.
+    /// The object's x, y and z in the model's space, each divided by its scale, as normals are, for
+    /// [`NormalSpace::Object`]: other than [`UNTURNED`](Self::UNTURNED) where a scene has placed it.
     pub axes: [[f32; 3]; 3],
 }
 

@@ -297,15 +297,15 @@ fn materials_lights_and_places_arrive() {
         (normal.map.image, normal.space, normal.strength.to_bits()),
         (0, NormalSpace::Object, 2.0_f32.to_bits())
     );
-    assert_eq!(normal.axes, [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]]);
+    assert_eq!(normal.axes, [[0.5, 0.0, 0.0], [0.0, 0.0, 0.5], [0.0, -0.5, 0.0]]);
     assert_eq!(
         (detail.wrap, normal.map.wrap),
         (Some(crate::options::Wrap::Mirror), Some(crate::options::Wrap::Clamp))
     );
     let height = detail.height.unwrap();
-    assert_eq!((height.relief, height.range), (Relief::Steep, [-0.1, 0.0]));
-    // Two units long and the texture three and four times on them.
-    assert!((height.extent[0] - 2.0 / 3.0).abs() < 1e-6 && (height.extent[1] - 0.5).abs() < 1e-6);
+    assert_eq!((height.relief, height.range), (Relief::Steep, [-0.2, 0.0]));
+    // Four units long and the texture three and four times on them.
+    assert!((height.extent[0] - 4.0 / 3.0).abs() < 1e-6 && (height.extent[1] - 1.0).abs() < 1e-6);
     assert_eq!((detail.wetness.to_bits(), detail.shininess), (1.0_f32.to_bits(), [2.0, 64.0]));
     assert_eq!((detail.specular, detail.emissive), ([1.0; 3], [1.0; 3]));
     let environment = detail.environment.unwrap();
