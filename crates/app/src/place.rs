@@ -18,8 +18,8 @@ impl Placement {
     /// Puts all vertices of a model there. Front faces stay front faces, and unit vectors stay unit vectors.
     ///
     /// Heights are stretched along the normal, as the parts of the surface are on average over their area: by their
-    /// volume's growth over their area's. Where scales are unequal that is the mean on a curved surface, and that heights
-    /// lean is left out.
+    /// volume's growth over their area's. Where scales are unequal that is the mean on a curved surface, and that
+    /// heights lean is left out.
     pub(crate) fn apply(&self, model: &mut Model) {
         if *self == (Self { position: [0.0; 3], rotation: [0.0; 3], scale: [1.0; 3] }) {
             return;

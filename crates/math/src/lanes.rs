@@ -108,16 +108,16 @@ pub trait Lanes: Copy + Debug {
     /// Nine multiplications, six additions, a minimum, a conversion and three operations on bits; no root, no table. In
     /// fixed point two products of 64 bits, and integers.
     fn log2_length(self, x: Self::Number, y: Self::Number, scale: [u32; 2]) -> Self::Number;
-    /// Cosine and sine of the Jacobi rotation of two plane vectors `x` and `y` whose components are multiplied by `scale`,
-    /// up to 2^15, before: it makes them orthogonal.
+    /// Cosine and sine of the Jacobi rotation of two plane vectors `x` and `y` whose components are multiplied by
+    /// `scale`, up to 2^15, before: it makes them orthogonal.
     ///
     /// ```text
     /// cos x + sin y  is at right angles to  cos y - sin x:      tan 2θ = 2 x·y / (|x|² - |y|²),  -45° <= θ <= 45°
     /// ```
     ///
-    /// So these are the semi-axes of the ellipse into which (x y) turns the unit circle (one-sided Jacobi, Hestenes 1958),
-    /// and no length changes by more than the ellipse has to it. The rotation is none, exactly, where the vectors are at
-    /// right angles, or where one is not finite or longer than `f32` can tell.
+    /// So these are the semi-axes of the ellipse into which (x y) turns the unit circle (one-sided Jacobi, Hestenes
+    /// 1958), and no length changes by more than the ellipse has to it. The rotation is none, exactly, where the
+    /// vectors are at right angles, or where one is not finite or longer than `f32` can tell.
     ///
     /// # Precision
     /// The longer component of the scaled vectors being from 2^-63 to 2^63, and A and B the semi-axes: cos² + sin² is 1

@@ -19,14 +19,14 @@ use crate::{Bounds, Derivatives, LevelSize, MipFilter, Mipmap, Trilinear, Wrap};
 ///                    long                   λ = max(log2 short, log2 long - log2 PROBES)
 /// ```
 ///
-/// The axes are those of [`Derivatives::axes_lanes`], and stay where they are when the camera is rolled. A level of detail
-/// alone has no shape: then it is `M`.
-/// [`LodBounds`](crate::LodBounds) are those of this λ; n and the places stay.
+/// The axes are those of [`Derivatives::axes_lanes`], and stay where they are when the camera is rolled. A level of
+/// detail alone has no shape: then it is `M`. [`LodBounds`](crate::LodBounds) are those of this λ; n and the places
+/// stay.
 ///
 /// # Precision
-/// Axes as [`Derivatives::axes_lanes`] says, the logarithms of their lengths as [`Derivatives::lod`]; the mean is rounded
-/// once, halves up, after that of each probe. So equal texels give their colour, and none is outside of the range of its
-/// texels.
+/// Axes as [`Derivatives::axes_lanes`] says, the logarithms of their lengths as [`Derivatives::lod`]; the mean is
+/// rounded once, halves up, after that of each probe. So equal texels give their colour, and none is outside of the
+/// range of its texels.
 ///
 /// # Cost
 /// n times that of `M`, the axes and two logarithms.

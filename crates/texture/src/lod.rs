@@ -73,17 +73,17 @@ impl<N: Copy + Add<Output = N> + Sub<Output = N> + Mul<Output = N> + Div<Output 
         }
     }
 
-    /// The axes of the ellipse that a round pixel covers of a texture of these sides, one in the place of what is across,
-    /// the other of what is down: those of the same pixel turned on the screen, by at most 45 degrees, until they are at
-    /// right angles in texels ([`Lanes::jacobi_rotation`]). Derivatives at right angles stay as they are.
+    /// The axes of the ellipse that a round pixel covers of a texture of these sides, one in the place of what is
+    /// across, the other of what is down: those of the same pixel turned on the screen, by at most 45 degrees, until
+    /// they are at right angles in texels ([`Lanes::jacobi_rotation`]). Derivatives at right angles stay as they are.
     ///
-    /// With J the derivatives in texels, a = |∂/∂x|², c = |∂/∂y|² and b = ∂/∂x·∂/∂y, the squares of their lengths are the
-    /// eigenvalues of J Jᵀ: (a + c)/2 ± √(((a - c)/2)² + b²).
+    /// With J the derivatives in texels, a = |∂/∂x|², c = |∂/∂y|² and b = ∂/∂x·∂/∂y, the squares of their lengths are
+    /// the eigenvalues of J Jᵀ: (a + c)/2 ± √(((a - c)/2)² + b²).
     ///
     /// # Precision
     /// For lengths from 2^-63 to 2^63 texels, A being the longer one: each length within 8ε·A; the angle between them
-    /// such that the cosine times both lengths is at most 16ε·A². In fixed point 3·2^-16 of each component of the texture
-    /// besides, and 2^-15 for 8ε and 16ε. What is not finite, or too long or short for `f32`, is not turned.
+    /// such that the cosine times both lengths is at most 16ε·A². In fixed point 3·2^-16 of each component of the
+    /// texture besides, and 2^-15 for 8ε and 16ε. What is not finite, or too long or short for `f32`, is not turned.
     ///
     /// # Cost
     /// Eight multiplications, four additions and the rotation.

@@ -1,7 +1,7 @@
 //! The rotation that makes two vectors orthogonal.
 //!
-//! With p = |x|² - |y|² and q = 2 x·y, tan 2θ = q/p, and tan θ = ±q/(|p| + √(p² + q²)): nothing cancels, and |θ| is at most
-//! 45°. Vectors are scaled before, as only their ratios matter and p² + q² has the fourth power of lengths.
+//! With p = |x|² - |y|² and q = 2 x·y, tan 2θ = q/p, and tan θ = ±q/(|p| + √(p² + q²)): nothing cancels, and |θ| is at
+//! most 45°. Vectors are scaled before, as only their ratios matter and p² + q² has the fourth power of lengths.
 
 use super::Floating;
 use crate::Q16;
@@ -77,8 +77,8 @@ mod tests {
         }
     }
 
-    /// How far a rotation is from being one, and the bound's |sin 2Δθ|·(A² - B²)/2A²: with x' and y' the vectors that it
-    /// makes in `f64`, A² - B² is √(p² + q²) of any rotation of them, and |sin 2Δθ| is |2 x'·y'| of that.
+    /// How far a rotation is from being one, and the bound's |sin 2Δθ|·(A² - B²)/2A²: with x' and y' the vectors that
+    /// it makes in `f64`, A² - B² is √(p² + q²) of any rotation of them, and |sin 2Δθ| is |2 x'·y'| of that.
     fn errors([x, y]: [[f64; 2]; 2], [cosine, sine]: [f64; 2]) -> [f64; 2] {
         let square = cosine * cosine + sine * sine;
         let turned = |a: [f64; 2], b: [f64; 2], s: f64| [0, 1].map(|i| a[i] * cosine + s * b[i] * sine);

@@ -62,8 +62,8 @@ fn anisotropic_is_the_mean_of_its_probes() {
 }
 
 /// A floor seen at an angle, sixteen texels deep a pixel and one wide: what is nearer to the mean over the pixel. The
-/// floor is turned, and the camera rolled, by any angle, with the floor upright first and then rolled by 45 degrees: then
-/// both derivatives are nearly parallel and equally long.
+/// floor is turned, and the camera rolled, by any angle, with the floor upright first and then rolled by 45 degrees:
+/// then both derivatives are nearly parallel and equally long.
 #[test]
 fn anisotropic_is_sharper() {
     let mut random = Random(86);
@@ -97,7 +97,8 @@ fn anisotropic_is_sharper() {
     }
 }
 
-/// A rolled camera sees what one that is upright does: places, levels and numbers of probes are the same but for rounding.
+/// A rolled camera sees what one that is upright does: places, levels and numbers of probes are the same but for
+/// rounding.
 #[test]
 fn rolling_changes_nothing() {
     let mut random = Random(88);

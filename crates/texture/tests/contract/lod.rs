@@ -118,8 +118,8 @@ fn off_axes(found: Derivatives<f64>, exact: [[f64; 2]; 2], [width, height]: [u32
     [off, cosine, cross(major, exact[0]) / (a * a) * (1.0 - b * b / (a * a))]
 }
 
-/// Footprints turned by any angle on the texture and on the screen, axes up to 1000 times as long as the other one, every
-/// kind of lanes; lengths over all of the range.
+/// Footprints turned by any angle on the texture and on the screen, axes up to 1000 times as long as the other one,
+/// every kind of lanes; lengths over all of the range.
 #[test]
 fn axes_are_those_of_the_ellipse() {
     let mut random = Random(74);
@@ -158,7 +158,8 @@ fn axes_are_those_of_the_ellipse() {
     assert!(integers.iter().all(|share| (0.1..=1.0).contains(share)), "{integers:?}");
 }
 
-/// Where derivatives are at right angles they are the axes, bit for bit; what is no number stays none, and turns nothing.
+/// Where derivatives are at right angles they are the axes, bit for bit; what is no number stays none, and turns
+/// nothing.
 #[test]
 fn axes_of_any_bits() {
     let mut random = Random(75);

@@ -129,8 +129,9 @@ of_strength! {
 }
 
 impl<M, E: NormalEncoding> ObjectNormals<M, E> {
-    /// A map for an object that stands so in the world, with its frame's axes at right angles. Normals are made unit, so
-    /// of a stretched object each axis is to be divided by the square of its length: the axes of the inverse transpose.
+    /// A map for an object that stands so in the world, with its frame's axes at right angles. Normals are made unit,
+    /// so of a stretched object each axis is to be divided by the square of its length: the axes of the inverse
+    /// transpose.
     #[must_use]
     pub const fn new(map: M, to_world: Frame<Object, World>) -> Self {
         Self { map, to_world, encoding: PhantomData }
