@@ -169,7 +169,8 @@ pub struct RenderArgs {
     /// bounded:TEXELS: straight lines that miss no more than that much of the largest texture's texel, such as 0.0625
     /// (a projector's image has no part in this, and may be bent more);
     /// affine: straight lines across a triangle, no division, textures swim and break along edges.
-    #[arg(long, value_name = "HOW", help_heading = PRECISION, verbatim_doc_comment, value_parser = Interpolation::parse)]
+    #[arg(long, value_name = "HOW", help_heading = PRECISION, verbatim_doc_comment)]
+    #[arg(value_parser = Interpolation::parse)]
     pub interpolation: Option<Interpolation>,
 
     /// The numbers in which that is computed; fixed is for straight lines only [default: float].

@@ -60,6 +60,14 @@ impl Error {
         self
     }
 
+    /// The same in other words.
+    #[must_use]
+    pub(crate) fn reworded(mut self, reword: impl Fn(&str) -> String) -> Self {
+        (self.found, self.expected) = (reword(&self.found), reword(&self.expected));
+        self.hint = self.hint.map(|hint| reword(&hint).into());
+        self
+    }
+
     /// What to do about it, or what was done.
     #[must_use]
     pub fn hint(mut self, hint: impl Into<Box<str>>) -> Self {

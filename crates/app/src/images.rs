@@ -26,6 +26,16 @@ impl MapFile {
     pub(crate) fn given(path: &Path) -> Self {
         Self { path: path.to_owned(), ..Self::default() }
     }
+
+    /// Puts an error where the image is named, or at the image, if that is on the command line.
+    pub(crate) fn place(&self, error: Error) -> Error {
+        let Some(origin) = &self.origin else { return error.file(&self.path) };
+        let error = error.file(&origin.file).line(origin.line);
+        match &origin.key {
+            Some(key) => error.key(key.as_str()),
+            None => error,
+        }
+    }
 }
 
 /// A place in a file of text.
@@ -95,6 +105,11 @@ impl Images {
         });
         self.heights_at.insert(map.path.clone(), index.as_ref().ok().copied());
         index.map(Some).map_err(|error| unusable(map, error))
+    }
+
+    /// A texture's width and height.
+    pub(crate) fn size(&self, index: usize) -> Option<[u32; 2]> {
+        self.textures.get(index).map(|image| [image.width, image.height])
     }
 
     /// Heights that have been read.
@@ -168,9 +183,5 @@ impl<T> Renumbered<T> {
 fn unusable(map: &MapFile, error: Error) -> Error {
     let Some(origin) = &map.origin else { return error };
     let found = format!("a texture {} that cannot be used ({error})", quote(origin.text.as_bytes()));
-    let error = Error::new(found, "an image").file(&origin.file).line(origin.line);
-    match &origin.key {
-        Some(key) => error.key(key.as_str()),
-        None => error,
-    }
+    map.place(Error::new(found, "an image"))
 }

@@ -100,12 +100,15 @@ impl Material {
         }
         let detail = &mut part.detail;
         if let Some(map) = texture(&self.normal_map)? {
-            detail.normal = Some(NormalMap {
+            // What is said of the one that was there is said of this one.
+            let before = detail.normal.unwrap_or(NormalMap {
                 map,
-                space: self.normal_space.unwrap_or_default(),
-                strength: self.normal_strength.unwrap_or(1.0),
+                space: NormalSpace::default(),
+                strength: 1.0,
                 axes: NormalMap::UNTURNED,
             });
+            let (filter, wrap) = (map.filter.or(before.map.filter), map.wrap.or(before.map.wrap));
+            detail.normal = Some(NormalMap { map: Map { filter, wrap, ..map }, ..before });
         }
         for (map, slot) in [
             (&self.ao_map, &mut detail.occlusion),
@@ -125,26 +128,49 @@ impl Material {
             }
         }
         if let Some(map) = texture(&self.environment)? {
-            let kind = self.environment_kind.unwrap_or_default();
+            if detail.environment.is_none() {
+                detail.reflection = self.reflection.unwrap_or(REFLECTION);
+            }
+            let kind = detail.environment.map(|before| before.kind).unwrap_or_default();
             detail.environment = Some(Environment { image: map.image, kind });
-            detail.reflection = self.reflection.unwrap_or(REFLECTION);
         }
         if let Some(map) = &self.height_map
             && let Some(heights) = read(images.heights(map), on_error)?
         {
-            let relief = self.relief.unwrap_or_default();
+            let before = detail.height;
+            let relief = self.relief.or(before.map(|height| height.relief)).unwrap_or_default();
             let scale = HEIGHT * radius * self.height_scale.unwrap_or(1.0);
-            let range = self.height_range.unwrap_or(match relief {
-                Relief::Bump | Relief::Displacement => [0.0, scale],
-                Relief::Parallax | Relief::ParallaxLimited | Relief::Steep | Relief::Occlusion => {
-                    [-scale, 0.0]
-                }
-            });
-            let wrap = map.wrap.or(self.wrap);
+            let range =
+                before.map_or(self.height_range, |height| Some(height.range)).unwrap_or(match relief {
+                    Relief::Bump | Relief::Displacement => [0.0, scale],
+                    Relief::Parallax | Relief::ParallaxLimited | Relief::Steep | Relief::Occlusion => {
+                        [-scale, 0.0]
+                    }
+                });
+            let wrap = map.wrap.or(self.wrap).or(before.and_then(|height| height.wrap));
             detail.height = Some(HeightMap { heights, wrap, relief, range, extent: [1.0; 2] });
         }
         self.change_maps(detail);
-        Ok(())
+        match detail.environment {
+            Some(environment) => self.check_shape(environment, images).or_else(on_error),
+            None => Ok(()),
+        }
+    }
+
+    /// # Errors
+    /// A cube that is none, if it is this material that says so.
+    fn check_shape(&self, Environment { image, kind }: Environment, images: &Images) -> Result<(), Error> {
+        let Some([width, height]) = images.size(image) else { return Ok(()) };
+        let said = self.environment.is_some() || self.environment_kind.is_some();
+        if !said || kind != EnvironmentKind::Cube || u64::from(height) == 6 * u64::from(width) {
+            return Ok(());
+        }
+        let found = format!("an image of {width}x{height} texels for a cube");
+        let error = Error::new(found, "six squares, one below the other, such as 64x384");
+        Err(match &self.environment {
+            Some(map) => map.place(error),
+            None => error.place("--environment-kind"),
+        })
     }
 
     /// Changes what is said of maps that are there.

@@ -7,7 +7,7 @@
 use std::path::Path;
 
 use crate::cli::values::MAX_SHININESS;
-use crate::error::{Error, Warnings, quote};
+use crate::error::{Error, Warnings, number, quote};
 use crate::images::Origin;
 use crate::input::{self, Lines, keyword, not_text, words};
 use crate::material::Material;
@@ -102,6 +102,15 @@ impl CheckedMtl {
         };
         let Some([r, g, b]) = values else { return Ok(None) };
         let color = [r, g, b].map(|x| x.clamp(0.0, 1.0));
+        let (most, used): (f32, &[f32]) = match lower.as_slice() {
+            b"ks" | b"ke" => (1.0, &[r, g, b]),
+            b"ns" => (MAX_SHININESS, &[r]),
+            _ => (f32::INFINITY, &[]),
+        };
+        let outside = used.iter().find(|x| !(0.0..=most).contains(*x)).map(|x| {
+            let found = format!("{} after `{}`", number(*x), String::from_utf8_lossy(word));
+            Error::new(found, format!("a number from 0 to {most}")).hint("it is clamped")
+        });
         match lower.as_slice() {
             b"kd" => text.push_str(&format!("Kd {r} {g} {b}\n")),
             b"ks" => material.specular = Some(color),
@@ -110,7 +119,7 @@ impl CheckedMtl {
             b"ns" => material.shininess = Some(r.clamp(0.0, MAX_SHININESS)).map(|n| [n.min(1.0), n]),
             _ => {}
         }
-        Ok(None)
+        Ok(outside)
     }
 }
 

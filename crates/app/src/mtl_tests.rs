@@ -85,8 +85,30 @@ fn options_of_textures_are_skipped() {
 }
 
 #[test]
+fn numbers_out_of_range_are_clamped_and_named() {
+    for (line, found) in [
+        ("Ns -3", "found -3 after `Ns`, expected a number from 0 to 65536; it is clamped"),
+        ("Ns 1e9", "found 1000000000 after `Ns`, expected a number from 0 to 65536"),
+        ("Ke 2 2 2", "found 2 after `Ke`, expected a number from 0 to 1; it is clamped"),
+        ("Ks 0 -1 0", "found -1 after `Ks`, expected a number from 0 to 1"),
+        ("bump -bm nan b.png", "found \"nan\" after `-bm`, expected a finite number; the option is left out"),
+        ("norm -bm x b.png", "found \"x\" after `-bm`, expected a finite number"),
+    ] {
+        let (checked, warnings) = run(format!("newmtl a\n{line}\n").as_bytes());
+        assert_eq!(warnings.len(), 1, "{line} {warnings:?}");
+        assert!(warnings[0].starts_with(&format!("m.mtl:2: {found}")), "{warnings:?}");
+        let Material { shininess, specular, emissive, normal_strength, height_scale, .. } =
+            &checked.materials[0];
+        assert!(shininess.iter().flatten().all(|n| (0.0..=65536.0).contains(n)));
+        assert!([specular, emissive].into_iter().flatten().flatten().all(|x| (0.0..=1.0).contains(x)));
+        assert_eq!((normal_strength, height_scale), (&None, &None));
+    }
+}
+
+#[test]
 fn all_maps_are_read() {
-    let (checked, warnings) = run(b"newmtl x\nmap_Ks s\nmap_Ns n\nKs .5 2 -1\nNs 40\nKe 1\nmap_Ke e\nbump -bm 3 b\nnorm m\nrefl -type sphere r");
+    let (checked, warnings) = run(b"newmtl x\nmap_Ks s\nmap_Ns n\nKs .5 1 0\nNs 40\nKe 1\nmap_Ke e\n\
+        bump -bm 3 b\nnorm m\nrefl -type sphere r");
     assert!(warnings.is_empty(), "{warnings:?}");
     let found = &checked.materials[0];
     assert_eq!((found.specular, found.shininess), (Some([0.5, 1.0, 0.0]), Some([1.0, 40.0])));

@@ -1,8 +1,8 @@
 //! Options that mean nothing without others.
 
 use crate::cli::{Projection, RenderArgs};
-use crate::error::Error;
-use crate::scene::{Detail, Model};
+use crate::error::{Error, quote};
+use crate::scene::{Detail, Model, Part, Relief};
 
 /// An option that does nothing without another is a mistake. What is said of maps may be meant for those of a model.
 ///
@@ -89,4 +89,21 @@ pub(crate) fn check_maps(arguments: &RenderArgs, model: &Model) -> Result<(), Er
         }
         None => Ok(()),
     }
+}
+
+/// What to say of heights that are not used, as a surface's normals are those of its normal map.
+pub(crate) fn unused_heights(model: &Model) -> Option<Error> {
+    let unused = |part: &&Part| {
+        let bump = part.detail.height.is_some_and(|height| height.relief == Relief::Bump);
+        bump && part.detail.normal.is_some()
+    };
+    let part = model.parts.iter().find(unused)?;
+    let of =
+        if part.name.is_empty() { String::new() } else { format!(" of {}", quote(part.name.as_bytes())) };
+    let found = format!("a normal map and heights for bumps on the surface{of}");
+    let warning = Error::new(found, "one of both, or another relief").hint("the heights are left out");
+    Some(match &model.source {
+        Some(path) => warning.file(path),
+        None => warning.place("--height-map"),
+    })
 }

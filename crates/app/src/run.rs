@@ -118,9 +118,16 @@ fn draw_from(arguments: &RenderArgs, file: Option<&SceneFile>) -> Result<(), Err
         put_materials(arguments, &mut scene)?;
     }
     partners::check_maps(arguments, &scene.model)?;
-    if let (Some(option), false) = (mapped(arguments), scene.has_uv) {
+    if let Some(warning) = partners::unused_heights(&scene.model) {
+        warn(&warning.to_string());
+    }
+    if !scene.has_uv && scene.model.parts.iter().any(Part::has_maps) {
         let found = "a model without texture coordinates (`vt` lines)";
-        let error = Error::new(found, "some for the texture").place(option);
+        let error = Error::new(found, "some for the texture");
+        let error = match (mapped(arguments), &scene.model.source) {
+            (None, Some(path)) => error.file(path),
+            (option, _) => error.place(option.unwrap_or_default()),
+        };
         warn(&error.hint("every surface gets one texel's colour").to_string());
     }
     scene.model.slide = slide::load(arguments)?;

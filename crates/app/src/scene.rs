@@ -58,6 +58,13 @@ pub struct Part {
     pub detail: Detail,
 }
 
+impl Part {
+    /// Whether it has images that lie on it.
+    pub(crate) fn has_maps(&self) -> bool {
+        self.texture.is_some() || self.detail.has_maps()
+    }
+}
+
 /// Everything that is drawn.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Model {

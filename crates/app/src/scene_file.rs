@@ -121,7 +121,7 @@ impl SceneFile {
         let place = error.place_name().unwrap_or_default();
         let partners = together.iter().filter(|group| group.contains(&place)).copied().flatten().copied();
         match std::iter::once(place).chain(partners).find_map(|name| self.places.get(name)) {
-            Some(at) => self.source.place(error, at),
+            Some(at) => self.source.place(error.reworded(in_keys), at),
             None => error,
         }
     }
@@ -155,6 +155,41 @@ impl SceneFile {
             .chain(names.map(|name| self.source.beside(name)))
             .collect()
     }
+}
+
+/// What the file calls options that messages name.
+const KEYS: [(&str, &str); 18] = [
+    ("--projector-target", "projector.target"),
+    ("--projector-eye", "projector.eye"),
+    ("--projector-fov", "projector.fov"),
+    ("--projector", "projector.image"),
+    ("--view-height", "camera.view-height"),
+    ("--projection", "camera.projection"),
+    ("--target", "camera.target"),
+    ("--eye", "camera.eye"),
+    ("--up", "camera.up"),
+    ("--fov", "camera.fov"),
+    ("--near", "camera.near"),
+    ("--far", "camera.far"),
+    ("--interpolation", "render.interpolation"),
+    ("--numbers", "render.numbers"),
+    ("--profile", "render.profile"),
+    ("--size", "size"),
+    ("--output", "output"),
+    ("-o", "output"),
+];
+
+/// A message with keys for options.
+fn in_keys(message: &str) -> String {
+    let is_name = |c: char| c == '-' || c.is_ascii_alphanumeric();
+    let reworded = |word: &str| {
+        let start = word.find(is_name).unwrap_or(word.len());
+        let (before, rest) = word.split_at(start);
+        let (name, after) = rest.split_at(rest.find(|c| !is_name(c)).unwrap_or(rest.len()));
+        let key = KEYS.iter().find(|(option, _)| *option == name).map_or(name, |(_, key)| key);
+        format!("{before}{key}{after}")
+    };
+    message.split(' ').map(reworded).collect::<Vec<_>>().join(" ")
 }
 
 fn named<T: Copy>(Text(Named(value)): &Text<Named<T>>) -> T {

@@ -46,7 +46,7 @@ pub struct MaterialArgs {
     #[arg(long, value_name = "RRGGBB", allow_hyphen_values = true, value_parser = color)]
     pub specular: Option<[u8; 3]>,
 
-    /// Exponent of highlights, or the two that --shininess-map goes between, from 0 to 100000 [default: the materials',
+    /// Exponent of highlights, or the two that --shininess-map goes between, from 0 to 65536 [default: the materials',
     /// else 1,32, of which the second counts where there is no map].
     #[arg(long, value_name = "N or LO,HI", allow_hyphen_values = true, value_parser = shininess)]
     pub shininess: Option<[f32; 2]>,

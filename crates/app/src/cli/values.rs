@@ -35,10 +35,10 @@ pub(super) fn shininess(text: &str) -> Result<[f32; 2], String> {
 }
 
 /// See [`is_shininess`].
-pub(crate) const SHININESS: &str = "a number from 0 to 100000, or a least and a greatest";
+pub(crate) const SHININESS: &str = "a number from 0 to 65536, or a least and a greatest";
 
-/// The greatest exponent of a highlight.
-pub(crate) const MAX_SHININESS: f32 = 100_000.0;
+/// The greatest exponent of a highlight: that of the library, 2^16.
+pub(crate) const MAX_SHININESS: f32 = 65536.0;
 
 /// Whether these are exponents of a highlight.
 pub(crate) fn is_shininess([least, greatest]: &[f32; 2]) -> bool {
@@ -82,6 +82,7 @@ mod tests {
         assert_eq!(range("-0.5,1"), Ok([-0.5, 1.0]));
         assert_eq!(shininess("8"), Ok([8.0, 8.0]));
         assert_eq!(shininess("8,64"), Ok([8.0, 64.0]));
+        assert_eq!(shininess("65536"), Ok([65536.0; 2]));
     }
 
     #[test]
@@ -98,7 +99,7 @@ mod tests {
         for text in ["", "1", "1,2,3", "nan,1", "1, "] {
             assert!(range(text).is_err(), "{text}");
         }
-        for text in ["", "-1", "9,8", "1,2,3", "1e6"] {
+        for text in ["", "-1", "9,8", "1,2,3", "65537"] {
             assert!(shininess(text).is_err(), "{text}");
         }
         assert!(share("1.5").is_err() && share("-0.1").is_err() && strength("101").is_err());

@@ -56,6 +56,10 @@ pub(super) fn read(
             material.height_scale = options.multiplier;
         }
     }
+    if let Some(found) = options.broken {
+        let found = format!("{} after `-bm`", quote(found));
+        return Some(Error::new(found, "a finite number").hint("the option is left out"));
+    }
     skipped |= options.multiplier.is_some() && !matches!(lower, b"bump" | b"map_bump" | b"norm");
     skipped.then(|| {
         let (found, expected) = (format!("`{word}` with options"), format!("`{word} FILE`"));
@@ -69,6 +73,8 @@ struct Options<'a> {
     clamp: bool,
     /// `-bm`.
     multiplier: Option<f32>,
+    /// What stands after `-bm` and is no number.
+    broken: Option<&'a [u8]>,
     /// `-type`.
     kind: Option<&'a [u8]>,
     /// Whether there are others.
@@ -99,7 +105,10 @@ fn options(rest: &[u8]) -> (&[u8], Options<'_>) {
         }
         match option {
             b"-clamp" => options.clamp = first.eq_ignore_ascii_case(b"on"),
-            b"-bm" => options.multiplier = input::number(first),
+            b"-bm" => {
+                options.multiplier = input::number(first);
+                options.broken = options.multiplier.is_none().then_some(first);
+            }
             b"-type" => options.kind = Some(first),
             _ => options.skipped = true,
         }

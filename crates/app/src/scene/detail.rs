@@ -87,6 +87,19 @@ impl Detail {
             || self.height.is_some_and(|height| height.relief != Relief::Displacement)
     }
 
+    /// Whether it has images that lie on the surface, beside the surface's own.
+    pub(crate) fn has_maps(&self) -> bool {
+        let maps = [
+            self.occlusion,
+            self.wetness_map,
+            self.specular_map,
+            self.shininess_map,
+            self.emissive_map,
+            self.reflection_map,
+        ];
+        self.normal.is_some() || self.height.is_some() || maps.iter().any(Option::is_some)
+    }
+
     /// The indices of all textures but the surface's own.
     pub(crate) fn images_mut(&mut self) -> impl Iterator<Item = &mut usize> {
         let maps = [

@@ -45,6 +45,14 @@ impl SceneFile {
         self.needs(&table.environment_kind, environment.is_some(), "environment")?;
         self.needs(&table.reflection, environment.is_some(), "environment")?;
         self.needs(&table.reflection_map, environment.is_some(), "environment")?;
+        for (map, has_wrap, what) in [
+            (height_map, true, "another map, as heights are always read between texels"),
+            (environment, false, "another map, as environments are always bilinear, and repeat"),
+        ] {
+            let Some(MapEntry { filter, wrap, .. }) = map.as_ref().map(Spanned::get_ref) else { continue };
+            self.only(filter, false, what)?;
+            self.only(wrap, has_wrap, what)?;
+        }
         let color = |value: &At<Text<[u8; 3]>>| value.as_ref().map(|color| shares(color.get_ref().0));
         let map = |value: &At<MapEntry>| value.as_ref().map(|map| self.map(map));
         // A texture alone is shown as it is.
@@ -81,7 +89,8 @@ impl SceneFile {
     fn map(&self, entry: &Spanned<MapEntry>) -> MapFile {
         let MapEntry { file, filter, wrap } = entry.get_ref();
         let origin = Some(self.source.origin(file, &entry.span()));
-        MapFile { path: self.source.beside(file), origin, filter: *filter, wrap: *wrap }
+        let (filter, wrap) = (get(filter, |t| t.0), get(wrap, named));
+        MapFile { path: self.source.beside(file), origin, filter, wrap }
     }
 
     /// A key that does nothing without another is a mistake.

@@ -45,12 +45,13 @@ impl SceneFile {
         for object in &self.file.object {
             let (object, at) = (object.get_ref(), object.span());
             let material = object.material.as_ref().map(|name| self.material(name)).transpose()?;
+            let mut coordinates = true;
             let mut model = match self.surface(object, &at)? {
                 Some(surface) => self.surface_mesh(surface, object, material.as_ref(), over, &mut images)?,
                 None => {
                     let loaded = self.model(object, progress)?;
                     loaded.warnings.each(|warning| warnings.push(warning));
-                    has_uv &= loaded.has_uv;
+                    coordinates = loaded.has_uv;
                     loaded.model
                 }
             };
@@ -68,6 +69,7 @@ impl SceneFile {
                 prepare::replace_materials(&mut model, material, &mut images)?;
             }
             prepare::replace_materials(&mut model, over, &mut images)?;
+            has_uv &= coordinates || !model.parts.iter().any(Part::has_maps);
             prepare::complete(&mut model, &images, wrap, warnings);
             placement(object).apply(&mut model);
             append(&mut all, model, || self.source.error(&at, "more than 4 billion vertices", "fewer"))?;
@@ -127,8 +129,9 @@ impl SceneFile {
             return Err(self.source.error(&n.span(), found, format!("at most {MAX_VERTICES}")));
         }
         let uv_scale = material.and_then(|m| m.uv_scale).unwrap_or([1.0; 2]);
-        let heights = [Some(over), material].into_iter().flatten().find(|m| m.height_map.is_some());
-        if let Some(Material { height_map: Some(map), relief: Some(Relief::Displacement), .. }) = heights
+        let said = || [Some(over), material].into_iter().flatten();
+        if let Some(map) = said().find_map(|m| m.height_map.as_ref())
+            && said().find_map(|m| m.relief) == Some(Relief::Displacement)
             && let Some(index) = images.heights(map)?
             && let Some(image) = images.height_image(index)
         {

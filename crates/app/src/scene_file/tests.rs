@@ -27,10 +27,14 @@ fn build(files: &[(&str, &[u8])]) -> Result<Model, Error> {
 }
 
 fn png(texels: &[[u8; 3]]) -> Vec<u8> {
+    image(texels.len(), texels)
+}
+
+fn image(width: usize, texels: &[[u8; 3]]) -> Vec<u8> {
     let mut bytes = std::io::Cursor::new(Vec::new());
-    let width = u32::try_from(texels.len()).expect("a short row");
-    let raw = texels.concat();
-    image::RgbImage::from_raw(width, 1, raw)
+    let [width, height] =
+        [width, texels.len() / width].map(|side| u32::try_from(side).expect("a small image"));
+    image::RgbImage::from_raw(width, height, texels.concat())
         .expect("an image")
         .write_to(&mut bytes, image::ImageFormat::Png)
         .expect("encoding");
@@ -75,7 +79,7 @@ fn errors_name_line_and_key() {
         ),
         (
             &with("[camera]\nview-height = 5\n"),
-            "s.toml:4: camera.view-height: found it without --projection parallel",
+            "s.toml:4: camera.view-height: found it without camera.projection parallel",
         ),
         (
             &with("[camera]\nprojection = \"flat\"\n"),
@@ -108,7 +112,7 @@ fn errors_name_line_and_key() {
         (&with("[render]\ndepth = 3\n"), "s.toml:4: render.depth: found integer 3, expected a string"),
         (
             &with("[projector]\neye = [1, 2, 3]\n"),
-            "s.toml:4: projector.eye: found it without --projector and --projector-target",
+            "s.toml:4: projector.eye: found it without projector.image and projector.target",
         ),
         (
             "[[object]]\nmodel = \"no.obj\"\n",
@@ -175,7 +179,7 @@ fn errors_name_line_and_key() {
         ),
         (
             &with("[material.a]\nshininess = [9, 8]\n"),
-            "s.toml:4: material.a.shininess: found 9 and 8, expected a number from 0 to 100000, or",
+            "s.toml:4: material.a.shininess: found 9 and 8, expected a number from 0 to 65536, or",
         ),
         (
             &with("[material.a]\ncolor-map = 5\n"),
@@ -187,7 +191,8 @@ fn errors_name_line_and_key() {
         ),
         (
             &with("[material.a]\ncolor-map = { file = \"a.png\", wrp = \"clamp\" }\n"),
-            "s.toml:4: material.a.color-map.wrp: found the unknown key \"wrp\", expected one of file, filter, wrap; did you mean wrap?",
+            "s.toml:4: material.a.color-map.wrp: found the unknown key \"wrp\", expected one of file, filter, wrap; \
+             did you mean wrap?",
         ),
         (
             &with("material = \"a\"\n[material.a]\n\nnormal-map = \"no.png\"\n"),
@@ -196,6 +201,22 @@ fn errors_name_line_and_key() {
         (
             &with("material = \"a\"\n[material.a]\nheight-map = \"b.obj\"\n"),
             "s.toml:5: material.a.height-map: found a texture \"b.obj\" that cannot be used (",
+        ),
+        (
+            &with("material = \"a\"\n[material.a]\nenvironment = \"a.png\"\nenvironment-kind = \"cube\"\n"),
+            "s.toml:5: material.a.environment: found an image of 1x1 texels for a cube, expected six squares",
+        ),
+        (
+            &with("[material.a]\nheight-map = { file = \"a.png\", filter = \"nearest\" }\n"),
+            "s.toml:4: material.a.height-map.filter: found a key that has no use here, expected another map",
+        ),
+        (
+            &with("[material.a]\nenvironment = { file = \"a.png\", filter = \"nearest\" }\n"),
+            "s.toml:4: material.a.environment.filter: found a key that has no use here, expected another map",
+        ),
+        (
+            &with("[material.a]\n\nenvironment = { file = \"a.png\", wrap = \"clamp\" }\n"),
+            "s.toml:5: material.a.environment.wrap: found a key that has no use here, expected another map",
         ),
         (
             &with("[ambient]\nintensity = -1\n"),
@@ -248,8 +269,10 @@ fn unknown_keys_get_a_suggestion() {
 
 #[test]
 fn options_are_filled_in_and_the_command_line_comes_first() {
-    let text = "size = [320, 200]\nbackground = \"102030\"\noutput = \"out.png\"\n[camera]\neye = [1, 2.5, 3]\nfov = 30\n\
-         [render]\nshading = \"blinn\"\nfilter = \"anisotropic:8\"\ncolor-format = \"rgb565\"\n[[object]]\nsurface = \"sphere\"\n";
+    let text = "size = [320, 200]\nbackground = \"102030\"\noutput = \"out.png\"\n\
+         [camera]\neye = [1, 2.5, 3]\nfov = 30\n\
+         [render]\nshading = \"blinn\"\nfilter = \"anisotropic:8\"\ncolor-format = \"rgb565\"\n\
+         [[object]]\nsurface = \"sphere\"\n";
     let (folder, _, arguments) = read(&[("s.toml", text.as_bytes())]).unwrap();
     assert_eq!((arguments.size, arguments.eye), (Some((320, 200)), Some([1.0, 2.5, 3.0])));
     assert_eq!(arguments.background, Some([0x10, 0x20, 0x30]));
@@ -267,24 +290,35 @@ fn options_are_filled_in_and_the_command_line_comes_first() {
     assert_eq!(scene.relocate(error().place("--fov")), error().place("--fov"));
     let moved = scene.relocate(error().place("--eye")).to_string();
     assert!(moved.ends_with("s.toml:5: camera.eye: found a, expected b"), "{moved}");
+    // And it speaks the file's language, of what the file has not said as well.
+    let error = Error::new("it without --projector", "--projection parallel");
+    let moved =
+        scene.relocate(error.place("--eye").hint("move --eye or --target, or -o (--far 3)")).to_string();
+    let wanted = "found it without projector.image, expected camera.projection parallel; \
+                  move camera.eye or camera.target, or output (camera.far 3)";
+    assert!(moved.ends_with(wanted), "{moved}");
+    let error = || Error::new("a", "b");
     let moved = scene.relocate(error().place("--up")).to_string();
     assert!(moved.ends_with("s.toml:5: camera.eye: found a, expected b"), "{moved}");
 }
 
 #[test]
 fn materials_lights_and_places_arrive() {
-    let text = "[[object]]\nsurface = \"plane\"\nmaterial = \"all\"\nposition = [0, 5, 0]\nscale = 2\nrotation = [90, 0, 0]\n\
+    let text = "[[object]]\nsurface = \"plane\"\nmaterial = \"all\"\nposition = [0, 5, 0]\nscale = 2\n\
+        rotation = [90, 0, 0]\n\
         [material.all]\ncolor = \"ff0000\"\ncolor-map = { file = \"a.png\", filter = \"nearest\", wrap = \"mirror\" }\n\
-        normal-map = \"a.png\"\nnormal-space = \"object\"\nnormal-strength = 2\nheight-map = \"b.png\"\nrelief = \"steep\"\n\
-        height-range = [-0.1, 0]\nwetness-map = \"a.png\"\nshininess = [2, 64]\nshininess-map = \"b.png\"\nspecular = \"ffffff\"\n\
-        emissive-map = \"a.png\"\nenvironment = \"b.png\"\nenvironment-kind = \"cube\"\nuv-scale = [3, 4]\nwrap = \"clamp\"\n\
+        normal-map = \"a.png\"\nnormal-space = \"object\"\nnormal-strength = 2\n\
+        height-map = \"b.png\"\nrelief = \"steep\"\nheight-range = [-0.1, 0]\nwetness-map = \"a.png\"\n\
+        shininess = [2, 64]\nshininess-map = \"b.png\"\nspecular = \"ffffff\"\nemissive-map = \"a.png\"\n\
+        environment = \"c.png\"\nenvironment-kind = \"cube\"\nuv-scale = [3, 4]\nwrap = \"clamp\"\n\
         [ambient]\nintensity = 0.25\n\
         [[light]]\nkind = \"directional\"\ndirection = [0, -2, 0]\n\
         [[light]]\nkind = \"point\"\nposition = [1, 2, 3]\ncolor = \"00ff00\"\nintensity = 2\nrange = 10\n\
         [[light]]\nkind = \"spot\"\nposition = [0, 4, 0]\ntarget = [0, 0, 0]\nangle = [10, 40]\n";
     let (a, b) = (png(&[[1, 2, 3]]), png(&[[0, 0, 0], [255, 255, 255]]));
-    let model = build(&[("s.toml", text.as_bytes()), ("a.png", &a), ("b.png", &b)]).unwrap();
-    assert_eq!((model.textures.len(), model.heights.len()), (2, 1));
+    let c = image(1, &[[7; 3]; 6]);
+    let model = build(&[("s.toml", text.as_bytes()), ("a.png", &a), ("b.png", &b), ("c.png", &c)]).unwrap();
+    assert_eq!((model.textures.len(), model.heights.len()), (3, 1));
     assert_eq!(model.heights[0].heights, [0, 65535]);
     let part = &model.parts[0];
     assert_eq!(
@@ -309,7 +343,7 @@ fn materials_lights_and_places_arrive() {
     assert_eq!((detail.wetness.to_bits(), detail.shininess), (1.0_f32.to_bits(), [2.0, 64.0]));
     assert_eq!((detail.specular, detail.emissive), ([1.0; 3], [1.0; 3]));
     let environment = detail.environment.unwrap();
-    assert_eq!((environment.image, environment.kind), (1, EnvironmentKind::Cube));
+    assert_eq!((model.textures[environment.image].height, environment.kind), (6, EnvironmentKind::Cube));
     assert_eq!(detail.reflection.to_bits(), 0.5_f32.to_bits());
     // From above, twice as large, and upright.
     let corners: Vec<_> = model.vertices.iter().map(|v| v.position).collect();
@@ -335,6 +369,35 @@ fn materials_lights_and_places_arrive() {
 }
 
 #[test]
+fn another_map_is_used_as_the_one_before() {
+    let text = format!(
+        "{MINIMAL}material = \"a\"\n[material.a]\nheight-map = {{ file = \"a.png\", wrap = \"mirror\" }}\n\
+         relief = \"steep\"\nheight-range = [-0.25, 0]\nnormal-map = \"a.png\"\nnormal-space = \"object\"\n\
+         normal-strength = 2\nenvironment = \"a.png\"\nenvironment-kind = \"sphere\"\nreflection = 0.25\n"
+    );
+    let (a, b) = (png(&[[1, 1, 1]]), png(&[[2, 2, 2]]));
+    let (folder, scene, arguments) =
+        read(&[("s.toml", text.as_bytes()), ("a.png", &a), ("b.png", &b)]).unwrap();
+    let map = Some(crate::images::MapFile::given(&folder.path().join("b.png")));
+    let over = Material {
+        normal_map: map.clone(),
+        height_map: map.clone(),
+        environment: map,
+        ..Material::default()
+    };
+    let build = |over: &Material| {
+        let (model, _) = scene.build(over, &arguments, &mut Warnings::default(), &mut |_, _| ()).unwrap();
+        (model.parts[0].detail.clone(), model.textures[0].texels[0][0], model.heights[0].heights[0])
+    };
+    let (before, after) = (build(&Material::default()), build(&over));
+    assert_eq!((before.1, before.2, after.1, after.2), (1, 257, 2, 514));
+    assert_eq!(before.0, after.0);
+    let steeper = build(&Material { height_range: Some([0.0, 1.0]), normal_strength: Some(3.0), ..over }).0;
+    assert_eq!(steeper.height.map(|height| (height.relief, height.range)), Some((Relief::Steep, [0.0, 1.0])));
+    assert_eq!(steeper.normal.map(|n| (n.space, n.strength)), Some((NormalSpace::Object, 3.0)));
+}
+
+#[test]
 fn surfaces_without_a_material_are_grey() {
     let model = build(&[("s.toml", MINIMAL.as_bytes())]).unwrap();
     assert_eq!(
@@ -347,7 +410,8 @@ fn surfaces_without_a_material_are_grey() {
 fn objects_come_together() {
     let obj = b"mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n";
     let mtl = b"newmtl m\nKd 0 0 1\nmap_Kd b.png\nnorm a.png\n";
-    let text = "[[object]]\nsurface = \"plane\"\nmaterial = \"a\"\n[[object]]\nmodel = \"m.obj\"\nposition = [0, 9, 0]\n\
+    let text = "[[object]]\nsurface = \"plane\"\nmaterial = \"a\"\n\
+        [[object]]\nmodel = \"m.obj\"\nposition = [0, 9, 0]\n\
         [[object]]\nmodel = \"m.obj\"\nmaterial = \"a\"\n[material.a]\ncolor-map = \"a.png\"\n";
     let (a, b) = (png(&[[1, 1, 1]]), png(&[[2, 2, 2]]));
     let files =

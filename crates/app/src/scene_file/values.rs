@@ -8,6 +8,7 @@ use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor};
 
+use super::tables::At;
 use crate::cli::values::{MAX_SHININESS, SHININESS, is_shininess};
 use crate::options::{Filter, Interpolation, MAX_SIDE, Wrap};
 
@@ -46,10 +47,12 @@ ranges! {
     Strength, "a number from 0 to 100", "numbers from 0 to 100", |x| (0.0..=100.0).contains(&x);
     Intensity, "a number from 0 to 1000000", "numbers from 0 to 1000000", |x| (0.0..=1e6).contains(&x);
     Length, "a number from 1e-6 to 1e6", "numbers from 1e-6 to 1e6", |x| (1e-6..=1e6).contains(&x);
-    Factor, "a number, not 0, from -1e6 to 1e6", "numbers, not 0, from -1e6 to 1e6", |x| (1e-6..=1e6).contains(&x.abs());
+    Factor, "a number, not 0, from -1e6 to 1e6", "numbers, not 0, from -1e6 to 1e6", |x| {
+        (1e-6..=1e6).contains(&x.abs())
+    };
     Place, "a number from -1e9 to 1e9", "numbers from -1e9 to 1e9", |x| x.abs() <= 1e9;
     HalfAngle, "an angle above 0 and up to 90 degrees", "angles above 0 and up to 90 degrees", |x| x > 0.0 && x <= 90.0;
-    Exponent, "a number from 0 to 100000", "numbers from 0 to 100000", |x| (0.0..=MAX_SHININESS).contains(&x);
+    Exponent, "a number from 0 to 65536", "numbers from 0 to 65536", |x| (0.0..=MAX_SHININESS).contains(&x);
     Side, "a whole number from 1 to 16384", "whole numbers from 1 to 16384", |x| {
         #[expect(clippy::cast_precision_loss, reason = "2^14")]
         let most = MAX_SIDE as f32;
@@ -225,8 +228,8 @@ impl<T: ValueEnum> Word for Named<T> {
 #[derive(Clone, Debug)]
 pub(super) struct MapEntry {
     pub(super) file: String,
-    pub(super) filter: Option<Filter>,
-    pub(super) wrap: Option<Wrap>,
+    pub(super) filter: At<Text<Filter>>,
+    pub(super) wrap: At<Text<Named<Wrap>>>,
 }
 
 impl<'de> Deserialize<'de> for MapEntry {
@@ -235,8 +238,8 @@ impl<'de> Deserialize<'de> for MapEntry {
         #[serde(deny_unknown_fields)]
         struct Table {
             file: String,
-            filter: Option<Text<Filter>>,
-            wrap: Option<Text<Named<Wrap>>>,
+            filter: At<Text<Filter>>,
+            wrap: At<Text<Named<Wrap>>>,
         }
         struct Seek;
         impl<'de> Visitor<'de> for Seek {
@@ -254,7 +257,6 @@ impl<'de> Deserialize<'de> for MapEntry {
 
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<MapEntry, A::Error> {
                 let Table { file, filter, wrap } = Table::deserialize(MapAccessDeserializer::new(map))?;
-                let (filter, wrap) = (filter.map(|Text(f)| f), wrap.map(|Text(Named(w))| w));
                 Ok(MapEntry { file, filter, wrap })
             }
         }

@@ -203,7 +203,7 @@ fn options_of_materials_that_are_none() {
         ("--normal-strength -1", "error: --normal-strength: found \"-1\", expected a number from 0 to 100"),
         (
             "--shininess 9,8",
-            "error: --shininess: found \"9,8\", expected a number from 0 to 100000, or a least",
+            "error: --shininess: found \"9,8\", expected a number from 0 to 65536, or a least",
         ),
         ("--specular red", "error: --specular: found \"red\", expected six hexadecimal digits"),
         ("--normal-map no.png", "error: no.png: found no such file"),
@@ -211,6 +211,21 @@ fn options_of_materials_that_are_none() {
     ] {
         let arguments: Vec<_> = "m.obj -o out.png".split(' ').chain(arguments.split(' ')).collect();
         folder.fails(&arguments, &[part]);
+    }
+}
+
+#[test]
+fn options_of_maps_that_a_built_in_scene_has_not() {
+    let folder = Folder::with(&[]);
+    for (arguments, partner) in [
+        ("--relief steep", "--height-map"),
+        ("--height-range 0,1", "--height-map"),
+        ("--normal-space object", "--normal-map"),
+        ("--environment-kind cube", "--environment"),
+    ] {
+        let arguments: Vec<_> = ["--scene", "floor"].into_iter().chain(arguments.split(' ')).collect();
+        let part = format!("error: {}: found it without {partner}, expected both, or neither", arguments[2]);
+        folder.fails(&arguments, &[&part]);
     }
 }
 

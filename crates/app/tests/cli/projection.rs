@@ -137,7 +137,8 @@ fn both_go_with_all_policies() {
 /// All policies are straight lines there, but for rounding; what is taken without asking is that.
 #[test]
 fn in_parallel_projection_policies_do_not_differ() {
-    let view = "--projection parallel --up 1,1,0 --projector slide.png --projector-eye 1,0.5,2 --projector-target 0,0,0";
+    let view = "--projection parallel --up 1,1,0 \
+                --projector slide.png --projector-eye 1,0.5,2 --projector-target 0,0,0";
     let expected = picture(0.0, view);
     assert_eq!(picture(0.0, &format!("{view} --interpolation affine")), expected);
     for policy in

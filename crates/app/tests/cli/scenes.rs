@@ -54,7 +54,8 @@ fn what_is_wrong_with_a_scene_is_named_with_line_and_key() {
     for (text, part) in [
         (
             "[camera]\neye = [1, 2, 3]\ntarget = [1, 2, 3]\n",
-            "s.toml:4: camera.eye: found the eye and its target both",
+            "s.toml:4: camera.eye: found the eye and its target both at 1,2,3, expected two points; \
+             move camera.eye or camera.target\n",
         ),
         (
             "[camera]\nfov = 200\n",
@@ -72,7 +73,7 @@ fn what_is_wrong_with_a_scene_is_named_with_line_and_key() {
         ),
         (
             "[projector]\nimage = \"no.png\"\neye = [0, 5, 0]\n",
-            "s.toml:4: projector.image: found it without --projector-target",
+            "s.toml:4: projector.image: found it without projector.target",
         ),
         (
             "[camera]\nprojection = \"parallel\"\nview-height = -1\n",
@@ -132,6 +133,12 @@ fn options_say_what_is_made_of_a_scenes_maps() {
     };
     assert_eq!(bytes(&["bump.toml", "--relief", "steep"]), bytes(&["steep.toml"]));
     assert_ne!(bytes(&["bump.toml"]), bytes(&["steep.toml"]));
+    // Another map is used as the one before it.
+    assert_eq!(bytes(&["steep.toml", "--height-map", "h.png"]), bytes(&["steep.toml"]));
+    folder.fails(
+        &["steep.toml", "--environment", "h.png", "--environment-kind", "cube"],
+        &["error: h.png: found an image of 4x4 texels for a cube, expected six squares, one below the other"],
+    );
     assert_ne!(bytes(&["steep.toml", "--height-range", "-0.1,0"]), bytes(&["steep.toml"]));
     folder.fails(
         &["m.obj", "--relief", "steep"],

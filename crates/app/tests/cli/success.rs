@@ -148,6 +148,35 @@ fn odd_views_are_warnings() {
 }
 
 #[test]
+fn maps_that_cannot_be_seen_are_warnings() {
+    let bare = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    let mtl = |maps: &str| format!("newmtl a\n{maps}");
+    let obj = |text: &str| format!("mtllib m.mtl\nusemtl a\n{text}");
+    let both = "map_Bump h.png\nnorm h.png\n";
+    let scene = "[[object]]\nsurface = \"plane\"\nmaterial = \"a\"\n[material.a]\n\
+                 normal-map = \"h.png\"\nheight-map = \"h.png\"\n";
+    let two = format!("{scene}[[object]]\nsurface = \"sphere\"\nmaterial = \"a\"\n");
+    let no_uv = "m.obj: found a model without texture coordinates (`vt` lines), expected some";
+    let unused = "found a normal map and heights for bumps on the surface";
+    for (name, obj, mtl, text, wanted) in [
+        ("m.obj", obj(bare), mtl("map_Kd h.png\n"), "", Some(no_uv)),
+        ("m.obj", obj(bare), mtl("map_Ns h.png\n"), "", Some(no_uv)),
+        ("m.obj", obj(bare), mtl("Kd 1 0 0\nrefl h.png\n"), "", None),
+        ("m.obj", obj(TRIANGLE), mtl("map_Kd h.png\n"), "", None),
+        ("m.obj", obj(TRIANGLE), mtl(both), "", Some(unused)),
+        ("s.toml", String::new(), String::new(), two.as_str(), Some(unused)),
+        ("s.toml", String::new(), String::new(), &format!("{scene}relief = \"parallax\"\n"), None),
+    ] {
+        let files = [("m.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes()), ("s.toml", text.as_bytes())];
+        let folder = Folder::with(&files);
+        image::RgbImage::from_pixel(2, 2, image::Rgb([90; 3])).save(folder.path("h.png")).expect("a file");
+        let run = folder.succeeds(&[name, "--size", "16x16"]);
+        assert_eq!(run.stderr.lines().count(), usize::from(wanted.is_some()), "{name} {mtl:?} {run:?}");
+        assert!(run.stderr.contains(wanted.unwrap_or_default()), "{run:?}");
+    }
+}
+
+#[test]
 fn help_and_version_are_printed() {
     let folder = Folder::with(&[]);
     let run = |arguments: &[&str]| alberti(&folder.path("."), &[] as &[&OsStr], arguments);
