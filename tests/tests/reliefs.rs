@@ -193,3 +193,96 @@ fn a_parallax_map_shows_where_the_ray_of_sight_meets_a_ramp() {
     }
     println!("of their bounds: Offset {:.3}, Steep {:.3}, Occlusion {:.3}", worst[0], worst[1], worst[2]);
 }
+
+/// Where the ray of sight meets heights over a sphere of radius R, by longitude and latitude; the maps take the sphere
+/// for its tangent plane. At the height z, with k the tangent of the view's slant and T that of the latitude, the ray
+/// is shorter by z k³/2 times z/R, the sphere there wider by z k of it, and the grid of coordinates bends by z k² T/√3
+/// of it at most: all of second order, which a quarter more covers.
+#[test]
+fn a_parallax_map_on_a_sphere() {
+    const RADIUS: f64 = 2.0;
+    const STEEPEST: f64 = 2.0;
+    const NORTHMOST: f64 = 0.3 * PI;
+    let mut rng = Rng::stream(run_seed(), 4);
+    let mut worst = [0f64; 4];
+    for turn in 0..20_000 {
+        let [u, v] = [rng.uniform(0.2, 0.8) as f32, rng.uniform(0.2, 0.8) as f32];
+        let (around, up) = (f64::from(u) * TAU, (f64::from(v) - 0.5) * PI);
+        let n = DVec3::new(up.cos() * around.cos(), up.sin(), -up.cos() * around.sin());
+        let east = DVec3::new(-around.sin(), 0.0, -around.cos());
+        let north = n.cross(east);
+        let lengths = [TAU * RADIUS * up.cos(), PI * RADIUS];
+        let extent = Vec2::new(lengths[0] as f32, lengths[1] as f32);
+        let uv = Vec2::new(u, v);
+        let surface = Framed {
+            position: (n * RADIUS).as_vec3(),
+            axes: [east, north, n].map(|axis| axis.as_vec3()),
+            uv,
+        };
+        let (k, direction) = (rng.uniform(0.0, STEEPEST), rng.uniform(0.0, TAU));
+        let slanted = n + (east * direction.cos() + north * direction.sin()) * k;
+        let eye = (n * RADIUS + slanted * rng.uniform(0.5, 5.0)).as_vec3();
+        // As it is after rounding.
+        let view = eye.as_dvec3() - n * RADIUS;
+        let view = view / view.dot(n);
+        let (low, high) = (rng.uniform(-0.03, -0.01) as f32, rng.uniform(0.01, 0.03) as f32);
+        let [bottom, range] = [f64::from(low), f64::from(high) - f64::from(low)];
+
+        let coordinates = |z: f64| {
+            let q = n * RADIUS + view * z;
+            let q = [(-q.z).atan2(q.x).rem_euclid(TAU) / TAU, (q.y / q.length()).asin() / PI + 0.5];
+            (q, (n * RADIUS + view * z).length() - RADIUS)
+        };
+        // The ray's height above the sphere grows with z.
+        let met = |height: &dyn Fn([f64; 2]) -> f64| {
+            let (mut below, mut above) = (-0.05, 0.05);
+            for _ in 0..60 {
+                let middle = (below + above) / 2.0;
+                let (place, radial) = coordinates(middle);
+                if radial > bottom + range * height(place) { above = middle } else { below = middle }
+            }
+            coordinates(above)
+        };
+        let off = |found: Vec2, exact: [f64; 2]| {
+            let [x, y] = [f64::from(found.x) - exact[0], f64::from(found.y) - exact[1]];
+            (x * lengths[0]).hypot(y * lengths[1])
+        };
+        let flat = |z: f64| {
+            1.25 * z * z / RADIUS * (k + k.powi(3) / 2.0 + k * k * up.tan().abs() / 3f64.sqrt()) + 4e-6
+        };
+        // A level height: 0, ½ or 1 of the range, by the root of |R n + t V| = R + z.
+        let share = [0.0, 0.5, 1.0][turn % 3];
+        let z = bottom + range * share;
+        let square = view.length_squared();
+        let along = ((RADIUS * RADIUS + square * (2.0 * RADIUS + z) * z).sqrt() - RADIUS) / square;
+        let (exact, _) = coordinates(along);
+        let map = [|_: Vec2| 0.0f32, |_| 0.5, |_| 1.0][turn % 3] as Heights;
+        let relief = Relief { map, low, high, extent };
+        let bound = flat(z);
+        let simple = off(seen(Parallax { relief, policy: Offset }, eye, surface).1, exact);
+        let occlusion = Occlusion { layers: 8 };
+        let layered = off(seen(Parallax { relief, policy: occlusion }, eye, surface).1, exact);
+        assert!(simple.max(layered) <= bound, "level: {simple:e}, {layered:e} of {bound:e}");
+        // A wave: what the place is off by, the heights are by that times their slope, and so on.
+        let (exact, radial) = met(&|place| exact_wave(place)[0]);
+        let relief = Relief { map: wave as Heights, low, high, extent };
+        let slope = range / 2.0 * (WAVES[0] / NORTHMOST.cos()).max(2.0 * WAVES[1]) / RADIUS;
+        let curvature = slope * (WAVES[0] / NORTHMOST.cos()).max(2.0 * WAVES[1]) / RADIUS;
+        // Between layers a chord stands for the wave.
+        let chord = k * curvature * (range / 32.0 * k).powi(2) / 8.0;
+        let waved = (flat(radial) + chord) / (1.0 - slope * k);
+        let occlusion = Occlusion { layers: 32 };
+        let found = off(seen(Parallax { relief, policy: occlusion }, eye, surface).1, exact);
+        assert!(found <= waved, "wave: {found:e} of {waved:e}");
+        let layer = range / 32.0 * k + waved;
+        let stepped = off(seen(Parallax { relief, policy: Steep { layers: 32 } }, eye, surface).1, exact);
+        assert!(stepped <= layer, "steps: {stepped:e} of {layer:e}");
+        let shares = [simple / bound, layered / bound, found / waved, stepped / layer];
+        worst = std::array::from_fn(|i| worst[i].max(shares[i]));
+    }
+    println!(
+        "a sphere, of the bounds: level {:.3}, {:.3}; wave {:.3}, steps {:.3}",
+        worst[0], worst[1], worst[2], worst[3]
+    );
+    assert!(worst.iter().all(|&share| share > 0.7), "{worst:?}");
+}
