@@ -9,7 +9,8 @@
 use alberti::lanes::{Floating, Machine, One};
 use alberti::raster::{Band, Cull, Exact, NoDepth, Vertex, draw_triangle};
 use alberti::shaders::Unlit;
-use alberti::texture::mipmap::{Linear, build, texel_count};
+use alberti::texture::format::Linear;
+use alberti::texture::mipmap::{build, texel_count};
 use alberti::texture::{Mipmap, Repeat, Trilinear};
 use alberti::{Rgba8, Sub8, for_lanes, glam::Vec2};
 use alberti_oracle::rng::{Rng, run_seed};
@@ -116,7 +117,7 @@ fn images(rng: &mut Rng) -> [Vec<[u8; 4]>; 3] {
         for (i, texel) in texels.iter_mut().enumerate().take((SIDE * SIDE) as usize) {
             texel[..3].copy_from_slice(&of(i));
         }
-        build::<Rgba8, Linear>(&mut texels, SIDE, SIDE).expect("a chain");
+        build::<Linear<Rgba8>>(&mut texels, SIDE, SIDE).expect("a chain");
         texels
     };
     [image(&mut noise), image(&mut { waves }), image(&mut { board })]
