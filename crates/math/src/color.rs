@@ -1,4 +1,4 @@
-//! The packed colour that texels are read as and pixels are written from.
+//! The packed colour that texels are read as and pixels are written from, and the formats that both are stored in.
 
 /// A colour of four bytes, red in the low byte: in memory R, G, B, A on little-endian machines.
 ///
@@ -44,6 +44,18 @@ impl Rgba8 {
         self.0.to_le_bytes()
     }
 }
+
+/// Four bytes: in memory red, green, blue, alpha.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Rgba8888;
+
+/// Two bytes, the low one first: RRRRRGGG GGGBBBBB as a little-endian word.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Rgb565Le;
+
+/// Two bytes, the high one first, as most SPI displays want them: RRRRRGGG GGGBBBBB.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Rgb565Be;
 
 impl core::fmt::Debug for Rgba8 {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
