@@ -4,16 +4,15 @@
 //! told in executed instructions, which are the same on every run, and the code in bytes of the programs that draw
 //! one thing and do nothing else.
 
-mod elf;
 mod emulator;
 mod frames;
 
 use std::fs;
 
 use crate::command::{self, Outcome, cargo, output};
+use crate::elf::Program;
 use crate::embedded::Toolchain;
 use crate::workspace::{self, FIRMWARE};
-use elf::Program;
 use emulator::Emulator;
 use frames::{Drawn, Expected};
 
@@ -174,9 +173,9 @@ fn check(board: &Board, expected: &[Expected]) -> Outcome {
         let program = Program::read(&file).map_err(|message| format!("{}: {message}", path.display()))?;
         let [text, rodata] = [program.text, program.rodata];
         println!("    {name:<18}{text:>10}{rodata:>10}{:>10}", text + rodata);
-        if !program.panics.is_empty() {
-            let panics = program.panics.join(", ");
-            failures.push(format!("board {}: {name} can panic: {panics}", board.name));
+        let panics = program.panics();
+        if !panics.is_empty() {
+            failures.push(format!("board {}: {name} can panic: {}", board.name, panics.join(", ")));
         }
     }
     println!();

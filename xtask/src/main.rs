@@ -1,14 +1,16 @@
 //! The chores of this repository: `cargo xtask help` lists them.
 //!
 //! People and the continuous-integration script call the same commands, so "it passes here" and "it passes there"
-//! mean the same thing. The program uses no crate of this workspace, and of others only a PNG encoder: it must build
-//! quickly and before anything else works.
+//! mean the same thing. The program uses no crate of this workspace, and few others: it must build quickly and before
+//! anything else works.
 
 mod accuracy;
 mod assets;
+mod build_cost;
 mod checks;
 mod ci;
 mod command;
+mod elf;
 mod embedded;
 mod firmware;
 mod gallery;
@@ -18,8 +20,11 @@ mod package;
 mod tidy;
 mod workspace;
 
+use std::ffi::OsString;
+use std::path::Path;
 use std::process::ExitCode;
 
+use build_cost::compilation;
 use command::Outcome;
 
 /// One line of `cargo xtask help`, and what that line runs.
@@ -118,10 +123,20 @@ const CHORES: &[Chore] = &[
         about: "the tests that can look at every f32, or at ten million triangles, for minutes",
         run: |_| checks::sweep(),
     },
+    Chore {
+        name: "build-cost",
+        arguments: "[part] [--check]",
+        about: "measure building from nothing beside its goals (parts: command, tests, edit)",
+        run: build_cost::run,
+    },
     Chore { name: "bench", arguments: "[filter]", about: "run the benchmarks", run: checks::bench },
 ];
 
 fn main() -> ExitCode {
+    if let Some(log) = std::env::var_os(compilation::LOG) {
+        let arguments: Vec<OsString> = std::env::args_os().skip(1).collect();
+        return compilation::wrap(Path::new(&log), &arguments);
+    }
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let Some((name, rest)) = arguments.split_first() else {
         print!("{}", help());
@@ -152,7 +167,7 @@ fn help() -> String {
     let mut text = String::from("usage: cargo xtask <command>\n\n");
     for chore in CHORES {
         let call = format!("{} {}", chore.name, chore.arguments);
-        text.push_str(&format!("  {call:<22}  {}\n", chore.about));
+        text.push_str(&format!("  {call:<28}  {}\n", chore.about));
     }
     text.push_str("\n`ci --tests-done` leaves out `cargo test`: the caller has just run it on this tree.\n");
     text

@@ -1,0 +1,228 @@
+//! The part of the Executable and Linkable Format that weighs a program and names its functions: 32 or 64 bits,
+//! little-endian.
+//!
+//! The numbers are those of the System V ABI, chapters "Object Files" and "Symbol Table".
+
+/// Answers about a linked program.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct Program {
+    /// Bytes of code.
+    pub(crate) text: u64,
+    /// Bytes of constants.
+    pub(crate) rodata: u64,
+    /// The names of all symbols, mangled, in the order of the file.
+    symbols: Vec<String>,
+}
+
+/// Offsets of fields and sizes of entries, which depend on the width of addresses alone.
+struct Layout {
+    /// Bytes of an address, an offset or a size.
+    address: u64,
+    /// The field with the place of the sections' headers in the file's header.
+    sections: u64,
+    /// The field with the size of one such header; their number and the number of the one with the names follow it.
+    counts: u64,
+    /// The fields flags, offset, size and link in a section's header.
+    fields: [u64; 4],
+    /// Bytes of a symbol.
+    symbol: u64,
+}
+
+const NARROW: Layout = Layout { address: 4, sections: 32, counts: 46, fields: [8, 16, 20, 24], symbol: 16 };
+const WIDE: Layout = Layout { address: 8, sections: 40, counts: 58, fields: [8, 24, 32, 40], symbol: 24 };
+
+/// One header of a section.
+struct Section<'a> {
+    name: &'a str,
+    kind: u64,
+    flags: u64,
+    offset: u64,
+    size: u64,
+    link: u64,
+}
+
+const PROGRAM_BITS: u64 = 1;
+const SYMBOLS: u64 = 2;
+/// The flag of a section that takes room in the program's memory.
+const ALLOCATED: u64 = 2;
+
+impl Program {
+    /// Reads a linked program. Its symbols must not be stripped.
+    pub(crate) fn read(file: &[u8]) -> Result<Program, String> {
+        let layout = match file.get(..6) {
+            Some(b"\x7fELF\x01\x01") => &NARROW,
+            Some(b"\x7fELF\x02\x01") => &WIDE,
+            _ => return Err("this is not a little-endian ELF file".into()),
+        };
+        let sections = sections(file, layout).ok_or("this ELF file is not whole")?;
+        let size = |prefix: &str| {
+            let loaded = sections.iter().filter(|s| s.kind == PROGRAM_BITS && s.flags & ALLOCATED != 0);
+            loaded.filter(|s| s.name.starts_with(prefix)).map(|s| s.size).sum()
+        };
+        let table = sections.iter().find(|s| s.kind == SYMBOLS).ok_or("the symbols are stripped")?;
+        let symbols = symbols(file, layout, &sections, table).ok_or("a symbol lies outside of the file")?;
+        Ok(Program { text: size(".text"), rodata: size(".rodata"), symbols })
+    }
+
+    /// The functions by which the program can panic: those of `core` by their last name, sorted.
+    pub(crate) fn panics(&self) -> Vec<String> {
+        let names = self.symbols.iter().filter(|symbol| symbol.contains("panic")).map(|symbol| path(symbol));
+        let mut panics: Vec<String> =
+            names.map(|name| name.strip_prefix("core::panicking::").unwrap_or(&name).to_string()).collect();
+        panics.sort();
+        panics.dedup();
+        panics
+    }
+
+    /// The number of compiled instances of a generic function, closures in it aside.
+    ///
+    /// An instance that was inlined into every caller has no symbol, so the number is honest only for functions that
+    /// cannot be, such as recursive ones.
+    pub(crate) fn instances(&self, function: &str) -> usize {
+        self.symbols.iter().map(|symbol| path(symbol)).filter(|path| path == function).count()
+    }
+}
+
+/// The path of a function, without the arguments of types in either of Rust's manglings; other names as they are.
+fn path(symbol: &str) -> String {
+    let name = format!("{:#}", rustc_demangle::demangle(symbol));
+    // The path of a method begins with its type in brackets, which stays.
+    name.find("::<").filter(|_| !name.starts_with('<')).map_or(name.clone(), |end| name[..end].to_string())
+}
+
+fn sections<'a>(file: &'a [u8], layout: &Layout) -> Option<Vec<Section<'a>>> {
+    let table = number(file, layout.sections, layout.address)?;
+    let [size, count, names] = [0, 2, 4].map(|offset| number(file, layout.counts + offset, 2));
+    let (size, names) = (size?, names?);
+    let header = |index: u64| table.checked_add(index.checked_mul(size)?);
+    let [flags, offset, length, link] = layout.fields;
+    let names = number(file, header(names)?.checked_add(offset)?, layout.address)?;
+    (0..count?)
+        .map(|index| {
+            let at = header(index)?;
+            let field = |offset: u64, width: u64| number(file, at.checked_add(offset)?, width);
+            Some(Section {
+                name: string(file, names.checked_add(field(0, 4)?)?)?,
+                kind: field(4, 4)?,
+                flags: field(flags, layout.address)?,
+                offset: field(offset, layout.address)?,
+                size: field(length, layout.address)?,
+                link: field(link, 4)?,
+            })
+        })
+        .collect()
+}
+
+/// The names of all symbols; they are in the section of strings to which that of the symbols links.
+fn symbols(
+    file: &[u8],
+    layout: &Layout,
+    sections: &[Section<'_>],
+    table: &Section<'_>,
+) -> Option<Vec<String>> {
+    let strings = sections.get(usize::try_from(table.link).ok()?)?.offset;
+    (0..table.size / layout.symbol)
+        .map(|index| {
+            let entry = table.offset.checked_add(layout.symbol * index)?;
+            string(file, strings.checked_add(number(file, entry, 4)?)?).map(str::to_string)
+        })
+        .collect()
+}
+
+/// The unsigned number of `width` bytes, up to eight, at a place.
+fn number(file: &[u8], at: u64, width: u64) -> Option<u64> {
+    let at = usize::try_from(at).ok()?;
+    let bytes = file.get(at..at.checked_add(usize::try_from(width).ok()?)?)?;
+    Some(bytes.iter().rev().fold(0, |number, &byte| number << 8 | u64::from(byte)))
+}
+
+/// The text from here to the next zero byte.
+fn string(file: &[u8], at: u64) -> Option<&str> {
+    let rest = file.get(usize::try_from(at).ok()?..)?;
+    std::str::from_utf8(&rest[..rest.iter().position(|&byte| byte == 0)?]).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STRINGS: &[u8] = b"\0.text\0.rodata.x\0.symtab\0.debug\0\
+        _RNvNtCs4GWT_4core9panicking18panic_bounds_check\0";
+
+    /// A file with a header, five sections' headers behind it, two symbols (one nameless), and the strings.
+    fn file(layout: &Layout) -> Vec<u8> {
+        let header = layout.counts + 6;
+        let size = layout.fields[3] + 16;
+        let symbols = header + 5 * size;
+        let names = symbols + 2 * layout.symbol;
+        let mut file = vec![0; usize::try_from(names).unwrap()];
+        file[..6].copy_from_slice(if layout.address == 4 { b"\x7fELF\x01\x01" } else { b"\x7fELF\x02\x01" });
+        file.extend(STRINGS);
+        let mut put = |at: u64, width: u64, value: u64| {
+            let (at, width) = (usize::try_from(at).unwrap(), usize::try_from(width).unwrap());
+            file[at..at + width].copy_from_slice(&value.to_le_bytes()[..width]);
+        };
+        put(layout.sections, layout.address, header);
+        for (place, value) in [(0, size), (2, 5), (4, 4)] {
+            put(layout.counts + place, 2, value);
+        }
+        put(symbols + layout.symbol, 4, 32);
+        // Name, kind, flags, offset, size, link.
+        let rows = [
+            [1, PROGRAM_BITS, ALLOCATED | 4, 0, 100, 0],
+            [7, PROGRAM_BITS, ALLOCATED, 0, 30, 0],
+            [25, PROGRAM_BITS, 0, 0, 7000, 0],
+            [17, SYMBOLS, 0, symbols, 2 * layout.symbol, 4],
+            [0, 3, 0, names, 64, 0],
+        ];
+        for (index, [name, kind, flags, offset, length, link]) in (0..).zip(rows) {
+            let at = header + index * size;
+            put(at, 4, name);
+            put(at + 4, 4, kind);
+            let fields = [flags, offset, length, link].into_iter().zip(layout.fields);
+            fields.for_each(|(value, field)| put(at + field, 4, value));
+        }
+        file
+    }
+
+    #[test]
+    fn programs_of_both_widths_are_weighed() {
+        for layout in [&NARROW, &WIDE] {
+            let program = Program::read(&file(layout)).unwrap();
+            assert_eq!((program.text, program.rodata), (100, 30));
+            assert_eq!(program.panics(), ["panic_bounds_check"]);
+        }
+    }
+
+    #[test]
+    fn a_file_cut_off_is_refused() {
+        for whole in [file(&NARROW), file(&WIDE)] {
+            for length in 0..whole.len() {
+                assert!(Program::read(&whole[..length]).is_err(), "{length}");
+            }
+        }
+    }
+
+    #[test]
+    fn other_files_are_refused() {
+        let mut big_endian = file(&NARROW);
+        big_endian[5] = 2;
+        assert!(Program::read(&big_endian).unwrap_err().contains("little-endian"));
+        assert!(Program::read(b"#!/bin/sh").is_err());
+    }
+
+    #[test]
+    fn instances_are_counted_in_both_manglings() {
+        let symbols = [
+            "_ZN7alberti8pipeline9draw_from17h083f00431fb763deE",
+            "_ZN7alberti8pipeline9draw_from17h0a2538f26c1ebbf1E",
+            "_ZN7alberti8pipeline9draw_from28_$u7b$$u7b$closure$u7d$$u7d$17h0a2538f26c1ebbf2E",
+            "_RINvNtCs123_7alberti8pipeline9draw_fromhmE",
+            "_RNvNtCs123_7alberti8pipeline4clip",
+            "main",
+        ];
+        let program = Program { text: 0, rodata: 0, symbols: symbols.map(str::to_string).to_vec() };
+        assert_eq!(program.instances("alberti::pipeline::draw_from"), 3);
+        assert_eq!(program.instances("main"), 1);
+    }
+}
