@@ -1,12 +1,12 @@
-//! Tests of the repository itself: the rules that no compiler checks.
+//! Tests of the repository itself: the rules that no compiler and no lint checks.
 //!
 //! Each rule is a function from text to [`Problem`]s; this file collects the files and decides which rule reads
-//! which. All problems are reported at once, as `file:line: what is wrong`.
+//! which. All problems are reported at once, as `file:line: message`.
 
 mod layout;
-mod lexer;
 mod manifests;
 mod sources;
+mod style;
 
 use std::fmt;
 use std::fs;
@@ -42,6 +42,8 @@ pub(crate) fn run() -> Outcome {
     let mut problems = layout::check(&files);
     let gallery = gallery::problems(&files)?;
     problems.extend(gallery.into_iter().map(|(file, message)| Problem::new(&file, 1, message)));
+    problems.extend(manifests::packages(&manifests::metadata()?));
+    let mut sources = Vec::new();
     for file in &files {
         let is_manifest = file.ends_with("Cargo.toml");
         if !(is_manifest || file.ends_with(".rs") || file.ends_with(".md")) {
@@ -50,10 +52,16 @@ pub(crate) fn run() -> Outcome {
         let text = fs::read_to_string(workspace::root().join(file))
             .map_err(|error| format!("cannot read {file}: {error}"))?;
         if is_manifest {
-            problems.extend(manifests::check(file, &text));
+            problems.extend(manifests::lints(file, &text));
         } else {
             problems.extend(sources::check(file, &text));
+            sources.push((file.clone(), text));
         }
+    }
+    let (excesses, notes) = style::check(&sources);
+    problems.extend(excesses);
+    for note in notes {
+        println!("note: {note}");
     }
     for problem in &problems {
         println!("{problem}");

@@ -1,30 +1,64 @@
-//! What the crates' `Cargo.toml` files say: lints, and the arrows of dependency.
+//! Rules on manifests: lints, the arrows of dependency, and features.
+//!
+//! Cargo reads the manifests (`cargo metadata`), so that a dependency counts in every form in which it can be written.
+
+use serde_json::Value;
 
 use super::Problem;
-use crate::workspace::{self, EXTERNAL, LIBRARIES, Library, OPTIONAL};
+use crate::command::{cargo, output};
+use crate::workspace::{APPLICATIONS, EXTERNAL, LIBRARIES, Library, OPTIONAL};
 
-/// Checks one manifest; those outside `crates/` are free.
-pub(super) fn check(file: &str, text: &str) -> Vec<Problem> {
+/// The library that hands the features of all others on.
+const FACADE: &str = "alberti";
+
+/// Features that the host's builds leave out: without `default` nothing is lost, and `libm` is for targets without std.
+const NOT_ASKED: [&str; 2] = ["default", "libm"];
+
+/// Lints that the workspace's manifest must set, because a rule rests on them alone: no unsafe code, nothing unfinished
+/// or left over from debugging.
+const LINTS: [&str; 4] =
+    ["unsafe_code = \"forbid\"", "dbg_macro = \"warn\"", "todo = \"warn\"", "unimplemented = \"warn\""];
+
+/// Cargo's description of this workspace's packages.
+pub(super) fn metadata() -> Result<Value, String> {
+    let text = output(cargo().args(["metadata", "--no-deps", "--format-version", "1"]))?;
+    serde_json::from_str(&text)
+        .map_err(|error| format!("cannot read the output of `cargo metadata`: {error}"))
+}
+
+/// Checks the lints in one manifest.
+pub(super) fn lints(file: &str, text: &str) -> Vec<Problem> {
+    let lines: Vec<&str> = text.lines().map(str::trim).collect();
     let mut problems = Vec::new();
-    let folder = file.strip_prefix("crates/").and_then(|rest| rest.strip_suffix("/Cargo.toml"));
-    let Some(folder) = folder.filter(|folder| workspace::crate_folders().any(|known| known == *folder))
-    else {
-        return problems;
-    };
-    if !inherits_lints(text) {
-        problems.push(Problem::new(file, 1, "`[lints]` with `workspace = true` is missing"));
+    let is_package = lines.contains(&"[package]");
+    if is_package && !lines.windows(2).any(|pair| pair == ["[lints]", "workspace = true"]) {
+        problems.push(Problem::new(file, 1, "`[lints]` and below it `workspace = true` are missing"));
     }
-    if let Some(library) = LIBRARIES.iter().find(|library| library.folder == folder) {
-        for (line, dependency) in dependencies(text) {
-            if let Some(message) = breach(library, &dependency) {
-                problems.push(Problem::new(file, line, message));
-            }
-        }
+    if file == "Cargo.toml" {
+        let missing = LINTS.iter().filter(|lint| !lines.contains(lint));
+        problems
+            .extend(missing.map(|lint| Problem::new(file, 1, format!("`{lint}` is missing in the lints"))));
     }
     problems
 }
 
-/// Why `library` must not depend on `dependency`, if so.
+/// Checks the arrows between packages and the features of the libraries.
+pub(super) fn packages(metadata: &Value) -> Vec<Problem> {
+    let mut problems = Vec::new();
+    for library in LIBRARIES {
+        let file = format!("crates/{}/Cargo.toml", library.folder);
+        let Some(package) = package(metadata, library.package) else {
+            problems.push(Problem::new(&file, 1, format!("`{}` is no member", library.package)));
+            continue;
+        };
+        let breaches = dependencies(package).filter_map(|dependency| breach(library, dependency));
+        problems.extend(breaches.map(|message| Problem::new(&file, 1, message)));
+        problems.extend(untested(metadata, package).map(|message| Problem::new(&file, 1, message)));
+    }
+    problems
+}
+
+/// The reason why `library` must not depend on `dependency`, if so.
 fn breach(library: &Library, dependency: &str) -> Option<String> {
     let optional = OPTIONAL.contains(&(library.package, dependency));
     if EXTERNAL.contains(&dependency) || library.may_use.contains(&dependency) || optional {
@@ -35,149 +69,116 @@ fn breach(library: &Library, dependency: &str) -> Option<String> {
     Some(format!("`{}` must not depend on `{dependency}`, only on {}", library.package, allowed.join(", ")))
 }
 
-fn inherits_lints(text: &str) -> bool {
-    let mut section = "";
-    for line in text.lines().map(without_comment) {
-        if let Some(name) = header(line) {
-            section = name;
-        }
-        let compact: String = line.split_whitespace().collect();
-        if compact == "lints.workspace=true" && section.is_empty()
-            || compact == "workspace=true" && section == "lints"
-        {
-            return true;
-        }
-    }
-    false
+/// The packages that this one needs to be built, on any target. Development dependencies are free.
+fn dependencies(package: &Value) -> impl Iterator<Item = &str> {
+    let all = list(&package["dependencies"]);
+    all.filter(|dependency| dependency["kind"] != "dev").filter_map(|dependency| dependency["name"].as_str())
 }
 
-/// The packages that this one needs to be built, each with its line: normal and build dependencies of any target.
-/// Development dependencies are free.
-fn dependencies(text: &str) -> Vec<(usize, String)> {
-    let mut found: Vec<(usize, String)> = Vec::new();
-    // What the section that is being read holds.
-    let mut lists_dependencies = false;
-    let mut describes_dependency = false;
-    for (index, line) in text.lines().map(without_comment).enumerate() {
-        if let Some(name) = header(line) {
-            lists_dependencies = ends_in_dependencies(name);
-            // `[dependencies.glam]`: the last part is the name.
-            let (table, last) = name.rsplit_once('.').unwrap_or(("", name));
-            describes_dependency = ends_in_dependencies(table);
-            if describes_dependency {
-                found.push((index + 1, unquote(last)));
-            }
-        } else if let Some((key, value)) = line.split_once('=') {
-            // `glam = …` and `glam.workspace = true` name the package first; `g = { package = "glam" }` does not.
-            if lists_dependencies {
-                let name = unquote(key.split('.').next().unwrap_or(key));
-                found.push((index + 1, renamed(value).unwrap_or(name)));
-            } else if let (true, "package", Some(last)) = (describes_dependency, key.trim(), found.last_mut())
-            {
-                last.1 = unquote(value);
-            }
-        }
-    }
-    found
+/// Complaints about features that neither clippy nor `cargo test` would see. Both build all members at once, with what
+/// any of them asks for, so the application must ask the facade for everything.
+fn untested(metadata: &Value, library: &Value) -> impl Iterator<Item = String> {
+    let features = library["features"].as_object().into_iter().flatten().map(|(name, _)| name.as_str());
+    let asked: Vec<&str> = APPLICATIONS
+        .iter()
+        .filter_map(|(application, _)| package(metadata, application))
+        .flat_map(|application| list(&application["dependencies"]))
+        .filter(|dependency| dependency["name"] == FACADE)
+        .flat_map(|facade| list(&facade["features"]))
+        .filter_map(Value::as_str)
+        .collect();
+    let missed = features.filter(move |feature| !NOT_ASKED.contains(feature) && !asked.contains(feature));
+    missed.map(|feature| {
+        format!("no test sees the feature `{feature}`: let crates/app ask `{FACADE}` for it, under this name")
+    })
 }
 
-fn ends_in_dependencies(table: &str) -> bool {
-    let last = table.rsplit('.').next().unwrap_or(table);
-    matches!(last, "dependencies" | "build-dependencies")
+fn package<'a>(metadata: &'a Value, name: &str) -> Option<&'a Value> {
+    list(&metadata["packages"]).find(|package| package["name"] == name)
 }
 
-/// The value of `package` in an inline table.
-fn renamed(table: &str) -> Option<String> {
-    let fields = table.trim().strip_prefix('{')?.strip_suffix('}')?;
-    let field = fields
-        .split(',')
-        .filter_map(|field| field.split_once('='))
-        .find(|(key, _)| key.trim() == "package")?;
-    Some(unquote(field.1))
-}
-
-fn header(line: &str) -> Option<&str> {
-    Some(line.strip_prefix('[')?.strip_suffix(']')?.trim())
-}
-
-fn without_comment(line: &str) -> &str {
-    // No value in these manifests holds a hash sign.
-    line.split('#').next().unwrap_or(line).trim()
-}
-
-fn unquote(word: &str) -> String {
-    word.trim().trim_matches(['"', '\'']).to_string()
+fn list(value: &Value) -> impl Iterator<Item = &Value> {
+    value.as_array().into_iter().flatten()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde_json::json;
 
-    const LINTS: &str = "[lints]\nworkspace = true\n";
+    const NONE: [&str; 0] = [];
 
-    fn found(file: &str, text: &str) -> Vec<String> {
-        check(file, text).iter().map(Problem::to_string).collect()
+    /// A workspace with all libraries, in which one has a dependency and a feature.
+    fn found(library: &str, dependency: Value, feature: &str) -> Vec<String> {
+        let libraries = LIBRARIES.iter().map(|each| {
+            if each.package == library {
+                json!({ "name": library, "dependencies": [dependency], "features": { feature: [] } })
+            } else {
+                json!({ "name": each.package, "dependencies": [], "features": {} })
+            }
+        });
+        let facade = json!({ "name": FACADE, "kind": null, "features": ["std", "simd"] });
+        let application = json!({ "name": APPLICATIONS[0].0, "dependencies": [facade], "features": {} });
+        let packages: Vec<Value> = libraries.chain([application]).collect();
+        super::packages(&json!({ "packages": packages })).iter().map(Problem::to_string).collect()
     }
 
-    fn names(text: &str) -> Vec<String> {
-        dependencies(text).into_iter().map(|(_, name)| name).collect()
-    }
-
-    #[test]
-    fn every_form_of_a_dependency_is_read() {
-        assert_eq!(names("[dependencies]\nglam.workspace = true # why\n\"libm\" = '1'\n"), ["glam", "libm"]);
-        assert_eq!(names("[dependencies]\ng = { version = \"1\", package = \"glam\" }\n"), ["glam"]);
-        assert_eq!(names("[dependencies.g]\nversion = \"1\"\npackage = \"glam\"\n"), ["glam"]);
-        assert_eq!(names("[target.'cfg(unix)'.dependencies]\nlibc = \"0.2\"\n"), ["libc"]);
-        assert_eq!(names("[target.'cfg(unix)'.dependencies.libc]\nversion = \"0.2\"\n"), ["libc"]);
-        assert_eq!(names("[build-dependencies]\ncc = \"1\"\n"), ["cc"]);
-    }
-
-    #[test]
-    fn other_sections_are_not_dependencies() {
-        assert_eq!(
-            names("[dev-dependencies]\nproptest = \"1\"\n[features]\nstd = [\"glam/std\"]\n"),
-            [""; 0]
-        );
+    fn on(name: &str) -> Value {
+        json!({ "name": name, "kind": null })
     }
 
     #[test]
     fn arrows_point_down_only() {
-        let text = format!("[dependencies]\nglam = \"1\"\nalberti-raster = \"1\"\n{LINTS}");
-        assert_eq!(
-            found("crates/math/Cargo.toml", &text),
-            [
-                "crates/math/Cargo.toml:3: `alberti-math` must not depend on `alberti-raster`, only on fearless_simd, glam, libm"
-            ]
-        );
-        assert_eq!(found("crates/texture/Cargo.toml", &text).len(), 1);
-        assert_eq!(found("crates/alberti/Cargo.toml", &text), [""; 0]);
-        assert_eq!(found("crates/app/Cargo.toml", &text), [""; 0]);
+        let message = "crates/math/Cargo.toml:1: `alberti-math` must not depend on `alberti-raster`, only on \
+                       fearless_simd, glam, libm";
+        assert_eq!(found("alberti-math", on("alberti-raster"), "std"), [message]);
+        assert_eq!(found("alberti-texture", on("alberti-raster"), "std").len(), 1);
+        assert_eq!(found("alberti", on("alberti-raster"), "std"), NONE);
     }
 
     #[test]
     fn a_library_takes_no_other_crates() {
-        let text = format!("[dependencies]\nserde = \"1\"\n{LINTS}");
-        let message =
-            "`alberti-raster` must not depend on `serde`, only on alberti-math, fearless_simd, glam, libm";
-        assert_eq!(
-            found("crates/raster/Cargo.toml", &text),
-            [format!("crates/raster/Cargo.toml:2: {message}")]
-        );
+        let message = "crates/raster/Cargo.toml:1: `alberti-raster` must not depend on `serde`, only on \
+                       alberti-math, fearless_simd, glam, libm";
+        assert_eq!(found("alberti-raster", on("serde"), "std"), [message]);
+        assert_eq!(found("alberti-raster", json!({ "name": "cc", "kind": "build" }), "std").len(), 1);
+        assert_eq!(found("alberti-raster", json!({ "name": "proptest", "kind": "dev" }), "std"), NONE);
+        assert_eq!(found("alberti-raster", on("glam"), "std"), NONE);
     }
 
     #[test]
     fn one_library_may_use_what_others_may_not() {
-        let text =
-            format!("[dependencies]\nbevy_mikktspace = {{ version = \"1\", optional = true }}\n{LINTS}");
-        assert_eq!(found("crates/texture/Cargo.toml", &text), [""; 0]);
-        assert_eq!(found("crates/raster/Cargo.toml", &text).len(), 1);
+        assert_eq!(found("alberti-texture", on("bevy_mikktspace"), "std"), NONE);
+        assert_eq!(found("alberti-raster", on("bevy_mikktspace"), "std").len(), 1);
+    }
+
+    #[test]
+    fn every_feature_is_asked_for() {
+        assert_eq!(found("alberti-texture", on("glam"), "libm"), NONE);
+        let message = "crates/texture/Cargo.toml:1: no test sees the feature `tangents`: let crates/app ask \
+                       `alberti` for it, under this name";
+        assert_eq!(found("alberti-texture", on("glam"), "tangents"), [message]);
+    }
+
+    #[test]
+    fn a_library_that_is_no_member_is_found() {
+        let problems = super::packages(&json!({ "packages": [] }));
+        assert_eq!(problems.len(), LIBRARIES.len());
+        assert_eq!(problems[0].to_string(), "crates/math/Cargo.toml:1: `alberti-math` is no member");
     }
 
     #[test]
     fn the_lints_are_inherited() {
-        assert_eq!(found("crates/app/Cargo.toml", LINTS), [""; 0]);
-        assert_eq!(found("crates/app/Cargo.toml", "lints.workspace = true\n"), [""; 0]);
-        assert_eq!(found("crates/app/Cargo.toml", "[lints]\n[dependencies]\nworkspace = true\n").len(), 1);
+        let inherited = "[package]\nname = \"a\"\n[lints]\nworkspace = true\n";
+        assert_eq!(lints("crates/app/Cargo.toml", inherited), []);
+        assert_eq!(lints("crates/app/Cargo.toml", "[package]\n[lints]\n[a]\nworkspace = true\n").len(), 1);
+    }
+
+    #[test]
+    fn the_workspace_sets_the_lints_that_rules_rest_on() {
+        let all = LINTS.join("\n");
+        assert_eq!(lints("Cargo.toml", &all), []);
+        assert_eq!(lints("Cargo.toml", &all.replace("forbid", "deny")).len(), 1);
+        assert_eq!(lints("Cargo.toml", "").len(), LINTS.len());
     }
 }
