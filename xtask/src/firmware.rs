@@ -135,7 +135,7 @@ fn expected() -> Result<Vec<Expected>, String> {
     let (manifest, [_, scenes]) = FIRMWARE;
     let call = |subcommand: &str| {
         let mut command = cargo();
-        command.args([subcommand, "--release", "--manifest-path", manifest, "--package", scenes]);
+        command.args([subcommand, "--profile", "host", "--manifest-path", manifest, "--package", scenes]);
         command.args(["--features", "std", "--target-dir"]).arg(workspace::target_directory());
         command
     };
