@@ -21,6 +21,8 @@ pub(crate) fn fmt() -> Outcome {
 }
 
 /// Runs clippy on every member and target, benchmarks included, and on the firmware's scenes, with warnings as errors.
+///
+/// Every feature is on: members are compiled together, and the application asks for all, as `tidy` makes sure.
 pub(crate) fn lint() -> Outcome {
     run(cargo().args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]))?;
     let (manifest, [_, scenes]) = FIRMWARE;
@@ -52,22 +54,10 @@ pub(crate) fn test() -> Outcome {
     test_xtask()
 }
 
-/// Runs the command of the README as far as its version, built as for the tests: `cargo run` must know which program is
-/// meant.
-pub(crate) fn command() -> Outcome {
-    run(cargo().args(["run", "--quiet", "--profile", "test", "--", "--version"]))
-}
-
-/// Runs clippy and the tests on what a feature adds that is off unless asked for.
-pub(crate) fn features() -> Outcome {
-    let texture = ["--package", "alberti-texture", "--features", "mikktspace"];
-    run(cargo().arg("clippy").args(texture).args(["--all-targets", "--", "-D", "warnings"]))?;
-    run(cargo().arg("test").args(texture).args(["--test", "surface", "mikktspace"]))
-}
-
 /// Runs the tests of this program, which `cargo test` leaves out because xtask is no default member.
 pub(crate) fn test_xtask() -> Outcome {
-    run(cargo().args(["test", "--quiet", "--package", "xtask"]))
+    // The profile of `cargo xtask`, so that its dependencies are compiled already.
+    run(cargo().args(["test", "--quiet", "--profile", "dev", "--package", "xtask"]))
 }
 
 /// Runs the benchmarks whose names contain the filter, or all of them.

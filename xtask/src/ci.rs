@@ -10,8 +10,9 @@ type Step = (&'static str, fn() -> Outcome);
 
 /// Runs every check in order and stops at the first that fails.
 ///
-/// The order is by what a failure costs to find: text first, then one compilation, then the tests, then the builds
-/// that start from nothing, and what runs in an emulator.
+/// The order is by the price of finding a failure: text first, then one compilation, then the tests, then the builds
+/// that start from nothing, and the emulator last. Little is compiled twice: `docs` and `package` share the
+/// metadata of most dependencies with `lint`, and `nostd` makes no machine code of the libraries.
 pub(crate) fn run(arguments: &[String]) -> Outcome {
     let tests_done = match arguments {
         [] => false,
@@ -31,8 +32,6 @@ fn steps(tests_done: bool) -> Vec<Step> {
         ("lint", checks::lint),
         ("docs", checks::docs),
         test,
-        ("command", checks::command),
-        ("features", checks::features),
         ("package", package::run),
         ("nostd", nostd::run),
         ("firmware", || firmware::run(&[])),

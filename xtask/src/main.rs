@@ -75,21 +75,15 @@ const CHORES: &[Chore] = &[
         run: |_| checks::test(),
     },
     Chore {
-        name: "features",
-        arguments: "",
-        about: "clippy and tests on what is off by default: MikkTSpace",
-        run: |_| checks::features(),
-    },
-    Chore {
         name: "package",
         arguments: "",
-        about: "build the crates as they would be published",
+        about: "check the crates as they would be published",
         run: |_| package::run(),
     },
     Chore {
         name: "nostd",
         arguments: "",
-        about: "build the libraries for Cortex-M0 and Cortex-M4F",
+        about: "check the libraries for Cortex-M0 and Cortex-M4F",
         run: |_| nostd::run(),
     },
     Chore {

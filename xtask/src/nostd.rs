@@ -1,4 +1,7 @@
-//! Building the libraries for microcontrollers: the proof that they need neither std nor an allocator.
+//! Checks of the libraries for microcontrollers: the proof that they need neither std nor an allocator.
+//!
+//! Types are the proof, so no machine code is made of the libraries, and `core` is compiled without optimisation.
+//! `cargo xtask firmware` makes machine code for the same cores, of programs that use the libraries.
 
 use crate::command::{self, Outcome};
 use crate::embedded::Toolchain;
@@ -8,7 +11,7 @@ use crate::workspace::LIBRARIES;
 /// with and without atomic compare-and-swap.
 const TARGETS: &[&str] = &["thumbv6m-none-eabi", "thumbv7em-none-eabihf"];
 
-/// Builds every library for every target.
+/// Checks every library for every target.
 pub(crate) fn run() -> Outcome {
     for target in TARGETS {
         let toolchain = Toolchain::find(target)?;
@@ -17,11 +20,11 @@ pub(crate) fn run() -> Outcome {
             Toolchain::BuildStd { .. } => println!("{target}: not installed, core from Debian's source"),
         }
         for library in LIBRARIES {
-            // One crate a build: in one build for all, a feature that one crate forgets to pass on would be switched
+            // One crate a check: in one check for all, a feature that one crate forgets to pass on would be switched
             // on by another, and hide the mistake.
-            let mut build = toolchain.cargo("build", target);
-            build.args(["--release", "--no-default-features", "--features", "libm"]);
-            command::run(build.args(["--package", library.package]))?;
+            let mut check = toolchain.cargo("check", target);
+            check.args(["--no-default-features", "--features", "libm"]);
+            command::run(check.args(["--package", library.package]))?;
         }
     }
     Ok(())

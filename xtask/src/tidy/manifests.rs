@@ -42,9 +42,14 @@ pub(super) fn lints(file: &str, text: &str) -> Vec<Problem> {
     problems
 }
 
-/// Checks the arrows between packages and the features of the libraries.
+/// Checks the arrows between packages, the features of the libraries, and that `cargo run` knows its program.
 pub(super) fn packages(metadata: &Value) -> Vec<Problem> {
     let mut problems = Vec::new();
+    let programs = programs(metadata);
+    if programs.len() != 1 {
+        let message = format!("`cargo run` needs one program among the default members, found {programs:?}");
+        problems.push(Problem::new("Cargo.toml", 1, message));
+    }
     for library in LIBRARIES {
         let file = format!("crates/{}/Cargo.toml", library.folder);
         let Some(package) = package(metadata, library.package) else {
@@ -93,6 +98,15 @@ fn untested(metadata: &Value, library: &Value) -> impl Iterator<Item = String> {
     })
 }
 
+/// The programs among the default members, by their names.
+fn programs(metadata: &Value) -> Vec<&str> {
+    let members: Vec<&Value> = list(&metadata["workspace_default_members"]).collect();
+    let packages = list(&metadata["packages"]).filter(|package| members.contains(&&package["id"]));
+    let targets = packages.flat_map(|package| list(&package["targets"]));
+    let programs = targets.filter(|target| list(&target["kind"]).any(|kind| kind == "bin"));
+    programs.filter_map(|target| target["name"].as_str()).collect()
+}
+
 fn package<'a>(metadata: &'a Value, name: &str) -> Option<&'a Value> {
     list(&metadata["packages"]).find(|package| package["name"] == name)
 }
@@ -118,9 +132,16 @@ mod tests {
             }
         });
         let facade = json!({ "name": FACADE, "kind": null, "features": ["std", "simd"] });
-        let application = json!({ "name": APPLICATIONS[0].0, "dependencies": [facade], "features": {} });
+        let application = json!({
+            "name": APPLICATIONS[0].0,
+            "id": "app",
+            "dependencies": [facade],
+            "features": {},
+            "targets": [{ "name": "alberti", "kind": ["bin"] }, { "name": "alberti_app", "kind": ["lib"] }],
+        });
         let packages: Vec<Value> = libraries.chain([application]).collect();
-        super::packages(&json!({ "packages": packages })).iter().map(Problem::to_string).collect()
+        let metadata = json!({ "packages": packages, "workspace_default_members": ["app"] });
+        super::packages(&metadata).iter().map(Problem::to_string).collect()
     }
 
     fn on(name: &str) -> Value {
@@ -161,10 +182,21 @@ mod tests {
     }
 
     #[test]
-    fn a_library_that_is_no_member_is_found() {
+    fn missing_members_are_found() {
         let problems = super::packages(&json!({ "packages": [] }));
-        assert_eq!(problems.len(), LIBRARIES.len());
-        assert_eq!(problems[0].to_string(), "crates/math/Cargo.toml:1: `alberti-math` is no member");
+        assert_eq!(problems.len(), 1 + LIBRARIES.len());
+        assert_eq!(problems[1].to_string(), "crates/math/Cargo.toml:1: `alberti-math` is no member");
+    }
+
+    #[test]
+    fn one_program_is_meant_by_cargo_run() {
+        let package = |id: &str| json!({ "id": id, "targets": [{ "name": id, "kind": ["bin"] }] });
+        let metadata = |members: &[&str]| json!({ "packages": [package("a"), package("b"), package("c")], "workspace_default_members": members });
+        assert_eq!(programs(&metadata(&["b"])), ["b"]);
+        assert_eq!(programs(&metadata(&["a", "b"])), ["a", "b"]);
+        let message =
+            "Cargo.toml:1: `cargo run` needs one program among the default members, found [\"a\", \"c\"]";
+        assert_eq!(super::packages(&metadata(&["a", "c"]))[0].to_string(), message);
     }
 
     #[test]
