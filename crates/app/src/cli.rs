@@ -8,9 +8,11 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use crate::options::{
     ColorFormat, Cull, DepthFormat, Filter, Interpolation, Numbers, Profile, Shading, Subpixel, Wrap,
 };
-use crate::scenes;
+use crate::scene::scenes;
 
 mod material;
+pub(crate) mod partners;
+pub mod run;
 pub(crate) mod values;
 
 pub use material::MaterialArgs;

@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    ExitCode::from(alberti_app::run::run(std::env::args_os()))
+    ExitCode::from(alberti_app::cli::run::run(std::env::args_os()))
 }

@@ -3,6 +3,16 @@
 
 use std::path::PathBuf;
 
+pub mod camera;
+pub mod normals;
+pub mod scenes;
+pub mod slide;
+
+pub(crate) mod displace;
+pub(crate) mod place;
+pub(crate) mod surfaces;
+pub(crate) mod tangents;
+
 mod detail;
 
 pub use detail::{

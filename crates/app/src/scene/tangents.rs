@@ -6,7 +6,7 @@ use alberti::glam::{Vec2, Vec3};
 use alberti::math::{Object, Point3, Vector3};
 use alberti::texture::surface::{frame_of_tangent, mikktspace, vertex_tangents};
 
-use crate::normals::{cross, length, narrow, sub};
+use crate::scene::normals::{cross, length, narrow, sub};
 use crate::scene::{Model, Part, Relief, Vertex};
 
 /// Gives the vertices of each part that needs them tangents by MikkTSpace, in which most normal maps are made, unless

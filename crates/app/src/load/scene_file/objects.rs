@@ -4,15 +4,15 @@ use std::ops::Range;
 
 use super::SceneFile;
 use super::tables::{self, SurfaceKind};
-use crate::displace::MAX_VERTICES;
 use crate::error::{Error, Warnings, quote};
-use crate::images::Images;
-use crate::material::Material;
+use crate::load::images::Images;
+use crate::load::material::Material;
+use crate::load::{obj, prepare};
 use crate::options::Wrap;
-use crate::place::Placement;
+use crate::scene::displace::MAX_VERTICES;
+use crate::scene::place::Placement;
+use crate::scene::surfaces::Surface;
 use crate::scene::{Model, Part, Relief};
-use crate::surfaces::Surface;
-use crate::{obj, prepare};
 
 /// The most cells along u or v.
 const MAX_SEGMENTS: u32 = 1 << 14;

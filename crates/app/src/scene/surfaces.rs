@@ -4,7 +4,7 @@ use alberti::glam::{Vec2, Vec3};
 use alberti::math::{Object, Point3, Vector3};
 use alberti::texture::surface::{Cylinder, Grid, Parametric, Plane, Sphere, Torus};
 
-use crate::obj::DEFAULT_DIFFUSE;
+use crate::load::obj::DEFAULT_DIFFUSE;
 use crate::scene::{Model, Part, Vertex};
 
 /// A surface that a formula gives, about the origin.

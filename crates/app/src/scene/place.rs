@@ -1,8 +1,8 @@
 //! Where an object of a scene stands.
 
-use crate::normals::{dot, narrow, normalize};
+use crate::scene::normals::{dot, narrow, normalize};
+use crate::scene::tangents;
 use crate::scene::{HeightMap, Model, Relief};
-use crate::tangents;
 
 /// First the scale, then the turns about x, y and z, then the shift.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,7 +95,7 @@ impl Placement {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::normals::{cross, sub};
+    use crate::scene::normals::{cross, sub};
     use crate::scene::{Map, NormalMap, NormalSpace, Part, Vertex};
 
     const STILL: Placement = Placement { position: [0.0; 3], rotation: [0.0; 3], scale: [1.0; 3] };

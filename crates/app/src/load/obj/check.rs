@@ -12,7 +12,7 @@ use std::num::IntErrorKind;
 use std::path::Path;
 
 use crate::error::{Error, quote};
-use crate::input::{self, Lines, keyword, not_text, words};
+use crate::load::input::{self, Lines, keyword, not_text, words};
 
 /// Coordinates are limited so that squared lengths of sums stay finite in f32.
 pub(crate) const MAX_COORDINATE: f32 = 1e15;
@@ -299,5 +299,4 @@ fn push(text: &mut String, arguments: std::fmt::Arguments<'_>) {
 }
 
 #[cfg(test)]
-#[path = "obj_check_tests.rs"]
 mod tests;

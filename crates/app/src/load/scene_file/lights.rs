@@ -6,7 +6,7 @@ use super::tables::{self, At, LightKind};
 use super::values::{Numbers, Place, Text};
 use super::{SceneFile, named};
 use crate::error::Error;
-use crate::normals::{narrow, normalize, sub};
+use crate::scene::normals::{narrow, normalize, sub};
 use crate::scene::{Light, shares};
 
 /// Degrees from a spot's axis up to which it is full, and from which there is none.

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use crate::cli::RenderArgs;
 use crate::error::{Error, Warnings};
-use crate::material::Material;
+use crate::load::material::Material;
 use crate::scene::Model;
 
 mod lights;

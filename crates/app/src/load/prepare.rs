@@ -1,13 +1,13 @@
 //! From a model as it was loaded, with what is said of its materials, to one that can be drawn.
 
-use crate::camera;
 use crate::error::{Error, Warnings};
-use crate::images::Images;
-use crate::material::Material;
-use crate::normals::narrow;
+use crate::load::images::Images;
+use crate::load::material::Material;
 use crate::options::Wrap;
+use crate::scene::camera;
+use crate::scene::normals::narrow;
 use crate::scene::{Model, Relief};
-use crate::{displace, tangents};
+use crate::scene::{displace, tangents};
 
 /// Gives all parts of a model what is said of its material.
 ///

@@ -2,7 +2,7 @@
 
 use crate::cli::MaterialArgs;
 use crate::error::Error;
-use crate::images::{Images, MapFile};
+use crate::load::images::{Images, MapFile};
 use crate::options::{Filter, Wrap};
 use crate::scene::{
     Detail, Environment, EnvironmentKind, HeightMap, Map, NormalMap, NormalSpace, Part, Relief,

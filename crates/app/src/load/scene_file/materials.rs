@@ -6,8 +6,8 @@ use super::tables::{self, At};
 use super::values::{MapEntry, Named, Text};
 use super::{SceneFile, named};
 use crate::error::Error;
-use crate::images::MapFile;
-use crate::material::Material;
+use crate::load::images::MapFile;
+use crate::load::material::Material;
 use crate::scene::shares;
 
 impl SceneFile {

@@ -8,9 +8,9 @@ use std::path::Path;
 
 use crate::cli::values::MAX_SHININESS;
 use crate::error::{Error, Warnings, number, quote};
-use crate::images::Origin;
-use crate::input::{self, Lines, keyword, not_text, words};
-use crate::material::Material;
+use crate::load::images::Origin;
+use crate::load::input::{self, Lines, keyword, not_text, words};
+use crate::load::material::Material;
 
 mod maps;
 
@@ -153,5 +153,4 @@ fn values(word: &[u8], rest: &[u8], wanted: usize) -> Result<Option<[f32; 3]>, E
 }
 
 #[cfg(test)]
-#[path = "mtl_tests.rs"]
 mod tests;

@@ -6,7 +6,7 @@ use std::path::Path;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 
 use crate::error::Error;
-use crate::input;
+use crate::load::input;
 use crate::scene::{HeightImage, Image};
 
 /// The longest side of a texture.

@@ -1,7 +1,7 @@
 //! OBJ models with their materials and textures.
 //!
 //! Polygons become fans of triangles, so concave ones may come out wrong. Missing normals are made
-//! ([`crate::normals`]), missing texture coordinates are (0, 0), missing colours white, missing materials grey.
+//! ([`crate::scene::normals`]), missing texture coordinates are (0, 0), missing colours white, missing materials grey.
 //! Texture coordinates are kept as they are, v up. Materials are looked for beside the model, textures beside the
 //! material library.
 
@@ -9,10 +9,15 @@ use std::io::{self, BufRead, Read};
 use std::path::Path;
 
 use crate::error::{Error, Warnings};
-use crate::materials::Materials;
-use crate::obj_check::{self, CheckedObj};
+use crate::load::materials::Materials;
+
+use crate::load::{input, mtl};
 use crate::scene::{Model, Part, Vertex};
-use crate::{camera, input, mtl_check, normals};
+use crate::scene::{camera, normals};
+
+pub(crate) mod check;
+
+use check::CheckedObj;
 
 /// The diffuse colour of a part without a material.
 pub const DEFAULT_DIFFUSE: [f32; 3] = [0.8; 3];
@@ -34,10 +39,10 @@ pub struct Loaded {
 /// The file cannot be read or has an error, which is named with its line. What else is wrong with materials and
 /// textures is a warning.
 pub fn load(path: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<Loaded, Error> {
-    let bytes = input::read(path, obj_check::KIND, input::MAX_TEXT_BYTES)?;
+    let bytes = input::read(path, check::KIND, input::MAX_TEXT_BYTES)?;
     // Checking takes about as long as reading what was checked.
     let half = bytes.len() as u64;
-    let checked = obj_check::check(&bytes, path, &mut |done| progress(done as u64, 2 * half))?;
+    let checked = check::check(&bytes, path, &mut |done| progress(done as u64, 2 * half))?;
     drop(bytes);
 
     let mut warnings = Warnings::default();
@@ -57,7 +62,7 @@ pub fn load(path: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<Loaded, E
         let material = object.mesh.material_id.and_then(|id| found.get(id));
         let diffuse = material.and_then(|m| m.diffuse).unwrap_or(DEFAULT_DIFFUSE);
         add_part(&mut model, object, diffuse).map_err(|e| e.file(path))?;
-        indices.push(material.and_then(|m| m.unknown_param.get(mtl_check::INDEX)));
+        indices.push(material.and_then(|m| m.unknown_param.get(mtl::INDEX)));
     }
     let radius = normals::narrow(camera::bounding_sphere(&model).radius);
     for (part, index) in model.parts.iter_mut().zip(indices) {
@@ -89,7 +94,7 @@ fn read(
         tobj::load_mtl_buf(&mut text.map_or("", String::as_str).as_bytes())
     };
     let refused = |error: tobj::LoadError| {
-        Error::new(format!("a file that the OBJ reader refuses ({error})"), obj_check::KIND)
+        Error::new(format!("a file that the OBJ reader refuses ({error})"), check::KIND)
             .hint("export the model again")
     };
     let (objects, found) = tobj::load_obj_buf(&mut reader, &options, by_number).map_err(refused)?;
@@ -158,5 +163,4 @@ impl<R: BufRead> BufRead for Counting<'_, R> {
 }
 
 #[cfg(test)]
-#[path = "obj_tests.rs"]
 mod tests;

@@ -8,9 +8,9 @@ use alberti::math::interpolate;
 use alberti::texture::surface::Subdivision;
 
 use crate::error::{Error, Warnings};
-use crate::images::Images;
-use crate::normals::{cross, narrow, normalize, sub};
+use crate::load::images::Images;
 use crate::options::Wrap;
+use crate::scene::normals::{cross, narrow, normalize, sub};
 use crate::scene::{HeightImage, HeightMap, Model, Part, Relief, Vertex};
 
 /// The most vertices that dividing makes.
@@ -254,5 +254,4 @@ fn keep_used(model: &mut Model, is_displaced: impl Fn(&Part) -> bool) -> u32 {
 }
 
 #[cfg(test)]
-#[path = "displace_tests.rs"]
 mod tests;

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use crate::error::{Error, quote};
-use crate::images::{MapFile, Origin};
-use crate::input::{self, keyword};
-use crate::material::Material;
-use crate::materials::existing;
+use crate::load::images::{MapFile, Origin};
+use crate::load::input::{self, keyword};
+use crate::load::material::Material;
+use crate::load::materials::existing;
 use crate::options::Wrap;
 use crate::scene::EnvironmentKind;
 

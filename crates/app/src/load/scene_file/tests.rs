@@ -14,7 +14,7 @@ fn read(files: &[(&str, &[u8])]) -> Result<(tempfile::TempDir, SceneFile, Render
     let mut scene = SceneFile::read(&folder.path().join(files[0].0))?;
     let mut arguments = RenderArgs::default();
     scene.fill(&mut arguments)?;
-    crate::partners::check(&arguments).map_err(|error| scene.relocate(error))?;
+    crate::cli::partners::check(&arguments).map_err(|error| scene.relocate(error))?;
     Ok((folder, scene, arguments))
 }
 
@@ -378,7 +378,7 @@ fn another_map_is_used_as_the_one_before() {
     let (a, b) = (png(&[[1, 1, 1]]), png(&[[2, 2, 2]]));
     let (folder, scene, arguments) =
         read(&[("s.toml", text.as_bytes()), ("a.png", &a), ("b.png", &b)]).unwrap();
-    let map = Some(crate::images::MapFile::given(&folder.path().join("b.png")));
+    let map = Some(crate::load::images::MapFile::given(&folder.path().join("b.png")));
     let over = Material {
         normal_map: map.clone(),
         height_map: map.clone(),
@@ -402,7 +402,7 @@ fn surfaces_without_a_material_are_grey() {
     let model = build(&[("s.toml", MINIMAL.as_bytes())]).unwrap();
     assert_eq!(
         (model.parts[0].diffuse, model.ambient, model.lights.len()),
-        (crate::obj::DEFAULT_DIFFUSE, None, 0)
+        (crate::load::obj::DEFAULT_DIFFUSE, None, 0)
     );
 }
 
@@ -451,7 +451,7 @@ fn displaced_surfaces_have_a_vertex_for_each_texel_and_no_hole() {
 
 #[test]
 fn the_example_of_the_readme_is_a_scene() {
-    let readme = include_str!("../../README.md");
+    let readme = include_str!("../../../README.md");
     let example =
         readme.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("an example");
     let (_folder, scene, arguments) = read(&[("s.toml", example.as_bytes())]).expect(example);
@@ -461,7 +461,7 @@ fn the_example_of_the_readme_is_a_scene() {
 
 #[test]
 fn the_readme_has_every_key() {
-    let readme = include_str!("../../README.md");
+    let readme = include_str!("../../../README.md");
     let tables = include_str!("tables.rs");
     let keys = tables.lines().filter_map(|line| line.trim().strip_prefix("pub(super) ")?.split_once(": At<"));
     let mut count = 0;

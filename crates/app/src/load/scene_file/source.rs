@@ -8,8 +8,8 @@ use toml::de::{DeTable, DeValue};
 
 use super::tables::File;
 use crate::error::{Error, quote};
-use crate::images::Origin;
-use crate::input;
+use crate::load::images::Origin;
+use crate::load::input;
 
 /// What a scene file is called in messages.
 const KIND: &str = "a scene file in TOML";

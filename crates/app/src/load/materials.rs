@@ -4,11 +4,11 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Warnings, quote};
-use crate::images::Images;
-use crate::input;
-use crate::material::Material;
-use crate::mtl_check::{self, CheckedMtl};
-use crate::obj_check::{CheckedObj, Named};
+use crate::load::images::Images;
+use crate::load::input;
+use crate::load::material::Material;
+use crate::load::mtl::{self, CheckedMtl};
+use crate::load::obj::check::{CheckedObj, Named};
 use crate::scene::{Model, Part};
 
 /// The largest material library that is read, in bytes.
@@ -114,9 +114,9 @@ fn bytes_of(obj: &Path, named: &Named, file: &Path) -> Result<Vec<u8>, Error> {
     const HINT: &str = "the default material is used";
     if !file.exists() {
         let found = format!("no file \"{}\"", file.display());
-        return Err(Error::new(found, mtl_check::KIND).file(obj).line(named.line).hint(HINT));
+        return Err(Error::new(found, mtl::KIND).file(obj).line(named.line).hint(HINT));
     }
-    input::read(file, mtl_check::KIND, MAX_LIBRARY_BYTES).map_err(|e| e.hint(HINT))
+    input::read(file, mtl::KIND, MAX_LIBRARY_BYTES).map_err(|e| e.hint(HINT))
 }
 
 /// A `mtllib` line names one file, with spaces perhaps, or several files.

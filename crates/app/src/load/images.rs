@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, quote};
-use crate::image_file;
+use crate::load::image_file;
 use crate::options::{Filter, Wrap};
 use crate::scene::{HeightImage, Image, Model};
 

@@ -8,22 +8,24 @@ use std::time::Instant;
 use clap::error::{ContextKind, ErrorKind};
 use clap::{CommandFactory as _, Parser as _};
 
-use crate::camera::{self, Wishes};
+use super::partners;
 use crate::cli::{self, Cli, Command, MaterialArgs, RenderArgs, StatsFormat};
 use crate::error::{Error, Warnings, number, quote};
-use crate::images::{Images, MapFile};
-use crate::material::Material;
+use crate::load::images::{Images, MapFile};
+use crate::load::material::Material;
+use crate::load::scene_file::{self, SceneFile};
+use crate::load::{obj, prepare};
 use crate::options::{
     Cull, DEFAULT_BACKGROUND, DepthFormat, Filter, Interpolation, Policies, Profile, Projection,
     RenderOptions, Shading, Wrap,
 };
-use crate::output::Output;
-use crate::progress::Progress;
+use crate::output::file::Output;
+use crate::output::progress::Progress;
+use crate::output::stats::{Report, Source, Times};
 use crate::render::render;
+use crate::scene::camera::{self, Wishes};
 use crate::scene::{Camera, Model, Part, Relief};
-use crate::scene_file::{self, SceneFile};
-use crate::stats::{Report, Source, Times};
-use crate::{obj, partners, prepare, scenes, slide};
+use crate::scene::{scenes, slide};
 
 /// The picture's file, unless the user names one.
 const DEFAULT_OUTPUT: &str = "alberti.png";

@@ -1,8 +1,8 @@
 //! Where to stand: a camera that shows a whole model, completed from whatever the user asked for.
 
 use crate::error::{Error, number};
-use crate::normals::{cross, dot, length, narrow, normalize, sub};
 use crate::options::Projection;
+use crate::scene::normals::{cross, dot, length, narrow, normalize, sub};
 use crate::scene::{Camera, Model};
 use alberti::ViewError;
 

@@ -1,11 +1,11 @@
 //! The image that a projector throws on the model.
 
-use crate::camera::{self, PROJECTOR};
 use crate::cli::RenderArgs;
 use crate::draw::{aspect, frame};
 use crate::error::Error;
-use crate::image_file;
+use crate::load::image_file;
 use crate::options::Projection;
+use crate::scene::camera::{self, PROJECTOR};
 use crate::scene::{Model, Slide};
 use alberti::glam::Vec3;
 use alberti::{Homogeneous, Point3, Projector};

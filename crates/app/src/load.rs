@@ -1,0 +1,13 @@
+//! From files to a scene: models with their materials and textures, and scene files.
+
+pub mod image_file;
+pub mod input;
+pub mod obj;
+
+pub(crate) mod images;
+pub(crate) mod material;
+pub(crate) mod prepare;
+pub(crate) mod scene_file;
+
+mod materials;
+mod mtl;

@@ -1,0 +1,185 @@
+//! Pictures into files: whole or not at all.
+
+use std::fs;
+use std::io::{Cursor, Write as _};
+use std::path::{Path, PathBuf};
+
+use image::{ExtendedColorType, ImageFormat};
+use tempfile::NamedTempFile;
+
+use crate::error::Error;
+use crate::scene::Image;
+
+const FORMATS: [(&str, ImageFormat); 5] = [
+    ("png", ImageFormat::Png),
+    ("jpg", ImageFormat::Jpeg),
+    ("jpeg", ImageFormat::Jpeg),
+    ("bmp", ImageFormat::Bmp),
+    ("tga", ImageFormat::Tga),
+];
+
+/// A file that can be written, as far as can be told before there is anything to write.
+#[derive(Clone, Debug)]
+pub struct Output {
+    named: PathBuf,
+    /// `named` with links followed: a link is written through, not replaced.
+    path: PathBuf,
+    format: ImageFormat,
+}
+
+impl Output {
+    /// Checks the extension, the folder and the file that may be there already. Nothing is left behind.
+    ///
+    /// # Errors
+    /// The extension is unknown, or the file cannot be written.
+    pub fn new(named: &Path) -> Result<Self, Error> {
+        let extension = named.extension().map(|e| e.to_string_lossy().to_lowercase());
+        let known = FORMATS.iter().find(|(name, _)| extension.as_deref() == Some(name));
+        let &(_, format) = known.ok_or_else(|| {
+            let found = extension.map_or("no extension".to_owned(), |e| format!("the extension \".{e}\""));
+            Error::new(found, "one of .png, .jpg, .jpeg, .bmp, .tga").file(named).hint("name the output so")
+        })?;
+        let path = fs::canonicalize(named).unwrap_or_else(|_| named.to_owned());
+        let output = Self { named: named.to_owned(), path, format };
+        if let Ok(metadata) = fs::metadata(&output.path) {
+            if metadata.is_dir() {
+                return Err(output.refused("a directory"));
+            }
+            if !metadata.is_file() {
+                return Err(output.refused("a device or a pipe"));
+            }
+            if metadata.permissions().readonly() {
+                return Err(output.refused("a file that is read-only"));
+            }
+        }
+        output.temporary()?;
+        Ok(output)
+    }
+
+    /// The path as the user gave it, for messages.
+    pub fn name(&self) -> &Path {
+        &self.named
+    }
+
+    /// Whether `other` is the same file.
+    pub fn is(&self, other: &Path) -> bool {
+        fs::canonicalize(other).is_ok_and(|other| other == self.path)
+    }
+
+    /// Encodes and writes the picture, without its alpha. A failure at any point leaves whatever was there before.
+    ///
+    /// # Errors
+    /// Encoding or writing fails: the disk is full, for example.
+    pub fn write(&self, picture: &Image) -> Result<(), Error> {
+        // Encoded in memory first, so that there is a temporary file only for as long as a copy takes.
+        let rgb: Vec<u8> = picture.texels.iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect();
+        let mut encoded = Cursor::new(Vec::new());
+        let (width, height) = (picture.width, picture.height);
+        image::write_buffer_with_format(
+            &mut encoded,
+            &rgb,
+            width,
+            height,
+            ExtendedColorType::Rgb8,
+            self.format,
+        )
+        .map_err(|e| self.refused(&format!("that encoding fails ({e})")))?;
+        drop(rgb);
+        let mut file = self.temporary()?;
+        file.write_all(encoded.get_ref())
+            .and_then(|()| file.as_file().sync_all())
+            .map_err(|e| self.refused(&format!("that writing fails ({e})")))?;
+        file.persist(&self.path).map_err(|e| self.refused(&format!("that renaming fails ({})", e.error)))?;
+        Ok(())
+    }
+
+    /// A new file in the output's folder, deleted when dropped.
+    fn temporary(&self) -> Result<NamedTempFile, Error> {
+        let folder = match self.path.parent() {
+            Some(folder) if !folder.as_os_str().is_empty() => folder,
+            _ => Path::new("."),
+        };
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".alberti-");
+        // As for any new file, not private as for most temporary ones.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        builder.tempfile_in(folder).map_err(|error| {
+            let reason = match error.kind() {
+                std::io::ErrorKind::NotFound => "does not exist".to_owned(),
+                std::io::ErrorKind::NotADirectory => "is not a folder".to_owned(),
+                std::io::ErrorKind::PermissionDenied => "may not be written".to_owned(),
+                _ => format!("cannot be written ({error})"),
+            };
+            self.refused(&format!("a folder that {reason}"))
+        })
+    }
+
+    fn refused(&self, found: &str) -> Error {
+        Error::new(found, "a file that can be written").file(&self.named).hint("choose another with -o")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn picture() -> Image {
+        Image { width: 2, height: 1, texels: vec![[255, 0, 0, 255], [0, 0, 255, 255]] }
+    }
+
+    #[test]
+    fn every_format_reads_back() {
+        let folder = tempfile::tempdir().unwrap();
+        for (extension, format) in FORMATS {
+            let path = folder.path().join(format!("a.{}", extension.to_uppercase()));
+            Output::new(&path).unwrap().write(&picture()).unwrap();
+            let back = image::load_from_memory_with_format(&fs::read(&path).unwrap(), format).unwrap();
+            assert_eq!((back.width(), back.height()), (2, 1));
+            if format != ImageFormat::Jpeg {
+                assert_eq!(back.to_rgba8().as_raw(), &[255, 0, 0, 255, 0, 0, 255, 255]);
+            }
+            fs::remove_file(path).unwrap();
+        }
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+
+    #[test]
+    fn what_cannot_be_written_is_known_early() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        fs::create_dir(at("d.png")).unwrap();
+        fs::write(at("file"), "").unwrap();
+        fs::write(at("r.png"), "").unwrap();
+        let mut permissions = fs::metadata(at("r.png")).unwrap().permissions();
+        permissions.set_readonly(true);
+        fs::set_permissions(at("r.png"), permissions).unwrap();
+        for (name, found) in [
+            ("a", "found no extension, expected one of .png"),
+            ("a.gif", "found the extension \".gif\", expected one of .png"),
+            ("d.png", "found a directory"),
+            ("no/a.png", "found a folder that does not exist"),
+            ("file/a.png", "found a folder that is not a folder"),
+            ("r.png", "found a file that is read-only"),
+        ] {
+            let message = Output::new(&at(name)).unwrap_err().to_string();
+            assert!(message.contains(found), "{message}");
+        }
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_written_through() {
+        let folder = tempfile::tempdir().unwrap();
+        let (file, link) = (folder.path().join("a.png"), folder.path().join("l.png"));
+        fs::write(&file, "old").unwrap();
+        std::os::unix::fs::symlink(&file, &link).unwrap();
+        let output = Output::new(&link).unwrap();
+        assert_eq!(fs::read(&file).unwrap(), b"old");
+        output.write(&picture()).unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert!(fs::read(&file).unwrap().starts_with(b"\x89PNG"));
+        assert!(output.is(&file));
+    }
+}
