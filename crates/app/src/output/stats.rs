@@ -1,6 +1,8 @@
 //! What a picture took: counts from the pipeline and times from the clock, as text or as JSON.
 
 use alberti::Stats;
+use serde::ser::{Serialize, SerializeMap as _, Serializer};
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Duration;
@@ -72,20 +74,8 @@ impl Report<'_> {
     /// One JSON object on one line: `output`, `model` or `scene`, `width`, `height`, the counts (see [`Stats`]), and
     /// `ms` with `load`, `render` and `write`.
     pub fn json(&self) -> String {
-        let source = match self.source {
-            Source::Model(path) => ("model", path.display().to_string()),
-            Source::Scene(name) => ("scene", name.to_owned()),
-        };
-        let mut fields = vec![
-            ("output", json_string(&self.output.display().to_string())),
-            (source.0, json_string(&source.1)),
-            ("width", self.size.0.to_string()),
-            ("height", self.size.1.to_string()),
-        ];
-        fields.extend(self.counts().map(|(name, count)| (name, count.to_string())));
-        let times = self.durations().map(|(name, time)| (name, format!("{:.3}", ms(time))));
-        fields.push(("ms", json_object(&times)));
-        json_object(&fields)
+        // Strings and finite numbers cannot be refused.
+        serde_json::to_string(self).unwrap_or_default()
     }
 
     fn counts(&self) -> [(&'static str, u64); 8] {
@@ -111,24 +101,24 @@ fn ms(time: Duration) -> f64 {
     time.as_secs_f64() * 1e3
 }
 
-fn json_object(fields: &[(&str, String)]) -> String {
-    let fields: Vec<String> = fields.iter().map(|(name, value)| format!("\"{name}\": {value}")).collect();
-    format!("{{{}}}", fields.join(", "))
-}
-
-fn json_string(text: &str) -> String {
-    let mut quoted = String::from("\"");
-    for c in text.chars() {
-        match c {
-            '"' | '\\' => quoted.extend(['\\', c]),
-            _ if c.is_control() => {
-                let _ = write!(quoted, "\\u{:04x}", u32::from(c));
-            }
-            _ => quoted.push(c),
+impl Serialize for Report<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut fields = serializer.serialize_map(None)?;
+        fields.serialize_entry("output", &self.output.display().to_string())?;
+        match self.source {
+            Source::Model(path) => fields.serialize_entry("model", &path.display().to_string())?,
+            Source::Scene(name) => fields.serialize_entry("scene", name)?,
         }
+        fields.serialize_entry("width", &self.size.0)?;
+        fields.serialize_entry("height", &self.size.1)?;
+        for (name, count) in self.counts() {
+            fields.serialize_entry(name, &count)?;
+        }
+        let thousandths = |time| (ms(time) * 1e3).round() / 1e3;
+        let times = self.durations().map(|(name, time)| (name, thousandths(time)));
+        fields.serialize_entry("ms", &BTreeMap::from(times))?;
+        fields.end()
     }
-    quoted.push('"');
-    quoted
 }
 
 #[cfg(test)]
@@ -153,6 +143,8 @@ mod tests {
         assert_eq!(value["fragments"], 1);
         assert_eq!(value["ms"]["load"], 1.5);
         assert!(!text.contains('\n'));
+        let names = ["output", "scene", "width", "triangles_in", "written", "ms", "load", "render", "write"];
+        assert!(names.map(|name| text.find(&format!("\"{name}\":"))).is_sorted(), "{text}");
     }
 
     #[test]

@@ -157,23 +157,8 @@ fn plain(expected: &str) -> String {
 fn nearest<'a>(key: &str, expected: &'a str) -> Option<&'a str> {
     let known = expected.strip_prefix("one of ").unwrap_or(expected);
     let known = known.split([',', ' ']).filter(|known| !known.is_empty() && *known != "or");
-    let (distance, found) = known.map(|known| (distance(key, known), known)).min()?;
+    let (distance, found) = known.map(|known| (strsim::levenshtein(key, known), known)).min()?;
     (3 * distance <= key.chars().count().max(3)).then_some(found)
-}
-
-/// How many letters have to be put in, taken out or exchanged (Levenshtein).
-fn distance(a: &str, b: &str) -> usize {
-    let mut row: Vec<usize> = (0..=b.chars().count()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut corner = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.chars().enumerate() {
-            let replaced = corner + usize::from(x != y);
-            corner = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(corner + 1);
-        }
-    }
-    row[row.len() - 1]
 }
 
 fn collect(table: &DeTable<'_>, prefix: &str, keys: &mut Vec<Key>) {
