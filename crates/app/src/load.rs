@@ -5,7 +5,7 @@ pub mod input;
 pub mod obj;
 
 pub(crate) mod images;
-pub(crate) mod material;
+mod material;
 pub(crate) mod prepare;
 pub(crate) mod scene_file;
 

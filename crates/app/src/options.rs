@@ -1,12 +1,41 @@
 //! How a scene is drawn: the choices that the command line offers and that a built-in scene makes for itself.
 
-use crate::error::Error;
 use clap::ValueEnum;
-use std::fmt;
 
 mod filter;
+mod material;
+mod policies;
+mod table;
+pub mod values;
 
 pub use filter::{Filter, Probes};
+pub(crate) use material::Base;
+pub use material::{MapFile, Material, Origin};
+pub use policies::{
+    ColorFormat, DepthFormat, Interpolation, Numbers, Policies, Profile, SpanLength, Subpixel,
+};
+pub(crate) use table::shared;
+pub use table::{CameraTable, ProjectorTable, RenderTable};
+pub use values::MAX_SIDE;
+use values::{one_of, words};
+
+/// A picture's file, unless the user names one.
+pub const DEFAULT_OUTPUT: &str = "alberti.png";
+
+/// A picture's width and height in pixels, unless the user gives them.
+pub const DEFAULT_SIZE: values::Size = values::Size(640, 480);
+
+/// The colour behind a model, unless the user gives one.
+pub const DEFAULT_BACKGROUND: [u8; 3] = [0x20, 0x24, 0x2c];
+
+/// The vertical opening angle of a camera and of a projector, unless the user gives one, in degrees.
+pub const DEFAULT_FOV: f32 = 40.0;
+
+/// The share of an environment that is mirrored, unless the user gives one.
+pub const DEFAULT_REFLECTION: f32 = 0.5;
+
+/// The height of white, as a share of the model's radius, unless the user gives one.
+pub const DEFAULT_HEIGHT: f32 = 0.02;
 
 /// How a fragment gets its colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
@@ -58,195 +87,15 @@ pub enum Cull {
     None,
 }
 
-/// What the depth buffer stores.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
-pub enum DepthFormat {
-    /// 32-bit float, 0 at the near plane.
-    #[default]
-    F32,
-    /// 32-bit float, 1 at the near plane: precision spread over the distance.
-    F32Reversed,
-    /// 32-bit integer: no finer than the floats that depths are computed in.
-    U32,
-    /// 24-bit integer.
-    U24,
-    /// 16-bit integer: for seeing what too little precision looks like.
-    U16,
-    /// No depth buffer: later triangles cover earlier ones.
-    None,
-}
+words!(one_of: Shading, Wrap, Cull, ProjectionKind);
 
-/// How textures, colours and normals come from the vertices to the pixels between them.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Interpolation {
-    /// With perspective, from exact integer edges.
-    #[default]
-    Exact,
-    /// With perspective, from plane equations.
-    Plane,
-    /// Straight lines between columns with perspective, so many apart.
-    Spans(SpanLength),
-    /// Straight lines for as long as they miss no more than this, in texels of the model's largest texture.
-    Bounded(f32),
-    /// Straight lines across the whole triangle.
-    Affine,
-}
-
-impl Interpolation {
-    /// Those that there are in fixed point.
-    const STRAIGHT: &str = "spans:4, spans:8, spans:16, spans:32, bounded:TEXELS or affine";
-
-    /// From the name that the command line has for it.
-    ///
-    /// # Errors
-    /// What was expected.
-    pub fn parse(text: &str) -> Result<Self, String> {
-        let texels = |text: &str| text.parse().ok().filter(|x: &f32| x.is_finite() && *x >= 0.0);
-        let found = match text.split_once(':') {
-            None => [Self::Exact, Self::Plane, Self::Affine].into_iter().find(|i| i.to_string() == text),
-            Some(("spans", length)) => {
-                SpanLength::ALL.into_iter().find(|l| l.columns().to_string() == length).map(Self::Spans)
-            }
-            Some(("bounded", budget)) => texels(budget).map(Self::Bounded),
-            Some(_) => None,
-        };
-        found.ok_or_else(|| {
-            format!("exact, plane, {}, TEXELS a number from 0 on, such as 0.0625", Self::STRAIGHT)
-        })
-    }
-}
-
-impl fmt::Display for Interpolation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Exact => f.write_str("exact"),
-            Self::Plane => f.write_str("plane"),
-            Self::Spans(length) => write!(f, "spans:{}", length.columns()),
-            Self::Bounded(texels) => write!(f, "bounded:{texels}"),
-            Self::Affine => f.write_str("affine"),
-        }
-    }
-}
-
-/// Columns from one that has perspective to the next.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum SpanLength {
-    /// 4.
-    Four,
-    /// 8.
-    Eight,
-    /// 16.
-    Sixteen,
-    /// 32.
-    ThirtyTwo,
-}
-
-impl SpanLength {
-    const ALL: [Self; 4] = [Self::Four, Self::Eight, Self::Sixteen, Self::ThirtyTwo];
-
-    /// How many.
-    pub(crate) fn columns(self) -> i32 {
-        match self {
-            Self::Four => 4,
-            Self::Eight => 8,
-            Self::Sixteen => 16,
-            Self::ThirtyTwo => 32,
-        }
-    }
-}
-
-/// The numbers in which that is computed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
-pub enum Numbers {
-    /// 32-bit floats, several pixels at a time.
-    #[default]
-    Float,
-    /// Integers, as on a chip without floating point: steps of 2^-16, coordinates within ±4096, straight lines only,
-    /// one pixel at a time.
-    Fixed,
-}
-
-/// What a pixel's colour is stored as.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
-pub enum ColorFormat {
-    /// 8 bits a channel.
-    #[default]
-    Rgba8,
-    /// 5 bits of red, 6 of green, 5 of blue, as small displays have them: gradients show steps.
-    Rgb565,
-}
-
-/// How finely vertices are snapped.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
-pub enum Subpixel {
-    /// To 1/16 pixel: what moves slowly may be seen to jitter.
-    #[value(name = "4")]
-    Sub4,
-    /// To 1/256 pixel.
-    #[default]
-    #[value(name = "8")]
-    Sub8,
-}
-
-/// Where precision is traded for time or memory, with the depth buffer.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Policies {
-    /// From vertices to pixels.
-    pub interpolation: Interpolation,
-    /// In which numbers.
-    pub numbers: Numbers,
-    /// What is stored.
-    pub color: ColorFormat,
-    /// Where vertices lie.
-    pub subpixel: Subpixel,
-}
-
-impl Policies {
-    /// # Errors
-    /// Fixed point without straight lines.
-    pub fn check(&self) -> Result<(), Error> {
-        let Self { interpolation, numbers, .. } = self;
-        match (interpolation, numbers) {
-            (Interpolation::Exact | Interpolation::Plane, Numbers::Fixed) => {
-                Err(Error::new(format!("fixed with {interpolation}"), Interpolation::STRAIGHT)
-                    .place("--numbers")
-                    .hint("choose one with --interpolation, or --numbers float"))
-            }
-            _ => Ok(()),
-        }
-    }
-}
-
-/// A choice of each, as the library bundles them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
-pub enum Profile {
-    /// exact, float, f32-reversed, rgba8, 8: the most precise; 8 bytes a pixel.
-    Reference,
-    /// exact, float, f32, rgba8, 8: depth as it is taught, coarse in the distance; 8 bytes a pixel.
-    Desktop,
-    /// spans:16, fixed, u16, rgb565, 4: for microcontrollers; 4 bytes a pixel.
-    Mcu,
-    /// affine, fixed, no depth, rgb565, 4: textures swim, later triangles cover earlier ones; 2 bytes a pixel.
-    Tiny,
-}
-
-impl Profile {
-    /// What it stands for.
-    #[must_use]
-    pub fn policies(self) -> (Policies, DepthFormat) {
-        let small = |interpolation| Policies {
-            interpolation,
-            numbers: Numbers::Fixed,
-            color: ColorFormat::Rgb565,
-            subpixel: Subpixel::Sub4,
-        };
-        match self {
-            Self::Reference => (Policies::default(), DepthFormat::F32Reversed),
-            Self::Desktop => (Policies::default(), DepthFormat::F32),
-            Self::Mcu => (small(Interpolation::Spans(SpanLength::Sixteen)), DepthFormat::U16),
-            Self::Tiny => (small(Interpolation::Affine), DepthFormat::None),
-        }
-    }
+/// How space comes to the screen, as options have it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ProjectionKind {
+    /// What is farther away is smaller.
+    Perspective,
+    /// What is parallel stays parallel; straight lines unless --interpolation says otherwise, as they are exact then.
+    Parallel,
 }
 
 /// How space comes to the screen.
@@ -286,9 +135,3 @@ pub struct RenderOptions {
     /// The other policies, which [`render`](crate::render::render) takes for ones that go together.
     pub policies: Policies,
 }
-
-/// The longest side of a picture, in pixels.
-pub const MAX_SIDE: u32 = 16384;
-
-/// Behind a model, unless the command line says otherwise.
-pub const DEFAULT_BACKGROUND: [u8; 3] = [0x20, 0x24, 0x2c];

@@ -121,8 +121,3 @@ pub struct Camera {
     /// The back clipping plane, z = B.
     pub far: f32,
 }
-
-/// Bytes from 0 to 255 as shares from 0 to 1.
-pub(crate) fn shares(color: [u8; 3]) -> [f32; 3] {
-    color.map(|byte| f32::from(byte) / 255.0)
-}

@@ -6,32 +6,23 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::error::{ContextKind, ErrorKind};
-use clap::{CommandFactory as _, Parser as _};
+use clap::{ArgMatches, CommandFactory as _, FromArgMatches as _};
 
-use super::partners;
-use crate::cli::{self, Cli, Command, MaterialArgs, RenderArgs, StatsFormat};
+use super::{Cli, RenderArgs, StatsFormat, partners};
 use crate::error::{Error, Warnings, number, quote};
-use crate::load::images::{Images, MapFile};
-use crate::load::material::Material;
+use crate::load::images::Images;
 use crate::load::scene_file::{self, SceneFile};
 use crate::load::{obj, prepare};
+use crate::options::values::{Color, Size};
 use crate::options::{
-    Cull, DEFAULT_BACKGROUND, DepthFormat, Filter, Interpolation, Policies, Profile, Projection,
+    Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE, DepthFormat, Filter, Material, Projection,
     RenderOptions, Shading, Wrap,
 };
 use crate::output::file::Output;
 use crate::output::progress::Progress;
 use crate::output::stats::{Report, Source, Times};
 use crate::render::render;
-use crate::scene::camera::{self, Wishes};
-use crate::scene::{Camera, Model, Part, Relief};
-use crate::scene::{scenes, slide};
-
-/// The picture's file, unless the user names one.
-const DEFAULT_OUTPUT: &str = "alberti.png";
-
-/// Its width and height, unless the user does.
-const DEFAULT_SIZE: (u32, u32) = (640, 480);
+use crate::scene::{Camera, Model, Part, Relief, camera, scenes, slide};
 
 /// The exit status for whatever the user can mend.
 pub const FAILURE: u8 = 2;
@@ -39,13 +30,14 @@ pub const FAILURE: u8 = 2;
 /// Runs the command with these arguments, the program's name first. Messages go to standard error; the status is
 /// 0 or [`FAILURE`].
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    let cli = match Cli::try_parse_from(arguments) {
-        Ok(cli) => cli,
+    let mut command = Cli::command();
+    let matches = match command.try_get_matches_from_mut(arguments) {
+        Ok(matches) => matches,
         Err(error) => return usage(&error),
     };
-    let result = match cli.command {
-        Some(Command::Render(arguments)) => draw(&arguments),
-        None => print(&Cli::command().render_help().to_string()),
+    let result = match matches.subcommand() {
+        Some((_, render)) => draw(render),
+        None => print(&command.render_help().to_string()),
     };
     match result {
         Ok(()) => 0,
@@ -89,24 +81,27 @@ struct Scene {
     has_uv: bool,
 }
 
-fn draw(arguments: &RenderArgs) -> Result<(), Error> {
+fn draw(matches: &ArgMatches) -> Result<(), Error> {
+    let refused = |error: clap::Error| Error::new(error.to_string(), "what --help lists");
+    let arguments = RenderArgs::from_arg_matches(matches).map_err(refused)?;
     let Some(path) = arguments.model.as_deref().filter(|path| scene_file::is_scene(path)) else {
-        return draw_from(arguments, None);
+        return draw_from(&arguments, None);
     };
-    let mut file = SceneFile::read(path)?;
-    let mut arguments = arguments.clone();
-    file.fill(&mut arguments)?;
+    // The file's options, and over them those of the command line.
+    let (file, mut arguments) = SceneFile::read(path, matches)?;
+    arguments.update_from_arg_matches(matches).map_err(refused)?;
     draw_from(&arguments, Some(&file)).map_err(|error| file.relocate(error))
 }
 
 fn draw_from(arguments: &RenderArgs, file: Option<&SceneFile>) -> Result<(), Error> {
-    let (policies, depth) = choices(arguments);
+    let (policies, depth) = arguments.render.policies(arguments.camera.is_parallel());
     policies.check()?;
     partners::check(arguments)?;
-    let output = Output::new(arguments.output.as_deref().unwrap_or(Path::new(DEFAULT_OUTPUT)))?;
+    let output = arguments.render.output.as_deref().unwrap_or(Path::new(DEFAULT_OUTPUT));
+    let output = Output::new(output)?;
     let named = file.map(SceneFile::inputs).unwrap_or_default();
-    for input in inputs(arguments).chain(&named) {
-        if output.is(input) {
+    for input in inputs(arguments).chain(named) {
+        if output.is(&input) {
             let found = "a file that is also read";
             return Err(Error::new(found, "another").file(output.name()).hint("choose another with -o"));
         }
@@ -132,16 +127,13 @@ fn draw_from(arguments: &RenderArgs, file: Option<&SceneFile>) -> Result<(), Err
         };
         warn(&error.hint("every surface gets one texel's colour").to_string());
     }
-    scene.model.slide = slide::load(arguments)?;
+    scene.model.slide = slide::load(&arguments.projector)?;
     let load = start.elapsed();
 
-    let (width, height) = arguments.size.unwrap_or(DEFAULT_SIZE);
-    let RenderArgs { eye, target, up, fov, near, far, .. } = *arguments;
-    let parallel = arguments.projection == Some(cli::Projection::Parallel);
-    let wishes = Wishes { eye, target, up, fov, near, far, parallel };
+    let Size(width, height) = arguments.render.size.unwrap_or(DEFAULT_SIZE);
     let ball = camera::bounding_sphere(&scene.model);
     let aspect = f64::from(width) / f64::from(height);
-    let camera = camera::frame(&wishes, scene.camera.as_ref(), ball, aspect)?;
+    let camera = camera::frame(&arguments.camera, scene.camera.as_ref(), ball, aspect)?;
     if camera::is_behind(&camera, ball) {
         warn(
             &Error::new("a camera that looks away from the model", "the model in view")
@@ -161,11 +153,11 @@ fn draw_from(arguments: &RenderArgs, file: Option<&SceneFile>) -> Result<(), Err
     let options = RenderOptions {
         width,
         height,
-        background: arguments.background.unwrap_or(scene.background),
-        shading: arguments.shading.unwrap_or(if shiny { Shading::Blinn } else { shading }),
-        filter: arguments.filter.unwrap_or(filter),
-        wrap: arguments.wrap.unwrap_or(wrap),
-        cull: arguments.cull.unwrap_or(cull),
+        background: arguments.render.background.map_or(scene.background, Color::bytes),
+        shading: arguments.render.shading.unwrap_or(if shiny { Shading::Blinn } else { shading }),
+        filter: arguments.render.filter.unwrap_or(filter),
+        wrap: arguments.render.wrap.unwrap_or(wrap),
+        cull: arguments.render.cull.unwrap_or(cull),
         depth: depth.unwrap_or(scene_depth),
         projection: projection(arguments, &camera)?,
         policies,
@@ -193,23 +185,6 @@ fn draw_from(arguments: &RenderArgs, file: Option<&SceneFile>) -> Result<(), Err
         Some(StatsFormat::Text) => format!("{}\n{}", report.summary(), report.text()),
         Some(StatsFormat::Json) => format!("{}\n", report.json()),
     })
-}
-
-/// The profile with what overrides it; no depth where neither says one.
-fn choices(arguments: &RenderArgs) -> (Policies, Option<DepthFormat>) {
-    let RenderArgs { profile, interpolation, numbers, depth, color, subpixel, .. } = *arguments;
-    let (chosen, profile_depth) = profile.map(Profile::policies).unzip();
-    let chosen = chosen.unwrap_or_default();
-    // Of a parallel projection straight lines are exact, and the cheapest.
-    let parallel = arguments.projection == Some(cli::Projection::Parallel);
-    let straight = if parallel { Interpolation::Affine } else { chosen.interpolation };
-    let policies = Policies {
-        interpolation: interpolation.unwrap_or(straight),
-        numbers: numbers.unwrap_or(chosen.numbers),
-        color: color.unwrap_or(chosen.color),
-        subpixel: subpixel.unwrap_or(chosen.subpixel),
-    };
-    (policies, depth.or(profile_depth))
 }
 
 fn name_of(arguments: &RenderArgs) -> &str {
@@ -264,7 +239,7 @@ fn put_materials(arguments: &RenderArgs, scene: &mut Scene) -> Result<(), Error>
     images.adopt(&mut scene.model);
     prepare::replace_materials(&mut scene.model, &given_material(arguments), &mut images)?;
     let mut warnings = Warnings::default();
-    let wrap = arguments.wrap.unwrap_or(scene.defaults.2);
+    let wrap = arguments.render.wrap.unwrap_or(scene.defaults.2);
     prepare::complete(&mut scene.model, &images, wrap, &mut warnings);
     warn_all(&warnings);
     images.give(&mut scene.model);
@@ -272,11 +247,8 @@ fn put_materials(arguments: &RenderArgs, scene: &mut Scene) -> Result<(), Error>
 }
 
 fn given_material(arguments: &RenderArgs) -> Material {
-    let mut material = Material::given(&arguments.material);
-    if let Some(path) = &arguments.texture {
-        material.color_map = Some(MapFile::given(path));
-        material.color = Some([1.0; 3]);
-    }
+    let mut material = arguments.material.clone();
+    material.whiten();
     material
 }
 
@@ -293,34 +265,28 @@ fn load_scene_file(arguments: &RenderArgs, file: &SceneFile) -> Result<Scene, Er
 }
 
 /// The first option that puts an image on surfaces.
-fn mapped(arguments: &RenderArgs) -> Option<&'static str> {
-    let MaterialArgs { normal_map, height_map, ao, shininess_map, wetness_map, .. } = &arguments.material;
-    let maps = [
-        ("--texture", &arguments.texture),
-        ("--normal-map", normal_map),
-        ("--height-map", height_map),
-        ("--ao", ao),
-        ("--shininess-map", shininess_map),
-        ("--wetness-map", wetness_map),
-    ];
-    maps.into_iter().find(|(_, map)| map.is_some()).map(|(option, _)| option)
+fn mapped(arguments: &RenderArgs) -> Option<String> {
+    let maps = arguments.material.maps();
+    let (key, _) = maps.into_iter().find(|(key, _)| *key != "environment")?;
+    Some(match key {
+        "color-map" => "--texture".to_owned(),
+        "ao-map" => "--ao".to_owned(),
+        key => format!("--{key}"),
+    })
 }
 
 /// All files that are read, as far as the command line names them.
-fn inputs(arguments: &RenderArgs) -> impl Iterator<Item = &PathBuf> {
-    let MaterialArgs { normal_map, height_map, ao, shininess_map, wetness_map, environment, .. } =
-        &arguments.material;
-    let RenderArgs { model, texture, projector, .. } = arguments;
-    let maps = [normal_map, height_map, ao, shininess_map, wetness_map, environment];
-    maps.into_iter().chain([model, texture, projector]).flatten()
+fn inputs(arguments: &RenderArgs) -> impl Iterator<Item = PathBuf> {
+    let maps = arguments.material.maps().into_iter().map(|(_, map)| map.path);
+    maps.chain([&arguments.model, &arguments.projector.image].into_iter().flatten().cloned())
 }
 
 /// The projection that was asked for; a parallel one shows as much as the perspective one does around its target.
 fn projection(arguments: &RenderArgs, camera: &Camera) -> Result<Projection, Error> {
-    if arguments.projection != Some(cli::Projection::Parallel) {
+    if !arguments.camera.is_parallel() {
         return Ok(Projection::Perspective);
     }
-    let height = arguments.view_height.unwrap_or_else(|| camera::window_height(camera));
+    let height = arguments.camera.view_height.map_or_else(|| camera::window_height(camera), f32::from);
     if !(height > 0.0 && height.is_finite()) {
         let found = format!("a height of {}", number(height));
         return Err(Error::new(found, "a finite number above 0").place("--view-height"));

@@ -1,53 +1,12 @@
 //! The images of a model, each file read once.
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::error::{Error, quote};
 use crate::load::image_file;
-use crate::options::{Filter, Wrap};
+use crate::options::MapFile;
 use crate::scene::{HeightImage, Image, Model};
-
-/// An image that a material names.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(crate) struct MapFile {
-    /// Where it is.
-    pub(crate) path: PathBuf,
-    /// Where it is named; `None` on the command line.
-    pub(crate) origin: Option<Origin>,
-    /// How it is read, if that is said.
-    pub(crate) filter: Option<Filter>,
-    /// How it continues, if that is said.
-    pub(crate) wrap: Option<Wrap>,
-}
-
-impl MapFile {
-    /// A file that the command line names.
-    pub(crate) fn given(path: &Path) -> Self {
-        Self { path: path.to_owned(), ..Self::default() }
-    }
-
-    /// Puts an error where the image is named, or at the image, if that is on the command line.
-    pub(crate) fn place(&self, error: Error) -> Error {
-        let Some(origin) = &self.origin else { return error.file(&self.path) };
-        let error = error.file(&origin.file).line(origin.line);
-        match &origin.key {
-            Some(key) => error.key(key.as_str()),
-            None => error,
-        }
-    }
-}
-
-/// A place in a file of text.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Origin {
-    pub(crate) file: PathBuf,
-    pub(crate) line: usize,
-    /// What it is called there, if lines are not enough.
-    pub(crate) key: Option<String>,
-    /// What stands there.
-    pub(crate) text: String,
-}
 
 /// Images read so far. `None` is a file of which an error has been told.
 #[derive(Debug)]

@@ -1,77 +1,17 @@
-//! What is said of a material, by the command line, a scene file or a material library, and how it comes to a part.
+//! How a material of the command line, a scene file or a material library comes to a part.
 
-use crate::cli::MaterialArgs;
 use crate::error::Error;
-use crate::load::images::{Images, MapFile};
-use crate::options::{Filter, Wrap};
+use crate::load::images::Images;
+use crate::options::values::{Color, Shininess};
+use crate::options::{DEFAULT_HEIGHT, DEFAULT_REFLECTION, MapFile, Material};
 use crate::scene::{
     Detail, Environment, EnvironmentKind, HeightMap, Map, NormalMap, NormalSpace, Part, Relief,
 };
-
-/// The share of an environment that is mirrored, unless it is said.
-const REFLECTION: f32 = 0.5;
-
-/// The height of white, as a share of the model's radius, unless it is said.
-pub(crate) const HEIGHT: f32 = 0.02;
-
-/// What is said; the rest is left as it is.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Material {
-    /// sRGB in 0..=1, as are the other colours.
-    pub(crate) color: Option<[f32; 3]>,
-    pub(crate) color_map: Option<MapFile>,
-    pub(crate) normal_map: Option<MapFile>,
-    pub(crate) normal_space: Option<NormalSpace>,
-    pub(crate) normal_strength: Option<f32>,
-    pub(crate) height_map: Option<MapFile>,
-    pub(crate) relief: Option<Relief>,
-    pub(crate) height_range: Option<[f32; 2]>,
-    /// Multiplies the range, where that is not said.
-    pub(crate) height_scale: Option<f32>,
-    pub(crate) ao_map: Option<MapFile>,
-    pub(crate) wetness: Option<f32>,
-    pub(crate) wetness_map: Option<MapFile>,
-    pub(crate) specular: Option<[f32; 3]>,
-    pub(crate) specular_map: Option<MapFile>,
-    pub(crate) shininess: Option<[f32; 2]>,
-    pub(crate) shininess_map: Option<MapFile>,
-    pub(crate) emissive: Option<[f32; 3]>,
-    pub(crate) emissive_map: Option<MapFile>,
-    pub(crate) environment: Option<MapFile>,
-    pub(crate) environment_kind: Option<EnvironmentKind>,
-    pub(crate) reflection: Option<f32>,
-    pub(crate) reflection_map: Option<MapFile>,
-    pub(crate) filter: Option<Filter>,
-    pub(crate) wrap: Option<Wrap>,
-    pub(crate) uv_scale: Option<[f32; 2]>,
-}
 
 /// What to do about an image that cannot be used: the error again, or nothing, and the surface goes without.
 pub(crate) type OnError<'a> = &'a mut dyn FnMut(Error) -> Result<(), Error>;
 
 impl Material {
-    /// What the command line says of every material.
-    pub(crate) fn given(arguments: &MaterialArgs) -> Self {
-        let map = |path: &Option<std::path::PathBuf>| path.as_deref().map(MapFile::given);
-        Self {
-            normal_map: map(&arguments.normal_map),
-            normal_space: arguments.normal_space,
-            normal_strength: arguments.normal_strength,
-            height_map: map(&arguments.height_map),
-            relief: arguments.relief,
-            height_range: arguments.height_range,
-            ao_map: map(&arguments.ao),
-            wetness_map: map(&arguments.wetness_map),
-            specular: arguments.specular.map(crate::scene::shares),
-            shininess: arguments.shininess,
-            shininess_map: map(&arguments.shininess_map),
-            environment: map(&arguments.environment),
-            environment_kind: arguments.environment_kind,
-            reflection: arguments.reflection,
-            ..Self::default()
-        }
-    }
-
     /// Gives a part of a model of this radius what is said.
     ///
     /// # Errors
@@ -124,12 +64,12 @@ impl Material {
         ] {
             if let Some(map) = texture(map)? {
                 *slot = Some(map);
-                *constant = given.unwrap_or([1.0; 3]);
+                *constant = given.map_or([1.0; 3], |Color(color)| color);
             }
         }
         if let Some(map) = texture(&self.environment)? {
             if detail.environment.is_none() {
-                detail.reflection = self.reflection.unwrap_or(REFLECTION);
+                detail.reflection = self.reflection.map_or(DEFAULT_REFLECTION, f32::from);
             }
             let kind = detail.environment.map(|before| before.kind).unwrap_or_default();
             detail.environment = Some(Environment { image: map.image, kind });
@@ -139,9 +79,10 @@ impl Material {
         {
             let before = detail.height;
             let relief = self.relief.or(before.map(|height| height.relief)).unwrap_or_default();
-            let scale = HEIGHT * radius * self.height_scale.unwrap_or(1.0);
-            let range =
-                before.map_or(self.height_range, |height| Some(height.range)).unwrap_or(match relief {
+            let scale = DEFAULT_HEIGHT * radius * self.height_scale.unwrap_or(1.0);
+            let range = before
+                .map_or(self.height_range.map(Into::into), |height| Some(height.range))
+                .unwrap_or(match relief {
                     Relief::Bump | Relief::Displacement => [0.0, scale],
                     Relief::Parallax | Relief::ParallaxLimited | Relief::Steep | Relief::Occlusion => {
                         [-scale, 0.0]
@@ -177,11 +118,11 @@ impl Material {
     fn change_maps(&self, detail: &mut Detail) {
         if let Some(normal) = &mut detail.normal {
             normal.space = self.normal_space.unwrap_or(normal.space);
-            normal.strength = self.normal_strength.unwrap_or(normal.strength);
+            normal.strength = self.normal_strength.map_or(normal.strength, f32::from);
         }
         if let Some(height) = &mut detail.height {
             height.relief = self.relief.unwrap_or(height.relief);
-            height.range = self.height_range.unwrap_or(height.range);
+            height.range = self.height_range.map_or(height.range, Into::into);
         }
         if let Some(environment) = &mut detail.environment {
             environment.kind = self.environment_kind.unwrap_or(environment.kind);
@@ -189,16 +130,17 @@ impl Material {
     }
 
     fn set_constants(&self, part: &mut Part) {
-        if let Some(color) = self.color {
+        if let Some(Color(color)) = self.color {
             part.diffuse = color;
         }
         let Detail { wetness, specular, shininess, emissive, reflection, .. } = &mut part.detail;
         // A map alone says all.
-        *wetness = self.wetness.or(self.wetness_map.as_ref().map(|_| 1.0)).unwrap_or(*wetness);
-        *specular = self.specular.unwrap_or(*specular);
-        *shininess = self.shininess.unwrap_or(*shininess);
-        *emissive = self.emissive.unwrap_or(*emissive);
-        *reflection = self.reflection.unwrap_or(*reflection);
+        let mapped = if self.wetness_map.is_some() { 1.0 } else { *wetness };
+        *wetness = self.wetness.map_or(mapped, f32::from);
+        *specular = self.specular.map_or(*specular, |Color(color)| color);
+        *shininess = self.shininess.map_or(*shininess, |Shininess(pair)| pair);
+        *emissive = self.emissive.map_or(*emissive, |Color(color)| color);
+        *reflection = self.reflection.map_or(*reflection, f32::from);
     }
 }
 

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use crate::error::{Error, Warnings, quote};
 use crate::load::images::Images;
 use crate::load::input;
-use crate::load::material::Material;
 use crate::load::mtl::{self, CheckedMtl};
 use crate::load::obj::check::{CheckedObj, Named};
+use crate::options::Material;
 use crate::scene::{Model, Part};
 
 /// The largest material library that is read, in bytes.
@@ -103,7 +103,7 @@ fn normals_as_bump(material: &mut Material, images: &mut Images) -> Option<Error
     }
     let origin = map.origin.clone()?;
     material.normal_map = material.height_map.take();
-    material.normal_strength = material.height_scale.map(|scale| scale.clamp(0.0, 100.0));
+    material.normal_strength = material.height_scale.map(|scale| scale.clamp(0.0, 100.0).into());
     let found = format!("normals in {} of `bump`", quote(origin.text.as_bytes()));
     let warning = Error::new(found, "heights").file(&origin.file).line(origin.line);
     Some(warning.hint("they are used as `norm` has them"))

@@ -6,11 +6,10 @@
 
 use std::path::Path;
 
-use crate::cli::values::MAX_SHININESS;
 use crate::error::{Error, Warnings, number, quote};
-use crate::load::images::Origin;
 use crate::load::input::{self, Lines, keyword, not_text, words};
-use crate::load::material::Material;
+use crate::options::values::{Color, MAX_SHININESS, Shininess};
+use crate::options::{Material, Origin};
 
 mod maps;
 
@@ -113,10 +112,12 @@ impl CheckedMtl {
         });
         match lower.as_slice() {
             b"kd" => text.push_str(&format!("Kd {r} {g} {b}\n")),
-            b"ks" => material.specular = Some(color),
-            b"ke" => material.emissive = Some(color),
+            b"ks" => material.specular = Some(Color(color)),
+            b"ke" => material.emissive = Some(Color(color)),
             // The exponent; where a map says 0 there is no more than a sheen.
-            b"ns" => material.shininess = Some(r.clamp(0.0, MAX_SHININESS)).map(|n| [n.min(1.0), n]),
+            b"ns" => {
+                material.shininess = Some(r.clamp(0.0, MAX_SHININESS)).map(|n| Shininess([n.min(1.0), n]))
+            }
             _ => {}
         }
         Ok(outside)

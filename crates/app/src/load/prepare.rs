@@ -2,8 +2,7 @@
 
 use crate::error::{Error, Warnings};
 use crate::load::images::Images;
-use crate::load::material::Material;
-use crate::options::Wrap;
+use crate::options::{Material, Wrap};
 use crate::scene::camera;
 use crate::scene::normals::narrow;
 use crate::scene::{Model, Relief};

@@ -1,6 +1,7 @@
 //! How textures are read.
 
 use std::fmt;
+use std::str::FromStr;
 
 /// How a texture is read between its texels, and where it is smaller on the screen than in memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -17,18 +18,18 @@ pub enum Filter {
     Anisotropic(Probes),
 }
 
-impl Filter {
-    /// From the name that the command line has for it.
-    ///
-    /// # Errors
-    /// What was expected.
-    pub fn parse(text: &str) -> Result<Self, String> {
+impl FromStr for Filter {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
         let probes = Probes::ALL.map(Self::Anisotropic);
         let mut all = [Self::Nearest, Self::Bilinear, Self::Trilinear].into_iter().chain(probes);
         all.find(|filter| filter.to_string() == text)
             .ok_or_else(|| "nearest, bilinear, trilinear or anisotropic:N with N = 2, 4, 8 or 16".to_owned())
     }
 }
+
+super::values::words!(str::parse: Filter);
 
 impl fmt::Display for Filter {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -75,12 +76,12 @@ mod tests {
 
     #[test]
     fn filters_have_names() {
-        assert_eq!(Filter::parse("nearest"), Ok(Filter::Nearest));
-        assert_eq!(Filter::parse("trilinear"), Ok(Filter::Trilinear));
-        assert_eq!(Filter::parse("anisotropic:16"), Ok(Filter::Anisotropic(Probes::Sixteen)));
+        assert_eq!("nearest".parse(), Ok(Filter::Nearest));
+        assert_eq!("trilinear".parse(), Ok(Filter::Trilinear));
+        assert_eq!("anisotropic:16".parse(), Ok(Filter::Anisotropic(Probes::Sixteen)));
         for text in ["", "cubic", "anisotropic", "anisotropic:", "anisotropic:3", "anisotropic:02", "Nearest"]
         {
-            assert!(Filter::parse(text).is_err(), "{text}");
+            assert!(text.parse::<Filter>().is_err(), "{text}");
         }
     }
 }

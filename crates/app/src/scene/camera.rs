@@ -1,32 +1,11 @@
 //! Where to stand: a camera that shows a whole model, completed from whatever the user asked for.
 
 use crate::error::{Error, number};
-use crate::options::Projection;
+use crate::options::values::Point;
+use crate::options::{CameraTable, DEFAULT_FOV, Projection};
 use crate::scene::normals::{cross, dot, length, narrow, normalize, sub};
 use crate::scene::{Camera, Model};
 use alberti::ViewError;
-
-/// The vertical opening angle unless the user gives one, degrees.
-pub const DEFAULT_FOV: f32 = 40.0;
-
-/// What the user asked for; the rest is automatic.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Wishes {
-    /// The view point.
-    pub eye: Option<[f32; 3]>,
-    /// The point looked at.
-    pub target: Option<[f32; 3]>,
-    /// Upwards.
-    pub up: Option<[f32; 3]>,
-    /// Full vertical opening angle, degrees.
-    pub fov: Option<f32>,
-    /// The front clipping plane.
-    pub near: Option<f32>,
-    /// The back clipping plane.
-    pub far: Option<f32>,
-    /// To see along parallel lines, for which planes may also lie behind the eye.
-    pub parallel: bool,
-}
 
 /// A ball around a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,7 +36,7 @@ pub fn bounding_sphere(model: &Model) -> Sphere {
     Sphere { center, radius: if radius > 0.0 { radius } else { 1.0 } }
 }
 
-/// The camera that the user wished for. What was not wished for comes from `base`, a scene's own camera, or else
+/// The camera of these options. What they leave open comes from `base`, a scene's own camera, or else
 /// is chosen so that the ball fills the picture of `aspect` (width to height), seen from the front, the right and
 /// above. Near and far enclose the ball as seen from the eye that results, unless eye, target and base leave them
 /// as they were made.
@@ -66,13 +45,19 @@ pub fn bounding_sphere(model: &Model) -> Sphere {
 /// The first of these that does not hold, with the option that sets it: all is finite; the opening angle is between 0
 /// and 180 degrees; the eye is apart from its target; up is not along the view; near < far, and 0 < near unless the
 /// view is parallel.
-pub fn frame(wishes: &Wishes, base: Option<&Camera>, ball: Sphere, aspect: f64) -> Result<Camera, Error> {
-    let fov = wishes.fov.or(base.map(|b| b.fov)).unwrap_or(DEFAULT_FOV);
+pub fn frame(
+    wishes: &CameraTable,
+    base: Option<&Camera>,
+    ball: Sphere,
+    aspect: f64,
+) -> Result<Camera, Error> {
+    let point = |point: Option<Point>| point.map(<[f32; 3]>::from);
+    let fov = wishes.fov.map(f32::from).or(base.map(|b| b.fov)).unwrap_or(DEFAULT_FOV);
     check_fov(fov, &CAMERA)?;
-    let target = wishes.target.or(base.map(|b| b.target)).unwrap_or(ball.center.map(narrow));
+    let target = point(wishes.target).or(base.map(|b| b.target)).unwrap_or(ball.center.map(narrow));
     let wide = |v: [f32; 3]| v.map(f64::from);
-    let up = wishes.up.or(base.map(|b| b.up));
-    let eye = match wishes.eye.or(base.map(|b| b.eye)) {
+    let up = point(wishes.up).or(base.map(|b| b.up));
+    let eye = match point(wishes.eye).or(base.map(|b| b.eye)) {
         Some(eye) => eye,
         None => {
             let away = three_quarter(wide(up.unwrap_or([0.0, 1.0, 0.0])));
@@ -87,10 +72,16 @@ pub fn frame(wishes: &Wishes, base: Option<&Camera>, ball: Sphere, aspect: f64) 
         Some(base) if wishes.eye.is_none() && wishes.target.is_none() => (base.near, base.far),
         _ => planes(sub(ball.center, wide(eye)), view, ball.radius),
     };
-    let camera =
-        Camera { eye, target, up, fov, near: wishes.near.unwrap_or(near), far: wishes.far.unwrap_or(far) };
+    let camera = Camera {
+        eye,
+        target,
+        up,
+        fov,
+        near: wishes.near.map_or(near, f32::from),
+        far: wishes.far.map_or(far, f32::from),
+    };
     check(&camera, &CAMERA)?;
-    check_planes(&camera, wishes.parallel, [near, far])?;
+    check_planes(&camera, wishes.is_parallel(), [near, far])?;
     Ok(camera)
 }
 
@@ -269,15 +260,16 @@ fn show([x, y, z]: [f32; 3]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::options::ProjectionKind;
     use crate::scene::Vertex;
 
     const BALL: Sphere = Sphere { center: [1.0, 2.0, 3.0], radius: 2.0 };
 
-    fn of(wishes: Wishes) -> Camera {
+    fn of(wishes: CameraTable) -> Camera {
         frame(&wishes, None, BALL, 4.0 / 3.0).unwrap()
     }
 
-    fn refused(wishes: Wishes) -> String {
+    fn refused(wishes: CameraTable) -> String {
         frame(&wishes, None, BALL, 1.0).unwrap_err().to_string()
     }
 
@@ -304,35 +296,48 @@ mod tests {
         for aspect in [0.1, 0.5, 1.0, 16.0 / 9.0, 8.0] {
             for fov in [1.0, 40.0, 100.0] {
                 for up in [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [1.0, 1.0, -1.0]] {
-                    let wishes = Wishes { fov: Some(fov), up: Some(up), ..Wishes::default() };
+                    let wishes =
+                        CameraTable { fov: Some(fov.into()), up: Some(up.into()), ..CameraTable::default() };
                     let camera = frame(&wishes, None, BALL, aspect).unwrap();
                     assert!(contains(&camera, aspect), "{aspect} {camera:?}");
                 }
             }
         }
-        let camera = of(Wishes::default());
+        let camera = of(CameraTable::default());
         assert_eq!((camera.target, camera.up, camera.fov), ([1.0, 2.0, 3.0], [0.0, 1.0, 0.0], DEFAULT_FOV));
         assert!(camera.eye[0] > 1.0 && camera.eye[1] > 2.0 && camera.eye[2] > 3.0);
     }
 
     #[test]
     fn planes_follow_the_eye() {
-        let camera = of(Wishes { eye: Some([1.0, 2.0, 13.0]), ..Wishes::default() });
+        let camera = of(CameraTable { eye: Some([1.0, 2.0, 13.0].into()), ..CameraTable::default() });
         assert!((camera.near - 7.98).abs() < 1e-5 && (camera.far - 12.02).abs() < 1e-5, "{camera:?}");
-        let inside = of(Wishes { eye: Some([1.0, 2.0, 4.0]), ..Wishes::default() });
+        let inside = of(CameraTable { eye: Some([1.0, 2.0, 4.0].into()), ..CameraTable::default() });
         assert!(inside.near > 0.0 && inside.far > 3.0);
-        let behind =
-            Wishes { eye: Some([1.0, 2.0, 13.0]), target: Some([1.0, 2.0, 20.0]), ..Wishes::default() };
+        let behind = CameraTable {
+            eye: Some([1.0, 2.0, 13.0].into()),
+            target: Some([1.0, 2.0, 20.0].into()),
+            ..CameraTable::default()
+        };
         assert!(is_behind(&of(behind), BALL) && !is_behind(&camera, BALL) && !is_behind(&inside, BALL));
-        let all = Wishes { near: Some(-20.0), parallel: true, ..behind };
-        assert!(!is_behind(&of(all), BALL) && is_behind(&of(Wishes { near: Some(-7.0), ..all }), BALL));
-        let kept = of(Wishes { near: Some(0.5), far: Some(99.0), ..Wishes::default() });
+        let all =
+            CameraTable { near: Some((-20.0).into()), projection: Some(ProjectionKind::Parallel), ..behind };
+        assert!(
+            !is_behind(&of(all), BALL)
+                && is_behind(&of(CameraTable { near: Some((-7.0).into()), ..all }), BALL)
+        );
+        let kept =
+            of(CameraTable { near: Some(0.5.into()), far: Some(99.0.into()), ..CameraTable::default() });
         assert_eq!((kept.near, kept.far), (0.5, 99.0));
     }
 
     #[test]
     fn a_window_is_as_high_as_its_angle_says() {
-        let camera = of(Wishes { eye: Some([1.0, 2.0, 13.0]), fov: Some(90.0), ..Wishes::default() });
+        let camera = of(CameraTable {
+            eye: Some([1.0, 2.0, 13.0].into()),
+            fov: Some(90.0.into()),
+            ..CameraTable::default()
+        });
         assert!((window_height(&camera) - 20.0).abs() < 1e-5);
     }
 
@@ -356,7 +361,7 @@ mod tests {
 
     #[test]
     fn looking_down_needs_no_up() {
-        let camera = of(Wishes { eye: Some([1.0, 20.0, 3.0]), ..Wishes::default() });
+        let camera = of(CameraTable { eye: Some([1.0, 20.0, 3.0].into()), ..CameraTable::default() });
         assert_eq!(camera.up, [0.0, 0.0, -1.0]);
     }
 
@@ -364,52 +369,61 @@ mod tests {
     fn a_scene_keeps_its_own_planes_unless_the_view_changes() {
         let base =
             Camera { eye: [9.0; 3], target: [0.0; 3], up: [0.0, 1.0, 0.0], fov: 50.0, near: 0.1, far: 77.0 };
-        assert_eq!(frame(&Wishes::default(), Some(&base), BALL, 1.0).unwrap(), base);
-        let moved = Wishes { eye: Some([0.0, 0.0, 50.0]), ..Wishes::default() };
+        assert_eq!(frame(&CameraTable::default(), Some(&base), BALL, 1.0).unwrap(), base);
+        let moved = CameraTable { eye: Some([0.0, 0.0, 50.0].into()), ..CameraTable::default() };
         assert!(frame(&moved, Some(&base), BALL, 1.0).unwrap().near > 40.0);
     }
 
     #[test]
     fn what_is_not_a_camera_is_refused() {
-        let none = Wishes::default();
+        let none = CameraTable::default();
         let nan = f32::NAN;
         for (wishes, start) in [
             (
-                Wishes { near: Some(0.0), ..none },
+                CameraTable { near: Some(0.0.into()), ..none },
                 "--near: found near 0, expected a finite number above 0; try --near",
             ),
             (
-                Wishes { near: Some(nan), parallel: true, ..none },
+                CameraTable { near: Some(nan.into()), projection: Some(ProjectionKind::Parallel), ..none },
                 "--near: found near NaN, expected a finite number;",
             ),
             (
-                Wishes { near: Some(-1.0), far: Some(-2.0), parallel: true, ..none },
+                CameraTable {
+                    near: Some((-1.0).into()),
+                    far: Some((-2.0).into()),
+                    projection: Some(ProjectionKind::Parallel),
+                    ..none
+                },
                 "--far: found near -1 and far -2",
             ),
-            (Wishes { near: Some(nan), ..none }, "--near: found near NaN, expected"),
+            (CameraTable { near: Some(nan.into()), ..none }, "--near: found near NaN, expected"),
             (
-                Wishes { near: Some(5.0), far: Some(5.0), ..none },
+                CameraTable { near: Some(5.0.into()), far: Some(5.0.into()), ..none },
                 "--far: found near 5 and far 5, expected near < far",
             ),
-            (Wishes { near: Some(1e9), ..none }, "--far: found near 1000000000 and far"),
-            (Wishes { far: Some(f32::INFINITY), ..none }, "--far: found"),
+            (CameraTable { near: Some(1e9.into()), ..none }, "--far: found near 1000000000 and far"),
+            (CameraTable { far: Some(f32::INFINITY.into()), ..none }, "--far: found"),
             (
-                Wishes { eye: Some([1.0, 2.0, 3.0]), ..none },
+                CameraTable { eye: Some([1.0, 2.0, 3.0].into()), ..none },
                 "--eye: found the eye and its target both at 1,2,3",
             ),
-            (Wishes { eye: Some([nan, 2.0, 3.0]), ..none }, "--eye: found NaN,2,3"),
-            (Wishes { up: Some([0.0; 3]), ..none }, "--up: found 0,0,0"),
-            (Wishes { eye: Some([1.0, 9.0, 3.0]), up: Some([0.0, -4.0, 0.0]), ..none }, "--up: found 0,-4,0"),
-            (Wishes { fov: Some(180.0), ..none }, "--fov: found 180 degrees"),
-            (Wishes { fov: Some(0.0), ..none }, "--fov: found 0 degrees"),
-            (Wishes { fov: Some(nan), ..none }, "--fov: found NaN degrees"),
+            (CameraTable { eye: Some([nan, 2.0, 3.0].into()), ..none }, "--eye: found NaN,2,3"),
+            (CameraTable { up: Some([0.0; 3].into()), ..none }, "--up: found 0,0,0"),
+            (
+                CameraTable { eye: Some([1.0, 9.0, 3.0].into()), up: Some([0.0, -4.0, 0.0].into()), ..none },
+                "--up: found 0,-4,0",
+            ),
+            (CameraTable { fov: Some(180.0.into()), ..none }, "--fov: found 180 degrees"),
+            (CameraTable { fov: Some(0.0.into()), ..none }, "--fov: found 0 degrees"),
+            (CameraTable { fov: Some(nan.into()), ..none }, "--fov: found NaN degrees"),
         ] {
             let message = refused(wishes);
             assert!(message.starts_with(start), "{message}");
         }
-        assert!(frame(&Wishes { fov: Some(1e-38), ..none }, None, BALL, 1.0).is_err());
+        assert!(frame(&CameraTable { fov: Some(1e-38.into()), ..none }, None, BALL, 1.0).is_err());
         // What is advised is taken.
-        let message = refused(Wishes { near: Some(1e9), eye: Some([1.0, 2.0, 13.0]), ..none });
+        let message =
+            refused(CameraTable { near: Some(1e9.into()), eye: Some([1.0, 2.0, 13.0].into()), ..none });
         assert!(message.ends_with("; try --near 7.98 --far 12.02"), "{message}");
     }
 

@@ -2,6 +2,7 @@
 
 use clap::ValueEnum;
 
+use crate::options::values::{one_of, words};
 use crate::options::{Filter, Wrap};
 
 /// An image on a surface, and how it is read.
@@ -198,6 +199,8 @@ pub enum EnvironmentKind {
     /// A mirror ball, as the camera sees it from the front.
     Sphere,
 }
+
+words!(one_of: NormalSpace, Relief, EnvironmentKind);
 
 /// Heights in memory: rows from the top.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,10 +1,9 @@
 //! The image that a projector throws on the model.
 
-use crate::cli::RenderArgs;
 use crate::draw::{aspect, frame};
 use crate::error::Error;
 use crate::load::image_file;
-use crate::options::Projection;
+use crate::options::{DEFAULT_FOV, Projection, ProjectorTable};
 use crate::scene::camera::{self, PROJECTOR};
 use crate::scene::{Model, Slide};
 use alberti::glam::Vec3;
@@ -14,13 +13,12 @@ use alberti::{Homogeneous, Point3, Projector};
 ///
 /// # Errors
 /// The projector or its image cannot be.
-pub fn load(arguments: &RenderArgs) -> Result<Option<Slide>, Error> {
-    let RenderArgs { projector_eye, projector_target, projector_fov, .. } = *arguments;
-    let (Some(path), Some(eye), Some(target)) = (&arguments.projector, projector_eye, projector_target)
-    else {
+pub fn load(table: &ProjectorTable) -> Result<Option<Slide>, Error> {
+    let ProjectorTable { image: Some(path), eye: Some(eye), target: Some(target), fov } = table else {
         return Ok(None);
     };
-    let projector = camera::projector(eye, target, projector_fov.unwrap_or(camera::DEFAULT_FOV))?;
+    let fov = fov.map_or(DEFAULT_FOV, f32::from);
+    let projector = camera::projector(eye.0, target.0, fov)?;
     Ok(Some(Slide { image: image_file::load(path, image_file::MAX_TEXELS)?, projector }))
 }
 

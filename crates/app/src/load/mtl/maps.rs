@@ -3,11 +3,9 @@
 use std::path::Path;
 
 use crate::error::{Error, quote};
-use crate::load::images::{MapFile, Origin};
 use crate::load::input::{self, keyword};
-use crate::load::material::Material;
 use crate::load::materials::existing;
-use crate::options::Wrap;
+use crate::options::{MapFile, Material, Origin, Wrap};
 use crate::scene::EnvironmentKind;
 
 /// Puts the image that a line names into the material. `lower` is `word` in small letters. What there is to warn of is
@@ -41,7 +39,7 @@ pub(super) fn read(
         b"map_ke" => material.emissive_map = map,
         b"norm" => {
             material.normal_map = map;
-            material.normal_strength = options.multiplier.map(|x| x.clamp(0.0, 100.0));
+            material.normal_strength = options.multiplier.map(|x| x.clamp(0.0, 100.0).into());
         }
         b"refl" => {
             if let Some(kind) = options.kind.filter(|kind| *kind != b"sphere") {

@@ -99,8 +99,10 @@ fn numbers_out_of_range_are_clamped_and_named() {
         assert!(warnings[0].starts_with(&format!("m.mtl:2: {found}")), "{warnings:?}");
         let Material { shininess, specular, emissive, normal_strength, height_scale, .. } =
             &checked.materials[0];
-        assert!(shininess.iter().flatten().all(|n| (0.0..=65536.0).contains(n)));
-        assert!([specular, emissive].into_iter().flatten().flatten().all(|x| (0.0..=1.0).contains(x)));
+        assert!(shininess.iter().flat_map(|n| n.0).all(|n| (0.0..=65536.0).contains(&n)));
+        assert!(
+            [specular, emissive].into_iter().flatten().flat_map(|c| c.0).all(|x| (0.0..=1.0).contains(&x))
+        );
         assert_eq!((normal_strength, height_scale), (&None, &None));
     }
 }
@@ -111,8 +113,11 @@ fn all_maps_are_read() {
         bump -bm 3 b\nnorm m\nrefl -type sphere r");
     assert!(warnings.is_empty(), "{warnings:?}");
     let found = &checked.materials[0];
-    assert_eq!((found.specular, found.shininess), (Some([0.5, 1.0, 0.0]), Some([1.0, 40.0])));
-    assert_eq!((found.emissive, found.height_scale), (Some([1.0; 3]), Some(3.0)));
+    assert_eq!(
+        (found.specular, found.shininess),
+        (Some(Color([0.5, 1.0, 0.0])), Some(Shininess([1.0, 40.0])))
+    );
+    assert_eq!((found.emissive, found.height_scale), (Some(Color([1.0; 3])), Some(3.0)));
     let maps = [
         &found.specular_map,
         &found.shininess_map,

@@ -8,8 +8,8 @@ use toml::de::{DeTable, DeValue};
 
 use super::tables::File;
 use crate::error::{Error, quote};
-use crate::load::images::Origin;
 use crate::load::input;
+use crate::options::Origin;
 
 /// What a scene file is called in messages.
 const KIND: &str = "a scene file in TOML";
@@ -30,7 +30,9 @@ pub(super) struct Source {
 struct Key {
     key: Range<usize>,
     value: Range<usize>,
-    /// With the tables that it is in.
+    /// With the tables that it is in, and which of several: `object[0].size`.
+    path: String,
+    /// The same for messages: `object.size`.
     name: String,
 }
 
@@ -48,7 +50,7 @@ impl Source {
         })?;
         // As far as it can be read: what is wrong is told below.
         let mut keys = Vec::new();
-        collect(DeTable::parse_recoverable(&text).0.get_ref(), "", &mut keys);
+        collect(DeTable::parse_recoverable(&text).0.get_ref(), &[""; 2].map(str::to_owned), &mut keys);
         let source = Self { path: path.to_owned(), text, keys };
         match toml::from_str(&source.text) {
             Ok(file) => Ok((source, file)),
@@ -57,7 +59,7 @@ impl Source {
     }
 
     /// A path in the file, which starts where the file is.
-    pub(super) fn beside(&self, name: &str) -> PathBuf {
+    pub(super) fn beside(&self, name: impl AsRef<Path>) -> PathBuf {
         self.path.parent().unwrap_or(Path::new("")).join(name)
     }
 
@@ -66,29 +68,41 @@ impl Source {
         &self.path
     }
 
-    /// Puts an error where this value stands.
-    pub(super) fn place(&self, error: Error, at: &Range<usize>) -> Error {
-        let error = error.file(&self.path).line(self.line(at));
-        match self.key(at) {
-            Some(key) => error.key(key),
+    /// Whether the file has this key, by its path.
+    pub(super) fn has(&self, path: &str) -> bool {
+        self.key(path).is_some()
+    }
+
+    /// Puts an error where this key has its value.
+    pub(super) fn place(&self, error: Error, path: &str) -> Error {
+        let error = error.file(&self.path);
+        match self.key(path) {
+            Some(key) => error.line(self.line(&key.value)).key(key.name.as_str()),
             None => error,
         }
     }
 
-    /// What is wrong with this value.
-    pub(super) fn error(
-        &self,
-        at: &Range<usize>,
-        found: impl Into<String>,
-        expected: impl Into<String>,
-    ) -> Error {
-        self.place(Error::new(found, expected), at)
+    /// What is wrong with the value of this key.
+    pub(super) fn error(&self, path: &str, found: impl Into<String>, expected: impl Into<String>) -> Error {
+        self.place(Error::new(found, expected), path)
     }
 
-    /// Where the name of a file stands.
-    pub(super) fn origin(&self, name: &str, at: &Range<usize>) -> Origin {
-        let key = self.key(at).map(str::to_owned);
-        Origin { file: self.path.clone(), line: self.line(at), key, text: name.to_owned() }
+    /// A key that has no use there is a mistake.
+    pub(super) fn only(&self, path: &str, useful: bool, expected: &str) -> Result<(), Error> {
+        if !useful && self.has(path) {
+            return Err(self.error(path, "a key that has no use here", expected));
+        }
+        Ok(())
+    }
+
+    /// Where the name of a file stands, which is the value of this key.
+    pub(super) fn origin(&self, path: &str, text: String) -> Origin {
+        let (line, key) = self.key(path).map(|key| (self.line(&key.value), key.name.clone())).unzip();
+        Origin { file: self.path.clone(), line: line.unwrap_or(1), key, text }
+    }
+
+    fn key(&self, path: &str) -> Option<&Key> {
+        self.keys.iter().find(|key| key.path == path)
     }
 
     fn line(&self, at: &Range<usize>) -> usize {
@@ -96,7 +110,7 @@ impl Source {
     }
 
     /// The innermost key that has this place in its name or its value.
-    fn key(&self, at: &Range<usize>) -> Option<&str> {
+    fn key_at(&self, at: &Range<usize>) -> Option<&str> {
         let within = |range: &Range<usize>| range.start <= at.start && at.end <= range.end;
         let here = self.keys.iter().filter(|key| within(&key.key) || within(&key.value));
         let size = |key: &&Key| if within(&key.key) { key.key.len() } else { key.value.len() };
@@ -129,8 +143,8 @@ impl Source {
             (None, None) => (found.to_owned(), plain(expected)),
         };
         let found = plain(&found);
-        let mut error = self.error(&at, found, expected.clone());
-        if let (None, Some(key)) = (self.key(&at), self.key_on_line(&at)) {
+        let mut error = Error::new(found, expected.as_str()).file(&self.path).line(self.line(&at));
+        if let Some(key) = self.key_at(&at).or_else(|| self.key_on_line(&at)) {
             error = error.key(key);
         }
         match unknown.and_then(|key| nearest(key, &expected)) {
@@ -161,22 +175,28 @@ fn nearest<'a>(key: &str, expected: &'a str) -> Option<&'a str> {
     (3 * distance <= key.chars().count().max(3)).then_some(found)
 }
 
-fn collect(table: &DeTable<'_>, prefix: &str, keys: &mut Vec<Key>) {
+/// Notes all keys of a table with this path and name.
+fn collect(table: &DeTable<'_>, outer: &[String; 2], keys: &mut Vec<Key>) {
     for (key, value) in table {
-        let name =
-            if prefix.is_empty() { key.get_ref().to_string() } else { format!("{prefix}.{}", key.get_ref()) };
-        collect_value(value, &name, keys);
-        keys.push(Key { key: key.span(), value: value.span(), name });
+        let inner = outer.each_ref().map(|outer| match outer.as_str() {
+            "" => key.get_ref().to_string(),
+            outer => format!("{outer}.{}", key.get_ref()),
+        });
+        collect_value(value, &inner, keys);
+        let [path, name] = inner;
+        keys.push(Key { key: key.span(), value: value.span(), path, name });
     }
 }
 
-fn collect_value(value: &Spanned<DeValue<'_>>, name: &str, keys: &mut Vec<Key>) {
+fn collect_value(value: &Spanned<DeValue<'_>>, here: &[String; 2], keys: &mut Vec<Key>) {
     match value.get_ref() {
-        DeValue::Table(table) => collect(table, name, keys),
+        DeValue::Table(table) => collect(table, here, keys),
         DeValue::Array(array) => {
-            for value in array {
-                collect_value(value, name, keys);
-                keys.push(Key { key: value.span(), value: value.span(), name: name.to_owned() });
+            for (index, value) in array.iter().enumerate() {
+                let [path, name] = here;
+                let (path, name) = (format!("{path}[{index}]"), name.clone());
+                collect_value(value, &[path.clone(), name.clone()], keys);
+                keys.push(Key { key: value.span(), value: value.span(), path, name });
             }
         }
         _ => {}

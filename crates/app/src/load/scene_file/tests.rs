@@ -1,9 +1,20 @@
 use super::*;
-use crate::options::{Filter, Probes, Shading};
+use crate::options::values::Size;
+use crate::options::{CameraTable, Filter, Probes, ProjectorTable, RenderTable, Shading};
 use crate::scene::{EnvironmentKind, Light, NormalSpace, Relief};
+use clap::{Args as _, Command, FromArgMatches as _};
+use serde::de::DeserializeOwned;
+use std::fmt::Debug;
 use std::fs;
 
 const MINIMAL: &str = "[[object]]\nsurface = \"plane\"\n";
+
+/// The words of a command line.
+fn words(words: &str) -> ArgMatches {
+    RenderArgs::augment_args(Command::new("render"))
+        .no_binary_name(true)
+        .get_matches_from(words.split_whitespace())
+}
 
 /// Writes the files and reads the first.
 fn read(files: &[(&str, &[u8])]) -> Result<(tempfile::TempDir, SceneFile, RenderArgs), Error> {
@@ -11,9 +22,7 @@ fn read(files: &[(&str, &[u8])]) -> Result<(tempfile::TempDir, SceneFile, Render
     for (name, bytes) in files {
         fs::write(folder.path().join(name), bytes).expect("a file for the test");
     }
-    let mut scene = SceneFile::read(&folder.path().join(files[0].0))?;
-    let mut arguments = RenderArgs::default();
-    scene.fill(&mut arguments)?;
+    let (scene, arguments) = SceneFile::read(&folder.path().join(files[0].0), &words(""))?;
     crate::cli::partners::check(&arguments).map_err(|error| scene.relocate(error))?;
     Ok((folder, scene, arguments))
 }
@@ -274,17 +283,18 @@ fn options_are_filled_in_and_the_command_line_comes_first() {
          [render]\nshading = \"blinn\"\nfilter = \"anisotropic:8\"\ncolor-format = \"rgb565\"\n\
          [[object]]\nsurface = \"sphere\"\n";
     let (folder, _, arguments) = read(&[("s.toml", text.as_bytes())]).unwrap();
-    assert_eq!((arguments.size, arguments.eye), (Some((320, 200)), Some([1.0, 2.5, 3.0])));
-    assert_eq!(arguments.background, Some([0x10, 0x20, 0x30]));
-    assert_eq!(arguments.output, Some(folder.path().join("out.png")));
-    assert_eq!((arguments.fov, arguments.shading), (Some(30.0), Some(Shading::Blinn)));
-    assert_eq!(arguments.filter, Some(Filter::Anisotropic(Probes::Eight)));
-    assert_eq!(arguments.color, Some(crate::options::ColorFormat::Rgb565));
-    let given = RenderArgs { fov: Some(50.0), shading: Some(Shading::Unlit), ..RenderArgs::default() };
-    let mut filled = given.clone();
-    let mut scene = SceneFile::read(&folder.path().join("s.toml")).unwrap();
-    scene.fill(&mut filled).unwrap();
-    assert_eq!((filled.fov, filled.shading, filled.size), (given.fov, given.shading, Some((320, 200))));
+    let RenderArgs { camera, render, .. } = arguments;
+    assert_eq!((render.size, camera.eye), (Some(Size(320, 200)), Some([1.0, 2.5, 3.0].into())));
+    assert_eq!(render.background, Some([0x10, 0x20, 0x30].into()));
+    assert_eq!(render.output, Some(folder.path().join("out.png")));
+    assert_eq!((camera.fov, render.shading), (Some(30.0.into()), Some(Shading::Blinn)));
+    assert_eq!(render.filter, Some(Filter::Anisotropic(Probes::Eight)));
+    assert_eq!(render.color_format, Some(crate::options::ColorFormat::Rgb565));
+    let given = words("--fov 50 --shading unlit");
+    let (scene, mut filled) = SceneFile::read(&folder.path().join("s.toml"), &given).unwrap();
+    filled.update_from_arg_matches(&given).unwrap();
+    assert_eq!((filled.camera.fov, filled.render.shading), (Some(50.0.into()), Some(Shading::Unlit)));
+    assert_eq!(filled.render.size, Some(Size(320, 200)));
     // What the command line said is not the file's fault.
     let error = || Error::new("a", "b");
     assert_eq!(scene.relocate(error().place("--fov")), error().place("--fov"));
@@ -378,7 +388,7 @@ fn another_map_is_used_as_the_one_before() {
     let (a, b) = (png(&[[1, 1, 1]]), png(&[[2, 2, 2]]));
     let (folder, scene, arguments) =
         read(&[("s.toml", text.as_bytes()), ("a.png", &a), ("b.png", &b)]).unwrap();
-    let map = Some(crate::load::images::MapFile::given(&folder.path().join("b.png")));
+    let map = Some(crate::options::MapFile::given(&folder.path().join("b.png")));
     let over = Material {
         normal_map: map.clone(),
         height_map: map.clone(),
@@ -392,7 +402,9 @@ fn another_map_is_used_as_the_one_before() {
     let (before, after) = (build(&Material::default()), build(&over));
     assert_eq!((before.1, before.2, after.1, after.2), (1, 257, 2, 514));
     assert_eq!(before.0, after.0);
-    let steeper = build(&Material { height_range: Some([0.0, 1.0]), normal_strength: Some(3.0), ..over }).0;
+    let steeper =
+        build(&Material { height_range: Some([0.0, 1.0].into()), normal_strength: Some(3.0.into()), ..over })
+            .0;
     assert_eq!(steeper.height.map(|height| (height.relief, height.range)), Some((Relief::Steep, [0.0, 1.0])));
     assert_eq!(steeper.normal.map(|n| (n.space, n.strength)), Some((NormalSpace::Object, 3.0)));
 }
@@ -456,19 +468,33 @@ fn the_example_of_the_readme_is_a_scene() {
         readme.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("an example");
     let (_folder, scene, arguments) = read(&[("s.toml", example.as_bytes())]).expect(example);
     assert_eq!((scene.file.object.len(), scene.file.material.len(), scene.file.light.len()), (2, 2, 2));
-    assert_eq!((arguments.size, arguments.shading), (Some((640, 480)), Some(Shading::Blinn)));
+    let RenderTable { size, shading, .. } = arguments.render;
+    assert_eq!((size, shading), (Some(Size(640, 480)), Some(Shading::Blinn)));
+}
+
+/// The keys of a table, as it lists them itself.
+fn keys<T: DeserializeOwned + Debug>() -> Vec<String> {
+    let error = toml::from_str::<T>("no-such-key = 1").expect_err("an unknown key");
+    error.message().split('`').skip(3).step_by(2).map(str::to_owned).collect()
 }
 
 #[test]
 fn the_readme_has_every_key() {
     let readme = include_str!("../../../README.md");
-    let tables = include_str!("tables.rs");
-    let keys = tables.lines().filter_map(|line| line.trim().strip_prefix("pub(super) ")?.split_once(": At<"));
-    let mut count = 0;
-    for (key, _) in keys {
-        let key = format!("`{}`", key.replace('_', "-"));
-        assert!(readme.contains(&key), "{key}");
-        count += 1;
+    let all = [
+        keys::<File>(),
+        keys::<CameraTable>(),
+        keys::<ProjectorTable>(),
+        keys::<RenderTable>(),
+        keys::<tables::Object>(),
+        keys::<Material>(),
+        keys::<tables::Ambient>(),
+        keys::<tables::Light>(),
+    ]
+    .concat();
+    for key in &all {
+        let (key_there, table_there) = (format!("`{key}`"), format!("[{key}"));
+        assert!(readme.contains(&key_there) || readme.contains(&table_there), "{key}");
     }
-    assert!(count > 60, "{count}");
+    assert!(all.len() > 60, "{all:?}");
 }
