@@ -1,6 +1,6 @@
 //! The materials of an OBJ model: its libraries, and the textures that they name.
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Warnings, quote};
@@ -49,16 +49,14 @@ impl Materials {
         Ok(materials)
     }
 
-    /// The libraries as text for the reader.
-    pub(crate) fn texts(&self) -> &[String] {
-        &self.checked.texts
+    /// The materials' names and indices.
+    pub(crate) fn names(&self) -> &HashMap<String, usize> {
+        &self.checked.names
     }
 
-    /// Gives a part of a model of this radius all of the material with that index in [`Self::texts`] but its `Kd`.
-    /// What cannot be used becomes a warning.
-    pub(crate) fn apply(&mut self, index: &str, part: &mut Part, radius: f32, warnings: &mut Warnings) {
-        let material = index.parse().ok().and_then(|index: usize| self.checked.materials.get_mut(index));
-        let Some(material) = material else { return };
+    /// Gives a part of a model of this radius the material with that index. What cannot be used becomes a warning.
+    pub(crate) fn apply(&mut self, index: usize, part: &mut Part, radius: f32, warnings: &mut Warnings) {
+        let Some(material) = self.checked.materials.get_mut(index) else { return };
         if let Some(warning) = normals_as_bump(material, &mut self.images) {
             warnings.push(warning);
         }
@@ -76,13 +74,12 @@ impl Materials {
     }
 
     fn look_up(&self, path: &Path, obj: &CheckedObj, warnings: &mut Warnings) {
-        let names: HashSet<&str> = self.checked.names.iter().map(String::as_str).collect();
         let expected = if obj.libraries.is_empty() {
             "a material of that name (the file names no `mtllib`)"
         } else {
             "a material of that name in the libraries"
         };
-        for used in obj.materials.iter().filter(|m| !names.contains(m.name.as_str())) {
+        for used in obj.materials.iter().filter(|m| !self.names().contains_key(&m.name)) {
             warnings.push(
                 Error::new(format!("`usemtl` {}", quote(used.name.as_bytes())), expected)
                     .file(path)

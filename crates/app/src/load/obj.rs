@@ -5,13 +5,13 @@
 //! Texture coordinates are kept as they are, v up. Materials are looked for beside the model, textures beside the
 //! material library.
 
-use std::io::{self, BufRead, Read};
+use std::io::{self, BufReader, Read};
 use std::path::Path;
 
 use crate::error::{Error, Warnings};
 use crate::load::materials::Materials;
 
-use crate::load::{input, mtl};
+use crate::load::input;
 use crate::scene::{Model, Part, Vertex};
 use crate::scene::{camera, normals};
 
@@ -51,22 +51,19 @@ pub fn load(path: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<Loaded, E
         warnings.push(Error::new(found, "red, green and blue in 0 to 1").file(path).hint("they are clamped"));
     }
     let mut materials = Materials::read(path, &checked, &mut warnings)?;
-    let (objects, found) = read(&checked, &materials, &mut |done, total| {
+    let objects = read(&checked, &materials, &mut |done, total| {
         progress(half + done * half / total.max(1), 2 * half);
     })
     .map_err(|e| e.file(path))?;
 
     let mut model = Model { source: Some(path.to_owned()), ..Model::default() };
-    let mut indices = Vec::new();
-    for object in objects.iter().filter(|object| !object.mesh.indices.is_empty()) {
-        let material = object.mesh.material_id.and_then(|id| found.get(id));
-        let diffuse = material.and_then(|m| m.diffuse).unwrap_or(DEFAULT_DIFFUSE);
-        add_part(&mut model, object, diffuse).map_err(|e| e.file(path))?;
-        indices.push(material.and_then(|m| m.unknown_param.get(mtl::INDEX)));
+    let objects: Vec<_> = objects.iter().filter(|object| !object.mesh.indices.is_empty()).collect();
+    for object in &objects {
+        add_part(&mut model, object).map_err(|e| e.file(path))?;
     }
     let radius = normals::narrow(camera::bounding_sphere(&model).radius);
-    for (part, index) in model.parts.iter_mut().zip(indices) {
-        if let Some(index) = index {
+    for (part, object) in model.parts.iter_mut().zip(objects) {
+        if let Some(index) = object.mesh.material_id {
             materials.apply(index, part, radius, &mut warnings);
         }
     }
@@ -75,34 +72,27 @@ pub fn load(path: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<Loaded, E
     Ok(Loaded { model, warnings, has_uv: checked.corners_with_uv > 0 })
 }
 
-/// The checked text through `tobj`.
+/// The checked text through `tobj`, which is told the materials' names alone.
 fn read(
     checked: &CheckedObj,
     materials: &Materials,
     progress: &mut dyn FnMut(u64, u64),
-) -> Result<(Vec<tobj::Model>, Vec<tobj::Material>), Error> {
+) -> Result<Vec<tobj::Model>, Error> {
     let options = tobj::LoadOptions { triangulate: true, single_index: true, ..tobj::LoadOptions::default() };
-    let texts = materials.texts();
-    // The libraries go by number: which files they are has been settled.
-    let libraries: String = (0..texts.len()).map(|i| format!("mtllib {i}\n")).collect();
-    let total = (checked.head.len() + libraries.len() + checked.body.len()) as u64;
-    let text = checked.head.as_bytes().chain(libraries.as_bytes()).chain(checked.body.as_bytes());
-    let mut reader =
-        Counting { inner: text, done: 0, reported: 0, report: &mut |done| progress(done, total) };
-    let by_number = |number: &Path| {
-        let text = number.to_str().and_then(|n| n.parse::<usize>().ok()).and_then(|n| texts.get(n));
-        tobj::load_mtl_buf(&mut text.map_or("", String::as_str).as_bytes())
-    };
-    let refused = |error: tobj::LoadError| {
+    let library = "mtllib all\n";
+    let total = (checked.head.len() + library.len() + checked.body.len()) as u64;
+    let text = checked.head.as_bytes().chain(library.as_bytes()).chain(checked.body.as_bytes());
+    let reader = Counting { inner: text, done: 0, report: &mut |done| progress(done, total) };
+    let mut reader = BufReader::with_capacity(1 << 20, reader);
+    let names = |_: &Path| Ok((Vec::new(), materials.names().clone()));
+    tobj::load_obj_buf(&mut reader, &options, names).map(|(objects, _)| objects).map_err(|error| {
         Error::new(format!("a file that the OBJ reader refuses ({error})"), check::KIND)
             .hint("export the model again")
-    };
-    let (objects, found) = tobj::load_obj_buf(&mut reader, &options, by_number).map_err(refused)?;
-    Ok((objects, found.map_err(refused)?))
+    })
 }
 
 /// Appends the triangles of an object.
-fn add_part(model: &mut Model, object: &tobj::Model, diffuse: [f32; 3]) -> Result<(), Error> {
+fn add_part(model: &mut Model, object: &tobj::Model) -> Result<(), Error> {
     let mesh = &object.mesh;
     // The check gave each vertex all attributes, so these run in step.
     let attributes = triples(&mesh.positions)
@@ -123,7 +113,7 @@ fn add_part(model: &mut Model, object: &tobj::Model, diffuse: [f32; 3]) -> Resul
     model.parts.push(Part {
         name: object.name.clone(),
         triangles: mesh.indices.chunks_exact(3).map(|t| [first + t[0], first + t[1], first + t[2]]).collect(),
-        diffuse: diffuse.map(|c| c.clamp(0.0, 1.0)),
+        diffuse: DEFAULT_DIFFUSE,
         ..Part::default()
     });
     Ok(())
@@ -133,32 +123,19 @@ fn triples(flat: &[f32]) -> impl Iterator<Item = [f32; 3]> {
     flat.chunks_exact(3).map(|x| [x[0], x[1], x[2]])
 }
 
-/// A reader that tells how far it has come, about every megabyte.
+/// A reader that reports how many bytes it has given.
 struct Counting<'a, R> {
     inner: R,
     done: u64,
-    reported: u64,
     report: &'a mut dyn FnMut(u64),
 }
 
 impl<R: Read> Read for Counting<'_, R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        self.inner.read(buffer)
-    }
-}
-
-impl<R: BufRead> BufRead for Counting<'_, R> {
-    fn fill_buf(&mut self) -> io::Result<&[u8]> {
-        self.inner.fill_buf()
-    }
-
-    fn consume(&mut self, amount: usize) {
-        self.inner.consume(amount);
-        self.done += amount as u64;
-        if self.done - self.reported >= 1 << 20 {
-            self.reported = self.done;
-            (self.report)(self.done);
-        }
+        let bytes = self.inner.read(buffer)?;
+        self.done += bytes as u64;
+        (self.report)(self.done);
+        Ok(bytes)
     }
 }
 

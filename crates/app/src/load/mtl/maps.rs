@@ -3,22 +3,21 @@
 use std::path::Path;
 
 use crate::error::{Error, quote};
-use crate::load::input::{self, keyword};
 use crate::load::materials::existing;
+use crate::load::statements::{Statement, keyword, number};
 use crate::options::{MapFile, Material, Origin, Wrap};
 use crate::scene::EnvironmentKind;
 
-/// Puts the image that a line names into the material. `lower` is `word` in small letters. What there is to warn of is
-/// returned.
+/// Puts the image that a line names into the material, and returns what there is to warn of. `lower` is the line's
+/// first word in small letters, `origin` the line.
 pub(super) fn read(
     material: &mut Material,
     lower: &[u8],
-    word: &[u8],
-    rest: &[u8],
-    origin: &Origin,
+    line: &Statement<'_>,
+    origin: Origin,
 ) -> Option<Error> {
-    let word = String::from_utf8_lossy(word);
-    let (name, options) = options(rest);
+    let word = line.keyword();
+    let (name, options) = options(line.rest);
     let name = String::from_utf8_lossy(name).trim().to_owned();
     if name.is_empty() {
         let (found, expected) = (format!("`{word}` without a file"), format!("`{word} FILE`"));
@@ -27,7 +26,7 @@ pub(super) fn read(
     let folder = origin.file.parent().unwrap_or(Path::new(""));
     let map = Some(MapFile {
         path: existing(folder, &name).unwrap_or_else(|| folder.join(&name)),
-        origin: Some(Origin { text: name, ..origin.clone() }),
+        origin: Some(Origin { text: name, ..origin }),
         filter: None,
         wrap: options.clamp.then_some(Wrap::Clamp),
     });
@@ -96,7 +95,7 @@ fn options(rest: &[u8]) -> (&[u8], Options<'_>) {
         let first = keyword(after).0;
         for n in 0..most {
             let (argument, next) = keyword(after);
-            if n >= least && input::number(argument).is_none() {
+            if n >= least && number(argument).is_none() {
                 break;
             }
             after = next;
@@ -104,7 +103,7 @@ fn options(rest: &[u8]) -> (&[u8], Options<'_>) {
         match option {
             b"-clamp" => options.clamp = first.eq_ignore_ascii_case(b"on"),
             b"-bm" => {
-                options.multiplier = input::number(first);
+                options.multiplier = number(first);
                 options.broken = options.multiplier.is_none().then_some(first);
             }
             b"-type" => options.kind = Some(first),

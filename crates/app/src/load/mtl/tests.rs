@@ -12,13 +12,13 @@ fn run(text: &[u8]) -> (CheckedMtl, Vec<String>) {
 fn only_what_is_used_is_passed_on() {
     let (checked, warnings) =
         run(b"newmtl a b\r\n\tKa 0 0 0\n Kd 1 0.5 0 # x\nKd 0.5\nillum 2\nmap_Kd wood 1.png\nTf\n");
-    assert_eq!(checked.texts, ["newmtl a b\nalberti_index 0\nKd 1 0.5 0\nKd 0.5 0.5 0.5\n"]);
+    assert_eq!(checked.materials[0].color, Some(Color([0.5; 3])));
     let map = checked.materials[0].color_map.clone().expect("a map");
     assert_eq!(
         (map.path, map.origin.map(|o| (o.line, o.text))),
         ("wood 1.png".into(), Some((6, "wood 1.png".into())))
     );
-    assert_eq!(checked.names, ["a b"]);
+    assert_eq!(checked.names, HashMap::from([("a b".to_owned(), 0)]));
     assert!(warnings.is_empty(), "{warnings:?}");
 }
 
@@ -50,7 +50,7 @@ fn broken_lines_are_left_out_and_named() {
         ("newmtl", "found `newmtl` without a name"),
     ] {
         let (checked, warnings) = run(format!("newmtl a\n{line}\n").as_bytes());
-        assert_eq!(checked.texts, ["newmtl a\nalberti_index 0\n"]);
+        assert_eq!(checked.materials, [Material::default()]);
         assert_eq!(warnings.len(), 1);
         assert!(warnings[0].starts_with(&format!("m.mtl:2: {found}")), "{warnings:?}");
     }
@@ -59,7 +59,8 @@ fn broken_lines_are_left_out_and_named() {
 #[test]
 fn lines_before_a_name_are_left_out() {
     let (checked, warnings) = run(b"Kd 1 1 1\nnewmtl\nKd 0 0 0\nnewmtl b\n");
-    assert_eq!(checked.texts, ["newmtl b\nalberti_index 0\n"]);
+    assert_eq!(checked.materials, [Material::default()]);
+    assert_eq!(checked.names, HashMap::from([("b".to_owned(), 0)]));
     assert_eq!(warnings.len(), 3);
 }
 
@@ -142,6 +143,6 @@ fn sides_of_a_cube_are_left_out() {
 #[test]
 fn binary_libraries_are_left_out_whole() {
     let (checked, warnings) = run(b"newmtl\0");
-    assert_eq!(checked.texts, [""]);
+    assert!(checked.materials.is_empty() && checked.names.is_empty());
     assert!(warnings[0].starts_with("m.mtl: found a binary file"));
 }

@@ -7,12 +7,13 @@
 //! the normals stands for "the file gives none".
 
 use std::collections::HashSet;
-use std::fmt::Write as _;
+use std::fmt::{Arguments, Write as _};
 use std::num::IntErrorKind;
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use crate::error::{Error, quote};
-use crate::load::input::{self, Lines, keyword, not_text, words};
+use crate::load::statements::{Lines, Statement, not_text};
 
 /// Coordinates are limited so that squared lengths of sums stay finite in f32.
 pub(crate) const MAX_COORDINATE: f32 = 1e15;
@@ -66,7 +67,7 @@ pub(crate) fn check(bytes: &[u8], path: &Path, progress: &mut dyn FnMut(usize)) 
     let mut lines = Lines::new(bytes);
     let mut since_report = 0;
     while let Some((number, line)) = lines.next() {
-        check.line(number, &line).map_err(|e| e.file(path).line(number))?;
+        check.statement(&Statement::new(number, &line)).map_err(|e| e.file(path).line(number))?;
         since_report += 1;
         if since_report == 20_000 {
             since_report = 0;
@@ -95,46 +96,43 @@ struct Check {
 }
 
 impl Check {
-    fn line(&mut self, number: usize, line: &[u8]) -> Result<(), Error> {
-        let (word, rest) = keyword(line);
-        match word {
-            b"v" => self.vertex(rest),
-            b"vt" => self.texture_coordinate(rest),
-            b"vn" => self.normal(rest),
-            b"f" => self.face(number, rest),
-            b"o" | b"g" => {
-                self.out.body.push_str("o ");
-                self.out.body.push_str(String::from_utf8_lossy(rest).trim());
-                self.out.body.push('\n');
-                Ok(())
+    fn statement(&mut self, line: &Statement<'_>) -> Result<(), Error> {
+        match line.word {
+            b"v" => self.vertex(line)?,
+            b"vt" => {
+                let ([u, v, _], _) = numbers(line, 1..=3, "`vt u v`", "1 to 3 (u v w)")?;
+                self.attribute(1, format_args!("vt {u} {v}\n"));
             }
+            b"vn" => {
+                let ([x, y, z], _) = numbers(line, 3..=3, "`vn x y z`", "3 (x y z)")?;
+                self.attribute(2, format_args!("vn {x} {y} {z}\n"));
+            }
+            b"f" => self.face(line)?,
+            b"o" | b"g" => push(&mut self.out.body, format_args!("o {}\n", line.name())),
             b"usemtl" => {
-                self.use_material(number, rest);
-                Ok(())
+                let name = line.name();
+                // An empty name would stop the reader; a name that no library has means the default material to it.
+                let known = if name.is_empty() { "\u{1}" } else { &name };
+                push(&mut self.out.body, format_args!("usemtl {known}\n"));
+                if self.materials.insert(name.clone()) {
+                    self.out.materials.push(Named { name, line: line.line });
+                }
             }
-            b"mtllib" => {
-                let name = String::from_utf8_lossy(rest).trim().to_owned();
-                self.out.libraries.push(Named { name, line: number });
-                Ok(())
-            }
-            _ => Ok(()),
+            b"mtllib" => self.out.libraries.push(Named { name: line.name(), line: line.line }),
+            _ => {}
         }
+        Ok(())
     }
 
-    fn vertex(&mut self, rest: &[u8]) -> Result<(), Error> {
-        let mut values = [0.0; 6];
-        let n = numbers(rest, &mut values, "`v x y z` with an optional w or r g b")?;
-        if !matches!(n, 3 | 4 | 6) {
-            return Err(Error::new(
-                format!("`v` with {n} numbers"),
-                "3 (x y z), 4 (x y z w) or 6 (x y z r g b)",
-            )
-            .hint("correct the line"));
-        }
-        let mut position = [values[0], values[1], values[2]];
-        if n == 4 {
-            position = position.map(|x| x / values[3]);
-        }
+    fn vertex(&mut self, line: &Statement<'_>) -> Result<(), Error> {
+        let wanted = "3 (x y z), 4 (x y z w) or 6 (x y z r g b)";
+        let ([x, y, z, r, g, b], n) = numbers(line, 3..=6, "`v x y z` with an optional w or r g b", wanted)?;
+        let (position, color) = match n {
+            3 => ([x, y, z], [1.0; 3]),
+            4 => ([x, y, z].map(|x| x / r), [1.0; 3]),
+            6 => ([x, y, z], [r, g, b]),
+            n => return Err(miscounted(line, n, wanted)),
+        };
         // Not (a <= b): a division by w = 0 may have made a NaN.
         if let Some(bad) = position.iter().find(|x| x.is_nan() || x.abs() > MAX_COORDINATE) {
             return Err(Error::new(
@@ -143,46 +141,23 @@ impl Check {
             )
             .hint("scale the model"));
         }
-        let color = if n == 6 { [values[3], values[4], values[5]] } else { [1.0; 3] };
         self.out.colors_out_of_range += usize::from(color.iter().any(|c| !(0.0..=1.0).contains(c)));
-        self.out.head.push('v');
-        for x in position.iter().chain(&color) {
-            push(&mut self.out.head, format_args!(" {x}"));
-        }
-        self.out.head.push('\n');
-        self.counts[0] += 1;
+        let ([x, y, z], [r, g, b]) = (position, color);
+        self.attribute(0, format_args!("v {x} {y} {z} {r} {g} {b}\n"));
         Ok(())
     }
 
-    fn texture_coordinate(&mut self, rest: &[u8]) -> Result<(), Error> {
-        let mut values = [0.0; 3];
-        let n = numbers(rest, &mut values, "`vt u v`")?;
-        if n == 0 || n > 3 {
-            return Err(
-                Error::new(format!("`vt` with {n} numbers"), "1 to 3 (u v w)").hint("correct the line")
-            );
-        }
-        push(&mut self.out.head, format_args!("vt {} {}\n", values[0], values[1]));
-        self.counts[1] += 1;
-        Ok(())
+    /// Passes a `v`, `vt` or `vn` on.
+    fn attribute(&mut self, which: usize, text: Arguments<'_>) {
+        push(&mut self.out.head, text);
+        self.counts[which] += 1;
     }
 
-    fn normal(&mut self, rest: &[u8]) -> Result<(), Error> {
-        let mut values = [0.0; 3];
-        let n = numbers(rest, &mut values, "`vn x y z`")?;
-        if n != 3 {
-            return Err(Error::new(format!("`vn` with {n} numbers"), "3 (x y z)").hint("correct the line"));
-        }
-        push(&mut self.out.head, format_args!("vn {} {} {}\n", values[0], values[1], values[2]));
-        self.counts[2] += 1;
-        Ok(())
-    }
-
-    fn face(&mut self, number: usize, rest: &[u8]) -> Result<(), Error> {
+    fn face(&mut self, line: &Statement<'_>) -> Result<(), Error> {
         self.out.body.push('f');
         let mut corners = 0;
-        for word in words(rest) {
-            self.corner(number, word)?;
+        for word in line.words() {
+            self.corner(line.line, word)?;
             corners += 1;
         }
         if corners < 3 {
@@ -234,30 +209,23 @@ impl Check {
             Err((line, out_of_range(index.to_string().as_bytes(), which, self.counts[which])))
         })
     }
-
-    fn use_material(&mut self, number: usize, rest: &[u8]) {
-        let name = String::from_utf8_lossy(rest).trim().to_owned();
-        // An empty name would stop the reader; a name that no library has means the default material to it.
-        push(&mut self.out.body, format_args!("usemtl {}\n", if name.is_empty() { "\u{1}" } else { &name }));
-        if self.materials.insert(name.clone()) {
-            self.out.materials.push(Named { name, line: number });
-        }
-    }
 }
 
-/// Fills `values` from the words of a line and returns how many words there are (which may be more).
-fn numbers(rest: &[u8], values: &mut [f32], expected: &str) -> Result<usize, Error> {
-    let mut n = 0;
-    for word in words(rest) {
-        let value = input::number(word).ok_or_else(|| {
-            Error::new(quote(word), format!("a finite number in {expected}")).hint("correct the line")
-        })?;
-        if let Some(slot) = values.get_mut(n) {
-            *slot = value;
-        }
-        n += 1;
-    }
-    Ok(n)
+/// The numbers of a line, which has to have so many. `form` and `wanted` are for messages.
+fn numbers<const N: usize>(
+    line: &Statement<'_>,
+    counts: RangeInclusive<usize>,
+    form: &str,
+    wanted: &str,
+) -> Result<([f32; N], usize), Error> {
+    let (numbers, n) = line.numbers().map_err(|word| {
+        Error::new(quote(word), format!("a finite number in {form}")).hint("correct the line")
+    })?;
+    if counts.contains(&n) { Ok((numbers, n)) } else { Err(miscounted(line, n, wanted)) }
+}
+
+fn miscounted(line: &Statement<'_>, n: usize, wanted: &str) -> Error {
+    Error::new(format!("`{}` with {n} numbers", line.keyword()), wanted).hint("correct the line")
 }
 
 /// A whole number; one that is too large for the type is as wrong as the largest, and is reported as out of range.
@@ -294,7 +262,7 @@ fn out_of_range(field: &[u8], which: usize, have: usize) -> Error {
 }
 
 /// Writing to a string cannot fail.
-fn push(text: &mut String, arguments: std::fmt::Arguments<'_>) {
+fn push(text: &mut String, arguments: Arguments<'_>) {
     let _ = text.write_fmt(arguments);
 }
 
