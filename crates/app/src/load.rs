@@ -11,3 +11,4 @@ pub(crate) mod scene_file;
 
 mod materials;
 mod mtl;
+mod statements;

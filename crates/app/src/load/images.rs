@@ -1,33 +1,55 @@
 //! The images of a model, each file read once.
 
 use std::collections::HashMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::error::{Error, quote};
 use crate::load::image_file;
 use crate::options::MapFile;
 use crate::scene::{HeightImage, Image, Model};
 
-/// Images read so far. `None` is a file of which an error has been told.
+/// Images read so far.
 #[derive(Debug)]
 pub(crate) struct Images {
-    textures: Vec<Image>,
-    heights: Vec<HeightImage>,
-    texture_at: HashMap<PathBuf, Option<usize>>,
-    heights_at: HashMap<PathBuf, Option<usize>>,
+    textures: Read<Image>,
+    heights: Read<HeightImage>,
     texels_left: u64,
+}
+
+/// Images of a kind, and their indices by file. `None` is a file of which an error has been told.
+#[derive(Debug)]
+struct Read<T> {
+    all: Vec<T>,
+    at: HashMap<PathBuf, Option<usize>>,
+}
+
+impl<T> Read<T> {
+    fn new() -> Self {
+        Self { all: Vec::new(), at: HashMap::new() }
+    }
+
+    /// The index of an image, which `load` reads if it has not been read.
+    fn index(
+        &mut self,
+        map: &MapFile,
+        load: impl FnOnce(&Path) -> Result<T, Error>,
+    ) -> Result<Option<usize>, Error> {
+        if let Some(&known) = self.at.get(&map.path) {
+            return Ok(known);
+        }
+        let index = load(&map.path).map(|image| {
+            self.all.push(image);
+            self.all.len() - 1
+        });
+        self.at.insert(map.path.clone(), index.as_ref().ok().copied());
+        index.map(Some).map_err(|error| unusable(map, error))
+    }
 }
 
 impl Images {
     /// None yet.
     pub(crate) fn new() -> Self {
-        Self {
-            textures: Vec::new(),
-            heights: Vec::new(),
-            texture_at: HashMap::new(),
-            heights_at: HashMap::new(),
-            texels_left: image_file::MAX_TEXELS,
-        }
+        Self { textures: Read::new(), heights: Read::new(), texels_left: image_file::MAX_TEXELS }
     }
 
     /// The index of a texture; `None` where an error has been told before.
@@ -35,17 +57,12 @@ impl Images {
     /// # Errors
     /// The file cannot be read, or is no image.
     pub(crate) fn texture(&mut self, map: &MapFile) -> Result<Option<usize>, Error> {
-        if let Some(&known) = self.texture_at.get(&map.path) {
-            return Ok(known);
-        }
-        let image = image_file::load(&map.path, self.texels_left);
-        let index = image.map(|image| {
-            self.texels_left = self.texels_left.saturating_sub(image.texels.len() as u64);
-            self.textures.push(image);
-            self.textures.len() - 1
-        });
-        self.texture_at.insert(map.path.clone(), index.as_ref().ok().copied());
-        index.map(Some).map_err(|error| unusable(map, error))
+        let left = &mut self.texels_left;
+        self.textures.index(map, |path| {
+            let image = image_file::load(path, *left)?;
+            *left = left.saturating_sub(image.texels.len() as u64);
+            Ok(image)
+        })
     }
 
     /// The index of a height image; `None` where an error has been told before.
@@ -53,32 +70,27 @@ impl Images {
     /// # Errors
     /// The file cannot be read, or is no image.
     pub(crate) fn heights(&mut self, map: &MapFile) -> Result<Option<usize>, Error> {
-        if let Some(&known) = self.heights_at.get(&map.path) {
-            return Ok(known);
-        }
-        let image = image_file::load_heights(&map.path, self.texels_left);
-        let index = image.map(|image| {
-            self.texels_left = self.texels_left.saturating_sub(image.heights.len() as u64);
-            self.heights.push(image);
-            self.heights.len() - 1
-        });
-        self.heights_at.insert(map.path.clone(), index.as_ref().ok().copied());
-        index.map(Some).map_err(|error| unusable(map, error))
+        let left = &mut self.texels_left;
+        self.heights.index(map, |path| {
+            let image = image_file::load_heights(path, *left)?;
+            *left = left.saturating_sub(image.heights.len() as u64);
+            Ok(image)
+        })
     }
 
     /// A texture's width and height.
     pub(crate) fn size(&self, index: usize) -> Option<[u32; 2]> {
-        self.textures.get(index).map(|image| [image.width, image.height])
+        self.textures.all.get(index).map(|image| [image.width, image.height])
     }
 
     /// Heights that have been read.
     pub(crate) fn height_image(&self, index: usize) -> Option<&HeightImage> {
-        self.heights.get(index)
+        self.heights.all.get(index)
     }
 
     /// Whether a texture is blue all over, as normals in tangent space are and heights are not.
     pub(crate) fn looks_like_normals(&self, index: usize) -> bool {
-        let Some(image) = self.textures.get(index) else { return false };
+        let Some(image) = self.textures.all.get(index) else { return false };
         let sums = image.texels.iter().fold([0_u64; 3], |[r, g, b], &[x, y, z, _]| {
             [r + u64::from(x), g + u64::from(y), b + u64::from(z)]
         });
@@ -90,21 +102,21 @@ impl Images {
 
     /// Takes over the images of a model, whose parts are told their new indices.
     pub(crate) fn adopt(&mut self, model: &mut Model) {
-        let (textures, heights) = (self.textures.len(), self.heights.len());
+        let (textures, heights) = (self.textures.all.len(), self.heights.all.len());
         for part in &mut model.parts {
             part.texture.iter_mut().chain(part.detail.images_mut()).for_each(|index| *index += textures);
             part.detail.height.iter_mut().for_each(|height| height.heights += heights);
         }
         let texels: u64 = model.textures.iter().map(|image| image.texels.len() as u64).sum();
         self.texels_left = self.texels_left.saturating_sub(texels);
-        self.textures.append(&mut model.textures);
-        self.heights.append(&mut model.heights);
+        self.textures.all.append(&mut model.textures);
+        self.heights.all.append(&mut model.heights);
     }
 
     /// Gives a model the images that its parts name, and drops the others.
     pub(crate) fn give(self, model: &mut Model) {
-        let mut textures = Renumbered::new(self.textures);
-        let mut heights = Renumbered::new(self.heights);
+        let mut textures = Renumbered::new(self.textures.all);
+        let mut heights = Renumbered::new(self.heights.all);
         for part in &mut model.parts {
             part.texture
                 .iter_mut()

@@ -1,6 +1,5 @@
 //! How textures are read.
 
-use std::fmt;
 use std::str::FromStr;
 
 /// How a texture is read between its texels, and where it is smaller on the screen than in memory.
@@ -18,29 +17,30 @@ pub enum Filter {
     Anisotropic(Probes),
 }
 
+impl Filter {
+    const NAMES: [(&str, Self); 7] = [
+        ("nearest", Self::Nearest),
+        ("bilinear", Self::Bilinear),
+        ("trilinear", Self::Trilinear),
+        ("anisotropic:2", Self::Anisotropic(Probes::Two)),
+        ("anisotropic:4", Self::Anisotropic(Probes::Four)),
+        ("anisotropic:8", Self::Anisotropic(Probes::Eight)),
+        ("anisotropic:16", Self::Anisotropic(Probes::Sixteen)),
+    ];
+}
+
 impl FromStr for Filter {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let probes = Probes::ALL.map(Self::Anisotropic);
-        let mut all = [Self::Nearest, Self::Bilinear, Self::Trilinear].into_iter().chain(probes);
-        all.find(|filter| filter.to_string() == text)
+        let found = Self::NAMES.into_iter().find(|(name, _)| *name == text);
+        found
+            .map(|(_, filter)| filter)
             .ok_or_else(|| "nearest, bilinear, trilinear or anisotropic:N with N = 2, 4, 8 or 16".to_owned())
     }
 }
 
 super::values::words!(str::parse: Filter);
-
-impl fmt::Display for Filter {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Nearest => f.write_str("nearest"),
-            Self::Bilinear => f.write_str("bilinear"),
-            Self::Trilinear => f.write_str("trilinear"),
-            Self::Anisotropic(probes) => write!(f, "anisotropic:{}", probes.count()),
-        }
-    }
-}
 
 /// The most places at which an anisotropic filter reads a texture for one pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -56,8 +56,6 @@ pub enum Probes {
 }
 
 impl Probes {
-    const ALL: [Self; 4] = [Self::Two, Self::Four, Self::Eight, Self::Sixteen];
-
     /// How many.
     #[must_use]
     pub fn count(self) -> u32 {

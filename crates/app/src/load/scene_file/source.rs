@@ -32,8 +32,15 @@ struct Key {
     value: Range<usize>,
     /// With the tables that it is in, and which of several: `object[0].size`.
     path: String,
-    /// The same for messages: `object.size`.
-    name: String,
+}
+
+impl Key {
+    /// Its path without numbers, for messages: `object.size`.
+    fn name(&self) -> String {
+        let mut parts = self.path.split('[');
+        let first = parts.next().unwrap_or_default().to_owned();
+        parts.fold(first, |name, part| name + part.split_once(']').map_or(part, |(_, rest)| rest))
+    }
 }
 
 impl Source {
@@ -50,7 +57,7 @@ impl Source {
         })?;
         // As far as it can be read: what is wrong is told below.
         let mut keys = Vec::new();
-        collect(DeTable::parse_recoverable(&text).0.get_ref(), &[""; 2].map(str::to_owned), &mut keys);
+        collect(DeTable::parse_recoverable(&text).0.get_ref(), "", &mut keys);
         let source = Self { path: path.to_owned(), text, keys };
         match toml::from_str(&source.text) {
             Ok(file) => Ok((source, file)),
@@ -77,7 +84,7 @@ impl Source {
     pub(super) fn place(&self, error: Error, path: &str) -> Error {
         let error = error.file(&self.path);
         match self.key(path) {
-            Some(key) => error.line(self.line(&key.value)).key(key.name.as_str()),
+            Some(key) => error.line(self.line(&key.value)).key(key.name()),
             None => error,
         }
     }
@@ -97,7 +104,7 @@ impl Source {
 
     /// Where the name of a file stands, which is the value of this key.
     pub(super) fn origin(&self, path: &str, text: String) -> Origin {
-        let (line, key) = self.key(path).map(|key| (self.line(&key.value), key.name.clone())).unzip();
+        let (line, key) = self.key(path).map(|key| (self.line(&key.value), key.name())).unzip();
         Origin { file: self.path.clone(), line: line.unwrap_or(1), key, text }
     }
 
@@ -110,11 +117,11 @@ impl Source {
     }
 
     /// The innermost key that has this place in its name or its value.
-    fn key_at(&self, at: &Range<usize>) -> Option<&str> {
+    fn key_at(&self, at: &Range<usize>) -> Option<String> {
         let within = |range: &Range<usize>| range.start <= at.start && at.end <= range.end;
         let here = self.keys.iter().filter(|key| within(&key.key) || within(&key.value));
         let size = |key: &&Key| if within(&key.key) { key.key.len() } else { key.value.len() };
-        here.min_by_key(size).map(|key| key.name.as_str())
+        here.min_by_key(size).map(Key::name)
     }
 
     /// What a line that cannot be read gives a value to.
@@ -144,7 +151,7 @@ impl Source {
         };
         let found = plain(&found);
         let mut error = Error::new(found, expected.as_str()).file(&self.path).line(self.line(&at));
-        if let Some(key) = self.key_at(&at).or_else(|| self.key_on_line(&at)) {
+        if let Some(key) = self.key_at(&at).or_else(|| self.key_on_line(&at).map(str::to_owned)) {
             error = error.key(key);
         }
         match unknown.and_then(|key| nearest(key, &expected)) {
@@ -175,28 +182,24 @@ fn nearest<'a>(key: &str, expected: &'a str) -> Option<&'a str> {
     (3 * distance <= key.chars().count().max(3)).then_some(found)
 }
 
-/// Notes all keys of a table with this path and name.
-fn collect(table: &DeTable<'_>, outer: &[String; 2], keys: &mut Vec<Key>) {
+/// Notes all keys of the table with this path.
+fn collect(table: &DeTable<'_>, outer: &str, keys: &mut Vec<Key>) {
+    let dot = if outer.is_empty() { "" } else { "." };
     for (key, value) in table {
-        let inner = outer.each_ref().map(|outer| match outer.as_str() {
-            "" => key.get_ref().to_string(),
-            outer => format!("{outer}.{}", key.get_ref()),
-        });
-        collect_value(value, &inner, keys);
-        let [path, name] = inner;
-        keys.push(Key { key: key.span(), value: value.span(), path, name });
+        let path = format!("{outer}{dot}{}", key.get_ref());
+        collect_value(value, &path, keys);
+        keys.push(Key { key: key.span(), value: value.span(), path });
     }
 }
 
-fn collect_value(value: &Spanned<DeValue<'_>>, here: &[String; 2], keys: &mut Vec<Key>) {
+fn collect_value(value: &Spanned<DeValue<'_>>, path: &str, keys: &mut Vec<Key>) {
     match value.get_ref() {
-        DeValue::Table(table) => collect(table, here, keys),
+        DeValue::Table(table) => collect(table, path, keys),
         DeValue::Array(array) => {
             for (index, value) in array.iter().enumerate() {
-                let [path, name] = here;
-                let (path, name) = (format!("{path}[{index}]"), name.clone());
-                collect_value(value, &[path.clone(), name.clone()], keys);
-                keys.push(Key { key: value.span(), value: value.span(), path, name });
+                let path = format!("{path}[{index}]");
+                collect_value(value, &path, keys);
+                keys.push(Key { key: value.span(), value: value.span(), path });
             }
         }
         _ => {}
