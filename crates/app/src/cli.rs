@@ -20,7 +20,7 @@ pub struct Cli {
     pub command: Option<Command>,
 }
 
-/// What `alberti` can do.
+/// The subcommands.
 #[derive(Clone, Debug, Subcommand)]
 pub enum Command {
     /// Draw a model, a scene file or a built-in scene into an image file.
@@ -76,7 +76,7 @@ pub struct RenderArgs {
     pub material: Material,
 }
 
-/// How counts and times are printed.
+/// The form of counts and times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum StatsFormat {
     /// A table, after the summary.

@@ -34,14 +34,14 @@ impl Error {
         self.place(path.display().to_string())
     }
 
-    /// Where it was found, when that is not a file: the name of an option.
+    /// The place, when that is not a file: the name of an option.
     #[must_use]
     pub fn place(mut self, place: impl Into<Box<str>>) -> Self {
         self.place = Some(place.into());
         self
     }
 
-    /// What [`Self::place`] was given.
+    /// The place or the file.
     pub(crate) fn place_name(&self) -> Option<&str> {
         self.place.as_deref()
     }
@@ -53,7 +53,7 @@ impl Error {
         self
     }
 
-    /// What it is called in the file, where lines are not enough.
+    /// Its key in the file, where lines are not enough.
     #[must_use]
     pub fn key(mut self, key: impl Into<Box<str>>) -> Self {
         self.key = Some(key.into());
@@ -68,7 +68,7 @@ impl Error {
         self
     }
 
-    /// What to do about it, or what was done.
+    /// The remedy, or the repair that was made.
     #[must_use]
     pub fn hint(mut self, hint: impl Into<Box<str>>) -> Self {
         self.hint = Some(hint.into());
@@ -86,7 +86,7 @@ pub struct Warnings {
 }
 
 impl Warnings {
-    /// How many are kept.
+    /// The number that is kept.
     pub const KEPT: usize = 10;
 
     /// Adds a warning, or counts it.

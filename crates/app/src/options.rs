@@ -1,4 +1,4 @@
-//! How a scene is drawn: the choices that the command line offers and that a built-in scene makes for itself.
+//! The options of the command line, of scene files, and of built-in scenes for themselves.
 
 use clap::ValueEnum;
 
@@ -37,7 +37,7 @@ pub const DEFAULT_REFLECTION: f32 = 0.5;
 /// The height of white, as a share of the model's radius, unless the user gives one.
 pub const DEFAULT_HEIGHT: f32 = 0.02;
 
-/// How a fragment gets its colour.
+/// The way to a fragment's colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
 pub enum Shading {
     /// The texture or the material's colour, as it is.
@@ -63,7 +63,7 @@ impl Shading {
     }
 }
 
-/// What a texture shows outside 0..=1.
+/// The wrap mode: the continuation of a texture outside 0..=1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
 pub enum Wrap {
     /// The image again.
@@ -75,7 +75,7 @@ pub enum Wrap {
     Mirror,
 }
 
-/// Which triangles are left out by the side they show.
+/// The side whose triangles are left out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
 pub enum Cull {
     /// Those seen from behind (clockwise on the screen).
@@ -89,7 +89,7 @@ pub enum Cull {
 
 words!(one_of: Shading, Wrap, Cull, ProjectionKind);
 
-/// How space comes to the screen, as options have it.
+/// The projection, as options have it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum ProjectionKind {
     /// What is farther away is smaller.
@@ -98,7 +98,7 @@ pub enum ProjectionKind {
     Parallel,
 }
 
-/// How space comes to the screen.
+/// The projection.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Projection {
     /// With the camera's opening angle.
@@ -106,7 +106,7 @@ pub enum Projection {
     Perspective,
     /// Along parallel lines.
     Parallel {
-        /// How much of the scene is seen, from the bottom of the picture to the top.
+        /// The height of the window in units of the world, above 0, from the bottom of the picture to the top.
         height: f32,
     },
 }
@@ -120,17 +120,17 @@ pub struct RenderOptions {
     pub height: u32,
     /// Behind the model, sRGB.
     pub background: [u8; 3],
-    /// How fragments are coloured.
+    /// The way to fragments' colours.
     pub shading: Shading,
-    /// How textures are read.
+    /// Filters of textures.
     pub filter: Filter,
-    /// How textures continue.
+    /// The textures' wrap mode.
     pub wrap: Wrap,
-    /// Which side is left out.
+    /// The side that is left out.
     pub cull: Cull,
     /// The depth buffer.
     pub depth: DepthFormat,
-    /// How space comes to the screen.
+    /// The projection.
     pub projection: Projection,
     /// The other policies, which [`render`](crate::render::render) takes for ones that go together.
     pub policies: Policies,

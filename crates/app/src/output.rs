@@ -1,4 +1,4 @@
-//! What the command leaves behind: the picture's file, counts and times, and a bar for people who wait.
+//! The command's output: the picture's file, counts and times, and a bar for people who wait.
 
 pub mod file;
 pub mod stats;

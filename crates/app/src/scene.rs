@@ -1,4 +1,4 @@
-//! What a picture is made of: a model, a camera, and how its surface is drawn. Plain data, so that a test can
+//! A picture's ingredients: a model, a camera, and its surfaces' looks. Plain data, so that a test can
 //! hand the same scene to an independent renderer.
 
 use std::path::PathBuf;
@@ -90,18 +90,18 @@ pub struct Model {
     pub lights: Vec<Light>,
     /// Light from everywhere, as a linear factor; `None`: as much as suits the lamp beside the camera.
     pub ambient: Option<[f32; 3]>,
-    /// What a projector throws on all parts, if anything.
+    /// The projector and its image.
     pub slide: Option<Slide>,
-    /// Where it came from, when it came from a file.
+    /// The file that it came from.
     pub source: Option<PathBuf>,
 }
 
 /// An image that a projector throws on the model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slide {
-    /// What is thrown.
+    /// The image.
     pub image: Image,
-    /// Where the projector stands and points to, and its vertical opening angle; its planes have no meaning.
+    /// The projector's place, direction and vertical opening angle; its planes have no meaning.
     pub projector: Camera,
 }
 

@@ -5,7 +5,7 @@ use crate::error::{Error, quote};
 use crate::options::Base;
 use crate::scene::{Model, Part, Relief};
 
-/// An option that does nothing without another is a mistake. What is said of maps may be meant for those of a model.
+/// An option that does nothing without another is a mistake. Options of maps may be meant for those of a model.
 ///
 /// # Errors
 /// There is one.
@@ -24,7 +24,7 @@ pub(crate) fn check(arguments: &RenderArgs) -> Result<(), Error> {
     }
 }
 
-/// What is said of maps that no part of a model has is a mistake as well.
+/// An option of maps that no part of a model has is a mistake as well.
 ///
 /// # Errors
 /// There is one.
@@ -39,7 +39,7 @@ pub(crate) fn check_maps(arguments: &RenderArgs, model: &Model) -> Result<(), Er
     }
 }
 
-/// What to say of heights that are not used, as a surface's normals are those of its normal map.
+/// The warning of heights that are not used, as a surface's normals are those of its normal map.
 pub(crate) fn unused_heights(model: &Model) -> Option<Error> {
     let unused = |part: &&Part| {
         let bump = part.detail.height.is_some_and(|height| height.relief == Relief::Bump);

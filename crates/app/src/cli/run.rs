@@ -15,8 +15,8 @@ use crate::load::scene_file::{self, SceneFile};
 use crate::load::{obj, prepare};
 use crate::options::values::{Color, Size};
 use crate::options::{
-    Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE, DepthFormat, Filter, Material, Projection,
-    RenderOptions, Shading, Wrap,
+    Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE, DepthFormat, Filter, Projection, RenderOptions,
+    Shading, Wrap,
 };
 use crate::output::file::Output;
 use crate::output::progress::Progress;
@@ -70,7 +70,7 @@ fn fail(error: &Error) -> u8 {
     FAILURE
 }
 
-/// What is drawn, with the defaults for what the command line leaves open.
+/// The model, and defaults for options that the command line leaves open.
 struct Scene {
     model: Model,
     /// A scene's own camera; models have none.
@@ -83,14 +83,22 @@ struct Scene {
 
 fn draw(matches: &ArgMatches) -> Result<(), Error> {
     let refused = |error: clap::Error| Error::new(error.to_string(), "what --help lists");
-    let arguments = RenderArgs::from_arg_matches(matches).map_err(refused)?;
-    let Some(path) = arguments.model.as_deref().filter(|path| scene_file::is_scene(path)) else {
-        return draw_from(&arguments, None);
-    };
-    // The file's options, and over them those of the command line.
-    let (file, mut arguments) = SceneFile::read(path, matches)?;
-    arguments.update_from_arg_matches(matches).map_err(refused)?;
-    draw_from(&arguments, Some(&file)).map_err(|error| file.relocate(error))
+    let mut arguments = RenderArgs::from_arg_matches(matches).map_err(refused)?;
+    let mut scene_file = None;
+    if let Some(path) = arguments.model.as_deref().filter(|path| scene_file::is_scene(path)) {
+        let (file, options) = SceneFile::read(path, matches)?;
+        scene_file = Some(file);
+        // The file's options, and over them those of the command line.
+        arguments = options;
+        arguments.update_from_arg_matches(matches).map_err(refused)?;
+    }
+    // A texture is shown as it is, whatever the materials' colours.
+    arguments.material.whiten();
+    let file = scene_file.as_ref();
+    draw_from(&arguments, file).map_err(|error| match file {
+        Some(file) => file.relocate(error),
+        None => error,
+    })
 }
 
 fn draw_from(arguments: &RenderArgs, file: Option<&SceneFile>) -> Result<(), Error> {
@@ -232,12 +240,11 @@ fn has_highlights(arguments: &RenderArgs, model: &Model) -> bool {
     material.specular.is_some() || material.shininess.is_some() || model.parts.iter().any(mapped)
 }
 
-/// `--texture` and the options of materials replace what all materials say. A texture is shown as it is, whatever the
-/// materials' colours.
+/// The options of materials replace what all materials of a model say.
 fn put_materials(arguments: &RenderArgs, scene: &mut Scene) -> Result<(), Error> {
     let mut images = Images::new();
     images.adopt(&mut scene.model);
-    prepare::replace_materials(&mut scene.model, &given_material(arguments), &mut images)?;
+    prepare::replace_materials(&mut scene.model, &arguments.material, &mut images)?;
     let mut warnings = Warnings::default();
     let wrap = arguments.render.wrap.unwrap_or(scene.defaults.2);
     prepare::complete(&mut scene.model, &images, wrap, &mut warnings);
@@ -246,19 +253,12 @@ fn put_materials(arguments: &RenderArgs, scene: &mut Scene) -> Result<(), Error>
     Ok(())
 }
 
-fn given_material(arguments: &RenderArgs) -> Material {
-    let mut material = arguments.material.clone();
-    material.whiten();
-    material
-}
-
-/// What a scene file describes.
+/// The scene of a scene file.
 fn load_scene_file(arguments: &RenderArgs, file: &SceneFile) -> Result<Scene, Error> {
     let mut warnings = Warnings::default();
     let mut progress = Progress::new("loading");
-    let over = given_material(arguments);
-    let (model, has_uv) =
-        file.build(&over, arguments, &mut warnings, &mut |done, total| progress.set(done, total))?;
+    let (model, has_uv) = file
+        .build(&arguments.material, arguments, &mut warnings, &mut |done, total| progress.set(done, total))?;
     drop(progress);
     warn_all(&warnings);
     Ok(Scene { model, camera: None, defaults: Default::default(), background: DEFAULT_BACKGROUND, has_uv })

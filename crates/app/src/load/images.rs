@@ -150,7 +150,7 @@ impl<T> Renumbered<T> {
     }
 }
 
-/// Where a file names an image, the message names that file and line, and what is wrong with the image.
+/// The error of an image, at the line that names it if a file does.
 fn unusable(map: &MapFile, error: Error) -> Error {
     let Some(origin) = &map.origin else { return error };
     let found = format!("a texture {} that cannot be used ({error})", quote(origin.text.as_bytes()));

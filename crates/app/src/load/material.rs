@@ -1,4 +1,4 @@
-//! How a material of the command line, a scene file or a material library comes to a part.
+//! Materials on parts, whether from the command line, a scene file or a material library.
 
 use crate::error::Error;
 use crate::load::images::Images;
@@ -8,7 +8,7 @@ use crate::scene::{
     Detail, Environment, EnvironmentKind, HeightMap, Map, NormalMap, NormalSpace, Part, Relief,
 };
 
-/// What to do about an image that cannot be used: the error again, or nothing, and the surface goes without.
+/// The answer to an image that cannot be used: the error again, or nothing, and the surface goes without.
 pub(crate) type OnError<'a> = &'a mut dyn FnMut(Error) -> Result<(), Error>;
 
 impl Material {

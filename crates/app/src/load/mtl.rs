@@ -13,7 +13,7 @@ use crate::options::{Material, Origin};
 
 mod maps;
 
-/// What a material library is called in messages.
+/// The name of a material library in messages.
 pub(crate) const KIND: &str = "an MTL material library";
 
 /// All libraries of a model together.

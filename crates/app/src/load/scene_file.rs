@@ -1,7 +1,7 @@
 //! Scene files: objects, materials, lights, a camera and options in TOML. The README describes the format.
 //!
-//! A file's options are read into the fields that the command line's words go over. An error in such an option, wherever
-//! it is found, is put where the file has it.
+//! A file's options are read into the fields that the command line's words go over. An error in such an option,
+//! wherever it is found, is put where the file has it.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

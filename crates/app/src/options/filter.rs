@@ -1,8 +1,8 @@
-//! How textures are read.
+//! Filters of textures.
 
 use std::str::FromStr;
 
-/// How a texture is read between its texels, and where it is smaller on the screen than in memory.
+/// A filter, for places between a texture's texels and for textures smaller on the screen than in memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Filter {
     /// The texel that contains the point.
@@ -56,7 +56,7 @@ pub enum Probes {
 }
 
 impl Probes {
-    /// How many.
+    /// The number.
     #[must_use]
     pub fn count(self) -> u32 {
         match self {

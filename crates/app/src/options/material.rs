@@ -64,7 +64,7 @@ pub struct Material {
     #[arg(long = "ao", value_name = "FILE", value_parser = file())]
     pub ao_map: Option<MapFile>,
 
-    /// How wet the surface is, from 0 to 1.
+    /// Wetness, from 0, dry, to 1.
     #[arg(skip)]
     pub wetness: Option<Number<Share>>,
 
@@ -113,15 +113,15 @@ pub struct Material {
     #[arg(skip)]
     pub reflection_map: Option<MapFile>,
 
-    /// How all its maps are read.
+    /// The filter of all its maps.
     #[arg(skip)]
     pub filter: Option<Filter>,
 
-    /// How all its maps continue.
+    /// The wrap mode of all its maps.
     #[arg(skip)]
     pub wrap: Option<Wrap>,
 
-    /// How often its maps repeat along u and v.
+    /// Repeats of its maps along u and v, each 1e-6 to 1e6.
     #[arg(skip)]
     pub uv_scale: Option<Tuple<2, Repeats>>,
 }
@@ -210,13 +210,13 @@ impl Material {
 /// An image that a material names.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct MapFile {
-    /// Where it is.
+    /// The image's file.
     pub path: PathBuf,
-    /// Where it is named; `None` on the command line.
+    /// The place that names the file; `None` on the command line.
     pub origin: Option<Origin>,
-    /// How it is read, if that is said.
+    /// Its own filter.
     pub filter: Option<Filter>,
-    /// How it continues, if that is said.
+    /// Its own wrap mode.
     pub wrap: Option<Wrap>,
 }
 

@@ -1,4 +1,4 @@
-//! Where precision is traded for time or memory: interpolation, numbers, formats, and profiles that choose among them.
+//! Policies, which trade precision for time or memory: interpolation, numbers, formats, and profiles of all three.
 
 use std::fmt;
 use std::str::FromStr;
@@ -8,7 +8,7 @@ use clap::ValueEnum;
 use super::values::{one_of, words};
 use crate::error::Error;
 
-/// What the depth buffer stores.
+/// The format of the depth buffer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
 pub enum DepthFormat {
     /// 32-bit float, 0 at the near plane.
@@ -26,7 +26,7 @@ pub enum DepthFormat {
     None,
 }
 
-/// How textures, colours and normals come from the vertices to the pixels between them.
+/// The way of texture coordinates, colours and normals from the vertices to the pixels between them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Interpolation {
     /// With perspective, from exact integer edges.
@@ -43,7 +43,7 @@ pub enum Interpolation {
 }
 
 impl Interpolation {
-    /// Those that there are in fixed point.
+    /// The straight lines, which alone exist in fixed point.
     const STRAIGHT: &str = "spans:4, spans:8, spans:16, spans:32, bounded:TEXELS or affine";
 }
 
@@ -94,7 +94,7 @@ pub enum SpanLength {
 impl SpanLength {
     const ALL: [Self; 4] = [Self::Four, Self::Eight, Self::Sixteen, Self::ThirtyTwo];
 
-    /// How many.
+    /// The number.
     pub(crate) fn columns(self) -> i32 {
         match self {
             Self::Four => 4,
@@ -116,7 +116,7 @@ pub enum Numbers {
     Fixed,
 }
 
-/// What a pixel's colour is stored as.
+/// The format of a pixel's colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
 pub enum ColorFormat {
     /// 8 bits a channel.
@@ -126,7 +126,7 @@ pub enum ColorFormat {
     Rgb565,
 }
 
-/// How finely vertices are snapped.
+/// The grid to which vertices are snapped.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
 pub enum Subpixel {
     /// To 1/16 pixel: what moves slowly may be seen to jitter.
@@ -138,16 +138,16 @@ pub enum Subpixel {
     Sub8,
 }
 
-/// Where precision is traded for time or memory, with the depth buffer.
+/// The policies beside the depth buffer's format.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Policies {
     /// From vertices to pixels.
     pub interpolation: Interpolation,
     /// In which numbers.
     pub numbers: Numbers,
-    /// What is stored.
+    /// The format of colours.
     pub color: ColorFormat,
-    /// Where vertices lie.
+    /// The vertices' grid.
     pub subpixel: Subpixel,
 }
 
@@ -181,7 +181,7 @@ pub enum Profile {
 }
 
 impl Profile {
-    /// What it stands for.
+    /// The policies of the profile, and its depth buffer.
     #[must_use]
     pub fn policies(self) -> (Policies, DepthFormat) {
         let small = |interpolation| Policies {

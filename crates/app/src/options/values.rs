@@ -113,7 +113,7 @@ impl<K> From<Number<K>> for f32 {
 }
 
 impl Tuple<2, Side> {
-    /// As whole numbers.
+    /// The sides as whole numbers.
     #[must_use]
     pub fn whole(self) -> [u32; 2] {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole and in range")]

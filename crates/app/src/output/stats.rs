@@ -1,4 +1,4 @@
-//! What a picture took: counts from the pipeline and times from the clock, as text or as JSON.
+//! The cost of a picture: counts from the pipeline and times from the clock, as text or as JSON.
 
 use alberti::Stats;
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
@@ -33,7 +33,7 @@ pub struct Report<'a> {
     pub times: Times,
 }
 
-/// Where the triangles came from.
+/// The origin of the triangles.
 #[derive(Clone, Copy, Debug)]
 pub enum Source<'a> {
     /// A file.

@@ -1,4 +1,4 @@
-//! Where to stand: a camera that shows a whole model, completed from whatever the user asked for.
+//! The camera: as far as the user says, and for the rest so that the whole model is in view.
 
 use crate::error::{Error, number};
 use crate::options::values::Point;
@@ -132,7 +132,7 @@ pub(crate) const PROJECTOR: Names = Names {
     shape: "--projector",
 };
 
-/// What the library refuses of a camera that has passed the checks here: numbers too small or too large for it.
+/// The library's refusal of a camera that has passed the checks here: numbers too small or too large for it.
 pub(crate) fn refused(why: ViewError, camera: &Camera, projection: Projection, names: &Names) -> Error {
     let Camera { eye, target, near, far, .. } = *camera;
     match (why, projection) {
@@ -229,7 +229,7 @@ fn upwards(view: [f64; 3]) -> [f32; 3] {
     if parallel(view, [0.0, 1.0, 0.0]) { [0.0, 0.0, -1.0] } else { [0.0, 1.0, 0.0] }
 }
 
-/// How far from its centre a ball just fits between the sides of the view, with a little room.
+/// The distance from a ball's centre at which it just fits between the sides of the view, with a little room.
 fn distance(radius: f64, fov: f64, aspect: f64) -> f64 {
     let vertical = fov / 2.0;
     let horizontal = (vertical.tan() * aspect).atan();

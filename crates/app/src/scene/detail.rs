@@ -1,4 +1,4 @@
-//! What a surface has beyond its colour and its texture: relief, and how it takes light.
+//! A surface beyond its colour and its texture: relief, highlights, reflections.
 
 use clap::ValueEnum;
 
@@ -23,15 +23,15 @@ pub struct Map {
 /// to 1 for what is one number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Detail {
-    /// How the texture is read; `None`: as the picture's others.
+    /// The texture's filter; `None`: that of the picture.
     pub filter: Option<Filter>,
-    /// How the texture continues; `None`: as the picture's others.
+    /// The texture's wrap mode; `None`: that of the picture.
     pub wrap: Option<Wrap>,
-    /// Where the surface points.
+    /// The normals.
     pub normal: Option<NormalMap>,
-    /// How high it is.
+    /// The heights.
     pub height: Option<HeightMap>,
-    /// How much of the surroundings' light arrives: the red channel.
+    /// The share of the surroundings' light that arrives: the red channel.
     pub occlusion: Option<Map>,
     /// From 0, dry, to 1.
     pub wetness: f32,
@@ -49,9 +49,9 @@ pub struct Detail {
     pub emissive: [f32; 3],
     /// Multiplies `emissive`.
     pub emissive_map: Option<Map>,
-    /// What is mirrored.
+    /// The mirrored image.
     pub environment: Option<Environment>,
-    /// How much of it: from 0 to 1, a mirror.
+    /// The mirrored share, from 0 to 1.
     pub reflection: f32,
     /// Multiplies `reflection`.
     pub reflection_map: Option<Map>,
@@ -124,7 +124,7 @@ pub struct NormalMap {
     pub map: Map,
     /// Between which axes.
     pub space: NormalSpace,
-    /// How steep: 0 makes the surface smooth, 1 leaves the map as it is.
+    /// Steepness, 0 to 100: 0 makes the surface smooth, 1 leaves the map as it is.
     pub strength: f32,
     /// The object's x, y and z in the model's space, each divided by its scale, as normals are, for
     /// [`NormalSpace::Object`]: other than [`UNTURNED`](Self::UNTURNED) where a scene has placed it.
@@ -151,17 +151,17 @@ pub enum NormalSpace {
 pub struct HeightMap {
     /// Index into [`Model::heights`](super::Model::heights).
     pub heights: usize,
-    /// How the heights continue; `None`: as the picture's textures.
+    /// The heights' wrap mode; `None`: that of the picture.
     pub wrap: Option<Wrap>,
-    /// What is made of them.
+    /// Their effect.
     pub relief: Relief,
-    /// What black and white stand for: along the normal, in the units of object space.
+    /// The heights of black and white along the normal, in units of object space.
     pub range: [f32; 2],
-    /// How long one unit of u and one of v are on the surface, in the units of object space.
+    /// The lengths of a unit of u and of v on the surface, in units of object space.
     pub extent: [f32; 2],
 }
 
-/// What is made of heights.
+/// The effect of heights.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
 pub enum Relief {
     /// Normals: light and shade as of the heights, on a surface that stays as it is.
@@ -179,16 +179,16 @@ pub enum Relief {
     Displacement,
 }
 
-/// What a surface mirrors.
+/// The surroundings that a surface mirrors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Environment {
     /// Index into [`Model::textures`](super::Model::textures).
     pub image: usize,
-    /// How it shows all directions.
+    /// The image's layout.
     pub kind: EnvironmentKind,
 }
 
-/// How an image shows all directions.
+/// The layout of an image of all directions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
 pub enum EnvironmentKind {
     /// Longitude to the right, latitude upwards; -z is in the middle.

@@ -161,7 +161,7 @@ fn wrapped(index: i64, count: u32, wrap: Wrap) -> usize {
     usize::try_from(found).unwrap_or_default()
 }
 
-/// Which vertices were at one place, and which of them had one normal.
+/// The vertices of one place, and those of one normal among them.
 struct Groups {
     place: Vec<usize>,
     smooth: Vec<usize>,

@@ -1,4 +1,4 @@
-//! Where an object of a scene stands.
+//! The place of an object in a scene.
 
 use crate::scene::normals::{dot, narrow, normalize};
 use crate::scene::tangents;

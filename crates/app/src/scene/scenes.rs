@@ -31,19 +31,19 @@ use crate::scene::{Camera, Model};
 /// A scene that needs no file.
 #[derive(Clone, Debug)]
 pub struct BuiltIn {
-    /// What is drawn.
+    /// The model.
     pub model: Model,
     /// From where.
     pub camera: Camera,
     /// Behind the model, sRGB.
     pub background: [u8; 3],
-    /// How it is shaded.
+    /// Its shading.
     pub shading: Shading,
-    /// How textures are read.
+    /// Filters of textures.
     pub filter: Filter,
-    /// How textures continue.
+    /// The textures' wrap mode.
     pub wrap: Wrap,
-    /// Which side is left out.
+    /// The side that is left out.
     pub cull: Cull,
     /// The depth buffer.
     pub depth: DepthFormat,

@@ -21,7 +21,7 @@ pub(crate) enum Surface {
 }
 
 impl Surface {
-    /// How many cells along u and v make it pass for smooth.
+    /// The cells along u and v that make it pass for smooth.
     pub(crate) fn segments(self) -> [u32; 2] {
         match self {
             Self::Plane { .. } => [1, 1],

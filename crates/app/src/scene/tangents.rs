@@ -71,7 +71,7 @@ fn on_surface(vertex: &Vertex, tangent: [f32; 4]) -> [f32; 4] {
     [x, y, z, tangent[3]]
 }
 
-/// How long one unit of u and one of v are on a part, on average over its area; 1 where the texture has no area.
+/// The lengths of a unit of u and of v on a part, on average over its area; 1 for a texture without area.
 pub(crate) fn extent(vertices: &[Vertex], part: &Part) -> [f32; 2] {
     let (mut sums, mut area) = ([0.0; 2], 0.0);
     for triangle in &part.triangles {

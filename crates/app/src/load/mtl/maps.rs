@@ -64,13 +64,13 @@ pub(super) fn read(
     })
 }
 
-/// What stands before the file.
+/// The options before the file's name.
 #[derive(Default)]
 struct Options<'a> {
     clamp: bool,
     /// `-bm`.
     multiplier: Option<f32>,
-    /// What stands after `-bm` and is no number.
+    /// The word after `-bm`, if it is no number.
     broken: Option<&'a [u8]>,
     /// `-type`.
     kind: Option<&'a [u8]>,

@@ -18,13 +18,13 @@ use crate::load::statements::{Lines, Statement, not_text};
 /// Coordinates are limited so that squared lengths of sums stay finite in f32.
 pub(crate) const MAX_COORDINATE: f32 = 1e15;
 
-/// What an OBJ model is called in messages.
+/// The name of an OBJ model in messages.
 pub(crate) const KIND: &str = "a Wavefront OBJ model";
 
 /// A name in the file, and the line where it comes first.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Named {
-    /// As it stands in the file, trimmed.
+    /// Trimmed.
     pub(crate) name: String,
     /// From 1.
     pub(crate) line: usize,

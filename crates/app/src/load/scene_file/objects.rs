@@ -17,7 +17,7 @@ const MAX_SEGMENTS: u32 = 1 << 14;
 
 impl SceneFile {
     /// # Errors
-    /// What objects say does not go together.
+    /// Keys of an object that do not go together.
     pub(super) fn check_objects(&self) -> Result<(), Error> {
         for (object, path) in self.all() {
             self.surface(object, &path)?;

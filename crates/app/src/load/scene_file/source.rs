@@ -11,7 +11,7 @@ use crate::error::{Error, quote};
 use crate::load::input;
 use crate::options::Origin;
 
-/// What a scene file is called in messages.
+/// The name of a scene file in messages.
 const KIND: &str = "a scene file in TOML";
 
 /// The largest scene file that is read, in bytes.
@@ -89,7 +89,7 @@ impl Source {
         }
     }
 
-    /// What is wrong with the value of this key.
+    /// An error in the value of this key.
     pub(super) fn error(&self, path: &str, found: impl Into<String>, expected: impl Into<String>) -> Error {
         self.place(Error::new(found, expected), path)
     }
@@ -102,7 +102,7 @@ impl Source {
         Ok(())
     }
 
-    /// Where the name of a file stands, which is the value of this key.
+    /// The place of a file's name, which is the value of this key.
     pub(super) fn origin(&self, path: &str, text: String) -> Origin {
         let (line, key) = self.key(path).map(|key| (self.line(&key.value), key.name())).unzip();
         Origin { file: self.path.clone(), line: line.unwrap_or(1), key, text }
@@ -124,7 +124,7 @@ impl Source {
         here.min_by_key(size).map(Key::name)
     }
 
-    /// What a line that cannot be read gives a value to.
+    /// The key of a line that cannot be read.
     fn key_on_line(&self, at: &Range<usize>) -> Option<&str> {
         let start = self.text.get(..at.start)?.rfind('\n').map_or(0, |end| end + 1);
         let (key, _) = self.text.get(start..)?.lines().next()?.split_once('=')?;
@@ -160,7 +160,7 @@ impl Source {
         }
     }
 
-    /// What stands there.
+    /// The text there.
     fn found(&self, at: &Range<usize>) -> String {
         match self.text.get(at.clone()).filter(|text| !text.trim().is_empty()) {
             Some(text) => quote(text.as_bytes()),
