@@ -5,10 +5,10 @@ pub mod input;
 pub mod obj;
 
 pub(crate) mod images;
+mod libraries;
 mod material;
 pub(crate) mod prepare;
 pub(crate) mod scene_file;
 
-mod materials;
 mod mtl;
 mod statements;

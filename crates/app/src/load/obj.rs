@@ -9,7 +9,7 @@ use std::io::{self, BufReader, Read};
 use std::path::Path;
 
 use crate::error::{Error, Warnings};
-use crate::load::materials::Materials;
+use crate::load::libraries::Libraries;
 
 use crate::load::input;
 use crate::scene::{Model, Part, Vertex};
@@ -50,8 +50,8 @@ pub fn load(path: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<Loaded, E
         let found = format!("{} vertex colours outside 0 to 1", checked.colors_out_of_range);
         warnings.push(Error::new(found, "red, green and blue in 0 to 1").file(path).hint("they are clamped"));
     }
-    let mut materials = Materials::read(path, &checked, &mut warnings)?;
-    let objects = read(&checked, &materials, &mut |done, total| {
+    let mut libraries = Libraries::read(path, &checked, &mut warnings)?;
+    let objects = read(&checked, &libraries, &mut |done, total| {
         progress(half + done * half / total.max(1), 2 * half);
     })
     .map_err(|e| e.file(path))?;
@@ -64,10 +64,10 @@ pub fn load(path: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<Loaded, E
     let radius = normals::narrow(camera::bounding_sphere(&model).radius);
     for (part, object) in model.parts.iter_mut().zip(objects) {
         if let Some(index) = object.mesh.material_id {
-            materials.apply(index, part, radius, &mut warnings);
+            libraries.apply(index, part, radius, &mut warnings);
         }
     }
-    materials.give_images(&mut model);
+    libraries.give_images(&mut model);
     normals::complete(&mut model);
     Ok(Loaded { model, warnings, has_uv: checked.corners_with_uv > 0 })
 }
@@ -75,7 +75,7 @@ pub fn load(path: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<Loaded, E
 /// The checked text through `tobj`, which is told the materials' names alone.
 fn read(
     checked: &CheckedObj,
-    materials: &Materials,
+    libraries: &Libraries,
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<Vec<tobj::Model>, Error> {
     let options = tobj::LoadOptions { triangulate: true, single_index: true, ..tobj::LoadOptions::default() };
@@ -84,7 +84,7 @@ fn read(
     let text = checked.head.as_bytes().chain(library.as_bytes()).chain(checked.body.as_bytes());
     let reader = Counting { inner: text, done: 0, report: &mut |done| progress(done, total) };
     let mut reader = BufReader::with_capacity(1 << 20, reader);
-    let names = |_: &Path| Ok((Vec::new(), materials.names().clone()));
+    let names = |_: &Path| Ok((Vec::new(), libraries.names().clone()));
     tobj::load_obj_buf(&mut reader, &options, names).map(|(objects, _)| objects).map_err(|error| {
         Error::new(format!("a file that the OBJ reader refuses ({error})"), check::KIND)
             .hint("export the model again")

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::error::{Error, quote};
-use crate::load::materials::existing;
+use crate::load::libraries::existing;
 use crate::load::statements::{Statement, keyword, number};
 use crate::options::{MapFile, Material, Origin, Wrap};
 use crate::scene::EnvironmentKind;

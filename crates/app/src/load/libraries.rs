@@ -1,4 +1,4 @@
-//! The materials of an OBJ model: its libraries, and the textures that they name.
+//! The material libraries of an OBJ model, and the textures that they name.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -17,24 +17,24 @@ const MAX_LIBRARY_BYTES: u64 = 1 << 26;
 /// The libraries of a model and the textures read so far. What is missing or broken becomes a warning, but for the
 /// numbers of a `Kd`.
 #[derive(Debug)]
-pub(crate) struct Materials {
+pub(crate) struct Libraries {
     checked: CheckedMtl,
     images: Images,
 }
 
-impl Materials {
+impl Libraries {
     /// Reads the libraries that the model at `path` names, and looks for the materials that it uses.
     ///
     /// # Errors
     /// A `Kd` whose numbers are missing or are none.
     pub(crate) fn read(path: &Path, obj: &CheckedObj, warnings: &mut Warnings) -> Result<Self, Error> {
-        let mut materials = Self { checked: CheckedMtl::default(), images: Images::new() };
+        let mut libraries = Self { checked: CheckedMtl::default(), images: Images::new() };
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut complete = true;
         for named in &obj.libraries {
             for file in files_of(folder, named) {
                 match bytes_of(path, named, &file) {
-                    Ok(bytes) => materials.checked.add(&bytes, &file, warnings)?,
+                    Ok(bytes) => libraries.checked.add(&bytes, &file, warnings)?,
                     Err(warning) => {
                         warnings.push(warning);
                         complete = false;
@@ -44,9 +44,9 @@ impl Materials {
         }
         // Without a library each of its names would be unknown, which says nothing new.
         if complete {
-            materials.look_up(path, obj, warnings);
+            libraries.look_up(path, obj, warnings);
         }
-        Ok(materials)
+        Ok(libraries)
     }
 
     /// The materials' names and indices.

@@ -1,0 +1,229 @@
+//! Tests of messages: the line, the key, what was found and what was expected.
+
+use super::{MINIMAL, build, png};
+
+/// The message without the folder.
+fn refused(text: &str) -> String {
+    let image = png(&[[1, 2, 3]]);
+    let broken = b"v 0 0 0\nf 1 2 3\n";
+    let error = build(&[("s.toml", text.as_bytes()), ("a.png", &image), ("b.obj", broken)]).expect_err(text);
+    let message = error.to_string();
+    let start = message.find("s.toml").unwrap_or_else(|| panic!("{message}"));
+    message[start..].to_owned()
+}
+
+#[test]
+fn errors_name_line_and_key() {
+    let with = |text: &str| format!("{MINIMAL}{text}");
+    for (text, wanted) in [
+        ("", "s.toml: found no [[object]], expected at least one; the README of"),
+        ("size = [1,", "s.toml:1: size: found unclosed array, expected ]"),
+        ("a\n", "s.toml:1: found "),
+        ("[camera\n", "s.toml:1: camera: found unclosed table, expected ]"),
+        ("[camera]\nfov = 1\nfov = 2\n", "s.toml:3: fov: found duplicate key, expected "),
+        (
+            &with("[camera]\nfow = 40\n"),
+            "s.toml:4: camera.fow: found the unknown key \"fow\", expected one of eye, ",
+        ),
+        (
+            &with("[camera]\n\n\nfov = \"wide\"\n"),
+            "s.toml:6: camera.fov: found string \"wide\", expected a finite number",
+        ),
+        (
+            &with("[camera]\neye = [1, 2]\n"),
+            "s.toml:4: camera.eye: found 2 in brackets, expected three finite numbers in brackets",
+        ),
+        (&with("[camera]\neye = [1, nan, 2]\n"), "s.toml:4: camera.eye: found NaN, expected a finite number"),
+        (
+            &with("[camera]\neye = 5\n"),
+            "s.toml:4: camera.eye: found 5, expected three finite numbers in brackets",
+        ),
+        (
+            &with("[camera]\nview-height = 5\n"),
+            "s.toml:4: camera.view-height: found it without camera.projection parallel",
+        ),
+        (
+            &with("[camera]\nprojection = \"flat\"\n"),
+            "s.toml:4: camera.projection: found \"flat\", expected one of perspective, parallel",
+        ),
+        (
+            &format!("size = [0, 5]\n{MINIMAL}"),
+            "s.toml:1: size: found 0, expected a whole number from 1 to 16384",
+        ),
+        (
+            &format!("size = [1.5, 5]\n{MINIMAL}"),
+            "s.toml:1: size: found 1.5, expected a whole number from 1 to 16384",
+        ),
+        (
+            &format!("background = \"red\"\n{MINIMAL}"),
+            "s.toml:1: background: found \"red\", expected six hexadecimal digits",
+        ),
+        (
+            &format!("size = [1, 1]\n{MINIMAL}[render]\nsize = [1, 1]\n"),
+            "s.toml:5: render.size: found it at the top of the file as well",
+        ),
+        (
+            &with("[render]\nshading = \"shiny\"\n"),
+            "s.toml:4: render.shading: found \"shiny\", expected one of unlit, vertex-color, lambert",
+        ),
+        (
+            &with("[render]\nfilter = \"cubic\"\n"),
+            "s.toml:4: render.filter: found \"cubic\", expected nearest, bilinear, trilinear or",
+        ),
+        (&with("[render]\ndepth = 3\n"), "s.toml:4: render.depth: found integer 3, expected a string"),
+        (
+            &with("[projector]\neye = [1, 2, 3]\n"),
+            "s.toml:4: projector.eye: found it without projector.image and projector.target",
+        ),
+        (
+            "[[object]]\nmodel = \"no.obj\"\n",
+            "s.toml:2: object.model: found a model \"no.obj\" that cannot be used (",
+        ),
+        (
+            "[[object]]\nmodel = \"b.obj\"\n",
+            "s.toml:2: object.model: found a model \"b.obj\" that cannot be used (",
+        ),
+        ("[[object]]\nposition = [1, 2, 3]\n", "s.toml:1: object: found an object without model and surface"),
+        (
+            "[[object]]\nmodel = \"b.obj\"\nsurface = \"plane\"\n",
+            "s.toml:3: object.surface: found a model as well",
+        ),
+        (
+            "[[object]]\nsurface = \"cone\"\n",
+            "s.toml:2: object.surface: found \"cone\", expected one of plane, sphere, torus, cylinder",
+        ),
+        (
+            &with("radius = 1\n"),
+            "s.toml:3: object.radius: found a key that has no use here, expected a sphere or a cylinder",
+        ),
+        (
+            &with("segments = [9000, 9000]\n"),
+            "s.toml:3: object.segments: found 81000000 cells, expected at most 1048576",
+        ),
+        (&with("scale = 0\n"), "s.toml:3: object.scale: found 0, expected a number, not 0,"),
+        (&with("scale = [1, 0, 1]\n"), "s.toml:3: object.scale: found 0, expected a number, not 0,"),
+        (
+            &with("size = [1e9, 1]\n"),
+            "s.toml:3: object.size: found 1000000000, expected a number from 1e-6 to 1e6",
+        ),
+        (
+            &with("material = \"stone\"\n"),
+            "s.toml:3: object.material: found the unknown material \"stone\", expected a table [material.stone]",
+        ),
+        (
+            &with("material = \"stone\"\n[material.stome]\n"),
+            "s.toml:3: object.material: found the unknown material \"stone\", expected one of stome",
+        ),
+        (
+            &with("[material.a]\ncolour = \"ffffff\"\n"),
+            "s.toml:4: material.a.colour: found the unknown key \"colour\", expected one of color, color-map,",
+        ),
+        (
+            &with("[material.a]\nnormal-space = \"object\"\n"),
+            "s.toml:4: material.a.normal-space: found it without normal-map, expected both, or neither",
+        ),
+        (
+            &with("[material.a]\nrelief = \"bump\"\n"),
+            "s.toml:4: material.a.relief: found it without height-map",
+        ),
+        (
+            &with("[material.a]\nheight-range = [0, 1]\n"),
+            "s.toml:4: material.a.height-range: found it without height-map",
+        ),
+        (
+            &with("[material.a]\nreflection = 0.5\n"),
+            "s.toml:4: material.a.reflection: found it without environment",
+        ),
+        (
+            &with("[material.a]\nwetness = 1.5\n"),
+            "s.toml:4: material.a.wetness: found 1.5, expected a number from 0 to 1",
+        ),
+        (
+            &with("[material.a]\nshininess = [9, 8]\n"),
+            "s.toml:4: material.a.shininess: found 9 and 8, expected a number from 0 to 65536, or",
+        ),
+        (
+            &with("[material.a]\ncolor-map = 5\n"),
+            "s.toml:4: material.a.color-map: found integer 5, expected the name of a file, or {",
+        ),
+        (
+            &with("[material.a]\ncolor-map = { filter = \"nearest\" }\n"),
+            "s.toml:4: material.a.color-map: found no file, expected one",
+        ),
+        (
+            &with("[material.a]\ncolor-map = { file = \"a.png\", wrp = \"clamp\" }\n"),
+            "s.toml:4: material.a.color-map.wrp: found the unknown key \"wrp\", expected one of file, filter, wrap; \
+             did you mean wrap?",
+        ),
+        (
+            &with("material = \"a\"\n[material.a]\n\nnormal-map = \"no.png\"\n"),
+            "s.toml:6: material.a.normal-map: found a texture \"no.png\" that cannot be used (",
+        ),
+        (
+            &with("material = \"a\"\n[material.a]\nheight-map = \"b.obj\"\n"),
+            "s.toml:5: material.a.height-map: found a texture \"b.obj\" that cannot be used (",
+        ),
+        (
+            &with("material = \"a\"\n[material.a]\nenvironment = \"a.png\"\nenvironment-kind = \"cube\"\n"),
+            "s.toml:5: material.a.environment: found an image of 1x1 texels for a cube, expected six squares",
+        ),
+        (
+            &with("[material.a]\nheight-map = { file = \"a.png\", filter = \"nearest\" }\n"),
+            "s.toml:4: material.a.height-map.filter: found a key that has no use here, expected another map",
+        ),
+        (
+            &with("[material.a]\nenvironment = { file = \"a.png\", filter = \"nearest\" }\n"),
+            "s.toml:4: material.a.environment.filter: found a key that has no use here, expected another map",
+        ),
+        (
+            &with("[material.a]\n\nenvironment = { file = \"a.png\", wrap = \"clamp\" }\n"),
+            "s.toml:5: material.a.environment.wrap: found a key that has no use here, expected another map",
+        ),
+        (
+            &with("[ambient]\nintensity = -1\n"),
+            "s.toml:4: ambient.intensity: found -1, expected a number from 0 to 1000000",
+        ),
+        (
+            &with("[[light]]\nintensity = 1\n"),
+            "s.toml:3: light: found a light without kind, expected directional, point or spot",
+        ),
+        (&with("[[light]]\nkind = \"directional\"\n"), "s.toml:3: light: found a light that points nowhere"),
+        (&with("[[light]]\nkind = \"point\"\n"), "s.toml:3: light: found a light without position"),
+        (
+            &with("[[light]]\nkind = \"point\"\nangle = 30\n"),
+            "s.toml:5: light.angle: found a key that has no use here, expected a spot light",
+        ),
+        (
+            &with("[[light]]\nkind = \"directional\"\ndirection = [0, 0, 0]\n"),
+            "s.toml:5: light.direction: found no direction",
+        ),
+        (
+            &with(
+                "[[light]]\nkind = \"spot\"\nposition = [0, 0, 0]\ndirection = [0, 1, 0]\nangle = [30, 20]\n",
+            ),
+            "s.toml:7: light.angle: found 30 and 20 degrees",
+        ),
+        (
+            &with("[[light]]\nkind = \"spot\"\nangle = 91\n"),
+            "s.toml:5: light.angle: found 91, expected an angle above 0 and up to 90 degrees",
+        ),
+    ] {
+        let message = refused(text);
+        assert!(message.starts_with(wanted), "{text:?}\n   {message}\n   {wanted}");
+        assert_eq!(message.lines().count(), 1);
+        assert!(message.contains("found ") && message.contains(", expected "), "{message}");
+    }
+}
+
+#[test]
+fn unknown_keys_get_a_suggestion() {
+    let message = refused("[[object]]\nsurfaec = \"plane\"\n");
+    assert!(message.ends_with("; did you mean surface?"), "{message}");
+    let message = refused(&format!("{MINIMAL}[camra]\n"));
+    assert!(
+        message.starts_with("s.toml:3: camra: ") && message.ends_with("; did you mean camera?"),
+        "{message}"
+    );
+    let message = refused(&format!("{MINIMAL}[zebra]\n"));
+    assert!(!message.contains("did you mean"), "{message}");
+}

@@ -1,0 +1,177 @@
+//! Tests of the camera: what it shows, and what it refuses.
+
+use super::*;
+use crate::options::ProjectionKind;
+use crate::scene::Vertex;
+
+const BALL: Sphere = Sphere { center: [1.0, 2.0, 3.0], radius: 2.0 };
+
+fn of(wishes: CameraTable) -> Camera {
+    frame(&wishes, None, BALL, 4.0 / 3.0).unwrap()
+}
+
+fn refused(wishes: CameraTable) -> String {
+    frame(&wishes, None, BALL, 1.0).unwrap_err().to_string()
+}
+
+/// Whether the ball lies between all six planes.
+fn contains(camera: &Camera, aspect: f64) -> bool {
+    let eye = camera.eye.map(f64::from);
+    let view = normalize(sub(camera.target.map(f64::from), eye)).unwrap();
+    let right = normalize(cross(view, camera.up.map(f64::from))).unwrap();
+    let up = cross(right, view);
+    let to = sub(BALL.center, eye);
+    let half = f64::from(camera.fov).to_radians() / 2.0;
+    let sides = [(up, half), (right, (half.tan() * aspect).atan())];
+    let fits = |(axis, half): ([f64; 3], f64)| {
+        dot(to, view) * half.sin() - dot(to, axis).abs() * half.cos() >= BALL.radius
+    };
+    let depth = dot(to, view);
+    sides.into_iter().all(fits)
+        && f64::from(camera.near) <= depth - BALL.radius
+        && f64::from(camera.far) >= depth + BALL.radius
+}
+
+#[test]
+fn the_automatic_camera_shows_the_whole_ball() {
+    for aspect in [0.1, 0.5, 1.0, 16.0 / 9.0, 8.0] {
+        for fov in [1.0, 40.0, 100.0] {
+            for up in [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [1.0, 1.0, -1.0]] {
+                let wishes =
+                    CameraTable { fov: Some(fov.into()), up: Some(up.into()), ..CameraTable::default() };
+                let camera = frame(&wishes, None, BALL, aspect).unwrap();
+                assert!(contains(&camera, aspect), "{aspect} {camera:?}");
+            }
+        }
+    }
+    let camera = of(CameraTable::default());
+    assert_eq!((camera.target, camera.up, camera.fov), ([1.0, 2.0, 3.0], [0.0, 1.0, 0.0], DEFAULT_FOV));
+    assert!(camera.eye[0] > 1.0 && camera.eye[1] > 2.0 && camera.eye[2] > 3.0);
+}
+
+#[test]
+fn planes_follow_the_eye() {
+    let camera = of(CameraTable { eye: Some([1.0, 2.0, 13.0].into()), ..CameraTable::default() });
+    assert!((camera.near - 7.98).abs() < 1e-5 && (camera.far - 12.02).abs() < 1e-5, "{camera:?}");
+    let inside = of(CameraTable { eye: Some([1.0, 2.0, 4.0].into()), ..CameraTable::default() });
+    assert!(inside.near > 0.0 && inside.far > 3.0);
+    let behind = CameraTable {
+        eye: Some([1.0, 2.0, 13.0].into()),
+        target: Some([1.0, 2.0, 20.0].into()),
+        ..CameraTable::default()
+    };
+    assert!(is_behind(&of(behind), BALL) && !is_behind(&camera, BALL) && !is_behind(&inside, BALL));
+    let all =
+        CameraTable { near: Some((-20.0).into()), projection: Some(ProjectionKind::Parallel), ..behind };
+    assert!(
+        !is_behind(&of(all), BALL) && is_behind(&of(CameraTable { near: Some((-7.0).into()), ..all }), BALL)
+    );
+    let kept = of(CameraTable { near: Some(0.5.into()), far: Some(99.0.into()), ..CameraTable::default() });
+    assert_eq!((kept.near, kept.far), (0.5, 99.0));
+}
+
+#[test]
+fn a_window_is_as_high_as_its_angle_says() {
+    let camera = of(CameraTable {
+        eye: Some([1.0, 2.0, 13.0].into()),
+        fov: Some(90.0.into()),
+        ..CameraTable::default()
+    });
+    assert!((window_height(&camera) - 20.0).abs() < 1e-5);
+}
+
+#[test]
+fn a_projector_is_a_camera_under_other_names() {
+    assert_eq!(projector([0.0, 9.0, 0.0], [0.0; 3], 30.0).map(|c| c.up), Ok([0.0, 0.0, -1.0]));
+    assert_eq!(projector([1.0, 9.0, 0.0], [0.0; 3], 30.0).map(|c| c.up), Ok([0.0, 1.0, 0.0]));
+    for (eye, fov, start) in [
+        (
+            [0.0; 3],
+            30.0,
+            "--projector-eye: found the eye and its target both at 0,0,0, expected two points; move --projector-eye or",
+        ),
+        ([f32::NAN; 3], 30.0, "--projector-eye: found NaN,NaN,NaN"),
+        ([1.0; 3], 180.0, "--projector-fov: found 180 degrees"),
+    ] {
+        let message = projector(eye, [0.0; 3], fov).unwrap_err().to_string();
+        assert!(message.starts_with(start), "{message}");
+    }
+}
+
+#[test]
+fn looking_down_needs_no_up() {
+    let camera = of(CameraTable { eye: Some([1.0, 20.0, 3.0].into()), ..CameraTable::default() });
+    assert_eq!(camera.up, [0.0, 0.0, -1.0]);
+}
+
+#[test]
+fn a_scene_keeps_its_own_planes_unless_the_view_changes() {
+    let base =
+        Camera { eye: [9.0; 3], target: [0.0; 3], up: [0.0, 1.0, 0.0], fov: 50.0, near: 0.1, far: 77.0 };
+    assert_eq!(frame(&CameraTable::default(), Some(&base), BALL, 1.0).unwrap(), base);
+    let moved = CameraTable { eye: Some([0.0, 0.0, 50.0].into()), ..CameraTable::default() };
+    assert!(frame(&moved, Some(&base), BALL, 1.0).unwrap().near > 40.0);
+}
+
+#[test]
+fn what_is_not_a_camera_is_refused() {
+    let none = CameraTable::default();
+    let nan = f32::NAN;
+    for (wishes, start) in [
+        (
+            CameraTable { near: Some(0.0.into()), ..none },
+            "--near: found near 0, expected a finite number above 0; try --near",
+        ),
+        (
+            CameraTable { near: Some(nan.into()), projection: Some(ProjectionKind::Parallel), ..none },
+            "--near: found near NaN, expected a finite number;",
+        ),
+        (
+            CameraTable {
+                near: Some((-1.0).into()),
+                far: Some((-2.0).into()),
+                projection: Some(ProjectionKind::Parallel),
+                ..none
+            },
+            "--far: found near -1 and far -2",
+        ),
+        (CameraTable { near: Some(nan.into()), ..none }, "--near: found near NaN, expected"),
+        (
+            CameraTable { near: Some(5.0.into()), far: Some(5.0.into()), ..none },
+            "--far: found near 5 and far 5, expected near < far",
+        ),
+        (CameraTable { near: Some(1e9.into()), ..none }, "--far: found near 1000000000 and far"),
+        (CameraTable { far: Some(f32::INFINITY.into()), ..none }, "--far: found"),
+        (
+            CameraTable { eye: Some([1.0, 2.0, 3.0].into()), ..none },
+            "--eye: found the eye and its target both at 1,2,3",
+        ),
+        (CameraTable { eye: Some([nan, 2.0, 3.0].into()), ..none }, "--eye: found NaN,2,3"),
+        (CameraTable { up: Some([0.0; 3].into()), ..none }, "--up: found 0,0,0"),
+        (
+            CameraTable { eye: Some([1.0, 9.0, 3.0].into()), up: Some([0.0, -4.0, 0.0].into()), ..none },
+            "--up: found 0,-4,0",
+        ),
+        (CameraTable { fov: Some(180.0.into()), ..none }, "--fov: found 180 degrees"),
+        (CameraTable { fov: Some(0.0.into()), ..none }, "--fov: found 0 degrees"),
+        (CameraTable { fov: Some(nan.into()), ..none }, "--fov: found NaN degrees"),
+    ] {
+        let message = refused(wishes);
+        assert!(message.starts_with(start), "{message}");
+    }
+    assert!(frame(&CameraTable { fov: Some(1e-38.into()), ..none }, None, BALL, 1.0).is_err());
+    // What is advised is taken.
+    let message = refused(CameraTable { near: Some(1e9.into()), eye: Some([1.0, 2.0, 13.0].into()), ..none });
+    assert!(message.ends_with("; try --near 7.98 --far 12.02"), "{message}");
+}
+
+#[test]
+fn spheres_of_nothing_and_of_a_point_have_a_size() {
+    let mut model = Model::default();
+    assert_eq!(bounding_sphere(&model).radius.to_bits(), 1.0_f64.to_bits());
+    let vertex = Vertex { position: [5.0; 3], ..Vertex::default() };
+    model.vertices.push(vertex);
+    assert_eq!(bounding_sphere(&model), Sphere { center: [5.0; 3], radius: 1.0 });
+    model.vertices.push(Vertex { position: [5.0, 5.0, 9.0], ..vertex });
+    assert_eq!(bounding_sphere(&model), Sphere { center: [5.0, 5.0, 7.0], radius: 2.0 });
+}
