@@ -1,4 +1,4 @@
-//! What filters and maps cost: one scene of 1280x720, a receding floor between two tilted walls, read in many ways.
+//! The cost of filters and maps: one scene of 1280x720, a receding floor between two tilted walls, read in many ways.
 //!
 //! Before a way is timed, its picture is held against the same drawn one sample at a time, which must not differ in a
 //! bit; the plain filters also against `f64`, from rays, at some hundred pixels. Figures are for written pixels, of
@@ -18,15 +18,15 @@ use alberti::shaders::material::{
     Placed, Specular, Viewer, Wetness,
 };
 use alberti::shaders::{Differentiated, Unlit, material};
-use alberti::texture::format::{Linear, Normals};
+use alberti::texture::format::{Normals, Scalars};
 use alberti::texture::mipmap;
-use alberti::texture::surface::{OffsetLimited, Relief};
+use alberti::texture::surface::{LimitedParallax, Relief, Unorm};
 use alberti::texture::{
     Anisotropic, Bilinear, Minify, Mipmap, Nearest, NearestLevel, PowerOfTwo, Repeat, Texture, Trilinear,
 };
 use alberti::{
-    Band, Cull, Exact, Eye, F32, FragmentStage, Frame, Object, Pass, Perspective, Point3, Rgba8, Sides, Slot,
-    Stats, Sub8, Vector3, VertexStage, View, Viewport, draw_by, for_lanes,
+    Always, Cull, F32, FragmentStage, Frame, Mesh, Pass, Perspective, Point3, Rgba8, Rgba8888, Slot, Stats,
+    Target, Varying, Vector3, View, for_lanes,
 };
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::path::Path;
@@ -132,15 +132,15 @@ impl Maps {
                 heights[at] = (255.0 * h).round() as u8;
             }
         }
-        mipmap::build::<Rgba8>(&mut color, SIDE, SIDE).expect("levels");
-        mipmap::build::<Normals<Rgba8>>(&mut normal, SIDE, SIDE).expect("levels");
-        mipmap::build::<Linear<Rgba8>>(&mut other, SIDE, SIDE).expect("levels");
+        mipmap::build(Rgba8888, &mut color, SIDE, SIDE).expect("levels");
+        mipmap::build(Normals(Rgba8888), &mut normal, SIDE, SIDE).expect("levels");
+        mipmap::build(Scalars(Rgba8888), &mut other, SIDE, SIDE).expect("levels");
         Self { color, normal, other, height: heights }
     }
 }
 
-fn mip(texels: &[[u8; 4]]) -> Mipmap<'_, Rgba8, PowerOfTwo> {
-    Mipmap::new(texels, SIDE, SIDE).expect("levels").power_of_two().expect("a power of two")
+fn mip(texels: &[[u8; 4]]) -> Mipmap<'_, Rgba8888, PowerOfTwo> {
+    Mipmap::new(Rgba8888, texels, SIDE, SIDE).expect("levels").power_of_two().expect("a power of two")
 }
 
 /// The scene, ready to be drawn.
@@ -154,63 +154,52 @@ struct Scene {
 
 impl Scene {
     fn new() -> Self {
+        let (angle, aspect) = (std::f32::consts::FRAC_PI_2, WIDTH as f32 / HEIGHT as f32);
+        let projection = Perspective::new(angle, aspect, 0.1, 100.0);
         Self {
             corners: WALLS.iter().flat_map(Wall::corners).collect(),
             triangles: (0..3).flat_map(|i| [[0, 1, 2], [0, 2, 3]].map(|t| t.map(|k| 4 * i + k))).collect(),
-            view: View {
-                to_eye: Frame::<Object, Eye>::IDENTITY,
-                projection: Perspective::new(
-                    std::f32::consts::FRAC_PI_2,
-                    WIDTH as f32 / HEIGHT as f32,
-                    0.1,
-                    100.0,
-                )
-                .expect("a perspective"),
-                viewport: Viewport::new(0, 0, WIDTH, HEIGHT).expect("a viewport"),
-            },
+            view: View::new(Frame::IDENTITY, projection.expect("a perspective")),
             color: vec![0; PIXELS],
             depth: vec![1.0; PIXELS],
         }
     }
 
     /// Colours alone: the depth of all is equal from frame to frame.
-    fn draw<Vs, Fs>(&mut self, lanes: impl Floating, vertex_stage: Vs, fragment_stage: Fs) -> u64
-    where
-        Vs: VertexStage<Corner>,
-        Fs: FragmentStage<Vs::Varying, Color = Rgba8>,
-    {
-        let pass = Pass {
-            view: self.view,
-            vertices: &self.corners,
-            triangles: &self.triangles,
-            vertex_stage,
-            fragment_stage,
-            cull: Cull::None,
-            sides: Sides::GuardBand,
-            interpolation: Exact,
-        };
-        let mut band =
-            Band::<Rgba8, alberti::raster::Always<F32>>::new(WIDTH, 0, &mut self.color, &mut self.depth)
-                .expect("buffers that fit");
+    fn draw<V: Varying>(
+        &mut self,
+        lanes: impl Floating,
+        vertex_stage: impl Fn(&Corner) -> (Vec3, V),
+        fragment_stage: impl FragmentStage<V, Color = Rgba8>,
+    ) -> u64 {
+        let mesh = Mesh::new(&self.corners, &self.triangles, vertex_stage);
+        let (color, depth) = (&mut self.color, &mut self.depth);
+        let mut target =
+            Target::new(Rgba8888, Always(F32), WIDTH, HEIGHT, color, depth).expect("buffers that fit");
         let mut stats = Stats::default();
-        draw_by(lanes, &pass, &mut band, &mut [Slot::<Sub8, _>::EMPTY; 12], &mut stats);
+        let mut slots = [Slot::EMPTY; 12];
+        Pass::new(&self.view, &mesh, fragment_stage).cull(Cull::None).slots(&mut slots).draw_by(
+            lanes,
+            &mut target,
+            &mut stats,
+        );
         stats.written
     }
 }
 
-fn bare(c: &Corner) -> (Point3<Object>, Vec2) {
-    (Point3::new(c.position), c.uv)
+fn bare(c: &Corner) -> (Vec3, Vec2) {
+    (c.position, c.uv)
 }
 
-fn placed(c: &Corner) -> (Point3<Object>, Placed) {
-    (Point3::new(c.position), Placed { position: c.position, normal: c.axes[2], uv: c.uv })
+fn placed(c: &Corner) -> (Vec3, Placed) {
+    (c.position, Placed { position: c.position, normal: c.axes[2], uv: c.uv })
 }
 
-fn framed(c: &Corner) -> (Point3<Object>, Framed) {
-    (Point3::new(c.position), Framed { position: c.position, axes: c.axes, uv: c.uv })
+fn framed(c: &Corner) -> (Vec3, Framed) {
+    (c.position, Framed { position: c.position, axes: c.axes, uv: c.uv })
 }
 
-/// What a filter ought to show of places, in `f64`.
+/// The colours that a filter ought to show of places, in `f64`.
 type Ideal<'a> = &'a dyn Fn(DVec2, f64) -> [f64; 3];
 
 /// A texel of a level, repeated.
@@ -279,16 +268,17 @@ fn keep(folder: &Path, name: &str, color: &[u32]) {
 
 fn surface(criterion: &mut Criterion) {
     let (maps, mut scene) = (Maps::new(), Scene::new());
-    let base = Texture::<Rgba8>::new(&maps.color[..(SIDE * SIDE) as usize], SIDE, SIDE).expect("a texture");
+    let base = Texture::new(Rgba8888, &maps.color[..(SIDE * SIDE) as usize], SIDE, SIDE).expect("a texture");
     let base = base.power_of_two().expect("a power of two");
-    let color = mip(&maps.color).sampler::<Trilinear, Repeat>();
-    let normal = NormalMap::<_>::new(mip(&maps.normal).sampler::<Trilinear, Repeat>(), ());
-    let other = mip(&maps.other).sampler::<Trilinear, Repeat>();
-    let height = Texture::<alberti::texture::format::L8>::new(&maps.height, SIDE, SIDE).expect("a texture");
-    let height = height.power_of_two().expect("a power of two").sampler::<Bilinear, Repeat>();
+    let color = mip(&maps.color).sampler(Trilinear, Repeat);
+    let normal =
+        NormalMap { map: mip(&maps.normal).sampler(Trilinear, Repeat), encoding: Unorm, strength: () };
+    let other = mip(&maps.other).sampler(Trilinear, Repeat);
+    let height = Texture::new(alberti::texture::format::L8, &maps.height, SIDE, SIDE).expect("a texture");
+    let height = height.power_of_two().expect("a power of two").sampler(Bilinear, Repeat);
     let extent = Vec2::splat(1.0 / PER_UNIT);
     let parallax =
-        Parallax { relief: Relief { map: height, low: -0.05, high: 0.0, extent }, policy: OffsetLimited };
+        Parallax { relief: Relief { map: height, low: -0.05, high: 0.0, extent }, policy: LimitedParallax };
     let viewer = Viewer::at(Point3::new(Vec3::ZERO));
     let lights = Directional::new(Vector3::new(Vec3::new(0.3, 0.8, -0.5)), Vec3::splat(0.8));
     let ambient = Vec3::splat(0.2);
@@ -333,17 +323,17 @@ fn surface(criterion: &mut Criterion) {
     }
     let trilinear_unlit = Unlit(color);
     rows! {
-        "nearest": bare, Unlit(base.sampler::<Nearest, Repeat>()), |uv, _| nearest(&maps.color, uv);
-        "bilinear": bare, Unlit(base.sampler::<Bilinear, Repeat>()), |uv, _| bilinear(&maps.color, 0, uv);
-        "nearest-mip": bare, Unlit(mip(&maps.color).sampler::<Minify<Nearest, NearestLevel>, Repeat>());
-        "bilinear-mip": bare, Unlit(mip(&maps.color).sampler::<Minify<Bilinear, NearestLevel>, Repeat>());
+        "nearest": bare, Unlit(base.sampler(Nearest, Repeat)), |uv, _| nearest(&maps.color, uv);
+        "bilinear": bare, Unlit(base.sampler(Bilinear, Repeat)), |uv, _| bilinear(&maps.color, 0, uv);
+        "nearest-mip": bare, Unlit(mip(&maps.color).sampler(Minify { min: Nearest, levels: NearestLevel, mag: Nearest }, Repeat));
+        "bilinear-mip": bare, Unlit(mip(&maps.color).sampler(Minify { min: Bilinear, levels: NearestLevel, mag: Bilinear }, Repeat));
         "trilinear": bare, trilinear_unlit, |uv, lambda| trilinear(&maps.color, uv, lambda);
         "trilinear-neighbours": bare, Differentiated::by(Neighbours, trilinear_unlit);
         "trilinear-per-span": bare, Differentiated::by(PerSpan, trilinear_unlit);
         "trilinear-per-triangle": bare, Differentiated::by(PerTriangle, trilinear_unlit);
-        "anisotropic-4": bare, Unlit(mip(&maps.color).sampler::<Anisotropic<4>, Repeat>());
-        "anisotropic-8": bare, Unlit(mip(&maps.color).sampler::<Anisotropic<8>, Repeat>());
-        "anisotropic-16": bare, Unlit(mip(&maps.color).sampler::<Anisotropic<16>, Repeat>());
+        "anisotropic-4": bare, Unlit(mip(&maps.color).sampler(Anisotropic { probes: 4, filter: Trilinear }, Repeat));
+        "anisotropic-8": bare, Unlit(mip(&maps.color).sampler(Anisotropic { probes: 8, filter: Trilinear }, Repeat));
+        "anisotropic-16": bare, Unlit(mip(&maps.color).sampler(Anisotropic { probes: 16, filter: Trilinear }, Repeat));
         "lights": placed, Material { layers: (Color(color),), lighting: lit };
         "normal-map": framed, Material { layers: (Color(color), normal), lighting: lit };
         "parallax": framed, Material { layers: (parallax, Color(color), normal), lighting: lit };

@@ -6,15 +6,18 @@ use alberti::glam::{Vec2, Vec3};
 use alberti::shaders::{Unlit, VertexColor};
 use alberti::texture::{Bilinear, Nearest, Repeat, Texture};
 use alberti::{
-    Band, Cull, Exact, F32, FragmentStage, Interpolation, Pass, Plane, Point3, Rgba8, Sides, Slot, Sub8,
-    Varying, VertexStage, View, draw,
+    Exact, F32, FragmentStage, Interpolation, Mesh, Pass, Planes, Rgba8, Rgba8888, Slot, Target, Varying,
+    View,
 };
-use alberti_app::draw::view;
-use alberti_app::options::Filter;
-use alberti_app::scene::{Image, Vertex};
+use alberti_app::options::{self, DepthFormat, Filter, Policies, Projection, RenderOptions, Shading};
+use alberti_app::render::{self, any_depth};
+use alberti_app::scene::{Camera, Image, Model, Part, Vertex};
+use alberti_app::scenes::BuiltIn;
+use alberti_tests::reference::view;
 
-/// The policies that are timed, by the name that the benchmark gets.
-pub const POLICIES: &[&str] = &["Exact", "Plane"];
+/// The policies that are timed, by the name that the benchmark gets. `App` is `Exact` by the kernels of the `alberti`
+/// command, whose policies are chosen at run time.
+pub const POLICIES: &[&str] = &["Exact", "Planes", "App"];
 
 /// The pictures of these policies must be right: see [`crate::reference`].
 #[must_use]
@@ -35,19 +38,22 @@ pub fn renderer(policy: &str, scene: &Scene, size: Size) -> Option<Box<dyn Rende
         return None;
     }
     let model = &scene.built_in.model;
+    if policy == "App" {
+        return Some(Box::new(App::new(scene, size)));
+    }
     let canvas = Canvas {
-        view: view(&scene.built_in.camera, size.width, size.height).expect("a view"),
+        view: view(&scene.built_in.camera).expect("a view"),
         vertices: model.vertices.clone(),
         triangles: scene.triangles.clone(),
         background: scene.background(),
-        width: size.width,
+        size,
         color: vec![0; size.pixels()],
         depth: vec![0.0; size.pixels()],
     };
     let image = model.textures.first().filter(|_| scene.texture.is_some()).cloned();
     let bilinear = scene.built_in.filter == Filter::Bilinear;
     Some(match policy {
-        "Plane" => boxed(canvas, image, bilinear, Plane),
+        "Planes" => boxed(canvas, image, bilinear, Planes),
         _ => boxed(canvas, image, bilinear, Exact),
     })
 }
@@ -67,57 +73,47 @@ fn boxed<P: Interpolation>(
     }
 }
 
-/// What both kinds of surface need.
+/// The common part of both kinds of surface.
 #[derive(Clone, Debug)]
 struct Canvas {
     view: View,
     vertices: Vec<Vertex>,
     triangles: Vec<[u32; 3]>,
     background: [u8; 4],
-    width: u32,
+    size: Size,
     color: Vec<u32>,
     depth: Vec<f32>,
 }
 
 impl Canvas {
-    fn render<Vs, Fs, P>(
+    fn render<V: Varying>(
         &mut self,
-        slots: &mut [Slot<Sub8, Vs::Varying>],
-        vertex_stage: Vs,
-        fragment_stage: Fs,
-        interpolation: P,
-    ) where
-        P: Interpolation,
-        Vs: VertexStage<Vertex>,
-        Vs::Varying: Varying,
-        Fs: FragmentStage<Vs::Varying, Color = Rgba8>,
-    {
-        let mut band = Band::<Rgba8, F32>::new(self.width, 0, &mut self.color, &mut self.depth)
+        slots: &mut [Slot<V>],
+        vertex_stage: impl Fn(&Vertex) -> (Vec3, V),
+        fragment_stage: impl FragmentStage<V, Color = Rgba8>,
+        interpolation: impl Interpolation,
+    ) {
+        let Size { width, height } = self.size;
+        let mut target = Target::new(Rgba8888, F32, width, height, &mut self.color, &mut self.depth)
             .expect("buffers that fit");
         let [r, g, b, a] = self.background;
-        band.clear(Rgba8::new(r, g, b, a));
-        let pass = Pass {
-            view: self.view,
-            vertices: &self.vertices,
-            triangles: &self.triangles,
-            vertex_stage,
-            fragment_stage,
-            cull: Cull::Back,
-            sides: Sides::GuardBand,
-            interpolation,
-        };
-        draw(&pass, &mut band, slots, &mut ());
+        target.clear(Rgba8::new(r, g, b, a));
+        let mesh = Mesh::new(&self.vertices, &self.triangles, vertex_stage);
+        Pass::new(&self.view, &mesh, fragment_stage)
+            .interpolation(interpolation)
+            .slots(slots)
+            .draw(&mut target);
     }
 }
 
-fn position(v: &Vertex) -> Point3<alberti::Object> {
-    Point3::new(Vec3::from_array(v.position))
+fn position(v: &Vertex) -> Vec3 {
+    Vec3::from_array(v.position)
 }
 
 #[derive(Debug)]
 struct Textured<P> {
     canvas: Canvas,
-    slots: Vec<Slot<Sub8, Vec2>>,
+    slots: Vec<Slot<Vec2>>,
     image: Image,
     bilinear: bool,
     interpolation: P,
@@ -125,21 +121,21 @@ struct Textured<P> {
 
 impl<P: Interpolation> Renderer for Textured<P> {
     fn render(&mut self) {
-        let texture = Texture::<Rgba8>::new(&self.image.texels, self.image.width, self.image.height);
+        let texture = Texture::new(Rgba8888, &self.image.texels, self.image.width, self.image.height);
         let texture = texture.expect("a texture").power_of_two().expect("sides that are powers of two");
         let vertex = |v: &Vertex| (position(v), Vec2::from_array(v.uv));
         if self.bilinear {
             self.canvas.render(
                 &mut self.slots,
                 vertex,
-                Unlit(texture.sampler::<Bilinear, Repeat>()),
+                Unlit(texture.sampler(Bilinear, Repeat)),
                 self.interpolation,
             );
         } else {
             self.canvas.render(
                 &mut self.slots,
                 vertex,
-                Unlit(texture.sampler::<Nearest, Repeat>()),
+                Unlit(texture.sampler(Nearest, Repeat)),
                 self.interpolation,
             );
         }
@@ -153,7 +149,7 @@ impl<P: Interpolation> Renderer for Textured<P> {
 #[derive(Debug)]
 struct Colored<P> {
     canvas: Canvas,
-    slots: Vec<Slot<Sub8, Vec3>>,
+    slots: Vec<Slot<Vec3>>,
     interpolation: P,
 }
 
@@ -165,5 +161,57 @@ impl<P: Interpolation> Renderer for Colored<P> {
 
     fn pixels(&self) -> &[[u8; 4]] {
         bytemuck::cast_slice(&self.canvas.color)
+    }
+}
+
+/// The scene by the command's kernels.
+#[derive(Debug)]
+struct App {
+    model: Model,
+    camera: Camera,
+    options: RenderOptions,
+    color: Vec<u32>,
+    depth: Vec<u32>,
+}
+
+impl App {
+    fn new(scene: &Scene, size: Size) -> Self {
+        let BuiltIn { model, camera, filter, wrap, .. } = &scene.built_in;
+        let textured = scene.texture.is_some();
+        let part = Part {
+            triangles: scene.triangles.clone(),
+            diffuse: [1.0; 3],
+            texture: textured.then_some(0),
+            ..Part::default()
+        };
+        let [r, g, b, _] = scene.background();
+        let options = RenderOptions {
+            width: size.width,
+            height: size.height,
+            background: [r, g, b],
+            shading: if textured { Shading::Unlit } else { Shading::VertexColor },
+            filter: *filter,
+            wrap: *wrap,
+            cull: options::Cull::Back,
+            depth: DepthFormat::F32,
+            projection: Projection::Perspective,
+            policies: Policies::default(),
+        };
+        let model = Model { parts: vec![part], ..model.clone() };
+        Self { model, camera: *camera, options, color: vec![0; size.pixels()], depth: vec![0; size.pixels()] }
+    }
+}
+
+impl Renderer for App {
+    fn render(&mut self) {
+        let Self { model, camera, options, color, depth } = self;
+        let format = any_depth(options.depth);
+        let mut target = Target::new(Rgba8888, format, options.width, options.height, color, depth)
+            .expect("buffers that fit");
+        render::draw(model, camera, options, &mut target, &mut |_, _| {}).expect("a picture");
+    }
+
+    fn pixels(&self) -> &[[u8; 4]] {
+        bytemuck::cast_slice(&self.color)
     }
 }

@@ -1,11 +1,12 @@
 //! Asking the rasterizer what a fragment stage learns of the changes from pixel to pixel.
 
-use crate::probe::{LARGEST, Seen, Words};
+use crate::probe::{LARGEST, Seen};
 use alberti::texture::Derivatives;
 use alberti_math::lanes::{Lanes, Machine};
-use alberti_math::{Flat, Linear, Sub8, Varying, for_lanes};
+use alberti_math::{Flat, Linear, Sub8, for_lanes};
 use alberti_raster::{
-    Band, Cull, Differentiation, FragmentStage, Gradient, Interpolation, NoDepth, Vertex, draw_triangle,
+    Cull, Differentiation, FragmentStage, Fragments, Gradient, Interpolation, NoDepth, Paint, Rgba8888,
+    Target, Vertex,
 };
 use std::marker::PhantomData;
 use std::ops::Range;
@@ -19,8 +20,8 @@ pub fn carried([u, v, linear, flat]: [f32; 4]) -> Carried {
     ([u, v], Linear(linear), Flat(flat))
 }
 
-/// What a fragment stage was told of a sample: the derivatives of the four components by column and by row, and λ for
-/// the first two in a texture of 512 x 128 texels.
+/// The news that a fragment stage got of a sample: the derivatives of the four components by column and by row, and λ
+/// for the first two in a texture of 512 x 128 texels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Told {
     /// By column.
@@ -34,7 +35,7 @@ pub struct Told {
 /// The sides of that texture.
 pub const SIZE: [u32; 2] = [512, 128];
 
-/// A stage that keeps what it is told; its colour is the place of that, or without a list, bits made of it.
+/// A stage that keeps its news; its colour is the place of these, or without a list, bits made of them.
 #[derive(Debug)]
 pub struct Listener<'a, D> {
     seen: Option<&'a Seen<Told>>,
@@ -59,17 +60,8 @@ impl<D: Differentiation> FragmentStage<Carried> for Listener<'_, D> {
     type Color = u32;
     type Derivatives = D;
 
-    fn shade(&self, _: Carried) -> Option<u32> {
-        unreachable!("lanes are shaded together")
-    }
-
-    fn shade_lanes<L: Lanes>(
-        &self,
-        lanes: L,
-        _: &<Carried as Varying>::Of<L::Number>,
-        Gradient { dx, dy }: &Gradient<<Carried as Varying>::Of<L::Number>>,
-        mask: L::Mask,
-    ) -> (L::U32, L::Mask) {
+    fn shade<L: Lanes>(&self, fragments: &Fragments<L, Carried>) -> (L::U32, L::Mask) {
+        let Fragments { lanes, gradient: Gradient { dx, dy }, mask, .. } = *fragments;
         let ([du_dx, dv_dx], [du_dy, dv_dy]) = (dx.0, dy.0);
         let lambda = Derivatives { du_dx, dv_dx, du_dy, dv_dy }.lod_lanes(lanes, SIZE);
         let stored = |numbers: [L::Number; 4]| numbers.map(|n| lanes.store(n));
@@ -96,13 +88,13 @@ impl Told {
     }
 }
 
-/// What a fragment stage is told of these columns of a row, as far as the triangle covers them.
+/// The news of these columns of a row, as far as the triangle covers them.
 ///
 /// # Panics
 /// When they lie beyond the largest frame.
 pub fn told<D: Differentiation>(
-    policy: impl Interpolation,
-    [a, b, c]: &[Vertex<Sub8, Carried>; 3],
+    interpolation: impl Interpolation,
+    [a, b, c]: &[Vertex<Carried>; 3],
     row: i32,
     columns: Range<i32>,
 ) -> Vec<(i32, Told)> {
@@ -110,13 +102,12 @@ pub fn told<D: Differentiation>(
     let (mut color, mut depth) = (vec![0; frame as usize], vec![(); frame as usize]);
     let seen = Seen::default();
     let stage = Listener::<D> { seen: Some(&seen), policy: PhantomData };
-    let mut band =
-        Band::<Words, NoDepth>::new(frame, row.unsigned_abs(), &mut color, &mut depth).expect("a row");
-    let mut band = band.scissor(columns.clone(), 0..LARGEST);
+    let (size, first) = ([frame, LARGEST.unsigned_abs()], row.unsigned_abs());
+    let mut target = Target::band(Rgba8888, NoDepth, size, first, &mut color, &mut depth).expect("a row");
+    let mut target = target.scissor(columns.clone(), 0..LARGEST);
     let machine = Machine::all().next().expect("every machine has lanes");
-    for_lanes!(machine, lanes => {
-        draw_triangle(policy, lanes, &mut band, [a, b, c], Cull::None, &stage, &mut ())
-    });
+    let paint = Paint { stage, interpolation, subpixel: Sub8, cull: Cull::None };
+    for_lanes!(machine, lanes => paint.triangle(lanes, &mut target, [a, b, c], &mut ()));
     columns
         .clone()
         .zip(&color[columns.start.unsigned_abs() as usize..])

@@ -1,8 +1,9 @@
-//! What the tests across crates share.
+//! The common part of the tests across crates.
 
 pub mod derivatives;
 pub mod errors;
 pub mod probe;
+pub mod random;
 pub mod reference;
 
 /// The README's example is a test.

@@ -1,10 +1,22 @@
-//! The application's scenes as the oracle's.
+//! The application's scenes as the oracle's, and their cameras as the library's.
 
+use alberti::glam::Vec3;
+use alberti::{View, ViewError};
 use alberti_app::draw::{AMBIENT, DIFFUSE, to_light};
 use alberti_app::options::{Cull, Filter, Policies, Projection, RenderOptions, Shading, Wrap};
 use alberti_app::scene::{Camera, Model};
 use alberti_app::scenes::BuiltIn;
 use alberti_oracle::scene as oracle;
+
+/// The view of a camera, in perspective; its aspect ratio is that of the frame.
+///
+/// # Errors
+/// An impossible camera.
+pub fn view(camera: &Camera) -> Result<View, ViewError> {
+    let [eye, target, up] = [camera.eye, camera.target, camera.up].map(Vec3::from_array);
+    let Camera { fov, near, far, .. } = *camera;
+    alberti::Camera::look_at(eye, target, up)?.perspective(fov.to_radians(), near..far)
+}
 
 /// The options under which a built-in scene is drawn at this size.
 #[must_use]

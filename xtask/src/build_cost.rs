@@ -26,9 +26,8 @@ const BINARY: &str = "alberti";
 /// The source file that the edit touches.
 const EDITED: &str = "crates/raster/src/lib.rs";
 
-/// The function of which every combination of stages, policies and lanes has one instance. It calls itself, so that no
-/// instance is lost by inlining.
-const KERNEL: &str = "alberti::pipeline::draw_from";
+/// The function of which every combination of stages, policies and lanes has one instance; too long to be inlined.
+const KERNEL: &str = "alberti_raster::draw::Paint<F,P,S>::triangle";
 
 /// The variable of cargo with the folder of its outputs.
 const TARGET: &str = "CARGO_TARGET_DIR";

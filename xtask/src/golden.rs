@@ -11,7 +11,7 @@ pub(crate) fn run(arguments: &[String]) -> Outcome {
     let mut command = cargo();
     command.env("ALBERTI_UPDATE_GOLDEN", "1");
     command
-        .args(["test", "--package", "alberti-tests", "--test", "golden", "--no-fail-fast", "--"])
+        .args(["test", "--package", "alberti-tests", "--test", "all", "--no-fail-fast", "golden::", "--"])
         .args(arguments);
     command::run(&mut command).map_err(|message| {
         format!(

@@ -23,45 +23,37 @@ fn main() -> ExitCode {
 
 pub(crate) fn picture() -> common::File {
     let (mut color, mut depth) = (vec![0; PIXELS], vec![0.0; PIXELS]);
-    let mut band = Band::<Rgba8, F32>::new((2 * WIDTH).into(), 0, &mut color, &mut depth)?;
-    band.clear(common::BACKGROUND);
+    let (width, height) = (u32::from(2 * WIDTH), u32::from(HEIGHT));
+    let mut target = Target::new(Rgba8888, F32, width, height, &mut color, &mut depth)?;
+    target.clear(common::BACKGROUND);
 
     // Left and right differ in the policy and in nothing else.
-    floor(&mut band, 0, Affine)?;
-    floor(&mut band, WIDTH, Exact)?;
+    floor(&mut target, 0, Affine)?;
+    floor(&mut target, WIDTH, Exact)?;
 
-    common::png((2 * WIDTH).into(), &color)
+    common::png(width, &color)
 }
 
 /// Draws the floor to the right of a column of the picture.
 fn floor(
-    band: &mut Band<'_, Rgba8, F32>,
+    target: &mut Target<'_, Rgba8888, F32>,
     left: u16,
     interpolation: impl Interpolation,
 ) -> Result<(), Box<dyn std::error::Error>> {
     // Eight by eight fields: two by two texels, repeated four times in each direction.
-    let board = Texture::<L8>::new(&[64, 232, 232, 64], 2, 2)?;
+    let board = Texture::new(L8, &[64, 232, 232, 64], 2, 2)?;
     let corners = [Vec2::new(0.0, 0.0), Vec2::new(1.0, 0.0), Vec2::new(1.0, 1.0), Vec2::new(0.0, 1.0)];
 
-    let at = |x, y, z| Point3::<World>::new(Vec3::new(x, y, z));
-    let camera = look_at(at(0.0, 1.0, 2.0), at(0.0, 0.0, 0.2), Vector3::new(Vec3::Y))?;
-    let pass = Pass {
-        view: View {
-            to_eye: camera.inverse_orthonormal() * Frame::<Object, World>::IDENTITY,
-            projection: Perspective::new(0.72, f32::from(WIDTH) / f32::from(HEIGHT), 0.1, 10.0)?,
-            viewport: Viewport::new(left.into(), 0, WIDTH.into(), HEIGHT.into())?,
-        },
-        vertices: &corners,
-        triangles: &[[0u16, 1, 2], [0, 2, 3]],
-        // From (0, 0), near on the left, to (1, 1), far on the right.
-        vertex_stage: |&Vec2 { x, y }: &Vec2| {
-            (Point3::new(Vec3::new(2.0 * x - 1.0, 0.0, 1.0 - 2.0 * y)), 4.0 * Vec2::new(x, y))
-        },
-        fragment_stage: Unlit(board.sampler::<Nearest, Repeat>()),
-        cull: Cull::Back,
-        sides: Sides::GuardBand,
-        interpolation,
-    };
-    draw(&pass, band, &mut [Slot::<Sub8, _>::EMPTY; 4], &mut ());
+    // From (0, 0), near on the left, to (1, 1), far on the right.
+    let place = |&Vec2 { x, y }: &Vec2| (Vec3::new(2.0 * x - 1.0, 0.0, 1.0 - 2.0 * y), 4.0 * Vec2::new(x, y));
+    let mesh = Mesh::new(&corners, &[[0u16, 1, 2], [0, 2, 3]], place);
+    let camera = Camera::look_at(Vec3::new(0.0, 1.0, 2.0), Vec3::new(0.0, 0.0, 0.2), Vec3::Y)?;
+    let view = camera.perspective(0.72, 0.1..10.0)?;
+    // Of the picture, a half.
+    let half = Viewport::new(left.into(), 0, WIDTH.into(), HEIGHT.into())?;
+    Pass::new(&view, &mesh, Unlit(board.sampler(Nearest, Repeat)))
+        .viewport(half)
+        .interpolation(interpolation)
+        .draw(target);
     Ok(())
 }

@@ -28,28 +28,16 @@ pub(crate) fn picture() -> common::File {
     // The picture is yours, and so is its memory: a colour and a depth for each pixel.
     let mut color = vec![0; PIXELS];
     let mut depth = vec![0.0; PIXELS];
-    let mut band = Band::<Rgba8, F32>::new(WIDTH.into(), 0, &mut color, &mut depth)?;
-    band.clear(common::BACKGROUND);
+    let mut target = Target::new(Rgba8888, F32, WIDTH.into(), HEIGHT.into(), &mut color, &mut depth)?;
+    target.clear(common::BACKGROUND);
 
-    let aspect = f32::from(WIDTH) / f32::from(HEIGHT);
-    let pass = Pass {
-        view: View {
-            // The triangle faces an eye one unit away, whose right angle of view is two units high there.
-            to_eye: Frame::at(Point3::new(Vec3::Z)),
-            projection: Perspective::new(FRAC_PI_2, aspect, 0.1, 10.0)?,
-            viewport: Viewport::new(0, 0, WIDTH.into(), HEIGHT.into())?,
-        },
-        vertices: &corners,
-        triangles: &[[0u16, 1, 2]],
-        // Where a vertex is, and what it carries to the pixels.
-        vertex_stage: |&([x, y], color): &Corner| (Point3::new(Vec3::new(x, y, 0.0)), color),
-        // What a pixel does with it.
-        fragment_stage: VertexColor,
-        cull: Cull::Back,
-        sides: Sides::GuardBand,
-        interpolation: Exact,
-    };
-    draw(&pass, &mut band, &mut [Slot::<Sub8, _>::EMPTY; 3], &mut ());
+    // The triangle faces an eye one unit away, whose right angle of view is two units high there.
+    let camera = Camera::look_at(Vec3::Z, Vec3::ZERO, Vec3::Y)?;
+    let view = camera.perspective(FRAC_PI_2, 0.1..10.0)?;
+    // A vertex stage says where a vertex is, and which varying it carries to the pixels.
+    let mesh = Mesh::new(&corners, &[[0u16, 1, 2]], |&([x, y], color)| (Vec3::new(x, y, 0.0), color));
+    // A fragment stage makes a pixel's colour of that.
+    draw(&mut target, &view, &mesh, VertexColor);
 
     common::png(WIDTH.into(), &color)
 }

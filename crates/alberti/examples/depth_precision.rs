@@ -42,10 +42,10 @@ pub(crate) fn picture() -> common::File {
     let mut color = vec![0; 4 * PANEL];
     let mut panels = color.chunks_exact_mut(PANEL);
     let mut next = || panels.next().ok_or("a picture of four panels");
-    draw_cards::<D16>("D16", DepthSteps::D16, next()?)?;
-    draw_cards::<D24>("D24", DepthSteps::D24, next()?)?;
-    draw_cards::<F32>("F32", DepthSteps::F32, next()?)?;
-    draw_cards::<F32Reversed>("F32Reversed", DepthSteps::F32, next()?)?;
+    draw_cards("D16", D16, DepthSteps::D16, next()?)?;
+    draw_cards("D24", D24, DepthSteps::D24, next()?)?;
+    draw_cards("F32", F32, DepthSteps::F32, next()?)?;
+    draw_cards("F32Reversed", F32Reversed, DepthSteps::F32, next()?)?;
     println!();
 
     common::png(WIDTH.into(), &color)
@@ -54,34 +54,23 @@ pub(crate) fn picture() -> common::File {
 /// One panel, and its line of the table.
 fn draw_cards<D: DepthFormat>(
     name: &str,
+    format: D,
     steps: DepthSteps,
     color: &mut [u32],
 ) -> Result<(), Box<dyn Error>> {
-    let mut depth = vec![D::FARTHEST; color.len()];
-    let mut band = Band::<Rgba8, D>::new(WIDTH.into(), 0, color, &mut depth)?;
-    band.clear(common::BACKGROUND);
+    let mut depth = vec![format.farthest(); color.len()];
+    let mut target = Target::new(Rgba8888, format, WIDTH.into(), SIDE.into(), color, &mut depth)?;
+    target.clear(common::BACKGROUND);
 
     let aspect = f32::from(WIDTH) / f32::from(SIDE);
     let perspective = Perspective::new(FRAC_PI_2, aspect, NEAR, FAR)?;
+    // The cards are given in eye coordinates.
+    let view = View::new(Frame::IDENTITY, perspective);
     let (vertices, triangles) = cards();
-    let pass = Pass {
-        // The cards are given in eye coordinates.
-        view: View {
-            to_eye: Frame::IDENTITY,
-            projection: perspective,
-            viewport: Viewport::new(0, 0, WIDTH.into(), SIDE.into())?,
-        },
-        vertices: &vertices,
-        triangles: &triangles,
-        vertex_stage: |&(position, color): &(Vec3, Vec3)| (Point3::new(position), color),
-        fragment_stage: VertexColor,
-        cull: Cull::None,
-        sides: Sides::GuardBand,
-        interpolation: Exact,
-    };
-    draw(&pass, &mut band, &mut vec![Slot::<Sub8, _>::EMPTY; vertices.len()], &mut ());
+    let mesh = Mesh::new(&vertices, &triangles, |&corner| corner);
+    Pass::new(&view, &mesh, VertexColor).cull(Cull::None).draw(&mut target);
 
-    let map: DepthMap = perspective.depth_map(D::REVERSED);
+    let map: DepthMap = perspective.depth_map(format.reversed());
     let numbers = DISTANCES.map(|z| format!("{:>10.1e}", map.resolution(steps, z))).concat();
     println!("{name:>12}{numbers}{:>11.0}", map.separable_until(steps, 1.0));
     Ok(())

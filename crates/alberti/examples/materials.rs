@@ -9,8 +9,8 @@ use alberti::glam::{Vec2, Vec3};
 use alberti::shaders::material::{
     BlinnPhong, Color, Framed, Layer, Lighting, Material, NormalMap, Parallax, PointLight, Specular, Viewer,
 };
-use alberti::texture::surface::{Centred, Occlusion, Relief};
-use alberti::texture::{Bilinear, Repeat, Texture};
+use alberti::texture::surface::{Centred, ParallaxOcclusion, Relief};
+use alberti::texture::{Bilinear, Repeat, Texture, format::Rgba8888};
 use alberti::*;
 use std::process::ExitCode;
 
@@ -30,22 +30,18 @@ pub(crate) fn picture() -> common::File {
     let [colors, normals, heights] = textures();
     let side = SIDE.cast_unsigned();
     let [colors, normals, heights] =
-        [&colors, &normals, &heights].map(|texels| Texture::<Rgba8>::new(texels, side, side));
+        [&colors, &normals, &heights].map(|texels| Texture::new(Rgba8888, texels, side, side));
     let (colors, normals, heights) = (colors?, normals?, heights?);
-    let color = Color(colors.sampler::<Bilinear, Repeat>());
-    let relief = Relief {
-        map: heights.sampler::<Bilinear, Repeat>(),
-        low: -DEPTH,
-        high: 0.0,
-        extent: Vec2::splat(TILE),
-    };
+    let color = Color(colors.sampler(Bilinear, Repeat));
+    let relief =
+        Relief { map: heights.sampler(Bilinear, Repeat), low: -DEPTH, high: 0.0, extent: Vec2::splat(TILE) };
     let flat = wall(color)?;
     let detailed = wall((
-        // Where to look comes first, then what is there.
-        Parallax { relief, policy: Occlusion { layers: 24 } },
+        // The place to look at comes first, then the looks of it.
+        Parallax { relief, policy: ParallaxOcclusion { layers: 24 } },
         color,
         Specular(Rgba8::from_rgb24(0x50_50_48)),
-        NormalMap::<_, Centred>::new(normals.sampler::<Bilinear, Repeat>(), ()),
+        NormalMap { map: normals.sampler(Bilinear, Repeat), encoding: Centred, strength: () },
     ))?;
     let columns = usize::from(SIZE[0]);
     let both: Vec<u32> = flat
@@ -61,39 +57,28 @@ fn wall(layers: impl Layer<Framed>) -> Result<Vec<u32>, Box<dyn std::error::Erro
     let [width, height] = SIZE.map(u32::from);
     let at = |x, y, z| Point3::<World>::new(Vec3::new(x, y, z));
     let eye = at(1.9, 0.5, 1.9);
-    let camera = look_at(eye, at(0.15, -0.05, 0.0), Vector3::new(Vec3::Y))?;
     let lamp =
         PointLight { position: at(-0.9, 0.9, 0.55), color: Vec3::splat(0.9), falloff: [0.3, 0.0, 0.45] };
-    let pass = Pass {
-        view: View {
-            to_eye: camera.inverse_orthonormal() * Frame::<Object, World>::IDENTITY,
-            projection: Perspective::new(0.75, f32::from(SIZE[0]) / f32::from(SIZE[1]), 0.1, 20.0)?,
-            viewport: Viewport::new(0, 0, width, height)?,
+    let vertices = [(-2.0, -1.5), (2.0, -1.5), (2.0, 1.5), (-2.0, 1.5)];
+    let mesh = Mesh::new(&vertices, &[[0u16, 1, 2], [0, 2, 3]], |&(x, y)| {
+        let (position, uv) = (Vec3::new(x, y, 0.0), Vec2::new(x, y) / TILE);
+        (position, Framed { position, axes: [Vec3::X, Vec3::Y, Vec3::Z], uv })
+    });
+    let stage = Material {
+        layers,
+        lighting: Lighting {
+            viewer: Viewer::at(eye),
+            ambient: Vec3::splat(0.15),
+            lights: lamp,
+            reflectance: BlinnPhong(30),
         },
-        vertices: &[(-2.0, -1.5), (2.0, -1.5), (2.0, 1.5), (-2.0, 1.5)],
-        triangles: &[[0u16, 1, 2], [0, 2, 3]],
-        vertex_stage: |&(x, y): &(f32, f32)| {
-            let (position, uv) = (Vec3::new(x, y, 0.0), Vec2::new(x, y) / TILE);
-            (Point3::new(position), Framed { position, axes: [Vec3::X, Vec3::Y, Vec3::Z], uv })
-        },
-        fragment_stage: Material {
-            layers,
-            lighting: Lighting {
-                viewer: Viewer::at(eye),
-                ambient: Vec3::splat(0.15),
-                lights: lamp,
-                reflectance: BlinnPhong(30),
-            },
-        },
-        cull: Cull::Back,
-        sides: Sides::GuardBand,
-        interpolation: Exact,
     };
+    let view = Camera::look_at(eye, at(0.15, -0.05, 0.0), Vec3::Y)?.perspective(0.75, 0.1..20.0)?;
     let pixels = (width * height) as usize;
     let (mut color, mut depth) = (vec![0; pixels], vec![1.0; pixels]);
-    let mut band = Band::<Rgba8, F32>::new(width, 0, &mut color, &mut depth)?;
-    band.clear(common::BACKGROUND);
-    draw(&pass, &mut band, &mut [Slot::<Sub8, _>::EMPTY; 4], &mut ());
+    let mut target = Target::new(Rgba8888, F32, width, height, &mut color, &mut depth)?;
+    target.clear(common::BACKGROUND);
+    draw(&mut target, &view, &mesh, stage);
     Ok(color)
 }
 

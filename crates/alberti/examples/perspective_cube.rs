@@ -48,33 +48,20 @@ pub(crate) fn picture() -> common::File {
 /// The picture of the cube with its axes turned like this.
 fn cube(axes: Mat3) -> Result<Vec<u32>, Box<dyn std::error::Error>> {
     let (mut color, mut depth) = (vec![0; PIXELS], vec![0; PIXELS]);
-    let mut band = Band::<Rgba8, D16>::new(WIDTH.into(), 0, &mut color, &mut depth)?;
-    band.clear(common::BACKGROUND);
+    let mut target = Target::new(Rgba8888, D16, WIDTH.into(), HEIGHT.into(), &mut color, &mut depth)?;
+    target.clear(common::BACKGROUND);
 
     // The cube stands in the world's origin; the camera looks down on it.
-    let model = Frame::<Object, World>::from_mat3(axes, Point3::new(Vec3::ZERO));
-    let [eye, target] = [Vec3::new(0.0, 2.5, 4.3), Vec3::ZERO].map(Point3::new);
-    let camera = look_at(eye, target, Vector3::new(Vec3::Y))?;
+    let cube = Frame::<Object, World>::from_mat3(axes, Point3::new(Vec3::ZERO));
+    let camera = Camera::look_at(Vec3::new(0.0, 2.5, 4.3), Vec3::ZERO, Vec3::Y)?;
+    let view = camera.perspective(0.75, 1.0..10.0)?;
 
     let corners: [u16; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
-    let pass = Pass {
-        view: View {
-            to_eye: camera.inverse_orthonormal() * model,
-            projection: Perspective::new(0.75, f32::from(WIDTH) / f32::from(HEIGHT), 1.0, 10.0)?,
-            viewport: Viewport::new(0, 0, WIDTH.into(), HEIGHT.into())?,
-        },
-        vertices: &corners,
-        triangles: FACES.as_flattened(),
-        vertex_stage: |&corner: &u16| {
-            // A corner's coordinates, each 0 or 1, are its colour's red, green and blue as well.
-            let unit = Vec3::from_array([corner & 1, corner >> 1 & 1, corner >> 2].map(f32::from));
-            (Point3::new(unit * 2.0 - Vec3::ONE), unit)
-        },
-        fragment_stage: VertexColor,
-        cull: Cull::Back,
-        sides: Sides::GuardBand,
-        interpolation: Exact,
-    };
-    draw(&pass, &mut band, &mut [Slot::<Sub8, _>::EMPTY; 8], &mut ());
+    let mesh = Mesh::new(&corners, FACES.as_flattened(), |&corner| {
+        // A corner's coordinates, each 0 or 1, are its colour's red, green and blue as well.
+        let unit = Vec3::from_array([corner & 1, corner >> 1 & 1, corner >> 2].map(f32::from));
+        (unit * 2.0 - Vec3::ONE, unit)
+    });
+    Pass::new(&view, &mesh, VertexColor).at(cube).draw(&mut target);
     Ok(color)
 }

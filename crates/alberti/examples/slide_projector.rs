@@ -1,13 +1,13 @@
 //! A slide projector in a dim room: one image over two walls, the floor and a box, without a texture coordinate in the
-//! model. Beside it what comes of dividing at the vertices instead of the fragments, which is wrong.
+//! model. Beside it the result of dividing at the vertices instead of the fragments, which is wrong.
 //!
 //!     cargo run --release -p alberti --example slide_projector -- slide_projector.png
 
 mod common;
 
 use alberti::glam::Vec3;
-use alberti::shaders::{Add, Lambert, Slide, VertexColor};
-use alberti::texture::{Bilinear, Clamp, Texture};
+use alberti::shaders::{Add, Slide, Sunlit, VertexColor};
+use alberti::texture::{Bilinear, Clamp, Texture, format::Rgba8888};
 use alberti::*;
 use std::process::ExitCode;
 
@@ -31,7 +31,7 @@ pub(crate) fn picture() -> common::File {
     let [width, height] = SIZE.map(u32::from);
     let mut pixels = vec![0; 2 * (width * height) as usize];
     let right = throw(|on_image| on_image)?;
-    // What is between two vertices is then not what is between their places on the image.
+    // The middle of two vertices then no longer shows the middle of their places on the image.
     let wrong = throw(|Homogeneous { u, v, q }| Homogeneous { u: u / q, v: v / q, q: 1.0 })?;
     let columns = width as usize;
     let rows = right.chunks(columns).zip(wrong.chunks(columns));
@@ -42,54 +42,38 @@ pub(crate) fn picture() -> common::File {
     common::png(2 * width, &pixels)
 }
 
-/// The room, whose vertices carry what `carried` makes of their places on the image.
+/// The room, whose vertices carry their places on the image as `carried` changes them.
 fn throw(carried: fn(Homogeneous) -> Homogeneous) -> Result<Vec<u32>, Box<dyn std::error::Error>> {
     let [width, height] = SIZE.map(u32::from);
     let (vertices, triangles) = room();
     let slide = slide();
-    let image = Texture::<Rgba8>::new(&slide, SLIDE[0].into(), SLIDE[1].into())?;
+    let image = Texture::new(Rgba8888, &slide, SLIDE[0].into(), SLIDE[1].into())?;
 
     // From the right, across the room: closer to one wall than to the other.
-    let aspect = |[width, height]: [u16; 2]| f32::from(width) / f32::from(height);
-    let projector = Projector::new(looking([5.5, 2.6, 2.2], [0.0, 1.3, 0.9])?, 0.52, aspect(SLIDE))?;
-    let camera = looking([5.2, 3.6, 6.4], [0.9, 1.1, 0.7])?;
+    let at = |x, y, z| Point3::new(Vec3::new(x, y, z));
+    let place = look_at(at(5.5, 2.6, 2.2), at(0.0, 1.3, 0.9), Vector3::new(Vec3::Y))?;
+    let projector = Projector::new(place, 0.52, f32::from(SLIDE[0]) / f32::from(SLIDE[1]))?;
+    let camera = Camera::look_at(at(5.2, 3.6, 6.4), at(0.9, 1.1, 0.7), Vec3::Y)?;
+    let view = camera.perspective(0.72, 0.1..50.0)?;
 
-    let pass = Pass {
-        view: View {
-            to_eye: camera.inverse_orthonormal() * Frame::<Object, World>::IDENTITY,
-            projection: Perspective::new(0.72, aspect(SIZE), 0.1, 50.0)?,
-            viewport: Viewport::new(0, 0, width, height)?,
-        },
-        vertices: &vertices,
-        triangles: &triangles,
-        // The room stands in the world where it was built. What the projector says is linear in space, so that vertices
-        // may carry it; the division is the fragments' affair.
-        vertex_stage: |corner: &Corner| {
-            let on_image = carried(projector.project(Point3::new(corner.position)));
-            (Point3::new(corner.position), (on_image, (corner.normal, corner.color)))
-        },
-        fragment_stage: Slide {
-            surface: Lambert::new(VertexColor, Vector3::new(Vec3::new(0.3, 1.0, 0.5)), 0.14, 0.26),
-            image: image.sampler::<Bilinear, Clamp>(),
-            mix: Add,
-        },
-        cull: Cull::Back,
-        sides: Sides::GuardBand,
-        interpolation: Exact,
+    // The room stands in the world where it was built. A projector's numbers are linear in space, so that vertices may
+    // carry them; the division is the fragments' affair.
+    let mesh = Mesh::new(&vertices, &triangles, |corner: &Corner| {
+        let on_image = carried(projector.project(Point3::new(corner.position)));
+        (corner.position, (on_image, (corner.normal, corner.color)))
+    });
+    let stage = Slide {
+        surface: Sunlit::new(VertexColor, Vector3::new(Vec3::new(0.3, 1.0, 0.5)), 0.14, 0.26),
+        image: image.sampler(Bilinear, Clamp),
+        mix: Add,
     };
 
     let pixels = (width * height) as usize;
     let (mut color, mut depth) = (vec![0; pixels], vec![1.0; pixels]);
-    let mut band = Band::<Rgba8, F32>::new(width, 0, &mut color, &mut depth)?;
-    band.clear(Rgba8::BLACK);
-    draw(&pass, &mut band, &mut vec![Slot::<Sub8, _>::EMPTY; vertices.len()], &mut ());
+    let mut target = Target::new(Rgba8888, F32, width, height, &mut color, &mut depth)?;
+    target.clear(Rgba8::BLACK);
+    draw(&mut target, &view, &mesh, stage);
     Ok(color)
-}
-
-/// At `eye`, pointed at `target`, upright: a camera's place, and a projector's.
-fn looking(eye: [f32; 3], target: [f32; 3]) -> Result<Frame<Eye, World>, ViewError> {
-    let at = |p| Point3::new(Vec3::from_array(p));
-    look_at(at(eye), at(target), Vector3::new(Vec3::Y))
 }
 
 /// The floor and two walls that meet in the origin, and a box in their corner.

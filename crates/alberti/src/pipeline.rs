@@ -1,337 +1,329 @@
-//! The journey of a triangle: the view pipeline's steps, in the order in which they are taught.
+//! The journey of a triangle: [`draw`] for the plain case, [`Pass`] for all choices.
+//!
+//! A pass connects the two halves of the pipeline. The geometry half takes a mesh, a view and the grid of snapped
+//! positions, and makes triangles on the screen. The paint half takes these, a fragment stage and an interpolation,
+//! and makes pixels of a [`Target`].
 
-use crate::vertex::{Slot, Transformed, VertexStage, outside};
-use alberti_math::glam::Vec3;
+use crate::geometry::Geometry;
+use crate::prepared::{Prepared, Room};
+use crate::profile::Profile;
+use crate::stats::Stats;
+use crate::vertex::Slot;
+use crate::view::View;
+use crate::walk::{Screen, Sides, Walk};
 use alberti_math::lanes::{Floating, Machine};
-use alberti_math::{Eye, Frame, Object, Subpixel, Varying, flatten, for_lanes};
-use alberti_projection::{
-    EyeVertex, Perspective, ProjectedVertex, Projection, SideBounds, Viewport, clip_near_far, clip_sides,
-};
+use alberti_math::{Frame, Object, Sub8, Subpixel, World, for_lanes};
+use alberti_projection::{Perspective, Projection, Viewport};
 use alberti_raster::{
-    Band, Counters, Cull, DepthFormat, Exact, FragmentStage, Interpolation, Store, Vertex, draw_triangle,
+    Bands, ColorFormat, Counters, Cull, DepthFormat, Exact, FragmentStage, Interpolation, Paint, Target,
 };
-use core::cmp::Ordering;
+use core::fmt;
 
-/// From where, through what pyramid or box, and to which rectangle of the target a mesh is seen.
-#[derive(Clone, Copy, Debug)]
-pub struct View<Pr = Perspective> {
-    /// Step 1: from object to eye coordinates. The camera's frame inverted, times the model's frame.
-    pub to_eye: Frame<Object, Eye>,
-    /// Steps 2 to 4.
-    pub projection: Pr,
-    /// Step 6.
-    pub viewport: Viewport,
-}
-
-/// Which clip the sides of the view get.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Sides {
-    /// Only what reaches beyond the fixed-point range is cut; the rest is left to the rows and columns that are
-    /// drawn. Faster, and edges are not moved.
-    #[default]
-    GuardBand,
-    /// The four sides of the cube, -1 <= xs <= 1 and -1 <= ys <= 1.
-    Cube,
-}
-
-/// One mesh drawn in one way.
-#[derive(Clone, Copy, Debug)]
-pub struct Pass<'a, T, I, Vs, Fs, P = Exact, Pr = Perspective> {
-    /// The view.
-    pub view: View<Pr>,
-    /// The mesh's vertices, of any type that the vertex stage understands.
-    pub vertices: &'a [T],
-    /// Three indices a triangle, counter-clockwise seen from the front. One that is out of range drops the triangle.
-    pub triangles: &'a [[I; 3]],
-    /// From mesh vertex to object-space position and varying.
-    pub vertex_stage: Vs,
-    /// From varying to colour.
-    pub fragment_stage: Fs,
-    /// Which faces are left out.
-    pub cull: Cull,
-    /// Which clip the sides get.
-    pub sides: Sides,
-    /// How what the vertices carry comes to the samples.
-    pub interpolation: P,
-}
-
-/// Draws a mesh into a band, triangles in order.
-///
-/// `slots` keeps transformed vertices, and its element type says how finely positions are snapped: with as many slots
-/// as vertices each vertex is transformed once; with fewer they are a cache; with none, a cache of 16 on the stack is
-/// used. Vertices that are not finite, or larger than `f32::MAX`/16 in eye space, drop their triangles.
-///
-/// The pixels do not depend on the slots, on the counters, on which of a triangle's vertices comes first (but for what
-/// is [`Flat`](alberti_math::Flat)), or on how the frame is divided into bands. To share the vertex work between bands,
-/// see [`prepare`](crate::prepare).
-///
-/// With the feature `simd` it works on eight samples at a time, in the widest vector registers that the machine turns
-/// out to have (with `std`) or is known to have; the pixels are those of [`draw_by`] one sample at a time.
-pub fn draw<S, T, I, Vs, Fs, P, Pr, C, D, K>(
-    pass: &Pass<'_, T, I, Vs, Fs, P, Pr>,
-    band: &mut Band<'_, C, D>,
-    slots: &mut [Slot<S, Vs::Varying>],
-    counters: &mut K,
-) where
-    S: Subpixel,
-    I: Copy + Into<u32>,
-    Vs: VertexStage<T>,
-    Fs: FragmentStage<Vs::Varying>,
-    P: Interpolation,
-    Pr: Projection,
-    C: Store<Fs::Color>,
-    D: DepthFormat,
-    K: Counters,
-{
-    // The first is the widest, and there always is one.
-    if let Some(machine) = Machine::all().next() {
-        for_lanes!(machine, lanes => draw_by(lanes, pass, band, slots, counters));
-    }
-}
-
-/// [`draw`] with as many samples at a time as there are `lanes`.
-pub fn draw_by<L, S, T, I, Vs, Fs, P, Pr, C, D, K>(
-    lanes: L,
-    pass: &Pass<'_, T, I, Vs, Fs, P, Pr>,
-    band: &mut Band<'_, C, D>,
-    slots: &mut [Slot<S, Vs::Varying>],
-    counters: &mut K,
-) where
-    L: Floating,
-    S: Subpixel,
-    I: Copy + Into<u32>,
-    Vs: VertexStage<T>,
-    Fs: FragmentStage<Vs::Varying>,
-    P: Interpolation,
-    Pr: Projection,
-    C: Store<Fs::Color>,
-    D: DepthFormat,
-    K: Counters,
-{
-    draw_from(0, lanes, pass, band, slots, counters);
-}
-
-/// Draws the pass's triangles from number `first` on.
-pub(crate) fn draw_from<L, S, T, I, Vs, Fs, P, Pr, C, D, K>(
-    first: usize,
-    lanes: L,
-    pass: &Pass<'_, T, I, Vs, Fs, P, Pr>,
-    band: &mut Band<'_, C, D>,
-    slots: &mut [Slot<S, Vs::Varying>],
-    counters: &mut K,
-) where
-    L: Floating,
-    S: Subpixel,
-    I: Copy + Into<u32>,
-    Vs: VertexStage<T>,
-    Fs: FragmentStage<Vs::Varying>,
-    P: Interpolation,
-    Pr: Projection,
-    C: Store<Fs::Color>,
-    D: DepthFormat,
-    K: Counters,
-{
-    if slots.is_empty() {
-        draw_from(first, lanes, pass, band, &mut [Slot::<S, Vs::Varying>::EMPTY; 16], counters);
-        return;
-    }
-    let [columns, rows] = pass.view.viewport.pixels();
-    let mut band = band.scissor(columns, rows);
-    let mut walk = Walk::new(pass, D::REVERSED, slots);
-    for triangle in pass.triangles.get(first..).unwrap_or_default() {
-        walk.triangle(*triangle, counters, |vertices, counters| {
-            rasterize(lanes, pass, &mut band, vertices, counters);
-        });
-    }
-}
-
-/// Step 7: the rasterizer.
-#[inline(always)]
-pub(crate) fn rasterize<L, S, T, I, Vs, Fs, P, Pr, C, D, K>(
-    lanes: L,
-    pass: &Pass<'_, T, I, Vs, Fs, P, Pr>,
-    band: &mut Band<'_, C, D>,
-    vertices: [&Vertex<S, Vs::Varying>; 3],
-    counters: &mut K,
-) where
-    L: Floating,
-    S: Subpixel,
-    Vs: VertexStage<T>,
-    Fs: FragmentStage<Vs::Varying>,
-    P: Interpolation,
-    C: Store<Fs::Color>,
-    D: DepthFormat,
-    K: Counters,
-{
-    let Pass { interpolation, cull, fragment_stage, .. } = pass;
-    let outcome = draw_triangle(*interpolation, lanes, band, vertices, *cull, fragment_stage, counters);
-    counters.rasterized(outcome);
-}
-
-/// The way of a pass's triangles to the screen: steps 1 to 6.
-pub(crate) struct Walk<'a, 'm, S: Subpixel, T, I, Vs: VertexStage<T>, Fs, P, Pr: Projection> {
-    pass: &'a Pass<'m, T, I, Vs, Fs, P, Pr>,
-    slots: &'a mut [Slot<S, Vs::Varying>],
-    depth: Pr::Depth,
-    guard: SideBounds,
-}
-
-impl<'a, 'm, S, T, I, Vs, Fs, P, Pr> Walk<'a, 'm, S, T, I, Vs, Fs, P, Pr>
+/// Draws a mesh into a target, triangles in order: back faces are left out, everything else is exact. A [`Pass`] has
+/// more to choose. The target is to be [cleared](Target::clear) before the first mesh: depths of 0 are the nearest.
+pub fn draw<C, D, Pr, M, F>(target: &mut Target<'_, C, D>, view: &View<Pr>, mesh: &M, stage: F)
 where
-    S: Subpixel,
-    I: Copy + Into<u32>,
-    Vs: VertexStage<T>,
+    C: ColorFormat,
+    D: DepthFormat,
     Pr: Projection,
+    M: Geometry,
+    F: FragmentStage<M::Varying>,
 {
-    /// `slots`, at least one, lose what they held. `reversed` says whether zs falls with distance.
-    #[inline]
-    pub(crate) fn new(
-        pass: &'a Pass<'m, T, I, Vs, Fs, P, Pr>,
-        reversed: bool,
-        slots: &'a mut [Slot<S, Vs::Varying>],
-    ) -> Self {
-        slots.fill(Slot::EMPTY);
-        let View { projection, viewport, .. } = &pass.view;
-        Self { pass, slots, depth: projection.depth_map(reversed), guard: viewport.guard() }
-    }
-
-    /// Hands `sink` what is seen of a triangle on the screen: nothing, the triangle, or the fan that clipping leaves.
-    #[inline(always)]
-    pub(crate) fn triangle<K: Counters>(
-        &mut self,
-        triangle: [I; 3],
-        counters: &mut K,
-        mut sink: impl FnMut([&Vertex<S, Vs::Varying>; 3], &mut K),
-    ) {
-        let Self { pass, slots, depth, guard } = self;
-        counters.submitted();
-        // Steps 1, 2, 4 and 6 for each vertex, where it allows them.
-        let indices = triangle.map(|i| usize::try_from(i.into()).unwrap_or(usize::MAX));
-        let Some(vertices) = vertices(pass, indices) else {
-            counters.dropped();
-            return;
-        };
-        let transform = |vertex: &T| {
-            let (point, varying) = pass.vertex_stage.shade(vertex);
-            Transformed::new(&pass.view, depth, *guard, point, varying)
-        };
-        let places = [
-            Slot::fill(slots, indices[0], || transform(vertices[0])),
-            Slot::fill(slots, indices[1], || transform(vertices[1])),
-            Slot::fill(slots, indices[2], || transform(vertices[2])),
-        ];
-        let kept = |k: usize| Slot::at(slots, places[k], indices[k]);
-        let afresh;
-        let corners = if let (Some(a), Some(b), Some(c)) = (kept(0), kept(1), kept(2)) {
-            [a, b, c]
-        } else {
-            // Two of the three share a slot.
-            afresh = vertices.map(transform);
-            afresh.each_ref()
-        };
-        let all = corners[0].outside | corners[1].outside | corners[2].outside;
-        let common = corners[0].outside & corners[1].outside & corners[2].outside;
-        if all & outside::NOWHERE != 0 || common & (outside::NEAR | outside::FAR | outside::SIDES) != 0 {
-            counters.dropped();
-            return;
-        }
-        let sides = if pass.sides == Sides::Cube { outside::SIDES } else { 0 };
-        if all & (outside::NEAR | outside::FAR | outside::GUARD | sides) == 0 {
-            sink([&corners[0].screen, &corners[1].screen, &corners[2].screen], counters);
-        } else {
-            counters.clipped();
-            clip(&pass.view, pass.sides, depth, corners, |vertices| sink(vertices, counters));
-        }
-    }
+    Pass::new(view, mesh, stage).draw(target);
 }
 
-/// The triangle's vertices; `None` for an index out of range.
-#[inline]
-fn vertices<'a, T, I, Vs, Fs, P, Pr>(
-    pass: &Pass<'a, T, I, Vs, Fs, P, Pr>,
-    indices: [usize; 3],
-) -> Option<[&'a T; 3]> {
-    let vertex = |index: usize| pass.vertices.get(index);
-    Some([vertex(indices[0])?, vertex(indices[1])?, vertex(indices[2])?])
-}
-
-/// Steps 3 to 6 for a triangle that crosses a plane.
-#[cold]
-#[inline(never)]
-fn clip<S: Subpixel, V: Varying, Pr: Projection>(
-    View { projection, viewport, .. }: &View<Pr>,
+/// One mesh drawn in one way: [`new`](Self::new) and [`draw`](Self::draw), with as many choices between the two as
+/// differ from the defaults.
+///
+/// Vertices that are not finite, or larger than `f32::MAX`/16 in eye space, drop their triangles. The pixels do not
+/// depend on the slots, on counting, or on the division of the frame into bands; nor, but for
+/// [`Flat`](alberti_math::Flat) components, on the vertex that comes first.
+pub struct Pass<'a, M: Geometry, F, P = Exact, Pr = Perspective, S = Sub8> {
+    view: &'a View<Pr>,
+    mesh: &'a M,
+    frame: Option<Frame<Object, World>>,
+    viewport: Option<Viewport>,
     sides: Sides,
-    depth: &Pr::Depth,
-    corners: [&Transformed<S, V>; 3],
-    mut sink: impl FnMut([&Vertex<S, V>; 3]),
-) {
-    let first = corners[0].screen.varying;
-    let triangle = canonical(corners.map(|c| {
-        let varying = flatten(first, c.screen.varying);
-        EyeVertex { position: c.position, varying }
-    }));
-    // 3. What lies between the near and the far plane.
-    let between = clip_near_far(triangle, projection.near(), projection.far());
-    // 4. Perspective with depth.
-    let projected = between.map(|v| projection.project(depth, &v));
-    if !projected.vertices().iter().all(finite) {
-        return;
+    slots: &'a mut [Slot<M::Varying>],
+    paint: Paint<F, P, S>,
+}
+
+impl<'a, M: Geometry, F, Pr: Projection> Pass<'a, M, F, Exact, Pr, Sub8> {
+    /// The mesh, where it was made, in a view of the whole target, coloured by `stage`; without back faces, exact, and
+    /// snapped to 1/256 pixel.
+    #[inline]
+    pub fn new(view: &'a View<Pr>, mesh: &'a M, stage: F) -> Self {
+        let paint = Paint { stage, interpolation: Exact, subpixel: Sub8, cull: Cull::Back };
+        Self { view, mesh, frame: None, viewport: None, sides: Sides::GuardBand, slots: &mut [], paint }
     }
-    // 5. The sides.
-    let bounds = match sides {
-        Sides::GuardBand => viewport.guard(),
-        Sides::Cube => SideBounds::CUBE,
-    };
-    let inside = clip_sides(projected, bounds);
-    // 6. Window-viewport, for the triangles of the fan.
-    for fan in inside.fan() {
-        let snapped = fan.map(|v| {
-            let [x, y] = viewport.to_screen(v.x, v.y)?;
-            Some(Vertex::<S, _> { x, y, zs: v.zs, q: v.q, varying: v.varying })
-        });
-        if let [Some(a), Some(b), Some(c)] = &snapped {
-            sink([a, b, c]);
+}
+
+impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection, S: Subpixel> Pass<'a, M, F, P, Pr, S> {
+    /// The object's place in the world, its axes and its scale.
+    #[must_use]
+    #[inline]
+    pub fn at(self, frame: Frame<Object, World>) -> Self {
+        Self { frame: Some(frame), ..self }
+    }
+
+    /// The rectangle of the frame in which the view appears, instead of all of it. It may reach out of the frame, where
+    /// nothing is drawn.
+    #[must_use]
+    #[inline]
+    pub fn viewport(self, viewport: Viewport) -> Self {
+        Self { viewport: Some(viewport), ..self }
+    }
+
+    /// The faces that are left out, instead of the back ones.
+    #[must_use]
+    #[inline]
+    pub fn cull(mut self, cull: Cull) -> Self {
+        self.paint.cull = cull;
+        self
+    }
+
+    /// The clip at the sides of the view, instead of that at the guard band.
+    #[must_use]
+    #[inline]
+    pub fn sides(self, sides: Sides) -> Self {
+        Self { sides, ..self }
+    }
+
+    /// The interpolation and the subpixels of a [`Profile`]; the formats are the target's.
+    #[must_use]
+    #[inline]
+    pub fn with<Q: Profile>(self, profile: Q) -> Pass<'a, M, F, Q::Interpolation, Pr, Q::Subpixel> {
+        self.interpolation(profile.interpolation()).subpixel(profile.subpixel())
+    }
+
+    /// The way of the attributes from the vertices to the pixels, instead of [`Exact`].
+    #[must_use]
+    #[inline]
+    pub fn interpolation<Q: Interpolation>(self, interpolation: Q) -> Pass<'a, M, F, Q, Pr, S> {
+        let Self { view, mesh, frame, viewport, sides, slots, paint } = self;
+        let Paint { stage, subpixel, cull, .. } = paint;
+        let paint = Paint { stage, interpolation, subpixel, cull };
+        Pass { view, mesh, frame, viewport, sides, slots, paint }
+    }
+
+    /// The grid to which vertices are snapped, instead of [`Sub8`].
+    #[must_use]
+    #[inline]
+    pub fn subpixel<Q: Subpixel>(self, subpixel: Q) -> Pass<'a, M, F, P, Pr, Q> {
+        let Self { view, mesh, frame, viewport, sides, slots, paint } = self;
+        let Paint { stage, interpolation, cull, .. } = paint;
+        let paint = Paint { stage, interpolation, subpixel, cull };
+        Pass { view, mesh, frame, viewport, sides, slots, paint }
+    }
+
+    /// Room for transformed vertices: with as many slots as vertices each is transformed once; with fewer they are a
+    /// cache. Without any, a cache of 16 on the stack is used.
+    #[must_use]
+    #[inline]
+    pub fn slots(self, slots: &'a mut [Slot<M::Varying>]) -> Self {
+        Self { slots, ..self }
+    }
+
+    /// Draws into a target, triangles in order.
+    ///
+    /// With the feature `simd` it works on eight samples at a time, in the widest vector registers that the machine
+    /// turns out to have (with `std`) or is known to have; the pixels are those of [`draw_by`](Self::draw_by) one
+    /// sample at a time.
+    pub fn draw<C: ColorFormat, D: DepthFormat>(&mut self, target: &mut Target<'_, C, D>)
+    where
+        F: FragmentStage<M::Varying>,
+    {
+        self.draw_widest(target, &mut ());
+    }
+
+    /// [`draw`](Self::draw), and what happened on the way.
+    pub fn draw_counted<C: ColorFormat, D: DepthFormat>(&mut self, target: &mut Target<'_, C, D>) -> Stats
+    where
+        F: FragmentStage<M::Varying>,
+    {
+        let mut stats = Stats::default();
+        self.draw_widest(target, &mut stats);
+        stats
+    }
+
+    fn draw_widest<C: ColorFormat, D: DepthFormat, K: Counters>(
+        &mut self,
+        target: &mut Target<'_, C, D>,
+        counters: &mut K,
+    ) where
+        F: FragmentStage<M::Varying>,
+    {
+        // The first is the widest, and there always is one.
+        if let Some(machine) = Machine::all().next() {
+            for_lanes!(machine, lanes => self.draw_by(lanes, target, counters));
         }
     }
-}
 
-/// Whether a projected vertex has a place: dividing by a tiny z may overflow.
-fn finite<V>(v: &ProjectedVertex<V>) -> bool {
-    v.x.abs() <= f32::MAX / 4.0 && v.y.abs() <= f32::MAX / 4.0 && v.q.is_finite()
-}
+    /// [`draw`](Self::draw) with as many samples at a time as there are `lanes`, and counted by `counters`, of which
+    /// `()` costs nothing.
+    pub fn draw_by<L: Floating, C: ColorFormat, D: DepthFormat, K: Counters>(
+        &mut self,
+        lanes: L,
+        target: &mut Target<'_, C, D>,
+        counters: &mut K,
+    ) where
+        F: FragmentStage<M::Varying>,
+    {
+        self.draw_from(0, lanes, target, counters);
+    }
 
-/// The same cyclic order for the same triangle, whichever vertex it is given from: clipping and the fan start there.
-fn canonical<V: Varying>([a, b, c]: [EyeVertex<V>; 3]) -> [EyeVertex<V>; 3] {
-    let before =
-        |v: &EyeVertex<V>, w: &EyeVertex<V>| order(v.position.coords, w.position.coords) == Ordering::Less;
-    if before(&b, &a) && !before(&c, &b) {
-        [b, c, a]
-    } else if before(&c, &a) {
-        [c, a, b]
-    } else {
-        [a, b, c]
+    /// [`draw_by`](Self::draw_by) from triangle number `first` on.
+    pub(crate) fn draw_from<L: Floating, C: ColorFormat, D: DepthFormat, K: Counters>(
+        &mut self,
+        first: usize,
+        lanes: L,
+        target: &mut Target<'_, C, D>,
+        counters: &mut K,
+    ) where
+        F: FragmentStage<M::Varying>,
+    {
+        let Some(screen) = self.screen(target.size(), target.depth_format()) else { return };
+        let (mesh, paint) = (self.mesh, &self.paint);
+        let mut cache;
+        let slots = if self.slots.is_empty() {
+            cache = [Slot::EMPTY; 16];
+            &mut cache
+        } else {
+            &mut *self.slots
+        };
+        let [columns, rows] = screen.viewport.pixels();
+        let mut visible = target.scissor(columns, rows);
+        let mut walk = Walk::new(mesh, screen, slots);
+        let mut number = first;
+        while let Some(indices) = mesh.triangle(number) {
+            walk.triangle(indices, counters, |vertices, counters| {
+                let outcome = paint.triangle(lanes, &mut visible, vertices, counters);
+                counters.rasterized(outcome);
+            });
+            number += 1;
+        }
+    }
+
+    /// Does once, for all bands of a frame, the geometry half of [`draw`](Self::draw), as far as there is `room` for
+    /// the triangles on the screen. Returns with them the room that is left, for the next pass.
+    ///
+    /// Triangles that could never be drawn take no room: those that the pass leaves out for their facing, those outside
+    /// the view, and those whose box holds no sample of the viewport. A clipped triangle takes room for up to seven.
+    /// The mesh's triangles are kept in order, up to the first that finds no room; without any, [`Prepared::draw`] is
+    /// [`draw`](Self::draw). The pixels never depend on the room.
+    ///
+    /// ```
+    /// use alberti::{glam::Vec3, *};
+    ///
+    /// // Two triangles that pass through each other, in a frame of 32 x 24 pixels.
+    /// let vertices = [-0.9, 0.9].map(|x| [(x, -0.8, 0.5), (-x, -0.8, -0.5), (0.0, 0.8, 0.0)]);
+    /// let mesh = Mesh::new(vertices.as_flattened(), &[[0u16, 1, 2], [3, 4, 5]], |&(x, y, z)| {
+    ///     (Vec3::new(x, y, z), z)
+    /// });
+    /// let stage = |z: f32| Some(Rgba8::from_rgb24(if z < 0.0 { 0xff_c0_40 } else { 0x20_60_a0 }));
+    /// let view = Camera::look_at(Vec3::Z * 2.0, Vec3::ZERO, Vec3::Y)?.perspective(1.0, 0.1..10.0)?;
+    /// let mut slots = [Slot::EMPTY; 6];
+    /// let mut pass = Pass::new(&view, &mesh, stage).cull(Cull::None).slots(&mut slots);
+    ///
+    /// let (mut color, mut depth) = ([0; 32 * 8], [0; 32 * 8]);
+    /// let mut bands = Bands::new(Rgb565Be, D16, 32, 24, &mut color, &mut depth)?;
+    /// let mut room = [ScreenTriangle::EMPTY; 4];
+    /// let (mut prepared, rest) = pass.prepare(&bands, &mut room);
+    /// assert_eq!((prepared.kept(), prepared.remaining(), rest.len()), (2, 0, 2));
+    ///
+    /// // Three bands, one after the other in the same eight rows of memory.
+    /// let mut frame = Vec::new();
+    /// while let Some(mut band) = bands.next_band() {
+    ///     band.clear(Rgba8::BLACK);
+    ///     prepared.draw(&mut band);
+    ///     frame.extend_from_slice(band.pixels());
+    /// }
+    ///
+    /// // The same as all rows at once.
+    /// let (mut color, mut depth) = ([0; 32 * 24], [0; 32 * 24]);
+    /// let mut target = Target::new(Rgb565Be, D16, 32, 24, &mut color, &mut depth)?;
+    /// target.clear(Rgba8::BLACK);
+    /// pass.draw(&mut target);
+    /// assert!(frame == color && frame.iter().any(|&pixel| pixel != 0));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Cost
+    /// That of `draw` without the rasterizer, and a copy of each triangle that is kept. In return a band costs its
+    /// fragments, the setup of the triangles that meet it, and a comparison for each of the others.
+    #[expect(clippy::type_complexity, reason = "two things: the triangles, and the room that is left")]
+    pub fn prepare<'p, C: ColorFormat, D: DepthFormat>(
+        &'p mut self,
+        bands: &Bands<'_, C, D>,
+        room: Room<'p, M::Varying>,
+    ) -> (Prepared<'p, 'a, M, F, P, Pr, S, D>, Room<'p, M::Varying>) {
+        Prepared::new(self, bands.size(), bands.depth_format(), room, &mut ())
+    }
+
+    /// [`prepare`](Self::prepare) for frames of this size, whose bands have this depth format.
+    ///
+    /// `counters` hear, once, which triangles are submitted, dropped, clipped, culled, or missed by their box, up to
+    /// the first that finds no room. The others are counted by each [`Prepared::draw_by`]. Together they count, for a
+    /// band with all rows of the viewport, what [`draw_by`](Self::draw_by) does.
+    #[expect(clippy::type_complexity, reason = "two things: the triangles, and the room that is left")]
+    pub fn prepare_by<'p, D: DepthFormat>(
+        &'p mut self,
+        size: [u32; 2],
+        depth: D,
+        room: Room<'p, M::Varying>,
+        counters: &mut impl Counters,
+    ) -> (Prepared<'p, 'a, M, F, P, Pr, S, D>, Room<'p, M::Varying>) {
+        Prepared::new(self, size, depth, room, counters)
+    }
+
+    /// The way to the screen of a frame of this size; `None` if it has no pixels.
+    #[inline]
+    pub(crate) fn screen(&self, [width, height]: [u32; 2], depth: impl DepthFormat) -> Option<Screen<Pr, S>> {
+        let viewport = match self.viewport {
+            Some(viewport) => viewport,
+            None => Viewport::new(0, 0, width, height).ok()?,
+        };
+        let projection = self.view.projection(&viewport);
+        Some(Screen {
+            to_eye: self.view.object_to_eye(self.frame.as_ref()),
+            projection,
+            viewport,
+            depth: projection.depth_map(depth.reversed()),
+            guard: viewport.guard(),
+            sides: self.sides,
+            subpixel: self.paint.subpixel,
+        })
+    }
+
+    /// The mesh.
+    pub(crate) fn mesh(&self) -> &'a M {
+        self.mesh
+    }
+
+    /// The slots of the geometry half, and the paint half.
+    #[inline]
+    #[expect(clippy::type_complexity, reason = "the two halves")]
+    pub(crate) fn halves(&mut self) -> (&mut [Slot<M::Varying>], &Paint<F, P, S>) {
+        (&mut *self.slots, &self.paint)
+    }
+
+    /// The paint half.
+    #[inline]
+    pub(crate) fn paint(&self) -> &Paint<F, P, S> {
+        &self.paint
     }
 }
 
-fn order(v: Vec3, w: Vec3) -> Ordering {
-    v.z.total_cmp(&w.z).then(v.y.total_cmp(&w.y)).then(v.x.total_cmp(&w.x))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use alberti_math::Point3;
-
-    #[test]
-    fn any_rotation_becomes_the_same_one() {
-        let v = |x, y, z| EyeVertex { position: Point3::new(Vec3::new(x, y, z)), varying: x };
-        for [a, b, c] in [
-            [v(0.0, 0.0, 1.0), v(1.0, 0.0, 2.0), v(0.0, 1.0, 3.0)],
-            [v(0.0, 0.0, 1.0), v(1.0, 0.0, 1.0), v(0.0, 1.0, 1.0)],
-            [v(0.0, 0.0, 3.0), v(1.0, 0.0, 1.0), v(0.0, 1.0, 2.0)],
-        ] {
-            assert_eq!(canonical([a, b, c]), canonical([b, c, a]));
-            assert_eq!(canonical([a, b, c]), canonical([c, a, b]));
-        }
+impl<M: Geometry, F, P: fmt::Debug, Pr: fmt::Debug, S: fmt::Debug> fmt::Debug for Pass<'_, M, F, P, Pr, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Pass")
+            .field("view", &self.view)
+            .field("viewport", &self.viewport)
+            .field("sides", &self.sides)
+            .field("slots", &self.slots.len())
+            .field("cull", &self.paint.cull)
+            .field("interpolation", &self.paint.interpolation)
+            .field("subpixel", &self.paint.subpixel)
+            .finish_non_exhaustive()
     }
 }

@@ -1,15 +1,17 @@
-//! For a frame that is drawn in bands: from a pass to its triangles on the screen, once, and from these to any band.
+//! Frames that are drawn in bands: from a pass to its triangles on the screen, once, and from these to any band.
 
-use crate::pipeline::{Pass, Walk, draw_from, rasterize};
+use crate::geometry::Geometry;
+use crate::pipeline::Pass;
 use crate::stats::Stats;
-use crate::vertex::{Slot, VertexStage};
+use crate::vertex::Slot;
+use crate::walk::Walk;
 use alberti_math::lanes::{Floating, Machine};
 use alberti_math::{Subpixel, for_lanes};
 use alberti_projection::Projection;
 use alberti_raster::{
-    Band, Counters, Cull, DepthFormat, FragmentStage, Interpolation, Outcome, Store, Vertex, reach,
+    ColorFormat, Counters, DepthFormat, FragmentStage, Interpolation, Outcome, Paint, Target, Vertex,
 };
-use core::marker::PhantomData;
+use core::fmt;
 use core::num::NonZeroU16;
 use core::ops::Range;
 
@@ -18,119 +20,66 @@ use core::ops::Range;
 /// # Cost
 /// Three vertices of 16 bytes and a varying, and 4 bytes: 76 bytes where two numbers are carried.
 #[derive(Clone, Copy, Debug)]
-pub struct ScreenTriangle<S: Subpixel, V>(Option<Kept<S, V>>);
+pub struct ScreenTriangle<V>(Option<Kept<V>>);
 
-impl<S: Subpixel, V> ScreenTriangle<S, V> {
+impl<V> ScreenTriangle<V> {
     /// Room without a triangle.
     pub const EMPTY: Self = Self(None);
 }
 
+/// Room for triangles.
+pub(crate) type Room<'a, V> = &'a mut [ScreenTriangle<V>];
+
 #[derive(Clone, Copy, Debug)]
-struct Kept<S: Subpixel, V> {
-    vertices: [Vertex<S, V>; 3],
+struct Kept<V> {
+    vertices: [Vertex<V>; 3],
     rows: Rows,
 }
 
-/// A pass whose triangles have been transformed, clipped and culled for all bands of a frame: see [`prepare`].
+/// A pass whose triangles have been transformed, clipped and culled for all bands of a frame: see [`Pass::prepare`].
 ///
-/// Triangles that did not find room are transformed, clipped and culled again by each [`draw`](Self::draw). `D` is the
-/// depth format of its bands, `P` the pass, which cannot change meanwhile.
-#[derive(Debug)]
-pub struct Prepared<'a, D, S: Subpixel, V, P> {
-    pass: &'a P,
-    kept: &'a [ScreenTriangle<S, V>],
+/// Triangles that did not find room are transformed, clipped and culled again by each [`draw`](Self::draw).
+pub struct Prepared<'p, 'a, M: Geometry, F, P, Pr, S, D> {
+    pass: &'p mut Pass<'a, M, F, P, Pr, S>,
+    kept: &'p [ScreenTriangle<M::Varying>],
     /// The first of the mesh's triangles that found no room.
     next: usize,
-    depth: PhantomData<D>,
+    /// Columns and rows of the viewport.
+    pixels: [Range<i32>; 2],
+    /// Columns and rows of the frame.
+    size: [u32; 2],
+    depth: D,
 }
 
-/// Does once, for all bands of a frame, what [`draw`](crate::draw) does before the rasterizer for each of them, as far
-/// as there is `room` for the triangles on the screen. Returns with them the room that is left, for the next pass.
-///
-/// Triangles that could never be drawn take no room: those that the pass leaves out for their facing, those outside the
-/// view, and those whose box holds no sample of the viewport. A clipped triangle takes room for up to seven. The mesh's
-/// triangles are kept in order, up to the first that finds no room; without any, [`Prepared::draw`] is
-/// [`draw`](crate::draw). The pixels never depend on the room.
-///
-/// `D` is the depth format of the bands to come, and follows from them. `slots` are as in [`draw`](crate::draw).
-///
-/// `counters` hear, once, which triangles are submitted, dropped, clipped, culled, or missed by their box, up to the
-/// first that finds no room. The others are counted by each [`Prepared::draw`], as by [`draw`](crate::draw). Together
-/// they count, for a band with all rows of the viewport, what `draw` does.
-///
-/// ```
-/// use alberti::{glam::Vec3, *};
-///
-/// // Two triangles that pass through each other, in a frame of 32 x 24 pixels.
-/// let vertices = [-0.9, 0.9].map(|x| [(x, -0.8, 0.5), (-x, -0.8, -0.5), (0.0, 0.8, 0.0)]);
-/// let pass = Pass {
-///     view: View {
-///         to_eye: Frame::at(Point3::new(Vec3::new(0.0, 0.0, 2.0))),
-///         projection: Perspective::new(1.0, 32.0 / 24.0, 0.1, 10.0)?,
-///         viewport: Viewport::new(0, 0, 32, 24)?,
-///     },
-///     vertices: vertices.as_flattened(),
-///     triangles: &[[0u16, 1, 2], [3, 4, 5]],
-///     vertex_stage: |&(x, y, z): &(f32, f32, f32)| (Point3::new(Vec3::new(x, y, z)), z),
-///     fragment_stage: |z: f32| Some(Rgba8::from_rgb24(if z < 0.0 { 0xff_c0_40 } else { 0x20_60_a0 })),
-///     cull: Cull::None,
-///     sides: Sides::GuardBand,
-///     interpolation: Exact,
-/// };
-///
-/// let mut room = [ScreenTriangle::<Sub8, _>::EMPTY; 4];
-/// let mut slots = [Slot::EMPTY; 6];
-/// let (prepared, rest) = prepare(&pass, &mut room, &mut slots, &mut ());
-/// assert_eq!((prepared.kept(), prepared.remaining(), rest.len()), (2, 0, 2));
-///
-/// // Three bands, one after the other in the same eight rows of memory.
-/// let mut frame = Vec::new();
-/// for first_row in [0, 8, 16] {
-///     let (mut color, mut depth) = ([0u16; 32 * 8], [0u16; 32 * 8]);
-///     let mut band = Band::<Rgb565Be, D16>::new(32, first_row, &mut color, &mut depth)?;
-///     band.clear(Rgba8::BLACK);
-///     prepared.draw(&mut band, &mut slots, &mut ());
-///     frame.extend(color);
-/// }
-///
-/// // The same as all rows at once.
-/// let (mut color, mut depth) = ([0u16; 32 * 24], [0u16; 32 * 24]);
-/// let mut band = Band::<Rgb565Be, D16>::new(32, 0, &mut color, &mut depth)?;
-/// band.clear(Rgba8::BLACK);
-/// draw(&pass, &mut band, &mut slots, &mut ());
-/// assert!(frame == color && frame.iter().any(|&pixel| pixel != 0));
-/// # Ok::<(), Box<dyn core::error::Error>>(())
-/// ```
-///
-/// # Cost
-/// What `draw` costs without the rasterizer, and a copy of each triangle that is kept. In return a band costs its
-/// fragments, the setup of the triangles that meet it, and a comparison for each of the others.
-#[expect(clippy::type_complexity, reason = "two things: what is prepared, and the room that is left")]
-pub fn prepare<'a, 'm, D, S, T, I, Vs, Fs, P, Pr, K>(
-    pass: &'a Pass<'m, T, I, Vs, Fs, P, Pr>,
-    room: &'a mut [ScreenTriangle<S, Vs::Varying>],
-    slots: &mut [Slot<S, Vs::Varying>],
-    counters: &mut K,
-) -> (PreparedPass<'a, 'm, D, S, T, I, Vs, Fs, P, Pr>, &'a mut [ScreenTriangle<S, Vs::Varying>])
+impl<'p, 'a, M, F, P, Pr, S, D> Prepared<'p, 'a, M, F, P, Pr, S, D>
 where
-    D: DepthFormat,
-    S: Subpixel,
-    I: Copy + Into<u32>,
-    Vs: VertexStage<T>,
+    M: Geometry,
+    P: Interpolation,
     Pr: Projection,
-    K: Counters,
+    S: Subpixel,
+    D: DepthFormat,
 {
-    if slots.is_empty() {
-        return prepare(pass, room, &mut [Slot::EMPTY; 16], counters);
-    }
-    let pixels = pass.view.viewport.pixels();
-    let mut walk = Walk::new(pass, D::REVERSED, slots);
-    // What is kept and counted of the triangles that wholly found room.
-    let (mut kept, mut counted, mut next) = (0, Stats::default(), 0);
-    for triangle in pass.triangles {
-        let (mut wanted, mut stats) = (kept, counted);
-        walk.triangle(*triangle, &mut stats, |vertices, stats| {
-            match Rows::of(vertices, pass.cull, &pixels) {
+    pub(crate) fn new<K: Counters>(
+        pass: &'p mut Pass<'a, M, F, P, Pr, S>,
+        size: [u32; 2],
+        depth: D,
+        room: Room<'p, M::Varying>,
+        counters: &mut K,
+    ) -> (Self, Room<'p, M::Varying>) {
+        let Some(screen) = pass.screen(size, depth) else {
+            let next = usize::MAX;
+            return (Self { pass, kept: &[], next, pixels: [0..0, 0..0], size, depth }, room);
+        };
+        let pixels = screen.viewport.pixels();
+        let mut cache = [Slot::EMPTY; 16];
+        let mesh = pass.mesh();
+        let (slots, paint) = pass.halves();
+        let mut walk = Walk::new(mesh, screen, if slots.is_empty() { &mut cache } else { slots });
+        // The triangles that wholly found room, and their counts.
+        let (mut kept, mut counted, mut next) = (0, Stats::default(), 0);
+        while let Some(indices) = mesh.triangle(next) {
+            let (mut wanted, mut stats) = (kept, counted);
+            walk.triangle(indices, &mut stats, |vertices, stats| match Rows::of(paint, vertices, &pixels) {
                 Ok(rows) => {
                     if let Some(place) = room.get_mut(wanted) {
                         *place = ScreenTriangle(Some(Kept { vertices: vertices.map(|v| *v), rows }));
@@ -138,73 +87,61 @@ where
                     wanted += 1;
                 }
                 Err(outcome) => stats.rasterized(outcome),
+            });
+            if wanted > room.len() {
+                break;
             }
-        });
-        if wanted > room.len() {
-            break;
+            (kept, counted, next) = (wanted, stats, next + 1);
         }
-        (kept, counted, next) = (wanted, stats, next + 1);
+        counted.repeat(counters);
+        let (kept, rest) = room.split_at_mut_checked(kept).unwrap_or_default();
+        (Self { pass, kept, next, pixels, size, depth }, rest)
     }
-    counted.repeat(counters);
-    let (kept, rest) = room.split_at_mut_checked(kept).unwrap_or_default();
-    (Prepared { pass, kept, next, depth: PhantomData }, rest)
-}
 
-/// What [`prepare`] makes of a [`Pass`].
-type PreparedPass<'a, 'm, D, S, T, I, Vs, Fs, P, Pr> =
-    Prepared<'a, D, S, <Vs as VertexStage<T>>::Varying, Pass<'m, T, I, Vs, Fs, P, Pr>>;
-
-impl<D, S, T, I, Vs, Fs, P, Pr> PreparedPass<'_, '_, D, S, T, I, Vs, Fs, P, Pr>
-where
-    D: DepthFormat,
-    S: Subpixel,
-    I: Copy + Into<u32>,
-    Vs: VertexStage<T>,
-    Fs: FragmentStage<Vs::Varying>,
-    P: Interpolation,
-    Pr: Projection,
-{
-    /// Draws into a band of the frame what [`draw`](crate::draw) would, in the same order and with the same pixels.
-    ///
-    /// `slots` are for the triangles that found no room; if there are none of these, no slots are touched. Of a kept
-    /// triangle, `counters` hear what the rasterizer does with it, if it has rows in the band, and nothing otherwise:
-    /// one that is drawn in three bands is submitted once and drawn three times.
-    pub fn draw<C, K>(&self, band: &mut Band<'_, C, D>, slots: &mut [Slot<S, Vs::Varying>], counters: &mut K)
+    /// Draws into a band of the frame the same as [`Pass::draw`] would, in the same order and with the same pixels.
+    /// Into a target of another frame's size, or whose depth runs the other way, it draws as [`Pass::draw`].
+    pub fn draw<C: ColorFormat>(&mut self, target: &mut Target<'_, C, D>)
     where
-        C: Store<Fs::Color>,
-        K: Counters,
+        F: FragmentStage<M::Varying>,
     {
         if let Some(machine) = Machine::all().next() {
-            for_lanes!(machine, lanes => self.draw_by(lanes, band, slots, counters));
+            for_lanes!(machine, lanes => self.draw_by(lanes, target, &mut ()));
         }
     }
 
     /// [`draw`](Self::draw) with as many samples at a time as there are `lanes`.
-    pub fn draw_by<L, C, K>(
-        &self,
+    ///
+    /// Of a kept triangle, `counters` hear its fate in the rasterizer, if it has rows in the band, and nothing
+    /// otherwise: one that is drawn in three bands is submitted once and drawn three times.
+    pub fn draw_by<L: Floating, C: ColorFormat, K: Counters>(
+        &mut self,
         lanes: L,
-        band: &mut Band<'_, C, D>,
-        slots: &mut [Slot<S, Vs::Varying>],
+        target: &mut Target<'_, C, D>,
         counters: &mut K,
     ) where
-        L: Floating,
-        C: Store<Fs::Color>,
-        K: Counters,
+        F: FragmentStage<M::Varying>,
     {
-        let [columns, rows] = self.pass.view.viewport.pixels();
+        // A target of another frame, or of a depth that runs the other way, gets all triangles anew.
+        let same_way = target.depth_format().reversed() == self.depth.reversed();
+        if target.size() != self.size || !same_way {
+            self.pass.draw_from(0, lanes, target, counters);
+            return;
+        }
+        let [columns, rows] = self.pixels.clone();
         let top = rows.start;
-        let mut visible = band.scissor(columns, rows);
+        let mut visible = target.scissor(columns, rows);
         let [_, rows] = visible.limits();
         let rows = rows.start - top..rows.end - top;
         for ScreenTriangle(triangle) in self.kept {
             if let Some(Kept { vertices, rows: its }) = triangle
                 && its.meet(&rows)
             {
-                rasterize(lanes, self.pass, &mut visible, vertices.each_ref(), counters);
+                let outcome = self.pass.paint().triangle(lanes, &mut visible, vertices.each_ref(), counters);
+                counters.rasterized(outcome);
             }
         }
         if self.remaining() > 0 {
-            draw_from(self.next, lanes, self.pass, band, slots, counters);
+            self.pass.draw_from(self.next, lanes, target, counters);
         }
     }
 
@@ -217,7 +154,17 @@ where
     /// How many of the mesh's triangles, the last ones, found no room: those that each band has to walk again.
     #[must_use]
     pub fn remaining(&self) -> usize {
-        self.pass.triangles.len() - self.next
+        self.pass.mesh().triangles().saturating_sub(self.next)
+    }
+}
+
+impl<M: Geometry, F, P, Pr, S, D: fmt::Debug> fmt::Debug for Prepared<'_, '_, M, F, P, Pr, S, D> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Prepared")
+            .field("kept", &self.kept.len())
+            .field("next", &self.next)
+            .field("depth", &self.depth)
+            .finish_non_exhaustive()
     }
 }
 
@@ -232,12 +179,12 @@ struct Rows {
 impl Rows {
     /// The rows of a triangle in a viewport of these `pixels`, or why it is never drawn there.
     #[inline]
-    fn of<S: Subpixel, V>(
-        vertices: [&Vertex<S, V>; 3],
-        cull: Cull,
+    fn of<F, P: Interpolation, S: Subpixel, V>(
+        paint: &Paint<F, P, S>,
+        vertices: [&Vertex<V>; 3],
         [columns, rows]: &[Range<i32>; 2],
     ) -> Result<Self, Outcome> {
-        let [_, covered] = reach(vertices, cull, [columns.clone(), rows.clone()])?;
+        let [_, covered] = paint.reach(vertices, [columns.clone(), rows.clone()])?;
         let row = |row: i32| u16::try_from(row - rows.start).ok();
         match (row(covered.start), row(covered.end).and_then(NonZeroU16::new)) {
             (Some(first), Some(end)) => Ok(Self { first, end }),
@@ -256,22 +203,24 @@ impl Rows {
 mod tests {
     use super::*;
     use alberti_math::glam::Vec2;
-    use alberti_math::{Fixed, Sub4, Sub8};
+    use alberti_math::{Fixed, Sub4};
+    use alberti_raster::{Cull, Exact};
 
     #[test]
     fn a_triangle_takes_the_room_that_is_documented() {
-        assert_eq!(size_of::<ScreenTriangle<Sub8, Vec2>>(), 76);
-        assert_eq!(size_of::<ScreenTriangle<Sub4, ()>>(), 3 * 16 + 4);
+        assert_eq!(size_of::<ScreenTriangle<Vec2>>(), 76);
+        assert_eq!(size_of::<ScreenTriangle<()>>(), 3 * 16 + 4);
     }
 
     #[test]
     fn rows_are_those_whose_samples_lie_between_the_vertices() {
         let rows = |corners: [[i32; 2]; 3], cull| {
             let vertices = corners.map(|p| {
-                let [x, y] = p.map(|c| Fixed::<Sub4>::from_subpixels(c).expect("near the origin"));
+                let [x, y] = p.map(|c| Fixed::from_subpixels(c).expect("near the origin"));
                 Vertex { x, y, zs: 0.5, q: 1.0, varying: () }
             });
-            let rows = Rows::of(vertices.each_ref(), cull, &[0..10, 100..110])?;
+            let paint = Paint { stage: (), interpolation: Exact, subpixel: Sub4, cull };
+            let rows = Rows::of(&paint, vertices.each_ref(), &[0..10, 100..110])?;
             Ok(i32::from(rows.first)..i32::from(rows.end.get()))
         };
         // Row 103's sample is at 103 * 16 + 8.

@@ -2,27 +2,23 @@
 //!
 //! | profile | for | interpolation | depth | subpixels | bytes a pixel |
 //! |---|---|---|---|---|---|
-//! | [`Reference`] | what others are compared with | [`Exact`] | [`F32Reversed`] | 8 bits | 8 |
+//! | [`Reference`] | comparisons | [`Exact`] | [`F32Reversed`] | 8 bits | 8 |
 //! | [`Desktop`] | machines with vector registers | [`Exact`] | [`F32`] | 8 bits | 8 |
-//! | [`Mcu`] | microcontrollers | [`Spans<16>`](Spans) in [`FixedPoint`] | [`D16`] | 4 bits | 4 |
+//! | [`Mcu`] | microcontrollers | [`Spans16`] in [`FixedPoint`] | [`D16`] | 4 bits | 4 |
 //! | [`Tiny`] | the smallest of them | [`Affine`] in [`FixedPoint`] | [`NoDepth`] | 4 bits | 2 |
 //!
 //! | profile | precision of attributes | cost of a fragment |
 //! |---|---|---|
 //! | [`Reference`], [`Desktop`] | 9ε | a division; a component adds four products |
-//! | [`Mcu`] | 19 steps of 2^-16, and what a line misses along 16 columns | an addition a component; a table every 16 columns |
-//! | [`Tiny`] | 67 steps of 2^-16, and what a line misses along the triangle | an addition a component |
+//! | [`Mcu`] | 19 steps of 2^-16, and the miss of a line along 16 columns | an addition a component; a table every 16 columns |
+//! | [`Tiny`] | 67 steps of 2^-16, and the miss of a line along the triangle | an addition a component |
 //!
 //! A profile is for code that is to be drawn in several ways. Code that knows its way names the policies themselves.
 
-use crate::pipeline::Pass;
-use crate::prepared::ScreenTriangle;
-use crate::vertex::Slot;
-use alberti_math::{Rgba8, Sub4, Sub8, Subpixel};
-use alberti_projection::{Parallel, Perspective, Projection};
+use alberti_math::{Rgb565Be, Rgba8888, Sub4, Sub8, Subpixel};
 use alberti_raster::{
-    Affine, Band, ColorFormat, D16, DepthFormat, Exact, F32, F32Reversed, FixedPoint, Interpolation, NoDepth,
-    Rgb565Be, Spans, Store,
+    Affine, Bands, ColorFormat, D16, DepthFormat, Exact, F32, F32Reversed, FixedPoint, Interpolation,
+    NoDepth, Spans16, Target, TargetError,
 };
 use core::fmt::Debug;
 
@@ -34,30 +30,24 @@ use core::fmt::Debug;
 /// use alberti::{glam::Vec3, shaders::VertexColor, *};
 ///
 /// /// A triangle that leans away from the viewer.
-/// fn frame<P: Profile>(band: &mut BandOf<'_, P>) -> Result<(), ViewError> {
-///     let pass = Pass {
-///         view: View {
-///             to_eye: Frame::at(Point3::new(Vec3::new(0.0, 0.0, 2.0))),
-///             projection: Perspective::new(1.0, 32.0 / 24.0, 0.1, 10.0)?,
-///             viewport: Viewport::new(0, 0, 32, 24)?,
-///         },
-///         vertices: &[(-0.9, -0.8, 0.0), (0.9, -0.8, 0.0), (0.0, 0.8, 1.0)],
-///         triangles: &[[0u16, 1, 2]],
-///         vertex_stage: |&(x, y, z): &(f32, f32, f32)| (Point3::new(Vec3::new(x, y, z)), Vec3::new(1.0, z, 0.0)),
-///         fragment_stage: VertexColor,
-///         cull: Cull::None,
-///         sides: Sides::GuardBand,
-///         interpolation: P::INTERPOLATION,
-///     };
-///     band.clear(Rgba8::BLACK);
-///     draw(&pass, band, &mut [SlotOf::<P, _>::EMPTY; 3], &mut ());
+/// fn frame<P: Profile>(
+///     profile: P,
+///     target: &mut Target<'_, P::Color, P::Depth>,
+/// ) -> Result<(), Box<dyn core::error::Error>> {
+///     let vertices = [(-0.9, -0.8, 0.0), (0.9, -0.8, 0.0), (0.0, 0.8, -1.0)];
+///     let mesh = Mesh::new(&vertices, &[[0u16, 1, 2]], |&(x, y, z)| {
+///         (Vec3::new(x, y, z), Vec3::new(1.0, -z, 0.0))
+///     });
+///     let view = Camera::look_at(Vec3::Z * 2.0, Vec3::ZERO, Vec3::Y)?.perspective(1.0, 0.1..10.0)?;
+///     target.clear(Rgba8::BLACK);
+///     Pass::new(&view, &mesh, VertexColor).with(profile).draw(target);
 ///     Ok(())
 /// }
 ///
 /// let (mut color, mut depth) = ([0; 32 * 24], [0.0; 32 * 24]);
-/// frame::<Desktop>(&mut Band::new(32, 0, &mut color, &mut depth)?)?;
+/// frame(Desktop, &mut Desktop.target(32, 24, &mut color, &mut depth)?)?;
 /// let (mut small, mut none) = ([0; 32 * 24], [(); 32 * 24]);
-/// frame::<Tiny>(&mut Band::new(32, 0, &mut small, &mut none)?)?;
+/// frame(Tiny, &mut Tiny.target(32, 24, &mut small, &mut none)?)?;
 ///
 /// // Full red, and green growing upwards: later with perspective, as the upper corner is farther.
 /// let middle = 11 * 32 + 16;
@@ -68,132 +58,135 @@ use core::fmt::Debug;
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 ///
-/// One's own is a type with nothing in it:
+/// One's own is a type and its choices:
 ///
 /// ```
 /// # use alberti::*;
 /// /// Sixteen bits a pixel and a depth test, in fixed point.
 /// #[derive(Clone, Copy, Debug)]
-/// enum Mine {}
+/// struct Mine;
 ///
 /// impl Profile for Mine {
-///     type Interpolation = FixedPoint<Bounded>;
-///     const INTERPOLATION: FixedPoint<Bounded> = FixedPoint(Bounded { budget: 1.0 / 256.0 });
-///     type Depth = D16;
-///     type Color = Rgb565Le;
+///     type Interpolation = FixedPoint<Lines>;
 ///     type Subpixel = Sub4;
+///     type Color = Rgb565Le;
+///     type Depth = D16;
+///
+///     fn interpolation(self) -> FixedPoint<Lines> {
+///         FixedPoint(Lines::bounded(1.0 / 256.0))
+///     }
+///
+///     fn subpixel(self) -> Sub4 {
+///         Sub4
+///     }
+///
+///     fn color(self) -> Rgb565Le {
+///         Rgb565Le
+///     }
+///
+///     fn depth(self) -> D16 {
+///         D16
+///     }
 /// }
 /// assert_eq!(Mine::PIXEL_BYTES, 4);
 /// ```
 ///
-/// What makes no sense does not compile: fixed point takes policies of straight lines, and `Exact` and `Plane` are
-/// none.
+/// A combination without sense does not compile: fixed point takes policies of straight lines, and `Exact` and `Planes`
+/// are none.
 ///
 /// ```compile_fail,E0277
 /// # use alberti::*;
-/// # #[derive(Clone, Copy, Debug)]
-/// # enum Mine {}
-/// impl Profile for Mine {
-///     type Interpolation = FixedPoint<Exact>;
-///     const INTERPOLATION: FixedPoint<Exact> = FixedPoint(Exact);
-/// #    type Depth = D16;
-/// #    type Color = Rgb565Le;
-/// #    type Subpixel = Sub4;
+/// fn interpolation() -> impl Interpolation {
+///     FixedPoint(Exact)
 /// }
 /// ```
 pub trait Profile: Copy + Debug + 'static {
     /// Perspective, and the numbers it is computed in.
     type Interpolation: Interpolation;
-    /// The interpolation with its settings, where it has any.
-    const INTERPOLATION: Self::Interpolation;
-    /// What a depth is stored as.
-    type Depth: DepthFormat;
-    /// What a colour is stored as: any format that takes what most fragment stages make.
-    type Color: Store<Rgba8>;
-    /// How finely vertices are snapped.
+    /// The grid of the vertices.
     type Subpixel: Subpixel;
+    /// The format of colours.
+    type Color: ColorFormat;
+    /// The format of depths.
+    type Depth: DepthFormat;
     /// Memory for a pixel, with its depth.
-    const PIXEL_BYTES: usize = size_of::<PixelOf<Self>>() + size_of::<StoredOf<Self>>();
+    const PIXEL_BYTES: usize =
+        size_of::<<Self::Color as ColorFormat>::Pixel>() + size_of::<<Self::Depth as DepthFormat>::Stored>();
+
+    /// Perspective, and the numbers it is computed in.
+    fn interpolation(self) -> Self::Interpolation;
+
+    /// The grid of the vertices.
+    fn subpixel(self) -> Self::Subpixel;
+
+    /// The format of colours.
+    fn color(self) -> Self::Color;
+
+    /// The format of depths.
+    fn depth(self) -> Self::Depth;
+
+    /// A target of the profile's formats: [`Target::new`].
+    ///
+    /// # Errors
+    /// Those of [`Target::new`].
+    fn target<'a>(
+        self,
+        width: u32,
+        height: u32,
+        color: &'a mut [<Self::Color as ColorFormat>::Pixel],
+        depth: &'a mut [<Self::Depth as DepthFormat>::Stored],
+    ) -> Result<Target<'a, Self::Color, Self::Depth>, TargetError> {
+        Target::new(self.color(), self.depth(), width, height, color, depth)
+    }
+
+    /// The bands of a frame in the profile's formats: [`Bands::new`].
+    ///
+    /// # Errors
+    /// Those of [`Bands::new`].
+    fn bands<'a>(
+        self,
+        width: u32,
+        height: u32,
+        color: &'a mut [<Self::Color as ColorFormat>::Pixel],
+        depth: &'a mut [<Self::Depth as DepthFormat>::Stored],
+    ) -> Result<Bands<'a, Self::Color, Self::Depth>, TargetError> {
+        Bands::new(self.color(), self.depth(), width, height, color, depth)
+    }
 }
 
-/// A projection that knows the interpolation it needs: for scenes that are drawn through either.
-///
-/// | projection | interpolation | precision of attributes | divisions |
-/// |---|---|---|---|
-/// | [`Perspective`] | [`Exact`] | 9ε | one a fragment |
-/// | [`Parallel`] | [`Affine`] | 6ε | one every 64 columns |
-///
-/// In parallel projection all policies have the same result within their rounding, and [`Affine`] (in fixed point
-/// [`FixedPoint<Affine>`](FixedPoint)) does the least for a pixel. Where triangles have a few pixels each, what a run
-/// costs counts for more, and with several lanes [`Exact`] may be faster.
-///
-/// ```
-/// use alberti::{glam::Vec3, shaders::VertexColor, *};
-///
-/// /// A triangle that leans away from the viewer; how many pixels it covers.
-/// fn pixels<Pr: Interpolated>(projection: Pr) -> Result<u64, Box<dyn core::error::Error>> {
-///     let pass = Pass {
-///         view: View {
-///             to_eye: Frame::at(Point3::new(Vec3::new(0.0, 0.0, 2.0))),
-///             projection,
-///             viewport: Viewport::new(0, 0, 32, 24)?,
-///         },
-///         vertices: &[(-0.9, -0.8, 0.0), (0.9, -0.8, 0.0), (0.0, 0.8, 1.0)],
-///         triangles: &[[0u16, 1, 2]],
-///         vertex_stage: |&(x, y, z): &(f32, f32, f32)| (Point3::new(Vec3::new(x, y, z)), Vec3::splat(z)),
-///         fragment_stage: VertexColor,
-///         cull: Cull::None,
-///         sides: Sides::GuardBand,
-///         interpolation: Pr::INTERPOLATION,
-///     };
-///     let (mut color, mut depth, mut stats) = ([0; 32 * 24], [1.0; 32 * 24], Stats::default());
-///     let mut band = Band::<Rgba8, F32>::new(32, 0, &mut color, &mut depth)?;
-///     draw(&pass, &mut band, &mut [Slot::<Sub8, _>::EMPTY; 3], &mut stats);
-///     Ok(stats.written)
-/// }
-///
-/// // Two units of height are seen at the distance 2, in parallel projection everywhere: nothing gets smaller.
-/// let perspective = pixels(Perspective::new(0.927_295_2, 32.0 / 24.0, 0.1, 10.0)?)?;
-/// let parallel = pixels(Parallel::new(2.0, 32.0 / 24.0, 0.1, 10.0)?)?;
-/// assert!(perspective < parallel);
-/// # Ok::<(), Box<dyn core::error::Error>>(())
-/// ```
-pub trait Interpolated: Projection {
-    /// The cheapest policy that is exact, but for rounding.
-    type Interpolation: Interpolation;
-    /// The same as a value.
-    const INTERPOLATION: Self::Interpolation;
+/// A profile's types and values, which are the same words.
+macro_rules! profile {
+    ($name:ident: $interpolation:ty = $value:expr, $subpixel:ident, $color:ident, $depth:ident) => {
+        impl Profile for $name {
+            type Interpolation = $interpolation;
+            type Subpixel = $subpixel;
+            type Color = $color;
+            type Depth = $depth;
+
+            #[inline(always)]
+            fn interpolation(self) -> $interpolation {
+                $value
+            }
+
+            #[inline(always)]
+            fn subpixel(self) -> $subpixel {
+                $subpixel
+            }
+
+            #[inline(always)]
+            fn color(self) -> $color {
+                $color
+            }
+
+            #[inline(always)]
+            fn depth(self) -> $depth {
+                $depth
+            }
+        }
+    };
 }
 
-impl Interpolated for Perspective {
-    type Interpolation = Exact;
-    const INTERPOLATION: Exact = Exact;
-}
-
-impl Interpolated for Parallel {
-    type Interpolation = Affine;
-    const INTERPOLATION: Affine = Affine;
-}
-
-/// What a profile's colour buffer holds for a pixel.
-pub type PixelOf<P> = <<P as Profile>::Color as ColorFormat>::Pixel;
-
-/// What a profile's depth buffer holds for a pixel.
-pub type StoredOf<P> = <<P as Profile>::Depth as DepthFormat>::Stored;
-
-/// A band of a profile.
-pub type BandOf<'a, P> = Band<'a, <P as Profile>::Color, <P as Profile>::Depth>;
-
-/// A slot of a profile, for vertices that carry a `V`.
-pub type SlotOf<P, V> = Slot<<P as Profile>::Subpixel, V>;
-
-/// Room for a triangle of a profile, with vertices that carry a `V`.
-pub type ScreenTriangleOf<P, V> = ScreenTriangle<<P as Profile>::Subpixel, V>;
-
-/// A pass of a profile.
-pub type PassOf<'a, P, T, I, Vs, Fs> = Pass<'a, T, I, Vs, Fs, <P as Profile>::Interpolation>;
-
-/// The most precise of each family: what other pictures are compared with.
+/// The most precise of each family, for comparisons with other pictures.
 ///
 /// # Precision
 /// Attributes within 9ε, of the greatest value at a vertex; depth in relative steps of 2^-24 at any distance; vertices
@@ -201,16 +194,10 @@ pub type PassOf<'a, P, T, I, Vs, Fs> = Pass<'a, T, I, Vs, Fs, <P as Profile>::In
 ///
 /// # Cost
 /// [`Exact`]: a division a fragment. 8 bytes a pixel.
-#[derive(Clone, Copy, Debug)]
-pub enum Reference {}
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Reference;
 
-impl Profile for Reference {
-    type Interpolation = Exact;
-    const INTERPOLATION: Exact = Exact;
-    type Depth = F32Reversed;
-    type Color = Rgba8;
-    type Subpixel = Sub8;
-}
+profile!(Reference: Exact = Exact, Sub8, Rgba8888, F32Reversed);
 
 /// For machines with vector registers: [`Reference`] with depth as it is taught, growing with distance.
 ///
@@ -219,37 +206,25 @@ impl Profile for Reference {
 ///
 /// # Cost
 /// [`Exact`]: a division a fragment. 8 bytes a pixel.
-#[derive(Clone, Copy, Debug)]
-pub enum Desktop {}
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Desktop;
 
-impl Profile for Desktop {
-    type Interpolation = Exact;
-    const INTERPOLATION: Exact = Exact;
-    type Depth = F32;
-    type Color = Rgba8;
-    type Subpixel = Sub8;
-}
+profile!(Desktop: Exact = Exact, Sub8, Rgba8888, F32);
 
 /// For microcontrollers with or without floating point, and a display of 16 bits a pixel.
 ///
 /// # Precision
 /// Attributes in steps of 2^-16 within ±4096, right to a few of them every 16 columns, and off between by one a column
-/// and by what a straight line misses: see [`FixedPoint`] and [`Spans`]. Depth in steps of 2^-16 of zs; vertices within
-/// 2^-5 pixel; 5 or 6 bits a channel.
+/// and by the miss of a straight line: see [`FixedPoint`] and [`Spans16`]. Depth in steps of 2^-16 of zs; vertices
+/// within 2^-5 pixel; 5 or 6 bits a channel.
 ///
 /// # Cost
 /// A fragment: an addition for the depth and one a component. Every 16 columns: a look into a table instead of a
 /// division. 4 bytes a pixel; edge functions of 32 bits up to 2,890 pixels.
-#[derive(Clone, Copy, Debug)]
-pub enum Mcu {}
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Mcu;
 
-impl Profile for Mcu {
-    type Interpolation = FixedPoint<Spans<16>>;
-    const INTERPOLATION: FixedPoint<Spans<16>> = FixedPoint(Spans);
-    type Depth = D16;
-    type Color = Rgb565Be;
-    type Subpixel = Sub4;
-}
+profile!(Mcu: FixedPoint<Spans16> = FixedPoint(Spans16), Sub4, Rgb565Be, D16);
 
 /// For the least memory and the fewest instructions: no depth buffer, so that triangles have to come from back to
 /// front, and no perspective within a triangle, so that they have to be small, or face the viewer, where they carry
@@ -261,16 +236,10 @@ impl Profile for Mcu {
 ///
 /// # Cost
 /// A fragment: an addition a component. 2 bytes a pixel; edge functions of 32 bits up to 2,890 pixels.
-#[derive(Clone, Copy, Debug)]
-pub enum Tiny {}
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Tiny;
 
-impl Profile for Tiny {
-    type Interpolation = FixedPoint<Affine>;
-    const INTERPOLATION: FixedPoint<Affine> = FixedPoint(Affine);
-    type Depth = NoDepth;
-    type Color = Rgb565Be;
-    type Subpixel = Sub4;
-}
+profile!(Tiny: FixedPoint<Affine> = FixedPoint(Affine), Sub4, Rgb565Be, NoDepth);
 
 #[cfg(test)]
 mod tests {

@@ -1,8 +1,8 @@
-//! Counters that count.
+//! Counts of the steps of a drawing.
 
 use alberti_raster::{Counters, Outcome};
 
-/// What happened while drawing. Hand `&mut Stats` to [`draw`](crate::draw) to fill it, `&mut ()` to pay nothing.
+/// The fates of triangles and fragments in a drawing: [`Pass::draw_counted`](crate::Pass::draw_counted) has them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stats {
     /// Triangles submitted.
@@ -24,7 +24,7 @@ pub struct Stats {
 }
 
 impl Stats {
-    /// Counts again, for someone else, what happened before any sample was drawn.
+    /// Counts again, for someone else, the fates of triangles before any sample was drawn.
     pub(crate) fn repeat(&self, counters: &mut impl Counters) {
         let Self { submitted, dropped, clipped, culled, missed, .. } = *self;
         (0..submitted).for_each(|_| counters.submitted());
@@ -32,6 +32,20 @@ impl Stats {
         (0..clipped).for_each(|_| counters.clipped());
         (0..culled).for_each(|_| counters.rasterized(Outcome::Culled));
         (0..missed).for_each(|_| counters.rasterized(Outcome::Missed));
+    }
+}
+
+impl core::ops::AddAssign for Stats {
+    fn add_assign(&mut self, other: Self) {
+        let Self { submitted, dropped, clipped, culled, missed, drawn, fragments, written } = other;
+        self.submitted += submitted;
+        self.dropped += dropped;
+        self.clipped += clipped;
+        self.culled += culled;
+        self.missed += missed;
+        self.drawn += drawn;
+        self.fragments += fragments;
+        self.written += written;
     }
 }
 

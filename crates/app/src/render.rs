@@ -1,12 +1,12 @@
 //! From a scene to a picture.
 
-use crate::draw::{Canvas, DrawPart, Studio};
+use crate::draw::{Drawing, Studio};
 use crate::error::Error;
 use crate::options::{ColorFormat, DepthFormat, RenderOptions};
 use crate::scene::{Camera, Image, Model};
 use alberti::raster::rgb565;
 use alberti::texture::{TexelFormat as _, format::Rgb565};
-use alberti::{Band, D16, D24, D32, F32, F32Reversed, NoDepth, Rgba8, Stats};
+use alberti::{AnyDepth, DepthFormat as _, Rgba8, Rgba8888, Stats, Target};
 
 /// A finished picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -31,50 +31,60 @@ pub fn render(
     options: &RenderOptions,
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<Picture, Error> {
-    options.policies.check()?;
-    let studio = Studio::new(model, camera, options)?;
-    let canvas = Canvas::new(model, camera, options, &studio)?;
-    // Each format with kernels for each stage takes a minute to compile.
-    let stats_and_pixels = match options.depth {
-        DepthFormat::F32 => draw::<F32>(canvas, Canvas::by_default, options, progress),
-        DepthFormat::F32Reversed => draw::<F32Reversed>(canvas, Canvas::by_default, options, progress),
-        DepthFormat::U32 => draw::<D32>(canvas, Canvas::in_general, options, progress),
-        DepthFormat::U24 => draw::<D24>(canvas, Canvas::in_general, options, progress),
-        DepthFormat::U16 => draw::<D16>(canvas, Canvas::in_general, options, progress),
-        DepthFormat::None => draw::<NoDepth>(canvas, Canvas::in_general, options, progress),
-    };
-    let (stats, texels) = stats_and_pixels?;
-    Ok(Picture { image: Image { width: options.width, height: options.height, texels }, stats })
-}
-
-/// The picture with depth buffer `D`.
-fn draw<'a, D: alberti::DepthFormat>(
-    canvas: Canvas<'a>,
-    draw_part: DrawPart<'a, D>,
-    options: &RenderOptions,
-    progress: &mut dyn FnMut(u64, u64),
-) -> Result<(Stats, Vec<[u8; 4]>), Error> {
     let mut pixels = buffer(options, 0)?;
-    let mut depth = buffer(options, D::FARTHEST)?;
-    let mut band = Band::<Rgba8, D>::new(options.width, 0, &mut pixels, &mut depth)
+    let depth_format = any_depth(options.depth);
+    let mut depth = buffer(options, depth_format.farthest())?;
+    let RenderOptions { width, height, .. } = *options;
+    let mut target = Target::new(Rgba8888, depth_format, width, height, &mut pixels, &mut depth)
         .map_err(|found| Error::new(found.to_string(), "a size that can be drawn"))?;
-    let stats = canvas.draw_all(draw_part, &mut band, progress);
+    let stats = draw(model, camera, options, &mut target, progress)?;
     drop(depth);
     let mut texels = buffer(options, [0; 4])?;
     for (texel, pixel) in texels.iter_mut().zip(pixels) {
         *texel = shown(options.policies.color, pixel.to_ne_bytes());
     }
-    Ok((stats, texels))
+    Ok(Picture { image: Image { width, height, texels }, stats })
 }
 
-/// What is to be seen of a colour where pixels are stored in this format.
+/// [`render`] into memory of the caller's, which is cleared before: 8 bits a channel, whatever the options' format is.
+/// The depth format is the target's.
+///
+/// # Errors
+/// Those of [`render`], but for memory.
+pub fn draw(
+    model: &Model,
+    camera: &Camera,
+    options: &RenderOptions,
+    target: &mut Target<'_, Rgba8888, AnyDepth>,
+    progress: &mut dyn FnMut(u64, u64),
+) -> Result<Stats, Error> {
+    options.policies.check()?;
+    let studio = Studio::new(model, camera, options)?;
+    let drawing = Drawing::new(model, camera, options, &studio)?;
+    Ok(drawing.draw_all(target, progress))
+}
+
+/// The library's depth format of that name.
+#[must_use]
+pub fn any_depth(depth: DepthFormat) -> AnyDepth {
+    match depth {
+        DepthFormat::F32 => AnyDepth::F32,
+        DepthFormat::F32Reversed => AnyDepth::F32Reversed,
+        DepthFormat::U32 => AnyDepth::D32,
+        DepthFormat::U24 => AnyDepth::D24,
+        DepthFormat::U16 => AnyDepth::D16,
+        DepthFormat::None => AnyDepth::NoDepth,
+    }
+}
+
+/// The colour that is seen where pixels are stored in this format.
 ///
 /// Nothing that is drawn reads a colour back, so the last one to be stored is all that counts, and to round it
 /// afterwards gives the pixels that a buffer of that format would hold.
 fn shown(format: ColorFormat, [r, g, b, a]: [u8; 4]) -> [u8; 4] {
     match format {
         ColorFormat::Rgba8 => [r, g, b, a],
-        ColorFormat::Rgb565 => Rgb565::decode(rgb565(Rgba8::new(r, g, b, a))).to_bytes(),
+        ColorFormat::Rgb565 => Rgb565.decode(rgb565(Rgba8::new(r, g, b, a))).to_bytes(),
     }
 }
 

@@ -2,13 +2,12 @@
 
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::One;
-use alberti::shaders::{Lambert, Modulate, Slide, Unlit};
+use alberti::shaders::{Modulate, Slide, Sunlit, Unlit};
 use alberti::texture::{Bilinear, Clamp, Nearest, Repeat, TexelFormat as _, Texture, format};
 use alberti::{
-    Affine, Band, BandOf, Bounded, Cull, D16, D24, D32, DepthFormat as _, Exact, F32, FixedPoint,
-    FragmentStage, Interpolated, Mcu, NoDepth, Parallel, Pass, PixelOf, Plane, Point3, Profile, Projector,
-    Reference, Rgb565Le, Rgba8, Sides, Slot, SlotOf, Spans, Sub4, Sub8, Tiny, Varying, Vector3, VertexStage,
-    View, draw, draw_by, look_at,
+    Affine, ColorFormat as Pixels, D16, D24, D32, DepthFormat as Depths, Exact, F32, FixedPoint,
+    FragmentStage, Lines, Mcu, Mesh, NoDepth, Pass, Planes, Point3, Profile, Projector, Reference, Rgb565Le,
+    Rgba8, Rgba8888, Sub4, Sub8, Target, Tiny, Varying, Vector3, look_at,
 };
 use alberti_app::draw::{AMBIENT, DIFFUSE, to_light, view};
 use alberti_app::options::{
@@ -21,7 +20,7 @@ use alberti_app::scenes::{self, BuiltIn};
 
 const SIZE: (u32, u32) = (160, 120);
 
-/// What a display shows of a pixel in memory.
+/// A pixel in memory, and the colour that a display shows of it.
 trait Shown: Copy {
     const BLANK: Self;
     fn shown(self, big_endian: bool) -> [u8; 4];
@@ -38,40 +37,31 @@ impl Shown for u16 {
     const BLANK: Self = 0;
     fn shown(self, big_endian: bool) -> [u8; 4] {
         let word = if big_endian { Self::from_be(self) } else { Self::from_le(self) };
-        format::Rgb565::decode(word).to_bytes()
+        format::Rgb565.decode(word).to_bytes()
     }
 }
 
 /// The scene's one part by the library.
 fn by_library<P, V>(
+    profile: P,
     scene: &BuiltIn,
-    vertex_stage: impl VertexStage<Vertex, Varying = V>,
-    fragment_stage: impl FragmentStage<V, Color = Rgba8>,
+    vertex_stage: impl Fn(&Vertex) -> (Vec3, V),
+    stage: impl FragmentStage<V, Color = Rgba8>,
     big_endian: bool,
 ) -> Vec<[u8; 4]>
 where
-    P: Profile,
-    PixelOf<P>: Shown,
+    P: Profile<Color: Pixels<Pixel: Shown>>,
     V: Varying,
 {
     let (width, height) = SIZE;
     let pixels = (width * height) as usize;
-    let (mut color, mut depth) = (vec![PixelOf::<P>::BLANK; pixels], vec![P::Depth::FARTHEST; pixels]);
-    let mut band: BandOf<'_, P> = Band::new(width, 0, &mut color, &mut depth).expect("fits");
+    let (mut color, mut depth) = (vec![Shown::BLANK; pixels], vec![profile.depth().farthest(); pixels]);
+    let mut target = profile.target(width, height, &mut color, &mut depth).expect("fits");
     let [r, g, b] = scene.background;
-    band.clear(Rgba8::new(r, g, b, 255));
-    let pass = Pass {
-        view: view(&scene.camera, width, height).expect("a view"),
-        vertices: &scene.model.vertices,
-        triangles: &scene.model.parts[0].triangles,
-        vertex_stage,
-        fragment_stage,
-        cull: Cull::Back,
-        sides: Sides::GuardBand,
-        interpolation: P::INTERPOLATION,
-    };
-    let mut slots = vec![SlotOf::<P, V>::EMPTY; scene.model.vertices.len()];
-    draw_by(One, &pass, &mut band, &mut slots, &mut ());
+    target.clear(Rgba8::new(r, g, b, 255));
+    let view = view(&scene.camera).expect("a view");
+    let mesh = Mesh::new(&scene.model.vertices, &scene.model.parts[0].triangles, vertex_stage);
+    Pass::new(&view, &mesh, stage).with(profile).draw_by(One, &mut target, &mut ());
     color.into_iter().map(|pixel| pixel.shown(big_endian)).collect()
 }
 
@@ -108,34 +98,34 @@ fn options(
 }
 
 /// A texture as it is, of the nearest texel, on the floor.
-fn unlit<P: Profile>(choice: (Policies, DepthFormat), big_endian: bool)
-where
-    PixelOf<P>: Shown,
-{
+fn unlit<P: Profile<Color: Pixels<Pixel: Shown>>>(
+    profile: P,
+    choice: (Policies, DepthFormat),
+    big_endian: bool,
+) {
     let scene = scenes::by_name("floor").expect("a scene");
     let image = &scene.model.textures[0];
-    let texture = Texture::<Rgba8>::new(&image.texels, image.width, image.height).expect("a texture");
-    let vertex = |v: &Vertex| (Point3::new(Vec3::from_array(v.position)), Vec2::from_array(v.uv));
-    let expected =
-        by_library::<P, _>(&scene, vertex, Unlit(texture.sampler::<Nearest, Repeat>()), big_endian);
+    let texture = Texture::new(Rgba8888, &image.texels, image.width, image.height).expect("a texture");
+    let vertex = |v: &Vertex| (Vec3::from_array(v.position), Vec2::from_array(v.uv));
+    let stage = Unlit(texture.sampler(Nearest, Repeat));
+    let expected = by_library(profile, &scene, vertex, stage, big_endian);
     assert!(by_name(&scene, Shading::Unlit, Filter::Nearest, choice) == expected, "{choice:?}");
 }
 
 /// A filtered texture with light, on the knot.
-fn lit<P: Profile>(choice: (Policies, DepthFormat), big_endian: bool)
-where
-    PixelOf<P>: Shown,
-{
+fn lit<P: Profile<Color: Pixels<Pixel: Shown>>>(
+    profile: P,
+    choice: (Policies, DepthFormat),
+    big_endian: bool,
+) {
     let scene = scenes::by_name("mesh").expect("a scene");
     let image = &scene.model.textures[0];
-    let texture = Texture::<Rgba8>::new(&image.texels, image.width, image.height).expect("a texture");
-    let vertex = |v: &Vertex| {
-        let carried = (Vec3::from_array(v.normal), Vec2::from_array(v.uv));
-        (Point3::new(Vec3::from_array(v.position)), carried)
-    };
-    let surface = Unlit(texture.sampler::<Bilinear, Repeat>());
-    let stage = Lambert::new(surface, Vector3::new(to_light(&scene.camera)), AMBIENT, DIFFUSE);
-    let expected = by_library::<P, _>(&scene, vertex, stage, big_endian);
+    let texture = Texture::new(Rgba8888, &image.texels, image.width, image.height).expect("a texture");
+    let vertex =
+        |v: &Vertex| (Vec3::from_array(v.position), (Vec3::from_array(v.normal), Vec2::from_array(v.uv)));
+    let surface = Unlit(texture.sampler(Bilinear, Repeat));
+    let stage = Sunlit::new(surface, Vector3::new(to_light(&scene.camera)), AMBIENT, DIFFUSE);
+    let expected = by_library(profile, &scene, vertex, stage, big_endian);
     assert!(by_name(&scene, Shading::Lambert, Filter::Bilinear, choice) == expected, "{choice:?}");
 }
 
@@ -145,7 +135,8 @@ fn projections_and_projectors_are_those_of_the_library() {
     let scene = scenes::by_name("floor").expect("a scene");
     let (width, height) = SIZE;
     let image = &scene.model.textures[0];
-    let texture = Texture::<Rgba8>::new(&image.texels, image.width, image.height).expect("a texture");
+    let texture =
+        Texture::new(format::Rgba8888, &image.texels, image.width, image.height).expect("a texture");
     let projector = scene::Camera { eye: [1.0, 3.0, 0.5], fov: 60.0, ..scene.camera };
     let place = look_at(
         Point3::new(Vec3::from_array(projector.eye)),
@@ -153,31 +144,25 @@ fn projections_and_projectors_are_those_of_the_library() {
         Vector3::new(Vec3::from_array(projector.up)),
     );
     let thrown = Projector::new(place.expect("a place"), 60f32.to_radians(), 1.0).expect("a projector");
-    let View { to_eye, viewport, .. } = view(&scene.camera, width, height).expect("a view");
     let scene::Camera { near, far, .. } = scene.camera;
-    let parallel = Parallel::new(4.0, 4.0 / 3.0, near, far).expect("a box");
-    let pass = Pass {
-        view: View { to_eye, projection: parallel, viewport },
-        vertices: &scene.model.vertices,
-        triangles: &scene.model.parts[0].triangles,
-        vertex_stage: |v: &Vertex| {
-            let position = Vec3::from_array(v.position);
-            (Point3::new(position), (thrown.project(Point3::new(position)), Vec2::from_array(v.uv)))
-        },
-        fragment_stage: Slide {
-            surface: Unlit(texture.sampler::<Nearest, Repeat>()),
-            image: texture.sampler::<Nearest, Clamp>(),
-            mix: Modulate,
-        },
-        cull: Cull::Back,
-        sides: Sides::GuardBand,
-        interpolation: Parallel::INTERPOLATION,
+    let point = |p: [f32; 3]| Point3::new(Vec3::from_array(p));
+    let up = Vector3::new(Vec3::from_array(scene.camera.up));
+    let camera = alberti::Camera::look_at(point(scene.camera.eye), point(scene.camera.target), up);
+    let parallel = camera.expect("a camera").parallel(4.0, near..far).expect("a box");
+    let mesh = Mesh::new(&scene.model.vertices, &scene.model.parts[0].triangles, |v: &Vertex| {
+        let position = Vec3::from_array(v.position);
+        (position, (thrown.project(Point3::new(position)), Vec2::from_array(v.uv)))
+    });
+    let stage = Slide {
+        surface: Unlit(texture.sampler(Nearest, Repeat)),
+        image: texture.sampler(Nearest, Clamp),
+        mix: Modulate,
     };
     let (mut color, mut depth) = (vec![0; (width * height) as usize], vec![1.0; (width * height) as usize]);
-    let mut band = Band::<Rgba8, F32>::new(width, 0, &mut color, &mut depth).expect("whole rows");
+    let mut target = Target::new(Rgba8888, F32, width, height, &mut color, &mut depth).expect("fits");
     let [r, g, b] = scene.background;
-    band.clear(Rgba8::new(r, g, b, 255));
-    draw(&pass, &mut band, &mut [Slot::<Sub8, _>::EMPTY; 16], &mut ());
+    target.clear(Rgba8::new(r, g, b, 255));
+    Pass::new(&parallel, &mesh, stage).interpolation(Affine).draw(&mut target);
 
     let policies = Policies { interpolation: Interpolation::Affine, ..Policies::default() };
     let plain = options(&scene, Shading::Unlit, Filter::Nearest, (policies, DepthFormat::F32));
@@ -201,35 +186,46 @@ fn projections_and_projectors_are_those_of_the_library() {
 #[test]
 fn profiles_are_those_of_the_library() {
     let choice = options::Profile::policies;
-    lit::<Reference>(choice(options::Profile::Reference), false);
-    lit::<alberti::Desktop>(choice(options::Profile::Desktop), false);
-    lit::<Mcu>(choice(options::Profile::Mcu), true);
-    lit::<Tiny>(choice(options::Profile::Tiny), true);
-    unlit::<Mcu>(choice(options::Profile::Mcu), true);
-    unlit::<Tiny>(choice(options::Profile::Tiny), true);
+    lit(Reference, choice(options::Profile::Reference), false);
+    lit(alberti::Desktop, choice(options::Profile::Desktop), false);
+    lit(Mcu, choice(options::Profile::Mcu), true);
+    lit(Tiny, choice(options::Profile::Tiny), true);
+    unlit(Mcu, choice(options::Profile::Mcu), true);
+    unlit(Tiny, choice(options::Profile::Tiny), true);
 }
 
-/// A profile for a test: its name and types.
-macro_rules! profile {
-    ($name:ident: $interpolation:ty = $value:expr, $depth:ty, $color:ty, $subpixel:ty) => {
-        #[derive(Clone, Copy, Debug)]
-        enum $name {}
+/// Interpolation, subpixels, colours and depths.
+#[derive(Clone, Copy, Debug)]
+struct Each<P, S, C, D>(P, S, C, D);
 
-        impl Profile for $name {
-            type Interpolation = $interpolation;
-            const INTERPOLATION: $interpolation = $value;
-            type Depth = $depth;
-            type Color = $color;
-            type Subpixel = $subpixel;
-        }
-    };
+impl<P, S, C, D> Profile for Each<P, S, C, D>
+where
+    P: alberti::Interpolation,
+    S: alberti::Subpixel,
+    C: Pixels,
+    D: Depths,
+{
+    type Interpolation = P;
+    type Subpixel = S;
+    type Color = C;
+    type Depth = D;
+
+    fn interpolation(self) -> P {
+        self.0
+    }
+
+    fn subpixel(self) -> S {
+        self.1
+    }
+
+    fn color(self) -> C {
+        self.2
+    }
+
+    fn depth(self) -> D {
+        self.3
+    }
 }
-profile!(Planes: Plane = Plane, D24, Rgba8, Sub8);
-profile!(Coarse: Exact = Exact, D16, Rgb565Le, Sub4);
-profile!(Long: Spans<32> = Spans, D32, Rgba8, Sub4);
-profile!(Straight: Affine = Affine, NoDepth, Rgba8, Sub8);
-profile!(Budget: Bounded = Bounded { budget: 0.25 / 256.0 }, F32, Rgba8, Sub8);
-profile!(FixedBudget: FixedPoint<Bounded> = FixedPoint(Bounded { budget: 0.25 / 256.0 }), D32, Rgb565Le, Sub8);
 
 #[test]
 fn so_is_each_policy() {
@@ -239,11 +235,20 @@ fn so_is_each_policy() {
     let (rgba, small) = (ColorFormat::Rgba8, ColorFormat::Rgb565);
     let bounded = I::Bounded(0.25);
     let long = I::Spans(SpanLength::ThirtyTwo);
-    unlit::<Planes>((policies(I::Plane, Float, rgba, S::Sub8), DepthFormat::U24), false);
-    unlit::<Coarse>((policies(I::Exact, Float, small, S::Sub4), DepthFormat::U16), false);
-    unlit::<Long>((policies(long, Float, rgba, S::Sub4), DepthFormat::U32), false);
-    unlit::<Straight>((policies(I::Affine, Float, rgba, S::Sub8), DepthFormat::None), false);
-    unlit::<Budget>((policies(bounded, Float, rgba, S::Sub8), DepthFormat::F32), false);
-    unlit::<FixedBudget>((policies(bounded, Fixed, small, S::Sub8), DepthFormat::U32), false);
-    lit::<Budget>((policies(bounded, Float, rgba, S::Sub8), DepthFormat::F32), false);
+    let (budget, lines) = (Lines::bounded(0.25 / 256.0), Lines::spans(32).expect("a power of two"));
+    let fixed = FixedPoint(budget);
+    let choice = |interpolation, numbers, color, subpixel, depth| {
+        (policies(interpolation, numbers, color, subpixel), depth)
+    };
+    unlit(Each(Planes, Sub8, Rgba8888, D24), choice(I::Plane, Float, rgba, S::Sub8, DepthFormat::U24), false);
+    unlit(Each(Exact, Sub4, Rgb565Le, D16), choice(I::Exact, Float, small, S::Sub4, DepthFormat::U16), false);
+    unlit(Each(lines, Sub4, Rgba8888, D32), choice(long, Float, rgba, S::Sub4, DepthFormat::U32), false);
+    unlit(
+        Each(Affine, Sub8, Rgba8888, NoDepth),
+        choice(I::Affine, Float, rgba, S::Sub8, DepthFormat::None),
+        false,
+    );
+    unlit(Each(budget, Sub8, Rgba8888, F32), choice(bounded, Float, rgba, S::Sub8, DepthFormat::F32), false);
+    unlit(Each(fixed, Sub8, Rgb565Le, D32), choice(bounded, Fixed, small, S::Sub8, DepthFormat::U32), false);
+    lit(Each(budget, Sub8, Rgba8888, F32), choice(bounded, Float, rgba, S::Sub8, DepthFormat::F32), false);
 }

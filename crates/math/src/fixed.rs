@@ -2,37 +2,64 @@
 
 use crate::round::round_half_up;
 use core::fmt;
-use core::marker::PhantomData;
 
-/// How many fraction bits a snapped coordinate has.
+/// The number of fraction bits of snapped coordinates: [`Sub4`], [`Sub8`], or [`AnySubpixel`] for one that is chosen at
+/// run time.
 ///
-/// More bits follow a slowly moving vertex more smoothly (a vertex moves by at most 2^-(BITS+1) pixels when it is
+/// More bits follow a slowly moving vertex more smoothly (a vertex moves by at most 2^-(bits+1) pixels when it is
 /// snapped); fewer bits let larger triangles stay in 32-bit edge functions.
 pub trait Subpixel: Copy + fmt::Debug + 'static {
-    /// The number of fraction bits.
-    const BITS: u32;
-    /// One pixel, in subpixels.
-    const ONE: i32 = 1 << Self::BITS;
-    /// Half a pixel: where a pixel's sample lies within it.
-    const HALF: i32 = Self::ONE / 2;
+    /// The number, 1 to 8.
+    fn bits(self) -> u32;
 }
 
 /// Four fraction bits (28.4): a vertex moves by at most 1/32 pixel; 32-bit edge functions up to about 2,890 pixels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sub4 {}
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Sub4;
 
-/// Eight fraction bits (24.8), what Direct3D asks for: a vertex moves by at most 1/512 pixel; 32-bit edge functions
-/// up to about 180 pixels, 64-bit ones above.
+/// Eight fraction bits (24.8), the number that Direct3D asks for: a vertex moves by at most 1/512 pixel; 32-bit edge
+/// functions up to about 180 pixels, 64-bit ones above.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Sub8;
+
+/// [`Sub4`] or [`Sub8`], chosen at run time.
+///
+/// # Cost
+/// Shifts by a number in a register instead of constants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sub8 {}
+pub enum AnySubpixel {
+    /// Four bits.
+    Sub4,
+    /// Eight bits.
+    Sub8,
+}
 
 impl Subpixel for Sub4 {
-    const BITS: u32 = 4;
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        4
+    }
 }
 
 impl Subpixel for Sub8 {
-    const BITS: u32 = 8;
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        GREATEST_BITS
+    }
 }
+
+impl Subpixel for AnySubpixel {
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        match self {
+            Self::Sub4 => Sub4.bits(),
+            Self::Sub8 => Sub8.bits(),
+        }
+    }
+}
+
+/// Fraction bits of the finest grid.
+const GREATEST_BITS: u32 = 8;
 
 /// How far a snapped coordinate may lie from the frame's origin, in pixels.
 pub const GUARD_PIXELS: i32 = 1 << 15;
@@ -40,69 +67,56 @@ pub const GUARD_PIXELS: i32 = 1 << 15;
 // An edge function is twice the area of a triangle of two vertices and a sample, all within the guard band and
 // thus in a square of side 2 * GUARD_PIXELS: it is at most side^2, and so is each of its products. This is the
 // proof that i64 never overflows, and that an edge function is also exact in f64 (2^53).
-const _: () = assert!((2 * GUARD_PIXELS as i128 * Sub8::ONE as i128).pow(2) <= 1 << 53);
-const _: () = assert!((2 * GUARD_PIXELS as i128 * Sub4::ONE as i128).pow(2) <= 1 << 53);
+const _: () = assert!((2 * Fixed::LIMIT as i128).pow(2) <= 1 << 53);
 // A coordinate and a sample one pixel outside fit i32 with room to spare.
-const _: () = assert!((GUARD_PIXELS as i64 + 1) * (Sub8::ONE as i64) < i32::MAX as i64 / 4);
+const _: () = assert!((GUARD_PIXELS as i64 + 1) * (1 << GREATEST_BITS) < i32::MAX as i64 / 4);
 
-/// A screen coordinate in units of 2^-BITS pixel.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Fixed<S> {
-    subpixels: i32,
-    precision: PhantomData<S>,
-}
+/// A screen coordinate in subpixels. How many there are to a pixel, a [`Subpixel`] says, which is not stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Fixed(i32);
 
-impl<S: Subpixel> Fixed<S> {
+impl Fixed {
     /// The frame's origin.
-    pub const ZERO: Self = Self { subpixels: 0, precision: PhantomData };
+    pub const ZERO: Self = Self(0);
 
-    /// The outermost coordinate, `GUARD_PIXELS` from the origin.
-    pub const GUARD: i32 = GUARD_PIXELS << S::BITS;
+    /// The greatest distance from the origin in subpixels: the guard band in the finest grid.
+    pub const LIMIT: i32 = GUARD_PIXELS << GREATEST_BITS;
 
-    /// The coordinate at `subpixels` units of 2^-BITS pixel; `None` beyond the guard band.
+    /// The coordinate of so many subpixels; `None` beyond [`LIMIT`](Self::LIMIT).
     #[must_use]
     #[inline]
     pub const fn from_subpixels(subpixels: i32) -> Option<Self> {
-        if subpixels < -Self::GUARD || subpixels > Self::GUARD {
-            return None;
-        }
-        Some(Self { subpixels, precision: PhantomData })
+        if subpixels < -Self::LIMIT || subpixels > Self::LIMIT { None } else { Some(Self(subpixels)) }
     }
 
-    /// Snaps `center + offset` pixels: `offset` is rounded to the nearest subpixel, halves upwards, and `center`,
+    /// `center + offset` pixels, snapped: `offset` is rounded to the nearest subpixel, halves upwards, and `center`,
     /// given in half pixels, is added exactly. `None` beyond the guard band, or for a NaN.
     ///
     /// Rounding the offset alone makes the result independent of where a viewport lies on the target.
     ///
     /// # Precision
-    /// The scaling by 2^BITS is exact and the rounding is correct: the result is within 2^-(BITS+1) pixel of
+    /// The scaling by 2^bits is exact and the rounding is correct: the result is within 2^-(bits+1) pixel of
     /// `center + offset`.
     #[must_use]
     #[inline]
-    pub fn snap(center_in_half_pixels: i32, offset: f32) -> Option<Self> {
+    pub fn snap(subpixel: impl Subpixel, center_in_half_pixels: i32, offset: f32) -> Option<Self> {
+        let bits = subpixel.bits();
         #[expect(clippy::cast_precision_loss, reason = "a power of two")]
-        let scaled = offset * S::ONE as f32;
+        let scaled = offset * (1 << bits) as f32;
         if scaled.is_nan() {
             return None;
         }
-        let center = center_in_half_pixels.checked_mul(S::HALF)?;
-        Self::from_subpixels(round_half_up(scaled).checked_add(center)?)
+        let center = center_in_half_pixels.checked_mul(1 << (bits - 1))?;
+        let subpixels = round_half_up(scaled).checked_add(center)?;
+        let guard = GUARD_PIXELS << bits;
+        if subpixels < -guard || subpixels > guard { None } else { Some(Self(subpixels)) }
     }
 
-    /// The coordinate in units of 2^-BITS pixel.
+    /// The number of subpixels from the origin.
     #[must_use]
     #[inline]
     pub const fn subpixels(self) -> i32 {
-        self.subpixels
-    }
-}
-
-impl<S> fmt::Debug for Fixed<S>
-where
-    S: Subpixel,
-{
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}/{}", self.subpixels, S::ONE)
+        self.0
     }
 }
 
@@ -112,7 +126,7 @@ mod tests {
 
     #[test]
     fn snapping_rounds_halves_upwards_around_any_centre() {
-        let at = |center, offset| Fixed::<Sub4>::snap(center, offset).map(Fixed::subpixels);
+        let at = |center, offset| Fixed::snap(Sub4, center, offset).map(Fixed::subpixels);
         assert_eq!(at(0, 1.0 / 32.0), Some(1));
         assert_eq!(at(0, -1.0 / 32.0), Some(0));
         assert_eq!(at(0, -1.5 / 16.0), Some(-1));
@@ -122,12 +136,12 @@ mod tests {
 
     #[test]
     fn the_guard_band_is_closed_and_nothing_lies_beyond() {
-        assert_eq!(Fixed::<Sub8>::snap(0, 32768.0).map(Fixed::subpixels), Some(1 << 23));
-        assert_eq!(Fixed::<Sub8>::snap(0, -32768.0).map(Fixed::subpixels), Some(-(1 << 23)));
+        assert_eq!(Fixed::snap(Sub8, 0, 32768.0).map(Fixed::subpixels), Some(1 << 23));
+        assert_eq!(Fixed::snap(Sub8, 0, -32768.0).map(Fixed::subpixels), Some(-(1 << 23)));
         for outside in [32768.01, -32768.01, f32::MAX, f32::INFINITY, f32::NEG_INFINITY, f32::NAN] {
-            assert_eq!(Fixed::<Sub8>::snap(0, outside), None, "{outside}");
+            assert_eq!(Fixed::snap(Sub8, 0, outside), None, "{outside}");
         }
-        assert_eq!(Fixed::<Sub8>::snap(i32::MAX, 0.0), None);
-        assert_eq!(Fixed::<Sub8>::from_subpixels((1 << 23) + 1), None);
+        assert_eq!(Fixed::snap(Sub8, i32::MAX, 0.0), None);
+        assert_eq!(Fixed::from_subpixels((1 << 23) + 1), None);
     }
 }

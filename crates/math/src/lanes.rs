@@ -157,6 +157,8 @@ pub trait Lanes: Copy + Debug {
 
     /// Whether a < b; not so where one is NaN.
     fn less(self, a: Self::Number, b: Self::Number) -> Self::Mask;
+    /// Whether a < b.
+    fn less_words(self, a: Self::U32, b: Self::U32) -> Self::Mask;
     /// `a` where the mask is set, elsewhere `b`.
     fn select(self, mask: Self::Mask, a: Self::Number, b: Self::Number) -> Self::Number;
     /// `a` where the mask is set, elsewhere `b`.

@@ -75,6 +75,22 @@ impl<V, S: Space> Vector<V, S> {
     }
 }
 
+/// The point with these coordinates, in the space that is asked for.
+impl<S: Space> From<Vec3> for Point3<S> {
+    #[inline]
+    fn from(coords: Vec3) -> Self {
+        Self::new(coords)
+    }
+}
+
+/// The vector with these components, in the space that is asked for.
+impl<S: Space> From<Vec3> for Vector3<S> {
+    #[inline]
+    fn from(coords: Vec3) -> Self {
+        Self::new(coords)
+    }
+}
+
 impl<V: Sub<Output = V>, S: Space> Sub for Point<V, S> {
     type Output = Vector<V, S>;
     fn sub(self, other: Self) -> Self::Output {

@@ -1,7 +1,7 @@
 //! Structs as varyings.
 
-/// Makes a struct of up to four varyings a [`Varying`](crate::Varying): its bundles are tuples, in the order in which
-/// the fields are listed.
+/// Makes a struct of varyings a [`Varying`](crate::Varying). Its bundles are structs with the same fields, each of
+/// which is the bundle of the field's type; that of `Flat<V>` and of `Linear<V>` is that of `V`.
 ///
 /// ```
 /// use alberti_math::{Varying, glam::{Vec2, Vec3}, varying};
@@ -14,38 +14,57 @@
 ///
 /// varying!(Lit { uv: Vec2, normal: Vec3 });
 ///
-/// let (uv, _) = Lit::gather([Lit { uv: Vec2::X, normal: Vec3::Y }]);
-/// assert_eq!(uv, [[1.0], [0.0]]);
+/// let bundle = Lit::gather([Lit { uv: Vec2::X, normal: Vec3::Y }]);
+/// assert_eq!((bundle.uv, bundle.normal[1]), ([[1.0], [0.0]], [1.0]));
 /// ```
 #[macro_export]
 macro_rules! varying {
     ($name:ident { $($field:ident: $of:ty),+ $(,)? }) => {
-        impl $crate::Varying for $name {
-            type Of<T: Copy> = <($($of,)+) as $crate::Varying>::Of<T>;
-
-            #[inline(always)]
-            fn gather<const N: usize>(values: [Self; N]) -> Self::Of<[f32; N]> {
-                $crate::Varying::gather(values.map(|value| ($(value.$field,)+)))
+        const _: () = {
+            #[doc = concat!("The fields of a [`", stringify!($name), "`] as bundles.")]
+            #[allow(missing_debug_implementations, reason = "components of any type")]
+            pub struct Bundle<T: Copy> {
+                $(
+                    #[doc = concat!("The components of `", stringify!($field), "`.")]
+                    pub $field: <$of as $crate::Varying>::Of<T>,
+                )+
             }
 
-            #[inline(always)]
-            fn map_by_mode<T: Copy, U: Copy>(
-                bundle: &Self::Of<T>,
-                f: &impl Fn($crate::Mode, T) -> U,
-            ) -> Self::Of<U> {
-                <($($of,)+) as $crate::Varying>::map_by_mode(bundle, f)
+            impl<T: Copy> Clone for Bundle<T> {
+                #[inline(always)]
+                fn clone(&self) -> Self {
+                    *self
+                }
             }
 
-            #[inline(always)]
-            fn zip<T: Copy, U: Copy>(first: &Self::Of<T>, second: &Self::Of<U>) -> Self::Of<(T, U)> {
-                <($($of,)+) as $crate::Varying>::zip(first, second)
-            }
+            impl<T: Copy> Copy for Bundle<T> {}
 
-            #[inline(always)]
-            fn from_components(bundle: &Self::Of<f32>) -> Self {
-                let ($($field,)+) = <($($of,)+) as $crate::Varying>::from_components(bundle);
-                Self { $($field),+ }
+            impl $crate::Varying for $name {
+                type Of<T: Copy> = Bundle<T>;
+
+                #[inline(always)]
+                fn gather<const N: usize>(values: [Self; N]) -> Bundle<[f32; N]> {
+                    Bundle { $($field: $crate::Varying::gather(values.map(|value| value.$field))),+ }
+                }
+
+                #[inline(always)]
+                fn map_by_mode<T: Copy, U: Copy>(
+                    bundle: &Bundle<T>,
+                    f: &impl Fn($crate::Mode, T) -> U,
+                ) -> Bundle<U> {
+                    Bundle { $($field: <$of as $crate::Varying>::map_by_mode(&bundle.$field, f)),+ }
+                }
+
+                #[inline(always)]
+                fn zip<T: Copy, U: Copy>(first: &Bundle<T>, second: &Bundle<U>) -> Bundle<(T, U)> {
+                    Bundle { $($field: <$of as $crate::Varying>::zip(&first.$field, &second.$field)),+ }
+                }
+
+                #[inline(always)]
+                fn from_components(bundle: &Bundle<f32>) -> Self {
+                    Self { $($field: <$of as $crate::Varying>::from_components(&bundle.$field)),+ }
+                }
             }
-        }
+        };
     };
 }

@@ -87,27 +87,36 @@ impl<T: Copy> Polygon<T> {
     /// The triangles of the fan around the first vertex.
     pub fn fan(&self) -> impl Iterator<Item = [T; 3]> {
         let first = self.vertices[0];
-        self.vertices().windows(2).skip(1).map(move |pair| [first, pair[0], pair[1]])
+        let rest = self.vertices().get(1..).unwrap_or_default();
+        rest.iter().zip(rest.iter().skip(1)).map(move |(&second, &third)| [first, second, third])
     }
 
-    /// Keeps the side where `distance` is not negative. `cut` makes the vertex at weights (a, b) between two.
-    fn clip(&self, distance: impl Fn(&T) -> f32, cut: impl Fn([f32; 2], [&T; 2]) -> T) -> Self {
-        let kept = self.vertices();
-        let mut out = Self { len: 0, ..*self };
-        let Some(mut previous) = kept.last() else { return out };
-        let mut d_previous = distance(previous);
-        for current in kept {
-            let d = distance(current);
-            if (d >= 0.0) != (d_previous >= 0.0) {
-                let span = d - d_previous;
-                out.push(cut([d / span, -d_previous / span], [previous, current]));
+    /// Keeps what is on the inner sides of planes, one after the other.
+    #[inline(never)]
+    fn clip(mut self, planes: &[Plane]) -> Self
+    where
+        T: Cut,
+    {
+        for plane in planes {
+            let kept = self;
+            self.len = 0;
+            let Some(mut previous) = kept.vertices().last() else { return kept };
+            let mut d_previous = plane.distance(previous);
+            for current in kept.vertices() {
+                let d = plane.distance(current);
+                if (d >= 0.0) != (d_previous >= 0.0) {
+                    let span = d - d_previous;
+                    let mut new = T::between([d / span, -d_previous / span], [previous, current]);
+                    *new.along(plane.axis) = plane.at;
+                    self.push(new);
+                }
+                if d >= 0.0 {
+                    self.push(*current);
+                }
+                (previous, d_previous) = (current, d);
             }
-            if d >= 0.0 {
-                out.push(*current);
-            }
-            (previous, d_previous) = (current, d);
         }
-        out
+        self
     }
 
     /// Rounding could give a convex polygon a dent too small to see and so a tenth vertex; it is left away.
@@ -119,7 +128,76 @@ impl<T: Copy> Polygon<T> {
     }
 }
 
-/// Step 3: what lies between the planes z = `near` and z = `far`, of a triangle in eye space.
+/// The axis that a plane is at right angles to.
+#[derive(Clone, Copy)]
+enum Axis {
+    X,
+    Y,
+    Z,
+}
+
+/// A plane at right angles to an axis, and which side of it stays.
+#[derive(Clone, Copy)]
+struct Plane {
+    axis: Axis,
+    at: f32,
+    /// 1 where what is greater stays, -1 where what is less does.
+    inner: f32,
+}
+
+impl Plane {
+    /// The distance inwards, correctly rounded.
+    fn distance<T: Cut>(&self, vertex: &T) -> f32 {
+        // Products with 1 are exact.
+        let mut vertex = *vertex;
+        *vertex.along(self.axis) * self.inner - self.at * self.inner
+    }
+}
+
+/// A vertex that planes cut edges of.
+trait Cut: Copy {
+    /// A coordinate.
+    fn along(&mut self, axis: Axis) -> &mut f32;
+
+    /// The vertex at weights (a, b) between two.
+    fn between(weights: [f32; 2], edge: [&Self; 2]) -> Self;
+}
+
+impl<V: Varying> Cut for EyeVertex<V> {
+    fn along(&mut self, axis: Axis) -> &mut f32 {
+        let position = &mut self.position.coords;
+        match axis {
+            Axis::X => &mut position.x,
+            Axis::Y => &mut position.y,
+            Axis::Z => &mut position.z,
+        }
+    }
+
+    fn between(weights: [f32; 2], [i, j]: [&Self; 2]) -> Self {
+        let position = blend2(weights, [i.position.coords, j.position.coords]);
+        EyeVertex { position: Point3::new(position), varying: blend2(weights, [i.varying, j.varying]) }
+    }
+}
+
+impl<V: Varying> Cut for ProjectedVertex<V> {
+    fn along(&mut self, axis: Axis) -> &mut f32 {
+        match axis {
+            Axis::X => &mut self.x,
+            Axis::Y => &mut self.y,
+            Axis::Z => &mut self.zs,
+        }
+    }
+
+    fn between(weights: [f32; 2], [i, j]: [&Self; 2]) -> Self {
+        let on_screen = |v: &Self| [v.x, v.y, v.zs, v.q];
+        let [x, y, zs, q] = blend2(weights, [on_screen(i), on_screen(j)]);
+        let [a, b] = [weights[0] * i.q, weights[1] * j.q];
+        let sum = a + b;
+        ProjectedVertex { x, y, zs, q, varying: blend2([a / sum, b / sum], [i.varying, j.varying]) }
+    }
+}
+
+/// Step 3: the part of a triangle in eye space between the planes z = `near` and z = `far`.
 ///
 /// A triangle wholly inside comes back with the same bits; clipping twice is clipping once.
 ///
@@ -132,19 +210,11 @@ impl<T: Copy> Polygon<T> {
 /// A subtraction and a comparison for each vertex and plane; a crossing costs two divisions and a blend.
 #[must_use]
 pub fn clip_near_far<V: Varying>(triangle: [EyeVertex<V>; 3], near: f32, far: f32) -> Polygon<EyeVertex<V>> {
-    let cut_at = |plane: f32| {
-        move |weights: [f32; 2], [i, j]: [&EyeVertex<V>; 2]| {
-            let mut position = blend2(weights, [i.position.coords, j.position.coords]);
-            position.z = plane;
-            EyeVertex { position: Point3::new(position), varying: blend2(weights, [i.varying, j.varying]) }
-        }
-    };
-    Polygon::triangle(triangle)
-        .clip(|v| v.position.coords.z - near, cut_at(near))
-        .clip(|v| far - v.position.coords.z, cut_at(far))
+    let plane = |at, inner| Plane { axis: Axis::Z, at, inner };
+    Polygon::triangle(triangle).clip(&[plane(near, 1.0), plane(far, -1.0)])
 }
 
-/// Step 5: what lies within |xs| <= `bounds.x` and |ys| <= `bounds.y`, of a polygon after the division.
+/// Step 5: the part of a polygon, after the division, within |xs| <= `bounds.x` and |ys| <= `bounds.y`.
 ///
 /// xs, ys, zs and q are linear on the screen. The varyings are not: at the screen parameter τ they take the eye-space
 /// parameter t = τ z1 / (τ z1 + (1−τ) z2), whose weights are τ's times q, divided by their sum: the relation of
@@ -159,27 +229,13 @@ pub fn clip_sides<V: Varying>(
     bounds: SideBounds,
 ) -> Polygon<ProjectedVertex<V>> {
     let SideBounds { x, y } = bounds;
-    let at_x = |x| move |w: [f32; 2], v: [&ProjectedVertex<V>; 2]| ProjectedVertex { x, ..on_screen(w, v) };
-    let at_y = |y| move |w: [f32; 2], v: [&ProjectedVertex<V>; 2]| ProjectedVertex { y, ..on_screen(w, v) };
-    polygon
-        .clip(|v| v.x + x, at_x(-x))
-        .clip(|v| x - v.x, at_x(x))
-        .clip(|v| v.y + y, at_y(-y))
-        .clip(|v| y - v.y, at_y(y))
-}
-
-/// The point at screen weights (a, b) between two projected vertices.
-fn on_screen<V: Varying>(weights: [f32; 2], [i, j]: [&ProjectedVertex<V>; 2]) -> ProjectedVertex<V> {
-    let linear = |f: fn(&ProjectedVertex<V>) -> f32| blend2(weights, [f(i), f(j)]);
-    let [a, b] = [weights[0] * i.q, weights[1] * j.q];
-    let sum = a + b;
-    ProjectedVertex {
-        x: linear(|v| v.x),
-        y: linear(|v| v.y),
-        zs: linear(|v| v.zs),
-        q: linear(|v| v.q),
-        varying: blend2([a / sum, b / sum], [i.varying, j.varying]),
-    }
+    let plane = |axis, at, inner| Plane { axis, at, inner };
+    polygon.clip(&[
+        plane(Axis::X, -x, 1.0),
+        plane(Axis::X, x, -1.0),
+        plane(Axis::Y, -y, 1.0),
+        plane(Axis::Y, y, -1.0),
+    ])
 }
 
 #[cfg(test)]

@@ -22,7 +22,7 @@ pub use depth::DepthMap;
 pub use error::ViewError;
 pub use parallel::{LinearDepth, Parallel};
 pub use perspective::Perspective;
-pub use projection::Projection;
+pub use projection::{AnyProjection, Projection};
 pub use projector::{Homogeneous, Projector};
 pub use relations::{EyeWeights, ScreenWeights};
 pub use resolution::DepthSteps;

@@ -31,6 +31,8 @@ use alberti_math::{Eye, Point3, Varying};
 /// linear on the screen, so the rasterizer's policy of straight lines is as right as that with a division a fragment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parallel {
+    /// 2/height.
+    scale: f64,
     scale_x: f32,
     scale_y: f32,
     near: f32,
@@ -62,12 +64,19 @@ impl Parallel {
             return Err(ViewError::Height);
         }
         let [forward, reversed] = LinearDepth::between(near, far)?;
-        Ok(Self { scale_x, scale_y, near, far, forward, reversed })
+        Ok(Self { scale, scale_x, scale_y, near, far, forward, reversed })
     }
 }
 
 impl Projection for Parallel {
     type Depth = LinearDepth;
+
+    #[inline]
+    fn with_aspect(self, aspect: f32) -> Self {
+        #[expect(clippy::cast_possible_truncation, reason = "rounded once, here")]
+        let scale_x = (self.scale / f64::from(aspect)) as f32;
+        Self { scale_x, ..self }
+    }
 
     #[inline]
     fn near(&self) -> f32 {

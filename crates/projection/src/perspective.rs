@@ -8,6 +8,8 @@ use alberti_math::{Eye, Point3, Varying};
 /// A pyramid of view: opening angle, aspect ratio, near and far planes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Perspective {
+    /// cot(fov/2).
+    scale: f64,
     scale_x: f32,
     scale_y: f32,
     near: f32,
@@ -23,11 +25,20 @@ impl Perspective {
     /// # Errors
     /// [`ViewError::Angle`], [`ViewError::Aspect`], [`ViewError::NearFar`].
     pub fn new(fov_y: f32, aspect: f32, near: f32, far: f32) -> Result<Self, ViewError> {
-        let scale = pyramid_scale(fov_y, aspect)?;
+        let [_, scale] = pyramid_scale(fov_y, aspect)?;
         let (forward, reversed) = (DepthMap::forward(near, far)?, DepthMap::reversed(near, far)?);
         #[expect(clippy::cast_possible_truncation, reason = "rounded once, here")]
-        let [scale_x, scale_y] = scale.map(|s| s as f32);
-        Ok(Self { scale_x, scale_y, near, far, forward, reversed })
+        let scale_y = scale as f32;
+        let square = Self { scale, scale_x: scale_y, scale_y, near, far, forward, reversed };
+        Ok(square.with_aspect(aspect))
+    }
+
+    /// The same pyramid for pictures of this aspect ratio, width / height: as high, and as wide as that takes.
+    #[must_use]
+    pub fn with_aspect(self, aspect: f32) -> Self {
+        #[expect(clippy::cast_possible_truncation, reason = "rounded once, here")]
+        let scale_x = (self.scale / f64::from(aspect)) as f32;
+        Self { scale_x, ..self }
     }
 
     /// The near plane, z = A.

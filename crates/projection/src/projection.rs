@@ -1,11 +1,12 @@
 //! What perspective and parallel projection have in common, so that a scene can be drawn through either.
 
 use crate::clip::{EyeVertex, ProjectedVertex};
-use crate::{DepthMap, Perspective};
+use crate::{DepthMap, Parallel, Perspective};
 use alberti_math::{Eye, Point3, Varying};
 use core::fmt::Debug;
 
-/// From eye space to the cube: [`Perspective`] or [`Parallel`](crate::Parallel).
+/// From eye space to the cube: [`Perspective`] or [`Parallel`], or [`AnyProjection`] for one that is chosen at run
+/// time.
 ///
 /// ```text
 ///   Perspective                     Parallel
@@ -22,6 +23,10 @@ pub trait Projection: Copy + Debug {
     /// The map from eye depth to screen depth.
     type Depth: Copy + Debug;
 
+    /// The same projection for pictures of this aspect ratio, width / height, from 2^-14 to 2^14.
+    #[must_use]
+    fn with_aspect(self, aspect: f32) -> Self;
+
     /// The near plane, z = A.
     #[must_use]
     fn near(&self) -> f32;
@@ -34,8 +39,8 @@ pub trait Projection: Copy + Debug {
     #[must_use]
     fn depth_map(&self, reversed: bool) -> Self::Depth;
 
-    /// Step 2: x and y are scaled until the sides of the view are x = ±w, y = ±w, with w = z in perspective, and w = 1
-    /// in parallel projection.
+    /// Step 2: x and y are scaled so that the sides of the view are x = ±w, y = ±w, with w = z in perspective, and w =
+    /// 1 in parallel projection.
     #[must_use]
     fn scale(&self, p: Point3<Eye>) -> Point3<Eye>;
 
@@ -50,6 +55,11 @@ pub trait Projection: Copy + Debug {
 
 impl Projection for Perspective {
     type Depth = DepthMap;
+
+    #[inline]
+    fn with_aspect(self, aspect: f32) -> Self {
+        self.with_aspect(aspect)
+    }
 
     #[inline]
     fn near(&self) -> f32 {
@@ -79,5 +89,81 @@ impl Projection for Perspective {
     #[inline]
     fn project<V: Varying>(&self, depth: &DepthMap, v: &EyeVertex<V>) -> ProjectedVertex<V> {
         self.project(depth, v)
+    }
+}
+
+/// [`Perspective`] or [`Parallel`], chosen at run time.
+///
+/// # Precision
+/// That of the projection, whose bits it gives.
+///
+/// # Cost
+/// A branch a vertex, for each step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AnyProjection {
+    /// With a vanishing point.
+    Perspective(Perspective),
+    /// Without.
+    Parallel(Parallel),
+}
+
+impl From<Perspective> for AnyProjection {
+    fn from(projection: Perspective) -> Self {
+        Self::Perspective(projection)
+    }
+}
+
+impl From<Parallel> for AnyProjection {
+    fn from(projection: Parallel) -> Self {
+        Self::Parallel(projection)
+    }
+}
+
+/// An expression over either projection.
+macro_rules! either {
+    ($any:expr, |$projection:ident| $body:expr) => {
+        match $any {
+            AnyProjection::Perspective($projection) => $body,
+            AnyProjection::Parallel($projection) => $body,
+        }
+    };
+}
+
+impl Projection for AnyProjection {
+    /// Whether it is reversed.
+    type Depth = bool;
+
+    fn with_aspect(self, aspect: f32) -> Self {
+        either!(self, |projection| projection.with_aspect(aspect).into())
+    }
+
+    #[inline]
+    fn near(&self) -> f32 {
+        either!(self, |projection| projection.near())
+    }
+
+    #[inline]
+    fn far(&self) -> f32 {
+        either!(self, |projection| projection.far())
+    }
+
+    #[inline]
+    fn depth_map(&self, reversed: bool) -> bool {
+        reversed
+    }
+
+    #[inline]
+    fn scale(&self, p: Point3<Eye>) -> Point3<Eye> {
+        either!(self, |projection| projection.scale(p))
+    }
+
+    #[inline]
+    fn side(&self, z: f32) -> f32 {
+        either!(self, |projection| projection.side(z))
+    }
+
+    #[inline]
+    fn project<V: Varying>(&self, reversed: &bool, v: &EyeVertex<V>) -> ProjectedVertex<V> {
+        either!(self, |projection| projection.project(&projection.depth_map(*reversed), v))
     }
 }

@@ -46,6 +46,14 @@ impl Viewport {
         [left..right, top..bottom]
     }
 
+    /// The aspect ratio, width / height, of square pixels.
+    #[must_use]
+    pub fn aspect(&self) -> f32 {
+        #[expect(clippy::cast_possible_truncation, reason = "rounded once")]
+        let aspect = (f64::from(self.half[0]) / f64::from(self.half[1])) as f32;
+        aspect
+    }
+
     /// The snapped screen position of a point of the window: xv = (xs + 1) W/2 + x0, yv = (1 − ys) H/2 + y0, to the
     /// nearest subpixel. `None` beyond the guard band and for NaN.
     ///
@@ -57,12 +65,12 @@ impl Viewport {
     ///
     /// # Precision
     /// The offset is a correctly rounded product: within ε·|offset| (2^-15 pixel within a 1024 pixel viewport, at most
-    /// 2^-8 at the far edge of the guard band) plus 2^-(BITS+1) pixel for the snapping.
+    /// 2^-8 at the far edge of the guard band) plus 2^-(bits+1) pixel for the snapping.
     #[must_use]
     #[inline]
-    pub fn to_screen<S: Subpixel>(&self, xs: f32, ys: f32) -> Option<[Fixed<S>; 2]> {
-        let x = Fixed::snap(self.center[0], xs * self.half[0])?;
-        let y = Fixed::snap(self.center[1], -(ys * self.half[1]))?;
+    pub fn to_screen(&self, subpixel: impl Subpixel, xs: f32, ys: f32) -> Option<[Fixed; 2]> {
+        let x = Fixed::snap(subpixel, self.center[0], xs * self.half[0])?;
+        let y = Fixed::snap(subpixel, self.center[1], -(ys * self.half[1]))?;
         Some([x, y])
     }
 
@@ -88,8 +96,8 @@ mod tests {
     use alberti_math::{Sub4, Sub8};
 
     fn screen(view: Viewport, xs: f32, ys: f32) -> [f32; 2] {
-        let to_pixels = |c: Fixed<Sub8>| f32::from(i16::try_from(c.subpixels()).expect("small")) / 256.0;
-        view.to_screen::<Sub8>(xs, ys).expect("inside").map(to_pixels)
+        let to_pixels = |c: Fixed| f32::from(i16::try_from(c.subpixels()).expect("small")) / 256.0;
+        view.to_screen(Sub8, xs, ys).expect("inside").map(to_pixels)
     }
 
     #[test]
@@ -106,8 +114,8 @@ mod tests {
         let there = Viewport::new(-7, 1001, 641, 479).expect("valid");
         for i in 0..10_000u16 {
             let (xs, ys) = (f32::from(i) / 4999.3 - 1.0, 1.0 - f32::from(i) / 7001.7);
-            let [[x, y], [u, v]] = [here, there]
-                .map(|view| view.to_screen::<Sub8>(xs, ys).expect("inside").map(Fixed::subpixels));
+            let [[x, y], [u, v]] =
+                [here, there].map(|view| view.to_screen(Sub8, xs, ys).expect("inside").map(Fixed::subpixels));
             assert_eq!([u - x, v - y], [-7 * 256, 1001 * 256]);
         }
     }
@@ -121,8 +129,8 @@ mod tests {
             let bounds = view.guard();
             assert!(bounds.x >= 1.0 - 1e-3 && bounds.y >= 1.0 - 1e-3);
             for sign in [-1.0, 1.0] {
-                assert!(view.to_screen::<Sub8>(sign * bounds.x, sign * bounds.y).is_some());
-                assert!(view.to_screen::<Sub4>(sign * bounds.x, -sign * bounds.y).is_some());
+                assert!(view.to_screen(Sub8, sign * bounds.x, sign * bounds.y).is_some());
+                assert!(view.to_screen(Sub4, sign * bounds.x, -sign * bounds.y).is_some());
             }
         }
     }

@@ -1,24 +1,80 @@
-//! Colour targets: what a pixel is stored as. A new one is one small type.
+//! Colour targets: how a pixel is stored. A new one is a type with two short methods.
 
-use alberti_math::Rgba8;
 use alberti_math::lanes::Lanes;
+use alberti_math::{Rgb565Be, Rgb565Le, Rgba8, Rgba8888};
 use core::fmt::Debug;
 
-/// A pixel format of a target.
+/// A pixel format of a target: [`Rgba8888`], [`Rgb565Le`], [`Rgb565Be`], or one of yours.
+///
+/// ```
+/// use alberti_math::Rgba8;
+/// use alberti_raster::ColorFormat;
+///
+/// /// A byte of luminance.
+/// #[derive(Clone, Copy, Debug)]
+/// struct Grey;
+///
+/// impl ColorFormat for Grey {
+///     type Pixel = u8;
+///
+///     fn pixel(self, color: Rgba8) -> u8 {
+///         let [r, g, b, _] = color.to_bytes().map(u32::from);
+///         ((r * 77 + g * 150 + b * 29 + 128) >> 8) as u8
+///     }
+///
+///     fn native(self, word: u32) -> u8 {
+///         word as u8
+///     }
+/// }
+/// assert_eq!(Grey.pixel(Rgba8::WHITE), 255);
+/// ```
 pub trait ColorFormat: Copy + Debug + 'static {
-    /// What the buffer holds for a pixel: a word whose bytes are, in memory, what a display or a file wants.
+    /// The buffer's value for a pixel: a word whose bytes are, in memory, in the order of the display or the file.
     type Pixel: Copy + Debug + 'static;
+
+    /// The pixel for this colour.
+    fn pixel(self, color: Rgba8) -> Self::Pixel;
+
+    /// The pixel for a word that is a pixel already, but for the order of its bytes.
+    fn native(self, word: u32) -> Self::Pixel;
+
+    /// Stores pixels for the samples in `mask`, whose colours are the words of `Shade`s.
+    #[inline(always)]
+    fn store<L: Lanes, Shade: FragmentColor>(
+        self,
+        lanes: L,
+        colors: L::U32,
+        mask: L::Mask,
+        pixels: &mut L::Each<Self::Pixel>,
+    ) {
+        let (words, bits) = (lanes.store_words(colors), lanes.bits(mask));
+        for (k, (pixel, &word)) in pixels.as_mut().iter_mut().zip(words.as_ref()).enumerate() {
+            let new = Shade::pixel(self, word);
+            *pixel = if bits >> k & 1 != 0 { new } else { *pixel };
+        }
+    }
 }
 
-/// What a fragment stage makes: any colour that fits a word of 32 bits, in which several of them travel.
-pub trait Color: Copy {
-    /// As a word.
+/// A fragment's colour: [`Rgba8`] for any target, or `u8`, `u16` or `u32` for targets whose pixels have as many bits,
+/// which get it as it is. It travels as a word of 32 bits, of which several fit a register.
+pub trait FragmentColor: Sealed + Copy {
+    /// The colour as a word.
     fn to_word(self) -> u32;
-    /// From the word that [`to_word`](Self::to_word) gave.
+    /// The colour of the word that [`to_word`](Self::to_word) gave.
     fn from_word(word: u32) -> Self;
+    /// The pixel for such a word.
+    fn pixel<C: ColorFormat>(format: C, word: u32) -> C::Pixel;
 }
 
-impl Color for Rgba8 {
+/// A bound that other crates cannot name, so that they cannot add to [`FragmentColor`].
+pub trait Sealed {}
+
+impl Sealed for Rgba8 {}
+impl Sealed for u8 {}
+impl Sealed for u16 {}
+impl Sealed for u32 {}
+
+impl FragmentColor for Rgba8 {
     #[inline(always)]
     fn to_word(self) -> u32 {
         self.to_bits()
@@ -28,113 +84,96 @@ impl Color for Rgba8 {
     fn from_word(word: u32) -> Self {
         Self::from_bits(word)
     }
-}
-
-/// Any word: packed colours, or indices into a palette.
-impl Color for u32 {
-    #[inline(always)]
-    fn to_word(self) -> u32 {
-        self
-    }
 
     #[inline(always)]
-    fn from_word(word: u32) -> Self {
-        word
+    fn pixel<C: ColorFormat>(format: C, word: u32) -> C::Pixel {
+        format.pixel(Self::from_bits(word))
     }
 }
 
-/// A word of 16 bits, such as a colour as a texture stores it.
-impl Color for u16 {
-    #[inline(always)]
-    fn to_word(self) -> u32 {
-        self.into()
-    }
+/// Words of the target's pixels: packed colours as a texture stores them, or indices into a palette.
+macro_rules! words {
+    ($($word:ident)*) => {$(
+        impl FragmentColor for $word {
+            #[inline(always)]
+            fn to_word(self) -> u32 {
+                self.into()
+            }
 
-    #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "what `to_word` gave")]
-    fn from_word(word: u32) -> Self {
-        word as u16
-    }
-}
+            #[inline(always)]
+            #[allow(clippy::cast_possible_truncation, reason = "as `to_word` gave it")]
+            fn from_word(word: u32) -> Self {
+                word as Self
+            }
 
-/// A format that can take colours of type `Shade`, as fragment stages make them.
-pub trait Store<Shade: Color>: ColorFormat {
-    /// The pixel for this colour.
-    fn pixel(color: Shade) -> Self::Pixel;
-
-    /// Stores the pixels for the samples in `mask`, whose colours are words.
-    #[inline(always)]
-    fn store<L: Lanes>(lanes: L, colors: L::U32, mask: L::Mask, pixels: &mut L::Each<Self::Pixel>) {
-        let (words, bits) = (lanes.store_words(colors), lanes.bits(mask));
-        for (k, (pixel, &word)) in pixels.as_mut().iter_mut().zip(words.as_ref()).enumerate() {
-            let new = Self::pixel(Shade::from_word(word));
-            *pixel = if bits >> k & 1 != 0 { new } else { *pixel };
+            #[inline(always)]
+            fn pixel<C: ColorFormat>(format: C, word: u32) -> C::Pixel {
+                const {
+                    assert!(
+                        size_of::<C::Pixel>() == size_of::<Self>(),
+                        "the stage's colour is a word of another size than the target's pixels: let it be Rgba8"
+                    );
+                }
+                format.native(word)
+            }
         }
-    }
+    )*};
 }
+words!(u8 u16 u32);
 
-/// Four bytes a pixel, in memory R, G, B, A.
-impl ColorFormat for Rgba8 {
+impl ColorFormat for Rgba8888 {
     type Pixel = u32;
-}
 
-impl Store<Rgba8> for Rgba8 {
     #[inline(always)]
-    fn pixel(color: Rgba8) -> u32 {
+    fn pixel(self, color: Rgba8) -> u32 {
         color.to_bits().to_le()
+    }
+
+    #[inline(always)]
+    fn native(self, word: u32) -> u32 {
+        word.to_le()
     }
 
     #[cfg(target_endian = "little")]
     #[inline(always)]
-    fn store<L: Lanes>(lanes: L, colors: L::U32, mask: L::Mask, pixels: &mut L::Each<u32>) {
+    fn store<L: Lanes, Shade: FragmentColor>(
+        self,
+        lanes: L,
+        colors: L::U32,
+        mask: L::Mask,
+        pixels: &mut L::Each<u32>,
+    ) {
+        const {
+            assert!(
+                size_of::<Shade>() == 4,
+                "the stage's colour is a word of another size than the target's pixels: let it be Rgba8"
+            );
+        };
         *pixels = lanes.store_words(lanes.select_words(mask, colors, lanes.load_words(pixels)));
     }
 }
 
-/// Two bytes a pixel, the low one first: RRRRRGGG GGGBBBBB as a little-endian word.
-#[derive(Clone, Copy, Debug)]
-pub enum Rgb565Le {}
+macro_rules! rgb565 {
+    ($($name:ident: $in_order:ident;)*) => {$(
+        impl ColorFormat for $name {
+            type Pixel = u16;
 
-/// Two bytes a pixel, the high one first, as most SPI displays want them.
-#[derive(Clone, Copy, Debug)]
-pub enum Rgb565Be {}
+            #[inline]
+            fn pixel(self, color: Rgba8) -> u16 {
+                rgb565(color).$in_order()
+            }
 
-impl ColorFormat for Rgb565Le {
-    type Pixel = u16;
+            #[inline(always)]
+            #[expect(clippy::cast_possible_truncation, reason = "a word of 16 bits")]
+            fn native(self, word: u32) -> u16 {
+                (word as u16).$in_order()
+            }
+        }
+    )*};
 }
-
-/// 16 bits of the machine's byte order.
-impl Store<u16> for Rgb565Le {
-    #[inline(always)]
-    fn pixel(color: u16) -> u16 {
-        color.to_le()
-    }
-}
-
-impl Store<Rgba8> for Rgb565Le {
-    #[inline]
-    fn pixel(color: Rgba8) -> u16 {
-        rgb565(color).to_le()
-    }
-}
-
-impl ColorFormat for Rgb565Be {
-    type Pixel = u16;
-}
-
-/// 16 bits of the machine's byte order.
-impl Store<u16> for Rgb565Be {
-    #[inline(always)]
-    fn pixel(color: u16) -> u16 {
-        color.to_be()
-    }
-}
-
-impl Store<Rgba8> for Rgb565Be {
-    #[inline]
-    fn pixel(color: Rgba8) -> u16 {
-        rgb565(color).to_be()
-    }
+rgb565! {
+    Rgb565Le: to_le;
+    Rgb565Be: to_be;
 }
 
 /// The 16-bit colour nearest to `color`: each channel c becomes c·31/255 or c·63/255 to the nearest; alpha is dropped.
@@ -174,9 +213,9 @@ mod tests {
     #[test]
     fn bytes_lie_in_memory_as_the_format_says() {
         let color = Rgba8::new(255, 128, 0, 7);
-        assert_eq!(<Rgba8 as Store<Rgba8>>::pixel(color).to_ne_bytes(), [255, 128, 0, 7]);
+        assert_eq!(Rgba8888.pixel(color).to_ne_bytes(), [255, 128, 0, 7]);
         let [high, low] = [0b1111_1100, 0b0000_0000];
-        assert_eq!(Rgb565Be::pixel(color).to_ne_bytes(), [high, low]);
-        assert_eq!(Rgb565Le::pixel(color).to_ne_bytes(), [low, high]);
+        assert_eq!(Rgb565Be.pixel(color).to_ne_bytes(), [high, low]);
+        assert_eq!(Rgb565Le.pixel(color).to_ne_bytes(), [low, high]);
     }
 }

@@ -1,36 +1,50 @@
 //! Other comparisons than "strictly nearer", and the mask that writes no depth: each wraps a format, and they can be
-//! nested. `OrEqual<Farther<D16>>` shows what is as far or farther, `ReadOnly<OrEqual<F32>>` draws decals.
+//! nested. `OrEqual(Farther(D16))` shows fragments as far or farther, `ReadOnly(OrEqual(F32))` draws decals.
 
 use crate::depth::DepthFormat;
 use alberti_math::lanes::Lanes;
-use core::marker::PhantomData;
 
 /// Defines formats that store what `D` does, and differ in what their bodies say.
 macro_rules! like {
     ($($(#[$doc:meta])* $name:ident { $($different:item)* })*) => {$(
         $(#[$doc])*
-        #[derive(Clone, Copy, Debug)]
-        pub struct $name<D>(PhantomData<D>);
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        pub struct $name<D>(
+            /// The format.
+            pub D,
+        );
 
         impl<D: DepthFormat> DepthFormat for $name<D> {
             type Stored = D::Stored;
-            const REVERSED: bool = D::REVERSED;
-            const FARTHEST: D::Stored = D::FARTHEST;
-            const BITS: u32 = D::BITS;
 
-            #[inline]
-            fn encode(zs: f32) -> D::Stored {
-                D::encode(zs)
-            }
-
-            #[inline]
-            fn encode_integer(zs: u32) -> D::Stored {
-                D::encode_integer(zs)
+            #[inline(always)]
+            fn reversed(self) -> bool {
+                self.0.reversed()
             }
 
             #[inline(always)]
-            fn encode_lanes<L: Lanes>(lanes: L, zs: L::Depth) -> L::Each<D::Stored> {
-                D::encode_lanes(lanes, zs)
+            fn farthest(self) -> D::Stored {
+                self.0.farthest()
+            }
+
+            #[inline(always)]
+            fn bits(self) -> u32 {
+                self.0.bits()
+            }
+
+            #[inline]
+            fn encode(self, zs: f32) -> D::Stored {
+                self.0.encode(zs)
+            }
+
+            #[inline]
+            fn encode_integer(self, zs: u32) -> D::Stored {
+                self.0.encode_integer(zs)
+            }
+
+            #[inline(always)]
+            fn encode_lanes<L: Lanes>(self, lanes: L, zs: L::Depth) -> L::Each<D::Stored> {
+                self.0.encode_lanes(lanes, zs)
             }
 
             $($different)*
@@ -48,31 +62,33 @@ macro_rules! compared {
             /// As many comparisons, of none to two, as it takes to know that.
             $name {
                 #[inline]
-                fn nearer(new: D::Stored, old: D::Stored) -> bool {
-                    let [$nearer, $farther] = [u32::from(D::nearer(new, old)), u32::from(D::nearer(old, new))];
+                fn nearer(self, new: D::Stored, old: D::Stored) -> bool {
+                    let [$nearer, $farther] = [u32::from(self.0.nearer(new, old)), u32::from(self.0.nearer(old, new))];
                     $seen & 1 != 0
                 }
 
                 #[inline(always)]
                 fn seen<L: Lanes>(
+                    self,
                     lanes: L,
                     new: &L::Each<D::Stored>,
                     old: &L::Each<D::Stored>,
                     mask: L::Mask,
                 ) -> L::Mask {
-                    let [$nearer, $farther] = [D::seen(lanes, new, old, mask), D::seen(lanes, old, new, mask)];
+                    let [$nearer, $farther] = [self.0.seen(lanes, new, old, mask), self.0.seen(lanes, old, new, mask)];
                     let [$nearer, $farther] = [lanes.bits($nearer), lanes.bits($farther)];
                     lanes.mask(lanes.bits(mask) & $seen)
                 }
 
                 #[inline(always)]
                 fn keep<L: Lanes>(
+                    self,
                     lanes: L,
                     new: &L::Each<D::Stored>,
                     mask: L::Mask,
                     stored: &mut L::Each<D::Stored>,
                 ) {
-                    D::keep(lanes, new, mask, stored);
+                    self.0.keep(lanes, new, mask, stored);
                 }
             }
         )*}
@@ -102,71 +118,76 @@ like! {
     /// That of `D` without the store.
     ReadOnly {
         #[inline]
-        fn nearer(new: D::Stored, old: D::Stored) -> bool {
-            D::nearer(new, old)
+        fn nearer(self, new: D::Stored, old: D::Stored) -> bool {
+            self.0.nearer(new, old)
         }
 
         #[inline(always)]
         fn seen<L: Lanes>(
+            self,
             lanes: L,
             new: &L::Each<D::Stored>,
             old: &L::Each<D::Stored>,
             mask: L::Mask,
         ) -> L::Mask {
-            D::seen(lanes, new, old, mask)
+            self.0.seen(lanes, new, old, mask)
         }
 
         #[inline(always)]
-        fn keep<L: Lanes>(_: L, _: &L::Each<D::Stored>, _: L::Mask, _: &mut L::Each<D::Stored>) {}
+        fn keep<L: Lanes>(self, _: L, _: &L::Each<D::Stored>, _: L::Mask, _: &mut L::Each<D::Stored>) {}
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Band, Cull, D16, D24, D32, Exact, F32, F32Reversed, Vertex, draw_triangle};
+    use crate::{AnyDepth, Cull, D16, D24, D32, Exact, F32, F32Reversed, Paint, Target, Vertex};
     use alberti_math::lanes::One;
-    use alberti_math::{Fixed, Rgba8, Sub8};
+    use alberti_math::{Fixed, Rgba8, Rgba8888, Sub8};
     use std::vec;
 
-    /// Whether `D` shows and stores a depth in front of, at and behind another.
-    fn shown<D: DepthFormat<Stored: PartialEq>>() -> [[bool; 2]; 3] {
-        let (near, far) = if D::REVERSED { (0.75, 0.25) } else { (0.25, 0.75) };
+    /// Whether a format shows and stores a depth in front of, at and behind another.
+    fn shown(format: impl DepthFormat<Stored: PartialEq>) -> [[bool; 2]; 3] {
+        let (near, far) = if format.reversed() { (0.75, 0.25) } else { (0.25, 0.75) };
         [near, 0.5, far].map(|zs| {
-            let (new, old) = ([D::encode(zs)], [D::encode(0.5)]);
-            let seen = D::seen(One, &new, &old, true);
-            assert_eq!(seen, D::nearer(new[0], old[0]), "{zs}");
-            assert!(!D::seen(One, &new, &old, false), "a sample that is not asked for");
-            let mut stored = [D::FARTHEST];
-            D::keep(One, &new, seen, &mut stored);
+            let (new, old) = ([format.encode(zs)], [format.encode(0.5)]);
+            let seen = format.seen(One, &new, &old, true);
+            assert_eq!(seen, format.nearer(new[0], old[0]), "{zs}");
+            assert!(!format.seen(One, &new, &old, false), "a sample that is not asked for");
+            let mut stored = [format.farthest()];
+            format.keep(One, &new, seen, &mut stored);
             [seen, stored == new]
         })
     }
 
-    fn comparisons<D: DepthFormat<Stored: PartialEq>>() {
+    fn comparisons(format: impl DepthFormat<Stored: PartialEq>) {
         let written = |shown: [bool; 3]| shown.map(|shown| [shown; 2]);
-        assert_eq!(shown::<D>(), written([true, false, false]));
-        assert_eq!(shown::<OrEqual<D>>(), written([true, true, false]));
-        assert_eq!(shown::<Equal<D>>(), written([false, true, false]));
-        assert_eq!(shown::<Farther<D>>(), written([false, false, true]));
-        assert_eq!(shown::<OrEqual<Farther<D>>>(), written([false, true, true]));
-        assert_eq!(shown::<Always<D>>(), written([true; 3]));
-        assert_eq!(shown::<ReadOnly<D>>(), [[true, false], [false, false], [false, false]]);
+        assert_eq!(shown(format), written([true, false, false]));
+        assert_eq!(shown(OrEqual(format)), written([true, true, false]));
+        assert_eq!(shown(Equal(format)), written([false, true, false]));
+        assert_eq!(shown(Farther(format)), written([false, false, true]));
+        assert_eq!(shown(OrEqual(Farther(format))), written([false, true, true]));
+        assert_eq!(shown(Always(format)), written([true; 3]));
+        assert_eq!(shown(ReadOnly(format)), [[true, false], [false, false], [false, false]]);
     }
 
     #[test]
     fn each_shows_and_stores_what_it_says() {
-        comparisons::<D16>();
-        comparisons::<D24>();
-        comparisons::<D32>();
-        comparisons::<F32>();
-        comparisons::<F32Reversed>();
+        comparisons(D16);
+        comparisons(D24);
+        comparisons(D32);
+        comparisons(F32);
+        comparisons(F32Reversed);
+        for format in [AnyDepth::D16, AnyDepth::D24, AnyDepth::D32, AnyDepth::F32, AnyDepth::F32Reversed] {
+            comparisons(format);
+        }
+        assert_eq!(shown(AnyDepth::NoDepth).map(|[seen, _]| seen), [true; 3]);
     }
 
     /// Drawn again, in another order of its vertices and in a band of its own, a triangle has the same depths.
     #[test]
     fn a_triangle_is_equal_to_itself() {
-        let at = |x: i32, y: i32, zs: f32, q: f32| Vertex::<Sub8, ()> {
+        let at = |x: i32, y: i32, zs: f32, q: f32| Vertex {
             x: Fixed::from_subpixels(x).expect("small"),
             y: Fixed::from_subpixels(y).expect("small"),
             zs,
@@ -175,15 +196,17 @@ mod tests {
         };
         let [a, b, c] = [at(130, 90, 0.1, 1.0), at(15_900, 700, 0.9, 0.1), at(3000, 10_111, 0.37, 0.6)];
         let (mut color, mut depth) = (vec![0u32; 64 * 48], vec![1f32; 64 * 48]);
-        let mut band = Band::<Rgba8, F32>::new(64, 0, &mut color, &mut depth).expect("64 by 48");
-        let white = |()| Some(Rgba8::WHITE);
-        draw_triangle(Exact, One, &mut band, [&a, &b, &c], Cull::None, &white, &mut ());
+        let mut whole = Target::new(Rgba8888, F32, 64, 48, &mut color, &mut depth).expect("64 by 48");
+        let stage = |()| Some(Rgba8::WHITE);
+        let white = Paint { stage, interpolation: Exact, subpixel: Sub8, cull: Cull::None };
+        white.triangle(One, &mut whole, [&a, &b, &c], &mut ());
 
         let mut again = vec![0u32; 64 * 48];
         let rows = again.chunks_mut(64 * 17).zip(depth.chunks_mut(64 * 17));
         for (first_row, (color, depth)) in (0..).step_by(17).zip(rows) {
-            let mut band = Band::<Rgba8, Equal<F32>>::new(64, first_row, color, depth).expect("rows");
-            draw_triangle(Exact, One, &mut band, [&c, &a, &b], Cull::None, &white, &mut ());
+            let mut band =
+                Target::band(Rgba8888, Equal(F32), [64, 48], first_row, color, depth).expect("rows");
+            white.triangle(One, &mut band, [&c, &a, &b], &mut ());
         }
         assert!(again == color && color.iter().filter(|&&pixel| pixel != 0).count() > 500);
     }

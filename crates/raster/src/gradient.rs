@@ -33,11 +33,10 @@
 //! it is 2^-44 Δu.
 
 use crate::edge::EdgeInt;
-use crate::interpolation::{Oriented, Row};
-use crate::planes::scaled_q;
+use crate::interpolation::{Oriented, Row, scaled_q};
 use crate::spans::Span;
 use alberti_math::lanes::Lanes;
-use alberti_math::{Mode, Subpixel, Varying};
+use alberti_math::{Mode, Varying};
 use core::fmt::{self, Debug};
 
 /// The derivatives of attributes by the column and by the row of a pixel.
@@ -69,7 +68,7 @@ pub trait Differentiation: Copy + Debug + Default + 'static {
     type Run<L: Lanes, V: Varying>: Copy;
 
     /// Prepares a triangle.
-    fn prepare<S: Subpixel, V: Varying>(triangle: &Oriented<'_, S, V>) -> Self::Triangle<V>;
+    fn prepare<V: Varying>(triangle: &Oriented<'_, V>) -> Self::Triangle<V>;
 
     /// Begins a run of a row's samples.
     fn run<L: Lanes, V: Varying, I: EdgeInt>(
@@ -118,7 +117,7 @@ impl Differentiation for NoDerivatives {
     type Run<L: Lanes, V: Varying> = ();
 
     #[inline(always)]
-    fn prepare<S: Subpixel, V: Varying>(_: &Oriented<'_, S, V>) {}
+    fn prepare<V: Varying>(_: &Oriented<'_, V>) {}
 
     #[inline(always)]
     fn run<L: Lanes, V: Varying, I: EdgeInt>(_: L, (): &(), _: &Row<'_, I>, _: Span) {}
@@ -212,11 +211,11 @@ impl<V: Varying> Debug for Quotients<V> {
 
 impl<V: Varying> Quotients<V> {
     #[inline(always)]
-    fn new<S: Subpixel>(triangle: &Oriented<'_, S, V>) -> Self {
+    fn new(triangle: &Oriented<'_, V>) -> Self {
         let q = scaled_q(triangle);
         let corners = triangle.corners.map(|corner| corner.map(f64::from));
         let [a, b, c] = corners;
-        let one = f64::from(S::ONE);
+        let one = f64::from(triangle.one());
         // What a pixel to the right, and one down, adds to the edge functions of the second and the third vertex.
         let of_b = [(c[1] - a[1]) * one, (a[0] - c[0]) * one];
         let of_c = [(a[1] - b[1]) * one, (b[0] - a[0]) * one];
@@ -368,7 +367,7 @@ macro_rules! at_samples {
             type Run<L: Lanes, V: Varying> = RunQuotients<L, V>;
 
             #[inline(always)]
-            fn prepare<S: Subpixel, V: Varying>(triangle: &Oriented<'_, S, V>) -> Quotients<V> {
+            fn prepare<V: Varying>(triangle: &Oriented<'_, V>) -> Quotients<V> {
                 Quotients::new(triangle)
             }
 
@@ -414,7 +413,7 @@ macro_rules! along_runs {
             type Run<L: Lanes, V: Varying> = V::Of<[L::Number; 2]>;
 
             #[inline(always)]
-            fn prepare<S: Subpixel, V: Varying>($of: &Oriented<'_, S, V>) -> Self::Triangle<V> {
+            fn prepare<V: Varying>($of: &Oriented<'_, V>) -> Self::Triangle<V> {
                 $prepare
             }
 

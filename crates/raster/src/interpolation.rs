@@ -1,20 +1,35 @@
-//! How what the vertices carry comes to the samples between them: the policies, each with its precision and its cost.
+//! Interpolation of depth and attributes between the vertices: the policies, each with its precision and its cost.
 //!
 //! | policy | error | divisions |
 //! |---|---|---|
 //! | [`Exact`](crate::Exact) | 9ε | one a fragment |
-//! | [`Plane`](crate::Plane) | a few ε, times the ratio of q along 64 columns | one a fragment |
-//! | [`Spans<N>`](crate::Spans) | what a straight line misses along N columns | two every N columns |
-//! | [`Bounded`](crate::Bounded) | what it is told | as many as that takes |
-//! | [`Affine`](crate::Affine) | what a straight line misses along the triangle | one every 64 columns |
-//! | [`FixedPoint<P>`](crate::FixedPoint) | that of `P`, and steps of 2^-16 a column | none: a table |
+//! | [`Planes`](crate::Planes) | a few ε, times the ratio of q along 64 columns | one a fragment |
+//! | [`Spans16`] | the miss of a straight line along 16 columns | two every 16 columns |
+//! | [`Affine`] | the miss of a straight line along the triangle | one every 64 columns |
+//! | [`Lines`] | one of the two for any length, or a budget | as many as that takes |
+//! | [`FixedPoint`] around one of the last three | theirs, and steps of 2^-16 a column | none: a table |
+//!
+//! The first two work sample by sample, the others by runs of samples.
 
-use crate::depth::DepthFormat;
+mod exact;
+mod fixed_plane;
+mod fixed_point;
+mod floating;
+mod linear;
+mod lines;
+mod plane;
+
+pub use exact::{Exact, ExactTriangle};
+pub use fixed_point::FixedPoint;
+pub(crate) use linear::scaled_q;
+pub use lines::{Affine, Lines, Runs, Spans16};
+pub use plane::Planes;
+
 use crate::edge::{Edge, EdgeInt};
 use crate::spans::Span;
 use crate::triangle::{Corners, Vertex};
+use alberti_math::Varying;
 use alberti_math::lanes::{Floating, Lanes};
-use alberti_math::{Subpixel, Varying};
 use core::fmt::Debug;
 
 /// A policy of interpolation, chosen once per draw.
@@ -23,35 +38,42 @@ pub trait Interpolation: Copy + Debug + 'static {
     type Lanes<L: Floating>: Lanes;
     /// A triangle prepared for it.
     type Triangle<L: Floating, V: Varying>: Interpolate<Self::Lanes<L>, V>;
+
     /// Whether triangles in narrow boxes may be filled without spans: then all of a row up to so many columns, a power
     /// of two, at multiples of it, must be one run.
-    const RUN: i32;
+    fn run(self) -> i32;
 
     /// The lanes in which it works.
-    fn lanes<L: Floating>(lanes: L) -> Self::Lanes<L>;
+    fn lanes<L: Floating>(self, lanes: L) -> Self::Lanes<L>;
 
-    /// Prepares a triangle for a depth buffer of the format `D`.
-    fn prepare<L: Floating, S: Subpixel, D: DepthFormat, V: Varying>(
-        self,
-        lanes: L,
-        triangle: &Oriented<'_, S, V>,
-    ) -> Self::Triangle<L, V>;
+    /// A triangle, prepared.
+    fn prepare<L: Floating, V: Varying>(self, lanes: L, triangle: &Oriented<'_, V>) -> Self::Triangle<L, V>;
 }
 
 /// A triangle of positive area, its corners clockwise, with `q` > 0 and finite values.
 #[derive(Clone, Copy, Debug)]
-pub struct Oriented<'a, S: Subpixel, V> {
+pub struct Oriented<'a, V> {
     /// The vertices.
-    pub vertices: [&'a Vertex<S, V>; 3],
+    pub vertices: [&'a Vertex<V>; 3],
     /// Their positions in subpixels.
     pub corners: Corners,
     /// Twice the area, in subpixels squared.
     pub doubled_area: i64,
-    /// Which value is that of the triangle's first vertex as it was given, for what is flat.
+    /// The varying of the triangle's first vertex as it was given, for flat components.
     pub first: V,
+    /// Bits of the subpixels.
+    pub bits: u32,
+    /// Bits of the depth buffer's integers, see [`DepthFormat::bits`](crate::DepthFormat::bits).
+    pub depth_bits: u32,
 }
 
-impl<S: Subpixel, V: Varying> Oriented<'_, S, V> {
+impl<V: Varying> Oriented<'_, V> {
+    /// Subpixels of a pixel.
+    #[inline(always)]
+    pub(crate) fn one(&self) -> i32 {
+        1 << self.bits
+    }
+
     /// The components of the three values and of the first vertex.
     #[inline(always)]
     pub(crate) fn values(&self) -> V::Of<[f32; 4]> {

@@ -1,31 +1,31 @@
 //! From a span of covered samples to pixels: depth, attributes, colour, as many samples at a time as there are lanes.
 //! This is the loop in which the time goes.
 
-use crate::band::Band;
-use crate::color::Store;
+use crate::color::ColorFormat;
 use crate::counters::Counters;
 use crate::depth::DepthFormat;
 use crate::edge::{Edge, EdgeInt};
-use crate::fragment::FragmentStage;
+use crate::fragment::{FragmentStage, Fragments};
 use crate::gradient::{Differentiation, Samples};
 use crate::interpolation::{Interpolate, Row};
 use crate::mask::RowMask;
 use crate::spans::Span;
+use crate::target::Target;
 use alberti_math::Varying;
 use alberti_math::lanes::Lanes;
 use core::marker::PhantomData;
 use core::ops::Range;
 
-/// What a triangle looks like: what is interpolated over it, and the stage that makes colours of that.
+/// A prepared triangle: its depth and attributes, their derivatives, and the stage that makes colours of them.
 pub(crate) struct Painter<L, V: Varying, T, F: FragmentStage<V>> {
     pub(crate) lanes: L,
     pub(crate) triangle: T,
     pub(crate) derivatives: <F::Derivatives as Differentiation>::Triangle<V>,
-    pub(crate) fragment: F,
+    pub(crate) stage: F,
     pub(crate) varying: PhantomData<V>,
 }
 
-/// What is known of a run of samples: for attributes, and for their derivatives.
+/// A run of samples: its attributes, and their derivatives.
 type Known<C, D, L, V> = (C, <D as Differentiation>::Run<L, V>);
 
 impl<L, V, T, F> Painter<L, V, T, F>
@@ -39,20 +39,22 @@ where
     #[inline(always)]
     pub(crate) fn row<I, C, D, K>(
         &self,
-        band: &mut Band<'_, C, D>,
+        target: &mut Target<'_, C, D>,
         row: &Row<'_, I>,
         limits: &Range<i32>,
         counters: &mut K,
     ) where
         I: EdgeInt,
-        C: Store<F::Color>,
+        C: ColorFormat,
         D: DepthFormat,
         K: Counters,
     {
         let end = row.covered.end.min(limits.end);
         let mut column = row.covered.start.max(limits.start);
         if L::COUNT == 1 {
-            self.row_alone::<I, C, D, K>(row, band.pixels_from(row.row, column), column..end, counters);
+            let formats = (target.color_format(), target.depth_format());
+            let pixels = target.pixels_from(row.row, column);
+            self.row_alone::<I, C, D, K>(row, formats, pixels, column..end, counters);
             return;
         }
         let (mut covered, mut written, mut known) = (0, 0, self.triangle.row(row));
@@ -60,7 +62,7 @@ where
             let (cursor, run) = self.start(row, &mut known, column, aligned::<L>(column));
             let stop = run.end.min(end);
             covered += stop.abs_diff(column);
-            written += self.run(band, row, column..stop, cursor);
+            written += self.run(target, row, column..stop, cursor);
             column = stop;
         }
         counters.span(covered, written);
@@ -72,12 +74,13 @@ where
     fn row_alone<I, C, D, K>(
         &self,
         row: &Row<'_, I>,
+        formats: (C, D),
         mut pixels: Pixels<'_, C::Pixel, D::Stored>,
         columns: Range<i32>,
         counters: &mut K,
     ) where
         I: EdgeInt,
-        C: Store<F::Color>,
+        C: ColorFormat,
         D: DepthFormat,
         K: Counters,
     {
@@ -90,7 +93,7 @@ where
             let here;
             (here, pixels) = split(pixels, count as usize);
             covered += count;
-            written += self.alone::<I, C, D>(row, here, column, &cursor);
+            written += self.alone(row, formats, here, column, &cursor);
             column = stop;
         }
         counters.span(covered, written);
@@ -114,13 +117,14 @@ where
     fn alone<I, C, D>(
         &self,
         row: &Row<'_, I>,
-        (colors, depths): (&mut [C::Pixel], &mut [D::Stored]),
+        formats: (C, D),
+        (colors, depths): Pixels<'_, C::Pixel, D::Stored>,
         column: i32,
         (first, derivatives): &Known<T::Cursor, F::Derivatives, L, V>,
     ) -> u32
     where
         I: EdgeInt,
-        C: Store<F::Color>,
+        C: ColorFormat,
         D: DepthFormat,
     {
         let (lanes, mut cursor) = (self.lanes, *first);
@@ -133,7 +137,8 @@ where
         {
             let [ea, eb, ec] = edges;
             let weights = [I::weights(lanes, ea), I::weights(lanes, eb), I::weights(lanes, ec)];
-            written += self.group::<C, D>(color, depth, 1, (&cursor, derivatives), (column, &weights));
+            written +=
+                self.group(formats, (color, depth), 1, (&cursor, derivatives), ([column, row.row], &weights));
             cursor = self.triangle.advance(cursor);
             edges = [
                 I::advance(lanes, ea, steps[0]),
@@ -148,14 +153,14 @@ where
     #[inline(always)]
     pub(crate) fn masked<C, D>(
         &self,
-        band: &mut Band<'_, C, D>,
+        target: &mut Target<'_, C, D>,
         row: i32,
         left: i32,
         mut bits: u32,
         mask: &RowMask<L>,
     ) -> u32
     where
-        C: Store<F::Color>,
+        C: ColorFormat,
         D: DepthFormat,
     {
         let covered = Span {
@@ -166,15 +171,16 @@ where
         let whole = Row { row, covered, origin: left, edges: &edges };
         let mut known = self.triangle.row(&whole);
         let ((mut cursor, derivatives), _) = self.start(&whole, &mut known, covered.start, left);
-        let (colors, depths) = band.pixels_from(row, left);
+        let formats = (target.color_format(), target.depth_format());
+        let (colors, depths) = target.pixels_from(row, left);
         let ((colors, last_colors), (depths, last_depths)) = (L::groups(colors), L::groups(depths));
         let (mut values, mut written, mut column) = (mask.first(), 0, left);
         for (color, depth) in colors.iter_mut().zip(depths) {
             let group = bits & all::<L>();
             if group != 0 {
                 let weights = mask.weights(values);
-                written +=
-                    self.group::<C, D>(color, depth, group, (&cursor, &derivatives), (column, &weights));
+                let known = (&cursor, &derivatives);
+                written += self.group(formats, (color, depth), group, known, ([column, row], &weights));
             }
             bits >>= L::COUNT;
             if bits == 0 {
@@ -186,12 +192,12 @@ where
         }
         let edges = mask.edges([column, row]);
         written
-            + self.end::<i64, C, D>(
-                last_colors,
-                last_depths,
+            + self.end(
+                formats,
+                (last_colors, last_depths),
                 bits & all::<L>(),
                 (cursor, derivatives),
-                (column, &edges),
+                ([column, row], &edges),
             )
     }
 
@@ -199,14 +205,14 @@ where
     #[inline(always)]
     fn run<I, C, D>(
         &self,
-        band: &mut Band<'_, C, D>,
+        target: &mut Target<'_, C, D>,
         row: &Row<'_, I>,
         columns: Range<i32>,
         (mut cursor, derivatives): Known<T::Cursor, F::Derivatives, L, V>,
     ) -> u32
     where
         I: EdgeInt,
-        C: Store<F::Color>,
+        C: ColorFormat,
         D: DepthFormat,
     {
         let lanes = self.lanes;
@@ -216,7 +222,8 @@ where
         let ([a, b, c], at) = (row.edges, row.at(left));
         let mut edges = [ramp(at[0], a), ramp(at[1], b), ramp(at[2], c)];
 
-        let (colors, depths) = band.pixels_from(row.row, left);
+        let formats = (target.color_format(), target.depth_format());
+        let (colors, depths) = target.pixels_from(row.row, left);
         let wanted = (columns.end - left).unsigned_abs() as usize;
         // Whole groups, if the band has them.
         let pixels = wanted.next_multiple_of(L::COUNT).min(colors.len() / L::COUNT * L::COUNT);
@@ -232,7 +239,8 @@ where
             let [ea, eb, ec] = edges;
             let weights = [I::weights(lanes, ea), I::weights(lanes, eb), I::weights(lanes, ec)];
             let known = (&cursor, &derivatives);
-            written += self.group::<C, D>(color, depth, bits & all::<L>(), known, (column, &weights));
+            written +=
+                self.group(formats, (color, depth), bits & all::<L>(), known, ([column, row.row], &weights));
             bits = all::<L>();
             column += L::STEP;
             cursor = self.triangle.advance(cursor);
@@ -245,7 +253,8 @@ where
         let edge = |value, e: &Edge<I>| Edge { value, ..*e };
         let edges = [edge(at[0], a), edge(at[1], b), edge(at[2], c)];
         let bits = bits & ((1 << (columns.end - column)) - 1);
-        written + self.end::<I, C, D>(last_colors, last_depths, bits, (cursor, derivatives), (column, &edges))
+        let last = (last_colors, last_depths);
+        written + self.end(formats, last, bits, (cursor, derivatives), ([column, row.row], &edges))
     }
 
     /// Fills the last samples of a band, fewer than there are lanes, by way of a copy. The first is in a column with
@@ -254,15 +263,15 @@ where
     #[inline(never)]
     fn end<I, C, D>(
         &self,
-        colors: &mut [C::Pixel],
-        depths: &mut [D::Stored],
+        formats: (C, D),
+        (colors, depths): Pixels<'_, C::Pixel, D::Stored>,
         bits: u32,
         (cursor, derivatives): Known<T::Cursor, F::Derivatives, L, V>,
-        (column, [a, b, c]): (i32, &[Edge<I>; 3]),
+        (place, [a, b, c]): ([i32; 2], &[Edge<I>; 3]),
     ) -> u32
     where
         I: EdgeInt,
-        C: Store<F::Color>,
+        C: ColorFormat,
         D: DepthFormat,
     {
         let lanes = self.lanes;
@@ -274,7 +283,8 @@ where
             || {
                 let weight = |e: &Edge<I>| I::weights(lanes, I::ramp(lanes, e.value, e.step_x));
                 let weights = [weight(a), weight(b), weight(c)];
-                self.group::<C, D>(&mut color, &mut depth, bits, (&cursor, &derivatives), (column, &weights))
+                let known = (&cursor, &derivatives);
+                self.group(formats, (&mut color, &mut depth), bits, known, (place, &weights))
             },
         );
         colors.iter_mut().zip(color.as_ref()).for_each(|(pixel, copy)| *pixel = *copy);
@@ -286,28 +296,28 @@ where
     #[inline(always)]
     fn group<C, D>(
         &self,
-        color: &mut L::Each<C::Pixel>,
-        depth: &mut L::Each<D::Stored>,
+        (color_format, depth_format): (C, D),
+        (color, depth): Group<'_, L, C::Pixel, D::Stored>,
         bits: u32,
         (cursor, derivatives): (&T::Cursor, &<F::Derivatives as Differentiation>::Run<L, V>),
-        (column, weights): (i32, &[L::Number; 3]),
+        (place, weights): ([i32; 2], &[L::Number; 3]),
     ) -> u32
     where
-        C: Store<F::Color>,
+        C: ColorFormat,
         D: DepthFormat,
     {
         let lanes = self.lanes;
-        let zs = D::encode_lanes(lanes, self.triangle.depth(cursor, weights));
-        let seen = D::seen(lanes, &zs, depth, lanes.mask(bits));
+        let zs = depth_format.encode_lanes(lanes, self.triangle.depth(cursor, weights));
+        let seen = depth_format.seen(lanes, &zs, depth, lanes.mask(bits));
         if lanes.bits(seen) == 0 {
             return 0;
         }
-        let varyings = self.triangle.attributes(cursor, weights);
-        let at = Samples { column, weights, values: &varyings };
+        let varying = self.triangle.attributes(cursor, weights);
+        let at = Samples { column: place[0], weights, values: &varying };
         let gradient = F::Derivatives::at(lanes, &self.derivatives, derivatives, &at);
-        let (words, kept) = self.fragment.shade_lanes(lanes, &varyings, &gradient, seen);
-        C::store(lanes, words, kept, color);
-        D::keep(lanes, &zs, kept, depth);
+        let (words, kept) = self.stage.shade(&Fragments { lanes, varying, gradient, mask: seen, place });
+        color_format.store::<L, F::Color>(lanes, words, kept, color);
+        depth_format.keep(lanes, &zs, kept, depth);
         lanes.bits(kept).count_ones()
     }
 }
@@ -318,6 +328,9 @@ where
 pub(crate) fn aligned<L: Lanes>(column: i32) -> i32 {
     column & !(L::STEP - 1)
 }
+
+/// The colours and depths of a group of samples.
+type Group<'a, L, C, D> = (&'a mut <L as Lanes>::Each<C>, &'a mut <L as Lanes>::Each<D>);
 
 /// Colours and depths.
 type Pixels<'a, C, D> = (&'a mut [C], &'a mut [D]);

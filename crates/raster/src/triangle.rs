@@ -1,21 +1,22 @@
 //! A triangle on the screen, its orientation and its box of samples.
 
 use crate::edge::FITS_I32;
-use alberti_math::{Fixed, Subpixel};
+use alberti_math::Fixed;
 use core::ops::Range;
 
-/// A vertex as the rasterizer takes it: everything after this hand-over uses the snapped position.
+/// A vertex on the screen, the hand-over from the view pipeline to the rasterizer: everything after it uses the snapped
+/// position.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Vertex<S: Subpixel, V> {
+pub struct Vertex<V> {
     /// Columns from the frame's left edge, snapped.
-    pub x: Fixed<S>,
+    pub x: Fixed,
     /// Rows from the frame's top edge downwards, snapped.
-    pub y: Fixed<S>,
+    pub y: Fixed,
     /// Screen depth in [0, 1].
     pub zs: f32,
     /// 1/z, greater than 0.
     pub q: f32,
-    /// What the vertex carries; finite.
+    /// The attributes; finite.
     pub varying: V,
 }
 
@@ -57,7 +58,7 @@ pub enum Outcome {
 }
 
 /// Snapped positions in subpixels.
-pub type Corners = [[i32; 2]; 3];
+pub(crate) type Corners = [[i32; 2]; 3];
 
 /// The box around three corners, in subpixels.
 #[derive(Clone, Copy, Debug)]
@@ -76,26 +77,28 @@ impl Bounds {
 
     /// Whether edge functions fit `i32` everywhere in the box and in the pixel around it, see [`FITS_I32`].
     #[inline]
-    pub(crate) fn fits_i32(&self, one: i32) -> bool {
+    pub(crate) fn fits_i32(&self, bits: u32) -> bool {
+        let one = 1i32 << bits;
         let side = |axis: usize| i64::from(self.max[axis] - self.min[axis]);
         (side(0) + 2 * i64::from(one)) * (side(1) + i64::from(one)) <= FITS_I32
     }
 
-    /// All columns, and the rows within the limits, whose samples lie within the box; `None` if the limits hold no
-    /// sample.
+    /// All columns, and the rows within the limits, whose samples lie within the box, with so many bits of subpixels;
+    /// `None` if the limits hold no sample.
     #[inline]
-    pub(crate) fn within<S: Subpixel>(&self, [limits, rows]: [Range<i32>; 2]) -> Option<[Range<i32>; 2]> {
-        let (columns, rows) = (self.samples::<S>(0, i32::MIN..i32::MAX), self.samples::<S>(1, rows));
+    pub(crate) fn within(&self, bits: u32, [limits, rows]: [Range<i32>; 2]) -> Option<[Range<i32>; 2]> {
+        let (columns, rows) = (self.samples(bits, 0, i32::MIN..i32::MAX), self.samples(bits, 1, rows));
         let none = rows.is_empty() || columns.start.max(limits.start) >= columns.end.min(limits.end);
         (!none).then_some([columns, rows])
     }
 
-    /// The columns or rows, within `limits`, whose sample lies within the box.
+    /// The columns or rows, within `limits`, whose sample lies within the box, with so many bits of subpixels.
     #[inline]
-    pub(crate) fn samples<S: Subpixel>(&self, axis: usize, limits: Range<i32>) -> Range<i32> {
-        // Sample i lies at i * ONE + HALF: the first at or after the minimum, the last at or before the maximum.
-        let first = (self.min[axis] + S::HALF - 1) >> S::BITS;
-        let end = ((self.max[axis] - S::HALF) >> S::BITS) + 1;
+    pub(crate) fn samples(&self, bits: u32, axis: usize, limits: Range<i32>) -> Range<i32> {
+        // Sample i lies at i + 1/2 pixels: the first at or after the minimum, the last at or before the maximum.
+        let half = 1 << (bits - 1);
+        let first = (self.min[axis] + half - 1) >> bits;
+        let end = ((self.max[axis] - half) >> bits) + 1;
         first.max(limits.start)..end.min(limits.end)
     }
 }
@@ -125,7 +128,6 @@ pub(crate) fn in_order<T>([a, b, c]: Corners, [x, y, z]: [T; 3], area: i64) -> (
 #[cfg(test)]
 mod tests {
     use super::*;
-    use alberti_math::Sub4;
 
     #[test]
     fn the_order_does_not_depend_on_how_a_triangle_is_given() {
@@ -147,7 +149,7 @@ mod tests {
 
     #[test]
     fn boxes_hold_the_samples_between_their_sides() {
-        let samples = |low, high| Bounds { min: [low; 2], max: [high; 2] }.samples::<Sub4>(0, -9..9);
+        let samples = |low, high| Bounds { min: [low; 2], max: [high; 2] }.samples(4, 0, -9..9);
         assert_eq!(samples(8, 8), 0..1);
         assert_eq!(samples(9, 23), 1..1);
         assert_eq!(samples(-8, 24), -1..2);

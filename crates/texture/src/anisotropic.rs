@@ -1,27 +1,29 @@
 //! Pixels that are longer in the texture than they are wide.
 
-use core::marker::PhantomData;
-
 use alberti_math::lanes::Lanes;
 
 use crate::blend::mean_of;
 use crate::format::Storage;
-use crate::minify::{MipKernel, each_word};
-use crate::{Bounds, Derivatives, LevelSize, MipFilter, Mipmap, Trilinear, Wrap};
+use crate::minify::each_word;
+use crate::sealed::Sealed;
+use crate::{
+    AnyFilter, BetweenLevels, Bilinear, Derivatives, LevelSize, LodPolicy, Minify, MipFilter, Mipmap,
+    Trilinear, Wrap,
+};
 
-/// The mean of up to `PROBES` (1, 2, 4, 8 or 16) colours of `M` along the longer axis of the ellipse that a round pixel
-/// covers of the texture, as many as it is longer than the other one: sharp where a plane is seen at an angle.
+/// The mean of up to `probes` colours of `filter` along the longer axis of the ellipse that a round pixel covers of the
+/// texture: as many as it is longer than the other one. Sharp where a plane is seen at an angle.
 ///
 /// ```text
 ///         +---------------------------+
-///  short  |   x      x      x      x  |     n = 2^k probes, k = ceil(log2(long / short)), at most PROBES
+///  short  |   x      x      x      x  |     n = 2^k probes, k = ceil(log2(long / short)), at most probes
 ///         +---------------------------+     at (i + 1/2)/n - 1/2 of the axis, i from 0 to n - 1
-///                    long                   λ = max(log2 short, log2 long - log2 PROBES)
+///                    long                   λ = max(log2 short, log2 long - log2 probes)
 /// ```
 ///
 /// The axes are those of [`Derivatives::axes_lanes`], and stay where they are when the camera is rolled. A level of
-/// detail alone has no shape: then it is `M`. [`LodBounds`](crate::LodBounds) are those of this λ; n and the places
-/// stay.
+/// detail alone has no shape: then it is `filter`. [`LodBounds`](crate::LodBounds) are those of this λ; n and the
+/// places stay.
 ///
 /// # Precision
 /// Axes as [`Derivatives::axes_lanes`] says, the logarithms of their lengths as [`Derivatives::lod`]; the mean is
@@ -29,54 +31,78 @@ use crate::{Bounds, Derivatives, LevelSize, MipFilter, Mipmap, Trilinear, Wrap};
 /// range of its texels.
 ///
 /// # Cost
-/// n times that of `M`, the axes and two logarithms.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Anisotropic<const PROBES: u32, M = Trilinear>(PhantomData<M>);
-
-impl<const PROBES: u32, M: MipFilter> MipFilter for Anisotropic<PROBES, M> {}
-
-impl<const PROBES: u32, M> Anisotropic<PROBES, M> {
-    const LOG2: u32 = {
-        assert!(PROBES.is_power_of_two() && PROBES <= 16, "Anisotropic: 1, 2, 4, 8 or 16 probes");
-        PROBES.trailing_zeros()
-    };
+/// n times that of `filter`, the axes and two logarithms.
+///
+/// ```
+/// use alberti_texture::{Anisotropic, Mipmap, Repeat, Trilinear, format::L8};
+///
+/// let board = Mipmap::new(L8, &[0, 255, 255, 0, 188], 2, 2)?;
+/// let sampler = board.sampler(Anisotropic { probes: 8, filter: Trilinear }, Repeat);
+/// # Ok::<(), alberti_texture::TextureError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Anisotropic<M = Trilinear> {
+    /// The greatest number of probes: 1, 2, 4, 8 or 16. Others count as the next lower of these, 0 as 1.
+    pub probes: u32,
+    /// The [`MipFilter`] of each probe.
+    pub filter: M,
 }
 
-impl<const PROBES: u32, M: MipFilter> MipKernel for Anisotropic<PROBES, M> {
+impl<M> Sealed for Anisotropic<M> {}
+
+impl<M: MipFilter> Anisotropic<M> {
+    /// 0 to 4.
     #[inline(always)]
-    fn at_lod<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap>(
-        lanes: L,
-        mipmap: &Mipmap<'_, F, Z>,
-        u: L::Number,
-        v: L::Number,
-        lambda: L::Number,
-    ) -> L::U32 {
-        M::at_lod::<L, F, Z, U, V>(lanes, mipmap, u, v, lambda)
+    fn log2_probes(self) -> u32 {
+        u32::BITS - 1 - self.probes.clamp(1, 16).leading_zeros()
     }
 
+    /// The probes of pixels.
     #[inline(always)]
-    fn in_footprint<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap>(
+    fn probes<L: Lanes>(
+        self,
         lanes: L,
-        mipmap: &Mipmap<'_, F, Z>,
-        u: L::Number,
-        v: L::Number,
         derivatives: Derivatives<L::Number>,
-        bounds: impl Bounds,
-    ) -> L::U32 {
-        let axes = derivatives.axes_lanes(lanes, mipmap.size());
-        let [across, down] = axes.log2_lengths(lanes, mipmap.size());
+        size: [u32; 2],
+        bounds: impl LodPolicy,
+    ) -> Probes<L> {
+        let axes = derivatives.axes_lanes(lanes, size);
+        let [across, down] = axes.log2_lengths(lanes, size);
         let (long, short) = (lanes.max(across, down), lanes.min(across, down));
         let is_across = lanes.less(down, across);
         let du = lanes.select(is_across, axes.du_dx, axes.du_dy);
         let dv = lanes.select(is_across, axes.dv_dx, axes.dv_dy);
-        let greatest = Self::LOG2;
+        let greatest = self.log2_probes();
         let all = lanes.int_to_number(lanes.int(greatest.cast_signed()));
         let lambda = bounds.bound_lanes(lanes, lanes.max(short, long - all));
         // The least integer that is not less than the difference.
         let count = lanes.word(0) - lanes.floor_scaled(short - long, 0);
+        Probes { log2_count: lanes.min_words(count, lanes.word(greatest)), axis: [du, dv], lambda }
+    }
+}
+
+/// Places along an axis, of several pixels, all in one level of detail.
+struct Probes<L: Lanes> {
+    log2_count: L::U32,
+    axis: [L::Number; 2],
+    lambda: L::Number,
+}
+
+impl<L: Lanes> Probes<L> {
+    /// The mean of the colours of a filter there.
+    #[inline(always)]
+    fn mean<F: Storage, Z: LevelSize, U: Wrap, V: Wrap>(
+        self,
+        lanes: L,
+        filter: impl MipFilter,
+        mipmap: &Mipmap<'_, F, Z>,
+        wrap: (U, V),
+        [u, v]: [L::Number; 2],
+    ) -> L::U32 {
+        let Self { log2_count, axis: [du, dv], lambda } = self;
         each_word(
             lanes,
-            lanes.min_words(count, lanes.word(greatest)),
+            log2_count,
             #[inline(always)]
             |count| {
                 mean_of(
@@ -88,10 +114,103 @@ impl<const PROBES: u32, M: MipFilter> MipKernel for Anisotropic<PROBES, M> {
                         let halves = (2 * probe + 1).cast_signed() - (1 << count);
                         let half_of_nth = f32::from_bits((126 - count) << 23);
                         let place = lanes.int_to_number(lanes.int(halves)) * lanes.splat(half_of_nth);
-                        M::at_lod::<L, F, Z, U, V>(lanes, mipmap, u + du * place, v + dv * place, lambda)
+                        filter.at_lod(lanes, mipmap, wrap, [u + du * place, v + dv * place], lambda)
                     },
                 )
             },
         )
+    }
+}
+
+impl<M: MipFilter> MipFilter for Anisotropic<M> {
+    #[inline(always)]
+    fn at_lod<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap>(
+        self,
+        lanes: L,
+        mipmap: &Mipmap<'_, F, Z>,
+        wrap: (U, V),
+        uv: [L::Number; 2],
+        lambda: L::Number,
+    ) -> L::U32 {
+        self.filter.at_lod(lanes, mipmap, wrap, uv, lambda)
+    }
+
+    #[inline(always)]
+    fn in_footprint<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap>(
+        self,
+        lanes: L,
+        mipmap: &Mipmap<'_, F, Z>,
+        wrap: (U, V),
+        uv: [L::Number; 2],
+        derivatives: Derivatives<L::Number>,
+        bounds: impl LodPolicy,
+    ) -> L::U32 {
+        self.probes(lanes, derivatives, mipmap.size(), bounds).mean(lanes, self.filter, mipmap, wrap, uv)
+    }
+}
+
+/// A [`MipFilter`] that is picked at run time: each is the type of its name, bit for bit.
+///
+/// # Cost
+/// Two matches a read and one a probe. The code of about four filters: all share that of [`Anisotropic`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum AnyMipFilter {
+    /// Level 0 alone, by this filter: no mip map.
+    Base(AnyFilter),
+    /// [`Trilinear`].
+    Trilinear,
+    /// [`Anisotropic`] of [`Trilinear`].
+    Anisotropic {
+        /// The greatest number of probes.
+        probes: u32,
+    },
+}
+
+impl Sealed for AnyMipFilter {}
+
+impl AnyMipFilter {
+    /// [`Trilinear`] with another filter where texels are larger than pixels.
+    #[inline(always)]
+    fn shared(self) -> Minify<Bilinear, BetweenLevels, AnyFilter> {
+        let mag = if let Self::Base(filter) = self { filter } else { AnyFilter::Bilinear };
+        Minify { min: Bilinear, levels: BetweenLevels, mag }
+    }
+}
+
+impl MipFilter for AnyMipFilter {
+    #[inline(always)]
+    fn at_lod<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap>(
+        self,
+        lanes: L,
+        mipmap: &Mipmap<'_, F, Z>,
+        wrap: (U, V),
+        uv: [L::Number; 2],
+        lambda: L::Number,
+    ) -> L::U32 {
+        // Level 0 alone is that of the greatest texels.
+        let lambda = if let Self::Base(_) = self { lanes.splat(-1.0) } else { lambda };
+        self.shared().at_lod(lanes, mipmap, wrap, uv, lambda)
+    }
+
+    #[inline(always)]
+    fn in_footprint<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap>(
+        self,
+        lanes: L,
+        mipmap: &Mipmap<'_, F, Z>,
+        wrap: (U, V),
+        uv: [L::Number; 2],
+        derivatives: Derivatives<L::Number>,
+        bounds: impl LodPolicy,
+    ) -> L::U32 {
+        let zero = lanes.splat(0.0);
+        let alone = |lambda| Probes { log2_count: lanes.word(0), axis: [zero; 2], lambda };
+        let probes = match self {
+            Self::Base(_) => alone(lanes.splat(-1.0)),
+            Self::Trilinear => alone(bounds.bound_lanes(lanes, derivatives.lod_lanes(lanes, mipmap.size()))),
+            Self::Anisotropic { probes } => {
+                Anisotropic { probes, filter: Trilinear }.probes(lanes, derivatives, mipmap.size(), bounds)
+            }
+        };
+        probes.mean(lanes, self.shared(), mipmap, wrap, uv)
     }
 }

@@ -80,6 +80,19 @@ pub(crate) fn bounded(u: f32) -> u64 {
     down(u).wrapping_sub(ALIGN.to_bits())
 }
 
+/// The 256ths from the centre of the leftmost texel to a reduced coordinate, rounded to nearest, halves up.
+#[inline]
+#[expect(clippy::cast_possible_truncation, reason = "of 53 bits and a sign, the shift leaves 24")]
+pub(crate) fn position(reduced: u64, size: u32) -> i32 {
+    const SHIFT: u32 = FRACTION_BITS - 8;
+    // Half a unit to round to nearest, less half a texel. In 39 + 14 bits and a sign.
+    const OFFSET: i64 = (1 << (SHIFT - 1)) - (128 << SHIFT);
+
+    // In `Border` it may be negative.
+    let scaled = reduced.cast_signed() * i64::from(size) + OFFSET;
+    (scaled >> SHIFT) as i32
+}
+
 /// The bits of `ALIGN` + u, rounded down, for |u| < 2^13.
 #[inline]
 fn down(u: f32) -> u64 {
@@ -94,7 +107,7 @@ fn modulo_2_far(u: f32) -> u64 {
     modulo_2_integer(u)
 }
 
-/// What [`modulo_2`] is, without floating point.
+/// [`modulo_2`] without floating point.
 #[inline]
 fn modulo_2_integer(u: f32) -> u64 {
     /// The exponent field at which the significand counts units of 2^-38.

@@ -17,8 +17,8 @@
 //! use alberti_texture::{Bilinear, Clamp, Repeat, Texture, format::L8};
 //!
 //! // Ground and sky.
-//! let around = Texture::<L8>::new(&[200, 50], 1, 2)?;
-//! let around = around.sampler_per_axis::<Bilinear, Repeat, Clamp>();
+//! let around = Texture::new(L8, &[200, 50], 1, 2)?;
+//! let around = around.sampler_per_axis(Bilinear, Repeat, Clamp);
 //! // A mirror that lies on the ground, and an eye above it.
 //! let seen = reflect_lanes(One, [0.0, 1.0, 0.0], [0.6, 0.8, 0.0]);
 //! let [u, v] = LatLong.place(One, seen);

@@ -4,39 +4,42 @@
 
 use core::fmt::Debug;
 
+use alberti_math::Rgba8;
 use alberti_math::lanes::Lanes;
 
 use crate::blend::{Quad, bilinear, bilinear_scalar, spread, sums};
 use crate::format::Storage;
+use crate::sealed::Sealed;
 use crate::{Size, Texture, Wrap};
 
-/// The way of reading a colour between texels: [`Nearest`] or [`Bilinear`]. Other crates cannot add to them.
-pub trait Filter: Kernel + Copy + Debug + Default + 'static {}
-
-/// The working part of [`Filter`]; not nameable outside, so that it can still change.
-pub trait Kernel {
-    /// The colours of the texture at `u` and `v`, as words.
+/// The way of reading a colour between texels: [`Nearest`] or [`Bilinear`], and [`AnyFilter`] for one that is picked at
+/// run time. Sealed.
+pub trait Filter: Sealed + Copy + Debug + 'static {
+    /// The colours of the texture at (u, v), as words, with a wrap mode for u and one for v.
     fn sample<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+        self,
         lanes: L,
         texture: &Texture<'_, F, Z>,
-        u: L::Number,
-        v: L::Number,
+        wrap: (U, V),
+        uv: [L::Number; 2],
     ) -> L::U32;
 
     /// Red, green, blue and alpha times 2^16, before they are rounded.
     fn sums<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+        self,
         lanes: L,
         texture: &Texture<'_, F, Z>,
-        u: L::Number,
-        v: L::Number,
+        wrap: (U, V),
+        uv: [L::Number; 2],
     ) -> [L::U32; 4];
 
     /// The texture as a map of numbers, which count 65535ths.
     fn scalars<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+        self,
         lanes: L,
         texture: &Texture<'_, F, Z>,
-        u: L::Number,
-        v: L::Number,
+        wrap: (U, V),
+        uv: [L::Number; 2],
     ) -> L::U32;
 }
 
@@ -48,7 +51,7 @@ pub trait Kernel {
 ///
 /// # Cost
 /// With [`PowerOfTwo`](crate::PowerOfTwo), six operations of `f32` an axis for [`Repeat`](crate::Repeat), on all lanes
-/// at once, and the load. With [`AnySize`](crate::AnySize) about 28 instructions on x86-64 for each sample, no division
+/// at once, and the load. With sides of other lengths about 28 instructions on x86-64 for each sample, no division
 /// and no call; there, coordinates of 2^13 and more take a slower way to the same answer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Nearest;
@@ -84,117 +87,158 @@ pub struct Nearest;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Bilinear;
 
-impl Filter for Nearest {}
+/// A [`Filter`] that is picked at run time: each is the type of its name, bit for bit.
+///
+/// # Cost
+/// A match for each level that is read, and the code of both.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum AnyFilter {
+    /// [`Nearest`].
+    #[default]
+    Nearest,
+    /// [`Bilinear`].
+    Bilinear,
+}
 
-impl Kernel for Nearest {
+impl Sealed for Nearest {}
+impl Sealed for Bilinear {}
+impl Sealed for AnyFilter {}
+
+impl Filter for Nearest {
     #[inline(always)]
     fn sample<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+        self,
         lanes: L,
         texture: &Texture<'_, F, Z>,
-        u: L::Number,
-        v: L::Number,
+        wrap: (U, V),
+        uv: [L::Number; 2],
     ) -> L::U32 {
-        let at = cell::<L, F, Z, U, V>(lanes, texture, u, v);
-        texel::<L, F, Z, U, V>(lanes, texture, at)
+        let at = texture.cells(lanes, uv, wrap);
+        texel(lanes, texture, wrap, at)
     }
 
     #[inline(always)]
     fn sums<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+        self,
         lanes: L,
         texture: &Texture<'_, F, Z>,
-        u: L::Number,
-        v: L::Number,
+        wrap: (U, V),
+        uv: [L::Number; 2],
     ) -> [L::U32; 4] {
-        spread(lanes, Self::sample::<L, F, Z, U, V>(lanes, texture, u, v))
+        spread(lanes, self.sample(lanes, texture, wrap, uv))
     }
 
     #[inline(always)]
     fn scalars<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+        self,
         lanes: L,
         texture: &Texture<'_, F, Z>,
-        u: L::Number,
-        v: L::Number,
+        wrap: (U, V),
+        uv: [L::Number; 2],
     ) -> L::U32 {
-        let at = cell::<L, F, Z, U, V>(lanes, texture, u, v);
-        scalar::<L, F, Z, U, V>(lanes, texture, at)
+        let at = texture.cells(lanes, uv, wrap);
+        scalar(lanes, texture, wrap, at)
     }
 }
 
-/// The column and the row, counted from the bottom, of the texel whose cell holds a point.
-#[inline(always)]
-pub(crate) fn cell<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
-    lanes: L,
-    texture: &Texture<'_, F, Z>,
-    u: L::Number,
-    v: L::Number,
-) -> [L::U32; 2] {
-    [Z::cell::<L, U>(lanes, u, texture.width()), Z::cell::<L, V>(lanes, v, texture.height())]
-}
-
-impl Filter for Bilinear {}
-
-impl Kernel for Bilinear {
+impl Filter for Bilinear {
     #[inline(always)]
     fn sample<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+        self,
         lanes: L,
         texture: &Texture<'_, F, Z>,
-        u: L::Number,
-        v: L::Number,
+        wrap: (U, V),
+        uv: [L::Number; 2],
     ) -> L::U32 {
-        let [[left, right, along], [low, high, up]] = surrounding::<L, F, Z, U, V>(lanes, texture, u, v);
+        let [[left, right, along], [low, high, up]] = texture.between(lanes, uv, wrap);
         let quad = Quad::about(
             [left, right],
             [low, high],
             #[inline(always)]
-            |at| texel::<L, F, Z, U, V>(lanes, texture, at),
+            |at| texel(lanes, texture, wrap, at),
         );
         bilinear(lanes, quad, along, up)
     }
 
     #[inline(always)]
     fn sums<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+        self,
         lanes: L,
         texture: &Texture<'_, F, Z>,
-        u: L::Number,
-        v: L::Number,
+        wrap: (U, V),
+        uv: [L::Number; 2],
     ) -> [L::U32; 4] {
-        let [[left, right, along], [low, high, up]] = surrounding::<L, F, Z, U, V>(lanes, texture, u, v);
+        let [[left, right, along], [low, high, up]] = texture.between(lanes, uv, wrap);
         let quad = Quad::about(
             [left, right],
             [low, high],
             #[inline(always)]
-            |at| texel::<L, F, Z, U, V>(lanes, texture, at),
+            |at| texel(lanes, texture, wrap, at),
         );
         sums(lanes, quad, along, up)
     }
 
     #[inline(always)]
     fn scalars<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+        self,
         lanes: L,
         texture: &Texture<'_, F, Z>,
-        u: L::Number,
-        v: L::Number,
+        wrap: (U, V),
+        uv: [L::Number; 2],
     ) -> L::U32 {
-        let [[left, right, along], [low, high, up]] = surrounding::<L, F, Z, U, V>(lanes, texture, u, v);
+        let [[left, right, along], [low, high, up]] = texture.between(lanes, uv, wrap);
         let quad = Quad::about(
             [left, right],
             [low, high],
             #[inline(always)]
-            |at| scalar::<L, F, Z, U, V>(lanes, texture, at),
+            |at| scalar(lanes, texture, wrap, at),
         );
         bilinear_scalar(lanes, quad, along, up)
     }
 }
 
-/// The two columns about a point, and its 256ths of the way from the one to the other; the same of rows.
-#[inline(always)]
-fn surrounding<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
-    lanes: L,
-    texture: &Texture<'_, F, Z>,
-    u: L::Number,
-    v: L::Number,
-) -> [[L::U32; 3]; 2] {
-    [Z::between::<L, U>(lanes, u, texture.width()), Z::between::<L, V>(lanes, v, texture.height())]
+impl Filter for AnyFilter {
+    #[inline(always)]
+    fn sample<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+        self,
+        lanes: L,
+        texture: &Texture<'_, F, Z>,
+        wrap: (U, V),
+        uv: [L::Number; 2],
+    ) -> L::U32 {
+        match self {
+            Self::Nearest => Nearest.sample(lanes, texture, wrap, uv),
+            Self::Bilinear => Bilinear.sample(lanes, texture, wrap, uv),
+        }
+    }
+
+    #[inline(always)]
+    fn sums<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+        self,
+        lanes: L,
+        texture: &Texture<'_, F, Z>,
+        wrap: (U, V),
+        uv: [L::Number; 2],
+    ) -> [L::U32; 4] {
+        match self {
+            Self::Nearest => Nearest.sums(lanes, texture, wrap, uv),
+            Self::Bilinear => Bilinear.sums(lanes, texture, wrap, uv),
+        }
+    }
+
+    #[inline(always)]
+    fn scalars<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+        self,
+        lanes: L,
+        texture: &Texture<'_, F, Z>,
+        wrap: (U, V),
+        uv: [L::Number; 2],
+    ) -> L::U32 {
+        match self {
+            Self::Nearest => Nearest.scalars(lanes, texture, wrap, uv),
+            Self::Bilinear => Bilinear.scalars(lanes, texture, wrap, uv),
+        }
+    }
 }
 
 /// The colour in a column and in a row that is counted from the bottom, or that of the border.
@@ -202,13 +246,14 @@ fn surrounding<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
 fn texel<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
     lanes: L,
     texture: &Texture<'_, F, Z>,
+    wrap: (U, V),
     at: [L::U32; 2],
 ) -> L::U32 {
-    bordered::<L, F, Z, U, V>(
+    bordered(
         lanes,
-        texture,
+        texture.height(),
         at,
-        [U::BORDER, V::BORDER],
+        [wrap.0.border(), wrap.1.border()].map(|border| border.map(Rgba8::to_bits)),
         #[inline(always)]
         |row, column| texture.fetch(lanes, row, column),
     )
@@ -219,46 +264,42 @@ fn texel<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
 pub(crate) fn scalar<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
     lanes: L,
     texture: &Texture<'_, F, Z>,
+    wrap: (U, V),
     at: [L::U32; 2],
 ) -> L::U32 {
-    let borders = [U::BORDER, V::BORDER].map(|border| border.map(|color| (color & 255) * 257));
-    bordered::<L, F, Z, U, V>(
+    bordered(
         lanes,
-        texture,
+        texture.height(),
         at,
-        borders,
+        [wrap.0.border(), wrap.1.border()].map(|border| border.map(|color| (color.to_bits() & 255) * 257)),
         #[inline(always)]
         |row, column| texture.fetch_scalars(lanes, row, column),
     )
 }
 
-/// What `fetch` finds in a row, counted from the top, and a column; where there is no column the first of `borders`,
-/// where there is no row the second.
+/// The words that `fetch` finds in a row, counted from the top, and a column. Where there is no column, the first of
+/// `borders`; where there is no row, the second.
 #[inline(always)]
-pub(crate) fn bordered<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+pub(crate) fn bordered<L: Lanes>(
     lanes: L,
-    texture: &Texture<'_, F, Z>,
+    height: u32,
     [column, from_bottom]: [L::U32; 2],
     borders: [Option<u32>; 2],
     fetch: impl FnOnce(L::U32, L::U32) -> L::U32,
 ) -> L::U32 {
-    // Rows from the bottom are less than the height.
-    let from_top = |from_bottom| lanes.word(texture.height().wrapping_sub(1)) - from_bottom;
-    if U::BORDER.is_none() && V::BORDER.is_none() {
-        return fetch(from_top(from_bottom), column);
+    // Rows from the bottom are less than the height. Any texel, or none, outside.
+    let found = fetch(lanes.word(height.wrapping_sub(1)) - from_bottom, column);
+    if borders == [None; 2] {
+        return found;
     }
     let all = lanes.word(u32::MAX);
     // Indices outside are all ones, and no others are negative.
-    let inside = |index, border: Option<u32>| match border {
-        Some(_) => all - lanes.shr_signed(index, 31),
-        None => all,
-    };
-    let [in_column, in_row] = [inside(column, U::BORDER), inside(from_bottom, V::BORDER)];
-    // Any texel, or none, outside.
-    let found = fetch(from_top(from_bottom), column);
-    let choose = |inside, a: L::U32, b: Option<u32>| match b {
-        Some(b) => (a & inside) | (lanes.word(b) & (all - inside)),
+    let choose = |index, a: L::U32, border: Option<u32>| match border {
+        Some(border) => {
+            let inside = all - lanes.shr_signed(index, 31);
+            (a & inside) | (lanes.word(border) & (all - inside))
+        }
         None => a,
     };
-    choose(in_column, choose(in_row, found, borders[1]), borders[0])
+    choose(column, choose(from_bottom, found, borders[1]), borders[0])
 }

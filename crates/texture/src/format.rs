@@ -1,53 +1,59 @@
-//! How a stored texel becomes a colour.
+//! From a stored texel to a colour.
 //!
-//! A format is a type without values of its own: [`Texture`](crate::Texture) carries it as a parameter, so that the
-//! decoding is compiled into the sampling. [`Rgba8`], what every format decodes to, is itself one. Types of other
-//! crates can be formats too. [`Indexed`] texels are places in a palette that the texture carries.
+//! A format is a value, mostly without a size: [`Texture`](crate::Texture) carries it, and its decoding is compiled
+//! into the sampling. All decode to the colour [`Rgba8`]. Types of other crates can be formats too. [`Indexed`] texels
+//! are places in a palette, which the format refers to. [`Rgba8888`], [`Rgb565Le`] and [`Rgb565Be`] are also formats of
+//! the rasterizer's targets.
 //!
-//! What the colours stand for is part of the type: they are sRGB, unless the format is [`L16`] or wrapped in
-//! [`Linear`] or [`Normals`].
+//! The meaning of the colours is part of the format: they are sRGB, unless it is [`L16`] or wrapped in [`Scalars`] or
+//! [`Normals`].
 
 mod content;
 mod encode;
 mod indexed;
 mod storage;
 
-pub use alberti_math::Rgba8;
-pub use content::{Content, Linear, Normals};
+pub use alberti_math::{Rgb565Be, Rgb565Le, Rgba8, Rgba8888};
+pub use content::{Content, Normals, Scalars};
 pub use encode::Encode;
-pub use indexed::Indexed;
+pub use indexed::{Indexed, Indexed1, Indexed2, Indexed4, Indexed8};
 pub use storage::Storage;
 
+use core::fmt::Debug;
+
 /// A way of storing colours, each by itself.
-pub trait TexelFormat: 'static {
+pub trait TexelFormat: Copy + Debug + 'static {
     /// One stored texel.
     type Texel: Copy + Send + Sync + 'static;
 
-    /// What the colours stand for.
-    const CONTENT: Content = Content::Srgb;
+    /// The meaning of the colours.
+    #[inline]
+    fn content(self) -> Content {
+        Content::Srgb
+    }
 
     /// The colour that the texel stands for.
     ///
     /// The formats of this module expand exactly: the least and the greatest value of a channel become 0 and 255,
     /// and encoding the colour again, by dropping the low bits, gives the texel back. [`L16`] has more bits than a
     /// colour, and gives the nearest.
-    fn decode(texel: Self::Texel) -> Rgba8;
+    fn decode(self, texel: Self::Texel) -> Rgba8;
 
     /// The number from 0 to 1 that the texel stands for in a map of numbers, such as heights, as a count of 65535ths:
     /// red, and of [`L16`] all bits.
     #[inline]
-    fn scalar(texel: Self::Texel) -> u16 {
-        let [red, ..] = Self::decode(texel).to_bytes();
+    fn scalar(self, texel: Self::Texel) -> u16 {
+        let [red, ..] = self.decode(texel).to_bytes();
         u16::from(red) * 257
     }
 }
 
-/// Four bytes: red, green, blue, alpha. Decoding is one 32-bit load.
-impl TexelFormat for Rgba8 {
+/// Decoding is one 32-bit load.
+impl TexelFormat for Rgba8888 {
     type Texel = [u8; 4];
 
     #[inline]
-    fn decode([r, g, b, a]: [u8; 4]) -> Rgba8 {
+    fn decode(self, [r, g, b, a]: [u8; 4]) -> Rgba8 {
         Rgba8::new(r, g, b, a)
     }
 }
@@ -60,7 +66,7 @@ impl TexelFormat for Rgb8 {
     type Texel = [u8; 3];
 
     #[inline]
-    fn decode([r, g, b]: [u8; 3]) -> Rgba8 {
+    fn decode(self, [r, g, b]: [u8; 3]) -> Rgba8 {
         Rgba8::new(r, g, b, 255)
     }
 }
@@ -82,7 +88,7 @@ impl TexelFormat for Rgb565 {
     type Texel = u16;
 
     #[inline]
-    fn decode(texel: u16) -> Rgba8 {
+    fn decode(self, texel: u16) -> Rgba8 {
         let t = u32::from(texel);
         // The fields, at the top of their bytes, in the byte order of `Rgba8`.
         let high = (t >> 8 & 0xf8) | (t << 5 & 0xfc00) | (t << 19 & 0x00f8_0000);
@@ -91,16 +97,23 @@ impl TexelFormat for Rgb565 {
     }
 }
 
-/// [`Rgb565`] whose bytes in memory are big-endian, as many displays take them: `RRRRRGGG GGGBBBBB`. Opaque.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Rgb565Be;
+/// [`Rgb565`] whose bytes in memory are little-endian. Opaque.
+impl TexelFormat for Rgb565Le {
+    type Texel = u16;
 
+    #[inline]
+    fn decode(self, texel: u16) -> Rgba8 {
+        Rgb565.decode(u16::from_le(texel))
+    }
+}
+
+/// [`Rgb565`] whose bytes in memory are big-endian. Opaque.
 impl TexelFormat for Rgb565Be {
     type Texel = u16;
 
     #[inline]
-    fn decode(texel: u16) -> Rgba8 {
-        Rgb565::decode(u16::from_be(texel))
+    fn decode(self, texel: u16) -> Rgba8 {
+        Rgb565.decode(u16::from_be(texel))
     }
 }
 
@@ -115,7 +128,7 @@ impl TexelFormat for Rgba4444 {
     type Texel = u16;
 
     #[inline]
-    fn decode(texel: u16) -> Rgba8 {
+    fn decode(self, texel: u16) -> Rgba8 {
         let t = u32::from(texel);
         // The fields, at the bottom of their bytes, in the byte order of `Rgba8`.
         let low = (t >> 12) | (t & 0x0f00) | (t << 12 & 0x000f_0000) | (t << 24 & 0x0f00_0000);
@@ -131,7 +144,7 @@ impl TexelFormat for L8 {
     type Texel = u8;
 
     #[inline]
-    fn decode(texel: u8) -> Rgba8 {
+    fn decode(self, texel: u8) -> Rgba8 {
         Rgba8::from_bits((u32::from(texel) * 0x0001_0101) | 0xff00_0000)
     }
 }
@@ -144,12 +157,12 @@ impl TexelFormat for La8 {
     type Texel = [u8; 2];
 
     #[inline]
-    fn decode([luminance, alpha]: [u8; 2]) -> Rgba8 {
+    fn decode(self, [luminance, alpha]: [u8; 2]) -> Rgba8 {
         Rgba8::new(luminance, luminance, luminance, alpha)
     }
 }
 
-/// Sixteen bits of luminance in the machine's byte order, heights for example: [`Content::Linear`]. Opaque.
+/// Sixteen bits of luminance in the machine's byte order, heights for example: [`Content::Scalars`]. Opaque.
 ///
 /// # Precision
 /// As a colour the nearest of 256 steps. As a number, which [`Sampler::scalar_lanes`](crate::Sampler::scalar_lanes)
@@ -159,16 +172,20 @@ pub struct L16;
 
 impl TexelFormat for L16 {
     type Texel = u16;
-    const CONTENT: Content = Content::Linear;
 
     #[inline]
-    fn decode(texel: u16) -> Rgba8 {
-        // 255/65535, rounded: 2^16 is that much above 65535, and 128 of 65535 makes up for it.
-        L8::decode(((u32::from(texel) * 255 + 32895) >> 16).to_le_bytes()[0])
+    fn content(self) -> Content {
+        Content::Scalars
     }
 
     #[inline]
-    fn scalar(texel: u16) -> u16 {
+    fn decode(self, texel: u16) -> Rgba8 {
+        // 255/65535, rounded: 2^16 is that much above 65535, and 128 of 65535 makes up for it.
+        L8.decode(((u32::from(texel) * 255 + 32895) >> 16).to_le_bytes()[0])
+    }
+
+    #[inline]
+    fn scalar(self, texel: u16) -> u16 {
         texel
     }
 }
@@ -181,7 +198,7 @@ mod tests {
     #[test]
     fn rgb565_repeats_bits() {
         for texel in 0..=u16::MAX {
-            let [r, g, b, a] = Rgb565::decode(texel).to_bytes();
+            let [r, g, b, a] = Rgb565.decode(texel).to_bytes();
             let r5 = texel / 2048;
             let g6 = texel / 32 % 64;
             let b5 = texel % 32;
@@ -200,10 +217,10 @@ mod tests {
     #[test]
     fn byte_formats() {
         for byte in 0..=255 {
-            assert_eq!(L8::decode(byte), Rgba8::new(byte, byte, byte, 255));
-            assert_eq!(Rgb8::decode([byte, 7, 255 - byte]), Rgba8::new(byte, 7, 255 - byte, 255));
-            assert_eq!(Rgba8::decode([1, byte, 3, !byte]), Rgba8::new(1, byte, 3, !byte));
-            assert_eq!(La8::decode([byte, 7]), Rgba8::new(byte, byte, byte, 7));
+            assert_eq!(L8.decode(byte), Rgba8::new(byte, byte, byte, 255));
+            assert_eq!(Rgb8.decode([byte, 7, 255 - byte]), Rgba8::new(byte, 7, 255 - byte, 255));
+            assert_eq!(Rgba8888.decode([1, byte, 3, !byte]), Rgba8::new(1, byte, 3, !byte));
+            assert_eq!(La8.decode([byte, 7]), Rgba8::new(byte, byte, byte, 7));
         }
     }
 
@@ -211,12 +228,13 @@ mod tests {
     fn words_of_16_bits() {
         for texel in 0..=u16::MAX {
             let [high, low] = texel.to_be_bytes();
-            assert_eq!(Rgb565Be::decode(u16::from_ne_bytes([high, low])), Rgb565::decode(texel));
+            assert_eq!(Rgb565Be.decode(u16::from_ne_bytes([high, low])), Rgb565.decode(texel));
+            assert_eq!(Rgb565Le.decode(u16::from_ne_bytes([low, high])), Rgb565.decode(texel));
             let wide = |digit: u8| digit * 16 + digit;
             let fields = [high / 16, high % 16, low / 16, low % 16].map(wide);
-            assert_eq!(Rgba4444::decode(texel).to_bytes(), fields);
+            assert_eq!(Rgba4444.decode(texel).to_bytes(), fields);
             let nearest = u8::try_from((2 * 255 * u32::from(texel) + 65535) / (2 * 65535)).unwrap();
-            assert_eq!(L16::decode(texel), Rgba8::new(nearest, nearest, nearest, 255));
+            assert_eq!(L16.decode(texel), Rgba8::new(nearest, nearest, nearest, 255));
         }
     }
 }

@@ -14,6 +14,8 @@ use core::ops::{Add, Div, Mul, Sub};
 use alberti_math::lanes::{Lanes, One};
 use glam::{Mat2, Vec2};
 
+use crate::sealed::Sealed;
+
 /// How texture coordinates change from a pixel to the next one, to the right and downwards.
 ///
 /// # Precision
@@ -166,13 +168,16 @@ impl Derivatives<f32> {
     }
 }
 
-/// What becomes of λ before levels are chosen: nothing (`()`), or what [`LodBounds`] say.
-pub trait Bounds: Copy + Debug + 'static {
+/// The change of λ before levels are chosen: none, `()`, or [`LodBounds`]. Sealed.
+pub trait LodPolicy: Sealed + Copy + Debug + 'static {
     /// The bounded λ, of several samples.
     fn bound_lanes<L: Lanes>(self, lanes: L, lambda: L::Number) -> L::Number;
 }
 
-impl Bounds for () {
+impl Sealed for () {}
+impl Sealed for LodBounds {}
+
+impl LodPolicy for () {
     #[inline(always)]
     fn bound_lanes<L: Lanes>(self, _: L, lambda: L::Number) -> L::Number {
         lambda
@@ -196,7 +201,7 @@ impl Bounds for () {
 /// An addition and two comparisons a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LodBounds {
-    /// What is added: below 0 for sharper pictures, above for softer ones.
+    /// The summand: below 0 for sharper pictures, above for softer ones.
     pub bias: f32,
     /// The least that comes out. Above 0, the levels below it are never read, nor is the filter of magnification used.
     pub least: f32,
@@ -219,7 +224,7 @@ impl LodBounds {
     }
 }
 
-impl Bounds for LodBounds {
+impl LodPolicy for LodBounds {
     #[inline(always)]
     fn bound_lanes<L: Lanes>(self, lanes: L, lambda: L::Number) -> L::Number {
         let biased = lambda + lanes.splat(self.bias);

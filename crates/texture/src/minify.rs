@@ -4,68 +4,73 @@
 //! as they are stored.
 
 use core::fmt::Debug;
-use core::marker::PhantomData;
 
 use alberti_math::lanes::Lanes;
 
 use crate::blend::between;
 use crate::filter::{Bilinear, Filter};
 use crate::format::Storage;
-use crate::{Bounds, Derivatives, LevelSize, Mipmap, Wrap};
+use crate::sealed::Sealed;
+use crate::{Derivatives, LevelSize, LodPolicy, Mipmap, Wrap};
 
-/// The way of reading a [`Mipmap`]: [`Minify`], [`Trilinear`] for one, or
-/// [`Anisotropic`](crate::Anisotropic). Other crates cannot add to
-/// them.
-pub trait MipFilter: MipKernel + Copy + Debug + Default + 'static {}
-
-/// The working part of [`MipFilter`]; not nameable outside, so that it can still change.
-pub trait MipKernel {
-    /// The colours at `u` and `v`, as words, for a level of detail of λ.
+/// The way of reading a [`Mipmap`]: [`Minify`], [`Trilinear`] or [`Anisotropic`](crate::Anisotropic), and
+/// [`AnyMipFilter`](crate::AnyMipFilter) for one that is picked at run time. Sealed.
+pub trait MipFilter: Sealed + Copy + Debug + 'static {
+    /// The colours at (u, v), as words, for a level of detail of λ, with a wrap mode for u and one for v.
     fn at_lod<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap>(
+        self,
         lanes: L,
         mipmap: &Mipmap<'_, F, Z>,
-        u: L::Number,
-        v: L::Number,
+        wrap: (U, V),
+        uv: [L::Number; 2],
         lambda: L::Number,
     ) -> L::U32;
 
     /// The same for pixels that the derivatives tell the shapes of, with their λ bounded.
     #[inline(always)]
     fn in_footprint<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap>(
+        self,
         lanes: L,
         mipmap: &Mipmap<'_, F, Z>,
-        u: L::Number,
-        v: L::Number,
+        wrap: (U, V),
+        uv: [L::Number; 2],
         derivatives: Derivatives<L::Number>,
-        bounds: impl Bounds,
+        bounds: impl LodPolicy,
     ) -> L::U32 {
         let lambda = bounds.bound_lanes(lanes, derivatives.lod_lanes(lanes, mipmap.size()));
-        Self::at_lod::<L, F, Z, U, V>(lanes, mipmap, u, v, lambda)
+        self.at_lod(lanes, mipmap, wrap, uv, lambda)
     }
 }
 
-/// Where texels are smaller than pixels (λ > 0) the filter `Min` in the levels that `Lv` says, elsewhere (also where λ
-/// is NaN) the filter `Mag` in level 0.
+/// Where texels are smaller than pixels (λ > 0) the filter `min` in the levels that `levels` says, elsewhere (also
+/// where λ is NaN) the filter `mag` in level 0.
 ///
 /// # Cost
-/// One filter, if all samples that are worked on together are on the same side of 0; the levels are those of `Lv`.
+/// One filter, if all samples that are worked on together are on the same side of 0; the levels are those of `levels`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Minify<Min, Lv, Mag = Min>(PhantomData<(Min, Lv, Mag)>);
+pub struct Minify<Min, Lv, Mag = Min> {
+    /// The [`Filter`] of minification.
+    pub min: Min,
+    /// The [`Levels`] that it is used in.
+    pub levels: Lv,
+    /// The [`Filter`] of magnification.
+    pub mag: Mag,
+}
 
-/// [`Bilinear`] in two levels, and the mean of these.
-pub type Trilinear = Minify<Bilinear, BetweenLevels>;
+/// [`Bilinear`] in two levels, and the mean of these: [`Minify`] by [`Bilinear`] and [`BetweenLevels`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Trilinear;
 
-/// Which levels are read: [`BaseLevel`], [`NearestLevel`] or [`BetweenLevels`]. Other crates cannot add to them.
-pub trait Levels: LevelKernel + Copy + Debug + Default + 'static {}
-
-/// The working part of [`Levels`]; not nameable outside, so that it can still change.
-pub trait LevelKernel {
+/// The levels that are read: [`BaseLevel`], [`NearestLevel`] or [`BetweenLevels`]. Sealed.
+pub trait Levels: Sealed + Copy + Debug + 'static {
     /// The colours as words, for λ from 0 to that of the last level.
     fn sample<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap, Fl: Filter>(
+        self,
         lanes: L,
         mipmap: &Mipmap<'_, F, Z>,
-        u: L::Number,
-        v: L::Number,
+        filter: Fl,
+        wrap: (U, V),
+        uv: [L::Number; 2],
         lambda: L::Number,
     ) -> L::U32;
 }
@@ -102,15 +107,20 @@ pub struct NearestLevel;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct BetweenLevels;
 
-impl<Min: Filter, Lv: Levels, Mag: Filter> MipFilter for Minify<Min, Lv, Mag> {}
+impl<Min, Lv, Mag> Sealed for Minify<Min, Lv, Mag> {}
+impl Sealed for Trilinear {}
+impl Sealed for BaseLevel {}
+impl Sealed for NearestLevel {}
+impl Sealed for BetweenLevels {}
 
-impl<Min: Filter, Lv: Levels, Mag: Filter> MipKernel for Minify<Min, Lv, Mag> {
+impl<Min: Filter, Lv: Levels, Mag: Filter> MipFilter for Minify<Min, Lv, Mag> {
     #[inline(always)]
     fn at_lod<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap>(
+        self,
         lanes: L,
         mipmap: &Mipmap<'_, F, Z>,
-        u: L::Number,
-        v: L::Number,
+        wrap: (U, V),
+        uv: [L::Number; 2],
         lambda: L::Number,
     ) -> L::U32 {
         let minified = lanes.less(lanes.splat(0.0), lambda);
@@ -119,60 +129,74 @@ impl<Min: Filter, Lv: Levels, Mag: Filter> MipKernel for Minify<Min, Lv, Mag> {
         if bits != 0 {
             let last = lanes.int_to_number(lanes.int(mipmap.last()));
             let lambda = lanes.min(lanes.max(lambda, lanes.splat(0.0)), last);
-            found = Lv::sample::<L, F, Z, U, V, Min>(lanes, mipmap, u, v, lambda);
+            found = self.levels.sample(lanes, mipmap, self.min, wrap, uv, lambda);
         }
         if bits != every::<L>() {
-            let magnified = Mag::sample::<L, F, Z, U, V>(lanes, &mipmap.level(0), u, v);
+            let magnified = self.mag.sample(lanes, &mipmap.level(0), wrap, uv);
             found = lanes.select_words(minified, found, magnified);
         }
         found
     }
 }
 
-impl Levels for BaseLevel {}
-
-impl LevelKernel for BaseLevel {
+impl MipFilter for Trilinear {
     #[inline(always)]
-    fn sample<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap, Fl: Filter>(
+    fn at_lod<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap>(
+        self,
         lanes: L,
         mipmap: &Mipmap<'_, F, Z>,
-        u: L::Number,
-        v: L::Number,
-        _: L::Number,
+        wrap: (U, V),
+        uv: [L::Number; 2],
+        lambda: L::Number,
     ) -> L::U32 {
-        Fl::sample::<L, F, Z, U, V>(lanes, &mipmap.level(0), u, v)
+        Minify { min: Bilinear, levels: BetweenLevels, mag: Bilinear }.at_lod(lanes, mipmap, wrap, uv, lambda)
     }
 }
 
-impl Levels for NearestLevel {}
-
-impl LevelKernel for NearestLevel {
+impl Levels for BaseLevel {
     #[inline(always)]
     fn sample<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap, Fl: Filter>(
+        self,
         lanes: L,
         mipmap: &Mipmap<'_, F, Z>,
-        u: L::Number,
-        v: L::Number,
+        filter: Fl,
+        wrap: (U, V),
+        uv: [L::Number; 2],
+        _: L::Number,
+    ) -> L::U32 {
+        filter.sample(lanes, &mipmap.level(0), wrap, uv)
+    }
+}
+
+impl Levels for NearestLevel {
+    #[inline(always)]
+    fn sample<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap, Fl: Filter>(
+        self,
+        lanes: L,
+        mipmap: &Mipmap<'_, F, Z>,
+        filter: Fl,
+        wrap: (U, V),
+        uv: [L::Number; 2],
         lambda: L::Number,
     ) -> L::U32 {
         each_word(
             lanes,
             lanes.round_scaled(lambda, 0),
             #[inline(always)]
-            |level| Fl::sample::<L, F, Z, U, V>(lanes, &mipmap.level(level as usize), u, v),
+            |level| filter.sample(lanes, &mipmap.level(level as usize), wrap, uv),
         )
     }
 }
 
-impl Levels for BetweenLevels {}
-
-impl LevelKernel for BetweenLevels {
+impl Levels for BetweenLevels {
     #[inline(always)]
     fn sample<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap, Fl: Filter>(
+        self,
         lanes: L,
         mipmap: &Mipmap<'_, F, Z>,
-        u: L::Number,
-        v: L::Number,
+        filter: Fl,
+        wrap: (U, V),
+        uv: [L::Number; 2],
         lambda: L::Number,
     ) -> L::U32 {
         let position = lanes.round_scaled(lambda, 8);
@@ -184,12 +208,8 @@ impl LevelKernel for BetweenLevels {
             #[inline(always)]
             |level| {
                 let level = level as usize;
-                let near = Fl::sums::<L, F, Z, U, V>(lanes, &mipmap.level(level), u, v);
-                let far = if whole {
-                    near
-                } else {
-                    Fl::sums::<L, F, Z, U, V>(lanes, &mipmap.level(level + 1), u, v)
-                };
+                let near = filter.sums(lanes, &mipmap.level(level), wrap, uv);
+                let far = if whole { near } else { filter.sums(lanes, &mipmap.level(level + 1), wrap, uv) };
                 between(lanes, near, far, along)
             },
         )
@@ -201,8 +221,8 @@ const fn every<L: Lanes>() -> u32 {
     (1 << L::COUNT) - 1
 }
 
-/// What `f` makes of each word, asked once for all lanes that have the same. Closures that are this large are only
-/// inlined, and so compiled for the lanes, if they say so.
+/// The words that `f` makes of each word, asked once for all lanes that have the same. Closures that are this large are
+/// only inlined, and so compiled for the lanes, if they say so.
 #[inline(always)]
 pub(crate) fn each_word<L: Lanes>(lanes: L, words: L::U32, mut f: impl FnMut(u32) -> L::U32) -> L::U32 {
     let words = lanes.store_words(words);

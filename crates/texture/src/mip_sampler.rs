@@ -1,7 +1,6 @@
 //! A mip map together with the way of reading it.
 
 use core::fmt;
-use core::marker::PhantomData;
 
 use alberti_math::Rgba8;
 use alberti_math::lanes::{Lanes, One};
@@ -9,11 +8,11 @@ use glam::Vec2;
 
 use crate::format::Storage;
 use crate::minify::MipFilter;
-use crate::{AnySize, Bounds, Derivatives, LevelSize, LodBounds, Mipmap, Size, Wrap};
+use crate::{AnySize, Derivatives, LevelSize, LodBounds, LodPolicy, Mipmap, Size, Wrap};
 
 /// A mip map with a filter and a wrap mode for each axis: what a fragment that knows its size asks for a colour.
 ///
-/// Made by [`Mipmap::sampler`] and [`Mipmap::sampler_per_axis`]; `B` is what becomes of λ, nothing but for
+/// Made by [`Mipmap::sampler`] and [`Mipmap::sampler_per_axis`]; `B` is the [`LodPolicy`], none but for
 /// [`bounded`](Self::bounded) ones.
 ///
 /// ```
@@ -21,8 +20,8 @@ use crate::{AnySize, Bounds, Derivatives, LevelSize, LodBounds, Mipmap, Size, Wr
 /// use alberti_texture::{Derivatives, Mipmap, Repeat, Trilinear};
 /// use glam::Vec2;
 ///
-/// let board = Mipmap::<L8>::new(&[0, 255, 255, 0, 188], 2, 2)?;
-/// let sampler = board.sampler::<Trilinear, Repeat>();
+/// let board = Mipmap::new(L8, &[0, 255, 255, 0, 188], 2, 2)?;
+/// let sampler = board.sampler(Trilinear, Repeat);
 /// let uv = Vec2::new(0.25, 0.25);
 /// // Pixels as large as texels, four times as large, and in between.
 /// assert_eq!(sampler.sample_lod(uv, 0.0).to_bytes()[0], 255);
@@ -33,20 +32,22 @@ use crate::{AnySize, Bounds, Derivatives, LevelSize, LodBounds, Mipmap, Size, Wr
 /// assert_eq!(sampler.sample_grad(uv, derivatives).to_bytes()[0], 188);
 /// # Ok::<(), alberti_texture::TextureError>(())
 /// ```
+#[derive(Clone, Copy)]
 pub struct MipSampler<'a, F: Storage, M, U, V = U, Z: Size = AnySize, B = ()> {
     mipmap: Mipmap<'a, F, Z>,
+    filter: M,
+    wrap: (U, V),
     bounds: B,
-    modes: PhantomData<(M, U, V)>,
 }
 
 impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize> MipSampler<'a, F, M, U, V, Z> {
     #[inline]
-    pub(crate) const fn new(mipmap: Mipmap<'a, F, Z>) -> Self {
-        Self { mipmap, bounds: (), modes: PhantomData }
+    pub(crate) const fn new(mipmap: Mipmap<'a, F, Z>, filter: M, wrap: (U, V)) -> Self {
+        Self { mipmap, filter, wrap, bounds: () }
     }
 }
 
-impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize, B: Bounds>
+impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize, B: LodPolicy>
     MipSampler<'a, F, M, U, V, Z, B>
 {
     /// The same sampler with a bias of λ and limits, in place of those that it may have had.
@@ -56,15 +57,15 @@ impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize, B: Bounds>
     /// use alberti_texture::{LodBounds, Mipmap, Repeat, Trilinear};
     /// use glam::Vec2;
     ///
-    /// let board = Mipmap::<L8>::new(&[0, 255, 255, 0, 188], 2, 2)?;
-    /// let softer = board.sampler::<Trilinear, Repeat>().bounded(LodBounds { bias: 0.5, ..LodBounds::default() });
+    /// let board = Mipmap::new(L8, &[0, 255, 255, 0, 188], 2, 2)?;
+    /// let softer = board.sampler(Trilinear, Repeat).bounded(LodBounds { bias: 0.5, ..LodBounds::default() });
     /// assert_eq!(softer.sample_lod(Vec2::new(0.25, 0.25), 0.0).to_bytes()[0], 222);
     /// # Ok::<(), alberti_texture::TextureError>(())
     /// ```
     #[inline]
     #[must_use]
     pub const fn bounded(self, bounds: LodBounds) -> MipSampler<'a, F, M, U, V, Z, LodBounds> {
-        MipSampler { mipmap: self.mipmap, bounds, modes: PhantomData }
+        MipSampler { mipmap: self.mipmap, filter: self.filter, wrap: self.wrap, bounds }
     }
 
     /// The mip map that is sampled.
@@ -95,7 +96,8 @@ impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize, B: Bounds>
         v: L::Number,
         lambda: L::Number,
     ) -> L::U32 {
-        M::at_lod::<L, F, Z, U, V>(lanes, &self.mipmap, u, v, self.bounds.bound_lanes(lanes, lambda))
+        let lambda = self.bounds.bound_lanes(lanes, lambda);
+        self.filter.at_lod(lanes, &self.mipmap, self.wrap, [u, v], lambda)
     }
 
     /// The colour at `uv` of a pixel with these derivatives: for λ, or with its shape
@@ -118,28 +120,19 @@ impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize, B: Bounds>
         v: L::Number,
         derivatives: Derivatives<L::Number>,
     ) -> L::U32 {
-        M::in_footprint::<L, F, Z, U, V>(lanes, &self.mipmap, u, v, derivatives, self.bounds)
+        self.filter.in_footprint(lanes, &self.mipmap, self.wrap, [u, v], derivatives, self.bounds)
     }
 }
 
-impl<F: Storage, M, U, V, Z: Size, B: Copy> Clone for MipSampler<'_, F, M, U, V, Z, B> {
-    #[inline]
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<F: Storage, M, U, V, Z: Size, B: Copy> Copy for MipSampler<'_, F, M, U, V, Z, B> {}
-
-impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: Size, B: Bounds> fmt::Debug
+impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: Size, B: LodPolicy> fmt::Debug
     for MipSampler<'_, F, M, U, V, Z, B>
 {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("MipSampler")
             .field("mipmap", &self.mipmap)
             .field("bounds", &self.bounds)
-            .field("filter", &M::default())
-            .field("wrap", &(U::default(), V::default()))
+            .field("filter", &self.filter)
+            .field("wrap", &self.wrap)
             .finish()
     }
 }

@@ -22,14 +22,10 @@ pub use build::build;
 pub use mean::Mean;
 
 use core::fmt;
-use core::marker::PhantomData;
 
-use alberti_math::Rgba8;
-
-use crate::format::{Indexed, Storage};
-use crate::{
-    AnySize, LevelSize, MipFilter, MipSampler, PowerOfTwo, Size, TexelFormat, Texture, TextureError, Wrap,
-};
+use crate::format::Storage;
+use crate::texture::MAX_SIZE;
+use crate::{AnySize, LevelSize, MipFilter, MipSampler, PowerOfTwo, Size, Texture, TextureError, Wrap};
 
 /// The greatest number of levels: of a side of 2^14 texels.
 pub const MAX_LEVELS: usize = 15;
@@ -79,7 +75,7 @@ const fn size_of_level([width, height]: [u32; 2], level: usize) -> [u32; 2] {
 /// ```
 /// use alberti_texture::{Mipmap, format::L8};
 ///
-/// static BOARD: Mipmap<'static, L8> = match Mipmap::new(&[0, 255, 255, 0, 188], 2, 2) {
+/// static BOARD: Mipmap<'static, L8> = match Mipmap::new(L8, &[0, 255, 255, 0, 188], 2, 2) {
 ///     Ok(mipmap) => mipmap,
 ///     Err(_) => panic!("a level of 2 x 2 and one of 1 x 1"),
 /// };
@@ -87,54 +83,32 @@ const fn size_of_level([width, height]: [u32; 2], level: usize) -> [u32; 2] {
 /// ```
 pub struct Mipmap<'a, F: Storage, Z: Size = AnySize> {
     elements: &'a [F::Element],
-    palette: F::Palette<'a>,
+    format: F,
     /// Where levels begin, and behind them where the last ends.
     begin: [u32; MAX_LEVELS + 1],
     levels: u8,
     width: u16,
     height: u16,
-    size: PhantomData<Z>,
-}
-
-impl<'a, F: TexelFormat> Mipmap<'a, F> {
-    /// The view of the levels of a texture, one after the other: all, or as many as there are texels for.
-    ///
-    /// # Errors
-    /// If a side is 0 or greater than [`Texture::MAX_SIZE`], or if these are not the texels of whole levels.
-    pub const fn new(texels: &'a [F::Texel], width: u32, height: u32) -> Result<Self, TextureError> {
-        Self::stored(texels, (), width, height, 1)
-    }
-}
-
-impl<'a, const BITS: u32> Mipmap<'a, Indexed<BITS>> {
-    /// The same for texels that are places in a palette: see [`Indexed`] for their order.
-    ///
-    /// # Errors
-    /// As [`new`](Mipmap::new), of bytes.
-    pub const fn indexed(
-        bytes: &'a [u8],
-        palette: &'a [Rgba8],
-        width: u32,
-        height: u32,
-    ) -> Result<Self, TextureError> {
-        Self::stored(bytes, palette, width, height, Indexed::<BITS>::IN_BYTE)
-    }
+    size: Z,
 }
 
 impl<'a, F: Storage> Mipmap<'a, F> {
-    /// The view of elements that hold so many texels each.
+    /// The view of the levels of a texture, one after the other: all, or as many as there are texels for. Of
+    /// [`Indexed`](crate::format::Indexed) texels these are bytes.
+    ///
+    /// # Errors
+    /// If a side is 0 or greater than 16384, or if these are not the texels of whole levels.
     #[expect(clippy::cast_possible_truncation, reason = "sides are at most 2^14, texels at most 4/3 of 2^28")]
-    const fn stored(
+    pub const fn new(
+        format: F,
         elements: &'a [F::Element],
-        palette: F::Palette<'a>,
         width: u32,
         height: u32,
-        in_element: u32,
     ) -> Result<Self, TextureError> {
         if width == 0 || height == 0 {
             return Err(TextureError::ZeroSize { width, height });
         }
-        if width > Texture::<F>::MAX_SIZE || height > Texture::<F>::MAX_SIZE {
+        if width > MAX_SIZE || height > MAX_SIZE {
             return Err(TextureError::TooLarge { width, height });
         }
         let mut begin = [0; MAX_LEVELS + 1];
@@ -143,26 +117,26 @@ impl<'a, F: Storage> Mipmap<'a, F> {
             && (levels == 0 || (begin[levels] as usize) < elements.len())
         {
             let [width, height] = size_of_level([width, height], levels);
-            begin[levels + 1] = begin[levels] + width.div_ceil(in_element) * height;
+            begin[levels + 1] = begin[levels] + width.div_ceil(F::IN_ELEMENT) * height;
             levels += 1;
         }
         let expected = begin[levels];
         if elements.len() as u64 != expected as u64 {
             return Err(TextureError::Length { found: elements.len(), expected });
         }
+        let size = AnySize::of(width, height);
         let (levels, width, height) = (levels as u8, width as u16, height as u16);
-        Ok(Self { elements, palette, begin, levels, width, height, size: PhantomData })
+        Ok(Self { elements, format, begin, levels, width, height, size })
     }
 
     /// The same levels, known to have sides that are powers of two, if they have. They are faster to sample, and show
     /// the same.
     #[must_use]
     pub const fn power_of_two(self) -> Option<Mipmap<'a, F, PowerOfTwo>> {
-        let Self { elements, palette, begin, levels, width, height, .. } = self;
-        if width.is_power_of_two() && height.is_power_of_two() {
-            Some(Mipmap { elements, palette, begin, levels, width, height, size: PhantomData })
-        } else {
-            None
+        let Self { elements, format, begin, levels, width, height, size } = self;
+        match size.power_of_two() {
+            Some(size) => Some(Mipmap { elements, format, begin, levels, width, height, size }),
+            None => None,
         }
     }
 }
@@ -187,18 +161,23 @@ impl<'a, F: Storage, Z: LevelSize> Mipmap<'a, F, Z> {
         [self.width.into(), self.height.into()]
     }
 
-    /// A sampler with the same wrap mode on both axes: `mipmap.sampler::<Trilinear, Repeat>()`.
+    /// A sampler with the same wrap mode on both axes: `mipmap.sampler(Trilinear, Repeat)`.
     #[inline]
     #[must_use]
-    pub const fn sampler<M: MipFilter, W: Wrap>(&self) -> MipSampler<'a, F, M, W, W, Z> {
-        MipSampler::new(*self)
+    pub const fn sampler<M: MipFilter, W: Wrap>(&self, filter: M, wrap: W) -> MipSampler<'a, F, M, W, W, Z> {
+        MipSampler::new(*self, filter, (wrap, wrap))
     }
 
-    /// A sampler with the wrap mode `U` from left to right and `V` from bottom to top.
+    /// A sampler with one wrap mode from left to right and one from bottom to top.
     #[inline]
     #[must_use]
-    pub const fn sampler_per_axis<M: MipFilter, U: Wrap, V: Wrap>(&self) -> MipSampler<'a, F, M, U, V, Z> {
-        MipSampler::new(*self)
+    pub const fn sampler_per_axis<M: MipFilter, U: Wrap, V: Wrap>(
+        &self,
+        filter: M,
+        u: U,
+        v: V,
+    ) -> MipSampler<'a, F, M, U, V, Z> {
+        MipSampler::new(*self, filter, (u, v))
     }
 
     /// A level, 0 the largest; beyond the last, the last.
@@ -210,10 +189,11 @@ impl<'a, F: Storage, Z: LevelSize> Mipmap<'a, F, Z> {
     pub fn level(&self, level: usize) -> Texture<'a, F, Z> {
         let level = level.min(self.levels().saturating_sub(1));
         let at = |level: usize| self.begin.get(level).copied().unwrap_or_default() as usize;
-        // They are there, as `stored` has compared.
+        // They are there, as `new` has compared.
         let elements = self.elements.get(at(level)..at(level + 1)).unwrap_or_default();
-        let size = [self.width, self.height].map(|side| (side >> level).max(1));
-        Texture::of_parts(Z::slice(elements), self.palette, size)
+        let sides = [self.width, self.height].map(|side| (side >> level).max(1));
+        // Halves of powers of two are some too.
+        Texture::of_parts(self.size.slice(elements), self.format, sides, self.size)
     }
 }
 

@@ -1,29 +1,30 @@
 //! A texture together with the way of reading it.
 
 use core::fmt;
-use core::marker::PhantomData;
 
 use alberti_math::Rgba8;
 use alberti_math::lanes::{Lanes, One};
 use glam::Vec2;
 
 use crate::blend::scalar_number;
-use crate::filter::{Filter, bordered, cell};
+use crate::filter::{Filter, bordered};
 use crate::format::Storage;
 use crate::{AnySize, Nearest, Size, TexelFormat, Texture, Wrap};
 
 /// A texture with a filter and a wrap mode for each axis: what a fragment asks for a colour.
 ///
 /// Made by [`Texture::sampler`] and [`Texture::sampler_per_axis`]; as cheap to copy as the texture.
+#[derive(Clone, Copy)]
 pub struct Sampler<'a, F: Storage, Fl, U, V = U, Z: Size = AnySize> {
     texture: Texture<'a, F, Z>,
-    modes: PhantomData<(Fl, U, V)>,
+    filter: Fl,
+    wrap: (U, V),
 }
 
 impl<'a, F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size> Sampler<'a, F, Fl, U, V, Z> {
     #[inline]
-    pub(crate) const fn new(texture: Texture<'a, F, Z>) -> Self {
-        Self { texture, modes: PhantomData }
+    pub(crate) const fn new(texture: Texture<'a, F, Z>, filter: Fl, wrap: (U, V)) -> Self {
+        Self { texture, filter, wrap }
     }
 
     /// The texture that is sampled.
@@ -41,14 +42,13 @@ impl<'a, F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size> Sampler<'a, F, Fl, U
     #[inline]
     #[must_use]
     pub fn sample(&self, uv: Vec2) -> Rgba8 {
-        let word = Fl::sample::<One, F, Z, U, V>(One, &self.texture, uv.x, uv.y);
-        Rgba8::from_bits(word.0)
+        Rgba8::from_bits(self.sample_lanes(One, uv.x, uv.y).0)
     }
 
     /// [`sample`](Self::sample) at several places: the colours as words, as [`Rgba8::to_bits`] makes them.
     #[inline(always)]
     pub fn sample_lanes<L: Lanes>(&self, lanes: L, u: L::Number, v: L::Number) -> L::U32 {
-        Fl::sample::<L, F, Z, U, V>(lanes, &self.texture, u, v)
+        self.filter.sample(lanes, &self.texture, self.wrap, [u, v])
     }
 
     /// The numbers from 0 to 1 at several places of a map of numbers, such as heights: the red channel, in steps of
@@ -60,12 +60,13 @@ impl<'a, F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size> Sampler<'a, F, Fl, U
     /// filter in real numbers. In fixed point rounded down.
     #[inline(always)]
     pub fn scalar_lanes<L: Lanes>(&self, lanes: L, u: L::Number, v: L::Number) -> L::Number {
-        scalar_number(lanes, Fl::scalars::<L, F, Z, U, V>(lanes, &self.texture, u, v))
+        scalar_number(lanes, self.filter.scalars(lanes, &self.texture, self.wrap, [u, v]))
     }
 }
 
 impl<F: TexelFormat, U: Wrap, V: Wrap, Z: Size> Sampler<'_, F, Nearest, U, V, Z> {
-    /// What `word` makes of the texels as they are stored; there always is one, but in a [`Border`](crate::Border).
+    /// The words that `word` makes of the texels as they are stored; there always is one, but in a
+    /// [`Border`](crate::Border).
     #[inline(always)]
     pub fn stored_lanes<L: Lanes>(
         &self,
@@ -74,30 +75,21 @@ impl<F: TexelFormat, U: Wrap, V: Wrap, Z: Size> Sampler<'_, F, Nearest, U, V, Z>
         v: L::Number,
         word: impl Fn(Option<F::Texel>) -> u32,
     ) -> L::U32 {
-        let texture = &self.texture;
-        let at = cell::<L, F, Z, U, V>(lanes, texture, u, v);
-        let borders = [U::BORDER, V::BORDER].map(|border| border.map(|_| word(None)));
-        bordered::<L, F, Z, U, V>(lanes, texture, at, borders, |row, column| {
+        let (texture, (u_wrap, v_wrap)) = (&self.texture, self.wrap);
+        let at = texture.cells(lanes, [u, v], self.wrap);
+        let borders = [u_wrap.border(), v_wrap.border()].map(|border| border.map(|_| word(None)));
+        bordered(lanes, texture.height(), at, borders, |row, column| {
             texture.words(lanes, row, column, |texel| word(texel.copied()))
         })
     }
 }
 
-impl<F: Storage, Fl, U, V, Z: Size> Clone for Sampler<'_, F, Fl, U, V, Z> {
-    #[inline]
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<F: Storage, Fl, U, V, Z: Size> Copy for Sampler<'_, F, Fl, U, V, Z> {}
-
 impl<F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size> fmt::Debug for Sampler<'_, F, Fl, U, V, Z> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Sampler")
             .field("texture", &self.texture)
-            .field("filter", &Fl::default())
-            .field("wrap", &(U::default(), V::default()))
+            .field("filter", &self.filter)
+            .field("wrap", &self.wrap)
             .finish()
     }
 }

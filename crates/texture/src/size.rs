@@ -1,80 +1,128 @@
-//! What is known of a texture's sides when its sampling is compiled.
+//! Knowledge of a texture's sides when its sampling is compiled.
 
 use alberti_math::lanes::Lanes;
 use core::fmt::Debug;
 
 use crate::Wrap;
-use crate::coordinate::FRACTION_BITS;
+use crate::sealed::Sealed;
 
-/// [`AnySize`], [`PowerOfTwo`] or [`Known`]. Other crates cannot add to them.
+/// The sides of a texture, as far as they are known when compiling: [`AnySize`], [`PowerOfTwo`] or [`Known`]. Sealed.
 ///
-/// All find the same texels and weights where they apply (in fixed point [`AnySize`] goes through `f32`, which rounds
-/// beyond 256); the second is faster than the first, and works on many
-/// samples at once, and the third is faster again.
-pub trait Size: Scale + Copy + Debug + 'static {
+/// All find the same texels and weights where they apply. The second is faster than the first by a match, the third
+/// faster again.
+pub trait Size: Sealed + Copy + Debug + 'static {
     /// Columns and rows, where they are known.
     const SIDES: Option<[u32; 2]> = None;
-}
-
-/// Sides of any length. Coordinates are scaled in 64-bit integers, one sample after the other.
-///
-/// # Cost
-/// About 28 instructions a texel on x86-64.
-#[derive(Clone, Copy, Debug)]
-pub enum AnySize {}
-
-/// Sides whose lengths are powers of two. Scaling by them is exact in `f32`, and the remainder is a mask: of NaN, which
-/// becomes a multiple of 2^31, and so of an infinity less itself, it is 0.
-///
-/// # Cost
-/// Six operations an axis on all lanes at once, and for each texel an index, a comparison, and a load.
-#[derive(Clone, Copy, Debug)]
-pub enum PowerOfTwo {}
-
-/// Sides that are known when the program is compiled, powers of two: as [`PowerOfTwo`], with shifts and masks by
-/// constants, and so without a comparison of indices with the number of texels.
-///
-/// # Cost
-/// In fixed point on a Cortex-M4F five instructions a texel, the load included.
-#[derive(Clone, Copy, Debug)]
-pub enum Known<const WIDTH: usize, const HEIGHT: usize> {}
-
-/// [`AnySize`] or [`PowerOfTwo`]: what the levels of a [`Mipmap`](crate::Mipmap) can have.
-pub trait LevelSize: Size {
-    /// Texels of any number.
-    #[doc(hidden)]
-    fn slice<T>(texels: &[T]) -> Self::Texels<'_, T>;
-}
-
-/// The working part of [`Size`]; not nameable outside, so that it can still change.
-pub trait Scale {
-    /// The texel whose cell holds the coordinate, along a side of `size` texels.
-    fn cell<L: Lanes, W: Wrap>(lanes: L, u: L::Number, size: u32) -> L::U32;
-
-    /// The texels to the left and to the right of the coordinate, and the 256ths from the centre of the one to that of
-    /// the other.
-    ///
-    /// A distance that rounds to 256 comes out as 0 from the next texel, which is the same colour.
-    fn between<L: Lanes, W: Wrap>(lanes: L, u: L::Number, size: u32) -> [L::U32; 3];
-
-    /// [`Wrap::index`] of a two's complement `i`, from -1 to one beyond the period.
-    fn wrapped<L: Lanes, W: Wrap>(lanes: L, i: L::U32, size: u32) -> L::U32;
 
     /// Texels in rows, as many as that is.
     type Texels<'a, T: 'a>: Copy;
 
     /// All texels, row by row.
-    fn flattened<'a, T: 'a>(texels: Self::Texels<'a, T>) -> &'a [T];
+    fn flattened<'a, T: 'a>(self, texels: Self::Texels<'a, T>) -> &'a [T];
 
-    /// What `word` makes of the texels in rows of `width`; there always is one, as long as rows and columns are less
-    /// than the sides.
+    /// The column and the row, counted from the bottom, whose cells hold the coordinates (u, v).
+    #[inline(always)]
+    fn cells<L: Lanes, U: Wrap, V: Wrap>(
+        self,
+        lanes: L,
+        [u, v]: [L::Number; 2],
+        [width, height]: [u32; 2],
+        wrap: (U, V),
+    ) -> [L::U32; 2] {
+        [wrap.0.cell_masked(lanes, u, width), wrap.1.cell_masked(lanes, v, height)]
+    }
+
+    /// The columns to either side of u and the 256ths from the centre of the one to that of the other; the same of rows
+    /// and v.
+    #[inline(always)]
+    fn between<L: Lanes, U: Wrap, V: Wrap>(
+        self,
+        lanes: L,
+        [u, v]: [L::Number; 2],
+        [width, height]: [u32; 2],
+        wrap: (U, V),
+    ) -> [[L::U32; 3]; 2] {
+        [wrap.0.between_masked(lanes, u, width), wrap.1.between_masked(lanes, v, height)]
+    }
+
+    /// [`Wrap::index`] of a two's complement column and row, from -1 to one beyond the period.
+    #[inline(always)]
+    fn indices<L: Lanes, U: Wrap, V: Wrap>(
+        self,
+        lanes: L,
+        [column, row]: [L::U32; 2],
+        [width, height]: [u32; 2],
+        wrap: (U, V),
+    ) -> [L::U32; 2] {
+        [wrap.0.fold(lanes, column, width), wrap.1.fold(lanes, row, height)]
+    }
+
+    /// The words that `word` makes of texels in a row and a column each, in rows of `width`. There always is one, as
+    /// long as rows and columns are less than the sides.
     fn words<L: Lanes, T>(
+        self,
         lanes: L,
         texels: Self::Texels<'_, T>,
         at: [L::U32; 2],
         width: u32,
         word: impl Fn(Option<&T>) -> u32,
     ) -> L::U32;
+}
+
+/// A [`Size`] that the levels of a [`Mipmap`](crate::Mipmap) can have: [`AnySize`] or [`PowerOfTwo`].
+pub trait LevelSize: Size {
+    /// Texels of any number.
+    fn slice<T>(self, texels: &[T]) -> Self::Texels<'_, T>;
+}
+
+/// Sides of any length, the way chosen at run time: as in [`PowerOfTwo`] where both are powers of two. Elsewhere
+/// coordinates are scaled in integers of 64 bits, one sample after the other.
+///
+/// # Precision
+/// Both ways find the same texels and weights for every `f32`. In fixed point the first is exact; the second goes
+/// through `f32`, which rounds coordinates beyond 256.
+///
+/// # Cost
+/// A match for each level that is read, and that of [`PowerOfTwo`], or about 28 instructions a texel on x86-64. The
+/// code of both.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct AnySize {
+    /// Whether both sides are powers of two.
+    by_masks: bool,
+}
+
+/// Sides whose lengths are powers of two. Scaling by them is exact in `f32`, and the remainder is a mask: of NaN, which
+/// becomes a multiple of 2^31, and so of an infinity less itself, it is 0.
+///
+/// # Cost
+/// Six operations an axis on all lanes at once, and for each texel an index, a comparison, and a load.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct PowerOfTwo;
+
+/// Sides that are known when the program is compiled, powers of two: as [`PowerOfTwo`], with shifts and masks by
+/// constants, and so without a comparison of indices with the number of texels.
+///
+/// # Cost
+/// In fixed point on a Cortex-M4F five instructions a texel, the load included.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Known<const WIDTH: usize, const HEIGHT: usize>;
+
+impl Sealed for AnySize {}
+impl Sealed for PowerOfTwo {}
+impl<const WIDTH: usize, const HEIGHT: usize> Sealed for Known<WIDTH, HEIGHT> {}
+
+impl AnySize {
+    /// The way for these sides.
+    #[inline]
+    pub(crate) const fn of(width: u32, height: u32) -> Self {
+        Self { by_masks: width.is_power_of_two() && height.is_power_of_two() }
+    }
+
+    /// The other type, if that is the way.
+    #[inline]
+    pub(crate) const fn power_of_two(self) -> Option<PowerOfTwo> {
+        if self.by_masks { Some(PowerOfTwo) } else { None }
+    }
 }
 
 /// The texels of these indices.
@@ -86,53 +134,62 @@ fn indexed<L: Lanes, T>(lanes: L, texels: &[T], indices: L::U32, word: impl Fn(O
     )
 }
 
-impl Size for AnySize {}
-
-impl LevelSize for AnySize {
-    #[inline(always)]
-    fn slice<T>(texels: &[T]) -> &[T] {
-        texels
-    }
-}
-
-impl Scale for AnySize {
-    #[inline(always)]
-    fn cell<L: Lanes, W: Wrap>(lanes: L, u: L::Number, size: u32) -> L::U32 {
-        let in_memory = lanes.store(u);
-        lanes.load_words(&lanes.each(|k| W::cell(W::reduce(at(in_memory.as_ref(), k)), size)))
-    }
-
-    #[inline(always)]
-    fn between<L: Lanes, W: Wrap>(lanes: L, u: L::Number, size: u32) -> [L::U32; 3] {
-        let in_memory = lanes.store(u);
-        let each = lanes.each(|k| {
-            let position = position(W::reduce(at(in_memory.as_ref(), k)), size);
-            let (left, right) = W::neighbours(position >> 8, size);
-            [left, right, position.cast_unsigned() & 255]
-        });
-        let words = |part: usize| {
-            lanes.load_words(&lanes.each(|k| each.as_ref().get(k).map_or(0, |parts: &[u32; 3]| parts[part])))
-        };
-        [words(0), words(1), words(2)]
-    }
-
-    #[inline(always)]
-    fn wrapped<L: Lanes, W: Wrap>(lanes: L, i: L::U32, size: u32) -> L::U32 {
-        let each = lanes.store_words(i);
-        lanes.load_words(
-            &lanes.each(|k| W::index(each.as_ref().get(k).copied().unwrap_or_default().cast_signed(), size)),
-        )
-    }
-
+impl Size for AnySize {
     type Texels<'a, T: 'a> = &'a [T];
 
     #[inline(always)]
-    fn flattened<'a, T: 'a>(texels: &'a [T]) -> &'a [T] {
+    fn flattened<'a, T: 'a>(self, texels: &'a [T]) -> &'a [T] {
         texels
+    }
+
+    #[inline(always)]
+    fn cells<L: Lanes, U: Wrap, V: Wrap>(
+        self,
+        lanes: L,
+        [u, v]: [L::Number; 2],
+        [width, height]: [u32; 2],
+        wrap: (U, V),
+    ) -> [L::U32; 2] {
+        if self.by_masks {
+            PowerOfTwo.cells(lanes, [u, v], [width, height], wrap)
+        } else {
+            [wrap.0.cell_wide(lanes, u, width), wrap.1.cell_wide(lanes, v, height)]
+        }
+    }
+
+    #[inline(always)]
+    fn between<L: Lanes, U: Wrap, V: Wrap>(
+        self,
+        lanes: L,
+        [u, v]: [L::Number; 2],
+        [width, height]: [u32; 2],
+        wrap: (U, V),
+    ) -> [[L::U32; 3]; 2] {
+        if self.by_masks {
+            PowerOfTwo.between(lanes, [u, v], [width, height], wrap)
+        } else {
+            [wrap.0.between_wide(lanes, u, width), wrap.1.between_wide(lanes, v, height)]
+        }
+    }
+
+    #[inline(always)]
+    fn indices<L: Lanes, U: Wrap, V: Wrap>(
+        self,
+        lanes: L,
+        [column, row]: [L::U32; 2],
+        [width, height]: [u32; 2],
+        wrap: (U, V),
+    ) -> [L::U32; 2] {
+        if self.by_masks {
+            PowerOfTwo.indices(lanes, [column, row], [width, height], wrap)
+        } else {
+            [wrap.0.index_wide(lanes, column, width), wrap.1.index_wide(lanes, row, height)]
+        }
     }
 
     #[inline(always)]
     fn words<L: Lanes, T>(
+        self,
         lanes: L,
         texels: &[T],
         [row, column]: [L::U32; 2],
@@ -143,11 +200,37 @@ impl Scale for AnySize {
     }
 }
 
-impl Size for PowerOfTwo {}
+impl LevelSize for AnySize {
+    #[inline(always)]
+    fn slice<T>(self, texels: &[T]) -> &[T] {
+        texels
+    }
+}
+
+impl Size for PowerOfTwo {
+    type Texels<'a, T: 'a> = &'a [T];
+
+    #[inline(always)]
+    fn flattened<'a, T: 'a>(self, texels: &'a [T]) -> &'a [T] {
+        texels
+    }
+
+    #[inline(always)]
+    fn words<L: Lanes, T>(
+        self,
+        lanes: L,
+        texels: &[T],
+        [row, column]: [L::U32; 2],
+        width: u32,
+        word: impl Fn(Option<&T>) -> u32,
+    ) -> L::U32 {
+        indexed(lanes, texels, lanes.shl(row, width.trailing_zeros()) + column, word)
+    }
+}
 
 impl LevelSize for PowerOfTwo {
     #[inline(always)]
-    fn slice<T>(texels: &[T]) -> &[T] {
+    fn slice<T>(self, texels: &[T]) -> &[T] {
         texels
     }
 }
@@ -158,95 +241,28 @@ impl<const WIDTH: usize, const HEIGHT: usize> Size for Known<WIDTH, HEIGHT> {
         assert!(WIDTH.is_power_of_two() && HEIGHT.is_power_of_two(), "Known: sides must be powers of two");
         Some([WIDTH as u32, HEIGHT as u32])
     };
-}
 
-macro_rules! powers_of_two {
-    ($(($($parameters:tt)*) $size:ty { $($texels:item)* })*) => {$(
-        impl<$($parameters)*> Scale for $size {
-            $($texels)*
+    type Texels<'a, T: 'a> = &'a [[T; WIDTH]; HEIGHT];
 
-            #[inline(always)]
-            fn cell<L: Lanes, W: Wrap>(lanes: L, u: L::Number, size: u32) -> L::U32 {
-                W::fold(lanes, lanes.floor_scaled(W::in_period(lanes, u), size.trailing_zeros()), size)
-            }
-
-            #[inline(always)]
-            fn between<L: Lanes, W: Wrap>(lanes: L, u: L::Number, size: u32) -> [L::U32; 3] {
-                let nearest = lanes.round_scaled(W::in_period(lanes, u), size.trailing_zeros() + 8);
-                // Half a texel to the left lies the centre from which distances count; one more keeps it positive.
-                let position = nearest + lanes.word(128);
-                let right = lanes.shr_signed(position, 8);
-                [W::fold(lanes, right - lanes.word(1), size), W::fold(lanes, right, size), position & lanes.word(255)]
-            }
-
-            #[inline(always)]
-            fn wrapped<L: Lanes, W: Wrap>(lanes: L, i: L::U32, size: u32) -> L::U32 {
-                W::fold(lanes, i, size)
-            }
-        }
-    )*};
-}
-powers_of_two! {
-    () PowerOfTwo {
-        type Texels<'a, T: 'a> = &'a [T];
-
-        #[inline(always)]
-        fn flattened<'a, T: 'a>(texels: &'a [T]) -> &'a [T] {
-            texels
-        }
-
-        #[inline(always)]
-        fn words<L: Lanes, T>(
-            lanes: L,
-            texels: &[T],
-            [row, column]: [L::U32; 2],
-            width: u32,
-            word: impl Fn(Option<&T>) -> u32,
-        ) -> L::U32 {
-            indexed(lanes, texels, lanes.shl(row, width.trailing_zeros()) + column, word)
-        }
+    #[inline(always)]
+    fn flattened<'a, T: 'a>(self, texels: &'a [[T; WIDTH]; HEIGHT]) -> &'a [T] {
+        texels.as_flattened()
     }
-    (const WIDTH: usize, const HEIGHT: usize) Known<WIDTH, HEIGHT> {
-        type Texels<'a, T: 'a> = &'a [[T; WIDTH]; HEIGHT];
 
-        #[inline(always)]
-        fn flattened<'a, T: 'a>(texels: &'a [[T; WIDTH]; HEIGHT]) -> &'a [T] {
-            texels.as_flattened()
-        }
-
-        #[inline(always)]
-        fn words<L: Lanes, T>(
-            lanes: L,
-            texels: &[[T; WIDTH]; HEIGHT],
-            [row, column]: [L::U32; 2],
-            _: u32,
-            word: impl Fn(Option<&T>) -> u32,
-        ) -> L::U32 {
-            let (rows, columns) = (lanes.store_words(row), lanes.store_words(column));
-            let at = |words: &[u32], k: usize| words.get(k).copied().unwrap_or_default() as usize;
-            lanes.load_words(&lanes.each(|k| {
-                let row = texels.get(at(rows.as_ref(), k));
-                word(row.and_then(|row| row.get(at(columns.as_ref(), k))))
-            }))
-        }
+    #[inline(always)]
+    fn words<L: Lanes, T>(
+        self,
+        lanes: L,
+        texels: &[[T; WIDTH]; HEIGHT],
+        [row, column]: [L::U32; 2],
+        _: u32,
+        word: impl Fn(Option<&T>) -> u32,
+    ) -> L::U32 {
+        let (rows, columns) = (lanes.store_words(row), lanes.store_words(column));
+        let at = |words: &[u32], k: usize| words.get(k).copied().unwrap_or_default() as usize;
+        lanes.load_words(&lanes.each(|k| {
+            let row = texels.get(at(rows.as_ref(), k));
+            word(row.and_then(|row| row.get(at(columns.as_ref(), k))))
+        }))
     }
-}
-
-/// Element `k`, which there is.
-#[inline(always)]
-fn at(values: &[f32], k: usize) -> f32 {
-    values.get(k).copied().unwrap_or_default()
-}
-
-/// The 256ths from the centre of the leftmost texel to a reduced coordinate, rounded to nearest, halves up.
-#[inline]
-#[expect(clippy::cast_possible_truncation, reason = "of 53 bits and a sign, the shift leaves 24")]
-fn position(reduced: u64, size: u32) -> i32 {
-    const SHIFT: u32 = FRACTION_BITS - 8;
-    // Half a unit to round to nearest, less half a texel. In 39 + 14 bits and a sign.
-    const OFFSET: i64 = (1 << (SHIFT - 1)) - (128 << SHIFT);
-
-    // In `Border` it may be negative.
-    let scaled = reduced.cast_signed() * i64::from(size) + OFFSET;
-    (scaled >> SHIFT) as i32
 }

@@ -1,14 +1,16 @@
 //! A borrowed rectangle of texels.
 
-use core::marker::PhantomData;
 use core::num::Wrapping;
 use core::{error, fmt};
 
 use alberti_math::Rgba8;
 use alberti_math::lanes::{Lanes, One};
 
-use crate::format::{Indexed, Storage};
+use crate::format::Storage;
 use crate::{AnySize, Filter, Known, PowerOfTwo, Sampler, Size, TexelFormat, Wrap};
+
+/// The greatest width and height.
+pub(crate) const MAX_SIZE: u32 = 1 << 14;
 
 /// A view of texels in rows, the top row of the image first, each row from left to right.
 ///
@@ -17,7 +19,7 @@ use crate::{AnySize, Filter, Known, PowerOfTwo, Sampler, Size, TexelFormat, Wrap
 /// ```
 /// use alberti_texture::{Texture, format::L8};
 ///
-/// static RAMP: Texture<'static, L8> = match Texture::new(&[0, 85, 170, 255], 4, 1) {
+/// static RAMP: Texture<'static, L8> = match Texture::new(L8, &[0, 85, 170, 255], 4, 1) {
 ///     Ok(texture) => texture,
 ///     Err(_) => panic!("four texels for 4 x 1"),
 /// };
@@ -25,37 +27,11 @@ use crate::{AnySize, Filter, Known, PowerOfTwo, Sampler, Size, TexelFormat, Wrap
 /// ```
 pub struct Texture<'a, F: Storage, Z: Size = AnySize> {
     texels: Z::Texels<'a, F::Element>,
-    palette: F::Palette<'a>,
+    format: F,
     // In 16 bits, so that compilers know that no product or sum of sizes overflows.
     width: u16,
     height: u16,
-    size: PhantomData<Z>,
-}
-
-impl<'a, F: TexelFormat> Texture<'a, F, AnySize> {
-    /// The view of `width * height` texels. Sizes need not be powers of two, nor be equal.
-    ///
-    /// # Errors
-    /// If a side is 0 or greater than [`Self::MAX_SIZE`], or if there are more or fewer texels.
-    pub const fn new(texels: &'a [F::Texel], width: u32, height: u32) -> Result<Self, TextureError> {
-        Self::stored(texels, (), width, height, 1)
-    }
-}
-
-impl<'a, const BITS: u32> Texture<'a, Indexed<BITS>, AnySize> {
-    /// The view of texels that are places in a palette, the first 0: see [`Indexed`] for their order.
-    ///
-    /// # Errors
-    /// If a side is 0 or greater than [`Self::MAX_SIZE`], or if there are more or fewer bytes than the rows take. The
-    /// palette may be shorter than the indices reach: what is beyond is transparent black.
-    pub const fn indexed(
-        bytes: &'a [u8],
-        palette: &'a [Rgba8],
-        width: u32,
-        height: u32,
-    ) -> Result<Self, TextureError> {
-        Self::stored(bytes, palette, width, height, Indexed::<BITS>::IN_BYTE)
-    }
+    size: Z,
 }
 
 impl<'a, F: Storage> Texture<'a, F, AnySize> {
@@ -63,40 +39,44 @@ impl<'a, F: Storage> Texture<'a, F, AnySize> {
     ///
     /// Up to here, coordinates with 38 bits of fraction find the exact texel, and with the size's 14 bits and
     /// a filter's 8 they fit in 64.
-    pub const MAX_SIZE: u32 = 1 << 14;
+    pub const MAX_SIZE: u32 = MAX_SIZE;
 
-    /// The view of elements that hold so many texels each.
+    /// The view of `width * height` texels of a format. Sizes need not be powers of two, nor be equal.
+    ///
+    /// Of [`Indexed`](crate::format::Indexed) texels these are the bytes, as many as the rows take.
+    ///
+    /// # Errors
+    /// If a side is 0 or greater than 16384, or if there are more or fewer texels.
     #[expect(clippy::cast_possible_truncation, reason = "`From` is not const; the sizes are at most 2^14")]
-    const fn stored(
+    pub const fn new(
+        format: F,
         texels: &'a [F::Element],
-        palette: F::Palette<'a>,
         width: u32,
         height: u32,
-        in_element: u32,
     ) -> Result<Self, TextureError> {
         if width == 0 || height == 0 {
             return Err(TextureError::ZeroSize { width, height });
         }
-        if width > Self::MAX_SIZE || height > Self::MAX_SIZE {
+        if width > MAX_SIZE || height > MAX_SIZE {
             return Err(TextureError::TooLarge { width, height });
         }
         // At most 2^28. Where `usize` has 16 bits the comparison is still that of the numbers.
-        let expected = width.div_ceil(in_element) * height;
+        let expected = width.div_ceil(F::IN_ELEMENT) * height;
         if texels.len() as u64 != expected as u64 {
             return Err(TextureError::Length { found: texels.len(), expected });
         }
-        Ok(Self { texels, palette, width: width as u16, height: height as u16, size: PhantomData })
+        let size = AnySize::of(width, height);
+        Ok(Self { texels, format, width: width as u16, height: height as u16, size })
     }
 
     /// The same texture, known to have sides that are powers of two, if they are. It is faster to sample, and shows the
     /// same.
     #[must_use]
     pub const fn power_of_two(self) -> Option<Texture<'a, F, PowerOfTwo>> {
-        let Self { texels, palette, width, height, .. } = self;
-        if width.is_power_of_two() && height.is_power_of_two() {
-            Some(Texture { texels, palette, width, height, size: PhantomData })
-        } else {
-            None
+        let Self { texels, format, width, height, size } = self;
+        match size.power_of_two() {
+            Some(size) => Some(Texture { texels, format, width, height, size }),
+            None => None,
         }
     }
 }
@@ -108,7 +88,7 @@ impl<'a, F: TexelFormat> Texture<'a, F, AnySize> {
     /// ```
     /// use alberti_texture::{Known, Texture, format::L8};
     ///
-    /// static RAMP: Texture<'static, L8, Known<4, 1>> = match Texture::new(&[0, 85, 170, 255], 4, 1) {
+    /// static RAMP: Texture<'static, L8, Known<4, 1>> = match Texture::new(L8, &[0, 85, 170, 255], 4, 1) {
     ///     Ok(texture) => texture.known().expect("4 x 1"),
     ///     Err(_) => panic!("four texels for 4 x 1"),
     /// };
@@ -118,14 +98,14 @@ impl<'a, F: TexelFormat> Texture<'a, F, AnySize> {
     pub const fn known<const WIDTH: usize, const HEIGHT: usize>(
         self,
     ) -> Option<Texture<'a, F, Known<WIDTH, HEIGHT>>> {
-        let Self { texels, width, height, .. } = self;
+        let Self { texels, format, width, height, .. } = self;
         let texels = if width as usize == WIDTH && height as usize == HEIGHT {
             texels.as_chunks::<WIDTH>().0.first_chunk()
         } else {
             None
         };
         match texels {
-            Some(texels) => Some(Texture { texels, palette: (), width, height, size: PhantomData }),
+            Some(texels) => Some(Texture { texels, format, width, height, size: Known }),
             None => None,
         }
     }
@@ -136,10 +116,11 @@ impl<'a, F: Storage, Z: Size> Texture<'a, F, Z> {
     #[inline]
     pub(crate) const fn of_parts(
         texels: Z::Texels<'a, F::Element>,
-        palette: F::Palette<'a>,
+        format: F,
         [width, height]: [u16; 2],
+        size: Z,
     ) -> Self {
-        Self { texels, palette, width, height, size: PhantomData }
+        Self { texels, format, width, height, size }
     }
 
     /// The number of columns, 1 to [`Self::MAX_SIZE`].
@@ -166,14 +147,14 @@ impl<'a, F: Storage, Z: Size> Texture<'a, F, Z> {
     #[inline]
     #[must_use]
     pub fn texels(&self) -> &'a [F::Element] {
-        Z::flattened(self.texels)
+        self.size.flattened(self.texels)
     }
 
-    /// What stands beside the texels.
+    /// The format of the texels, with the palette that it may have.
     #[inline]
     #[must_use]
-    pub const fn palette(&self) -> F::Palette<'a> {
-        self.palette
+    pub const fn format(&self) -> F {
+        self.format
     }
 
     /// The colour in column `x` of row `y`, row 0 at the top; beyond the sides, that of the nearest texel.
@@ -184,35 +165,79 @@ impl<'a, F: Storage, Z: Size> Texture<'a, F, Z> {
         Rgba8::from_bits(self.fetch(One, Wrapping(y), Wrapping(x)).0)
     }
 
-    /// A sampler with the same wrap mode on both axes: `texture.sampler::<Nearest, Repeat>()`.
+    /// A sampler with the same wrap mode on both axes: `texture.sampler(Nearest, Repeat)`.
     #[inline]
     #[must_use]
-    pub const fn sampler<Fl: Filter, W: Wrap>(&self) -> Sampler<'a, F, Fl, W, W, Z> {
-        Sampler::new(*self)
+    pub const fn sampler<Fl: Filter, W: Wrap>(&self, filter: Fl, wrap: W) -> Sampler<'a, F, Fl, W, W, Z> {
+        Sampler::new(*self, filter, (wrap, wrap))
     }
 
-    /// A sampler with the wrap mode `U` from left to right and `V` from bottom to top.
+    /// A sampler with one wrap mode from left to right and one from bottom to top.
     #[inline]
     #[must_use]
-    pub const fn sampler_per_axis<Fl: Filter, U: Wrap, V: Wrap>(&self) -> Sampler<'a, F, Fl, U, V, Z> {
-        Sampler::new(*self)
+    pub const fn sampler_per_axis<Fl: Filter, U: Wrap, V: Wrap>(
+        &self,
+        filter: Fl,
+        u: U,
+        v: V,
+    ) -> Sampler<'a, F, Fl, U, V, Z> {
+        Sampler::new(*self, filter, (u, v))
+    }
+
+    /// Columns and rows.
+    #[inline(always)]
+    pub(crate) const fn sides(&self) -> [u32; 2] {
+        [self.width(), self.height()]
+    }
+
+    /// [`Size::cells`].
+    #[inline(always)]
+    pub(crate) fn cells<L: Lanes, U: Wrap, V: Wrap>(
+        &self,
+        lanes: L,
+        uv: [L::Number; 2],
+        wrap: (U, V),
+    ) -> [L::U32; 2] {
+        self.size.cells(lanes, uv, self.sides(), wrap)
+    }
+
+    /// [`Size::between`].
+    #[inline(always)]
+    pub(crate) fn between<L: Lanes, U: Wrap, V: Wrap>(
+        &self,
+        lanes: L,
+        uv: [L::Number; 2],
+        wrap: (U, V),
+    ) -> [[L::U32; 3]; 2] {
+        self.size.between(lanes, uv, self.sides(), wrap)
+    }
+
+    /// [`Size::indices`].
+    #[inline(always)]
+    pub(crate) fn indices<L: Lanes, U: Wrap, V: Wrap>(
+        &self,
+        lanes: L,
+        at: [L::U32; 2],
+        wrap: (U, V),
+    ) -> [L::U32; 2] {
+        self.size.indices(lanes, at, self.sides(), wrap)
     }
 
     /// The colours of texels as words; anything for those that do not lie in the texture.
     #[inline(always)]
     pub(crate) fn fetch<L: Lanes>(&self, lanes: L, row: L::U32, column: L::U32) -> L::U32 {
-        F::fetch(lanes, self, row, column)
+        self.format.fetch(lanes, self, row, column)
     }
 
     /// The texels as counts of 65535ths; anything up to that for those that do not lie in the texture.
     #[inline(always)]
     pub(crate) fn fetch_scalars<L: Lanes>(&self, lanes: L, row: L::U32, column: L::U32) -> L::U32 {
-        F::fetch_scalars(lanes, self, row, column)
+        self.format.fetch_scalars(lanes, self, row, column)
     }
 }
 
 impl<F: TexelFormat, Z: Size> Texture<'_, F, Z> {
-    /// What `word` makes of texels; of any, or none, for those that do not lie in the texture.
+    /// The words that `word` makes of texels; of any, or none, for those that do not lie in the texture.
     #[inline(always)]
     pub(crate) fn words<L: Lanes>(
         &self,
@@ -222,7 +247,7 @@ impl<F: TexelFormat, Z: Size> Texture<'_, F, Z> {
         word: impl Fn(Option<&F::Texel>) -> u32,
     ) -> L::U32 {
         // There always is one, as `new` compares the size with the length.
-        Z::words(lanes, self.texels, [row, column], self.width(), word)
+        self.size.words(lanes, self.texels, [row, column], self.width(), word)
     }
 }
 
@@ -262,7 +287,7 @@ pub enum TextureError {
         /// The height that was given.
         height: u32,
     },
-    /// The number of texels is not width times height; for [`Indexed`], that of bytes.
+    /// The number of texels is not width times height; for [`Indexed`](crate::format::Indexed), that of bytes.
     Length {
         /// How many were given.
         found: usize,

@@ -1,7 +1,7 @@
 //! Window-viewport and snapping.
 
 use crate::{Row, Sample, Table};
-use alberti_math::{Fixed, GUARD_PIXELS, Sub4, Sub8, Subpixel};
+use alberti_math::{AnySubpixel, Fixed, GUARD_PIXELS, Subpixel};
 use alberti_oracle::rational::{Rational, from_f32, from_int, to_f64};
 use alberti_oracle::rng::Rng;
 use alberti_projection::Viewport;
@@ -17,11 +17,11 @@ pub(crate) fn tables() -> Vec<Table> {
         ("next to the middle", |_| 1e-30),
     ];
     for (region, reach) in regions {
-        rows.push(Row::new("Viewport::to_screen::<Sub4>", region, 1.0, move |rng| {
-            to_screen::<Sub4>(rng, reach)
+        rows.push(Row::new("Viewport::to_screen(Sub4)", region, 1.0, move |rng| {
+            to_screen(AnySubpixel::Sub4, rng, reach)
         }));
-        rows.push(Row::new("Viewport::to_screen::<Sub8>", region, 1.0, move |rng| {
-            to_screen::<Sub8>(rng, reach)
+        rows.push(Row::new("Viewport::to_screen(Sub8)", region, 1.0, move |rng| {
+            to_screen(AnySubpixel::Sub8, rng, reach)
         }));
     }
     rows.push(Row::new("Viewport::guard", "any viewport", 1.0, |rng| {
@@ -55,27 +55,27 @@ fn any(rng: &mut Rng) -> ([i32; 4], Viewport) {
     ([x, y, width, height], viewport.expect("within reach"))
 }
 
-fn to_screen<S: Subpixel>(rng: &mut Rng, reach: Reach) -> Sample {
+fn to_screen(subpixel: AnySubpixel, rng: &mut Rng, reach: Reach) -> Sample {
     let ([left, top, width, height], viewport) = any(rng);
     let guard = viewport.guard();
     let [xs, ys] = [guard.x, guard.y].map(|guard| rng.uniform(-1.0, 1.0) as f32 * reach(guard));
-    let got = viewport.to_screen::<S>(xs, ys).expect("within the guard band").map(Fixed::subpixels);
+    let got = viewport.to_screen(subpixel, xs, ys).expect("within the guard band").map(Fixed::subpixels);
     // Translated by (1, 1), scaled by (W/2, H/2); rows count from the top.
     let one = from_int(1);
     let x = (from_f32(xs) + &one) * half(width) + from_int(i128::from(left));
     let y = from_int(i128::from(top + height)) - (from_f32(ys) + one) * half(height);
-    share::<S>(got[0], &x, xs, width).worst(share::<S>(got[1], &y, ys, height))
+    share(subpixel, got[0], &x, xs, width).worst(share(subpixel, got[1], &y, ys, height))
 }
 
 fn half(length: i32) -> Rational {
     Rational::new(length.into(), 2.into())
 }
 
-/// The error as a share of what the documentation allows.
-fn share<S: Subpixel>(got: i32, exact: &Rational, offset: f32, length: i32) -> Sample {
-    let one = from_int(i128::from(S::ONE));
-    let error = to_f64(&(from_int(i128::from(got)) / &one - exact)).abs();
+/// The error as a share of the documented bound.
+fn share(subpixel: AnySubpixel, got: i32, exact: &Rational, offset: f32, length: i32) -> Sample {
+    let one = f64::from(1 << subpixel.bits());
+    let error = to_f64(&(from_int(i128::from(got)) / from_int(1 << subpixel.bits()) - exact)).abs();
     let offset = f64::from(offset).abs() * f64::from(length) / 2.0;
-    let allowed = offset / 2f64.powi(24) + 0.5 / f64::from(S::ONE);
-    Sample { eps: error / allowed, ulp: error * f64::from(S::ONE) }
+    let allowed = offset / 2f64.powi(24) + 0.5 / one;
+    Sample { eps: error / allowed, ulp: error * one }
 }

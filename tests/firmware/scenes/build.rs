@@ -19,7 +19,7 @@ fn main() {
         let (red, green, blue) = if joint { (28, 56, 24) } else { (x / 2, y, 31 - (x ^ y) / 2) };
         *texel = (red >> dark) << 11 | (green >> dark) << 5 | blue >> dark;
     }
-    mipmap::build::<Rgb565>(&mut texels, side, side).expect("a square and room for its levels");
+    mipmap::build(Rgb565, &mut texels, side, side).expect("a square and room for its levels");
     let folder = env::var_os("OUT_DIR").expect("cargo sets the folder for output");
     fs::write(Path::new(&folder).join("floor.rs"), format!("{texels:?}")).expect("the texels are written");
     println!("cargo::rerun-if-changed=build.rs");

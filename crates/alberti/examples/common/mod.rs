@@ -1,4 +1,4 @@
-//! What all examples do in the same way: where to write, in which format, and what to say if that fails.
+//! The common part of all examples: the file to write, its format, and the message if that fails.
 
 #![allow(dead_code, reason = "each example uses a part")]
 

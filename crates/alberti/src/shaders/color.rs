@@ -1,10 +1,10 @@
 //! One colour, or the vertices' colours.
 
-use super::{alone, pack};
+use super::wide::pack;
 use alberti_math::glam::Vec3;
-use alberti_math::lanes::{Lanes, One};
+use alberti_math::lanes::Lanes;
 use alberti_math::{Mode, Rgba8, Varying};
-use alberti_raster::{Color, FragmentStage, Gradient, NoDerivatives};
+use alberti_raster::{FragmentColor, FragmentStage, Fragments, NoDerivatives};
 
 /// One colour for everything.
 ///
@@ -16,23 +16,13 @@ pub struct Solid<C = Rgba8>(
     pub C,
 );
 
-impl<V: Varying, C: Color> FragmentStage<V> for Solid<C> {
+impl<V: Varying, C: FragmentColor> FragmentStage<V> for Solid<C> {
     type Color = C;
     type Derivatives = NoDerivatives;
 
     #[inline(always)]
-    fn shade(&self, _: V) -> Option<C> {
-        Some(self.0)
-    }
-
-    #[inline(always)]
-    fn shade_lanes<L: Lanes>(
-        &self,
-        lanes: L,
-        _: &V::Of<L::Number>,
-        _: &Gradient<V::Of<L::Number>>,
-        mask: L::Mask,
-    ) -> (L::U32, L::Mask) {
+    fn shade<L: Lanes>(&self, fragments: &Fragments<L, V>) -> (L::U32, L::Mask) {
+        let Fragments { lanes, mask, .. } = *fragments;
         (lanes.word(self.0.to_word()), mask)
     }
 }
@@ -49,19 +39,8 @@ impl FragmentStage<Vec3> for VertexColor {
     type Derivatives = NoDerivatives;
 
     #[inline(always)]
-    fn shade(&self, color: Vec3) -> Option<Rgba8> {
-        alone(self, color)
-    }
-
-    #[inline(always)]
-    fn shade_lanes<L: Lanes>(
-        &self,
-        lanes: L,
-        color: &[L::Number; 3],
-        _: &Gradient<[L::Number; 3]>,
-        mask: L::Mask,
-    ) -> (L::U32, L::Mask) {
-        let [r, g, b] = *color;
+    fn shade<L: Lanes>(&self, fragments: &Fragments<L, Vec3>) -> (L::U32, L::Mask) {
+        let Fragments { lanes, varying: [r, g, b], mask, .. } = *fragments;
         let [r, g, b] = [lanes.of_unit(r, 255), lanes.of_unit(g, 255), lanes.of_unit(b, 255)];
         (pack(lanes, [r, g, b, lanes.word(255)]), mask)
     }
@@ -120,23 +99,10 @@ impl FragmentStage<Ready565> for VertexColor565 {
     type Color = u16;
     type Derivatives = NoDerivatives;
 
-    #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "16 bits")]
-    fn shade(&self, Ready565(color): Ready565) -> Option<u16> {
-        let (word, _) = self.shade_lanes(One, &color.to_array(), &Gradient::default(), true);
-        Some(word.0 as u16)
-    }
-
     // What is interpolated stays between what vertices carry, and so does not leave the channels.
     #[inline(always)]
-    fn shade_lanes<L: Lanes>(
-        &self,
-        lanes: L,
-        color: &[L::Number; 3],
-        _: &Gradient<[L::Number; 3]>,
-        mask: L::Mask,
-    ) -> (L::U32, L::Mask) {
-        let [r, g, b] = *color;
+    fn shade<L: Lanes>(&self, fragments: &Fragments<L, Ready565>) -> (L::U32, L::Mask) {
+        let Fragments { lanes, varying: [r, g, b], mask, .. } = *fragments;
         let [r, g, b] = [lanes.floor_scaled(r, 5), lanes.floor_scaled(g, 6), lanes.floor_scaled(b, 5)];
         (lanes.shl(r, 11) | (lanes.shl(g, 5) | b), mask)
     }
@@ -148,7 +114,7 @@ mod tests {
 
     #[test]
     fn vertex_colours_are_rounded_and_clamped() {
-        let color = VertexColor.shade(Vec3::new(0.5, -1.0, 2.0));
+        let color = VertexColor.shade_one(Vec3::new(0.5, -1.0, 2.0));
         assert_eq!(color, Some(Rgba8::new(128, 0, 255, 255)));
     }
 
@@ -157,7 +123,7 @@ mod tests {
         for step in -100..1100_i16 {
             let c = f32::from(step) / 1000.0;
             let nearest = |steps: f32| (c.clamp(0.0, 1.0) * steps + 0.5).floor();
-            let packed = VertexColor565.shade(Ready565::new(Vec3::splat(c))).expect("never discards");
+            let packed = VertexColor565.shade_one(Ready565::new(Vec3::splat(c))).expect("never discards");
             assert_eq!(f32::from(packed >> 11), nearest(31.0), "red of {c}");
             assert_eq!(f32::from(packed >> 5 & 63), nearest(63.0), "green of {c}");
             assert_eq!(f32::from(packed & 31), nearest(31.0), "blue of {c}");

@@ -1,12 +1,13 @@
 //! What is read at texture coordinates.
 
-use super::tinted::times;
-use super::unpack;
+use super::wide::times;
 use alberti_math::Rgba8;
 use alberti_math::lanes::Lanes;
 use alberti_raster::{Differentiation, Gradient, NoDerivatives, PerPixel};
 use alberti_texture::format::Storage;
-use alberti_texture::{Bounds, Derivatives, Filter, LevelSize, MipFilter, MipSampler, Sampler, Size, Wrap};
+use alberti_texture::{
+    Derivatives, Filter, LevelSize, LodPolicy, MipFilter, MipSampler, Sampler, Size, Wrap,
+};
 use core::fmt::Debug;
 
 /// A colour for each place on a surface: a [`Sampler`], a [`MipSampler`], which reads what a pixel covers, an
@@ -37,7 +38,7 @@ impl<F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size> Map for Sampler<'_, F, F
     }
 }
 
-impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize, B: Bounds> Map
+impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize, B: LodPolicy> Map
     for MipSampler<'_, F, M, U, V, Z, B>
 {
     type Derivatives = PerPixel;
@@ -67,6 +68,6 @@ impl<M: Map> Map for Times<M> {
 
     #[inline(always)]
     fn read<L: Lanes>(&self, lanes: L, uv: [L::Number; 2], gradient: &Gradient<[L::Number; 2]>) -> L::U32 {
-        times(lanes, unpack(lanes, self.map.read(lanes, uv, gradient)), self.factor)
+        times(lanes, self.map.read(lanes, uv, gradient), self.factor)
     }
 }

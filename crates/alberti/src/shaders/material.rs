@@ -30,10 +30,10 @@
 //! };
 //! // Between the light and the eye, the highlight is on top.
 //! let facing = Placed { position: Vec3::ZERO, normal: Vec3::Z, uv: Vec2::ZERO };
-//! assert_eq!(brass.shade(facing), Some(Rgba8::from_rgb24(0xff_e6_7d)));
+//! assert_eq!(brass.shade_one(facing), Some(Rgba8::from_rgb24(0xff_e6_7d)));
 //! // From the side there is the ambient light.
 //! let aside = Placed { normal: Vec3::X, ..facing };
-//! assert_eq!(brass.shade(aside), Some(Rgba8::from_rgb24(0x23_1a_0a)));
+//! assert_eq!(brass.shade_one(aside), Some(Rgba8::from_rgb24(0x23_1a_0a)));
 //! ```
 
 mod layers;
@@ -52,11 +52,11 @@ pub use reflection::Reflection;
 pub use relief::{Bump, NormalMap, ObjectNormals, Parallax, Strength, TwoChannels};
 pub use surface::{Axes, Framed, Layer, OnSurface, Placed, Surface, Textured, Viewer};
 
-use super::{alone, map};
+use super::map;
 use alberti_math::glam::{Vec2, Vec3};
 use alberti_math::lanes::{Lanes, One};
 use alberti_math::{Point3, Rgba8, Vector3, World};
-use alberti_raster::{FragmentStage, Gradient};
+use alberti_raster::{FragmentStage, Fragments};
 use alberti_texture::surface::unit_lanes;
 use vector::{plus, splat, times};
 
@@ -99,22 +99,11 @@ where
     type Derivatives = M::Derivatives;
 
     #[inline(always)]
-    fn shade(&self, varying: V) -> Option<Rgba8> {
-        alone(self, varying)
-    }
-
-    #[inline(always)]
-    fn shade_lanes<L: Lanes>(
-        &self,
-        lanes: L,
-        varyings: &V::Of<L::Number>,
-        gradient: &Gradient<V::Of<L::Number>>,
-        mask: L::Mask,
-    ) -> (L::U32, L::Mask) {
-        let surface = Surface::new::<V>(lanes, varyings, gradient);
-        let mut surface = surface.placed::<V>(lanes, varyings, self.lighting.viewer);
-        self.layers.apply(lanes, varyings, &mut surface);
-        (self.lighting.color(lanes, &surface), mask)
+    fn shade<L: Lanes>(&self, fragments: &Fragments<L, V>) -> (L::U32, L::Mask) {
+        let Fragments { lanes, varying, mask, .. } = fragments;
+        let mut surface = Surface::new(fragments).placed::<V>(*lanes, varying, self.lighting.viewer);
+        self.layers.apply(*lanes, varying, &mut surface);
+        (self.lighting.color(*lanes, &surface), *mask)
     }
 }
 
@@ -215,20 +204,11 @@ impl<M: Layer<Vec2>> FragmentStage<(Vec3, (Vec3, Vec2))> for Gouraud<M> {
     type Derivatives = M::Derivatives;
 
     #[inline(always)]
-    fn shade(&self, varying: (Vec3, (Vec3, Vec2))) -> Option<Rgba8> {
-        alone(self, varying)
-    }
-
-    #[inline(always)]
-    fn shade_lanes<L: Lanes>(
-        &self,
-        lanes: L,
-        (scattered, (mirrored, uv)): &([L::Number; 3], ([L::Number; 3], [L::Number; 2])),
-        gradient: &Gradient<([L::Number; 3], ([L::Number; 3], [L::Number; 2]))>,
-        mask: L::Mask,
-    ) -> (L::U32, L::Mask) {
-        let mut surface = Surface::new::<Vec2>(lanes, uv, &gradient.map(|(_, (_, of_uv))| of_uv));
-        self.layers.apply(lanes, uv, &mut surface);
-        (surface.seen(lanes, *scattered, *mirrored), mask)
+    fn shade<L: Lanes>(&self, fragments: &Fragments<L, (Vec3, (Vec3, Vec2))>) -> (L::U32, L::Mask) {
+        let Fragments { lanes, varying: (scattered, (mirrored, _)), mask, .. } = *fragments;
+        let fragments = fragments.part::<Vec2>(|(_, (_, uv))| *uv);
+        let mut surface = Surface::new(&fragments);
+        self.layers.apply(lanes, &fragments.varying, &mut surface);
+        (surface.seen(lanes, scattered, mirrored), mask)
     }
 }

@@ -1,10 +1,10 @@
 //! An image that a projector throws onto surfaces.
 
-use super::{alone, pack, per_255, unpack};
+use super::wide::{pack, per_255, unpack};
 use alberti_math::lanes::Lanes;
 use alberti_math::{Rgba8, Varying};
 use alberti_projection::Homogeneous;
-use alberti_raster::{FragmentStage, Gradient};
+use alberti_raster::{FragmentStage, Fragments};
 use alberti_texture::format::Storage;
 use alberti_texture::{Clamp, Filter, Sampler, Size};
 use core::fmt::Debug;
@@ -18,38 +18,25 @@ use core::fmt::Debug;
 /// read beyond its border, hence [`Clamp`].
 ///
 /// ```
-/// use alberti::{glam::Vec3, shaders::*, texture::{Clamp, Nearest, Texture}, *};
+/// use alberti::{glam::Vec3, shaders::*, texture::{Clamp, Nearest, Texture, format::Rgba8888}, *};
 ///
 /// // Two texels, red on the left, from behind the right shoulder of someone who looks at a white wall.
 /// let texels = [Rgba8::from_rgb24(0xff_00_00), Rgba8::from_rgb24(0x00_00_ff)].map(Rgba8::to_bytes);
-/// let image = Texture::<Rgba8>::new(&texels, 2, 1)?;
+/// let image = Texture::new(Rgba8888, &texels, 2, 1)?;
 /// let at = |x, y, z| Point3::<World>::new(Vec3::new(x, y, z));
 /// let place = look_at(at(2.0, 0.0, 6.0), at(0.0, 0.0, 0.0), Vector3::new(Vec3::Y))?;
 /// let projector = Projector::new(place, 0.3, 2.0)?;
 ///
-/// let camera = look_at(at(0.0, 0.0, 4.0), at(0.0, 0.0, 0.0), Vector3::new(Vec3::Y))?;
-/// let pass = Pass {
-///     view: View {
-///         to_eye: camera.inverse_orthonormal() * Frame::<Object, World>::IDENTITY,
-///         projection: Perspective::new(1.0, 64.0 / 48.0, 0.1, 10.0)?,
-///         viewport: Viewport::new(0, 0, 64, 48)?,
-///     },
-///     vertices: &[Vec3::new(-9.0, -9.0, 0.0), Vec3::new(9.0, -9.0, 0.0), Vec3::new(0.0, 9.0, 0.0)],
-///     triangles: &[[0u16, 1, 2]],
-///     // The model stands in the world where it was made, so that its points are the world's.
-///     vertex_stage: |&p: &Vec3| (Point3::new(p), (projector.project(Point3::new(p)), ())),
-///     fragment_stage: Slide {
-///         surface: Solid(Rgba8::WHITE),
-///         image: image.sampler::<Nearest, Clamp>(),
-///         mix: Modulate,
-///     },
-///     cull: Cull::Back,
-///     sides: Sides::GuardBand,
-///     interpolation: Exact,
-/// };
+/// // The wall stands in the world where it was made, so that its points are the world's.
+/// let wall = [Vec3::new(-9.0, -9.0, 0.0), Vec3::new(9.0, -9.0, 0.0), Vec3::new(0.0, 9.0, 0.0)];
+/// let mesh = Mesh::new(&wall, &[[0u16, 1, 2]], |&p| (p, (projector.project(Point3::new(p)), ())));
+/// let image = image.sampler(Nearest, Clamp);
+/// let stage = Slide { surface: Solid(Rgba8::WHITE), image, mix: Modulate };
+///
 /// let (mut color, mut depth) = ([0; 64 * 48], [(); 64 * 48]);
-/// let mut band = Band::<Rgba8, NoDepth>::new(64, 0, &mut color, &mut depth)?;
-/// draw(&pass, &mut band, &mut [Slot::<Sub8, _>::EMPTY; 3], &mut ());
+/// let mut target = Target::new(Rgba8888, NoDepth, 64, 48, &mut color, &mut depth)?;
+/// let view = Camera::look_at(Vec3::Z * 4.0, Vec3::ZERO, Vec3::Y)?.perspective(1.0, 0.1..10.0)?;
+/// draw(&mut target, &view, &mesh, stage);
 /// let shown = |column: usize, row: usize| color[64 * row + column].to_ne_bytes();
 /// assert_eq!([shown(31, 24), shown(32, 24), shown(32, 8)], [texels[0], texels[1], [255; 4]]);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
@@ -58,9 +45,9 @@ use core::fmt::Debug;
 /// # Precision
 /// The image's colour is that of the sampler at ((u/q + 1)/2, (v/q + 1)/2), each within 2ε, for the u, v and q that are
 /// interpolated; whether there is an image follows from these exactly. A miss of up to e in each of u, v and q becomes
-/// one of up to about 2e/q in u/q and v/q. The budget of [`Bounded`](crate::Bounded) is such an e, so it does not cover
-/// the image, least of all close to the projector. In fixed point u, v, q and the quotients are in steps of 2^-16, so
-/// that q should not be much below 1, and |u|, |v| and q may be up to 4096, to which they are clamped.
+/// one of up to about 2e/q in u/q and v/q. The budget of [`Lines::bounded`](crate::Lines) is such an e, so it does not
+/// cover the image, least of all close to the projector. In fixed point u, v, q and the quotients are in steps of
+/// 2^-16, so that q should not be much below 1, and |u|, |v| and q may be up to 4096, to which they are clamped.
 ///
 /// # Cost
 /// Three components to interpolate; two divisions, and where there is an image what the sampler costs.
@@ -102,6 +89,24 @@ impl Mix for Add {
     }
 }
 
+impl<S, F: Storage, Fl: Filter, Z: Size, M: Mix> Slide<S, Sampler<'_, F, Fl, Clamp, Clamp, Z>, M> {
+    /// Colours with the image on them, for the samples in `mask` whose places before the projector these are.
+    #[inline(always)]
+    pub fn on<L: Lanes>(&self, lanes: L, place: &[L::Number; 3], surface: L::U32, mask: L::Mask) -> L::U32 {
+        let ([u, v], inside) = Homogeneous::divide_lanes(lanes, place);
+        // Most surfaces see little of a projector.
+        if lanes.bits(inside & mask) == 0 {
+            return surface;
+        }
+        let half = lanes.splat(0.5);
+        let image = self.image.sample_lanes(lanes, u * half + half, v * half + half);
+        let ([r, g, b, a], [image_r, image_g, image_b, _]) = (unpack(lanes, surface), unpack(lanes, image));
+        let mixed = [(r, image_r), (g, image_g), (b, image_b)].map(|(s, i)| self.mix.channel(lanes, s, i));
+        let [r, g, b] = mixed;
+        lanes.select_words(inside, pack(lanes, [r, g, b, a]), surface)
+    }
+}
+
 impl<V, S, F, Fl, Z, M> FragmentStage<(Homogeneous, V)> for Slide<S, Sampler<'_, F, Fl, Clamp, Clamp, Z>, M>
 where
     V: Varying,
@@ -115,31 +120,9 @@ where
     type Derivatives = S::Derivatives;
 
     #[inline(always)]
-    fn shade(&self, varying: (Homogeneous, V)) -> Option<Rgba8> {
-        alone(self, varying)
-    }
-
-    #[inline(always)]
-    fn shade_lanes<L: Lanes>(
-        &self,
-        lanes: L,
-        (place, varyings): &([L::Number; 3], V::Of<L::Number>),
-        gradient: &Gradient<([L::Number; 3], V::Of<L::Number>)>,
-        mask: L::Mask,
-    ) -> (L::U32, L::Mask) {
-        let gradient = gradient.map(|(_, of_surface)| of_surface);
-        let (surface, mask) = self.surface.shade_lanes(lanes, varyings, &gradient, mask);
-        let ([u, v], inside) = Homogeneous::divide_lanes(lanes, place);
-        // Most surfaces see little of a projector.
-        if lanes.bits(inside & mask) == 0 {
-            return (surface, mask);
-        }
-        let half = lanes.splat(0.5);
-        let image = self.image.sample_lanes(lanes, u * half + half, v * half + half);
-        let ([r, g, b, a], [image_r, image_g, image_b, _]) = (unpack(lanes, surface), unpack(lanes, image));
-        let mixed = [(r, image_r), (g, image_g), (b, image_b)].map(|(s, i)| self.mix.channel(lanes, s, i));
-        let [r, g, b] = mixed;
-        (lanes.select_words(inside, pack(lanes, [r, g, b, a]), surface), mask)
+    fn shade<L: Lanes>(&self, fragments: &Fragments<L, (Homogeneous, V)>) -> (L::U32, L::Mask) {
+        let (surface, mask) = self.surface.shade(&fragments.part(|(_, varying)| *varying));
+        (self.on(fragments.lanes, &fragments.varying.0, surface, mask), mask)
     }
 }
 
@@ -147,18 +130,19 @@ where
 mod tests {
     use super::*;
     use crate::shaders::Solid;
+    use alberti_texture::format::Rgba8888;
     use alberti_texture::{Nearest, Texture};
 
     #[test]
     fn images_mix_with_the_surface_and_end_at_their_sides() {
         // Upper left, upper right; lower left, lower right.
         let texels = [[0, 0, 0, 0], [255, 255, 255, 0], [100, 50, 200, 0], [1, 2, 3, 0]];
-        let image = Texture::<Rgba8>::new(&texels, 2, 2).expect("2 x 2").sampler::<Nearest, Clamp>();
+        let image = Texture::new(Rgba8888, &texels, 2, 2).expect("2 x 2").sampler(Nearest, Clamp);
         let surface = Solid(Rgba8::new(200, 100, 50, 77));
         let shade = |u, v, q| {
             let varying = (Homogeneous { u, v, q }, ());
-            let product = Slide { surface, image, mix: Modulate }.shade(varying).expect("never discards");
-            let sum = Slide { surface, image, mix: Add }.shade(varying).expect("never discards");
+            let product = Slide { surface, image, mix: Modulate }.shade_one(varying).expect("never discards");
+            let sum = Slide { surface, image, mix: Add }.shade_one(varying).expect("never discards");
             [product, sum].map(Rgba8::to_bytes)
         };
         let own = [200, 100, 50, 77];

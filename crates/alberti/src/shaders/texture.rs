@@ -1,10 +1,10 @@
 //! A texture's colours as they are.
 
-use super::{Map, alone};
+use super::Map;
 use alberti_math::glam::Vec2;
-use alberti_math::lanes::{Lanes, One};
+use alberti_math::lanes::Lanes;
 use alberti_math::{Rgba8, Varying};
-use alberti_raster::{Color, Differentiation, FragmentStage, Gradient, NoDerivatives};
+use alberti_raster::{Differentiation, FragmentColor, FragmentStage, Fragments, NoDerivatives};
 use alberti_texture::{Nearest, Sampler, Size, TexelFormat, Wrap};
 use core::marker::PhantomData;
 
@@ -12,7 +12,7 @@ use core::marker::PhantomData;
 /// pixel covers of it.
 ///
 /// The derivatives are those that the map asks for, a mip map for those at each pixel; [`Differentiated`] chooses
-/// others. [`FragmentStage::shade`] alone, which knows of no other pixel, reads level 0 of a mip map, or the level that
+/// others. [`FragmentStage::shade_one`], which knows of no other pixel, reads level 0 of a mip map, or the level that
 /// its bounds make of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Unlit<M>(
@@ -25,19 +25,9 @@ impl<M: Map> FragmentStage<Vec2> for Unlit<M> {
     type Derivatives = M::Derivatives;
 
     #[inline(always)]
-    fn shade(&self, uv: Vec2) -> Option<Rgba8> {
-        alone(self, uv)
-    }
-
-    #[inline(always)]
-    fn shade_lanes<L: Lanes>(
-        &self,
-        lanes: L,
-        &uv: &[L::Number; 2],
-        gradient: &Gradient<[L::Number; 2]>,
-        mask: L::Mask,
-    ) -> (L::U32, L::Mask) {
-        (self.0.read(lanes, uv, gradient), mask)
+    fn shade<L: Lanes>(&self, fragments: &Fragments<L, Vec2>) -> (L::U32, L::Mask) {
+        let Fragments { lanes, varying, gradient, mask, .. } = fragments;
+        (self.0.read(*lanes, *varying, gradient), *mask)
     }
 }
 
@@ -48,9 +38,9 @@ impl<M: Map> FragmentStage<Vec2> for Unlit<M> {
 /// use alberti::shaders::{Differentiated, Unlit};
 /// use alberti::texture::{Mipmap, Repeat, Trilinear, format::L8};
 ///
-/// let board = Mipmap::<L8>::new(&[0, 255, 255, 0, 188], 2, 2)?;
+/// let board = Mipmap::new(L8, &[0, 255, 255, 0, 188], 2, 2)?;
 /// // One level of detail for all of a triangle, found once.
-/// let stage = Differentiated::by(PerTriangle, Unlit(board.sampler::<Trilinear, Repeat>()));
+/// let stage = Differentiated::by(PerTriangle, Unlit(board.sampler(Trilinear, Repeat)));
 /// # Ok::<(), alberti::texture::TextureError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
@@ -72,19 +62,8 @@ impl<V: Varying, D: Differentiation, S: FragmentStage<V>> FragmentStage<V> for D
     type Derivatives = D;
 
     #[inline(always)]
-    fn shade(&self, varying: V) -> Option<S::Color> {
-        self.stage.shade(varying)
-    }
-
-    #[inline(always)]
-    fn shade_lanes<L: Lanes>(
-        &self,
-        lanes: L,
-        varyings: &V::Of<L::Number>,
-        gradient: &Gradient<V::Of<L::Number>>,
-        mask: L::Mask,
-    ) -> (L::U32, L::Mask) {
-        self.stage.shade_lanes(lanes, varyings, gradient, mask)
+    fn shade<L: Lanes>(&self, fragments: &Fragments<L, V>) -> (L::U32, L::Mask) {
+        self.stage.shade(fragments)
     }
 }
 
@@ -95,27 +74,16 @@ pub struct Stored<S>(
     pub S,
 );
 
-impl<F: TexelFormat<Texel: Color>, U: Wrap, V: Wrap, Z: Size> FragmentStage<Vec2>
+impl<F: TexelFormat<Texel: FragmentColor>, U: Wrap, V: Wrap, Z: Size> FragmentStage<Vec2>
     for Stored<Sampler<'_, F, Nearest, U, V, Z>>
 {
     type Color = F::Texel;
     type Derivatives = NoDerivatives;
 
     #[inline(always)]
-    fn shade(&self, uv: Vec2) -> Option<F::Texel> {
-        let (word, _) = self.shade_lanes(One, &uv.to_array(), &Gradient::default(), true);
-        Some(Color::from_word(word.0))
-    }
-
-    #[inline(always)]
-    fn shade_lanes<L: Lanes>(
-        &self,
-        lanes: L,
-        &[u, v]: &[L::Number; 2],
-        _: &Gradient<[L::Number; 2]>,
-        mask: L::Mask,
-    ) -> (L::U32, L::Mask) {
-        let words = self.0.stored_lanes(lanes, u, v, |texel| texel.map_or(0, Color::to_word));
+    fn shade<L: Lanes>(&self, fragments: &Fragments<L, Vec2>) -> (L::U32, L::Mask) {
+        let Fragments { lanes, varying: [u, v], mask, .. } = *fragments;
+        let words = self.0.stored_lanes(lanes, u, v, |texel| texel.map_or(0, FragmentColor::to_word));
         (words, mask)
     }
 }
@@ -125,33 +93,43 @@ mod tests {
     use super::*;
     use crate::shaders::{Solid, Times, Tinted};
     use alberti_math::Q16;
-    use alberti_math::lanes::OneFixed;
+    use alberti_math::lanes::{One, OneFixed};
+    use alberti_raster::Gradient;
     use alberti_texture::format::{L8, Rgb565};
     use alberti_texture::{Clamp, Derivatives, LodBounds, Mipmap, Mirror, Repeat, Texture, Trilinear};
     use core::num::Wrapping;
 
+    /// A fragment alone.
+    fn of<L: Lanes<Mask = bool>>(
+        lanes: L,
+        varying: [L::Number; 2],
+        gradient: Gradient<[L::Number; 2]>,
+    ) -> Fragments<L, Vec2> {
+        Fragments { lanes, varying, gradient, mask: true, place: [0; 2] }
+    }
+
     /// A constant is [`Solid`], a map times a constant [`Tinted`], and a mip map what its sampler says, bounded or not.
     #[test]
     fn all_maps_are_unlit_alike() {
-        let board = Mipmap::<L8>::new(&[0, 255, 255, 0, 188], 2, 2).expect("2 x 2, and 1 x 1");
+        let board = Mipmap::new(L8, &[0, 255, 255, 0, 188], 2, 2).expect("2 x 2, and 1 x 1");
         let factor = Rgba8::new(200, 100, 50, 9);
-        let nearest = board.level(0).sampler::<Nearest, Repeat>();
-        let trilinear = board.sampler::<Trilinear, Repeat>();
+        let nearest = board.level(0).sampler(Nearest, Repeat);
+        let trilinear = board.sampler(Trilinear, Repeat);
         let softer = trilinear.bounded(LodBounds { bias: 0.25, ..LodBounds::default() });
         let mut seen = 0;
         for (k, [u, v]) in (0..64u8).map(|k| (k, [f32::from(k) / 16.0, f32::from(k % 8) / 8.0])) {
             let uv = Vec2::new(u, v);
-            assert_eq!(Unlit(factor).shade(uv), Solid(factor).shade(uv));
-            assert_eq!(Unlit(nearest).shade(uv), Some(nearest.sample(uv)));
+            assert_eq!(Unlit(factor).shade_one(uv), Solid(factor).shade_one(uv));
+            assert_eq!(Unlit(nearest).shade_one(uv), Some(nearest.sample(uv)));
             let tinted = Tinted { surface: Unlit(nearest), tint: factor };
-            assert_eq!(Unlit(Times { map: nearest, factor }).shade(uv), tinted.shade(uv));
+            assert_eq!(Unlit(Times { map: nearest, factor }).shade_one(uv), tinted.shade_one(uv));
 
             let [dx, dy] = [[f32::from(k) / 64.0, 0.0], [0.0, 0.25]];
             let d = Derivatives { du_dx: dx[0], dv_dx: dx[1], du_dy: dy[0], dv_dy: dy[1] };
             let gradient = Gradient { dx, dy };
-            let (word, _) = Unlit(trilinear).shade_lanes(One, &[u, v], &gradient, true);
+            let (word, _) = Unlit(trilinear).shade(&of(One, [u, v], gradient));
             assert_eq!(Rgba8::from_bits(word.0), trilinear.sample_grad(uv, d));
-            let (bounded, _) = Unlit(softer).shade_lanes(One, &[u, v], &gradient, true);
+            let (bounded, _) = Unlit(softer).shade(&of(One, [u, v], gradient));
             assert_eq!(Rgba8::from_bits(bounded.0), softer.sample_grad(uv, d));
             seen += u32::from(bounded != word);
         }
@@ -162,7 +140,7 @@ mod tests {
     #[test]
     fn stored_texels_are_those_of_their_cells_in_fixed_point() {
         let texels: [u16; 16] = core::array::from_fn(|i| 1000 + u16::try_from(i).expect("small"));
-        let texture = Texture::<Rgb565>::new(&texels, 8, 2).expect("8 x 2").known::<8, 2>().expect("8 x 2");
+        let texture = Texture::new(Rgb565, &texels, 8, 2).expect("8 x 2").known::<8, 2>().expect("8 x 2");
         let v = Q16::from_f32(0.25);
         for k in (-300_000..300_000_i32).step_by(97).chain([-65_536, -1, 0, 65_535, 65_536]) {
             let at = [Q16::from_bits(k), v];
@@ -170,14 +148,11 @@ mod tests {
             let [repeat, mirror] = [k.rem_euclid(65_536) * 8 / 65_536, k.rem_euclid(131_072) * 8 / 65_536];
             let texel = |column: i32| 1008 + column.unsigned_abs();
             let stored = |(word, _): (Wrapping<u32>, bool)| word.0;
-            let wrapped =
-                Stored(texture.sampler::<Nearest, Repeat>()).shade_lanes(OneFixed, &at, &steady, true);
+            let wrapped = Stored(texture.sampler(Nearest, Repeat)).shade(&of(OneFixed, at, steady));
             assert_eq!(stored(wrapped), texel(repeat), "repeat {k}");
-            let folded =
-                Stored(texture.sampler::<Nearest, Mirror>()).shade_lanes(OneFixed, &at, &steady, true);
+            let folded = Stored(texture.sampler(Nearest, Mirror)).shade(&of(OneFixed, at, steady));
             assert_eq!(stored(folded), texel(mirror.min(15 - mirror)), "mirror {k}");
-            let clamped =
-                Stored(texture.sampler::<Nearest, Clamp>()).shade_lanes(OneFixed, &at, &steady, true);
+            let clamped = Stored(texture.sampler(Nearest, Clamp)).shade(&of(OneFixed, at, steady));
             assert_eq!(stored(clamped), texel((k.clamp(0, 65_535)) * 8 / 65_536), "clamp {k}");
         }
     }

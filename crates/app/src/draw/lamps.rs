@@ -8,7 +8,9 @@ use alberti::shaders::material::{
     BlinnPhong, Directional, Lambert, Light, Phong, PointLight, Reflectance, SpotLight, Viewer,
 };
 use alberti::texture::environment::{Cube, Environment, LatLong, SphereMap, Turned};
-use alberti::texture::surface::{HeightMap, Occlusion, Offset, OffsetLimited, Parallax, Relief, Steep};
+use alberti::texture::surface::{
+    HeightMap, LimitedParallax, OffsetParallax, ParallaxOcclusion, ParallaxSearch, Relief, SteepParallax,
+};
 use alberti::{Eye, Frame, Point3, Vector3, World};
 
 /// What falls on a picture's surfaces.
@@ -115,10 +117,10 @@ impl Reflectance for AnyReflectance {
 /// A way of reading a parallax map.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum AnyParallax {
-    Offset(Offset),
-    Limited(OffsetLimited),
-    Steep(Steep),
-    Occlusion(Occlusion),
+    Offset(OffsetParallax),
+    Limited(LimitedParallax),
+    Steep(SteepParallax),
+    Occlusion(ParallaxOcclusion),
 }
 
 /// The layers in which steep heights are searched: as many as show the technique, terraces and all.
@@ -132,18 +134,18 @@ impl AnyParallax {
     pub(super) fn of(relief: scene::Relief) -> Option<Self> {
         match relief {
             scene::Relief::Bump | scene::Relief::Displacement => None,
-            scene::Relief::Parallax => Some(Self::Offset(Offset)),
-            scene::Relief::ParallaxLimited => Some(Self::Limited(OffsetLimited)),
-            scene::Relief::Steep => Some(Self::Steep(Steep { layers: STEEP_LAYERS })),
-            scene::Relief::Occlusion => Some(Self::Occlusion(Occlusion { layers: OCCLUSION_LAYERS })),
+            scene::Relief::Parallax => Some(Self::Offset(OffsetParallax)),
+            scene::Relief::ParallaxLimited => Some(Self::Limited(LimitedParallax)),
+            scene::Relief::Steep => Some(Self::Steep(SteepParallax { layers: STEEP_LAYERS })),
+            scene::Relief::Occlusion => Some(Self::Occlusion(ParallaxOcclusion { layers: OCCLUSION_LAYERS })),
         }
     }
 }
 
-impl Parallax for AnyParallax {
+impl ParallaxSearch for AnyParallax {
     #[inline(always)]
     fn meet<H: HeightMap, L: Lanes>(
-        &self,
+        self,
         lanes: L,
         relief: &Relief<H>,
         uv: [L::Number; 2],

@@ -2,19 +2,16 @@
 //! the samples that are worked on together; the colours are those of the library's samplers.
 
 use crate::error::Error;
-use crate::options::{Filter, Probes, RenderOptions, Wrap};
+use crate::options::{Filter, RenderOptions, Wrap};
 use crate::scene::{HeightImage, Image, Map, Model, Part};
 use alberti::Rgba8;
 use alberti::glam::Vec2;
 use alberti::lanes::Lanes;
-use alberti::raster::{Gradient, PerPixel};
+use alberti::raster::Gradient;
 use alberti::shaders::material::{self, Times};
-use alberti::texture::format::{Content, L16, Linear, Normals};
-use alberti::texture::mipmap::{self, Mean};
+use alberti::texture::format::{Content, L16, Normals, Rgba8888, Scalars};
 use alberti::texture::surface::{HeightMap, bilinear_height_lanes};
-use alberti::texture::{
-    self, Anisotropic, Clamp, LevelSize, Mipmap, Mirror, PowerOfTwo, Repeat, Size, Texture, Trilinear,
-};
+use alberti::texture::{AnyFilter, AnyMipFilter, AnyWrap, MipSampler, Mipmap, Sampler, Texture, mipmap};
 use std::collections::HashMap;
 
 /// The mip maps that a model's surfaces are drawn with.
@@ -58,166 +55,117 @@ impl Part {
         let normals = [detail.normal.map(|normal| normal.map)];
         let content = |content| move |map: Option<Map>| Some((map?, content));
         let colors = colors.into_iter().filter_map(content(Content::Srgb));
-        let numbers = numbers.into_iter().filter_map(content(Content::Linear));
+        let numbers = numbers.into_iter().filter_map(content(Content::Scalars));
         colors.chain(numbers).chain(normals.into_iter().filter_map(content(Content::Normals)))
     }
 }
 
 /// All levels.
 fn chain(image: &Image, content: Content) -> Result<Vec<[u8; 4]>, Error> {
-    fn build<F: Mean<Texel = [u8; 4]>>(image: &Image) -> Result<Vec<[u8; 4]>, texture::TextureError> {
-        let mut texels = image.texels.clone();
-        texels.resize(mipmap::texel_count(image.width, image.height), [0; 4]);
-        mipmap::build::<F>(&mut texels, image.width, image.height)?;
-        Ok(texels)
-    }
+    let (width, height) = (image.width, image.height);
+    let mut texels = image.texels.clone();
+    texels.resize(mipmap::texel_count(width, height), [0; 4]);
     let built = match content {
-        Content::Srgb => build::<Rgba8>(image),
-        Content::Linear => build::<Linear<Rgba8>>(image),
-        Content::Normals => build::<Normals<Rgba8>>(image),
+        Content::Srgb => mipmap::build(Rgba8888, &mut texels, width, height),
+        Content::Scalars => mipmap::build(Scalars(Rgba8888), &mut texels, width, height),
+        Content::Normals => mipmap::build(Normals(Rgba8888), &mut texels, width, height),
     };
-    built.map_err(|e| Error::new(e.to_string(), "textures that can be drawn"))
+    built.map_err(|e| Error::new(e.to_string(), "textures that can be drawn"))?;
+    Ok(texels)
 }
 
-/// From names to types: the wrap mode.
-macro_rules! by_wrap {
-    ($wrap:expr, |$mode:ident| $body:expr) => {
-        match $wrap {
-            Wrap::Repeat => {
-                type $mode = Repeat;
-                $body
-            }
-            Wrap::Clamp => {
-                type $mode = Clamp;
-                $body
-            }
-            Wrap::Mirror => {
-                type $mode = Mirror;
-                $body
-            }
-        }
-    };
+/// A filter for mip maps, which may have one level only.
+fn mip_filter(filter: Filter) -> AnyMipFilter {
+    match filter {
+        Filter::Nearest => AnyMipFilter::Base(AnyFilter::Nearest),
+        Filter::Bilinear => AnyMipFilter::Base(AnyFilter::Bilinear),
+        Filter::Trilinear => AnyMipFilter::Trilinear,
+        Filter::Anisotropic(probes) => AnyMipFilter::Anisotropic { probes: probes.count() },
+    }
 }
-/// An image with the way of reading it.
+
+/// The filter of plain surfaces, which read no mip maps.
+pub(super) fn any_filter(filter: Filter) -> AnyFilter {
+    if filter == Filter::Nearest { AnyFilter::Nearest } else { AnyFilter::Bilinear }
+}
+
+/// The library's wrap mode of that name.
+fn any_wrap(wrap: Wrap) -> AnyWrap {
+    match wrap {
+        Wrap::Repeat => AnyWrap::Repeat,
+        Wrap::Clamp => AnyWrap::Clamp,
+        Wrap::Mirror => AnyWrap::Mirror,
+    }
+}
+
+/// A map that is read by a call: its code is long, as all filters and wrap modes are in it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct AnyMap<'a> {
-    texture: Texture<'a, Rgba8>,
-    mipmap: Option<Mipmap<'a, Rgba8>>,
-    filter: Filter,
-    wrap: Wrap,
+pub(super) struct Called<M>(M);
+
+/// An image, perhaps with smaller levels, with the way of reading it.
+pub(super) type AnyMap<'a> = Called<MipSampler<'a, Rgba8888, AnyMipFilter, AnyWrap>>;
+
+/// An image without smaller levels.
+pub(super) type FlatMap<'a> = Called<Sampler<'a, Rgba8888, AnyFilter, AnyWrap>>;
+
+/// An image that the model has, if it has it.
+pub(super) fn any_map<'a>(
+    model: &'a Model,
+    chains: &'a Chains,
+    options: &RenderOptions,
+    map: Map,
+    content: Content,
+) -> Option<AnyMap<'a>> {
+    let image = model.textures.get(map.image)?;
+    let texels = chains.0.get(&(map.image, content)).unwrap_or(&image.texels);
+    let mipmap = Mipmap::new(Rgba8888, texels, image.width, image.height).ok()?;
+    let filter = mip_filter(map.filter.unwrap_or(options.filter));
+    Some(Called(mipmap.sampler(filter, any_wrap(map.wrap.unwrap_or(options.wrap)))))
 }
 
-impl<'a> AnyMap<'a> {
-    /// An image that the model has, if it has it.
-    pub(super) fn new(
-        model: &'a Model,
-        chains: &'a Chains,
-        options: &RenderOptions,
-        map: Map,
-        content: Content,
-    ) -> Option<Self> {
-        let image = model.textures.get(map.image)?;
-        let chain = chains.0.get(&(map.image, content));
-        Some(Self {
-            texture: Texture::new(&image.texels, image.width, image.height).ok()?,
-            mipmap: chain.and_then(|texels| Mipmap::new(texels, image.width, image.height).ok()),
-            filter: map.filter.unwrap_or(options.filter),
-            wrap: map.wrap.unwrap_or(options.wrap),
-        })
-    }
-
-    /// With texels that are found by masks, if its size allows that.
-    #[inline(always)]
-    fn read_sized<L: Lanes, Z: LevelSize>(
-        &self,
-        lanes: L,
-        texture: &Texture<'a, Rgba8, Z>,
-        mipmap: Option<&Mipmap<'a, Rgba8, Z>>,
-        uv: [L::Number; 2],
-        gradient: &Gradient<[L::Number; 2]>,
-    ) -> L::U32 {
-        let Some(mipmap) = mipmap else {
-            return if self.filter == Filter::Nearest {
-                by_wrap!(self.wrap, |W| flat::<L, texture::Nearest, W, Z>(lanes, texture, uv))
-            } else {
-                by_wrap!(self.wrap, |W| flat::<L, texture::Bilinear, W, Z>(lanes, texture, uv))
-            };
-        };
-        match self.filter {
-            Filter::Anisotropic(Probes::Two) => {
-                by_wrap!(self.wrap, |W| deep::<L, Anisotropic<2>, W, Z>(lanes, mipmap, uv, gradient))
-            }
-            Filter::Anisotropic(Probes::Four) => {
-                by_wrap!(self.wrap, |W| deep::<L, Anisotropic<4>, W, Z>(lanes, mipmap, uv, gradient))
-            }
-            Filter::Anisotropic(Probes::Eight) => {
-                by_wrap!(self.wrap, |W| deep::<L, Anisotropic<8>, W, Z>(lanes, mipmap, uv, gradient))
-            }
-            Filter::Anisotropic(Probes::Sixteen) => {
-                by_wrap!(self.wrap, |W| deep::<L, Anisotropic<16>, W, Z>(lanes, mipmap, uv, gradient))
-            }
-            _ => by_wrap!(self.wrap, |W| deep::<L, Trilinear, W, Z>(lanes, mipmap, uv, gradient)),
-        }
-    }
+/// A texture of a plain surface.
+pub(super) fn flat_map<'a>(texture: Texture<'a, Rgba8888>, options: &RenderOptions) -> FlatMap<'a> {
+    Called(texture.sampler(any_filter(options.filter), any_wrap(options.wrap)))
 }
 
-impl material::Map for AnyMap<'_> {
-    type Derivatives = PerPixel;
+impl<M: material::Map> material::Map for Called<M> {
+    type Derivatives = M::Derivatives;
 
     #[inline(always)]
     fn read<L: Lanes>(&self, lanes: L, uv: [L::Number; 2], gradient: &Gradient<[L::Number; 2]>) -> L::U32 {
-        let mipmap = self.mipmap.as_ref();
-        match self.texture.power_of_two() {
-            Some(texture) => {
-                let mipmap = mipmap.and_then(|mipmap| mipmap.power_of_two());
-                self.read_sized::<L, PowerOfTwo>(lanes, &texture, mipmap.as_ref(), uv, gradient)
-            }
-            None => self.read_sized(lanes, &self.texture, mipmap, uv, gradient),
-        }
+        read(lanes, &self.0, uv, gradient)
     }
 }
 
-/// One filter. Not inlined, so that there is one copy for each kind of lanes.
+/// A map's colours. Not inlined, so that there is one copy for each kind of lanes.
 #[inline(never)]
-fn flat<L: Lanes, Fl: texture::Filter, W: texture::Wrap, Z: Size>(
+fn read<L: Lanes>(
     lanes: L,
-    texture: &Texture<'_, Rgba8, Z>,
-    [u, v]: [L::Number; 2],
-) -> L::U32 {
-    lanes.vectorize(
-        #[inline(always)]
-        || texture.sampler::<Fl, W>().sample_lanes(lanes, u, v),
-    )
-}
-
-/// One filter of mip maps.
-#[inline(never)]
-fn deep<L: Lanes, M: texture::MipFilter, W: texture::Wrap, Z: LevelSize>(
-    lanes: L,
-    mipmap: &Mipmap<'_, Rgba8, Z>,
+    map: &impl material::Map,
     uv: [L::Number; 2],
     gradient: &Gradient<[L::Number; 2]>,
 ) -> L::U32 {
     lanes.vectorize(
         #[inline(always)]
-        || material::Map::read(&mipmap.sampler::<M, W>(), lanes, uv, gradient),
+        || map.read(lanes, uv, gradient),
     )
 }
 
-/// A constant, times a map where there is one.
+/// A constant, times a map where there is one. A map times white is the map.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Scaled<'a> {
+pub(super) struct Scaled<M> {
     pub(super) factor: Rgba8,
-    pub(super) map: Option<AnyMap<'a>>,
+    pub(super) map: Option<M>,
 }
 
-impl material::Map for Scaled<'_> {
-    type Derivatives = PerPixel;
+impl<M: material::Map> material::Map for Scaled<M> {
+    type Derivatives = M::Derivatives;
 
     #[inline(always)]
     fn read<L: Lanes>(&self, lanes: L, uv: [L::Number; 2], gradient: &Gradient<[L::Number; 2]>) -> L::U32 {
         match self.map {
             None => self.factor.read(lanes, uv, gradient),
+            Some(map) if self.factor == Rgba8::WHITE => map.read(lanes, uv, gradient),
             Some(map) => Times { map, factor: self.factor }.read(lanes, uv, gradient),
         }
     }
@@ -227,12 +175,13 @@ impl material::Map for Scaled<'_> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AnyHeights<'a> {
     texture: Texture<'a, L16>,
-    wrap: Wrap,
+    wrap: AnyWrap,
 }
 
 impl<'a> AnyHeights<'a> {
     pub(super) fn new(image: &'a HeightImage, wrap: Wrap) -> Option<Self> {
-        Some(Self { texture: Texture::new(&image.heights, image.width, image.height).ok()?, wrap })
+        let texture = Texture::new(L16, &image.heights, image.width, image.height).ok()?;
+        Some(Self { texture, wrap: any_wrap(wrap) })
     }
 
     /// The size of a texel in u and v.
@@ -245,19 +194,15 @@ impl<'a> AnyHeights<'a> {
 impl HeightMap for AnyHeights<'_> {
     #[inline(always)]
     fn height_lanes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2]) -> L::Number {
-        by_wrap!(self.wrap, |W| surface::<L, W>(lanes, &self.texture, uv))
+        heights(lanes, self, uv)
     }
 }
 
 /// The heights between texels.
 #[inline(never)]
-fn surface<L: Lanes, W: texture::Wrap>(
-    lanes: L,
-    texture: &Texture<'_, L16>,
-    uv: [L::Number; 2],
-) -> L::Number {
+fn heights<L: Lanes>(lanes: L, of: &AnyHeights<'_>, uv: [L::Number; 2]) -> L::Number {
     lanes.vectorize(
         #[inline(always)]
-        || bilinear_height_lanes::<L, L16, _, W, W>(lanes, texture, uv).0,
+        || bilinear_height_lanes(lanes, &of.texture, (of.wrap, of.wrap), uv).0,
     )
 }

@@ -3,7 +3,7 @@
 
 use super::color;
 use super::lamps::{AnyEnvironment, AnyParallax, AnyReflectance, Lamp, Lamps};
-use super::maps::{AnyHeights, AnyMap, Chains, Scaled};
+use super::maps::{AnyHeights, AnyMap, Chains, Scaled, any_map};
 use crate::options::{Filter, RenderOptions, Shading, Wrap};
 use crate::scene::{self, Model, NormalSpace, Part};
 use alberti::glam::{Mat3, Vec2, Vec3};
@@ -22,13 +22,13 @@ use alberti::{Eye, Frame, Point3, Varying, World};
 pub(super) struct Painted<'a> {
     parallax: Option<Parallax<AnyHeights<'a>, AnyParallax>>,
     normal: Facing<'a>,
-    color: Color<Scaled<'a>>,
-    specular: Option<Specular<Scaled<'a>>>,
+    color: Color<Scaled<AnyMap<'a>>>,
+    specular: Option<Specular<Scaled<AnyMap<'a>>>>,
     gloss: Option<Gloss<AnyMap<'a>>>,
-    wetness: Option<Wetness<Scaled<'a>>>,
+    wetness: Option<Wetness<Scaled<AnyMap<'a>>>>,
     occlusion: Option<Occlusion<AnyMap<'a>>>,
-    emission: Option<Emission<Scaled<'a>>>,
-    reflection: Option<Reflection<AnyEnvironment, AnyMap<'a>, Scaled<'a>>>,
+    emission: Option<Emission<Scaled<AnyMap<'a>>>>,
+    reflection: Option<Reflection<AnyEnvironment, AnyMap<'a>, Scaled<AnyMap<'a>>>>,
 }
 
 /// Which way it faces.
@@ -92,8 +92,8 @@ impl<'a> Painted<'a> {
         camera: Frame<Eye, World>,
     ) -> Self {
         let detail = &part.detail;
-        let map = |map: scene::Map, content| AnyMap::new(model, chains, options, map, content);
-        let numbers = |of: Option<scene::Map>| of.and_then(|of| map(of, Content::Linear));
+        let map = |map: scene::Map, content| any_map(model, chains, options, map, content);
+        let numbers = |of: Option<scene::Map>| of.and_then(|of| map(of, Content::Scalars));
         let colors = |of: Option<scene::Map>| of.and_then(|of| map(of, Content::Srgb));
         let scaled = |factor: [f32; 3], map| Scaled { factor: color(factor), map };
 
@@ -108,11 +108,17 @@ impl<'a> Painted<'a> {
         let own = detail.normal.and_then(|normal| {
             let map = map(normal.map, Content::Normals)?;
             Some(match normal.space {
-                NormalSpace::Tangent => Facing::Tangent(NormalMap::new(map, normal.strength)),
-                NormalSpace::Object => Facing::Object(ObjectNormals::new(
+                NormalSpace::Tangent => {
+                    Facing::Tangent(NormalMap { map, encoding: Unorm, strength: normal.strength })
+                }
+                NormalSpace::Object => Facing::Object(ObjectNormals {
                     map,
-                    Frame::from_mat3(Mat3::from_cols_array_2d(&normal.axes), Point3::new(Vec3::ZERO)),
-                )),
+                    encoding: Unorm,
+                    to_world: Frame::from_mat3(
+                        Mat3::from_cols_array_2d(&normal.axes),
+                        Point3::new(Vec3::ZERO),
+                    ),
+                }),
             })
         });
         let bump = relief.filter(|(kind, _)| *kind != scene::Relief::Displacement);

@@ -221,6 +221,11 @@ impl<S: Simd> Lanes for Eight<S> {
     }
 
     #[inline(always)]
+    fn less_words(self, a: u32x8<S>, b: u32x8<S>) -> mask32x8<S> {
+        a.simd_lt(b)
+    }
+
+    #[inline(always)]
     fn select(self, mask: mask32x8<S>, a: f32x8<S>, b: f32x8<S>) -> f32x8<S> {
         mask.select(a, b)
     }

@@ -120,7 +120,10 @@ mod tests {
             for machine in Machine::all() {
                 let same = for_lanes!(machine, lanes => {
                     let [x, y] = [x, y].map(|v| v.map(|x| lanes.splat(x)));
-                    lanes.jacobi_rotation(x, y, scale).map(|x| lanes.store(x).as_ref()[3])
+                    lanes.jacobi_rotation(x, y, scale).map(|x| {
+                        let each = lanes.store(x);
+                        each.as_ref()[3 % each.as_ref().len()]
+                    })
                 });
                 assert_eq!(same.map(f32::to_bits), found.map(f32::to_bits));
             }

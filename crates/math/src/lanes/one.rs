@@ -80,6 +80,11 @@ macro_rules! one_lane {
         }
 
         #[inline(always)]
+        fn less_words(self, a: Wrapping<u32>, b: Wrapping<u32>) -> bool {
+            a < b
+        }
+
+        #[inline(always)]
         fn select(self, mask: bool, a: Self::Number, b: Self::Number) -> Self::Number {
             if mask { a } else { b }
         }

@@ -1,12 +1,10 @@
-//! What colours stand for.
-
-use core::marker::PhantomData;
+//! The content of texels: colours, numbers or directions.
 
 use alberti_math::Rgba8;
 
 use super::{Encode, TexelFormat};
 
-/// What the texels of a format stand for, and so what their mean is: the texels of smaller levels of a mip map, which
+/// The meaning of a format's texels, and so of their mean: the texels of smaller levels of a mip map, which
 /// [`build`](crate::mipmap::build) makes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Content {
@@ -21,7 +19,7 @@ pub enum Content {
     ///
     /// # Precision
     /// Correctly rounded, halves up: to 8 bits, and [`L16`](super::L16) to 16.
-    Linear,
+    Scalars,
     /// Directions: red, green and blue are x, y and z from -1 to 1 as 2c/255 - 1. The mean of the vectors is made a
     /// unit vector again; where they cancel out it is (0, 0, 1). Alpha is linear.
     ///
@@ -30,78 +28,88 @@ pub enum Content {
     Normals,
 }
 
-/// The format `F` for numbers, [`Content::Linear`]. It is stored and sampled as `F` is.
+/// The format `F` for numbers, [`Content::Scalars`]. It is stored and sampled as `F` is.
 ///
 /// ```
-/// use alberti_texture::format::{L8, Linear};
+/// use alberti_texture::format::{L8, Scalars};
 /// use alberti_texture::{Mipmap, mipmap};
 ///
 /// let mut heights = [0, 255, 255, 0, 0];
-/// mipmap::build::<Linear<L8>>(&mut heights, 2, 2)?;
-/// assert_eq!(Mipmap::<Linear<L8>>::new(&heights, 2, 2)?.level(1).texels(), [128]);
+/// mipmap::build(Scalars(L8), &mut heights, 2, 2)?;
+/// assert_eq!(Mipmap::new(Scalars(L8), &heights, 2, 2)?.level(1).texels(), [128]);
 /// # Ok::<(), alberti_texture::TextureError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Linear<F>(PhantomData<F>);
+pub struct Scalars<F>(
+    /// The format.
+    pub F,
+);
 
-/// The format `F` for directions, [`Content::Normals`]: what a normal map is. It is stored and sampled as `F` is.
+/// The format `F` for directions, [`Content::Normals`], as of normal maps. It is stored and sampled as `F` is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Normals<F>(PhantomData<F>);
+pub struct Normals<F>(
+    /// The format.
+    pub F,
+);
 
 /// The same texels with another content.
 macro_rules! stands_for {
     ($($wrapper:ident)*) => {$(
         impl<F: TexelFormat> TexelFormat for $wrapper<F> {
             type Texel = F::Texel;
-            const CONTENT: Content = Content::$wrapper;
 
             #[inline]
-            fn decode(texel: F::Texel) -> Rgba8 {
-                F::decode(texel)
+            fn content(self) -> Content {
+                Content::$wrapper
             }
 
             #[inline]
-            fn scalar(texel: F::Texel) -> u16 {
-                F::scalar(texel)
+            fn decode(self, texel: F::Texel) -> Rgba8 {
+                self.0.decode(texel)
+            }
+
+            #[inline]
+            fn scalar(self, texel: F::Texel) -> u16 {
+                self.0.scalar(texel)
             }
         }
 
         impl<F: Encode> Encode for $wrapper<F> {
             #[inline]
-            fn encode(color: Rgba8) -> F::Texel {
-                F::encode(color)
+            fn encode(self, color: Rgba8) -> F::Texel {
+                self.0.encode(color)
             }
         }
     )*};
 }
 
-stands_for! { Linear Normals }
+stands_for! { Scalars Normals }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::format::{L8, L16, Rgb565, Rgba4444};
+    use crate::format::{L8, L16, Rgb565, Rgba4444, Rgba8888};
 
     /// Every texel of 16 bits.
     #[test]
     fn wrappers_store_the_same() {
-        fn check<F: Encode<Texel = u16>, G: Encode<Texel = u16>>(texel: u16) {
-            let color = F::decode(texel);
-            assert_eq!((G::decode(texel), G::scalar(texel)), (color, F::scalar(texel)));
-            assert_eq!(G::encode(color), F::encode(color));
+        fn check<F: Encode<Texel = u16>, G: Encode<Texel = u16>>(format: F, wrapped: G, texel: u16) {
+            let color = format.decode(texel);
+            assert_eq!((wrapped.decode(texel), wrapped.scalar(texel)), (color, format.scalar(texel)));
+            assert_eq!(wrapped.encode(color), format.encode(color));
         }
         for texel in 0..=u16::MAX {
-            check::<Rgb565, Linear<Rgb565>>(texel);
-            check::<Rgba4444, Normals<Rgba4444>>(texel);
-            assert_eq!(Linear::<L16>::scalar(texel), texel);
+            check(Rgb565, Scalars(Rgb565), texel);
+            check(Rgba4444, Normals(Rgba4444), texel);
+            assert_eq!(Scalars(L16).scalar(texel), texel);
         }
     }
 
     #[test]
-    fn types_say_the_content() {
+    fn formats_say_the_content() {
         let found =
-            [L8::CONTENT, Rgba8::CONTENT, L16::CONTENT, Linear::<L8>::CONTENT, Normals::<L8>::CONTENT];
-        let (linear, srgb) = (Content::Linear, Content::Srgb);
+            [L8.content(), Rgba8888.content(), L16.content(), Scalars(L8).content(), Normals(L8).content()];
+        let (linear, srgb) = (Content::Scalars, Content::Srgb);
         assert_eq!(found, [srgb, srgb, linear, linear, Content::Normals]);
     }
 }

@@ -4,20 +4,22 @@ use alberti_math::Rgba8;
 use alberti_math::lanes::Lanes;
 
 use super::Storage;
+use crate::sealed::Sealed;
 use crate::{Size, Texture};
 
 /// Indices of 1, 2, 4 or 8 bits, whose colours are in a palette that the texture refers to: a texture in an eighth to a
 /// quarter of the memory of 32 bits a texel, and the palette can be another one for every view.
 ///
 /// The leftmost texel is in the highest bits of a byte, and each row begins with a byte of its own, as in PNG and BMP
-/// files. An index beyond the palette is transparent black. Made by [`Texture::indexed`]; filters work on the colours.
+/// files. An index beyond the palette is transparent black. Filters work on the colours. [`Indexed1`], [`Indexed2`],
+/// [`Indexed4`] and [`Indexed8`] are its names.
 ///
 /// ```
-/// use alberti_texture::{Texture, format::{Indexed, Rgba8}};
+/// use alberti_texture::{Texture, format::{Indexed1, Rgba8}};
 ///
 /// // A checkerboard of 3 x 2, and its colours.
 /// let bytes = [0b1010_0000, 0b0100_0000];
-/// let board = Texture::<Indexed<1>>::indexed(&bytes, &[Rgba8::BLACK, Rgba8::WHITE], 3, 2)?;
+/// let board = Texture::new(Indexed1 { palette: &[Rgba8::BLACK, Rgba8::WHITE] }, &bytes, 3, 2)?;
 /// assert_eq!(board.texel(0, 0), Rgba8::WHITE);
 /// assert_eq!(board.texel(0, 1), Rgba8::BLACK);
 /// # Ok::<(), alberti_texture::TextureError>(())
@@ -26,32 +28,43 @@ use crate::{Size, Texture};
 /// # Cost
 /// A texel takes two loads and two comparisons instead of one of each, and a shift and a mask.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Indexed<const BITS: u32>;
+pub struct Indexed<'a, const BITS: u32> {
+    /// The colours, the first of index 0; it may be shorter than the indices reach.
+    pub palette: &'a [Rgba8],
+}
 
-impl<const BITS: u32> Indexed<BITS> {
-    /// How many texels a byte holds.
-    pub(crate) const IN_BYTE: u32 = {
+/// [`Indexed`] texels of one bit.
+pub type Indexed1<'a> = Indexed<'a, 1>;
+/// [`Indexed`] texels of two bits.
+pub type Indexed2<'a> = Indexed<'a, 2>;
+/// [`Indexed`] texels of four bits.
+pub type Indexed4<'a> = Indexed<'a, 4>;
+/// [`Indexed`] texels of a byte.
+pub type Indexed8<'a> = Indexed<'a, 8>;
+
+impl<const BITS: u32> Sealed for Indexed<'_, BITS> {}
+
+impl<const BITS: u32> Storage for Indexed<'_, BITS> {
+    type Element = u8;
+
+    const IN_ELEMENT: u32 = {
         assert!(BITS.is_power_of_two() && BITS <= 8, "Indexed: 1, 2, 4 or 8 bits");
         8 / BITS
     };
-}
-
-impl<const BITS: u32> Storage for Indexed<BITS> {
-    type Element = u8;
-    type Palette<'a> = &'a [Rgba8];
 
     #[inline(always)]
     fn fetch<L: Lanes, Z: Size>(
+        self,
         lanes: L,
         texture: &Texture<'_, Self, Z>,
         row: L::U32,
         column: L::U32,
     ) -> L::U32 {
-        let (bytes, palette) = (texture.texels(), texture.palette());
-        let from_right = lanes.word(Self::IN_BYTE - 1) - (column & lanes.word(Self::IN_BYTE - 1));
+        let (bytes, palette) = (texture.texels(), self.palette);
+        let from_right = lanes.word(Self::IN_ELEMENT - 1) - (column & lanes.word(Self::IN_ELEMENT - 1));
         let shifts = lanes.store_words(from_right * lanes.word(BITS));
-        let first = row * lanes.word(texture.width().div_ceil(Self::IN_BYTE));
-        let places = lanes.store_words(first + lanes.shr(column, Self::IN_BYTE.trailing_zeros()));
+        let first = row * lanes.word(texture.width().div_ceil(Self::IN_ELEMENT));
+        let places = lanes.store_words(first + lanes.shr(column, Self::IN_ELEMENT.trailing_zeros()));
         let at = |words: &[u32], k: usize| words.get(k).copied().unwrap_or_default();
         lanes.load_words(&lanes.each(|k| {
             let byte = bytes.get(at(places.as_ref(), k) as usize).copied().unwrap_or_default();
@@ -71,7 +84,7 @@ mod tests {
             let row_bytes = (width * BITS).div_ceil(8);
             let bytes: std::vec::Vec<u8> =
                 (0..row_bytes * 3).map(|i| (i * 151 + 77).to_le_bytes()[0]).collect();
-            let texture = Texture::<Indexed<BITS>>::indexed(&bytes, palette, width, 3).unwrap();
+            let texture = Texture::new(Indexed::<BITS> { palette }, &bytes, width, 3).unwrap();
             for y in 0..3 {
                 let row = &bytes[(y * row_bytes) as usize..][..row_bytes as usize];
                 // A row as one number of up to 160 bits, in two halves that no texel straddles.
@@ -85,7 +98,7 @@ mod tests {
                     assert_eq!(texture.texel(x, y), expected, "{BITS} bits, {x} of {width}");
                 }
             }
-            assert!(Texture::<Indexed<BITS>>::indexed(&bytes[1..], palette, width, 3).is_err());
+            assert!(Texture::new(Indexed::<BITS> { palette }, &bytes[1..], width, 3).is_err());
         }
     }
 

@@ -1,20 +1,24 @@
-//! What a texture keeps, and how a texel is found in it.
+//! The texels that a texture keeps, and the way to one of them.
 
 use alberti_math::lanes::Lanes;
+use core::fmt::Debug;
 
 use super::TexelFormat;
+use crate::sealed::Sealed;
 use crate::{Size, Texture};
 
 /// The way in which a texture keeps its texels: any [`TexelFormat`], one texel after the other, or
-/// [`Indexed`](super::Indexed), packed and with a palette. Other crates add to it by [`TexelFormat`].
-pub trait Storage: Sized + 'static {
-    /// What the texture's memory is made of: a texel, or a byte with several.
+/// [`Indexed`](super::Indexed), packed and with a palette. Sealed; other crates add to it by [`TexelFormat`].
+pub trait Storage: Sealed + Copy + Debug {
+    /// A piece of the texture's memory: a texel, or a byte with several.
     type Element: Copy + Send + Sync + 'static;
-    /// What the texture refers to beside the texels: nothing, or colours.
-    type Palette<'a>: Copy;
+
+    /// How many texels such a piece holds; each row begins with a new one.
+    const IN_ELEMENT: u32 = 1;
 
     /// The colours of texels as words; anything for those that do not lie in the texture.
     fn fetch<L: Lanes, Z: Size>(
+        self,
         lanes: L,
         texture: &Texture<'_, Self, Z>,
         row: L::U32,
@@ -25,36 +29,40 @@ pub trait Storage: Sized + 'static {
     /// not lie in the texture.
     #[inline(always)]
     fn fetch_scalars<L: Lanes, Z: Size>(
+        self,
         lanes: L,
         texture: &Texture<'_, Self, Z>,
         row: L::U32,
         column: L::U32,
     ) -> L::U32 {
-        (Self::fetch(lanes, texture, row, column) & lanes.word(255)) * lanes.word(257)
+        (self.fetch(lanes, texture, row, column) & lanes.word(255)) * lanes.word(257)
     }
 }
 
+impl<F: TexelFormat> Sealed for F {}
+
 impl<F: TexelFormat> Storage for F {
     type Element = F::Texel;
-    type Palette<'a> = ();
 
     #[inline(always)]
     fn fetch<L: Lanes, Z: Size>(
+        self,
         lanes: L,
         texture: &Texture<'_, F, Z>,
         row: L::U32,
         column: L::U32,
     ) -> L::U32 {
-        texture.words(lanes, row, column, |texel| texel.map_or(0, |&texel| F::decode(texel).to_bits()))
+        texture.words(lanes, row, column, |texel| texel.map_or(0, |&texel| self.decode(texel).to_bits()))
     }
 
     #[inline(always)]
     fn fetch_scalars<L: Lanes, Z: Size>(
+        self,
         lanes: L,
         texture: &Texture<'_, F, Z>,
         row: L::U32,
         column: L::U32,
     ) -> L::U32 {
-        texture.words(lanes, row, column, |texel| texel.map_or(0, |&texel| F::scalar(texel).into()))
+        texture.words(lanes, row, column, |texel| texel.map_or(0, |&texel| self.scalar(texel).into()))
     }
 }

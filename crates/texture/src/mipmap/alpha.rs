@@ -15,11 +15,17 @@ use crate::format::Encode;
 ///
 /// # Cost
 /// Two passes over each level, and a kilobyte of stack.
-pub fn preserve_coverage<F: Encode>(texels: &mut [F::Texel], width: u32, height: u32, threshold: u8) {
+pub fn preserve_coverage<F: Encode>(
+    format: F,
+    texels: &mut [F::Texel],
+    width: u32,
+    height: u32,
+    threshold: u8,
+) {
     if threshold == 0 {
         return;
     }
-    let alpha = |texel: F::Texel| F::decode(texel).to_bytes()[3];
+    let alpha = |texel: F::Texel| format.decode(texel).to_bytes()[3];
     let area = u64::from(width) * u64::from(height);
     let mut rest = texels;
     let mut covered = 0;
@@ -41,8 +47,8 @@ pub fn preserve_coverage<F: Encode>(texels: &mut [F::Texel], width: u32, height:
         let scale = |alpha: u8, from: u32| u32::from(alpha) * u32::from(threshold) / from.max(1);
         let from = passing(&histogram, covered * u64::from(count), area);
         for texel in own {
-            let [r, g, b, a] = F::decode(*texel).to_bytes();
-            *texel = F::encode(Rgba8::new(r, g, b, scale(a, from).min(255).to_le_bytes()[0]));
+            let [r, g, b, a] = format.decode(*texel).to_bytes();
+            *texel = format.encode(Rgba8::new(r, g, b, scale(a, from).min(255).to_le_bytes()[0]));
         }
     }
 }

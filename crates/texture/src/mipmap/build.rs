@@ -19,8 +19,8 @@ use crate::{Texture, TextureError};
 ///
 /// let mut texels = [0; mipmap::texel_count(2, 2)];
 /// texels[..4].copy_from_slice(&[0, 255, 255, 0]);
-/// mipmap::build::<L8>(&mut texels, 2, 2)?;
-/// let board = Mipmap::<L8>::new(&texels, 2, 2)?;
+/// mipmap::build(L8, &mut texels, 2, 2)?;
+/// let board = Mipmap::new(L8, &texels, 2, 2)?;
 /// // Half of the light is far above half of the byte.
 /// assert_eq!(board.level(1).texels(), [188]);
 /// # Ok::<(), alberti_texture::TextureError>(())
@@ -33,11 +33,16 @@ use crate::{Texture, TextureError};
 /// Each level reads all of level 0: for a side of 256 texels that is eight times. No memory.
 ///
 /// # Errors
-/// If a side is 0 or greater than [`Texture::MAX_SIZE`], or if there are not [`texel_count`] texels.
-pub fn build<F: Mean>(texels: &mut [F::Texel], width: u32, height: u32) -> Result<(), TextureError> {
+/// If a side is 0 or greater than 16384, or if there are not [`texel_count`] texels.
+pub fn build<F: Mean>(
+    format: F,
+    texels: &mut [F::Texel],
+    width: u32,
+    height: u32,
+) -> Result<(), TextureError> {
     let area = width.saturating_mul(height) as usize;
-    // Says what is wrong with the sides.
-    Texture::<F>::new(texels.get(..area).unwrap_or(texels), width, height)?;
+    // For its errors.
+    Texture::new(format, texels.get(..area).unwrap_or(texels), width, height)?;
     let (found, expected) = (texels.len(), texel_count(width, height));
     if found != expected {
         #[expect(clippy::cast_possible_truncation, reason = "at most 4/3 of 2^28")]
@@ -50,7 +55,7 @@ pub fn build<F: Mean>(texels: &mut [F::Texel], width: u32, height: u32) -> Resul
         for (texels, row) in own.chunks_exact_mut(columns as usize).zip(0..) {
             for (texel, column) in texels.iter_mut().zip(0..) {
                 let rows = covered(base.chunks_exact(width as usize), row, [height, rows]);
-                *texel = F::mean(rows.flat_map(|(texels, weight)| {
+                *texel = format.mean(rows.flat_map(|(texels, weight)| {
                     let parts = covered(texels.iter(), column, [width, columns]);
                     parts.map(move |(&texel, part)| (texel, weight * part))
                 }));

@@ -5,18 +5,18 @@ use alberti_math::Rgba8;
 use crate::format::{Content, Encode, L16};
 use crate::{TexelFormat, srgb};
 
-/// A format whose texels have a mean, that of its [`CONTENT`](TexelFormat::CONTENT): what a mip chain is built in. They
-/// are [`L16`] and all that [`Encode`], by which other crates add to them.
+/// A format whose texels have a mean, that of its [`content`](TexelFormat::content), in which mip chains are built:
+/// [`L16`] and all that [`Encode`], by which other crates add to them.
 pub trait Mean: TexelFormat {
     /// The mean of texels that count so many times: together from 1 to 2^28 times.
-    fn mean(texels: impl Iterator<Item = (Self::Texel, u64)>) -> Self::Texel;
+    fn mean(self, texels: impl Iterator<Item = (Self::Texel, u64)>) -> Self::Texel;
 }
 
 impl<F: Encode> Mean for F {
     #[inline]
-    fn mean(texels: impl Iterator<Item = (F::Texel, u64)>) -> F::Texel {
-        let texels = texels.map(|(texel, weight)| (F::decode(texel).to_bytes(), weight));
-        let [r, g, b, a] = match F::CONTENT {
+    fn mean(self, texels: impl Iterator<Item = (F::Texel, u64)>) -> F::Texel {
+        let texels = texels.map(|(texel, weight)| (self.decode(texel).to_bytes(), weight));
+        let [r, g, b, a] = match self.content() {
             Content::Srgb => {
                 let light = |[r, g, b, a]: [u8; 4]| {
                     [srgb::to_light(r), srgb::to_light(g), srgb::to_light(b), a.into()]
@@ -25,7 +25,7 @@ impl<F: Encode> Mean for F {
                 let [r, g, b] = [r, g, b].map(|sum| srgb::to_byte(rounded(sum, weights)));
                 [r, g, b, byte(a, weights)]
             }
-            Content::Linear => {
+            Content::Scalars => {
                 let (sums, weights) = sums(texels);
                 sums.map(|sum| byte(sum, weights))
             }
@@ -37,13 +37,13 @@ impl<F: Encode> Mean for F {
                 [r, g, b, byte(alpha, weights)]
             }
         };
-        F::encode(Rgba8::new(r, g, b, a))
+        self.encode(Rgba8::new(r, g, b, a))
     }
 }
 
 impl Mean for L16 {
     #[inline]
-    fn mean(texels: impl Iterator<Item = (u16, u64)>) -> u16 {
+    fn mean(self, texels: impl Iterator<Item = (u16, u64)>) -> u16 {
         let ([sum], weights) = sums(texels.map(|(texel, weight)| ([texel], weight)));
         rounded(sum, weights)
     }

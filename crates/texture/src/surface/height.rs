@@ -57,9 +57,10 @@ impl<F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size> HeightMap for Sampler<'_
 #[must_use]
 pub fn bilinear_height<F: Storage, Z: Size, U: Wrap, V: Wrap>(
     texture: &Texture<'_, F, Z>,
+    wrap: (U, V),
     uv: Vec2,
 ) -> (f32, Vec2) {
-    let (height, gradient) = bilinear_height_lanes::<One, F, Z, U, V>(One, texture, uv.to_array());
+    let (height, gradient) = bilinear_height_lanes(One, texture, wrap, uv.to_array());
     (height, Vec2::from(gradient))
 }
 
@@ -72,15 +73,21 @@ pub fn bilinear_height<F: Storage, Z: Size, U: Wrap, V: Wrap>(
 pub fn bilinear_height_lanes<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
     lanes: L,
     texture: &Texture<'_, F, Z>,
+    wrap: (U, V),
     [u, v]: [L::Number; 2],
 ) -> (L::Number, [L::Number; 2]) {
-    let (columns, s) = cell::<L, Z, U>(lanes, u, texture.width());
-    let (rows, t) = cell::<L, Z, V>(lanes, v, texture.height());
+    let [(left, s), (low, t)] = [
+        cell(lanes, wrap.0.in_period(lanes, u), texture.width()),
+        cell(lanes, wrap.1.in_period(lanes, v), texture.height()),
+    ];
+    let one = lanes.word(1);
+    let [left_column, low_row] = texture.indices(lanes, [left, low], wrap);
+    let [right_column, high_row] = texture.indices(lanes, [left + one, low + one], wrap);
     let quad = Quad::<L>::about(
-        columns,
-        rows,
+        [left_column, right_column],
+        [low_row, high_row],
         #[inline(always)]
-        |at| scalar::<L, F, Z, U, V>(lanes, texture, at),
+        |at| scalar(lanes, texture, wrap, at),
     );
     let (low_left, high_left) = (in_256ths(lanes, quad.low_left), in_256ths(lanes, quad.high_left));
     let low = in_256ths(lanes, quad.low_right) - low_left;
@@ -103,10 +110,10 @@ fn per_side<L: Lanes>(lanes: L, slope: L::Number, side: u32) -> L::Number {
     scaled / lanes.splat(SCALAR_ONE / 256.0)
 }
 
-/// The texels whose centres are below and above a coordinate, and how far above the first it is, from 0 to 1.
+/// The two's complement index of the texel whose centre is at or below a coordinate in its period, and how far above
+/// that it is, from 0 to 1.
 #[inline(always)]
-fn cell<L: Lanes, Z: Size, W: Wrap>(lanes: L, u: L::Number, size: u32) -> ([L::U32; 2], L::Number) {
-    let u = W::in_period(lanes, u);
+fn cell<L: Lanes>(lanes: L, u: L::Number, size: u32) -> (L::U32, L::Number) {
     // Periods are at most 4 long; NaN is not less.
     let u = lanes.select(lanes.less(u, lanes.splat(4.0)), u, lanes.splat(0.0));
     #[expect(clippy::cast_precision_loss, reason = "at most 2^14")]
@@ -116,7 +123,5 @@ fn cell<L: Lanes, Z: Size, W: Wrap>(lanes: L, u: L::Number, size: u32) -> ([L::U
     let biased = below + lanes.word(1 << 15);
     let (high, low) = (lanes.to_numbers(lanes.shr(biased, 8)), lanes.to_numbers(biased & lanes.word(255)));
     let number = (high - lanes.splat(128.0)) * lanes.splat(256.0) + low;
-    let next = below + lanes.word(1);
-    let texels = [Z::wrapped::<L, W>(lanes, below, size), Z::wrapped::<L, W>(lanes, next, size)];
-    (texels, x - number)
+    (below, x - number)
 }

@@ -8,18 +8,19 @@
 
 use super::tangent::Tangent;
 use super::vector::{dot_lanes, has_range, over_length, unit_lanes};
+use crate::sealed::Sealed;
 use alberti_math::lanes::{Lanes, One};
 use alberti_math::{Frame, Rgba8, Space, Vector3};
 use core::fmt::Debug;
 use glam::Vec3;
 
-/// Which number a byte stands for: [`Unorm`] or [`Centred`].
-pub trait NormalEncoding: Copy + Debug + Default + 'static {
+/// The number that a byte stands for: [`Unorm`] or [`Centred`]. Sealed.
+pub trait NormalEncoding: Sealed + Copy + Debug + 'static {
     /// The numerator that stands for 1: 127 or more, at most 255.
-    const ONE: f32;
+    fn one(self) -> f32;
 
-    /// The number that a byte stands for, times [`ONE`](Self::ONE): an integer from -`ONE` to `ONE`.
-    fn numerator<L: Lanes>(lanes: L, byte: L::U32) -> L::Number;
+    /// The number that a byte stands for, times [`one`](Self::one): an integer between that and its opposite.
+    fn numerator<L: Lanes>(self, lanes: L, byte: L::U32) -> L::Number;
 }
 
 /// A byte c stands for 2c/255 − 1, as in glTF and as GPUs read `unorm` textures: -1 and 1 are exact, 0 does not exist.
@@ -28,25 +29,35 @@ pub trait NormalEncoding: Copy + Debug + Default + 'static {
 pub struct Unorm;
 
 /// A byte c stands for (c − 128)/127, and 0 for -1 as 1 does: 128 is exactly 0, and (128, 128, 255) is exactly flat. It
-/// is what `snorm` is, with the highest bit turned. (128, 128, 128), which has no direction, is flat.
+/// is `snorm` with the highest bit turned. (128, 128, 128), which has no direction, is flat.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Centred;
 
+impl Sealed for Unorm {}
+
 impl NormalEncoding for Unorm {
-    const ONE: f32 = 255.0;
+    #[inline(always)]
+    fn one(self) -> f32 {
+        255.0
+    }
 
     #[inline(always)]
-    fn numerator<L: Lanes>(lanes: L, byte: L::U32) -> L::Number {
+    fn numerator<L: Lanes>(self, lanes: L, byte: L::U32) -> L::Number {
         let number = lanes.to_numbers(byte);
         number + number - lanes.splat(255.0)
     }
 }
 
+impl Sealed for Centred {}
+
 impl NormalEncoding for Centred {
-    const ONE: f32 = 127.0;
+    #[inline(always)]
+    fn one(self) -> f32 {
+        127.0
+    }
 
     #[inline(always)]
-    fn numerator<L: Lanes>(lanes: L, byte: L::U32) -> L::Number {
+    fn numerator<L: Lanes>(self, lanes: L, byte: L::U32) -> L::Number {
         lanes.max(lanes.to_numbers(byte) - lanes.splat(128.0), lanes.splat(-127.0))
     }
 }
@@ -61,20 +72,23 @@ impl NormalEncoding for Centred {
 /// A square root and three divisions.
 ///
 /// ```
-/// use alberti_math::{Object, Rgba8};
+/// use alberti_math::{Object, Rgba8, Vector3};
 /// use alberti_texture::surface::{Centred, Tangent, Unorm, normal};
 /// use glam::Vec3;
 ///
 /// let flat = Rgba8::new(128, 128, 255, 255);
-/// assert_eq!(normal::<Centred, Tangent>(flat).coords, Vec3::Z);
-/// assert!(normal::<Unorm, Tangent>(flat).coords.x > 0.0039);
+/// let tangent: Vector3<Tangent> = normal(Centred, flat);
+/// assert_eq!(tangent.coords, Vec3::Z);
+/// let tilted: Vector3<Tangent> = normal(Unorm, flat);
+/// assert!(tilted.coords.x > 0.0039);
 /// // In object space, any direction is one.
-/// assert_eq!(normal::<Centred, Object>(Rgba8::new(1, 128, 128, 255)).coords, Vec3::NEG_X);
+/// let object: Vector3<Object> = normal(Centred, Rgba8::new(1, 128, 128, 255));
+/// assert_eq!(object.coords, Vec3::NEG_X);
 /// ```
 #[must_use]
 #[inline]
-pub fn normal<E: NormalEncoding, S: Space>(texel: Rgba8) -> Vector3<S> {
-    Vector3::new(Vec3::from(normal_lanes::<E, One>(One, core::num::Wrapping(texel.to_bits()))))
+pub fn normal<S: Space>(encoding: impl NormalEncoding, texel: Rgba8) -> Vector3<S> {
+    Vector3::new(Vec3::from(normal_lanes(encoding, One, core::num::Wrapping(texel.to_bits()))))
 }
 
 /// [`normal`] of several texels.
@@ -83,16 +97,16 @@ pub fn normal<E: NormalEncoding, S: Space>(texel: Rgba8) -> Vector3<S> {
 /// In fixed point each component is within 1.1·2^-16.
 #[must_use]
 #[inline(always)]
-pub fn normal_lanes<E: NormalEncoding, L: Lanes>(lanes: L, texels: L::U32) -> [L::Number; 3] {
-    let (x, y) = (quarter::<E, L>(lanes, texels, 0), quarter::<E, L>(lanes, texels, 8));
-    over_length(lanes, [x, y, quarter::<E, L>(lanes, texels, 16)])
+pub fn normal_lanes<L: Lanes>(encoding: impl NormalEncoding, lanes: L, texels: L::U32) -> [L::Number; 3] {
+    let quarter = |bits| quarter(encoding, lanes, texels, bits);
+    over_length(lanes, [quarter(0), quarter(8), quarter(16)])
 }
 
 /// A quarter of a channel's numerator. Squares of quarters of integers up to 255 are exact, and so is the sum of three,
 /// in fixed point also.
 #[inline(always)]
-fn quarter<E: NormalEncoding, L: Lanes>(lanes: L, texels: L::U32, bits: u32) -> L::Number {
-    E::numerator(lanes, lanes.shr(texels, bits) & lanes.word(255)) * lanes.splat(0.25)
+fn quarter<L: Lanes>(encoding: impl NormalEncoding, lanes: L, texels: L::U32, bits: u32) -> L::Number {
+    encoding.numerator(lanes, lanes.shr(texels, bits) & lanes.word(255)) * lanes.splat(0.25)
 }
 
 /// The direction of a tangent-space map that stores x and y only, in red and green: z is what is left of length 1, √(1
@@ -108,8 +122,8 @@ fn quarter<E: NormalEncoding, L: Lanes>(lanes: L, texels: L::U32, bits: u32) -> 
 /// Two square roots and three divisions.
 #[must_use]
 #[inline]
-pub fn normal_of_two<E: NormalEncoding>(texel: Rgba8) -> Vector3<Tangent> {
-    Vector3::new(Vec3::from(normal_of_two_lanes::<E, One>(One, core::num::Wrapping(texel.to_bits()))))
+pub fn normal_of_two(encoding: impl NormalEncoding, texel: Rgba8) -> Vector3<Tangent> {
+    Vector3::new(Vec3::from(normal_of_two_lanes(encoding, One, core::num::Wrapping(texel.to_bits()))))
 }
 
 /// [`normal_of_two`] of several texels.
@@ -118,9 +132,13 @@ pub fn normal_of_two<E: NormalEncoding>(texel: Rgba8) -> Vector3<Tangent> {
 /// In fixed point each component is within 1.1·2^-16.
 #[must_use]
 #[inline(always)]
-pub fn normal_of_two_lanes<E: NormalEncoding, L: Lanes>(lanes: L, texels: L::U32) -> [L::Number; 3] {
-    let (x, y) = (quarter::<E, L>(lanes, texels, 0), quarter::<E, L>(lanes, texels, 8));
-    let (whole, across) = (lanes.splat(E::ONE * E::ONE / 16.0), x * x + y * y);
+pub fn normal_of_two_lanes<L: Lanes>(
+    encoding: impl NormalEncoding,
+    lanes: L,
+    texels: L::U32,
+) -> [L::Number; 3] {
+    let (x, y) = (quarter(encoding, lanes, texels, 0), quarter(encoding, lanes, texels, 8));
+    let (whole, across) = (lanes.splat(encoding.one() * encoding.one() / 16.0), x * x + y * y);
     let z = lanes.sqrt(lanes.max(whole - across, lanes.splat(0.0)));
     let length = lanes.sqrt(lanes.max(whole, across));
     [x / length, y / length, z / length]

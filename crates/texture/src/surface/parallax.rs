@@ -16,10 +16,10 @@ use glam::Vec2;
 ///
 /// | policy | heights read | exact where the heights | breaks |
 /// |---|---|---|---|
-/// | [`Offset`] | 1 | are the same at both ends of the shift | at grazing angles: the shift is unbounded |
-/// | [`OffsetLimited`] | 1 | as above, seen from straight above | nowhere, but flattens: too little at grazing angles |
-/// | [`Steep`] of N layers | 1 to N + 1 | are one of the layers | layers show; peaks thinner than a step are missed |
-/// | [`Occlusion`] of N layers | 2 to N + 1 | are linear across a step | peaks thinner than a step are missed |
+/// | [`OffsetParallax`] | 1 | are the same at both ends of the shift | at grazing angles: the shift is unbounded |
+/// | [`LimitedParallax`] | 1 | as above, seen from straight above | nowhere, but flattens: too little at grazing angles |
+/// | [`SteepParallax`] of N layers | 1 to N + 1 | are one of the layers | layers show; peaks thinner than a step are missed |
+/// | [`ParallaxOcclusion`] of N layers | 2 to N + 1 | are linear across a step | peaks thinner than a step are missed |
 ///
 /// The ray meets the surface itself at (u, v). Heights above it, where they are positive, shift what is seen towards
 /// the eye; heights below it, away from it.
@@ -27,22 +27,22 @@ use glam::Vec2;
 /// # Where they break
 /// With k = |Vxy|/Vz, the slant, h the height and a the slope of the heights along the ray:
 ///
-/// * Grazing angles: the true shift is h k, and k has no bound (1 at 45° from the normal, 5.7 at 80°). [`Offset`]
-///   goes as far, to a place that has nothing to do with the one that is seen, as soon as h k is more than a detail
-///   is wide. [`OffsetLimited`] goes the share Vz of it, half at 60° and a sixth at 80°, so that the relief fades. A
-///   layer of [`Steep`] is (high − low)/N·k wide on the surface: below a pixel it cannot be seen, above a detail's
-///   width it misses the detail, and so does [`Occlusion`].
-/// * Steep heights: where a k is 1 and more, the heights hide what is behind them. The single steps do not know of
-///   it, and fold or tear the texture there; [`Steep`] and [`Occlusion`] find the front that hides. Sides as steep as
-///   that are seen stretched, as a few texels of the map are all that they have.
+/// * Grazing angles: the true shift is h k, and k has no bound (1 at 45° from the normal, 5.7 at 80°).
+///   [`OffsetParallax`] goes as far. As soon as h k is more than a detail is wide, it ends at a place that has nothing
+///   to do with the one that is seen. [`LimitedParallax`] goes the share Vz of it, half at 60° and a sixth at 80°, so
+///   that the relief fades. A layer of [`SteepParallax`] is (high − low)/N·k wide on the surface. Below a pixel it
+///   cannot be seen; above a detail's width it misses the detail, and so does [`ParallaxOcclusion`].
+/// * Steep heights: where a k is 1 and more, the heights hide the places behind them. The single steps do not know of
+///   it, and fold or tear the texture there; [`SteepParallax`] and [`ParallaxOcclusion`] find the front that hides.
+///   Sides as steep as that are seen stretched, as a few texels of the map are all that they have.
 /// * Any: only what is looked up moves. The outline and the depths stay those of the surface, and so do the
 ///   derivatives that choose a mip level, although where one height hides another the place on the map jumps. A
 ///   curved surface counts as flat, so that the shift is to be small beside the radius. Beyond the edge of the
 ///   surface the map goes on as its wrap mode says.
-pub trait Parallax: Copy + Debug + 'static {
+pub trait ParallaxSearch: Copy + Debug + 'static {
     /// The coordinates where the rays from `uv`, which rise by 1 while they move by `slant`, meet the heights.
     fn meet<H: HeightMap, L: Lanes>(
-        &self,
+        self,
         lanes: L,
         relief: &Relief<H>,
         uv: [L::Number; 2],
@@ -57,14 +57,14 @@ pub trait Parallax: Copy + Debug + 'static {
 ///
 /// Source: Kaneko et al., "Detailed shape representation with parallax mapping", ICAT 2001.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Offset;
+pub struct OffsetParallax;
 
 /// u + h(u)·Vx, with V of length 1: not divided by Vz, the shift never exceeds the height, and at grazing angles, where
-/// that of [`Offset`] swims, the surface turns flat.
+/// that of [`OffsetParallax`] swims, the surface turns flat.
 ///
 /// Source: Welsh, "Parallax mapping with offset limiting", 2004.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct OffsetLimited;
+pub struct LimitedParallax;
 
 /// The first of N `layers` between the greatest and the least height, from above, at which the ray is not above the
 /// heights.
@@ -73,15 +73,15 @@ pub struct OffsetLimited;
 /// than that. N from 8 to 64 is usual; at grazing angles it takes more, so choose it by the slant. Of several samples,
 /// the search ends when all have met the heights.
 ///
-/// Source: McGuire and McGuire, "Steep parallax mapping", I3D 2005.
+/// Source: McGuire and McGuire, "SteepParallax parallax mapping", I3D 2005.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Steep {
+pub struct SteepParallax {
     /// At least 1, and less than 2^15: what is beyond counts as that.
     pub layers: u32,
 }
 
-/// [`Steep`], and between that layer and the one above, the place where a straight line between the heights at both
-/// meets the ray.
+/// [`SteepParallax`], and between that layer and the one above, the place where a straight line between the heights at
+/// both meets the ray.
 ///
 /// With heights whose slope is at most a and whose curvature, their second derivative, is at most c, in object units, a
 /// ray of slant k = |Vxy|/Vz, and a step of d = |high − low|/N·k on the surface, the place is off by at most k c d²/8 /
@@ -90,36 +90,36 @@ pub struct Steep {
 ///
 /// Source: Tatarchuk, "Dynamic parallax occlusion mapping with approximate soft shadows", I3D 2006.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Occlusion {
+pub struct ParallaxOcclusion {
     /// At least 1, and less than 2^15: what is beyond counts as that.
     pub layers: u32,
 }
 
 impl<H: HeightMap> Relief<H> {
     /// The coordinates of what is seen at `uv` along `view`, a vector of any length from the surface towards the eye:
-    /// `relief.parallax(Occlusion { layers: 16 }, uv, view)`.
+    /// `relief.parallax(ParallaxOcclusion { layers: 16 }, uv, view)`.
     ///
     /// `uv` itself where the eye is not above the surface, or where the result is not finite.
     ///
     /// # Precision
-    /// [`Parallax`] says how far each policy is from the place that is seen; beyond that, rounding moves it by
+    /// [`ParallaxSearch`] says how far each policy is from the place that is seen; beyond that, rounding moves it by
     /// 16ε·(|uv| + |slant|·max(|low|, |high|)) (ε = 2^-24). Where the slant |Vxy|/Vz is above 2^60, any coordinates.
     ///
     /// # Cost
-    /// The heights that the policy reads, and some divisions; [`OffsetLimited`] a square root more.
+    /// The heights that the policy reads, and some divisions; [`LimitedParallax`] a square root more.
     ///
     /// ```
     /// use alberti_math::Vector3;
-    /// use alberti_texture::surface::{Offset, Relief};
+    /// use alberti_texture::surface::{OffsetParallax, Relief};
     /// use glam::{Vec2, Vec3};
     ///
     /// // A plain, half a unit above the surface, seen at 45°.
     /// let plain = Relief { map: |_: Vec2| 0.5, low: 0.0, high: 1.0, extent: Vec2::ONE };
     /// let view = Vector3::new(Vec3::new(1.0, 0.0, 1.0));
-    /// assert_eq!(plain.parallax(Offset, Vec2::ZERO, view), Vec2::new(0.5, 0.0));
+    /// assert_eq!(plain.parallax(OffsetParallax, Vec2::ZERO, view), Vec2::new(0.5, 0.0));
     /// ```
     #[must_use]
-    pub fn parallax(&self, policy: impl Parallax, uv: Vec2, view: Vector3<Tangent>) -> Vec2 {
+    pub fn parallax(&self, policy: impl ParallaxSearch, uv: Vec2, view: Vector3<Tangent>) -> Vec2 {
         Vec2::from(self.parallax_lanes(policy, One, uv.to_array(), view.coords.to_array()))
     }
 
@@ -132,7 +132,7 @@ impl<H: HeightMap> Relief<H> {
     #[inline(always)]
     pub fn parallax_lanes<L: Lanes>(
         &self,
-        policy: impl Parallax,
+        policy: impl ParallaxSearch,
         lanes: L,
         uv: [L::Number; 2],
         [x, y, z]: [L::Number; 3],
@@ -149,10 +149,10 @@ impl<H: HeightMap> Relief<H> {
     }
 }
 
-impl Parallax for Offset {
+impl ParallaxSearch for OffsetParallax {
     #[inline(always)]
     fn meet<H: HeightMap, L: Lanes>(
-        &self,
+        self,
         lanes: L,
         relief: &Relief<H>,
         uv: [L::Number; 2],
@@ -162,10 +162,10 @@ impl Parallax for Offset {
     }
 }
 
-impl Parallax for OffsetLimited {
+impl ParallaxSearch for LimitedParallax {
     #[inline(always)]
     fn meet<H: HeightMap, L: Lanes>(
-        &self,
+        self,
         lanes: L,
         relief: &Relief<H>,
         uv: [L::Number; 2],
@@ -178,10 +178,10 @@ impl Parallax for OffsetLimited {
     }
 }
 
-impl Parallax for Steep {
+impl ParallaxSearch for SteepParallax {
     #[inline(always)]
     fn meet<H: HeightMap, L: Lanes>(
-        &self,
+        self,
         lanes: L,
         relief: &Relief<H>,
         uv: [L::Number; 2],
@@ -192,10 +192,10 @@ impl Parallax for Steep {
     }
 }
 
-impl Parallax for Occlusion {
+impl ParallaxSearch for ParallaxOcclusion {
     #[inline(always)]
     fn meet<H: HeightMap, L: Lanes>(
-        &self,
+        self,
         lanes: L,
         relief: &Relief<H>,
         uv: [L::Number; 2],

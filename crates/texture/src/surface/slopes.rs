@@ -1,18 +1,18 @@
-//! Height maps with their slopes: what a bump map is made of.
+//! Height maps with their slopes, for bump maps.
 //!
 //! Space in: coordinates (u, v). Space out: slopes by unit of u and of v, of numbers without a unit.
 
 use super::height::{HeightMap, bilinear_height_lanes};
 use super::relief::differences;
 use crate::format::Storage;
+use crate::sealed::Sealed;
 use crate::{AnySize, Size, Texture, Wrap};
 use alberti_math::lanes::Lanes;
 use core::fmt;
-use core::marker::PhantomData;
 use glam::Vec2;
 
-/// How steeply a map rises: [`BilinearHeights`], or any [`HeightMap`] by [`CentralDifferences`].
-pub trait Slopes {
+/// The slopes of a map: [`BilinearHeights`], or any [`HeightMap`] by [`CentralDifferences`]. Sealed.
+pub trait Slopes: Sealed {
     /// ∂h/∂u and ∂h/∂v at several (u, v).
     fn slopes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2]) -> [L::Number; 2];
 }
@@ -20,45 +20,48 @@ pub trait Slopes {
 /// The bilinear surface through a texture's texel centres, with its own slopes: [`bilinear_height`] says how precise.
 ///
 /// [`bilinear_height`]: super::bilinear_height
+#[derive(Clone, Copy)]
 pub struct BilinearHeights<'a, F: Storage, U, V = U, Z: Size = AnySize> {
     texture: Texture<'a, F, Z>,
-    modes: PhantomData<(U, V)>,
+    wrap: (U, V),
+}
+
+impl<'a, F: Storage, U: Wrap, Z: Size> BilinearHeights<'a, F, U, U, Z> {
+    /// The red channel of a texture, with the same wrap mode on both axes.
+    #[must_use]
+    pub const fn new(texture: Texture<'a, F, Z>, wrap: U) -> Self {
+        Self { texture, wrap: (wrap, wrap) }
+    }
 }
 
 impl<'a, F: Storage, U: Wrap, V: Wrap, Z: Size> BilinearHeights<'a, F, U, V, Z> {
-    /// The red channel of a texture.
+    /// The red channel of a texture, with one wrap mode from left to right and one from bottom to top.
     #[must_use]
-    pub const fn new(texture: Texture<'a, F, Z>) -> Self {
-        Self { texture, modes: PhantomData }
+    pub const fn per_axis(texture: Texture<'a, F, Z>, u: U, v: V) -> Self {
+        Self { texture, wrap: (u, v) }
     }
 }
+
+impl<F: Storage, U, V, Z: Size> Sealed for BilinearHeights<'_, F, U, V, Z> {}
+impl<H> Sealed for CentralDifferences<H> {}
 
 impl<F: Storage, U: Wrap, V: Wrap, Z: Size> HeightMap for BilinearHeights<'_, F, U, V, Z> {
     #[inline(always)]
     fn height_lanes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2]) -> L::Number {
-        bilinear_height_lanes::<L, F, Z, U, V>(lanes, &self.texture, uv).0
+        bilinear_height_lanes(lanes, &self.texture, self.wrap, uv).0
     }
 }
 
 impl<F: Storage, U: Wrap, V: Wrap, Z: Size> Slopes for BilinearHeights<'_, F, U, V, Z> {
     #[inline(always)]
     fn slopes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2]) -> [L::Number; 2] {
-        bilinear_height_lanes::<L, F, Z, U, V>(lanes, &self.texture, uv).1
+        bilinear_height_lanes(lanes, &self.texture, self.wrap, uv).1
     }
 }
-
-impl<F: Storage, U, V, Z: Size> Clone for BilinearHeights<'_, F, U, V, Z> {
-    #[inline]
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<F: Storage, U, V, Z: Size> Copy for BilinearHeights<'_, F, U, V, Z> {}
 
 impl<F: Storage, U: Wrap, V: Wrap, Z: Size> fmt::Debug for BilinearHeights<'_, F, U, V, Z> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("BilinearHeights").field("texture", &self.texture).finish_non_exhaustive()
+        f.debug_struct("BilinearHeights").field("texture", &self.texture).field("wrap", &self.wrap).finish()
     }
 }
 

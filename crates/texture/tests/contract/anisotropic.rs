@@ -2,11 +2,10 @@
 
 use alberti_math::lanes::{Lanes, OneFixed};
 use alberti_math::{Q16, Rgba8};
-use alberti_texture::format::Linear;
+use alberti_texture::format::{Rgba8888, Scalars};
 use alberti_texture::mipmap::build;
 use alberti_texture::{
-    Anisotropic, AnySize, Bilinear, Derivatives, Minify, Mipmap, Mirror, Nearest, NearestLevel, PowerOfTwo,
-    Repeat, Trilinear,
+    Anisotropic, Bilinear, Derivatives, Minify, Mipmap, Mirror, Nearest, NearestLevel, Repeat, Trilinear,
 };
 use glam::{Vec2, Vec2Swizzles as _};
 
@@ -17,17 +16,17 @@ use crate::oracle::Random;
 /// The probes of the documentation, for lengths whose logarithms are clear: powers of two, and three times that.
 #[test]
 fn anisotropic_is_the_mean_of_its_probes() {
-    fn check<const PROBES: u32>(random: &mut Random, mipmap: Mipmap<'_, Rgba8>, seen: &mut [u32; 5]) {
+    fn check(probes: u32, random: &mut Random, mipmap: Mipmap<'_, Rgba8888>, seen: &mut [u32; 5]) {
         let long = 2f32.powi((random.bits() % 6).cast_signed()) / 64.0;
         let (ratio, k) =
             [(1.0, 0), (1.5, 1), (2.0, 1), (3.0, 2), (4.0, 2), (6.0, 3), (8.0, 3), (12.0, 4), (32.0, 5)]
                 [random.bits() as usize % 9];
         let short = long / ratio;
-        let log2_probes = k.min(PROBES.trailing_zeros());
+        let log2_probes = k.min(probes.trailing_zeros());
         seen[log2_probes as usize] += 1;
         // λ of the shorter axis, or of the part of the longer one that a probe has.
         let lambda = |x: f32| Derivatives { du_dx: x, ..Derivatives::default() }.lod(64, 64);
-        let lambda = lambda(short).max(lambda(long) - PROBES.trailing_zeros() as f32);
+        let lambda = lambda(short).max(lambda(long) - probes.trailing_zeros() as f32);
         let uv = Vec2::new(random.near_zero(), random.near_zero());
         let (across, swap) = (random.bits() & 1 == 0, random.bits() & 1 == 0);
         let axis = |x: f32| if across { Vec2::new(x, 0.0) } else { Vec2::new(0.0, x) };
@@ -35,7 +34,7 @@ fn anisotropic_is_the_mean_of_its_probes() {
         let (dx, dy) = if swap { (minor, major) } else { (major, minor) };
         let d = Derivatives { du_dx: dx.x, dv_dx: dx.y, du_dy: dy.x, dv_dy: dy.y };
         let n = 1 << log2_probes;
-        let isotropic = mipmap.sampler::<Trilinear, Repeat>();
+        let isotropic = mipmap.sampler(Trilinear, Repeat);
         let colors: Vec<[u8; 4]> = (0..n)
             .map(|i| {
                 let place = (i as f32 + 0.5) / n as f32 - 0.5;
@@ -43,7 +42,8 @@ fn anisotropic_is_the_mean_of_its_probes() {
                 isotropic.sample_lod(uv + major * place, lambda).to_bytes()
             })
             .collect();
-        let found = mipmap.sampler::<Anisotropic<PROBES>, Repeat>().sample_grad(uv, d).to_bytes();
+        let found =
+            mipmap.sampler(Anisotropic { probes, filter: Trilinear }, Repeat).sample_grad(uv, d).to_bytes();
         for channel in 0..4 {
             let sum: i32 = colors.iter().map(|color| i32::from(color[channel])).sum();
             assert_eq!(i32::from(found[channel]), (2 * sum + n) / (2 * n), "{uv} {d:?}, {n} probes");
@@ -51,12 +51,12 @@ fn anisotropic_is_the_mean_of_its_probes() {
     }
     let mut random = Random(85);
     let texels = noise(&mut random, 64, 64, false);
-    let mipmap = Mipmap::new(&texels, 64, 64).unwrap();
+    let mipmap = Mipmap::new(Rgba8888, &texels, 64, 64).unwrap();
     let mut seen = [0; 5];
     for _ in 0..20_000 {
-        check::<16>(&mut random, mipmap, &mut seen);
-        check::<4>(&mut random, mipmap, &mut seen);
-        check::<1>(&mut random, mipmap, &mut seen);
+        check(16, &mut random, mipmap, &mut seen);
+        check(4, &mut random, mipmap, &mut seen);
+        check(1, &mut random, mipmap, &mut seen);
     }
     assert!(seen.iter().all(|&seen| seen > 1000), "{seen:?}");
 }
@@ -68,20 +68,22 @@ fn anisotropic_is_the_mean_of_its_probes() {
 fn anisotropic_is_sharper() {
     let mut random = Random(86);
     let mut texels = noise(&mut random, 64, 64, false);
-    build::<Linear<Rgba8>>(&mut texels, 64, 64).unwrap();
-    let mipmap = Mipmap::<Rgba8>::new(&texels, 64, 64).unwrap();
+    build(Scalars(Rgba8888), &mut texels, 64, 64).unwrap();
+    let mipmap = Mipmap::new(Rgba8888, &texels, 64, 64).unwrap();
     let mut squares = |angle: f32, roll: f32| {
         let d = map(footprint(16.0, 16.0, angle.into(), roll.into(), [64, 64]), |d| d as f32);
         let long = Vec2::from_angle(angle) * 16.0 / 64.0;
         let (mut sharp, mut soft) = (0.0, 0.0);
         for _ in 0..1000 {
             let uv = Vec2::new(random.near_zero(), random.near_zero());
-            let base = mipmap.level(0).sampler::<Bilinear, Repeat>();
+            let base = mipmap.level(0).sampler(Bilinear, Repeat);
             let read = |i: u8| base.sample(uv + long * ((f32::from(i) + 0.5) / 160.0 - 0.5)).to_bytes()[0];
             let mean = (0..160).map(|i| f64::from(read(i))).sum::<f64>() / 160.0;
             let error = |found: Rgba8| (f64::from(found.to_bytes()[0]) - mean).powi(2) / 1000.0;
-            sharp += error(mipmap.sampler::<Anisotropic<16>, Repeat>().sample_grad(uv, d));
-            soft += error(mipmap.sampler::<Trilinear, Repeat>().sample_grad(uv, d));
+            sharp += error(
+                mipmap.sampler(Anisotropic { probes: 16, filter: Trilinear }, Repeat).sample_grad(uv, d),
+            );
+            soft += error(mipmap.sampler(Trilinear, Repeat).sample_grad(uv, d));
         }
         (sharp, soft)
     };
@@ -103,8 +105,8 @@ fn anisotropic_is_sharper() {
 fn rolling_changes_nothing() {
     let mut random = Random(88);
     let texels = noise(&mut random, 64, 64, false);
-    let mipmap = Mipmap::<Rgba8>::new(&texels, 64, 64).unwrap();
-    let sampler = mipmap.sampler::<Anisotropic<16>, Repeat>();
+    let mipmap = Mipmap::new(Rgba8888, &texels, 64, 64).unwrap();
+    let sampler = mipmap.sampler(Anisotropic { probes: 16, filter: Trilinear }, Repeat);
     let mut worst = 0;
     for _ in 0..20_000 {
         let mut unit = || f64::from(random.bits()) / 2f64.powi(32);
@@ -128,11 +130,11 @@ fn lanes_are_one_lane() {
     let mut random = Random(90);
     for (width, height) in SIZES {
         let texels = noise(&mut random, width, height, false);
-        let mipmap = Mipmap::<Rgba8>::new(&texels, width, height).unwrap();
-        same_lanes::<Anisotropic<8>, _, Repeat, Mirror, AnySize>(mipmap, &mut random);
+        let mipmap = Mipmap::new(Rgba8888, &texels, width, height).unwrap();
+        same_lanes(Anisotropic { probes: 8, filter: Trilinear }, Repeat, Mirror, mipmap, &mut random);
         if let Some(mipmap) = mipmap.power_of_two() {
-            type Points = Minify<Nearest, NearestLevel>;
-            same_lanes::<Anisotropic<16, Points>, _, Repeat, Repeat, PowerOfTwo>(mipmap, &mut random);
+            let points = Minify { min: Nearest, levels: NearestLevel, mag: Nearest };
+            same_lanes(Anisotropic { probes: 16, filter: points }, Repeat, Repeat, mipmap, &mut random);
         }
     }
 }
@@ -142,7 +144,7 @@ fn lanes_are_one_lane() {
 fn integers() {
     let mut random = Random(91);
     let texels = noise(&mut random, 32, 16, false);
-    let mipmap = Mipmap::<Rgba8>::new(&texels, 32, 16).unwrap().power_of_two().unwrap();
+    let mipmap = Mipmap::new(Rgba8888, &texels, 32, 16).unwrap().power_of_two().unwrap();
     for _ in 0..100_000 {
         let mut number = || Q16::from_bits(random.bits().cast_signed() >> 13);
         let (u, v) = (number(), number());
@@ -154,7 +156,7 @@ fn integers() {
         let [long, short] = [long, short].map(Q16::from_bits);
         let zero = Q16::ZERO;
         let d = Derivatives { du_dx: zero, dv_dx: long, du_dy: short, dv_dy: zero };
-        let anisotropic = mipmap.sampler::<Anisotropic<4>, Repeat>();
+        let anisotropic = mipmap.sampler(Anisotropic { probes: 4, filter: Trilinear }, Repeat);
         let found = anisotropic.sample_grad_lanes(OneFixed, u, v, d).0;
         let d = Derivatives { du_dx: 0.0, dv_dx: float(long), du_dy: float(short), dv_dy: 0.0 };
         assert_eq!(found, anisotropic.sample_grad(uv, d).to_bits(), "{u:?} {v:?} {d:?}");
@@ -163,5 +165,5 @@ fn integers() {
 
 #[test]
 fn hostile() {
-    constant::<Anisotropic<16>, Repeat>(&mut Random(92));
+    constant(Anisotropic { probes: 16, filter: Trilinear }, Repeat, &mut Random(92));
 }

@@ -1,6 +1,7 @@
 //! Bilinear is the documented integer formula, and close to the mean in real numbers.
 
 use alberti_math::Rgba8;
+use alberti_texture::format::Rgba8888;
 use alberti_texture::{Bilinear, Clamp, Mirror, Repeat, Size, Texture};
 use glam::Vec2;
 
@@ -18,7 +19,7 @@ pub(crate) fn position(mode: Mode, u: f32, size: u32) -> (i128, i128) {
 }
 
 struct Case<'a> {
-    texture: Texture<'a, Rgba8>,
+    texture: Texture<'a, Rgba8888>,
     modes: [Mode; 2],
 }
 
@@ -31,14 +32,14 @@ impl Case<'_> {
         color
     }
 
-    fn sample_as<Z: Size>(&self, t: Texture<'_, Rgba8, Z>, uv: Vec2) -> Rgba8 {
+    fn sample_as<Z: Size>(&self, t: Texture<'_, Rgba8888, Z>, uv: Vec2) -> Rgba8 {
         use Mode::{Clamp as C, Mirror as M, Repeat as R};
         match self.modes {
-            [R, R] => t.sampler::<Bilinear, Repeat>().sample(uv),
-            [R, C] => t.sampler_per_axis::<Bilinear, Repeat, Clamp>().sample(uv),
-            [C, C] => t.sampler::<Bilinear, Clamp>().sample(uv),
-            [M, M] => t.sampler::<Bilinear, Mirror>().sample(uv),
-            [M, R] => t.sampler_per_axis::<Bilinear, Mirror, Repeat>().sample(uv),
+            [R, R] => t.sampler(Bilinear, Repeat).sample(uv),
+            [R, C] => t.sampler_per_axis(Bilinear, Repeat, Clamp).sample(uv),
+            [C, C] => t.sampler(Bilinear, Clamp).sample(uv),
+            [M, M] => t.sampler(Bilinear, Mirror).sample(uv),
+            [M, R] => t.sampler_per_axis(Bilinear, Mirror, Repeat).sample(uv),
             modes => panic!("no such case: {modes:?}"),
         }
     }
@@ -95,7 +96,7 @@ fn for_each_case(mut f: impl FnMut(&Case<'_>)) {
     for (width, height) in [(1, 1), (2, 2), (1, 3), (5, 3), (64, 16), (100, 7), (3, 16384), (16383, 2)] {
         for extreme in [true, false] {
             let texels: Vec<[u8; 4]> = (0..width * height).map(|_| noise(&mut random, extreme)).collect();
-            let texture = Texture::new(&texels, width, height).unwrap();
+            let texture = Texture::new(Rgba8888, &texels, width, height).unwrap();
             for modes in [[R, R], [R, C], [C, C], [M, M], [M, R]] {
                 f(&Case { texture, modes });
             }

@@ -1,7 +1,7 @@
 //! A border by its definition: texels inside, one colour outside, and both axes on their own.
 
-use alberti_math::Q16;
 use alberti_math::lanes::{Lanes, One, OneFixed};
+use alberti_math::{Q16, Rgba8};
 use alberti_texture::{Bilinear, Border, Clamp, Filter, Nearest, Repeat, Size, Texture, Wrap};
 use glam::Vec2;
 
@@ -9,8 +9,8 @@ use crate::oracle::{Index, Mode, Random, SPECIAL};
 
 const U_COLOR: u32 = 0x8040_20ff;
 const V_COLOR: u32 = 0x01fe_3377;
-type U = Border<U_COLOR>;
-type V = Border<V_COLOR>;
+const U: Border = Border(Rgba8::from_bits(U_COLOR));
+const V: Border = Border(Rgba8::from_bits(V_COLOR));
 
 /// floor(256 u size + 1/2) in 256ths, or `None` for what is no number; u in units of 2^-38, rounded down.
 fn scaled(u: f32, size: u32) -> i128 {
@@ -33,10 +33,10 @@ fn indices() {
         let far = 1 << 23;
         for i in (-40_000..40_000).chain(far - 500..far + 500).chain(-far - 500..-far + 500) {
             let expected = u32::try_from(i).ok().filter(|&i| i < size).unwrap_or(u32::MAX);
-            assert_eq!(U::index(i, size), expected, "{i} of {size}");
+            assert_eq!(U.index(i, size), expected, "{i} of {size}");
         }
     }
-    assert_eq!(U::index(3, 0), 0);
+    assert_eq!(U.index(3, 0), 0);
 }
 
 fn nearest<Z: Size>(texture: Texture<'_, Index, Z>, uv: Vec2) {
@@ -48,18 +48,14 @@ fn nearest<Z: Size>(texture: Texture<'_, Index, Z>, uv: Vec2) {
         (_, None) => V_COLOR,
         (Some(x), Some(y)) => texel(x, y),
     };
-    assert_eq!(texture.sampler_per_axis::<Nearest, U, V>().sample(uv).to_bits(), both, "{uv:?} {texture:?}");
+    assert_eq!(texture.sampler_per_axis(Nearest, U, V).sample(uv).to_bits(), both, "{uv:?} {texture:?}");
     // The other axis as it ever was.
     let clamped = texel(column.unwrap_or(0), Mode::Clamp.cell(uv.y, texture.height()));
     let one = column.map_or(U_COLOR, |_| clamped);
-    assert_eq!(
-        texture.sampler_per_axis::<Nearest, U, Clamp>().sample(uv).to_bits(),
-        one,
-        "{uv:?} {texture:?}"
-    );
+    assert_eq!(texture.sampler_per_axis(Nearest, U, Clamp).sample(uv).to_bits(), one, "{uv:?} {texture:?}");
     // As they are stored.
     let stored = texture
-        .sampler_per_axis::<Nearest, U, Clamp>()
+        .sampler_per_axis(Nearest, U, Clamp)
         .stored_lanes(One, uv.x, uv.y, |texel| texel.map_or(99_999, u32::from));
     assert_eq!(stored.0, column.map_or(99_999, |_| clamped));
 }
@@ -83,7 +79,7 @@ fn bilinear<Z: Size>(texture: Texture<'_, Index, Z>, uv: Vec2) {
         let sum: i128 = weights.iter().zip(corners).map(|(w, corner)| w * i128::from(corner[channel])).sum();
         ((sum + 32768) >> 16) as u8
     });
-    let found = texture.sampler_per_axis::<Bilinear, U, V>().sample(uv);
+    let found = texture.sampler_per_axis(Bilinear, U, V).sample(uv);
     assert_eq!(found.to_bytes(), expected, "{uv:?} {texture:?}");
 }
 
@@ -92,7 +88,7 @@ fn samples() {
     let texels: Vec<u16> = (0..16384).map(|i: u16| i.wrapping_mul(40_503)).collect();
     let mut random = Random(40);
     for (width, height) in [(1, 1), (2, 4), (1, 16), (5, 3), (64, 32), (7, 16), (1, 16384), (16384, 1)] {
-        let texture = Texture::<Index>::new(&texels[..(width * height) as usize], width, height).unwrap();
+        let texture = Texture::new(Index, &texels[..(width * height) as usize], width, height).unwrap();
         let check = |uv| {
             nearest(texture, uv);
             bilinear(texture, uv);
@@ -115,8 +111,8 @@ fn samples() {
 /// In fixed point the same, for coordinates that are exact there.
 #[test]
 fn integers() {
-    fn check<F: Filter>(texture: Texture<'_, Index, alberti_texture::PowerOfTwo>) {
-        let sampler = texture.sampler_per_axis::<F, U, Repeat>();
+    fn check(filter: impl Filter, texture: Texture<'_, Index, alberti_texture::PowerOfTwo>) {
+        let sampler = texture.sampler_per_axis(filter, U, Repeat);
         for i in -200_000..200_000 {
             let (u, v) = (Q16::from_bits(i), Q16::from_bits(i.wrapping_mul(7)));
             let found = sampler.sample_lanes(OneFixed, u, v);
@@ -124,7 +120,7 @@ fn integers() {
         }
     }
     let texels: Vec<u16> = (0..64).map(|i: u16| i.wrapping_mul(40_503)).collect();
-    let texture = Texture::<Index>::new(&texels, 8, 8).unwrap().power_of_two().unwrap();
-    check::<Nearest>(texture);
-    check::<Bilinear>(texture);
+    let texture = Texture::new(Index, &texels, 8, 8).unwrap().power_of_two().unwrap();
+    check(Nearest, texture);
+    check(Bilinear, texture);
 }

@@ -1,7 +1,8 @@
 //! Bias and limits of the level of detail: the colours are those of the bounded λ.
 
 use alberti_math::lanes::{Lanes, Machine, OneFixed};
-use alberti_math::{Q16, Rgba8, for_lanes};
+use alberti_math::{Q16, for_lanes};
+use alberti_texture::format::Rgba8888;
 use alberti_texture::{
     Anisotropic, AnySize, BaseLevel, BetweenLevels, Bilinear, Derivatives, LodBounds, Minify, MipFilter,
     MipSampler, Mipmap, Nearest, NearestLevel, PowerOfTwo, Repeat, Trilinear,
@@ -11,8 +12,9 @@ use glam::Vec2;
 use crate::minify::noise;
 use crate::oracle::Random;
 
-type Points = Minify<Nearest, NearestLevel, Bilinear>;
-type Sampler<'a, M, B> = MipSampler<'a, Rgba8, M, Repeat, Repeat, AnySize, B>;
+const POINTS: Minify<Nearest, NearestLevel, Bilinear> =
+    Minify { min: Nearest, levels: NearestLevel, mag: Bilinear };
+type Sampler<'a, M, B> = MipSampler<'a, Rgba8888, M, Repeat, Repeat, AnySize, B>;
 
 /// The definition; the sum of two `f32` is rounded once, as `f64` has more than twice the digits.
 fn bounded(LodBounds { bias, least, greatest }: LodBounds, lambda: f32) -> f32 {
@@ -47,9 +49,9 @@ fn slopes(random: &mut Random) -> Derivatives {
 }
 
 /// By a λ that is given, and by that of derivatives. How often the bounds could be seen.
-fn check<M: MipFilter>(mipmap: Mipmap<'_, Rgba8>, random: &mut Random) -> u32 {
+fn check<M: MipFilter>(filter: M, mipmap: Mipmap<'_, Rgba8888>, random: &mut Random) -> u32 {
     let mut seen = 0;
-    let plain: Sampler<'_, M, ()> = mipmap.sampler();
+    let plain: Sampler<'_, M, ()> = mipmap.sampler(filter, Repeat);
     for i in 0..20_000 {
         let bounds = some(random);
         let sampler: Sampler<'_, M, LodBounds> = plain.bounded(bounds);
@@ -76,13 +78,13 @@ fn check<M: MipFilter>(mipmap: Mipmap<'_, Rgba8>, random: &mut Random) -> u32 {
 fn colours_of_the_bounded_level() {
     let mut random = Random(110);
     let texels = noise(&mut random, 64, 32, false);
-    let mipmap = Mipmap::<Rgba8>::new(&texels, 64, 32).unwrap();
+    let mipmap = Mipmap::new(Rgba8888, &texels, 64, 32).unwrap();
     let seen = [
-        check::<Trilinear>(mipmap, &mut random),
-        check::<Points>(mipmap, &mut random),
-        check::<Minify<Nearest, BetweenLevels>>(mipmap, &mut random),
+        check(Trilinear, mipmap, &mut random),
+        check(POINTS, mipmap, &mut random),
+        check(Minify { min: Nearest, levels: BetweenLevels, mag: Nearest }, mipmap, &mut random),
         // One level only: magnified or not.
-        check::<Minify<Bilinear, BaseLevel, Nearest>>(mipmap, &mut random),
+        check(Minify { min: Bilinear, levels: BaseLevel, mag: Nearest }, mipmap, &mut random),
     ];
     println!("bounds changed {seen:?} of 20000 colours");
     assert!(seen.iter().all(|&seen| seen > 1000));
@@ -93,8 +95,8 @@ fn colours_of_the_bounded_level() {
 fn probes_keep_their_places() {
     let mut random = Random(111);
     let texels = noise(&mut random, 64, 64, false);
-    let mipmap = Mipmap::<Rgba8>::new(&texels, 64, 64).unwrap();
-    let plain = mipmap.sampler::<Trilinear, Repeat>();
+    let mipmap = Mipmap::new(Rgba8888, &texels, 64, 64).unwrap();
+    let plain = mipmap.sampler(Trilinear, Repeat);
     for _ in 0..20_000 {
         let bounds = some(&mut random);
         let uv = Vec2::new(random.near_zero(), random.near_zero());
@@ -109,7 +111,7 @@ fn probes_keep_their_places() {
             .map(|i| uv + Vec2::new(long * ((i as f32 + 0.5) / n as f32 - 0.5), 0.0))
             .map(|uv| plain.sample_lod(uv, lambda).to_bytes())
             .collect();
-        let sampler = mipmap.sampler::<Anisotropic<4>, Repeat>().bounded(bounds);
+        let sampler = mipmap.sampler(Anisotropic { probes: 4, filter: Trilinear }, Repeat).bounded(bounds);
         for (channel, found) in sampler.sample_grad(uv, d).to_bytes().into_iter().enumerate() {
             let sum: i32 = colors.iter().map(|color| i32::from(color[channel])).sum();
             assert_eq!(i32::from(found), (2 * sum + n) / (2 * n), "{bounds:?} at {uv}, {d:?}");
@@ -120,9 +122,9 @@ fn probes_keep_their_places() {
 }
 
 /// Eight at a time, each with a λ of its own.
-fn same_lanes<M: MipFilter>(mipmap: Mipmap<'_, Rgba8>, random: &mut Random) {
+fn same_lanes(filter: impl MipFilter, mipmap: Mipmap<'_, Rgba8888>, random: &mut Random) {
     for _ in 0..300 {
-        let sampler = mipmap.sampler::<M, Repeat>().bounded(some(random));
+        let sampler = mipmap.sampler(filter, Repeat).bounded(some(random));
         let uv: [Vec2; 8] = std::array::from_fn(|_| Vec2::new(random.near_zero(), random.near_zero()));
         let slopes: [Derivatives; 8] = std::array::from_fn(|_| slopes(random));
         for machine in Machine::all() {
@@ -144,19 +146,19 @@ fn same_lanes<M: MipFilter>(mipmap: Mipmap<'_, Rgba8>, random: &mut Random) {
 fn lanes_are_one_lane() {
     let mut random = Random(112);
     let texels = noise(&mut random, 64, 32, false);
-    let mipmap = Mipmap::<Rgba8>::new(&texels, 64, 32).unwrap();
-    same_lanes::<Trilinear>(mipmap, &mut random);
-    same_lanes::<Anisotropic<4>>(mipmap, &mut random);
+    let mipmap = Mipmap::new(Rgba8888, &texels, 64, 32).unwrap();
+    same_lanes(Trilinear, mipmap, &mut random);
+    same_lanes(Anisotropic { probes: 4, filter: Trilinear }, mipmap, &mut random);
 }
 
 /// In fixed point the same as in `f32`, for numbers that are exact in both.
 #[test]
 fn integers() {
-    fn check<M: MipFilter>(mipmap: Mipmap<'_, Rgba8, PowerOfTwo>, random: &mut Random) {
+    fn check(filter: impl MipFilter, mipmap: Mipmap<'_, Rgba8888, PowerOfTwo>, random: &mut Random) {
         for _ in 0..20_000 {
             let mut number = |shift: u32| Q16::from_bits(random.bits().cast_signed() >> shift);
             let (u, v, lambda) = (number(13), number(13), number(12));
-            let sampler = mipmap.sampler::<M, Repeat>().bounded(some(random));
+            let sampler = mipmap.sampler(filter, Repeat).bounded(some(random));
             let float = |q: Q16| OneFixed.store(q)[0];
             let uv = Vec2::new(float(u), float(v));
             let found = sampler.sample_lod_lanes(OneFixed, u, v, lambda).0;
@@ -176,8 +178,8 @@ fn integers() {
     }
     let mut random = Random(113);
     let texels = noise(&mut random, 32, 16, false);
-    let mipmap = Mipmap::<Rgba8>::new(&texels, 32, 16).unwrap().power_of_two().unwrap();
-    check::<Trilinear>(mipmap, &mut random);
-    check::<Points>(mipmap, &mut random);
-    check::<Anisotropic<4>>(mipmap, &mut random);
+    let mipmap = Mipmap::new(Rgba8888, &texels, 32, 16).unwrap().power_of_two().unwrap();
+    check(Trilinear, mipmap, &mut random);
+    check(POINTS, mipmap, &mut random);
+    check(Anisotropic { probes: 4, filter: Trilinear }, mipmap, &mut random);
 }

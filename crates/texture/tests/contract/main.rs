@@ -9,6 +9,7 @@
 )]
 
 mod anisotropic;
+mod any;
 mod bilinear;
 mod border;
 mod bounds;

@@ -2,11 +2,11 @@
 
 use alberti_math::lanes::{Lanes, Machine, OneFixed};
 use alberti_math::{Q16, Rgba8, for_lanes};
-use alberti_texture::format::{Indexed, Linear, Storage};
+use alberti_texture::format::{Indexed4, Rgba8888, Scalars, Storage};
 use alberti_texture::mipmap::{build, texel_count};
 use alberti_texture::{
-    AnySize, BaseLevel, BetweenLevels, Bilinear, Border, Clamp, Derivatives, LevelSize, Minify, MipFilter,
-    Mipmap, Mirror, Nearest, NearestLevel, PowerOfTwo, Repeat, Texture, Trilinear, Wrap,
+    BaseLevel, BetweenLevels, Bilinear, Border, Clamp, Derivatives, LevelSize, Minify, MipFilter, Mipmap,
+    Mirror, Nearest, NearestLevel, Repeat, Texture, Trilinear, Wrap,
 };
 use glam::Vec2;
 
@@ -49,7 +49,7 @@ impl Known for Mirror {
 }
 
 /// The texels that a filter takes and their weights of 2^16.
-fn taps<W: Known>(level: Texture<'_, Rgba8>, uv: Vec2, filter: In) -> Vec<([u8; 4], i128)> {
+fn taps<W: Known>(_: W, level: Texture<'_, Rgba8888>, uv: Vec2, filter: In) -> Vec<([u8; 4], i128)> {
     let (width, height) = (level.width(), level.height());
     let texel = |x: u32, from_bottom: u32| level.texel(x, height - 1 - from_bottom).to_bytes();
     if filter == In::Nearest {
@@ -67,7 +67,8 @@ fn taps<W: Known>(level: Texture<'_, Rgba8>, uv: Vec2, filter: In) -> Vec<([u8; 
 
 /// The colour by the documentation of [`Minify`] and of what stands in it, and that it is within its texels.
 fn check<W: Known>(
-    mipmap: Mipmap<'_, Rgba8>,
+    wrap: W,
+    mipmap: Mipmap<'_, Rgba8888>,
     uv: Vec2,
     lambda: f32,
     [min, mag]: [In; 2],
@@ -87,11 +88,11 @@ fn check<W: Known>(
             Lv::Between => (rounded(256.0) / 256, rounded(256.0) % 256),
         };
         let weigh = |level: i128, weight: i128| {
-            taps::<W>(mipmap.level(level as usize), uv, min).into_iter().map(move |(c, w)| (c, w * weight))
+            taps(wrap, mipmap.level(level as usize), uv, min).into_iter().map(move |(c, w)| (c, w * weight))
         };
         weigh(near, 256 - t).chain(weigh(near + 1, t)).filter(|tap| tap.1 > 0).collect::<Vec<_>>()
     } else {
-        taps::<W>(mipmap.level(0), uv, mag).into_iter().map(|(c, w)| (c, w * 256)).collect()
+        taps(wrap, mipmap.level(0), uv, mag).into_iter().map(|(c, w)| (c, w * 256)).collect()
     };
     for channel in 0..4 {
         let sum: i128 = all.iter().map(|(color, weight)| weight * i128::from(color[channel])).sum();
@@ -102,24 +103,30 @@ fn check<W: Known>(
     }
 }
 
-fn check_all<W: Known>(mipmap: Mipmap<'_, Rgba8>, uv: Vec2, lambda: f32) {
-    fn both<M: MipFilter, W: Known>(mipmap: Mipmap<'_, Rgba8>, uv: Vec2, lambda: f32) -> Rgba8 {
-        let found = mipmap.sampler::<M, W>().sample_lod(uv, lambda);
+fn check_all(wrap: impl Known, mipmap: Mipmap<'_, Rgba8888>, uv: Vec2, lambda: f32) {
+    fn both(
+        filter: impl MipFilter,
+        wrap: impl Known,
+        mipmap: Mipmap<'_, Rgba8888>,
+        uv: Vec2,
+        lambda: f32,
+    ) -> Rgba8 {
+        let found = mipmap.sampler(filter, wrap).sample_lod(uv, lambda);
         if let Some(mipmap) = mipmap.power_of_two() {
-            assert_eq!(mipmap.sampler::<M, W>().sample_lod(uv, lambda), found);
+            assert_eq!(mipmap.sampler(filter, wrap).sample_lod(uv, lambda), found);
         }
         found
     }
-    type Points = Minify<Nearest, NearestLevel, Bilinear>;
-    type Lines = Minify<Nearest, BetweenLevels>;
-    type Areas = Minify<Bilinear, NearestLevel, Nearest>;
-    type None = Minify<Bilinear, BaseLevel, Nearest>;
+    let points = Minify { min: Nearest, levels: NearestLevel, mag: Bilinear };
+    let lines = Minify { min: Nearest, levels: BetweenLevels, mag: Nearest };
+    let areas = Minify { min: Bilinear, levels: NearestLevel, mag: Nearest };
+    let none = Minify { min: Bilinear, levels: BaseLevel, mag: Nearest };
     let (n, b) = (In::Nearest, In::Bilinear);
-    check::<W>(mipmap, uv, lambda, [b, b], Lv::Between, both::<Trilinear, W>(mipmap, uv, lambda));
-    check::<W>(mipmap, uv, lambda, [n, b], Lv::Nearest, both::<Points, W>(mipmap, uv, lambda));
-    check::<W>(mipmap, uv, lambda, [n, n], Lv::Between, both::<Lines, W>(mipmap, uv, lambda));
-    check::<W>(mipmap, uv, lambda, [b, n], Lv::Nearest, both::<Areas, W>(mipmap, uv, lambda));
-    check::<W>(mipmap, uv, lambda, [b, n], Lv::Base, both::<None, W>(mipmap, uv, lambda));
+    check(wrap, mipmap, uv, lambda, [b, b], Lv::Between, both(Trilinear, wrap, mipmap, uv, lambda));
+    check(wrap, mipmap, uv, lambda, [n, b], Lv::Nearest, both(points, wrap, mipmap, uv, lambda));
+    check(wrap, mipmap, uv, lambda, [n, n], Lv::Between, both(lines, wrap, mipmap, uv, lambda));
+    check(wrap, mipmap, uv, lambda, [b, n], Lv::Nearest, both(areas, wrap, mipmap, uv, lambda));
+    check(wrap, mipmap, uv, lambda, [b, n], Lv::Base, both(none, wrap, mipmap, uv, lambda));
 }
 
 #[test]
@@ -128,7 +135,7 @@ fn the_documented_formulas() {
     for (width, height) in SIZES {
         for extreme in [true, false] {
             let texels = noise(&mut random, width, height, extreme);
-            let mipmap = Mipmap::new(&texels, width, height).unwrap();
+            let mipmap = Mipmap::new(Rgba8888, &texels, width, height).unwrap();
             let last = mipmap.levels() as f32 - 1.0;
             let mut lambdas =
                 vec![f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -0.0, 1e-30, -1e-30, 1e30, 64.0, -63.5];
@@ -146,18 +153,18 @@ fn the_documented_formulas() {
             lambdas.extend((0..600).map(|_| (last + 1.5) * (random.bits() as f32 / 2f32.powi(32)) - 0.5));
             for lambda in lambdas {
                 let uv = Vec2::new(random.near_zero(), random.near_zero());
-                check_all::<Repeat>(mipmap, uv, lambda);
-                check_all::<Clamp>(mipmap, uv, lambda);
-                check_all::<Mirror>(mipmap, uv, lambda);
+                check_all(Repeat, mipmap, uv, lambda);
+                check_all(Clamp, mipmap, uv, lambda);
+                check_all(Mirror, mipmap, uv, lambda);
                 let special = Vec2::new(SPECIAL[random.bits() as usize % 26], random.float());
-                check_all::<Repeat>(mipmap, special, lambda);
+                check_all(Repeat, mipmap, special, lambda);
             }
         }
     }
 }
 
 /// The trilinear mean in `f64`, with weights of `f64`.
-fn in_real_numbers(mipmap: Mipmap<'_, Rgba8>, uv: Vec2, lambda: f32) -> [f64; 4] {
+fn in_real_numbers(mipmap: Mipmap<'_, Rgba8888>, uv: Vec2, lambda: f32) -> [f64; 4] {
     let level = |level: usize| {
         let level = mipmap.level(level);
         let x = f64::from(uv.x) * f64::from(level.width()) - 0.5;
@@ -184,8 +191,8 @@ fn within_two_of_real_numbers() {
     let mut worst = [0.0f64; 2];
     for (width, height) in SIZES {
         let texels = noise(&mut random, width, height, true);
-        let mipmap = Mipmap::<Rgba8>::new(&texels, width, height).unwrap();
-        let sampler = mipmap.sampler::<Trilinear, Repeat>();
+        let mipmap = Mipmap::new(Rgba8888, &texels, width, height).unwrap();
+        let sampler = mipmap.sampler(Trilinear, Repeat);
         let last = mipmap.levels() - 1;
         for i in 0..100_000 {
             let uv = Vec2::new(random.near_zero(), random.near_zero());
@@ -218,9 +225,9 @@ fn images_within_one_step_and_rounding() {
     let place = |i: usize| board(i as u32 % 64, i as u32 / 64);
     images[2][..64 * 64].iter_mut().enumerate().for_each(|(i, texel)| *texel = place(i));
     for (image, worst) in images.iter_mut().zip(&mut worst) {
-        build::<Linear<Rgba8>>(image, 64, 64).unwrap();
-        let mipmap = Mipmap::<Rgba8>::new(image, 64, 64).unwrap();
-        let sampler = mipmap.sampler::<Trilinear, Repeat>();
+        build(Scalars(Rgba8888), image, 64, 64).unwrap();
+        let mipmap = Mipmap::new(Rgba8888, image, 64, 64).unwrap();
+        let sampler = mipmap.sampler(Trilinear, Repeat);
         for _ in 0..60 {
             // A floor: rows of pixels that are the farther the higher.
             let (turn, near) = (random.near_zero(), random.bits() as f32 / 2f32.powi(33) + 0.01);
@@ -241,11 +248,14 @@ fn images_within_one_step_and_rounding() {
 }
 
 /// Groups of lanes whose λ are in the same level, in two, and all over, with derivatives of all kinds.
-pub(crate) fn same_lanes<M: MipFilter, F: Storage, U: Wrap, V: Wrap, Z: LevelSize>(
+pub(crate) fn same_lanes<F: Storage, Z: LevelSize>(
+    filter: impl MipFilter,
+    u: impl Wrap,
+    v: impl Wrap,
     mipmap: Mipmap<'_, F, Z>,
     random: &mut Random,
 ) {
-    let sampler = mipmap.sampler_per_axis::<M, U, V>();
+    let sampler = mipmap.sampler_per_axis(filter, u, v);
     for i in 0..300 {
         let base = random.bits() as f32 / 2f32.powi(32) * 9.0 - 1.0;
         let mut each = |i: usize| match i % 3 {
@@ -281,15 +291,21 @@ fn lanes_are_one_lane() {
     let mut random = Random(82);
     for (width, height) in SIZES {
         let texels = noise(&mut random, width, height, false);
-        let mipmap = Mipmap::<Rgba8>::new(&texels, width, height).unwrap();
-        same_lanes::<Trilinear, _, Repeat, Clamp, AnySize>(mipmap, &mut random);
-        same_lanes::<Minify<Nearest, NearestLevel, Bilinear>, _, Mirror, Border<7>, AnySize>(
+        let mipmap = Mipmap::new(Rgba8888, &texels, width, height).unwrap();
+        same_lanes(Trilinear, Repeat, Clamp, mipmap, &mut random);
+        same_lanes(
+            Minify { min: Nearest, levels: NearestLevel, mag: Bilinear },
+            Mirror,
+            Border(Rgba8::from_bits(7)),
             mipmap,
             &mut random,
         );
         if let Some(mipmap) = mipmap.power_of_two() {
-            same_lanes::<Trilinear, _, Border<0xff>, Repeat, PowerOfTwo>(mipmap, &mut random);
-            same_lanes::<Minify<Bilinear, BaseLevel, Nearest>, _, Clamp, Mirror, PowerOfTwo>(
+            same_lanes(Trilinear, Border(Rgba8::from_bits(0xff)), Repeat, mipmap, &mut random);
+            same_lanes(
+                Minify { min: Bilinear, levels: BaseLevel, mag: Nearest },
+                Clamp,
+                Mirror,
                 mipmap,
                 &mut random,
             );
@@ -302,35 +318,39 @@ fn lanes_are_one_lane() {
 fn integers() {
     let mut random = Random(83);
     let texels = noise(&mut random, 32, 16, false);
-    let mipmap = Mipmap::<Rgba8>::new(&texels, 32, 16).unwrap().power_of_two().unwrap();
+    let mipmap = Mipmap::new(Rgba8888, &texels, 32, 16).unwrap().power_of_two().unwrap();
     for _ in 0..100_000 {
         let mut number = |shift: u32| Q16::from_bits(random.bits().cast_signed() >> shift);
         let (u, v, lambda) = (number(13), number(13), number(12));
         let float = |q: Q16| OneFixed.store(q)[0];
         let uv = Vec2::new(float(u), float(v));
-        let trilinear = mipmap.sampler::<Trilinear, Repeat>();
+        let trilinear = mipmap.sampler(Trilinear, Repeat);
         let found = trilinear.sample_lod_lanes(OneFixed, u, v, lambda).0;
         assert_eq!(found, trilinear.sample_lod(uv, float(lambda)).to_bits(), "{u:?} {v:?} {lambda:?}");
-        let nearest = mipmap.sampler::<Minify<Nearest, NearestLevel>, Mirror>();
+        let nearest = mipmap.sampler(Minify { min: Nearest, levels: NearestLevel, mag: Nearest }, Mirror);
         let found = nearest.sample_lod_lanes(OneFixed, u, v, lambda).0;
         assert_eq!(found, nearest.sample_lod(uv, float(lambda)).to_bits());
     }
 }
 
 /// Texels of one colour have no other, whatever the bits.
-pub(crate) fn constant<M: MipFilter, W: Wrap>(random: &mut Random) {
+pub(crate) fn constant(filter: impl MipFilter, wrap: impl Wrap, random: &mut Random) {
     for (width, height) in SIZES {
         let texels = vec![[1, 255, 0, 254]; texel_count(width, height)];
-        let mipmap = Mipmap::<Rgba8>::new(&texels, width, height).unwrap();
+        let mipmap = Mipmap::new(Rgba8888, &texels, width, height).unwrap();
         for _ in 0..10_000 {
             let mut float = || random.float();
             let uv = Vec2::new(float(), float());
             let d = Derivatives { du_dx: float(), dv_dx: float(), du_dy: float(), dv_dy: float() };
             let lambda = float();
-            assert_eq!(mipmap.sampler::<M, W>().sample_lod(uv, lambda).to_bytes(), texels[0]);
-            assert_eq!(mipmap.sampler::<M, W>().sample_grad(uv, d).to_bytes(), texels[0], "{uv} {d:?}");
+            assert_eq!(mipmap.sampler(filter, wrap).sample_lod(uv, lambda).to_bytes(), texels[0]);
+            assert_eq!(mipmap.sampler(filter, wrap).sample_grad(uv, d).to_bytes(), texels[0], "{uv} {d:?}");
             if let Some(mipmap) = mipmap.power_of_two() {
-                assert_eq!(mipmap.sampler::<M, W>().sample_grad(uv, d).to_bytes(), texels[0], "{uv} {d:?}");
+                assert_eq!(
+                    mipmap.sampler(filter, wrap).sample_grad(uv, d).to_bytes(),
+                    texels[0],
+                    "{uv} {d:?}"
+                );
             }
         }
     }
@@ -339,8 +359,8 @@ pub(crate) fn constant<M: MipFilter, W: Wrap>(random: &mut Random) {
 #[test]
 fn hostile() {
     let mut random = Random(84);
-    constant::<Trilinear, Mirror>(&mut random);
-    constant::<Minify<Nearest, BetweenLevels>, Clamp>(&mut random);
+    constant(Trilinear, Mirror, &mut random);
+    constant(Minify { min: Nearest, levels: BetweenLevels, mag: Nearest }, Clamp, &mut random);
 }
 
 /// Indices show what their colours show.
@@ -358,22 +378,22 @@ fn palettes() {
                 colors.extend(row.iter().map(|&index| palette[usize::from(index)].to_bytes()));
             }
         }
-        let indexed = Mipmap::<Indexed<4>>::indexed(&bytes, &palette, width, height).unwrap();
-        let plain = Mipmap::<Rgba8>::new(&colors, width, height).unwrap();
-        same_lanes::<Trilinear, _, Repeat, Clamp, AnySize>(indexed, &mut random);
+        let indexed = Mipmap::new(Indexed4 { palette: &palette }, &bytes, width, height).unwrap();
+        let plain = Mipmap::new(Rgba8888, &colors, width, height).unwrap();
+        same_lanes(Trilinear, Repeat, Clamp, indexed, &mut random);
         for _ in 0..5000 {
             let (uv, lambda) = (Vec2::new(random.near_zero(), random.near_zero()), random.near_zero() * 2.0);
-            let expected = plain.sampler::<Trilinear, Mirror>().sample_lod(uv, lambda);
-            assert_eq!(indexed.sampler::<Trilinear, Mirror>().sample_lod(uv, lambda), expected);
+            let expected = plain.sampler(Trilinear, Mirror).sample_lod(uv, lambda);
+            assert_eq!(indexed.sampler(Trilinear, Mirror).sample_lod(uv, lambda), expected);
         }
     }
     // A chain that was built shows its levels.
     let mut texels = vec![[9, 9, 9, 255]; texel_count(4, 4)];
-    build::<Rgba8>(&mut texels, 4, 4).unwrap();
+    build(Rgba8888, &mut texels, 4, 4).unwrap();
     assert_eq!(
-        Mipmap::<Rgba8>::new(&texels, 4, 4)
+        Mipmap::new(Rgba8888, &texels, 4, 4)
             .unwrap()
-            .sampler::<Trilinear, Repeat>()
+            .sampler(Trilinear, Repeat)
             .sample_lod(Vec2::ZERO, 1.3)
             .to_bytes()[0],
         9

@@ -1,7 +1,9 @@
 //! Mip chains against boxes in real numbers and in rationals.
 
 use alberti_math::Rgba8;
-use alberti_texture::format::{Indexed, L8, L16, La8, Linear, Normals, Rgb8, Rgb565, Rgb565Be, Rgba4444};
+use alberti_texture::format::{
+    Indexed1, L8, L16, La8, Normals, Rgb8, Rgb565, Rgb565Be, Rgb565Le, Rgba4444, Rgba8888, Scalars,
+};
 use alberti_texture::mipmap::{self, Mean, level_count, preserve_coverage, texel_count};
 use alberti_texture::{Mipmap, TextureError};
 
@@ -23,10 +25,10 @@ const SIZES: [(u32, u32); 12] = [
 ];
 
 /// A built chain: all texels, and the levels.
-fn built<F: Mean>(base: &[F::Texel], width: u32, height: u32) -> Vec<F::Texel> {
+fn built<F: Mean>(format: F, base: &[F::Texel], width: u32, height: u32) -> Vec<F::Texel> {
     let mut texels = vec![base[0]; texel_count(width, height)];
     texels[..base.len()].copy_from_slice(base);
-    mipmap::build::<F>(&mut texels, width, height).unwrap();
+    mipmap::build(format, &mut texels, width, height).unwrap();
     texels
 }
 
@@ -92,7 +94,7 @@ fn srgb_is_the_mean_of_light() {
                 kind => noise(random, kind == 1),
             };
             let base: Vec<[u8; 4]> = (0..width * height).map(|_| texel(&mut random)).collect();
-            let texels = built::<Rgba8>(&base, width, height);
+            let texels = built(Rgba8888, &base, width, height);
             let value = |[r, g, b, a]: [u8; 4]| [light(r), light(g), light(b), f64::from(a)];
             for_each_mean(&texels, [width, height], value, |found, [r, g, b, a]| {
                 for (found, exact) in found.into_iter().zip([steps(r), steps(g), steps(b), a]) {
@@ -112,7 +114,7 @@ fn linear_is_the_rounded_mean() {
     for (width, height) in SIZES {
         let base: Vec<[u8; 2]> =
             (0..width * height).map(|_| random.bits() as u16).map(u16::to_le_bytes).collect();
-        let texels = built::<Linear<La8>>(&base, width, height);
+        let texels = built(Scalars(La8), &base, width, height);
         for_each_mean(
             &texels,
             [width, height],
@@ -124,7 +126,7 @@ fn linear_is_the_rounded_mean() {
             },
         );
         let base: Vec<u16> = (0..width * height).map(|_| random.bits() as u16).collect();
-        let texels = built::<L16>(&base, width, height);
+        let texels = built(L16, &base, width, height);
         for_each_mean(
             &texels,
             [width, height],
@@ -151,7 +153,7 @@ fn normals_are_unit_vectors() {
                 [component(x, false), component(y, false), component(z, true), a]
             };
             let base: Vec<[u8; 4]> = (0..width * height).map(|_| texel(&mut random)).collect();
-            let texels = built::<Normals<Rgba8>>(&base, width, height);
+            let texels = built(Normals(Rgba8888), &base, width, height);
             let value = |[x, y, z, _]: [u8; 4]| [x, y, z].map(|c| f64::from(c) / 127.5 - 1.0);
             for_each_mean(&texels, [width, height], value, |[x, y, z, _], mean| {
                 let length = mean.iter().map(|c| c * c).sum::<f64>().sqrt();
@@ -164,19 +166,19 @@ fn normals_are_unit_vectors() {
     println!("normals: at most {worst:.6} of a step from the unit vector");
     assert!((0.499..=0.501).contains(&worst), "{worst}");
     // What cancels out, and an axis.
-    let opposite = built::<Normals<Rgba8>>(&[[255, 0, 255, 9], [0, 255, 0, 10]], 2, 1);
+    let opposite = built(Normals(Rgba8888), &[[255, 0, 255, 9], [0, 255, 0, 10]], 2, 1);
     assert_eq!(opposite[2], [128, 128, 255, 10]);
-    let axis = built::<Normals<Rgba8>>(&[[255, 0, 99, 0], [255, 255, 156, 0]], 2, 1);
+    let axis = built(Normals(Rgba8888), &[[255, 0, 99, 0], [255, 255, 156, 0]], 2, 1);
     assert_eq!(axis[2], [255, 128, 128, 0]);
 }
 
-fn constant<F: Mean>(texel: F::Texel)
+fn constant<F: Mean>(format: F, texel: F::Texel)
 where
     F::Texel: PartialEq + std::fmt::Debug,
 {
     for (width, height) in SIZES {
         let base = vec![texel; (width * height) as usize];
-        assert!(built::<F>(&base, width, height).iter().all(|&found| found == texel), "{texel:?}");
+        assert!(built(format, &base, width, height).iter().all(|&found| found == texel), "{texel:?}");
     }
 }
 
@@ -184,16 +186,17 @@ where
 fn constants_stay() {
     for byte in (0..=255u8).step_by(5) {
         let word = u16::from_le_bytes([byte, byte ^ 91]);
-        constant::<L8>(byte);
-        constant::<Linear<L8>>(byte);
-        constant::<La8>([byte, !byte]);
-        constant::<Rgb8>([byte, !byte, 7]);
-        constant::<Rgb565>(word);
-        constant::<Linear<Rgb565>>(word);
-        constant::<Rgb565Be>(word);
-        constant::<Rgba4444>(word);
-        constant::<Linear<Rgba4444>>(word);
-        constant::<L16>(word);
+        constant(L8, byte);
+        constant(Scalars(L8), byte);
+        constant(La8, [byte, !byte]);
+        constant(Rgb8, [byte, !byte, 7]);
+        constant(Rgb565, word);
+        constant(Scalars(Rgb565), word);
+        constant(Rgb565Be, word);
+        constant(Rgb565Le, word);
+        constant(Rgba4444, word);
+        constant(Scalars(Rgba4444), word);
+        constant(L16, word);
     }
 }
 
@@ -208,9 +211,9 @@ fn coverage_is_preserved() {
             let base: Vec<[u8; 2]> = (0..width * height)
                 .map(|_| [7, if random.bits().is_multiple_of(4) { 255 } else { 0 }])
                 .collect();
-            let before = built::<Linear<La8>>(&base, width, height);
+            let before = built(Scalars(La8), &base, width, height);
             let mut after = before.clone();
-            preserve_coverage::<Linear<La8>>(&mut after, width, height, threshold);
+            preserve_coverage(Scalars(La8), &mut after, width, height, threshold);
             assert_eq!(after[..base.len()], base);
             let passes =
                 |texels: &[[u8; 2]], from: u32| texels.iter().filter(|t| u32::from(t[1]) >= from).count();
@@ -236,8 +239,8 @@ fn coverage_is_preserved() {
         }
     }
     // All pass from 0 on, whatever the alpha.
-    let mut texels = built::<Linear<La8>>(&[[0, 7], [0, 9]], 2, 1);
-    preserve_coverage::<Linear<La8>>(&mut texels, 2, 1, 0);
+    let mut texels = built(Scalars(La8), &[[0, 7], [0, 9]], 2, 1);
+    preserve_coverage(Scalars(La8), &mut texels, 2, 1, 0);
     assert_eq!(texels, [[0, 7], [0, 9], [0, 8]]);
     println!("coverage: off by {kept:.2} in all, {lost:.2} if nothing is done");
     assert!(kept < lost / 2.0);
@@ -254,7 +257,7 @@ fn chains_are_checked() {
         }
         assert_eq!((level_count(width, height), texel_count(width, height)), (levels, count));
     }
-    let build = |count, width, height| mipmap::build::<L8>(&mut vec![0; count], width, height);
+    let build = |count, width, height| mipmap::build(L8, &mut vec![0; count], width, height);
     assert_eq!(build(5, 2, 2), Ok(()));
     assert_eq!(build(4, 2, 2), Err(TextureError::Length { found: 4, expected: 5 }));
     assert_eq!(build(6, 2, 2), Err(TextureError::Length { found: 6, expected: 5 }));
@@ -265,7 +268,7 @@ fn chains_are_checked() {
 
     let texels: Vec<u8> = (0..8).collect();
     let sizes = |count: usize| {
-        let mipmap = Mipmap::<L8>::new(&texels[..count], 5, 1).map_err(|error| format!("{error:?}"))?;
+        let mipmap = Mipmap::new(L8, &texels[..count], 5, 1).map_err(|error| format!("{error:?}"))?;
         let levels = (0..mipmap.levels()).map(|level| mipmap.level(level));
         Ok::<_, String>(levels.map(|level| level.texels()).collect::<Vec<_>>())
     };
@@ -275,20 +278,21 @@ fn chains_are_checked() {
     assert_eq!(sizes(0).unwrap_err(), "Length { found: 0, expected: 5 }");
     assert_eq!(sizes(4).unwrap_err(), "Length { found: 4, expected: 5 }");
     assert_eq!(sizes(6).unwrap_err(), "Length { found: 6, expected: 7 }");
-    let error = |count, width, height| Mipmap::<L8>::new(&texels[..count], width, height).unwrap_err();
+    let error = |count, width, height| Mipmap::new(L8, &texels[..count], width, height).unwrap_err();
     assert_eq!(error(8, 3, 1), TextureError::Length { found: 8, expected: 4 });
     assert_eq!(error(8, 0, 1), TextureError::ZeroSize { width: 0, height: 1 });
     assert_eq!(error(8, 1, u32::MAX), TextureError::TooLarge { width: 1, height: u32::MAX });
 
-    let mipmap = Mipmap::<L8>::new(&texels, 5, 1).unwrap();
+    let mipmap = Mipmap::new(L8, &texels, 5, 1).unwrap();
     assert!(mipmap.power_of_two().is_none());
     assert_eq!(mipmap.level(usize::MAX).texels(), [7]);
-    let mipmap = Mipmap::<L8>::new(&texels[..7], 4, 1).unwrap().power_of_two().unwrap();
+    let mipmap = Mipmap::new(L8, &texels[..7], 4, 1).unwrap().power_of_two().unwrap();
     assert_eq!((mipmap.levels(), mipmap.level(1).texels(), mipmap.level(2).width()), (3, &[4, 5][..], 1));
 
     // Rows of a byte each: two of level 0, one each of level 1 and of level 2.
     let palette = [Rgba8::BLACK, Rgba8::WHITE];
-    let mipmap = Mipmap::<Indexed<1>>::indexed(&[0, 0, 0b0100_0000, 0b1000_0000], &palette, 4, 2).unwrap();
+    let mipmap =
+        Mipmap::new(Indexed1 { palette: &palette }, &[0, 0, 0b0100_0000, 0b1000_0000], 4, 2).unwrap();
     assert_eq!(mipmap.levels(), 3);
     assert_eq!([mipmap.level(1).texel(0, 0), mipmap.level(1).texel(1, 0)], palette);
     assert_eq!(mipmap.level(2).texel(0, 0), Rgba8::WHITE);

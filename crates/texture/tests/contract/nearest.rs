@@ -10,8 +10,8 @@ const SIZES: [u32; 14] = [1, 2, 3, 5, 7, 10, 64, 100, 255, 256, 1000, 12345, 163
 /// One row and one column of `size` texels, sampled at `u` along their length and at anything across; where the size is
 /// a power of two, by that type too.
 fn check(texels: &[u16], size: u32, u: f32, across: f32) {
-    let row = Texture::<Index>::new(texels, size, 1).unwrap();
-    let column = Texture::<Index>::new(texels, 1, size).unwrap();
+    let row = Texture::new(Index, texels, size, 1).unwrap();
+    let column = Texture::new(Index, texels, 1, size).unwrap();
     let (uv, vu) = (Vec2::new(u, across), Vec2::new(across, u));
     for mode in MODES {
         let expected = mode.cell(u, size);
@@ -31,9 +31,9 @@ fn check(texels: &[u16], size: u32, u: f32, across: f32) {
 
 fn sample<Z: Size>(texture: Texture<'_, Index, Z>, mode: Mode, uv: Vec2) -> u32 {
     let color = match mode {
-        Mode::Repeat => texture.sampler::<Nearest, Repeat>().sample(uv),
-        Mode::Clamp => texture.sampler::<Nearest, Clamp>().sample(uv),
-        Mode::Mirror => texture.sampler::<Nearest, Mirror>().sample(uv),
+        Mode::Repeat => texture.sampler(Nearest, Repeat).sample(uv),
+        Mode::Clamp => texture.sampler(Nearest, Clamp).sample(uv),
+        Mode::Mirror => texture.sampler(Nearest, Mirror).sample(uv),
     };
     color.to_bits()
 }
@@ -79,8 +79,8 @@ fn borders() {
 /// The picture of the convention: uv and rows.
 #[test]
 fn v_is_up_and_row_0_is_the_top() {
-    let texture = Texture::<Index>::new(&[0, 1, 2, 3, 4, 5], 3, 2).unwrap();
-    let sampler = texture.sampler::<Nearest, Clamp>();
+    let texture = Texture::new(Index, &[0, 1, 2, 3, 4, 5], 3, 2).unwrap();
+    let sampler = texture.sampler(Nearest, Clamp);
     let at = |u, v| sampler.sample(Vec2::new(u, v)).to_bits();
     assert_eq!([at(0.0, 1.0), at(0.5, 1.0), at(1.0, 1.0)], [0, 1, 2]);
     assert_eq!([at(0.0, 0.0), at(0.5, 0.0), at(1.0, 0.0)], [3, 4, 5]);

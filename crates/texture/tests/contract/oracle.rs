@@ -4,12 +4,13 @@ use alberti_math::Rgba8;
 use alberti_texture::TexelFormat;
 
 /// A format of another crate: the texel is its own index, so that a sample says which texel it has taken.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Index;
 
 impl TexelFormat for Index {
     type Texel = u16;
 
-    fn decode(texel: u16) -> Rgba8 {
+    fn decode(self, texel: u16) -> Rgba8 {
         Rgba8::from_bits(u32::from(texel))
     }
 }

@@ -6,11 +6,11 @@ use alberti_texture::{Bilinear, Repeat, Sampler, Texture, TextureError};
 use glam::Vec2;
 
 static TEXELS: [u16; 4] = [0xf800, 0x07e0, 0x001f, 0xffff];
-static TEXTURE: Texture<'static, Rgb565> = match Texture::new(&TEXELS, 2, 2) {
+static TEXTURE: Texture<'static, Rgb565> = match Texture::new(Rgb565, &TEXELS, 2, 2) {
     Ok(texture) => texture,
     Err(_) => panic!("four texels for 2 x 2"),
 };
-static SAMPLER: Sampler<'static, Rgb565, Bilinear, Repeat> = TEXTURE.sampler();
+static SAMPLER: Sampler<'static, Rgb565, Bilinear, Repeat> = TEXTURE.sampler(Bilinear, Repeat);
 
 #[test]
 fn statics() {
@@ -25,7 +25,7 @@ fn statics() {
 
 #[test]
 fn errors_say_what_was_found() {
-    let new = |width, height| Texture::<Rgb8>::new(&[[0; 3]; 6], width, height).map(|_| ());
+    let new = |width, height| Texture::new(Rgb8, &[[0; 3]; 6], width, height).map(|_| ());
     assert_eq!(new(2, 3), Ok(()));
     assert_eq!(new(6, 1), Ok(()));
     assert_eq!(new(0, 3), Err(TextureError::ZeroSize { width: 0, height: 3 }));
@@ -44,7 +44,7 @@ fn errors_say_what_was_found() {
 
 #[test]
 fn access_is_total() {
-    let texture = Texture::<L8>::new(&[0, 1, 2, 3, 4, 5], 3, 2).unwrap();
+    let texture = Texture::new(L8, &[0, 1, 2, 3, 4, 5], 3, 2).unwrap();
     let at = |x, y| texture.texel(x, y).to_bytes()[0];
     assert_eq!([at(0, 0), at(2, 0), at(0, 1), at(2, 1)], [0, 2, 3, 5]);
     assert_eq!([at(u32::MAX, 0), at(0, u32::MAX), at(3, 2), at(u32::MAX, u32::MAX)], [2, 3, 5, 5]);

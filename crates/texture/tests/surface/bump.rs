@@ -4,7 +4,7 @@ use crate::support::{EPS, angle, axes, vec2, vec3};
 use alberti_math::lanes::{One, OneFixed};
 use alberti_math::{Frame, Object, Point3, Q16, Rgba8, Vector3};
 use alberti_oracle::rng::{Rng, run_seed};
-use alberti_texture::format::{Indexed, L8, L16};
+use alberti_texture::format::{Indexed8, L8, L16};
 use alberti_texture::surface::{
     HeightMap, Parametric, Relief, Sphere, Tangent, bilinear_height, bilinear_height_lanes, bump,
     frame_of_derivatives, normal_of_slope,
@@ -121,9 +121,9 @@ fn bumps_on_planes_and_spheres() {
 }
 
 /// A height of 16 bits at an index of the continued image.
-fn texel<U: Wrap, V: Wrap>(texture: Texture<'_, L16>, i: i64, j: i64) -> f64 {
-    let index = |i: i64, wrap: fn(i32, u32) -> u32, size| wrap(i32::try_from(i).unwrap(), size);
-    let (column, row) = (index(i, U::index, texture.width()), index(j, V::index, texture.height()));
+fn texel(texture: Texture<'_, L16>, wrap: (impl Wrap, impl Wrap), i: i64, j: i64) -> f64 {
+    let [i, j] = [i, j].map(|i| i32::try_from(i).unwrap());
+    let (column, row) = (wrap.0.index(i, texture.width()), wrap.1.index(j, texture.height()));
     let from_top = texture.height() - 1 - row;
     f64::from(texture.texels()[(from_top * texture.width() + column) as usize]) / 65535.0
 }
@@ -137,10 +137,10 @@ struct Surface {
     fractions: [f64; 2],
 }
 
-fn surface<U: Wrap, V: Wrap>(texture: Texture<'_, L16>, [x, y]: [f64; 2]) -> Surface {
+fn surface(texture: Texture<'_, L16>, wrap: (impl Wrap, impl Wrap), [x, y]: [f64; 2]) -> Surface {
     let (i, j) = (x.floor() as i64, y.floor() as i64);
     let (s, t) = (x - x.floor(), y - y.floor());
-    let at = |di, dj| texel::<U, V>(texture, i + di, j + dj);
+    let at = |di, dj| texel(texture, wrap, i + di, j + dj);
     let [a, b, c, d] = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)];
     Surface {
         height: (1.0 - s) * (1.0 - t) * a + s * (1.0 - t) * b + (1.0 - s) * t * c + s * t * d,
@@ -158,18 +158,18 @@ fn heights(rng: &mut Rng, width: u32, height: u32, bytes: bool) -> Vec<u16> {
 }
 
 /// Errors of the height and of the gradient, as shares of their bounds.
-fn check_bilinear<U: Wrap, V: Wrap>(rng: &mut Rng) -> [f64; 2] {
+fn check_bilinear(rng: &mut Rng, wrap: (impl Wrap, impl Wrap)) -> [f64; 2] {
     let (width, height) = (rng.log_integer(300) as u32, rng.log_integer(40) as u32);
     let texels = heights(rng, width, height, false);
-    let texture = Texture::<L16>::new(&texels, width, height).expect("as many");
+    let texture = Texture::new(L16, &texels, width, height).expect("as many");
     let far = if rng.one_in(3) { rng.log_uniform(1.0, 1_048_576.0) } else { 1.0 };
     let uv = vec2(rng, 2.5) * far;
-    let (found, gradient) = bilinear_height::<_, _, U, V>(&texture, uv);
+    let (found, gradient) = bilinear_height(&texture, wrap, uv);
     if let Some(texture) = texture.power_of_two() {
-        assert_eq!(bilinear_height::<_, _, U, V>(&texture, uv), (found, gradient));
+        assert_eq!(bilinear_height(&texture, wrap, uv), (found, gradient));
     }
     let size = [f64::from(width), f64::from(height)];
-    let exact = surface::<U, V>(texture, [0, 1].map(|k| f64::from(uv[k]) * size[k] - 0.5));
+    let exact = surface(texture, wrap, [0, 1].map(|k| f64::from(uv[k]) * size[k] - 0.5));
     // What coordinates may be moved by, in texels.
     let moved = size.map(|size| 5.0 * EPS * size);
     let at_border = (0..2).any(|k| (exact.fractions[k] - 0.5).abs() > 0.5 - moved[k]);
@@ -185,7 +185,7 @@ fn check_bilinear<U: Wrap, V: Wrap>(rng: &mut Rng) -> [f64; 2] {
         error / (6.0 * EPS + moved[1 - k] * exact.twist)
     });
     // The filter's weights have 8 bits.
-    let filtered = texture.sampler_per_axis::<Bilinear, U, V>().scalar_lanes(One, uv.x, uv.y);
+    let filtered = texture.sampler_per_axis(Bilinear, wrap.0, wrap.1).scalar_lanes(One, uv.x, uv.y);
     let steep = (exact.steepest[0] + exact.steepest[1]) / 512.0;
     assert!((f64::from(filtered) - exact.height).abs() <= steep + 0.51 / 65535.0 + moved[0] + moved[1]);
     [share, shares[0].max(shares[1])]
@@ -197,22 +197,19 @@ fn bilinear_heights_and_gradients() {
     let mut worst = [0.0f64; 2];
     for _ in 0..60_000 {
         for [height, gradient] in [
-            check_bilinear::<Repeat, Clamp>(&mut rng),
-            check_bilinear::<Clamp, Mirror>(&mut rng),
-            check_bilinear::<Mirror, Repeat>(&mut rng),
+            check_bilinear(&mut rng, (Repeat, Clamp)),
+            check_bilinear(&mut rng, (Clamp, Mirror)),
+            check_bilinear(&mut rng, (Mirror, Repeat)),
         ] {
             worst = [worst[0].max(height), worst[1].max(gradient)];
         }
     }
     println!("shares of the bounds: heights {:.3}, gradients {:.3}", worst[0], worst[1]);
     assert!(worst.iter().all(|&share| share <= 1.0 && share > 0.3));
-    let texture = Texture::<L8>::new(&[0, 255], 2, 1).expect("as many");
-    assert_eq!(
-        bilinear_height::<_, _, Repeat, Repeat>(&texture, Vec2::new(0.5, 0.0)),
-        (0.5, Vec2::new(2.0, 0.0))
-    );
+    let texture = Texture::new(L8, &[0, 255], 2, 1).expect("as many");
+    assert_eq!(bilinear_height(&texture, (Repeat, Repeat), Vec2::new(0.5, 0.0)), (0.5, Vec2::new(2.0, 0.0)));
     for bad in [f32::NAN, f32::INFINITY, f32::MIN, 1e30] {
-        let (height, gradient) = bilinear_height::<_, _, Repeat, Clamp>(&texture, Vec2::splat(bad));
+        let (height, gradient) = bilinear_height(&texture, (Repeat, Clamp), Vec2::splat(bad));
         assert!((0.0..=1.0).contains(&height) && gradient.abs().max_element() <= 2.0, "{bad}");
     }
 }
@@ -226,12 +223,12 @@ fn fixed_bilinear_heights() {
     for _ in 0..100_000 {
         let (width, height) = (rng.log_integer(1000) as u32, rng.range(1, 5) as u32);
         let texels = heights(&mut rng, width, height, false);
-        let texture = Texture::<L16>::new(&texels, width, height).expect("as many");
+        let texture = Texture::new(L16, &texels, width, height).expect("as many");
         let uv = [0, 1].map(|_| Q16::from_bits(rng.range(0, 1 << 19) as i32 - (1 << 18)));
-        let (found, gradient) = bilinear_height_lanes::<_, _, _, Repeat, Mirror>(OneFixed, &texture, uv);
+        let (found, gradient) = bilinear_height_lanes(OneFixed, &texture, (Repeat, Mirror), uv);
         let size = [f64::from(width), f64::from(height)];
         let real = |x: Q16| f64::from(x.to_bits()) * STEP;
-        let exact = surface::<Repeat, Mirror>(texture, [0, 1].map(|k| real(uv[k]) * size[k] - 0.5));
+        let exact = surface(texture, (Repeat, Mirror), [0, 1].map(|k| real(uv[k]) * size[k] - 0.5));
         // Products of coordinates and sides are exact, so that there is no border to cross.
         worst[0] = worst[0].max((real(found) - exact.height).abs() / STEP);
         for k in 0..2 {
@@ -251,39 +248,41 @@ fn formats_of_heights() {
         let wide = heights(&mut rng, width, height, true);
         let bytes: Vec<u8> = wide.iter().map(|&height| (height / 257) as u8).collect();
         let palette: Vec<Rgba8> = (0..=255).map(|byte| Rgba8::new(byte, !byte, 7, 3)).collect();
-        let eight = Texture::<L8>::new(&bytes, width, height).expect("as many");
-        let sixteen = Texture::<L16>::new(&wide, width, height).expect("as many");
-        let indexed = Texture::<Indexed<8>>::indexed(&bytes, &palette, width, height).expect("as many");
+        let eight = Texture::new(L8, &bytes, width, height).expect("as many");
+        let sixteen = Texture::new(L16, &wide, width, height).expect("as many");
+        let indexed = Texture::new(Indexed8 { palette: &palette }, &bytes, width, height).expect("as many");
         let uv = vec2(&mut rng, 2.5);
-        let height = bilinear_height::<_, _, Repeat, Mirror>(&eight, uv);
-        assert_eq!(bilinear_height::<_, _, Repeat, Mirror>(&sixteen, uv), height);
-        assert_eq!(bilinear_height::<_, _, Repeat, Mirror>(&indexed, uv), height);
-        let height = eight.sampler::<Bilinear, Mirror>().height(uv);
-        assert_eq!(sixteen.sampler::<Bilinear, Mirror>().height(uv), height);
-        assert_eq!(indexed.sampler::<Bilinear, Mirror>().height(uv), height);
-        let red = eight.sampler::<Nearest, Mirror>().sample(uv).to_bytes()[0];
-        assert_eq!(sixteen.sampler::<Nearest, Mirror>().height(uv), f32::from(red) / 255.0);
-        assert_eq!(indexed.sampler::<Nearest, Mirror>().height(uv), f32::from(red) / 255.0);
+        let height = bilinear_height(&eight, (Repeat, Mirror), uv);
+        assert_eq!(bilinear_height(&sixteen, (Repeat, Mirror), uv), height);
+        assert_eq!(bilinear_height(&indexed, (Repeat, Mirror), uv), height);
+        let height = eight.sampler(Bilinear, Mirror).height(uv);
+        assert_eq!(sixteen.sampler(Bilinear, Mirror).height(uv), height);
+        assert_eq!(indexed.sampler(Bilinear, Mirror).height(uv), height);
+        let red = eight.sampler(Nearest, Mirror).sample(uv).to_bytes()[0];
+        assert_eq!(sixteen.sampler(Nearest, Mirror).height(uv), f32::from(red) / 255.0);
+        assert_eq!(indexed.sampler(Nearest, Mirror).height(uv), f32::from(red) / 255.0);
     }
     // All bits of a texel, and a border's red.
     for texel in 0..=u16::MAX {
         let texels = [texel];
-        let texture = Texture::<L16>::new(&texels, 1, 1).expect("as many");
-        let found = texture.sampler::<Nearest, Border<0xff00_3300>>();
+        let texture = Texture::new(L16, &texels, 1, 1).expect("as many");
+        let found = texture.sampler(Nearest, Border(Rgba8::from_bits(0xff00_3300)));
         assert_eq!(found.height(Vec2::splat(0.5)), f32::from(texel) / 65535.0);
         assert_eq!(found.height(Vec2::splat(-0.5)), 0.0);
     }
-    let texture = Texture::<L8>::new(&[255], 1, 1).expect("as many");
-    assert_eq!(texture.sampler::<Bilinear, Border<0x33>>().height(Vec2::splat(-0.5)), 0.2);
-    assert_eq!(bilinear_height::<_, _, Border<0x33>, Border>(&texture, Vec2::splat(-0.5)).0, 0.2);
+    let texture = Texture::new(L8, &[255], 1, 1).expect("as many");
+    assert_eq!(texture.sampler(Bilinear, Border(Rgba8::from_bits(0x33))).height(Vec2::splat(-0.5)), 0.2);
+    assert_eq!(
+        bilinear_height(&texture, (Border(Rgba8::from_bits(0x33)), Border::default()), Vec2::splat(-0.5)).0,
+        0.2
+    );
 }
 
 /// A sampler is a height map, of its red channel.
 #[test]
 fn samplers_are_heights() {
-    let texture = Texture::<L8>::new(&[0, 51, 102, 255], 4, 1).expect("as many");
-    let relief =
-        Relief { map: texture.sampler::<Nearest, Repeat>(), low: -1.0, high: 4.0, extent: Vec2::ONE };
+    let texture = Texture::new(L8, &[0, 51, 102, 255], 4, 1).expect("as many");
+    let relief = Relief { map: texture.sampler(Nearest, Repeat), low: -1.0, high: 4.0, extent: Vec2::ONE };
     let heights = [0.1, 0.3, 0.6, 0.9].map(|u| relief.height(Vec2::new(u, 0.0)));
     assert_eq!(heights, [-1.0, 0.0, 1.0, 4.0]);
 }

@@ -186,9 +186,9 @@ fn faces_do_not_bleed() {
     for side in [1, 2, 7, 64, 683, 2730] {
         let colors = [0, 51, 102, 153, 204, 255];
         let texels: Vec<u8> = colors.iter().flat_map(|&color| vec![color; (side * side) as usize]).collect();
-        let texture = Texture::<L8>::new(&texels, side, 6 * side).expect("as many");
-        let sampler = texture.sampler::<Bilinear, Clamp>();
-        let repeated = texture.sampler::<Bilinear, Repeat>();
+        let texture = Texture::new(L8, &texels, side, 6 * side).expect("as many");
+        let sampler = texture.sampler(Bilinear, Clamp);
+        let repeated = texture.sampler(Bilinear, Repeat);
         let near_edges = (0..30_000).map(|_| {
             let mut v = vec3(&mut rng, 1.0);
             let (from, to) = (rng.range(0, 2) as usize, rng.range(0, 2) as usize);

@@ -37,12 +37,12 @@ fn unit(rng: &mut Rng) -> DVec3 {
     vec3(rng, 1.0).as_dvec3().normalize_or(DVec3::Z)
 }
 
-fn texels<E: NormalEncoding>(meaning: fn(f64) -> f64, one: f64) -> [f64; 2] {
+fn texels(encoding: impl NormalEncoding, meaning: fn(f64) -> f64, one: f64) -> [f64; 2] {
     let mut worst = [0.0f64; 2];
     for word in (0..1 << 24).step_by(3) {
         let channel = |bits: u32| meaning(f64::from(word >> bits & 255));
         let v = DVec3::new(channel(0), channel(8), channel(16));
-        let found = normal_lanes::<E, OneFixed>(OneFixed, Wrapping(word));
+        let found = normal_lanes(encoding, OneFixed, Wrapping(word));
         if v == DVec3::ZERO {
             assert_eq!(found, fixed(DVec3::Z));
             continue;
@@ -50,7 +50,7 @@ fn texels<E: NormalEncoding>(meaning: fn(f64) -> f64, one: f64) -> [f64; 2] {
         worst[0] = worst[0].max(off(found, v.normalize()));
         if word < 1 << 16 {
             let rest = (one * one - v.x * v.x - v.y * v.y).max(0.0).sqrt();
-            let found = normal_of_two_lanes::<E, OneFixed>(OneFixed, Wrapping(word));
+            let found = normal_of_two_lanes(encoding, OneFixed, Wrapping(word));
             worst[1] = worst[1].max(off(found, DVec3::new(v.x, v.y, rest).normalize()));
         }
     }
@@ -59,8 +59,8 @@ fn texels<E: NormalEncoding>(meaning: fn(f64) -> f64, one: f64) -> [f64; 2] {
 
 #[test]
 fn fixed_normals() {
-    let unorm = texels::<Unorm>(|c| 2.0 * c - 255.0, 255.0);
-    let centred = texels::<Centred>(|c| (c - 128.0).max(-127.0), 127.0);
+    let unorm = texels(Unorm, |c| 2.0 * c - 255.0, 255.0);
+    let centred = texels(Centred, |c| (c - 128.0).max(-127.0), 127.0);
     println!("of three and of two, in steps: {unorm:.3?}, {centred:.3?}");
     for [three, two] in [unorm, centred] {
         assert!(three <= 1.1 && two <= 1.1 && three > 0.9);

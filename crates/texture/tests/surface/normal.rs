@@ -34,15 +34,16 @@ fn errors(found: Vec3, exact: DVec3) -> [f64; 3] {
     ]
 }
 
-fn all<E: NormalEncoding>(meaning: Meaning) -> [f64; 3] {
+fn all(encoding: impl NormalEncoding, meaning: Meaning) -> [f64; 3] {
     let mut worst = [0.0f64; 3];
     // The numbers of bytes in integers over one denominator, so that `f64` adds no noise to a zero.
-    let denominator = f64::from(E::ONE);
+    let denominator = f64::from(encoding.one());
     let numbers: Vec<f64> = (0..=255).map(|c| (meaning(c) * denominator).round()).collect();
     for word in 0..1 << 24 {
         let [r, g, b, _] = Rgba8::from_bits(word).to_bytes();
         let exact = DVec3::new(numbers[usize::from(r)], numbers[usize::from(g)], numbers[usize::from(b)]);
-        let found = normal::<E, Tangent>(Rgba8::from_bits(word | 0xff00_0000)).coords;
+        let found: Vector3<Tangent> = normal(encoding, Rgba8::from_bits(word | 0xff00_0000));
+        let found = found.coords;
         if exact == DVec3::ZERO {
             assert_eq!(found, Vec3::Z);
             continue;
@@ -57,22 +58,22 @@ fn all<E: NormalEncoding>(meaning: Meaning) -> [f64; 3] {
 
 #[test]
 fn all_texels_are_unit_vectors() {
-    for [component, length, direction] in [all::<Unorm>(unorm), all::<Centred>(centred)] {
+    for [component, length, direction] in [all(Unorm, unorm), all(Centred, centred)] {
         println!("components {component:.3}ε, lengths {length:.3}ε, directions {direction:.3}ε");
         assert!(component <= 2.0 && length <= 2.0 && direction <= 1.1);
         assert!(component > 1.5, "the bound is not tested");
     }
 }
 
-fn all_pairs<E: NormalEncoding>(meaning: Meaning) -> [f64; 2] {
+fn all_pairs(encoding: impl NormalEncoding, meaning: Meaning) -> [f64; 2] {
     let mut worst = [0.0f64; 2];
-    let denominator = f64::from(E::ONE);
+    let denominator = f64::from(encoding.one());
     for word in 0..1 << 16 {
         let [x, y] = [word & 255, word >> 8].map(|c| (meaning(c as u8) * denominator).round());
         let rest = denominator * denominator - x * x - y * y;
         let exact = DVec3::new(x, y, rest.max(0.0).sqrt());
         // Blue and alpha are not looked at.
-        let found = normal_of_two::<E>(Rgba8::from_bits(word | word << 16)).coords;
+        let found = normal_of_two(encoding, Rgba8::from_bits(word | word << 16)).coords;
         let [component, length, _] = errors(found, exact);
         worst = [worst[0].max(component), worst[1].max(length)];
         assert_eq!(found.z > 0.0, rest > 0.0);
@@ -82,26 +83,27 @@ fn all_pairs<E: NormalEncoding>(meaning: Meaning) -> [f64; 2] {
 
 #[test]
 fn all_pairs_have_a_third() {
-    for [component, length] in [all_pairs::<Unorm>(unorm), all_pairs::<Centred>(centred)] {
+    for [component, length] in [all_pairs(Unorm, unorm), all_pairs(Centred, centred)] {
         println!("components {component:.3}ε, lengths {length:.3}ε");
         assert!(component <= 2.0 && length <= 2.0);
     }
 }
 
 /// Every 7th texel, through all functions.
-fn same_bits<L: Floating, E: NormalEncoding>(lanes: L) {
+fn same_bits<L: Floating>(lanes: L, encoding: impl NormalEncoding) {
     let mut word = 0u32;
     while word < 1 << 24 {
         let texels = lanes.each(|i| word + 7 * i as u32);
         let words = lanes.load_words(&texels);
-        let three = normal_lanes::<E, L>(lanes, words);
-        let found = [three, normal_of_two_lanes::<E, L>(lanes, words), strengthened_lanes(lanes, three, 2.5)];
+        let three = normal_lanes(encoding, lanes, words);
+        let found =
+            [three, normal_of_two_lanes(encoding, lanes, words), strengthened_lanes(lanes, three, 2.5)];
         let stored = found.map(|normal| normal.map(|component| lanes.store(component)));
         for (i, &texel) in texels.as_ref().iter().enumerate() {
-            let alone = normal_lanes::<E, One>(One, Wrapping(texel));
+            let alone = normal_lanes(encoding, One, Wrapping(texel));
             let expected = [
                 alone,
-                normal_of_two_lanes::<E, One>(One, Wrapping(texel)),
+                normal_of_two_lanes(encoding, One, Wrapping(texel)),
                 strengthened(Vector3::new(Vec3::from(alone)), 2.5).coords.to_array(),
             ];
             for (stored, expected) in stored.iter().zip(expected) {
@@ -117,8 +119,8 @@ fn same_bits<L: Floating, E: NormalEncoding>(lanes: L) {
 fn any_number_of_lanes_gives_the_same_bits() {
     for machine in Machine::all() {
         for_lanes!(machine, lanes => {
-            same_bits::<_, Unorm>(lanes);
-            same_bits::<_, Centred>(lanes);
+            same_bits(lanes, Unorm);
+            same_bits(lanes, Centred);
         });
     }
 }
@@ -128,7 +130,7 @@ fn strength_multiplies_slopes() {
     let mut rng = Rng::new(run_seed());
     let mut worst = [0.0f64; 2];
     for _ in 0..300_000 {
-        let given = normal::<Unorm, Tangent>(Rgba8::from_bits(rng.u64() as u32));
+        let given: Vector3<Tangent> = normal(Unorm, Rgba8::from_bits(rng.u64() as u32));
         let strength = rng.log_uniform(1e-3, 65536.0) * if rng.one_in(2) { 1.0 } else { -1.0 };
         let found = strengthened(given, strength).coords;
         let n = given.coords.as_dvec3();
@@ -154,7 +156,7 @@ fn normals_leave_the_frame() {
         let w = if rng.one_in(2) { 1.0 } else { -1.0 };
         let origin = Point3::<Object>::new(vec3(&mut rng, 100.0));
         let frame = frame_of_tangent(origin, Vector3::new(n), [t.x, t.y, t.z, w]);
-        let given = normal::<Unorm, Tangent>(Rgba8::from_bits(rng.u64() as u32));
+        let given: Vector3<Tangent> = normal(Unorm, Rgba8::from_bits(rng.u64() as u32));
         let found = normal_to_parent(&frame, given).coords.as_dvec3();
         let [x, y, z] = [frame.axes().x_axis, frame.axes().y_axis, frame.axes().z_axis].map(|a| a.as_dvec3());
         let local = given.coords.as_dvec3();

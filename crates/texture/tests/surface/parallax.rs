@@ -1,9 +1,11 @@
-//! Parallax maps, against rays that are met exactly.
+//! ParallaxSearch maps, against rays that are met exactly.
 
 use crate::support::{EPS, vec2};
 use alberti_math::Vector3;
 use alberti_oracle::rng::{Rng, run_seed};
-use alberti_texture::surface::{Occlusion, Offset, OffsetLimited, Parallax, Relief, Steep, Tangent};
+use alberti_texture::surface::{
+    LimitedParallax, OffsetParallax, ParallaxOcclusion, ParallaxSearch, Relief, SteepParallax, Tangent,
+};
 use glam::{DVec2, Vec2, Vec3};
 
 fn view(rng: &mut Rng, steepest: f64) -> Vector3<Tangent> {
@@ -30,7 +32,7 @@ fn rounding(uv: Vec2, slant: f64, high: f64) -> f64 {
     16.0 * EPS * (f64::from(uv.abs().max_element()) + slant * high)
 }
 
-fn check_plain(policy: impl Parallax, rng: &mut Rng, layers: f64) -> f64 {
+fn check_plain(policy: impl ParallaxSearch, rng: &mut Rng, layers: f64) -> f64 {
     let (low, high, h) = (rng.uniform(-1.0, 0.0) as f32, rng.uniform(0.1, 1.0) as f32, rng.unit() as f32);
     let relief = Relief { map: |_: Vec2| h, low, high, extent: Vec2::ONE };
     let (uv, view) = (vec2(rng, 1.0), view(rng, 5.0));
@@ -48,10 +50,10 @@ fn plains() {
     let mut worst = [0.0f64; 4];
     for _ in 0..50_000 {
         let shares = [
-            check_plain(Offset, &mut rng, 0.0),
-            check_plain(Occlusion { layers: 1 }, &mut rng, 0.0),
-            check_plain(Occlusion { layers: 16 }, &mut rng, 0.0),
-            check_plain(Steep { layers: 16 }, &mut rng, 1.0 / 16.0),
+            check_plain(OffsetParallax, &mut rng, 0.0),
+            check_plain(ParallaxOcclusion { layers: 1 }, &mut rng, 0.0),
+            check_plain(ParallaxOcclusion { layers: 16 }, &mut rng, 0.0),
+            check_plain(SteepParallax { layers: 16 }, &mut rng, 1.0 / 16.0),
         ];
         worst = std::array::from_fn(|k| worst[k].max(shares[k]));
     }
@@ -80,11 +82,11 @@ fn ramps() {
         let exact = at(uv, view, Vec2::ONE, z);
         // An error of the heights is one of the place, more so where the ray nearly runs along the ramp.
         let slack = 2.0 * rounding(uv, slant(view), 0.5) / (1.0 - da * dk).powi(2);
-        let met = relief.parallax(Occlusion { layers: 8 }, uv, view).as_dvec2().distance(exact);
-        let stepped = relief.parallax(Steep { layers: 8 }, uv, view).as_dvec2().distance(exact);
+        let met = relief.parallax(ParallaxOcclusion { layers: 8 }, uv, view).as_dvec2().distance(exact);
+        let stepped = relief.parallax(SteepParallax { layers: 8 }, uv, view).as_dvec2().distance(exact);
         shares[0] = shares[0].max(met / slack);
         shares[1] = shares[1].max(stepped / (slant(view) / 8.0 + slack));
-        let simple = relief.parallax(Offset, uv, view).as_dvec2();
+        let simple = relief.parallax(OffsetParallax, uv, view).as_dvec2();
         let shift = exact - uv.as_dvec2();
         // Short by the share a k of itself.
         let predicted = exact - shift * (da * dk);
@@ -124,10 +126,12 @@ fn waves() {
         let steep = 1.0 - slope * k;
         let slack = 8.0 * rounding(uv, k, range) * size.max(1.0) / steep;
         let bound = |n: f64| k * curvature * (range / n * k).powi(2) / 8.0 / steep + slack;
-        shares[0] = shares[0].max(off(relief.parallax(Occlusion { layers: 8 }, uv, view)) / bound(8.0));
-        shares[1] = shares[1].max(off(relief.parallax(Occlusion { layers: 32 }, uv, view)) / bound(32.0));
-        shares[2] =
-            shares[2].max(off(relief.parallax(Steep { layers: 32 }, uv, view)) / (range / 32.0 * k + slack));
+        shares[0] =
+            shares[0].max(off(relief.parallax(ParallaxOcclusion { layers: 8 }, uv, view)) / bound(8.0));
+        shares[1] =
+            shares[1].max(off(relief.parallax(ParallaxOcclusion { layers: 32 }, uv, view)) / bound(32.0));
+        shares[2] = shares[2]
+            .max(off(relief.parallax(SteepParallax { layers: 32 }, uv, view)) / (range / 32.0 * k + slack));
     }
     println!("shares of the bounds: {shares:?}");
     assert!(shares.iter().all(|&share| share <= 1.0 && share > 0.3));
@@ -145,7 +149,7 @@ fn limited_offsets() {
         let steepest = f64::from(rng.log_uniform(1.0, 1e6));
         let (uv, view) = (vec2(&mut rng, 1.0), view(&mut rng, steepest));
         let v = view.coords.as_dvec3().normalize().truncate() / extent.as_dvec2() * f64::from(h);
-        let found = relief.parallax(OffsetLimited, uv, view);
+        let found = relief.parallax(LimitedParallax, uv, view);
         let off = (found.as_dvec2() - uv.as_dvec2() - v).length();
         worst = worst.max(off / EPS / (f64::from(uv.abs().max_element()) + v.length()));
         let shift = (found - uv) * extent;
@@ -159,7 +163,12 @@ fn limited_offsets() {
 /// Whatever comes in, what goes out is finite or the coordinates that came in.
 #[test]
 fn hostile_views() {
-    fn check(policy: impl Parallax, relief: &Relief<impl Fn(Vec2) -> f32>, uv: Vec2, view: Vector3<Tangent>) {
+    fn check(
+        policy: impl ParallaxSearch,
+        relief: &Relief<impl Fn(Vec2) -> f32>,
+        uv: Vec2,
+        view: Vector3<Tangent>,
+    ) {
         let found = relief.parallax(policy, uv, view);
         let unchanged = found.to_array().map(f32::to_bits) == uv.to_array().map(f32::to_bits);
         assert!(found.is_finite() || unchanged);
@@ -171,14 +180,14 @@ fn hostile_views() {
         let (h, low, high) = (any(), any(), any());
         let relief = Relief { map: |_: Vec2| h, low, high, extent: Vec2::new(any(), any()) };
         let (uv, view) = (Vec2::new(any(), any()), Vector3::new(Vec3::new(any(), any(), any())));
-        check(Offset, &relief, uv, view);
-        check(OffsetLimited, &relief, uv, view);
-        check(Steep { layers: 4 }, &relief, uv, view);
-        check(Occlusion { layers: 4 }, &relief, uv, view);
-        check(Occlusion { layers: 0 }, &relief, uv, view);
+        check(OffsetParallax, &relief, uv, view);
+        check(LimitedParallax, &relief, uv, view);
+        check(SteepParallax { layers: 4 }, &relief, uv, view);
+        check(ParallaxOcclusion { layers: 4 }, &relief, uv, view);
+        check(ParallaxOcclusion { layers: 0 }, &relief, uv, view);
     }
     let relief = Relief { map: |_: Vec2| 1.0, low: 0.0, high: 1.0, extent: Vec2::ONE };
     for view in [Vec3::X, Vec3::NEG_Z, Vec3::NAN, Vec3::new(1.0, 0.0, f32::from_bits(1))] {
-        assert_eq!(relief.parallax(Offset, Vec2::ONE, Vector3::new(view)), Vec2::ONE);
+        assert_eq!(relief.parallax(OffsetParallax, Vec2::ONE, Vector3::new(view)), Vec2::ONE);
     }
 }

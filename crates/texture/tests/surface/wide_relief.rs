@@ -6,10 +6,10 @@ use crate::support::vec3;
 use alberti_math::lanes::{Lanes, Machine, One, OneFixed};
 use alberti_math::{Q16, for_lanes};
 use alberti_oracle::rng::{Rng, run_seed};
-use alberti_texture::format::{Indexed, L8, L16, Rgba8};
+use alberti_texture::format::{Indexed4, L8, L16, Rgba8};
 use alberti_texture::surface::{
-    HeightMap, Occlusion, Offset, OffsetLimited, Parallax, Relief, Steep, bilinear_height_lanes, bump_lanes,
-    normal_of_slope_lanes,
+    HeightMap, LimitedParallax, OffsetParallax, ParallaxOcclusion, ParallaxSearch, Relief, SteepParallax,
+    bilinear_height_lanes, bump_lanes, normal_of_slope_lanes,
 };
 use alberti_texture::{Bilinear, Border, Clamp, Mirror, Nearest, Repeat, Texture};
 use glam::{DVec2, DVec3, Vec2};
@@ -25,10 +25,10 @@ fn check<H: HeightMap, L: Lanes>(lanes: L, relief: &Relief<H>, v: [L::Number; 14
     let [nx, ny, nz] = relief.normal_lanes(lanes, uv, step);
     let [bx, by, bz] = bump_lanes(lanes, axes, slope);
     let [sx, sy, sz] = normal_of_slope_lanes(lanes, [v[2], v[3]]);
-    let [a, b] = relief.parallax_lanes(Offset, lanes, uv, view);
-    let [c, d] = relief.parallax_lanes(OffsetLimited, lanes, uv, view);
-    let [e, f] = relief.parallax_lanes(Steep { layers: 9 }, lanes, uv, view);
-    let [g, h] = relief.parallax_lanes(Occlusion { layers: 12 }, lanes, uv, view);
+    let [a, b] = relief.parallax_lanes(OffsetParallax, lanes, uv, view);
+    let [c, d] = relief.parallax_lanes(LimitedParallax, lanes, uv, view);
+    let [e, f] = relief.parallax_lanes(SteepParallax { layers: 9 }, lanes, uv, view);
+    let [g, h] = relief.parallax_lanes(ParallaxOcclusion { layers: 12 }, lanes, uv, view);
     [relief.height_lanes(lanes, uv), nx, ny, nz, bx, by, bz, sx, sy, sz, a, b, c, d, e, f, g, h]
 }
 
@@ -48,15 +48,15 @@ fn same_bilinear(texture: &Texture<'_, L16>, given: &[[f32; 14]; 8]) {
                 given,
                 |v| {
                     let uv = [v[0], v[1]];
-                    let (h, [x, y]) = bilinear_height_lanes::<_, _, _, Repeat, Clamp>(lanes, texture, uv);
+                    let (h, [x, y]) = bilinear_height_lanes(lanes, texture, (Repeat, Clamp), uv);
                     let power = texture.power_of_two().expect("it is");
-                    let (p, [i, j]) = bilinear_height_lanes::<_, _, _, Mirror, Border>(lanes, &power, uv);
+                    let (p, [i, j]) = bilinear_height_lanes(lanes, &power, (Mirror, Border::default()), uv);
                     [h, x, y, p, i, j]
                 },
                 |v| {
                     let uv = [v[0], v[1]];
-                    let (h, [x, y]) = bilinear_height_lanes::<_, _, _, Repeat, Clamp>(One, texture, uv);
-                    let (p, [i, j]) = bilinear_height_lanes::<_, _, _, Mirror, Border>(One, texture, uv);
+                    let (h, [x, y]) = bilinear_height_lanes(One, texture, (Repeat, Clamp), uv);
+                    let (p, [i, j]) = bilinear_height_lanes(One, texture, (Mirror, Border::default()), uv);
                     assert!([h, x, y, p, i, j].iter().all(|x| x.is_finite()), "{v:?}");
                     [h, x, y, p, i, j]
                 },
@@ -71,9 +71,9 @@ fn any_number_of_lanes_gives_the_same_bits() {
     let wide: Vec<u16> = (0..128).map(|_| rng.u64() as u16).collect();
     let bytes: Vec<u8> = wide.iter().map(|&height| height as u8).collect();
     let palette: Vec<Rgba8> = (0..=15).map(|byte| Rgba8::new(byte * 17, 0, 0, 0)).collect();
-    let wide = Texture::<L16>::new(&wide, 16, 8).expect("as many");
-    let eight = Texture::<L8>::new(&bytes[..35], 7, 5).expect("as many");
-    let indexed = Texture::<Indexed<4>>::indexed(&bytes[..15], &palette, 5, 5).expect("as many");
+    let wide = Texture::new(L16, &wide, 16, 8).expect("as many");
+    let eight = Texture::new(L8, &bytes[..35], 7, 5).expect("as many");
+    let indexed = Texture::new(Indexed4 { palette: &palette }, &bytes[..15], 5, 5).expect("as many");
     for _ in 0..1500 {
         let any = rng.one_in(4);
         let given: [[f32; 14]; 8] = std::array::from_fn(|_| {
@@ -87,10 +87,10 @@ fn any_number_of_lanes_gives_the_same_bits() {
         });
         let (low, high) = (rng.uniform(-0.3, 0.1) as f32, rng.uniform(-0.1, 0.3) as f32);
         let extent = Vec2::new(rng.log_uniform(0.5, 2.0), 1.0);
-        same_reliefs(&Relief { map: wide.sampler::<Bilinear, Repeat>(), low, high, extent }, &given);
-        same_reliefs(&Relief { map: eight.sampler::<Bilinear, Clamp>(), low, high, extent }, &given);
-        same_reliefs(&Relief { map: indexed.sampler::<Nearest, Mirror>(), low, high, extent }, &given);
-        let power = wide.power_of_two().expect("it is").sampler::<Bilinear, Mirror>();
+        same_reliefs(&Relief { map: wide.sampler(Bilinear, Repeat), low, high, extent }, &given);
+        same_reliefs(&Relief { map: eight.sampler(Bilinear, Clamp), low, high, extent }, &given);
+        same_reliefs(&Relief { map: indexed.sampler(Nearest, Mirror), low, high, extent }, &given);
+        let power = wide.power_of_two().expect("it is").sampler(Bilinear, Mirror);
         same_reliefs(&Relief { map: power, low, high, extent }, &given);
         let ramp = |uv: Vec2| 0.5 + 0.25 * uv.x - 0.125 * uv.y;
         same_reliefs(&Relief { map: ramp, low, high, extent }, &given);
@@ -146,7 +146,7 @@ fn fixed_slopes() {
     assert!(worst[0] <= 3.0 && worst[1] <= 6.0 && worst[2] <= 1.0 && worst[3] <= 1.0 && worst[3] > 0.3);
 }
 
-fn plain(policy: impl Parallax, rng: &mut Rng, layers: f64) -> f64 {
+fn plain(policy: impl ParallaxSearch, rng: &mut Rng, layers: f64) -> f64 {
     let (low, high) = (rng.uniform(-1.0, 0.0) as f32, rng.uniform(0.1, 1.0) as f32);
     let h = rng.unit() as f32;
     let relief = Relief { map: |_: Vec2| h, low, high, extent: Vec2::new(1.0, 2.0) };
@@ -169,10 +169,10 @@ fn fixed_parallax() {
     let mut worst = [0.0f64; 4];
     for _ in 0..100_000 {
         let shares = [
-            plain(Offset, &mut rng, 0.0),
-            plain(Occlusion { layers: 1 }, &mut rng, 0.0),
-            plain(Occlusion { layers: 16 }, &mut rng, 0.0),
-            plain(Steep { layers: 16 }, &mut rng, 1.0 / 16.0),
+            plain(OffsetParallax, &mut rng, 0.0),
+            plain(ParallaxOcclusion { layers: 1 }, &mut rng, 0.0),
+            plain(ParallaxOcclusion { layers: 16 }, &mut rng, 0.0),
+            plain(SteepParallax { layers: 16 }, &mut rng, 1.0 / 16.0),
         ];
         worst = std::array::from_fn(|k| worst[k].max(shares[k]));
     }

@@ -1,27 +1,25 @@
 //! The ways of drawing that are measured: each is one call of [`alberti::draw`] on prepared memory.
 
 use crate::shapes::{FLOOR_MIPMAP, Model, Vertex};
-use crate::{Camera, PIXELS, Target, WIDTH};
+use crate::{Camera, HEIGHT, PIXELS, Target, WIDTH};
 use alberti::glam::{Vec2, Vec3};
+use alberti::lanes::One;
 use alberti::raster::{PerSpan, PerTriangle};
 use alberti::shaders::material::{Color, Emission, Gouraud};
 use alberti::shaders::{Differentiated, Ready565, Solid, Stored, Unlit, VertexColor565};
 use alberti::texture::{Bilinear, Minify, Nearest, NearestLevel, Repeat, Trilinear};
 use alberti::{
-    Affine, Band, Counters, Cull, D16, Exact, FixedPoint, FragmentStage, Interpolation, NoDepth, Object,
-    Pass, Point3, Rgb565Le, Sides, Slot, Spans, Sub4, VertexStage, View, draw,
+    Affine, ColorFormat, Counters, D16, DepthFormat, Exact, FixedPoint, FragmentStage, Geometry,
+    Interpolation, Mesh, NoDepth, Object, Pass, Point3, Rgb565Le, Slot, Spans16, Sub4, View,
 };
 
 /// Defines ways of drawing: a pass of its own for each, into colour and depth.
 macro_rules! draws {
-    ($($(#[$doc:meta])* $name:ident($model:ident): $interpolation:expr, $vertex_stage:expr, $fragment_stage:expr;)*) => {$(
+    ($($(#[$doc:meta])* $name:ident($model:ident): $interpolation:expr, $vertex_stage:expr, $stage:expr;)*) => {$(
         $(#[$doc])*
         pub fn $name<K: Counters>(target: &mut Target, camera: &Camera, $model: &Model, counters: &mut K) {
-            let pass = pass(camera, $model, $interpolation, $vertex_stage, $fragment_stage);
-            let Ok(mut band) = Band::<Rgb565Le, D16>::new(WIDTH, 0, &mut target.color, &mut target.depth) else {
-                return;
-            };
-            draw(&pass, &mut band, &mut [Slot::<Sub4, _>::EMPTY; 0], counters);
+            let mesh = Mesh::new($model.vertices, $model.triangles, $vertex_stage);
+            draw(target.with_depth(), camera, $model, &mesh, $stage, $interpolation, &mut [], counters);
         }
     )*};
 }
@@ -41,54 +39,54 @@ draws! {
 
     /// The nearest texel of the nearest level, one for each triangle.
     mip_nearest(model): Exact, mapped,
-        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler::<NearestMip, Repeat>()));
+        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler(NEAREST_MIP, Repeat)));
 
     /// Four texels of the nearest level, one for each triangle.
     mip_bilinear(model): Exact, mapped,
-        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler::<BilinearMip, Repeat>()));
+        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler(BILINEAR_MIP, Repeat)));
 
     /// Between levels, by one level of detail for each triangle.
     trilinear(model): Exact, mapped,
-        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler::<Trilinear, Repeat>()));
+        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler(Trilinear, Repeat)));
 
     /// Between levels, by one level of detail for each row of a triangle.
     trilinear_spans(model): Exact, mapped,
-        Differentiated::by(PerSpan, Unlit(FLOOR_MIPMAP.sampler::<Trilinear, Repeat>()));
+        Differentiated::by(PerSpan, Unlit(FLOOR_MIPMAP.sampler(Trilinear, Repeat)));
 
     /// The nearest texel of the nearest level, one for each triangle, in fixed point.
-    mip_nearest_fixed(model): FixedPoint(Spans::<16>), mapped,
-        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler::<NearestMip, Repeat>()));
+    mip_nearest_fixed(model): FixedPoint(Spans16), mapped,
+        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler(NEAREST_MIP, Repeat)));
 
     /// Four texels of the nearest level, one for each triangle, in fixed point.
-    mip_bilinear_fixed(model): FixedPoint(Spans::<16>), mapped,
-        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler::<BilinearMip, Repeat>()));
+    mip_bilinear_fixed(model): FixedPoint(Spans16), mapped,
+        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler(BILINEAR_MIP, Repeat)));
 
     /// Between levels, by one level of detail for each triangle, in fixed point.
-    trilinear_fixed(model): FixedPoint(Spans::<16>), mapped,
-        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler::<Trilinear, Repeat>()));
+    trilinear_fixed(model): FixedPoint(Spans16), mapped,
+        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler(Trilinear, Repeat)));
 
     /// Between levels, by one level of detail for each 16 columns, in fixed point.
-    trilinear_spans_fixed(model): FixedPoint(Spans::<16>), mapped,
-        Differentiated::by(PerSpan, Unlit(FLOOR_MIPMAP.sampler::<Trilinear, Repeat>()));
+    trilinear_spans_fixed(model): FixedPoint(Spans16), mapped,
+        Differentiated::by(PerSpan, Unlit(FLOOR_MIPMAP.sampler(Trilinear, Repeat)));
 
     /// The vertices' light on the nearest texel: a material of one map.
-    material(model): Exact, lit, Gouraud { layers: Color(model.texture.sampler::<Nearest, Repeat>()) };
+    material(model): Exact, lit, Gouraud { layers: Color(model.texture.sampler(Nearest, Repeat)) };
 
     /// The same, with the places of the maps that it has not.
     material_absent(model): Exact, lit, Gouraud {
-        layers: ((), Color(model.texture.sampler::<Nearest, Repeat>()), (), ((), ()), ()),
+        layers: ((), Color(model.texture.sampler(Nearest, Repeat)), (), ((), ()), ()),
     };
 
     /// And with one more.
     material_emission(model): Exact, lit, Gouraud {
         layers: (
-            Color(model.texture.sampler::<Nearest, Repeat>()),
-            Emission(model.texture.sampler::<Nearest, Repeat>()),
+            Color(model.texture.sampler(Nearest, Repeat)),
+            Emission(model.texture.sampler(Nearest, Repeat)),
         ),
     };
 
     /// The nearest texel without perspective, in fixed point.
-    affine_fixed(model): FixedPoint(Affine), mapped, Stored(model.texture.sampler::<Nearest, Repeat>());
+    affine_fixed(model): FixedPoint(Affine), mapped, Stored(model.texture.sampler(Nearest, Repeat));
 }
 
 /// The nearest texel, in perspective, with depth. Each vertex has a slot of its own.
@@ -98,7 +96,7 @@ pub fn textured<K: Counters>(target: &mut Target, camera: &Camera, model: &Model
 
 /// The same in fixed point, divided every 16 columns.
 pub fn textured_fixed<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
-    textured_by(FixedPoint(Spans::<16>), target, camera, model, counters);
+    textured_by(FixedPoint(Spans16), target, camera, model, counters);
 }
 
 #[inline]
@@ -109,13 +107,12 @@ fn textured_by<P: Interpolation, K: Counters>(
     model: &Model,
     counters: &mut K,
 ) {
-    let sampler = model.texture.sampler::<Nearest, Repeat>();
-    let pass = pass(camera, model, interpolation, mapped, Stored(sampler));
-    let Ok(mut band) = Band::<Rgb565Le, D16>::new(WIDTH, 0, &mut target.color, &mut target.depth) else {
-        return;
-    };
-    let slots = target.slots.get_mut(..model.vertices.len()).unwrap_or_default();
-    draw(&pass, &mut band, slots, counters);
+    let mesh = Mesh::new(model.vertices, model.triangles, mapped);
+    let stage = Stored(model.texture.sampler(Nearest, Repeat));
+    let Target { color, depth, slots } = target;
+    let pixels = alberti::Target::new(Rgb565Le, D16, WIDTH, HEIGHT, color, depth);
+    let slots = slots.get_mut(..model.vertices.len()).unwrap_or_default();
+    draw(pixels, camera, model, &mesh, stage, interpolation, slots, counters);
 }
 
 /// One colour for all, without depth: later triangles cover earlier ones.
@@ -125,37 +122,50 @@ pub fn flat_without_depth<K: Counters>(
     model: &Model,
     counters: &mut K,
 ) {
-    let pass = pass(camera, model, Exact, |v: &Vertex| (place(v), ()), Solid(ORANGE));
+    let mesh = Mesh::new(model.vertices, model.triangles, |v: &Vertex| (place(v), ()));
     let mut nothing = [(); PIXELS];
-    let Ok(mut band) = Band::<Rgb565Le, NoDepth>::new(WIDTH, 0, &mut target.color, &mut nothing) else {
-        return;
-    };
-    draw(&pass, &mut band, &mut [Slot::<Sub4, _>::EMPTY; 0], counters);
+    let pixels = alberti::Target::new(Rgb565Le, NoDepth, WIDTH, HEIGHT, &mut target.color, &mut nothing);
+    draw(pixels, camera, model, &mesh, Solid(ORANGE), Exact, &mut [], counters);
 }
 
-type NearestMip = Minify<Nearest, NearestLevel>;
-type BilinearMip = Minify<Bilinear, NearestLevel>;
+const NEAREST_MIP: Minify<Nearest, NearestLevel> =
+    Minify { min: Nearest, levels: NearestLevel, mag: Nearest };
+const BILINEAR_MIP: Minify<Bilinear, NearestLevel> =
+    Minify { min: Bilinear, levels: NearestLevel, mag: Bilinear };
 
 const ORANGE: u16 = 0xe405;
 
-/// What all ways have in common.
+/// The pass that all ways have in common.
 #[inline]
-fn pass<P: Interpolation, Vs: VertexStage<Vertex>, Fs: FragmentStage<Vs::Varying>>(
+#[expect(clippy::too_many_arguments, reason = "all that differs")]
+fn draw<C, D, M, F, P, K>(
+    target: Result<alberti::Target<'_, C, D>, alberti::TargetError>,
     camera: &Camera,
     model: &Model,
+    mesh: &M,
+    stage: F,
     interpolation: P,
-    vertex_stage: Vs,
-    fragment_stage: Fs,
-) -> Pass<'static, Vertex, u16, Vs, Fs, P> {
-    Pass {
-        view: View { to_eye: model.to_eye, projection: camera.perspective, viewport: camera.viewport },
-        vertices: model.vertices,
-        triangles: model.triangles,
-        vertex_stage,
-        fragment_stage,
-        cull: Cull::Back,
-        sides: Sides::GuardBand,
-        interpolation,
+    slots: &mut [Slot<M::Varying>],
+    counters: &mut K,
+) where
+    C: ColorFormat,
+    D: DepthFormat,
+    M: Geometry,
+    F: FragmentStage<M::Varying>,
+    P: Interpolation,
+    K: Counters,
+{
+    let Ok(mut target) = target else { return };
+    let view = View::new(model.to_eye, camera.perspective);
+    let pass = Pass::new(&view, mesh, stage).interpolation(interpolation).subpixel(Sub4);
+    pass.slots(slots).draw_by(One, &mut target, counters);
+}
+
+impl Target {
+    /// Colour and depth.
+    #[inline]
+    fn with_depth(&mut self) -> Result<alberti::Target<'_, Rgb565Le, D16>, alberti::TargetError> {
+        alberti::Target::new(Rgb565Le, D16, WIDTH, HEIGHT, &mut self.color, &mut self.depth)
     }
 }
 

@@ -17,7 +17,7 @@ pub use draws::{
 pub use shapes::PROBE;
 
 use alberti::glam::Vec2;
-use alberti::{D16, DepthFormat, Perspective, Slot, Sub4, ViewError, Viewport};
+use alberti::{D16, DepthFormat, Perspective, Slot, ViewError};
 use shapes::{Model, TORUS_VERTICES, floor, layers, torus};
 
 /// Columns of the frame.
@@ -105,7 +105,6 @@ pub static SCENES: &[Scene] = &[
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
     perspective: Perspective,
-    viewport: Viewport,
 }
 
 impl Camera {
@@ -114,10 +113,7 @@ impl Camera {
     /// # Errors
     /// None.
     pub fn new() -> Result<Self, ViewError> {
-        Ok(Self {
-            perspective: Perspective::new(core::f32::consts::FRAC_PI_2, shapes::ASPECT, 0.5, 50.0)?,
-            viewport: Viewport::new(0, 0, WIDTH, HEIGHT)?,
-        })
+        Ok(Self { perspective: Perspective::new(core::f32::consts::FRAC_PI_2, shapes::ASPECT, 0.5, 50.0)? })
     }
 }
 
@@ -126,7 +122,7 @@ impl Camera {
 pub struct Target {
     color: [u16; PIXELS],
     depth: [u16; PIXELS],
-    slots: [Slot<Sub4, Vec2>; TORUS_VERTICES],
+    slots: [Slot<Vec2>; TORUS_VERTICES],
 }
 
 impl Target {
@@ -137,7 +133,7 @@ impl Target {
     /// Makes all pixels dark grey and as far away as can be.
     pub fn clear(&mut self) {
         self.color.fill(0x2104_u16.to_le());
-        self.depth.fill(D16::FARTHEST);
+        self.depth.fill(D16.farthest());
     }
 
     /// The 64-bit FNV-1a hash of the colour's bytes, then the depth's, low byte first.

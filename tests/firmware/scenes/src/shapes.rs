@@ -6,7 +6,7 @@
 use crate::{HEIGHT, WIDTH};
 use alberti::glam::{Mat3, Vec3};
 use alberti::texture::{Known, Mipmap, PowerOfTwo, Texture, format::Rgb565};
-use alberti::{Eye, Frame, Object, Point3};
+use alberti::{Eye, Frame, Point3, World};
 
 /// Width by height of the frame.
 #[expect(clippy::cast_precision_loss, reason = "small integers")]
@@ -34,8 +34,8 @@ pub struct Model {
     pub vertices: &'static [Vertex],
     /// Three indices each, counter-clockwise as seen from the front.
     pub triangles: &'static [[u16; 3]],
-    /// Where the mesh stands.
-    pub to_eye: Frame<Object, Eye>,
+    /// The mesh's place before the eye.
+    pub to_eye: Frame<World, Eye>,
     /// What it wears where it is textured.
     pub texture: Texture<'static, Rgb565, Known<128, 128>>,
 }
@@ -83,7 +83,9 @@ pub const fn floor() -> Model {
 pub static FLOOR_MIPMAP: Mipmap<'static, Rgb565, PowerOfTwo> = {
     static TEXELS: [u16; alberti::texture::mipmap::texel_count(64, 64)] =
         include!(concat!(env!("OUT_DIR"), "/floor.rs"));
-    let Ok(mipmap) = Mipmap::new(&TEXELS, 64, 64) else { panic!("the levels of a square of this side") };
+    let Ok(mipmap) = Mipmap::new(Rgb565, &TEXELS, 64, 64) else {
+        panic!("the levels of a square of this side")
+    };
     let Some(mipmap) = mipmap.power_of_two() else { panic!("its side is a power of two") };
     mipmap
 };
@@ -92,7 +94,7 @@ pub static FLOOR_MIPMAP: Mipmap<'static, Rgb565, PowerOfTwo> = {
 pub static PROBE: Model = layers(1);
 
 const fn texture() -> Texture<'static, Rgb565, Known<128, 128>> {
-    let Ok(texture) = Texture::new(&CHEQUER, 128, 128) else {
+    let Ok(texture) = Texture::new(Rgb565, &CHEQUER, 128, 128) else {
         panic!("the texels are a square of this side")
     };
     let Some(texture) = texture.known() else { panic!("its side is this") };

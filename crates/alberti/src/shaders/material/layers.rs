@@ -3,7 +3,7 @@
 use super::map::Map;
 use super::surface::{Layer, OnSurface, Surface, Textured};
 use super::vector::plus;
-use crate::shaders::unpack;
+use crate::shaders::wide::unpack;
 use alberti_math::lanes::Lanes;
 use alberti_texture::surface::{ambient_occlusion_lanes, wet_lanes};
 

@@ -7,11 +7,10 @@ use alberti_math::lanes::Lanes;
 use alberti_math::{Frame, Object, World};
 use alberti_raster::NoDerivatives;
 use alberti_texture::surface::{
-    self, HeightMap, NormalEncoding, Relief, Slopes, bump_lanes, normal_lanes, normal_of_two_lanes,
-    strengthened_lanes, to_parent_lanes,
+    HeightMap, NormalEncoding, ParallaxSearch, Relief, Slopes, Unorm, bump_lanes, normal_lanes,
+    normal_of_two_lanes, strengthened_lanes, to_parent_lanes,
 };
 use core::fmt::Debug;
-use core::marker::PhantomData;
 
 /// A normal map in the tangent frame.
 ///
@@ -22,19 +21,25 @@ use core::marker::PhantomData;
 /// The map, two square roots, six divisions and nine multiplications; with a strength of `f32` a root and three
 /// divisions more.
 #[derive(Clone, Copy, Debug)]
-pub struct NormalMap<M, E = surface::Unorm, S = ()> {
-    map: M,
-    strength: S,
-    encoding: PhantomData<E>,
+pub struct NormalMap<M, E = Unorm, S = ()> {
+    /// A [`Map`].
+    pub map: M,
+    /// The numbers that bytes stand for.
+    pub encoding: E,
+    /// A [`Strength`]: `()` for slopes as they are.
+    pub strength: S,
 }
 
 /// A map of which only x and y are stored, in red and green: see
 /// [`normal_of_two`](alberti_texture::surface::normal_of_two).
 #[derive(Clone, Copy, Debug)]
-pub struct TwoChannels<M, E = surface::Unorm, S = ()> {
-    map: M,
-    strength: S,
-    encoding: PhantomData<E>,
+pub struct TwoChannels<M, E = Unorm, S = ()> {
+    /// A [`Map`].
+    pub map: M,
+    /// The numbers that bytes stand for.
+    pub encoding: E,
+    /// A [`Strength`]: `()` for slopes as they are.
+    pub strength: S,
 }
 
 /// How steep the slopes of a map are: `()` as they are, or an `f32` times as steep, as
@@ -60,10 +65,14 @@ impl Strength for f32 {
 
 /// A normal map in object space: it fits one object, and needs no tangent frame.
 #[derive(Clone, Copy, Debug)]
-pub struct ObjectNormals<M, E = surface::Unorm> {
-    map: M,
-    to_world: Frame<Object, World>,
-    encoding: PhantomData<E>,
+pub struct ObjectNormals<M, E = Unorm> {
+    /// A [`Map`].
+    pub map: M,
+    /// The numbers that bytes stand for.
+    pub encoding: E,
+    /// The object's frame in the world, with axes at right angles. Normals are made unit, so of a stretched object each
+    /// axis is to be divided by the square of its length: the axes of the inverse transpose.
+    pub to_world: Frame<Object, World>,
 }
 
 /// A bump map: the normal that heights would have, whose map has [`Slopes`].
@@ -82,8 +91,8 @@ pub struct Bump<H>(
     pub Relief<H>,
 );
 
-/// A parallax map: what the heights would show of the surface, seen from aside. It comes before all that reads maps.
-/// Where each policy breaks, at grazing angles and on steep heights, [`surface::Parallax`] says.
+/// A parallax map: the place on the surface that the heights would show, seen from aside. It comes before all that
+/// reads maps. Where each policy breaks, at grazing angles and on steep heights, [`ParallaxSearch`] says.
 ///
 /// The level of detail of these stays that of the surface itself, and so does the place for lights.
 ///
@@ -96,28 +105,20 @@ pub struct Bump<H>(
 pub struct Parallax<H, P> {
     /// The heights, with what they are in world units.
     pub relief: Relief<H>,
-    /// How the place that is seen is found.
+    /// The search for the place that is seen.
     pub policy: P,
 }
 
 /// Maps of the tangent frame, which differ in what their texels are.
 macro_rules! of_strength {
     ($($name:ident: $decode:ident;)+) => {$(
-        impl<M, E: NormalEncoding, S: Strength> $name<M, E, S> {
-            /// A map with this [`Strength`].
-            #[must_use]
-            pub const fn new(map: M, strength: S) -> Self {
-                Self { map, strength, encoding: PhantomData }
-            }
-        }
-
         impl<V: Axes, M: Map, E: NormalEncoding, S: Strength> Layer<V> for $name<M, E, S> {
             type Derivatives = M::Derivatives;
 
             #[inline(always)]
             fn apply<L: Lanes>(&self, lanes: L, varyings: &V::Of<L::Number>, surface: &mut Surface<L>) {
                 let texels = self.map.read(lanes, surface.uv, &surface.gradient);
-                let normal = self.strength.bend(lanes, $decode::<E, L>(lanes, texels));
+                let normal = self.strength.bend(lanes, $decode(self.encoding, lanes, texels));
                 surface.normal = to_parent_lanes(lanes, V::axes(varyings), normal);
             }
         }
@@ -128,16 +129,6 @@ of_strength! {
     TwoChannels: normal_of_two_lanes;
 }
 
-impl<M, E: NormalEncoding> ObjectNormals<M, E> {
-    /// A map for an object that stands so in the world, with its frame's axes at right angles. Normals are made unit,
-    /// so of a stretched object each axis is to be divided by the square of its length: the axes of the inverse
-    /// transpose.
-    #[must_use]
-    pub const fn new(map: M, to_world: Frame<Object, World>) -> Self {
-        Self { map, to_world, encoding: PhantomData }
-    }
-}
-
 impl<V: OnSurface, M: Map, E: NormalEncoding> Layer<V> for ObjectNormals<M, E> {
     type Derivatives = M::Derivatives;
 
@@ -146,7 +137,7 @@ impl<V: OnSurface, M: Map, E: NormalEncoding> Layer<V> for ObjectNormals<M, E> {
         let texels = self.map.read(lanes, surface.uv, &surface.gradient);
         let axes = self.to_world.axes();
         let axes = [splat(lanes, axes.x_axis), splat(lanes, axes.y_axis), splat(lanes, axes.z_axis)];
-        surface.normal = to_parent_lanes(lanes, axes, normal_lanes::<E, L>(lanes, texels));
+        surface.normal = to_parent_lanes(lanes, axes, normal_lanes(self.encoding, lanes, texels));
     }
 }
 
@@ -167,7 +158,7 @@ impl<V, H, P> Layer<V> for Parallax<H, P>
 where
     V: Axes,
     H: HeightMap + Copy + Debug,
-    P: surface::Parallax,
+    P: ParallaxSearch,
 {
     type Derivatives = NoDerivatives;
 

@@ -3,12 +3,12 @@
 use alberti_math::glam::{Vec2, Vec3};
 use alberti_math::lanes::Lanes;
 use alberti_math::{Point3, Varying, Vector3, World, varying};
-use alberti_raster::{Differentiation, Gradient, NoDerivatives};
+use alberti_raster::{Differentiation, Fragments, Gradient, NoDerivatives};
 use alberti_texture::surface::unit_lanes;
 use core::fmt::Debug;
 
 use super::vector::{by, plus, splat, times};
-use crate::shaders::pack;
+use crate::shaders::wide::pack;
 
 /// What a vertex of a lit surface carries.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -64,36 +64,37 @@ impl Textured for Vec2 {
 
 impl Textured for Placed {
     #[inline(always)]
-    fn uv<N: Copy>(&(_, _, uv): &Self::Of<N>) -> [N; 2] {
-        uv
+    fn uv<N: Copy>(bundle: &Self::Of<N>) -> [N; 2] {
+        bundle.uv
     }
 }
 
 impl OnSurface for Placed {
     #[inline(always)]
-    fn place<N: Copy>(&(position, normal, _): &Self::Of<N>) -> [[N; 3]; 2] {
-        [position, normal]
+    fn place<N: Copy>(bundle: &Self::Of<N>) -> [[N; 3]; 2] {
+        [bundle.position, bundle.normal]
     }
 }
 
 impl Textured for Framed {
     #[inline(always)]
-    fn uv<N: Copy>(&(_, _, uv): &Self::Of<N>) -> [N; 2] {
-        uv
+    fn uv<N: Copy>(bundle: &Self::Of<N>) -> [N; 2] {
+        bundle.uv
     }
 }
 
 impl OnSurface for Framed {
     #[inline(always)]
-    fn place<N: Copy>(&(position, [_, _, normal], _): &Self::Of<N>) -> [[N; 3]; 2] {
-        [position, normal]
+    fn place<N: Copy>(bundle: &Self::Of<N>) -> [[N; 3]; 2] {
+        let [_, _, normal] = bundle.axes;
+        [bundle.position, normal]
     }
 }
 
 impl Axes for Framed {
     #[inline(always)]
-    fn axes<N: Copy>(&(_, axes, _): &Self::Of<N>) -> [[N; 3]; 3] {
-        axes
+    fn axes<N: Copy>(bundle: &Self::Of<N>) -> [[N; 3]; 3] {
+        bundle.axes
     }
 }
 
@@ -157,14 +158,11 @@ pub struct Surface<L: Lanes> {
 impl<L: Lanes> Surface<L> {
     /// White, matt, and nowhere.
     #[inline(always)]
-    pub(super) fn new<V: Textured>(
-        lanes: L,
-        varyings: &V::Of<L::Number>,
-        gradient: &Gradient<V::Of<L::Number>>,
-    ) -> Self {
+    pub(super) fn new<V: Textured>(fragments: &Fragments<L, V>) -> Self {
+        let Fragments { lanes, varying, gradient, .. } = fragments;
         let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
         Self {
-            uv: V::uv(varyings),
+            uv: V::uv(varying),
             gradient: gradient.map(|bundle| V::uv(&bundle)),
             position: [zero; 3],
             normal: [zero; 3],

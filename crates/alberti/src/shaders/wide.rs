@@ -1,0 +1,68 @@
+//! Arithmetic on the colours of several fragments, for fragment stages that shade all lanes at once.
+//!
+//! A colour is a word, red in its lowest byte ([`Rgba8::to_bits`]); a channel is a word from 0 to 255.
+//!
+//! ```
+//! use alberti::lanes::Lanes;
+//! use alberti::shaders::wide;
+//! use alberti::{FragmentStage, Fragments, NoDerivatives, Rgba8};
+//!
+//! /// White, darker with the distance.
+//! #[derive(Clone, Copy)]
+//! struct Fog;
+//!
+//! impl FragmentStage<f32> for Fog {
+//!     type Color = Rgba8;
+//!     type Derivatives = NoDerivatives;
+//!
+//!     fn shade<L: Lanes>(&self, fragments: &Fragments<L, f32>) -> (L::U32, L::Mask) {
+//!         let Fragments { lanes, varying: distance, mask, .. } = *fragments;
+//!         let one = lanes.splat(1.0);
+//!         (wide::lit(lanes, lanes.word(Rgba8::WHITE.to_bits()), one / (one + distance)), mask)
+//!     }
+//! }
+//! assert_eq!(Fog.shade_one(0.25), Some(Rgba8::from_rgb24(0xcc_cc_cc)));
+//! ```
+
+use alberti_math::Rgba8;
+use alberti_math::lanes::Lanes;
+
+/// A product of two bytes over 255, to the nearest.
+///
+/// # Cost
+/// Two additions and two shifts.
+#[inline(always)]
+pub fn per_255<L: Lanes>(lanes: L, product: L::U32) -> L::U32 {
+    // x / 255 to the nearest is (x + 128) * 257 >> 16.
+    let x = product + lanes.word(128);
+    lanes.shr(x + lanes.shr(x, 8), 8)
+}
+
+/// The channels of colours: red, green, blue, alpha.
+#[inline(always)]
+pub fn unpack<L: Lanes>(lanes: L, color: L::U32) -> [L::U32; 4] {
+    let byte = lanes.word(255);
+    [color & byte, lanes.shr(color, 8) & byte, lanes.shr(color, 16) & byte, lanes.shr(color, 24)]
+}
+
+/// The colours of these channels, which are at most 255.
+#[inline(always)]
+pub fn pack<L: Lanes>(lanes: L, [r, g, b, a]: [L::U32; 4]) -> L::U32 {
+    (r | lanes.shl(g, 8)) | (lanes.shl(b, 16) | lanes.shl(a, 24))
+}
+
+/// Colours times a constant one, channel by channel, to the nearest byte; alpha is kept.
+#[inline(always)]
+pub fn times<L: Lanes>(lanes: L, colors: L::U32, tint: Rgba8) -> L::U32 {
+    let ([r, g, b, a], [tint_r, tint_g, tint_b, _]) = (unpack(lanes, colors), tint.to_bytes());
+    let times = |channel: L::U32, tint: u8| per_255(lanes, channel * lanes.word(tint.into()));
+    pack(lanes, [times(r, tint_r), times(g, tint_g), times(b, tint_b), a])
+}
+
+/// Colours times a light, to the nearest byte and at most 255; alpha is kept.
+#[inline(always)]
+pub fn lit<L: Lanes>(lanes: L, colors: L::U32, light: L::Number) -> L::U32 {
+    let [r, g, b, a] = unpack(lanes, colors);
+    let lit = |channel: L::U32| lanes.nearest_byte(lanes.to_numbers(channel) * light);
+    pack(lanes, [lit(r), lit(g), lit(b), a])
+}

@@ -1,0 +1,101 @@
+//! Cameras and views: steps 1, 2 and 4 of the pipeline, and the shape of the picture.
+
+use alberti_math::{Eye, Frame, Object, Point3, Vector3, World};
+use alberti_projection::{AnyProjection, Parallel, Perspective, Projection, ViewError, Viewport, look_at};
+use core::ops::Range;
+
+/// An observer's place and orientation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    to_eye: Frame<World, Eye>,
+}
+
+impl Camera {
+    /// The observer at `eye` who looks at `target`, with `up` upwards in the picture.
+    ///
+    /// # Errors
+    /// Those of [`look_at`].
+    pub fn look_at(
+        eye: impl Into<Point3<World>>,
+        target: impl Into<Point3<World>>,
+        up: impl Into<Vector3<World>>,
+    ) -> Result<Self, ViewError> {
+        Ok(Self::at(look_at(eye.into(), target.into(), up.into())?))
+    }
+
+    /// The observer in this frame: unit axes to the right, up and forward, at right angles.
+    #[must_use]
+    pub fn at(frame: Frame<Eye, World>) -> Self {
+        Self { to_eye: frame.inverse_orthonormal() }
+    }
+
+    /// The view in perspective, with the full vertical opening angle `fov_y` (radians), between the planes z = near and
+    /// z = far of `range`. Its aspect ratio is that of the viewport.
+    ///
+    /// # Errors
+    /// Those of [`Perspective::new`].
+    pub fn perspective(self, fov_y: f32, range: Range<f32>) -> Result<View, ViewError> {
+        let of_aspect = |aspect| Perspective::new(fov_y, aspect, range.start, range.end);
+        of_aspect(WIDEST)?;
+        Ok(View { to_eye: self.to_eye, projection: of_aspect(1.0 / WIDEST)?, fits: true })
+    }
+
+    /// The view in parallel projection, of the full `height` in units of the world. Its aspect ratio is that of the
+    /// viewport.
+    ///
+    /// # Errors
+    /// Those of [`Parallel::new`].
+    pub fn parallel(self, height: f32, range: Range<f32>) -> Result<View<Parallel>, ViewError> {
+        let of_aspect = |aspect| Parallel::new(height, aspect, range.start, range.end);
+        of_aspect(WIDEST)?;
+        Ok(View { to_eye: self.to_eye, projection: of_aspect(1.0 / WIDEST)?, fits: true })
+    }
+}
+
+/// The greatest aspect ratio of a viewport: if this and its inverse are possible, so is any other.
+const WIDEST: f32 = 16384.0;
+
+/// The way from the world to the picture: from where, and through which pyramid or box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View<Pr = Perspective> {
+    to_eye: Frame<World, Eye>,
+    projection: Pr,
+    /// Whether the aspect ratio is that of the viewport.
+    fits: bool,
+}
+
+impl<Pr: Projection> View<Pr> {
+    /// The view through a projection with an aspect ratio of its own, for example where pixels are not square.
+    #[must_use]
+    pub const fn new(to_eye: Frame<World, Eye>, projection: Pr) -> Self {
+        Self { to_eye, projection, fits: false }
+    }
+
+    /// From the object's to the eye's coordinates, for an object that stands in this frame in the world, or in the
+    /// world's own.
+    #[inline]
+    pub(crate) fn object_to_eye(&self, frame: Option<&Frame<Object, World>>) -> Frame<Object, Eye> {
+        match frame {
+            Some(frame) => self.to_eye * *frame,
+            None => Frame::from_mat3(self.to_eye.axes(), self.to_eye.origin()),
+        }
+    }
+
+    /// The projection for a viewport.
+    #[inline]
+    pub(crate) fn projection(&self, viewport: &Viewport) -> Pr {
+        if self.fits { self.projection.with_aspect(viewport.aspect()) } else { self.projection }
+    }
+}
+
+impl From<View<Perspective>> for View<AnyProjection> {
+    fn from(View { to_eye, projection, fits }: View<Perspective>) -> Self {
+        Self { to_eye, projection: projection.into(), fits }
+    }
+}
+
+impl From<View<Parallel>> for View<AnyProjection> {
+    fn from(View { to_eye, projection, fits }: View<Parallel>) -> Self {
+        Self { to_eye, projection: projection.into(), fits }
+    }
+}

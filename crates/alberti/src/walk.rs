@@ -1,0 +1,267 @@
+//! The geometry half of the pipeline: from a mesh to its triangles on the screen, steps 1 to 6.
+
+use crate::geometry::Geometry;
+use crate::vertex::{Slot, Transformed, outside};
+use alberti_math::glam::Vec3;
+use alberti_math::{Eye, Frame, Mode, Object, Point3, Subpixel, Varying};
+use alberti_projection::{
+    EyeVertex, Polygon, ProjectedVertex, Projection, SideBounds, Viewport, clip_near_far, clip_sides,
+};
+use alberti_raster::{Counters, Vertex};
+use core::cmp::Ordering;
+
+/// The clip at the sides of the view.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sides {
+    /// Triangles are only cut where they reach beyond the fixed-point range; the rest is left to the rows and columns
+    /// that are drawn. Faster, and edges are not moved.
+    #[default]
+    GuardBand,
+    /// The four sides of the cube, -1 <= xs <= 1 and -1 <= ys <= 1.
+    Cube,
+}
+
+/// The numbers that lead from object space to the screen.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Screen<Pr: Projection, S> {
+    pub(crate) to_eye: Frame<Object, Eye>,
+    pub(crate) projection: Pr,
+    pub(crate) viewport: Viewport,
+    pub(crate) depth: Pr::Depth,
+    pub(crate) guard: SideBounds,
+    pub(crate) sides: Sides,
+    pub(crate) subpixel: S,
+}
+
+/// The way of a mesh's triangles to the screen.
+pub(crate) struct Walk<'a, M: Geometry, Pr: Projection, S> {
+    mesh: &'a M,
+    slots: &'a mut [Slot<M::Varying>],
+    screen: Screen<Pr, S>,
+}
+
+impl<'a, M: Geometry, Pr: Projection, S: Subpixel> Walk<'a, M, Pr, S> {
+    /// `slots`, at least one, are emptied.
+    #[inline]
+    pub(crate) fn new(mesh: &'a M, screen: Screen<Pr, S>, slots: &'a mut [Slot<M::Varying>]) -> Self {
+        slots.fill(Slot::EMPTY);
+        Self { mesh, slots, screen }
+    }
+
+    /// Hands `sink` the visible part of a triangle on the screen: nothing, the triangle, or the fan that clipping
+    /// leaves.
+    #[inline(always)]
+    pub(crate) fn triangle<K: Counters>(
+        &mut self,
+        indices: [usize; 3],
+        counters: &mut K,
+        mut sink: impl FnMut([&Vertex<M::Varying>; 3], &mut K),
+    ) {
+        let Self { mesh, slots, screen } = self;
+        counters.submitted();
+        // Steps 1, 2, 4 and 6 for each vertex, where it allows them.
+        let [i, j, k] = indices;
+        let places = indices.map(|index| Slot::<M::Varying>::place(index, slots.len()));
+        let afresh;
+        let corners = if let Ok([a, b, c]) = slots.get_disjoint_mut(places) {
+            let corners =
+                (a.vertex(*mesh, screen, i), b.vertex(*mesh, screen, j), c.vertex(*mesh, screen, k));
+            let (Some(a), Some(b), Some(c)) = corners else {
+                counters.dropped();
+                return;
+            };
+            [a, b, c]
+        } else {
+            // Two of the three share a slot.
+            let Some(corners) = three(*mesh, screen, indices) else {
+                counters.dropped();
+                return;
+            };
+            afresh = corners;
+            afresh.each_ref()
+        };
+        let all = corners[0].outside | corners[1].outside | corners[2].outside;
+        let common = corners[0].outside & corners[1].outside & corners[2].outside;
+        if all & outside::NOWHERE != 0 || common & (outside::NEAR | outside::FAR | outside::SIDES) != 0 {
+            counters.dropped();
+            return;
+        }
+        let sides = if screen.sides == Sides::Cube { outside::SIDES } else { 0 };
+        if all & (outside::NEAR | outside::FAR | outside::GUARD | sides) == 0 {
+            sink([&corners[0].screen, &corners[1].screen, &corners[2].screen], counters);
+        } else {
+            counters.clipped();
+            clip(screen, corners, |vertices| sink(vertices, counters));
+        }
+    }
+}
+
+/// The transformed vertices of a triangle, without slots.
+#[cold]
+#[inline(never)]
+fn three<M: Geometry, Pr: Projection, S: Subpixel>(
+    mesh: &M,
+    screen: &Screen<Pr, S>,
+    [i, j, k]: [usize; 3],
+) -> Option<[Transformed<M::Varying>; 3]> {
+    let (a, b, c) = (mesh.vertex(i)?, mesh.vertex(j)?, mesh.vertex(k)?);
+    let transformed = |(point, varying)| Transformed::new(screen, point, varying);
+    Some([transformed(a), transformed(b), transformed(c)])
+}
+
+/// Steps 3 to 6 for a triangle that crosses a plane.
+#[cold]
+#[inline(never)]
+fn clip<Pr: Projection, S: Subpixel, V: Varying>(
+    screen: &Screen<Pr, S>,
+    corners: [&Transformed<V>; 3],
+    mut sink: impl FnMut([&Vertex<V>; 3]),
+) {
+    let positions = corners.map(|corner| corner.position);
+    let varyings = corners.map(|corner| corner.screen.varying);
+    let rotation = first_of(positions);
+    let carried = rotated(varyings, rotation);
+    let vertices = inside(screen, rotated(positions, rotation)).map(|vertex| {
+        let Vertex { x, y, zs, q, varying } = vertex?;
+        Some(Vertex { x, y, zs, q, varying: weighted(varyings[0], carried, varying) })
+    });
+    for fan in vertices.fan() {
+        if let [Some(a), Some(b), Some(c)] = &fan {
+            sink([a, b, c]);
+        }
+    }
+}
+
+/// The weights of a triangle's three vertices at a point of it.
+type Weights = Vec3;
+
+/// The vertices that clipping leaves, in terms of the triangle's own: once in a program, whatever these carry. Vertices
+/// without a place on the screen are `None`.
+///
+/// Two triangles that share an edge have the same new vertices on it, bit for bit, whatever their third vertex is. Its
+/// weight is 0 there, and stays so, since a cut is between two vertices of the polygon.
+#[inline(never)]
+fn inside<Pr: Projection, S: Subpixel>(
+    screen: &Screen<Pr, S>,
+    [a, b, c]: [Point3<Eye>; 3],
+) -> Polygon<Option<Vertex<Weights>>> {
+    let Screen { projection, viewport, depth, sides, guard, subpixel, .. } = screen;
+    let triangle = [
+        EyeVertex { position: a, varying: Vec3::X },
+        EyeVertex { position: b, varying: Vec3::Y },
+        EyeVertex { position: c, varying: Vec3::Z },
+    ];
+    // 3. The part between the near and the far plane.
+    let between = clip_near_far(triangle, projection.near(), projection.far());
+    // 4. Perspective with depth.
+    let projected = between.map(|v| projection.project(depth, &v));
+    if !projected.vertices().iter().all(finite) {
+        return projected.map(|_| None);
+    }
+    // 5. The sides.
+    let bounds = match sides {
+        Sides::GuardBand => *guard,
+        Sides::Cube => SideBounds::CUBE,
+    };
+    // 6. Window-viewport.
+    clip_sides(projected, bounds).map(|v| {
+        let [x, y] = viewport.to_screen(*subpixel, v.x, v.y)?;
+        Some(Vertex { x, y, zs: v.zs, q: v.q, varying: v.varying })
+    })
+}
+
+/// The varying at a point with these weights. Those that are 0 have no part in it, not even in its range; flat
+/// components are those of `first`.
+fn weighted<V: Varying>(first: V, [a, b, c]: [V; 3], weights: Weights) -> V {
+    let mean = |mode, [a, b, c, first]: [f32; 4]| {
+        if mode == Mode::Flat {
+            return first;
+        }
+        let values = [a, b, c];
+        let [mut least, mut greatest] = [f32::MAX, f32::MIN];
+        for (value, weight) in values.into_iter().zip(weights.to_array()) {
+            if weight > 0.0 {
+                least = if value < least { value } else { least };
+                greatest = if value > greatest { value } else { greatest };
+            }
+        }
+        let sum = weights.x * a + weights.y * b + weights.z * c;
+        let sum = if sum > least { sum } else { least };
+        if sum < greatest { sum } else { greatest }
+    };
+    V::from_components(&V::map_by_mode(&V::gather([a, b, c, first]), &mean))
+}
+
+/// Whether a projected vertex has a place: dividing by a tiny z may overflow.
+fn finite<V>(v: &ProjectedVertex<V>) -> bool {
+    v.x.abs() <= f32::MAX / 4.0 && v.y.abs() <= f32::MAX / 4.0 && v.q.is_finite()
+}
+
+/// The vertex at which clipping and the fan start: the same for the same triangle, whichever vertex it is given from.
+fn first_of([a, b, c]: [Point3<Eye>; 3]) -> usize {
+    let before = |v: Point3<Eye>, w: Point3<Eye>| order(v.coords, w.coords) == Ordering::Less;
+    if before(b, a) && !before(c, b) {
+        1
+    } else if before(c, a) {
+        2
+    } else {
+        0
+    }
+}
+
+/// The three from number `first` on.
+fn rotated<T>([a, b, c]: [T; 3], first: usize) -> [T; 3] {
+    match first {
+        0 => [a, b, c],
+        1 => [b, c, a],
+        _ => [c, a, b],
+    }
+}
+
+fn order(v: Vec3, w: Vec3) -> Ordering {
+    v.z.total_cmp(&w.z).then(v.y.total_cmp(&w.y)).then(v.x.total_cmp(&w.x))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alberti_math::{Flat, blend2};
+
+    #[test]
+    fn any_rotation_becomes_the_same_one() {
+        let v = |x, y, z| Point3::new(Vec3::new(x, y, z));
+        for [a, b, c] in [
+            [v(0.0, 0.0, 1.0), v(1.0, 0.0, 2.0), v(0.0, 1.0, 3.0)],
+            [v(0.0, 0.0, 1.0), v(1.0, 0.0, 1.0), v(0.0, 1.0, 1.0)],
+            [v(0.0, 0.0, 3.0), v(1.0, 0.0, 1.0), v(0.0, 1.0, 2.0)],
+        ] {
+            let canonical = |triangle| rotated(triangle, first_of(triangle));
+            assert_eq!(canonical([a, b, c]), canonical([b, c, a]));
+            assert_eq!(canonical([a, b, c]), canonical([c, a, b]));
+        }
+    }
+
+    /// On an edge the third vertex plays no part, wherever it stands in the order, and neither does the direction.
+    #[test]
+    fn edges_know_nothing_of_the_third_vertex() {
+        let mut noise = 1u32;
+        let mut next = || {
+            noise = noise.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+            f32::from_bits(0x3f80_0000 | noise >> 9) - 1.0
+        };
+        for _ in 0..100_000 {
+            let [a, b, c, other, t] = [(); 5].map(|()| next() * 100.0 - 50.0);
+            let t = (t / 100.0).abs();
+            let [wa, wb] = [t, 1.0 - t];
+            let blended = blend2([wa, wb], [a, b]);
+            for found in [
+                weighted(c, [a, b, c], Vec3::new(wa, wb, 0.0)),
+                weighted(c, [b, other, a], Vec3::new(wb, 0.0, wa)),
+                weighted(c, [c, a, b], Vec3::new(0.0, wa, wb)),
+            ] {
+                assert_eq!(found.to_bits(), blended.to_bits());
+            }
+            assert_eq!(weighted(Flat(c), [a, b, c].map(Flat), Vec3::new(wa, wb, 0.0)), Flat(c));
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! Plain surfaces: a colour, or a texture that is read in its largest level, as it is or in a light from beside the
+//! camera.
+
+use super::maps::{FlatMap, Scaled, flat_map};
+use super::{AMBIENT, Canvas, DIFFUSE, Drawing, color, position};
+use crate::options::Shading;
+use crate::scene::{Part, Vertex};
+use alberti::glam::{Vec2, Vec3};
+use alberti::shaders::{Sunlit, Unlit, VertexColor};
+use alberti::{FragmentStage, Rgba8, Varying};
+
+/// A colour, or a texture times that colour.
+pub(super) type Skin<'a> = Scaled<FlatMap<'a>>;
+
+impl<'a> Drawing<'a> {
+    /// The skin of a part.
+    pub(super) fn skin(&self, part: &Part) -> Skin<'a> {
+        let texture = part.texture.and_then(|t| self.textures.get(t));
+        let map = texture.map(|texture| flat_map(*texture, self.options));
+        Scaled { factor: color(part.diffuse), map }
+    }
+
+    /// The skin in the light from beside the camera.
+    pub(super) fn lit(&self, part: &Part) -> Sunlit<Unlit<Skin<'a>>> {
+        Sunlit::new(Unlit(self.skin(part)), self.light, AMBIENT, DIFFUSE)
+    }
+
+    /// A plain surface by the default interpolation.
+    pub(super) fn draw_plain(&mut self, part: &Part, triangles: &[[u32; 3]], target: &mut Canvas<'_>) {
+        let normal = |v: &Vertex| Vec3::from_array(v.normal);
+        let uv = |v: &Vertex| Vec2::from_array(v.uv);
+        match self.options.shading {
+            Shading::VertexColor => {
+                self.draw(triangles, |v| Vec3::from_array(v.color), VertexColor, target);
+            }
+            Shading::Unlit => self.draw(triangles, uv, Unlit(self.skin(part)), target),
+            _ => self.draw(triangles, |v| (normal(v), uv(v)), self.lit(part), target),
+        }
+    }
+
+    fn draw<V: Varying>(
+        &mut self,
+        triangles: &[[u32; 3]],
+        varying: impl Fn(&Vertex) -> V,
+        stage: impl FragmentStage<V, Color = Rgba8>,
+        target: &mut Canvas<'_>,
+    ) {
+        let mesh = self.mesh(triangles, |v| (position(v), varying(v)));
+        let mut slots = self.slots(triangles);
+        let stats = self.pass(&mesh, stage, &mut slots).draw_counted(target);
+        self.stats += stats;
+    }
+}

@@ -1,0 +1,175 @@
+//! Hyperbolic (perspective-correct) interpolation from the exact integer edges.
+
+use crate::edge::EdgeInt;
+use crate::interpolation::{Interpolate, Interpolation, Oriented, Row};
+use crate::spans::Span;
+use alberti_math::lanes::{Floating, Lanes};
+use alberti_math::{Mode, Varying, hull3};
+use core::fmt;
+
+/// From the exact integer edges: at a sample, ti = Ei qi and u = Σ ti ui / Σ ti, with the edge function Ei opposite
+/// vertex i and qi = 1/zi. Screen depth is Σ Ei zsi / Σ Ei.
+///
+/// # Precision
+/// Within 9ε·max|ui| of the exact value at the sample (ε = 2^-24; 5.1ε is the most that was measured, over ratios of
+/// the qi up to 10^12), barring over- and underflow: up to |ui| = 2^77 and ratios of 2^126. The reason: ti carries two
+/// roundings (Ei to f32, the product), the same in the numerator and the denominator, which changes a convex
+/// combination by at most ε·range <= 2ε·max|u|; the numerator's products and sums add 3ε, the denominator's sums 2ε,
+/// the reciprocal and its product ε each. Counted from zi instead of qi the bound is 10ε. The result never leaves the
+/// range of the three values, so a constant stays constant bit for bit.
+///
+/// # Cost
+/// A fragment: three conversions, three products, two sums, one division; a component adds four products, two sums,
+/// a minimum and a maximum.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Exact;
+
+impl Interpolation for Exact {
+    type Lanes<L: Floating> = L;
+    type Triangle<L: Floating, V: Varying> = ExactTriangle<L, V>;
+
+    #[inline(always)]
+    fn run(self) -> i32 {
+        1 << 30
+    }
+
+    #[inline(always)]
+    fn lanes<L: Floating>(self, lanes: L) -> L {
+        lanes
+    }
+
+    #[inline(always)]
+    fn prepare<L: Floating, V: Varying>(self, lanes: L, triangle: &Oriented<'_, V>) -> ExactTriangle<L, V> {
+        #[expect(clippy::cast_precision_loss, reason = "rounding to nearest is within the bound")]
+        let area = triangle.doubled_area as f32;
+        let [a, b, c] = triangle.vertices;
+        ExactTriangle::with_depth(lanes, [a.zs, b.zs, c.zs], area, [a.q, b.q, c.q], &triangle.values())
+    }
+}
+
+/// A triangle prepared for [`Exact`].
+#[derive(Clone, Copy)]
+pub struct ExactTriangle<L: Lanes, V: Varying> {
+    lanes: L,
+    /// zs over the doubled area, so that weights need not be normalised.
+    zs: [L::Number; 3],
+    nearest_farthest: [L::Number; 2],
+    /// The three q.
+    q: [L::Number; 3],
+    /// For each component: its values at the three vertices, the least, the greatest.
+    values: V::Of<[L::Number; 5]>,
+}
+
+impl<L: Floating, V: Varying> ExactTriangle<L, V> {
+    /// The attributes of a triangle with `q` > 0 and finite values, without its depth.
+    #[must_use]
+    #[inline(always)]
+    pub fn of_attributes(lanes: L, q: [f32; 3], [a, b, c]: [V; 3]) -> Self {
+        Self::with_depth(lanes, [0.0; 3], 1.0, q, &V::gather([a, b, c, a]))
+    }
+
+    #[inline(always)]
+    fn with_depth(lanes: L, zs: [f32; 3], area: f32, q: [f32; 3], values: &V::Of<[f32; 4]>) -> Self {
+        let splat = |x: f32| lanes.splat(x);
+        let scale = power_of_two_near(q[0].max(q[1]).max(q[2]));
+        let [nearest, farthest] = hull3(zs);
+        Self {
+            lanes,
+            zs: [splat(zs[0] / area), splat(zs[1] / area), splat(zs[2] / area)],
+            nearest_farthest: [splat(nearest), splat(farthest)],
+            q: [splat(q[0] * scale), splat(q[1] * scale), splat(q[2] * scale)],
+            values: V::map_by_mode(values, &|mode, [a, b, c, first]: [f32; 4]| {
+                let [lo, hi] = if mode == Mode::Flat { [first; 2] } else { hull3([a, b, c]) };
+                [splat(a), splat(b), splat(c), splat(lo), splat(hi)]
+            }),
+        }
+    }
+
+    /// The attributes where the edge functions, rounded to `f32`, are `edges`.
+    #[must_use]
+    #[inline(always)]
+    pub fn at(&self, edges: &[L::Number; 3]) -> V::Of<L::Number> {
+        let lanes = self.lanes;
+        let [e0, e1, e2] = *edges;
+        let t0 = e0 * self.q[0];
+        let t1 = e1 * self.q[1];
+        let t2 = e2 * self.q[2];
+        let one = lanes.splat(1.0);
+        // Where there is nothing linear, compilers leave the second division out.
+        let (scale, linear) = (one / (t0 + t1 + t2), one / (e0 + e1 + e2));
+        V::map_by_mode(&self.values, &|mode, [a, b, c, lo, hi]: [L::Number; 5]| {
+            let value = match mode {
+                Mode::Hyperbolic => (t0 * a + t1 * b + t2 * c) * scale,
+                Mode::Linear => (e0 * a + e1 * b + e2 * c) * linear,
+                Mode::Flat => return lo,
+            };
+            lanes.min(lanes.max(value, lo), hi)
+        })
+    }
+}
+
+impl<L: Floating, V: Varying> Interpolate<L, V> for ExactTriangle<L, V> {
+    type Row = ();
+    type Cursor = ();
+
+    #[inline(always)]
+    fn row<I: EdgeInt>(&self, _: &Row<'_, I>) {}
+
+    #[inline(always)]
+    fn start<I: EdgeInt>(&self, row: &Row<'_, I>, (): &mut (), _: i32, _: i32) -> ((), Span) {
+        ((), row.covered)
+    }
+
+    #[inline(always)]
+    fn advance(&self, (): ()) {}
+
+    #[inline(always)]
+    fn depth(&self, (): &(), weights: &[L::Number; 3]) -> L::Number {
+        let [nearest, farthest] = self.nearest_farthest;
+        let zs = weights[0] * self.zs[0] + weights[1] * self.zs[1] + weights[2] * self.zs[2];
+        self.lanes.min(self.lanes.max(zs, nearest), farthest)
+    }
+
+    #[inline(always)]
+    fn attributes(&self, (): &(), weights: &[L::Number; 3]) -> V::Of<L::Number> {
+        self.at(weights)
+    }
+}
+
+impl<L: Lanes, V: Varying> fmt::Debug for ExactTriangle<L, V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ExactTriangle").finish_non_exhaustive()
+    }
+}
+
+/// The power of two s for which x s lies in [1, 2), so that no weight can overflow or, for ratios of q up to 2^126,
+/// lose bits; multiplying by it is exact.
+#[inline]
+pub(crate) fn power_of_two_near(x: f32) -> f32 {
+    let exponent = (x.to_bits() >> 23) & 0xff;
+    // Exponents of subnormal and of the largest numbers have no normal counterpart: they keep what they have.
+    f32::from_bits(254u32.saturating_sub(exponent).clamp(1, 253) << 23)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alberti_math::lanes::One;
+
+    #[test]
+    fn scaling_brings_every_number_near_one() {
+        for x in [1.0, 1.5, 3.9, 1e-30, 7e30, f32::MIN_POSITIVE, 0.1] {
+            let scaled = x * power_of_two_near(x);
+            assert!((1.0..2.0).contains(&scaled), "{x:e}: {scaled}");
+        }
+    }
+
+    #[test]
+    fn the_middle_of_an_edge_is_nearer_in_space() {
+        let depth = ExactTriangle::of_attributes(One, [1.0, 1.0 / 3.0, 1.0], [1.0f32, 3.0, 1.0]);
+        assert!((depth.at(&[100.0, 100.0, 0.0]) - 1.5).abs() < 1e-6);
+        assert_eq!(depth.at(&[77.0, 0.0, 0.0]), 1.0);
+        let constant = ExactTriangle::of_attributes(One, [1e-9, 3.3, 0.7], [0.1f32; 3]);
+        assert_eq!(constant.at(&[3.0, 5.0, 9e9]), 0.1);
+    }
+}

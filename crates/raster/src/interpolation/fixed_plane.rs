@@ -1,0 +1,109 @@
+//! Functions that are linear on the screen, in integers: their values from the edge functions, and their slopes.
+
+use crate::edge::EdgeInt;
+use crate::interpolation::Oriented;
+use alberti_math::reciprocal;
+
+/// Bits of the fraction of weights.
+const WEIGHT: u32 = 30;
+
+/// What is linear on the screen: how much more the second and the third vertex have than the first, and what a column
+/// adds.
+#[derive(Clone, Copy)]
+pub(crate) struct Plane {
+    pub(crate) more: [i32; 2],
+    pub(crate) slope: i32,
+}
+
+impl Plane {
+    /// How much more than at the first vertex there is where the others have these weights, to the nearest. Weights are
+    /// never too large, together not above 1, and so this is within the range of the three.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "not greater than the differences")]
+    pub(crate) fn at(&self, [b, c]: [i32; 2]) -> i32 {
+        let sum = i64::from(self.more[0]) * i64::from(b) + i64::from(self.more[1]) * i64::from(c);
+        // Weights are negative.
+        (((sum + (1 << (WEIGHT - 1))) >> WEIGHT) as i32).wrapping_neg()
+    }
+}
+
+/// The shape of a triangle.
+#[derive(Clone, Copy)]
+pub(crate) struct Shape {
+    /// Edge functions without their last bits, of which this is the number, are below 2^32.
+    dropped: u32,
+    /// The area without those bits.
+    area: Reciprocal,
+    /// What a step of one subpixel to the right adds to the edge functions of the second and the third vertex.
+    across: [i32; 2],
+    /// Bits of the subpixels.
+    bits: u32,
+}
+
+impl Shape {
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive and below 2^32")]
+    pub(crate) fn new<V>(triangle: &Oriented<'_, V>) -> Self {
+        let bits = 64 - triangle.doubled_area.leading_zeros();
+        let dropped = bits.saturating_sub(32);
+        let [a, b, c] = triangle.corners;
+        Self {
+            dropped,
+            area: Reciprocal::new((triangle.doubled_area >> dropped) as u32),
+            across: [c[1] - a[1], a[1] - b[1]],
+            bits: triangle.bits,
+        }
+    }
+
+    /// The plane through three numbers that differ by less than 2^31.
+    #[inline(always)]
+    pub(crate) fn plane(&self, [a, b, c]: [i32; 3]) -> Plane {
+        let more = [b - a, c - a];
+        let along =
+            i64::from(more[0]) * i64::from(self.across[0]) + i64::from(more[1]) * i64::from(self.across[1]);
+        Plane { more, slope: self.slope(along) }
+    }
+
+    /// `more` to the subpixel over the area, in columns; towards 0, within the range of `i32`.
+    #[inline(always)]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the highest 32 bits of 64, and what was found to fit"
+    )]
+    fn slope(&self, more: i64) -> i32 {
+        let Self { dropped, area, bits, .. } = self;
+        let normalizing = more.unsigned_abs().leading_zeros() & 63;
+        let high = ((more.unsigned_abs() << normalizing) >> 32) as u32;
+        let product = u64::from(high) * u64::from(area.quotient);
+        let shift = (31 + normalizing + dropped).saturating_sub(bits + area.normalizing);
+        let magnitude = if shift < 64 { (product >> shift).min(i32::MAX as u64) as i32 } else { 0 };
+        if more < 0 { -magnitude } else { magnitude }
+    }
+
+    /// The weights of the second and the third vertex at a sample with these edge functions.
+    #[inline(always)]
+    pub(crate) fn weights<I: EdgeInt>(&self, [_, b, c]: [I; 3]) -> [i32; 2] {
+        let weight = |e: I| {
+            let part = u64::from(e.without_last(self.dropped) << self.area.normalizing);
+            // Compilers see that this is negative, and then have the one instruction that multiplies signed numbers.
+            -(((part * u64::from(self.area.quotient)) >> (63 - WEIGHT)) as i32)
+        };
+        [weight(b), weight(c)]
+    }
+}
+
+/// One over a word that is not 0.
+#[derive(Clone, Copy)]
+struct Reciprocal {
+    /// So many bits bring the word to 2^31 or more, and `quotient` is 2^63 over that.
+    normalizing: u32,
+    quotient: u32,
+}
+
+impl Reciprocal {
+    #[inline(always)]
+    fn new(x: u32) -> Self {
+        let normalizing = x.leading_zeros();
+        Self { normalizing, quotient: reciprocal::<2>(x << normalizing) }
+    }
+}

@@ -1,0 +1,366 @@
+//! Lines in fixed point: integers only, from the vertices' numbers to the pixel.
+
+use super::fixed_plane::{Plane, Shape};
+use super::floating::one_run;
+use super::lines::{LineNumbers, LineTriangle, Lines, Run, Runs};
+use crate::edge::EdgeInt;
+use crate::interpolation::{Interpolation, Oriented, Row};
+use alberti_math::lanes::{Floating, OneFixed};
+use alberti_math::{Mode, Q16, Varying, reciprocal, scaled};
+use core::cell::Cell;
+use core::fmt;
+
+/// The policy `R` of straight lines ([`Spans16`](crate::Spans16), [`Affine`](crate::Affine) or [`Lines`]) in fixed
+/// point: for machines without floating point. One sample at a time, with as many additions as there are numbers; the
+/// same bits on every machine.
+///
+/// # Precision
+/// For components in ±4096, r the greatest ratio of q in the triangle up to 2^20, and C the columns of the row: the
+/// bound of `R`, and (N + 3)·2^-16 + |Δu|·(2^-17 + r·(C + 4)·2^-28) with N the columns of a run and Δu the greatest
+/// difference between two vertices; of [`Lines::bounded`], whose budget includes the first term, only the
+/// second. Where the budget is below four steps, all runs are of one column. Varyings are rounded to 2^-16,
+/// and beyond ±4096 they count as that. Depth has 31 bits, of which 8 units and one for each column of the row may
+/// be wrong, and is rounded to the buffer's format.
+///
+/// # Cost
+/// A fragment: an addition for the depth and one for each component. A run: a product for each component, and with
+/// perspective one of 32 bits to 64 more and two for the reciprocal. A row: two of 32 bits to 64 for each number. A
+/// triangle: about fifteen instructions for each number of each vertex, which comes as `f32`, and some sixty for the
+/// plane through each three. `docs/kernel.md` has counts for three kinds of core.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FixedPoint<R>(
+    /// The division of rows.
+    pub R,
+);
+
+impl<R: Runs> Interpolation for FixedPoint<R> {
+    type Lanes<L: Floating> = OneFixed;
+    type Triangle<L: Floating, V: Varying> = LineTriangle<R, FixedLines<V>>;
+
+    #[inline(always)]
+    fn run(self) -> i32 {
+        one_run(self.0)
+    }
+
+    #[inline(always)]
+    fn lanes<L: Floating>(self, _: L) -> OneFixed {
+        OneFixed
+    }
+
+    #[inline(always)]
+    fn prepare<L: Floating, V: Varying>(
+        self,
+        _: L,
+        triangle: &Oriented<'_, V>,
+    ) -> LineTriangle<R, FixedLines<V>> {
+        LineTriangle { runs: self.0, numbers: FixedLines::new(self.0.perspective(), triangle) }
+    }
+}
+
+/// What components are held to, so that two of them differ by less than 2^29.
+const LIMIT: i32 = (1 << 28) - 1;
+
+/// `zs` in the unit in which it is interpolated: the last of a format's bits is worth 2^(31 - bits), and half of that
+/// is added for rounding.
+#[inline(always)]
+fn depth(bits: u32, zs: f32) -> i32 {
+    let fraction = scaled(zs, 31).max(0);
+    if bits < 31 { fraction - (fraction >> bits) + (1 << (30 - bits)) } else { fraction }
+}
+
+/// What one component is over a triangle.
+#[derive(Clone, Copy)]
+struct Component {
+    /// At the first vertex; and the least and the greatest of the three.
+    first: i32,
+    least: i32,
+    greatest: i32,
+    /// What is more than at the first vertex, times a power of two, and times q where that is divided again.
+    plane: Plane,
+    /// So many bits are too many after that.
+    shift: u32,
+}
+
+impl Component {
+    /// `q` is what is proportional to it at the three vertices, for what is hyperbolic.
+    #[inline(always)]
+    fn new(shape: &Shape, values: [f32; 3], q: Option<[i32; 3]>) -> Self {
+        let q16 = |x: f32| scaled(x, 16).clamp(-LIMIT, LIMIT);
+        let [a, b, c] = [q16(values[0]), q16(values[1]), q16(values[2])];
+        let more = [b - a, c - a];
+        // The greatest comes to lie from 2^29 to 2^30, and so this is at least 1.
+        let shift = (more[0].unsigned_abs() | more[1].unsigned_abs() | 1).leading_zeros() - 2;
+        let more = [more[0] << shift, more[1] << shift];
+        let (more, shift) = match q {
+            Some([_, qb, qc]) => ([times(more[0], qb), times(more[1], qc)], shift - 1),
+            None => (more, shift),
+        };
+        Self {
+            first: a,
+            least: a.min(b).min(c),
+            greatest: a.max(b).max(c),
+            plane: shape.plane([0, more[0], more[1]]),
+            shift,
+        }
+    }
+
+    /// The component where there is so much more of it than at the first vertex.
+    #[inline(always)]
+    fn value(&self, more: i32) -> i32 {
+        self.first.wrapping_add(more >> self.shift).max(self.least).min(self.greatest)
+    }
+}
+
+/// What is interpolated over a triangle, in integers.
+#[derive(Clone, Copy)]
+pub struct FixedLines<V: Varying> {
+    shape: Shape,
+    /// At the first vertex, and over the triangle.
+    zs: (i32, Plane),
+    /// Proportional to q, the greatest of the three from 2^30 to 2^31.
+    q: (i32, Plane),
+    components: V::Of<Component>,
+}
+
+impl<V: Varying> FixedLines<V> {
+    #[inline(always)]
+    fn new(perspective: bool, triangle: &Oriented<'_, V>) -> Self {
+        let shape = Shape::new(triangle);
+        let [a, b, c] = triangle.vertices;
+        let bits = triangle.depth_bits;
+        let zs = [depth(bits, a.zs), depth(bits, b.zs), depth(bits, c.zs)];
+        // Positive floats are ordered as their words are.
+        let greatest = a.q.to_bits().max(b.q.to_bits()).max(c.q.to_bits()) >> 23;
+        let q = |q: f32| scaled(q, 127 + 30 - greatest.cast_signed()).max(1);
+        let q = if perspective { [q(a.q), q(b.q), q(c.q)] } else { [1; 3] };
+        Self {
+            shape,
+            zs: (zs[0], shape.plane(zs)),
+            q: (q[0], if perspective { shape.plane(q) } else { Plane { more: [0; 2], slope: 0 } }),
+            components: V::map_by_mode(&triangle.values(), &|mode, [a, b, c, first]: [f32; 4]| match mode {
+                Mode::Hyperbolic if perspective => Component::new(&shape, [a, b, c], Some(q)),
+                Mode::Hyperbolic | Mode::Linear => Component::new(&shape, [a, b, c], None),
+                Mode::Flat => Component::new(&shape, [first; 3], None),
+            }),
+        }
+    }
+}
+
+/// The product of a number and a positive one over 2^31, rounded down.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "smaller than the first")]
+fn times(more: i32, q: i32) -> i32 {
+    ((i64::from(more) * i64::from(q)) >> 31) as i32
+}
+
+/// What is known of a row: at its first covered sample.
+#[derive(Clone, Copy)]
+pub struct FixedRow<V: Varying> {
+    first: i32,
+    zs: i32,
+    q: i32,
+    components: V::Of<i32>,
+}
+
+/// What is known at both ends of a run.
+#[derive(Clone, Copy)]
+pub struct FixedEnds<V: Varying> {
+    /// Proportional to q.
+    q: [u32; 2],
+    components: V::Of<[i32; 2]>,
+}
+
+/// More than at the first vertex, times q, at a sample where q has so many leading zeros and `per_q` is 2^62 over it
+/// without those: half of it divided by q.
+#[inline(always)]
+fn divided(more: i32, normalizing: u32, per_q: i32) -> i32 {
+    let shifted = more << normalizing;
+    // Where q is as small as what was rounded, quotients may be anything.
+    let fits = shifted >> normalizing == more;
+    let shifted = if fits { shifted } else { (more >> 31) ^ i32::MAX };
+    ((i64::from(shifted) * i64::from(per_q)) >> 32) as i32
+}
+
+/// What the rounding of the ends of a run takes of a budget, beside a unit for each of its columns.
+const ROUNDED: i32 = 3;
+
+/// Numbers at a sample, and what the next has more.
+#[derive(Clone, Copy)]
+pub struct FixedCursor<V: Varying> {
+    zs: u32,
+    deeper: u32,
+    components: V::Of<i32>,
+    steps: V::Of<i32>,
+}
+
+/// 2^32 / k, rounded down, and for 1 the greatest.
+#[expect(clippy::cast_possible_truncation, reason = "from 2 on, quotients fit")]
+static PER_COLUMN: [u32; Lines::LONGEST as usize + 1] = {
+    let mut table = [u32::MAX; Lines::LONGEST as usize + 1];
+    let mut k = 2;
+    while k < table.len() {
+        table[k] = ((1_u64 << 32) / k as u64) as u32;
+        k += 1;
+    }
+    table
+};
+
+impl<V: Varying> LineNumbers<OneFixed, V> for FixedLines<V> {
+    type Row = FixedRow<V>;
+    type Ends = FixedEnds<V>;
+    type Cursor = FixedCursor<V>;
+
+    #[inline(always)]
+    fn row<I: EdgeInt>(&self, perspective: bool, row: &Row<'_, I>) -> FixedRow<V> {
+        let first = row.covered.start;
+        let weights = self.shape.weights(row.at(first));
+        FixedRow {
+            first,
+            // Slopes are rounded towards 0, so that no step leads beyond the range of the three.
+            zs: self.zs.0.wrapping_add(self.zs.1.at(weights)),
+            q: if perspective { self.q.0.wrapping_add(self.q.1.at(weights)) } else { 1 },
+            components: V::map(&self.components, &|component: Component| component.plane.at(weights)),
+        }
+    }
+
+    #[inline(always)]
+    fn begin<I: EdgeInt>(
+        &self,
+        perspective: bool,
+        row: &Row<'_, I>,
+        known: &FixedRow<V>,
+        column: i32,
+    ) -> FixedEnds<V> {
+        let components = V::map(&self.components, &|_: Component| [0; 2]);
+        let FixedEnds { q: [_, q], components } =
+            self.extend(perspective, row, known, &FixedEnds { q: [0; 2], components }, column);
+        FixedEnds { q: [q; 2], components: V::map(&components, &|[_, value]: [i32; 2]| [value; 2]) }
+    }
+
+    #[inline(always)]
+    fn extend<I: EdgeInt>(
+        &self,
+        perspective: bool,
+        _: &Row<'_, I>,
+        known: &FixedRow<V>,
+        ends: &FixedEnds<V>,
+        column: i32,
+    ) -> FixedEnds<V> {
+        let columns = column - known.first;
+        let along = |first: i32, plane: &Plane| first.wrapping_add(plane.slope.wrapping_mul(columns));
+        let q = if perspective { along(known.q, &self.q.1).max(1).cast_unsigned() } else { 1 };
+        let normalizing = q.leading_zeros();
+        let per_q = if perspective { (reciprocal::<1>(q << normalizing) >> 1).cast_signed() } else { 0 };
+        let components = V::zip(&V::zip(&self.components, &known.components), &ends.components);
+        FixedEnds {
+            q: [ends.q[1], q],
+            components: V::map_by_mode(&components, &|mode, parts| {
+                let ((component, known), [_, start]): ((Component, i32), [i32; 2]) = parts;
+                let more = along(known, &component.plane);
+                match mode {
+                    Mode::Hyperbolic if perspective => {
+                        [start, component.value(divided(more, normalizing, per_q))]
+                    }
+                    Mode::Hyperbolic | Mode::Linear => [start, component.value(more)],
+                    Mode::Flat => [component.first; 2],
+                }
+            }),
+        }
+    }
+
+    #[inline(always)]
+    fn within(&self, known: &FixedRow<V>, ends: &FixedEnds<V>, [first, last]: [i32; 2], budget: f32) -> bool {
+        // Each may be off by a unit for each column of the row, and a few at its first.
+        let off = u64::from((last - known.first).cast_unsigned()) + 5;
+        let [q0, q1] = ends.q.map(u64::from);
+        let apart = q0.abs_diff(q1) + 2 * off;
+        // What rounding takes is not there for perspective.
+        let left = scaled(budget, 16).clamp(0, LIMIT / 2) - (last - first) - ROUNDED;
+        let Ok(left) = u64::try_from(left) else { return false };
+        let limit = left * (q0.max(q1) + 3 * q0.min(q1)).saturating_sub(4 * off);
+        let within = Cell::new(true);
+        let _ = V::map_by_mode(&ends.components, &|mode, [start, end]: [i32; 2]| {
+            let missed = u64::from(end.abs_diff(start)) * apart;
+            within.set(within.get() & (mode != Mode::Hyperbolic || missed <= limit));
+        });
+        within.get()
+    }
+
+    #[inline(always)]
+    fn line(&self, row: &FixedRow<V>, run: &Run<FixedEnds<V>>, column: i32, _: i32) -> FixedCursor<V> {
+        let [first, last] = run.columns;
+        let (columns, along) = (last - first, column - first);
+        let whole = columns == run.length;
+        let per_column = || PER_COLUMN.get(columns.cast_unsigned() as usize).copied().unwrap_or(0);
+        let per_column = if whole { 0 } else { per_column() };
+        let number = |[start, end]: [i32; 2]| {
+            let more = end.wrapping_sub(start);
+            // Towards zero, so that no step leads beyond the end.
+            let step = if whole {
+                more.wrapping_add((more >> 31) & (run.length - 1)) >> run.length.trailing_zeros()
+            } else {
+                ((i64::from(more) * i64::from(per_column)) >> 32) as i32 + i32::from(more < 0)
+            };
+            [start.wrapping_add(step.wrapping_mul(along)), step]
+        };
+        // What is interpolated has 31 bits, as differences have a sign; what comes of it has 32.
+        let slope = self.zs.1.slope;
+        let zs = row.zs.wrapping_add(slope.wrapping_mul(column - row.first));
+        let lines = V::map_by_mode(&run.ends.components, &|mode, ends: [i32; 2]| match mode {
+            Mode::Hyperbolic | Mode::Linear => number(ends),
+            Mode::Flat => [ends[0], 0],
+        });
+        FixedCursor {
+            zs: (zs << 1).cast_unsigned(),
+            deeper: (slope << 1).cast_unsigned(),
+            components: V::map(&lines, &|[start, _]: [i32; 2]| start),
+            steps: V::map(&lines, &|[_, step]: [i32; 2]| step),
+        }
+    }
+
+    #[inline(always)]
+    fn advance(&self, cursor: FixedCursor<V>) -> FixedCursor<V> {
+        let numbers = V::zip(&cursor.components, &cursor.steps);
+        FixedCursor {
+            zs: cursor.zs.wrapping_add(cursor.deeper),
+            components: V::map_by_mode(&numbers, &|mode, (value, step): (i32, i32)| {
+                if mode == Mode::Flat { value } else { value.wrapping_add(step) }
+            }),
+            ..cursor
+        }
+    }
+
+    #[inline(always)]
+    fn depth(&self, cursor: &FixedCursor<V>) -> u32 {
+        cursor.zs
+    }
+
+    #[inline(always)]
+    fn attributes(&self, cursor: &FixedCursor<V>) -> V::Of<Q16> {
+        V::map(&cursor.components, &Q16::from_bits)
+    }
+}
+
+impl<V: Varying> fmt::Debug for FixedLines<V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("FixedLines").finish_non_exhaustive()
+    }
+}
+
+impl<V: Varying> fmt::Debug for FixedRow<V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("FixedRow").finish_non_exhaustive()
+    }
+}
+
+impl<V: Varying> fmt::Debug for FixedCursor<V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("FixedCursor").finish_non_exhaustive()
+    }
+}
+
+impl<V: Varying> fmt::Debug for FixedEnds<V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("FixedEnds").finish_non_exhaustive()
+    }
+}

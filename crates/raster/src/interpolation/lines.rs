@@ -1,0 +1,315 @@
+//! Interpolation by straight lines along runs of a row's samples: the policies say how long a run is and whether its
+//! ends are corrected for perspective; the numbers are `f32` or fixed point.
+//!
+//! ```text
+//!   u |        .*          * right, at the ends of runs: u = Σ Ei qi ui / Σ Ei qi
+//!     |    .'  |           . the line between
+//!     |  *'    |
+//!     +--+-----+-------> column
+//!      first  last
+//! ```
+
+use crate::edge::EdgeInt;
+use crate::interpolation::{Interpolate, Row};
+use crate::spans::Span;
+use alberti_math::Varying;
+use alberti_math::lanes::Lanes;
+use core::fmt::Debug;
+
+/// A division of rows into runs of samples: [`Spans16`], [`Affine`], or [`Lines`] for any other.
+///
+/// Runs lie at multiples of their length, and end with the row.
+pub trait Runs: Copy + Debug + 'static {
+    /// The columns of the longest run, a power of two up to [`Lines::LONGEST`].
+    fn length(self) -> i32;
+
+    /// The greatest miss of a component along a run, where runs are to be as long as that allows.
+    fn budget(self) -> Option<f32>;
+
+    /// Whether hyperbolic components are so at the ends of runs, or linear on the screen like the rest.
+    fn perspective(self) -> bool;
+}
+
+/// Exact at a row's first and last sample and at every 16th column; linear between two of those.
+///
+/// # Precision
+/// With r >= 1 the ratio of q at two such columns, and Δu the difference of u there: |Δu|·(√r − 1)/(√r + 1) +
+/// 6ε·max|ui|. The first term is the miss of the straight line, and is reached; the second is rounding.
+///
+/// # Cost
+/// A fragment: a product, a sum, a minimum and a maximum for each component; no division. Every 16 columns: two `f64`
+/// divisions, and about eight operations a component.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Spans16;
+
+/// Without correction: varyings are linear on the screen.
+///
+/// # Precision
+/// Right only where the three vertices are equally far; with r their greatest ratio of q, off by up to
+/// |Δu|·(√r − 1)/(√r + 1), Δu being the difference between two vertices. Against the linear function itself: 6ε·max|ui|
+/// for depth and components. The result never leaves the range of the three values, so a constant stays constant.
+///
+/// # Cost
+/// A fragment: a product, a sum, a minimum and a maximum for each component; no division. Every 64 columns one `f64`
+/// division, and about eight operations a component.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Affine;
+
+/// Straight lines whose length is a number: [`spans`](Self::spans), [`bounded`](Self::bounded) or
+/// [`affine`](Self::affine).
+///
+/// # Cost
+/// That of [`Spans16`], and a few comparisons a run. With a budget, that for each run that is looked at, of which some
+/// are too long, and a comparison a component.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lines {
+    length: i32,
+    budget: Option<f32>,
+    perspective: bool,
+}
+
+impl Lines {
+    /// The columns of the longest run.
+    pub const LONGEST: i32 = 64;
+
+    /// [`Affine`].
+    #[must_use]
+    pub const fn affine() -> Self {
+        Self { length: Self::LONGEST, budget: None, perspective: false }
+    }
+
+    /// [`Spans16`] with `length` columns instead of 16; `None` unless that is a power of two up to 64.
+    #[must_use]
+    pub const fn spans(length: i32) -> Option<Self> {
+        if 0 < length && length <= Self::LONGEST && length.count_ones() == 1 {
+            Some(Self { length, budget: None, perspective: true })
+        } else {
+            None
+        }
+    }
+
+    /// Straight lines as long as they miss no component by more than a `budget`, in the component's own units: the runs
+    /// are the longest of 1, 2, 4 to 64 columns, at multiples of their length, for which that is so.
+    ///
+    /// # Precision
+    /// The budget, and the rounding of [`Spans16`]; never more. The reason: a line misses a hyperbolic component by at
+    /// most |Δu|·(√r − 1)/(√r + 1) = |Δu|·tanh(ln r/4), and that is not above |Δu|·|Δq|/(max q + 3 min q), which is
+    /// compared.
+    #[must_use]
+    pub const fn bounded(budget: f32) -> Self {
+        Self { length: Self::LONGEST, budget: Some(budget), perspective: true }
+    }
+
+    /// The same with a budget of so many texels, in the coordinates of a texture with sides of up to `side` texels.
+    #[must_use]
+    pub fn bounded_texels(texels: f32, side: u16) -> Self {
+        Self::bounded(texels / f32::from(side.max(1)))
+    }
+}
+
+impl Runs for Spans16 {
+    #[inline(always)]
+    fn length(self) -> i32 {
+        16
+    }
+
+    #[inline(always)]
+    fn budget(self) -> Option<f32> {
+        None
+    }
+
+    #[inline(always)]
+    fn perspective(self) -> bool {
+        true
+    }
+}
+
+impl Runs for Affine {
+    #[inline(always)]
+    fn length(self) -> i32 {
+        Lines::LONGEST
+    }
+
+    #[inline(always)]
+    fn budget(self) -> Option<f32> {
+        None
+    }
+
+    #[inline(always)]
+    fn perspective(self) -> bool {
+        false
+    }
+}
+
+impl Runs for Lines {
+    #[inline(always)]
+    fn length(self) -> i32 {
+        self.length
+    }
+
+    #[inline(always)]
+    fn budget(self) -> Option<f32> {
+        self.budget
+    }
+
+    #[inline(always)]
+    fn perspective(self) -> bool {
+        self.perspective
+    }
+}
+
+/// A run of a row's samples.
+#[derive(Clone, Copy, Debug)]
+pub struct Run<E> {
+    /// The columns of its first sample and of the next run's first, or the row's last.
+    pub(crate) columns: [i32; 2],
+    /// The values there.
+    pub(crate) ends: E,
+    /// The column that follows it.
+    pub(crate) next: i32,
+    /// So many columns, a power of two, are between the ends of a run that is whole.
+    pub(crate) length: i32,
+}
+
+/// A triangle's linear and hyperbolic components in some kind of numbers, and the straight lines between their values.
+///
+/// `perspective` is that of the policy, a constant where that is known when compiling.
+pub trait LineNumbers<L: Lanes, V: Varying> {
+    /// The values at a row's first sample.
+    type Row: Copy;
+    /// The values at both ends of a run.
+    type Ends: Copy;
+    /// The values at a group of samples.
+    type Cursor: Copy;
+
+    /// Begins a row.
+    fn row<I: EdgeInt>(&self, perspective: bool, row: &Row<'_, I>) -> Self::Row;
+
+    /// The run of one sample, a covered column of a row.
+    fn begin<I: EdgeInt>(
+        &self,
+        perspective: bool,
+        row: &Row<'_, I>,
+        known: &Self::Row,
+        column: i32,
+    ) -> Self::Ends;
+
+    /// The run from the end of another to another covered column of the same row.
+    fn extend<I: EdgeInt>(
+        &self,
+        perspective: bool,
+        row: &Row<'_, I>,
+        known: &Self::Row,
+        ends: &Self::Ends,
+        column: i32,
+    ) -> Self::Ends;
+
+    /// Whether a straight line between the ends, which are at these columns, misses no component by more than the
+    /// budget.
+    fn within(&self, known: &Self::Row, ends: &Self::Ends, columns: [i32; 2], budget: f32) -> bool;
+
+    /// The line along a run, at the samples from the column `aligned` on, of which `column` is the first to be drawn.
+    fn line(&self, row: &Self::Row, run: &Run<Self::Ends>, column: i32, aligned: i32) -> Self::Cursor;
+
+    /// The samples after those.
+    fn advance(&self, cursor: Self::Cursor) -> Self::Cursor;
+
+    /// The screen depth at each.
+    fn depth(&self, cursor: &Self::Cursor) -> L::Depth;
+
+    /// The attributes at each.
+    fn attributes(&self, cursor: &Self::Cursor) -> V::Of<L::Number>;
+}
+
+/// A triangle prepared for straight lines, in the numbers `N`, along the runs of the policy `R`.
+#[derive(Clone, Copy, Debug)]
+pub struct LineTriangle<R, N> {
+    pub(crate) runs: R,
+    pub(crate) numbers: N,
+}
+
+impl<R: Runs, N> LineTriangle<R, N> {
+    /// The run of `length` columns, a power of two, that a covered column is in. `left` are the ends of the run before,
+    /// if it was drawn: its last column is this one's first.
+    #[inline(always)]
+    fn run<I: EdgeInt, L: Lanes, V: Varying>(
+        &self,
+        row: &Row<'_, I>,
+        known: &N::Row,
+        left: Option<N::Ends>,
+        [column, length]: [i32; 2],
+    ) -> Run<N::Ends>
+    where
+        N: LineNumbers<L, V>,
+    {
+        let (numbers, perspective) = (&self.numbers, self.runs.perspective());
+        let after = (column | (length - 1)) + 1;
+        let last = after.min(row.covered.end - 1);
+        let first = row.covered.start.max(column & !(length - 1));
+        let ends = match left {
+            Some(ends) if first == column => numbers.extend(perspective, row, known, &ends, last),
+            _ => {
+                let ends = numbers.begin(perspective, row, known, first);
+                if last == first { ends } else { numbers.extend(perspective, row, known, &ends, last) }
+            }
+        };
+        Run { columns: [first, last], ends, next: after.min(row.covered.end), length }
+    }
+}
+
+impl<R: Runs, L: Lanes, V: Varying, N: LineNumbers<L, V>> Interpolate<L, V> for LineTriangle<R, N> {
+    type Row = (N::Row, Option<N::Ends>);
+    type Cursor = N::Cursor;
+
+    #[inline(always)]
+    fn row<I: EdgeInt>(&self, row: &Row<'_, I>) -> Self::Row {
+        (self.numbers.row(self.runs.perspective(), row), None)
+    }
+
+    #[inline(always)]
+    fn start<I: EdgeInt>(
+        &self,
+        row: &Row<'_, I>,
+        (known, left): &mut Self::Row,
+        column: i32,
+        aligned: i32,
+    ) -> (N::Cursor, Span) {
+        let mut length = self.runs.length();
+        let run = match self.runs.budget() {
+            None => self.run(row, known, *left, [column, length]),
+            Some(budget) => {
+                // A run that begins where another has ended is not part of a longer one that began before: that was
+                // too long.
+                if left.is_some() {
+                    length = length.min(1 << column.trailing_zeros().min(Lines::LONGEST.trailing_zeros()));
+                }
+                loop {
+                    let run = self.run(row, known, *left, [column, length]);
+                    // A run of one sample has nothing between its ends.
+                    if length == 1 || self.numbers.within(known, &run.ends, run.columns, budget) {
+                        break run;
+                    }
+                    length >>= 1;
+                }
+            }
+        };
+        *left = Some(run.ends);
+        let columns = Span { start: run.columns[0], end: run.next };
+        (self.numbers.line(known, &run, column, aligned), columns)
+    }
+
+    #[inline(always)]
+    fn advance(&self, cursor: N::Cursor) -> N::Cursor {
+        self.numbers.advance(cursor)
+    }
+
+    #[inline(always)]
+    fn depth(&self, cursor: &N::Cursor, _: &[L::Number; 3]) -> L::Depth {
+        self.numbers.depth(cursor)
+    }
+
+    #[inline(always)]
+    fn attributes(&self, cursor: &N::Cursor, _: &[L::Number; 3]) -> V::Of<L::Number> {
+        self.numbers.attributes(cursor)
+    }
+}

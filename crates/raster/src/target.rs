@@ -1,0 +1,453 @@
+//! Targets: the frame that is drawn, or a band of its rows.
+
+use crate::color::{ColorFormat, FragmentColor};
+use crate::depth::DepthFormat;
+use core::fmt;
+use core::ops::Range;
+
+/// Consecutive rows of a frame, in buffers of the caller's, whose pixels do not depend on the division:
+///
+/// * all of them ([`new`](Self::new)),
+/// * all of a window into a larger picture ([`window`](Self::window)),
+/// * a band of a frame that does not fit in memory ([`band`](Self::band), or [`Bands`] for one band after the other).
+///
+/// Rows count from the top. The depth buffer holds `width` values a row, without padding.
+///
+/// ```
+/// use alberti_math::{Rgb565Be, Rgba8};
+/// use alberti_raster::{D16, Target};
+///
+/// let (mut color, mut depth) = ([0u16; 4 * 3], [0u16; 4 * 3]);
+/// let mut target = Target::new(Rgb565Be, D16, 4, 3, &mut color, &mut depth)?;
+/// target.clear(Rgba8::WHITE);
+/// assert_eq!(target.pixels(), [0xffff; 12]);
+/// # Ok::<(), alberti_raster::TargetError>(())
+/// ```
+#[derive(Debug)]
+pub struct Target<'a, C: ColorFormat, D: DepthFormat> {
+    color_format: C,
+    depth_format: D,
+    color: &'a mut [C::Pixel],
+    depth: &'a mut [D::Stored],
+    /// Columns and rows of the frame.
+    size: [u32; 2],
+    /// Pixels from a row to the next: of the colours, and of the depths.
+    strides: [usize; 2],
+    first_row: usize,
+    /// The columns and rows of the frame that may be drawn to.
+    limits: [Range<i32>; 2],
+}
+
+/// The reason why buffers do not make a target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum TargetError {
+    /// No pixels, or more than 16384 columns or rows, or rows beyond the frame's last one.
+    Size,
+    /// The colour buffer does not hold whole rows, or not all of them.
+    Rows {
+        /// Pixels in the colour buffer.
+        pixels: usize,
+        /// Pixels a row.
+        width: u32,
+    },
+    /// The depth buffer holds another number of pixels than the colour buffer.
+    Depth {
+        /// Pixels in the depth buffer.
+        found: usize,
+        /// Pixels in the rows that are drawn.
+        expected: usize,
+    },
+}
+
+impl fmt::Display for TargetError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Size => f.write_str("a target needs 1 to 16384 columns and rows, within its frame"),
+            Self::Rows { pixels, width } => {
+                write!(f, "the colour buffer's {pixels} pixels do not make the frame's rows of {width}")
+            }
+            Self::Depth { found, expected } => {
+                write!(f, "the depth buffer holds {found} pixels, the rows that are drawn {expected}")
+            }
+        }
+    }
+}
+
+impl core::error::Error for TargetError {}
+
+/// The largest width and height of a frame.
+const LARGEST: u32 = 1 << 14;
+
+impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
+    /// A whole frame of `width` x `height` pixels, to be [cleared](Self::clear) before drawing: depths of 0 are
+    /// nearest.
+    ///
+    /// For [`NoDepth`](crate::NoDepth), `depth` is a slice of `()`, for example `&mut [(); 320 * 240]`, without bytes.
+    ///
+    /// # Errors
+    /// [`TargetError`] when the buffers' lengths do not fit the size, or this the limits.
+    pub fn new(
+        color_format: C,
+        depth_format: D,
+        width: u32,
+        height: u32,
+        color: &'a mut [C::Pixel],
+        depth: &'a mut [D::Stored],
+    ) -> Result<Self, TargetError> {
+        let target = Self::band(color_format, depth_format, [width, height], 0, color, depth)?;
+        let rows = target.limits[1].len();
+        let pixels = target.color.len();
+        if rows == height as usize { Ok(target) } else { Err(TargetError::Rows { pixels, width }) }
+    }
+
+    /// The rows from `first_row` on of a frame of these columns and rows, as many as `color` has.
+    ///
+    /// # Errors
+    /// [`TargetError`] when the buffers' lengths do not fit each other, the frame or the limits.
+    pub fn band(
+        color_format: C,
+        depth_format: D,
+        [width, height]: [u32; 2],
+        first_row: u32,
+        color: &'a mut [C::Pixel],
+        depth: &'a mut [D::Stored],
+    ) -> Result<Self, TargetError> {
+        let pixels = color.len();
+        if width == 0 || pixels == 0 {
+            return Err(TargetError::Size);
+        }
+        if !pixels.is_multiple_of(width as usize) {
+            return Err(TargetError::Rows { pixels, width });
+        }
+        let rows = u32::try_from(pixels / width as usize).map_err(|_| TargetError::Size)?;
+        let formats = (color_format, depth_format);
+        Self::of_rows(formats, [width, height], [first_row, rows], width as usize, color, depth)
+    }
+
+    /// A whole frame of `width` x `height` pixels in a larger picture, such as a window of a user interface: `color`
+    /// begins with the frame's first pixel, and each row begins `stride` pixels after the one above. So it has at least
+    /// (`height` − 1)·`stride` + `width` pixels, and `depth` `width`·`height`.
+    ///
+    /// # Errors
+    /// [`TargetError`] when the buffers' lengths do not fit the size and the stride, or these the limits.
+    pub fn window(
+        color_format: C,
+        depth_format: D,
+        [width, height]: [u32; 2],
+        stride: usize,
+        color: &'a mut [C::Pixel],
+        depth: &'a mut [D::Stored],
+    ) -> Result<Self, TargetError> {
+        let last = (height as usize).checked_sub(1).ok_or(TargetError::Size)?;
+        let pixels = color.len();
+        let wanted = last.checked_mul(stride).and_then(|above| above.checked_add(width as usize));
+        if stride < width as usize || wanted.is_none_or(|wanted| wanted > pixels) {
+            return Err(TargetError::Rows { pixels, width });
+        }
+        let formats = (color_format, depth_format);
+        Self::of_rows(formats, [width, height], [0, height], stride, color, depth)
+    }
+
+    fn of_rows(
+        (color_format, depth_format): (C, D),
+        [width, height]: [u32; 2],
+        [first_row, rows]: [u32; 2],
+        stride: usize,
+        color: &'a mut [C::Pixel],
+        depth: &'a mut [D::Stored],
+    ) -> Result<Self, TargetError> {
+        let last = first_row.checked_add(rows).ok_or(TargetError::Size)?;
+        if width == 0 || rows == 0 || width > LARGEST || height > LARGEST || last > height {
+            return Err(TargetError::Size);
+        }
+        let expected = width as usize * rows as usize;
+        if depth.len() != expected {
+            return Err(TargetError::Depth { found: depth.len(), expected });
+        }
+        let limits = [0..width.cast_signed(), first_row.cast_signed()..last.cast_signed()];
+        let strides = [stride, width as usize];
+        let (size, first_row) = ([width, height], first_row as usize);
+        Ok(Self { color_format, depth_format, color, depth, size, strides, first_row, limits })
+    }
+
+    /// Columns and rows of the frame.
+    #[must_use]
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// The frame's columns and rows that may be drawn to.
+    #[must_use]
+    pub fn limits(&self) -> [Range<i32>; 2] {
+        self.limits.clone()
+    }
+
+    /// The colour format.
+    #[must_use]
+    #[inline(always)]
+    pub fn color_format(&self) -> C {
+        self.color_format
+    }
+
+    /// The depth format.
+    #[must_use]
+    #[inline(always)]
+    pub fn depth_format(&self) -> D {
+        self.depth_format
+    }
+
+    /// The colours, row by row from the top, as they lie in memory.
+    #[must_use]
+    pub fn pixels(&self) -> &[C::Pixel] {
+        self.color
+    }
+
+    /// The bytes of the colours, in the order in which a display or a file wants them: for its driver's DMA, without a
+    /// copy. Of a window, those beside it as well. Behind the feature `bytemuck`.
+    ///
+    /// ```
+    /// use alberti_math::{Rgb565Be, Rgba8};
+    /// use alberti_raster::{NoDepth, Target};
+    ///
+    /// let (mut color, mut depth) = ([0u16; 2], [(); 2]);
+    /// let mut target = Target::new(Rgb565Be, NoDepth, 2, 1, &mut color, &mut depth)?;
+    /// target.clear(Rgba8::from_rgb24(0xff_00_00));
+    /// assert_eq!(target.bytes(), [0xf8, 0x00, 0xf8, 0x00]);
+    /// # Ok::<(), alberti_raster::TargetError>(())
+    /// ```
+    #[cfg(feature = "bytemuck")]
+    #[must_use]
+    pub fn bytes(&self) -> &[u8]
+    where
+        C::Pixel: bytemuck::NoUninit,
+    {
+        bytemuck::cast_slice(self.color)
+    }
+
+    /// The same target, of which only these columns and rows of the frame may be drawn to or cleared.
+    pub fn scissor(&mut self, columns: Range<i32>, rows: Range<i32>) -> Target<'_, C, D> {
+        let narrow = |a: &Range<i32>, b: Range<i32>| a.start.max(b.start)..a.end.min(b.end);
+        let limits = [narrow(&self.limits[0], columns), narrow(&self.limits[1], rows)];
+        Target { color: self.color, depth: self.depth, limits, ..*self }
+    }
+
+    /// The same target with another depth format of the same memory, for passes that compare otherwise:
+    /// `target.with_depth(Equal(F32))`.
+    pub fn with_depth<E: DepthFormat<Stored = D::Stored>>(&mut self, depth_format: E) -> Target<'_, C, E> {
+        let Self { color_format, size, strides, first_row, .. } = *self;
+        let (color, depth, limits) = (&mut *self.color, &mut *self.depth, self.limits.clone());
+        Target { color_format, depth_format, color, depth, size, strides, first_row, limits }
+    }
+
+    /// Gives every pixel this colour and the farthest depth.
+    pub fn clear<Shade: FragmentColor>(&mut self, color: Shade) {
+        let pixel = Shade::pixel(self.color_format, color.to_word());
+        let farthest = self.depth_format.farthest();
+        let [columns, rows] = self.limits();
+        for row in rows {
+            let (color, depth) = self.pixels_from(row, columns.start);
+            let count = columns.len();
+            color.iter_mut().take(count).for_each(|p| *p = pixel);
+            depth.iter_mut().take(count).for_each(|d| *d = farthest);
+        }
+    }
+
+    /// As many pixels as depths from `column` of the frame's row `row` on, to the end of the target or beyond the
+    /// window; none where there are none.
+    #[inline]
+    pub(crate) fn pixels_from(&mut self, row: i32, column: i32) -> (&mut [C::Pixel], &mut [D::Stored]) {
+        let place = |row: i32| {
+            let row = usize::try_from(row).ok()?.checked_sub(self.first_row)?;
+            Some((row, usize::try_from(column).ok()?))
+        };
+        let Some((row, column)) = place(row) else { return (&mut [], &mut []) };
+        let color = self.color.get_mut(row * self.strides[0] + column..).unwrap_or_default();
+        let depth = self.depth.get_mut(row * self.strides[1] + column..).unwrap_or_default();
+        let count = color.len().min(depth.len());
+        (color.get_mut(..count).unwrap_or_default(), depth.get_mut(..count).unwrap_or_default())
+    }
+}
+
+/// A frame that is drawn band by band in the same memory.
+///
+/// ```
+/// use alberti_math::{Rgb565Be, Rgba8};
+/// use alberti_raster::{Bands, D16};
+///
+/// // 320 x 240 in bands of 16 rows.
+/// let (mut color, mut depth) = ([0u16; 320 * 16], [0u16; 320 * 16]);
+/// let mut bands = Bands::new(Rgb565Be, D16, 320, 240, &mut color, &mut depth)?;
+/// let mut sent = 0;
+/// while let Some(mut band) = bands.next_band() {
+///     band.clear(Rgba8::BLACK);
+///     sent += band.pixels().len();
+/// }
+/// assert_eq!(sent, 320 * 240);
+/// # Ok::<(), alberti_raster::TargetError>(())
+/// ```
+#[derive(Debug)]
+pub struct Bands<'a, C: ColorFormat, D: DepthFormat> {
+    color_format: C,
+    depth_format: D,
+    color: &'a mut [C::Pixel],
+    depth: &'a mut [D::Stored],
+    size: [u32; 2],
+    next_row: u32,
+}
+
+impl<'a, C: ColorFormat, D: DepthFormat> Bands<'a, C, D> {
+    /// A frame of `width` x `height` pixels in bands of as many rows as `color` has; the last may have fewer.
+    ///
+    /// # Errors
+    /// [`TargetError`] when the buffers' lengths do not fit each other, the width or the limits.
+    pub fn new(
+        color_format: C,
+        depth_format: D,
+        width: u32,
+        height: u32,
+        color: &'a mut [C::Pixel],
+        depth: &'a mut [D::Stored],
+    ) -> Result<Self, TargetError> {
+        if width > LARGEST || height > LARGEST {
+            return Err(TargetError::Size);
+        }
+        let size = [width, height];
+        let pixels = color.len().min(width as usize * height as usize);
+        let (first, depths) = (color.get_mut(..pixels), depth.get_mut(..pixels));
+        if let (Some(first), Some(depths)) = (first, depths) {
+            Target::band(color_format, depth_format, size, 0, first, depths)?;
+        }
+        if depth.len() != color.len() {
+            return Err(TargetError::Depth { found: depth.len(), expected: color.len() });
+        }
+        Ok(Self { color_format, depth_format, color, depth, size, next_row: 0 })
+    }
+
+    /// Columns and rows of the frame.
+    #[must_use]
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// The depth format.
+    #[must_use]
+    pub fn depth_format(&self) -> D {
+        self.depth_format
+    }
+
+    /// The next band, from the top; `None` after the last. Its pixels are those of the band before.
+    pub fn next_band(&mut self) -> Option<Target<'_, C, D>> {
+        let [width, height] = self.size;
+        let left = width as usize * height.checked_sub(self.next_row)? as usize;
+        let pixels = self.color.len().min(left);
+        let (color, depth) = (self.color.get_mut(..pixels)?, self.depth.get_mut(..pixels)?);
+        let first_row = self.next_row;
+        let band =
+            Target::band(self.color_format, self.depth_format, self.size, first_row, color, depth).ok()?;
+        self.next_row = first_row.saturating_add(band.limits[1].len().try_into().ok()?);
+        Some(band)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::depth::{D16, NoDepth};
+    use alberti_math::{Rgba8, Rgba8888};
+
+    #[test]
+    fn buffers_must_fit() {
+        let (mut color, mut depth) = ([0u32; 12], [0u16; 12]);
+        assert!(
+            Target::band(Rgba8888, D16, [4, 12], 9, &mut color, &mut depth)
+                .is_ok_and(|b| b.limits() == [0..4, 9..12])
+        );
+        let error = |width, row, color: &mut [u32], depth: &mut [u16]| {
+            Target::band(Rgba8888, D16, [width, 16384], row, color, depth).expect_err("must not fit")
+        };
+        assert_eq!(error(5, 0, &mut color, &mut depth), TargetError::Rows { pixels: 12, width: 5 });
+        assert_eq!(error(4, 0, &mut color, &mut depth[1..]), TargetError::Depth { found: 11, expected: 12 });
+        assert_eq!(error(0, 0, &mut color, &mut depth), TargetError::Size);
+        assert_eq!(error(4, 0, &mut [], &mut []), TargetError::Size);
+        assert_eq!(error(4, 16382, &mut color, &mut depth), TargetError::Size);
+        assert_eq!(error(4, u32::MAX, &mut color, &mut depth), TargetError::Size);
+    }
+
+    #[test]
+    fn a_depth_buffer_of_nothing_costs_nothing() {
+        let (mut color, mut depth) = ([0u32; 6], [(); 6]);
+        assert_eq!(size_of_val(&depth), 0);
+        let mut band = Target::new(Rgba8888, NoDepth, 3, 2, &mut color, &mut depth).expect("fits");
+        band.clear(Rgba8::WHITE);
+        assert_eq!(color, [u32::MAX; 6]);
+    }
+
+    #[test]
+    fn a_scissor_keeps_what_is_outside() {
+        let (mut color, mut depth) = ([0u32; 12], [(); 12]);
+        let mut band = Target::band(Rgba8888, NoDepth, [4, 10], 7, &mut color, &mut depth).expect("fits");
+        band.scissor(-3..3, 8..100).clear(Rgba8::WHITE);
+        let w = u32::MAX;
+        assert_eq!(color, [0, 0, 0, 0, w, w, w, 0, w, w, w, 0]);
+    }
+
+    #[test]
+    fn there_are_no_pixels_outside_the_band() {
+        let (mut color, mut depth) = ([0u32; 6], [(); 6]);
+        let mut band = Target::band(Rgba8888, NoDepth, [3, 7], 5, &mut color, &mut depth).expect("fits");
+        assert_eq!(band.pixels_from(5, 1).0.len(), 5);
+        assert_eq!(band.pixels_from(6, 2).0.len(), 1);
+        assert_eq!(band.pixels_from(4, 1).0.len(), 0);
+        assert_eq!(band.pixels_from(7, 1).0.len(), 0);
+        assert_eq!(band.pixels_from(-1, -1).0.len(), 0);
+    }
+
+    #[test]
+    fn a_frame_is_as_large_as_it_says() {
+        let (mut color, mut depth) = ([0u32; 12], [0u16; 12]);
+        let mut error = |w, h| Target::new(Rgba8888, D16, w, h, &mut color, &mut depth).map(|_| ()).err();
+        assert_eq!([error(4, 3), error(12, 1)], [None; 2]);
+        assert_eq!(error(4, 4), Some(TargetError::Rows { pixels: 12, width: 4 }));
+        assert_eq!(error(4, 2), Some(TargetError::Size));
+        assert_eq!(error(5, 2), Some(TargetError::Rows { pixels: 12, width: 5 }));
+    }
+
+    #[test]
+    fn a_window_leaves_what_is_beside_it() {
+        // 3 x 2 in rows of 5, the last of which ends with the window.
+        let (mut color, mut depth) = ([0u32; 8], [0u16; 6]);
+        let mut window = Target::window(Rgba8888, D16, [3, 2], 5, &mut color, &mut depth).expect("fits");
+        window.clear(Rgba8::WHITE);
+        assert_eq!((window.pixels_from(0, 1).0.len(), window.pixels_from(1, 1).0.len()), (5, 2));
+        let w = u32::MAX;
+        assert_eq!(color, [w, w, w, 0, 0, w, w, w]);
+        let mut error = |size, stride, pixels: usize| {
+            Target::window(Rgba8888, D16, size, stride, &mut color[..pixels], &mut depth).map(|_| ()).err()
+        };
+        assert_eq!(error([3, 2], 5, 7), Some(TargetError::Rows { pixels: 7, width: 3 }));
+        assert_eq!(error([3, 2], 2, 8), Some(TargetError::Rows { pixels: 8, width: 3 }));
+        assert_eq!(error([3, 0], 3, 8), Some(TargetError::Size));
+        assert_eq!(error([2, 2], 5, 8), Some(TargetError::Depth { found: 6, expected: 4 }));
+        assert_eq!(error([3, 2], usize::MAX, 8), Some(TargetError::Rows { pixels: 8, width: 3 }));
+    }
+
+    #[test]
+    fn bands_are_all_rows_of_a_frame() {
+        let (mut color, mut depth) = ([0u32; 12], [0u16; 12]);
+        let mut rows = |height| {
+            let mut bands = Bands::new(Rgba8888, D16, 4, height, &mut color, &mut depth).expect("three rows");
+            let mut rows = std::vec::Vec::new();
+            while let Some(band) = bands.next_band() {
+                rows.push(band.limits()[1].clone());
+            }
+            rows
+        };
+        assert_eq!(rows(8), [0..3, 3..6, 6..8]);
+        assert_eq!(rows(6), [0..3, 3..6]);
+        assert_eq!(rows(2).first(), Some(&(0..2)));
+        assert!(Bands::new(Rgba8888, D16, 5, 9, &mut color, &mut depth).is_err());
+        assert!(Bands::new(Rgba8888, D16, 4, 0, &mut color, &mut depth).is_err());
+        assert!(Bands::new(Rgba8888, D16, 4, 9, &mut color, &mut depth[1..]).is_err());
+    }
+}

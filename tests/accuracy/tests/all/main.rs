@@ -1,0 +1,5 @@
+//! The tests of accuracy, in one binary: `cargo test -p alberti-accuracy bounds::`.
+
+mod barycentric;
+mod bounds;
+mod theory;

@@ -1,0 +1,418 @@
+//! Changes of attributes from pixel to pixel: each policy against integers within the bound that it states, and the
+//! same bits whatever draws them.
+//!
+//! A kernel for each policy of derivatives with each kind of interpolation that it knows; straight lines of any length
+//! are `Lines`, one kernel, which `values.rs` compares with the policies that are types.
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    clippy::cast_precision_loss,
+    clippy::cast_sign_loss,
+    reason = "pixels and subpixels are within the guard band"
+)]
+
+use alberti_math::lanes::{Floating, Machine, One};
+use alberti_math::{GUARD_PIXELS, Sub8, for_lanes};
+use alberti_oracle::coverage::{Triangle, area2, covers};
+use alberti_oracle::gradient::{self, Slopes};
+use alberti_oracle::rng::{Rng, run_seed};
+use alberti_oracle::{cases, cases::pixel_centre};
+use alberti_raster::{
+    Cull, Differentiation, Exact, FixedPoint, Interpolation, Lines, Neighbours, NoDepth, Paint, PerPixel,
+    PerSpan, PerTriangle, Planes, Rgba8888, Target, Vertex,
+};
+use alberti_tests::derivatives::{Carried, Listener, Told, carried, told};
+use alberti_tests::probe::{LARGEST, vertex};
+use std::ops::Range;
+
+/// Bits of the grid.
+const BITS: u32 = 8;
+const EPS: f64 = 1.0 / (1 << 24) as f64;
+/// The rest that `f64` leaves of the differences that make a numerator: some 23 units of 2^-53.
+const DIFFERENCES: f64 = 1.0 / (1u64 << 48) as f64;
+
+/// A triangle with its values, and a pixel that it covers.
+#[derive(Clone, Copy, Debug)]
+struct Case {
+    tri: Triangle,
+    pixel: [i32; 2],
+    q: [f32; 3],
+    /// Of each vertex.
+    values: [[f32; 4]; 3],
+}
+
+impl Case {
+    fn vertices(&self) -> [Vertex<Carried>; 3] {
+        std::array::from_fn(|i| vertex(self.tri[i], 0.5, self.q[i], carried(self.values[i])))
+    }
+
+    fn component(&self, k: usize) -> [f32; 3] {
+        self.values.map(|values| values[k])
+    }
+
+    fn sample(&self, column: i32) -> [i64; 2] {
+        pixel_centre(i64::from(column), i64::from(self.pixel[1]), BITS)
+    }
+
+    fn slopes(&self, column: i32, k: usize) -> Slopes {
+        gradient::hyperbolic(self.tri, self.sample(column), BITS, self.q, self.component(k))
+    }
+
+    /// The covered columns of the row, which are side by side.
+    fn covered(&self) -> Range<i32> {
+        let inside = |column: i32| covers(self.tri, self.sample(column));
+        let last = |mut inside_at: i32, mut outside_at: i32| {
+            while (outside_at - inside_at).abs() > 1 {
+                let middle = i32::midpoint(inside_at, outside_at);
+                *(if inside(middle) { &mut inside_at } else { &mut outside_at }) = middle;
+            }
+            inside_at
+        };
+        last(self.pixel[0], -GUARD_PIXELS - 1)..last(self.pixel[0], GUARD_PIXELS + 1) + 1
+    }
+
+    /// The longer side of the box, in subpixels a pixel: pixels times 2^16.
+    fn longest(&self) -> f64 {
+        let side = |k: usize| {
+            let at = self.tri.map(|p| p[k]);
+            (at.iter().max().unwrap() - at.iter().min().unwrap()) as f64
+        };
+        side(0).max(side(1)) * f64::from(1 << BITS)
+    }
+
+    /// M: the greatest derivative of a component, had nothing cancelled in its numerator.
+    fn magnitude(&self, k: usize, t: f64) -> f64 {
+        let [a, b, c] = self.q.map(f64::from);
+        let area = area2(self.tri).unsigned_abs() as f64;
+        self.longest() * area * spread(self.component(k)) * (a * b + b * c + c * a) / (t * t)
+    }
+}
+
+fn spread([a, b, c]: [f32; 3]) -> f64 {
+    f64::from(a.max(b).max(c)) - f64::from(a.min(b).min(c))
+}
+
+/// Triangles from a subpixel thin to the largest, ratios of q from 1 to 10^12, values near one another, far from 0, of
+/// both signs.
+fn any_case(rng: &mut Rng) -> Case {
+    loop {
+        let found = if rng.one_in(3) { Some(around(rng)) } else { thin(rng) };
+        if let Some((tri, pixel)) = found
+            && covers(tri, pixel_centre(i64::from(pixel[0]), i64::from(pixel[1]), BITS))
+        {
+            let ratio = if rng.one_in(4) { 1.0 } else { rng.log_uniform(1.0, 1e12) };
+            let mut q = [1.0, 1.0 / ratio, 1.0 / rng.log_uniform(1.0, ratio.max(1.000_001))];
+            q.rotate_left(rng.index(3));
+            let unit = rng.log_uniform(1e-6, 1e6);
+            let center = if rng.one_in(2) { 0.0 } else { f64::from(rng.log_uniform(1.0, 1e7)) };
+            let values = [(); 3].map(|()| [(); 4].map(|()| (center + rng.uniform(-1.0, 1.0)) as f32 * unit));
+            return Case { tri, pixel, q, values };
+        }
+    }
+}
+
+fn around(rng: &mut Rng) -> (Triangle, [i32; 2]) {
+    let pixel = [(); 2].map(|()| rng.range(0, i64::from(LARGEST) - 1));
+    let guard = i64::from(GUARD_PIXELS) << BITS;
+    let reach = f64::from(rng.log_uniform(1.0, LARGEST as f32)) * f64::from(1 << BITS);
+    let sample = pixel_centre(pixel[0], pixel[1], BITS);
+    let tri = [(); 3]
+        .map(|()| sample.map(|c| (c + rng.uniform(-reach, reach).round() as i64).clamp(-guard, guard)));
+    (tri, pixel.map(|c| c as i32))
+}
+
+/// The oracle's hard cases, mirrored into the frame.
+fn thin(rng: &mut Rng) -> Option<(Triangle, [i32; 2])> {
+    let case = cases::any(rng, BITS, i64::from(GUARD_PIXELS) << BITS);
+    let mirror = case.sample.map(i64::signum);
+    let flip = |p: [i64; 2]| [p[0] * mirror[0], p[1] * mirror[1]];
+    let pixel = flip(case.sample).map(|c| (c >> BITS) as i32);
+    pixel.iter().all(|&c| c < LARGEST).then(|| (case.tri.map(flip), pixel))
+}
+
+fn spans(length: i32) -> Lines {
+    Lines::spans(length).expect("a power of two")
+}
+
+fn samples(of: u64) -> u64 {
+    if std::env::var_os("ALBERTI_SWEEP").is_some() { 100 * of } else { of }
+}
+
+/// Draws the pixel of many triangles, and some beside it, and hands on the news of each.
+fn each_sample<D: Differentiation>(
+    policy: impl Interpolation,
+    stream: u64,
+    count: u64,
+    mut check: impl FnMut(&Case, i32, &Told),
+) {
+    let mut rng = Rng::stream(run_seed(), stream);
+    let mut seen = 0;
+    while seen < samples(count) {
+        let case = any_case(&mut rng);
+        let start = (case.pixel[0] - rng.index(3) as i32).max(0);
+        let told = told::<D>(policy, &case.vertices(), case.pixel[1], start..(start + 3).min(LARGEST));
+        assert!(told.iter().any(|(column, _)| *column == case.pixel[0]), "{case:?}");
+        for (column, told) in &told {
+            check(&case, *column, told);
+            seen += 1;
+        }
+    }
+}
+
+/// The greatest error as a part of its bound, and the greatest in ε where the derivative itself is the scale.
+#[derive(Debug, Default)]
+struct Worst {
+    of_bound: f64,
+    in_eps: f64,
+}
+
+impl Worst {
+    fn add(&mut self, case: &Case, got: f32, exact: f64, [relative, absolute]: [f64; 2]) {
+        let error = (f64::from(got) - exact).abs();
+        let bound = relative * exact.abs() + absolute;
+        // NaN as well.
+        assert!(error <= bound, "{got:e} for {exact:e}: {:.3} of the bound, {case:?}", error / bound);
+        if bound > 0.0 {
+            self.of_bound = self.of_bound.max(error / bound);
+        }
+        if relative < 16.0 * EPS && absolute < relative * exact.abs() / 64.0 {
+            self.in_eps = self.in_eps.max(error / exact.abs() / EPS);
+        }
+    }
+
+    fn report(&self, name: &str) {
+        println!("{name}: {:.3} of the bound, {:.2} ε relatively", self.of_bound, self.in_eps);
+    }
+}
+
+/// Linear components have the slopes of a plane, flat ones none.
+fn check_others(case: &Case, told: &Told, worst: &mut Worst) {
+    let plane = gradient::hyperbolic(case.tri, case.sample(case.pixel[0]), BITS, [1.0; 3], case.component(2));
+    let area = area2(case.tri).unsigned_abs() as f64;
+    let apart = DIFFERENCES * case.longest() * spread(case.component(2)) / area;
+    for (got, exact) in [told.dx[2], told.dy[2]].into_iter().zip(plane.derivative) {
+        worst.add(case, got, exact, [EPS, apart]);
+    }
+    assert_eq!([told.dx[3], told.dy[3]], [0.0; 2]);
+}
+
+#[test]
+fn per_pixel() {
+    let (mut by_column, mut by_row, mut linear) = (Worst::default(), Worst::default(), Worst::default());
+    let (mut far, mut beside) = (0, 0);
+    each_sample::<PerPixel>(Exact, 1, 40_000, |case, column, told| {
+        let columns = f64::from(column - case.covered().start);
+        for k in 0..2 {
+            let exact = case.slopes(column, k);
+            let apart = DIFFERENCES * case.magnitude(k, exact.t);
+            let along = 3.0 * EPS * exact.mixed.abs() * columns;
+            by_column.add(case, told.dx[k], exact.derivative[0], [13.0 * EPS, apart]);
+            by_row.add(case, told.dy[k], exact.derivative[1], [14.0 * EPS, along + apart]);
+            far += u32::from(columns > 100.0 && along > 14.0 * EPS * exact.derivative[1].abs());
+            beside += u32::from(apart > EPS * exact.derivative[0].abs());
+        }
+        check_others(case, told, &mut linear);
+    });
+    by_column.report("PerPixel, by column");
+    by_row.report("PerPixel, by row");
+    linear.report("linear components");
+    assert!(
+        by_column.in_eps > 4.0 && by_row.in_eps > 4.0 && linear.in_eps > 0.9,
+        "the bounds are not tested"
+    );
+    assert!(far > 40 && beside > 40, "{far} far, {beside} thin");
+}
+
+#[test]
+fn neighbours() {
+    let (mut by_column, mut by_row) = (Worst::default(), Worst::default());
+    let (mut beyond, mut curved) = (0, 0);
+    each_sample::<Neighbours>(Exact, 2, 40_000, |case, column, told| {
+        let columns = f64::from(column - case.covered().start);
+        let greatest = case.q.into_iter().fold(0.0, f32::max);
+        for k in 0..2 {
+            let exact = case.slopes(column, k);
+            let apart = DIFFERENCES * case.magnitude(k, exact.t);
+            let along = [0.0, 3.0 * EPS * exact.mixed.abs() * columns];
+            for axis in 0..2 {
+                // T from sample to sample, over T at the next one; and what f64 leaves of it in thin triangles.
+                let steep = ((exact.ratio[axis] - 1.0) / exact.ratio[axis]).abs();
+                let next = exact.t * exact.ratio[axis];
+                let unsure = DIFFERENCES * case.longest() * f64::from(greatest) / next.abs();
+                // Beyond the horizon, or on it.
+                if exact.ratio[axis] <= 0.0 || steep > 2f64.powi(14) || unsure > 2f64.powi(-14) {
+                    beyond += 1;
+                    continue;
+                }
+                let relative = (14.0 + axis as f64 + 6.0 * steep) * EPS + 2.0 * unsure;
+                let absolute = 1.01 * (along[axis] + apart) / exact.ratio[axis];
+                let got = [told.dx[k], told.dy[k]][axis];
+                [&mut by_column, &mut by_row][axis].add(
+                    case,
+                    got,
+                    exact.difference[axis],
+                    [relative, absolute],
+                );
+                curved += u32::from((exact.ratio[axis] - 1.0).abs() > 0.01);
+            }
+        }
+    });
+    by_column.report("Neighbours, by column");
+    by_row.report("Neighbours, by row");
+    println!("{beyond} beyond the horizon, {curved} far from the derivative");
+    assert!(by_column.in_eps > 4.0 && by_row.in_eps > 4.0 && curved > 4_000 && beyond < 80_000);
+}
+
+#[test]
+fn per_span() {
+    in_middles::<PerSpan>(Exact, 3, i32::MAX, 0.0);
+    in_middles::<PerSpan>(Planes, 4, 64, 0.0);
+    in_middles::<PerSpan>(spans(8), 5, 8, 0.0);
+    in_middles::<PerSpan>(spans(32), 6, 32, 0.0);
+    in_middles::<PerSpan>(Lines::affine(), 7, 64, 0.0);
+}
+
+/// There all policies but that of triangles are that of runs, and numbers are rounded to 2^-16.
+#[test]
+fn in_fixed_point() {
+    const STEP: f64 = 1.0 / 65536.0;
+    in_middles::<PerSpan>(FixedPoint(spans(16)), 8, 16, STEP / 2.0);
+    in_middles::<PerPixel>(FixedPoint(spans(8)), 9, 8, STEP / 2.0);
+    in_middles::<Neighbours>(FixedPoint(Lines::affine()), 10, 64, STEP / 2.0);
+}
+
+/// The derivatives that each sample gets are right in the middle of its run: of up to `length` columns from a multiple
+/// of that on.
+fn in_middles<D: Differentiation>(policy: impl Interpolation, stream: u64, length: i32, step: f64) {
+    let (mut worst, mut linear, mut off) = (Worst::default(), Worst::default(), 0);
+    each_sample::<D>(policy, stream, 8_000, |case, column, told| {
+        let first = if length == i32::MAX { i32::MIN / 2 } else { column & !(length - 1) };
+        let covered = case.covered();
+        let run = covered.start.max(first)..covered.end.min(first.saturating_add(length));
+        let middle = run.start + (run.end - run.start) / 2;
+        for k in 0..2 {
+            let exact = case.slopes(middle, k);
+            let apart = DIFFERENCES * case.magnitude(k, exact.t);
+            for (got, exact) in [told.dx[k], told.dy[k]].into_iter().zip(exact.derivative) {
+                if step == 0.0 || exact.abs() < 32767.0 {
+                    worst.add(case, got, exact, [1.001 * EPS, apart + step]);
+                }
+            }
+            let here = case.slopes(column, k).derivative[0];
+            off += u32::from((here - exact.derivative[0]).abs() > 0.01 * here.abs() + step);
+        }
+        if step == 0.0 {
+            check_others(case, told, &mut linear);
+        }
+    });
+    worst.report(&format!("{:?} of {policy:?}", D::default()));
+    assert!(worst.of_bound > 0.9 && off > 300, "{off} samples are off from the middle");
+}
+
+#[test]
+fn per_triangle() {
+    let (mut worst, mut linear) = (Worst::default(), Worst::default());
+    each_sample::<PerTriangle>(Exact, 11, 40_000, |case, _, told| {
+        for k in 0..2 {
+            let exact = gradient::in_centroid(case.tri, BITS, case.q, case.component(k));
+            let apart = DIFFERENCES * case.magnitude(k, exact.t);
+            for (got, exact) in [told.dx[k], told.dy[k]].into_iter().zip(exact.derivative) {
+                worst.add(case, got, exact, [1.001 * EPS, apart]);
+            }
+        }
+        check_others(case, told, &mut linear);
+    });
+    worst.report("PerTriangle");
+    assert!(worst.of_bound > 0.9);
+}
+
+const WIDTH: usize = 101;
+const HEIGHT: usize = 70;
+const SIZE: [u32; 2] = [WIDTH as u32, HEIGHT as u32];
+
+/// Triangles over each other, often thin, from a pixel to forty frames large. `turn` says from which vertex and in
+/// which direction they are given.
+fn draw_random<D: Differentiation>(
+    interpolation: impl Interpolation,
+    lanes: impl Floating,
+    target: &mut Target<'_, Rgba8888, NoDepth>,
+    seed: u64,
+    turn: usize,
+) {
+    let paint = Paint { stage: Listener::<D>::default(), interpolation, subpixel: Sub8, cull: Cull::None };
+    let mut rng = Rng::new(seed);
+    for _ in 0..300 {
+        let center = [rng.uniform(-20.0, 120.0), rng.uniform(-20.0, 90.0)];
+        let size = f64::from(rng.log_uniform(0.5, 4000.0));
+        let size = if rng.one_in(8) { [f64::from(rng.log_uniform(0.3, 20.0)), 30_000.0] } else { [size; 2] };
+        let mut corners: [Vertex<Carried>; 3] = std::array::from_fn(|_| {
+            let p = [0, 1].map(|k| ((center[k] + rng.uniform(-size[k], size[k])) * 256.0) as i64);
+            let values = [(); 4].map(|()| rng.uniform(-1.0, 1.0) as f32);
+            vertex(p, 0.5, rng.log_uniform(1e-3, 1e3), carried(values))
+        });
+        corners.rotate_left(turn % 3);
+        if turn >= 3 {
+            corners.swap(0, 1);
+        }
+        let [a, b, c] = &corners;
+        paint.triangle(lanes, target, [a, b, c], &mut ());
+    }
+}
+
+fn frame<D: Differentiation>(
+    policy: impl Interpolation,
+    lanes: impl Floating,
+    seed: u64,
+    turn: usize,
+) -> Vec<u32> {
+    let (mut color, depth) = (vec![0; WIDTH * HEIGHT], &mut [(); WIDTH * HEIGHT]);
+    let [width, height] = SIZE;
+    let mut target = Target::new(Rgba8888, NoDepth, width, height, &mut color, depth).expect("a frame");
+    draw_random::<D>(policy, lanes, &mut target, seed, turn);
+    color
+}
+
+fn same_bits<D: Differentiation>(policy: impl Interpolation, stream: u64) {
+    for part in 0..4 {
+        let seed = run_seed() ^ part ^ stream << 32;
+        let whole = frame::<D>(policy, One, seed, 0);
+        assert!(whole.iter().filter(|&&p| p != 0).count() > 3000, "next to nothing was drawn");
+        for turn in 1..6 {
+            assert!(whole == frame::<D>(policy, One, seed, turn), "{policy:?}, turned {turn}");
+        }
+        for machine in Machine::all() {
+            let several = for_lanes!(machine, lanes => frame::<D>(policy, lanes, seed, part as usize));
+            assert!(whole == several, "{policy:?}, {machine:?}");
+        }
+        let mut color = vec![0; whole.len()];
+        let machine = Machine::all().next().expect("every machine has lanes");
+        for (piece, rows) in [0..9, 9..10, 10..43, 43..70].into_iter().enumerate() {
+            let color = &mut color[rows.start * WIDTH..rows.end * WIDTH];
+            let depth = &mut vec![(); color.len()];
+            let mut band =
+                Target::band(Rgba8888, NoDepth, SIZE, rows.start as u32, color, depth).expect("rows");
+            for columns in [[0, 13, 101], [0, 64, 101], [0, 3, 101], [0, 99, 101]][piece].windows(2) {
+                let mut scissor = band.scissor(columns[0]..columns[1], 0..i32::MAX);
+                if piece == 2 {
+                    draw_random::<D>(policy, One, &mut scissor, seed, 0);
+                } else {
+                    for_lanes!(machine, lanes => draw_random::<D>(policy, lanes, &mut scissor, seed, 0));
+                }
+            }
+        }
+        assert!(whole == color, "{policy:?}, in pieces");
+    }
+}
+
+#[test]
+fn lanes_pieces_and_vertex_order_change_no_bit() {
+    same_bits::<PerPixel>(Exact, 20);
+    same_bits::<PerPixel>(spans(8), 21);
+    same_bits::<Neighbours>(Exact, 22);
+    same_bits::<PerSpan>(Exact, 23);
+    same_bits::<PerSpan>(Planes, 24);
+    same_bits::<PerSpan>(spans(16), 25);
+    same_bits::<PerSpan>(FixedPoint(spans(8)), 26);
+    same_bits::<PerTriangle>(Exact, 27);
+    same_bits::<PerTriangle>(FixedPoint(Lines::affine()), 28);
+}

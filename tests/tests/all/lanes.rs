@@ -1,0 +1,242 @@
+//! One lane and as many as the machine has, on each kind of vector register that it has, give the same bits.
+//!
+//! Random triangles are drawn by a kernel for each kind of interpolation and numbers, with `AnyDepth` and `Lines`;
+//! `values.rs` compares these with the policies that are types.
+#![allow(clippy::cast_possible_truncation, reason = "random numbers within the range of what they become")]
+
+use alberti::glam::{Vec2, Vec3};
+use alberti::lanes::{Floating, Machine, One};
+use alberti::shaders::{Sunlit, Tinted, Unlit, VertexColor};
+use alberti::texture::{Bilinear, Filter, Mirror, Nearest, Repeat, Texture, Wrap};
+use alberti::{
+    AnyDepth, ColorFormat, Cull, D16, DepthFormat, Exact, F32, FixedPoint, FragmentStage, Interpolation,
+    Lines, Mesh, OrEqual, Pass, Planes, Rgb565Be, Rgba8, Rgba8888, Slot, Sub8, Target, Varying, Vector3,
+    for_lanes,
+};
+use alberti_app::scene::{Image, Vertex};
+use alberti_app::scenes::{BuiltIn, NAMES, by_name};
+use alberti_oracle::rng::{Rng, run_seed};
+use alberti_raster::Paint;
+use alberti_tests::random::triangle;
+use alberti_tests::reference::view;
+
+/// Random triangles over each other: the colours have every bit of the varying.
+fn random_frame<D: DepthFormat<Stored = u32>>(
+    format: D,
+    interpolation: impl Interpolation,
+    lanes: impl Floating,
+    seed: u64,
+) -> (Vec<u32>, Vec<u32>) {
+    let mut color = vec![0; WIDTH * 70];
+    let mut depth = vec![format.farthest(); color.len()];
+    let mut target =
+        Target::new(Rgba8888, format, WIDTH as u32, 70, &mut color, &mut depth).expect("a frame");
+    target.clear(Rgba8::BLACK);
+    draw_random(interpolation, lanes, &mut target, seed);
+    (color, depth)
+}
+
+fn draw_random<D: DepthFormat>(
+    interpolation: impl Interpolation,
+    lanes: impl Floating,
+    target: &mut Target<'_, Rgba8888, D>,
+    seed: u64,
+) {
+    let shader = |v: Vec3| {
+        let bits = v.to_array().map(f32::to_bits);
+        (bits[0] & 7 != 3)
+            .then(|| Rgba8::from_bits(bits[0] ^ bits[1].rotate_left(9) ^ bits[2].rotate_left(21)))
+    };
+    let paint = Paint { stage: shader, interpolation, subpixel: Sub8, cull: Cull::None };
+    let mut rng = Rng::new(seed);
+    for _ in 0..TRIANGLES {
+        let [a, b, c] = &triangle(&mut rng);
+        paint.triangle(lanes, target, [a, b, c], &mut ());
+    }
+}
+
+const TRIANGLES: usize = 1000;
+const WIDTH: usize = 101;
+
+fn random_triangles<D: DepthFormat<Stored = u32>>(format: D, interpolation: impl Interpolation, stream: u64) {
+    // Ten million triangles take some minutes: `cargo xtask sweep`.
+    let frames = if std::env::var_os("ALBERTI_SWEEP").is_some() { 2500 } else { 60 };
+    for part in 0..frames {
+        let seed = run_seed() ^ part ^ stream << 32;
+        let one = random_frame(format, interpolation, One, seed);
+        let drawn = one.0.iter().filter(|&&p| p != Rgba8::BLACK.to_bits().to_le()).count();
+        assert!(drawn > 3000, "next to nothing was drawn");
+        for machine in Machine::all() {
+            let several = for_lanes!(machine, lanes => random_frame(format, interpolation, lanes, seed));
+            assert!(one == several, "{interpolation:?}, {machine:?}, frame {part}");
+        }
+    }
+}
+
+#[test]
+fn random_triangles_with_exact_interpolation() {
+    random_triangles(AnyDepth::F32, Exact, 1);
+    random_triangles(AnyDepth::D16, Exact, 2);
+}
+
+#[test]
+fn random_triangles_with_planes() {
+    random_triangles(AnyDepth::F32Reversed, Planes, 3);
+    random_triangles(AnyDepth::D24, Planes, 4);
+}
+
+#[test]
+fn random_triangles_with_straight_lines() {
+    random_triangles(OrEqual(AnyDepth::F32), spans(8), 5);
+    random_triangles(AnyDepth::D32, spans(32), 6);
+    random_triangles(AnyDepth::NoDepth, Lines::affine(), 7);
+    random_triangles(AnyDepth::F32, Lines::bounded(0.01), 12);
+}
+
+/// One sample at a time whatever the machine has.
+#[test]
+fn random_triangles_in_fixed_point() {
+    random_triangles(AnyDepth::D16, FixedPoint(spans(16)), 13);
+    random_triangles(AnyDepth::D32, FixedPoint(Lines::bounded(0.01)), 14);
+    random_triangles(AnyDepth::F32, FixedPoint(Lines::affine()), 15);
+}
+
+/// The frame in pieces: bands of some rows, each in scissors of some columns, which begin in the middle of runs.
+#[test]
+fn pieces_of_a_frame_are_the_frame() {
+    pieces(Exact, 8);
+    pieces(Planes, 9);
+    pieces(spans(16), 10);
+    pieces(Lines::affine(), 11);
+    pieces(Lines::bounded(0.01), 16);
+    pieces(FixedPoint(spans(8)), 17);
+    pieces(FixedPoint(Lines::bounded(0.01)), 18);
+    pieces(FixedPoint(Lines::affine()), 19);
+}
+
+fn spans(length: i32) -> Lines {
+    Lines::spans(length).expect("a power of two")
+}
+
+fn pieces(interpolation: impl Interpolation, stream: u64) {
+    let machine = Machine::all().next().expect("every machine has lanes");
+    for part in 0..20 {
+        let seed = run_seed() ^ part ^ stream << 32;
+        let whole = random_frame(AnyDepth::F32, interpolation, One, seed);
+        let (mut color, mut depth) = (vec![0; whole.0.len()], vec![0; whole.0.len()]);
+        for (piece, rows) in [0..9, 9..10, 10..43, 43..70].into_iter().enumerate() {
+            let range = rows.start * WIDTH..rows.end * WIDTH;
+            let (color, depth) = (&mut color[range.clone()], &mut depth[range]);
+            let (size, first) = ([WIDTH as u32, 70], rows.start as u32);
+            let mut band = Target::band(Rgba8888, AnyDepth::F32, size, first, color, depth).expect("rows");
+            band.clear(Rgba8::BLACK);
+            for columns in [[0, 13, 101], [0, 64, 101], [0, 3, 101], [0, 99, 101]][piece].windows(2) {
+                let mut scissor = band.scissor(columns[0]..columns[1], 0..i32::MAX);
+                for_lanes!(machine, lanes => draw_random(interpolation, lanes, &mut scissor, seed));
+            }
+        }
+        assert!(whole == (color, depth), "{interpolation:?}, frame {part}");
+    }
+}
+
+/// One mesh of a built-in scene, drawn with given lanes, shading and format.
+struct Shot<'a> {
+    scene: &'a BuiltIn,
+    triangles: &'a [[u32; 3]],
+}
+
+impl Shot<'_> {
+    fn take<C, D, V, F>(
+        &self,
+        formats: (C, D),
+        lanes: impl Floating,
+        interpolation: impl Interpolation,
+        vertex_stage: impl Fn(&Vertex) -> (Vec3, V),
+        fragment_stage: F,
+    ) -> (Vec<C::Pixel>, Vec<D::Stored>)
+    where
+        C: ColorFormat<Pixel: Default + PartialEq>,
+        D: DepthFormat<Stored: PartialEq>,
+        V: Varying,
+        F: FragmentStage<V, Color = Rgba8>,
+    {
+        let (width, height) = (253, 190);
+        let vertices = &self.scene.model.vertices;
+        let mut color = vec![C::Pixel::default(); (width * height) as usize];
+        let mut depth = vec![formats.1.farthest(); color.len()];
+        let mut target =
+            Target::new(formats.0, formats.1, width, height, &mut color, &mut depth).expect("a frame");
+        let (view, mesh) =
+            (view(&self.scene.camera).expect("a view"), Mesh::new(vertices, self.triangles, vertex_stage));
+        Pass::new(&view, &mesh, fragment_stage)
+            .cull(Cull::None)
+            .interpolation(interpolation)
+            .slots(&mut vec![Slot::EMPTY; vertices.len()])
+            .draw_by(lanes, &mut target, &mut ());
+        (color, depth)
+    }
+
+    fn coloured(&self, lanes: impl Floating) -> (Vec<u16>, Vec<f32>) {
+        let vertex = |v: &Vertex| (position(v), Vec3::from_array(v.color));
+        self.take((Rgb565Be, F32), lanes, Planes, vertex, VertexColor)
+    }
+
+    /// Every wide stage at once: lit, tinted, textured.
+    fn textured(
+        &self,
+        filter: impl Filter,
+        wrap: impl Wrap,
+        lanes: impl Floating,
+        image: &Image,
+    ) -> (Vec<u32>, Vec<u16>) {
+        let texture = Texture::new(Rgba8888, &image.texels, image.width, image.height).expect("a texture");
+        let vertex = |v: &Vertex| (position(v), (Vec3::from_array(v.normal), Vec2::from_array(v.uv)));
+        let light = Vector3::new(Vec3::new(0.3, 0.8, -0.5));
+        let tint = Rgba8::new(250, 130, 70, 255);
+        match texture.power_of_two() {
+            Some(texture) => {
+                let surface = Tinted { surface: Unlit(texture.sampler(filter, wrap)), tint };
+                self.take((Rgba8888, D16), lanes, Exact, vertex, Sunlit::new(surface, light, 0.2, 0.8))
+            }
+            None => {
+                let surface = Tinted { surface: Unlit(texture.sampler(filter, wrap)), tint };
+                self.take((Rgba8888, D16), lanes, Exact, vertex, Sunlit::new(surface, light, 0.2, 0.8))
+            }
+        }
+    }
+}
+
+fn position(v: &Vertex) -> Vec3 {
+    Vec3::from_array(v.position)
+}
+
+#[test]
+fn all_scenes() {
+    // A texture whose sides are no powers of two, for the scenes that have none or others.
+    let mut rng = Rng::new(7);
+    let texels = (0..37 * 50).map(|_| (rng.u64() as u32).to_le_bytes()).collect();
+    let odd = Image { texels, width: 37, height: 50 };
+    let mut shots = 0;
+    for name in NAMES {
+        let scene = by_name(name).expect("a built-in scene");
+        for part in &scene.model.parts {
+            let shot = Shot { scene: &scene, triangles: &part.triangles };
+            let image = part.texture.map_or(&odd, |t| &scene.model.textures[t]);
+            let one = (
+                shot.coloured(One),
+                shot.textured(Nearest, Mirror, One, &odd),
+                shot.textured(Bilinear, Repeat, One, image),
+            );
+            for machine in Machine::all() {
+                let several = for_lanes!(machine, lanes => (
+                    shot.coloured(lanes),
+                    shot.textured(Nearest, Mirror, lanes, &odd),
+                    shot.textured(Bilinear, Repeat, lanes, image),
+                ));
+                assert!(one == several, "{name}, {machine:?}");
+                shots += 1;
+            }
+        }
+    }
+    assert!(shots >= 7);
+}

@@ -1,0 +1,97 @@
+//! The level of detail of textured planes in perspective, against its closed form.
+#![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "pixels within a frame")]
+
+use alberti_oracle::rng::{Rng, run_seed};
+use alberti_raster::{Exact, PerPixel};
+use alberti_tests::derivatives::{SIZE, carried, told};
+use alberti_tests::probe::vertex;
+
+type Matrix = [[f64; 2]; 2];
+
+fn times(a: Matrix, b: Matrix) -> Matrix {
+    a.map(|[x, y]| [x * b[0][0] + y * b[1][0], x * b[0][1] + y * b[1][1]])
+}
+
+fn turn(angle: f64) -> Matrix {
+    let (sine, cosine) = angle.sin_cos();
+    [[cosine, -sine], [sine, cosine]]
+}
+
+/// A textured plane in perspective, as the screen sees it: u(p) = G (p - p0) q(p0)/q(p) in texels, q linear in p.
+struct Textured {
+    g: Matrix,
+    p0: [f64; 2],
+    q0: f64,
+    slope: [f64; 2],
+}
+
+impl Textured {
+    fn from(&self, p: [f64; 2]) -> [f64; 2] {
+        [p[0] - self.p0[0], p[1] - self.p0[1]]
+    }
+
+    fn q(&self, p: [f64; 2]) -> f64 {
+        let [x, y] = self.from(p);
+        self.q0 + self.slope[0] * x + self.slope[1] * y
+    }
+
+    fn value(&self, p: [f64; 2]) -> [f64; 2] {
+        let [x, y] = self.from(p);
+        self.g.map(|row| (row[0] * x + row[1] * y) * self.q0 / self.q(p))
+    }
+
+    /// G (1 - (p - p0) (grad q)ᵀ/q(p)) q(p0)/q(p).
+    fn derivative(&self, p: [f64; 2]) -> Matrix {
+        let ([x, y], [a, b], q) = (self.from(p), self.slope, self.q(p));
+        let factor = [[q - x * a, -x * b], [-y * a, q - y * b]];
+        times(self.g, factor).map(|row| row.map(|c| c * self.q0 / (q * q)))
+    }
+}
+
+/// The level of detail within 2^-9 of that of the plane, turned about the eye and in itself, with pixels up to 1000
+/// times as long as they are wide, and q up to 100 times as great at one end of a triangle as at the other.
+#[test]
+fn levels_of_detail_of_turned_planes() {
+    const PLANES: u32 = 100_000;
+    let mut rng = Rng::stream(run_seed(), 30);
+    let (mut worst, mut count, mut steep) = (0f64, 0, 0);
+    for plane in 0..PLANES {
+        let corner = [rng.range(0, 8000), rng.range(0, 8000)];
+        let side = rng.range(64, 2000);
+        let at = |x: i64, y: i64| [(corner[0] + x * side) * 256, (corner[1] + y * side) * 256];
+        let tri = [at(0, 0), at(1, 0), at(0, 1)];
+        let mut inside = || [0, 1].map(|k| (corner[k] + rng.range(1, side / 2 - 1)) as i32);
+        let [pixel, base] = [inside(), inside()];
+        let corners = tri.map(|p| p.map(|c| c as f64 / 256.0));
+        let direction = turn(rng.uniform(0.0, std::f64::consts::TAU))[0];
+        let along = |p: [f64; 2]| p[0] * direction[0] + p[1] * direction[1];
+        let [low, high] = [f64::min, f64::max].map(|f| corners.map(along).into_iter().reduce(f).unwrap());
+        let least = f64::from(rng.log_uniform(0.01, 1.0));
+        let rise = (1.0 - least) / (high - low);
+        let p0 = base.map(|c| f64::from(c) + 0.5);
+        let texels = f64::from(rng.log_uniform(1e-3, 1e3));
+        let anisotropy = f64::from(rng.log_uniform(1.0, 1000.0));
+        let angle = f64::from(plane) * std::f64::consts::TAU / f64::from(PLANES);
+        let axes = [[texels, 0.0], [0.0, texels / anisotropy]];
+        let g = times(turn(rng.uniform(0.0, std::f64::consts::TAU)), times(axes, turn(angle)));
+        let textured =
+            Textured { g, p0, q0: least + (along(p0) - low) * rise, slope: direction.map(|c| c * rise) };
+        let values = corners.map(|p| {
+            let [u, v] = textured.value(p);
+            [(u / f64::from(SIZE[0])) as f32, (v / f64::from(SIZE[1])) as f32, 0.0, 0.0]
+        });
+        let vertices =
+            std::array::from_fn(|i| vertex(tri[i], 0.5, textured.q(corners[i]) as f32, carried(values[i])));
+        for (column, told) in told::<PerPixel>(Exact, &vertices, pixel[1], pixel[0]..pixel[0] + 1) {
+            let [du, dv] = textured.derivative([f64::from(column) + 0.5, f64::from(pixel[1]) + 0.5]);
+            let square = (du[0] * du[0] + dv[0] * dv[0]).max(du[1] * du[1] + dv[1] * dv[1]);
+            let exact = 0.5 * square.log2();
+            worst = worst.max((f64::from(told.lambda) - exact).abs());
+            assert!(worst <= 1.0 / 512.0, "{} for {exact}: {vertices:?}", told.lambda);
+            count += 1;
+            steep += u32::from(anisotropy > 100.0 && least < 0.1);
+        }
+    }
+    println!("level of detail: {worst:.6} at most (2^{:.2}) of {count}", worst.log2());
+    assert!(count == PLANES && steep > 10_000, "{steep} steep of {count}");
+}

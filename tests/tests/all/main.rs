@@ -1,0 +1,30 @@
+//! All tests across crates, in one binary: each kernel is compiled once for all that draw by it. A module's tests have
+//! its name: `cargo test -p alberti-tests bands::`.
+
+mod attributes;
+mod bands;
+mod clipping;
+mod coverage;
+mod depth;
+mod frames;
+mod golden;
+mod gradients;
+mod hostile;
+mod images;
+mod invariance;
+mod lanes;
+mod level_of_detail;
+mod material_draws;
+mod materials;
+mod minification;
+mod modes;
+mod parallel;
+mod pictures;
+mod policies;
+mod profiles;
+mod projector;
+mod reliefs;
+mod resolution;
+mod shared_edges;
+mod values;
+mod watertight;
