@@ -2,8 +2,8 @@
 
 use crate::probe::{LARGEST, Seen};
 use alberti::texture::Derivatives;
-use alberti_math::lanes::{Lanes, One};
-use alberti_math::{Flat, Linear, Sub8};
+use alberti_math::lanes::{Lanes, Machine};
+use alberti_math::{Flat, Linear, Sub8, for_lanes};
 use alberti_raster::{
     Cull, Differentiation, FragmentStage, Fragments, Gradient, Interpolation, NoDepth, Paint, Rgba8888,
     Target, Vertex,
@@ -105,8 +105,9 @@ pub fn told<D: Differentiation>(
     let (size, first) = ([frame, LARGEST.unsigned_abs()], row.unsigned_abs());
     let mut target = Target::band(Rgba8888, NoDepth, size, first, &mut color, &mut depth).expect("a row");
     let mut target = target.scissor(columns.clone(), 0..LARGEST);
+    let machine = Machine::all().next().expect("every machine has lanes");
     let paint = Paint { stage, interpolation, subpixel: Sub8, cull: Cull::None };
-    paint.triangle(One, &mut target, [a, b, c], &mut ());
+    for_lanes!(machine, lanes => paint.triangle(lanes, &mut target, [a, b, c], &mut ()));
     columns
         .clone()
         .zip(&color[columns.start.unsigned_abs() as usize..])

@@ -10,10 +10,10 @@
 )]
 
 use alberti::glam::Vec3;
-use alberti::lanes::One;
+use alberti::lanes::Machine;
 use alberti::{
     AnyDepth, Cull, DepthFormat, Exact, Flat, Frame, Interpolation, Lines, Mesh, Parallel, Pass, Rgba8,
-    Rgba8888, Sides, Slot, Target, View,
+    Rgba8888, Sides, Slot, Target, View, for_lanes,
 };
 use alberti_oracle::cases::pixel_centre;
 use alberti_oracle::coverage::covers;
@@ -43,7 +43,8 @@ fn drawn(policy: impl Interpolation, triangle: &[Given; 3]) -> Vec<([i64; 2], f3
     let (view, mesh) = (view(PLANES), Mesh::new(triangle, &[[0u16, 1, 2]], |v: &Given| *v));
     let stage = |u: f32| seen.keep(u);
     let mut pass = Pass::new(&view, &mesh, stage).cull(Cull::None).interpolation(policy);
-    pass.draw_by(One, &mut target, &mut ());
+    let machine = Machine::all().next().expect("every machine has lanes");
+    for_lanes!(machine, lanes => pass.draw_by(lanes, &mut target, &mut ()));
     let place = |i: usize| [(i % SIDE) as i64, (i / SIDE) as i64];
     let kept = color.iter().zip(&depth).enumerate().filter(|(_, (c, _))| **c != 0);
     kept.map(|(i, (&c, &zs))| (place(i), seen.at(c), zs)).collect()
