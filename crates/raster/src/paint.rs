@@ -15,6 +15,7 @@ use alberti_math::Varying;
 use alberti_math::lanes::Lanes;
 use core::marker::PhantomData;
 use core::ops::Range;
+use core::slice::from_mut;
 
 /// A prepared triangle: its depth and attributes, their derivatives, and the stage that makes colours of them.
 pub(crate) struct Painter<L, V: Varying, T, F: FragmentStage<V>> {
@@ -173,32 +174,35 @@ where
         let ((mut cursor, derivatives), _) = self.start(&whole, &mut known, covered.start, left);
         let formats = (target.color_format(), target.depth_format());
         let (colors, depths) = target.pixels_from(row, left);
-        let ((colors, last_colors), (depths, last_depths)) = (L::groups(colors), L::groups(depths));
-        let (mut values, mut written, mut column) = (mask.first(), 0, left);
-        for (color, depth) in colors.iter_mut().zip(depths) {
-            let group = bits & all::<L>();
-            if group != 0 {
-                let weights = mask.weights(values);
-                let known = (&cursor, &derivatives);
-                written += self.group(formats, (color, depth), group, known, ([column, row], &weights));
+        let ((mut colors, last_colors), (mut depths, last_depths)) = (L::groups(colors), L::groups(depths));
+        let (mut values, mut written, mut column, mut copy) = (mask.first(), 0, left, None);
+        loop {
+            for (color, depth) in colors.iter_mut().zip(depths) {
+                let group = bits & all::<L>();
+                if group != 0 {
+                    let weights = mask.weights(values);
+                    let known = (&cursor, &derivatives);
+                    written += self.group(formats, (color, depth), group, known, ([column, row], &weights));
+                }
+                bits >>= L::COUNT;
+                if bits == 0 {
+                    break;
+                }
+                column += L::STEP;
+                cursor = self.triangle.advance(cursor);
+                values = mask.right(values);
             }
-            bits >>= L::COUNT;
-            if bits == 0 {
-                return written;
+            if bits == 0 || copy.is_some() {
+                break;
             }
-            column += L::STEP;
-            cursor = self.triangle.advance(cursor);
-            values = mask.right(values);
+            let Some(group) = copied(self.lanes, last_colors, last_depths) else { break };
+            let (color, depth) = copy.insert(group);
+            (colors, depths) = (from_mut(color), from_mut(depth));
         }
-        let edges = mask.edges([column, row]);
+        if let Some(copy) = &copy {
+            put_back::<L, _, _>(copy, last_colors, last_depths);
+        }
         written
-            + self.end(
-                formats,
-                (last_colors, last_depths),
-                bits & all::<L>(),
-                (cursor, derivatives),
-                ([column, row], &edges),
-            )
     }
 
     /// Fills a run of samples. The last lanes may look at pixels beyond it, which they leave alone.
@@ -229,66 +233,34 @@ where
         let pixels = wanted.next_multiple_of(L::COUNT).min(colors.len() / L::COUNT * L::COUNT);
         let (colors, last_colors) = colors.split_at_mut_checked(pixels).unwrap_or_default();
         let (depths, last_depths) = depths.split_at_mut_checked(pixels).unwrap_or_default();
-        let ((colors, _), (depths, _)) = (L::groups(colors), L::groups(depths));
+        let ((mut colors, _), (mut depths, _)) = (L::groups(colors), L::groups(depths));
         let (mut bits, mut column, mut written) = (all::<L>() << (columns.start - left), left, 0);
-        for (color, depth) in colors.iter_mut().zip(depths) {
-            let remaining = columns.end - column;
-            if remaining < L::STEP {
-                bits &= (1 << remaining) - 1;
+        let mut copy = None;
+        loop {
+            for (color, depth) in colors.iter_mut().zip(depths) {
+                let remaining = columns.end - column;
+                if remaining < L::STEP {
+                    bits &= (1 << remaining) - 1;
+                }
+                let [ea, eb, ec] = edges;
+                let weights = [I::weights(lanes, ea), I::weights(lanes, eb), I::weights(lanes, ec)];
+                let (known, place) = ((&cursor, &derivatives), [column, row.row]);
+                written += self.group(formats, (color, depth), bits & all::<L>(), known, (place, &weights));
+                bits = all::<L>();
+                column += L::STEP;
+                cursor = self.triangle.advance(cursor);
+                edges = [advance(ea, a), advance(eb, b), advance(ec, c)];
             }
-            let [ea, eb, ec] = edges;
-            let weights = [I::weights(lanes, ea), I::weights(lanes, eb), I::weights(lanes, ec)];
-            let known = (&cursor, &derivatives);
-            written +=
-                self.group(formats, (color, depth), bits & all::<L>(), known, ([column, row.row], &weights));
-            bits = all::<L>();
-            column += L::STEP;
-            cursor = self.triangle.advance(cursor);
-            edges = [advance(ea, a), advance(eb, b), advance(ec, c)];
+            if column >= columns.end || copy.is_some() {
+                break;
+            }
+            let Some(group) = copied(lanes, last_colors, last_depths) else { break };
+            let (color, depth) = copy.insert(group);
+            (colors, depths) = (from_mut(color), from_mut(depth));
         }
-        if pixels >= wanted {
-            return written;
+        if let Some(copy) = &copy {
+            put_back::<L, _, _>(copy, last_colors, last_depths);
         }
-        let at = row.at(column);
-        let edge = |value, e: &Edge<I>| Edge { value, ..*e };
-        let edges = [edge(at[0], a), edge(at[1], b), edge(at[2], c)];
-        let bits = bits & ((1 << (columns.end - column)) - 1);
-        let last = (last_colors, last_depths);
-        written + self.end(formats, last, bits, (cursor, derivatives), ([column, row.row], &edges))
-    }
-
-    /// Fills the last samples of a band, fewer than there are lanes, by way of a copy. The first is in a column with
-    /// these edges.
-    #[cold]
-    #[inline(never)]
-    fn end<I, C, D>(
-        &self,
-        formats: (C, D),
-        (colors, depths): Pixels<'_, C::Pixel, D::Stored>,
-        bits: u32,
-        (cursor, derivatives): Known<T::Cursor, F::Derivatives, L, V>,
-        (place, [a, b, c]): ([i32; 2], &[Edge<I>; 3]),
-    ) -> u32
-    where
-        I: EdgeInt,
-        C: ColorFormat,
-        D: DepthFormat,
-    {
-        let lanes = self.lanes;
-        let (Some(&pixel), Some(&stored)) = (colors.first(), depths.first()) else { return 0 };
-        let mut color = lanes.each(|k| colors.get(k).copied().unwrap_or(pixel));
-        let mut depth = lanes.each(|k| depths.get(k).copied().unwrap_or(stored));
-        let written = lanes.vectorize(
-            #[inline(always)]
-            || {
-                let weight = |e: &Edge<I>| I::weights(lanes, I::ramp(lanes, e.value, e.step_x));
-                let weights = [weight(a), weight(b), weight(c)];
-                let known = (&cursor, &derivatives);
-                self.group(formats, (&mut color, &mut depth), bits, known, (place, &weights))
-            },
-        );
-        colors.iter_mut().zip(color.as_ref()).for_each(|(pixel, copy)| *pixel = *copy);
-        depths.iter_mut().zip(depth.as_ref()).for_each(|(stored, copy)| *stored = *copy);
         written
     }
 
@@ -320,6 +292,25 @@ where
         depth_format.keep(lanes, &zs, kept, depth);
         lanes.bits(kept).count_ones()
     }
+}
+
+/// A copy of the last pixels of a band, fewer than there are lanes, as a whole group.
+#[cold]
+fn copied<L: Lanes, C: Copy, D: Copy>(
+    lanes: L,
+    colors: &[C],
+    depths: &[D],
+) -> Option<(L::Each<C>, L::Each<D>)> {
+    let (&color, &depth) = (colors.first()?, depths.first()?);
+    let colors = lanes.each(|k| colors.get(k).copied().unwrap_or(color));
+    Some((colors, lanes.each(|k| depths.get(k).copied().unwrap_or(depth))))
+}
+
+/// Puts the copy's pixels in their places.
+#[cold]
+fn put_back<L: Lanes, C: Copy, D: Copy>(copy: &(L::Each<C>, L::Each<D>), colors: &mut [C], depths: &mut [D]) {
+    colors.iter_mut().zip(copy.0.as_ref()).for_each(|(pixel, copy)| *pixel = *copy);
+    depths.iter_mut().zip(copy.1.as_ref()).for_each(|(stored, copy)| *stored = *copy);
 }
 
 /// The column at which the lanes of a sample begin: a multiple of their number, so that all triangles read and write
