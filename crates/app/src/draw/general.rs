@@ -144,7 +144,7 @@ impl<'a> Drawing<'a> {
             Shading::Gouraud if lit => Surface::ByVertex(Gouraud { layers: material.layers }),
             _ if lit => Surface::ByFragment(material),
             Shading::Unlit => Surface::Unlit(Unlit(self.skin(part))),
-            _ => Surface::Lit(self.lit(part)),
+            _ => Surface::Lit(self.lit(self.skin(part))),
         };
         let textured = lit || (part.texture.is_some() && shading != Shading::VertexColor);
         let image = self.slide.map(|(_, image)| image.sampler(any_filter(options.filter), Clamp));

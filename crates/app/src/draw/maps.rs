@@ -11,7 +11,10 @@ use alberti::raster::Gradient;
 use alberti::shaders::material::{self, Times};
 use alberti::texture::format::{Content, L16, Normals, Rgba8888, Scalars};
 use alberti::texture::surface::{HeightMap, bilinear_height_lanes};
-use alberti::texture::{AnyFilter, AnyMipFilter, AnyWrap, MipSampler, Mipmap, Sampler, Texture, mipmap};
+use alberti::texture::{
+    AnyFilter, AnyMipFilter, AnyWrap, MipSampler, Mipmap, Nearest, PowerOfTwo, Repeat, Sampler, Texture,
+    mipmap,
+};
 use std::collections::HashMap;
 
 /// The mip maps that a model's surfaces are drawn with.
@@ -108,6 +111,9 @@ pub(super) type AnyMap<'a> = Called<MipSampler<'a, Rgba8888, AnyMipFilter, AnyWr
 /// An image without smaller levels.
 pub(super) type FlatMap<'a> = Called<Sampler<'a, Rgba8888, AnyFilter, AnyWrap>>;
 
+/// The same, read in the shortest way, which is not worth a call.
+pub(super) type TileMap<'a> = Sampler<'a, Rgba8888, Nearest, Repeat, Repeat, PowerOfTwo>;
+
 /// An image that the model has, if it has it.
 pub(super) fn any_map<'a>(
     model: &'a Model,
@@ -126,6 +132,12 @@ pub(super) fn any_map<'a>(
 /// A texture of a plain surface.
 pub(super) fn flat_map<'a>(texture: Texture<'a, Rgba8888>, options: &RenderOptions) -> FlatMap<'a> {
     Called(texture.sampler(any_filter(options.filter), any_wrap(options.wrap)))
+}
+
+/// A texture of a plain surface, if it is one for the shortest way.
+pub(super) fn tile_map<'a>(texture: Texture<'a, Rgba8888>, options: &RenderOptions) -> Option<TileMap<'a>> {
+    let tiles = (options.filter, options.wrap) == (Filter::Nearest, Wrap::Repeat);
+    Some(texture.power_of_two().filter(|_| tiles)?.sampler(Nearest, Repeat))
 }
 
 impl<M: material::Map> material::Map for Called<M> {

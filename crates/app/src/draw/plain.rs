@@ -1,7 +1,7 @@
 //! Plain surfaces: a colour, or a texture that is read in its largest level, as it is or in a light from beside the
 //! camera.
 
-use super::maps::{FlatMap, Scaled, flat_map};
+use super::maps::{FlatMap, Scaled, TileMap, flat_map, tile_map};
 use super::{AMBIENT, Canvas, DIFFUSE, Drawing, color, position};
 use crate::options::Shading;
 use crate::scene::{Part, Vertex};
@@ -20,21 +20,30 @@ impl<'a> Drawing<'a> {
         Scaled { factor: color(part.diffuse), map }
     }
 
-    /// The skin in the light from beside the camera.
-    pub(super) fn lit(&self, part: &Part) -> Sunlit<Unlit<Skin<'a>>> {
-        Sunlit::new(Unlit(self.skin(part)), self.light, AMBIENT, DIFFUSE)
+    /// The skin, if it is a texture for the shortest way.
+    fn tiles(&self, part: &Part) -> Option<TileMap<'a>> {
+        let texture = self.textures.get(part.texture?)?;
+        tile_map(*texture, self.options).filter(|_| color(part.diffuse) == Rgba8::WHITE)
+    }
+
+    /// A map in the light from beside the camera.
+    pub(super) fn lit<M>(&self, map: M) -> Sunlit<Unlit<M>> {
+        Sunlit::new(Unlit(map), self.light, AMBIENT, DIFFUSE)
     }
 
     /// A plain surface by the default interpolation.
     pub(super) fn draw_plain(&mut self, part: &Part, triangles: &[[u32; 3]], target: &mut Canvas<'_>) {
         let normal = |v: &Vertex| Vec3::from_array(v.normal);
         let uv = |v: &Vertex| Vec2::from_array(v.uv);
-        match self.options.shading {
-            Shading::VertexColor => {
+        let normal_uv = |v: &Vertex| (normal(v), uv(v));
+        match (self.options.shading, self.tiles(part)) {
+            (Shading::VertexColor, _) => {
                 self.draw(triangles, |v| Vec3::from_array(v.color), VertexColor, target);
             }
-            Shading::Unlit => self.draw(triangles, uv, Unlit(self.skin(part)), target),
-            _ => self.draw(triangles, |v| (normal(v), uv(v)), self.lit(part), target),
+            (Shading::Unlit, Some(map)) => self.draw(triangles, uv, Unlit(map), target),
+            (Shading::Unlit, None) => self.draw(triangles, uv, Unlit(self.skin(part)), target),
+            (_, Some(map)) => self.draw(triangles, normal_uv, self.lit(map), target),
+            (_, None) => self.draw(triangles, normal_uv, self.lit(self.skin(part)), target),
         }
     }
 
