@@ -40,6 +40,24 @@ impl Camera {
         Ok(View { to_eye: self.to_eye, projection: of_aspect(1.0 / WIDEST)?, fits: true })
     }
 
+    /// The view through a projection with an aspect ratio of its own, for example a constant. A constant lens is not
+    /// computed on the machine that draws, and brings no `f64` into the program.
+    ///
+    /// ```
+    /// use alberti::{Camera, Perspective, glam::Vec3};
+    ///
+    /// const LENS: Perspective = match Perspective::new(0.7, 320.0 / 240.0, 0.1, 100.0) {
+    ///     Ok(lens) => lens,
+    ///     Err(_) => panic!("an impossible lens"),
+    /// };
+    /// let view = Camera::look_at(Vec3::Z * 2.0, Vec3::ZERO, Vec3::Y)?.through(LENS);
+    /// # Ok::<(), alberti::ViewError>(())
+    /// ```
+    #[must_use]
+    pub const fn through<Pr: Projection>(self, projection: Pr) -> View<Pr> {
+        View::new(self.to_eye, projection)
+    }
+
     /// The view in parallel projection, of the full `height` in units of the world. Its aspect ratio is that of the
     /// viewport.
     ///

@@ -80,19 +80,22 @@ impl<'a, M: Geometry, Pr: Projection, S: Subpixel> Walk<'a, M, Pr, S> {
             afresh = corners;
             afresh.each_ref()
         };
+        // All of most triangles is inside.
         let all = corners[0].outside | corners[1].outside | corners[2].outside;
-        let common = corners[0].outside & corners[1].outside & corners[2].outside;
-        if all & outside::NOWHERE != 0 || common & (outside::NEAR | outside::FAR | outside::SIDES) != 0 {
-            counters.dropped();
-            return;
+        if all != 0 {
+            let common = corners[0].outside & corners[1].outside & corners[2].outside;
+            if all & outside::NOWHERE != 0 || common & (outside::NEAR | outside::FAR | outside::SIDES) != 0 {
+                counters.dropped();
+                return;
+            }
+            let sides = if screen.sides == Sides::Cube { outside::SIDES } else { 0 };
+            if all & (outside::NEAR | outside::FAR | outside::GUARD | sides) != 0 {
+                counters.clipped();
+                clip(screen, corners, |vertices| sink(vertices, counters));
+                return;
+            }
         }
-        let sides = if screen.sides == Sides::Cube { outside::SIDES } else { 0 };
-        if all & (outside::NEAR | outside::FAR | outside::GUARD | sides) == 0 {
-            sink([&corners[0].screen, &corners[1].screen, &corners[2].screen], counters);
-        } else {
-            counters.clipped();
-            clip(screen, corners, |vertices| sink(vertices, counters));
-        }
+        sink([&corners[0].screen, &corners[1].screen, &corners[2].screen], counters);
     }
 }
 

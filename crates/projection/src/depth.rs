@@ -39,7 +39,7 @@ impl DepthMap {
     /// [`ViewError::NearFar`] unless 0 < A < B, A finite, and α and β are normal `f32`; only α may be 0. A subnormal
     /// one would have lost the precision that is promised, so subnormal near planes are refused, and so are planes
     /// beyond B/A = 2^126: take B = ∞.
-    pub fn forward(near: f32, far: f32) -> Result<Self, ViewError> {
+    pub const fn forward(near: f32, far: f32) -> Result<Self, ViewError> {
         Self::onto([0.0, 1.0], near, far)
     }
 
@@ -54,7 +54,7 @@ impl DepthMap {
     ///
     /// # Errors
     /// As [`forward`](Self::forward).
-    pub fn reversed(near: f32, far: f32) -> Result<Self, ViewError> {
+    pub const fn reversed(near: f32, far: f32) -> Result<Self, ViewError> {
         Self::onto([1.0, 0.0], near, far)
     }
 
@@ -67,7 +67,7 @@ impl DepthMap {
     /// # Errors
     /// As [`forward`](Self::forward), for α and β of this range, and [`ViewError::DepthRange`] unless c and d are
     /// finite and differ.
-    pub fn onto([c, d]: [f32; 2], near: f32, far: f32) -> Result<Self, ViewError> {
+    pub const fn onto([c, d]: [f32; 2], near: f32, far: f32) -> Result<Self, ViewError> {
         if !(c.is_finite() && d.is_finite() && c != d) {
             return Err(ViewError::DepthRange);
         }
@@ -75,7 +75,7 @@ impl DepthMap {
             return Err(ViewError::NearFar);
         }
         // In f64 a product of two f32 is exact, and a difference exact or nearly so.
-        let [from, to, a, b] = [c, d, near, far].map(f64::from);
+        let [from, to, a, b] = [c as f64, d as f64, near as f64, far as f64];
         let (alpha, beta) = if far.is_finite() {
             ((to * b - from * a) / (b - a), (from - to) * (a * b) / (b - a))
         } else {

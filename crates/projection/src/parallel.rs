@@ -50,21 +50,23 @@ impl Parallel {
     /// # Errors
     /// [`ViewError::Height`], [`ViewError::Aspect`], and [`ViewError::NearFar`] unless A < B, neither beyond
     /// `f32::MAX`/16, nor so close to each other that 1/(B−A) overflows.
-    pub fn new(height: f32, aspect: f32, near: f32, far: f32) -> Result<Self, ViewError> {
+    pub const fn new(height: f32, aspect: f32, near: f32, far: f32) -> Result<Self, ViewError> {
         if !(height > 0.0 && height.is_finite()) {
             return Err(ViewError::Height);
         }
         if !(aspect > 0.0 && aspect.is_finite()) {
             return Err(ViewError::Aspect);
         }
-        let scale = 2.0 / f64::from(height);
+        let scale = 2.0 / height as f64;
         #[expect(clippy::cast_possible_truncation, reason = "rounded once, here")]
-        let (scale_x, scale_y) = ((scale / f64::from(aspect)) as f32, scale as f32);
+        let (scale_x, scale_y) = ((scale / aspect as f64) as f32, scale as f32);
         if !(scale_x.is_normal() && scale_y.is_normal()) {
             return Err(ViewError::Height);
         }
-        let [forward, reversed] = LinearDepth::between(near, far)?;
-        Ok(Self { scale, scale_x, scale_y, near, far, forward, reversed })
+        match LinearDepth::between(near, far) {
+            Ok([forward, reversed]) => Ok(Self { scale, scale_x, scale_y, near, far, forward, reversed }),
+            Err(error) => Err(error),
+        }
     }
 }
 
@@ -124,8 +126,8 @@ const LARGEST: f32 = f32::MAX / 16.0;
 
 impl LinearDepth {
     /// Forward, and reversed.
-    fn between(near: f32, far: f32) -> Result<[Self; 2], ViewError> {
-        let slope = 1.0 / (f64::from(far) - f64::from(near));
+    const fn between(near: f32, far: f32) -> Result<[Self; 2], ViewError> {
+        let slope = 1.0 / (far as f64 - near as f64);
         #[expect(clippy::cast_possible_truncation, reason = "rounded once, here")]
         let slope = slope as f32;
         // Written so that NaN is none.

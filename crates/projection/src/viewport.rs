@@ -48,10 +48,8 @@ impl Viewport {
 
     /// The aspect ratio, width / height, of square pixels.
     #[must_use]
-    pub fn aspect(&self) -> f32 {
-        #[expect(clippy::cast_possible_truncation, reason = "rounded once")]
-        let aspect = (f64::from(self.half[0]) / f64::from(self.half[1])) as f32;
-        aspect
+    pub const fn aspect(&self) -> f32 {
+        self.half[0] / self.half[1]
     }
 
     /// The snapped screen position of a point of the window: xv = (xs + 1) W/2 + x0, yv = (1 − ys) H/2 + y0, to the

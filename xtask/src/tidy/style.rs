@@ -23,7 +23,7 @@ const BUDGETS: &[Budget] = &[
     Budget { folder: "alberti", whats: 21, long: 14 },
     Budget { folder: "app", whats: 21, long: 20 },
     Budget { folder: "math", whats: 8, long: 17 },
-    Budget { folder: "projection", whats: 6, long: 22 },
+    Budget { folder: "projection", whats: 6, long: 21 },
     Budget { folder: "raster", whats: 28, long: 28 },
     Budget { folder: "texture", whats: 16, long: 55 },
 ];

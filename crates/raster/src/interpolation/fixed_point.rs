@@ -123,7 +123,8 @@ pub struct FixedLines<V: Varying> {
 }
 
 impl<V: Varying> FixedLines<V> {
-    #[inline(always)]
+    /// Not inlined, as it is long: edges of 32 and of 64 bits share it.
+    #[inline(never)]
     fn new(perspective: bool, triangle: &Oriented<'_, V>) -> Self {
         let shape = Shape::new(triangle);
         let [a, b, c] = triangle.vertices;

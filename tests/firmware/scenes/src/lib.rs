@@ -17,7 +17,7 @@ pub use draws::{
 pub use shapes::PROBE;
 
 use alberti::glam::Vec2;
-use alberti::{D16, DepthFormat, Perspective, Slot, ViewError};
+use alberti::{D16, DepthFormat, Perspective, Slot};
 use shapes::{Model, TORUS_VERTICES, floor, layers, torus};
 
 /// Columns of the frame.
@@ -109,12 +109,10 @@ pub struct Camera {
 
 impl Camera {
     /// A right angle from bottom to top, over the whole frame.
-    ///
-    /// # Errors
-    /// None.
-    pub fn new() -> Result<Self, ViewError> {
-        Ok(Self { perspective: Perspective::new(core::f32::consts::FRAC_PI_2, shapes::ASPECT, 0.5, 50.0)? })
-    }
+    pub const STEADY: Self = match Perspective::new(core::f32::consts::FRAC_PI_2, shapes::ASPECT, 0.5, 50.0) {
+        Ok(perspective) => Self { perspective },
+        Err(_) => panic!("a pyramid"),
+    };
 }
 
 /// The memory of a frame: colour in little-endian RGB565, depth in 16 bits, and the transformed vertices.
