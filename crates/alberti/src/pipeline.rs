@@ -127,7 +127,7 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection, S: Subpixel> Pass<'a,
     /// Draws into a target, triangles in order.
     ///
     /// With the feature `simd` it works on eight samples at a time, in the widest vector registers that the machine
-    /// turns out to have (with `std`) or is known to have; the pixels are those of [`draw_by`](Self::draw_by) one
+    /// turns out to have (with `std`) or is known to have. The pixels are those of [`draw_by`](Self::draw_by) one
     /// sample at a time.
     pub fn draw<C: ColorFormat, D: DepthFormat>(&mut self, target: &mut Target<'_, C, D>)
     where
@@ -207,8 +207,8 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection, S: Subpixel> Pass<'a,
     /// Does once, for all bands of a frame, the geometry half of [`draw`](Self::draw), as far as there is `room` for
     /// the triangles on the screen. Returns with them the room that is left, for the next pass.
     ///
-    /// Triangles that could never be drawn take no room: those that the pass leaves out for their facing, those outside
-    /// the view, and those whose box holds no sample of the viewport. A clipped triangle takes room for up to seven.
+    /// Triangles that could never be drawn take no room: those of the facing that is left out, those outside the view,
+    /// and those whose box holds no sample. A clipped triangle takes room for up to seven.
     /// The mesh's triangles are kept in order, up to the first that finds no room; without any, [`Prepared::draw`] is
     /// [`draw`](Self::draw). The pixels never depend on the room.
     ///

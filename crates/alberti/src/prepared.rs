@@ -111,8 +111,8 @@ where
 
     /// [`draw`](Self::draw) with as many samples at a time as there are `lanes`.
     ///
-    /// Of a kept triangle, `counters` hear its fate in the rasterizer, if it has rows in the band, and nothing
-    /// otherwise: one that is drawn in three bands is submitted once and drawn three times.
+    /// Of a kept triangle, `counters` hear its fate in the rasterizer, if it has rows in the band. One that is drawn in
+    /// three bands is submitted once and drawn three times.
     pub fn draw_by<L: Floating, C: ColorFormat, K: Counters>(
         &mut self,
         lanes: L,

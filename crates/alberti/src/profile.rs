@@ -214,9 +214,9 @@ profile!(Desktop: Exact = Exact, Sub8, Rgba8888, F32);
 /// For microcontrollers with or without floating point, and a display of 16 bits a pixel.
 ///
 /// # Precision
-/// Attributes in steps of 2^-16 within ±4096, right to a few of them every 16 columns, and off between by one a column
-/// and by the miss of a straight line: see [`FixedPoint`] and [`Spans16`]. Depth in steps of 2^-16 of zs; vertices
-/// within 2^-5 pixel; 5 or 6 bits a channel.
+/// Attributes in steps of 2^-16 within ±4096, right to a few of them every 16 columns. Between these they are off by
+/// one a column and the miss of a straight line: see [`FixedPoint`] and [`Spans16`]. Depth in steps of 2^-16 of zs;
+/// vertices within 2^-5 pixel; 5 or 6 bits a channel.
 ///
 /// # Cost
 /// A fragment: an addition for the depth and one a component. Every 16 columns: a look into a table instead of a
@@ -226,9 +226,8 @@ pub struct Mcu;
 
 profile!(Mcu: FixedPoint<Spans16> = FixedPoint(Spans16), Sub4, Rgb565Be, D16);
 
-/// For the least memory and the fewest instructions: no depth buffer, so that triangles have to come from back to
-/// front, and no perspective within a triangle, so that they have to be small, or face the viewer, where they carry
-/// textures.
+/// For the least memory and the fewest instructions. There is no depth buffer, so that triangles have to come from back
+/// to front. There is no perspective within a triangle, so that textured ones have to be small, or face the viewer.
 ///
 /// # Precision
 /// Attributes as the [`FixedPoint`] of [`Affine`]: linear on the screen, in steps of 2^-16 within ±4096. Vertices

@@ -25,7 +25,7 @@ mod tinted;
 pub mod wide;
 
 pub use color::{Ready565, Solid, VertexColor, VertexColor565};
-pub use map::{Map, Times};
+pub use map::{Called, Map, Times};
 pub use slide::{Add, Mix, Modulate, Slide};
 pub use sunlit::{Sunlit, face_normal};
 pub use texture::{Differentiated, Stored, Unlit};

@@ -5,8 +5,8 @@
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::{Floating, Machine, One};
 use alberti::shaders::material::{
-    BlinnPhong, Bump, Color, Directional, Emission, Framed, Gloss, Gouraud, Lighting, Material, NormalMap,
-    Occlusion, Parallax, Phong, PointLight, Reflection, Specular, SpotLight, Viewer, Wetness,
+    BlinnPhong, Bump, Called, Color, Directional, Emission, Framed, Gloss, Gouraud, Lighting, Material,
+    NormalMap, Occlusion, Parallax, Phong, PointLight, Reflection, Specular, SpotLight, Viewer, Wetness,
 };
 use alberti::texture::environment::LatLong;
 use alberti::texture::surface::{BilinearHeights, LimitedParallax, Relief, SteepParallax, Unorm};
@@ -129,18 +129,20 @@ fn every_machine_draws_the_same_bits() {
     let mip = Mipmap::new(Rgba8888, &texels, 16, 16).expect("a mip map").sampler(Trilinear, Repeat);
     let extent = Vec2::splat(0.8);
 
+    // Of maps that are read in place the pictures below have one or two each.
+    let (color, number) = (Called(mip), Called(smooth));
     let all = Material {
         layers: (
             Parallax {
                 relief: Relief { map: smooth, low: -0.1, high: 0.1, extent },
                 policy: SteepParallax { layers: 9 },
             },
-            Color(mip),
-            (Specular(smooth), Gloss(sharp), Wetness(smooth)),
-            Occlusion { map: mip, strength: 0.8 },
-            NormalMap { map: mip, encoding: Unorm, strength: () },
+            Color(color),
+            (Specular(number), Gloss(Called(sharp)), Wetness(number)),
+            Occlusion { map: color, strength: 0.8 },
+            NormalMap { map: color, encoding: Unorm, strength: () },
             Emission(Rgba8::from_rgb24(0x08_04_00)),
-            Reflection { environment: LatLong, image: smooth, strength: sharp, facing: 0.04 },
+            Reflection { environment: LatLong, image: number, strength: Called(sharp), facing: 0.04 },
         ),
         lighting: lighting(BlinnPhong([1, 300])),
     };

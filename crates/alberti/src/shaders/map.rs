@@ -10,8 +10,8 @@ use alberti_texture::{
 };
 use core::fmt::Debug;
 
-/// A colour for each place on a surface: a [`Sampler`], a [`MipSampler`], which reads what a pixel covers, an
-/// [`Rgba8`], which is the same everywhere, or [`Times`] one of them.
+/// A colour for each place on a surface: a [`Sampler`], a [`MipSampler`] for all that a pixel covers, an [`Rgba8`] for
+/// one colour everywhere, or [`Times`] or [`Called`] one of them.
 pub trait Map: Copy + Debug {
     /// What it needs to know of neighbouring pixels.
     type Derivatives: Differentiation;
@@ -70,4 +70,38 @@ impl<M: Map> Map for Times<M> {
     fn read<L: Lanes>(&self, lanes: L, uv: [L::Number; 2], gradient: &Gradient<[L::Number; 2]>) -> L::U32 {
         times(lanes, self.map.read(lanes, uv, gradient), self.factor)
     }
+}
+
+/// A map that is read by a call, instead of in place.
+///
+/// # Cost
+/// A call for the samples that are worked on together. In return the map's code is in a program once for each kind of
+/// lanes, and not in every loop of every stage. Mip maps and filters that are picked at run time are long enough for
+/// that, above all in materials of several maps.
+#[derive(Clone, Copy, Debug)]
+pub struct Called<M>(
+    /// A [`Map`].
+    pub M,
+);
+
+impl<M: Map> Map for Called<M> {
+    type Derivatives = M::Derivatives;
+
+    #[inline(always)]
+    fn read<L: Lanes>(&self, lanes: L, uv: [L::Number; 2], gradient: &Gradient<[L::Number; 2]>) -> L::U32 {
+        called(lanes, &self.0, uv, gradient)
+    }
+}
+
+#[inline(never)]
+fn called<L: Lanes>(
+    lanes: L,
+    map: &impl Map,
+    uv: [L::Number; 2],
+    gradient: &Gradient<[L::Number; 2]>,
+) -> L::U32 {
+    lanes.vectorize(
+        #[inline(always)]
+        || map.read(lanes, uv, gradient),
+    )
 }

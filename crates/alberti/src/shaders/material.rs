@@ -46,7 +46,7 @@ mod vector;
 
 pub use layers::{Color, Emission, Gloss, Occlusion, Specular, Wetness};
 pub use light::{Directional, Light, PointLight, SpotLight};
-pub use map::{Map, Times};
+pub use map::{Called, Map, Times};
 pub use reflectance::{BlinnPhong, Lambert, Phong, Reflectance, Shininess};
 pub use reflection::Reflection;
 pub use relief::{Bump, NormalMap, ObjectNormals, Parallax, Strength, TwoChannels};

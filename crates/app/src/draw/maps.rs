@@ -8,7 +8,7 @@ use alberti::Rgba8;
 use alberti::glam::Vec2;
 use alberti::lanes::Lanes;
 use alberti::raster::Gradient;
-use alberti::shaders::material::{self, Times};
+use alberti::shaders::material::{self, Called, Times};
 use alberti::texture::format::{Content, L16, Normals, Rgba8888, Scalars};
 use alberti::texture::surface::{HeightMap, bilinear_height_lanes};
 use alberti::texture::{
@@ -101,11 +101,7 @@ fn any_wrap(wrap: Wrap) -> AnyWrap {
     }
 }
 
-/// A map that is read by a call: its code is long, as all filters and wrap modes are in it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Called<M>(M);
-
-/// An image, perhaps with smaller levels, with the way of reading it.
+/// An image, perhaps with smaller levels, with the way of reading it; all filters and wrap modes are long code.
 pub(super) type AnyMap<'a> = Called<MipSampler<'a, Rgba8888, AnyMipFilter, AnyWrap>>;
 
 /// An image without smaller levels.
@@ -138,29 +134,6 @@ pub(super) fn flat_map<'a>(texture: Texture<'a, Rgba8888>, options: &RenderOptio
 pub(super) fn tile_map<'a>(texture: Texture<'a, Rgba8888>, options: &RenderOptions) -> Option<TileMap<'a>> {
     let tiles = (options.filter, options.wrap) == (Filter::Nearest, Wrap::Repeat);
     Some(texture.power_of_two().filter(|_| tiles)?.sampler(Nearest, Repeat))
-}
-
-impl<M: material::Map> material::Map for Called<M> {
-    type Derivatives = M::Derivatives;
-
-    #[inline(always)]
-    fn read<L: Lanes>(&self, lanes: L, uv: [L::Number; 2], gradient: &Gradient<[L::Number; 2]>) -> L::U32 {
-        read(lanes, &self.0, uv, gradient)
-    }
-}
-
-/// A map's colours. Not inlined, so that there is one copy for each kind of lanes.
-#[inline(never)]
-fn read<L: Lanes>(
-    lanes: L,
-    map: &impl material::Map,
-    uv: [L::Number; 2],
-    gradient: &Gradient<[L::Number; 2]>,
-) -> L::U32 {
-    lanes.vectorize(
-        #[inline(always)]
-        || map.read(lanes, uv, gradient),
-    )
 }
 
 /// A constant, times a map where there is one. A map times white is the map.

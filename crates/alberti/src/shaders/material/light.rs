@@ -114,9 +114,9 @@ pub struct SpotLight {
 }
 
 impl SpotLight {
-    /// A light that shines along `axis`, of any length but zero, whole up to the angle with the cosine `inner` from it,
-    /// and then less, linearly in the cosine, up to the angle with the cosine `outer`. An `inner` that is not above
-    /// `outer` by at least 2^-12 counts as that: the edge is sharp.
+    /// A light that shines along `axis`, of any length but zero. It is whole up to the angle with the cosine `inner`,
+    /// and from there less, linearly in the cosine, up to the angle with the cosine `outer`. An `inner` that is not
+    /// above `outer` by at least 2^-12 counts as that: the edge is sharp.
     #[must_use]
     pub fn new(point: PointLight, axis: Vector3<World>, [inner, outer]: [f32; 2]) -> Self {
         // A sharp edge is as steep as numbers in fixed point can tell.
