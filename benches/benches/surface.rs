@@ -12,7 +12,7 @@
 
 use alberti::glam::{DVec2, DVec3, Vec2, Vec3};
 use alberti::lanes::{Floating, Machine, One};
-use alberti::raster::{Neighbours, PerSpan, PerTriangle};
+use alberti::raster::{PerSpan, PerTriangle};
 use alberti::shaders::material::{
     Color, Directional, Emission, Framed, Gloss, Lambert, Lighting, Material, NormalMap, Occlusion, Parallax,
     Placed, Specular, Viewer, Wetness,
@@ -328,7 +328,6 @@ fn surface(criterion: &mut Criterion) {
         "nearest-mip": bare, Unlit(mip(&maps.color).sampler(Minify { min: Nearest, levels: NearestLevel, mag: Nearest }, Repeat));
         "bilinear-mip": bare, Unlit(mip(&maps.color).sampler(Minify { min: Bilinear, levels: NearestLevel, mag: Bilinear }, Repeat));
         "trilinear": bare, trilinear_unlit, |uv, lambda| trilinear(&maps.color, uv, lambda);
-        "trilinear-neighbours": bare, Differentiated::by(Neighbours, trilinear_unlit);
         "trilinear-per-span": bare, Differentiated::by(PerSpan, trilinear_unlit);
         "trilinear-per-triangle": bare, Differentiated::by(PerTriangle, trilinear_unlit);
         "anisotropic-4": bare, Unlit(mip(&maps.color).sampler(Anisotropic { probes: 4, filter: Trilinear }, Repeat));

@@ -8,7 +8,6 @@ use alberti_raster::{
     Cull, Differentiation, FragmentStage, Fragments, Gradient, Interpolation, NoDepth, Paint, Rgba8888,
     Target, Vertex,
 };
-use std::marker::PhantomData;
 use std::ops::Range;
 
 /// Two hyperbolic components, a linear and a flat one.
@@ -36,29 +35,26 @@ pub struct Told {
 pub const SIZE: [u32; 2] = [512, 128];
 
 /// A stage that keeps its news; its colour is the place of these, or without a list, bits made of them.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Listener<'a, D> {
     seen: Option<&'a Seen<Told>>,
-    policy: PhantomData<D>,
+    policy: D,
 }
 
-impl<D> Clone for Listener<'_, D> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<D> Copy for Listener<'_, D> {}
-
-impl<D> Default for Listener<'_, D> {
-    fn default() -> Self {
-        Self { seen: None, policy: PhantomData }
+impl<D> Listener<'_, D> {
+    /// The stage without a list, which asks for derivatives by this policy.
+    pub const fn by(policy: D) -> Self {
+        Self { seen: None, policy }
     }
 }
 
 impl<D: Differentiation> FragmentStage<Carried> for Listener<'_, D> {
     type Color = u32;
     type Derivatives = D;
+
+    fn derivatives(&self) -> D {
+        self.policy
+    }
 
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, Carried>) -> (L::U32, L::Mask) {
         let Fragments { lanes, gradient: Gradient { dx, dy }, mask, .. } = *fragments;
@@ -92,7 +88,8 @@ impl Told {
 ///
 /// # Panics
 /// When they lie beyond the largest frame.
-pub fn told<D: Differentiation>(
+pub fn told(
+    differentiation: impl Differentiation,
     interpolation: impl Interpolation,
     [a, b, c]: &[Vertex<Carried>; 3],
     row: i32,
@@ -101,7 +98,7 @@ pub fn told<D: Differentiation>(
     let frame = columns.end.unsigned_abs();
     let (mut color, mut depth) = (vec![0; frame as usize], vec![(); frame as usize]);
     let seen = Seen::default();
-    let stage = Listener::<D> { seen: Some(&seen), policy: PhantomData };
+    let stage = Listener { seen: Some(&seen), policy: differentiation };
     let (size, first) = ([frame, LARGEST.unsigned_abs()], row.unsigned_abs());
     let mut target = Target::band(Rgba8888, NoDepth, size, first, &mut color, &mut depth).expect("a row");
     let mut target = target.scissor(columns.clone(), 0..LARGEST);

@@ -143,7 +143,7 @@ impl<P: Interpolation, L: Floating, V: Varying, F: FragmentStage<V>> Setup<'_, P
     fn prepare(&self) -> Painter<P::Lanes<L>, V, P::Triangle<L, V>, F> {
         let Self { interpolation, lanes, oriented, stage } = *self;
         let triangle = interpolation.prepare(lanes, oriented);
-        let derivatives = F::Derivatives::prepare(oriented);
+        let derivatives = stage.derivatives().prepare(oriented);
         Painter { lanes: interpolation.lanes(lanes), triangle, derivatives, stage, varying: PhantomData }
     }
 }

@@ -43,6 +43,12 @@ pub trait FragmentStage<V: Varying>: Copy {
     /// The way to the derivatives of the varying: [`NoDerivatives`], unless it needs them.
     type Derivatives: Differentiation;
 
+    /// That way.
+    #[inline(always)]
+    fn derivatives(&self) -> Self::Derivatives {
+        Self::Derivatives::default()
+    }
+
     /// The colours of several fragments, as words, and those of them that are not discarded. Samples beside the mask
     /// may get any colour. Under [`FixedPoint`](crate::FixedPoint) numbers are `Q16`: within ±32768, in steps of 2^-16.
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, V>) -> (L::U32, L::Mask);

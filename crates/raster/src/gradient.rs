@@ -6,7 +6,6 @@
 //! |---|---|---|
 //! | [`NoDerivatives`] | | none |
 //! | [`PerPixel`] | at each sample | one a fragment, which [`Exact`](crate::Exact) shares |
-//! | [`Neighbours`] | between a sample and the next ones | three a fragment |
 //! | [`PerSpan`] | in the middle of each run of samples | one a run |
 //! | [`PerTriangle`] | at the triangle's centroid | one a triangle |
 //!
@@ -58,7 +57,7 @@ impl<T> Gradient<T> {
 
 /// A policy of differentiation, which a [`FragmentStage`](crate::FragmentStage) chooses.
 ///
-/// In fixed point, where weights are not at hand as numbers, [`PerPixel`] and [`Neighbours`] are [`PerSpan`].
+/// In fixed point, where weights are not at hand as numbers, [`PerPixel`] is [`PerSpan`].
 pub trait Differentiation: Copy + Debug + Default + 'static {
     /// What a stage takes whose parts take this and `D`: the first of the two that is not [`NoDerivatives`].
     type With<D: Differentiation>: Differentiation;
@@ -68,10 +67,11 @@ pub trait Differentiation: Copy + Debug + Default + 'static {
     type Run<L: Lanes, V: Varying>: Copy;
 
     /// Prepares a triangle.
-    fn prepare<V: Varying>(triangle: &Oriented<'_, V>) -> Self::Triangle<V>;
+    fn prepare<V: Varying>(self, triangle: &Oriented<'_, V>) -> Self::Triangle<V>;
 
     /// Begins a run of a row's samples.
     fn run<L: Lanes, V: Varying, I: EdgeInt>(
+        self,
         lanes: L,
         triangle: &Self::Triangle<V>,
         row: &Row<'_, I>,
@@ -80,6 +80,7 @@ pub trait Differentiation: Copy + Debug + Default + 'static {
 
     /// The derivatives at the samples `at`.
     fn at<L: Lanes, V: Varying>(
+        self,
         lanes: L,
         triangle: &Self::Triangle<V>,
         run: &Self::Run<L, V>,
@@ -117,13 +118,14 @@ impl Differentiation for NoDerivatives {
     type Run<L: Lanes, V: Varying> = ();
 
     #[inline(always)]
-    fn prepare<V: Varying>(_: &Oriented<'_, V>) {}
+    fn prepare<V: Varying>(self, _: &Oriented<'_, V>) {}
 
     #[inline(always)]
-    fn run<L: Lanes, V: Varying, I: EdgeInt>(_: L, (): &(), _: &Row<'_, I>, _: Span) {}
+    fn run<L: Lanes, V: Varying, I: EdgeInt>(self, _: L, (): &(), _: &Row<'_, I>, _: Span) {}
 
     #[inline(always)]
     fn at<L: Lanes, V: Varying>(
+        self,
         lanes: L,
         (): &(),
         (): &(),
@@ -150,20 +152,6 @@ impl Differentiation for NoDerivatives {
 /// last, and three products and a difference a component.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct PerPixel;
-
-/// By differences: what the attribute is at the next sample to the right, or below, less what it is here.
-///
-/// The samples need not be covered, and where the plane of the triangle has its horizon between the two, the difference
-/// means nothing. It is that of the functions, so it does not depend on the triangles that are drawn there.
-///
-/// # Precision
-/// Against the derivatives, off by half of the second derivative. As differences, like [`PerPixel`] but for (1 + 6κ)ε
-/// more, with κ = |T' − T|/|T'| where T' is that of the next sample: T' is within 4ε T + ε |T' − T| + ε |T'|.
-///
-/// # Cost
-/// That of [`PerPixel`], and two divisions, two sums and four products.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Neighbours;
 
 /// In the middle of each run of samples: as many columns as the policy of interpolation says, or a whole row of the
 /// triangle.
@@ -194,8 +182,6 @@ pub struct Quotients<V: Varying> {
     q: [f64; 3],
     /// What T is at the centroid.
     t: f64,
-    /// What a column and a row add to T.
-    slope: [f64; 2],
     /// The first corner and the centroid, in pixels.
     origin: [f64; 2],
     centroid: [f64; 2],
@@ -224,8 +210,6 @@ impl<V: Varying> Quotients<V> {
         let t = area * q[0];
         // What the areas by columns and rows have in common: nothing cancels in thin triangles.
         let common = area * one * one;
-        let axis = |k: usize| of_b[k] * (q[1] - q[0]) + of_c[k] * (q[2] - q[0]);
-        let slope = [axis(0), axis(1)];
         let numerators = V::map_by_mode(&triangle.values(), &|mode, [u, v, w, _]: [f32; 4]| {
             let [v, w] = [f64::from(v) - f64::from(u), f64::from(w) - f64::from(u)];
             match mode {
@@ -243,7 +227,7 @@ impl<V: Varying> Quotients<V> {
         });
         let middle = |k: usize| (a[k] + b[k] + c[k]) / (3.0 * one);
         let t = area * (q[0] + q[1] + q[2]) / 3.0;
-        Self { q, t, slope, origin: [a[0] / one, a[1] / one], centroid: [middle(0), middle(1)], numerators }
+        Self { q, t, origin: [a[0] / one, a[1] / one], centroid: [middle(0), middle(1)], numerators }
     }
 
     /// The derivatives by column and row at a place in pixels, where T is given.
@@ -289,8 +273,6 @@ impl<V: Varying> Quotients<V> {
 pub struct RunQuotients<L: Lanes, V: Varying> {
     /// The column from which x is counted.
     start: i32,
-    /// What a column and a row add to T.
-    slope: [L::Number; 2],
     /// A + J y, B and J; of what is not hyperbolic, and in fixed point of everything, the derivatives themselves.
     numerators: V::Of<[L::Number; 3]>,
 }
@@ -311,13 +293,12 @@ impl<L: Lanes, V: Varying> RunQuotients<L, V> {
             let numerators = V::map(&derivatives, &|[dx, dy]: [f32; 2]| {
                 [lanes.splat(dx), lanes.splat(dy), lanes.splat(0.0)]
             });
-            return Self { start: 0, slope: [lanes.splat(0.0); 2], numerators };
+            return Self { start: 0, numerators };
         }
         let x = f64::from(run.start) + 0.5 - of.origin[0];
         let y = f64::from(row.row) + 0.5 - of.origin[1];
         Self {
             start: run.start,
-            slope: [splat(of.slope[0]), splat(of.slope[1])],
             numerators: V::map_by_mode(&of.numerators, &|mode, [a, b, j]: [f64; 3]| match mode {
                 Mode::Hyperbolic => [splat(a + j * y), splat(b - j * x), splat(j)],
                 _ => [splat(a), splat(b), splat(j)],
@@ -325,26 +306,21 @@ impl<L: Lanes, V: Varying> RunQuotients<L, V> {
         }
     }
 
-    /// The derivatives where T is given, or what `per` makes of 1/T for the two directions instead of 1/T².
+    /// The derivatives at samples.
     #[inline(always)]
-    fn at(
-        &self,
-        lanes: L,
-        of: &Quotients<V>,
-        at: &Samples<'_, L, V>,
-        per: impl Fn(L::Number, [L::Number; 2]) -> [L::Number; 2],
-    ) -> Gradient<V::Of<L::Number>> {
+    fn at(&self, lanes: L, of: &Quotients<V>, at: &Samples<'_, L, V>) -> Gradient<V::Of<L::Number>> {
         let derivatives = if L::FIXED {
             V::map(&self.numerators, &|[dx, dy, _]: [L::Number; 3]| [dx, dy])
         } else {
             let [ea, eb, ec] = *at.weights;
             let [qa, qb, qc] = of.q_lanes(lanes);
             let t = ea * qa + eb * qb + ec * qc;
-            let per = per(t, self.slope);
+            let per = lanes.splat(1.0) / t;
+            let per = per * per;
             #[expect(clippy::cast_precision_loss, reason = "columns are below 2^24")]
             let x = lanes.ramp() + lanes.splat((at.column - self.start) as f32);
             V::map_by_mode(&self.numerators, &|mode, [a, b, j]: [L::Number; 3]| match mode {
-                Mode::Hyperbolic => [a * per[0], (b - j * x) * per[1]],
+                Mode::Hyperbolic => [a * per, (b - j * x) * per],
                 _ => [a, b],
             })
         };
@@ -358,50 +334,37 @@ fn of_pairs<V: Varying, N: Copy>(pairs: &V::Of<[N; 2]>) -> Gradient<V::Of<N>> {
     Gradient { dx: V::map(pairs, &|[dx, _]: [N; 2]| dx), dy: V::map(pairs, &|[_, dy]: [N; 2]| dy) }
 }
 
-/// The policies that differentiate at each sample: what they divide by, for 1/T².
-macro_rules! at_samples {
-    ($($policy:ident: |$lanes:ident, $t:ident, $slope:ident| $per:expr;)*) => {$(
-        impl Differentiation for $policy {
-            type With<D: Differentiation> = Self;
-            type Triangle<V: Varying> = Quotients<V>;
-            type Run<L: Lanes, V: Varying> = RunQuotients<L, V>;
+impl Differentiation for PerPixel {
+    type With<D: Differentiation> = Self;
+    type Triangle<V: Varying> = Quotients<V>;
+    type Run<L: Lanes, V: Varying> = RunQuotients<L, V>;
 
-            #[inline(always)]
-            fn prepare<V: Varying>(triangle: &Oriented<'_, V>) -> Quotients<V> {
-                Quotients::new(triangle)
-            }
+    #[inline(always)]
+    fn prepare<V: Varying>(self, triangle: &Oriented<'_, V>) -> Quotients<V> {
+        Quotients::new(triangle)
+    }
 
-            #[inline(always)]
-            fn run<L: Lanes, V: Varying, I: EdgeInt>(
-                lanes: L,
-                triangle: &Quotients<V>,
-                row: &Row<'_, I>,
-                run: Span,
-            ) -> RunQuotients<L, V> {
-                RunQuotients::new(lanes, triangle, row, run)
-            }
+    #[inline(always)]
+    fn run<L: Lanes, V: Varying, I: EdgeInt>(
+        self,
+        lanes: L,
+        triangle: &Quotients<V>,
+        row: &Row<'_, I>,
+        run: Span,
+    ) -> RunQuotients<L, V> {
+        RunQuotients::new(lanes, triangle, row, run)
+    }
 
-            #[inline(always)]
-            fn at<L: Lanes, V: Varying>(
-                $lanes: L,
-                triangle: &Quotients<V>,
-                run: &RunQuotients<L, V>,
-                at: &Samples<'_, L, V>,
-            ) -> Gradient<V::Of<L::Number>> {
-                run.at($lanes, triangle, at, |$t, $slope| $per)
-            }
-        }
-    )*};
-}
-at_samples! {
-    PerPixel: |lanes, t, _slope| {
-        let per = lanes.splat(1.0) / t;
-        [per * per; 2]
-    };
-    Neighbours: |lanes, t, slope| {
-        let (one, per) = (lanes.splat(1.0), lanes.splat(1.0) / t);
-        [per * (one / (t + slope[0])), per * (one / (t + slope[1]))]
-    };
+    #[inline(always)]
+    fn at<L: Lanes, V: Varying>(
+        self,
+        lanes: L,
+        triangle: &Quotients<V>,
+        run: &RunQuotients<L, V>,
+        at: &Samples<'_, L, V>,
+    ) -> Gradient<V::Of<L::Number>> {
+        run.at(lanes, triangle, at)
+    }
 }
 
 /// The policies that have the same derivatives along a whole run.
@@ -413,12 +376,13 @@ macro_rules! along_runs {
             type Run<L: Lanes, V: Varying> = V::Of<[L::Number; 2]>;
 
             #[inline(always)]
-            fn prepare<V: Varying>($of: &Oriented<'_, V>) -> Self::Triangle<V> {
+            fn prepare<V: Varying>(self, $of: &Oriented<'_, V>) -> Self::Triangle<V> {
                 $prepare
             }
 
             #[inline(always)]
             fn run<L: Lanes, V: Varying, I: EdgeInt>(
+                self,
                 lanes: L,
                 $triangle: &Self::Triangle<V>,
                 $row: &Row<'_, I>,
@@ -429,6 +393,7 @@ macro_rules! along_runs {
 
             #[inline(always)]
             fn at<L: Lanes, V: Varying>(
+                self,
                 _: L,
                 _: &Self::Triangle<V>,
                 run: &Self::Run<L, V>,

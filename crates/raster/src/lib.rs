@@ -27,9 +27,7 @@ pub use depth::{AnyDepth, D16, D24, D32, DepthFormat, F32, F32Reversed, NoDepth}
 pub use draw::Paint;
 pub use edge::{Edge, EdgeInt, FITS_I32};
 pub use fragment::{FragmentStage, Fragments};
-pub use gradient::{
-    Differentiation, Gradient, Neighbours, NoDerivatives, PerPixel, PerSpan, PerTriangle, Samples,
-};
+pub use gradient::{Differentiation, Gradient, NoDerivatives, PerPixel, PerSpan, PerTriangle, Samples};
 pub use interpolation::{
     Affine, Exact, ExactTriangle, FixedPoint, Interpolation, Lines, Planes, Runs, Spans16,
 };

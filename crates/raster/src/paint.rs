@@ -110,7 +110,7 @@ where
         aligned: i32,
     ) -> (Known<T::Cursor, F::Derivatives, L, V>, Span) {
         let (cursor, run) = self.triangle.start(row, known, column, aligned);
-        ((cursor, F::Derivatives::run(self.lanes, &self.derivatives, row, run)), run)
+        ((cursor, self.stage.derivatives().run(self.lanes, &self.derivatives, row, run)), run)
     }
 
     /// Fills pixels one by one, from `column` on. Not inlined, for the same reason.
@@ -286,7 +286,7 @@ where
         }
         let varying = self.triangle.attributes(cursor, weights);
         let at = Samples { column: place[0], weights, values: &varying };
-        let gradient = F::Derivatives::at(lanes, &self.derivatives, derivatives, &at);
+        let gradient = self.stage.derivatives().at(lanes, &self.derivatives, derivatives, &at);
         let (words, kept) = self.stage.shade(&Fragments { lanes, varying, gradient, mask: seen, place });
         color_format.store::<L, F::Color>(lanes, words, kept, color);
         depth_format.keep(lanes, &zs, kept, depth);

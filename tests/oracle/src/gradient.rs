@@ -1,4 +1,4 @@
-//! How an interpolated value changes from pixel to pixel, in integers: derivatives and differences of U/T, where
+//! How an interpolated value changes from pixel to pixel, in integers: derivatives of U/T, where
 //! U = Σ Ei qi ui and T = Σ Ei qi are linear on the screen.
 //!
 //! Nothing is taken from formulas for slopes: a linear function is known by its values at three places.
@@ -13,10 +13,6 @@ use num_traits::{ToPrimitive, Zero};
 pub struct Slopes {
     /// The derivatives by column and by row.
     pub derivative: [f64; 2],
-    /// The value a column to the right and a row below, less the value here; not finite where T is 0 there.
-    pub difference: [f64; 2],
-    /// T there over T here.
-    pub ratio: [f64; 2],
     /// J/T², where J = Ux Ty − Uy Tx says how the numerators of the derivatives change.
     pub mixed: f64,
     /// T, in subpixels squared.
@@ -54,11 +50,6 @@ fn at(tri: Triangle, [x, y]: [i64; 2], one: i64, q: [f32; 3], u: [f32; 3]) -> Sl
     let mixed = (&v_right - &v) * (&t_below - &t) - (&v_below - &v) * (&t_right - &t);
     Slopes {
         derivative: numerators.each_ref().map(|n| over(n, &square) * unit),
-        difference: [
-            over(&numerators[0], &(&t * &t_right)) * unit,
-            over(&numerators[1], &(&t * &t_below)) * unit,
-        ],
-        ratio: [over(&t_right, &t), over(&t_below, &t)],
         mixed: over(&mixed, &square) * unit,
         t: over(&t, &BigInt::from(1)) * q_unit,
     }
@@ -100,10 +91,6 @@ mod tests {
         // At x = 2, y = 1 q is 5.
         near(slopes.derivative[0], 3.0 / 25.0);
         near(slopes.derivative[1], -4.0 / 25.0);
-        near(slopes.difference[0], 3.0 / 6.0 - 2.0 / 5.0);
-        near(slopes.difference[1], 2.0 / 7.0 - 2.0 / 5.0);
-        near(slopes.ratio[0], 1.2);
-        near(slopes.ratio[1], 1.4);
         near(slopes.mixed, 2.0 / 25.0);
         near(slopes.t, 5.0 * 32.0 * 256.0);
         let [x, y] = [8.0 / 3.0, 4.0 / 3.0];

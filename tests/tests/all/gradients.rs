@@ -18,8 +18,8 @@ use alberti_oracle::gradient::{self, Slopes};
 use alberti_oracle::rng::{Rng, run_seed};
 use alberti_oracle::{cases, cases::pixel_centre};
 use alberti_raster::{
-    Cull, Differentiation, Exact, FixedPoint, Interpolation, Lines, Neighbours, NoDepth, Paint, PerPixel,
-    PerSpan, PerTriangle, Planes, Rgba8888, Target, Vertex,
+    Cull, Differentiation, Exact, FixedPoint, Interpolation, Lines, NoDepth, Paint, PerPixel, PerSpan,
+    PerTriangle, Planes, Rgba8888, Target, Vertex,
 };
 use alberti_tests::derivatives::{Carried, Listener, Told, carried, told};
 use alberti_tests::probe::{LARGEST, vertex};
@@ -139,7 +139,8 @@ fn samples(of: u64) -> u64 {
 }
 
 /// Draws the pixel of many triangles, and some beside it, and hands on the news of each.
-fn each_sample<D: Differentiation>(
+fn each_sample(
+    differentiation: impl Differentiation,
     policy: impl Interpolation,
     stream: u64,
     count: u64,
@@ -150,7 +151,8 @@ fn each_sample<D: Differentiation>(
     while seen < samples(count) {
         let case = any_case(&mut rng);
         let start = (case.pixel[0] - rng.index(3) as i32).max(0);
-        let told = told::<D>(policy, &case.vertices(), case.pixel[1], start..(start + 3).min(LARGEST));
+        let told =
+            told(differentiation, policy, &case.vertices(), case.pixel[1], start..(start + 3).min(LARGEST));
         assert!(told.iter().any(|(column, _)| *column == case.pixel[0]), "{case:?}");
         for (column, told) in &told {
             check(&case, *column, told);
@@ -200,7 +202,7 @@ fn check_others(case: &Case, told: &Told, worst: &mut Worst) {
 fn per_pixel() {
     let (mut by_column, mut by_row, mut linear) = (Worst::default(), Worst::default(), Worst::default());
     let (mut far, mut beside) = (0, 0);
-    each_sample::<PerPixel>(Exact, 1, 40_000, |case, column, told| {
+    each_sample(PerPixel, Exact, 1, 40_000, |case, column, told| {
         let columns = f64::from(column - case.covered().start);
         for k in 0..2 {
             let exact = case.slopes(column, k);
@@ -224,68 +226,33 @@ fn per_pixel() {
 }
 
 #[test]
-fn neighbours() {
-    let (mut by_column, mut by_row) = (Worst::default(), Worst::default());
-    let (mut beyond, mut curved) = (0, 0);
-    each_sample::<Neighbours>(Exact, 2, 40_000, |case, column, told| {
-        let columns = f64::from(column - case.covered().start);
-        let greatest = case.q.into_iter().fold(0.0, f32::max);
-        for k in 0..2 {
-            let exact = case.slopes(column, k);
-            let apart = DIFFERENCES * case.magnitude(k, exact.t);
-            let along = [0.0, 3.0 * EPS * exact.mixed.abs() * columns];
-            for axis in 0..2 {
-                // T from sample to sample, over T at the next one; and what f64 leaves of it in thin triangles.
-                let steep = ((exact.ratio[axis] - 1.0) / exact.ratio[axis]).abs();
-                let next = exact.t * exact.ratio[axis];
-                let unsure = DIFFERENCES * case.longest() * f64::from(greatest) / next.abs();
-                // Beyond the horizon, or on it.
-                if exact.ratio[axis] <= 0.0 || steep > 2f64.powi(14) || unsure > 2f64.powi(-14) {
-                    beyond += 1;
-                    continue;
-                }
-                let relative = (14.0 + axis as f64 + 6.0 * steep) * EPS + 2.0 * unsure;
-                let absolute = 1.01 * (along[axis] + apart) / exact.ratio[axis];
-                let got = [told.dx[k], told.dy[k]][axis];
-                [&mut by_column, &mut by_row][axis].add(
-                    case,
-                    got,
-                    exact.difference[axis],
-                    [relative, absolute],
-                );
-                curved += u32::from((exact.ratio[axis] - 1.0).abs() > 0.01);
-            }
-        }
-    });
-    by_column.report("Neighbours, by column");
-    by_row.report("Neighbours, by row");
-    println!("{beyond} beyond the horizon, {curved} far from the derivative");
-    assert!(by_column.in_eps > 4.0 && by_row.in_eps > 4.0 && curved > 4_000 && beyond < 80_000);
-}
-
-#[test]
 fn per_span() {
-    in_middles::<PerSpan>(Exact, 3, i32::MAX, 0.0);
-    in_middles::<PerSpan>(Planes, 4, 64, 0.0);
-    in_middles::<PerSpan>(spans(8), 5, 8, 0.0);
-    in_middles::<PerSpan>(spans(32), 6, 32, 0.0);
-    in_middles::<PerSpan>(Lines::affine(), 7, 64, 0.0);
+    in_middles(PerSpan, Exact, 3, i32::MAX, 0.0);
+    in_middles(PerSpan, Planes, 4, 64, 0.0);
+    in_middles(PerSpan, spans(8), 5, 8, 0.0);
+    in_middles(PerSpan, spans(32), 6, 32, 0.0);
+    in_middles(PerSpan, Lines::affine(), 7, 64, 0.0);
 }
 
 /// There all policies but that of triangles are that of runs, and numbers are rounded to 2^-16.
 #[test]
 fn in_fixed_point() {
     const STEP: f64 = 1.0 / 65536.0;
-    in_middles::<PerSpan>(FixedPoint(spans(16)), 8, 16, STEP / 2.0);
-    in_middles::<PerPixel>(FixedPoint(spans(8)), 9, 8, STEP / 2.0);
-    in_middles::<Neighbours>(FixedPoint(Lines::affine()), 10, 64, STEP / 2.0);
+    in_middles(PerSpan, FixedPoint(spans(16)), 8, 16, STEP / 2.0);
+    in_middles(PerPixel, FixedPoint(spans(8)), 9, 8, STEP / 2.0);
 }
 
 /// The derivatives that each sample gets are right in the middle of its run: of up to `length` columns from a multiple
 /// of that on.
-fn in_middles<D: Differentiation>(policy: impl Interpolation, stream: u64, length: i32, step: f64) {
+fn in_middles(
+    differentiation: impl Differentiation,
+    policy: impl Interpolation,
+    stream: u64,
+    length: i32,
+    step: f64,
+) {
     let (mut worst, mut linear, mut off) = (Worst::default(), Worst::default(), 0);
-    each_sample::<D>(policy, stream, 8_000, |case, column, told| {
+    each_sample(differentiation, policy, stream, 8_000, |case, column, told| {
         let first = if length == i32::MAX { i32::MIN / 2 } else { column & !(length - 1) };
         let covered = case.covered();
         let run = covered.start.max(first)..covered.end.min(first.saturating_add(length));
@@ -305,14 +272,14 @@ fn in_middles<D: Differentiation>(policy: impl Interpolation, stream: u64, lengt
             check_others(case, told, &mut linear);
         }
     });
-    worst.report(&format!("{:?} of {policy:?}", D::default()));
+    worst.report(&format!("{differentiation:?} of {policy:?}"));
     assert!(worst.of_bound > 0.9 && off > 300, "{off} samples are off from the middle");
 }
 
 #[test]
 fn per_triangle() {
     let (mut worst, mut linear) = (Worst::default(), Worst::default());
-    each_sample::<PerTriangle>(Exact, 11, 40_000, |case, _, told| {
+    each_sample(PerTriangle, Exact, 11, 40_000, |case, _, told| {
         for k in 0..2 {
             let exact = gradient::in_centroid(case.tri, BITS, case.q, case.component(k));
             let apart = DIFFERENCES * case.magnitude(k, exact.t);
@@ -332,14 +299,16 @@ const SIZE: [u32; 2] = [WIDTH as u32, HEIGHT as u32];
 
 /// Triangles over each other, often thin, from a pixel to forty frames large. `turn` says from which vertex and in
 /// which direction they are given.
-fn draw_random<D: Differentiation>(
+fn draw_random(
+    differentiation: impl Differentiation,
     interpolation: impl Interpolation,
     lanes: impl Floating,
     target: &mut Target<'_, Rgba8888, NoDepth>,
     seed: u64,
     turn: usize,
 ) {
-    let paint = Paint { stage: Listener::<D>::default(), interpolation, subpixel: Sub8, cull: Cull::None };
+    let paint =
+        Paint { stage: Listener::by(differentiation), interpolation, subpixel: Sub8, cull: Cull::None };
     let mut rng = Rng::new(seed);
     for _ in 0..300 {
         let center = [rng.uniform(-20.0, 120.0), rng.uniform(-20.0, 90.0)];
@@ -359,7 +328,8 @@ fn draw_random<D: Differentiation>(
     }
 }
 
-fn frame<D: Differentiation>(
+fn frame(
+    differentiation: impl Differentiation,
     policy: impl Interpolation,
     lanes: impl Floating,
     seed: u64,
@@ -368,20 +338,21 @@ fn frame<D: Differentiation>(
     let (mut color, depth) = (vec![0; WIDTH * HEIGHT], &mut [(); WIDTH * HEIGHT]);
     let [width, height] = SIZE;
     let mut target = Target::new(Rgba8888, NoDepth, width, height, &mut color, depth).expect("a frame");
-    draw_random::<D>(policy, lanes, &mut target, seed, turn);
+    draw_random(differentiation, policy, lanes, &mut target, seed, turn);
     color
 }
 
-fn same_bits<D: Differentiation>(policy: impl Interpolation, stream: u64) {
+fn same_bits(differentiation: impl Differentiation, policy: impl Interpolation, stream: u64) {
     for part in 0..4 {
         let seed = run_seed() ^ part ^ stream << 32;
-        let whole = frame::<D>(policy, One, seed, 0);
+        let whole = frame(differentiation, policy, One, seed, 0);
         assert!(whole.iter().filter(|&&p| p != 0).count() > 3000, "next to nothing was drawn");
         for turn in 1..6 {
-            assert!(whole == frame::<D>(policy, One, seed, turn), "{policy:?}, turned {turn}");
+            assert!(whole == frame(differentiation, policy, One, seed, turn), "{policy:?}, turned {turn}");
         }
         for machine in Machine::all() {
-            let several = for_lanes!(machine, lanes => frame::<D>(policy, lanes, seed, part as usize));
+            let several =
+                for_lanes!(machine, lanes => frame(differentiation, policy, lanes, seed, part as usize));
             assert!(whole == several, "{policy:?}, {machine:?}");
         }
         let mut color = vec![0; whole.len()];
@@ -394,9 +365,9 @@ fn same_bits<D: Differentiation>(policy: impl Interpolation, stream: u64) {
             for columns in [[0, 13, 101], [0, 64, 101], [0, 3, 101], [0, 99, 101]][piece].windows(2) {
                 let mut scissor = band.scissor(columns[0]..columns[1], 0..i32::MAX);
                 if piece == 2 {
-                    draw_random::<D>(policy, One, &mut scissor, seed, 0);
+                    draw_random(differentiation, policy, One, &mut scissor, seed, 0);
                 } else {
-                    for_lanes!(machine, lanes => draw_random::<D>(policy, lanes, &mut scissor, seed, 0));
+                    for_lanes!(machine, lanes => draw_random(differentiation, policy, lanes, &mut scissor, seed, 0));
                 }
             }
         }
@@ -406,13 +377,12 @@ fn same_bits<D: Differentiation>(policy: impl Interpolation, stream: u64) {
 
 #[test]
 fn lanes_pieces_and_vertex_order_change_no_bit() {
-    same_bits::<PerPixel>(Exact, 20);
-    same_bits::<PerPixel>(spans(8), 21);
-    same_bits::<Neighbours>(Exact, 22);
-    same_bits::<PerSpan>(Exact, 23);
-    same_bits::<PerSpan>(Planes, 24);
-    same_bits::<PerSpan>(spans(16), 25);
-    same_bits::<PerSpan>(FixedPoint(spans(8)), 26);
-    same_bits::<PerTriangle>(Exact, 27);
-    same_bits::<PerTriangle>(FixedPoint(Lines::affine()), 28);
+    same_bits(PerPixel, Exact, 20);
+    same_bits(PerPixel, spans(8), 21);
+    same_bits(PerSpan, Exact, 23);
+    same_bits(PerSpan, Planes, 24);
+    same_bits(PerSpan, spans(16), 25);
+    same_bits(PerSpan, FixedPoint(spans(8)), 26);
+    same_bits(PerTriangle, Exact, 27);
+    same_bits(PerTriangle, FixedPoint(Lines::affine()), 28);
 }

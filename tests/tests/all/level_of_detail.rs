@@ -82,7 +82,7 @@ fn levels_of_detail_of_turned_planes() {
         });
         let vertices =
             std::array::from_fn(|i| vertex(tri[i], 0.5, textured.q(corners[i]) as f32, carried(values[i])));
-        for (column, told) in told::<PerPixel>(Exact, &vertices, pixel[1], pixel[0]..pixel[0] + 1) {
+        for (column, told) in told(PerPixel, Exact, &vertices, pixel[1], pixel[0]..pixel[0] + 1) {
             let [du, dv] = textured.derivative([f64::from(column) + 0.5, f64::from(pixel[1]) + 0.5]);
             let square = (du[0] * du[0] + dv[0] * dv[0]).max(du[1] * du[1] + dv[1] * dv[1]);
             let exact = 0.5 * square.log2();

@@ -120,6 +120,11 @@ where
     type Derivatives = S::Derivatives;
 
     #[inline(always)]
+    fn derivatives(&self) -> S::Derivatives {
+        self.surface.derivatives()
+    }
+
+    #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, (Homogeneous, V)>) -> (L::U32, L::Mask) {
         let (surface, mask) = self.surface.shade(&fragments.part(|(_, varying)| *varying));
         (self.on(fragments.lanes, &fragments.varying.0, surface, mask), mask)

@@ -55,6 +55,11 @@ impl<V: Varying, S: FragmentStage<V, Color = Rgba8>> FragmentStage<(Vec3, V)> fo
     type Derivatives = S::Derivatives;
 
     #[inline(always)]
+    fn derivatives(&self) -> S::Derivatives {
+        self.surface.derivatives()
+    }
+
+    #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, (Vec3, V)>) -> (L::U32, L::Mask) {
         let (lanes, (normal, _)) = (fragments.lanes, fragments.varying);
         let (surface, mask) = self.surface.shade(&fragments.part(|(_, varying)| *varying));

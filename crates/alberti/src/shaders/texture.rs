@@ -6,7 +6,6 @@ use alberti_math::lanes::Lanes;
 use alberti_math::{Rgba8, Varying};
 use alberti_raster::{Differentiation, FragmentColor, FragmentStage, Fragments, NoDerivatives};
 use alberti_texture::{Nearest, Sampler, Size, TexelFormat, Wrap};
-use core::marker::PhantomData;
 
 /// A map as it is: a texture, read by a [`Sampler`], or by a [`MipSampler`](alberti_texture::MipSampler) for what a
 /// pixel covers of it.
@@ -45,21 +44,26 @@ impl<M: Map> FragmentStage<Vec2> for Unlit<M> {
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Differentiated<D, S> {
+    policy: D,
     stage: S,
-    policy: PhantomData<D>,
 }
 
 impl<D, S> Differentiated<D, S> {
     /// `stage` with this policy.
     #[must_use]
-    pub fn by(_: D, stage: S) -> Self {
-        Self { stage, policy: PhantomData }
+    pub const fn by(policy: D, stage: S) -> Self {
+        Self { policy, stage }
     }
 }
 
 impl<V: Varying, D: Differentiation, S: FragmentStage<V>> FragmentStage<V> for Differentiated<D, S> {
     type Color = S::Color;
     type Derivatives = D;
+
+    #[inline(always)]
+    fn derivatives(&self) -> D {
+        self.policy
+    }
 
     #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, V>) -> (L::U32, L::Mask) {

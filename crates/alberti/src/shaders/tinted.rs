@@ -22,6 +22,11 @@ impl<V: Varying, S: FragmentStage<V, Color = Rgba8>> FragmentStage<V> for Tinted
     type Derivatives = S::Derivatives;
 
     #[inline(always)]
+    fn derivatives(&self) -> S::Derivatives {
+        self.surface.derivatives()
+    }
+
+    #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, V>) -> (L::U32, L::Mask) {
         let (surface, mask) = self.surface.shade(fragments);
         (times(fragments.lanes, surface, self.tint), mask)
