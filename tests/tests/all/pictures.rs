@@ -10,6 +10,8 @@ mod affine_and_hyperbolic;
 mod color_triangle;
 #[path = "../../../crates/alberti/examples/depth_precision.rs"]
 mod depth_precision;
+#[path = "../../../crates/alberti/examples/firmware_frame.rs"]
+mod firmware_frame;
 #[path = "../../../crates/alberti/examples/materials.rs"]
 mod materials;
 #[path = "../../../crates/alberti/examples/perspective_cube.rs"]
@@ -46,6 +48,11 @@ fn affine_and_hyperbolic_is_what_it_was() {
 #[test]
 fn depth_precision_is_what_it_was() {
     compare("depth_precision.png", depth_precision::picture());
+}
+
+#[test]
+fn firmware_frame_is_what_it_was() {
+    compare("firmware_frame.png", firmware_frame::picture());
 }
 
 #[test]

@@ -1,0 +1,94 @@
+//! A frame as firmware draws it: no heap, no `f32` per pixel, a constant lens, and memory for sixteen of its 240 rows.
+//! A display of 320 x 240 pixels in big-endian RGB565 gets one band after the other; here it is a PNG file.
+//!
+//!     cargo run --release -p alberti --features bytemuck --example firmware_frame -- firmware_frame.png
+
+mod common;
+
+use alberti::glam::{Vec2, Vec3};
+use alberti::shaders::Stored;
+use alberti::texture::{Nearest, Repeat, TexelFormat, Texture, format::Rgb565};
+use alberti::*;
+use std::process::ExitCode;
+
+const WIDTH: u16 = 320;
+const HEIGHT: u16 = 240;
+/// Pixels of the sixteen rows that there is memory for.
+const PIXELS: usize = WIDTH as usize * 16;
+
+/// The lens, so that the board computes none of it.
+const LENS: Perspective = match Perspective::new(0.8, WIDTH as f32 / HEIGHT as f32, 0.5, 20.0) {
+    Ok(lens) => lens,
+    Err(_) => panic!("an impossible lens"),
+};
+
+/// Squares of two colours, in flash.
+static TEXELS: [u16; 16 * 16] = {
+    let mut texels = [0xe6b4; 16 * 16];
+    let mut k = 0;
+    while k < texels.len() {
+        if (k / 16 / 4 + k % 16 / 4) % 2 == 0 {
+            texels[k] = 0x8a24;
+        }
+        k += 1;
+    }
+    texels
+};
+
+/// A pyramid: places in units of a quarter, as small meshes are kept, and texture coordinates in quarters.
+static VERTICES: [([i8; 3], [u8; 2]); 5] = [
+    ([-6, -4, -6], [0, 0]),
+    ([6, -4, -6], [8, 0]),
+    ([6, -4, 6], [0, 0]),
+    ([-6, -4, 6], [8, 0]),
+    ([0, 6, 0], [4, 8]),
+];
+static TRIANGLES: [[u8; 3]; 4] = [[1, 0, 4], [2, 1, 4], [3, 2, 4], [0, 3, 4]];
+
+/// The memory of a frame: what a board has as `static`.
+struct Memory {
+    color: [u16; PIXELS],
+    depth: [u16; PIXELS],
+    slots: [Slot<Vec2>; VERTICES.len()],
+    room: [ScreenTriangle<Vec2>; 2 * TRIANGLES.len()],
+}
+
+fn main() -> ExitCode {
+    common::write("firmware_frame.png", picture)
+}
+
+pub(crate) fn picture() -> common::File {
+    let mut memory = Box::new(Memory {
+        color: [0; PIXELS],
+        depth: [0; PIXELS],
+        slots: [Slot::EMPTY; VERTICES.len()],
+        room: [ScreenTriangle::EMPTY; 2 * TRIANGLES.len()],
+    });
+    let mut display = Vec::new();
+    frame(&mut memory, |bytes| display.extend_from_slice(bytes))?;
+    let shown = |bytes: &[u8; 2]| Rgb565Be.decode(u16::from_ne_bytes(*bytes)).to_bits();
+    let pixels: Vec<u32> = display.as_chunks().0.iter().map(shown).collect();
+    common::png(WIDTH.into(), &pixels)
+}
+
+/// Draws a frame, whose bytes `send` gets in the display's order.
+fn frame(memory: &mut Memory, mut send: impl FnMut(&[u8])) -> Result<(), Box<dyn std::error::Error>> {
+    let Memory { color, depth, slots, room } = memory;
+    let view = Camera::look_at(Vec3::new(1.2, 1.5, -5.0), Vec3::Y * 0.1, Vec3::Y)?.through(LENS);
+    let texture = Texture::new(Rgb565, &TEXELS, 16, 16)?.known::<16, 16>().ok_or("a texture of 16 x 16")?;
+    let stage = Stored(texture.sampler(Nearest, Repeat));
+    let mesh = Mesh::new(&VERTICES, &TRIANGLES, |(place, uv)| {
+        (Vec3::from(place.map(f32::from)) / 4.0, Vec2::from(uv.map(f32::from)) / 4.0)
+    });
+
+    // The geometry once, then sixteen rows at a time.
+    let mut bands = Bands::new(Rgb565Be, D16, WIDTH.into(), HEIGHT.into(), color, depth)?;
+    let mut pass = Pass::new(&view, &mesh, stage).with(Mcu).slots(slots);
+    let (mut triangles, _) = pass.prepare(&bands, room);
+    while let Some(mut band) = bands.next_band() {
+        band.clear(common::BACKGROUND);
+        triangles.draw_by(lanes::One, &mut band, &mut ());
+        send(band.bytes());
+    }
+    Ok(())
+}
