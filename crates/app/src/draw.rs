@@ -1,7 +1,7 @@
 //! From a scene and its options to pixels: the one place where names that a user picks at run time become the
 //! library's policies.
 //!
-//! All of them are values, so few pipelines are compiled, for each kind of vector registers: three for plain surfaces
+//! All of them are values, so few pipelines are compiled, for each kind of vector registers: five for plain surfaces
 //! by the default interpolation, in which kernel and fragment stage are optimized together (`draw/plain.rs`), and one
 //! for each kind of interpolation in which the stage is called through a pointer (`draw/general.rs`).
 
