@@ -1,5 +1,6 @@
-//! A frame as firmware draws it: no heap, no `f32` per pixel, a constant lens, and memory for sixteen of its 240 rows.
-//! A display of 320 x 240 pixels in big-endian RGB565 gets one band after the other; here it is a PNG file.
+//! A frame as firmware draws it: nothing is allocated on the way, no `f32` per pixel, a constant lens, and memory for
+//! sixteen of its 240 rows. A display of 320 x 240 pixels in big-endian RGB565 gets one band after the other; here it
+//! is a PNG file.
 //!
 //!     cargo run --release -p alberti --features bytemuck --example firmware_frame -- firmware_frame.png
 
@@ -87,7 +88,7 @@ fn frame(memory: &mut Memory, mut send: impl FnMut(&[u8])) -> Result<(), Box<dyn
     let (mut triangles, _) = pass.prepare(&bands, room);
     while let Some(mut band) = bands.next_band() {
         band.clear(common::BACKGROUND);
-        triangles.draw_by(lanes::One, &mut band, &mut ());
+        triangles.draw(&mut band);
         send(band.bytes());
     }
     Ok(())

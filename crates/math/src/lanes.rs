@@ -18,7 +18,7 @@ pub use one::One;
 pub use one_fixed::OneFixed;
 
 use core::fmt::Debug;
-use core::ops::{Add, BitAnd, BitOr, Div, Mul, Sub};
+use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
 /// A number of samples side by side, and the arithmetic on them.
 ///
@@ -37,7 +37,8 @@ pub trait Lanes: Copy + Debug {
         + Add<Output = Self::Number>
         + Sub<Output = Self::Number>
         + Mul<Output = Self::Number>
-        + Div<Output = Self::Number>;
+        + Div<Output = Self::Number>
+        + Neg<Output = Self::Number>;
     /// A screen depth for each.
     type Depth: Copy;
     /// A word of 32 bits for each; arithmetic is modulo 2^32.
@@ -46,13 +47,14 @@ pub trait Lanes: Copy + Debug {
         + Sub<Output = Self::U32>
         + Mul<Output = Self::U32>
         + BitAnd<Output = Self::U32>
-        + BitOr<Output = Self::U32>;
+        + BitOr<Output = Self::U32>
+        + BitXor<Output = Self::U32>;
     /// An integer from -2^31 to 2^31 - 1 for each.
     type Int: Copy + Add<Output = Self::Int> + BitOr<Output = Self::Int>;
     /// An integer from -2^53 to 2^53 for each.
     type Long: Copy;
     /// A truth value for each.
-    type Mask: Copy + BitAnd<Output = Self::Mask>;
+    type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
     /// Any value for each, in memory.
     type Each<T: Copy>: Copy + AsRef<[T]> + AsMut<[T]>;
 

@@ -1,7 +1,7 @@
 //! Numbers in fixed point: integers that count 65536ths.
 
 use core::fmt;
-use core::ops::{Add, Div, Mul, Sub};
+use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number from -32768 to 32768 in steps of 2^-16, for machines without floating point.
 ///
@@ -105,6 +105,14 @@ impl Sub for Q16 {
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
         Self(self.0.wrapping_sub(other.0))
+    }
+}
+
+impl Neg for Q16 {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(self.0.wrapping_neg())
     }
 }
 

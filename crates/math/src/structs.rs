@@ -17,6 +17,9 @@
 /// let bundle = Lit::gather([Lit { uv: Vec2::X, normal: Vec3::Y }]);
 /// assert_eq!((bundle.uv, bundle.normal[1]), ([[1.0], [0.0]], [1.0]));
 /// ```
+///
+/// So in a fragment stage, over lanes `L`, `fragments.varying.uv` is a `[L::Number; 2]`, and `fragments.varying.normal`
+/// a `[L::Number; 3]`.
 #[macro_export]
 macro_rules! varying {
     ($name:ident { $($field:ident: $of:ty),+ $(,)? }) => {

@@ -35,7 +35,8 @@ pub trait ColorFormat: Copy + Debug + 'static {
     /// The pixel for this colour.
     fn pixel(self, color: Rgba8) -> Self::Pixel;
 
-    /// The pixel for a word that is a pixel already, but for the order of its bytes.
+    /// The pixel for a word that is a pixel already, but for the order of its bytes. Stages and
+    /// [`clear`](crate::Target::clear) give such words by colours that are `u8`, `u16` or `u32` instead of [`Rgba8`].
     fn native(self, word: u32) -> Self::Pixel;
 
     /// Stores pixels for the samples in `mask`, whose colours are the words of `Shade`s.
@@ -56,7 +57,8 @@ pub trait ColorFormat: Copy + Debug + 'static {
 }
 
 /// A fragment's colour: [`Rgba8`] for any target, or `u8`, `u16` or `u32` for targets whose pixels have as many bits,
-/// which get it as it is. It travels as a word of 32 bits, of which several fit a register.
+/// which get it as it is. Another size is an error when the program is built. It travels as a word of 32 bits, of which
+/// several fit a register.
 pub trait FragmentColor: Sealed + Copy {
     /// The colour as a word.
     fn to_word(self) -> u32;

@@ -9,8 +9,9 @@ use core::fmt;
 /// A map from the varying of a covered sample that passed the depth test to a colour, or to none, which leaves the
 /// pixel and its depth as they are.
 ///
-/// Any closure `Fn(V) -> Option<Color>` that captures references is one, called for one sample after the other. A part
-/// of the varying that it does not use is not computed. Stages are copied to the loop over the pixels, so that their
+/// Any closure `Fn(V) -> Option<Color>` that is `Copy` is one, called for one sample after the other: it captures
+/// nothing, references, or, with `move`, values that are `Copy`. A part of the varying that it does not use is not
+/// computed. Stages are copied to the loop over the pixels, so that their
 /// fields may be kept in registers.
 ///
 /// A stage that is a type shades all lanes at once, with the arithmetic of [`Lanes`]:

@@ -4,6 +4,7 @@
 #[cfg(test)]
 extern crate std;
 
+mod bands;
 mod color;
 mod comparison;
 mod counters;
@@ -20,6 +21,7 @@ mod target;
 mod triangle;
 
 pub use alberti_math::{Rgb565Be, Rgb565Le, Rgba8888};
+pub use bands::Bands;
 pub use color::{ColorFormat, FragmentColor, rgb565};
 pub use comparison::{Always, Equal, Farther, OrEqual, ReadOnly};
 pub use counters::Counters;
@@ -32,5 +34,5 @@ pub use interpolation::{
     Affine, Exact, ExactTriangle, FixedPoint, Interpolation, Lines, Planes, Runs, Spans16,
 };
 pub use spans::{Span, SpanWalker};
-pub use target::{Bands, Target, TargetError};
+pub use target::{Target, TargetError};
 pub use triangle::{Cull, Outcome, Vertex};

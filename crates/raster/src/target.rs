@@ -9,7 +9,8 @@ use core::ops::Range;
 ///
 /// * all of them ([`new`](Self::new)),
 /// * all of a window into a larger picture ([`window`](Self::window)),
-/// * a band of a frame that does not fit in memory ([`band`](Self::band), or [`Bands`] for one band after the other).
+/// * a band of a frame that does not fit in memory ([`band`](Self::band), or [`Bands`](crate::Bands) for one band after
+///   the other).
 ///
 /// Rows count from the top. The depth buffer holds `width` values a row, without padding.
 ///
@@ -44,14 +45,28 @@ pub struct Target<'a, C: ColorFormat, D: DepthFormat> {
 pub enum TargetError {
     /// No pixels, or more than 16384 columns or rows, or rows beyond the frame's last one.
     Size,
-    /// The colour buffer does not hold whole rows, or not all of them.
+    /// The colour buffer of a band does not hold whole rows.
     Rows {
         /// Pixels in the colour buffer.
         pixels: usize,
         /// Pixels a row.
         width: u32,
     },
-    /// The depth buffer holds another number of pixels than the colour buffer.
+    /// The colour buffer holds another number of pixels than the frame, or fewer than a window reaches over.
+    Color {
+        /// Pixels in the colour buffer.
+        found: usize,
+        /// Pixels of the frame, or from a window's first to its last.
+        expected: usize,
+    },
+    /// The rows of a window overlap.
+    Stride {
+        /// Pixels from a row to the next.
+        stride: usize,
+        /// Pixels a row.
+        width: u32,
+    },
+    /// The depth buffer holds another number of pixels than the rows that are drawn.
     Depth {
         /// Pixels in the depth buffer.
         found: usize,
@@ -67,6 +82,12 @@ impl fmt::Display for TargetError {
             Self::Rows { pixels, width } => {
                 write!(f, "the colour buffer's {pixels} pixels do not make the frame's rows of {width}")
             }
+            Self::Color { found, expected } => {
+                write!(f, "the colour buffer holds {found} pixels, the frame or window takes {expected}")
+            }
+            Self::Stride { stride, width } => {
+                write!(f, "rows that begin {stride} pixels apart are no room for {width}")
+            }
             Self::Depth { found, expected } => {
                 write!(f, "the depth buffer holds {found} pixels, the rows that are drawn {expected}")
             }
@@ -77,7 +98,7 @@ impl fmt::Display for TargetError {
 impl core::error::Error for TargetError {}
 
 /// The largest width and height of a frame.
-const LARGEST: u32 = 1 << 14;
+pub(crate) const LARGEST: u32 = 1 << 14;
 
 impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
     /// A whole frame of `width` x `height` pixels, to be [cleared](Self::clear) before drawing: depths of 0 are
@@ -95,10 +116,15 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
         color: &'a mut [C::Pixel],
         depth: &'a mut [D::Stored],
     ) -> Result<Self, TargetError> {
-        let target = Self::band(color_format, depth_format, [width, height], 0, color, depth)?;
-        let rows = target.limits[1].len();
-        let pixels = target.color.len();
-        if rows == height as usize { Ok(target) } else { Err(TargetError::Rows { pixels, width }) }
+        if width > LARGEST || height > LARGEST {
+            return Err(TargetError::Size);
+        }
+        let (found, expected) = (color.len(), width as usize * height as usize);
+        if found != expected {
+            return Err(TargetError::Color { found, expected });
+        }
+        let (formats, size) = ((color_format, depth_format), [width, height]);
+        Self::of_rows(formats, size, [0, height], width as usize, color, depth)
     }
 
     /// The rows from `first_row` on of a frame of these columns and rows, as many as `color` has.
@@ -129,6 +155,18 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
     /// begins with the frame's first pixel, and each row begins `stride` pixels after the one above. So it has at least
     /// (`height` − 1)·`stride` + `width` pixels, and `depth` `width`·`height`.
     ///
+    /// ```
+    /// use alberti_math::{Rgba8, Rgba8888};
+    /// use alberti_raster::{NoDepth, Target};
+    ///
+    /// // A window of 2 x 3 pixels, at column 1 of row 2 of a picture of 4 x 6.
+    /// let (mut picture, mut depth) = ([0; 4 * 6], [(); 2 * 3]);
+    /// let mut window = Target::window(Rgba8888, NoDepth, [2, 3], 4, &mut picture[2 * 4 + 1..], &mut depth)?;
+    /// window.clear(Rgba8::WHITE);
+    /// assert_eq!(picture[2 * 4..3 * 4], [0, u32::MAX, u32::MAX, 0]);
+    /// # Ok::<(), alberti_raster::TargetError>(())
+    /// ```
+    ///
     /// # Errors
     /// [`TargetError`] when the buffers' lengths do not fit the size and the stride, or these the limits.
     pub fn window(
@@ -142,8 +180,12 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
         let last = (height as usize).checked_sub(1).ok_or(TargetError::Size)?;
         let pixels = color.len();
         let wanted = last.checked_mul(stride).and_then(|above| above.checked_add(width as usize));
-        if stride < width as usize || wanted.is_none_or(|wanted| wanted > pixels) {
-            return Err(TargetError::Rows { pixels, width });
+        if stride < width as usize {
+            return Err(TargetError::Stride { stride, width });
+        }
+        let expected = wanted.unwrap_or(usize::MAX);
+        if expected > pixels {
+            return Err(TargetError::Color { found: pixels, expected });
         }
         let formats = (color_format, depth_format);
         Self::of_rows(formats, [width, height], [0, height], stride, color, depth)
@@ -204,7 +246,7 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
     }
 
     /// The bytes of the colours, in the order in which a display or a file wants them: for its driver's DMA, without a
-    /// copy. Of a window, those beside it as well. Behind the feature `bytemuck`.
+    /// copy. Of a window, all of the slice that it was made of. Behind the feature `bytemuck`.
     ///
     /// ```
     /// use alberti_math::{Rgb565Be, Rgba8};
@@ -269,87 +311,6 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
     }
 }
 
-/// A frame that is drawn band by band in the same memory.
-///
-/// ```
-/// use alberti_math::{Rgb565Be, Rgba8};
-/// use alberti_raster::{Bands, D16};
-///
-/// // 320 x 240 in bands of 16 rows.
-/// let (mut color, mut depth) = ([0u16; 320 * 16], [0u16; 320 * 16]);
-/// let mut bands = Bands::new(Rgb565Be, D16, 320, 240, &mut color, &mut depth)?;
-/// let mut sent = 0;
-/// while let Some(mut band) = bands.next_band() {
-///     band.clear(Rgba8::BLACK);
-///     sent += band.pixels().len();
-/// }
-/// assert_eq!(sent, 320 * 240);
-/// # Ok::<(), alberti_raster::TargetError>(())
-/// ```
-#[derive(Debug)]
-pub struct Bands<'a, C: ColorFormat, D: DepthFormat> {
-    color_format: C,
-    depth_format: D,
-    color: &'a mut [C::Pixel],
-    depth: &'a mut [D::Stored],
-    size: [u32; 2],
-    next_row: u32,
-}
-
-impl<'a, C: ColorFormat, D: DepthFormat> Bands<'a, C, D> {
-    /// A frame of `width` x `height` pixels in bands of as many rows as `color` has; the last may have fewer.
-    ///
-    /// # Errors
-    /// [`TargetError`] when the buffers' lengths do not fit each other, the width or the limits.
-    pub fn new(
-        color_format: C,
-        depth_format: D,
-        width: u32,
-        height: u32,
-        color: &'a mut [C::Pixel],
-        depth: &'a mut [D::Stored],
-    ) -> Result<Self, TargetError> {
-        if width > LARGEST || height > LARGEST {
-            return Err(TargetError::Size);
-        }
-        let size = [width, height];
-        let pixels = color.len().min(width as usize * height as usize);
-        let (first, depths) = (color.get_mut(..pixels), depth.get_mut(..pixels));
-        if let (Some(first), Some(depths)) = (first, depths) {
-            Target::band(color_format, depth_format, size, 0, first, depths)?;
-        }
-        if depth.len() != color.len() {
-            return Err(TargetError::Depth { found: depth.len(), expected: color.len() });
-        }
-        Ok(Self { color_format, depth_format, color, depth, size, next_row: 0 })
-    }
-
-    /// Columns and rows of the frame.
-    #[must_use]
-    pub fn size(&self) -> [u32; 2] {
-        self.size
-    }
-
-    /// The depth format.
-    #[must_use]
-    pub fn depth_format(&self) -> D {
-        self.depth_format
-    }
-
-    /// The next band, from the top; `None` after the last. Its pixels are those of the band before.
-    pub fn next_band(&mut self) -> Option<Target<'_, C, D>> {
-        let [width, height] = self.size;
-        let left = width as usize * height.checked_sub(self.next_row)? as usize;
-        let pixels = self.color.len().min(left);
-        let (color, depth) = (self.color.get_mut(..pixels)?, self.depth.get_mut(..pixels)?);
-        let first_row = self.next_row;
-        let band =
-            Target::band(self.color_format, self.depth_format, self.size, first_row, color, depth).ok()?;
-        self.next_row = first_row.saturating_add(band.limits[1].len().try_into().ok()?);
-        Some(band)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -408,9 +369,13 @@ mod tests {
         let (mut color, mut depth) = ([0u32; 12], [0u16; 12]);
         let mut error = |w, h| Target::new(Rgba8888, D16, w, h, &mut color, &mut depth).map(|_| ()).err();
         assert_eq!([error(4, 3), error(12, 1)], [None; 2]);
-        assert_eq!(error(4, 4), Some(TargetError::Rows { pixels: 12, width: 4 }));
-        assert_eq!(error(4, 2), Some(TargetError::Size));
-        assert_eq!(error(5, 2), Some(TargetError::Rows { pixels: 12, width: 5 }));
+        for [w, h] in [[4, 4], [4, 2], [5, 2], [0, 3], [4, 0]] {
+            let expected = (w * h) as usize;
+            assert_eq!(error(w, h), Some(TargetError::Color { found: 12, expected }));
+        }
+        assert_eq!(error(20_000, 1), Some(TargetError::Size));
+        let mut none = Target::new(Rgba8888, D16, 0, 0, &mut [], &mut []);
+        assert_eq!(none.as_mut().map(|_| ()).err(), Some(&mut TargetError::Size));
     }
 
     #[test]
@@ -425,29 +390,11 @@ mod tests {
         let mut error = |size, stride, pixels: usize| {
             Target::window(Rgba8888, D16, size, stride, &mut color[..pixels], &mut depth).map(|_| ()).err()
         };
-        assert_eq!(error([3, 2], 5, 7), Some(TargetError::Rows { pixels: 7, width: 3 }));
-        assert_eq!(error([3, 2], 2, 8), Some(TargetError::Rows { pixels: 8, width: 3 }));
+        assert_eq!(error([3, 2], 5, 7), Some(TargetError::Color { found: 7, expected: 8 }));
+        assert_eq!(error([3, 2], 2, 8), Some(TargetError::Stride { stride: 2, width: 3 }));
         assert_eq!(error([3, 0], 3, 8), Some(TargetError::Size));
         assert_eq!(error([2, 2], 5, 8), Some(TargetError::Depth { found: 6, expected: 4 }));
-        assert_eq!(error([3, 2], usize::MAX, 8), Some(TargetError::Rows { pixels: 8, width: 3 }));
-    }
-
-    #[test]
-    fn bands_are_all_rows_of_a_frame() {
-        let (mut color, mut depth) = ([0u32; 12], [0u16; 12]);
-        let mut rows = |height| {
-            let mut bands = Bands::new(Rgba8888, D16, 4, height, &mut color, &mut depth).expect("three rows");
-            let mut rows = std::vec::Vec::new();
-            while let Some(band) = bands.next_band() {
-                rows.push(band.limits()[1].clone());
-            }
-            rows
-        };
-        assert_eq!(rows(8), [0..3, 3..6, 6..8]);
-        assert_eq!(rows(6), [0..3, 3..6]);
-        assert_eq!(rows(2).first(), Some(&(0..2)));
-        assert!(Bands::new(Rgba8888, D16, 5, 9, &mut color, &mut depth).is_err());
-        assert!(Bands::new(Rgba8888, D16, 4, 0, &mut color, &mut depth).is_err());
-        assert!(Bands::new(Rgba8888, D16, 4, 9, &mut color, &mut depth[1..]).is_err());
+        let expected = usize::MAX;
+        assert_eq!(error([3, 2], expected, 8), Some(TargetError::Color { found: 8, expected }));
     }
 }

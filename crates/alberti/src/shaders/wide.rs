@@ -23,6 +23,52 @@
 //! }
 //! assert_eq!(Fog.shade_one(0.25), Some(Rgba8::from_rgb24(0xcc_cc_cc)));
 //! ```
+//!
+//! A varying of several fields is a struct made by [`varying!`](crate::varying). A stage that discards returns fewer
+//! samples than it was asked for:
+//!
+//! ```
+//! use alberti::glam::Vec2;
+//! use alberti::lanes::Lanes;
+//! use alberti::{FragmentStage, Fragments, NoDerivatives, Rgba8, varying};
+//!
+//! #[derive(Clone, Copy)]
+//! struct Ground {
+//!     place: Vec2,
+//!     distance: f32,
+//! }
+//!
+//! varying!(Ground { place: Vec2, distance: f32 });
+//!
+//! /// White and black stripes, a unit wide, as far as 10 units.
+//! #[derive(Clone, Copy)]
+//! struct Stripes;
+//!
+//! impl FragmentStage<Ground> for Stripes {
+//!     type Color = Rgba8;
+//!     type Derivatives = NoDerivatives;
+//!
+//!     fn shade<L: Lanes>(&self, fragments: &Fragments<L, Ground>) -> (L::U32, L::Mask) {
+//!         let Fragments { lanes, varying, mask, .. } = *fragments;
+//!         let [x, _] = varying.place;
+//!         let odd = lanes.less_words(lanes.word(0), lanes.floor_scaled(x, 0) & lanes.word(1));
+//!         let [black, white] = [Rgba8::BLACK, Rgba8::WHITE].map(|color| lanes.word(color.to_bits()));
+//!         let near = lanes.less(varying.distance, lanes.splat(10.0));
+//!         (lanes.select_words(odd, white, black), mask & near)
+//!     }
+//! }
+//! let at = |x, distance| Stripes.shade_one(Ground { place: Vec2::new(x, 0.0), distance });
+//! assert_eq!([at(0.5, 1.0), at(-0.5, 1.0), at(0.5, 11.0)], [Some(Rgba8::BLACK), Some(Rgba8::WHITE), None]);
+//! ```
+//!
+//! | for | of [`Lanes`] |
+//! |---|---|
+//! | numbers | `splat`, `ramp`, `+ - * /`, negation, `min`, `max`, `sqrt`, `less`, `select` |
+//! | words | `word`, `+ - * & \| ^`, `shl`, `shr`, `min_words`, `less_words`, `select_words` |
+//! | from numbers to words and back | `floor_scaled`, `round_scaled`, `nearest_byte`, `to_numbers` |
+//! | masks | `& \| !`, `mask`, `bits` |
+//!
+//! Greater is `less` with its arguments the other way round.
 
 use alberti_math::Rgba8;
 use alberti_math::lanes::Lanes;

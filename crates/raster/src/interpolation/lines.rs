@@ -19,6 +19,10 @@ use core::fmt::Debug;
 /// A division of rows into runs of samples: [`Spans16`], [`Affine`], or [`Lines`] for any other.
 ///
 /// Runs lie at multiples of their length, and end with the row.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a policy of straight lines",
+    label = "`FixedPoint` takes `Spans16`, `Affine` or `Lines`"
+)]
 pub trait Runs: Copy + Debug + 'static {
     /// The columns of the longest run, a power of two up to [`Lines::LONGEST`].
     fn length(self) -> i32;
