@@ -20,9 +20,9 @@ use alberti::shaders::material::{
 use alberti::shaders::{Differentiated, Unlit, material};
 use alberti::texture::format::{Normals, Scalars};
 use alberti::texture::mipmap;
-use alberti::texture::surface::{LimitedParallax, Relief, Unorm};
+use alberti::texture::surface::{LimitedParallax, NormalEncoding::Unorm, Relief};
 use alberti::texture::{
-    Anisotropic, Bilinear, Minify, Mipmap, Nearest, NearestLevel, PowerOfTwo, Repeat, Texture, Trilinear,
+    Anisotropic, Bilinear, Mipmap, Nearest, NearestLevel, PowerOfTwo, Repeat, Texture, Trilinear,
 };
 use alberti::{
     Always, Cull, F32, FragmentStage, Frame, Mesh, Pass, Perspective, Point3, Rgba8, Rgba8888, Slot, Stats,
@@ -272,7 +272,7 @@ fn surface(criterion: &mut Criterion) {
     let base = base.power_of_two().expect("a power of two");
     let color = mip(&maps.color).sampler(Trilinear, Repeat);
     let normal =
-        NormalMap { map: mip(&maps.normal).sampler(Trilinear, Repeat), encoding: Unorm, strength: () };
+        NormalMap { map: mip(&maps.normal).sampler(Trilinear, Repeat), encoding: Unorm, strength: 1.0 };
     let other = mip(&maps.other).sampler(Trilinear, Repeat);
     let height = Texture::new(alberti::texture::format::L8, &maps.height, SIDE, SIDE).expect("a texture");
     let height = height.power_of_two().expect("a power of two").sampler(Bilinear, Repeat);
@@ -325,8 +325,8 @@ fn surface(criterion: &mut Criterion) {
     rows! {
         "nearest": bare, Unlit(base.sampler(Nearest, Repeat)), |uv, _| nearest(&maps.color, uv);
         "bilinear": bare, Unlit(base.sampler(Bilinear, Repeat)), |uv, _| bilinear(&maps.color, 0, uv);
-        "nearest-mip": bare, Unlit(mip(&maps.color).sampler(Minify { min: Nearest, levels: NearestLevel, mag: Nearest }, Repeat));
-        "bilinear-mip": bare, Unlit(mip(&maps.color).sampler(Minify { min: Bilinear, levels: NearestLevel, mag: Bilinear }, Repeat));
+        "nearest-mip": bare, Unlit(mip(&maps.color).sampler(NearestLevel(Nearest), Repeat));
+        "bilinear-mip": bare, Unlit(mip(&maps.color).sampler(NearestLevel(Bilinear), Repeat));
         "trilinear": bare, trilinear_unlit, |uv, lambda| trilinear(&maps.color, uv, lambda);
         "trilinear-per-span": bare, Differentiated::by(PerSpan, trilinear_unlit);
         "trilinear-per-triangle": bare, Differentiated::by(PerTriangle, trilinear_unlit);

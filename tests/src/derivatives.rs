@@ -1,7 +1,6 @@
 //! Asking the rasterizer what a fragment stage learns of the changes from pixel to pixel.
 
 use crate::probe::{LARGEST, Seen};
-use alberti::texture::Derivatives;
 use alberti_math::lanes::{Lanes, Machine};
 use alberti_math::{Flat, Linear, Sub8, for_lanes};
 use alberti_raster::{
@@ -59,7 +58,7 @@ impl<D: Differentiation> FragmentStage<Carried> for Listener<'_, D> {
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, Carried>) -> (L::U32, L::Mask) {
         let Fragments { lanes, gradient: Gradient { dx, dy }, mask, .. } = *fragments;
         let ([du_dx, dv_dx], [du_dy, dv_dy]) = (dx.0, dy.0);
-        let lambda = Derivatives { du_dx, dv_dx, du_dy, dv_dy }.lod_lanes(lanes, SIZE);
+        let lambda = Gradient { dx: dx.0, dy: dy.0 }.lod_lanes(lanes, SIZE);
         let stored = |numbers: [L::Number; 4]| numbers.map(|n| lanes.store(n));
         let (dx, dy) = (stored([du_dx, dv_dx, dx.1, dx.2]), stored([du_dy, dv_dy, dy.1, dy.2]));
         let lambda = lanes.store(lambda);

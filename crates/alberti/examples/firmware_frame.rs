@@ -84,7 +84,7 @@ fn frame(memory: &mut Memory, mut send: impl FnMut(&[u8])) -> Result<(), Box<dyn
 
     // The geometry once, then sixteen rows at a time.
     let mut bands = Bands::new(Rgb565Be, D16, WIDTH.into(), HEIGHT.into(), color, depth)?;
-    let mut pass = Pass::new(&view, &mesh, stage).with(Mcu).slots(slots);
+    let mut pass = Pass::new(&view, &mesh, stage).with(MCU).slots(slots);
     let (mut triangles, _) = pass.prepare(&bands, room);
     while let Some(mut band) = bands.next_band() {
         band.clear(common::BACKGROUND);

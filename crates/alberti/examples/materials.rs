@@ -9,7 +9,7 @@ use alberti::glam::{Vec2, Vec3};
 use alberti::shaders::material::{
     BlinnPhong, Color, Framed, Layer, Lighting, Material, NormalMap, Parallax, PointLight, Specular, Viewer,
 };
-use alberti::texture::surface::{Centred, ParallaxOcclusion, Relief};
+use alberti::texture::surface::{NormalEncoding::Centred, ParallaxOcclusion, Relief};
 use alberti::texture::{Bilinear, Repeat, Texture, format::Rgba8888};
 use alberti::*;
 use std::process::ExitCode;
@@ -41,7 +41,7 @@ pub(crate) fn picture() -> common::File {
         Parallax { relief, policy: ParallaxOcclusion { layers: 24 } },
         color,
         Specular(Rgba8::from_rgb24(0x50_50_48)),
-        NormalMap { map: normals.sampler(Bilinear, Repeat), encoding: Centred, strength: () },
+        NormalMap { map: normals.sampler(Bilinear, Repeat), encoding: Centred, strength: 1.0 },
     ))?;
     let columns = usize::from(SIZE[0]);
     let both: Vec<u32> = flat

@@ -33,7 +33,7 @@ pub use alberti_texture as texture;
 pub use geometry::{Geometry, Mesh};
 pub use pipeline::{Pass, draw};
 pub use prepared::{Prepared, ScreenTriangle};
-pub use profile::{Desktop, Mcu, Profile, Reference, Tiny};
+pub use profile::{DESKTOP, MCU, Profile, REFERENCE, TINY};
 pub use stats::Stats;
 pub use vertex::Slot;
 pub use view::{Camera, View};

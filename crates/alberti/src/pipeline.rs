@@ -92,8 +92,11 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection, S: Subpixel> Pass<'a,
     /// The interpolation and the subpixels of a [`Profile`]; the formats are the target's.
     #[must_use]
     #[inline]
-    pub fn with<Q: Profile>(self, profile: Q) -> Pass<'a, M, F, Q::Interpolation, Pr, Q::Subpixel> {
-        self.interpolation(profile.interpolation()).subpixel(profile.subpixel())
+    pub fn with<Q: Interpolation, T: Subpixel, C, D>(
+        self,
+        profile: Profile<Q, T, C, D>,
+    ) -> Pass<'a, M, F, Q, Pr, T> {
+        self.interpolation(profile.interpolation).subpixel(profile.subpixel)
     }
 
     /// The way of the attributes from the vertices to the pixels, instead of [`Exact`].

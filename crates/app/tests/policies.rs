@@ -5,9 +5,9 @@ use alberti::lanes::One;
 use alberti::shaders::{Modulate, Slide, Sunlit, Unlit};
 use alberti::texture::{Bilinear, Clamp, Nearest, Repeat, TexelFormat as _, Texture, format};
 use alberti::{
-    Affine, ColorFormat as Pixels, D16, D24, D32, DepthFormat as Depths, Exact, F32, FixedPoint,
-    FragmentStage, Lines, Mcu, Mesh, NoDepth, Pass, Planes, Point3, Profile, Projector, Reference, Rgb565Le,
-    Rgba8, Rgba8888, Sub4, Sub8, Target, Tiny, Varying, Vector3, look_at,
+    Affine, ColorFormat as Pixels, D16, D24, D32, DESKTOP, DepthFormat as Depths, Exact, F32, FixedPoint,
+    FragmentStage, Lines, MCU, Mesh, NoDepth, Pass, Planes, Point3, Profile, Projector, REFERENCE, Rgb565Le,
+    Rgba8, Rgba8888, Sub4, Sub8, TINY, Target, Varying, Vector3, look_at,
 };
 use alberti_app::draw::{AMBIENT, DIFFUSE, to_light, view};
 use alberti_app::options::{
@@ -42,20 +42,21 @@ impl Shown for u16 {
 }
 
 /// The scene's one part by the library.
-fn by_library<P, V>(
-    profile: P,
+fn by_library<V: Varying>(
+    profile: Profile<
+        impl alberti::Interpolation,
+        impl alberti::Subpixel,
+        impl Pixels<Pixel: Shown>,
+        impl Depths,
+    >,
     scene: &BuiltIn,
     vertex_stage: impl Fn(&Vertex) -> (Vec3, V),
     stage: impl FragmentStage<V, Color = Rgba8>,
     big_endian: bool,
-) -> Vec<[u8; 4]>
-where
-    P: Profile<Color: Pixels<Pixel: Shown>>,
-    V: Varying,
-{
+) -> Vec<[u8; 4]> {
     let (width, height) = SIZE;
     let pixels = (width * height) as usize;
-    let (mut color, mut depth) = (vec![Shown::BLANK; pixels], vec![profile.depth().farthest(); pixels]);
+    let (mut color, mut depth) = (vec![Shown::BLANK; pixels], vec![profile.depth.farthest(); pixels]);
     let mut target = profile.target(width, height, &mut color, &mut depth).expect("fits");
     let [r, g, b] = scene.background;
     target.clear(Rgba8::new(r, g, b, 255));
@@ -98,8 +99,13 @@ fn options(
 }
 
 /// A texture as it is, of the nearest texel, on the floor.
-fn unlit<P: Profile<Color: Pixels<Pixel: Shown>>>(
-    profile: P,
+fn unlit(
+    profile: Profile<
+        impl alberti::Interpolation,
+        impl alberti::Subpixel,
+        impl Pixels<Pixel: Shown>,
+        impl Depths,
+    >,
     choice: (Policies, DepthFormat),
     big_endian: bool,
 ) {
@@ -113,8 +119,13 @@ fn unlit<P: Profile<Color: Pixels<Pixel: Shown>>>(
 }
 
 /// A filtered texture with light, on the knot.
-fn lit<P: Profile<Color: Pixels<Pixel: Shown>>>(
-    profile: P,
+fn lit(
+    profile: Profile<
+        impl alberti::Interpolation,
+        impl alberti::Subpixel,
+        impl Pixels<Pixel: Shown>,
+        impl Depths,
+    >,
     choice: (Policies, DepthFormat),
     big_endian: bool,
 ) {
@@ -186,45 +197,23 @@ fn projections_and_projectors_are_those_of_the_library() {
 #[test]
 fn profiles_are_those_of_the_library() {
     let choice = options::Profile::policies;
-    lit(Reference, choice(options::Profile::Reference), false);
-    lit(alberti::Desktop, choice(options::Profile::Desktop), false);
-    lit(Mcu, choice(options::Profile::Mcu), true);
-    lit(Tiny, choice(options::Profile::Tiny), true);
-    unlit(Mcu, choice(options::Profile::Mcu), true);
-    unlit(Tiny, choice(options::Profile::Tiny), true);
+    lit(REFERENCE, choice(options::Profile::Reference), false);
+    lit(DESKTOP, choice(options::Profile::Desktop), false);
+    lit(MCU, choice(options::Profile::Mcu), true);
+    lit(TINY, choice(options::Profile::Tiny), true);
+    unlit(MCU, choice(options::Profile::Mcu), true);
+    unlit(TINY, choice(options::Profile::Tiny), true);
 }
 
-/// Interpolation, subpixels, colours and depths.
-#[derive(Clone, Copy, Debug)]
-struct Each<P, S, C, D>(P, S, C, D);
-
-impl<P, S, C, D> Profile for Each<P, S, C, D>
+/// Those by their places.
+const fn profile<P, S, C, D>(interpolation: P, subpixel: S, color: C, depth: D) -> Profile<P, S, C, D>
 where
-    P: alberti::Interpolation,
-    S: alberti::Subpixel,
-    C: Pixels,
-    D: Depths,
+    P: Copy,
+    S: Copy,
+    C: Copy,
+    D: Copy,
 {
-    type Interpolation = P;
-    type Subpixel = S;
-    type Color = C;
-    type Depth = D;
-
-    fn interpolation(self) -> P {
-        self.0
-    }
-
-    fn subpixel(self) -> S {
-        self.1
-    }
-
-    fn color(self) -> C {
-        self.2
-    }
-
-    fn depth(self) -> D {
-        self.3
-    }
+    Profile { interpolation, subpixel, color, depth }
 }
 
 #[test]
@@ -240,15 +229,31 @@ fn so_is_each_policy() {
     let choice = |interpolation, numbers, color, subpixel, depth| {
         (policies(interpolation, numbers, color, subpixel), depth)
     };
-    unlit(Each(Planes, Sub8, Rgba8888, D24), choice(I::Plane, Float, rgba, S::Sub8, DepthFormat::U24), false);
-    unlit(Each(Exact, Sub4, Rgb565Le, D16), choice(I::Exact, Float, small, S::Sub4, DepthFormat::U16), false);
-    unlit(Each(lines, Sub4, Rgba8888, D32), choice(long, Float, rgba, S::Sub4, DepthFormat::U32), false);
     unlit(
-        Each(Affine, Sub8, Rgba8888, NoDepth),
+        profile(Planes, Sub8, Rgba8888, D24),
+        choice(I::Plane, Float, rgba, S::Sub8, DepthFormat::U24),
+        false,
+    );
+    unlit(
+        profile(Exact, Sub4, Rgb565Le, D16),
+        choice(I::Exact, Float, small, S::Sub4, DepthFormat::U16),
+        false,
+    );
+    unlit(profile(lines, Sub4, Rgba8888, D32), choice(long, Float, rgba, S::Sub4, DepthFormat::U32), false);
+    unlit(
+        profile(Affine, Sub8, Rgba8888, NoDepth),
         choice(I::Affine, Float, rgba, S::Sub8, DepthFormat::None),
         false,
     );
-    unlit(Each(budget, Sub8, Rgba8888, F32), choice(bounded, Float, rgba, S::Sub8, DepthFormat::F32), false);
-    unlit(Each(fixed, Sub8, Rgb565Le, D32), choice(bounded, Fixed, small, S::Sub8, DepthFormat::U32), false);
-    lit(Each(budget, Sub8, Rgba8888, F32), choice(bounded, Float, rgba, S::Sub8, DepthFormat::F32), false);
+    unlit(
+        profile(budget, Sub8, Rgba8888, F32),
+        choice(bounded, Float, rgba, S::Sub8, DepthFormat::F32),
+        false,
+    );
+    unlit(
+        profile(fixed, Sub8, Rgb565Le, D32),
+        choice(bounded, Fixed, small, S::Sub8, DepthFormat::U32),
+        false,
+    );
+    lit(profile(budget, Sub8, Rgba8888, F32), choice(bounded, Float, rgba, S::Sub8, DepthFormat::F32), false);
 }

@@ -5,9 +5,9 @@
 use crate::color::ColorFormat;
 use crate::counters::Counters;
 use crate::depth::DepthFormat;
+use crate::differentiation::Differentiation;
 use crate::edge::{Edge, EdgeInt};
 use crate::fragment::FragmentStage;
-use crate::gradient::Differentiation;
 use crate::interpolation::{Interpolation, Oriented, Row};
 use crate::mask::{NARROW, RowMask};
 use crate::paint::{Painter, aligned};

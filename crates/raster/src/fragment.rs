@@ -1,9 +1,9 @@
 //! The fragment stage: from interpolated attributes to a colour.
 
 use crate::color::FragmentColor;
-use crate::gradient::{Differentiation, Gradient, NoDerivatives};
-use alberti_math::Varying;
+use crate::differentiation::{Differentiation, NoDerivatives};
 use alberti_math::lanes::{Lanes, One};
+use alberti_math::{Gradient, Varying};
 use core::fmt;
 
 /// A map from the varying of a covered sample that passed the depth test to a colour, or to none, which leaves the

@@ -9,10 +9,10 @@ mod color;
 mod comparison;
 mod counters;
 mod depth;
+mod differentiation;
 mod draw;
 mod edge;
 mod fragment;
-mod gradient;
 mod interpolation;
 mod mask;
 mod paint;
@@ -20,16 +20,16 @@ mod spans;
 mod target;
 mod triangle;
 
-pub use alberti_math::{Rgb565Be, Rgb565Le, Rgba8888};
+pub use alberti_math::{Gradient, Rgb565Be, Rgb565Le, Rgba8888};
 pub use bands::Bands;
 pub use color::{ColorFormat, FragmentColor, rgb565};
 pub use comparison::{Always, Equal, Farther, OrEqual, ReadOnly};
 pub use counters::Counters;
 pub use depth::{AnyDepth, D16, D24, D32, DepthFormat, F32, F32Reversed, NoDepth};
+pub use differentiation::{Differentiation, NoDerivatives, PerPixel, PerSpan, PerTriangle, Samples};
 pub use draw::Paint;
 pub use edge::{Edge, EdgeInt, FITS_I32};
 pub use fragment::{FragmentStage, Fragments};
-pub use gradient::{Differentiation, Gradient, NoDerivatives, PerPixel, PerSpan, PerTriangle, Samples};
 pub use interpolation::{
     Affine, Exact, ExactTriangle, FixedPoint, Interpolation, Lines, Planes, Runs, Spans16,
 };

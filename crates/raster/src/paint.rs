@@ -4,9 +4,9 @@
 use crate::color::ColorFormat;
 use crate::counters::Counters;
 use crate::depth::DepthFormat;
+use crate::differentiation::{Differentiation, Samples};
 use crate::edge::{Edge, EdgeInt};
 use crate::fragment::{FragmentStage, Fragments};
-use crate::gradient::{Differentiation, Samples};
 use crate::interpolation::{Interpolate, Row};
 use crate::mask::RowMask;
 use crate::spans::Span;

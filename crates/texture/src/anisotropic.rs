@@ -6,10 +6,7 @@ use crate::blend::mean_of;
 use crate::format::Storage;
 use crate::minify::each_word;
 use crate::sealed::Sealed;
-use crate::{
-    AnyFilter, BetweenLevels, Bilinear, Derivatives, LevelSize, LodPolicy, Minify, MipFilter, Mipmap,
-    Trilinear, Wrap,
-};
+use crate::{AnyFilter, BetweenLevels, Bilinear, Gradient, Minify, MipFilter, Mipmap, Size, Trilinear, Wrap};
 
 /// The mean of up to `probes` colours of `filter` along the longer axis of the ellipse that a round pixel covers of the
 /// texture: as many as it is longer than the other one. Sharp where a plane is seen at an angle.
@@ -21,12 +18,11 @@ use crate::{
 ///                    long                   λ = max(log2 short, log2 long - log2 probes)
 /// ```
 ///
-/// The axes are those of [`Derivatives::axes_lanes`], and stay where they are when the camera is rolled. A level of
-/// detail alone has no shape: then it is `filter`. [`LodBounds`](crate::LodBounds) are those of this λ; n and the
-/// places stay.
+/// The axes are those of [`Gradient::axes_lanes`], and stay where they are when the camera is rolled. A level of
+/// detail alone has no shape: then it is `filter`.
 ///
 /// # Precision
-/// Axes as [`Derivatives::axes_lanes`] says, the logarithms of their lengths as [`Derivatives::lod`]; the mean is
+/// Axes as [`Gradient::axes_lanes`] says, the logarithms of their lengths as [`Gradient::lod`]; the mean is
 /// rounded once, halves up, after that of each probe. So equal texels give their colour, and none is outside of the
 /// range of its texels.
 ///
@@ -62,19 +58,19 @@ impl<M: MipFilter> Anisotropic<M> {
     fn probes<L: Lanes>(
         self,
         lanes: L,
-        derivatives: Derivatives<L::Number>,
+        gradient: Gradient<[L::Number; 2]>,
         size: [u32; 2],
-        bounds: impl LodPolicy,
+        bounded: impl Fn(L::Number) -> L::Number,
     ) -> Probes<L> {
-        let axes = derivatives.axes_lanes(lanes, size);
-        let [across, down] = axes.log2_lengths(lanes, size);
+        let axes = gradient.axes_lanes(lanes, size);
+        let [across, down] = axes.log2_lengths_lanes(lanes, size);
         let (long, short) = (lanes.max(across, down), lanes.min(across, down));
         let is_across = lanes.less(down, across);
-        let du = lanes.select(is_across, axes.du_dx, axes.du_dy);
-        let dv = lanes.select(is_across, axes.dv_dx, axes.dv_dy);
+        let du = lanes.select(is_across, axes.dx[0], axes.dy[0]);
+        let dv = lanes.select(is_across, axes.dx[1], axes.dy[1]);
         let greatest = self.log2_probes();
         let all = lanes.int_to_number(lanes.int(greatest.cast_signed()));
-        let lambda = bounds.bound_lanes(lanes, lanes.max(short, long - all));
+        let lambda = bounded(lanes.max(short, long - all));
         // The least integer that is not less than the difference.
         let count = lanes.word(0) - lanes.floor_scaled(short - long, 0);
         Probes { log2_count: lanes.min_words(count, lanes.word(greatest)), axis: [du, dv], lambda }
@@ -91,7 +87,7 @@ struct Probes<L: Lanes> {
 impl<L: Lanes> Probes<L> {
     /// The mean of the colours of a filter there.
     #[inline(always)]
-    fn mean<F: Storage, Z: LevelSize, U: Wrap, V: Wrap>(
+    fn mean<F: Storage, Z: Size, U: Wrap, V: Wrap>(
         self,
         lanes: L,
         filter: impl MipFilter,
@@ -124,7 +120,7 @@ impl<L: Lanes> Probes<L> {
 
 impl<M: MipFilter> MipFilter for Anisotropic<M> {
     #[inline(always)]
-    fn at_lod<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap>(
+    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
         self,
         lanes: L,
         mipmap: &Mipmap<'_, F, Z>,
@@ -136,16 +132,16 @@ impl<M: MipFilter> MipFilter for Anisotropic<M> {
     }
 
     #[inline(always)]
-    fn in_footprint<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap>(
+    fn in_footprint<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
         self,
         lanes: L,
         mipmap: &Mipmap<'_, F, Z>,
         wrap: (U, V),
         uv: [L::Number; 2],
-        derivatives: Derivatives<L::Number>,
-        bounds: impl LodPolicy,
+        gradient: Gradient<[L::Number; 2]>,
+        bounded: impl Fn(L::Number) -> L::Number,
     ) -> L::U32 {
-        self.probes(lanes, derivatives, mipmap.size(), bounds).mean(lanes, self.filter, mipmap, wrap, uv)
+        self.probes(lanes, gradient, mipmap.size(), bounded).mean(lanes, self.filter, mipmap, wrap, uv)
     }
 }
 
@@ -171,15 +167,15 @@ impl Sealed for AnyMipFilter {}
 impl AnyMipFilter {
     /// [`Trilinear`] with another filter where texels are larger than pixels.
     #[inline(always)]
-    fn shared(self) -> Minify<Bilinear, BetweenLevels, AnyFilter> {
+    fn shared(self) -> Minify<BetweenLevels<Bilinear>, AnyFilter> {
         let mag = if let Self::Base(filter) = self { filter } else { AnyFilter::Bilinear };
-        Minify { min: Bilinear, levels: BetweenLevels, mag }
+        Minify { min: BetweenLevels(Bilinear), mag }
     }
 }
 
 impl MipFilter for AnyMipFilter {
     #[inline(always)]
-    fn at_lod<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap>(
+    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
         self,
         lanes: L,
         mipmap: &Mipmap<'_, F, Z>,
@@ -193,22 +189,22 @@ impl MipFilter for AnyMipFilter {
     }
 
     #[inline(always)]
-    fn in_footprint<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap>(
+    fn in_footprint<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
         self,
         lanes: L,
         mipmap: &Mipmap<'_, F, Z>,
         wrap: (U, V),
         uv: [L::Number; 2],
-        derivatives: Derivatives<L::Number>,
-        bounds: impl LodPolicy,
+        gradient: Gradient<[L::Number; 2]>,
+        bounded: impl Fn(L::Number) -> L::Number,
     ) -> L::U32 {
         let zero = lanes.splat(0.0);
         let alone = |lambda| Probes { log2_count: lanes.word(0), axis: [zero; 2], lambda };
         let probes = match self {
             Self::Base(_) => alone(lanes.splat(-1.0)),
-            Self::Trilinear => alone(bounds.bound_lanes(lanes, derivatives.lod_lanes(lanes, mipmap.size()))),
+            Self::Trilinear => alone(bounded(gradient.lod_lanes(lanes, mipmap.size()))),
             Self::Anisotropic { probes } => {
-                Anisotropic { probes, filter: Trilinear }.probes(lanes, derivatives, mipmap.size(), bounds)
+                Anisotropic { probes, filter: Trilinear }.probes(lanes, gradient, mipmap.size(), bounded)
             }
         };
         probes.mean(lanes, self.shared(), mipmap, wrap, uv)

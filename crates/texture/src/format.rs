@@ -9,16 +9,15 @@
 //! [`Normals`].
 
 mod content;
-mod encode;
 mod indexed;
 mod storage;
 
 pub use alberti_math::{Rgb565Be, Rgb565Le, Rgba8, Rgba8888};
 pub use content::{Content, Normals, Scalars};
-pub use encode::Encode;
 pub use indexed::{Indexed, Indexed1, Indexed2, Indexed4, Indexed8};
 pub use storage::Storage;
 
+use crate::mipmap::mean;
 use core::fmt::Debug;
 
 /// A way of storing colours, each by itself.
@@ -39,12 +38,26 @@ pub trait TexelFormat: Copy + Debug + 'static {
     /// colour, and gives the nearest.
     fn decode(self, texel: Self::Texel) -> Rgba8;
 
+    /// The texel whose colour is nearest in each channel that the format has; formats of luminance store red.
+    ///
+    /// # Precision
+    /// A channel of n bits is 255/(2^n − 1) steps of a byte; the texel is the nearest of them, so that a decoded texel
+    /// of up to 8 bits a channel encodes to itself.
+    fn encode(self, color: Rgba8) -> Self::Texel;
+
     /// The number from 0 to 1 that the texel stands for in a map of numbers, such as heights, as a count of 65535ths:
     /// red, and of [`L16`] all bits.
     #[inline]
     fn scalar(self, texel: Self::Texel) -> u16 {
         let [red, ..] = self.decode(texel).to_bytes();
         u16::from(red) * 257
+    }
+
+    /// The mean of texels that count so many times, together from 1 to 2^28 times, if they mean this content: that of
+    /// their colours.
+    #[inline]
+    fn mean(self, content: Content, texels: impl Iterator<Item = (Self::Texel, u64)>) -> Self::Texel {
+        self.encode(mean::of_colors(content, texels.map(|(texel, weight)| (self.decode(texel), weight))))
     }
 }
 
@@ -55,6 +68,11 @@ impl TexelFormat for Rgba8888 {
     #[inline]
     fn decode(self, [r, g, b, a]: [u8; 4]) -> Rgba8 {
         Rgba8::new(r, g, b, a)
+    }
+
+    #[inline]
+    fn encode(self, color: Rgba8) -> [u8; 4] {
+        color.to_bytes()
     }
 }
 
@@ -68,6 +86,12 @@ impl TexelFormat for Rgb8 {
     #[inline]
     fn decode(self, [r, g, b]: [u8; 3]) -> Rgba8 {
         Rgba8::new(r, g, b, 255)
+    }
+
+    #[inline]
+    fn encode(self, color: Rgba8) -> [u8; 3] {
+        let [r, g, b, _] = color.to_bytes();
+        [r, g, b]
     }
 }
 
@@ -95,6 +119,12 @@ impl TexelFormat for Rgb565 {
         let low = (high >> 5 & 0x0007_0007) | (high >> 6 & 0x0300);
         Rgba8::from_bits(high | low | 0xff00_0000)
     }
+
+    #[inline]
+    fn encode(self, color: Rgba8) -> u16 {
+        let [r, g, b, _] = color.to_bytes();
+        narrowed(r, 31) << 11 | narrowed(g, 63) << 5 | narrowed(b, 31)
+    }
 }
 
 /// [`Rgb565`] whose bytes in memory are little-endian. Opaque.
@@ -105,6 +135,11 @@ impl TexelFormat for Rgb565Le {
     fn decode(self, texel: u16) -> Rgba8 {
         Rgb565.decode(u16::from_le(texel))
     }
+
+    #[inline]
+    fn encode(self, color: Rgba8) -> u16 {
+        Rgb565.encode(color).to_le()
+    }
 }
 
 /// [`Rgb565`] whose bytes in memory are big-endian. Opaque.
@@ -114,6 +149,11 @@ impl TexelFormat for Rgb565Be {
     #[inline]
     fn decode(self, texel: u16) -> Rgba8 {
         Rgb565.decode(u16::from_be(texel))
+    }
+
+    #[inline]
+    fn encode(self, color: Rgba8) -> u16 {
+        Rgb565.encode(color).to_be()
     }
 }
 
@@ -134,6 +174,17 @@ impl TexelFormat for Rgba4444 {
         let low = (t >> 12) | (t & 0x0f00) | (t << 12 & 0x000f_0000) | (t << 24 & 0x0f00_0000);
         Rgba8::from_bits(low * 17)
     }
+
+    #[inline]
+    fn encode(self, color: Rgba8) -> u16 {
+        color.to_bytes().iter().fold(0, |texel, &byte| texel << 4 | narrowed(byte, 15))
+    }
+}
+
+/// A byte as the nearest multiple of 255/`greatest`.
+#[inline]
+const fn narrowed(byte: u8, greatest: u16) -> u16 {
+    (byte as u16 * greatest + 127) / 255
 }
 
 /// One byte of luminance: red, green and blue are equal. Opaque.
@@ -147,6 +198,11 @@ impl TexelFormat for L8 {
     fn decode(self, texel: u8) -> Rgba8 {
         Rgba8::from_bits((u32::from(texel) * 0x0001_0101) | 0xff00_0000)
     }
+
+    #[inline]
+    fn encode(self, color: Rgba8) -> u8 {
+        color.to_bytes()[0]
+    }
 }
 
 /// Two bytes: luminance and alpha.
@@ -159,6 +215,12 @@ impl TexelFormat for La8 {
     #[inline]
     fn decode(self, [luminance, alpha]: [u8; 2]) -> Rgba8 {
         Rgba8::new(luminance, luminance, luminance, alpha)
+    }
+
+    #[inline]
+    fn encode(self, color: Rgba8) -> [u8; 2] {
+        let [luminance, _, _, alpha] = color.to_bytes();
+        [luminance, alpha]
     }
 }
 
@@ -187,6 +249,17 @@ impl TexelFormat for L16 {
     #[inline]
     fn scalar(self, texel: u16) -> u16 {
         texel
+    }
+
+    #[inline]
+    fn encode(self, color: Rgba8) -> u16 {
+        u16::from(color.to_bytes()[0]) * 257
+    }
+
+    /// The mean of all 16 bits, whatever the content.
+    #[inline]
+    fn mean(self, _: Content, texels: impl Iterator<Item = (u16, u64)>) -> u16 {
+        mean::of_numbers(texels)
     }
 }
 
@@ -235,6 +308,29 @@ mod tests {
             assert_eq!(Rgba4444.decode(texel).to_bytes(), fields);
             let nearest = u8::try_from((2 * 255 * u32::from(texel) + 65535) / (2 * 65535)).unwrap();
             assert_eq!(L16.decode(texel), Rgba8::new(nearest, nearest, nearest, 255));
+        }
+    }
+
+    /// Every channel of every byte against all steps of its width, and every texel of 16 bits.
+    #[test]
+    fn encoding_finds_the_nearest() {
+        for byte in 0..=255u8 {
+            for (greatest, step) in [(31u16, 255.0 / 31.0), (63, 255.0 / 63.0), (15, 17.0)] {
+                let found = narrowed(byte, greatest);
+                let distance = |n: u16| (f64::from(n) * step - f64::from(byte)).abs();
+                assert!((0..=greatest).all(|n| distance(found) <= distance(n)), "{byte} of {greatest}");
+            }
+            let color = Rgba8::new(byte, 3, !byte, 77);
+            assert_eq!(Rgba8888.decode(Rgba8888.encode(color)), color);
+            assert_eq!(Rgb8.encode(color), [byte, 3, !byte]);
+            assert_eq!((L8.encode(color), La8.encode(color)), (byte, [byte, 77]));
+            assert_eq!(L16.scalar(L16.encode(color)), u16::from(byte) * 257);
+        }
+        for texel in 0..=u16::MAX {
+            assert_eq!(Rgb565.encode(Rgb565.decode(texel)), texel);
+            assert_eq!(Rgb565Be.encode(Rgb565Be.decode(texel)), texel);
+            assert_eq!(Rgb565Le.encode(Rgb565Le.decode(texel)), texel);
+            assert_eq!(Rgba4444.encode(Rgba4444.decode(texel)), texel);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! From the levels of a mip map to a colour: which filter, in which levels.
 //!
-//! Space in: texture coordinates, and λ or the derivatives that it comes from ([`Derivatives`]). Space out: the colours
+//! Space in: texture coordinates, and λ or the derivatives that it comes from ([`Gradient`]). Space out: the colours
 //! as they are stored.
 
 use core::fmt::Debug;
@@ -11,13 +11,14 @@ use crate::blend::between;
 use crate::filter::{Bilinear, Filter};
 use crate::format::Storage;
 use crate::sealed::Sealed;
-use crate::{Derivatives, LevelSize, LodPolicy, Mipmap, Wrap};
+use crate::{Gradient, Mipmap, Size, Wrap};
 
-/// The way of reading a [`Mipmap`]: [`Minify`], [`Trilinear`] or [`Anisotropic`](crate::Anisotropic), and
+/// The way of reading a [`Mipmap`]: [`BaseLevel`], [`NearestLevel`] or [`BetweenLevels`] with a [`Filter`],
+/// [`Trilinear`], [`Minify`], [`Anisotropic`](crate::Anisotropic) or [`Bounded`](crate::Bounded), and
 /// [`AnyMipFilter`](crate::AnyMipFilter) for one that is picked at run time. Sealed.
 pub trait MipFilter: Sealed + Copy + Debug + 'static {
     /// The colours at (u, v), as words, for a level of detail of λ, with a wrap mode for u and one for v.
-    fn at_lod<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap>(
+    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
         self,
         lanes: L,
         mipmap: &Mipmap<'_, F, Z>,
@@ -26,65 +27,38 @@ pub trait MipFilter: Sealed + Copy + Debug + 'static {
         lambda: L::Number,
     ) -> L::U32;
 
-    /// The same for pixels that the derivatives tell the shapes of, with their λ bounded.
+    /// The same for pixels that the derivatives tell the shapes of, and so λ, which `bounded` changes.
     #[inline(always)]
-    fn in_footprint<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap>(
+    fn in_footprint<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
         self,
         lanes: L,
         mipmap: &Mipmap<'_, F, Z>,
         wrap: (U, V),
         uv: [L::Number; 2],
-        derivatives: Derivatives<L::Number>,
-        bounds: impl LodPolicy,
+        gradient: Gradient<[L::Number; 2]>,
+        bounded: impl Fn(L::Number) -> L::Number,
     ) -> L::U32 {
-        let lambda = bounds.bound_lanes(lanes, derivatives.lod_lanes(lanes, mipmap.size()));
+        let lambda = bounded(gradient.lod_lanes(lanes, mipmap.size()));
         self.at_lod(lanes, mipmap, wrap, uv, lambda)
     }
 }
 
-/// Where texels are smaller than pixels (λ > 0) the filter `min` in the levels that `levels` says, elsewhere (also
-/// where λ is NaN) the filter `mag` in level 0.
-///
-/// # Cost
-/// One filter, if all samples that are worked on together are on the same side of 0; the levels are those of `levels`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Minify<Min, Lv, Mag = Min> {
-    /// The [`Filter`] of minification.
-    pub min: Min,
-    /// The [`Levels`] that it is used in.
-    pub levels: Lv,
-    /// The [`Filter`] of magnification.
-    pub mag: Mag,
-}
-
-/// [`Bilinear`] in two levels, and the mean of these: [`Minify`] by [`Bilinear`] and [`BetweenLevels`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Trilinear;
-
-/// The levels that are read: [`BaseLevel`], [`NearestLevel`] or [`BetweenLevels`]. Sealed.
-pub trait Levels: Sealed + Copy + Debug + 'static {
-    /// The colours as words, for λ from 0 to that of the last level.
-    fn sample<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap, Fl: Filter>(
-        self,
-        lanes: L,
-        mipmap: &Mipmap<'_, F, Z>,
-        filter: Fl,
-        wrap: (U, V),
-        uv: [L::Number; 2],
-        lambda: L::Number,
-    ) -> L::U32;
-}
-
 /// Level 0 alone: no mip map.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct BaseLevel;
+pub struct BaseLevel<F>(
+    /// The [`Filter`].
+    pub F,
+);
 
-/// The level nearest to λ, of two as near the one with fewer texels: level floor(λ + 1/2), exactly.
+/// The level nearest to λ, of two as near the one with fewer texels: level floor(λ + 1/2), exactly, of those there are.
 ///
 /// # Cost
 /// One level for each of those that samples worked on together are in: mostly one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct NearestLevel;
+pub struct NearestLevel<F>(
+    /// The [`Filter`] in the level.
+    pub F,
+);
 
 /// The mean of the two levels about λ. With `t` as 256 λ rounded to the nearest integer (halves up), `near` the level
 /// t / 256, `far` the next, and `t` now modulo 256, each channel is
@@ -105,17 +79,111 @@ pub struct NearestLevel;
 /// Eight texels and 20 multiplications with `Bilinear`; only the nearer level where all are whole numbers, as where λ
 /// is beyond the last level.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct BetweenLevels;
+pub struct BetweenLevels<F>(
+    /// The [`Filter`] in each level.
+    pub F,
+);
 
-impl<Min, Lv, Mag> Sealed for Minify<Min, Lv, Mag> {}
+/// [`Bilinear`] in two levels, and the mean of these: [`BetweenLevels`], with a short way for magnification.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Trilinear;
+
+/// Where texels are smaller than pixels (λ > 0) the filter `min`, elsewhere (also where λ is NaN) the filter `mag` in
+/// level 0.
+///
+/// # Cost
+/// One filter, if all samples that are worked on together are on the same side of 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Minify<Min, Mag> {
+    /// The [`MipFilter`] of minification.
+    pub min: Min,
+    /// The [`Filter`] of magnification.
+    pub mag: Mag,
+}
+
+impl<F> Sealed for BaseLevel<F> {}
+impl<F> Sealed for NearestLevel<F> {}
+impl<F> Sealed for BetweenLevels<F> {}
 impl Sealed for Trilinear {}
-impl Sealed for BaseLevel {}
-impl Sealed for NearestLevel {}
-impl Sealed for BetweenLevels {}
+impl<Min, Mag> Sealed for Minify<Min, Mag> {}
 
-impl<Min: Filter, Lv: Levels, Mag: Filter> MipFilter for Minify<Min, Lv, Mag> {
+impl<Fl: Filter> MipFilter for BaseLevel<Fl> {
     #[inline(always)]
-    fn at_lod<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap>(
+    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+        self,
+        lanes: L,
+        mipmap: &Mipmap<'_, F, Z>,
+        wrap: (U, V),
+        uv: [L::Number; 2],
+        _: L::Number,
+    ) -> L::U32 {
+        self.0.sample(lanes, &mipmap.level(0), wrap, uv)
+    }
+}
+
+impl<Fl: Filter> MipFilter for NearestLevel<Fl> {
+    #[inline(always)]
+    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+        self,
+        lanes: L,
+        mipmap: &Mipmap<'_, F, Z>,
+        wrap: (U, V),
+        uv: [L::Number; 2],
+        lambda: L::Number,
+    ) -> L::U32 {
+        each_word(
+            lanes,
+            lanes.round_scaled(among_levels(lanes, mipmap, lambda), 0),
+            #[inline(always)]
+            |level| self.0.sample(lanes, &mipmap.level(level as usize), wrap, uv),
+        )
+    }
+}
+
+impl<Fl: Filter> MipFilter for BetweenLevels<Fl> {
+    #[inline(always)]
+    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+        self,
+        lanes: L,
+        mipmap: &Mipmap<'_, F, Z>,
+        wrap: (U, V),
+        uv: [L::Number; 2],
+        lambda: L::Number,
+    ) -> L::U32 {
+        let position = lanes.round_scaled(among_levels(lanes, mipmap, lambda), 8);
+        let along = position & lanes.word(255);
+        let whole = lanes.store_words(along).as_ref().iter().all(|&along| along == 0);
+        each_word(
+            lanes,
+            lanes.shr(position, 8),
+            #[inline(always)]
+            |level| {
+                let level = level as usize;
+                let near = self.0.sums(lanes, &mipmap.level(level), wrap, uv);
+                let far = if whole { near } else { self.0.sums(lanes, &mipmap.level(level + 1), wrap, uv) };
+                between(lanes, near, far, along)
+            },
+        )
+    }
+}
+
+impl MipFilter for Trilinear {
+    #[inline(always)]
+    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+        self,
+        lanes: L,
+        mipmap: &Mipmap<'_, F, Z>,
+        wrap: (U, V),
+        uv: [L::Number; 2],
+        lambda: L::Number,
+    ) -> L::U32 {
+        Minify { min: BetweenLevels(Bilinear), mag: Bilinear }.at_lod(lanes, mipmap, wrap, uv, lambda)
+    }
+}
+
+impl<Min: MipFilter, Mag: Filter> MipFilter for Minify<Min, Mag> {
+    #[inline(always)]
+    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
         self,
         lanes: L,
         mipmap: &Mipmap<'_, F, Z>,
@@ -127,9 +195,7 @@ impl<Min: Filter, Lv: Levels, Mag: Filter> MipFilter for Minify<Min, Lv, Mag> {
         let bits = lanes.bits(minified);
         let mut found = lanes.word(0);
         if bits != 0 {
-            let last = lanes.int_to_number(lanes.int(mipmap.last()));
-            let lambda = lanes.min(lanes.max(lambda, lanes.splat(0.0)), last);
-            found = self.levels.sample(lanes, mipmap, self.min, wrap, uv, lambda);
+            found = self.min.at_lod(lanes, mipmap, wrap, uv, lambda);
         }
         if bits != every::<L>() {
             let magnified = self.mag.sample(lanes, &mipmap.level(0), wrap, uv);
@@ -139,81 +205,15 @@ impl<Min: Filter, Lv: Levels, Mag: Filter> MipFilter for Minify<Min, Lv, Mag> {
     }
 }
 
-impl MipFilter for Trilinear {
-    #[inline(always)]
-    fn at_lod<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap>(
-        self,
-        lanes: L,
-        mipmap: &Mipmap<'_, F, Z>,
-        wrap: (U, V),
-        uv: [L::Number; 2],
-        lambda: L::Number,
-    ) -> L::U32 {
-        Minify { min: Bilinear, levels: BetweenLevels, mag: Bilinear }.at_lod(lanes, mipmap, wrap, uv, lambda)
-    }
-}
-
-impl Levels for BaseLevel {
-    #[inline(always)]
-    fn sample<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap, Fl: Filter>(
-        self,
-        lanes: L,
-        mipmap: &Mipmap<'_, F, Z>,
-        filter: Fl,
-        wrap: (U, V),
-        uv: [L::Number; 2],
-        _: L::Number,
-    ) -> L::U32 {
-        filter.sample(lanes, &mipmap.level(0), wrap, uv)
-    }
-}
-
-impl Levels for NearestLevel {
-    #[inline(always)]
-    fn sample<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap, Fl: Filter>(
-        self,
-        lanes: L,
-        mipmap: &Mipmap<'_, F, Z>,
-        filter: Fl,
-        wrap: (U, V),
-        uv: [L::Number; 2],
-        lambda: L::Number,
-    ) -> L::U32 {
-        each_word(
-            lanes,
-            lanes.round_scaled(lambda, 0),
-            #[inline(always)]
-            |level| filter.sample(lanes, &mipmap.level(level as usize), wrap, uv),
-        )
-    }
-}
-
-impl Levels for BetweenLevels {
-    #[inline(always)]
-    fn sample<L: Lanes, F: Storage, Z: LevelSize, U: Wrap, V: Wrap, Fl: Filter>(
-        self,
-        lanes: L,
-        mipmap: &Mipmap<'_, F, Z>,
-        filter: Fl,
-        wrap: (U, V),
-        uv: [L::Number; 2],
-        lambda: L::Number,
-    ) -> L::U32 {
-        let position = lanes.round_scaled(lambda, 8);
-        let along = position & lanes.word(255);
-        let whole = lanes.store_words(along).as_ref().iter().all(|&along| along == 0);
-        each_word(
-            lanes,
-            lanes.shr(position, 8),
-            #[inline(always)]
-            |level| {
-                let level = level as usize;
-                let near = filter.sums(lanes, &mipmap.level(level), wrap, uv);
-                let far = if whole { near } else { filter.sums(lanes, &mipmap.level(level + 1), wrap, uv) };
-                between(lanes, near, far, along)
-            },
-        )
-    }
+/// λ from that of level 0 to that of the last; that of level 0 for NaN.
+#[inline(always)]
+fn among_levels<L: Lanes, F: Storage, Z: Size>(
+    lanes: L,
+    mipmap: &Mipmap<'_, F, Z>,
+    lambda: L::Number,
+) -> L::Number {
+    let last = lanes.int_to_number(lanes.int(mipmap.last()));
+    lanes.min(lanes.max(lambda, lanes.splat(0.0)), last)
 }
 
 /// All lanes, as the bits of a mask.

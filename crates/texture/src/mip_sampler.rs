@@ -8,16 +8,15 @@ use glam::Vec2;
 
 use crate::format::Storage;
 use crate::minify::MipFilter;
-use crate::{AnySize, Derivatives, LevelSize, LodBounds, LodPolicy, Mipmap, Size, Wrap};
+use crate::{AnySize, Bounded, Gradient, LodBounds, Mipmap, Size, Wrap};
 
 /// A mip map with a filter and a wrap mode for each axis: what a fragment that knows its size asks for a colour.
 ///
-/// Made by [`Mipmap::sampler`] and [`Mipmap::sampler_per_axis`]; `B` is the [`LodPolicy`], none but for
-/// [`bounded`](Self::bounded) ones.
+/// Made by [`Mipmap::sampler`] and [`Mipmap::sampler_per_axis`].
 ///
 /// ```
 /// use alberti_texture::format::L8;
-/// use alberti_texture::{Derivatives, Mipmap, Repeat, Trilinear};
+/// use alberti_texture::{Gradient, Mipmap, Repeat, Trilinear};
 /// use glam::Vec2;
 ///
 /// let board = Mipmap::new(L8, &[0, 255, 255, 0, 188], 2, 2)?;
@@ -28,29 +27,24 @@ use crate::{AnySize, Derivatives, LevelSize, LodBounds, LodPolicy, Mipmap, Size,
 /// assert_eq!(sampler.sample_lod(uv, 1.0).to_bytes()[0], 188);
 /// assert_eq!(sampler.sample_lod(uv, 0.5).to_bytes()[0], 222);
 /// // A texel across and two down.
-/// let derivatives = Derivatives { du_dx: 0.5, dv_dx: 0.0, du_dy: 0.0, dv_dy: 1.0 };
-/// assert_eq!(sampler.sample_grad(uv, derivatives).to_bytes()[0], 188);
+/// let gradient = Gradient { dx: [0.5, 0.0], dy: [0.0, 1.0] };
+/// assert_eq!(sampler.sample_grad(uv, gradient).to_bytes()[0], 188);
 /// # Ok::<(), alberti_texture::TextureError>(())
 /// ```
 #[derive(Clone, Copy)]
-pub struct MipSampler<'a, F: Storage, M, U, V = U, Z: Size = AnySize, B = ()> {
+pub struct MipSampler<'a, F: Storage, M, U, V = U, Z: Size = AnySize> {
     mipmap: Mipmap<'a, F, Z>,
     filter: M,
     wrap: (U, V),
-    bounds: B,
 }
 
-impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize> MipSampler<'a, F, M, U, V, Z> {
+impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: Size> MipSampler<'a, F, M, U, V, Z> {
     #[inline]
     pub(crate) const fn new(mipmap: Mipmap<'a, F, Z>, filter: M, wrap: (U, V)) -> Self {
-        Self { mipmap, filter, wrap, bounds: () }
+        Self { mipmap, filter, wrap }
     }
-}
 
-impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize, B: LodPolicy>
-    MipSampler<'a, F, M, U, V, Z, B>
-{
-    /// The same sampler with a bias of λ and limits, in place of those that it may have had.
+    /// The same sampler with a bias of λ and limits, before those that it may have: its filter is [`Bounded`].
     ///
     /// ```
     /// use alberti_texture::format::L8;
@@ -64,8 +58,9 @@ impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize, B: LodPolicy>
     /// ```
     #[inline]
     #[must_use]
-    pub const fn bounded(self, bounds: LodBounds) -> MipSampler<'a, F, M, U, V, Z, LodBounds> {
-        MipSampler { mipmap: self.mipmap, filter: self.filter, wrap: self.wrap, bounds }
+    pub const fn bounded(self, bounds: LodBounds) -> MipSampler<'a, F, Bounded<M>, U, V, Z> {
+        let Self { mipmap, filter, wrap } = self;
+        MipSampler { mipmap, filter: Bounded { filter, bounds }, wrap }
     }
 
     /// The mip map that is sampled.
@@ -74,7 +69,7 @@ impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize, B: LodPolicy>
         self.mipmap
     }
 
-    /// The colour at `uv` for a level of detail of λ, which [`Derivatives::lod`] tells.
+    /// The colour at `uv` for a level of detail of λ, which [`Gradient::lod`] tells.
     ///
     /// Any three floats have a colour: see [`Wrap`]; of λ, NaN is a pixel smaller than texels, and infinities are the
     /// last level or such a pixel.
@@ -96,7 +91,6 @@ impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize, B: LodPolicy>
         v: L::Number,
         lambda: L::Number,
     ) -> L::U32 {
-        let lambda = self.bounds.bound_lanes(lanes, lambda);
         self.filter.at_lod(lanes, &self.mipmap, self.wrap, [u, v], lambda)
     }
 
@@ -104,11 +98,11 @@ impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize, B: LodPolicy>
     /// ([`Anisotropic`](crate::Anisotropic)).
     ///
     /// # Precision
-    /// That of the filter and of [`Derivatives::lod`].
+    /// That of the filter and of [`Gradient::lod`].
     #[inline]
     #[must_use]
-    pub fn sample_grad(&self, uv: Vec2, derivatives: Derivatives<f32>) -> Rgba8 {
-        Rgba8::from_bits(self.sample_grad_lanes(One, uv.x, uv.y, derivatives).0)
+    pub fn sample_grad(&self, uv: Vec2, gradient: Gradient<[f32; 2]>) -> Rgba8 {
+        Rgba8::from_bits(self.sample_grad_lanes(One, uv.x, uv.y, gradient).0)
     }
 
     /// [`sample_grad`](Self::sample_grad) at several places: the colours as words, as [`Rgba8::to_bits`] makes them.
@@ -118,19 +112,16 @@ impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize, B: LodPolicy>
         lanes: L,
         u: L::Number,
         v: L::Number,
-        derivatives: Derivatives<L::Number>,
+        gradient: Gradient<[L::Number; 2]>,
     ) -> L::U32 {
-        self.filter.in_footprint(lanes, &self.mipmap, self.wrap, [u, v], derivatives, self.bounds)
+        self.filter.in_footprint(lanes, &self.mipmap, self.wrap, [u, v], gradient, |lambda| lambda)
     }
 }
 
-impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: Size, B: LodPolicy> fmt::Debug
-    for MipSampler<'_, F, M, U, V, Z, B>
-{
+impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: Size> fmt::Debug for MipSampler<'_, F, M, U, V, Z> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("MipSampler")
             .field("mipmap", &self.mipmap)
-            .field("bounds", &self.bounds)
             .field("filter", &self.filter)
             .field("wrap", &self.wrap)
             .finish()

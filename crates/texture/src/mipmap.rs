@@ -15,17 +15,16 @@
 
 mod alpha;
 mod build;
-mod mean;
+pub(crate) mod mean;
 
 pub use alpha::preserve_coverage;
 pub use build::build;
-pub use mean::Mean;
 
 use core::fmt;
 
 use crate::format::Storage;
 use crate::texture::MAX_SIZE;
-use crate::{AnySize, LevelSize, MipFilter, MipSampler, PowerOfTwo, Size, Texture, TextureError, Wrap};
+use crate::{AnySize, MipFilter, MipSampler, PowerOfTwo, Size, Texture, TextureError, Wrap};
 
 /// The greatest number of levels: of a side of 2^14 texels.
 pub const MAX_LEVELS: usize = 15;
@@ -141,7 +140,7 @@ impl<'a, F: Storage> Mipmap<'a, F> {
     }
 }
 
-impl<'a, F: Storage, Z: LevelSize> Mipmap<'a, F, Z> {
+impl<'a, F: Storage, Z: Size> Mipmap<'a, F, Z> {
     /// How many levels there are, 1 to [`MAX_LEVELS`].
     #[inline]
     #[must_use]
@@ -186,14 +185,14 @@ impl<'a, F: Storage, Z: LevelSize> Mipmap<'a, F, Z> {
     /// Two loads, two shifts and a few comparisons.
     #[inline]
     #[must_use]
-    pub fn level(&self, level: usize) -> Texture<'a, F, Z> {
+    pub fn level(&self, level: usize) -> Texture<'a, F, Z::Level> {
         let level = level.min(self.levels().saturating_sub(1));
         let at = |level: usize| self.begin.get(level).copied().unwrap_or_default() as usize;
         // They are there, as `new` has compared.
         let elements = self.elements.get(at(level)..at(level + 1)).unwrap_or_default();
         let sides = [self.width, self.height].map(|side| (side >> level).max(1));
-        // Halves of powers of two are some too.
-        Texture::of_parts(self.size.slice(elements), self.format, sides, self.size)
+        let (texels, size) = self.size.level(elements);
+        Texture::of_parts(texels, self.format, sides, size)
     }
 }
 

@@ -17,6 +17,12 @@ pub trait Size: Sealed + Copy + Debug + 'static {
     /// Texels in rows, as many as that is.
     type Texels<'a, T: 'a>: Copy;
 
+    /// What is known of the sides of the levels of a [`Mipmap`](crate::Mipmap), which are halves of these.
+    type Level: Size;
+
+    /// A level's texels, and what is known of its sides.
+    fn level<T>(self, texels: &[T]) -> (<Self::Level as Size>::Texels<'_, T>, Self::Level);
+
     /// All texels, row by row.
     fn flattened<'a, T: 'a>(self, texels: Self::Texels<'a, T>) -> &'a [T];
 
@@ -67,12 +73,6 @@ pub trait Size: Sealed + Copy + Debug + 'static {
         width: u32,
         word: impl Fn(Option<&T>) -> u32,
     ) -> L::U32;
-}
-
-/// A [`Size`] that the levels of a [`Mipmap`](crate::Mipmap) can have: [`AnySize`] or [`PowerOfTwo`].
-pub trait LevelSize: Size {
-    /// Texels of any number.
-    fn slice<T>(self, texels: &[T]) -> Self::Texels<'_, T>;
 }
 
 /// Sides of any length, the way chosen at run time: as in [`PowerOfTwo`] where both are powers of two. Elsewhere
@@ -136,6 +136,12 @@ fn indexed<L: Lanes, T>(lanes: L, texels: &[T], indices: L::U32, word: impl Fn(O
 
 impl Size for AnySize {
     type Texels<'a, T: 'a> = &'a [T];
+    type Level = Self;
+
+    #[inline(always)]
+    fn level<T>(self, texels: &[T]) -> (&[T], Self) {
+        (texels, self)
+    }
 
     #[inline(always)]
     fn flattened<'a, T: 'a>(self, texels: &'a [T]) -> &'a [T] {
@@ -200,15 +206,14 @@ impl Size for AnySize {
     }
 }
 
-impl LevelSize for AnySize {
-    #[inline(always)]
-    fn slice<T>(self, texels: &[T]) -> &[T] {
-        texels
-    }
-}
-
 impl Size for PowerOfTwo {
     type Texels<'a, T: 'a> = &'a [T];
+    type Level = Self;
+
+    #[inline(always)]
+    fn level<T>(self, texels: &[T]) -> (&[T], Self) {
+        (texels, self)
+    }
 
     #[inline(always)]
     fn flattened<'a, T: 'a>(self, texels: &'a [T]) -> &'a [T] {
@@ -228,13 +233,6 @@ impl Size for PowerOfTwo {
     }
 }
 
-impl LevelSize for PowerOfTwo {
-    #[inline(always)]
-    fn slice<T>(self, texels: &[T]) -> &[T] {
-        texels
-    }
-}
-
 impl<const WIDTH: usize, const HEIGHT: usize> Size for Known<WIDTH, HEIGHT> {
     #[expect(clippy::cast_possible_truncation, reason = "there is no texture with larger sides")]
     const SIDES: Option<[u32; 2]> = {
@@ -243,6 +241,12 @@ impl<const WIDTH: usize, const HEIGHT: usize> Size for Known<WIDTH, HEIGHT> {
     };
 
     type Texels<'a, T: 'a> = &'a [[T; WIDTH]; HEIGHT];
+    type Level = PowerOfTwo;
+
+    #[inline(always)]
+    fn level<T>(self, texels: &[T]) -> (&[T], PowerOfTwo) {
+        (texels, PowerOfTwo)
+    }
 
     #[inline(always)]
     fn flattened<'a, T: 'a>(self, texels: &'a [[T; WIDTH]; HEIGHT]) -> &'a [T] {

@@ -10,7 +10,7 @@
 //! | tangents of a mesh | [`vertex_tangents`], [`frame_of_tangent`] | as in glTF; `Frame<Tangent, Object>` |
 //! | the same, by MikkTSpace | `mikktspace`, with the feature of that name, which needs an allocator | as in glTF |
 //! | normal map | [`normal`], [`normal_of_two`], [`strengthened`] | a normal in the frame |
-//! | bump map | [`Relief::normal`], [`Slopes`] and [`normal_of_slope`] | a normal in the frame |
+//! | bump map | [`Relief::normal`], [`HeightMap::slopes_lanes`] and [`normal_of_slope`] | a normal in the frame |
 //! | bump map on sheared axes | [`bump`] | a normal in object space |
 //! | bump map out of the frame | [`bump_lanes`] | a normal in object space |
 //! | parallax map | [`Relief::parallax`] | where to read the other maps |
@@ -50,13 +50,13 @@ pub use mesh::{LengthError, frame_of_tangent, vertex_normals, vertex_tangents};
 #[cfg(feature = "mikktspace")]
 pub use mikktspace::mikktspace;
 pub use normal::{
-    Centred, NormalEncoding, Unorm, normal, normal_lanes, normal_of_two, normal_of_two_lanes,
-    normal_to_parent, strengthened, strengthened_lanes, to_parent_lanes,
+    NormalEncoding, normal, normal_lanes, normal_of_two, normal_of_two_lanes, normal_to_parent, strengthened,
+    strengthened_lanes, to_parent_lanes,
 };
 pub use parallax::{LimitedParallax, OffsetParallax, ParallaxOcclusion, ParallaxSearch, SteepParallax};
 pub use parametric::{Cylinder, Differences, Parametric, Plane, Sphere, Torus};
 pub use relief::{Relief, bump, bump_lanes, normal_of_slope, normal_of_slope_lanes};
-pub use slopes::{BilinearHeights, CentralDifferences, Slopes};
+pub use slopes::{BilinearHeights, CentralDifferences};
 pub use tangent::{
     Tangent, frame_of_derivatives, frame_of_normal, orthonormal, triangle_directions, triangle_frame,
 };

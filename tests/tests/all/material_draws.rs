@@ -9,7 +9,9 @@ use alberti::shaders::material::{
     NormalMap, Occlusion, Parallax, Phong, PointLight, Reflection, Specular, SpotLight, Viewer, Wetness,
 };
 use alberti::texture::environment::LatLong;
-use alberti::texture::surface::{BilinearHeights, LimitedParallax, Relief, SteepParallax, Unorm};
+use alberti::texture::surface::{
+    BilinearHeights, LimitedParallax, NormalEncoding::Unorm, Relief, SteepParallax,
+};
 use alberti::texture::{Bilinear, Mipmap, Nearest, Repeat, Texture, Trilinear, mipmap::texel_count};
 use alberti::{
     Affine, Cull, Exact, F32, FixedPoint, FragmentStage, Frame, Interpolation, Mesh, Object, Parallel, Pass,
@@ -140,7 +142,7 @@ fn every_machine_draws_the_same_bits() {
             Color(color),
             (Specular(number), Gloss(Called(sharp)), Wetness(number)),
             Occlusion { map: color, strength: 0.8 },
-            NormalMap { map: color, encoding: Unorm, strength: () },
+            NormalMap { map: color, encoding: Unorm, strength: 1.0 },
             Emission(Rgba8::from_rgb24(0x08_04_00)),
             Reflection { environment: LatLong, image: number, strength: Called(sharp), facing: 0.04 },
         ),

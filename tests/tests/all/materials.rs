@@ -17,7 +17,7 @@ use alberti::shaders::material::{
 };
 use alberti::texture::environment::LatLong;
 use alberti::texture::format::Rgba8888;
-use alberti::texture::{Mipmap, Nearest, Repeat, Texture, Trilinear, surface::Unorm};
+use alberti::texture::{Mipmap, Nearest, Repeat, Texture, Trilinear, surface::NormalEncoding::Unorm};
 use alberti::{FragmentStage, Frame, Point3, Rgba8, Vector3, World};
 use alberti_oracle::material::{
     self as oracle, Light, Model, Point, Seen, mapped_normal, nearest, numbers, schlick,
@@ -380,8 +380,8 @@ fn each_layer_alone() {
         alone!(Emission(map), emission: numbers(texel));
         alone!((Emission(map), Emission(map)), emission: numbers(texel).map(|c| 2.0 * c));
         let axes = surface.axes.map(wide);
-        alone!(NormalMap { map, encoding: Unorm, strength: () }, normal: mapped_normal(texel, false, 1.0, axes));
-        alone!(TwoChannels { map, encoding: Unorm, strength: () }, normal: mapped_normal(texel, true, 1.0, axes));
+        alone!(NormalMap { map, encoding: Unorm, strength: 1.0 }, normal: mapped_normal(texel, false, 1.0, axes));
+        alone!(TwoChannels { map, encoding: Unorm, strength: 1.0 }, normal: mapped_normal(texel, true, 1.0, axes));
         let [a, b, c] = surface.axes.map(|axis| Vector3::new(axis * 3.0));
         let frame = Frame::new(Point3::new(Vec3::ONE), a, b, c);
         alone!(ObjectNormals { map, encoding: Unorm, to_world: frame }, normal: mapped_normal(texel, false, 1.0, axes));

@@ -5,9 +5,9 @@
 use alberti::glam::Vec3;
 use alberti::lanes::One;
 use alberti::{
-    Affine, Camera, ColorFormat, Cull, D16, D24, DepthFormat, Desktop, Exact, F32, F32Reversed, FixedPoint,
-    Interpolation, Lines, Mcu, Mesh, NoDepth, Pass, Profile, Reference, Rgb565Be, Rgb565Le, Rgba8, Rgba8888,
-    Spans16, Sub4, Sub8, Subpixel, Target, Tiny,
+    Affine, Camera, ColorFormat, Cull, D16, D24, DESKTOP, DepthFormat, Exact, F32, F32Reversed, FixedPoint,
+    Interpolation, Lines, MCU, Mesh, NoDepth, Pass, Profile, REFERENCE, Rgb565Be, Rgb565Le, Rgba8, Rgba8888,
+    Spans16, Sub4, Sub8, Subpixel, TINY, Target,
 };
 use std::fmt::Debug;
 
@@ -28,40 +28,14 @@ const VERTICES: [(Vec3, Vec3); 9] = [
     (Vec3::new(-0.3, 0.4, 0.2), Vec3::new(0.0, 0.1, 0.2)),
 ];
 
-/// One profile that is made of a value.
-#[derive(Clone, Copy, Debug)]
-struct Mine;
-
-impl Profile for Mine {
-    type Interpolation = Lines;
-    type Subpixel = Sub4;
-    type Color = Rgb565Le;
-    type Depth = D24;
-
-    fn interpolation(self) -> Lines {
-        Lines::bounded(1.0 / 256.0)
-    }
-
-    fn subpixel(self) -> Sub4 {
-        Sub4
-    }
-
-    fn color(self) -> Rgb565Le {
-        Rgb565Le
-    }
-
-    fn depth(self) -> D24 {
-        D24
-    }
-}
-
 /// Both ways' pixels and depths.
-fn assert_same<P, C, D>(
-    profile: P,
+fn assert_same<I, S, C, D>(
+    profile: Profile<I, S, C, D>,
     (interpolation, subpixel): (impl Interpolation, impl Subpixel),
     (color_format, depth_format): (C, D),
 ) where
-    P: Profile<Color: ColorFormat<Pixel = C::Pixel>, Depth: DepthFormat<Stored = D::Stored>>,
+    I: Interpolation,
+    S: Subpixel,
     C: ColorFormat<Pixel: Default + PartialEq + Debug>,
     D: DepthFormat<Stored: PartialEq>,
 {
@@ -108,9 +82,20 @@ fn assert_same<P, C, D>(
 
 #[test]
 fn a_profile_is_its_policies() {
-    assert_same(Reference, (Exact, Sub8), (Rgba8888, F32Reversed));
-    assert_same(Desktop, (Exact, Sub8), (Rgba8888, F32));
-    assert_same(Mcu, (FixedPoint(Spans16), Sub4), (Rgb565Be, D16));
-    assert_same(Tiny, (FixedPoint(Affine), Sub4), (Rgb565Be, NoDepth));
-    assert_same(Mine, (Lines::bounded(1.0 / 256.0), Sub4), (Rgb565Le, D24));
+    assert_same(REFERENCE, (Exact, Sub8), (Rgba8888, F32Reversed));
+    assert_same(DESKTOP, (Exact, Sub8), (Rgba8888, F32));
+    assert_same(MCU, (FixedPoint(Spans16), Sub4), (Rgb565Be, D16));
+    assert_same(TINY, (FixedPoint(Affine), Sub4), (Rgb565Be, NoDepth));
+    let lines = Lines::bounded(1.0 / 256.0);
+    let mine = Profile { interpolation: lines, subpixel: Sub4, color: Rgb565Le, depth: D24 };
+    assert_same(mine, (lines, Sub4), (Rgb565Le, D24));
+}
+
+/// Those of the documentation's table.
+#[test]
+fn a_pixel_takes_the_bytes_that_the_table_says() {
+    fn bytes<I, S, C: ColorFormat, D: DepthFormat>(_: Profile<I, S, C, D>) -> usize {
+        Profile::<I, S, C, D>::PIXEL_BYTES
+    }
+    assert_eq!([bytes(REFERENCE), bytes(DESKTOP), bytes(MCU), bytes(TINY)], [8, 8, 4, 2]);
 }

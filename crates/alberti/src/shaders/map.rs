@@ -5,9 +5,7 @@ use alberti_math::Rgba8;
 use alberti_math::lanes::Lanes;
 use alberti_raster::{Differentiation, Gradient, NoDerivatives, PerPixel};
 use alberti_texture::format::Storage;
-use alberti_texture::{
-    Derivatives, Filter, LevelSize, LodPolicy, MipFilter, MipSampler, Sampler, Size, Wrap,
-};
+use alberti_texture::{Filter, MipFilter, MipSampler, Sampler, Size, Wrap};
 use core::fmt::Debug;
 
 /// A colour for each place on a surface: a [`Sampler`], a [`MipSampler`] for all that a pixel covers, an [`Rgba8`] for
@@ -38,9 +36,7 @@ impl<F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size> Map for Sampler<'_, F, F
     }
 }
 
-impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize, B: LodPolicy> Map
-    for MipSampler<'_, F, M, U, V, Z, B>
-{
+impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: Size> Map for MipSampler<'_, F, M, U, V, Z> {
     type Derivatives = PerPixel;
 
     #[inline(always)]
@@ -48,9 +44,9 @@ impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize, B: LodPolicy> Map
         &self,
         lanes: L,
         [u, v]: [L::Number; 2],
-        &Gradient { dx: [du_dx, dv_dx], dy: [du_dy, dv_dy] }: &Gradient<[L::Number; 2]>,
+        gradient: &Gradient<[L::Number; 2]>,
     ) -> L::U32 {
-        self.sample_grad_lanes(lanes, u, v, Derivatives { du_dx, dv_dx, du_dy, dv_dy })
+        self.sample_grad_lanes(lanes, u, v, *gradient)
     }
 }
 

@@ -49,7 +49,7 @@ pub use light::{Directional, Light, PointLight, SpotLight};
 pub use map::{Called, Map, Times};
 pub use reflectance::{BlinnPhong, Lambert, Phong, Reflectance, Shininess};
 pub use reflection::Reflection;
-pub use relief::{Bump, NormalMap, ObjectNormals, Parallax, Strength, TwoChannels};
+pub use relief::{Bump, NormalMap, ObjectNormals, Parallax, TwoChannels};
 pub use surface::{Axes, Framed, Layer, OnSurface, Placed, Surface, Textured, Viewer};
 
 use super::map;

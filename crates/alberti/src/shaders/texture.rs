@@ -100,7 +100,7 @@ mod tests {
     use alberti_math::lanes::{One, OneFixed};
     use alberti_raster::Gradient;
     use alberti_texture::format::{L8, Rgb565};
-    use alberti_texture::{Clamp, Derivatives, LodBounds, Mipmap, Mirror, Repeat, Texture, Trilinear};
+    use alberti_texture::{Clamp, LodBounds, Mipmap, Mirror, Repeat, Texture, Trilinear};
     use core::num::Wrapping;
 
     /// A fragment alone.
@@ -129,12 +129,11 @@ mod tests {
             assert_eq!(Unlit(Times { map: nearest, factor }).shade_one(uv), tinted.shade_one(uv));
 
             let [dx, dy] = [[f32::from(k) / 64.0, 0.0], [0.0, 0.25]];
-            let d = Derivatives { du_dx: dx[0], dv_dx: dx[1], du_dy: dy[0], dv_dy: dy[1] };
             let gradient = Gradient { dx, dy };
             let (word, _) = Unlit(trilinear).shade(&of(One, [u, v], gradient));
-            assert_eq!(Rgba8::from_bits(word.0), trilinear.sample_grad(uv, d));
+            assert_eq!(Rgba8::from_bits(word.0), trilinear.sample_grad(uv, Gradient { dx, dy }));
             let (bounded, _) = Unlit(softer).shade(&of(One, [u, v], gradient));
-            assert_eq!(Rgba8::from_bits(bounded.0), softer.sample_grad(uv, d));
+            assert_eq!(Rgba8::from_bits(bounded.0), softer.sample_grad(uv, Gradient { dx, dy }));
             seen += u32::from(bounded != word);
         }
         assert!(seen > 10, "{seen}");

@@ -14,7 +14,7 @@ use alberti::shaders::material::{
     ObjectNormals, Occlusion, Parallax, Phong, Reflection, Specular, Surface, Wetness,
 };
 use alberti::texture::format::Content;
-use alberti::texture::surface::{CentralDifferences, Relief, Unorm};
+use alberti::texture::surface::{CentralDifferences, NormalEncoding::Unorm, Relief};
 use alberti::{Eye, Frame, Point3, Varying, World};
 
 /// What a part is made of.
@@ -35,7 +35,7 @@ pub(super) struct Painted<'a> {
 #[derive(Clone, Copy, Debug)]
 enum Facing<'a> {
     AsVertices,
-    Tangent(NormalMap<AnyMap<'a>, Unorm, f32>),
+    Tangent(NormalMap<AnyMap<'a>>),
     Object(ObjectNormals<AnyMap<'a>>),
     Bump(Bump<CentralDifferences<AnyHeights<'a>>>),
 }

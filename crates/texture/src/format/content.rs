@@ -2,7 +2,7 @@
 
 use alberti_math::Rgba8;
 
-use super::{Encode, TexelFormat};
+use super::TexelFormat;
 
 /// The meaning of a format's texels, and so of their mean: the texels of smaller levels of a mip map, which
 /// [`build`](crate::mipmap::build) makes.
@@ -72,12 +72,15 @@ macro_rules! stands_for {
             fn scalar(self, texel: F::Texel) -> u16 {
                 self.0.scalar(texel)
             }
-        }
 
-        impl<F: Encode> Encode for $wrapper<F> {
             #[inline]
             fn encode(self, color: Rgba8) -> F::Texel {
                 self.0.encode(color)
+            }
+
+            #[inline]
+            fn mean(self, content: Content, texels: impl Iterator<Item = (F::Texel, u64)>) -> F::Texel {
+                self.0.mean(content, texels)
             }
         }
     )*};
@@ -93,7 +96,11 @@ mod tests {
     /// Every texel of 16 bits.
     #[test]
     fn wrappers_store_the_same() {
-        fn check<F: Encode<Texel = u16>, G: Encode<Texel = u16>>(format: F, wrapped: G, texel: u16) {
+        fn check<F: TexelFormat<Texel = u16>, G: TexelFormat<Texel = u16>>(
+            format: F,
+            wrapped: G,
+            texel: u16,
+        ) {
             let color = format.decode(texel);
             assert_eq!((wrapped.decode(texel), wrapped.scalar(texel)), (color, format.scalar(texel)));
             assert_eq!(wrapped.encode(color), format.encode(color));

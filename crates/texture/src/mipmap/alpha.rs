@@ -3,7 +3,7 @@
 use alberti_math::Rgba8;
 
 use super::{level_count, size_of_level};
-use crate::format::Encode;
+use crate::format::TexelFormat;
 
 /// Scales the alpha of each smaller level so that as many of its texels pass a test of alpha, in proportion, as of
 /// level 0: leaves and fences do not thin out with distance (Castaño, "Computing Alpha Mipmaps", 2010).
@@ -15,7 +15,7 @@ use crate::format::Encode;
 ///
 /// # Cost
 /// Two passes over each level, and a kilobyte of stack.
-pub fn preserve_coverage<F: Encode>(
+pub fn preserve_coverage<F: TexelFormat>(
     format: F,
     texels: &mut [F::Texel],
     width: u32,

@@ -1,7 +1,7 @@
 //! Filling the smaller levels.
 
-use super::mean::Mean;
 use super::{level_count, size_of_level, texel_count};
+use crate::format::TexelFormat;
 use crate::{Texture, TextureError};
 
 /// Fills all levels from level 0, which is at the beginning of `texels`.
@@ -34,7 +34,7 @@ use crate::{Texture, TextureError};
 ///
 /// # Errors
 /// If a side is 0 or greater than 16384, or if there are not [`texel_count`] texels.
-pub fn build<F: Mean>(
+pub fn build<F: TexelFormat>(
     format: F,
     texels: &mut [F::Texel],
     width: u32,
@@ -55,10 +55,11 @@ pub fn build<F: Mean>(
         for (texels, row) in own.chunks_exact_mut(columns as usize).zip(0..) {
             for (texel, column) in texels.iter_mut().zip(0..) {
                 let rows = covered(base.chunks_exact(width as usize), row, [height, rows]);
-                *texel = format.mean(rows.flat_map(|(texels, weight)| {
+                let texels = rows.flat_map(|(texels, weight)| {
                     let parts = covered(texels.iter(), column, [width, columns]);
                     parts.map(move |(&texel, part)| (texel, weight * part))
-                }));
+                });
+                *texel = format.mean(format.content(), texels);
             }
         }
         rest = below;

@@ -2,51 +2,41 @@
 
 use alberti_math::Rgba8;
 
-use crate::format::{Content, Encode, L16};
-use crate::{TexelFormat, srgb};
+use crate::format::Content;
+use crate::srgb;
 
-/// A format whose texels have a mean, that of its [`content`](TexelFormat::content), in which mip chains are built:
-/// [`L16`] and all that [`Encode`], by which other crates add to them.
-pub trait Mean: TexelFormat {
-    /// The mean of texels that count so many times: together from 1 to 2^28 times.
-    fn mean(self, texels: impl Iterator<Item = (Self::Texel, u64)>) -> Self::Texel;
+/// The mean of colours that count so many times: together from 1 to 2^28 times.
+#[inline]
+pub(crate) fn of_colors(content: Content, colors: impl Iterator<Item = (Rgba8, u64)>) -> Rgba8 {
+    let colors = colors.map(|(color, weight)| (color.to_bytes(), weight));
+    let [r, g, b, a] = match content {
+        Content::Srgb => {
+            let light =
+                |[r, g, b, a]: [u8; 4]| [srgb::to_light(r), srgb::to_light(g), srgb::to_light(b), a.into()];
+            let ([r, g, b, a], weights) = sums(colors.map(|(color, weight)| (light(color), weight)));
+            let [r, g, b] = [r, g, b].map(|sum| srgb::to_byte(rounded(sum, weights)));
+            [r, g, b, byte(a, weights)]
+        }
+        Content::Scalars => {
+            let (sums, weights) = sums(colors);
+            sums.map(|sum| byte(sum, weights))
+        }
+        Content::Normals => {
+            let ([x, y, z, alpha], weights) = sums(colors);
+            // In units of 1/255 of the weights: at most 2^36 either way.
+            let vector = [x, y, z].map(|sum| (2 * sum).cast_signed() - (255 * weights).cast_signed());
+            let [r, g, b] = unit(vector).unwrap_or([128, 128, 255]);
+            [r, g, b, byte(alpha, weights)]
+        }
+    };
+    Rgba8::new(r, g, b, a)
 }
 
-impl<F: Encode> Mean for F {
-    #[inline]
-    fn mean(self, texels: impl Iterator<Item = (F::Texel, u64)>) -> F::Texel {
-        let texels = texels.map(|(texel, weight)| (self.decode(texel).to_bytes(), weight));
-        let [r, g, b, a] = match self.content() {
-            Content::Srgb => {
-                let light = |[r, g, b, a]: [u8; 4]| {
-                    [srgb::to_light(r), srgb::to_light(g), srgb::to_light(b), a.into()]
-                };
-                let ([r, g, b, a], weights) = sums(texels.map(|(color, weight)| (light(color), weight)));
-                let [r, g, b] = [r, g, b].map(|sum| srgb::to_byte(rounded(sum, weights)));
-                [r, g, b, byte(a, weights)]
-            }
-            Content::Scalars => {
-                let (sums, weights) = sums(texels);
-                sums.map(|sum| byte(sum, weights))
-            }
-            Content::Normals => {
-                let ([x, y, z, alpha], weights) = sums(texels);
-                // In units of 1/255 of the weights: at most 2^36 either way.
-                let vector = [x, y, z].map(|sum| (2 * sum).cast_signed() - (255 * weights).cast_signed());
-                let [r, g, b] = unit(vector).unwrap_or([128, 128, 255]);
-                [r, g, b, byte(alpha, weights)]
-            }
-        };
-        self.encode(Rgba8::new(r, g, b, a))
-    }
-}
-
-impl Mean for L16 {
-    #[inline]
-    fn mean(self, texels: impl Iterator<Item = (u16, u64)>) -> u16 {
-        let ([sum], weights) = sums(texels.map(|(texel, weight)| ([texel], weight)));
-        rounded(sum, weights)
-    }
+/// The mean of numbers that count so many times.
+#[inline]
+pub(crate) fn of_numbers(numbers: impl Iterator<Item = (u16, u64)>) -> u16 {
+    let ([sum], weights) = sums(numbers.map(|(number, weight)| ([number], weight)));
+    rounded(sum, weights)
 }
 
 /// The sums of the channels times their weights, and that of the weights.

@@ -13,10 +13,21 @@ use glam::Vec2;
 ///
 /// A [`Sampler`] is one, of which it is the red channel, [`Sampler::scalar_lanes`]: of 16 bits where the format has
 /// them. A filter's weights have 8 bits, so that the differences of a magnified map have steps;
-/// [`bilinear_height`] is for those. A closure is one too, which is called for one sample after the other.
+/// [`BilinearHeights`](super::BilinearHeights) are for those. A closure is one too, which is called for one sample
+/// after the other.
 pub trait HeightMap {
     /// The heights at several (u, v).
     fn height_lanes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2]) -> L::Number;
+
+    /// The slopes there, ∂h/∂u and ∂h/∂v.
+    ///
+    /// Here they are central differences, (h(u + s) − h(u − s)) / 2s; [`Relief::slope`](super::Relief::slope) says how
+    /// precise. A [`Sampler`]'s s is a texel, any other's 2^-10; another one is that of
+    /// [`CentralDifferences`](super::CentralDifferences).
+    #[inline(always)]
+    fn slopes_lanes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2]) -> [L::Number; 2] {
+        differences(lanes, self, uv, Vec2::splat(1.0 / 1024.0))
+    }
 
     /// The height at (u, v).
     #[inline]
@@ -39,6 +50,29 @@ impl<F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size> HeightMap for Sampler<'_
     fn height_lanes<L: Lanes>(&self, lanes: L, [u, v]: [L::Number; 2]) -> L::Number {
         self.scalar_lanes(lanes, u, v)
     }
+
+    #[inline(always)]
+    fn slopes_lanes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2]) -> [L::Number; 2] {
+        #[expect(clippy::cast_precision_loss, reason = "at most 2^14")]
+        let texel = self.texture().sides().map(|side| 1.0 / side as f32);
+        differences(lanes, self, uv, Vec2::from(texel))
+    }
+}
+
+/// The central differences of a map over `step` to either side.
+#[inline(always)]
+pub(super) fn differences<L: Lanes>(
+    lanes: L,
+    map: &(impl HeightMap + ?Sized),
+    [u, v]: [L::Number; 2],
+    step: Vec2,
+) -> [L::Number; 2] {
+    let (du, dv) = (lanes.splat(step.x), lanes.splat(step.y));
+    let ([left, right], [down, up]) = ([u - du, u + du], [v - dv, v + dv]);
+    let along_u = map.height_lanes(lanes, [right, v]) - map.height_lanes(lanes, [left, v]);
+    let along_v = map.height_lanes(lanes, [u, up]) - map.height_lanes(lanes, [u, down]);
+    // Over what the coordinates were rounded to.
+    [along_u / (right - left), along_v / (up - down)]
 }
 
 /// The height of a map at (u, v), from 0 to 1, and its gradient there, ∂h/∂u and ∂h/∂v: those of the bilinear surface

@@ -8,57 +8,40 @@
 
 use super::tangent::Tangent;
 use super::vector::{dot_lanes, has_range, over_length, unit_lanes};
-use crate::sealed::Sealed;
 use alberti_math::lanes::{Lanes, One};
 use alberti_math::{Frame, Rgba8, Space, Vector3};
-use core::fmt::Debug;
 use glam::Vec3;
 
-/// The number that a byte stands for: [`Unorm`] or [`Centred`]. Sealed.
-pub trait NormalEncoding: Sealed + Copy + Debug + 'static {
-    /// The numerator that stands for 1: 127 or more, at most 255.
-    fn one(self) -> f32;
-
-    /// The number that a byte stands for, times [`one`](Self::one): an integer between that and its opposite.
-    fn numerator<L: Lanes>(self, lanes: L, byte: L::U32) -> L::Number;
+/// The number that a byte of a normal map stands for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum NormalEncoding {
+    /// A byte c stands for 2c/255 − 1, as in glTF and as GPUs read `unorm` textures: -1 and 1 are exact, 0 does not
+    /// exist. So the usual flat blue (128, 128, 255) is tilted by 0.32° towards the corner.
+    #[default]
+    Unorm,
+    /// A byte c stands for (c − 128)/127, and 0 for -1 as 1 does: 128 is exactly 0, and (128, 128, 255) is exactly
+    /// flat. It is `snorm` with the highest bit turned. (128, 128, 128), which has no direction, is flat.
+    Centred,
 }
 
-/// A byte c stands for 2c/255 − 1, as in glTF and as GPUs read `unorm` textures: -1 and 1 are exact, 0 does not exist.
-/// So the usual flat blue (128, 128, 255) is tilted by 0.32° towards the corner.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Unorm;
-
-/// A byte c stands for (c − 128)/127, and 0 for -1 as 1 does: 128 is exactly 0, and (128, 128, 255) is exactly flat. It
-/// is `snorm` with the highest bit turned. (128, 128, 128), which has no direction, is flat.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Centred;
-
-impl Sealed for Unorm {}
-
-impl NormalEncoding for Unorm {
+impl NormalEncoding {
+    /// The numerator that stands for 1: 127 or more, at most 255.
     #[inline(always)]
-    fn one(self) -> f32 {
-        255.0
+    const fn one(self) -> f32 {
+        match self {
+            Self::Unorm => 255.0,
+            Self::Centred => 127.0,
+        }
     }
 
+    /// The number that a byte stands for, times [`one`](Self::one): an integer between that and its opposite.
     #[inline(always)]
     fn numerator<L: Lanes>(self, lanes: L, byte: L::U32) -> L::Number {
         let number = lanes.to_numbers(byte);
-        number + number - lanes.splat(255.0)
-    }
-}
-
-impl Sealed for Centred {}
-
-impl NormalEncoding for Centred {
-    #[inline(always)]
-    fn one(self) -> f32 {
-        127.0
-    }
-
-    #[inline(always)]
-    fn numerator<L: Lanes>(self, lanes: L, byte: L::U32) -> L::Number {
-        lanes.max(lanes.to_numbers(byte) - lanes.splat(128.0), lanes.splat(-127.0))
+        match self {
+            Self::Unorm => number + number - lanes.splat(255.0),
+            Self::Centred => lanes.max(number - lanes.splat(128.0), lanes.splat(-127.0)),
+        }
     }
 }
 
@@ -73,7 +56,7 @@ impl NormalEncoding for Centred {
 ///
 /// ```
 /// use alberti_math::{Object, Rgba8, Vector3};
-/// use alberti_texture::surface::{Centred, Tangent, Unorm, normal};
+/// use alberti_texture::surface::{NormalEncoding::{Centred, Unorm}, Tangent, normal};
 /// use glam::Vec3;
 ///
 /// let flat = Rgba8::new(128, 128, 255, 255);
@@ -87,7 +70,7 @@ impl NormalEncoding for Centred {
 /// ```
 #[must_use]
 #[inline]
-pub fn normal<S: Space>(encoding: impl NormalEncoding, texel: Rgba8) -> Vector3<S> {
+pub fn normal<S: Space>(encoding: NormalEncoding, texel: Rgba8) -> Vector3<S> {
     Vector3::new(Vec3::from(normal_lanes(encoding, One, core::num::Wrapping(texel.to_bits()))))
 }
 
@@ -97,7 +80,7 @@ pub fn normal<S: Space>(encoding: impl NormalEncoding, texel: Rgba8) -> Vector3<
 /// In fixed point each component is within 1.1·2^-16.
 #[must_use]
 #[inline(always)]
-pub fn normal_lanes<L: Lanes>(encoding: impl NormalEncoding, lanes: L, texels: L::U32) -> [L::Number; 3] {
+pub fn normal_lanes<L: Lanes>(encoding: NormalEncoding, lanes: L, texels: L::U32) -> [L::Number; 3] {
     let quarter = |bits| quarter(encoding, lanes, texels, bits);
     over_length(lanes, [quarter(0), quarter(8), quarter(16)])
 }
@@ -105,7 +88,7 @@ pub fn normal_lanes<L: Lanes>(encoding: impl NormalEncoding, lanes: L, texels: L
 /// A quarter of a channel's numerator. Squares of quarters of integers up to 255 are exact, and so is the sum of three,
 /// in fixed point also.
 #[inline(always)]
-fn quarter<L: Lanes>(encoding: impl NormalEncoding, lanes: L, texels: L::U32, bits: u32) -> L::Number {
+fn quarter<L: Lanes>(encoding: NormalEncoding, lanes: L, texels: L::U32, bits: u32) -> L::Number {
     encoding.numerator(lanes, lanes.shr(texels, bits) & lanes.word(255)) * lanes.splat(0.25)
 }
 
@@ -122,7 +105,7 @@ fn quarter<L: Lanes>(encoding: impl NormalEncoding, lanes: L, texels: L::U32, bi
 /// Two square roots and three divisions.
 #[must_use]
 #[inline]
-pub fn normal_of_two(encoding: impl NormalEncoding, texel: Rgba8) -> Vector3<Tangent> {
+pub fn normal_of_two(encoding: NormalEncoding, texel: Rgba8) -> Vector3<Tangent> {
     Vector3::new(Vec3::from(normal_of_two_lanes(encoding, One, core::num::Wrapping(texel.to_bits()))))
 }
 
@@ -132,11 +115,7 @@ pub fn normal_of_two(encoding: impl NormalEncoding, texel: Rgba8) -> Vector3<Tan
 /// In fixed point each component is within 1.1·2^-16.
 #[must_use]
 #[inline(always)]
-pub fn normal_of_two_lanes<L: Lanes>(
-    encoding: impl NormalEncoding,
-    lanes: L,
-    texels: L::U32,
-) -> [L::Number; 3] {
+pub fn normal_of_two_lanes<L: Lanes>(encoding: NormalEncoding, lanes: L, texels: L::U32) -> [L::Number; 3] {
     let (x, y) = (quarter(encoding, lanes, texels, 0), quarter(encoding, lanes, texels, 8));
     let (whole, across) = (lanes.splat(encoding.one() * encoding.one() / 16.0), x * x + y * y);
     let z = lanes.sqrt(lanes.max(whole - across, lanes.splat(0.0)));

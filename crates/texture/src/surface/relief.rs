@@ -2,7 +2,7 @@
 //!
 //! Space in: coordinates (u, v). Space out: heights in object units, normals in the tangent frame.
 
-use super::height::HeightMap;
+use super::height::{HeightMap, differences};
 use super::normal::to_parent_lanes;
 use super::tangent::Tangent;
 use super::unit::{narrow, unit};
@@ -105,22 +105,6 @@ impl<H: HeightMap> Relief<H> {
     pub fn normal_lanes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2], step: Vec2) -> [L::Number; 3] {
         normal_of_slope_lanes(lanes, self.slope_lanes(lanes, uv, step))
     }
-}
-
-/// The central differences of a map over `step` to either side.
-#[inline(always)]
-pub(super) fn differences<L: Lanes>(
-    lanes: L,
-    map: &impl HeightMap,
-    [u, v]: [L::Number; 2],
-    step: Vec2,
-) -> [L::Number; 2] {
-    let (du, dv) = (lanes.splat(step.x), lanes.splat(step.y));
-    let ([left, right], [down, up]) = ([u - du, u + du], [v - dv, v + dv]);
-    let along_u = map.height_lanes(lanes, [right, v]) - map.height_lanes(lanes, [left, v]);
-    let along_v = map.height_lanes(lanes, [u, up]) - map.height_lanes(lanes, [u, down]);
-    // Over what the coordinates were rounded to.
-    [along_u / (right - left), along_v / (up - down)]
 }
 
 /// The unit normal of a surface that rises by these slopes along u and v, which are at right angles: (−∂h/∂u, −∂h/∂v,

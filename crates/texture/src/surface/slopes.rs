@@ -1,21 +1,13 @@
-//! Height maps with their slopes, for bump maps.
+//! Height maps with slopes of their own, for bump maps.
 //!
 //! Space in: coordinates (u, v). Space out: slopes by unit of u and of v, of numbers without a unit.
 
-use super::height::{HeightMap, bilinear_height_lanes};
-use super::relief::differences;
+use super::height::{HeightMap, bilinear_height_lanes, differences};
 use crate::format::Storage;
-use crate::sealed::Sealed;
 use crate::{AnySize, Size, Texture, Wrap};
 use alberti_math::lanes::Lanes;
 use core::fmt;
 use glam::Vec2;
-
-/// The slopes of a map: [`BilinearHeights`], or any [`HeightMap`] by [`CentralDifferences`]. Sealed.
-pub trait Slopes: Sealed {
-    /// ∂h/∂u and ∂h/∂v at several (u, v).
-    fn slopes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2]) -> [L::Number; 2];
-}
 
 /// The bilinear surface through a texture's texel centres, with its own slopes: [`bilinear_height`] says how precise.
 ///
@@ -42,19 +34,14 @@ impl<'a, F: Storage, U: Wrap, V: Wrap, Z: Size> BilinearHeights<'a, F, U, V, Z> 
     }
 }
 
-impl<F: Storage, U, V, Z: Size> Sealed for BilinearHeights<'_, F, U, V, Z> {}
-impl<H> Sealed for CentralDifferences<H> {}
-
 impl<F: Storage, U: Wrap, V: Wrap, Z: Size> HeightMap for BilinearHeights<'_, F, U, V, Z> {
     #[inline(always)]
     fn height_lanes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2]) -> L::Number {
         bilinear_height_lanes(lanes, &self.texture, self.wrap, uv).0
     }
-}
 
-impl<F: Storage, U: Wrap, V: Wrap, Z: Size> Slopes for BilinearHeights<'_, F, U, V, Z> {
     #[inline(always)]
-    fn slopes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2]) -> [L::Number; 2] {
+    fn slopes_lanes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2]) -> [L::Number; 2] {
         bilinear_height_lanes(lanes, &self.texture, self.wrap, uv).1
     }
 }
@@ -80,11 +67,9 @@ impl<H: HeightMap> HeightMap for CentralDifferences<H> {
     fn height_lanes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2]) -> L::Number {
         self.map.height_lanes(lanes, uv)
     }
-}
 
-impl<H: HeightMap> Slopes for CentralDifferences<H> {
     #[inline(always)]
-    fn slopes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2]) -> [L::Number; 2] {
+    fn slopes_lanes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2]) -> [L::Number; 2] {
         differences(lanes, &self.map, uv, self.step)
     }
 }

@@ -5,7 +5,7 @@ use alberti_math::{Q16, Rgba8};
 use alberti_texture::format::{Rgba8888, Scalars};
 use alberti_texture::mipmap::build;
 use alberti_texture::{
-    Anisotropic, Bilinear, Derivatives, Minify, Mipmap, Mirror, Nearest, NearestLevel, Repeat, Trilinear,
+    Anisotropic, Bilinear, Gradient, Mipmap, Mirror, Nearest, NearestLevel, Repeat, Trilinear,
 };
 use glam::{Vec2, Vec2Swizzles as _};
 
@@ -25,14 +25,14 @@ fn anisotropic_is_the_mean_of_its_probes() {
         let log2_probes = k.min(probes.trailing_zeros());
         seen[log2_probes as usize] += 1;
         // λ of the shorter axis, or of the part of the longer one that a probe has.
-        let lambda = |x: f32| Derivatives { du_dx: x, ..Derivatives::default() }.lod(64, 64);
+        let lambda = |x: f32| Gradient { dx: [x, 0.0], ..Gradient::default() }.lod(64, 64);
         let lambda = lambda(short).max(lambda(long) - probes.trailing_zeros() as f32);
         let uv = Vec2::new(random.near_zero(), random.near_zero());
         let (across, swap) = (random.bits() & 1 == 0, random.bits() & 1 == 0);
         let axis = |x: f32| if across { Vec2::new(x, 0.0) } else { Vec2::new(0.0, x) };
         let (major, minor) = (axis(long), axis(short).yx());
         let (dx, dy) = if swap { (minor, major) } else { (major, minor) };
-        let d = Derivatives { du_dx: dx.x, dv_dx: dx.y, du_dy: dy.x, dv_dy: dy.y };
+        let d = Gradient { dx: [dx.x, dx.y], dy: [dy.x, dy.y] };
         let n = 1 << log2_probes;
         let isotropic = mipmap.sampler(Trilinear, Repeat);
         let colors: Vec<[u8; 4]> = (0..n)
@@ -133,7 +133,7 @@ fn lanes_are_one_lane() {
         let mipmap = Mipmap::new(Rgba8888, &texels, width, height).unwrap();
         same_lanes(Anisotropic { probes: 8, filter: Trilinear }, Repeat, Mirror, mipmap, &mut random);
         if let Some(mipmap) = mipmap.power_of_two() {
-            let points = Minify { min: Nearest, levels: NearestLevel, mag: Nearest };
+            let points = NearestLevel(Nearest);
             same_lanes(Anisotropic { probes: 16, filter: points }, Repeat, Repeat, mipmap, &mut random);
         }
     }
@@ -155,10 +155,10 @@ fn integers() {
         let (long, short) = (1 << (16 - k), 1 << (16 - k) >> (random.bits() % 6));
         let [long, short] = [long, short].map(Q16::from_bits);
         let zero = Q16::ZERO;
-        let d = Derivatives { du_dx: zero, dv_dx: long, du_dy: short, dv_dy: zero };
+        let d = Gradient { dx: [zero, long], dy: [short, zero] };
         let anisotropic = mipmap.sampler(Anisotropic { probes: 4, filter: Trilinear }, Repeat);
         let found = anisotropic.sample_grad_lanes(OneFixed, u, v, d).0;
-        let d = Derivatives { du_dx: 0.0, dv_dx: float(long), du_dy: float(short), dv_dy: 0.0 };
+        let d = Gradient { dx: [0.0, float(long)], dy: [float(short), 0.0] };
         assert_eq!(found, anisotropic.sample_grad(uv, d).to_bits(), "{u:?} {v:?} {d:?}");
     }
 }

@@ -6,9 +6,9 @@ use alberti_math::{Q16, Rgba8, for_lanes};
 use alberti_texture::format::{L16, Rgba8888, Storage};
 use alberti_texture::surface::{bilinear_height, bilinear_height_lanes};
 use alberti_texture::{
-    Anisotropic, AnyFilter, AnyMipFilter, AnyWrap, BaseLevel, BetweenLevels, Bilinear, Border, Clamp,
-    Derivatives, Filter, LevelSize, LodBounds, Minify, MipFilter, MipSampler, Mipmap, Mirror, Nearest,
-    Repeat, Sampler, Size, Texture, Trilinear, Wrap,
+    Anisotropic, AnyFilter, AnyMipFilter, AnyWrap, BaseLevel, BetweenLevels, Bilinear, Border, Clamp, Filter,
+    Gradient, LodBounds, Minify, MipFilter, MipSampler, Mipmap, Mirror, Nearest, Repeat, Sampler, Size,
+    Texture, Trilinear, Wrap,
 };
 use glam::Vec2;
 
@@ -228,7 +228,7 @@ fn bilinear_heights() {
 }
 
 /// Colours by a level of detail and by derivatives, with bounds and without, at every width and in fixed point.
-fn read<M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize>(
+fn read<M: MipFilter, U: Wrap, V: Wrap, Z: Size>(
     sampler: MipSampler<'_, Rgba8888, M, U, V, Z>,
     values: &[([[f32; 8]; 7], [Q16; 7])],
 ) -> Vec<u32> {
@@ -240,16 +240,16 @@ fn read<M: MipFilter, U: Wrap, V: Wrap, Z: LevelSize>(
                 let [u, v, lambda, du_dx, dv_dx, du_dy, dv_dy] =
                     values.map(|each| lanes.load(&lanes.each(|k| each[k])));
                 read.extend(lanes.store_words(sampler.sample_lod_lanes(lanes, u, v, lambda)).as_ref());
-                let d = Derivatives { du_dx, dv_dx, du_dy, dv_dy };
+                let d = Gradient { dx: [du_dx, dv_dx], dy: [du_dy, dv_dy] };
                 read.extend(lanes.store_words(sampler.sample_grad_lanes(lanes, u, v, d)).as_ref());
             });
         }
-        let d = Derivatives { du_dx, dv_dx, du_dy, dv_dy };
+        let d = Gradient { dx: [du_dx, dv_dx], dy: [du_dy, dv_dy] };
         read.push(sampler.sample_lod_lanes(OneFixed, x, y, level).0);
         read.push(sampler.sample_grad_lanes(OneFixed, x, y, d).0);
         for k in 0..8 {
             let [u, v, _, du_dx, dv_dx, du_dy, dv_dy] = values.map(|each| each[k]);
-            let d = Derivatives { du_dx, dv_dx, du_dy, dv_dy };
+            let d = Gradient { dx: [du_dx, dv_dx], dy: [du_dy, dv_dy] };
             read.push(bounded.sample_grad(Vec2::new(u, v), d).to_bits());
         }
     }
@@ -275,16 +275,18 @@ fn mip_filters() {
         let mipmap = Mipmap::new(Rgba8888, &texels, width, height).unwrap();
         let values = footprints(&mut random);
         let any = |filter| read(mipmap.sampler_per_axis(filter, AnyWrap::Repeat, AnyWrap::Mirror), &values);
-        let nearest = Minify { min: Nearest, levels: BaseLevel, mag: Nearest };
+        let nearest = BaseLevel(Nearest);
         let expected = read(mipmap.sampler_per_axis(nearest, Repeat, Mirror), &values);
         assert_eq!(any(AnyMipFilter::Base(AnyFilter::Nearest)), expected, "{mipmap:?}");
-        let bilinear = Minify { min: Bilinear, levels: BaseLevel, mag: Bilinear };
+        let bilinear = BaseLevel(Bilinear);
         let expected = read(mipmap.sampler_per_axis(bilinear, Repeat, Mirror), &values);
         assert_eq!(any(AnyMipFilter::Base(AnyFilter::Bilinear)), expected, "{mipmap:?}");
         let trilinear = read(mipmap.sampler_per_axis(Trilinear, Repeat, Mirror), &values);
         assert_eq!(any(AnyMipFilter::Trilinear), trilinear, "{mipmap:?}");
-        // The name and its parts.
-        let parts = Minify { min: Bilinear, levels: BetweenLevels, mag: Bilinear };
+        // The name and its parts, with and without a way for magnification.
+        let parts = BetweenLevels(Bilinear);
+        assert_eq!(read(mipmap.sampler_per_axis(parts, Repeat, Mirror), &values), trilinear, "{mipmap:?}");
+        let parts = Minify { min: parts, mag: Bilinear };
         assert_eq!(read(mipmap.sampler_per_axis(parts, Repeat, Mirror), &values), trilinear, "{mipmap:?}");
         for probes in [1, 2, 4, 8, 16] {
             let filter = Anisotropic { probes, filter: Trilinear };

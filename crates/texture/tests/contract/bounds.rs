@@ -4,17 +4,15 @@ use alberti_math::lanes::{Lanes, Machine, OneFixed};
 use alberti_math::{Q16, for_lanes};
 use alberti_texture::format::Rgba8888;
 use alberti_texture::{
-    Anisotropic, AnySize, BaseLevel, BetweenLevels, Bilinear, Derivatives, LodBounds, Minify, MipFilter,
-    MipSampler, Mipmap, Nearest, NearestLevel, PowerOfTwo, Repeat, Trilinear,
+    Anisotropic, BaseLevel, BetweenLevels, Bilinear, Gradient, LodBounds, Minify, MipFilter, Mipmap, Nearest,
+    NearestLevel, PowerOfTwo, Repeat, Trilinear,
 };
 use glam::Vec2;
 
 use crate::minify::noise;
 use crate::oracle::Random;
 
-const POINTS: Minify<Nearest, NearestLevel, Bilinear> =
-    Minify { min: Nearest, levels: NearestLevel, mag: Bilinear };
-type Sampler<'a, M, B> = MipSampler<'a, Rgba8888, M, Repeat, Repeat, AnySize, B>;
+const POINTS: Minify<NearestLevel<Nearest>, Bilinear> = Minify { min: NearestLevel(Nearest), mag: Bilinear };
 
 /// The definition; the sum of two `f32` is rounded once, as `f64` has more than twice the digits.
 fn bounded(LodBounds { bias, least, greatest }: LodBounds, lambda: f32) -> f32 {
@@ -43,18 +41,18 @@ fn some(random: &mut Random) -> LodBounds {
     }
 }
 
-fn slopes(random: &mut Random) -> Derivatives {
+fn slopes(random: &mut Random) -> Gradient<[f32; 2]> {
     let mut slope = || random.near_zero() / 8.0;
-    Derivatives { du_dx: slope(), dv_dx: slope(), du_dy: slope(), dv_dy: slope() }
+    Gradient { dx: [slope(), slope()], dy: [slope(), slope()] }
 }
 
 /// By a λ that is given, and by that of derivatives. How often the bounds could be seen.
 fn check<M: MipFilter>(filter: M, mipmap: Mipmap<'_, Rgba8888>, random: &mut Random) -> u32 {
     let mut seen = 0;
-    let plain: Sampler<'_, M, ()> = mipmap.sampler(filter, Repeat);
+    let plain = mipmap.sampler(filter, Repeat);
     for i in 0..20_000 {
         let bounds = some(random);
-        let sampler: Sampler<'_, M, LodBounds> = plain.bounded(bounds);
+        let sampler = plain.bounded(bounds);
         let uv = Vec2::new(random.near_zero(), random.near_zero());
         let lambda = match i % 16 {
             0 => [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -0.0][i / 16 % 4],
@@ -69,7 +67,7 @@ fn check<M: MipFilter>(filter: M, mipmap: Mipmap<'_, Rgba8888>, random: &mut Ran
         assert_eq!(sampler.sample_grad(uv, d), plain.sample_lod(uv, lambda), "{bounds:?} at {uv}, {d:?}");
         // The last bounds count, and those of no effect have none.
         let none = LodBounds::default();
-        assert_eq!(sampler.bounded(none).sample_grad(uv, d), plain.sample_grad(uv, d));
+        assert_eq!(plain.bounded(none).sample_grad(uv, d), plain.sample_grad(uv, d));
     }
     seen
 }
@@ -82,9 +80,9 @@ fn colours_of_the_bounded_level() {
     let seen = [
         check(Trilinear, mipmap, &mut random),
         check(POINTS, mipmap, &mut random),
-        check(Minify { min: Nearest, levels: BetweenLevels, mag: Nearest }, mipmap, &mut random),
+        check(BetweenLevels(Nearest), mipmap, &mut random),
         // One level only: magnified or not.
-        check(Minify { min: Bilinear, levels: BaseLevel, mag: Nearest }, mipmap, &mut random),
+        check(Minify { min: BaseLevel(Bilinear), mag: Nearest }, mipmap, &mut random),
     ];
     println!("bounds changed {seen:?} of 20000 colours");
     assert!(seen.iter().all(|&seen| seen > 1000));
@@ -103,7 +101,7 @@ fn probes_keep_their_places() {
         // 2^k texels along u, 2^(k - j) along v, whose logarithms are exact.
         let (k, j) = (random.bits() % 6, random.bits() % 6);
         let [long, short] = [k.cast_signed(), k.cast_signed() - j.cast_signed()].map(|k| 2f32.powi(k) / 64.0);
-        let d = Derivatives { du_dx: long, dv_dx: 0.0, du_dy: 0.0, dv_dy: short };
+        let d = Gradient { dx: [long, 0.0], dy: [0.0, short] };
         let log2_probes = j.min(2);
         let lambda = bounded(bounds, k as f32 - log2_probes as f32);
         let n = 1 << log2_probes;
@@ -126,14 +124,14 @@ fn same_lanes(filter: impl MipFilter, mipmap: Mipmap<'_, Rgba8888>, random: &mut
     for _ in 0..300 {
         let sampler = mipmap.sampler(filter, Repeat).bounded(some(random));
         let uv: [Vec2; 8] = std::array::from_fn(|_| Vec2::new(random.near_zero(), random.near_zero()));
-        let slopes: [Derivatives; 8] = std::array::from_fn(|_| slopes(random));
+        let slopes: [Gradient<[f32; 2]>; 8] = std::array::from_fn(|_| slopes(random));
         for machine in Machine::all() {
             for_lanes!(machine, lanes => {
                 let of = |f: &dyn Fn(usize) -> f32| lanes.load(&lanes.each(f));
                 let (u, v) = (of(&|k| uv[k].x), of(&|k| uv[k].y));
-                let (du_dx, dv_dx) = (of(&|k| slopes[k].du_dx), of(&|k| slopes[k].dv_dx));
-                let (du_dy, dv_dy) = (of(&|k| slopes[k].du_dy), of(&|k| slopes[k].dv_dy));
-                let found = sampler.sample_grad_lanes(lanes, u, v, Derivatives { du_dx, dv_dx, du_dy, dv_dy });
+                let (du_dx, dv_dx) = (of(&|k| slopes[k].dx[0]), of(&|k| slopes[k].dx[1]));
+                let (du_dy, dv_dy) = (of(&|k| slopes[k].dy[0]), of(&|k| slopes[k].dy[1]));
+                let found = sampler.sample_grad_lanes(lanes, u, v, Gradient { dx: [du_dx, dv_dx], dy: [du_dy, dv_dy] });
                 for (k, &found) in lanes.store_words(found).as_ref().iter().enumerate() {
                     assert_eq!(found, sampler.sample_grad(uv[k], slopes[k]).to_bits(), "{sampler:?}");
                 }
@@ -170,9 +168,9 @@ fn integers() {
             let k = random.bits() % 10;
             let [long, short] = [16 - k, 16 - k.max(6)].map(|k| Q16::from_bits(1 << k));
             let zero = Q16::ZERO;
-            let d = Derivatives { du_dx: zero, dv_dx: long, du_dy: short, dv_dy: zero };
+            let d = Gradient { dx: [zero, long], dy: [short, zero] };
             let found = sampler.sample_grad_lanes(OneFixed, u, v, d).0;
-            let d = Derivatives { du_dx: 0.0, dv_dx: float(long), du_dy: float(short), dv_dy: 0.0 };
+            let d = Gradient { dx: [0.0, float(long)], dy: [float(short), 0.0] };
             assert_eq!(found, sampler.sample_grad(uv, d).to_bits(), "{sampler:?} {u:?} {v:?} {d:?}");
         }
     }

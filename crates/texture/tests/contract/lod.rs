@@ -2,19 +2,19 @@
 
 use alberti_math::lanes::{Lanes, Machine, One, OneFixed};
 use alberti_math::{Q16, for_lanes};
-use alberti_texture::{Derivatives, LodBounds};
+use alberti_texture::{Gradient, LodBounds};
 use glam::Vec2;
 
 use crate::oracle::Random;
 
 /// The definition, in `f64`.
-fn exact(d: Derivatives<f64>, [width, height]: [u32; 2]) -> f64 {
+fn exact(d: Gradient<[f64; 2]>, [width, height]: [u32; 2]) -> f64 {
     let (w, h) = (f64::from(width), f64::from(height));
-    (d.du_dx * w).hypot(d.dv_dx * h).max((d.du_dy * w).hypot(d.dv_dy * h)).log2()
+    (d.dx[0] * w).hypot(d.dx[1] * h).max((d.dy[0] * w).hypot(d.dy[1] * h)).log2()
 }
 
-pub(crate) fn map<A: Copy, B>(d: Derivatives<A>, mut f: impl FnMut(A) -> B) -> Derivatives<B> {
-    Derivatives { du_dx: f(d.du_dx), dv_dx: f(d.dv_dx), du_dy: f(d.du_dy), dv_dy: f(d.dv_dy) }
+pub(crate) fn map<A: Copy, B>(d: Gradient<[A; 2]>, mut f: impl FnMut(A) -> B) -> Gradient<[B; 2]> {
+    Gradient { dx: [f(d.dx[0]), f(d.dx[1])], dy: [f(d.dy[0]), f(d.dy[1])] }
 }
 
 /// A pixel as a rectangle in the texture, `long` x `long / ratio` texels, turned by `angle` on the texture and by
@@ -25,16 +25,14 @@ pub(crate) fn footprint(
     angle: f64,
     turn: f64,
     [width, height]: [u32; 2],
-) -> Derivatives<f64> {
+) -> Gradient<[f64; 2]> {
     let axes =
         [(angle.cos() * long, angle.sin() * long), (-angle.sin() * long / ratio, angle.cos() * long / ratio)];
     let mix = |a: f64, b: f64, part: fn((f64, f64)) -> f64| part(axes[0]) * a + part(axes[1]) * b;
     let (c, s) = (turn.cos(), turn.sin());
-    Derivatives {
-        du_dx: mix(c, s, |axis| axis.0) / f64::from(width),
-        dv_dx: mix(c, s, |axis| axis.1) / f64::from(height),
-        du_dy: mix(-s, c, |axis| axis.0) / f64::from(width),
-        dv_dy: mix(-s, c, |axis| axis.1) / f64::from(height),
+    Gradient {
+        dx: [mix(c, s, |axis| axis.0) / f64::from(width), mix(c, s, |axis| axis.1) / f64::from(height)],
+        dy: [mix(-s, c, |axis| axis.0) / f64::from(width), mix(-s, c, |axis| axis.1) / f64::from(height)],
     }
 }
 
@@ -56,7 +54,7 @@ fn rotations_and_anisotropy() {
         for machine in Machine::all() {
             let same = for_lanes!(machine, lanes => {
                 let d = map(floats, |d| lanes.splat(d));
-                let d = Derivatives::between([lanes.splat(0.0); 2], [d.du_dx, d.dv_dx], [d.du_dy, d.dv_dy]);
+                let d = Gradient::between([lanes.splat(0.0); 2], [d.dx[0], d.dx[1]], [d.dy[0], d.dy[1]]);
                 lanes.store(d.lod_lanes(lanes, size)).as_ref()[0]
             });
             assert_eq!(same.to_bits(), found.to_bits());
@@ -77,23 +75,23 @@ fn rotations_and_anisotropy() {
 fn defined_for_any_bits() {
     let mut random = Random(71);
     for _ in 0..200_000 {
-        let d = map(Derivatives::default(), |()| random.float());
+        let d = map(Gradient::default(), |()| random.float());
         let lambda = d.lod(16384, 16384);
         assert!((-63.5..=64.0).contains(&lambda), "{d:?}: {lambda}");
-        let q = map(Derivatives::default(), |()| Q16::from_bits(random.bits().cast_signed()));
+        let q = map(Gradient::default(), |()| Q16::from_bits(random.bits().cast_signed()));
         let lambda = q.lod_lanes(OneFixed, [16384, 16384]);
         assert!((Q16::from_bits(-16 << 16)..=Q16::from_bits(16 << 16)).contains(&lambda));
     }
-    assert!((Derivatives::<f32>::default().lod(64, 64) + 63.5).abs() <= 0.0);
+    assert!((Gradient::<[f32; 2]>::default().lod(64, 64) + 63.5).abs() <= 0.0);
     let bounds = LodBounds { bias: 1.0, least: -2.0, greatest: 5.0 };
     assert_eq!([-9.0, 0.5, 7.0, f32::NAN].map(|lambda| bounds.bound(lambda)), [-2.0, 1.5, 5.0, -2.0]);
 }
 
 /// The axes of a footprint in texels, by the eigenvalues and eigenvectors of J Jᵀ in `f64`, the longer one first. All
 /// that cancels there is 2^-52 of the longer one's square.
-fn exact_axes(d: Derivatives<f64>, [width, height]: [u32; 2]) -> [[f64; 2]; 2] {
+fn exact_axes(d: Gradient<[f64; 2]>, [width, height]: [u32; 2]) -> [[f64; 2]; 2] {
     let (w, h) = (f64::from(width), f64::from(height));
-    let [x, y] = [[d.du_dx * w, d.dv_dx * h], [d.du_dy * w, d.dv_dy * h]];
+    let [x, y] = [[d.dx[0] * w, d.dx[1] * h], [d.dy[0] * w, d.dy[1] * h]];
     let [uu, uv, vv] = [x[0] * x[0] + y[0] * y[0], x[0] * x[1] + y[0] * y[1], x[1] * x[1] + y[1] * y[1]];
     let major = ((uu + vv) / 2.0 + ((uu - vv) / 2.0).hypot(uv)).sqrt();
     let minor = (x[0] * y[1] - x[1] * y[0]).abs() / major;
@@ -103,9 +101,9 @@ fn exact_axes(d: Derivatives<f64>, [width, height]: [u32; 2]) -> [[f64; 2]; 2] {
 
 /// How far found axes are off, as shares of the longer one, A: their lengths, and the cosine between them times both
 /// lengths; and how far the longer one is beside its line, times 1 - B²/A².
-fn off_axes(found: Derivatives<f64>, exact: [[f64; 2]; 2], [width, height]: [u32; 2]) -> [f64; 3] {
+fn off_axes(found: Gradient<[f64; 2]>, exact: [[f64; 2]; 2], [width, height]: [u32; 2]) -> [f64; 3] {
     let (w, h) = (f64::from(width), f64::from(height));
-    let mut found = [[found.du_dx * w, found.dv_dx * h], [found.du_dy * w, found.dv_dy * h]];
+    let mut found = [[found.dx[0] * w, found.dx[1] * h], [found.dy[0] * w, found.dy[1] * h]];
     let length = |v: [f64; 2]| v[0].hypot(v[1]);
     if length(found[0]) < length(found[1]) {
         found.swap(0, 1);
@@ -131,7 +129,7 @@ fn axes_are_those_of_the_ellipse() {
         let ratio = 1000f64.powf(unit());
         let scale = 2f64.powf(unit() * 120.0 - 60.0);
         let d = map(footprint(1.0, ratio, angle, turn, size), |d| (d * scale) as f32);
-        let found = Derivatives::axes_lanes(d, One, size);
+        let found = Gradient::axes_lanes(d, One, size);
         let [rounded, axes] = [d, found].map(|d| map(d, |d| f64::from(d) / scale));
         let each = off_axes(axes, exact_axes(rounded, size), size);
         floats = std::array::from_fn(|k| floats[k].max(each[k] * 2f64.powi(24)));
@@ -166,15 +164,12 @@ fn axes_of_any_bits() {
     for _ in 0..100_000 {
         let (a, b) = (random.float(), random.float());
         let (a, b) = (if a.is_finite() { a } else { 0.0 }, if b.is_finite() { b } else { 1.0 });
-        for d in [
-            Derivatives { du_dx: a, dv_dx: 0.0, du_dy: 0.0, dv_dy: b },
-            Derivatives { du_dx: 0.0, dv_dx: a, du_dy: b, dv_dy: 0.0 },
-        ] {
+        for d in [Gradient { dx: [a, 0.0], dy: [0.0, b] }, Gradient { dx: [0.0, a], dy: [b, 0.0] }] {
             assert_eq!(d.axes_lanes(One, [64, 300]), d);
             let q = map(d, Q16::from_f32);
             assert_eq!(q.axes_lanes(OneFixed, [16384, 16384]), q);
         }
-        let any = map(Derivatives::default(), |()| random.float());
+        let any = map(Gradient::default(), |()| random.float());
         let found = any.axes_lanes(One, [16384, 16384]);
         for machine in Machine::all() {
             let same = for_lanes!(machine, lanes => {
@@ -184,10 +179,10 @@ fn axes_of_any_bits() {
             let bits = |d: f32| if d.is_nan() { 0 } else { d.to_bits() };
             assert_eq!(map(same, bits), map(found, bits), "{any:?}");
         }
-        let q = map(Derivatives::default(), |()| Q16::from_bits(random.bits().cast_signed()));
+        let q = map(Gradient::default(), |()| Q16::from_bits(random.bits().cast_signed()));
         let _ = q.axes_lanes(OneFixed, [16384, 1]);
     }
-    let none = Derivatives::<f32>::default();
+    let none = Gradient::<[f32; 2]>::default();
     assert_eq!(none.axes_lanes(One, [1, 1]), none);
 }
 
@@ -202,12 +197,12 @@ fn of_planes_within_the_bound() {
         let [dx, dy] = [[number(), number(), number()], [number(), number(), number()]];
         let [u, v, q] = [number() * 3.0, number() * 3.0, number().abs() + 0.1];
         let depth = 1.0 / q;
-        let found = Derivatives::of_planes([u, v], depth, dx, dy);
+        let found = Gradient::of_planes([u, v], depth, dx, dy);
         let each = [
-            (found.du_dx, u, dx[0], dx[2]),
-            (found.dv_dx, v, dx[1], dx[2]),
-            (found.du_dy, u, dy[0], dy[2]),
-            (found.dv_dy, v, dy[1], dy[2]),
+            (found.dx[0], u, dx[0], dx[2]),
+            (found.dx[1], v, dx[1], dx[2]),
+            (found.dy[0], u, dy[0], dy[2]),
+            (found.dy[1], v, dy[1], dy[2]),
         ];
         for (found, value, numerator, of_q) in each {
             let [value, n, of_q] = [value, numerator, of_q].map(f64::from);
@@ -223,7 +218,7 @@ fn of_planes_within_the_bound() {
             let numerator = f64::from(value) * f64::from(q) + f64::from(slopes[i]) * h;
             (numerator / (f64::from(q) + f64::from(slopes[2]) * h) - f64::from(value)) / h
         };
-        for (found, difference) in [(found.du_dx, at(dx, 0, u)), (found.dv_dy, at(dy, 1, v))] {
+        for (found, difference) in [(found.dx[0], at(dx, 0, u)), (found.dy[1], at(dy, 1, v))] {
             let scale = 4.0 * f64::from(depth) * 2e-3;
             assert!((f64::from(found) - difference).abs() <= scale * 2.0, "{found} {difference}");
         }
@@ -240,17 +235,17 @@ fn of_triangles() {
         let mut corner = || Vec2::new((random.bits() % 64) as f32, (random.bits() % 64) as f32);
         let screen = [corner(), corner(), corner()];
         let texture = screen.map(|p| Vec2::new(3.0 * p.x - p.y + 2.0, p.x + 4.0 * p.y - 5.0) / 8.0);
-        let found = Derivatives::of_triangle(screen, texture);
+        let found = Gradient::of_triangle(screen, texture);
         let [a, b, c] = screen;
         if (b - a).perp_dot(c - a).abs() < 0.5 {
             assert_eq!(found, None);
             continue;
         }
         let d = found.unwrap();
-        for (found, exact) in [(d.du_dx, 0.375), (d.du_dy, -0.125), (d.dv_dx, 0.125), (d.dv_dy, 0.5)] {
+        for (found, exact) in [(d.dx[0], 0.375), (d.dy[0], -0.125), (d.dx[1], 0.125), (d.dy[1], 0.5)] {
             assert!((found - exact).abs() < 2e-4, "{screen:?}: {d:?}");
         }
     }
     let not_finite = [Vec2::ZERO, Vec2::X, Vec2::new(f32::NAN, 1.0)];
-    assert_eq!(Derivatives::of_triangle(not_finite, [Vec2::ZERO, Vec2::X, Vec2::Y]), None);
+    assert_eq!(Gradient::of_triangle(not_finite, [Vec2::ZERO, Vec2::X, Vec2::Y]), None);
 }

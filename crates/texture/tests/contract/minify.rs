@@ -5,8 +5,8 @@ use alberti_math::{Q16, Rgba8, for_lanes};
 use alberti_texture::format::{Indexed4, Rgba8888, Scalars, Storage};
 use alberti_texture::mipmap::{build, texel_count};
 use alberti_texture::{
-    BaseLevel, BetweenLevels, Bilinear, Border, Clamp, Derivatives, LevelSize, Minify, MipFilter, Mipmap,
-    Mirror, Nearest, NearestLevel, Repeat, Texture, Trilinear, Wrap,
+    BaseLevel, BetweenLevels, Bilinear, Border, Clamp, Gradient, Minify, MipFilter, Mipmap, Mirror, Nearest,
+    NearestLevel, Repeat, Size, Texture, Trilinear, Wrap,
 };
 use glam::Vec2;
 
@@ -117,10 +117,10 @@ fn check_all(wrap: impl Known, mipmap: Mipmap<'_, Rgba8888>, uv: Vec2, lambda: f
         }
         found
     }
-    let points = Minify { min: Nearest, levels: NearestLevel, mag: Bilinear };
-    let lines = Minify { min: Nearest, levels: BetweenLevels, mag: Nearest };
-    let areas = Minify { min: Bilinear, levels: NearestLevel, mag: Nearest };
-    let none = Minify { min: Bilinear, levels: BaseLevel, mag: Nearest };
+    let points = Minify { min: NearestLevel(Nearest), mag: Bilinear };
+    let lines = BetweenLevels(Nearest);
+    let areas = Minify { min: NearestLevel(Bilinear), mag: Nearest };
+    let none = Minify { min: BaseLevel(Bilinear), mag: Nearest };
     let (n, b) = (In::Nearest, In::Bilinear);
     check(wrap, mipmap, uv, lambda, [b, b], Lv::Between, both(Trilinear, wrap, mipmap, uv, lambda));
     check(wrap, mipmap, uv, lambda, [n, b], Lv::Nearest, both(points, wrap, mipmap, uv, lambda));
@@ -248,7 +248,7 @@ fn images_within_one_step_and_rounding() {
 }
 
 /// Groups of lanes whose λ are in the same level, in two, and all over, with derivatives of all kinds.
-pub(crate) fn same_lanes<F: Storage, Z: LevelSize>(
+pub(crate) fn same_lanes<F: Storage, Z: Size>(
     filter: impl MipFilter,
     u: impl Wrap,
     v: impl Wrap,
@@ -271,14 +271,14 @@ pub(crate) fn same_lanes<F: Storage, Z: LevelSize>(
                 let lane = |k: usize| lanes.load(&lanes.each(|i| samples[i][k]));
                 let found = sampler.sample_lod_lanes(lanes, lane(0), lane(1), lane(2));
                 let slope = |k: usize| lanes.load(&lanes.each(|i| slopes[i][k]));
-                let d = Derivatives { du_dx: slope(0), dv_dx: slope(1), du_dy: slope(2), dv_dy: slope(3) };
+                let d = Gradient { dx: [slope(0), slope(1)], dy: [slope(2), slope(3)] };
                 let shaped = sampler.sample_grad_lanes(lanes, lane(0), lane(1), d);
                 let (found, shaped) = (lanes.store_words(found), lanes.store_words(shaped));
                 for (k, (&found, &shaped)) in found.as_ref().iter().zip(shaped.as_ref()).enumerate() {
                     let [u, v, lambda] = samples[k];
                     assert_eq!(found, sampler.sample_lod(Vec2::new(u, v), lambda).to_bits(), "{samples:?}");
                     let [du_dx, dv_dx, du_dy, dv_dy] = slopes[k];
-                    let d = Derivatives { du_dx, dv_dx, du_dy, dv_dy };
+                    let d = Gradient { dx: [du_dx, dv_dx], dy: [du_dy, dv_dy] };
                     assert_eq!(shaped, sampler.sample_grad(Vec2::new(u, v), d).to_bits(), "{samples:?} {slopes:?}");
                 }
             });
@@ -294,7 +294,7 @@ fn lanes_are_one_lane() {
         let mipmap = Mipmap::new(Rgba8888, &texels, width, height).unwrap();
         same_lanes(Trilinear, Repeat, Clamp, mipmap, &mut random);
         same_lanes(
-            Minify { min: Nearest, levels: NearestLevel, mag: Bilinear },
+            Minify { min: NearestLevel(Nearest), mag: Bilinear },
             Mirror,
             Border(Rgba8::from_bits(7)),
             mipmap,
@@ -302,13 +302,7 @@ fn lanes_are_one_lane() {
         );
         if let Some(mipmap) = mipmap.power_of_two() {
             same_lanes(Trilinear, Border(Rgba8::from_bits(0xff)), Repeat, mipmap, &mut random);
-            same_lanes(
-                Minify { min: Bilinear, levels: BaseLevel, mag: Nearest },
-                Clamp,
-                Mirror,
-                mipmap,
-                &mut random,
-            );
+            same_lanes(Minify { min: BaseLevel(Bilinear), mag: Nearest }, Clamp, Mirror, mipmap, &mut random);
         }
     }
 }
@@ -327,7 +321,7 @@ fn integers() {
         let trilinear = mipmap.sampler(Trilinear, Repeat);
         let found = trilinear.sample_lod_lanes(OneFixed, u, v, lambda).0;
         assert_eq!(found, trilinear.sample_lod(uv, float(lambda)).to_bits(), "{u:?} {v:?} {lambda:?}");
-        let nearest = mipmap.sampler(Minify { min: Nearest, levels: NearestLevel, mag: Nearest }, Mirror);
+        let nearest = mipmap.sampler(NearestLevel(Nearest), Mirror);
         let found = nearest.sample_lod_lanes(OneFixed, u, v, lambda).0;
         assert_eq!(found, nearest.sample_lod(uv, float(lambda)).to_bits());
     }
@@ -341,7 +335,7 @@ pub(crate) fn constant(filter: impl MipFilter, wrap: impl Wrap, random: &mut Ran
         for _ in 0..10_000 {
             let mut float = || random.float();
             let uv = Vec2::new(float(), float());
-            let d = Derivatives { du_dx: float(), dv_dx: float(), du_dy: float(), dv_dy: float() };
+            let d = Gradient { dx: [float(), float()], dy: [float(), float()] };
             let lambda = float();
             assert_eq!(mipmap.sampler(filter, wrap).sample_lod(uv, lambda).to_bytes(), texels[0]);
             assert_eq!(mipmap.sampler(filter, wrap).sample_grad(uv, d).to_bytes(), texels[0], "{uv} {d:?}");
@@ -360,7 +354,7 @@ pub(crate) fn constant(filter: impl MipFilter, wrap: impl Wrap, random: &mut Ran
 fn hostile() {
     let mut random = Random(84);
     constant(Trilinear, Mirror, &mut random);
-    constant(Minify { min: Nearest, levels: BetweenLevels, mag: Nearest }, Clamp, &mut random);
+    constant(BetweenLevels(Nearest), Clamp, &mut random);
 }
 
 /// Indices show what their colours show.

@@ -13,6 +13,11 @@ impl TexelFormat for Index {
     fn decode(self, texel: u16) -> Rgba8 {
         Rgba8::from_bits(u32::from(texel))
     }
+
+    fn encode(self, color: Rgba8) -> u16 {
+        let [low, high, ..] = color.to_bytes();
+        u16::from_le_bytes([low, high])
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -37,6 +37,35 @@ fn normals_of_slopes() {
     }
 }
 
+/// Those of a map that was given no step: 2^-10 of a closure, a texel of a sampler.
+#[test]
+fn maps_have_slopes() {
+    let (mut rng, mut worst) = (Rng::new(run_seed()), 0.0f64);
+    let wave = |uv: Vec2| (0.5 + 0.5 * (TAU * f64::from(uv.x)).sin() * (TAU * f64::from(uv.y)).cos()) as f32;
+    let step = 2f64.powi(-10);
+    let bound = step * step / 6.0 * TAU.powi(3) / 2.0 + EPS / step + 4.0 * EPS * TAU / 2.0;
+    for _ in 0..100_000 {
+        let uv = vec2(&mut rng, 1.0);
+        let [(sin_u, cos_u), (sin_v, cos_v)] = [uv.x, uv.y].map(|c| (TAU * f64::from(c)).sin_cos());
+        let exact = [0.5 * TAU * cos_u * cos_v, -0.5 * TAU * sin_u * sin_v];
+        let found = wave.slopes_lanes(One, uv.to_array()).map(f64::from);
+        worst = (0..2).fold(worst, |worst, i| worst.max((found[i] - exact[i]).abs() / bound));
+    }
+    println!("slopes of closures: {worst:.3} of their bound");
+    assert!((0.5..=1.0).contains(&worst), "{worst}");
+
+    // Rising by 1000 and 3000 of 65535 a texel, of which there are 8 and 4; the upper row is the first.
+    let texels: Vec<u16> = (0..32u16).map(|i| i % 8 * 1000 + (3 - i / 8) * 3000).collect();
+    let ramp = Texture::new(L16, &texels, 8, 4).unwrap();
+    let exact = [8.0 * 1000.0 / 65535.0, 4.0 * 3000.0 / 65535.0];
+    let close = |found: [f32; 2]| (0..2).all(|i| (f64::from(found[i]) - exact[i]).abs() < 1e-5 * exact[i]);
+    // In the middle of a texel, and between texels, where weights are whole 256ths.
+    for uv in [[0.3125, 0.375], [0.5, 0.5], [0.40625, 0.5625]] {
+        assert!(close(ramp.sampler(Bilinear, Clamp).slopes_lanes(One, uv)), "{uv:?}");
+    }
+    assert!(close(ramp.sampler(Nearest, Clamp).slopes_lanes(One, [0.3125, 0.375])));
+}
+
 /// h = (1 + sin 2πu cos 2πv)/2, whose third derivatives are at most (2π)³/2.
 #[test]
 fn central_differences_keep_their_bound() {

@@ -5,9 +5,11 @@ use alberti_math::lanes::{Floating, Lanes, Machine, One, OneFixed};
 use alberti_math::{Q16, for_lanes};
 use alberti_oracle::rng::{Rng, run_seed};
 use alberti_texture::surface::{
-    Centred, NormalEncoding, Unorm, ambient_occlusion_lanes, blinn_phong_cosine_lanes, blinn_phong_lanes,
-    lambert_lanes, normal_lanes, normal_of_two_lanes, phong_cosine_lanes, phong_lanes, power_each_lanes,
-    power_lanes, shininess_lanes, strengthened_lanes, to_parent_lanes, unit_lanes, wet_lanes,
+    NormalEncoding,
+    NormalEncoding::{Centred, Unorm},
+    ambient_occlusion_lanes, blinn_phong_cosine_lanes, blinn_phong_lanes, lambert_lanes, normal_lanes,
+    normal_of_two_lanes, phong_cosine_lanes, phong_lanes, power_each_lanes, power_lanes, shininess_lanes,
+    strengthened_lanes, to_parent_lanes, unit_lanes, wet_lanes,
 };
 use glam::{DVec3, Vec3};
 use std::num::Wrapping;
@@ -37,7 +39,7 @@ fn unit(rng: &mut Rng) -> DVec3 {
     vec3(rng, 1.0).as_dvec3().normalize_or(DVec3::Z)
 }
 
-fn texels(encoding: impl NormalEncoding, meaning: fn(f64) -> f64, one: f64) -> [f64; 2] {
+fn texels(encoding: NormalEncoding, meaning: fn(f64) -> f64, one: f64) -> [f64; 2] {
     let mut worst = [0.0f64; 2];
     for word in (0..1 << 24).step_by(3) {
         let channel = |bits: u32| meaning(f64::from(word >> bits & 255));

@@ -110,11 +110,12 @@ fn only_mip_maps_ask_for_derivatives() {
         Color(map),
         Specular(map),
         Gloss(map),
-        NormalMap { map, encoding: Unorm, strength: () },
+        NormalMap { map, encoding: Unorm, strength: 1.0 },
         Emission(Rgba8::BLACK),
     );
     assert_eq!(derivatives(&Material { layers: without, lighting: lighting(Phong(3)) }), none);
-    let last = (Color(map), Specular(map), Gloss(map), NormalMap { map: mip, encoding: Unorm, strength: () });
+    let last =
+        (Color(map), Specular(map), Gloss(map), NormalMap { map: mip, encoding: Unorm, strength: 1.0 });
     assert_eq!(derivatives(&Material { layers: last, lighting: lighting(Phong([3, 4])) }), each);
     let nested = (Color(map), (Occlusion { map: mip, strength: 1.0 }, ()));
     assert_eq!(derivatives(&Material { layers: nested, lighting: lighting(Lambert) }), each);

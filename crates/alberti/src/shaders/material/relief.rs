@@ -7,8 +7,8 @@ use alberti_math::lanes::Lanes;
 use alberti_math::{Frame, Object, World};
 use alberti_raster::NoDerivatives;
 use alberti_texture::surface::{
-    HeightMap, NormalEncoding, ParallaxSearch, Relief, Slopes, Unorm, bump_lanes, normal_lanes,
-    normal_of_two_lanes, strengthened_lanes, to_parent_lanes,
+    HeightMap, NormalEncoding, ParallaxSearch, Relief, bump_lanes, normal_lanes, normal_of_two_lanes,
+    strengthened_lanes, to_parent_lanes,
 };
 use core::fmt::Debug;
 
@@ -18,64 +18,45 @@ use core::fmt::Debug;
 /// its mip map in a format of [`Normals`](alberti_texture::format::Normals).
 ///
 /// # Cost
-/// The map, two square roots, six divisions and nine multiplications; with a strength of `f32` a root and three
+/// The map, two square roots, six divisions and nine multiplications; with a strength other than 1 a root and three
 /// divisions more.
 #[derive(Clone, Copy, Debug)]
-pub struct NormalMap<M, E = Unorm, S = ()> {
+pub struct NormalMap<M> {
     /// A [`Map`].
     pub map: M,
     /// The numbers that bytes stand for.
-    pub encoding: E,
-    /// A [`Strength`]: `()` for slopes as they are.
-    pub strength: S,
+    pub encoding: NormalEncoding,
+    /// How steep slopes are to be: 1 as they are, or so many times as steep, as
+    /// [`strengthened`](alberti_texture::surface::strengthened) says.
+    pub strength: f32,
 }
 
 /// A map of which only x and y are stored, in red and green: see
 /// [`normal_of_two`](alberti_texture::surface::normal_of_two).
 #[derive(Clone, Copy, Debug)]
-pub struct TwoChannels<M, E = Unorm, S = ()> {
+pub struct TwoChannels<M> {
     /// A [`Map`].
     pub map: M,
     /// The numbers that bytes stand for.
-    pub encoding: E,
-    /// A [`Strength`]: `()` for slopes as they are.
-    pub strength: S,
-}
-
-/// How steep the slopes of a map are: `()` as they are, or an `f32` times as steep, as
-/// [`strengthened`](alberti_texture::surface::strengthened) says.
-pub trait Strength: Copy + Debug {
-    /// The normals of that.
-    fn bend<L: Lanes>(&self, lanes: L, normal: [L::Number; 3]) -> [L::Number; 3];
-}
-
-impl Strength for () {
-    #[inline(always)]
-    fn bend<L: Lanes>(&self, _: L, normal: [L::Number; 3]) -> [L::Number; 3] {
-        normal
-    }
-}
-
-impl Strength for f32 {
-    #[inline(always)]
-    fn bend<L: Lanes>(&self, lanes: L, normal: [L::Number; 3]) -> [L::Number; 3] {
-        strengthened_lanes(lanes, normal, *self)
-    }
+    pub encoding: NormalEncoding,
+    /// How steep slopes are to be: 1 as they are, or so many times as steep, as
+    /// [`strengthened`](alberti_texture::surface::strengthened) says.
+    pub strength: f32,
 }
 
 /// A normal map in object space: it fits one object, and needs no tangent frame.
 #[derive(Clone, Copy, Debug)]
-pub struct ObjectNormals<M, E = Unorm> {
+pub struct ObjectNormals<M> {
     /// A [`Map`].
     pub map: M,
     /// The numbers that bytes stand for.
-    pub encoding: E,
+    pub encoding: NormalEncoding,
     /// The object's frame in the world, with axes at right angles. Normals are made unit, so of a stretched object each
     /// axis is to be divided by the square of its length: the axes of the inverse transpose.
     pub to_world: Frame<Object, World>,
 }
 
-/// A bump map: the normal that heights would have, whose map has [`Slopes`].
+/// A bump map: the normal that heights would have, by the slopes of their map ([`HeightMap::slopes_lanes`]).
 ///
 /// The normal is that of the heights on a plane. On a curved surface it misses the share h/R of the slope, for heights
 /// h and the radius of curvature R.
@@ -112,13 +93,16 @@ pub struct Parallax<H, P> {
 /// Maps of the tangent frame, which differ in what their texels are.
 macro_rules! of_strength {
     ($($name:ident: $decode:ident;)+) => {$(
-        impl<V: Axes, M: Map, E: NormalEncoding, S: Strength> Layer<V> for $name<M, E, S> {
+        impl<V: Axes, M: Map> Layer<V> for $name<M> {
             type Derivatives = M::Derivatives;
 
             #[inline(always)]
             fn apply<L: Lanes>(&self, lanes: L, varyings: &V::Of<L::Number>, surface: &mut Surface<L>) {
                 let texels = self.map.read(lanes, surface.uv, &surface.gradient);
-                let normal = self.strength.bend(lanes, $decode(self.encoding, lanes, texels));
+                let mut normal = $decode(self.encoding, lanes, texels);
+                if self.strength.to_bits() != 1.0_f32.to_bits() {
+                    normal = strengthened_lanes(lanes, normal, self.strength);
+                }
                 surface.normal = to_parent_lanes(lanes, V::axes(varyings), normal);
             }
         }
@@ -129,7 +113,7 @@ of_strength! {
     TwoChannels: normal_of_two_lanes;
 }
 
-impl<V: OnSurface, M: Map, E: NormalEncoding> Layer<V> for ObjectNormals<M, E> {
+impl<V: OnSurface, M: Map> Layer<V> for ObjectNormals<M> {
     type Derivatives = M::Derivatives;
 
     #[inline(always)]
@@ -141,13 +125,13 @@ impl<V: OnSurface, M: Map, E: NormalEncoding> Layer<V> for ObjectNormals<M, E> {
     }
 }
 
-impl<V: Axes, H: Slopes + Copy + Debug> Layer<V> for Bump<H> {
+impl<V: Axes, H: HeightMap + Copy + Debug> Layer<V> for Bump<H> {
     type Derivatives = NoDerivatives;
 
     #[inline(always)]
     fn apply<L: Lanes>(&self, lanes: L, varyings: &V::Of<L::Number>, surface: &mut Surface<L>) {
         let Relief { map, low, high, extent } = &self.0;
-        let [along_u, along_v] = map.slopes(lanes, surface.uv);
+        let [along_u, along_v] = map.slopes_lanes(lanes, surface.uv);
         let range = high - low;
         let slope = [along_u * lanes.splat(range / extent.x), along_v * lanes.splat(range / extent.y)];
         surface.normal = bump_lanes(lanes, V::axes(varyings), slope);

@@ -35,25 +35,8 @@ use crate::edge::EdgeInt;
 use crate::interpolation::{Oriented, Row, scaled_q};
 use crate::spans::Span;
 use alberti_math::lanes::Lanes;
-use alberti_math::{Mode, Varying};
+use alberti_math::{Gradient, Mode, Varying};
 use core::fmt::{self, Debug};
-
-/// The derivatives of attributes by the column and by the row of a pixel.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Gradient<T> {
-    /// To the right.
-    pub dx: T,
-    /// Downwards.
-    pub dy: T,
-}
-
-impl<T> Gradient<T> {
-    /// The same part of both.
-    #[inline(always)]
-    pub fn map<U>(self, f: impl Fn(T) -> U) -> Gradient<U> {
-        Gradient { dx: f(self.dx), dy: f(self.dy) }
-    }
-}
 
 /// A policy of differentiation, which a [`FragmentStage`](crate::FragmentStage) chooses.
 ///

@@ -1,40 +1,42 @@
-//! The level of detail: how many texels lie between neighbouring pixels, as a power of two.
+//! How fast attributes change from a pixel to the next, and the level of detail of a texture that follows.
 //!
 //! Space in: derivatives of texture coordinates by pixels. Space out: λ, which is 0 where texels are as large as
-//! pixels, 1 where they are half as large, and so on; level λ of a [`Mipmap`](crate::Mipmap) has texels as large as
-//! pixels.
+//! pixels, 1 where they are half as large, and so on; level λ of a mip map has texels as large as pixels.
 //!
 //! ```text
 //! λ = 1/2 log2 max(|∂(u, v)/∂x|², |∂(u, v)/∂y|²)      with u and v in texels, and lengths that are Euclidean
 //! ```
 
-use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Sub};
 
-use alberti_math::lanes::{Lanes, One};
+use crate::lanes::{Lanes, One};
 use glam::{Mat2, Vec2};
 
-use crate::sealed::Sealed;
-
-/// How texture coordinates change from a pixel to the next one, to the right and downwards.
+/// The derivatives of attributes by the column and by the row of a pixel.
+///
+/// Those of texture coordinates (u, v) are a `Gradient<[f32; 2]>`, or one of several numbers side by side.
 ///
 /// # Precision
 /// Where they come from is the error: [`of_planes`](Self::of_planes) is exact but for rounding,
 /// [`between`](Self::between) neighbours is off by half of the second derivative, and
-/// [`of_triangle`](Derivatives::of_triangle) takes perspective for none.
+/// [`of_triangle`](Self::of_triangle) takes perspective for none.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Derivatives<N = f32> {
-    /// ∂u/∂x.
-    pub du_dx: N,
-    /// ∂v/∂x.
-    pub dv_dx: N,
-    /// ∂u/∂y.
-    pub du_dy: N,
-    /// ∂v/∂y.
-    pub dv_dy: N,
+pub struct Gradient<T> {
+    /// To the right.
+    pub dx: T,
+    /// Downwards.
+    pub dy: T,
 }
 
-impl<N: Copy + Add<Output = N> + Sub<Output = N> + Mul<Output = N> + Div<Output = N>> Derivatives<N> {
+impl<T> Gradient<T> {
+    /// The same part of both.
+    #[inline(always)]
+    pub fn map<U>(self, f: impl Fn(T) -> U) -> Gradient<U> {
+        Gradient { dx: f(self.dx), dy: f(self.dy) }
+    }
+}
+
+impl<N: Copy + Add<Output = N> + Sub<Output = N> + Mul<Output = N> + Div<Output = N>> Gradient<[N; 2]> {
     /// The derivatives of a perspective texture at a pixel: of u = U/Q and v = V/Q, where U = u/z, V = v/z and Q = 1/z
     /// are linear on the screen.
     ///
@@ -52,13 +54,8 @@ impl<N: Copy + Add<Output = N> + Sub<Output = N> + Mul<Output = N> + Div<Output 
     /// Eight multiplications and four subtractions; no division, as attributes with perspective need 1/Q anyway.
     #[inline(always)]
     pub fn of_planes([u, v]: [N; 2], depth: N, dx: [N; 3], dy: [N; 3]) -> Self {
-        let slope = |of_numerator: N, value: N, of_q: N| (of_numerator - value * of_q) * depth;
-        Self {
-            du_dx: slope(dx[0], u, dx[2]),
-            dv_dx: slope(dx[1], v, dx[2]),
-            du_dy: slope(dy[0], u, dy[2]),
-            dv_dy: slope(dy[1], v, dy[2]),
-        }
+        let slopes = |[du, dv, dq]: [N; 3]| [(du - u * dq) * depth, (dv - v * dq) * depth];
+        Self { dx: slopes(dx), dy: slopes(dy) }
     }
 
     /// The differences between the coordinates (u, v) of a pixel and those of the pixels to its right and below.
@@ -67,12 +64,8 @@ impl<N: Copy + Add<Output = N> + Sub<Output = N> + Mul<Output = N> + Div<Output 
     /// Four subtractions, and the coordinates of two more pixels.
     #[inline(always)]
     pub fn between(here: [N; 2], right: [N; 2], below: [N; 2]) -> Self {
-        Self {
-            du_dx: right[0] - here[0],
-            dv_dx: right[1] - here[1],
-            du_dy: below[0] - here[0],
-            dv_dy: below[1] - here[1],
-        }
+        let from_here = |there: [N; 2]| [there[0] - here[0], there[1] - here[1]];
+        Self { dx: from_here(right), dy: from_here(below) }
     }
 
     /// The axes of the ellipse that a round pixel covers of a texture of these sides, one in the place of what is
@@ -92,31 +85,33 @@ impl<N: Copy + Add<Output = N> + Sub<Output = N> + Mul<Output = N> + Div<Output 
     #[must_use]
     #[inline(always)]
     pub fn axes_lanes<L: Lanes<Number = N>>(self, lanes: L, size: [u32; 2]) -> Self {
-        let Self { du_dx, dv_dx, du_dy, dv_dy } = self;
-        let [cosine, sine] = lanes.jacobi_rotation([du_dx, dv_dx], [du_dy, dv_dy], size);
+        let Self { dx, dy } = self;
+        let [cosine, sine] = lanes.jacobi_rotation(dx, dy, size);
         Self {
-            du_dx: du_dx * cosine + du_dy * sine,
-            dv_dx: dv_dx * cosine + dv_dy * sine,
-            du_dy: du_dy * cosine - du_dx * sine,
-            dv_dy: dv_dy * cosine - dv_dx * sine,
+            dx: [dx[0] * cosine + dy[0] * sine, dx[1] * cosine + dy[1] * sine],
+            dy: [dy[0] * cosine - dx[0] * sine, dy[1] * cosine - dx[1] * sine],
         }
     }
 
     /// The logarithms of the lengths of the two, across and down, in texels of a texture of these sides.
+    ///
+    /// # Precision
+    /// That of [`Lanes::log2_length`].
+    #[must_use]
     #[inline(always)]
-    pub(crate) fn log2_lengths<L: Lanes<Number = N>>(self, lanes: L, size: [u32; 2]) -> [N; 2] {
-        [lanes.log2_length(self.du_dx, self.dv_dx, size), lanes.log2_length(self.du_dy, self.dv_dy, size)]
+    pub fn log2_lengths_lanes<L: Lanes<Number = N>>(self, lanes: L, size: [u32; 2]) -> [N; 2] {
+        [self.dx, self.dy].map(|[du, dv]| lanes.log2_length(du, dv, size))
     }
 
-    /// [`lod`](Derivatives::lod) of several pixels: of a texture with the sides `[width, height]`.
+    /// [`lod`](Gradient::lod) of several pixels: of a texture with the sides `[width, height]`.
     #[inline(always)]
     pub fn lod_lanes<L: Lanes<Number = N>>(self, lanes: L, size: [u32; 2]) -> N {
-        let [across, down] = self.log2_lengths(lanes, size);
+        let [across, down] = self.log2_lengths_lanes(lanes, size);
         lanes.max(across, down)
     }
 }
 
-impl Derivatives<f32> {
+impl Gradient<[f32; 2]> {
     /// The derivatives of the affine map that takes a triangle on the screen, in pixels, to its texture coordinates:
     /// one for all pixels of the triangle. `None` if the triangle has no area on the screen, or a corner is not finite.
     ///
@@ -136,23 +131,18 @@ impl Derivatives<f32> {
                 Vec2::new(screen.y_axis.y, -screen.x_axis.y) / determinant,
                 Vec2::new(-screen.y_axis.x, screen.x_axis.x) / determinant,
             );
-        map.is_finite().then_some(Self {
-            du_dx: map.x_axis.x,
-            dv_dx: map.x_axis.y,
-            du_dy: map.y_axis.x,
-            dv_dy: map.y_axis.y,
-        })
+        map.is_finite().then_some(Self { dx: [map.x_axis.x, map.x_axis.y], dy: [map.y_axis.x, map.y_axis.y] })
     }
 
     /// λ: log2 of the longer of the two derivatives, in texels of a texture of `width` x `height`.
     ///
     /// ```
-    /// use alberti_texture::Derivatives;
+    /// use alberti_math::Gradient;
     ///
     /// // From pixel to pixel an eighth of the texture across, a 16th down.
-    /// let derivatives = Derivatives { du_dx: 0.125, dv_dx: 0.0, du_dy: 0.0, dv_dy: 0.0625 };
+    /// let gradient = Gradient { dx: [0.125, 0.0], dy: [0.0, 0.0625] };
     /// // Of 64 x 64 texels these are 8 and 4.
-    /// assert_eq!(derivatives.lod(64, 64), 3.0);
+    /// assert_eq!(gradient.lod(64, 64), 3.0);
     /// ```
     ///
     /// # Precision
@@ -165,69 +155,5 @@ impl Derivatives<f32> {
     #[must_use]
     pub fn lod(self, width: u32, height: u32) -> f32 {
         self.lod_lanes(One, [width, height])
-    }
-}
-
-/// The change of λ before levels are chosen: none, `()`, or [`LodBounds`]. Sealed.
-pub trait LodPolicy: Sealed + Copy + Debug + 'static {
-    /// The bounded λ, of several samples.
-    fn bound_lanes<L: Lanes>(self, lanes: L, lambda: L::Number) -> L::Number;
-}
-
-impl Sealed for () {}
-impl Sealed for LodBounds {}
-
-impl LodPolicy for () {
-    #[inline(always)]
-    fn bound_lanes<L: Lanes>(self, _: L, lambda: L::Number) -> L::Number {
-        lambda
-    }
-}
-
-/// A bias of λ, and its limits: min(max(λ + bias, least), greatest).
-/// [`MipSampler::bounded`](crate::MipSampler::bounded) takes them.
-///
-/// ```
-/// use alberti_texture::LodBounds;
-///
-/// let sharper = LodBounds { bias: -0.5, greatest: 4.0, ..LodBounds::default() };
-/// assert_eq!([sharper.bound(2.0), sharper.bound(7.0)], [1.5, 4.0]);
-/// ```
-///
-/// # Precision
-/// One rounding, that of the sum; in fixed point none, but λ + bias is to be within ±2^15 there.
-///
-/// # Cost
-/// An addition and two comparisons a sample.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LodBounds {
-    /// The summand: below 0 for sharper pictures, above for softer ones.
-    pub bias: f32,
-    /// The least that comes out. Above 0, the levels below it are never read, nor is the filter of magnification used.
-    pub least: f32,
-    /// The greatest that comes out.
-    pub greatest: f32,
-}
-
-impl Default for LodBounds {
-    /// λ as it is.
-    fn default() -> Self {
-        Self { bias: 0.0, least: -64.0, greatest: 64.0 }
-    }
-}
-
-impl LodBounds {
-    /// λ with the bias, bounded; the least for NaN.
-    #[must_use]
-    pub fn bound(self, lambda: f32) -> f32 {
-        self.bound_lanes(One, lambda)
-    }
-}
-
-impl LodPolicy for LodBounds {
-    #[inline(always)]
-    fn bound_lanes<L: Lanes>(self, lanes: L, lambda: L::Number) -> L::Number {
-        let biased = lambda + lanes.splat(self.bias);
-        lanes.min(lanes.max(biased, lanes.splat(self.least)), lanes.splat(self.greatest))
     }
 }
