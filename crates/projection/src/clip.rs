@@ -93,7 +93,7 @@ impl<T: Copy> Polygon<T> {
 
     /// Keeps what is on the inner sides of planes, one after the other.
     #[inline(never)]
-    fn clip(mut self, planes: &[Plane]) -> Self
+    fn clip(mut self, planes: &[ClipPlane]) -> Self
     where
         T: Cut,
     {
@@ -138,14 +138,14 @@ enum Axis {
 
 /// A plane at right angles to an axis, and which side of it stays.
 #[derive(Clone, Copy)]
-struct Plane {
+struct ClipPlane {
     axis: Axis,
     at: f32,
     /// 1 where what is greater stays, -1 where what is less does.
     inner: f32,
 }
 
-impl Plane {
+impl ClipPlane {
     /// The distance inwards, correctly rounded.
     fn distance<T: Cut>(&self, vertex: &T) -> f32 {
         // Products with 1 are exact.
@@ -210,7 +210,7 @@ impl<V: Varying> Cut for ProjectedVertex<V> {
 /// A subtraction and a comparison for each vertex and plane; a crossing costs two divisions and a blend.
 #[must_use]
 pub fn clip_near_far<V: Varying>(triangle: [EyeVertex<V>; 3], near: f32, far: f32) -> Polygon<EyeVertex<V>> {
-    let plane = |at, inner| Plane { axis: Axis::Z, at, inner };
+    let plane = |at, inner| ClipPlane { axis: Axis::Z, at, inner };
     Polygon::triangle(triangle).clip(&[plane(near, 1.0), plane(far, -1.0)])
 }
 
@@ -229,7 +229,7 @@ pub fn clip_sides<V: Varying>(
     bounds: SideBounds,
 ) -> Polygon<ProjectedVertex<V>> {
     let SideBounds { x, y } = bounds;
-    let plane = |axis, at, inner| Plane { axis, at, inner };
+    let plane = |axis, at, inner| ClipPlane { axis, at, inner };
     polygon.clip(&[
         plane(Axis::X, -x, 1.0),
         plane(Axis::X, x, -1.0),

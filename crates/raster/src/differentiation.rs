@@ -41,9 +41,13 @@ use core::fmt::{self, Debug};
 /// A policy of differentiation, which a [`FragmentStage`](crate::FragmentStage) chooses.
 ///
 /// In fixed point, where weights are not at hand as numbers, [`PerPixel`] is [`PerSpan`].
-pub trait Differentiation: Copy + Debug + Default + 'static {
+pub trait Differentiation: Differentiate + Debug + Default + 'static {
     /// What a stage takes whose parts take this and `D`: the first of the two that is not [`NoDerivatives`].
     type With<D: Differentiation>: Differentiation;
+}
+
+/// The way of a policy from a triangle to derivatives at its samples.
+pub trait Differentiate: Copy {
     /// What is known of a triangle.
     type Triangle<V: Varying>: Copy;
     /// What is known of a run of samples.
@@ -97,6 +101,9 @@ pub struct NoDerivatives;
 
 impl Differentiation for NoDerivatives {
     type With<D: Differentiation> = D;
+}
+
+impl Differentiate for NoDerivatives {
     type Triangle<V: Varying> = ();
     type Run<L: Lanes, V: Varying> = ();
 
@@ -319,6 +326,9 @@ fn of_pairs<V: Varying, N: Copy>(pairs: &V::Of<[N; 2]>) -> Gradient<V::Of<N>> {
 
 impl Differentiation for PerPixel {
     type With<D: Differentiation> = Self;
+}
+
+impl Differentiate for PerPixel {
     type Triangle<V: Varying> = Quotients<V>;
     type Run<L: Lanes, V: Varying> = RunQuotients<L, V>;
 
@@ -355,6 +365,9 @@ macro_rules! along_runs {
     ($($policy:ident: $Triangle:ty, |$of:ident| $prepare:expr, |$triangle:ident, $row:ident, $run:ident| $at:expr;)*) => {$(
         impl Differentiation for $policy {
             type With<D: Differentiation> = Self;
+        }
+
+        impl Differentiate for $policy {
             type Triangle<V: Varying> = $Triangle;
             type Run<L: Lanes, V: Varying> = V::Of<[L::Number; 2]>;
 

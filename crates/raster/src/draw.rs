@@ -5,7 +5,7 @@
 use crate::color::ColorFormat;
 use crate::counters::Counters;
 use crate::depth::DepthFormat;
-use crate::differentiation::Differentiation;
+use crate::differentiation::Differentiate;
 use crate::edge::{Edge, EdgeInt};
 use crate::fragment::FragmentStage;
 use crate::interpolation::{Interpolation, Oriented, Row};
@@ -82,7 +82,7 @@ impl<F, P: Interpolation, S: Subpixel> Paint<F, P, S> {
         let depth_bits = target.depth_format().bits();
         let oriented = Oriented { vertices, corners, doubled_area: area.abs(), first, bits, depth_bits };
         let setup = Setup { interpolation, lanes, oriented: &oriented, stage };
-        let samples = Samples { corners: &corners, bits, columns, rows, limits };
+        let samples = SampleBox { corners: &corners, bits, columns, rows, limits };
         lanes.vectorize(
             #[inline(always)]
             || {
@@ -149,7 +149,7 @@ impl<P: Interpolation, L: Floating, V: Varying, F: FragmentStage<V>> Setup<'_, P
 }
 
 /// The samples in a triangle's box, and the columns of the target.
-struct Samples<'a> {
+struct SampleBox<'a> {
     corners: &'a Corners,
     /// Bits of the subpixels.
     bits: u32,
@@ -159,7 +159,7 @@ struct Samples<'a> {
     limits: Range<i32>,
 }
 
-impl Samples<'_> {
+impl SampleBox<'_> {
     /// Whether rows are best filled by testing every sample: the box is narrow, within the band, and in one run.
     #[inline(always)]
     fn suit_masks<L: Lanes>(&self, run: i32) -> bool {
@@ -186,7 +186,7 @@ impl Samples<'_> {
 #[inline(always)]
 fn fill<I, P, L, V, F, C, D, K>(
     target: &mut Target<'_, C, D>,
-    samples: &Samples<'_>,
+    samples: &SampleBox<'_>,
     setup: &Setup<'_, P, L, V, F>,
     counters: &mut K,
 ) -> Outcome
@@ -200,7 +200,7 @@ where
     D: DepthFormat,
     K: Counters,
 {
-    let Samples { columns, rows, limits, .. } = samples;
+    let SampleBox { columns, rows, limits, .. } = samples;
     let mut edges = samples.edges::<I>();
     let mut spans = RowSpans::new(&edges, columns.end - columns.start, rows.end - rows.start);
     // A triangle that covers no sample is not prepared.
@@ -223,11 +223,11 @@ where
     if painter.is_some() { Outcome::Drawn } else { Outcome::Missed }
 }
 
-/// The same for several lanes and a box that [suits masks](Samples::suit_masks): without spans.
+/// The same for several lanes and a box that [suits masks](SampleBox::suit_masks): without spans.
 #[inline(always)]
 fn fill_masked<P, L, V, F, C, D, K>(
     target: &mut Target<'_, C, D>,
-    samples: &Samples<'_>,
+    samples: &SampleBox<'_>,
     setup: &Setup<'_, P, L, V, F>,
     counters: &mut K,
 ) -> Outcome
@@ -240,7 +240,7 @@ where
     D: DepthFormat,
     K: Counters,
 {
-    let Samples { columns, rows, .. } = samples;
+    let SampleBox { columns, rows, .. } = samples;
     let left = aligned::<P::Lanes<L>>(columns.start);
     let first = [columns.start, rows.start];
     let mut mask = RowMask::new(

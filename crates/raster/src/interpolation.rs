@@ -19,10 +19,10 @@ mod linear;
 mod lines;
 mod plane;
 
-pub use exact::{Exact, ExactTriangle};
+pub use exact::Exact;
 pub use fixed_point::FixedPoint;
 pub(crate) use linear::scaled_q;
-pub use lines::{Affine, Lines, Runs, Spans16};
+pub use lines::{Affine, Lines, Spans16};
 pub use plane::Planes;
 
 use crate::edge::{Edge, EdgeInt};

@@ -26,13 +26,11 @@ pub use color::{ColorFormat, FragmentColor, rgb565};
 pub use comparison::{Always, Equal, Farther, OrEqual, ReadOnly};
 pub use counters::Counters;
 pub use depth::{AnyDepth, D16, D24, D32, DepthFormat, F32, F32Reversed, NoDepth};
-pub use differentiation::{Differentiation, NoDerivatives, PerPixel, PerSpan, PerTriangle, Samples};
+pub use differentiation::{Differentiation, NoDerivatives, PerPixel, PerSpan, PerTriangle};
 pub use draw::Paint;
 pub use edge::{Edge, EdgeInt, FITS_I32};
 pub use fragment::{FragmentStage, Fragments};
-pub use interpolation::{
-    Affine, Exact, ExactTriangle, FixedPoint, Interpolation, Lines, Planes, Runs, Spans16,
-};
+pub use interpolation::{Affine, Exact, FixedPoint, Interpolation, Lines, Planes, Spans16};
 pub use spans::{Span, SpanWalker};
 pub use target::{Target, TargetError};
 pub use triangle::{Cull, Outcome, Vertex};

@@ -4,7 +4,7 @@
 use crate::color::ColorFormat;
 use crate::counters::Counters;
 use crate::depth::DepthFormat;
-use crate::differentiation::{Differentiation, Samples};
+use crate::differentiation::{Differentiate, Samples};
 use crate::edge::{Edge, EdgeInt};
 use crate::fragment::{FragmentStage, Fragments};
 use crate::interpolation::{Interpolate, Row};
@@ -21,13 +21,13 @@ use core::slice::from_mut;
 pub(crate) struct Painter<L, V: Varying, T, F: FragmentStage<V>> {
     pub(crate) lanes: L,
     pub(crate) triangle: T,
-    pub(crate) derivatives: <F::Derivatives as Differentiation>::Triangle<V>,
+    pub(crate) derivatives: <F::Derivatives as Differentiate>::Triangle<V>,
     pub(crate) stage: F,
     pub(crate) varying: PhantomData<V>,
 }
 
 /// A run of samples: its attributes, and their derivatives.
-type Known<C, D, L, V> = (C, <D as Differentiation>::Run<L, V>);
+type RunState<C, D, L, V> = (C, <D as Differentiate>::Run<L, V>);
 
 impl<L, V, T, F> Painter<L, V, T, F>
 where
@@ -108,7 +108,7 @@ where
         known: &mut T::Row,
         column: i32,
         aligned: i32,
-    ) -> (Known<T::Cursor, F::Derivatives, L, V>, Span) {
+    ) -> (RunState<T::Cursor, F::Derivatives, L, V>, Span) {
         let (cursor, run) = self.triangle.start(row, known, column, aligned);
         ((cursor, self.stage.derivatives().run(self.lanes, &self.derivatives, row, run)), run)
     }
@@ -121,7 +121,7 @@ where
         formats: (C, D),
         (colors, depths): Pixels<'_, C::Pixel, D::Stored>,
         column: i32,
-        (first, derivatives): &Known<T::Cursor, F::Derivatives, L, V>,
+        (first, derivatives): &RunState<T::Cursor, F::Derivatives, L, V>,
     ) -> u32
     where
         I: EdgeInt,
@@ -212,7 +212,7 @@ where
         target: &mut Target<'_, C, D>,
         row: &Row<'_, I>,
         columns: Range<i32>,
-        (mut cursor, derivatives): Known<T::Cursor, F::Derivatives, L, V>,
+        (mut cursor, derivatives): RunState<T::Cursor, F::Derivatives, L, V>,
     ) -> u32
     where
         I: EdgeInt,
@@ -271,7 +271,7 @@ where
         (color_format, depth_format): (C, D),
         (color, depth): Group<'_, L, C::Pixel, D::Stored>,
         bits: u32,
-        (cursor, derivatives): (&T::Cursor, &<F::Derivatives as Differentiation>::Run<L, V>),
+        (cursor, derivatives): (&T::Cursor, &<F::Derivatives as Differentiate>::Run<L, V>),
         (place, weights): ([i32; 2], &[L::Number; 3]),
     ) -> u32
     where

@@ -6,7 +6,7 @@
 //! |---|---|---|---|
 //! | [`LatLong`]: longitude and latitude | world | `Repeat`, `Clamp` | two divisions and a square root |
 //! | [`SphereMap`]: a mirror ball | eye | `Clamp` | six divisions and two square roots |
-//! | [`Cube`]: six faces | world | `Clamp` | three divisions |
+//! | [`CubeMap`]: six faces | world | `Clamp` | three divisions |
 //!
 //! [`Turned`] gives any of them another frame. All work over lanes, in `f32` and in fixed point. A direction that is
 //! zero or not finite has a place too: each says which.
@@ -26,12 +26,12 @@
 //! # Ok::<(), alberti_texture::TextureError>(())
 //! ```
 
-mod cube;
+mod cube_map;
 mod lat_long;
 mod sphere_map;
 mod turned;
 
-pub use cube::Cube;
+pub use cube_map::CubeMap;
 pub use lat_long::LatLong;
 pub use sphere_map::SphereMap;
 pub use turned::Turned;
@@ -40,7 +40,7 @@ use crate::surface::dot_lanes;
 use alberti_math::lanes::Lanes;
 use core::fmt::Debug;
 
-/// A way of laying out all directions in one image: [`LatLong`], [`SphereMap`] or [`Cube`].
+/// A way of laying out all directions in one image: [`LatLong`], [`SphereMap`] or [`CubeMap`].
 pub trait Environment: Copy + Debug {
     /// The coordinates (u, v) on the image of several directions, of any length.
     fn place<L: Lanes>(&self, lanes: L, direction: [L::Number; 3]) -> [L::Number; 2];

@@ -17,7 +17,7 @@ pub trait Size: Sealed + Copy + Debug + 'static {
     /// Texels in rows, as many as that is.
     type Texels<'a, T: 'a>: Copy;
 
-    /// What is known of the sides of the levels of a [`Mipmap`](crate::Mipmap), which are halves of these.
+    /// The same of a level of a [`Mipmap`](crate::Mipmap), whose sides are halves of these.
     type Level: Size;
 
     /// A level's texels, and what is known of its sides.

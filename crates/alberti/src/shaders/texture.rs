@@ -95,7 +95,7 @@ impl<F: TexelFormat<Texel: FragmentColor>, U: Wrap, V: Wrap, Z: Size> FragmentSt
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shaders::{Solid, Times, Tinted};
+    use crate::shaders::{Called, Solid, Times, Tinted};
     use alberti_math::Q16;
     use alberti_math::lanes::{One, OneFixed};
     use alberti_raster::Gradient;
@@ -112,7 +112,8 @@ mod tests {
         Fragments { lanes, varying, gradient, mask: true, place: [0; 2] }
     }
 
-    /// A constant is [`Solid`], a map times a constant [`Tinted`], and a mip map what its sampler says, bounded or not.
+    /// A constant is [`Solid`], a map times a constant [`Tinted`], and a mip map what its sampler says, bounded or not,
+    /// in place or by a call.
     #[test]
     fn all_maps_are_unlit_alike() {
         let board = Mipmap::new(L8, &[0, 255, 255, 0, 188], 2, 2).expect("2 x 2, and 1 x 1");
@@ -131,10 +132,12 @@ mod tests {
             let [dx, dy] = [[f32::from(k) / 64.0, 0.0], [0.0, 0.25]];
             let gradient = Gradient { dx, dy };
             let (word, _) = Unlit(trilinear).shade(&of(One, [u, v], gradient));
-            assert_eq!(Rgba8::from_bits(word.0), trilinear.sample_grad(uv, Gradient { dx, dy }));
+            assert_eq!(Rgba8::from_bits(word.0), trilinear.sample_grad(uv, gradient));
             let (bounded, _) = Unlit(softer).shade(&of(One, [u, v], gradient));
-            assert_eq!(Rgba8::from_bits(bounded.0), softer.sample_grad(uv, Gradient { dx, dy }));
+            assert_eq!(Rgba8::from_bits(bounded.0), softer.sample_grad(uv, gradient));
             seen += u32::from(bounded != word);
+            let (called, _) = Unlit(Called(softer)).shade(&of(One, [u, v], gradient));
+            assert_eq!(called, bounded);
         }
         assert!(seen > 10, "{seen}");
     }

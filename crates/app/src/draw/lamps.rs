@@ -7,7 +7,7 @@ use alberti::lanes::Lanes;
 use alberti::shaders::material::{
     BlinnPhong, Directional, Lambert, Light, Phong, PointLight, Reflectance, SpotLight, Viewer,
 };
-use alberti::texture::environment::{Cube, Environment, LatLong, SphereMap, Turned};
+use alberti::texture::environment::{CubeMap, Environment, LatLong, SphereMap, Turned};
 use alberti::texture::surface::{
     HeightMap, LimitedParallax, OffsetParallax, ParallaxOcclusion, ParallaxSearch, Relief, SteepParallax,
 };
@@ -159,7 +159,7 @@ impl ParallaxSearch for AnyParallax {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum AnyEnvironment {
     LatLong(Upright),
-    Cube(Cube),
+    Cube(CubeMap),
     Sphere(Turned<SphereMap>),
 }
 
@@ -168,7 +168,7 @@ impl AnyEnvironment {
     pub(super) fn new(kind: EnvironmentKind, image: &Image, camera: Frame<Eye, World>) -> Self {
         match kind {
             EnvironmentKind::LatLong => Self::LatLong(Upright { rows: image.height }),
-            EnvironmentKind::Cube => Self::Cube(Cube { side: image.width }),
+            EnvironmentKind::Cube => Self::Cube(CubeMap { side: image.width }),
             EnvironmentKind::Sphere => Self::Sphere(Turned { environment: SphereMap, axes: camera.axes() }),
         }
     }

@@ -10,12 +10,12 @@ const WEIGHT: u32 = 30;
 /// What is linear on the screen: how much more the second and the third vertex have than the first, and what a column
 /// adds.
 #[derive(Clone, Copy)]
-pub(crate) struct Plane {
+pub(crate) struct FixedPlane {
     pub(crate) more: [i32; 2],
     pub(crate) slope: i32,
 }
 
-impl Plane {
+impl FixedPlane {
     /// How much more than at the first vertex there is where the others have these weights, to the nearest. Weights are
     /// never too large, together not above 1, and so this is within the range of the three.
     #[inline(always)]
@@ -57,11 +57,11 @@ impl Shape {
 
     /// The plane through three numbers that differ by less than 2^31.
     #[inline(always)]
-    pub(crate) fn plane(&self, [a, b, c]: [i32; 3]) -> Plane {
+    pub(crate) fn plane(&self, [a, b, c]: [i32; 3]) -> FixedPlane {
         let more = [b - a, c - a];
         let along =
             i64::from(more[0]) * i64::from(self.across[0]) + i64::from(more[1]) * i64::from(self.across[1]);
-        Plane { more, slope: self.slope(along) }
+        FixedPlane { more, slope: self.slope(along) }
     }
 
     /// `more` to the subpixel over the area, in columns; towards 0, within the range of `i32`.

@@ -1,6 +1,6 @@
 //! Lines in fixed point: integers only, from the vertices' numbers to the pixel.
 
-use super::fixed_plane::{Plane, Shape};
+use super::fixed_plane::{FixedPlane, Shape};
 use super::floating::one_run;
 use super::lines::{LineNumbers, LineTriangle, Lines, Run, Runs};
 use crate::edge::EdgeInt;
@@ -70,18 +70,18 @@ fn depth(bits: u32, zs: f32) -> i32 {
 
 /// What one component is over a triangle.
 #[derive(Clone, Copy)]
-struct Component {
+struct FixedComponent {
     /// At the first vertex; and the least and the greatest of the three.
     first: i32,
     least: i32,
     greatest: i32,
     /// What is more than at the first vertex, times a power of two, and times q where that is divided again.
-    plane: Plane,
+    plane: FixedPlane,
     /// So many bits are too many after that.
     shift: u32,
 }
 
-impl Component {
+impl FixedComponent {
     /// `q` is what is proportional to it at the three vertices, for what is hyperbolic.
     #[inline(always)]
     fn new(shape: &Shape, values: [f32; 3], q: Option<[i32; 3]>) -> Self {
@@ -116,10 +116,10 @@ impl Component {
 pub struct FixedLines<V: Varying> {
     shape: Shape,
     /// At the first vertex, and over the triangle.
-    zs: (i32, Plane),
+    zs: (i32, FixedPlane),
     /// Proportional to q, the greatest of the three from 2^30 to 2^31.
-    q: (i32, Plane),
-    components: V::Of<Component>,
+    q: (i32, FixedPlane),
+    components: V::Of<FixedComponent>,
 }
 
 impl<V: Varying> FixedLines<V> {
@@ -137,11 +137,11 @@ impl<V: Varying> FixedLines<V> {
         Self {
             shape,
             zs: (zs[0], shape.plane(zs)),
-            q: (q[0], if perspective { shape.plane(q) } else { Plane { more: [0; 2], slope: 0 } }),
+            q: (q[0], if perspective { shape.plane(q) } else { FixedPlane { more: [0; 2], slope: 0 } }),
             components: V::map_by_mode(&triangle.values(), &|mode, [a, b, c, first]: [f32; 4]| match mode {
-                Mode::Hyperbolic if perspective => Component::new(&shape, [a, b, c], Some(q)),
-                Mode::Hyperbolic | Mode::Linear => Component::new(&shape, [a, b, c], None),
-                Mode::Flat => Component::new(&shape, [first; 3], None),
+                Mode::Hyperbolic if perspective => FixedComponent::new(&shape, [a, b, c], Some(q)),
+                Mode::Hyperbolic | Mode::Linear => FixedComponent::new(&shape, [a, b, c], None),
+                Mode::Flat => FixedComponent::new(&shape, [first; 3], None),
             }),
         }
     }
@@ -220,7 +220,7 @@ impl<V: Varying> LineNumbers<OneFixed, V> for FixedLines<V> {
             // Slopes are rounded towards 0, so that no step leads beyond the range of the three.
             zs: self.zs.0.wrapping_add(self.zs.1.at(weights)),
             q: if perspective { self.q.0.wrapping_add(self.q.1.at(weights)) } else { 1 },
-            components: V::map(&self.components, &|component: Component| component.plane.at(weights)),
+            components: V::map(&self.components, &|component: FixedComponent| component.plane.at(weights)),
         }
     }
 
@@ -232,7 +232,7 @@ impl<V: Varying> LineNumbers<OneFixed, V> for FixedLines<V> {
         known: &FixedRow<V>,
         column: i32,
     ) -> FixedEnds<V> {
-        let components = V::map(&self.components, &|_: Component| [0; 2]);
+        let components = V::map(&self.components, &|_: FixedComponent| [0; 2]);
         let FixedEnds { q: [_, q], components } =
             self.extend(perspective, row, known, &FixedEnds { q: [0; 2], components }, column);
         FixedEnds { q: [q; 2], components: V::map(&components, &|[_, value]: [i32; 2]| [value; 2]) }
@@ -248,7 +248,7 @@ impl<V: Varying> LineNumbers<OneFixed, V> for FixedLines<V> {
         column: i32,
     ) -> FixedEnds<V> {
         let columns = column - known.first;
-        let along = |first: i32, plane: &Plane| first.wrapping_add(plane.slope.wrapping_mul(columns));
+        let along = |first: i32, plane: &FixedPlane| first.wrapping_add(plane.slope.wrapping_mul(columns));
         let q = if perspective { along(known.q, &self.q.1).max(1).cast_unsigned() } else { 1 };
         let normalizing = q.leading_zeros();
         let per_q = if perspective { (reciprocal::<1>(q << normalizing) >> 1).cast_signed() } else { 0 };
@@ -256,7 +256,7 @@ impl<V: Varying> LineNumbers<OneFixed, V> for FixedLines<V> {
         FixedEnds {
             q: [ends.q[1], q],
             components: V::map_by_mode(&components, &|mode, parts| {
-                let ((component, known), [_, start]): ((Component, i32), [i32; 2]) = parts;
+                let ((component, known), [_, start]): ((FixedComponent, i32), [i32; 2]) = parts;
                 let more = along(known, &component.plane);
                 match mode {
                     Mode::Hyperbolic if perspective => {

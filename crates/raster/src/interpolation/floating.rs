@@ -1,6 +1,6 @@
 //! Lines in `f32`, between ends in `f64`.
 
-use super::linear::{Component, Ramp, along, count, per_area, scaled_q, zs};
+use super::linear::{FloatComponent, Ramp, along, count, per_area, scaled_q, zs};
 use super::lines::{Affine, LineNumbers, LineTriangle, Lines, Run, Runs, Spans16};
 use crate::edge::EdgeInt;
 use crate::interpolation::{Interpolation, Oriented, Row};
@@ -15,8 +15,8 @@ pub struct FloatingLines<L: Lanes, V: Varying> {
     lanes: L,
     per_area: f64,
     q: [f64; 3],
-    zs: Component,
-    components: V::Of<Component>,
+    zs: FloatComponent,
+    components: V::Of<FloatComponent>,
 }
 
 impl<L: Floating, V: Varying> FloatingLines<L, V> {
@@ -28,8 +28,8 @@ impl<L: Floating, V: Varying> FloatingLines<L, V> {
             q: scaled_q(triangle),
             zs: zs(triangle),
             components: V::map_by_mode(&triangle.values(), &|mode, [a, b, c, first]: [f32; 4]| match mode {
-                Mode::Hyperbolic | Mode::Linear => Component::new([a, b, c]),
-                Mode::Flat => Component::flat(first),
+                Mode::Hyperbolic | Mode::Linear => FloatComponent::new([a, b, c]),
+                Mode::Flat => FloatComponent::flat(first),
             }),
         }
     }
@@ -89,7 +89,7 @@ impl<L: Floating, V: Varying> LineNumbers<L, V> for FloatingLines<L, V> {
         FloatingEnds {
             zs: [self.zs.plane.at(screen); 2],
             q: [q; 2],
-            components: V::map_by_mode(&self.components, &|mode, component: Component| {
+            components: V::map_by_mode(&self.components, &|mode, component: FloatComponent| {
                 [component.plane.at(if mode == Mode::Hyperbolic { space } else { screen }); 2]
             }),
         }
@@ -109,7 +109,7 @@ impl<L: Floating, V: Varying> LineNumbers<L, V> for FloatingLines<L, V> {
             zs: [ends.zs[1], self.zs.plane.at(screen)],
             q: [ends.q[1], q],
             components: V::map_by_mode(&V::zip(&self.components, &ends.components), &|mode, pair| {
-                let (component, [_, start]): (Component, [f64; 2]) = pair;
+                let (component, [_, start]): (FloatComponent, [f64; 2]) = pair;
                 [start, component.plane.at(if mode == Mode::Hyperbolic { space } else { screen })]
             }),
         }
@@ -131,14 +131,14 @@ impl<L: Floating, V: Varying> LineNumbers<L, V> for FloatingLines<L, V> {
         let [first, last] = run.columns;
         // A run of a single sample has no step.
         let per_column = 1.0 / f64::from((last - first).max(1));
-        let ramp = |component: &Component, [start, end]: [f64; 2]| {
+        let ramp = |component: &FloatComponent, [start, end]: [f64; 2]| {
             Ramp::new(self.lanes, start, (end - start) * per_column, component)
         };
         FloatingCursor {
             along: along(self.lanes, first, aligned),
             zs: ramp(&self.zs, run.ends.zs),
             components: V::map(&V::zip(&self.components, &run.ends.components), &|pair| {
-                let (component, ends): (Component, [f64; 2]) = pair;
+                let (component, ends): (FloatComponent, [f64; 2]) = pair;
                 ramp(&component, ends)
             }),
         }

@@ -7,13 +7,13 @@ use alberti_math::lanes::Lanes;
 
 /// A function that is linear on the screen.
 #[derive(Clone, Copy)]
-pub(crate) struct Plane3 {
+pub(crate) struct FloatPlane {
     /// At the first vertex, and what the second and the third have more.
     first: f64,
     more: [f64; 2],
 }
 
-impl Plane3 {
+impl FloatPlane {
     #[inline(always)]
     pub(crate) fn new([a, b, c]: [f64; 3]) -> Self {
         Self { first: a, more: [b - a, c - a] }
@@ -35,17 +35,17 @@ impl Plane3 {
 
 /// One number of a vertex over a triangle, and what its values at the vertices do not exceed.
 #[derive(Clone, Copy)]
-pub(crate) struct Component {
-    pub(crate) plane: Plane3,
+pub(crate) struct FloatComponent {
+    pub(crate) plane: FloatPlane,
     pub(crate) least: f32,
     pub(crate) greatest: f32,
 }
 
-impl Component {
+impl FloatComponent {
     #[inline(always)]
     pub(crate) fn new(values: [f32; 3]) -> Self {
         let [least, greatest] = hull3(values);
-        Self { plane: Plane3::new(values.map(f64::from)), least, greatest }
+        Self { plane: FloatPlane::new(values.map(f64::from)), least, greatest }
     }
 
     /// The same everywhere.
@@ -65,9 +65,9 @@ pub(crate) fn scaled_q<V>(triangle: &Oriented<'_, V>) -> [f64; 3] {
 
 /// The three screen depths.
 #[inline(always)]
-pub(crate) fn zs<V>(triangle: &Oriented<'_, V>) -> Component {
+pub(crate) fn zs<V>(triangle: &Oriented<'_, V>) -> FloatComponent {
     let [a, b, c] = triangle.vertices;
-    Component::new([a.zs, b.zs, c.zs])
+    FloatComponent::new([a.zs, b.zs, c.zs])
 }
 
 /// 1 over the doubled area.
@@ -90,7 +90,7 @@ pub(crate) struct Ramp<L: Lanes> {
 impl<L: Lanes> Ramp<L> {
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "rounded once")]
-    pub(crate) fn new(lanes: L, start: f64, step: f64, component: &Component) -> Self {
+    pub(crate) fn new(lanes: L, start: f64, step: f64, component: &FloatComponent) -> Self {
         Self {
             start: lanes.splat(start as f32),
             step: lanes.splat(step as f32),

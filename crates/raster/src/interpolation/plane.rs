@@ -1,6 +1,6 @@
 //! Hyperbolic interpolation from plane equations, in each sample.
 
-use super::linear::{Component, Plane3, Ramp, along, count, per_area, scaled_q, zs};
+use super::linear::{FloatComponent, FloatPlane, Ramp, along, count, per_area, scaled_q, zs};
 use crate::edge::EdgeInt;
 use crate::interpolation::{Interpolate, Interpolation, Oriented, Row};
 use crate::spans::Span;
@@ -52,10 +52,10 @@ impl Interpolation for Planes {
         let [a, b, c] = triangle.corners;
         let step = |y: i32| f64::from(y) * f64::from(triangle.one()) * per_area;
         let across = [step(c[1] - a[1]), step(a[1] - b[1])];
-        let sloped = |component: Component| Sloped { across: component.plane.more(across), component };
+        let sloped = |component: FloatComponent| Sloped { across: component.plane.more(across), component };
 
         let q = scaled_q(triangle);
-        let q_plane = Plane3::new(q);
+        let q_plane = FloatPlane::new(q);
         PlaneTriangle {
             lanes,
             per_area,
@@ -63,12 +63,12 @@ impl Interpolation for Planes {
             q: (q_plane, q_plane.more(across)),
             components: V::map_by_mode(&triangle.values(), &|mode, [a, b, c, first]: [f32; 4]| match mode {
                 Mode::Hyperbolic => {
-                    let component = Component::new([a, b, c]);
+                    let component = FloatComponent::new([a, b, c]);
                     let times_q = [f64::from(a) * q[0], f64::from(b) * q[1], f64::from(c) * q[2]];
-                    sloped(Component { plane: Plane3::new(times_q), ..component })
+                    sloped(FloatComponent { plane: FloatPlane::new(times_q), ..component })
                 }
-                Mode::Linear => sloped(Component::new([a, b, c])),
-                Mode::Flat => sloped(Component::flat(first)),
+                Mode::Linear => sloped(FloatComponent::new([a, b, c])),
+                Mode::Flat => sloped(FloatComponent::flat(first)),
             }),
         }
     }
@@ -77,7 +77,7 @@ impl Interpolation for Planes {
 /// A component and what a column adds to it.
 #[derive(Clone, Copy)]
 struct Sloped {
-    component: Component,
+    component: FloatComponent,
     across: f64,
 }
 
@@ -87,7 +87,7 @@ pub struct PlaneTriangle<L: Lanes, V: Varying> {
     lanes: L,
     per_area: f64,
     zs: Sloped,
-    q: (Plane3, f64),
+    q: (FloatPlane, f64),
     components: V::Of<Sloped>,
 }
 

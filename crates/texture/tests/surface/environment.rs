@@ -5,7 +5,7 @@ use crate::support::{EPS, vec3};
 use alberti_math::lanes::{Lanes, Machine, One, OneFixed};
 use alberti_math::{Q16, for_lanes};
 use alberti_oracle::rng::{Rng, run_seed};
-use alberti_texture::environment::{Cube, Environment, LatLong, SphereMap, reflect_lanes};
+use alberti_texture::environment::{CubeMap, Environment, LatLong, SphereMap, reflect_lanes};
 use alberti_texture::format::L8;
 use alberti_texture::{Bilinear, Clamp, Repeat, Texture};
 use glam::{DVec2, DVec3, Vec3};
@@ -157,11 +157,11 @@ fn cubes() {
     for d in directions(&mut rng) {
         let side = rng.log_integer(2730) as u32;
         let half = 0.5 / f64::from(side);
-        let found = at(Cube { side }.place(One, d.to_array()));
+        let found = at(CubeMap { side }.place(One, d.to_array()));
         let margin = (half + 2f64.powi(-20)).min(0.5);
         worst[0] = worst[0].max(apart(found, cube(d.as_dvec3(), margin), false) / EPS);
         if let Some(d) = fixed(d, &mut rng) {
-            let found = DVec2::from(Cube { side }.place(OneFixed, d).map(real));
+            let found = DVec2::from(CubeMap { side }.place(OneFixed, d).map(real));
             let exact = cube(DVec3::from(d.map(real)), (half + 2f64.powi(-12)).min(0.5));
             worst[1] = worst[1].max(apart(found, exact, false) / STEP);
         }
@@ -173,7 +173,7 @@ fn cubes() {
     for (face, axis) in
         [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y, Vec3::Z, Vec3::NEG_Z].into_iter().enumerate()
     {
-        let [u, v] = Cube { side: 8 }.place(One, axis.to_array());
+        let [u, v] = CubeMap { side: 8 }.place(One, axis.to_array());
         assert_eq!(u, 0.5);
         assert!((f64::from(v) * 6.0 - (5.5 - face as f64)).abs() < 1e-6);
     }
@@ -197,7 +197,7 @@ fn faces_do_not_bleed() {
             v
         });
         for d in near_edges.chain(special()).collect::<Vec<_>>() {
-            let cube = Cube { side };
+            let cube = CubeMap { side };
             let place = cube.place(One, d.to_array());
             let face = table(d.as_dvec3())
                 .iter()
@@ -224,22 +224,26 @@ fn what_has_no_direction() {
     for d in all {
         assert_eq!(LatLong.place(One, d), [0.5; 2], "{d:?}");
         assert_eq!(SphereMap.place(One, d), [0.5; 2], "{d:?}");
-        assert_eq!(Cube { side: 4 }.place(One, d), Cube { side: 4 }.place(One, [1.0, 0.0, 0.0]), "{d:?}");
+        assert_eq!(
+            CubeMap { side: 4 }.place(One, d),
+            CubeMap { side: 4 }.place(One, [1.0, 0.0, 0.0]),
+            "{d:?}"
+        );
     }
     let zero = [Q16::ZERO; 3];
     let half = [Q16::from_bits(1 << 15); 2];
     assert_eq!([LatLong.place(OneFixed, zero), SphereMap.place(OneFixed, zero)], [half; 2]);
     let x = [Q16::ONE, Q16::ZERO, Q16::ZERO];
-    assert_eq!(Cube { side: 4 }.place(OneFixed, zero), Cube { side: 4 }.place(OneFixed, x));
+    assert_eq!(CubeMap { side: 4 }.place(OneFixed, zero), CubeMap { side: 4 }.place(OneFixed, x));
     // Sides that no texture has.
-    assert_eq!(Cube { side: 0 }.place(One, [1.0, 0.5, 0.2])[0], 0.5);
+    assert_eq!(CubeMap { side: 0 }.place(One, [1.0, 0.5, 0.2])[0], 0.5);
 }
 
 fn places<L: Lanes>(lanes: L, v: [L::Number; 6]) -> [L::Number; 9] {
     let (d, n) = ([v[0], v[1], v[2]], [v[3], v[4], v[5]]);
     let [a, b] = LatLong.place(lanes, d);
     let [c, e] = SphereMap.place(lanes, d);
-    let [f, g] = Cube { side: 16 }.place(lanes, d);
+    let [f, g] = CubeMap { side: 16 }.place(lanes, d);
     let [x, y, z] = reflect_lanes(lanes, n, d);
     [a, b, c, e, f, g, x, y, z]
 }

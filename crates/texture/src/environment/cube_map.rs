@@ -35,12 +35,12 @@ use alberti_math::lanes::Lanes;
 /// # Cost
 /// Three divisions, one of them by a constant, and some 30 operations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Cube {
+pub struct CubeMap {
     /// w, the side of a face in texels: at least 1.
     pub side: u32,
 }
 
-impl Environment for Cube {
+impl Environment for CubeMap {
     #[inline(always)]
     fn place<L: Lanes>(&self, lanes: L, direction: [L::Number; 3]) -> [L::Number; 2] {
         let [x, y, z] = finite_or_zero(lanes, direction);
