@@ -22,7 +22,7 @@ use alberti::texture::format::{Normals, Scalars};
 use alberti::texture::mipmap;
 use alberti::texture::surface::{LimitedParallax, NormalEncoding::Unorm, Relief};
 use alberti::texture::{
-    Anisotropic, Bilinear, Mipmap, Nearest, NearestLevel, PowerOfTwo, Repeat, Texture, Trilinear,
+    Anisotropic, Bilinear, Minify, Mipmap, Nearest, NearestLevel, PowerOfTwo, Repeat, Texture, Trilinear,
 };
 use alberti::{
     Always, Cull, F32, FragmentStage, Frame, Mesh, Pass, Perspective, Point3, Rgba8, Rgba8888, Slot, Stats,
@@ -325,8 +325,8 @@ fn surface(criterion: &mut Criterion) {
     rows! {
         "nearest": bare, Unlit(base.sampler(Nearest, Repeat)), |uv, _| nearest(&maps.color, uv);
         "bilinear": bare, Unlit(base.sampler(Bilinear, Repeat)), |uv, _| bilinear(&maps.color, 0, uv);
-        "nearest-mip": bare, Unlit(mip(&maps.color).sampler(NearestLevel(Nearest), Repeat));
-        "bilinear-mip": bare, Unlit(mip(&maps.color).sampler(NearestLevel(Bilinear), Repeat));
+        "nearest-mip": bare, Unlit(mip(&maps.color).sampler(Minify { min: NearestLevel(Nearest), mag: Nearest }, Repeat));
+        "bilinear-mip": bare, Unlit(mip(&maps.color).sampler(Minify { min: NearestLevel(Bilinear), mag: Bilinear }, Repeat));
         "trilinear": bare, trilinear_unlit, |uv, lambda| trilinear(&maps.color, uv, lambda);
         "trilinear-per-span": bare, Differentiated::by(PerSpan, trilinear_unlit);
         "trilinear-per-triangle": bare, Differentiated::by(PerTriangle, trilinear_unlit);

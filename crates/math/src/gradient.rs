@@ -100,7 +100,8 @@ impl<N: Copy + Add<Output = N> + Sub<Output = N> + Mul<Output = N> + Div<Output 
     #[must_use]
     #[inline(always)]
     pub fn log2_lengths_lanes<L: Lanes<Number = N>>(self, lanes: L, size: [u32; 2]) -> [N; 2] {
-        [self.dx, self.dy].map(|[du, dv]| lanes.log2_length(du, dv, size))
+        let Self { dx: [du_dx, dv_dx], dy: [du_dy, dv_dy] } = self;
+        [lanes.log2_length(du_dx, dv_dx, size), lanes.log2_length(du_dy, dv_dy, size)]
     }
 
     /// [`lod`](Gradient::lod) of several pixels: of a texture with the sides `[width, height]`.

@@ -7,7 +7,7 @@ use alberti::lanes::One;
 use alberti::raster::{PerSpan, PerTriangle};
 use alberti::shaders::material::{Color, Emission, Gouraud};
 use alberti::shaders::{Differentiated, Ready565, Solid, Stored, Unlit, VertexColor565};
-use alberti::texture::{Bilinear, Nearest, NearestLevel, Repeat, Trilinear};
+use alberti::texture::{Bilinear, Minify, Nearest, NearestLevel, Repeat, Trilinear};
 use alberti::{
     Affine, ColorFormat, Counters, D16, DepthFormat, Exact, FixedPoint, FragmentStage, Geometry,
     Interpolation, Mesh, NoDepth, Object, Pass, Point3, Rgb565Le, Slot, Spans16, Sub4, View,
@@ -39,11 +39,11 @@ draws! {
 
     /// The nearest texel of the nearest level, one for each triangle.
     mip_nearest(model): Exact, mapped,
-        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler(NearestLevel(Nearest), Repeat)));
+        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler(NEAREST_MIP, Repeat)));
 
     /// Four texels of the nearest level, one for each triangle.
     mip_bilinear(model): Exact, mapped,
-        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler(NearestLevel(Bilinear), Repeat)));
+        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler(BILINEAR_MIP, Repeat)));
 
     /// Between levels, by one level of detail for each triangle.
     trilinear(model): Exact, mapped,
@@ -55,11 +55,11 @@ draws! {
 
     /// The nearest texel of the nearest level, one for each triangle, in fixed point.
     mip_nearest_fixed(model): FixedPoint(Spans16), mapped,
-        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler(NearestLevel(Nearest), Repeat)));
+        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler(NEAREST_MIP, Repeat)));
 
     /// Four texels of the nearest level, one for each triangle, in fixed point.
     mip_bilinear_fixed(model): FixedPoint(Spans16), mapped,
-        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler(NearestLevel(Bilinear), Repeat)));
+        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler(BILINEAR_MIP, Repeat)));
 
     /// Between levels, by one level of detail for each triangle, in fixed point.
     trilinear_fixed(model): FixedPoint(Spans16), mapped,
@@ -128,6 +128,10 @@ pub fn flat_without_depth<K: Counters>(
     draw(pixels, camera, model, &mesh, Solid(ORANGE), Exact, &mut [], counters);
 }
 
+const NEAREST_MIP: Minify<NearestLevel<Nearest>, Nearest> =
+    Minify { min: NearestLevel(Nearest), mag: Nearest };
+const BILINEAR_MIP: Minify<NearestLevel<Bilinear>, Bilinear> =
+    Minify { min: NearestLevel(Bilinear), mag: Bilinear };
 
 const ORANGE: u16 = 0xe405;
 
