@@ -8,7 +8,7 @@ mod common;
 
 use alberti::glam::{Vec2, Vec3};
 use alberti::shaders::Stored;
-use alberti::texture::{Nearest, Repeat, TexelFormat, Texture, format::Rgb565};
+use alberti::texture::{Known, Nearest, Repeat, TexelFormat, Texture, format::Rgb565};
 use alberti::*;
 use std::process::ExitCode;
 
@@ -23,7 +23,11 @@ const LENS: Perspective = match Perspective::new(0.8, WIDTH as f32 / HEIGHT as f
     Err(_) => panic!("an impossible lens"),
 };
 
-/// Squares of two colours, in flash.
+/// Squares of two colours, in flash. Sides that are known when compiling are the fastest.
+static SQUARES: Texture<'static, Rgb565, Known<16, 16>> = match Texture::new(Rgb565, &TEXELS, 16, 16) {
+    Ok(texture) => texture.known().expect("16 x 16"),
+    Err(_) => panic!("as many texels as that takes"),
+};
 static TEXELS: [u16; 16 * 16] = {
     let mut texels = [0xe6b4; 16 * 16];
     let mut k = 0;
@@ -73,11 +77,10 @@ pub(crate) fn picture() -> common::File {
 }
 
 /// Draws a frame, whose bytes `send` gets in the display's order.
-fn frame(memory: &mut Memory, mut send: impl FnMut(&[u8])) -> Result<(), Box<dyn std::error::Error>> {
+fn frame(memory: &mut Memory, mut send: impl FnMut(&[u8])) -> Result<(), Error> {
     let Memory { color, depth, slots, room } = memory;
     let view = Camera::look_at(Vec3::new(1.2, 1.5, -5.0), Vec3::Y * 0.1, Vec3::Y)?.through(LENS);
-    let texture = Texture::new(Rgb565, &TEXELS, 16, 16)?.known::<16, 16>().ok_or("a texture of 16 x 16")?;
-    let stage = Stored(texture.sampler(Nearest, Repeat));
+    let stage = Stored(SQUARES.sampler(Nearest, Repeat));
     let mesh = Mesh::new(&VERTICES, &TRIANGLES, |(place, uv)| {
         (Vec3::from(place.map(f32::from)) / 4.0, Vec2::from(uv.map(f32::from)) / 4.0)
     });

@@ -4,6 +4,7 @@
 #[cfg(test)]
 extern crate std;
 
+mod error;
 mod geometry;
 pub mod pipeline;
 mod prepared;
@@ -30,6 +31,7 @@ pub use alberti_raster::{
     Lines, NoDepth, NoDerivatives, OrEqual, PerPixel, Planes, ReadOnly, Spans16, Target, TargetError,
 };
 pub use alberti_texture as texture;
+pub use error::Error;
 pub use geometry::{Geometry, Mesh};
 pub use pipeline::{Pass, draw};
 pub use prepared::{Prepared, ScreenTriangle};

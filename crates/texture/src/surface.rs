@@ -53,7 +53,9 @@ pub use normal::{
     NormalEncoding, normal, normal_lanes, normal_of_two, normal_of_two_lanes, normal_to_parent, strengthened,
     strengthened_lanes, to_parent_lanes,
 };
-pub use parallax::{LimitedParallax, OffsetParallax, ParallaxOcclusion, ParallaxSearch, SteepParallax};
+pub use parallax::{
+    AnyParallax, LimitedParallax, OffsetParallax, ParallaxOcclusion, ParallaxSearch, SteepParallax,
+};
 pub use parametric::{Cylinder, Differences, Parametric, Plane, Sphere, Torus};
 pub use relief::{Relief, bump, bump_lanes, normal_of_slope, normal_of_slope_lanes};
 pub use slopes::{BilinearHeights, CentralDifferences};

@@ -45,9 +45,9 @@ mod surface;
 mod vector;
 
 pub use layers::{Color, Emission, Gloss, Occlusion, Specular, Wetness};
-pub use light::{Directional, Light, PointLight, SpotLight};
+pub use light::{AnyLight, Directional, Light, PointLight, SpotLight};
 pub use map::{Called, Map, Times};
-pub use reflectance::{BlinnPhong, Lambert, Phong, Reflectance, Shininess};
+pub use reflectance::{AnyReflectance, BlinnPhong, Lambert, Phong, Reflectance, Shininess};
 pub use reflection::Reflection;
 pub use relief::{Bump, NormalMap, ObjectNormals, Parallax, TwoChannels};
 pub use surface::{Axes, Framed, Layer, OnSurface, Placed, Surface, Textured, Viewer};

@@ -2,7 +2,7 @@
 //! is all surfaces that there are, with a projector's image on them.
 
 use super::erased::{Carried, erase, erase_fixed};
-use super::lamps::{AnyReflectance, Lamp, Lamps};
+use super::lamps::Lamps;
 use super::maps::{Chains, any_filter};
 use super::painted::Painted;
 use super::plain::Skin;
@@ -13,7 +13,7 @@ use crate::scene::{Camera, Detail, Model, Part, Vertex};
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::{Lanes, Machine, One};
 use alberti::raster::PerPixel;
-use alberti::shaders::material::{Framed, Gouraud, Lighting, Material};
+use alberti::shaders::material::{AnyLight, AnyReflectance, Framed, Gouraud, Lighting, Material};
 use alberti::shaders::{Modulate, Slide, Sunlit, Unlit, VertexColor};
 use alberti::texture::{AnyFilter, Clamp, Sampler, format::Rgba8888};
 use alberti::{
@@ -58,7 +58,7 @@ enum Surface<'a> {
     Colors,
     Unlit(Unlit<Skin<'a>>),
     Lit(Sunlit<Unlit<Skin<'a>>>),
-    ByFragment(Material<Painted<'a>, &'a [Lamp], AnyReflectance>),
+    ByFragment(Material<Painted<'a>, &'a [AnyLight], AnyReflectance>),
     ByVertex(Gouraud<Painted<'a>>),
 }
 
@@ -129,7 +129,7 @@ fn framed(surface: &Surface<'_>, textured: bool, lighting: &Light<'_>, v: &Verte
 }
 
 /// The lights that fall on a picture's surfaces.
-type Light<'a> = Lighting<&'a [Lamp], AnyReflectance>;
+type Light<'a> = Lighting<&'a [AnyLight], AnyReflectance>;
 
 impl<'a> Drawing<'a> {
     /// A surface by any policies.

@@ -1,32 +1,28 @@
-//! Lights, reflectances, environments and parallax maps whose kind is chosen at run time.
+//! Lights, environments and parallax maps whose kind is chosen at run time.
 
 use super::{AMBIENT, DIFFUSE};
 use crate::scene::{self, Camera, EnvironmentKind, Image, Model};
 use alberti::glam::Vec3;
 use alberti::lanes::Lanes;
-use alberti::shaders::material::{
-    BlinnPhong, Directional, Lambert, Light, Phong, PointLight, Reflectance, SpotLight, Viewer,
-};
+use alberti::shaders::material::{AnyLight, Directional, PointLight, SpotLight, Viewer};
 use alberti::texture::environment::{CubeMap, Environment, LatLong, SphereMap, Turned};
-use alberti::texture::surface::{
-    HeightMap, LimitedParallax, OffsetParallax, ParallaxOcclusion, ParallaxSearch, Relief, SteepParallax,
-};
+use alberti::texture::surface::AnyParallax;
 use alberti::{Eye, Frame, Point3, Vector3, World};
 
 /// What falls on a picture's surfaces.
 #[derive(Clone, Debug)]
 pub(crate) struct Lamps {
     pub(super) ambient: Vec3,
-    pub(super) lights: Vec<Lamp>,
+    pub(super) lights: Vec<AnyLight>,
     pub(super) viewer: Viewer,
 }
 
 impl Lamps {
     /// A model's, or else light from the direction `to_light`.
     pub(super) fn new(model: &Model, camera: &Camera, parallel: bool, to_light: Vec3) -> Self {
-        let lights: Vec<Lamp> = model.lights.iter().map(Lamp::new).collect();
+        let lights: Vec<AnyLight> = model.lights.iter().map(lamp).collect();
         let own = lights.is_empty() && model.ambient.is_none();
-        let beside = Lamp::Directional(Directional::new(Vector3::new(to_light), Vec3::splat(DIFFUSE)));
+        let beside = AnyLight::Directional(Directional::new(Vector3::new(to_light), Vec3::splat(DIFFUSE)));
         let [eye, target] = [camera.eye, camera.target].map(Vec3::from_array);
         Self {
             ambient: model.ambient.map_or(Vec3::splat(AMBIENT), Vec3::from_array),
@@ -40,87 +36,25 @@ impl Lamps {
     }
 }
 
-/// A light of any kind.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Lamp {
-    Directional(Directional),
-    Point(PointLight),
-    Spot(SpotLight),
-}
-
-impl Lamp {
-    fn new(light: &scene::Light) -> Self {
-        let point = |position: [f32; 3], color: [f32; 3], range: f32| PointLight {
-            position: Point3::new(Vec3::from_array(position)),
-            color: Vec3::from_array(color),
-            falloff: [1.0, 0.0, 1.0 / (range * range)],
-        };
-        match *light {
-            scene::Light::Directional { to_light, color } => {
-                let to_light = Vector3::new(Vec3::from_array(to_light));
-                Self::Directional(Directional::new(to_light, Vec3::from_array(color)))
-            }
-            scene::Light::Point { position, color, range } => Self::Point(point(position, color, range)),
-            scene::Light::Spot { position, direction, color, range, inner, outer } => {
-                let axis = Vector3::new(Vec3::from_array(direction));
-                let cosines = [inner, outer].map(|angle| angle.to_radians().cos());
-                Self::Spot(SpotLight::new(point(position, color, range), axis, cosines))
-            }
-        }
-    }
-}
-
-/// What all kinds have, of the one that it is.
-macro_rules! of_kind {
-    ($this:expr, $kind:ident: $($name:ident)+, |$it:ident| $body:expr) => {
-        match $this {
-            $($kind::$name($it) => $body,)+
-        }
+/// A model's light.
+fn lamp(light: &scene::Light) -> AnyLight {
+    let point = |position: [f32; 3], color: [f32; 3], range: f32| PointLight {
+        position: Point3::new(Vec3::from_array(position)),
+        color: Vec3::from_array(color),
+        falloff: [1.0, 0.0, 1.0 / (range * range)],
     };
-}
-
-impl Light for Lamp {
-    #[inline(always)]
-    fn fold<L: Lanes, T>(
-        &self,
-        lanes: L,
-        position: [L::Number; 3],
-        sum: T,
-        and: impl Fn(T, [L::Number; 3], [L::Number; 3]) -> T + Copy,
-    ) -> T {
-        of_kind!(self, Self: Directional Point Spot, |light| light.fold(lanes, position, sum, and))
+    match *light {
+        scene::Light::Directional { to_light, color } => {
+            let to_light = Vector3::new(Vec3::from_array(to_light));
+            AnyLight::Directional(Directional::new(to_light, Vec3::from_array(color)))
+        }
+        scene::Light::Point { position, color, range } => AnyLight::Point(point(position, color, range)),
+        scene::Light::Spot { position, direction, color, range, inner, outer } => {
+            let axis = Vector3::new(Vec3::from_array(direction));
+            let cosines = [inner, outer].map(|angle| angle.to_radians().cos());
+            AnyLight::Spot(SpotLight::new(point(position, color, range), axis, cosines))
+        }
     }
-}
-
-/// A reflectance of any kind.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum AnyReflectance {
-    Lambert(Lambert),
-    Phong(Phong<[u32; 2]>),
-    Blinn(BlinnPhong<[u32; 2]>),
-}
-
-impl Reflectance for AnyReflectance {
-    #[inline(always)]
-    fn shares<L: Lanes>(
-        &self,
-        lanes: L,
-        normal: [L::Number; 3],
-        to_light: [L::Number; 3],
-        to_viewer: [L::Number; 3],
-        gloss: L::Number,
-    ) -> [L::Number; 2] {
-        of_kind!(self, Self: Lambert Phong Blinn, |it| it.shares(lanes, normal, to_light, to_viewer, gloss))
-    }
-}
-
-/// A way of reading a parallax map.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum AnyParallax {
-    Offset(OffsetParallax),
-    Limited(LimitedParallax),
-    Steep(SteepParallax),
-    Occlusion(ParallaxOcclusion),
 }
 
 /// The layers in which steep heights are searched: as many as show the technique, terraces and all.
@@ -129,29 +63,14 @@ const STEEP_LAYERS: u32 = 16;
 /// The layers between which a line is drawn: as many as hide them, with an error that is a quarter with twice as many.
 const OCCLUSION_LAYERS: u32 = 32;
 
-impl AnyParallax {
-    /// Of what is made of heights, if it is a parallax map.
-    pub(super) fn of(relief: scene::Relief) -> Option<Self> {
-        match relief {
-            scene::Relief::Bump | scene::Relief::Displacement => None,
-            scene::Relief::Parallax => Some(Self::Offset(OffsetParallax)),
-            scene::Relief::ParallaxLimited => Some(Self::Limited(LimitedParallax)),
-            scene::Relief::Steep => Some(Self::Steep(SteepParallax { layers: STEEP_LAYERS })),
-            scene::Relief::Occlusion => Some(Self::Occlusion(ParallaxOcclusion { layers: OCCLUSION_LAYERS })),
-        }
-    }
-}
-
-impl ParallaxSearch for AnyParallax {
-    #[inline(always)]
-    fn meet<H: HeightMap, L: Lanes>(
-        self,
-        lanes: L,
-        relief: &Relief<H>,
-        uv: [L::Number; 2],
-        slant: [L::Number; 2],
-    ) -> [L::Number; 2] {
-        of_kind!(self, Self: Offset Limited Steep Occlusion, |policy| policy.meet(lanes, relief, uv, slant))
+/// What is made of heights, if it is a parallax map.
+pub(super) fn parallax(relief: scene::Relief) -> Option<AnyParallax> {
+    match relief {
+        scene::Relief::Bump | scene::Relief::Displacement => None,
+        scene::Relief::Parallax => Some(AnyParallax::Offset),
+        scene::Relief::ParallaxLimited => Some(AnyParallax::Limited),
+        scene::Relief::Steep => Some(AnyParallax::Steep { layers: STEEP_LAYERS }),
+        scene::Relief::Occlusion => Some(AnyParallax::Occlusion { layers: OCCLUSION_LAYERS }),
     }
 }
 
@@ -177,7 +96,11 @@ impl AnyEnvironment {
 impl Environment for AnyEnvironment {
     #[inline(always)]
     fn place<L: Lanes>(&self, lanes: L, direction: [L::Number; 3]) -> [L::Number; 2] {
-        of_kind!(self, Self: LatLong Cube Sphere, |environment| environment.place(lanes, direction))
+        match self {
+            Self::LatLong(upright) => upright.place(lanes, direction),
+            Self::Cube(cube) => cube.place(lanes, direction),
+            Self::Sphere(turned) => turned.place(lanes, direction),
+        }
     }
 }
 
@@ -201,12 +124,13 @@ impl Environment for Upright {
 mod tests {
     use super::*;
     use alberti::glam::Vec2;
+    use alberti::texture::surface::Relief;
 
     /// Where the place (0, 0) is looked up, on a plain half a unit above the surface, seen at a slant of 3.
     fn shift(relief: scene::Relief) -> Option<Vec2> {
         let plain = Relief { map: |_: Vec2| 0.5, low: 0.0, high: 1.0, extent: Vec2::ONE };
         let view = Vector3::new(Vec3::new(3.0, 0.0, 1.0));
-        AnyParallax::of(relief).map(|policy| plain.parallax(policy, Vec2::ZERO, view))
+        parallax(relief).map(|policy| plain.parallax(policy, Vec2::ZERO, view))
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //! asked for the samples that are worked on together; the colours are those of the library's layers.
 
 use super::color;
-use super::lamps::{AnyEnvironment, AnyParallax, AnyReflectance, Lamp, Lamps};
+use super::lamps::{AnyEnvironment, Lamps, parallax};
 use super::maps::{AnyHeights, AnyMap, Chains, Scaled, any_map};
 use crate::options::{Filter, RenderOptions, Shading, Wrap};
 use crate::scene::{self, Model, NormalSpace, Part};
@@ -10,11 +10,11 @@ use alberti::glam::{Mat3, Vec2, Vec3};
 use alberti::lanes::Lanes;
 use alberti::raster::PerPixel;
 use alberti::shaders::material::{
-    BlinnPhong, Bump, Color, Emission, Framed, Gloss, Lambert, Layer, Lighting, Material, NormalMap,
-    ObjectNormals, Occlusion, Parallax, Phong, Reflection, Specular, Surface, Wetness,
+    AnyLight, AnyReflectance, Bump, Color, Emission, Framed, Gloss, Layer, Lighting, Material, NormalMap,
+    ObjectNormals, Occlusion, Parallax, Reflection, Specular, Surface, Wetness,
 };
 use alberti::texture::format::Content;
-use alberti::texture::surface::{CentralDifferences, NormalEncoding::Unorm, Relief};
+use alberti::texture::surface::{AnyParallax, CentralDifferences, NormalEncoding::Unorm, Relief};
 use alberti::{Eye, Frame, Point3, Varying, World};
 
 /// What a part is made of.
@@ -103,8 +103,7 @@ impl<'a> Painted<'a> {
             let map = AnyHeights::new(image, height.wrap.unwrap_or(options.wrap))?;
             Some((height.relief, Relief { map, low, high, extent: Vec2::from_array(height.extent) }))
         });
-        let parallax =
-            relief.and_then(|(kind, relief)| Some(Parallax { relief, policy: AnyParallax::of(kind)? }));
+        let parallax = relief.and_then(|(kind, relief)| Some(Parallax { relief, policy: parallax(kind)? }));
         let own = detail.normal.and_then(|normal| {
             let map = map(normal.map, Content::Normals)?;
             Some(match normal.space {
@@ -163,13 +162,13 @@ impl<'a> Painted<'a> {
         shading: Shading,
         exponents: [f32; 2],
         lamps: &'a Lamps,
-    ) -> Material<Self, &'a [Lamp], AnyReflectance> {
+    ) -> Material<Self, &'a [AnyLight], AnyReflectance> {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
         let exponents = exponents.map(|exponent| (exponent + 0.5) as u32);
         let reflectance = match shading {
-            Shading::Phong => AnyReflectance::Phong(Phong(exponents)),
-            Shading::Blinn | Shading::Gouraud => AnyReflectance::Blinn(BlinnPhong(exponents)),
-            _ => AnyReflectance::Lambert(Lambert),
+            Shading::Phong => AnyReflectance::Phong(exponents),
+            Shading::Blinn | Shading::Gouraud => AnyReflectance::BlinnPhong(exponents),
+            _ => AnyReflectance::Lambert,
         };
         let (ambient, lights) = match shading {
             Shading::Unlit | Shading::VertexColor => (Vec3::ONE, &[][..]),

@@ -184,7 +184,8 @@ impl<'de, const N: usize, K: Kind> Visitor<'de> for Numbers<N, K> {
             numbers.push(x);
         }
         let wrong = |found| {
-            A::Error::custom(format_args!("{found} in brackets, expected {}", &self as &dyn Expected))
+            let noun = if found == 1 { "number" } else { "numbers" };
+            A::Error::custom(format_args!("{found} {noun} in brackets, expected {}", &self as &dyn Expected))
         };
         numbers
             .as_slice()

@@ -209,6 +209,46 @@ impl ParallaxSearch for ParallaxOcclusion {
     }
 }
 
+/// A [`ParallaxSearch`] that is picked at run time: each is the type of its name, bit for bit.
+///
+/// # Cost
+/// A match for the samples that are worked on together. The code of all four.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum AnyParallax {
+    /// [`OffsetParallax`].
+    Offset,
+    /// [`LimitedParallax`].
+    Limited,
+    /// [`SteepParallax`].
+    Steep {
+        /// Its layers.
+        layers: u32,
+    },
+    /// [`ParallaxOcclusion`].
+    Occlusion {
+        /// Its layers.
+        layers: u32,
+    },
+}
+
+impl ParallaxSearch for AnyParallax {
+    #[inline(always)]
+    fn meet<H: HeightMap, L: Lanes>(
+        self,
+        lanes: L,
+        relief: &Relief<H>,
+        uv: [L::Number; 2],
+        slant: [L::Number; 2],
+    ) -> [L::Number; 2] {
+        match self {
+            Self::Offset => OffsetParallax.meet(lanes, relief, uv, slant),
+            Self::Limited => LimitedParallax.meet(lanes, relief, uv, slant),
+            Self::Steep { layers } => SteepParallax { layers }.meet(lanes, relief, uv, slant),
+            Self::Occlusion { layers } => ParallaxOcclusion { layers }.meet(lanes, relief, uv, slant),
+        }
+    }
+}
+
 /// A ray at the height z.
 #[inline(always)]
 fn along<N: Copy + Add<Output = N> + Mul<Output = N>>(uv: [N; 2], slant: [N; 2], z: N) -> [N; 2] {

@@ -4,7 +4,8 @@ use crate::support::{EPS, vec2};
 use alberti_math::Vector3;
 use alberti_oracle::rng::{Rng, run_seed};
 use alberti_texture::surface::{
-    LimitedParallax, OffsetParallax, ParallaxOcclusion, ParallaxSearch, Relief, SteepParallax, Tangent,
+    AnyParallax, LimitedParallax, OffsetParallax, ParallaxOcclusion, ParallaxSearch, Relief, SteepParallax,
+    Tangent,
 };
 use glam::{DVec2, Vec2, Vec3};
 
@@ -95,6 +96,34 @@ fn ramps() {
     }
     println!("{count} ramps, shares of the bounds: {shares:?}, {offset}");
     assert!(shares[0] <= 1.0 && shares[1] <= 1.0 && shares[1] > 0.9 && offset <= 1.0 && count > 50_000);
+}
+
+#[test]
+fn any_policy_is_the_one_of_its_name() {
+    let mut rng = Rng::new(run_seed());
+    let wave = |uv: Vec2| 0.5 + 0.5 * (9.0 * uv.x).sin() * (7.0 * uv.y).cos();
+    let mut differ = [0; 3];
+    for _ in 0..10_000 {
+        let relief = Relief { map: wave, low: -0.1, high: 0.1, extent: Vec2::new(1.0, 2.0) };
+        let (uv, view) = (vec2(&mut rng, 1.0), view(&mut rng, 4.0));
+        let layers = 1 + rng.u64() as u32 % 20;
+        let by = |policy: AnyParallax| relief.parallax(policy, uv, view);
+        let found = [
+            by(AnyParallax::Offset),
+            by(AnyParallax::Limited),
+            by(AnyParallax::Steep { layers }),
+            by(AnyParallax::Occlusion { layers }),
+        ];
+        let expected = [
+            relief.parallax(OffsetParallax, uv, view),
+            relief.parallax(LimitedParallax, uv, view),
+            relief.parallax(SteepParallax { layers }, uv, view),
+            relief.parallax(ParallaxOcclusion { layers }, uv, view),
+        ];
+        assert_eq!(found, expected);
+        (0..3).for_each(|i| differ[i] += u32::from(expected[i] != expected[i + 1]));
+    }
+    assert!(differ.iter().all(|&count| count > 5_000), "{differ:?}");
 }
 
 /// Heights of sine waves that no ray meets twice, against bisection.

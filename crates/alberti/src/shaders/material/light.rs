@@ -143,6 +143,37 @@ impl Light for SpotLight {
     }
 }
 
+/// A [`Light`] that is picked at run time.
+///
+/// # Cost
+/// A match for the samples that are worked on together. The code of all three.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AnyLight {
+    /// One so far away that it shines in one direction.
+    Directional(Directional),
+    /// One that shines in all directions.
+    Point(PointLight),
+    /// One that shines into a cone.
+    Spot(SpotLight),
+}
+
+impl Light for AnyLight {
+    #[inline(always)]
+    fn fold<L: Lanes, T>(
+        &self,
+        lanes: L,
+        position: [L::Number; 3],
+        sum: T,
+        and: impl Fn(T, [L::Number; 3], [L::Number; 3]) -> T + Copy,
+    ) -> T {
+        match self {
+            Self::Directional(light) => light.fold(lanes, position, sum, and),
+            Self::Point(light) => light.fold(lanes, position, sum, and),
+            Self::Spot(light) => light.fold(lanes, position, sum, and),
+        }
+    }
+}
+
 /// The unit vector, each component within ε; zero where there is none.
 fn direction(v: Vector3<World>) -> Vec3 {
     // Squares of `f32` neither overflow nor vanish in `f64`.
@@ -211,4 +242,31 @@ tuples! {
     A 0 B 1;
     A 0 B 1 C 2;
     A 0 B 1 C 2 D 3;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alberti_math::lanes::One;
+
+    #[test]
+    fn any_light_is_the_one_of_its_kind() {
+        fn arrives(light: impl Light, position: [f32; 3]) -> Option<[[f32; 3]; 2]> {
+            light.fold(One, position, None, |_, to_light, color| Some([to_light, color]))
+        }
+        let sun = Directional::new(Vector3::new(Vec3::new(1.0, 2.0, 3.0)), Vec3::new(0.5, 0.25, 1.0));
+        let position = Point3::new(Vec3::new(0.5, 4.0, 1.0));
+        let bulb = PointLight { position, color: Vec3::ONE, falloff: [1.0, 0.0, 0.25] };
+        let spot = SpotLight::new(bulb, Vector3::new(Vec3::NEG_Y), [0.9, 0.7]);
+        let mut edges = 0;
+        for x in (-8..8i8).map(f32::from) {
+            let place = [x, 0.5, -x];
+            assert_eq!(arrives(AnyLight::Directional(sun), place), arrives(sun, place));
+            assert_eq!(arrives(AnyLight::Point(bulb), place), arrives(bulb, place));
+            assert_eq!(arrives(AnyLight::Spot(spot), place), arrives(spot, place));
+            assert!(arrives(sun, place) != arrives(bulb, place));
+            edges += u32::from(arrives(bulb, place) != arrives(spot, place));
+        }
+        assert!(edges > 4, "{edges}");
+    }
 }

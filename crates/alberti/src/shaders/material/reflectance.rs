@@ -100,3 +100,64 @@ with_highlight! {
     Phong: phong_cosine_lanes;
     BlinnPhong: blinn_phong_cosine_lanes;
 }
+
+/// A [`Reflectance`] that is picked at run time, its exponent between two, which may be one: each is the type of its
+/// name, bit for bit.
+///
+/// # Cost
+/// A match a light, for the samples that are worked on together. The code of all three.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AnyReflectance {
+    /// [`Lambert`].
+    Lambert,
+    /// [`Phong`].
+    Phong([u32; 2]),
+    /// [`BlinnPhong`].
+    BlinnPhong([u32; 2]),
+}
+
+impl Reflectance for AnyReflectance {
+    #[inline(always)]
+    fn shares<L: Lanes>(
+        &self,
+        lanes: L,
+        normal: [L::Number; 3],
+        to_light: [L::Number; 3],
+        to_viewer: [L::Number; 3],
+        gloss: L::Number,
+    ) -> [L::Number; 2] {
+        match *self {
+            Self::Lambert => Lambert.shares(lanes, normal, to_light, to_viewer, gloss),
+            Self::Phong(exponents) => Phong(exponents).shares(lanes, normal, to_light, to_viewer, gloss),
+            Self::BlinnPhong(exponents) => {
+                BlinnPhong(exponents).shares(lanes, normal, to_light, to_viewer, gloss)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alberti_math::lanes::One;
+
+    #[test]
+    fn any_reflectance_is_the_one_of_its_name() {
+        let exponents = [3, 40];
+        for k in 0..64u8 {
+            let (sin, cos) = (f32::from(k) / 10.0).sin_cos();
+            let shares = |by: &dyn Fn(f32) -> [f32; 2]| by(f32::from(k) / 63.0);
+            let (normal, to_light, to_viewer) = ([0.0, 0.0, 1.0], [sin, 0.0, cos], [0.6, 0.0, 0.8]);
+            let any =
+                |of: AnyReflectance| shares(&|gloss| of.shares(One, normal, to_light, to_viewer, gloss));
+            let lambert = shares(&|gloss| Lambert.shares(One, normal, to_light, to_viewer, gloss));
+            let phong = shares(&|gloss| Phong(exponents).shares(One, normal, to_light, to_viewer, gloss));
+            let blinn =
+                shares(&|gloss| BlinnPhong(exponents).shares(One, normal, to_light, to_viewer, gloss));
+            assert_eq!(any(AnyReflectance::Lambert), lambert);
+            assert_eq!(any(AnyReflectance::Phong(exponents)), phong);
+            assert_eq!(any(AnyReflectance::BlinnPhong(exponents)), blinn);
+            assert!(k > 5 || (lambert != phong && phong != blinn));
+        }
+    }
+}

@@ -31,7 +31,7 @@ fn errors_name_line_and_key() {
         ),
         (
             &with("[camera]\neye = [1, 2]\n"),
-            "s.toml:4: camera.eye: found 2 in brackets, expected three finite numbers in brackets",
+            "s.toml:4: camera.eye: found 2 numbers in brackets, expected three finite numbers in brackets",
         ),
         (&with("[camera]\neye = [1, nan, 2]\n"), "s.toml:4: camera.eye: found NaN, expected a finite number"),
         (
