@@ -129,9 +129,9 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection, S: Subpixel> Pass<'a,
 
     /// Draws into a target, triangles in order.
     ///
-    /// With the feature `simd` it works on eight samples at a time, in the widest vector registers that the machine
-    /// turns out to have (with `std`) or is known to have. The pixels are those of [`draw_by`](Self::draw_by) one
-    /// sample at a time.
+    /// With the feature `simd` it works on eight samples at a time. It takes the widest vector registers that the
+    /// machine turns out to have (with `std`) or is known to have. The pixels are those of [`draw_by`](Self::draw_by)
+    /// one sample at a time.
     pub fn draw<C: ColorFormat, D: DepthFormat>(&mut self, target: &mut Target<'_, C, D>)
     where
         F: FragmentStage<M::Varying>,
@@ -139,7 +139,7 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection, S: Subpixel> Pass<'a,
         self.draw_widest(target, &mut ());
     }
 
-    /// [`draw`](Self::draw), and what happened on the way.
+    /// [`draw`](Self::draw), and counts of the events on the way.
     pub fn draw_counted<C: ColorFormat, D: DepthFormat>(&mut self, target: &mut Target<'_, C, D>) -> Stats
     where
         F: FragmentStage<M::Varying>,
@@ -267,7 +267,7 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection, S: Subpixel> Pass<'a,
     ///
     /// `counters` hear, once, which triangles are submitted, dropped, clipped, culled, or missed by their box, up to
     /// the first that finds no room. The others are counted by each [`Prepared::draw_by`]. Together they count, for a
-    /// band with all rows of the viewport, what [`draw_by`](Self::draw_by) does.
+    /// band with all rows of the viewport, the same as [`draw_by`](Self::draw_by).
     #[expect(clippy::type_complexity, reason = "two things: the triangles, and the room that is left")]
     pub fn prepare_by<'p, D: DepthFormat>(
         &'p mut self,

@@ -145,13 +145,13 @@ where
         }
     }
 
-    /// How many triangles on the screen are kept.
+    /// The number of triangles on the screen that are kept.
     #[must_use]
     pub fn kept(&self) -> usize {
         self.kept.len()
     }
 
-    /// How many of the mesh's triangles, the last ones, found no room: those that each band has to walk again.
+    /// The number of the mesh's triangles, the last ones, that found no room: those that each band has to walk again.
     #[must_use]
     pub fn remaining(&self) -> usize {
         self.pass.mesh().triangles().saturating_sub(self.next)

@@ -7,8 +7,8 @@ use alberti_projection::{EyeVertex, Projection};
 use alberti_raster::Vertex;
 use core::num::NonZeroUsize;
 
-/// Room for a transformed vertex. In a slice with a slot for each vertex of the mesh, each is transformed once; a
-/// shorter one is a cache, in which vertex i shares the slot i modulo the length.
+/// Room for a transformed vertex. In a slice with a slot for each vertex of the mesh, each is transformed once. A
+/// shorter slice is a cache, in which vertex i shares the slot i modulo the length.
 #[derive(Clone, Copy, Debug)]
 pub struct Slot<V>(Option<(Place, Transformed<V>)>);
 
@@ -65,11 +65,11 @@ pub(crate) mod outside {
 /// A vertex after the steps that concern it alone.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Transformed<V> {
-    /// Scaled eye space.
+    /// The position in scaled eye space.
     pub(crate) position: Point3<Eye>,
     /// Bits of [`outside`].
     pub(crate) outside: u8,
-    /// On the screen; where `outside` has NEAR, FAR, GUARD or NOWHERE only the varying has a meaning.
+    /// The vertex on the screen; where `outside` has NEAR, FAR, GUARD or NOWHERE only the varying has a meaning.
     pub(crate) screen: Vertex<V>,
 }
 

@@ -73,7 +73,7 @@ impl Camera {
 /// The greatest aspect ratio of a viewport: if this and its inverse are possible, so is any other.
 const WIDEST: f32 = 16384.0;
 
-/// The way from the world to the picture: from where, and through which pyramid or box.
+/// The way from the world to the picture: the eye, and the pyramid or box that it sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View<Pr = Perspective> {
     to_eye: Frame<World, Eye>,
@@ -89,8 +89,8 @@ impl<Pr: Projection> View<Pr> {
         Self { to_eye, projection, fits: false }
     }
 
-    /// From the object's to the eye's coordinates, for an object that stands in this frame in the world, or in the
-    /// world's own.
+    /// The frame that leads from the object's to the eye's coordinates, for an object that stands in `frame` in the
+    /// world, or in the world's own.
     #[inline]
     pub(crate) fn object_to_eye(&self, frame: Option<&Frame<Object, World>>) -> Frame<Object, Eye> {
         match frame {

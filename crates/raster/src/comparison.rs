@@ -4,7 +4,7 @@
 use crate::depth::DepthFormat;
 use alberti_math::lanes::Lanes;
 
-/// Defines formats that store what `D` does, and differ in what their bodies say.
+/// Defines formats that store as `D` does, and differ in the items that are given.
 macro_rules! like {
     ($($(#[$doc:meta])* $name:ident { $($different:item)* })*) => {$(
         $(#[$doc])*
@@ -96,15 +96,15 @@ macro_rules! compared {
 }
 
 compared! {
-    /// `D`, but a fragment as near as what is stored is seen as well: of two equal ones, the last drawn stays.
+    /// `D`, but a fragment as near as the stored depth is seen as well: of two equal ones, the last drawn stays.
     OrEqual: |nearer, farther| nearer | !farther;
 
-    /// `D`, but only a fragment as near as what is stored is seen: for passes that draw what was drawn before again,
+    /// `D`, but only a fragment as near as the stored depth is seen: for passes that draw what was drawn before again,
     /// whose depths have the same bits.
     Equal: |nearer, farther| !(nearer | farther);
 
-    /// `D`, but a fragment is seen if it is strictly farther than what is stored: for backs of things, in a buffer that
-    /// holds their fronts.
+    /// `D`, but a fragment is seen if it is strictly farther than the stored depth: for backs of things, in a buffer
+    /// that holds their fronts.
     Farther: |_nearer, farther| farther;
 
     /// `D`, written and never tested: what is drawn last hides all.

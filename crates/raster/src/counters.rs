@@ -1,4 +1,4 @@
-//! Counting what happens, for those who ask.
+//! Counts of the events of drawing, for those who ask.
 
 use crate::Outcome;
 

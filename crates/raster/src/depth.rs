@@ -1,4 +1,4 @@
-//! Depth buffers: what is stored for a pixel, and which of two is seen.
+//! Depth buffers: the formats of depths, and the comparisons that tell which of two is seen.
 
 use alberti_math::lanes::Lanes;
 use core::fmt::Debug;

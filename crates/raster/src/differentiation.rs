@@ -1,4 +1,4 @@
-//! How fast attributes change from a pixel to the next: what the level of detail of a texture comes from.
+//! Derivatives of attributes: their changes from a pixel to the next, from which a texture's level of detail comes.
 //!
 //! Space in: an oriented triangle and a sample of it. Space out: derivatives by columns and by rows.
 //!
@@ -19,10 +19,10 @@
 //!
 //! The origin is the first corner, and u is counted from the value there, so that U is 0 at the origin.
 //!
-//! A, B and J are found in `f64`, as sums of products of a distance, the area, two q and a difference of two u. Where
-//! these cancel, as all do where u is constant along a thin triangle, what `f64` leaves counts as well: 2^-48 M, with M
-//! what the derivative would be at most if nothing cancelled. With s the longer side of the triangle's box and Δu the
-//! greatest difference of u,
+//! A, B and J are found in `f64`, as sums of products of a distance, the area, two q and a difference of two u. These
+//! may cancel, as all do where u is constant along a thin triangle. Then the error of `f64` counts as well: 2^-48 M,
+//! with M the most that the derivative could be if nothing cancelled. With s the longer side of the triangle's box and
+//! Δu the greatest difference of u,
 //!
 //! ```text
 //! M = 2 area s Δu (qa qb + qb qc + qc qa)/T²
@@ -42,15 +42,15 @@ use core::fmt::{self, Debug};
 ///
 /// In fixed point, where weights are not at hand as numbers, [`PerPixel`] is [`PerSpan`].
 pub trait Differentiation: Differentiate + Debug + Default + 'static {
-    /// What a stage takes whose parts take this and `D`: the first of the two that is not [`NoDerivatives`].
+    /// The policy of a stage whose parts take this and `D`: the first of the two that is not [`NoDerivatives`].
     type With<D: Differentiation>: Differentiation;
 }
 
 /// The way of a policy from a triangle to derivatives at its samples.
 pub trait Differentiate: Copy {
-    /// What is known of a triangle.
+    /// The state of a triangle.
     type Triangle<V: Varying>: Copy;
-    /// What is known of a run of samples.
+    /// The state of a run of samples.
     type Run<L: Lanes, V: Varying>: Copy;
 
     /// Prepares a triangle.
@@ -92,7 +92,7 @@ impl<L: Lanes, V: Varying> Debug for Samples<'_, L, V> {
     }
 }
 
-/// None are asked for: all are 0.
+/// No derivatives: none are asked for, and all are 0.
 ///
 /// # Cost
 /// None.
@@ -126,15 +126,18 @@ impl Differentiate for NoDerivatives {
     }
 }
 
-/// At each sample.
+/// Derivatives at each sample.
 ///
 /// # Precision
-/// Within 13ε of ∂u/∂x, relatively (ε = 2^-24), and ∂u/∂y within 14ε·|∂u/∂y| + 3ε·|J x|/T², where J is that of the
-/// module and x the columns from the start of the run; barring over- and underflow. 7.1ε is the most that was measured
-/// of both where x is small. The reason: T is a sum of positive numbers, within 4ε with the rounding of the Ei; its
-/// reciprocal squared is within 11ε, and the numerator's rounding and the product add 2ε. For ∂u/∂y the numerator is
-/// a difference: ε for it, ε·(|∂u/∂y| + |J x|/T²) for its first part, and 2ε·|J x|/T² for the product. In fixed point
-/// that of [`PerSpan`].
+/// ∂u/∂x is within 13ε, relatively, with ε = 2^-24, and ∂u/∂y within 14ε·|∂u/∂y| + 3ε·|J x|/T², barring over- and
+/// underflow. Here J is that of the module, and x the columns from the start of the run. 7.1ε is the most that was
+/// measured of both where x is small.
+///
+/// The reason: T is a sum of positive numbers, within 4ε with the rounding of the Ei. Its reciprocal squared is within
+/// 11ε, and the numerator's rounding and the product add 2ε. For ∂u/∂y the numerator is a difference: ε for it,
+/// ε·(|∂u/∂y| + |J x|/T²) for its first part, and 2ε·|J x|/T² for the product.
+///
+/// In fixed point the precision is that of [`PerSpan`].
 ///
 /// # Cost
 /// A triangle: some 30 operations in `f64`, and 12 for each component; a row, two in `f64` a component. A fragment:
@@ -143,19 +146,19 @@ impl Differentiate for NoDerivatives {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct PerPixel;
 
-/// In the middle of each run of samples: as many columns as the policy of interpolation says, or a whole row of the
-/// triangle.
+/// Derivatives in the middle of each run of samples: as many columns as the policy of interpolation says, or a whole
+/// row of the triangle.
 ///
 /// # Precision
-/// There, rounded once: within 1.001ε, in fixed point to the nearest step of 2^-16. With r >= 1 the ratio of q in the
-/// middle and at an end, ∂u/∂x is off by a factor of r², the level of detail so by 2 log2 r.
+/// There, rounded once: within 1.001ε (ε = 2^-24), in fixed point to the nearest step of 2^-16. With r >= 1 the ratio
+/// of q in the middle and at an end, ∂u/∂x is off by a factor of r². So the level of detail is off by 2 log2 r.
 ///
 /// # Cost
 /// A run: some ten operations and a division in `f64`, and four a component.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct PerSpan;
 
-/// At the centroid of each triangle.
+/// Derivatives at the centroid of each triangle.
 ///
 /// # Precision
 /// Like [`PerSpan`] there. With r >= 1 the ratio of q there and at a vertex, ∂u/∂x is off by up to a factor of r². A
@@ -170,12 +173,12 @@ pub struct PerTriangle;
 #[derive(Clone, Copy)]
 pub struct Quotients<V: Varying> {
     q: [f64; 3],
-    /// What T is at the centroid.
+    /// T at the centroid.
     t: f64,
     /// The first corner and the centroid, in pixels.
     origin: [f64; 2],
     centroid: [f64; 2],
-    /// A, B and J; of what is not hyperbolic the derivatives themselves.
+    /// A, B and J of hyperbolic components; of others the derivatives themselves.
     numerators: V::Of<[f64; 3]>,
 }
 
@@ -192,13 +195,14 @@ impl<V: Varying> Quotients<V> {
         let corners = triangle.corners.map(|corner| corner.map(f64::from));
         let [a, b, c] = corners;
         let one = f64::from(triangle.one());
-        // What a pixel to the right, and one down, adds to the edge functions of the second and the third vertex.
+        // Increments of the edge functions of the second and the third vertex: for a pixel to the right, and for one
+        // down.
         let of_b = [(c[1] - a[1]) * one, (a[0] - c[0]) * one];
         let of_c = [(a[1] - b[1]) * one, (b[0] - a[0]) * one];
         #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
         let area = triangle.doubled_area as f64;
         let t = area * q[0];
-        // What the areas by columns and rows have in common: nothing cancels in thin triangles.
+        // The common factor of the areas by columns and rows: nothing cancels in thin triangles.
         let common = area * one * one;
         let numerators = V::map_by_mode(&triangle.values(), &|mode, [u, v, w, _]: [f32; 4]| {
             let [v, w] = [f64::from(v) - f64::from(u), f64::from(w) - f64::from(u)];
@@ -241,7 +245,7 @@ impl<V: Varying> Quotients<V> {
         [lanes.splat(a as f32), lanes.splat(b as f32), lanes.splat(c as f32)]
     }
 
-    /// In the middle of a run of a row.
+    /// The derivatives in the middle of a run of a row.
     #[inline(always)]
     fn in_middle<I: EdgeInt>(&self, row: &Row<'_, I>, run: Span) -> V::Of<[f32; 2]> {
         let column = run.start + ((run.end - run.start) >> 1);
@@ -251,7 +255,7 @@ impl<V: Varying> Quotients<V> {
         self.at([f64::from(column) + 0.5, f64::from(row.row) + 0.5], t)
     }
 
-    /// At the centroid.
+    /// The derivatives at the centroid.
     #[inline(always)]
     fn in_centroid(&self) -> V::Of<[f32; 2]> {
         self.at(self.centroid, self.t)
@@ -263,7 +267,8 @@ impl<V: Varying> Quotients<V> {
 pub struct RunQuotients<L: Lanes, V: Varying> {
     /// The column from which x is counted.
     start: i32,
-    /// A + J y, B and J; of what is not hyperbolic, and in fixed point of everything, the derivatives themselves.
+    /// A + J y, B counted from `start`, and J, of hyperbolic components; of others, and in fixed point of all, the
+    /// derivatives themselves.
     numerators: V::Of<[L::Number; 3]>,
 }
 
@@ -360,7 +365,7 @@ impl Differentiate for PerPixel {
     }
 }
 
-/// The policies that have the same derivatives along a whole run.
+/// Policies whose derivatives are the same along a whole run.
 macro_rules! along_runs {
     ($($policy:ident: $Triangle:ty, |$of:ident| $prepare:expr, |$triangle:ident, $row:ident, $run:ident| $at:expr;)*) => {$(
         impl Differentiation for $policy {

@@ -35,21 +35,25 @@ pub struct Paint<F, P, S> {
 impl<F, P: Interpolation, S: Subpixel> Paint<F, P, S> {
     /// Draws one triangle into a target, with as many samples at a time as there are `lanes`.
     ///
-    /// Every sample (pixel centre) inside the snapped triangle is covered, exactly; one on an edge belongs to the
-    /// triangle whose top or left edge it is, so triangles that share an edge neither leave a gap nor draw twice. The
+    /// Every sample (pixel centre) inside the snapped triangle is covered, exactly. A sample on an edge belongs to the
+    /// triangle whose top or left edge it is. So triangles that share an edge neither leave a gap nor draw twice. The
     /// result does not depend on the order of the three vertices, but for [`Flat`](alberti_math::Flat) components, nor
     /// on the lanes.
     ///
     /// # Precision
-    /// Coverage is exact. Depth and varyings are those of the interpolation, depth within 6ε of the plane through the
-    /// three zs for [`Exact`](crate::Exact), relatively and barring underflow, and within their range for all.
+    /// Coverage is exact. Depth and varyings are those of the interpolation. For [`Exact`](crate::Exact), depth is
+    /// within 6ε of the plane through the three zs (ε = 2^-24), relatively and barring underflow. For all policies it
+    /// is within the range of the three zs.
     ///
     /// # Cost
-    /// A triangle that covers no sample is not prepared. With one lane, rows of a box of up to 8 samples are tested
-    /// sample by sample, and six integer divisions give the ends of the spans of wider ones; edge functions have 32
-    /// bits up to 179 pixels (8 subpixel bits) or 2,894 (4 bits) in a square box, and 64 above. With several lanes,
-    /// boxes of up to 32 samples that lie within the target's columns and one run are tested, all lanes at once. The
-    /// pixels are the same.
+    /// A triangle that covers no sample is not prepared.
+    ///
+    /// With one lane, rows of a box of up to 8 samples are tested sample by sample, and six integer divisions give the
+    /// ends of the spans of wider ones. Edge functions then have 32 bits up to 179 pixels (8 subpixel bits) or 2,894 (4
+    /// bits) in a square box, and 64 above.
+    ///
+    /// With several lanes, boxes of up to 32 samples that lie within the target's columns and one run are tested, all
+    /// lanes at once. The pixels are the same.
     pub fn triangle<L, V, C, D, K>(
         &self,
         lanes: L,

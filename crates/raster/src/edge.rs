@@ -8,7 +8,7 @@
 //!          +---B       positive when A, B, P run clockwise on the screen
 //! ```
 //!
-//! Everything is in subpixels. A sample on an edge belongs to the triangle if the edge is a top or a left one, which is
+//! Everything is in subpixels. A sample on an edge belongs to the triangle if the edge is a top or a left one. It is
 //! the same as moving all samples by an infinitesimal (e, e²): every sample of a mesh lies in exactly one triangle.
 
 use alberti_math::lanes::Lanes;
@@ -121,12 +121,15 @@ impl EdgeInt for i64 {
     }
 }
 
-/// The largest product of a box's width plus two pixels and its height plus one, in subpixels, the box being the hull
-/// of the vertices, for which everything that is computed from the edges at its samples fits `i32`.
+/// The largest size of a triangle's box for edges in `i32`: the product of its width plus two pixels and its height
+/// plus one, in subpixels.
 ///
-/// An edge function is at most the area of a box that holds its three points, and so are its two products; the pixel
-/// more on each axis is for the sample after the last. The second pixel of width is for the sum of two remainders
-/// below `step_x` that a row makes, so twice `step_x` must fit as well.
+/// The box is the hull of the vertices. Up to this size, everything that is computed from the edges at its samples fits
+/// `i32`.
+///
+/// An edge function is at most the area of a box that holds its three points, and so are its two products. The pixel
+/// more on each axis is for the sample after the last. The second pixel of width is for the sum of two remainders below
+/// `step_x` that a row makes, so twice `step_x` must fit as well.
 pub const FITS_I32: i64 = i32::MAX as i64;
 
 /// The edge function of one directed edge, ready to be stepped over samples.
@@ -134,9 +137,9 @@ pub const FITS_I32: i64 = i32::MAX as i64;
 pub struct Edge<I> {
     /// Its value at the reference sample.
     pub value: I,
-    /// What a step of one pixel to the right adds.
+    /// The increment for a step of one pixel to the right.
     pub step_x: I,
-    /// What a step of one pixel down adds.
+    /// The increment for a step of one pixel down.
     pub step_y: I,
     /// 0 for a top or left edge, -1 for another: a sample is inside when value + bias >= 0.
     pub bias: I,

@@ -11,8 +11,7 @@ use core::fmt;
 ///
 /// Any closure `Fn(V) -> Option<Color>` that is `Copy` is one, called for one sample after the other: it captures
 /// nothing, references, or, with `move`, values that are `Copy`. A part of the varying that it does not use is not
-/// computed. Stages are copied to the loop over the pixels, so that their
-/// fields may be kept in registers.
+/// computed. Stages are copied to the loop over the pixels, so that their fields may be kept in registers.
 ///
 /// A stage that is a type shades all lanes at once, with the arithmetic of [`Lanes`]:
 ///
@@ -41,10 +40,10 @@ use core::fmt;
 pub trait FragmentStage<V: Varying>: Copy {
     /// The colour it makes: an [`Rgba8`](alberti_math::Rgba8), or a word of the target's pixels.
     type Color: FragmentColor;
-    /// The way to the derivatives of the varying: [`NoDerivatives`], unless it needs them.
+    /// The policy for derivatives of the varying: [`NoDerivatives`], unless it needs them.
     type Derivatives: Differentiation;
 
-    /// That way.
+    /// That policy.
     #[inline(always)]
     fn derivatives(&self) -> Self::Derivatives {
         Self::Derivatives::default()

@@ -1,4 +1,5 @@
-//! Interpolation of depth and attributes between the vertices: the policies, each with its precision and its cost.
+//! Interpolation of depth and attributes between the vertices: the policies, each with its precision and its cost. ε is
+//! 2^-24.
 //!
 //! | policy | error | divisions |
 //! |---|---|---|
@@ -39,8 +40,8 @@ pub trait Interpolation: Copy + Debug + 'static {
     /// A triangle prepared for it.
     type Triangle<L: Floating, V: Varying>: Interpolate<Self::Lanes<L>, V>;
 
-    /// Whether triangles in narrow boxes may be filled without spans: then all of a row up to so many columns, a power
-    /// of two, at multiples of it, must be one run.
+    /// A number of columns, a power of two: all of a row between two multiples of it must be one run. Triangles in
+    /// narrow boxes that lie so may be filled without spans.
     fn run(self) -> i32;
 
     /// The lanes in which it works.
@@ -85,7 +86,7 @@ impl<V: Varying> Oriented<'_, V> {
 /// A row of a triangle.
 #[derive(Clone, Copy, Debug)]
 pub struct Row<'a, I> {
-    /// Which.
+    /// The row's number.
     pub row: i32,
     /// The covered columns, of which there is at least one.
     pub covered: Span,
@@ -110,20 +111,20 @@ impl<I: EdgeInt> Row<'_, I> {
 /// A triangle of which depth and attributes can be had at any sample inside.
 ///
 /// A row's samples are walked in runs: [`start`](Self::start) at a run's first lanes, [`advance`](Self::advance) by as
-/// many samples as there are lanes. Depth and attributes are asked for apart, so that what the depth test hides never
-/// pays for its attributes.
+/// many samples as there are lanes. Depth and attributes are asked for apart, so that samples hidden by the depth test
+/// never pay for their attributes.
 pub trait Interpolate<L: Lanes, V: Varying> {
-    /// What is known of a row, and what a run leaves for the next one of it.
+    /// The state of a row, which each of its runs leaves for the next.
     type Row;
-    /// What is known of a group of samples.
+    /// The state of a group of samples.
     type Cursor: Copy;
 
     /// Begins a row.
     fn row<I: EdgeInt>(&self, row: &Row<'_, I>) -> Self::Row;
 
     /// The run that the covered `column` of a row is in: its samples from the column `aligned` on, with which lanes
-    /// begin, and all its columns. Runs do not depend on where a band or a scissor begins, nor on what is
-    /// left of others.
+    /// begin, and all its columns. Runs do not depend on where a band or a scissor begins, nor on the state that other
+    /// runs leave.
     fn start<I: EdgeInt>(
         &self,
         row: &Row<'_, I>,

@@ -13,7 +13,7 @@ fn lowest(bits: i32) -> u32 {
     u32::MAX >> ((32 - bits) & 31)
 }
 
-/// A row of a triangle's box, its three edge functions at the first lanes, and what leads to the others.
+/// A row of a triangle's box, its three edge functions at the first lanes, and the increments to the others.
 pub(crate) struct RowMask<L: Lanes> {
     lanes: L,
     /// The columns that are in the box.
@@ -21,11 +21,11 @@ pub(crate) struct RowMask<L: Lanes> {
     groups: i32,
     /// The functions plus their biases at the first lanes.
     values: [L::Int; 3],
-    /// What a group of lanes to the right and a row down add.
+    /// The increments for a group of lanes to the right, and for a row down.
     over: [L::Int; 3],
     down: [L::Int; 3],
     bias: [L::Int; 3],
-    /// The edges in the first row at the first column of the box, and which those are.
+    /// The edges in the first row at the first column of the box, and that column and row.
     edges: [Edge<i32>; 3],
     first: [i32; 2],
 }

@@ -36,7 +36,7 @@ where
     T: Interpolate<L, V>,
     F: FragmentStage<V>,
 {
-    /// Fills what a row of the triangle covers of the columns in `limits`.
+    /// Fills the columns in `limits` that a row of the triangle covers.
     #[inline(always)]
     pub(crate) fn row<I, C, D, K>(
         &self,
@@ -69,8 +69,8 @@ where
         counters.span(covered, written);
     }
 
-    /// [`row`](Self::row) for one lane, into the pixels from the first of `columns` on. Not inlined, so that what the
-    /// loops need is in registers.
+    /// [`row`](Self::row) for one lane, into the pixels from the first of `columns` on. Not inlined, so that the values
+    /// which the loops need are in registers.
     #[inline(never)]
     fn row_alone<I, C, D, K>(
         &self,
@@ -100,7 +100,7 @@ where
         counters.span(covered, written);
     }
 
-    /// The run that a column is in, and what is known of it at the samples from `aligned` on.
+    /// The run that a column is in, and its state at the samples from `aligned` on.
     #[inline(always)]
     fn start<I: EdgeInt>(
         &self,
@@ -313,8 +313,8 @@ fn put_back<L: Lanes, C: Copy, D: Copy>(copy: &(L::Each<C>, L::Each<D>), colors:
     depths.iter_mut().zip(copy.1.as_ref()).for_each(|(stored, copy)| *stored = *copy);
 }
 
-/// The column at which the lanes of a sample begin: a multiple of their number, so that all triangles read and write
-/// the same words of memory, which a machine can then pass on from one to the next before they have reached it.
+/// The column at which the lanes of a sample begin: a multiple of their number. So all triangles read and write the
+/// same words of memory, which a machine can then pass on from one to the next before they have reached it.
 #[inline(always)]
 pub(crate) fn aligned<L: Lanes>(column: i32) -> i32 {
     column & !(L::STEP - 1)

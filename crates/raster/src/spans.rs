@@ -9,7 +9,7 @@
 //! ```
 //!
 //! From row to row each bound moves by the same fraction of a column, whose integer part and remainder are found once
-//! by division; after that a row costs a few additions and no branch. Inside a span no coverage test is needed.
+//! by division. After that a row costs a few additions and no branch. Inside a span no coverage test is needed.
 
 use crate::edge::{Edge, EdgeInt};
 use core::cmp::Ordering;
@@ -33,9 +33,9 @@ impl Span {
 
 /// The covered samples of a triangle's rows from the top, found in the way that suits its box.
 pub(crate) enum RowSpans<I> {
-    /// By testing each sample of a row: the edges with their biases at the row's first.
+    /// Edges with their biases at a row's first sample: each sample is tested.
     Tested { edges: [Edge<I>; 3], width: i32 },
-    /// By following where the edges cross the rows.
+    /// A walker that follows where the edges cross the rows.
     Walked { walker: SpanWalker<I>, walked: i32 },
 }
 
@@ -84,7 +84,7 @@ impl<I: EdgeInt> RowSpans<I> {
     }
 }
 
-/// Where an edge's condition flips along the row: the first column at which its function is not negative.
+/// The place along the row where an edge's condition flips: the first column at which its function is not negative.
 ///
 /// For an edge that bounds from the right the function is turned into -value-1, which is not negative exactly where
 /// the edge's own value is negative: the first column outside. A horizontal edge bounds rows, not columns, and gets a
@@ -95,7 +95,7 @@ struct Crossing<I> {
     /// The function at `column`, less than `step`.
     value: I,
     step: I,
-    /// What a row adds to the function: `whole * step + part`, with 0 <= `part` < `step`.
+    /// The function's increment for a row: `whole * step + part`, with 0 <= `part` < `step`.
     whole: I,
     part: I,
     from_left: bool,
@@ -144,9 +144,9 @@ pub struct SpanWalker<I> {
 }
 
 impl<I: EdgeInt> SpanWalker<I> {
-    /// Starts at the row of the edges' reference sample, which is column 0 of a box of `width` columns and `rows` rows
-    /// of samples between the triangle's topmost and lowest vertex. The bounds of [`Edge::new`] hold for all of the
-    /// box.
+    /// Starts at the row of the edges' reference sample, which is column 0 of a box of `width` columns and `rows` rows.
+    /// Their samples lie between the triangle's topmost and lowest vertex. The bounds of [`Edge::new`] hold for all of
+    /// the box.
     #[must_use]
     #[inline]
     pub fn new(edges: &[Edge<I>; 3], width: i32, rows: i32) -> Self {
@@ -172,7 +172,7 @@ impl<I: EdgeInt> SpanWalker<I> {
         }
     }
 
-    /// How many rows have spans, empty ones included.
+    /// The number of rows that have spans, empty ones included.
     #[must_use]
     #[inline]
     pub fn rows(&self) -> i32 {

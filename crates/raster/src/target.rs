@@ -151,9 +151,9 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
         Self::of_rows(formats, [width, height], [first_row, rows], width as usize, color, depth)
     }
 
-    /// A whole frame of `width` x `height` pixels in a larger picture, such as a window of a user interface: `color`
-    /// begins with the frame's first pixel, and each row begins `stride` pixels after the one above. So it has at least
-    /// (`height` − 1)·`stride` + `width` pixels, and `depth` `width`·`height`.
+    /// A whole frame of `width` x `height` pixels in a larger picture, such as a window of a user interface. `color`
+    /// begins with the frame's first pixel, and each row begins `stride` pixels after the one above. So `color` has at
+    /// least (`height` − 1)·`stride` + `width` pixels, and `depth` `width`·`height`.
     ///
     /// ```
     /// use alberti_math::{Rgba8, Rgba8888};

@@ -20,7 +20,7 @@ pub struct Vertex<V> {
     pub varying: V,
 }
 
-/// Which triangles are left out, by their orientation on the screen after snapping.
+/// The triangles that are left out, by their orientation on the screen after snapping.
 ///
 /// A front face is one whose vertices run counter-clockwise as seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -46,7 +46,7 @@ impl Cull {
     }
 }
 
-/// What became of a triangle.
+/// The fate of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
     /// Left out: it faces the wrong way, or has no area after snapping.
@@ -110,8 +110,8 @@ pub(crate) fn doubled_area(&[a, b, c]: &Corners) -> i64 {
     ux * vy - uy * vx
 }
 
-/// The corners, and what belongs to each, in the order in which they are taken: clockwise, from the topmost (of two,
-/// the left one). The same for every order in which the triangle could be given, so that no bit depends on that.
+/// The corners, and an item of each, in the order in which they are taken: clockwise, from the topmost (of two, the
+/// left one). The same for every order in which the triangle could be given, so that no bit depends on that.
 #[inline]
 pub(crate) fn in_order<T>([a, b, c]: Corners, [x, y, z]: [T; 3], area: i64) -> (Corners, [T; 3]) {
     let ([b, c], [y, z]) = if area > 0 { ([b, c], [y, z]) } else { ([c, b], [z, y]) };

@@ -65,7 +65,7 @@ impl Ready565 {
     #[must_use]
     #[inline]
     pub fn new(color: Vec3) -> Self {
-        // floor(32 x) of these is what is nearest to 31 times the component.
+        // floor(32 x) of these is the integer nearest to 31 times the component.
         let steps = Vec3::new(32.0, 64.0, 32.0);
         Self((color.clamp(Vec3::ZERO, Vec3::ONE) * (steps - Vec3::ONE) + Vec3::splat(0.5)) / steps)
     }
@@ -99,7 +99,7 @@ impl FragmentStage<Ready565> for VertexColor565 {
     type Color = u16;
     type Derivatives = NoDerivatives;
 
-    // What is interpolated stays between what vertices carry, and so does not leave the channels.
+    // Interpolated components stay between those of the vertices, and so do not leave the channels.
     #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, Ready565>) -> (L::U32, L::Mask) {
         let Fragments { lanes, varying: [r, g, b], mask, .. } = *fragments;

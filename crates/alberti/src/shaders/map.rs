@@ -1,4 +1,4 @@
-//! What is read at texture coordinates.
+//! Maps: colours that are read at texture coordinates.
 
 use super::wide::times;
 use alberti_math::Rgba8;
@@ -8,13 +8,13 @@ use alberti_texture::format::Storage;
 use alberti_texture::{Filter, MipFilter, MipSampler, Sampler, Size, Wrap};
 use core::fmt::Debug;
 
-/// A colour for each place on a surface: a [`Sampler`], a [`MipSampler`] for all that a pixel covers, an [`Rgba8`] for
-/// one colour everywhere, or [`Times`] or [`Called`] one of them.
+/// A colour for each place on a surface: a [`Sampler`], a [`MipSampler`] for all that a pixel covers, or an [`Rgba8`]
+/// for one colour everywhere. [`Times`] and [`Called`] wrap another map.
 pub trait Map: Copy + Debug {
-    /// What it needs to know of neighbouring pixels.
+    /// The policy for derivatives of the coordinates: [`NoDerivatives`], unless it needs them.
     type Derivatives: Differentiation;
 
-    /// The colours at `uv`, which changes that fast, as words.
+    /// The colours at `uv`, of which `gradient` are the derivatives, as words.
     fn read<L: Lanes>(&self, lanes: L, uv: [L::Number; 2], gradient: &Gradient<[L::Number; 2]>) -> L::U32;
 }
 

@@ -1,11 +1,11 @@
-//! Materials: what a surface is made of, as layers, and how lights make a colour of it.
+//! Materials: the layers that a surface is made of, and the lighting that makes a colour of them.
 //!
 //! ```text
 //! vertex:    position, axes, texture coordinates          Placed or Framed
 //! fragment:  where to look      Parallax                  layers, in the order in which they are given,
-//!            which way it faces Bump, NormalMap, ...      each of which changes what is known of the Surface
+//!            which way it faces Bump, NormalMap, ...      each of which changes the Surface
 //!            what it is         Color, Specular, Gloss, Wetness, Occlusion, Emission, Reflection
-//!            what is seen       Lighting: lights, a reflectance, the viewer; or what was found at the vertices
+//!            what is seen       Lighting: lights, a reflectance, the viewer; or light found at the vertices
 //! ```
 //!
 //! A [`Material`] is compiled for its layers: one that is absent is no code. Everything is wide, and the same at every
@@ -63,12 +63,16 @@ use vector::{plus, splat, times};
 /// A surface of layers under lights, fragment by fragment.
 ///
 /// # Precision
-/// Texels as they are read, each channel is rounded once: within ½ + (40 + 64 e)·2^-16·S of a byte of the exact colour,
-/// for normals from 2^-60 to 2^60 long, frames at right angles, the exponent e of the highlight (0 for [`Lambert`]) and
-/// S, 1 or the light that arrives with emission and ambient light in the brightest channel, whichever is more. For:
-/// 255ε is less than 2^-16 (ε = 2^-24), cosines of unit vectors that are computed are within 20ε, the falloff within
-/// 10ε of itself, sums and products take the rest of the 40; n·h is within 19ε and r·v within 34ε, and within 64ε with
-/// a normal that was read from a map, of which powers make e times that. To this comes,
+/// Texels as they are read, each channel is rounded once: within ½ + (40 + 64 e)·2^-16·S of a byte of the exact colour.
+/// That is for normals from 2^-60 to 2^60 long, and frames at right angles. e is the exponent of the highlight, 0 for
+/// [`Lambert`]. S is 1 or the light that arrives with emission and ambient light in the brightest channel, whichever is
+/// more.
+///
+/// The reason: 255ε is less than 2^-16 (ε = 2^-24). Cosines of unit vectors that are computed are within 20ε, the
+/// falloff within 10ε of itself, sums and products take the rest of the 40. With the normal n, the direction v to the
+/// viewer, and h and r as in [`blinn_phong`](alberti_texture::surface::blinn_phong) and
+/// [`phong`](alberti_texture::surface::phong), n·h is within 19ε and r·v within 34ε. Both are within 64ε with a normal
+/// that was read from a map, of which powers make e times that. To this comes,
 ///
 /// * on the edge of a [`SpotLight`], 16·2^-16·S/(inner − outer);
 /// * for [`BlinnPhong`], where light and viewer are more than 120° apart, the factor 1/|l + v| of e, for unit vectors;
@@ -82,9 +86,9 @@ use vector::{plus, splat, times};
 /// for them.
 #[derive(Clone, Copy, Debug)]
 pub struct Material<M, Ls, R> {
-    /// What it is made of: a [`Layer`], or a tuple of layers.
+    /// The [`Layer`] that it is made of, or a tuple of layers.
     pub layers: M,
-    /// What falls on it.
+    /// The light that falls on it, and the way in which it reflects that.
     pub lighting: Lighting<Ls, R>,
 }
 
@@ -107,7 +111,7 @@ where
     }
 }
 
-/// What falls on surfaces, and how these reflect it: ambient light, lights, a reflectance.
+/// The light that falls on surfaces, and the way in which these reflect it: ambient light, lights, a reflectance.
 ///
 /// A channel of the colour is
 ///
@@ -115,10 +119,10 @@ where
 /// emission + diffuse (ambient occlusion + Σ light max(n·l, 0)) + specular Σ light s
 /// ```
 ///
-/// with s the [`Reflectance`]'s specular share.
+/// with the normal n, the direction l to the light, and s the [`Reflectance`]'s specular share.
 #[derive(Clone, Copy, Debug)]
 pub struct Lighting<Ls, R> {
-    /// From where surfaces are seen.
+    /// The point or direction from which surfaces are seen.
     pub viewer: Viewer,
     /// The light that falls everywhere: red, green and blue.
     pub ambient: Vec3,
@@ -146,7 +150,7 @@ impl<Ls: Light, R: Reflectance> Lighting<Ls, R> {
         [self.ambient + Vec3::from(diffuse), Vec3::from(specular)]
     }
 
-    /// What all lights scatter and mirror.
+    /// The scattered and the mirrored part of all lights.
     #[inline(always)]
     fn shine<L: Lanes>(
         &self,
@@ -181,21 +185,21 @@ impl<Ls: Light, R: Reflectance> Lighting<Ls, R> {
 
 /// A surface of layers under lights that were found at the vertices and are interpolated.
 ///
-/// The varying is (scattered, (mirrored, texture coordinates)): the first two are what [`Lighting::at_vertex`] gives.
-/// Layers that need a place or a frame, such as [`Reflection`], [`Occlusion`] or [`Bump`], do not fit.
+/// The varying is (scattered, (mirrored, texture coordinates)): the first two come from [`Lighting::at_vertex`]. Layers
+/// that need a place or a frame, such as [`Reflection`], [`Occlusion`] or [`Bump`], do not fit.
 ///
 /// Source: Gouraud, "Continuous shading of curved surfaces", IEEE Transactions on Computers 20 (1971).
 ///
 /// # Precision
 /// Texels as they are read, each channel is rounded once: within ½ + 6·2^-16·S of a byte of the exact colour of the
-/// interpolated lights, with S their greatest sum in a channel, or 1. Highlights smaller than triangles are lost, or
+/// interpolated lights. S is their greatest sum in a channel, or 1. Highlights smaller than triangles are lost, or
 /// flicker as their vertices turn; [`Material`] lights each fragment.
 ///
 /// # Cost
 /// The layers', six components to interpolate, and four operations a channel; no root and no division.
 #[derive(Clone, Copy, Debug)]
 pub struct Gouraud<M> {
-    /// What it is made of: a [`Layer`], or a tuple of layers.
+    /// The [`Layer`] that it is made of, or a tuple of layers.
     pub layers: M,
 }
 

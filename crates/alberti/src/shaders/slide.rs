@@ -11,11 +11,11 @@ use core::fmt::Debug;
 
 /// Another stage's colour with the image of a [`Projector`](crate::Projector) on it.
 ///
-/// Vertices carry where the projector's image meets them, as [`Projector::project`](crate::Projector::project) says,
-/// and the division is done at each fragment. Beside the image and behind the projector the wrapped stage's colour
-/// stays as it is; what stands between the projector and a surface throws no shadow. The image lies upright: its first
-/// row is at the top of the projector's pyramid, and its sides at the pyramid's. It continues nowhere, but a filter may
-/// read beyond its border, hence [`Clamp`].
+/// Vertices carry the place where the projector's image meets them, as
+/// [`Projector::project`](crate::Projector::project) gives it, and the division is done at each fragment. Beside the
+/// image and behind the projector the wrapped stage's colour stays as it is; things between the projector and a surface
+/// throw no shadow. The image lies upright: its first row is at the top of the projector's pyramid, and its sides at
+/// the pyramid's. It continues nowhere, but a filter may read beyond its border, hence [`Clamp`].
 ///
 /// ```
 /// use alberti::{glam::Vec3, shaders::*, texture::{Clamp, Nearest, Texture, format::Rgba8888}, *};
@@ -43,25 +43,27 @@ use core::fmt::Debug;
 /// ```
 ///
 /// # Precision
-/// The image's colour is that of the sampler at ((u/q + 1)/2, (v/q + 1)/2), each within 2ε, for the u, v and q that are
-/// interpolated; whether there is an image follows from these exactly. A miss of up to e in each of u, v and q becomes
-/// one of up to about 2e/q in u/q and v/q. The budget of [`Lines::bounded`](crate::Lines) is such an e, so it does not
-/// cover the image, least of all close to the projector. In fixed point u, v, q and the quotients are in steps of
-/// 2^-16, so that q should not be much below 1, and |u|, |v| and q may be up to 4096, to which they are clamped.
+/// The image's colour is that of the sampler at ((u/q + 1)/2, (v/q + 1)/2), each within 2ε (ε = 2^-24), for the u, v
+/// and q that are interpolated. Whether there is an image follows from these exactly. A miss of up to e in each of u, v
+/// and q becomes one of up to about 2e/q in u/q and v/q. The budget of [`Lines::bounded`](crate::Lines) is such an e,
+/// so it does not cover the image, least of all close to the projector.
+///
+/// In fixed point u, v, q and the quotients are in steps of 2^-16, so that q should not be much below 1.
+/// There, |u|, |v| and q may be up to 4096, to which they are clamped.
 ///
 /// # Cost
-/// Three components to interpolate; two divisions, and where there is an image what the sampler costs.
+/// Three components to interpolate; two divisions, and the sampler where there is an image.
 #[derive(Clone, Copy, Debug)]
 pub struct Slide<S, I, M = Modulate> {
-    /// What the image falls on.
+    /// The stage that the image falls on.
     pub surface: S,
     /// The image with its filter. Its alpha plays no part.
     pub image: I,
-    /// How the image's colour and the surface's become one.
+    /// The mixture of the image's colour and the surface's.
     pub mix: M,
 }
 
-/// How an image's colour and the surface's that it falls on become one: [`Modulate`] or [`Add`], or one of yours.
+/// A mixture of an image's colour and the surface's that it falls on: [`Modulate`] or [`Add`], or one of yours.
 pub trait Mix: Copy + Debug {
     /// A channel of the mixture, from 0 to 255 like the two.
     fn channel<L: Lanes>(self, lanes: L, surface: L::U32, image: L::U32) -> L::U32;

@@ -37,7 +37,7 @@ impl<S> Sunlit<S> {
 }
 
 impl<S> Sunlit<S> {
-    /// What the channels of a surface with this normal are multiplied by.
+    /// The factor for the channels of a surface with this normal.
     #[inline(always)]
     fn light<L: Lanes>(&self, lanes: L, [x, y, z]: [L::Number; 3]) -> L::Number {
         let Vec3 { x: lx, y: ly, z: lz } = self.to_light;

@@ -7,8 +7,8 @@ use alberti_math::{Rgba8, Varying};
 use alberti_raster::{Differentiation, FragmentColor, FragmentStage, Fragments, NoDerivatives};
 use alberti_texture::{Nearest, Sampler, Size, TexelFormat, Wrap};
 
-/// A map as it is: a texture, read by a [`Sampler`], or by a [`MipSampler`](alberti_texture::MipSampler) for what a
-/// pixel covers of it.
+/// A map as it is: a texture, read by a [`Sampler`], or by a [`MipSampler`](alberti_texture::MipSampler) for the part
+/// of it that a pixel covers.
 ///
 /// The derivatives are those that the map asks for, a mip map for those at each pixel; [`Differentiated`] chooses
 /// others. [`FragmentStage::shade_one`], which knows of no other pixel, reads level 0 of a mip map, or the level that
@@ -30,7 +30,7 @@ impl<M: Map> FragmentStage<Vec2> for Unlit<M> {
     }
 }
 
-/// Another stage that learns from `D` how fast its varying changes, whatever it would choose itself.
+/// Another stage with the derivatives of its varying by the policy `D`, whatever it would choose itself.
 ///
 /// ```
 /// use alberti::raster::PerTriangle;

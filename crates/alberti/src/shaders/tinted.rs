@@ -11,7 +11,7 @@ use alberti_raster::{FragmentStage, Fragments};
 /// To the nearest byte; white changes nothing.
 #[derive(Clone, Copy, Debug)]
 pub struct Tinted<S> {
-    /// What is tinted.
+    /// The stage that is tinted.
     pub surface: S,
     /// The factor, in bytes: 255 is one. The surface's alpha is kept.
     pub tint: Rgba8,

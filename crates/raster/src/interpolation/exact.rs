@@ -7,16 +7,18 @@ use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Mode, Varying, hull3};
 use core::fmt;
 
-/// From the exact integer edges: at a sample, ti = Ei qi and u = Σ ti ui / Σ ti, with the edge function Ei opposite
-/// vertex i and qi = 1/zi. Screen depth is Σ Ei zsi / Σ Ei.
+/// Hyperbolic interpolation from the exact integer edges: at a sample, ti = Ei qi and u = Σ ti ui / Σ ti. Ei is the
+/// edge function opposite vertex i, and qi = 1/zi. Screen depth is Σ Ei zsi / Σ Ei.
 ///
 /// # Precision
-/// Within 9ε·max|ui| of the exact value at the sample (ε = 2^-24; 5.1ε is the most that was measured, over ratios of
-/// the qi up to 10^12), barring over- and underflow: up to |ui| = 2^77 and ratios of 2^126. The reason: ti carries two
-/// roundings (Ei to f32, the product), the same in the numerator and the denominator, which changes a convex
-/// combination by at most ε·range <= 2ε·max|u|; the numerator's products and sums add 3ε, the denominator's sums 2ε,
-/// the reciprocal and its product ε each. Counted from zi instead of qi the bound is 10ε. The result never leaves the
-/// range of the three values, so a constant stays constant bit for bit.
+/// Within 9ε·max|ui| of the exact value at the sample (ε = 2^-24), barring over- and underflow: up to |ui| = 2^77 and
+/// ratios of 2^126. 5.1ε is the most that was measured, over ratios of the qi up to 10^12. Counted from zi instead of
+/// qi the bound is 10ε. The result never leaves the range of the three values, so a constant stays constant bit for
+/// bit.
+///
+/// The reason: ti carries two roundings (Ei to f32, the product), the same in the numerator and the denominator. They
+/// change a convex combination by at most ε·range <= 2ε·max|u|. The numerator's products and sums add 3ε, the
+/// denominator's sums 2ε, the reciprocal and its product ε each.
 ///
 /// # Cost
 /// A fragment: three conversions, three products, two sums, one division; a component adds four products, two sums,
@@ -142,12 +144,12 @@ impl<L: Lanes, V: Varying> fmt::Debug for ExactTriangle<L, V> {
     }
 }
 
-/// The power of two s for which x s lies in [1, 2), so that no weight can overflow or, for ratios of q up to 2^126,
-/// lose bits; multiplying by it is exact.
+/// The power of two s for which x s lies in [1, 2); multiplying by it is exact. So no weight can overflow or, for
+/// ratios of q up to 2^126, lose bits.
 #[inline]
 pub(crate) fn power_of_two_near(x: f32) -> f32 {
     let exponent = (x.to_bits() >> 23) & 0xff;
-    // Exponents of subnormal and of the largest numbers have no normal counterpart: they keep what they have.
+    // Exponents of subnormal and of the largest numbers have no normal counterpart: they get their neighbours'.
     f32::from_bits(254u32.saturating_sub(exponent).clamp(1, 253) << 23)
 }
 

@@ -7,8 +7,8 @@ use alberti_math::reciprocal;
 /// Bits of the fraction of weights.
 const WEIGHT: u32 = 30;
 
-/// What is linear on the screen: how much more the second and the third vertex have than the first, and what a column
-/// adds.
+/// A function that is linear on the screen: its excess at the second and the third vertex over the first, and its slope
+/// by column.
 #[derive(Clone, Copy)]
 pub(crate) struct FixedPlane {
     pub(crate) more: [i32; 2],
@@ -16,8 +16,8 @@ pub(crate) struct FixedPlane {
 }
 
 impl FixedPlane {
-    /// How much more than at the first vertex there is where the others have these weights, to the nearest. Weights are
-    /// never too large, together not above 1, and so this is within the range of the three.
+    /// The excess over the first vertex where the others have these weights, to the nearest. Weights are never too
+    /// large, together not above 1, and so it is within the range of the three.
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "not greater than the differences")]
     pub(crate) fn at(&self, [b, c]: [i32; 2]) -> i32 {
@@ -30,11 +30,11 @@ impl FixedPlane {
 /// The shape of a triangle.
 #[derive(Clone, Copy)]
 pub(crate) struct Shape {
-    /// Edge functions without their last bits, of which this is the number, are below 2^32.
+    /// The number of last bits without which edge functions are below 2^32.
     dropped: u32,
     /// The area without those bits.
     area: Reciprocal,
-    /// What a step of one subpixel to the right adds to the edge functions of the second and the third vertex.
+    /// The increments of the edge functions of the second and the third vertex for a step of one subpixel to the right.
     across: [i32; 2],
     /// Bits of the subpixels.
     bits: u32,
@@ -64,7 +64,7 @@ impl Shape {
         FixedPlane { more, slope: self.slope(along) }
     }
 
-    /// `more` to the subpixel over the area, in columns; towards 0, within the range of `i32`.
+    /// The slope by column; `more` over the area is that by subpixel. Towards 0, within the range of `i32`.
     #[inline(always)]
     #[expect(
         clippy::cast_possible_truncation,
@@ -95,7 +95,7 @@ impl Shape {
 /// One over a word that is not 0.
 #[derive(Clone, Copy)]
 struct Reciprocal {
-    /// So many bits bring the word to 2^31 or more, and `quotient` is 2^63 over that.
+    /// The number of bits that bring the word to 2^31 or more; `quotient` is 2^63 over that.
     normalizing: u32,
     quotient: u32,
 }

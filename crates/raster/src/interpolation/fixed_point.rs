@@ -15,12 +15,13 @@ use core::fmt;
 /// same bits on every machine.
 ///
 /// # Precision
-/// For components in ±4096, r the greatest ratio of q in the triangle up to 2^20, and C the columns of the row: the
-/// bound of `R`, and (N + 3)·2^-16 + |Δu|·(2^-17 + r·(C + 4)·2^-28) with N the columns of a run and Δu the greatest
-/// difference between two vertices; of [`Lines::bounded`], whose budget includes the first term, only the
-/// second. Where the budget is below four steps, all runs are of one column. Varyings are rounded to 2^-16,
-/// and beyond ±4096 they count as that. Depth has 31 bits, of which 8 units and one for each column of the row may
-/// be wrong, and is rounded to the buffer's format.
+/// The error is at most the bound of `R` plus (N + 3)·2^-16 + |Δu|·(2^-17 + r·(C + 4)·2^-28). N are the columns of a
+/// run, C those of the row, Δu is the greatest difference between two vertices, and r the greatest ratio of q in the
+/// triangle. The bound holds for components in ±4096 and r up to 2^20. For [`Lines::bounded`], whose budget includes
+/// the first term, only the second is added. Where the budget is below four steps, all runs are of one column.
+///
+/// Varyings are rounded to 2^-16, and beyond ±4096 they count as that. Depth has 31 bits, of which 8 units and one for
+/// each column of the row may be wrong, and is rounded to the buffer's format.
 ///
 /// # Cost
 /// A fragment: an addition for the depth and one for each component. A run: a product for each component, and with
@@ -57,7 +58,7 @@ impl<R: Runs> Interpolation for FixedPoint<R> {
     }
 }
 
-/// What components are held to, so that two of them differ by less than 2^29.
+/// The limit of components on both sides of 0, so that two of them differ by less than 2^29.
 const LIMIT: i32 = (1 << 28) - 1;
 
 /// `zs` in the unit in which it is interpolated: the last of a format's bits is worth 2^(31 - bits), and half of that
@@ -68,21 +69,21 @@ fn depth(bits: u32, zs: f32) -> i32 {
     if bits < 31 { fraction - (fraction >> bits) + (1 << (30 - bits)) } else { fraction }
 }
 
-/// What one component is over a triangle.
+/// One component over a triangle.
 #[derive(Clone, Copy)]
 struct FixedComponent {
-    /// At the first vertex; and the least and the greatest of the three.
+    /// The value at the first vertex; and the least and the greatest of the three.
     first: i32,
     least: i32,
     greatest: i32,
-    /// What is more than at the first vertex, times a power of two, and times q where that is divided again.
+    /// The excess over the first vertex, times a power of two, and times q where that is divided again.
     plane: FixedPlane,
-    /// So many bits are too many after that.
+    /// The number of bits that are too many after that.
     shift: u32,
 }
 
 impl FixedComponent {
-    /// `q` is what is proportional to it at the three vertices, for what is hyperbolic.
+    /// A component of these values. `q` is proportional to that of the three vertices, for hyperbolic components.
     #[inline(always)]
     fn new(shape: &Shape, values: [f32; 3], q: Option<[i32; 3]>) -> Self {
         let q16 = |x: f32| scaled(x, 16).clamp(-LIMIT, LIMIT);
@@ -104,20 +105,20 @@ impl FixedComponent {
         }
     }
 
-    /// The component where there is so much more of it than at the first vertex.
+    /// The component where its excess over the first vertex is `more`, in the plane's unit.
     #[inline(always)]
     fn value(&self, more: i32) -> i32 {
         self.first.wrapping_add(more >> self.shift).max(self.least).min(self.greatest)
     }
 }
 
-/// What is interpolated over a triangle, in integers.
+/// The interpolated numbers of a triangle, in integers.
 #[derive(Clone, Copy)]
 pub struct FixedLines<V: Varying> {
     shape: Shape,
-    /// At the first vertex, and over the triangle.
+    /// The value at the first vertex, and the plane.
     zs: (i32, FixedPlane),
-    /// Proportional to q, the greatest of the three from 2^30 to 2^31.
+    /// The same for a multiple of q, the greatest of the three from 2^30 to 2^31.
     q: (i32, FixedPlane),
     components: V::Of<FixedComponent>,
 }
@@ -154,7 +155,7 @@ fn times(more: i32, q: i32) -> i32 {
     ((i64::from(more) * i64::from(q)) >> 31) as i32
 }
 
-/// What is known of a row: at its first covered sample.
+/// The state of a row: the numbers at its first covered sample.
 #[derive(Clone, Copy)]
 pub struct FixedRow<V: Varying> {
     first: i32,
@@ -163,7 +164,7 @@ pub struct FixedRow<V: Varying> {
     components: V::Of<i32>,
 }
 
-/// What is known at both ends of a run.
+/// The state at both ends of a run.
 #[derive(Clone, Copy)]
 pub struct FixedEnds<V: Varying> {
     /// Proportional to q.
@@ -171,8 +172,8 @@ pub struct FixedEnds<V: Varying> {
     components: V::Of<[i32; 2]>,
 }
 
-/// More than at the first vertex, times q, at a sample where q has so many leading zeros and `per_q` is 2^62 over it
-/// without those: half of it divided by q.
+/// Half of `more` divided by q, where `more` is the excess over the first vertex times q. At the sample q has
+/// `normalizing` leading zeros, and `per_q` is 2^62 over q without those.
 #[inline(always)]
 fn divided(more: i32, normalizing: u32, per_q: i32) -> i32 {
     let shifted = more << normalizing;
@@ -182,10 +183,10 @@ fn divided(more: i32, normalizing: u32, per_q: i32) -> i32 {
     ((i64::from(shifted) * i64::from(per_q)) >> 32) as i32
 }
 
-/// What the rounding of the ends of a run takes of a budget, beside a unit for each of its columns.
+/// The units of a budget for the rounding of the ends of a run, beside one for each of its columns.
 const ROUNDED: i32 = 3;
 
-/// Numbers at a sample, and what the next has more.
+/// Numbers at a sample, and their increments to the next.
 #[derive(Clone, Copy)]
 pub struct FixedCursor<V: Varying> {
     zs: u32,
@@ -275,7 +276,7 @@ impl<V: Varying> LineNumbers<OneFixed, V> for FixedLines<V> {
         let off = u64::from((last - known.first).cast_unsigned()) + 5;
         let [q0, q1] = ends.q.map(u64::from);
         let apart = q0.abs_diff(q1) + 2 * off;
-        // What rounding takes is not there for perspective.
+        // The units for rounding are not there for perspective.
         let left = scaled(budget, 16).clamp(0, LIMIT / 2) - (last - first) - ROUNDED;
         let Ok(left) = u64::try_from(left) else { return false };
         let limit = left * (q0.max(q1) + 3 * q0.min(q1)).saturating_sub(4 * off);
@@ -304,7 +305,7 @@ impl<V: Varying> LineNumbers<OneFixed, V> for FixedLines<V> {
             };
             [start.wrapping_add(step.wrapping_mul(along)), step]
         };
-        // What is interpolated has 31 bits, as differences have a sign; what comes of it has 32.
+        // Interpolated depths have 31 bits, as differences have a sign; the result has 32.
         let slope = self.zs.1.slope;
         let zs = row.zs.wrapping_add(slope.wrapping_mul(column - row.first));
         let lines = V::map_by_mode(&run.ends.components, &|mode, ends: [i32; 2]| match mode {

@@ -44,8 +44,8 @@ pub struct FloatingEnds<V: Varying> {
 }
 
 impl<L: Lanes, V: Varying> FloatingLines<L, V> {
-    /// At a sample with these edge functions: the weights of the second and the third vertex for what is linear on the
-    /// screen and for what is so in space, and q.
+    /// Two pairs of weights, and q, at a sample with these edge functions. The weights are those of the second and the
+    /// third vertex: for functions that are linear on the screen, and for those that are so in space.
     #[inline(always)]
     fn at<I: EdgeInt>(&self, perspective: bool, edges: [I; 3]) -> ([f64; 2], [f64; 2], f64) {
         let [a, b, c] = [edges[0].to_f64(), edges[1].to_f64(), edges[2].to_f64()];
@@ -61,7 +61,7 @@ impl<L: Lanes, V: Varying> FloatingLines<L, V> {
     }
 }
 
-/// Where samples lie in a run in which all is linear.
+/// The place of samples in a run, and the numbers that are linear along it.
 #[derive(Clone, Copy)]
 pub struct FloatingCursor<L: Lanes, V: Varying> {
     along: L::Number,

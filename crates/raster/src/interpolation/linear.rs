@@ -8,7 +8,7 @@ use alberti_math::lanes::Lanes;
 /// A function that is linear on the screen.
 #[derive(Clone, Copy)]
 pub(crate) struct FloatPlane {
-    /// At the first vertex, and what the second and the third have more.
+    /// The value at the first vertex, and the excess of the second and the third.
     first: f64,
     more: [f64; 2],
 }
@@ -19,21 +19,21 @@ impl FloatPlane {
         Self { first: a, more: [b - a, c - a] }
     }
 
-    /// Where the second and the third vertex have these weights. In the triangle nothing cancels, so the error is a few
-    /// units of 2^-53 of the greatest value.
+    /// The value where the second and the third vertex have these weights. In the triangle nothing cancels, so the
+    /// error is a few units of 2^-53 of the greatest value.
     #[inline(always)]
     pub(crate) fn at(&self, weights: [f64; 2]) -> f64 {
         self.first + self.more(weights)
     }
 
-    /// What it has more where the weights are greater by these.
+    /// The excess where the weights are greater by these.
     #[inline(always)]
     pub(crate) fn more(&self, [b, c]: [f64; 2]) -> f64 {
         self.more[0] * b + self.more[1] * c
     }
 }
 
-/// One number of a vertex over a triangle, and what its values at the vertices do not exceed.
+/// One number of a vertex over a triangle, and the bounds of its values at the vertices.
 #[derive(Clone, Copy)]
 pub(crate) struct FloatComponent {
     pub(crate) plane: FloatPlane,
@@ -48,7 +48,7 @@ impl FloatComponent {
         Self { plane: FloatPlane::new(values.map(f64::from)), least, greatest }
     }
 
-    /// The same everywhere.
+    /// A component that is the same everywhere.
     #[inline(always)]
     pub(crate) fn flat(value: f32) -> Self {
         Self::new([value; 3])
@@ -78,7 +78,7 @@ pub(crate) fn per_area<V>(triangle: &Oriented<'_, V>) -> f64 {
     1.0 / area
 }
 
-/// A number along a run: where it starts, what a column adds, and its bounds, the same in every lane.
+/// A number along a run: its start, its increment by column, and its bounds, the same in every lane.
 #[derive(Clone, Copy)]
 pub(crate) struct Ramp<L: Lanes> {
     start: L::Number,
@@ -99,20 +99,20 @@ impl<L: Lanes> Ramp<L> {
         }
     }
 
-    /// So many columns along, times `factor`, within the bounds.
+    /// The number so many columns along, times `factor`, within the bounds.
     #[inline(always)]
     pub(crate) fn times(&self, lanes: L, along: L::Number, factor: L::Number) -> L::Number {
         let value = (self.start + self.step * along) * factor;
         lanes.min(lanes.max(value, self.least), self.greatest)
     }
 
-    /// So many columns along, within the bounds.
+    /// The number so many columns along, within the bounds.
     #[inline(always)]
     pub(crate) fn at(&self, lanes: L, along: L::Number) -> L::Number {
         lanes.min(lanes.max(self.start + self.step * along, self.least), self.greatest)
     }
 
-    /// Where it starts.
+    /// The number at the start.
     #[inline(always)]
     pub(crate) fn start(&self) -> L::Number {
         self.start

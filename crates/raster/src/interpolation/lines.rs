@@ -1,4 +1,4 @@
-//! Interpolation by straight lines along runs of a row's samples: the policies say how long a run is and whether its
+//! Interpolation by straight lines along runs of a row's samples. The policies say how long a run is and whether its
 //! ends are corrected for perspective; the numbers are `f32` or fixed point.
 //!
 //! ```text
@@ -34,11 +34,13 @@ pub trait Runs: Copy + Debug + 'static {
     fn perspective(self) -> bool;
 }
 
-/// Exact at a row's first and last sample and at every 16th column; linear between two of those.
+/// Straight lines along 16 columns: exact at a row's first and last sample and at every 16th column; linear between two
+/// of those.
 ///
 /// # Precision
-/// With r >= 1 the ratio of q at two such columns, and Δu the difference of u there: |Δu|·(√r − 1)/(√r + 1) +
-/// 6ε·max|ui|. The first term is the miss of the straight line, and is reached; the second is rounding.
+/// With r >= 1 the ratio of q at two such columns, Δu the difference of u there, and ε = 2^-24:
+/// |Δu|·(√r − 1)/(√r + 1) + 6ε·max|ui|. The first term is the miss of the straight line, and is reached; the second is
+/// rounding.
 ///
 /// # Cost
 /// A fragment: a product, a sum, a minimum and a maximum for each component; no division. Every 16 columns: two `f64`
@@ -46,12 +48,13 @@ pub trait Runs: Copy + Debug + 'static {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Spans16;
 
-/// Without correction: varyings are linear on the screen.
+/// Straight lines without correction: varyings are linear on the screen.
 ///
 /// # Precision
 /// Right only where the three vertices are equally far; with r their greatest ratio of q, off by up to
 /// |Δu|·(√r − 1)/(√r + 1), Δu being the difference between two vertices. Against the linear function itself: 6ε·max|ui|
-/// for depth and components. The result never leaves the range of the three values, so a constant stays constant.
+/// for depth and components, with ε = 2^-24. The result never leaves the range of the three values, so a constant stays
+/// constant.
 ///
 /// # Cost
 /// A fragment: a product, a sum, a minimum and a maximum for each component; no division. Every 64 columns one `f64`
@@ -92,7 +95,7 @@ impl Lines {
         }
     }
 
-    /// Straight lines as long as they miss no component by more than a `budget`, in the component's own units: the runs
+    /// Straight lines as long as they miss no component by more than a `budget`, in the component's own units. The runs
     /// are the longest of 1, 2, 4 to 64 columns, at multiples of their length, for which that is so.
     ///
     /// # Precision
@@ -171,7 +174,7 @@ pub struct Run<E> {
     pub(crate) ends: E,
     /// The column that follows it.
     pub(crate) next: i32,
-    /// So many columns, a power of two, are between the ends of a run that is whole.
+    /// The columns between the ends of a run that is whole, a power of two.
     pub(crate) length: i32,
 }
 

@@ -8,16 +8,19 @@ use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Mode, Varying};
 use core::fmt;
 
-/// From plane equations: q and every q·u are linear on the screen, so each is a value at the start of a run of samples
-/// and a step a column, and u = (q·u)/q. The planes are set up in `f64` and evaluated in it at the start of each run,
-/// of at most 64 columns, in the triangle; only what is added along a run is `f32`.
+/// Hyperbolic interpolation from plane equations: q and every q·u are linear on the screen, and u = (q·u)/q. So each is
+/// a value at the start of a run of samples and an increment by column. The planes are set up in `f64`, and evaluated
+/// in it at the start of each run, of at most 64 columns, in the triangle. Only the increments along a run are `f32`.
 ///
 /// # Precision
-/// With r the ratio of q at the start of a run to q at a sample of it: (6 r + 8)ε·max|ui|, and 6ε·max zs for depth; for
-/// ratios in a triangle up to 2^24, beyond which the error of `f64` counts. Where q falls by half along 64 columns that
-/// is 20ε, where it grows at most 14ε. The reason: q and q·u each carry the rounding of the start and of the step, of
-/// their product with the columns and of the sum, which is (3 r + 3)ε relative to q; the reciprocal and the product add
-/// 2ε. The result never leaves the range of the three values, so a constant stays constant bit for bit; for |ui| above
+/// With r the ratio of q at the start of a run to q at a sample of it, and ε = 2^-24: (6 r + 8)ε·max|ui|, and 6ε·max zs
+/// for depth. That is for ratios in a triangle up to 2^24, beyond which the error of `f64` counts. Where q falls by
+/// half along 64 columns the bound is 20ε, where it grows at most 14ε.
+///
+/// The reason: q and q·u each carry the rounding of the start and of the step, of their product with the columns and of
+/// the sum. That is (3 r + 3)ε relative to q; the reciprocal and the product add 2ε.
+///
+/// The result never leaves the range of the three values, so a constant stays constant bit for bit. For |ui| above
 /// 2^120, where q·u may overflow, that is all that holds.
 ///
 /// # Cost
@@ -47,8 +50,8 @@ impl Interpolation for Planes {
     #[inline(always)]
     fn prepare<L: Floating, V: Varying>(self, lanes: L, triangle: &Oriented<'_, V>) -> PlaneTriangle<L, V> {
         let per_area = per_area(triangle);
-        // What a column adds to the edge functions of the two edges that end at the first corner, opposite the others:
-        // integers below 2^53.
+        // Increments by column of the edge functions of the two edges that end at the first corner, opposite the
+        // others: integers below 2^53.
         let [a, b, c] = triangle.corners;
         let step = |y: i32| f64::from(y) * f64::from(triangle.one()) * per_area;
         let across = [step(c[1] - a[1]), step(a[1] - b[1])];
@@ -74,7 +77,7 @@ impl Interpolation for Planes {
     }
 }
 
-/// A component and what a column adds to it.
+/// A component and its increment by column.
 #[derive(Clone, Copy)]
 struct Sloped {
     component: FloatComponent,
@@ -91,7 +94,7 @@ pub struct PlaneTriangle<L: Lanes, V: Varying> {
     components: V::Of<Sloped>,
 }
 
-/// Where samples lie in a run, and what is linear along it.
+/// The place of samples in a run, and the numbers that are linear along it.
 #[derive(Clone, Copy)]
 pub struct PlaneCursor<L: Lanes, V: Varying> {
     along: L::Number,

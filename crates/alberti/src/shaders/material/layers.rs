@@ -1,4 +1,4 @@
-//! What a surface is made of: the maps of colours and numbers.
+//! Layers of one map: the colours and numbers of a surface.
 
 use super::map::Map;
 use super::surface::{Layer, OnSurface, Surface, Textured};
@@ -43,11 +43,11 @@ pub struct Wetness<M>(
 pub struct Occlusion<M> {
     /// A [`Map`].
     pub map: M,
-    /// How much of it there is, from 0 to 1.
+    /// The strength of it, from 0 to 1.
     pub strength: f32,
 }
 
-/// Light that the surface itself sends out, or that it sends on: what several layers send is added.
+/// Light that the surface itself sends out, or that it sends on: the light of several layers is added.
 #[derive(Clone, Copy, Debug)]
 pub struct Emission<M>(
     /// A [`Map`].

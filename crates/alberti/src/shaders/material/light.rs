@@ -1,4 +1,4 @@
-//! What falls on a surface, and from where.
+//! Lights: the directions from which light falls on a surface, and its colours.
 
 use super::vector::{splat, times};
 use alberti_math::glam::Vec3;
@@ -9,8 +9,8 @@ use core::fmt::Debug;
 
 /// A light, or several: tuples, arrays and slices of lights are lights, and `()` is none.
 pub trait Light: Copy + Debug {
-    /// Adds up what `and` makes of the `sum` and of each light: of the unit vectors from the positions towards it, and
-    /// of how much of each colour arrives where the surface faces it.
+    /// Folds the lights with `and`, from `sum` on. It takes the sum so far, the unit vectors from the positions towards
+    /// a light, and the amount of each colour that arrives where the surface faces it.
     fn fold<L: Lanes, T>(
         &self,
         lanes: L,
@@ -51,23 +51,23 @@ impl Light for Directional {
 /// A light that shines from a point in all directions, such as a bulb. In its own place it shines from (0, 0, 1).
 ///
 /// # Precision
-/// What arrives is within 10ε of itself (ε = 2^-24).
+/// The light that arrives is within 10ε of itself (ε = 2^-24).
 ///
 /// # Cost
 /// Two square roots and four divisions a fragment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointLight {
-    /// Where it is.
+    /// The place of the light.
     pub position: Point3<World>,
-    /// How much of each colour arrives at a distance where the falloff is 1.
+    /// The amount of each colour that arrives at a distance where the falloff is 1.
     pub color: Vec3,
-    /// How that falls off: \[c, l, q\] for 1/(c + l d + q d²) at the distance d, none of them below zero. A result
-    /// above 2^14 counts as that, such as the infinite one that a light has in its own place without c.
+    /// The falloff: \[c, l, q\] for 1/(c + l d + q d²) at the distance d, none of them below zero. A result above 2^14
+    /// counts as that, such as the infinite one that a light has in its own place without c.
     pub falloff: [f32; 3],
 }
 
 impl PointLight {
-    /// The unit vectors towards it, and what arrives.
+    /// The unit vectors towards it, and the colours that arrive.
     #[inline(always)]
     fn arrives<L: Lanes>(&self, lanes: L, position: [L::Number; 3]) -> [[L::Number; 3]; 2] {
         let [x, y, z] = position;
@@ -108,7 +108,7 @@ pub struct SpotLight {
     point: PointLight,
     /// Away from the light.
     axis: Vec3,
-    /// The cosine beyond which nothing arrives, and what a step of one has more.
+    /// The cosine beyond which nothing arrives, and the increment of the share by a cosine of one.
     outer: f32,
     slope: f32,
 }

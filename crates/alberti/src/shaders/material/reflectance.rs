@@ -1,4 +1,4 @@
-//! How much of a light a surface sends towards the viewer.
+//! Reflectances: the shares of a light that a surface sends towards the viewer.
 
 use alberti_math::lanes::Lanes;
 use alberti_texture::surface::{
@@ -21,26 +21,28 @@ pub trait Reflectance: Copy + Debug {
     ) -> [L::Number; 2];
 }
 
-/// Light is scattered evenly: [`lambert`](alberti_texture::surface::lambert). Nothing is mirrored.
+/// Evenly scattered light: [`lambert`](alberti_texture::surface::lambert). Nothing is mirrored.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Lambert;
 
-/// And some of it is mirrored as by [`phong`](alberti_texture::surface::phong), with this [`Shininess`].
+/// Scattering as by [`Lambert`], and a mirrored share as by [`phong`](alberti_texture::surface::phong), with this
+/// [`Shininess`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Phong<E = u32>(
     /// The exponent.
     pub E,
 );
 
-/// And some of it is mirrored as by [`blinn_phong`](alberti_texture::surface::blinn_phong), with this [`Shininess`].
+/// Scattering as by [`Lambert`], and a mirrored share as by [`blinn_phong`](alberti_texture::surface::blinn_phong),
+/// with this [`Shininess`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BlinnPhong<E = u32>(
     /// The exponent.
     pub E,
 );
 
-/// The exponent of a highlight: a number, which takes no notice of the gloss; or what the gloss makes between the first
-/// and the second of two, as [`shininess`](alberti_texture::surface::shininess) says. Up to 2^16.
+/// The exponent of a highlight, up to 2^16: a number, which takes no notice of the gloss, or two. Of two, the gloss
+/// makes one between the first and the second, as [`shininess`](alberti_texture::surface::shininess) says.
 pub trait Shininess: Copy + Debug {
     /// The cosine to that power.
     fn power<L: Lanes>(&self, lanes: L, cosine: L::Number, gloss: L::Number) -> L::Number;

@@ -1,4 +1,4 @@
-//! What a surface mirrors of its surroundings.
+//! Reflections of a surface's surroundings.
 
 use super::layers::{colors, red};
 use super::map::Map;
@@ -8,21 +8,22 @@ use alberti_math::lanes::Lanes;
 use alberti_raster::Gradient;
 use alberti_texture::environment::{Environment, reflect_lanes};
 
-/// A reflection map: what the surface mirrors of its surroundings, which are far away. It comes after whatever bends
-/// the normal.
+/// A reflection map: an image of the surroundings, which are far away, mirrored by the surface. It comes after the
+/// layers that bend the normal.
 ///
-/// The share of what is mirrored is, by Schlick, strength (f + (1 − f) (1 − n·v)^5), where f is what the surface
-/// mirrors when looked at from above: 1 for a mirror, 0.04 for glass or lacquer, 0.02 for water.
+/// The mirrored share is, by Schlick, strength (f + (1 − f) (1 − n·v)^5), with the normal n and the direction v to the
+/// viewer. f is the share that the surface mirrors when looked at from above: 1 for a mirror, 0.04 for glass or
+/// lacquer, 0.02 for water.
 ///
 /// Source: Blinn and Newell, "Texture and reflection in computer generated images", CACM 19 (1976); Schlick, "An
 /// inexpensive BRDF model for physically-based rendering", Eurographics 1994.
 ///
 /// # Cost
-/// The direction's place in the image, as its [`Environment`] says, two maps, and some 20 operations. How fast the
-/// mirrored direction changes from pixel to pixel is not known, so of mip maps level 0 is read.
+/// The direction's place in the image, as its [`Environment`] says, two maps, and some 20 operations. The derivatives
+/// of the mirrored direction are not known, so of mip maps level 0 is read.
 #[derive(Clone, Copy, Debug)]
 pub struct Reflection<E, I, M> {
-    /// How a direction is a place in the image, see [`alberti_texture::environment`].
+    /// The map from directions to places in the image, see [`alberti_texture::environment`].
     pub environment: E,
     /// The image, a [`Map`].
     pub image: I,

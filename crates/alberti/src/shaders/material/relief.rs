@@ -26,7 +26,7 @@ pub struct NormalMap<M> {
     pub map: M,
     /// The numbers that bytes stand for.
     pub encoding: NormalEncoding,
-    /// How steep slopes are to be: 1 as they are, or so many times as steep, as
+    /// The steepness of slopes: 1 as they are, or so many times as steep, as
     /// [`strengthened`](alberti_texture::surface::strengthened) says.
     pub strength: f32,
 }
@@ -39,7 +39,7 @@ pub struct TwoChannels<M> {
     pub map: M,
     /// The numbers that bytes stand for.
     pub encoding: NormalEncoding,
-    /// How steep slopes are to be: 1 as they are, or so many times as steep, as
+    /// The steepness of slopes: 1 as they are, or so many times as steep, as
     /// [`strengthened`](alberti_texture::surface::strengthened) says.
     pub strength: f32,
 }
@@ -68,7 +68,7 @@ pub struct ObjectNormals<M> {
 /// The slopes, a square root, three divisions and eleven multiplications.
 #[derive(Clone, Copy, Debug)]
 pub struct Bump<H>(
-    /// The heights, with what they are in world units.
+    /// The heights, with their range and extent in world units.
     pub Relief<H>,
 );
 
@@ -84,13 +84,13 @@ pub struct Bump<H>(
 /// The heights that the policy reads, nine multiplications and some divisions.
 #[derive(Clone, Copy, Debug)]
 pub struct Parallax<H, P> {
-    /// The heights, with what they are in world units.
+    /// The heights, with their range and extent in world units.
     pub relief: Relief<H>,
     /// The search for the place that is seen.
     pub policy: P,
 }
 
-/// Maps of the tangent frame, which differ in what their texels are.
+/// Maps of the tangent frame, which differ in the meaning of their texels.
 macro_rules! of_strength {
     ($($name:ident: $decode:ident;)+) => {$(
         impl<V: Axes, M: Map> Layer<V> for $name<M> {

@@ -1,4 +1,4 @@
-//! What is known of a surface at a fragment, and the layers that change it.
+//! The state of a surface at a fragment, and the layers that change it.
 
 use alberti_math::glam::{Vec2, Vec3};
 use alberti_math::lanes::Lanes;
@@ -10,12 +10,12 @@ use core::fmt::Debug;
 use super::vector::{by, plus, splat, times};
 use crate::shaders::wide::pack;
 
-/// What a vertex of a lit surface carries.
+/// The varying of a lit surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Placed {
-    /// In world space.
+    /// The position, in world space.
     pub position: Vec3,
-    /// In world space, from 2^-60 to 2^60 long.
+    /// The normal, in world space, from 2^-60 to 2^60 long.
     pub normal: Vec3,
     /// Texture coordinates.
     pub uv: Vec2,
@@ -23,10 +23,10 @@ pub struct Placed {
 
 varying!(Placed { position: Vec3, normal: Vec3, uv: Vec2 });
 
-/// What a vertex carries where maps are relative to the tangent frame: bump, normal and parallax maps.
+/// The varying of a lit surface whose maps are relative to the tangent frame: bump, normal and parallax maps.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Framed {
-    /// In world space.
+    /// The position, in world space.
     pub position: Vec3,
     /// The directions of growing u and v, and the normal, in world space: unit vectors, which are interpolated as they
     /// are.
@@ -43,15 +43,15 @@ pub trait Textured: Varying {
     fn uv<N: Copy>(bundle: &Self::Of<N>) -> [N; 2];
 }
 
-/// A [`Textured`] one with a place and a normal.
+/// A [`Textured`] varying with a place and a normal.
 pub trait OnSurface: Textured {
-    /// Both of a bundle.
+    /// The place and the normal of a bundle.
     fn place<N: Copy>(bundle: &Self::Of<N>) -> [[N; 3]; 2];
 }
 
-/// An [`OnSurface`] with a tangent frame.
+/// An [`OnSurface`] varying with a tangent frame.
 pub trait Axes: OnSurface {
-    /// Its axes: the directions of u and v, and the normal.
+    /// The axes of a bundle: the directions of u and v, and the normal.
     fn axes<N: Copy>(bundle: &Self::Of<N>) -> [[N; 3]; 3];
 }
 
@@ -98,7 +98,7 @@ impl Axes for Framed {
     }
 }
 
-/// From where surfaces are seen: a point, or a direction if that is infinitely far.
+/// The viewer of surfaces: a point, or a direction if that is infinitely far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewer {
     place: Vec3,
@@ -107,13 +107,13 @@ pub struct Viewer {
 }
 
 impl Viewer {
-    /// From a point: the camera of a perspective.
+    /// A viewer at a point: the camera of a perspective.
     #[must_use]
     pub const fn at(place: Point3<World>) -> Self {
         Self { place: place.coords, weight: 1.0 }
     }
 
-    /// From infinity, in a direction from the surface: that of a parallel projection.
+    /// A viewer at infinity, in a direction from the surface: that of a parallel projection.
     #[must_use]
     pub const fn towards(direction: Vector3<World>) -> Self {
         Self { place: direction.coords, weight: 0.0 }
@@ -128,14 +128,14 @@ impl Viewer {
     }
 }
 
-/// What is known of the surface at several fragments, which the layers change one after the other.
+/// The state of the surface at several fragments, which the layers change one after the other.
 #[derive(Clone, Copy, Debug)]
 pub struct Surface<L: Lanes> {
     /// Texture coordinates at which maps are read.
     pub uv: [L::Number; 2],
-    /// How fast these change from pixel to pixel.
+    /// The derivatives of these from pixel to pixel.
     pub gradient: Gradient<[L::Number; 2]>,
-    /// In world space; 0 where vertices do not carry it, like the next two.
+    /// The position, in world space; 0 where vertices do not carry it, like the next two.
     pub position: [L::Number; 3],
     /// The unit normal, in world space.
     pub normal: [L::Number; 3],
@@ -145,7 +145,8 @@ pub struct Surface<L: Lanes> {
     pub diffuse: [L::Number; 3],
     /// The share of each colour that is mirrored where lights are: 0 to begin with.
     pub specular: [L::Number; 3],
-    /// How sharp that is, from 0 to 1: 1 to begin with. A [`Reflectance`](super::Reflectance) makes an exponent of it.
+    /// The sharpness of that, from 0 to 1: 1 to begin with. A [`Reflectance`](super::Reflectance) makes an exponent of
+    /// it.
     pub gloss: L::Number,
     /// The share of the ambient light that arrives: 1 to begin with.
     pub openness: L::Number,
@@ -156,7 +157,7 @@ pub struct Surface<L: Lanes> {
 }
 
 impl<L: Lanes> Surface<L> {
-    /// White, matt, and nowhere.
+    /// A surface that is white, matt, and nowhere.
     #[inline(always)]
     pub(super) fn new<V: Textured>(fragments: &Fragments<L, V>) -> Self {
         let Fragments { lanes, varying, gradient, .. } = fragments;
@@ -176,7 +177,7 @@ impl<L: Lanes> Surface<L> {
         }
     }
 
-    /// The same in its place.
+    /// The same surface in its place.
     #[inline(always)]
     pub(super) fn placed<V: OnSurface>(self, lanes: L, varyings: &V::Of<L::Number>, viewer: Viewer) -> Self {
         let [position, normal] = V::place(varyings);
@@ -193,11 +194,11 @@ impl<L: Lanes> Surface<L> {
     }
 }
 
-/// A part of a material, for vertices that carry `V`: it changes what is known of the surface.
+/// A part of a material, for vertices that carry `V`: it changes the state of the surface.
 ///
 /// Tuples of up to eight are layers, one after the other, and so is `()`, which changes nothing.
 pub trait Layer<V: Textured>: Copy + Debug {
-    /// What its maps need to know of neighbouring pixels.
+    /// The policy for the derivatives that its maps need.
     type Derivatives: Differentiation;
 
     /// Changes the surface.
@@ -211,7 +212,7 @@ impl<V: Textured> Layer<V> for () {
     fn apply<L: Lanes>(&self, _: L, _: &V::Of<L::Number>, _: &mut Surface<L>) {}
 }
 
-/// What several parts need to know of neighbouring pixels.
+/// The policy for the derivatives that several layers need.
 macro_rules! together {
     ($first:ident) => { $first::Derivatives };
     ($first:ident $($rest:ident)+) => { <$first::Derivatives as Differentiation>::With<together!($($rest)+)> };
