@@ -24,7 +24,6 @@ const BUDGETS: &[Budget] = &[
     Budget { folder: "app", whats: 21, long: 20 },
     Budget { folder: "projection", whats: 6, long: 21 },
     Budget { folder: "raster", whats: 26, long: 27 },
-    Budget { folder: "texture", whats: 16, long: 52 },
 ];
 
 /// A search that returns the lines of what it finds in a file's text.
