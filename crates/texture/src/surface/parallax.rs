@@ -73,7 +73,7 @@ pub struct LimitedParallax;
 /// than that. N from 8 to 64 is usual; at grazing angles it takes more, so choose it by the slant. Of several samples,
 /// the search ends when all have met the heights.
 ///
-/// Source: McGuire and McGuire, "SteepParallax parallax mapping", I3D 2005.
+/// Source: McGuire and McGuire, "Steep parallax mapping", I3D 2005.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct SteepParallax {
     /// The number of layers: at least 1, and less than 2^15. Numbers beyond count as the nearest of these.
