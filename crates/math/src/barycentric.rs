@@ -39,8 +39,8 @@ pub fn segment_parameter<V: Into<[f32; N]> + Copy, S: Space, const N: usize>(
     finite.then_some(t)
 }
 
-/// The barycentric coordinates [α, β] of the foot of `p` on the line through `a` and `b`: α a + β b, α + β = 1, is the
-/// point of the line that is nearest to `p`. `None` when `a` is `b`, or the result is not finite.
+/// The barycentric coordinates [α, β] of the foot of `p` on the line through `a` and `b`. The foot α a + β b, with
+/// α + β = 1, is the point of the line that is nearest to `p`. `None` when `a` is `b`, or the result is not finite.
 ///
 /// β = (p − a)·(b − a) / |b − a|², in any dimension; α is the same from the other end. For a `p` on the line they are
 /// its coordinates, as from [`segment_parameter`].
@@ -75,9 +75,9 @@ pub fn segment_weights<V: Into<[f32; N]> + Copy, S: Space, const N: usize>(
 /// triangle; one is 0 on an edge; at a vertex one is 1 and two are 0. [`Zone`](crate::Zone) tells the signs, without
 /// dividing.
 ///
-/// In more than two dimensions the areas are those of the shadows on all coordinate planes,
-/// α = Σ ⟨p, b, c⟩ᵢⱼ ⟨a, b, c⟩ᵢⱼ / Σ ⟨a, b, c⟩ᵢⱼ², which is the quotient that the normal equations of the orthogonal
-/// projection give (Lagrange's identity), without what these lose in slivers. The coordinates are those of the foot
+/// In more than two dimensions the areas are those of the shadows on all coordinate planes:
+/// α = Σ ⟨p, b, c⟩ᵢⱼ ⟨a, b, c⟩ᵢⱼ / Σ ⟨a, b, c⟩ᵢⱼ². That is the quotient of the normal equations of the orthogonal
+/// projection (Lagrange's identity), without their loss of precision in slivers. The coordinates are those of the foot
 /// of `p` in the triangle's plane.
 ///
 /// # Precision
@@ -111,8 +111,8 @@ pub fn triangle_weights<V: Into<[f32; N]> + Copy, S: Space, const N: usize>(
     ratios(parts, whole)
 }
 
-/// The barycentric coordinates [α, β, γ, δ] of `p` with respect to the tetrahedron `a b c d`:
-/// p = α a + β b + γ c + δ d, α + β + γ + δ = 1. `None` when the tetrahedron has no volume, or the result is not
+/// The barycentric coordinates [α, β, γ, δ] of `p` with respect to the tetrahedron `a b c d`. They satisfy
+/// p = α a + β b + γ c + δ d and α + β + γ + δ = 1. `None` when the tetrahedron has no volume, or the result is not
 /// finite.
 ///
 /// By Cramer's rule they are ratios of signed volumes: that of the tetrahedron with `p` for one vertex, and of the
@@ -150,8 +150,8 @@ pub fn interpolate<V: Varying>([alpha, beta, gamma]: [f32; 3], values: [V; 3]) -
 /// [`triangle_weights`] is.
 ///
 /// With the vertices of another triangle for values, in the plane or in space, this is the affine map from one triangle
-/// to the other, of which there is just one: `p` and its image have the same barycentric coordinates. With colours for
-/// values it is the triangle's colour at `p`.
+/// to the other. There is just one: `p` and its image have the same barycentric coordinates. With colours for values it
+/// is the triangle's colour at `p`.
 ///
 /// # Precision
 /// In the plane, each component is within 4.1ε·(|α a| + |β b| + |γ c| + m) of the exact value, barring overflow, where
@@ -178,7 +178,7 @@ pub fn map_triangle<V: Into<[f32; N]> + Copy, S: Space, W: Varying, const N: usi
     Some(interpolate(triangle_weights(p, from)?, to))
 }
 
-/// The coefficients [a, b, c] of the plane f(x, y) = a x + b y + c that has these values at three points; `None` when
+/// The coefficients [a, b, c] of the plane f(x, y) = a x + b y + c that has these values at three points. `None` when
 /// the points are on one line, or a coefficient is not finite.
 ///
 /// By Cramer's rule each is a quotient of determinants, the denominator being twice the triangle's signed area:
@@ -188,7 +188,7 @@ pub fn map_triangle<V: Into<[f32; N]> + Copy, S: Space, W: Varying, const N: usi
 /// # Precision
 /// a, b and c are within 1.05ε·max(|exact|, `f32::MIN_POSITIVE`), whatever the triangle's shape and place. But f itself
 /// is then only known within 4.1ε·(|a x| + |b y| + |c|), which is far more than it varies over a small triangle far
-/// from the origin; barycentric coordinates have no such weakness.
+/// from the origin. Barycentric coordinates have no such weakness.
 ///
 /// # Cost
 /// Three times [`signed_area`](crate::signed_area) and a determinant of 35 operations, in `f64`; thousands of
@@ -239,7 +239,6 @@ mod tests {
         assert_eq!(triangle_weights(p(f32::NAN, 1.0), [p(0.0, 0.0), p(1.0, 0.0), p(0.0, 2.0)]), None);
     }
 
-    /// A line with direction (1, -2, 4), and a point beside it: its foot is exact, and so is all of the arithmetic.
     #[test]
     fn a_segment_that_is_not_finite_has_no_parameter() {
         let at = |x, y| Point2::<Cube>::new(Vec2::new(x, y));
@@ -250,6 +249,7 @@ mod tests {
         assert_eq!(segment_parameter(at(3e38, 0.0), [at(-3e38, 0.0), at(0.0, 0.0)]), Some(2.0));
     }
 
+    /// A line with direction (1, -2, 4), and a point beside it: its foot is exact, and so is all of the arithmetic.
     #[test]
     fn a_segment_is_measured_along_itself() {
         let [a, b] = [Vec3::new(1.0, 2.0, 3.0), Vec3::new(3.0, -2.0, 11.0)].map(Point3::<Cube>::new);

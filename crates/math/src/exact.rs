@@ -15,8 +15,8 @@ use core::array::from_fn;
 /// A column of a determinant: the points that it leads from and to.
 pub(crate) type Column<const N: usize> = [[f32; N]; 2];
 
-/// How much of the sum of the terms' magnitudes a plain determinant must be to be kept: 2^-20. The plain evaluations
-/// below are within 8·2^-53 of that sum, hence relatively within 2^-30.
+/// The share of the sum of the terms' magnitudes that a plain determinant must reach to be kept: 2^-20. The plain
+/// evaluations below are within 8·2^-53 of that sum, hence relatively within 2^-30.
 const KEPT: f64 = 1.0 / 1_048_576.0;
 
 /// The determinant of two columns; NaN where a coordinate is not finite.
@@ -130,7 +130,7 @@ fn halves(x: f64) -> [f64; 2] {
     [high, x - high]
 }
 
-/// The rounded sum, and what rounding lost (Knuth).
+/// The rounded sum, and the part that rounding lost (Knuth).
 fn two_sum(a: f64, b: f64) -> [f64; 2] {
     let sum = a + b;
     let b_part = sum - a;

@@ -6,8 +6,8 @@ use core::fmt;
 /// The number of fraction bits of snapped coordinates: [`Sub4`], [`Sub8`], or [`AnySubpixel`] for one that is chosen at
 /// run time.
 ///
-/// More bits follow a slowly moving vertex more smoothly (a vertex moves by at most 2^-(bits+1) pixels when it is
-/// snapped); fewer bits let larger triangles stay in 32-bit edge functions.
+/// More bits follow a slowly moving vertex more smoothly: snapping moves a vertex by at most 2^-(bits+1) pixels. Fewer
+/// bits let larger triangles stay in 32-bit edge functions.
 pub trait Subpixel: Copy + fmt::Debug + 'static {
     /// The number, 1 to 8.
     fn bits(self) -> u32;
@@ -61,7 +61,7 @@ impl Subpixel for AnySubpixel {
 /// Fraction bits of the finest grid.
 const GREATEST_BITS: u32 = 8;
 
-/// How far a snapped coordinate may lie from the frame's origin, in pixels.
+/// The greatest distance of a snapped coordinate from the frame's origin, in pixels.
 pub const GUARD_PIXELS: i32 = 1 << 15;
 
 // An edge function is twice the area of a triangle of two vertices and a sample, all within the guard band and

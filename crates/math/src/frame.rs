@@ -51,9 +51,9 @@ impl<L: Space, P: Space> Frame<L, P> {
     /// In this frame x and y are the barycentric coordinates β and γ of a point's foot in the triangle's plane.
     ///
     /// # Precision
-    /// Each component of x and y is within 1ε of itself (ε = 2^-24), each of z within
+    /// Each component of x and y is within 1ε of itself (ε = 2^-24). Each of z is within
     /// 1.05ε·max(|exact|, `f32::MIN_POSITIVE`) of the cross product of the exact edges, infinite where that is beyond
-    /// `f32::MAX`. What this does to coordinates in the frame of a sliver is not bounded; the error of
+    /// `f32::MAX`. The effect of this on coordinates in the frame of a sliver is not bounded; the error of
     /// [`triangle_weights`](crate::triangle_weights) is.
     ///
     /// # Cost
@@ -82,7 +82,7 @@ impl<L: Space, P: Space> Frame<L, P> {
     /// The parent's coordinates of a point given in the frame's.
     ///
     /// # Precision
-    /// Each component is within 4ε·max(the sum of the magnitudes of its four terms, `f32::MIN_POSITIVE`) (ε = 2^-24).
+    /// Each component is within 4ε·max(the sum of the magnitudes of its four terms, `f32::MIN_POSITIVE`).
     #[must_use]
     #[inline]
     pub fn to_parent(&self, p: Point3<L>) -> Point3<P> {
@@ -107,8 +107,8 @@ impl<L: Space, P: Space> Frame<L, P> {
     /// away the origin.
     ///
     /// # Cost
-    /// Four determinants of 35 operations and three divisions in `f64`, in software on a core without it; thousands of
-    /// operations for a determinant of which more than 20 bits cancel. For many points there is
+    /// Four determinants of 35 operations and three divisions in `f64`, in software on a core without it. A determinant
+    /// of which more than 20 bits cancel takes thousands of operations. For many points there is
     /// [`inverse`](Self::inverse).
     #[must_use]
     pub fn from_parent(&self, p: Point3<P>) -> Option<Point3<L>> {

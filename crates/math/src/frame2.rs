@@ -52,8 +52,8 @@ impl<L: Space, P: Space> Frame2<L, P> {
     /// The frame of a triangle: its first vertex is the origin, the edges to the other two are the axes.
     ///
     /// # Precision
-    /// Each component of an axis is within 1ε of itself (ε = 2^-24). What this does to coordinates in the frame of a
-    /// sliver is not bounded; the error of [`triangle_weights`](crate::triangle_weights) is.
+    /// Each component of an axis is within 1ε of itself (ε = 2^-24). The effect of this on coordinates in the frame of
+    /// a sliver is not bounded; the error of [`triangle_weights`](crate::triangle_weights) is.
     #[must_use]
     pub fn of_triangle([a, b, c]: [Point2<P>; 3]) -> Self {
         Self::new(a, b - a, c - a)
@@ -99,8 +99,8 @@ impl<L: Space, P: Space> Frame2<L, P> {
     /// away the origin.
     ///
     /// # Cost
-    /// Three determinants of ten operations and two divisions in `f64`, in software on a core without it; some hundreds
-    /// of operations for a determinant of which more than 20 bits cancel. For many points there is
+    /// Three determinants of ten operations and two divisions in `f64`, in software on a core without it. A determinant
+    /// of which more than 20 bits cancel takes some hundreds of operations. For many points there is
     /// [`inverse`](Self::inverse).
     #[must_use]
     pub fn from_parent(&self, p: Point2<P>) -> Option<Point2<L>> {

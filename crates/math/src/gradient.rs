@@ -1,7 +1,7 @@
-//! How fast attributes change from a pixel to the next, and the level of detail of a texture that follows.
+//! Derivatives of attributes from a pixel to the next, and the level of detail of a texture that follows.
 //!
 //! Space in: derivatives of texture coordinates by pixels. Space out: λ, which is 0 where texels are as large as
-//! pixels, 1 where they are half as large, and so on; level λ of a mip map has texels as large as pixels.
+//! pixels, 1 where they are half as large, and so on. Level λ of a mip map has texels as large as pixels.
 //!
 //! ```text
 //! λ = 1/2 log2 max(|∂(u, v)/∂x|², |∂(u, v)/∂y|²)      with u and v in texels, and lengths that are Euclidean
@@ -17,7 +17,7 @@ use glam::{Mat2, Vec2};
 /// Those of texture coordinates (u, v) are a `Gradient<[f32; 2]>`, or one of several numbers side by side.
 ///
 /// # Precision
-/// Where they come from is the error: [`of_planes`](Self::of_planes) is exact but for rounding,
+/// The error is that of their source: [`of_planes`](Self::of_planes) is exact but for rounding,
 /// [`between`](Self::between) neighbours is off by half of the second derivative, and
 /// [`of_triangle`](Self::of_triangle) takes perspective for none.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -68,17 +68,18 @@ impl<N: Copy + Add<Output = N> + Sub<Output = N> + Mul<Output = N> + Div<Output 
         Self { dx: from_here(right), dy: from_here(below) }
     }
 
-    /// The axes of the ellipse that a round pixel covers of a texture of these sides, one in the place of what is
-    /// across, the other of what is down: those of the same pixel turned on the screen, by at most 45 degrees, until
+    /// The axes of the ellipse that a round pixel covers of a texture of these sides, one in the place of `dx`, the
+    /// other of `dy`. They are the derivatives of the same pixel turned on the screen, by at most 45 degrees, until
     /// they are at right angles in texels ([`Lanes::jacobi_rotation`]). Derivatives at right angles stay as they are.
     ///
-    /// With J the derivatives in texels, a = |∂/∂x|², c = |∂/∂y|² and b = ∂/∂x·∂/∂y, the squares of their lengths are
-    /// the eigenvalues of J Jᵀ: (a + c)/2 ± √(((a - c)/2)² + b²).
+    /// With J the derivatives in texels, a = |∂/∂x|², c = |∂/∂y|² and b = ∂/∂x·∂/∂y, the squares of the axes' lengths
+    /// are the eigenvalues of J Jᵀ: (a + c)/2 ± √(((a - c)/2)² + b²).
     ///
     /// # Precision
-    /// For lengths from 2^-63 to 2^63 texels, A being the longer one: each length within 8ε·A; the angle between them
-    /// such that the cosine times both lengths is at most 16ε·A². In fixed point 3·2^-16 of each component of the
-    /// texture besides, and 2^-15 for 8ε and 16ε. What is not finite, or too long or short for `f32`, is not turned.
+    /// For lengths from 2^-63 to 2^63 texels, A being the longer one, each length is within 8ε·A. The angle between the
+    /// axes is such that its cosine times both lengths is at most 16ε·A². In fixed point 3·2^-16 of each component of
+    /// the texture comes in addition, and 2^-15 takes the place of 8ε and of 16ε. Derivatives that are not finite, or
+    /// too long or short for `f32`, are not turned.
     ///
     /// # Cost
     /// Eight multiplications, four additions and the rotation.
@@ -117,8 +118,8 @@ impl Gradient<[f32; 2]> {
     /// one for all pixels of the triangle. `None` if the triangle has no area on the screen, or a corner is not finite.
     ///
     /// # Precision
-    /// That of `f32` where depths are equal. With perspective it is one for all that a triangle has, and no bound is
-    /// promised.
+    /// That of `f32` where depths are equal. With perspective one gradient stands for all of a triangle, and no bound
+    /// is promised.
     ///
     /// # Cost
     /// Once a triangle: ten multiplications, a division.
@@ -147,9 +148,9 @@ impl Gradient<[f32; 2]> {
     /// ```
     ///
     /// # Precision
-    /// Within 2^-11 of the exact value for lengths from 2^-63 to 2^63, and not below (above) the least (greatest) of
-    /// those beyond: for all zeros -63.5, for infinities and NaN 64. In fixed point ([`lod_lanes`](Self::lod_lanes))
-    /// from 2^-16 to 2^15 texels.
+    /// Within 2^-11 of the exact value for lengths from 2^-63 to 2^63. Shorter lengths give at least -63.5, the value
+    /// of zeros; longer ones at most 64, that of infinities and NaN. In fixed point ([`lod_lanes`](Self::lod_lanes))
+    /// the lengths are from 2^-16 to 2^15 texels.
     ///
     /// # Cost
     /// Two logarithms, as [`Lanes::log2_length`] says, and a comparison.

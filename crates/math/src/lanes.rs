@@ -1,5 +1,5 @@
-//! How many samples are worked on at a time, and in what numbers: [`One`], or, behind the feature `simd`, `Eight` in
-//! vector registers, in `f32`; [`OneFixed`] in fixed point.
+//! The number of samples at a time, and the kind of numbers: `f32` in [`One`] or, behind the feature `simd`, in the
+//! vector registers of `Eight`; fixed point in [`OneFixed`].
 //!
 //! A kernel is written once, over a value of a [`Lanes`] type. Every lane of `f32` does the same IEEE operations in the
 //! same order as one lane alone, so the width never changes a bit.
@@ -25,7 +25,7 @@ use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 /// The value itself holds nothing; it is the proof that the machine has the instructions. Code over it is inlined into
 /// the function that [`vectorize`](Self::vectorize) calls, which is compiled for those.
 pub trait Lanes: Copy + Debug {
-    /// How many: a power of two, at most 8.
+    /// The number of samples: a power of two, at most 8.
     const COUNT: usize;
     /// The same as a number of columns.
     #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "at most 8")]
@@ -61,7 +61,7 @@ pub trait Lanes: Copy + Debug {
     /// Runs `f`, into which the code over these lanes is inlined.
     fn vectorize<R>(self, f: impl FnOnce() -> R) -> R;
 
-    /// A slice as whole groups of lanes, and what is left.
+    /// A slice as whole groups of lanes, and the rest.
     fn groups<T: Copy>(slice: &mut [T]) -> (&mut [Self::Each<T>], &mut [T]);
     /// A value for each, by lane number.
     fn each<T: Copy>(self, f: impl FnMut(usize) -> T) -> Self::Each<T>;
@@ -76,11 +76,11 @@ pub trait Lanes: Copy + Debug {
     fn load(self, values: &Self::Each<f32>) -> Self::Number;
     /// Numbers to memory.
     fn store(self, values: Self::Number) -> Self::Each<f32>;
-    /// Copies what is in memory, where the mask is set.
+    /// Copies values in memory, where the mask is set.
     fn copy_where(self, mask: Self::Mask, values: &Self::Each<f32>, to: &mut Self::Each<f32>);
     /// Whether a < b in memory; not so where one is NaN.
     fn less_in_memory(self, a: &Self::Each<f32>, b: &Self::Each<f32>) -> Self::Mask;
-    /// What `number` makes of each depth where these are numbers in [0, 1], or `raw` where they are words.
+    /// The result of `number` for each depth where depths are numbers in [0, 1], or of `raw` where they are words.
     fn each_depth<T: Copy>(
         self,
         depth: Self::Depth,
@@ -103,8 +103,8 @@ pub trait Lanes: Copy + Debug {
     ///
     /// # Precision
     /// Within 2^-11 for lengths from 2^-63 to 2^63, in fixed point from 2^-16 to 2^15, and at powers of two along an
-    /// axis exact. Shorter ones give what is not greater than the least of these, but never less than -63.5 (-16),
-    /// longer ones and NaN what is not less than the greatest.
+    /// axis exact. Shorter lengths give at most the least of these, but never less than -63.5 (-16). Longer ones and
+    /// NaN give at least the greatest.
     ///
     /// # Cost
     /// Nine multiplications, six additions, a minimum, a conversion and three operations on bits; no root, no table. In
@@ -118,13 +118,13 @@ pub trait Lanes: Copy + Debug {
     /// ```
     ///
     /// So these are the semi-axes of the ellipse into which (x y) turns the unit circle (one-sided Jacobi, Hestenes
-    /// 1958), and no length changes by more than the ellipse has to it. The rotation is none, exactly, where the
-    /// vectors are at right angles, or where one is not finite or longer than `f32` can tell.
+    /// 1958). No length changes by more than the ellipse has to it. The rotation is none, exactly, where the vectors
+    /// are at right angles, or where one is not finite or longer than `f32` can tell.
     ///
     /// # Precision
-    /// The longer component of the scaled vectors being from 2^-63 to 2^63, and A and B the semi-axes: cos² + sin² is 1
-    /// within 6ε, and θ off by so little that |sin 2Δθ|·(A² - B²) <= 8ε·2A². In fixed point 2^-15 takes the place of 6ε
-    /// and 8ε both, over the whole range.
+    /// With the longest component of the scaled vectors from 2^-63 to 2^63, cos² + sin² is 1 within 6ε (ε = 2^-24).
+    /// With A and B the semi-axes, θ is then off by so little, Δθ, that |sin 2Δθ|·(A² - B²) <= 8ε·2A². In fixed point
+    /// 2^-15 takes the place of 6ε and 8ε both, over the whole range.
     ///
     /// # Cost
     /// Two roots, three divisions, 16 multiplications. In fixed point two roots and three divisions of 64 bits.
@@ -134,11 +134,11 @@ pub trait Lanes: Copy + Debug {
         y: [Self::Number; 2],
         scale: [u32; 2],
     ) -> [Self::Number; 2];
-    /// `x` less a multiple of 2^`period`: a number above -2^`period` and below 2^`period`. Exact; what is not finite
-    /// gives NaN, and where there is no NaN, any such number.
+    /// `x` less a multiple of 2^`period`: a number above -2^`period` and below 2^`period`. Exact; infinities and NaN
+    /// give NaN, and where there is no NaN, any such number.
     fn wrap(self, x: Self::Number, period: u32) -> Self::Number;
     /// x·2^`bits` rounded down, in two's complement, for |x·2^`bits`| < 2^31 and `bits` up to 30. NaN gives a multiple
-    /// of 2^31; what is beyond gives any word.
+    /// of 2^31; numbers beyond give any word.
     fn floor_scaled(self, x: Self::Number, bits: u32) -> Self::U32;
     /// The same to the nearest, halves up.
     fn round_scaled(self, x: Self::Number, bits: u32) -> Self::U32;
@@ -152,7 +152,7 @@ pub trait Lanes: Copy + Debug {
     fn shl(self, x: Self::U32, bits: u32) -> Self::U32;
     /// Bits moved down.
     fn shr(self, x: Self::U32, bits: u32) -> Self::U32;
-    /// Bits moved down, the highest staying what it is.
+    /// Bits moved down, the highest staying as it is.
     fn shr_signed(self, x: Self::U32, bits: u32) -> Self::U32;
     /// The lesser of two words.
     fn min_words(self, a: Self::U32, b: Self::U32) -> Self::U32;
@@ -190,7 +190,7 @@ pub trait Lanes: Copy + Debug {
 /// two coefficients reach.
 const LOG2: [f32; 2] = [0.422_865_4, -0.159_220_2];
 
-/// Half of log2 of a square in `f32`, by its exponent as it is stored and its mantissa from 1 to 2; at most 64, also if
+/// Half of log2 of a square in `f32`, by its exponent as it is stored and its mantissa from 1 to 2. At most 64, also if
 /// the square is NaN of either sign.
 #[inline(always)]
 fn half_log2<L: Floating>(lanes: L, exponent: L::Number, mantissa: L::Number) -> L::Number {

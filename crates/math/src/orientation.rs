@@ -1,4 +1,4 @@
-//! On which side of a line, and in which zone of a triangle, a point of the plane lies: exactly.
+//! The side of a line, and the zone of a triangle, in which a point of the plane lies: exactly.
 
 use crate::exact::{det2, nearest, replaced};
 use crate::space::{Point2, Space};
@@ -21,11 +21,11 @@ pub fn signed_area<S: Space>(a: Point2<S>, b: Point2<S>, c: Point2<S>) -> f32 {
     nearest(doubled_area([a, b, c].map(|v| v.coords.to_array())) / 2.0)
 }
 
-/// How the signed area of the triangle `a b c` compares with zero: `Greater` where the vertices run counter-clockwise
-/// (with y up), `Equal` where they are on one line, `Less` where they run clockwise. `None` where a coordinate is NaN
-/// or infinite.
+/// The orientation of the triangle `a b c`: its signed area compared with zero. `Greater` where the vertices run
+/// counter-clockwise (with y up), `Equal` where they are on one line, `Less` where they run clockwise. `None` where a
+/// coordinate is NaN or infinite.
 ///
-/// In other words, on which side of the line from `a` to `b` the point `c` lies: `Greater` is left.
+/// In other words, the side of the line from `a` to `b` on which the point `c` lies: `Greater` is left.
 ///
 /// # Precision
 /// Exact for all finite coordinates.
@@ -78,8 +78,8 @@ pub enum Zone {
 }
 
 impl Zone {
-    /// Where `p` lies with respect to a triangle, given in either direction; `None` where the triangle has no area, or
-    /// where a coordinate is NaN or infinite.
+    /// The zone in which `p` lies with respect to a triangle, given in either direction; `None` where the triangle has
+    /// no area, or where a coordinate is NaN or infinite.
     ///
     /// # Precision
     /// Exact for all finite coordinates.

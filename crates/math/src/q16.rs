@@ -6,9 +6,9 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 /// A number from -32768 to 32768 in steps of 2^-16, for machines without floating point.
 ///
 /// # Precision
-/// Sums and differences are exact while they fit and wrap when they do not; products are rounded to the nearest step,
-/// halves up; quotients towards zero, and are 0 for a divisor of 0. Numbers from outside of the range become the
-/// nearest in it.
+/// Sums and differences are exact while they fit and wrap when they do not. Products are rounded to the nearest step,
+/// halves up. Quotients are rounded towards zero, and are 0 for a divisor of 0. Numbers from outside of the range
+/// become the nearest in it.
 #[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Q16(i32);
 

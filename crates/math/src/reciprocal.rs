@@ -1,7 +1,7 @@
 //! Reciprocals without a division: a table and Newton's steps.
 
-/// What the steps start from: 2^17/x for the middle of each 256th of [1, 2), to the nearest, without its highest bit,
-/// which all have.
+/// The starting values of the steps: 2^17/x for the middle of each 256th of [1, 2), to the nearest, without the highest
+/// bit, which all have.
 static TABLE: [u16; 256] = {
     let mut table = [0; 256];
     let (mut k, mut middle) = (0, (1 << 9) + 1);

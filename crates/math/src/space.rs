@@ -1,8 +1,8 @@
 //! Points and vectors that know which space they are in.
 //!
-//! A point is a place, a vector a displacement: the difference of two points is a vector, a point plus a vector is
-//! a point, and two points cannot be added. The space is a type parameter without size, so that an eye-space point
-//! cannot be handed to code that wants an object-space one.
+//! A point is a place, a vector a displacement. The difference of two points is a vector, a point plus a vector is a
+//! point, and two points cannot be added. The space is a type parameter without size, so that an eye-space point cannot
+//! be handed to code that wants an object-space one.
 
 use crate::varying::{Mode, Varying};
 use core::fmt;

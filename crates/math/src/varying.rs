@@ -1,22 +1,22 @@
-//! What a vertex carries beside its position, and how such values are combined.
+//! Varyings: the attributes that a vertex carries beside its position, and their combination.
 
 use core::array::from_fn;
 use core::cell::Cell;
 use glam::{Vec2, Vec3, Vec4};
 
-/// How a component comes from the vertices to the samples between them.
+/// The interpolation of a component from the vertices to the samples between them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
     /// Linear in space, as everything is that has not been told otherwise.
     Hyperbolic,
     /// Linear on the screen.
     Linear,
-    /// That of the first vertex everywhere.
+    /// The value of the first vertex everywhere.
     Flat,
 }
 
-/// A value that is linear on the screen, without correction for perspective: what is already measured there, or what
-/// may be wrong for a lower cost.
+/// A value that is linear on the screen, without correction for perspective: one that is already measured there, or
+/// that may be wrong for a lower cost.
 ///
 /// # Cost
 /// No division for its sake; where all values are linear or flat, none at all.
@@ -41,9 +41,9 @@ pub struct Flat<V>(
 
 /// A value that is interpolated over a triangle: a bundle of `f32` components.
 ///
-/// The methods say how to reach the components, so that the clipper, the rasterizer and whoever needs it can combine
-/// values with any arithmetic, for one sample or for several at a time. `()`, `f32`, arrays, glam's vectors and tuples
-/// are varyings; [`varying!`](crate::varying) makes one of a struct.
+/// The methods reach the components, so that the clipper, the rasterizer and whoever needs it can combine values with
+/// any arithmetic, for one sample or for several at a time. `()`, `f32`, arrays, glam's vectors and tuples are
+/// varyings; [`varying!`](crate::varying) makes one of a struct.
 pub trait Varying: Copy {
     /// The same bundle with components of type `T` instead of `f32`.
     type Of<T: Copy>: Copy;
@@ -261,7 +261,7 @@ pub fn hull3<V: Varying>(values: [V; 3]) -> [V; 2] {
     [combine(values, &|[a, b, c]| min(min(a, b), c)), combine(values, &|[a, b, c]| max(max(a, b), c))]
 }
 
-/// The value, with what is [`Flat`] taken from `first`.
+/// The value, with its [`Flat`] components taken from `first`.
 #[must_use]
 #[inline]
 pub fn flatten<V: Varying>(first: V, value: V) -> V {

@@ -9,7 +9,8 @@ use crate::sealed::Sealed;
 use crate::{AnyFilter, BetweenLevels, Bilinear, Gradient, Minify, MipFilter, Mipmap, Size, Trilinear, Wrap};
 
 /// The mean of up to `probes` colours of `filter` along the longer axis of the ellipse that a round pixel covers of the
-/// texture: as many as it is longer than the other one. Sharp where a plane is seen at an angle.
+/// texture. Their number n is the ratio of the two axes, rounded up to a power of two. Sharp where a plane is seen at
+/// an angle.
 ///
 /// ```text
 ///         +---------------------------+

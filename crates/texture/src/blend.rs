@@ -15,7 +15,7 @@ pub(crate) struct Quad<L: Lanes> {
 }
 
 impl<L: Lanes> Quad<L> {
-    /// What `texel` finds in the left and the right column and in the lower and the upper row.
+    /// The texels that `texel` finds in the left and the right column and in the lower and the upper row.
     #[inline(always)]
     pub(crate) fn about(
         [left, right]: [L::U32; 2],
@@ -92,7 +92,7 @@ pub(crate) fn scalar_number<L: Lanes>(lanes: L, count: L::U32) -> L::Number {
     in_256ths(lanes, count) / lanes.splat(SCALAR_ONE)
 }
 
-/// What counts 1 in [`in_256ths`].
+/// The number that stands for 1 in [`in_256ths`].
 pub(crate) const SCALAR_ONE: f32 = 65535.0 / 256.0;
 
 /// A word of 16 bits as a number of 256ths: exact.
@@ -151,7 +151,7 @@ pub(crate) fn mean_of<L: Lanes>(lanes: L, count: u32, mut color: impl FnMut(u32)
 
 /// `(256 - t) * left + t * right` in two lanes of 16 bits.
 ///
-/// A lane of the difference may be negative and borrow from the next, but lanes of the sum are 0 to 255 * 256, so as a
+/// A lane of the difference may be negative and borrow from the next. But lanes of the sum are 0 to 255 * 256, so as a
 /// number modulo 2^32 the sum is the two side by side.
 #[inline(always)]
 fn across<L: Lanes>(lanes: L, left: L::U32, right: L::U32, t: L::U32) -> L::U32 {

@@ -122,7 +122,7 @@ fn modulo_2_integer(u: f32) -> u64 {
     } else if exponent >= UNIT {
         (significand << (exponent - UNIT), 0)
     } else {
-        // What is lost below makes a negative number one unit less. 0 and -0 have no significand.
+        // Bits lost below make a negative number one unit less. 0 and -0 have no significand.
         let shift = (UNIT - exponent).min(24);
         let significand = if bits << 1 == 0 { 0 } else { significand };
         (significand >> shift, significand & ((1 << shift) - 1))

@@ -2,7 +2,7 @@
 //!
 //! Space in: directions of any length. Space out: coordinates (u, v) of the image, each from 0 to 1, for any sampler.
 //!
-//! | image | space in | wrap of u, v | what it costs |
+//! | image | space in | wrap of u, v | cost |
 //! |---|---|---|---|
 //! | [`LatLong`]: longitude and latitude | world | `Repeat`, `Clamp` | two divisions and a square root |
 //! | [`SphereMap`]: a mirror ball | eye | `Clamp` | six divisions and two square roots |

@@ -51,8 +51,8 @@ pub trait Filter: Sealed + Copy + Debug + 'static {
 ///
 /// # Cost
 /// With [`PowerOfTwo`](crate::PowerOfTwo), six operations of `f32` an axis for [`Repeat`](crate::Repeat), on all lanes
-/// at once, and the load. With sides of other lengths about 28 instructions on x86-64 for each sample, no division
-/// and no call; there, coordinates of 2^13 and more take a slower way to the same answer.
+/// at once, and the load. With sides of other lengths about 28 instructions on x86-64 for each sample, no division and
+/// no call. There, coordinates of 2^13 and more take a slower way to the same answer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Nearest;
 
@@ -77,10 +77,10 @@ pub struct Nearest;
 /// colours by their sRGB bytes, not by the light that these stand for, and without regard to alpha.
 ///
 /// # Precision
-/// `a` and `b` are correctly rounded from the coordinate (as reduced by [`Wrap`]); the weights sum to 2^16 exactly
-/// and there is one rounding at the end. So a colour is never outside of the range of its four texels, equal texels
-/// give that colour, a texel's centre gives the texel, and the error against filtering in real numbers is below
-/// 1.5 of 255: 0.5 of rounding and less than 1 from the weights.
+/// `a` and `b` are correctly rounded from the coordinate (as reduced by [`Wrap`]); the weights sum to 2^16 exactly and
+/// there is one rounding at the end. So a colour is never outside of the range of its four texels, equal texels give
+/// that colour, and a texel's centre gives the texel. The error against filtering in real numbers is below 1.5 of 255:
+/// 0.5 of rounding and less than 1 from the weights.
 ///
 /// # Cost
 /// About four times that of [`Nearest`]: four texels, and eight multiplications of 32 bits for the mean.

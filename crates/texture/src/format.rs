@@ -33,16 +33,16 @@ pub trait TexelFormat: Copy + Debug + 'static {
 
     /// The colour that the texel stands for.
     ///
-    /// The formats of this module expand exactly: the least and the greatest value of a channel become 0 and 255,
-    /// and encoding the colour again, by dropping the low bits, gives the texel back. [`L16`] has more bits than a
-    /// colour, and gives the nearest.
+    /// The formats of this module expand exactly: the least and the greatest value of a channel become 0 and 255.
+    /// Encoding the colour again, by dropping the low bits, gives the texel back. [`L16`] has more bits than a colour,
+    /// and gives the nearest.
     fn decode(self, texel: Self::Texel) -> Rgba8;
 
     /// The texel whose colour is nearest in each channel that the format has; formats of luminance store red.
     ///
     /// # Precision
-    /// A channel of n bits is 255/(2^n − 1) steps of a byte; the texel is the nearest of them, so that a decoded texel
-    /// of up to 8 bits a channel encodes to itself.
+    /// A step of a channel of n bits is 255/(2^n − 1) steps of a byte. The texel has the nearest of them, so that a
+    /// decoded texel of up to 8 bits a channel encodes to itself.
     fn encode(self, color: Rgba8) -> Self::Texel;
 
     /// The number from 0 to 1 that the texel stands for in a map of numbers, such as heights, as a count of 65535ths:

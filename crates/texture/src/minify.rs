@@ -73,7 +73,7 @@ pub struct NearestLevel<F>(
 /// # Precision
 /// Weights sum to 2^24 exactly and there is one rounding, so a colour is never outside of the range of its texels, and
 /// equal texels give that colour. Against real numbers it is less than 2 of 255 off: 0.5 of rounding, less than 1 of
-/// the weights in the levels and 0.5 of those between levels; 1.5 where λ is a whole number of 256ths.
+/// the weights in the levels and 0.5 of those between levels. It is less than 1.5 where λ is a whole number of 256ths.
 ///
 /// # Cost
 /// Eight texels and 20 multiplications with `Bilinear`; only the nearer level where all are whole numbers, as where λ

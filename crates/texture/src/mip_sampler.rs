@@ -10,7 +10,7 @@ use crate::format::Storage;
 use crate::minify::MipFilter;
 use crate::{AnySize, Bounded, Gradient, LodBounds, Mipmap, Size, Wrap};
 
-/// A mip map with a filter and a wrap mode for each axis: what a fragment that knows its size asks for a colour.
+/// A mip map with a filter and a wrap mode for each axis, which a fragment that knows its size asks for a colour.
 ///
 /// Made by [`Mipmap::sampler`] and [`Mipmap::sampler_per_axis`].
 ///

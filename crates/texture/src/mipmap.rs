@@ -10,7 +10,7 @@
 //! +---------------+
 //! ```
 //!
-//! The texels of all levels lie in one slice, level after level, so that a chain can be built in the caller's buffer
+//! The texels of all levels lie in one slice, level after level. So a chain can be built in the caller's buffer
 //! ([`build`]), or before the program is, and be in flash. A [`Mipmap`] is a view of it.
 
 mod alpha;
@@ -29,7 +29,7 @@ use crate::{AnySize, MipFilter, MipSampler, PowerOfTwo, Size, Texture, TextureEr
 /// The greatest number of levels: of a side of 2^14 texels.
 pub const MAX_LEVELS: usize = 15;
 
-/// How many levels there are from `width` x `height` down to one texel.
+/// The number of levels from `width` x `height` down to one texel.
 ///
 /// ```
 /// assert_eq!(alberti_texture::mipmap::level_count(100, 7), 7); // 100, 50, 25, 12, 6, 3, 1
@@ -40,7 +40,7 @@ pub const fn level_count(width: u32, height: u32) -> usize {
     (u32::BITS - greater.leading_zeros()) as usize
 }
 
-/// How many texels all levels have together.
+/// The number of texels that all levels have together.
 ///
 /// ```
 /// use alberti_texture::mipmap::texel_count;
@@ -83,7 +83,7 @@ const fn size_of_level([width, height]: [u32; 2], level: usize) -> [u32; 2] {
 pub struct Mipmap<'a, F: Storage, Z: Size = AnySize> {
     elements: &'a [F::Element],
     format: F,
-    /// Where levels begin, and behind them where the last ends.
+    /// The places where levels begin, and behind them the one where the last ends.
     begin: [u32; MAX_LEVELS + 1],
     levels: u8,
     width: u16,
@@ -141,7 +141,7 @@ impl<'a, F: Storage> Mipmap<'a, F> {
 }
 
 impl<'a, F: Storage, Z: Size> Mipmap<'a, F, Z> {
-    /// How many levels there are, 1 to [`MAX_LEVELS`].
+    /// The number of levels, 1 to [`MAX_LEVELS`].
     #[inline]
     #[must_use]
     pub const fn levels(&self) -> usize {

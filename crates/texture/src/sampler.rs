@@ -11,7 +11,7 @@ use crate::filter::{Filter, bordered};
 use crate::format::Storage;
 use crate::{AnySize, Nearest, Size, TexelFormat, Texture, Wrap};
 
-/// A texture with a filter and a wrap mode for each axis: what a fragment asks for a colour.
+/// A texture with a filter and a wrap mode for each axis, which a fragment asks for a colour.
 ///
 /// Made by [`Texture::sampler`] and [`Texture::sampler_per_axis`]; as cheap to copy as the texture.
 #[derive(Clone, Copy)]
@@ -51,8 +51,8 @@ impl<'a, F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size> Sampler<'a, F, Fl, U
         self.filter.sample(lanes, &self.texture, self.wrap, [u, v])
     }
 
-    /// The numbers from 0 to 1 at several places of a map of numbers, such as heights: the red channel, in steps of
-    /// 1/65535, as a filter's mean has them, and [`L16`](crate::format::L16) in each texel.
+    /// The numbers from 0 to 1 at several places of a map of numbers, such as heights: the red channel. They are in
+    /// steps of 1/65535, as a filter's mean has them, and [`L16`](crate::format::L16) in each texel.
     ///
     /// # Precision
     /// In [`Nearest`], the texel's number correctly rounded. In [`Bilinear`](crate::Bilinear), the formula of its

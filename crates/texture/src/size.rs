@@ -20,7 +20,7 @@ pub trait Size: Sealed + Copy + Debug + 'static {
     /// The same of a level of a [`Mipmap`](crate::Mipmap), whose sides are halves of these.
     type Level: Size;
 
-    /// A level's texels, and what is known of its sides.
+    /// A level's texels, and its sides as far as they are known.
     fn level<T>(self, texels: &[T]) -> (<Self::Level as Size>::Texels<'_, T>, Self::Level);
 
     /// All texels, row by row.
@@ -91,16 +91,16 @@ pub struct AnySize {
     by_masks: bool,
 }
 
-/// Sides whose lengths are powers of two. Scaling by them is exact in `f32`, and the remainder is a mask: of NaN, which
-/// becomes a multiple of 2^31, and so of an infinity less itself, it is 0.
+/// Sides whose lengths are powers of two. Scaling by them is exact in `f32`, and the remainder is a mask. NaN, and so
+/// an infinity less itself, becomes a multiple of 2^31, whose remainder is 0.
 ///
 /// # Cost
 /// Six operations an axis on all lanes at once, and for each texel an index, a comparison, and a load.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct PowerOfTwo;
 
-/// Sides that are known when the program is compiled, powers of two: as [`PowerOfTwo`], with shifts and masks by
-/// constants, and so without a comparison of indices with the number of texels.
+/// Sides that are known when the program is compiled, powers of two. They are as [`PowerOfTwo`], with shifts and masks
+/// by constants, and so without a comparison of indices with the number of texels.
 ///
 /// # Cost
 /// In fixed point on a Cortex-M4F five instructions a texel, the load included.

@@ -1,7 +1,8 @@
-//! Detail on surfaces: tangent frames, and what height and normal maps do in them.
+//! Detail on surfaces: tangent frames, and height and normal maps in them.
 //!
-//! A texture describes the detail in a frame that lies on the surface, the tangent frame: x along the direction in
-//! which u grows, y along that of v, z along the normal. So one map serves for all surfaces, however they bend.
+//! A texture describes the detail in a frame that lies on the surface, the tangent frame. Its x is along the direction
+//! in which u grows, its y along that of v, its z along the normal. So one map serves for all surfaces, however they
+//! bend.
 //!
 //! | what | how | result |
 //! |---|---|---|
@@ -18,8 +19,8 @@
 //! | out of the frame | [`normal_to_parent`] | a normal in object space |
 //! | material maps | [`lambert`], [`phong`], [`blinn_phong`], [`shininess`], [`ambient_occlusion`], [`Wettable`] | shares |
 //!
-//! What fragments ask has a form over lanes too, `..._lanes`, for several samples at a time, in `f32` and in fixed
-//! point: the plain function is that on one lane, so both give the same bits.
+//! Functions for fragments have a form over lanes too, `..._lanes`, for several samples at a time, in `f32` and in
+//! fixed point. The plain function is that on one lane, so both give the same bits.
 //!
 //! Source: Blinn, "Simulation of wrinkled surfaces", SIGGRAPH 1978, for the frame and the bump; each function names its
 //! own.

@@ -112,7 +112,7 @@ impl<'a, F: TexelFormat> Texture<'a, F, AnySize> {
 }
 
 impl<'a, F: Storage, Z: Size> Texture<'a, F, Z> {
-    /// The view of what is known to be a texture's.
+    /// The view of parts that are known to be a texture's.
     #[inline]
     pub(crate) const fn of_parts(
         texels: Z::Texels<'a, F::Element>,
@@ -269,7 +269,7 @@ impl<F: Storage, Z: Size> fmt::Debug for Texture<'_, F, Z> {
     }
 }
 
-/// Why texels and a size are not a texture.
+/// The reason why texels and a size are not a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum TextureError {
@@ -289,9 +289,9 @@ pub enum TextureError {
     },
     /// The number of texels is not width times height; for [`Indexed`](crate::format::Indexed), that of bytes.
     Length {
-        /// How many were given.
+        /// The number that was given.
         found: usize,
-        /// What the width and the height take.
+        /// The number that the width and the height take.
         expected: u32,
     },
 }

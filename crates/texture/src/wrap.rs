@@ -23,9 +23,9 @@ use crate::sealed::Sealed;
 /// ```
 ///
 /// # Precision
-/// Defined for every `f32`. The coordinate is reduced to the period first and scaled by the size afterwards, and
-/// both are exact, so the texel does not depend on how far from 0 the texture is sampled, as far as the float itself
-/// can tell: from 2^23 on, floats are integers and have no fraction.
+/// Defined for every `f32`. The coordinate is reduced to the period first and scaled by the size afterwards, and both
+/// are exact. So the texel does not depend on how far from 0 the texture is sampled, as far as the float itself can
+/// tell. From 2^23 on, floats are integers and have no fraction.
 ///
 /// | coordinate | `Repeat`, `Mirror` | `Clamp` | `Border` |
 /// |---|---|---|---|
@@ -52,7 +52,7 @@ pub trait Wrap: Sealed + Copy + Debug + 'static {
     /// The texel whose cell holds the reduced coordinate.
     fn cell(self, reduced: u64, size: u32) -> u32;
 
-    /// [`index`](Self::index) of `i` and of `i + 1`, without divisions, for the texels around a reduced coordinate: `i`
+    /// [`index`](Self::index) of `i` and of `i + 1`, without divisions, for the texels around a reduced coordinate. `i`
     /// is -1 or more and less than the size (in `Mirror`, twice the size; in `Border`, any).
     fn neighbours(self, i: i32, size: u32) -> (u32, u32);
 

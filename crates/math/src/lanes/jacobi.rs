@@ -77,8 +77,8 @@ mod tests {
         }
     }
 
-    /// How far a rotation is from being one, and the bound's |sin 2Δθ|·(A² - B²)/2A²: with x' and y' the vectors that
-    /// it makes in `f64`, A² - B² is √(p² + q²) of any rotation of them, and |sin 2Δθ| is |2 x'·y'| of that.
+    /// The distance of a rotation from being one, and the bound's |sin 2Δθ|·(A² - B²)/2A². With x' and y' the vectors
+    /// that it makes in `f64`, A² - B² is √(p² + q²) of any rotation of them, and |sin 2Δθ| is |2 x'·y'| of that.
     fn errors([x, y]: [[f64; 2]; 2], [cosine, sine]: [f64; 2]) -> [f64; 2] {
         let square = cosine * cosine + sine * sine;
         let turned = |a: [f64; 2], b: [f64; 2], s: f64| [0, 1].map(|i| a[i] * cosine + s * b[i] * sine);

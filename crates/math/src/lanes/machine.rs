@@ -1,4 +1,4 @@
-//! Which lanes the machine has, asked at run time.
+//! The lanes that the machine has, asked at run time.
 //!
 //! The cases are those of the module `here`, one for each kind of machine.
 
@@ -7,7 +7,7 @@ mod here {
     use crate::lanes::Eight;
     use fearless_simd::{Avx2, Level, Sse2};
 
-    /// The lanes of a machine: what [`for_lanes!`](crate::for_lanes) turns into a [`Lanes`](super::super::Lanes) type.
+    /// The lanes of a machine, which [`for_lanes!`](crate::for_lanes) turns into a [`Lanes`](super::super::Lanes) type.
     #[derive(Clone, Copy, Debug)]
     pub enum Machine {
         /// Eight in a register of 256 bits.
@@ -26,7 +26,7 @@ mod here {
         }
     }
 
-    /// What [`for_lanes!`](crate::for_lanes) becomes.
+    /// The expansion of [`for_lanes!`](crate::for_lanes).
     #[doc(hidden)]
     #[macro_export]
     macro_rules! __for_lanes {
@@ -44,7 +44,7 @@ mod here {
     use crate::lanes::Eight;
     use fearless_simd::{Level, Neon};
 
-    /// The lanes of a machine: what [`for_lanes!`](crate::for_lanes) turns into a [`Lanes`](super::super::Lanes) type.
+    /// The lanes of a machine, which [`for_lanes!`](crate::for_lanes) turns into a [`Lanes`](super::super::Lanes) type.
     #[derive(Clone, Copy, Debug)]
     pub enum Machine {
         /// Eight in two registers of 128 bits.
@@ -52,13 +52,13 @@ mod here {
     }
 
     impl Machine {
-        /// What every aarch64 machine has.
+        /// The lanes that every aarch64 machine has.
         pub fn all() -> impl Iterator<Item = Self> {
             Level::baseline().as_neon().map(|proof| Self::Neon(Eight(proof))).into_iter()
         }
     }
 
-    /// What [`for_lanes!`](crate::for_lanes) becomes.
+    /// The expansion of [`for_lanes!`](crate::for_lanes).
     #[doc(hidden)]
     #[macro_export]
     macro_rules! __for_lanes {
@@ -74,7 +74,7 @@ mod here {
 mod here {
     use crate::lanes::One;
 
-    /// The lanes of a machine: what [`for_lanes!`](crate::for_lanes) turns into a [`Lanes`](super::super::Lanes) type.
+    /// The lanes of a machine, which [`for_lanes!`](crate::for_lanes) turns into a [`Lanes`](super::super::Lanes) type.
     #[derive(Clone, Copy, Debug)]
     pub enum Machine {
         /// One sample at a time.
@@ -88,7 +88,7 @@ mod here {
         }
     }
 
-    /// What [`for_lanes!`](crate::for_lanes) becomes.
+    /// The expansion of [`for_lanes!`](crate::for_lanes).
     #[doc(hidden)]
     #[macro_export]
     macro_rules! __for_lanes {

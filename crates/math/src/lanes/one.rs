@@ -3,11 +3,11 @@
 use super::{Floating, Lanes, half_log2, jacobi};
 use core::num::Wrapping;
 
-/// One sample at a time, in `f32`: what all others must equal.
+/// One sample at a time, in `f32`: the reference that all others must equal.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct One;
 
-/// What one lane has that does not depend on its numbers.
+/// The items of one lane that do not depend on its numbers.
 macro_rules! one_lane {
     () => {
         const COUNT: usize = 1;

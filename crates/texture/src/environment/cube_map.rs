@@ -19,18 +19,18 @@ use alberti_math::lanes::Lanes;
 /// −z     (1 + x/z)/2   (1 + y/z)/2         |      |      v = 1 − (face + t)/6
 /// ```
 ///
-/// Of equal components, the first is the axis. What is zero or not finite is as +x.
+/// Of equal components, the first is the axis. A direction that is zero or not finite is as +x.
 ///
-/// u and v stay half a texel away from the sides of the face, so that a bilinear filter never reads another face. What
-/// remains at the seams: the filter does not blend across the edge, so that the outer half of the texels at it is
-/// flat, and both faces end with colours that are up to a texel apart. Mip levels need faces of their own; do not
-/// build them from this image, as levels beyond the first average over two faces.
+/// u and v stay half a texel away from the sides of the face, so that a bilinear filter never reads another face. An
+/// error remains at the seams, as the filter does not blend across the edge. The outer half of the texels at it is
+/// flat, and both faces end with colours that are up to a texel apart. Mip levels need faces of their own; do not build
+/// them from this image, as levels beyond the first average over two faces.
 ///
 /// Source: OpenGL 4.6 core specification, 8.13, table 8.19.
 ///
 /// # Precision
-/// Before that limit, which is 2^-20 (in fixed point 2^-12) of the face more than half a texel, u is within 1ε, v
-/// within 2ε (ε = 2^-24); in fixed point within 1.6·2^-16 and 2·2^-16.
+/// Before that limit, u is within 1ε and v within 2ε (ε = 2^-24), in fixed point within 1.6·2^-16 and 2·2^-16. The
+/// limit lies 2^-20 (in fixed point 2^-12) of the face further in than half a texel.
 ///
 /// # Cost
 /// Three divisions, one of them by a constant, and some 30 operations.
@@ -70,6 +70,6 @@ impl Environment for CubeMap {
     }
 }
 
-/// More than what rounding moves v, of the height of a face: in `f32`, and in fixed point.
+/// The margin beyond the rounding of v, in heights of a face: in `f32`, and in fixed point.
 const FINE: f32 = 1.0 / 1_048_576.0;
 const COARSE: f32 = 1.0 / 4096.0;

@@ -17,13 +17,16 @@ use alberti_math::lanes::Lanes;
 /// ```
 ///
 /// The middle is −z, where a camera of world space looks if it is not turned, and u grows to the right as seen from
-/// inside. The seam, u = 0 and u = 1, is +z: (0, y, z) has u = 1. At the poles, x = z = 0, u is 1/2; what is zero or
-/// not finite is as (0, 0, −1). Differences of u between neighbouring pixels are no derivatives across the seam.
+/// inside. The seam, u = 0 and u = 1, is +z: (0, y, z) has u = 1. At the poles, x = z = 0, u is 1/2; a direction that
+/// is zero or not finite is as (0, 0, −1). Differences of u between neighbouring pixels are no derivatives across the
+/// seam.
 ///
 /// # Precision
-/// u is within 2.5ε of a turn (ε = 2^-24), v within 3ε of 1, which is half a turn; the arc tangent is the polynomial of
-/// seven coefficients with the least error, 0.67ε of a turn. In fixed point v is within 6·2^-16, and u within 4·2^-16,
-/// or as many times more as the part across y is shorter than 1, for directions from 1 to 16384 long.
+/// u is within 2.5ε of a turn (ε = 2^-24), v within 3ε of 1, which is half a turn. The arc tangent is the polynomial of
+/// seven coefficients with the least error, 0.67ε of a turn.
+///
+/// In fixed point, for directions from 1 to 16384 long, v is within 6·2^-16. u is within 4·2^-16, or as many times more
+/// as the part across y is shorter than 1.
 ///
 /// # Cost
 /// Two divisions, a square root and some 50 operations.

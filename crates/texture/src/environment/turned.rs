@@ -9,13 +9,13 @@ use glam::{Mat3, Vec3};
 /// such as the eye's, for which a [`SphereMap`](super::SphereMap) is made.
 ///
 /// # Precision
-/// The direction is within 3ε radians (ε = 2^-24), besides what the environment's place is within.
+/// The direction is within 3ε radians (ε = 2^-24), besides the error of the environment's place.
 ///
 /// # Cost
 /// Nine multiplications.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turned<E> {
-    /// What is looked up.
+    /// The environment in which directions are looked up.
     pub environment: E,
     /// Its axes x, y and z, as columns in the frame in which directions are given: unit vectors at right angles.
     pub axes: Mat3,

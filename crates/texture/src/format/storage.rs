@@ -13,7 +13,7 @@ pub trait Storage: Sealed + Copy + Debug {
     /// A piece of the texture's memory: a texel, or a byte with several.
     type Element: Copy + Send + Sync + 'static;
 
-    /// How many texels such a piece holds; each row begins with a new one.
+    /// The number of texels in such a piece; each row begins with a new one.
     const IN_ELEMENT: u32 = 1;
 
     /// The colours of texels as words; anything for those that do not lie in the texture.

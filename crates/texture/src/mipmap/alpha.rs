@@ -6,7 +6,7 @@ use super::{level_count, size_of_level};
 use crate::format::TexelFormat;
 
 /// Scales the alpha of each smaller level so that as many of its texels pass a test of alpha, in proportion, as of
-/// level 0: leaves and fences do not thin out with distance (Castaño, "Computing Alpha Mipmaps", 2010).
+/// level 0. So leaves and fences do not thin out with distance (Castaño, "Computing Alpha Mipmaps", 2010).
 ///
 /// `texels` is a chain that [`build`](super::build) has filled, and texels pass if their alpha is at least `threshold`.
 ///

@@ -6,8 +6,8 @@ use crate::{Texture, TextureError};
 
 /// Fills all levels from level 0, which is at the beginning of `texels`.
 ///
-/// A texel is the mean of the part of level 0 that it covers, whose texels count by how much of them that is, also
-/// where sides are not powers of two:
+/// A texel is the mean of the part of level 0 that it covers. Texels of level 0 count by the share of them that is
+/// covered, also where sides are not powers of two:
 ///
 /// ```text
 ///  5 texels   |   |   |   |   |   |      the first of two counts 1, 1 and 1/2

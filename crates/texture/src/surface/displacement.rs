@@ -20,7 +20,7 @@ pub fn displaced(point: Point3<Object>, normal: Vector3<Object>, height: f32) ->
     point + normal * height
 }
 
-/// Moves each vertex of a mesh along its unit normal by the height at its coordinates. For the normals of what results
+/// Moves each vertex of a mesh along its unit normal by the height at its coordinates. For the normals of the result
 /// there is [`vertex_normals`](super::vertex_normals).
 ///
 /// Vertices at the same place with different normals, as along a crease, are torn apart.
@@ -59,7 +59,7 @@ pub fn displace(
 pub struct Grid {
     columns: u32,
     rows: u32,
-    /// How many halves of a cell lie between the border of the square and the outermost vertices.
+    /// The number of half cells between the border of the square and the outermost vertices.
     margin: u32,
 }
 
@@ -144,8 +144,8 @@ impl Grid {
 ///    3 --- 4 --- 5
 /// ```
 ///
-/// Two triangles that share an edge, and are divided into as many, have the same vertices along it, bit for bit but for
-/// the signs of zeros, in whichever order their corners are given: no cracks.
+/// Two triangles that share an edge, and are divided into as many, have the same vertices along it, in whichever order
+/// their corners are given. These are the same bit for bit but for the signs of zeros: no cracks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Subdivision {
     n: u32,
@@ -248,8 +248,8 @@ pub struct MeshBuffers<'a> {
 /// The mesh of a surface with a height map on it: vertices on a grid, moved along the surface's normal, with the
 /// normals of the mesh that results.
 ///
-/// Borders of the grid that meet on the surface, as u = 0 and u = 1 do on a sphere, have vertices of their own, whose
-/// normals count the triangles of one side only.
+/// Borders of the grid can meet on the surface, as u = 0 and u = 1 do on a sphere. Such borders have vertices of their
+/// own, whose normals count the triangles of one side only.
 ///
 /// # Precision
 /// Positions: the surface's, [`Relief::height`] and [`displaced`]. Normals: those of the triangles, as

@@ -11,8 +11,8 @@ use glam::Vec2;
 
 /// A height for each (u, v), from 0 to 1.
 ///
-/// A [`Sampler`] is one, of which it is the red channel, [`Sampler::scalar_lanes`]: of 16 bits where the format has
-/// them. A filter's weights have 8 bits, so that the differences of a magnified map have steps;
+/// A [`Sampler`] is one: its red channel ([`Sampler::scalar_lanes`]), of 16 bits where the format has them. A filter's
+/// weights have 8 bits, so that the differences of a magnified map have steps;
 /// [`BilinearHeights`](super::BilinearHeights) are for those. A closure is one too, which is called for one sample
 /// after the other.
 pub trait HeightMap {
@@ -71,20 +71,20 @@ pub(super) fn differences<L: Lanes>(
     let ([left, right], [down, up]) = ([u - du, u + du], [v - dv, v + dv]);
     let along_u = map.height_lanes(lanes, [right, v]) - map.height_lanes(lanes, [left, v]);
     let along_v = map.height_lanes(lanes, [u, up]) - map.height_lanes(lanes, [u, down]);
-    // Over what the coordinates were rounded to.
+    // Over the distances of the coordinates as they were rounded.
     [along_u / (right - left), along_v / (up - down)]
 }
 
-/// The height of a map at (u, v), from 0 to 1, and its gradient there, ∂h/∂u and ∂h/∂v: those of the bilinear surface
-/// through the four texel centres around the point, without the steps of 8 bits that the weights of
+/// The height h of a map at (u, v), from 0 to 1, and its gradient there, ∂h/∂u and ∂h/∂v. They are those of the
+/// bilinear surface through the four texel centres around the point, without the steps of 8 bits that the weights of
 /// [`Bilinear`](crate::Bilinear) have.
 ///
 /// The height is continuous, the gradient jumps from one square of texel centres to the next.
 ///
 /// # Precision
-/// The height is within 6ε (ε = 2^-24), the gradient within 6ε·width, or ·height, of those at coordinates that, reduced
-/// to the period by [`Wrap`], are within 3ε (in [`Mirror`](crate::Mirror) 5ε) of the given ones. What is not finite is
-/// as in [`Wrap`].
+/// The height is within 6ε (ε = 2^-24), the gradient within 6ε times the texture's width, or its height, of those at
+/// coordinates nearby. These, reduced to the period by [`Wrap`], are within 3ε (in [`Mirror`](crate::Mirror) 5ε) of the
+/// given ones. Coordinates that are not finite are as in [`Wrap`].
 ///
 /// # Cost
 /// Four texels and about 60 operations.

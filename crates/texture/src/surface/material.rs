@@ -1,4 +1,4 @@
-//! What a surface does with light: formulas that material maps, for wetness, shininess or occlusion, are numbers of.
+//! Reflection of light on surfaces: formulas whose numbers are in material maps, for wetness, shininess or occlusion.
 //!
 //! Space in: unit vectors in any one space, all from the surface: the normal n, the light's direction l, the eye's v.
 //! Space out: shares of the light. Nothing here needs a library function, so that the bits are the same everywhere.
@@ -64,8 +64,8 @@ pub fn phong_lanes<L: Lanes>(
     share(lanes, phong_cosine_lanes(lanes, n, l, v), shininess)
 }
 
-/// What [`phong`] is a power of, for several samples: r·v, at most 1, and 0 where the light or the eye is behind. With
-/// [`power_each_lanes`] the exponents may differ.
+/// The cosine that [`phong`] raises to a power, for several samples: r·v, at most 1, and 0 where the light or the eye
+/// is behind. With [`power_each_lanes`] the exponents may differ.
 ///
 /// # Precision
 /// Within 12ε (ε = 2^-24); in fixed point within 5·2^-16.
@@ -118,8 +118,8 @@ pub fn blinn_phong_lanes<L: Lanes>(
     share(lanes, blinn_phong_cosine_lanes(lanes, n, l, v), shininess)
 }
 
-/// What [`blinn_phong`] is a power of, for several samples: n·h, at most 1, and 0 where the light is behind, or
-/// opposite to the eye. With [`power_each_lanes`] the exponents may differ.
+/// The cosine that [`blinn_phong`] raises to a power, for several samples: n·h, at most 1, and 0 where the light is
+/// behind, or opposite to the eye. With [`power_each_lanes`] the exponents may differ.
 ///
 /// # Precision
 /// Within 7ε (ε = 2^-24) where |l + v| is at least 1; in fixed point within 4·2^-16 there.
@@ -252,18 +252,18 @@ pub fn ambient_occlusion_lanes<L: Lanes>(lanes: L, ao: L::Number, strength: f32)
     one + strength * (clamped_lanes(lanes, ao) - one)
 }
 
-/// What of a material changes when it gets wet: the diffuse colour, and how glossy it is, from 0 to 1.
+/// The properties of a material that change when it gets wet: the diffuse colour, and the gloss, from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wettable {
     /// The share of each colour that is scattered.
     pub diffuse: Vec3,
-    /// How sharp the highlight is, from 0 to 1; [`shininess`] makes an exponent of it.
+    /// The sharpness of the highlight, from 0 to 1; [`shininess`] makes an exponent of it.
     pub gloss: f32,
 }
 
 impl Wettable {
-    /// The material with this much water on it, from 0 to 1: light that entered the water is reflected back into the
-    /// surface, which absorbs more of it, so rough and porous materials get darker; and the water's surface is smoother
+    /// The material with this much water on it, from 0 to 1. Light that entered the water is reflected back into the
+    /// surface, which absorbs more of it, so rough and porous materials get darker. The water's surface is smoother
     /// than theirs, so the highlight gets sharper.
     ///
     /// ```text

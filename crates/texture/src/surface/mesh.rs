@@ -15,9 +15,9 @@ use glam::{DVec3, Vec2, Vec3};
 /// at the same place count as different ones, which keeps a crease.
 ///
 /// # Precision
-/// For a vertex of k triangles, within (k + 2)ε radians (ε = 2^-24) times the sum of the areas over the length of the
-/// sum of the normals weighted by them, for edges of 10^-16 to 10^15 and angles whose sines are 2^-20 and more. The
-/// order of the triangles can show in the last bits. Lengths are within 1.1ε of 1.
+/// For a vertex of k triangles, within (k + 2)ε·r radians (ε = 2^-24), for edges of 10^-16 to 10^15 and angles whose
+/// sines are 2^-20 and more. Here r is the sum of the areas over the length of the sum of the normals weighted by them.
+/// The order of the triangles can show in the last bits. Lengths are within 1.1ε of 1.
 ///
 /// # Cost
 /// [`Frame::of_triangle`] for each triangle, a square root in `f64` for each vertex, in software on a core without it.
@@ -54,11 +54,10 @@ pub(super) fn add_normals(positions: &[Vec3], triangles: &[[u32; 3]], normals: &
 }
 
 /// The tangent of each vertex, as glTF has it: x, y and z are the unit vector in the direction of growing u, and w is
-/// the handedness, so that the direction of growing v is w (normal × tangent). [`frame_of_tangent`] makes a frame of
-/// it.
+/// the handedness. So the direction of growing v is w (normal × tangent). [`frame_of_tangent`] makes a frame of it.
 ///
 /// The tangent is the mean of those of its triangles ([`triangle_frame`]), weighted by their areas, made perpendicular
-/// to the vertex' normal (Gram and Schmidt). w is that of the greater part of the area, 1 where both are equal:
+/// to the vertex's normal (Gram and Schmidt). w is that of the greater part of the area, 1 where both are equal:
 /// vertices on the seam of a mirrored texture should be two. Weights by angle, as MikkTSpace has them, depend less on
 /// how a mesh is cut into triangles, but take an arc cosine for each corner.
 ///
@@ -67,10 +66,10 @@ pub(super) fn add_normals(positions: &[Vec3], triangles: &[[u32; 3]], normals: &
 /// never NaN.
 ///
 /// # Precision
-/// For a vertex of k triangles, within (k + 5)ε radians (ε = 2^-24) times the sum of the areas over the length of the
-/// weighted sum, as far as it is perpendicular to the normal, for triangles as in [`triangle_frame`], and a sum that is
-/// not within 2^-5 radians of the normal. Lengths are within 1.1ε of 1, and the cosine between tangent and normal is
-/// within 1.1ε of 0 for a normal of length 1.
+/// For a vertex of k triangles, within (k + 5)ε·r radians (ε = 2^-24), for triangles as in [`triangle_frame`], and a
+/// weighted sum that is not within 2^-5 radians of the normal. Here r is the sum of the areas over the length of the
+/// weighted sum, as far as it is perpendicular to the normal. Lengths are within 1.1ε of 1, and the cosine between
+/// tangent and normal is within 1.1ε of 0 for a normal of length 1.
 ///
 /// # Cost
 /// [`triangle_frame`] for each triangle, three square roots in `f64` for each vertex, in software on a core without it.
@@ -147,7 +146,7 @@ pub fn frame_of_tangent(
     frame(point, [x, if w < 0.0 { x.cross(z) } else { z.cross(x) }, z])
 }
 
-/// What a triangle's indices stand for; `None` where one is out of range.
+/// The values at a triangle's indices; `None` where one is out of range.
 fn corners<T: Copy>(values: &[T], triangle: [u32; 3]) -> Option<[T; 3]> {
     let [a, b, c] = triangle.map(|i| values.get(i as usize).copied());
     Some([a?, b?, c?])

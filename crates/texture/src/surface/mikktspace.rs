@@ -14,12 +14,13 @@ use glam::{Vec2, Vec3};
 /// to become several. Where no such map is at hand, [`vertex_tangents`](super::vertex_tangents) does without memory.
 ///
 /// A triangle with an index out of range, or with a number that is not finite or is beyond ±2^30, is left out. Its
-/// corners, and those to which the algorithm gives no tangent, have (1, 0, 0) and w = -1, as in the original; so do
-/// those to which that gives zero, or, as happens to triangles smaller than 10^-18, a vector that is not of length 1.
-/// The result is never NaN, and lengths are within 10^-5 of 1.
+/// corners, and those to which the algorithm gives no tangent, have (1, 0, 0) and w = -1, as in the original. So do
+/// those to which the algorithm gives zero, or, as happens to triangles smaller than 10^-18, a vector that is not of
+/// length 1. The result is never NaN, and lengths are within 10^-5 of 1.
 ///
 /// Source: Mikkelsen, "Simulation of wrinkled surfaces revisited", 2008, and its reference implementation, of which
-/// `bevy_mikktspace` is a translation; its known faults are kept, as they are part of what tools agree on.
+/// `bevy_mikktspace` is a translation. Its known faults are kept, as they are part of the convention that tools agree
+/// on.
 ///
 /// # Precision
 /// The reference implementation's bits, for the same arithmetic: `f32` throughout, and an arc cosine in `f64`. The same
@@ -47,7 +48,7 @@ pub fn mikktspace(
     }
 }
 
-/// What the original gives to a corner that no triangle with an area is near to.
+/// The original's tangent for a corner that no triangle with an area is near to.
 const NO_TANGENT: [f32; 4] = [1.0, 0.0, 0.0, -1.0];
 
 /// The greatest coordinate: squares of differences, times areas, stay finite.

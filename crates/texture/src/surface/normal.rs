@@ -48,8 +48,8 @@ impl NormalEncoding {
 /// The direction that red, green and blue stand for, as a unit vector of the space that the map was made for.
 ///
 /// # Precision
-/// Each component is within 2ε of itself (ε = 2^-24), and the length within 2ε of 1, for all 2^24 texels; the
-/// direction, as all components share the error of the length, within 1.1ε radians.
+/// For all 2^24 texels, each component is within 2ε of itself (ε = 2^-24), and the length within 2ε of 1. The
+/// direction, as all components share the error of the length, is within 1.1ε radians.
 ///
 /// # Cost
 /// A square root and three divisions.
@@ -92,11 +92,11 @@ fn quarter<L: Lanes>(encoding: NormalEncoding, lanes: L, texels: L::U32, bits: u
     encoding.numerator(lanes, lanes.shr(texels, bits) & lanes.word(255)) * lanes.splat(0.25)
 }
 
-/// The direction of a tangent-space map that stores x and y only, in red and green: z is what is left of length 1, √(1
-/// − x² − y²), and 0 where x and y alone are longer, whose direction is kept.
+/// The direction of a tangent-space map that stores x and y only, in red and green. z is √(1 − x² − y²), for a length
+/// of 1. It is 0 where x and y alone are longer, whose direction is kept.
 ///
-/// Near the horizon, where z is small, the steps of x and y are steps of z: by up to 5.6° for bytes, and 0.6° where z
-/// is above one half.
+/// Near the horizon, where z is small, the steps of x and y are steps of z too. For bytes they are of up to 5.6°, and
+/// of 0.6° where z is above one half.
 ///
 /// # Precision
 /// Within 2ε of each component (ε = 2^-24), and of length 1, for all 2^16 pairs of bytes.
@@ -144,7 +144,7 @@ pub fn strengthened(normal: Vector3<Tangent>, strength: f32) -> Vector3<Tangent>
 ///
 /// # Precision
 /// In fixed point each component is within (3 + 1.5/r)·2^-16, where r is the length of the vector before it is made
-/// unit again, and a `strength` beyond ±16384 counts as that.
+/// unit again. There, a `strength` beyond ±16384 counts as that.
 #[must_use]
 #[inline(always)]
 pub fn strengthened_lanes<L: Lanes>(lanes: L, [x, y, z]: [L::Number; 3], strength: f32) -> [L::Number; 3] {

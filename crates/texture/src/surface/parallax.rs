@@ -1,4 +1,4 @@
-//! Parallax maps: where on the map a ray of sight meets the heights, so that the colour is looked up there.
+//! Parallax maps: the place on the map where a ray of sight meets the heights, at which the colour is looked up.
 //!
 //! Space in: coordinates (u, v) and a vector to the eye in the tangent frame, with unit axes. Space out: (u, v).
 
@@ -12,7 +12,7 @@ use core::fmt::Debug;
 use core::ops::{Add, Mul};
 use glam::Vec2;
 
-/// A way of finding where a ray of sight meets the heights; they are sorted by what they cost.
+/// A search for the place where a ray of sight meets the heights; the policies are sorted by their cost.
 ///
 /// | policy | heights read | exact where the heights | breaks |
 /// |---|---|---|---|
@@ -25,7 +25,7 @@ use glam::Vec2;
 /// the eye; heights below it, away from it.
 ///
 /// # Where they break
-/// With k = |Vxy|/Vz, the slant, h the height and a the slope of the heights along the ray:
+/// With V the vector to the eye, k = |Vxy|/Vz its slant, h the height and a the slope of the heights along the ray:
 ///
 /// * Grazing angles: the true shift is h k, and k has no bound (1 at 45° from the normal, 5.7 at 80°).
 ///   [`OffsetParallax`] goes as far. As soon as h k is more than a detail is wide, it ends at a place that has nothing
@@ -35,10 +35,10 @@ use glam::Vec2;
 /// * Steep heights: where a k is 1 and more, the heights hide the places behind them. The single steps do not know of
 ///   it, and fold or tear the texture there; [`SteepParallax`] and [`ParallaxOcclusion`] find the front that hides.
 ///   Sides as steep as that are seen stretched, as a few texels of the map are all that they have.
-/// * Any: only what is looked up moves. The outline and the depths stay those of the surface, and so do the
-///   derivatives that choose a mip level, although where one height hides another the place on the map jumps. A
-///   curved surface counts as flat, so that the shift is to be small beside the radius. Beyond the edge of the
-///   surface the map goes on as its wrap mode says.
+/// * Any: only the place on the map moves. The outline and the depths stay those of the surface. So do the derivatives
+///   that choose a mip level, although that place jumps where one height hides another. A curved surface counts as
+///   flat, so that the shift is to be small beside the radius. Beyond the edge of the surface the map goes on as its
+///   wrap mode says.
 pub trait ParallaxSearch: Copy + Debug + 'static {
     /// The coordinates where the rays from `uv`, which rise by 1 while they move by `slant`, meet the heights.
     fn meet<H: HeightMap, L: Lanes>(
@@ -52,8 +52,8 @@ pub trait ParallaxSearch: Copy + Debug + 'static {
 
 /// u + h(u)/Vz·Vx: the height at (u, v) is taken for that where the ray ends.
 ///
-/// On heights that rise by the slope a along the ray, whose slant is k = |Vxy|/Vz, the shift is short by the share a k
-/// of itself: it needs |a k| ≪ 1.
+/// On heights that rise by the slope a along a ray of slant k (see [`ParallaxSearch`]), the shift is short by the share
+/// a k of itself. So it needs |a k| ≪ 1.
 ///
 /// Source: Kaneko et al., "Detailed shape representation with parallax mapping", ICAT 2001.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -73,31 +73,31 @@ pub struct LimitedParallax;
 /// than that. N from 8 to 64 is usual; at grazing angles it takes more, so choose it by the slant. Of several samples,
 /// the search ends when all have met the heights.
 ///
-/// Source: McGuire and McGuire, "SteepParallax parallax mapping", I3D 2005.
+/// Source: McGuire and McGuire, "Steep parallax mapping", I3D 2005.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct SteepParallax {
-    /// At least 1, and less than 2^15: what is beyond counts as that.
+    /// The number of layers: at least 1, and less than 2^15. Numbers beyond count as the nearest of these.
     pub layers: u32,
 }
 
 /// [`SteepParallax`], and between that layer and the one above, the place where a straight line between the heights at
 /// both meets the ray.
 ///
-/// With heights whose slope is at most a and whose curvature, their second derivative, is at most c, in object units, a
-/// ray of slant k = |Vxy|/Vz, and a step of d = |high − low|/N·k on the surface, the place is off by at most k c d²/8 /
-/// (1 − a k). Where a k is 1 and more, the ray may meet the heights twice, and from a step on, a second place may be
-/// found, or both missed.
+/// Let the heights' slope be at most a and their curvature, the second derivative, at most c, in object units. With N
+/// `layers`, a step along a ray of slant k (see [`ParallaxSearch`]) is d = |high − low|/N·k on the surface. The place
+/// is then off by at most k c d²/8 / (1 − a k). Where a k is 1 and more, the ray may meet the heights twice, and from a
+/// step on, a second place may be found, or both missed.
 ///
 /// Source: Tatarchuk, "Dynamic parallax occlusion mapping with approximate soft shadows", I3D 2006.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ParallaxOcclusion {
-    /// At least 1, and less than 2^15: what is beyond counts as that.
+    /// The number of layers: at least 1, and less than 2^15. Numbers beyond count as the nearest of these.
     pub layers: u32,
 }
 
 impl<H: HeightMap> Relief<H> {
-    /// The coordinates of what is seen at `uv` along `view`, a vector of any length from the surface towards the eye:
-    /// `relief.parallax(ParallaxOcclusion { layers: 16 }, uv, view)`.
+    /// The coordinates of the place that is seen at `uv` along `view`, a vector of any length from the surface towards
+    /// the eye: `relief.parallax(ParallaxOcclusion { layers: 16 }, uv, view)`.
     ///
     /// `uv` itself where the eye is not above the surface, or where the result is not finite.
     ///
@@ -255,8 +255,8 @@ fn along<N: Copy + Add<Output = N> + Mul<Output = N>>(uv: [N; 2], slant: [N; 2],
     [uv[0] + slant[0] * z, uv[1] + slant[1] * z]
 }
 
-/// The last layer at which a ray is above the heights and by how much, and the first at which it is not and by how much
-/// it is below; where that is the highest, it is both.
+/// The last layer at which a ray is above the heights, and its clearance above them; the first at which it is not, and
+/// its depth below them. Where that is the highest, it is both.
 struct Hit<N> {
     above: N,
     clear: N,

@@ -45,9 +45,9 @@ impl<F: Fn(Vec2) -> Frame<Tangent, Object>> Parametric for F {
 /// A surface whose derivatives are taken as central differences, (f(u + h) − f(u − h)) / 2h.
 ///
 /// # Precision
-/// h²/6·max|∂³f/∂u³| + 1.5ε·max|f|/h (ε = 2^-24), if the closure's components are correctly rounded: the first is what
-/// the curve bends, the second what rounding leaves. They balance near h = (4.5ε·max|f|/max|∂³f/∂u³|)^(1/3), which is
-/// 2^-10 for the sphere below, one turn around per unit of u; there, a derivative is within 2.1·10^-5 of its greatest.
+/// h²/6·max|∂³f/∂u³| + 1.5ε·max|f|/h (ε = 2^-24), if the closure's components are correctly rounded: the first term is
+/// of the curve's bend, the second of rounding. They balance near h = (4.5ε·max|f|/max|∂³f/∂u³|)^(1/3), which is 2^-10
+/// for the sphere below, one turn around per unit of u; there, a derivative is within 2.1·10^-5 of its greatest.
 ///
 /// # Cost
 /// Five calls of the closure.
@@ -63,7 +63,7 @@ impl<F: Fn(Vec2) -> Point3<Object>> Parametric for Differences<F> {
     fn tangent_frame(&self, uv: Vec2) -> Frame<Tangent, Object> {
         let along = |step: Vec2| {
             let (from, to) = (uv - step, uv + step);
-            // What the coordinates were rounded to; one component is the step, the other is zero.
+            // The distance of the rounded coordinates; one component is that of the step, the other is zero.
             let between = to.as_dvec2() - from.as_dvec2();
             let ends = [to, from].map(|uv| (self.surface)(uv).coords.as_dvec3());
             Vector3::new(narrow((ends[0] - ends[1]) / (between.x + between.y)))
@@ -99,16 +99,16 @@ impl Parametric for Plane {
 /// side, where ∂f/∂u points the other way, and the orthonormal frame does not.
 ///
 /// # Precision
-/// Each component of the point, of the derivatives and of the orthonormal axes is within 1.01ε·max(|exact|,
-/// `f32::MIN_POSITIVE`) of that at these `f32` coordinates (ε = 2^-24); each of the cross product as in
-/// [`frame_of_derivatives`]. Coordinates of 2^23 turns and more have no fraction, and count as 0; so do infinities and
-/// NaN.
+/// Each component of the point, of the derivatives and of the orthonormal axes is within
+/// 1.01ε·max(|exact|, `f32::MIN_POSITIVE`) of that at these `f32` coordinates (ε = 2^-24). Each of the cross product is
+/// as in [`frame_of_derivatives`]. Coordinates of 2^23 turns and more have no fraction, and count as 0; so do
+/// infinities and NaN.
 ///
 /// # Cost
 /// About 80 operations in `f64`, in software on a core without it. No library function.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere {
-    /// Positive.
+    /// The radius: positive.
     pub radius: f32,
 }
 
@@ -119,9 +119,9 @@ pub struct Sphere {
 /// As [`Sphere`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cylinder {
-    /// Positive.
+    /// The radius: positive.
     pub radius: f32,
-    /// Positive.
+    /// The height: positive.
     pub height: f32,
 }
 
@@ -203,7 +203,7 @@ fn turn(t: f64) -> [f64; 2] {
     let quarter = (4.0 * t + if t < 0.0 { -0.5 } else { 0.5 }) as i64;
     #[expect(clippy::cast_precision_loss, reason = "below 2^26")]
     let angle = (4.0 * t - quarter as f64) * FRAC_PI_2;
-    // Taylor's series, of which what is left out at an eighth of a turn is below 2^-53.
+    // Taylor's series, whose remainder at an eighth of a turn is below 2^-53.
     let square = angle * angle;
     let series = |first: f64| {
         let (mut sum, mut n) = (1.0, first);

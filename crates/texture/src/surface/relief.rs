@@ -11,11 +11,11 @@ use alberti_math::lanes::{Lanes, One};
 use alberti_math::{Frame, Object, Vector3};
 use glam::{Vec2, Vec3};
 
-/// A height map as it lies on a surface: what 0 and 1 stand for, and how large one unit of u and v is, all in the units
-/// of object space.
+/// A height map as it lies on a surface: the heights for 0 and 1, and the lengths of one unit of u and v. All are in
+/// the units of object space.
 ///
-/// Bump, parallax and displacement maps are this, used in three ways: for the normal, for where to look the colour up,
-/// and for where the vertices go.
+/// Bump, parallax and displacement maps are this, used in three ways: for the normal, for the place of the colour, and
+/// for the places of the vertices.
 ///
 /// ```
 /// use alberti_texture::surface::Relief;
@@ -31,9 +31,9 @@ use glam::{Vec2, Vec3};
 pub struct Relief<H> {
     /// The heights, from 0 to 1.
     pub map: H,
-    /// What 0 stands for: how far along the normal.
+    /// The height along the normal that 0 stands for.
     pub low: f32,
-    /// What 1 stands for.
+    /// The height that 1 stands for.
     pub high: f32,
     /// The lengths on the surface of one unit of u and of v: those of ∂f/∂u and ∂f/∂v. Not zero.
     pub extent: Vec2,
@@ -64,8 +64,8 @@ impl<H: HeightMap> Relief<H> {
         lanes.splat(self.high) - lanes.splat(self.low)
     }
 
-    /// How steeply the surface rises along u and v, by central differences over `step` to either side, which usually is
-    /// one texel: (h(u + s) − h(u − s)) / 2s, in object units.
+    /// The slopes of the surface along u and v, in object units: the central differences (h(u + s) − h(u − s)) / 2s.
+    /// The `step` s to either side usually is one texel.
     ///
     /// # Precision
     /// Within |high − low|/extent·(s²/6·max|∂³h/∂u³| + ε/s) + 4ε·|slope| (ε = 2^-24), if the map's numbers are
@@ -132,9 +132,8 @@ pub fn normal_of_slope_lanes<L: Lanes>(lanes: L, slope: [L::Number; 2]) -> [L::N
 }
 
 /// The normal of heights that rise by these slopes along the x and y axis of a frame, as a unit vector of the frame's
-/// parent: −∂h/∂u x − ∂h/∂v y + z, made unit. The frame is one with unit axes, as for
-/// [`to_parent_lanes`]; of axes at right angles, what [`bump`] gives. The frame's z where a slope is not finite, or
-/// above 2^60.
+/// parent. It is −∂h/∂u x − ∂h/∂v y + z, made unit. The frame is one with unit axes, as for [`to_parent_lanes`]; for
+/// axes at right angles, the result is that of [`bump`]. The frame's z where a slope is not finite, or above 2^60.
 ///
 /// # Precision
 /// Within 8ε radians (ε = 2^-24) for axes at right angles; in fixed point each component is within 6·2^-16.
@@ -160,12 +159,13 @@ fn raised<L: Lanes>(lanes: L, [a, b]: [L::Number; 2]) -> [L::Number; 3] {
     [(zero - a) / greatest, (zero - b) / greatest, one / greatest]
 }
 
-/// The normal of heights on any surface, whose ∂f/∂u and ∂f/∂v are of any length and at any angle, as a unit vector:
-/// the frame is that of [`Parametric::tangent_frame`](super::Parametric::tangent_frame), the gradient ∂h/∂u and ∂h/∂v,
+/// The normal of heights on any surface, whose ∂f/∂u and ∂f/∂v are of any length and at any angle, as a unit vector.
+/// The frame is that of [`Parametric::tangent_frame`](super::Parametric::tangent_frame), the gradient ∂h/∂u and ∂h/∂v,
 /// in object units per unit of u and v.
 ///
-/// With n the unit normal, the surface f + h n has the derivatives ∂f/∂u + ∂h/∂u n and ∂f/∂v + ∂h/∂v n, but for what h
-/// makes of the change of n, which is small where h is small against the radii of curvature. Their cross product is
+/// With n the unit normal, the surface f + h n has the derivatives ∂f/∂u + ∂h/∂u n and ∂f/∂v + ∂h/∂v n, but for h times
+/// the change of n. That is small where h is small against the radii of curvature. The cross product of the derivatives
+/// is
 ///
 /// ```text
 /// ∂f/∂u × ∂f/∂v + ∂h/∂u (n × ∂f/∂v) + ∂h/∂v (∂f/∂u × n)

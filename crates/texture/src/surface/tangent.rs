@@ -46,8 +46,8 @@ pub fn frame_of_derivatives(
 /// so nothing is divided by the determinant, but its sign is kept.
 ///
 /// # Precision
-/// The sign is exact. Both are within 1.1ε radians of the exact directions (ε = 2^-24), and their lengths within 1.1ε
-/// of 1, for a texture and a triangle whose angles have sines of 2^-20 and more.
+/// The sign is exact. For a texture and a triangle whose angles have sines of 2^-20 and more, both are within 1.1ε
+/// radians of the exact directions (ε = 2^-24). There, their lengths are within 1.1ε of 1.
 ///
 /// # Cost
 /// Some 100 operations in `f64`, in software on a core without it, and two square roots.
@@ -57,7 +57,7 @@ pub fn triangle_directions(corners: [Point3<Object>; 3], uv: [Vec2; 3]) -> Optio
     Some([x, y].map(|axis| Vector3::new(narrow(axis))))
 }
 
-/// The tangent frame of a triangle with texture coordinates, at its first vertex, with unit axes at right angles: x
+/// The tangent frame of a triangle with texture coordinates, at its first vertex, with unit axes at right angles. x is
 /// along ∂p/∂u, z along the normal, and y the side of z × x to which ∂p/∂v points. `None` where the triangle has no
 /// area, on the surface or in the texture, or where a coordinate is not finite.
 ///
@@ -66,10 +66,10 @@ pub fn triangle_directions(corners: [Point3<Object>; 3], uv: [Vec2; 3]) -> Optio
 /// ∂p/∂v.
 ///
 /// # Precision
-/// Handedness is exact. x and z are within 2.1ε radians of the exact directions (ε = 2^-24), lengths within 1.1ε of 1,
-/// and cosines between axes within 2.2ε of 0, for a texture and a triangle whose angles have sines of 2^-20 and more.
-/// Edges of the triangle must be between 10^-16 and 10^18 long: the normal of smaller ones is less precise, or rounds
-/// to zero, and there is no frame.
+/// Handedness is exact. For a texture and a triangle whose angles have sines of 2^-20 and more, x and z are within 2.1ε
+/// radians of the exact directions (ε = 2^-24). There, lengths are within 1.1ε of 1, and cosines between axes within
+/// 2.2ε of 0. Edges of the triangle must be between 10^-16 and 10^18 long: the normal of smaller ones is less precise,
+/// or rounds to zero, and there is no frame.
 ///
 /// # Cost
 /// [`Frame::of_triangle`], some 150 operations in `f64`, in software on a core without it, and four square roots.
@@ -108,16 +108,16 @@ fn derivatives(corners: [Point3<Object>; 3], uv: [Vec2; 3]) -> Option<([DVec3; 2
     Some(([x, y], sign))
 }
 
-/// The frame with unit axes at right angles that is nearest to a tangent frame: z keeps its direction, x loses what it
-/// has along z (Gram and Schmidt), and y is z × x, or its opposite where x, y, z are left-handed, as on a mirrored
+/// The frame with unit axes at right angles that is nearest to a tangent frame: z keeps its direction, and x loses its
+/// part along z (Gram and Schmidt). y is z × x, or its opposite where x, y, z are left-handed, as on a mirrored
 /// texture.
 ///
-/// What has no direction is chosen, so that there is a frame always, and never a NaN:
-/// * without a z, as at the pole of a sphere, where ∂f/∂u = 0: the normal is that of x and y; where these have none, it
-///   is at right angles to x, or else to y, and nearest to the coordinate axis that is least along it;
-/// * without an x, or where it is within 2^-20 radians of z: what makes y right, or else the direction at right angles
-///   to z that is nearest to the coordinate axis that is least along it;
-/// * where none has a direction, the axes are those of object space.
+/// An axis that has no direction is chosen, so that there is a frame always, and never a NaN:
+/// * Without a z, as at the pole of a sphere, where ∂f/∂u = 0, the normal is that of x and y. Where these have none, it
+///   is at right angles to x, or else to y, and nearest to the coordinate axis that is least along it.
+/// * Without an x, or where it is within 2^-20 radians of z, x is the direction that makes y right. Or else it is the
+///   direction at right angles to z that is nearest to the coordinate axis that is least along it.
+/// * Where none has a direction, the axes are those of object space.
 ///
 /// # Precision
 /// Lengths are within 1.1ε of 1, and the cosines between axes within 2.2ε of 0 (ε = 2^-24).

@@ -1,4 +1,4 @@
-//! Directions in `f64`, for what is done once a vertex rather than once a fragment.
+//! Directions in `f64`, for work that is done once a vertex rather than once a fragment.
 
 use alberti_math::lanes::{Lanes, One};
 use glam::{DVec3, Vec3};
@@ -32,15 +32,15 @@ pub(super) fn narrow(v: DVec3) -> Vec3 {
 /// The square of 2^-20.
 const PARALLEL: f64 = 1.0 / 1_099_511_627_776.0;
 
-/// The part of a unit vector `v` that is perpendicular to the unit vector `n`, as a unit vector; `None` where `v` is
+/// The part of a unit vector `v` that is perpendicular to the unit vector `n`, as a unit vector. `None` where `v` is
 /// within 2^-20 radians of `n` or of its opposite.
 pub(super) fn reject(v: DVec3, n: DVec3) -> Option<DVec3> {
     let across = v - n * n.dot(v);
     (across.dot(across) > PARALLEL).then(|| unit(across)).flatten()
 }
 
-/// A unit vector that is perpendicular to the unit vector `n`: what is left of the coordinate axis that is least along
-/// it, of equals the first.
+/// A unit vector that is perpendicular to the unit vector `n`: the perpendicular part of the coordinate axis that is
+/// least along it, of equals the first.
 pub(super) fn perpendicular(n: DVec3) -> DVec3 {
     let size = n.abs();
     let axis = if size.x <= size.y && size.x <= size.z {

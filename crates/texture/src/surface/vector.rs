@@ -7,8 +7,8 @@ use alberti_math::lanes::Lanes;
 /// # Precision
 /// In `f32` each component is within 4ε of itself (ε = 2^-24) for lengths between 2^-60 and 2^60, and the length within
 /// 3.1ε of 1. In fixed point components, which may be any between ±32767, are first divided by the greatest of them, as
-/// squares would not fit: each comes out within 2.5·2^-16. Of what is not finite, a component is NaN and the others are
-/// NaN or 0; of what is longer than 2^64, all may be 0.
+/// squares would not fit: each comes out within 2.5·2^-16. Of a vector that is not finite, a component is NaN and the
+/// others are NaN or 0; of one longer than 2^64, all may be 0.
 ///
 /// # Cost
 /// A square root and three divisions, in fixed point three more.
