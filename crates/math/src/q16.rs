@@ -7,8 +7,8 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 ///
 /// # Precision
 /// Sums and differences are exact while they fit and wrap when they do not. Products are rounded to the nearest step,
-/// halves up. Quotients are rounded towards zero, and are 0 for a divisor of 0. Numbers from outside of the range
-/// become the nearest in it.
+/// halves up, and wrap like sums. Quotients are rounded towards zero, and are 0 for a divisor of 0. Quotients, and
+/// floats that are converted, become the nearest in the range.
 #[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Q16(i32);
 

@@ -19,10 +19,8 @@ struct Budget {
 }
 
 /// All budgets: numbers go down only. A crate that is not listed has none.
-const BUDGETS: &[Budget] = &[
-    Budget { folder: "app", whats: 21, long: 20 },
-    Budget { folder: "projection", whats: 6, long: 21 },
-];
+const BUDGETS: &[Budget] =
+    &[Budget { folder: "app", whats: 21, long: 20 }, Budget { folder: "projection", whats: 6, long: 21 }];
 
 /// A search that returns the lines of what it finds in a file's text.
 type Find = fn(&str) -> Vec<usize>;

@@ -3,7 +3,7 @@
 use super::{Floating, Lanes, half_log2, jacobi};
 use core::num::Wrapping;
 
-/// One sample at a time, in `f32`: the reference that all others must equal.
+/// One sample at a time, in `f32`: the reference that all others of `f32` must equal.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct One;
 

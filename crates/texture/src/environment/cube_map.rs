@@ -23,8 +23,8 @@ use alberti_math::lanes::Lanes;
 ///
 /// u and v stay half a texel away from the sides of the face, so that a bilinear filter never reads another face. An
 /// error remains at the seams, as the filter does not blend across the edge. The outer half of the texels at it is
-/// flat, and both faces end with colours that are up to a texel apart. Mip levels need faces of their own; do not build
-/// them from this image, as levels beyond the first average over two faces.
+/// flat, and both faces end with colours that are up to a texel apart. Do not build mip levels
+/// of this image: their filters read beyond a face, as half a texel of a smaller level is more than this one's.
 ///
 /// Source: OpenGL 4.6 core specification, 8.13, table 8.19.
 ///

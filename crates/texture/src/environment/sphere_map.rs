@@ -15,8 +15,8 @@ use alberti_math::lanes::Lanes;
 /// ```
 ///
 /// The middle is the eye itself, the circle of radius 1/2 about it straight forward: the one direction that has no
-/// place, and gets the middle. So does a direction that is zero or not finite. The ball's rim holds nearly half of all
-/// directions: those near forward are squeezed.
+/// place, and gets the middle. So does a direction that is zero or not finite. All directions have the same
+/// share of the image, but shapes near the rim, which is straight forward, are drawn out along it.
 ///
 /// Source: OpenGL 2.1 specification, 2.11.4, `GL_SPHERE_MAP`.
 ///

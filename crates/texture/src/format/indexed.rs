@@ -7,8 +7,8 @@ use super::Storage;
 use crate::sealed::Sealed;
 use crate::{Size, Texture};
 
-/// Indices of 1, 2, 4 or 8 bits, whose colours are in a palette that the texture refers to. The texture takes an eighth
-/// to a quarter of the memory of 32 bits a texel, and the palette can be another one for every view.
+/// Indices of 1, 2, 4 or 8 bits, whose colours are in a palette that the texture refers to. The texture takes as
+/// many bits a texel, instead of 32, and the palette can be another one for every view.
 ///
 /// The leftmost texel is in the highest bits of a byte, and each row begins with a byte of its own, as in PNG and BMP
 /// files. An index beyond the palette is transparent black. Filters work on the colours. [`Indexed1`], [`Indexed2`],

@@ -95,8 +95,8 @@ fn quarter<L: Lanes>(encoding: NormalEncoding, lanes: L, texels: L::U32, bits: u
 /// The direction of a tangent-space map that stores x and y only, in red and green. z is √(1 − x² − y²), for a length
 /// of 1. It is 0 where x and y alone are longer, whose direction is kept.
 ///
-/// Near the horizon, where z is small, the steps of x and y are steps of z too. For bytes they are of up to 5.6°, and
-/// of 0.6° where z is above one half.
+/// Near the horizon, where z is small, the steps of x and y are steps of z too. For bytes they are of up to 6.1°, and
+/// of 0.7° where z is above one half.
 ///
 /// # Precision
 /// Within 2ε of each component (ε = 2^-24), and of length 1, for all 2^16 pairs of bytes.

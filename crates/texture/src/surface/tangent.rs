@@ -108,8 +108,8 @@ fn derivatives(corners: [Point3<Object>; 3], uv: [Vec2; 3]) -> Option<([DVec3; 2
     Some(([x, y], sign))
 }
 
-/// The frame with unit axes at right angles that is nearest to a tangent frame: z keeps its direction, and x loses its
-/// part along z (Gram and Schmidt). y is z × x, or its opposite where x, y, z are left-handed, as on a mirrored
+/// The frame with unit axes at right angles that a tangent frame becomes: z keeps its direction, and x loses its part
+/// along z (Gram and Schmidt). y is z × x, or its opposite where x, y, z are left-handed, as on a mirrored
 /// texture.
 ///
 /// An axis that has no direction is chosen, so that there is a frame always, and never a NaN:
