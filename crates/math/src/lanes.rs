@@ -118,8 +118,8 @@ pub trait Lanes: Copy + Debug {
     /// ```
     ///
     /// So these are the semi-axes of the ellipse into which (x y) turns the unit circle (one-sided Jacobi, Hestenes
-    /// 1958). The rotation is none, exactly, where the vectors are at right angles, or where one is not finite or longer
-    /// than `f32` can tell.
+    /// 1958). The rotation is none, exactly, where the vectors are at right angles, or where one is not finite or
+    /// longer than `f32` can tell.
     ///
     /// # Precision
     /// With the longest component of the scaled vectors from 2^-63 to 2^63, cos² + sin² is 1 within 6ε (ε = 2^-24).

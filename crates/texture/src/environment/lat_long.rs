@@ -17,9 +17,9 @@ use alberti_math::lanes::Lanes;
 /// ```
 ///
 /// The middle is −z, where a camera of world space looks if it is not turned, and u grows to the right as seen from
-/// inside. The seam, u = 0 and u = 1, is +z: (0, y, z) has u = 1 where z > 0. At the poles, x = z = 0, u is 1/2; a direction that
-/// is zero or not finite is as (0, 0, −1). Differences of u between neighbouring pixels are no derivatives across the
-/// seam.
+/// inside. The seam, u = 0 and u = 1, is +z: (0, y, z) has u = 1 where z > 0. At the poles, x = z = 0, u is 1/2; a
+/// direction that is zero or not finite is as (0, 0, −1). Differences of u between neighbouring pixels are no
+/// derivatives across the seam.
 ///
 /// # Precision
 /// u is within 2.5ε of a turn (ε = 2^-24), v within 3ε of 1, which is half a turn. The arc tangent is the polynomial of
