@@ -22,7 +22,6 @@ struct Budget {
 const BUDGETS: &[Budget] = &[
     Budget { folder: "app", whats: 21, long: 20 },
     Budget { folder: "math", whats: 8, long: 21 },
-    Budget { folder: "projection", whats: 6, long: 21 },
     Budget { folder: "texture", whats: 16, long: 52 },
 ];
 
