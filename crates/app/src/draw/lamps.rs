@@ -13,7 +13,7 @@ use alberti::texture::surface::{
 };
 use alberti::{Eye, Frame, Point3, Vector3, World};
 
-/// What falls on a picture's surfaces.
+/// The lighting of a picture's surfaces, and their viewer.
 #[derive(Clone, Debug)]
 pub(crate) struct Lamps {
     pub(super) ambient: Vec3,
@@ -22,7 +22,7 @@ pub(crate) struct Lamps {
 }
 
 impl Lamps {
-    /// A model's, or else light from the direction `to_light`.
+    /// The lighting of a model, or else light from the direction `to_light`.
     pub(super) fn new(model: &Model, camera: &Camera, parallel: bool, to_light: Vec3) -> Self {
         let lights: Vec<Lamp> = model.lights.iter().map(Lamp::new).collect();
         let own = lights.is_empty() && model.ambient.is_none();
@@ -70,7 +70,7 @@ impl Lamp {
     }
 }
 
-/// What all kinds have, of the one that it is.
+/// An expression over a value of any kind.
 macro_rules! of_kind {
     ($this:expr, $kind:ident: $($name:ident)+, |$it:ident| $body:expr) => {
         match $this {
@@ -130,7 +130,7 @@ const STEEP_LAYERS: u32 = 16;
 const OCCLUSION_LAYERS: u32 = 32;
 
 impl AnyParallax {
-    /// Of what is made of heights, if it is a parallax map.
+    /// The search for a relief, if that is a parallax map.
     pub(super) fn of(relief: scene::Relief) -> Option<Self> {
         match relief {
             scene::Relief::Bump | scene::Relief::Displacement => None,
@@ -155,7 +155,7 @@ impl ParallaxSearch for AnyParallax {
     }
 }
 
-/// How an image shows all directions.
+/// The layout of an image of all directions.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum AnyEnvironment {
     LatLong(Upright),
@@ -164,7 +164,7 @@ pub(super) enum AnyEnvironment {
 }
 
 impl AnyEnvironment {
-    /// Of an image, for a camera that stands so.
+    /// The layout of this image, for a camera that stands so.
     pub(super) fn new(kind: EnvironmentKind, image: &Image, camera: Frame<Eye, World>) -> Self {
         match kind {
             EnvironmentKind::LatLong => Self::LatLong(Upright { rows: image.height }),
