@@ -43,7 +43,6 @@ pub(crate) fn run() -> Outcome {
     let gallery = gallery::problems(&files)?;
     problems.extend(gallery.into_iter().map(|(file, message)| Problem::new(&file, 1, message)));
     problems.extend(manifests::packages(&manifests::metadata()?));
-    let mut sources = Vec::new();
     for file in &files {
         let is_manifest = file.ends_with("Cargo.toml");
         if !(is_manifest || file.ends_with(".rs") || file.ends_with(".md")) {
@@ -55,13 +54,8 @@ pub(crate) fn run() -> Outcome {
             problems.extend(manifests::lints(file, &text));
         } else {
             problems.extend(sources::check(file, &text));
-            sources.push((file.clone(), text));
+            problems.extend(style::check(file, &text));
         }
-    }
-    let (excesses, notes) = style::check(&sources);
-    problems.extend(excesses);
-    for note in notes {
-        println!("note: {note}");
     }
     for problem in &problems {
         println!("{problem}");

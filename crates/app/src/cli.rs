@@ -1,4 +1,4 @@
-//! The command line: what scene files have as well ([`crate::options`]), and what only it has.
+//! The command line: the options that scene files have as well ([`crate::options`]), and its own.
 
 use std::path::PathBuf;
 
@@ -15,7 +15,7 @@ pub mod run;
 #[derive(Clone, Debug, Parser)]
 #[command(name = "alberti", version, max_term_width = 100)]
 pub struct Cli {
-    /// What to do.
+    /// The subcommand.
     #[command(subcommand)]
     pub command: Option<Command>,
 }
@@ -25,9 +25,8 @@ pub struct Cli {
 pub enum Command {
     /// Draw a model, a scene file or a built-in scene into an image file.
     ///
-    /// Without arguments, a built-in scene is drawn into alberti.png. A model is looked at from the front, the
-    /// right and above, from where all of it is in the picture; camera options that are given replace parts of
-    /// that view.
+    /// Without arguments, a built-in scene is drawn into alberti.png. A model is looked at from the front, the right
+    /// and above, from where all of it is in the picture. Camera options that are given replace parts of that view.
     #[command(after_help = EXAMPLES)]
     Render(Box<RenderArgs>),
 }

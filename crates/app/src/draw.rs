@@ -1,9 +1,9 @@
 //! From a scene and its options to pixels: the one place where names that a user picks at run time become the
 //! library's policies.
 //!
-//! All of them are values, so few pipelines are compiled, for each kind of vector registers: five for plain surfaces
-//! by the default interpolation, in which kernel and fragment stage are optimized together (`draw/plain.rs`), and one
-//! for each kind of interpolation in which the stage is called through a pointer (`draw/general.rs`).
+//! All of them are values, so few pipelines are compiled for each kind of vector registers. Five are for plain surfaces
+//! by the default interpolation: in these, kernel and fragment stage are optimized together (`draw/plain.rs`). There is
+//! one more for each kind of interpolation, in which the stage is called through a pointer (`draw/general.rs`).
 
 use crate::camera::{self, CAMERA};
 use crate::error::Error;
@@ -26,7 +26,7 @@ mod plain;
 
 pub(crate) use general::Studio;
 
-/// Light that falls everywhere, and light that falls on what faces it.
+/// Light that falls everywhere, and light that falls on surfaces that face it.
 pub const AMBIENT: f32 = 0.3;
 /// See [`AMBIENT`].
 pub const DIFFUSE: f32 = 0.7;

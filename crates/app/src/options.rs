@@ -92,9 +92,10 @@ words!(one_of: Shading, Wrap, Cull, ProjectionKind);
 /// The projection, as options have it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum ProjectionKind {
-    /// What is farther away is smaller.
+    /// Lines of sight from one point: farther things are smaller.
     Perspective,
-    /// What is parallel stays parallel; straight lines unless --interpolation says otherwise, as they are exact then.
+    /// Parallel lines of sight: parallels stay parallel; straight lines unless --interpolation says otherwise, as they
+    /// are exact then.
     Parallel,
 }
 

@@ -13,7 +13,7 @@ use alberti::{AnyDepth, DepthFormat as _, Rgba8, Rgba8888, Stats, Target};
 pub struct Picture {
     /// Opaque; rows from the top.
     pub image: Image,
-    /// What happened.
+    /// Counts of the drawing.
     pub stats: Stats,
 }
 
@@ -79,8 +79,8 @@ pub fn any_depth(depth: DepthFormat) -> AnyDepth {
 
 /// The colour that is seen where pixels are stored in this format.
 ///
-/// Nothing that is drawn reads a colour back, so the last one to be stored is all that counts, and to round it
-/// afterwards gives the pixels that a buffer of that format would hold.
+/// Nothing that is drawn reads a colour back, so the last one to be stored is all that counts. To round it afterwards
+/// gives the pixels that a buffer of that format would hold.
 fn shown(format: ColorFormat, [r, g, b, a]: [u8; 4]) -> [u8; 4] {
     match format {
         ColorFormat::Rgba8 => [r, g, b, a],

@@ -30,8 +30,8 @@ pub struct Vertex {
     pub uv: [f32; 2],
     /// sRGB in 0..=1.
     pub color: [f32; 3],
-    /// Object space, as in glTF: the unit vector along which u grows, and 1 or -1, by which normal × tangent is to be
-    /// multiplied for the one along which v grows. (0, 0, 0, 0) where no map needs it.
+    /// Object space, as in glTF: the unit vector along which u grows, and 1 or -1. By the latter, normal × tangent is
+    /// to be multiplied for the vector along which v grows. (0, 0, 0, 0) where no map needs it.
     pub tangent: [f32; 4],
 }
 

@@ -8,16 +8,15 @@ use alberti_math::{Eye, Frame, Point3, Vector3, World};
 ///
 /// Its axes are x to the right, y up, z forward, unit and perpendicular, so that
 /// [`inverse_orthonormal`](Frame::inverse_orthonormal) (rotation transposed, translation negated) gives the step from
-/// world to eye coordinates. The world is right-handed and the eye's frame is left-handed: depth
-/// grows with z.
+/// world to eye coordinates. The world is right-handed and the eye's frame is left-handed: depth grows with z.
 ///
 /// # Errors
 /// [`ViewError::EyeAtTarget`], [`ViewError::UpAlongView`] and [`ViewError::NotFinite`], also where the difference
 /// between `eye` and `target` overflows.
 ///
 /// # Precision
-/// Each component of forward is within 3ε of its exact value, those of right and up are within 4ε/sin φ, φ being the
-/// angle between `up` and the view: below a few degrees they get worse. Axes are unit within 3ε, and the cosines
+/// Each component of forward is within 3ε of its exact value (ε = 2^-24), those of right and up are within 4ε/sin φ. φ
+/// is the angle between `up` and the view: below a few degrees they get worse. Axes are unit within 3ε, and the cosines
 /// between them within 4ε/sin φ of 0.
 pub fn look_at(
     eye: Point3<World>,

@@ -8,9 +8,9 @@
 //!         Vj  outside: dj < 0        b = -di / (dj - di)
 //! ```
 //!
-//! Each weight has its own formula, and exchanging i and j exchanges a and b bit for bit (both signs of the quotient
-//! flip, and a sum does not care about order). So two triangles that share an edge get the same new vertex whichever
-//! way round each of them walks it, and no crack opens. The coordinate that the plane fixes is set, not computed.
+//! Each weight has its own formula. Exchanging i and j exchanges a and b bit for bit, as both signs of the quotient
+//! flip, and a sum does not care about order. So two triangles that share an edge get the same new vertex whichever way
+//! round each of them walks it, and no crack opens. The coordinate that the plane fixes is set, not computed.
 
 use alberti_math::{Eye, Point3, Varying, blend2};
 
@@ -22,7 +22,7 @@ pub const MAX_POLYGON: usize = 9;
 pub struct EyeVertex<V> {
     /// Eye space, scaled by the pyramid's scale where the sides matter.
     pub position: Point3<Eye>,
-    /// What the vertex carries.
+    /// The attributes.
     pub varying: V,
 }
 
@@ -37,7 +37,7 @@ pub struct ProjectedVertex<V> {
     pub zs: f32,
     /// 1/ze, greater than 0.
     pub q: f32,
-    /// What the vertex carries, as given at the vertex (not multiplied by q).
+    /// The attributes, as given at the vertex (not multiplied by q).
     pub varying: V,
 }
 
@@ -91,7 +91,7 @@ impl<T: Copy> Polygon<T> {
         rest.iter().zip(rest.iter().skip(1)).map(move |(&second, &third)| [first, second, third])
     }
 
-    /// Keeps what is on the inner sides of planes, one after the other.
+    /// Keeps the part on the inner sides of planes, one after the other.
     #[inline(never)]
     fn clip(mut self, planes: &[ClipPlane]) -> Self
     where
@@ -136,12 +136,12 @@ enum Axis {
     Z,
 }
 
-/// A plane at right angles to an axis, and which side of it stays.
+/// A plane at right angles to an axis, and the side of it that stays.
 #[derive(Clone, Copy)]
 struct ClipPlane {
     axis: Axis,
     at: f32,
-    /// 1 where what is greater stays, -1 where what is less does.
+    /// 1 where greater coordinates stay, -1 where lesser ones do.
     inner: f32,
 }
 
@@ -202,9 +202,9 @@ impl<V: Varying> Cut for ProjectedVertex<V> {
 /// A triangle wholly inside comes back with the same bits; clipping twice is clipping once.
 ///
 /// # Precision
-/// At each cut, new positions and varyings are within 4ε of the larger of the two ends, or of 2^-126 if both are
-/// smaller (measured in `docs/accuracy.md`), and never outside their range; z is exactly that of the plane. Coordinates
-/// up to `f32::MAX` / 16 neither overflow nor become NaN.
+/// At each cut, new positions and varyings are within 4ε (ε = 2^-24) of the larger of the two ends, or of 2^-126 if
+/// both are smaller (measured in `docs/accuracy.md`). They are never outside the range of the ends; z is exactly that
+/// of the plane. Coordinates up to `f32::MAX` / 16 neither overflow nor become NaN.
 ///
 /// # Cost
 /// A subtraction and a comparison for each vertex and plane; a crossing costs two divisions and a blend.
@@ -217,12 +217,13 @@ pub fn clip_near_far<V: Varying>(triangle: [EyeVertex<V>; 3], near: f32, far: f3
 /// Step 5: the part of a polygon, after the division, within |xs| <= `bounds.x` and |ys| <= `bounds.y`.
 ///
 /// xs, ys, zs and q are linear on the screen. The varyings are not: at the screen parameter τ they take the eye-space
-/// parameter t = τ z1 / (τ z1 + (1−τ) z2), whose weights are τ's times q, divided by their sum: the relation of
+/// parameter t = τ z1 / (τ z1 + (1−τ) z2). Its weights are τ's times q, divided by their sum: the relation of
 /// [`ScreenWeights::to_eye`](crate::ScreenWeights::to_eye), from the q that the vertices have.
 ///
 /// # Precision
-/// At each cut, xs, ys, zs and q are within 4ε of the larger of the two ends, or of 2^-126 if both are smaller,
-/// varyings within 7ε (measured in `docs/accuracy.md`); xs or ys is exactly that of the plane.
+/// At each cut, xs, ys, zs and q are within 4ε (ε = 2^-24) of the larger of the two ends, or of 2^-126 if both are
+/// smaller. Varyings are so within 7ε (measured in `docs/accuracy.md`, as are the others). xs or ys is exactly that of
+/// the plane.
 #[must_use]
 pub fn clip_sides<V: Varying>(
     polygon: Polygon<ProjectedVertex<V>>,

@@ -33,7 +33,7 @@ impl DepthMap {
     /// β = −A.
     ///
     /// # Precision
-    /// α and β are correctly rounded but for a double rounding: within 1.001ε, relatively.
+    /// α and β are correctly rounded but for a double rounding: within 1.001ε, relatively (ε = 2^-24).
     ///
     /// # Errors
     /// [`ViewError::NearFar`] unless 0 < A < B, A finite, and α and β are normal `f32`; only α may be 0. A subnormal
@@ -48,9 +48,9 @@ impl DepthMap {
     ///
     /// # Precision
     /// As [`forward`](Self::forward). With a floating-point depth buffer the fine steps of small numbers meet the
-    /// coarse ones of 1/z: the relative error of z recovered from zs is within 4ε at any B/A that is accepted, and of
-    /// B = ∞ up to z = 2^126·A, where zs becomes subnormal. (1 − zs of the forward map would inherit all of that map's
-    /// error.)
+    /// coarse ones of 1/z. So the relative error of z recovered from zs is within 4ε at any B/A that is accepted. Of B
+    /// = ∞ that holds up to z = 2^126·A, where zs becomes subnormal. (1 − zs of the forward map would inherit all of
+    /// that map's error.)
     ///
     /// # Errors
     /// As [`forward`](Self::forward).
@@ -110,10 +110,12 @@ impl DepthMap {
     /// The screen depth zs of a point at eye depth `z` in [A, B]; always within the range.
     ///
     /// # Precision
-    /// Within (α + 1/2)ε of its own α + β/z, absolutely (|α'| + 1/2 for the reversed map), and within (3α + 1/2)ε of
-    /// that of the planes themselves: 1.5ε and 3ε for B/A >= 4, more as the planes approach each other. Onto any range,
-    /// within (|α| + 2|β|/A + m)ε of that of the planes, m the largest |zs|. Monotone: division and addition are
-    /// correctly rounded, so a larger z never gives a smaller zs (larger, for the reversed map).
+    /// Within (α + 1/2)ε of its own α + β/z, absolutely (|α'| + 1/2 for the reversed map). Within (3α + 1/2)ε of that
+    /// of the planes themselves. The two are 1.5ε and 3ε for B/A >= 4, more as the planes approach each other. Onto any
+    /// range, within (|α| + 2|β|/A + m)ε of that of the planes, m the largest |zs|.
+    ///
+    /// Monotone: division and addition are correctly rounded, so a larger z never gives a smaller zs (larger, for the
+    /// reversed map).
     #[must_use]
     #[inline]
     pub fn zs(&self, z: f32) -> f32 {
@@ -133,10 +135,11 @@ impl DepthMap {
     ///
     /// # Precision
     /// Within 2ε of the quotient of its own α and β, relatively. That does not make z good: zs comes rounded, and the
-    /// subtraction cancels near the far plane of a forward map. There and back, from z to zs to z, the relative error
-    /// is within r/(1 − r) + 4ε, r = (α + 1/2)ε·z/|β|: at the far plane 3e-5 was measured for B/A = 10^3, 2.9e-2 for
-    /// 10^6, and for 10^9 z comes back infinite. The reversed map keeps it within 4ε for any planes, as far
-    /// as [`reversed`](Self::reversed) says.
+    /// subtraction cancels near the far plane of a forward map.
+    ///
+    /// There and back, from z to zs to z, the relative error is within r/(1 − r) + 4ε, with r = (α + 1/2)ε·z/|β|. At
+    /// the far plane 3e-5 was measured for B/A = 10^3, 2.9e-2 for 10^6, and for 10^9 z comes back infinite. The
+    /// reversed map keeps it within 4ε for any planes, as far as [`reversed`](Self::reversed) says.
     #[must_use]
     #[inline]
     pub fn z(&self, zs: f32) -> f32 {

@@ -1,8 +1,8 @@
-//! Why a view cannot be set up.
+//! Errors of the parameters of a view.
 
 use core::fmt;
 
-/// What is wrong with the parameters of a camera, a projection or a viewport.
+/// The error in the parameters of a camera, a projection or a viewport.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ViewError {

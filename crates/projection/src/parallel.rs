@@ -5,7 +5,7 @@ use crate::{Projection, ViewError};
 use alberti_math::glam::Vec3;
 use alberti_math::{Eye, Point3, Varying};
 
-/// A box of view, seen from infinitely far: what is parallel stays parallel, and size does not tell distance.
+/// A box of view, seen from infinitely far: parallels stay parallel, and size does not tell distance.
 ///
 /// ```
 /// use alberti_math::{Point3, glam::Vec3};
@@ -24,11 +24,12 @@ use alberti_math::{Eye, Point3, Varying};
 ///
 /// # Precision
 /// xs within 2ε·max(|xs|, `f32::MIN_POSITIVE`) of 2x/(height·aspect), of a point in eye space, and ys so of 2y/height,
-/// barring overflow; q is 1; for zs see [`LinearDepth::zs`].
+/// barring overflow (ε = 2^-24); q is 1; for zs see [`LinearDepth::zs`].
 ///
 /// # Cost
-/// Three multiplications and a subtraction a vertex, no division. With q = 1 at every vertex what is linear in space is
-/// linear on the screen, so the rasterizer's policy of straight lines is as right as that with a division a fragment.
+/// Three multiplications and a subtraction a vertex, no division. With q = 1 at every vertex, functions that are linear
+/// in space are linear on the screen. So the rasterizer's policy of straight lines is as right as that with a division
+/// a fragment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parallel {
     /// 2/height.
@@ -121,11 +122,11 @@ pub struct LinearDepth {
     slope: f32,
 }
 
-/// As of eye coordinates: beyond this, differences might overflow.
+/// The greatest depth of either sign, as of eye coordinates: beyond it, differences might overflow.
 const LARGEST: f32 = f32::MAX / 16.0;
 
 impl LinearDepth {
-    /// Forward, and reversed.
+    /// The forward and the reversed map.
     const fn between(near: f32, far: f32) -> Result<[Self; 2], ViewError> {
         let slope = 1.0 / (far as f64 - near as f64);
         #[expect(clippy::cast_possible_truncation, reason = "rounded once, here")]
@@ -140,9 +141,9 @@ impl LinearDepth {
     /// The screen depth zs of a point at eye depth `z` in [A, B]; always in [0, 1].
     ///
     /// # Precision
-    /// Within 3ε·max(zs, `f32::MIN_POSITIVE`) of the exact value: relatively, so that what is close to the plane where
-    /// zs is 0 is told apart by a floating-point depth buffer as finely as eye depths can be. Exactly 0 there.
-    /// Monotone.
+    /// Within 3ε·max(zs, `f32::MIN_POSITIVE`) of the exact value (ε = 2^-24), and exactly 0 on the plane where zs is 0.
+    /// The bound is relative, so a floating-point depth buffer tells depths close to that plane apart as finely as eye
+    /// depths can be. Monotone.
     #[must_use]
     #[inline]
     pub fn zs(&self, z: f32) -> f32 {

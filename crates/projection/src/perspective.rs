@@ -68,21 +68,21 @@ impl Perspective {
         if reversed { self.reversed } else { self.forward }
     }
 
-    /// Step 2, the pyramid scale S: x and y are multiplied by d/s = cot(fov/2), x also by 1/aspect, so that the sides
-    /// of the pyramid become the planes x = ±z, y = ±z.
+    /// Step 2, the pyramid scale S: x and y are multiplied by d/s = cot(fov/2), x also by 1/aspect. So the sides of the
+    /// pyramid become the planes x = ±z, y = ±z.
     #[must_use]
     #[inline]
     pub fn scale(&self, p: Point3<Eye>) -> Point3<Eye> {
         Point3::new(Vec3::new(p.coords.x * self.scale_x, p.coords.y * self.scale_y, p.coords.z))
     }
 
-    /// Step 4, perspective with depth: xs = xe/ze, ys = ye/ze, zs = α + β/ze, and q = 1/ze for what follows.
+    /// Step 4, perspective with depth: xs = xe/ze, ys = ye/ze, zs = α + β/ze, and q = 1/ze for the steps that follow.
     ///
     /// # Shapes and spaces
     /// The vertex is in eye space, scaled by [`scale`](Self::scale) and within the near and far planes, so ze >= A > 0.
     ///
     /// # Precision
-    /// xs, ys and q are correctly rounded quotients (within ε, relatively); for zs see [`DepthMap::zs`].
+    /// xs, ys and q are correctly rounded quotients (within ε = 2^-24, relatively); for zs see [`DepthMap::zs`].
     #[must_use]
     #[inline]
     pub fn project<V: Varying>(&self, depth: &DepthMap, v: &EyeVertex<V>) -> ProjectedVertex<V> {
@@ -91,7 +91,7 @@ impl Perspective {
     }
 }
 
-/// What x and y are multiplied by so that a pyramid's sides become x = ±z, y = ±z: cot(fov/2)/aspect and cot(fov/2).
+/// The factors of x and y by which a pyramid's sides become x = ±z, y = ±z: cot(fov/2)/aspect and cot(fov/2).
 pub(crate) const fn pyramid_scale(fov_y: f32, aspect: f32) -> Result<[f64; 2], ViewError> {
     if !(fov_y > 0.0 && fov_y < core::f32::consts::PI) {
         return Err(ViewError::Angle);

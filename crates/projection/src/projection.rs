@@ -1,12 +1,12 @@
-//! What perspective and parallel projection have in common, so that a scene can be drawn through either.
+//! Projections: the steps that perspective and parallel projection share, so that a scene can be drawn through either.
 
 use crate::clip::{EyeVertex, ProjectedVertex};
 use crate::{DepthMap, Parallel, Perspective};
 use alberti_math::{Eye, Point3, Varying};
 use core::fmt::Debug;
 
-/// From eye space to the cube: [`Perspective`] or [`Parallel`], or [`AnyProjection`] for one that is chosen at run
-/// time.
+/// A map from eye space to the cube: [`Perspective`] or [`Parallel`], or [`AnyProjection`] for one that is chosen at
+/// run time.
 ///
 /// ```text
 ///   Perspective                     Parallel
@@ -101,9 +101,9 @@ impl Projection for Perspective {
 /// A branch a vertex, for each step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AnyProjection {
-    /// With a vanishing point.
+    /// A projection with a vanishing point.
     Perspective(Perspective),
-    /// Without.
+    /// One without.
     Parallel(Parallel),
 }
 

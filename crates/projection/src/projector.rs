@@ -17,7 +17,7 @@ use alberti_math::glam::{Mat3, Vec2, Vec3};
 use alberti_math::lanes::{Lanes, One};
 use alberti_math::{Eye, Frame, Mode, Point3, Varying, World};
 
-/// A slide projector: where it stands, where it points, and how wide its pyramid of light opens.
+/// A slide projector: its place, its direction, and the opening of its pyramid of light.
 ///
 /// ```
 /// use alberti_math::{Point3, Vector3, World, glam::{Vec2, Vec3}};
@@ -38,7 +38,7 @@ use alberti_math::{Eye, Frame, Mode, Point3, Varying, World};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projector {
     eye: Point3<World>,
-    /// From displacements from the eye to (u, v, q): the directions right, up and forward as rows, the first two
+    /// The map of displacements from the eye to (u, v, q): the directions right, up and forward as rows, the first two
     /// scaled.
     rows: Frame<World, Eye>,
 }
@@ -66,17 +66,17 @@ impl Projector {
         Ok(Self { eye: place.origin(), rows })
     }
 
-    /// Where the image meets a point: (u, v) = (cot(fov/2)/aspect x, cot(fov/2) y) and q = z, with the point (x, y, z)
-    /// in the projector's frame.
+    /// The place of a point on the image, in homogeneous coordinates: (u, v) = (cot(fov/2)/aspect x, cot(fov/2) y) and
+    /// q = z, with the point (x, y, z) in the projector's frame.
     ///
     /// Any point has such coordinates, also behind the projector and beside its image, and they are linear in space.
     /// So a triangle's vertices may lie anywhere: they carry them to the fragments like anything else.
     ///
     /// # Precision
-    /// u, v and q within 5ε of the sum of the magnitudes of their three terms, each a product of a component of the
-    /// displacement from the projector and one of the scaled axis, exact for the frame as given. In that sum, what is
-    /// below `f32::MIN_POSITIVE` of an axis counts as that, and so does the sum itself. Barring overflow. The origin of
-    /// the world plays no part.
+    /// u, v and q are within 5ε (ε = 2^-24) of the sum of the magnitudes of their three terms, barring overflow. Each
+    /// term is a product of a component of the displacement from the projector and one of the scaled axis, exact for
+    /// the frame as given. In that sum, a component of an axis below `f32::MIN_POSITIVE` counts as that, and so does
+    /// the sum itself. The origin of the world plays no part.
     ///
     /// # Cost
     /// Nine multiplications and nine additions.
@@ -88,7 +88,7 @@ impl Projector {
     }
 }
 
-/// Homogeneous texture coordinates: what vertices carry where an image is projected.
+/// Homogeneous texture coordinates, which vertices carry where an image is projected.
 ///
 /// As a varying it is like three numbers, linear in space. [`divide`](Self::divide) comes after interpolating, at each
 /// fragment.
@@ -121,8 +121,8 @@ impl Homogeneous {
         inside.then_some(Vec2::from_array(place))
     }
 
-    /// [`divide`](Self::divide) at several samples, and at which of them there is an image; at others the place has no
-    /// meaning.
+    /// [`divide`](Self::divide) at several samples, and those of them at which there is an image; at others the place
+    /// has no meaning.
     #[must_use]
     #[inline(always)]
     pub fn divide_lanes<L: Lanes>(lanes: L, &[u, v, q]: &[L::Number; 3]) -> ([L::Number; 2], L::Mask) {
@@ -167,14 +167,14 @@ mod tests {
         Point3::new(Vec3::new(x, y, z))
     }
 
-    /// At the origin, along z, so that the world's x is to the left.
+    /// The projector at the origin, along z, so that the world's x is to the left.
     fn along_z(fov_y: f32, aspect: f32) -> Projector {
         let place = look_at(at(0.0, 0.0, 0.0), at(0.0, 0.0, 1.0), Vector3::new(Vec3::Y)).expect("a place");
         Projector::new(place, fov_y, aspect).expect("a pyramid")
     }
 
-    /// The lecture's example has A = (1, 1, 1), B = (2, 2, 10) before a projector that looks along -z, whose q is -z;
-    /// here forward is +z and q = z, and x runs to the left. Magnitudes are the same.
+    /// The lecture's example has A = (1, 1, 1), B = (2, 2, 10) before a projector that looks along -z, whose q is -z.
+    /// Here forward is +z and q = z, and x runs to the left. Magnitudes are the same.
     #[test]
     fn dividing_comes_after_interpolating() {
         let projector = along_z(0.6, 1.0);

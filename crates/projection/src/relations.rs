@@ -8,7 +8,7 @@
 //!   screen       .--------.--------.          ps = (1-τ) ps1 + τ ps2       τ = 1/2
 //! ```
 //!
-//! What is nearer takes more room on the screen, so the middle of the screen's segment is not that of the segment in
+//! Nearer parts take more room on the screen, so the middle of the screen's segment is not that of the segment in
 //! space. Weights are those of the end points or vertices: [1−t, t] of a segment, [u, v, s] of a triangle.
 
 use crate::DepthMap;
@@ -29,7 +29,7 @@ pub struct EyeWeights<const N: usize>(
     pub [f32; N],
 );
 
-/// Weights on the screen, of the projected vertices: a point is Σ `w[i]`·`ps[i]`. What a rasterizer has.
+/// Weights on the screen, of the projected vertices: a point is Σ `w[i]`·`ps[i]`. A rasterizer has these.
 ///
 /// ```
 /// use alberti_projection::{EyeWeights, ScreenWeights};
@@ -49,8 +49,8 @@ impl EyeWeights<2> {
     /// [1−t, t]: the point at parameter `t` from the first end to the second.
     ///
     /// # Precision
-    /// Each within ε of itself, as `t` is taken for exact. A `t` that is rounded already holds 1−t only to ε/2
-    /// absolutely: near the second end give both weights, each by its own formula.
+    /// Each within ε (ε = 2^-24) of itself, as `t` is taken for exact. A `t` that is rounded already holds 1−t only to
+    /// ε/2 absolutely: near the second end give both weights, each by its own formula.
     #[must_use]
     pub fn at(t: f32) -> Self {
         Self([1.0 - t, t])
@@ -74,8 +74,9 @@ impl<const N: usize> EyeWeights<N> {
     ///
     /// # Precision
     /// Each weight has its own formula and is within 1.001ε of its exact value, relatively (below 2^-126 within
-    /// 2^-150), for weights that are not negative and positive depths, of any sizes and ratios that are finite. From a
-    /// parameter alone, [`at`](EyeWeights::at), within 2.001ε. Weights of both signs may cancel in the sum.
+    /// 2^-150). That is for weights that are not negative and positive depths, of any sizes and ratios that are finite.
+    /// From a parameter alone, [`at`](EyeWeights::at), it is within 2.001ε. Weights of both signs may cancel in the
+    /// sum.
     ///
     /// # Cost
     /// In `f64`, in which no product rounds, overflows or vanishes: N products, N divisions.
@@ -118,7 +119,7 @@ impl<const N: usize> ScreenWeights<N> {
     /// 1/z of the point, which is linear on the screen: q = Σ w'ᵢ/zᵢ = 1 / Σ wⱼzⱼ. (Relation 9.)
     ///
     /// # Precision
-    /// Within 1.001ε, relatively, as [`EyeWeights::to_screen`].
+    /// Within 1.001ε (ε = 2^-24), relatively, as [`EyeWeights::to_screen`].
     #[must_use]
     pub fn q(self, z: [f32; N]) -> f32 {
         narrow(self.terms(z).iter().sum())
@@ -130,7 +131,7 @@ impl<const N: usize> ScreenWeights<N> {
     ///
     /// # Precision
     /// Within 1.001ε of the exact value of the latter for the map's own α and β, relatively. The vertices' zs come
-    /// rounded, and bring their errors along, as in [`DepthMap::z`], which takes the zs of one point: of zs that a
+    /// rounded, and bring their errors along, as in [`DepthMap::z`], which takes the zs of one point. Of zs that a
     /// reversed map gave, it is within 4ε of the z of the point itself, as far as [`DepthMap::reversed`] says.
     #[must_use]
     pub fn z_of_depths(self, zs: [f32; N], map: &DepthMap) -> f32 {
@@ -144,7 +145,7 @@ impl<const N: usize> ScreenWeights<N> {
     }
 }
 
-/// `f` of each weight and what belongs to its vertex.
+/// `f` of each weight and the number of its vertex.
 fn each<const N: usize>(weights: [f32; N], of: [f32; N], f: impl Fn(f64, f64) -> f64) -> [f64; N] {
     let mut terms = weights.map(f64::from);
     for (term, of) in terms.iter_mut().zip(of) {

@@ -1,4 +1,4 @@
-//! How far apart surfaces must be for a depth buffer to tell them apart.
+//! The resolution of depth buffers: the distance of surfaces that they can tell apart.
 //!
 //! ```text
 //!    1 |                   _ . - '''      equal steps of zs, δ, are short steps of z near the eye
@@ -43,7 +43,7 @@ impl DepthSteps {
 }
 
 impl DepthMap {
-    /// How far apart two surfaces must be to be told apart, the farther of them at depth `z`: dz = z·δ/(|β|/z + δ),
+    /// The distance that two surfaces need to be told apart, the farther of them at depth `z`: dz = z·δ/(|β|/z + δ),
     /// where zs is one step δ away. For small steps that is z²δ/|β|; it never exceeds z.
     ///
     /// δ is the format's step, or that of the `f32` zs or β/z there, if that is larger.
@@ -61,11 +61,12 @@ impl DepthMap {
     /// ```
     ///
     /// # Precision
-    /// Within 4ε of the formula for the planes, relatively, with δ for zs and β/z as computed. As for what is really
-    /// told apart: where 2^-21·z <= dz <= z/4, the depths that are stored like `z` extend over between dz/2 and 2dz, so
-    /// that surfaces 2dz apart are told apart. Finer than that, where z, β/z and zs all round by about as much, it is
-    /// between dz/4 and 4dz. Depths that share the first or the last stored value are the exception: the planes cut
-    /// there.
+    /// Within 4ε (ε = 2^-24) of the formula for the planes, relatively, with δ for zs and β/z as computed.
+    ///
+    /// The depths that are really stored like `z` extend over between dz/2 and 2dz where 2^-21·z <= dz <= z/4, so that
+    /// surfaces 2dz apart are told apart. Finer than that, where z, β/z and zs all round by about as much, they extend
+    /// over between dz/4 and 4dz. Depths that share the first or the last stored value are the exception: the planes
+    /// cut there.
     #[must_use]
     pub fn resolution(&self, steps: DepthSteps, z: f32) -> f32 {
         let quotient = self.beta() / z;
@@ -82,8 +83,8 @@ impl DepthMap {
     ///
     /// # Precision
     /// With `D16` the resolution there is within 8ε of `gap`, relatively. Where the step varies with zs, as it does for
-    /// `F32`, the largest is taken: the resolution is at most `gap`·(1 + 8ε) up to there, and more than `gap` at twice
-    /// that depth, for maps onto [0, 1] or [−1, 1] either way round, from four times the near plane on.
+    /// `F32`, the largest is taken. Then the resolution is at most `gap`·(1 + 8ε) up to there, and more than `gap` at
+    /// twice that depth. That is for maps onto [0, 1] or [−1, 1] either way round, from four times the near plane on.
     #[must_use]
     pub fn separable_until(&self, steps: DepthSteps, gap: f32) -> f32 {
         let [least, most] = self.range();
@@ -99,7 +100,7 @@ impl DepthMap {
     /// map to go with it: [`reversed`](Self::reversed) or [`forward`](Self::forward). None where no format does.
     ///
     /// That takes a [`resolution`](Self::resolution) of at most half the gap with `D16`, and of a quarter with the
-    /// finer formats, where the roundings of `f32` count: then zs of the far plane and of all that is `gap` or more
+    /// finer formats, where the roundings of `f32` count. Then zs of the far plane and of all that is `gap` or more
     /// before it are stored differently.
     ///
     /// ```
@@ -123,9 +124,9 @@ impl DepthMap {
             .find(|(steps, map)| map.apart(*steps, far) <= gap))
     }
 
-    /// How far apart surfaces are stored apart for certain, the farther of them at depth `z`, be it the far plane:
-    /// twice the resolution. Four times where `f32` is hardly finer than the format, as its roundings then count: of α,
-    /// which may shift what is stored as the far plane is, of β/z and of zs.
+    /// The distance of surfaces that are stored apart for certain, the farther of them at depth `z`, be it the far
+    /// plane: twice the resolution. It is four times the resolution where `f32` is hardly finer than the format. Its
+    /// roundings count then: of α, which may shift the depths stored like the far plane, of β/z and of zs.
     fn apart(&self, steps: DepthSteps, z: f32) -> f32 {
         let float = spacing(self.zs(z)).max(spacing(self.beta() / z));
         let dz = self.resolution(steps, z);
@@ -140,7 +141,7 @@ impl DepthMap {
     }
 }
 
-/// From `x` to the next `f32` towards 0.
+/// The distance from `x` to the next `f32` towards 0.
 fn spacing(x: f32) -> f64 {
     let x = x.abs();
     // Of 0 the next one is as far as that after it.

@@ -4,7 +4,7 @@ use crate::{SideBounds, ViewError};
 use alberti_math::{Fixed, GUARD_PIXELS, Subpixel};
 use core::ops::Range;
 
-/// A rectangle of pixels on the target: where the window [-1, 1] x [-1, 1] appears.
+/// A rectangle of pixels on the target, in which the window [-1, 1] x [-1, 1] appears.
 ///
 /// Pixel rows count from the top, so ys = 1 is the upper edge of the viewport's first row.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,8 +16,8 @@ pub struct Viewport {
     half: [f32; 2],
 }
 
-/// How far a viewport may reach from the frame's origin: half the guard band, so that the other half is room for
-/// triangles that reach out of it.
+/// The greatest distance of a viewport's pixels from the frame's origin: half the guard band, so that the other half is
+/// room for triangles that reach out of it.
 const REACH: i32 = GUARD_PIXELS / 2;
 
 impl Viewport {
@@ -55,15 +55,16 @@ impl Viewport {
     /// The snapped screen position of a point of the window: xv = (xs + 1) W/2 + x0, yv = (1 − ys) H/2 + y0, to the
     /// nearest subpixel. `None` beyond the guard band and for NaN.
     ///
-    /// That is the window translated by (1, 1) and scaled by (W/2, H/2), to the corner (x0, y0); with y turned over, as
+    /// That is the window translated by (1, 1) and scaled by (W/2, H/2), to the corner (x0, y0). y is turned over, as
     /// rows count downwards: H − (ys + 1) H/2 = (1 − ys) H/2.
     ///
     /// Computed as the viewport's centre plus the rounded offset, so that moving a viewport by whole pixels moves
     /// every position by exactly as much.
     ///
     /// # Precision
-    /// The offset is a correctly rounded product: within ε·|offset| (2^-15 pixel within a 1024 pixel viewport, at most
-    /// 2^-8 at the far edge of the guard band) plus 2^-(bits+1) pixel for the snapping.
+    /// The offset is a correctly rounded product, within ε·|offset| (ε = 2^-24), plus 2^-(bits+1) pixel for the
+    /// snapping. The first is 2^-15 pixel within a 1024 pixel viewport, and at most 2^-8 at the far edge of the guard
+    /// band.
     #[must_use]
     #[inline]
     pub fn to_screen(&self, subpixel: impl Subpixel, xs: f32, ys: f32) -> Option<[Fixed; 2]> {

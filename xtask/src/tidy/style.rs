@@ -1,74 +1,30 @@
-//! A budget of comments in an older style, which can only shrink.
-//!
-//! A comment begins with a noun that names the thing, and its sentences are short. Comments from before that rule are
-//! many, so the crates' sources have a budget of each kind instead of none: a change must not add to it.
+//! The style of the crates' comments: each begins with a noun that names the thing, and its sentences are short.
 
 use super::Problem;
 
 /// The most words of a sentence.
 const MAX_WORDS: usize = 30;
 
-/// One crate's budget.
-struct Budget {
-    /// The folder below `crates/`.
-    folder: &'static str,
-    /// Lines of comments that begin with the word "What".
-    whats: usize,
-    /// Sentences of documentation with more than [`MAX_WORDS`] words.
-    long: usize,
-}
-
-/// All budgets: numbers go down only. A crate that is not listed has none.
-const BUDGETS: &[Budget] =
-    &[Budget { folder: "app", whats: 21, long: 20 }, Budget { folder: "projection", whats: 6, long: 21 }];
-
 /// A search that returns the lines of what it finds in a file's text.
 type Find = fn(&str) -> Vec<usize>;
 
-/// Compares the crates' sources, given as (file, text), with their budgets. The notes tell which budgets can shrink.
-pub(super) fn check(sources: &[(String, String)]) -> (Vec<Problem>, Vec<String>) {
-    compare(sources, BUDGETS)
+/// The rules, and the searches for what breaks them.
+const RULES: [(&str, Find); 2] = [
+    ("a comment begins with “What” instead of a noun", lines_with_what),
+    ("a sentence of documentation has more than 30 words", long_sentences),
+];
+
+/// The faults of a file, if it is a source of a crate.
+pub(super) fn check(file: &str, text: &str) -> Vec<Problem> {
+    let rules = RULES.iter().filter(|_| is_of_crate(file));
+    let found = rules.flat_map(|(rule, find)| find(text).into_iter().map(move |line| (rule, line)));
+    found.map(|(rule, line)| Problem::new(file, line, (*rule).to_string())).collect()
 }
 
-fn compare(sources: &[(String, String)], budgets: &[Budget]) -> (Vec<Problem>, Vec<String>) {
-    let mut folders: Vec<&str> = sources.iter().filter_map(|(file, _)| crate_of(file)).collect();
-    folders.extend(budgets.iter().map(|budget| budget.folder));
-    folders.sort_unstable();
-    folders.dedup();
-    let (mut problems, mut notes) = (Vec::new(), Vec::new());
-    for folder in folders {
-        let budget = budgets.iter().find(|budget| budget.folder == folder);
-        let (whats, long) = budget.map_or((0, 0), |budget| (budget.whats, budget.long));
-        let kinds: [(&str, Find, usize); 2] = [
-            ("comments begin with “What” instead of a noun", lines_with_what, whats),
-            ("sentences of documentation have more than 30 words", long_sentences, long),
-        ];
-        for (kind, find, most) in kinds {
-            let of_crate = sources.iter().filter(|(file, _)| crate_of(file) == Some(folder));
-            let places: Vec<String> = of_crate
-                .flat_map(|(file, text)| {
-                    find(text).into_iter().map(move |line| format!("\n    {file}:{line}"))
-                })
-                .collect();
-            let count = places.len();
-            if count > most {
-                let message =
-                    format!("{count} {kind}, {most} are the budget of this crate:{}", places.concat());
-                problems.push(Problem::new(&format!("crates/{folder}/src"), 1, message));
-            } else if count < most {
-                notes.push(format!(
-                    "crates/{folder}: {count} {kind}; lower the budget of {most} in tidy/style.rs"
-                ));
-            }
-        }
-    }
-    (problems, notes)
-}
-
-/// The folder of a crate's source file.
-fn crate_of(file: &str) -> Option<&str> {
-    let (folder, path) = file.strip_prefix("crates/")?.split_once('/')?;
-    (path.starts_with("src/") && path.ends_with(".rs")).then_some(folder)
+/// Whether a file is a source of a crate.
+fn is_of_crate(file: &str) -> bool {
+    let path = file.strip_prefix("crates/").and_then(|path| path.split_once('/'));
+    path.is_some_and(|(_, path)| path.starts_with("src/") && path.ends_with(".rs"))
 }
 
 /// The lines of comments that begin with a clause in the place of a name.
@@ -175,26 +131,16 @@ mod tests {
     }
 
     #[test]
-    fn a_budget_is_kept_and_can_shrink() {
-        let budgets = [Budget { folder: "math", whats: 2, long: 0 }];
-        let source =
-            |count: usize| vec![("crates/math/src/a.rs".to_string(), "// What a is.\n".repeat(count))];
-        let (problems, notes) = compare(&source(2), &budgets);
-        assert_eq!((problems.len(), notes.len()), (0, 0));
-        let (problems, _) = compare(&source(3), &budgets);
-        let message = problems[0].to_string();
-        assert!(message.starts_with("crates/math/src:1: 3 comments begin"), "{message}");
-        assert!(message.ends_with("\n    crates/math/src/a.rs:3"), "{message}");
-        let (problems, notes) = compare(&source(1), &budgets);
-        assert!(problems.is_empty() && notes[0].contains("lower the budget of 2"), "{notes:?}");
-    }
-
-    #[test]
     fn only_sources_of_crates_count() {
+        let text = "// A name.\n// What a is.\n";
         for file in ["crates/math/tests/a.rs", "xtask/src/a.rs", "crates/math/src/a.md"] {
-            let (problems, _) = compare(&[(file.into(), "// What a is.\n".into())], &[]);
-            assert!(problems.is_empty(), "{file}");
+            assert!(check(file, text).is_empty(), "{file}");
         }
-        assert_eq!(compare(&[("crates/new/src/a.rs".into(), "// What a is.\n".into())], &[]).0.len(), 1);
+        let problems = check("crates/new/src/a.rs", text);
+        let message = problems[0].to_string();
+        assert!(
+            problems.len() == 1 && message.starts_with("crates/new/src/a.rs:2: a comment begins"),
+            "{message}"
+        );
     }
 }

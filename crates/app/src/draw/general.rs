@@ -1,5 +1,5 @@
-//! Any surface by any policies: a kernel for each kind of interpolation, and one fragment stage behind a pointer, which
-//! is all surfaces that there are, with a projector's image on them.
+//! Any surface by any policies: a kernel for each kind of interpolation, and one fragment stage behind a pointer. The
+//! stage is all surfaces that there are, with a projector's image on them.
 
 use super::erased::{Carried, erase, erase_fixed};
 use super::lamps::Lamps;

@@ -9,7 +9,7 @@ use alberti::texture::environment::{CubeMap, Environment, LatLong, SphereMap, Tu
 use alberti::texture::surface::AnyParallax;
 use alberti::{Eye, Frame, Point3, Vector3, World};
 
-/// What falls on a picture's surfaces.
+/// The lighting of a picture's surfaces, and their viewer.
 #[derive(Clone, Debug)]
 pub(crate) struct Lamps {
     pub(super) ambient: Vec3,
@@ -18,7 +18,7 @@ pub(crate) struct Lamps {
 }
 
 impl Lamps {
-    /// A model's, or else light from the direction `to_light`.
+    /// The lighting of a model, or else light from the direction `to_light`.
     pub(super) fn new(model: &Model, camera: &Camera, parallel: bool, to_light: Vec3) -> Self {
         let lights: Vec<AnyLight> = model.lights.iter().map(lamp).collect();
         let own = lights.is_empty() && model.ambient.is_none();
@@ -74,7 +74,7 @@ pub(super) fn parallax(relief: scene::Relief) -> Option<AnyParallax> {
     }
 }
 
-/// How an image shows all directions.
+/// The layout of an image of all directions.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum AnyEnvironment {
     LatLong(Upright),
@@ -83,7 +83,7 @@ pub(super) enum AnyEnvironment {
 }
 
 impl AnyEnvironment {
-    /// Of an image, for a camera that stands so.
+    /// The layout of this image, for a camera that stands so.
     pub(super) fn new(kind: EnvironmentKind, image: &Image, camera: Frame<Eye, World>) -> Self {
         match kind {
             EnvironmentKind::LatLong => Self::LatLong(Upright { rows: image.height }),

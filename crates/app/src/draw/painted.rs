@@ -17,7 +17,7 @@ use alberti::texture::format::Content;
 use alberti::texture::surface::{AnyParallax, CentralDifferences, NormalEncoding::Unorm, Relief};
 use alberti::{Eye, Frame, Point3, Varying, World};
 
-/// What a part is made of.
+/// The layers of a part.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Painted<'a> {
     parallax: Option<Parallax<AnyHeights<'a>, AnyParallax>>,
@@ -31,7 +31,7 @@ pub(super) struct Painted<'a> {
     reflection: Option<Reflection<AnyEnvironment, AnyMap<'a>, Scaled<AnyMap<'a>>>>,
 }
 
-/// Which way it faces.
+/// The source of its normals.
 #[derive(Clone, Copy, Debug)]
 enum Facing<'a> {
     AsVertices,
@@ -49,7 +49,7 @@ macro_rules! apply {
     )+};
 }
 
-/// With light by vertex: without what needs a place or a frame.
+/// The layers with light by vertex: those that need no place and no frame.
 impl Layer<Vec2> for Painted<'_> {
     type Derivatives = PerPixel;
 
@@ -83,7 +83,7 @@ impl Layer<Framed> for Painted<'_> {
 }
 
 impl<'a> Painted<'a> {
-    /// A part's, in a picture with these options, seen from a frame with these axes.
+    /// The layers of a part, in a picture with these options, seen from a frame with these axes.
     pub(super) fn new(
         part: &Part,
         model: &'a Model,

@@ -90,10 +90,10 @@ impl Libraries {
     }
 }
 
-/// Exporters write normal maps into `bump` as well. They are used as what they are.
+/// Exporters write normal maps into `bump` as well. They are used as normal maps.
 fn normals_as_bump(material: &mut Material, images: &mut Images) -> Option<Error> {
     let map = material.height_map.as_ref().filter(|_| material.normal_map.is_none())?;
-    // What is wrong with the file is told when it is used.
+    // Faults of the file are told when it is used.
     let index = images.texture(map).ok().flatten()?;
     if !images.looks_like_normals(index) {
         return None;

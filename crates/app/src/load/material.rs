@@ -12,7 +12,7 @@ use crate::scene::{
 pub(crate) type OnError<'a> = &'a mut dyn FnMut(Error) -> Result<(), Error>;
 
 impl Material {
-    /// Gives a part of a model of this radius what is said.
+    /// Gives this material to a part of a model of this radius.
     ///
     /// # Errors
     /// Those that `on_error` passes on.
@@ -40,7 +40,7 @@ impl Material {
         }
         let detail = &mut part.detail;
         if let Some(map) = texture(&self.normal_map)? {
-            // What is said of the one that was there is said of this one.
+            // The settings of the map that was there are kept for this one.
             let before = detail.normal.unwrap_or(NormalMap {
                 map,
                 space: NormalSpace::default(),
@@ -114,7 +114,7 @@ impl Material {
         })
     }
 
-    /// Changes what is said of maps that are there.
+    /// Changes the settings of maps that are there.
     fn change_maps(&self, detail: &mut Detail) {
         if let Some(normal) = &mut detail.normal {
             normal.space = self.normal_space.unwrap_or(normal.space);

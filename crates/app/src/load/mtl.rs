@@ -109,7 +109,7 @@ impl CheckedMtl {
     }
 }
 
-/// The numbers of a line that should have `wanted`, when they are numbers at all: colours may also be given as
+/// The numbers of a line that should have `wanted` of them, when they are numbers at all. Colours may also be given as
 /// `spectral FILE` or `xyz X Y Z`, which is legal and not supported. One number is a grey, as the format says.
 fn values(line: &Statement<'_>, wanted: usize) -> Result<Option<[f32; 3]>, Error> {
     if matches!(line.words().next(), Some(b"spectral" | b"xyz" | b"-halo")) {

@@ -1,4 +1,4 @@
-//! From a model as it was loaded, with what is said of its materials, to one that can be drawn.
+//! From a model as it was loaded, with the settings of its materials, to one that can be drawn.
 
 use crate::error::{Error, Warnings};
 use crate::load::images::Images;
@@ -8,7 +8,7 @@ use crate::scene::normals::narrow;
 use crate::scene::{Model, Relief};
 use crate::scene::{displace, tangents};
 
-/// Gives all parts of a model what is said of its material.
+/// Gives this material to all parts of a model.
 ///
 /// # Errors
 /// An image cannot be used.

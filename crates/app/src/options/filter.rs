@@ -10,8 +10,8 @@ pub enum Filter {
     /// A weighted mean of the four texels around the point.
     #[default]
     Bilinear,
-    /// The same in the two nearest levels of a mip map, and a mean of both: no shimmer in the distance, but blurred
-    /// where the surface is seen at a flat angle.
+    /// A mean of that in the two nearest levels of a mip map: no shimmer in the distance, but blurred where the surface
+    /// is seen at a flat angle.
     Trilinear,
     /// As many of those along the direction in which the texture is squeezed most: sharp at flat angles too.
     Anisotropic(Probes),

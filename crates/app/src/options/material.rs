@@ -44,7 +44,7 @@ pub struct Material {
     #[arg(long, value_name = "FILE", value_parser = file())]
     pub height_map: Option<MapFile>,
 
-    /// What is made of the heights; needs --height-map [default: bump].
+    /// Effect of the heights; needs --height-map [default: bump].
     #[arg(long, value_enum, value_name = "HOW")]
     pub relief: Option<Relief>,
 

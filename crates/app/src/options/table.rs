@@ -49,7 +49,7 @@ pub struct CameraTable {
     #[arg(long, value_enum, value_name = "HOW")]
     pub projection: Option<ProjectionKind>,
 
-    /// Height of what a parallel projection shows [default: that of the perspective view, at the target].
+    /// Height that a parallel projection shows [default: that of the perspective view, at the target].
     #[arg(long, value_name = "HEIGHT", allow_hyphen_values = true)]
     pub view_height: Option<Number<Finite>>,
 }
@@ -134,15 +134,15 @@ pub struct RenderTable {
 
     /// How textures are read: nearest, bilinear, trilinear or anisotropic:N [default: bilinear]
     ///
-    /// nearest: the texel that contains the point;
-    /// bilinear: a weighted mean of the four texels around the point;
-    /// trilinear: a mean of that in the two nearest levels of a mip map, so that the distance does not shimmer;
+    /// nearest: the texel that contains the point.
+    /// bilinear: a weighted mean of the four texels around the point.
+    /// trilinear: a mean of that in the two nearest levels of a mip map, so that the distance does not shimmer.
     /// anisotropic:N: up to N = 2, 4, 8 or 16 of those along the direction in which the texture is squeezed most, so
     /// that it stays sharp at flat angles.
     #[arg(long, value_name = "FILTER", help_heading = SURFACE, verbatim_doc_comment)]
     pub filter: Option<Filter>,
 
-    /// What textures show outside 0 to 1 [default: repeat].
+    /// Continuation of textures outside 0 to 1 [default: repeat].
     #[arg(long, value_enum, value_name = "WRAP", help_heading = SURFACE)]
     pub wrap: Option<Wrap>,
 
@@ -160,11 +160,11 @@ pub struct RenderTable {
 
     /// How vertices' data comes to pixels: exact, plane, spans:N, bounded:TEXELS or affine [default: exact]
     ///
-    /// exact: right to 9 units of 2^-24, a division a pixel;
-    /// plane: to tens of such units, a division a pixel but fewer operations beside it;
-    /// spans:N: exact every N = 4, 8, 16 or 32 columns, straight lines between, so textures are bent a little;
-    /// bounded:TEXELS: straight lines that miss no more than that much of the largest texture's texel, such as 0.0625
-    /// (a projector's image has no part in this, and may be bent more);
+    /// exact: right to 9 units of 2^-24, a division a pixel.
+    /// plane: to tens of such units, a division a pixel but fewer operations beside it.
+    /// spans:N: exact every N = 4, 8, 16 or 32 columns, straight lines between, so textures are bent a little.
+    /// bounded:TEXELS: straight lines that miss no more than that much of the largest texture's texel, such as 0.0625.
+    /// (A projector's image has no part in this, and may be bent more.)
     /// affine: straight lines across a triangle, no division, textures swim and break along edges.
     #[arg(long, value_name = "HOW", help_heading = PRECISION, verbatim_doc_comment)]
     pub interpolation: Option<Interpolation>,
@@ -173,11 +173,11 @@ pub struct RenderTable {
     #[arg(long, value_enum, value_name = "NUMBERS", help_heading = PRECISION)]
     pub numbers: Option<Numbers>,
 
-    /// What the depth buffer stores [default: f32].
+    /// Format of the depth buffer [default: f32].
     #[arg(long, value_enum, value_name = "FORMAT", help_heading = PRECISION)]
     pub depth: Option<DepthFormat>,
 
-    /// What a pixel's colour is stored as [default: rgba8].
+    /// Format of a pixel's colour [default: rgba8].
     #[arg(long = "color", value_enum, value_name = "FORMAT", help_heading = PRECISION)]
     pub color_format: Option<ColorFormat>,
 

@@ -36,15 +36,19 @@ pub fn bounding_sphere(model: &Model) -> Sphere {
     Sphere { center, radius: if radius > 0.0 { radius } else { 1.0 } }
 }
 
-/// The camera of these options. What they leave open comes from `base`, a scene's own camera, or else
-/// is chosen so that the ball fills the picture of `aspect` (width to height), seen from the front, the right and
-/// above. Near and far enclose the ball as seen from the eye that results, unless eye, target and base leave them
-/// as they were made.
+/// The camera of these options. Parts that they leave open come from `base`, a scene's own camera. Without it they are
+/// chosen so that the ball fills the picture of `aspect` (width to height), seen from the front, the right and above.
+/// Near and far enclose the ball as seen from the eye that results, unless eye, target and base leave them as they were
+/// made.
 ///
 /// # Errors
-/// The first of these that does not hold, with the option that sets it: all is finite; the opening angle is between 0
-/// and 180 degrees; the eye is apart from its target; up is not along the view; near < far, and 0 < near unless the
-/// view is parallel.
+/// The first of these that does not hold, with the option that sets it:
+///
+/// * all is finite;
+/// * the opening angle is between 0 and 180 degrees;
+/// * the eye is apart from its target;
+/// * up is not along the view;
+/// * near < far, and 0 < near unless the view is parallel.
 pub fn frame(
     wishes: &CameraTable,
     base: Option<&Camera>,
@@ -85,7 +89,7 @@ pub fn frame(
     Ok(camera)
 }
 
-/// The height of what a camera with perspective sees at the distance of its target.
+/// The height that a camera with perspective sees at the distance of its target.
 pub fn window_height(camera: &Camera) -> f32 {
     let distance = length(sub(camera.target.map(f64::from), camera.eye.map(f64::from)));
     narrow(2.0 * distance * (f64::from(camera.fov).to_radians() / 2.0).tan())
@@ -152,7 +156,7 @@ pub(crate) fn refused(why: ViewError, camera: &Camera, projection: Projection, n
         (ViewError::NearFar, _) => {
             let found = format!("near {} and far {}", number(near), number(far));
             let expected = "planes farther apart, and neither too near nor too far for 32-bit floats";
-            // With what is far, as far as that is usable.
+            // With the far plane, as far as that is usable.
             let far = far.clamp(-1e30, 1e30);
             let near = if far > 1e-30 { far / 1000.0 } else { 2.0 * far - 1.0 };
             let hint = format!("try --near {} --far {}", number(near), number(far));
@@ -188,7 +192,7 @@ fn up_along_view(camera: &Camera, names: &Names) -> Error {
     Error::new(found, "a direction across the view").place(names.up).hint("choose another axis")
 }
 
-/// `usable` is what the planes are unless they are given.
+/// `usable` are the planes that apply unless others are given.
 fn check_planes(camera: &Camera, parallel: bool, usable: [f32; 2]) -> Result<(), Error> {
     let Camera { near, far, .. } = *camera;
     let hint = format!("try --near {} --far {}", number(usable[0]), number(usable[1]));
@@ -223,8 +227,8 @@ fn three_quarter(up: [f64; 3]) -> [f64; 3] {
     normalize(away).unwrap_or(front)
 }
 
-/// Up in a picture whose user has not said it: y, unless that is no direction across the view; when looking straight up
-/// or down, away from a viewer in front of the model.
+/// The direction upwards in a picture whose user has not said it: y, unless that is no direction across the view. When
+/// looking straight up or down, it is away from a viewer in front of the model.
 fn upwards(view: [f64; 3]) -> [f32; 3] {
     if parallel(view, [0.0, 1.0, 0.0]) { [0.0, 0.0, -1.0] } else { [0.0, 1.0, 0.0] }
 }

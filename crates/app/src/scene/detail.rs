@@ -19,8 +19,8 @@ pub struct Map {
 /// All of a surface but its colour and its texture. The default is a surface without relief, with a faint highlight
 /// where the shading has highlights.
 ///
-/// Where there is a map, the constant beside it is multiplied by the map: by its colour, or by its red channel from 0
-/// to 1 for what is one number.
+/// Where there is a map, the constant beside it is multiplied by the map: by its colour, or, for a single number, by
+/// its red channel from 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Detail {
     /// The texture's filter; `None`: that of the picture.
@@ -213,7 +213,8 @@ pub struct HeightImage {
     pub heights: Vec<u16>,
 }
 
-/// A light in world space. Colours are factors of what a white surface sends back, linear and not limited to 1.
+/// A light in world space. Colours are factors of the light that a white surface sends back, linear and not limited
+/// to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Light {
     /// From so far away that it comes from one direction.

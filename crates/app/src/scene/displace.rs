@@ -18,9 +18,9 @@ pub(crate) const MAX_VERTICES: u64 = 1 << 20;
 
 /// Divides all triangles of the parts that have a displacement map, each into equally many, and moves their vertices.
 ///
-/// Vertices at one place move to one place, by the mean of their heights along the mean of their normals: neither a
+/// Vertices at one place move to one place, by the mean of their heights along the mean of their normals. So neither a
 /// seam in the texture nor a crease in the surface tears open. Normals turn as those of the triangles do, once for
-/// vertices that had the same before, so creases stay, and what was smooth stays smooth.
+/// vertices that had the same before, so creases stay, and smooth surfaces stay smooth.
 ///
 /// Where that takes more than [`MAX_VERTICES`] vertices, texels go without, with a warning.
 pub(crate) fn displace(model: &mut Model, images: &Images, wrap: Wrap, warnings: &mut Warnings) {
@@ -60,7 +60,7 @@ pub(crate) fn displace(model: &mut Model, images: &Images, wrap: Wrap, warnings:
     groups.displace(&mut fine, &heights);
     let displaced = groups.normals(&fine, triangles());
     groups.bend_normals(&mut fine, &flat, &displaced);
-    // What the other parts use stays in front.
+    // The vertices of the other parts stay in front.
     let first = keep_used(model, is_displaced);
     model.vertices.append(&mut fine);
     for part in model.parts.iter_mut().filter(|part| is_displaced(part)) {
@@ -72,7 +72,7 @@ fn map_of(part: &Part) -> Option<HeightMap> {
     part.detail.height.filter(|height| height.relief == Relief::Displacement)
 }
 
-/// As fine as the finest texture asks for, or as is affordable.
+/// The division that is as fine as the finest texture asks for, or as is affordable.
 fn division(model: &Model, images: &Images, warnings: &mut Warnings) -> Option<Subdivision> {
     let (mut wanted, mut triangles) = (1, 0_u64);
     for part in &model.parts {

@@ -4,10 +4,10 @@ use std::collections::HashMap;
 
 use crate::scene::Model;
 
-/// Normalizes the model's normals, and gives each vertex whose normal is (0, 0, 0) a smooth one: the mean of the
-/// normals of the triangles at its position, weighted by their angles there (Thürmer and Wüthrich, Computing
-/// vertex normals from polygonal facets, 1998). So the result depends on the surface, not on how a polygon was
-/// cut into triangles or where a seam in the texture parts two vertices. Triangles of all parts count.
+/// Normalizes the model's normals, and gives each vertex whose normal is (0, 0, 0) a smooth one. That is the mean of
+/// the normals of the triangles at its position, weighted by their angles there (Thürmer and Wüthrich, Computing vertex
+/// normals from polygonal facets, 1998). So the result depends on the surface, not on how a polygon was cut into
+/// triangles or where a seam in the texture parts two vertices. Triangles of all parts count.
 ///
 /// Where the mean vanishes, at a vertex of degenerate triangles only or of a folded surface, it is (0, 0, 1).
 ///

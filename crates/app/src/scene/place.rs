@@ -55,7 +55,7 @@ impl Placement {
             if let Some(normal) = &mut part.detail.normal {
                 normal.axes = [axis(0), axis(1), axis(2)];
             }
-            // What has been displaced is where it should be.
+            // Displaced surfaces are where they should be.
             let after = tangents::area(&model.vertices, part);
             let extent = tangents::extent(&model.vertices, part);
             let drawn = |height: &&mut HeightMap| height.relief != Relief::Displacement && after > 0.0;
@@ -193,7 +193,7 @@ mod tests {
             let right = found.iter().zip([x, y, -z, 2.0 * z]).all(|(a, b)| (a - b).abs() < 1e-5 * b.abs());
             assert!(right, "{scale:?} {height:?}");
         }
-        // What has been displaced has grown with the object.
+        // A displaced surface has grown with the object.
         assert_eq!(placed(Relief::Displacement, [1.0, 1.0, 3.0]).range, [-1.0, 2.0]);
     }
 }

@@ -1,10 +1,10 @@
 //! An OBJ file, checked line by line and rewritten in the plain form that the reader behind it expects.
 //!
-//! `tobj` reads the file, but says neither where an error is nor whether a number is finite, panics on some
-//! indices, and in its one-index mode loses track when only some corners of a mesh have a texture coordinate or
-//! a normal, or only some vertices a colour. So every line is checked here first, and `tobj` gets text in which
-//! every `v` has a colour and every corner three positive indices. Index 1 of the texture coordinates and of
-//! the normals stands for "the file gives none".
+//! `tobj` reads the file, but says neither where an error is nor whether a number is finite, and panics on some
+//! indices. In its one-index mode it loses track when only some corners of a mesh have a texture coordinate or a
+//! normal, or only some vertices a colour. So every line is checked here first, and `tobj` gets text in which every `v`
+//! has a colour and every corner three positive indices. Index 1 of the texture coordinates and of the normals stands
+//! for "the file gives none".
 
 use std::collections::HashSet;
 use std::fmt::{Arguments, Write as _};

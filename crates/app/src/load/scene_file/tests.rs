@@ -73,12 +73,12 @@ fn options_are_filled_in_and_the_command_line_comes_first() {
     filled.update_from_arg_matches(&given).unwrap();
     assert_eq!((filled.camera.fov, filled.render.shading), (Some(50.0.into()), Some(Shading::Unlit)));
     assert_eq!(filled.render.size, Some(Size(320, 200)));
-    // What the command line said is not the file's fault.
+    // An error of the command line is not the file's fault.
     let error = || Error::new("a", "b");
     assert_eq!(scene.relocate(error().place("--fov")), error().place("--fov"));
     let moved = scene.relocate(error().place("--eye")).to_string();
     assert!(moved.ends_with("s.toml:5: camera.eye: found a, expected b"), "{moved}");
-    // And it speaks the file's language, of what the file has not said as well.
+    // And it speaks the file's language, of options that the file has not given as well.
     let error = Error::new("it without --projector", "--projection parallel");
     let moved =
         scene.relocate(error.place("--eye").hint("move --eye or --target, or -o (--far 3)")).to_string();

@@ -160,7 +160,7 @@ fn what_is_not_a_camera_is_refused() {
         assert!(message.starts_with(start), "{message}");
     }
     assert!(frame(&CameraTable { fov: Some(1e-38.into()), ..none }, None, BALL, 1.0).is_err());
-    // What is advised is taken.
+    // The advice can be taken.
     let message = refused(CameraTable { near: Some(1e9.into()), eye: Some([1.0, 2.0, 13.0].into()), ..none });
     assert!(message.ends_with("; try --near 7.98 --far 12.02"), "{message}");
 }

@@ -1,7 +1,7 @@
 //! The default picture: a mazzocchio in an arcade, after the painters for whom Alberti wrote.
 //!
-//! One-point perspective as in De pictura: the eye is level, the lines of the pavement and of the arcades meet
-//! in the middle of the picture, and they do so inside the ring.
+//! One-point perspective as in De pictura: the eye is level, and the lines of the pavement and of the arcades meet in
+//! the middle of the picture. They do so inside the ring.
 
 use super::BuiltIn;
 use super::arcade::{Stones, arcade};

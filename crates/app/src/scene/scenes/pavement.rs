@@ -1,8 +1,8 @@
 //! The pavement, from the picture's lower edge to the horizon, and the painted landscape behind.
 //!
-//! The pavement is one formula of the place on the ground. It is painted in strips across the view, each with a
-//! texture of its own whose texels are about as large as the screen's pixels there, and the squares are averaged
-//! over a texel exactly: no moiré at the horizon, although the renderer is given no mip maps.
+//! The pavement is one formula of the place on the ground. It is painted in strips across the view, each with a texture
+//! of its own whose texels are about as large as the screen's pixels there. The squares are averaged over a texel
+//! exactly: no moiré at the horizon, although the renderer is given no mip maps.
 
 use super::arcade::{ARCH, BAY, COLUMNS, FIRST, HALF_WIDTH, SPRING, TOP, WALL};
 use super::build::{Builder, Vec3, add, scale};
@@ -16,14 +16,14 @@ const EDGE: f64 = 3.6;
 /// The side of a square.
 const SQUARE: f64 = 0.6;
 
-/// Where a shadow falls on the ground: how far outside the shadow's edge a point lies.
+/// A shadow on the ground: the distance from the shadow's edge outwards to a point.
 pub(super) type Shadow<'a> = &'a (dyn Fn(f64, f64) -> f64 + Sync);
 
 /// The ground from `near` to `far` in front of an eye at `eye_z`, under the given shadow.
 pub(super) fn ground(b: &mut Builder, eye_z: f64, near: f64, far: f64, shadow: Shadow) {
     // Each strip ends this much farther away than it begins.
     const GROWTH: f64 = 1.35;
-    // Half of what a picture of 16:9 shows at distance 1.
+    // Half the width that a picture of 16:9 shows at distance 1.
     const SPREAD: f64 = 0.85;
     let stones = Stones::new();
     let mut from = near;
@@ -60,7 +60,7 @@ pub(super) fn ground(b: &mut Builder, eye_z: f64, near: f64, far: f64, shadow: S
     }
 }
 
-/// What the ground is made of, each over a repeating square.
+/// Images of the ground's materials, each over a repeating square.
 struct Stones {
     ivory: Image,
     rosso: Image,
@@ -100,7 +100,7 @@ impl Stones {
 
     /// The chequer with its inlays.
     fn squares(&self, [x, z]: [f64; 2], [wx, wz]: [f64; 2]) -> Vec3 {
-        // What is too fine to be told apart fades out; the chequer itself is averaged.
+        // Detail too fine to be told apart fades out; the chequer itself is averaged.
         let fine = 1.0 - ramp(0.15, 0.5, wz);
         // The average of (+1, -1, ...) in one direction; the product of two is a chequer.
         let wave = |t: f64, w: f64| {

@@ -1,5 +1,5 @@
-//! The bodies on which the painters of the Quattrocento practised: the mazzocchio (a faceted ring, in truth the
-//! frame of a hat), the sphere of 72 faces, the dodecahedron, and a pedestal to put them on.
+//! The bodies on which the painters of the Quattrocento practised, and a pedestal to put them on. They are the
+//! mazzocchio (a faceted ring, in truth the frame of a hat), the sphere of 72 faces, and the dodecahedron.
 
 use super::build::{Builder, Sides, TURN, Vec3, add, cross, dot, scale, sub, unit};
 use super::paint::{cover, grain, marble, mix, paint, rgb};

@@ -43,8 +43,8 @@ pub(super) fn cube() -> BuiltIn {
     }
 }
 
-/// A grotto seen from within, so close to its wall and with a far plane so near that triangles cross all six
-/// sides of the view volume: the background shows where the near and the far plane cut it open.
+/// A grotto seen from within, so close to its wall and with a far plane so near that triangles cross all six sides of
+/// the view volume. The background shows where the near and the far plane cut it open.
 pub(super) fn inside() -> BuiltIn {
     const AROUND: u32 = 24;
     const UP: u32 = 12;

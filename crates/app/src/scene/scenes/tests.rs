@@ -1,4 +1,4 @@
-//! What every built-in scene promises, and what each is for.
+//! Tests of the built-in scenes: the promises of all, and the purpose of each.
 
 use super::build::{Vec3, cross, dot, sub, unit};
 use super::{BuiltIn, NAMES, by_name, trials};
