@@ -63,7 +63,7 @@ const STEEP_LAYERS: u32 = 16;
 /// The layers between which a line is drawn: as many as hide them, with an error that is a quarter with twice as many.
 const OCCLUSION_LAYERS: u32 = 32;
 
-/// What is made of heights, if it is a parallax map.
+/// The search of a parallax map, if heights are one.
 pub(super) fn parallax(relief: scene::Relief) -> Option<AnyParallax> {
     match relief {
         scene::Relief::Bump | scene::Relief::Displacement => None,
