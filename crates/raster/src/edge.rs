@@ -145,6 +145,16 @@ pub struct Edge<I> {
     pub bias: I,
 }
 
+impl Edge<i32> {
+    /// The same edge with its reference sample so many columns to the right and rows down.
+    #[inline(always)]
+    pub(crate) fn moved(&self, columns: i64, rows: i64) -> Edge<i64> {
+        let (step_x, step_y) = (i64::from(self.step_x), i64::from(self.step_y));
+        let value = i64::from(self.value) + step_x * columns + step_y * rows;
+        Edge { value, step_x, step_y, bias: self.bias.into() }
+    }
+}
+
 impl<I: EdgeInt> Edge<I> {
     /// The edge from `a` to `b` with its value at `sample`; positions in subpixels, of which a pixel has `one`.
     ///
@@ -155,12 +165,13 @@ impl<I: EdgeInt> Edge<I> {
     pub fn new(a: [i32; 2], b: [i32; 2], sample: [i32; 2], one: i32) -> Self {
         let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
         let [px, py] = [sample[0] - a[0], sample[1] - a[1]];
-        let top_left = dy < 0 || (dy == 0 && dx > 0);
+        // 0 or 1 without a branch, which would be a toss of a coin.
+        let top_left = i32::from((dy < 0) | ((dy == 0) & (dx > 0)));
         Self {
             value: I::from(dx) * I::from(py) - I::from(dy) * I::from(px),
             step_x: I::from(-dy) * I::from(one),
             step_y: I::from(dx) * I::from(one),
-            bias: I::from(if top_left { 0 } else { -1 }),
+            bias: I::from(top_left - 1),
         }
     }
 }

@@ -78,12 +78,11 @@ impl<L: Lanes> RowMask<L> {
     }
 
     /// The edges at a column and row.
+    #[inline(always)]
     pub(crate) fn edges(&self, at: [i32; 2]) -> [Edge<i64>; 3] {
-        let [columns, rows] = [i64::from(at[0] - self.first[0]), i64::from(at[1] - self.first[1])];
-        self.edges.map(|e| {
-            let [value, step_x, step_y, bias] = [e.value, e.step_x, e.step_y, e.bias].map(i64::from);
-            Edge { value: value + step_x * columns + step_y * rows, step_x, step_y, bias }
-        })
+        let (columns, rows) = (i64::from(at[0] - self.first[0]), i64::from(at[1] - self.first[1]));
+        let [a, b, c] = &self.edges;
+        [a.moved(columns, rows), b.moved(columns, rows), c.moved(columns, rows)]
     }
 
     /// The functions, with their biases, at the first lanes.

@@ -113,17 +113,21 @@ pub(crate) fn doubled_area(&[a, b, c]: &Corners) -> i64 {
 /// The corners, and an item of each, in the order in which they are taken: clockwise, from the topmost (of two, the
 /// left one). The same for every order in which the triangle could be given, so that no bit depends on that.
 #[inline]
-pub(crate) fn in_order<T>([a, b, c]: Corners, [x, y, z]: [T; 3], area: i64) -> (Corners, [T; 3]) {
-    let ([b, c], [y, z]) = if area > 0 { ([b, c], [y, z]) } else { ([c, b], [z, y]) };
-    let before = |p: [i32; 2], q: [i32; 2]| (p[1], p[0]) < (q[1], q[0]);
-    if before(b, a) && !before(c, b) {
-        ([b, c, a], [y, z, x])
-    } else if before(c, a) && before(c, b) {
-        ([c, a, b], [z, x, y])
-    } else {
-        ([a, b, c], [x, y, z])
-    }
+pub(crate) fn in_order<T: Copy>(corners: Corners, carried: [T; 3], area: i64) -> (Corners, [T; 3]) {
+    let key = |[x, y]: [i32; 2]| i64::from(y) << 32 | i64::from(x.cast_unsigned() ^ 1 << 31);
+    let [a, b, c] = corners.map(key);
+    // All by arithmetic: a branch would be a toss of a coin.
+    let topmost = usize::from((b < a) & (b <= c)) + 2 * usize::from((c < a) & (c < b));
+    let [i, j, k] = ORDERS[(topmost + 4 * usize::from(area <= 0)) & 7];
+    let at = |i: u8| usize::from(i & 3);
+    let (corners, carried) =
+        ([corners[0], corners[1], corners[2], corners[0]], [carried[0], carried[1], carried[2], carried[0]]);
+    ([corners[at(i)], corners[at(j)], corners[at(k)]], [carried[at(i)], carried[at(j)], carried[at(k)]])
 }
+
+/// The corners in the order in which they are taken, by the topmost and the orientation.
+const ORDERS: [[u8; 3]; 8] =
+    [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 1, 2], [0, 2, 1], [1, 0, 2], [2, 1, 0], [0, 2, 1]];
 
 #[cfg(test)]
 mod tests {
