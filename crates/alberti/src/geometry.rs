@@ -11,6 +11,12 @@ pub trait Geometry {
     /// The number of triangles.
     fn triangles(&self) -> usize;
 
+    /// The number of vertices, if all of them may be transformed ahead of the triangles. Those of a pass with as many
+    /// slots are, several at a time. Without it each is transformed where a triangle needs it.
+    fn vertices(&self) -> usize {
+        usize::MAX
+    }
+
     /// The numbers of a triangle's vertices, counter-clockwise as seen from the front; `None` from
     /// [`triangles`](Self::triangles) on.
     fn triangle(&self, number: usize) -> Option<[usize; 3]>;
@@ -61,6 +67,11 @@ where
     #[inline]
     fn triangles(&self) -> usize {
         self.triangles.len()
+    }
+
+    #[inline]
+    fn vertices(&self) -> usize {
+        self.vertices.len()
     }
 
     #[inline]

@@ -196,7 +196,7 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection, S: Subpixel> Pass<'a,
         };
         let [columns, rows] = screen.viewport.pixels();
         let mut visible = target.scissor(columns, rows);
-        let mut walk = Walk::new(mesh, screen, slots);
+        let mut walk = Walk::new(lanes, mesh, screen, slots);
         let mut number = first;
         while let Some(indices) = mesh.triangle(number) {
             walk.triangle(indices, counters, |vertices, counters| {

@@ -5,7 +5,7 @@ use crate::pipeline::Pass;
 use crate::stats::Stats;
 use crate::vertex::Slot;
 use crate::walk::Walk;
-use alberti_math::lanes::{Floating, Machine};
+use alberti_math::lanes::{Floating, Machine, One};
 use alberti_math::{Subpixel, for_lanes};
 use alberti_projection::Projection;
 use alberti_raster::{
@@ -74,7 +74,7 @@ where
         let mut cache = [Slot::EMPTY; 16];
         let mesh = pass.mesh();
         let (slots, paint) = pass.halves();
-        let mut walk = Walk::new(mesh, screen, if slots.is_empty() { &mut cache } else { slots });
+        let mut walk = Walk::new(One, mesh, screen, if slots.is_empty() { &mut cache } else { slots });
         // The triangles that wholly found room, and their counts.
         let (mut kept, mut counted, mut next) = (0, Stats::default(), 0);
         while let Some(indices) = mesh.triangle(next) {

@@ -2,18 +2,34 @@
 
 use crate::geometry::Geometry;
 use crate::walk::Screen;
-use alberti_math::{Eye, Fixed, Object, Point3, Subpixel, Varying, is_finite};
-use alberti_projection::{EyeVertex, Projection};
+use alberti_math::lanes::{Floating, One};
+use alberti_math::{Fixed, Subpixel, Varying, is_finite};
+use alberti_projection::Projection;
 use alberti_raster::Vertex;
-use core::num::NonZeroUsize;
+use core::num::NonZeroU32;
+use core::slice::from_mut;
 
-/// Room for a transformed vertex. In a slice with a slot for each vertex of the mesh, each is transformed once. A
-/// shorter slice is a cache, in which vertex i shares the slot i modulo the length.
+/// Room for a transformed vertex. In a slice with a slot for each vertex of the mesh, each is transformed once, several
+/// at a time; a shorter one is a cache, in which vertex i shares the slot i modulo the length.
 #[derive(Clone, Copy, Debug)]
-pub struct Slot<V>(Option<(Place, Transformed<V>)>);
+pub struct Slot<V>(Option<Transformed<V>>);
 
-/// A vertex's index plus one, so that it and the tag are one word.
-type Place = NonZeroUsize;
+/// A vertex after the steps that concern it alone.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Transformed<V> {
+    /// The vertex's index plus one.
+    tag: NonZeroU32,
+    /// Bits of [`outside`].
+    pub(crate) outside: u8,
+    /// On the screen; where `outside` has NEAR, FAR, GUARD or NOWHERE only the varying has a meaning.
+    pub(crate) screen: Vertex<V>,
+}
+
+/// An index plus one; none for indices that a mesh cannot have.
+#[inline(always)]
+fn tag(index: usize) -> Option<NonZeroU32> {
+    NonZeroU32::new(u32::try_from(index).ok()?.wrapping_add(1))
+}
 
 impl<V> Slot<V> {
     /// A slot without a vertex.
@@ -27,20 +43,82 @@ impl<V: Varying> Slot<V> {
         if index < slots { index } else { index.checked_rem(slots).unwrap_or(0) }
     }
 
-    /// The vertex `index`, which is transformed unless it is here; `None` if there is no such vertex.
+    /// The vertex `index`, if it is in this slot.
     #[inline(always)]
-    pub(crate) fn vertex<M: Geometry<Varying = V>, Pr: Projection, S: Subpixel>(
-        &mut self,
-        mesh: &M,
-        screen: &Screen<Pr, S>,
-        index: usize,
-    ) -> Option<&Transformed<V>> {
-        let number = Place::new(index.wrapping_add(1))?;
-        if self.0.as_ref().is_none_or(|(kept, _)| *kept != number) {
-            let (point, varying) = mesh.vertex(index)?;
-            self.0 = Some((number, Transformed::new(screen, point, varying)));
+    pub(crate) fn kept(&self, index: usize) -> Option<&Transformed<V>> {
+        self.0.as_ref().filter(|vertex| Some(vertex.tag) == tag(index))
+    }
+
+    /// Makes sure that the vertex `index` is in this slot, if there is such a vertex.
+    #[inline(always)]
+    pub(crate) fn keep<M, Pr, S>(&mut self, mesh: &M, screen: &Screen<Pr, S>, index: usize)
+    where
+        M: Geometry<Varying = V>,
+        Pr: Projection,
+        S: Subpixel,
+    {
+        if self.kept(index).is_none() {
+            Self::fill(One, mesh, screen, index, from_mut(self));
         }
-        self.0.as_ref().map(|(_, vertex)| vertex)
+    }
+
+    /// Fills all slots with the vertices from number 0 on, which are not more, and empties those that are left.
+    #[inline]
+    pub(crate) fn fill_all<L, M, Pr, S>(lanes: L, mesh: &M, screen: &Screen<Pr, S>, slots: &mut [Self])
+    where
+        L: Floating,
+        M: Geometry<Varying = V>,
+        Pr: Projection,
+        S: Subpixel,
+    {
+        lanes.vectorize(
+            #[inline(always)]
+            || {
+                for (slots, first) in slots.chunks_mut(L::COUNT).zip((0..).step_by(L::COUNT)) {
+                    Self::fill(lanes, mesh, screen, first, slots);
+                }
+            },
+        );
+    }
+
+    /// Fills slots, at most as many as lanes, with the vertices from number `first` on: steps 1, 2, 4 and 6.
+    ///
+    /// The guard band is the bound that the clip uses too: a vertex is clipped in all of its triangles or in none.
+    #[inline(always)]
+    fn fill<L, M, Pr, S>(lanes: L, mesh: &M, screen: &Screen<Pr, S>, first: usize, slots: &mut [Self])
+    where
+        L: Floating,
+        M: Geometry<Varying = V>,
+        Pr: Projection,
+        S: Subpixel,
+    {
+        let mut points = [lanes.each(|_| 0.0); 3];
+        let [xs, ys, zs] = &mut points;
+        let components = xs.as_mut().iter_mut().zip(ys.as_mut()).zip(zs.as_mut());
+        for ((slot, index), ((x, y), z)) in slots.iter_mut().zip(first..).zip(components) {
+            let vertex = mesh.vertex(index);
+            slot.0 = vertex.and_then(|(point, varying)| {
+                [*x, *y, *z] = point.coords.to_array();
+                let outside = if is_finite(varying) { 0 } else { outside::NOWHERE };
+                let screen = Vertex { x: Fixed::ZERO, y: Fixed::ZERO, zs: 0.0, q: 0.0, varying };
+                Some(Transformed { tag: tag(index)?, outside, screen })
+            });
+        }
+        let [x, y, z] = &points;
+        let (outside, [x, y], [zs, q]) = screen.place(lanes, [lanes.load(x), lanes.load(y), lanes.load(z)]);
+        let (outside, x, y) = (lanes.store_words(outside), lanes.store_words(x), lanes.store_words(y));
+        let (zs, q) = (lanes.store(zs), lanes.store(q));
+        let screen = x.as_ref().iter().zip(y.as_ref()).zip(zs.as_ref().iter().zip(q.as_ref()));
+        for (slot, (outside, ((x, y), (zs, q)))) in slots.iter_mut().zip(outside.as_ref().iter().zip(screen))
+        {
+            let Some(vertex) = &mut slot.0 else { continue };
+            let [place, ..] = outside.to_le_bytes();
+            vertex.outside |= place;
+            let [x, y] = [x, y].map(|subpixels| Fixed::from_subpixels(subpixels.cast_signed()));
+            if let (Some(x), Some(y), true) = (x, y, vertex.outside & outside::UNPLACED == 0) {
+                vertex.screen = Vertex { x, y, zs: *zs, q: *q, varying: vertex.screen.varying };
+            }
+        }
     }
 }
 
@@ -60,59 +138,6 @@ pub(crate) mod outside {
     pub(crate) const GUARD: u8 = 64;
     /// Not finite, or so large that arithmetic might overflow.
     pub(crate) const NOWHERE: u8 = 128;
-}
-
-/// A vertex after the steps that concern it alone.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Transformed<V> {
-    /// The position in scaled eye space.
-    pub(crate) position: Point3<Eye>,
-    /// Bits of [`outside`].
-    pub(crate) outside: u8,
-    /// The vertex on the screen; where `outside` has NEAR, FAR, GUARD or NOWHERE only the varying has a meaning.
-    pub(crate) screen: Vertex<V>,
-}
-
-/// Coordinates above this may overflow when they are subtracted or multiplied.
-const LARGEST: f32 = f32::MAX / 16.0;
-
-impl<V: Varying> Transformed<V> {
-    /// Steps 1 and 2, and for a vertex within the planes also 4 and 6.
-    ///
-    /// The guard band is the bound that the clip uses too: a vertex is clipped in all of its triangles or in none.
-    #[inline]
-    pub(crate) fn new<Pr: Projection, S: Subpixel>(
-        screen: &Screen<Pr, S>,
-        point: Point3<Object>,
-        varying: V,
-    ) -> Self {
-        let Screen { to_eye, projection, viewport, depth, guard, subpixel, .. } = screen;
-        let position = projection.scale(to_eye.to_parent(point));
-        let p = position.coords;
-        let nowhere = Vertex { x: Fixed::ZERO, y: Fixed::ZERO, zs: 0.0, q: 0.0, varying };
-        // Written so that NaN is not within.
-        let within = p.x.abs() <= LARGEST && p.y.abs() <= LARGEST && p.z.abs() <= LARGEST;
-        if !within || !is_finite(varying) {
-            return Self { position, outside: outside::NOWHERE, screen: nowhere };
-        }
-        let bit = |condition: bool, bit: u8| if condition { bit } else { 0 };
-        let side = projection.side(p.z);
-        let sides = bit(p.x < -side, outside::LEFT)
-            | bit(p.x > side, outside::RIGHT)
-            | bit(p.y < -side, outside::BELOW)
-            | bit(p.y > side, outside::ABOVE);
-        let planes = bit(p.z < projection.near(), outside::NEAR) | bit(p.z > projection.far(), outside::FAR);
-        if planes != 0 {
-            return Self { position, outside: sides | planes, screen: nowhere };
-        }
-        let projected = projection.project(depth, &EyeVertex { position, varying });
-        let on_screen = viewport.to_screen(*subpixel, projected.x, projected.y);
-        match on_screen.filter(|_| projected.x.abs() <= guard.x && projected.y.abs() <= guard.y) {
-            Some([x, y]) => {
-                let screen = Vertex { x, y, zs: projected.zs, q: projected.q, varying };
-                Self { position, outside: sides, screen }
-            }
-            None => Self { position, outside: sides | outside::GUARD, screen: nowhere },
-        }
-    }
+    /// Without a place on the screen.
+    pub(crate) const UNPLACED: u8 = NEAR + FAR + GUARD + NOWHERE;
 }

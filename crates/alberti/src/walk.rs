@@ -3,6 +3,7 @@
 use crate::geometry::Geometry;
 use crate::vertex::{Slot, Transformed, outside};
 use alberti_math::glam::Vec3;
+use alberti_math::lanes::{Floating, Lanes, One};
 use alberti_math::{Eye, Frame, Mode, Object, Point3, Subpixel, Varying};
 use alberti_projection::{
     EyeVertex, Polygon, ProjectedVertex, Projection, SideBounds, Viewport, clip_near_far, clip_sides,
@@ -33,19 +34,70 @@ pub(crate) struct Screen<Pr: Projection, S> {
     pub(crate) subpixel: S,
 }
 
+/// Coordinates above this may overflow when they are subtracted or multiplied.
+const LARGEST: f32 = f32::MAX / 16.0;
+
+/// The places of several vertices: their bits of [`outside`], x and y in subpixels, zs and q.
+type Places<L> = (<L as Lanes>::U32, [<L as Lanes>::U32; 2], [<L as Lanes>::Number; 2]);
+
+impl<Pr: Projection, S: Subpixel> Screen<Pr, S> {
+    /// Steps 1 and 2, for several points.
+    #[inline(always)]
+    fn eye<L: Lanes>(&self, lanes: L, point: [L::Number; 3]) -> [L::Number; 3] {
+        self.projection.scale_lanes(lanes, self.to_eye.to_parent_lanes(lanes, point))
+    }
+
+    /// Steps 1, 2, 4 and 6 for several points; where they are not within the planes, 4 and 6 have no meaning.
+    #[inline(always)]
+    pub(crate) fn place<L: Floating>(&self, lanes: L, point: [L::Number; 3]) -> Places<L> {
+        let Self { projection, viewport, depth, guard, subpixel, .. } = self;
+        let p = self.eye(lanes, point);
+        let [x, y, z] = p;
+        let bit = |mask: L::Mask, bit: u8| lanes.select_words(mask, lanes.word(bit.into()), lanes.word(0));
+        // Written so that NaN is not within.
+        let within = |x: L::Number, most: f32| lanes.less(lanes.max(x, -x), lanes.splat(most.next_up()));
+        let nowhere = !(within(x, LARGEST) & within(y, LARGEST) & within(z, LARGEST));
+        let side = projection.side_lanes(lanes, z);
+        let sides = bit(lanes.less(x, -side), outside::LEFT)
+            | bit(lanes.less(side, x), outside::RIGHT)
+            | bit(lanes.less(y, -side), outside::BELOW)
+            | bit(lanes.less(side, y), outside::ABOVE);
+        let planes = bit(lanes.less(z, lanes.splat(projection.near())), outside::NEAR)
+            | bit(lanes.less(lanes.splat(projection.far()), z), outside::FAR);
+        let [x, y, zs, q] = projection.project_lanes(lanes, depth, p);
+        let beyond = !(within(x, guard.x) & within(y, guard.y));
+        let outside = bit(nowhere, outside::NOWHERE) | sides | planes | bit(beyond, outside::GUARD);
+        (outside, viewport.to_screen_lanes(lanes, *subpixel, [x, y]), [zs, q])
+    }
+}
+
 /// The way of a mesh's triangles to the screen.
 pub(crate) struct Walk<'a, M: Geometry, Pr: Projection, S> {
     mesh: &'a M,
     slots: &'a mut [Slot<M::Varying>],
+    /// Whether each vertex has a slot of its own, and is in it.
+    filled: bool,
     screen: Screen<Pr, S>,
 }
 
 impl<'a, M: Geometry, Pr: Projection, S: Subpixel> Walk<'a, M, Pr, S> {
-    /// `slots`, at least one, are emptied.
+    /// The walk with these slots, of which there is at least one. All vertices are transformed at once where the slots
+    /// hold them, and where most are probably used.
     #[inline]
-    pub(crate) fn new(mesh: &'a M, screen: Screen<Pr, S>, slots: &'a mut [Slot<M::Varying>]) -> Self {
-        slots.fill(Slot::EMPTY);
-        Self { mesh, slots, screen }
+    pub(crate) fn new<L: Floating>(
+        lanes: L,
+        mesh: &'a M,
+        screen: Screen<Pr, S>,
+        slots: &'a mut [Slot<M::Varying>],
+    ) -> Self {
+        let vertices = mesh.vertices();
+        let filled = vertices <= slots.len() && vertices / 2 <= mesh.triangles();
+        if filled {
+            Slot::fill_all(lanes, mesh, &screen, slots);
+        } else {
+            slots.fill(Slot::EMPTY);
+        }
+        Self { mesh, slots, filled, screen }
     }
 
     /// Hands `sink` the visible part of a triangle on the screen: nothing, the triangle, or the fan that clipping
@@ -57,28 +109,30 @@ impl<'a, M: Geometry, Pr: Projection, S: Subpixel> Walk<'a, M, Pr, S> {
         counters: &mut K,
         mut sink: impl FnMut([&Vertex<M::Varying>; 3], &mut K),
     ) {
-        let Self { mesh, slots, screen } = self;
+        let Self { mesh, slots, filled, screen } = self;
         counters.submitted();
-        // Steps 1, 2, 4 and 6 for each vertex, where it allows them.
         let [i, j, k] = indices;
-        let places = indices.map(|index| Slot::<M::Varying>::place(index, slots.len()));
-        let afresh;
-        let corners = if let Ok([a, b, c]) = slots.get_disjoint_mut(places) {
-            let corners =
-                (a.vertex(*mesh, screen, i), b.vertex(*mesh, screen, j), c.vertex(*mesh, screen, k));
-            let (Some(a), Some(b), Some(c)) = corners else {
+        let [a, b, c] = indices.map(|index| Slot::<M::Varying>::place(index, slots.len()));
+        if !*filled {
+            for (place, index) in [(a, i), (b, j), (c, k)] {
+                if let Some(slot) = slots.get_mut(place) {
+                    slot.keep(*mesh, screen, index);
+                }
+            }
+        }
+        let kept = |place: usize, index| slots.get(place).and_then(|slot| slot.kept(index));
+        let own;
+        let corners = if let (Some(a), Some(b), Some(c)) = (kept(a, i), kept(b, j), kept(c, k)) {
+            [a, b, c]
+        } else {
+            // Two of the three share a slot, or there is no such vertex.
+            own = alone(*mesh, screen, indices);
+            let [a, b, c] = &own;
+            let (Some(a), Some(b), Some(c)) = (a.kept(i), b.kept(j), c.kept(k)) else {
                 counters.dropped();
                 return;
             };
             [a, b, c]
-        } else {
-            // Two of the three share a slot.
-            let Some(corners) = three(*mesh, screen, indices) else {
-                counters.dropped();
-                return;
-            };
-            afresh = corners;
-            afresh.each_ref()
         };
         // All of most triangles is inside.
         let all = corners[0].outside | corners[1].outside | corners[2].outside;
@@ -91,7 +145,7 @@ impl<'a, M: Geometry, Pr: Projection, S: Subpixel> Walk<'a, M, Pr, S> {
             let sides = if screen.sides == Sides::Cube { outside::SIDES } else { 0 };
             if all & (outside::NEAR | outside::FAR | outside::GUARD | sides) != 0 {
                 counters.clipped();
-                clip(screen, corners, |vertices| sink(vertices, counters));
+                clip(*mesh, screen, (indices, corners), |vertices| sink(vertices, counters));
                 return;
             }
         }
@@ -99,28 +153,37 @@ impl<'a, M: Geometry, Pr: Projection, S: Subpixel> Walk<'a, M, Pr, S> {
     }
 }
 
-/// The transformed vertices of a triangle, without slots.
+/// A triangle's vertices in slots of their own.
 #[cold]
 #[inline(never)]
-fn three<M: Geometry, Pr: Projection, S: Subpixel>(
+fn alone<M: Geometry, Pr: Projection, S: Subpixel>(
     mesh: &M,
     screen: &Screen<Pr, S>,
-    [i, j, k]: [usize; 3],
-) -> Option<[Transformed<M::Varying>; 3]> {
-    let (a, b, c) = (mesh.vertex(i)?, mesh.vertex(j)?, mesh.vertex(k)?);
-    let transformed = |(point, varying)| Transformed::new(screen, point, varying);
-    Some([transformed(a), transformed(b), transformed(c)])
+    indices: [usize; 3],
+) -> [Slot<M::Varying>; 3] {
+    indices.map(|index| {
+        let mut slot = Slot::EMPTY;
+        slot.keep(mesh, screen, index);
+        slot
+    })
 }
 
 /// Steps 3 to 6 for a triangle that crosses a plane.
 #[cold]
 #[inline(never)]
-fn clip<Pr: Projection, S: Subpixel, V: Varying>(
+fn clip<M: Geometry, Pr: Projection, S: Subpixel>(
+    mesh: &M,
     screen: &Screen<Pr, S>,
-    corners: [&Transformed<V>; 3],
-    mut sink: impl FnMut([&Vertex<V>; 3]),
+    (indices, corners): ([usize; 3], [&Transformed<M::Varying>; 3]),
+    mut sink: impl FnMut([&Vertex<M::Varying>; 3]),
 ) {
-    let positions = corners.map(|corner| corner.position);
+    // Slots do without these, since few triangles are clipped.
+    let positions = indices.map(|index| {
+        let (point, _) = mesh.vertex(index)?;
+        Some(Point3::new(screen.eye(One, point.coords.to_array()).into()))
+    });
+    let [Some(a), Some(b), Some(c)] = positions else { return };
+    let positions = [a, b, c];
     let varyings = corners.map(|corner| corner.screen.varying);
     let rotation = first_of(positions);
     let carried = rotated(varyings, rotation);

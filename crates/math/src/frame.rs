@@ -1,6 +1,7 @@
 //! Affine frames: an origin and three axes, described in a parent space.
 
 use crate::exact::{cramer3, nearest};
+use crate::lanes::Lanes;
 use crate::orientation::doubled_area;
 use crate::space::{Point3, Space, Vector3};
 use core::marker::PhantomData;
@@ -87,6 +88,22 @@ impl<L: Space, P: Space> Frame<L, P> {
     #[inline]
     pub fn to_parent(&self, p: Point3<L>) -> Point3<P> {
         Point3::new(self.turn(p.coords) + self.origin)
+    }
+
+    /// [`to_parent`](Self::to_parent) of several points, by their coordinates.
+    #[must_use]
+    #[inline(always)]
+    pub fn to_parent_lanes<N: Lanes>(&self, lanes: N, [x, y, z]: [N::Number; 3]) -> [N::Number; 3] {
+        let component = |[a, b, c]: [f32; 3], origin: f32| {
+            lanes.splat(a) * x + lanes.splat(b) * y + lanes.splat(c) * z + lanes.splat(origin)
+        };
+        let [a, b, c] = [self.axes.x_axis, self.axes.y_axis, self.axes.z_axis];
+        let origin = self.origin;
+        [
+            component([a.x, b.x, c.x], origin.x),
+            component([a.y, b.y, c.y], origin.y),
+            component([a.z, b.z, c.z], origin.z),
+        ]
     }
 
     /// The parent's components of a vector given in the frame's: the origin plays no part.

@@ -1,6 +1,7 @@
 //! The depth of "perspective with depth": zs = α + β/z.
 
 use crate::ViewError;
+use alberti_math::lanes::{Lanes, One};
 
 /// The map from eye depth z in [A, B] to screen depth zs in [0, 1], or in a range of your own.
 ///
@@ -119,16 +120,18 @@ impl DepthMap {
     #[must_use]
     #[inline]
     pub fn zs(&self, z: f32) -> f32 {
-        let [least, most] = self.range;
-        let zs = self.alpha + self.beta / z;
-        // Rounding may step over an end of the range by an ulp. Not `clamp`, which panics where the ends are reversed.
-        if zs < least {
-            least
-        } else if zs > most {
-            most
-        } else {
-            zs
-        }
+        self.zs_lanes(One, z)
+    }
+
+    /// [`zs`](Self::zs) of several.
+    #[must_use]
+    #[inline(always)]
+    pub fn zs_lanes<L: Lanes>(&self, lanes: L, z: L::Number) -> L::Number {
+        let [least, most] = self.range.map(|end| lanes.splat(end));
+        let zs = lanes.splat(self.alpha) + lanes.splat(self.beta) / z;
+        // Rounding may step over an end of the range by an ulp.
+        let below = lanes.select(lanes.less(most, zs), most, zs);
+        lanes.select(lanes.less(zs, least), least, below)
     }
 
     /// The eye depth z = β/(zs − α) of a screen depth within the range; infinite for that of infinity.

@@ -1,9 +1,7 @@
 //! Parallel projection: steps 2 and 4 without a vanishing point.
 
-use crate::clip::{EyeVertex, ProjectedVertex};
 use crate::{Projection, ViewError};
-use alberti_math::glam::Vec3;
-use alberti_math::{Eye, Point3, Varying};
+use alberti_math::lanes::{Lanes, One};
 
 /// A box of view, seen from infinitely far: parallels stay parallel, and size does not tell distance.
 ///
@@ -96,20 +94,24 @@ impl Projection for Parallel {
         if reversed { self.reversed } else { self.forward }
     }
 
-    #[inline]
-    fn scale(&self, p: Point3<Eye>) -> Point3<Eye> {
-        Point3::new(Vec3::new(p.coords.x * self.scale_x, p.coords.y * self.scale_y, p.coords.z))
+    #[inline(always)]
+    fn scale_lanes<L: Lanes>(&self, lanes: L, [x, y, z]: [L::Number; 3]) -> [L::Number; 3] {
+        [x * lanes.splat(self.scale_x), y * lanes.splat(self.scale_y), z]
     }
 
-    #[inline]
-    fn side(&self, _: f32) -> f32 {
-        1.0
+    #[inline(always)]
+    fn side_lanes<L: Lanes>(&self, lanes: L, _: L::Number) -> L::Number {
+        lanes.splat(1.0)
     }
 
-    #[inline]
-    fn project<V: Varying>(&self, depth: &LinearDepth, v: &EyeVertex<V>) -> ProjectedVertex<V> {
-        let p = v.position.coords;
-        ProjectedVertex { x: p.x, y: p.y, zs: depth.zs(p.z), q: 1.0, varying: v.varying }
+    #[inline(always)]
+    fn project_lanes<L: Lanes>(
+        &self,
+        lanes: L,
+        depth: &LinearDepth,
+        [x, y, z]: [L::Number; 3],
+    ) -> [L::Number; 4] {
+        [x, y, depth.zs_lanes(lanes, z), lanes.splat(1.0)]
     }
 }
 
@@ -147,8 +149,16 @@ impl LinearDepth {
     #[must_use]
     #[inline]
     pub fn zs(&self, z: f32) -> f32 {
+        self.zs_lanes(One, z)
+    }
+
+    /// [`zs`](Self::zs) of several.
+    #[must_use]
+    #[inline(always)]
+    pub fn zs_lanes<L: Lanes>(&self, lanes: L, z: L::Number) -> L::Number {
+        let zs = (z - lanes.splat(self.zero)) * lanes.splat(self.slope);
         // The product is negative only as -0; rounding may step over 1 by an ulp.
-        ((z - self.zero) * self.slope).abs().min(1.0)
+        lanes.min(lanes.max(zs, lanes.splat(0.0)), lanes.splat(1.0))
     }
 
     /// The eye depth z of a screen depth.

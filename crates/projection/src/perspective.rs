@@ -1,8 +1,7 @@
 //! Step 2 and step 4: the scale that makes the pyramid's sides the bisecting planes, and perspective with depth.
 
 use crate::clip::{EyeVertex, ProjectedVertex};
-use crate::{DepthMap, ViewError};
-use alberti_math::glam::Vec3;
+use crate::{DepthMap, Projection, ViewError};
 use alberti_math::{Eye, Point3, Varying};
 
 /// A pyramid of view: opening angle, aspect ratio, near and far planes.
@@ -50,6 +49,12 @@ impl Perspective {
         Self { scale_x, ..self }
     }
 
+    /// The factors of x and y.
+    #[inline(always)]
+    pub(crate) const fn scales(&self) -> [f32; 2] {
+        [self.scale_x, self.scale_y]
+    }
+
     /// The near plane, z = A.
     #[must_use]
     pub const fn near(&self) -> f32 {
@@ -73,7 +78,7 @@ impl Perspective {
     #[must_use]
     #[inline]
     pub fn scale(&self, p: Point3<Eye>) -> Point3<Eye> {
-        Point3::new(Vec3::new(p.coords.x * self.scale_x, p.coords.y * self.scale_y, p.coords.z))
+        Projection::scale(self, p)
     }
 
     /// Step 4, perspective with depth: xs = xe/ze, ys = ye/ze, zs = α + β/ze, and q = 1/ze for the steps that follow.
@@ -86,8 +91,7 @@ impl Perspective {
     #[must_use]
     #[inline]
     pub fn project<V: Varying>(&self, depth: &DepthMap, v: &EyeVertex<V>) -> ProjectedVertex<V> {
-        let p = v.position.coords;
-        ProjectedVertex { x: p.x / p.z, y: p.y / p.z, zs: depth.zs(p.z), q: 1.0 / p.z, varying: v.varying }
+        Projection::project(self, depth, v)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::clip::{EyeVertex, ProjectedVertex};
 use crate::{DepthMap, Parallel, Perspective};
+use alberti_math::lanes::{Lanes, One};
 use alberti_math::{Eye, Point3, Varying};
 use core::fmt::Debug;
 
@@ -17,8 +18,8 @@ use core::fmt::Debug;
 ///        |          ''--|             '-----------'
 /// ```
 ///
-/// The steps are the same for both, in the same order: [`scale`](Self::scale), the clip against z = A and z = B,
-/// [`project`](Self::project), the clip against the sides, the viewport.
+/// The steps are the same for both, in the same order: [`scale_lanes`](Self::scale_lanes), the clip against z = A
+/// and z = B, [`project_lanes`](Self::project_lanes), the clip against the sides, the viewport.
 pub trait Projection: Copy + Debug {
     /// The map from eye depth to screen depth.
     type Depth: Copy + Debug;
@@ -39,18 +40,34 @@ pub trait Projection: Copy + Debug {
     #[must_use]
     fn depth_map(&self, reversed: bool) -> Self::Depth;
 
-    /// Step 2: x and y are scaled so that the sides of the view are x = ±w, y = ±w, with w = z in perspective, and w =
-    /// 1 in parallel projection.
+    /// Step 2 for several points: x and y are scaled so that the sides of the view are x = ±w, y = ±w, with w = z in
+    /// perspective, and w = 1 in parallel projection.
     #[must_use]
-    fn scale(&self, p: Point3<Eye>) -> Point3<Eye>;
+    fn scale_lanes<L: Lanes>(&self, lanes: L, p: [L::Number; 3]) -> [L::Number; 3];
 
     /// That w, where the sides of the view lie at depth `z`.
     #[must_use]
-    fn side(&self, z: f32) -> f32;
+    fn side_lanes<L: Lanes>(&self, lanes: L, z: L::Number) -> L::Number;
 
-    /// Step 4, for a scaled vertex within the near and far planes: xs = xe/w, ys = ye/w, zs in [0, 1], and q = 1/w.
+    /// Step 4 for several scaled points within the near and far planes: xs = xe/w, ys = ye/w, zs in [0, 1], and q =
+    /// 1/w. Of other points the results have no meaning.
     #[must_use]
-    fn project<V: Varying>(&self, depth: &Self::Depth, v: &EyeVertex<V>) -> ProjectedVertex<V>;
+    fn project_lanes<L: Lanes>(&self, lanes: L, depth: &Self::Depth, p: [L::Number; 3]) -> [L::Number; 4];
+
+    /// [`scale_lanes`](Self::scale_lanes) of one point.
+    #[must_use]
+    #[inline]
+    fn scale(&self, p: Point3<Eye>) -> Point3<Eye> {
+        Point3::new(self.scale_lanes(One, p.coords.to_array()).into())
+    }
+
+    /// [`project_lanes`](Self::project_lanes) of one vertex.
+    #[must_use]
+    #[inline]
+    fn project<V: Varying>(&self, depth: &Self::Depth, v: &EyeVertex<V>) -> ProjectedVertex<V> {
+        let [x, y, zs, q] = self.project_lanes(One, depth, v.position.coords.to_array());
+        ProjectedVertex { x, y, zs, q, varying: v.varying }
+    }
 }
 
 impl Projection for Perspective {
@@ -76,19 +93,25 @@ impl Projection for Perspective {
         self.depth_map(reversed)
     }
 
-    #[inline]
-    fn scale(&self, p: Point3<Eye>) -> Point3<Eye> {
-        self.scale(p)
+    #[inline(always)]
+    fn scale_lanes<L: Lanes>(&self, lanes: L, [x, y, z]: [L::Number; 3]) -> [L::Number; 3] {
+        let [scale_x, scale_y] = self.scales();
+        [x * lanes.splat(scale_x), y * lanes.splat(scale_y), z]
     }
 
-    #[inline]
-    fn side(&self, z: f32) -> f32 {
+    #[inline(always)]
+    fn side_lanes<L: Lanes>(&self, _: L, z: L::Number) -> L::Number {
         z
     }
 
-    #[inline]
-    fn project<V: Varying>(&self, depth: &DepthMap, v: &EyeVertex<V>) -> ProjectedVertex<V> {
-        self.project(depth, v)
+    #[inline(always)]
+    fn project_lanes<L: Lanes>(
+        &self,
+        lanes: L,
+        depth: &DepthMap,
+        [x, y, z]: [L::Number; 3],
+    ) -> [L::Number; 4] {
+        [x / z, y / z, depth.zs_lanes(lanes, z), lanes.splat(1.0) / z]
     }
 }
 
@@ -98,7 +121,7 @@ impl Projection for Perspective {
 /// That of the projection, whose bits it gives.
 ///
 /// # Cost
-/// A branch a vertex, for each step.
+/// A branch for each step, for the vertices that are worked on together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AnyProjection {
     /// A projection with a vanishing point.
@@ -152,18 +175,18 @@ impl Projection for AnyProjection {
         reversed
     }
 
-    #[inline]
-    fn scale(&self, p: Point3<Eye>) -> Point3<Eye> {
-        either!(self, |projection| projection.scale(p))
+    #[inline(always)]
+    fn scale_lanes<L: Lanes>(&self, lanes: L, p: [L::Number; 3]) -> [L::Number; 3] {
+        either!(self, |projection| projection.scale_lanes(lanes, p))
     }
 
-    #[inline]
-    fn side(&self, z: f32) -> f32 {
-        either!(self, |projection| projection.side(z))
+    #[inline(always)]
+    fn side_lanes<L: Lanes>(&self, lanes: L, z: L::Number) -> L::Number {
+        either!(self, |projection| projection.side_lanes(lanes, z))
     }
 
-    #[inline]
-    fn project<V: Varying>(&self, reversed: &bool, v: &EyeVertex<V>) -> ProjectedVertex<V> {
-        either!(self, |projection| projection.project(&projection.depth_map(*reversed), v))
+    #[inline(always)]
+    fn project_lanes<L: Lanes>(&self, lanes: L, reversed: &bool, p: [L::Number; 3]) -> [L::Number; 4] {
+        either!(self, |projection| projection.project_lanes(lanes, &projection.depth_map(*reversed), p))
     }
 }

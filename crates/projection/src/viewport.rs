@@ -1,6 +1,7 @@
 //! Step 6: window-viewport, and the snapping of screen positions.
 
 use crate::{SideBounds, ViewError};
+use alberti_math::lanes::Lanes;
 use alberti_math::{Fixed, GUARD_PIXELS, Subpixel};
 use core::ops::Range;
 
@@ -71,6 +72,23 @@ impl Viewport {
         let x = Fixed::snap(subpixel, self.center[0], xs * self.half[0])?;
         let y = Fixed::snap(subpixel, self.center[1], -(ys * self.half[1]))?;
         Some([x, y])
+    }
+
+    /// [`to_screen`](Self::to_screen) of several points, in subpixels: any numbers beyond the [`guard`](Self::guard).
+    #[must_use]
+    #[inline(always)]
+    pub fn to_screen_lanes<L: Lanes>(
+        &self,
+        lanes: L,
+        subpixel: impl Subpixel,
+        [xs, ys]: [L::Number; 2],
+    ) -> [L::U32; 2] {
+        let bits = subpixel.bits();
+        let snapped = |center: i32, offset: L::Number| {
+            lanes.round_scaled(offset, bits) + lanes.word((center << (bits - 1)).cast_unsigned())
+        };
+        let [half_x, half_y] = self.half.map(|half| lanes.splat(half));
+        [snapped(self.center[0], xs * half_x), snapped(self.center[1], -(ys * half_y))]
     }
 
     /// The largest |xs| and |ys| that [`to_screen`](Self::to_screen) keeps within the guard band, a pixel short of it.
