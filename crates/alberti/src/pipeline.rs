@@ -196,15 +196,14 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection, S: Subpixel> Pass<'a,
         };
         let [columns, rows] = screen.viewport.pixels();
         let mut visible = target.scissor(columns, rows);
+        let mut batch = paint.batch(lanes, &mut visible);
         let mut walk = Walk::new(lanes, mesh, screen, slots);
         let mut number = first;
         while let Some(indices) = mesh.triangle(number) {
-            walk.triangle(indices, counters, |vertices, counters| {
-                let outcome = paint.triangle(lanes, &mut visible, vertices, counters);
-                counters.rasterized(outcome);
-            });
+            walk.triangle(indices, counters, |vertices, counters| batch.triangle(vertices, counters));
             number += 1;
         }
+        batch.finish(counters);
     }
 
     /// Does once, for all bands of a frame, the geometry half of [`draw`](Self::draw), as far as there is `room` for

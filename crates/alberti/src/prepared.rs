@@ -132,14 +132,15 @@ where
         let mut visible = target.scissor(columns, rows);
         let [_, rows] = visible.limits();
         let rows = rows.start - top..rows.end - top;
+        let mut batch = self.pass.paint().batch(lanes, &mut visible);
         for ScreenTriangle(triangle) in self.kept {
             if let Some(Kept { vertices, rows: its }) = triangle
                 && its.meet(&rows)
             {
-                let outcome = self.pass.paint().triangle(lanes, &mut visible, vertices.each_ref(), counters);
-                counters.rasterized(outcome);
+                batch.triangle(vertices.each_ref(), counters);
             }
         }
+        batch.finish(counters);
         if self.remaining() > 0 {
             self.pass.draw_from(self.next, lanes, target, counters);
         }
@@ -179,12 +180,12 @@ struct Rows {
 impl Rows {
     /// The rows of a triangle in a viewport of these `pixels`, or why it is never drawn there.
     #[inline]
-    fn of<F, P: Interpolation, S: Subpixel, V>(
+    fn of<F, P: Interpolation, S: Subpixel, V: Copy>(
         paint: &Paint<F, P, S>,
         vertices: [&Vertex<V>; 3],
         [columns, rows]: &[Range<i32>; 2],
     ) -> Result<Self, Outcome> {
-        let [_, covered] = paint.reach(vertices, [columns.clone(), rows.clone()])?;
+        let covered = paint.reach(vertices, &[columns.clone(), rows.clone()])?.rows();
         let row = |row: i32| u16::try_from(row - rows.start).ok();
         match (row(covered.start), row(covered.end).and_then(NonZeroU16::new)) {
             (Some(first), Some(end)) => Ok(Self { first, end }),

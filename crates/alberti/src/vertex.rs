@@ -58,19 +58,41 @@ impl<V: Varying> Slot<V> {
         S: Subpixel,
     {
         if self.kept(index).is_none() {
-            Self::fill(One, mesh, screen, index, from_mut(self));
+            self.fill_alone(mesh, screen, index);
         }
     }
 
-    /// Fills all slots with the vertices from number 0 on, which are not more, and empties those that are left.
+    /// Puts the vertex `index` into this slot.
     #[inline]
-    pub(crate) fn fill_all<L, M, Pr, S>(lanes: L, mesh: &M, screen: &Screen<Pr, S>, slots: &mut [Self])
+    fn fill_alone<M, Pr, S>(&mut self, mesh: &M, screen: &Screen<Pr, S>, index: usize)
     where
+        M: Geometry<Varying = V>,
+        Pr: Projection,
+        S: Subpixel,
+    {
+        Self::fill(One, mesh, screen, index, from_mut(self));
+    }
+
+    /// Fills the slots with so many vertices from number 0 on, and empties those that are left.
+    #[inline]
+    pub(crate) fn fill_all<L, M, Pr, S>(
+        lanes: L,
+        mesh: &M,
+        screen: &Screen<Pr, S>,
+        vertices: usize,
+        slots: &mut [Self],
+    ) where
         L: Floating,
         M: Geometry<Varying = V>,
         Pr: Projection,
         S: Subpixel,
     {
+        let (slots, unused) = slots.split_at_mut_checked(vertices).unwrap_or_default();
+        unused.fill(Self::EMPTY);
+        if L::COUNT == 1 {
+            slots.iter_mut().zip(0..).for_each(|(slot, index)| slot.fill_alone(mesh, screen, index));
+            return;
+        }
         lanes.vectorize(
             #[inline(always)]
             || {

@@ -53,22 +53,32 @@ impl<Pr: Projection, S: Subpixel> Screen<Pr, S> {
         let Self { projection, viewport, depth, guard, subpixel, .. } = self;
         let p = self.eye(lanes, point);
         let [x, y, z] = p;
-        let bit = |mask: L::Mask, bit: u8| lanes.select_words(mask, lanes.word(bit.into()), lanes.word(0));
-        // Written so that NaN is not within.
-        let within = |x: L::Number, most: f32| lanes.less(lanes.max(x, -x), lanes.splat(most.next_up()));
-        let nowhere = !(within(x, LARGEST) & within(y, LARGEST) & within(z, LARGEST));
+        let nowhere = !(within(lanes, x, LARGEST) & within(lanes, y, LARGEST) & within(lanes, z, LARGEST));
         let side = projection.side_lanes(lanes, z);
-        let sides = bit(lanes.less(x, -side), outside::LEFT)
-            | bit(lanes.less(side, x), outside::RIGHT)
-            | bit(lanes.less(y, -side), outside::BELOW)
-            | bit(lanes.less(side, y), outside::ABOVE);
-        let planes = bit(lanes.less(z, lanes.splat(projection.near())), outside::NEAR)
-            | bit(lanes.less(lanes.splat(projection.far()), z), outside::FAR);
+        let sides = bit(lanes, lanes.less(x, -side), outside::LEFT)
+            | bit(lanes, lanes.less(side, x), outside::RIGHT)
+            | bit(lanes, lanes.less(y, -side), outside::BELOW)
+            | bit(lanes, lanes.less(side, y), outside::ABOVE);
+        let planes = bit(lanes, lanes.less(z, lanes.splat(projection.near())), outside::NEAR)
+            | bit(lanes, lanes.less(lanes.splat(projection.far()), z), outside::FAR);
         let [x, y, zs, q] = projection.project_lanes(lanes, depth, p);
-        let beyond = !(within(x, guard.x) & within(y, guard.y));
-        let outside = bit(nowhere, outside::NOWHERE) | sides | planes | bit(beyond, outside::GUARD);
+        let beyond = !(within(lanes, x, guard.x) & within(lanes, y, guard.y));
+        let outside =
+            bit(lanes, nowhere, outside::NOWHERE) | sides | planes | bit(lanes, beyond, outside::GUARD);
         (outside, viewport.to_screen_lanes(lanes, *subpixel, [x, y]), [zs, q])
     }
+}
+
+/// A bit where the mask is set.
+#[inline(always)]
+fn bit<L: Lanes>(lanes: L, mask: L::Mask, bit: u8) -> L::U32 {
+    lanes.select_words(mask, lanes.word(bit.into()), lanes.word(0))
+}
+
+/// Whether |x| <= `most`; not so for NaN.
+#[inline(always)]
+fn within<L: Lanes>(lanes: L, x: L::Number, most: f32) -> L::Mask {
+    lanes.less(lanes.max(x, -x), lanes.splat(most.next_up()))
 }
 
 /// The way of a mesh's triangles to the screen.
@@ -93,7 +103,7 @@ impl<'a, M: Geometry, Pr: Projection, S: Subpixel> Walk<'a, M, Pr, S> {
         let vertices = mesh.vertices();
         let filled = vertices <= slots.len() && vertices / 2 <= mesh.triangles();
         if filled {
-            Slot::fill_all(lanes, mesh, &screen, slots);
+            Slot::fill_all(lanes, mesh, &screen, vertices, slots);
         } else {
             slots.fill(Slot::EMPTY);
         }

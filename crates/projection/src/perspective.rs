@@ -135,6 +135,7 @@ const fn series(first: f64, mut power: f64, y: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use alberti_math::glam::Vec3;
 
     #[test]
     fn the_cotangent_is_that_of_the_standard_library() {

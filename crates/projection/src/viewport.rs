@@ -84,11 +84,9 @@ impl Viewport {
         [xs, ys]: [L::Number; 2],
     ) -> [L::U32; 2] {
         let bits = subpixel.bits();
-        let snapped = |center: i32, offset: L::Number| {
-            lanes.round_scaled(offset, bits) + lanes.word((center << (bits - 1)).cast_unsigned())
-        };
+        let [x, y] = self.center.map(|center| lanes.word((center << (bits - 1)).cast_unsigned()));
         let [half_x, half_y] = self.half.map(|half| lanes.splat(half));
-        [snapped(self.center[0], xs * half_x), snapped(self.center[1], -(ys * half_y))]
+        [lanes.round_scaled(xs * half_x, bits) + x, lanes.round_scaled(-(ys * half_y), bits) + y]
     }
 
     /// The largest |xs| and |ys| that [`to_screen`](Self::to_screen) keeps within the guard band, a pixel short of it.

@@ -13,7 +13,7 @@ use crate::mask::{NARROW, RowMask};
 use crate::paint::{Painter, aligned};
 use crate::spans::RowSpans;
 use crate::target::Target;
-use crate::triangle::{Bounds, Corners, Cull, Outcome, Vertex, doubled_area, in_order};
+use crate::triangle::{Corners, Cull, Outcome, Reach, Vertex};
 use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Subpixel, Varying};
 use core::marker::PhantomData;
@@ -46,7 +46,8 @@ impl<F, P: Interpolation, S: Subpixel> Paint<F, P, S> {
     /// is within the range of the three zs.
     ///
     /// # Cost
-    /// A triangle that covers no sample is not prepared.
+    /// A triangle that covers no sample is not prepared. Many triangles are drawn faster by a
+    /// [`Batch`](crate::Batch).
     ///
     /// With one lane, rows of a box of up to 8 samples are tested sample by sample, and six integer divisions give the
     /// ends of the spans of wider ones. Edge functions then have 32 bits up to 179 pixels (8 subpixel bits) or 2,894 (4
@@ -69,69 +70,70 @@ impl<F, P: Interpolation, S: Subpixel> Paint<F, P, S> {
         D: DepthFormat,
         K: Counters,
     {
-        let Self { stage, interpolation, subpixel, cull } = *self;
-        let bits = subpixel.bits();
-        let corners = corners(vertices);
-        let area = doubled_area(&corners);
-        if cull.drops(area) {
-            return Outcome::Culled;
+        match self.reach(vertices, &target.limits()) {
+            Ok(reach) => self.draw(lanes, target, core::iter::once((vertices, reach)), counters),
+            Err(outcome) => {
+                counters.rasterized(outcome);
+                outcome
+            }
         }
-        let bounds = Bounds::of(&corners);
-        let [limits, rows] = target.limits();
-        let Some([columns, rows]) = bounds.within(bits, [limits.clone(), rows]) else {
-            return Outcome::Missed;
-        };
-        let first = vertices[0].varying;
-        let (corners, vertices) = in_order(corners, vertices, area);
-        let depth_bits = target.depth_format().bits();
-        let oriented = Oriented { vertices, corners, doubled_area: area.abs(), first, bits, depth_bits };
-        let setup = Setup { interpolation, lanes, oriented: &oriented, stage };
-        let samples = SampleBox { corners: &corners, bits, columns, rows, limits };
-        lanes.vectorize(
-            #[inline(always)]
-            || {
-                let fits_i32 = bounds.fits_i32(bits);
-                let one = <P::Lanes<L> as Lanes>::COUNT == 1;
-                if !one && fits_i32 && samples.suit_masks::<P::Lanes<L>>(interpolation.run()) {
-                    fill_masked(target, &samples, &setup, counters)
-                } else if one && fits_i32 {
-                    fill::<i32, _, _, _, _, _, _, _>(target, &samples, &setup, counters)
-                } else {
-                    // Several lanes hold 64-bit edge functions as well as 32-bit ones.
-                    fill::<i64, _, _, _, _, _, _, _>(target, &samples, &setup, counters)
-                }
-            },
-        )
     }
 
-    /// The columns and the rows in which a triangle may cover samples, the rows within the limits: the first part of
+    /// The facing and the box of a triangle, with its samples among the columns and rows of `limits`: the first part of
     /// [`triangle`](Self::triangle).
     ///
     /// # Errors
     /// [`Outcome::Culled`] if it faces the wrong way or has no area, [`Outcome::Missed`] if its box holds no sample
     /// within `limits`.
-    #[inline]
-    pub fn reach<V>(
-        &self,
-        vertices: [&Vertex<V>; 3],
-        limits: [Range<i32>; 2],
-    ) -> Result<[Range<i32>; 2], Outcome> {
-        let corners = corners(vertices);
-        if self.cull.drops(doubled_area(&corners)) {
-            return Err(Outcome::Culled);
-        }
-        Bounds::of(&corners).within(self.subpixel.bits(), limits).ok_or(Outcome::Missed)
+    #[inline(always)]
+    pub fn reach<V>(&self, vertices: [&Vertex<V>; 3], limits: &[Range<i32>; 2]) -> Result<Reach, Outcome> {
+        Reach::new(vertices, self.subpixel.bits(), self.cull, limits)
     }
-}
 
-/// The snapped positions.
-#[inline(always)]
-fn corners<V>([a, b, c]: [&Vertex<V>; 3]) -> Corners {
-    [
-        [a.x.subpixels(), a.y.subpixels()],
-        [b.x.subpixels(), b.y.subpixels()],
-        [c.x.subpixels(), c.y.subpixels()],
-    ]
+    /// The second part, for triangles in order: the fate of the last. The counters hear that of each.
+    pub(crate) fn draw<'v, L, V, C, D, K>(
+        &self,
+        lanes: L,
+        target: &mut Target<'_, C, D>,
+        triangles: impl Iterator<Item = ([&'v Vertex<V>; 3], Reach)>,
+        counters: &mut K,
+    ) -> Outcome
+    where
+        L: Floating,
+        V: Varying + 'v,
+        F: FragmentStage<V>,
+        C: ColorFormat,
+        D: DepthFormat,
+        K: Counters,
+    {
+        let Self { stage, interpolation, subpixel, .. } = *self;
+        let (bits, depth_bits, [limits, _]) =
+            (subpixel.bits(), target.depth_format().bits(), target.limits());
+        lanes.vectorize(
+            #[inline(always)]
+            || {
+                let mut outcome = Outcome::Missed;
+                for (vertices, reach) in triangles {
+                    let oriented = reach.oriented(vertices, bits, depth_bits);
+                    let setup = Setup { interpolation, lanes, oriented: &oriented, stage };
+                    let (columns, rows, limits) = (reach.columns(), reach.rows(), limits.clone());
+                    let samples = SampleBox { corners: &oriented.corners, bits, columns, rows, limits };
+                    let one = <P::Lanes<L> as Lanes>::COUNT == 1;
+                    let fits_i32 = reach.fits_i32();
+                    outcome = if !one && fits_i32 && samples.suit_masks::<P::Lanes<L>>(interpolation.run()) {
+                        fill_masked(target, &samples, &setup, counters)
+                    } else if one && fits_i32 {
+                        fill::<i32, _, _, _, _, _, _, _>(target, &samples, &setup, counters)
+                    } else {
+                        // Several lanes hold 64-bit edge functions as well as 32-bit ones.
+                        fill::<i64, _, _, _, _, _, _, _>(target, &samples, &setup, counters)
+                    };
+                    counters.rasterized(outcome);
+                }
+                outcome
+            },
+        )
+    }
 }
 
 /// A triangle before the preparation that only its fragments need.

@@ -5,6 +5,7 @@
 extern crate std;
 
 mod bands;
+mod batch;
 mod color;
 mod comparison;
 mod counters;
@@ -22,6 +23,7 @@ mod triangle;
 
 pub use alberti_math::{Gradient, Rgb565Be, Rgb565Le, Rgba8888};
 pub use bands::Bands;
+pub use batch::Batch;
 pub use color::{ColorFormat, FragmentColor, rgb565};
 pub use comparison::{Always, Equal, Farther, OrEqual, ReadOnly};
 pub use counters::Counters;
@@ -33,4 +35,4 @@ pub use fragment::{FragmentStage, Fragments};
 pub use interpolation::{Affine, Exact, FixedPoint, Interpolation, Lines, Planes, Spans16};
 pub use spans::{Span, SpanWalker};
 pub use target::{Target, TargetError};
-pub use triangle::{Cull, Outcome, Vertex};
+pub use triangle::{Cull, Outcome, Reach, Vertex};

@@ -1,7 +1,8 @@
 //! A triangle on the screen, its orientation and its box of samples.
 
 use crate::edge::FITS_I32;
-use alberti_math::Fixed;
+use crate::interpolation::Oriented;
+use alberti_math::{Fixed, Varying};
 use core::ops::Range;
 
 /// A vertex on the screen, the hand-over from the view pipeline to the rasterizer: everything after it uses the snapped
@@ -18,6 +19,14 @@ pub struct Vertex<V> {
     pub q: f32,
     /// The attributes; finite.
     pub varying: V,
+}
+
+impl<V> Vertex<V> {
+    /// The position in subpixels.
+    #[inline(always)]
+    pub(crate) fn corner(&self) -> [i32; 2] {
+        [self.x.subpixels(), self.y.subpixels()]
+    }
 }
 
 /// The triangles that are left out, by their orientation on the screen after snapping.
@@ -59,6 +68,71 @@ pub enum Outcome {
 
 /// Snapped positions in subpixels.
 pub(crate) type Corners = [[i32; 2]; 3];
+
+/// The facing and the box of a triangle of which samples may be covered.
+#[derive(Clone, Copy, Debug)]
+pub struct Reach {
+    /// Twice the signed area, positive when the vertices run clockwise on the screen.
+    area: i64,
+    columns: [i32; 2],
+    rows: [i32; 2],
+    fits_i32: bool,
+}
+
+impl Reach {
+    #[inline(always)]
+    pub(crate) fn new<V>(
+        vertices: [&Vertex<V>; 3],
+        bits: u32,
+        cull: Cull,
+        [limits, rows]: &[Range<i32>; 2],
+    ) -> Result<Self, Outcome> {
+        let corners = vertices.map(Vertex::corner);
+        let area = doubled_area(&corners);
+        if cull.drops(area) {
+            return Err(Outcome::Culled);
+        }
+        let bounds = Bounds::of(&corners);
+        let Some([columns, rows]) = bounds.within(bits, [limits.clone(), rows.clone()]) else {
+            return Err(Outcome::Missed);
+        };
+        let (columns, rows) = ([columns.start, columns.end], [rows.start, rows.end]);
+        Ok(Self { area, columns, rows, fits_i32: bounds.fits_i32(bits) })
+    }
+
+    /// The columns whose samples lie in the box.
+    #[must_use]
+    #[inline(always)]
+    pub fn columns(&self) -> Range<i32> {
+        self.columns[0]..self.columns[1]
+    }
+
+    /// The rows among the limits whose samples lie in the box; at least one.
+    #[must_use]
+    #[inline(always)]
+    pub fn rows(&self) -> Range<i32> {
+        self.rows[0]..self.rows[1]
+    }
+
+    /// Whether edge functions fit `i32` everywhere in the box.
+    #[inline(always)]
+    pub(crate) fn fits_i32(&self) -> bool {
+        self.fits_i32
+    }
+
+    /// The triangle, whose vertices these are, for interpolation.
+    #[inline(always)]
+    pub(crate) fn oriented<'a, V: Varying>(
+        &self,
+        vertices: [&'a Vertex<V>; 3],
+        bits: u32,
+        depth_bits: u32,
+    ) -> Oriented<'a, V> {
+        let first = vertices[0].varying;
+        let (corners, vertices) = in_order(vertices.map(Vertex::corner), vertices, self.area);
+        Oriented { vertices, corners, doubled_area: self.area.abs(), first, bits, depth_bits }
+    }
+}
 
 /// The box around three corners, in subpixels.
 #[derive(Clone, Copy, Debug)]
@@ -112,22 +186,19 @@ pub(crate) fn doubled_area(&[a, b, c]: &Corners) -> i64 {
 
 /// The corners, and an item of each, in the order in which they are taken: clockwise, from the topmost (of two, the
 /// left one). The same for every order in which the triangle could be given, so that no bit depends on that.
-#[inline]
-pub(crate) fn in_order<T: Copy>(corners: Corners, carried: [T; 3], area: i64) -> (Corners, [T; 3]) {
+#[inline(always)]
+pub(crate) fn in_order<T: Copy>(corners: Corners, items: [T; 3], area: i64) -> (Corners, [T; 3]) {
+    // As numbers, and without branches: those would be tosses of a coin.
     let key = |[x, y]: [i32; 2]| i64::from(y) << 32 | i64::from(x.cast_unsigned() ^ 1 << 31);
-    let [a, b, c] = corners.map(key);
-    // All by arithmetic: a branch would be a toss of a coin.
-    let topmost = usize::from((b < a) & (b <= c)) + 2 * usize::from((c < a) & (c < b));
-    let [i, j, k] = ORDERS[(topmost + 4 * usize::from(area <= 0)) & 7];
-    let at = |i: u8| usize::from(i & 3);
-    let (corners, carried) =
-        ([corners[0], corners[1], corners[2], corners[0]], [carried[0], carried[1], carried[2], carried[0]]);
-    ([corners[at(i)], corners[at(j)], corners[at(k)]], [carried[at(i)], carried[at(j)], carried[at(k)]])
+    let clockwise = area > 0;
+    let swapped = |[a, b, c]: [T; 3]| if clockwise { [a, b, c] } else { [a, c, b] };
+    let ([a, b, c], [x, y, z]) =
+        if clockwise { (corners, items) } else { ([corners[0], corners[2], corners[1]], swapped(items)) };
+    let [ka, kb, kc] = [key(a), key(b), key(c)];
+    let (b_first, c_first) = ((kb < ka) & (kb <= kc), (kc < ka) & (kc < kb));
+    let (p, q, r, u, v, w) = if b_first { (b, c, a, y, z, x) } else { (a, b, c, x, y, z) };
+    if c_first { ([c, a, b], [z, x, y]) } else { ([p, q, r], [u, v, w]) }
 }
-
-/// The corners in the order in which they are taken, by the topmost and the orientation.
-const ORDERS: [[u8; 3]; 8] =
-    [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 1, 2], [0, 2, 1], [1, 0, 2], [2, 1, 0], [0, 2, 1]];
 
 #[cfg(test)]
 mod tests {
@@ -137,8 +208,8 @@ mod tests {
     fn the_order_does_not_depend_on_how_a_triangle_is_given() {
         let [a, b, c] = [[5, 9], [1, 2], [8, 2]];
         for corners in [[a, b, c], [b, c, a], [c, a, b], [a, c, b], [c, b, a], [b, a, c]] {
-            let (ordered, carried) = in_order(corners, corners, doubled_area(&corners));
-            assert_eq!((ordered, carried), ([b, c, a], [b, c, a]));
+            let ordered = in_order(corners, corners, doubled_area(&corners));
+            assert_eq!(ordered, ([b, c, a], [b, c, a]));
         }
     }
 

@@ -1,0 +1,109 @@
+//! Triangles drawn a few at a time.
+
+use crate::color::ColorFormat;
+use crate::counters::Counters;
+use crate::depth::DepthFormat;
+use crate::draw::Paint;
+use crate::fragment::FragmentStage;
+use crate::interpolation::Interpolation;
+use crate::target::Target;
+use crate::triangle::{Reach, Vertex};
+use alberti_math::lanes::{Floating, Lanes};
+use alberti_math::{Subpixel, Varying};
+use core::fmt;
+use core::iter::once;
+use core::ops::Range;
+
+/// Triangles on their way into a target, as many as there are lanes: so code for wide registers is entered once for
+/// several of them. The pixels are those of [`Paint::triangle`], in the same order.
+#[must_use = "the last triangles are drawn by `finish`"]
+pub struct Batch<'a, 't, L: Lanes, V: Copy, F, P, S, C: ColorFormat, D: DepthFormat> {
+    lanes: L,
+    paint: &'a Paint<F, P, S>,
+    target: &'a mut Target<'t, C, D>,
+    limits: [Range<i32>; 2],
+    triangles: L::Each<Option<Added<V>>>,
+    count: usize,
+}
+
+/// A copy of a triangle.
+type Added<V> = ([Vertex<V>; 3], Reach);
+
+impl<F, P: Interpolation, S: Subpixel> Paint<F, P, S> {
+    /// An empty batch of triangles for a target.
+    #[inline]
+    pub fn batch<'a, 't, L, V, C, D>(
+        &'a self,
+        lanes: L,
+        target: &'a mut Target<'t, C, D>,
+    ) -> Batch<'a, 't, L, V, F, P, S, C, D>
+    where
+        L: Floating,
+        V: Varying,
+        C: ColorFormat,
+        D: DepthFormat,
+    {
+        let limits = target.limits();
+        Batch { lanes, paint: self, target, limits, triangles: lanes.each(|_| None), count: 0 }
+    }
+}
+
+impl<L, V, F, P, S, C, D> Batch<'_, '_, L, V, F, P, S, C, D>
+where
+    L: Floating,
+    V: Varying,
+    F: FragmentStage<V>,
+    P: Interpolation,
+    S: Subpixel,
+    C: ColorFormat,
+    D: DepthFormat,
+{
+    /// Adds a triangle, after which those that are there may be drawn. The counters hear the fate of each once.
+    #[inline(always)]
+    pub fn triangle(&mut self, vertices: [&Vertex<V>; 3], counters: &mut impl Counters) {
+        match self.paint.reach(vertices, &self.limits) {
+            Err(outcome) => counters.rasterized(outcome),
+            // Nothing is gained by a copy.
+            Ok(reach) if L::COUNT == 1 => {
+                self.paint.draw(self.lanes, self.target, once((vertices, reach)), counters);
+            }
+            Ok(reach) => {
+                if let Some(place) = self.triangles.as_mut().get_mut(self.count) {
+                    *place = Some((vertices.map(|vertex| *vertex), reach));
+                }
+                self.count += 1;
+                if self.count >= L::COUNT {
+                    self.draw(counters);
+                }
+            }
+        }
+    }
+
+    /// Draws the triangles that are left.
+    #[inline]
+    pub fn finish(mut self, counters: &mut impl Counters) {
+        // With one lane there never are any, and no code is needed.
+        if L::COUNT > 1 && self.count > 0 {
+            self.draw(counters);
+        }
+    }
+
+    #[inline]
+    fn draw(&mut self, counters: &mut impl Counters) {
+        let triangles = self.triangles.as_ref().get(..self.count).unwrap_or_default();
+        let triangles = triangles.iter().flatten().map(|(vertices, reach)| (vertices.each_ref(), *reach));
+        self.paint.draw(self.lanes, self.target, triangles, counters);
+        self.count = 0;
+    }
+}
+
+impl<L: Lanes, V: Copy, F, P, S, C: ColorFormat, D: DepthFormat> fmt::Debug
+    for Batch<'_, '_, L, V, F, P, S, C, D>
+{
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Batch")
+            .field("limits", &self.limits)
+            .field("count", &self.count)
+            .finish_non_exhaustive()
+    }
+}
