@@ -12,7 +12,7 @@
 
 use alberti::glam::{DVec2, DVec3, Vec2, Vec3};
 use alberti::lanes::{Floating, Machine, One};
-use alberti::raster::{PerSpan, PerTriangle};
+use alberti::raster::{PerRun, PerTriangle};
 use alberti::shaders::material::{
     Color, Directional, Emission, Framed, Gloss, Lambert, Lighting, Material, NormalMap, Occlusion, Parallax,
     Placed, Specular, Viewer, Wetness,
@@ -178,7 +178,7 @@ impl Scene {
             Target::new(Rgba8888, Always(F32), WIDTH, HEIGHT, color, depth).expect("buffers that fit");
         let mut stats = Stats::default();
         let mut slots = [Slot::EMPTY; 12];
-        Pass::new(&self.view, &mesh, fragment_stage).cull(Cull::None).slots(&mut slots).draw_by(
+        Pass::new(&self.view, &mesh, fragment_stage).cull(Cull::None).slots(&mut slots).count_by(
             lanes,
             &mut target,
             &mut stats,
@@ -328,7 +328,7 @@ fn surface(criterion: &mut Criterion) {
         "nearest-mip": bare, Unlit(mip(&maps.color).sampler(Minify { min: NearestLevel(Nearest), mag: Nearest }, Repeat));
         "bilinear-mip": bare, Unlit(mip(&maps.color).sampler(Minify { min: NearestLevel(Bilinear), mag: Bilinear }, Repeat));
         "trilinear": bare, trilinear_unlit, |uv, lambda| trilinear(&maps.color, uv, lambda);
-        "trilinear-per-span": bare, Differentiated::by(PerSpan, trilinear_unlit);
+        "trilinear-per-span": bare, Differentiated::by(PerRun, trilinear_unlit);
         "trilinear-per-triangle": bare, Differentiated::by(PerTriangle, trilinear_unlit);
         "anisotropic-4": bare, Unlit(mip(&maps.color).sampler(Anisotropic { probes: 4, filter: Trilinear }, Repeat));
         "anisotropic-8": bare, Unlit(mip(&maps.color).sampler(Anisotropic { probes: 8, filter: Trilinear }, Repeat));

@@ -5,7 +5,8 @@ use alberti_raster::TargetError;
 use alberti_texture::TextureError;
 use core::fmt;
 
-/// An error of any constructor, so that a function without an allocator can return all of them by `?`.
+/// An error of all constructors that drawing needs, so that a function without an allocator can return any of them by
+/// `?`.
 ///
 /// ```
 /// use alberti::{glam::Vec3, texture::{Texture, format::L8}, *};

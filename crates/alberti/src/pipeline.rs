@@ -158,13 +158,23 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection, S: Subpixel> Pass<'a,
     {
         // The first is the widest, and there always is one.
         if let Some(machine) = Machine::all().next() {
-            for_lanes!(machine, lanes => self.draw_by(lanes, target, counters));
+            for_lanes!(machine, lanes => self.count_by(lanes, target, counters));
         }
     }
 
-    /// [`draw`](Self::draw) with as many samples at a time as there are `lanes`, and counted by `counters`, of which
-    /// `()` costs nothing.
-    pub fn draw_by<L: Floating, C: ColorFormat, D: DepthFormat, K: Counters>(
+    /// [`draw`](Self::draw) with as many samples at a time as there are `lanes`.
+    pub fn draw_by<L: Floating, C: ColorFormat, D: DepthFormat>(
+        &mut self,
+        lanes: L,
+        target: &mut Target<'_, C, D>,
+    ) where
+        F: FragmentStage<M::Varying>,
+    {
+        self.count_by(lanes, target, &mut ());
+    }
+
+    /// [`draw_by`](Self::draw_by), of which `counters` hear. There `()` costs nothing.
+    pub fn count_by<L: Floating, C: ColorFormat, D: DepthFormat, K: Counters>(
         &mut self,
         lanes: L,
         target: &mut Target<'_, C, D>,
@@ -175,7 +185,7 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection, S: Subpixel> Pass<'a,
         self.draw_from(0, lanes, target, counters);
     }
 
-    /// [`draw_by`](Self::draw_by) from triangle number `first` on.
+    /// [`count_by`](Self::count_by) from triangle number `first` on.
     pub(crate) fn draw_from<L: Floating, C: ColorFormat, D: DepthFormat, K: Counters>(
         &mut self,
         first: usize,
@@ -265,10 +275,10 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection, S: Subpixel> Pass<'a,
     /// [`prepare`](Self::prepare) for frames of this size, whose bands have this depth format.
     ///
     /// `counters` hear, once, which triangles are submitted, dropped, clipped, culled, or missed by their box, up to
-    /// the first that finds no room. The others are counted by each [`Prepared::draw_by`]. Together they count, for a
+    /// the first that finds no room. The others are counted by each [`Prepared::count_by`]. Together they count, for a
     /// band with all rows of the viewport, the same as [`draw_by`](Self::draw_by).
     #[expect(clippy::type_complexity, reason = "two things: the triangles, and the room that is left")]
-    pub fn prepare_by<'p, D: DepthFormat>(
+    pub fn count_prepare<'p, D: DepthFormat>(
         &'p mut self,
         size: [u32; 2],
         depth: D,

@@ -105,15 +105,23 @@ where
         F: FragmentStage<M::Varying>,
     {
         if let Some(machine) = Machine::all().next() {
-            for_lanes!(machine, lanes => self.draw_by(lanes, target, &mut ()));
+            for_lanes!(machine, lanes => self.draw_by(lanes, target));
         }
     }
 
     /// [`draw`](Self::draw) with as many samples at a time as there are `lanes`.
+    pub fn draw_by<L: Floating, C: ColorFormat>(&mut self, lanes: L, target: &mut Target<'_, C, D>)
+    where
+        F: FragmentStage<M::Varying>,
+    {
+        self.count_by(lanes, target, &mut ());
+    }
+
+    /// [`draw_by`](Self::draw_by), of which `counters` hear.
     ///
     /// Of a kept triangle, `counters` hear its fate in the rasterizer, if it has rows in the band. One that is drawn in
     /// three bands is submitted once and drawn three times.
-    pub fn draw_by<L: Floating, C: ColorFormat, K: Counters>(
+    pub fn count_by<L: Floating, C: ColorFormat, K: Counters>(
         &mut self,
         lanes: L,
         target: &mut Target<'_, C, D>,

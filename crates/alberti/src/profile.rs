@@ -1,19 +1,4 @@
 //! Profiles: the policies of a whole picture under one name, so that a function takes one argument.
-//!
-//! | profile | for | interpolation | depth | subpixels | bytes a pixel |
-//! |---|---|---|---|---|---|
-//! | [`REFERENCE`] | comparisons | [`Exact`] | [`F32Reversed`] | 8 bits | 8 |
-//! | [`DESKTOP`] | machines with vector registers | [`Exact`] | [`F32`] | 8 bits | 8 |
-//! | [`MCU`] | microcontrollers | [`Spans16`] in [`FixedPoint`] | [`D16`] | 4 bits | 4 |
-//! | [`TINY`] | the smallest of them | [`Affine`] in [`FixedPoint`] | [`NoDepth`] | 4 bits | 2 |
-//!
-//! | profile | precision of attributes | cost of a fragment |
-//! |---|---|---|
-//! | [`REFERENCE`], [`DESKTOP`] | 9ε | a division; a component adds four products |
-//! | [`MCU`] | 19 steps of 2^-16, and the miss of a line along 16 columns | an addition a component; a table every 16 columns |
-//! | [`TINY`] | 67 steps of 2^-16, and the miss of a line along the triangle | an addition a component |
-//!
-//! A profile is for code that is to be drawn in several ways. Code that knows its way names the policies themselves.
 
 use alberti_math::{Rgb565Be, Rgba8888, Sub4, Sub8};
 use alberti_raster::{
@@ -22,6 +7,21 @@ use alberti_raster::{
 };
 
 /// A choice of one policy from each family. The built-in ones are [`REFERENCE`], [`DESKTOP`], [`MCU`] and [`TINY`].
+///
+/// | profile | for | interpolation | depth | subpixels | bytes a pixel |
+/// |---|---|---|---|---|---|
+/// | [`REFERENCE`] | comparisons | [`Exact`] | [`F32Reversed`] | 8 bits | 8 |
+/// | [`DESKTOP`] | machines with vector registers | [`Exact`] | [`F32`] | 8 bits | 8 |
+/// | [`MCU`] | microcontrollers | [`Spans16`] in [`FixedPoint`] | [`D16`] | 4 bits | 4 |
+/// | [`TINY`] | the smallest of them | [`Affine`] in [`FixedPoint`] | [`NoDepth`] | 4 bits | 2 |
+///
+/// | profile | precision of attributes | cost of a fragment |
+/// |---|---|---|
+/// | [`REFERENCE`], [`DESKTOP`] | 9ε | a division; a component adds four products |
+/// | [`MCU`] | 19 steps of 2^-16, and the miss of a line along 16 columns | an addition a component; a table every 16 columns |
+/// | [`TINY`] | 67 steps of 2^-16, and the miss of a line along the triangle | an addition a component |
+///
+/// A profile is for code that is to be drawn in several ways. Code that knows its way names the policies themselves.
 ///
 /// The same scene under two of them, and under one's own:
 ///
@@ -83,9 +83,6 @@ pub struct Profile<I, S, C, D> {
 }
 
 impl<I, S, C: ColorFormat, D: DepthFormat> Profile<I, S, C, D> {
-    /// Memory for a pixel, with its depth.
-    pub const PIXEL_BYTES: usize = size_of::<C::Pixel>() + size_of::<D::Stored>();
-
     /// A target of the profile's formats: [`Target::new`].
     ///
     /// # Errors

@@ -10,7 +10,7 @@ use core::num::NonZeroU32;
 use core::slice::from_mut;
 
 /// Room for a transformed vertex. In a slice with a slot for each vertex of the mesh, each is transformed once, several
-/// at a time; a shorter one is a cache, in which vertex i shares the slot i modulo the length.
+/// at a time. A shorter slice is a cache, in which vertex i shares the slot i modulo the length.
 #[derive(Clone, Copy, Debug)]
 pub struct Slot<V>(Option<Transformed<V>>);
 

@@ -62,7 +62,7 @@ fn by_library<V: Varying>(
     target.clear(Rgba8::new(r, g, b, 255));
     let view = view(&scene.camera).expect("a view");
     let mesh = Mesh::new(&scene.model.vertices, &scene.model.parts[0].triangles, vertex_stage);
-    Pass::new(&view, &mesh, stage).with(profile).draw_by(One, &mut target, &mut ());
+    Pass::new(&view, &mesh, stage).with(profile).draw_by(One, &mut target);
     color.into_iter().map(|pixel| pixel.shown(big_endian)).collect()
 }
 

@@ -40,8 +40,8 @@ pub trait Projection: Copy + Debug {
     #[must_use]
     fn depth_map(&self, reversed: bool) -> Self::Depth;
 
-    /// Step 2 for several points: x and y are scaled so that the sides of the view are x = ±w, y = ±w, with w = z in
-    /// perspective, and w = 1 in parallel projection.
+    /// Step 2 for several points: x and y are scaled so that the sides of the view are x = ±w, y = ±w. In perspective w
+    /// is z, in parallel projection 1.
     #[must_use]
     fn scale_lanes<L: Lanes>(&self, lanes: L, p: [L::Number; 3]) -> [L::Number; 3];
 

@@ -1,4 +1,4 @@
-//! Colour targets: how a pixel is stored. A new one is a type with two short methods.
+//! Colour targets: how a pixel is stored. A new one is a type with one short method.
 
 use alberti_math::lanes::Lanes;
 use alberti_math::{Rgb565Be, Rgb565Le, Rgba8, Rgba8888};
@@ -21,10 +21,6 @@ use core::fmt::Debug;
 ///         let [r, g, b, _] = color.to_bytes().map(u32::from);
 ///         ((r * 77 + g * 150 + b * 29 + 128) >> 8) as u8
 ///     }
-///
-///     fn native(self, word: u32) -> u8 {
-///         word as u8
-///     }
 /// }
 /// assert_eq!(Grey.pixel(Rgba8::WHITE), 255);
 /// ```
@@ -36,8 +32,11 @@ pub trait ColorFormat: Copy + Debug + 'static {
     fn pixel(self, color: Rgba8) -> Self::Pixel;
 
     /// The pixel for a word that is a pixel already, but for the order of its bytes. Stages and
-    /// [`clear`](crate::Target::clear) give such words by colours that are `u8`, `u16` or `u32` instead of [`Rgba8`].
-    fn native(self, word: u32) -> Self::Pixel;
+    /// [`clear`](crate::Target::clear) give such words by colours that are `u8`, `u16` or `u32` instead of [`Rgba8`],
+    /// and only to formats whose pixels have as many bytes. By default the word is that of an [`Rgba8`].
+    fn native(self, word: u32) -> Self::Pixel {
+        self.pixel(Rgba8::from_bits(word))
+    }
 
     /// Stores pixels for the samples in `mask`, whose colours are the words of `Shade`s.
     #[inline(always)]

@@ -1,35 +1,4 @@
 //! Derivatives of attributes: their changes from a pixel to the next, from which a texture's level of detail comes.
-//!
-//! Space in: an oriented triangle and a sample of it. Space out: derivatives by columns and by rows.
-//!
-//! | policy | where it is right | divisions |
-//! |---|---|---|
-//! | [`NoDerivatives`] | | none |
-//! | [`PerPixel`] | at each sample | one a fragment, which [`Exact`](crate::Exact) shares |
-//! | [`PerSpan`] | in the middle of each run of samples | one a run |
-//! | [`PerTriangle`] | at the triangle's centroid | one a triangle |
-//!
-//! An attribute u = U/T is the quotient of two functions that are linear on the screen, U = Σ Ei qi ui and T = Σ Ei qi.
-//! Its derivatives are quotients of something simple as well, as in the numerators x, or y, cancels:
-//!
-//! ```text
-//! ∂u/∂x = (Ux T − U Tx)/T² = (A + J y)/T²        A = Ux T − U Tx,  B = Uy T − U Ty  at the origin
-//! ∂u/∂y = (Uy T − U Ty)/T² = (B − J x)/T²        J = Ux Ty − Uy Tx
-//! ```
-//!
-//! The origin is the first corner, and u is counted from the value there, so that U is 0 at the origin.
-//!
-//! A, B and J are found in `f64`, as sums of products of a distance, the area, two q and a difference of two u. These
-//! may cancel, as all do where u is constant along a thin triangle. Then the error of `f64` counts as well: 2^-48 M,
-//! with M the most that the derivative could be if nothing cancelled. With s the longer side of the triangle's box and
-//! Δu the greatest difference of u,
-//!
-//! ```text
-//! M = 2 area s Δu (qa qb + qb qc + qc qa)/T²
-//! ```
-//!
-//! That is part of the precision of all policies. Where the q are equal and a triangle is a quarter of a pixel thick,
-//! it is 2^-44 Δu.
 
 use crate::edge::EdgeInt;
 use crate::interpolation::{Oriented, Row, scaled_q};
@@ -40,7 +9,36 @@ use core::fmt::{self, Debug};
 
 /// A policy of differentiation, which a [`FragmentStage`](crate::FragmentStage) chooses.
 ///
-/// In fixed point, where weights are not at hand as numbers, [`PerPixel`] is [`PerSpan`].
+/// | policy | where it is right | divisions |
+/// |---|---|---|
+/// | [`NoDerivatives`] | | none |
+/// | [`PerPixel`] | at each sample | one a fragment, which [`Exact`](crate::Exact) shares |
+/// | [`PerRun`] | in the middle of each run of samples | one a run |
+/// | [`PerTriangle`] | at the triangle's centroid | one a triangle |
+///
+/// An attribute u = U/T is the quotient of two functions that are linear on the screen, U = Σ Ei qi ui and T = Σ Ei qi.
+/// Its derivatives are quotients of something simple as well, as in the numerators x, or y, cancels:
+///
+/// ```text
+/// ∂u/∂x = (Ux T − U Tx)/T² = (A + J y)/T²        A = Ux T − U Tx,  B = Uy T − U Ty  at the origin
+/// ∂u/∂y = (Uy T − U Ty)/T² = (B − J x)/T²        J = Ux Ty − Uy Tx
+/// ```
+///
+/// The origin is the first corner, and u is counted from the value there, so that U is 0 at the origin.
+///
+/// A, B and J are found in `f64`, as sums of products of a distance, the area, two q and a difference of two u. These
+/// may cancel, as all do where u is constant along a thin triangle. Then the error of `f64` counts as well: 2^-48 M,
+/// with M the most that the derivative could be if nothing cancelled. With s the longer side of the triangle's box and
+/// Δu the greatest difference of u,
+///
+/// ```text
+/// M = 2 area s Δu (qa qb + qb qc + qc qa)/T²
+/// ```
+///
+/// That is part of the precision of all policies. Where the q are equal and a triangle is a quarter of a pixel thick,
+/// it is 2^-44 Δu.
+///
+/// In fixed point, where weights are not at hand as numbers, [`PerPixel`] is [`PerRun`].
 pub trait Differentiation: Differentiate + Debug + Default + 'static {
     /// The policy of a stage whose parts take this and `D`: the first of the two that is not [`NoDerivatives`].
     type With<D: Differentiation>: Differentiation;
@@ -137,7 +135,7 @@ impl Differentiate for NoDerivatives {
 /// 11ε, and the numerator's rounding and the product add 2ε. For ∂u/∂y the numerator is a difference: ε for it,
 /// ε·(|∂u/∂y| + |J x|/T²) for its first part, and 2ε·|J x|/T² for the product.
 ///
-/// In fixed point the precision is that of [`PerSpan`].
+/// In fixed point the precision is that of [`PerRun`].
 ///
 /// # Cost
 /// A triangle: some 30 operations in `f64`, and 12 for each component; a row, two in `f64` a component. A fragment:
@@ -156,12 +154,12 @@ pub struct PerPixel;
 /// # Cost
 /// A run: some ten operations and a division in `f64`, and four a component.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct PerSpan;
+pub struct PerRun;
 
 /// Derivatives at the centroid of each triangle.
 ///
 /// # Precision
-/// Like [`PerSpan`] there. With r >= 1 the ratio of q there and at a vertex, ∂u/∂x is off by up to a factor of r². A
+/// Like [`PerRun`] there. With r >= 1 the ratio of q there and at a vertex, ∂u/∂x is off by up to a factor of r². A
 /// triangle that was clipped counts as the pieces that are drawn.
 ///
 /// # Cost
@@ -406,6 +404,6 @@ macro_rules! along_runs {
     )*};
 }
 along_runs! {
-    PerSpan: Quotients<V>, |of| Quotients::new(of), |triangle, row, run| triangle.in_middle(row, run);
+    PerRun: Quotients<V>, |of| Quotients::new(of), |triangle, row, run| triangle.in_middle(row, run);
     PerTriangle: V::Of<[f32; 2]>, |of| Quotients::new(of).in_centroid(), |triangle, _row, _run| *triangle;
 }

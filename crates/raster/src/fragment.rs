@@ -37,6 +37,10 @@ use core::fmt;
 /// }
 /// assert_eq!(Hatched.shade_one(0.5), Some(Rgba8::from_rgb24(0x80_80_80)));
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a fragment stage for vertices that carry `{V}`",
+    note = "a closure `Fn({V}) -> Option<Rgba8>` is one, if it is `Copy`: with `move`, or capturing references only"
+)]
 pub trait FragmentStage<V: Varying>: Copy {
     /// The colour it makes: an [`Rgba8`](alberti_math::Rgba8), or a word of the target's pixels.
     type Color: FragmentColor;
@@ -50,7 +54,8 @@ pub trait FragmentStage<V: Varying>: Copy {
     }
 
     /// The colours of several fragments, as words, and those of them that are not discarded. Samples beside the mask
-    /// may get any colour. Under [`FixedPoint`](crate::FixedPoint) numbers are `Q16`: within ±32768, in steps of 2^-16.
+    /// may get any colour: they are not drawn, whether or not they are discarded. Under
+    /// [`FixedPoint`](crate::FixedPoint) numbers are `Q16`: within ±32768, in steps of 2^-16.
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, V>) -> (L::U32, L::Mask);
 
     /// The colour of one fragment, or `None` if it is discarded; of a varying that does not change between pixels, in

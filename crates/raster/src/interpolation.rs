@@ -1,16 +1,4 @@
-//! Interpolation of depth and attributes between the vertices: the policies, each with its precision and its cost. ε is
-//! 2^-24.
-//!
-//! | policy | error | divisions |
-//! |---|---|---|
-//! | [`Exact`](crate::Exact) | 9ε | one a fragment |
-//! | [`Planes`](crate::Planes) | a few ε, times the ratio of q along 64 columns | one a fragment |
-//! | [`Spans16`] | the miss of a straight line along 16 columns | two every 16 columns |
-//! | [`Affine`] | the miss of a straight line along the triangle | one every 64 columns |
-//! | [`Lines`] | one of the two for any length, or a budget | as many as that takes |
-//! | [`FixedPoint`] around one of the last three | theirs, and steps of 2^-16 a column | none: a table |
-//!
-//! The first two work sample by sample, the others by runs of samples.
+//! Interpolation of depth and attributes between the vertices.
 
 mod exact;
 mod fixed_plane;
@@ -33,8 +21,22 @@ use alberti_math::Varying;
 use alberti_math::lanes::{Floating, Lanes};
 use core::fmt::Debug;
 
-/// A policy of interpolation, chosen once per draw.
-pub trait Interpolation: Copy + Debug + 'static {
+/// A policy of interpolation, chosen once per draw. ε is 2^-24.
+///
+/// | policy | error | divisions |
+/// |---|---|---|
+/// | [`Exact`] | 9ε | one a fragment |
+/// | [`Planes`] | a few ε, times the ratio of q along 64 columns | one a fragment |
+/// | [`Spans16`] | the miss of a straight line along 16 columns | two every 16 columns |
+/// | [`Affine`] | the miss of a straight line along the triangle | one every 64 columns |
+/// | [`Lines`] | one of the two for any length, or a budget | as many as that takes |
+/// | [`FixedPoint`] around one of the last three | theirs, and steps of 2^-16 a column | none: a table |
+///
+/// The first two work sample by sample, the others by runs of samples.
+pub trait Interpolation: Prepare + Debug + 'static {}
+
+/// The way of a policy from a triangle to one that is prepared.
+pub trait Prepare: Copy {
     /// The lanes in which it works on a machine with the lanes `L`.
     type Lanes<L: Floating>: Lanes;
     /// A triangle prepared for it.

@@ -57,6 +57,18 @@ impl LodBounds {
 /// Another filter with bounds of λ. Of an [`Anisotropic`](crate::Anisotropic) one these are bounds of its own λ; the
 /// probes and their places stay.
 ///
+/// ```
+/// use alberti_texture::format::L8;
+/// use alberti_texture::{Bounded, LodBounds, Mipmap, Repeat, Trilinear};
+/// use glam::Vec2;
+///
+/// let board = Mipmap::new(L8, &[0, 255, 255, 0, 188], 2, 2)?;
+/// let softer = Bounded { filter: Trilinear, bounds: LodBounds { bias: 0.5, ..LodBounds::default() } };
+/// let sampler = board.sampler(softer, Repeat);
+/// assert_eq!(sampler.sample_lod(Vec2::new(0.25, 0.25), 0.0).to_bytes()[0], 222);
+/// # Ok::<(), alberti_texture::TextureError>(())
+/// ```
+///
 /// # Cost
 /// That of the filter and of [`LodBounds`].
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -14,6 +14,10 @@ use crate::{Size, Texture, Wrap};
 
 /// The way of reading a colour between texels: [`Nearest`] or [`Bilinear`], and [`AnyFilter`] for one that is picked at
 /// run time. Sealed.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a filter of one texture",
+    note = "`Nearest`, `Bilinear` and `AnyFilter` are; filters of mip maps belong to `Mipmap::sampler`"
+)]
 pub trait Filter: Sealed + Copy + Debug + 'static {
     /// The colours of the texture at (u, v), as words, with a wrap mode for u and one for v.
     fn sample<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(

@@ -16,6 +16,10 @@ use crate::{Gradient, Mipmap, Size, Wrap};
 /// The way of reading a [`Mipmap`]: [`BaseLevel`], [`NearestLevel`] or [`BetweenLevels`] with a [`Filter`],
 /// [`Trilinear`], [`Minify`], [`Anisotropic`](crate::Anisotropic) or [`Bounded`](crate::Bounded), and
 /// [`AnyMipFilter`](crate::AnyMipFilter) for one that is picked at run time. Sealed.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a filter of mip maps",
+    note = "a filter of one level becomes one by `NearestLevel`, `BetweenLevels` or `BaseLevel` around it"
+)]
 pub trait MipFilter: Sealed + Copy + Debug + 'static {
     /// The colours at (u, v), as words, for a level of detail of λ, with a wrap mode for u and one for v.
     fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
@@ -90,6 +94,16 @@ pub struct Trilinear;
 
 /// Where texels are smaller than pixels (λ > 0) the filter `min`, elsewhere (also where λ is NaN) the filter `mag` in
 /// level 0.
+///
+/// ```
+/// use alberti_texture::{Bilinear, Minify, Mipmap, Nearest, NearestLevel, Repeat, format::L8};
+///
+/// // Pixels of the largest level have sharp edges, smaller ones a smooth picture.
+/// let board = Mipmap::new(L8, &[0, 255, 255, 0, 188], 2, 2)?;
+/// let sampler = board.sampler(Minify { min: NearestLevel(Bilinear), mag: Nearest }, Repeat);
+/// assert_eq!(sampler.sample_lod([0.3, 0.3].into(), -1.0).to_bytes()[0], 255);
+/// # Ok::<(), alberti_texture::TextureError>(())
+/// ```
 ///
 /// # Cost
 /// One filter, if all samples that are worked on together are on the same side of 0.

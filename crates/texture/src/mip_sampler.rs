@@ -8,7 +8,7 @@ use glam::Vec2;
 
 use crate::format::Storage;
 use crate::minify::MipFilter;
-use crate::{AnySize, Bounded, Gradient, LodBounds, Mipmap, Size, Wrap};
+use crate::{AnySize, Gradient, Mipmap, Size, Wrap};
 
 /// A mip map with a filter and a wrap mode for each axis, which a fragment that knows its size asks for a colour.
 ///
@@ -42,25 +42,6 @@ impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: Size> MipSampler<'a, F, 
     #[inline]
     pub(crate) const fn new(mipmap: Mipmap<'a, F, Z>, filter: M, wrap: (U, V)) -> Self {
         Self { mipmap, filter, wrap }
-    }
-
-    /// The same sampler with a bias of λ and limits, before those that it may have: its filter is [`Bounded`].
-    ///
-    /// ```
-    /// use alberti_texture::format::L8;
-    /// use alberti_texture::{LodBounds, Mipmap, Repeat, Trilinear};
-    /// use glam::Vec2;
-    ///
-    /// let board = Mipmap::new(L8, &[0, 255, 255, 0, 188], 2, 2)?;
-    /// let softer = board.sampler(Trilinear, Repeat).bounded(LodBounds { bias: 0.5, ..LodBounds::default() });
-    /// assert_eq!(softer.sample_lod(Vec2::new(0.25, 0.25), 0.0).to_bytes()[0], 222);
-    /// # Ok::<(), alberti_texture::TextureError>(())
-    /// ```
-    #[inline]
-    #[must_use]
-    pub const fn bounded(self, bounds: LodBounds) -> MipSampler<'a, F, Bounded<M>, U, V, Z> {
-        let Self { mipmap, filter, wrap } = self;
-        MipSampler { mipmap, filter: Bounded { filter, bounds }, wrap }
     }
 
     /// The mip map that is sampled.

@@ -234,7 +234,7 @@ fn check_prepared(format: AnyDepth, soup: &Soup, heights: &[&[u32]]) {
     assert!(expected.written > 5000 && expected.drawn > 1, "{}: {expected:?}", soup.name);
 
     let plenty = &mut vec![ScreenTriangle::EMPTY; 7 * soup.triangles.len()];
-    let enough = soup.pass(&mesh, &mut []).prepare_by(SIZE, format, plenty, &mut ()).0.kept();
+    let enough = soup.pass(&mesh, &mut []).count_prepare(SIZE, format, plenty, &mut ()).0.kept();
     assert!(enough as u64 >= expected.drawn && enough as u64 <= expected.drawn + expected.missed);
     for (i, size) in [enough, enough + 9, enough - 1, enough / 2, 1, 0].into_iter().enumerate() {
         let room = &mut vec![ScreenTriangle::EMPTY; size];
@@ -242,14 +242,14 @@ fn check_prepared(format: AnyDepth, soup: &Soup, heights: &[&[u32]]) {
         let mut once = Stats::default();
         let slots = &mut slots([soup.vertices.len(), 0, 5][i % 3]);
         let mut pass = soup.pass(&mesh, slots);
-        let (mut prepared, _) = pass.prepare_by(SIZE, format, room, &mut once);
+        let (mut prepared, _) = pass.count_prepare(SIZE, format, room, &mut once);
         // A clipped triangle is kept as a whole or not at all.
         assert!(prepared.kept() <= size && prepared.kept() + 7 > size.min(enough), "{case}");
         assert_eq!(prepared.remaining() == 0, prepared.kept() == enough, "{case}");
         for heights in heights {
             let (mut picture, mut stats) = (Picture::new(format), once);
             picture.bands(heights, |band| {
-                for_lanes!(machine, lanes => prepared.draw_by(lanes, band, &mut stats));
+                for_lanes!(machine, lanes => prepared.count_by(lanes, band, &mut stats));
             });
             assert!(picture.color == whole.color, "{case}: colours in bands of {heights:?} rows");
             assert!(picture.depth == whole.depth, "{case}: depths in bands of {heights:?} rows");
@@ -306,7 +306,7 @@ fn passes_share_room() {
         let mut rest = &mut vec![ScreenTriangle::EMPTY; room][..];
         let mut prepared = Vec::new();
         for pass in &mut passes {
-            let (one, left) = pass.prepare_by(SIZE, AnyDepth::D16, std::mem::take(&mut rest), &mut ());
+            let (one, left) = pass.count_prepare(SIZE, AnyDepth::D16, std::mem::take(&mut rest), &mut ());
             prepared.push(one);
             rest = left;
         }
@@ -334,7 +334,7 @@ fn what_is_prepared_for_another_frame_is_drawn_anew() {
             (color, depth)
         };
         let anew = picture(&mut |target| pass.draw(target));
-        let (mut prepared, _) = pass.prepare_by(SIZE, AnyDepth::D16, &mut room[..], &mut ());
+        let (mut prepared, _) = pass.count_prepare(SIZE, AnyDepth::D16, &mut room[..], &mut ());
         assert!(prepared.kept() > 0);
         assert!(picture(&mut |target| prepared.draw(target)) == anew, "{size:?}, {format:?}");
         assert!(anew.0.iter().any(|&color| color != 0));

@@ -122,7 +122,7 @@ fn bands_in_the_same_memory_make_the_frame() {
         let mesh = Mesh::new(&soup.0, &soup.1, |&p| (p, p));
         let mut pass = Pass::new(&view, &mesh, stage).cull(Cull::None);
         let mut room = vec![ScreenTriangle::EMPTY; rng.index(40)];
-        let (mut prepared, _) = pass.prepare_by(size, DEPTH, &mut room, &mut ());
+        let (mut prepared, _) = pass.count_prepare(size, DEPTH, &mut room, &mut ());
         for again in [false, true] {
             let mut bands =
                 Bands::new(Rgb565Be, DEPTH, size[0], size[1], &mut memory, &mut its_depth).expect("bands");

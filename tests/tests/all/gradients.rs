@@ -18,7 +18,7 @@ use alberti_oracle::gradient::{self, Slopes};
 use alberti_oracle::rng::{Rng, run_seed};
 use alberti_oracle::{cases, cases::pixel_centre};
 use alberti_raster::{
-    Cull, Differentiation, Exact, FixedPoint, Interpolation, Lines, NoDepth, Paint, PerPixel, PerSpan,
+    Cull, Differentiation, Exact, FixedPoint, Interpolation, Lines, NoDepth, Paint, PerPixel, PerRun,
     PerTriangle, Planes, Rgba8888, Target, Vertex,
 };
 use alberti_tests::derivatives::{Carried, Listener, Told, carried, told};
@@ -227,18 +227,18 @@ fn per_pixel() {
 
 #[test]
 fn per_span() {
-    in_middles(PerSpan, Exact, 3, i32::MAX, 0.0);
-    in_middles(PerSpan, Planes, 4, 64, 0.0);
-    in_middles(PerSpan, spans(8), 5, 8, 0.0);
-    in_middles(PerSpan, spans(32), 6, 32, 0.0);
-    in_middles(PerSpan, Lines::affine(), 7, 64, 0.0);
+    in_middles(PerRun, Exact, 3, i32::MAX, 0.0);
+    in_middles(PerRun, Planes, 4, 64, 0.0);
+    in_middles(PerRun, spans(8), 5, 8, 0.0);
+    in_middles(PerRun, spans(32), 6, 32, 0.0);
+    in_middles(PerRun, Lines::affine(), 7, 64, 0.0);
 }
 
 /// There all policies but that of triangles are that of runs, and numbers are rounded to 2^-16.
 #[test]
 fn in_fixed_point() {
     const STEP: f64 = 1.0 / 65536.0;
-    in_middles(PerSpan, FixedPoint(spans(16)), 8, 16, STEP / 2.0);
+    in_middles(PerRun, FixedPoint(spans(16)), 8, 16, STEP / 2.0);
     in_middles(PerPixel, FixedPoint(spans(8)), 9, 8, STEP / 2.0);
 }
 
@@ -379,10 +379,10 @@ fn same_bits(differentiation: impl Differentiation, policy: impl Interpolation, 
 fn lanes_pieces_and_vertex_order_change_no_bit() {
     same_bits(PerPixel, Exact, 20);
     same_bits(PerPixel, spans(8), 21);
-    same_bits(PerSpan, Exact, 23);
-    same_bits(PerSpan, Planes, 24);
-    same_bits(PerSpan, spans(16), 25);
-    same_bits(PerSpan, FixedPoint(spans(8)), 26);
+    same_bits(PerRun, Exact, 23);
+    same_bits(PerRun, Planes, 24);
+    same_bits(PerRun, spans(16), 25);
+    same_bits(PerRun, FixedPoint(spans(8)), 26);
     same_bits(PerTriangle, Exact, 27);
     same_bits(PerTriangle, FixedPoint(Lines::affine()), 28);
 }

@@ -5,13 +5,13 @@
 #![allow(clippy::cast_possible_truncation, reason = "random numbers within the range of what they become")]
 
 use alberti::glam::{Vec2, Vec3};
-use alberti::lanes::{Floating, Machine, One};
+use alberti::lanes::{Floating, Lanes, Machine, One};
 use alberti::shaders::{Sunlit, Tinted, Unlit, VertexColor};
 use alberti::texture::{Bilinear, Filter, Mirror, Nearest, Repeat, Texture, Wrap};
 use alberti::{
-    AnyDepth, ColorFormat, Cull, D16, DepthFormat, Exact, F32, FixedPoint, FragmentStage, Interpolation,
-    Lines, Mesh, OrEqual, Pass, Planes, Rgb565Be, Rgba8, Rgba8888, Slot, Sub8, Target, Varying, Vector3,
-    for_lanes,
+    AnyDepth, ColorFormat, Cull, D16, DepthFormat, Exact, F32, FixedPoint, FragmentStage, Fragments,
+    Interpolation, Lines, Mesh, NoDerivatives, OrEqual, Pass, Planes, Rgb565Be, Rgba8, Rgba8888, Slot, Sub8,
+    Target, Varying, Vector3, for_lanes,
 };
 use alberti_app::scene::{Image, Vertex};
 use alberti_app::scenes::{BuiltIn, NAMES, by_name};
@@ -172,7 +172,7 @@ impl Shot<'_> {
             .cull(Cull::None)
             .interpolation(interpolation)
             .slots(&mut vec![Slot::EMPTY; vertices.len()])
-            .draw_by(lanes, &mut target, &mut ());
+            .draw_by(lanes, &mut target);
         (color, depth)
     }
 
@@ -208,6 +208,43 @@ impl Shot<'_> {
 
 fn position(v: &Vertex) -> Vec3 {
     Vec3::from_array(v.position)
+}
+
+/// A colour for all samples, asked for or not.
+#[derive(Clone, Copy)]
+struct Everywhere;
+
+impl FragmentStage<()> for Everywhere {
+    type Color = Rgba8;
+    type Derivatives = NoDerivatives;
+
+    fn shade<L: Lanes>(&self, fragments: &Fragments<L, ()>) -> (L::U32, L::Mask) {
+        let Fragments { lanes, mask, .. } = *fragments;
+        (lanes.word(Rgba8::WHITE.to_bits()), mask | !mask)
+    }
+}
+
+/// A stage that keeps more than it is asked for draws no more.
+#[test]
+fn stages_cannot_paint_beside_their_masks() {
+    let corners = [Vec3::new(-0.9, -0.7, 0.0), Vec3::new(0.8, -0.9, 0.0), Vec3::new(0.1, 0.9, 0.0)];
+    let mesh = Mesh::new(&corners, &[[0u16, 1, 2]], |&corner| (corner, ()));
+    let camera = alberti::Camera::look_at(Vec3::Z * 2.0, Vec3::ZERO, Vec3::Y).expect("a camera");
+    let view = camera.perspective(1.0, 0.1..10.0).expect("a view");
+    let drawn = |lanes: &dyn Fn(&mut Target<'_, Rgba8888, F32>)| {
+        let (mut color, mut depth) = (vec![0; 64 * 48], vec![1.0; 64 * 48]);
+        lanes(&mut Target::new(Rgba8888, F32, 64, 48, &mut color, &mut depth).expect("a frame"));
+        (color, depth.into_iter().map(f32::to_bits).collect::<Vec<_>>())
+    };
+    let modest = |(): ()| Some(Rgba8::WHITE);
+    let expected = drawn(&|target| Pass::new(&view, &mesh, modest).draw_by(One, target));
+    assert!(expected.0.iter().filter(|&&pixel| pixel != 0).count() > 500);
+    for machine in Machine::all() {
+        for_lanes!(machine, lanes => {
+            let found = drawn(&|target| Pass::new(&view, &mesh, Everywhere).draw_by(lanes, target));
+            assert!(found == expected, "{lanes:?}");
+        });
+    }
 }
 
 #[test]

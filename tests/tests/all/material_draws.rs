@@ -39,7 +39,7 @@ fn picture<L: Floating, P: Projection, V: Varying, T: Copy + Sync>(
         .cull(Cull::None)
         .interpolation(interpolation)
         .slots(&mut vec![Slot::EMPTY; vertices.len()])
-        .draw_by(lanes, &mut target, &mut ());
+        .draw_by(lanes, &mut target);
     color
 }
 

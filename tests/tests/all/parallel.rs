@@ -44,7 +44,7 @@ fn drawn(policy: impl Interpolation, triangle: &[Given; 3]) -> Vec<([i64; 2], f3
     let stage = |u: f32| seen.keep(u);
     let mut pass = Pass::new(&view, &mesh, stage).cull(Cull::None).interpolation(policy);
     let machine = Machine::all().next().expect("every machine has lanes");
-    for_lanes!(machine, lanes => pass.draw_by(lanes, &mut target, &mut ()));
+    for_lanes!(machine, lanes => pass.draw_by(lanes, &mut target));
     let place = |i: usize| [(i % SIDE) as i64, (i / SIDE) as i64];
     let kept = color.iter().zip(&depth).enumerate().filter(|(_, (c, _))| **c != 0);
     kept.map(|(i, (&c, &zs))| (place(i), seen.at(c), zs)).collect()

@@ -53,17 +53,17 @@ fn assert_same<I, S, C, D>(
     let mut target = profile.target(WIDTH, HEIGHT, &mut found.0, &mut found.1).expect("a target");
     target.clear(Rgba8::BLACK);
     let black = target.pixels()[0];
-    Pass::new(&view, &mesh, stage).cull(Cull::None).with(profile).draw_by(One, &mut target, &mut ());
+    Pass::new(&view, &mesh, stage).cull(Cull::None).with(profile).draw_by(One, &mut target);
 
     let mut expected = buffers();
     let (color, depth) = (&mut expected.0, &mut expected.1);
     let mut target = Target::new(color_format, depth_format, WIDTH, HEIGHT, color, depth).expect("a target");
     target.clear(Rgba8::BLACK);
-    Pass::new(&view, &mesh, stage).cull(Cull::None).interpolation(interpolation).subpixel(subpixel).draw_by(
-        One,
-        &mut target,
-        &mut (),
-    );
+    Pass::new(&view, &mesh, stage)
+        .cull(Cull::None)
+        .interpolation(interpolation)
+        .subpixel(subpixel)
+        .draw_by(One, &mut target);
     assert!(found == expected, "{profile:?}");
     assert!(found.0.iter().filter(|&&pixel| pixel != black).count() > PIXELS / 4, "{profile:?}");
 
@@ -74,7 +74,7 @@ fn assert_same<I, S, C, D>(
     let mut frame = Vec::new();
     while let Some(mut band) = bands.next_band() {
         band.clear(Rgba8::BLACK);
-        pass.draw_by(One, &mut band, &mut ());
+        pass.draw_by(One, &mut band);
         frame.extend_from_slice(band.pixels());
     }
     assert!(frame == expected.0, "{profile:?} in bands");
@@ -95,7 +95,7 @@ fn a_profile_is_its_policies() {
 #[test]
 fn a_pixel_takes_the_bytes_that_the_table_says() {
     fn bytes<I, S, C: ColorFormat, D: DepthFormat>(_: Profile<I, S, C, D>) -> usize {
-        Profile::<I, S, C, D>::PIXEL_BYTES
+        size_of::<C::Pixel>() + size_of::<D::Stored>()
     }
     assert_eq!([bytes(REFERENCE), bytes(DESKTOP), bytes(MCU), bytes(TINY)], [8, 8, 4, 2]);
 }

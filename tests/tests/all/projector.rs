@@ -124,7 +124,7 @@ fn shot(
     let (width, height) = (WIDTH as u32, HEIGHT as u32);
     let mut target = Target::new(Rgba8888, NoDepth, width, height, &mut color, &mut depth).expect("a frame");
     let (view, mut stats) = (camera.view(), Stats::default());
-    Pass::new(&view, &mesh, stage).cull(Cull::None).draw_by(lanes, &mut target, &mut stats);
+    Pass::new(&view, &mesh, stage).cull(Cull::None).count_by(lanes, &mut target, &mut stats);
     (color.into_iter().map(u32::to_ne_bytes).collect(), stats)
 }
 

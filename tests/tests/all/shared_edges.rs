@@ -75,7 +75,7 @@ fn clipped<V: Varying + Debug>(
     let viewport = Viewport::new(0, 0, SIZE[0], SIZE[1]).expect("a viewport");
     let stage = |_: V| Some(0u32);
     let mut pass = Pass::new(&view, &mesh, stage).cull(Cull::None).sides(sides).viewport(viewport);
-    let kept = pass.prepare_by(SIZE, AnyDepth::D32, &mut room, &mut stats).0.kept();
+    let kept = pass.count_prepare(SIZE, AnyDepth::D32, &mut room, &mut stats).0.kept();
     if stats.culled + stats.missed > 0 || stats.clipped == 0 {
         return None;
     }

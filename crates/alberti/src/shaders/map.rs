@@ -14,7 +14,9 @@ pub trait Map: Copy + Debug {
     /// The policy for derivatives of the coordinates: [`NoDerivatives`], unless it needs them.
     type Derivatives: Differentiation;
 
-    /// The colours at `uv`, of which `gradient` are the derivatives, as words.
+    /// The colours at `uv`, of which `gradient` are the derivatives, as words. A stage that reads a map takes the map's
+    /// policy, `type Derivatives = M::Derivatives`, and hands the derivatives on: with zeros a mip map is read in its
+    /// largest level.
     fn read<L: Lanes>(&self, lanes: L, uv: [L::Number; 2], gradient: &Gradient<[L::Number; 2]>) -> L::U32;
 }
 

@@ -100,7 +100,7 @@ mod tests {
     use alberti_math::lanes::{One, OneFixed};
     use alberti_raster::Gradient;
     use alberti_texture::format::{L8, Rgb565};
-    use alberti_texture::{Clamp, LodBounds, Mipmap, Mirror, Repeat, Texture, Trilinear};
+    use alberti_texture::{Bounded, Clamp, LodBounds, Mipmap, Mirror, Repeat, Texture, Trilinear};
     use core::num::Wrapping;
 
     /// A fragment alone.
@@ -120,7 +120,8 @@ mod tests {
         let factor = Rgba8::new(200, 100, 50, 9);
         let nearest = board.level(0).sampler(Nearest, Repeat);
         let trilinear = board.sampler(Trilinear, Repeat);
-        let softer = trilinear.bounded(LodBounds { bias: 0.25, ..LodBounds::default() });
+        let bounds = LodBounds { bias: 0.25, ..LodBounds::default() };
+        let softer = board.sampler(Bounded { filter: Trilinear, bounds }, Repeat);
         let mut seen = 0;
         for (k, [u, v]) in (0..64u8).map(|k| (k, [f32::from(k) / 16.0, f32::from(k % 8) / 8.0])) {
             let uv = Vec2::new(u, v);

@@ -24,6 +24,32 @@
 //! assert_eq!(Fog.shade_one(0.25), Some(Rgba8::from_rgb24(0xcc_cc_cc)));
 //! ```
 //!
+//! One that reads a texture, which may be a mip map:
+//!
+//! ```
+//! use alberti::glam::Vec2;
+//! use alberti::lanes::Lanes;
+//! use alberti::shaders::{Map, wide};
+//! use alberti::{FragmentStage, Fragments, Rgba8};
+//!
+//! /// A texture, darker the farther away it is: vertices carry a distance and texture coordinates.
+//! #[derive(Clone, Copy)]
+//! struct Dim<M>(M);
+//!
+//! impl<M: Map> FragmentStage<(f32, Vec2)> for Dim<M> {
+//!     type Color = Rgba8;
+//!     type Derivatives = M::Derivatives;
+//!
+//!     fn shade<L: Lanes>(&self, fragments: &Fragments<L, (f32, Vec2)>) -> (L::U32, L::Mask) {
+//!         let Fragments { lanes, varying: (distance, uv), gradient, mask, .. } = *fragments;
+//!         let texels = self.0.read(lanes, uv, &gradient.map(|(_, uv)| uv));
+//!         let one = lanes.splat(1.0);
+//!         (wide::lit(lanes, texels, one / (one + distance)), mask)
+//!     }
+//! }
+//! assert_eq!(Dim(Rgba8::WHITE).shade_one((0.25, Vec2::ZERO)), Some(Rgba8::from_rgb24(0xcc_cc_cc)));
+//! ```
+//!
 //! A varying of several fields is a struct made by [`varying!`](crate::varying). A stage that discards returns fewer
 //! samples than it was asked for:
 //!

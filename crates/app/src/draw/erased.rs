@@ -1,7 +1,8 @@
 //! Fragment stages behind a pointer, so that a kernel is compiled once for all of them. The pixels are the stage's own.
 //!
-//! Such a stage gets one bundle, [`Carried`]; the components that it does not use are interpolated nevertheless. Of the
-//! derivatives there are only those of the texture coordinates. No stage discards.
+//! Such a stage gets one bundle, [`Attributes`]. The components that it does not use are interpolated nevertheless. Of
+//! the derivatives there are only those of the texture coordinates. No stage discards, and none learns its place on the
+//! screen.
 
 use alberti::lanes::{Floating, Lanes, OneFixed};
 use alberti::raster::{Gradient, PerPixel};
@@ -9,15 +10,15 @@ use alberti::shaders::material::Framed;
 use alberti::{FragmentStage, Fragments, Homogeneous, Q16, Rgba8, Varying};
 
 /// The attributes for such a stage: a place on a projector's image, and a place on a surface with its tangent frame.
-pub(super) type Carried = (Homogeneous, Framed);
+pub(super) type Attributes = (Homogeneous, Framed);
 
 /// The bundle of these.
-type Bundle<N> = <Carried as Varying>::Of<N>;
+type Bundle<N> = <Attributes as Varying>::Of<N>;
 
 /// A bundle of derivatives, of which only those of the texture coordinates are not 0.
 #[inline(always)]
 fn with_uv<L: Lanes>(lanes: L, like: &Bundle<L::Number>, uv: [L::Number; 2]) -> Bundle<L::Number> {
-    let (place, mut framed) = Carried::map(like, &|_| lanes.splat(0.0));
+    let (place, mut framed) = Attributes::map(like, &|_| lanes.splat(0.0));
     framed.uv = uv;
     (place, framed)
 }
@@ -40,14 +41,14 @@ type Shade<'a, L> = dyn Fn(&Handed<<L as Lanes>::Each<f32>>) -> <L as Lanes>::Ea
 /// Calls `then` with `stage`, behind a pointer.
 pub(super) fn erase<L: Floating>(
     lanes: L,
-    stage: impl FragmentStage<Carried, Color = Rgba8>,
+    stage: impl FragmentStage<Attributes, Color = Rgba8>,
     then: impl FnOnce(Erased<'_, L>),
 ) {
     let shade = |(values, gradient): &Handed<L::Each<f32>>| {
         lanes.vectorize(
             #[inline(always)]
             || {
-                let carried = Carried::map(values, &|each: L::Each<f32>| lanes.load(&each));
+                let carried = Attributes::map(values, &|each: L::Each<f32>| lanes.load(&each));
                 let gradient =
                     gradient.map(|[u, v]| with_uv(lanes, &carried, [lanes.load(&u), lanes.load(&v)]));
                 let mask = lanes.mask(all::<L>());
@@ -59,20 +60,20 @@ pub(super) fn erase<L: Floating>(
     then(Erased { lanes, shade: &shade });
 }
 
-impl<L: Lanes> FragmentStage<Carried> for Erased<'_, L> {
+impl<L: Lanes> FragmentStage<Attributes> for Erased<'_, L> {
     type Color = Rgba8;
     type Derivatives = PerPixel;
 
     /// `M` is `L` under another name, or fewer.
     #[inline(always)]
-    fn shade<M: Lanes>(&self, fragments: &Fragments<M, Carried>) -> (M::U32, M::Mask) {
+    fn shade<M: Lanes>(&self, fragments: &Fragments<M, Attributes>) -> (M::U32, M::Mask) {
         let Fragments { lanes, varying, gradient, mask, .. } = fragments;
         let each = |number: M::Number| {
             let values = lanes.store(number);
             self.lanes.each(|k| values.as_ref().get(k).copied().unwrap_or_default())
         };
         let gradient = gradient.map(|(_, framed)| framed.uv.map(each));
-        let words = (self.shade)(&(Carried::map(varying, &each), gradient));
+        let words = (self.shade)(&(Attributes::map(varying, &each), gradient));
         let words = lanes.each(|k| words.as_ref().get(k).copied().unwrap_or_default());
         (lanes.load_words(&words), *mask)
     }
@@ -84,7 +85,7 @@ pub(super) struct ErasedFixed<'a>(&'a dyn Fn(&Handed<Q16>) -> u32);
 
 /// Calls `then` with `stage` in fixed point, behind a pointer.
 pub(super) fn erase_fixed(
-    stage: impl FragmentStage<Carried, Color = Rgba8>,
+    stage: impl FragmentStage<Attributes, Color = Rgba8>,
     then: impl FnOnce(ErasedFixed<'_>),
 ) {
     let shade = |(carried, gradient): &Handed<Q16>| {
@@ -95,22 +96,22 @@ pub(super) fn erase_fixed(
     then(ErasedFixed(&shade));
 }
 
-impl FragmentStage<Carried> for ErasedFixed<'_> {
+impl FragmentStage<Attributes> for ErasedFixed<'_> {
     type Color = Rgba8;
     type Derivatives = PerPixel;
 
     #[inline(always)]
-    fn shade<M: Lanes>(&self, fragments: &Fragments<M, Carried>) -> (M::U32, M::Mask) {
+    fn shade<M: Lanes>(&self, fragments: &Fragments<M, Attributes>) -> (M::U32, M::Mask) {
         let Fragments { lanes, varying, gradient, mask, .. } = fragments;
         // In units of 2^-16, in which numbers in fixed point are.
         let bits = |number: M::Number| lanes.store_words(lanes.floor_scaled(number, 16));
-        let carried = Carried::map(varying, &bits);
+        let carried = Attributes::map(varying, &bits);
         let gradient = gradient.map(|(_, framed)| framed.uv.map(bits));
         let words = lanes.each(|k| {
             let at = |words: M::Each<u32>| {
                 Q16::from_bits(words.as_ref().get(k).copied().unwrap_or_default().cast_signed())
             };
-            (self.0)(&(Carried::map(&carried, &at), gradient.map(|uv| uv.map(at))))
+            (self.0)(&(Attributes::map(&carried, &at), gradient.map(|uv| uv.map(at))))
         });
         (lanes.load_words(&words), *mask)
     }

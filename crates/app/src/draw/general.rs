@@ -1,7 +1,7 @@
 //! Any surface by any policies: a kernel for each kind of interpolation, and one fragment stage behind a pointer. The
 //! stage is all surfaces that there are, with a projector's image on them.
 
-use super::erased::{Carried, erase, erase_fixed};
+use super::erased::{Attributes, erase, erase_fixed};
 use super::lamps::Lamps;
 use super::maps::{Chains, any_filter};
 use super::painted::Painted;
@@ -88,12 +88,12 @@ struct Shown<'a> {
     image: Option<Sampler<'a, Rgba8888, AnyFilter, Clamp>>,
 }
 
-impl FragmentStage<Carried> for Shown<'_> {
+impl FragmentStage<Attributes> for Shown<'_> {
     type Color = Rgba8;
     type Derivatives = PerPixel;
 
     #[inline(always)]
-    fn shade<L: Lanes>(&self, fragments: &Fragments<L, Carried>) -> (L::U32, L::Mask) {
+    fn shade<L: Lanes>(&self, fragments: &Fragments<L, Attributes>) -> (L::U32, L::Mask) {
         let (color, mask) = self.surface.shade(&fragments.part(|(_, framed)| *framed));
         match self.image {
             None => (color, mask),
@@ -162,7 +162,7 @@ impl<'a> Drawing<'a> {
     /// The stage behind a pointer, in one of few kernels.
     fn by_policies(
         &self,
-        mesh: &impl Geometry<Varying = Carried>,
+        mesh: &impl Geometry<Varying = Attributes>,
         stage: Shown<'_>,
         triangles: &[[u32; 3]],
         target: &mut Canvas<'_>,
@@ -179,7 +179,7 @@ impl<'a> Drawing<'a> {
         if let (Some(lines), Numbers::Fixed) = (lines, policies.numbers) {
             erase_fixed(stage, |stage| {
                 let pass = self.pass(mesh, stage, &mut slots).interpolation(FixedPoint(lines));
-                { pass }.draw_by(One, target, &mut stats);
+                { pass }.count_by(One, target, &mut stats);
             });
             return stats;
         }
@@ -187,9 +187,9 @@ impl<'a> Drawing<'a> {
         for_lanes!(machine, lanes => erase(lanes, stage, |stage| {
             let mut pass = self.pass(mesh, stage, &mut slots);
             match (policies.interpolation, lines) {
-                (_, Some(lines)) => pass.interpolation(lines).draw_by(lanes, target, &mut stats),
-                (Interpolation::Plane, None) => pass.interpolation(Planes).draw_by(lanes, target, &mut stats),
-                (_, None) => pass.draw_by(lanes, target, &mut stats),
+                (_, Some(lines)) => pass.interpolation(lines).count_by(lanes, target, &mut stats),
+                (Interpolation::Plane, None) => pass.interpolation(Planes).count_by(lanes, target, &mut stats),
+                (_, None) => pass.count_by(lanes, target, &mut stats),
             }
         }));
         stats

@@ -136,9 +136,8 @@ pub struct RenderTable {
     ///
     /// nearest: the texel that contains the point.
     /// bilinear: a weighted mean of the four texels around the point.
-    /// trilinear: a mean of that in the two nearest levels of a mip map, so that the distance does not shimmer.
-    /// anisotropic:N: up to N = 2, 4, 8 or 16 of those along the direction in which the texture is squeezed most, so
-    /// that it stays sharp at flat angles.
+    /// trilinear: a mean of that in two levels of a mip map, so that the distance does not shimmer.
+    /// anisotropic:N: up to N = 2, 4, 8 or 16 of those side by side; sharp at flat angles too.
     #[arg(long, value_name = "FILTER", help_heading = SURFACE, verbatim_doc_comment)]
     pub filter: Option<Filter>,
 
@@ -162,10 +161,9 @@ pub struct RenderTable {
     ///
     /// exact: right to 9 units of 2^-24, a division a pixel.
     /// plane: to tens of such units, a division a pixel but fewer operations beside it.
-    /// spans:N: exact every N = 4, 8, 16 or 32 columns, straight lines between, so textures are bent a little.
-    /// bounded:TEXELS: straight lines that miss no more than that much of the largest texture's texel, such as 0.0625.
-    /// (A projector's image has no part in this, and may be bent more.)
-    /// affine: straight lines across a triangle, no division, textures swim and break along edges.
+    /// spans:N: exact every N = 4, 8, 16 or 32 columns, straight lines between.
+    /// bounded:TEXELS: straight lines that miss at most so much of a texel, such as 0.0625.
+    /// affine: straight lines across a triangle, no division; textures break along edges.
     #[arg(long, value_name = "HOW", help_heading = PRECISION, verbatim_doc_comment)]
     pub interpolation: Option<Interpolation>,
 

@@ -1,7 +1,7 @@
 //! Hyperbolic (perspective-correct) interpolation from the exact integer edges.
 
 use crate::edge::EdgeInt;
-use crate::interpolation::{Interpolate, Interpolation, Oriented, Row};
+use crate::interpolation::{Interpolate, Interpolation, Oriented, Prepare, Row};
 use crate::spans::Span;
 use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Mode, Varying, hull3};
@@ -26,7 +26,9 @@ use core::fmt;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Exact;
 
-impl Interpolation for Exact {
+impl Interpolation for Exact {}
+
+impl Prepare for Exact {
     type Lanes<L: Floating> = L;
     type Triangle<L: Floating, V: Varying> = ExactTriangle<L, V>;
 

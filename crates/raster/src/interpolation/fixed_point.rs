@@ -4,7 +4,7 @@ use super::fixed_plane::{FixedPlane, Shape};
 use super::floating::one_run;
 use super::lines::{LineNumbers, LineTriangle, Lines, Run, Runs};
 use crate::edge::EdgeInt;
-use crate::interpolation::{Interpolation, Oriented, Row};
+use crate::interpolation::{Interpolation, Oriented, Prepare, Row};
 use alberti_math::lanes::{Floating, OneFixed};
 use alberti_math::{Mode, Q16, Varying, reciprocal, scaled};
 use core::cell::Cell;
@@ -34,7 +34,9 @@ pub struct FixedPoint<R>(
     pub R,
 );
 
-impl<R: Runs> Interpolation for FixedPoint<R> {
+impl<R: Runs> Interpolation for FixedPoint<R> {}
+
+impl<R: Runs> Prepare for FixedPoint<R> {
     type Lanes<L: Floating> = OneFixed;
     type Triangle<L: Floating, V: Varying> = LineTriangle<R, FixedLines<V>>;
 

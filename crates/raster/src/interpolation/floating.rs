@@ -3,7 +3,7 @@
 use super::linear::{FloatComponent, Ramp, along, count, per_area, scaled_q, zs};
 use super::lines::{Affine, LineNumbers, LineTriangle, Lines, Run, Runs, Spans16};
 use crate::edge::EdgeInt;
-use crate::interpolation::{Interpolation, Oriented, Row};
+use crate::interpolation::{Interpolation, Oriented, Prepare, Row};
 use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Mode, Varying};
 use core::cell::Cell;
@@ -165,7 +165,9 @@ impl<L: Floating, V: Varying> LineNumbers<L, V> for FloatingLines<L, V> {
 
 macro_rules! interpolations {
     ($($runs:ty)*) => {$(
-        impl Interpolation for $runs {
+        impl Interpolation for $runs {}
+
+impl Prepare for $runs {
             type Lanes<L: Floating> = L;
             type Triangle<L: Floating, V: Varying> = LineTriangle<Self, FloatingLines<L, V>>;
 

@@ -2,7 +2,7 @@
 
 use super::linear::{FloatComponent, FloatPlane, Ramp, along, count, per_area, scaled_q, zs};
 use crate::edge::EdgeInt;
-use crate::interpolation::{Interpolate, Interpolation, Oriented, Row};
+use crate::interpolation::{Interpolate, Interpolation, Oriented, Prepare, Row};
 use crate::spans::Span;
 use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Mode, Varying};
@@ -33,7 +33,9 @@ pub struct Planes;
 /// Columns of the longest run, a power of two.
 const RUN: i32 = 64;
 
-impl Interpolation for Planes {
+impl Interpolation for Planes {}
+
+impl Prepare for Planes {
     type Lanes<L: Floating> = L;
     type Triangle<L: Floating, V: Varying> = PlaneTriangle<L, V>;
 

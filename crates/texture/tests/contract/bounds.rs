@@ -4,8 +4,8 @@ use alberti_math::lanes::{Lanes, Machine, OneFixed};
 use alberti_math::{Q16, for_lanes};
 use alberti_texture::format::Rgba8888;
 use alberti_texture::{
-    Anisotropic, BaseLevel, BetweenLevels, Bilinear, Gradient, LodBounds, Minify, MipFilter, Mipmap, Nearest,
-    NearestLevel, PowerOfTwo, Repeat, Trilinear,
+    Anisotropic, BaseLevel, BetweenLevels, Bilinear, Bounded, Gradient, LodBounds, Minify, MipFilter, Mipmap,
+    Nearest, NearestLevel, PowerOfTwo, Repeat, Trilinear,
 };
 use glam::Vec2;
 
@@ -52,7 +52,7 @@ fn check<M: MipFilter>(filter: M, mipmap: Mipmap<'_, Rgba8888>, random: &mut Ran
     let plain = mipmap.sampler(filter, Repeat);
     for i in 0..20_000 {
         let bounds = some(random);
-        let sampler = plain.bounded(bounds);
+        let sampler = mipmap.sampler(Bounded { filter, bounds }, Repeat);
         let uv = Vec2::new(random.near_zero(), random.near_zero());
         let lambda = match i % 16 {
             0 => [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -0.0][i / 16 % 4],
@@ -65,9 +65,9 @@ fn check<M: MipFilter>(filter: M, mipmap: Mipmap<'_, Rgba8888>, random: &mut Ran
         let d = slopes(random);
         let lambda = bounded(bounds, d.lod(64, 32));
         assert_eq!(sampler.sample_grad(uv, d), plain.sample_lod(uv, lambda), "{bounds:?} at {uv}, {d:?}");
-        // The last bounds count, and those of no effect have none.
-        let none = LodBounds::default();
-        assert_eq!(plain.bounded(none).sample_grad(uv, d), plain.sample_grad(uv, d));
+        // Those of no effect have none.
+        let none = Bounded { filter, bounds: LodBounds::default() };
+        assert_eq!(mipmap.sampler(none, Repeat).sample_grad(uv, d), plain.sample_grad(uv, d));
     }
     seen
 }
@@ -109,7 +109,8 @@ fn probes_keep_their_places() {
             .map(|i| uv + Vec2::new(long * ((i as f32 + 0.5) / n as f32 - 0.5), 0.0))
             .map(|uv| plain.sample_lod(uv, lambda).to_bytes())
             .collect();
-        let sampler = mipmap.sampler(Anisotropic { probes: 4, filter: Trilinear }, Repeat).bounded(bounds);
+        let filter = Bounded { filter: Anisotropic { probes: 4, filter: Trilinear }, bounds };
+        let sampler = mipmap.sampler(filter, Repeat);
         for (channel, found) in sampler.sample_grad(uv, d).to_bytes().into_iter().enumerate() {
             let sum: i32 = colors.iter().map(|color| i32::from(color[channel])).sum();
             assert_eq!(i32::from(found), (2 * sum + n) / (2 * n), "{bounds:?} at {uv}, {d:?}");
@@ -122,7 +123,7 @@ fn probes_keep_their_places() {
 /// Eight at a time, each with a λ of its own.
 fn same_lanes(filter: impl MipFilter, mipmap: Mipmap<'_, Rgba8888>, random: &mut Random) {
     for _ in 0..300 {
-        let sampler = mipmap.sampler(filter, Repeat).bounded(some(random));
+        let sampler = mipmap.sampler(Bounded { filter, bounds: some(random) }, Repeat);
         let uv: [Vec2; 8] = std::array::from_fn(|_| Vec2::new(random.near_zero(), random.near_zero()));
         let slopes: [Gradient<[f32; 2]>; 8] = std::array::from_fn(|_| slopes(random));
         for machine in Machine::all() {
@@ -156,7 +157,7 @@ fn integers() {
         for _ in 0..20_000 {
             let mut number = |shift: u32| Q16::from_bits(random.bits().cast_signed() >> shift);
             let (u, v, lambda) = (number(13), number(13), number(12));
-            let sampler = mipmap.sampler(filter, Repeat).bounded(some(random));
+            let sampler = mipmap.sampler(Bounded { filter, bounds: some(random) }, Repeat);
             let float = |q: Q16| OneFixed.store(q)[0];
             let uv = Vec2::new(float(u), float(v));
             let found = sampler.sample_lod_lanes(OneFixed, u, v, lambda).0;

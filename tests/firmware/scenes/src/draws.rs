@@ -4,7 +4,7 @@ use crate::shapes::{FLOOR_MIPMAP, Model, Vertex};
 use crate::{Camera, HEIGHT, PIXELS, Target, WIDTH};
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::One;
-use alberti::raster::{PerSpan, PerTriangle};
+use alberti::raster::{PerRun, PerTriangle};
 use alberti::shaders::material::{Color, Emission, Gouraud};
 use alberti::shaders::{Differentiated, Ready565, Solid, Stored, Unlit, VertexColor565};
 use alberti::texture::{Bilinear, Minify, Nearest, NearestLevel, Repeat, Trilinear};
@@ -51,7 +51,7 @@ draws! {
 
     /// Between levels, by one level of detail for each row of a triangle.
     trilinear_spans(model): Exact, mapped,
-        Differentiated::by(PerSpan, Unlit(FLOOR_MIPMAP.sampler(Trilinear, Repeat)));
+        Differentiated::by(PerRun, Unlit(FLOOR_MIPMAP.sampler(Trilinear, Repeat)));
 
     /// The nearest texel of the nearest level, one for each triangle, in fixed point.
     mip_nearest_fixed(model): FixedPoint(Spans16), mapped,
@@ -67,7 +67,7 @@ draws! {
 
     /// Between levels, by one level of detail for each 16 columns, in fixed point.
     trilinear_spans_fixed(model): FixedPoint(Spans16), mapped,
-        Differentiated::by(PerSpan, Unlit(FLOOR_MIPMAP.sampler(Trilinear, Repeat)));
+        Differentiated::by(PerRun, Unlit(FLOOR_MIPMAP.sampler(Trilinear, Repeat)));
 
     /// The vertices' light on the nearest texel: a material of one map.
     material(model): Exact, lit, Gouraud { layers: Color(model.texture.sampler(Nearest, Repeat)) };
@@ -158,7 +158,7 @@ fn draw<C, D, M, F, P, K>(
     let Ok(mut target) = target else { return };
     let view = View::new(model.to_eye, camera.perspective);
     let pass = Pass::new(&view, mesh, stage).interpolation(interpolation).subpixel(Sub4);
-    pass.slots(slots).draw_by(One, &mut target, counters);
+    pass.slots(slots).count_by(One, &mut target, counters);
 }
 
 impl Target {

@@ -91,10 +91,10 @@ impl SceneFile {
         let key = |key: &str| format!("{path}.{key}");
         match (&object.model, kind) {
             (Some(_), Some(_)) => {
-                return Err(self.source.error(&key("surface"), "a model as well", "one of both"));
+                return Err(self.source.error(&key("surface"), "a model as well", "a model or a surface"));
             }
             (None, None) => {
-                return Err(self.source.error(path, "an object without model and surface", "one of both"));
+                return Err(self.source.error(path, "an object without model and surface", "one of these"));
             }
             _ => {}
         }

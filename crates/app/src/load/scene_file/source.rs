@@ -149,7 +149,7 @@ impl Source {
             (None, None) if found.is_empty() => (self.found(&at), plain(expected)),
             (None, None) => (found.to_owned(), plain(expected)),
         };
-        let found = plain(&found);
+        let (found, expected) = (in_words(&plain(&found)), in_words(&expected));
         let mut error = Error::new(found, expected.as_str()).file(&self.path).line(self.line(&at));
         if let Some(key) = self.key_at(&at).or_else(|| self.key_on_line(&at).map(str::to_owned)) {
             error = error.key(key);
@@ -166,6 +166,16 @@ impl Source {
             Some(text) => quote(text.as_bytes()),
             None => "the end of the line".to_owned(),
         }
+    }
+}
+
+/// The words of TOML for those of the reader.
+fn in_words(name: &str) -> String {
+    match name {
+        "map" | "a map" => "a table".to_owned(),
+        "a sequence" => "a list, of tables by [[ ]]".to_owned(),
+        name if name.starts_with("struct ") => "a table".to_owned(),
+        name => name.to_owned(),
     }
 }
 
