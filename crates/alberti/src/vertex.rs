@@ -93,14 +93,9 @@ impl<V: Varying> Slot<V> {
             slots.iter_mut().zip(0..).for_each(|(slot, index)| slot.fill_alone(mesh, screen, index));
             return;
         }
-        lanes.vectorize(
-            #[inline(always)]
-            || {
-                for (slots, first) in slots.chunks_mut(L::COUNT).zip((0..).step_by(L::COUNT)) {
-                    Self::fill(lanes, mesh, screen, first, slots);
-                }
-            },
-        );
+        for (slots, first) in slots.chunks_mut(L::COUNT).zip((0..).step_by(L::COUNT)) {
+            Self::fill(lanes, mesh, screen, first, slots);
+        }
     }
 
     /// Fills slots, at most as many as lanes, with the vertices from number `first` on: steps 1, 2, 4 and 6.
@@ -126,10 +121,7 @@ impl<V: Varying> Slot<V> {
                 Some(Transformed { tag: tag(index)?, outside, screen })
             });
         }
-        let [x, y, z] = &points;
-        let (outside, [x, y], [zs, q]) = screen.place(lanes, [lanes.load(x), lanes.load(y), lanes.load(z)]);
-        let (outside, x, y) = (lanes.store_words(outside), lanes.store_words(x), lanes.store_words(y));
-        let (zs, q) = (lanes.store(zs), lanes.store(q));
+        let ([outside, x, y], [zs, q]) = screen.place(lanes, &points);
         let screen = x.as_ref().iter().zip(y.as_ref()).zip(zs.as_ref().iter().zip(q.as_ref()));
         for (slot, (outside, ((x, y), (zs, q)))) in slots.iter_mut().zip(outside.as_ref().iter().zip(screen))
         {

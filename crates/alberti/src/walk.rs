@@ -37,8 +37,8 @@ pub(crate) struct Screen<Pr: Projection, S> {
 /// Coordinates above this may overflow when they are subtracted or multiplied.
 const LARGEST: f32 = f32::MAX / 16.0;
 
-/// The places of several vertices: their bits of [`outside`], x and y in subpixels, zs and q.
-type Places<L> = (<L as Lanes>::U32, [<L as Lanes>::U32; 2], [<L as Lanes>::Number; 2]);
+/// The places of several vertices in memory: their bits of [`outside`], x and y in subpixels; zs and q.
+type Places<L> = ([<L as Lanes>::Each<u32>; 3], [<L as Lanes>::Each<f32>; 2]);
 
 impl<Pr: Projection, S: Subpixel> Screen<Pr, S> {
     /// Steps 1 and 2, for several points.
@@ -49,23 +49,31 @@ impl<Pr: Projection, S: Subpixel> Screen<Pr, S> {
 
     /// Steps 1, 2, 4 and 6 for several points; where they are not within the planes, 4 and 6 have no meaning.
     #[inline(always)]
-    pub(crate) fn place<L: Floating>(&self, lanes: L, point: [L::Number; 3]) -> Places<L> {
+    pub(crate) fn place<L: Floating>(&self, lanes: L, points: &[L::Each<f32>; 3]) -> Places<L> {
         let Self { projection, viewport, depth, guard, subpixel, .. } = self;
-        let p = self.eye(lanes, point);
-        let [x, y, z] = p;
-        let nowhere = !(within(lanes, x, LARGEST) & within(lanes, y, LARGEST) & within(lanes, z, LARGEST));
-        let side = projection.side_lanes(lanes, z);
-        let sides = bit(lanes, lanes.less(x, -side), outside::LEFT)
-            | bit(lanes, lanes.less(side, x), outside::RIGHT)
-            | bit(lanes, lanes.less(y, -side), outside::BELOW)
-            | bit(lanes, lanes.less(side, y), outside::ABOVE);
-        let planes = bit(lanes, lanes.less(z, lanes.splat(projection.near())), outside::NEAR)
-            | bit(lanes, lanes.less(lanes.splat(projection.far()), z), outside::FAR);
-        let [x, y, zs, q] = projection.project_lanes(lanes, depth, p);
-        let beyond = !(within(lanes, x, guard.x) & within(lanes, y, guard.y));
-        let outside =
-            bit(lanes, nowhere, outside::NOWHERE) | sides | planes | bit(lanes, beyond, outside::GUARD);
-        (outside, viewport.to_screen_lanes(lanes, *subpixel, [x, y]), [zs, q])
+        lanes.vectorize(
+            #[inline(always)]
+            || {
+                let [x, y, z] = points;
+                let p = self.eye(lanes, [lanes.load(x), lanes.load(y), lanes.load(z)]);
+                let [x, y, z] = p;
+                let nowhere =
+                    !(within(lanes, x, LARGEST) & within(lanes, y, LARGEST) & within(lanes, z, LARGEST));
+                let side = projection.side_lanes(lanes, z);
+                let sides = bit(lanes, lanes.less(x, -side), outside::LEFT)
+                    | bit(lanes, lanes.less(side, x), outside::RIGHT)
+                    | bit(lanes, lanes.less(y, -side), outside::BELOW)
+                    | bit(lanes, lanes.less(side, y), outside::ABOVE);
+                let planes = bit(lanes, lanes.less(z, lanes.splat(projection.near())), outside::NEAR)
+                    | bit(lanes, lanes.less(lanes.splat(projection.far()), z), outside::FAR);
+                let [x, y, zs, q] = projection.project_lanes(lanes, depth, p);
+                let beyond = !(within(lanes, x, guard.x) & within(lanes, y, guard.y));
+                let ends = bit(lanes, nowhere, outside::NOWHERE) | bit(lanes, beyond, outside::GUARD);
+                let [x, y] = viewport.to_screen_lanes(lanes, *subpixel, [x, y]);
+                let words = [sides | planes | ends, x, y].map(|words| lanes.store_words(words));
+                (words, [lanes.store(zs), lanes.store(q)])
+            },
+        )
     }
 }
 

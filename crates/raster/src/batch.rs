@@ -3,11 +3,11 @@
 use crate::color::ColorFormat;
 use crate::counters::Counters;
 use crate::depth::DepthFormat;
-use crate::draw::Paint;
+use crate::draw::{Copied, Paint};
 use crate::fragment::FragmentStage;
 use crate::interpolation::Interpolation;
 use crate::target::Target;
-use crate::triangle::{Reach, Vertex};
+use crate::triangle::Vertex;
 use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Subpixel, Varying};
 use core::fmt;
@@ -22,12 +22,9 @@ pub struct Batch<'a, 't, L: Lanes, V: Copy, F, P, S, C: ColorFormat, D: DepthFor
     paint: &'a Paint<F, P, S>,
     target: &'a mut Target<'t, C, D>,
     limits: [Range<i32>; 2],
-    triangles: L::Each<Option<Added<V>>>,
+    triangles: L::Each<Option<Copied<V>>>,
     count: usize,
 }
-
-/// A copy of a triangle.
-type Added<V> = ([Vertex<V>; 3], Reach);
 
 impl<F, P: Interpolation, S: Subpixel> Paint<F, P, S> {
     /// An empty batch of triangles for a target.
@@ -91,8 +88,7 @@ where
     #[inline]
     fn draw(&mut self, counters: &mut impl Counters) {
         let triangles = self.triangles.as_ref().get(..self.count).unwrap_or_default();
-        let triangles = triangles.iter().flatten().map(|(vertices, reach)| (vertices.each_ref(), *reach));
-        self.paint.draw(self.lanes, self.target, triangles, counters);
+        self.paint.draw_copies(self.lanes, self.target, triangles, counters);
         self.count = 0;
     }
 }

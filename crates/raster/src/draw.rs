@@ -16,6 +16,7 @@ use crate::target::Target;
 use crate::triangle::{Corners, Cull, Outcome, Reach, Vertex};
 use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Subpixel, Varying};
+use core::iter::once;
 use core::marker::PhantomData;
 use core::ops::Range;
 
@@ -31,6 +32,9 @@ pub struct Paint<F, P, S> {
     /// The faces that are left out.
     pub cull: Cull,
 }
+
+/// A copy of a triangle.
+pub(crate) type Copied<V> = ([Vertex<V>; 3], Reach);
 
 impl<F, P: Interpolation, S: Subpixel> Paint<F, P, S> {
     /// Draws one triangle into a target, with as many samples at a time as there are `lanes`.
@@ -71,7 +75,9 @@ impl<F, P: Interpolation, S: Subpixel> Paint<F, P, S> {
         K: Counters,
     {
         match self.reach(vertices, &target.limits()) {
-            Ok(reach) => self.draw(lanes, target, core::iter::once((vertices, reach)), counters),
+            Ok(reach) if L::COUNT == 1 => self.draw(lanes, target, once((vertices, reach)), counters),
+            // The kernel of batches.
+            Ok(reach) => self.draw_copies(lanes, target, &[Some((vertices.map(|v| *v), reach))], counters),
             Err(outcome) => {
                 counters.rasterized(outcome);
                 outcome
@@ -90,7 +96,29 @@ impl<F, P: Interpolation, S: Subpixel> Paint<F, P, S> {
         Reach::new(vertices, self.subpixel.bits(), self.cull, limits)
     }
 
-    /// The second part, for triangles in order: the fate of the last. The counters hear that of each.
+    /// The second part, for copies of several triangles in order: the fate of the last. The counters hear that of each.
+    /// Not inlined, as one copy of this kernel is enough.
+    #[inline(never)]
+    pub(crate) fn draw_copies<L, V, C, D, K>(
+        &self,
+        lanes: L,
+        target: &mut Target<'_, C, D>,
+        triangles: &[Option<Copied<V>>],
+        counters: &mut K,
+    ) -> Outcome
+    where
+        L: Floating,
+        V: Varying,
+        F: FragmentStage<V>,
+        C: ColorFormat,
+        D: DepthFormat,
+        K: Counters,
+    {
+        let triangles = triangles.iter().flatten().map(|(vertices, reach)| (vertices.each_ref(), *reach));
+        self.draw(lanes, target, triangles, counters)
+    }
+
+    /// The second part, for triangles in order.
     pub(crate) fn draw<'v, L, V, C, D, K>(
         &self,
         lanes: L,

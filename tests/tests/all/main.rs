@@ -1,5 +1,5 @@
-//! All tests across crates, in one binary: each kernel is compiled once for all that draw by it. A module's tests have
-//! its name: `cargo test -p alberti-tests bands::`.
+//! All tests across crates, but for those of surfaces, in one binary: each kernel is compiled once for all that draw by
+//! it. A module's tests have its name: `cargo test -p alberti-tests bands::`.
 
 mod attributes;
 mod bands;
@@ -13,17 +13,12 @@ mod hostile;
 mod images;
 mod invariance;
 mod lanes;
-mod level_of_detail;
-mod material_draws;
-mod materials;
-mod minification;
 mod modes;
 mod parallel;
 mod pictures;
 mod policies;
 mod profiles;
 mod projector;
-mod reliefs;
 mod resolution;
 mod shared_edges;
 mod values;
