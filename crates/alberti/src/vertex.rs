@@ -89,7 +89,7 @@ impl<V: Varying> Slot<V> {
     {
         let (slots, unused) = slots.split_at_mut_checked(vertices).unwrap_or_default();
         unused.fill(Self::EMPTY);
-        if L::COUNT == 1 {
+        if const { L::COUNT == 1 } {
             slots.iter_mut().zip(0..).for_each(|(slot, index)| slot.fill_alone(mesh, screen, index));
             return;
         }

@@ -60,11 +60,12 @@ where
     pub fn triangle(&mut self, vertices: [&Vertex<V>; 3], counters: &mut impl Counters) {
         match self.paint.reach(vertices, &self.limits) {
             Err(outcome) => counters.rasterized(outcome),
-            // Nothing is gained by a copy.
-            Ok(reach) if L::COUNT == 1 => {
-                self.paint.draw(self.lanes, self.target, once((vertices, reach)), counters);
-            }
             Ok(reach) => {
+                // Constants in blocks of their own, so that no code is made of what is not taken.
+                if const { L::COUNT == 1 } {
+                    self.paint.draw(self.lanes, self.target, once((vertices, reach)), counters);
+                    return;
+                }
                 if let Some(place) = self.triangles.as_mut().get_mut(self.count) {
                     *place = Some((vertices.map(|vertex| *vertex), reach));
                 }
@@ -79,8 +80,8 @@ where
     /// Draws the triangles that are left.
     #[inline]
     pub fn finish(mut self, counters: &mut impl Counters) {
-        // With one lane there never are any, and no code is needed.
-        if L::COUNT > 1 && self.count > 0 {
+        // With one lane there never are any.
+        if const { L::COUNT > 1 } {
             self.draw(counters);
         }
     }

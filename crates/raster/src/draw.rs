@@ -75,9 +75,14 @@ impl<F, P: Interpolation, S: Subpixel> Paint<F, P, S> {
         K: Counters,
     {
         match self.reach(vertices, &target.limits()) {
-            Ok(reach) if L::COUNT == 1 => self.draw(lanes, target, once((vertices, reach)), counters),
-            // The kernel of batches.
-            Ok(reach) => self.draw_copies(lanes, target, &[Some((vertices.map(|v| *v), reach))], counters),
+            Ok(reach) => {
+                if const { L::COUNT == 1 } {
+                    self.draw(lanes, target, once((vertices, reach)), counters)
+                } else {
+                    // The kernel of batches.
+                    self.draw_copies(lanes, target, &[Some((vertices.map(|v| *v), reach))], counters)
+                }
+            }
             Err(outcome) => {
                 counters.rasterized(outcome);
                 outcome
@@ -146,14 +151,17 @@ impl<F, P: Interpolation, S: Subpixel> Paint<F, P, S> {
                     let setup = Setup { interpolation, lanes, oriented: &oriented, stage };
                     let (columns, rows, limits) = (reach.columns(), reach.rows(), limits.clone());
                     let samples = SampleBox { corners: &oriented.corners, bits, columns, rows, limits };
-                    let one = <P::Lanes<L> as Lanes>::COUNT == 1;
                     let fits_i32 = reach.fits_i32();
-                    outcome = if !one && fits_i32 && samples.suit_masks::<P::Lanes<L>>(interpolation.run()) {
+                    // Several lanes hold 64-bit edge functions as well as 32-bit ones.
+                    outcome = if const { <P::Lanes<L> as Lanes>::COUNT == 1 } {
+                        if fits_i32 {
+                            fill::<i32, _, _, _, _, _, _, _>(target, &samples, &setup, counters)
+                        } else {
+                            fill::<i64, _, _, _, _, _, _, _>(target, &samples, &setup, counters)
+                        }
+                    } else if fits_i32 && samples.suit_masks::<P::Lanes<L>>(interpolation.run()) {
                         fill_masked(target, &samples, &setup, counters)
-                    } else if one && fits_i32 {
-                        fill::<i32, _, _, _, _, _, _, _>(target, &samples, &setup, counters)
                     } else {
-                        // Several lanes hold 64-bit edge functions as well as 32-bit ones.
                         fill::<i64, _, _, _, _, _, _, _>(target, &samples, &setup, counters)
                     };
                     counters.rasterized(outcome);

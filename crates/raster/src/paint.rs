@@ -52,7 +52,7 @@ where
     {
         let end = row.covered.end.min(limits.end);
         let mut column = row.covered.start.max(limits.start);
-        if L::COUNT == 1 {
+        if const { L::COUNT == 1 } {
             let formats = (target.color_format(), target.depth_format());
             let pixels = target.pixels_from(row.row, column);
             self.row_alone::<I, C, D, K>(row, formats, pixels, column..end, counters);
