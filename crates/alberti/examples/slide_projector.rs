@@ -6,7 +6,7 @@
 mod common;
 
 use alberti::glam::Vec3;
-use alberti::shaders::{Add, Slide, Sunlit, VertexColor};
+use alberti::shaders::{Mix, Slide, Sunlit, VertexColor};
 use alberti::texture::{Bilinear, Clamp, Texture, format::Rgba8888};
 use alberti::*;
 use std::process::ExitCode;
@@ -65,7 +65,7 @@ fn throw(carried: fn(Homogeneous) -> Homogeneous) -> Result<Vec<u32>, Box<dyn st
     let stage = Slide {
         surface: Sunlit::new(VertexColor, Vector3::new(Vec3::new(0.3, 1.0, 0.5)), 0.14, 0.26),
         image: image.sampler(Bilinear, Clamp),
-        mix: Add,
+        mix: Mix::Add,
     };
 
     let pixels = (width * height) as usize;

@@ -26,7 +26,7 @@ pub mod wide;
 
 pub use color::{Ready565, Solid, VertexColor, VertexColor565};
 pub use map::{Called, Map, Times};
-pub use slide::{Add, Mix, Modulate, Slide};
+pub use slide::{Mix, Slide};
 pub use sunlit::{Sunlit, face_normal};
 pub use texture::{Differentiated, Stored, Unlit};
 pub use tinted::Tinted;

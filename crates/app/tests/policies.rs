@@ -2,7 +2,7 @@
 
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::One;
-use alberti::shaders::{Modulate, Slide, Sunlit, Unlit};
+use alberti::shaders::{Mix, Slide, Sunlit, Unlit};
 use alberti::texture::{Bilinear, Clamp, Nearest, Repeat, TexelFormat as _, Texture, format};
 use alberti::{
     Affine, ColorFormat as Pixels, D16, D24, D32, DESKTOP, DepthFormat as Depths, Exact, F32, FixedPoint,
@@ -167,7 +167,7 @@ fn projections_and_projectors_are_those_of_the_library() {
     let stage = Slide {
         surface: Unlit(texture.sampler(Nearest, Repeat)),
         image: texture.sampler(Nearest, Clamp),
-        mix: Modulate,
+        mix: Mix::Modulate,
     };
     let (mut color, mut depth) = (vec![0; (width * height) as usize], vec![1.0; (width * height) as usize]);
     let mut target = Target::new(Rgba8888, F32, width, height, &mut color, &mut depth).expect("fits");

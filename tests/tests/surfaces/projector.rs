@@ -9,7 +9,7 @@
 
 use alberti::glam::Vec3;
 use alberti::lanes::{Floating, Lanes, Machine, One, OneFixed};
-use alberti::shaders::{Modulate, Slide, Solid};
+use alberti::shaders::{Mix, Slide, Solid};
 use alberti::texture::{Bilinear, Clamp, Filter, Nearest, Texture};
 use alberti::{
     Cull, Eye, Frame, Homogeneous, Mesh, NoDepth, Pass, Perspective, Point3, Projector, Q16, Rgba8, Rgba8888,
@@ -119,7 +119,7 @@ fn shot(
     let image = Texture::new(Rgba8888, &texels, IMAGE[0] as u32, IMAGE[1] as u32).expect("texels");
     let vertices = triangle.map(narrow);
     let mesh = Mesh::new(&vertices, &[[0u16, 1, 2]], |&p| (p, (place(p), ())));
-    let stage = Slide { surface: Solid(SURFACE), image: image.sampler(filter, Clamp), mix: Modulate };
+    let stage = Slide { surface: Solid(SURFACE), image: image.sampler(filter, Clamp), mix: Mix::Modulate };
     let (mut color, mut depth) = (vec![0; WIDTH * HEIGHT], vec![(); WIDTH * HEIGHT]);
     let (width, height) = (WIDTH as u32, HEIGHT as u32);
     let mut target = Target::new(Rgba8888, NoDepth, width, height, &mut color, &mut depth).expect("a frame");

@@ -7,7 +7,6 @@ use alberti_projection::Homogeneous;
 use alberti_raster::{FragmentStage, Fragments};
 use alberti_texture::format::Storage;
 use alberti_texture::{Clamp, Filter, Sampler, Size};
-use core::fmt::Debug;
 
 /// Another stage's colour with the image of a [`Projector`](crate::Projector) on it.
 ///
@@ -31,7 +30,7 @@ use core::fmt::Debug;
 /// let wall = [Vec3::new(-9.0, -9.0, 0.0), Vec3::new(9.0, -9.0, 0.0), Vec3::new(0.0, 9.0, 0.0)];
 /// let mesh = Mesh::new(&wall, &[[0u16, 1, 2]], |&p| (p, (projector.project(Point3::new(p)), ())));
 /// let image = image.sampler(Nearest, Clamp);
-/// let stage = Slide { surface: Solid(Rgba8::WHITE), image, mix: Modulate };
+/// let stage = Slide { surface: Solid(Rgba8::WHITE), image, mix: Mix::Modulate };
 ///
 /// let (mut color, mut depth) = ([0; 64 * 48], [(); 64 * 48]);
 /// let mut target = Target::new(Rgba8888, NoDepth, 64, 48, &mut color, &mut depth)?;
@@ -54,44 +53,37 @@ use core::fmt::Debug;
 /// # Cost
 /// Three components to interpolate; two divisions, and the sampler where there is an image.
 #[derive(Clone, Copy, Debug)]
-pub struct Slide<S, I, M = Modulate> {
+pub struct Slide<S, I> {
     /// The stage that the image falls on.
     pub surface: S,
     /// The image with its filter. Its alpha plays no part.
     pub image: I,
     /// The mixture of the image's colour and the surface's.
-    pub mix: M,
+    pub mix: Mix,
 }
 
-/// A mixture of an image's colour and the surface's that it falls on: [`Modulate`] or [`Add`], or one of yours.
-pub trait Mix: Copy + Debug {
+/// A mixture of an image's colour and the surface's that it falls on, channel by channel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Mix {
+    /// The product of both, to the nearest byte: white leaves the surface as it is, black makes it black.
+    #[default]
+    Modulate,
+    /// The sum of both, up to 255: black leaves the surface as it is, and it gets brighter elsewhere.
+    Add,
+}
+
+impl Mix {
     /// A channel of the mixture, from 0 to 255 like the two.
-    fn channel<L: Lanes>(self, lanes: L, surface: L::U32, image: L::U32) -> L::U32;
-}
-
-/// The product of both, to the nearest byte: white leaves the surface as it is, black makes it black.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Modulate;
-
-impl Mix for Modulate {
     #[inline(always)]
     fn channel<L: Lanes>(self, lanes: L, surface: L::U32, image: L::U32) -> L::U32 {
-        per_255(lanes, surface * image)
+        match self {
+            Self::Modulate => per_255(lanes, surface * image),
+            Self::Add => lanes.min_words(surface + image, lanes.word(255)),
+        }
     }
 }
 
-/// The sum of both, up to 255: black leaves the surface as it is, and it gets brighter elsewhere.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Add;
-
-impl Mix for Add {
-    #[inline(always)]
-    fn channel<L: Lanes>(self, lanes: L, surface: L::U32, image: L::U32) -> L::U32 {
-        lanes.min_words(surface + image, lanes.word(255))
-    }
-}
-
-impl<S, F: Storage, Fl: Filter, Z: Size, M: Mix> Slide<S, Sampler<'_, F, Fl, Clamp, Clamp, Z>, M> {
+impl<S, F: Storage, Fl: Filter, Z: Size> Slide<S, Sampler<'_, F, Fl, Clamp, Clamp, Z>> {
     /// Colours with the image on them, for the samples in `mask` whose places before the projector these are.
     #[inline(always)]
     pub fn on<L: Lanes>(&self, lanes: L, place: &[L::Number; 3], surface: L::U32, mask: L::Mask) -> L::U32 {
@@ -109,14 +101,13 @@ impl<S, F: Storage, Fl: Filter, Z: Size, M: Mix> Slide<S, Sampler<'_, F, Fl, Cla
     }
 }
 
-impl<V, S, F, Fl, Z, M> FragmentStage<(Homogeneous, V)> for Slide<S, Sampler<'_, F, Fl, Clamp, Clamp, Z>, M>
+impl<V, S, F, Fl, Z> FragmentStage<(Homogeneous, V)> for Slide<S, Sampler<'_, F, Fl, Clamp, Clamp, Z>>
 where
     V: Varying,
     S: FragmentStage<V, Color = Rgba8>,
     F: Storage,
     Fl: Filter,
     Z: Size,
-    M: Mix,
 {
     type Color = Rgba8;
     type Derivatives = S::Derivatives;
@@ -148,8 +139,9 @@ mod tests {
         let surface = Solid(Rgba8::new(200, 100, 50, 77));
         let shade = |u, v, q| {
             let varying = (Homogeneous { u, v, q }, ());
-            let product = Slide { surface, image, mix: Modulate }.shade_one(varying).expect("never discards");
-            let sum = Slide { surface, image, mix: Add }.shade_one(varying).expect("never discards");
+            let product =
+                Slide { surface, image, mix: Mix::Modulate }.shade_one(varying).expect("never discards");
+            let sum = Slide { surface, image, mix: Mix::Add }.shade_one(varying).expect("never discards");
             [product, sum].map(Rgba8::to_bytes)
         };
         let own = [200, 100, 50, 77];

@@ -14,7 +14,7 @@ use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::{Lanes, Machine, One};
 use alberti::raster::PerPixel;
 use alberti::shaders::material::{AnyLight, AnyReflectance, Framed, Gouraud, Lighting, Material};
-use alberti::shaders::{Modulate, Slide, Sunlit, Unlit, VertexColor};
+use alberti::shaders::{Mix, Slide, Sunlit, Unlit, VertexColor};
 use alberti::texture::{AnyFilter, Clamp, Sampler, format::Rgba8888};
 use alberti::{
     FixedPoint, FragmentStage, Fragments, Geometry, Homogeneous, Lines, Planes, Point3, Rgba8, Stats,
@@ -98,7 +98,7 @@ impl FragmentStage<Attributes> for Shown<'_> {
         match self.image {
             None => (color, mask),
             Some(image) => {
-                let slide = Slide { surface: (), image, mix: Modulate };
+                let slide = Slide { surface: (), image, mix: Mix::Modulate };
                 (slide.on(fragments.lanes, &fragments.varying.0, color, mask), mask)
             }
         }

@@ -40,23 +40,17 @@ enum Facing<'a> {
     Bump(Bump<CentralDifferences<AnyHeights<'a>>>),
 }
 
-/// Applies layers that are there to vertices of a kind.
-macro_rules! apply {
-    ($vertices:ty, ($lanes:expr, $varyings:expr, $surface:expr): $($layer:expr),+) => {$(
-        if let Some(layer) = &$layer {
-            Layer::<$vertices>::apply(layer, $lanes, $varyings, $surface);
-        }
-    )+};
-}
-
-/// The layers with light by vertex: those that need no place and no frame.
+/// The order of layers with light by vertex: without those that need a place or a frame.
 impl Layer<Vec2> for Painted<'_> {
     type Derivatives = PerPixel;
 
     #[inline(always)]
     fn apply<L: Lanes>(&self, lanes: L, uv: &[L::Number; 2], surface: &mut Surface<L>) {
         Layer::<Vec2>::apply(&self.color, lanes, uv, surface);
-        apply!(Vec2, (lanes, uv, surface): self.specular, self.gloss, self.wetness, self.emission);
+        Layer::<Vec2>::apply(&self.specular, lanes, uv, surface);
+        Layer::<Vec2>::apply(&self.gloss, lanes, uv, surface);
+        Layer::<Vec2>::apply(&self.wetness, lanes, uv, surface);
+        Layer::<Vec2>::apply(&self.emission, lanes, uv, surface);
     }
 }
 
@@ -70,15 +64,16 @@ impl Layer<Framed> for Painted<'_> {
         varyings: &<Framed as Varying>::Of<L::Number>,
         surface: &mut Surface<L>,
     ) {
-        apply!(Framed, (lanes, varyings, surface): self.parallax);
-        match self.normal {
+        Layer::<Framed>::apply(&self.parallax, lanes, varyings, surface);
+        match &self.normal {
             Facing::AsVertices => {}
-            Facing::Tangent(layer) => Layer::<Framed>::apply(&layer, lanes, varyings, surface),
-            Facing::Object(layer) => Layer::<Framed>::apply(&layer, lanes, varyings, surface),
-            Facing::Bump(layer) => Layer::<Framed>::apply(&layer, lanes, varyings, surface),
+            Facing::Tangent(layer) => Layer::<Framed>::apply(layer, lanes, varyings, surface),
+            Facing::Object(layer) => Layer::<Framed>::apply(layer, lanes, varyings, surface),
+            Facing::Bump(layer) => Layer::<Framed>::apply(layer, lanes, varyings, surface),
         }
         Layer::<Vec2>::apply(self, lanes, &{ surface.uv }, surface);
-        apply!(Framed, (lanes, varyings, surface): self.occlusion, self.reflection);
+        Layer::<Framed>::apply(&self.occlusion, lanes, varyings, surface);
+        Layer::<Framed>::apply(&self.reflection, lanes, varyings, surface);
     }
 }
 

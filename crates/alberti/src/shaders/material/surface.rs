@@ -196,7 +196,8 @@ impl<L: Lanes> Surface<L> {
 
 /// A part of a material, for vertices that carry `V`: it changes the state of the surface.
 ///
-/// Tuples of up to eight are layers, one after the other, and so is `()`, which changes nothing.
+/// Tuples of up to eight are layers, one after the other. So is `()`, which changes nothing, and so is an `Option` of a
+/// layer.
 pub trait Layer<V: Textured>: Copy + Debug {
     /// The policy for the derivatives that its maps need.
     type Derivatives: Differentiation;
@@ -210,6 +211,18 @@ impl<V: Textured> Layer<V> for () {
 
     #[inline(always)]
     fn apply<L: Lanes>(&self, _: L, _: &V::Of<L::Number>, _: &mut Surface<L>) {}
+}
+
+/// A layer that is there or not, as known at run time.
+impl<V: Textured, T: Layer<V>> Layer<V> for Option<T> {
+    type Derivatives = T::Derivatives;
+
+    #[inline(always)]
+    fn apply<L: Lanes>(&self, lanes: L, varyings: &V::Of<L::Number>, surface: &mut Surface<L>) {
+        if let Some(layer) = self {
+            layer.apply(lanes, varyings, surface);
+        }
+    }
 }
 
 /// The policy for the derivatives that several layers need.
@@ -239,4 +252,30 @@ tuples! {
     A 0 B 1 C 2 D 3 E 4 F 5;
     A 0 B 1 C 2 D 3 E 4 F 5 G 6;
     A 0 B 1 C 2 D 3 E 4 F 5 G 6 H 7;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::FragmentStage;
+    use crate::shaders::material::{Color, Directional, Emission, Lambert, Lighting, Material};
+    use alberti_math::Rgba8;
+
+    /// One that is there is the layer itself, one that is not changes nothing.
+    #[test]
+    fn layers_may_be_optional() {
+        let lights = Directional::new(Vector3::new(Vec3::Z), Vec3::splat(0.7));
+        let (ambient, reflectance) = (Vec3::splat(0.2), Lambert);
+        let lighting =
+            Lighting { viewer: Viewer::towards(Vector3::new(Vec3::Z)), ambient, lights, reflectance };
+        let (color, glow) = (Color(Rgba8::new(200, 100, 50, 255)), Emission(Rgba8::new(10, 20, 30, 255)));
+        let place = Placed { position: Vec3::ZERO, normal: Vec3::new(0.6, 0.0, 0.8), uv: Vec2::ZERO };
+        let plain = Material { layers: color, lighting }.shade_one(place);
+        let glowing = Material { layers: (color, glow), lighting }.shade_one(place);
+        assert_ne!(plain, glowing);
+        for (there, expected) in [(None, plain), (Some(glow), glowing)] {
+            assert_eq!(Material { layers: (color, there), lighting }.shade_one(place), expected);
+            assert_eq!(Material { layers: (Some(color), there), lighting }.shade_one(place), expected);
+        }
+    }
 }
