@@ -15,7 +15,8 @@ use core::iter::once;
 use core::ops::Range;
 
 /// Triangles on their way into a target, as many as there are lanes: so code for wide registers is entered once for
-/// several of them. The pixels are those of [`Paint::triangle`], in the same order.
+/// several of them. The pixels are those of [`Paint::triangle`], in the same order. One that is dropped without
+/// [`finish`](Self::finish) leaves its last triangles out.
 #[must_use = "the last triangles are drawn by `finish`"]
 pub struct Batch<'a, 't, L: Lanes, V: Copy, F, P, S, C: ColorFormat, D: DepthFormat> {
     lanes: L,

@@ -42,7 +42,7 @@ impl<F, P: Interpolation, S: Subpixel> Paint<F, P, S> {
     /// Every sample (pixel centre) inside the snapped triangle is covered, exactly. A sample on an edge belongs to the
     /// triangle whose top or left edge it is. So triangles that share an edge neither leave a gap nor draw twice. The
     /// result does not depend on the order of the three vertices, but for [`Flat`](alberti_math::Flat) components, nor
-    /// on the lanes.
+    /// on the lanes. The counters hear the fate that is returned.
     ///
     /// # Precision
     /// Coverage is exact. Depth and varyings are those of the interpolation. For [`Exact`](crate::Exact), depth is

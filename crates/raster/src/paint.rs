@@ -288,6 +288,7 @@ where
         let at = Samples { column: place[0], weights, values: &varying };
         let gradient = self.stage.derivatives().at(lanes, &self.derivatives, derivatives, &at);
         let (words, kept) = self.stage.shade(&Fragments { lanes, varying, gradient, mask: seen, place });
+        // A stage may answer for samples that it was not asked for.
         let kept = kept & seen;
         color_format.store::<L, F::Color>(lanes, words, kept, color);
         depth_format.keep(lanes, &zs, kept, depth);
