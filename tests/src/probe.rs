@@ -1,7 +1,7 @@
 //! Asking the rasterizer about single pixels of the largest frame there can be.
 
 use alberti_math::lanes::Machine;
-use alberti_math::{AnySubpixel, Fixed, Subpixel, Varying, for_lanes};
+use alberti_math::{Fixed, Subpixel, Varying, for_lanes};
 use alberti_raster::{
     ColorFormat, Counters, Cull, DepthFormat, Exact, FragmentStage, NoDepth, Outcome, Paint, Rgba8888,
     Target, Vertex,
@@ -81,7 +81,7 @@ impl<V: Copy> Seen<V> {
 
 /// Draws exactly, with the widest lanes that there are.
 pub fn draw_widest<V, F, C, D, K>(
-    subpixel: AnySubpixel,
+    subpixel: Subpixel,
     target: &mut Target<'_, C, D>,
     vertices: [&Vertex<V>; 3],
     cull: Cull,
@@ -102,14 +102,14 @@ where
 
 /// The number of subpixels of a pixel, and of half a pixel.
 #[must_use]
-pub fn steps(subpixel: impl Subpixel) -> [i64; 2] {
+pub fn steps(subpixel: Subpixel) -> [i64; 2] {
     [1 << subpixel.bits(), 1 << (subpixel.bits() - 1)]
 }
 
 /// One row of buffers, that serves as any row of the frame.
 #[derive(Debug)]
 pub struct Probe<D: DepthFormat> {
-    subpixel: AnySubpixel,
+    subpixel: Subpixel,
     format: D,
     color: Vec<u32>,
     depth: Vec<D::Stored>,
@@ -118,7 +118,7 @@ pub struct Probe<D: DepthFormat> {
 impl<D: DepthFormat> Probe<D> {
     /// A row for triangles on this grid.
     #[must_use]
-    pub fn new(format: D, subpixel: AnySubpixel) -> Self {
+    pub fn new(format: D, subpixel: Subpixel) -> Self {
         let pixels = LARGEST.unsigned_abs() as usize;
         Self { subpixel, format, color: vec![0; pixels], depth: vec![format.farthest(); pixels] }
     }

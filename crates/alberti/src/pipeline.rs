@@ -38,17 +38,17 @@ where
 /// Vertices that are not finite, or larger than `f32::MAX`/16 in eye space, drop their triangles. The pixels do not
 /// depend on the slots, on counting, or on the division of the frame into bands; nor, but for
 /// [`Flat`](alberti_math::Flat) components, on the vertex that comes first.
-pub struct Pass<'a, M: Geometry, F, P = Exact, Pr = Perspective, S = Sub8> {
+pub struct Pass<'a, M: Geometry, F, P = Exact, Pr = Perspective> {
     view: &'a View<Pr>,
     mesh: &'a M,
     frame: Option<Frame<Object, World>>,
     viewport: Option<Viewport>,
     sides: Sides,
     slots: &'a mut [Slot<M::Varying>],
-    paint: Paint<F, P, S>,
+    paint: Paint<F, P>,
 }
 
-impl<'a, M: Geometry, F, Pr: Projection> Pass<'a, M, F, Exact, Pr, Sub8> {
+impl<'a, M: Geometry, F, Pr: Projection> Pass<'a, M, F, Exact, Pr> {
     /// The mesh, where it was made, in a view of the whole target, coloured by `stage`; without back faces, exact, and
     /// snapped to 1/256 pixel.
     #[inline]
@@ -58,7 +58,7 @@ impl<'a, M: Geometry, F, Pr: Projection> Pass<'a, M, F, Exact, Pr, Sub8> {
     }
 }
 
-impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection, S: Subpixel> Pass<'a, M, F, P, Pr, S> {
+impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr> {
     /// The object's place in the world, its axes and its scale.
     #[must_use]
     #[inline]
@@ -92,17 +92,14 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection, S: Subpixel> Pass<'a,
     /// The interpolation and the subpixels of a [`Profile`]; the formats are the target's.
     #[must_use]
     #[inline]
-    pub fn with<Q: Interpolation, T: Subpixel, C, D>(
-        self,
-        profile: Profile<Q, T, C, D>,
-    ) -> Pass<'a, M, F, Q, Pr, T> {
+    pub fn with<Q: Interpolation, C, D>(self, profile: Profile<Q, C, D>) -> Pass<'a, M, F, Q, Pr> {
         self.interpolation(profile.interpolation).subpixel(profile.subpixel)
     }
 
     /// The way of the attributes from the vertices to the pixels, instead of [`Exact`].
     #[must_use]
     #[inline]
-    pub fn interpolation<Q: Interpolation>(self, interpolation: Q) -> Pass<'a, M, F, Q, Pr, S> {
+    pub fn interpolation<Q: Interpolation>(self, interpolation: Q) -> Pass<'a, M, F, Q, Pr> {
         let Self { view, mesh, frame, viewport, sides, slots, paint } = self;
         let Paint { stage, subpixel, cull, .. } = paint;
         let paint = Paint { stage, interpolation, subpixel, cull };
@@ -112,11 +109,9 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection, S: Subpixel> Pass<'a,
     /// The grid to which vertices are snapped, instead of [`Sub8`].
     #[must_use]
     #[inline]
-    pub fn subpixel<Q: Subpixel>(self, subpixel: Q) -> Pass<'a, M, F, P, Pr, Q> {
-        let Self { view, mesh, frame, viewport, sides, slots, paint } = self;
-        let Paint { stage, interpolation, cull, .. } = paint;
-        let paint = Paint { stage, interpolation, subpixel, cull };
-        Pass { view, mesh, frame, viewport, sides, slots, paint }
+    pub fn subpixel(mut self, subpixel: Subpixel) -> Self {
+        self.paint.subpixel = subpixel;
+        self
     }
 
     /// Room for transformed vertices: with as many slots as vertices each is transformed once; with fewer they are a
@@ -268,7 +263,7 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection, S: Subpixel> Pass<'a,
         &'p mut self,
         bands: &Bands<'_, C, D>,
         room: Room<'p, M::Varying>,
-    ) -> (Prepared<'p, 'a, M, F, P, Pr, S, D>, Room<'p, M::Varying>) {
+    ) -> (Prepared<'p, 'a, M, F, P, Pr, D>, Room<'p, M::Varying>) {
         Prepared::new(self, bands.size(), bands.depth_format(), room, &mut ())
     }
 
@@ -284,13 +279,13 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection, S: Subpixel> Pass<'a,
         depth: D,
         room: Room<'p, M::Varying>,
         counters: &mut impl Counters,
-    ) -> (Prepared<'p, 'a, M, F, P, Pr, S, D>, Room<'p, M::Varying>) {
+    ) -> (Prepared<'p, 'a, M, F, P, Pr, D>, Room<'p, M::Varying>) {
         Prepared::new(self, size, depth, room, counters)
     }
 
     /// The way to the screen of a frame of this size; `None` if it has no pixels.
     #[inline]
-    pub(crate) fn screen(&self, [width, height]: [u32; 2], depth: impl DepthFormat) -> Option<Screen<Pr, S>> {
+    pub(crate) fn screen(&self, [width, height]: [u32; 2], depth: impl DepthFormat) -> Option<Screen<Pr>> {
         let viewport = match self.viewport {
             Some(viewport) => viewport,
             None => Viewport::new(0, 0, width, height).ok()?,
@@ -314,19 +309,18 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection, S: Subpixel> Pass<'a,
 
     /// The slots of the geometry half, and the paint half.
     #[inline]
-    #[expect(clippy::type_complexity, reason = "the two halves")]
-    pub(crate) fn halves(&mut self) -> (&mut [Slot<M::Varying>], &Paint<F, P, S>) {
+    pub(crate) fn halves(&mut self) -> (&mut [Slot<M::Varying>], &Paint<F, P>) {
         (&mut *self.slots, &self.paint)
     }
 
     /// The paint half.
     #[inline]
-    pub(crate) fn paint(&self) -> &Paint<F, P, S> {
+    pub(crate) fn paint(&self) -> &Paint<F, P> {
         &self.paint
     }
 }
 
-impl<M: Geometry, F, P: fmt::Debug, Pr: fmt::Debug, S: fmt::Debug> fmt::Debug for Pass<'_, M, F, P, Pr, S> {
+impl<M: Geometry, F, P: fmt::Debug, Pr: fmt::Debug> fmt::Debug for Pass<'_, M, F, P, Pr> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Pass")
             .field("view", &self.view)

@@ -5,8 +5,8 @@ use crate::pipeline::Pass;
 use crate::stats::Stats;
 use crate::vertex::Slot;
 use crate::walk::Walk;
+use alberti_math::for_lanes;
 use alberti_math::lanes::{Floating, Machine, One};
-use alberti_math::{Subpixel, for_lanes};
 use alberti_projection::Projection;
 use alberti_raster::{
     ColorFormat, Counters, DepthFormat, FragmentStage, Interpolation, Outcome, Paint, Target, Vertex,
@@ -39,8 +39,8 @@ struct Kept<V> {
 /// A pass whose triangles have been transformed, clipped and culled for all bands of a frame: see [`Pass::prepare`].
 ///
 /// Triangles that did not find room are transformed, clipped and culled again by each [`draw`](Self::draw).
-pub struct Prepared<'p, 'a, M: Geometry, F, P, Pr, S, D> {
-    pass: &'p mut Pass<'a, M, F, P, Pr, S>,
+pub struct Prepared<'p, 'a, M: Geometry, F, P, Pr, D> {
+    pass: &'p mut Pass<'a, M, F, P, Pr>,
     kept: &'p [ScreenTriangle<M::Varying>],
     /// The first of the mesh's triangles that found no room.
     next: usize,
@@ -51,16 +51,15 @@ pub struct Prepared<'p, 'a, M: Geometry, F, P, Pr, S, D> {
     depth: D,
 }
 
-impl<'p, 'a, M, F, P, Pr, S, D> Prepared<'p, 'a, M, F, P, Pr, S, D>
+impl<'p, 'a, M, F, P, Pr, D> Prepared<'p, 'a, M, F, P, Pr, D>
 where
     M: Geometry,
     P: Interpolation,
     Pr: Projection,
-    S: Subpixel,
     D: DepthFormat,
 {
     pub(crate) fn new<K: Counters>(
-        pass: &'p mut Pass<'a, M, F, P, Pr, S>,
+        pass: &'p mut Pass<'a, M, F, P, Pr>,
         size: [u32; 2],
         depth: D,
         room: Room<'p, M::Varying>,
@@ -167,7 +166,7 @@ where
     }
 }
 
-impl<M: Geometry, F, P, Pr, S, D: fmt::Debug> fmt::Debug for Prepared<'_, '_, M, F, P, Pr, S, D> {
+impl<M: Geometry, F, P, Pr, D: fmt::Debug> fmt::Debug for Prepared<'_, '_, M, F, P, Pr, D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Prepared")
             .field("kept", &self.kept.len())
@@ -188,8 +187,8 @@ struct Rows {
 impl Rows {
     /// The rows of a triangle in a viewport of these `pixels`, or why it is never drawn there.
     #[inline]
-    fn of<F, P: Interpolation, S: Subpixel, V: Copy>(
-        paint: &Paint<F, P, S>,
+    fn of<F, P: Interpolation, V: Copy>(
+        paint: &Paint<F, P>,
         vertices: [&Vertex<V>; 3],
         [columns, rows]: &[Range<i32>; 2],
     ) -> Result<Self, Outcome> {

@@ -1,6 +1,6 @@
 //! Profiles: the policies of a whole picture under one name, so that a function takes one argument.
 
-use alberti_math::{Rgb565Be, Rgba8888, Sub4, Sub8};
+use alberti_math::{Rgb565Be, Rgba8888, Sub4, Sub8, Subpixel};
 use alberti_raster::{
     Affine, Bands, ColorFormat, D16, DepthFormat, Exact, F32, F32Reversed, FixedPoint, NoDepth, Spans16,
     Target, TargetError,
@@ -29,8 +29,8 @@ use alberti_raster::{
 /// use alberti::{glam::Vec3, shaders::VertexColor, *};
 ///
 /// /// A triangle that leans away from the viewer.
-/// fn frame<I: Interpolation, S: Subpixel, C: ColorFormat, D: DepthFormat>(
-///     profile: Profile<I, S, C, D>,
+/// fn frame<I: Interpolation, C: ColorFormat, D: DepthFormat>(
+///     profile: Profile<I, C, D>,
 ///     target: &mut Target<'_, C, D>,
 /// ) -> Result<(), Box<dyn core::error::Error>> {
 ///     let vertices = [(-0.9, -0.8, 0.0), (0.9, -0.8, 0.0), (0.0, 0.8, -1.0)];
@@ -71,18 +71,18 @@ use alberti_raster::{
 /// }
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Profile<I, S, C, D> {
+pub struct Profile<I, C, D> {
     /// Perspective, and the numbers it is computed in.
     pub interpolation: I,
     /// The grid of the vertices.
-    pub subpixel: S,
+    pub subpixel: Subpixel,
     /// The format of colours.
     pub color: C,
     /// The format of depths.
     pub depth: D,
 }
 
-impl<I, S, C: ColorFormat, D: DepthFormat> Profile<I, S, C, D> {
+impl<I, C: ColorFormat, D: DepthFormat> Profile<I, C, D> {
     /// A target of the profile's formats: [`Target::new`].
     ///
     /// # Errors
@@ -120,7 +120,7 @@ impl<I, S, C: ColorFormat, D: DepthFormat> Profile<I, S, C, D> {
 ///
 /// # Cost
 /// [`Exact`]: a division a fragment. 8 bytes a pixel.
-pub const REFERENCE: Profile<Exact, Sub8, Rgba8888, F32Reversed> =
+pub const REFERENCE: Profile<Exact, Rgba8888, F32Reversed> =
     Profile { interpolation: Exact, subpixel: Sub8, color: Rgba8888, depth: F32Reversed };
 
 /// For machines with vector registers: [`REFERENCE`] with depth as it is taught, growing with distance.
@@ -130,7 +130,7 @@ pub const REFERENCE: Profile<Exact, Sub8, Rgba8888, F32Reversed> =
 ///
 /// # Cost
 /// [`Exact`]: a division a fragment. 8 bytes a pixel.
-pub const DESKTOP: Profile<Exact, Sub8, Rgba8888, F32> =
+pub const DESKTOP: Profile<Exact, Rgba8888, F32> =
     Profile { interpolation: Exact, subpixel: Sub8, color: Rgba8888, depth: F32 };
 
 /// For microcontrollers with or without floating point, and a display of 16 bits a pixel.
@@ -143,7 +143,7 @@ pub const DESKTOP: Profile<Exact, Sub8, Rgba8888, F32> =
 /// # Cost
 /// A fragment: an addition for the depth and one a component. Every 16 columns: a look into a table instead of a
 /// division. 4 bytes a pixel; edge functions of 32 bits up to 2,890 pixels.
-pub const MCU: Profile<FixedPoint<Spans16>, Sub4, Rgb565Be, D16> =
+pub const MCU: Profile<FixedPoint<Spans16>, Rgb565Be, D16> =
     Profile { interpolation: FixedPoint(Spans16), subpixel: Sub4, color: Rgb565Be, depth: D16 };
 
 /// For the least memory and the fewest instructions. There is no depth buffer, so that triangles have to come from back
@@ -155,5 +155,5 @@ pub const MCU: Profile<FixedPoint<Spans16>, Sub4, Rgb565Be, D16> =
 ///
 /// # Cost
 /// A fragment: an addition a component. 2 bytes a pixel; edge functions of 32 bits up to 2,890 pixels.
-pub const TINY: Profile<FixedPoint<Affine>, Sub4, Rgb565Be, NoDepth> =
+pub const TINY: Profile<FixedPoint<Affine>, Rgb565Be, NoDepth> =
     Profile { interpolation: FixedPoint(Affine), subpixel: Sub4, color: Rgb565Be, depth: NoDepth };

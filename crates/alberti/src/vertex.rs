@@ -3,7 +3,7 @@
 use crate::geometry::Geometry;
 use crate::walk::Screen;
 use alberti_math::lanes::{Floating, One};
-use alberti_math::{Fixed, Subpixel, Varying, is_finite};
+use alberti_math::{Fixed, Varying, is_finite};
 use alberti_projection::Projection;
 use alberti_raster::Vertex;
 use core::num::NonZeroU32;
@@ -51,11 +51,10 @@ impl<V: Varying> Slot<V> {
 
     /// Makes sure that the vertex `index` is in this slot, if there is such a vertex.
     #[inline(always)]
-    pub(crate) fn keep<M, Pr, S>(&mut self, mesh: &M, screen: &Screen<Pr, S>, index: usize)
+    pub(crate) fn keep<M, Pr>(&mut self, mesh: &M, screen: &Screen<Pr>, index: usize)
     where
         M: Geometry<Varying = V>,
         Pr: Projection,
-        S: Subpixel,
     {
         if self.kept(index).is_none() {
             self.fill_alone(mesh, screen, index);
@@ -64,28 +63,26 @@ impl<V: Varying> Slot<V> {
 
     /// Puts the vertex `index` into this slot.
     #[inline]
-    fn fill_alone<M, Pr, S>(&mut self, mesh: &M, screen: &Screen<Pr, S>, index: usize)
+    fn fill_alone<M, Pr>(&mut self, mesh: &M, screen: &Screen<Pr>, index: usize)
     where
         M: Geometry<Varying = V>,
         Pr: Projection,
-        S: Subpixel,
     {
         Self::fill(One, mesh, screen, index, from_mut(self));
     }
 
     /// Fills the slots with so many vertices from number 0 on, and empties those that are left.
     #[inline]
-    pub(crate) fn fill_all<L, M, Pr, S>(
+    pub(crate) fn fill_all<L, M, Pr>(
         lanes: L,
         mesh: &M,
-        screen: &Screen<Pr, S>,
+        screen: &Screen<Pr>,
         vertices: usize,
         slots: &mut [Self],
     ) where
         L: Floating,
         M: Geometry<Varying = V>,
         Pr: Projection,
-        S: Subpixel,
     {
         let (slots, unused) = slots.split_at_mut_checked(vertices).unwrap_or_default();
         unused.fill(Self::EMPTY);
@@ -102,12 +99,11 @@ impl<V: Varying> Slot<V> {
     ///
     /// The guard band is the bound that the clip uses too: a vertex is clipped in all of its triangles or in none.
     #[inline(always)]
-    fn fill<L, M, Pr, S>(lanes: L, mesh: &M, screen: &Screen<Pr, S>, first: usize, slots: &mut [Self])
+    fn fill<L, M, Pr>(lanes: L, mesh: &M, screen: &Screen<Pr>, first: usize, slots: &mut [Self])
     where
         L: Floating,
         M: Geometry<Varying = V>,
         Pr: Projection,
-        S: Subpixel,
     {
         let mut points = [lanes.each(|_| 0.0); 3];
         let [xs, ys, zs] = &mut points;

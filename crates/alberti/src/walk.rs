@@ -24,14 +24,14 @@ pub enum Sides {
 
 /// The numbers that lead from object space to the screen.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Screen<Pr: Projection, S> {
+pub(crate) struct Screen<Pr: Projection> {
     pub(crate) to_eye: Frame<Object, Eye>,
     pub(crate) projection: Pr,
     pub(crate) viewport: Viewport,
     pub(crate) depth: Pr::Depth,
     pub(crate) guard: SideBounds,
     pub(crate) sides: Sides,
-    pub(crate) subpixel: S,
+    pub(crate) subpixel: Subpixel,
 }
 
 /// Coordinates above this may overflow when they are subtracted or multiplied.
@@ -40,7 +40,7 @@ const LARGEST: f32 = f32::MAX / 16.0;
 /// The places of several vertices in memory: their bits of [`outside`], x and y in subpixels; zs and q.
 type Places<L> = ([<L as Lanes>::Each<u32>; 3], [<L as Lanes>::Each<f32>; 2]);
 
-impl<Pr: Projection, S: Subpixel> Screen<Pr, S> {
+impl<Pr: Projection> Screen<Pr> {
     /// Steps 1 and 2, for several points.
     #[inline(always)]
     fn eye<L: Lanes>(&self, lanes: L, point: [L::Number; 3]) -> [L::Number; 3] {
@@ -90,22 +90,22 @@ fn within<L: Lanes>(lanes: L, x: L::Number, most: f32) -> L::Mask {
 }
 
 /// The way of a mesh's triangles to the screen.
-pub(crate) struct Walk<'a, M: Geometry, Pr: Projection, S> {
+pub(crate) struct Walk<'a, M: Geometry, Pr: Projection> {
     mesh: &'a M,
     slots: &'a mut [Slot<M::Varying>],
     /// Whether each vertex has a slot of its own, and is in it.
     filled: bool,
-    screen: Screen<Pr, S>,
+    screen: Screen<Pr>,
 }
 
-impl<'a, M: Geometry, Pr: Projection, S: Subpixel> Walk<'a, M, Pr, S> {
+impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     /// The walk with these slots, of which there is at least one. All vertices are transformed at once where the slots
     /// hold them, and where most are probably used.
     #[inline]
     pub(crate) fn new<L: Floating>(
         lanes: L,
         mesh: &'a M,
-        screen: Screen<Pr, S>,
+        screen: Screen<Pr>,
         slots: &'a mut [Slot<M::Varying>],
     ) -> Self {
         let vertices = mesh.vertices();
@@ -174,9 +174,9 @@ impl<'a, M: Geometry, Pr: Projection, S: Subpixel> Walk<'a, M, Pr, S> {
 /// A triangle's vertices in slots of their own.
 #[cold]
 #[inline(never)]
-fn alone<M: Geometry, Pr: Projection, S: Subpixel>(
+fn alone<M: Geometry, Pr: Projection>(
     mesh: &M,
-    screen: &Screen<Pr, S>,
+    screen: &Screen<Pr>,
     indices: [usize; 3],
 ) -> [Slot<M::Varying>; 3] {
     indices.map(|index| {
@@ -189,9 +189,9 @@ fn alone<M: Geometry, Pr: Projection, S: Subpixel>(
 /// Steps 3 to 6 for a triangle that crosses a plane.
 #[cold]
 #[inline(never)]
-fn clip<M: Geometry, Pr: Projection, S: Subpixel>(
+fn clip<M: Geometry, Pr: Projection>(
     mesh: &M,
-    screen: &Screen<Pr, S>,
+    screen: &Screen<Pr>,
     (indices, corners): ([usize; 3], [&Transformed<M::Varying>; 3]),
     mut sink: impl FnMut([&Vertex<M::Varying>; 3]),
 ) {
@@ -225,8 +225,8 @@ type Weights = Vec3;
 /// Two triangles that share an edge have the same new vertices on it, bit for bit, whatever their third vertex is. Its
 /// weight is 0 there, and stays so, since a cut is between two vertices of the polygon.
 #[inline(never)]
-fn inside<Pr: Projection, S: Subpixel>(
-    screen: &Screen<Pr, S>,
+fn inside<Pr: Projection>(
+    screen: &Screen<Pr>,
     [a, b, c]: [Point3<Eye>; 3],
 ) -> Polygon<Option<Vertex<Weights>>> {
     let Screen { projection, viewport, depth, sides, guard, subpixel, .. } = screen;

@@ -13,8 +13,8 @@ use crate::slide;
 use alberti::glam::Vec3;
 use alberti::texture::{Texture, TextureError, format::Rgba8888};
 use alberti::{
-    AnyDepth, AnyProjection, AnySubpixel, Eye, Frame, Geometry, Mesh, Object, Pass, Point3, Projector, Rgba8,
-    Slot, Stats, Target, Vector3, View, ViewError, World, look_at,
+    AnyDepth, AnyProjection, Eye, Frame, Geometry, Mesh, Object, Pass, Point3, Projector, Rgba8, Slot, Stats,
+    Subpixel, Target, Vector3, View, ViewError, World, look_at,
 };
 
 mod erased;
@@ -150,10 +150,10 @@ impl<'a> Drawing<'a> {
         mesh: &'p M,
         stage: F,
         slots: &'p mut [Slot<M::Varying>],
-    ) -> Pass<'p, M, F, alberti::Exact, AnyProjection, AnySubpixel> {
+    ) -> Pass<'p, M, F, alberti::Exact, AnyProjection> {
         let subpixel = match self.options.policies.subpixel {
-            crate::options::Subpixel::Sub4 => AnySubpixel::Sub4,
-            crate::options::Subpixel::Sub8 => AnySubpixel::Sub8,
+            crate::options::Subpixel::Sub4 => Subpixel::Sub4,
+            crate::options::Subpixel::Sub8 => Subpixel::Sub8,
         };
         let cull = match self.options.cull {
             Cull::Back => alberti::Cull::Back,

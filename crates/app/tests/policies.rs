@@ -43,12 +43,7 @@ impl Shown for u16 {
 
 /// The scene's one part by the library.
 fn by_library<V: Varying>(
-    profile: Profile<
-        impl alberti::Interpolation,
-        impl alberti::Subpixel,
-        impl Pixels<Pixel: Shown>,
-        impl Depths,
-    >,
+    profile: Profile<impl alberti::Interpolation, impl Pixels<Pixel: Shown>, impl Depths>,
     scene: &BuiltIn,
     vertex_stage: impl Fn(&Vertex) -> (Vec3, V),
     stage: impl FragmentStage<V, Color = Rgba8>,
@@ -100,12 +95,7 @@ fn options(
 
 /// A texture as it is, of the nearest texel, on the floor.
 fn unlit(
-    profile: Profile<
-        impl alberti::Interpolation,
-        impl alberti::Subpixel,
-        impl Pixels<Pixel: Shown>,
-        impl Depths,
-    >,
+    profile: Profile<impl alberti::Interpolation, impl Pixels<Pixel: Shown>, impl Depths>,
     choice: (Policies, DepthFormat),
     big_endian: bool,
 ) {
@@ -120,12 +110,7 @@ fn unlit(
 
 /// A filtered texture with light, on the knot.
 fn lit(
-    profile: Profile<
-        impl alberti::Interpolation,
-        impl alberti::Subpixel,
-        impl Pixels<Pixel: Shown>,
-        impl Depths,
-    >,
+    profile: Profile<impl alberti::Interpolation, impl Pixels<Pixel: Shown>, impl Depths>,
     choice: (Policies, DepthFormat),
     big_endian: bool,
 ) {
@@ -206,10 +191,14 @@ fn profiles_are_those_of_the_library() {
 }
 
 /// Those by their places.
-const fn profile<P, S, C, D>(interpolation: P, subpixel: S, color: C, depth: D) -> Profile<P, S, C, D>
+const fn profile<P, C, D>(
+    interpolation: P,
+    subpixel: alberti::Subpixel,
+    color: C,
+    depth: D,
+) -> Profile<P, C, D>
 where
     P: Copy,
-    S: Copy,
     C: Copy,
     D: Copy,
 {

@@ -1,60 +1,30 @@
 //! Fixed-point screen coordinates, and the bound that keeps the edge functions built on them exact.
 
 use crate::round::round_half_up;
-use core::fmt;
 
-/// The number of fraction bits of snapped coordinates: [`Sub4`], [`Sub8`], or [`AnySubpixel`] for one that is chosen at
-/// run time.
+/// The number of fraction bits of snapped coordinates.
 ///
 /// More bits follow a slowly moving vertex more smoothly: snapping moves a vertex by at most 2^-(bits+1) pixels. Fewer
 /// bits let larger triangles stay in 32-bit edge functions.
-pub trait Subpixel: Copy + fmt::Debug + 'static {
-    /// The number, 1 to 8.
-    fn bits(self) -> u32;
-}
-
-/// Four fraction bits (28.4): a vertex moves by at most 1/32 pixel; 32-bit edge functions up to about 2,890 pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Sub4;
-
-/// Eight fraction bits (24.8), the number that Direct3D asks for: a vertex moves by at most 1/512 pixel; 32-bit edge
-/// functions up to about 180 pixels, 64-bit ones above.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Sub8;
-
-/// [`Sub4`] or [`Sub8`], chosen at run time.
-///
-/// # Cost
-/// Shifts by a number in a register instead of constants.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AnySubpixel {
-    /// Four bits.
-    Sub4,
-    /// Eight bits.
-    Sub8,
+#[repr(u32)]
+pub enum Subpixel {
+    /// Four bits (28.4): a vertex moves by at most 1/32 pixel; 32-bit edge functions up to about 2,890 pixels.
+    Sub4 = 4,
+    /// Eight bits (24.8), the number that Direct3D asks for: a vertex moves by at most 1/512 pixel; 32-bit edge
+    /// functions up to about 180 pixels, 64-bit ones above.
+    #[default]
+    Sub8 = GREATEST_BITS,
 }
 
-impl Subpixel for Sub4 {
-    #[inline(always)]
-    fn bits(self) -> u32 {
-        4
-    }
-}
+pub use Subpixel::{Sub4, Sub8};
 
-impl Subpixel for Sub8 {
+impl Subpixel {
+    /// The number.
+    #[must_use]
     #[inline(always)]
-    fn bits(self) -> u32 {
-        GREATEST_BITS
-    }
-}
-
-impl Subpixel for AnySubpixel {
-    #[inline(always)]
-    fn bits(self) -> u32 {
-        match self {
-            Self::Sub4 => Sub4.bits(),
-            Self::Sub8 => Sub8.bits(),
-        }
+    pub const fn bits(self) -> u32 {
+        self as u32
     }
 }
 
@@ -99,7 +69,7 @@ impl Fixed {
     /// `center + offset`.
     #[must_use]
     #[inline]
-    pub fn snap(subpixel: impl Subpixel, center_in_half_pixels: i32, offset: f32) -> Option<Self> {
+    pub fn snap(subpixel: Subpixel, center_in_half_pixels: i32, offset: f32) -> Option<Self> {
         let bits = subpixel.bits();
         #[expect(clippy::cast_precision_loss, reason = "a power of two")]
         let scaled = offset * (1 << bits) as f32;

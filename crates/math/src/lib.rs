@@ -25,7 +25,7 @@ pub use barycentric::{
     triangle_weights,
 };
 pub use color::{Rgb565Be, Rgb565Le, Rgba8, Rgba8888};
-pub use fixed::{AnySubpixel, Fixed, GUARD_PIXELS, Sub4, Sub8, Subpixel};
+pub use fixed::{Fixed, GUARD_PIXELS, Sub4, Sub8, Subpixel};
 pub use frame::Frame;
 pub use frame2::Frame2;
 pub use glam;

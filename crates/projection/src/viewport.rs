@@ -68,7 +68,7 @@ impl Viewport {
     /// band.
     #[must_use]
     #[inline]
-    pub fn to_screen(&self, subpixel: impl Subpixel, xs: f32, ys: f32) -> Option<[Fixed; 2]> {
+    pub fn to_screen(&self, subpixel: Subpixel, xs: f32, ys: f32) -> Option<[Fixed; 2]> {
         let x = Fixed::snap(subpixel, self.center[0], xs * self.half[0])?;
         let y = Fixed::snap(subpixel, self.center[1], -(ys * self.half[1]))?;
         Some([x, y])
@@ -80,7 +80,7 @@ impl Viewport {
     pub fn to_screen_lanes<L: Lanes>(
         &self,
         lanes: L,
-        subpixel: impl Subpixel,
+        subpixel: Subpixel,
         [xs, ys]: [L::Number; 2],
     ) -> [L::U32; 2] {
         let bits = subpixel.bits();

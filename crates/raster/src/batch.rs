@@ -8,8 +8,8 @@ use crate::fragment::FragmentStage;
 use crate::interpolation::Interpolation;
 use crate::target::Target;
 use crate::triangle::Vertex;
+use alberti_math::Varying;
 use alberti_math::lanes::{Floating, Lanes};
-use alberti_math::{Subpixel, Varying};
 use core::fmt;
 use core::iter::once;
 use core::ops::Range;
@@ -18,23 +18,23 @@ use core::ops::Range;
 /// several of them. The pixels are those of [`Paint::triangle`], in the same order. One that is dropped without
 /// [`finish`](Self::finish) leaves its last triangles out.
 #[must_use = "the last triangles are drawn by `finish`"]
-pub struct Batch<'a, 't, L: Lanes, V: Copy, F, P, S, C: ColorFormat, D: DepthFormat> {
+pub struct Batch<'a, 't, L: Lanes, V: Copy, F, P, C: ColorFormat, D: DepthFormat> {
     lanes: L,
-    paint: &'a Paint<F, P, S>,
+    paint: &'a Paint<F, P>,
     target: &'a mut Target<'t, C, D>,
     limits: [Range<i32>; 2],
     triangles: L::Each<Option<Copied<V>>>,
     count: usize,
 }
 
-impl<F, P: Interpolation, S: Subpixel> Paint<F, P, S> {
+impl<F, P: Interpolation> Paint<F, P> {
     /// An empty batch of triangles for a target.
     #[inline]
     pub fn batch<'a, 't, L, V, C, D>(
         &'a self,
         lanes: L,
         target: &'a mut Target<'t, C, D>,
-    ) -> Batch<'a, 't, L, V, F, P, S, C, D>
+    ) -> Batch<'a, 't, L, V, F, P, C, D>
     where
         L: Floating,
         V: Varying,
@@ -46,13 +46,12 @@ impl<F, P: Interpolation, S: Subpixel> Paint<F, P, S> {
     }
 }
 
-impl<L, V, F, P, S, C, D> Batch<'_, '_, L, V, F, P, S, C, D>
+impl<L, V, F, P, C, D> Batch<'_, '_, L, V, F, P, C, D>
 where
     L: Floating,
     V: Varying,
     F: FragmentStage<V>,
     P: Interpolation,
-    S: Subpixel,
     C: ColorFormat,
     D: DepthFormat,
 {
@@ -95,9 +94,7 @@ where
     }
 }
 
-impl<L: Lanes, V: Copy, F, P, S, C: ColorFormat, D: DepthFormat> fmt::Debug
-    for Batch<'_, '_, L, V, F, P, S, C, D>
-{
+impl<L: Lanes, V: Copy, F, P, C: ColorFormat, D: DepthFormat> fmt::Debug for Batch<'_, '_, L, V, F, P, C, D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Batch")
             .field("limits", &self.limits)

@@ -22,13 +22,13 @@ use core::ops::Range;
 
 /// The way from triangles on the screen to pixels: the half of the pipeline that knows no matrix and no mesh.
 #[derive(Clone, Copy, Debug)]
-pub struct Paint<F, P, S> {
+pub struct Paint<F, P> {
     /// From varying to colour.
     pub stage: F,
     /// From the vertices to the samples between them.
     pub interpolation: P,
     /// The grid of the vertices' positions.
-    pub subpixel: S,
+    pub subpixel: Subpixel,
     /// The faces that are left out.
     pub cull: Cull,
 }
@@ -36,7 +36,7 @@ pub struct Paint<F, P, S> {
 /// A copy of a triangle.
 pub(crate) type Copied<V> = ([Vertex<V>; 3], Reach);
 
-impl<F, P: Interpolation, S: Subpixel> Paint<F, P, S> {
+impl<F, P: Interpolation> Paint<F, P> {
     /// Draws one triangle into a target, with as many samples at a time as there are `lanes`.
     ///
     /// Every sample (pixel centre) inside the snapped triangle is covered, exactly. A sample on an edge belongs to the

@@ -132,7 +132,7 @@ impl EdgeInt for i64 {
 /// `step_x` that a row makes, so twice `step_x` must fit as well.
 pub const FITS_I32: i64 = i32::MAX as i64;
 
-/// The edge function of one directed edge, ready to be stepped over samples.
+/// The edge function of one directed edge, in `i32` or `i64`, ready to be stepped over samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Edge<I> {
     /// Its value at the reference sample.

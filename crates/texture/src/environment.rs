@@ -26,11 +26,13 @@
 //! # Ok::<(), alberti_texture::TextureError>(())
 //! ```
 
+mod any;
 mod cube_map;
 mod lat_long;
 mod sphere_map;
 mod turned;
 
+pub use any::AnyEnvironment;
 pub use cube_map::CubeMap;
 pub use lat_long::LatLong;
 pub use sphere_map::SphereMap;
@@ -40,7 +42,8 @@ use crate::surface::dot_lanes;
 use alberti_math::lanes::Lanes;
 use core::fmt::Debug;
 
-/// A way of laying out all directions in one image: [`LatLong`], [`SphereMap`] or [`CubeMap`].
+/// A way of laying out all directions in one image: [`LatLong`], [`SphereMap`], [`CubeMap`], or [`AnyEnvironment`] for
+/// one that is picked at run time.
 pub trait Environment: Copy + Debug {
     /// The coordinates (u, v) on the image of several directions, of any length.
     fn place<L: Lanes>(&self, lanes: L, direction: [L::Number; 3]) -> [L::Number; 2];

@@ -1,7 +1,7 @@
 //! Window-viewport and snapping.
 
 use crate::{Row, Sample, Table};
-use alberti_math::{AnySubpixel, Fixed, GUARD_PIXELS, Subpixel};
+use alberti_math::{Fixed, GUARD_PIXELS, Subpixel};
 use alberti_oracle::rational::{Rational, from_f32, from_int, to_f64};
 use alberti_oracle::rng::Rng;
 use alberti_projection::Viewport;
@@ -18,10 +18,10 @@ pub(crate) fn tables() -> Vec<Table> {
     ];
     for (region, reach) in regions {
         rows.push(Row::new("Viewport::to_screen(Sub4)", region, 1.0, move |rng| {
-            to_screen(AnySubpixel::Sub4, rng, reach)
+            to_screen(Subpixel::Sub4, rng, reach)
         }));
         rows.push(Row::new("Viewport::to_screen(Sub8)", region, 1.0, move |rng| {
-            to_screen(AnySubpixel::Sub8, rng, reach)
+            to_screen(Subpixel::Sub8, rng, reach)
         }));
     }
     rows.push(Row::new("Viewport::guard", "any viewport", 1.0, |rng| {
@@ -55,7 +55,7 @@ fn any(rng: &mut Rng) -> ([i32; 4], Viewport) {
     ([x, y, width, height], viewport.expect("within reach"))
 }
 
-fn to_screen(subpixel: AnySubpixel, rng: &mut Rng, reach: Reach) -> Sample {
+fn to_screen(subpixel: Subpixel, rng: &mut Rng, reach: Reach) -> Sample {
     let ([left, top, width, height], viewport) = any(rng);
     let guard = viewport.guard();
     let [xs, ys] = [guard.x, guard.y].map(|guard| rng.uniform(-1.0, 1.0) as f32 * reach(guard));
@@ -72,7 +72,7 @@ fn half(length: i32) -> Rational {
 }
 
 /// The error as a share of the documented bound.
-fn share(subpixel: AnySubpixel, got: i32, exact: &Rational, offset: f32, length: i32) -> Sample {
+fn share(subpixel: Subpixel, got: i32, exact: &Rational, offset: f32, length: i32) -> Sample {
     let one = f64::from(1 << subpixel.bits());
     let error = to_f64(&(from_int(i128::from(got)) / from_int(1 << subpixel.bits()) - exact)).abs();
     let offset = f64::from(offset).abs() * f64::from(length) / 2.0;

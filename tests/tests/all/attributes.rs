@@ -1,7 +1,7 @@
 //! How exact interpolated attributes and depths are: the documented bounds against arithmetic of 106 bits, over depth
 //! ratios up to 10^12, triangles from a pixel to the largest frame, slivers, and values of both signs and many sizes.
 //!
-//! One kernel, exact and recorded, for both grids: `values.rs` has it that `AnySubpixel` draws what its types do.
+//! One kernel, exact and recorded, for both grids.
 #![allow(
     clippy::cast_possible_truncation,
     clippy::cast_precision_loss,
@@ -9,7 +9,7 @@
     reason = "pixels and subpixels are within the guard band"
 )]
 
-use alberti_math::{AnySubpixel, GUARD_PIXELS, Subpixel};
+use alberti_math::{GUARD_PIXELS, Subpixel};
 use alberti_oracle::coverage::{Triangle, covers, weights};
 use alberti_oracle::dd::{self, Dd};
 use alberti_oracle::rational::{self, Rational};
@@ -35,7 +35,7 @@ struct Case {
 }
 
 impl Case {
-    fn sample(&self, subpixel: AnySubpixel) -> [i64; 2] {
+    fn sample(&self, subpixel: Subpixel) -> [i64; 2] {
         center(subpixel, self.pixel)
     }
 
@@ -58,7 +58,7 @@ impl Case {
     }
 }
 
-fn any_case(subpixel: AnySubpixel, rng: &mut Rng) -> Case {
+fn any_case(subpixel: Subpixel, rng: &mut Rng) -> Case {
     loop {
         let found = if rng.one_in(4) { thin(subpixel, rng) } else { Some(around(subpixel, rng)) };
         if let Some((tri, pixel)) = found
@@ -69,12 +69,12 @@ fn any_case(subpixel: AnySubpixel, rng: &mut Rng) -> Case {
     }
 }
 
-fn center(subpixel: AnySubpixel, [column, row]: [i32; 2]) -> [i64; 2] {
+fn center(subpixel: Subpixel, [column, row]: [i32; 2]) -> [i64; 2] {
     pixel_centre(i64::from(column), i64::from(row), subpixel.bits())
 }
 
 /// Three vertices around a pixel of the frame, from a pixel to a frame away, and sometimes much flatter than wide.
-fn around(subpixel: AnySubpixel, rng: &mut Rng) -> (Triangle, [i32; 2]) {
+fn around(subpixel: Subpixel, rng: &mut Rng) -> (Triangle, [i32; 2]) {
     let largest = f64::from(LARGEST);
     let pixel = [(); 2].map(|()| match rng.index(3) {
         0 => rng.range(0, 99),
@@ -95,7 +95,7 @@ fn around(subpixel: AnySubpixel, rng: &mut Rng) -> (Triangle, [i32; 2]) {
 }
 
 /// The oracle's hard cases, mirrored into the frame.
-fn thin(subpixel: AnySubpixel, rng: &mut Rng) -> Option<(Triangle, [i32; 2])> {
+fn thin(subpixel: Subpixel, rng: &mut Rng) -> Option<(Triangle, [i32; 2])> {
     let case = cases::any(rng, subpixel.bits(), i64::from(GUARD_PIXELS) << subpixel.bits());
     let mirror = case.sample.map(|c| c.signum());
     let flip = |p: [i64; 2]| [p[0] * mirror[0], p[1] * mirror[1]];
@@ -141,15 +141,15 @@ fn any_u(rng: &mut Rng) -> [f32; 3] {
 
 #[test]
 fn varyings_and_depths_with_eight_bits() {
-    interpolated(AnySubpixel::Sub8, 8, 5_000_000);
+    interpolated(Subpixel::Sub8, 8, 5_000_000);
 }
 
 #[test]
 fn varyings_and_depths_with_four_bits() {
-    interpolated(AnySubpixel::Sub4, 4, 5_000_000);
+    interpolated(Subpixel::Sub4, 4, 5_000_000);
 }
 
-fn interpolated(subpixel: AnySubpixel, stream: u64, samples: u64) {
+fn interpolated(subpixel: Subpixel, stream: u64, samples: u64) {
     let mut rng = Rng::stream(run_seed(), stream);
     let mut probe = Probe::new(Recorded, subpixel);
     let (mut varying, mut one_sign, mut depth) = (Errors::default(), Errors::default(), Errors::default());
@@ -202,10 +202,10 @@ fn longest([a, b, c]: Triangle) -> i64 {
 #[test]
 fn varyings_from_depths() {
     let mut rng = Rng::stream(run_seed(), 1);
-    let mut probe = Probe::new(Recorded, AnySubpixel::Sub8);
+    let mut probe = Probe::new(Recorded, Subpixel::Sub8);
     let mut varying = Errors::default();
     while varying.count() < 1_000_000 {
-        let case = any_case(AnySubpixel::Sub8, &mut rng);
+        let case = any_case(Subpixel::Sub8, &mut rng);
         let (u, _) = probe.interpolated(&case.vertices(), case.pixel).expect("covered");
         let exact = from_depths(&case);
         varying.add(exact.error_in_eps(u, case.largest()));
@@ -222,7 +222,7 @@ fn varyings_from_depths() {
 
 /// E0/z0 : E1/z1 : E2/z2 is E0 z1 z2 : E1 z2 z0 : E2 z0 z1, without a division; products of two f32 are exact in f64.
 fn from_depths(case: &Case) -> Dd {
-    let e = weights(case.tri, case.sample(AnySubpixel::Sub8));
+    let e = weights(case.tri, case.sample(Subpixel::Sub8));
     let z = case.z.map(f64::from);
     let t = [0, 1, 2].map(|i| Dd::from_i128(e[i]) * (z[(i + 1) % 3] * z[(i + 2) % 3]));
     let term = |i: usize| t[i] * f64::from(case.u[i]);
@@ -230,7 +230,7 @@ fn from_depths(case: &Case) -> Dd {
 }
 
 fn rational_from_depths(case: &Case) -> Rational {
-    let e = weights(case.tri, case.sample(AnySubpixel::Sub8));
+    let e = weights(case.tri, case.sample(Subpixel::Sub8));
     let t = [0, 1, 2].map(|i| rational::from_int(e[i]) / rational::from_f32(case.z[i]));
     let numerator: Rational = (0..3).map(|i| &t[i] * rational::from_f32(case.u[i])).sum();
     numerator / t.iter().sum::<Rational>()
@@ -241,13 +241,13 @@ fn rational_from_depths(case: &Case) -> Rational {
 #[test]
 fn a_sample_on_a_vertex_sees_the_vertex() {
     let mut rng = Rng::stream(run_seed(), 2);
-    let mut probe = Probe::new(Recorded, AnySubpixel::Sub8);
+    let mut probe = Probe::new(Recorded, Subpixel::Sub8);
     let mut varying = Errors::default();
     let mut seen = 0;
     while seen < 50_000 {
-        let mut case = any_case(AnySubpixel::Sub8, &mut rng);
+        let mut case = any_case(Subpixel::Sub8, &mut rng);
         let corner = rng.index(3);
-        case.tri[corner] = case.sample(AnySubpixel::Sub8);
+        case.tri[corner] = case.sample(Subpixel::Sub8);
         if !covers(case.tri, case.tri[corner]) {
             continue;
         }

@@ -11,11 +11,11 @@
     reason = "subpixels are within the guard band, in i32 here and in i64 there"
 )]
 
-use alberti_math::{AnySubpixel, GUARD_PIXELS, Rgba8, Subpixel};
+use alberti_math::{GUARD_PIXELS, Rgba8, Subpixel};
 use alberti_oracle::cases;
 use alberti_oracle::coverage::{Triangle, area2, covers, weights};
 use alberti_oracle::rng::{Rng, run_seed};
-use alberti_raster::{Cull, Edge, EdgeInt, FITS_I32, NoDepth, Outcome, Rgba8888, Span, SpanWalker, Target};
+use alberti_raster::{Cull, Edge, FITS_I32, NoDepth, Outcome, Rgba8888, Span, SpanWalker, Target};
 use alberti_tests::probe::{Covered, LARGEST, Probe, bare, draw_widest, steps};
 
 /// All 289^3 ordered triples of 28.4 positions in the closed pixel, of which these have positive area, and so many of
@@ -33,7 +33,7 @@ fn every_triangle_within_a_pixel() {
         let [a, b, c] = bare(tri);
         let mut count = Covered::default();
         let white = |()| Some(Rgba8::WHITE);
-        let outcome = draw_widest(AnySubpixel::Sub4, &mut target, [&a, &b, &c], cull, white, &mut count);
+        let outcome = draw_widest(Subpixel::Sub4, &mut target, [&a, &b, &c], cull, white, &mut count);
         (count.0, outcome)
     };
     let (mut positive, mut on_a_line, mut covered) = (0, 0, 0);
@@ -68,17 +68,17 @@ fn every_triangle_within_a_pixel() {
 
 #[test]
 fn adversarial_samples_with_four_bits() {
-    adversarial(AnySubpixel::Sub4, 4);
+    adversarial(Subpixel::Sub4, 4);
 }
 
 #[test]
 fn adversarial_samples_with_eight_bits() {
-    adversarial(AnySubpixel::Sub8, 8);
+    adversarial(Subpixel::Sub8, 8);
 }
 
 /// Half of the 10^7 samples: through the edge functions wherever the sample lies, and through the rasterizer wherever
 /// a frame can have it.
-fn adversarial(subpixel: AnySubpixel, stream: u64) {
+fn adversarial(subpixel: Subpixel, stream: u64) {
     const SAMPLES: u64 = 5_000_000;
     let (bits, guard) = (subpixel.bits(), i64::from(GUARD_PIXELS) << subpixel.bits());
     let mut rng = Rng::stream(run_seed(), stream);
@@ -123,13 +123,15 @@ fn on_a_line(tri: Triangle, sample: [i64; 2]) -> bool {
 }
 
 /// The verdict of the edge functions in i64, without the rasterizer around them.
-fn inside(subpixel: AnySubpixel, tri: Triangle, sample: [i64; 2]) -> bool {
-    edges::<i64>(subpixel, tri, sample.map(|c| c as i32)).iter().all(|e| e.value + e.bias >= 0)
+fn inside(subpixel: Subpixel, tri: Triangle, sample: [i64; 2]) -> bool {
+    let (sample, one) = (sample.map(|c| c as i32), 1 << subpixel.bits());
+    let edges = ends(tri).map(|[from, to]| Edge::<i64>::new(from, to, sample, one));
+    edges.iter().all(|e| e.value + e.bias >= 0)
 }
 
 /// Whether the sample lies in the span of its row, walked to from some rows above and columns to the left; `None`
 /// beside the triangle's box.
-fn in_span(subpixel: AnySubpixel, rng: &mut Rng, tri: Triangle, sample: [i64; 2]) -> Option<bool> {
+fn in_span(subpixel: Subpixel, rng: &mut Rng, tri: Triangle, sample: [i64; 2]) -> Option<bool> {
     let [column, row] = sample.map(|c| (c >> subpixel.bits()) as i32);
     let [columns, rows] = [0, 1].map(|axis| samples(subpixel, tri, axis));
     if !columns.contains(&column) || !rows.contains(&row) {
@@ -137,11 +139,9 @@ fn in_span(subpixel: AnySubpixel, rng: &mut Rng, tri: Triangle, sample: [i64; 2]
     }
     let left = column - within(rng, &(0..1 + (column - columns.start).min(12)));
     let top = row - within(rng, &(0..1 + (row - rows.start).min(12)));
-    let mut walker = SpanWalker::new(
-        &edges::<i64>(subpixel, tri, center(subpixel, [left, top])),
-        columns.end - left,
-        rows.end - top,
-    );
+    let first = center(subpixel, [left, top]);
+    let edges = ends(tri).map(|[from, to]| Edge::<i64>::new(from, to, first, 1 << subpixel.bits()));
+    let mut walker = SpanWalker::new(&edges, columns.end - left, rows.end - top);
     if row - top >= walker.rows() {
         return Some(false);
     }
@@ -153,29 +153,49 @@ fn in_span(subpixel: AnySubpixel, rng: &mut Rng, tri: Triangle, sample: [i64; 2]
 }
 
 /// The centre of a pixel.
-fn center(subpixel: AnySubpixel, pixel: [i32; 2]) -> [i32; 2] {
+fn center(subpixel: Subpixel, pixel: [i32; 2]) -> [i32; 2] {
     pixel.map(|i| (i << subpixel.bits()) + (1 << (subpixel.bits() - 1)))
 }
 
-/// The three edges, clockwise on the screen, with their values at `sample`.
-fn edges<I: EdgeInt>(subpixel: AnySubpixel, tri: Triangle, sample: [i32; 2]) -> [Edge<I>; 3] {
+/// The ends of the three edges, clockwise on the screen.
+fn ends(tri: Triangle) -> [[[i32; 2]; 2]; 3] {
     let [a, b, c] = tri.map(|p| p.map(|c| c as i32));
     let [b, c] = if area2(tri) > 0 { [b, c] } else { [c, b] };
-    [(b, c), (c, a), (a, b)].map(|(from, to)| Edge::new(from, to, sample, 1 << subpixel.bits()))
+    [[b, c], [c, a], [a, b]]
 }
 
 #[test]
 fn both_widths_of_edge_functions_agree_at_the_bound_with_four_bits() {
-    widths_agree(AnySubpixel::Sub4, 14);
+    widths_agree(Subpixel::Sub4, 14);
 }
 
 #[test]
 fn both_widths_of_edge_functions_agree_at_the_bound_with_eight_bits() {
-    widths_agree(AnySubpixel::Sub8, 18);
+    widths_agree(Subpixel::Sub8, 18);
+}
+
+/// The spans of so many rows, going down past the last as the rasterizer does.
+macro_rules! walk {
+    ($int:ty, $edges:expr, $width:expr, $rows:expr) => {{
+        let mut edges: [Edge<$int>; 3] = $edges;
+        let mut walker = SpanWalker::new(&edges, $width, $rows);
+        (0..walker.rows())
+            .map(|_| {
+                let span = walker.span();
+                for edge in &mut edges {
+                    // What a fragment's weights are made of.
+                    let _ = edge.value + edge.step_x * <$int>::from(span.start.max(span.end));
+                    edge.value += edge.step_y;
+                }
+                walker.next_row();
+                span
+            })
+            .collect::<Vec<Span>>()
+    }};
 }
 
 /// Boxes whose area, with a pixel more on each side, is the largest that 32 bits hold. An overflow would panic.
-fn widths_agree(subpixel: AnySubpixel, stream: u64) {
+fn widths_agree(subpixel: Subpixel, stream: u64) {
     let mut rng = Rng::stream(run_seed(), stream);
     let (mut largest, mut spans, mut covered) = (0i64, 0u64, 0u64);
     for _ in 0..120_000 {
@@ -193,8 +213,9 @@ fn widths_agree(subpixel: AnySubpixel, stream: u64) {
         // The last rows of the box, every other time.
         let top = if rng.one_in(2) { rows.end - count } else { top };
         let first = center(subpixel, [left, top]);
-        let narrow = walk(edges::<i32>(subpixel, tri, first), right - left, count);
-        let wide = walk(edges::<i64>(subpixel, tri, first), right - left, count);
+        let (ends, one) = (ends(tri), 1 << subpixel.bits());
+        let narrow = walk!(i32, ends.map(|[from, to]| Edge::new(from, to, first, one)), right - left, count);
+        let wide = walk!(i64, ends.map(|[from, to]| Edge::new(from, to, first, one)), right - left, count);
         assert_eq!(narrow, wide, "{tri:?} from {first:?}");
         spans += narrow.len() as u64;
         covered += narrow.iter().filter(|s| s.start < s.end).count() as u64;
@@ -209,34 +230,17 @@ fn ratio(area: i64) -> f64 {
     f64::from(area as i32) / f64::from(FITS_I32 as i32)
 }
 
-/// The spans of `rows` rows, going down past the last as the rasterizer does.
-fn walk<I: EdgeInt>(mut edges: [Edge<I>; 3], width: i32, rows: i32) -> Vec<Span> {
-    let mut walker = SpanWalker::new(&edges, width, rows);
-    (0..walker.rows())
-        .map(|_| {
-            let span = walker.span();
-            for edge in &mut edges {
-                // What a fragment's weights are made of.
-                let _ = edge.value + edge.step_x * I::from(span.start.max(span.end));
-                edge.value = edge.value + edge.step_y;
-            }
-            walker.next_row();
-            span
-        })
-        .collect()
-}
-
 /// At the bound and one subpixel beyond, the row that is drawn is the row of the oracle.
 #[test]
 fn rows_are_exact_on_both_sides_of_the_bound() {
     let mut rng = Rng::stream(run_seed(), 3);
-    let runs = [AnySubpixel::Sub4, AnySubpixel::Sub8].map(|subpixel| rows_exact(subpixel, &mut rng));
+    let runs = [Subpixel::Sub4, Subpixel::Sub8].map(|subpixel| rows_exact(subpixel, &mut rng));
     println!("rows with a run: {runs:?}");
     assert!(runs.into_iter().flatten().all(|n| n > 1_000), "{runs:?}");
 }
 
 /// How many rows had covered samples, at the bound and beyond it.
-fn rows_exact(subpixel: AnySubpixel, rng: &mut Rng) -> [u32; 2] {
+fn rows_exact(subpixel: Subpixel, rng: &mut Rng) -> [u32; 2] {
     let mut probe = Probe::new(NoDepth, subpixel);
     let mut runs = [0; 2];
     for i in 0..12_000 {
@@ -276,7 +280,7 @@ fn rows_exact(subpixel: AnySubpixel, rng: &mut Rng) -> [u32; 2] {
 }
 
 /// Width and height of a box, in subpixels, for which a subpixel more in height would be too much for 32 bits.
-fn largest_box(subpixel: AnySubpixel, rng: &mut Rng) -> [i64; 2] {
+fn largest_box(subpixel: Subpixel, rng: &mut Rng) -> [i64; 2] {
     let [one, _] = steps(subpixel);
     let longest = (i64::from(GUARD_PIXELS) * one).min(FITS_I32 / (2 * one));
     let shortest = FITS_I32 / longest + 1;
@@ -288,7 +292,7 @@ fn largest_box(subpixel: AnySubpixel, rng: &mut Rng) -> [i64; 2] {
 }
 
 /// A triangle that touches all four sides of a box of this size, somewhere that a frame can show at least in part.
-fn spanning(subpixel: AnySubpixel, rng: &mut Rng, [width, height]: [i64; 2]) -> Triangle {
+fn spanning(subpixel: Subpixel, rng: &mut Rng, [width, height]: [i64; 2]) -> Triangle {
     let guard = i64::from(GUARD_PIXELS) << subpixel.bits();
     loop {
         let mut any = |length: i64| match rng.index(6) {
@@ -315,7 +319,7 @@ fn spanning(subpixel: AnySubpixel, rng: &mut Rng, [width, height]: [i64; 2]) -> 
 }
 
 /// The columns or rows whose samples lie within the triangle's box.
-fn samples(subpixel: AnySubpixel, tri: Triangle, axis: usize) -> std::ops::Range<i32> {
+fn samples(subpixel: Subpixel, tri: Triangle, axis: usize) -> std::ops::Range<i32> {
     let (mut low, mut high) = (i64::MAX, i64::MIN);
     for p in tri {
         (low, high) = (low.min(p[axis]), high.max(p[axis]));

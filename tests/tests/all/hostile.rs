@@ -81,7 +81,7 @@ struct Policies<D, S, P>(D, S, P);
 /// Draws the case and looks at every pixel.
 fn check<D: DepthFormat, V: Varying>(
     case: &Case,
-    Policies(format, subpixel, interpolation): Policies<D, impl Subpixel, impl Interpolation>,
+    Policies(format, subpixel, interpolation): Policies<D, Subpixel, impl Interpolation>,
     planes: (f32, f32),
     varying: impl Fn(&[f32; 5]) -> V,
     fragment_stage: impl FragmentStage<V, Color = Rgba8>,

@@ -11,7 +11,7 @@
 
 use alberti::glam::Vec3;
 use alberti::{
-    AnyDepth, AnySubpixel, Cull, DepthFormat, Frame, Mesh, Pass, Perspective, Rgba8888, Sides, Slot, Stats,
+    AnyDepth, Cull, DepthFormat, Frame, Mesh, Pass, Perspective, Rgba8888, Sides, Slot, Stats, Subpixel,
     Target, View, Viewport,
 };
 use alberti_oracle::rng::{Rng, run_seed};
@@ -31,7 +31,7 @@ struct Picture {
 }
 
 /// The picture of a triangle in `SIZE` rows from `top` on, from column `left` on.
-fn picture(subpixel: AnySubpixel, triangle: [&Vertex<[f32; 2]>; 3], [left, top]: [i64; 2]) -> Picture {
+fn picture(subpixel: Subpixel, triangle: [&Vertex<[f32; 2]>; 3], [left, top]: [i64; 2]) -> Picture {
     let width = (left + SIZE) as usize;
     let mut color = vec![0; width * SIZE as usize];
     let mut depth = vec![f32::from_bits(NOTHING[2]); color.len()];
@@ -57,7 +57,7 @@ fn visible(color: &[u32], seen: &Seen<[f32; 2]>, depth: &[u32], width: usize, le
 /// Positions in and around the picture, with the zs, the q and the varying of each.
 type Plain = [([i64; 2], f32, f32, [f32; 2]); 3];
 
-fn any_triangle(subpixel: AnySubpixel, rng: &mut Rng) -> Plain {
+fn any_triangle(subpixel: Subpixel, rng: &mut Rng) -> Plain {
     let [one, _] = steps(subpixel);
     [(); 3].map(|()| {
         let p = [(); 2].map(|()| match rng.index(4) {
@@ -76,15 +76,15 @@ fn vertices(plain: Plain) -> [Vertex<[f32; 2]>; 3] {
 
 #[test]
 fn triangles_with_four_bits() {
-    triangles(AnySubpixel::Sub4, 4);
+    triangles(Subpixel::Sub4, 4);
 }
 
 #[test]
 fn triangles_with_eight_bits() {
-    triangles(AnySubpixel::Sub8, 8);
+    triangles(Subpixel::Sub8, 8);
 }
 
-fn triangles(subpixel: AnySubpixel, stream: u64) {
+fn triangles(subpixel: Subpixel, stream: u64) {
     let mut rng = Rng::stream(run_seed(), stream);
     let mut probe = Probe::new(Recorded, subpixel);
     let picture = |triangle: [&Vertex<_>; 3], corner| picture(subpixel, triangle, corner);

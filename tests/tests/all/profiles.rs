@@ -29,13 +29,12 @@ const VERTICES: [(Vec3, Vec3); 9] = [
 ];
 
 /// Both ways' pixels and depths.
-fn assert_same<I, S, C, D>(
-    profile: Profile<I, S, C, D>,
-    (interpolation, subpixel): (impl Interpolation, impl Subpixel),
+fn assert_same<I, C, D>(
+    profile: Profile<I, C, D>,
+    (interpolation, subpixel): (impl Interpolation, Subpixel),
     (color_format, depth_format): (C, D),
 ) where
     I: Interpolation,
-    S: Subpixel,
     C: ColorFormat<Pixel: Default + PartialEq + Debug>,
     D: DepthFormat<Stored: PartialEq>,
 {
@@ -94,7 +93,7 @@ fn a_profile_is_its_policies() {
 /// Those of the documentation's table.
 #[test]
 fn a_pixel_takes_the_bytes_that_the_table_says() {
-    fn bytes<I, S, C: ColorFormat, D: DepthFormat>(_: Profile<I, S, C, D>) -> usize {
+    fn bytes<I, C: ColorFormat, D: DepthFormat>(_: Profile<I, C, D>) -> usize {
         size_of::<C::Pixel>() + size_of::<D::Stored>()
     }
     assert_eq!([bytes(REFERENCE), bytes(DESKTOP), bytes(MCU), bytes(TINY)], [8, 8, 4, 2]);

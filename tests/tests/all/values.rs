@@ -1,5 +1,5 @@
-//! Policies that are values draw the bits of those that are types: [`AnyDepth`] those of each format, [`AnySubpixel`]
-//! those of both grids, [`Lines`] those of [`Spans16`] and [`Affine`], in `f32` and in fixed point.
+//! Policies that are values draw the bits of those that are types: [`AnyDepth`] those of each format,
+//! [`Lines`] those of [`Spans16`] and [`Affine`], in `f32` and in fixed point.
 //!
 //! The other tests draw by values, whose kernels are few. This file has the kernels of the types, each beside its
 //! value: the same random triangles, with one lane and with each kind of lanes that the machine has.
@@ -8,9 +8,9 @@
 use alberti::glam::Vec3;
 use alberti::lanes::{Floating, Machine, One};
 use alberti::{
-    Affine, AnyDepth, AnySubpixel, Cull, D16, D24, D32, DepthFormat, Equal, Exact, F32, F32Reversed, Farther,
-    Fixed, FixedPoint, Interpolation, Lines, NoDepth, OrEqual, ReadOnly, Rgba8888, Spans16, Sub4, Sub8,
-    Subpixel, Target, for_lanes,
+    Affine, AnyDepth, Cull, D16, D24, D32, DepthFormat, Equal, Exact, F32, F32Reversed, Farther, Fixed,
+    FixedPoint, Interpolation, Lines, NoDepth, OrEqual, ReadOnly, Rgba8888, Spans16, Sub8, Subpixel, Target,
+    for_lanes,
 };
 use alberti_oracle::rng::{Rng, run_seed};
 use alberti_raster::{Paint, Vertex};
@@ -24,7 +24,7 @@ const FRAMES: u64 = 12;
 const TRIANGLES: usize = 400;
 
 /// The triangles of a frame: those in the second half of the list again are drawn by a second pass.
-fn triangles(seed: u64, subpixel: impl Subpixel) -> Vec<[Vertex<Vec3>; 3]> {
+fn triangles(seed: u64, subpixel: Subpixel) -> Vec<[Vertex<Vec3>; 3]> {
     let mut rng = Rng::new(seed);
     let coarser = 8 - subpixel.bits();
     let on_grid = |c: Fixed| Fixed::from_subpixels(c.subpixels() >> coarser).expect("a smaller number");
@@ -35,7 +35,7 @@ fn triangles(seed: u64, subpixel: impl Subpixel) -> Vec<[Vertex<Vec3>; 3]> {
 
 /// Paints triangles over each other, in colours with every bit of the varying and of `salt`.
 fn paint<D: DepthFormat>(
-    policies: (impl Interpolation, impl Subpixel),
+    policies: (impl Interpolation, Subpixel),
     lanes: impl Floating,
     target: &mut Target<'_, Rgba8888, D>,
     triangles: &[[Vertex<Vec3>; 3]],
@@ -56,7 +56,7 @@ fn paint<D: DepthFormat>(
 /// again, with one for the same memory.
 fn frame<D: DepthFormat, E: DepthFormat<Stored = D::Stored>>(
     (plain, compared): (D, E),
-    policies: (impl Interpolation, impl Subpixel),
+    policies: (impl Interpolation, Subpixel),
     lanes: impl Floating,
     seed: u64,
 ) -> (Vec<u32>, Vec<D::Stored>) {
@@ -73,8 +73,8 @@ fn frame<D: DepthFormat, E: DepthFormat<Stored = D::Stored>>(
 /// Asserts that two choices of policies draw the same, depths after `word` has made the same words of them.
 fn assert_same<D, E, F, G>(
     stream: u64,
-    typed: ((D, E), (impl Interpolation, impl Subpixel)),
-    value: ((F, G), (impl Interpolation, impl Subpixel)),
+    typed: ((D, E), (impl Interpolation, Subpixel)),
+    value: ((F, G), (impl Interpolation, Subpixel)),
     word: impl Fn(D::Stored) -> u32,
 ) where
     D: DepthFormat,
@@ -136,18 +136,6 @@ fn comparisons_around_any_depth_are_those_around_the_formats() {
     assert_same(10, ((F32, ReadOnly(F32)), exact), ((any, ReadOnly(any)), exact), |depth: f32| {
         depth.to_bits()
     });
-}
-
-#[test]
-fn any_subpixel_is_each_of_the_grids() {
-    let depth = (AnyDepth::F32, AnyDepth::F32);
-    for (stream, interpolation) in [(11, Lines::bounded(0.01)), (12, Lines::affine())] {
-        let fixed = FixedPoint(interpolation);
-        assert_same(stream, (depth, (fixed, Sub4)), (depth, (fixed, AnySubpixel::Sub4)), |depth| depth);
-        assert_same(stream, (depth, (fixed, Sub8)), (depth, (fixed, AnySubpixel::Sub8)), |depth| depth);
-    }
-    assert_same(13, (depth, (Exact, Sub4)), (depth, (Exact, AnySubpixel::Sub4)), |depth| depth);
-    assert_same(14, (depth, (Exact, Sub8)), (depth, (Exact, AnySubpixel::Sub8)), |depth| depth);
 }
 
 #[test]

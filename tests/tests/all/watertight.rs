@@ -13,8 +13,8 @@
 
 use alberti::glam::Vec3;
 use alberti::{
-    AnySubpixel, Camera, Cull, Frame, Mesh, NoDepth, Pass, Perspective, Rgba8, Rgba8888, Sides, Slot, Stats,
-    Subpixel, Target, View,
+    Camera, Cull, Frame, Mesh, NoDepth, Pass, Perspective, Rgba8, Rgba8888, Sides, Slot, Stats, Subpixel,
+    Target, View,
 };
 use alberti_oracle::coverage::{area2, weights};
 use alberti_oracle::rng::{Rng, run_seed};
@@ -65,15 +65,15 @@ enum Lattice {
 
 #[test]
 fn jittered_grids_with_four_bits() {
-    grids(AnySubpixel::Sub4, 4);
+    grids(Subpixel::Sub4, 4);
 }
 
 #[test]
 fn jittered_grids_with_eight_bits() {
-    grids(AnySubpixel::Sub8, 8);
+    grids(Subpixel::Sub8, 8);
 }
 
-fn grids(subpixel: AnySubpixel, stream: u64) {
+fn grids(subpixel: Subpixel, stream: u64) {
     let mut rng = Rng::stream(run_seed(), stream);
     let mut frame = Frame640::new();
     let [one, half] = steps(subpixel);
@@ -104,7 +104,7 @@ fn grids(subpixel: AnySubpixel, stream: u64) {
 
 /// Triangles, clockwise on the screen, over a frame and a margin. `stretched` pulls the outermost vertices far away.
 fn grid(
-    subpixel: AnySubpixel,
+    subpixel: Subpixel,
     rng: &mut Rng,
     cell: i64,
     lattice: Lattice,
@@ -188,17 +188,17 @@ fn jittered(rng: &mut Rng, lattice: [i64; 3], n: i64, bumps: f64) -> Vec3 {
 
 #[test]
 fn closed_shells_clipped_at_the_guard_band() {
-    shells(AnySubpixel::Sub8, Sides::GuardBand, 21);
-    shells(AnySubpixel::Sub4, Sides::GuardBand, 22);
+    shells(Subpixel::Sub8, Sides::GuardBand, 21);
+    shells(Subpixel::Sub4, Sides::GuardBand, 22);
 }
 
 #[test]
 fn closed_shells_clipped_at_the_sides() {
-    shells(AnySubpixel::Sub8, Sides::Cube, 23);
-    shells(AnySubpixel::Sub4, Sides::Cube, 24);
+    shells(Subpixel::Sub8, Sides::Cube, 23);
+    shells(Subpixel::Sub4, Sides::Cube, 24);
 }
 
-fn shells(subpixel: AnySubpixel, sides: Sides, stream: u64) {
+fn shells(subpixel: Subpixel, sides: Sides, stream: u64) {
     let mut rng = Rng::stream(run_seed(), stream);
     let mut frame = Frame640::new();
     let mut all = Stats::default();

@@ -5,6 +5,7 @@ use alberti_math::Rgba8;
 use alberti_math::lanes::Lanes;
 use alberti_raster::{Differentiation, Gradient, NoDerivatives, PerPixel};
 use alberti_texture::format::Storage;
+use alberti_texture::surface::HeightMap;
 use alberti_texture::{Filter, MipFilter, MipSampler, Sampler, Size, Wrap};
 use core::fmt::Debug;
 
@@ -52,7 +53,20 @@ impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: Size> Map for MipSampler<'_,
     }
 }
 
-/// A map times a constant, to the nearest byte; the map's alpha is kept.
+/// A map that is there or not, as known at run time: without it, white.
+impl<M: Map> Map for Option<M> {
+    type Derivatives = M::Derivatives;
+
+    #[inline(always)]
+    fn read<L: Lanes>(&self, lanes: L, uv: [L::Number; 2], gradient: &Gradient<[L::Number; 2]>) -> L::U32 {
+        match self {
+            Some(map) => map.read(lanes, uv, gradient),
+            None => Rgba8::WHITE.read(lanes, uv, gradient),
+        }
+    }
+}
+
+/// A map times a constant, to the nearest byte; the map's alpha is kept. White, as 1, is not multiplied.
 #[derive(Clone, Copy, Debug)]
 pub struct Times<M> {
     /// A [`Map`].
@@ -66,11 +80,12 @@ impl<M: Map> Map for Times<M> {
 
     #[inline(always)]
     fn read<L: Lanes>(&self, lanes: L, uv: [L::Number; 2], gradient: &Gradient<[L::Number; 2]>) -> L::U32 {
-        times(lanes, self.map.read(lanes, uv, gradient), self.factor)
+        let words = self.map.read(lanes, uv, gradient);
+        if self.factor == Rgba8::WHITE { words } else { times(lanes, words, self.factor) }
     }
 }
 
-/// A map that is read by a call, instead of in place.
+/// A map of colours or heights that is read by a call, instead of in place.
 ///
 /// # Cost
 /// A call for the samples that are worked on together. In return the map's code is in a program once for each kind of
@@ -78,7 +93,7 @@ impl<M: Map> Map for Times<M> {
 /// that, above all in materials of several maps.
 #[derive(Clone, Copy, Debug)]
 pub struct Called<M>(
-    /// A [`Map`].
+    /// A [`Map`] or a [`HeightMap`].
     pub M,
 );
 
@@ -101,5 +116,20 @@ fn called<L: Lanes>(
     lanes.vectorize(
         #[inline(always)]
         || map.read(lanes, uv, gradient),
+    )
+}
+
+impl<H: HeightMap> HeightMap for Called<H> {
+    #[inline(always)]
+    fn height_lanes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2]) -> L::Number {
+        called_height(lanes, &self.0, uv)
+    }
+}
+
+#[inline(never)]
+fn called_height<L: Lanes>(lanes: L, map: &impl HeightMap, uv: [L::Number; 2]) -> L::Number {
+    lanes.vectorize(
+        #[inline(always)]
+        || map.height_lanes(lanes, uv),
     )
 }

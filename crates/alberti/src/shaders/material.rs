@@ -47,10 +47,10 @@ mod vector;
 pub use layers::{Color, Emission, Gloss, Occlusion, Specular, Wetness};
 pub use light::{AnyLight, Directional, Light, PointLight, SpotLight};
 pub use map::{Called, Map, Times};
-pub use reflectance::{AnyReflectance, BlinnPhong, Lambert, Phong, Reflectance, Shininess};
+pub use reflectance::{AnyReflectance, BlinnPhong, Lambert, Phong, Reflectance};
 pub use reflection::Reflection;
 pub use relief::{Bump, NormalMap, ObjectNormals, Parallax, TwoChannels};
-pub use surface::{Axes, Framed, Layer, OnSurface, Placed, Surface, Textured, Viewer};
+pub use surface::{Axes, Framed, Layer, OnSurface, Placed, Surface, Viewer};
 
 use super::map;
 use alberti_math::glam::{Vec2, Vec3};
@@ -104,10 +104,11 @@ where
 
     #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, V>) -> (L::U32, L::Mask) {
-        let Fragments { lanes, varying, mask, .. } = fragments;
-        let mut surface = Surface::new(fragments).placed::<V>(*lanes, varying, self.lighting.viewer);
-        self.layers.apply(*lanes, varying, &mut surface);
-        (self.lighting.color(*lanes, &surface), *mask)
+        let Fragments { lanes, varying, gradient, mask, .. } = *fragments;
+        let surface = Surface::new(lanes, V::uv(&varying), gradient.map(|bundle| V::uv(&bundle)));
+        let mut surface = surface.placed::<V>(lanes, &varying, self.lighting.viewer);
+        self.layers.apply(lanes, &varying, &mut surface);
+        (self.lighting.color(lanes, &surface), mask)
     }
 }
 
@@ -209,10 +210,9 @@ impl<M: Layer<Vec2>> FragmentStage<(Vec3, (Vec3, Vec2))> for Gouraud<M> {
 
     #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, (Vec3, (Vec3, Vec2))>) -> (L::U32, L::Mask) {
-        let Fragments { lanes, varying: (scattered, (mirrored, _)), mask, .. } = *fragments;
-        let fragments = fragments.part::<Vec2>(|(_, (_, uv))| *uv);
-        let mut surface = Surface::new(&fragments);
-        self.layers.apply(lanes, &fragments.varying, &mut surface);
+        let Fragments { lanes, varying: (scattered, (mirrored, uv)), gradient, mask, .. } = *fragments;
+        let mut surface = Surface::new(lanes, uv, gradient.map(|(_, (_, uv))| uv));
+        self.layers.apply(lanes, &uv, &mut surface);
         (surface.seen(lanes, scattered, mirrored), mask)
     }
 }

@@ -3,9 +3,8 @@
 use super::{AMBIENT, DIFFUSE};
 use crate::scene::{self, Camera, EnvironmentKind, Image, Model};
 use alberti::glam::Vec3;
-use alberti::lanes::Lanes;
 use alberti::shaders::material::{AnyLight, Directional, PointLight, SpotLight, Viewer};
-use alberti::texture::environment::{CubeMap, Environment, LatLong, SphereMap, Turned};
+use alberti::texture::environment::{AnyEnvironment, CubeMap, SphereMap, Turned};
 use alberti::texture::surface::AnyParallax;
 use alberti::{Eye, Frame, Point3, Vector3, World};
 
@@ -74,49 +73,14 @@ pub(super) fn parallax(relief: scene::Relief) -> Option<AnyParallax> {
     }
 }
 
-/// The layout of an image of all directions.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum AnyEnvironment {
-    LatLong(Upright),
-    Cube(CubeMap),
-    Sphere(Turned<SphereMap>),
-}
-
-impl AnyEnvironment {
-    /// The layout of this image, for a camera that stands so.
-    pub(super) fn new(kind: EnvironmentKind, image: &Image, camera: Frame<Eye, World>) -> Self {
-        match kind {
-            EnvironmentKind::LatLong => Self::LatLong(Upright { rows: image.height }),
-            EnvironmentKind::Cube => Self::Cube(CubeMap { side: image.width }),
-            EnvironmentKind::Sphere => Self::Sphere(Turned { environment: SphereMap, axes: camera.axes() }),
+/// The layout of an image of all directions, for a camera that stands so.
+pub(super) fn environment(kind: EnvironmentKind, image: &Image, camera: Frame<Eye, World>) -> AnyEnvironment {
+    match kind {
+        EnvironmentKind::LatLong => AnyEnvironment::LatLong,
+        EnvironmentKind::Cube => AnyEnvironment::CubeMap(CubeMap { side: image.width }),
+        EnvironmentKind::Sphere => {
+            AnyEnvironment::SphereMap(Turned { environment: SphereMap, axes: camera.axes() })
         }
-    }
-}
-
-impl Environment for AnyEnvironment {
-    #[inline(always)]
-    fn place<L: Lanes>(&self, lanes: L, direction: [L::Number; 3]) -> [L::Number; 2] {
-        match self {
-            Self::LatLong(upright) => upright.place(lanes, direction),
-            Self::Cube(cube) => cube.place(lanes, direction),
-            Self::Sphere(turned) => turned.place(lanes, direction),
-        }
-    }
-}
-
-/// [`LatLong`] for images that repeat in both directions: the poles stay in their rows.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Upright {
-    rows: u32,
-}
-
-impl Environment for Upright {
-    #[inline(always)]
-    #[expect(clippy::cast_precision_loss, reason = "at most 2^14")]
-    fn place<L: Lanes>(&self, lanes: L, direction: [L::Number; 3]) -> [L::Number; 2] {
-        let [u, v] = LatLong.place(lanes, direction);
-        let half = 0.5 / self.rows.max(1) as f32;
-        [u, lanes.min(lanes.max(v, lanes.splat(half)), lanes.splat(1.0 - half))]
     }
 }
 

@@ -3,14 +3,11 @@
 
 use crate::error::Error;
 use crate::options::{Filter, RenderOptions, Wrap};
-use crate::scene::{HeightImage, Image, Map, Model, Part};
-use alberti::Rgba8;
+use crate::scene::{EnvironmentKind, HeightImage, Image, Map, Model, Part};
 use alberti::glam::Vec2;
-use alberti::lanes::Lanes;
-use alberti::raster::Gradient;
-use alberti::shaders::material::{self, Called, Times};
+use alberti::shaders::material::{Called, Times};
 use alberti::texture::format::{Content, L16, Normals, Rgba8888, Scalars};
-use alberti::texture::surface::{HeightMap, bilinear_height_lanes};
+use alberti::texture::surface::BilinearHeights;
 use alberti::texture::{
     AnyFilter, AnyMipFilter, AnyWrap, MipSampler, Mipmap, Nearest, PowerOfTwo, Repeat, Sampler, Texture,
     mipmap,
@@ -130,64 +127,29 @@ pub(super) fn flat_map<'a>(texture: Texture<'a, Rgba8888>, options: &RenderOptio
     Called(texture.sampler(any_filter(options.filter), any_wrap(options.wrap)))
 }
 
+/// An image of all directions.
+pub(super) fn surroundings(kind: EnvironmentKind, image: &Image) -> Option<FlatMap<'_>> {
+    let texture = Texture::new(Rgba8888, &image.texels, image.width, image.height).ok()?;
+    let round = if kind == EnvironmentKind::LatLong { AnyWrap::Repeat } else { AnyWrap::Clamp };
+    Some(Called(texture.sampler_per_axis(AnyFilter::Bilinear, round, AnyWrap::Clamp)))
+}
+
 /// A texture of a plain surface, if it is one for the shortest way.
 pub(super) fn tile_map<'a>(texture: Texture<'a, Rgba8888>, options: &RenderOptions) -> Option<TileMap<'a>> {
     let tiles = (options.filter, options.wrap) == (Filter::Nearest, Wrap::Repeat);
     Some(texture.power_of_two().filter(|_| tiles)?.sampler(Nearest, Repeat))
 }
 
-/// A constant, times a map where there is one. A map times white is the map.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Scaled<M> {
-    pub(super) factor: Rgba8,
-    pub(super) map: Option<M>,
-}
-
-impl<M: material::Map> material::Map for Scaled<M> {
-    type Derivatives = M::Derivatives;
-
-    #[inline(always)]
-    fn read<L: Lanes>(&self, lanes: L, uv: [L::Number; 2], gradient: &Gradient<[L::Number; 2]>) -> L::U32 {
-        match self.map {
-            None => self.factor.read(lanes, uv, gradient),
-            Some(map) if self.factor == Rgba8::WHITE => map.read(lanes, uv, gradient),
-            Some(map) => Times { map, factor: self.factor }.read(lanes, uv, gradient),
-        }
-    }
-}
+/// A constant, times a map where there is one.
+pub(super) type Scaled<M> = Times<Option<M>>;
 
 /// Heights with a wrap mode.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct AnyHeights<'a> {
-    texture: Texture<'a, L16>,
-    wrap: AnyWrap,
-}
+pub(super) type AnyHeights<'a> = Called<BilinearHeights<'a, L16, AnyWrap>>;
 
-impl<'a> AnyHeights<'a> {
-    pub(super) fn new(image: &'a HeightImage, wrap: Wrap) -> Option<Self> {
-        let texture = Texture::new(L16, &image.heights, image.width, image.height).ok()?;
-        Some(Self { texture, wrap: any_wrap(wrap) })
-    }
-
-    /// The size of a texel in u and v.
-    #[expect(clippy::cast_precision_loss, reason = "at most 2^14")]
-    pub(super) fn texel(&self) -> Vec2 {
-        Vec2::new(1.0 / self.texture.width() as f32, 1.0 / self.texture.height() as f32)
-    }
-}
-
-impl HeightMap for AnyHeights<'_> {
-    #[inline(always)]
-    fn height_lanes<L: Lanes>(&self, lanes: L, uv: [L::Number; 2]) -> L::Number {
-        heights(lanes, self, uv)
-    }
-}
-
-/// The heights between texels.
-#[inline(never)]
-fn heights<L: Lanes>(lanes: L, of: &AnyHeights<'_>, uv: [L::Number; 2]) -> L::Number {
-    lanes.vectorize(
-        #[inline(always)]
-        || bilinear_height_lanes(lanes, &of.texture, (of.wrap, of.wrap), uv).0,
-    )
+/// Heights and, in u and v, the size of a texel.
+#[expect(clippy::cast_precision_loss, reason = "at most 2^14")]
+pub(super) fn any_heights(image: &HeightImage, wrap: Wrap) -> Option<(AnyHeights<'_>, Vec2)> {
+    let texture = Texture::new(L16, &image.heights, image.width, image.height).ok()?;
+    let texel = Vec2::new(1.0 / image.width as f32, 1.0 / image.height as f32);
+    Some((Called(BilinearHeights::new(texture, any_wrap(wrap))), texel))
 }

@@ -2,9 +2,9 @@
 //! asked for the samples that are worked on together; the colours are those of the library's layers.
 
 use super::color;
-use super::lamps::{AnyEnvironment, Lamps, parallax};
-use super::maps::{AnyHeights, AnyMap, Chains, Scaled, any_map};
-use crate::options::{Filter, RenderOptions, Shading, Wrap};
+use super::lamps::{Lamps, environment, parallax};
+use super::maps::{AnyHeights, AnyMap, Chains, FlatMap, Scaled, any_heights, any_map, surroundings};
+use crate::options::{RenderOptions, Shading};
 use crate::scene::{self, Model, NormalSpace, Part};
 use alberti::glam::{Mat3, Vec2, Vec3};
 use alberti::lanes::Lanes;
@@ -13,6 +13,7 @@ use alberti::shaders::material::{
     AnyLight, AnyReflectance, Bump, Color, Emission, Framed, Gloss, Layer, Lighting, Material, NormalMap,
     ObjectNormals, Occlusion, Parallax, Reflection, Specular, Surface, Wetness,
 };
+use alberti::texture::environment::AnyEnvironment;
 use alberti::texture::format::Content;
 use alberti::texture::surface::{AnyParallax, CentralDifferences, NormalEncoding::Unorm, Relief};
 use alberti::{Eye, Frame, Point3, Varying, World};
@@ -28,7 +29,7 @@ pub(super) struct Painted<'a> {
     wetness: Option<Wetness<Scaled<AnyMap<'a>>>>,
     occlusion: Option<Occlusion<AnyMap<'a>>>,
     emission: Option<Emission<Scaled<AnyMap<'a>>>>,
-    reflection: Option<Reflection<AnyEnvironment, AnyMap<'a>, Scaled<AnyMap<'a>>>>,
+    reflection: Option<Reflection<AnyEnvironment, FlatMap<'a>, Scaled<AnyMap<'a>>>>,
 }
 
 /// The source of its normals.
@@ -95,10 +96,11 @@ impl<'a> Painted<'a> {
         let relief = detail.height.and_then(|height| {
             let image = model.heights.get(height.heights)?;
             let [low, high] = height.range;
-            let map = AnyHeights::new(image, height.wrap.unwrap_or(options.wrap))?;
-            Some((height.relief, Relief { map, low, high, extent: Vec2::from_array(height.extent) }))
+            let (map, texel) = any_heights(image, height.wrap.unwrap_or(options.wrap))?;
+            Some((height.relief, texel, Relief { map, low, high, extent: Vec2::from_array(height.extent) }))
         });
-        let parallax = relief.and_then(|(kind, relief)| Some(Parallax { relief, policy: parallax(kind)? }));
+        let parallax =
+            relief.and_then(|(kind, _, relief)| Some(Parallax { relief, policy: parallax(kind)? }));
         let own = detail.normal.and_then(|normal| {
             let map = map(normal.map, Content::Normals)?;
             Some(match normal.space {
@@ -115,20 +117,20 @@ impl<'a> Painted<'a> {
                 }),
             })
         });
-        let bump = relief.filter(|(kind, _)| *kind != scene::Relief::Displacement);
-        let normal = own.or(bump.map(|(_, relief)| {
+        let bump = relief.filter(|(kind, ..)| *kind != scene::Relief::Displacement);
+        let normal = own.or(bump.map(|(_, step, relief)| {
             // Over a texel: the heights' own slopes jump between texels, which shows where these are large.
-            let map = CentralDifferences { map: relief.map, step: relief.map.texel() };
+            let map = CentralDifferences { map: relief.map, step };
             Facing::Bump(Bump(Relief { map, low: relief.low, high: relief.high, extent: relief.extent }))
         }));
-        let environment = detail.environment.and_then(|environment| {
-            let map = scene::Map {
-                image: environment.image,
-                filter: Some(Filter::Bilinear),
-                wrap: Some(Wrap::Repeat),
-            };
-            let image = model.textures.get(environment.image)?;
-            Some((AnyEnvironment::new(environment.kind, image, camera), colors(Some(map))?))
+        let reflection = detail.environment.and_then(|of| {
+            let image = model.textures.get(of.image)?;
+            Some(Reflection {
+                environment: environment(of.kind, image, camera),
+                image: surroundings(of.kind, image)?,
+                strength: scaled([detail.reflection; 3], numbers(detail.reflection_map)),
+                facing: 1.0,
+            })
         });
         let highlights = matches!(options.shading, Shading::Phong | Shading::Blinn | Shading::Gouraud);
         Self {
@@ -142,12 +144,7 @@ impl<'a> Painted<'a> {
             occlusion: numbers(detail.occlusion).map(|map| Occlusion { map, strength: 1.0 }),
             emission: (detail.emissive != [0.0; 3])
                 .then(|| Emission(scaled(detail.emissive, colors(detail.emissive_map)))),
-            reflection: environment.map(|(environment, image)| Reflection {
-                environment,
-                image,
-                strength: scaled([detail.reflection; 3], numbers(detail.reflection_map)),
-                facing: 1.0,
-            }),
+            reflection,
         }
     }
 

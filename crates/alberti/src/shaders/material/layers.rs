@@ -1,9 +1,10 @@
 //! Layers of one map: the colours and numbers of a surface.
 
 use super::map::Map;
-use super::surface::{Layer, OnSurface, Surface, Textured};
+use super::surface::{Layer, OnSurface, Surface};
 use super::vector::plus;
 use crate::shaders::wide::unpack;
+use alberti_math::Varying;
 use alberti_math::lanes::Lanes;
 use alberti_texture::surface::{ambient_occlusion_lanes, wet_lanes};
 
@@ -89,20 +90,20 @@ macro_rules! of_one_map {
     )+};
 }
 of_one_map! {
-    Color of Textured: |layer, lanes, surface| layer.0 => |words| {
+    Color of Varying: |layer, lanes, surface| layer.0 => |words| {
         surface.diffuse = colors(lanes, words);
         surface.alpha = lanes.shr(words, 24);
     };
-    Specular of Textured: |layer, lanes, surface| layer.0 => |words| surface.specular = colors(lanes, words);
-    Gloss of Textured: |layer, lanes, surface| layer.0 => |words| surface.gloss = red(lanes, words);
-    Wetness of Textured: |layer, lanes, surface| layer.0 => |words| {
+    Specular of Varying: |layer, lanes, surface| layer.0 => |words| surface.specular = colors(lanes, words);
+    Gloss of Varying: |layer, lanes, surface| layer.0 => |words| surface.gloss = red(lanes, words);
+    Wetness of Varying: |layer, lanes, surface| layer.0 => |words| {
         let wetness = red(lanes, words);
         (surface.diffuse, surface.gloss) = wet_lanes(lanes, surface.diffuse, surface.gloss, wetness);
     };
     Occlusion of OnSurface: |layer, lanes, surface| layer.map => |words| {
         surface.openness = ambient_occlusion_lanes(lanes, red(lanes, words), layer.strength);
     };
-    Emission of Textured: |layer, lanes, surface| layer.0 => |words| {
+    Emission of Varying: |layer, lanes, surface| layer.0 => |words| {
         surface.emission = plus(surface.emission, colors(lanes, words));
     };
 }

@@ -26,42 +26,22 @@ pub trait Reflectance: Copy + Debug {
 pub struct Lambert;
 
 /// Scattering as by [`Lambert`], and a mirrored share as by [`phong`](alberti_texture::surface::phong), with this
-/// [`Shininess`].
+/// exponent: see [`BlinnPhong`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Phong<E = u32>(
     /// The exponent.
     pub E,
 );
 
-/// Scattering as by [`Lambert`], and a mirrored share as by [`blinn_phong`](alberti_texture::surface::blinn_phong),
-/// with this [`Shininess`].
+/// Scattering as by [`Lambert`], and a mirrored share as by [`blinn_phong`](alberti_texture::surface::blinn_phong).
+///
+/// The exponent, up to 2^16, is a number (`u32`), which takes no notice of the gloss, or two (`[u32; 2]`). Of two, the
+/// gloss makes one between the first and the second, as [`shininess`](alberti_texture::surface::shininess) says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BlinnPhong<E = u32>(
     /// The exponent.
     pub E,
 );
-
-/// The exponent of a highlight, up to 2^16: a number, which takes no notice of the gloss, or two. Of two, the gloss
-/// makes one between the first and the second, as [`shininess`](alberti_texture::surface::shininess) says.
-pub trait Shininess: Copy + Debug {
-    /// The cosine to that power.
-    fn power<L: Lanes>(&self, lanes: L, cosine: L::Number, gloss: L::Number) -> L::Number;
-}
-
-impl Shininess for u32 {
-    #[inline(always)]
-    fn power<L: Lanes>(&self, lanes: L, cosine: L::Number, _: L::Number) -> L::Number {
-        power_lanes(lanes, cosine, *self)
-    }
-}
-
-impl Shininess for [u32; 2] {
-    #[inline(always)]
-    fn power<L: Lanes>(&self, lanes: L, cosine: L::Number, gloss: L::Number) -> L::Number {
-        let [least, greatest] = *self;
-        power_each_lanes(lanes, cosine, shininess_lanes(lanes, gloss, *self), least.max(greatest))
-    }
-}
 
 impl Reflectance for Lambert {
     #[inline(always)]
@@ -77,10 +57,23 @@ impl Reflectance for Lambert {
     }
 }
 
-/// Those that differ in the cosine only.
+/// The cosine to a power that is the same for all samples.
+#[inline(always)]
+fn one_power<L: Lanes>(lanes: L, cosine: L::Number, _: L::Number, exponent: u32) -> L::Number {
+    power_lanes(lanes, cosine, exponent)
+}
+
+/// The cosine to the power that the gloss makes of two.
+#[inline(always)]
+fn power_by_gloss<L: Lanes>(lanes: L, cosine: L::Number, gloss: L::Number, range: [u32; 2]) -> L::Number {
+    let [least, greatest] = range;
+    power_each_lanes(lanes, cosine, shininess_lanes(lanes, gloss, range), least.max(greatest))
+}
+
+/// Those that differ in the cosine and the exponent only.
 macro_rules! with_highlight {
-    ($($name:ident: $cosine:ident;)+) => {$(
-        impl<E: Shininess> Reflectance for $name<E> {
+    ($($name:ident of $exponent:ty: $cosine:ident, $power:ident;)+) => {$(
+        impl Reflectance for $name<$exponent> {
             #[inline(always)]
             fn shares<L: Lanes>(
                 &self,
@@ -92,15 +85,17 @@ macro_rules! with_highlight {
             ) -> [L::Number; 2] {
                 let cosine = $cosine(lanes, normal, to_light, to_viewer);
                 let seen = lanes.less(lanes.splat(0.0), cosine);
-                let mirrored = lanes.select(seen, self.0.power(lanes, cosine, gloss), lanes.splat(0.0));
+                let mirrored = lanes.select(seen, $power(lanes, cosine, gloss, self.0), lanes.splat(0.0));
                 [lambert_lanes(lanes, normal, to_light), mirrored]
             }
         }
     )+};
 }
 with_highlight! {
-    Phong: phong_cosine_lanes;
-    BlinnPhong: blinn_phong_cosine_lanes;
+    Phong of u32: phong_cosine_lanes, one_power;
+    Phong of [u32; 2]: phong_cosine_lanes, power_by_gloss;
+    BlinnPhong of u32: blinn_phong_cosine_lanes, one_power;
+    BlinnPhong of [u32; 2]: blinn_phong_cosine_lanes, power_by_gloss;
 }
 
 /// A [`Reflectance`] that is picked at run time, its exponent between two, which may be one: each is the type of its

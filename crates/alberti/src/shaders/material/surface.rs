@@ -3,7 +3,7 @@
 use alberti_math::glam::{Vec2, Vec3};
 use alberti_math::lanes::Lanes;
 use alberti_math::{Point3, Varying, Vector3, World, varying};
-use alberti_raster::{Differentiation, Fragments, Gradient, NoDerivatives};
+use alberti_raster::{Differentiation, Gradient, NoDerivatives};
 use alberti_texture::surface::unit_lanes;
 use core::fmt::Debug;
 
@@ -37,14 +37,11 @@ pub struct Framed {
 
 varying!(Framed { position: Vec3, axes: [Vec3; 3], uv: Vec2 });
 
-/// A varying with texture coordinates: [`Placed`], [`Framed`], a bare `Vec2`, or one of yours.
-pub trait Textured: Varying {
+/// A varying with texture coordinates, a place and a normal: [`Placed`], [`Framed`], or one of yours.
+pub trait OnSurface: Varying {
     /// The coordinates of a bundle.
     fn uv<N: Copy>(bundle: &Self::Of<N>) -> [N; 2];
-}
 
-/// A [`Textured`] varying with a place and a normal.
-pub trait OnSurface: Textured {
     /// The place and the normal of a bundle.
     fn place<N: Copy>(bundle: &Self::Of<N>) -> [[N; 3]; 2];
 }
@@ -55,35 +52,24 @@ pub trait Axes: OnSurface {
     fn axes<N: Copy>(bundle: &Self::Of<N>) -> [[N; 3]; 3];
 }
 
-impl Textured for Vec2 {
-    #[inline(always)]
-    fn uv<N: Copy>(bundle: &[N; 2]) -> [N; 2] {
-        *bundle
-    }
-}
-
-impl Textured for Placed {
+impl OnSurface for Placed {
     #[inline(always)]
     fn uv<N: Copy>(bundle: &Self::Of<N>) -> [N; 2] {
         bundle.uv
     }
-}
 
-impl OnSurface for Placed {
     #[inline(always)]
     fn place<N: Copy>(bundle: &Self::Of<N>) -> [[N; 3]; 2] {
         [bundle.position, bundle.normal]
     }
 }
 
-impl Textured for Framed {
+impl OnSurface for Framed {
     #[inline(always)]
     fn uv<N: Copy>(bundle: &Self::Of<N>) -> [N; 2] {
         bundle.uv
     }
-}
 
-impl OnSurface for Framed {
     #[inline(always)]
     fn place<N: Copy>(bundle: &Self::Of<N>) -> [[N; 3]; 2] {
         let [_, _, normal] = bundle.axes;
@@ -159,12 +145,11 @@ pub struct Surface<L: Lanes> {
 impl<L: Lanes> Surface<L> {
     /// A surface that is white, matt, and nowhere.
     #[inline(always)]
-    pub(super) fn new<V: Textured>(fragments: &Fragments<L, V>) -> Self {
-        let Fragments { lanes, varying, gradient, .. } = fragments;
+    pub(super) fn new(lanes: L, uv: [L::Number; 2], gradient: Gradient<[L::Number; 2]>) -> Self {
         let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
         Self {
-            uv: V::uv(varying),
-            gradient: gradient.map(|bundle| V::uv(&bundle)),
+            uv,
+            gradient,
             position: [zero; 3],
             normal: [zero; 3],
             to_viewer: [zero; 3],
@@ -198,7 +183,7 @@ impl<L: Lanes> Surface<L> {
 ///
 /// Tuples of up to eight are layers, one after the other. So is `()`, which changes nothing, and so is an `Option` of a
 /// layer.
-pub trait Layer<V: Textured>: Copy + Debug {
+pub trait Layer<V: Varying>: Copy + Debug {
     /// The policy for the derivatives that its maps need.
     type Derivatives: Differentiation;
 
@@ -206,7 +191,7 @@ pub trait Layer<V: Textured>: Copy + Debug {
     fn apply<L: Lanes>(&self, lanes: L, varyings: &V::Of<L::Number>, surface: &mut Surface<L>);
 }
 
-impl<V: Textured> Layer<V> for () {
+impl<V: Varying> Layer<V> for () {
     type Derivatives = NoDerivatives;
 
     #[inline(always)]
@@ -214,7 +199,7 @@ impl<V: Textured> Layer<V> for () {
 }
 
 /// A layer that is there or not, as known at run time.
-impl<V: Textured, T: Layer<V>> Layer<V> for Option<T> {
+impl<V: Varying, T: Layer<V>> Layer<V> for Option<T> {
     type Derivatives = T::Derivatives;
 
     #[inline(always)]
@@ -233,7 +218,7 @@ macro_rules! together {
 
 macro_rules! tuples {
     ($($($name:ident $index:tt)+;)+) => {$(
-        impl<V: Textured, $($name: Layer<V>),+> Layer<V> for ($($name,)+) {
+        impl<V: Varying, $($name: Layer<V>),+> Layer<V> for ($($name,)+) {
             type Derivatives = together!($($name)+);
 
             #[inline(always)]
