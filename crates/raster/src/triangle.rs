@@ -152,9 +152,8 @@ impl Bounds {
     /// Whether edge functions fit `i32` everywhere in the box and in the pixel around it, see [`FITS_I32`].
     #[inline]
     pub(crate) fn fits_i32(&self, bits: u32) -> bool {
-        let one = 1i32 << bits;
-        let side = |axis: usize| i64::from(self.max[axis] - self.min[axis]);
-        (side(0) + 2 * i64::from(one)) * (side(1) + i64::from(one)) <= FITS_I32
+        let side = |axis: usize, more: i32| i64::from(self.max[axis] - self.min[axis] + more);
+        side(0, 2 << bits) * side(1, 1 << bits) <= FITS_I32
     }
 
     /// All columns, and the rows within the limits, whose samples lie within the box, with so many bits of subpixels;
