@@ -203,11 +203,12 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
         let mut visible = target.scissor(columns, rows);
         let mut batch = paint.batch(lanes, &mut visible);
         let mut walk = Walk::new(lanes, mesh, screen, slots);
-        let mut number = first;
-        while let Some(indices) = mesh.triangle(number) {
-            walk.triangle(indices, counters, |vertices, counters| batch.triangle(vertices, counters));
-            number += 1;
-        }
+        walk.triangles(
+            first,
+            counters,
+            #[inline(always)]
+            |corners, counters| batch.triangle(corners, counters),
+        );
         batch.finish(counters);
     }
 
@@ -290,15 +291,17 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
             Some(viewport) => viewport,
             None => Viewport::new(0, 0, width, height).ok()?,
         };
-        let projection = self.view.projection(&viewport);
+        let (projection, guard) = (self.view.projection(&viewport), viewport.guard());
         Some(Screen {
             to_eye: self.view.object_to_eye(self.frame.as_ref()),
             projection,
             viewport,
             depth: projection.depth_map(depth.reversed()),
-            guard: viewport.guard(),
+            guard,
+            within: Screen::depths_within(&projection, guard),
             sides: self.sides,
             subpixel: self.paint.subpixel,
+            numbers: self.paint.numbers(depth),
         })
     }
 

@@ -5,11 +5,11 @@ use crate::pipeline::Pass;
 use crate::stats::Stats;
 use crate::vertex::Slot;
 use crate::walk::Walk;
-use alberti_math::for_lanes;
 use alberti_math::lanes::{Floating, Machine, One};
+use alberti_math::{Varying, for_lanes};
 use alberti_projection::Projection;
 use alberti_raster::{
-    ColorFormat, Counters, DepthFormat, FragmentStage, Interpolation, Outcome, Paint, Target, Vertex,
+    ColorFormat, Corner, Counters, DepthFormat, FragmentStage, Interpolation, Outcome, Paint, Target,
 };
 use core::fmt;
 use core::num::NonZeroU16;
@@ -20,9 +20,9 @@ use core::ops::Range;
 /// # Cost
 /// Three vertices of 16 bytes and a varying, and 4 bytes: 76 bytes where two numbers are carried.
 #[derive(Clone, Copy, Debug)]
-pub struct ScreenTriangle<V>(Option<Kept<V>>);
+pub struct ScreenTriangle<V: Varying>(Option<Kept<V>>);
 
-impl<V> ScreenTriangle<V> {
+impl<V: Varying> ScreenTriangle<V> {
     /// Room without a triangle.
     pub const EMPTY: Self = Self(None);
 }
@@ -31,8 +31,8 @@ impl<V> ScreenTriangle<V> {
 pub(crate) type Room<'a, V> = &'a mut [ScreenTriangle<V>];
 
 #[derive(Clone, Copy, Debug)]
-struct Kept<V> {
-    vertices: [Vertex<V>; 3],
+struct Kept<V: Varying> {
+    corners: [Corner<V>; 3],
     rows: Rows,
 }
 
@@ -78,10 +78,12 @@ where
         let (mut kept, mut counted, mut next) = (0, Stats::default(), 0);
         while let Some(indices) = mesh.triangle(next) {
             let (mut wanted, mut stats) = (kept, counted);
-            walk.triangle(indices, &mut stats, |vertices, stats| match Rows::of(paint, vertices, &pixels) {
+            walk.triangle(indices, &mut stats, &mut |corners, stats: &mut Stats| match Rows::of(
+                paint, corners, &pixels,
+            ) {
                 Ok(rows) => {
                     if let Some(place) = room.get_mut(wanted) {
-                        *place = ScreenTriangle(Some(Kept { vertices: vertices.map(|v| *v), rows }));
+                        *place = ScreenTriangle(Some(Kept { corners: corners.map(|corner| *corner), rows }));
                     }
                     wanted += 1;
                 }
@@ -98,7 +100,8 @@ where
     }
 
     /// Draws into a band of the frame the same as [`Pass::draw`] would, in the same order and with the same pixels.
-    /// Into a target of another frame's size, or whose depth runs the other way, it draws as [`Pass::draw`].
+    /// Into a target of another frame's size, or whose depth runs the other way or has other bits, it draws as
+    /// [`Pass::draw`].
     pub fn draw<C: ColorFormat>(&mut self, target: &mut Target<'_, C, D>)
     where
         F: FragmentStage<M::Varying>,
@@ -128,9 +131,10 @@ where
     ) where
         F: FragmentStage<M::Varying>,
     {
-        // A target of another frame, or of a depth that runs the other way, gets all triangles anew.
-        let same_way = target.depth_format().reversed() == self.depth.reversed();
-        if target.size() != self.size || !same_way {
+        // A target of another frame, or of depths in another unit, gets all triangles anew.
+        let (depth, found) = (self.depth, target.depth_format());
+        let same_depth = (found.reversed(), found.bits()) == (depth.reversed(), depth.bits());
+        if target.size() != self.size || !same_depth {
             self.pass.draw_from(0, lanes, target, counters);
             return;
         }
@@ -141,10 +145,10 @@ where
         let rows = rows.start - top..rows.end - top;
         let mut batch = self.pass.paint().batch(lanes, &mut visible);
         for ScreenTriangle(triangle) in self.kept {
-            if let Some(Kept { vertices, rows: its }) = triangle
+            if let Some(Kept { corners, rows: its }) = triangle
                 && its.meet(&rows)
             {
-                batch.triangle(vertices.each_ref(), counters);
+                batch.triangle(corners.each_ref(), counters);
             }
         }
         batch.finish(counters);
@@ -187,12 +191,12 @@ struct Rows {
 impl Rows {
     /// The rows of a triangle in a viewport of these `pixels`, or why it is never drawn there.
     #[inline]
-    fn of<F, P: Interpolation, V: Copy>(
+    fn of<F, P: Interpolation, V: Varying>(
         paint: &Paint<F, P>,
-        vertices: [&Vertex<V>; 3],
+        corners: [&Corner<V>; 3],
         [columns, rows]: &[Range<i32>; 2],
     ) -> Result<Self, Outcome> {
-        let covered = paint.reach(vertices, &[columns.clone(), rows.clone()])?.rows();
+        let covered = paint.reach(corners, &[columns.clone(), rows.clone()])?.rows();
         let row = |row: i32| u16::try_from(row - rows.start).ok();
         match (row(covered.start), row(covered.end).and_then(NonZeroU16::new)) {
             (Some(first), Some(end)) => Ok(Self { first, end }),
@@ -212,7 +216,7 @@ mod tests {
     use super::*;
     use alberti_math::glam::Vec2;
     use alberti_math::{Fixed, Sub4};
-    use alberti_raster::{Cull, Exact};
+    use alberti_raster::{Cull, Exact, Numbers, Vertex};
 
     #[test]
     fn a_triangle_takes_the_room_that_is_documented() {
@@ -225,7 +229,7 @@ mod tests {
         let rows = |corners: [[i32; 2]; 3], cull| {
             let vertices = corners.map(|p| {
                 let [x, y] = p.map(|c| Fixed::from_subpixels(c).expect("near the origin"));
-                Vertex { x, y, zs: 0.5, q: 1.0, varying: () }
+                Corner::new(Numbers::Float, &Vertex { x, y, zs: 0.5, q: 1.0, varying: () })
             });
             let paint = Paint { stage: (), interpolation: Exact, subpixel: Sub4, cull };
             let rows = Rows::of(&paint, vertices.each_ref(), &[0..10, 100..110])?;

@@ -1,14 +1,14 @@
 //! The geometry half of the pipeline: from a mesh to its triangles on the screen, steps 1 to 6.
 
 use crate::geometry::Geometry;
-use crate::vertex::{Slot, Transformed, outside};
+use crate::vertex::{Slot, outside};
 use alberti_math::glam::Vec3;
 use alberti_math::lanes::{Floating, Lanes, One};
 use alberti_math::{Eye, Frame, Mode, Object, Point3, Subpixel, Varying};
 use alberti_projection::{
     EyeVertex, Polygon, ProjectedVertex, Projection, SideBounds, Viewport, clip_near_far, clip_sides,
 };
-use alberti_raster::{Counters, Vertex};
+use alberti_raster::{Corner, Counters, Numbers, Vertex};
 use core::cmp::Ordering;
 
 /// The clip at the sides of the view.
@@ -30,8 +30,11 @@ pub(crate) struct Screen<Pr: Projection> {
     pub(crate) viewport: Viewport,
     pub(crate) depth: Pr::Depth,
     pub(crate) guard: SideBounds,
+    /// The result of [`depths_within`](Self::depths_within).
+    pub(crate) within: [f32; 2],
     pub(crate) sides: Sides,
     pub(crate) subpixel: Subpixel,
+    pub(crate) numbers: Numbers,
 }
 
 /// Coordinates above this may overflow when they are subtracted or multiplied.
@@ -50,37 +53,76 @@ impl<Pr: Projection> Screen<Pr> {
     /// Steps 1, 2, 4 and 6 for several points; where they are not within the planes, 4 and 6 have no meaning.
     #[inline(always)]
     pub(crate) fn place<L: Floating>(&self, lanes: L, points: &[L::Each<f32>; 3]) -> Places<L> {
-        let Self { projection, viewport, depth, guard, subpixel, .. } = self;
+        let Self { projection, viewport, depth, subpixel, .. } = self;
         lanes.vectorize(
             #[inline(always)]
             || {
                 let [x, y, z] = points;
                 let p = self.eye(lanes, [lanes.load(x), lanes.load(y), lanes.load(z)]);
-                let [x, y, z] = p;
-                let nowhere =
-                    !(within(lanes, x, LARGEST) & within(lanes, y, LARGEST) & within(lanes, z, LARGEST));
-                let side = projection.side_lanes(lanes, z);
-                let sides = bit(lanes, lanes.less(x, -side), outside::LEFT)
-                    | bit(lanes, lanes.less(side, x), outside::RIGHT)
-                    | bit(lanes, lanes.less(y, -side), outside::BELOW)
-                    | bit(lanes, lanes.less(side, y), outside::ABOVE);
-                let planes = bit(lanes, lanes.less(z, lanes.splat(projection.near())), outside::NEAR)
-                    | bit(lanes, lanes.less(lanes.splat(projection.far()), z), outside::FAR);
+                let side = projection.side_lanes(lanes, p[2]);
                 let [x, y, zs, q] = projection.project_lanes(lanes, depth, p);
-                let beyond = !(within(lanes, x, guard.x) & within(lanes, y, guard.y));
-                let ends = bit(lanes, nowhere, outside::NOWHERE) | bit(lanes, beyond, outside::GUARD);
-                let [x, y] = viewport.to_screen_lanes(lanes, *subpixel, [x, y]);
-                let words = [sides | planes | ends, x, y].map(|words| lanes.store_words(words));
+                let [column, row] = viewport.to_screen_lanes(lanes, *subpixel, [x, y]);
+                // Most vertices lie within all planes.
+                let outside = if lanes.bits(self.inside(lanes, p, side)) == all::<L>() {
+                    lanes.word(0)
+                } else {
+                    self.outside(lanes, p, side, [x, y])
+                };
+                let words = [outside, column, row].map(|words| lanes.store_words(words));
                 (words, [lanes.store(zs), lanes.store(q)])
             },
         )
     }
+
+    /// The points that are certainly within all planes, and within the guard band.
+    #[inline(always)]
+    fn inside<L: Lanes>(&self, lanes: L, [x, y, z]: [L::Number; 3], side: L::Number) -> L::Mask {
+        let [near, far] = self.within.map(|end| lanes.splat(end));
+        let within = |x| lanes.less(x, side) & lanes.less(-side, x);
+        let beside = within(x) & within(y);
+        beside & lanes.less(near, z) & lanes.less(z, far)
+    }
+
+    /// The bits of [`outside`] of points whose places on the cube are given too.
+    #[inline(always)]
+    fn outside<L: Lanes>(
+        &self,
+        lanes: L,
+        [x, y, z]: [L::Number; 3],
+        side: L::Number,
+        [xs, ys]: [L::Number; 2],
+    ) -> L::U32 {
+        let Self { projection, guard, .. } = self;
+        let nowhere = !(within(lanes, x, LARGEST) & within(lanes, y, LARGEST) & within(lanes, z, LARGEST));
+        let sides = bit(lanes, lanes.less(x, -side), outside::LEFT)
+            | bit(lanes, lanes.less(side, x), outside::RIGHT)
+            | bit(lanes, lanes.less(y, -side), outside::BELOW)
+            | bit(lanes, lanes.less(side, y), outside::ABOVE);
+        let planes = bit(lanes, lanes.less(z, lanes.splat(projection.near())), outside::NEAR)
+            | bit(lanes, lanes.less(lanes.splat(projection.far()), z), outside::FAR);
+        let beyond = !(within(lanes, xs, guard.x) & within(lanes, ys, guard.y));
+        let ends = bit(lanes, nowhere, outside::NOWHERE) | bit(lanes, beyond, outside::GUARD);
+        sides | planes | ends
+    }
+
+    /// The depths between which a vertex between the sides is certainly within the guard band and finite: none in
+    /// viewports that reach beyond it.
+    pub(crate) fn depths_within(projection: &Pr, guard: SideBounds) -> [f32; 2] {
+        let sides = guard.x >= 1.0 && guard.y >= 1.0;
+        if sides { [projection.near(), projection.far().min(LARGEST)] } else { [f32::INFINITY; 2] }
+    }
+}
+
+/// A bit for each lane.
+#[inline(always)]
+fn all<L: Lanes>() -> u32 {
+    (1 << L::COUNT) - 1
 }
 
 /// A bit where the mask is set.
 #[inline(always)]
-fn bit<L: Lanes>(lanes: L, mask: L::Mask, bit: u8) -> L::U32 {
-    lanes.select_words(mask, lanes.word(bit.into()), lanes.word(0))
+fn bit<L: Lanes>(lanes: L, mask: L::Mask, bit: u32) -> L::U32 {
+    lanes.select_words(mask, lanes.word(bit), lanes.word(0))
 }
 
 /// Whether |x| <= `most`; not so for NaN.
@@ -93,10 +135,13 @@ fn within<L: Lanes>(lanes: L, x: L::Number, most: f32) -> L::Mask {
 pub(crate) struct Walk<'a, M: Geometry, Pr: Projection> {
     mesh: &'a M,
     slots: &'a mut [Slot<M::Varying>],
-    /// Whether each vertex has a slot of its own, and is in it.
-    filled: bool,
+    /// The number of vertices, if each is in a slot of its own, or 0.
+    filled: usize,
     screen: Screen<Pr>,
 }
+
+/// A taker of triangles on the screen. What seldom happens calls it, so that there is one copy of it more, not several.
+type Sink<'a, V, K> = &'a mut dyn FnMut([&Corner<V>; 3], &mut K);
 
 impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     /// The walk with these slots, of which there is at least one. All vertices are transformed at once where the slots
@@ -109,65 +154,92 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         slots: &'a mut [Slot<M::Varying>],
     ) -> Self {
         let vertices = mesh.vertices();
-        let filled = vertices <= slots.len() && vertices / 2 <= mesh.triangles();
-        if filled {
+        let all = vertices <= slots.len() && vertices / 2 <= mesh.triangles();
+        if all {
             Slot::fill_all(lanes, mesh, &screen, vertices, slots);
         } else {
             slots.fill(Slot::EMPTY);
         }
+        let filled = if all { vertices } else { 0 };
         Self { mesh, slots, filled, screen }
     }
 
-    /// Hands `sink` the visible part of a triangle on the screen: nothing, the triangle, or the fan that clipping
-    /// leaves.
+    /// Hands `sink` the visible parts of the triangles from number `first` on, on the screen: of each nothing, the
+    /// triangle, or the fan that clipping leaves.
     #[inline(always)]
+    pub(crate) fn triangles<K: Counters>(
+        &mut self,
+        first: usize,
+        counters: &mut K,
+        mut sink: impl FnMut([&Corner<M::Varying>; 3], &mut K),
+    ) {
+        let (mesh, mut number) = (self.mesh, first);
+        loop {
+            let slots = self.slots.get(..self.filled).unwrap_or_default();
+            // Most triangles of a mesh that fits are inside.
+            let [i, j, k] = loop {
+                let Some([i, j, k]) = mesh.triangle(number) else { return };
+                number += 1;
+                let (Some(a), Some(b), Some(c)) = (slots.get(i), slots.get(j), slots.get(k)) else {
+                    break [i, j, k];
+                };
+                if a.outside | b.outside | c.outside != 0 {
+                    break [i, j, k];
+                }
+                counters.submitted();
+                sink([&a.screen, &b.screen, &c.screen], counters);
+            };
+            self.triangle([i, j, k], counters, &mut sink);
+        }
+    }
+
+    /// The same for one triangle.
+    #[inline(never)]
     pub(crate) fn triangle<K: Counters>(
         &mut self,
         indices: [usize; 3],
         counters: &mut K,
-        mut sink: impl FnMut([&Vertex<M::Varying>; 3], &mut K),
+        sink: Sink<'_, M::Varying, K>,
     ) {
-        let Self { mesh, slots, filled, screen } = self;
         counters.submitted();
+        let Self { mesh, slots, filled, screen } = self;
         let [i, j, k] = indices;
-        let [a, b, c] = indices.map(|index| Slot::<M::Varying>::place(index, slots.len()));
-        if !*filled {
-            for (place, index) in [(a, i), (b, j), (c, k)] {
+        let places = indices.map(|index| Slot::<M::Varying>::place(index, slots.len()));
+        if *filled == 0 {
+            for (place, index) in places.into_iter().zip(indices) {
                 if let Some(slot) = slots.get_mut(place) {
                     slot.keep(*mesh, screen, index);
                 }
             }
         }
-        let kept = |place: usize, index| slots.get(place).and_then(|slot| slot.kept(index));
+        let kept = |place: usize, index| slots.get(place).filter(|slot: &&Slot<_>| slot.holds(index));
         let own;
+        let [a, b, c] = places;
         let corners = if let (Some(a), Some(b), Some(c)) = (kept(a, i), kept(b, j), kept(c, k)) {
             [a, b, c]
         } else {
             // Two of the three share a slot, or there is no such vertex.
             own = alone(*mesh, screen, indices);
             let [a, b, c] = &own;
-            let (Some(a), Some(b), Some(c)) = (a.kept(i), b.kept(j), c.kept(k)) else {
+            if !(a.holds(i) && b.holds(j) && c.holds(k)) {
                 counters.dropped();
                 return;
-            };
+            }
             [a, b, c]
         };
-        // All of most triangles is inside.
         let all = corners[0].outside | corners[1].outside | corners[2].outside;
-        if all != 0 {
-            let common = corners[0].outside & corners[1].outside & corners[2].outside;
-            if all & outside::NOWHERE != 0 || common & (outside::NEAR | outside::FAR | outside::SIDES) != 0 {
-                counters.dropped();
-                return;
-            }
-            let sides = if screen.sides == Sides::Cube { outside::SIDES } else { 0 };
-            if all & (outside::NEAR | outside::FAR | outside::GUARD | sides) != 0 {
-                counters.clipped();
-                clip(*mesh, screen, (indices, corners), |vertices| sink(vertices, counters));
-                return;
-            }
+        let common = corners[0].outside & corners[1].outside & corners[2].outside;
+        if all & outside::NOWHERE != 0 || common & (outside::NEAR | outside::FAR | outside::SIDES) != 0 {
+            counters.dropped();
+            return;
         }
-        sink([&corners[0].screen, &corners[1].screen, &corners[2].screen], counters);
+        let sides = if screen.sides == Sides::Cube { outside::SIDES } else { 0 };
+        if all & (outside::NEAR | outside::FAR | outside::GUARD | sides) == 0 {
+            sink([&corners[0].screen, &corners[1].screen, &corners[2].screen], counters);
+        } else {
+            counters.clipped();
+            clip(*mesh, screen, indices, sink, counters);
+        }
     }
 }
 
@@ -189,29 +261,30 @@ fn alone<M: Geometry, Pr: Projection>(
 /// Steps 3 to 6 for a triangle that crosses a plane.
 #[cold]
 #[inline(never)]
-fn clip<M: Geometry, Pr: Projection>(
+fn clip<M: Geometry, Pr: Projection, K>(
     mesh: &M,
     screen: &Screen<Pr>,
-    (indices, corners): ([usize; 3], [&Transformed<M::Varying>; 3]),
-    mut sink: impl FnMut([&Vertex<M::Varying>; 3]),
+    indices: [usize; 3],
+    sink: Sink<'_, M::Varying, K>,
+    counters: &mut K,
 ) {
     // Slots do without these, since few triangles are clipped.
-    let positions = indices.map(|index| {
-        let (point, _) = mesh.vertex(index)?;
-        Some(Point3::new(screen.eye(One, point.coords.to_array()).into()))
+    let vertices = indices.map(|index| {
+        let (point, varying) = mesh.vertex(index)?;
+        Some((Point3::new(screen.eye(One, point.coords.to_array()).into()), varying))
     });
-    let [Some(a), Some(b), Some(c)] = positions else { return };
-    let positions = [a, b, c];
-    let varyings = corners.map(|corner| corner.screen.varying);
+    let [Some(a), Some(b), Some(c)] = vertices else { return };
+    let (positions, varyings) = ([a.0, b.0, c.0], [a.1, b.1, c.1]);
     let rotation = first_of(positions);
     let carried = rotated(varyings, rotation);
     let vertices = inside(screen, rotated(positions, rotation)).map(|vertex| {
         let Vertex { x, y, zs, q, varying } = vertex?;
-        Some(Vertex { x, y, zs, q, varying: weighted(varyings[0], carried, varying) })
+        let varying = weighted(varyings[0], carried, varying);
+        Some(Corner::new(screen.numbers, &Vertex { x, y, zs, q, varying }))
     });
     for fan in vertices.fan() {
         if let [Some(a), Some(b), Some(c)] = &fan {
-            sink([a, b, c]);
+            sink([a, b, c], counters);
         }
     }
 }

@@ -177,7 +177,7 @@ impl<'a> Drawing<'a> {
 
     /// Enough for each vertex of these triangles; a model of many small parts must not pay for all of its vertices in
     /// each.
-    fn slots<V: Copy>(&self, triangles: &[[u32; 3]]) -> Vec<Slot<V>> {
+    fn slots<V: alberti::Varying>(&self, triangles: &[[u32; 3]]) -> Vec<Slot<V>> {
         vec![Slot::EMPTY; self.model.vertices.len().min(3 * triangles.len())]
     }
 }

@@ -59,6 +59,17 @@ impl Fixed {
         if subpixels < -Self::LIMIT || subpixels > Self::LIMIT { None } else { Some(Self(subpixels)) }
     }
 
+    /// The coordinate of so many subpixels, which from [`LIMIT`](Self::LIMIT) on wrap to -`LIMIT`.
+    ///
+    /// # Cost
+    /// One instruction, where [`from_subpixels`](Self::from_subpixels) has two comparisons.
+    #[must_use]
+    #[inline(always)]
+    pub const fn wrapping(subpixels: i32) -> Self {
+        const UNUSED: u32 = i32::BITS - 24;
+        Self(subpixels << UNUSED >> UNUSED)
+    }
+
     /// `center + offset` pixels, snapped: `offset` is rounded to the nearest subpixel, halves upwards, and `center`,
     /// given in half pixels, is added exactly. `None` beyond the guard band, or for a NaN.
     ///
@@ -113,5 +124,8 @@ mod tests {
         }
         assert_eq!(Fixed::snap(Sub8, i32::MAX, 0.0), None);
         assert_eq!(Fixed::from_subpixels((1 << 23) + 1), None);
+        for (given, wrapped) in [(5, 5), (-5, -5), (1 << 23, -1 << 23), (-1 << 23, -1 << 23), (1 << 24, 0)] {
+            assert_eq!(Fixed::wrapping(given).subpixels(), wrapped);
+        }
     }
 }

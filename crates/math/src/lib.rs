@@ -32,7 +32,7 @@ pub use glam;
 pub use gradient::Gradient;
 pub use orientation::{Zone, orientation, signed_area};
 pub use q16::{Q16, scaled};
-pub use reciprocal::reciprocal;
+pub use reciprocal::{high, high_signed, reciprocal};
 pub use round::{floor_i32, round_half_up};
 pub use space::{Cube, Eye, Object, Point, Point2, Point3, Space, Vector, Vector2, Vector3, World};
 pub use varying::{Flat, Linear, Mode, Varying, blend2, combine, flatten, hull3, is_finite};

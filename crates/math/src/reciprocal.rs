@@ -39,6 +39,20 @@ pub fn reciprocal<const STEPS: u32>(x: u32) -> u32 {
     y
 }
 
+/// The highest 32 bits of the product of two words: a·b/2^32, rounded down.
+#[must_use]
+#[inline(always)]
+pub const fn high(a: u32, b: u32) -> u32 {
+    ((a as u64 * b as u64) >> 32) as u32
+}
+
+/// [`high`] of signed numbers.
+#[must_use]
+#[inline(always)]
+pub const fn high_signed(a: i32, b: i32) -> i32 {
+    ((a as i64 * b as i64) >> 32) as i32
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -144,6 +144,7 @@ macro_rules! varyings {
     ($($name:ident),*) => {$(
         impl<V: Varying, S: Space> Varying for $name<V, S> {
             type Of<T: Copy> = V::Of<T>;
+            const ZEROS: V::Of<u32> = V::ZEROS;
 
             #[inline(always)]
             fn gather<const N: usize>(values: [Self; N]) -> V::Of<[f32; N]> {

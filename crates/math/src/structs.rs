@@ -44,6 +44,7 @@ macro_rules! varying {
 
             impl $crate::Varying for $name {
                 type Of<T: Copy> = Bundle<T>;
+                const ZEROS: Bundle<u32> = Bundle { $($field: <$of as $crate::Varying>::ZEROS),+ };
 
                 #[inline(always)]
                 fn gather<const N: usize>(values: [Self; N]) -> Bundle<[f32; N]> {

@@ -48,6 +48,9 @@ pub trait Varying: Copy {
     /// The same bundle with components of type `T` instead of `f32`.
     type Of<T: Copy>: Copy;
 
+    /// A bundle of zeros: room for components.
+    const ZEROS: Self::Of<u32>;
+
     /// The components of `N` values, those that belong together side by side.
     #[must_use]
     fn gather<const N: usize>(values: [Self; N]) -> Self::Of<[f32; N]>;
@@ -74,6 +77,7 @@ pub trait Varying: Copy {
 
 impl Varying for () {
     type Of<T: Copy> = ();
+    const ZEROS: () = ();
 
     #[inline(always)]
     fn gather<const N: usize>(_: [Self; N]) {}
@@ -90,6 +94,7 @@ impl Varying for () {
 
 impl Varying for f32 {
     type Of<T: Copy> = T;
+    const ZEROS: u32 = 0;
 
     #[inline(always)]
     fn gather<const N: usize>(values: [Self; N]) -> [f32; N] {
@@ -114,6 +119,7 @@ impl Varying for f32 {
 
 impl<V: Varying, const K: usize> Varying for [V; K] {
     type Of<T: Copy> = [V::Of<T>; K];
+    const ZEROS: [V::Of<u32>; K] = [V::ZEROS; K];
 
     #[inline(always)]
     fn gather<const N: usize>(values: [Self; N]) -> Self::Of<[f32; N]> {
@@ -146,6 +152,7 @@ macro_rules! modes {
     ($($name:ident: $mode:ident => $inner:expr;)*) => {$(
         impl<V: Varying> Varying for $name<V> {
             type Of<T: Copy> = V::Of<T>;
+            const ZEROS: V::Of<u32> = V::ZEROS;
 
             #[inline(always)]
             fn gather<const N: usize>(values: [Self; N]) -> V::Of<[f32; N]> {
@@ -178,6 +185,7 @@ macro_rules! vectors {
     ($($vector:ident $size:literal: $($k:literal)+),*) => {$(
         impl Varying for $vector {
             type Of<T: Copy> = [T; $size];
+            const ZEROS: [u32; $size] = [0; $size];
 
             #[inline(always)]
             fn gather<const N: usize>(values: [Self; N]) -> [[f32; N]; $size] {
@@ -207,6 +215,7 @@ macro_rules! tuples {
     ($($($name:ident $index:tt),+);+) => {$(
         impl<$($name: Varying),+> Varying for ($($name,)+) {
             type Of<Component: Copy> = ($($name::Of<Component>,)+);
+            const ZEROS: Self::Of<u32> = ($($name::ZEROS,)+);
 
             #[inline(always)]
             fn gather<const N: usize>(values: [Self; N]) -> Self::Of<[f32; N]> {

@@ -135,6 +135,7 @@ impl Homogeneous {
 
 impl Varying for Homogeneous {
     type Of<T: Copy> = [T; 3];
+    const ZEROS: [u32; 3] = [0; 3];
 
     #[inline(always)]
     fn gather<const N: usize>(values: [Self; N]) -> [[f32; N]; 3] {

@@ -7,18 +7,17 @@ use crate::draw::{Copied, Paint};
 use crate::fragment::FragmentStage;
 use crate::interpolation::Interpolation;
 use crate::target::Target;
-use crate::triangle::Vertex;
+use crate::triangle::Corner;
 use alberti_math::Varying;
 use alberti_math::lanes::{Floating, Lanes};
 use core::fmt;
-use core::iter::once;
 use core::ops::Range;
 
 /// Triangles on their way into a target, as many as there are lanes: so code for wide registers is entered once for
 /// several of them. The pixels are those of [`Paint::triangle`], in the same order. One that is dropped without
 /// [`finish`](Self::finish) leaves its last triangles out.
 #[must_use = "the last triangles are drawn by `finish`"]
-pub struct Batch<'a, 't, L: Lanes, V: Copy, F, P, C: ColorFormat, D: DepthFormat> {
+pub struct Batch<'a, 't, L: Lanes, V: Varying, F, P, C: ColorFormat, D: DepthFormat> {
     lanes: L,
     paint: &'a Paint<F, P>,
     target: &'a mut Target<'t, C, D>,
@@ -57,17 +56,17 @@ where
 {
     /// Adds a triangle, after which those that are there may be drawn. The counters hear the fate of each once.
     #[inline(always)]
-    pub fn triangle(&mut self, vertices: [&Vertex<V>; 3], counters: &mut impl Counters) {
-        match self.paint.reach(vertices, &self.limits) {
+    pub fn triangle(&mut self, corners: [&Corner<V>; 3], counters: &mut impl Counters) {
+        // Constants in blocks of their own, so that no code is made of the other way.
+        if const { <P::Lanes<L> as Lanes>::COUNT == 1 } {
+            self.paint.draw_one(self.lanes, self.target, &self.limits, corners, counters);
+            return;
+        }
+        match self.paint.reach(corners, &self.limits) {
             Err(outcome) => counters.rasterized(outcome),
             Ok(reach) => {
-                // Constants in blocks of their own, so that no code is made of what is not taken.
-                if const { L::COUNT == 1 } {
-                    self.paint.draw(self.lanes, self.target, once((vertices, reach)), counters);
-                    return;
-                }
                 if let Some(place) = self.triangles.as_mut().get_mut(self.count) {
-                    *place = Some((vertices.map(|vertex| *vertex), reach));
+                    *place = Some((corners.map(|corner| *corner), reach));
                 }
                 self.count += 1;
                 if self.count >= L::COUNT {
@@ -81,7 +80,7 @@ where
     #[inline]
     pub fn finish(mut self, counters: &mut impl Counters) {
         // With one lane there never are any.
-        if const { L::COUNT > 1 } {
+        if const { <P::Lanes<L> as Lanes>::COUNT > 1 } {
             self.draw(counters);
         }
     }
@@ -94,7 +93,9 @@ where
     }
 }
 
-impl<L: Lanes, V: Copy, F, P, C: ColorFormat, D: DepthFormat> fmt::Debug for Batch<'_, '_, L, V, F, P, C, D> {
+impl<L: Lanes, V: Varying, F, P, C: ColorFormat, D: DepthFormat> fmt::Debug
+    for Batch<'_, '_, L, V, F, P, C, D>
+{
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Batch")
             .field("limits", &self.limits)

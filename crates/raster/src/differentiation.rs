@@ -4,7 +4,7 @@ use crate::edge::EdgeInt;
 use crate::interpolation::{Oriented, Row, scaled_q};
 use crate::spans::Span;
 use alberti_math::lanes::Lanes;
-use alberti_math::{Gradient, Mode, Varying};
+use alberti_math::{Gradient, Mode, Q16, Varying};
 use core::fmt::{self, Debug};
 
 /// A policy of differentiation, which a [`FragmentStage`](crate::FragmentStage) chooses.
@@ -38,7 +38,9 @@ use core::fmt::{self, Debug};
 /// That is part of the precision of all policies. Where the q are equal and a triangle is a quarter of a pixel thick,
 /// it is 2^-44 Δu.
 ///
-/// In fixed point, where weights are not at hand as numbers, [`PerPixel`] is [`PerRun`].
+/// In fixed point, where weights are not at hand as numbers, [`PerPixel`] is [`PerRun`]. Derivatives are those of the
+/// components as they are interpolated, rounded to 2^-16 at the vertices. A small triangle that is one run has its
+/// slopes everywhere, see [`FixedPoint`](crate::FixedPoint).
 pub trait Differentiation: Differentiate + Debug + Default + 'static {
     /// The policy of a stage whose parts take this and `D`: the first of the two that is not [`NoDerivatives`].
     type With<D: Differentiation>: Differentiation;
@@ -50,6 +52,12 @@ pub trait Differentiate: Copy {
     type Triangle<V: Varying>: Copy;
     /// The state of a run of samples.
     type Run<L: Lanes, V: Varying>: Copy;
+
+    /// The derivatives where attributes are linear, with these slopes by column and by row.
+    #[inline(always)]
+    fn of_slopes<V: Varying>(slopes: &V::Of<[Q16; 2]>) -> Gradient<V::Of<Q16>> {
+        of_pairs::<V, _>(slopes)
+    }
 
     /// Prepares a triangle.
     fn prepare<V: Varying>(self, triangle: &Oriented<'_, V>) -> Self::Triangle<V>;
@@ -104,6 +112,12 @@ impl Differentiation for NoDerivatives {
 impl Differentiate for NoDerivatives {
     type Triangle<V: Varying> = ();
     type Run<L: Lanes, V: Varying> = ();
+
+    #[inline(always)]
+    fn of_slopes<V: Varying>(slopes: &V::Of<[Q16; 2]>) -> Gradient<V::Of<Q16>> {
+        let zeros = V::map(slopes, &|_: [Q16; 2]| Q16::ZERO);
+        Gradient { dx: zeros, dy: zeros }
+    }
 
     #[inline(always)]
     fn prepare<V: Varying>(self, _: &Oriented<'_, V>) {}
@@ -202,8 +216,8 @@ impl<V: Varying> Quotients<V> {
         let t = area * q[0];
         // The common factor of the areas by columns and rows: nothing cancels in thin triangles.
         let common = area * one * one;
-        let numerators = V::map_by_mode(&triangle.values(), &|mode, [u, v, w, _]: [f32; 4]| {
-            let [v, w] = [f64::from(v) - f64::from(u), f64::from(w) - f64::from(u)];
+        let numerators = V::map_by_mode(&triangle.numbers(), &|mode, [u, v, w, _]: [f64; 4]| {
+            let [v, w] = [v - u, w - u];
             match mode {
                 Mode::Hyperbolic => {
                     let [v, w] = [v * q[1], w * q[2]];

@@ -13,7 +13,7 @@ use crate::mask::{NARROW, RowMask};
 use crate::paint::{Painter, aligned};
 use crate::spans::RowSpans;
 use crate::target::Target;
-use crate::triangle::{Corners, Cull, Outcome, Reach, Vertex};
+use crate::triangle::{Corner, Corners, Cull, Numbers, Outcome, Reach, Vertex};
 use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Subpixel, Varying};
 use core::iter::once;
@@ -34,7 +34,7 @@ pub struct Paint<F, P> {
 }
 
 /// A copy of a triangle.
-pub(crate) type Copied<V> = ([Vertex<V>; 3], Reach);
+pub(crate) type Copied<V> = ([Corner<V>; 3], Reach);
 
 impl<F, P: Interpolation> Paint<F, P> {
     /// Draws one triangle into a target, with as many samples at a time as there are `lanes`.
@@ -74,20 +74,57 @@ impl<F, P: Interpolation> Paint<F, P> {
         D: DepthFormat,
         K: Counters,
     {
-        match self.reach(vertices, &target.limits()) {
-            Ok(reach) => {
-                if const { L::COUNT == 1 } {
-                    self.draw(lanes, target, once((vertices, reach)), counters)
-                } else {
-                    // The kernel of batches.
-                    self.draw_copies(lanes, target, &[Some((vertices.map(|v| *v), reach))], counters)
-                }
-            }
+        let numbers = self.numbers(target.depth_format());
+        let corners = vertices.map(|vertex| Corner::new(numbers, vertex));
+        let limits = target.limits();
+        if const { <P::Lanes<L> as Lanes>::COUNT == 1 } {
+            return self.draw_one(lanes, target, &limits, corners.each_ref(), counters);
+        }
+        match self.reach(corners.each_ref(), &limits) {
+            // The kernel of batches.
+            Ok(reach) => self.draw_copies(lanes, target, &[Some((corners, reach))], counters),
             Err(outcome) => {
                 counters.rasterized(outcome);
                 outcome
             }
         }
+    }
+
+    /// [`triangle`](Self::triangle) for policies that work on one sample at a time. `limits` are the target's.
+    #[inline(always)]
+    pub(crate) fn draw_one<L, V, C, D, K>(
+        &self,
+        lanes: L,
+        target: &mut Target<'_, C, D>,
+        limits: &[Range<i32>; 2],
+        corners: [&Corner<V>; 3],
+        counters: &mut K,
+    ) -> Outcome
+    where
+        L: Floating,
+        V: Varying,
+        F: FragmentStage<V>,
+        C: ColorFormat,
+        D: DepthFormat,
+        K: Counters,
+    {
+        let small = self.interpolation.draw_small(self, target, corners, counters);
+        let outcome = match small {
+            Some(outcome) => outcome,
+            None => match self.reach(corners, limits) {
+                Ok(reach) => return self.draw_alone(lanes, target, corners, &reach, counters),
+                Err(outcome) => outcome,
+            },
+        };
+        counters.rasterized(outcome);
+        outcome
+    }
+
+    /// The numbers of the interpolation, for corners in a target with this depth format.
+    #[must_use]
+    #[inline(always)]
+    pub fn numbers(&self, depth: impl DepthFormat) -> Numbers {
+        self.interpolation.numbers(depth)
     }
 
     /// The facing and the box of a triangle, with its samples among the columns and rows of `limits`: the first part of
@@ -97,8 +134,12 @@ impl<F, P: Interpolation> Paint<F, P> {
     /// [`Outcome::Culled`] if it faces the wrong way or has no area, [`Outcome::Missed`] if its box holds no sample
     /// within `limits`.
     #[inline(always)]
-    pub fn reach<V>(&self, vertices: [&Vertex<V>; 3], limits: &[Range<i32>; 2]) -> Result<Reach, Outcome> {
-        Reach::new(vertices, self.subpixel.bits(), self.cull, limits)
+    pub fn reach<V: Varying>(
+        &self,
+        corners: [&Corner<V>; 3],
+        limits: &[Range<i32>; 2],
+    ) -> Result<Reach, Outcome> {
+        Reach::new(corners, self.subpixel.bits(), self.cull, limits)
     }
 
     /// The second part, for copies of several triangles in order: the fate of the last. The counters hear that of each.
@@ -123,12 +164,34 @@ impl<F, P: Interpolation> Paint<F, P> {
         self.draw(lanes, target, triangles, counters)
     }
 
-    /// The second part, for triangles in order.
-    pub(crate) fn draw<'v, L, V, C, D, K>(
+    /// The second part, for one triangle. Not inlined: most triangles do not come here.
+    #[inline(never)]
+    fn draw_alone<L, V, C, D, K>(
         &self,
         lanes: L,
         target: &mut Target<'_, C, D>,
-        triangles: impl Iterator<Item = ([&'v Vertex<V>; 3], Reach)>,
+        corners: [&Corner<V>; 3],
+        reach: &Reach,
+        counters: &mut K,
+    ) -> Outcome
+    where
+        L: Floating,
+        V: Varying,
+        F: FragmentStage<V>,
+        C: ColorFormat,
+        D: DepthFormat,
+        K: Counters,
+    {
+        self.draw(lanes, target, once((corners, *reach)), counters)
+    }
+
+    /// The second part, for triangles in order.
+    #[inline(always)]
+    fn draw<'v, L, V, C, D, K>(
+        &self,
+        lanes: L,
+        target: &mut Target<'_, C, D>,
+        triangles: impl Iterator<Item = ([&'v Corner<V>; 3], Reach)>,
         counters: &mut K,
     ) -> Outcome
     where
@@ -140,14 +203,13 @@ impl<F, P: Interpolation> Paint<F, P> {
         K: Counters,
     {
         let Self { stage, interpolation, subpixel, .. } = *self;
-        let (bits, depth_bits, [limits, _]) =
-            (subpixel.bits(), target.depth_format().bits(), target.limits());
+        let (bits, [limits, _]) = (subpixel.bits(), target.limits());
         lanes.vectorize(
             #[inline(always)]
             || {
                 let mut outcome = Outcome::Missed;
                 for (vertices, reach) in triangles {
-                    let oriented = reach.oriented(vertices, bits, depth_bits);
+                    let oriented = reach.oriented(vertices, bits, <P::Lanes<L> as Lanes>::FIXED);
                     let setup = Setup { interpolation, lanes, oriented: &oriented, stage };
                     let (columns, rows, limits) = (reach.columns(), reach.rows(), limits.clone());
                     let samples = SampleBox { corners: &oriented.corners, bits, columns, rows, limits };
@@ -173,7 +235,7 @@ impl<F, P: Interpolation> Paint<F, P> {
 }
 
 /// A triangle before the preparation that only its fragments need.
-struct Setup<'a, P, L, V, F> {
+struct Setup<'a, P, L, V: Varying, F> {
     interpolation: P,
     lanes: L,
     oriented: &'a Oriented<'a, V>,

@@ -10,13 +10,18 @@ mod plane;
 
 pub use exact::Exact;
 pub use fixed_point::FixedPoint;
+pub(crate) use fixed_point::LIMIT;
 pub(crate) use linear::scaled_q;
+pub(crate) use lines::Runs;
 pub use lines::{Affine, Lines, Spans16};
 pub use plane::Planes;
 
 use crate::edge::{Edge, EdgeInt};
+use crate::fragment::FragmentStage;
 use crate::spans::Span;
-use crate::triangle::{Corners, Vertex};
+use crate::target::Target;
+use crate::triangle::{Corner, Corners, Numbers, Outcome};
+use crate::{ColorFormat, Counters, DepthFormat, Paint};
 use alberti_math::Varying;
 use alberti_math::lanes::{Floating, Lanes};
 use core::fmt::Debug;
@@ -46,8 +51,35 @@ pub trait Prepare: Copy {
     /// narrow boxes that lie so may be filled without spans.
     fn run(self) -> i32;
 
+    /// The numbers of corners for depths of this format.
+    #[inline(always)]
+    fn numbers(self, _: impl DepthFormat) -> Numbers {
+        Numbers::Float
+    }
+
     /// The lanes in which it works.
     fn lanes<L: Floating>(self, lanes: L) -> Self::Lanes<L>;
+
+    /// Draws a small triangle in a way of its own, if the policy has one for it: its fate. `paint` says all but how to
+    /// interpolate.
+    #[inline(always)]
+    fn draw_small<V, F, C, D, K>(
+        self,
+        paint: &Paint<F, Self>,
+        target: &mut Target<'_, C, D>,
+        corners: [&Corner<V>; 3],
+        counters: &mut K,
+    ) -> Option<Outcome>
+    where
+        V: Varying,
+        F: FragmentStage<V>,
+        C: ColorFormat,
+        D: DepthFormat,
+        K: Counters,
+    {
+        let _ = (paint, target, corners, counters);
+        None
+    }
 
     /// A triangle, prepared.
     fn prepare<L: Floating, V: Varying>(self, lanes: L, triangle: &Oriented<'_, V>) -> Self::Triangle<L, V>;
@@ -55,19 +87,19 @@ pub trait Prepare: Copy {
 
 /// A triangle of positive area, its corners clockwise, with `q` > 0 and finite values.
 #[derive(Clone, Copy, Debug)]
-pub struct Oriented<'a, V> {
+pub struct Oriented<'a, V: Varying> {
     /// The vertices.
-    pub vertices: [&'a Vertex<V>; 3],
+    pub vertices: [&'a Corner<V>; 3],
     /// Their positions in subpixels.
     pub corners: Corners,
     /// Twice the area, in subpixels squared.
     pub doubled_area: i64,
-    /// The varying of the triangle's first vertex as it was given, for flat components.
-    pub first: V,
+    /// The components of the triangle's first vertex as it was given, for flat ones.
+    pub first: V::Of<u32>,
     /// Bits of the subpixels.
     pub bits: u32,
-    /// Bits of the depth buffer's integers, see [`DepthFormat::bits`](crate::DepthFormat::bits).
-    pub depth_bits: u32,
+    /// Whether components are integers.
+    pub fixed: bool,
 }
 
 impl<V: Varying> Oriented<'_, V> {
@@ -77,12 +109,34 @@ impl<V: Varying> Oriented<'_, V> {
         1 << self.bits
     }
 
-    /// The components of the three values and of the first vertex.
+    /// The components of the three vertices and of the first one.
+    #[inline(always)]
+    pub(crate) fn words(&self) -> V::Of<[u32; 4]> {
+        let [a, b, c] = self.vertices;
+        words::<V>([&a.components, &b.components, &c.components, &self.first])
+    }
+
+    /// The same as numbers, exactly.
+    #[inline(always)]
+    pub(crate) fn numbers(&self) -> V::Of<[f64; 4]> {
+        let number = |word: u32| {
+            if self.fixed { f64::from(word.cast_signed()) / 65536.0 } else { f64::from(f32::from_bits(word)) }
+        };
+        V::map(&self.words(), &|[a, b, c, first]: [u32; 4]| [a, b, c, first].map(number))
+    }
+
+    /// The same where numbers are `f32`.
     #[inline(always)]
     pub(crate) fn values(&self) -> V::Of<[f32; 4]> {
-        let [a, b, c] = self.vertices;
-        V::gather([a.varying, b.varying, c.varying, self.first])
+        V::map(&self.words(), &|[a, b, c, first]: [u32; 4]| [a, b, c, first].map(f32::from_bits))
     }
+}
+
+/// Components that belong together, side by side.
+#[inline(always)]
+pub(crate) fn words<V: Varying>([a, b, c, first]: [&V::Of<u32>; 4]) -> V::Of<[u32; 4]> {
+    let pairs = V::zip(&V::zip(a, b), &V::zip(c, first));
+    V::map(&pairs, &|((a, b), (c, first)): ((u32, u32), (u32, u32))| [a, b, c, first])
 }
 
 /// A row of a triangle.

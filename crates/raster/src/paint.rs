@@ -10,7 +10,7 @@ use crate::fragment::{FragmentStage, Fragments};
 use crate::interpolation::{Interpolate, Row};
 use crate::mask::RowMask;
 use crate::spans::Span;
-use crate::target::Target;
+use crate::target::{Pixels, Target};
 use alberti_math::Varying;
 use alberti_math::lanes::Lanes;
 use core::marker::PhantomData;
@@ -324,9 +324,6 @@ pub(crate) fn aligned<L: Lanes>(column: i32) -> i32 {
 
 /// The colours and depths of a group of samples.
 type Group<'a, L, C, D> = (&'a mut <L as Lanes>::Each<C>, &'a mut <L as Lanes>::Each<D>);
-
-/// Colours and depths.
-type Pixels<'a, C, D> = (&'a mut [C], &'a mut [D]);
 
 /// The first `count` pixels, and the others.
 #[inline(always)]

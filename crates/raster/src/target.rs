@@ -97,6 +97,9 @@ impl fmt::Display for TargetError {
 
 impl core::error::Error for TargetError {}
 
+/// Colours and depths.
+pub(crate) type Pixels<'a, C, D> = (&'a mut [C], &'a mut [D]);
+
 /// The largest width and height of a frame.
 pub(crate) const LARGEST: u32 = 1 << 14;
 
@@ -308,6 +311,19 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
         let depth = self.depth.get_mut(row * self.strides[1] + column..).unwrap_or_default();
         let count = color.len().min(depth.len());
         (color.get_mut(..count).unwrap_or_default(), depth.get_mut(..count).unwrap_or_default())
+    }
+
+    /// The colours and the depths of some columns of the frame's row `row`; none where there are none.
+    #[inline(always)]
+    pub(crate) fn run(&mut self, row: i32, columns: Range<i32>) -> Option<Pixels<'_, C::Pixel, D::Stored>> {
+        // Negative ones are too large.
+        let at = |place: i32| place.cast_unsigned() as usize;
+        let row = at(row).wrapping_sub(self.first_row);
+        let [color, depth] = self.strides.map(|stride| {
+            let first = row.wrapping_mul(stride);
+            first.wrapping_add(at(columns.start))..first.wrapping_add(at(columns.end))
+        });
+        Some((self.color.get_mut(color)?, self.depth.get_mut(depth)?))
     }
 }
 

@@ -1,8 +1,10 @@
 //! A triangle on the screen, its orientation and its box of samples.
 
 use crate::edge::FITS_I32;
-use crate::interpolation::Oriented;
-use alberti_math::{Fixed, Varying};
+use crate::interpolation::{LIMIT, Oriented};
+use alberti_math::{Fixed, Varying, scaled};
+use core::cell::RefCell;
+use core::fmt;
 use core::ops::Range;
 
 /// A vertex on the screen, the hand-over from the view pipeline to the rasterizer: everything after it uses the snapped
@@ -21,11 +23,109 @@ pub struct Vertex<V> {
     pub varying: V,
 }
 
-impl<V> Vertex<V> {
-    /// The position in subpixels.
+/// A vertex in the [numbers](crate::Paint::numbers) of a paint's interpolation, made once for all triangles that
+/// share it.
+#[derive(Clone, Copy)]
+pub struct Corner<V: Varying> {
+    /// Columns and rows, in subpixels.
+    pub(crate) place: [i32; 2],
+    /// zs.
+    pub(crate) zs: u32,
+    /// q, an `f32`.
+    pub(crate) q: u32,
+    /// The components.
+    pub(crate) components: V::Of<u32>,
+}
+
+/// The numbers of a [`Corner`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Numbers {
+    /// Words of `f32`.
+    Float,
+    /// Integers: components in units of 2^-16, zs in 2^-31. A step of the depth buffer's integers is 2^(31 - bits) of
+    /// these, and half of that is added for rounding.
+    Fixed {
+        /// The bits of these, see [`DepthFormat::bits`](crate::DepthFormat::bits).
+        depth_bits: u32,
+    },
+}
+
+impl<V: Varying> Corner<V> {
+    /// No vertex: room for one.
+    pub const NONE: Self = Self { place: [0; 2], zs: 0, q: 0, components: V::ZEROS };
+
+    /// The vertex in these numbers.
+    #[must_use]
     #[inline(always)]
-    pub(crate) fn corner(&self) -> [i32; 2] {
-        [self.x.subpixels(), self.y.subpixels()]
+    pub fn new(numbers: Numbers, vertex: &Vertex<V>) -> Self {
+        let components = Self::components(numbers, vertex.varying);
+        Self::at([vertex.x, vertex.y], numbers, [vertex.zs, vertex.q], components)
+    }
+
+    /// The components of a varying.
+    #[inline(always)]
+    pub fn components(numbers: Numbers, varying: V) -> V::Of<u32> {
+        V::map(&V::gather([varying]), &|[x]: [f32; 1]| match numbers {
+            Numbers::Float => x.to_bits(),
+            Numbers::Fixed { .. } => scaled(x, 16).clamp(-LIMIT - 1, LIMIT).cast_unsigned(),
+        })
+    }
+
+    /// A corner with these components.
+    #[must_use]
+    #[inline(always)]
+    pub fn at([x, y]: [Fixed; 2], numbers: Numbers, [zs, q]: [f32; 2], components: V::Of<u32>) -> Self {
+        let zs = match numbers {
+            Numbers::Float => zs.to_bits(),
+            Numbers::Fixed { depth_bits: bits } => {
+                let fraction = scaled(zs, 31).max(0).cast_unsigned();
+                if bits < 31 { fraction - (fraction >> bits) + (1 << (30 - bits)) } else { fraction }
+            }
+        };
+        Self { place: [x.subpixels(), y.subpixels()], zs, q: q.to_bits(), components }
+    }
+
+    /// The same components at another place.
+    #[must_use]
+    #[inline(always)]
+    pub fn moved(&self, place: [Fixed; 2], numbers: Numbers, depths: [f32; 2]) -> Self {
+        Self::at(place, numbers, depths, self.components)
+    }
+
+    /// zs where numbers are `f32`.
+    #[inline(always)]
+    pub(crate) fn zs(&self) -> f32 {
+        f32::from_bits(self.zs)
+    }
+
+    /// q.
+    #[inline(always)]
+    pub(crate) fn q(&self) -> f32 {
+        f32::from_bits(self.q)
+    }
+}
+
+/// Its words, as their meaning is not known here.
+impl<V: Varying> fmt::Debug for Corner<V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        struct Words<'a, V: Varying>(&'a V::Of<u32>);
+        impl<V: Varying> fmt::Debug for Words<'_, V> {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                let list = RefCell::new(f.debug_list());
+                let _ = V::map(self.0, &|word: u32| {
+                    list.borrow_mut().entry(&word);
+                });
+                list.into_inner().finish()
+            }
+        }
+        let Self { place, zs, q, components } = self;
+        let words = Words::<V>(components);
+        f.debug_struct("Corner")
+            .field("place", place)
+            .field("zs", zs)
+            .field("q", q)
+            .field("components", &words)
+            .finish()
     }
 }
 
@@ -81,13 +181,13 @@ pub struct Reach {
 
 impl Reach {
     #[inline(always)]
-    pub(crate) fn new<V>(
-        vertices: [&Vertex<V>; 3],
+    pub(crate) fn new<V: Varying>(
+        vertices: [&Corner<V>; 3],
         bits: u32,
         cull: Cull,
         [limits, rows]: &[Range<i32>; 2],
     ) -> Result<Self, Outcome> {
-        let corners = vertices.map(Vertex::corner);
+        let corners = vertices.map(|corner| corner.place);
         let area = doubled_area(&corners);
         if cull.drops(area) {
             return Err(Outcome::Culled);
@@ -124,13 +224,13 @@ impl Reach {
     #[inline(always)]
     pub(crate) fn oriented<'a, V: Varying>(
         &self,
-        vertices: [&'a Vertex<V>; 3],
+        vertices: [&'a Corner<V>; 3],
         bits: u32,
-        depth_bits: u32,
+        fixed: bool,
     ) -> Oriented<'a, V> {
-        let first = vertices[0].varying;
-        let (corners, vertices) = in_order(vertices.map(Vertex::corner), vertices, self.area);
-        Oriented { vertices, corners, doubled_area: self.area.abs(), first, bits, depth_bits }
+        let first = vertices[0].components;
+        let (corners, vertices) = in_order(vertices.map(|corner| corner.place), vertices, self.area);
+        Oriented { vertices, corners, doubled_area: self.area.abs(), first, bits, fixed }
     }
 }
 

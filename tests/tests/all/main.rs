@@ -19,5 +19,6 @@ mod policies;
 mod profiles;
 mod resolution;
 mod shared_edges;
+mod small;
 mod values;
 mod watertight;

@@ -82,8 +82,8 @@ fn clipped<V: Varying + Debug>(
     let mut vertices = BTreeSet::new();
     for triangle in &room[..kept] {
         let printed = format!("{triangle:?}");
-        for vertex in printed.split("Vertex { ").skip(1) {
-            let (place, carried) = vertex.split_once("varying: (").expect("a tuple");
+        for vertex in printed.split("Corner { ").skip(1) {
+            let (place, carried) = vertex.split_once("components: [").expect("a list");
             let (first, _) = carried.split_once(',').expect("more than one");
             vertices.insert(format!("{place}{first}"));
         }

@@ -73,6 +73,7 @@ impl Ready565 {
 
 impl Varying for Ready565 {
     type Of<T: Copy> = [T; 3];
+    const ZEROS: [u32; 3] = [0; 3];
 
     #[inline(always)]
     fn gather<const N: usize>(values: [Self; N]) -> [[f32; N]; 3] {

@@ -214,11 +214,9 @@ impl Lanes for One {
 
     #[inline(always)]
     fn round_scaled(self, x: f32, bits: u32) -> Wrapping<u32> {
-        let x = x * power_of_two(bits);
-        let below = floor(x);
-        #[expect(clippy::cast_precision_loss, reason = "it came from an f32")]
-        let fraction = x - below.cast_signed() as f32;
-        Wrapping(below.wrapping_add(u32::from(fraction >= 0.5)))
+        // The halves below it: an odd one rounds up.
+        let halves = floor(x * power_of_two(bits + 1)).cast_signed();
+        Wrapping((halves.wrapping_add(1) >> 1).cast_unsigned())
     }
 
     #[inline(always)]

@@ -47,7 +47,13 @@ impl Prepare for Exact {
         #[expect(clippy::cast_precision_loss, reason = "rounding to nearest is within the bound")]
         let area = triangle.doubled_area as f32;
         let [a, b, c] = triangle.vertices;
-        ExactTriangle::with_depth(lanes, [a.zs, b.zs, c.zs], area, [a.q, b.q, c.q], &triangle.values())
+        ExactTriangle::with_depth(
+            lanes,
+            [a.zs(), b.zs(), c.zs()],
+            area,
+            [a.q(), b.q(), c.q()],
+            &triangle.values(),
+        )
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::edge::EdgeInt;
 use crate::interpolation::Oriented;
-use alberti_math::reciprocal;
+use alberti_math::{Varying, reciprocal};
 
 /// Bits of the fraction of weights.
 const WEIGHT: u32 = 30;
@@ -43,7 +43,7 @@ pub(crate) struct Shape {
 impl Shape {
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive and below 2^32")]
-    pub(crate) fn new<V>(triangle: &Oriented<'_, V>) -> Self {
+    pub(crate) fn new<V: Varying>(triangle: &Oriented<'_, V>) -> Self {
         let bits = 64 - triangle.doubled_area.leading_zeros();
         let dropped = bits.saturating_sub(32);
         let [a, b, c] = triangle.corners;

@@ -4,7 +4,12 @@ use super::fixed_plane::{FixedPlane, Shape};
 use super::floating::one_run;
 use super::lines::{LineNumbers, LineTriangle, Lines, Run, Runs};
 use crate::edge::EdgeInt;
+use crate::fragment::FragmentStage;
 use crate::interpolation::{Interpolation, Oriented, Prepare, Row};
+use crate::small;
+use crate::target::Target;
+use crate::triangle::{Corner, Numbers, Outcome};
+use crate::{ColorFormat, Counters, DepthFormat, Paint};
 use alberti_math::lanes::{Floating, OneFixed};
 use alberti_math::{Mode, Q16, Varying, reciprocal, scaled};
 use core::cell::Cell;
@@ -23,11 +28,17 @@ use core::fmt;
 /// Varyings are rounded to 2^-16, and beyond ±4096 they count as that. Depth has 31 bits, of which 8 units and one for
 /// each column of the row may be wrong, and is rounded to the buffer's format.
 ///
+/// Triangles whose corners are less than 16 pixels apart on both axes are drawn as one run, on the grid of `Sub4`.
+/// There the error is the miss of a straight line over the triangle and 1.3·2^-16; of depths in 16 bits, 2^-20 more.
+/// The ratio of q in such a triangle is at most 17/16, or what keeps a budget; a policy of runs below 16 columns has
+/// none. Nor are those that carry more than 16, or differ in depth by more than 2^-10 (of depths in 16 bits, 1/4).
+///
 /// # Cost
 /// A fragment: an addition for the depth and one for each component. A run: a product for each component, and with
 /// perspective one of 32 bits to 64 more and two for the reciprocal. A row: two of 32 bits to 64 for each number. A
-/// triangle: about fifteen instructions for each number of each vertex, which comes as `f32`, and some sixty for the
-/// plane through each three. `docs/kernel.md` has counts for three kinds of core.
+/// triangle: some sixty instructions for the plane through each three. A vertex: about fifteen instructions for each
+/// number. A small triangle: ten products of 32 bits for each number, and two a row. `docs/kernel.md` has counts for
+/// three kinds of core.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FixedPoint<R>(
     /// The division of rows.
@@ -46,8 +57,36 @@ impl<R: Runs> Prepare for FixedPoint<R> {
     }
 
     #[inline(always)]
+    fn numbers(self, depth: impl DepthFormat) -> Numbers {
+        Numbers::Fixed { depth_bits: depth.bits() }
+    }
+
+    #[inline(always)]
     fn lanes<L: Floating>(self, _: L) -> OneFixed {
         OneFixed
+    }
+
+    #[inline(always)]
+    fn draw_small<V, F, C, D, K>(
+        self,
+        paint: &Paint<F, Self>,
+        target: &mut Target<'_, C, D>,
+        corners: [&Corner<V>; 3],
+        counters: &mut K,
+    ) -> Option<Outcome>
+    where
+        V: Varying,
+        F: FragmentStage<V>,
+        C: ColorFormat,
+        D: DepthFormat,
+        K: Counters,
+    {
+        let Paint { stage, subpixel, cull, .. } = *paint;
+        if self.0.length() >= small::SIDE && subpixel.bits() == small::BITS {
+            small::draw(self.0, (stage, cull), target, corners, counters)
+        } else {
+            None
+        }
     }
 
     #[inline(always)]
@@ -60,16 +99,8 @@ impl<R: Runs> Prepare for FixedPoint<R> {
     }
 }
 
-/// The limit of components on both sides of 0, so that two of them differ by less than 2^29.
-const LIMIT: i32 = (1 << 28) - 1;
-
-/// `zs` in the unit in which it is interpolated: the last of a format's bits is worth 2^(31 - bits), and half of that
-/// is added for rounding.
-#[inline(always)]
-fn depth(bits: u32, zs: f32) -> i32 {
-    let fraction = scaled(zs, 31).max(0);
-    if bits < 31 { fraction - (fraction >> bits) + (1 << (30 - bits)) } else { fraction }
-}
+/// The greatest component; the least is one less than its negative. So two of them differ by less than 2^29.
+pub(crate) const LIMIT: i32 = (1 << 28) - 1;
 
 /// One component over a triangle.
 #[derive(Clone, Copy)]
@@ -87,9 +118,8 @@ struct FixedComponent {
 impl FixedComponent {
     /// A component of these values. `q` is proportional to that of the three vertices, for hyperbolic components.
     #[inline(always)]
-    fn new(shape: &Shape, values: [f32; 3], q: Option<[i32; 3]>) -> Self {
-        let q16 = |x: f32| scaled(x, 16).clamp(-LIMIT, LIMIT);
-        let [a, b, c] = [q16(values[0]), q16(values[1]), q16(values[2])];
+    fn new(shape: &Shape, values: [u32; 3], q: Option<[i32; 3]>) -> Self {
+        let [a, b, c] = values.map(u32::cast_signed);
         let more = [b - a, c - a];
         // The greatest comes to lie from 2^29 to 2^30, and so this is at least 1.
         let shift = (more[0].unsigned_abs() | more[1].unsigned_abs() | 1).leading_zeros() - 2;
@@ -131,17 +161,16 @@ impl<V: Varying> FixedLines<V> {
     fn new(perspective: bool, triangle: &Oriented<'_, V>) -> Self {
         let shape = Shape::new(triangle);
         let [a, b, c] = triangle.vertices;
-        let bits = triangle.depth_bits;
-        let zs = [depth(bits, a.zs), depth(bits, b.zs), depth(bits, c.zs)];
+        let zs = [a.zs.cast_signed(), b.zs.cast_signed(), c.zs.cast_signed()];
         // Positive floats are ordered as their words are.
-        let greatest = a.q.to_bits().max(b.q.to_bits()).max(c.q.to_bits()) >> 23;
+        let greatest = a.q.max(b.q).max(c.q) >> 23;
         let q = |q: f32| scaled(q, 127 + 30 - greatest.cast_signed()).max(1);
-        let q = if perspective { [q(a.q), q(b.q), q(c.q)] } else { [1; 3] };
+        let q = if perspective { [q(a.q()), q(b.q()), q(c.q())] } else { [1; 3] };
         Self {
             shape,
             zs: (zs[0], shape.plane(zs)),
             q: (q[0], if perspective { shape.plane(q) } else { FixedPlane { more: [0; 2], slope: 0 } }),
-            components: V::map_by_mode(&triangle.values(), &|mode, [a, b, c, first]: [f32; 4]| match mode {
+            components: V::map_by_mode(&triangle.words(), &|mode, [a, b, c, first]: [u32; 4]| match mode {
                 Mode::Hyperbolic if perspective => FixedComponent::new(&shape, [a, b, c], Some(q)),
                 Mode::Hyperbolic | Mode::Linear => FixedComponent::new(&shape, [a, b, c], None),
                 Mode::Flat => FixedComponent::new(&shape, [first; 3], None),

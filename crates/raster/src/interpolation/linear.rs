@@ -2,8 +2,8 @@
 //! samples.
 
 use crate::interpolation::Oriented;
-use alberti_math::hull3;
 use alberti_math::lanes::Lanes;
+use alberti_math::{Varying, hull3};
 
 /// A function that is linear on the screen.
 #[derive(Clone, Copy)]
@@ -57,22 +57,22 @@ impl FloatComponent {
 
 /// The three q of a triangle, scaled so that the greatest is near 1.
 #[inline(always)]
-pub(crate) fn scaled_q<V>(triangle: &Oriented<'_, V>) -> [f64; 3] {
+pub(crate) fn scaled_q<V: Varying>(triangle: &Oriented<'_, V>) -> [f64; 3] {
     let [a, b, c] = triangle.vertices;
-    let scale = super::exact::power_of_two_near(a.q.max(b.q).max(c.q));
-    [f64::from(a.q * scale), f64::from(b.q * scale), f64::from(c.q * scale)]
+    let scale = super::exact::power_of_two_near(a.q().max(b.q()).max(c.q()));
+    [f64::from(a.q() * scale), f64::from(b.q() * scale), f64::from(c.q() * scale)]
 }
 
 /// The three screen depths.
 #[inline(always)]
-pub(crate) fn zs<V>(triangle: &Oriented<'_, V>) -> FloatComponent {
+pub(crate) fn zs<V: Varying>(triangle: &Oriented<'_, V>) -> FloatComponent {
     let [a, b, c] = triangle.vertices;
-    FloatComponent::new([a.zs, b.zs, c.zs])
+    FloatComponent::new([a.zs(), b.zs(), c.zs()])
 }
 
 /// 1 over the doubled area.
 #[inline(always)]
-pub(crate) fn per_area<V>(triangle: &Oriented<'_, V>) -> f64 {
+pub(crate) fn per_area<V: Varying>(triangle: &Oriented<'_, V>) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
     let area = triangle.doubled_area as f64;
     1.0 / area

@@ -1,0 +1,286 @@
+//! Small triangles in fixed point: most of a mesh has corners within a few pixels of each other.
+//!
+//! Rows are followed by two sums, an edge each. Depth and attributes are planes, of which a column and a row add so
+//! much: no weight, no division and no correction for perspective is left in a row.
+//!
+//! ```text
+//!        a            a to c is the long edge
+//!       /|            between a and b, and between b and c, the other side is the short edge there
+//!      / |            the planes begin at a, the highest vertex
+//!    b   |
+//!     `  |
+//!        c
+//! ```
+//!
+//! # Coverage
+//! An edge crosses the rows' centres at multiples of 2^-12 column, as it is at most 2^8 subpixels high. Crossings are
+//! followed in units of 2^-20, of which 2^7 are taken off: exact multiples then lie above the one below. Rounding moves
+//! them by less: 16 units on the way to the first row, one for each of 16 rows, and one for the shift.
+//!
+//! # Values
+//! In units of 2^-24 a column or a row adds its slope within 1.4, for up to 17 of each. The way from the first vertex
+//! to the next sample, less than a pixel on both axes, is within 33. So the error stays below 81 of 128, which are half
+//! a step of 2^-16. The three vertices are whole steps. So the nearest step is within their range, and a constant stays
+//! one. Depths are followed in 2^-12 of a step: 17 times 6 for columns and rows, and 42, are 246 of 2048.
+
+mod shape;
+
+use crate::color::ColorFormat;
+use crate::counters::Counters;
+use crate::depth::DepthFormat;
+use crate::differentiation::Differentiate;
+use crate::fragment::{FragmentStage, Fragments};
+use crate::interpolation::{LIMIT, Runs, words};
+use crate::target::Target;
+use crate::triangle::{Corner, Cull, Outcome};
+use alberti_math::lanes::OneFixed;
+use alberti_math::{Mode, Q16, Varying, scaled};
+use core::array;
+use core::cell::Cell;
+use shape::{Crossing, Ramp, SLOPE, Shape, magnitude};
+
+/// The bits of subpixels for which all that follows is proved.
+pub(crate) const BITS: u32 = 4;
+/// Subpixels of a pixel.
+const ONE: i32 = 1 << BITS;
+/// The longest side of a small triangle's box in pixels.
+pub(crate) const SIDE: i32 = 16;
+/// Bits of an attribute's fraction, beyond those of [`Q16`].
+const MORE: u32 = 8;
+/// Components from here on, and differences from twice as much on, might overflow.
+const LARGE: u32 = 1 << 20;
+/// So might differences of depth from here on.
+const DEEP: u32 = 1 << 18;
+/// The greatest difference of the words of two q: their ratio is at most 17/16.
+const LEVEL: u32 = 1 << 19;
+
+/// A bundle with every component mapped, by a function that stands in line.
+#[inline(always)]
+fn inlined<V: Varying, T: Copy, U: Copy>(bundle: &V::Of<T>, f: impl Fn(Mode, T) -> U) -> V::Of<U> {
+    V::map_by_mode(bundle, &f)
+}
+
+/// The first row whose centre is not above `y`, or the first column whose centre is not to the left of it.
+#[inline(always)]
+fn row(y: i32) -> i32 {
+    (y + ONE / 2 - 1) >> BITS
+}
+
+/// The planes over a triangle: of its depth and of its components.
+struct Planes<V: Varying> {
+    zs: Ramp,
+    /// The first vertex's depth, where that is not in the plane.
+    base: i32,
+    shallow: bool,
+    values: V::Of<Ramp>,
+}
+
+impl<V: Varying> Planes<V> {
+    /// The depth as a word, whose highest bits count.
+    #[inline(always)]
+    fn depth(&self, at: i32) -> u32 {
+        if self.shallow { at.cast_unsigned() } else { (self.base + (at >> SLOPE)).cast_unsigned() << 4 }
+    }
+}
+
+/// The planes over three corners; the fourth has the flat components. None if numbers are out of range, or if a
+/// straight line misses more than the policy allows.
+#[inline(always)]
+fn planes<V: Varying>(
+    runs: impl Runs,
+    shape: &Shape,
+    [a, b, c, first]: [&Corner<V>; 4],
+    depth_bits: u32,
+) -> Option<Planes<V>> {
+    let apart = if runs.perspective() { a.q.max(b.q).max(c.q) - a.q.min(b.q).min(c.q) } else { 0 };
+    if apart > LEVEL {
+        return None;
+    }
+    let budget = runs.budget().map(|budget| scaled(budget, 16).clamp(0, LIMIT / 2) - 2);
+    let (large, differences) = (Cell::new(0), Cell::new(0));
+    let values = inlined::<V, _, _>(
+        &words::<V>([&a.components, &b.components, &c.components, &first.components]),
+        #[inline(always)]
+        |mode, words| {
+            let [a, b, c, first] = words.map(u32::cast_signed);
+            let half = 1 << (MORE - 1);
+            if mode == Mode::Flat {
+                large.set(large.get() | magnitude(first));
+                return Ramp { at: (first << MORE).wrapping_add(half), across: 0, down: 0 };
+            }
+            let more = [b.wrapping_sub(a), c.wrapping_sub(a)];
+            large.set(large.get() | magnitude(a));
+            differences.set(differences.get() | magnitude(more[0]) | magnitude(more[1]));
+            if let (Some(budget), Mode::Hyperbolic) = (budget, mode) {
+                let widest = magnitude(more[0]).max(magnitude(more[1])).max(magnitude(b.wrapping_sub(c)));
+                // In units of 2^-16: the difference of q is at most that of the words over 2^23.
+                let missed = (widest.min(1 << 21) * ((apart >> 9) + 1)) >> 16;
+                if missed.cast_signed() > budget {
+                    large.set(u32::MAX);
+                }
+            }
+            shape.ramp((a << MORE).wrapping_add(half), more, MORE)
+        },
+    );
+    // Depths of 16 bits are followed with four more, others with 28, from the first vertex's on.
+    let shallow = depth_bits <= 16;
+    let finer = if shallow { 31 - 20 } else { 31 - 28 };
+    let [base, b, c] = [a.zs, b.zs, c.zs].map(|zs| (zs >> finer).cast_signed());
+    let (more, half) = ([b - base, c - base], 1 << (SLOPE - 1));
+    let deep = magnitude(more[0]) | magnitude(more[1]);
+    let zs = shape.ramp(if shallow { (base << SLOPE).wrapping_add(half) } else { half }, more, SLOPE);
+    let in_range = large.get() | differences.get() >> 1 < LARGE && deep < DEEP;
+    let planes = Planes { zs, base, shallow, values };
+    (in_range && shape.holds(differences.get()) && shape.holds(deep)).then_some(planes)
+}
+
+/// Draws a triangle whose corners are near each other, if no number may be out of range, and if it may be drawn as one
+/// run.
+#[inline(always)]
+pub(crate) fn draw<R, V, F, C, D, K>(
+    runs: R,
+    (stage, cull): (F, Cull),
+    target: &mut Target<'_, C, D>,
+    [a, b, c]: [&Corner<V>; 3],
+    counters: &mut K,
+) -> Option<Outcome>
+where
+    R: Runs,
+    V: Varying,
+    F: FragmentStage<V>,
+    C: ColorFormat,
+    D: DepthFormat,
+    K: Counters,
+{
+    let from_a = |p: [i32; 2]| [p[0] - a.place[0], p[1] - a.place[1]];
+    let ([ux, uy], [vx, vy]) = (from_a(b.place), from_a(c.place));
+    let reach = SIDE << BITS;
+    let far = |d: i32| d.wrapping_add(reach).cast_unsigned();
+    if far(ux) | far(uy) | far(vx) | far(vy) >= 2 * reach.cast_unsigned() {
+        return None;
+    }
+    let area = ux * vy - uy * vx;
+    if cull.drops(area.into()) {
+        return Some(Outcome::Culled);
+    }
+    // By rows, and within a row by columns.
+    let key = |[x, y]: [i32; 2]| (y << 9) + x;
+    fill(runs, stage, target, a, (b, key([ux, uy])), (c, key([vx, vy])), area, counters)
+}
+
+/// The same for one that faces the right way.
+#[inline(never)]
+#[expect(clippy::too_many_arguments, reason = "in registers")]
+fn fill<R, V, F, C, D, K>(
+    runs: R,
+    stage: F,
+    target: &mut Target<'_, C, D>,
+    first: &Corner<V>,
+    second: (&Corner<V>, i32),
+    third: (&Corner<V>, i32),
+    area: i32,
+    counters: &mut K,
+) -> Option<Outcome>
+where
+    R: Runs,
+    V: Varying,
+    F: FragmentStage<V>,
+    C: ColorFormat,
+    D: DepthFormat,
+    K: Counters,
+{
+    // From top to bottom, and from left to right: no bit depends on the order that was given.
+    let (mut a, mut b, mut c, mut clockwise) = ((first, 0), second, third, area > 0);
+    if b.1 < a.1 {
+        (a, b, clockwise) = (b, a, !clockwise);
+    }
+    if c.1 < b.1 {
+        (b, c, clockwise) = (c, b, !clockwise);
+        if b.1 < a.1 {
+            (a, b, clockwise) = (b, a, !clockwise);
+        }
+    }
+    let (a, b, c) = (a.0, b.0, c.0);
+    let [[ax, ay], [bx, by], [cx, cy]] = [a.place, b.place, c.place];
+
+    let (west, east) = (ax.min(bx).min(cx), ax.max(bx).max(cx));
+    let reach = SIDE << BITS;
+    if east - west > reach || cy - ay > reach {
+        return None;
+    }
+    let [columns, rows] = target.limits();
+    let (top, end) = (row(ay).max(rows.start), row(cy).min(rows.end));
+    let left = row(west).max(columns.start);
+    let to = row(east + 1).min(columns.end) - left;
+    if top >= end || to <= 0 {
+        return Some(Outcome::Missed);
+    }
+    let middle = row(by).max(top).min(end);
+    let [x, y] = [(left << BITS) + ONE / 2, (top << BITS) + ONE / 2];
+    let shape = Shape::new([a.place, b.place, c.place], [x, y], area.unsigned_abs(), clockwise);
+    let planes = planes(runs, &shape, [a, b, c, first], target.depth_format().bits())?;
+
+    let lanes = OneFixed;
+    let gradient =
+        <F::Derivatives as Differentiate>::of_slopes::<V>(&V::map(&planes.values, &|ramp: Ramp| {
+            [Q16::from_bits(ramp.across >> MORE), Q16::from_bits(ramp.down >> MORE)]
+        }));
+    let formats = (target.color_format(), target.depth_format());
+    let long = Crossing::new([ax, ay], [cx, cy], [x, y]);
+    let (mut start, mut stop) = (long, long);
+    let (mut outcome, mut row, mut below) = (Outcome::Missed, top, middle);
+    let mut ends = [[ax, ay], [bx, by]];
+    loop {
+        // The short edge of these rows.
+        if row < below {
+            let short = Crossing::new(ends[0], ends[1], [x, (row << BITS) + ONE / 2]);
+            *(if clockwise { &mut stop } else { &mut start }) = short;
+        }
+        while row < below {
+            let columns = start.column().max(0)..stop.column().min(to);
+            if columns.start < columns.end {
+                outcome = Outcome::Drawn;
+                let first = [columns.start, row - top];
+                if let Some((colors, depths)) = target.run(row, left + columns.start..left + columns.end) {
+                    let mut depth = planes.zs.at(first);
+                    let mut cursor = V::map(&planes.values, &|ramp: Ramp| ramp.at(first));
+                    let (mut written, mut column) = (0, left + columns.start);
+                    // As many bits as samples: compilers, which do not see how many times this goes round, leave it as
+                    // it is.
+                    let mut samples = (1_u32 << (columns.end - columns.start)) - 1;
+                    let mut pixels = colors.iter_mut().zip(depths);
+                    while let (Some((color, stored)), true) = (pixels.next(), samples != 0) {
+                        let new = formats.1.encode_lanes(lanes, planes.depth(depth));
+                        if formats.1.seen(lanes, &new, array::from_mut(stored), true) {
+                            let varying = V::map(&cursor, &|at: i32| Q16::from_bits(at >> MORE));
+                            let place = [column, row];
+                            let (word, kept) =
+                                stage.shade(&Fragments { lanes, varying, gradient, mask: true, place });
+                            formats.0.store::<OneFixed, F::Color>(lanes, word, kept, array::from_mut(color));
+                            formats.1.keep(lanes, &new, kept, array::from_mut(stored));
+                            written += u32::from(kept);
+                        }
+                        depth = depth.wrapping_add(planes.zs.across);
+                        cursor = V::map_by_mode(
+                            &V::zip(&cursor, &planes.values),
+                            &|mode, (at, ramp): (i32, Ramp)| match mode {
+                                Mode::Flat => at,
+                                _ => at.wrapping_add(ramp.across),
+                            },
+                        );
+                        column += 1;
+                        samples >>= 1;
+                    }
+                    counters.span(columns.end.abs_diff(columns.start), written);
+                }
+            }
+            start.next_row();
+            stop.next_row();
+            row += 1;
+        }
+        if row >= end {
+            return Some(outcome);
+        }
+        (below, ends) = (end, [[bx, by], [cx, cy]]);
+    }
+}

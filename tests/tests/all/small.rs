@@ -1,0 +1,309 @@
+//! Small triangles in fixed point, which have a kernel of their own: coverage is exact, numbers keep the bounds that
+//! `FixedPoint` states, and nothing depends on the order of the vertices, on scissors or on lanes.
+//!
+//! Triangles reach from parts of a pixel to a little more than what counts as small, across the edges of the target.
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
+    clippy::cast_sign_loss,
+    reason = "pixels and subpixels are small"
+)]
+
+use alberti_math::lanes::{Machine, One};
+use alberti_math::{Flat, Linear, Sub4, for_lanes};
+use alberti_oracle::cases::pixel_centre;
+use alberti_oracle::coverage::{Triangle, area2, covers};
+use alberti_oracle::dd;
+use alberti_oracle::rng::{Rng, run_seed};
+use alberti_raster::{AnyDepth, Cull, FixedPoint, Interpolation, Lines, Paint, Rgba8888, Target, Vertex};
+use alberti_tests::probe::{Seen, vertex};
+use std::ops::Range;
+
+const SIDE: i32 = 40;
+const PIXELS: usize = (SIDE * SIDE) as usize;
+const STEP: f64 = 1.0 / 65536.0;
+
+/// A value that is hyperbolic, one that is linear, one that is flat.
+type Carried = (f32, (Linear<f32>, Flat<f32>));
+
+struct Case {
+    tri: Triangle,
+    q: [f32; 3],
+    zs: [f32; 3],
+    u: [f32; 3],
+}
+
+impl Case {
+    fn any(rng: &mut Rng) -> Self {
+        let wide = f64::from(rng.log_uniform(0.3, 10.0)) * 16.0;
+        let high = if rng.one_in(3) { f64::from(rng.log_uniform(0.1, 2.0)) * 16.0 } else { wide };
+        let center = [(); 2].map(|()| rng.uniform(-40.0, f64::from(SIDE) * 16.0 + 40.0));
+        let mut corner = || {
+            let p = [center[0] + rng.uniform(-wide, wide), center[1] + rng.uniform(-high, high)];
+            // Samples and the corners between pixels are hit as often as that can be.
+            p.map(|c| if rng.one_in(4) { (c / 8.0).round() as i64 * 8 } else { c.round() as i64 })
+        };
+        let tri = [corner(), corner(), corner()];
+        let ratio = if rng.one_in(3) { rng.log_uniform(1.0, 1e3) } else { rng.log_uniform(1.0, 1.08) };
+        let mut q = [1.0, 1.0 / ratio, 1.0 / rng.log_uniform(1.0, ratio)];
+        q.rotate_left(rng.index(3));
+        let unit = rng.log_uniform(1e-3, 30.0);
+        let u = [(); 3].map(|()| rng.uniform(-1.0, 1.0) as f32 * unit);
+        let (near, spread) = (rng.unit(), f64::from(rng.log_uniform(1e-5, 1.0)));
+        let zs = [(); 3].map(|()| (near + rng.unit() * spread).clamp(0.0, 0.99) as f32);
+        Self { tri, q, zs, u }
+    }
+
+    fn vertices(&self) -> [Vertex<Carried>; 3] {
+        std::array::from_fn(|i| {
+            vertex(self.tri[i], self.zs[i], self.q[i], (self.u[i], (Linear(self.u[i]), Flat(self.u[i]))))
+        })
+    }
+
+    fn spread(&self) -> f64 {
+        let [a, b, c] = self.u.map(f64::from);
+        a.max(b).max(c) - a.min(b).min(c)
+    }
+
+    /// The most that a straight line over the whole triangle misses.
+    fn missed(&self) -> f64 {
+        let root = self.ratio().sqrt();
+        self.spread() * (root - 1.0) / (root + 1.0)
+    }
+
+    /// The greatest ratio of two q.
+    fn ratio(&self) -> f64 {
+        let [a, b, c] = self.q.map(f64::from);
+        a.max(b).max(c) / a.min(b).min(c)
+    }
+
+    /// Whether it may be drawn as a small one, as far as the policy admits: short, with numbers that are small, and not
+    /// steep.
+    fn is_small(&self, format: AnyDepth) -> bool {
+        let extent = |k: usize| {
+            let at = self.tri.map(|p| p[k]);
+            at.iter().max().unwrap() - at.iter().min().unwrap()
+        };
+        let area = area2(self.tri).unsigned_abs() as f64;
+        let steepness = |spread: f64| spread * 2.0 * 16.0 * 255.0 / area;
+        let [za, zb, zc] = self.zs.map(f64::from);
+        let deep = za.max(zb).max(zc) - za.min(zb).min(zc);
+        // A little less than the 2^18 units in which depths are followed.
+        let deepest = if format == AnyDepth::D16 { 0.24 } else { 0.95 / 1024.0 };
+        extent(0) < 256
+            && extent(1) < 256
+            && self.u.iter().all(|u| u.abs() < 15.0)
+            && steepness(self.spread()) < 1.9
+            && steepness(deep) < 0.4 * deepest
+            && deep < deepest
+    }
+}
+
+/// The fragments that a policy makes of a triangle, and the depths: colours are places in the list.
+struct Drawn {
+    color: Vec<u32>,
+    depth: Vec<u32>,
+    seen: Seen<Carried>,
+}
+
+fn paint<I: Interpolation>(
+    interpolation: I,
+    format: AnyDepth,
+    vertices: [&Vertex<Carried>; 3],
+    scissors: &[[Range<i32>; 2]],
+    widest: bool,
+) -> Drawn {
+    let (mut color, mut depth) = (vec![0; PIXELS], vec![u32::MAX >> 1; PIXELS]);
+    let seen = Seen::default();
+    let mut target =
+        Target::new(Rgba8888, format, SIDE as u32, SIDE as u32, &mut color, &mut depth).expect("a frame");
+    target.clear(0u32);
+    let stage = |v: Carried| seen.keep(v);
+    let paint = Paint { stage, interpolation, subpixel: Sub4, cull: Cull::None };
+    for [columns, rows] in scissors {
+        let mut visible = target.scissor(columns.clone(), rows.clone());
+        if widest {
+            let machine = Machine::all().next().expect("every machine has lanes");
+            for_lanes!(machine, lanes => paint.triangle(lanes, &mut visible, vertices, &mut ()));
+        } else {
+            paint.triangle(One, &mut visible, vertices, &mut ());
+        }
+    }
+    Drawn { color, depth, seen }
+}
+
+/// What was drawn, pixel by pixel.
+fn told(drawn: &Drawn) -> Vec<Option<([u32; 3], u32)>> {
+    let at = |(&pixel, &zs): (&u32, &u32)| {
+        (pixel != 0).then(|| {
+            let (u, (Linear(v), Flat(w))) = drawn.seen.at(pixel);
+            ([u, v, w].map(f32::to_bits), zs)
+        })
+    };
+    drawn.color.iter().zip(&drawn.depth).map(at).collect()
+}
+
+const WHOLE: [Range<i32>; 2] = [0..SIDE, 0..SIDE];
+
+/// The share of a step that a stored depth of so many bits may be off, and the depth of a word.
+fn zs_of(format: AnyDepth, word: u32) -> (f64, f64) {
+    match format {
+        AnyDepth::D16 => (f64::from(word) / 65535.0, 0.57 / 65535.0),
+        AnyDepth::D24 => (f64::from(word) / 16_777_215.0, 0.57 / 16_777_215.0),
+        _ => (f64::from(f32::from_bits(word)), 1.2 / f64::from(1 << 28) + 1.0 / f64::from(1 << 24)),
+    }
+}
+
+#[derive(Default, Debug)]
+struct Counts {
+    fragments: u64,
+    small: u64,
+    worst: f64,
+    worst_depth: f64,
+}
+
+/// Draws triangles by a policy whose miss is at most `missed` of a case, and which certainly takes those in `one_run`
+/// as one run.
+fn keeps_its_bounds(
+    lines: Lines,
+    format: AnyDepth,
+    stream: u64,
+    perspective: bool,
+    one_run: impl Fn(&Case) -> bool,
+    missed: impl Fn(&Case) -> f64,
+) {
+    let count = if std::env::var_os("ALBERTI_SWEEP").is_some() { 1_000_000 } else { 4_000 };
+    let mut rng = Rng::stream(run_seed(), stream);
+    let mut counts = Counts::default();
+    for _ in 0..count {
+        let case = Case::any(&mut rng);
+        let vertices = case.vertices();
+        let [a, b, c] = &vertices;
+        let drawn = paint(FixedPoint(lines), format, [a, b, c], &[WHOLE], false);
+        let small = case.is_small(format) && one_run(&case);
+        let [least, greatest] = [f64::min, f64::max].map(|pick| {
+            case.u.iter().map(|&u| (f64::from(u) / STEP).round() * STEP).reduce(pick).expect("three")
+        });
+        for row in 0..SIDE {
+            for column in 0..SIDE {
+                let pixel = (row * SIDE + column) as usize;
+                let sample = pixel_centre(column.into(), row.into(), 4);
+                let covered = area2(case.tri) != 0 && covers(case.tri, sample);
+                assert_eq!(drawn.color[pixel] != 0, covered, "{:?} at {column}, {row}", case.tri);
+                if !covered {
+                    continue;
+                }
+                let (u, (Linear(v), Flat(w))) = drawn.seen.at(drawn.color[pixel]);
+                counts.fragments += 1;
+                counts.small += u64::from(small);
+                assert!((f64::from(w) - f64::from(case.u[0])).abs() <= STEP / 2.0);
+                let linear = dd::linear(case.tri, sample, case.u).to_f64();
+                let exact = if perspective {
+                    dd::hyperbolic(case.tri, sample, case.q, case.u).to_f64()
+                } else {
+                    linear
+                };
+                // 1/2 for the vertices, 76/256 for the way, 1/2 for the result; the plain way's more.
+                let rounding = if small { 1.3 * STEP } else { 20.0 * STEP + case.spread() * 1e-3 };
+                for (got, exact, missed) in [(u, exact, missed(&case)), (v, linear, 0.0)] {
+                    let (got, bound) = (f64::from(got), missed + rounding);
+                    let error = (got - exact).abs();
+                    assert!(
+                        error <= bound,
+                        "{got} for {exact}: {} of the bound, {:?} {:?} {:?}",
+                        error / bound,
+                        case.tri,
+                        case.q,
+                        case.u
+                    );
+                    assert!(least <= got && got <= greatest, "{got} is not from {least} to {greatest}");
+                    if small {
+                        counts.worst = counts.worst.max(error / bound);
+                    }
+                }
+                let (zs, bound) = zs_of(format, drawn.depth[pixel]);
+                let bound = if small { bound } else { bound + 48.0 * 2f64.powi(-31) };
+                let error = (zs - dd::linear(case.tri, sample, case.zs).to_f64()).abs();
+                assert!(error <= bound, "{} of the bound of {format:?}", error / bound);
+                counts.worst_depth = counts.worst_depth.max(error / bound);
+            }
+        }
+    }
+    println!("{lines:?}, {format:?}: {counts:?}");
+    assert!(counts.small * 30 > counts.fragments && counts.worst > 0.5, "{counts:?}");
+}
+
+#[test]
+fn linear_ones_are_right_to_a_step() {
+    let missed = |_: &Case| 0.0;
+    for (stream, format) in [AnyDepth::D16, AnyDepth::D24, AnyDepth::F32].into_iter().enumerate() {
+        keeps_its_bounds(Lines::affine(), format, stream as u64, false, |_| true, missed);
+    }
+}
+
+#[test]
+fn spans_miss_what_their_ratio_of_depths_allows() {
+    let spans = Lines::spans(16).expect("a power of two");
+    keeps_its_bounds(spans, AnyDepth::D16, 3, true, |case| case.ratio() < 1.03, Case::missed);
+    // Too short for triangles to be one run.
+    let mut rng = Rng::stream(run_seed(), 4);
+    let short = Lines::spans(1).expect("a power of two");
+    for _ in 0..2_000 {
+        let case = Case::any(&mut rng);
+        let [a, b, c] = &case.vertices();
+        let drawn = paint(FixedPoint(short), AnyDepth::D16, [a, b, c], &[WHOLE], false);
+        for (pixel, &color) in drawn.color.iter().enumerate().filter(|(_, color)| **color != 0) {
+            let pixel = i32::try_from(pixel).expect("a small frame");
+            let [column, row] = [pixel % SIDE, pixel / SIDE].map(i64::from);
+            let exact = dd::hyperbolic(case.tri, pixel_centre(column, row, 4), case.q, case.u).to_f64();
+            let error = (f64::from(drawn.seen.at(color).0) - exact).abs();
+            assert!(error <= 5.0 * STEP + case.spread() * 1e-4);
+        }
+    }
+}
+
+#[test]
+fn budgets_are_kept() {
+    for (stream, budget) in [(5, 0.01f32), (6, 0.001)] {
+        // The difference of the words of q is at most twice that of q.
+        let one_run = |case: &Case| {
+            let missed = case.spread() * (case.ratio() - 1.0) / 2.0;
+            case.ratio() < 1.03 && missed < f64::from(budget) - 5.0 * STEP
+        };
+        let lines = Lines::bounded(budget);
+        keeps_its_bounds(lines, AnyDepth::D16, stream, true, one_run, |_| f64::from(budget));
+    }
+}
+
+/// From any vertex, in either direction, in four pieces, and with the widest lanes: always the same.
+#[test]
+fn nothing_else_changes_a_bit() {
+    let mut rng = Rng::stream(run_seed(), 7);
+    let (mut covered, mut differing) = (0, 0);
+    for turn in 0..6_000 {
+        let case = Case::any(&mut rng);
+        let [a, b, c] = &case.vertices();
+        let format = [AnyDepth::D16, AnyDepth::D24, AnyDepth::F32, AnyDepth::F32Reversed][turn % 4];
+        let lines = [Lines::affine(), Lines::spans(16).expect("a length"), Lines::bounded(0.01)][turn % 3];
+        let by = |vertices, scissors: &[_], widest| {
+            told(&paint(FixedPoint(lines), format, vertices, scissors, widest))
+        };
+        let whole = by([a, b, c], &[WHOLE], false);
+        covered += whole.iter().flatten().count();
+        let [x, y] = [rng.range(1, 39) as i32, rng.range(1, 39) as i32];
+        let pieces = [[0..x, 0..y], [x..SIDE, 0..y], [0..x, y..SIDE], [x..SIDE, y..SIDE]];
+        assert_eq!(whole, by([a, b, c], &pieces, false), "{:?} in pieces", case.tri);
+        assert_eq!(whole, by([a, b, c], &[WHOLE], true), "{:?} in wide lanes", case.tri);
+        // The flat component is the first vertex's.
+        let apart = |told: Vec<Option<([u32; 3], u32)>>| {
+            told.into_iter().map(|pixel| pixel.map(|([u, v, _], zs)| [u, v, zs])).collect::<Vec<_>>()
+        };
+        let whole = apart(whole);
+        for vertices in [[b, c, a], [c, a, b], [a, c, b], [c, b, a], [b, a, c]] {
+            assert_eq!(whole, apart(by(vertices, &[WHOLE], false)), "{:?} turned", case.tri);
+        }
+        differing +=
+            u32::from(whole.iter().flatten().any(|pixel| Some(pixel) != whole.iter().flatten().next()));
+    }
+    assert!(covered > 10_000 && differing > 1_000, "{covered} fragments, {differing} of several colours");
+}
