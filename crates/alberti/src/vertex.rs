@@ -6,6 +6,7 @@ use alberti_math::lanes::{Floating, One};
 use alberti_math::{Fixed, Varying, is_finite};
 use alberti_projection::Projection;
 use alberti_raster::Corner;
+use core::slice::from_mut;
 
 /// Room for a transformed vertex. In a slice with a slot for each vertex of the mesh, each is transformed once, several
 /// at a time. A shorter slice is a cache, in which vertex i shares the slot i modulo the length.
@@ -52,8 +53,18 @@ impl<V: Varying> Slot<V> {
         Pr: Projection,
     {
         if !self.holds(index) {
-            self.fill_alone(mesh, screen, index);
+            Self::fill_one_by_one(mesh, screen, index, from_mut(self));
         }
+    }
+
+    /// Fills slots with the vertices from number `first` on. Not inlined, as one copy of this is enough.
+    #[inline(never)]
+    fn fill_one_by_one<M, Pr>(mesh: &M, screen: &Screen<Pr>, first: usize, slots: &mut [Self])
+    where
+        M: Geometry<Varying = V>,
+        Pr: Projection,
+    {
+        slots.iter_mut().zip(first..).for_each(|(slot, index)| slot.fill_alone(mesh, screen, index));
     }
 
     /// Puts the vertex `index` into this slot.
@@ -91,7 +102,7 @@ impl<V: Varying> Slot<V> {
         let (slots, unused) = slots.split_at_mut_checked(vertices).unwrap_or_default();
         unused.fill(Self::EMPTY);
         if const { L::COUNT == 1 } {
-            slots.iter_mut().zip(0..).for_each(|(slot, index)| slot.fill_alone(mesh, screen, index));
+            Self::fill_one_by_one(mesh, screen, 0, slots);
             return;
         }
         for (slots, first) in slots.chunks_mut(L::COUNT).zip((0..).step_by(L::COUNT)) {

@@ -4,7 +4,7 @@ use crate::geometry::Geometry;
 use crate::vertex::{Slot, outside};
 use alberti_math::glam::Vec3;
 use alberti_math::lanes::{Floating, Lanes, One};
-use alberti_math::{Eye, Frame, Mode, Object, Point3, Subpixel, Varying};
+use alberti_math::{Eye, Fixed, Frame, Mode, Object, Point3, Subpixel, Varying};
 use alberti_projection::{
     EyeVertex, Polygon, ProjectedVertex, Projection, SideBounds, Viewport, clip_near_far, clip_sides,
 };
@@ -140,8 +140,18 @@ pub(crate) struct Walk<'a, M: Geometry, Pr: Projection> {
     screen: Screen<Pr>,
 }
 
-/// A taker of triangles on the screen. What seldom happens calls it, so that there is one copy of it more, not several.
+/// A taker of triangles on the screen.
 type Sink<'a, V, K> = &'a mut dyn FnMut([&Corner<V>; 3], &mut K);
+
+/// Hands on a triangle. Not inlined: for ways that are seldom taken one copy of what follows is enough.
+#[inline(never)]
+fn call<V: Varying, K>(
+    sink: &mut impl FnMut([&Corner<V>; 3], &mut K),
+    corners: [&Corner<V>; 3],
+    counters: &mut K,
+) {
+    sink(corners, counters);
+}
 
 impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     /// The walk with these slots, of which there is at least one. All vertices are transformed at once where the slots
@@ -189,7 +199,8 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
                 counters.submitted();
                 sink([&a.screen, &b.screen, &c.screen], counters);
             };
-            self.triangle([i, j, k], counters, &mut sink);
+            let mut called = |corners: [&_; 3], counters: &mut K| call(&mut sink, corners, counters);
+            self.triangle([i, j, k], counters, &mut called);
         }
     }
 
@@ -269,24 +280,41 @@ fn clip<M: Geometry, Pr: Projection, K>(
     counters: &mut K,
 ) {
     // Slots do without these, since few triangles are clipped.
-    let vertices = indices.map(|index| {
-        let (point, varying) = mesh.vertex(index)?;
-        Some((Point3::new(screen.eye(One, point.coords.to_array()).into()), varying))
-    });
-    let [Some(a), Some(b), Some(c)] = vertices else { return };
+    let [Some(a), Some(b), Some(c)] = indices.map(|index| before_the_eye(mesh, screen, index)) else {
+        return;
+    };
     let (positions, varyings) = ([a.0, b.0, c.0], [a.1, b.1, c.1]);
     let rotation = first_of(positions);
     let carried = rotated(varyings, rotation);
-    let vertices = inside(screen, rotated(positions, rotation)).map(|vertex| {
-        let Vertex { x, y, zs, q, varying } = vertex?;
-        let varying = weighted(varyings[0], carried, varying);
-        Some(Corner::new(screen.numbers, &Vertex { x, y, zs, q, varying }))
-    });
-    for fan in vertices.fan() {
-        if let [Some(a), Some(b), Some(c)] = &fan {
+    for fan in inside(screen, rotated(positions, rotation)).fan() {
+        let corners = fan.map(|vertex| on_the_screen(screen.numbers, vertex, varyings[0], &carried));
+        if let [Some(a), Some(b), Some(c)] = &corners {
             sink([a, b, c], counters);
         }
     }
+}
+
+/// A vertex in scaled eye space.
+#[inline(never)]
+fn before_the_eye<M: Geometry, Pr: Projection>(
+    mesh: &M,
+    screen: &Screen<Pr>,
+    index: usize,
+) -> Option<(Point3<Eye>, M::Varying)> {
+    let (point, varying) = mesh.vertex(index)?;
+    Some((Point3::new(screen.eye(One, point.coords.to_array()).into()), varying))
+}
+
+/// The corner where the three varyings have weights.
+#[inline(never)]
+fn on_the_screen<V: Varying>(
+    numbers: Numbers,
+    vertex: Option<Vertex<Weights>>,
+    first: V,
+    carried: &[V; 3],
+) -> Option<Corner<V>> {
+    let Vertex { x, y, zs, q, varying } = vertex?;
+    Some(Corner::new(numbers, &Vertex { x, y, zs, q, varying: weighted(first, *carried, varying) }))
 }
 
 /// The weights of a triangle's three vertices at a point of it.
@@ -322,7 +350,9 @@ fn inside<Pr: Projection>(
     };
     // 6. Window-viewport.
     clip_sides(projected, bounds).map(|v| {
-        let [x, y] = viewport.to_screen(*subpixel, v.x, v.y)?;
+        // All are within the guard band now.
+        let place = viewport.to_screen_lanes(One, *subpixel, [v.x, v.y]);
+        let [x, y] = place.map(|subpixels| Fixed::wrapping(subpixels.0.cast_signed()));
         Some(Vertex { x, y, zs: v.zs, q: v.q, varying: v.varying })
     })
 }
@@ -356,7 +386,6 @@ fn finite<V>(v: &ProjectedVertex<V>) -> bool {
 
 /// The vertex at which clipping and the fan start: the same for the same triangle, whichever vertex it is given from.
 fn first_of([a, b, c]: [Point3<Eye>; 3]) -> usize {
-    let before = |v: Point3<Eye>, w: Point3<Eye>| order(v.coords, w.coords) == Ordering::Less;
     if before(b, a) && !before(c, b) {
         1
     } else if before(c, a) {
@@ -375,8 +404,11 @@ fn rotated<T>([a, b, c]: [T; 3], first: usize) -> [T; 3] {
     }
 }
 
-fn order(v: Vec3, w: Vec3) -> Ordering {
-    v.z.total_cmp(&w.z).then(v.y.total_cmp(&w.y)).then(v.x.total_cmp(&w.x))
+/// Any order that all points have.
+#[inline(never)]
+fn before(v: Point3<Eye>, w: Point3<Eye>) -> bool {
+    let (v, w) = (v.coords, w.coords);
+    v.z.total_cmp(&w.z).then(v.y.total_cmp(&w.y)).then(v.x.total_cmp(&w.x)) == Ordering::Less
 }
 
 #[cfg(test)]

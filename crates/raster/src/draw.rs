@@ -108,16 +108,49 @@ impl<F, P: Interpolation> Paint<F, P> {
         D: DepthFormat,
         K: Counters,
     {
-        let small = self.interpolation.draw_small(self, target, corners, counters);
-        let outcome = match small {
-            Some(outcome) => outcome,
-            None => match self.reach(corners, limits) {
-                Ok(reach) => return self.draw_alone(lanes, target, corners, &reach, counters),
-                Err(outcome) => outcome,
-            },
-        };
-        counters.rasterized(outcome);
-        outcome
+        if const { P::HAS_SMALL } {
+            return match self.interpolation.draw_small(self, target, corners, counters) {
+                Some(outcome) => {
+                    counters.rasterized(outcome);
+                    outcome
+                }
+                // Large ones are rare: a call for them, so that what comes before stays short.
+                None => self.draw_large(lanes, target, corners, counters),
+            };
+        }
+        match self.reach(corners, limits) {
+            Ok(reach) => self.draw_alone(lanes, target, corners, &reach, counters),
+            Err(outcome) => {
+                counters.rasterized(outcome);
+                outcome
+            }
+        }
+    }
+
+    /// [`draw_one`](Self::draw_one) for a triangle that is not small.
+    #[inline(never)]
+    fn draw_large<L, V, C, D, K>(
+        &self,
+        lanes: L,
+        target: &mut Target<'_, C, D>,
+        corners: [&Corner<V>; 3],
+        counters: &mut K,
+    ) -> Outcome
+    where
+        L: Floating,
+        V: Varying,
+        F: FragmentStage<V>,
+        C: ColorFormat,
+        D: DepthFormat,
+        K: Counters,
+    {
+        match self.reach(corners, &target.limits()) {
+            Ok(reach) => self.draw(lanes, target, once((corners, reach)), counters),
+            Err(outcome) => {
+                counters.rasterized(outcome);
+                outcome
+            }
+        }
     }
 
     /// The numbers of the interpolation, for corners in a target with this depth format.

@@ -13,20 +13,13 @@
 
 use alberti_math::lanes::Lanes;
 use core::fmt::Debug;
-use core::ops::{Add, Div, Mul, Sub};
+use core::ops::{Add, Mul, Sub};
 
 /// An integer that edge functions are computed in: `i32` or `i64`.
 ///
 /// Overflow is excluded by the bounds, not by the type: see [`FITS_I32`] and the guard band's proof in `alberti_math`.
 pub trait EdgeInt:
-    Copy
-    + Ord
-    + Debug
-    + From<i32>
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
+    Copy + Ord + Debug + From<i32> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
 {
     /// An edge function at several samples.
     type Of<L: Lanes>: Copy;
@@ -45,6 +38,9 @@ pub trait EdgeInt:
 
     /// The same number, which is below 2^53.
     fn to_f64(self) -> f64;
+
+    /// The quotient rounded down, and the remainder, which is in [0, `divisor`). The divisor is positive.
+    fn divided(self, divisor: Self) -> (Self, Self);
 
     /// A number that is not negative without its last `bits`, where that fits; they are 0 for what fits `i32`.
     fn without_last(self, bits: u32) -> u32;
@@ -76,6 +72,13 @@ impl EdgeInt for i32 {
     #[inline(always)]
     fn to_f64(self) -> f64 {
         self.into()
+    }
+
+    #[inline(always)]
+    fn divided(self, divisor: Self) -> (Self, Self) {
+        let quotient = self / divisor;
+        let remainder = self - quotient * divisor;
+        if remainder < 0 { (quotient - 1, remainder + divisor) } else { (quotient, remainder) }
     }
 
     #[inline(always)]
@@ -114,11 +117,37 @@ impl EdgeInt for i64 {
         self as f64
     }
 
+    #[inline]
+    fn divided(self, divisor: Self) -> (Self, Self) {
+        if cfg!(target_pointer_width = "32") {
+            return bit_by_bit(self, divisor);
+        }
+        (self.div_euclid(divisor.max(1)), self.rem_euclid(divisor.max(1)))
+    }
+
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "where it fits")]
     fn without_last(self, bits: u32) -> u32 {
         (self >> bits) as u32
     }
+}
+
+/// [`EdgeInt::divided`] on cores without such a division: what comes with compilers is ten times as long. Only edges of
+/// thousands of pixels come here.
+#[inline(never)]
+fn bit_by_bit(x: i64, divisor: i64) -> (i64, i64) {
+    // The complement of a negative number divides like a positive one, and so do the results.
+    let sign = x >> 63;
+    let (mut quotient, mut remainder) = (x ^ sign, 0);
+    for _ in 0..i64::BITS {
+        remainder = remainder << 1 | i64::from(quotient < 0);
+        quotient <<= 1;
+        if remainder >= divisor {
+            remainder -= divisor;
+            quotient |= 1;
+        }
+    }
+    (quotient ^ sign, if sign < 0 { divisor - 1 - remainder } else { remainder })
 }
 
 /// The largest size of a triangle's box for edges in `i32`: the product of its width plus two pixels and its height
@@ -179,6 +208,21 @@ impl<I: EdgeInt> Edge<I> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn division_bit_by_bit_is_division() {
+        let numbers = [0, 1, 2, 3, 7, 255, 1 << 20, (1 << 31) - 1, (1 << 40) + 12_345, (1 << 53) - 1];
+        for x in numbers.into_iter().flat_map(|x: i64| [x, -x]) {
+            for divisor in numbers.into_iter().filter(|&d| d > 0) {
+                let expected = (x.div_euclid(divisor), x.rem_euclid(divisor));
+                assert_eq!(bit_by_bit(x, divisor), expected, "{x} / {divisor}");
+                assert_eq!(x.divided(divisor), expected);
+                if let (Ok(x), Ok(divisor)) = (i32::try_from(x), i32::try_from(divisor)) {
+                    assert_eq!(x.divided(divisor), (x.div_euclid(divisor), x.rem_euclid(divisor)));
+                }
+            }
+        }
+    }
 
     #[test]
     fn steps_lead_to_the_values_elsewhere() {

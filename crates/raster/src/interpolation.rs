@@ -60,6 +60,9 @@ pub trait Prepare: Copy {
     /// The lanes in which it works.
     fn lanes<L: Floating>(self, lanes: L) -> Self::Lanes<L>;
 
+    /// Whether there is a way for small triangles.
+    const HAS_SMALL: bool = false;
+
     /// Draws a small triangle in a way of its own, if the policy has one for it: its fate. `paint` says all but how to
     /// interpolate.
     #[inline(always)]

@@ -46,7 +46,8 @@ impl<I: EdgeInt> RowSpans<I> {
     /// Starts at the row of the edges' reference sample, which is column 0 of a box of `width` columns and `rows` rows.
     #[inline(always)]
     pub(crate) fn new(edges: &[Edge<I>; 3], width: i32, rows: i32) -> Self {
-        if width <= TESTED {
+        // Narrow boxes that take 64 bits are higher than any target.
+        if const { size_of::<I>() == size_of::<i32>() } && width <= TESTED {
             Self::Tested { edges: edges.map(|e| Edge { value: e.value + e.bias, ..e }), width }
         } else {
             Self::Walked { walker: SpanWalker::new(edges, width, rows), walked: 0 }
@@ -57,7 +58,7 @@ impl<I: EdgeInt> RowSpans<I> {
     #[inline(always)]
     pub(crate) fn next_row(&mut self) -> Span {
         match self {
-            Self::Tested { edges: [a, b, c], width } => {
+            Self::Tested { edges: [a, b, c], width } if const { size_of::<I>() == size_of::<i32>() } => {
                 let zero = I::from(0);
                 let mut at = [a.value, b.value, c.value];
                 let (mut span, mut column) = (Span { start: *width, end: 0 }, 0);
@@ -74,6 +75,7 @@ impl<I: EdgeInt> RowSpans<I> {
                 }
                 span
             }
+            Self::Tested { .. } => Span { start: 0, end: 0 },
             Self::Walked { walker, walked } => {
                 let span = walker.span();
                 walker.next_row();
@@ -102,7 +104,6 @@ struct Crossing<I> {
 }
 
 impl<I: EdgeInt> Crossing<I> {
-    #[inline]
     fn new(edge: &Edge<I>) -> Self {
         let [zero, one] = [I::from(0), I::from(1)];
         let from_left = edge.step_x >= zero;
@@ -112,26 +113,18 @@ impl<I: EdgeInt> Crossing<I> {
             true => (value, edge.step_x, edge.step_y),
             false => (zero - value - one, zero - edge.step_x, zero - edge.step_y),
         };
-        let (columns, value) = divide(value, step);
-        let (whole, part) = divide(step_y, step);
+        let (columns, value) = value.divided(step);
+        let (whole, part) = step_y.divided(step);
         Self { column: zero - columns, value, step, whole, part, from_left }
     }
 
-    #[inline]
+    #[inline(always)]
     fn next_row(&mut self) {
         let value = self.value + self.part;
         let carry = value >= self.step;
         self.value = if carry { value - self.step } else { value };
         self.column = self.column - self.whole - I::from(i32::from(carry));
     }
-}
-
-/// The quotient rounded down, and the remainder, which is in [0, divisor).
-#[inline]
-fn divide<I: EdgeInt>(x: I, divisor: I) -> (I, I) {
-    let quotient = x / divisor;
-    let remainder = x - quotient * divisor;
-    if remainder < I::from(0) { (quotient - I::from(1), remainder + divisor) } else { (quotient, remainder) }
 }
 
 /// Walks the rows of a triangle's box from the top.
@@ -148,7 +141,7 @@ impl<I: EdgeInt> SpanWalker<I> {
     /// Their samples lie between the triangle's topmost and lowest vertex. The bounds of [`Edge::new`] hold for all of
     /// the box.
     #[must_use]
-    #[inline]
+    #[inline(never)]
     pub fn new(edges: &[Edge<I>; 3], width: i32, rows: i32) -> Self {
         // Of the rows only the last can be outside of a horizontal edge: when it lies exactly on a lower one.
         let last = I::from(rows - 1);

@@ -50,6 +50,7 @@ impl<R: Runs> Interpolation for FixedPoint<R> {}
 impl<R: Runs> Prepare for FixedPoint<R> {
     type Lanes<L: Floating> = OneFixed;
     type Triangle<L: Floating, V: Varying> = LineTriangle<R, FixedLines<V>>;
+    const HAS_SMALL: bool = true;
 
     #[inline(always)]
     fn run(self) -> i32 {
@@ -164,8 +165,7 @@ impl<V: Varying> FixedLines<V> {
         let zs = [a.zs.cast_signed(), b.zs.cast_signed(), c.zs.cast_signed()];
         // Positive floats are ordered as their words are.
         let greatest = a.q.max(b.q).max(c.q) >> 23;
-        let q = |q: f32| scaled(q, 127 + 30 - greatest.cast_signed()).max(1);
-        let q = if perspective { [q(a.q()), q(b.q()), q(c.q())] } else { [1; 3] };
+        let q = if perspective { [a.q, b.q, c.q].map(|q| relative(q, greatest)) } else { [1; 3] };
         Self {
             shape,
             zs: (zs[0], shape.plane(zs)),
@@ -177,6 +177,17 @@ impl<V: Varying> FixedLines<V> {
             }),
         }
     }
+}
+
+/// A positive `f32` in units of 2^(e - 157), to the nearest and at least 1. e is the biased exponent of the greatest,
+/// which comes to lie from 2^30 to 2^31 unless it is subnormal.
+#[inline(always)]
+fn relative(word: u32, e: u32) -> i32 {
+    let exponent = word >> 23;
+    let mantissa = (word << 9 >> 2) | u32::from(exponent != 0) << 30;
+    let shift = e.max(1) - exponent.max(1);
+    let halves = mantissa.checked_shl(1).unwrap_or(0).checked_shr(shift).unwrap_or(0);
+    (halves.wrapping_add(1) >> 1).max(1).cast_signed()
 }
 
 /// The product of a number and a positive one over 2^31, rounded down.
