@@ -29,6 +29,8 @@ struct Board {
     /// The most instructions a written pixel that some scenes may take, in tenths: what a scene does not use must not
     /// come back unnoticed. A division, a plane or a depth more a pixel would exceed them.
     limits: &'static [(&'static str, u64)],
+    /// The instructions that meshes took when these were written down. More by a hundredth is a failure.
+    meshes: &'static [(&'static str, u64)],
 }
 
 /// Every board, and the three kinds of core: without hardware for `f32`, with it, and another architecture.
@@ -52,6 +54,15 @@ const BOARDS: &[Board] = &[
             ("fixed-floor-mip-nearest", 2214),
             ("fixed-floor-trilinear", 5950),
         ],
+        meshes: &[
+            ("mesh", 98_741_510),
+            ("mesh-eighth", 13_955_175),
+            ("fixed-mesh-flat", 16_593_080),
+            ("fixed-mesh-gouraud", 22_962_537),
+            ("fixed-mesh-affine", 18_405_966),
+            ("fixed-mesh", 22_128_988),
+            ("fixed-mesh-eighth", 13_526_606),
+        ],
     },
     Board {
         name: "m4f",
@@ -67,6 +78,15 @@ const BOARDS: &[Board] = &[
             ("fixed-textured", 344),
             ("fixed-floor-mip-nearest", 1147),
             ("fixed-floor-trilinear", 3494),
+        ],
+        meshes: &[
+            ("mesh", 7_098_613),
+            ("mesh-eighth", 1_228_063),
+            ("fixed-mesh-flat", 2_619_743),
+            ("fixed-mesh-gouraud", 3_732_340),
+            ("fixed-mesh-affine", 3_224_822),
+            ("fixed-mesh", 4_629_765),
+            ("fixed-mesh-eighth", 1_476_548),
         ],
     },
     Board {
@@ -87,6 +107,15 @@ const BOARDS: &[Board] = &[
             ("fixed-textured", 372),
             ("fixed-floor-mip-nearest", 1185),
             ("fixed-floor-trilinear", 3702),
+        ],
+        meshes: &[
+            ("mesh", 57_284_688),
+            ("mesh-eighth", 7_713_418),
+            ("fixed-mesh-flat", 8_613_911),
+            ("fixed-mesh-gouraud", 11_974_357),
+            ("fixed-mesh-affine", 9_452_013),
+            ("fixed-mesh", 11_097_479),
+            ("fixed-mesh-eighth", 7_601_985),
         ],
     },
 ];
@@ -166,6 +195,7 @@ fn check(board: &Board, expected: &[Expected]) -> Outcome {
     println!("    {:<18}{:>10}{:>10}{:>10}", "program, bytes", ".text", ".rodata", "both");
     let mut failures = frames::differences(board.name, expected, &drawn);
     failures.extend(frames::excesses(board.name, expected, &drawn, board.limits));
+    failures.extend(frames::slower(board.name, &drawn, board.meshes));
     failures.extend(frames::unequal(board.name, &drawn, EQUAL));
     for name in WEIGHED {
         let path = folder.join("small").join(name);

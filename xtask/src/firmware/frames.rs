@@ -98,6 +98,19 @@ pub(super) fn excesses(
     limits.iter().filter_map(exceeds).collect()
 }
 
+/// One line for each scene that takes more than a hundredth more instructions than were written down.
+pub(super) fn slower(board: &str, drawn: &[Drawn], counts: &[(&str, u64)]) -> Vec<String> {
+    let exceeds = |(name, count): &(&str, u64)| match drawn.iter().find(|frame| frame.name == *name) {
+        Some(frame) if frame.cost * 100 <= count * 101 => None,
+        Some(frame) => Some(format!(
+            "board {board}, scene {name}: {} instructions, {count} and a hundredth more are expected at most",
+            frame.cost
+        )),
+        None => Some(format!("board {board}: there is a count for `{name}`, which is no scene")),
+    };
+    counts.iter().filter_map(exceeds).collect()
+}
+
 /// By how many instructions equal costs may seem to differ: a tick is a little more than one.
 const TICKS: u64 = 3;
 
@@ -166,6 +179,19 @@ mod tests {
                 "board m0, scene flat: 1200 instructions for 300 pixels, at most 3.9 each are expected",
                 "board m0, scene mesh: 401 instructions for 100 pixels, at most 4.0 each are expected",
                 "board m0: there is a limit for `none`, which is no scene",
+            ]
+        );
+    }
+
+    #[test]
+    fn more_by_a_hundredth_is_told() {
+        let drawn = drawn("frame flat aa 1010\nframe mesh bb 1011\n").unwrap();
+        assert_eq!(slower("m0", &drawn, &[("flat", 1000)]), [""; 0]);
+        assert_eq!(
+            slower("m0", &drawn, &[("mesh", 1000), ("none", 1)]),
+            [
+                "board m0, scene mesh: 1011 instructions, 1000 and a hundredth more are expected at most",
+                "board m0: there is a count for `none`, which is no scene",
             ]
         );
     }

@@ -89,6 +89,30 @@ draws! {
     affine_fixed(model): FixedPoint(Affine), mapped, Stored(model.texture.sampler(Nearest, Repeat));
 }
 
+/// Defines ways of drawing a mesh, each of whose vertices has a slot of its own, without perspective, in fixed point.
+macro_rules! meshes {
+    ($($(#[$doc:meta])* $name:ident($model:ident) in $slots:ident: $vertex_stage:expr, $stage:expr;)*) => {$(
+        $(#[$doc])*
+        pub fn $name<K: Counters>(target: &mut Target, camera: &Camera, $model: &Model, counters: &mut K) {
+            let mesh = Mesh::new($model.vertices, $model.triangles, $vertex_stage);
+            let Target { color, depth, slots } = target;
+            let pixels = alberti::Target::new(Rgb565Le, D16, WIDTH, HEIGHT, color, depth);
+            draw(pixels, camera, $model, &mesh, $stage, FixedPoint(Affine), &mut slots.$slots, counters);
+        }
+    )*};
+}
+
+meshes! {
+    /// One colour for all.
+    flat_mesh(model) in bare: |v: &Vertex| (place(v), ()), Solid(ORANGE);
+
+    /// The vertices' colours.
+    gouraud_mesh(model) in colored: colored, VertexColor565;
+
+    /// The nearest texel.
+    affine_mesh(model) in mapped: mapped, Stored(model.texture.sampler(Nearest, Repeat));
+}
+
 /// The nearest texel, in perspective, with depth. Each vertex has a slot of its own.
 pub fn textured<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
     textured_by(Exact, target, camera, model, counters);
@@ -111,7 +135,7 @@ fn textured_by<P: Interpolation, K: Counters>(
     let stage = Stored(model.texture.sampler(Nearest, Repeat));
     let Target { color, depth, slots } = target;
     let pixels = alberti::Target::new(Rgb565Le, D16, WIDTH, HEIGHT, color, depth);
-    let slots = slots.get_mut(..model.vertices.len()).unwrap_or_default();
+    let slots = slots.mapped.get_mut(..model.vertices.len()).unwrap_or_default();
     draw(pixels, camera, model, &mesh, stage, interpolation, slots, counters);
 }
 

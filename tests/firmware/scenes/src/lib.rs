@@ -10,13 +10,15 @@ mod draws;
 pub mod shapes;
 
 pub use draws::{
-    affine_fixed, flat, flat_fixed, flat_without_depth, gouraud, gouraud_fixed, material, material_absent,
-    material_emission, mip_bilinear, mip_bilinear_fixed, mip_nearest, mip_nearest_fixed, textured,
-    textured_fixed, trilinear, trilinear_fixed, trilinear_spans, trilinear_spans_fixed,
+    affine_fixed, affine_mesh, flat, flat_fixed, flat_mesh, flat_without_depth, gouraud, gouraud_fixed,
+    gouraud_mesh, material, material_absent, material_emission, mip_bilinear, mip_bilinear_fixed,
+    mip_nearest, mip_nearest_fixed, textured, textured_fixed, trilinear, trilinear_fixed, trilinear_spans,
+    trilinear_spans_fixed,
 };
 pub use shapes::PROBE;
 
 use alberti::glam::Vec2;
+use alberti::shaders::Ready565;
 use alberti::{D16, DepthFormat, Perspective, Slot};
 use shapes::{Model, TORUS_VERTICES, floor, layers, torus};
 
@@ -84,6 +86,9 @@ pub static SCENES: &[Scene] = &[
     fill!("fixed-affine-4", 4, affine_fixed),
     fill!("fixed-textured", 1, textured_fixed),
     fill!("fixed-textured-4", 4, textured_fixed),
+    scene!("fixed-mesh-flat", torus(1.0), flat_mesh),
+    scene!("fixed-mesh-gouraud", torus(1.0), gouraud_mesh),
+    scene!("fixed-mesh-affine", torus(1.0), affine_mesh),
     scene!("fixed-mesh", torus(1.0), textured_fixed),
     scene!("fixed-mesh-eighth", torus(0.125), textured_fixed),
     fill!("material", 1, material),
@@ -120,13 +125,28 @@ impl Camera {
 pub struct Target {
     color: [u16; PIXELS],
     depth: [u16; PIXELS],
-    slots: [Slot<Vec2>; TORUS_VERTICES],
+    slots: Slots,
+}
+
+/// Room for the vertices of the torus, by the attributes that they carry.
+#[derive(Debug)]
+struct Slots {
+    bare: [Slot<()>; TORUS_VERTICES],
+    colored: [Slot<Ready565>; TORUS_VERTICES],
+    mapped: [Slot<Vec2>; TORUS_VERTICES],
 }
 
 impl Target {
     /// Memory as it is before the start.
-    pub const EMPTY: Self =
-        Self { color: [0; PIXELS], depth: [0; PIXELS], slots: [Slot::EMPTY; TORUS_VERTICES] };
+    pub const EMPTY: Self = Self {
+        color: [0; PIXELS],
+        depth: [0; PIXELS],
+        slots: Slots {
+            bare: [Slot::EMPTY; TORUS_VERTICES],
+            colored: [Slot::EMPTY; TORUS_VERTICES],
+            mapped: [Slot::EMPTY; TORUS_VERTICES],
+        },
+    };
 
     /// Makes all pixels dark grey and as far away as can be.
     pub fn clear(&mut self) {
