@@ -55,7 +55,7 @@ struct Memory {
     color: [u16; PIXELS],
     depth: [u16; PIXELS],
     slots: [Slot<Vec2>; VERTICES.len()],
-    room: [ScreenTriangle<Vec2>; 2 * TRIANGLES.len()],
+    room: [PreparedTriangle; TRIANGLES.len()],
 }
 
 fn main() -> ExitCode {
@@ -67,7 +67,7 @@ pub(crate) fn picture() -> common::File {
         color: [0; PIXELS],
         depth: [0; PIXELS],
         slots: [Slot::EMPTY; VERTICES.len()],
-        room: [ScreenTriangle::EMPTY; 2 * TRIANGLES.len()],
+        room: [PreparedTriangle::EMPTY; TRIANGLES.len()],
     });
     let mut display = Vec::new();
     frame(&mut memory, |bytes| display.extend_from_slice(bytes))?;

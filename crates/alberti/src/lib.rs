@@ -35,7 +35,7 @@ pub use alberti_texture as texture;
 pub use error::Error;
 pub use geometry::{Geometry, Mesh};
 pub use pipeline::{Pass, draw};
-pub use prepared::{Prepared, ScreenTriangle};
+pub use prepared::{Prepared, PreparedTriangle};
 pub use profile::{DESKTOP, MCU, Profile, REFERENCE, TINY};
 pub use stats::Stats;
 pub use vertex::Slot;

@@ -177,19 +177,6 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
     ) where
         F: FragmentStage<M::Varying>,
     {
-        self.draw_from(0, lanes, target, counters);
-    }
-
-    /// [`count_by`](Self::count_by) from triangle number `first` on.
-    pub(crate) fn draw_from<L: Floating, C: ColorFormat, D: DepthFormat, K: Counters>(
-        &mut self,
-        first: usize,
-        lanes: L,
-        target: &mut Target<'_, C, D>,
-        counters: &mut K,
-    ) where
-        F: FragmentStage<M::Varying>,
-    {
         let Some(screen) = self.screen(target.size(), target.depth_format()) else { return };
         let (mesh, paint) = (self.mesh, &self.paint);
         let mut cache;
@@ -204,7 +191,8 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
         let mut batch = paint.batch(lanes, &mut visible);
         let mut walk = Walk::new(lanes, mesh, screen, slots);
         walk.triangles(
-            first,
+            0..,
+            0,
             counters,
             #[inline(always)]
             |corners, counters| batch.triangle(corners, counters),
@@ -212,13 +200,12 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
         batch.finish(counters);
     }
 
-    /// Does once, for all bands of a frame, the geometry half of [`draw`](Self::draw), as far as there is `room` for
-    /// the triangles on the screen. Returns with them the room that is left, for the next pass.
+    /// Does once, for all bands of a frame, the geometry half of [`draw`](Self::draw), and lists the triangles to be
+    /// drawn, as far as there is `room`. Returns with the list the room that is left, for the next pass.
     ///
     /// Triangles that could never be drawn take no room: those of the facing that is left out, those outside the view,
-    /// and those whose box holds no sample. A clipped triangle takes room for up to seven.
-    /// The mesh's triangles are kept in order, up to the first that finds no room; without any, [`Prepared::draw`] is
-    /// [`draw`](Self::draw). The pixels never depend on the room.
+    /// and those whose box holds no sample. The mesh's triangles are listed in order, up to the first that finds no
+    /// room; without any, [`Prepared::draw`] is [`draw`](Self::draw). The pixels never depend on the room.
     ///
     /// ```
     /// use alberti::{glam::Vec3, *};
@@ -235,9 +222,9 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
     ///
     /// let (mut color, mut depth) = ([0; 32 * 8], [0; 32 * 8]);
     /// let mut bands = Bands::new(Rgb565Be, D16, 32, 24, &mut color, &mut depth)?;
-    /// let mut room = [ScreenTriangle::EMPTY; 4];
+    /// let mut room = [PreparedTriangle::EMPTY; 4];
     /// let (mut prepared, rest) = pass.prepare(&bands, &mut room);
-    /// assert_eq!((prepared.kept(), prepared.remaining(), rest.len()), (2, 0, 2));
+    /// assert_eq!((prepared.listed(), prepared.remaining(), rest.len()), (2, 0, 2));
     ///
     /// // Three bands, one after the other in the same eight rows of memory.
     /// let mut frame = Vec::new();
@@ -257,30 +244,30 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
     /// ```
     ///
     /// # Cost
-    /// That of `draw` without the rasterizer, and a copy of each triangle that is kept. In return a band costs its
-    /// fragments, the setup of the triangles that meet it, and a comparison for each of the others.
-    #[expect(clippy::type_complexity, reason = "two things: the triangles, and the room that is left")]
+    /// That of `draw` without the rasterizer. In return a band costs its fragments, the setup of the triangles that are
+    /// in it, and a comparison for each of the others. With fewer [`slots`](Self::slots) than vertices, it also costs the
+    /// vertices of those that meet it; clipped triangles are clipped again.
     pub fn prepare<'p, C: ColorFormat, D: DepthFormat>(
         &'p mut self,
         bands: &Bands<'_, C, D>,
-        room: Room<'p, M::Varying>,
-    ) -> (Prepared<'p, 'a, M, F, P, Pr, D>, Room<'p, M::Varying>) {
+        room: Room<'p>,
+    ) -> (Prepared<'p, 'a, M, F, P, Pr, D>, Room<'p>) {
         Prepared::new(self, bands.size(), bands.depth_format(), room, &mut ())
     }
 
     /// [`prepare`](Self::prepare) for frames of this size, whose bands have this depth format.
     ///
-    /// `counters` hear, once, which triangles are submitted, dropped, clipped, culled, or missed by their box, up to
-    /// the first that finds no room. The others are counted by each [`Prepared::count_by`]. Together they count, for a
-    /// band with all rows of the viewport, the same as [`draw_by`](Self::draw_by).
-    #[expect(clippy::type_complexity, reason = "two things: the triangles, and the room that is left")]
+    /// `counters` hear, once, which triangles are submitted, dropped, clipped, and not listed for facing the wrong way
+    /// or missing all samples, up to the first that finds no room. The others are counted by each
+    /// [`Prepared::count_by`]. Together they count, for a band with all rows of the viewport, the same as
+    /// [`draw_by`](Self::draw_by).
     pub fn count_prepare<'p, D: DepthFormat>(
         &'p mut self,
         size: [u32; 2],
         depth: D,
-        room: Room<'p, M::Varying>,
+        room: Room<'p>,
         counters: &mut impl Counters,
-    ) -> (Prepared<'p, 'a, M, F, P, Pr, D>, Room<'p, M::Varying>) {
+    ) -> (Prepared<'p, 'a, M, F, P, Pr, D>, Room<'p>) {
         Prepared::new(self, size, depth, room, counters)
     }
 
@@ -312,14 +299,8 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
 
     /// The slots of the geometry half, and the paint half.
     #[inline]
-    pub(crate) fn halves(&mut self) -> (&mut [Slot<M::Varying>], &Paint<F, P>) {
-        (&mut *self.slots, &self.paint)
-    }
-
-    /// The paint half.
-    #[inline]
-    pub(crate) fn paint(&self) -> &Paint<F, P> {
-        &self.paint
+    pub(crate) fn halves(&mut self) -> (&mut &'a mut [Slot<M::Varying>], &Paint<F, P>) {
+        (&mut self.slots, &self.paint)
     }
 }
 

@@ -2,50 +2,65 @@
 
 use crate::geometry::Geometry;
 use crate::pipeline::Pass;
-use crate::stats::Stats;
 use crate::vertex::Slot;
-use crate::walk::Walk;
+use crate::walk::{Screen, Walk};
+use alberti_math::for_lanes;
 use alberti_math::lanes::{Floating, Machine, One};
-use alberti_math::{Varying, for_lanes};
 use alberti_projection::Projection;
-use alberti_raster::{
-    ColorFormat, Corner, Counters, DepthFormat, FragmentStage, Interpolation, Outcome, Paint, Target,
-};
+use alberti_raster::{ColorFormat, Counters, DepthFormat, FragmentStage, Interpolation, Outcome, Target};
 use core::fmt;
-use core::num::NonZeroU16;
+use core::mem::take;
 use core::ops::Range;
 
-/// Room for one triangle on the screen.
-///
-/// # Cost
-/// Three vertices of 16 bytes and a varying, and 4 bytes: 76 bytes where two numbers are carried.
+/// Room for one triangle of a prepared pass, in four bytes: its number in the mesh, and the rows of its samples.
 #[derive(Clone, Copy, Debug)]
-pub struct ScreenTriangle<V: Varying>(Option<Kept<V>>);
+pub struct PreparedTriangle(u32);
 
-impl<V: Varying> ScreenTriangle<V> {
+impl PreparedTriangle {
     /// Room without a triangle.
-    pub const EMPTY: Self = Self(None);
+    pub const EMPTY: Self = Self(0);
+
+    #[inline]
+    fn new(number: usize, Slices { first, last }: Slices) -> Option<Self> {
+        let number = u32::try_from(number).ok().filter(|&number| number <= NUMBER)?;
+        Some(Self(number | u32::from(first) << NUMBER_BITS | u32::from(last) << (NUMBER_BITS + SLICE_BITS)))
+    }
+
+    #[inline(always)]
+    fn number(self) -> usize {
+        (self.0 & NUMBER) as usize
+    }
+
+    #[inline(always)]
+    fn slices(self) -> Slices {
+        let [first, last] = [NUMBER_BITS, NUMBER_BITS + SLICE_BITS].map(|bit| (self.0 >> bit & SLICE) as u8);
+        Slices { first, last }
+    }
 }
+
+const NUMBER_BITS: u32 = 20;
+/// The greatest number of a triangle that is listed.
+const NUMBER: u32 = (1 << NUMBER_BITS) - 1;
+const SLICE_BITS: u32 = 6;
+/// The greatest number of a slice.
+const SLICE: u32 = (1 << SLICE_BITS) - 1;
 
 /// Room for triangles.
-pub(crate) type Room<'a, V> = &'a mut [ScreenTriangle<V>];
-
-#[derive(Clone, Copy, Debug)]
-struct Kept<V: Varying> {
-    corners: [Corner<V>; 3],
-    rows: Rows,
-}
+pub(crate) type Room<'a> = &'a mut [PreparedTriangle];
 
 /// A pass whose triangles have been transformed, clipped and culled for all bands of a frame: see [`Pass::prepare`].
 ///
-/// Triangles that did not find room are transformed, clipped and culled again by each [`draw`](Self::draw).
-pub struct Prepared<'p, 'a, M: Geometry, F, P, Pr, D> {
+/// Triangles that did not find room, and those after the first 2^20, are transformed, clipped and culled again by each
+/// [`draw`](Self::draw).
+pub struct Prepared<'p, 'a, M: Geometry, F, P, Pr: Projection, D> {
     pass: &'p mut Pass<'a, M, F, P, Pr>,
-    kept: &'p [ScreenTriangle<M::Varying>],
+    /// The way to the screen; `None` if the frame has no pixels.
+    screen: Option<Screen<Pr>>,
+    /// The number of vertices that have slots of their own, in which they stay.
+    filled: usize,
+    listed: &'p [PreparedTriangle],
     /// The first of the mesh's triangles that found no room.
     next: usize,
-    /// Columns and rows of the viewport.
-    pixels: [Range<i32>; 2],
     /// Columns and rows of the frame.
     size: [u32; 2],
     depth: D,
@@ -62,46 +77,53 @@ where
         pass: &'p mut Pass<'a, M, F, P, Pr>,
         size: [u32; 2],
         depth: D,
-        room: Room<'p, M::Varying>,
+        room: Room<'p>,
         counters: &mut K,
-    ) -> (Self, Room<'p, M::Varying>) {
-        let Some(screen) = pass.screen(size, depth) else {
-            let next = usize::MAX;
-            return (Self { pass, kept: &[], next, pixels: [0..0, 0..0], size, depth }, room);
+    ) -> (Self, Room<'p>) {
+        let screen = pass.screen(size, depth);
+        let Some(way) = screen else {
+            return (Self { pass, screen, filled: 0, listed: &[], next: usize::MAX, size, depth }, room);
         };
-        let pixels = screen.viewport.pixels();
+        let pixels = way.viewport.pixels();
+        let shift = slice_shift(&pixels[1]);
         let mut cache = [Slot::EMPTY; 16];
         let mesh = pass.mesh();
         let (slots, paint) = pass.halves();
-        let mut walk = Walk::new(One, mesh, screen, if slots.is_empty() { &mut cache } else { slots });
-        // The triangles that wholly found room, and their counts.
-        let (mut kept, mut counted, mut next) = (0, Stats::default(), 0);
+        let lasting = !slots.is_empty();
+        let mut walk = Walk::new(One, mesh, way, if lasting { slots } else { &mut cache });
+        let (mut listed, mut next) = (0, 0);
         while let Some(indices) = mesh.triangle(next) {
-            let (mut wanted, mut stats) = (kept, counted);
-            walk.triangle(indices, &mut stats, &mut |corners, stats: &mut Stats| match Rows::of(
-                paint, corners, &pixels,
-            ) {
-                Ok(rows) => {
-                    if let Some(place) = room.get_mut(wanted) {
-                        *place = ScreenTriangle(Some(Kept { corners: corners.map(|corner| *corner), rows }));
-                    }
-                    wanted += 1;
-                }
-                Err(outcome) => stats.rasterized(outcome),
+            // The rows of a triangle, or of all parts of it, and how many parts are never drawn.
+            let (mut rows, mut culled, mut missed) = (None, 0, 0);
+            let fate = walk.triangle(indices, |corners| match paint.reach(corners, &pixels) {
+                Ok(reach) => rows = Some(union(rows.take(), reach.rows())),
+                Err(Outcome::Culled) => culled += 1,
+                Err(_) => missed += 1,
             });
-            if wanted > room.len() {
-                break;
+            if let Some(rows) = rows {
+                let slices = Slices::of(&rows, pixels[1].start, shift);
+                let (Some(triangle), Some(place)) =
+                    (PreparedTriangle::new(next, slices), room.get_mut(listed))
+                else {
+                    break;
+                };
+                *place = triangle;
+                listed += 1;
+            } else {
+                (0..culled).for_each(|_| counters.rasterized(Outcome::Culled));
+                (0..missed).for_each(|_| counters.rasterized(Outcome::Missed));
             }
-            (kept, counted, next) = (wanted, stats, next + 1);
+            fate.count(counters);
+            next += 1;
         }
-        counted.repeat(counters);
-        let (kept, rest) = room.split_at_mut_checked(kept).unwrap_or_default();
-        (Self { pass, kept, next, pixels, size, depth }, rest)
+        let filled = if lasting { walk.filled() } else { 0 };
+        let (listed, rest) = room.split_at_mut_checked(listed).unwrap_or_default();
+        (Self { pass, screen, filled, listed, next, size, depth }, rest)
     }
 
     /// Draws into a band of the frame the same as [`Pass::draw`] would, in the same order and with the same pixels.
     /// Into a target of another frame's size, or whose depth runs the other way or has other bits, it draws as
-    /// [`Pass::draw`].
+    /// [`Pass::draw`] without slots.
     pub fn draw<C: ColorFormat>(&mut self, target: &mut Target<'_, C, D>)
     where
         F: FragmentStage<M::Varying>,
@@ -121,8 +143,8 @@ where
 
     /// [`draw_by`](Self::draw_by), of which `counters` hear.
     ///
-    /// Of a kept triangle, `counters` hear its fate in the rasterizer, if it has rows in the band. One that is drawn in
-    /// three bands is submitted once and drawn three times.
+    /// Of a listed triangle, `counters` hear the fate of its parts in the rasterizer, if it has rows near the band. One
+    /// that is drawn in three bands is submitted once and drawn three times.
     pub fn count_by<L: Floating, C: ColorFormat, K: Counters>(
         &mut self,
         lanes: L,
@@ -131,36 +153,45 @@ where
     ) where
         F: FragmentStage<M::Varying>,
     {
-        // A target of another frame, or of depths in another unit, gets all triangles anew.
+        let mesh = self.pass.mesh();
+        // A target of another frame, or of depths in another unit, gets all triangles anew, and the slots stay.
         let (depth, found) = (self.depth, target.depth_format());
         let same_depth = (found.reversed(), found.bits()) == (depth.reversed(), depth.bits());
         if target.size() != self.size || !same_depth {
-            self.pass.draw_from(0, lanes, target, counters);
+            let slots = take(self.pass.halves().0);
+            self.pass.count_by(lanes, target, counters);
+            *self.pass.halves().0 = slots;
             return;
         }
-        let [columns, rows] = self.pixels.clone();
-        let top = rows.start;
+        let Some(screen) = self.screen else { return };
+        let [columns, rows] = screen.viewport.pixels();
+        let (top, shift) = (rows.start, slice_shift(&rows));
         let mut visible = target.scissor(columns, rows);
         let [_, rows] = visible.limits();
-        let rows = rows.start - top..rows.end - top;
-        let mut batch = self.pass.paint().batch(lanes, &mut visible);
-        for ScreenTriangle(triangle) in self.kept {
-            if let Some(Kept { corners, rows: its }) = triangle
-                && its.meet(&rows)
-            {
-                batch.triangle(corners.each_ref(), counters);
-            }
+        if rows.is_empty() {
+            return;
         }
+        let its = Slices::of(&rows, top, shift);
+        let listed = self.listed.iter().filter(|triangle| triangle.slices().meet(its));
+        let remaining = self.next..mesh.triangles();
+        let mut cache = [Slot::EMPTY; 16];
+        let (slots, paint) = self.pass.halves();
+        let slots = if slots.is_empty() { &mut cache } else { &mut **slots };
+        let mut batch = paint.batch(lanes, &mut visible);
+        Walk::again(mesh, screen, slots, self.filled).triangles(
+            listed.map(|triangle| triangle.number()).chain(remaining),
+            self.next,
+            counters,
+            #[inline(always)]
+            |corners, counters| batch.triangle(corners, counters),
+        );
         batch.finish(counters);
-        if self.remaining() > 0 {
-            self.pass.draw_from(self.next, lanes, target, counters);
-        }
     }
 
-    /// The number of triangles on the screen that are kept.
+    /// The number of the mesh's triangles that are listed.
     #[must_use]
-    pub fn kept(&self) -> usize {
-        self.kept.len()
+    pub fn listed(&self) -> usize {
+        self.listed.len()
     }
 
     /// The number of the mesh's triangles, the last ones, that found no room: those that each band has to walk again.
@@ -170,92 +201,96 @@ where
     }
 }
 
-impl<M: Geometry, F, P, Pr, D: fmt::Debug> fmt::Debug for Prepared<'_, '_, M, F, P, Pr, D> {
+impl<M: Geometry, F, P, Pr: Projection, D: fmt::Debug> fmt::Debug for Prepared<'_, '_, M, F, P, Pr, D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Prepared")
-            .field("kept", &self.kept.len())
+            .field("listed", &self.listed.len())
             .field("next", &self.next)
             .field("depth", &self.depth)
             .finish_non_exhaustive()
     }
 }
 
-/// Rows of a viewport, counted from its first one: those in which a triangle may cover samples. Never none.
+/// Slices of a viewport's rows, counted from its first one. There are at most 64, of 2^s rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Rows {
-    first: u16,
-    /// One past the last. Not being zero, it leaves a value for a [`ScreenTriangle`] that is empty.
-    end: NonZeroU16,
+struct Slices {
+    first: u8,
+    last: u8,
 }
 
-impl Rows {
-    /// The rows of a triangle in a viewport of these `pixels`, or why it is never drawn there.
+/// The least s for which slices of 2^s rows are at most 64.
+#[inline]
+fn slice_shift(rows: &Range<i32>) -> u32 {
+    let last = rows.end.wrapping_sub(rows.start).wrapping_sub(1).max(1).cast_unsigned();
+    (last.ilog2() + 1).saturating_sub(SLICE_BITS)
+}
+
+impl Slices {
+    /// The slices of some rows, at least one, of a viewport that begins at `top`.
     #[inline]
-    fn of<F, P: Interpolation, V: Varying>(
-        paint: &Paint<F, P>,
-        corners: [&Corner<V>; 3],
-        [columns, rows]: &[Range<i32>; 2],
-    ) -> Result<Self, Outcome> {
-        let covered = paint.reach(corners, &[columns.clone(), rows.clone()])?.rows();
-        let row = |row: i32| u16::try_from(row - rows.start).ok();
-        match (row(covered.start), row(covered.end).and_then(NonZeroU16::new)) {
-            (Some(first), Some(end)) => Ok(Self { first, end }),
-            _ => Err(Outcome::Missed),
-        }
+    fn of(rows: &Range<i32>, top: i32, shift: u32) -> Self {
+        let [first, last] = [rows.start, rows.end.wrapping_sub(1)].map(|row| {
+            let slice = row.wrapping_sub(top).cast_unsigned() >> shift;
+            slice.min(SLICE) as u8
+        });
+        Self { first, last }
     }
 
-    /// Whether some of `rows`, counted like these, are among these.
-    #[inline]
-    fn meet(self, rows: &Range<i32>) -> bool {
-        i32::from(self.first) < rows.end && i32::from(self.end.get()) > rows.start
+    /// Whether there is one in both.
+    #[inline(always)]
+    fn meet(self, other: Self) -> bool {
+        self.first <= other.last && other.first <= self.last
+    }
+}
+
+/// The rows of both, and those between.
+#[inline]
+fn union(one: Option<Range<i32>>, other: Range<i32>) -> Range<i32> {
+    match one {
+        Some(one) => one.start.min(other.start)..one.end.max(other.end),
+        None => other,
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use alberti_math::glam::Vec2;
-    use alberti_math::{Fixed, Sub4};
-    use alberti_raster::{Cull, Exact, Numbers, Vertex};
 
     #[test]
-    fn a_triangle_takes_the_room_that_is_documented() {
-        assert_eq!(size_of::<ScreenTriangle<Vec2>>(), 76);
-        assert_eq!(size_of::<ScreenTriangle<()>>(), 3 * 16 + 4);
-    }
-
-    #[test]
-    fn rows_are_those_whose_samples_lie_between_the_vertices() {
-        let rows = |corners: [[i32; 2]; 3], cull| {
-            let vertices = corners.map(|p| {
-                let [x, y] = p.map(|c| Fixed::from_subpixels(c).expect("near the origin"));
-                Corner::new(Numbers::Float, &Vertex { x, y, zs: 0.5, q: 1.0, varying: () })
-            });
-            let paint = Paint { stage: (), interpolation: Exact, subpixel: Sub4, cull };
-            let rows = Rows::of(&paint, vertices.each_ref(), &[0..10, 100..110])?;
-            Ok(i32::from(rows.first)..i32::from(rows.end.get()))
-        };
-        // Row 103's sample is at 103 * 16 + 8.
-        let (top, bottom) = (103 * 16 + 8, 105 * 16 + 8);
-        assert_eq!(rows([[0, top], [90, bottom], [0, bottom]], Cull::Front), Ok(3..6));
-        assert_eq!(rows([[0, top + 1], [90, bottom - 1], [0, bottom - 1]], Cull::None), Ok(4..5));
-        assert_eq!(rows([[0, 0], [90, 9000], [0, 9000]], Cull::None), Ok(0..10));
-        // Between two rows, above, below, and to the right.
-        for (x, top, bottom) in [(0, top + 1, top + 15), (0, 0, 1607), (0, 1753, 9000), (160, top, bottom)] {
-            let triangle = [[x, top], [x + 90, bottom], [x, bottom]];
-            assert_eq!(rows(triangle, Cull::None), Err(Outcome::Missed), "{triangle:?}");
-            assert_eq!(rows(triangle, Cull::Back), Err(Outcome::Culled), "{triangle:?}");
+    fn slices_are_64_at_most_and_hold_their_rows() {
+        for rows in (1..300).chain([320, 1023, 1024, 1025, 32_767]) {
+            let (top, shift) = (-100, slice_shift(&(-100..rows - 100)));
+            assert!(shift == 0 || (rows - 1) >> (shift - 1) > 63, "{rows} rows in slices of 2^{shift}");
+            for row in 0..rows {
+                let its = Slices::of(&(top + row..top + row + 1), top, shift);
+                assert_eq!([its.first, its.last].map(i32::from), [row >> shift; 2], "row {row} of {rows}");
+                assert!(i32::from(its.last) < 64, "row {row} of {rows}");
+            }
         }
-        assert_eq!(rows([[0, 0], [16, 16], [32, 32]], Cull::None), Err(Outcome::Culled));
     }
 
     #[test]
-    fn rows_meet_those_they_share() {
-        let rows = Rows { first: 3, end: const { NonZeroU16::new(6).unwrap() } };
-        for (range, meet) in
-            [(0..3, false), (0..4, true), (4..5, true), (5..9, true), (6..9, false), (-5..3, false)]
-        {
-            assert_eq!(rows.meet(&range), meet, "{range:?}");
+    fn a_listed_triangle_has_its_number_and_its_slices() {
+        assert_eq!(size_of::<PreparedTriangle>(), 4);
+        for (number, first, last) in [(0, 0, 0), (1, 63, 63), (NUMBER as usize, 0, 63), (77_777, 5, 6)] {
+            let listed = PreparedTriangle::new(number, Slices { first, last }).expect("a number of 20 bits");
+            assert_eq!((listed.number(), listed.slices()), (number, Slices { first, last }));
+        }
+        assert!(PreparedTriangle::new(NUMBER as usize + 1, Slices { first: 0, last: 0 }).is_none());
+    }
+
+    #[test]
+    fn slices_meet_those_they_share() {
+        let slices = |first, last| Slices { first, last };
+        for (other, meet) in [
+            ((0, 2), false),
+            ((0, 3), true),
+            ((4, 4), true),
+            ((5, 8), true),
+            ((6, 8), false),
+            ((0, 63), true),
+        ] {
+            assert_eq!(slices(3, 5).meet(slices(other.0, other.1)), meet, "{other:?}");
         }
     }
 }

@@ -23,18 +23,6 @@ pub struct Stats {
     pub written: u64,
 }
 
-impl Stats {
-    /// Counts again, for someone else, the fates of triangles before any sample was drawn.
-    pub(crate) fn repeat(&self, counters: &mut impl Counters) {
-        let Self { submitted, dropped, clipped, culled, missed, .. } = *self;
-        (0..submitted).for_each(|_| counters.submitted());
-        (0..dropped).for_each(|_| counters.dropped());
-        (0..clipped).for_each(|_| counters.clipped());
-        (0..culled).for_each(|_| counters.rasterized(Outcome::Culled));
-        (0..missed).for_each(|_| counters.rasterized(Outcome::Missed));
-    }
-}
-
 impl core::ops::AddAssign for Stats {
     fn add_assign(&mut self, other: Self) {
         let Self { submitted, dropped, clipped, culled, missed, drawn, fragments, written } = other;

@@ -174,45 +174,75 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         Self { mesh, slots, filled, screen }
     }
 
-    /// Hands `sink` the visible parts of the triangles from number `first` on, on the screen: of each nothing, the
-    /// triangle, or the fan that clipping leaves.
+    /// The walk over slots in which an earlier one has left so many vertices, each in the slot of its number.
+    #[inline]
+    pub(crate) fn again(
+        mesh: &'a M,
+        screen: Screen<Pr>,
+        slots: &'a mut [Slot<M::Varying>],
+        filled: usize,
+    ) -> Self {
+        if filled == 0 {
+            slots.fill(Slot::EMPTY);
+        }
+        Self { mesh, slots, filled, screen }
+    }
+
+    /// The number of vertices that have slots of their own.
+    pub(crate) fn filled(&self) -> usize {
+        self.filled
+    }
+
+    /// Hands `sink` the visible parts of the triangles with these numbers, on the screen: of each nothing, itself, or
+    /// the fan that clipping leaves. It ends before the first number that the mesh has not. The counters have heard
+    /// before of those below number `heard`.
     #[inline(always)]
     pub(crate) fn triangles<K: Counters>(
         &mut self,
-        first: usize,
+        mut numbers: impl Iterator<Item = usize>,
+        heard: usize,
         counters: &mut K,
         mut sink: impl FnMut([&Corner<M::Varying>; 3], &mut K),
     ) {
-        let (mesh, mut number) = (self.mesh, first);
+        let mesh = self.mesh;
         loop {
             let slots = self.slots.get(..self.filled).unwrap_or_default();
             // Most triangles of a mesh that fits are inside.
-            let [i, j, k] = loop {
-                let Some([i, j, k]) = mesh.triangle(number) else { return };
-                number += 1;
-                let (Some(a), Some(b), Some(c)) = (slots.get(i), slots.get(j), slots.get(k)) else {
-                    break [i, j, k];
-                };
-                if a.outside | b.outside | c.outside != 0 {
-                    break [i, j, k];
+            let (number, indices) = loop {
+                let Some(number) = numbers.next() else { return };
+                let Some(indices) = mesh.triangle(number) else { return };
+                let Some(corners) = inside(slots, indices) else { break (number, indices) };
+                if number >= heard {
+                    counters.submitted();
                 }
-                counters.submitted();
-                sink([&a.screen, &b.screen, &c.screen], counters);
+                sink(corners, counters);
             };
             let mut called = |corners: [&_; 3], counters: &mut K| call(&mut sink, corners, counters);
-            self.triangle([i, j, k], counters, &mut called);
+            let fate = self.seldom(indices, counters, &mut called);
+            if number >= heard {
+                fate.count(counters);
+            }
         }
     }
 
     /// The same for one triangle.
-    #[inline(never)]
-    pub(crate) fn triangle<K: Counters>(
+    #[inline(always)]
+    pub(crate) fn triangle(
         &mut self,
         indices: [usize; 3],
-        counters: &mut K,
-        sink: Sink<'_, M::Varying, K>,
-    ) {
-        counters.submitted();
+        mut sink: impl FnMut([&Corner<M::Varying>; 3]),
+    ) -> Fate {
+        let slots = self.slots.get(..self.filled).unwrap_or_default();
+        if let Some(corners) = inside(slots, indices) {
+            sink(corners);
+            return Fate::Whole;
+        }
+        self.seldom(indices, &mut (), &mut |corners, ()| sink(corners))
+    }
+
+    /// The same for one triangle that is to be clipped, or whose vertices may not be in slots.
+    #[inline(never)]
+    fn seldom<K>(&mut self, indices: [usize; 3], counters: &mut K, sink: Sink<'_, M::Varying, K>) -> Fate {
         let Self { mesh, slots, filled, screen } = self;
         let [i, j, k] = indices;
         let places = indices.map(|index| Slot::<M::Varying>::place(index, slots.len()));
@@ -233,25 +263,54 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
             own = alone(*mesh, screen, indices);
             let [a, b, c] = &own;
             if !(a.holds(i) && b.holds(j) && c.holds(k)) {
-                counters.dropped();
-                return;
+                return Fate::Dropped;
             }
             [a, b, c]
         };
         let all = corners[0].outside | corners[1].outside | corners[2].outside;
         let common = corners[0].outside & corners[1].outside & corners[2].outside;
         if all & outside::NOWHERE != 0 || common & (outside::NEAR | outside::FAR | outside::SIDES) != 0 {
-            counters.dropped();
-            return;
+            return Fate::Dropped;
         }
         let sides = if screen.sides == Sides::Cube { outside::SIDES } else { 0 };
         if all & (outside::NEAR | outside::FAR | outside::GUARD | sides) == 0 {
             sink([&corners[0].screen, &corners[1].screen, &corners[2].screen], counters);
-        } else {
-            counters.clipped();
-            clip(*mesh, screen, indices, sink, counters);
+            return Fate::Whole;
+        }
+        clip(*mesh, screen, indices, sink, counters);
+        Fate::Clipped
+    }
+}
+
+/// The ways that a submitted triangle may go.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Fate {
+    /// It is wholly outside, or has a vertex without a place.
+    Dropped,
+    /// It crosses no plane.
+    Whole,
+    /// It crosses planes, and what is left of it was handed on.
+    Clipped,
+}
+
+impl Fate {
+    /// Tells the counters.
+    #[inline(always)]
+    pub(crate) fn count(self, counters: &mut impl Counters) {
+        counters.submitted();
+        match self {
+            Self::Dropped => counters.dropped(),
+            Self::Whole => (),
+            Self::Clipped => counters.clipped(),
         }
     }
+}
+
+/// The corners of a triangle whose vertices have slots of their own, and are within all planes.
+#[inline(always)]
+fn inside<V: Varying>(slots: &[Slot<V>], [i, j, k]: [usize; 3]) -> Option<[&Corner<V>; 3]> {
+    let (Some(a), Some(b), Some(c)) = (slots.get(i), slots.get(j), slots.get(k)) else { return None };
+    (a.outside | b.outside | c.outside == 0).then_some([&a.screen, &b.screen, &c.screen])
 }
 
 /// A triangle's vertices in slots of their own.
@@ -286,7 +345,7 @@ fn clip<M: Geometry, Pr: Projection, K>(
     let (positions, varyings) = ([a.0, b.0, c.0], [a.1, b.1, c.1]);
     let rotation = first_of(positions);
     let carried = rotated(varyings, rotation);
-    for fan in inside(screen, rotated(positions, rotation)).fan() {
+    for fan in cut(screen, rotated(positions, rotation)).fan() {
         let corners = fan.map(|vertex| on_the_screen(screen.numbers, vertex, varyings[0], &carried));
         if let [Some(a), Some(b), Some(c)] = &corners {
             sink([a, b, c], counters);
@@ -326,10 +385,7 @@ type Weights = Vec3;
 /// Two triangles that share an edge have the same new vertices on it, bit for bit, whatever their third vertex is. Its
 /// weight is 0 there, and stays so, since a cut is between two vertices of the polygon.
 #[inline(never)]
-fn inside<Pr: Projection>(
-    screen: &Screen<Pr>,
-    [a, b, c]: [Point3<Eye>; 3],
-) -> Polygon<Option<Vertex<Weights>>> {
+fn cut<Pr: Projection>(screen: &Screen<Pr>, [a, b, c]: [Point3<Eye>; 3]) -> Polygon<Option<Vertex<Weights>>> {
     let Screen { projection, viewport, depth, sides, guard, subpixel, .. } = screen;
     let triangle = [
         EyeVertex { position: a, varying: Vec3::X },
@@ -412,45 +468,4 @@ fn before(v: Point3<Eye>, w: Point3<Eye>) -> bool {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use alberti_math::{Flat, blend2};
-
-    #[test]
-    fn any_rotation_becomes_the_same_one() {
-        let v = |x, y, z| Point3::new(Vec3::new(x, y, z));
-        for [a, b, c] in [
-            [v(0.0, 0.0, 1.0), v(1.0, 0.0, 2.0), v(0.0, 1.0, 3.0)],
-            [v(0.0, 0.0, 1.0), v(1.0, 0.0, 1.0), v(0.0, 1.0, 1.0)],
-            [v(0.0, 0.0, 3.0), v(1.0, 0.0, 1.0), v(0.0, 1.0, 2.0)],
-        ] {
-            let canonical = |triangle| rotated(triangle, first_of(triangle));
-            assert_eq!(canonical([a, b, c]), canonical([b, c, a]));
-            assert_eq!(canonical([a, b, c]), canonical([c, a, b]));
-        }
-    }
-
-    /// On an edge the third vertex plays no part, wherever it stands in the order, and neither does the direction.
-    #[test]
-    fn edges_know_nothing_of_the_third_vertex() {
-        let mut noise = 1u32;
-        let mut next = || {
-            noise = noise.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
-            f32::from_bits(0x3f80_0000 | noise >> 9) - 1.0
-        };
-        for _ in 0..100_000 {
-            let [a, b, c, other, t] = [(); 5].map(|()| next() * 100.0 - 50.0);
-            let t = (t / 100.0).abs();
-            let [wa, wb] = [t, 1.0 - t];
-            let blended = blend2([wa, wb], [a, b]);
-            for found in [
-                weighted(c, [a, b, c], Vec3::new(wa, wb, 0.0)),
-                weighted(c, [b, other, a], Vec3::new(wb, 0.0, wa)),
-                weighted(c, [c, a, b], Vec3::new(0.0, wa, wb)),
-            ] {
-                assert_eq!(found.to_bits(), blended.to_bits());
-            }
-            assert_eq!(weighted(Flat(c), [a, b, c].map(Flat), Vec3::new(wa, wb, 0.0)), Flat(c));
-        }
-    }
-}
+mod tests;

@@ -7,7 +7,7 @@
 use alberti::glam::Vec3;
 use alberti::{
     AnyDepth, Bands, Camera, ColorFormat, Cull, DepthFormat, Mesh, Parallel, Pass, Perspective, Point3,
-    Projection, Rgb565Be, Rgba8, Rgba8888, ScreenTriangle, Target, Vector3, View, Viewport, look_at,
+    PreparedTriangle, Projection, Rgb565Be, Rgba8, Rgba8888, Target, Vector3, View, Viewport, look_at,
 };
 use alberti_oracle::rng::{Rng, run_seed};
 
@@ -121,7 +121,7 @@ fn bands_in_the_same_memory_make_the_frame() {
         let (mut memory, mut its_depth) = (vec![0; width * rows], vec![0; width * rows]);
         let mesh = Mesh::new(&soup.0, &soup.1, |&p| (p, p));
         let mut pass = Pass::new(&view, &mesh, stage).cull(Cull::None);
-        let mut room = vec![ScreenTriangle::EMPTY; rng.index(40)];
+        let mut room = vec![PreparedTriangle::EMPTY; rng.index(40)];
         let (mut prepared, _) = pass.count_prepare(size, DEPTH, &mut room, &mut ());
         for again in [false, true] {
             let mut bands =

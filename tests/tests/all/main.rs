@@ -18,7 +18,6 @@ mod pictures;
 mod policies;
 mod profiles;
 mod resolution;
-mod shared_edges;
 mod small;
 mod values;
 mod watertight;

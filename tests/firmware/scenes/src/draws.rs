@@ -95,7 +95,7 @@ macro_rules! meshes {
         $(#[$doc])*
         pub fn $name<K: Counters>(target: &mut Target, camera: &Camera, $model: &Model, counters: &mut K) {
             let mesh = Mesh::new($model.vertices, $model.triangles, $vertex_stage);
-            let Target { color, depth, slots } = target;
+            let Target { color, depth, slots, .. } = target;
             let pixels = alberti::Target::new(Rgb565Le, D16, WIDTH, HEIGHT, color, depth);
             draw(pixels, camera, $model, &mesh, $stage, FixedPoint(Affine), &mut slots.$slots, counters);
         }
@@ -133,10 +133,30 @@ fn textured_by<P: Interpolation, K: Counters>(
 ) {
     let mesh = Mesh::new(model.vertices, model.triangles, mapped);
     let stage = Stored(model.texture.sampler(Nearest, Repeat));
-    let Target { color, depth, slots } = target;
+    let Target { color, depth, slots, .. } = target;
     let pixels = alberti::Target::new(Rgb565Le, D16, WIDTH, HEIGHT, color, depth);
     let slots = slots.mapped.get_mut(..model.vertices.len()).unwrap_or_default();
     draw(pixels, camera, model, &mesh, stage, interpolation, slots, counters);
+}
+
+/// The same in 15 bands of 16 rows. They lie one after the other, so that together they are the whole frame.
+pub fn textured_bands<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    const BAND: usize = PIXELS / 15;
+    let mesh = Mesh::new(model.vertices, model.triangles, mapped);
+    let stage = Stored(model.texture.sampler(Nearest, Repeat));
+    let view = View::new(model.to_eye, camera.perspective);
+    let Target { color, depth, slots, listed } = target;
+    let mut pass = Pass::new(&view, &mesh, stage)
+        .interpolation(FixedPoint(Spans16))
+        .subpixel(Sub4)
+        .slots(&mut slots.mapped);
+    let (mut prepared, _) = pass.count_prepare([WIDTH, HEIGHT], D16, listed, counters);
+    let bands = color.chunks_mut(BAND).zip(depth.chunks_mut(BAND));
+    for ((color, depth), top) in bands.zip((0..HEIGHT).step_by(16)) {
+        if let Ok(mut band) = alberti::Target::band(Rgb565Le, D16, [WIDTH, HEIGHT], top, color, depth) {
+            prepared.count_by(One, &mut band, counters);
+        }
+    }
 }
 
 /// One colour for all, without depth: later triangles cover earlier ones.

@@ -12,15 +12,15 @@ pub mod shapes;
 pub use draws::{
     affine_fixed, affine_mesh, flat, flat_fixed, flat_mesh, flat_without_depth, gouraud, gouraud_fixed,
     gouraud_mesh, material, material_absent, material_emission, mip_bilinear, mip_bilinear_fixed,
-    mip_nearest, mip_nearest_fixed, textured, textured_fixed, trilinear, trilinear_fixed, trilinear_spans,
-    trilinear_spans_fixed,
+    mip_nearest, mip_nearest_fixed, textured, textured_bands, textured_fixed, trilinear, trilinear_fixed,
+    trilinear_spans, trilinear_spans_fixed,
 };
 pub use shapes::PROBE;
 
 use alberti::glam::Vec2;
 use alberti::shaders::Ready565;
-use alberti::{D16, DepthFormat, Perspective, Slot};
-use shapes::{Model, TORUS_VERTICES, floor, layers, torus};
+use alberti::{D16, DepthFormat, Perspective, PreparedTriangle, Slot};
+use shapes::{Model, TORUS_TRIANGLES, TORUS_VERTICES, floor, layers, torus};
 
 /// Columns of the frame.
 pub const WIDTH: u32 = 320;
@@ -90,6 +90,7 @@ pub static SCENES: &[Scene] = &[
     scene!("fixed-mesh-gouraud", torus(1.0), gouraud_mesh),
     scene!("fixed-mesh-affine", torus(1.0), affine_mesh),
     scene!("fixed-mesh", torus(1.0), textured_fixed),
+    scene!("fixed-mesh-bands", torus(1.0), textured_bands),
     scene!("fixed-mesh-eighth", torus(0.125), textured_fixed),
     fill!("material", 1, material),
     fill!("material-absent", 1, material_absent),
@@ -120,12 +121,14 @@ impl Camera {
     };
 }
 
-/// The memory of a frame: colour in little-endian RGB565, depth in 16 bits, and the transformed vertices.
+/// The memory of a frame: colour in little-endian RGB565, depth in 16 bits, the transformed vertices, and
+/// the list of the triangles in bands.
 #[derive(Debug)]
 pub struct Target {
     color: [u16; PIXELS],
     depth: [u16; PIXELS],
     slots: Slots,
+    listed: [PreparedTriangle; TORUS_TRIANGLES],
 }
 
 /// Room for the vertices of the torus, by the attributes that they carry.
@@ -146,6 +149,7 @@ impl Target {
             colored: [Slot::EMPTY; TORUS_VERTICES],
             mapped: [Slot::EMPTY; TORUS_VERTICES],
         },
+        listed: [PreparedTriangle::EMPTY; TORUS_TRIANGLES],
     };
 
     /// Makes all pixels dark grey and as far away as can be.

@@ -178,9 +178,10 @@ const AROUND: u16 = 32;
 /// Radius of the ring and of the tube.
 const RADII: [f32; 2] = [1.0, 0.45];
 
-/// The number of the torus's vertices: those of the seams are there twice, for their texture coordinates.
+/// Vertices of the torus: those of the seams are there twice, for their texture coordinates.
 pub const TORUS_VERTICES: usize = (ALONG as usize + 1) * (AROUND as usize + 1);
-const TORUS_TRIANGLES: usize = 2 * ALONG as usize * AROUND as usize;
+/// Triangles of the torus.
+pub const TORUS_TRIANGLES: usize = 2 * ALONG as usize * AROUND as usize;
 
 static TORUS_VERTEX_LIST: [Vertex; TORUS_VERTICES] = {
     let mut vertices = [Vertex::ZERO; TORUS_VERTICES];
