@@ -244,9 +244,9 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
     /// ```
     ///
     /// # Cost
-    /// That of `draw` without the rasterizer. In return a band costs its fragments, the setup of the triangles that are
-    /// in it, and a comparison for each of the others. With fewer [`slots`](Self::slots) than vertices, it also costs the
-    /// vertices of those that meet it; clipped triangles are clipped again.
+    /// That of `draw` without the rasterizer. In return a band costs its fragments, the setup of the triangles that
+    /// are in it, and a comparison for each of the others. With fewer [`slots`](Self::slots) than vertices, it also
+    /// costs the vertices of those that are in it; clipped triangles are clipped again.
     pub fn prepare<'p, C: ColorFormat, D: DepthFormat>(
         &'p mut self,
         bands: &Bands<'_, C, D>,
