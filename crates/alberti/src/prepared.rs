@@ -22,28 +22,31 @@ impl PreparedTriangle {
 
     #[inline]
     fn new(number: usize, Slices { first, last }: Slices) -> Option<Self> {
-        let number = u32::try_from(number).ok().filter(|&number| number <= NUMBER)?;
-        Some(Self(number | u32::from(first) << NUMBER_BITS | u32::from(last) << (NUMBER_BITS + SLICE_BITS)))
+        let number = u32::try_from(number).ok().filter(|number| number >> NUMBER == 0)?;
+        Some(Self(u32::from(first) << FIRST | u32::from(last) << NUMBER | number))
     }
 
     #[inline(always)]
     fn number(self) -> usize {
-        (self.0 & NUMBER) as usize
+        (self.0 & ((1 << NUMBER) - 1)) as usize
     }
 
+    /// A question for triangles, whether they have some of these slices: two comparisons of whole words.
     #[inline(always)]
-    fn slices(self) -> Slices {
-        let [first, last] = [NUMBER_BITS, NUMBER_BITS + SLICE_BITS].map(|bit| (self.0 >> bit & SLICE) as u8);
-        Slices { first, last }
+    fn meets(Slices { first, last }: Slices) -> impl Fn(&&Self) -> bool {
+        let below = (u64::from(last) + 1) << FIRST;
+        let most = u32::try_from(below - 1).unwrap_or(u32::MAX);
+        let least = u32::from(first) << FIRST;
+        move |triangle| triangle.0 <= most && triangle.0 << SLICE >= least
     }
 }
 
-const NUMBER_BITS: u32 = 20;
-/// The greatest number of a triangle that is listed.
-const NUMBER: u32 = (1 << NUMBER_BITS) - 1;
-const SLICE_BITS: u32 = 6;
-/// The greatest number of a slice.
-const SLICE: u32 = (1 << SLICE_BITS) - 1;
+/// Bits of a triangle's number.
+const NUMBER: u32 = 20;
+/// Bits of a slice's number.
+const SLICE: u32 = 6;
+/// The place of the first slice's number; the last one's is between it and the triangle's.
+const FIRST: u32 = NUMBER + SLICE;
 
 /// Room for triangles.
 pub(crate) type Room<'a> = &'a mut [PreparedTriangle];
@@ -95,11 +98,15 @@ where
         while let Some(indices) = mesh.triangle(next) {
             // The rows of a triangle, or of all parts of it, and how many parts are never drawn.
             let (mut rows, mut culled, mut missed) = (None, 0, 0);
-            let fate = walk.triangle(indices, |corners| match paint.reach(corners, &pixels) {
-                Ok(reach) => rows = Some(union(rows.take(), reach.rows())),
-                Err(Outcome::Culled) => culled += 1,
-                Err(_) => missed += 1,
-            });
+            let fate = walk.triangle(
+                indices,
+                #[inline(always)]
+                |corners| match paint.reach(corners, &pixels) {
+                    Ok(reach) => rows = Some(union(rows.take(), reach.rows())),
+                    Err(Outcome::Culled) => culled += 1,
+                    Err(_) => missed += 1,
+                },
+            );
             if let Some(rows) = rows {
                 let slices = Slices::of(&rows, pixels[1].start, shift);
                 let (Some(triangle), Some(place)) =
@@ -172,7 +179,7 @@ where
             return;
         }
         let its = Slices::of(&rows, top, shift);
-        let listed = self.listed.iter().filter(|triangle| triangle.slices().meet(its));
+        let listed = self.listed.iter().filter(PreparedTriangle::meets(its));
         let remaining = self.next..mesh.triangles();
         let mut cache = [Slot::EMPTY; 16];
         let (slots, paint) = self.pass.halves();
@@ -212,7 +219,7 @@ impl<M: Geometry, F, P, Pr: Projection, D: fmt::Debug> fmt::Debug for Prepared<'
 }
 
 /// Slices of a viewport's rows, counted from its first one. There are at most 64, of 2^s rows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 struct Slices {
     first: u8,
     last: u8,
@@ -222,7 +229,7 @@ struct Slices {
 #[inline]
 fn slice_shift(rows: &Range<i32>) -> u32 {
     let last = rows.end.wrapping_sub(rows.start).wrapping_sub(1).max(1).cast_unsigned();
-    (last.ilog2() + 1).saturating_sub(SLICE_BITS)
+    (last.ilog2() + 1).saturating_sub(SLICE)
 }
 
 impl Slices {
@@ -231,15 +238,9 @@ impl Slices {
     fn of(rows: &Range<i32>, top: i32, shift: u32) -> Self {
         let [first, last] = [rows.start, rows.end.wrapping_sub(1)].map(|row| {
             let slice = row.wrapping_sub(top).cast_unsigned() >> shift;
-            slice.min(SLICE) as u8
+            slice.min((1 << SLICE) - 1) as u8
         });
         Self { first, last }
-    }
-
-    /// Whether there is one in both.
-    #[inline(always)]
-    fn meet(self, other: Self) -> bool {
-        self.first <= other.last && other.first <= self.last
     }
 }
 
@@ -270,27 +271,20 @@ mod tests {
     }
 
     #[test]
-    fn a_listed_triangle_has_its_number_and_its_slices() {
+    fn a_listed_triangle_has_its_number_and_meets_its_slices() {
         assert_eq!(size_of::<PreparedTriangle>(), 4);
-        for (number, first, last) in [(0, 0, 0), (1, 63, 63), (NUMBER as usize, 0, 63), (77_777, 5, 6)] {
+        let greatest = (1 << NUMBER) - 1;
+        for (number, first, last) in [(0, 0, 0), (1, 63, 63), (greatest, 0, 63), (77_777, 5, 6)] {
             let listed = PreparedTriangle::new(number, Slices { first, last }).expect("a number of 20 bits");
-            assert_eq!((listed.number(), listed.slices()), (number, Slices { first, last }));
+            assert_eq!(listed.number(), number);
+            for a in 0..64 {
+                for b in a..64 {
+                    let shared = (first..=last).any(|slice| (a..=b).contains(&slice));
+                    let meets = PreparedTriangle::meets(Slices { first: a, last: b })(&&listed);
+                    assert_eq!(meets, shared, "{first} to {last}, {a} to {b}");
+                }
+            }
         }
-        assert!(PreparedTriangle::new(NUMBER as usize + 1, Slices { first: 0, last: 0 }).is_none());
-    }
-
-    #[test]
-    fn slices_meet_those_they_share() {
-        let slices = |first, last| Slices { first, last };
-        for (other, meet) in [
-            ((0, 2), false),
-            ((0, 3), true),
-            ((4, 4), true),
-            ((5, 8), true),
-            ((6, 8), false),
-            ((0, 63), true),
-        ] {
-            assert_eq!(slices(3, 5).meet(slices(other.0, other.1)), meet, "{other:?}");
-        }
+        assert!(PreparedTriangle::new(greatest + 1, Slices { first: 0, last: 0 }).is_none());
     }
 }
