@@ -305,6 +305,15 @@ impl SampleBox<'_> {
         end - aligned::<L>(start) <= NARROW && start >= self.limits.start && end <= self.limits.end && one_run
     }
 
+    /// The number of rows whose samples lie above the middle vertex.
+    #[inline(always)]
+    fn above(&self) -> i32 {
+        // The first corner is the topmost.
+        let [_, [_, b], [_, c]] = *self.corners;
+        let half = 1 << (self.bits - 1);
+        ((b.min(c) + half - 1) >> self.bits) - self.rows.start
+    }
+
     /// The edges, each opposite the vertex whose weight it is, with their values at the box's first sample.
     #[inline(always)]
     fn edges<I: EdgeInt>(&self) -> [Edge<I>; 3] {
@@ -339,7 +348,8 @@ where
 {
     let SampleBox { columns, rows, limits, .. } = samples;
     let mut edges = samples.edges::<I>();
-    let mut spans = RowSpans::new(&edges, columns.end - columns.start, rows.end - rows.start);
+    let mut spans =
+        RowSpans::new(&edges, columns.end - columns.start, [samples.above(), rows.end - rows.start]);
     // A triangle that covers no sample is not prepared.
     let mut painter = None;
     for row in rows.clone() {

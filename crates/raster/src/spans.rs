@@ -43,9 +43,9 @@ pub(crate) enum RowSpans<I> {
 const TESTED: i32 = 8;
 
 impl<I: EdgeInt> RowSpans<I> {
-    /// Starts at the row of the edges' reference sample, which is column 0 of a box of `width` columns and `rows` rows.
+    /// Starts as [`SpanWalker::new`] does.
     #[inline(always)]
-    pub(crate) fn new(edges: &[Edge<I>; 3], width: i32, rows: i32) -> Self {
+    pub(crate) fn new(edges: &[Edge<I>; 3], width: i32, rows: [i32; 2]) -> Self {
         // Narrow boxes that take 64 bits are higher than any target.
         if const { size_of::<I>() == size_of::<i32>() } && width <= TESTED {
             Self::Tested { edges: edges.map(|e| Edge { value: e.value + e.bias, ..e }), width }
@@ -100,22 +100,21 @@ struct Crossing<I> {
     /// The function's increment for a row: `whole * step + part`, with 0 <= `part` < `step`.
     whole: I,
     part: I,
-    from_left: bool,
 }
 
 impl<I: EdgeInt> Crossing<I> {
-    fn new(edge: &Edge<I>) -> Self {
+    /// The crossing so many rows below the edge's reference sample.
+    fn new(edge: &Edge<I>, rows: i32) -> Self {
         let [zero, one] = [I::from(0), I::from(1)];
-        let from_left = edge.step_x >= zero;
-        let value = edge.value + edge.bias;
-        let (value, step, step_y) = match from_left {
-            _ if edge.step_x == zero => (zero, one, zero),
-            true => (value, edge.step_x, edge.step_y),
-            false => (zero - value - one, zero - edge.step_x, zero - edge.step_y),
+        let value = edge.value + edge.bias + edge.step_y * I::from(rows);
+        let (value, step, step_y) = match edge.step_x.cmp(&zero) {
+            Ordering::Equal => (zero, one, zero),
+            Ordering::Greater => (value, edge.step_x, edge.step_y),
+            Ordering::Less => (zero - value - one, zero - edge.step_x, zero - edge.step_y),
         };
         let (columns, value) = value.divided(step);
         let (whole, part) = step_y.divided(step);
-        Self { column: zero - columns, value, step, whole, part, from_left }
+        Self { column: zero - columns, value, step, whole, part }
     }
 
     #[inline(always)]
@@ -128,38 +127,58 @@ impl<I: EdgeInt> Crossing<I> {
 }
 
 /// Walks the rows of a triangle's box from the top.
+///
+/// One side of a triangle is one edge; the other may have a second below the middle vertex.
 #[derive(Clone, Copy, Debug)]
 pub struct SpanWalker<I> {
-    /// One that bounds from the left, one that bounds from the right, and the third edge's.
-    crossings: [Crossing<I>; 3],
+    left: Crossing<I>,
+    right: Crossing<I>,
+    /// The second edge, where its first row is, and its side.
+    second: Crossing<I>,
+    second_is_left: bool,
+    /// The number of rows before that.
+    above: i32,
     width: I,
     rows: i32,
 }
 
 impl<I: EdgeInt> SpanWalker<I> {
-    /// Starts at the row of the edges' reference sample, which is column 0 of a box of `width` columns and `rows` rows.
-    /// Their samples lie between the triangle's topmost and lowest vertex. The bounds of [`Edge::new`] hold for all of
-    /// the box.
+    /// Starts at the row of the edges' reference sample, which is column 0 of a box of `width` columns. The edges run
+    /// clockwise. Of the rows from there on, so many have their samples above the triangle's middle vertex, and so many
+    /// between its topmost and its lowest. The bounds of [`Edge::new`] hold for all of the box.
     #[must_use]
     #[inline(never)]
-    pub fn new(edges: &[Edge<I>; 3], width: i32, rows: i32) -> Self {
+    pub fn new(edges: &[Edge<I>; 3], width: i32, [above, rows]: [i32; 2]) -> Self {
+        let [a, b, c] = edges;
+        let side = |e: &Edge<I>| e.step_x.cmp(&I::from(0));
         // Of the rows only the last can be outside of a horizontal edge: when it lies exactly on a lower one.
         let last = I::from(rows - 1);
-        let [a, b, c] = edges;
-        let cut = |e: &Edge<I>| e.step_x == I::from(0) && e.value + e.bias + e.step_y * last < I::from(0);
-        // The three steps add up to 0, so not all have the same sign.
-        let is = |e: &Edge<I>, sign: Ordering| e.step_x.cmp(&I::from(0)) == sign;
-        let [a, b, c] = if is(a, Ordering::Greater) {
-            if is(b, Ordering::Less) { [a, b, c] } else { [a, c, b] }
-        } else if is(b, Ordering::Greater) {
-            if is(a, Ordering::Less) { [b, a, c] } else { [b, c, a] }
-        } else if is(a, Ordering::Less) {
-            [c, a, b]
+        let cut = |e: &Edge<I>| side(e).is_eq() && e.value + e.bias + e.step_y * last < I::from(0);
+        // First the edge that is level, or else alone on its side.
+        let [a_side, b_side, c_side] = [side(a), side(b), side(c)];
+        let [alone, next, other] = if a_side.is_eq() || b_side == c_side {
+            [a, b, c]
+        } else if b_side.is_eq() || c_side == a_side {
+            [b, c, a]
         } else {
-            [c, b, a]
+            [c, a, b]
         };
+        // On the right side clockwise is downward.
+        let (level, second_is_left) = (side(alone).is_eq(), side(next).is_gt());
+        let [upper, lower] = if second_is_left { [other, next] } else { [next, other] };
+        let first = if above > 0 { upper } else { lower };
+        let [left, right] = match second_is_left {
+            _ if level => [lower, upper],
+            true => [first, alone],
+            false => [alone, first],
+        };
+        let above = if level || above >= rows { 0 } else { above };
         Self {
-            crossings: [Crossing::new(a), Crossing::new(b), Crossing::new(c)],
+            left: Crossing::new(left, 0),
+            right: Crossing::new(right, 0),
+            second: Crossing::new(lower, above.max(0)),
+            second_is_left,
+            above,
             width: I::from(width),
             rows: rows - i32::from(cut(a) || cut(b) || cut(c)),
         }
@@ -176,13 +195,7 @@ impl<I: EdgeInt> SpanWalker<I> {
     #[must_use]
     #[inline]
     pub fn span(&self) -> Span {
-        let [left, right, third] = &self.crossings;
-        let (mut start, mut end) = (left.column.max(I::from(0)), right.column.min(self.width));
-        if third.from_left {
-            start = start.max(third.column);
-        } else {
-            end = end.min(third.column);
-        }
+        let (start, end) = (self.left.column.max(I::from(0)), self.right.column.min(self.width));
         // Far outside of the box columns would not fit their type.
         Span { start: start.min(self.width).to_i32(), end: end.max(I::from(0)).to_i32() }
     }
@@ -190,8 +203,11 @@ impl<I: EdgeInt> SpanWalker<I> {
     /// Goes down one row.
     #[inline]
     pub fn next_row(&mut self) {
-        for crossing in &mut self.crossings {
-            crossing.next_row();
+        self.left.next_row();
+        self.right.next_row();
+        self.above -= 1;
+        if self.above == 0 {
+            *(if self.second_is_left { &mut self.left } else { &mut self.right }) = self.second;
         }
     }
 }
@@ -203,7 +219,7 @@ mod tests {
     /// Every triangle on a small grid of subpixels: the span is the samples where all three edges agree.
     #[test]
     fn spans_are_where_all_edges_agree() {
-        let corners = [-5, 0, 3, 8, 24, 37];
+        let corners = [-5, 0, 3, 8, 17, 24, 59];
         let vertices = || corners.into_iter().flat_map(|x| corners.map(|y| [x, y]));
         let mut covered = 0;
         for a in vertices() {
@@ -213,13 +229,16 @@ mod tests {
                     let sample = |y: i32| (y - 8) >> 4;
                     let first = (sample(a[1].min(b[1]).min(c[1]) + 15)).max(0);
                     let rows = sample(a[1].max(b[1]).max(c[1])) + 1 - first;
+                    let mut heights = [a, b, c].map(|[_, y]| y);
+                    heights.sort_unstable();
+                    let above = sample(heights[1] + 15) - first;
                     let edge = |a, b| Edge::<i32>::new(a, b, [8, first * 16 + 8], 16);
                     let edges = [edge(b, c), edge(c, a), edge(a, b)];
                     let area = edges.iter().map(|e| e.value).sum::<i32>();
                     if area <= 0 || rows < 1 {
                         continue;
                     }
-                    let mut walker = SpanWalker::new(&edges, 3, rows);
+                    let mut walker = SpanWalker::new(&edges, 3, [above, rows]);
                     for row in 0..rows {
                         let span = walker.span();
                         let span = if row < walker.rows() { span } else { Span { start: 0, end: 0 } };

@@ -141,7 +141,7 @@ fn in_span(subpixel: Subpixel, rng: &mut Rng, tri: Triangle, sample: [i64; 2]) -
     let top = row - within(rng, &(0..1 + (row - rows.start).min(12)));
     let first = center(subpixel, [left, top]);
     let edges = ends(tri).map(|[from, to]| Edge::<i64>::new(from, to, first, 1 << subpixel.bits()));
-    let mut walker = SpanWalker::new(&edges, columns.end - left, rows.end - top);
+    let mut walker = SpanWalker::new(&edges, columns.end - left, [above(subpixel, tri, top), rows.end - top]);
     if row - top >= walker.rows() {
         return Some(false);
     }
@@ -150,6 +150,14 @@ fn in_span(subpixel: Subpixel, rng: &mut Rng, tri: Triangle, sample: [i64; 2]) -
     }
     let span = walker.span();
     Some((span.start..span.end).contains(&(column - left)))
+}
+
+/// The number of rows from `top` on whose samples lie above the middle vertex.
+fn above(subpixel: Subpixel, tri: Triangle, top: i32) -> i32 {
+    let mut heights = tri.map(|[_, y]| y);
+    heights.sort_unstable();
+    let [one, half] = steps(subpixel);
+    -(half - heights[1]).div_euclid(one) as i32 - top
 }
 
 /// The centre of a pixel.
@@ -214,8 +222,9 @@ fn widths_agree(subpixel: Subpixel, stream: u64) {
         let top = if rng.one_in(2) { rows.end - count } else { top };
         let first = center(subpixel, [left, top]);
         let (ends, one) = (ends(tri), 1 << subpixel.bits());
-        let narrow = walk!(i32, ends.map(|[from, to]| Edge::new(from, to, first, one)), right - left, count);
-        let wide = walk!(i64, ends.map(|[from, to]| Edge::new(from, to, first, one)), right - left, count);
+        let (width, rows) = (right - left, [above(subpixel, tri, top), count]);
+        let narrow = walk!(i32, ends.map(|[from, to]| Edge::new(from, to, first, one)), width, rows);
+        let wide = walk!(i64, ends.map(|[from, to]| Edge::new(from, to, first, one)), width, rows);
         assert_eq!(narrow, wide, "{tri:?} from {first:?}");
         spans += narrow.len() as u64;
         covered += narrow.iter().filter(|s| s.start < s.end).count() as u64;
