@@ -1,5 +1,7 @@
 //! Reciprocals without a division: a table and Newton's steps.
 
+use crate::{high, high_signed};
+
 /// The starting values of the steps: 2^17/x for the middle of each 256th of [1, 2), to the nearest, without the highest
 /// bit, which all have.
 static TABLE: [u16; 256] = {
@@ -25,32 +27,39 @@ static TABLE: [u16; 256] = {
 /// A load from a table of 512 bytes, and two products of 32 bits to 64 for each step.
 #[must_use]
 #[inline]
-#[expect(clippy::cast_possible_truncation, reason = "quotients and products are below 2^32")]
 pub fn reciprocal<const STEPS: u32>(x: u32) -> u32 {
-    let high = |a: u32, b: u32| (u64::from(a) * u64::from(b)) >> 31;
     let entry = TABLE.get((x >> 23 & 255) as usize).copied().unwrap_or(0);
     let mut y = (u32::from(entry) | 1 << 16) << 15;
     for _ in 0..STEPS {
         // y (2 - x y), with x in [1, 2) in units of 2^-31 and y in (1/2, 1] in 2^-32. The complement is one unit below
         // the difference, for what the product's last bits were.
-        let less = (high(x, y) >> 1) as u32;
-        y = high(y, !less).min(u64::from(u32::MAX)) as u32;
+        let more = high(x, y) ^ i32::MAX as u32;
+        // That minus 1, in units of 2^-32; of a negative one `high` has y too much.
+        let part = high(y, more << 1);
+        y = if more.cast_signed() < 0 { part } else { y.saturating_add(part) };
     }
     y
 }
 
-/// The highest 32 bits of the product of two words: a·b/2^32, rounded down.
+/// 2^61 / x for x from 2^30 to 2^31 - 1, below 2^31.
+///
+/// # Precision
+/// Never too large, and short of it by less than 2^-28, relatively.
+///
+/// # Cost
+/// A load from a table of 512 bytes, two products of 32 bits to 64, and two small ones: half of
+/// [`reciprocal::<2>`](reciprocal) where products are dear.
 #[must_use]
 #[inline(always)]
-pub const fn high(a: u32, b: u32) -> u32 {
-    ((a as u64 * b as u64) >> 32) as u32
-}
-
-/// [`high`] of signed numbers.
-#[must_use]
-#[inline(always)]
-pub const fn high_signed(a: i32, b: i32) -> i32 {
-    ((a as i64 * b as i64) >> 32) as i32
+pub fn reciprocal_signed(x: i32) -> i32 {
+    let entry = TABLE.get((x >> 22 & 255).cast_unsigned() as usize).copied().unwrap_or(0);
+    // 17 bits of y, which is in 2^-31.
+    let first = i32::from(entry) | 1 << 16;
+    // y (2 - x y), with x in [1, 2) and y in (1/2, 1]. What is left of 1, in 2^-29 and a unit short, is small; so
+    // factors need no more bits than count.
+    let left = |y: i32| (1 << 29) - 1 - high_signed(x, y);
+    let y = (first << 14) + ((first * (left(first << 14) >> 6)) >> 9);
+    y + (((y >> 15) * left(y)) >> 14)
 }
 
 #[cfg(test)]
@@ -70,6 +79,20 @@ mod tests {
             );
         }
         worst
+    }
+
+    #[test]
+    fn signed_reciprocals_keep_their_bounds_and_never_exceed() {
+        let mut worst = 0.0;
+        let ends = [1 << 30, (1 << 30) + 1, i32::MAX - 1, i32::MAX];
+        for x in (1 << 30..=i32::MAX).step_by(1009).chain(ends) {
+            let y = reciprocal_signed(x);
+            let short = 1.0 - f64::from(x) * f64::from(y) / 2f64.powi(61);
+            assert!(y > 0 && short >= 0.0, "{x}: {y}");
+            worst = f64::max(worst, short);
+        }
+        println!("2^{:.2}", worst.log2());
+        assert!(worst < 2f64.powi(-28) && worst > 2f64.powi(-30));
     }
 
     #[test]

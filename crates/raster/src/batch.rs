@@ -19,7 +19,7 @@ use core::ops::Range;
 #[must_use = "the last triangles are drawn by `finish`"]
 pub struct Batch<'a, 't, L: Lanes, V: Varying, F, P, C: ColorFormat, D: DepthFormat> {
     lanes: L,
-    paint: &'a Paint<F, P>,
+    paint: Paint<F, P>,
     target: &'a mut Target<'t, C, D>,
     limits: [Range<i32>; 2],
     triangles: L::Each<Option<Copied<V>>>,
@@ -30,18 +30,19 @@ impl<F, P: Interpolation> Paint<F, P> {
     /// An empty batch of triangles for a target.
     #[inline]
     pub fn batch<'a, 't, L, V, C, D>(
-        &'a self,
+        &self,
         lanes: L,
         target: &'a mut Target<'t, C, D>,
     ) -> Batch<'a, 't, L, V, F, P, C, D>
     where
         L: Floating,
         V: Varying,
+        F: Copy,
         C: ColorFormat,
         D: DepthFormat,
     {
         let limits = target.limits();
-        Batch { lanes, paint: self, target, limits, triangles: lanes.each(|_| None), count: 0 }
+        Batch { lanes, paint: *self, target, limits, triangles: lanes.each(|_| None), count: 0 }
     }
 }
 

@@ -130,7 +130,7 @@ impl<F, P: Interpolation> Paint<F, P> {
     /// [`draw_one`](Self::draw_one) for a triangle that is not small.
     #[inline(never)]
     fn draw_large<L, V, C, D, K>(
-        &self,
+        self,
         lanes: L,
         target: &mut Target<'_, C, D>,
         corners: [&Corner<V>; 3],

@@ -15,7 +15,7 @@
 //! # Coverage
 //! An edge crosses the rows' centres at multiples of 2^-12 column, as it is at most 2^8 subpixels high. Crossings are
 //! followed in units of 2^-20, of which 2^7 are taken off: exact multiples then lie above the one below. Rounding moves
-//! them by less: 16 units on the way to the first row, one for each of 16 rows, and one for the shift.
+//! them by less: 32 units on the way to the first row, two for each of 16 rows, and one for the shift.
 //!
 //! # Values
 //! In units of 2^-24 a column or a row adds its slope within 1.4, for up to 17 of each. The way from the first vertex
@@ -141,7 +141,7 @@ pub(crate) fn draw<R, V, F, C, D, K>(
     runs: R,
     (stage, cull): (F, Cull),
     target: &mut Target<'_, C, D>,
-    [a, b, c]: [&Corner<V>; 3],
+    corners: [&Corner<V>; 3],
     counters: &mut K,
 ) -> Option<Outcome>
 where
@@ -152,33 +152,38 @@ where
     D: DepthFormat,
     K: Counters,
 {
-    let from_a = |p: [i32; 2]| [p[0] - a.place[0], p[1] - a.place[1]];
-    let ([ux, uy], [vx, vy]) = (from_a(b.place), from_a(c.place));
+    let [u, v] = sides(corners);
     let reach = SIDE << BITS;
-    let far = |d: i32| d.wrapping_add(reach).cast_unsigned();
-    if far(ux) | far(uy) | far(vx) | far(vy) >= 2 * reach.cast_unsigned() {
+    let far =
+        |[x, y]: [i32; 2]| x.wrapping_add(reach).cast_unsigned() | y.wrapping_add(reach).cast_unsigned();
+    if far(u) | far(v) >= 2 * reach.cast_unsigned() {
         return None;
     }
-    let area = ux * vy - uy * vx;
-    if cull.drops(area.into()) {
+    if cull.drops(doubled_area([u, v]).into()) {
         return Some(Outcome::Culled);
     }
-    // By rows, and within a row by columns.
-    let key = |[x, y]: [i32; 2]| (y << 9) + x;
-    fill(runs, stage, target, a, (b, key([ux, uy])), (c, key([vx, vy])), area, counters)
+    fill(runs, stage, target, corners, counters)
+}
+
+/// The sides from the first corner to the others.
+#[inline(always)]
+fn sides<V: Varying>([a, b, c]: [&Corner<V>; 3]) -> [[i32; 2]; 2] {
+    [b, c].map(|p| [p.place[0] - a.place[0], p.place[1] - a.place[1]])
+}
+
+/// Twice the signed area between two sides below 2^15.
+#[inline(always)]
+fn doubled_area([u, v]: [[i32; 2]; 2]) -> i32 {
+    u[0] * v[1] - u[1] * v[0]
 }
 
 /// The same for one that faces the right way.
 #[inline(never)]
-#[expect(clippy::too_many_arguments, reason = "in registers")]
 fn fill<R, V, F, C, D, K>(
     runs: R,
     stage: F,
     target: &mut Target<'_, C, D>,
-    first: &Corner<V>,
-    second: (&Corner<V>, i32),
-    third: (&Corner<V>, i32),
-    area: i32,
+    corners: [&Corner<V>; 3],
     counters: &mut K,
 ) -> Option<Outcome>
 where
@@ -189,8 +194,13 @@ where
     D: DepthFormat,
     K: Counters,
 {
+    let [u, v] = sides(corners);
+    let area = doubled_area([u, v]);
+    // By rows, and within a row by columns.
+    let key = |[x, y]: [i32; 2]| (y << 9) + x;
+    let [first, b, c] = corners;
     // From top to bottom, and from left to right: no bit depends on the order that was given.
-    let (mut a, mut b, mut c, mut clockwise) = ((first, 0), second, third, area > 0);
+    let (mut a, mut b, mut c, mut clockwise) = ((first, 0), (b, key(u)), (c, key(v)), area > 0);
     if b.1 < a.1 {
         (a, b, clockwise) = (b, a, !clockwise);
     }
@@ -205,19 +215,20 @@ where
 
     let (west, east) = (ax.min(bx).min(cx), ax.max(bx).max(cx));
     let reach = SIDE << BITS;
-    if east - west > reach || cy - ay > reach {
+    if east - west >= reach || cy - ay >= reach {
         return None;
     }
     let [columns, rows] = target.limits();
-    let (top, end) = (row(ay).max(rows.start), row(cy).min(rows.end));
-    let left = row(west).max(columns.start);
-    let to = row(east + 1).min(columns.end) - left;
-    if top >= end || to <= 0 {
+    // The first sample that is neither above nor to the left of the highest vertex.
+    let origin = [row(ax), row(ay)];
+    let (top, end) = (origin[1].max(rows.start), row(cy).min(rows.end));
+    if top >= end || row(west) >= row(east + 1) {
         return Some(Outcome::Missed);
     }
+    let [from, to] = [columns.start, columns.end].map(|column| column - origin[0]);
     let middle = row(by).max(top).min(end);
-    let [x, y] = [(left << BITS) + ONE / 2, (top << BITS) + ONE / 2];
-    let shape = Shape::new([a.place, b.place, c.place], [x, y], area.unsigned_abs(), clockwise);
+    let center = |row: i32| [(origin[0] << BITS) + ONE / 2, (row << BITS) + ONE / 2];
+    let shape = Shape::new([a.place, b.place, c.place], center(origin[1]), area.unsigned_abs(), clockwise);
     let planes = planes(runs, &shape, [a, b, c, first], target.depth_format().bits())?;
 
     let lanes = OneFixed;
@@ -226,30 +237,31 @@ where
             [Q16::from_bits(ramp.across >> MORE), Q16::from_bits(ramp.down >> MORE)]
         }));
     let formats = (target.color_format(), target.depth_format());
-    let long = Crossing::new([ax, ay], [cx, cy], [x, y]);
+    let mut lines = target.lines(top, origin[0]);
+    let long = Crossing::new([ax, ay], [cx, cy], center(top));
     let (mut start, mut stop) = (long, long);
     let (mut outcome, mut row, mut below) = (Outcome::Missed, top, middle);
     let mut ends = [[ax, ay], [bx, by]];
     loop {
         // The short edge of these rows.
         if row < below {
-            let short = Crossing::new(ends[0], ends[1], [x, (row << BITS) + ONE / 2]);
+            let short = Crossing::new(ends[0], ends[1], center(row));
             *(if clockwise { &mut stop } else { &mut start }) = short;
         }
         while row < below {
-            let columns = start.column().max(0)..stop.column().min(to);
-            if columns.start < columns.end {
+            let columns = start.column().max(from)..stop.column().min(to);
+            let count = columns.end - columns.start;
+            if count > 0 {
                 outcome = Outcome::Drawn;
-                let first = [columns.start, row - top];
-                if let Some((colors, depths)) = target.run(row, left + columns.start..left + columns.end) {
+                let first = [columns.start, row - origin[1]];
+                if let Some((colors, depths)) = lines.run(columns.start, count) {
                     let mut depth = planes.zs.at(first);
                     let mut cursor = V::map(&planes.values, &|ramp: Ramp| ramp.at(first));
-                    let (mut written, mut column) = (0, left + columns.start);
-                    // As many bits as samples: compilers, which do not see how many times this goes round, leave it as
-                    // it is.
-                    let mut samples = (1_u32 << (columns.end - columns.start)) - 1;
-                    let mut pixels = colors.iter_mut().zip(depths);
-                    while let (Some((color, stored)), true) = (pixels.next(), samples != 0) {
+                    let (mut written, mut column) = (0, origin[0] + columns.start);
+                    // A bit that is gone after as many samples: compilers, which do not see how many times this goes
+                    // round, leave it as it is.
+                    let mut last = 1_u32.rotate_right(count.cast_unsigned());
+                    for (color, stored) in colors.iter_mut().zip(depths) {
                         let new = formats.1.encode_lanes(lanes, planes.depth(depth));
                         if formats.1.seen(lanes, &new, array::from_mut(stored), true) {
                             let varying = V::map(&cursor, &|at: i32| Q16::from_bits(at >> MORE));
@@ -269,13 +281,17 @@ where
                             },
                         );
                         column += 1;
-                        samples >>= 1;
+                        last <<= 1;
+                        if last == 0 {
+                            break;
+                        }
                     }
-                    counters.span(columns.end.abs_diff(columns.start), written);
+                    counters.span(count.cast_unsigned(), written);
                 }
             }
             start.next_row();
             stop.next_row();
+            lines.next_row();
             row += 1;
         }
         if row >= end {

@@ -313,17 +313,43 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
         (color.get_mut(..count).unwrap_or_default(), depth.get_mut(..count).unwrap_or_default())
     }
 
-    /// The colours and the depths of some columns of the frame's row `row`; none where there are none.
+    /// The rows from one on, whose columns count from `left`, which may lie outside.
     #[inline(always)]
-    pub(crate) fn run(&mut self, row: i32, columns: Range<i32>) -> Option<Pixels<'_, C::Pixel, D::Stored>> {
-        // Negative ones are too large.
-        let at = |place: i32| place.cast_unsigned() as usize;
-        let row = at(row).wrapping_sub(self.first_row);
-        let [color, depth] = self.strides.map(|stride| {
-            let first = row.wrapping_mul(stride);
-            first.wrapping_add(at(columns.start))..first.wrapping_add(at(columns.end))
-        });
-        Some((self.color.get_mut(color)?, self.depth.get_mut(depth)?))
+    #[expect(clippy::cast_sign_loss, reason = "sums wrap back")]
+    pub(crate) fn lines(&mut self, row: i32, left: i32) -> Lines<'_, C::Pixel, D::Stored> {
+        let place = |place: i32| place as usize;
+        let row = place(row).wrapping_sub(self.first_row);
+        let first = self.strides.map(|stride| row.wrapping_mul(stride).wrapping_add(place(left)));
+        Lines { color: self.color, depth: self.depth, strides: self.strides, first }
+    }
+}
+
+/// Rows of a target, from top to bottom.
+pub(crate) struct Lines<'a, C, D> {
+    color: &'a mut [C],
+    depth: &'a mut [D],
+    strides: [usize; 2],
+    /// The row's first pixel.
+    first: [usize; 2],
+}
+
+impl<C, D> Lines<'_, C, D> {
+    /// The colours and the depths of so many columns of the row from `start` on; none where there are none.
+    #[inline(always)]
+    #[expect(clippy::cast_sign_loss, reason = "sums wrap back")]
+    pub(crate) fn run(&mut self, start: i32, count: i32) -> Option<Pixels<'_, C, D>> {
+        // Negative numbers wrap, or are too large.
+        let [start, count] = [start, count].map(|n| n as usize);
+        let [color, depth] = self.first.map(|first| first.wrapping_add(start));
+        let (color, depth) = (self.color.get_mut(color..)?, self.depth.get_mut(depth..)?);
+        Some((color.get_mut(..count)?, depth.get_mut(..count)?))
+    }
+
+    /// Goes down one row.
+    #[inline(always)]
+    pub(crate) fn next_row(&mut self) {
+        let [color, depth] = self.first;
+        self.first = [color.wrapping_add(self.strides[0]), depth.wrapping_add(self.strides[1])];
     }
 }
 

@@ -1,15 +1,14 @@
 //! The shape of a small triangle: where its edges cross the rows, and the planes over it.
 
-use super::{BITS, ONE};
-use alberti_math::{high, high_signed, reciprocal};
+use super::BITS;
+use alberti_math::{LOW_WORDS_ONLY, high_of_half, high_signed, reciprocal};
 
 /// Bits of a crossing's fraction.
 const COLUMN: u32 = 20;
 /// Bits of a slope's fraction, beyond those of the number.
 pub(super) const SLOPE: u32 = 12;
 
-/// A number that is linear on the screen: its value at the first sample of the box, and the increments for a column and
-/// for a row.
+/// A number that is linear on the screen: its value at the origin, and the increments for a column and for a row.
 #[derive(Clone, Copy)]
 pub(super) struct Ramp {
     pub(super) at: i32,
@@ -18,7 +17,7 @@ pub(super) struct Ramp {
 }
 
 impl Ramp {
-    /// The value at a sample.
+    /// The value so many columns and rows from the origin.
     #[inline(always)]
     pub(super) fn at(self, [column, row]: [i32; 2]) -> i32 {
         self.at.wrapping_add(self.across.wrapping_mul(column)).wrapping_add(self.down.wrapping_mul(row))
@@ -33,21 +32,21 @@ pub(super) struct Shape {
     /// 2^62 over the signed area, which was shifted to the left by `shift` + 14.
     per_area: i32,
     shift: u32,
-    /// From the first vertex to the centre of the first sample, in subpixels.
+    /// From the first vertex to the origin's centre, in subpixels: less than a pixel.
     origin: [i32; 2],
 }
 
 impl Shape {
     #[inline(always)]
-    pub(super) fn new([a, b, c]: [[i32; 2]; 3], first_sample: [i32; 2], area: u32, clockwise: bool) -> Self {
+    pub(super) fn new([a, b, c]: [[i32; 2]; 3], origin: [i32; 2], area: u32, clockwise: bool) -> Self {
         let normalizing = area.leading_zeros();
-        let per_area = reciprocal_31(area << normalizing).cast_signed();
+        let per_area = reciprocal_16(((area << normalizing) >> 16) as u16);
         Self {
             right: [c[1] - a[1], a[1] - b[1]],
             down: [a[0] - c[0], b[0] - a[0]],
             per_area: if clockwise { per_area } else { -per_area },
             shift: normalizing.saturating_sub(14),
-            origin: [first_sample[0] - a[0], first_sample[1] - a[1]],
+            origin: [origin[0] - a[0], origin[1] - a[1]],
         }
     }
 
@@ -55,10 +54,9 @@ impl Shape {
     /// the third vertex to the first have.
     #[inline(always)]
     pub(super) fn holds(&self, differences: u32) -> bool {
-        let [right, down] = [self.right, self.down].map(|[b, c]| b.unsigned_abs() | c.unsigned_abs());
-        // The bits of a product, of the sum of two, and the sign's.
-        let bits = 64 - (right | down).leading_zeros() - differences.leading_zeros() + 2;
-        bits + self.shift <= 32
+        let [right, down] = [self.right, self.down].map(|[b, c]| magnitude(b) | magnitude(c));
+        // The sum of two products must be less than 2^31 after the shift.
+        differences.wrapping_mul(right | down) < (1 << 30) >> self.shift
     }
 
     /// The slope in units of 2^-SLOPE a pixel.
@@ -73,27 +71,23 @@ impl Shape {
     pub(super) fn ramp(&self, at: i32, more: [i32; 2], bits: u32) -> Ramp {
         let across = self.slope(more, self.right) >> (SLOPE - bits);
         let down = self.slope(more, self.down) >> (SLOPE - bits);
-        let [x, y] = self.origin;
-        // Whole pixels wrap as often as they like: at samples inside the sum is small.
-        let whole = Ramp { at, across, down }.at([x >> BITS, y >> BITS]);
-        let part = Ramp { at: 0, across: across >> BITS, down: down >> BITS };
-        Ramp { at: whole.wrapping_add(part.at([x & (ONE - 1), y & (ONE - 1)])), across, down }
+        let part = Ramp { at, across: across >> BITS, down: down >> BITS };
+        Ramp { at: part.at(self.origin), across, down }
     }
 }
 
-/// 2^62 / x, for x from 2^31 on.
+/// 2^46 / x, for x from 2^15 on.
 ///
 /// # Precision
-/// Within 2^-28, relatively: the table's 2^-9 become 2^-17 and 2^-34, and the second product is rounded to 2^-28. For
-/// the areas of small triangles below 2^31.
+/// Within 2^-28, relatively: the table's 2^-9 become 2^-17 and 2^-34, and the product is cut at 2^-29.
 #[inline(always)]
-fn reciprocal_31(x: u32) -> u32 {
-    let mut y = reciprocal::<0>(x) >> 1;
-    for _ in 0..2 {
-        // y (2 - x y), with x in [1, 2) and y in (1/2, 1], in units of 2^-31; the product in 2^-30.
-        y = high(y, (1 << 31) - high(x, y)) << 2;
-    }
-    y
+fn reciprocal_16(x: u16) -> i32 {
+    let first = (reciprocal::<0>(u32::from(x) << 16) >> 1).cast_signed();
+    // y (2 - x y), with x in [1, 2) in units of 2^-15 and y in (1/2, 1] in 2^-31. The difference from 1 is small, and
+    // so are factors with as many bits as count.
+    let left = |y: i32| (1 << 30) - high_of_half(x, y.cast_unsigned()).cast_signed();
+    let y = first + (((first >> 14) * (left(first) >> 8)) >> 8);
+    y + (((y >> 15) * left(y)) >> 15)
 }
 
 /// `x`, or of a negative number the complement: it has no bit from the k-th on if the number is in -2^k..2^k.
@@ -114,7 +108,8 @@ impl Crossing {
     /// between. Columns count from that sample's.
     #[inline(always)]
     pub(super) fn new(p: [i32; 2], q: [i32; 2], [x, y]: [i32; 2]) -> Self {
-        let step = ((q[0] - p[0]) << COLUMN) / (q[1] - p[1]).max(1);
+        let [dx, dy] = [q[0] - p[0], (q[1] - p[1]).max(1)];
+        let step = if LOW_WORDS_ONLY { quotient(dx, dy) } else { (dx << COLUMN) / dy };
         let from = ((p[0] - x) << (COLUMN - BITS)) + ((1 << COLUMN) - (1 << 7));
         Self { at: from + (step.wrapping_mul(y - p[1]) >> BITS), step }
     }
@@ -132,20 +127,55 @@ impl Crossing {
     }
 }
 
+/// 2^16 / d, rounded down.
+static PER_HEIGHT: [u16; 257] = {
+    let mut table = [u16::MAX; 257];
+    let mut d = 2;
+    while d < table.len() {
+        #[expect(clippy::cast_possible_truncation, reason = "from 2 on")]
+        let entry = ((1 << 16) / d) as u16;
+        table[d] = entry;
+        d += 1;
+    }
+    table
+};
+
+/// 2^COLUMN dx / dy for |dx| and dy up to 2^8, within two units: without a division.
+#[inline(always)]
+fn quotient(dx: i32, dy: i32) -> i32 {
+    let per_height = i32::from(PER_HEIGHT.get(dy.cast_unsigned() as usize).copied().unwrap_or(0));
+    let mut quotient = (dx * per_height) << (COLUMN - 16);
+    // The table is within dy 2^-16, relatively, and each time what is left is as much smaller.
+    for _ in 0..2 {
+        let left = (dx << COLUMN) - quotient * dy;
+        quotient += (left * per_height) >> 16;
+    }
+    quotient
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use std::println;
 
+    #[test]
+    fn quotients_without_division_are_within_two_units() {
+        for dx in -256..=256 {
+            for dy in 1..=256 {
+                let exact = f64::from(dx << COLUMN) / f64::from(dy);
+                assert!((f64::from(quotient(dx, dy)) - exact).abs() <= 2.0, "{dx} / {dy}");
+            }
+        }
+    }
+
     /// All that there are.
     #[test]
     fn reciprocals_of_areas_keep_their_bound() {
         let mut worst = 0.0;
-        for area in 1..=1u32 << 16 {
-            let x = area << area.leading_zeros();
-            let y = reciprocal_31(x);
-            assert!(y < 1 << 31, "{area}: {y}");
-            worst = f64::max(worst, (f64::from(x) * f64::from(y) / 2f64.powi(62) - 1.0).abs());
+        for x in 1 << 15..=u16::MAX {
+            let y = reciprocal_16(x);
+            assert!(y > 0, "{x}: {y}");
+            worst = f64::max(worst, (f64::from(x) * f64::from(y) / 2f64.powi(46) - 1.0).abs());
         }
         println!("2^{:.2}", worst.log2());
         assert!(worst <= 2f64.powi(-28) && worst > 2f64.powi(-32));
