@@ -6,6 +6,7 @@ extern crate std;
 
 mod error;
 mod geometry;
+mod integers;
 pub mod pipeline;
 mod prepared;
 mod profile;
@@ -33,7 +34,7 @@ pub use alberti_raster::{
 };
 pub use alberti_texture as texture;
 pub use error::Error;
-pub use geometry::{Geometry, Mesh};
+pub use geometry::{Geometry, IntegerMesh, IntegerVertex, Mesh};
 pub use pipeline::{Pass, draw};
 pub use prepared::{Prepared, PreparedTriangle};
 pub use profile::{DESKTOP, MCU, Profile, REFERENCE, TINY};

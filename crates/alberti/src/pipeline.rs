@@ -5,6 +5,7 @@
 //! and makes pixels of a [`Target`].
 
 use crate::geometry::Geometry;
+use crate::integers::IntegerScreen;
 use crate::prepared::{Prepared, Room};
 use crate::profile::Profile;
 use crate::stats::Stats;
@@ -15,7 +16,8 @@ use alberti_math::lanes::{Floating, Machine};
 use alberti_math::{Frame, Object, Sub8, Subpixel, World, for_lanes};
 use alberti_projection::{Perspective, Projection, Viewport};
 use alberti_raster::{
-    Bands, ColorFormat, Counters, Cull, DepthFormat, Exact, FragmentStage, Interpolation, Paint, Target,
+    Bands, ColorFormat, Counters, Cull, DepthFormat, Exact, FragmentStage, Interpolation, Numbers, Paint,
+    Target,
 };
 use core::fmt;
 
@@ -279,16 +281,29 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
             None => Viewport::new(0, 0, width, height).ok()?,
         };
         let (projection, guard) = (self.view.projection(&viewport), viewport.guard());
+        let to_eye = self.view.object_to_eye(self.frame.as_ref());
+        let (subpixel, numbers) = (self.paint.subpixel, self.paint.numbers(depth));
+        // A constant block, so that other meshes have none of this in their programs.
+        let integers = match numbers {
+            Numbers::Fixed { depth_bits } if const { M::INTEGERS } => IntegerScreen::new(
+                (&to_eye, self.mesh.unit()),
+                &projection,
+                (&viewport, subpixel),
+                (depth_bits, depth.reversed()),
+            ),
+            _ => None,
+        };
         Some(Screen {
-            to_eye: self.view.object_to_eye(self.frame.as_ref()),
+            to_eye,
             projection,
             viewport,
             depth: projection.depth_map(depth.reversed()),
             guard,
             within: Screen::depths_within(&projection, guard),
             sides: self.sides,
-            subpixel: self.paint.subpixel,
-            numbers: self.paint.numbers(depth),
+            subpixel,
+            numbers,
+            integers,
         })
     }
 

@@ -1,6 +1,7 @@
 //! Transformed vertices, and the store in which each is transformed once.
 
-use crate::geometry::Geometry;
+use crate::geometry::{Geometry, IntegerVertex};
+use crate::integers::{IntegerScreen, Place};
 use crate::walk::Screen;
 use alberti_math::lanes::{Floating, One};
 use alberti_math::{Fixed, Varying, is_finite};
@@ -74,6 +75,12 @@ impl<V: Varying> Slot<V> {
         M: Geometry<Varying = V>,
         Pr: Projection,
     {
+        if const { M::INTEGERS }
+            && let Some(way) = &screen.integers
+        {
+            self.fill_integers(mesh, &screen.projection, way, index);
+            return;
+        }
         let Some((point, varying)) = mesh.vertex(index) else {
             *self = Self::MISSING;
             return;
@@ -84,6 +91,21 @@ impl<V: Varying> Slot<V> {
         let components = Corner::<V>::components(screen.numbers, varying);
         let screen = Corner::at(place, screen.numbers, [zs, q], components);
         *self = Self { tag: tag(index), outside, screen };
+    }
+
+    /// The same for a mesh of integers. Not inlined: a loop has no registers left for its constants.
+    #[inline(never)]
+    fn fill_integers<M, Pr>(&mut self, mesh: &M, projection: &Pr, way: &IntegerScreen, index: usize)
+    where
+        M: Geometry<Varying = V>,
+        Pr: Projection,
+    {
+        let Some(IntegerVertex { place, components }) = mesh.integers(index) else {
+            *self = Self::MISSING;
+            return;
+        };
+        let Place { outside, place, depths } = way.place(projection, place);
+        *self = Self { tag: tag(index), outside, screen: Corner::of_integers(place, depths, &components) };
     }
 
     /// Fills the slots with so many vertices from number 0 on, and empties those that are left.
@@ -101,7 +123,7 @@ impl<V: Varying> Slot<V> {
     {
         let (slots, unused) = slots.split_at_mut_checked(vertices).unwrap_or_default();
         unused.fill(Self::EMPTY);
-        if const { L::COUNT == 1 } {
+        if const { L::COUNT == 1 } || const { M::INTEGERS } && screen.integers.is_some() {
             Self::fill_one_by_one(mesh, screen, 0, slots);
             return;
         }

@@ -1,6 +1,7 @@
 //! The geometry half of the pipeline: from a mesh to its triangles on the screen, steps 1 to 6.
 
 use crate::geometry::Geometry;
+use crate::integers::IntegerScreen;
 use crate::vertex::{Slot, outside};
 use alberti_math::glam::Vec3;
 use alberti_math::lanes::{Floating, Lanes, One};
@@ -35,6 +36,8 @@ pub(crate) struct Screen<Pr: Projection> {
     pub(crate) sides: Sides,
     pub(crate) subpixel: Subpixel,
     pub(crate) numbers: Numbers,
+    /// The way of a mesh of integers, where the numbers are integers too.
+    pub(crate) integers: Option<IntegerScreen>,
 }
 
 /// Coordinates above this may overflow when they are subtracted or multiplied.
@@ -277,7 +280,7 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
             sink([&corners[0].screen, &corners[1].screen, &corners[2].screen], counters);
             return Fate::Whole;
         }
-        clip(*mesh, screen, indices, sink, counters);
+        clip(*mesh, screen, indices, corners, sink, counters);
         Fate::Clipped
     }
 }
@@ -335,6 +338,7 @@ fn clip<M: Geometry, Pr: Projection, K>(
     mesh: &M,
     screen: &Screen<Pr>,
     indices: [usize; 3],
+    slots: [&Slot<M::Varying>; 3],
     sink: Sink<'_, M::Varying, K>,
     counters: &mut K,
 ) {
@@ -344,13 +348,25 @@ fn clip<M: Geometry, Pr: Projection, K>(
     };
     let (positions, varyings) = ([a.0, b.0, c.0], [a.1, b.1, c.1]);
     let rotation = first_of(positions);
-    let carried = rotated(varyings, rotation);
+    let (carried, slots) = (rotated(varyings, rotation), rotated(slots, rotation));
     for fan in cut(screen, rotated(positions, rotation)).fan() {
-        let corners = fan.map(|vertex| on_the_screen(screen.numbers, vertex, varyings[0], &carried));
+        let corners = fan.map(|vertex| {
+            let corner = on_the_screen(screen.numbers, vertex, varyings[0], &carried)?;
+            // The triangle's own vertices stay where its neighbours have them, to the last bit of integers too.
+            let own = if const { M::INTEGERS } { kept(slots, vertex?.varying) } else { None };
+            Some(own.map_or(corner, |own| own.screen.with_components_of(&corner)))
+        });
         if let [Some(a), Some(b), Some(c)] = &corners {
             sink([a, b, c], counters);
         }
     }
+}
+
+/// The slot of the vertex that has all the weight, if its place on the screen has a meaning.
+fn kept<V: Varying>(slots: [&Slot<V>; 3], weights: Weights) -> Option<&Slot<V>> {
+    let all = weights.to_array().iter().position(|&weight| weight == 1.0)?;
+    let without = outside::NEAR | outside::FAR | outside::GUARD;
+    slots.get(all).copied().filter(|slot| slot.outside & without == 0)
 }
 
 /// A vertex in scaled eye space.

@@ -80,6 +80,11 @@ impl Projection for Parallel {
     }
 
     #[inline]
+    fn is_perspective(&self) -> bool {
+        false
+    }
+
+    #[inline]
     fn near(&self) -> f32 {
         self.near
     }

@@ -28,6 +28,10 @@ pub trait Projection: Copy + Debug {
     #[must_use]
     fn with_aspect(self, aspect: f32) -> Self;
 
+    /// Whether it has a vanishing point: w is z and zs a function of 1/z. Otherwise w is 1, and zs a function of z.
+    #[must_use]
+    fn is_perspective(&self) -> bool;
+
     /// The near plane, z = A.
     #[must_use]
     fn near(&self) -> f32;
@@ -76,6 +80,11 @@ impl Projection for Perspective {
     #[inline]
     fn with_aspect(self, aspect: f32) -> Self {
         self.with_aspect(aspect)
+    }
+
+    #[inline]
+    fn is_perspective(&self) -> bool {
+        true
     }
 
     #[inline]
@@ -158,6 +167,11 @@ impl Projection for AnyProjection {
 
     fn with_aspect(self, aspect: f32) -> Self {
         either!(self, |projection| projection.with_aspect(aspect).into())
+    }
+
+    #[inline]
+    fn is_perspective(&self) -> bool {
+        either!(self, |projection| projection.is_perspective())
     }
 
     #[inline]

@@ -47,6 +47,14 @@ impl Viewport {
         [left..right, top..bottom]
     }
 
+    /// The centre, in subpixels.
+    #[must_use]
+    #[inline]
+    pub const fn center(&self, subpixel: Subpixel) -> [i32; 2] {
+        let [x, y] = self.center;
+        [x << (subpixel.bits() - 1), y << (subpixel.bits() - 1)]
+    }
+
     /// The aspect ratio, width / height, of square pixels.
     #[must_use]
     pub const fn aspect(&self) -> f32 {
@@ -84,7 +92,7 @@ impl Viewport {
         [xs, ys]: [L::Number; 2],
     ) -> [L::U32; 2] {
         let bits = subpixel.bits();
-        let [x, y] = self.center.map(|center| lanes.word((center << (bits - 1)).cast_unsigned()));
+        let [x, y] = self.center(subpixel).map(|center| lanes.word(center.cast_unsigned()));
         let [half_x, half_y] = self.half.map(|half| lanes.splat(half));
         [lanes.round_scaled(xs * half_x, bits) + x, lanes.round_scaled(-(ys * half_y), bits) + y]
     }

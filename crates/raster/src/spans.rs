@@ -12,7 +12,6 @@
 //! by division. After that a row costs a few additions and no branch. Inside a span no coverage test is needed.
 
 use crate::edge::{Edge, EdgeInt};
-use core::cmp::Ordering;
 
 /// The covered samples of one row, in columns counted from the left of the box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,10 +106,10 @@ impl<I: EdgeInt> Crossing<I> {
     fn new(edge: &Edge<I>, rows: i32) -> Self {
         let [zero, one] = [I::from(0), I::from(1)];
         let value = edge.value + edge.bias + edge.step_y * I::from(rows);
-        let (value, step, step_y) = match edge.step_x.cmp(&zero) {
-            Ordering::Equal => (zero, one, zero),
-            Ordering::Greater => (value, edge.step_x, edge.step_y),
-            Ordering::Less => (zero - value - one, zero - edge.step_x, zero - edge.step_y),
+        let (value, step, step_y) = match edge.step_x >= zero {
+            _ if edge.step_x == zero => (zero, one, zero),
+            true => (value, edge.step_x, edge.step_y),
+            false => (zero - value - one, zero - edge.step_x, zero - edge.step_y),
         };
         let (columns, value) = value.divided(step);
         let (whole, part) = step_y.divided(step);

@@ -2,7 +2,7 @@
 
 use crate::edge::FITS_I32;
 use crate::interpolation::{LIMIT, Oriented};
-use alberti_math::{Fixed, Varying, scaled};
+use alberti_math::{Fixed, Q16, Varying, scaled};
 use core::cell::RefCell;
 use core::fmt;
 use core::ops::Range;
@@ -67,8 +67,23 @@ impl<V: Varying> Corner<V> {
     pub fn components(numbers: Numbers, varying: V) -> V::Of<u32> {
         V::map(&V::gather([varying]), &|[x]: [f32; 1]| match numbers {
             Numbers::Float => x.to_bits(),
-            Numbers::Fixed { .. } => scaled(x, 16).clamp(-LIMIT - 1, LIMIT).cast_unsigned(),
+            Numbers::Fixed { .. } => within_limit(scaled(x, 16)),
         })
+    }
+
+    /// The vertex of integers, where [`Numbers::Fixed`] are asked for: its place in subpixels; zs, rounded, and q, an
+    /// `f32`, as words.
+    #[must_use]
+    #[inline(always)]
+    pub fn of_integers(place: [i32; 2], [zs, q]: [u32; 2], components: &V::Of<Q16>) -> Self {
+        Self { place, zs, q, components: V::map(components, &|x: Q16| within_limit(x.to_bits())) }
+    }
+
+    /// The same place with other components.
+    #[must_use]
+    #[inline(always)]
+    pub fn with_components_of(&self, other: &Self) -> Self {
+        Self { components: other.components, ..*self }
     }
 
     /// A corner with these components.
@@ -77,10 +92,7 @@ impl<V: Varying> Corner<V> {
     pub fn at([x, y]: [Fixed; 2], numbers: Numbers, [zs, q]: [f32; 2], components: V::Of<u32>) -> Self {
         let zs = match numbers {
             Numbers::Float => zs.to_bits(),
-            Numbers::Fixed { depth_bits: bits } => {
-                let fraction = scaled(zs, 31).max(0).cast_unsigned();
-                if bits < 31 { fraction - (fraction >> bits) + (1 << (30 - bits)) } else { fraction }
-            }
+            Numbers::Fixed { depth_bits } => rounded_depth(scaled(zs, 31).max(0).cast_unsigned(), depth_bits),
         };
         Self { place: [x.subpixels(), y.subpixels()], zs, q: q.to_bits(), components }
     }
@@ -103,6 +115,18 @@ impl<V: Varying> Corner<V> {
     pub(crate) fn q(&self) -> f32 {
         f32::from_bits(self.q)
     }
+}
+
+/// The word of a component.
+#[inline(always)]
+fn within_limit(component: i32) -> u32 {
+    component.clamp(-LIMIT - 1, LIMIT).cast_unsigned()
+}
+
+/// A depth in 2^-31, so that cutting it to `bits` rounds it.
+#[inline(always)]
+fn rounded_depth(zs: u32, bits: u32) -> u32 {
+    if bits < 31 { zs - (zs >> bits) + (1 << (30 - bits)) } else { zs }
 }
 
 /// Its words, as their meaning is not known here.

@@ -13,8 +13,8 @@
 
 use alberti::glam::Vec3;
 use alberti::{
-    Camera, Cull, Frame, Mesh, NoDepth, Pass, Perspective, Rgba8, Rgba8888, Sides, Slot, Stats, Subpixel,
-    Target, View,
+    Affine, Camera, Cull, FixedPoint, Frame, IntegerMesh, IntegerVertex, Mesh, NoDepth, Pass, Perspective,
+    Rgba8, Rgba8888, Sides, Slot, Stats, Subpixel, Target, View,
 };
 use alberti_oracle::coverage::{area2, weights};
 use alberti_oracle::rng::{Rng, run_seed};
@@ -188,17 +188,55 @@ fn jittered(rng: &mut Rng, lattice: [i64; 3], n: i64, bumps: f64) -> Vec3 {
 
 #[test]
 fn closed_shells_clipped_at_the_guard_band() {
-    shells(Subpixel::Sub8, Sides::GuardBand, 21);
-    shells(Subpixel::Sub4, Sides::GuardBand, 22);
+    shells(Subpixel::Sub8, Sides::GuardBand, 21, draw_floats);
+    shells(Subpixel::Sub4, Sides::GuardBand, 22, draw_floats);
 }
 
 #[test]
 fn closed_shells_clipped_at_the_sides() {
-    shells(Subpixel::Sub8, Sides::Cube, 23);
-    shells(Subpixel::Sub4, Sides::Cube, 24);
+    shells(Subpixel::Sub8, Sides::Cube, 23, draw_floats);
+    shells(Subpixel::Sub4, Sides::Cube, 24, draw_floats);
 }
 
-fn shells(subpixel: Subpixel, sides: Sides, stream: u64) {
+/// Clipped vertices come from floats, the others from integers: edges between the two must not part.
+#[test]
+fn closed_shells_of_integers() {
+    for (sides, stream) in [(Sides::GuardBand, 25), (Sides::Cube, 26)] {
+        shells(Subpixel::Sub8, sides, stream, draw_integers);
+        shells(Subpixel::Sub4, sides, stream + 2, draw_integers);
+    }
+}
+
+fn draw_floats(
+    shell: &Shell,
+    view: &View,
+    (subpixel, sides): (Subpixel, Sides),
+    target: &mut Target<'_, Rgba8888, NoDepth>,
+) -> Stats {
+    let mesh = Mesh::new(&shell.vertices, &shell.triangles, |&p| (p, ()));
+    let pass = Pass::new(view, &mesh, |()| Some(Rgba8::WHITE));
+    pass.cull(Cull::None).sides(sides).subpixel(subpixel).draw_counted(target)
+}
+
+fn draw_integers(
+    shell: &Shell,
+    view: &View,
+    (subpixel, sides): (Subpixel, Sides),
+    target: &mut Target<'_, Rgba8888, NoDepth>,
+) -> Stats {
+    let unit = 1.0 / 16384.0;
+    let mesh = IntegerMesh::new(&shell.vertices, &shell.triangles, unit, |&p: &Vec3| IntegerVertex::<()> {
+        place: p.to_array().map(|c| (c / unit).round() as i16),
+        components: (),
+    });
+    let pass = Pass::new(view, &mesh, |()| Some(Rgba8::WHITE)).interpolation(FixedPoint(Affine));
+    pass.cull(Cull::None).sides(sides).subpixel(subpixel).draw_counted(target)
+}
+
+/// A way to draw.
+type Draw = fn(&Shell, &View, (Subpixel, Sides), &mut Target<'_, Rgba8888, NoDepth>) -> Stats;
+
+fn shells(subpixel: Subpixel, sides: Sides, stream: u64, draw: Draw) {
     let mut rng = Rng::stream(run_seed(), stream);
     let mut frame = Frame640::new();
     let mut all = Stats::default();
@@ -210,12 +248,7 @@ fn shells(subpixel: Subpixel, sides: Sides, stream: u64) {
         let (bumps, roam) = if bumpy { (0.3, 0.0) } else { (0.0, 0.96) };
         let shell = Shell::new(&mut rng, n, bumps);
         let view = any_view(&mut rng, roam);
-        let mesh = Mesh::new(&shell.vertices, &shell.triangles, |&p| (p, ()));
-        let stats = Pass::new(&view, &mesh, |()| Some(Rgba8::WHITE))
-            .cull(Cull::None)
-            .sides(sides)
-            .subpixel(subpixel)
-            .draw_counted(&mut frame.target());
+        let stats = draw(&shell, &view, (subpixel, sides), &mut frame.target());
         frame.assert_once(stats.fragments, &|| format!("shell {i} of {n}: {stats:?}, {view:?}"));
         all.submitted += stats.submitted;
         all.clipped += stats.clipped;

@@ -3,7 +3,7 @@
 use super::wide::pack;
 use alberti_math::glam::Vec3;
 use alberti_math::lanes::Lanes;
-use alberti_math::{Mode, Rgba8, Varying};
+use alberti_math::{Mode, Q16, Rgba8, Varying};
 use alberti_raster::{FragmentColor, FragmentStage, Fragments, NoDerivatives};
 
 /// One colour for everything.
@@ -68,6 +68,17 @@ impl Ready565 {
         // floor(32 x) of these is the integer nearest to 31 times the component.
         let steps = Vec3::new(32.0, 64.0, 32.0);
         Self((color.clamp(Vec3::ZERO, Vec3::ONE) * (steps - Vec3::ONE) + Vec3::splat(0.5)) / steps)
+    }
+
+    /// The components for this colour, where [vertices are integers](crate::IntegerVertex).
+    #[must_use]
+    #[inline]
+    pub fn of_integers([r, g, b]: [Q16; 3]) -> [Q16; 3] {
+        let ready = |c: Q16, bits: u32| {
+            let c = c.clamp(Q16::ZERO, Q16::ONE).to_bits();
+            Q16::from_bits(((c << bits) - c + (1 << 15)) >> bits)
+        };
+        [ready(r, 5), ready(g, 6), ready(b, 5)]
     }
 }
 
