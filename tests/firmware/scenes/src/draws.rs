@@ -1,6 +1,6 @@
 //! The ways of drawing that are measured: each is one call of [`alberti::draw`] on prepared memory.
 
-use crate::shapes::{FLOOR_MIPMAP, Model, Vertex};
+use crate::shapes::{FLOOR_MIPMAP, HalfWords, Model, Vertex};
 use crate::{Camera, HEIGHT, PIXELS, Target, WIDTH};
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::One;
@@ -9,8 +9,9 @@ use alberti::shaders::material::{Color, Emission, Gouraud};
 use alberti::shaders::{Differentiated, Ready565, Solid, Stored, Unlit, VertexColor565};
 use alberti::texture::{Bilinear, Minify, Nearest, NearestLevel, Repeat, Trilinear};
 use alberti::{
-    Affine, ColorFormat, Counters, D16, DepthFormat, Exact, FixedPoint, FragmentStage, Geometry,
-    Interpolation, Mesh, NoDepth, Object, Pass, Point3, Rgb565Le, Slot, Spans16, Sub4, View,
+    Affine, ColorFormat, Counters, D16, DepthFormat, Exact, FixedPoint, FragmentStage, Geometry, IntegerMesh,
+    IntegerVertex, Interpolation, Mesh, NoDepth, Object, Pass, Point3, Q16, Rgb565Le, Slot, Spans16, Sub4,
+    Varying, View,
 };
 
 /// Defines ways of drawing: a pass of its own for each, into colour and depth.
@@ -91,10 +92,10 @@ draws! {
 
 /// Defines ways of drawing a mesh, each of whose vertices has a slot of its own, without perspective, in fixed point.
 macro_rules! meshes {
-    ($($(#[$doc:meta])* $name:ident($model:ident) in $slots:ident: $vertex_stage:expr, $stage:expr;)*) => {$(
+    ($($(#[$doc:meta])* $name:ident($model:ident) in $slots:ident: $mesh:expr, $stage:expr;)*) => {$(
         $(#[$doc])*
         pub fn $name<K: Counters>(target: &mut Target, camera: &Camera, $model: &Model, counters: &mut K) {
-            let mesh = Mesh::new($model.vertices, $model.triangles, $vertex_stage);
+            let mesh = $mesh;
             let Target { color, depth, slots, .. } = target;
             let pixels = alberti::Target::new(Rgb565Le, D16, WIDTH, HEIGHT, color, depth);
             draw(pixels, camera, $model, &mesh, $stage, FixedPoint(Affine), &mut slots.$slots, counters);
@@ -104,13 +105,22 @@ macro_rules! meshes {
 
 meshes! {
     /// One colour for all.
-    flat_mesh(model) in bare: |v: &Vertex| (place(v), ()), Solid(ORANGE);
+    flat_mesh(model) in bare: Mesh::new(model.vertices, model.triangles, |v| (place(v), ())), Solid(ORANGE);
 
     /// The vertices' colours.
-    gouraud_mesh(model) in colored: colored, VertexColor565;
+    gouraud_mesh(model) in colored: Mesh::new(model.vertices, model.triangles, colored), VertexColor565;
 
     /// The nearest texel.
-    affine_mesh(model) in mapped: mapped, Stored(model.texture.sampler(Nearest, Repeat));
+    affine_mesh(model) in mapped: Mesh::new(model.vertices, model.triangles, mapped),
+        Stored(model.texture.sampler(Nearest, Repeat));
+
+    /// One colour for all, on a mesh of integers.
+    flat_integers(model) in bare: integers(model, |v| IntegerVertex::<()> { place: v.position, components: () }),
+        Solid(ORANGE);
+
+    /// The nearest texel on a mesh of integers.
+    affine_integers(model) in mapped: integers(model, mapped_integers),
+        Stored(model.texture.sampler(Nearest, Repeat));
 }
 
 /// The nearest texel, in perspective, with depth. Each vertex has a slot of its own.
@@ -141,12 +151,27 @@ fn textured_by<P: Interpolation, K: Counters>(
 
 /// The same in 15 bands of 16 rows. They lie one after the other, so that together they are the whole frame.
 pub fn textured_bands<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    bands(target, camera, model, &Mesh::new(model.vertices, model.triangles, mapped), counters);
+}
+
+/// The same of a mesh of integers.
+pub fn integers_bands<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    bands(target, camera, model, &integers(model, mapped_integers), counters);
+}
+
+#[inline]
+fn bands<K: Counters>(
+    target: &mut Target,
+    camera: &Camera,
+    model: &Model,
+    mesh: &impl Geometry<Varying = Vec2>,
+    counters: &mut K,
+) {
     const BAND: usize = PIXELS / 15;
-    let mesh = Mesh::new(model.vertices, model.triangles, mapped);
     let stage = Stored(model.texture.sampler(Nearest, Repeat));
     let view = View::new(model.to_eye, camera.perspective);
     let Target { color, depth, slots, listed } = target;
-    let mut pass = Pass::new(&view, &mesh, stage)
+    let mut pass = Pass::new(&view, mesh, stage)
         .interpolation(FixedPoint(Spans16))
         .subpixel(Sub4)
         .slots(&mut slots.mapped);
@@ -157,6 +182,20 @@ pub fn textured_bands<K: Counters>(target: &mut Target, camera: &Camera, model: 
             prepared.count_by(One, &mut band, counters);
         }
     }
+}
+
+/// A model's mesh of integers.
+#[inline]
+fn integers<V: Varying, F: Fn(&HalfWords) -> IntegerVertex<V>>(
+    model: &Model,
+    vertex_stage: F,
+) -> IntegerMesh<'static, HalfWords, u16, F> {
+    IntegerMesh::new(model.integers, model.triangles, HalfWords::UNIT, vertex_stage)
+}
+
+#[inline]
+fn mapped_integers(v: &HalfWords) -> IntegerVertex<Vec2> {
+    IntegerVertex { place: v.position, components: v.uv.map(|c| Q16::from_bits(i32::from(c) << 4)) }
 }
 
 /// One colour for all, without depth: later triangles cover earlier ones.

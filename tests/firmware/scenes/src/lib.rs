@@ -10,10 +10,10 @@ mod draws;
 pub mod shapes;
 
 pub use draws::{
-    affine_fixed, affine_mesh, flat, flat_fixed, flat_mesh, flat_without_depth, gouraud, gouraud_fixed,
-    gouraud_mesh, material, material_absent, material_emission, mip_bilinear, mip_bilinear_fixed,
-    mip_nearest, mip_nearest_fixed, textured, textured_bands, textured_fixed, trilinear, trilinear_fixed,
-    trilinear_spans, trilinear_spans_fixed,
+    affine_fixed, affine_integers, affine_mesh, flat, flat_fixed, flat_integers, flat_mesh,
+    flat_without_depth, gouraud, gouraud_fixed, gouraud_mesh, integers_bands, material, material_absent,
+    material_emission, mip_bilinear, mip_bilinear_fixed, mip_nearest, mip_nearest_fixed, textured,
+    textured_bands, textured_fixed, trilinear, trilinear_fixed, trilinear_spans, trilinear_spans_fixed,
 };
 pub use shapes::PROBE;
 
@@ -92,6 +92,9 @@ pub static SCENES: &[Scene] = &[
     scene!("fixed-mesh", torus(1.0), textured_fixed),
     scene!("fixed-mesh-bands", torus(1.0), textured_bands),
     scene!("fixed-mesh-eighth", torus(0.125), textured_fixed),
+    scene!("integer-mesh-flat", torus(1.0), flat_integers),
+    scene!("integer-mesh-affine", torus(1.0), affine_integers),
+    scene!("integer-mesh-bands", torus(1.0), integers_bands),
     fill!("material", 1, material),
     fill!("material-absent", 1, material_absent),
     fill!("material-emission", 1, material_emission),

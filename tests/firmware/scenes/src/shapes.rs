@@ -27,11 +27,33 @@ impl Vertex {
     const ZERO: Self = Self { position: [0.0; 3], color: [0.0; 3], uv: [0.0; 2] };
 }
 
+/// The same in integers.
+#[derive(Clone, Copy, Debug)]
+pub struct HalfWords {
+    /// In units of 2^-14.
+    pub position: [i16; 3],
+    /// In units of 2^-12.
+    pub uv: [u16; 2],
+}
+
+impl HalfWords {
+    /// The unit of positions.
+    pub const UNIT: f32 = 1.0 / 16384.0;
+
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "in range")]
+    const fn of(Vertex { position: [x, y, z], uv: [u, v], .. }: Vertex) -> Self {
+        let position = [(x / Self::UNIT) as i16, (y / Self::UNIT) as i16, (z / Self::UNIT) as i16];
+        Self { position, uv: [(u * 4096.0) as u16, (v * 4096.0) as u16] }
+    }
+}
+
 /// What a scene shows.
 #[derive(Clone, Copy, Debug)]
 pub struct Model {
     /// The mesh's vertices.
     pub vertices: &'static [Vertex],
+    /// The same in integers, where a scene wants them.
+    pub integers: &'static [HalfWords],
     /// Three indices each, counter-clockwise as seen from the front.
     pub triangles: &'static [[u16; 3]],
     /// The mesh's place before the eye.
@@ -45,6 +67,7 @@ pub struct Model {
 pub const fn layers(count: usize) -> Model {
     Model {
         vertices: QUADS.split_at(4 * count).0,
+        integers: &[],
         triangles: QUAD_TRIANGLES.split_at(2 * count).0,
         to_eye: Frame::IDENTITY,
         texture: texture(),
@@ -61,6 +84,7 @@ pub const fn torus(size: f32) -> Model {
     );
     Model {
         vertices: &TORUS_VERTEX_LIST,
+        integers: &TORUS_IN_HALF_WORDS,
         triangles: &TORUS_TRIANGLE_LIST,
         to_eye: Frame::from_mat3(axes, Point3::new(Vec3::new(0.0, 0.0, 2.35))),
         texture: texture(),
@@ -73,6 +97,7 @@ pub const fn torus(size: f32) -> Model {
 pub const fn floor() -> Model {
     Model {
         vertices: &FLOOR_VERTICES,
+        integers: &[],
         triangles: &FLOOR_TRIANGLES,
         to_eye: Frame::IDENTITY,
         texture: texture(),
@@ -199,6 +224,16 @@ static TORUS_VERTEX_LIST: [Vertex; TORUS_VERTICES] = {
             j += 1;
         }
         i += 1;
+    }
+    vertices
+};
+
+static TORUS_IN_HALF_WORDS: [HalfWords; TORUS_VERTICES] = {
+    let mut vertices = [HalfWords::of(Vertex::ZERO); TORUS_VERTICES];
+    let mut at = 0;
+    while at < TORUS_VERTICES {
+        vertices[at] = HalfWords::of(TORUS_VERTEX_LIST[at]);
+        at += 1;
     }
     vertices
 };
