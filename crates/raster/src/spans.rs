@@ -143,43 +143,27 @@ pub struct SpanWalker<I> {
 
 impl<I: EdgeInt> SpanWalker<I> {
     /// Starts at the row of the edges' reference sample, which is column 0 of a box of `width` columns. The edges run
-    /// clockwise. Of the rows from there on, so many have their samples above the triangle's middle vertex, and so many
-    /// between its topmost and its lowest. The bounds of [`Edge::new`] hold for all of the box.
+    /// clockwise, the last one from the topmost vertex, of two the left one. Of the rows from there on, so many have
+    /// their samples above the triangle's middle vertex, and so many between its topmost and its lowest. The bounds of
+    /// [`Edge::new`] hold for all of the box.
     #[must_use]
     #[inline(never)]
-    pub fn new(edges: &[Edge<I>; 3], width: i32, [above, rows]: [i32; 2]) -> Self {
-        let [a, b, c] = edges;
-        let side = |e: &Edge<I>| e.step_x.cmp(&I::from(0));
+    pub fn new([second, left, right]: &[Edge<I>; 3], width: i32, [above, rows]: [i32; 2]) -> Self {
+        let zero = I::from(0);
+        let second_is_left = second.step_x > zero;
         // Of the rows only the last can be outside of a horizontal edge: when it lies exactly on a lower one.
-        let last = I::from(rows - 1);
-        let cut = |e: &Edge<I>| side(e).is_eq() && e.value + e.bias + e.step_y * last < I::from(0);
-        // First the edge that is level, or else alone on its side.
-        let [a_side, b_side, c_side] = [side(a), side(b), side(c)];
-        let [alone, next, other] = if a_side.is_eq() || b_side == c_side {
-            [a, b, c]
-        } else if b_side.is_eq() || c_side == a_side {
-            [b, c, a]
-        } else {
-            [c, a, b]
-        };
-        // On the right side clockwise is downward.
-        let (level, second_is_left) = (side(alone).is_eq(), side(next).is_gt());
-        let [upper, lower] = if second_is_left { [other, next] } else { [next, other] };
-        let first = if above > 0 { upper } else { lower };
-        let [left, right] = match second_is_left {
-            _ if level => [lower, upper],
-            true => [first, alone],
-            false => [alone, first],
-        };
-        let above = if level || above >= rows { 0 } else { above };
+        let cut =
+            second.step_x == zero && second.value + second.bias + second.step_y * I::from(rows - 1) < zero;
+        let begun = above <= 0;
+        let above = above.min(rows).max(0);
         Self {
-            left: Crossing::new(left, 0),
-            right: Crossing::new(right, 0),
-            second: Crossing::new(lower, above.max(0)),
+            left: Crossing::new(if begun && second_is_left { second } else { left }, 0),
+            right: Crossing::new(if begun && !second_is_left { second } else { right }, 0),
+            second: Crossing::new(second, above),
             second_is_left,
             above,
             width: I::from(width),
-            rows: rows - i32::from(cut(a) || cut(b) || cut(c)),
+            rows: rows - i32::from(cut),
         }
     }
 
@@ -231,6 +215,9 @@ mod tests {
                     let mut heights = [a, b, c].map(|[_, y]| y);
                     heights.sort_unstable();
                     let above = sample(heights[1] + 15) - first;
+                    if (b[1], b[0]) < (a[1], a[0]) || (c[1], c[0]) < (a[1], a[0]) {
+                        continue;
+                    }
                     let edge = |a, b| Edge::<i32>::new(a, b, [8, first * 16 + 8], 16);
                     let edges = [edge(b, c), edge(c, a), edge(a, b)];
                     let area = edges.iter().map(|e| e.value).sum::<i32>();
@@ -253,6 +240,6 @@ mod tests {
                 }
             }
         }
-        assert!(covered > 10_000);
+        assert!(covered > 5_000);
     }
 }

@@ -165,10 +165,13 @@ fn center(subpixel: Subpixel, pixel: [i32; 2]) -> [i32; 2] {
     pixel.map(|i| (i << subpixel.bits()) + (1 << (subpixel.bits() - 1)))
 }
 
-/// The ends of the three edges, clockwise on the screen.
+/// The ends of the three edges, clockwise on the screen; the last one begins at the topmost vertex.
 fn ends(tri: Triangle) -> [[[i32; 2]; 2]; 3] {
     let [a, b, c] = tri.map(|p| p.map(|c| c as i32));
-    let [b, c] = if area2(tri) > 0 { [b, c] } else { [c, b] };
+    let mut corners = if area2(tri) > 0 { [a, b, c] } else { [a, c, b] };
+    let topmost = (0..3).min_by_key(|&k| (corners[k][1], corners[k][0])).expect("three");
+    corners.rotate_left(topmost);
+    let [a, b, c] = corners;
     [[b, c], [c, a], [a, b]]
 }
 
