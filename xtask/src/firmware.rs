@@ -230,8 +230,7 @@ fn build(toolchain: &Toolchain, target: &str, profile: &str, names: &[&str]) -> 
     let mut build = toolchain.cargo("build", target);
     build.args(["--profile", profile, "--manifest-path", manifest, "--package", package]);
     build.args(names.iter().flat_map(|name| ["--bin", name]));
-    // Loops of pixels have more numbers than such cores have registers for copies of them.
-    command::run(build.env("RUSTFLAGS", "-C llvm-args=-unroll-runtime=false"))
+    command::run(&mut build)
 }
 
 #[cfg(test)]

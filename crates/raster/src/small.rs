@@ -31,6 +31,7 @@ use crate::depth::DepthFormat;
 use crate::differentiation::Differentiate;
 use crate::fragment::{FragmentStage, Fragments};
 use crate::interpolation::{LIMIT, Runs, words};
+use crate::paint::as_it_stands;
 use crate::target::Target;
 use crate::triangle::{Corner, Cull, Outcome};
 use alberti_math::lanes::OneFixed;
@@ -258,9 +259,6 @@ where
                     let mut depth = planes.zs.at(first);
                     let mut cursor = V::map(&planes.values, &|ramp: Ramp| ramp.at(first));
                     let (mut written, mut column) = (0, origin[0] + columns.start);
-                    // A bit that is gone after as many samples: compilers, which do not see how many times this goes
-                    // round, leave it as it is.
-                    let mut last = 1_u32.rotate_right(count.cast_unsigned());
                     for (color, stored) in colors.iter_mut().zip(depths) {
                         let new = formats.1.encode_lanes(lanes, planes.depth(depth));
                         if formats.1.seen(lanes, &new, array::from_mut(stored), true) {
@@ -281,10 +279,7 @@ where
                             },
                         );
                         column += 1;
-                        last <<= 1;
-                        if last == 0 {
-                            break;
-                        }
+                        as_it_stands();
                     }
                     counters.span(count.cast_unsigned(), written);
                 }

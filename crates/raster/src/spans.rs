@@ -12,6 +12,7 @@
 //! by division. After that a row costs a few additions and no branch. Inside a span no coverage test is needed.
 
 use crate::edge::{Edge, EdgeInt};
+use crate::paint::as_it_stands;
 
 /// The covered samples of one row, in columns counted from the left of the box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,6 +63,7 @@ impl<I: EdgeInt> RowSpans<I> {
                 let mut at = [a.value, b.value, c.value];
                 let (mut span, mut column) = (Span { start: *width, end: 0 }, 0);
                 while column < *width {
+                    as_it_stands();
                     if at[0] >= zero && at[1] >= zero && at[2] >= zero {
                         span.start = span.start.min(column);
                         span.end = column + 1;
