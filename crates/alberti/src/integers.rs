@@ -11,7 +11,9 @@
 
 use crate::vertex::outside;
 use alberti_math::lanes::One;
-use alberti_math::{Eye, Frame, Object, Subpixel, high_signed, middle, reciprocal_signed, scaled};
+use alberti_math::{
+    Eye, Frame, Object, Subpixel, high_signed, map2, map3, middle, reciprocal_signed, scaled,
+};
 use alberti_projection::{Projection, Viewport};
 
 /// A coordinate as a function of the mesh's integers.
@@ -185,7 +187,7 @@ impl IntegerScreen {
     /// The place of a vertex.
     #[inline(always)]
     pub(crate) fn place<Pr: Projection>(&self, projection: &Pr, position: [i16; 3]) -> Place {
-        let [x, y, z] = self.rows.map(|row| row.at(position));
+        let [x, y, z] = map3(self.rows, |row| row.at(position));
         let w = if projection.is_perspective() { z } else { self.one };
         let [near, far] = self.planes;
         let within = |x: i32| x.wrapping_add(w).cast_unsigned() <= w.cast_unsigned() << 1;
@@ -193,7 +195,7 @@ impl IntegerScreen {
             return self.beyond(projection, [x, y, z], w);
         }
         let (normalizing, per_w) = per(w);
-        let [x, y] = [x, y].map(|x| high_signed(x << normalizing, per_w));
+        let [x, y] = map2([x, y], |x| high_signed(x << normalizing, per_w));
         let beside = |x: i32, side: i32| x.wrapping_add(side).cast_unsigned() > side.cast_unsigned() << 1;
         let mut outside = 0;
         if beside(x, self.sides[0]) || beside(y, self.sides[1]) {

@@ -4,7 +4,7 @@ use crate::geometry::{Geometry, IntegerVertex};
 use crate::integers::{IntegerScreen, Place};
 use crate::walk::Screen;
 use alberti_math::lanes::{Floating, One};
-use alberti_math::{Fixed, Varying, is_finite};
+use alberti_math::{Fixed, Varying, is_finite, map2};
 use alberti_projection::Projection;
 use alberti_raster::Corner;
 use core::slice::from_mut;
@@ -87,7 +87,7 @@ impl<V: Varying> Slot<V> {
         };
         let ([[outside], [x], [y]], [[zs], [q]]) = screen.place(One, &point.coords.to_array().map(|c| [c]));
         let outside = outside | if is_finite(varying) { 0 } else { outside::NOWHERE };
-        let place = [x, y].map(|subpixels| Fixed::wrapping(subpixels.cast_signed()));
+        let place = map2([x, y], |subpixels| Fixed::wrapping(subpixels.cast_signed()));
         let components = Corner::<V>::components(screen.numbers, varying);
         let screen = Corner::at(place, screen.numbers, [zs, q], components);
         *self = Self { tag: tag(index), outside, screen };
@@ -160,7 +160,7 @@ impl<V: Varying> Slot<V> {
         for (slot, (outside, ((x, y), (zs, q)))) in slots.iter_mut().zip(outside.as_ref().iter().zip(places))
         {
             slot.outside |= outside;
-            let place = [x, y].map(|subpixels| Fixed::wrapping(subpixels.cast_signed()));
+            let place = map2([x, y], |subpixels| Fixed::wrapping(subpixels.cast_signed()));
             slot.screen = slot.screen.moved(place, screen.numbers, [*zs, *q]);
         }
     }

@@ -35,7 +35,7 @@ use crate::paint::as_it_stands;
 use crate::target::Target;
 use crate::triangle::{Corner, Cull, Outcome};
 use alberti_math::lanes::OneFixed;
-use alberti_math::{Mode, Q16, Varying, scaled};
+use alberti_math::{Mode, Q16, Varying, map2, map3, map4, scaled};
 use core::array;
 use core::cell::Cell;
 use shape::{Crossing, Ramp, SLOPE, Shape, magnitude};
@@ -103,7 +103,7 @@ fn planes<V: Varying>(
         &words::<V>([&a.components, &b.components, &c.components, &first.components]),
         #[inline(always)]
         |mode, words| {
-            let [a, b, c, first] = words.map(u32::cast_signed);
+            let [a, b, c, first] = map4(words, u32::cast_signed);
             let half = 1 << (MORE - 1);
             if mode == Mode::Flat {
                 large.set(large.get() | magnitude(first));
@@ -126,7 +126,7 @@ fn planes<V: Varying>(
     // Depths of 16 bits are followed with four more, others with 28, from the first vertex's on.
     let shallow = depth_bits <= 16;
     let finer = if shallow { 31 - 20 } else { 31 - 28 };
-    let [base, b, c] = [a.zs, b.zs, c.zs].map(|zs| (zs >> finer).cast_signed());
+    let [base, b, c] = map3([a.zs, b.zs, c.zs], |zs| (zs >> finer).cast_signed());
     let (more, half) = ([b - base, c - base], 1 << (SLOPE - 1));
     let deep = magnitude(more[0]) | magnitude(more[1]);
     let zs = shape.ramp(if shallow { (base << SLOPE).wrapping_add(half) } else { half }, more, SLOPE);
@@ -169,7 +169,7 @@ where
 /// The sides from the first corner to the others.
 #[inline(always)]
 fn sides<V: Varying>([a, b, c]: [&Corner<V>; 3]) -> [[i32; 2]; 2] {
-    [b, c].map(|p| [p.place[0] - a.place[0], p.place[1] - a.place[1]])
+    map2([b, c], |p| [p.place[0] - a.place[0], p.place[1] - a.place[1]])
 }
 
 /// Twice the signed area between two sides below 2^15.
@@ -226,7 +226,7 @@ where
     if top >= end || row(west) >= row(east + 1) {
         return Some(Outcome::Missed);
     }
-    let [from, to] = [columns.start, columns.end].map(|column| column - origin[0]);
+    let [from, to] = [columns.start - origin[0], columns.end - origin[0]];
     let middle = row(by).max(top).min(end);
     let center = |row: i32| [(origin[0] << BITS) + ONE / 2, (row << BITS) + ONE / 2];
     let shape = Shape::new([a.place, b.place, c.place], center(origin[1]), area.unsigned_abs(), clockwise);

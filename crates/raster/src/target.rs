@@ -2,6 +2,7 @@
 
 use crate::color::{ColorFormat, FragmentColor};
 use crate::depth::DepthFormat;
+use alberti_math::map2;
 use core::fmt;
 use core::ops::Range;
 
@@ -319,7 +320,7 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
     pub(crate) fn lines(&mut self, row: i32, left: i32) -> Lines<'_, C::Pixel, D::Stored> {
         let place = |place: i32| place as usize;
         let row = place(row).wrapping_sub(self.first_row);
-        let first = self.strides.map(|stride| row.wrapping_mul(stride).wrapping_add(place(left)));
+        let first = map2(self.strides, |stride| row.wrapping_mul(stride).wrapping_add(place(left)));
         Lines { color: self.color, depth: self.depth, strides: self.strides, first }
     }
 }
@@ -339,8 +340,8 @@ impl<C, D> Lines<'_, C, D> {
     #[expect(clippy::cast_sign_loss, reason = "sums wrap back")]
     pub(crate) fn run(&mut self, start: i32, count: i32) -> Option<Pixels<'_, C, D>> {
         // Negative numbers wrap, or are too large.
-        let [start, count] = [start, count].map(|n| n as usize);
-        let [color, depth] = self.first.map(|first| first.wrapping_add(start));
+        let [start, count] = [start as usize, count as usize];
+        let [color, depth] = map2(self.first, |first| first.wrapping_add(start));
         let (color, depth) = (self.color.get_mut(color..)?, self.depth.get_mut(depth..)?);
         Some((color.get_mut(..count)?, depth.get_mut(..count)?))
     }

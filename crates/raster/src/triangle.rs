@@ -2,7 +2,7 @@
 
 use crate::edge::FITS_I32;
 use crate::interpolation::{LIMIT, Oriented};
-use alberti_math::{Fixed, Q16, Varying, scaled};
+use alberti_math::{Fixed, LOW_WORDS_ONLY, Q16, Varying, map3, map4, scaled};
 use core::cell::RefCell;
 use core::fmt;
 use core::ops::Range;
@@ -211,7 +211,7 @@ impl Reach {
         cull: Cull,
         [limits, rows]: &[Range<i32>; 2],
     ) -> Result<Self, Outcome> {
-        let corners = vertices.map(|corner| corner.place);
+        let corners = map3(vertices, |corner| corner.place);
         let area = doubled_area(&corners);
         if cull.drops(area) {
             return Err(Outcome::Culled);
@@ -253,7 +253,7 @@ impl Reach {
         fixed: bool,
     ) -> Oriented<'a, V> {
         let first = vertices[0].components;
-        let (corners, vertices) = in_order(vertices.map(|corner| corner.place), vertices, self.area);
+        let (corners, vertices) = in_order(map3(vertices, |corner| corner.place), vertices, self.area);
         Oriented { vertices, corners, doubled_area: self.area.abs(), first, bits, fixed }
     }
 }
@@ -303,7 +303,15 @@ impl Bounds {
 /// Twice the signed area, positive when the corners run clockwise on the screen.
 #[inline]
 pub(crate) fn doubled_area(&[a, b, c]: &Corners) -> i64 {
-    let [ux, uy, vx, vy] = [b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]].map(i64::from);
+    let sides = [b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]];
+    if LOW_WORDS_ONLY {
+        let [ux, uy, vx, vy] = sides;
+        let far = |side: i32| (side + (1 << 14)).cast_unsigned();
+        if far(ux) | far(uy) | far(vx) | far(vy) < 1 << 15 {
+            return (ux * vy - uy * vx).into();
+        }
+    }
+    let [ux, uy, vx, vy] = map4(sides, i64::from);
     ux * vy - uy * vx
 }
 

@@ -4,8 +4,8 @@
 
 use core::fmt::Debug;
 
-use alberti_math::Rgba8;
 use alberti_math::lanes::Lanes;
+use alberti_math::{Rgba8, map2};
 
 use crate::blend::{Quad, bilinear, bilinear_scalar, spread, sums};
 use crate::format::Storage;
@@ -257,7 +257,7 @@ fn texel<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
         lanes,
         texture.height(),
         at,
-        [wrap.0.border(), wrap.1.border()].map(|border| border.map(Rgba8::to_bits)),
+        map2([wrap.0.border(), wrap.1.border()], |border| border.map(Rgba8::to_bits)),
         #[inline(always)]
         |row, column| texture.fetch(lanes, row, column),
     )
@@ -275,7 +275,7 @@ pub(crate) fn scalar<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
         lanes,
         texture.height(),
         at,
-        [wrap.0.border(), wrap.1.border()].map(|border| border.map(|color| (color.to_bits() & 255) * 257)),
+        map2([wrap.0.border(), wrap.1.border()], |border| border.map(|color| (color.to_bits() & 255) * 257)),
         #[inline(always)]
         |row, column| texture.fetch_scalars(lanes, row, column),
     )

@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-use alberti_math::Rgba8;
 use alberti_math::lanes::{Lanes, One};
+use alberti_math::{Rgba8, map2};
 use glam::Vec2;
 
 use crate::blend::scalar_number;
@@ -77,7 +77,7 @@ impl<F: TexelFormat, U: Wrap, V: Wrap, Z: Size> Sampler<'_, F, Nearest, U, V, Z>
     ) -> L::U32 {
         let (texture, (u_wrap, v_wrap)) = (&self.texture, self.wrap);
         let at = texture.cells(lanes, [u, v], self.wrap);
-        let borders = [u_wrap.border(), v_wrap.border()].map(|border| border.map(|_| word(None)));
+        let borders = map2([u_wrap.border(), v_wrap.border()], |border| border.map(|_| word(None)));
         bordered(lanes, texture.height(), at, borders, |row, column| {
             texture.words(lanes, row, column, |texel| word(texel.copied()))
         })

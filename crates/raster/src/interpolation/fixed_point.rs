@@ -11,7 +11,7 @@ use crate::target::Target;
 use crate::triangle::{Corner, Numbers, Outcome};
 use crate::{ColorFormat, Counters, DepthFormat, Paint};
 use alberti_math::lanes::{Floating, OneFixed};
-use alberti_math::{Mode, Q16, Varying, reciprocal, scaled};
+use alberti_math::{Mode, Q16, Varying, map2, map3, reciprocal, scaled};
 use core::cell::Cell;
 use core::fmt;
 
@@ -120,7 +120,7 @@ impl FixedComponent {
     /// A component of these values. `q` is proportional to that of the three vertices, for hyperbolic components.
     #[inline(always)]
     fn new(shape: &Shape, values: [u32; 3], q: Option<[i32; 3]>) -> Self {
-        let [a, b, c] = values.map(u32::cast_signed);
+        let [a, b, c] = map3(values, u32::cast_signed);
         let more = [b - a, c - a];
         // The greatest comes to lie from 2^29 to 2^30, and so this is at least 1.
         let shift = (more[0].unsigned_abs() | more[1].unsigned_abs() | 1).leading_zeros() - 2;
@@ -316,7 +316,7 @@ impl<V: Varying> LineNumbers<OneFixed, V> for FixedLines<V> {
     fn within(&self, known: &FixedRow<V>, ends: &FixedEnds<V>, [first, last]: [i32; 2], budget: f32) -> bool {
         // Each may be off by a unit for each column of the row, and a few at its first.
         let off = u64::from((last - known.first).cast_unsigned()) + 5;
-        let [q0, q1] = ends.q.map(u64::from);
+        let [q0, q1] = map2(ends.q, u64::from);
         let apart = q0.abs_diff(q1) + 2 * off;
         // The units for rounding are not there for perspective.
         let left = scaled(budget, 16).clamp(0, LIMIT / 2) - (last - first) - ROUNDED;

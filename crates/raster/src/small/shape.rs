@@ -54,9 +54,9 @@ impl Shape {
     /// the third vertex to the first have.
     #[inline(always)]
     pub(super) fn holds(&self, differences: u32) -> bool {
-        let [right, down] = [self.right, self.down].map(|[b, c]| magnitude(b) | magnitude(c));
+        let size = |[b, c]: [i32; 2]| magnitude(b) | magnitude(c);
         // The sum of two products must be less than 2^31 after the shift.
-        differences.wrapping_mul(right | down) < (1 << 30) >> self.shift
+        differences.wrapping_mul(size(self.right) | size(self.down)) < (1 << 30) >> self.shift
     }
 
     /// The slope in units of 2^-SLOPE a pixel.

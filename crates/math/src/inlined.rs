@@ -1,0 +1,19 @@
+//! `array::map`, inlined: in programs that are made for size, that of `core` becomes a loop through memory.
+
+/// Both mapped.
+#[inline(always)]
+pub fn map2<T, U>([a, b]: [T; 2], f: impl Fn(T) -> U) -> [U; 2] {
+    [f(a), f(b)]
+}
+
+/// All three mapped.
+#[inline(always)]
+pub fn map3<T, U>([a, b, c]: [T; 3], f: impl Fn(T) -> U) -> [U; 3] {
+    [f(a), f(b), f(c)]
+}
+
+/// All four mapped.
+#[inline(always)]
+pub fn map4<T, U>([a, b, c, d]: [T; 4], f: impl Fn(T) -> U) -> [U; 4] {
+    [f(a), f(b), f(c), f(d)]
+}
