@@ -7,6 +7,7 @@ use alberti_app::options::{Cull, Filter, Policies, Projection, RenderOptions, Sh
 use alberti_app::scene::{Camera, Model};
 use alberti_app::scenes::BuiltIn;
 use alberti_oracle::scene as oracle;
+use std::num::NonZero;
 
 /// The view of a camera, in perspective; its aspect ratio is that of the frame.
 ///
@@ -31,6 +32,7 @@ pub fn options(scene: &BuiltIn, width: u32, height: u32) -> RenderOptions {
         cull: scene.cull,
         depth: scene.depth,
         projection: Projection::Perspective,
+        threads: NonZero::<usize>::MIN,
         policies: Policies::default(),
     }
 }

@@ -1,7 +1,7 @@
 #![no_std]
 #![doc = include_str!("../README.md")]
 
-#[cfg(test)]
+#[cfg(any(test, feature = "std"))]
 extern crate std;
 
 mod error;
@@ -10,8 +10,11 @@ mod integers;
 pub mod pipeline;
 mod prepared;
 mod profile;
+mod screen;
 pub mod shaders;
 mod stats;
+#[cfg(feature = "std")]
+mod threads;
 mod vertex;
 mod view;
 mod walk;
@@ -38,7 +41,7 @@ pub use geometry::{Geometry, IntegerMesh, IntegerVertex, Mesh};
 pub use pipeline::{Pass, draw};
 pub use prepared::{Prepared, PreparedTriangle};
 pub use profile::{DESKTOP, MCU, Profile, REFERENCE, TINY};
+pub use screen::Sides;
 pub use stats::Stats;
 pub use vertex::Slot;
 pub use view::{Camera, View};
-pub use walk::Sides;

@@ -2,12 +2,15 @@
 
 use crate::geometry::Geometry;
 use crate::pipeline::Pass;
+use crate::screen::Screen;
 use crate::vertex::Slot;
-use crate::walk::{Screen, Walk};
+use crate::walk::Walk;
 use alberti_math::for_lanes;
 use alberti_math::lanes::{Floating, Machine, One};
 use alberti_projection::Projection;
-use alberti_raster::{ColorFormat, Counters, DepthFormat, FragmentStage, Interpolation, Outcome, Target};
+use alberti_raster::{
+    ColorFormat, Counters, DepthFormat, FragmentStage, Interpolation, Outcome, Paint, Target,
+};
 use core::fmt;
 use core::mem::take;
 use core::ops::Range;
@@ -17,6 +20,10 @@ use core::ops::Range;
 pub struct PreparedTriangle(u32);
 
 impl PreparedTriangle {
+    /// The number of a mesh's first triangles that can be listed.
+    #[cfg(feature = "std")]
+    pub(crate) const MOST: usize = 1 << NUMBER;
+
     /// Room without a triangle.
     pub const EMPTY: Self = Self(0);
 
@@ -88,41 +95,12 @@ where
             return (Self { pass, screen, filled: 0, listed: &[], next: usize::MAX, size, depth }, room);
         };
         let pixels = way.viewport.pixels();
-        let shift = slice_shift(&pixels[1]);
         let mut cache = [Slot::EMPTY; 16];
         let mesh = pass.mesh();
         let (slots, paint) = pass.halves();
         let lasting = !slots.is_empty();
         let mut walk = Walk::new(One, mesh, way, if lasting { slots } else { &mut cache });
-        let (mut listed, mut next) = (0, 0);
-        while let Some(indices) = mesh.triangle(next) {
-            // The rows of a triangle, or of all parts of it, and how many parts are never drawn.
-            let (mut rows, mut culled, mut missed) = (None, 0, 0);
-            let fate = walk.triangle(
-                indices,
-                #[inline(always)]
-                |corners| match paint.reach(corners, &pixels) {
-                    Ok(reach) => rows = Some(union(rows.take(), reach.rows())),
-                    Err(Outcome::Culled) => culled += 1,
-                    Err(_) => missed += 1,
-                },
-            );
-            if let Some(rows) = rows {
-                let slices = Slices::of(&rows, pixels[1].start, shift);
-                let (Some(triangle), Some(place)) =
-                    (PreparedTriangle::new(next, slices), room.get_mut(listed))
-                else {
-                    break;
-                };
-                *place = triangle;
-                listed += 1;
-            } else {
-                (0..culled).for_each(|_| counters.rasterized(Outcome::Culled));
-                (0..missed).for_each(|_| counters.rasterized(Outcome::Missed));
-            }
-            fate.count(counters);
-            next += 1;
-        }
+        let (listed, next) = list(&mut walk, paint, &pixels, 0..usize::MAX, room, counters);
         let filled = if lasting { walk.filled() } else { 0 };
         let (listed, rest) = room.split_at_mut_checked(listed).unwrap_or_default();
         (Self { pass, screen, filled, listed, next, size, depth }, rest)
@@ -171,28 +149,11 @@ where
             return;
         }
         let Some(screen) = self.screen else { return };
-        let [columns, rows] = screen.viewport.pixels();
-        let (top, shift) = (rows.start, slice_shift(&rows));
-        let mut visible = target.scissor(columns, rows);
-        let [_, rows] = visible.limits();
-        if rows.is_empty() {
-            return;
-        }
-        let its = Slices::of(&rows, top, shift);
-        let listed = self.listed.iter().filter(PreparedTriangle::meets(its));
-        let remaining = self.next..mesh.triangles();
         let mut cache = [Slot::EMPTY; 16];
         let (slots, paint) = self.pass.halves();
         let slots = if slots.is_empty() { &mut cache } else { &mut **slots };
-        let mut batch = paint.batch(lanes, &mut visible);
-        Walk::again(mesh, screen, slots, self.filled).triangles(
-            listed.map(|triangle| triangle.number()).chain(remaining),
-            self.next,
-            counters,
-            #[inline(always)]
-            |corners, counters| batch.triangle(corners, counters),
-        );
-        batch.finish(counters);
+        let walk = Walk::again(mesh, screen, slots, self.filled);
+        draw_listed(lanes, (self.listed, self.next), walk, paint, target, counters);
     }
 
     /// The number of the mesh's triangles that are listed.
@@ -216,6 +177,91 @@ impl<M: Geometry, F, P, Pr: Projection, D: fmt::Debug> fmt::Debug for Prepared<'
             .field("depth", &self.depth)
             .finish_non_exhaustive()
     }
+}
+
+/// Lists those of a mesh's triangles with these numbers that may be drawn in a viewport of these pixels. Returns how
+/// many, and the first number that found no room, or is past the last.
+#[inline(always)]
+pub(crate) fn list<M: Geometry, F, P: Interpolation, Pr: Projection>(
+    walk: &mut Walk<'_, M, Pr>,
+    paint: &Paint<F, P>,
+    pixels: &[Range<i32>; 2],
+    numbers: Range<usize>,
+    room: &mut [PreparedTriangle],
+    counters: &mut impl Counters,
+) -> (usize, usize) {
+    let (mesh, shift) = (walk.mesh(), slice_shift(&pixels[1]));
+    let (mut listed, mut next) = (0, numbers.start);
+    while next < numbers.end
+        && let Some(indices) = mesh.triangle(next)
+    {
+        // The rows of a triangle, or of all parts of it, and how many parts are never drawn.
+        let (mut rows, mut culled, mut missed) = (None, 0, 0);
+        let fate = walk.triangle(
+            indices,
+            #[inline(always)]
+            |corners| match paint.reach(corners, pixels) {
+                Ok(reach) => rows = Some(union(rows.take(), reach.rows())),
+                Err(Outcome::Culled) => culled += 1,
+                Err(_) => missed += 1,
+            },
+        );
+        if let Some(rows) = rows {
+            let slices = Slices::of(&rows, pixels[1].start, shift);
+            let (Some(triangle), Some(place)) = (PreparedTriangle::new(next, slices), room.get_mut(listed))
+            else {
+                break;
+            };
+            *place = triangle;
+            listed += 1;
+        } else {
+            (0..culled).for_each(|_| counters.rasterized(Outcome::Culled));
+            (0..missed).for_each(|_| counters.rasterized(Outcome::Missed));
+        }
+        fate.count(counters);
+        next += 1;
+    }
+    (listed, next)
+}
+
+/// Draws the listed triangles, and those of the mesh from number `next` on, that are in a target.
+#[inline(always)]
+pub(crate) fn draw_listed<L, M, F, P, Pr, C, D, K>(
+    lanes: L,
+    (listed, next): (&[PreparedTriangle], usize),
+    mut walk: Walk<'_, M, Pr>,
+    paint: &Paint<F, P>,
+    target: &mut Target<'_, C, D>,
+    counters: &mut K,
+) where
+    L: Floating,
+    M: Geometry,
+    F: FragmentStage<M::Varying>,
+    P: Interpolation,
+    Pr: Projection,
+    C: ColorFormat,
+    D: DepthFormat,
+    K: Counters,
+{
+    let [columns, rows] = walk.pixels();
+    let (top, shift) = (rows.start, slice_shift(&rows));
+    let mut visible = target.scissor(columns, rows);
+    let [_, rows] = visible.limits();
+    if rows.is_empty() {
+        return;
+    }
+    let its = Slices::of(&rows, top, shift);
+    let listed = listed.iter().filter(PreparedTriangle::meets(its));
+    let remaining = next..walk.mesh().triangles();
+    let mut batch = paint.batch(lanes, &mut visible);
+    walk.triangles(
+        listed.map(|triangle| triangle.number()).chain(remaining),
+        next,
+        counters,
+        #[inline(always)]
+        |corners, counters| batch.triangle(corners, counters),
+    );
+    batch.finish(counters);
 }
 
 /// Slices of a viewport's rows, counted from its first one. There are at most 64, of 2^s rows.

@@ -2,7 +2,7 @@
 
 use crate::geometry::{Geometry, IntegerVertex};
 use crate::integers::{IntegerScreen, Place};
-use crate::walk::Screen;
+use crate::screen::Screen;
 use alberti_math::lanes::{Floating, One};
 use alberti_math::{Fixed, Varying, is_finite, map2};
 use alberti_projection::Projection;
@@ -108,26 +108,24 @@ impl<V: Varying> Slot<V> {
         *self = Self { tag: tag(index), outside, screen: Corner::of_integers(place, depths, &components) };
     }
 
-    /// Fills the slots with so many vertices from number 0 on, and empties those that are left.
+    /// Fills slots with the vertices from number `first` on.
     #[inline]
     pub(crate) fn fill_all<L, M, Pr>(
         lanes: L,
         mesh: &M,
         screen: &Screen<Pr>,
-        vertices: usize,
+        first: usize,
         slots: &mut [Self],
     ) where
         L: Floating,
         M: Geometry<Varying = V>,
         Pr: Projection,
     {
-        let (slots, unused) = slots.split_at_mut_checked(vertices).unwrap_or_default();
-        unused.fill(Self::EMPTY);
         if const { L::COUNT == 1 } || const { M::INTEGERS } && screen.integers.is_some() {
-            Self::fill_one_by_one(mesh, screen, 0, slots);
+            Self::fill_one_by_one(mesh, screen, first, slots);
             return;
         }
-        for (slots, first) in slots.chunks_mut(L::COUNT).zip((0..).step_by(L::COUNT)) {
+        for (slots, first) in slots.chunks_mut(L::COUNT).zip((first..).step_by(L::COUNT)) {
             Self::fill(lanes, mesh, screen, first, slots);
         }
     }

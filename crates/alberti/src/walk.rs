@@ -1,146 +1,34 @@
 //! The geometry half of the pipeline: from a mesh to its triangles on the screen, steps 1 to 6.
 
 use crate::geometry::Geometry;
-use crate::integers::IntegerScreen;
+use crate::screen::{Screen, Sides};
 use crate::vertex::{Slot, outside};
 use alberti_math::glam::Vec3;
-use alberti_math::lanes::{Floating, Lanes, One};
-use alberti_math::{Eye, Fixed, Frame, Mode, Object, Point3, Subpixel, Varying};
+use alberti_math::lanes::{Floating, One};
+use alberti_math::{Eye, Fixed, Mode, Point3, Varying, map3};
 use alberti_projection::{
-    EyeVertex, Polygon, ProjectedVertex, Projection, SideBounds, Viewport, clip_near_far, clip_sides,
+    EyeVertex, Polygon, ProjectedVertex, Projection, SideBounds, clip_near_far, clip_sides,
 };
 use alberti_raster::{Corner, Counters, Numbers, Vertex};
 use core::cmp::Ordering;
-
-/// The clip at the sides of the view.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Sides {
-    /// Triangles are only cut where they reach beyond the fixed-point range; the rest is left to the rows and columns
-    /// that are drawn. Faster, and edges are not moved.
-    #[default]
-    GuardBand,
-    /// The four sides of the cube, -1 <= xs <= 1 and -1 <= ys <= 1.
-    Cube,
-}
-
-/// The numbers that lead from object space to the screen.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Screen<Pr: Projection> {
-    pub(crate) to_eye: Frame<Object, Eye>,
-    pub(crate) projection: Pr,
-    pub(crate) viewport: Viewport,
-    pub(crate) depth: Pr::Depth,
-    pub(crate) guard: SideBounds,
-    /// The result of [`depths_within`](Self::depths_within).
-    pub(crate) within: [f32; 2],
-    pub(crate) sides: Sides,
-    pub(crate) subpixel: Subpixel,
-    pub(crate) numbers: Numbers,
-    /// The way of a mesh of integers, where the numbers are integers too.
-    pub(crate) integers: Option<IntegerScreen>,
-}
-
-/// Coordinates above this may overflow when they are subtracted or multiplied.
-const LARGEST: f32 = f32::MAX / 16.0;
-
-/// The places of several vertices in memory: their bits of [`outside`], x and y in subpixels; zs and q.
-type Places<L> = ([<L as Lanes>::Each<u32>; 3], [<L as Lanes>::Each<f32>; 2]);
-
-impl<Pr: Projection> Screen<Pr> {
-    /// Steps 1 and 2, for several points.
-    #[inline(always)]
-    fn eye<L: Lanes>(&self, lanes: L, point: [L::Number; 3]) -> [L::Number; 3] {
-        self.projection.scale_lanes(lanes, self.to_eye.to_parent_lanes(lanes, point))
-    }
-
-    /// Steps 1, 2, 4 and 6 for several points; where they are not within the planes, 4 and 6 have no meaning.
-    #[inline(always)]
-    pub(crate) fn place<L: Floating>(&self, lanes: L, points: &[L::Each<f32>; 3]) -> Places<L> {
-        let Self { projection, viewport, depth, subpixel, .. } = self;
-        lanes.vectorize(
-            #[inline(always)]
-            || {
-                let [x, y, z] = points;
-                let p = self.eye(lanes, [lanes.load(x), lanes.load(y), lanes.load(z)]);
-                let side = projection.side_lanes(lanes, p[2]);
-                let [x, y, zs, q] = projection.project_lanes(lanes, depth, p);
-                let [column, row] = viewport.to_screen_lanes(lanes, *subpixel, [x, y]);
-                // Most vertices lie within all planes.
-                let outside = if lanes.bits(self.inside(lanes, p, side)) == all::<L>() {
-                    lanes.word(0)
-                } else {
-                    self.outside(lanes, p, side, [x, y])
-                };
-                let words = [outside, column, row].map(|words| lanes.store_words(words));
-                (words, [lanes.store(zs), lanes.store(q)])
-            },
-        )
-    }
-
-    /// The points that are certainly within all planes, and within the guard band.
-    #[inline(always)]
-    fn inside<L: Lanes>(&self, lanes: L, [x, y, z]: [L::Number; 3], side: L::Number) -> L::Mask {
-        let [near, far] = self.within.map(|end| lanes.splat(end));
-        let within = |x| lanes.less(x, side) & lanes.less(-side, x);
-        let beside = within(x) & within(y);
-        beside & lanes.less(near, z) & lanes.less(z, far)
-    }
-
-    /// The bits of [`outside`] of points whose places on the cube are given too.
-    #[inline(always)]
-    fn outside<L: Lanes>(
-        &self,
-        lanes: L,
-        [x, y, z]: [L::Number; 3],
-        side: L::Number,
-        [xs, ys]: [L::Number; 2],
-    ) -> L::U32 {
-        let Self { projection, guard, .. } = self;
-        let nowhere = !(within(lanes, x, LARGEST) & within(lanes, y, LARGEST) & within(lanes, z, LARGEST));
-        let sides = bit(lanes, lanes.less(x, -side), outside::LEFT)
-            | bit(lanes, lanes.less(side, x), outside::RIGHT)
-            | bit(lanes, lanes.less(y, -side), outside::BELOW)
-            | bit(lanes, lanes.less(side, y), outside::ABOVE);
-        let planes = bit(lanes, lanes.less(z, lanes.splat(projection.near())), outside::NEAR)
-            | bit(lanes, lanes.less(lanes.splat(projection.far()), z), outside::FAR);
-        let beyond = !(within(lanes, xs, guard.x) & within(lanes, ys, guard.y));
-        let ends = bit(lanes, nowhere, outside::NOWHERE) | bit(lanes, beyond, outside::GUARD);
-        sides | planes | ends
-    }
-
-    /// The depths between which a vertex between the sides is certainly within the guard band and finite: none in
-    /// viewports that reach beyond it.
-    pub(crate) fn depths_within(projection: &Pr, guard: SideBounds) -> [f32; 2] {
-        let sides = guard.x >= 1.0 && guard.y >= 1.0;
-        if sides { [projection.near(), projection.far().min(LARGEST)] } else { [f32::INFINITY; 2] }
-    }
-}
-
-/// A bit for each lane.
-#[inline(always)]
-fn all<L: Lanes>() -> u32 {
-    (1 << L::COUNT) - 1
-}
-
-/// A bit where the mask is set.
-#[inline(always)]
-fn bit<L: Lanes>(lanes: L, mask: L::Mask, bit: u32) -> L::U32 {
-    lanes.select_words(mask, lanes.word(bit), lanes.word(0))
-}
-
-/// Whether |x| <= `most`; not so for NaN.
-#[inline(always)]
-fn within<L: Lanes>(lanes: L, x: L::Number, most: f32) -> L::Mask {
-    lanes.less(lanes.max(x, -x), lanes.splat(most.next_up()))
-}
+use core::ops::Range;
 
 /// The way of a mesh's triangles to the screen.
 pub(crate) struct Walk<'a, M: Geometry, Pr: Projection> {
     mesh: &'a M,
-    slots: &'a mut [Slot<M::Varying>],
-    /// The number of vertices, if each is in a slot of its own, or 0.
-    filled: usize,
+    /// All vertices, or none.
+    stored: &'a [Slot<M::Varying>],
+    /// A cache for those that are not.
+    cache: &'a mut [Slot<M::Varying>],
     screen: Screen<Pr>,
+}
+
+/// The number of a mesh's vertices that are stored in so many slots: all, where the slots hold them and most are
+/// probably used, or none.
+#[inline]
+pub(crate) fn stored_by(mesh: &impl Geometry, slots: usize) -> usize {
+    let vertices = mesh.vertices();
+    if vertices <= slots && vertices / 2 <= mesh.triangles() { vertices } else { 0 }
 }
 
 /// A taker of triangles on the screen.
@@ -166,15 +54,11 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         screen: Screen<Pr>,
         slots: &'a mut [Slot<M::Varying>],
     ) -> Self {
-        let vertices = mesh.vertices();
-        let all = vertices <= slots.len() && vertices / 2 <= mesh.triangles();
-        if all {
-            Slot::fill_all(lanes, mesh, &screen, vertices, slots);
-        } else {
-            slots.fill(Slot::EMPTY);
-        }
-        let filled = if all { vertices } else { 0 };
-        Self { mesh, slots, filled, screen }
+        let stored = stored_by(mesh, slots.len());
+        let (store, unused) = slots.split_at_mut_checked(stored).unwrap_or_default();
+        unused.fill(Slot::EMPTY);
+        Slot::fill_all(lanes, mesh, &screen, 0, store);
+        Self { mesh, stored: store, cache: unused, screen }
     }
 
     /// The walk over slots in which an earlier one has left so many vertices, each in the slot of its number.
@@ -185,15 +69,30 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         slots: &'a mut [Slot<M::Varying>],
         filled: usize,
     ) -> Self {
-        if filled == 0 {
-            slots.fill(Slot::EMPTY);
-        }
-        Self { mesh, slots, filled, screen }
+        let (stored, cache) = slots.split_at_mut_checked(filled).unwrap_or_default();
+        cache.fill(Slot::EMPTY);
+        Self { mesh, stored, cache, screen }
+    }
+
+    /// The walk over a store of all vertices, which others may walk too.
+    #[cfg(feature = "std")]
+    pub(crate) fn over(mesh: &'a M, screen: Screen<Pr>, stored: &'a [Slot<M::Varying>]) -> Self {
+        Self { mesh, stored, cache: &mut [], screen }
+    }
+
+    /// The mesh.
+    pub(crate) fn mesh(&self) -> &'a M {
+        self.mesh
+    }
+
+    /// The columns and the rows of the viewport.
+    pub(crate) fn pixels(&self) -> [Range<i32>; 2] {
+        self.screen.viewport.pixels()
     }
 
     /// The number of vertices that have slots of their own.
     pub(crate) fn filled(&self) -> usize {
-        self.filled
+        self.stored.len()
     }
 
     /// Hands `sink` the visible parts of the triangles with these numbers, on the screen: of each nothing, itself, or
@@ -207,9 +106,8 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         counters: &mut K,
         mut sink: impl FnMut([&Corner<M::Varying>; 3], &mut K),
     ) {
-        let mesh = self.mesh;
+        let (mesh, slots) = (self.mesh, self.stored);
         loop {
-            let slots = self.slots.get(..self.filled).unwrap_or_default();
             // Most triangles of a mesh that fits are inside.
             let (number, indices) = loop {
                 let Some(number) = numbers.next() else { return };
@@ -235,8 +133,7 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         indices: [usize; 3],
         mut sink: impl FnMut([&Corner<M::Varying>; 3]),
     ) -> Fate {
-        let slots = self.slots.get(..self.filled).unwrap_or_default();
-        if let Some(corners) = inside(slots, indices) {
+        if let Some(corners) = inside(self.stored, indices) {
             sink(corners);
             return Fate::Whole;
         }
@@ -246,16 +143,20 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     /// The same for one triangle that is to be clipped, or whose vertices may not be in slots.
     #[inline(never)]
     fn seldom<K>(&mut self, indices: [usize; 3], counters: &mut K, sink: Sink<'_, M::Varying, K>) -> Fate {
-        let Self { mesh, slots, filled, screen } = self;
+        let Self { mesh, stored, cache, screen } = self;
         let [i, j, k] = indices;
-        let places = indices.map(|index| Slot::<M::Varying>::place(index, slots.len()));
-        if *filled == 0 {
+        let count = if stored.is_empty() { cache.len() } else { stored.len() };
+        let places = map3(indices, |index| Slot::<M::Varying>::place(index, count));
+        let slots = if stored.is_empty() {
             for (place, index) in places.into_iter().zip(indices) {
-                if let Some(slot) = slots.get_mut(place) {
+                if let Some(slot) = cache.get_mut(place) {
                     slot.keep(*mesh, screen, index);
                 }
             }
-        }
+            &**cache
+        } else {
+            *stored
+        };
         let kept = |place: usize, index| slots.get(place).filter(|slot: &&Slot<_>| slot.holds(index));
         let own;
         let [a, b, c] = places;

@@ -1,5 +1,6 @@
 //! The command line: the options that scene files have as well ([`crate::options`]), and its own.
 
+use crate::options::values::Threads;
 use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
@@ -65,6 +66,10 @@ pub struct RenderArgs {
     /// `[render]` of a scene file.
     #[command(flatten)]
     pub render: RenderTable,
+
+    /// Threads that draw; the picture is the same for any number [default: as many as the machine runs at once].
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub threads: Option<Threads>,
 
     /// Print counts and times, as a table or as one line of JSON.
     #[arg(long, value_name = "FORMAT", num_args = 0..=1, default_missing_value = "text")]

@@ -13,8 +13,8 @@ use crate::slide;
 use alberti::glam::Vec3;
 use alberti::texture::{Texture, TextureError, format::Rgba8888};
 use alberti::{
-    AnyDepth, AnyProjection, Eye, Frame, Geometry, Mesh, Object, Pass, Point3, Projector, Rgba8, Slot, Stats,
-    Subpixel, Target, Vector3, View, ViewError, World, look_at,
+    AnyDepth, AnyProjection, Eye, Frame, Geometry, Mesh, Object, Pass, Point3, PreparedTriangle, Projector,
+    Rgba8, Slot, Stats, Subpixel, Target, Vector3, View, ViewError, World, look_at,
 };
 
 mod erased;
@@ -32,7 +32,7 @@ pub const AMBIENT: f32 = 0.3;
 pub const DIFFUSE: f32 = 0.7;
 
 /// Triangles drawn between two reports of progress.
-const CHUNK: usize = 1 << 16;
+const CHUNK: usize = 1 << 20;
 
 /// A target whose depth format is chosen at run time.
 pub(crate) type Canvas<'a> = Target<'a, Rgba8888, AnyDepth>;
@@ -173,6 +173,11 @@ impl<'a> Drawing<'a> {
         'a: 't,
     {
         Mesh::new(&self.model.vertices, triangles, vertex_stage)
+    }
+
+    /// Room for these triangles in bands.
+    fn room(triangles: &[[u32; 3]]) -> Vec<PreparedTriangle> {
+        vec![PreparedTriangle::EMPTY; triangles.len()]
     }
 
     /// Enough for each vertex of these triangles; a model of many small parts must not pay for all of its vertices in

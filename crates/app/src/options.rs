@@ -1,6 +1,7 @@
 //! The options of the command line, of scene files, and of built-in scenes for themselves.
 
 use clap::ValueEnum;
+use std::num::NonZero;
 
 mod filter;
 mod material;
@@ -133,6 +134,9 @@ pub struct RenderOptions {
     pub depth: DepthFormat,
     /// The projection.
     pub projection: Projection,
+    /// Threads that draw. The pixels are the same for any number; of more than one, each has its own fate of a triangle
+    /// in the counts.
+    pub threads: NonZero<usize>,
     /// The other policies, which [`render`](crate::render::render) takes for ones that go together.
     pub policies: Policies,
 }

@@ -17,6 +17,7 @@ use alberti_app::options::{
 use alberti_app::render::render;
 use alberti_app::scene::{self, Vertex};
 use alberti_app::scenes::{self, BuiltIn};
+use std::num::NonZero;
 
 const SIZE: (u32, u32) = (160, 120);
 
@@ -89,6 +90,7 @@ fn options(
         cull: options::Cull::Back,
         depth,
         projection: options::Projection::Perspective,
+        threads: NonZero::<usize>::MIN,
         policies,
     }
 }

@@ -24,7 +24,7 @@ use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 ///
 /// The value itself holds nothing; it is the proof that the machine has the instructions. Code over it is inlined into
 /// the function that [`vectorize`](Self::vectorize) calls, which is compiled for those.
-pub trait Lanes: Copy + Debug {
+pub trait Lanes: Copy + Debug + Send + Sync {
     /// The number of samples: a power of two, at most 8.
     const COUNT: usize;
     /// The same as a number of columns.

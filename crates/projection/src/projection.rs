@@ -20,9 +20,9 @@ use core::fmt::Debug;
 ///
 /// The steps are the same for both, in the same order: [`scale_lanes`](Self::scale_lanes), the clip against z = A
 /// and z = B, [`project_lanes`](Self::project_lanes), the clip against the sides, the viewport.
-pub trait Projection: Copy + Debug {
+pub trait Projection: Copy + Debug + Send + Sync {
     /// The map from eye depth to screen depth.
-    type Depth: Copy + Debug;
+    type Depth: Copy + Debug + Send + Sync;
 
     /// The same projection for pictures of this aspect ratio, width / height, from 2^-14 to 2^14.
     #[must_use]

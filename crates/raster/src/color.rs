@@ -24,9 +24,9 @@ use core::fmt::Debug;
 /// }
 /// assert_eq!(Grey.pixel(Rgba8::WHITE), 255);
 /// ```
-pub trait ColorFormat: Copy + Debug + 'static {
+pub trait ColorFormat: Copy + Debug + Send + Sync + 'static {
     /// The buffer's value for a pixel: a word whose bytes are, in memory, in the order of the display or the file.
-    type Pixel: Copy + Debug + 'static;
+    type Pixel: Copy + Debug + Send + Sync + 'static;
 
     /// The pixel for this colour.
     fn pixel(self, color: Rgba8) -> Self::Pixel;

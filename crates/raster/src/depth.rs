@@ -9,9 +9,9 @@ use core::fmt::Debug;
 /// Depths reach the buffer as zs in [0, 1], 0 at the near plane, or 1 there where the format is
 /// [`reversed`](Self::reversed). A new fragment is seen if it is strictly nearer than the stored depth; of two equal
 /// ones, the first drawn stays.
-pub trait DepthFormat: Copy + Debug + 'static {
+pub trait DepthFormat: Copy + Debug + Send + Sync + 'static {
     /// The buffer's value for a pixel.
-    type Stored: Copy + Debug + 'static;
+    type Stored: Copy + Debug + Send + Sync + 'static;
 
     /// Whether zs falls with distance.
     #[inline(always)]

@@ -38,7 +38,7 @@ use core::fmt::Debug;
 /// | [`FixedPoint`] around one of the last three | theirs, and steps of 2^-16 a column | none: a table |
 ///
 /// The first two work sample by sample, the others by runs of samples.
-pub trait Interpolation: Prepare + Debug + 'static {}
+pub trait Interpolation: Prepare + Debug + Send + Sync + 'static {}
 
 /// The way of a policy from a triangle to one that is prepared.
 pub trait Prepare: Copy {

@@ -4,6 +4,8 @@ use crate::color::{ColorFormat, FragmentColor};
 use crate::depth::DepthFormat;
 use alberti_math::map2;
 use core::fmt;
+use core::iter::from_fn;
+use core::mem::{replace, take};
 use core::ops::Range;
 
 /// Consecutive rows of a frame, in buffers of the caller's, whose pixels do not depend on the division:
@@ -314,6 +316,28 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
         (color.get_mut(..count).unwrap_or_default(), depth.get_mut(..count).unwrap_or_default())
     }
 
+    /// The target in parts of so many rows, at least one, from the top; the last may have fewer. Several threads may
+    /// draw to one each.
+    pub fn split(&mut self, rows: usize) -> impl Iterator<Item = Target<'_, C, D>> {
+        let Self { color_format, depth_format, size, strides, .. } = *self;
+        let [columns, limits] = self.limits.clone();
+        let mut first_row = self.first_row;
+        let (mut color, mut depth) = (&mut *self.color, &mut *self.depth);
+        from_fn(move || {
+            let from = i32::try_from(first_row).ok()?;
+            let end = from.saturating_add(i32::try_from(rows.max(1)).unwrap_or(i32::MAX)).min(limits.end);
+            let count = usize::try_from(end.checked_sub(from)?).ok().filter(|&count| count > 0)?;
+            let (own_color, own_depth);
+            (own_color, color) = split_off(take(&mut color), count * strides[0]);
+            (own_depth, depth) = split_off(take(&mut depth), count * strides[1]);
+            let limits = [columns.clone(), limits.start.max(from)..end];
+            let below = first_row + count;
+            let first = replace(&mut first_row, below);
+            let (color, depth) = (own_color, own_depth);
+            Some(Target { color_format, depth_format, color, depth, size, strides, first_row: first, limits })
+        })
+    }
+
     /// The rows from one on, whose columns count from `left`, which may lie outside.
     #[inline(always)]
     #[expect(clippy::cast_sign_loss, reason = "sums wrap back")]
@@ -323,6 +347,12 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
         let first = map2(self.strides, |stride| row.wrapping_mul(stride).wrapping_add(place(left)));
         Lines { color: self.color, depth: self.depth, strides: self.strides, first }
     }
+}
+
+/// The first elements, and the others.
+fn split_off<T>(all: &mut [T], count: usize) -> (&mut [T], &mut [T]) {
+    let count = count.min(all.len());
+    all.split_at_mut_checked(count).unwrap_or_default()
 }
 
 /// Rows of a target, from top to bottom.

@@ -5,7 +5,7 @@
 
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::Machine;
-use alberti::shaders::Unlit;
+use alberti::shaders::{Unlit, VertexColor};
 use alberti::texture::{Bilinear, Repeat, Texture};
 use alberti::{
     AnyDepth, ColorFormat, Cull, DepthFormat, Frame, Mesh, Pass, Perspective, Prepared, PreparedTriangle,
@@ -15,6 +15,7 @@ use alberti_app::scene::Vertex;
 use alberti_app::scenes::{BuiltIn, NAMES, by_name};
 use alberti_oracle::rng::{Rng, run_seed};
 use alberti_tests::reference::view;
+use std::num::NonZero;
 use std::ops::Range;
 
 const WIDTH: u32 = 200;
@@ -55,6 +56,48 @@ fn frame<C: ColorFormat<Pixel: Default>>(
     let stats = draw_rows(scene, &mut target, slots);
     assert!(stats.written > 5000, "next to nothing was drawn: {stats:?}");
     color
+}
+
+/// Vertices, lists and bands by several threads, with room for all triangles or for some, make the frame of one.
+#[test]
+fn any_number_of_threads_makes_the_frame() {
+    for name in ["mesh", "inside", "gouraud"] {
+        let scene = by_name(name).expect("a built-in scene");
+        let (model, view) = (&scene.model, view(&scene.camera).expect("a view"));
+        let vertex = |v: &Vertex| (Vec3::from_array(v.position), Vec3::from_array(v.color));
+        let triangles = model.parts.iter().map(|part| part.triangles.len()).max().expect("parts");
+        // A scissor in the middle of the bands' rows.
+        let frame = |draw: &dyn Fn(&mut Target<'_, Rgba8888, AnyDepth>, usize) -> Stats| {
+            let (mut color, mut depth) = (vec![0; PIXELS], vec![AnyDepth::D24.farthest(); PIXELS]);
+            let mut whole =
+                Target::new(Rgba8888, AnyDepth::D24, WIDTH, HEIGHT, &mut color, &mut depth).expect("a frame");
+            let mut target = whole.scissor(3..WIDTH.cast_signed(), 0..HEIGHT.cast_signed() - 5);
+            let mut stats = Stats::default();
+            (0..model.parts.len()).for_each(|part| stats += draw(&mut target, part));
+            (color, depth, stats)
+        };
+        let pass = |part: usize| Mesh::new(&model.vertices, &model.parts[part].triangles, vertex);
+        let slots = || vec![Slot::EMPTY; model.vertices.len()];
+        let (color, depth, expected) = frame(&|target, part| {
+            Pass::new(&view, &pass(part), VertexColor).slots(&mut slots()).draw_counted(target)
+        });
+        for (threads, room) in
+            [(1, triangles), (2, triangles), (3, triangles / 2), (8, triangles + 9), (5, 0)]
+        {
+            let threads = NonZero::new(threads).expect("some");
+            let (found, depths, stats) = frame(&|target, part| {
+                let mut room = vec![PreparedTriangle::EMPTY; room];
+                let mesh = pass(part);
+                let mut slots = slots();
+                let mut pass = Pass::new(&view, &mesh, VertexColor).slots(&mut slots);
+                pass.draw_by_threads(threads, &mut room, target)
+            });
+            assert!(found == color && depths == depth, "{name} by {threads} threads with room for {room}");
+            let once = |s: Stats| [s.submitted, s.dropped, s.clipped, s.fragments, s.written];
+            assert_eq!(once(stats), once(expected), "{name} by {threads} threads with room for {room}");
+            assert!(stats.drawn >= expected.drawn);
+        }
+    }
 }
 
 #[test]

@@ -2,7 +2,9 @@
 
 use std::ffi::OsString;
 use std::io::{self, Write as _};
+use std::num::NonZero;
 use std::path::{Path, PathBuf};
+use std::thread::available_parallelism;
 use std::time::Instant;
 
 use clap::error::{ContextKind, ErrorKind};
@@ -13,7 +15,7 @@ use crate::error::{Error, Warnings, number, quote};
 use crate::load::images::Images;
 use crate::load::scene_file::{self, SceneFile};
 use crate::load::{obj, prepare};
-use crate::options::values::{Color, Size};
+use crate::options::values::{Color, MAX_THREADS, Size, Threads};
 use crate::options::{
     Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE, DepthFormat, Filter, Projection, RenderOptions,
     Shading, Wrap,
@@ -168,6 +170,7 @@ fn draw_from(arguments: &RenderArgs, file: Option<&SceneFile>) -> Result<(), Err
         cull: arguments.render.cull.unwrap_or(cull),
         depth: depth.unwrap_or(scene_depth),
         projection: projection(arguments, &camera)?,
+        threads: threads(arguments),
         policies,
     };
     if options.shading == Shading::Gouraud && scene.model.parts.iter().any(needs_fragments) {
@@ -176,9 +179,14 @@ fn draw_from(arguments: &RenderArgs, file: Option<&SceneFile>) -> Result<(), Err
     }
     let start = Instant::now();
     let mut progress = Progress::new("drawing");
-    let picture = render(&scene.model, &camera, &options, &mut |done, total| progress.set(done, total))?;
+    let mut picture = render(&scene.model, &camera, &options, &mut |done, total| progress.set(done, total))?;
     drop(progress);
     let rendered = start.elapsed();
+    if arguments.stats.is_some() && options.threads.get() > 1 {
+        // A triangle counts once, however many threads drew it.
+        let alone = RenderOptions { threads: NonZero::<usize>::MIN, ..options };
+        picture.stats = render(&scene.model, &camera, &alone, &mut |_, _| ())?.stats;
+    }
 
     let start = Instant::now();
     output.write(&picture.image)?;
@@ -193,6 +201,15 @@ fn draw_from(arguments: &RenderArgs, file: Option<&SceneFile>) -> Result<(), Err
         Some(StatsFormat::Text) => format!("{}\n{}", report.summary(), report.text()),
         Some(StatsFormat::Json) => format!("{}\n", report.json()),
     })
+}
+
+/// As many threads as are asked for, or as the machine runs at once.
+fn threads(arguments: &RenderArgs) -> NonZero<usize> {
+    let most = NonZero::new(MAX_THREADS).unwrap_or(NonZero::<usize>::MIN);
+    match arguments.threads {
+        Some(Threads(threads)) => threads,
+        None => available_parallelism().unwrap_or(NonZero::<usize>::MIN).min(most),
+    }
 }
 
 fn name_of(arguments: &RenderArgs) -> &str {

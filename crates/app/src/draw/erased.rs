@@ -36,12 +36,12 @@ pub(super) struct Erased<'a, L: Lanes + 'a> {
     shade: &'a Shade<'a, L>,
 }
 
-type Shade<'a, L> = dyn Fn(&Handed<<L as Lanes>::Each<f32>>) -> <L as Lanes>::Each<u32> + 'a;
+type Shade<'a, L> = dyn Fn(&Handed<<L as Lanes>::Each<f32>>) -> <L as Lanes>::Each<u32> + Sync + 'a;
 
 /// Calls `then` with `stage`, behind a pointer.
 pub(super) fn erase<L: Floating>(
     lanes: L,
-    stage: impl FragmentStage<Attributes, Color = Rgba8>,
+    stage: impl FragmentStage<Attributes, Color = Rgba8> + Sync,
     then: impl FnOnce(Erased<'_, L>),
 ) {
     let shade = |(values, gradient): &Handed<L::Each<f32>>| {
@@ -81,11 +81,11 @@ impl<L: Lanes> FragmentStage<Attributes> for Erased<'_, L> {
 
 /// A stage for one sample in fixed point.
 #[derive(Clone, Copy)]
-pub(super) struct ErasedFixed<'a>(&'a dyn Fn(&Handed<Q16>) -> u32);
+pub(super) struct ErasedFixed<'a>(&'a (dyn Fn(&Handed<Q16>) -> u32 + Sync));
 
 /// Calls `then` with `stage` in fixed point, behind a pointer.
 pub(super) fn erase_fixed(
-    stage: impl FragmentStage<Attributes, Color = Rgba8>,
+    stage: impl FragmentStage<Attributes, Color = Rgba8> + Sync,
     then: impl FnOnce(ErasedFixed<'_>),
 ) {
     let shade = |(carried, gradient): &Handed<Q16>| {

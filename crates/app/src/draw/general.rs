@@ -162,13 +162,13 @@ impl<'a> Drawing<'a> {
     /// The stage behind a pointer, in one of few kernels.
     fn by_policies(
         &self,
-        mesh: &impl Geometry<Varying = Attributes>,
+        mesh: &(impl Geometry<Varying = Attributes> + Sync),
         stage: Shown<'_>,
         triangles: &[[u32; 3]],
         target: &mut Canvas<'_>,
     ) -> Stats {
-        let mut slots = self.slots(triangles);
-        let mut stats = Stats::default();
+        let (mut slots, mut room) = (self.slots(triangles), Self::room(triangles));
+        let (mut stats, threads) = (Stats::default(), self.options.threads);
         let policies = self.options.policies;
         let lines = match policies.interpolation {
             Interpolation::Exact | Interpolation::Plane => None,
@@ -179,18 +179,21 @@ impl<'a> Drawing<'a> {
         if let (Some(lines), Numbers::Fixed) = (lines, policies.numbers) {
             erase_fixed(stage, |stage| {
                 let pass = self.pass(mesh, stage, &mut slots).interpolation(FixedPoint(lines));
-                { pass }.count_by(One, target, &mut stats);
+                stats = { pass }.count_by_threads(One, threads, &mut room, target);
             });
             return stats;
         }
         let Some(machine) = Machine::all().next() else { return stats };
         for_lanes!(machine, lanes => erase(lanes, stage, |stage| {
             let mut pass = self.pass(mesh, stage, &mut slots);
-            match (policies.interpolation, lines) {
-                (_, Some(lines)) => pass.interpolation(lines).count_by(lanes, target, &mut stats),
-                (Interpolation::Plane, None) => pass.interpolation(Planes).count_by(lanes, target, &mut stats),
-                (_, None) => pass.count_by(lanes, target, &mut stats),
-            }
+            let room = &mut room;
+            stats = match (policies.interpolation, lines) {
+                (_, Some(lines)) => pass.interpolation(lines).count_by_threads(lanes, threads, room, target),
+                (Interpolation::Plane, None) => {
+                    pass.interpolation(Planes).count_by_threads(lanes, threads, room, target)
+                }
+                (_, None) => pass.count_by_threads(lanes, threads, room, target),
+            };
         }));
         stats
     }

@@ -7,7 +7,7 @@ use crate::options::Shading;
 use crate::scene::{Part, Vertex};
 use alberti::glam::{Vec2, Vec3};
 use alberti::shaders::{Sunlit, Unlit, VertexColor};
-use alberti::{FragmentStage, Rgba8, Varying};
+use alberti::{FragmentStage, Rgba8, Slot, Varying};
 
 /// A colour, or a texture times that colour.
 pub(super) type Skin<'a> = Scaled<FlatMap<'a>>;
@@ -50,13 +50,16 @@ impl<'a> Drawing<'a> {
     fn draw<V: Varying>(
         &mut self,
         triangles: &[[u32; 3]],
-        varying: impl Fn(&Vertex) -> V,
-        stage: impl FragmentStage<V, Color = Rgba8>,
+        varying: impl Fn(&Vertex) -> V + Sync,
+        stage: impl FragmentStage<V, Color = Rgba8> + Sync,
         target: &mut Canvas<'_>,
-    ) {
+    ) where
+        Slot<V>: Send + Sync,
+    {
         let mesh = self.mesh(triangles, |v| (position(v), varying(v)));
         let mut slots = self.slots(triangles);
-        let stats = self.pass(&mesh, stage, &mut slots).draw_counted(target);
+        let room = &mut Self::room(triangles);
+        let stats = self.pass(&mesh, stage, &mut slots).draw_by_threads(self.options.threads, room, target);
         self.stats += stats;
     }
 }

@@ -3,6 +3,7 @@
 
 use std::fmt;
 use std::marker::PhantomData;
+use std::num::NonZero;
 use std::str::FromStr;
 
 use clap::ValueEnum;
@@ -219,6 +220,22 @@ impl FromStr for Shininess {
     fn from_str(text: &str) -> Result<Self, String> {
         let pair = text.parse::<Tuple<2, Exponent>>().and_then(Self::try_from);
         pair.map_err(|_| format!("{}, without spaces, such as 8,64", Self::EXPECTED))
+    }
+}
+
+/// A number of threads, 1 to [`MAX_THREADS`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Threads(pub NonZero<usize>);
+
+/// The most threads that draw a picture.
+pub const MAX_THREADS: usize = 256;
+
+impl FromStr for Threads {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let number = text.parse::<NonZero<usize>>().ok().filter(|number| number.get() <= MAX_THREADS);
+        number.map(Self).ok_or_else(|| format!("a whole number from 1 to {MAX_THREADS}"))
     }
 }
 

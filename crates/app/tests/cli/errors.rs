@@ -171,11 +171,15 @@ fn cameras_that_see_nothing() {
 }
 
 #[test]
-fn sizes_and_colours_that_are_none() {
+fn sizes_colours_and_threads_that_are_none() {
     let folder = Folder::with(&[]);
     for size in ["0x480", "640x0", "0x0", "100000x100000", "16385x1", "640", "axb", "-1x4", ""] {
         folder
             .fails(&["--size", size], &[&format!("error: --size: found \"{size}\", expected WIDTHxHEIGHT")]);
+    }
+    for threads in ["0", "-1", "257", "two", "1.5", ""] {
+        let found = format!("error: --threads: found \"{threads}\", expected a whole number from 1 to 256");
+        folder.fails(&["--threads", threads], &[&found]);
     }
     for color in ["red", "fff", "12345g", "+12345", "#12345", "1234567", ""] {
         let found = format!("error: --background: found \"{color}\", expected six hexadecimal digits");

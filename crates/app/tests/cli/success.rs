@@ -28,6 +28,20 @@ fn every_scene_draws() {
 }
 
 #[test]
+fn any_number_of_threads_makes_the_same_picture_and_counts() {
+    let folder = Folder::with(&[]);
+    let mut made = Vec::new();
+    for threads in ["1", "2", "7", "256"] {
+        let options = ["--scene", "mesh", "--size", "96x64", "--stats", "--threads", threads];
+        let run = folder.succeeds(&options);
+        let counts: Vec<_> =
+            run.stdout.lines().filter(|line| !line.contains(" ms")).map(String::from).collect();
+        made.push((counts, fs::read(folder.path("alberti.png")).expect("a picture")));
+    }
+    assert!(made[0].0.len() == 8 && made.iter().all(|other| *other == made[0]), "{:?}", made[0].0);
+}
+
+#[test]
 fn the_extension_says_the_format() {
     let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes())]);
     for (name, start) in [

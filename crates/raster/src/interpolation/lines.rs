@@ -23,7 +23,7 @@ use core::fmt::Debug;
     message = "`{Self}` is not a policy of straight lines",
     label = "`FixedPoint` takes `Spans16`, `Affine` or `Lines`"
 )]
-pub trait Runs: Copy + Debug + 'static {
+pub trait Runs: Copy + Debug + Send + Sync + 'static {
     /// The columns of the longest run, a power of two up to [`Lines::LONGEST`].
     fn length(self) -> i32;
 

@@ -3,7 +3,7 @@
 
 use super::super::*;
 use crate::{AnyDepth, Cull, Exact, Linear, Mesh, Pass, Perspective, Sub8, View};
-use alberti_math::Flat;
+use alberti_math::{Flat, Frame};
 use alberti_oracle::rng::{Rng, run_seed};
 use alberti_raster::Paint;
 use core::f32::consts::FRAC_PI_2;
