@@ -106,8 +106,9 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         counters: &mut K,
         mut sink: impl FnMut([&Corner<M::Varying>; 3], &mut K),
     ) {
-        let (mesh, slots) = (self.mesh, self.stored);
+        let mesh = self.mesh;
         loop {
+            let slots = self.stored;
             // Most triangles of a mesh that fits are inside.
             let (number, indices) = loop {
                 let Some(number) = numbers.next() else { return };
