@@ -4,7 +4,7 @@
 use crate::integers::IntegerScreen;
 use crate::vertex::outside;
 use alberti_math::lanes::{Floating, Lanes};
-use alberti_math::{Eye, Frame, Object, Subpixel};
+use alberti_math::{Eye, Frame, Object, Subpixel, map2, map3};
 use alberti_projection::{Projection, SideBounds, Viewport};
 use alberti_raster::Numbers;
 
@@ -67,7 +67,7 @@ impl<Pr: Projection> Screen<Pr> {
                 } else {
                     self.outside(lanes, p, side, [x, y])
                 };
-                let words = [outside, column, row].map(|words| lanes.store_words(words));
+                let words = map3([outside, column, row], |words| lanes.store_words(words));
                 (words, [lanes.store(zs), lanes.store(q)])
             },
         )
@@ -76,7 +76,7 @@ impl<Pr: Projection> Screen<Pr> {
     /// The points that are certainly within all planes, and within the guard band.
     #[inline(always)]
     fn inside<L: Lanes>(&self, lanes: L, [x, y, z]: [L::Number; 3], side: L::Number) -> L::Mask {
-        let [near, far] = self.within.map(|end| lanes.splat(end));
+        let [near, far] = map2(self.within, |end| lanes.splat(end));
         let within = |x| lanes.less(x, side) & lanes.less(-side, x);
         let beside = within(x) & within(y);
         beside & lanes.less(near, z) & lanes.less(z, far)

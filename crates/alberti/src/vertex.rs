@@ -4,7 +4,7 @@ use crate::geometry::{Geometry, IntegerVertex};
 use crate::integers::{IntegerScreen, Place};
 use crate::screen::Screen;
 use alberti_math::lanes::{Floating, One};
-use alberti_math::{Fixed, Varying, is_finite, map2};
+use alberti_math::{Fixed, Varying, is_finite, map2, map3};
 use alberti_projection::Projection;
 use alberti_raster::Corner;
 use core::slice::from_mut;
@@ -85,7 +85,7 @@ impl<V: Varying> Slot<V> {
             *self = Self::MISSING;
             return;
         };
-        let ([[outside], [x], [y]], [[zs], [q]]) = screen.place(One, &point.coords.to_array().map(|c| [c]));
+        let ([[outside], [x], [y]], [[zs], [q]]) = screen.place(One, &map3(point.coords.to_array(), |c| [c]));
         let outside = outside | if is_finite(varying) { 0 } else { outside::NOWHERE };
         let place = map2([x, y], |subpixels| Fixed::wrapping(subpixels.cast_signed()));
         let components = Corner::<V>::components(screen.numbers, varying);

@@ -2,6 +2,7 @@
 
 use crate::ViewError;
 use alberti_math::lanes::{Lanes, One};
+use alberti_math::map2;
 
 /// The map from eye depth z in [A, B] to screen depth zs in [0, 1], or in a range of your own.
 ///
@@ -127,7 +128,7 @@ impl DepthMap {
     #[must_use]
     #[inline(always)]
     pub fn zs_lanes<L: Lanes>(&self, lanes: L, z: L::Number) -> L::Number {
-        let [least, most] = self.range.map(|end| lanes.splat(end));
+        let [least, most] = map2(self.range, |end| lanes.splat(end));
         let zs = lanes.splat(self.alpha) + lanes.splat(self.beta) / z;
         // Rounding may step over an end of the range by an ulp.
         let below = lanes.select(lanes.less(most, zs), most, zs);

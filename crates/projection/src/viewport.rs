@@ -2,7 +2,7 @@
 
 use crate::{SideBounds, ViewError};
 use alberti_math::lanes::Lanes;
-use alberti_math::{Fixed, GUARD_PIXELS, Subpixel};
+use alberti_math::{Fixed, GUARD_PIXELS, Subpixel, map2};
 use core::ops::Range;
 
 /// A rectangle of pixels on the target, in which the window [-1, 1] x [-1, 1] appears.
@@ -92,8 +92,8 @@ impl Viewport {
         [xs, ys]: [L::Number; 2],
     ) -> [L::U32; 2] {
         let bits = subpixel.bits();
-        let [x, y] = self.center(subpixel).map(|center| lanes.word(center.cast_unsigned()));
-        let [half_x, half_y] = self.half.map(|half| lanes.splat(half));
+        let [x, y] = map2(self.center(subpixel), |center| lanes.word(center.cast_unsigned()));
+        let [half_x, half_y] = map2(self.half, |half| lanes.splat(half));
         [lanes.round_scaled(xs * half_x, bits) + x, lanes.round_scaled(-(ys * half_y), bits) + y]
     }
 

@@ -4,7 +4,7 @@ use crate::edge::EdgeInt;
 use crate::interpolation::{Oriented, Row, scaled_q};
 use crate::spans::Span;
 use alberti_math::lanes::Lanes;
-use alberti_math::{Gradient, Mode, Q16, Varying};
+use alberti_math::{Gradient, Mode, Q16, Varying, map2, map3};
 use core::fmt::{self, Debug};
 
 /// A policy of differentiation, which a [`FragmentStage`](crate::FragmentStage) chooses.
@@ -204,7 +204,7 @@ impl<V: Varying> Quotients<V> {
     #[inline(always)]
     fn new(triangle: &Oriented<'_, V>) -> Self {
         let q = scaled_q(triangle);
-        let corners = triangle.corners.map(|corner| corner.map(f64::from));
+        let corners = map3(triangle.corners, |corner| map2(corner, f64::from));
         let [a, b, c] = corners;
         let one = f64::from(triangle.one());
         // Increments of the edge functions of the second and the third vertex: for a pixel to the right, and for one

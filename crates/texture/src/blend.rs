@@ -1,6 +1,7 @@
 //! The weighted mean of four colours, in integers with one rounding.
 
 use alberti_math::lanes::Lanes;
+use alberti_math::map2;
 
 /// Bytes 0 and 2: two channels in lanes of 16 bits.
 const BYTES: u32 = 0x00ff_00ff;
@@ -145,7 +146,7 @@ pub(crate) fn mean_of<L: Lanes>(lanes: L, count: u32, mut color: impl FnMut(u32)
         red_blue = red_blue + (color & bytes);
         green_alpha = green_alpha + (lanes.shr(color, 8) & bytes);
     }
-    let [red_blue, green_alpha] = [red_blue, green_alpha].map(|sum| lanes.shr(sum, count) & bytes);
+    let [red_blue, green_alpha] = map2([red_blue, green_alpha], |sum| lanes.shr(sum, count) & bytes);
     red_blue | lanes.shl(green_alpha, 8)
 }
 

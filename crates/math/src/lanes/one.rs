@@ -1,6 +1,7 @@
 //! One sample at a time, in the plain numbers of the machine.
 
 use super::{Floating, Lanes, half_log2, jacobi};
+use crate::map2;
 use core::num::Wrapping;
 
 /// One sample at a time, in `f32`: the reference that all others of `f32` must equal.
@@ -186,7 +187,7 @@ impl Lanes for One {
     #[inline(always)]
     fn log2_length(self, x: f32, y: f32, scale: [u32; 2]) -> f32 {
         #[expect(clippy::cast_precision_loss, reason = "up to 2^15")]
-        let [a, b] = scale.map(|scale| scale as f32);
+        let [a, b] = map2(scale, |scale| scale as f32);
         let (x, y) = (x * a, y * b);
         let bits = (x * x + y * y).to_bits();
         let mantissa = f32::from_bits(bits & 0x007f_ffff | 0x3f80_0000);
