@@ -55,7 +55,7 @@ pub trait ColorFormat: Copy + Debug + Send + Sync + 'static {
     }
 }
 
-/// A fragment's colour: [`Rgba8`] for any target, or `u8`, `u16` or `u32` for targets whose pixels have as many bits,
+/// A fragment's colour: [`Rgba8`] or its four bytes for any target, or `u8`, `u16` or `u32` for targets whose pixels have as many bits,
 /// which get it as it is. Another size is an error when the program is built. It travels as a word of 32 bits, of which
 /// several fit a register.
 pub trait FragmentColor: Sealed + Copy {
@@ -71,6 +71,7 @@ pub trait FragmentColor: Sealed + Copy {
 pub trait Sealed {}
 
 impl Sealed for Rgba8 {}
+impl Sealed for [u8; 4] {}
 impl Sealed for u8 {}
 impl Sealed for u16 {}
 impl Sealed for u32 {}
@@ -89,6 +90,25 @@ impl FragmentColor for Rgba8 {
     #[inline(always)]
     fn pixel<C: ColorFormat>(format: C, word: u32) -> C::Pixel {
         format.pixel(Self::from_bits(word))
+    }
+}
+
+/// Red, green, blue and alpha, as textures store them.
+impl FragmentColor for [u8; 4] {
+    #[inline(always)]
+    fn to_word(self) -> u32 {
+        let [red, green, blue, alpha] = self;
+        Rgba8::new(red, green, blue, alpha).to_bits()
+    }
+
+    #[inline(always)]
+    fn from_word(word: u32) -> Self {
+        Rgba8::from_bits(word).to_bytes()
+    }
+
+    #[inline(always)]
+    fn pixel<C: ColorFormat>(format: C, word: u32) -> C::Pixel {
+        format.pixel(Rgba8::from_bits(word))
     }
 }
 

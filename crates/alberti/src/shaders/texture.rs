@@ -71,7 +71,8 @@ impl<V: Varying, D: Differentiation, S: FragmentStage<V>> FragmentStage<V> for D
     }
 }
 
-/// The texture's nearest texel as it is stored, for targets of the same format: nothing is decoded nor encoded.
+/// The texture's nearest texel as it is stored, for targets whose pixels are such texels, or for any of four bytes:
+/// nothing is decoded nor encoded.
 #[derive(Clone, Copy, Debug)]
 pub struct Stored<S>(
     /// The texture with its wrap mode.
@@ -98,8 +99,8 @@ mod tests {
     use crate::shaders::{Called, Solid, Times, Tinted};
     use alberti_math::Q16;
     use alberti_math::lanes::{One, OneFixed};
-    use alberti_raster::Gradient;
-    use alberti_texture::format::{L8, Rgb565};
+    use alberti_raster::{Gradient, Rgb565Le};
+    use alberti_texture::format::{L8, Rgb565, Rgba8888};
     use alberti_texture::{Bounded, Clamp, LodBounds, Mipmap, Mirror, Repeat, Texture, Trilinear};
     use core::num::Wrapping;
 
@@ -161,6 +162,22 @@ mod tests {
             assert_eq!(stored(folded), texel(mirror.min(15 - mirror)), "mirror {k}");
             let clamped = Stored(texture.sampler(Nearest, Clamp)).shade(&of(OneFixed, at, steady));
             assert_eq!(stored(clamped), texel((k.clamp(0, 65_535)) * 8 / 65_536), "clamp {k}");
+        }
+    }
+
+    #[test]
+    fn stored_texels_of_four_bytes_are_colours_for_any_target() {
+        let texels = [[10, 20, 30, 40], [255, 0, 128, 7]];
+        let stage = Stored(Texture::new(Rgba8888, &texels, 2, 1).expect("2 x 1").sampler(Nearest, Repeat));
+        let (mut pixels, mut packed) = ([0; 2], [0; 2]);
+        for (k, [r, g, b, a]) in texels.into_iter().enumerate() {
+            let color = stage.shade_one(Vec2::new(0.25 + 0.5 * f32::from(k == 1), 0.5)).expect("a colour");
+            assert_eq!(color, [r, g, b, a]);
+            let word = color.to_word();
+            (pixels[k], packed[k]) =
+                (<[u8; 4]>::pixel(alberti_raster::Rgba8888, word), <[u8; 4]>::pixel(Rgb565Le, word));
+            assert_eq!(pixels[k].to_ne_bytes(), [r, g, b, a]);
+            assert_eq!(u16::from_le(packed[k]), alberti_raster::rgb565(Rgba8::new(r, g, b, a)));
         }
     }
 }
