@@ -14,6 +14,7 @@ use alberti_app::render::{self, any_depth};
 use alberti_app::scene::{Camera, Image, Model, Part, Vertex};
 use alberti_app::scenes::BuiltIn;
 use alberti_tests::reference::view;
+use std::num::NonZero;
 
 /// The policies that are timed, by the name that the benchmark gets. `App` is `Exact` by the kernels of the `alberti`
 /// command, whose policies are chosen at run time.
@@ -195,6 +196,7 @@ impl App {
             cull: options::Cull::Back,
             depth: DepthFormat::F32,
             projection: Projection::Perspective,
+            threads: NonZero::<usize>::MIN,
             policies: Policies::default(),
         };
         let model = Model { parts: vec![part], ..model.clone() };

@@ -26,7 +26,8 @@ pub trait Geometry {
     fn vertex(&self, number: usize) -> Option<(Point3<Object>, Self::Varying)>;
 
     /// Whether vertices are integers. Then [`FixedPoint`](crate::FixedPoint) takes them from
-    /// [`integers`](Self::integers), and everything else the same numbers from [`vertex`](Self::vertex).
+    /// [`integers`](Self::integers), and everything else, the clipper too, the same numbers from
+    /// [`vertex`](Self::vertex).
     const INTEGERS: bool = false;
 
     /// The unit of the integers' places.
@@ -127,17 +128,21 @@ where
     }
 }
 
-/// A [`Mesh`] whose vertex stage gives integers. With [`FixedPoint`](crate::FixedPoint) no vertex costs an operation in
-/// floating point, which on a Cortex-M0 would be most of a frame's time; only triangles that are clipped do.
+/// A [`Mesh`] whose vertex stage gives integers. With [`FixedPoint`](crate::FixedPoint) its vertices cost no operation
+/// in floating point, which on a Cortex-M0 would be most of a frame's time; only triangles that are clipped do.
+///
+/// Vertices are in floats nevertheless where integers do not hold the view. The far plane has to be twice as far as the
+/// near one, and the viewport narrower than the guard band. In parallel projection a mesh has to be within 2^20
+/// subpixels.
 ///
 /// # Precision
 /// With `FixedPoint`, vertices in the view are within a quarter of a subpixel before they are snapped, and q within
-/// 2^-22. Depths are within 2^-22 and 2^-21 c/A. That holds while c h/z is up to 2^20. There c is the greatest
-/// coordinate that half words could have before the eye, h half the viewport in subpixels, and A the near plane. With
-/// other policies, everything is as for a [`Mesh`].
+/// 2^-22, while c h/w is up to 2^20. Depths are within 2^-22, and as much as moving z by 2^-22 c moves them. There c is
+/// the greatest coordinate that half words could have before the eye, and h half the viewport in subpixels. w is z, or
+/// 1 in parallel projection. With other policies, everything is as for a [`Mesh`].
 ///
 /// # Cost
-/// A vertex takes some 130 instructions on a Cortex-M4F, and some 330 on a Cortex-M0, where floats take 4,000.
+/// A vertex takes some 130 instructions on a Cortex-M4F, and some 310 on a Cortex-M0, where floats take 4,000.
 ///
 /// ```
 /// use alberti::{Geometry, IntegerMesh, IntegerVertex, Q16, glam::Vec2};

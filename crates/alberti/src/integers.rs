@@ -1,4 +1,4 @@
-//! Steps 1, 2, 4 and 6 in integers, for vertices in half words: on a core without floating point, a fifteenth of the
+//! Steps 1, 2, 4 and 6 in integers, for vertices in half words: on a core without floating point, a thirteenth of the
 //! work.
 //!
 //! x and y are measured in powers of two of subpixels, the least that are not below half the viewport. So what can be
@@ -9,6 +9,7 @@
 //! at most 2^-22 of that. xs, ys, zs and q come short by up to 2^-27, relatively. So vertices in the view are within a
 //! quarter of a subpixel, where that coordinate, half the viewport in subpixels, and q have a product up to 2^20.
 
+use crate::screen::Sides;
 use crate::vertex::outside;
 use alberti_math::lanes::One;
 use alberti_math::{
@@ -37,11 +38,17 @@ impl Row {
 #[derive(Clone, Copy, Debug)]
 struct Depth {
     base: i32,
+    /// The z that is taken off before, in parallel projection.
+    zero: i32,
     /// The factor of 1/w, in perspective, or of z.
     factor: i32,
     /// The number of bits that are too many in perspective, where w has no leading zeros, or that z has too few.
     shift: u32,
 }
+
+/// A distance in the unit of coordinates, up to which floats may see a vertex on the other side of a plane: 2^-20 of
+/// the greatest. Vertices as near are clipped with all of their triangles, so that these agree.
+const DOUBT: i32 = 1 << 10;
 
 /// Bits of xs and ys.
 const SCREEN: i32 = 29;
@@ -60,19 +67,23 @@ impl Depth {
         let beta = beta * scale;
         let exponent = (beta.to_bits() >> 23 & 0xff).cast_signed() - 127;
         let shift = u32::try_from(32 - exponent - units).ok()?;
-        Some(Self { base: scaled(base * scale + half, DEPTH), factor: scaled(beta, 30 - exponent), shift })
+        let base = scaled(base * scale + half, DEPTH);
+        Some(Self { base, zero: 0, factor: scaled(beta, 30 - exponent), shift })
     }
 
-    /// zs from 0 to 1 between these planes, of which so much lies within the range of integers.
-    fn linear([near, far]: [f32; 2], span: i32, units: i32, bits: u32, reversed: bool) -> Option<Self> {
-        if span <= 0 {
-            return None;
-        }
+    /// zs from 0 to 1 between these planes, for z from -`reach` to `reach`.
+    fn linear([near, far]: [f32; 2], reach: f32, units: i32, bits: u32, reversed: bool) -> Option<Self> {
+        let [low, high] = [near, far].map(|plane| plane.max(-reach).min(reach));
+        let zero = scaled(low, units);
+        let span = scaled(high, units).checked_sub(zero).filter(|&span| span > 0)?;
         let shift = span.leading_zeros() - 1;
         let [scale, half] = rounding(bits);
-        let (base, scale) = if reversed { (scale + half, -scale) } else { (half, scale) };
+        // zs at `zero`.
+        let base = (low - near) / (far - near);
+        let (base, scale) =
+            if reversed { ((1.0 - base) * scale + half, -scale) } else { (base * scale + half, scale) };
         let factor = scaled(scale / (far - near), DEPTH + 33 - shift.cast_signed() - units);
-        Some(Self { base: scaled(base, DEPTH), factor, shift })
+        Some(Self { base: scaled(base, DEPTH), zero, factor, shift })
     }
 
     /// zs in 2^-31.
@@ -99,6 +110,10 @@ pub(crate) struct IntegerScreen {
     rows: [Row; 3],
     /// The least and the greatest z between the planes.
     planes: [i32; 2],
+    /// The same by so much farther inside that floats agree.
+    inner: [i32; 2],
+    /// Whether the clip is at the sides.
+    cube: bool,
     /// w where that is not z.
     one: i32,
     /// The sides of the view, in 2^-29.
@@ -128,7 +143,7 @@ impl IntegerScreen {
     pub(crate) fn new<Pr: Projection>(
         (to_eye, unit): (&Frame<Object, Eye>, f32),
         projection: &Pr,
-        (viewport, subpixel): (&Viewport, Subpixel),
+        (viewport, subpixel, sides): (&Viewport, Subpixel, Sides),
         (depth_bits, reversed): (u32, bool),
     ) -> Option<Self> {
         let sizes = viewport.pixels().map(|range| (range.end - range.start) << (subpixel.bits() - 1));
@@ -140,16 +155,30 @@ impl IntegerScreen {
             half / f32::from_bits((127 + bits[axis]) << 23)
         });
         let [scale_x, scale_y, _] = projection.scale_lanes(One, [1.0; 3]);
-        let scales = [scale_x * halves[0], -scale_y * halves[1], 1.0];
         let (axes, origin) = (to_eye.axes().transpose(), to_eye.origin().coords.to_array());
         let axes = [axes.x_axis, axes.y_axis, axes.z_axis].map(|row| row.to_array().map(|c| c * unit));
         let perspective = projection.is_perspective();
-        let mut greatest = if perspective { 0.0 } else { 1.0 };
-        for axis in 0..3 {
+        let reaches = [0, 1, 2].map(|axis: usize| {
             let [a, b, c] = axes[axis].map(f32::abs);
-            let reach = ((a + b + c) * 32768.0 + origin[axis].abs()) * scales[axis].abs();
-            // Not so for NaN.
-            greatest = if reach <= greatest { greatest } else { reach };
+            (a + b + c) * 32768.0 + origin[axis].abs()
+        });
+        // In parallel projection z is measured by its own reach, a power of two, as it has nothing to do with w.
+        let exponent = reaches[2].to_bits() >> 23;
+        let scale_z = if perspective { 1.0 } else { f32::from_bits(254_u32.checked_sub(exponent)? << 23) };
+        let scales = [scale_x * halves[0], -scale_y * halves[1], scale_z];
+        let mut greatest = if perspective { 0.0 } else { 1.0 };
+        for (reach, scale) in reaches.into_iter().zip(scales) {
+            let reach = reach * scale.abs();
+            if !reach.is_finite() {
+                return None;
+            }
+            greatest = if reach > greatest { reach } else { greatest };
+        }
+        // In parallel projection 1 must not be lost beside the other coordinates.
+        #[expect(clippy::cast_precision_loss, reason = "at most 2^22")]
+        let half = sizes[0].max(sizes[1]) as f32;
+        if !perspective && greatest * half > 1_048_576.0 {
+            return None;
         }
         let units = 127 + 29 - (greatest.to_bits() >> 23).cast_signed();
         let guard = viewport.guard();
@@ -161,18 +190,21 @@ impl IntegerScreen {
             // Three products are rounded down.
             origin: scaled(origin[axis] * scales[axis], units) + 1,
         };
-        let planes = [projection.near(), projection.far()];
+        let planes = [projection.near() * scale_z, projection.far() * scale_z];
         let [near, far] = planes.map(|z| scaled(z, units));
+        let near = if perspective { near.max(1) } else { near };
         let depth = if perspective {
             Depth::hyperbolic(planes, units, depth_bits, reversed)?
         } else {
-            Depth::linear(planes, far.saturating_sub(near), units, depth_bits, reversed)?
+            Depth::linear(planes, greatest, units, depth_bits, reversed)?
         };
         let shifts = bits.map(|bits| SCREEN.cast_unsigned() - bits);
         let inside = |bound: f32, half: f32| scaled(bound * half, 8) - 2;
         Some(Self {
             rows: [row(0), row(1), row(2)],
-            planes: if perspective { [near.max(1), far] } else { [near, far] },
+            planes: [near, far],
+            inner: [near.saturating_add(DOUBT), far.saturating_sub(DOUBT)],
+            cube: sides == Sides::Cube,
             one: scaled(1.0, units),
             sides: halves.map(|half| scaled(half, SCREEN)),
             halves: shifts.map(|shift| 1 << (shift - 1)),
@@ -189,9 +221,12 @@ impl IntegerScreen {
     pub(crate) fn place<Pr: Projection>(&self, projection: &Pr, position: [i16; 3]) -> Place {
         let [x, y, z] = map3(self.rows, |row| row.at(position));
         let w = if projection.is_perspective() { z } else { self.one };
-        let [near, far] = self.planes;
+        let [near, far] = self.inner;
         let within = |x: i32| x.wrapping_add(w).cast_unsigned() <= w.cast_unsigned() << 1;
         if !(z >= near && z <= far && within(x) && within(y)) {
+            return self.beyond(projection, [x, y, z], w);
+        }
+        if self.cube && self.doubtful([x, y], w) {
             return self.beyond(projection, [x, y, z], w);
         }
         let (normalizing, per_w) = per(w);
@@ -214,13 +249,24 @@ impl IntegerScreen {
         let part = if projection.is_perspective() {
             (high_signed(per_w, factor) << 1) >> shift.wrapping_sub(normalizing).min(31)
         } else {
-            high_signed(z.wrapping_sub(self.planes[0]) << shift, factor) >> (SCREEN - DEPTH)
+            high_signed(z.wrapping_sub(self.depth.zero) << shift, factor) >> (SCREEN - DEPTH)
         };
         let q = (per_w >> 7).cast_unsigned().wrapping_add((self.exponent + normalizing) << 23);
         [self.depth.at(part), q]
     }
 
-    /// The place of a vertex that is beyond a plane, or beyond twice the view.
+    /// Whether a vertex is so near to a side of the view that floats may see it on the other.
+    #[inline(never)]
+    fn doubtful(&self, [x, y]: [i32; 2], w: i32) -> bool {
+        let near = |x: i32, side: i32| {
+            let beyond = (i64::from(x.unsigned_abs()) << SCREEN) - i64::from(side) * i64::from(w);
+            beyond.unsigned_abs() <= u64::from(DOUBT.cast_unsigned()) << SCREEN
+        };
+        near(x, self.sides[0]) || near(y, self.sides[1])
+    }
+
+    /// The place of a vertex that is beyond a plane, or so near to one that its triangles are clipped, or beyond twice
+    /// the view.
     #[cold]
     #[inline(never)]
     #[expect(clippy::cast_possible_truncation, reason = "within the guard band")]
@@ -232,7 +278,9 @@ impl IntegerScreen {
         let sides =
             bits_beside([x, y].map(|x| i64::from(x) << SCREEN), self.sides.map(|x| i64::from(x) * wide));
         let is_far = |x: i32, guard: i32| i64::from(x.unsigned_abs()) << 8 > i64::from(guard) * wide;
-        let guard = is_far(x, self.guard[0]) || is_far(y, self.guard[1]);
+        let [inner_near, inner_far] = self.inner;
+        let doubtful = z < inner_near || z > inner_far || (self.cube && self.doubtful([x, y], w));
+        let guard = doubtful || is_far(x, self.guard[0]) || is_far(y, self.guard[1]);
         let outside = near | far | sides | if guard { outside::GUARD } else { 0 };
         if outside & (outside::NEAR | outside::FAR | outside::GUARD) != 0 {
             return Place { outside, place: [0; 2], depths: [0; 2] };

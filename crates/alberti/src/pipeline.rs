@@ -289,7 +289,7 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
             Numbers::Fixed { depth_bits } if const { M::INTEGERS } => IntegerScreen::new(
                 (&to_eye, self.mesh.unit()),
                 &projection,
-                (&viewport, subpixel),
+                (&viewport, subpixel, self.sides),
                 (depth_bits, depth.reversed()),
             ),
             _ => None,

@@ -15,6 +15,8 @@ use core::num::NonZero;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread::{Builder, scope};
 
+/// The most threads.
+const MOST: usize = 256;
 /// Bands for each thread, so that one whose bands have more to draw is helped by the others.
 const BANDS: usize = 4;
 /// Vertices or triangles that are worth a thread.
@@ -38,8 +40,9 @@ where
     /// count does not depend on the threads.
     ///
     /// # Cost
-    /// Threads are started three times, for some ten microseconds each. Without [`slots`](Self::slots) for all vertices
-    /// or `room` for all triangles, at most 2^20, one thread draws the frame.
+    /// Threads, at most 256, are started three times, for some ten microseconds each. One thread draws the frame
+    /// without [`slots`](Self::slots) for all vertices or `room` for all triangles, at most 2^20. So it does for meshes
+    /// with more than twice as many vertices as triangles.
     pub fn draw_by_threads<C, D>(
         &mut self,
         threads: NonZero<usize>,
@@ -71,7 +74,7 @@ where
         D: DepthFormat,
     {
         let mut stats = Stats::default();
-        let (mesh, threads) = (self.mesh(), threads.get());
+        let (mesh, threads) = (self.mesh(), threads.get().min(MOST));
         let stored = stored_by(mesh, self.halves().0.len());
         let Some(screen) = self.screen(target.size(), target.depth_format()) else { return stats };
         let triangles = mesh.triangles();
@@ -87,10 +90,11 @@ where
         let walk = || Walk::over(mesh, screen, store);
         let listed = list_by(threads, walk, paint, room, &mut stats);
 
-        let rows = target.limits()[1].len().div_ceil(threads * BANDS).next_multiple_of(8);
+        let target_rows = target.limits()[1].len();
+        let rows = target_rows.div_ceil(threads * BANDS).next_multiple_of(8).max(8);
         let bands = Mutex::new(target.split(rows));
         let total = Mutex::new(stats);
-        together(threads, || {
+        together(threads.min(target_rows.div_ceil(rows)), || {
             let mut stats = Stats::default();
             while let Some(mut band) = next(&bands) {
                 draw_listed(lanes, (listed, triangles), walk(), paint, &mut band, &mut stats);
@@ -132,9 +136,10 @@ where
     Pr: Projection,
     Slot<M::Varying>: Send,
 {
-    let threads = if store.len() < FEW { 1 } else { threads };
+    let count = store.len();
+    let threads = if count < FEW { 1 } else { threads };
     let parts = Mutex::new(store.chunks_mut(PART).zip((0..).step_by(PART)));
-    together(threads, || {
+    together(threads.min(count.div_ceil(PART)), || {
         while let Some((slots, first)) = next(&parts) {
             Slot::fill_all(lanes, mesh, screen, first, slots);
         }
@@ -161,7 +166,7 @@ where
     let mut found = [0; PARTS];
     let parts = room.chunks_mut(part).zip((0..triangles).step_by(part)).zip(&mut found);
     let (parts, total) = (Mutex::new(parts), Mutex::new(*stats));
-    together(threads, || {
+    together(threads.min(PARTS), || {
         let (mut walk, mut stats) = (walk(), Stats::default());
         let pixels = walk.pixels();
         while let Some(((room, first), found)) = next(&parts) {

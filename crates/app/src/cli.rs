@@ -71,7 +71,8 @@ pub struct RenderArgs {
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub threads: Option<Threads>,
 
-    /// Print counts and times, as a table or as one line of JSON.
+    /// Print counts and times, as a table or as one line of JSON. Of several threads' pictures, the counts are those of
+    /// the same drawn by one, after the times were taken.
     #[arg(long, value_name = "FORMAT", num_args = 0..=1, default_missing_value = "text")]
     pub stats: Option<StatsFormat>,
 

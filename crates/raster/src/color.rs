@@ -56,8 +56,8 @@ pub trait ColorFormat: Copy + Debug + Send + Sync + 'static {
 }
 
 /// A fragment's colour: [`Rgba8`] or its four bytes for any target, or `u8`, `u16` or `u32` for targets whose pixels
-/// have as many bits, which get it as it is. Another size is an error when the program is built. It travels as a word of
-/// 32 bits, of which several fit a register.
+/// have as many bits, which get it as it is. Another size is an error when the program is built. It travels as a word
+/// of 32 bits, of which several fit a register.
 pub trait FragmentColor: Sealed + Copy {
     /// The colour as a word.
     fn to_word(self) -> u32;

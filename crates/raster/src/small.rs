@@ -13,9 +13,10 @@
 //! ```
 //!
 //! # Coverage
-//! An edge crosses the rows' centres at multiples of 2^-12 column, as it is at most 2^8 subpixels high. Crossings are
-//! followed in units of 2^-20, of which 2^7 are taken off: exact multiples then lie above the one below. Rounding moves
-//! them by less: 32 units on the way to the first row, two for each of 16 rows, and one for the shift.
+//! An edge crosses a row's centre at a sample, or at least 2^-12 column from it, as it is at most 2^8 subpixels high.
+//! Crossings are followed in units of 2^-20, of which 2^7 are taken off: those at samples then lie before them.
+//! Rounding moves crossings by less: 32 units on the way to the first row, two for each of 16 rows, and one for the
+//! shift.
 //!
 //! # Values
 //! In units of 2^-24 a column or a row adds its slope within 1.4, for up to 17 of each. The way from the first vertex

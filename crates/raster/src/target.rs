@@ -275,7 +275,11 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
 
     /// The same target, of which only these columns and rows of the frame may be drawn to or cleared.
     pub fn scissor(&mut self, columns: Range<i32>, rows: Range<i32>) -> Target<'_, C, D> {
-        let narrow = |a: &Range<i32>, b: Range<i32>| a.start.max(b.start)..a.end.min(b.end);
+        // Between the target's limits, also where nothing is left.
+        let narrow = |a: &Range<i32>, b: Range<i32>| {
+            let start = a.start.max(b.start).min(a.end);
+            start..a.end.min(b.end).max(start)
+        };
         let limits = [narrow(&self.limits[0], columns), narrow(&self.limits[1], rows)];
         Target { color: self.color, depth: self.depth, limits, ..*self }
     }
@@ -316,8 +320,8 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
         (color.get_mut(..count).unwrap_or_default(), depth.get_mut(..count).unwrap_or_default())
     }
 
-    /// The target in parts of so many rows, at least one, from the top; the last may have fewer. Several threads may
-    /// draw to one each.
+    /// The target in parts of so many rows, at least one, from the top of its memory; the last may have fewer. Parts
+    /// above a [`scissor`](Self::scissor) have no rows to be drawn. Several threads may draw to one part each.
     pub fn split(&mut self, rows: usize) -> impl Iterator<Item = Target<'_, C, D>> {
         let Self { color_format, depth_format, size, strides, .. } = *self;
         let [columns, limits] = self.limits.clone();
@@ -330,7 +334,7 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
             let (own_color, own_depth);
             (own_color, color) = split_off(take(&mut color), count * strides[0]);
             (own_depth, depth) = split_off(take(&mut depth), count * strides[1]);
-            let limits = [columns.clone(), limits.start.max(from)..end];
+            let limits = [columns.clone(), limits.start.max(from).min(end)..end];
             let below = first_row + count;
             let first = replace(&mut first_row, below);
             let (color, depth) = (own_color, own_depth);

@@ -31,10 +31,17 @@ fn scene(rng: &mut Rng) -> Scene {
     let aside = [(); 2].map(|()| (rng.uniform(-1.0, 1.0) * extent) as f32);
     let to_eye = Frame::from_mat3(axes, Point3::new(Vec3::new(aside[0], aside[1], away as f32)));
     let near = rng.log_uniform(1e-4, 1.0) * extent as f32;
-    let planes = [near, near * rng.log_uniform(1.5, 1e6)];
+    let parallel = rng.one_in(4);
+    let planes = if parallel && rng.one_in(2) {
+        // Behind the eye, or far beyond the mesh on both sides.
+        let behind = rng.log_uniform(1e-3, 1e3) * extent as f32;
+        [-behind, behind * rng.log_uniform(0.1, 10.0)]
+    } else {
+        [near, near * rng.log_uniform(1.5, 1e6)]
+    };
     let size = [(); 2].map(|()| u32::try_from(rng.log_integer(2048)).expect("small").max(1));
     let aspect = rng.log_uniform(0.3, 3.0);
-    let projection = if rng.one_in(4) {
+    let projection = if parallel {
         Parallel::new(rng.uniform(0.1, 4.0) as f32 * extent as f32, aspect, planes[0], planes[1])
             .expect("a box")
             .into()
@@ -54,8 +61,8 @@ struct Exact {
     w: f64,
     z: f64,
     zs: f64,
-    /// The greatest coordinate that the mesh may have, in the units of w.
-    greatest: f64,
+    /// The greatest coordinate that the mesh may have, in the units of w, and in those of z.
+    greatest: [f64; 2],
 }
 
 impl Scene {
@@ -78,7 +85,10 @@ impl Scene {
         let w = if perspective { z } else { 1.0 };
         let [near, far] = self.planes.map(f64::from);
         let zs = if perspective { far / (far - near) * (1.0 - near / z) } else { (z - near) / (far - near) };
-        let greatest = reach(0).max(reach(1)).max(reach(2)).max(if perspective { 0.0 } else { 1.0 });
+        let greatest =
+            if perspective { reach(0).max(reach(1)).max(reach(2)) } else { reach(0).max(reach(1)).max(2.0) };
+        // In parallel projection depths are in a unit of their own.
+        let greatest = [greatest, if perspective { greatest } else { greatest * reach(2) }];
         Exact { place: [x / w, y / w], w, z, zs: if self.reversed { 1.0 - zs } else { zs }, greatest }
     }
 }
@@ -93,7 +103,7 @@ fn vertices_are_where_the_bound_says() {
         let way = IntegerScreen::new(
             (&scene.to_eye, scene.unit),
             &scene.projection,
-            (&viewport, scene.subpixel),
+            (&viewport, scene.subpixel, Sides::GuardBand),
             (scene.depth_bits, scene.reversed),
         );
         let Some(way) = way else {
@@ -110,13 +120,13 @@ fn vertices_are_where_the_bound_says() {
             let exact = scene.exact(position);
             let place = way.place(&scene.projection, position);
             // Two of 2^29 units, and three roundings of the factors.
-            let lost = exact.greatest * (2.0f64.powi(-28) + 2.0f64.powi(-22));
+            let [lost, lost_z] = exact.greatest.map(|c| c * (2.0f64.powi(-28) + 2.0f64.powi(-22)));
             let planes = [
                 (outside::NEAR, f64::from(scene.planes[0]) - exact.z),
                 (outside::FAR, exact.z - f64::from(scene.planes[1])),
             ];
             for (bit, beyond) in planes {
-                if beyond.abs() > lost + 1e-6 * exact.z.abs() {
+                if beyond.abs() > lost_z + 1e-6 * exact.z.abs() {
                     assert_eq!(place.outside & bit != 0, beyond > 0.0, "{bit} of {position:?} in {scene:?}");
                 }
             }
@@ -137,8 +147,10 @@ fn vertices_are_where_the_bound_says() {
             }
             let bounds = [guard.x, guard.y].map(f64::from);
             if place.outside & outside::GUARD != 0 {
+                let planes = scene.planes.map(f64::from);
                 let near = [0, 1].iter().any(|&k| exact.place[k].abs() > bounds[k] * 0.98 - 0.1);
-                assert!(near, "{position:?} in {scene:?}: {:?}", exact.place);
+                let doubtful = planes.iter().any(|plane| (plane - exact.z).abs() < exact.greatest[1] * 1e-5);
+                assert!(near || doubtful, "{position:?} in {scene:?}: {:?}", exact.place);
                 seen[2] += 1;
                 continue;
             }
@@ -152,7 +164,7 @@ fn vertices_are_where_the_bound_says() {
                 assert!(error <= 0.5 + off * halves[k], "{error} at {position:?} in {scene:?}");
                 worst = worst.max((error - 0.5) / (off * halves[k]));
                 // The module's promise.
-                if size <= 1.0 && halves[k] * exact.greatest / exact.w <= 2.0f64.powi(20) {
+                if size <= 1.0 && halves[k] * exact.greatest[0] / exact.w <= 2.0f64.powi(20) {
                     worst_near = worst_near.max(error);
                 }
             }
@@ -166,7 +178,7 @@ fn vertices_are_where_the_bound_says() {
             } else {
                 1.0 / f64::from(scene.planes[1] - scene.planes[0])
             };
-            let off = 2.0f64.powi(-22) + slope * lost;
+            let off = 2.0f64.powi(-22) + slope * lost_z;
             assert!((found - zs).abs() <= off, "depth {found} for {zs} at {position:?} in {scene:?}");
             let q = f64::from(f32::from_bits(place.depths[1])) * exact.w;
             assert!((q - 1.0).abs() <= 2.0f64.powi(-22) + lost / exact.w, "{q} at {position:?} in {scene:?}");

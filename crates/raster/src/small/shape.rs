@@ -55,8 +55,9 @@ impl Shape {
     #[inline(always)]
     pub(super) fn holds(&self, differences: u32) -> bool {
         let size = |[b, c]: [i32; 2]| magnitude(b) | magnitude(c);
-        // The sum of two products must be less than 2^31 after the shift.
-        differences.wrapping_mul(size(self.right) | size(self.down)) < (1 << 30) >> self.shift
+        // The sum of two products must be less than 2^31 after the shift. A magnitude is one below that of -2^k.
+        let most = (size(self.right) | size(self.down)) + 1;
+        differences.saturating_add(1).saturating_mul(most) < (1 << 30) >> self.shift
     }
 
     /// The slope in units of 2^-SLOPE a pixel.
@@ -157,6 +158,33 @@ fn quotient(dx: i32, dy: i32) -> i32 {
 mod tests {
     use super::*;
     use std::println;
+
+    /// The greatest differences of either sign, also those of which the magnitude is one less.
+    #[test]
+    fn slopes_that_hold_do_not_overflow() {
+        let mut held = 0;
+        for [b, c] in
+            [[[-64_i32, 3], [64, 4]], [[-255, 0], [0, 255]], [[16, 1], [0, 16]], [[1, 255], [-1, 255]]]
+        {
+            let area = (b[0] * c[1] - b[1] * c[0]).unsigned_abs();
+            let shape = Shape::new([[0; 2], b, c], [0; 2], area, true);
+            for k in 0..21 {
+                let ends = [-1 << k, (1 << k) - 1, 1 - (1 << k)];
+                for (b, c) in ends.into_iter().flat_map(|b| ends.map(|c| (b, c))) {
+                    let sum = |[by_b, by_c]: [i32; 2]| {
+                        i64::from(b) * i64::from(by_b) + i64::from(c) * i64::from(by_c)
+                    };
+                    if shape.holds(magnitude(b) | magnitude(c)) {
+                        for along in [shape.right, shape.down] {
+                            assert!((sum(along) << shape.shift).abs() < 1 << 31, "{b} {c} along {along:?}");
+                            held += 1;
+                        }
+                    }
+                }
+            }
+        }
+        assert!(held > 200, "{held}");
+    }
 
     #[test]
     fn quotients_without_division_are_within_two_units() {
