@@ -110,7 +110,7 @@ pub(crate) struct IntegerScreen {
     rows: [Row; 3],
     /// The least and the greatest z between the planes.
     planes: [i32; 2],
-    /// The same by so much farther inside that floats agree.
+    /// The same by so much farther inside that floats agree; none where sides are in doubt too.
     inner: [i32; 2],
     /// Whether the clip is at the sides.
     cube: bool,
@@ -198,13 +198,15 @@ impl IntegerScreen {
         } else {
             Depth::linear(planes, greatest, units, depth_bits, reversed)?
         };
+        let cube = sides == Sides::Cube;
+        let sure = [near.saturating_add(DOUBT), far.saturating_sub(DOUBT)];
         let shifts = bits.map(|bits| SCREEN.cast_unsigned() - bits);
         let inside = |bound: f32, half: f32| scaled(bound * half, 8) - 2;
         Some(Self {
             rows: [row(0), row(1), row(2)],
             planes: [near, far],
-            inner: [near.saturating_add(DOUBT), far.saturating_sub(DOUBT)],
-            cube: sides == Sides::Cube,
+            inner: if cube { [i32::MAX, i32::MIN] } else { sure },
+            cube,
             one: scaled(1.0, units),
             sides: halves.map(|half| scaled(half, SCREEN)),
             halves: shifts.map(|shift| 1 << (shift - 1)),
@@ -224,9 +226,6 @@ impl IntegerScreen {
         let [near, far] = self.inner;
         let within = |x: i32| x.wrapping_add(w).cast_unsigned() <= w.cast_unsigned() << 1;
         if !(z >= near && z <= far && within(x) && within(y)) {
-            return self.beyond(projection, [x, y, z], w);
-        }
-        if self.cube && self.doubtful([x, y], w) {
             return self.beyond(projection, [x, y, z], w);
         }
         let (normalizing, per_w) = per(w);
@@ -256,7 +255,6 @@ impl IntegerScreen {
     }
 
     /// Whether a vertex is so near to a side of the view that floats may see it on the other.
-    #[inline(never)]
     fn doubtful(&self, [x, y]: [i32; 2], w: i32) -> bool {
         let near = |x: i32, side: i32| {
             let beyond = (i64::from(x.unsigned_abs()) << SCREEN) - i64::from(side) * i64::from(w);
@@ -278,8 +276,9 @@ impl IntegerScreen {
         let sides =
             bits_beside([x, y].map(|x| i64::from(x) << SCREEN), self.sides.map(|x| i64::from(x) * wide));
         let is_far = |x: i32, guard: i32| i64::from(x.unsigned_abs()) << 8 > i64::from(guard) * wide;
-        let [inner_near, inner_far] = self.inner;
-        let doubtful = z < inner_near || z > inner_far || (self.cube && self.doubtful([x, y], w));
+        let doubtful =
+            self.planes.into_iter().any(|plane| z.wrapping_sub(plane).unsigned_abs() < DOUBT.unsigned_abs())
+                || (self.cube && self.doubtful([x, y], w));
         let guard = doubtful || is_far(x, self.guard[0]) || is_far(y, self.guard[1]);
         let outside = near | far | sides | if guard { outside::GUARD } else { 0 };
         if outside & (outside::NEAR | outside::FAR | outside::GUARD) != 0 {
