@@ -50,14 +50,14 @@ impl Shape {
         }
     }
 
-    /// Whether the slopes of a number are in range, of which `differences` has the bits that those of the second and
-    /// the third vertex to the first have.
+    /// Whether the slopes of a number are in range, of which `differences`, below 2^21, has the bits that those of the
+    /// second and the third vertex to the first have.
     #[inline(always)]
     pub(super) fn holds(&self, differences: u32) -> bool {
         let size = |[b, c]: [i32; 2]| magnitude(b) | magnitude(c);
         // The sum of two products must be less than 2^31 after the shift. A magnitude is one below that of -2^k.
         let most = (size(self.right) | size(self.down)) + 1;
-        differences.saturating_add(1).saturating_mul(most) < (1 << 30) >> self.shift
+        differences.wrapping_add(1).wrapping_mul(most) < (1 << 30) >> self.shift
     }
 
     /// The slope in units of 2^-SLOPE a pixel.
