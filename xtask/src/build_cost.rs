@@ -134,8 +134,8 @@ fn figures_of_command(build: &Build<'_>, cost: &Cost, figures: &mut Figures) -> 
 }
 
 fn figures_of_tests(build: &Build<'_>, figures: &mut Figures) -> Outcome {
-    let compiled = build.run(&["test", "--no-run"])?;
-    let ran = build.run(&["test", "--quiet"])?;
+    let compiled = build.run(&["test", "--workspace", "--no-run"])?;
+    let ran = build.run(&["test", "--workspace", "--quiet"])?;
     figures.add_seconds(Figure::TestsWall, compiled.wall + ran.wall);
     figures.add_seconds(Figure::TestsCompilingWall, compiled.wall);
     figures.add_seconds(Figure::TestsRunningWall, ran.wall);

@@ -48,16 +48,9 @@ pub(crate) fn docs() -> Outcome {
     run(cargo().env("RUSTDOCFLAGS", "-D warnings").args(["doc", "--workspace", "--no-deps", "--lib"]))
 }
 
-/// Runs the test command of the README, then the tests of this program.
+/// Runs the test command of the README.
 pub(crate) fn test() -> Outcome {
-    run(cargo().arg("test"))?;
-    test_xtask()
-}
-
-/// Runs the tests of this program, which `cargo test` leaves out because xtask is no default member.
-pub(crate) fn test_xtask() -> Outcome {
-    // The profile of `cargo xtask`, so that its dependencies are compiled already.
-    run(cargo().args(["test", "--quiet", "--profile", "dev", "--package", "xtask"]))
+    run(cargo().args(["test", "--workspace"]))
 }
 
 /// Runs the benchmarks whose names contain the filter, or all of them.

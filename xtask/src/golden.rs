@@ -7,7 +7,9 @@ use crate::command::{self, Outcome, cargo};
 /// A test that writes an image fails on purpose: a run that agrees with itself proves nothing, so no run may both
 /// write a reference and pass against it.
 pub(crate) fn run(arguments: &[String]) -> Outcome {
-    println!("A test that writes its image fails on purpose: look at the pictures, then run `cargo test`.");
+    println!(
+        "A test that writes its image fails on purpose: look at the pictures, then run `cargo test --workspace`."
+    );
     let mut command = cargo();
     command.env("ALBERTI_UPDATE_GOLDEN", "1");
     command
@@ -16,7 +18,7 @@ pub(crate) fn run(arguments: &[String]) -> Outcome {
     command::run(&mut command).map_err(|message| {
         format!(
             "{message}\nIf the failures above say that images were written, this is expected: \
-             `git status tests` lists the new images; `cargo test` must now pass without change."
+             `git status tests` lists the new images; `cargo test --workspace` must now pass without change."
         )
     })?;
     println!("Every golden image was up to date; nothing was written.");

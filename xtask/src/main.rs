@@ -68,12 +68,7 @@ const CHORES: &[Chore] = &[
         about: "build the documentation, warnings are errors",
         run: |_| checks::docs(),
     },
-    Chore {
-        name: "test",
-        arguments: "",
-        about: "`cargo test`, then the tests of xtask",
-        run: |_| checks::test(),
-    },
+    Chore { name: "test", arguments: "", about: "`cargo test --workspace`", run: |_| checks::test() },
     Chore {
         name: "package",
         arguments: "",
@@ -163,7 +158,9 @@ fn help() -> String {
         let call = format!("{} {}", chore.name, chore.arguments);
         text.push_str(&format!("  {call:<28}  {}\n", chore.about));
     }
-    text.push_str("\n`ci --tests-done` leaves out `cargo test`: the caller has just run it on this tree.\n");
+    text.push_str(
+        "\n`ci --tests-done` leaves out `cargo test --workspace`: the caller has just run it on this tree.\n",
+    );
     text
 }
 

@@ -62,7 +62,7 @@ const ROWS: &[Row] = &[
         Unit::Millis,
         Some(30_000),
     ),
-    row(Figure::TestsWall, "`cargo test` from nothing: time", Unit::Millis, Some(360_000)),
+    row(Figure::TestsWall, "`cargo test --workspace` from nothing: time", Unit::Millis, Some(360_000)),
     row(Figure::TestsCpu, "– processor", Unit::Millis, Some(660_000)),
     row(Figure::TestsMemory, "– largest compiler", Unit::Bytes, Some(1_500_000_000)),
     row(Figure::TestsCompilingWall, "– compiling: time", Unit::Millis, None),

@@ -80,7 +80,7 @@ fn dependencies(package: &Value) -> impl Iterator<Item = &str> {
     all.filter(|dependency| dependency["kind"] != "dev").filter_map(|dependency| dependency["name"].as_str())
 }
 
-/// Complaints about features that neither clippy nor `cargo test` would see. Both build all members at once, with what
+/// Complaints about features that neither clippy nor the tests would see. Both build all members at once, with what
 /// any of them asks for, so the application must ask the facade for everything.
 fn untested(metadata: &Value, library: &Value) -> impl Iterator<Item = String> {
     let features = library["features"].as_object().into_iter().flatten().map(|(name, _)| name.as_str());
