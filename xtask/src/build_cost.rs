@@ -27,7 +27,7 @@ const BINARY: &str = "alberti";
 const EDITED: &str = "crates/raster/src/lib.rs";
 
 /// The function of which every combination of stages, policies and lanes has one instance; too long to be inlined.
-const KERNEL: &str = "alberti_raster::draw::Paint<F,P,S>::draw_copies";
+const KERNEL: &str = "alberti_raster::draw::Paint::draw_copies";
 
 /// The variable of cargo with the folder of its outputs.
 const TARGET: &str = "CARGO_TARGET_DIR";

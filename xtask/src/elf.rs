@@ -83,11 +83,21 @@ impl Program {
     }
 }
 
-/// The path of a function, without the arguments of types in either of Rust's manglings; other names as they are.
+/// The path of a function, without parameters and arguments in either of Rust's manglings; other names as they are.
 fn path(symbol: &str) -> String {
     let name = format!("{:#}", rustc_demangle::demangle(symbol));
-    // The path of a method begins with its type in brackets, which stays.
-    name.find("::<").filter(|_| !name.starts_with('<')).map_or(name.clone(), |end| name[..end].to_string())
+    // The path of a method of a trait begins with its type in brackets, which stays.
+    if name.starts_with('<') {
+        return name;
+    }
+    let mut depth = 0;
+    let outside = |c: &char| {
+        depth += i32::from(*c == '<');
+        let outside = depth == 0;
+        depth -= i32::from(*c == '>');
+        outside
+    };
+    name.chars().filter(outside).collect::<String>().trim_end_matches("::").replace("::::", "::")
 }
 
 fn sections<'a>(file: &'a [u8], layout: &Layout) -> Option<Vec<Section<'a>>> {
@@ -219,10 +229,12 @@ mod tests {
             "_ZN7alberti8pipeline9draw_from28_$u7b$$u7b$closure$u7d$$u7d$17h0a2538f26c1ebbf2E",
             "_RINvNtCs123_7alberti8pipeline9draw_fromhmE",
             "_RNvNtCs123_7alberti8pipeline4clip",
+            "_ZN14alberti_raster4draw18Paint$LT$F$C$P$GT$11draw_copies17h083f00431fb763deE",
             "main",
         ];
         let program = Program { text: 0, rodata: 0, symbols: symbols.map(str::to_string).to_vec() };
         assert_eq!(program.instances("alberti::pipeline::draw_from"), 3);
+        assert_eq!(program.instances("alberti_raster::draw::Paint::draw_copies"), 1);
         assert_eq!(program.instances("main"), 1);
     }
 }
