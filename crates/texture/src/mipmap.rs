@@ -25,7 +25,6 @@ use core::fmt;
 use crate::format::Storage;
 use crate::texture::MAX_SIZE;
 use crate::{AnySize, MipFilter, MipSampler, PowerOfTwo, Size, Texture, TextureError, Wrap};
-use alberti_math::map2;
 
 /// The greatest number of levels: of a side of 2^14 texels.
 pub const MAX_LEVELS: usize = 15;
@@ -191,7 +190,8 @@ impl<'a, F: Storage, Z: Size> Mipmap<'a, F, Z> {
         let at = |level: usize| self.begin.get(level).copied().unwrap_or_default() as usize;
         // They are there, as `new` has compared.
         let elements = self.elements.get(at(level)..at(level + 1)).unwrap_or_default();
-        let sides = map2([self.width, self.height], |side| (side >> level).max(1));
+        // Not `map2`: in line, compilers no longer see that layers of a material read the same texels.
+        let sides = [self.width, self.height].map(|side| (side >> level).max(1));
         let (texels, size) = self.size.level(elements);
         Texture::of_parts(texels, self.format, sides, size)
     }
