@@ -1,21 +1,21 @@
-//! The number of samples at a time, and the kind of numbers: `f32` in [`One`] or, behind the feature `simd`, in the
-//! vector registers of `Eight`; fixed point in [`OneFixed`].
+//! The number of samples at a time, and the kind of numbers: `f32` in [`One`], fixed point in [`OneFixed`]. Behind the
+//! feature `simd` there are the vector registers of `Eight` and `Sixteen`.
 //!
 //! A kernel is written once, over a value of a [`Lanes`] type. Every lane of `f32` does the same IEEE operations in the
 //! same order as one lane alone, so the width never changes a bit.
 
-#[cfg(feature = "simd")]
-mod eight;
 mod jacobi;
 mod machine;
 mod one;
 mod one_fixed;
-
 #[cfg(feature = "simd")]
-pub use eight::Eight;
+mod several;
+
 pub use machine::Machine;
 pub use one::One;
 pub use one_fixed::OneFixed;
+#[cfg(feature = "simd")]
+pub use several::{Eight, Sixteen};
 
 use core::fmt::Debug;
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
@@ -25,10 +25,10 @@ use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 /// The value itself holds nothing; it is the proof that the machine has the instructions. Code over it is inlined into
 /// the function that [`vectorize`](Self::vectorize) calls, which is compiled for those.
 pub trait Lanes: Copy + Debug + Send + Sync {
-    /// The number of samples: a power of two, at most 8.
+    /// The number of samples: a power of two, at most 16.
     const COUNT: usize;
     /// The same as a number of columns.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "at most 8")]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "at most 16")]
     const STEP: i32 = Self::COUNT as i32;
     /// Whether numbers are in fixed point.
     const FIXED: bool;
@@ -87,6 +87,10 @@ pub trait Lanes: Copy + Debug + Send + Sync {
         number: impl Fn(f32) -> T,
         raw: impl Fn(u32) -> T,
     ) -> Self::Each<T>;
+    /// The words that `word` finds for these.
+    fn gather(self, indices: Self::U32, word: impl FnMut(u32) -> u32) -> Self::U32;
+    /// The two words that `words` finds for each of these.
+    fn gather_pairs(self, indices: Self::U32, words: impl FnMut(u32) -> [u32; 2]) -> [Self::U32; 2];
     /// Words from memory.
     fn load_words(self, values: &Self::Each<u32>) -> Self::U32;
     /// Words to memory.
@@ -154,11 +158,20 @@ pub trait Lanes: Copy + Debug + Send + Sync {
     fn shr(self, x: Self::U32, bits: u32) -> Self::U32;
     /// Bits moved down, the highest staying as it is.
     fn shr_signed(self, x: Self::U32, bits: u32) -> Self::U32;
+    /// `(256 - t)·low + t·high` in both halves of each word, which are 0 to 255 before, with t from 0 to 256.
+    #[inline(always)]
+    fn mix_halves(self, low: Self::U32, high: Self::U32, t: Self::U32) -> Self::U32 {
+        // A half of the difference may be negative and borrow from the next. But those of the sum are 0 to 255 * 256,
+        // so as a number modulo 2^32 the sum is the two side by side.
+        self.shl(low, 8) + (high - low) * t
+    }
     /// The lesser of two words.
     fn min_words(self, a: Self::U32, b: Self::U32) -> Self::U32;
 
     /// Whether a < b; not so where one is NaN.
     fn less(self, a: Self::Number, b: Self::Number) -> Self::Mask;
+    /// Whether a = b.
+    fn equal_words(self, a: Self::U32, b: Self::U32) -> Self::Mask;
     /// Whether a < b.
     fn less_words(self, a: Self::U32, b: Self::U32) -> Self::Mask;
     /// `a` where the mask is set, elsewhere `b`.
@@ -202,7 +215,13 @@ fn half_log2<L: Floating>(lanes: L, exponent: L::Number, mantissa: L::Number) ->
 }
 
 /// Lanes of `f32`, in which a depth is a number as well.
-pub trait Floating: Lanes<Depth = <Self as Lanes>::Number> {}
+pub trait Floating: Lanes<Depth = <Self as Lanes>::Number> {
+    /// As many lanes as are best for long rows of samples.
+    type Wide: Floating;
+
+    /// These lanes on the same machine.
+    fn wide(self) -> Self::Wide;
+}
 
 #[cfg(test)]
 mod tests {
@@ -213,6 +232,61 @@ mod tests {
     fn length(x: f32, y: f32, scale: [u32; 2]) -> f64 {
         let [a, b] = scale.map(f64::from);
         (f64::from(x) * a).hypot(f64::from(y) * b)
+    }
+
+    /// Each lane of the machine's and of its wide lanes does as one lane alone.
+    fn alone_and_together<L: Floating>(lanes: L) {
+        let mut noise = 1u32;
+        let mut next = || {
+            noise = noise.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+            noise ^ noise >> 13
+        };
+        let halves = |noise: u32| noise & 0x00ff_00ff;
+        for _ in 0..1000 {
+            let words = lanes.each(|_| next());
+            let [low, high] = [lanes.each(|_| halves(next())), lanes.each(|_| halves(next()))];
+            let t = lanes.each(|_| next() % 257);
+            let [a, b] = [lanes.load_words(&low), lanes.load_words(&high)];
+            let mixed = lanes.store_words(lanes.mix_halves(a, b, lanes.load_words(&t)));
+            let gathered = lanes.store_words(lanes.gather(lanes.load_words(&words), |word| word ^ 5));
+            let pairs = lanes.gather_pairs(lanes.load_words(&words), |word| [!word, word / 3]);
+            let [firsts, seconds] = pairs.map(|words| lanes.store_words(words));
+            let equal = lanes.bits(lanes.equal_words(a & lanes.word(1), b & lanes.word(1)));
+            for (k, &word) in words.as_ref().iter().enumerate() {
+                let [low, high, t] = [low.as_ref()[k], high.as_ref()[k], t.as_ref()[k]];
+                let mean = |shift: u32| {
+                    let [low, high] = [low, high].map(|word| word >> shift & 255);
+                    ((256 - t) * low + t * high) << shift
+                };
+                assert_eq!(mixed.as_ref()[k], mean(0) | mean(16));
+                let found = [gathered.as_ref()[k], firsts.as_ref()[k], seconds.as_ref()[k]];
+                assert_eq!(found, [word ^ 5, !word, word / 3]);
+                assert_eq!(equal >> k & 1 == 1, low & 1 == high & 1);
+            }
+        }
+        let [value, step] = [-7i64, 3];
+        let ints = lanes.store(lanes.int_to_number(lanes.int_ramp(-7, 3)));
+        let longs = lanes.long_add(lanes.long_ramp(value, step), 1 << 40);
+        let longs = lanes.store(lanes.long_to_number(longs));
+        let ramp = lanes.store(lanes.ramp());
+        let bits = lanes.bits(lanes.mask(0xa5c3_a5c3));
+        for k in 0..L::COUNT {
+            let at = i64::try_from(k).unwrap();
+            #[expect(clippy::cast_precision_loss, reason = "rounding to nearest")]
+            let [int, long, number] =
+                [step * at + value, step * at + value + (1 << 40), at].map(|x| x as f32);
+            assert_eq!([ints.as_ref()[k], longs.as_ref()[k], ramp.as_ref()[k]], [int, long, number]);
+            assert_eq!(bits >> k & 1, 0xa5c3_a5c3 >> k & 1);
+        }
+        assert_eq!(bits >> L::COUNT, 0);
+    }
+
+    #[test]
+    fn lanes_do_not_mix() {
+        alone_and_together(One);
+        for machine in Machine::all() {
+            for_lanes!(machine, lanes => { alone_and_together(lanes); alone_and_together(lanes.wide()) });
+        }
     }
 
     /// By bits, over the binades of lengths from 2^-63 to 2^63; all kinds of lanes have the same bits.

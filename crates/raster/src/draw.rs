@@ -244,20 +244,21 @@ impl<F, P: Interpolation> Paint<F, P> {
                 for (vertices, reach) in triangles {
                     let oriented = reach.oriented(vertices, bits, <P::Lanes<L> as Lanes>::FIXED);
                     let setup = Setup { interpolation, lanes, oriented: &oriented, stage };
+                    let wide = Setup { interpolation, lanes: lanes.wide(), oriented: &oriented, stage };
                     let (columns, rows, limits) = (reach.columns(), reach.rows(), limits.clone());
                     let samples = SampleBox { corners: &oriented.corners, bits, columns, rows, limits };
                     let fits_i32 = reach.fits_i32();
                     // Several lanes hold 64-bit edge functions as well as 32-bit ones.
                     outcome = if const { <P::Lanes<L> as Lanes>::COUNT == 1 } {
                         if fits_i32 {
-                            fill::<i32, _, _, _, _, _, _, _>(target, &samples, &setup, counters)
+                            fill::<i32, _, _, _, _, _, _, _>(target, &samples, &wide, counters)
                         } else {
-                            fill::<i64, _, _, _, _, _, _, _>(target, &samples, &setup, counters)
+                            fill::<i64, _, _, _, _, _, _, _>(target, &samples, &wide, counters)
                         }
                     } else if fits_i32 && samples.suit_masks::<P::Lanes<L>>(interpolation.run()) {
                         fill_masked(target, &samples, &setup, counters)
                     } else {
-                        fill::<i64, _, _, _, _, _, _, _>(target, &samples, &setup, counters)
+                        fill::<i64, _, _, _, _, _, _, _>(target, &samples, &wide, counters)
                     };
                     counters.rasterized(outcome);
                 }

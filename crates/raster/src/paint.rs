@@ -59,12 +59,27 @@ where
             self.row_alone::<I, C, D, K>(row, formats, pixels, column..end, counters);
             return;
         }
-        let (mut covered, mut written, mut known) = (0, 0, self.triangle.row(row));
+        if column >= end {
+            return;
+        }
+        let (formats, left) = ((target.color_format(), target.depth_format()), aligned::<L>(column));
+        let (colors, depths) = target.pixels_from(row.row, left);
+        let ((colors, last_colors), (depths, last_depths)) = (L::groups(colors), L::groups(depths));
+        let last = (last_colors, last_depths);
+        let (covered, mut written, mut known) = (end.abs_diff(column), 0, self.triangle.row(row));
         while column < end {
-            let (cursor, run) = self.start(row, &mut known, column, aligned::<L>(column));
+            let aligned = aligned::<L>(column);
+            let (cursor, run) = self.start(row, &mut known, column, aligned);
             let stop = run.end.min(end);
-            covered += stop.abs_diff(column);
-            written += self.run(target, row, column..stop, cursor);
+            // Groups before the run, and with it.
+            let [before, with] = [aligned - left, stop - left + L::STEP - 1];
+            let [before, with] = [before, with].map(|samples| samples.unsigned_abs() as usize / L::COUNT);
+            let end = with.min(colors.len());
+            let groups = (
+                colors.get_mut(before..end).unwrap_or_default(),
+                depths.get_mut(before..end).unwrap_or_default(),
+            );
+            written += self.run(formats, groups, (&mut *last.0, &mut *last.1), row, column..stop, cursor);
             column = stop;
         }
         counters.span(covered, written);
@@ -140,8 +155,13 @@ where
             as_it_stands();
             let [ea, eb, ec] = edges;
             let weights = [I::weights(lanes, ea), I::weights(lanes, eb), I::weights(lanes, ec)];
-            written +=
-                self.group(formats, (color, depth), 1, (&cursor, derivatives), ([column, row.row], &weights));
+            written += self.group(
+                formats,
+                (color, depth),
+                lanes.mask(1),
+                (&cursor, derivatives),
+                ([column, row.row], &weights),
+            );
             cursor = self.triangle.advance(cursor);
             edges = [
                 I::advance(lanes, ea, steps[0]),
@@ -184,7 +204,13 @@ where
                 if group != 0 {
                     let weights = mask.weights(values);
                     let known = (&cursor, &derivatives);
-                    written += self.group(formats, (color, depth), group, known, ([column, row], &weights));
+                    written += self.group(
+                        formats,
+                        (color, depth),
+                        self.lanes.mask(group),
+                        known,
+                        ([column, row], &weights),
+                    );
                 }
                 bits >>= L::COUNT;
                 if bits == 0 {
@@ -207,11 +233,14 @@ where
         written
     }
 
-    /// Fills a run of samples. The last lanes may look at pixels beyond it, which they leave alone.
+    /// Fills a run of samples in whole groups of pixels and, if these do not suffice, in the band's last ones. The last
+    /// lanes may look at pixels beyond it, which they leave alone.
     #[inline(always)]
     fn run<I, C, D>(
         &self,
-        target: &mut Target<'_, C, D>,
+        formats: (C, D),
+        (mut colors, mut depths): Pixels<'_, L::Each<C::Pixel>, L::Each<D::Stored>>,
+        (last_colors, last_depths): Pixels<'_, C::Pixel, D::Stored>,
         row: &Row<'_, I>,
         columns: Range<i32>,
         (mut cursor, derivatives): RunState<T::Cursor, F::Derivatives, L, V>,
@@ -228,27 +257,19 @@ where
         let ([a, b, c], at) = (row.edges, row.at(left));
         let mut edges = [ramp(at[0], a), ramp(at[1], b), ramp(at[2], c)];
 
-        let formats = (target.color_format(), target.depth_format());
-        let (colors, depths) = target.pixels_from(row.row, left);
-        let wanted = (columns.end - left).unsigned_abs() as usize;
-        // Whole groups, if the band has them.
-        let pixels = wanted.next_multiple_of(L::COUNT).min(colors.len() / L::COUNT * L::COUNT);
-        let (colors, last_colors) = colors.split_at_mut_checked(pixels).unwrap_or_default();
-        let (depths, last_depths) = depths.split_at_mut_checked(pixels).unwrap_or_default();
-        let ((mut colors, _), (mut depths, _)) = (L::groups(colors), L::groups(depths));
-        let (mut bits, mut column, mut written) = (all::<L>() << (columns.start - left), left, 0);
-        let mut copy = None;
+        let mut mask = lanes.mask(all::<L>() << (columns.start - left));
+        let (mut column, mut written, mut copy) = (left, 0, None);
         loop {
             for (color, depth) in colors.iter_mut().zip(depths) {
                 let remaining = columns.end - column;
                 if remaining < L::STEP {
-                    bits &= (1 << remaining) - 1;
+                    mask = mask & lanes.mask((1 << remaining) - 1);
                 }
                 let [ea, eb, ec] = edges;
                 let weights = [I::weights(lanes, ea), I::weights(lanes, eb), I::weights(lanes, ec)];
                 let (known, place) = ((&cursor, &derivatives), [column, row.row]);
-                written += self.group(formats, (color, depth), bits & all::<L>(), known, (place, &weights));
-                bits = all::<L>();
+                written += self.group(formats, (color, depth), mask, known, (place, &weights));
+                mask = lanes.mask(all::<L>());
                 column += L::STEP;
                 cursor = self.triangle.advance(cursor);
                 edges = [advance(ea, a), advance(eb, b), advance(ec, c)];
@@ -266,13 +287,13 @@ where
         written
     }
 
-    /// Fills those samples of a group whose bits are set, and counts those written.
+    /// Fills those samples of a group that the mask has, and counts those written.
     #[inline(always)]
     fn group<C, D>(
         &self,
         (color_format, depth_format): (C, D),
         (color, depth): Group<'_, L, C::Pixel, D::Stored>,
-        bits: u32,
+        mask: L::Mask,
         (cursor, derivatives): (&T::Cursor, &<F::Derivatives as Differentiate>::Run<L, V>),
         (place, weights): ([i32; 2], &[L::Number; 3]),
     ) -> u32
@@ -282,7 +303,7 @@ where
     {
         let lanes = self.lanes;
         let zs = depth_format.encode_lanes(lanes, self.triangle.depth(cursor, weights));
-        let seen = depth_format.seen(lanes, &zs, depth, lanes.mask(bits));
+        let seen = depth_format.seen(lanes, &zs, depth, mask);
         if lanes.bits(seen) == 0 {
             return 0;
         }

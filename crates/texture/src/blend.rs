@@ -16,19 +16,11 @@ pub(crate) struct Quad<L: Lanes> {
 }
 
 impl<L: Lanes> Quad<L> {
-    /// The texels that `texel` finds in the left and the right column and in the lower and the upper row.
+    /// The texels that `texels` finds in the lower and in the upper row.
     #[inline(always)]
-    pub(crate) fn about(
-        [left, right]: [L::U32; 2],
-        [low, high]: [L::U32; 2],
-        texel: impl Fn([L::U32; 2]) -> L::U32,
-    ) -> Self {
-        Self {
-            low_left: texel([left, low]),
-            low_right: texel([right, low]),
-            high_left: texel([left, high]),
-            high_right: texel([right, high]),
-        }
+    pub(crate) fn about([low, high]: [L::U32; 2], texels: impl Fn(L::U32) -> [L::U32; 2]) -> Self {
+        let ([low_left, low_right], [high_left, high_right]) = (texels(low), texels(high));
+        Self { low_left, low_right, high_left, high_right }
     }
 }
 
@@ -58,14 +50,14 @@ pub(crate) fn sums<L: Lanes>(lanes: L, quad: Quad<L>, right: L::U32, up: L::U32)
     let bytes = lanes.word(BYTES);
     let [red, blue] = rise(
         lanes,
-        across(lanes, low_left & bytes, low_right & bytes, right),
-        across(lanes, high_left & bytes, high_right & bytes, right),
+        lanes.mix_halves(low_left & bytes, low_right & bytes, right),
+        lanes.mix_halves(high_left & bytes, high_right & bytes, right),
         up,
     );
     let [green, alpha] = rise(
         lanes,
-        across(lanes, lanes.shr(low_left, 8) & bytes, lanes.shr(low_right, 8) & bytes, right),
-        across(lanes, lanes.shr(high_left, 8) & bytes, lanes.shr(high_right, 8) & bytes, right),
+        lanes.mix_halves(lanes.shr(low_left, 8) & bytes, lanes.shr(low_right, 8) & bytes, right),
+        lanes.mix_halves(lanes.shr(high_left, 8) & bytes, lanes.shr(high_right, 8) & bytes, right),
         up,
     );
     [red, green, blue, alpha]
@@ -148,15 +140,6 @@ pub(crate) fn mean_of<L: Lanes>(lanes: L, count: u32, mut color: impl FnMut(u32)
     }
     let [red_blue, green_alpha] = map2([red_blue, green_alpha], |sum| lanes.shr(sum, count) & bytes);
     red_blue | lanes.shl(green_alpha, 8)
-}
-
-/// `(256 - t) * left + t * right` in two lanes of 16 bits.
-///
-/// A lane of the difference may be negative and borrow from the next. But lanes of the sum are 0 to 255 * 256, so as a
-/// number modulo 2^32 the sum is the two side by side.
-#[inline(always)]
-fn across<L: Lanes>(lanes: L, left: L::U32, right: L::U32, t: L::U32) -> L::U32 {
-    lanes.shl(left, 8) + (right - left) * t
 }
 
 /// `(256 - t) * low + t * high` of two lanes of 16 bits: the lower, the upper.

@@ -156,10 +156,9 @@ impl Filter for Bilinear {
     ) -> L::U32 {
         let [[left, right, along], [low, high, up]] = texture.between(lanes, uv, wrap);
         let quad = Quad::about(
-            [left, right],
             [low, high],
             #[inline(always)]
-            |at| texel(lanes, texture, wrap, at),
+            |row| texels(lanes, texture, wrap, [left, right], row),
         );
         bilinear(lanes, quad, along, up)
     }
@@ -174,10 +173,9 @@ impl Filter for Bilinear {
     ) -> [L::U32; 4] {
         let [[left, right, along], [low, high, up]] = texture.between(lanes, uv, wrap);
         let quad = Quad::about(
-            [left, right],
             [low, high],
             #[inline(always)]
-            |at| texel(lanes, texture, wrap, at),
+            |row| texels(lanes, texture, wrap, [left, right], row),
         );
         sums(lanes, quad, along, up)
     }
@@ -192,10 +190,9 @@ impl Filter for Bilinear {
     ) -> L::U32 {
         let [[left, right, along], [low, high, up]] = texture.between(lanes, uv, wrap);
         let quad = Quad::about(
-            [left, right],
             [low, high],
             #[inline(always)]
-            |at| scalar(lanes, texture, wrap, at),
+            |row| map2([left, right], |column| scalar(lanes, texture, wrap, [column, row])),
         );
         bilinear_scalar(lanes, quad, along, up)
     }
@@ -263,6 +260,22 @@ fn texel<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
     )
 }
 
+/// The colours in two columns, the second of which mostly follows the first, and in a row.
+#[inline(always)]
+fn texels<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    lanes: L,
+    texture: &Texture<'_, F, Z>,
+    wrap: (U, V),
+    columns: [L::U32; 2],
+    from_bottom: L::U32,
+) -> [L::U32; 2] {
+    let borders = map2([wrap.0.border(), wrap.1.border()], |border| border.map(Rgba8::to_bits));
+    let row = lanes.word(texture.height().wrapping_sub(1)) - from_bottom;
+    let [left, right] = texture.fetch_pair(lanes, row, columns);
+    let [at_left, at_right] = map2(columns, |column| [column, from_bottom]);
+    [with_borders(lanes, at_left, borders, left), with_borders(lanes, at_right, borders, right)]
+}
+
 /// The number in a column and in a row that is counted from the bottom, or that of the border, as a count of 65535ths.
 #[inline(always)]
 pub(crate) fn scalar<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
@@ -281,8 +294,7 @@ pub(crate) fn scalar<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
     )
 }
 
-/// The words that `fetch` finds in a row, counted from the top, and a column. Where there is no column, the first of
-/// `borders`; where there is no row, the second.
+/// The words that `fetch` finds in a row, counted from the top, and a column, [`with_borders`].
 #[inline(always)]
 pub(crate) fn bordered<L: Lanes>(
     lanes: L,
@@ -293,6 +305,18 @@ pub(crate) fn bordered<L: Lanes>(
 ) -> L::U32 {
     // Rows from the bottom are less than the height. Any texel, or none, outside.
     let found = fetch(lanes.word(height.wrapping_sub(1)) - from_bottom, column);
+    with_borders(lanes, [column, from_bottom], borders, found)
+}
+
+/// The words found in columns and rows; where there is no column, the first of `borders`; where there is no row, the
+/// second.
+#[inline(always)]
+fn with_borders<L: Lanes>(
+    lanes: L,
+    [column, from_bottom]: [L::U32; 2],
+    borders: [Option<u32>; 2],
+    found: L::U32,
+) -> L::U32 {
     if borders == [None; 2] {
         return found;
     }

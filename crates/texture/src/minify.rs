@@ -166,7 +166,7 @@ impl<Fl: Filter> MipFilter for BetweenLevels<Fl> {
     ) -> L::U32 {
         let position = lanes.round_scaled(among_levels(lanes, mipmap, lambda), 8);
         let along = position & lanes.word(255);
-        let whole = lanes.store_words(along).as_ref().iter().all(|&along| along == 0);
+        let whole = lanes.bits(lanes.equal_words(along, lanes.word(0))) == every::<L>();
         each_word(
             lanes,
             lanes.shr(position, 8),
@@ -239,13 +239,13 @@ const fn every<L: Lanes>() -> u32 {
 /// only inlined, and so compiled for the lanes, if they say so.
 #[inline(always)]
 pub(crate) fn each_word<L: Lanes>(lanes: L, words: L::U32, mut f: impl FnMut(u32) -> L::U32) -> L::U32 {
-    let words = lanes.store_words(words);
+    let each = lanes.store_words(words);
     let mut found = lanes.word(0);
     let mut left = every::<L>();
-    while let Some(&word) = words.as_ref().get(left.trailing_zeros() as usize) {
-        let same = words.as_ref().iter().rev().fold(0, |bits, &other| bits << 1 | u32::from(other == word));
-        found = lanes.select_words(lanes.mask(same), f(word), found);
-        left &= !same;
+    while let Some(&word) = each.as_ref().get(left.trailing_zeros() as usize) {
+        let same = lanes.equal_words(words, lanes.word(word));
+        found = lanes.select_words(same, f(word), found);
+        left &= !lanes.bits(same);
     }
     found
 }

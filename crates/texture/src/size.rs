@@ -1,6 +1,7 @@
 //! Knowledge of a texture's sides when its sampling is compiled.
 
 use alberti_math::lanes::Lanes;
+use alberti_math::map2;
 use core::fmt::Debug;
 
 use crate::Wrap;
@@ -73,6 +74,19 @@ pub trait Size: Sealed + Copy + Debug + 'static {
         width: u32,
         word: impl Fn(Option<&T>) -> u32,
     ) -> L::U32;
+
+    /// [`words`](Self::words) of texels in a row and two columns each.
+    #[inline(always)]
+    fn word_pairs<L: Lanes, T>(
+        self,
+        lanes: L,
+        texels: Self::Texels<'_, T>,
+        (row, columns): (L::U32, [L::U32; 2]),
+        width: u32,
+        word: impl Fn(Option<&T>) -> u32,
+    ) -> [L::U32; 2] {
+        map2(columns, |column| self.words(lanes, texels, [row, column], width, &word))
+    }
 }
 
 /// Sides of any length, the way chosen at run time: as in [`PowerOfTwo`] where both are powers of two. Elsewhere
@@ -128,9 +142,10 @@ impl AnySize {
 /// The texels of these indices.
 #[inline(always)]
 fn indexed<L: Lanes, T>(lanes: L, texels: &[T], indices: L::U32, word: impl Fn(Option<&T>) -> u32) -> L::U32 {
-    let indices = lanes.store_words(indices);
-    lanes.load_words(
-        &lanes.each(|k| word(texels.get(indices.as_ref().get(k).copied().unwrap_or_default() as usize))),
+    lanes.gather(
+        indices,
+        #[inline(always)]
+        |index| word(texels.get(index as usize)),
     )
 }
 
@@ -229,7 +244,41 @@ impl Size for PowerOfTwo {
         width: u32,
         word: impl Fn(Option<&T>) -> u32,
     ) -> L::U32 {
-        indexed(lanes, texels, lanes.shl(row, width.trailing_zeros()) + column, word)
+        // A power of two less one: no index is changed, and compilers see that none is too large.
+        let last = texels.len().wrapping_sub(1);
+        let indices = lanes.shl(row, width.trailing_zeros()) + column;
+        lanes.gather(
+            indices,
+            #[inline(always)]
+            |index| word(texels.get(index as usize & last)),
+        )
+    }
+
+    #[inline(always)]
+    fn word_pairs<L: Lanes, T>(
+        self,
+        lanes: L,
+        texels: &[T],
+        (row, [left, right]): (L::U32, [L::U32; 2]),
+        width: u32,
+        word: impl Fn(Option<&T>) -> u32,
+    ) -> [L::U32; 2] {
+        // Neighbours in order lie side by side; at the texture's sides they are not in order. Beyond a border, where
+        // one is no column, any texel will do.
+        let in_order = lanes.bits(lanes.less_words(left, right)) == (1 << L::COUNT) - 1;
+        if const { L::COUNT == 1 } || !in_order {
+            return map2([left, right], |column| self.words(lanes, texels, [row, column], width, &word));
+        }
+        lanes.gather_pairs(
+            lanes.shl(row, width.trailing_zeros()) + left,
+            #[inline(always)]
+            |index| {
+                let pair = texels.get(index as usize..index as usize + 2).and_then(<[T]>::first_chunk);
+                let [left, right] =
+                    pair.map_or([None; 2], |[left, right]: &[T; 2]| [Some(left), Some(right)]);
+                [word(left), word(right)]
+            },
+        )
     }
 }
 

@@ -229,6 +229,12 @@ impl<'a, F: Storage, Z: Size> Texture<'a, F, Z> {
         self.format.fetch(lanes, self, row, column)
     }
 
+    /// The colours of texels in two columns, [`fetch`](Self::fetch) of each.
+    #[inline(always)]
+    pub(crate) fn fetch_pair<L: Lanes>(&self, lanes: L, row: L::U32, columns: [L::U32; 2]) -> [L::U32; 2] {
+        self.format.fetch_pair(lanes, self, row, columns)
+    }
+
     /// The texels as counts of 65535ths; anything up to that for those that do not lie in the texture.
     #[inline(always)]
     pub(crate) fn fetch_scalars<L: Lanes>(&self, lanes: L, row: L::U32, column: L::U32) -> L::U32 {
@@ -248,6 +254,18 @@ impl<F: TexelFormat, Z: Size> Texture<'_, F, Z> {
     ) -> L::U32 {
         // There always is one, as `new` compares the size with the length.
         self.size.words(lanes, self.texels, [row, column], self.width(), word)
+    }
+
+    /// [`words`](Self::words) of texels in two columns.
+    #[inline(always)]
+    pub(crate) fn word_pairs<L: Lanes>(
+        &self,
+        lanes: L,
+        row: L::U32,
+        columns: [L::U32; 2],
+        word: impl Fn(Option<&F::Texel>) -> u32,
+    ) -> [L::U32; 2] {
+        self.size.word_pairs(lanes, self.texels, (row, columns), self.width(), word)
     }
 }
 

@@ -51,6 +51,21 @@ macro_rules! one_lane {
         }
 
         #[inline(always)]
+        fn gather(self, index: Wrapping<u32>, mut word: impl FnMut(u32) -> u32) -> Wrapping<u32> {
+            Wrapping(word(index.0))
+        }
+
+        #[inline(always)]
+        fn gather_pairs(
+            self,
+            index: Wrapping<u32>,
+            mut words: impl FnMut(u32) -> [u32; 2],
+        ) -> [Wrapping<u32>; 2] {
+            let [low, high] = words(index.0);
+            [Wrapping(low), Wrapping(high)]
+        }
+
+        #[inline(always)]
         fn load_words(self, values: &[u32; 1]) -> Wrapping<u32> {
             Wrapping(values[0])
         }
@@ -78,6 +93,11 @@ macro_rules! one_lane {
         #[inline(always)]
         fn min_words(self, a: Wrapping<u32>, b: Wrapping<u32>) -> Wrapping<u32> {
             a.min(b)
+        }
+
+        #[inline(always)]
+        fn equal_words(self, a: Wrapping<u32>, b: Wrapping<u32>) -> bool {
+            a == b
         }
 
         #[inline(always)]
@@ -255,7 +275,14 @@ impl Lanes for One {
     }
 }
 
-impl Floating for One {}
+impl Floating for One {
+    type Wide = Self;
+
+    #[inline(always)]
+    fn wide(self) -> Self {
+        self
+    }
+}
 
 /// 2^`exponent`, for exponents below 128.
 #[inline(always)]

@@ -1,6 +1,7 @@
 //! The texels that a texture keeps, and the way to one of them.
 
 use alberti_math::lanes::Lanes;
+use alberti_math::map2;
 use core::fmt::Debug;
 
 use super::TexelFormat;
@@ -24,6 +25,18 @@ pub trait Storage: Sealed + Copy + Debug {
         row: L::U32,
         column: L::U32,
     ) -> L::U32;
+
+    /// [`fetch`](Self::fetch) of two columns, the second of which mostly follows the first.
+    #[inline(always)]
+    fn fetch_pair<L: Lanes, Z: Size>(
+        self,
+        lanes: L,
+        texture: &Texture<'_, Self, Z>,
+        row: L::U32,
+        columns: [L::U32; 2],
+    ) -> [L::U32; 2] {
+        map2(columns, |column| self.fetch(lanes, texture, row, column))
+    }
 
     /// The texels as numbers, which count 65535ths: [`TexelFormat::scalar`]. Anything from 0 to 65535 for those that do
     /// not lie in the texture.
@@ -53,6 +66,18 @@ impl<F: TexelFormat> Storage for F {
         column: L::U32,
     ) -> L::U32 {
         texture.words(lanes, row, column, |texel| texel.map_or(0, |&texel| self.decode(texel).to_bits()))
+    }
+
+    #[inline(always)]
+    fn fetch_pair<L: Lanes, Z: Size>(
+        self,
+        lanes: L,
+        texture: &Texture<'_, F, Z>,
+        row: L::U32,
+        columns: [L::U32; 2],
+    ) -> [L::U32; 2] {
+        texture
+            .word_pairs(lanes, row, columns, |texel| texel.map_or(0, |&texel| self.decode(texel).to_bits()))
     }
 
     #[inline(always)]

@@ -7,6 +7,7 @@ use crate::filter::scalar;
 use crate::format::Storage;
 use crate::{Filter, Sampler, Size, Texture, Wrap};
 use alberti_math::lanes::{Lanes, One};
+use alberti_math::map2;
 use glam::Vec2;
 
 /// A height for each (u, v), from 0 to 1.
@@ -118,10 +119,9 @@ pub fn bilinear_height_lanes<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
     let [left_column, low_row] = texture.indices(lanes, [left, low], wrap);
     let [right_column, high_row] = texture.indices(lanes, [left + one, low + one], wrap);
     let quad = Quad::<L>::about(
-        [left_column, right_column],
         [low_row, high_row],
         #[inline(always)]
-        |at| scalar(lanes, texture, wrap, at),
+        |row| map2([left_column, right_column], |column| scalar(lanes, texture, wrap, [column, row])),
     );
     let (low_left, high_left) = (in_256ths(lanes, quad.low_left), in_256ths(lanes, quad.high_left));
     let low = in_256ths(lanes, quad.low_right) - low_left;
