@@ -1,7 +1,7 @@
 //! The weighted mean of four colours, in integers with one rounding.
 
 use alberti_math::lanes::Lanes;
-use alberti_math::map2;
+use alberti_math::{map2, map4};
 
 /// Bytes 0 and 2: two channels in lanes of 16 bits.
 const BYTES: u32 = 0x00ff_00ff;
@@ -39,8 +39,12 @@ pub(crate) fn bilinear<L: Lanes>(lanes: L, quad: Quad<L>, right: L::U32, up: L::
     let [red, green, blue, alpha] = sums(lanes, quad, right, up);
     let half = lanes.word(1 << 15);
     // The upper halves of these words are the channels.
-    let pair = |low, high| lanes.shr(low + half, 16) | (high + half) & lanes.word(0x00ff_0000);
-    pair(red, blue) | lanes.shl(pair(green, alpha), 8)
+    let [red_blue, green_alpha] = map2(
+        [[red, blue], [green, alpha]],
+        #[inline(always)]
+        |[low, high]| lanes.shr(low + half, 16) | (high + half) & lanes.word(0x00ff_0000),
+    );
+    red_blue | lanes.shl(green_alpha, 8)
 }
 
 /// The sums of [`bilinear`] before they are rounded, of red, green, blue and alpha: at most 255 * 2^16.
@@ -118,8 +122,11 @@ pub(crate) fn spread<L: Lanes>(lanes: L, color: L::U32) -> [L::U32; 4] {
 #[inline(always)]
 pub(crate) fn between<L: Lanes>(lanes: L, near: [L::U32; 4], far: [L::U32; 4], along: L::U32) -> L::U32 {
     // Below 2^32 in the end, and so modulo 2^32 before.
-    let mean = |k: usize| lanes.shl(near[k], 8) + (far[k] - near[k]) * along + lanes.word(1 << 23);
-    let [red, green, blue, alpha] = [mean(0), mean(1), mean(2), mean(3)];
+    let [red, green, blue, alpha] = map4(
+        [0, 1, 2, 3],
+        #[inline(always)]
+        |k| lanes.shl(near[k], 8) + (far[k] - near[k]) * along + lanes.word(1 << 23),
+    );
     lanes.shr(red, 24)
         | lanes.shr(green, 16) & lanes.word(0x0000_ff00)
         | lanes.shr(blue, 8) & lanes.word(0x00ff_0000)
@@ -146,8 +153,11 @@ pub(crate) fn mean_of<L: Lanes>(lanes: L, count: u32, mut color: impl FnMut(u32)
 #[inline(always)]
 fn rise<L: Lanes>(lanes: L, low: L::U32, high: L::U32, t: L::U32) -> [L::U32; 2] {
     let words = lanes.word(0xffff);
-    let mean = |low, high| lanes.shl(low, 8) + (high - low) * t;
-    [mean(low & words, high & words), mean(lanes.shr(low, 16), lanes.shr(high, 16))]
+    map2(
+        [[low & words, high & words], [lanes.shr(low, 16), lanes.shr(high, 16)]],
+        #[inline(always)]
+        |[low, high]| lanes.shl(low, 8) + (high - low) * t,
+    )
 }
 
 #[cfg(test)]

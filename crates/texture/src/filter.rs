@@ -192,7 +192,13 @@ impl Filter for Bilinear {
         let quad = Quad::about(
             [low, high],
             #[inline(always)]
-            |row| map2([left, right], |column| scalar(lanes, texture, wrap, [column, row])),
+            |row| {
+                map2(
+                    [left, right],
+                    #[inline(always)]
+                    |column| scalar(lanes, texture, wrap, [column, row]),
+                )
+            },
         );
         bilinear_scalar(lanes, quad, along, up)
     }
@@ -320,14 +326,15 @@ fn with_borders<L: Lanes>(
     if borders == [None; 2] {
         return found;
     }
+    let [by_column, by_row] = borders;
+    or_border(lanes, column, or_border(lanes, from_bottom, found, by_row), by_column)
+}
+
+/// The words found, or the border where an index is outside: all ones, while no others are negative.
+#[inline(always)]
+fn or_border<L: Lanes>(lanes: L, index: L::U32, found: L::U32, border: Option<u32>) -> L::U32 {
+    let Some(border) = border else { return found };
     let all = lanes.word(u32::MAX);
-    // Indices outside are all ones, and no others are negative.
-    let choose = |index, a: L::U32, border: Option<u32>| match border {
-        Some(border) => {
-            let inside = all - lanes.shr_signed(index, 31);
-            (a & inside) | (lanes.word(border) & (all - inside))
-        }
-        None => a,
-    };
-    choose(column, choose(from_bottom, found, borders[1]), borders[0])
+    let inside = all - lanes.shr_signed(index, 31);
+    (found & inside) | (lanes.word(border) & (all - inside))
 }

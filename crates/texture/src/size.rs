@@ -75,17 +75,43 @@ pub trait Size: Sealed + Copy + Debug + 'static {
         word: impl Fn(Option<&T>) -> u32,
     ) -> L::U32;
 
-    /// [`words`](Self::words) of texels in a row and two columns each.
+    /// The index of a row's first texel, in rows of `width`.
+    #[inline(always)]
+    fn row_start<L: Lanes>(self, lanes: L, row: L::U32, width: u32) -> L::U32 {
+        lanes.shl(row, width.trailing_zeros())
+    }
+
+    /// [`words`](Self::words) of texels in a row and two columns each, of which the second mostly follows the first.
     #[inline(always)]
     fn word_pairs<L: Lanes, T>(
         self,
         lanes: L,
         texels: Self::Texels<'_, T>,
-        (row, columns): (L::U32, [L::U32; 2]),
+        (row, [left, right]): (L::U32, [L::U32; 2]),
         width: u32,
         word: impl Fn(Option<&T>) -> u32,
     ) -> [L::U32; 2] {
-        map2(columns, |column| self.words(lanes, texels, [row, column], width, &word))
+        // In order, texels lie side by side. At the sides of the texture they are not in order. Beyond a border, where
+        // one of the two is no column, any texel will do.
+        let in_order = lanes.bits(lanes.less_words(left, right)) == (1 << L::COUNT) - 1;
+        if const { L::COUNT == 1 } || !in_order {
+            return map2(
+                [left, right],
+                #[inline(always)]
+                |column| self.words(lanes, texels, [row, column], width, &word),
+            );
+        }
+        let texels = self.flattened(texels);
+        lanes.gather_pairs(
+            self.row_start(lanes, row, width) + left,
+            #[inline(always)]
+            |index| {
+                let pair = texels.get(index as usize..index as usize + 2).and_then(<[T]>::first_chunk);
+                let [left, right] =
+                    pair.map_or([None; 2], |[left, right]: &[T; 2]| [Some(left), Some(right)]);
+                [word(left), word(right)]
+            },
+        )
     }
 }
 
@@ -137,16 +163,6 @@ impl AnySize {
     pub(crate) const fn power_of_two(self) -> Option<PowerOfTwo> {
         if self.by_masks { Some(PowerOfTwo) } else { None }
     }
-}
-
-/// The texels of these indices.
-#[inline(always)]
-fn indexed<L: Lanes, T>(lanes: L, texels: &[T], indices: L::U32, word: impl Fn(Option<&T>) -> u32) -> L::U32 {
-    lanes.gather(
-        indices,
-        #[inline(always)]
-        |index| word(texels.get(index as usize)),
-    )
 }
 
 impl Size for AnySize {
@@ -209,6 +225,11 @@ impl Size for AnySize {
     }
 
     #[inline(always)]
+    fn row_start<L: Lanes>(self, lanes: L, row: L::U32, width: u32) -> L::U32 {
+        row * lanes.word(width)
+    }
+
+    #[inline(always)]
     fn words<L: Lanes, T>(
         self,
         lanes: L,
@@ -217,7 +238,12 @@ impl Size for AnySize {
         width: u32,
         word: impl Fn(Option<&T>) -> u32,
     ) -> L::U32 {
-        indexed(lanes, texels, row * lanes.word(width) + column, word)
+        let indices = self.row_start(lanes, row, width) + column;
+        lanes.gather(
+            indices,
+            #[inline(always)]
+            |index| word(texels.get(index as usize)),
+        )
     }
 }
 
@@ -246,38 +272,11 @@ impl Size for PowerOfTwo {
     ) -> L::U32 {
         // A power of two less one: no index is changed, and compilers see that none is too large.
         let last = texels.len().wrapping_sub(1);
-        let indices = lanes.shl(row, width.trailing_zeros()) + column;
+        let indices = self.row_start(lanes, row, width) + column;
         lanes.gather(
             indices,
             #[inline(always)]
             |index| word(texels.get(index as usize & last)),
-        )
-    }
-
-    #[inline(always)]
-    fn word_pairs<L: Lanes, T>(
-        self,
-        lanes: L,
-        texels: &[T],
-        (row, [left, right]): (L::U32, [L::U32; 2]),
-        width: u32,
-        word: impl Fn(Option<&T>) -> u32,
-    ) -> [L::U32; 2] {
-        // Neighbours in order lie side by side; at the texture's sides they are not in order. Beyond a border, where
-        // one is no column, any texel will do.
-        let in_order = lanes.bits(lanes.less_words(left, right)) == (1 << L::COUNT) - 1;
-        if const { L::COUNT == 1 } || !in_order {
-            return map2([left, right], |column| self.words(lanes, texels, [row, column], width, &word));
-        }
-        lanes.gather_pairs(
-            lanes.shl(row, width.trailing_zeros()) + left,
-            #[inline(always)]
-            |index| {
-                let pair = texels.get(index as usize..index as usize + 2).and_then(<[T]>::first_chunk);
-                let [left, right] =
-                    pair.map_or([None; 2], |[left, right]: &[T; 2]| [Some(left), Some(right)]);
-                [word(left), word(right)]
-            },
         )
     }
 }

@@ -4,7 +4,7 @@ use crate::edge::EdgeInt;
 use crate::interpolation::{Interpolate, Interpolation, Oriented, Prepare, Row};
 use crate::spans::Span;
 use alberti_math::lanes::{Floating, Lanes};
-use alberti_math::{Mode, Varying, hull3};
+use alberti_math::{Mode, Varying, hull3, in_line};
 use core::fmt;
 
 /// Hyperbolic interpolation from the exact integer edges: at a sample, ti = Ei qi and u = Σ ti ui / Σ ti. Ei is the
@@ -107,14 +107,18 @@ impl<L: Floating, V: Varying> ExactTriangle<L, V> {
         let one = lanes.splat(1.0);
         // Where there is nothing linear, compilers leave the second division out.
         let (scale, linear) = (one / (t0 + t1 + t2), one / (e0 + e1 + e2));
-        V::map_by_mode(&self.values, &|mode, [a, b, c, lo, hi]: [L::Number; 5]| {
-            let value = match mode {
-                Mode::Hyperbolic => (t0 * a + t1 * b + t2 * c) * scale,
-                Mode::Linear => (e0 * a + e1 * b + e2 * c) * linear,
-                Mode::Flat => return lo,
-            };
-            lanes.min(lanes.max(value, lo), hi)
-        })
+        let value = in_line(
+            #[inline(always)]
+            |mode, [a, b, c, lo, hi]: [L::Number; 5]| {
+                let value = match mode {
+                    Mode::Hyperbolic => (t0 * a + t1 * b + t2 * c) * scale,
+                    Mode::Linear => (e0 * a + e1 * b + e2 * c) * linear,
+                    Mode::Flat => return lo,
+                };
+                lanes.min(lanes.max(value, lo), hi)
+            },
+        );
+        V::map_by_mode(&self.values, &value)
     }
 }
 

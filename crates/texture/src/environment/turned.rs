@@ -3,7 +3,8 @@
 use super::Environment;
 use crate::surface::dot_lanes;
 use alberti_math::lanes::Lanes;
-use glam::{Mat3, Vec3};
+use alberti_math::map3;
+use glam::Mat3;
 
 /// An environment that stands turned: directions are given in one frame, such as the world's, and looked up in another,
 /// such as the eye's, for which a [`SphereMap`](super::SphereMap) is made.
@@ -24,10 +25,12 @@ pub struct Turned<E> {
 impl<E: Environment> Environment for Turned<E> {
     #[inline(always)]
     fn place<L: Lanes>(&self, lanes: L, [x, y, z]: [L::Number; 3]) -> [L::Number; 2] {
-        let splat = |axis: Vec3| [lanes.splat(axis.x), lanes.splat(axis.y), lanes.splat(axis.z)];
         let Mat3 { x_axis, y_axis, z_axis } = self.axes;
-        let along = |axis| dot_lanes([x, y, z], axis);
-        let turned = [along(splat(x_axis)), along(splat(y_axis)), along(splat(z_axis))];
+        let turned = map3(
+            [x_axis, y_axis, z_axis],
+            #[inline(always)]
+            |axis| dot_lanes([x, y, z], [lanes.splat(axis.x), lanes.splat(axis.y), lanes.splat(axis.z)]),
+        );
         self.environment.place(lanes, turned)
     }
 }
@@ -37,6 +40,7 @@ mod tests {
     use super::*;
     use crate::environment::SphereMap;
     use alberti_math::lanes::One;
+    use glam::Vec3;
 
     #[test]
     fn directions_are_looked_up_in_the_frame() {

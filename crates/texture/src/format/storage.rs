@@ -35,7 +35,11 @@ pub trait Storage: Sealed + Copy + Debug {
         row: L::U32,
         columns: [L::U32; 2],
     ) -> [L::U32; 2] {
-        map2(columns, |column| self.fetch(lanes, texture, row, column))
+        map2(
+            columns,
+            #[inline(always)]
+            |column| self.fetch(lanes, texture, row, column),
+        )
     }
 
     /// The texels as numbers, which count 65535ths: [`TexelFormat::scalar`]. Anything from 0 to 65535 for those that do
@@ -65,7 +69,13 @@ impl<F: TexelFormat> Storage for F {
         row: L::U32,
         column: L::U32,
     ) -> L::U32 {
-        texture.words(lanes, row, column, |texel| texel.map_or(0, |&texel| self.decode(texel).to_bits()))
+        texture.words(
+            lanes,
+            row,
+            column,
+            #[inline(always)]
+            |texel| texel.map_or(0, |&texel| self.decode(texel).to_bits()),
+        )
     }
 
     #[inline(always)]
@@ -88,6 +98,12 @@ impl<F: TexelFormat> Storage for F {
         row: L::U32,
         column: L::U32,
     ) -> L::U32 {
-        texture.words(lanes, row, column, |texel| texel.map_or(0, |&texel| self.scalar(texel).into()))
+        texture.words(
+            lanes,
+            row,
+            column,
+            #[inline(always)]
+            |texel| texel.map_or(0, |&texel| self.scalar(texel).into()),
+        )
     }
 }

@@ -121,7 +121,13 @@ pub fn bilinear_height_lanes<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
     let quad = Quad::<L>::about(
         [low_row, high_row],
         #[inline(always)]
-        |row| map2([left_column, right_column], |column| scalar(lanes, texture, wrap, [column, row])),
+        |row| {
+            map2(
+                [left_column, right_column],
+                #[inline(always)]
+                |column| scalar(lanes, texture, wrap, [column, row]),
+            )
+        },
     );
     let (low_left, high_left) = (in_256ths(lanes, quad.low_left), in_256ths(lanes, quad.high_left));
     let low = in_256ths(lanes, quad.low_right) - low_left;
