@@ -257,8 +257,10 @@ impl<F, P: Interpolation> Paint<F, P> {
                         }
                     } else if fits_i32 && samples.suit_masks::<P::Lanes<L>>(interpolation.run()) {
                         fill_masked(target, &samples, &setup, counters)
-                    } else {
+                    } else if const { F::WIDE } {
                         fill::<i64, _, _, _, _, _, _, _>(target, &samples, &wide, counters)
+                    } else {
+                        fill::<i64, _, _, _, _, _, _, _>(target, &samples, &setup, counters)
                     };
                     counters.rasterized(outcome);
                 }

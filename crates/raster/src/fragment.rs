@@ -47,6 +47,10 @@ pub trait FragmentStage<V: Varying>: Copy {
     /// The policy for derivatives of the varying: [`NoDerivatives`], unless it needs them.
     type Derivatives: Differentiation;
 
+    /// Whether wide rows are shaded as many samples at a time as [`Floating::Wide`](alberti_math::lanes::Floating) has.
+    /// A stage that hands on all attributes through memory is faster with fewer.
+    const WIDE: bool = true;
+
     /// That policy.
     #[inline(always)]
     fn derivatives(&self) -> Self::Derivatives {

@@ -111,6 +111,7 @@ where
 {
     type Color = Rgba8;
     type Derivatives = S::Derivatives;
+    const WIDE: bool = S::WIDE;
 
     #[inline(always)]
     fn derivatives(&self) -> S::Derivatives {

@@ -59,6 +59,7 @@ impl<D, S> Differentiated<D, S> {
 impl<V: Varying, D: Differentiation, S: FragmentStage<V>> FragmentStage<V> for Differentiated<D, S> {
     type Color = S::Color;
     type Derivatives = D;
+    const WIDE: bool = S::WIDE;
 
     #[inline(always)]
     fn derivatives(&self) -> D {

@@ -63,21 +63,19 @@ pub(super) fn erase<L: Floating>(
 impl<L: Lanes> FragmentStage<Attributes> for Erased<'_, L> {
     type Color = Rgba8;
     type Derivatives = PerPixel;
+    const WIDE: bool = false;
 
-    /// Lanes that are more than those of the stage are a call for each part of them.
+    /// `M` is `L` under another name, or fewer.
     #[inline(always)]
     fn shade<M: Lanes>(&self, fragments: &Fragments<M, Attributes>) -> (M::U32, M::Mask) {
         let Fragments { lanes, varying, gradient, mask, .. } = fragments;
-        let mut words = lanes.each(|_| 0);
-        for (part, words) in words.as_mut().chunks_mut(L::COUNT).enumerate() {
-            let each = |number: M::Number| {
-                let values = lanes.store(number);
-                self.lanes.each(|k| values.as_ref().get(part * L::COUNT + k).copied().unwrap_or_default())
-            };
-            let gradient = gradient.map(|(_, framed)| framed.uv.map(each));
-            let found = (self.shade)(&(Attributes::map(varying, &each), gradient));
-            words.iter_mut().zip(found.as_ref()).for_each(|(word, found)| *word = *found);
-        }
+        let each = |number: M::Number| {
+            let values = lanes.store(number);
+            self.lanes.each(|k| values.as_ref().get(k).copied().unwrap_or_default())
+        };
+        let gradient = gradient.map(|(_, framed)| framed.uv.map(each));
+        let words = (self.shade)(&(Attributes::map(varying, &each), gradient));
+        let words = lanes.each(|k| words.as_ref().get(k).copied().unwrap_or_default());
         (lanes.load_words(&words), *mask)
     }
 }
