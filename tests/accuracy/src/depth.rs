@@ -151,7 +151,7 @@ const INVERSE: &str = "Errors are relative. `z` is judged by the map's own α an
 const RESOLUTION: &str = "Errors are relative: of `resolution` against z·δ/(|β|/z + δ) of the planes, δ being that of the \
                           zs and β/z that were computed, and of the gap \
                           whose reach `separable_until` is against the one asked for. What formats really tell apart is \
-                          in `tests/tests/all/resolution.rs`.";
+                          in `tests/tests/pipeline/resolution.rs`.";
 
 /// As `DepthMap::zs` says.
 fn zs_bound(kind: Kind, ratio: f32) -> f64 {

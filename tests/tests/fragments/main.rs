@@ -1,0 +1,16 @@
+//! Tests of fragments across crates: how their components go over a triangle, what their depths are compared with, what
+//! they read, and how they are lit. A module's tests have its name: `cargo test -p alberti-tests materials::`.
+
+mod attributes;
+mod depth;
+mod gradients;
+mod level_of_detail;
+mod material_draws;
+mod materials;
+mod minification;
+mod modes;
+mod parallel;
+mod policies;
+mod projector;
+mod reliefs;
+mod values;

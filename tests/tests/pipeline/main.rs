@@ -1,0 +1,17 @@
+//! Tests of the pipeline across crates: vertices, clipping, coverage, bands and whole pictures. Each kernel is compiled
+//! once for all that draw by it. A module's tests have its name: `cargo test -p alberti-tests bands::`.
+
+mod bands;
+mod clipping;
+mod coverage;
+mod frames;
+mod golden;
+mod hostile;
+mod images;
+mod invariance;
+mod lanes;
+mod pictures;
+mod profiles;
+mod resolution;
+mod small;
+mod watertight;
