@@ -206,7 +206,7 @@ const LOG2: [f32; 2] = [0.422_865_4, -0.159_220_2];
 /// Half of log2 of a square in `f32`, by its exponent as it is stored and its mantissa from 1 to 2. At most 64, also if
 /// the square is NaN of either sign.
 #[inline(always)]
-fn half_log2<L: Floating>(lanes: L, exponent: L::Number, mantissa: L::Number) -> L::Number {
+fn half_log2<L: Lanes>(lanes: L, exponent: L::Number, mantissa: L::Number) -> L::Number {
     let one = lanes.splat(1.0);
     let m = mantissa - one;
     let correction = m * (one - m) * (lanes.splat(LOG2[0]) + lanes.splat(LOG2[1]) * m);

@@ -3,11 +3,11 @@
 //! With p = |x|² - |y|² and q = 2 x·y, tan 2θ = q/p, and tan θ = ±q/(|p| + √(p² + q²)): nothing cancels, and |θ| is at
 //! most 45°. Vectors are scaled before, as only their ratios matter and p² + q² has the fourth power of lengths.
 
-use super::Floating;
+use super::Lanes;
 use crate::Q16;
 
 #[inline(always)]
-pub(super) fn floating<L: Floating>(
+pub(super) fn floating<L: Lanes>(
     lanes: L,
     x: [L::Number; 2],
     y: [L::Number; 2],

@@ -4,8 +4,36 @@
 
 #[cfg(all(feature = "simd", target_arch = "x86_64"))]
 mod here {
-    use crate::lanes::Eight;
+    use crate::lanes::{Eight, Floating, Sixteen};
     use fearless_simd::{Avx2, Level, Sse2};
+
+    impl Floating for Eight<Avx2> {
+        type Wide = Sixteen<Avx2>;
+
+        #[inline(always)]
+        fn wide(self) -> Self::Wide {
+            Sixteen(self.0)
+        }
+    }
+
+    impl Floating for Sixteen<Avx2> {
+        type Wide = Self;
+
+        #[inline(always)]
+        fn wide(self) -> Self {
+            self
+        }
+    }
+
+    // Eight samples are two registers already.
+    impl Floating for Eight<Sse2> {
+        type Wide = Self;
+
+        #[inline(always)]
+        fn wide(self) -> Self {
+            self
+        }
+    }
 
     /// The lanes of a machine, which [`for_lanes!`](crate::for_lanes) turns into a [`Lanes`](super::super::Lanes) type.
     #[derive(Clone, Copy, Debug)]
@@ -41,8 +69,17 @@ mod here {
 
 #[cfg(all(feature = "simd", target_arch = "aarch64"))]
 mod here {
-    use crate::lanes::Eight;
+    use crate::lanes::{Eight, Floating};
     use fearless_simd::{Level, Neon};
+
+    impl Floating for Eight<Neon> {
+        type Wide = Self;
+
+        #[inline(always)]
+        fn wide(self) -> Self {
+            self
+        }
+    }
 
     /// The lanes of a machine, which [`for_lanes!`](crate::for_lanes) turns into a [`Lanes`](super::super::Lanes) type.
     #[derive(Clone, Copy, Debug)]

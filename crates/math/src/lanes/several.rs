@@ -1,7 +1,7 @@
 //! Several samples at a time, in the vector registers that the machine has.
 
 use super::one::power_of_two;
-use super::{Floating, Lanes, half_log2, jacobi};
+use super::{Lanes, half_log2, jacobi};
 use core::fmt::{Debug, Formatter, Result};
 use fearless_simd::{
     Bytes, Select, Simd, SimdBase, SimdFloat, SimdInt, SimdInto, SimdMask, f32x8, f32x16, f64x4, f64x8,
@@ -12,7 +12,7 @@ use fearless_simd::{
 /// quarter of them.
 macro_rules! several {
     (
-        $(#[$doc:meta])* $name:ident, $count:literal, $wide:ident,
+        $(#[$doc:meta])* $name:ident, $count:literal,
         [$f32:ident, $i32:ident, $u32:ident, $u16:ident, $mask:ident, $f64:ident, $u64:ident, $narrow:ident],
         [$($lane:literal)+], [$($half:literal)+], [$($quarter:literal)+]
     ) => {
@@ -328,21 +328,12 @@ macro_rules! several {
                 self.0.$narrow(x[0], x[1])
             }
         }
-
-        impl<S: Simd> Floating for $name<S> {
-            type Wide = $wide<S>;
-
-            #[inline(always)]
-            fn wide(self) -> $wide<S> {
-                $wide(self.0)
-            }
-        }
     };
 }
 
 several! {
     /// Eight samples at a time, on a machine with the instructions `S`: in one register of 256 bits, or pairs of 128.
-    Eight, 8, Sixteen,
+    Eight, 8,
     [f32x8, i32x8, u32x8, u16x16, mask32x8, f64x4, u64x4, narrow_f64x4],
     [0 1 2 3 4 5 6 7], [0 1 2 3], [0 1]
 }
@@ -350,7 +341,7 @@ several! {
 several! {
     /// Sixteen samples at a time: in one register of 512 bits, or several smaller ones, which do not wait for each
     /// other.
-    Sixteen, 16, Sixteen,
+    Sixteen, 16,
     [f32x16, i32x16, u32x16, u16x32, mask32x16, f64x8, u64x8, narrow_f64x8],
     [0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15], [0 1 2 3 4 5 6 7], [0 1 2 3]
 }
