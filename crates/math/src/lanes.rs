@@ -144,7 +144,7 @@ pub trait Lanes: Copy + Debug + Send + Sync {
     /// x·2^`bits` rounded down, in two's complement, for |x·2^`bits`| < 2^31 and `bits` up to 30. NaN gives a multiple
     /// of 2^31; numbers beyond give any word.
     fn floor_scaled(self, x: Self::Number, bits: u32) -> Self::U32;
-    /// The same to the nearest, halves up.
+    /// The same to the nearest, halves up, for |x·2^`bits`| < 2^30.
     fn round_scaled(self, x: Self::Number, bits: u32) -> Self::U32;
     /// The nearest word from 0 to 255, of halves the upper; 0 for NaN.
     fn nearest_byte(self, x: Self::Number) -> Self::U32;
@@ -252,6 +252,18 @@ mod tests {
             let pairs = lanes.gather_pairs(lanes.load_words(&words), |word| [!word, word / 3]);
             let [firsts, seconds] = pairs.map(|words| lanes.store_words(words));
             let equal = lanes.bits(lanes.equal_words(a & lanes.word(1), b & lanes.word(1)));
+            let numbers = words.as_ref().iter().map(|&word| f32::from_bits(word));
+            for x in numbers.filter(|x| x.is_finite()) {
+                let first = |number: L::Number| lanes.store(number).as_ref()[0].to_bits();
+                let first_word = |word: L::U32| lanes.store_words(word).as_ref()[0];
+                assert_eq!(first(lanes.wrap(lanes.splat(x), 3)), One.wrap(x, 3).to_bits(), "{x:e}");
+                if x.abs() < 4_194_304.0 {
+                    let found =
+                        [lanes.floor_scaled(lanes.splat(x), 8), lanes.round_scaled(lanes.splat(x), 8)];
+                    let expected = [One.floor_scaled(x, 8), One.round_scaled(x, 8)];
+                    assert_eq!(found.map(first_word), expected.map(|word| word.0), "{x:e}");
+                }
+            }
             for (k, &word) in words.as_ref().iter().enumerate() {
                 let [low, high, t] = [low.as_ref()[k], high.as_ref()[k], t.as_ref()[k]];
                 let mean = |shift: u32| {

@@ -3,6 +3,8 @@
 use super::one::power_of_two;
 use super::{Lanes, half_log2, jacobi};
 use core::fmt::{Debug, Formatter, Result};
+#[cfg(target_arch = "x86_64")]
+use fearless_simd::Level;
 use fearless_simd::{
     Bytes, Select, Simd, SimdBase, SimdFloat, SimdInt, SimdInto, SimdMask, f32x8, f32x16, f64x4, f64x8,
     i32x8, i32x16, mask32x8, mask32x16, u16x16, u16x32, u32x8, u32x16, u64x4, u64x8,
@@ -41,6 +43,29 @@ macro_rules! several {
             fn nearest(self, x: $f32<S>, greatest: f32) -> $u32<S> {
                 let rounded = self.max(x + self.splat(0.5), self.splat(0.0));
                 self.min(rounded, self.splat(greatest)).to_int::<$i32<S>>().bitcast()
+            }
+
+            /// Without the fraction, and at times without the sign of zero. SSE2 has no instruction for it, and calling a
+            /// function costs all registers; from 2^23 on there is no fraction.
+            #[inline(always)]
+            fn trunc(self, x: $f32<S>) -> $f32<S> {
+                #[cfg(target_arch = "x86_64")]
+                if let Level::Sse2(_) = self.0.level() {
+                    let whole = x.to_int::<$i32<S>>().to_float::<$f32<S>>();
+                    return x.abs().simd_lt(self.splat(8_388_608.0)).select(whole, x);
+                }
+                x.trunc()
+            }
+
+            /// The greatest integer that is not above.
+            #[inline(always)]
+            fn floor(self, x: $f32<S>) -> $f32<S> {
+                #[cfg(target_arch = "x86_64")]
+                if let Level::Sse2(_) = self.0.level() {
+                    let whole = self.trunc(x);
+                    return whole - x.simd_lt(whole).select(self.splat(1.0), self.splat(0.0));
+                }
+                x.floor()
             }
         }
 
@@ -188,19 +213,19 @@ macro_rules! several {
             #[inline(always)]
             fn wrap(self, x: $f32<S>, period: u32) -> $f32<S> {
                 let periods = x * self.splat(1.0 / power_of_two(period));
-                (periods - periods.trunc()) * self.splat(power_of_two(period))
+                (periods - self.trunc(periods)) * self.splat(power_of_two(period))
             }
 
             #[inline(always)]
             fn floor_scaled(self, x: $f32<S>, bits: u32) -> $u32<S> {
-                (x * self.splat(power_of_two(bits))).floor().to_int::<$i32<S>>().bitcast()
+                self.floor(x * self.splat(power_of_two(bits))).to_int::<$i32<S>>().bitcast()
             }
 
             #[inline(always)]
             fn round_scaled(self, x: $f32<S>, bits: u32) -> $u32<S> {
                 // floor(x + 1/2), without a sum that would have to be rounded.
                 let x = x * self.splat(power_of_two(bits));
-                let below = x.floor();
+                let below = self.floor(x);
                 // The greatest number below one half; NaN is not above it.
                 let up = self.splat(0.5f32.next_down()).simd_lt(x - below);
                 let below: $u32<S> = below.to_int::<$i32<S>>().bitcast();
