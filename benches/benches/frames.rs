@@ -55,13 +55,13 @@ fn verify(scene: &Scene, policy: &str, size: Size, renderer: &mut dyn Renderer, 
         reference::TOLERANCE,
         100.0 * ideal
     );
-    let bound = match (ours::is_ours(policy), name) {
+    let bound = match (ours::is_right(policy), name) {
         (true, "floor") => OURS_AT_THE_HORIZON,
         (true, _) => OURS,
         (false, _) => PEERS,
     };
     assert!(ideal < bound, "{name}/{policy}/{size}: wrong picture, {off} pixels are off");
-    if ours::is_ours(policy) {
+    if ours::is_right(policy) {
         let percent = 100.0 * snapped;
         eprintln!("    against the same vertices snapped: {percent:.3} %");
         assert!(snapped < OURS, "{name}/{policy}/{size}: {percent} % differ from the snapped reference");

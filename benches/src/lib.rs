@@ -13,6 +13,7 @@
 pub mod ours;
 pub mod peer_euc;
 pub mod peer_retrofire;
+pub mod peers;
 pub mod reference;
 pub mod scene_data;
 

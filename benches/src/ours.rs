@@ -4,10 +4,10 @@ use crate::scene_data::Scene;
 use crate::{Renderer, Size};
 use alberti::glam::{Vec2, Vec3};
 use alberti::shaders::{Unlit, VertexColor};
-use alberti::texture::{Bilinear, Nearest, Repeat, Texture};
+use alberti::texture::{Anisotropic, Bilinear, Mipmap, Nearest, Repeat, Trilinear, mipmap};
 use alberti::{
-    Exact, F32, FragmentStage, Interpolation, Mesh, Pass, Planes, Rgba8, Rgba8888, Slot, Target, Varying,
-    View,
+    Affine, Exact, F32, FragmentStage, Interpolation, Mesh, Pass, Planes, Rgba8, Rgba8888, Slot, Spans16,
+    Target, Varying, View,
 };
 use alberti_app::options::{self, DepthFormat, Filter, Policies, Projection, RenderOptions, Shading};
 use alberti_app::render::{self, any_depth};
@@ -18,12 +18,13 @@ use std::num::NonZero;
 
 /// The policies that are timed, by the name that the benchmark gets. `App` is `Exact` by the kernels of the `alberti`
 /// command, whose policies are chosen at run time.
-pub const POLICIES: &[&str] = &["Exact", "Planes", "App"];
+pub const POLICIES: &[&str] = &["Exact", "Planes", "Spans16", "Affine", "App"];
 
-/// The pictures of these policies must be right: see [`crate::reference`].
+/// Whether the pictures of this policy must be right: see [`crate::reference`]. Those of straight lines are as wrong as
+/// their bounds allow.
 #[must_use]
-pub fn is_ours(name: &str) -> bool {
-    POLICIES.contains(&name)
+pub fn is_right(name: &str) -> bool {
+    matches!(name, "Exact" | "Planes" | "App")
 }
 
 /// The scene under a policy, or nothing when the policy does not draw such a scene.
@@ -35,9 +36,6 @@ pub fn is_ours(name: &str) -> bool {
 /// When a scene's camera or texture cannot be drawn.
 #[must_use]
 pub fn renderer(policy: &str, scene: &Scene, size: Size) -> Option<Box<dyn Renderer>> {
-    if !is_ours(policy) {
-        return None;
-    }
     let model = &scene.built_in.model;
     if policy == "App" {
         return Some(Box::new(App::new(scene, size)));
@@ -52,23 +50,30 @@ pub fn renderer(policy: &str, scene: &Scene, size: Size) -> Option<Box<dyn Rende
         depth: vec![0.0; size.pixels()],
     };
     let image = model.textures.first().filter(|_| scene.texture.is_some()).cloned();
-    let bilinear = scene.built_in.filter == Filter::Bilinear;
+    let filter = scene.built_in.filter;
     Some(match policy {
-        "Planes" => boxed(canvas, image, bilinear, Planes),
-        _ => boxed(canvas, image, bilinear, Exact),
+        "Exact" => boxed(canvas, image, filter, Exact),
+        "Planes" => boxed(canvas, image, filter, Planes),
+        "Spans16" => boxed(canvas, image, filter, Spans16),
+        // Large triangles in perspective are not for it.
+        "Affine" if scene.triangles.len() > 1000 => boxed(canvas, image, filter, Affine),
+        _ => return None,
     })
 }
 
 fn boxed<P: Interpolation>(
     canvas: Canvas,
     image: Option<Image>,
-    bilinear: bool,
+    filter: Filter,
     interpolation: P,
 ) -> Box<dyn Renderer> {
     let vertices = canvas.vertices.len();
     match image {
-        Some(image) => {
-            Box::new(Textured { canvas, slots: vec![Slot::EMPTY; vertices], image, bilinear, interpolation })
+        Some(Image { width, height, mut texels }) => {
+            texels.resize(mipmap::texel_count(width, height), [0; 4]);
+            mipmap::build(Rgba8888, &mut texels, width, height).expect("a texture");
+            let slots = vec![Slot::EMPTY; vertices];
+            Box::new(Textured { canvas, slots, size: [width, height], texels, filter, interpolation })
         }
         None => Box::new(Colored { canvas, slots: vec![Slot::EMPTY; vertices], interpolation }),
     }
@@ -115,30 +120,33 @@ fn position(v: &Vertex) -> Vec3 {
 struct Textured<P> {
     canvas: Canvas,
     slots: Vec<Slot<Vec2>>,
-    image: Image,
-    bilinear: bool,
+    size: [u32; 2],
+    /// All levels.
+    texels: Vec<[u8; 4]>,
+    filter: Filter,
     interpolation: P,
 }
 
 impl<P: Interpolation> Renderer for Textured<P> {
     fn render(&mut self) {
-        let texture = Texture::new(Rgba8888, &self.image.texels, self.image.width, self.image.height);
-        let texture = texture.expect("a texture").power_of_two().expect("sides that are powers of two");
+        let Self { canvas, slots, size: [width, height], texels, filter, interpolation } = self;
+        let levels = Mipmap::new(Rgba8888, texels, *width, *height).expect("a texture");
+        let levels = levels.power_of_two().expect("sides that are powers of two");
+        let texture = levels.level(0);
         let vertex = |v: &Vertex| (position(v), Vec2::from_array(v.uv));
-        if self.bilinear {
-            self.canvas.render(
-                &mut self.slots,
-                vertex,
-                Unlit(texture.sampler(Bilinear, Repeat)),
-                self.interpolation,
-            );
-        } else {
-            self.canvas.render(
-                &mut self.slots,
-                vertex,
-                Unlit(texture.sampler(Nearest, Repeat)),
-                self.interpolation,
-            );
+        macro_rules! render {
+            ($sampler:expr) => {
+                canvas.render(slots, vertex, Unlit($sampler), *interpolation)
+            };
+        }
+        match *filter {
+            Filter::Nearest => render!(texture.sampler(Nearest, Repeat)),
+            Filter::Bilinear => render!(texture.sampler(Bilinear, Repeat)),
+            Filter::Trilinear => render!(levels.sampler(Trilinear, Repeat)),
+            Filter::Anisotropic(probes) => {
+                let filter = Anisotropic { probes: probes.count(), filter: Trilinear };
+                render!(levels.sampler(filter, Repeat));
+            }
         }
     }
 

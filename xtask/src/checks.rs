@@ -58,14 +58,21 @@ pub(crate) fn bench(arguments: &[String]) -> Outcome {
     run(cargo().args(["bench", "--package", "alberti-benches", "--"]).args(arguments))
 }
 
-/// Runs the tests that can look at every single `f32`, or at ten million triangles and samples, instead of at some.
+/// Checks what only the feature `avx512` compiles, and the lanes of such a machine against one lane. All else is the same
+/// code over other lanes, and would take minutes to compile once more.
+pub(crate) fn avx512() -> Outcome {
+    run(cargo()
+        .args(["clippy", "--package", "alberti-benches", "--all-targets", "--features", "avx512"])
+        .args(["--", "-D", "warnings"]))?;
+    run(cargo().args(["test", "--package", "alberti-math", "--features", "avx512", "--lib", "lanes::"]))
+}
+
+/// Runs the tests that can look at every single `f32`, or at ten million triangles and samples, instead of at some: on
+/// every kind of lanes that the machine has.
 pub(crate) fn sweep() -> Outcome {
-    run(cargo().env("ALBERTI_SWEEP", "1").args([
-        "test",
-        "--package",
-        "alberti-texture",
-        "every_257th_float",
-    ]))?;
-    let tests = ["test", "--package", "alberti-tests", "--test", "lanes", "--test", "policies"];
-    run(cargo().env("ALBERTI_SWEEP", "1").args(tests))
+    let sweep = |arguments: &[&str]| run(cargo().env("ALBERTI_SWEEP", "1").arg("test").args(arguments));
+    sweep(&["--package", "alberti-texture", "every_257th_float"])?;
+    let pipeline = ["--package", "alberti-tests", "--features", "alberti/avx512"];
+    let modules = ["lanes::", "small::", "gradients::", "policies::"];
+    sweep(&[&pipeline[..], &["--test", "pipeline", "--test", "fragments", "--"], &modules].concat())
 }

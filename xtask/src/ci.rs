@@ -33,6 +33,7 @@ fn steps(tests_done: bool) -> Vec<Step> {
         ("lint", checks::lint),
         ("docs", checks::docs),
         TEST,
+        ("avx512", checks::avx512),
         ("package", package::run),
         ("nostd", nostd::run),
         ("firmware", || firmware::run(&[])),

@@ -257,7 +257,7 @@ impl<F, P: Interpolation> Paint<F, P> {
                         }
                     } else if fits_i32 && samples.suit_masks::<P::Lanes<L>>(interpolation.run()) {
                         fill_masked(target, &samples, &setup, counters)
-                    } else if const { F::WIDE } {
+                    } else if const { P::WIDE && F::WIDE } {
                         fill::<i64, _, _, _, _, _, _, _>(target, &samples, &wide, counters)
                     } else {
                         fill::<i64, _, _, _, _, _, _, _>(target, &samples, &setup, counters)

@@ -60,6 +60,9 @@ pub trait Prepare: Copy {
     /// The lanes in which it works.
     fn lanes<L: Floating>(self, lanes: L) -> Self::Lanes<L>;
 
+    /// Whether wide rows are filled by [`Floating::Wide`] lanes: not if a run is short beside them.
+    const WIDE: bool = true;
+
     /// Whether there is a way for small triangles.
     const HAS_SMALL: bool = false;
 

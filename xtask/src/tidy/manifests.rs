@@ -11,8 +11,9 @@ use crate::workspace::{APPLICATIONS, EXTERNAL, LIBRARIES, Library, OPTIONAL};
 /// The library that hands the features of all others on.
 const FACADE: &str = "alberti";
 
-/// Features that the host's builds leave out: without `default` nothing is lost, and `libm` is for targets without std.
-const NOT_ASKED: [&str; 2] = ["default", "libm"];
+/// Features that the host's builds leave out: without `default` nothing is lost, `libm` is for targets without std, and
+/// `avx512` has a step of its own.
+const NOT_ASKED: [&str; 3] = ["default", "libm", "avx512"];
 
 /// Lints that the workspace's manifest must set, because a rule rests on them alone: no unsafe code, nothing unfinished
 /// or left over from debugging.

@@ -4,40 +4,17 @@
 
 #[cfg(all(feature = "simd", target_arch = "x86_64"))]
 mod here {
-    use crate::lanes::{Eight, Floating, Sixteen};
+    use crate::lanes::Eight;
+    #[cfg(feature = "avx512")]
+    use fearless_simd::Avx512;
     use fearless_simd::{Avx2, Level, Sse2};
-
-    impl Floating for Eight<Avx2> {
-        type Wide = Sixteen<Avx2>;
-
-        #[inline(always)]
-        fn wide(self) -> Self::Wide {
-            Sixteen(self.0)
-        }
-    }
-
-    impl Floating for Sixteen<Avx2> {
-        type Wide = Self;
-
-        #[inline(always)]
-        fn wide(self) -> Self {
-            self
-        }
-    }
-
-    // Eight samples are two registers already.
-    impl Floating for Eight<Sse2> {
-        type Wide = Self;
-
-        #[inline(always)]
-        fn wide(self) -> Self {
-            self
-        }
-    }
 
     /// The lanes of a machine, which [`for_lanes!`](crate::for_lanes) turns into a [`Lanes`](super::super::Lanes) type.
     #[derive(Clone, Copy, Debug)]
     pub enum Machine {
+        /// Eight in a register of 256 bits, and sixteen in one of 512: behind the feature `avx512`.
+        #[cfg(feature = "avx512")]
+        Avx512(Eight<Avx512>),
         /// Eight in a register of 256 bits.
         Avx2(Eight<Avx2>),
         /// Eight in two registers of 128 bits, which every x86-64 machine has.
@@ -50,11 +27,30 @@ mod here {
             let level = Level::try_detect().unwrap_or(Level::baseline());
             let avx2 = level.as_avx2().map(|proof| Self::Avx2(Eight(proof)));
             let sse2 = Level::baseline().as_sse2().map(|proof| Self::Sse2(Eight(proof)));
-            avx2.into_iter().chain(sse2)
+            #[cfg(feature = "avx512")]
+            let avx512 = level.as_avx512().map(|proof| Self::Avx512(Eight(proof)));
+            #[cfg(not(feature = "avx512"))]
+            let avx512 = None;
+            [avx512, avx2, sse2].into_iter().flatten()
         }
     }
 
     /// The expansion of [`for_lanes!`](crate::for_lanes).
+    #[cfg(feature = "avx512")]
+    #[doc(hidden)]
+    #[macro_export]
+    macro_rules! __for_lanes {
+        ($machine:expr, $lanes:ident => $body:expr) => {
+            match $machine {
+                $crate::lanes::Machine::Avx512($lanes) => $body,
+                $crate::lanes::Machine::Avx2($lanes) => $body,
+                $crate::lanes::Machine::Sse2($lanes) => $body,
+            }
+        };
+    }
+
+    /// The expansion of [`for_lanes!`](crate::for_lanes).
+    #[cfg(not(feature = "avx512"))]
     #[doc(hidden)]
     #[macro_export]
     macro_rules! __for_lanes {
@@ -69,17 +65,8 @@ mod here {
 
 #[cfg(all(feature = "simd", target_arch = "aarch64"))]
 mod here {
-    use crate::lanes::{Eight, Floating};
+    use crate::lanes::Eight;
     use fearless_simd::{Level, Neon};
-
-    impl Floating for Eight<Neon> {
-        type Wide = Self;
-
-        #[inline(always)]
-        fn wide(self) -> Self {
-            self
-        }
-    }
 
     /// The lanes of a machine, which [`for_lanes!`](crate::for_lanes) turns into a [`Lanes`](super::super::Lanes) type.
     #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,7 @@
 //! Several samples at a time, in the vector registers that the machine has.
 
 use super::one::power_of_two;
-use super::{Lanes, half_log2, jacobi};
+use super::{Floating, Lanes, half_log2, jacobi};
 use core::fmt::{Debug, Formatter, Result};
 #[cfg(target_arch = "x86_64")]
 use fearless_simd::Level;
@@ -370,3 +370,26 @@ several! {
     [f32x16, i32x16, u32x16, u16x32, mask32x16, f64x8, u64x8, narrow_f64x8],
     [0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15], [0 1 2 3 4 5 6 7], [0 1 2 3]
 }
+
+/// The samples that are best in long rows. SSE2 and Neon take pairs of registers for eight, and have no more.
+macro_rules! floating {
+    ($($lanes:ident<$machine:ident>: $wide:ident),+) => {
+        $(
+            impl Floating for $lanes<fearless_simd::$machine> {
+                type Wide = $wide<fearless_simd::$machine>;
+
+                #[inline(always)]
+                fn wide(self) -> Self::Wide {
+                    $wide(self.0)
+                }
+            }
+        )+
+    };
+}
+
+#[cfg(all(target_arch = "x86_64", feature = "avx512"))]
+floating!(Eight<Avx512>: Sixteen, Sixteen<Avx512>: Sixteen);
+#[cfg(target_arch = "x86_64")]
+floating!(Eight<Avx2>: Sixteen, Sixteen<Avx2>: Sixteen, Eight<Sse2>: Eight);
+#[cfg(target_arch = "aarch64")]
+floating!(Eight<Neon>: Eight);

@@ -167,9 +167,10 @@ macro_rules! interpolations {
     ($($runs:ty)*) => {$(
         impl Interpolation for $runs {}
 
-impl Prepare for $runs {
+        impl Prepare for $runs {
             type Lanes<L: Floating> = L;
             type Triangle<L: Floating, V: Varying> = LineTriangle<Self, FloatingLines<L, V>>;
+            const WIDE: bool = false;
 
             #[inline(always)]
             fn run(self) -> i32 {

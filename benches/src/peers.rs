@@ -1,0 +1,126 @@
+//! Peers that are programs of other languages, each a process that draws one scene at one size when it is asked to.
+
+use crate::Size;
+use crate::scene_data::Scene;
+use alberti_app::options::Filter;
+use std::ffi::OsStr;
+use std::fs;
+use std::io::{self, BufRead, BufReader, Write};
+use std::path::Path;
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+
+/// The bytes of a scene at a size, words and numbers in the machine's order.
+///
+/// ```text
+/// f32 matrix from world to clip space, row by row (16)      f32 background (4)
+/// u32 filter: 0 nearest, 1 bilinear, 2 trilinear       u32 probes of it: above 1 it is anisotropic
+/// u32 vertices, and for each  f32 place (3), texture coordinates from the top left corner (2), colour (3)
+/// u32 triangles, and for each  u32 vertices (3)
+/// u32 columns and rows of the texture, or 0, and for each texel  u8 red, green, blue, alpha
+/// ```
+#[must_use]
+pub fn scene_bytes(scene: &Scene, size: Size) -> Vec<u8> {
+    let model = &scene.built_in.model;
+    let mut words: Vec<u32> = Vec::new();
+    let matrix = scene.clip_from_world(size);
+    let background = scene.background().map(|c| f32::from(c) / 255.0);
+    words.extend(matrix.iter().flatten().chain(&background).map(|x| x.to_bits()));
+    words.extend(match scene.built_in.filter {
+        Filter::Nearest => [0, 1],
+        Filter::Bilinear => [1, 1],
+        Filter::Trilinear => [2, 1],
+        Filter::Anisotropic(probes) => [2, probes.count()],
+    });
+    words.push(model.vertices.len() as u32);
+    for v in &model.vertices {
+        let uv = [v.uv[0], 1.0 - v.uv[1]];
+        words.extend(v.position.iter().chain(&uv).chain(&v.color).map(|x| x.to_bits()));
+    }
+    words.push(scene.triangles.len() as u32);
+    words.extend(scene.triangles.iter().flatten());
+    let size = scene.texture.as_ref().map_or([0, 0], |texture| [texture.width(), texture.height()]);
+    words.extend(size);
+    let texels = scene.texture.as_ref().map_or(&[][..], |texture| texture.data());
+    [bytemuck::cast_slice(&words), bytemuck::cast_slice(texels)].concat()
+}
+
+/// A program that draws a scene: see the top of `peers/osmesa.c` for its side.
+#[derive(Debug)]
+pub struct Process {
+    child: Child,
+    to: Option<ChildStdin>,
+    from: BufReader<ChildStdout>,
+    path: String,
+}
+
+impl Process {
+    /// Starts a program on a scene that is in a file.
+    ///
+    /// # Errors
+    /// If it does not start.
+    pub fn start(program: &OsStr, scene: &Path, size: Size) -> io::Result<Self> {
+        let mut child = Command::new(program)
+            .arg(scene)
+            .args([size.width.to_string(), size.height.to_string()])
+            .env("LP_NUM_THREADS", "0")
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()?;
+        let to = child.stdin.take();
+        let from = BufReader::new(child.stdout.take().ok_or(io::ErrorKind::BrokenPipe)?);
+        Ok(Self { child, to, from, path: program.display().to_string() })
+    }
+
+    fn ask(&mut self, line: &str) -> io::Result<String> {
+        let to = self.to.as_mut().ok_or(io::ErrorKind::BrokenPipe)?;
+        writeln!(to, "{line}")?;
+        to.flush()?;
+        let mut answer = String::new();
+        if self.from.read_line(&mut answer)? == 0 {
+            return Err(io::Error::other(format!("{} ended at `{line}`", self.path)));
+        }
+        Ok(answer.trim_end().to_owned())
+    }
+
+    /// Its name and version.
+    ///
+    /// # Errors
+    /// If the program has ended.
+    pub fn name(&mut self) -> io::Result<String> {
+        self.ask("name")
+    }
+
+    /// Draws frames: the least milliseconds of one.
+    ///
+    /// # Errors
+    /// If the program has ended, or answers anything but a number.
+    pub fn milliseconds(&mut self, frames: u32) -> io::Result<f64> {
+        let answer = self.ask(&format!("frames {frames}"))?;
+        answer
+            .parse()
+            .map_err(|_| io::Error::other(format!("{} answers `{answer}`, expected milliseconds", self.path)))
+    }
+
+    /// The last frame, by a file that is removed again.
+    ///
+    /// # Errors
+    /// If the program has ended, or has not written that many pixels.
+    pub fn picture(&mut self, file: &Path, size: Size) -> io::Result<Vec<[u8; 4]>> {
+        self.ask(&format!("picture {}", file.display()))?;
+        let bytes = fs::read(file)?;
+        fs::remove_file(file)?;
+        let (pixels, rest) = bytes.as_chunks();
+        if pixels.len() != size.pixels() || !rest.is_empty() {
+            return Err(io::Error::other(format!("{} wrote {} bytes for {size}", self.path, bytes.len())));
+        }
+        Ok(pixels.to_vec())
+    }
+}
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        // The end of its input ends it.
+        self.to = None;
+        let _ = self.child.wait();
+    }
+}
