@@ -1,103 +1,181 @@
-//! Alberti beside peers that are programs of their own, a table in Markdown: `cargo xtask peers` builds them and calls
-//! this with their names and paths.
+//! Alberti beside all its peers in one run, as a table in Markdown. Programs of other languages are arguments,
+//! `NAME=PATH`: `cargo xtask peers` builds those that the machine can build, and calls this.
 //!
-//! Each picture is verified before it is timed. All take turns, so that what slows the machine down for a while slows
-//! down all; the time is the least of all frames.
+//! Each picture is verified before anything is timed. All take turns, so that what slows the machine down for a while
+//! slows down all; a time is the least of all frames.
+#![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "numbers of frames")]
 
+use alberti::lanes::Machine;
 use alberti_app::options::{Filter, Probes};
 use alberti_benches::peers::{Process, scene_bytes};
 use alberti_benches::scene_data::{SCENES, Scene};
-use alberti_benches::{Renderer, SIZES, Size, ours, reference};
+use alberti_benches::{Renderer, SIZES, Size, reference, renderers};
 use std::error::Error;
 use std::fs;
+use std::io;
 use std::path::Path;
 use std::time::Instant;
 
-/// The part of all pixels that may be off: it tells a picture from a blank, or from one that is upside down.
+/// The first column, with which all others are compared.
+const FIRST: &str = "Exact";
+/// Renderers that `frames` times and this does not.
+const LEFT_OUT: [&str; 3] = ["Spans16", "Affine", "App"];
+/// The part of all pixels that may be off: enough to tell a picture from a blank, or from one that is upside down.
 const OFF: f64 = 0.25;
-/// The turns of each renderer, and the milliseconds of one.
-const ROUNDS: u32 = 8;
+/// Turns of each renderer, and the milliseconds of one.
+const TURNS: u32 = 10;
 const TURN: f64 = 100.0;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let programs: Vec<(String, String)> = std::env::args()
-        .skip(1)
-        .filter_map(|argument| argument.split_once('=').map(|(name, path)| (name.into(), path.into())))
+    let programs: Vec<[String; 2]> = std::env::args()
+        .filter_map(|argument| argument.split_once('=').map(|(name, path)| [name.into(), path.into()]))
         .collect();
-    if programs.is_empty() {
-        println!("There is no peer: `cargo xtask peers` builds them.");
-        return Ok(());
+    println!("alberti by {:?}", Machine::all().next());
+    // Where texels are smaller than pixels.
+    let minified = [Filter::Trilinear, Filter::Anisotropic(Probes::Sixteen)];
+    let floors = ["floor-trilinear", "floor-anisotropic"].into_iter().zip(minified);
+    let scenes: Vec<_> =
+        SCENES.into_iter().chain(floors.map(|(name, filter)| (name, "floor", filter))).collect();
+    for size in SIZES {
+        let mut table = Table::default();
+        for &description in &scenes {
+            let scene = Scene::load(description);
+            let mut all = contestants(&scene, size, &programs)?;
+            verify(&scene, size, &mut all)?;
+            take_turns(&mut all)?;
+            table.rows.push((scene.name, all));
+        }
+        println!("\n{}", table.markdown(size));
     }
-    let floor = |filter| ("floor", "floor", filter);
-    let sixteen = Probes::Sixteen;
-    let minified = [floor(Filter::Trilinear), floor(Filter::Anisotropic(sixteen))];
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
-    for description in SCENES.into_iter().chain(minified) {
-        let scene = Scene::load(description);
-        for size in SIZES {
-            let file = folder.join("peers-scene.bin");
-            fs::write(&file, scene_bytes(&scene, size))?;
-            let mut ours = ours::renderer("Exact", &scene, size).ok_or("no renderer")?;
-            let _ = (&mut ours, &programs);
-            row(&scene, size, ours.as_mut(), &programs, &file)?;
-            fs::remove_file(&file)?;
+    Ok(())
+}
+
+/// Someone who draws a scene.
+struct Contestant {
+    name: String,
+    by: By,
+    /// Pixels off.
+    off: usize,
+    /// Milliseconds.
+    least: f64,
+}
+
+enum By {
+    Renderer(Box<dyn Renderer>),
+    Process(Process),
+}
+
+impl Contestant {
+    fn new(name: &str, by: By) -> Self {
+        Self { name: name.into(), by, off: 0, least: f64::INFINITY }
+    }
+
+    /// Draws frames.
+    fn draw(&mut self, frames: u32) -> io::Result<()> {
+        let least = match &mut self.by {
+            By::Process(process) => process.milliseconds(frames)?,
+            By::Renderer(renderer) => (0..frames).fold(f64::INFINITY, |least, _| {
+                let start = Instant::now();
+                renderer.render();
+                least.min(start.elapsed().as_secs_f64() * 1e3)
+            }),
+        };
+        self.least = self.least.min(least);
+        Ok(())
+    }
+
+    fn picture(&mut self, size: Size) -> io::Result<Vec<[u8; 4]>> {
+        match &mut self.by {
+            By::Process(process) => process.picture(&temporary("picture"), size),
+            By::Renderer(renderer) => Ok(renderer.pixels().to_vec()),
+        }
+    }
+}
+
+/// A file of this run.
+fn temporary(name: &str) -> std::path::PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("peers-{name}-{}", std::process::id()))
+}
+
+fn contestants(scene: &Scene, size: Size, programs: &[[String; 2]]) -> io::Result<Vec<Contestant>> {
+    let here = renderers(scene, size).into_iter().filter(|(name, _)| !LEFT_OUT.contains(name));
+    let mut all: Vec<_> =
+        here.map(|(name, renderer)| Contestant::new(name, By::Renderer(renderer))).collect();
+    let file = temporary("scene");
+    fs::write(&file, scene_bytes(scene, size))?;
+    for [name, path] in programs {
+        let mut process = Process::start(path.as_ref(), &file, size)?;
+        eprintln!("{}/{size}: {name} is {}", scene.name, process.name()?);
+        all.push(Contestant::new(name, By::Process(process)));
+    }
+    fs::remove_file(&file)?;
+    Ok(all)
+}
+
+/// Holds all pictures against rays in `f64`; those that need a mip map, for which there are no such rays, against each
+/// other.
+fn verify(scene: &Scene, size: Size, all: &mut [Contestant]) -> io::Result<()> {
+    let mut right = match scene.built_in.filter {
+        Filter::Nearest | Filter::Bilinear => Some(reference::ideal(scene, size)),
+        Filter::Trilinear | Filter::Anisotropic(_) => None,
+    };
+    for contestant in all {
+        contestant.draw(2)?;
+        let picture = contestant.picture(size)?;
+        let right = right.get_or_insert_with(|| picture.clone());
+        contestant.off = reference::pixels_off(&picture, right);
+        let part = reference::part_off(&picture, right);
+        let name = &contestant.name;
+        assert!(part < OFF, "{}/{name}/{size}: wrong picture, {:.0} % are off", scene.name, 100.0 * part);
+    }
+    Ok(())
+}
+
+fn take_turns(all: &mut [Contestant]) -> io::Result<()> {
+    for _ in 0..TURNS {
+        for contestant in &mut *all {
+            contestant.draw((TURN / contestant.least) as u32 + 1)?;
         }
     }
     Ok(())
 }
 
-fn row(
-    scene: &Scene,
-    size: Size,
-    ours: &mut dyn Renderer,
-    programs: &[(String, String)],
-    file: &Path,
-) -> Result<(), Box<dyn Error>> {
-    ours.render();
-    let right = match scene.built_in.filter {
-        Filter::Nearest | Filter::Bilinear => reference::ideal(scene, size),
-        _ => ours.pixels().to_vec(),
-    };
-    let mut peers = Vec::new();
-    for (name, path) in programs {
-        let mut process = Process::start(path.as_ref(), file, size)?;
-        process.milliseconds(2)?;
-        let picture = process.picture(&file.with_extension("raw"), size)?;
-        let off = reference::part_off(&picture, &right);
-        assert!(
-            off < OFF,
-            "{}/{name}/{size}: wrong picture, {} % of the pixels are off",
-            scene.name,
-            100.0 * off
-        );
-        peers.push((name, process, off, f64::INFINITY));
-    }
-    let mut best = f64::INFINITY;
-    let mut time = |frames: u32| {
-        let mut least = f64::INFINITY;
-        for _ in 0..frames {
-            let start = Instant::now();
-            ours.render();
-            least = least.min(start.elapsed().as_secs_f64() * 1e3);
+/// The scenes of one size, with all who drew them.
+#[derive(Default)]
+struct Table {
+    rows: Vec<(&'static str, Vec<Contestant>)>,
+}
+
+impl Table {
+    fn markdown(&self, size: Size) -> String {
+        let mut names: Vec<&str> = Vec::new();
+        for contestant in self.rows.iter().flat_map(|(_, all)| all) {
+            if !names.contains(&contestant.name.as_str()) {
+                names.push(&contestant.name);
+            }
         }
-        least
-    };
-    for _ in 0..ROUNDS {
-        let frames = if best.is_finite() { (TURN / best) as u32 + 1 } else { 3 };
-        best = best.min(time(frames));
-        for (_, process, _, least) in &mut peers {
-            let frames = if least.is_finite() { (TURN / *least) as u32 + 1 } else { 3 };
-            *least = least.min(process.milliseconds(frames)?);
+        let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
+        let mut head = vec![format!("scene, {size}")];
+        head.extend(names.iter().map(|&name| name.to_owned()));
+        let mut text = line(&head);
+        text.push_str(&line(&vec!["---".to_owned(); head.len()]).replace(' ', ""));
+        for (scene, all) in &self.rows {
+            let first = all.iter().find(|one| one.name == FIRST).map_or(f64::NAN, |one| one.least);
+            let mut cells = vec![(*scene).to_owned()];
+            cells.extend(names.iter().map(|&name| {
+                all.iter().find(|one| one.name == name).map_or_else(|| "-".into(), |one| one.cell(first))
+            }));
+            text.push_str(&line(&cells));
         }
+        text
     }
-    let filter = format!("{:?}", scene.built_in.filter);
-    for (name, _, off, least) in &peers {
-        println!(
-            "{} {filter} {size}: ours {best:.3} {name} {least:.3} ratio {:.2} off {:.3} %",
-            scene.name,
-            least / best,
-            100.0 * off
-        );
+}
+
+impl Contestant {
+    /// Milliseconds to three digits, how many times those of the first, and pixels off.
+    fn cell(&self, first: f64) -> String {
+        let digits = (2.0 - self.least.log10().floor()).max(0.0) as usize;
+        let ratio = if self.name == FIRST { String::new() } else { format!(" ({:.2})", self.least / first) };
+        format!("{:.digits$}{ratio}, {} off", self.least, self.off)
     }
-    Ok(())
 }

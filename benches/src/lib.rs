@@ -17,6 +17,7 @@ pub mod peers;
 pub mod reference;
 pub mod scene_data;
 
+use alberti_app::options::Filter;
 use scene_data::Scene;
 use std::fmt::Debug;
 
@@ -64,7 +65,10 @@ pub fn renderers(scene: &Scene, size: Size) -> Vec<(&'static str, Box<dyn Render
             all.push((policy, renderer));
         }
     }
-    all.push(("euc", peer_euc::renderer(scene, size)));
-    all.extend(peer_retrofire::renderers(scene, size));
+    // The crates have no mip maps.
+    if matches!(scene.built_in.filter, Filter::Nearest | Filter::Bilinear) {
+        all.push(("euc", peer_euc::renderer(scene, size)));
+        all.extend(peer_retrofire::renderers(scene, size));
+    }
     all
 }

@@ -65,7 +65,8 @@ impl Process {
             .env("LP_NUM_THREADS", "0")
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
-            .spawn()?;
+            .spawn()
+            .map_err(|error| io::Error::other(format!("cannot start {}: {error}", program.display())))?;
         let to = child.stdin.take();
         let from = BufReader::new(child.stdout.take().ok_or(io::ErrorKind::BrokenPipe)?);
         Ok(Self { child, to, from, path: program.display().to_string() })

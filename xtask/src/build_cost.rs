@@ -26,8 +26,10 @@ const BINARY: &str = "alberti";
 /// The source file that the edit touches.
 const EDITED: &str = "crates/raster/src/lib.rs";
 
-/// The function of which every combination of stages, policies and lanes has one instance; too long to be inlined.
-const KERNEL: &str = "alberti_raster::draw::Paint::draw_copies";
+/// The functions of which every combination of stages, policies and lanes has one instance, for several lanes and for
+/// one; too long to be inlined.
+const KERNELS: [&str; 2] =
+    ["alberti_raster::draw::Paint::draw_copies", "alberti_raster::draw::Paint::draw_large"];
 
 /// The variable of cargo with the folder of its outputs.
 const TARGET: &str = "CARGO_TARGET_DIR";
@@ -125,7 +127,7 @@ fn figures_of_command(build: &Build<'_>, cost: &Cost, figures: &mut Figures) -> 
     figures.add(Figure::BinaryBytes, file.len() as u64);
     // A program that is stripped, or of another system than Linux, tells nothing of its functions.
     if let Ok(program) = Program::read(&file) {
-        let kernels = program.instances(KERNEL);
+        let kernels: usize = KERNELS.iter().map(|kernel| program.instances(kernel)).sum();
         if kernels > 0 {
             figures.add(Figure::Kernels, kernels as u64);
         }

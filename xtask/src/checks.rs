@@ -58,8 +58,8 @@ pub(crate) fn bench(arguments: &[String]) -> Outcome {
     run(cargo().args(["bench", "--package", "alberti-benches", "--"]).args(arguments))
 }
 
-/// Checks what only the feature `avx512` compiles, and the lanes of such a machine against one lane. All else is the same
-/// code over other lanes, and would take minutes to compile once more.
+/// Checks the code that only the feature `avx512` compiles, and the lanes of such a machine against one lane. All else
+/// is the same code over other lanes, and would take minutes to compile once more.
 pub(crate) fn avx512() -> Outcome {
     run(cargo()
         .args(["clippy", "--package", "alberti-benches", "--all-targets", "--features", "avx512"])

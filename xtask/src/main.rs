@@ -17,6 +17,7 @@ mod gallery;
 mod golden;
 mod nostd;
 mod package;
+mod peers;
 mod tidy;
 mod workspace;
 
@@ -119,6 +120,12 @@ const CHORES: &[Chore] = &[
         run: build_cost::run,
     },
     Chore { name: "bench", arguments: "[filter]", about: "run the benchmarks", run: checks::bench },
+    Chore {
+        name: "peers",
+        arguments: "[--avx512]",
+        about: "time all scenes beside all peers in one run, with those in C that can be built here",
+        run: peers::run,
+    },
 ];
 
 fn main() -> ExitCode {

@@ -63,6 +63,21 @@ impl<'a, M: Geometry, F, Pr: Projection> Pass<'a, M, F, Exact, Pr> {
 
 impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr> {
     /// The object's place in the world, its axes and its scale.
+    ///
+    /// ```
+    /// use alberti::glam::{Mat3, Vec3};
+    /// use alberti::{Frame, Point3};
+    ///
+    /// // Turned about y, twice as large, and moved.
+    /// let frame = Frame::from_mat3(Mat3::from_rotation_y(0.5) * 2.0, Point3::new(Vec3::new(1.0, 0.0, -3.0)));
+    /// # use alberti::shaders::Solid;
+    /// # use alberti::{Camera, Mesh, Pass, Rgba8};
+    /// # let view = Camera::look_at(Vec3::Z, Vec3::ZERO, Vec3::Y)?.perspective(1.0, 0.1..10.0)?;
+    /// # let (vertices, triangles): ([Vec3; 3], [[u16; 3]; 1]) = ([Vec3::ZERO; 3], [[0, 1, 2]]);
+    /// # let mesh = Mesh::new(&vertices, &triangles, |&v| (v, ()));
+    /// let pass = Pass::new(&view, &mesh, Solid(Rgba8::WHITE)).at(frame);
+    /// # Ok::<(), alberti::ViewError>(())
+    /// ```
     #[must_use]
     #[inline]
     pub fn at(self, frame: Frame<Object, World>) -> Self {
@@ -127,9 +142,9 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
 
     /// Draws into a target, triangles in order.
     ///
-    /// With the feature `simd` it works on eight samples at a time. It takes the widest vector registers that the
-    /// machine turns out to have (with `std`) or is known to have. The pixels are those of [`draw_by`](Self::draw_by)
-    /// one sample at a time.
+    /// With the feature `simd` it works on eight samples at a time, or sixteen in long rows. It takes the widest vector
+    /// registers that the machine turns out to have (with `std`) or is known to have. The pixels are those of
+    /// [`draw_by`](Self::draw_by) one sample at a time.
     pub fn draw<C: ColorFormat, D: DepthFormat>(&mut self, target: &mut Target<'_, C, D>)
     where
         F: FragmentStage<M::Varying>,

@@ -190,11 +190,11 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
 /// The ways that a submitted triangle may go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Fate {
-    /// It is wholly outside, or has a vertex without a place.
+    /// Wholly outside, or with a vertex that has no place.
     Dropped,
-    /// It crosses no plane.
+    /// Without a plane that it crosses.
     Whole,
-    /// It crosses planes, and what is left of it was handed on.
+    /// Cut at planes; the rest of it was handed on.
     Clipped,
 }
 

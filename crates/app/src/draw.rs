@@ -26,9 +26,9 @@ mod plain;
 
 pub(crate) use general::Studio;
 
-/// Light that falls everywhere, and light that falls on surfaces that face it.
+/// Light that falls everywhere.
 pub const AMBIENT: f32 = 0.3;
-/// See [`AMBIENT`].
+/// Light that falls on surfaces that face it.
 pub const DIFFUSE: f32 = 0.7;
 
 /// Triangles drawn between two reports of progress.
@@ -140,8 +140,9 @@ impl<'a> Drawing<'a> {
 
     /// Whether a part is drawn by the kernels for plain surfaces.
     fn is_plain(&self, part: &Part) -> bool {
-        let exact = self.options.policies.interpolation == Interpolation::Exact;
-        exact && self.slide.is_none() && !general::is_lit(part, self.model, self.options)
+        let by_sample =
+            matches!(self.options.policies.interpolation, Interpolation::Exact | Interpolation::Plane);
+        by_sample && self.slide.is_none() && !general::is_lit(part, self.model, self.options)
     }
 
     /// A pass with the options' policies but for the interpolation.

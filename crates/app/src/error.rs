@@ -1,4 +1,4 @@
-//! The one error type of the command: where, what was found, what was expected, what to do. Always one line.
+//! The one error type of the command: where, what was found, what was expected, what to do. One line.
 
 use std::fmt;
 use std::path::Path;

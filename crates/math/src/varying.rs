@@ -44,6 +44,10 @@ pub struct Flat<V>(
 /// The methods reach the components, so that the clipper, the rasterizer and whoever needs it can combine values with
 /// any arithmetic, for one sample or for several at a time. `()`, `f32`, arrays, glam's vectors and tuples are
 /// varyings; [`varying!`](crate::varying) makes one of a struct.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no bundle of `f32` that vertices can carry",
+    note = "`varying!` makes one of a struct"
+)]
 pub trait Varying: Copy {
     /// The same bundle with components of type `T` instead of `f32`.
     type Of<T: Copy>: Copy;

@@ -1,4 +1,4 @@
-//! Colour targets: how a pixel is stored. A new one is a type with one short method.
+//! Colour targets: how a pixel is stored. A new one is a type with two short methods.
 
 use alberti_math::lanes::Lanes;
 use alberti_math::{Rgb565Be, Rgb565Le, Rgba8, Rgba8888};
@@ -8,7 +8,7 @@ use core::fmt::Debug;
 ///
 /// ```
 /// use alberti_math::Rgba8;
-/// use alberti_raster::ColorFormat;
+/// use alberti_raster::{ColorFormat, F32, Target};
 ///
 /// /// A byte of luminance.
 /// #[derive(Clone, Copy, Debug)]
@@ -21,8 +21,16 @@ use core::fmt::Debug;
 ///         let [r, g, b, _] = color.to_bytes().map(u32::from);
 ///         ((r * 77 + g * 150 + b * 29 + 128) >> 8) as u8
 ///     }
+///
+///     fn native(self, word: u32) -> u8 {
+///         word as u8
+///     }
 /// }
-/// assert_eq!(Grey.pixel(Rgba8::WHITE), 255);
+/// let (mut color, mut depth) = ([0; 6], [0.0; 6]);
+/// let mut target = Target::new(Grey, F32, 3, 2, &mut color, &mut depth)?;
+/// target.clear(Rgba8::WHITE);
+/// assert_eq!(color, [255; 6]);
+/// # Ok::<(), alberti_raster::TargetError>(())
 /// ```
 pub trait ColorFormat: Copy + Debug + Send + Sync + 'static {
     /// The buffer's value for a pixel: a word whose bytes are, in memory, in the order of the display or the file.
@@ -31,12 +39,10 @@ pub trait ColorFormat: Copy + Debug + Send + Sync + 'static {
     /// The pixel for this colour.
     fn pixel(self, color: Rgba8) -> Self::Pixel;
 
-    /// The pixel for a word that is a pixel already, but for the order of its bytes. Stages and
-    /// [`clear`](crate::Target::clear) give such words by colours that are `u8`, `u16` or `u32` instead of [`Rgba8`],
-    /// and only to formats whose pixels have as many bytes. By default the word is that of an [`Rgba8`].
-    fn native(self, word: u32) -> Self::Pixel {
-        self.pixel(Rgba8::from_bits(word))
-    }
+    /// The pixel for a word that is a pixel already, but for the order of its bytes: from stages and
+    /// [`clear`](crate::Target::clear) by colours that are `u8`, `u16` or `u32`. Formats whose pixels have another size
+    /// are never asked.
+    fn native(self, word: u32) -> Self::Pixel;
 
     /// Stores pixels for the samples in `mask`, whose colours are the words of `Shade`s.
     #[inline(always)]

@@ -31,7 +31,7 @@ pub use counters::Counters;
 pub use depth::{AnyDepth, D16, D24, D32, DepthFormat, F32, F32Reversed, NoDepth};
 pub use differentiation::{Differentiation, NoDerivatives, PerPixel, PerRun, PerTriangle};
 pub use draw::Paint;
-pub use edge::{Edge, FITS_I32};
+pub use edge::{Edge, EdgeInt, FITS_I32};
 pub use fragment::{FragmentStage, Fragments};
 pub use interpolation::{Affine, Exact, FixedPoint, Interpolation, Lines, Planes, Spans16};
 pub use spans::{Span, SpanWalker};

@@ -184,7 +184,7 @@ impl Cull {
 pub enum Outcome {
     /// Left out: it faces the wrong way, or has no area after snapping.
     Culled,
-    /// It covers no sample of the band.
+    /// Without a sample of the band.
     Missed,
     /// Drawn: it covers samples of the band, whether or not they were seen.
     Drawn,

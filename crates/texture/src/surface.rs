@@ -63,5 +63,5 @@ pub use slopes::{BilinearHeights, CentralDifferences};
 pub use tangent::{
     Tangent, frame_of_derivatives, frame_of_normal, orthonormal, triangle_directions, triangle_frame,
 };
-pub use vector::unit_lanes;
-pub(crate) use vector::{absolute, clamped_lanes, dot_lanes, has_range};
+pub(crate) use vector::has_range;
+pub use vector::{absolute_lanes, clamped_lanes, dot_lanes, unit_lanes};

@@ -1,4 +1,4 @@
-//! Arithmetic on the colours of several fragments, for fragment stages that shade all lanes at once.
+//! Arithmetic on the colours and the vectors of several fragments, for fragment stages that shade all lanes at once.
 //!
 //! A colour is a word, red in its lowest byte ([`Rgba8::to_bits`]); a channel is a word from 0 to 255.
 //!
@@ -94,10 +94,13 @@
 //! | from numbers to words and back | `floor_scaled`, `round_scaled`, `nearest_byte`, `to_numbers` |
 //! | masks | `& \| !`, `mask`, `bits` |
 //!
-//! Greater is `less` with its arguments the other way round.
+//! Greater is `less` with its arguments the other way round. A vector is an array of numbers: [`dot_lanes`],
+//! [`unit_lanes`], [`absolute_lanes`] and [`clamped_lanes`] are for them, and one that is the same for all fragments is
+//! `v.to_array().map(|x| lanes.splat(x))`.
 
 use alberti_math::Rgba8;
 use alberti_math::lanes::Lanes;
+pub use alberti_texture::surface::{absolute_lanes, clamped_lanes, dot_lanes, unit_lanes};
 
 /// A product of two bytes over 255, to the nearest.
 ///

@@ -18,7 +18,7 @@ pub(crate) fn check(arguments: &RenderArgs) -> Result<(), Error> {
     match of_view.or_else(of_maps) {
         Some((option, partner)) => {
             let found = format!("it without --{partner}");
-            Err(Error::new(found, "both, or neither").place(format!("--{option}")))
+            Err(Error::new(found, format!("--{partner} as well")).place(format!("--{option}")))
         }
         None => Ok(()),
     }

@@ -52,7 +52,7 @@ impl Studio {
     }
 }
 
-/// Any surface. Which one it is gets asked for the samples that are worked on together.
+/// Any surface, asked once for the samples that are worked on together.
 #[derive(Clone, Copy)]
 enum Surface<'a> {
     Colors,

@@ -90,7 +90,7 @@ mod tests {
     use alberti::glam::Vec2;
     use alberti::texture::surface::Relief;
 
-    /// Where the place (0, 0) is looked up, on a plain half a unit above the surface, seen at a slant of 3.
+    /// The place that is read for (0, 0), on a plain half a unit above the surface, seen at a slant of 3.
     fn shift(relief: scene::Relief) -> Option<Vec2> {
         let plain = Relief { map: |_: Vec2| 0.5, low: 0.0, high: 1.0, extent: Vec2::ONE };
         let view = Vector3::new(Vec3::new(3.0, 0.0, 1.0));

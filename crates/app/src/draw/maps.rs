@@ -41,7 +41,7 @@ impl Chains {
 }
 
 impl Part {
-    /// How its texture is read, if it has one.
+    /// The way of reading its texture, if it has one.
     pub(super) fn color_map(&self) -> Option<Map> {
         let image = self.texture?;
         Some(Map { image, filter: self.detail.filter, wrap: self.detail.wrap })

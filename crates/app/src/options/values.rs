@@ -147,13 +147,13 @@ impl<const N: usize, K: Kind> FromStr for Tuple<N, K> {
 
 impl<'de, const N: usize, K: Kind> Deserialize<'de> for Tuple<N, K> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(Numbers(PhantomData))
+        deserializer.deserialize_any(Components(PhantomData))
     }
 }
 
-struct Numbers<const N: usize, K>(PhantomData<K>);
+struct Components<const N: usize, K>(PhantomData<K>);
 
-impl<'de, const N: usize, K: Kind> Visitor<'de> for Numbers<N, K> {
+impl<'de, const N: usize, K: Kind> Visitor<'de> for Components<N, K> {
     type Value = Tuple<N, K>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

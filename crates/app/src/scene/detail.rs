@@ -226,7 +226,7 @@ pub enum Light {
     },
     /// From a point.
     Point {
-        /// Where.
+        /// The place.
         position: [f32; 3],
         /// Colour times intensity.
         color: [f32; 3],
@@ -235,9 +235,9 @@ pub enum Light {
     },
     /// From a point, within a cone.
     Spot {
-        /// Where.
+        /// The place.
         position: [f32; 3],
-        /// Where it points, unit length.
+        /// The direction, of unit length.
         direction: [f32; 3],
         /// Colour times intensity.
         color: [f32; 3],

@@ -228,7 +228,7 @@ fn options_of_maps_that_a_built_in_scene_has_not() {
         ("--environment-kind cube", "--environment"),
     ] {
         let arguments: Vec<_> = ["--scene", "floor"].into_iter().chain(arguments.split(' ')).collect();
-        let part = format!("error: {}: found it without {partner}, expected both, or neither", arguments[2]);
+        let part = format!("error: {}: found it without {partner}, expected {partner} as well", arguments[2]);
         folder.fails(&arguments, &[&part]);
     }
 }

@@ -45,8 +45,8 @@ macro_rules! several {
                 self.min(rounded, self.splat(greatest)).to_int::<$i32<S>>().bitcast()
             }
 
-            /// Without the fraction, and at times without the sign of zero. SSE2 has no instruction for it, and calling a
-            /// function costs all registers; from 2^23 on there is no fraction.
+            /// Without the fraction, and at times without the sign of zero. SSE2 has no instruction for it, and a call
+            /// costs all registers; from 2^23 on there is no fraction.
             #[inline(always)]
             fn trunc(self, x: $f32<S>) -> $f32<S> {
                 #[cfg(target_arch = "x86_64")]

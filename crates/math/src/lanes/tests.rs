@@ -1,4 +1,4 @@
-//! One lane alone against lanes together, and what both promise against `f64`.
+//! One lane alone against lanes together, and the promises of both against `f64`.
 
 use super::*;
 use crate::Q16;
@@ -129,7 +129,7 @@ fn together_as_alone<L: Floating>(lanes: L) {
     }
 }
 
-/// What is found by words, mixed, and counted up.
+/// Words that are found by others, means of bytes, and sequences.
 fn found_and_counted<L: Floating>(lanes: L) {
     let mut noise = Noise(7);
     let halves = |word: u32| word & 0x00ff_00ff;

@@ -1,7 +1,7 @@
 //! Six faces of a cube.
 
 use super::{Environment, finite_or_zero};
-use crate::surface::{absolute, has_range};
+use crate::surface::{absolute_lanes, has_range};
 use alberti_math::lanes::Lanes;
 
 /// The six faces of a cube about the place, one below the other in one image of w x 6w texels: +x, −x, +y, −y, +z, −z.
@@ -45,7 +45,8 @@ impl Environment for CubeMap {
     fn place<L: Lanes>(&self, lanes: L, direction: [L::Number; 3]) -> [L::Number; 2] {
         let [x, y, z] = finite_or_zero(lanes, direction);
         let (zero, half) = (lanes.splat(0.0), lanes.splat(0.5));
-        let (across, up, along) = (absolute(lanes, x), absolute(lanes, y), absolute(lanes, z));
+        let (across, up, along) =
+            (absolute_lanes(lanes, x), absolute_lanes(lanes, y), absolute_lanes(lanes, z));
         let (is_y, level) = (lanes.less(across, up), lanes.max(across, up));
         let (is_z, axis) = (lanes.less(level, along), lanes.max(level, along));
         let behind = [lanes.less(x, zero), lanes.less(y, zero), lanes.less(z, zero)];

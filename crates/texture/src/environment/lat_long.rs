@@ -1,7 +1,7 @@
 //! Longitude and latitude.
 
 use super::{Environment, finite_or_zero};
-use crate::surface::absolute;
+use crate::surface::absolute_lanes;
 use alberti_math::lanes::Lanes;
 
 /// An image whose columns are longitudes and whose rows are latitudes, also called equirectangular: twice as wide as
@@ -38,7 +38,8 @@ impl Environment for LatLong {
     fn place<L: Lanes>(&self, lanes: L, direction: [L::Number; 3]) -> [L::Number; 2] {
         let [x, y, z] = finite_or_zero(lanes, direction);
         let (zero, half) = (lanes.splat(0.0), lanes.splat(0.5));
-        let (across, up, along) = (absolute(lanes, x), absolute(lanes, y), absolute(lanes, z));
+        let (across, up, along) =
+            (absolute_lanes(lanes, x), absolute_lanes(lanes, y), absolute_lanes(lanes, z));
         let (around, ratio) = first_quarter(lanes, across, along);
         let around = lanes.select(lanes.less(zero, z), half - around, around);
         let u = half + lanes.select(lanes.less(x, zero), zero - around, around);

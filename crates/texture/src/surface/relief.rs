@@ -6,7 +6,7 @@ use super::height::{HeightMap, differences};
 use super::normal::to_parent_lanes;
 use super::tangent::Tangent;
 use super::unit::{narrow, unit};
-use super::vector::{absolute, has_range, over_length};
+use super::vector::{absolute_lanes, has_range, over_length};
 use alberti_math::lanes::{Lanes, One};
 use alberti_math::{Frame, Object, Vector3};
 use glam::{Vec2, Vec3};
@@ -155,7 +155,7 @@ fn raised<L: Lanes>(lanes: L, [a, b]: [L::Number; 2]) -> [L::Number; 3] {
         let finite = lanes.less(a * a + b * b + one, lanes.splat(1.329_227_9e36));
         return [lanes.select(finite, zero - a, zero), lanes.select(finite, zero - b, zero), one];
     }
-    let greatest = lanes.max(lanes.max(absolute(lanes, a), absolute(lanes, b)), one);
+    let greatest = lanes.max(lanes.max(absolute_lanes(lanes, a), absolute_lanes(lanes, b)), one);
     [(zero - a) / greatest, (zero - b) / greatest, one / greatest]
 }
 

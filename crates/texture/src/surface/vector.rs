@@ -1,6 +1,7 @@
 //! Vectors of several samples at a time, one number a component.
 
 use alberti_math::lanes::Lanes;
+use core::ops::{Add, Mul};
 
 /// A vector divided by its length, to length 1; (0, 0, 1) for zero.
 ///
@@ -19,9 +20,9 @@ pub fn unit_lanes<L: Lanes>(lanes: L, v: [L::Number; 3]) -> [L::Number; 3] {
         return over_length(lanes, v);
     }
     let [x, y, z] = v;
-    let level = lanes.max(absolute(lanes, x), absolute(lanes, y));
+    let level = lanes.max(absolute_lanes(lanes, x), absolute_lanes(lanes, y));
     // At least one step, which changes nothing but 0.
-    let greatest = lanes.max(lanes.max(level, absolute(lanes, z)), lanes.splat(1.0 / 65536.0));
+    let greatest = lanes.max(lanes.max(level, absolute_lanes(lanes, z)), lanes.splat(1.0 / 65536.0));
     over_length(lanes, [x / greatest, y / greatest, z / greatest])
 }
 
@@ -36,9 +37,16 @@ pub(super) fn over_length<L: Lanes>(lanes: L, [x, y, z]: [L::Number; 3]) -> [L::
     [x / length, y / length, lanes.select(none, lanes.splat(1.0), z) / length]
 }
 
-/// Written out, so that the order of the operations is the same on every target.
+/// The scalar product, summed from left to right.
+///
+/// # Precision
+/// Within 3ε of the sum of the products' magnitudes (ε = 2^-24), in fixed point within 1.5·2^-16.
+///
+/// # Cost
+/// Three multiplications, two additions.
+#[must_use]
 #[inline(always)]
-pub(crate) fn dot_lanes<N: Copy + core::ops::Add<Output = N> + core::ops::Mul<Output = N>>(
+pub fn dot_lanes<N: Copy + Add<Output = N> + Mul<Output = N>>(
     [ax, ay, az]: [N; 3],
     [bx, by, bz]: [N; 3],
 ) -> N {
@@ -46,15 +54,23 @@ pub(crate) fn dot_lanes<N: Copy + core::ops::Add<Output = N> + core::ops::Mul<Ou
 }
 
 /// Between 0 and 1; 0 for NaN.
+///
+/// # Cost
+/// A minimum and a maximum.
+#[must_use]
 #[inline(always)]
-pub(crate) fn clamped_lanes<L: Lanes>(lanes: L, x: L::Number) -> L::Number {
+pub fn clamped_lanes<L: Lanes>(lanes: L, x: L::Number) -> L::Number {
     // Of a comparison with NaN, the second.
     lanes.min(lanes.max(x, lanes.splat(0.0)), lanes.splat(1.0))
 }
 
 /// |x|.
+///
+/// # Cost
+/// A subtraction and a maximum.
+#[must_use]
 #[inline(always)]
-pub(crate) fn absolute<L: Lanes>(lanes: L, x: L::Number) -> L::Number {
+pub fn absolute_lanes<L: Lanes>(lanes: L, x: L::Number) -> L::Number {
     lanes.max(x, lanes.splat(0.0) - x)
 }
 

@@ -29,7 +29,7 @@ impl SceneFile {
             let path = |key: &str| format!("material.{name}.{key}");
             if let Some((key, partner)) = material.lonely() {
                 let found = format!("it without {partner}");
-                return Err(self.source.error(&path(key), found, "both, or neither"));
+                return Err(self.source.error(&path(key), found, format!("{partner} as well")));
             }
             for (key, what) in [
                 ("height-map.filter", "another map, as heights are always read between texels"),

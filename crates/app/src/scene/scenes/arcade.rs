@@ -19,7 +19,7 @@ use crate::scene::Image;
 pub(super) const HALF_WIDTH: f64 = 2.6;
 /// From column to column.
 pub(super) const BAY: f64 = 3.0;
-/// Where the arches begin.
+/// The height at which the arches begin.
 pub(super) const SPRING: f64 = 3.3;
 /// Their radius.
 pub(super) const ARCH: f64 = 1.2;

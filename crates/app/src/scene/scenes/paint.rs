@@ -130,7 +130,7 @@ pub(super) fn grain(u: f64, v: f64, period: i32, seed: u32, color: Vec3, depth: 
     [color[0] * shade, color[1] * shade, color[2] * shade]
 }
 
-/// How much of a texel of size `width` lies inside, given the signed distance to an edge (inside is negative).
+/// The part of a texel of size `width` that lies inside, given the signed distance to an edge (inside is negative).
 pub(super) fn cover(distance: f64, width: f64) -> f64 {
     (0.5 - distance / width).clamp(0.0, 1.0)
 }

@@ -201,11 +201,11 @@ pub(super) fn pentagon() -> Image {
     })
 }
 
-/// How far above the floor the dodecahedron's middle lies, as a part of its radius.
+/// The height of the dodecahedron's middle above the floor, as a part of its radius.
 pub(super) const DODECAHEDRON_REST: f64 = 0.794_654_472_291_766;
 
-/// How far from the tube's middle line a ray passes through the ring's plane: the ring's shadow is where that is less
-/// than the tube's radius.
+/// The distance from the tube's middle line at which a ray passes through the ring's plane: the ring's shadow is where
+/// that is less than the tube's radius.
 pub(super) fn ring_distance(from: Vec3, toward: Vec3, middle: Vec3, frame: Frame, ring: f64) -> f64 {
     let (p, d) = (frame.to_local(sub(from, middle)), frame.to_local(toward));
     let t = -p[2] / d[2];

@@ -67,7 +67,7 @@ fn faces_are_wound_to_the_side_of_their_normals() {
     }
 }
 
-/// How often each directed edge occurs, vertices being the same if their positions are, bit for bit.
+/// The number of times that each directed edge occurs, vertices being the same if their positions are, bit for bit.
 fn edges(scene: &BuiltIn) -> HashMap<([u32; 3], [u32; 3]), u32> {
     let mut count = HashMap::new();
     for t in triangles(scene) {

@@ -21,7 +21,7 @@ fn trial(model: Model, camera: Camera, shading: Shading) -> BuiltIn {
     }
 }
 
-/// How many screens are stacked in [`fill`].
+/// The screens stacked in [`fill`].
 pub(super) const LAYERS: u32 = 16;
 
 /// The plane of layer `i` of [`fill`], seen along the ray through (x, y, -1): its 1/z is `(1 + a x + b y) / d`.

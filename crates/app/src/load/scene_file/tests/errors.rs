@@ -120,7 +120,7 @@ fn errors_name_line_and_key() {
         ),
         (
             &with("[material.a]\nnormal-space = \"object\"\n"),
-            "s.toml:4: material.a.normal-space: found it without normal-map, expected both, or neither",
+            "s.toml:4: material.a.normal-space: found it without normal-map, expected normal-map as well",
         ),
         (
             &with("[material.a]\nrelief = \"bump\"\n"),
