@@ -208,13 +208,7 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
         let mut visible = target.scissor(columns, rows);
         let mut batch = paint.batch(lanes, &mut visible);
         let mut walk = Walk::new(lanes, mesh, screen, slots);
-        walk.triangles(
-            0..,
-            0,
-            counters,
-            #[inline(always)]
-            |corners, counters| batch.triangle(corners, counters),
-        );
+        walk.triangles(0.., 0, counters, &mut batch);
         batch.finish(counters);
     }
 

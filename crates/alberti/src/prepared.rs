@@ -254,13 +254,7 @@ pub(crate) fn draw_listed<L, M, F, P, Pr, C, D, K>(
     let listed = listed.iter().filter(PreparedTriangle::meets(its));
     let remaining = next..walk.mesh().triangles();
     let mut batch = paint.batch(lanes, &mut visible);
-    walk.triangles(
-        listed.map(|triangle| triangle.number()).chain(remaining),
-        next,
-        counters,
-        #[inline(always)]
-        |corners, counters| batch.triangle(corners, counters),
-    );
+    walk.triangles(listed.map(|triangle| triangle.number()).chain(remaining), next, counters, &mut batch);
     batch.finish(counters);
 }
 

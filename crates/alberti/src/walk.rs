@@ -9,7 +9,9 @@ use alberti_math::{Eye, Fixed, Mode, Point3, Varying, map3};
 use alberti_projection::{
     EyeVertex, Polygon, ProjectedVertex, Projection, SideBounds, clip_near_far, clip_sides,
 };
-use alberti_raster::{Corner, Counters, Numbers, Vertex};
+use alberti_raster::{
+    Batch, ColorFormat, Corner, Counters, DepthFormat, FragmentStage, Interpolation, Numbers, Vertex,
+};
 use core::cmp::Ordering;
 use core::ops::Range;
 
@@ -32,17 +34,37 @@ pub(crate) fn stored_by(mesh: &impl Geometry, slots: usize) -> usize {
 }
 
 /// A taker of triangles on the screen.
-type Sink<'a, V, K> = &'a mut dyn FnMut([&Corner<V>; 3], &mut K);
-
-/// Hands on a triangle. Not inlined: for ways that are seldom taken one copy of what follows is enough.
-#[inline(never)]
-fn call<V: Varying, K>(
-    sink: &mut impl FnMut([&Corner<V>; 3], &mut K),
-    corners: [&Corner<V>; 3],
-    counters: &mut K,
-) {
-    sink(corners, counters);
+pub(crate) trait Sink<'a, V: Varying, K> {
+    /// Takes a triangle whose corners stay as long as the walk's slots.
+    fn triangle(&mut self, corners: [&'a Corner<V>; 3], counters: &mut K);
+    /// Takes a triangle whose corners do not.
+    fn passing(&mut self, corners: [&Corner<V>; 3], counters: &mut K);
 }
+
+impl<'a, L, V, F, P, C, D, K> Sink<'a, V, K> for Batch<'_, '_, 'a, L, V, F, P, C, D>
+where
+    L: Floating,
+    V: Varying,
+    F: FragmentStage<V>,
+    P: Interpolation,
+    C: ColorFormat,
+    D: DepthFormat,
+    K: Counters,
+{
+    #[inline(always)]
+    fn triangle(&mut self, corners: [&'a Corner<V>; 3], counters: &mut K) {
+        self.triangle(corners, counters);
+    }
+
+    // For ways that are seldom taken one copy of what follows is enough.
+    #[inline(never)]
+    fn passing(&mut self, corners: [&Corner<V>; 3], counters: &mut K) {
+        self.passing(corners, counters);
+    }
+}
+
+/// A taker of triangles whose corners do not stay.
+type Passing<'a, V, K> = &'a mut dyn FnMut([&Corner<V>; 3], &mut K);
 
 impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     /// The walk with these slots, of which there is at least one. All vertices are transformed at once where the slots
@@ -104,7 +126,7 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         mut numbers: impl Iterator<Item = usize>,
         heard: usize,
         counters: &mut K,
-        mut sink: impl FnMut([&Corner<M::Varying>; 3], &mut K),
+        sink: &mut impl Sink<'a, M::Varying, K>,
     ) {
         let mesh = self.mesh;
         loop {
@@ -117,10 +139,10 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
                 if number >= heard {
                     counters.submitted();
                 }
-                sink(corners, counters);
+                sink.triangle(corners, counters);
             };
-            let mut called = |corners: [&_; 3], counters: &mut K| call(&mut sink, corners, counters);
-            let fate = self.seldom(indices, counters, &mut called);
+            let mut passing = |corners: [&_; 3], counters: &mut K| sink.passing(corners, counters);
+            let fate = self.seldom(indices, counters, &mut passing);
             if number >= heard {
                 fate.count(counters);
             }
@@ -143,7 +165,7 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
 
     /// The same for one triangle that is to be clipped, or whose vertices may not be in slots.
     #[inline(never)]
-    fn seldom<K>(&mut self, indices: [usize; 3], counters: &mut K, sink: Sink<'_, M::Varying, K>) -> Fate {
+    fn seldom<K>(&mut self, indices: [usize; 3], counters: &mut K, sink: Passing<'_, M::Varying, K>) -> Fate {
         let Self { mesh, stored, cache, screen } = self;
         let [i, j, k] = indices;
         let count = if stored.is_empty() { cache.len() } else { stored.len() };
@@ -241,7 +263,7 @@ fn clip<M: Geometry, Pr: Projection, K>(
     screen: &Screen<Pr>,
     indices: [usize; 3],
     slots: [&Slot<M::Varying>; 3],
-    sink: Sink<'_, M::Varying, K>,
+    sink: Passing<'_, M::Varying, K>,
     counters: &mut K,
 ) {
     // Slots do without these, since few triangles are clipped.

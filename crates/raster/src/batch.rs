@@ -3,11 +3,12 @@
 use crate::color::ColorFormat;
 use crate::counters::Counters;
 use crate::depth::DepthFormat;
-use crate::draw::{Copied, Paint};
+use crate::draw::Paint;
 use crate::fragment::FragmentStage;
 use crate::interpolation::Interpolation;
+use crate::setup::Waiting;
 use crate::target::Target;
-use crate::triangle::Corner;
+use crate::triangle::{Corner, Outcome};
 use alberti_math::Varying;
 use alberti_math::lanes::{Floating, Lanes};
 use core::fmt;
@@ -17,23 +18,23 @@ use core::ops::Range;
 /// several of them. The pixels are those of [`Paint::triangle`], in the same order. One that is dropped without
 /// [`finish`](Self::finish) leaves its last triangles out.
 #[must_use = "the last triangles are drawn by `finish`"]
-pub struct Batch<'a, 't, L: Lanes, V: Varying, F, P, C: ColorFormat, D: DepthFormat> {
+pub struct Batch<'a, 't, 'c, L: Lanes, V: Varying, F, P, C: ColorFormat, D: DepthFormat> {
     lanes: L,
     paint: Paint<F, P>,
     target: &'a mut Target<'t, C, D>,
     limits: [Range<i32>; 2],
-    triangles: L::Each<Option<Copied<V>>>,
+    triangles: L::Each<Option<Waiting<'c, V>>>,
     count: usize,
 }
 
 impl<F, P: Interpolation> Paint<F, P> {
     /// An empty batch of triangles for a target.
     #[inline]
-    pub fn batch<'a, 't, L, V, C, D>(
+    pub fn batch<'a, 't, 'c, L, V, C, D>(
         &self,
         lanes: L,
         target: &'a mut Target<'t, C, D>,
-    ) -> Batch<'a, 't, L, V, F, P, C, D>
+    ) -> Batch<'a, 't, 'c, L, V, F, P, C, D>
     where
         L: Floating,
         V: Varying,
@@ -46,7 +47,7 @@ impl<F, P: Interpolation> Paint<F, P> {
     }
 }
 
-impl<L, V, F, P, C, D> Batch<'_, '_, L, V, F, P, C, D>
+impl<'c, L, V, F, P, C, D> Batch<'_, '_, 'c, L, V, F, P, C, D>
 where
     L: Floating,
     V: Varying,
@@ -57,24 +58,35 @@ where
 {
     /// Adds a triangle, after which those that are there may be drawn. The counters hear the fate of each once.
     #[inline(always)]
-    pub fn triangle(&mut self, corners: [&Corner<V>; 3], counters: &mut impl Counters) {
+    pub fn triangle(&mut self, corners: [&'c Corner<V>; 3], counters: &mut impl Counters) {
         // Constants in blocks of their own, so that no code is made of the other way.
         if const { <P::Lanes<L> as Lanes>::COUNT == 1 } {
             self.paint.draw_one(self.lanes, self.target, &self.limits, corners, counters);
             return;
         }
-        match self.paint.reach(corners, &self.limits) {
-            Err(outcome) => counters.rasterized(outcome),
-            Ok(reach) => {
-                if let Some(place) = self.triangles.as_mut().get_mut(self.count) {
-                    *place = Some((corners.map(|corner| *corner), reach));
-                }
-                self.count += 1;
-                if self.count >= L::COUNT {
-                    self.draw(counters);
-                }
-            }
+        let Some(triangle) = self.paint.facing(corners) else {
+            counters.rasterized(Outcome::Culled);
+            return;
+        };
+        if let Some(place) = self.triangles.as_mut().get_mut(self.count) {
+            *place = Some(triangle);
         }
+        self.count += 1;
+        if self.count >= L::COUNT {
+            self.draw(counters);
+        }
+    }
+
+    /// Draws the triangles that are there, and then one whose corners are not kept. The counters hear the fate of each
+    /// once.
+    #[inline(always)]
+    pub fn passing(&mut self, corners: [&Corner<V>; 3], counters: &mut impl Counters) {
+        if const { <P::Lanes<L> as Lanes>::COUNT == 1 } {
+            self.paint.draw_one(self.lanes, self.target, &self.limits, corners, counters);
+            return;
+        }
+        self.draw(counters);
+        self.paint.draw_in_batch(self.lanes, self.target, corners, counters);
     }
 
     /// Draws the triangles that are left.
@@ -88,14 +100,13 @@ where
 
     #[inline]
     fn draw(&mut self, counters: &mut impl Counters) {
-        let triangles = self.triangles.as_ref().get(..self.count).unwrap_or_default();
-        self.paint.draw_copies(self.lanes, self.target, triangles, counters);
+        self.paint.draw_batch(self.lanes, self.target, (&self.triangles, self.count), counters);
         self.count = 0;
     }
 }
 
 impl<L: Lanes, V: Varying, F, P, C: ColorFormat, D: DepthFormat> fmt::Debug
-    for Batch<'_, '_, L, V, F, P, C, D>
+    for Batch<'_, '_, '_, L, V, F, P, C, D>
 {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Batch")

@@ -8,15 +8,15 @@ use crate::depth::DepthFormat;
 use crate::differentiation::Differentiate;
 use crate::edge::{Edge, EdgeInt};
 use crate::fragment::FragmentStage;
-use crate::interpolation::{Interpolation, Oriented, Row};
-use crate::mask::{NARROW, RowMask};
+use crate::interpolation::{Interpolate, Interpolation, Oriented, Row};
+use crate::mask::RowMask;
 use crate::paint::{Painter, aligned};
+use crate::setup::{Setups, Waiting, Way};
 use crate::spans::RowSpans;
 use crate::target::Target;
-use crate::triangle::{Corner, Corners, Cull, Numbers, Outcome, Reach, Vertex};
+use crate::triangle::{Corner, Corners, Cull, Numbers, Outcome, Reach, Vertex, doubled_area};
 use alberti_math::lanes::{Floating, Lanes};
-use alberti_math::{Subpixel, Varying};
-use core::iter::once;
+use alberti_math::{Subpixel, Varying, map3};
 use core::marker::PhantomData;
 use core::ops::Range;
 
@@ -32,9 +32,6 @@ pub struct Paint<F, P> {
     /// The faces that are left out.
     pub cull: Cull,
 }
-
-/// A copy of a triangle.
-pub(crate) type Copied<V> = ([Corner<V>; 3], Reach);
 
 impl<F, P: Interpolation> Paint<F, P> {
     /// Draws one triangle into a target, with as many samples at a time as there are `lanes`.
@@ -76,18 +73,11 @@ impl<F, P: Interpolation> Paint<F, P> {
     {
         let numbers = self.numbers(target.depth_format());
         let corners = vertices.map(|vertex| Corner::new(numbers, vertex));
-        let limits = target.limits();
         if const { <P::Lanes<L> as Lanes>::COUNT == 1 } {
+            let limits = target.limits();
             return self.draw_one(lanes, target, &limits, corners.each_ref(), counters);
         }
-        match self.reach(corners.each_ref(), &limits) {
-            // The kernel of batches.
-            Ok(reach) => self.draw_copies(lanes, target, &[Some((corners, reach))], counters),
-            Err(outcome) => {
-                counters.rasterized(outcome);
-                outcome
-            }
-        }
+        self.draw_in_batch(lanes, target, corners.each_ref(), counters)
     }
 
     /// [`triangle`](Self::triangle) for policies that work on one sample at a time. `limits` are the target's.
@@ -145,7 +135,7 @@ impl<F, P: Interpolation> Paint<F, P> {
         K: Counters,
     {
         match self.reach(corners, &target.limits()) {
-            Ok(reach) => self.draw(lanes, target, once((corners, reach)), counters),
+            Ok(reach) => self.draw(lanes, target, corners, &reach, counters),
             Err(outcome) => {
                 counters.rasterized(outcome);
                 outcome
@@ -175,14 +165,13 @@ impl<F, P: Interpolation> Paint<F, P> {
         Reach::new(corners, self.subpixel.bits(), self.cull, limits)
     }
 
-    /// The second part, for copies of several triangles in order: the fate of the last. The counters hear that of each.
-    /// Not inlined, as one copy of this kernel is enough.
-    #[inline(never)]
-    pub(crate) fn draw_copies<L, V, C, D, K>(
+    /// [`triangle`](Self::triangle) for policies that work on several samples at a time: by the kernel of batches.
+    #[inline]
+    pub(crate) fn draw_in_batch<L, V, C, D, K>(
         &self,
         lanes: L,
         target: &mut Target<'_, C, D>,
-        triangles: &[Option<Copied<V>>],
+        corners: [&Corner<V>; 3],
         counters: &mut K,
     ) -> Outcome
     where
@@ -193,8 +182,82 @@ impl<F, P: Interpolation> Paint<F, P> {
         D: DepthFormat,
         K: Counters,
     {
-        let triangles = triangles.iter().flatten().map(|(vertices, reach)| (vertices.each_ref(), *reach));
-        self.draw(lanes, target, triangles, counters)
+        let Some(triangle) = self.facing(corners) else {
+            counters.rasterized(Outcome::Culled);
+            return Outcome::Culled;
+        };
+        let only = lanes.each(|k| (k == 0).then_some(triangle));
+        self.draw_batch(lanes, target, (&only, 1), counters)
+    }
+
+    /// The triangle with its area, if it is not culled.
+    #[inline(always)]
+    pub(crate) fn facing<'c, V: Varying>(&self, corners: [&'c Corner<V>; 3]) -> Option<Waiting<'c, V>> {
+        let area = doubled_area(&map3(corners, |corner| corner.place));
+        (!self.cull.drops(area)).then_some((corners, area))
+    }
+
+    /// The second part, for the first `count` of several triangles in order: the fate of the last. The counters hear
+    /// that of each. Not inlined, as one copy of this kernel is enough.
+    #[inline(never)]
+    pub(crate) fn draw_batch<L, V, C, D, K>(
+        &self,
+        lanes: L,
+        target: &mut Target<'_, C, D>,
+        (triangles, count): (&L::Each<Option<Waiting<'_, V>>>, usize),
+        counters: &mut K,
+    ) -> Outcome
+    where
+        L: Floating,
+        V: Varying,
+        F: FragmentStage<V>,
+        C: ColorFormat,
+        D: DepthFormat,
+        K: Counters,
+    {
+        let Self { stage, interpolation, subpixel, .. } = *self;
+        let (bits, limits) = (subpixel.bits(), target.limits());
+        lanes.vectorize(
+            #[inline(always)]
+            || {
+                let mut outcome = Outcome::Missed;
+                let setups = Setups::new(lanes, triangles, bits, &limits, interpolation.run());
+                for (k, triangle) in triangles.as_ref().iter().enumerate().take(count) {
+                    let Some(triangle @ (vertices, area)) = triangle else { break };
+                    outcome = match setups.way(k) {
+                        Way::Missed => Outcome::Missed,
+                        Way::Masks => fill_masked(
+                            interpolation.lanes(lanes),
+                            target,
+                            setups.columns_and_rows(k),
+                            setups.edges(k),
+                            #[inline(always)]
+                            || {
+                                let oriented = setups.oriented(k, triangle, bits);
+                                Setup { interpolation, lanes, oriented: &oriented, stage }.prepare()
+                            },
+                            counters,
+                        ),
+                        // Several lanes hold 64-bit edge functions as well as 32-bit ones.
+                        Way::Spans => {
+                            let oriented = Oriented::new(*vertices, *area, bits, false);
+                            let ranges = setups.columns_and_rows(k);
+                            let samples = SampleBox::new(&oriented, ranges, limits[0].clone());
+                            if const { P::WIDE && F::WIDE } {
+                                let lanes = lanes.wide();
+                                let setup = Setup { interpolation, lanes, oriented: &oriented, stage };
+                                fill::<i64, _, _, _, _, _, _, _>(target, &samples, &setup, counters)
+                            } else {
+                                let setup = Setup { interpolation, lanes, oriented: &oriented, stage };
+                                fill::<i64, _, _, _, _, _, _, _>(target, &samples, &setup, counters)
+                            }
+                        }
+                    };
+                    counters.rasterized(outcome);
+                }
+                outcome
+            },
+        )
     }
 
     /// The second part, for one triangle. Not inlined: most triangles do not come here.
@@ -215,58 +278,39 @@ impl<F, P: Interpolation> Paint<F, P> {
         D: DepthFormat,
         K: Counters,
     {
-        self.draw(lanes, target, once((corners, *reach)), counters)
+        self.draw(lanes, target, corners, reach, counters)
     }
 
-    /// The second part, for triangles in order.
+    /// The second part, for policies that work on one sample at a time.
     #[inline(always)]
-    fn draw<'v, L, V, C, D, K>(
+    fn draw<L, V, C, D, K>(
         &self,
         lanes: L,
         target: &mut Target<'_, C, D>,
-        triangles: impl Iterator<Item = ([&'v Corner<V>; 3], Reach)>,
+        vertices: [&Corner<V>; 3],
+        reach: &Reach,
         counters: &mut K,
     ) -> Outcome
     where
         L: Floating,
-        V: Varying + 'v,
+        V: Varying,
         F: FragmentStage<V>,
         C: ColorFormat,
         D: DepthFormat,
         K: Counters,
     {
         let Self { stage, interpolation, subpixel, .. } = *self;
-        let (bits, [limits, _]) = (subpixel.bits(), target.limits());
-        lanes.vectorize(
-            #[inline(always)]
-            || {
-                let mut outcome = Outcome::Missed;
-                for (vertices, reach) in triangles {
-                    let oriented = reach.oriented(vertices, bits, <P::Lanes<L> as Lanes>::FIXED);
-                    let setup = Setup { interpolation, lanes, oriented: &oriented, stage };
-                    let wide = Setup { interpolation, lanes: lanes.wide(), oriented: &oriented, stage };
-                    let (columns, rows, limits) = (reach.columns(), reach.rows(), limits.clone());
-                    let samples = SampleBox { corners: &oriented.corners, bits, columns, rows, limits };
-                    let fits_i32 = reach.fits_i32();
-                    // Several lanes hold 64-bit edge functions as well as 32-bit ones.
-                    outcome = if const { <P::Lanes<L> as Lanes>::COUNT == 1 } {
-                        if fits_i32 {
-                            fill::<i32, _, _, _, _, _, _, _>(target, &samples, &wide, counters)
-                        } else {
-                            fill::<i64, _, _, _, _, _, _, _>(target, &samples, &wide, counters)
-                        }
-                    } else if fits_i32 && samples.suit_masks::<P::Lanes<L>>(interpolation.run()) {
-                        fill_masked(target, &samples, &setup, counters)
-                    } else if const { P::WIDE && F::WIDE } {
-                        fill::<i64, _, _, _, _, _, _, _>(target, &samples, &wide, counters)
-                    } else {
-                        fill::<i64, _, _, _, _, _, _, _>(target, &samples, &setup, counters)
-                    };
-                    counters.rasterized(outcome);
-                }
-                outcome
-            },
-        )
+        let [limits, _] = target.limits();
+        let oriented = Oriented::new(vertices, reach.area(), subpixel.bits(), <P::Lanes<L> as Lanes>::FIXED);
+        let setup = Setup { interpolation, lanes, oriented: &oriented, stage };
+        let samples = SampleBox::new(&oriented, [reach.columns(), reach.rows()], limits);
+        let outcome = if reach.fits_i32() {
+            fill::<i32, _, _, _, _, _, _, _>(target, &samples, &setup, counters)
+        } else {
+            fill::<i64, _, _, _, _, _, _, _>(target, &samples, &setup, counters)
+        };
+        counters.rasterized(outcome);
+        outcome
     }
 }
 
@@ -299,13 +343,14 @@ struct SampleBox<'a> {
     limits: Range<i32>,
 }
 
-impl SampleBox<'_> {
-    /// Whether rows are best filled by testing every sample: the box is narrow, within the band, and in one run.
+impl<'a> SampleBox<'a> {
     #[inline(always)]
-    fn suit_masks<L: Lanes>(&self, run: i32) -> bool {
-        let Range { start, end } = self.columns;
-        let one_run = (start ^ (end - 1)) & !(run - 1) == 0;
-        end - aligned::<L>(start) <= NARROW && start >= self.limits.start && end <= self.limits.end && one_run
+    fn new<V: Varying>(
+        oriented: &'a Oriented<'_, V>,
+        [columns, rows]: [Range<i32>; 2],
+        limits: Range<i32>,
+    ) -> Self {
+        Self { corners: &oriented.corners, bits: oriented.bits, columns, rows, limits }
     }
 
     /// The number of rows whose samples lie above the middle vertex.
@@ -373,33 +418,27 @@ where
     if painter.is_some() { Outcome::Drawn } else { Outcome::Missed }
 }
 
-/// The same for several lanes and a box that [suits masks](SampleBox::suit_masks): without spans.
+/// The same for several lanes and a box that is [filled by masks](Way::Masks): without spans.
 #[inline(always)]
-fn fill_masked<P, L, V, F, C, D, K>(
+fn fill_masked<L, V, T, F, C, D, K>(
+    lanes: L,
     target: &mut Target<'_, C, D>,
-    samples: &SampleBox<'_>,
-    setup: &Setup<'_, P, L, V, F>,
+    [columns, rows]: [Range<i32>; 2],
+    edges: [Edge<i32>; 3],
+    prepare: impl FnOnce() -> Painter<L, V, T, F>,
     counters: &mut K,
 ) -> Outcome
 where
-    L: Floating,
+    L: Lanes,
     V: Varying,
-    P: Interpolation,
+    T: Interpolate<L, V>,
     F: FragmentStage<V>,
     C: ColorFormat,
     D: DepthFormat,
     K: Counters,
 {
-    let SampleBox { columns, rows, .. } = samples;
-    let left = aligned::<P::Lanes<L>>(columns.start);
-    let first = [columns.start, rows.start];
-    let mut mask = RowMask::new(
-        setup.interpolation.lanes(setup.lanes),
-        samples.edges::<i32>(),
-        first,
-        left,
-        columns.end,
-    );
+    let left = aligned::<L>(columns.start);
+    let mut mask = RowMask::new(lanes, edges, columns, rows.start);
     let mut row = rows.start;
     let mut bits = mask.bits();
     // A triangle that covers no sample is not prepared.
@@ -410,13 +449,16 @@ where
         }
         bits = mask.next_row();
     }
-    let painter = setup.prepare();
+    let painter = prepare();
+    let formats = (target.color_format(), target.depth_format());
+    let mut pixels = target.rows_from(row, left);
     while row < rows.end {
         if bits != 0 {
-            let written = painter.masked(target, row, left, bits, &mask);
+            let written = painter.masked(formats, pixels.row(), [left, row], bits, &mask);
             counters.span(bits.count_ones(), written);
         }
         row += 1;
+        pixels.down();
         bits = mask.next_row();
     }
     Outcome::Drawn

@@ -20,10 +20,10 @@ use crate::edge::{Edge, EdgeInt};
 use crate::fragment::FragmentStage;
 use crate::spans::Span;
 use crate::target::Target;
-use crate::triangle::{Corner, Corners, Numbers, Outcome};
+use crate::triangle::{Corner, Corners, Numbers, Outcome, in_order};
 use crate::{ColorFormat, Counters, DepthFormat, Paint};
-use alberti_math::Varying;
 use alberti_math::lanes::{Floating, Lanes};
+use alberti_math::{Varying, map3};
 use core::fmt::Debug;
 
 /// A policy of interpolation, chosen once per draw. ε is 2^-24.
@@ -108,7 +108,16 @@ pub struct Oriented<'a, V: Varying> {
     pub fixed: bool,
 }
 
-impl<V: Varying> Oriented<'_, V> {
+impl<'a, V: Varying> Oriented<'a, V> {
+    /// A triangle with these vertices, twice whose signed area is not 0.
+    #[inline(always)]
+    pub(crate) fn new(vertices: [&'a Corner<V>; 3], doubled_area: i64, bits: u32, fixed: bool) -> Self {
+        let first = vertices[0].components;
+        let places = map3(vertices, |corner| corner.place);
+        let (corners, vertices) = in_order(places, vertices, doubled_area);
+        Self { vertices, corners, doubled_area: doubled_area.abs(), first, bits, fixed }
+    }
+
     /// Subpixels of a pixel.
     #[inline(always)]
     pub(crate) fn one(&self) -> i32 {

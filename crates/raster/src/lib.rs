@@ -17,6 +17,8 @@ mod fragment;
 mod interpolation;
 mod mask;
 mod paint;
+mod pixels;
+mod setup;
 mod small;
 mod spans;
 mod target;

@@ -2,10 +2,9 @@
 //! lie.
 
 use crate::edge::Edge;
+use crate::paint::aligned;
 use alberti_math::lanes::Lanes;
-
-/// The columns of the widest box for which this is cheaper than finding where the edges cross the rows.
-pub(crate) const NARROW: i32 = 32;
+use core::ops::Range;
 
 /// The lowest 1 to 32 bits.
 #[inline(always)]
@@ -25,35 +24,34 @@ pub(crate) struct RowMask<L: Lanes> {
     over: [L::Int; 3],
     down: [L::Int; 3],
     bias: [L::Int; 3],
-    /// The edges in the first row at the first column of the box, and that column and row.
+    /// The edges in the first row at the lanes' first column, and that column and row.
     edges: [Edge<i32>; 3],
     first: [i32; 2],
 }
 
 impl<L: Lanes> RowMask<L> {
-    /// The row of the edges' reference sample, which is the box's `first` column and row. Lanes begin at the column
-    /// `left`, not after it, and up to [`NARROW`] of them reach to before the column `end`.
+    /// The row of the edges' reference sample, which is in the column where the lanes begin. Up to 32 of them reach to
+    /// before the end of the box's columns.
     #[inline(always)]
-    pub(crate) fn new(lanes: L, edges: [Edge<i32>; 3], first: [i32; 2], left: i32, end: i32) -> Self {
+    pub(crate) fn new(lanes: L, edges: [Edge<i32>; 3], columns: Range<i32>, row: i32) -> Self {
         let [a, b, c] = &edges;
-        // Outside of the box, functions may wrap.
-        let before = first[0] - left;
-        let start = |e: &Edge<i32>| (e.value + e.bias).wrapping_sub(e.step_x.wrapping_mul(before));
+        let left = aligned::<L>(columns.start);
+        let (before, end) = (columns.start - left, columns.end - left);
         let over = |e: &Edge<i32>| lanes.int(e.step_x.wrapping_mul(L::STEP));
         Self {
             lanes,
-            inside: lowest(end - left) & (u32::MAX << before),
-            groups: (end - left + L::STEP - 1) / L::STEP,
+            inside: lowest(end) & (u32::MAX << before),
+            groups: (end + L::STEP - 1) / L::STEP,
             values: [
-                lanes.int_ramp(start(a), a.step_x),
-                lanes.int_ramp(start(b), b.step_x),
-                lanes.int_ramp(start(c), c.step_x),
+                lanes.int_ramp(a.value + a.bias, a.step_x),
+                lanes.int_ramp(b.value + b.bias, b.step_x),
+                lanes.int_ramp(c.value + c.bias, c.step_x),
             ],
             over: [over(a), over(b), over(c)],
             down: [lanes.int(a.step_y), lanes.int(b.step_y), lanes.int(c.step_y)],
             bias: [lanes.int(-a.bias), lanes.int(-b.bias), lanes.int(-c.bias)],
             edges,
-            first,
+            first: [left, row],
         }
     }
 

@@ -9,8 +9,9 @@ use crate::edge::{Edge, EdgeInt};
 use crate::fragment::{FragmentStage, Fragments};
 use crate::interpolation::{Interpolate, Row};
 use crate::mask::RowMask;
+use crate::pixels::Pixels;
 use crate::spans::Span;
-use crate::target::{Pixels, Target};
+use crate::target::Target;
 use alberti_math::Varying;
 use alberti_math::lanes::Lanes;
 use core::hint::black_box;
@@ -172,13 +173,14 @@ where
         written
     }
 
-    /// Fills those samples of a row whose bits are set, counted from column `left`; all of them lie in one run.
+    /// Fills those samples of a row whose bits are set, counted from column `left`, where the pixels begin; all of them
+    /// lie in one run.
     #[inline(always)]
     pub(crate) fn masked<C, D>(
         &self,
-        target: &mut Target<'_, C, D>,
-        row: i32,
-        left: i32,
+        formats: (C, D),
+        (colors, depths): Pixels<'_, C::Pixel, D::Stored>,
+        [left, row]: [i32; 2],
         mut bits: u32,
         mask: &RowMask<L>,
     ) -> u32
@@ -194,8 +196,6 @@ where
         let whole = Row { row, covered, origin: left, edges: &edges };
         let mut known = self.triangle.row(&whole);
         let ((mut cursor, derivatives), _) = self.start(&whole, &mut known, covered.start, left);
-        let formats = (target.color_format(), target.depth_format());
-        let (colors, depths) = target.pixels_from(row, left);
         let ((mut colors, last_colors), (mut depths, last_depths)) = (L::groups(colors), L::groups(depths));
         let (mut values, mut written, mut column, mut copy) = (mask.first(), 0, left, None);
         loop {

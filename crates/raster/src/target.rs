@@ -2,6 +2,7 @@
 
 use crate::color::{ColorFormat, FragmentColor};
 use crate::depth::DepthFormat;
+use crate::pixels::{Pixels, Rows};
 use alberti_math::map2;
 use core::fmt;
 use core::iter::from_fn;
@@ -99,9 +100,6 @@ impl fmt::Display for TargetError {
 }
 
 impl core::error::Error for TargetError {}
-
-/// Colours and depths.
-pub(crate) type Pixels<'a, C, D> = (&'a mut [C], &'a mut [D]);
 
 /// The largest width and height of a frame.
 pub(crate) const LARGEST: u32 = 1 << 14;
@@ -308,16 +306,24 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
     /// As many pixels as depths from `column` of the frame's row `row` on, to the end of the target or beyond the
     /// window; none where there are none.
     #[inline]
-    pub(crate) fn pixels_from(&mut self, row: i32, column: i32) -> (&mut [C::Pixel], &mut [D::Stored]) {
+    pub(crate) fn pixels_from(&mut self, row: i32, column: i32) -> Pixels<'_, C::Pixel, D::Stored> {
+        self.rows_from(row, column).pixels()
+    }
+
+    /// The same for that row and then those below.
+    #[inline]
+    pub(crate) fn rows_from(&mut self, row: i32, column: i32) -> Rows<'_, C::Pixel, D::Stored> {
+        let strides = self.strides;
         let place = |row: i32| {
             let row = usize::try_from(row).ok()?.checked_sub(self.first_row)?;
             Some((row, usize::try_from(column).ok()?))
         };
-        let Some((row, column)) = place(row) else { return (&mut [], &mut []) };
-        let color = self.color.get_mut(row * self.strides[0] + column..).unwrap_or_default();
-        let depth = self.depth.get_mut(row * self.strides[1] + column..).unwrap_or_default();
-        let count = color.len().min(depth.len());
-        (color.get_mut(..count).unwrap_or_default(), depth.get_mut(..count).unwrap_or_default())
+        let Some((row, column)) = place(row) else {
+            return Rows { colors: &mut [], depths: &mut [], strides };
+        };
+        let colors = self.color.get_mut(row * strides[0] + column..).unwrap_or_default();
+        let depths = self.depth.get_mut(row * strides[1] + column..).unwrap_or_default();
+        Rows { colors, depths, strides }
     }
 
     /// The target in parts of so many rows, at least one, from the top of its memory; the last may have fewer. Parts

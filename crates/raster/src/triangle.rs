@@ -1,7 +1,7 @@
 //! A triangle on the screen, its orientation and its box of samples.
 
 use crate::edge::FITS_I32;
-use crate::interpolation::{LIMIT, Oriented};
+use crate::interpolation::LIMIT;
 use alberti_math::{Fixed, LOW_WORDS_ONLY, Q16, Varying, map3, map4, scaled};
 use core::cell::RefCell;
 use core::fmt;
@@ -238,23 +238,16 @@ impl Reach {
         self.rows[0]..self.rows[1]
     }
 
+    /// Twice the signed area.
+    #[inline(always)]
+    pub(crate) fn area(&self) -> i64 {
+        self.area
+    }
+
     /// Whether edge functions fit `i32` everywhere in the box.
     #[inline(always)]
     pub(crate) fn fits_i32(&self) -> bool {
         self.fits_i32
-    }
-
-    /// The triangle, whose vertices these are, for interpolation.
-    #[inline(always)]
-    pub(crate) fn oriented<'a, V: Varying>(
-        &self,
-        vertices: [&'a Corner<V>; 3],
-        bits: u32,
-        fixed: bool,
-    ) -> Oriented<'a, V> {
-        let first = vertices[0].components;
-        let (corners, vertices) = in_order(map3(vertices, |corner| corner.place), vertices, self.area);
-        Oriented { vertices, corners, doubled_area: self.area.abs(), first, bits, fixed }
     }
 }
 

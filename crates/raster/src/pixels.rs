@@ -1,0 +1,36 @@
+//! Pixels of a target, row by row.
+
+use core::mem::take;
+
+/// Colours and depths.
+pub(crate) type Pixels<'a, C, D> = (&'a mut [C], &'a mut [D]);
+
+/// Pixels from one on, in its row and in those below.
+pub(crate) struct Rows<'a, C, D> {
+    pub(crate) colors: &'a mut [C],
+    pub(crate) depths: &'a mut [D],
+    /// Pixels and depths from a row to the next.
+    pub(crate) strides: [usize; 2],
+}
+
+impl<'a, C, D> Rows<'a, C, D> {
+    /// As many pixels as depths from the row on.
+    #[inline(always)]
+    pub(crate) fn pixels(self) -> Pixels<'a, C, D> {
+        let count = self.colors.len().min(self.depths.len());
+        (self.colors.get_mut(..count).unwrap_or_default(), self.depths.get_mut(..count).unwrap_or_default())
+    }
+
+    /// The same, for a while.
+    #[inline(always)]
+    pub(crate) fn row(&mut self) -> Pixels<'_, C, D> {
+        Rows { colors: &mut *self.colors, depths: &mut *self.depths, strides: self.strides }.pixels()
+    }
+
+    /// Goes down one row.
+    #[inline(always)]
+    pub(crate) fn down(&mut self) {
+        self.colors = take(&mut self.colors).get_mut(self.strides[0]..).unwrap_or_default();
+        self.depths = take(&mut self.depths).get_mut(self.strides[1]..).unwrap_or_default();
+    }
+}
