@@ -26,7 +26,8 @@ pub use alberti_math::{
 };
 pub use alberti_projection as projection;
 pub use alberti_projection::{
-    AnyProjection, Homogeneous, Parallel, Perspective, Projection, Projector, ViewError, Viewport, look_at,
+    AnyProjection, ClipSpace, Handedness, Homogeneous, Parallel, Perspective, Projection, Projector,
+    ViewError, Viewport, eye_of_matrix, look_at,
 };
 pub use alberti_raster as raster;
 pub use alberti_raster::{

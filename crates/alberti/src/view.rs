@@ -1,7 +1,10 @@
 //! Cameras and views: steps 1, 2 and 4 of the pipeline, and the shape of the picture.
 
+use alberti_math::glam::Mat4;
 use alberti_math::{Eye, Frame, Object, Point3, Vector3, World};
-use alberti_projection::{AnyProjection, Parallel, Perspective, Projection, ViewError, Viewport, look_at};
+use alberti_projection::{
+    AnyProjection, Handedness, Parallel, Perspective, Projection, ViewError, Viewport, eye_of_matrix, look_at,
+};
 use core::ops::Range;
 
 /// An observer's place and orientation.
@@ -27,6 +30,25 @@ impl Camera {
     #[must_use]
     pub fn at(frame: Frame<Eye, World>) -> Self {
         Self { to_eye: frame.inverse_orthonormal() }
+    }
+
+    /// The observer of a view matrix, such as glam's.
+    ///
+    /// ```
+    /// use alberti::glam::{Vec3, camera::rh};
+    /// use alberti::{Camera, ClipSpace, Handedness, Perspective};
+    ///
+    /// let view = rh::view::look_at_mat4(Vec3::Z * 2.0, Vec3::ZERO, Vec3::Y);
+    /// let projection = rh::proj::directx::perspective(0.7, 4.0 / 3.0, 0.1, 100.0);
+    /// let lens = Perspective::from_matrix(projection, ClipSpace::DirectX)?;
+    /// let view = Camera::from_matrix(view, Handedness::Right)?.through(lens);
+    /// # Ok::<(), alberti::ViewError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`eye_of_matrix`].
+    pub fn from_matrix(view: Mat4, handedness: Handedness) -> Result<Self, ViewError> {
+        Ok(Self::at(eye_of_matrix(view, handedness)?))
     }
 
     /// The view in perspective, with the full vertical opening angle `fov_y` (radians), between the planes z = near and

@@ -24,6 +24,8 @@ pub enum ViewError {
     Viewport,
     /// The ends of the range of screen depths are equal or not finite.
     DepthRange,
+    /// A matrix is not that of an observer, or of a pyramid around the direction of view.
+    Matrix,
 }
 
 impl fmt::Display for ViewError {
@@ -38,6 +40,7 @@ impl fmt::Display for ViewError {
             Self::NearFar => "the planes must satisfy near < far (in perspective, 0 < near), as numbers that f32 tells apart",
             Self::Viewport => "the viewport is empty or reaches more than 16384 pixels from the origin",
             Self::DepthRange => "the ends of the range of screen depths must be finite and differ",
+            Self::Matrix => "the matrix must be a rotation and a translation, or a perspective around the direction of view",
         })
     }
 }

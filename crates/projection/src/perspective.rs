@@ -27,10 +27,17 @@ impl Perspective {
     /// # Errors
     /// [`ViewError::Angle`], [`ViewError::Aspect`], [`ViewError::NearFar`].
     pub const fn new(fov_y: f32, aspect: f32, near: f32, far: f32) -> Result<Self, ViewError> {
-        let scale = match pyramid_scale(fov_y, aspect) {
-            Ok([_, scale]) => scale,
-            Err(error) => return Err(error),
-        };
+        match pyramid_scale(fov_y, aspect) {
+            Ok([_, scale]) => Self::of_scale(scale, aspect, [near, far]),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// The same by the cotangent of half the opening angle.
+    pub(crate) const fn of_scale(scale: f64, aspect: f32, [near, far]: [f32; 2]) -> Result<Self, ViewError> {
+        if let Err(error) = checked_scale(scale, aspect) {
+            return Err(error);
+        }
         let (Ok(forward), Ok(reversed)) = (DepthMap::forward(near, far), DepthMap::reversed(near, far))
         else {
             return Err(ViewError::NearFar);
@@ -100,10 +107,14 @@ pub(crate) const fn pyramid_scale(fov_y: f32, aspect: f32) -> Result<[f64; 2], V
     if !(fov_y > 0.0 && fov_y < core::f32::consts::PI) {
         return Err(ViewError::Angle);
     }
+    checked_scale(cot_half(fov_y as f64), aspect)
+}
+
+/// The same factors by cot(fov/2).
+const fn checked_scale(scale: f64, aspect: f32) -> Result<[f64; 2], ViewError> {
     if !(aspect > 0.0 && aspect.is_finite()) {
         return Err(ViewError::Aspect);
     }
-    let scale = cot_half(fov_y as f64);
     let [x, y] = [scale / aspect as f64, scale];
     #[expect(clippy::cast_possible_truncation, reason = "to see whether they can be rounded")]
     let normal = (x as f32).is_normal() && (y as f32).is_normal();
