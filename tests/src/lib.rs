@@ -2,6 +2,7 @@
 
 pub mod derivatives;
 pub mod errors;
+pub mod narrow;
 pub mod probe;
 pub mod random;
 pub mod reference;

@@ -229,12 +229,12 @@ mod tests {
             "_ZN7alberti8pipeline9draw_from28_$u7b$$u7b$closure$u7d$$u7d$17h0a2538f26c1ebbf2E",
             "_RINvNtCs123_7alberti8pipeline9draw_fromhmE",
             "_RNvNtCs123_7alberti8pipeline4clip",
-            "_ZN14alberti_raster4draw18Paint$LT$F$C$P$GT$11draw_copies17h083f00431fb763deE",
+            "_ZN14alberti_raster4draw18Paint$LT$F$C$P$GT$10draw_batch17h083f00431fb763deE",
             "main",
         ];
         let program = Program { text: 0, rodata: 0, symbols: symbols.map(str::to_string).to_vec() };
         assert_eq!(program.instances("alberti::pipeline::draw_from"), 3);
-        assert_eq!(program.instances("alberti_raster::draw::Paint::draw_copies"), 1);
+        assert_eq!(program.instances("alberti_raster::draw::Paint::draw_batch"), 1);
         assert_eq!(program.instances("main"), 1);
     }
 }

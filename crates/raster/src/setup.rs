@@ -44,6 +44,9 @@ pub(crate) enum Way {
     Spans,
 }
 
+/// The columns and rows of three corners, and whether they are turned.
+type Words<L> = [<L as Lanes>::Each<u32>; 7];
+
 impl<L: Lanes> Setups<L> {
     /// The setup of triangles with so many bits of subpixels, for a target with these columns and rows and a policy
     /// with such runs.
@@ -55,9 +58,7 @@ impl<L: Lanes> Setups<L> {
         limits: &[Range<i32>; 2],
         run: i32,
     ) -> Self {
-        let none = lanes.each(|_| 0);
-        // The columns and rows of three corners, and whether they are turned.
-        let mut words = [none; 7];
+        let mut words = [lanes.each(|_| 0); 7];
         lanes.each(
             #[inline(always)]
             |k| {
@@ -72,7 +73,21 @@ impl<L: Lanes> Setups<L> {
                 }
             },
         );
-        let [ax, ay, bx, by, cx, cy, turned] = &words;
+        Self::of_words(lanes, &words, bits, limits, run)
+    }
+
+    /// The same, once for all kinds of vertices: a copy in each kernel would take a quarter of the time to compile it.
+    #[inline(never)]
+    fn of_words(lanes: L, words: &Words<L>, bits: u32, limits: &[Range<i32>; 2], run: i32) -> Self {
+        lanes.vectorize(
+            #[inline(always)]
+            || Self::in_lanes(lanes, words, bits, limits, run),
+        )
+    }
+
+    #[inline(always)]
+    fn in_lanes(lanes: L, words: &Words<L>, bits: u32, limits: &[Range<i32>; 2], run: i32) -> Self {
+        let [ax, ay, bx, by, cx, cy, turned] = words;
         let [a, b, c] = [corner(lanes, [ax, ay], 0), corner(lanes, [bx, by], 1), corner(lanes, [cx, cy], 2)];
         let [columns, rows] = limits;
         let ([left, right], _) = samples(lanes, [a[0], b[0], c[0]], bits);

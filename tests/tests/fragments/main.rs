@@ -11,6 +11,7 @@ mod minification;
 mod modes;
 mod parallel;
 mod policies;
+mod profiles;
 mod projector;
 mod reliefs;
 mod values;

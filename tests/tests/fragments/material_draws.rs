@@ -19,6 +19,7 @@ use alberti::{
     for_lanes,
 };
 use alberti_oracle::rng::{Rng, run_seed};
+use alberti_tests::narrow::Narrow;
 
 const SIDE: usize = 96;
 
@@ -35,7 +36,7 @@ fn picture<L: Floating, P: Projection, V: Varying, T: Copy + Sync>(
     let side = SIDE as u32;
     let mut target = Target::new(Rgba8888, F32, side, side, &mut color, &mut depth).expect("a frame");
     let (view, mesh) = (View::new(Frame::IDENTITY, projection), Mesh::new(vertices, triangles, vertex_stage));
-    Pass::new(&view, &mesh, fragment_stage)
+    Pass::new(&view, &mesh, Narrow(fragment_stage))
         .cull(Cull::None)
         .interpolation(interpolation)
         .slots(&mut vec![Slot::EMPTY; vertices.len()])

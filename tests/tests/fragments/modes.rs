@@ -18,6 +18,7 @@ use alberti_oracle::rng::{Rng, run_seed};
 use alberti_raster::{
     Exact, FixedPoint, Interpolation, Lines, NoDepth, Paint, Planes, Rgba8888, Target, Vertex,
 };
+use alberti_tests::narrow::Narrow;
 use alberti_tests::probe::{Recorded, Seen, vertex};
 
 const EPS: f64 = 1.0 / (1 << 24) as f64;
@@ -119,7 +120,7 @@ fn flat_values_survive_clipping() {
         let mut target =
             Target::new(Rgba8888, NoDepth, width, height, &mut color, &mut depth).expect("a frame");
         let stage = |w: Flat<f32>| seen.keep(w);
-        Pass::new(&view, &mesh, stage).cull(Cull::None).sides(Sides::Cube).draw(&mut target);
+        Pass::new(&view, &mesh, Narrow(stage)).cull(Cull::None).sides(Sides::Cube).draw(&mut target);
         let drawn: Vec<u32> = color.into_iter().filter(|&c| c != 0).collect();
         assert!(drawn.len() > 1000, "only {} pixels", drawn.len());
         let expected = vertices[usize::from(first)].3;

@@ -19,6 +19,7 @@ use alberti_oracle::cases::pixel_centre;
 use alberti_oracle::coverage::covers;
 use alberti_oracle::dd;
 use alberti_oracle::rng::{Rng, run_seed};
+use alberti_tests::narrow::Narrow;
 use alberti_tests::probe::{Recorded, Seen};
 
 const EPS: f64 = 1.0 / (1 << 24) as f64;
@@ -42,7 +43,7 @@ fn drawn(policy: impl Interpolation, triangle: &[Given; 3]) -> Vec<([i64; 2], f3
     let seen = Seen::default();
     let (view, mesh) = (view(PLANES), Mesh::new(triangle, &[[0u16, 1, 2]], |v: &Given| *v));
     let stage = |u: f32| seen.keep(u);
-    let mut pass = Pass::new(&view, &mesh, stage).cull(Cull::None).interpolation(policy);
+    let mut pass = Pass::new(&view, &mesh, Narrow(stage)).cull(Cull::None).interpolation(policy);
     let machine = Machine::all().next().expect("every machine has lanes");
     for_lanes!(machine, lanes => pass.draw_by(lanes, &mut target));
     let place = |i: usize| [(i % SIDE) as i64, (i / SIDE) as i64];
@@ -108,7 +109,10 @@ fn only_what_lies_between_the_planes_is_drawn() {
             let mut target =
                 Target::new(Rgba8888, Recorded, SIZE, SIZE, &mut color, &mut depth).expect("a frame");
             let stage = |u: f32| seen.keep(u);
-            Pass::new(&view, &mesh, stage).sides(sides).interpolation(Lines::affine()).draw(&mut target);
+            Pass::new(&view, &mesh, Narrow(stage))
+                .sides(sides)
+                .interpolation(Lines::affine())
+                .draw(&mut target);
             let mut rows = 0;
             for (i, (&c, &zs)) in color.iter().zip(&depth).enumerate() {
                 let z = 8.0 * (1.0 - ((i / SIDE) as f32 + 0.5) / HALF);
@@ -146,7 +150,7 @@ fn picture(format: AnyDepth, soup: &[Given], triangles: &[[u16; 3]]) -> Vec<u32>
     let mesh = Mesh::new(soup, triangles, |v: &Given| (v.0, Flat(v.1)));
     let stage = |Flat(u): Flat<f32>| Some(Rgba8::from_bits(u.to_bits()));
     let (view, mut slots) = (view(PLANES), [Slot::EMPTY; 16]);
-    Pass::new(&view, &mesh, stage)
+    Pass::new(&view, &mesh, Narrow(stage))
         .cull(Cull::None)
         .interpolation(Lines::affine())
         .slots(&mut slots)

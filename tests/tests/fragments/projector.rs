@@ -16,6 +16,7 @@ use alberti::{
     Stats, Target, Vector3, View, World, for_lanes, look_at,
 };
 use alberti_oracle::rng::{Rng, run_seed};
+use alberti_tests::narrow::Narrow;
 
 const WIDTH: usize = 160;
 const HEIGHT: usize = 120;
@@ -124,7 +125,7 @@ fn shot(
     let (width, height) = (WIDTH as u32, HEIGHT as u32);
     let mut target = Target::new(Rgba8888, NoDepth, width, height, &mut color, &mut depth).expect("a frame");
     let (view, mut stats) = (camera.view(), Stats::default());
-    Pass::new(&view, &mesh, stage).cull(Cull::None).count_by(lanes, &mut target, &mut stats);
+    Pass::new(&view, &mesh, Narrow(stage)).cull(Cull::None).count_by(lanes, &mut target, &mut stats);
     (color.into_iter().map(u32::to_ne_bytes).collect(), stats)
 }
 

@@ -14,6 +14,7 @@ use alberti::{
 };
 use alberti_oracle::rng::{Rng, run_seed};
 use alberti_raster::{Paint, Vertex};
+use alberti_tests::narrow::Narrow;
 use alberti_tests::random::triangle;
 use std::ops::Range;
 
@@ -46,7 +47,8 @@ fn paint<D: DepthFormat>(
         let word = salt ^ bits[0] ^ bits[1].rotate_left(9) ^ bits[2].rotate_left(21);
         (bits[0] & 7 != 3).then_some(word)
     };
-    let paint = Paint { stage, interpolation: policies.0, subpixel: policies.1, cull: Cull::None };
+    let paint =
+        Paint { stage: Narrow(stage), interpolation: policies.0, subpixel: policies.1, cull: Cull::None };
     for [a, b, c] in triangles {
         paint.triangle(lanes, target, [a, b, c], &mut ());
     }

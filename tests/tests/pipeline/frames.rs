@@ -10,6 +10,7 @@ use alberti::{
     PreparedTriangle, Projection, Rgb565Be, Rgba8, Rgba8888, Target, Vector3, View, Viewport, look_at,
 };
 use alberti_oracle::rng::{Rng, run_seed};
+use alberti_tests::narrow::Narrow;
 
 /// A pixel that nobody draws.
 const SENTINEL: u32 = 0xdead_beef;
@@ -34,7 +35,7 @@ impl Soup {
         viewport: Option<Viewport>,
     ) {
         let mesh = Mesh::new(&self.0, &self.1, |&p| (p, p));
-        let pass = Pass::new(view, &mesh, stage).cull(Cull::None);
+        let pass = Pass::new(view, &mesh, Narrow(stage)).cull(Cull::None);
         let mut pass = if let Some(viewport) = viewport { pass.viewport(viewport) } else { pass };
         pass.draw(target);
     }
@@ -120,7 +121,7 @@ fn bands_in_the_same_memory_make_the_frame() {
         let rows = 1 + rng.index(height + 3);
         let (mut memory, mut its_depth) = (vec![0; width * rows], vec![0; width * rows]);
         let mesh = Mesh::new(&soup.0, &soup.1, |&p| (p, p));
-        let mut pass = Pass::new(&view, &mesh, stage).cull(Cull::None);
+        let mut pass = Pass::new(&view, &mesh, Narrow(stage)).cull(Cull::None);
         let mut room = vec![PreparedTriangle::EMPTY; rng.index(40)];
         let (mut prepared, _) = pass.count_prepare(size, DEPTH, &mut room, &mut ());
         for again in [false, true] {

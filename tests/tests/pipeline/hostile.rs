@@ -11,6 +11,7 @@ use alberti::{
     Interpolation, Lines, Mesh, NoDepth, Pass, Perspective, Planes, Point3, Rgba8, Rgba8888, Sides, Slot,
     Spans16, Sub4, Sub8, Subpixel, Target, Varying, Vector3, View, Viewport,
 };
+use alberti_tests::narrow::Narrow;
 use proptest::prelude::*;
 
 const WIDTH: u32 = 40;
@@ -97,7 +98,7 @@ fn check<D: DepthFormat, V: Varying>(
     let place = |(p, v): &Corner| (Vec3::from_array(*p), varying(v));
     let mesh = Mesh::new(&case.corners, &case.triangles, place);
     let mut slots = [Slot::EMPTY; 4];
-    Pass::new(&view, &mesh, fragment_stage)
+    Pass::new(&view, &mesh, Narrow(fragment_stage))
         .viewport(viewport)
         .cull(case.cull)
         .sides(case.sides)

@@ -11,7 +11,6 @@ mod images;
 mod invariance;
 mod lanes;
 mod pictures;
-mod profiles;
 mod resolution;
 mod small;
 mod watertight;

@@ -78,9 +78,15 @@ fn shown<F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size>(
     for &(u, v, [x, y]) in places {
         for machine in Machine::all() {
             for_lanes!(machine, lanes => {
-                let [u, v] = [u, v].map(|each| lanes.load(&lanes.each(|k| each[k])));
-                shown.extend(lanes.store_words(sampler.sample_lanes(lanes, u, v)).as_ref());
-                let numbers = lanes.store(sampler.scalar_lanes(lanes, u, v));
+                let (words, numbers) = lanes.vectorize(
+                    #[inline(always)]
+                    || {
+                        let (u, v) = (lanes.load(&lanes.each(|k| u[k])), lanes.load(&lanes.each(|k| v[k])));
+                        let words = lanes.store_words(sampler.sample_lanes(lanes, u, v));
+                        (words, lanes.store(sampler.scalar_lanes(lanes, u, v)))
+                    },
+                );
+                shown.extend(words.as_ref());
                 shown.extend(numbers.as_ref().iter().map(|number| number.to_bits()));
             });
         }
@@ -241,11 +247,18 @@ fn read<M: MipFilter, U: Wrap, V: Wrap, Z: Size>(
     for &(values, [x, y, level, du_dx, dv_dx, du_dy, dv_dy]) in values {
         for machine in Machine::all() {
             for_lanes!(machine, lanes => {
-                let [u, v, lambda, du_dx, dv_dx, du_dy, dv_dy] =
-                    values.map(|each| lanes.load(&lanes.each(|k| each[k])));
-                read.extend(lanes.store_words(sampler.sample_lod_lanes(lanes, u, v, lambda)).as_ref());
-                let d = Gradient { dx: [du_dx, dv_dx], dy: [du_dy, dv_dy] };
-                read.extend(lanes.store_words(sampler.sample_grad_lanes(lanes, u, v, d)).as_ref());
+                let [by_lod, by_gradient] = lanes.vectorize(
+                    #[inline(always)]
+                    || {
+                        let [u, v, lambda, du_dx, dv_dx, du_dy, dv_dy] =
+                            values.map(|each| lanes.load(&lanes.each(|k| each[k])));
+                        let by_lod = lanes.store_words(sampler.sample_lod_lanes(lanes, u, v, lambda));
+                        let d = Gradient { dx: [du_dx, dv_dx], dy: [du_dy, dv_dy] };
+                        [by_lod, lanes.store_words(sampler.sample_grad_lanes(lanes, u, v, d))]
+                    },
+                );
+                read.extend(by_lod.as_ref());
+                read.extend(by_gradient.as_ref());
             });
         }
         let d = Gradient { dx: [du_dx, dv_dx], dy: [du_dy, dv_dy] };

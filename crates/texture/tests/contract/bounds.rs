@@ -128,12 +128,18 @@ fn same_lanes(filter: impl MipFilter, mipmap: Mipmap<'_, Rgba8888>, random: &mut
         let slopes: [Gradient<[f32; 2]>; 8] = std::array::from_fn(|_| slopes(random));
         for machine in Machine::all() {
             for_lanes!(machine, lanes => {
-                let of = |f: &dyn Fn(usize) -> f32| lanes.load(&lanes.each(f));
-                let (u, v) = (of(&|k| uv[k].x), of(&|k| uv[k].y));
-                let (du_dx, dv_dx) = (of(&|k| slopes[k].dx[0]), of(&|k| slopes[k].dx[1]));
-                let (du_dy, dv_dy) = (of(&|k| slopes[k].dy[0]), of(&|k| slopes[k].dy[1]));
-                let found = sampler.sample_grad_lanes(lanes, u, v, Gradient { dx: [du_dx, dv_dx], dy: [du_dy, dv_dy] });
-                for (k, &found) in lanes.store_words(found).as_ref().iter().enumerate() {
+                let found = lanes.vectorize(
+                    #[inline(always)]
+                    || {
+                        let of = |f: &dyn Fn(usize) -> f32| lanes.load(&lanes.each(f));
+                        let (u, v) = (of(&|k| uv[k].x), of(&|k| uv[k].y));
+                        let (du_dx, dv_dx) = (of(&|k| slopes[k].dx[0]), of(&|k| slopes[k].dx[1]));
+                        let (du_dy, dv_dy) = (of(&|k| slopes[k].dy[0]), of(&|k| slopes[k].dy[1]));
+                        let d = Gradient { dx: [du_dx, dv_dx], dy: [du_dy, dv_dy] };
+                        lanes.store_words(sampler.sample_grad_lanes(lanes, u, v, d))
+                    },
+                );
+                for (k, &found) in found.as_ref().iter().enumerate() {
                     assert_eq!(found, sampler.sample_grad(uv[k], slopes[k]).to_bits(), "{sampler:?}");
                 }
             });

@@ -268,12 +268,17 @@ pub(crate) fn same_lanes<F: Storage, Z: Size>(
         let slopes: [[f32; 4]; 8] = std::array::from_fn(|_| [slope(), slope(), slope(), slope()]);
         for machine in Machine::all() {
             for_lanes!(machine, lanes => {
-                let lane = |k: usize| lanes.load(&lanes.each(|i| samples[i][k]));
-                let found = sampler.sample_lod_lanes(lanes, lane(0), lane(1), lane(2));
-                let slope = |k: usize| lanes.load(&lanes.each(|i| slopes[i][k]));
-                let d = Gradient { dx: [slope(0), slope(1)], dy: [slope(2), slope(3)] };
-                let shaped = sampler.sample_grad_lanes(lanes, lane(0), lane(1), d);
-                let (found, shaped) = (lanes.store_words(found), lanes.store_words(shaped));
+                let (found, shaped) = lanes.vectorize(
+                    #[inline(always)]
+                    || {
+                        let lane = |k: usize| lanes.load(&lanes.each(|i| samples[i][k]));
+                        let found = sampler.sample_lod_lanes(lanes, lane(0), lane(1), lane(2));
+                        let slope = |k: usize| lanes.load(&lanes.each(|i| slopes[i][k]));
+                        let d = Gradient { dx: [slope(0), slope(1)], dy: [slope(2), slope(3)] };
+                        let shaped = sampler.sample_grad_lanes(lanes, lane(0), lane(1), d);
+                        (lanes.store_words(found), lanes.store_words(shaped))
+                    },
+                );
                 for (k, (&found, &shaped)) in found.as_ref().iter().zip(shaped.as_ref()).enumerate() {
                     let [u, v, lambda] = samples[k];
                     assert_eq!(found, sampler.sample_lod(Vec2::new(u, v), lambda).to_bits(), "{samples:?}");
