@@ -140,9 +140,8 @@ impl<'a> Drawing<'a> {
 
     /// Whether a part is drawn by the kernels for plain surfaces.
     fn is_plain(&self, part: &Part) -> bool {
-        let by_sample =
-            matches!(self.options.policies.interpolation, Interpolation::Exact | Interpolation::Plane);
-        by_sample && self.slide.is_none() && !general::is_lit(part, self.model, self.options)
+        let exact = self.options.policies.interpolation == Interpolation::Exact;
+        exact && self.slide.is_none() && !general::is_lit(part, self.model, self.options)
     }
 
     /// A pass with the options' policies but for the interpolation.

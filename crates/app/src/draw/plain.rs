@@ -3,11 +3,11 @@
 
 use super::maps::{FlatMap, Scaled, TileMap, flat_map, tile_map};
 use super::{AMBIENT, Canvas, DIFFUSE, Drawing, color, position};
-use crate::options::{Interpolation, Shading};
+use crate::options::Shading;
 use crate::scene::{Part, Vertex};
 use alberti::glam::{Vec2, Vec3};
 use alberti::shaders::{Sunlit, Unlit, VertexColor};
-use alberti::{FragmentStage, Planes, Rgba8, Slot, Varying};
+use alberti::{FragmentStage, Rgba8, Slot, Varying};
 
 /// A colour, or a texture times that colour.
 pub(super) type Skin<'a> = Scaled<FlatMap<'a>>;
@@ -31,7 +31,7 @@ impl<'a> Drawing<'a> {
         Sunlit::new(Unlit(map), self.light, AMBIENT, DIFFUSE)
     }
 
-    /// A plain surface, [`Exact`](alberti::Exact) or by [`Planes`].
+    /// A plain surface by the default interpolation.
     pub(super) fn draw_plain(&mut self, part: &Part, triangles: &[[u32; 3]], target: &mut Canvas<'_>) {
         let normal = |v: &Vertex| Vec3::from_array(v.normal);
         let uv = |v: &Vertex| Vec2::from_array(v.uv);
@@ -59,13 +59,7 @@ impl<'a> Drawing<'a> {
         let mesh = self.mesh(triangles, |v| (position(v), varying(v)));
         let mut slots = self.slots(triangles);
         let room = &mut Self::room(triangles);
-        let mut pass = self.pass(&mesh, stage, &mut slots);
-        let stats = match self.options.policies.interpolation {
-            Interpolation::Plane => {
-                pass.interpolation(Planes).draw_by_threads(self.options.threads, room, target)
-            }
-            _ => pass.draw_by_threads(self.options.threads, room, target),
-        };
+        let stats = self.pass(&mesh, stage, &mut slots).draw_by_threads(self.options.threads, room, target);
         self.stats += stats;
     }
 }
