@@ -24,6 +24,9 @@ pub struct Batch<'a, 't, 'c, L: Lanes, V: Varying, F, P, C: ColorFormat, D: Dept
     target: &'a mut Target<'t, C, D>,
     limits: [Range<i32>; 2],
     triangles: L::Each<Option<Waiting<'c, V>>>,
+    /// Those whose corners are not kept, with their areas, and a bit for each.
+    copies: L::Each<([Corner<V>; 3], i64)>,
+    copied: u32,
     count: usize,
 }
 
@@ -43,7 +46,8 @@ impl<F, P: Interpolation> Paint<F, P> {
         D: DepthFormat,
     {
         let limits = target.limits();
-        Batch { lanes, paint: *self, target, limits, triangles: lanes.each(|_| None), count: 0 }
+        let (triangles, copies) = (lanes.each(|_| None), lanes.each(|_| ([Corner::NONE; 3], 0)));
+        Batch { lanes, paint: *self, target, limits, triangles, copies, copied: 0, count: 0 }
     }
 }
 
@@ -71,22 +75,34 @@ where
         if let Some(place) = self.triangles.as_mut().get_mut(self.count) {
             *place = Some(triangle);
         }
-        self.count += 1;
-        if self.count >= L::COUNT {
-            self.draw(counters);
-        }
+        self.added(counters);
     }
 
-    /// Draws the triangles that are there, and then one whose corners are not kept. The counters hear the fate of each
-    /// once.
+    /// The same for a triangle whose corners are not kept.
     #[inline(always)]
     pub fn passing(&mut self, corners: [&Corner<V>; 3], counters: &mut impl Counters) {
         if const { <P::Lanes<L> as Lanes>::COUNT == 1 } {
             self.paint.draw_one(self.lanes, self.target, &self.limits, corners, counters);
             return;
         }
-        self.draw(counters);
-        self.paint.draw_in_batch(self.lanes, self.target, corners, counters);
+        let Some((_, area)) = self.paint.facing(corners) else {
+            counters.rasterized(Outcome::Culled);
+            return;
+        };
+        if let Some(copy) = self.copies.as_mut().get_mut(self.count) {
+            *copy = (corners.map(|corner| *corner), area);
+            self.copied |= 1 << self.count;
+        }
+        self.added(counters);
+    }
+
+    /// Draws them all, once there is one for each lane.
+    #[inline(always)]
+    fn added(&mut self, counters: &mut impl Counters) {
+        self.count += 1;
+        if self.count >= L::COUNT {
+            self.draw(counters);
+        }
     }
 
     /// Draws the triangles that are left.
@@ -100,8 +116,17 @@ where
 
     #[inline]
     fn draw(&mut self, counters: &mut impl Counters) {
-        self.paint.draw_batch(self.lanes, self.target, (&self.triangles, self.count), counters);
-        self.count = 0;
+        let Self { lanes, paint, target, triangles, copies, copied, count, .. } = self;
+        if *copied == 0 {
+            paint.draw_batch(*lanes, target, (triangles, *count), counters);
+        } else {
+            let all = lanes.each(|k| match copies.as_ref().get(k) {
+                Some((corners, area)) if *copied >> k & 1 == 1 => Some((corners.each_ref(), *area)),
+                _ => triangles.as_ref().get(k).copied().flatten(),
+            });
+            paint.draw_batch(*lanes, target, (&all, *count), counters);
+        }
+        (*count, *copied) = (0, 0);
     }
 }
 
