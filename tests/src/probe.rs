@@ -29,13 +29,22 @@ pub fn bare(tri: [[i64; 2]; 3]) -> [Vertex<()>; 3] {
     tri.map(|p| vertex(p, 0.5, 1.0, ()))
 }
 
-/// Counts covered samples.
+/// Counts covered samples, and hears the fate of the last triangle.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Covered(pub u64);
+pub struct Covered {
+    /// The samples.
+    pub samples: u64,
+    /// The fate.
+    pub outcome: Option<Outcome>,
+}
 
 impl Counters for Covered {
+    fn rasterized(&mut self, outcome: Outcome) {
+        self.outcome = Some(outcome);
+    }
+
     fn span(&mut self, covered: u32, _: u32) {
-        self.0 += u64::from(covered);
+        self.samples += u64::from(covered);
     }
 }
 
@@ -87,8 +96,7 @@ pub fn draw_widest<V, F, C, D, K>(
     cull: Cull,
     stage: F,
     counters: &mut K,
-) -> Outcome
-where
+) where
     V: Varying,
     F: FragmentStage<V>,
     C: ColorFormat,
@@ -97,7 +105,7 @@ where
 {
     let machine = Machine::all().next().expect("every machine has lanes");
     let paint = Paint { stage, interpolation: Exact, subpixel, cull };
-    for_lanes!(machine, lanes => paint.triangle(lanes, target, vertices, counters))
+    for_lanes!(machine, lanes => paint.triangle(lanes, target, vertices, counters));
 }
 
 /// The number of subpixels of a pixel, and of half a pixel.
@@ -145,7 +153,7 @@ impl Probe<NoDepth> {
         draw_widest(subpixel, &mut target, [&a, &b, &c], Cull::None, |()| Some(1u32), &mut count);
         let found = &self.color[places];
         let seen: u64 = found.iter().map(|&pixel| u64::from(pixel.to_le())).sum();
-        assert_eq!(seen, count.0, "a span reached beyond the scissor: {tri:?} in row {row}");
+        assert_eq!(seen, count.samples, "a span reached beyond the scissor: {tri:?} in row {row}");
         found
     }
 }
@@ -164,8 +172,9 @@ impl Probe<Recorded> {
         };
         let (subpixel, mut target) = (self.subpixel, self.target(row));
         let mut pixel = target.scissor(column..column + 1, row..row + 1);
-        let outcome = draw_widest(subpixel, &mut pixel, [a, b, c], Cull::None, stage, &mut ());
-        assert!(found.get().is_none() || outcome == Outcome::Drawn);
+        let mut count = Covered::default();
+        draw_widest(subpixel, &mut pixel, [a, b, c], Cull::None, stage, &mut count);
+        assert!(found.get().is_none() || count.outcome == Some(Outcome::Drawn));
         let zs = self.depth[column.unsigned_abs() as usize];
         found.get().map(|v| (v, zs))
     }

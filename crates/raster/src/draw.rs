@@ -39,7 +39,7 @@ impl<F, P: Interpolation> Paint<F, P> {
     /// Every sample (pixel centre) inside the snapped triangle is covered, exactly. A sample on an edge belongs to the
     /// triangle whose top or left edge it is. So triangles that share an edge neither leave a gap nor draw twice. The
     /// result does not depend on the order of the three vertices, but for [`Flat`](alberti_math::Flat) components, nor
-    /// on the lanes. The counters hear the fate that is returned.
+    /// on the lanes. The counters hear its fate.
     ///
     /// # Precision
     /// Coverage is exact. Depth and varyings are those of the interpolation. For [`Exact`](crate::Exact), depth is
@@ -62,8 +62,7 @@ impl<F, P: Interpolation> Paint<F, P> {
         target: &mut Target<'_, C, D>,
         vertices: [&Vertex<V>; 3],
         counters: &mut K,
-    ) -> Outcome
-    where
+    ) where
         L: Floating,
         V: Varying,
         F: FragmentStage<V>,
@@ -75,9 +74,10 @@ impl<F, P: Interpolation> Paint<F, P> {
         let corners = vertices.map(|vertex| Corner::new(numbers, vertex));
         if const { <P::Lanes<L> as Lanes>::COUNT == 1 } {
             let limits = target.limits();
-            return self.draw_one(lanes, target, &limits, corners.each_ref(), counters);
+            self.draw_one(lanes, target, &limits, corners.each_ref(), counters);
+        } else {
+            self.draw_in_batch(lanes, target, corners.each_ref(), counters);
         }
-        self.draw_in_batch(lanes, target, corners.each_ref(), counters)
     }
 
     /// [`triangle`](Self::triangle) for policies that work on one sample at a time. `limits` are the target's.
@@ -89,8 +89,7 @@ impl<F, P: Interpolation> Paint<F, P> {
         limits: &[Range<i32>; 2],
         corners: [&Corner<V>; 3],
         counters: &mut K,
-    ) -> Outcome
-    where
+    ) where
         L: Floating,
         V: Varying,
         F: FragmentStage<V>,
@@ -99,25 +98,45 @@ impl<F, P: Interpolation> Paint<F, P> {
         K: Counters,
     {
         if const { P::HAS_SMALL } {
-            return match self.interpolation.draw_small(self, target, corners, counters) {
-                Some(outcome) => {
-                    counters.rasterized(outcome);
-                    outcome
-                }
-                // Large ones are rare: a call for them, so that what comes before stays short.
-                None => self.draw_large(lanes, target, corners, counters),
-            };
+            if self.cull.drops(doubled_area(&map3(corners, |corner| corner.place))) {
+                counters.rasterized(Outcome::Culled);
+            } else {
+                let [a, b, c] = corners;
+                self.draw_seen(lanes, target, a, b, c, counters);
+            }
+            return;
         }
         match self.reach(corners, limits) {
             Ok(reach) => self.draw_alone(lanes, target, corners, &reach, counters),
-            Err(outcome) => {
-                counters.rasterized(outcome);
-                outcome
-            }
+            Err(outcome) => counters.rasterized(outcome),
         }
     }
 
-    /// [`draw_one`](Self::draw_one) for a triangle that is not small.
+    /// [`draw_one`](Self::draw_one) for a triangle that faces the right way, by a policy that has a way for small ones.
+    /// Its corners are in registers, as those of an array are not.
+    #[inline(never)]
+    fn draw_seen<L, V, C, D, K>(
+        &self,
+        lanes: L,
+        target: &mut Target<'_, C, D>,
+        a: &Corner<V>,
+        b: &Corner<V>,
+        c: &Corner<V>,
+        counters: &mut K,
+    ) where
+        L: Floating,
+        V: Varying,
+        F: FragmentStage<V>,
+        C: ColorFormat,
+        D: DepthFormat,
+        K: Counters,
+    {
+        if !self.interpolation.draw_small(self, target, [a, b, c], counters) {
+            self.draw_large(lanes, target, [a, b, c], counters);
+        }
+    }
+
+    /// The same for one that is not small. A call, as such are rare.
     #[inline(never)]
     fn draw_large<L, V, C, D, K>(
         self,
@@ -125,8 +144,7 @@ impl<F, P: Interpolation> Paint<F, P> {
         target: &mut Target<'_, C, D>,
         corners: [&Corner<V>; 3],
         counters: &mut K,
-    ) -> Outcome
-    where
+    ) where
         L: Floating,
         V: Varying,
         F: FragmentStage<V>,
@@ -136,10 +154,7 @@ impl<F, P: Interpolation> Paint<F, P> {
     {
         match self.reach(corners, &target.limits()) {
             Ok(reach) => self.draw(lanes, target, corners, &reach, counters),
-            Err(outcome) => {
-                counters.rasterized(outcome);
-                outcome
-            }
+            Err(outcome) => counters.rasterized(outcome),
         }
     }
 
@@ -173,8 +188,7 @@ impl<F, P: Interpolation> Paint<F, P> {
         target: &mut Target<'_, C, D>,
         corners: [&Corner<V>; 3],
         counters: &mut K,
-    ) -> Outcome
-    where
+    ) where
         L: Floating,
         V: Varying,
         F: FragmentStage<V>,
@@ -184,10 +198,10 @@ impl<F, P: Interpolation> Paint<F, P> {
     {
         let Some(triangle) = self.facing(corners) else {
             counters.rasterized(Outcome::Culled);
-            return Outcome::Culled;
+            return;
         };
         let only = lanes.each(|k| (k == 0).then_some(triangle));
-        self.draw_batch(lanes, target, (&only, 1), counters)
+        self.draw_batch(lanes, target, (&only, 1), counters);
     }
 
     /// The triangle with its area, if it is not culled.
@@ -197,8 +211,8 @@ impl<F, P: Interpolation> Paint<F, P> {
         (!self.cull.drops(area)).then_some((corners, area))
     }
 
-    /// The second part, for the first `count` of several triangles in order: the fate of the last. The counters hear
-    /// that of each. Not inlined, as one copy of this kernel is enough.
+    /// The second part, for the first `count` of several triangles in order. The counters hear the fate of each. Not
+    /// inlined, as one copy of this kernel is enough.
     #[inline(never)]
     pub(crate) fn draw_batch<L, V, C, D, K>(
         &self,
@@ -206,8 +220,7 @@ impl<F, P: Interpolation> Paint<F, P> {
         target: &mut Target<'_, C, D>,
         (triangles, count): (&L::Each<Option<Waiting<'_, V>>>, usize),
         counters: &mut K,
-    ) -> Outcome
-    where
+    ) where
         L: Floating,
         V: Varying,
         F: FragmentStage<V>,
@@ -220,11 +233,10 @@ impl<F, P: Interpolation> Paint<F, P> {
         lanes.vectorize(
             #[inline(always)]
             || {
-                let mut outcome = Outcome::Missed;
                 let setups = Setups::new(lanes, triangles, bits, &limits, interpolation.run());
                 for (k, triangle) in triangles.as_ref().iter().enumerate().take(count) {
                     let Some(triangle @ (vertices, area)) = triangle else { break };
-                    outcome = match setups.way(k) {
+                    let outcome = match setups.way(k) {
                         Way::Missed => Outcome::Missed,
                         Way::Masks => fill_masked(
                             interpolation.lanes(lanes),
@@ -255,9 +267,8 @@ impl<F, P: Interpolation> Paint<F, P> {
                     };
                     counters.rasterized(outcome);
                 }
-                outcome
             },
-        )
+        );
     }
 
     /// The second part, for one triangle. Not inlined: most triangles do not come here.
@@ -269,8 +280,7 @@ impl<F, P: Interpolation> Paint<F, P> {
         corners: [&Corner<V>; 3],
         reach: &Reach,
         counters: &mut K,
-    ) -> Outcome
-    where
+    ) where
         L: Floating,
         V: Varying,
         F: FragmentStage<V>,
@@ -278,7 +288,7 @@ impl<F, P: Interpolation> Paint<F, P> {
         D: DepthFormat,
         K: Counters,
     {
-        self.draw(lanes, target, corners, reach, counters)
+        self.draw(lanes, target, corners, reach, counters);
     }
 
     /// The second part, for policies that work on one sample at a time.
@@ -290,8 +300,7 @@ impl<F, P: Interpolation> Paint<F, P> {
         vertices: [&Corner<V>; 3],
         reach: &Reach,
         counters: &mut K,
-    ) -> Outcome
-    where
+    ) where
         L: Floating,
         V: Varying,
         F: FragmentStage<V>,
@@ -310,7 +319,6 @@ impl<F, P: Interpolation> Paint<F, P> {
             fill::<i64, _, _, _, _, _, _, _>(target, &samples, &setup, counters)
         };
         counters.rasterized(outcome);
-        outcome
     }
 }
 

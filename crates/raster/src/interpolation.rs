@@ -20,7 +20,7 @@ use crate::edge::{Edge, EdgeInt};
 use crate::fragment::FragmentStage;
 use crate::spans::Span;
 use crate::target::Target;
-use crate::triangle::{Corner, Corners, Numbers, Outcome, in_order};
+use crate::triangle::{Corner, Corners, Numbers, in_order};
 use crate::{ColorFormat, Counters, DepthFormat, Paint};
 use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Varying, map3};
@@ -66,8 +66,8 @@ pub trait Prepare: Copy {
     /// Whether there is a way for small triangles.
     const HAS_SMALL: bool = false;
 
-    /// Draws a small triangle in a way of its own, if the policy has one for it: its fate. `paint` says all but how to
-    /// interpolate.
+    /// Draws a small triangle that faces the right way in a way of its own, if the policy has one for it, and returns
+    /// whether it had. `paint` says all but how to interpolate.
     #[inline(always)]
     fn draw_small<V, F, C, D, K>(
         self,
@@ -75,7 +75,7 @@ pub trait Prepare: Copy {
         target: &mut Target<'_, C, D>,
         corners: [&Corner<V>; 3],
         counters: &mut K,
-    ) -> Option<Outcome>
+    ) -> bool
     where
         V: Varying,
         F: FragmentStage<V>,
@@ -84,7 +84,7 @@ pub trait Prepare: Copy {
         K: Counters,
     {
         let _ = (paint, target, corners, counters);
-        None
+        false
     }
 
     /// A triangle, prepared.

@@ -34,7 +34,7 @@ use crate::fragment::{FragmentStage, Fragments};
 use crate::interpolation::{LIMIT, Runs, words};
 use crate::paint::as_it_stands;
 use crate::target::Target;
-use crate::triangle::{Corner, Cull, Outcome};
+use crate::triangle::{Corner, Outcome};
 use alberti_math::lanes::OneFixed;
 use alberti_math::{Mode, Q16, Varying, map2, map3, map4, scaled};
 use core::array;
@@ -131,40 +131,9 @@ fn planes<V: Varying>(
     let (more, half) = ([b - base, c - base], 1 << (SLOPE - 1));
     let deep = magnitude(more[0]) | magnitude(more[1]);
     let zs = shape.ramp(if shallow { (base << SLOPE).wrapping_add(half) } else { half }, more, SLOPE);
-    let in_range = large.get() | differences.get() >> 1 < LARGE && deep < DEEP;
+    let beyond = ((large.get() | differences.get() >> 1) / LARGE) | (deep / DEEP);
     let planes = Planes { zs, base, shallow, values };
-    (in_range && shape.holds(differences.get()) && shape.holds(deep)).then_some(planes)
-}
-
-/// Draws a triangle whose corners are near each other, if no number may be out of range, and if it may be drawn as one
-/// run.
-#[inline(always)]
-pub(crate) fn draw<R, V, F, C, D, K>(
-    runs: R,
-    (stage, cull): (F, Cull),
-    target: &mut Target<'_, C, D>,
-    corners: [&Corner<V>; 3],
-    counters: &mut K,
-) -> Option<Outcome>
-where
-    R: Runs,
-    V: Varying,
-    F: FragmentStage<V>,
-    C: ColorFormat,
-    D: DepthFormat,
-    K: Counters,
-{
-    let [u, v] = sides(corners);
-    let reach = SIDE << BITS;
-    let far =
-        |[x, y]: [i32; 2]| x.wrapping_add(reach).cast_unsigned() | y.wrapping_add(reach).cast_unsigned();
-    if far(u) | far(v) >= 2 * reach.cast_unsigned() {
-        return None;
-    }
-    if cull.drops(doubled_area([u, v]).into()) {
-        return Some(Outcome::Culled);
-    }
-    fill(runs, stage, target, corners, counters)
+    (beyond == 0 && shape.holds(differences.get() | deep)).then_some(planes)
 }
 
 /// The sides from the first corner to the others.
@@ -173,21 +142,16 @@ fn sides<V: Varying>([a, b, c]: [&Corner<V>; 3]) -> [[i32; 2]; 2] {
     map2([b, c], |p| [p.place[0] - a.place[0], p.place[1] - a.place[1]])
 }
 
-/// Twice the signed area between two sides below 2^15.
+/// Draws a triangle that faces the right way. Its corners have to be near each other, no number may be out of range,
+/// and one run has to do for it: returns whether it was so.
 #[inline(always)]
-fn doubled_area([u, v]: [[i32; 2]; 2]) -> i32 {
-    u[0] * v[1] - u[1] * v[0]
-}
-
-/// The same for one that faces the right way.
-#[inline(never)]
-fn fill<R, V, F, C, D, K>(
+pub(crate) fn draw<R, V, F, C, D, K>(
     runs: R,
     stage: F,
     target: &mut Target<'_, C, D>,
-    corners: [&Corner<V>; 3],
+    [first, second, third]: [&Corner<V>; 3],
     counters: &mut K,
-) -> Option<Outcome>
+) -> bool
 where
     R: Runs,
     V: Varying,
@@ -196,13 +160,12 @@ where
     D: DepthFormat,
     K: Counters,
 {
-    let [u, v] = sides(corners);
-    let area = doubled_area([u, v]);
-    // By rows, and within a row by columns.
-    let key = |[x, y]: [i32; 2]| (y << 9) + x;
-    let [first, b, c] = corners;
+    let [u, v] = sides([first, second, third]);
+    let area = u[0].wrapping_mul(v[1]).wrapping_sub(u[1].wrapping_mul(v[0]));
+    // By rows, and within a row by columns; of corners that are near each other.
+    let key = |[x, y]: [i32; 2]| (y << 9).wrapping_add(x);
     // From top to bottom, and from left to right: no bit depends on the order that was given.
-    let (mut a, mut b, mut c, mut clockwise) = ((first, 0), (b, key(u)), (c, key(v)), area > 0);
+    let (mut a, mut b, mut c, mut clockwise) = ((first, 0), (second, key(u)), (third, key(v)), area > 0);
     if b.1 < a.1 {
         (a, b, clockwise) = (b, a, !clockwise);
     }
@@ -217,21 +180,31 @@ where
 
     let (west, east) = (ax.min(bx).min(cx), ax.max(bx).max(cx));
     let reach = SIDE << BITS;
-    if east - west >= reach || cy - ay >= reach {
-        return None;
+    let below = [by - ay, cy - ay].map(i32::cast_unsigned);
+    if east - west >= reach || (below[0] | below[1]) >= reach.cast_unsigned() {
+        return false;
     }
     let [columns, rows] = target.limits();
     // The first sample that is neither above nor to the left of the highest vertex.
     let origin = [row(ax), row(ay)];
     let (top, end) = (origin[1].max(rows.start), row(cy).min(rows.end));
-    if top >= end || row(west) >= row(east + 1) {
-        return Some(Outcome::Missed);
+    if top >= end {
+        counters.rasterized(Outcome::Missed);
+        return true;
     }
     let [from, to] = [columns.start - origin[0], columns.end - origin[0]];
     let middle = row(by).max(top).min(end);
     let center = |row: i32| [(origin[0] << BITS) + ONE / 2, (row << BITS) + ONE / 2];
-    let shape = Shape::new([a.place, b.place, c.place], center(origin[1]), area.unsigned_abs(), clockwise);
-    let planes = planes(runs, &shape, [a, b, c, first], target.depth_format().bits())?;
+    let shape = Shape::new(
+        [a.place, b.place, c.place],
+        center(origin[1]),
+        area.unsigned_abs(),
+        clockwise,
+        ((east - west) | (cy - ay)).cast_unsigned(),
+    );
+    let Some(planes) = planes(runs, &shape, [a, b, c, first], target.depth_format().bits()) else {
+        return false;
+    };
 
     let lanes = OneFixed;
     let gradient =
@@ -260,7 +233,7 @@ where
                     let mut depth = planes.zs.at(first);
                     let mut cursor = V::map(&planes.values, &|ramp: Ramp| ramp.at(first));
                     let (mut written, mut column) = (0, origin[0] + columns.start);
-                    for (color, stored) in colors.iter_mut().zip(depths) {
+                    for (stored, color) in depths.iter_mut().zip(colors) {
                         let new = formats.1.encode_lanes(lanes, planes.depth(depth));
                         if formats.1.seen(lanes, &new, array::from_mut(stored), true) {
                             let varying = V::map(&cursor, &|at: i32| Q16::from_bits(at >> MORE));
@@ -291,7 +264,8 @@ where
             row += 1;
         }
         if row >= end {
-            return Some(outcome);
+            counters.rasterized(outcome);
+            return true;
         }
         (below, ends) = (end, [[bx, by], [cx, cy]]);
     }

@@ -8,7 +8,7 @@ use crate::fragment::FragmentStage;
 use crate::interpolation::{Interpolation, Oriented, Prepare, Row};
 use crate::small;
 use crate::target::Target;
-use crate::triangle::{Corner, Numbers, Outcome};
+use crate::triangle::{Corner, Numbers};
 use crate::{ColorFormat, Counters, DepthFormat, Paint};
 use alberti_math::lanes::{Floating, OneFixed};
 use alberti_math::{Mode, Q16, Varying, map2, map3, reciprocal, scaled};
@@ -74,7 +74,7 @@ impl<R: Runs> Prepare for FixedPoint<R> {
         target: &mut Target<'_, C, D>,
         corners: [&Corner<V>; 3],
         counters: &mut K,
-    ) -> Option<Outcome>
+    ) -> bool
     where
         V: Varying,
         F: FragmentStage<V>,
@@ -82,12 +82,10 @@ impl<R: Runs> Prepare for FixedPoint<R> {
         D: DepthFormat,
         K: Counters,
     {
-        let Paint { stage, subpixel, cull, .. } = *paint;
-        if self.0.length() >= small::SIDE && subpixel.bits() == small::BITS {
-            small::draw(self.0, (stage, cull), target, corners, counters)
-        } else {
-            None
-        }
+        let Paint { stage, subpixel, .. } = *paint;
+        self.0.length() >= small::SIDE
+            && subpixel.bits() == small::BITS
+            && small::draw(self.0, stage, target, corners, counters)
     }
 
     #[inline(always)]

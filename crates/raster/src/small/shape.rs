@@ -32,13 +32,21 @@ pub(super) struct Shape {
     /// 2^62 over the signed area, which was shifted to the left by `shift` + 14.
     per_area: i32,
     shift: u32,
+    /// The bits of the box's sides, of which no side is longer.
+    extent: u32,
     /// From the first vertex to the origin's centre, in subpixels: less than a pixel.
     origin: [i32; 2],
 }
 
 impl Shape {
     #[inline(always)]
-    pub(super) fn new([a, b, c]: [[i32; 2]; 3], origin: [i32; 2], area: u32, clockwise: bool) -> Self {
+    pub(super) fn new(
+        [a, b, c]: [[i32; 2]; 3],
+        origin: [i32; 2],
+        area: u32,
+        clockwise: bool,
+        extent: u32,
+    ) -> Self {
         let normalizing = area.leading_zeros();
         let per_area = reciprocal_16(((area << normalizing) >> 16) as u16);
         Self {
@@ -46,6 +54,7 @@ impl Shape {
             down: [a[0] - c[0], b[0] - a[0]],
             per_area: if clockwise { per_area } else { -per_area },
             shift: normalizing.saturating_sub(14),
+            extent,
             origin: [origin[0] - a[0], origin[1] - a[1]],
         }
     }
@@ -54,9 +63,8 @@ impl Shape {
     /// second and the third vertex to the first have.
     #[inline(always)]
     pub(super) fn holds(&self, differences: u32) -> bool {
-        let size = |[b, c]: [i32; 2]| magnitude(b) | magnitude(c);
-        // The sum of two products must be less than 2^31 after the shift. A magnitude is one below that of -2^k.
-        let most = (size(self.right) | size(self.down)) + 1;
+        // The sum of two products must be less than 2^31 after the shift.
+        let most = self.extent + 1;
         differences.wrapping_add(1).wrapping_mul(most) < (1 << 30) >> self.shift
     }
 
@@ -167,7 +175,8 @@ mod tests {
             [[[-64_i32, 3], [64, 4]], [[-255, 0], [0, 255]], [[16, 1], [0, 16]], [[1, 255], [-1, 255]]]
         {
             let area = (b[0] * c[1] - b[1] * c[0]).unsigned_abs();
-            let shape = Shape::new([[0; 2], b, c], [0; 2], area, true);
+            let extent = magnitude(b[0]) | magnitude(b[1]) | magnitude(c[0]) | magnitude(c[1]);
+            let shape = Shape::new([[0; 2], b, c], [0; 2], area, true, extent);
             for k in 0..21 {
                 let ends = [-1 << k, (1 << k) - 1, 1 - (1 << k)];
                 for (b, c) in ends.into_iter().flat_map(|b| ends.map(|c| (b, c))) {
