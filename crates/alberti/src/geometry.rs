@@ -1,5 +1,6 @@
 //! Meshes: vertices, the triangles between them, and the vertex stage, which says what a vertex means.
 
+use crate::meshlets::{Ball, Meshlet};
 use alberti_math::glam::Vec3;
 use alberti_math::{Object, Point3, Q16, Varying};
 use core::fmt;
@@ -39,6 +40,15 @@ pub trait Geometry {
     fn integers(&self, number: usize) -> Option<IntegerVertex<Self::Varying>> {
         let _ = number;
         None
+    }
+
+    /// Whether there are meshlets.
+    const MESHLETS: bool = false;
+
+    /// The meshlets, in the order of their triangles, and a ball around them all: see
+    /// [`Meshlets`](crate::Meshlets).
+    fn meshlets(&self) -> (&[Meshlet], Ball) {
+        (&[], Ball::EVERYTHING)
     }
 }
 

@@ -218,27 +218,35 @@ impl IntegerScreen {
         })
     }
 
-    /// The place of a vertex.
+    /// The place of a vertex in the view; none of one that is [beyond](Self::beyond) it.
     #[inline(always)]
-    pub(crate) fn place<Pr: Projection>(&self, projection: &Pr, position: [i16; 3]) -> Place {
-        let [x, y, z] = map3(self.rows, |row| row.at(position));
+    pub(crate) fn place<Pr: Projection>(&self, projection: &Pr, position: [i16; 3]) -> Option<Place> {
+        // One after the other: all their factors at once do not fit in registers.
+        let [right, down, forward] = &self.rows;
+        let z = forward.at(position);
         let w = if projection.is_perspective() { z } else { self.one };
         let [near, far] = self.inner;
-        let within = |x: i32| x.wrapping_add(w).cast_unsigned() <= w.cast_unsigned() << 1;
-        if !(z >= near && z <= far && within(x) && within(y)) {
-            return self.beyond(projection, [x, y, z], w);
+        if z < near || z > far {
+            return None;
+        }
+        let within = |x: i32, side: i32| x.wrapping_add(side).cast_unsigned() <= side.cast_unsigned() << 1;
+        let x = right.at(position);
+        if !within(x, w) {
+            return None;
+        }
+        let y = down.at(position);
+        if !within(y, w) {
+            return None;
         }
         let (normalizing, per_w) = per(w);
         let [x, y] = map2([x, y], |x| high_signed(x << normalizing, per_w));
-        let beside = |x: i32, side: i32| x.wrapping_add(side).cast_unsigned() > side.cast_unsigned() << 1;
-        let mut outside = 0;
-        if beside(x, self.sides[0]) || beside(y, self.sides[1]) {
-            outside = bits_beside([x, y].map(i64::from), self.sides.map(i64::from));
+        if !(within(x, self.sides[0]) && within(y, self.sides[1])) {
+            return None;
         }
         let snapped =
             |axis: usize, x: i32| ((x + self.halves[axis]) >> self.shifts[axis]) + self.center[axis];
         let place = [snapped(0, x), snapped(1, y)];
-        Place { outside, place, depths: self.depths(projection, z, normalizing, per_w) }
+        Some(Place { outside: 0, place, depths: self.depths(projection, z, normalizing, per_w) })
     }
 
     /// zs and q of a vertex between the planes.
@@ -263,12 +271,13 @@ impl IntegerScreen {
         near(x, self.sides[0]) || near(y, self.sides[1])
     }
 
-    /// The place of a vertex that is beyond a plane, or so near to one that its triangles are clipped, or beyond twice
-    /// the view.
+    /// The place of a vertex that is beyond a plane, or so near to one that its triangles are clipped.
     #[cold]
     #[inline(never)]
     #[expect(clippy::cast_possible_truncation, reason = "within the guard band")]
-    fn beyond<Pr: Projection>(&self, projection: &Pr, [x, y, z]: [i32; 3], w: i32) -> Place {
+    pub(crate) fn beyond<Pr: Projection>(&self, projection: &Pr, position: [i16; 3]) -> Place {
+        let [x, y, z] = map3(self.rows, |row| row.at(position));
+        let w = if projection.is_perspective() { z } else { self.one };
         let [near, far] = self.planes;
         let wide = i64::from(w);
         let near = if z < near { outside::NEAR } else { 0 };

@@ -7,6 +7,7 @@ extern crate std;
 mod error;
 mod geometry;
 mod integers;
+mod meshlets;
 pub mod pipeline;
 mod prepared;
 mod profile;
@@ -39,6 +40,9 @@ pub use alberti_raster::{
 pub use alberti_texture as texture;
 pub use error::Error;
 pub use geometry::{Geometry, IntegerMesh, IntegerVertex, Mesh};
+#[cfg(feature = "std")]
+pub use meshlets::Split;
+pub use meshlets::{Ball, Meshlet, Meshlets};
 pub use pipeline::{Pass, draw};
 pub use prepared::{Prepared, PreparedTriangle};
 pub use profile::{DESKTOP, MCU, Profile, REFERENCE, TINY};

@@ -208,7 +208,10 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
         let mut visible = target.scissor(columns, rows);
         let mut batch = paint.batch(lanes, &mut visible);
         let mut walk = Walk::new(lanes, mesh, screen, slots);
-        walk.triangles(0.., 0, counters, &mut batch);
+        for part in walk.seen(paint.cull, 0..usize::MAX) {
+            walk.ready(&part);
+            walk.triangles(part, 0, counters, &mut batch);
+        }
         batch.finish(counters);
     }
 

@@ -191,37 +191,39 @@ pub(crate) fn list<M: Geometry, F, P: Interpolation, Pr: Projection>(
     counters: &mut impl Counters,
 ) -> (usize, usize) {
     let (mesh, shift) = (walk.mesh(), slice_shift(&pixels[1]));
-    let (mut listed, mut next) = (0, numbers.start);
-    while next < numbers.end
-        && let Some(indices) = mesh.triangle(next)
-    {
-        // The rows of a triangle, or of all parts of it, and how many parts are never drawn.
-        let (mut rows, mut culled, mut missed) = (None, 0, 0);
-        let fate = walk.triangle(
-            indices,
-            #[inline(always)]
-            |corners| match paint.reach(corners, pixels) {
-                Ok(reach) => rows = Some(union(rows.take(), reach.rows())),
-                Err(Outcome::Culled) => culled += 1,
-                Err(_) => missed += 1,
-            },
-        );
-        if let Some(rows) = rows {
-            let slices = Slices::of(&rows, pixels[1].start, shift);
-            let (Some(triangle), Some(place)) = (PreparedTriangle::new(next, slices), room.get_mut(listed))
-            else {
-                break;
-            };
-            *place = triangle;
-            listed += 1;
-        } else {
-            (0..culled).for_each(|_| counters.rasterized(Outcome::Culled));
-            (0..missed).for_each(|_| counters.rasterized(Outcome::Missed));
+    let (mut listed, end) = (0, numbers.end);
+    for part in walk.seen(paint.cull, numbers) {
+        walk.ready(&part);
+        for number in part {
+            let Some(indices) = mesh.triangle(number) else { break };
+            // The rows of a triangle, or of all parts of it, and how many parts are never drawn.
+            let (mut rows, mut culled, mut missed) = (None, 0, 0);
+            let fate = walk.triangle(
+                indices,
+                #[inline(always)]
+                |corners| match paint.reach(corners, pixels) {
+                    Ok(reach) => rows = Some(union(rows.take(), reach.rows())),
+                    Err(Outcome::Culled) => culled += 1,
+                    Err(_) => missed += 1,
+                },
+            );
+            if let Some(rows) = rows {
+                let slices = Slices::of(&rows, pixels[1].start, shift);
+                let (Some(triangle), Some(place)) =
+                    (PreparedTriangle::new(number, slices), room.get_mut(listed))
+                else {
+                    return (listed, number);
+                };
+                *place = triangle;
+                listed += 1;
+            } else {
+                (0..culled).for_each(|_| counters.rasterized(Outcome::Culled));
+                (0..missed).for_each(|_| counters.rasterized(Outcome::Missed));
+            }
+            fate.count(counters);
         }
-        fate.count(counters);
-        next += 1;
     }
-    (listed, next)
+    (listed, end)
 }
 
 /// Draws the listed triangles, and those of the mesh from number `next` on, that are in a target.
@@ -252,7 +254,7 @@ pub(crate) fn draw_listed<L, M, F, P, Pr, C, D, K>(
     }
     let its = Slices::of(&rows, top, shift);
     let listed = listed.iter().filter(PreparedTriangle::meets(its));
-    let remaining = next..walk.mesh().triangles();
+    let remaining = walk.seen(paint.cull, next..walk.mesh().triangles()).flatten();
     let mut batch = paint.batch(lanes, &mut visible);
     walk.triangles(listed.map(|triangle| triangle.number()).chain(remaining), next, counters, &mut batch);
     batch.finish(counters);

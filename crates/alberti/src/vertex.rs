@@ -4,7 +4,7 @@ use crate::geometry::{Geometry, IntegerVertex};
 use crate::integers::{IntegerScreen, Place};
 use crate::screen::Screen;
 use alberti_math::lanes::{Floating, One};
-use alberti_math::{Fixed, Varying, is_finite, map2, map3};
+use alberti_math::{Fixed, Q16, Varying, is_finite, map2, map3};
 use alberti_projection::Projection;
 use alberti_raster::Corner;
 use core::slice::from_mut;
@@ -33,6 +33,18 @@ impl<V: Varying> Slot<V> {
 
     /// The slot of a vertex that the mesh has not.
     const MISSING: Self = Self { outside: outside::NOWHERE, ..Self::EMPTY };
+
+    /// Whether no vertex is in this slot.
+    #[inline(always)]
+    pub(crate) fn is_empty(&self) -> bool {
+        self.tag == 0
+    }
+
+    /// Takes the vertex out of this slot.
+    #[inline(always)]
+    pub(crate) fn forget(&mut self) {
+        (self.tag, self.outside) = (0, outside::NOWHERE);
+    }
 
     /// The place of a vertex among so many slots, at least one.
     #[inline(always)]
@@ -70,7 +82,7 @@ impl<V: Varying> Slot<V> {
 
     /// Puts the vertex `index` into this slot.
     #[inline(always)]
-    fn fill_alone<M, Pr>(&mut self, mesh: &M, screen: &Screen<Pr>, index: usize)
+    pub(crate) fn fill_alone<M, Pr>(&mut self, mesh: &M, screen: &Screen<Pr>, index: usize)
     where
         M: Geometry<Varying = V>,
         Pr: Projection,
@@ -100,12 +112,34 @@ impl<V: Varying> Slot<V> {
         M: Geometry<Varying = V>,
         Pr: Projection,
     {
-        let Some(IntegerVertex { place, components }) = mesh.integers(index) else {
-            *self = Self::MISSING;
+        if let Some(IntegerVertex { place, components }) = mesh.integers(index)
+            && let Some(place) = way.place(projection, place)
+        {
+            self.put(index, &place, &components);
             return;
-        };
-        let Place { outside, place, depths } = way.place(projection, place);
-        *self = Self { tag: tag(index), outside, screen: Corner::of_integers(place, depths, &components) };
+        }
+        self.fill_beyond(mesh, projection, way, index);
+    }
+
+    /// The same for a vertex out of the view.
+    #[cold]
+    #[inline(never)]
+    fn fill_beyond<M, Pr>(&mut self, mesh: &M, projection: &Pr, way: &IntegerScreen, index: usize)
+    where
+        M: Geometry<Varying = V>,
+        Pr: Projection,
+    {
+        match mesh.integers(index) {
+            Some(IntegerVertex { place, components }) => {
+                self.put(index, &way.beyond(projection, place), &components);
+            }
+            None => *self = Self::MISSING,
+        }
+    }
+
+    #[inline(always)]
+    fn put(&mut self, index: usize, &Place { outside, place, depths }: &Place, components: &V::Of<Q16>) {
+        *self = Self { tag: tag(index), outside, screen: Corner::of_integers(place, depths, components) };
     }
 
     /// Fills slots with the vertices from number `first` on.

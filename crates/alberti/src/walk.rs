@@ -1,6 +1,7 @@
 //! The geometry half of the pipeline: from a mesh to its triangles on the screen, steps 1 to 6.
 
 use crate::geometry::Geometry;
+use crate::meshlets::Seen;
 use crate::screen::{Screen, Sides};
 use crate::vertex::{Slot, outside};
 use alberti_math::glam::Vec3;
@@ -9,8 +10,9 @@ use alberti_math::{Eye, Fixed, Mode, Point3, Varying, map3};
 use alberti_projection::{
     EyeVertex, Polygon, ProjectedVertex, Projection, SideBounds, clip_near_far, clip_sides,
 };
+use alberti_raster as raster;
 use alberti_raster::{
-    Batch, ColorFormat, Corner, Counters, DepthFormat, FragmentStage, Interpolation, Numbers, Vertex,
+    Batch, ColorFormat, Corner, Counters, Cull, DepthFormat, FragmentStage, Interpolation, Vertex,
 };
 use core::cmp::Ordering;
 use core::ops::Range;
@@ -22,6 +24,8 @@ pub(crate) struct Walk<'a, M: Geometry, Pr: Projection> {
     stored: &'a [Slot<M::Varying>],
     /// A cache for those that are not.
     cache: &'a mut [Slot<M::Varying>],
+    /// Whether the cache has a slot for each vertex, without one that is there for another.
+    own: bool,
     screen: Screen<Pr>,
 }
 
@@ -56,8 +60,7 @@ where
         self.triangle(corners, counters);
     }
 
-    // For ways that are seldom taken one copy of what follows is enough.
-    #[inline(never)]
+    #[inline(always)]
     fn passing(&mut self, corners: [&Corner<V>; 3], counters: &mut K) {
         self.passing(corners, counters);
     }
@@ -68,7 +71,8 @@ type Passing<'a, V, K> = &'a mut dyn FnMut([&Corner<V>; 3], &mut K);
 
 impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     /// The walk with these slots, of which there is at least one. All vertices are transformed at once where the slots
-    /// hold them, and where most are probably used.
+    /// hold them, and where most are probably used. With one lane and meshlets, which leave out some, each is
+    /// transformed where a triangle needs it.
     #[inline]
     pub(crate) fn new<L: Floating>(
         lanes: L,
@@ -77,10 +81,14 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         slots: &'a mut [Slot<M::Varying>],
     ) -> Self {
         let stored = stored_by(mesh, slots.len());
+        if const { M::MESHLETS && L::COUNT == 1 } && stored > 0 {
+            slots.iter_mut().for_each(Slot::forget);
+            return Self { mesh, stored: &[], cache: slots, own: true, screen };
+        }
         let (store, unused) = slots.split_at_mut_checked(stored).unwrap_or_default();
         unused.fill(Slot::EMPTY);
         Slot::fill_all(lanes, mesh, &screen, 0, store);
-        Self { mesh, stored: store, cache: unused, screen }
+        Self { mesh, stored: store, cache: unused, own: false, screen }
     }
 
     /// The walk over slots in which an earlier one has left so many vertices, each in the slot of its number.
@@ -93,18 +101,46 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     ) -> Self {
         let (stored, cache) = slots.split_at_mut_checked(filled).unwrap_or_default();
         cache.fill(Slot::EMPTY);
-        Self { mesh, stored, cache, screen }
+        Self { mesh, stored, cache, own: false, screen }
     }
 
     /// The walk over a store of all vertices, which others may walk too.
     #[cfg(feature = "std")]
     pub(crate) fn over(mesh: &'a M, screen: Screen<Pr>, stored: &'a [Slot<M::Varying>]) -> Self {
-        Self { mesh, stored, cache: &mut [], screen }
+        Self { mesh, stored, cache: &mut [], own: false, screen }
     }
 
     /// The mesh.
     pub(crate) fn mesh(&self) -> &'a M {
         self.mesh
+    }
+
+    /// Those of the mesh's triangles with these numbers of which something may be seen, in parts.
+    #[inline(always)]
+    pub(crate) fn seen(&self, cull: Cull, numbers: Range<usize>) -> Seen<'a, M> {
+        Seen::new(self.mesh, &self.screen, cull, numbers)
+    }
+
+    /// Transforms the vertices of these triangles that have slots of their own, but are not there yet.
+    #[inline(always)]
+    pub(crate) fn ready(&mut self, part: &Range<usize>) {
+        if const { M::MESHLETS } && self.own {
+            self.transform(part.clone());
+        }
+    }
+
+    #[inline(never)]
+    fn transform(&mut self, part: Range<usize>) {
+        let Self { mesh, cache, screen, .. } = self;
+        for indices in part.map_while(|number| mesh.triangle(number)) {
+            for index in indices {
+                if let Some(slot) = cache.get_mut(index)
+                    && slot.is_empty()
+                {
+                    slot.fill_alone(*mesh, screen, index);
+                }
+            }
+        }
     }
 
     /// The columns and the rows of the viewport.
@@ -114,7 +150,7 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
 
     /// The number of vertices that have slots of their own.
     pub(crate) fn filled(&self) -> usize {
-        self.stored.len()
+        if self.own { self.cache.len() } else { self.stored.len() }
     }
 
     /// Hands `sink` the visible parts of the triangles with these numbers, on the screen: of each nothing, itself, or
@@ -135,11 +171,19 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
             let (number, indices) = loop {
                 let Some(number) = numbers.next() else { return };
                 let Some(indices) = mesh.triangle(number) else { return };
-                let Some(corners) = inside(slots, indices) else { break (number, indices) };
-                if number >= heard {
-                    counters.submitted();
+                if const { M::MESHLETS } && self.own {
+                    let Some(corners) = inside(self.cache, indices) else { break (number, indices) };
+                    if number >= heard {
+                        counters.submitted();
+                    }
+                    sink.passing(corners, counters);
+                } else {
+                    let Some(corners) = inside(slots, indices) else { break (number, indices) };
+                    if number >= heard {
+                        counters.submitted();
+                    }
+                    sink.triangle(corners, counters);
                 }
-                sink.triangle(corners, counters);
             };
             let mut passing = |corners: [&_; 3], counters: &mut K| sink.passing(corners, counters);
             let fate = self.seldom(indices, counters, &mut passing);
@@ -156,7 +200,8 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         indices: [usize; 3],
         mut sink: impl FnMut([&Corner<M::Varying>; 3]),
     ) -> Fate {
-        if let Some(corners) = inside(self.stored, indices) {
+        let slots = if const { M::MESHLETS } && self.own { &*self.cache } else { self.stored };
+        if let Some(corners) = inside(slots, indices) {
             sink(corners);
             return Fate::Whole;
         }
@@ -166,7 +211,7 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     /// The same for one triangle that is to be clipped, or whose vertices may not be in slots.
     #[inline(never)]
     fn seldom<K>(&mut self, indices: [usize; 3], counters: &mut K, sink: Passing<'_, M::Varying, K>) -> Fate {
-        let Self { mesh, stored, cache, screen } = self;
+        let Self { mesh, stored, cache, screen, .. } = self;
         let [i, j, k] = indices;
         let count = if stored.is_empty() { cache.len() } else { stored.len() };
         let places = map3(indices, |index| Slot::<M::Varying>::place(index, count));
@@ -307,7 +352,7 @@ fn before_the_eye<M: Geometry, Pr: Projection>(
 /// The corner where the three varyings have weights.
 #[inline(never)]
 fn on_the_screen<V: Varying>(
-    numbers: Numbers,
+    numbers: raster::Numbers,
     vertex: Option<Vertex<Weights>>,
     first: V,
     carried: &[V; 3],

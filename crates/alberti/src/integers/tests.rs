@@ -118,7 +118,9 @@ fn vertices_are_where_the_bound_says() {
             #[expect(clippy::cast_possible_truncation, reason = "in range")]
             let position = [(); 3].map(|()| rng.range(-32768, 32767) as i16);
             let exact = scene.exact(position);
-            let place = way.place(&scene.projection, position);
+            let place = way
+                .place(&scene.projection, position)
+                .unwrap_or_else(|| way.beyond(&scene.projection, position));
             // Two of 2^29 units, and three roundings of the factors.
             let [lost, lost_z] = exact.greatest.map(|c| c * (2.0f64.powi(-28) + 2.0f64.powi(-22)));
             let planes = [
