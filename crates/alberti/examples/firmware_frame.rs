@@ -89,10 +89,9 @@ fn frame(memory: &mut Memory, mut send: impl FnMut(&[u8])) -> Result<(), Error> 
     let mut bands = Bands::new(Rgb565Be, D16, WIDTH.into(), HEIGHT.into(), color, depth)?;
     let mut pass = Pass::new(&view, &mesh, stage).with(MCU).slots(slots);
     let (mut triangles, _) = pass.prepare(&bands, room);
-    while let Some(mut band) = bands.next_band() {
-        band.clear(common::BACKGROUND);
-        triangles.draw(&mut band);
+    bands.draw(common::BACKGROUND, |band| {
+        triangles.draw(band);
         send(band.bytes());
-    }
+    });
     Ok(())
 }

@@ -243,25 +243,30 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
     ///
     /// // Three bands, one after the other in the same eight rows of memory.
     /// let mut frame = Vec::new();
-    /// while let Some(mut band) = bands.next_band() {
-    ///     band.clear(Rgba8::BLACK);
-    ///     prepared.draw(&mut band);
+    /// bands.draw(Rgba8::BLACK, |band| {
+    ///     prepared.draw(band);
     ///     frame.extend_from_slice(band.pixels());
-    /// }
+    /// });
+    ///
+    /// // The same into memory for a whole frame of colours, but for no more depths.
+    /// let mut whole = [0; 32 * 24];
+    /// let mut bands = Bands::new(Rgb565Be, D16, 32, 24, &mut whole, &mut depth)?;
+    /// bands.draw(Rgba8::BLACK, |band| prepared.draw(band));
     ///
     /// // The same as all rows at once.
     /// let (mut color, mut depth) = ([0; 32 * 24], [0; 32 * 24]);
     /// let mut target = Target::new(Rgb565Be, D16, 32, 24, &mut color, &mut depth)?;
     /// target.clear(Rgba8::BLACK);
     /// pass.draw(&mut target);
-    /// assert!(frame == color && frame.iter().any(|&pixel| pixel != 0));
+    /// assert!(frame == color && whole == color && frame.iter().any(|&pixel| pixel != 0));
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     ///
     /// # Cost
-    /// That of `draw` without the rasterizer. In return a band costs its fragments, the setup of the triangles that
-    /// are in it, and a comparison for each of the others. With fewer [`slots`](Self::slots) than vertices, it also
-    /// costs the vertices of those that are in it; clipped triangles are clipped again.
+    /// That of `draw` without the rasterizer, which a frame of one band does not get back. In return a band costs its
+    /// fragments, the setup of the triangles that are in it, and a comparison for each of the others. With fewer
+    /// [`slots`](Self::slots) than vertices, it also costs the vertices of those that are in it; clipped triangles are
+    /// clipped again.
     pub fn prepare<'p, C: ColorFormat, D: DepthFormat>(
         &'p mut self,
         bands: &Bands<'_, C, D>,

@@ -1,10 +1,11 @@
-//! Frames that do not fit in memory: one band of rows after another.
+//! Frames that do not fit in memory, or not in a cache: one band of rows after another.
 
-use crate::color::ColorFormat;
+use crate::color::{ColorFormat, FragmentColor};
 use crate::depth::DepthFormat;
 use crate::target::{LARGEST, Target, TargetError};
 
-/// A frame that is drawn band by band in the same memory.
+/// A frame that is drawn band by band, each in the memory of the one before: its depths, and its colours too where
+/// these are no whole frame.
 ///
 /// ```
 /// use alberti_math::{Rgb565Be, Rgba8};
@@ -14,13 +15,21 @@ use crate::target::{LARGEST, Target, TargetError};
 /// let (mut color, mut depth) = ([0u16; 320 * 16], [0u16; 320 * 16]);
 /// let mut bands = Bands::new(Rgb565Be, D16, 320, 240, &mut color, &mut depth)?;
 /// let mut sent = 0;
-/// while let Some(mut band) = bands.next_band() {
-///     band.clear(Rgba8::BLACK);
-///     sent += band.pixels().len();
-/// }
+/// bands.draw(Rgba8::BLACK, |band| sent += band.pixels().len());
 /// assert_eq!(sent, 320 * 240);
+///
+/// // A whole frame of colours, with a depth buffer of 16 rows.
+/// let mut frame = [0u16; 320 * 240];
+/// Bands::new(Rgb565Be, D16, 320, 240, &mut frame, &mut depth)?.draw(Rgba8::WHITE, |band| {
+///     // ... what is drawn into each band ...
+/// });
+/// assert_eq!(frame, [0xffff; 320 * 240]);
 /// # Ok::<(), alberti_raster::TargetError>(())
 /// ```
+///
+/// # Cost
+/// Depths of a megabyte or two stay in a desktop's caches, where those of a large frame do not: memory is written once,
+/// by the colours. A triangle across several bands is set up in each of them.
 #[derive(Debug)]
 pub struct Bands<'a, C: ColorFormat, D: DepthFormat> {
     color_format: C,
@@ -32,7 +41,8 @@ pub struct Bands<'a, C: ColorFormat, D: DepthFormat> {
 }
 
 impl<'a, C: ColorFormat, D: DepthFormat> Bands<'a, C, D> {
-    /// A frame of `width` x `height` pixels in bands of as many rows as `color` has; the last may have fewer.
+    /// A frame of `width` x `height` pixels in bands of as many rows as `depth` has; the last may have fewer. Colours
+    /// are as many, for a frame that is nowhere whole, or those of the whole frame.
     ///
     /// # Errors
     /// [`TargetError`] when the buffers' lengths do not fit each other, the width or the limits.
@@ -47,16 +57,13 @@ impl<'a, C: ColorFormat, D: DepthFormat> Bands<'a, C, D> {
         if width > LARGEST || height > LARGEST {
             return Err(TargetError::Size);
         }
-        let size = [width, height];
-        let pixels = color.len().min(width as usize * height as usize);
-        let (first, depths) = (color.get_mut(..pixels), depth.get_mut(..pixels));
-        if let (Some(first), Some(depths)) = (first, depths) {
-            Target::band(color_format, depth_format, size, 0, first, depths)?;
-        }
-        if depth.len() != color.len() {
+        let frame = width as usize * height as usize;
+        if color.len() != depth.len() && color.len() != frame {
             return Err(TargetError::Depth { found: depth.len(), expected: color.len() });
         }
-        Ok(Self { color_format, depth_format, color, depth, size, next_row: 0 })
+        let mut bands = Self { color_format, depth_format, color, depth, size: [width, height], next_row: 0 };
+        bands.band(0)?;
+        Ok(bands)
     }
 
     /// Columns and rows of the frame.
@@ -71,17 +78,35 @@ impl<'a, C: ColorFormat, D: DepthFormat> Bands<'a, C, D> {
         self.depth_format
     }
 
-    /// The next band, from the top; `None` after the last. Its pixels are those of the band before.
+    /// The next band, from the top; `None` after the last. Its pixels are whatever its memory holds.
     pub fn next_band(&mut self) -> Option<Target<'_, C, D>> {
-        let [width, height] = self.size;
-        let left = width as usize * height.checked_sub(self.next_row)? as usize;
-        let pixels = self.color.len().min(left);
-        let (color, depth) = (self.color.get_mut(..pixels)?, self.depth.get_mut(..pixels)?);
         let first_row = self.next_row;
-        let band =
-            Target::band(self.color_format, self.depth_format, self.size, first_row, color, depth).ok()?;
-        self.next_row = first_row.saturating_add(band.limits()[1].len().try_into().ok()?);
-        Some(band)
+        let rows = self.band(first_row).ok()?.limits()[1].len();
+        self.next_row = first_row.saturating_add(rows.try_into().ok()?);
+        self.band(first_row).ok()
+    }
+
+    /// Clears each of the bands that are left to this colour and the farthest depth, just before `draw` has it.
+    pub fn draw<Shade: FragmentColor>(
+        &mut self,
+        background: Shade,
+        mut draw: impl FnMut(&mut Target<'_, C, D>),
+    ) {
+        while let Some(mut band) = self.next_band() {
+            band.clear(background);
+            draw(&mut band);
+        }
+    }
+
+    /// The band whose first row this is.
+    fn band(&mut self, first_row: u32) -> Result<Target<'_, C, D>, TargetError> {
+        let Self { color_format, depth_format, ref mut color, ref mut depth, size, .. } = *self;
+        let [before, frame] = [first_row, size[1]].map(|rows| size[0] as usize * rows as usize);
+        let pixels = depth.len().min(frame.saturating_sub(before));
+        let first = if color.len() == frame { before } else { 0 };
+        let color = color.get_mut(first..).and_then(|color| color.get_mut(..pixels)).unwrap_or_default();
+        let depth = depth.get_mut(..pixels).unwrap_or_default();
+        Target::band(color_format, depth_format, size, first_row, color, depth)
     }
 }
 
@@ -89,7 +114,27 @@ impl<'a, C: ColorFormat, D: DepthFormat> Bands<'a, C, D> {
 mod tests {
     use super::*;
     use crate::depth::D16;
-    use alberti_math::Rgba8888;
+    use alberti_math::{Rgba8, Rgba8888};
+
+    #[test]
+    fn a_whole_frame_keeps_the_colours_of_all_bands() {
+        let (mut color, mut depth) = ([0u32; 4 * 8], [0u16; 4 * 3]);
+        let mut bands =
+            Bands::new(Rgba8888, D16, 4, 8, &mut color, &mut depth).expect("three rows of depths");
+        let mut number = 0;
+        bands.draw(Rgba8::from_rgb24(0), |band| {
+            assert!(band.pixels().iter().all(|&pixel| pixel == u32::from_ne_bytes([0, 0, 0, 255])));
+            number += 1;
+            band.clear(Rgba8::from_rgb24(number));
+        });
+        assert!(bands.next_band().is_none());
+        let numbers = color.map(|pixel| pixel.to_ne_bytes()[2]);
+        assert!(numbers.iter().enumerate().all(|(i, &number)| usize::from(number) == 1 + i / 12));
+        for (columns, rows, depths) in [(4, 8, 0), (4, 8, 5), (4, 7, 12), (8, 5, 8)] {
+            let short = depth.get_mut(..depths).expect("twelve");
+            assert!(Bands::new(Rgba8888, D16, columns, rows, &mut color, short).is_err());
+        }
+    }
 
     #[test]
     fn bands_are_all_rows_of_a_frame() {

@@ -49,9 +49,9 @@ pub struct Target<'a, C: ColorFormat, D: DepthFormat> {
 pub enum TargetError {
     /// No pixels, or more than 16384 columns or rows, or rows beyond the frame's last one.
     Size,
-    /// The colour buffer of a band does not hold whole rows.
+    /// The buffers of a band do not hold whole rows.
     Rows {
-        /// Pixels in the colour buffer.
+        /// Pixels in the band.
         pixels: usize,
         /// Pixels a row.
         width: u32,
@@ -84,7 +84,7 @@ impl fmt::Display for TargetError {
         match self {
             Self::Size => f.write_str("a target needs 1 to 16384 columns and rows, within its frame"),
             Self::Rows { pixels, width } => {
-                write!(f, "the colour buffer's {pixels} pixels do not make the frame's rows of {width}")
+                write!(f, "a band's {pixels} pixels do not make the frame's rows of {width}")
             }
             Self::Color { found, expected } => {
                 write!(f, "the colour buffer holds {found} pixels, the frame or window takes {expected}")

@@ -139,6 +139,19 @@ fn bands_in_the_same_memory_make_the_frame() {
                 frame.extend_from_slice(band.pixels());
             }
             assert!(frame == color, "{size:?} in bands of {rows} rows, prepared: {again}");
+
+            // The depths of a band for all colours of the frame.
+            let mut frame = vec![0x1234; width * height];
+            let mut bands =
+                Bands::new(Rgb565Be, DEPTH, size[0], size[1], &mut frame, &mut its_depth).expect("bands");
+            bands.draw(Rgba8::BLACK, |band| {
+                if again {
+                    prepared.draw(band);
+                } else {
+                    soup.draw(band, &view, None);
+                }
+            });
+            assert!(frame == color, "{size:?} over bands of {rows} rows, prepared: {again}");
         }
     }
 }
