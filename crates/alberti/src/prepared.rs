@@ -6,7 +6,7 @@ use crate::screen::Screen;
 use crate::vertex::Slot;
 use crate::walk::Walk;
 use alberti_math::for_lanes;
-use alberti_math::lanes::{Floating, Machine, One};
+use alberti_math::lanes::{Floating, Machine};
 use alberti_projection::Projection;
 use alberti_raster::{
     ColorFormat, Counters, DepthFormat, FragmentStage, Interpolation, Outcome, Paint, Target,
@@ -91,7 +91,7 @@ where
         counters: &mut K,
     ) -> (Self, Room<'p>) {
         let screen = pass.screen(size, depth);
-        let Some(way) = screen else {
+        let (Some(way), Some(machine)) = (screen, Machine::all().next()) else {
             return (Self { pass, screen, filled: 0, listed: &[], next: usize::MAX, size, depth }, room);
         };
         let pixels = way.viewport.pixels();
@@ -99,7 +99,8 @@ where
         let mesh = pass.mesh();
         let (slots, paint) = pass.halves();
         let lasting = !slots.is_empty();
-        let mut walk = Walk::new(One, mesh, way, if lasting { slots } else { &mut cache });
+        let slots = if lasting { &mut **slots } else { &mut cache };
+        let mut walk = for_lanes!(machine, lanes => Walk::new(lanes, mesh, way, slots));
         let (listed, next) = list(&mut walk, paint, &pixels, 0..usize::MAX, room, counters);
         let filled = if lasting { walk.filled() } else { 0 };
         let (listed, rest) = room.split_at_mut_checked(listed).unwrap_or_default();

@@ -157,8 +157,19 @@ impl<V: Varying> Slot<V> {
     {
         if const { L::COUNT == 1 } || const { M::INTEGERS } && screen.integers.is_some() {
             Self::fill_one_by_one(mesh, screen, first, slots);
-            return;
+        } else {
+            Self::fill_side_by_side(lanes, mesh, screen, first, slots);
         }
+    }
+
+    /// The same, several at a time. Not inlined: frames of all formats and stages share it with what is prepared.
+    #[inline(never)]
+    fn fill_side_by_side<L, M, Pr>(lanes: L, mesh: &M, screen: &Screen<Pr>, first: usize, slots: &mut [Self])
+    where
+        L: Floating,
+        M: Geometry<Varying = V>,
+        Pr: Projection,
+    {
         for (slots, first) in slots.chunks_mut(L::COUNT).zip((first..).step_by(L::COUNT)) {
             Self::fill(lanes, mesh, screen, first, slots);
         }
