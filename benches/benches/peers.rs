@@ -9,7 +9,7 @@ use alberti::lanes::Machine;
 use alberti_app::options::{Filter, Probes};
 use alberti_benches::peers::{Process, scene_bytes};
 use alberti_benches::scene_data::{SCENES, Scene};
-use alberti_benches::{Renderer, SIZES, Size, reference, renderers};
+use alberti_benches::{Renderer, SIZES, Size, ours, reference, renderers};
 use std::error::Error;
 use std::fs;
 use std::io;
@@ -19,7 +19,7 @@ use std::time::Instant;
 /// The first column, with which all others are compared.
 const FIRST: &str = "Exact";
 /// Renderers that `frames` times and this does not.
-const LEFT_OUT: [&str; 3] = ["Spans16", "Affine", "App"];
+const LEFT_OUT: [&str; 5] = [ours::WITHOUT_SLOTS, ours::BY_BANDS, "Spans16", "Affine", "App"];
 /// The part of all pixels that may be off: enough to tell a picture from a blank, or from one that is upside down.
 const OFF: f64 = 0.25;
 /// Turns of each renderer, and the milliseconds of one.

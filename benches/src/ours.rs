@@ -6,8 +6,8 @@ use alberti::glam::{Vec2, Vec3};
 use alberti::shaders::{Unlit, VertexColor};
 use alberti::texture::{Anisotropic, Bilinear, Mipmap, Nearest, Repeat, Trilinear, mipmap};
 use alberti::{
-    Affine, Exact, F32, FragmentStage, Interpolation, Mesh, Pass, Planes, Rgba8, Rgba8888, Slot, Spans16,
-    Target, Varying, View,
+    Affine, Bands, Exact, F32, FragmentStage, Interpolation, Mesh, Pass, Planes, PreparedTriangle, Rgba8,
+    Rgba8888, Slot, Spans16, Target, Varying, View,
 };
 use alberti_app::options::{self, DepthFormat, Filter, Policies, Projection, RenderOptions, Shading};
 use alberti_app::render::{self, any_depth};
@@ -17,14 +17,22 @@ use alberti_tests::reference::view;
 use std::num::NonZero;
 
 /// The policies that are timed, by the name that the benchmark gets. `App` is `Exact` by the kernels of the `alberti`
-/// command, whose policies are chosen at run time.
-pub const POLICIES: &[&str] = &["Exact", "Planes", "Spans16", "Affine", "App"];
+/// command, whose policies are chosen at run time. All but [`WITHOUT_SLOTS`] have slots for all vertices, all but
+/// [`BY_BANDS`] depths for the whole frame.
+pub const POLICIES: &[&str] = &["Exact", WITHOUT_SLOTS, BY_BANDS, "Planes", "Spans16", "Affine", "App"];
+/// `Exact` as it is without more said: vertices in a small cache.
+pub const WITHOUT_SLOTS: &str = "Exact-without-slots";
+/// `Exact` in bands that share their depths.
+pub const BY_BANDS: &str = "Exact-by-bands";
+
+/// The most depths of a band: two megabytes, which stay in the caches where those of a large frame do not.
+const BAND: usize = 1 << 19;
 
 /// Whether the pictures of this policy must be right: see [`crate::reference`]. Those of straight lines are as wrong as
 /// their bounds allow.
 #[must_use]
 pub fn is_right(name: &str) -> bool {
-    matches!(name, "Exact" | "Planes" | "App")
+    matches!(name, "Exact" | WITHOUT_SLOTS | BY_BANDS | "Planes" | "App")
 }
 
 /// The scene under a policy, or nothing when the policy does not draw such a scene.
@@ -40,23 +48,34 @@ pub fn renderer(policy: &str, scene: &Scene, size: Size) -> Option<Box<dyn Rende
     if policy == "App" {
         return Some(Box::new(App::new(scene, size)));
     }
+    let triangles = scene.triangles.len();
+    let band = (BAND / size.width as usize).clamp(1, size.height as usize) * size.width as usize;
+    let (room, depths) = if policy == BY_BANDS {
+        (Some(vec![PreparedTriangle::EMPTY; triangles]), band)
+    } else {
+        (None, size.pixels())
+    };
     let canvas = Canvas {
         view: view(&scene.built_in.camera).expect("a view"),
         vertices: model.vertices.clone(),
         triangles: scene.triangles.clone(),
         background: scene.background(),
         size,
+        slots: if policy == WITHOUT_SLOTS { 0 } else { model.vertices.len() },
+        room,
         color: vec![0; size.pixels()],
-        depth: vec![0.0; size.pixels()],
+        depth: vec![0.0; depths],
     };
     let image = model.textures.first().filter(|_| scene.texture.is_some()).cloned();
     let filter = scene.built_in.filter;
     Some(match policy {
-        "Exact" => boxed(canvas, image, filter, Exact),
+        "Exact" | BY_BANDS => boxed(canvas, image, filter, Exact),
+        // Few vertices need no slots.
+        WITHOUT_SLOTS if triangles > 1000 => boxed(canvas, image, filter, Exact),
         "Planes" => boxed(canvas, image, filter, Planes),
         "Spans16" => boxed(canvas, image, filter, Spans16),
         // Large triangles in perspective are not for it.
-        "Affine" if scene.triangles.len() > 1000 => boxed(canvas, image, filter, Affine),
+        "Affine" if triangles > 1000 => boxed(canvas, image, filter, Affine),
         _ => return None,
     })
 }
@@ -67,15 +86,15 @@ fn boxed<P: Interpolation>(
     filter: Filter,
     interpolation: P,
 ) -> Box<dyn Renderer> {
-    let vertices = canvas.vertices.len();
+    let slots = canvas.slots;
     match image {
         Some(Image { width, height, mut texels }) => {
             texels.resize(mipmap::texel_count(width, height), [0; 4]);
             mipmap::build(Rgba8888, &mut texels, width, height).expect("a texture");
-            let slots = vec![Slot::EMPTY; vertices];
+            let slots = vec![Slot::EMPTY; slots];
             Box::new(Textured { canvas, slots, size: [width, height], texels, filter, interpolation })
         }
-        None => Box::new(Colored { canvas, slots: vec![Slot::EMPTY; vertices], interpolation }),
+        None => Box::new(Colored { canvas, slots: vec![Slot::EMPTY; slots], interpolation }),
     }
 }
 
@@ -87,7 +106,12 @@ struct Canvas {
     triangles: Vec<[u32; 3]>,
     background: [u8; 4],
     size: Size,
+    /// The number of slots.
+    slots: usize,
+    /// Room for the triangles of a frame in bands.
+    room: Option<Vec<PreparedTriangle>>,
     color: Vec<u32>,
+    /// Those of all rows, or of a band's.
     depth: Vec<f32>,
 }
 
@@ -99,16 +123,22 @@ impl Canvas {
         fragment_stage: impl FragmentStage<V, Color = Rgba8>,
         interpolation: impl Interpolation,
     ) {
+        let Self { view, vertices, triangles, background, room, color, depth, .. } = self;
         let Size { width, height } = self.size;
-        let mut target = Target::new(Rgba8888, F32, width, height, &mut self.color, &mut self.depth)
-            .expect("buffers that fit");
-        let [r, g, b, a] = self.background;
-        target.clear(Rgba8::new(r, g, b, a));
-        let mesh = Mesh::new(&self.vertices, &self.triangles, vertex_stage);
-        Pass::new(&self.view, &mesh, fragment_stage)
-            .interpolation(interpolation)
-            .slots(slots)
-            .draw(&mut target);
+        let [r, g, b, a] = *background;
+        let background = Rgba8::new(r, g, b, a);
+        let mesh = Mesh::new(vertices, triangles, vertex_stage);
+        let mut pass = Pass::new(view, &mesh, fragment_stage).interpolation(interpolation).slots(slots);
+        if let Some(room) = room {
+            let mut bands = Bands::new(Rgba8888, F32, width, height, color, depth).expect("buffers that fit");
+            let (mut prepared, _) = pass.prepare(&bands, room);
+            bands.draw(background, |band| prepared.draw(band));
+        } else {
+            let mut target =
+                Target::new(Rgba8888, F32, width, height, color, depth).expect("buffers that fit");
+            target.clear(background);
+            pass.draw(&mut target);
+        }
     }
 }
 

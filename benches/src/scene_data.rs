@@ -41,8 +41,16 @@ impl Scene {
     /// When the application no longer has such a scene, or has changed it beyond what this module expects.
     #[must_use]
     pub fn load((name, built_in, filter): (&'static str, &str, Filter)) -> Self {
-        let mut built_in = by_name(built_in).expect("a built-in scene");
-        built_in.filter = filter;
+        let built_in = by_name(built_in).expect("a built-in scene");
+        Self::new(name, BuiltIn { filter, ..built_in })
+    }
+
+    /// The scene of that name.
+    ///
+    /// # Panics
+    /// When the application has made it otherwise than this module expects.
+    #[must_use]
+    pub fn new(name: &'static str, built_in: BuiltIn) -> Self {
         assert!(
             built_in.cull == Cull::Back && built_in.wrap == Wrap::Repeat,
             "{name}: other culling or wrapping"

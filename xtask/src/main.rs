@@ -15,6 +15,7 @@ mod embedded;
 mod firmware;
 mod gallery;
 mod golden;
+mod growth;
 mod nostd;
 mod package;
 mod peers;
@@ -125,6 +126,12 @@ const CHORES: &[Chore] = &[
         arguments: "[--avx512]",
         about: "time all scenes beside all peers in one run, with those in C that can be built here",
         run: peers::run,
+    },
+    Chore {
+        name: "growth",
+        arguments: "",
+        about: "time frames of 64x64 to 8192x8192 pixels and of 10^2 to 10^7 triangles, and write docs/growth.md",
+        run: |_| growth::run(),
     },
 ];
 

@@ -28,6 +28,8 @@ mod tests;
 use crate::options::{Cull, DepthFormat, Filter, Shading, Wrap};
 use crate::scene::{Camera, Model};
 
+pub use trials::gouraud;
+
 /// A scene that needs no file.
 #[derive(Clone, Debug)]
 pub struct BuiltIn {
@@ -58,7 +60,7 @@ pub fn by_name(name: &str) -> Option<BuiltIn> {
         "hero" => hero::hero(),
         "fill" => trials::fill(),
         "mesh" => trials::mesh(),
-        "gouraud" => trials::gouraud(),
+        "gouraud" => gouraud(76),
         "floor" => trials::floor(),
         "cube" => studies::cube(),
         "inside" => studies::inside(),

@@ -109,25 +109,24 @@ fn knot(u: f64, v: f64) -> Vec3 {
     add(middle(u), add(scale(outward, ribs * cos), scale(side, ribs * sin)))
 }
 
-/// A vertex-coloured lump, 12 * 76^2 = 69,312 triangles of about the same size.
-pub(super) fn gouraud() -> BuiltIn {
-    const CELLS: u32 = 76;
+/// A vertex-coloured lump, closed, of 12 * `cells`^2 triangles of about the same size.
+pub fn gouraud(cells: u32) -> BuiltIn {
     let mut b = Builder::default();
     b.part("lump", None);
     // The six sides of a cube: the axis that points outwards, then those of i and j, right-handed.
     let sides: [(usize, usize, usize, f64); 6] =
         [(0, 1, 2, 1.0), (1, 2, 0, 1.0), (2, 0, 1, 1.0), (0, 2, 1, -1.0), (1, 0, 2, -1.0), (2, 1, 0, -1.0)];
     for (out, right, up, sign) in sides {
-        b.sheet(CELLS, CELLS, |i, j| {
+        b.sheet(cells, cells, |i, j| {
             // Each coordinate depends on its own lattice number alone: neighbouring sides agree to the bit.
             let warp = |k: u32| {
-                let t = 2.0 * f64::from(k) / f64::from(CELLS) - 1.0;
+                let t = 2.0 * f64::from(k) / f64::from(cells) - 1.0;
                 (t * TURN / 8.0).tan()
             };
             let mut p = [0.0; 3];
             p[out] = sign;
-            p[right] = if i == CELLS { 1.0 } else { warp(i) };
-            p[up] = if j == CELLS { 1.0 } else { warp(j) };
+            p[right] = if i == cells { 1.0 } else { warp(i) };
+            p[up] = if j == cells { 1.0 } else { warp(j) };
             // The warp of 0 must be -1 exactly, as seen from the neighbour.
             p = p.map(|c| if c < -0.999_999 { -1.0 } else { c });
             let direction = unit(p);
