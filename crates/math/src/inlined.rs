@@ -24,3 +24,28 @@ pub fn map3<T, U>([a, b, c]: [T; 3], f: impl Fn(T) -> U) -> [U; 3] {
 pub fn map4<T, U>([a, b, c, d]: [T; 4], f: impl Fn(T) -> U) -> [U; 4] {
     [f(a), f(b), f(c), f(d)]
 }
+
+/// All mapped, however many: the results take the places of `nothing`.
+#[inline(always)]
+pub fn each<T: Copy, U: Copy, const N: usize>(values: [T; N], nothing: U, f: impl Fn(T) -> U) -> [U; N] {
+    let mut found = [nothing; N];
+    for (found, value) in found.iter_mut().zip(&values) {
+        *found = f(*value);
+    }
+    found
+}
+
+/// All pairs of one of each mapped: [`each`] of two.
+#[inline(always)]
+pub fn each_pair<S: Copy, T: Copy, U: Copy, const N: usize>(
+    first: [S; N],
+    second: [T; N],
+    nothing: U,
+    f: impl Fn(S, T) -> U,
+) -> [U; N] {
+    let mut found = [nothing; N];
+    for ((found, first), second) in found.iter_mut().zip(&first).zip(&second) {
+        *found = f(*first, *second);
+    }
+    found
+}

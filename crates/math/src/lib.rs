@@ -32,7 +32,7 @@ pub use frame::Frame;
 pub use frame2::Frame2;
 pub use glam;
 pub use gradient::Gradient;
-pub use inlined::{in_line, map2, map3, map4};
+pub use inlined::{each, each_pair, in_line, map2, map3, map4};
 pub use orientation::{Zone, orientation, signed_area};
 pub use product::{LOW_WORDS_ONLY, high, high_of_half, high_signed, middle};
 pub use q16::{Q16, scaled};

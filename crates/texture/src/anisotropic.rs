@@ -86,16 +86,16 @@ struct Probes<L: Lanes> {
 }
 
 impl<L: Lanes> Probes<L> {
-    /// The mean of the colours of a filter there.
+    /// The means of the colours of a filter there.
     #[inline(always)]
-    fn mean<F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    fn mean<F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
         self,
         lanes: L,
         filter: impl MipFilter,
-        mipmap: &Mipmap<'_, F, Z>,
+        mipmap: &Mipmap<'_, F, Z, N>,
         wrap: (U, V),
         [u, v]: [L::Number; 2],
-    ) -> L::U32 {
+    ) -> [L::U32; N] {
         let Self { log2_count, axis: [du, dv], lambda } = self;
         each_word(
             lanes,
@@ -121,27 +121,27 @@ impl<L: Lanes> Probes<L> {
 
 impl<M: MipFilter> MipFilter for Anisotropic<M> {
     #[inline(always)]
-    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
         self,
         lanes: L,
-        mipmap: &Mipmap<'_, F, Z>,
+        mipmap: &Mipmap<'_, F, Z, N>,
         wrap: (U, V),
         uv: [L::Number; 2],
         lambda: L::Number,
-    ) -> L::U32 {
+    ) -> [L::U32; N] {
         self.filter.at_lod(lanes, mipmap, wrap, uv, lambda)
     }
 
     #[inline(always)]
-    fn in_footprint<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    fn in_footprint<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
         self,
         lanes: L,
-        mipmap: &Mipmap<'_, F, Z>,
+        mipmap: &Mipmap<'_, F, Z, N>,
         wrap: (U, V),
         uv: [L::Number; 2],
         gradient: Gradient<[L::Number; 2]>,
         bounded: impl Fn(L::Number) -> L::Number,
-    ) -> L::U32 {
+    ) -> [L::U32; N] {
         self.probes(lanes, gradient, mipmap.size(), bounded).mean(lanes, self.filter, mipmap, wrap, uv)
     }
 }
@@ -176,29 +176,29 @@ impl AnyMipFilter {
 
 impl MipFilter for AnyMipFilter {
     #[inline(always)]
-    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
         self,
         lanes: L,
-        mipmap: &Mipmap<'_, F, Z>,
+        mipmap: &Mipmap<'_, F, Z, N>,
         wrap: (U, V),
         uv: [L::Number; 2],
         lambda: L::Number,
-    ) -> L::U32 {
+    ) -> [L::U32; N] {
         // Level 0 alone is that of the greatest texels.
         let lambda = if let Self::Base(_) = self { lanes.splat(-1.0) } else { lambda };
         self.shared().at_lod(lanes, mipmap, wrap, uv, lambda)
     }
 
     #[inline(always)]
-    fn in_footprint<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    fn in_footprint<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
         self,
         lanes: L,
-        mipmap: &Mipmap<'_, F, Z>,
+        mipmap: &Mipmap<'_, F, Z, N>,
         wrap: (U, V),
         uv: [L::Number; 2],
         gradient: Gradient<[L::Number; 2]>,
         bounded: impl Fn(L::Number) -> L::Number,
-    ) -> L::U32 {
+    ) -> [L::U32; N] {
         let zero = lanes.splat(0.0);
         let alone = |lambda| Probes { log2_count: lanes.word(0), axis: [zero; 2], lambda };
         let probes = match self {

@@ -1,7 +1,7 @@
 //! The weighted mean of four colours, in integers with one rounding.
 
 use alberti_math::lanes::Lanes;
-use alberti_math::{map2, map4};
+use alberti_math::{each, each_pair, map2, map4};
 
 /// Bytes 0 and 2: two channels in lanes of 16 bits.
 const BYTES: u32 = 0x00ff_00ff;
@@ -16,10 +16,9 @@ pub(crate) struct Quad<L: Lanes> {
 }
 
 impl<L: Lanes> Quad<L> {
-    /// The texels that `texels` finds in the lower and in the upper row.
+    /// The texels of a lower and an upper row, left and right.
     #[inline(always)]
-    pub(crate) fn about([low, high]: [L::U32; 2], texels: impl Fn(L::U32) -> [L::U32; 2]) -> Self {
-        let ([low_left, low_right], [high_left, high_right]) = (texels(low), texels(high));
+    pub(crate) fn of([[low_left, low_right], [high_left, high_right]]: [[L::U32; 2]; 2]) -> Self {
         Self { low_left, low_right, high_left, high_right }
     }
 }
@@ -133,20 +132,36 @@ pub(crate) fn between<L: Lanes>(lanes: L, near: [L::U32; 4], far: [L::U32; 4], a
         | alpha & lanes.word(0xff00_0000)
 }
 
-/// The mean of 2^`count` colours, of halves the upper, with `count` up to 8.
+/// The means of 2^`count` colours of each plane, of halves the upper, with `count` up to 8.
 #[inline(always)]
-pub(crate) fn mean_of<L: Lanes>(lanes: L, count: u32, mut color: impl FnMut(u32) -> L::U32) -> L::U32 {
+pub(crate) fn mean_of<L: Lanes, const N: usize>(
+    lanes: L,
+    count: u32,
+    mut colors: impl FnMut(u32) -> [L::U32; N],
+) -> [L::U32; N] {
     let bytes = lanes.word(BYTES);
     // Half of the count in both lanes of 16 bits; half of one is below no channel.
-    let mut red_blue = lanes.word((0x0001_0001 << count) >> 1);
-    let mut green_alpha = red_blue;
+    let mut sums = [[lanes.word((0x0001_0001 << count) >> 1); 2]; N];
     for k in 0..1 << count {
-        let color = color(k);
-        red_blue = red_blue + (color & bytes);
-        green_alpha = green_alpha + (lanes.shr(color, 8) & bytes);
+        sums = each_pair(
+            sums,
+            colors(k),
+            [lanes.word(0); 2],
+            #[inline(always)]
+            |[red_blue, green_alpha], color| {
+                [red_blue + (color & bytes), green_alpha + (lanes.shr(color, 8) & bytes)]
+            },
+        );
     }
-    let [red_blue, green_alpha] = map2([red_blue, green_alpha], |sum| lanes.shr(sum, count) & bytes);
-    red_blue | lanes.shl(green_alpha, 8)
+    each(
+        sums,
+        lanes.word(0),
+        #[inline(always)]
+        |sums| {
+            let [red_blue, green_alpha] = map2(sums, |sum| lanes.shr(sum, count) & bytes);
+            red_blue | lanes.shl(green_alpha, 8)
+        },
+    )
 }
 
 /// `(256 - t) * low + t * high` of two lanes of 16 bits: the lower, the upper.
@@ -255,7 +270,8 @@ mod tests {
         for count in 0..=8 {
             for bytes in [[255; 4], [0; 4], [255, 0, 255, 0], [0, 255, 0, 255], [1, 2, 3, 254]] {
                 let colors = |k: u32| if k.is_multiple_of(3) { bytes } else { bytes.map(|byte| byte / 2) };
-                let found = mean_of(One, count, |k| Wrapping(u32::from_le_bytes(colors(k)))).0.to_le_bytes();
+                let [found] = mean_of(One, count, |k| [Wrapping(u32::from_le_bytes(colors(k)))]);
+                let found = found.0.to_le_bytes();
                 for (channel, found) in found.into_iter().enumerate() {
                     let sum: u32 = (0..1 << count).map(|k| u32::from(colors(k)[channel])).sum();
                     assert_eq!(u32::from(found), (2 * sum + (1 << count)) / (2 << count));

@@ -83,27 +83,27 @@ impl<M> Sealed for Bounded<M> {}
 
 impl<M: MipFilter> MipFilter for Bounded<M> {
     #[inline(always)]
-    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
         self,
         lanes: L,
-        mipmap: &Mipmap<'_, F, Z>,
+        mipmap: &Mipmap<'_, F, Z, N>,
         wrap: (U, V),
         uv: [L::Number; 2],
         lambda: L::Number,
-    ) -> L::U32 {
+    ) -> [L::U32; N] {
         self.filter.at_lod(lanes, mipmap, wrap, uv, self.bounds.bound_lanes(lanes, lambda))
     }
 
     #[inline(always)]
-    fn in_footprint<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    fn in_footprint<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
         self,
         lanes: L,
-        mipmap: &Mipmap<'_, F, Z>,
+        mipmap: &Mipmap<'_, F, Z, N>,
         wrap: (U, V),
         uv: [L::Number; 2],
         gradient: Gradient<[L::Number; 2]>,
         bounded: impl Fn(L::Number) -> L::Number,
-    ) -> L::U32 {
+    ) -> [L::U32; N] {
         self.filter.in_footprint(
             lanes,
             mipmap,

@@ -5,7 +5,7 @@
 use core::fmt::Debug;
 
 use alberti_math::lanes::Lanes;
-use alberti_math::{Rgba8, map2};
+use alberti_math::{Rgba8, each, each_pair, map2};
 
 use crate::blend::{Quad, bilinear, bilinear_scalar, spread, sums};
 use crate::format::Storage;
@@ -19,23 +19,23 @@ use crate::{Size, Texture, Wrap};
     note = "`Nearest`, `Bilinear` and `AnyFilter` are; filters of mip maps belong to `Mipmap::sampler`"
 )]
 pub trait Filter: Sealed + Copy + Debug + 'static {
-    /// The colours of the texture at (u, v), as words, with a wrap mode for u and one for v.
-    fn sample<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    /// The colours of each plane of the texture at (u, v), as words, with a wrap mode for u and one for v.
+    fn sample<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
         self,
         lanes: L,
-        texture: &Texture<'_, F, Z>,
+        texture: &Texture<'_, F, Z, N>,
         wrap: (U, V),
         uv: [L::Number; 2],
-    ) -> L::U32;
+    ) -> [L::U32; N];
 
     /// Red, green, blue and alpha times 2^16, before they are rounded.
-    fn sums<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    fn sums<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
         self,
         lanes: L,
-        texture: &Texture<'_, F, Z>,
+        texture: &Texture<'_, F, Z, N>,
         wrap: (U, V),
         uv: [L::Number; 2],
-    ) -> [L::U32; 4];
+    ) -> [[L::U32; 4]; N];
 
     /// The texture as a map of numbers, which count 65535ths.
     fn scalars<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
@@ -110,26 +110,35 @@ impl Sealed for AnyFilter {}
 
 impl Filter for Nearest {
     #[inline(always)]
-    fn sample<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    fn sample<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
         self,
         lanes: L,
-        texture: &Texture<'_, F, Z>,
+        texture: &Texture<'_, F, Z, N>,
         wrap: (U, V),
         uv: [L::Number; 2],
-    ) -> L::U32 {
+    ) -> [L::U32; N] {
         let at = texture.cells(lanes, uv, wrap);
-        texel(lanes, texture, wrap, at)
+        texture.each_plane(
+            lanes.word(0),
+            #[inline(always)]
+            |plane| texel(lanes, &plane, wrap, at),
+        )
     }
 
     #[inline(always)]
-    fn sums<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    fn sums<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
         self,
         lanes: L,
-        texture: &Texture<'_, F, Z>,
+        texture: &Texture<'_, F, Z, N>,
         wrap: (U, V),
         uv: [L::Number; 2],
-    ) -> [L::U32; 4] {
-        spread(lanes, self.sample(lanes, texture, wrap, uv))
+    ) -> [[L::U32; 4]; N] {
+        each(
+            self.sample(lanes, texture, wrap, uv),
+            [lanes.word(0); 4],
+            #[inline(always)]
+            |color| spread(lanes, color),
+        )
     }
 
     #[inline(always)]
@@ -147,37 +156,37 @@ impl Filter for Nearest {
 
 impl Filter for Bilinear {
     #[inline(always)]
-    fn sample<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    fn sample<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
         self,
         lanes: L,
-        texture: &Texture<'_, F, Z>,
+        texture: &Texture<'_, F, Z, N>,
         wrap: (U, V),
         uv: [L::Number; 2],
-    ) -> L::U32 {
-        let [[left, right, along], [low, high, up]] = texture.between(lanes, uv, wrap);
-        let quad = Quad::about(
-            [low, high],
+    ) -> [L::U32; N] {
+        let (quads, [along, up]) = quads(lanes, texture, wrap, uv);
+        each(
+            quads,
+            lanes.word(0),
             #[inline(always)]
-            |row| texels(lanes, texture, wrap, [left, right], row),
-        );
-        bilinear(lanes, quad, along, up)
+            |quad| bilinear(lanes, quad, along, up),
+        )
     }
 
     #[inline(always)]
-    fn sums<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    fn sums<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
         self,
         lanes: L,
-        texture: &Texture<'_, F, Z>,
+        texture: &Texture<'_, F, Z, N>,
         wrap: (U, V),
         uv: [L::Number; 2],
-    ) -> [L::U32; 4] {
-        let [[left, right, along], [low, high, up]] = texture.between(lanes, uv, wrap);
-        let quad = Quad::about(
-            [low, high],
+    ) -> [[L::U32; 4]; N] {
+        let (quads, [along, up]) = quads(lanes, texture, wrap, uv);
+        each(
+            quads,
+            [lanes.word(0); 4],
             #[inline(always)]
-            |row| texels(lanes, texture, wrap, [left, right], row),
-        );
-        sums(lanes, quad, along, up)
+            |quad| sums(lanes, quad, along, up),
+        )
     }
 
     #[inline(always)]
@@ -189,30 +198,19 @@ impl Filter for Bilinear {
         uv: [L::Number; 2],
     ) -> L::U32 {
         let [[left, right, along], [low, high, up]] = texture.between(lanes, uv, wrap);
-        let quad = Quad::about(
-            [low, high],
-            #[inline(always)]
-            |row| {
-                map2(
-                    [left, right],
-                    #[inline(always)]
-                    |column| scalar(lanes, texture, wrap, [column, row]),
-                )
-            },
-        );
-        bilinear_scalar(lanes, quad, along, up)
+        bilinear_scalar(lanes, scalars(lanes, texture, wrap, [left, right], [low, high]), along, up)
     }
 }
 
 impl Filter for AnyFilter {
     #[inline(always)]
-    fn sample<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    fn sample<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
         self,
         lanes: L,
-        texture: &Texture<'_, F, Z>,
+        texture: &Texture<'_, F, Z, N>,
         wrap: (U, V),
         uv: [L::Number; 2],
-    ) -> L::U32 {
+    ) -> [L::U32; N] {
         match self {
             Self::Nearest => Nearest.sample(lanes, texture, wrap, uv),
             Self::Bilinear => Bilinear.sample(lanes, texture, wrap, uv),
@@ -220,13 +218,13 @@ impl Filter for AnyFilter {
     }
 
     #[inline(always)]
-    fn sums<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    fn sums<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
         self,
         lanes: L,
-        texture: &Texture<'_, F, Z>,
+        texture: &Texture<'_, F, Z, N>,
         wrap: (U, V),
         uv: [L::Number; 2],
-    ) -> [L::U32; 4] {
+    ) -> [[L::U32; 4]; N] {
         match self {
             Self::Nearest => Nearest.sums(lanes, texture, wrap, uv),
             Self::Bilinear => Bilinear.sums(lanes, texture, wrap, uv),
@@ -266,25 +264,78 @@ fn texel<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
     )
 }
 
-/// The colours in two columns, the second of which mostly follows the first, and in a row.
+/// The texels of each plane about a place, and the 256ths from the left to the right and from the lower to the upper.
 #[inline(always)]
-fn texels<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+fn quads<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
+    lanes: L,
+    texture: &Texture<'_, F, Z, N>,
+    wrap: (U, V),
+    uv: [L::Number; 2],
+) -> ([Quad<L>; N], [L::U32; 2]) {
+    let [[left, right, along], [low, high, up]] = texture.between(lanes, uv, wrap);
+    let [low, high] = map2(
+        [low, high],
+        #[inline(always)]
+        |row| texels(lanes, texture, wrap, [left, right], row),
+    );
+    let nothing = Quad::of([[lanes.word(0); 2]; 2]);
+    let quads = each_pair(
+        low,
+        high,
+        nothing,
+        #[inline(always)]
+        |low, high| Quad::of([low, high]),
+    );
+    (quads, [along, up])
+}
+
+/// The colours of each plane in two columns, the second of which mostly follows the first, and in a row.
+#[inline(always)]
+fn texels<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
+    lanes: L,
+    texture: &Texture<'_, F, Z, N>,
+    wrap: (U, V),
+    columns: [L::U32; 2],
+    from_bottom: L::U32,
+) -> [[L::U32; 2]; N] {
+    let borders = map2([wrap.0.border(), wrap.1.border()], |border| border.map(Rgba8::to_bits));
+    let row = lanes.word(texture.height().wrapping_sub(1)) - from_bottom;
+    let [at_left, at_right] = map2(columns, |column| [column, from_bottom]);
+    each(
+        texture.fetch_pairs(lanes, row, columns),
+        [lanes.word(0); 2],
+        #[inline(always)]
+        |[left, right]| {
+            [with_borders(lanes, at_left, borders, left), with_borders(lanes, at_right, borders, right)]
+        },
+    )
+}
+
+/// The numbers in two columns and in two rows that are counted from the bottom, as counts of 65535ths.
+#[inline(always)]
+pub(crate) fn scalars<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
     lanes: L,
     texture: &Texture<'_, F, Z>,
     wrap: (U, V),
     columns: [L::U32; 2],
-    from_bottom: L::U32,
-) -> [L::U32; 2] {
-    let borders = map2([wrap.0.border(), wrap.1.border()], |border| border.map(Rgba8::to_bits));
-    let row = lanes.word(texture.height().wrapping_sub(1)) - from_bottom;
-    let [left, right] = texture.fetch_pair(lanes, row, columns);
-    let [at_left, at_right] = map2(columns, |column| [column, from_bottom]);
-    [with_borders(lanes, at_left, borders, left), with_borders(lanes, at_right, borders, right)]
+    rows: [L::U32; 2],
+) -> Quad<L> {
+    Quad::of(map2(
+        rows,
+        #[inline(always)]
+        |row| {
+            map2(
+                columns,
+                #[inline(always)]
+                |column| scalar(lanes, texture, wrap, [column, row]),
+            )
+        },
+    ))
 }
 
 /// The number in a column and in a row that is counted from the bottom, or that of the border, as a count of 65535ths.
 #[inline(always)]
-pub(crate) fn scalar<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+fn scalar<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
     lanes: L,
     texture: &Texture<'_, F, Z>,
     wrap: (U, V),

@@ -5,6 +5,7 @@
 
 use core::fmt::Debug;
 
+use alberti_math::each_pair;
 use alberti_math::lanes::Lanes;
 
 use crate::blend::between;
@@ -21,27 +22,27 @@ use crate::{Gradient, Mipmap, Size, Wrap};
     note = "a filter of one level becomes one by `NearestLevel`, `BetweenLevels` or `BaseLevel` around it"
 )]
 pub trait MipFilter: Sealed + Copy + Debug + 'static {
-    /// The colours at (u, v), as words, for a level of detail of λ, with a wrap mode for u and one for v.
-    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    /// The colours of each map at (u, v), as words, for a level of detail of λ, with a wrap mode for u and one for v.
+    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
         self,
         lanes: L,
-        mipmap: &Mipmap<'_, F, Z>,
+        mipmap: &Mipmap<'_, F, Z, N>,
         wrap: (U, V),
         uv: [L::Number; 2],
         lambda: L::Number,
-    ) -> L::U32;
+    ) -> [L::U32; N];
 
     /// The same for pixels that the derivatives tell the shapes of, and so λ, which `bounded` changes.
     #[inline(always)]
-    fn in_footprint<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    fn in_footprint<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
         self,
         lanes: L,
-        mipmap: &Mipmap<'_, F, Z>,
+        mipmap: &Mipmap<'_, F, Z, N>,
         wrap: (U, V),
         uv: [L::Number; 2],
         gradient: Gradient<[L::Number; 2]>,
         bounded: impl Fn(L::Number) -> L::Number,
-    ) -> L::U32 {
+    ) -> [L::U32; N] {
         let lambda = bounded(gradient.lod_lanes(lanes, mipmap.size()));
         self.at_lod(lanes, mipmap, wrap, uv, lambda)
     }
@@ -123,28 +124,28 @@ impl<Min, Mag> Sealed for Minify<Min, Mag> {}
 
 impl<Fl: Filter> MipFilter for BaseLevel<Fl> {
     #[inline(always)]
-    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
         self,
         lanes: L,
-        mipmap: &Mipmap<'_, F, Z>,
+        mipmap: &Mipmap<'_, F, Z, N>,
         wrap: (U, V),
         uv: [L::Number; 2],
         _: L::Number,
-    ) -> L::U32 {
+    ) -> [L::U32; N] {
         self.0.sample(lanes, &mipmap.level(0), wrap, uv)
     }
 }
 
 impl<Fl: Filter> MipFilter for NearestLevel<Fl> {
     #[inline(always)]
-    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
         self,
         lanes: L,
-        mipmap: &Mipmap<'_, F, Z>,
+        mipmap: &Mipmap<'_, F, Z, N>,
         wrap: (U, V),
         uv: [L::Number; 2],
         lambda: L::Number,
-    ) -> L::U32 {
+    ) -> [L::U32; N] {
         each_word(
             lanes,
             lanes.round_scaled(among_levels(lanes, mipmap, lambda), 0),
@@ -156,14 +157,14 @@ impl<Fl: Filter> MipFilter for NearestLevel<Fl> {
 
 impl<Fl: Filter> MipFilter for BetweenLevels<Fl> {
     #[inline(always)]
-    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
         self,
         lanes: L,
-        mipmap: &Mipmap<'_, F, Z>,
+        mipmap: &Mipmap<'_, F, Z, N>,
         wrap: (U, V),
         uv: [L::Number; 2],
         lambda: L::Number,
-    ) -> L::U32 {
+    ) -> [L::U32; N] {
         let position = lanes.round_scaled(among_levels(lanes, mipmap, lambda), 8);
         let along = position & lanes.word(255);
         let whole = lanes.bits(lanes.equal_words(along, lanes.word(0))) == every::<L>();
@@ -175,7 +176,13 @@ impl<Fl: Filter> MipFilter for BetweenLevels<Fl> {
                 let level = level as usize;
                 let near = self.0.sums(lanes, &mipmap.level(level), wrap, uv);
                 let far = if whole { near } else { self.0.sums(lanes, &mipmap.level(level + 1), wrap, uv) };
-                between(lanes, near, far, along)
+                each_pair(
+                    near,
+                    far,
+                    lanes.word(0),
+                    #[inline(always)]
+                    |near, far| between(lanes, near, far, along),
+                )
             },
         )
     }
@@ -183,37 +190,43 @@ impl<Fl: Filter> MipFilter for BetweenLevels<Fl> {
 
 impl MipFilter for Trilinear {
     #[inline(always)]
-    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
         self,
         lanes: L,
-        mipmap: &Mipmap<'_, F, Z>,
+        mipmap: &Mipmap<'_, F, Z, N>,
         wrap: (U, V),
         uv: [L::Number; 2],
         lambda: L::Number,
-    ) -> L::U32 {
+    ) -> [L::U32; N] {
         Minify { min: BetweenLevels(Bilinear), mag: Bilinear }.at_lod(lanes, mipmap, wrap, uv, lambda)
     }
 }
 
 impl<Min: MipFilter, Mag: Filter> MipFilter for Minify<Min, Mag> {
     #[inline(always)]
-    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
+    fn at_lod<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
         self,
         lanes: L,
-        mipmap: &Mipmap<'_, F, Z>,
+        mipmap: &Mipmap<'_, F, Z, N>,
         wrap: (U, V),
         uv: [L::Number; 2],
         lambda: L::Number,
-    ) -> L::U32 {
+    ) -> [L::U32; N] {
         let minified = lanes.less(lanes.splat(0.0), lambda);
         let bits = lanes.bits(minified);
-        let mut found = lanes.word(0);
+        let mut found = [lanes.word(0); N];
         if bits != 0 {
             found = self.min.at_lod(lanes, mipmap, wrap, uv, lambda);
         }
         if bits != every::<L>() {
             let magnified = self.mag.sample(lanes, &mipmap.level(0), wrap, uv);
-            found = lanes.select_words(minified, found, magnified);
+            found = each_pair(
+                found,
+                magnified,
+                lanes.word(0),
+                #[inline(always)]
+                |found, magnified| lanes.select_words(minified, found, magnified),
+            );
         }
         found
     }
@@ -221,9 +234,9 @@ impl<Min: MipFilter, Mag: Filter> MipFilter for Minify<Min, Mag> {
 
 /// λ from that of level 0 to that of the last; that of level 0 for NaN.
 #[inline(always)]
-fn among_levels<L: Lanes, F: Storage, Z: Size>(
+fn among_levels<L: Lanes, F: Storage, Z: Size, const N: usize>(
     lanes: L,
-    mipmap: &Mipmap<'_, F, Z>,
+    mipmap: &Mipmap<'_, F, Z, N>,
     lambda: L::Number,
 ) -> L::Number {
     let last = lanes.int_to_number(lanes.int(mipmap.last()));
@@ -238,13 +251,23 @@ const fn every<L: Lanes>() -> u32 {
 /// The words that `f` makes of each word, asked once for all lanes that have the same. Closures that are this large are
 /// only inlined, and so compiled for the lanes, if they say so.
 #[inline(always)]
-pub(crate) fn each_word<L: Lanes>(lanes: L, words: L::U32, mut f: impl FnMut(u32) -> L::U32) -> L::U32 {
+pub(crate) fn each_word<L: Lanes, const N: usize>(
+    lanes: L,
+    words: L::U32,
+    mut f: impl FnMut(u32) -> [L::U32; N],
+) -> [L::U32; N] {
     let each = lanes.store_words(words);
-    let mut found = lanes.word(0);
+    let mut found = [lanes.word(0); N];
     let mut left = every::<L>();
     while let Some(&word) = each.as_ref().get(left.trailing_zeros() as usize) {
         let same = lanes.equal_words(words, lanes.word(word));
-        found = lanes.select_words(same, f(word), found);
+        found = each_pair(
+            found,
+            f(word),
+            lanes.word(0),
+            #[inline(always)]
+            |found, new| lanes.select_words(same, new, found),
+        );
         left &= !lanes.bits(same);
     }
     found

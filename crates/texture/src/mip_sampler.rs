@@ -32,24 +32,50 @@ use crate::{AnySize, Gradient, Mipmap, Size, Wrap};
 /// # Ok::<(), alberti_texture::TextureError>(())
 /// ```
 #[derive(Clone, Copy)]
-pub struct MipSampler<'a, F: Storage, M, U, V = U, Z: Size = AnySize> {
-    mipmap: Mipmap<'a, F, Z>,
+pub struct MipSampler<'a, F: Storage, M, U, V = U, Z: Size = AnySize, const N: usize = 1> {
+    mipmap: Mipmap<'a, F, Z, N>,
     filter: M,
     wrap: (U, V),
 }
 
-impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: Size> MipSampler<'a, F, M, U, V, Z> {
+impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: Size, const N: usize>
+    MipSampler<'a, F, M, U, V, Z, N>
+{
     #[inline]
-    pub(crate) const fn new(mipmap: Mipmap<'a, F, Z>, filter: M, wrap: (U, V)) -> Self {
+    pub(crate) const fn new(mipmap: Mipmap<'a, F, Z, N>, filter: M, wrap: (U, V)) -> Self {
         Self { mipmap, filter, wrap }
     }
 
     /// The mip map that is sampled.
     #[must_use]
-    pub const fn mipmap(&self) -> Mipmap<'a, F, Z> {
+    pub const fn mipmap(&self) -> Mipmap<'a, F, Z, N> {
         self.mipmap
     }
 
+    /// The colours of each of several maps ([`Mipmap::together`]): those of [`sample_grad`](MipSampler::sample_grad),
+    /// to the bit.
+    #[inline]
+    #[must_use]
+    pub fn sample_each(&self, uv: Vec2, gradient: Gradient<[f32; 2]>) -> [Rgba8; N] {
+        self.sample_each_lanes(One, uv.to_array(), gradient).map(|color| Rgba8::from_bits(color.0))
+    }
+
+    /// [`sample_each`](Self::sample_each) at several places: the colours as words, as [`Rgba8::to_bits`] makes them.
+    ///
+    /// # Cost
+    /// For each map after the first, its texels and their means alone.
+    #[inline(always)]
+    pub fn sample_each_lanes<L: Lanes>(
+        &self,
+        lanes: L,
+        uv: [L::Number; 2],
+        gradient: Gradient<[L::Number; 2]>,
+    ) -> [L::U32; N] {
+        self.filter.in_footprint(lanes, &self.mipmap, self.wrap, uv, gradient, |lambda| lambda)
+    }
+}
+
+impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: Size> MipSampler<'_, F, M, U, V, Z> {
     /// The colour at `uv` for a level of detail of λ, which [`Gradient::lod`] tells.
     ///
     /// Any three floats have a colour: see [`Wrap`]; of λ, NaN is a pixel smaller than texels, and infinities are the
@@ -72,7 +98,8 @@ impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: Size> MipSampler<'a, F, 
         v: L::Number,
         lambda: L::Number,
     ) -> L::U32 {
-        self.filter.at_lod(lanes, &self.mipmap, self.wrap, [u, v], lambda)
+        let [colors] = self.filter.at_lod(lanes, &self.mipmap, self.wrap, [u, v], lambda);
+        colors
     }
 
     /// The colour at `uv` of a pixel with these derivatives: for λ, or with its shape
@@ -95,11 +122,14 @@ impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: Size> MipSampler<'a, F, 
         v: L::Number,
         gradient: Gradient<[L::Number; 2]>,
     ) -> L::U32 {
-        self.filter.in_footprint(lanes, &self.mipmap, self.wrap, [u, v], gradient, |lambda| lambda)
+        let [colors] = self.sample_each_lanes(lanes, [u, v], gradient);
+        colors
     }
 }
 
-impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: Size> fmt::Debug for MipSampler<'_, F, M, U, V, Z> {
+impl<F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: Size, const N: usize> fmt::Debug
+    for MipSampler<'_, F, M, U, V, Z, N>
+{
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("MipSampler")
             .field("mipmap", &self.mipmap)

@@ -22,6 +22,8 @@ pub use build::build;
 
 use core::fmt;
 
+use alberti_math::each;
+
 use crate::format::Storage;
 use crate::texture::MAX_SIZE;
 use crate::{AnySize, MipFilter, MipSampler, PowerOfTwo, Size, Texture, TextureError, Wrap};
@@ -80,8 +82,10 @@ const fn size_of_level([width, height]: [u32; 2], level: usize) -> [u32; 2] {
 /// };
 /// assert_eq!(BOARD.level(1).texel(0, 0).to_bytes(), [188, 188, 188, 255]);
 /// ```
-pub struct Mipmap<'a, F: Storage, Z: Size = AnySize> {
-    elements: &'a [F::Element],
+///
+/// Several maps of one size are one mip map of `N` ([`together`](Self::together)).
+pub struct Mipmap<'a, F: Storage, Z: Size = AnySize, const N: usize = 1> {
+    elements: [&'a [F::Element]; N],
     format: F,
     /// The places where levels begin, and behind them the one where the last ends.
     begin: [u32; MAX_LEVELS + 1],
@@ -125,7 +129,7 @@ impl<'a, F: Storage> Mipmap<'a, F> {
         }
         let size = AnySize::of(width, height);
         let (levels, width, height) = (levels as u8, width as u16, height as u16);
-        Ok(Self { elements, format, begin, levels, width, height, size })
+        Ok(Self { elements: [elements], format, begin, levels, width, height, size })
     }
 
     /// The same levels, known to have sides that are powers of two, if they have. They are faster to sample, and show
@@ -140,7 +144,38 @@ impl<'a, F: Storage> Mipmap<'a, F> {
     }
 }
 
-impl<'a, F: Storage, Z: Size> Mipmap<'a, F, Z> {
+impl<'a, F: Storage + PartialEq, Z: Size> Mipmap<'a, F, Z> {
+    /// Several maps of one size, such as the colours and the normals of a surface, to be read together: the level of
+    /// detail, places and weights are found once. `None` where sizes, numbers of levels or formats differ.
+    ///
+    /// ```
+    /// use alberti_texture::format::L8;
+    /// use alberti_texture::{Gradient, Mipmap, Repeat, Trilinear};
+    ///
+    /// let board = Mipmap::new(L8, &[0, 255, 255, 0, 188], 2, 2)?;
+    /// let plain = Mipmap::new(L8, &[9, 9, 9, 9, 9], 2, 2)?;
+    /// let both = Mipmap::together([board, plain]).expect("one size").sampler(Trilinear, Repeat);
+    /// let gradient = Gradient { dx: [0.5, 0.0], dy: [0.0, 0.5] };
+    /// let [a, b] = both.sample_each([0.25, 0.25].into(), gradient);
+    /// assert_eq!([a, b].map(|color| color.to_bytes()[0]), [255, 9]);
+    /// # Ok::<(), alberti_texture::TextureError>(())
+    /// ```
+    #[must_use]
+    pub fn together<const N: usize>(maps: [Self; N]) -> Option<Mipmap<'a, F, Z, N>> {
+        let &Self { format, begin, levels, width, height, size, .. } = maps.first()?;
+        let alike = |map: &Self| (map.width, map.height, map.levels) == (width, height, levels);
+        let mut elements: [&[F::Element]; N] = [&[]; N];
+        for (elements, map) in elements.iter_mut().zip(&maps) {
+            if !alike(map) || map.format != format {
+                return None;
+            }
+            [*elements] = map.elements;
+        }
+        Some(Mipmap { elements, format, begin, levels, width, height, size })
+    }
+}
+
+impl<'a, F: Storage, Z: Size, const N: usize> Mipmap<'a, F, Z, N> {
     /// The number of levels, 1 to [`MAX_LEVELS`].
     #[inline]
     #[must_use]
@@ -163,7 +198,11 @@ impl<'a, F: Storage, Z: Size> Mipmap<'a, F, Z> {
     /// A sampler with the same wrap mode on both axes: `mipmap.sampler(Trilinear, Repeat)`.
     #[inline]
     #[must_use]
-    pub const fn sampler<M: MipFilter, W: Wrap>(&self, filter: M, wrap: W) -> MipSampler<'a, F, M, W, W, Z> {
+    pub const fn sampler<M: MipFilter, W: Wrap>(
+        &self,
+        filter: M,
+        wrap: W,
+    ) -> MipSampler<'a, F, M, W, W, Z, N> {
         MipSampler::new(*self, filter, (wrap, wrap))
     }
 
@@ -175,7 +214,7 @@ impl<'a, F: Storage, Z: Size> Mipmap<'a, F, Z> {
         filter: M,
         u: U,
         v: V,
-    ) -> MipSampler<'a, F, M, U, V, Z> {
+    ) -> MipSampler<'a, F, M, U, V, Z, N> {
         MipSampler::new(*self, filter, (u, v))
     }
 
@@ -185,28 +224,34 @@ impl<'a, F: Storage, Z: Size> Mipmap<'a, F, Z> {
     /// Two loads, two shifts and a few comparisons.
     #[inline]
     #[must_use]
-    pub fn level(&self, level: usize) -> Texture<'a, F, Z::Level> {
+    pub fn level(&self, level: usize) -> Texture<'a, F, Z::Level, N> {
         let level = level.min(self.levels().saturating_sub(1));
         let at = |level: usize| self.begin.get(level).copied().unwrap_or_default() as usize;
-        // They are there, as `new` has compared.
-        let elements = self.elements.get(at(level)..at(level + 1)).unwrap_or_default();
+        let texels = at(level)..at(level + 1);
         // Not `map2`: in line, compilers no longer see that layers of a material read the same texels.
         let sides = [self.width, self.height].map(|side| (side >> level).max(1));
-        let (texels, size) = self.size.level(elements);
-        Texture::of_parts(texels, self.format, sides, size)
+        let (none, size) = self.size.level(&[]);
+        let planes = each(
+            self.elements,
+            none,
+            #[inline(always)]
+            // They are there, as `new` has compared.
+            |elements| self.size.level(elements.get(texels.clone()).unwrap_or_default()).0,
+        );
+        Texture::of_parts(planes, self.format, sides, size)
     }
 }
 
-impl<F: Storage, Z: Size> Clone for Mipmap<'_, F, Z> {
+impl<F: Storage, Z: Size, const N: usize> Clone for Mipmap<'_, F, Z, N> {
     #[inline]
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<F: Storage, Z: Size> Copy for Mipmap<'_, F, Z> {}
+impl<F: Storage, Z: Size, const N: usize> Copy for Mipmap<'_, F, Z, N> {}
 
-impl<F: Storage, Z: Size> fmt::Debug for Mipmap<'_, F, Z> {
+impl<F: Storage, Z: Size, const N: usize> fmt::Debug for Mipmap<'_, F, Z, N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Mipmap")
             .field("width", &self.width)

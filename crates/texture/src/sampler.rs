@@ -48,7 +48,8 @@ impl<'a, F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size> Sampler<'a, F, Fl, U
     /// [`sample`](Self::sample) at several places: the colours as words, as [`Rgba8::to_bits`] makes them.
     #[inline(always)]
     pub fn sample_lanes<L: Lanes>(&self, lanes: L, u: L::Number, v: L::Number) -> L::U32 {
-        self.filter.sample(lanes, &self.texture, self.wrap, [u, v])
+        let [colors] = self.filter.sample(lanes, &self.texture, self.wrap, [u, v]);
+        colors
     }
 
     /// The numbers from 0 to 1 at several places of a map of numbers, such as heights: the red channel. They are in

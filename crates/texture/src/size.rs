@@ -1,7 +1,7 @@
 //! Knowledge of a texture's sides when its sampling is compiled.
 
 use alberti_math::lanes::Lanes;
-use alberti_math::map2;
+use alberti_math::{each, map2};
 use core::fmt::Debug;
 
 use crate::Wrap;
@@ -81,35 +81,59 @@ pub trait Size: Sealed + Copy + Debug + 'static {
         lanes.shl(row, width.trailing_zeros())
     }
 
-    /// [`words`](Self::words) of texels in a row and two columns each, of which the second mostly follows the first.
+    /// [`words`](Self::words) of several textures, in a row and two columns each, of which the second mostly follows the
+    /// first.
     #[inline(always)]
-    fn word_pairs<L: Lanes, T>(
+    fn word_pairs<L: Lanes, T, const N: usize>(
         self,
         lanes: L,
-        texels: Self::Texels<'_, T>,
+        planes: [Self::Texels<'_, T>; N],
         (row, [left, right]): (L::U32, [L::U32; 2]),
         width: u32,
         word: impl Fn(Option<&T>) -> u32,
-    ) -> [L::U32; 2] {
-        // In order, texels lie side by side. At the sides of the texture they are not in order. Beyond a border, where
-        // one of the two is no column, any texel will do.
-        let in_order = lanes.bits(lanes.less_words(left, right)) == (1 << L::COUNT) - 1;
+    ) -> [[L::U32; 2]; N] {
+        let nothing = [lanes.word(0); 2];
+        // In order, texels lie side by side: not so at the sides of the texture, nor beyond a border, where one of the
+        // two is no column and the greatest of words.
+        let follows = lanes.equal_words(lanes.min_words(left, right) + lanes.word(1), right);
+        let in_order = lanes.bits(follows) == (1 << L::COUNT) - 1;
         if const { L::COUNT == 1 } || !in_order {
-            return map2(
-                [left, right],
+            return each(
+                planes,
+                nothing,
                 #[inline(always)]
-                |column| self.words(lanes, texels, [row, column], width, &word),
+                |texels| {
+                    map2(
+                        [left, right],
+                        #[inline(always)]
+                        |column| self.words(lanes, texels, [row, column], width, &word),
+                    )
+                },
             );
         }
-        let texels = self.flattened(texels);
-        lanes.gather_pairs(
-            self.row_start(lanes, row, width) + left,
+        let indices = self.row_start(lanes, row, width) + left;
+        each(
+            planes,
+            nothing,
             #[inline(always)]
-            |index| {
-                let pair = texels.get(index as usize..index as usize + 2).and_then(<[T]>::first_chunk);
-                let [left, right] =
-                    pair.map_or([None; 2], |[left, right]: &[T; 2]| [Some(left), Some(right)]);
-                [word(left), word(right)]
+            |texels| {
+                let texels = self.flattened(texels);
+                // Every index is that or less: the minimum is what compilers see it by, without a branch.
+                if texels.len() < 2 {
+                    return nothing;
+                }
+                let last = texels.len() - 2;
+                lanes.gather_pairs(
+                    indices,
+                    #[inline(always)]
+                    |index| {
+                        let index = (index as usize).min(last);
+                        let pair = texels.get(index..index + 2).and_then(<[T]>::first_chunk);
+                        let [left, right] =
+                            pair.map_or([None; 2], |[left, right]: &[T; 2]| [Some(left), Some(right)]);
+                        [word(left), word(right)]
+                    },
+                )
             },
         )
     }

@@ -3,8 +3,8 @@
 use core::num::Wrapping;
 use core::{error, fmt};
 
-use alberti_math::Rgba8;
 use alberti_math::lanes::{Lanes, One};
+use alberti_math::{Rgba8, each};
 
 use crate::format::Storage;
 use crate::{AnySize, Filter, Known, PowerOfTwo, Sampler, Size, TexelFormat, Wrap};
@@ -25,8 +25,10 @@ pub(crate) const MAX_SIZE: u32 = 1 << 14;
 /// };
 /// assert_eq!(RAMP.texel(1, 0).to_bytes(), [85, 85, 85, 255]);
 /// ```
-pub struct Texture<'a, F: Storage, Z: Size = AnySize> {
-    texels: Z::Texels<'a, F::Element>,
+///
+/// As a level of a [`Mipmap`](crate::Mipmap) of several maps it has as many planes of texels.
+pub struct Texture<'a, F: Storage, Z: Size = AnySize, const N: usize = 1> {
+    planes: [Z::Texels<'a, F::Element>; N],
     format: F,
     // In 16 bits, so that compilers know that no product or sum of sizes overflows.
     width: u16,
@@ -66,16 +68,16 @@ impl<'a, F: Storage> Texture<'a, F, AnySize> {
             return Err(TextureError::Length { found: texels.len(), expected });
         }
         let size = AnySize::of(width, height);
-        Ok(Self { texels, format, width: width as u16, height: height as u16, size })
+        Ok(Self { planes: [texels], format, width: width as u16, height: height as u16, size })
     }
 
     /// The same texture, known to have sides that are powers of two, if they are. It is faster to sample, and shows the
     /// same.
     #[must_use]
     pub const fn power_of_two(self) -> Option<Texture<'a, F, PowerOfTwo>> {
-        let Self { texels, format, width, height, size } = self;
+        let Self { planes, format, width, height, size } = self;
         match size.power_of_two() {
-            Some(size) => Some(Texture { texels, format, width, height, size }),
+            Some(size) => Some(Texture { planes, format, width, height, size }),
             None => None,
         }
     }
@@ -98,29 +100,29 @@ impl<'a, F: TexelFormat> Texture<'a, F, AnySize> {
     pub const fn known<const WIDTH: usize, const HEIGHT: usize>(
         self,
     ) -> Option<Texture<'a, F, Known<WIDTH, HEIGHT>>> {
-        let Self { texels, format, width, height, .. } = self;
+        let Self { planes: [texels], format, width, height, .. } = self;
         let texels = if width as usize == WIDTH && height as usize == HEIGHT {
             texels.as_chunks::<WIDTH>().0.first_chunk()
         } else {
             None
         };
         match texels {
-            Some(texels) => Some(Texture { texels, format, width, height, size: Known }),
+            Some(texels) => Some(Texture { planes: [texels], format, width, height, size: Known }),
             None => None,
         }
     }
 }
 
-impl<'a, F: Storage, Z: Size> Texture<'a, F, Z> {
+impl<'a, F: Storage, Z: Size, const N: usize> Texture<'a, F, Z, N> {
     /// The view of parts that are known to be a texture's.
     #[inline]
     pub(crate) const fn of_parts(
-        texels: Z::Texels<'a, F::Element>,
+        planes: [Z::Texels<'a, F::Element>; N],
         format: F,
         [width, height]: [u16; 2],
         size: Z,
     ) -> Self {
-        Self { texels, format, width, height, size }
+        Self { planes, format, width, height, size }
     }
 
     /// The number of columns, 1 to [`Self::MAX_SIZE`].
@@ -143,45 +145,11 @@ impl<'a, F: Storage, Z: Size> Texture<'a, F, Z> {
         }
     }
 
-    /// The texels as they are stored.
-    #[inline]
-    #[must_use]
-    pub fn texels(&self) -> &'a [F::Element] {
-        self.size.flattened(self.texels)
-    }
-
     /// The format of the texels, with the palette that it may have.
     #[inline]
     #[must_use]
     pub const fn format(&self) -> F {
         self.format
-    }
-
-    /// The colour in column `x` of row `y`, row 0 at the top; beyond the sides, that of the nearest texel.
-    #[inline]
-    #[must_use]
-    pub fn texel(&self, x: u32, y: u32) -> Rgba8 {
-        let (x, y) = (x.min(self.width().saturating_sub(1)), y.min(self.height().saturating_sub(1)));
-        Rgba8::from_bits(self.fetch(One, Wrapping(y), Wrapping(x)).0)
-    }
-
-    /// A sampler with the same wrap mode on both axes: `texture.sampler(Nearest, Repeat)`.
-    #[inline]
-    #[must_use]
-    pub const fn sampler<Fl: Filter, W: Wrap>(&self, filter: Fl, wrap: W) -> Sampler<'a, F, Fl, W, W, Z> {
-        Sampler::new(*self, filter, (wrap, wrap))
-    }
-
-    /// A sampler with one wrap mode from left to right and one from bottom to top.
-    #[inline]
-    #[must_use]
-    pub const fn sampler_per_axis<Fl: Filter, U: Wrap, V: Wrap>(
-        &self,
-        filter: Fl,
-        u: U,
-        v: V,
-    ) -> Sampler<'a, F, Fl, U, V, Z> {
-        Sampler::new(*self, filter, (u, v))
     }
 
     /// Columns and rows.
@@ -223,16 +191,70 @@ impl<'a, F: Storage, Z: Size> Texture<'a, F, Z> {
         self.size.indices(lanes, at, self.sides(), wrap)
     }
 
+    /// The colours of each plane's texels in two columns, as words; anything for those that do not lie in the texture.
+    #[inline(always)]
+    pub(crate) fn fetch_pairs<L: Lanes>(
+        &self,
+        lanes: L,
+        row: L::U32,
+        columns: [L::U32; 2],
+    ) -> [[L::U32; 2]; N] {
+        self.format.fetch_pairs(lanes, self, row, columns)
+    }
+
+    /// The results of `f` for each plane, in the places of `nothing`.
+    #[inline(always)]
+    pub(crate) fn each_plane<T: Copy>(&self, nothing: T, f: impl Fn(Texture<'a, F, Z>) -> T) -> [T; N] {
+        let Self { planes, format, width, height, size } = *self;
+        each(
+            planes,
+            nothing,
+            #[inline(always)]
+            |texels| f(Texture { planes: [texels], format, width, height, size }),
+        )
+    }
+}
+
+impl<'a, F: Storage, Z: Size> Texture<'a, F, Z> {
+    /// The texels as they are stored.
+    #[inline]
+    #[must_use]
+    pub fn texels(&self) -> &'a [F::Element] {
+        let [texels] = self.planes;
+        self.size.flattened(texels)
+    }
+
+    /// The colour in column `x` of row `y`, row 0 at the top; beyond the sides, that of the nearest texel.
+    #[inline]
+    #[must_use]
+    pub fn texel(&self, x: u32, y: u32) -> Rgba8 {
+        let (x, y) = (x.min(self.width().saturating_sub(1)), y.min(self.height().saturating_sub(1)));
+        Rgba8::from_bits(self.fetch(One, Wrapping(y), Wrapping(x)).0)
+    }
+
+    /// A sampler with the same wrap mode on both axes: `texture.sampler(Nearest, Repeat)`.
+    #[inline]
+    #[must_use]
+    pub const fn sampler<Fl: Filter, W: Wrap>(&self, filter: Fl, wrap: W) -> Sampler<'a, F, Fl, W, W, Z> {
+        Sampler::new(*self, filter, (wrap, wrap))
+    }
+
+    /// A sampler with one wrap mode from left to right and one from bottom to top.
+    #[inline]
+    #[must_use]
+    pub const fn sampler_per_axis<Fl: Filter, U: Wrap, V: Wrap>(
+        &self,
+        filter: Fl,
+        u: U,
+        v: V,
+    ) -> Sampler<'a, F, Fl, U, V, Z> {
+        Sampler::new(*self, filter, (u, v))
+    }
+
     /// The colours of texels as words; anything for those that do not lie in the texture.
     #[inline(always)]
     pub(crate) fn fetch<L: Lanes>(&self, lanes: L, row: L::U32, column: L::U32) -> L::U32 {
         self.format.fetch(lanes, self, row, column)
-    }
-
-    /// The colours of texels in two columns, [`fetch`](Self::fetch) of each.
-    #[inline(always)]
-    pub(crate) fn fetch_pair<L: Lanes>(&self, lanes: L, row: L::U32, columns: [L::U32; 2]) -> [L::U32; 2] {
-        self.format.fetch_pair(lanes, self, row, columns)
     }
 
     /// The texels as counts of 65535ths; anything up to that for those that do not lie in the texture.
@@ -242,8 +264,24 @@ impl<'a, F: Storage, Z: Size> Texture<'a, F, Z> {
     }
 }
 
+impl<F: TexelFormat, Z: Size, const N: usize> Texture<'_, F, Z, N> {
+    /// The words that `word` makes of texels in two columns of each plane; of any, or none, for those that do not lie
+    /// in the texture.
+    #[inline(always)]
+    pub(crate) fn word_pairs<L: Lanes>(
+        &self,
+        lanes: L,
+        row: L::U32,
+        columns: [L::U32; 2],
+        word: impl Fn(Option<&F::Texel>) -> u32,
+    ) -> [[L::U32; 2]; N] {
+        // There always is one, as `new` compares the size with the length.
+        self.size.word_pairs(lanes, self.planes, (row, columns), self.width(), word)
+    }
+}
+
 impl<F: TexelFormat, Z: Size> Texture<'_, F, Z> {
-    /// The words that `word` makes of texels; of any, or none, for those that do not lie in the texture.
+    /// [`word_pairs`](Self::word_pairs) of a texel each.
     #[inline(always)]
     pub(crate) fn words<L: Lanes>(
         &self,
@@ -252,33 +290,21 @@ impl<F: TexelFormat, Z: Size> Texture<'_, F, Z> {
         column: L::U32,
         word: impl Fn(Option<&F::Texel>) -> u32,
     ) -> L::U32 {
-        // There always is one, as `new` compares the size with the length.
-        self.size.words(lanes, self.texels, [row, column], self.width(), word)
-    }
-
-    /// [`words`](Self::words) of texels in two columns.
-    #[inline(always)]
-    pub(crate) fn word_pairs<L: Lanes>(
-        &self,
-        lanes: L,
-        row: L::U32,
-        columns: [L::U32; 2],
-        word: impl Fn(Option<&F::Texel>) -> u32,
-    ) -> [L::U32; 2] {
-        self.size.word_pairs(lanes, self.texels, (row, columns), self.width(), word)
+        let [texels] = self.planes;
+        self.size.words(lanes, texels, [row, column], self.width(), word)
     }
 }
 
-impl<F: Storage, Z: Size> Clone for Texture<'_, F, Z> {
+impl<F: Storage, Z: Size, const N: usize> Clone for Texture<'_, F, Z, N> {
     #[inline]
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<F: Storage, Z: Size> Copy for Texture<'_, F, Z> {}
+impl<F: Storage, Z: Size, const N: usize> Copy for Texture<'_, F, Z, N> {}
 
-impl<F: Storage, Z: Size> fmt::Debug for Texture<'_, F, Z> {
+impl<F: Storage, Z: Size, const N: usize> fmt::Debug for Texture<'_, F, Z, N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Texture")
             .field("width", &self.width)

@@ -8,7 +8,8 @@
 //!            what is seen       Lighting: lights, a reflectance, the viewer; or light found at the vertices
 //! ```
 //!
-//! A [`Material`] is compiled for its layers: one that is absent is no code. Everything is wide, and the same at every
+//! A [`Material`] is compiled for its layers: one that is absent is no code. [`Together`] are layers that find their
+//! places in maps of one size once. Everything is wide, and the same at every
 //! width. Directions and places are in world space; colours are numbers from 0 to 1 in the encoding of the texels, like
 //! those of all built-in stages.
 //!
@@ -42,6 +43,7 @@ mod reflectance;
 mod reflection;
 mod relief;
 mod surface;
+mod together;
 mod vector;
 
 pub use layers::{Color, Emission, Gloss, Occlusion, Specular, Wetness};
@@ -51,6 +53,7 @@ pub use reflectance::{AnyReflectance, BlinnPhong, Lambert, Phong, Reflectance};
 pub use reflection::Reflection;
 pub use relief::{Bump, NormalMap, ObjectNormals, Parallax, TwoChannels};
 pub use surface::{Axes, Framed, Layer, OnSurface, Placed, Surface, Viewer};
+pub use together::{OfTexels, Shared, Together};
 
 use super::map;
 use alberti_math::glam::{Vec2, Vec3};

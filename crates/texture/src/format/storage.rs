@@ -26,19 +26,25 @@ pub trait Storage: Sealed + Copy + Debug {
         column: L::U32,
     ) -> L::U32;
 
-    /// [`fetch`](Self::fetch) of two columns, the second of which mostly follows the first.
+    /// [`fetch`](Self::fetch) of each plane in two columns, the second of which mostly follows the first.
     #[inline(always)]
-    fn fetch_pair<L: Lanes, Z: Size>(
+    fn fetch_pairs<L: Lanes, Z: Size, const N: usize>(
         self,
         lanes: L,
-        texture: &Texture<'_, Self, Z>,
+        texture: &Texture<'_, Self, Z, N>,
         row: L::U32,
         columns: [L::U32; 2],
-    ) -> [L::U32; 2] {
-        map2(
-            columns,
+    ) -> [[L::U32; 2]; N] {
+        texture.each_plane(
+            [lanes.word(0); 2],
             #[inline(always)]
-            |column| self.fetch(lanes, texture, row, column),
+            |plane| {
+                map2(
+                    columns,
+                    #[inline(always)]
+                    |column| self.fetch(lanes, &plane, row, column),
+                )
+            },
         )
     }
 
@@ -79,13 +85,13 @@ impl<F: TexelFormat> Storage for F {
     }
 
     #[inline(always)]
-    fn fetch_pair<L: Lanes, Z: Size>(
+    fn fetch_pairs<L: Lanes, Z: Size, const N: usize>(
         self,
         lanes: L,
-        texture: &Texture<'_, F, Z>,
+        texture: &Texture<'_, F, Z, N>,
         row: L::U32,
         columns: [L::U32; 2],
-    ) -> [L::U32; 2] {
+    ) -> [[L::U32; 2]; N] {
         texture
             .word_pairs(lanes, row, columns, |texel| texel.map_or(0, |&texel| self.decode(texel).to_bits()))
     }

@@ -2,12 +2,11 @@
 //!
 //! Space in: coordinates (u, v). Space out: numbers without a unit, which [`Relief`](super::Relief) gives one.
 
-use crate::blend::{Quad, SCALAR_ONE, in_256ths};
-use crate::filter::scalar;
+use crate::blend::{SCALAR_ONE, in_256ths};
+use crate::filter::scalars;
 use crate::format::Storage;
 use crate::{Filter, Sampler, Size, Texture, Wrap};
 use alberti_math::lanes::{Lanes, One};
-use alberti_math::map2;
 use glam::Vec2;
 
 /// A height for each (u, v), from 0 to 1.
@@ -118,17 +117,7 @@ pub fn bilinear_height_lanes<L: Lanes, F: Storage, Z: Size, U: Wrap, V: Wrap>(
     let one = lanes.word(1);
     let [left_column, low_row] = texture.indices(lanes, [left, low], wrap);
     let [right_column, high_row] = texture.indices(lanes, [left + one, low + one], wrap);
-    let quad = Quad::<L>::about(
-        [low_row, high_row],
-        #[inline(always)]
-        |row| {
-            map2(
-                [left_column, right_column],
-                #[inline(always)]
-                |column| scalar(lanes, texture, wrap, [column, row]),
-            )
-        },
-    );
+    let quad = scalars(lanes, texture, wrap, [left_column, right_column], [low_row, high_row]);
     let (low_left, high_left) = (in_256ths(lanes, quad.low_left), in_256ths(lanes, quad.high_left));
     let low = in_256ths(lanes, quad.low_right) - low_left;
     let high = in_256ths(lanes, quad.high_right) - high_left;

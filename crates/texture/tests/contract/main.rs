@@ -20,4 +20,5 @@ mod mipmap;
 mod nearest;
 mod oracle;
 mod texture;
+mod together;
 mod wrap;

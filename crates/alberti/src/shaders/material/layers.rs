@@ -2,11 +2,13 @@
 
 use super::map::Map;
 use super::surface::{Layer, OnSurface, Surface};
+use super::together::{OfTexels, of_maps};
 use super::vector::plus;
 use crate::shaders::wide::unpack;
 use alberti_math::Varying;
 use alberti_math::lanes::Lanes;
 use alberti_texture::surface::{ambient_occlusion_lanes, wet_lanes};
+use core::fmt::Debug;
 
 /// The diffuse colour and the alpha. A factor of it is [`Times`](super::Times).
 #[derive(Clone, Copy, Debug)]
@@ -74,36 +76,47 @@ fn unit<L: Lanes>(lanes: L, byte: L::U32) -> L::Number {
     lanes.to_numbers(byte) / lanes.splat(255.0)
 }
 
-/// Layers that read one map.
-macro_rules! of_one_map {
-    ($($name:ident of $bound:ident: |$layer:ident, $lanes:ident, $surface:ident| $map:expr => |$words:ident| $change:expr;)+) => {$(
-        impl<V: $bound, M: Map> Layer<V> for $name<M> {
-            type Derivatives = M::Derivatives;
-
+/// Layers of one map's texels.
+macro_rules! of_texels {
+    ($($name:ident of $bound:ident: |$layer:pat_param, $lanes:ident, $surface:ident, $words:ident| $change:expr;)+) => {$(
+        impl<V: $bound, M: Copy + Debug> OfTexels<V> for $name<M> {
             #[inline(always)]
-            fn apply<L: Lanes>(&self, $lanes: L, _: &V::Of<L::Number>, $surface: &mut Surface<L>) {
+            fn change<L: Lanes>(
+                &self,
+                $lanes: L,
+                _: &V::Of<L::Number>,
+                $words: L::U32,
+                $surface: &mut Surface<L>,
+            ) {
                 let $layer = self;
-                let $words = $map.read($lanes, $surface.uv, &$surface.gradient);
                 $change;
             }
         }
     )+};
 }
-of_one_map! {
-    Color of Varying: |layer, lanes, surface| layer.0 => |words| {
+of_texels! {
+    Color of Varying: |_, lanes, surface, words| {
         surface.diffuse = colors(lanes, words);
         surface.alpha = lanes.shr(words, 24);
     };
-    Specular of Varying: |layer, lanes, surface| layer.0 => |words| surface.specular = colors(lanes, words);
-    Gloss of Varying: |layer, lanes, surface| layer.0 => |words| surface.gloss = red(lanes, words);
-    Wetness of Varying: |layer, lanes, surface| layer.0 => |words| {
+    Specular of Varying: |_, lanes, surface, words| surface.specular = colors(lanes, words);
+    Gloss of Varying: |_, lanes, surface, words| surface.gloss = red(lanes, words);
+    Wetness of Varying: |_, lanes, surface, words| {
         let wetness = red(lanes, words);
         (surface.diffuse, surface.gloss) = wet_lanes(lanes, surface.diffuse, surface.gloss, wetness);
     };
-    Occlusion of OnSurface: |layer, lanes, surface| layer.map => |words| {
+    Occlusion of OnSurface: |layer, lanes, surface, words| {
         surface.openness = ambient_occlusion_lanes(lanes, red(lanes, words), layer.strength);
     };
-    Emission of Varying: |layer, lanes, surface| layer.0 => |words| {
+    Emission of Varying: |_, lanes, surface, words| {
         surface.emission = plus(surface.emission, colors(lanes, words));
     };
+}
+of_maps! {
+    Color 0 of Varying;
+    Specular 0 of Varying;
+    Gloss 0 of Varying;
+    Wetness 0 of Varying;
+    Occlusion map of OnSurface;
+    Emission 0 of Varying;
 }

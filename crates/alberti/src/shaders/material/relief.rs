@@ -2,6 +2,7 @@
 
 use super::map::Map;
 use super::surface::{Axes, Layer, OnSurface, Surface};
+use super::together::{OfTexels, of_maps};
 use super::vector::splat;
 use alberti_math::lanes::Lanes;
 use alberti_math::{Frame, Object, World};
@@ -19,7 +20,7 @@ use core::fmt::Debug;
 ///
 /// # Cost
 /// The map, two square roots, six divisions and nine multiplications; with a strength other than 1 a root and three
-/// divisions more.
+/// divisions more. Beside a colour map of the same size the map itself is cheaper in [`Together`](super::Together).
 #[derive(Clone, Copy, Debug)]
 pub struct NormalMap<M> {
     /// A [`Map`].
@@ -90,15 +91,18 @@ pub struct Parallax<H, P> {
     pub policy: P,
 }
 
-/// Maps of the tangent frame, which differ in the meaning of their texels.
+/// The normals that texels stand for, in the tangent frame.
 macro_rules! of_strength {
     ($($name:ident: $decode:ident;)+) => {$(
-        impl<V: Axes, M: Map> Layer<V> for $name<M> {
-            type Derivatives = M::Derivatives;
-
+        impl<V: Axes, M: Copy + Debug> OfTexels<V> for $name<M> {
             #[inline(always)]
-            fn apply<L: Lanes>(&self, lanes: L, varyings: &V::Of<L::Number>, surface: &mut Surface<L>) {
-                let texels = self.map.read(lanes, surface.uv, &surface.gradient);
+            fn change<L: Lanes>(
+                &self,
+                lanes: L,
+                varyings: &V::Of<L::Number>,
+                texels: L::U32,
+                surface: &mut Surface<L>,
+            ) {
                 let mut normal = $decode(self.encoding, lanes, texels);
                 if self.strength.to_bits() != 1.0_f32.to_bits() {
                     normal = strengthened_lanes(lanes, normal, self.strength);
@@ -113,16 +117,19 @@ of_strength! {
     TwoChannels: normal_of_two_lanes;
 }
 
-impl<V: OnSurface, M: Map> Layer<V> for ObjectNormals<M> {
-    type Derivatives = M::Derivatives;
-
+impl<V: OnSurface, M: Copy + Debug> OfTexels<V> for ObjectNormals<M> {
     #[inline(always)]
-    fn apply<L: Lanes>(&self, lanes: L, _: &V::Of<L::Number>, surface: &mut Surface<L>) {
-        let texels = self.map.read(lanes, surface.uv, &surface.gradient);
+    fn change<L: Lanes>(&self, lanes: L, _: &V::Of<L::Number>, texels: L::U32, surface: &mut Surface<L>) {
         let axes = self.to_world.axes();
         let axes = [splat(lanes, axes.x_axis), splat(lanes, axes.y_axis), splat(lanes, axes.z_axis)];
         surface.normal = to_parent_lanes(lanes, axes, normal_lanes(self.encoding, lanes, texels));
     }
+}
+
+of_maps! {
+    NormalMap map of Axes;
+    TwoChannels map of Axes;
+    ObjectNormals map of OnSurface;
 }
 
 impl<V: Axes, H: HeightMap + Copy + Debug> Layer<V> for Bump<H> {
