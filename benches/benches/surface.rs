@@ -15,11 +15,9 @@ use alberti::lanes::{Floating, Machine, One};
 use alberti::raster::{PerRun, PerTriangle};
 use alberti::shaders::material::{
     Color, Directional, Emission, Framed, Gloss, Lambert, Lighting, Material, NormalMap, Occlusion, Parallax,
-    Placed, Specular, Viewer, Wetness,
+    Placed, Shared, Specular, Together, Viewer, Wetness,
 };
 use alberti::shaders::{Differentiated, Unlit, material};
-use alberti::texture::format::{Normals, Scalars};
-use alberti::texture::mipmap;
 use alberti::texture::surface::{LimitedParallax, NormalEncoding::Unorm, Relief};
 use alberti::texture::{
     Anisotropic, Bilinear, Minify, Mipmap, Nearest, NearestLevel, PowerOfTwo, Repeat, Texture, Trilinear,
@@ -28,6 +26,7 @@ use alberti::{
     Always, Cull, F32, FragmentStage, Frame, Mesh, Pass, Perspective, Point3, Rgba8, Rgba8888, Slot, Stats,
     Target, Varying, Vector3, View, for_lanes,
 };
+use alberti_benches::stones::{SIDE, Stones, bilinear, nearest, trilinear};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::path::Path;
 use std::time::Duration;
@@ -35,8 +34,6 @@ use std::time::Duration;
 const WIDTH: u32 = 1280;
 const HEIGHT: u32 = 720;
 const PIXELS: usize = (WIDTH * HEIGHT) as usize;
-/// Of all textures.
-const SIDE: u32 = 512;
 const FAR: f32 = 30.0;
 
 /// A corner of a plane, in the space of the eye: x right, y up, z away.
@@ -93,50 +90,6 @@ fn traced(x: f64, y: f64) -> Option<(usize, DVec2)> {
     let ray = DVec3::new((x - half[0]) / half[1], (half[1] - y) / half[1], 1.0);
     let met = WALLS.iter().enumerate().filter_map(|(i, wall)| Some((i, wall.meets(ray)?)));
     met.min_by(|a, b| a.1.0.total_cmp(&b.1.0)).map(|(i, (_, uv))| (i, uv))
-}
-
-/// The maps, each with all its levels.
-struct Maps {
-    color: Vec<[u8; 4]>,
-    normal: Vec<[u8; 4]>,
-    other: Vec<[u8; 4]>,
-    height: Vec<u8>,
-}
-
-impl Maps {
-    /// Stones with joints, and a hue that tells where one is.
-    fn new() -> Self {
-        let count = mipmap::texel_count(SIDE, SIDE);
-        let height = |x: u32, y: u32| {
-            let [x, y] = [x % 64, y % 64].map(|c| (f64::from(c) - 31.5) / 32.0);
-            (1.0 - x.powi(8).max(y.powi(8))).max(0.0)
-        };
-        let mut color = vec![[0; 4]; count];
-        let (mut normal, mut other) = (color.clone(), color.clone());
-        let mut heights = vec![0; (SIDE * SIDE) as usize];
-        for y in 0..SIDE {
-            for x in 0..SIDE {
-                let at = (y * SIDE + x) as usize;
-                let h = height(x, y);
-                let stone = (x / 64 * 5 + y / 64 * 11) % 8;
-                let level = 60 + 20 * stone;
-                color[at] =
-                    [level * h as u32 + 40, (x ^ y) % 256, 255 - level, 255].map(|c| c.min(255) as u8);
-                let slope = [height(x + 1, y) - h, height(x, (y + 1) % SIDE) - h]
-                    .map(|d| (-4.0 * d).clamp(-1.0, 1.0));
-                let length = (slope[0] * slope[0] + slope[1] * slope[1] + 1.0).sqrt();
-                let unit =
-                    [slope[0], -slope[1], 1.0].map(|c| ((c / length * 0.5 + 0.5) * 255.0).round() as u8);
-                normal[at] = [unit[0], unit[1], unit[2], 255];
-                other[at] = [(255.0 * h) as u8, (x % 256) as u8, (y % 256) as u8, 255];
-                heights[at] = (255.0 * h).round() as u8;
-            }
-        }
-        mipmap::build(Rgba8888, &mut color, SIDE, SIDE).expect("levels");
-        mipmap::build(Normals(Rgba8888), &mut normal, SIDE, SIDE).expect("levels");
-        mipmap::build(Scalars(Rgba8888), &mut other, SIDE, SIDE).expect("levels");
-        Self { color, normal, other, height: heights }
-    }
 }
 
 fn mip(texels: &[[u8; 4]]) -> Mipmap<'_, Rgba8888, PowerOfTwo> {
@@ -202,39 +155,6 @@ fn framed(c: &Corner) -> (Vec3, Framed) {
 /// The colours that a filter ought to show of places, in `f64`.
 type Ideal<'a> = &'a dyn Fn(DVec2, f64) -> [f64; 3];
 
-/// A texel of a level, repeated.
-fn texel(texels: &[[u8; 4]], level: u32, [x, y]: [i64; 2]) -> [f64; 3] {
-    let begin: u32 = (0..level).map(|k| (SIDE >> k) * (SIDE >> k)).sum();
-    let side = i64::from(SIDE >> level);
-    // Rows run from the top, v from the bottom.
-    let [x, y] = [x.rem_euclid(side), (side - 1 - y).rem_euclid(side)];
-    let [r, g, b, _] = texels[begin as usize + (y * side + x) as usize];
-    [r, g, b].map(f64::from)
-}
-
-fn nearest(texels: &[[u8; 4]], uv: DVec2) -> [f64; 3] {
-    let at = uv * f64::from(SIDE);
-    texel(texels, 0, [at.x.floor() as i64, at.y.floor() as i64])
-}
-
-fn bilinear(texels: &[[u8; 4]], level: u32, uv: DVec2) -> [f64; 3] {
-    let at = uv * f64::from(SIDE >> level) - 0.5;
-    let (floor, part) = (at.floor(), at - at.floor());
-    let read = |dx, dy| texel(texels, level, [floor.x as i64 + dx, floor.y as i64 + dy]);
-    let [a, b, c, d] = [read(0, 0), read(1, 0), read(0, 1), read(1, 1)];
-    std::array::from_fn(|k| {
-        let (low, high) = (a[k] + (b[k] - a[k]) * part.x, c[k] + (d[k] - c[k]) * part.x);
-        low + (high - low) * part.y
-    })
-}
-
-fn trilinear(texels: &[[u8; 4]], uv: DVec2, lambda: f64) -> [f64; 3] {
-    let lambda = lambda.clamp(0.0, f64::from(SIDE.ilog2()));
-    let near = lambda.floor();
-    let [a, b] = [near as u32, (near as u32 + 1).min(SIDE.ilog2())].map(|level| bilinear(texels, level, uv));
-    std::array::from_fn(|k| a[k] + (b[k] - a[k]) * (lambda - near))
-}
-
 /// How many of some hundred pixels are off by more than 4 of 255, of which how many were looked at: away from the
 /// corners between the walls, and not beyond their far ends.
 fn off(color: &[u32], ideal: Ideal<'_>) -> (usize, usize) {
@@ -267,12 +187,18 @@ fn keep(folder: &Path, name: &str, color: &[u32]) {
 }
 
 fn surface(criterion: &mut Criterion) {
-    let (maps, mut scene) = (Maps::new(), Scene::new());
+    let (maps, mut scene) = (Stones::new(), Scene::new());
     let base = Texture::new(Rgba8888, &maps.color[..(SIDE * SIDE) as usize], SIDE, SIDE).expect("a texture");
     let base = base.power_of_two().expect("a power of two");
     let color = mip(&maps.color).sampler(Trilinear, Repeat);
     let normal =
         NormalMap { map: mip(&maps.normal).sampler(Trilinear, Repeat), encoding: Unorm, strength: 1.0 };
+    let together = Together {
+        maps: Mipmap::together([mip(&maps.color), mip(&maps.normal)])
+            .expect("one size")
+            .sampler(Trilinear, Repeat),
+        layers: (Color(Shared), NormalMap { map: Shared, encoding: Unorm, strength: 1.0 }),
+    };
     let other = mip(&maps.other).sampler(Trilinear, Repeat);
     let height = Texture::new(alberti::texture::format::L8, &maps.height, SIDE, SIDE).expect("a texture");
     let height = height.power_of_two().expect("a power of two").sampler(Bilinear, Repeat);
@@ -335,6 +261,7 @@ fn surface(criterion: &mut Criterion) {
         "anisotropic-16": bare, Unlit(mip(&maps.color).sampler(Anisotropic { probes: 16, filter: Trilinear }, Repeat));
         "lights": placed, Material { layers: (Color(color),), lighting: lit };
         "normal-map": framed, Material { layers: (Color(color), normal), lighting: lit };
+        "normal-map, together": framed, Material { layers: together, lighting: lit };
         "parallax": framed, Material { layers: (parallax, Color(color), normal), lighting: lit };
         "all": framed, Material { layers: all, lighting: mirrored };
     }

@@ -51,6 +51,107 @@ struct vertex {
     float place[3], uv[2], color[3];
 };
 
+// A level of detail of a texture after the other, into the texture that is bound.
+static void upload(uint32_t columns, uint32_t rows, uint32_t levels, const unsigned char *texels) {
+    for (uint32_t level = 0; level < levels; level++) {
+        glTexImage2D(GL_TEXTURE_2D, level, GL_RGBA8, columns, rows, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+        texels += 4 * (size_t)columns * rows;
+        columns = columns > 1 ? columns / 2 : 1;
+        rows = rows > 1 ? rows / 2 : 1;
+    }
+}
+
+static size_t texel_count(uint32_t columns, uint32_t rows, uint32_t levels) {
+    size_t sum = 0;
+    while (levels--) {
+        sum += (size_t)columns * rows;
+        columns = columns > 1 ? columns / 2 : 1;
+        rows = rows > 1 ? rows / 2 : 1;
+    }
+    return sum;
+}
+
+static void filter_by(uint32_t filter, uint32_t probes) {
+    const GLint smaller[3] = {GL_NEAREST, GL_LINEAR, GL_LINEAR_MIPMAP_LINEAR};
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, smaller[filter]);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter ? GL_LINEAR : GL_NEAREST);
+    if (probes > 1) glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY, probes);
+}
+
+// The surface with a normal map: its frame from vertex to vertex, a light at infinity, Lambert's law.
+static const char *const vertex_stage =
+    "#version 120\n"
+    "attribute vec3 normal;\n"
+    "attribute vec4 tangent;\n"
+    "varying vec2 uv;\n"
+    "varying vec3 t, b, m;\n"
+    "void main() {\n"
+    "    gl_Position = gl_ProjectionMatrix * gl_Vertex;\n"
+    "    uv = gl_MultiTexCoord0.xy;\n"
+    "    t = tangent.xyz;\n"
+    "    b = cross(normal, tangent.xyz) * tangent.w;\n"
+    "    m = normal;\n"
+    "}\n";
+static const char *const fragment_stage =
+    "#version 120\n"
+    "uniform sampler2D colors, normals;\n"
+    "uniform vec3 to_light;\n"
+    "uniform float light, ambient;\n"
+    "varying vec2 uv;\n"
+    "varying vec3 t, b, m;\n"
+    "void main() {\n"
+    "    vec3 map = texture2D(normals, uv).xyz * 2.0 - 1.0;\n"
+    "    vec3 n = normalize(t * map.x + b * map.y + m * map.z);\n"
+    "    vec3 color = texture2D(colors, uv).rgb;\n"
+    "    gl_FragColor = vec4(color * (ambient + light * max(dot(n, to_light), 0.0)), 1.0);\n"
+    "}\n";
+
+static void compile(GLuint program, GLenum kind, const char *source) {
+    GLuint stage = glCreateShader(kind);
+    glShaderSource(stage, 1, &source, NULL);
+    glCompileShader(stage);
+    glAttachShader(program, stage);
+}
+
+// The rest of the scene's file: the normal map, the light, and the vertices' frames.
+static void light_up(uint32_t vertices, uint32_t columns, uint32_t rows, uint32_t levels, uint32_t filter) {
+    unsigned char *texels = array(4, texel_count(columns, rows, levels));
+    float light[5];
+    take(light, sizeof light, 1);
+    float *axes = array(7 * sizeof *axes, vertices);
+
+    GLuint program = glCreateProgram(), texture, buffer;
+    compile(program, GL_VERTEX_SHADER, vertex_stage);
+    compile(program, GL_FRAGMENT_SHADER, fragment_stage);
+    glBindAttribLocation(program, 6, "normal");
+    glBindAttribLocation(program, 7, "tangent");
+    glLinkProgram(program);
+    GLint linked;
+    glGetProgramiv(program, GL_LINK_STATUS, &linked);
+    if (!linked) fail("the GL does not compile the stages");
+    glUseProgram(program);
+    glUniform1i(glGetUniformLocation(program, "colors"), 0);
+    glUniform1i(glGetUniformLocation(program, "normals"), 1);
+    glUniform3fv(glGetUniformLocation(program, "to_light"), 1, light);
+    glUniform1f(glGetUniformLocation(program, "light"), light[3]);
+    glUniform1f(glGetUniformLocation(program, "ambient"), light[4]);
+
+    glActiveTexture(GL_TEXTURE1);
+    glGenTextures(1, &texture);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    upload(columns, rows, levels, texels);
+    filter_by(filter, 1);
+
+    glGenBuffers(1, &buffer);
+    glBindBuffer(GL_ARRAY_BUFFER, buffer);
+    glBufferData(GL_ARRAY_BUFFER, 7 * sizeof *axes * vertices, axes, GL_STATIC_DRAW);
+    const float *none = NULL;
+    glEnableVertexAttribArray(6);
+    glVertexAttribPointer(6, 3, GL_FLOAT, GL_FALSE, 7 * sizeof *none, none);
+    glEnableVertexAttribArray(7);
+    glVertexAttribPointer(7, 4, GL_FLOAT, GL_FALSE, 7 * sizeof *none, none + 3);
+}
+
 int main(int count, char **arguments) {
     if (count != 4) fail("expected a scene, a width and a height");
     scene = fopen(arguments[1], "rb");
@@ -67,8 +168,8 @@ int main(int count, char **arguments) {
     struct vertex *vertex = array(sizeof *vertex, vertices);
     uint32_t triangles = word();
     uint32_t *triangle = array(3 * sizeof *triangle, triangles);
-    uint32_t columns = word(), rows = word();
-    unsigned char *texels = array(4, (size_t)columns * rows);
+    uint32_t columns = word(), rows = word(), levels = word();
+    unsigned char *texels = array(4, texel_count(columns, rows, levels));
 
     OSMesaContext context = OSMesaCreateContextExt(OSMESA_RGBA, 0, 0, 0, NULL);
     unsigned char window[4 * 16 * 16];
@@ -116,13 +217,10 @@ int main(int count, char **arguments) {
         glBindTexture(GL_TEXTURE_2D, texture);
         glEnable(GL_TEXTURE_2D);
         glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, columns, rows, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
-        const GLint smaller[3] = {GL_NEAREST, GL_LINEAR, GL_LINEAR_MIPMAP_LINEAR};
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, smaller[filter]);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter ? GL_LINEAR : GL_NEAREST);
-        if (filter == 2) glGenerateMipmap(GL_TEXTURE_2D);
-        if (probes > 1) glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY, probes);
+        upload(columns, rows, levels, texels);
+        filter_by(filter, probes);
     }
+    if (word()) light_up(vertices, columns, rows, levels, filter);
     if (glGetError() != GL_NO_ERROR) fail("the GL does not take this scene");
 
     char line[4096];

@@ -11,11 +11,13 @@
 )]
 
 pub mod ours;
+pub mod pavement;
 pub mod peer_euc;
 pub mod peer_retrofire;
 pub mod peers;
 pub mod reference;
 pub mod scene_data;
+pub mod stones;
 
 use alberti_app::options::Filter;
 use scene_data::Scene;

@@ -1,13 +1,19 @@
 //! Alberti, one renderer per policy.
 
+use crate::pavement::{AMBIENT, LIGHT, TO_LIGHT};
 use crate::scene_data::Scene;
+use crate::stones::{SIDE, Stones};
 use crate::{Renderer, Size};
 use alberti::glam::{Vec2, Vec3};
+use alberti::shaders::material::{
+    Color, Directional, Framed, Lambert, Lighting, Material, NormalMap, Shared, Together, Viewer,
+};
 use alberti::shaders::{Unlit, VertexColor};
+use alberti::texture::surface::NormalEncoding::Unorm;
 use alberti::texture::{Anisotropic, Bilinear, Mipmap, Nearest, Repeat, Trilinear, mipmap};
 use alberti::{
     Affine, Bands, Exact, F32, FragmentStage, Interpolation, Mesh, Pass, Planes, PreparedTriangle, Rgba8,
-    Rgba8888, Slot, Spans16, Target, Varying, View,
+    Rgba8888, Slot, Spans16, Target, Varying, Vector3, View,
 };
 use alberti_app::options::{self, DepthFormat, Filter, Policies, Projection, RenderOptions, Shading};
 use alberti_app::render::{self, any_depth};
@@ -45,7 +51,7 @@ pub fn is_right(name: &str) -> bool {
 #[must_use]
 pub fn renderer(policy: &str, scene: &Scene, size: Size) -> Option<Box<dyn Renderer>> {
     let model = &scene.built_in.model;
-    if policy == "App" {
+    if policy == "App" && scene.stones.is_none() {
         return Some(Box::new(App::new(scene, size)));
     }
     let triangles = scene.triangles.len();
@@ -66,6 +72,13 @@ pub fn renderer(policy: &str, scene: &Scene, size: Size) -> Option<Box<dyn Rende
         color: vec![0; size.pixels()],
         depth: vec![0.0; depths],
     };
+    if let Some(stones) = &scene.stones {
+        return match policy {
+            "Exact" => Some(Box::new(Pavement::new(canvas, stones, Exact))),
+            "Planes" => Some(Box::new(Pavement::new(canvas, stones, Planes))),
+            _ => None,
+        };
+    }
     let image = model.textures.first().filter(|_| scene.texture.is_some()).cloned();
     let filter = scene.built_in.filter;
     Some(match policy {
@@ -196,6 +209,56 @@ impl<P: Interpolation> Renderer for Colored<P> {
     fn render(&mut self) {
         let vertex = |v: &Vertex| (position(v), Vec3::from_array(v.color));
         self.canvas.render(&mut self.slots, vertex, VertexColor, self.interpolation);
+    }
+
+    fn pixels(&self) -> &[[u8; 4]] {
+        bytemuck::cast_slice(&self.canvas.color)
+    }
+}
+
+/// The pavement, as a material of two maps.
+#[derive(Debug)]
+struct Pavement<P> {
+    canvas: Canvas,
+    slots: Vec<Slot<Framed>>,
+    stones: Stones,
+    interpolation: P,
+}
+
+impl<P> Pavement<P> {
+    fn new(canvas: Canvas, stones: &Stones, interpolation: P) -> Self {
+        let slots = vec![Slot::EMPTY; canvas.vertices.len()];
+        Self { canvas, slots, stones: stones.clone(), interpolation }
+    }
+}
+
+impl<P: Interpolation> Renderer for Pavement<P> {
+    fn render(&mut self) {
+        let Self { canvas, slots, stones, interpolation } = self;
+        let maps = [&stones.color, &stones.normal].map(|texels| {
+            let levels = Mipmap::new(Rgba8888, texels, SIDE, SIDE).expect("levels");
+            levels.power_of_two().expect("a power of two")
+        });
+        let material = Material {
+            layers: Together {
+                maps: Mipmap::together(maps).expect("one size").sampler(Trilinear, Repeat),
+                layers: (Color(Shared), NormalMap { map: Shared, encoding: Unorm, strength: 1.0 }),
+            },
+            lighting: Lighting {
+                // Lambert's law asks for no viewer.
+                viewer: Viewer::towards(Vector3::new(Vec3::Z)),
+                ambient: Vec3::splat(AMBIENT),
+                lights: Directional::new(Vector3::new(TO_LIGHT), Vec3::splat(LIGHT)),
+                reflectance: Lambert,
+            },
+        };
+        let vertex = |v: &Vertex| {
+            let ([x, y, z, sign], normal) = (v.tangent, Vec3::from_array(v.normal));
+            let tangent = Vec3::new(x, y, z);
+            let axes = [tangent, normal.cross(tangent) * sign, normal];
+            (position(v), Framed { position: position(v), axes, uv: Vec2::from_array(v.uv) })
+        };
+        canvas.render(slots, vertex, material, *interpolation);
     }
 
     fn pixels(&self) -> &[[u8; 4]] {

@@ -1,7 +1,10 @@
 //! Peers that are programs of other languages, each a process that draws one scene at one size when it is asked to.
 
 use crate::Size;
+use crate::pavement::{AMBIENT, LIGHT, TO_LIGHT};
 use crate::scene_data::Scene;
+use alberti::Rgba8888;
+use alberti::texture::mipmap;
 use alberti_app::options::Filter;
 use std::ffi::OsStr;
 use std::fs;
@@ -16,8 +19,13 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 /// u32 filter: 0 nearest, 1 bilinear, 2 trilinear       u32 probes of it: above 1 it is anisotropic
 /// u32 vertices, and for each  f32 place (3), texture coordinates from the top left corner (2), colour (3)
 /// u32 triangles, and for each  u32 vertices (3)
-/// u32 columns and rows of the texture, or 0, and for each texel  u8 red, green, blue, alpha
+/// u32 columns and rows of the texture, or 0, and its levels, and for each texel  u8 red, green, blue, alpha
+/// u32 1 for a normal map of that size, or 0: then its texels, as u8 x, y, z, 255;
+///     f32 direction to the light (3), light, ambient light; for each vertex  f32 normal (3), tangent and sign (4)
 /// ```
+///
+/// # Panics
+/// Never: a scene's texture has levels.
 #[must_use]
 pub fn scene_bytes(scene: &Scene, size: Size) -> Vec<u8> {
     let model = &scene.built_in.model;
@@ -25,12 +33,13 @@ pub fn scene_bytes(scene: &Scene, size: Size) -> Vec<u8> {
     let matrix = scene.clip_from_world(size);
     let background = scene.background().map(|c| f32::from(c) / 255.0);
     words.extend(matrix.iter().flatten().chain(&background).map(|x| x.to_bits()));
-    words.extend(match scene.built_in.filter {
+    let filter = match scene.built_in.filter {
         Filter::Nearest => [0, 1],
         Filter::Bilinear => [1, 1],
         Filter::Trilinear => [2, 1],
         Filter::Anisotropic(probes) => [2, probes.count()],
-    });
+    };
+    words.extend(filter);
     words.push(model.vertices.len() as u32);
     for v in &model.vertices {
         let uv = [v.uv[0], 1.0 - v.uv[1]];
@@ -38,10 +47,30 @@ pub fn scene_bytes(scene: &Scene, size: Size) -> Vec<u8> {
     }
     words.push(scene.triangles.len() as u32);
     words.extend(scene.triangles.iter().flatten());
-    let size = scene.texture.as_ref().map_or([0, 0], |texture| [texture.width(), texture.height()]);
-    words.extend(size);
-    let texels = scene.texture.as_ref().map_or(&[][..], |texture| texture.data());
-    [bytemuck::cast_slice(&words), bytemuck::cast_slice(texels)].concat()
+    let Some(texture) = &scene.texture else {
+        words.extend([0; 4]);
+        return bytemuck::cast_slice(&words).to_vec();
+    };
+    let [width, height] = [texture.width(), texture.height()];
+    let mut texels = texture.data().to_vec();
+    let mut levels = 1;
+    if filter[0] == 2 {
+        texels.resize(mipmap::texel_count(width, height), [0; 4]);
+        mipmap::build(Rgba8888, &mut texels, width, height).expect("a texture");
+        levels = mipmap::level_count(width, height) as u32;
+    }
+    words.extend([width, height, levels]);
+    let mut bytes = [bytemuck::cast_slice(&words), bytemuck::cast_slice(&texels)].concat();
+    let Some(stones) = &scene.stones else {
+        bytes.extend(0u32.to_ne_bytes());
+        return bytes;
+    };
+    bytes.extend(1u32.to_ne_bytes());
+    bytes.extend(stones.normal.as_flattened());
+    let light = TO_LIGHT.to_array().into_iter().chain([LIGHT, AMBIENT]);
+    let axes = model.vertices.iter().flat_map(|v| v.normal.into_iter().chain(v.tangent));
+    bytes.extend(light.chain(axes).flat_map(f32::to_ne_bytes));
+    bytes
 }
 
 /// A program that draws a scene: see the top of `peers/osmesa.c` for its side.

@@ -1,6 +1,7 @@
 //! The built-in scenes as flat arrays, in the form in which every peer takes them.
 
-use crate::Size;
+use crate::stones::Stones;
+use crate::{Size, pavement};
 use alberti_app::options::{Cull, Filter, Shading, Wrap};
 use alberti_app::scene::Image;
 use alberti_app::scenes::{BuiltIn, by_name};
@@ -32,6 +33,8 @@ pub struct Scene {
     pub triangles: Vec<[u32; 3]>,
     /// The one texture, in scenes that have one.
     pub texture: Option<Texture>,
+    /// The maps of the [`pavement`], whose colours are the texture.
+    pub stones: Option<Stones>,
 }
 
 impl Scene {
@@ -43,6 +46,16 @@ impl Scene {
     pub fn load((name, built_in, filter): (&'static str, &str, Filter)) -> Self {
         let built_in = by_name(built_in).expect("a built-in scene");
         Self::new(name, BuiltIn { filter, ..built_in })
+    }
+
+    /// The [`pavement`], under a light.
+    #[must_use]
+    pub fn normal_mapped() -> Self {
+        let stones = Stones::new();
+        Self {
+            stones: Some(stones.clone()),
+            ..Self::new("normal-mapped, trilinear", pavement::scene(&stones))
+        }
     }
 
     /// The scene of that name.
@@ -74,6 +87,7 @@ impl Scene {
             colors: model.vertices.iter().map(|v| v.color.map(|c| c * 255.0)).collect(),
             triangles,
             texture,
+            stones: None,
             built_in,
         }
     }
