@@ -81,7 +81,7 @@ pub trait Size: Sealed + Copy + Debug + 'static {
         lanes.shl(row, width.trailing_zeros())
     }
 
-    /// [`words`](Self::words) of several textures, in a row and two columns each, of which the second mostly follows the
+    /// [`words`](Self::words) of several textures in a row and two columns each, of which the second mostly follows the
     /// first.
     #[inline(always)]
     fn word_pairs<L: Lanes, T, const N: usize>(

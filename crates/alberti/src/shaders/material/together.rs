@@ -9,7 +9,7 @@ use alberti_texture::{MipFilter, MipSampler, Size, Wrap};
 use core::fmt::Debug;
 
 /// Layers, from the first to the last, of which each has the texels of one of several maps of one size: as many maps as
-/// layers. In the places of the layers' own maps is [`Shared`]. The bits are those of the layers with maps of their own.
+/// layers. In the places of the layers' own maps is [`Shared`]. The bits are those of layers with maps of their own.
 ///
 /// ```
 /// use alberti::Rgba8;
@@ -130,9 +130,13 @@ mod tests {
     /// Each layer gets the texels of its own map, and of no other.
     #[test]
     fn layers_are_those_with_maps_of_their_own() {
-        let chains: [[[u8; 4]; 5]; 7] = core::array::from_fn(|map| {
-            core::array::from_fn(|texel| {
-                core::array::from_fn(|channel| (90 + 23 * map + 41 * texel + 67 * channel) as u8)
+        let mut byte = 90_u8;
+        let chains = [(); 7].map(|()| {
+            [(); 5].map(|()| {
+                [(); 4].map(|()| {
+                    byte = byte.wrapping_mul(29).wrapping_add(67);
+                    byte
+                })
             })
         });
         let maps = chains.each_ref().map(|chain| Mipmap::new(Rgba8888, chain, 2, 2).expect("2 x 2"));
