@@ -188,7 +188,7 @@ where
     // The first sample that is neither above nor to the left of the highest vertex.
     let origin = [row(ax), row(ay)];
     let (top, end) = (origin[1].max(rows.start), row(cy).min(rows.end));
-    if top >= end {
+    if top >= end || row(west) >= row(east + 1) {
         counters.rasterized(Outcome::Missed);
         return true;
     }
