@@ -216,11 +216,11 @@ where
     let long = Crossing::new([ax, ay], [cx, cy], center(top));
     let (mut start, mut stop) = (long, long);
     let (mut outcome, mut row, mut below) = (Outcome::Missed, top, middle);
-    let mut ends = [[ax, ay], [bx, by]];
+    let mut ends = [a, b];
     loop {
         // The short edge of these rows.
         if row < below {
-            let short = Crossing::new(ends[0], ends[1], center(row));
+            let short = Crossing::new(ends[0].place, ends[1].place, center(row));
             *(if clockwise { &mut stop } else { &mut start }) = short;
         }
         while row < below {
@@ -267,6 +267,6 @@ where
             counters.rasterized(outcome);
             return true;
         }
-        (below, ends) = (end, [[bx, by], [cx, cy]]);
+        (below, ends) = (end, [b, c]);
     }
 }
