@@ -11,7 +11,7 @@ use alberti::{
 };
 use alberti_app::draw::{AMBIENT, DIFFUSE, to_light, view};
 use alberti_app::options::{
-    self, ColorFormat, DepthFormat, Filter, Interpolation, Numbers, Policies, RenderOptions, Shading,
+    self, Arithmetic, ColorFormat, DepthFormat, Filter, Interpolation, Policies, RenderOptions, Shading,
     SpanLength, Subpixel, Wrap,
 };
 use alberti_app::render::render;
@@ -209,16 +209,16 @@ where
 
 #[test]
 fn so_is_each_policy() {
-    use {Interpolation as I, Numbers::*, Subpixel as S};
+    use {Arithmetic::*, Interpolation as I, Subpixel as S};
     let policies =
-        |interpolation, numbers, color, subpixel| Policies { interpolation, numbers, color, subpixel };
+        |interpolation, arithmetic, color, subpixel| Policies { interpolation, arithmetic, color, subpixel };
     let (rgba, small) = (ColorFormat::Rgba8, ColorFormat::Rgb565);
     let bounded = I::Bounded(0.25);
     let long = I::Spans(SpanLength::ThirtyTwo);
     let (budget, lines) = (Lines::bounded(0.25 / 256.0), Lines::spans(32).expect("a power of two"));
     let fixed = FixedPoint(budget);
-    let choice = |interpolation, numbers, color, subpixel, depth| {
-        (policies(interpolation, numbers, color, subpixel), depth)
+    let choice = |interpolation, arithmetic, color, subpixel, depth| {
+        (policies(interpolation, arithmetic, color, subpixel), depth)
     };
     unlit(
         profile(Planes, Sub8, Rgba8888, D24),

@@ -8,7 +8,7 @@ use super::painted::Painted;
 use super::plain::Skin;
 use super::{Canvas, Drawing, position, to_light};
 use crate::error::Error;
-use crate::options::{Filter, Interpolation, Numbers, Projection, RenderOptions, Shading};
+use crate::options::{Arithmetic, Filter, Interpolation, Projection, RenderOptions, Shading};
 use crate::scene::{Camera, Detail, Model, Part, Vertex};
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::{Lanes, Machine, One};
@@ -176,7 +176,7 @@ impl<'a> Drawing<'a> {
             Interpolation::Bounded(texels) => Some(Lines::bounded_texels(texels, self.largest_side())),
             Interpolation::Affine => Some(Lines::affine()),
         };
-        if let (Some(lines), Numbers::Fixed) = (lines, policies.numbers) {
+        if let (Some(lines), Arithmetic::Fixed) = (lines, policies.arithmetic) {
             erase_fixed(stage, |stage| {
                 let pass = self.pass(mesh, stage, &mut slots).interpolation(FixedPoint(lines));
                 stats = { pass }.count_by_threads(One, threads, &mut room, target);

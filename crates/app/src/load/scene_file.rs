@@ -96,7 +96,7 @@ impl SceneFile {
             &["--eye", "--target", "--up"],
             &["--projector", "--projector-eye", "--projector-target", "--projector-fov"],
             &["--projection", "--view-height"],
-            &["--numbers", "--interpolation", "--profile"],
+            &["--arithmetic", "--interpolation", "--profile"],
         ];
         let place = error.place_name().unwrap_or_default();
         let partners = together.iter().filter(|group| group.contains(&place)).copied().flatten().copied();

@@ -1,4 +1,4 @@
-//! Policies, which trade precision for time or memory: interpolation, numbers, formats, and profiles of all three.
+//! Policies, which trade precision for time or memory: interpolation, arithmetic, formats, and profiles of all three.
 
 use std::fmt;
 use std::str::FromStr;
@@ -105,9 +105,9 @@ impl SpanLength {
     }
 }
 
-/// The numbers in which that is computed.
+/// The arithmetic by which that is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
-pub enum Numbers {
+pub enum Arithmetic {
     /// 32-bit floats, several pixels at a time.
     #[default]
     Float,
@@ -143,8 +143,8 @@ pub enum Subpixel {
 pub struct Policies {
     /// From vertices to pixels.
     pub interpolation: Interpolation,
-    /// In which numbers.
-    pub numbers: Numbers,
+    /// By which arithmetic.
+    pub arithmetic: Arithmetic,
     /// The format of colours.
     pub color: ColorFormat,
     /// The vertices' grid.
@@ -155,12 +155,12 @@ impl Policies {
     /// # Errors
     /// Fixed point without straight lines.
     pub fn check(&self) -> Result<(), Error> {
-        let Self { interpolation, numbers, .. } = self;
-        match (interpolation, numbers) {
-            (Interpolation::Exact | Interpolation::Plane, Numbers::Fixed) => {
+        let Self { interpolation, arithmetic, .. } = self;
+        match (interpolation, arithmetic) {
+            (Interpolation::Exact | Interpolation::Plane, Arithmetic::Fixed) => {
                 Err(Error::new(format!("fixed with {interpolation}"), Interpolation::STRAIGHT)
-                    .place("--numbers")
-                    .hint("choose one with --interpolation, or --numbers float"))
+                    .place("--arithmetic")
+                    .hint("choose one with --interpolation, or --arithmetic float"))
             }
             _ => Ok(()),
         }
@@ -186,7 +186,7 @@ impl Profile {
     pub fn policies(self) -> (Policies, DepthFormat) {
         let small = |interpolation| Policies {
             interpolation,
-            numbers: Numbers::Fixed,
+            arithmetic: Arithmetic::Fixed,
             color: ColorFormat::Rgb565,
             subpixel: Subpixel::Sub4,
         };
@@ -199,5 +199,5 @@ impl Profile {
     }
 }
 
-words!(one_of: DepthFormat, Numbers, ColorFormat, Subpixel, Profile);
+words!(one_of: DepthFormat, Arithmetic, ColorFormat, Subpixel, Profile);
 words!(str::parse: Interpolation);

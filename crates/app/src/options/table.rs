@@ -11,7 +11,7 @@ use serde::{Deserialize, Deserializer};
 
 use super::values::{Color, Finite, Number, Point, Size};
 use super::{
-    ColorFormat, Cull, DepthFormat, Filter, Interpolation, Numbers, Policies, Profile, ProjectionKind,
+    Arithmetic, ColorFormat, Cull, DepthFormat, Filter, Interpolation, Policies, Profile, ProjectionKind,
     Shading, Subpixel, Wrap,
 };
 use crate::error::Error;
@@ -168,9 +168,9 @@ pub struct RenderTable {
     #[arg(long, value_name = "HOW", help_heading = PRECISION, verbatim_doc_comment)]
     pub interpolation: Option<Interpolation>,
 
-    /// The numbers in which that is computed; fixed is for straight lines only [default: float].
-    #[arg(long, value_enum, value_name = "NUMBERS", help_heading = PRECISION)]
-    pub numbers: Option<Numbers>,
+    /// The arithmetic by which that is computed; fixed is for straight lines only [default: float].
+    #[arg(long, value_enum, value_name = "ARITHMETIC", help_heading = PRECISION)]
+    pub arithmetic: Option<Arithmetic>,
 
     /// Format of the depth buffer [default: f32].
     #[arg(long, value_enum, value_name = "FORMAT", help_heading = PRECISION)]
@@ -199,7 +199,7 @@ impl RenderTable {
         let straight = if parallel { Interpolation::Affine } else { profile.interpolation };
         let policies = Policies {
             interpolation: self.interpolation.unwrap_or(straight),
-            numbers: self.numbers.unwrap_or(profile.numbers),
+            arithmetic: self.arithmetic.unwrap_or(profile.arithmetic),
             color: self.color_format.unwrap_or(profile.color),
             subpixel: self.subpixel.unwrap_or(profile.subpixel),
         };

@@ -1,7 +1,7 @@
 //! Pictures into files: whole or not at all.
 
 use std::fs;
-use std::io::{Cursor, Write as _};
+use std::io::{Cursor, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
 use image::{ExtendedColorType, ImageFormat};
@@ -105,13 +105,14 @@ impl Output {
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         builder.tempfile_in(folder).map_err(|error| {
-            let reason = match error.kind() {
-                std::io::ErrorKind::NotFound => "does not exist".to_owned(),
-                std::io::ErrorKind::NotADirectory => "is not a folder".to_owned(),
-                std::io::ErrorKind::PermissionDenied => "may not be written".to_owned(),
-                _ => format!("cannot be written ({error})"),
-            };
-            self.refused(&format!("a folder that {reason}"))
+            // Some folders are there, and answer that a new file is not: those of the system's own files.
+            self.refused(&match (error.kind(), folder.is_dir()) {
+                (ErrorKind::NotFound, true) => "a folder that takes no new files".to_owned(),
+                (ErrorKind::NotFound, false) => "no such folder".to_owned(),
+                (ErrorKind::NotADirectory, _) => "a file in the place of its folder".to_owned(),
+                (ErrorKind::PermissionDenied, _) => "a folder that may not be written".to_owned(),
+                _ => format!("a folder that cannot be written ({error})"),
+            })
         })
     }
 
@@ -158,14 +159,24 @@ mod tests {
             ("a", "found no extension, expected one of .png"),
             ("a.gif", "found the extension \".gif\", expected one of .png"),
             ("d.png", "found a directory"),
-            ("no/a.png", "found a folder that does not exist"),
-            ("file/a.png", "found a folder that is not a folder"),
+            ("no/a.png", "found no such folder"),
+            ("file/a.png", "found a file in the place of its folder"),
             ("r.png", "found a file that is read-only"),
         ] {
             let message = Output::new(&at(name)).unwrap_err().to_string();
             assert!(message.contains(found), "{message}");
         }
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3);
+    }
+
+    /// A folder that exists is never said to be missing.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn folders_of_the_system_take_no_new_files() {
+        let message = Output::new(Path::new("/proc/x.png")).unwrap_err().to_string();
+        let expected =
+            "/proc/x.png: found a folder that takes no new files, expected a file that can be written";
+        assert!(message.starts_with(expected), "{message}");
     }
 
     #[cfg(unix)]

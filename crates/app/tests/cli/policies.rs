@@ -29,8 +29,8 @@ fn every_value_draws() {
         "--interpolation spans:32",
         "--interpolation bounded:0.5",
         "--interpolation bounded:0",
-        "--interpolation spans:4 --numbers fixed",
-        "--interpolation bounded:1 --numbers fixed",
+        "--interpolation spans:4 --arithmetic fixed",
+        "--interpolation bounded:1 --arithmetic fixed",
         "--depth u16",
         "--depth u24",
         "--depth u32",
@@ -50,7 +50,7 @@ fn every_value_draws() {
         let far = found.iter().zip(expected.iter()).filter(|pair| off(*pair)).count();
         assert!(far < expected.len() / 25, "{arguments}: {far}");
     }
-    for arguments in ["--profile tiny", "--depth none", "--interpolation affine --numbers fixed"] {
+    for arguments in ["--profile tiny", "--depth none", "--interpolation affine --arithmetic fixed"] {
         assert!(difference(&picture("mesh", arguments), &picture("mesh", "")) > 0.0, "{arguments}");
     }
 }
@@ -82,13 +82,17 @@ fn small_formats_are_seen() {
 #[test]
 fn a_profile_sets_what_nothing_overrides() {
     let same = |a: &str, b: &str| assert_eq!(picture("floor", a), picture("floor", b), "{a} and {b}");
-    let mcu = "--interpolation spans:16 --numbers fixed --depth u16 --color rgb565 --subpixel 4";
+    let mcu = "--interpolation spans:16 --arithmetic fixed --depth u16 --color rgb565 --subpixel 4";
     same("--profile desktop", "");
     same("--profile reference", "--depth f32-reversed");
     same("--profile mcu", mcu);
-    same("--profile tiny", "--interpolation affine --numbers fixed --depth none --color rgb565 --subpixel 4");
+    same(
+        "--profile tiny",
+        "--interpolation affine --arithmetic fixed --depth none --color rgb565 --subpixel 4",
+    );
     same("--profile tiny --depth u16 --interpolation spans:16", mcu);
-    let reference = "--numbers float --interpolation exact --depth f32-reversed --color rgba8 --subpixel 8";
+    let reference =
+        "--arithmetic float --interpolation exact --depth f32-reversed --color rgba8 --subpixel 8";
     same(&format!("{reference} --profile tiny"), "--profile reference");
 }
 
@@ -100,12 +104,12 @@ fn what_does_not_go_together_is_refused() {
     };
     let lines = "expected spans:4, spans:8, spans:16, spans:32, bounded:TEXELS or affine; choose one";
     for (arguments, found) in [
-        ("--numbers fixed", "found fixed with exact"),
-        ("--numbers fixed --interpolation plane", "found fixed with plane"),
+        ("--arithmetic fixed", "found fixed with exact"),
+        ("--arithmetic fixed --interpolation plane", "found fixed with plane"),
         ("--profile mcu --interpolation exact", "found fixed with exact"),
-        ("--profile desktop --numbers fixed", "found fixed with exact"),
+        ("--profile desktop --arithmetic fixed", "found fixed with exact"),
     ] {
-        fails(arguments, &format!("error: --numbers: {found}, {lines}"));
+        fails(arguments, &format!("error: --arithmetic: {found}, {lines}"));
     }
     for value in [
         "",
@@ -128,7 +132,7 @@ fn what_does_not_go_together_is_refused() {
         let part = format!("error: --interpolation: found \"{value}\", expected exact, plane, spans:4");
         folder.fails(&["--interpolation", value], &[&part]);
     }
-    for arguments in ["--depth f16", "--color rgb888", "--subpixel 6", "--numbers int", "--profile fast"] {
+    for arguments in ["--depth f16", "--color rgb888", "--subpixel 6", "--arithmetic int", "--profile fast"] {
         let run = folder.render(&arguments.split(' ').collect::<Vec<_>>());
         assert!(run.status == Some(2) && run.stderr.starts_with("error: "), "{run:?}");
     }

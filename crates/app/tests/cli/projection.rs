@@ -119,7 +119,7 @@ fn both_go_with_all_policies() {
         "--interpolation plane",
         "--interpolation spans:8",
         "--interpolation bounded:0.1",
-        "--interpolation spans:16 --numbers fixed",
+        "--interpolation spans:16 --arithmetic fixed",
         "--profile mcu --color rgba8",
         "--depth u32",
         "--depth none",
@@ -141,9 +141,14 @@ fn in_parallel_projection_policies_do_not_differ() {
                 --projector slide.png --projector-eye 1,0.5,2 --projector-target 0,0,0";
     let expected = picture(0.0, view);
     assert_eq!(picture(0.0, &format!("{view} --interpolation affine")), expected);
-    for policy in
-        ["exact", "plane", "spans:8", "bounded:0.01", "spans:16 --numbers fixed", "affine --numbers fixed"]
-    {
+    for policy in [
+        "exact",
+        "plane",
+        "spans:8",
+        "bounded:0.01",
+        "spans:16 --arithmetic fixed",
+        "affine --arithmetic fixed",
+    ] {
         let found = picture(0.0, &format!("{view} --interpolation {policy}"));
         let off = found.iter().zip(expected.iter()).map(|(a, b)| a.abs_diff(*b)).max();
         assert!(off <= Some(2), "{policy}: {off:?}");
