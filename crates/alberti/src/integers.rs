@@ -280,14 +280,15 @@ impl IntegerScreen {
         let w = if projection.is_perspective() { z } else { self.one };
         let [near, far] = self.planes;
         let wide = i64::from(w);
-        let near = if z < near { outside::NEAR } else { 0 };
-        let far = if z > far { outside::FAR } else { 0 };
+        // A vertex next to a plane is where floats have it: a bit would drop triangles that lie in the plane.
+        let [at_near, at_far] =
+            map2(self.planes, |plane| z.wrapping_sub(plane).unsigned_abs() < DOUBT.unsigned_abs());
+        let near = if z < near && !at_near { outside::NEAR } else { 0 };
+        let far = if z > far && !at_far { outside::FAR } else { 0 };
         let sides =
             bits_beside([x, y].map(|x| i64::from(x) << SCREEN), self.sides.map(|x| i64::from(x) * wide));
         let is_far = |x: i32, guard: i32| i64::from(x.unsigned_abs()) << 8 > i64::from(guard) * wide;
-        let doubtful =
-            self.planes.into_iter().any(|plane| z.wrapping_sub(plane).unsigned_abs() < DOUBT.unsigned_abs())
-                || (self.cube && self.doubtful([x, y], w));
+        let doubtful = at_near || at_far || (self.cube && self.doubtful([x, y], w));
         let guard = doubtful || is_far(x, self.guard[0]) || is_far(y, self.guard[1]);
         let outside = near | far | sides | if guard { outside::GUARD } else { 0 };
         if outside & (outside::NEAR | outside::FAR | outside::GUARD) != 0 {

@@ -38,9 +38,9 @@ where
 /// One mesh drawn in one way: [`new`](Self::new) and [`draw`](Self::draw), with as many choices between the two as
 /// differ from the defaults.
 ///
-/// Vertices that are not finite, or larger than `f32::MAX`/16 in eye space, drop their triangles. The pixels do not
-/// depend on the slots, on counting, or on the division of the frame into bands; nor, but for
-/// [`Flat`](alberti_math::Flat) components, on the vertex that comes first.
+/// Vertices that are not finite, or larger than `f32::MAX`/16 in eye space, drop their triangles, and so do those that
+/// carry NaN or an infinity. The pixels do not depend on the slots, on counting, or on the division of the frame into
+/// bands; nor, but for [`Flat`](alberti_math::Flat) components, on the vertex that comes first.
 pub struct Pass<'a, M: Geometry, F, P = Exact, Pr = Perspective> {
     view: &'a View<Pr>,
     mesh: &'a M,

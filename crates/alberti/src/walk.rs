@@ -6,7 +6,7 @@ use crate::screen::{Screen, Sides};
 use crate::vertex::{Slot, outside};
 use alberti_math::glam::Vec3;
 use alberti_math::lanes::{Floating, One};
-use alberti_math::{Eye, Fixed, Mode, Point3, Varying, map3};
+use alberti_math::{Eye, Fixed, Mode, Point3, Varying, map2, map3};
 use alberti_projection::{
     EyeVertex, Polygon, ProjectedVertex, Projection, SideBounds, clip_near_far, clip_sides,
 };
@@ -318,11 +318,13 @@ fn clip<M: Geometry, Pr: Projection, K>(
     let (positions, varyings) = ([a.0, b.0, c.0], [a.1, b.1, c.1]);
     let rotation = first_of(positions);
     let (carried, slots) = (rotated(varyings, rotation), rotated(slots, rotation));
-    for fan in cut(screen, rotated(positions, rotation)).fan() {
+    let polygon = cut(screen, rotated(positions, rotation));
+    // The triangle's own vertices stay where its neighbours have them, to the last bit of integers too.
+    let own = if const { M::INTEGERS } { map3(slots, kept) } else { [None; 3] };
+    for fan in polygon.fan_around(unfolded(&polygon, map3(own, |own| Some(own?.screen.place())))) {
         let corners = fan.map(|vertex| {
             let corner = on_the_screen(screen.numbers, vertex, varyings[0], &carried)?;
-            // The triangle's own vertices stay where its neighbours have them, to the last bit of integers too.
-            let own = if const { M::INTEGERS } { kept(slots, vertex?.varying) } else { None };
+            let own = own_of(own, vertex?.varying);
             Some(own.map_or(corner, |own| own.screen.with_components_of(&corner)))
         });
         if let [Some(a), Some(b), Some(c)] = &corners {
@@ -331,11 +333,44 @@ fn clip<M: Geometry, Pr: Projection, K>(
     }
 }
 
-/// The slot of the vertex that has all the weight, if its place on the screen has a meaning.
-fn kept<V: Varying>(slots: [&Slot<V>; 3], weights: Weights) -> Option<&Slot<V>> {
-    let all = weights.to_array().iter().position(|&weight| weight == 1.0)?;
-    let without = outside::NEAR | outside::FAR | outside::GUARD;
-    slots.get(all).copied().filter(|slot| slot.outside & without == 0)
+/// A slot whose place on the screen has a meaning.
+fn kept<V: Varying>(slot: &Slot<V>) -> Option<&Slot<V>> {
+    (slot.outside & (outside::NEAR | outside::FAR | outside::GUARD) == 0).then_some(slot)
+}
+
+/// What there is of the vertex that has all the weight.
+fn own_of<T>([a, b, c]: [Option<T>; 3], weights: Weights) -> Option<T> {
+    match weights.to_array() {
+        [1.0, ..] => a,
+        [_, 1.0, _] => b,
+        [.., 1.0] => c,
+        _ => None,
+    }
+}
+
+/// The number of a vertex around which no triangle of the fan is turned over; 0 if there is none. Snapping may move a
+/// vertex a little into the polygon where it is almost in line with the next ones. A fan that passes over it would draw
+/// samples twice.
+#[inline(never)]
+fn unfolded(polygon: &Polygon<Option<Vertex<Weights>>>, own: [Option<[i32; 2]>; 3]) -> usize {
+    let place = |vertex: Option<Vertex<Weights>>| {
+        let Vertex { x, y, varying, .. } = vertex?;
+        Some(own_of(own, varying).unwrap_or([x.subpixels(), y.subpixels()]))
+    };
+    let folded = |number: &usize| {
+        let (mut forwards, mut backwards) = (false, false);
+        for fan in polygon.fan_around(*number) {
+            if let [Some(a), Some(b), Some(c)] = fan.map(place) {
+                let side = |p: [i32; 2]| map2([0, 1], |k: usize| i64::from(p[k]) - i64::from(a[k]));
+                let [[ux, uy], [vx, vy]] = [side(b), side(c)];
+                let area = ux * vy - uy * vx;
+                forwards |= area > 0;
+                backwards |= area < 0;
+            }
+        }
+        forwards && backwards
+    };
+    (0..polygon.vertices().len()).find(|number| !folded(number)).unwrap_or(0)
 }
 
 /// A vertex in scaled eye space.

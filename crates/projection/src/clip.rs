@@ -86,9 +86,16 @@ impl<T: Copy> Polygon<T> {
 
     /// The triangles of the fan around the first vertex.
     pub fn fan(&self) -> impl Iterator<Item = [T; 3]> {
-        let first = self.vertices[0];
-        let rest = self.vertices().get(1..).unwrap_or_default();
-        rest.iter().zip(rest.iter().skip(1)).map(move |(&second, &third)| [first, second, third])
+        self.fan_around(0)
+    }
+
+    /// The triangles of the fan around the vertex of this number; around the first, if there is no such vertex.
+    pub fn fan_around(&self, number: usize) -> impl Iterator<Item = [T; 3]> {
+        let number = if number < self.len { number } else { 0 };
+        let (before, after) = self.vertices().split_at_checked(number).unwrap_or_default();
+        let apex = after.first().copied().unwrap_or(self.vertices[0]);
+        let rest = after.iter().skip(1).chain(before);
+        rest.clone().zip(rest.skip(1)).map(move |(&second, &third)| [apex, second, third])
     }
 
     /// Keeps the part on the inner sides of planes, one after the other.
@@ -260,6 +267,17 @@ mod tests {
         assert!(clip_near_far(inside, 5.0, 9.0).vertices().is_empty());
         assert!(clip_near_far(inside, 0.1, 0.9).vertices().is_empty());
         assert_eq!(clip_near_far(inside, 5.0, 9.0).fan().count(), 0);
+    }
+
+    #[test]
+    fn a_fan_is_around_any_vertex() {
+        let four = Polygon { vertices: [0, 1, 2, 3, 9, 9, 9, 9, 9], len: 4 };
+        let around = |number| four.fan_around(number).collect::<Vec<_>>();
+        assert_eq!(around(0), [[0, 1, 2], [0, 2, 3]]);
+        assert_eq!(around(1), [[1, 2, 3], [1, 3, 0]]);
+        assert_eq!(around(3), [[3, 0, 1], [3, 1, 2]]);
+        assert_eq!(around(4), around(0));
+        assert_eq!(Polygon { len: 0, ..four }.fan_around(0).count(), 0);
     }
 
     #[test]

@@ -79,6 +79,13 @@ impl<V: Varying> Corner<V> {
         Self { place, zs, q, components: V::map(components, &|x: Q16| within_limit(x.to_bits())) }
     }
 
+    /// The column and the row, in subpixels.
+    #[must_use]
+    #[inline(always)]
+    pub fn place(&self) -> [i32; 2] {
+        self.place
+    }
+
     /// The same place with other components.
     #[must_use]
     #[inline(always)]

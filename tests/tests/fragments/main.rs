@@ -3,15 +3,20 @@
 
 mod attributes;
 mod depth;
+mod divisions;
 mod gradients;
 mod level_of_detail;
+mod limits;
 mod material_draws;
 mod materials;
 mod minification;
 mod modes;
 mod parallel;
+mod planes;
 mod policies;
 mod profiles;
 mod projector;
 mod reliefs;
+mod threads;
+mod unsound;
 mod values;

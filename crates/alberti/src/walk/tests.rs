@@ -2,6 +2,10 @@ mod shared_edges;
 
 use super::*;
 use alberti_math::{Flat, blend2};
+use alberti_oracle::coverage::{area2, covers};
+use alberti_oracle::rng::{Rng, run_seed};
+use core::cell::Cell;
+use std::vec::Vec;
 
 #[test]
 fn any_rotation_becomes_the_same_one() {
@@ -39,4 +43,52 @@ fn edges_know_nothing_of_the_third_vertex() {
         }
         assert_eq!(weighted(Flat(c), [a, b, c].map(Flat), Vec3::new(wa, wb, 0.0)), Flat(c));
     }
+}
+
+/// Polygons of which a corner lies on the line between its neighbours, but for the step to which it is snapped: no fan
+/// has a sample twice, where that around the first vertex often would.
+#[test]
+fn fans_are_not_turned_over() {
+    let mut rng = Rng::stream(run_seed(), 9);
+    // What a plane leaves of a triangle with a corner behind it.
+    let [a, b, c] = [(0.0, -2.0), (1.0, 2.0), (2.0, 2.0)].map(|(x, z)| Point3::new(Vec3::new(x, 0.0, z)));
+    let four = clip_near_far([a, b, c].map(|position| EyeVertex { position, varying: () }), 1.0, 9.0);
+    assert_eq!(four.vertices().len(), 4);
+    let (mut folded, mut crossed) = (0, 0);
+    for _ in 0..3_000 {
+        let mut corner = || [(); 2].map(|()| rng.range(0, 60));
+        let [a, b, c] = [corner(), corner(), corner()];
+        let share = rng.range(0, 8);
+        let between = [0, 1].map(|k| (b[k] * share + c[k] * (8 - share)) / 8 + rng.range(-1, 1));
+        let mut corners = [a, b, between, c];
+        corners.rotate_left(rng.index(4));
+        let vertex = |[x, y]: [i64; 2]| {
+            let [x, y] = [x, y].map(|c| Fixed::wrapping(i32::try_from(c).expect("small")));
+            Some(Vertex { x, y, zs: 0.0, q: 1.0, varying: Vec3::splat(0.25) })
+        };
+        let number = Cell::new(0);
+        let polygon = four.map(|_| corners.get(number.replace(number.get() + 1)).copied().and_then(vertex));
+        let parts = |number| -> Vec<[[i64; 2]; 3]> {
+            let places = polygon
+                .fan_around(number)
+                .map(|fan| fan.map(|v| v.map_or([0; 2], |v| [v.x, v.y].map(|c| i64::from(c.subpixels())))));
+            places.collect()
+        };
+        let is_folded = |number| {
+            let signs: Vec<_> = parts(number).into_iter().map(|part| area2(part).signum()).collect();
+            signs.contains(&1) && signs.contains(&-1)
+        };
+        if (0..4).all(is_folded) {
+            // Two sides cross, so that it is no polygon.
+            crossed += 1;
+            continue;
+        }
+        folded += u32::from(is_folded(0));
+        let parts = parts(unfolded(&polygon, [None; 3]));
+        for sample in (0..61 * 61).map(|i| [i % 61, i / 61]) {
+            let times = parts.iter().filter(|part| covers(**part, sample)).count();
+            assert!(times <= 1, "{corners:?} at {sample:?}");
+        }
+    }
+    assert!(folded > 400 && crossed < folded, "{folded} around the first, {crossed} crossed");
 }
