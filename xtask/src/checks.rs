@@ -73,6 +73,6 @@ pub(crate) fn sweep() -> Outcome {
     let sweep = |arguments: &[&str]| run(cargo().env("ALBERTI_SWEEP", "1").arg("test").args(arguments));
     sweep(&["--package", "alberti-texture", "every_257th_float"])?;
     let pipeline = ["--package", "alberti-tests", "--features", "alberti/avx512"];
-    let modules = ["lanes::", "small::", "gradients::", "policies::"];
+    let modules = ["lanes::", "small::", "gradients::", "planes::", "policies::"];
     sweep(&[&pipeline[..], &["--test", "pipeline", "--test", "fragments", "--"], &modules].concat())
 }

@@ -9,14 +9,14 @@ use alberti::lanes::{Floating, Lanes, Machine, One};
 use alberti::shaders::{Sunlit, Tinted, Unlit, VertexColor};
 use alberti::texture::{Bilinear, Filter, Mirror, Nearest, Repeat, Texture, Wrap};
 use alberti::{
-    AnyDepth, ColorFormat, Cull, D16, DepthFormat, Exact, F32, FixedPoint, FragmentStage, Fragments,
+    AnyDepth, ColorFormat, Cull, D16, DepthFormat, Exact, F32, Fixed, FixedPoint, FragmentStage, Fragments,
     Interpolation, Lines, Mesh, NoDerivatives, OrEqual, Pass, Planes, Rgb565Be, Rgba8, Rgba8888, Slot, Sub8,
     Target, Varying, Vector3, for_lanes,
 };
 use alberti_app::scene::{Image, Vertex};
 use alberti_app::scenes::{BuiltIn, NAMES, by_name};
 use alberti_oracle::rng::{Rng, run_seed};
-use alberti_raster::Paint;
+use alberti_raster::{Corner, Paint};
 use alberti_tests::random::triangle;
 use alberti_tests::reference::view;
 
@@ -25,34 +25,71 @@ fn random_frame<D: DepthFormat<Stored = u32>>(
     format: D,
     interpolation: impl Interpolation,
     lanes: impl Floating,
-    seed: u64,
+    triangles: Triangles<'_>,
 ) -> (Vec<u32>, Vec<u32>) {
     let mut color = vec![0; WIDTH * 70];
     let mut depth = vec![format.farthest(); color.len()];
     let mut target =
         Target::new(Rgba8888, format, WIDTH as u32, 70, &mut color, &mut depth).expect("a frame");
     target.clear(Rgba8::BLACK);
-    draw_random(interpolation, lanes, &mut target, seed);
+    triangles.draw(interpolation, lanes, &mut target);
     (color, depth)
 }
 
-fn draw_random<D: DepthFormat>(
-    interpolation: impl Interpolation,
-    lanes: impl Floating,
-    target: &mut Target<'_, Rgba8888, D>,
-    seed: u64,
-) {
-    let shader = |v: Vec3| {
-        let bits = v.to_array().map(f32::to_bits);
-        (bits[0] & 7 != 3)
-            .then(|| Rgba8::from_bits(bits[0] ^ bits[1].rotate_left(9) ^ bits[2].rotate_left(21)))
-    };
-    let paint = Paint { stage: shader, interpolation, subpixel: Sub8, cull: Cull::None };
-    let mut rng = Rng::new(seed);
-    for _ in 0..TRIANGLES {
-        let [a, b, c] = &triangle(&mut rng);
-        paint.triangle(lanes, target, [a, b, c], &mut ());
+/// A triangle on the screen.
+type OnScreen = [alberti_raster::Vertex<Vec3>; 3];
+
+/// Triangles, and the way to draw them.
+#[derive(Clone, Copy)]
+enum Triangles<'a> {
+    OneByOne(&'a [OnScreen]),
+    /// In a batch, where these, of so many in turn, have corners that are not kept.
+    InBatches(&'a [OnScreen], usize),
+}
+
+impl Triangles<'_> {
+    fn draw<D: DepthFormat>(
+        self,
+        interpolation: impl Interpolation,
+        lanes: impl Floating,
+        target: &mut Target<'_, Rgba8888, D>,
+    ) {
+        let stage = |v: Vec3| {
+            let bits = v.to_array().map(f32::to_bits);
+            (bits[0] & 7 != 3)
+                .then(|| Rgba8::from_bits(bits[0] ^ bits[1].rotate_left(9) ^ bits[2].rotate_left(21)))
+        };
+        let paint = Paint { stage, interpolation, subpixel: Sub8, cull: Cull::None };
+        match self {
+            Self::OneByOne(triangles) => {
+                for [a, b, c] in triangles {
+                    paint.triangle(lanes, target, [a, b, c], &mut ());
+                }
+            }
+            Self::InBatches(triangles, passing) => {
+                let numbers = paint.numbers(target.depth_format());
+                let corners: Vec<_> = triangles
+                    .iter()
+                    .map(|t| t.each_ref().map(|vertex| Corner::new(numbers, vertex)))
+                    .collect();
+                let mut batch = paint.batch(lanes, target);
+                for (i, [a, b, c]) in corners.iter().enumerate() {
+                    if (i + 1) % passing == 0 {
+                        let [a, b, c] = [*a, *b, *c];
+                        batch.passing([&a, &b, &c], &mut ());
+                    } else {
+                        batch.triangle([a, b, c], &mut ());
+                    }
+                }
+                batch.finish(&mut ());
+            }
+        }
     }
+}
+
+fn random(seed: u64) -> Vec<OnScreen> {
+    let mut rng = Rng::new(seed);
+    (0..TRIANGLES).map(|_| triangle(&mut rng)).collect()
 }
 
 const TRIANGLES: usize = 1000;
@@ -62,12 +99,19 @@ fn random_triangles<D: DepthFormat<Stored = u32>>(format: D, interpolation: impl
     // Ten million triangles take some minutes: `cargo xtask sweep`.
     let frames = if std::env::var_os("ALBERTI_SWEEP").is_some() { 2500 } else { 60 };
     for part in 0..frames {
-        let seed = run_seed() ^ part ^ stream << 32;
-        let one = random_frame(format, interpolation, One, seed);
+        let triangles = random(run_seed() ^ part ^ stream << 32);
+        let one = random_frame(format, interpolation, One, Triangles::OneByOne(&triangles));
         let drawn = one.0.iter().filter(|&&p| p != Rgba8::BLACK.to_bits().to_le()).count();
         assert!(drawn > 3000, "next to nothing was drawn");
+        // Batches of as many as there are lanes, or of fewer where one passes, down to one.
+        let passing = [usize::MAX, 23, 5, 2][part as usize / 2 % 4];
+        let several = if part % 2 == 0 {
+            Triangles::OneByOne(&triangles)
+        } else {
+            Triangles::InBatches(&triangles, passing)
+        };
         for machine in Machine::all() {
-            let several = for_lanes!(machine, lanes => random_frame(format, interpolation, lanes, seed));
+            let several = for_lanes!(machine, lanes => random_frame(format, interpolation, lanes, several));
             assert!(one == several, "{interpolation:?}, {machine:?}, frame {part}");
         }
     }
@@ -114,6 +158,57 @@ fn pieces_of_a_frame_are_the_frame() {
     pieces(FixedPoint(Lines::affine()), 19);
 }
 
+/// Boxes of every size in pixels, from parts of one to thousands: below and above the widths and heights from which
+/// triangles are filled in another way.
+#[test]
+fn boxes_of_all_sizes() {
+    let sizes = || (0..=40).chain([63, 64, 65, 127, 128, 129, 255, 257, 511, 513, 1025, 2047, 4000]);
+    let sweep = std::env::var_os("ALBERTI_SWEEP").is_some();
+    let (mut drawn, mut rng) = (0, Rng::stream(run_seed(), 20));
+    for (w, h) in sizes().flat_map(|w| sizes().map(move |h| (w, h))) {
+        let triangles: Vec<_> = (0..if sweep { 400 } else { 3 }).map(|_| boxed(&mut rng, [w, h])).collect();
+        let frame = |lanes: &dyn Fn(&mut Target<'_, Rgba8888, AnyDepth>)| {
+            // The upper left corner of large ones, or a strip through their middle.
+            let (size, first) = ([WIDTH as u32, 4200], if h > 200 { h as u32 / 2 } else { 0 });
+            let (mut color, mut depth) = (vec![0; WIDTH * 70], vec![AnyDepth::F32.farthest(); WIDTH * 70]);
+            let band = Target::band(Rgba8888, AnyDepth::F32, size, first, &mut color, &mut depth);
+            lanes(&mut band.expect("rows"));
+            (color, depth)
+        };
+        let one = frame(&|target| Triangles::OneByOne(&triangles).draw(Exact, One, target));
+        drawn += u32::from(one.0.iter().any(|&pixel| pixel != 0));
+        for machine in Machine::all() {
+            let several = Triangles::InBatches(&triangles, if h % 2 == 0 { usize::MAX } else { 3 });
+            let several = frame(&|target| {
+                for_lanes!(machine, lanes => several.draw(Exact, lanes, target));
+            });
+            assert!(one == several, "boxes of {w} x {h}: {machine:?}");
+        }
+    }
+    assert!(drawn > 2000, "{drawn} sizes drawn");
+}
+
+/// A triangle whose box has these sides, up to a pixel, with its upper left corner in the frame or to the left of it.
+fn boxed(rng: &mut Rng, size: [i32; 2]) -> OnScreen {
+    let sides = size.map(|pixels| pixels * 256 + rng.range(-255, 255).max(-i64::from(pixels) * 256) as i32);
+    let left = rng.range(-256 * i64::from(size[0].min(60)), 256 * 90) as i32;
+    let corner = [left, rng.range(0, 256 * 40) as i32];
+    let along = sides.map(|side| [(); 2].map(|()| rng.range(0, side.into()) as i32));
+    let [[x, _], [y, z]] = along;
+    // Each side of the box has a corner of the triangle: two are in corners of the box, or each is somewhere on a side.
+    let mut places = if rng.one_in(2) { [[0, 0], sides, [x, y]] } else { [[0, y], [sides[0], z], [x, 0]] };
+    if places[2][1] == 0 {
+        places[rng.index(2)][1] = sides[1];
+    }
+    places.rotate_left(rng.index(3));
+    places.map(|place| {
+        let [x, y] =
+            [0, 1].map(|k| Fixed::from_subpixels(corner[k] + place[k]).expect("within the guard band"));
+        let varying = Vec3::from_array([(); 3].map(|()| rng.uniform(-1.0, 1.0) as f32));
+        alberti_raster::Vertex { x, y, zs: rng.unit() as f32, q: rng.log_uniform(1e-3, 1e3), varying }
+    })
+}
+
 fn spans(length: i32) -> Lines {
     Lines::spans(length).expect("a power of two")
 }
@@ -121,8 +216,8 @@ fn spans(length: i32) -> Lines {
 fn pieces(interpolation: impl Interpolation, stream: u64) {
     let machine = Machine::all().next().expect("every machine has lanes");
     for part in 0..20 {
-        let seed = run_seed() ^ part ^ stream << 32;
-        let whole = random_frame(AnyDepth::F32, interpolation, One, seed);
+        let triangles = random(run_seed() ^ part ^ stream << 32);
+        let whole = random_frame(AnyDepth::F32, interpolation, One, Triangles::OneByOne(&triangles));
         let (mut color, mut depth) = (vec![0; whole.0.len()], vec![0; whole.0.len()]);
         for (piece, rows) in [0..9, 9..10, 10..43, 43..70].into_iter().enumerate() {
             let range = rows.start * WIDTH..rows.end * WIDTH;
@@ -132,7 +227,8 @@ fn pieces(interpolation: impl Interpolation, stream: u64) {
             band.clear(Rgba8::BLACK);
             for columns in [[0, 13, 101], [0, 64, 101], [0, 3, 101], [0, 99, 101]][piece].windows(2) {
                 let mut scissor = band.scissor(columns[0]..columns[1], 0..i32::MAX);
-                for_lanes!(machine, lanes => draw_random(interpolation, lanes, &mut scissor, seed));
+                let several = Triangles::InBatches(&triangles, 23);
+                for_lanes!(machine, lanes => several.draw(interpolation, lanes, &mut scissor));
             }
         }
         assert!(whole == (color, depth), "{interpolation:?}, frame {part}");

@@ -10,7 +10,7 @@
 )]
 
 use alberti_math::lanes::{Machine, One};
-use alberti_math::{Flat, Linear, Sub4, for_lanes};
+use alberti_math::{Fixed, Flat, Linear, Sub4, Sub8, Subpixel, for_lanes};
 use alberti_oracle::cases::pixel_centre;
 use alberti_oracle::coverage::{Triangle, area2, covers};
 use alberti_oracle::dd;
@@ -111,7 +111,7 @@ fn paint<I: Interpolation>(
     format: AnyDepth,
     vertices: [&Vertex<Carried>; 3],
     scissors: &[[Range<i32>; 2]],
-    widest: bool,
+    (subpixel, widest): (Subpixel, bool),
 ) -> Drawn {
     let (mut color, mut depth) = (vec![0; PIXELS], vec![u32::MAX >> 1; PIXELS]);
     let seen = Seen::default();
@@ -119,7 +119,7 @@ fn paint<I: Interpolation>(
         Target::new(Rgba8888, format, SIDE as u32, SIDE as u32, &mut color, &mut depth).expect("a frame");
     target.clear(0u32);
     let stage = |v: Carried| seen.keep(v);
-    let paint = Paint { stage, interpolation, subpixel: Sub4, cull: Cull::None };
+    let paint = Paint { stage, interpolation, subpixel, cull: Cull::None };
     for [columns, rows] in scissors {
         let mut visible = target.scissor(columns.clone(), rows.clone());
         if widest {
@@ -179,7 +179,7 @@ fn keeps_its_bounds(
         let case = Case::any(&mut rng);
         let vertices = case.vertices();
         let [a, b, c] = &vertices;
-        let drawn = paint(FixedPoint(lines), format, [a, b, c], &[WHOLE], false);
+        let drawn = paint(FixedPoint(lines), format, [a, b, c], &[WHOLE], (Sub4, false));
         let small = case.is_small(format) && one_run(&case);
         let [least, greatest] = [f64::min, f64::max].map(|pick| {
             case.u.iter().map(|&u| (f64::from(u) / STEP).round() * STEP).reduce(pick).expect("three")
@@ -251,7 +251,7 @@ fn spans_miss_what_their_ratio_of_depths_allows() {
     for _ in 0..2_000 {
         let case = Case::any(&mut rng);
         let [a, b, c] = &case.vertices();
-        let drawn = paint(FixedPoint(short), AnyDepth::D16, [a, b, c], &[WHOLE], false);
+        let drawn = paint(FixedPoint(short), AnyDepth::D16, [a, b, c], &[WHOLE], (Sub4, false));
         for (pixel, &color) in drawn.color.iter().enumerate().filter(|(_, color)| **color != 0) {
             let pixel = i32::try_from(pixel).expect("a small frame");
             let [column, row] = [pixel % SIDE, pixel / SIDE].map(i64::from);
@@ -275,6 +275,57 @@ fn budgets_are_kept() {
     }
 }
 
+/// On the finer grid the same triangle goes the way of large ones: it has the same pixels, and numbers that differ by
+/// what the policy allows to each way.
+#[test]
+fn large_triangles_go_another_way_to_the_same_pixels() {
+    let count = if std::env::var_os("ALBERTI_SWEEP").is_some() { 10_000_000 } else { 8_000 };
+    let mut rng = Rng::stream(run_seed(), 8);
+    let finer = |c: Fixed| Fixed::from_subpixels(c.subpixels() * 16).expect("within the guard band");
+    let (mut small, mut covered, mut differing, mut worst) = (0, 0, 0, 0.0f64);
+    for turn in 0..count {
+        let case = Case::any(&mut rng);
+        let vertices = case.vertices();
+        let finer = vertices.map(|v| Vertex { x: finer(v.x), y: finer(v.y), ..v });
+        let format = [AnyDepth::D16, AnyDepth::D24, AnyDepth::F32][turn / 3 % 3];
+        let lines = [Lines::affine(), Lines::spans(16).expect("a length"), Lines::bounded(0.01)][turn % 3];
+        let by = |vertices: &[Vertex<Carried>; 3], subpixel| {
+            paint(FixedPoint(lines), format, vertices.each_ref(), &[WHOLE], (subpixel, false))
+        };
+        let [one, other] = [by(&vertices, Sub4), by(&finer, Sub8)];
+        let is_small = case.is_small(format);
+        small += u32::from(is_small);
+        let missed = [0.0, 2.0 * case.missed(), 0.02][turn % 3];
+        let bound = missed + 21.3 * STEP + case.spread() * 1e-3;
+        for (pixel, (&a, &b)) in one.color.iter().zip(&other.color).enumerate() {
+            assert_eq!(a != 0, b != 0, "pixel {pixel} of {:?}", case.tri);
+            if a == 0 {
+                continue;
+            }
+            covered += 1;
+            let [(u, (Linear(v), Flat(w))), (x, (Linear(y), Flat(z)))] = [one.seen.at(a), other.seen.at(b)];
+            assert_eq!(w.to_bits(), z.to_bits());
+            for (got, plain) in [(u, x), (v, y)] {
+                let apart = f64::from((got - plain).abs());
+                assert!(apart <= bound, "{got} and {plain}: {} of the bound, {:?}", apart / bound, case.tri);
+                differing += u64::from(apart > 0.0);
+                worst = worst.max(apart / bound);
+            }
+            let [(got, bound), (plain, _)] = [&one, &other].map(|drawn| zs_of(format, drawn.depth[pixel]));
+            let apart = (got - plain).abs();
+            assert!(
+                apart <= 2.0 * bound + 48.0 * 2f64.powi(-31),
+                "{got} and {plain} in {format:?}, {:?}",
+                case.tri
+            );
+        }
+    }
+    println!(
+        "{small} small of {count}, {covered} pixels, {differing} numbers differ, up to {worst:.3} of the bound"
+    );
+    assert!(small > 900 && covered > 10_000 && differing > 1_000 && worst > 0.2, "two ways are one");
+}
+
 /// From any vertex, in either direction, in four pieces, and with the widest lanes: always the same.
 #[test]
 fn nothing_else_changes_a_bit() {
@@ -286,7 +337,7 @@ fn nothing_else_changes_a_bit() {
         let format = [AnyDepth::D16, AnyDepth::D24, AnyDepth::F32, AnyDepth::F32Reversed][turn % 4];
         let lines = [Lines::affine(), Lines::spans(16).expect("a length"), Lines::bounded(0.01)][turn % 3];
         let by = |vertices, scissors: &[_], widest| {
-            told(&paint(FixedPoint(lines), format, vertices, scissors, widest))
+            told(&paint(FixedPoint(lines), format, vertices, scissors, (Sub4, widest)))
         };
         let whole = by([a, b, c], &[WHOLE], false);
         covered += whole.iter().flatten().count();
