@@ -338,7 +338,7 @@ fn kept<V: Varying>(slot: &Slot<V>) -> Option<&Slot<V>> {
     (slot.outside & (outside::NEAR | outside::FAR | outside::GUARD) == 0).then_some(slot)
 }
 
-/// What there is of the vertex that has all the weight.
+/// The item of the vertex that has all the weight.
 fn own_of<T>([a, b, c]: [Option<T>; 3], weights: Weights) -> Option<T> {
     match weights.to_array() {
         [1.0, ..] => a,

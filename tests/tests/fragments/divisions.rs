@@ -1,5 +1,5 @@
-//! Coloured triangles in floats, in fixed point and of integers, drawn whole, in bands and by threads: one stage and one
-//! kind of pixels, whose kernels the tests of vertices, planes, limits and threads share.
+//! Coloured triangles in floats, in fixed point and of integers, drawn whole, in bands and by threads: one stage and
+//! one kind of pixels, whose kernels the tests of vertices, planes, limits and threads share.
 
 use alberti::glam::Vec3;
 use alberti::lanes::{Floating, Machine, One};
@@ -14,7 +14,14 @@ use std::num::NonZero;
 /// A place, and the three numbers that it carries.
 pub(crate) type Vertex = (Vec3, Vec3);
 
-/// What all of these tests draw to.
+/// A mesh in floats.
+type Floats<'a> = Mesh<'a, Vertex, u16, fn(&Vertex) -> Vertex>;
+
+/// A mesh of integers.
+type Integers<'a> =
+    IntegerMesh<'a, IntegerVertex<Vec3>, u16, fn(&IntegerVertex<Vec3>) -> IntegerVertex<Vec3>>;
+
+/// The target of all of these tests.
 pub(crate) type Canvas<'a> = Target<'a, Rgba8888, AnyDepth>;
 
 /// A colour of a fragment's numbers.
@@ -111,8 +118,7 @@ impl Scene {
 
     /// Draws it, back faces too.
     pub(crate) fn draw(&self, arithmetic: Arithmetic, division: Division, target: &mut Canvas<'_>) -> Stats {
-        let stage = |v: &Vertex| *v;
-        let floats: Mesh<'_, _, _, fn(&Vertex) -> Vertex> = Mesh::new(&self.vertices, &self.triangles, stage);
+        let floats: Floats<'_> = Mesh::new(&self.vertices, &self.triangles, |v| *v);
         match arithmetic {
             Arithmetic::Floats(machine) => {
                 for_lanes!(machine, lanes => self.divided(lanes, Exact, &floats, division, target))
@@ -120,9 +126,7 @@ impl Scene {
             Arithmetic::Fixed(lines) => self.divided(One, FixedPoint(lines), &floats, division, target),
             Arithmetic::Integers(lines, unit) => {
                 let vertices = self.integers(unit);
-                let stage = |v: &IntegerVertex<Vec3>| *v;
-                let mesh: IntegerMesh<'_, _, _, fn(&IntegerVertex<Vec3>) -> IntegerVertex<Vec3>> =
-                    IntegerMesh::new(&vertices, &self.triangles, unit, stage);
+                let mesh: Integers<'_> = IntegerMesh::new(&vertices, &self.triangles, unit, |v| *v);
                 self.divided(One, FixedPoint(lines), &mesh, division, target)
             }
         }

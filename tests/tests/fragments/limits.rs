@@ -1,5 +1,5 @@
-//! Scissors, viewports and parts of a target with few rows or columns, or none: whatever is within shows the pixels of the
-//! whole frame, and nothing beside it is touched.
+//! Scissors, viewports and parts of a target with few rows or columns, or none: whatever is within shows the pixels of
+//! the whole frame, and nothing beside it is touched.
 
 use crate::divisions::{Arithmetic, Canvas, Division, Memory, Scene, all_arithmetic, picture};
 use alberti::glam::Vec3;
@@ -128,8 +128,8 @@ fn parts_of_a_target_are_its_rows() {
     assert!(memory.color.iter().map(|&pixel| pixel != 0).eq(white));
 }
 
-/// The part of the viewport's picture that lies in the frame. Straight lines restart where columns are multiples of 64, and
-/// move along by as many.
+/// The part of the viewport's picture that lies in the frame. Straight lines restart where columns are multiples of
+/// 64, and move along by as many.
 #[test]
 fn a_viewport_may_lie_anywhere() {
     let mut rng = Rng::stream(run_seed(), 2);

@@ -1,5 +1,5 @@
-//! Vertices at a plane, an ulp to each side of it, and in doubt about it: near, far, sides and guard band, for floats and
-//! integers. The fan around such vertices has neither a hole nor a pixel that is drawn twice, and ends where exact
+//! Vertices at a plane, an ulp to each side of it, and in doubt about it: near, far, sides and guard band, for floats
+//! and integers. The fan around such vertices has neither a hole nor a pixel that is drawn twice, and ends where exact
 //! integers say.
 //!
 //! ```text

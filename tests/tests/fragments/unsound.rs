@@ -1,5 +1,5 @@
-//! Vertices that are not finite in one number: their triangles are dropped, all others have the pixels of a mesh without
-//! these, and no fragment hears of them. However the frame is divided, and in whichever numbers it is drawn.
+//! Vertices that are not finite in one number: their triangles are dropped, all others have the pixels of a mesh
+//! without these, and no fragment hears of them. However the frame is divided, and in whichever numbers it is drawn.
 #![allow(clippy::cast_precision_loss, reason = "a small grid")]
 
 use crate::divisions::{Arithmetic, Division, Memory, Scene, Way, all_arithmetic, picture};

@@ -169,7 +169,7 @@ fn boxes_of_all_sizes() {
         let triangles: Vec<_> = (0..if sweep { 400 } else { 3 }).map(|_| boxed(&mut rng, [w, h])).collect();
         let frame = |lanes: &dyn Fn(&mut Target<'_, Rgba8888, AnyDepth>)| {
             // The upper left corner of large ones, or a strip through their middle.
-            let (size, first) = ([WIDTH as u32, 4200], if h > 200 { h as u32 / 2 } else { 0 });
+            let (size, first) = ([WIDTH as u32, 4200], if h > 200 { h.unsigned_abs() / 2 } else { 0 });
             let (mut color, mut depth) = (vec![0; WIDTH * 70], vec![AnyDepth::F32.farthest(); WIDTH * 70]);
             let band = Target::band(Rgba8888, AnyDepth::F32, size, first, &mut color, &mut depth);
             lanes(&mut band.expect("rows"));

@@ -45,12 +45,12 @@ fn edges_know_nothing_of_the_third_vertex() {
     }
 }
 
-/// Polygons of which a corner lies on the line between its neighbours, but for the step to which it is snapped: no fan
-/// has a sample twice, where that around the first vertex often would.
+/// Polygons with a corner on the line between its neighbours, but for the step to which it is snapped. Their fans have
+/// no sample twice; those around the first vertex often would.
 #[test]
 fn fans_are_not_turned_over() {
     let mut rng = Rng::stream(run_seed(), 9);
-    // What a plane leaves of a triangle with a corner behind it.
+    // The rest of a triangle with one corner behind a plane.
     let [a, b, c] = [(0.0, -2.0), (1.0, 2.0), (2.0, 2.0)].map(|(x, z)| Point3::new(Vec3::new(x, 0.0, z)));
     let four = clip_near_far([a, b, c].map(|position| EyeVertex { position, varying: () }), 1.0, 9.0);
     assert_eq!(four.vertices().len(), 4);
