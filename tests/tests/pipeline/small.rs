@@ -78,7 +78,7 @@ impl Case {
     }
 
     /// Whether it may be drawn as a small one, as far as the policy admits: short, with numbers that are small, and not
-    /// steep.
+    /// steep. Products of 2^30 are in question, of a side up to 2^8 and the next power of two of a difference.
     fn is_small(&self, format: AnyDepth) -> bool {
         let extent = |k: usize| {
             let at = self.tri.map(|p| p[k]);
@@ -93,8 +93,8 @@ impl Case {
         extent(0) < 256
             && extent(1) < 256
             && self.u.iter().all(|u| u.abs() < 15.0)
-            && steepness(self.spread()) < 1.9
-            && steepness(deep) < 0.4 * deepest
+            && steepness(self.spread()) < 0.95
+            && steepness(deep) < 0.24 * deepest
             && deep < deepest
     }
 }
@@ -323,7 +323,7 @@ fn large_triangles_go_another_way_to_the_same_pixels() {
     println!(
         "{small} small of {count}, {covered} pixels, {differing} numbers differ, up to {worst:.3} of the bound"
     );
-    assert!(small > 900 && covered > 10_000 && differing > 1_000 && worst > 0.2, "two ways are one");
+    assert!(small > 700 && covered > 10_000 && differing > 1_000 && worst > 0.2, "two ways are one");
 }
 
 /// From any vertex, in either direction, in four pieces, and with the widest lanes: always the same.
