@@ -243,11 +243,11 @@ fn outputs_that_cannot_be_written() {
     );
     folder.fails(&["-o", "out"], &["error: out: found no extension"]);
     folder.fails(&["-o", "d.png"], &["error: d.png: found a directory"]);
-    folder.fails(&["-o", "no/out.png"], &["error: no/out.png: found a folder that does not exist"]);
+    folder.fails(&["-o", "no/out.png"], &["error: no/out.png: found no such folder"]);
     // Before anything is read, so that nobody waits for a picture that has no place.
     folder.fails(
         &["m.obj", "-o", "file/out.png"],
-        &["error: file/out.png: found a folder that is not a folder"],
+        &["error: file/out.png: found a file in the place of its folder"],
     );
     folder.fails(&["--texture", "t.png", "-o", "t.png"], &["error: t.png: found a file that is also read"]);
 }

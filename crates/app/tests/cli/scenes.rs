@@ -64,7 +64,7 @@ fn what_is_wrong_with_a_scene_is_named_with_line_and_key() {
         ("[camera]\nnear = 5\nfar = 2\n", "s.toml:5: camera.far: found near 5 and far 2"),
         ("[camera]\nnear = 1e9\n", "s.toml:4: camera.near: found near 1000000000 and far"),
         ("[camera]\nup = [0, 0, 0]\n", "s.toml:4: camera.up: found 0,0,0, which is 0 or along the view"),
-        ("[render]\nnumbers = \"fixed\"\n", "s.toml:4: render.numbers: found fixed with exact"),
+        ("[render]\narithmetic = \"fixed\"\n", "s.toml:4: render.arithmetic: found fixed with exact"),
         ("[render]\noutput = \"a.gif\"\n", "s.toml:4: render.output: found the extension \".gif\""),
         ("[render]\noutput = \"s.toml\"\n", "s.toml:4: render.output: found the extension \".toml\""),
         (
