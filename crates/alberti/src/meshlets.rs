@@ -74,8 +74,9 @@ pub struct Meshlet {
     /// The square of the sine of the greatest angle between a normal and the axis, in 2^-16; the greatest number for
     /// angles that are too large.
     pub squared_sine: u16,
-    /// A point behind all triangles.
-    pub apex: [i16; 3],
+    /// How far the ball's centre has to go against the axis to be behind the planes of all triangles, and how far along
+    /// it to be before them.
+    pub depths: [i16; 2],
 }
 
 /// Units of a mesh's radius.
@@ -93,23 +94,24 @@ impl Meshlet {
         let axis = sides().map(|(_, normal)| normal).sum::<Vec3>().normalize_or_zero();
         // A little less, for the roundings here.
         let cosine = sides().map(|(_, normal)| normal.dot(axis)).fold(1.0, f32::min) - 1.0 / 512.0;
-        let behind = sides().map(|(place, normal)| normal.dot(center - place) / normal.dot(axis));
-        let behind = behind.fold(-radius, f32::max);
+        let height = |(place, normal): (Vec3, Vec3)| normal.dot(place - center) / normal.dot(axis);
+        let [behind, before] =
+            [-1.0, 1.0].map(|sign| sides().map(|side| sign * height(side)).fold(0.0, f32::max));
         let per_unit = RADIUS / ball.radius.max(f32::MIN_POSITIVE);
-        let units = |place: Vec3| ((place - ball.center) * per_unit).round();
-        // Farther behind by what rounding may add.
-        let apex = units(center - axis * behind) - axis * (2.0 / cosine.max(0.01));
-        let facing = cosine > 0.05 && apex.abs().max_element() < 32767.0;
+        // Farther by what rounding may add.
+        let [behind, before] = [behind, before].map(|depth| depth * per_unit + 4.0 / cosine.max(0.01));
+        let facing = cosine > 0.05 && behind.max(before) < 16384.0;
+        let [behind, before, _] = half_words(Vec3::new(behind, before, 0.0));
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "these saturate")]
         let [radius, squared_sine] =
             [radius * per_unit + 3.0, (1.0 - cosine * cosine) * 65536.0].map(|x| x as u16);
         Self {
             triangles: [triangles.start, triangles.end],
-            center: half_words(units(center)),
+            center: half_words((center - ball.center) * per_unit),
             radius,
             axis: half_words(axis * AXIS),
             squared_sine: if facing { squared_sine } else { u16::MAX },
-            apex: half_words(apex),
+            depths: [behind, before],
         }
     }
 }
@@ -125,7 +127,7 @@ fn half_words(v: Vec3) -> [i16; 3] {
 ///
 /// They are in the order of their triangles. Triangles of no meshlet are drawn as without any. Where snapping turns a
 /// triangle, the facing that counts is that of before: so a silhouette may lack pixels that are there without
-/// meshlets.
+/// meshlets. Counters do not hear of those that are left out.
 ///
 /// # Cost
 /// Some seventy instructions a meshlet, all of integers, and twice as many at the edge of the view. Of a closed mesh of
@@ -193,13 +195,14 @@ pub(crate) struct Sight {
     away: Option<Away>,
 }
 
-/// The way from the eye, for triangles that are left out when they face that way: from a point p it is (p + `eye`) /
-/// 2^`shift`, within 2^14. In parallel projection it is `eye`.
+/// The way from the eye: from a point p it is (p + `eye`) / 2^`shift`, within 2^14. In parallel projection it is `eye`.
+/// Triangles are left out whose normals look along it, or against it.
 #[derive(Clone, Copy, Debug)]
 struct Away {
     eye: [i32; 3],
     parallel: bool,
     shift: u32,
+    along: bool,
 }
 
 impl Sight {
@@ -265,44 +268,43 @@ impl Away {
         let axes = to_eye.axes();
         let Mat3 { x_axis: x, y_axis: y, z_axis: z } = axes;
         let adjugate = Mat3::from_cols(y.cross(z), z.cross(x), x.cross(y)).transpose();
-        let sign = match cull {
-            Cull::Back => -1.0,
-            Cull::Front => 1.0,
-            Cull::None => return None,
-        };
-        let eye = if perspective {
-            // Where space is mirrored, apexes are on the other side.
+        let (eye, greatest, positive) = if perspective {
             let determinant = axes.determinant();
             let center = to_eye.to_parent(Point3::new(ball.center)).coords;
-            (sign * determinant > 0.0).then(|| adjugate * center / determinant * (RADIUS / ball.radius))?
+            let eye = adjugate * center / determinant * (RADIUS / ball.radius);
+            (eye, eye.abs().max_element(), determinant > 0.0)
         } else {
-            adjugate * (Vec3::Z * sign)
+            let way = adjugate * Vec3::Z;
+            (way * (AXIS / 2.0 / way.abs().max_element()), 0.0, true)
         };
-        let greatest = eye.abs().max_element();
-        let (eye, greatest) =
-            if perspective { (eye, greatest) } else { (eye * (AXIS / 2.0 / greatest), 0.0) };
-        // Points are within 2^15.
-        let reach = (greatest < 1.0e8).then(|| scaled(greatest, 0) + 32768)?;
-        let shift = (reach >> 14).max(1).ilog2() + 1;
-        let eye = eye.to_array().map(|c| scaled(c, 0));
-        Some(Self { eye, parallel: !perspective, shift: if perspective { shift } else { 0 } })
+        let along = match cull {
+            Cull::Back => !positive,
+            Cull::Front => positive,
+            Cull::None => return None,
+        };
+        // Points are within 2^16.
+        let reach = (greatest < 1.0e8).then(|| scaled(greatest, 0) + (1 << 16))?;
+        let shift = if perspective { (reach >> 14).max(1).ilog2() + 1 } else { 0 };
+        Some(Self { eye: eye.to_array().map(|c| scaled(c, 0)), parallel: !perspective, shift, along })
     }
 
-    /// Whether all of a meshlet's triangles are left out: those whose normals are at most at a right angle to the way
-    /// from the eye.
+    /// Whether all of a meshlet's triangles are left out. The way leads to a point behind them, or before them, so that
+    /// a way to a point of theirs looks even more the same way as their normals.
     #[inline(always)]
     fn leaves_out(&self, meshlet: &Meshlet) -> bool {
-        let Self { eye, parallel, shift } = *self;
-        let apex = map3(meshlet.apex, i32::from);
-        let way =
-            if parallel { eye } else { map3([0, 1, 2], |axis: usize| (apex[axis] + eye[axis]) >> shift) };
-        // The way is within 3/2 on each axis, and the product within six: 3/2 for each of them, of the axis too.
-        let along = dot(meshlet.axis.map(i32::from), way) - 6;
+        let Self { eye, parallel, shift, along } = *self;
+        let Meshlet { center, axis, squared_sine, depths: [behind, before], .. } = *meshlet;
+        let depth = i32::from(if along { -behind } else { before });
+        let apex = |k: usize| i32::from(center[k]) + ((i32::from(axis[k]) * depth) >> 14);
+        let way = if parallel { eye } else { map3([0, 1, 2], |k: usize| (apex(k) + eye[k]) >> shift) };
+        // The way is within two on each axis, and the product within eight: two for each of them, of the axis too.
+        let product = dot(axis.map(i32::from), way);
+        let product = if along { product } else { -product } - 8;
         let squares = map3(way, |c| (c.unsigned_abs() + 2).pow(2));
         let squared = squares[0] + squares[1] + squares[2];
         // The sines' last bit, and the square's last ones, which go.
-        let bound = (((squared >> 15) + 1) * (u32::from(meshlet.squared_sine) + 1)) >> 1;
-        meshlet.squared_sine < u16::MAX && along > 0 && along.unsigned_abs().pow(2) >= bound
+        let bound = (((squared >> 15) + 1) * (u32::from(squared_sine) + 1)) >> 1;
+        squared_sine < u16::MAX && product > 0 && product.unsigned_abs().pow(2) >= bound
     }
 }
 

@@ -321,7 +321,11 @@ fn clip<M: Geometry, Pr: Projection, K>(
     let polygon = cut(screen, rotated(positions, rotation));
     // The triangle's own vertices stay where its neighbours have them, to the last bit of integers too.
     let own = if const { M::INTEGERS } { map3(slots, kept) } else { [None; 3] };
-    for fan in polygon.fan_around(unfolded(&polygon, map3(own, |own| Some(own?.screen.place())))) {
+    let places = polygon.map(|vertex| {
+        let Vertex { x, y, varying, .. } = vertex?;
+        Some(own_of(own, varying).map_or([x.subpixels(), y.subpixels()], |own| own.screen.place()))
+    });
+    for fan in polygon.fan_around(unfolded(&places)) {
         let corners = fan.map(|vertex| {
             let corner = on_the_screen(screen.numbers, vertex, varyings[0], &carried)?;
             let own = own_of(own, vertex?.varying);
@@ -352,25 +356,19 @@ fn own_of<T>([a, b, c]: [Option<T>; 3], weights: Weights) -> Option<T> {
 /// vertex a little into the polygon where it is almost in line with the next ones. A fan that passes over it would draw
 /// samples twice.
 #[inline(never)]
-fn unfolded(polygon: &Polygon<Option<Vertex<Weights>>>, own: [Option<[i32; 2]>; 3]) -> usize {
-    let place = |vertex: Option<Vertex<Weights>>| {
-        let Vertex { x, y, varying, .. } = vertex?;
-        Some(own_of(own, varying).unwrap_or([x.subpixels(), y.subpixels()]))
-    };
+fn unfolded(places: &Polygon<Option<[i32; 2]>>) -> usize {
     let folded = |number: &usize| {
-        let (mut forwards, mut backwards) = (false, false);
-        for fan in polygon.fan_around(*number) {
-            if let [Some(a), Some(b), Some(c)] = fan.map(place) {
-                let side = |p: [i32; 2]| map2([0, 1], |k: usize| i64::from(p[k]) - i64::from(a[k]));
-                let [[ux, uy], [vx, vy]] = [side(b), side(c)];
-                let area = ux * vy - uy * vx;
-                forwards |= area > 0;
-                backwards |= area < 0;
-            }
-        }
-        forwards && backwards
+        // A bit for either way round.
+        let turns = places.fan_around(*number).map(|fan| {
+            let [Some(a), Some(b), Some(c)] = fan else { return 0 };
+            let side = |p: [i32; 2]| map2([0, 1], |k: usize| i64::from(p[k] - a[k]));
+            let [[ux, uy], [vx, vy]] = [side(b), side(c)];
+            let area = ux * vy - uy * vx;
+            u32::from(area > 0) | u32::from(area < 0) << 1
+        });
+        turns.fold(0, |all, turn| all | turn) == 3
     };
-    (0..polygon.vertices().len()).find(|number| !folded(number)).unwrap_or(0)
+    (0..places.vertices().len()).find(|number| !folded(number)).unwrap_or(0)
 }
 
 /// A vertex in scaled eye space.

@@ -91,11 +91,12 @@ impl<T: Copy> Polygon<T> {
 
     /// The triangles of the fan around the vertex of this number; around the first, if there is no such vertex.
     pub fn fan_around(&self, number: usize) -> impl Iterator<Item = [T; 3]> {
-        let number = if number < self.len { number } else { 0 };
-        let (before, after) = self.vertices().split_at_checked(number).unwrap_or_default();
-        let apex = after.first().copied().unwrap_or(self.vertices[0]);
-        let rest = after.iter().skip(1).chain(before);
-        rest.clone().zip(rest.skip(1)).map(move |(&second, &third)| [apex, second, third])
+        let vertices = self.vertices();
+        let count = vertices.len();
+        let number = if number < count { number } else { 0 };
+        let at = move |k: usize| vertices.get(if k < count { k } else { k - count }).copied();
+        (number + 1..(number + count).saturating_sub(1))
+            .filter_map(move |k| Some([at(number)?, at(k)?, at(k + 1)?]))
     }
 
     /// Keeps the part on the inner sides of planes, one after the other.

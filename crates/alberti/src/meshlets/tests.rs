@@ -145,7 +145,6 @@ fn what_is_left_out_faces_away_or_is_outside() {
         let mesh = Meshlets { mesh, meshlets: &meshlets, ball };
         let (view, at) = view(&mut rng, &ball);
         let cull = [Cull::Back, Cull::Front, Cull::None][rng.index(8).min(2)];
-        let cull = if at.axes().determinant() < 0.0 && cull == Cull::Back { Cull::Front } else { cull };
         let mut scene = Scene { places: &places, triangles: &split.triangles, mesh: &mesh, view, at, cull };
         let sight = Sight::new(&scene.screen(), cull, &ball);
         for meshlet in &meshlets {

@@ -84,7 +84,8 @@ fn fans_are_not_turned_over() {
             continue;
         }
         folded += u32::from(is_folded(0));
-        let parts = parts(unfolded(&polygon, [None; 3]));
+        let places = polygon.map(|v| v.map(|v| [v.x, v.y].map(Fixed::subpixels)));
+        let parts = parts(unfolded(&places));
         for sample in (0..61 * 61).map(|i| [i % 61, i / 61]) {
             let times = parts.iter().filter(|part| covers(**part, sample)).count();
             assert!(times <= 1, "{corners:?} at {sample:?}");

@@ -1,6 +1,7 @@
 //! The ways of drawing that are measured: each is one call of [`alberti::draw`] on prepared memory.
 
-use crate::shapes::{FLOOR_MIPMAP, HalfWords, Model, Vertex};
+use crate::shapes::{FLOOR_MIPMAP, Model};
+use crate::torus::{HalfWords, Vertex};
 use crate::{Camera, HEIGHT, PIXELS, Target, WIDTH};
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::One;
@@ -10,8 +11,8 @@ use alberti::shaders::{Differentiated, Ready565, Solid, Stored, Unlit, VertexCol
 use alberti::texture::{Bilinear, Minify, Nearest, NearestLevel, Repeat, Trilinear};
 use alberti::{
     Affine, ColorFormat, Counters, D16, DepthFormat, Exact, FixedPoint, FragmentStage, Geometry, IntegerMesh,
-    IntegerVertex, Interpolation, Mesh, NoDepth, Object, Pass, Point3, Q16, Rgb565Le, Slot, Spans16, Sub4,
-    Varying, View,
+    IntegerVertex, Interpolation, Mesh, Meshlets, NoDepth, Object, Pass, Point3, Q16, Rgb565Le, Slot,
+    Spans16, Sub4, Varying, View,
 };
 
 /// Defines ways of drawing: a pass of its own for each, into colour and depth.
@@ -121,6 +122,14 @@ meshes! {
     /// The nearest texel on a mesh of integers.
     affine_integers(model) in mapped: integers(model, mapped_integers),
         Stored(model.texture.sampler(Nearest, Repeat));
+
+    /// One colour for all, on a mesh of integers with meshlets.
+    flat_meshlets(model) in bare:
+        meshlets(model, |v| IntegerVertex::<()> { place: v.position, components: () }), Solid(ORANGE);
+
+    /// The nearest texel on a mesh of integers with meshlets.
+    affine_meshlets(model) in mapped: meshlets(model, mapped_integers),
+        Stored(model.texture.sampler(Nearest, Repeat));
 }
 
 /// The nearest texel, in perspective, with depth. Each vertex has a slot of its own.
@@ -159,6 +168,11 @@ pub fn integers_bands<K: Counters>(target: &mut Target, camera: &Camera, model: 
     bands(target, camera, model, &integers(model, mapped_integers), counters);
 }
 
+/// The same of one with meshlets.
+pub fn meshlets_bands<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    bands(target, camera, model, &meshlets(model, mapped_integers), counters);
+}
+
 #[inline]
 fn bands<K: Counters>(
     target: &mut Target,
@@ -191,6 +205,17 @@ fn integers<V: Varying, F: Fn(&HalfWords) -> IntegerVertex<V>>(
     vertex_stage: F,
 ) -> IntegerMesh<'static, HalfWords, u16, F> {
     IntegerMesh::new(model.integers, model.triangles, HalfWords::UNIT, vertex_stage)
+}
+
+/// The same with meshlets.
+#[inline]
+fn meshlets<V: Varying, F: Fn(&HalfWords) -> IntegerVertex<V>>(
+    model: &Model,
+    vertex_stage: F,
+) -> Meshlets<'static, IntegerMesh<'static, HalfWords, u16, F>> {
+    let (triangles, meshlets, ball) = model.meshlets;
+    let mesh = IntegerMesh::new(model.integers, triangles, HalfWords::UNIT, vertex_stage);
+    Meshlets { mesh, meshlets, ball }
 }
 
 #[inline]

@@ -8,19 +8,22 @@
 
 mod draws;
 pub mod shapes;
+pub mod torus;
 
 pub use draws::{
-    affine_fixed, affine_integers, affine_mesh, flat, flat_fixed, flat_integers, flat_mesh,
-    flat_without_depth, gouraud, gouraud_fixed, gouraud_mesh, integers_bands, material, material_absent,
-    material_emission, mip_bilinear, mip_bilinear_fixed, mip_nearest, mip_nearest_fixed, textured,
-    textured_bands, textured_fixed, trilinear, trilinear_fixed, trilinear_spans, trilinear_spans_fixed,
+    affine_fixed, affine_integers, affine_mesh, affine_meshlets, flat, flat_fixed, flat_integers, flat_mesh,
+    flat_meshlets, flat_without_depth, gouraud, gouraud_fixed, gouraud_mesh, integers_bands, material,
+    material_absent, material_emission, meshlets_bands, mip_bilinear, mip_bilinear_fixed, mip_nearest,
+    mip_nearest_fixed, textured, textured_bands, textured_fixed, trilinear, trilinear_fixed, trilinear_spans,
+    trilinear_spans_fixed,
 };
 pub use shapes::PROBE;
 
 use alberti::glam::Vec2;
 use alberti::shaders::Ready565;
 use alberti::{D16, DepthFormat, Perspective, PreparedTriangle, Slot};
-use shapes::{Model, TORUS_TRIANGLES, TORUS_VERTICES, floor, layers, torus};
+use shapes::{Model, floor, layers, torus};
+use torus::{TORUS_TRIANGLES, TORUS_VERTICES};
 
 /// Columns of the frame.
 pub const WIDTH: u32 = 320;
@@ -95,6 +98,9 @@ pub static SCENES: &[Scene] = &[
     scene!("integer-mesh-flat", torus(1.0), flat_integers),
     scene!("integer-mesh-affine", torus(1.0), affine_integers),
     scene!("integer-mesh-bands", torus(1.0), integers_bands),
+    scene!("meshlets-flat", torus(1.0), flat_meshlets),
+    scene!("meshlets-affine", torus(1.0), affine_meshlets),
+    scene!("meshlets-bands", torus(1.0), meshlets_bands),
     fill!("material", 1, material),
     fill!("material-absent", 1, material_absent),
     fill!("material-emission", 1, material_emission),

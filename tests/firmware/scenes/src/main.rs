@@ -1,4 +1,4 @@
-//! Draws every scene on the host and says what the boards must get, one line each: name, hash, submitted triangles,
+//! Draws every scene on the host and says what the boards must get, one line each: name, hash, the mesh's triangles,
 //! written pixels. A folder as argument also gets the pictures, as PPM files.
 
 use alberti::Stats;
@@ -21,10 +21,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         if target.hash() != hash {
             return Err(format!("{}: counting changes the frame", scene.name).into());
         }
-        if stats.written == 0 || stats.submitted != scene.model.triangles.len() as u64 {
+        let triangles = scene.model.triangles.len() as u64;
+        // Meshlets that are not seen are not submitted.
+        if stats.written == 0 || stats.submitted != triangles && !scene.name.starts_with("meshlets") {
             return Err(format!("{}: not drawn: {stats:?}", scene.name).into());
         }
-        println!("frame {} {hash:016x} {} {}", scene.name, stats.submitted, stats.written);
+        println!("frame {} {hash:016x} {triangles} {}", scene.name, stats.written);
         if let Some(folder) = &folder {
             fs::write(Path::new(folder).join(scene.name).with_extension("ppm"), picture(&target))?;
         }

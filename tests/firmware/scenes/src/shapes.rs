@@ -1,51 +1,16 @@
 //! The meshes and the texture, made at compile time, so that they lie in flash.
 //!
-//! Positions are in the eye's orientation: x right, y up, z away. The circles of the torus are made by the rational
-//! parametrisation ((1 - t²)/(1 + t²), 2t/(1 + t²)): sines and cosines would differ between platforms.
+//! Positions are in the eye's orientation: x right, y up, z away.
 
+use crate::torus::{HalfWords, TORUS_IN_HALF_WORDS, TORUS_TRIANGLE_LIST, TORUS_VERTEX_LIST, Vertex, part};
 use crate::{HEIGHT, WIDTH};
 use alberti::glam::{Mat3, Vec3};
 use alberti::texture::{Known, Mipmap, PowerOfTwo, Texture, format::Rgb565};
-use alberti::{Eye, Frame, Point3, World};
+use alberti::{Ball, Eye, Frame, Meshlet, Point3, World};
 
 /// Width by height of the frame.
 #[expect(clippy::cast_precision_loss, reason = "small integers")]
 pub const ASPECT: f32 = WIDTH as f32 / HEIGHT as f32;
-
-/// All that the ways of drawing may carry.
-#[derive(Clone, Copy, Debug)]
-pub struct Vertex {
-    /// In object space.
-    pub position: [f32; 3],
-    /// Red, green and blue in [0, 1].
-    pub color: [f32; 3],
-    /// In textures: 1 is a whole one.
-    pub uv: [f32; 2],
-}
-
-impl Vertex {
-    const ZERO: Self = Self { position: [0.0; 3], color: [0.0; 3], uv: [0.0; 2] };
-}
-
-/// The same in integers.
-#[derive(Clone, Copy, Debug)]
-pub struct HalfWords {
-    /// In units of 2^-14.
-    pub position: [i16; 3],
-    /// In units of 2^-12.
-    pub uv: [u16; 2],
-}
-
-impl HalfWords {
-    /// The unit of positions.
-    pub const UNIT: f32 = 1.0 / 16384.0;
-
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "in range")]
-    const fn of(Vertex { position: [x, y, z], uv: [u, v], .. }: Vertex) -> Self {
-        let position = [(x / Self::UNIT) as i16, (y / Self::UNIT) as i16, (z / Self::UNIT) as i16];
-        Self { position, uv: [(u * 4096.0) as u16, (v * 4096.0) as u16] }
-    }
-}
 
 /// What a scene shows.
 #[derive(Clone, Copy, Debug)]
@@ -56,6 +21,8 @@ pub struct Model {
     pub integers: &'static [HalfWords],
     /// Three indices each, counter-clockwise as seen from the front.
     pub triangles: &'static [[u16; 3]],
+    /// The same triangles in the order of meshlets, where a scene wants these; and a ball around them.
+    pub meshlets: (&'static [[u16; 3]], &'static [Meshlet], Ball),
     /// The mesh's place before the eye.
     pub to_eye: Frame<World, Eye>,
     /// What it wears where it is textured.
@@ -69,6 +36,7 @@ pub const fn layers(count: usize) -> Model {
         vertices: QUADS.split_at(4 * count).0,
         integers: &[],
         triangles: QUAD_TRIANGLES.split_at(2 * count).0,
+        meshlets: NO_MESHLETS,
         to_eye: Frame::IDENTITY,
         texture: texture(),
     }
@@ -86,6 +54,7 @@ pub const fn torus(size: f32) -> Model {
         vertices: &TORUS_VERTEX_LIST,
         integers: &TORUS_IN_HALF_WORDS,
         triangles: &TORUS_TRIANGLE_LIST,
+        meshlets: (&TORUS_MESHLETS.0, &TORUS_MESHLETS.1, TORUS_MESHLETS.2),
         to_eye: Frame::from_mat3(axes, Point3::new(Vec3::new(0.0, 0.0, 2.35))),
         texture: texture(),
     }
@@ -99,6 +68,7 @@ pub const fn floor() -> Model {
         vertices: &FLOOR_VERTICES,
         integers: &[],
         triangles: &FLOOR_TRIANGLES,
+        meshlets: NO_MESHLETS,
         to_eye: Frame::IDENTITY,
         texture: texture(),
     }
@@ -114,6 +84,11 @@ pub static FLOOR_MIPMAP: Mipmap<'static, Rgb565, PowerOfTwo> = {
     let Some(mipmap) = mipmap.power_of_two() else { panic!("its side is a power of two") };
     mipmap
 };
+
+const NO_MESHLETS: (&[[u16; 3]], &[Meshlet], Ball) = (&[], &[], Ball::EVERYTHING);
+
+// The torus in meshlets, made by the build script.
+include!(concat!(env!("OUT_DIR"), "/meshlets.rs"));
 
 /// What the programs draw whose size alone is of interest: one quad.
 pub static PROBE: Model = layers(1);
@@ -196,82 +171,6 @@ static FLOOR_TRIANGLES: [[u16; 3]; 2 * STRIPS as usize] = {
     }
     triangles
 };
-
-/// Cells of the torus along its ring, and around its tube: multiples of four, for the quarters of a circle.
-const ALONG: u16 = 92;
-const AROUND: u16 = 32;
-/// Radius of the ring and of the tube.
-const RADII: [f32; 2] = [1.0, 0.45];
-
-/// Vertices of the torus: those of the seams are there twice, for their texture coordinates.
-pub const TORUS_VERTICES: usize = (ALONG as usize + 1) * (AROUND as usize + 1);
-/// Triangles of the torus.
-pub const TORUS_TRIANGLES: usize = 2 * ALONG as usize * AROUND as usize;
-
-static TORUS_VERTEX_LIST: [Vertex; TORUS_VERTICES] = {
-    let mut vertices = [Vertex::ZERO; TORUS_VERTICES];
-    let (mut at, mut i) = (0, 0);
-    while i <= ALONG {
-        let [ring_x, ring_y] = circle(i, ALONG);
-        let mut j = 0;
-        while j <= AROUND {
-            let [out, up] = circle(j, AROUND);
-            let radius = RADII[0] + RADII[1] * out;
-            let position = [radius * ring_x, radius * ring_y, RADII[1] * up];
-            let color = [0.5 + 0.5 * ring_x, 0.5 + 0.5 * ring_y, 0.5 + 0.5 * up];
-            vertices[at] = Vertex { position, color, uv: [6.0 * part(i, ALONG), 2.0 * part(j, AROUND)] };
-            at += 1;
-            j += 1;
-        }
-        i += 1;
-    }
-    vertices
-};
-
-static TORUS_IN_HALF_WORDS: [HalfWords; TORUS_VERTICES] = {
-    let mut vertices = [HalfWords::of(Vertex::ZERO); TORUS_VERTICES];
-    let mut at = 0;
-    while at < TORUS_VERTICES {
-        vertices[at] = HalfWords::of(TORUS_VERTEX_LIST[at]);
-        at += 1;
-    }
-    vertices
-};
-
-static TORUS_TRIANGLE_LIST: [[u16; 3]; TORUS_TRIANGLES] = {
-    let mut triangles = [[0; 3]; TORUS_TRIANGLES];
-    let row = AROUND + 1;
-    let (mut at, mut i) = (0, 0);
-    while i < ALONG {
-        let mut j = 0;
-        while j < AROUND {
-            let first = i * row + j;
-            triangles[at] = [first, first + row + 1, first + row];
-            triangles[at + 1] = [first, first + 1, first + row + 1];
-            at += 2;
-            j += 1;
-        }
-        i += 1;
-    }
-    triangles
-};
-
-/// The point `i` of `count` on the unit circle, the last being the first: equal steps of t in each quarter.
-const fn circle(i: u16, count: u16) -> [f32; 2] {
-    let quarter = count / 4;
-    let t = part(i % quarter, quarter);
-    let (x, y) = ((1.0 - t * t) / (1.0 + t * t), 2.0 * t / (1.0 + t * t));
-    match i / quarter % 4 {
-        0 => [x, y],
-        1 => [-y, x],
-        2 => [-x, -y],
-        _ => [y, -x],
-    }
-}
-
-const fn part(i: u16, count: u16) -> f32 {
-    i as f32 / count as f32
-}
 
 /// 128 by 128 texels; the squares are told apart by their colours.
 static CHEQUER: [u16; 128 * 128] = {
