@@ -43,6 +43,8 @@ pub(crate) trait Sink<'a, V: Varying, K> {
     fn triangle(&mut self, corners: [&'a Corner<V>; 3], counters: &mut K);
     /// Takes a triangle whose corners do not.
     fn passing(&mut self, corners: [&Corner<V>; 3], counters: &mut K);
+    /// The same on ways that are seldom taken, for which one copy of what follows is enough.
+    fn seldom(&mut self, corners: [&Corner<V>; 3], counters: &mut K);
 }
 
 impl<'a, L, V, F, P, C, D, K> Sink<'a, V, K> for Batch<'_, '_, 'a, L, V, F, P, C, D>
@@ -62,6 +64,11 @@ where
 
     #[inline(always)]
     fn passing(&mut self, corners: [&Corner<V>; 3], counters: &mut K) {
+        self.passing(corners, counters);
+    }
+
+    #[inline(never)]
+    fn seldom(&mut self, corners: [&Corner<V>; 3], counters: &mut K) {
         self.passing(corners, counters);
     }
 }
@@ -185,7 +192,7 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
                     sink.triangle(corners, counters);
                 }
             };
-            let mut passing = |corners: [&_; 3], counters: &mut K| sink.passing(corners, counters);
+            let mut passing = |corners: [&_; 3], counters: &mut K| sink.seldom(corners, counters);
             let fate = self.seldom(indices, counters, &mut passing);
             if number >= heard {
                 fate.count(counters);

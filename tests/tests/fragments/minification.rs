@@ -14,6 +14,7 @@ use alberti::texture::mipmap::{build, texel_count};
 use alberti::texture::{Mipmap, Repeat, Trilinear};
 use alberti::{Rgba8, Sub8, for_lanes, glam::Vec2};
 use alberti_oracle::rng::{Rng, run_seed};
+use alberti_tests::narrow::Narrow;
 use alberti_tests::probe::vertex;
 
 const FRAME: usize = 96;
@@ -51,7 +52,7 @@ impl Seen {
         let (mut color, mut depth) = (vec![0; FRAME * FRAME], vec![(); FRAME * FRAME]);
         let size = FRAME as u32;
         let mut target = Target::new(Rgba8888, NoDepth, size, size, &mut color, &mut depth).expect("a frame");
-        let stage = Unlit(mipmap.sampler(Trilinear, Repeat));
+        let stage = Narrow(Unlit(mipmap.sampler(Trilinear, Repeat)));
         let paint = Paint { stage, interpolation: Exact, subpixel: Sub8, cull: Cull::None };
         paint.triangle(lanes, &mut target, [a, b, c], &mut ());
         color

@@ -7,11 +7,11 @@
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::{Floating, Lanes, Machine, One};
 use alberti::shaders::{Sunlit, Tinted, Unlit, VertexColor};
-use alberti::texture::{Bilinear, Filter, Mirror, Nearest, Repeat, Texture, Wrap};
+use alberti::texture::{Bilinear, Mirror, Nearest, Repeat, Texture};
 use alberti::{
     AnyDepth, ColorFormat, Cull, D16, DepthFormat, Exact, F32, Fixed, FixedPoint, FragmentStage, Fragments,
-    Interpolation, Lines, Mesh, NoDerivatives, OrEqual, Pass, Planes, Rgb565Be, Rgba8, Rgba8888, Slot, Sub8,
-    Target, Varying, Vector3, for_lanes,
+    Interpolation, Lines, Mesh, NoDerivatives, Pass, Planes, Rgb565Be, Rgba8, Rgba8888, Slot, Sub8, Target,
+    Varying, Vector3, for_lanes,
 };
 use alberti_app::scene::{Image, Vertex};
 use alberti_app::scenes::{BuiltIn, NAMES, by_name};
@@ -131,7 +131,7 @@ fn random_triangles_with_planes() {
 
 #[test]
 fn random_triangles_with_straight_lines() {
-    random_triangles(OrEqual(AnyDepth::F32), spans(8), 5);
+    random_triangles(AnyDepth::F32, spans(8), 5);
     random_triangles(AnyDepth::D32, spans(32), 6);
     random_triangles(AnyDepth::NoDepth, Lines::affine(), 7);
     random_triangles(AnyDepth::F32, Lines::bounded(0.01), 12);
@@ -278,28 +278,32 @@ impl Shot<'_> {
     }
 
     /// Every wide stage at once: lit, tinted, textured.
-    fn textured(
+    fn lit(
         &self,
-        filter: impl Filter,
-        wrap: impl Wrap,
+        texels: impl FragmentStage<Vec2, Color = Rgba8>,
         lanes: impl Floating,
-        image: &Image,
     ) -> (Vec<u32>, Vec<u16>) {
-        let texture = Texture::new(Rgba8888, &image.texels, image.width, image.height).expect("a texture");
         let vertex = |v: &Vertex| (position(v), (Vec3::from_array(v.normal), Vec2::from_array(v.uv)));
         let light = Vector3::new(Vec3::new(0.3, 0.8, -0.5));
-        let tint = Rgba8::new(250, 130, 70, 255);
+        let surface = Tinted { surface: texels, tint: Rgba8::new(250, 130, 70, 255) };
+        self.take((Rgba8888, D16), lanes, Exact, vertex, Sunlit::new(surface, light, 0.2, 0.8))
+    }
+
+    fn mirrored(&self, lanes: impl Floating, image: &Image) -> (Vec<u32>, Vec<u16>) {
+        self.lit(Unlit(texture(image).sampler(Nearest, Mirror)), lanes)
+    }
+
+    fn filtered(&self, lanes: impl Floating, image: &Image) -> (Vec<u32>, Vec<u16>) {
+        let texture = texture(image);
         match texture.power_of_two() {
-            Some(texture) => {
-                let surface = Tinted { surface: Unlit(texture.sampler(filter, wrap)), tint };
-                self.take((Rgba8888, D16), lanes, Exact, vertex, Sunlit::new(surface, light, 0.2, 0.8))
-            }
-            None => {
-                let surface = Tinted { surface: Unlit(texture.sampler(filter, wrap)), tint };
-                self.take((Rgba8888, D16), lanes, Exact, vertex, Sunlit::new(surface, light, 0.2, 0.8))
-            }
+            Some(texture) => self.lit(Unlit(texture.sampler(Bilinear, Repeat)), lanes),
+            None => self.lit(Unlit(texture.sampler(Bilinear, Repeat)), lanes),
         }
     }
+}
+
+fn texture(image: &Image) -> Texture<'_, Rgba8888> {
+    Texture::new(Rgba8888, &image.texels, image.width, image.height).expect("a texture")
 }
 
 fn position(v: &Vertex) -> Vec3 {
@@ -355,16 +359,12 @@ fn all_scenes() {
         for part in &scene.model.parts {
             let shot = Shot { scene: &scene, triangles: &part.triangles };
             let image = part.texture.map_or(&odd, |t| &scene.model.textures[t]);
-            let one = (
-                shot.coloured(One),
-                shot.textured(Nearest, Mirror, One, &odd),
-                shot.textured(Bilinear, Repeat, One, image),
-            );
+            let one = (shot.coloured(One), shot.mirrored(One, &odd), shot.filtered(One, image));
             for machine in Machine::all() {
                 let several = for_lanes!(machine, lanes => (
                     shot.coloured(lanes),
-                    shot.textured(Nearest, Mirror, lanes, &odd),
-                    shot.textured(Bilinear, Repeat, lanes, image),
+                    shot.mirrored(lanes, &odd),
+                    shot.filtered(lanes, image),
                 ));
                 assert!(one == several, "{name}, {machine:?}");
                 shots += 1;
