@@ -17,7 +17,8 @@ A frame takes time in proportion to its pixels, from 64x64 to 8192x8192, and in 
 they and not the pixels are the load, up to 10^7. Rows whose length is a power of two are no exception. Beyond the
 caches a pixel that is drawn to many times takes up to half as long again, because colours and depths come from memory;
 by bands, which share the depths of some rows (`Bands`), less is to be fetched, and large frames are faster. Without
-slots vertices are transformed again, some of them for each triangle.
+slots vertices are transformed again, some of them for each triangle. Bands have a list of at most 2^20 triangles: of
+more, each band walks the rest anew, so that few bands are best.
 
 ![Nanoseconds a pixel against pixels](pictures/growth_pixels.svg)
 

@@ -48,7 +48,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     // Cargo says `--bench`.
     let folder = std::env::args().skip(1).find(|argument| !argument.starts_with('-')).map(PathBuf::from);
     let machine = Machine::all().next().ok_or("no lanes")?;
-    println!("Registers: {machine:?}.\n");
+    let registers = format!("{machine:?}");
+    println!("Registers: {}.\n", registers.split('(').next().unwrap_or(&registers));
 
     let policies = ["Exact", BY_BANDS];
     let pixels = Plot {
