@@ -133,7 +133,7 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
     }
 
     /// Room for transformed vertices: with as many slots as vertices each is transformed once; with fewer they are a
-    /// cache. Without any, a cache of 16 on the stack is used.
+    /// cache. Without any, a cache on the stack is used: of 16, or with several lanes of 256.
     #[must_use]
     #[inline]
     pub fn slots(self, slots: &'a mut [Slot<M::Varying>]) -> Self {
@@ -197,12 +197,15 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
     {
         let Some(screen) = self.screen(target.size(), target.depth_format()) else { return };
         let (mesh, paint) = (self.mesh, &self.paint);
-        let mut cache;
-        let slots = if self.slots.is_empty() {
-            cache = [Slot::EMPTY; 16];
-            &mut cache
-        } else {
+        let (mut few, mut more);
+        let slots = if !self.slots.is_empty() {
             &mut *self.slots
+        } else if const { L::COUNT == 1 } {
+            few = [Slot::EMPTY; 16];
+            &mut few[..]
+        } else {
+            more = [Slot::EMPTY; 256];
+            &mut more[..]
         };
         let [columns, rows] = screen.viewport.pixels();
         let mut visible = target.scissor(columns, rows);
