@@ -130,7 +130,7 @@ fn half_words(v: Vec3) -> [i16; 3] {
 /// meshlets. Counters do not hear of those that are left out.
 ///
 /// # Cost
-/// Some seventy instructions a meshlet, all of integers, and twice as many at the edge of the view. Of a closed mesh of
+/// Some hundred instructions a meshlet, all of integers, and more at the edge of the view. Of a closed mesh of
 /// 6,000 triangles, meshlets of 16 leave out two fifths of the triangles, and a third of the vertices. They are for one
 /// lane. With several all vertices are transformed, and a triangle's facing costs next to nothing: there is no gain.
 #[derive(Clone, Copy, Debug)]
