@@ -1,8 +1,9 @@
 //! Asking the rasterizer what a fragment stage learns of the changes from pixel to pixel.
 
+use crate::for_widest;
 use crate::probe::{LARGEST, Seen};
-use alberti_math::lanes::{Lanes, Machine};
-use alberti_math::{Flat, Linear, Sub8, for_lanes};
+use alberti_math::lanes::Lanes;
+use alberti_math::{Flat, Linear, Sub8};
 use alberti_raster::{
     Cull, Differentiation, FragmentStage, Fragments, Gradient, Interpolation, NoDepth, Paint, Rgba8888,
     Target, Vertex,
@@ -33,7 +34,8 @@ pub struct Told {
 /// The sides of that texture.
 pub const SIZE: [u32; 2] = [512, 128];
 
-/// A stage that keeps its news; its colour is the place of these, or without a list, bits made of them.
+/// A stage that keeps its news; its colour is the place of these, or without a list, bits made of them. It takes as many
+/// samples at a time in long rows as in short ones, which is half of the code.
 #[derive(Clone, Copy, Debug)]
 pub struct Listener<'a, D> {
     seen: Option<&'a Seen<Told>>,
@@ -50,6 +52,7 @@ impl<D> Listener<'_, D> {
 impl<D: Differentiation> FragmentStage<Carried> for Listener<'_, D> {
     type Color = u32;
     type Derivatives = D;
+    const WIDE: bool = false;
 
     fn derivatives(&self) -> D {
         self.policy
@@ -101,9 +104,8 @@ pub fn told(
     let (size, first) = ([frame, LARGEST.unsigned_abs()], row.unsigned_abs());
     let mut target = Target::band(Rgba8888, NoDepth, size, first, &mut color, &mut depth).expect("a row");
     let mut target = target.scissor(columns.clone(), 0..LARGEST);
-    let machine = Machine::all().next().expect("every machine has lanes");
     let paint = Paint { stage, interpolation, subpixel: Sub8, cull: Cull::None };
-    for_lanes!(machine, lanes => paint.triangle(lanes, &mut target, [a, b, c], &mut ()));
+    for_widest!(lanes => paint.triangle(lanes, &mut target, [a, b, c], &mut ()));
     columns
         .clone()
         .zip(&color[columns.start.unsigned_abs() as usize..])

@@ -1,7 +1,7 @@
 //! Asking the rasterizer about single pixels of the largest frame there can be.
 
-use alberti_math::lanes::Machine;
-use alberti_math::{Fixed, Subpixel, Varying, for_lanes};
+use crate::for_widest;
+use alberti_math::{Fixed, Subpixel, Varying};
 use alberti_raster::{
     ColorFormat, Counters, Cull, DepthFormat, Exact, FragmentStage, NoDepth, Outcome, Paint, Rgba8888,
     Target, Vertex,
@@ -103,9 +103,8 @@ pub fn draw_widest<V, F, C, D, K>(
     D: DepthFormat,
     K: Counters,
 {
-    let machine = Machine::all().next().expect("every machine has lanes");
     let paint = Paint { stage, interpolation: Exact, subpixel, cull };
-    for_lanes!(machine, lanes => paint.triangle(lanes, target, vertices, counters));
+    for_widest!(lanes => paint.triangle(lanes, target, vertices, counters));
 }
 
 /// The number of subpixels of a pixel, and of half a pixel.

@@ -10,14 +10,15 @@
 )]
 
 use alberti::glam::Vec3;
-use alberti::lanes::{Floating, Machine};
-use alberti::{Cull, Flat, Frame, Linear, Mesh, Pass, Perspective, Sides, Sub8, View, for_lanes};
+use alberti::lanes::Floating;
+use alberti::{Cull, Flat, Frame, Linear, Mesh, Pass, Perspective, Sides, Sub8, View};
 use alberti_oracle::cases::pixel_centre;
 use alberti_oracle::dd;
 use alberti_oracle::rng::{Rng, run_seed};
 use alberti_raster::{
     Exact, FixedPoint, Interpolation, Lines, NoDepth, Paint, Planes, Rgba8888, Target, Vertex,
 };
+use alberti_tests::for_widest;
 use alberti_tests::narrow::Narrow;
 use alberti_tests::probe::{Recorded, Seen, vertex};
 
@@ -63,9 +64,8 @@ fn check(policy: impl Interpolation, stream: u64, bound: impl Fn(f64, f64) -> f6
         let spread = u.iter().flat_map(|a| u.map(|b| f64::from(a - b))).fold(0.0, f64::max);
         for first in 0..3 {
             let order = [first, (first + 1) % 3, (first + 2) % 3].map(|i| &vertices[i]);
-            let machine = Machine::all().next().expect("every machine has lanes");
             for (at, (hyperbolic, Linear((linear, Flat(flat))))) in
-                for_lanes!(machine, lanes => drawn(policy, lanes, order))
+                for_widest!(lanes => drawn(policy, lanes, order))
             {
                 assert_eq!(
                     flat.to_bits(),
@@ -120,7 +120,8 @@ fn flat_values_survive_clipping() {
         let mut target =
             Target::new(Rgba8888, NoDepth, width, height, &mut color, &mut depth).expect("a frame");
         let stage = |w: Flat<f32>| seen.keep(w);
-        Pass::new(&view, &mesh, Narrow(stage)).cull(Cull::None).sides(Sides::Cube).draw(&mut target);
+        let mut pass = Pass::new(&view, &mesh, Narrow(stage)).cull(Cull::None).sides(Sides::Cube);
+        for_widest!(lanes => pass.draw_by(lanes, &mut target));
         let drawn: Vec<u32> = color.into_iter().filter(|&c| c != 0).collect();
         assert!(drawn.len() > 1000, "only {} pixels", drawn.len());
         let expected = vertices[usize::from(first)].3;

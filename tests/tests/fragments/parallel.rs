@@ -10,15 +10,15 @@
 )]
 
 use alberti::glam::Vec3;
-use alberti::lanes::Machine;
 use alberti::{
     AnyDepth, Cull, DepthFormat, Exact, Flat, Frame, Interpolation, Lines, Mesh, Parallel, Pass, Rgba8,
-    Rgba8888, Sides, Slot, Target, View, for_lanes,
+    Rgba8888, Sides, Slot, Target, View,
 };
 use alberti_oracle::cases::pixel_centre;
 use alberti_oracle::coverage::covers;
 use alberti_oracle::dd;
 use alberti_oracle::rng::{Rng, run_seed};
+use alberti_tests::for_widest;
 use alberti_tests::narrow::Narrow;
 use alberti_tests::probe::{Recorded, Seen};
 
@@ -44,8 +44,7 @@ fn drawn(policy: impl Interpolation, triangle: &[Given; 3]) -> Vec<([i64; 2], f3
     let (view, mesh) = (view(PLANES), Mesh::new(triangle, &[[0u16, 1, 2]], |v: &Given| *v));
     let stage = |u: f32| seen.keep(u);
     let mut pass = Pass::new(&view, &mesh, Narrow(stage)).cull(Cull::None).interpolation(policy);
-    let machine = Machine::all().next().expect("every machine has lanes");
-    for_lanes!(machine, lanes => pass.draw_by(lanes, &mut target));
+    for_widest!(lanes => pass.draw_by(lanes, &mut target));
     let place = |i: usize| [(i % SIDE) as i64, (i / SIDE) as i64];
     let kept = color.iter().zip(&depth).enumerate().filter(|(_, (c, _))| **c != 0);
     kept.map(|(i, (&c, &zs))| (place(i), seen.at(c), zs)).collect()
@@ -109,10 +108,9 @@ fn only_what_lies_between_the_planes_is_drawn() {
             let mut target =
                 Target::new(Rgba8888, Recorded, SIZE, SIZE, &mut color, &mut depth).expect("a frame");
             let stage = |u: f32| seen.keep(u);
-            Pass::new(&view, &mesh, Narrow(stage))
-                .sides(sides)
-                .interpolation(Lines::affine())
-                .draw(&mut target);
+            let pass = Pass::new(&view, &mesh, Narrow(stage)).sides(sides);
+            let mut pass = pass.interpolation(Lines::affine());
+            for_widest!(lanes => pass.draw_by(lanes, &mut target));
             let mut rows = 0;
             for (i, (&c, &zs)) in color.iter().zip(&depth).enumerate() {
                 let z = 8.0 * (1.0 - ((i / SIDE) as f32 + 0.5) / HALF);
@@ -150,10 +148,8 @@ fn picture(format: AnyDepth, soup: &[Given], triangles: &[[u16; 3]]) -> Vec<u32>
     let mesh = Mesh::new(soup, triangles, |v: &Given| (v.0, Flat(v.1)));
     let stage = |Flat(u): Flat<f32>| Some(Rgba8::from_bits(u.to_bits()));
     let (view, mut slots) = (view(PLANES), [Slot::EMPTY; 16]);
-    Pass::new(&view, &mesh, Narrow(stage))
-        .cull(Cull::None)
-        .interpolation(Lines::affine())
-        .slots(&mut slots)
-        .draw(&mut target);
+    let pass = Pass::new(&view, &mesh, Narrow(stage)).cull(Cull::None);
+    let mut pass = pass.interpolation(Lines::affine()).slots(&mut slots);
+    for_widest!(lanes => pass.draw_by(lanes, &mut target));
     color
 }

@@ -4,16 +4,16 @@
 //! Depth formats are `AnyDepth`, one kernel for each format of colours and each kind of stage.
 
 use alberti::glam::{Vec2, Vec3};
-use alberti::lanes::Machine;
 use alberti::shaders::{Unlit, VertexColor};
 use alberti::texture::{Bilinear, Repeat, Texture};
 use alberti::{
     AnyDepth, ColorFormat, Cull, DepthFormat, Frame, Mesh, Pass, Perspective, Prepared, PreparedTriangle,
-    Rgb565Be, Rgb565Le, Rgba8, Rgba8888, Sides, Slot, Stats, Target, View, Viewport, for_lanes,
+    Rgb565Be, Rgb565Le, Rgba8, Rgba8888, Sides, Slot, Stats, Target, View, Viewport,
 };
 use alberti_app::scene::Vertex;
 use alberti_app::scenes::{BuiltIn, NAMES, by_name};
 use alberti_oracle::rng::{Rng, run_seed};
+use alberti_tests::for_widest;
 use alberti_tests::reference::view;
 use std::num::NonZero;
 use std::ops::Range;
@@ -269,7 +269,6 @@ impl Picture {
 fn check_prepared(format: AnyDepth, soup: &Soup, heights: &[&[u32]]) {
     let mesh = soup.mesh(0..soup.triangles.len());
     let slots = |count: usize| vec![Slot::EMPTY; count];
-    let machine = Machine::all().next().expect("every machine has lanes");
     let (mut whole, mut expected) = (Picture::new(format), Stats::default());
     whole.bands(&[HEIGHT], |band| {
         expected = soup.pass(&mesh, &mut slots(soup.vertices.len())).draw_counted(band);
@@ -292,7 +291,7 @@ fn check_prepared(format: AnyDepth, soup: &Soup, heights: &[&[u32]]) {
         for heights in heights {
             let (mut picture, mut stats) = (Picture::new(format), once);
             picture.bands(heights, |band| {
-                for_lanes!(machine, lanes => prepared.count_by(lanes, band, &mut stats));
+                for_widest!(lanes => prepared.count_by(lanes, band, &mut stats));
             });
             assert!(picture.color == whole.color, "{case}: colours in bands of {heights:?} rows");
             assert!(picture.depth == whole.depth, "{case}: depths in bands of {heights:?} rows");

@@ -10,6 +10,7 @@ use alberti::{
     PreparedTriangle, Projection, Rgb565Be, Rgba8, Rgba8888, Target, Vector3, View, Viewport, look_at,
 };
 use alberti_oracle::rng::{Rng, run_seed};
+use alberti_tests::for_widest;
 use alberti_tests::narrow::Narrow;
 
 /// A pixel that nobody draws.
@@ -37,7 +38,7 @@ impl Soup {
         let mesh = Mesh::new(&self.0, &self.1, |&p| (p, p));
         let pass = Pass::new(view, &mesh, Narrow(stage)).cull(Cull::None);
         let mut pass = if let Some(viewport) = viewport { pass.viewport(viewport) } else { pass };
-        pass.draw(target);
+        for_widest!(lanes => pass.draw_by(lanes, target));
     }
 
     /// Its colours and depths in a whole frame.

@@ -11,6 +11,7 @@ use alberti::{
     Interpolation, Lines, Mesh, NoDepth, Pass, Perspective, Planes, Point3, Rgba8, Rgba8888, Sides, Slot,
     Spans16, Sub4, Sub8, Subpixel, Target, Varying, Vector3, View, Viewport,
 };
+use alberti_tests::for_widest;
 use alberti_tests::narrow::Narrow;
 use proptest::prelude::*;
 
@@ -98,14 +99,14 @@ fn check<D: DepthFormat, V: Varying>(
     let place = |(p, v): &Corner| (Vec3::from_array(*p), varying(v));
     let mesh = Mesh::new(&case.corners, &case.triangles, place);
     let mut slots = [Slot::EMPTY; 4];
-    Pass::new(&view, &mesh, Narrow(fragment_stage))
+    let mut pass = Pass::new(&view, &mesh, Narrow(fragment_stage))
         .viewport(viewport)
         .cull(case.cull)
         .sides(case.sides)
         .interpolation(interpolation)
         .subpixel(subpixel)
-        .slots(&mut slots)
-        .draw(&mut target);
+        .slots(&mut slots);
+    for_widest!(lanes => pass.draw_by(lanes, &mut target));
     let places = (0i32..).flat_map(|y| (0i32..).take(WIDTH as usize).map(move |x| (x, y)));
     for ((x, y), (&pixel, &stored)) in places.zip(color.iter().zip(&depth)) {
         assert!(sound(stored), "a depth of {stored:?} at {x}, {y}");

@@ -9,13 +9,14 @@
     reason = "pixels and subpixels are small"
 )]
 
-use alberti_math::lanes::{Machine, One};
-use alberti_math::{Fixed, Flat, Linear, Sub4, Sub8, Subpixel, for_lanes};
+use alberti_math::lanes::One;
+use alberti_math::{Fixed, Flat, Linear, Sub4, Sub8, Subpixel};
 use alberti_oracle::cases::pixel_centre;
 use alberti_oracle::coverage::{Triangle, area2, covers};
 use alberti_oracle::dd;
 use alberti_oracle::rng::{Rng, run_seed};
 use alberti_raster::{AnyDepth, Cull, FixedPoint, Interpolation, Lines, Paint, Rgba8888, Target, Vertex};
+use alberti_tests::for_widest;
 use alberti_tests::probe::{Seen, vertex};
 use std::ops::Range;
 
@@ -123,8 +124,7 @@ fn paint<I: Interpolation>(
     for [columns, rows] in scissors {
         let mut visible = target.scissor(columns.clone(), rows.clone());
         if widest {
-            let machine = Machine::all().next().expect("every machine has lanes");
-            for_lanes!(machine, lanes => paint.triangle(lanes, &mut visible, vertices, &mut ()));
+            for_widest!(lanes => paint.triangle(lanes, &mut visible, vertices, &mut ()));
         } else {
             paint.triangle(One, &mut visible, vertices, &mut ());
         }
