@@ -12,7 +12,7 @@ use crate::mask::RowMask;
 use crate::pixels::Pixels;
 use crate::spans::Span;
 use crate::target::Target;
-use alberti_math::Varying;
+use alberti_math::{LOW_WORDS_ONLY, Varying};
 use alberti_math::lanes::Lanes;
 use core::hint::black_box;
 use core::marker::PhantomData;
@@ -145,32 +145,54 @@ where
         C: ColorFormat,
         D: DepthFormat,
     {
-        let (lanes, mut cursor) = (self.lanes, *first);
+        let lanes = self.lanes;
         let ([a, b, c], at) = (row.edges, row.at(column));
         let ramp = |at: I, e: &Edge<I>| I::ramp(lanes, at, e.step_x);
-        let mut edges = [ramp(at[0], a), ramp(at[1], b), ramp(at[2], c)];
-        let steps = [a.step_x, b.step_x, c.step_x];
-        let mut written = 0;
-        for ((color, depth), column) in L::groups(colors).0.iter_mut().zip(L::groups(depths).0).zip(column..)
-        {
-            as_it_stands();
-            let [ea, eb, ec] = edges;
-            let weights = [I::weights(lanes, ea), I::weights(lanes, eb), I::weights(lanes, ec)];
-            written += self.group(
-                formats,
-                (color, depth),
-                lanes.mask(1),
-                (&cursor, derivatives),
-                ([column, row.row], &weights),
-            );
-            cursor = self.triangle.advance(cursor);
-            edges = [
-                I::advance(lanes, ea, steps[0]),
-                I::advance(lanes, eb, steps[1]),
-                I::advance(lanes, ec, steps[2]),
-            ];
+        let mut next = Next {
+            cursor: *first,
+            edges: [ramp(at[0], a), ramp(at[1], b), ramp(at[2], c)],
+            steps: [a.step_x, b.step_x, c.step_x],
+            place: [column, row.row],
+            written: 0,
+        };
+        let (mut colors, mut depths) = (L::groups(colors).0, L::groups(depths).0);
+        if const { pairs::<L, V>() } {
+            let (pairs, last_color) = colors.as_chunks_mut();
+            let (pairs_of_depths, last_depth) = depths.as_chunks_mut();
+            for ([color, second_color], [depth, second_depth]) in pairs.iter_mut().zip(pairs_of_depths) {
+                self.next(formats, (color, depth), derivatives, &mut next);
+                self.next(formats, (second_color, second_depth), derivatives, &mut next);
+            }
+            (colors, depths) = (last_color, last_depth);
         }
-        written
+        for pixel in colors.iter_mut().zip(depths) {
+            self.next(formats, pixel, derivatives, &mut next);
+        }
+        next.written
+    }
+
+    /// Fills a pixel, and goes to the next.
+    #[inline(always)]
+    fn next<I, C, D>(
+        &self,
+        formats: (C, D),
+        pixel: Group<'_, L, C::Pixel, D::Stored>,
+        derivatives: &<F::Derivatives as Differentiate>::Run<L, V>,
+        next: &mut Next<T::Cursor, I::Of<L>, I>,
+    ) where
+        I: EdgeInt,
+        C: ColorFormat,
+        D: DepthFormat,
+    {
+        as_it_stands();
+        let (lanes, [ea, eb, ec]) = (self.lanes, next.edges);
+        let weights = [I::weights(lanes, ea), I::weights(lanes, eb), I::weights(lanes, ec)];
+        let known = (&next.cursor, derivatives);
+        next.written += self.group(formats, pixel, lanes.mask(1), known, (next.place, &weights));
+        next.cursor = self.triangle.advance(next.cursor);
+        let advance = |edge, k: usize| I::advance(lanes, edge, next.steps[k]);
+        next.edges = [advance(ea, 0), advance(eb, 1), advance(ec, 2)];
+        next.place[0] += 1;
     }
 
     /// Fills those samples of a row whose bits are set, counted from column `left`, where the pixels begin; all of them
@@ -317,6 +339,21 @@ where
         depth_format.keep(lanes, &zs, kept, depth);
         lanes.bits(kept).count_ones()
     }
+}
+
+/// The sample after those that are filled, one by one.
+struct Next<C, R, I> {
+    cursor: C,
+    edges: [R; 3],
+    steps: [I; 3],
+    place: [i32; 2],
+    /// The number of those that were written.
+    written: u32,
+}
+
+/// Whether a loop over samples takes two at a time: so counters and pointers cost half, if there are registers for it.
+const fn pairs<L: Lanes, V: Varying>() -> bool {
+    L::FIXED && (!LOW_WORDS_ONLY || size_of::<V::Of<u32>>() == 0)
 }
 
 /// Keeps a loop from being unrolled, at no cost. Cores of Arm without wide registers have none for four pixels at once,
