@@ -12,8 +12,8 @@ use crate::mask::RowMask;
 use crate::pixels::Pixels;
 use crate::spans::Span;
 use crate::target::Target;
-use alberti_math::{LOW_WORDS_ONLY, Varying};
 use alberti_math::lanes::Lanes;
+use alberti_math::{LOW_WORDS_ONLY, Varying};
 use core::hint::black_box;
 use core::marker::PhantomData;
 use core::ops::Range;
@@ -57,7 +57,7 @@ where
         if const { L::COUNT == 1 } {
             let formats = (target.color_format(), target.depth_format());
             let pixels = target.pixels_from(row.row, column);
-            self.row_alone::<I, C, D, K>(row, formats, pixels, column..end, counters);
+            self.row_alone::<I, C, D, K>(row, self.triangle.row(row), formats, pixels, column..end, counters);
             return;
         }
         if column >= end {
@@ -92,6 +92,7 @@ where
     fn row_alone<I, C, D, K>(
         &self,
         row: &Row<'_, I>,
+        mut known: T::Row,
         formats: (C, D),
         mut pixels: Pixels<'_, C::Pixel, D::Stored>,
         columns: Range<i32>,
@@ -102,8 +103,7 @@ where
         D: DepthFormat,
         K: Counters,
     {
-        let (mut covered, mut written, mut known) = (0, 0, self.triangle.row(row));
-        let mut column = columns.start;
+        let (mut covered, mut written, mut column) = (0, 0, columns.start);
         while column < columns.end {
             let (cursor, run) = self.start(row, &mut known, column, column);
             let stop = run.end.min(columns.end);
