@@ -131,7 +131,7 @@ impl<F, P: Interpolation> Paint<F, P> {
         D: DepthFormat,
         K: Counters,
     {
-        if !self.interpolation.draw_small(self, target, [a, b, c], counters) {
+        if !self.interpolation.draw_small::<false, _, _, _, _, _>(self, target, [a, b, c], counters) {
             self.draw_large(lanes, target, [a, b, c], counters);
         }
     }
@@ -152,8 +152,11 @@ impl<F, P: Interpolation> Paint<F, P> {
         D: DepthFormat,
         K: Counters,
     {
+        if self.interpolation.draw_small::<true, _, _, _, _, _>(&self, target, corners, counters) {
+            return;
+        }
         match self.reach(corners, &target.limits()) {
-            Ok(reach) => self.draw(lanes, target, corners, &reach, counters),
+            Ok(reach) => self.draw_alone(lanes, target, corners, &reach, counters),
             Err(outcome) => counters.rasterized(outcome),
         }
     }

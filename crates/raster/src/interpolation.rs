@@ -67,9 +67,9 @@ pub trait Prepare: Copy {
     const HAS_SMALL: bool = false;
 
     /// Draws a small triangle that faces the right way in a way of its own, if the policy has one for it, and returns
-    /// whether it had. `paint` says all but how to interpolate.
+    /// whether it had. `paint` says all but how to interpolate. What is small is less so in the `FINE` way.
     #[inline(always)]
-    fn draw_small<V, F, C, D, K>(
+    fn draw_small<const FINE: bool, V, F, C, D, K>(
         self,
         paint: &Paint<F, Self>,
         target: &mut Target<'_, C, D>,

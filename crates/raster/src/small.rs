@@ -12,17 +12,24 @@
 //!        c
 //! ```
 //!
+//! There are two kinds. Coarse ones are on the grid of `Sub4`, with sides below 16 pixels. Fine ones are on that of
+//! `Sub8`, with sides below 16 pixels, or on that of `Sub4`, with sides below 32. They are a little dearer.
+//!
 //! # Coverage
-//! An edge crosses a row's centre at a sample, or at least 2^-12 column from it, as it is at most 2^8 subpixels high.
-//! Crossings are followed in units of 2^-20, of which 2^7 are taken off: those at samples then lie before them.
-//! Rounding moves crossings by less: 32 units on the way to the first row, two for each of 16 rows, and one for the
-//! shift.
+//! An edge that is at most 2^h subpixels of 2^-b pixel high crosses a row's centre at a sample, or at least 2^-(h + b)
+//! column from it. A little is taken off crossings, so that those at samples lie before them.
+//!
+//! * Coarse: 2^-12 are 256 units of 2^-20, of which 128 are taken off. Rounding moves crossings by less: 32 units on
+//!   the way to the first row, two for each of 16 rows, and one for the shift.
+//! * Fine: 2^-20, and with 4 bits 2^-13, are at least 32 units of 2^-25, of which one is taken off. Rounding takes off
+//!   less than one on the way to the first row, and less than one for each of 16 rows, and with 4 bits of 32.
 //!
 //! # Values
-//! In units of 2^-24 a column or a row adds its slope within 1.4, for up to 17 of each. The way from the first vertex
-//! to the next sample, less than a pixel on both axes, is within 33. So the error stays below 81 of 128, which are half
-//! a step of 2^-16. The three vertices are whole steps. So the nearest step is within their range, and a constant stays
-//! one. Depths are followed in 2^-12 of a step: 17 times 6 for columns and rows, and 42, are 246 of 2048.
+//! In units of 2^-24 a column or a row adds its slope within 1.4, for up to 17 of each; in fine ones within 1.2, for up
+//! to 33 of each. The way from the first vertex to the next sample, less than a pixel on both axes, is within 33. So
+//! the error stays below 113 of 128, which are half a step of 2^-16. The three vertices are whole steps. So the nearest
+//! step is within their range, and a constant stays one. Depths are followed in 2^-12 of a step: 17 times 6 or 33 times
+//! 6 for columns and rows, and 42, are below 246 of 2048.
 
 mod shape;
 
@@ -36,17 +43,17 @@ use crate::paint::as_it_stands;
 use crate::target::Target;
 use crate::triangle::{Corner, Outcome};
 use alberti_math::lanes::OneFixed;
-use alberti_math::{Mode, Q16, Varying, map2, map3, map4, scaled};
+use alberti_math::{Mode, Q16, Subpixel, Varying, map2, map3, map4, scaled};
 use core::array;
 use core::cell::Cell;
 use shape::{Crossing, Ramp, SLOPE, Shape, magnitude};
 
-/// The bits of subpixels for which all that follows is proved.
-pub(crate) const BITS: u32 = 4;
-/// Subpixels of a pixel.
-const ONE: i32 = 1 << BITS;
-/// The longest side of a small triangle's box in pixels.
-pub(crate) const SIDE: i32 = 16;
+/// The least length of runs for which a small triangle may be one.
+pub(crate) const RUN: i32 = 16;
+/// Bits of subpixels, and of the finest side of a small triangle's box.
+const fn bits(fine: bool) -> u32 {
+    if fine { 8 } else { 4 }
+}
 /// Bits of an attribute's fraction, beyond those of [`Q16`].
 const MORE: u32 = 8;
 /// Components from here on, and differences from twice as much on, might overflow.
@@ -64,8 +71,16 @@ fn inlined<V: Varying, T: Copy, U: Copy>(bundle: &V::Of<T>, f: impl Fn(Mode, T) 
 
 /// The first row whose centre is not above `y`, or the first column whose centre is not to the left of it.
 #[inline(always)]
-fn row(y: i32) -> i32 {
-    (y + ONE / 2 - 1) >> BITS
+fn row<const FINE: bool>(y: i32) -> i32 {
+    let bits = const { bits(FINE) };
+    (y + (1 << (bits - 1)) - 1) >> bits
+}
+
+/// The centre of a sample.
+#[inline(always)]
+fn center<const FINE: bool>(sample: [i32; 2]) -> [i32; 2] {
+    let bits = const { bits(FINE) };
+    map2(sample, |c| (c << bits) + (1 << (bits - 1)))
 }
 
 /// The planes over a triangle: of its depth and of its components.
@@ -88,9 +103,9 @@ impl<V: Varying> Planes<V> {
 /// The planes over three corners; the fourth has the flat components. None if numbers are out of range, or if a
 /// straight line misses more than the policy allows.
 #[inline(always)]
-fn planes<V: Varying>(
+fn planes<const FINE: bool, V: Varying>(
     runs: impl Runs,
-    shape: &Shape,
+    shape: &Shape<FINE>,
     [a, b, c, first]: [&Corner<V>; 4],
     depth_bits: u32,
 ) -> Option<Planes<V>> {
@@ -136,18 +151,12 @@ fn planes<V: Varying>(
     (beyond == 0 && shape.holds(differences.get() | deep)).then_some(planes)
 }
 
-/// The sides from the first corner to the others.
-#[inline(always)]
-fn sides<V: Varying>([a, b, c]: [&Corner<V>; 3]) -> [[i32; 2]; 2] {
-    map2([b, c], |p| [p.place[0] - a.place[0], p.place[1] - a.place[1]])
-}
-
 /// Draws a triangle that faces the right way. Its corners have to be near each other, no number may be out of range,
-/// and one run has to do for it: returns whether it was so.
+/// and one run has to do for it: returns whether it was so. Coarse ones are on the grid of `Sub4`.
 #[inline(always)]
-pub(crate) fn draw<R, V, F, C, D, K>(
+pub(crate) fn draw<const FINE: bool, R, V, F, C, D, K>(
     runs: R,
-    stage: F,
+    (stage, subpixel): (F, Subpixel),
     target: &mut Target<'_, C, D>,
     [first, second, third]: [&Corner<V>; 3],
     counters: &mut K,
@@ -160,10 +169,16 @@ where
     D: DepthFormat,
     K: Counters,
 {
-    let [u, v] = sides([first, second, third]);
+    // Places on the finer grid.
+    let finer = if FINE { bits(true) - subpixel.bits() } else { 0 };
+    let place = |corner: &Corner<V>| map2(corner.place, |c| c << finer);
+    let [u, v] = map2([place(second), place(third)], |[x, y]| {
+        let [from_x, from_y] = place(first);
+        [x - from_x, y - from_y]
+    });
     let area = u[0].wrapping_mul(v[1]).wrapping_sub(u[1].wrapping_mul(v[0]));
     // By rows, and within a row by columns; of corners that are near each other.
-    let key = |[x, y]: [i32; 2]| (y << 9).wrapping_add(x);
+    let key = |[x, y]: [i32; 2]| (y << const { if FINE { 14 } else { 9 } }).wrapping_add(x);
     // From top to bottom, and from left to right: no bit depends on the order that was given.
     let (mut a, mut b, mut c, mut clockwise) = ((first, 0), (second, key(u)), (third, key(v)), area > 0);
     if b.1 < a.1 {
@@ -176,15 +191,16 @@ where
         }
     }
     let (a, b, c) = (a.0, b.0, c.0);
-    let [[ax, ay], [bx, by], [cx, cy]] = [a.place, b.place, c.place];
+    let [[ax, ay], [bx, by], [cx, cy]] = map3([a, b, c], place);
 
     let (west, east) = (ax.min(bx).min(cx), ax.max(bx).max(cx));
-    let reach = SIDE << BITS;
+    let reach = if FINE { (1 << 12) << u32::from(finer != 0) } else { 1 << 8 };
     let below = [by - ay, cy - ay].map(i32::cast_unsigned);
     if east - west >= reach || (below[0] | below[1]) >= reach.cast_unsigned() {
         return false;
     }
     let [columns, rows] = target.limits();
+    let row = row::<FINE>;
     // The first sample that is neither above nor to the left of the highest vertex.
     let origin = [row(ax), row(ay)];
     let (top, end) = (origin[1].max(rows.start), row(cy).min(rows.end));
@@ -194,9 +210,9 @@ where
     }
     let [from, to] = [columns.start - origin[0], columns.end - origin[0]];
     let middle = row(by).max(top).min(end);
-    let center = |row: i32| [(origin[0] << BITS) + ONE / 2, (row << BITS) + ONE / 2];
-    let shape = Shape::new(
-        [a.place, b.place, c.place],
+    let center = |row: i32| center::<FINE>([origin[0], row]);
+    let shape = Shape::<FINE>::new(
+        [[ax, ay], [bx, by], [cx, cy]],
         center(origin[1]),
         area.unsigned_abs(),
         clockwise,
@@ -213,14 +229,14 @@ where
         }));
     let formats = (target.color_format(), target.depth_format());
     let mut lines = target.lines(top, origin[0]);
-    let long = Crossing::new([ax, ay], [cx, cy], center(top));
+    let long = Crossing::<FINE>::new([ax, ay], [cx, cy], center(top));
     let (mut start, mut stop) = (long, long);
     let (mut outcome, mut row, mut below) = (Outcome::Missed, top, middle);
-    let mut ends = [a, b];
+    let mut ends = [[ax, ay], [bx, by]];
     loop {
         // The short edge of these rows.
         if row < below {
-            let short = Crossing::new(ends[0].place, ends[1].place, center(row));
+            let short = Crossing::new(ends[0], ends[1], center(row));
             *(if clockwise { &mut stop } else { &mut start }) = short;
         }
         while row < below {
@@ -267,6 +283,6 @@ where
             counters.rasterized(outcome);
             return true;
         }
-        (below, ends) = (end, [b, c]);
+        (below, ends) = (end, [[bx, by], [cx, cy]]);
     }
 }

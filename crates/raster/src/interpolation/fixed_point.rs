@@ -11,7 +11,7 @@ use crate::target::Target;
 use crate::triangle::{Corner, Numbers};
 use crate::{ColorFormat, Counters, DepthFormat, Paint};
 use alberti_math::lanes::{Floating, OneFixed};
-use alberti_math::{Mode, Q16, Varying, map2, map3, reciprocal, scaled};
+use alberti_math::{Mode, Q16, Sub4, Varying, map2, map3, reciprocal, scaled};
 use core::cell::Cell;
 use core::fmt;
 
@@ -28,17 +28,18 @@ use core::fmt;
 /// Varyings are rounded to 2^-16, and beyond ±4096 they count as that. Depth has 31 bits, of which 8 units and one for
 /// each column of the row may be wrong, and is rounded to the buffer's format.
 ///
-/// Triangles whose corners are less than 16 pixels apart on both axes are drawn as one run, on the grid of `Sub4`.
-/// There the error is the miss of a straight line over the triangle and 1.3·2^-16; of depths in 16 bits, 2^-20 more.
-/// The ratio of q in such a triangle is at most 17/16, or what keeps a budget; a policy of runs below 16 columns has
-/// none. Nor are those that carry more than 16, or differ in depth by more than 2^-10 (of depths in 16 bits, 1/4).
+/// Triangles whose corners are less than 16 pixels apart on both axes, or 32 on the grid of `Sub4`, are drawn as one
+/// run. There the error is the miss of a straight line over the triangle and 1.45·2^-16; of depths in 16 bits, 2^-20
+/// more. The ratio of q in such a triangle is at most 17/16, or what keeps a budget; a policy of runs below 16 columns
+/// has none. Nor are those that carry more than 16, or differ in depth by more than 2^-10 (of depths in 16 bits, 1/4).
+/// `Sub4` below 16 pixels is the cheapest; from there on, and on the grid of `Sub8`, components differ by less than 1.
 ///
 /// # Cost
 /// A fragment: an addition for the depth and one for each component. A run: a product for each component, and with
 /// perspective one of 32 bits to 64 more and two for the reciprocal. A row: two of 32 bits to 64 for each number. A
 /// triangle: some sixty instructions for the plane through each three. A vertex: about fifteen instructions for each
-/// number. A small triangle: ten products of 32 bits for each number, and two a row. `docs/kernel.md` has counts for
-/// three kinds of core.
+/// number. A small triangle: ten products of 32 bits for each number, and two a row; six divisions if it is longer than
+/// 16 pixels, or on the grid of `Sub8`. `docs/kernel.md` has counts for three kinds of core.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FixedPoint<R>(
     /// The division of rows.
@@ -68,7 +69,7 @@ impl<R: Runs> Prepare for FixedPoint<R> {
     }
 
     #[inline(always)]
-    fn draw_small<V, F, C, D, K>(
+    fn draw_small<const FINE: bool, V, F, C, D, K>(
         self,
         paint: &Paint<F, Self>,
         target: &mut Target<'_, C, D>,
@@ -83,9 +84,9 @@ impl<R: Runs> Prepare for FixedPoint<R> {
         K: Counters,
     {
         let Paint { stage, subpixel, .. } = *paint;
-        self.0.length() >= small::SIDE
-            && subpixel.bits() == small::BITS
-            && small::draw(self.0, stage, target, corners, counters)
+        self.0.length() >= small::RUN
+            && (FINE || subpixel == Sub4)
+            && small::draw::<FINE, _, _, _, _, _, _>(self.0, (stage, subpixel), target, corners, counters)
     }
 
     #[inline(always)]

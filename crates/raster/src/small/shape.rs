@@ -1,10 +1,8 @@
 //! The shape of a small triangle: where its edges cross the rows, and the planes over it.
 
-use super::BITS;
-use alberti_math::{LOW_WORDS_ONLY, high_of_half, high_signed, reciprocal};
+use super::bits;
+use alberti_math::{LOW_WORDS_ONLY, high_of_half, high_signed, reciprocal, reciprocal_signed};
 
-/// Bits of a crossing's fraction.
-const COLUMN: u32 = 20;
 /// Bits of a slope's fraction, beyond those of the number.
 pub(super) const SLOPE: u32 = 12;
 
@@ -25,20 +23,22 @@ impl Ramp {
 }
 
 /// The numbers that all slopes have in common.
-pub(super) struct Shape {
+pub(super) struct Shape<const FINE: bool> {
     /// The factors of the second and the third vertex in a slope's sum, for columns and for rows.
     right: [i32; 2],
     down: [i32; 2],
-    /// 2^62 over the signed area, which was shifted to the left by `shift` + 14.
+    /// 2^62 over the signed area, which was shifted to the left until it had 32 bits.
     per_area: i32,
+    /// The bits by which the sum is shifted to the left, and a slope to the right, which only fine ones are.
     shift: u32,
+    less: u32,
     /// The bits of the box's sides, of which no side is longer.
     extent: u32,
     /// From the first vertex to the origin's centre, in subpixels: less than a pixel.
     origin: [i32; 2],
 }
 
-impl Shape {
+impl<const FINE: bool> Shape<FINE> {
     #[inline(always)]
     pub(super) fn new(
         [a, b, c]: [[i32; 2]; 3],
@@ -48,12 +48,20 @@ impl Shape {
         extent: u32,
     ) -> Self {
         let normalizing = area.leading_zeros();
-        let per_area = reciprocal_16(((area << normalizing) >> 16) as u16);
+        let area = area << normalizing;
+        // The area of a coarse one has 16 bits.
+        let per_area = if FINE {
+            reciprocal_signed((area >> 1).cast_signed())
+        } else {
+            reciprocal_16((area >> 16) as u16)
+        };
+        let normalizing = normalizing + const { bits(FINE) };
         Self {
             right: [c[1] - a[1], a[1] - b[1]],
             down: [a[0] - c[0], b[0] - a[0]],
             per_area: if clockwise { per_area } else { -per_area },
-            shift: normalizing.saturating_sub(14),
+            shift: normalizing.saturating_sub(SLOPE + 6),
+            less: if FINE { (SLOPE + 6).saturating_sub(normalizing) } else { 0 },
             extent,
             origin: [origin[0] - a[0], origin[1] - a[1]],
         }
@@ -63,16 +71,17 @@ impl Shape {
     /// second and the third vertex to the first have.
     #[inline(always)]
     pub(super) fn holds(&self, differences: u32) -> bool {
-        // The sum of two products must be less than 2^31 after the shift.
-        let most = self.extent + 1;
-        differences.wrapping_add(1).wrapping_mul(most) < (1 << 30) >> self.shift
+        // The sum of two products must be less than 2^31 after the shift. Sides of fine ones have up to 13 bits, so that
+        // fewer of the differences' are counted.
+        let (most, unused) = (self.extent + 1, if FINE { 4 } else { 0 });
+        ((differences >> unused) + 1).wrapping_mul(most) < (1 << (30 - unused)) >> self.shift
     }
 
     /// The slope in units of 2^-SLOPE a pixel.
     #[inline(always)]
     fn slope(&self, [b, c]: [i32; 2], [by_b, by_c]: [i32; 2]) -> i32 {
         let along = b.wrapping_mul(by_b).wrapping_add(c.wrapping_mul(by_c));
-        high_signed(along << self.shift, self.per_area)
+        high_signed(along << self.shift, self.per_area) >> self.less
     }
 
     /// The plane through the first vertex's `at`, in units that are `bits` finer than the differences of the other two.
@@ -80,8 +89,11 @@ impl Shape {
     pub(super) fn ramp(&self, at: i32, more: [i32; 2], bits: u32) -> Ramp {
         let across = self.slope(more, self.right) >> (SLOPE - bits);
         let down = self.slope(more, self.down) >> (SLOPE - bits);
-        let part = Ramp { at, across: across >> BITS, down: down >> BITS };
-        Ramp { at: part.at(self.origin), across, down }
+        let part = |slope: i32, origin: i32| {
+            if FINE { (slope >> 8) * origin + (((slope & 255) * origin) >> 8) } else { (slope >> 4) * origin }
+        };
+        let at = at.wrapping_add(part(across, self.origin[0])).wrapping_add(part(down, self.origin[1]));
+        Ramp { at, across, down }
     }
 }
 
@@ -105,28 +117,41 @@ pub(super) fn magnitude(x: i32) -> u32 {
     (x ^ (x >> 31)).cast_unsigned()
 }
 
-/// The first column whose centre is not to the left of an edge, in a row: the highest bits of `at`, from COLUMN on.
+/// Bits of a crossing's fraction.
+const fn column(fine: bool) -> u32 {
+    if fine { 25 } else { 20 }
+}
+
+/// The first column whose centre is not to the left of an edge, in a row: the highest bits of `at`, from those of
+/// [`column`] on.
 #[derive(Clone, Copy)]
-pub(super) struct Crossing {
+pub(super) struct Crossing<const FINE: bool> {
     at: i32,
     step: i32,
 }
 
-impl Crossing {
-    /// The edge down from `p` to `q`, which is below, at most 2^8 subpixels, in the row of a sample that is at a height
-    /// between. Columns count from that sample's.
+impl<const FINE: bool> Crossing<FINE> {
+    /// The edge down from `p` to `q`, which is below, at most 2^8 subpixels, or in fine ones 2^13, in the row of a
+    /// sample that is at a height between. Columns count from that sample's.
     #[inline(always)]
     pub(super) fn new(p: [i32; 2], q: [i32; 2], [x, y]: [i32; 2]) -> Self {
         let [dx, dy] = [q[0] - p[0], (q[1] - p[1]).max(1)];
-        let step = if LOW_WORDS_ONLY { quotient(dx, dy) } else { (dx << COLUMN) / dy };
-        let from = ((p[0] - x) << (COLUMN - BITS)) + ((1 << COLUMN) - (1 << 7));
-        Self { at: from + (step.wrapping_mul(y - p[1]) >> BITS), step }
+        let column = const { column(FINE) };
+        let from = ((p[0] - x) << (column - const { bits(FINE) })) + (1 << column);
+        if FINE {
+            // The step is too large in triangles that are less than a pixel high, where there is no other row.
+            let step = fine_quotient(dx << bits(true), dy);
+            Self { at: from - 1 + fine_quotient(dx * (y - p[1]), dy), step }
+        } else {
+            let step = if LOW_WORDS_ONLY { quotient(dx, dy) } else { (dx << column) / dy };
+            Self { at: from - (1 << 7) + (step.wrapping_mul(y - p[1]) >> bits(false)), step }
+        }
     }
 
     /// The column.
     #[inline(always)]
     pub(super) fn column(self) -> i32 {
-        self.at >> COLUMN
+        self.at >> const { column(FINE) }
     }
 
     /// Goes down one row.
@@ -134,6 +159,16 @@ impl Crossing {
     pub(super) fn next_row(&mut self) {
         self.at = self.at.wrapping_add(self.step);
     }
+}
+
+/// The quotient of fine subpixels in 2^-25 of a pixel, rounded down, if it is within 2^13 of 0.
+#[inline(always)]
+fn fine_quotient(n: i32, d: i32) -> i32 {
+    const MOST: i32 = 1 << 13;
+    const FRACTION: u32 = column(true) - bits(true);
+    let (n, d) = (n.wrapping_add(d << 13).cast_unsigned(), d.cast_unsigned());
+    let (whole, rest) = (n / d, ((n % d) << FRACTION) / d);
+    (whole.cast_signed().wrapping_sub(MOST) << FRACTION).wrapping_add(rest.cast_signed())
 }
 
 /// 2^16 / d, rounded down.
@@ -149,14 +184,14 @@ static PER_HEIGHT: [u16; 257] = {
     table
 };
 
-/// 2^COLUMN dx / dy for |dx| and dy up to 2^8, within two units: without a division.
+/// 2^20 dx / dy for |dx| and dy up to 2^8, within two units: without a division.
 #[inline(always)]
 fn quotient(dx: i32, dy: i32) -> i32 {
     let per_height = i32::from(PER_HEIGHT.get(dy.cast_unsigned() as usize).copied().unwrap_or(0));
-    let mut quotient = (dx * per_height) << (COLUMN - 16);
+    let mut quotient = (dx * per_height) << 4;
     // The table is within dy 2^-16, relatively, and each time what is left is as much smaller.
     for _ in 0..2 {
-        let left = (dx << COLUMN) - quotient * dy;
+        let left = (dx << 20) - quotient * dy;
         quotient += (left * per_height) >> 16;
     }
     quotient
@@ -168,15 +203,12 @@ mod tests {
     use std::println;
 
     /// The greatest differences of either sign, also those of which the magnitude is one less.
-    #[test]
-    fn slopes_that_hold_do_not_overflow() {
+    fn none_overflow<const FINE: bool>(corners: &[[[i32; 2]; 2]]) {
         let mut held = 0;
-        for [b, c] in
-            [[[-64_i32, 3], [64, 4]], [[-255, 0], [0, 255]], [[16, 1], [0, 16]], [[1, 255], [-1, 255]]]
-        {
+        for &[b, c] in corners {
             let area = (b[0] * c[1] - b[1] * c[0]).unsigned_abs();
             let extent = magnitude(b[0]) | magnitude(b[1]) | magnitude(c[0]) | magnitude(c[1]);
-            let shape = Shape::new([[0; 2], b, c], [0; 2], area, true, extent);
+            let shape = Shape::<FINE>::new([[0; 2], b, c], [0; 2], area, true, extent);
             for k in 0..21 {
                 let ends = [-1 << k, (1 << k) - 1, 1 - (1 << k)];
                 for (b, c) in ends.into_iter().flat_map(|b| ends.map(|c| (b, c))) {
@@ -196,11 +228,38 @@ mod tests {
     }
 
     #[test]
+    fn slopes_that_hold_do_not_overflow() {
+        none_overflow::<false>(&[
+            [[-64, 3], [64, 4]],
+            [[-255, 0], [0, 255]],
+            [[16, 1], [0, 16]],
+            [[1, 255], [-1, 255]],
+        ]);
+        none_overflow::<true>(&[
+            [[-64, 3], [64, 4]],
+            [[-4095, 0], [0, 4095]],
+            [[-8191, 0], [0, 8191]],
+            [[1, 8191], [-1, 8191]],
+            [[200, 900], [1000, 300]],
+        ]);
+    }
+
+    #[test]
     fn quotients_without_division_are_within_two_units() {
         for dx in -256..=256 {
             for dy in 1..=256 {
-                let exact = f64::from(dx << COLUMN) / f64::from(dy);
+                let exact = f64::from(dx << 20) / f64::from(dy);
                 assert!((f64::from(quotient(dx, dy)) - exact).abs() <= 2.0, "{dx} / {dy}");
+            }
+        }
+    }
+
+    #[test]
+    fn fine_quotients_are_rounded_down() {
+        for dy in (1..300).chain((300..1 << 13).step_by(7)) {
+            for n in (0..800).map(|k| k * (20 * dy + 1) - 8000 * dy).chain([-8192 * dy, 8191 * dy]) {
+                let exact = (i64::from(n) << 17).div_euclid(i64::from(dy));
+                assert_eq!(i64::from(fine_quotient(n, dy)), exact, "{n} / {dy}");
             }
         }
     }

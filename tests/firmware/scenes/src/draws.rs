@@ -12,7 +12,7 @@ use alberti::texture::{Bilinear, Minify, Nearest, NearestLevel, Repeat, Trilinea
 use alberti::{
     Affine, ColorFormat, Counters, D16, DepthFormat, Exact, FixedPoint, FragmentStage, Geometry, IntegerMesh,
     IntegerVertex, Interpolation, Mesh, Meshlets, NoDepth, Object, Pass, Point3, Q16, Rgb565Le, Slot,
-    Spans16, Sub4, Varying, View,
+    Spans16, Sub4, Sub8, Varying, View,
 };
 
 /// Defines ways of drawing: a pass of its own for each, into colour and depth.
@@ -130,6 +130,18 @@ meshes! {
     /// The nearest texel on a mesh of integers with meshlets.
     affine_meshlets(model) in mapped: meshlets(model, mapped_integers),
         Stored(model.texture.sampler(Nearest, Repeat));
+}
+
+/// The nearest texel on a mesh, on the finer grid.
+pub fn affine_mesh_sub8<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    let mesh = Mesh::new(model.vertices, model.triangles, mapped);
+    let view = View::new(model.to_eye, camera.perspective);
+    let Target { color, depth, slots, .. } = target;
+    if let Ok(mut pixels) = alberti::Target::new(Rgb565Le, D16, WIDTH, HEIGHT, color, depth) {
+        let pass = Pass::new(&view, &mesh, Stored(model.texture.sampler(Nearest, Repeat)));
+        let mut pass = pass.interpolation(FixedPoint(Affine)).subpixel(Sub8).slots(&mut slots.mapped);
+        pass.count_by(One, &mut pixels, counters);
+    }
 }
 
 /// The nearest texel, in perspective, with depth. Each vertex has a slot of its own.

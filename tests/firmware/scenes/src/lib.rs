@@ -11,7 +11,7 @@ pub mod shapes;
 pub mod torus;
 
 pub use draws::{
-    affine_fixed, affine_integers, affine_mesh, affine_meshlets, flat, flat_fixed, flat_integers, flat_mesh,
+    affine_fixed, affine_integers, affine_mesh, affine_mesh_sub8, affine_meshlets, flat, flat_fixed, flat_integers, flat_mesh,
     flat_meshlets, flat_without_depth, gouraud, gouraud_fixed, gouraud_mesh, integers_bands, material,
     material_absent, material_emission, meshlets_bands, mip_bilinear, mip_bilinear_fixed, mip_nearest,
     mip_nearest_fixed, textured, textured_bands, textured_fixed, trilinear, trilinear_fixed, trilinear_spans,
@@ -22,7 +22,7 @@ pub use shapes::PROBE;
 use alberti::glam::Vec2;
 use alberti::shaders::Ready565;
 use alberti::{D16, DepthFormat, Perspective, PreparedTriangle, Slot};
-use shapes::{Model, floor, layers, torus};
+use shapes::{Model, coarse_torus, floor, layers, torus};
 use torus::{TORUS_TRIANGLES, TORUS_VERTICES};
 
 /// Columns of the frame.
@@ -93,6 +93,8 @@ pub static SCENES: &[Scene] = &[
     scene!("fixed-mesh-gouraud", torus(1.0), gouraud_mesh),
     scene!("fixed-mesh-affine", torus(1.0), affine_mesh),
     scene!("fixed-mesh", torus(1.0), textured_fixed),
+    scene!("fixed-mesh-sub8", torus(1.0), affine_mesh_sub8),
+    scene!("fixed-mesh-coarse", coarse_torus(), affine_mesh),
     scene!("fixed-mesh-bands", torus(1.0), textured_bands),
     scene!("fixed-mesh-eighth", torus(0.125), textured_fixed),
     scene!("integer-mesh-flat", torus(1.0), flat_integers),

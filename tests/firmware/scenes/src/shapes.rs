@@ -2,7 +2,7 @@
 //!
 //! Positions are in the eye's orientation: x right, y up, z away.
 
-use crate::torus::{HalfWords, TORUS_IN_HALF_WORDS, TORUS_TRIANGLE_LIST, TORUS_VERTEX_LIST, Vertex, part};
+use crate::torus::{COARSE_TRIANGLE_LIST, HalfWords, TORUS_IN_HALF_WORDS, TORUS_TRIANGLE_LIST, TORUS_VERTEX_LIST, Vertex, part};
 use crate::{HEIGHT, WIDTH};
 use alberti::glam::{Mat3, Vec3};
 use alberti::texture::{Known, Mipmap, PowerOfTwo, Texture, format::Rgb565};
@@ -58,6 +58,12 @@ pub const fn torus(size: f32) -> Model {
         to_eye: Frame::from_mat3(axes, Point3::new(Vec3::new(0.0, 0.0, 2.35))),
         texture: texture(),
     }
+}
+
+/// The same in triangles that are four times as long and as wide.
+#[must_use]
+pub const fn coarse_torus() -> Model {
+    Model { triangles: &COARSE_TRIANGLE_LIST, ..torus(1.0) }
 }
 
 /// A plane that rises from below the frame to a distance of 40, in strips that are as high as one another on the

@@ -99,6 +99,25 @@ pub static TORUS_TRIANGLE_LIST: [[u16; 3]; TORUS_TRIANGLES] = {
     triangles
 };
 
+/// Its triangles when cells are four times as long and as wide.
+pub static COARSE_TRIANGLE_LIST: [[u16; 3]; TORUS_TRIANGLES / 16] = {
+    let mut triangles = [[0; 3]; TORUS_TRIANGLES / 16];
+    let row = 4 * (AROUND + 1);
+    let (mut at, mut i) = (0, 0);
+    while i < ALONG / 4 {
+        let mut j = 0;
+        while j < AROUND {
+            let first = i * row + j;
+            triangles[at] = [first, first + row + 4, first + row];
+            triangles[at + 1] = [first, first + 4, first + row + 4];
+            at += 2;
+            j += 4;
+        }
+        i += 1;
+    }
+    triangles
+};
+
 /// The point `i` of `count` on the unit circle, the last being the first: equal steps of t in each quarter.
 const fn circle(i: u16, count: u16) -> [f32; 2] {
     let quarter = count / 4;
