@@ -10,7 +10,8 @@ use alberti_raster::Corner;
 use core::slice::from_mut;
 
 /// Room for a transformed vertex. In a slice with a slot for each vertex of the mesh, each is transformed once, several
-/// at a time. A shorter slice is a cache, in which vertex i shares the slot i modulo the length.
+/// at a time. A shorter slice is a cache, in which vertex i shares the slot i modulo the greatest power of two in the
+/// length.
 #[derive(Clone, Copy, Debug)]
 pub struct Slot<V: Varying> {
     /// The vertex's index plus one, or 0.
@@ -46,10 +47,10 @@ impl<V: Varying> Slot<V> {
         (self.tag, self.outside) = (0, outside::NOWHERE);
     }
 
-    /// The place of a vertex among so many slots, at least one.
-    #[inline(always)]
-    pub(crate) fn place(index: usize, slots: usize) -> usize {
-        if index < slots { index } else { index.checked_rem(slots).unwrap_or(0) }
+    /// The bits of an index that say the place of a vertex in a cache of so many slots, at least one.
+    #[inline]
+    pub(crate) fn mask(slots: usize) -> usize {
+        (1 << slots.max(1).ilog2()) - 1
     }
 
     /// Whether the vertex `index` is in this slot.

@@ -22,9 +22,10 @@ pub(crate) struct Walk<'a, M: Geometry, Pr: Projection> {
     mesh: &'a M,
     /// All vertices, or none.
     stored: &'a [Slot<M::Varying>],
-    /// A cache for those that are not.
+    /// A cache for those that are not, in which the bits of an index that are in `mask` say the place.
     cache: &'a mut [Slot<M::Varying>],
-    /// Whether the cache has a slot for each vertex, without one that is there for another.
+    mask: usize,
+    /// Whether the cache has a slot for each vertex, filled before the triangles of a part come to it.
     own: bool,
     screen: Screen<Pr>,
 }
@@ -90,15 +91,16 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         let stored = stored_by(mesh, slots.len());
         if const { M::MESHLETS && L::COUNT == 1 } && stored > 0 {
             slots.iter_mut().for_each(Slot::forget);
-            return Self { mesh, stored: &[], cache: slots, own: true, screen };
+            return Self { mesh, stored: &[], cache: slots, mask: usize::MAX, own: true, screen };
         }
         let (store, unused) = slots.split_at_mut_checked(stored).unwrap_or_default();
         unused.fill(Slot::EMPTY);
         Slot::fill_all(lanes, mesh, &screen, 0, store);
-        Self { mesh, stored: store, cache: unused, own: false, screen }
+        Self::over_all(mesh, screen, store, unused)
     }
 
-    /// The walk over slots in which an earlier one has left so many vertices, each in the slot of its number.
+    /// The walk over slots in which an earlier one has left so many vertices, each in the slot of its number. The others
+    /// are a cache as the earlier one has left it.
     #[inline]
     pub(crate) fn again(
         mesh: &'a M,
@@ -107,14 +109,24 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         filled: usize,
     ) -> Self {
         let (stored, cache) = slots.split_at_mut_checked(filled).unwrap_or_default();
-        cache.fill(Slot::EMPTY);
-        Self { mesh, stored, cache, own: false, screen }
+        Self::over_all(mesh, screen, stored, cache)
+    }
+
+    #[inline]
+    fn over_all(
+        mesh: &'a M,
+        screen: Screen<Pr>,
+        stored: &'a [Slot<M::Varying>],
+        cache: &'a mut [Slot<M::Varying>],
+    ) -> Self {
+        let mask = Slot::<M::Varying>::mask(cache.len());
+        Self { mesh, stored, mask, cache, own: false, screen }
     }
 
     /// The walk over a store of all vertices, which others may walk too.
     #[cfg(feature = "std")]
     pub(crate) fn over(mesh: &'a M, screen: Screen<Pr>, stored: &'a [Slot<M::Varying>]) -> Self {
-        Self { mesh, stored, cache: &mut [], own: false, screen }
+        Self::over_all(mesh, screen, stored, &mut [])
     }
 
     /// The mesh.
@@ -178,8 +190,8 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
             let (number, indices) = loop {
                 let Some(number) = numbers.next() else { return };
                 let Some(indices) = mesh.triangle(number) else { return };
-                if const { M::MESHLETS } && self.own {
-                    let Some(corners) = inside(self.cache, indices) else { break (number, indices) };
+                if slots.is_empty() {
+                    let Some(corners) = self.cached(indices) else { break (number, indices) };
                     if number >= heard {
                         counters.submitted();
                     }
@@ -207,21 +219,37 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         indices: [usize; 3],
         mut sink: impl FnMut([&Corner<M::Varying>; 3]),
     ) -> Fate {
-        let slots = if const { M::MESHLETS } && self.own { &*self.cache } else { self.stored };
-        if let Some(corners) = inside(slots, indices) {
+        let corners =
+            if self.stored.is_empty() { self.cached(indices) } else { inside(self.stored, indices) };
+        if let Some(corners) = corners {
             sink(corners);
             return Fate::Whole;
         }
         self.seldom(indices, &mut (), &mut |corners, ()| sink(corners))
     }
 
+    /// The corners of a triangle within all planes, from the cache. None too where two share a slot.
+    #[inline(always)]
+    fn cached(&mut self, indices: [usize; 3]) -> Option<[&Corner<M::Varying>; 3]> {
+        if const { M::MESHLETS } && self.own {
+            return inside(self.cache, indices);
+        }
+        let Self { mesh, cache, mask, screen, .. } = self;
+        for index in indices {
+            cache.get_mut(index & *mask)?.keep(*mesh, screen, index);
+        }
+        let [a, b, c] = map3(indices, |index| cache.get(index & *mask));
+        let (a, b, c) = (a?, b?, c?);
+        let all_there = a.holds(indices[0]) && b.holds(indices[1]);
+        (all_there && a.outside | b.outside | c.outside == 0).then_some([&a.screen, &b.screen, &c.screen])
+    }
+
     /// The same for one triangle that is to be clipped, or whose vertices may not be in slots.
     #[inline(never)]
     fn seldom<K>(&mut self, indices: [usize; 3], counters: &mut K, sink: Passing<'_, M::Varying, K>) -> Fate {
-        let Self { mesh, stored, cache, screen, .. } = self;
+        let Self { mesh, stored, cache, mask, screen, .. } = self;
         let [i, j, k] = indices;
-        let count = if stored.is_empty() { cache.len() } else { stored.len() };
-        let places = map3(indices, |index| Slot::<M::Varying>::place(index, count));
+        let places = if stored.is_empty() { map3(indices, |index| index & *mask) } else { indices };
         let slots = if stored.is_empty() {
             for (place, index) in places.into_iter().zip(indices) {
                 if let Some(slot) = cache.get_mut(place) {
