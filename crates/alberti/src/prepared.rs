@@ -4,7 +4,7 @@ use crate::geometry::Geometry;
 use crate::pipeline::Pass;
 use crate::screen::Screen;
 use crate::vertex::Slot;
-use crate::walk::Walk;
+use crate::walk::{Fate, Walk};
 use alberti_math::for_lanes;
 use alberti_math::lanes::{Floating, Machine};
 use alberti_projection::Projection;
@@ -197,34 +197,56 @@ pub(crate) fn list<M: Geometry, F, P: Interpolation, Pr: Projection>(
         walk.ready(&part);
         for number in part {
             let Some(indices) = mesh.triangle(number) else { break };
-            // The rows of a triangle, or of all parts of it, and how many parts are never drawn.
-            let (mut rows, mut culled, mut missed) = (None, 0, 0);
-            let fate = walk.triangle(
-                indices,
-                #[inline(always)]
-                |corners| match paint.reach(corners, pixels) {
-                    Ok(reach) => rows = Some(union(rows.take(), reach.rows())),
-                    Err(Outcome::Culled) => culled += 1,
-                    Err(_) => missed += 1,
+            // The rows of its samples; most triangles are whole.
+            let (rows, fate) = match walk.whole(indices) {
+                Some(corners) => match paint.reach(corners, pixels) {
+                    Ok(reach) => (reach.rows(), Fate::Whole),
+                    Err(outcome) => {
+                        counters.rasterized(outcome);
+                        Fate::Whole.count(counters);
+                        continue;
+                    }
                 },
-            );
-            if let Some(rows) = rows {
-                let slices = Slices::of(&rows, pixels[1].start, shift);
-                let (Some(triangle), Some(place)) =
-                    (PreparedTriangle::new(number, slices), room.get_mut(listed))
-                else {
-                    return (listed, number);
-                };
-                *place = triangle;
-                listed += 1;
-            } else {
-                (0..culled).for_each(|_| counters.rasterized(Outcome::Culled));
-                (0..missed).for_each(|_| counters.rasterized(Outcome::Missed));
-            }
+                None => match rows_of_parts(walk, paint, pixels, indices, counters) {
+                    Some(found) => found,
+                    None => continue,
+                },
+            };
+            let slices = Slices::of(&rows, pixels[1].start, shift);
+            let (Some(triangle), Some(place)) = (PreparedTriangle::new(number, slices), room.get_mut(listed))
+            else {
+                return (listed, number);
+            };
+            *place = triangle;
+            listed += 1;
             fate.count(counters);
         }
     }
     (listed, end)
+}
+
+/// The rows of all parts of a triangle that may be clipped, and its fate; or none, and then the counters have heard.
+#[inline(never)]
+fn rows_of_parts<M: Geometry, F, P: Interpolation, Pr: Projection, K: Counters>(
+    walk: &mut Walk<'_, M, Pr>,
+    paint: &Paint<F, P>,
+    pixels: &[Range<i32>; 2],
+    indices: [usize; 3],
+    counters: &mut K,
+) -> Option<(Range<i32>, Fate)> {
+    // Beside the rows, how many parts are never drawn.
+    let (mut rows, mut culled, mut missed) = (None, 0, 0);
+    let fate = walk.triangle(indices, |corners| match paint.reach(corners, pixels) {
+        Ok(reach) => rows = Some(union(rows.take(), reach.rows())),
+        Err(Outcome::Culled) => culled += 1,
+        Err(_) => missed += 1,
+    });
+    if rows.is_none() {
+        (0..culled).for_each(|_| counters.rasterized(Outcome::Culled));
+        (0..missed).for_each(|_| counters.rasterized(Outcome::Missed));
+        fate.count(counters);
+    }
+    rows.map(|rows| (rows, fate))
 }
 
 /// Draws the listed triangles, and those of the mesh from number `next` on, that are in a target.

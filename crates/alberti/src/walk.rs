@@ -212,20 +212,20 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         }
     }
 
-    /// The same for one triangle.
-    #[inline(always)]
+    /// The same for one triangle, which may be clipped.
+    #[inline]
     pub(crate) fn triangle(
         &mut self,
         indices: [usize; 3],
         mut sink: impl FnMut([&Corner<M::Varying>; 3]),
     ) -> Fate {
-        let corners =
-            if self.stored.is_empty() { self.cached(indices) } else { inside(self.stored, indices) };
-        if let Some(corners) = corners {
-            sink(corners);
-            return Fate::Whole;
-        }
         self.seldom(indices, &mut (), &mut |corners, ()| sink(corners))
+    }
+
+    /// The corners of a triangle within all planes.
+    #[inline(always)]
+    pub(crate) fn whole(&mut self, indices: [usize; 3]) -> Option<[&Corner<M::Varying>; 3]> {
+        if self.stored.is_empty() { self.cached(indices) } else { inside(self.stored, indices) }
     }
 
     /// The corners of a triangle within all planes, from the cache. None too where two share a slot.
