@@ -144,9 +144,9 @@ const BOARDS: &[Board] = &[
 /// Scenes that must take the same instructions: what a material has not costs nothing.
 const EQUAL: &[[&str; 2]] = &[["material", "material-absent"]];
 
-/// The program that draws all scenes, and those that are weighed.
+/// The program that draws all scenes, and those that are weighed, which must do without functions of `f64`.
 const FRAMES: &str = "alberti-firmware";
-const WEIGHED: &[&str] = &["size-flat", "size-textured"];
+const WEIGHED: &[&str] = &["size-flat", "size-textured", "size-f32"];
 
 /// Builds the firmware for the boards, runs it, compares and reports. Stops at the end only, so that a difference on
 /// one board is seen beside the others.
@@ -227,6 +227,10 @@ fn check(board: &Board, expected: &[Expected]) -> Outcome {
         let panics = program.panics();
         if !panics.is_empty() {
             failures.push(format!("board {}: {name} can panic: {}", board.name, panics.join(", ")));
+        }
+        let doubles = program.doubles();
+        if !doubles.is_empty() {
+            failures.push(format!("board {}: {name} computes in f64: {}", board.name, doubles.join(", ")));
         }
     }
     println!();
