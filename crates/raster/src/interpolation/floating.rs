@@ -89,14 +89,15 @@ impl<L: Floating, V: Varying> LineNumbers<L, V> for FloatingLines<L, V> {
         }
         let [ea, eb, ec] = row.at(column).map(I::to_f32);
         let [qa, qb, qc] = self.q;
-        let weights = [ea * qa, eb * qb, ec * qc];
-        let q = weights[0] + weights[1] + weights[2];
+        let [ta, tb, tc] = [ea * qa, eb * qb, ec * qc];
+        let q = ta + tb + tc;
         let per_q = 1.0 / q;
+        let weights = [ta * per_q, tb * per_q, tc * per_q];
         FloatingEnds {
             q: [ends.q[1], q],
             components: V::map_by_mode(&V::zip(&self.components, &ends.components), &|mode, pair| {
                 let (component, [_, start]): (FloatComponent, [f32; 2]) = pair;
-                if mode == Mode::Hyperbolic { [start, component.plane.at(weights) * per_q] } else { [0.0; 2] }
+                if mode == Mode::Hyperbolic { [start, component.plane.at(weights)] } else { [0.0; 2] }
             }),
         }
     }

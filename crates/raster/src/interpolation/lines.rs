@@ -40,7 +40,8 @@ pub trait Runs: Copy + Debug + Send + Sync + 'static {
 /// # Precision
 /// With r >= 1 the ratio of q at two such columns, Δu the difference of u there, and ε = 2^-24:
 /// |Δu|·(√r − 1)/(√r + 1) + 15ε·max|ui|. The first term is the miss of the straight line, and is reached; the second is
-/// rounding. Components that are linear on the screen are within 12ε of their greatest value, and so is depth.
+/// rounding. Components that are linear on the screen are within 12ε of their greatest value, and so is depth. The
+/// result never leaves the range of the three values. For |ui| above 2^120 that is all that holds.
 ///
 /// The reason: both ends are within 9ε, as in [`Exact`](crate::Exact). Lines start in the middle, from which a component
 /// changes by at most max|ui|. So each of six roundings adds ε: of the middle, of the difference, of one over the

@@ -28,7 +28,7 @@ use core::fmt;
 ///
 /// # Cost
 /// A fragment: one product, one sum, one division; a component adds two products, a sum, a minimum and a maximum.
-/// A triangle: one division, and about ten operations a component; a run: five a component. All of it is `f32`.
+/// A triangle: one division, and eight operations a component; a run: five a component. All of it is `f32`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Planes;
 
@@ -55,7 +55,7 @@ impl Prepare for Planes {
     fn prepare<L: Floating, V: Varying>(self, lanes: L, triangle: &Oriented<'_, V>) -> PlaneTriangle<L, V> {
         let slant = Slant::new(triangle);
         let plane = |factors: [f32; 3]| FloatPlane::new(factors, slant.steps);
-        // Exactly, so that with edge functions sums come near 1.
+        // By a power of two, and so exactly: products with edge functions then are below 4.
         let scale = power_of_two_near(triangle.area());
         let [qa, qb, qc] = scaled_q(triangle).map(|q| q * scale);
         PlaneTriangle {
