@@ -144,9 +144,9 @@ impl Differentiate for NoDerivatives {
 ///
 /// The reason: T is a sum of positive numbers, within 4ε with the rounding of the Ei. Its reciprocal squared is within
 /// 11ε; the area, and the product with the numerator, add 2ε. Each 2 area gi carries four roundings more, which may
-/// cancel: of qb qc, the product with the area, ub − uc, and a product. By column a product with a distance and two sums
-/// follow. By row the numerator is that at the start of a run, less Σ 2 area gi times the columns: both have two sums
-/// and a product. Their difference is the last rounding.
+/// cancel: of qb qc, the product with the area, ub − uc, and a product. By column a product with a distance and two
+/// sums follow. By row the numerator is that at the start of a run, less Σ 2 area gi times the columns: both have two
+/// sums and a product. Their difference is the last rounding.
 ///
 /// # Cost
 /// All of it is `f32`. A triangle: some ten operations, and nine for each component; a row, 13 a component. A fragment:
@@ -160,8 +160,8 @@ pub struct PerPixel;
 ///
 /// # Precision
 /// There, within 12ε relatively and 7ε M, with ε = 2^-24 and M that of [`Differentiation`]; in fixed point rounded to
-/// the nearest step of 2^-16. With r >= 1 the ratio of q in the middle and at an end, ∂u/∂x is off by a factor of r². So
-/// the level of detail is off by 2 log2 r.
+/// the nearest step of 2^-16. With r >= 1 the ratio of q in the middle and at an end, ∂u/∂x is off by a factor of r².
+/// So the level of detail is off by 2 log2 r.
 ///
 /// The reason: that of [`PerPixel`], without the second product of the reciprocal.
 ///
@@ -306,8 +306,8 @@ fn sum([a, b, c]: [f32; 3], [x, y, z]: [f32; 3]) -> f32 {
 pub struct RunQuotients<L: Lanes, V: Varying> {
     /// The column from which x is counted.
     start: i32,
-    /// The numerators by column and by row at `start`, and what the second loses by column, of hyperbolic components; of
-    /// others, and in fixed point of all, the derivatives themselves.
+    /// The numerators by column and by row at `start`, and what the second loses by column, of hyperbolic components;
+    /// of others, and in fixed point of all, the derivatives themselves.
     numerators: V::Of<[L::Number; 3]>,
 }
 

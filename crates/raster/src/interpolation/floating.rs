@@ -104,7 +104,7 @@ impl<L: Floating, V: Varying> LineNumbers<L, V> for FloatingLines<L, V> {
 
     #[inline(always)]
     fn within(&self, (): &(), ends: &FloatingEnds<V>, _: [i32; 2], budget: f32) -> bool {
-        // What rounding may favour a line by.
+        // Rounding may favour a line by a few ε.
         const ROUNDED: f32 = 1.0 - 8.0 * f32::EPSILON;
         let [q0, q1] = ends.q;
         let [low, high] = if q0 < q1 { [q0, q1] } else { [q1, q0] };

@@ -43,9 +43,9 @@ pub trait Runs: Copy + Debug + Send + Sync + 'static {
 /// rounding. Components that are linear on the screen are within 12ε of their greatest value, and so is depth. The
 /// result never leaves the range of the three values. For |ui| above 2^120 that is all that holds.
 ///
-/// The reason: both ends are within 9ε, as in [`Exact`](crate::Exact). Lines start in the middle, from which a component
-/// changes by at most max|ui|. So each of six roundings adds ε: of the middle, of the difference, of one over the
-/// columns, of two products and of the last sum.
+/// The reason: both ends are within 9ε, as in [`Exact`](crate::Exact). Lines start in the middle, from which a
+/// component changes by at most max|ui|. So each of six roundings adds ε: of the middle, of the difference, of one
+/// over the columns, of two products and of the last sum.
 ///
 /// # Cost
 /// A fragment: a product, a sum, a minimum and a maximum for each component; no division. Every 16 columns: two
@@ -61,9 +61,9 @@ pub struct Spans16;
 /// for depth and components, with ε = 2^-24. The result never leaves the range of the three values, so a constant stays
 /// constant.
 ///
-/// The reason: runs start in their middle, from which no edge function changes by more than it is there. Three roundings
-/// are those of a value over the area. In the middle there are four: of an edge function, a product and two sums. The
-/// step has three, a product and two sums. The product with the columns and the last sum are the others.
+/// The reason: runs start in their middle, from which no edge function changes by more than it is there. Three
+/// roundings are those of a value over the area. In the middle there are four: of an edge function, a product and two
+/// sums. The step has three, a product and two sums. The product with the columns and the last sum are the others.
 ///
 /// # Cost
 /// A fragment: a product, a sum, a minimum and a maximum for each component; no division. Every 64 columns five
@@ -109,10 +109,10 @@ impl Lines {
     ///
     /// # Precision
     /// The budget, and for rounding 19ε·max|ui| with ε = 2^-24; never more. The reason: a line misses a hyperbolic
-    /// component by at most |Δu|·(√r − 1)/(√r + 1) = |Δu|·tanh(ln r/4), and that is not above |Δu|·|Δq|/(max q + 3 min q),
-    /// which is compared. So much it misses the curve through the ends that were found. Their values are within 9ε,
-    /// and the line within 6ε, as in [`Spans16`]. The ratio of their q is within 8ε. As tanh(ln r/4) changes by at most a
-    /// quarter of that, the curve moves by 4ε·max|ui|.
+    /// component by at most |Δu|·(√r − 1)/(√r + 1) = |Δu|·tanh(ln r/4), and that is not above |Δu|·|Δq|/(max q + 3
+    /// min q), which is compared. So much it misses the curve through the ends that were found. Their values are
+    /// within 9ε, and the line within 6ε, as in [`Spans16`]. The ratio of their q is within 8ε. As tanh(ln r/4)
+    /// changes by at most a quarter of that, the curve moves by 4ε·max|ui|.
     #[must_use]
     pub const fn bounded(budget: f32) -> Self {
         Self { length: Self::LONGEST, budget: Some(budget), perspective: true }

@@ -14,14 +14,14 @@ use core::fmt;
 /// and their middle is taken from the exact integer edges.
 ///
 /// # Precision
-/// With r the ratio of q in the middle of a run to q at a sample of it, and ε = 2^-24: (15 r + 5)ε·max|ui|, and
-/// 12ε·max zs for depth; barring underflow. That is for ratios in a triangle up to 2^70. Where q is level the bound is
-/// 20ε, where it falls by half along 64 columns 28ε.
+/// With r the ratio of q in the middle of a run to q at a sample of it, and ε = 2^-24: (15 r + 5)ε·max|ui|. Depth is
+/// within 12ε·max zs, and both are so barring underflow. That is for ratios in a triangle up to 2^70. Where q is
+/// level the bound is 20ε, where it falls by half along 64 columns 28ε.
 ///
-/// The reason: with M = max|ui| and T the sum Σ Ei qi at the sample, it is r T in the middle. A function f = Σ Ei fi is
-/// within (8 Σ Ei|fi| + |f|)ε, with the Ei of the middle. So Σ Ei qi is within (8 r + 1)ε T. Σ Ei qi ui is within
-/// (8 r + 1)ε M T, and ε M T for the products qi ui. Both have the rounding of the Ei in common, ε r in each, which does
-/// no more to u than ε r M. The reciprocal and its product add 2ε.
+/// The reason: with M = max|ui| and T the sum Σ Ei qi at the sample, it is r T in the middle. A function f = Σ Ei fi
+/// is within (8 Σ Ei|fi| + |f|)ε, with the Ei of the middle. So Σ Ei qi is within (8 r + 1)ε T. Σ Ei qi ui is within
+/// (8 r + 1)ε M T, and ε M T for the products qi ui. Both have the rounding of the Ei in common, ε r in each, which
+/// does no more to u than ε r M. The reciprocal and its product add 2ε.
 ///
 /// The result never leaves the range of the three values, so a constant stays constant bit for bit. For |ui| above
 /// 2^120, where q·u may overflow, that is all that holds.
