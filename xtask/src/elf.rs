@@ -74,6 +74,17 @@ impl Program {
         panics
     }
 
+    /// The functions by which compilers compute in `f64` in software: those of Arm's ABI, which the symbols `__aeabi_`
+    /// name with the number's kind, and those of others, whose names have it as `df`.
+    pub(crate) fn doubles(&self) -> Vec<&str> {
+        let double = |symbol: &&str| match (symbol.strip_prefix("__aeabi_"), symbol.strip_prefix("__")) {
+            (Some(name), _) => name.starts_with("cd") || name.starts_with('d') || name.ends_with("2d"),
+            (None, Some(name)) => name.contains("df"),
+            (None, None) => false,
+        };
+        self.symbols.iter().map(String::as_str).filter(double).collect()
+    }
+
     /// The number of compiled instances of a generic function, closures in it aside.
     ///
     /// An instance that was inlined into every caller has no symbol, so the number is honest only for functions that
@@ -202,6 +213,16 @@ mod tests {
             assert_eq!((program.text, program.rodata), (100, 30));
             assert_eq!(program.panics(), ["panic_bounds_check"]);
         }
+    }
+
+    #[test]
+    fn functions_of_f64_are_told() {
+        let symbols =
+            ["__aeabi_dmul", "__aeabi_f2d", "__aeabi_cdcmple", "__muldf3", "__aeabi_fmul", "__divsi3"];
+        let others = ["__aeabi_l2f", "__aeabi_idiv", "_RNvCs_5scenes4df32", "memcpy"];
+        let symbols = symbols.into_iter().chain(others).map(String::from).collect();
+        let program = Program { text: 0, rodata: 0, symbols };
+        assert_eq!(program.doubles(), ["__aeabi_dmul", "__aeabi_f2d", "__aeabi_cdcmple", "__muldf3"]);
     }
 
     #[test]

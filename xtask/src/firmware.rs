@@ -51,12 +51,18 @@ const BOARDS: &[Board] = &[
             ("fixed-gouraud", 550),
             ("fixed-affine", 446),
             ("fixed-textured", 738),
-            ("fixed-floor-mip-nearest", 2214),
-            ("fixed-floor-trilinear", 5950),
+            ("fixed-floor-mip-nearest", 2096),
+            ("fixed-floor-trilinear", 5334),
+            ("fixed-floor-trilinear-spans", 7318),
         ],
         meshes: &[
             ("mesh", 98_248_483),
             ("mesh-eighth", 13_504_322),
+            ("mesh-affine", 82_293_456),
+            ("mesh-spans", 109_511_742),
+            ("mesh-planes", 99_973_458),
+            ("mesh-base-nearest", 105_806_728),
+            ("mesh-mip-nearest", 143_416_546),
             ("fixed-mesh-flat", 14_141_090),
             ("fixed-mesh-gouraud", 19_970_352),
             ("fixed-mesh-affine", 15_536_553),
@@ -83,12 +89,18 @@ const BOARDS: &[Board] = &[
             ("fixed-gouraud", 340),
             ("fixed-affine", 246),
             ("fixed-textured", 344),
-            ("fixed-floor-mip-nearest", 1147),
-            ("fixed-floor-trilinear", 3494),
+            ("fixed-floor-mip-nearest", 1068),
+            ("fixed-floor-trilinear", 3067),
+            ("fixed-floor-trilinear-spans", 3132),
         ],
         meshes: &[
             ("mesh", 6_945_030),
             ("mesh-eighth", 1_181_603),
+            ("mesh-affine", 6_942_442),
+            ("mesh-spans", 7_742_341),
+            ("mesh-planes", 7_326_161),
+            ("mesh-base-nearest", 8_698_223),
+            ("mesh-mip-nearest", 9_828_032),
             ("fixed-mesh-flat", 2_244_675),
             ("fixed-mesh-gouraud", 3_340_363),
             ("fixed-mesh-affine", 2_885_786),
@@ -119,12 +131,18 @@ const BOARDS: &[Board] = &[
             ("fixed-gouraud", 261),
             ("fixed-affine", 262),
             ("fixed-textured", 372),
-            ("fixed-floor-mip-nearest", 1185),
-            ("fixed-floor-trilinear", 3702),
+            ("fixed-floor-mip-nearest", 1146),
+            ("fixed-floor-trilinear", 3577),
+            ("fixed-floor-trilinear-spans", 4689),
         ],
         meshes: &[
             ("mesh", 57_263_135),
             ("mesh-eighth", 7_684_267),
+            ("mesh-affine", 49_996_236),
+            ("mesh-spans", 65_251_763),
+            ("mesh-planes", 58_662_787),
+            ("mesh-base-nearest", 62_046_403),
+            ("mesh-mip-nearest", 83_894_420),
             ("fixed-mesh-flat", 8_147_852),
             ("fixed-mesh-gouraud", 11_467_646),
             ("fixed-mesh-affine", 8_919_006),
@@ -144,9 +162,9 @@ const BOARDS: &[Board] = &[
 /// Scenes that must take the same instructions: what a material has not costs nothing.
 const EQUAL: &[[&str; 2]] = &[["material", "material-absent"]];
 
-/// The program that draws all scenes, and those that are weighed.
+/// The program that draws all scenes, and those that are weighed, which must do without functions of `f64`.
 const FRAMES: &str = "alberti-firmware";
-const WEIGHED: &[&str] = &["size-flat", "size-textured"];
+const WEIGHED: &[&str] = &["size-flat", "size-textured", "size-f32"];
 
 /// Builds the firmware for the boards, runs it, compares and reports. Stops at the end only, so that a difference on
 /// one board is seen beside the others.
@@ -227,6 +245,10 @@ fn check(board: &Board, expected: &[Expected]) -> Outcome {
         let panics = program.panics();
         if !panics.is_empty() {
             failures.push(format!("board {}: {name} can panic: {}", board.name, panics.join(", ")));
+        }
+        let doubles = program.doubles();
+        if !doubles.is_empty() {
+            failures.push(format!("board {}: {name} computes in f64: {}", board.name, doubles.join(", ")));
         }
     }
     println!();

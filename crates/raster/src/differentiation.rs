@@ -3,8 +3,9 @@
 use crate::edge::EdgeInt;
 use crate::interpolation::{Oriented, Row, scaled_q};
 use crate::spans::Span;
+use crate::triangle::Corners;
 use alberti_math::lanes::Lanes;
-use alberti_math::{Gradient, Mode, Q16, Varying, map2, map3};
+use alberti_math::{Gradient, Mode, Q16, Varying};
 use core::fmt::{self, Debug};
 
 /// A policy of differentiation, which a [`FragmentStage`](crate::FragmentStage) chooses.
@@ -17,26 +18,23 @@ use core::fmt::{self, Debug};
 /// | [`PerTriangle`] | at the triangle's centroid | one a triangle |
 ///
 /// An attribute u = U/T is the quotient of two functions that are linear on the screen, U = Σ Ei qi ui and T = Σ Ei qi.
-/// Its derivatives are quotients of something simple as well, as in the numerators x, or y, cancels:
+/// In the numerators of its derivatives all products of edge functions cancel but for distances on one axis:
 ///
 /// ```text
-/// ∂u/∂x = (Ux T − U Tx)/T² = (A + J y)/T²        A = Ux T − U Tx,  B = Uy T − U Ty  at the origin
-/// ∂u/∂y = (Uy T − U Ty)/T² = (B − J x)/T²        J = Ux Ty − Uy Tx
+/// ∂u/∂x = (Ux T − U Tx)/T² =  2 area Σ (y − yi) gi / T²        ga = qb qc (ub − uc),  gb and gc likewise
+/// ∂u/∂y = (Uy T − U Ty)/T² = −2 area Σ (x − xi) gi / T²        x, y: the sample;  xi, yi: the vertices
 /// ```
 ///
-/// The origin is the first corner, and u is counted from the value there, so that U is 0 at the origin.
-///
-/// A, B and J are found in `f64`, as sums of products of a distance, the area, two q and a difference of two u. These
-/// may cancel, as all do where u is constant along a thin triangle. Then the error of `f64` counts as well: 2^-48 M,
-/// with M the most that the derivative could be if nothing cancelled. With s the longer side of the triangle's box and
-/// Δu the greatest difference of u,
+/// Distances are integers, and only the sums cancel, as all do where u is constant along a thin triangle. So beside a
+/// relative error there is one of a few ε M (ε = 2^-24). M is the most that the derivative could be if nothing
+/// cancelled. With s the longer side of the triangle's box and Δu the greatest difference of u,
 ///
 /// ```text
 /// M = 2 area s Δu (qa qb + qb qc + qc qa)/T²
 /// ```
 ///
-/// That is part of the precision of all policies. Where the q are equal and a triangle is a quarter of a pixel thick,
-/// it is 2^-44 Δu.
+/// That is as if distances were off by a few ε s. Up to s of 3,000 pixels it is less than what snapping to 8 bits does
+/// to them. Components that are linear on the screen are within 4ε relatively and 2ε s Δu/area.
 ///
 /// In fixed point, where weights are not at hand as numbers, [`PerPixel`] is [`PerRun`]. Derivatives are those of the
 /// components as they are interpolated, rounded to 2^-16 at the vertices. A small triangle that is one run has its
@@ -141,18 +139,17 @@ impl Differentiate for NoDerivatives {
 /// Derivatives at each sample.
 ///
 /// # Precision
-/// ∂u/∂x is within 13ε, relatively, with ε = 2^-24, and ∂u/∂y within 14ε·|∂u/∂y| + 3ε·|J x|/T², barring over- and
-/// underflow. Here J is that of the module, and x the columns from the start of the run. 7.1ε is the most that was
-/// measured of both where x is small.
+/// ∂u/∂x is within 13ε·|∂u/∂x| + 7ε M, and ∂u/∂y within 14ε·|∂u/∂y| + 10ε M, with ε = 2^-24 and M that of
+/// [`Differentiation`], barring over- and underflow. In fixed point the precision is that of [`PerRun`].
 ///
 /// The reason: T is a sum of positive numbers, within 4ε with the rounding of the Ei. Its reciprocal squared is within
-/// 11ε, and the numerator's rounding and the product add 2ε. For ∂u/∂y the numerator is a difference: ε for it,
-/// ε·(|∂u/∂y| + |J x|/T²) for its first part, and 2ε·|J x|/T² for the product.
-///
-/// In fixed point the precision is that of [`PerRun`].
+/// 11ε; the area, and the product with the numerator, add 2ε. Each 2 area gi carries four roundings more, which may
+/// cancel: of qb qc, the product with the area, ub − uc, and a product. By column a product with a distance and two
+/// sums follow. By row the numerator is that at the start of a run, less Σ 2 area gi times the columns: both have two
+/// sums and a product. Their difference is the last rounding.
 ///
 /// # Cost
-/// A triangle: some 30 operations in `f64`, and 12 for each component; a row, two in `f64` a component. A fragment:
+/// All of it is `f32`. A triangle: some ten operations, and nine for each component; a row, 13 a component. A fragment:
 /// three products, two sums, a division and a product, which [`Exact`](crate::Exact) has in common with it but for the
 /// last, and three products and a difference a component.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -162,36 +159,39 @@ pub struct PerPixel;
 /// row of the triangle.
 ///
 /// # Precision
-/// There, rounded once: within 1.001ε (ε = 2^-24), in fixed point to the nearest step of 2^-16. With r >= 1 the ratio
-/// of q in the middle and at an end, ∂u/∂x is off by a factor of r². So the level of detail is off by 2 log2 r.
+/// There, within 12ε relatively and 7ε M, with ε = 2^-24 and M that of [`Differentiation`]; in fixed point rounded to
+/// the nearest step of 2^-16. With r >= 1 the ratio of q in the middle and at an end, ∂u/∂x is off by a factor of r².
+/// So the level of detail is off by 2 log2 r.
+///
+/// The reason: that of [`PerPixel`], without the second product of the reciprocal.
 ///
 /// # Cost
-/// A run: some ten operations and a division in `f64`, and four a component.
+/// A run: some fifteen operations and a division, and twelve a component. All of it is `f32`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct PerRun;
 
 /// Derivatives at the centroid of each triangle.
 ///
 /// # Precision
-/// Like [`PerRun`] there. With r >= 1 the ratio of q there and at a vertex, ∂u/∂x is off by up to a factor of r². A
-/// triangle that was clipped counts as the pieces that are drawn.
+/// There, within 12ε relatively and 8ε M: that of [`PerRun`], and a rounding of the distances. With r >= 1 the ratio of
+/// q there and at a vertex, ∂u/∂x is off by up to a factor of r². A triangle that was clipped counts as the pieces that
+/// are drawn.
 ///
 /// # Cost
-/// A triangle: some 30 operations in `f64`, and 12 for each component.
+/// A triangle: some 20 operations and a division, and 21 for each component. All of it is `f32`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct PerTriangle;
 
 /// The quotients of a triangle.
 #[derive(Clone, Copy)]
 pub struct Quotients<V: Varying> {
-    q: [f64; 3],
-    /// T at the centroid.
-    t: f64,
-    /// The first corner and the centroid, in pixels.
-    origin: [f64; 2],
-    centroid: [f64; 2],
-    /// A, B and J of hyperbolic components; of others the derivatives themselves.
-    numerators: V::Of<[f64; 3]>,
+    corners: Corners,
+    /// Bits of the subpixels.
+    bits: u32,
+    q: [f32; 3],
+    /// Of hyperbolic components twice the area times ga, gb and gc, for distances in subpixels and derivatives by
+    /// pixels; of others the derivatives themselves.
+    numerators: V::Of<[f32; 3]>,
 }
 
 impl<V: Varying> Debug for Quotients<V> {
@@ -204,74 +204,101 @@ impl<V: Varying> Quotients<V> {
     #[inline(always)]
     fn new(triangle: &Oriented<'_, V>) -> Self {
         let q = scaled_q(triangle);
-        let corners = map3(triangle.corners, |corner| map2(corner, f64::from));
-        let [a, b, c] = corners;
-        let one = f64::from(triangle.one());
+        let [qa, qb, qc] = q;
+        let [a, b, c] = triangle.corners;
+        let one = number(triangle.one());
+        let common = triangle.area() * one;
+        let factors = [qb * qc * common, qc * qa * common, qa * qb * common];
         // Increments of the edge functions of the second and the third vertex: for a pixel to the right, and for one
         // down.
-        let of_b = [(c[1] - a[1]) * one, (a[0] - c[0]) * one];
-        let of_c = [(a[1] - b[1]) * one, (b[0] - a[0]) * one];
-        #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
-        let area = triangle.doubled_area as f64;
-        let t = area * q[0];
-        // The common factor of the areas by columns and rows: nothing cancels in thin triangles.
-        let common = area * one * one;
-        let numerators = V::map_by_mode(&triangle.numbers(), &|mode, [u, v, w, _]: [f64; 4]| {
-            let [v, w] = [v - u, w - u];
+        let of_b = [number(c[1] - a[1]), number(a[0] - c[0])];
+        let of_c = [number(a[1] - b[1]), number(b[0] - a[0])];
+        let per_area = one / triangle.area();
+        let fixed = triangle.fixed;
+        let numerators = V::map_by_mode(&triangle.words(), &|mode, [u, v, w, _]: [u32; 4]| {
+            let less = |u: u32, v: u32| difference(fixed, u, v);
             match mode {
                 Mode::Hyperbolic => {
-                    let [v, w] = [v * q[1], w * q[2]];
-                    let [x, y] = [of_b[0] * v + of_c[0] * w, of_b[1] * v + of_c[1] * w];
-                    [x * t, y * t, common * (v * (q[2] - q[0]) - w * (q[1] - q[0]))]
+                    [factors[0] * less(v, w), factors[1] * less(w, u), factors[2] * less(u, v)]
                 }
                 Mode::Linear => {
-                    let per = |k: usize| (of_b[k] * v + of_c[k] * w) / area;
+                    let [v, w] = [less(v, u), less(w, u)];
+                    let per = |k: usize| (of_b[k] * v + of_c[k] * w) * per_area;
                     [per(0), per(1), 0.0]
                 }
                 Mode::Flat => [0.0; 3],
             }
         });
-        let middle = |k: usize| (a[k] + b[k] + c[k]) / (3.0 * one);
-        let t = area * (q[0] + q[1] + q[2]) / 3.0;
-        Self { q, t, origin: [a[0] / one, a[1] / one], centroid: [middle(0), middle(1)], numerators }
+        Self { corners: triangle.corners, bits: triangle.bits, q, numerators }
     }
 
-    /// The derivatives by column and row at a place in pixels, where T is given.
+    /// The derivatives by column and row at a place with these [distances](Self::distances), where `per` is 1/T².
     #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "rounded once")]
-    fn at(&self, [x, y]: [f64; 2], t: f64) -> V::Of<[f32; 2]> {
-        let [x, y] = [x - self.origin[0], y - self.origin[1]];
-        let per = 1.0 / (t * t);
-        V::map_by_mode(&self.numerators, &|mode, [a, b, j]: [f64; 3]| {
-            let [dx, dy] =
-                if mode == Mode::Hyperbolic { [(a + j * y) * per, (b - j * x) * per] } else { [a, b] };
-            [dx as f32, dy as f32]
+    fn at(&self, distances: [[f32; 3]; 2], per: f32) -> V::Of<[f32; 2]> {
+        V::map_by_mode(&self.numerators, &|mode, g: [f32; 3]| {
+            if mode == Mode::Hyperbolic { distances.map(|along| sum(along, g) * per) } else { [g[0], g[1]] }
         })
+    }
+
+    /// The distances of a place from the corners by rows, and of the corners from it by columns, times a factor. The
+    /// place and the distances are in subpixels, and times that factor.
+    #[inline(always)]
+    fn distances(&self, [x, y]: [i32; 2], factor: i32) -> [[f32; 3]; 2] {
+        [self.corners.map(|[_, k]| number(y - factor * k)), self.corners.map(|[k, _]| number(factor * k - x))]
+    }
+
+    /// A sample's place in subpixels.
+    #[inline(always)]
+    fn sample(&self, place: [i32; 2]) -> [i32; 2] {
+        place.map(|k| (k << self.bits) + (1 << self.bits >> 1))
     }
 
     /// The three q.
     #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "they were f32")]
     fn q_lanes<L: Lanes>(&self, lanes: L) -> [L::Number; 3] {
-        let [a, b, c] = self.q;
-        [lanes.splat(a as f32), lanes.splat(b as f32), lanes.splat(c as f32)]
+        self.q.map(|q| lanes.splat(q))
     }
 
     /// The derivatives in the middle of a run of a row.
     #[inline(always)]
     fn in_middle<I: EdgeInt>(&self, row: &Row<'_, I>, run: Span) -> V::Of<[f32; 2]> {
         let column = run.start + ((run.end - run.start) >> 1);
-        let [ea, eb, ec] = row.at(column);
-        let [qa, qb, qc] = self.q;
-        let t = ea.to_f64() * qa + eb.to_f64() * qb + ec.to_f64() * qc;
-        self.at([f64::from(column) + 0.5, f64::from(row.row) + 0.5], t)
+        let t = sum(row.at(column).map(I::to_f32), self.q);
+        self.at(self.distances(self.sample([column, row.row]), 1), 1.0 / (t * t))
     }
 
     /// The derivatives at the centroid.
     #[inline(always)]
-    fn in_centroid(&self) -> V::Of<[f32; 2]> {
-        self.at(self.centroid, self.t)
+    fn in_centroid(&self, area: f32) -> V::Of<[f32; 2]> {
+        let [a, b, c] = self.corners;
+        let [qa, qb, qc] = self.q;
+        // Three times the distances, and three times T.
+        let t = area * (qa + qb + qc);
+        self.at(self.distances([a[0] + b[0] + c[0], a[1] + b[1] + c[1]], 3), 3.0 / (t * t))
     }
+}
+
+/// A distance as a number: exactly, but for three times one.
+#[inline(always)]
+#[expect(clippy::cast_precision_loss, reason = "at most 2^24, and three times that is rounded")]
+fn number(distance: i32) -> f32 {
+    distance as f32
+}
+
+/// The difference of two components.
+#[inline(always)]
+#[expect(clippy::cast_precision_loss, reason = "rounding to nearest is within the bounds")]
+fn difference(fixed: bool, u: u32, v: u32) -> f32 {
+    if fixed {
+        (u.cast_signed() - v.cast_signed()) as f32 * (1.0 / 65536.0)
+    } else {
+        f32::from_bits(u) - f32::from_bits(v)
+    }
+}
+
+#[inline(always)]
+fn sum([a, b, c]: [f32; 3], [x, y, z]: [f32; 3]) -> f32 {
+    a * x + b * y + c * z
 }
 
 /// A run, to differentiate at its samples.
@@ -279,8 +306,8 @@ impl<V: Varying> Quotients<V> {
 pub struct RunQuotients<L: Lanes, V: Varying> {
     /// The column from which x is counted.
     start: i32,
-    /// A + J y, B counted from `start`, and J, of hyperbolic components; of others, and in fixed point of all, the
-    /// derivatives themselves.
+    /// The numerators by column and by row at `start`, and what the second loses by column, of hyperbolic components;
+    /// of others, and in fixed point of all, the derivatives themselves.
     numerators: V::Of<[L::Number; 3]>,
 }
 
@@ -292,23 +319,20 @@ impl<L: Lanes, V: Varying> Debug for RunQuotients<L, V> {
 
 impl<L: Lanes, V: Varying> RunQuotients<L, V> {
     #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "rounded once")]
     fn new<I: EdgeInt>(lanes: L, of: &Quotients<V>, row: &Row<'_, I>, run: Span) -> Self {
-        let splat = |x: f64| lanes.splat(x as f32);
+        let splat = |x: f32| lanes.splat(x);
         if L::FIXED {
             let derivatives = of.in_middle(row, run);
-            let numerators = V::map(&derivatives, &|[dx, dy]: [f32; 2]| {
-                [lanes.splat(dx), lanes.splat(dy), lanes.splat(0.0)]
-            });
+            let numerators = V::map(&derivatives, &|[dx, dy]: [f32; 2]| [splat(dx), splat(dy), splat(0.0)]);
             return Self { start: 0, numerators };
         }
-        let x = f64::from(run.start) + 0.5 - of.origin[0];
-        let y = f64::from(row.row) + 0.5 - of.origin[1];
+        let [rows, columns] = of.distances(of.sample([run.start, row.row]), 1);
+        let one = number(1 << of.bits);
         Self {
             start: run.start,
-            numerators: V::map_by_mode(&of.numerators, &|mode, [a, b, j]: [f64; 3]| match mode {
-                Mode::Hyperbolic => [splat(a + j * y), splat(b - j * x), splat(j)],
-                _ => [splat(a), splat(b), splat(j)],
+            numerators: V::map_by_mode(&of.numerators, &|mode, g: [f32; 3]| match mode {
+                Mode::Hyperbolic => [sum(rows, g), sum(columns, g), (g[0] + g[1] + g[2]) * one].map(splat),
+                _ => g.map(splat),
             }),
         }
     }
@@ -419,5 +443,5 @@ macro_rules! along_runs {
 }
 along_runs! {
     PerRun: Quotients<V>, |of| Quotients::new(of), |triangle, row, run| triangle.in_middle(row, run);
-    PerTriangle: V::Of<[f32; 2]>, |of| Quotients::new(of).in_centroid(), |triangle, _row, _run| *triangle;
+    PerTriangle: V::Of<[f32; 2]>, |of| Quotients::new(of).in_centroid(of.area()), |triangle, _row, _run| *triangle;
 }

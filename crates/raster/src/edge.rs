@@ -36,8 +36,11 @@ pub trait EdgeInt:
     /// The same number, where it fits.
     fn to_i32(self) -> i32;
 
-    /// The same number, which is below 2^53.
-    fn to_f64(self) -> f64;
+    /// The nearest number.
+    fn to_f32(self) -> f32;
+
+    /// Half of it, rounded down.
+    fn half(self) -> Self;
 
     /// The quotient rounded down, and the remainder, which is in [0, `divisor`). The divisor is positive.
     fn divided(self, divisor: Self) -> (Self, Self);
@@ -70,8 +73,14 @@ impl EdgeInt for i32 {
     }
 
     #[inline(always)]
-    fn to_f64(self) -> f64 {
-        self.into()
+    #[expect(clippy::cast_precision_loss, reason = "rounding to nearest")]
+    fn to_f32(self) -> f32 {
+        self as f32
+    }
+
+    #[inline(always)]
+    fn half(self) -> Self {
+        self >> 1
     }
 
     #[inline(always)]
@@ -112,9 +121,14 @@ impl EdgeInt for i64 {
     }
 
     #[inline(always)]
-    #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
-    fn to_f64(self) -> f64 {
-        self as f64
+    #[expect(clippy::cast_precision_loss, reason = "rounding to nearest")]
+    fn to_f32(self) -> f32 {
+        self as f32
+    }
+
+    #[inline(always)]
+    fn half(self) -> Self {
+        self >> 1
     }
 
     #[inline]

@@ -31,9 +31,9 @@ use core::fmt::Debug;
 /// | policy | error | divisions |
 /// |---|---|---|
 /// | [`Exact`] | 9ε | one a fragment |
-/// | [`Planes`] | a few ε, times the ratio of q along 64 columns | one a fragment |
+/// | [`Planes`] | 20ε, and more where q falls along 64 columns | one a fragment |
 /// | [`Spans16`] | the miss of a straight line along 16 columns | two every 16 columns |
-/// | [`Affine`] | the miss of a straight line along the triangle | one every 64 columns |
+/// | [`Affine`] | the miss of a straight line along the triangle | one a triangle |
 /// | [`Lines`] | one of the two for any length, or a budget | as many as that takes |
 /// | [`FixedPoint`] around one of the last three | theirs, and steps of 2^-16 a column | none: a table |
 ///
@@ -124,20 +124,22 @@ impl<'a, V: Varying> Oriented<'a, V> {
         1 << self.bits
     }
 
+    /// Twice the area, to the nearest number.
+    #[inline(always)]
+    #[expect(clippy::cast_precision_loss, reason = "rounding to nearest is within all bounds")]
+    pub(crate) fn area(&self) -> f32 {
+        // Small cores have an instruction for one word.
+        match i32::try_from(self.doubled_area) {
+            Ok(area) if cfg!(target_pointer_width = "32") => area as f32,
+            _ => self.doubled_area as f32,
+        }
+    }
+
     /// The components of the three vertices and of the first one.
     #[inline(always)]
     pub(crate) fn words(&self) -> V::Of<[u32; 4]> {
         let [a, b, c] = self.vertices;
         words::<V>([&a.components, &b.components, &c.components, &self.first])
-    }
-
-    /// The same as numbers, exactly.
-    #[inline(always)]
-    pub(crate) fn numbers(&self) -> V::Of<[f64; 4]> {
-        let number = |word: u32| {
-            if self.fixed { f64::from(word.cast_signed()) / 65536.0 } else { f64::from(f32::from_bits(word)) }
-        };
-        V::map(&self.words(), &|[a, b, c, first]: [u32; 4]| [a, b, c, first].map(number))
     }
 
     /// The same where numbers are `f32`.

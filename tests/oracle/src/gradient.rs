@@ -13,8 +13,6 @@ use num_traits::{ToPrimitive, Zero};
 pub struct Slopes {
     /// The derivatives by column and by row.
     pub derivative: [f64; 2],
-    /// J/T², where J = Ux Ty − Uy Tx says how the numerators of the derivatives change.
-    pub mixed: f64,
     /// T, in subpixels squared.
     pub t: f64,
 }
@@ -47,10 +45,8 @@ fn at(tri: Triangle, [x, y]: [i64; 2], one: i64, q: [f32; 3], u: [f32; 3]) -> Sl
     // (U' - U) T - U (T' - T) = U' T - U T'.
     let numerators = [&v_right * &t - &v * &t_right, &v_below * &t - &v * &t_below];
     let square = &t * &t;
-    let mixed = (&v_right - &v) * (&t_below - &t) - (&v_below - &v) * (&t_right - &t);
     Slopes {
         derivative: numerators.each_ref().map(|n| over(n, &square) * unit),
-        mixed: over(&mixed, &square) * unit,
         t: over(&t, &BigInt::from(1)) * q_unit,
     }
 }
@@ -91,7 +87,6 @@ mod tests {
         // At x = 2, y = 1 q is 5.
         near(slopes.derivative[0], 3.0 / 25.0);
         near(slopes.derivative[1], -4.0 / 25.0);
-        near(slopes.mixed, 2.0 / 25.0);
         near(slopes.t, 5.0 * 32.0 * 256.0);
         let [x, y] = [8.0 / 3.0, 4.0 / 3.0];
         let middle = in_centroid(tri, 4, q, u);

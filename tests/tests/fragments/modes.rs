@@ -91,10 +91,10 @@ fn spans(length: i32) -> Lines {
 #[test]
 fn linear_and_flat_in_f32() {
     check(Exact, 1, |largest, _| 9.0 * EPS * largest);
-    check(Planes, 2, |largest, _| 6.0 * EPS * largest);
-    check(spans(8), 3, |largest, _| 6.0 * EPS * largest);
-    check(Lines::bounded(0.01), 4, |largest, _| 6.0 * EPS * largest);
-    check(Lines::affine(), 5, |largest, _| 6.0 * EPS * largest);
+    check(Planes, 2, |largest, _| 12.0 * EPS * largest);
+    check(spans(8), 3, |largest, _| 12.0 * EPS * largest);
+    check(Lines::bounded(0.01), 4, |largest, _| 12.0 * EPS * largest);
+    check(Lines::affine(), 5, |largest, _| 12.0 * EPS * largest);
 }
 
 #[test]

@@ -330,7 +330,14 @@ impl<V: Varying> LineNumbers<OneFixed, V> for FixedLines<V> {
     }
 
     #[inline(always)]
-    fn line(&self, row: &FixedRow<V>, run: &Run<FixedEnds<V>>, column: i32, _: i32) -> FixedCursor<V> {
+    fn line<I: EdgeInt>(
+        &self,
+        _: bool,
+        _: &Row<'_, I>,
+        row: &FixedRow<V>,
+        run: &Run<FixedEnds<V>>,
+        [column, _]: [i32; 2],
+    ) -> FixedCursor<V> {
         let [first, last] = run.columns;
         let (columns, along) = (last - first, column - first);
         let whole = columns == run.length;

@@ -1,6 +1,6 @@
-//! Lines in `f32`, between ends in `f64`.
+//! Lines in `f32`: of components that are linear on the screen by their slopes, of others between two ends.
 
-use super::linear::{FloatComponent, Ramp, along, count, per_area, scaled_q, zs};
+use super::linear::{FloatComponent, FloatPlane, Ramp, Slant, along, count, middle, scaled_q};
 use super::lines::{Affine, LineNumbers, LineTriangle, Lines, Run, Runs, Spans16};
 use crate::edge::EdgeInt;
 use crate::interpolation::{Interpolation, Oriented, Prepare, Row};
@@ -9,56 +9,40 @@ use alberti_math::{Mode, Varying};
 use core::cell::Cell;
 use core::fmt;
 
-/// A triangle's depth, q and components, in `f64`.
+/// A triangle's depth, q and components.
 #[derive(Clone, Copy)]
 pub struct FloatingLines<L: Lanes, V: Varying> {
     lanes: L,
-    per_area: f64,
-    q: [f64; 3],
+    q: [f32; 3],
     zs: FloatComponent,
+    /// With perspective the factors of hyperbolic ones are their values.
     components: V::Of<FloatComponent>,
 }
 
 impl<L: Floating, V: Varying> FloatingLines<L, V> {
     #[inline(always)]
-    pub(crate) fn new(lanes: L, triangle: &Oriented<'_, V>) -> Self {
+    pub(crate) fn new(lanes: L, perspective: bool, triangle: &Oriented<'_, V>) -> Self {
+        let slant = Slant::new(triangle);
         Self {
             lanes,
-            per_area: per_area(triangle),
-            q: scaled_q(triangle),
-            zs: zs(triangle),
+            q: if perspective { scaled_q(triangle) } else { [1.0; 3] },
+            zs: slant.zs(triangle),
             components: V::map_by_mode(&triangle.values(), &|mode, [a, b, c, first]: [f32; 4]| match mode {
-                Mode::Hyperbolic | Mode::Linear => FloatComponent::new([a, b, c]),
+                Mode::Hyperbolic if perspective => {
+                    FloatComponent::new([a, b, c], FloatPlane::new([a, b, c], [0.0; 3]))
+                }
+                Mode::Hyperbolic | Mode::Linear => slant.linear([a, b, c]),
                 Mode::Flat => FloatComponent::flat(first),
             }),
         }
     }
 }
 
-/// The values at both ends of a run.
+/// The values at both ends of a run, of what is hyperbolic.
 #[derive(Clone, Copy)]
 pub struct FloatingEnds<V: Varying> {
-    zs: [f64; 2],
-    q: [f64; 2],
-    components: V::Of<[f64; 2]>,
-}
-
-impl<L: Lanes, V: Varying> FloatingLines<L, V> {
-    /// Two pairs of weights, and q, at a sample with these edge functions. The weights are those of the second and the
-    /// third vertex: for functions that are linear on the screen, and for those that are so in space.
-    #[inline(always)]
-    fn at<I: EdgeInt>(&self, perspective: bool, edges: [I; 3]) -> ([f64; 2], [f64; 2], f64) {
-        let [a, b, c] = [edges[0].to_f64(), edges[1].to_f64(), edges[2].to_f64()];
-        let screen = [b * self.per_area, c * self.per_area];
-        if !perspective {
-            return (screen, screen, 1.0);
-        }
-        let [qa, qb, qc] = self.q;
-        let [a, b, c] = [a * qa, b * qb, c * qc];
-        let q = a + b + c;
-        let per_q = 1.0 / q;
-        (screen, [b * per_q, c * per_q], q)
-    }
+    q: [f32; 2],
+    components: V::Of<[f32; 2]>,
 }
 
 /// The place of samples in a run, and the numbers that are linear along it.
@@ -85,14 +69,10 @@ impl<L: Floating, V: Varying> LineNumbers<L, V> for FloatingLines<L, V> {
         (): &(),
         column: i32,
     ) -> FloatingEnds<V> {
-        let (screen, space, q) = self.at(perspective, row.at(column));
-        FloatingEnds {
-            zs: [self.zs.plane.at(screen); 2],
-            q: [q; 2],
-            components: V::map_by_mode(&self.components, &|mode, component: FloatComponent| {
-                [component.plane.at(if mode == Mode::Hyperbolic { space } else { screen }); 2]
-            }),
-        }
+        let components = V::map(&self.components, &|_: FloatComponent| [0.0; 2]);
+        let nothing = FloatingEnds { q: [0.0; 2], components };
+        let FloatingEnds { q: [_, q], components } = self.extend(perspective, row, &(), &nothing, column);
+        FloatingEnds { q: [q; 2], components: V::map(&components, &|[_, value]: [f32; 2]| [value; 2]) }
     }
 
     #[inline(always)]
@@ -104,42 +84,62 @@ impl<L: Floating, V: Varying> LineNumbers<L, V> for FloatingLines<L, V> {
         ends: &FloatingEnds<V>,
         column: i32,
     ) -> FloatingEnds<V> {
-        let (screen, space, q) = self.at(perspective, row.at(column));
+        if !perspective {
+            return *ends;
+        }
+        let [ea, eb, ec] = row.at(column).map(I::to_f32);
+        let [qa, qb, qc] = self.q;
+        let [ta, tb, tc] = [ea * qa, eb * qb, ec * qc];
+        let q = ta + tb + tc;
+        let per_q = 1.0 / q;
+        let weights = [ta * per_q, tb * per_q, tc * per_q];
         FloatingEnds {
-            zs: [ends.zs[1], self.zs.plane.at(screen)],
             q: [ends.q[1], q],
             components: V::map_by_mode(&V::zip(&self.components, &ends.components), &|mode, pair| {
-                let (component, [_, start]): (FloatComponent, [f64; 2]) = pair;
-                [start, component.plane.at(if mode == Mode::Hyperbolic { space } else { screen })]
+                let (component, [_, start]): (FloatComponent, [f32; 2]) = pair;
+                if mode == Mode::Hyperbolic { [start, component.plane.at(weights)] } else { [0.0; 2] }
             }),
         }
     }
 
     #[inline(always)]
     fn within(&self, (): &(), ends: &FloatingEnds<V>, _: [i32; 2], budget: f32) -> bool {
+        // Rounding may favour a line by a few ε.
+        const ROUNDED: f32 = 1.0 - 8.0 * f32::EPSILON;
         let [q0, q1] = ends.q;
-        let (apart, limit) = ((q1 - q0).abs(), f64::from(budget) * (q0.max(q1) + 3.0 * q0.min(q1)));
+        let [low, high] = if q0 < q1 { [q0, q1] } else { [q1, q0] };
+        let (apart, limit) = (high - low, budget * ROUNDED * (high + 3.0 * low));
         let within = Cell::new(true);
-        let _ = V::map_by_mode(&ends.components, &|mode, [start, end]: [f64; 2]| {
+        let _ = V::map_by_mode(&ends.components, &|mode, [start, end]: [f32; 2]| {
             within.set(within.get() & (mode != Mode::Hyperbolic || (end - start).abs() * apart <= limit));
         });
         within.get()
     }
 
     #[inline(always)]
-    fn line(&self, (): &(), run: &Run<FloatingEnds<V>>, _: i32, aligned: i32) -> FloatingCursor<L, V> {
+    #[expect(clippy::cast_precision_loss, reason = "at most 64 columns")]
+    fn line<I: EdgeInt>(
+        &self,
+        perspective: bool,
+        row: &Row<'_, I>,
+        (): &(),
+        run: &Run<FloatingEnds<V>>,
+        [_, aligned]: [i32; 2],
+    ) -> FloatingCursor<L, V> {
         let [first, last] = run.columns;
+        let (lanes, edges) = (self.lanes, middle(row, run.columns));
         // A run of a single sample has no step.
-        let per_column = 1.0 / f64::from((last - first).max(1));
-        let ramp = |component: &FloatComponent, [start, end]: [f64; 2]| {
-            Ramp::new(self.lanes, start, (end - start) * per_column, component)
-        };
+        let per_column = 1.0 / (last - first).max(1) as f32;
         FloatingCursor {
-            along: along(self.lanes, first, aligned),
-            zs: ramp(&self.zs, run.ends.zs),
-            components: V::map(&V::zip(&self.components, &run.ends.components), &|pair| {
-                let (component, ends): (FloatComponent, [f64; 2]) = pair;
-                ramp(&component, ends)
+            along: along(lanes, run.columns, aligned),
+            zs: Ramp::of(lanes, &self.zs.plane, edges),
+            components: V::map_by_mode(&V::zip(&self.components, &run.ends.components), &|mode, pair| {
+                let (component, [start, end]): (FloatComponent, [f32; 2]) = pair;
+                if perspective && mode == Mode::Hyperbolic {
+                    Ramp::new(lanes, 0.5 * (start + end), (end - start) * per_column)
+                } else {
+                    Ramp::of(lanes, &component.plane, edges)
+                }
             }),
         }
     }
@@ -151,14 +151,17 @@ impl<L: Floating, V: Varying> LineNumbers<L, V> for FloatingLines<L, V> {
 
     #[inline(always)]
     fn depth(&self, cursor: &FloatingCursor<L, V>) -> L::Number {
-        cursor.zs.at(self.lanes, cursor.along)
+        self.zs.bounded(self.lanes, cursor.zs.at(cursor.along))
     }
 
     #[inline(always)]
     fn attributes(&self, cursor: &FloatingCursor<L, V>) -> V::Of<L::Number> {
-        V::map_by_mode(&cursor.components, &|mode, ramp: Ramp<L>| match mode {
-            Mode::Hyperbolic | Mode::Linear => ramp.at(self.lanes, cursor.along),
-            Mode::Flat => ramp.start(),
+        V::map_by_mode(&V::zip(&self.components, &cursor.components), &|mode, pair| {
+            let (component, ramp): (FloatComponent, Ramp<L>) = pair;
+            match mode {
+                Mode::Hyperbolic | Mode::Linear => component.bounded(self.lanes, ramp.at(cursor.along)),
+                Mode::Flat => component.constant(self.lanes),
+            }
         })
     }
 }
@@ -188,7 +191,8 @@ macro_rules! interpolations {
                 lanes: L,
                 triangle: &Oriented<'_, V>,
             ) -> LineTriangle<Self, FloatingLines<L, V>> {
-                LineTriangle { runs: self, numbers: FloatingLines::new(lanes, triangle) }
+                let perspective = self.perspective();
+                LineTriangle { runs: self, numbers: FloatingLines::new(lanes, perspective, triangle) }
             }
         }
     )*};

@@ -39,12 +39,17 @@ pub trait Runs: Copy + Debug + Send + Sync + 'static {
 ///
 /// # Precision
 /// With r >= 1 the ratio of q at two such columns, Δu the difference of u there, and ε = 2^-24:
-/// |Δu|·(√r − 1)/(√r + 1) + 6ε·max|ui|. The first term is the miss of the straight line, and is reached; the second is
-/// rounding.
+/// |Δu|·(√r − 1)/(√r + 1) + 15ε·max|ui|. The first term is the miss of the straight line, and is reached; the second is
+/// rounding. Components that are linear on the screen are within 12ε of their greatest value, and so is depth. The
+/// result never leaves the range of the three values. For |ui| above 2^120 that is all that holds.
+///
+/// The reason: both ends are within 9ε, as in [`Exact`](crate::Exact). Lines start in the middle, from which a
+/// component changes by at most max|ui|. So each of six roundings adds ε: of the middle, of the difference, of one
+/// over the columns, of two products and of the last sum.
 ///
 /// # Cost
-/// A fragment: a product, a sum, a minimum and a maximum for each component; no division. Every 16 columns: two `f64`
-/// divisions, and about eight operations a component.
+/// A fragment: a product, a sum, a minimum and a maximum for each component; no division. Every 16 columns: two
+/// divisions, and about ten operations a component. All of it is `f32`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Spans16;
 
@@ -52,13 +57,17 @@ pub struct Spans16;
 ///
 /// # Precision
 /// Right only where the three vertices are equally far; with r their greatest ratio of q, off by up to
-/// |Δu|·(√r − 1)/(√r + 1), Δu being the difference between two vertices. Against the linear function itself: 6ε·max|ui|
+/// |Δu|·(√r − 1)/(√r + 1), Δu being the difference between two vertices. Against the linear function itself: 12ε·max|ui|
 /// for depth and components, with ε = 2^-24. The result never leaves the range of the three values, so a constant stays
 /// constant.
 ///
+/// The reason: runs start in their middle, from which no edge function changes by more than it is there. Three
+/// roundings are those of a value over the area. In the middle there are four: of an edge function, a product and two
+/// sums. The step has three, a product and two sums. The product with the columns and the last sum are the others.
+///
 /// # Cost
-/// A fragment: a product, a sum, a minimum and a maximum for each component; no division. Every 64 columns one `f64`
-/// division, and about eight operations a component.
+/// A fragment: a product, a sum, a minimum and a maximum for each component; no division. Every 64 columns five
+/// operations a component; a triangle one division, and eight a component. All of it is `f32`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Affine;
 
@@ -99,9 +108,11 @@ impl Lines {
     /// are the longest of 1, 2, 4 to 64 columns, at multiples of their length, for which that is so.
     ///
     /// # Precision
-    /// The budget, and the rounding of [`Spans16`]; never more. The reason: a line misses a hyperbolic component by at
-    /// most |Δu|·(√r − 1)/(√r + 1) = |Δu|·tanh(ln r/4), and that is not above |Δu|·|Δq|/(max q + 3 min q), which is
-    /// compared.
+    /// The budget, and for rounding 19ε·max|ui| with ε = 2^-24; never more. The reason: a line misses a hyperbolic
+    /// component by at most |Δu|·(√r − 1)/(√r + 1) = |Δu|·tanh(ln r/4), and that is not above |Δu|·|Δq|/(max q + 3
+    /// min q), which is compared. So much it misses the curve through the ends that were found. Their values are
+    /// within 9ε, and the line within 6ε, as in [`Spans16`]. The ratio of their q is within 8ε. As tanh(ln r/4)
+    /// changes by at most a quarter of that, the curve moves by 4ε·max|ui|.
     #[must_use]
     pub const fn bounded(budget: f32) -> Self {
         Self { length: Self::LONGEST, budget: Some(budget), perspective: true }
@@ -215,8 +226,16 @@ pub trait LineNumbers<L: Lanes, V: Varying> {
     /// budget.
     fn within(&self, known: &Self::Row, ends: &Self::Ends, columns: [i32; 2], budget: f32) -> bool;
 
-    /// The line along a run, at the samples from the column `aligned` on, of which `column` is the first to be drawn.
-    fn line(&self, row: &Self::Row, run: &Run<Self::Ends>, column: i32, aligned: i32) -> Self::Cursor;
+    /// The line along a run of a row. Of the two columns the first is the first to be drawn, and the second that of the
+    /// first of the samples.
+    fn line<I: EdgeInt>(
+        &self,
+        perspective: bool,
+        row: &Row<'_, I>,
+        known: &Self::Row,
+        run: &Run<Self::Ends>,
+        columns: [i32; 2],
+    ) -> Self::Cursor;
 
     /// The samples after those.
     fn advance(&self, cursor: Self::Cursor) -> Self::Cursor;
@@ -302,7 +321,7 @@ impl<R: Runs, L: Lanes, V: Varying, N: LineNumbers<L, V>> Interpolate<L, V> for 
         };
         *left = Some(run.ends);
         let columns = Span { start: run.columns[0], end: run.next };
-        (self.numbers.line(known, &run, column, aligned), columns)
+        (self.numbers.line(self.runs.perspective(), row, known, &run, [column, aligned]), columns)
     }
 
     #[inline(always)]

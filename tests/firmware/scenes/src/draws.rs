@@ -8,10 +8,10 @@ use alberti::lanes::One;
 use alberti::raster::{PerRun, PerTriangle};
 use alberti::shaders::material::{Color, Emission, Gouraud};
 use alberti::shaders::{Differentiated, Ready565, Solid, Stored, Unlit, VertexColor565};
-use alberti::texture::{Bilinear, Minify, Nearest, NearestLevel, Repeat, Trilinear};
+use alberti::texture::{BaseLevel, Bilinear, Minify, Nearest, NearestLevel, Repeat, Trilinear};
 use alberti::{
     Affine, ColorFormat, Counters, D16, DepthFormat, Exact, FixedPoint, FragmentStage, Geometry, IntegerMesh,
-    IntegerVertex, Interpolation, Mesh, Meshlets, NoDepth, Object, Pass, Point3, Q16, Rgb565Le, Slot,
+    IntegerVertex, Interpolation, Mesh, Meshlets, NoDepth, Object, Pass, Planes, Point3, Q16, Rgb565Le, Slot,
     Spans16, Sub4, Sub8, Varying, View,
 };
 
@@ -149,6 +149,21 @@ pub fn textured<K: Counters>(target: &mut Target, camera: &Camera, model: &Model
     textured_by(Exact, target, camera, model, counters);
 }
 
+/// The same without perspective.
+pub fn textured_affine<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    textured_by(Affine, target, camera, model, counters);
+}
+
+/// The same, divided every 16 columns.
+pub fn textured_spans<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    textured_by(Spans16, target, camera, model, counters);
+}
+
+/// The same from plane equations.
+pub fn textured_planes<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    textured_by(Planes, target, camera, model, counters);
+}
+
 /// The same in fixed point, divided every 16 columns.
 pub fn textured_fixed<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
     textured_by(FixedPoint(Spans16), target, camera, model, counters);
@@ -162,8 +177,32 @@ fn textured_by<P: Interpolation, K: Counters>(
     model: &Model,
     counters: &mut K,
 ) {
-    let mesh = Mesh::new(model.vertices, model.triangles, mapped);
     let stage = Stored(model.texture.sampler(Nearest, Repeat));
+    mapped_by(interpolation, stage, target, camera, model, counters);
+}
+
+/// The nearest texel of the nearest level, one for each triangle, of a mesh.
+pub fn mesh_mip_nearest<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    let stage = Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler(NEAREST_MIP, Repeat)));
+    mapped_by(Exact, stage, target, camera, model, counters);
+}
+
+/// The same of the finest level, without derivatives.
+pub fn mesh_base_nearest<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    let stage = Unlit(FLOOR_MIPMAP.sampler(BaseLevel(Nearest), Repeat));
+    mapped_by(Exact, stage, target, camera, model, counters);
+}
+
+#[inline]
+fn mapped_by<F: FragmentStage<Vec2>, P: Interpolation, K: Counters>(
+    interpolation: P,
+    stage: F,
+    target: &mut Target,
+    camera: &Camera,
+    model: &Model,
+    counters: &mut K,
+) {
+    let mesh = Mesh::new(model.vertices, model.triangles, mapped);
     let Target { color, depth, slots, .. } = target;
     let pixels = alberti::Target::new(Rgb565Le, D16, WIDTH, HEIGHT, color, depth);
     let slots = slots.mapped.get_mut(..model.vertices.len()).unwrap_or_default();

@@ -13,8 +13,9 @@ pub mod torus;
 pub use draws::{
     affine_fixed, affine_integers, affine_mesh, affine_mesh_sub8, affine_meshlets, flat, flat_fixed, flat_integers, flat_mesh,
     flat_meshlets, flat_without_depth, gouraud, gouraud_fixed, gouraud_mesh, integers_bands, material,
-    material_absent, material_emission, meshlets_bands, mip_bilinear, mip_bilinear_fixed, mip_nearest,
-    mip_nearest_fixed, textured, textured_bands, textured_fixed, trilinear, trilinear_fixed, trilinear_spans,
+    material_absent, material_emission, mesh_base_nearest, mesh_mip_nearest, meshlets_bands, mip_bilinear,
+    mip_bilinear_fixed, mip_nearest, mip_nearest_fixed, textured, textured_affine, textured_bands,
+    textured_fixed, textured_planes, textured_spans, trilinear, trilinear_fixed, trilinear_spans,
     trilinear_spans_fixed,
 };
 pub use shapes::PROBE;
@@ -81,6 +82,11 @@ pub static SCENES: &[Scene] = &[
     fill!("textured-4", 4, textured),
     scene!("mesh", torus(1.0), textured),
     scene!("mesh-eighth", torus(0.125), textured),
+    scene!("mesh-affine", torus(1.0), textured_affine),
+    scene!("mesh-spans", torus(1.0), textured_spans),
+    scene!("mesh-planes", torus(1.0), textured_planes),
+    scene!("mesh-base-nearest", torus(1.0), mesh_base_nearest),
+    scene!("mesh-mip-nearest", torus(1.0), mesh_mip_nearest),
     fill!("fixed-flat", 1, flat_fixed),
     fill!("fixed-flat-4", 4, flat_fixed),
     fill!("fixed-gouraud", 1, gouraud_fixed),
