@@ -195,7 +195,11 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
                     if number >= heard {
                         counters.submitted();
                     }
-                    sink.passing(corners, counters);
+                    if const { M::MESHLETS } {
+                        sink.passing(corners, counters);
+                    } else {
+                        sink.seldom(corners, counters);
+                    }
                 } else {
                     let Some(corners) = inside(slots, indices) else { break (number, indices) };
                     if number >= heard {
