@@ -1,7 +1,7 @@
 //! The ways of drawing that are measured: each is one call of [`alberti::draw`] on prepared memory.
 
 use crate::shapes::{FLOOR_MIPMAP, Model};
-use crate::torus::{HalfWords, Vertex};
+use crate::torus::{HalfWords, TORUS_VERTICES, Vertex};
 use crate::{Camera, HEIGHT, PIXELS, Target, WIDTH};
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::One;
@@ -211,18 +211,26 @@ fn mapped_by<F: FragmentStage<Vec2>, P: Interpolation, K: Counters>(
 
 /// The same in 15 bands of 16 rows. They lie one after the other, so that together they are the whole frame.
 pub fn textured_bands<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
-    bands(target, camera, model, &Mesh::new(model.vertices, model.triangles, mapped), counters);
+    bands(target, camera, model, &Mesh::new(model.vertices, model.triangles, mapped), ALL, counters);
 }
 
 /// The same of a mesh of integers.
 pub fn integers_bands<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
-    bands(target, camera, model, &integers(model, mapped_integers), counters);
+    bands(target, camera, model, &integers(model, mapped_integers), ALL, counters);
 }
 
 /// The same of one with meshlets.
 pub fn meshlets_bands<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
-    bands(target, camera, model, &meshlets(model, mapped_integers), counters);
+    bands(target, camera, model, &meshlets(model, mapped_integers), ALL, counters);
 }
+
+/// The same with 512 slots, a sixth of its vertices.
+pub fn meshlets_cache<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    bands(target, camera, model, &meshlets(model, mapped_integers), 512, counters);
+}
+
+/// As many slots as the torus has vertices.
+const ALL: usize = TORUS_VERTICES;
 
 #[inline]
 fn bands<K: Counters>(
@@ -230,6 +238,7 @@ fn bands<K: Counters>(
     camera: &Camera,
     model: &Model,
     mesh: &impl Geometry<Varying = Vec2>,
+    slots_used: usize,
     counters: &mut K,
 ) {
     const BAND: usize = PIXELS / 15;
@@ -239,7 +248,7 @@ fn bands<K: Counters>(
     let mut pass = Pass::new(&view, mesh, stage)
         .interpolation(FixedPoint(Spans16))
         .subpixel(Sub4)
-        .slots(&mut slots.mapped);
+        .slots(slots.mapped.get_mut(..slots_used).unwrap_or_default());
     let (mut prepared, _) = pass.count_prepare([WIDTH, HEIGHT], D16, listed, counters);
     let bands = color.chunks_mut(BAND).zip(depth.chunks_mut(BAND));
     for ((color, depth), top) in bands.zip((0..HEIGHT).step_by(16)) {

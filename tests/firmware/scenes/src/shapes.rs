@@ -2,7 +2,10 @@
 //!
 //! Positions are in the eye's orientation: x right, y up, z away.
 
-use crate::torus::{COARSE_TRIANGLE_LIST, HalfWords, TORUS_IN_HALF_WORDS, TORUS_TRIANGLE_LIST, TORUS_VERTEX_LIST, Vertex, part};
+use crate::torus::{
+    COARSE_TRIANGLE_LIST, HalfWords, TORUS_IN_HALF_WORDS, TORUS_TRIANGLE_LIST, TORUS_VERTEX_LIST, Vertex,
+    part,
+};
 use crate::{HEIGHT, WIDTH};
 use alberti::glam::{Mat3, Vec3};
 use alberti::texture::{Known, Mipmap, PowerOfTwo, Texture, format::Rgb565};
