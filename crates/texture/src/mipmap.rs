@@ -22,7 +22,7 @@ pub use build::build;
 
 use core::fmt;
 
-use alberti_math::each;
+use alberti_math::{each, map2};
 
 use crate::format::Storage;
 use crate::texture::MAX_SIZE;
@@ -228,8 +228,11 @@ impl<'a, F: Storage, Z: Size, const N: usize> Mipmap<'a, F, Z, N> {
         let level = level.min(self.levels().saturating_sub(1));
         let at = |level: usize| self.begin.get(level).copied().unwrap_or_default() as usize;
         let texels = at(level)..at(level + 1);
-        // Not `map2`: in line, compilers no longer see that layers of a material read the same texels.
-        let sides = [self.width, self.height].map(|side| (side >> level).max(1));
+        let halved = |side: u16| (side >> level).max(1);
+        let sides = [self.width, self.height];
+        // In line, compilers of several lanes no longer see that layers of a material read the same texels. Programs
+        // made for size would keep a loop.
+        let sides = if cfg!(target_os = "none") { map2(sides, halved) } else { sides.map(halved) };
         let (none, size) = self.size.level(&[]);
         let planes = each(
             self.elements,

@@ -106,7 +106,17 @@ pub trait Size: Sealed + Copy + Debug + 'static {
                     map2(
                         [left, right],
                         #[inline(always)]
-                        |column| self.words(lanes, texels, [row, column], width, &word),
+                        |column| {
+                            // A closure of its own, as a reference to one is a call in programs made for size.
+                            self.words(
+                                lanes,
+                                texels,
+                                [row, column],
+                                width,
+                                #[inline(always)]
+                                |texel| word(texel),
+                            )
+                        },
                     )
                 },
             );

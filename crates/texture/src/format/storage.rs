@@ -92,8 +92,13 @@ impl<F: TexelFormat> Storage for F {
         row: L::U32,
         columns: [L::U32; 2],
     ) -> [[L::U32; 2]; N] {
-        texture
-            .word_pairs(lanes, row, columns, |texel| texel.map_or(0, |&texel| self.decode(texel).to_bits()))
+        texture.word_pairs(
+            lanes,
+            row,
+            columns,
+            #[inline(always)]
+            |texel| texel.map_or(0, |&texel| self.decode(texel).to_bits()),
+        )
     }
 
     #[inline(always)]
