@@ -34,8 +34,8 @@ pub struct Told {
 /// The sides of that texture.
 pub const SIZE: [u32; 2] = [512, 128];
 
-/// A stage that keeps its news; its colour is the place of these, or without a list, bits made of them. It takes as many
-/// samples at a time in long rows as in short ones, which is half of the code.
+/// A stage that keeps its news; its colour is the place of these, or without a list, bits made of them. It takes as
+/// many samples at a time in long rows as in short ones, which is half of the code.
 #[derive(Clone, Copy, Debug)]
 pub struct Listener<'a, D> {
     seen: Option<&'a Seen<Told>>,

@@ -71,8 +71,8 @@ impl<const FINE: bool> Shape<FINE> {
     /// second and the third vertex to the first have.
     #[inline(always)]
     pub(super) fn holds(&self, differences: u32) -> bool {
-        // The sum of two products must be less than 2^31 after the shift. Sides of fine ones have up to 13 bits, so that
-        // fewer of the differences' are counted.
+        // The sum of two products must be less than 2^31 after the shift. Sides of fine ones have up to 13 bits, so
+        // that fewer of the differences' are counted.
         let (most, unused) = (self.extent + 1, if FINE { 4 } else { 0 });
         ((differences >> unused) + 1).wrapping_mul(most) < (1 << (30 - unused)) >> self.shift
     }
@@ -131,8 +131,8 @@ pub(super) struct Crossing<const FINE: bool> {
 }
 
 impl<const FINE: bool> Crossing<FINE> {
-    /// The edge down from `p` to `q`, which is below, at most 2^8 subpixels, or in fine ones 2^13, in the row of a
-    /// sample that is at a height between. Columns count from that sample's.
+    /// The edge down from `p` to `q`, in the row of a sample that is at a height between. Columns count from that
+    /// sample's. The edge is less than 2^8 subpixels high, a fine one 2^13.
     #[inline(always)]
     pub(super) fn new(p: [i32; 2], q: [i32; 2], [x, y]: [i32; 2]) -> Self {
         let [dx, dy] = [q[0] - p[0], (q[1] - p[1]).max(1)];

@@ -2,6 +2,7 @@
 //! and whatever else they carry. The edge is cut by the near plane, the far plane or a side of the view.
 
 use super::super::*;
+use crate::walk::{Fate, Walk};
 use crate::{AnyDepth, Cull, Exact, Linear, Mesh, Pass, Perspective, Sub8, View};
 use alberti_math::{Flat, Frame};
 use alberti_oracle::rng::{Rng, run_seed};

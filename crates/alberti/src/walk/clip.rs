@@ -1,0 +1,203 @@
+//! Steps 3 to 6 for triangles that cross a plane: from three vertices to the fan that is left of them on the screen.
+
+use super::Passing;
+use crate::geometry::Geometry;
+use crate::screen::{Screen, Sides};
+use crate::vertex::{Slot, outside};
+use alberti_math::glam::Vec3;
+use alberti_math::lanes::One;
+use alberti_math::{Eye, Fixed, Mode, Point3, Varying, map2, map3};
+use alberti_projection::{
+    EyeVertex, Polygon, ProjectedVertex, Projection, SideBounds, clip_near_far, clip_sides,
+};
+use alberti_raster as raster;
+use alberti_raster::{Corner, Vertex};
+use core::cmp::Ordering;
+
+/// The parts of a triangle that crosses a plane.
+#[cold]
+#[inline(never)]
+pub(super) fn clip<M: Geometry, Pr: Projection, K>(
+    mesh: &M,
+    screen: &Screen<Pr>,
+    indices: [usize; 3],
+    slots: [&Slot<M::Varying>; 3],
+    sink: Passing<'_, M::Varying, K>,
+    counters: &mut K,
+) {
+    // Slots do without these, since few triangles are clipped.
+    let [Some(a), Some(b), Some(c)] = indices.map(|index| before_the_eye(mesh, screen, index)) else {
+        return;
+    };
+    let (positions, varyings) = ([a.0, b.0, c.0], [a.1, b.1, c.1]);
+    let rotation = first_of(positions);
+    let (carried, slots) = (rotated(varyings, rotation), rotated(slots, rotation));
+    let polygon = cut(screen, rotated(positions, rotation));
+    // The triangle's own vertices stay where its neighbours have them, to the last bit of integers too.
+    let own = if const { M::INTEGERS } { map3(slots, kept) } else { [None; 3] };
+    let places = polygon.map(|vertex| {
+        let Vertex { x, y, varying, .. } = vertex?;
+        Some(own_of(own, varying).map_or([x.subpixels(), y.subpixels()], |own| own.screen.place()))
+    });
+    for fan in polygon.fan_around(unfolded(&places)) {
+        let corners = fan.map(|vertex| {
+            let corner = on_the_screen(screen.numbers, vertex, varyings[0], &carried)?;
+            let own = own_of(own, vertex?.varying);
+            Some(own.map_or(corner, |own| own.screen.with_components_of(&corner)))
+        });
+        if let [Some(a), Some(b), Some(c)] = &corners {
+            sink([a, b, c], counters);
+        }
+    }
+}
+
+/// A slot whose place on the screen has a meaning.
+fn kept<V: Varying>(slot: &Slot<V>) -> Option<&Slot<V>> {
+    (slot.outside & (outside::NEAR | outside::FAR | outside::GUARD) == 0).then_some(slot)
+}
+
+/// The item of the vertex that has all the weight.
+fn own_of<T>([a, b, c]: [Option<T>; 3], weights: Weights) -> Option<T> {
+    match weights.to_array() {
+        [1.0, ..] => a,
+        [_, 1.0, _] => b,
+        [.., 1.0] => c,
+        _ => None,
+    }
+}
+
+/// The number of a vertex around which no triangle of the fan is turned over; 0 if there is none. Snapping may move a
+/// vertex a little into the polygon where it is almost in line with the next ones. A fan that passes over it would draw
+/// samples twice.
+#[inline(never)]
+fn unfolded(places: &Polygon<Option<[i32; 2]>>) -> usize {
+    let folded = |number: &usize| {
+        // A bit for either way round.
+        let turns = places.fan_around(*number).map(|fan| {
+            let [Some(a), Some(b), Some(c)] = fan else { return 0 };
+            let side = |p: [i32; 2]| map2([0, 1], |k: usize| i64::from(p[k] - a[k]));
+            let [[ux, uy], [vx, vy]] = [side(b), side(c)];
+            let area = ux * vy - uy * vx;
+            u32::from(area > 0) | u32::from(area < 0) << 1
+        });
+        turns.fold(0, |all, turn| all | turn) == 3
+    };
+    (0..places.vertices().len()).find(|number| !folded(number)).unwrap_or(0)
+}
+
+/// A vertex in scaled eye space.
+#[inline(never)]
+fn before_the_eye<M: Geometry, Pr: Projection>(
+    mesh: &M,
+    screen: &Screen<Pr>,
+    index: usize,
+) -> Option<(Point3<Eye>, M::Varying)> {
+    let (point, varying) = mesh.vertex(index)?;
+    Some((Point3::new(screen.eye(One, point.coords.to_array()).into()), varying))
+}
+
+/// The corner where the three varyings have weights.
+#[inline(never)]
+fn on_the_screen<V: Varying>(
+    numbers: raster::Numbers,
+    vertex: Option<Vertex<Weights>>,
+    first: V,
+    carried: &[V; 3],
+) -> Option<Corner<V>> {
+    let Vertex { x, y, zs, q, varying } = vertex?;
+    Some(Corner::new(numbers, &Vertex { x, y, zs, q, varying: weighted(first, *carried, varying) }))
+}
+
+/// The weights of a triangle's three vertices at a point of it.
+type Weights = Vec3;
+
+/// The vertices that clipping leaves, in terms of the triangle's own: once in a program, whatever these carry. Vertices
+/// without a place on the screen are `None`.
+///
+/// Two triangles that share an edge have the same new vertices on it, bit for bit, whatever their third vertex is. Its
+/// weight is 0 there, and stays so, since a cut is between two vertices of the polygon.
+#[inline(never)]
+fn cut<Pr: Projection>(screen: &Screen<Pr>, [a, b, c]: [Point3<Eye>; 3]) -> Polygon<Option<Vertex<Weights>>> {
+    let Screen { projection, viewport, depth, sides, guard, subpixel, .. } = screen;
+    let triangle = [
+        EyeVertex { position: a, varying: Vec3::X },
+        EyeVertex { position: b, varying: Vec3::Y },
+        EyeVertex { position: c, varying: Vec3::Z },
+    ];
+    // 3. The part between the near and the far plane.
+    let between = clip_near_far(triangle, projection.near(), projection.far());
+    // 4. Perspective with depth.
+    let projected = between.map(|v| projection.project(depth, &v));
+    if !projected.vertices().iter().all(finite) {
+        return projected.map(|_| None);
+    }
+    // 5. The sides.
+    let bounds = match sides {
+        Sides::GuardBand => *guard,
+        Sides::Cube => SideBounds::CUBE,
+    };
+    // 6. Window-viewport.
+    clip_sides(projected, bounds).map(|v| {
+        // All are within the guard band now.
+        let place = viewport.to_screen_lanes(One, *subpixel, [v.x, v.y]);
+        let [x, y] = place.map(|subpixels| Fixed::wrapping(subpixels.0.cast_signed()));
+        Some(Vertex { x, y, zs: v.zs, q: v.q, varying: v.varying })
+    })
+}
+
+/// The varying at a point with these weights. Those that are 0 have no part in it, not even in its range; flat
+/// components are those of `first`.
+fn weighted<V: Varying>(first: V, [a, b, c]: [V; 3], weights: Weights) -> V {
+    let mean = |mode, [a, b, c, first]: [f32; 4]| {
+        if mode == Mode::Flat {
+            return first;
+        }
+        let values = [a, b, c];
+        let [mut least, mut greatest] = [f32::MAX, f32::MIN];
+        for (value, weight) in values.into_iter().zip(weights.to_array()) {
+            if weight > 0.0 {
+                least = if value < least { value } else { least };
+                greatest = if value > greatest { value } else { greatest };
+            }
+        }
+        let sum = weights.x * a + weights.y * b + weights.z * c;
+        let sum = if sum > least { sum } else { least };
+        if sum < greatest { sum } else { greatest }
+    };
+    V::from_components(&V::map_by_mode(&V::gather([a, b, c, first]), &mean))
+}
+
+/// Whether a projected vertex has a place: dividing by a tiny z may overflow.
+fn finite<V>(v: &ProjectedVertex<V>) -> bool {
+    v.x.abs() <= f32::MAX / 4.0 && v.y.abs() <= f32::MAX / 4.0 && v.q.is_finite()
+}
+
+/// The vertex at which clipping and the fan start: the same for the same triangle, whichever vertex it is given from.
+fn first_of([a, b, c]: [Point3<Eye>; 3]) -> usize {
+    if before(b, a) && !before(c, b) {
+        1
+    } else if before(c, a) {
+        2
+    } else {
+        0
+    }
+}
+
+/// The three from number `first` on.
+fn rotated<T>([a, b, c]: [T; 3], first: usize) -> [T; 3] {
+    match first {
+        0 => [a, b, c],
+        1 => [b, c, a],
+        _ => [c, a, b],
+    }
+}
+
+/// Any order that all points have.
+#[inline(never)]
+fn before(v: Point3<Eye>, w: Point3<Eye>) -> bool {
+    let (v, w) = (v.coords, w.coords);
+    v.z.total_cmp(&w.z).then(v.y.total_cmp(&w.y)).then(v.x.total_cmp(&w.x)) == Ordering::Less
+}
+
+#[cfg(test)]
+mod tests;
