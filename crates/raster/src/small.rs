@@ -25,11 +25,11 @@
 //!   first row, and less than one for each of 16 rows. With 4 bits 2^-13 are 4096 units, for 32 rows.
 //!
 //! # Values
-//! In units of 2^-24 a column or a row adds its slope within 1.4, for up to 17 of each. In fine ones that is 1.2, for up
-//! to 33 of each. The way from the first vertex to the next sample, less than a pixel on both axes, is within 33, and in
-//! fine ones within 5. So the error stays below 85 of 128, which are half a step of 2^-16. The three vertices are whole
-//! steps. So the nearest step is within their range, and a constant stays one. Depths are followed in 2^-12 of a step.
-//! There 17 times 6, or 33 times 6, for columns and rows, and 42, are below 246 of 2048.
+//! In units of 2^-24 a column or a row adds its slope within 1.4, for up to 17 of each. In fine ones that is 1.2, for
+//! up to 33 of each. The way from the first vertex to the next sample, less than a pixel on both axes, is within 33,
+//! and in fine ones within 5. So the error stays below 85 of 128, which are half a step of 2^-16. The three vertices
+//! are whole steps. So the nearest step is within their range, and a constant stays one. Depths are followed in 2^-12
+//! of a step. There 17 times 6, or 33 times 6, for columns and rows, and 42, are below 246 of 2048.
 
 mod shape;
 
