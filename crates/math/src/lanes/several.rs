@@ -6,17 +6,17 @@ use core::fmt::{Debug, Formatter, Result};
 #[cfg(target_arch = "x86_64")]
 use fearless_simd::Level;
 use fearless_simd::{
-    Bytes, Select, Simd, SimdBase, SimdFloat, SimdInt, SimdInto, SimdMask, f32x8, f32x16, f64x4, f64x8,
-    i32x8, i32x16, mask32x8, mask32x16, u16x16, u16x32, u32x8, u32x16, u64x4, u64x8,
+    Bytes, Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdInt, SimdInto, SimdMask, f32x8, f32x16, f64x4,
+    f64x8, i32x8, i32x16, mask32x8, mask32x16, u16x16, u16x32, u32x4, u32x8, u32x16, u64x4, u64x8,
 };
 
 /// A type of lanes: its name, their number, the types of its vectors, and the numbers of all lanes, of half and of a
-/// quarter of them.
+/// quarter of them, and the function that makes a vector of fours.
 macro_rules! several {
     (
         $(#[$doc:meta])* $name:ident, $count:literal,
         [$f32:ident, $i32:ident, $u32:ident, $u16:ident, $mask:ident, $f64:ident, $u64:ident, $narrow:ident],
-        [$($lane:literal)+], [$($half:literal)+], [$($quarter:literal)+]
+        [$($lane:literal)+], [$($half:literal)+], [$($quarter:literal)+], $combine:ident
     ) => {
         $(#[$doc])*
         #[derive(Clone, Copy)]
@@ -140,17 +140,15 @@ macro_rules! several {
                 [$(number(d[$lane])),+]
             }
 
-            // In pairs, which take half as many moves between a machine's two kinds of registers.
+            // In fours, so that all loads come before the first of them takes its place.
             #[inline(always)]
-            #[expect(clippy::cast_possible_truncation, reason = "a half at a time")]
             fn gather(self, indices: $u32<S>, mut word: impl FnMut(u32) -> u32) -> $u32<S> {
-                let pairs: [u64; $count / 2] = indices.bitcast::<$u64<S>>().into();
-                let mut pair = |pair: u64| {
-                    let [low, high] = [word(pair as u32), word((pair >> 32) as u32)];
-                    u64::from(high) << 32 | u64::from(low)
+                let indices: [u32; $count] = indices.into();
+                let mut four = |at: usize| -> u32x4<S> {
+                    let words = [word(indices[at]), word(indices[at + 1]), word(indices[at + 2]), word(indices[at + 3])];
+                    words.simd_into(self.0)
                 };
-                let pairs: $u64<S> = [$(pair(pairs[$half])),+].simd_into(self.0);
-                pairs.bitcast()
+                $combine([$(four(4 * $quarter)),+])
             }
 
             #[inline(always)]
@@ -360,7 +358,7 @@ several! {
     /// Eight samples at a time, on a machine with the instructions `S`: in one register of 256 bits, or pairs of 128.
     Eight, 8,
     [f32x8, i32x8, u32x8, u16x16, mask32x8, f64x4, u64x4, narrow_f64x4],
-    [0 1 2 3 4 5 6 7], [0 1 2 3], [0 1]
+    [0 1 2 3 4 5 6 7], [0 1 2 3], [0 1], of_two
 }
 
 several! {
@@ -368,7 +366,7 @@ several! {
     /// other.
     Sixteen, 16,
     [f32x16, i32x16, u32x16, u16x32, mask32x16, f64x8, u64x8, narrow_f64x8],
-    [0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15], [0 1 2 3 4 5 6 7], [0 1 2 3]
+    [0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15], [0 1 2 3 4 5 6 7], [0 1 2 3], of_four
 }
 
 /// The samples that are best in long rows. SSE2 and Neon take pairs of registers for eight, and have no more.
@@ -393,3 +391,15 @@ floating!(Eight<Avx512>: Sixteen, Sixteen<Avx512>: Sixteen);
 floating!(Eight<Avx2>: Sixteen, Sixteen<Avx2>: Sixteen, Eight<Sse2>: Eight);
 #[cfg(target_arch = "aarch64")]
 floating!(Eight<Neon>: Eight);
+
+/// A vector of these parts, in order.
+#[inline(always)]
+fn of_two<S: Simd>([a, b]: [u32x4<S>; 2]) -> u32x8<S> {
+    a.combine(b)
+}
+
+/// A vector of these parts, in order.
+#[inline(always)]
+fn of_four<S: Simd>([a, b, c, d]: [u32x4<S>; 4]) -> u32x16<S> {
+    a.combine(b).combine(c.combine(d))
+}
