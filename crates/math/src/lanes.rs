@@ -197,6 +197,9 @@ pub trait Lanes: Copy + Debug + Send + Sync {
     fn long_add(self, x: Self::Long, step: i64) -> Self::Long;
     /// To the nearest number.
     fn long_to_number(self, x: Self::Long) -> Self::Number;
+    /// 0, `step`, `2 step` and so on, below 2^(24 + `bits`), each as a multiple of 2^`bits` and a rest of at most half
+    /// of that: numbers without rounding.
+    fn long_parts(self, step: i64, bits: u32) -> [Self::Number; 2];
 }
 
 /// log2(1 + m) is m + m(1 - m)(`LOG2`\[0\] + `LOG2`\[1\] m) within 8.8e-4, exactly so for 0 and 1: the least error that

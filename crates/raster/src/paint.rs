@@ -12,6 +12,7 @@ use crate::mask::RowMask;
 use crate::pixels::Pixels;
 use crate::spans::Span;
 use crate::target::Target;
+use crate::weights::Weights;
 use alberti_math::lanes::Lanes;
 use alberti_math::{LOW_WORDS_ONLY, Varying};
 use core::hint::black_box;
@@ -45,6 +46,7 @@ where
         target: &mut Target<'_, C, D>,
         row: &Row<'_, I>,
         limits: &Range<i32>,
+        weights: &Weights<L>,
         counters: &mut K,
     ) where
         I: EdgeInt,
@@ -80,7 +82,8 @@ where
                 colors.get_mut(before..end).unwrap_or_default(),
                 depths.get_mut(before..end).unwrap_or_default(),
             );
-            written += self.run(formats, groups, (&mut *last.0, &mut *last.1), row, column..stop, cursor);
+            let last = (&mut *last.0, &mut *last.1);
+            written += self.run(formats, groups, last, (row, weights), column..stop, cursor);
             column = stop;
         }
         counters.span(covered, written);
@@ -263,7 +266,7 @@ where
         formats: (C, D),
         (mut colors, mut depths): Pixels<'_, L::Each<C::Pixel>, L::Each<D::Stored>>,
         (last_colors, last_depths): Pixels<'_, C::Pixel, D::Stored>,
-        row: &Row<'_, I>,
+        (row, weights): (&Row<'_, I>, &Weights<L>),
         columns: Range<i32>,
         (mut cursor, derivatives): RunState<T::Cursor, F::Derivatives, L, V>,
     ) -> u32
@@ -274,10 +277,7 @@ where
     {
         let lanes = self.lanes;
         let left = aligned::<L>(columns.start);
-        let ramp = |at: I, e: &Edge<I>| I::ramp(lanes, at, e.step_x);
-        let advance = |at, e: &Edge<I>| I::advance(lanes, at, e.step_x * I::from(L::STEP));
-        let ([a, b, c], at) = (row.edges, row.at(left));
-        let mut edges = [ramp(at[0], a), ramp(at[1], b), ramp(at[2], c)];
+        let (mut edges, mut groups) = (weights.parts(row.at(left)), weights.groups());
 
         let mut mask = lanes.mask(all::<L>() << (columns.start - left));
         let (mut column, mut written, mut copy) = (left, 0, None);
@@ -287,14 +287,18 @@ where
                 if remaining < L::STEP {
                     mask = mask & lanes.mask((1 << remaining) - 1);
                 }
-                let [ea, eb, ec] = edges;
-                let weights = [I::weights(lanes, ea), I::weights(lanes, eb), I::weights(lanes, ec)];
                 let (known, place) = ((&cursor, &derivatives), [column, row.row]);
-                written += self.group(formats, (color, depth), mask, known, (place, &weights));
+                written += self.group(formats, (color, depth), mask, known, (place, &weights.at(&edges)));
                 mask = lanes.mask(all::<L>());
                 column += L::STEP;
                 cursor = self.triangle.advance(cursor);
-                edges = [advance(ea, a), advance(eb, b), advance(ec, c)];
+                groups -= 1;
+                edges = if groups > 0 {
+                    weights.next(&edges)
+                } else {
+                    groups = weights.groups();
+                    weights.parts(row.at(column))
+                };
             }
             if column >= columns.end || copy.is_some() {
                 break;

@@ -350,6 +350,18 @@ macro_rules! several {
             fn long_to_number(self, x: [$f64<S>; 2]) -> $f32<S> {
                 self.0.$narrow(x[0], x[1])
             }
+
+            // The sum with 1.5·2^(52 + bits) rounds to a multiple of 2^bits.
+            #[inline(always)]
+            #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
+            fn long_parts(self, step: i64, bits: u32) -> [$f32<S>; 2] {
+                let align = $f64::splat(self.0, f64::from_bits((u64::from(1075 + bits) << 52) | (1 << 51)));
+                let step = $f64::splat(self.0, step as f64);
+                let low = step * self.half();
+                let high = low + step * $f64::splat(self.0, f64::from($count / 2));
+                let [a, b] = [(low + align) - align, (high + align) - align];
+                [self.0.$narrow(a, b), self.0.$narrow(low - a, high - b)]
+            }
         }
     };
 }
