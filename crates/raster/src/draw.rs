@@ -463,16 +463,23 @@ where
         bits = mask.next_row();
     }
     let painter = prepare();
+    if const { Painter::<L, V, T, F>::EVERYWHERE } {
+        bits = mask.inside();
+    }
     let formats = (target.color_format(), target.depth_format());
     let mut pixels = target.rows_from(row, left);
     while row < rows.end {
         if bits != 0 {
-            let written = painter.masked(formats, pixels.row(), [left, row], bits, &mask);
-            counters.span(bits.count_ones(), written);
+            painter.masked(formats, pixels.row(), [left, row], bits, &mask, counters);
         }
         row += 1;
         pixels.down();
-        bits = mask.next_row();
+        if const { Painter::<L, V, T, F>::EVERYWHERE } {
+            mask.down();
+            bits = mask.inside();
+        } else {
+            bits = mask.next_row();
+        }
     }
     Outcome::Drawn
 }

@@ -39,6 +39,9 @@ where
     T: Interpolate<L, V>,
     F: FragmentStage<V>,
 {
+    /// Whether no sample asks which others a row covers, as rows and runs have no state.
+    pub(crate) const EVERYWHERE: bool = size_of::<(T::Row, RunState<T::Cursor, F::Derivatives, L, V>)>() == 0;
+
     /// Fills the columns in `limits` that a row of the triangle covers.
     #[inline(always)]
     pub(crate) fn row<I, C, D, K>(
@@ -208,8 +211,8 @@ where
         [left, row]: [i32; 2],
         mut bits: u32,
         mask: &RowMask<L>,
-    ) -> u32
-    where
+        counters: &mut impl Counters,
+    ) where
         C: ColorFormat,
         D: DepthFormat,
     {
@@ -223,19 +226,23 @@ where
         let ((mut cursor, derivatives), _) = self.start(&whole, &mut known, covered.start, left);
         let ((mut colors, last_colors), (mut depths, last_depths)) = (L::groups(colors), L::groups(depths));
         let (mut values, mut written, mut column, mut copy) = (mask.first(), 0, left, None);
+        let mut covered_samples = 0;
         loop {
             for (color, depth) in colors.iter_mut().zip(depths) {
-                let group = bits & all::<L>();
-                if group != 0 {
+                let (group, some) = if const { Self::EVERYWHERE } {
+                    let group = mask.covered(values);
+                    let bits = self.lanes.bits(group);
+                    covered_samples += bits.count_ones();
+                    (group, bits != 0)
+                } else {
+                    let bits = bits & all::<L>();
+                    covered_samples += bits.count_ones();
+                    (self.lanes.mask(bits), bits != 0)
+                };
+                if some {
                     let weights = mask.weights(values);
                     let known = (&cursor, &derivatives);
-                    written += self.group(
-                        formats,
-                        (color, depth),
-                        self.lanes.mask(group),
-                        known,
-                        ([column, row], &weights),
-                    );
+                    written += self.group(formats, (color, depth), group, known, ([column, row], &weights));
                 }
                 bits >>= L::COUNT;
                 if bits == 0 {
@@ -255,7 +262,7 @@ where
         if let Some(copy) = &copy {
             put_back::<L, _, _>(copy, last_colors, last_depths);
         }
-        written
+        counters.span(covered_samples, written);
     }
 
     /// Fills a run of samples in whole groups of pixels and, if these do not suffice, in the band's last ones. The last
