@@ -219,6 +219,13 @@ macro_rules! several {
                 self.floor(x * self.splat(power_of_two(bits))).to_int::<$i32<S>>().bitcast()
             }
 
+            // From 2^31 on, where x86's conversion says -2^31, all numbers are multiples of 2^8.
+            #[inline(always)]
+            fn floor_fraction_scaled(self, x: $f32<S>, bits: u32) -> $u32<S> {
+                let whole = cfg!(target_arch = "x86_64") && bits <= 8;
+                self.floor_scaled(if whole { x } else { self.wrap(x, 0) }, bits)
+            }
+
             #[inline(always)]
             fn round_scaled(self, x: $f32<S>, bits: u32) -> $u32<S> {
                 // floor(x + 1/2), without a sum that would have to be rounded.
