@@ -145,8 +145,8 @@ macro_rules! several {
             fn gather(self, indices: $u32<S>, mut word: impl FnMut(u32) -> u32) -> $u32<S> {
                 let indices: [u32; $count] = indices.into();
                 let mut four = |at: usize| -> u32x4<S> {
-                    let words = [word(indices[at]), word(indices[at + 1]), word(indices[at + 2]), word(indices[at + 3])];
-                    words.simd_into(self.0)
+                    let mut word = |k: usize| word(indices[at + k]);
+                    [word(0), word(1), word(2), word(3)].simd_into(self.0)
                 };
                 $combine([$(four(4 * $quarter)),+])
             }
