@@ -144,6 +144,12 @@ pub trait Lanes: Copy + Debug + Send + Sync {
     /// x·2^`bits` rounded down, in two's complement, for |x·2^`bits`| < 2^31 and `bits` up to 30. NaN gives a multiple
     /// of 2^31; numbers beyond give any word.
     fn floor_scaled(self, x: Self::Number, bits: u32) -> Self::U32;
+    /// A word whose lowest `bits` are those of x·2^`bits` rounded down, up to 30, for every number; 0 for those that are
+    /// not finite.
+    #[inline(always)]
+    fn floor_fraction_scaled(self, x: Self::Number, bits: u32) -> Self::U32 {
+        self.floor_scaled(self.wrap(x, 0), bits)
+    }
     /// The same to the nearest, halves up, for |x·2^`bits`| < 2^30.
     fn round_scaled(self, x: Self::Number, bits: u32) -> Self::U32;
     /// The nearest word from 0 to 255, of halves the upper; 0 for NaN.
@@ -197,6 +203,9 @@ pub trait Lanes: Copy + Debug + Send + Sync {
     fn long_add(self, x: Self::Long, step: i64) -> Self::Long;
     /// To the nearest number.
     fn long_to_number(self, x: Self::Long) -> Self::Number;
+    /// 0, `step`, `2 step` and so on, below 2^(24 + `bits`), each as a multiple of 2^`bits` and a rest of at most half
+    /// of that: numbers without rounding.
+    fn long_parts(self, step: i64, bits: u32) -> [Self::Number; 2];
 }
 
 /// log2(1 + m) is m + m(1 - m)(`LOG2`\[0\] + `LOG2`\[1\] m) within 8.8e-4, exactly so for 0 and 1: the least error that

@@ -15,6 +15,7 @@ use crate::setup::{Setups, Waiting, Way};
 use crate::spans::RowSpans;
 use crate::target::Target;
 use crate::triangle::{Corner, Corners, Cull, Numbers, Outcome, Reach, Vertex, doubled_area};
+use crate::weights::Weights;
 use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Subpixel, Varying, map3};
 use core::marker::PhantomData;
@@ -409,6 +410,7 @@ where
     let mut edges = samples.edges::<I>();
     let mut spans =
         RowSpans::new(&edges, columns.end - columns.start, [samples.above(), rows.end - rows.start]);
+    let weights = Weights::new(setup.interpolation.lanes(setup.lanes), &edges, setup.oriented.doubled_area);
     // A triangle that covers no sample is not prepared.
     let mut painter = None;
     for row in rows.clone() {
@@ -419,7 +421,7 @@ where
             }
             if let Some(painter) = &painter {
                 let row = Row { row, covered, origin: columns.start, edges: &edges };
-                painter.row(target, &row, limits, counters);
+                painter.row(target, &row, limits, &weights, counters);
             }
         }
         for edge in &mut edges {
@@ -461,16 +463,23 @@ where
         bits = mask.next_row();
     }
     let painter = prepare();
+    if const { Painter::<L, V, T, F>::EVERYWHERE } {
+        bits = mask.inside();
+    }
     let formats = (target.color_format(), target.depth_format());
     let mut pixels = target.rows_from(row, left);
     while row < rows.end {
         if bits != 0 {
-            let written = painter.masked(formats, pixels.row(), [left, row], bits, &mask);
-            counters.span(bits.count_ones(), written);
+            painter.masked(formats, pixels.row(), [left, row], bits, &mask, counters);
         }
         row += 1;
         pixels.down();
-        bits = mask.next_row();
+        if const { Painter::<L, V, T, F>::EVERYWHERE } {
+            mask.down();
+            bits = mask.inside();
+        } else {
+            bits = mask.next_row();
+        }
     }
     Outcome::Drawn
 }

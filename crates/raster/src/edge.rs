@@ -36,6 +36,9 @@ pub trait EdgeInt:
     /// The same number, where it fits.
     fn to_i32(self) -> i32;
 
+    /// The same number.
+    fn to_i64(self) -> i64;
+
     /// The nearest number.
     fn to_f32(self) -> f32;
 
@@ -70,6 +73,11 @@ impl EdgeInt for i32 {
     #[inline(always)]
     fn to_i32(self) -> i32 {
         self
+    }
+
+    #[inline(always)]
+    fn to_i64(self) -> i64 {
+        self.into()
     }
 
     #[inline(always)]
@@ -118,6 +126,11 @@ impl EdgeInt for i64 {
     #[expect(clippy::cast_possible_truncation, reason = "where it fits")]
     fn to_i32(self) -> i32 {
         self as i32
+    }
+
+    #[inline(always)]
+    fn to_i64(self) -> i64 {
+        self
     }
 
     #[inline(always)]

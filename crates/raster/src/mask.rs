@@ -70,9 +70,28 @@ impl<L: Lanes> RowMask<L> {
     /// Goes down one row: its covered columns.
     #[inline(always)]
     pub(crate) fn next_row(&mut self) -> u32 {
+        self.down();
+        self.bits()
+    }
+
+    /// Goes down one row.
+    #[inline(always)]
+    pub(crate) fn down(&mut self) {
         let ([a, b, c], [da, db, dc]) = (self.values, self.down);
         self.values = [a + da, b + db, c + dc];
-        self.bits()
+    }
+
+    /// The columns of the box, column 0 the lowest bit.
+    #[inline(always)]
+    pub(crate) fn inside(&self) -> u32 {
+        self.inside
+    }
+
+    /// The lanes in which no function with its bias is negative. Where the lanes reach to before the end of the box's
+    /// columns, all of them lie in it, as it has all samples of the triangle in its rows.
+    #[inline(always)]
+    pub(crate) fn covered(&self, [a, b, c]: [L::Int; 3]) -> L::Mask {
+        self.lanes.not_negative(a | b | c)
     }
 
     /// The edges at a column and row.

@@ -12,6 +12,7 @@ use crate::mask::RowMask;
 use crate::pixels::Pixels;
 use crate::spans::Span;
 use crate::target::Target;
+use crate::weights::Weights;
 use alberti_math::lanes::Lanes;
 use alberti_math::{LOW_WORDS_ONLY, Varying};
 use core::hint::black_box;
@@ -38,6 +39,9 @@ where
     T: Interpolate<L, V>,
     F: FragmentStage<V>,
 {
+    /// Whether no sample asks which others a row covers, as rows and runs have no state.
+    pub(crate) const EVERYWHERE: bool = size_of::<(T::Row, RunState<T::Cursor, F::Derivatives, L, V>)>() == 0;
+
     /// Fills the columns in `limits` that a row of the triangle covers.
     #[inline(always)]
     pub(crate) fn row<I, C, D, K>(
@@ -45,6 +49,7 @@ where
         target: &mut Target<'_, C, D>,
         row: &Row<'_, I>,
         limits: &Range<i32>,
+        weights: &Weights<L>,
         counters: &mut K,
     ) where
         I: EdgeInt,
@@ -80,7 +85,8 @@ where
                 colors.get_mut(before..end).unwrap_or_default(),
                 depths.get_mut(before..end).unwrap_or_default(),
             );
-            written += self.run(formats, groups, (&mut *last.0, &mut *last.1), row, column..stop, cursor);
+            let last = (&mut *last.0, &mut *last.1);
+            written += self.run(formats, groups, last, (row, weights), column..stop, cursor);
             column = stop;
         }
         counters.span(covered, written);
@@ -205,8 +211,8 @@ where
         [left, row]: [i32; 2],
         mut bits: u32,
         mask: &RowMask<L>,
-    ) -> u32
-    where
+        counters: &mut impl Counters,
+    ) where
         C: ColorFormat,
         D: DepthFormat,
     {
@@ -220,19 +226,23 @@ where
         let ((mut cursor, derivatives), _) = self.start(&whole, &mut known, covered.start, left);
         let ((mut colors, last_colors), (mut depths, last_depths)) = (L::groups(colors), L::groups(depths));
         let (mut values, mut written, mut column, mut copy) = (mask.first(), 0, left, None);
+        let mut covered_samples = 0;
         loop {
             for (color, depth) in colors.iter_mut().zip(depths) {
-                let group = bits & all::<L>();
-                if group != 0 {
+                let (group, some) = if const { Self::EVERYWHERE } {
+                    let group = mask.covered(values);
+                    let bits = self.lanes.bits(group);
+                    covered_samples += bits.count_ones();
+                    (group, bits != 0)
+                } else {
+                    let bits = bits & all::<L>();
+                    covered_samples += bits.count_ones();
+                    (self.lanes.mask(bits), bits != 0)
+                };
+                if some {
                     let weights = mask.weights(values);
                     let known = (&cursor, &derivatives);
-                    written += self.group(
-                        formats,
-                        (color, depth),
-                        self.lanes.mask(group),
-                        known,
-                        ([column, row], &weights),
-                    );
+                    written += self.group(formats, (color, depth), group, known, ([column, row], &weights));
                 }
                 bits >>= L::COUNT;
                 if bits == 0 {
@@ -252,7 +262,7 @@ where
         if let Some(copy) = &copy {
             put_back::<L, _, _>(copy, last_colors, last_depths);
         }
-        written
+        counters.span(covered_samples, written);
     }
 
     /// Fills a run of samples in whole groups of pixels and, if these do not suffice, in the band's last ones. The last
@@ -263,7 +273,7 @@ where
         formats: (C, D),
         (mut colors, mut depths): Pixels<'_, L::Each<C::Pixel>, L::Each<D::Stored>>,
         (last_colors, last_depths): Pixels<'_, C::Pixel, D::Stored>,
-        row: &Row<'_, I>,
+        (row, weights): (&Row<'_, I>, &Weights<L>),
         columns: Range<i32>,
         (mut cursor, derivatives): RunState<T::Cursor, F::Derivatives, L, V>,
     ) -> u32
@@ -274,10 +284,7 @@ where
     {
         let lanes = self.lanes;
         let left = aligned::<L>(columns.start);
-        let ramp = |at: I, e: &Edge<I>| I::ramp(lanes, at, e.step_x);
-        let advance = |at, e: &Edge<I>| I::advance(lanes, at, e.step_x * I::from(L::STEP));
-        let ([a, b, c], at) = (row.edges, row.at(left));
-        let mut edges = [ramp(at[0], a), ramp(at[1], b), ramp(at[2], c)];
+        let (mut edges, mut groups) = (weights.parts(row.at(left)), weights.groups());
 
         let mut mask = lanes.mask(all::<L>() << (columns.start - left));
         let (mut column, mut written, mut copy) = (left, 0, None);
@@ -287,14 +294,18 @@ where
                 if remaining < L::STEP {
                     mask = mask & lanes.mask((1 << remaining) - 1);
                 }
-                let [ea, eb, ec] = edges;
-                let weights = [I::weights(lanes, ea), I::weights(lanes, eb), I::weights(lanes, ec)];
                 let (known, place) = ((&cursor, &derivatives), [column, row.row]);
-                written += self.group(formats, (color, depth), mask, known, (place, &weights));
+                written += self.group(formats, (color, depth), mask, known, (place, &weights.at(&edges)));
                 mask = lanes.mask(all::<L>());
                 column += L::STEP;
                 cursor = self.triangle.advance(cursor);
-                edges = [advance(ea, a), advance(eb, b), advance(ec, c)];
+                groups -= 1;
+                edges = if groups > 0 {
+                    weights.next(&edges)
+                } else {
+                    groups = weights.groups();
+                    weights.parts(row.at(column))
+                };
             }
             if column >= columns.end || copy.is_some() {
                 break;

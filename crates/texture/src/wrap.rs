@@ -231,6 +231,11 @@ impl Wrap for Repeat {
     fn fold<L: Lanes>(self, lanes: L, i: L::U32, size: u32) -> L::U32 {
         i & lanes.word(size.wrapping_sub(1))
     }
+
+    #[inline(always)]
+    fn cell_masked<L: Lanes>(self, lanes: L, u: L::Number, size: u32) -> L::U32 {
+        self.fold(lanes, lanes.floor_fraction_scaled(u, size.trailing_zeros()), size)
+    }
 }
 
 impl Wrap for Clamp {

@@ -269,6 +269,11 @@ impl Lanes for One {
     }
 
     #[inline(always)]
+    fn long_parts(self, _: i64, _: u32) -> [f32; 2] {
+        [0.0; 2]
+    }
+
+    #[inline(always)]
     #[expect(clippy::cast_precision_loss, reason = "rounding to nearest is what is documented")]
     fn long_to_number(self, x: i64) -> f32 {
         x as f32

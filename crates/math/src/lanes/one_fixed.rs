@@ -132,6 +132,11 @@ impl Lanes for OneFixed {
     }
 
     #[inline(always)]
+    fn long_parts(self, _: i64, _: u32) -> [Q16; 2] {
+        [self.splat(0.0); 2]
+    }
+
+    #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "clamped before")]
     fn long_to_number(self, x: i64) -> Q16 {
         self.int_to_number(x.clamp(i32::MIN.into(), i32::MAX.into()) as i32)

@@ -6,17 +6,17 @@ use core::fmt::{Debug, Formatter, Result};
 #[cfg(target_arch = "x86_64")]
 use fearless_simd::Level;
 use fearless_simd::{
-    Bytes, Select, Simd, SimdBase, SimdFloat, SimdInt, SimdInto, SimdMask, f32x8, f32x16, f64x4, f64x8,
-    i32x8, i32x16, mask32x8, mask32x16, u16x16, u16x32, u32x8, u32x16, u64x4, u64x8,
+    Bytes, Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdInt, SimdInto, SimdMask, f32x8, f32x16, f64x4,
+    f64x8, i32x8, i32x16, mask32x8, mask32x16, u16x16, u16x32, u32x4, u32x8, u32x16, u64x4, u64x8,
 };
 
 /// A type of lanes: its name, their number, the types of its vectors, and the numbers of all lanes, of half and of a
-/// quarter of them.
+/// quarter of them, and the function that makes a vector of fours.
 macro_rules! several {
     (
         $(#[$doc:meta])* $name:ident, $count:literal,
         [$f32:ident, $i32:ident, $u32:ident, $u16:ident, $mask:ident, $f64:ident, $u64:ident, $narrow:ident],
-        [$($lane:literal)+], [$($half:literal)+], [$($quarter:literal)+]
+        [$($lane:literal)+], [$($half:literal)+], [$($quarter:literal)+], $combine:ident
     ) => {
         $(#[$doc])*
         #[derive(Clone, Copy)]
@@ -140,17 +140,15 @@ macro_rules! several {
                 [$(number(d[$lane])),+]
             }
 
-            // In pairs, which take half as many moves between a machine's two kinds of registers.
+            // In fours, so that all loads come before the first of them takes its place.
             #[inline(always)]
-            #[expect(clippy::cast_possible_truncation, reason = "a half at a time")]
             fn gather(self, indices: $u32<S>, mut word: impl FnMut(u32) -> u32) -> $u32<S> {
-                let pairs: [u64; $count / 2] = indices.bitcast::<$u64<S>>().into();
-                let mut pair = |pair: u64| {
-                    let [low, high] = [word(pair as u32), word((pair >> 32) as u32)];
-                    u64::from(high) << 32 | u64::from(low)
+                let indices: [u32; $count] = indices.into();
+                let mut four = |at: usize| -> u32x4<S> {
+                    let mut word = |k: usize| word(indices[at + k]);
+                    [word(0), word(1), word(2), word(3)].simd_into(self.0)
                 };
-                let pairs: $u64<S> = [$(pair(pairs[$half])),+].simd_into(self.0);
-                pairs.bitcast()
+                $combine([$(four(4 * $quarter)),+])
             }
 
             #[inline(always)]
@@ -219,6 +217,13 @@ macro_rules! several {
             #[inline(always)]
             fn floor_scaled(self, x: $f32<S>, bits: u32) -> $u32<S> {
                 self.floor(x * self.splat(power_of_two(bits))).to_int::<$i32<S>>().bitcast()
+            }
+
+            // From 2^31 on, where x86's conversion says -2^31, all numbers are multiples of 2^8.
+            #[inline(always)]
+            fn floor_fraction_scaled(self, x: $f32<S>, bits: u32) -> $u32<S> {
+                let whole = cfg!(target_arch = "x86_64") && bits <= 8;
+                self.floor_scaled(if whole { x } else { self.wrap(x, 0) }, bits)
             }
 
             #[inline(always)]
@@ -352,6 +357,18 @@ macro_rules! several {
             fn long_to_number(self, x: [$f64<S>; 2]) -> $f32<S> {
                 self.0.$narrow(x[0], x[1])
             }
+
+            // The sum with 1.5·2^(52 + bits) rounds to a multiple of 2^bits.
+            #[inline(always)]
+            #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
+            fn long_parts(self, step: i64, bits: u32) -> [$f32<S>; 2] {
+                let align = $f64::splat(self.0, f64::from_bits((u64::from(1075 + bits) << 52) | (1 << 51)));
+                let step = $f64::splat(self.0, step as f64);
+                let low = step * self.half();
+                let high = low + step * $f64::splat(self.0, f64::from($count / 2));
+                let [a, b] = [(low + align) - align, (high + align) - align];
+                [self.0.$narrow(a, b), self.0.$narrow(low - a, high - b)]
+            }
         }
     };
 }
@@ -360,7 +377,7 @@ several! {
     /// Eight samples at a time, on a machine with the instructions `S`: in one register of 256 bits, or pairs of 128.
     Eight, 8,
     [f32x8, i32x8, u32x8, u16x16, mask32x8, f64x4, u64x4, narrow_f64x4],
-    [0 1 2 3 4 5 6 7], [0 1 2 3], [0 1]
+    [0 1 2 3 4 5 6 7], [0 1 2 3], [0 1], of_two
 }
 
 several! {
@@ -368,7 +385,7 @@ several! {
     /// other.
     Sixteen, 16,
     [f32x16, i32x16, u32x16, u16x32, mask32x16, f64x8, u64x8, narrow_f64x8],
-    [0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15], [0 1 2 3 4 5 6 7], [0 1 2 3]
+    [0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15], [0 1 2 3 4 5 6 7], [0 1 2 3], of_four
 }
 
 /// The samples that are best in long rows. SSE2 and Neon take pairs of registers for eight, and have no more.
@@ -393,3 +410,15 @@ floating!(Eight<Avx512>: Sixteen, Sixteen<Avx512>: Sixteen);
 floating!(Eight<Avx2>: Sixteen, Sixteen<Avx2>: Sixteen, Eight<Sse2>: Eight);
 #[cfg(target_arch = "aarch64")]
 floating!(Eight<Neon>: Eight);
+
+/// A vector of these parts, in order.
+#[inline(always)]
+fn of_two<S: Simd>([a, b]: [u32x4<S>; 2]) -> u32x8<S> {
+    a.combine(b)
+}
+
+/// A vector of these parts, in order.
+#[inline(always)]
+fn of_four<S: Simd>([a, b, c, d]: [u32x4<S>; 4]) -> u32x16<S> {
+    a.combine(b).combine(c.combine(d))
+}

@@ -111,6 +111,10 @@ fn together_as_alone<L: Floating>(lanes: L) {
                 same_word!(lanes.floor_scaled(p, 8), One.floor_scaled(a, 8));
                 same_word!(lanes.round_scaled(p, 8), One.round_scaled(a, 8));
             }
+            let ones = (1 << (round % 15)) - 1;
+            let (found, expected) =
+                (lanes.floor_fraction_scaled(p, round % 15), One.floor_fraction_scaled(a, round % 15));
+            same_word!(found & lanes.word(ones), expected & Wrapping(ones));
             same_truth!(lanes.less(p, q), a < b);
             same_truth!(lanes.less_words(x, y), v < w);
             same_truth!(lanes.equal_words(x, y), v == w);
