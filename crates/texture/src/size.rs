@@ -107,12 +107,15 @@ pub trait Size: Sealed + Copy + Debug + 'static {
                         [left, right],
                         #[inline(always)]
                         |column| {
-                            // A closure of its own, as a reference to one is a call in programs made for size.
                             self.words(
                                 lanes,
                                 texels,
                                 [row, column],
                                 width,
+                                #[expect(
+                                    clippy::redundant_closure,
+                                    reason = "a reference to one is a call in programs made for size"
+                                )]
                                 #[inline(always)]
                                 |texel| word(texel),
                             )
