@@ -144,14 +144,14 @@ pub trait Lanes: Copy + Debug + Send + Sync {
     /// x·2^`bits` rounded down, in two's complement, for |x·2^`bits`| < 2^31 and `bits` up to 30. NaN gives a multiple
     /// of 2^31; numbers beyond give any word.
     fn floor_scaled(self, x: Self::Number, bits: u32) -> Self::U32;
-    /// A word whose lowest `bits` are those of x·2^`bits` rounded down, up to 30, for every number; 0 for those that are
-    /// not finite.
+    /// The same to the nearest, halves up, for |x·2^`bits`| < 2^30.
+    fn round_scaled(self, x: Self::Number, bits: u32) -> Self::U32;
+    /// A word whose lowest `bits`, up to 30, are those of x·2^`bits` rounded down, for every number. They are 0 for
+    /// numbers that are not finite.
     #[inline(always)]
     fn floor_fraction_scaled(self, x: Self::Number, bits: u32) -> Self::U32 {
         self.floor_scaled(self.wrap(x, 0), bits)
     }
-    /// The same to the nearest, halves up, for |x·2^`bits`| < 2^30.
-    fn round_scaled(self, x: Self::Number, bits: u32) -> Self::U32;
     /// The nearest word from 0 to 255, of halves the upper; 0 for NaN.
     fn nearest_byte(self, x: Self::Number) -> Self::U32;
     /// The nearest word to `greatest` times x, from 0 to `greatest`, which is at most 2^15 - 1; 0 for NaN.

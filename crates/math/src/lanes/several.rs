@@ -10,8 +10,8 @@ use fearless_simd::{
     f64x8, i32x8, i32x16, mask32x8, mask32x16, u16x16, u16x32, u32x4, u32x8, u32x16, u64x4, u64x8,
 };
 
-/// A type of lanes: its name, their number, the types of its vectors, and the numbers of all lanes, of half and of a
-/// quarter of them, and the function that makes a vector of fours.
+/// A type of lanes: its name, their number, and the types of its vectors. Then the numbers of all lanes, of half and of
+/// a quarter of them, and the function that makes a vector of fours.
 macro_rules! several {
     (
         $(#[$doc:meta])* $name:ident, $count:literal,
