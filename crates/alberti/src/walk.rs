@@ -92,7 +92,7 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         let (store, unused) = slots.split_at_mut_checked(stored).unwrap_or_default();
         unused.fill(Slot::EMPTY);
         Slot::fill_all(lanes, mesh, &screen, 0, store);
-        Self::over_all(mesh, screen, store, unused)
+        Self::with_slots(mesh, screen, store, unused)
     }
 
     /// The walk over slots in which an earlier one has left so many vertices, each in the slot of its number. The
@@ -105,11 +105,12 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         filled: usize,
     ) -> Self {
         let (stored, cache) = slots.split_at_mut_checked(filled).unwrap_or_default();
-        Self::over_all(mesh, screen, stored, cache)
+        Self::with_slots(mesh, screen, stored, cache)
     }
 
+    /// The walk over these slots.
     #[inline]
-    fn over_all(
+    fn with_slots(
         mesh: &'a M,
         screen: Screen<Pr>,
         stored: &'a [Slot<M::Varying>],
@@ -122,7 +123,7 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     /// The walk over a store of all vertices, which others may walk too.
     #[cfg(feature = "std")]
     pub(crate) fn over(mesh: &'a M, screen: Screen<Pr>, stored: &'a [Slot<M::Varying>]) -> Self {
-        Self::over_all(mesh, screen, stored, &mut [])
+        Self::with_slots(mesh, screen, stored, &mut [])
     }
 
     /// The mesh.
@@ -212,7 +213,7 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         }
     }
 
-    /// The same for one triangle, which may be clipped.
+    /// [`triangles`](Self::triangles) for one that may be clipped.
     #[inline]
     pub(crate) fn triangle(
         &mut self,
@@ -244,7 +245,7 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         (all_there && a.outside | b.outside | c.outside == 0).then_some([&a.screen, &b.screen, &c.screen])
     }
 
-    /// The same for one triangle that is to be clipped, or whose vertices may not be in slots.
+    /// [`triangles`](Self::triangles) for one that is to be clipped, or whose vertices may not be in slots.
     #[inline(never)]
     fn seldom<K>(&mut self, indices: [usize; 3], counters: &mut K, sink: Passing<'_, M::Varying, K>) -> Fate {
         let Self { mesh, stored, cache, mask, screen, .. } = self;

@@ -137,7 +137,7 @@ impl<F, P: Interpolation> Paint<F, P> {
         }
     }
 
-    /// The same for one that is not small. A call, as such are rare.
+    /// The same for one that is not a coarse small one. A call, as such are rare on the grid of `Sub4`.
     #[inline(never)]
     fn draw_large<L, V, C, D, K>(
         self,
@@ -254,7 +254,7 @@ impl<F, P: Interpolation> Paint<F, P> {
                             },
                             counters,
                         ),
-                        // Several lanes hold 64-bit edge functions as well as 32-bit ones.
+                        // Integers of 64 bits, as several lanes have the functions in parts of `f32`.
                         Way::Spans => {
                             let oriented = Oriented::new(*vertices, *area, bits, false);
                             let ranges = setups.columns_and_rows(k);

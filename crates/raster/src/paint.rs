@@ -262,7 +262,9 @@ where
         if let Some(copy) = &copy {
             put_back::<L, _, _>(copy, last_colors, last_depths);
         }
-        counters.span(covered_samples, written);
+        if covered_samples > 0 {
+            counters.span(covered_samples, written);
+        }
     }
 
     /// Fills a run of samples in whole groups of pixels and, if these do not suffice, in the band's last ones. The last
@@ -352,7 +354,7 @@ where
     }
 }
 
-/// The sample after those that are filled, one by one.
+/// The state of a loop over samples: at the next one.
 struct Next<C, R, I> {
     cursor: C,
     edges: [R; 3],

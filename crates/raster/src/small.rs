@@ -25,11 +25,11 @@
 //!   first row, and less than one for each of 16 rows. With 4 bits 2^-13 are 4096 units, for 32 rows.
 //!
 //! # Values
-//! In units of 2^-24 a column or a row adds its slope within 1.4, for up to 17 of each. In fine ones that is 1.2, for
+//! In units of 2^-24 a column or a row adds its slope within 1.4, for up to 17 of each. In fine ones that is 1.25, for
 //! up to 33 of each. The way from the first vertex to the next sample, less than a pixel on both axes, is within 33,
-//! and in fine ones within 5. So the error stays below 85 of 128, which are half a step of 2^-16. The three vertices
+//! and in fine ones within 5. So the error stays below 88 of 128, which are half a step of 2^-16. The three vertices
 //! are whole steps. So the nearest step is within their range, and a constant stays one. Depths are followed in 2^-12
-//! of a step. There 17 times 6, or 33 times 6, for columns and rows, and 42, are below 246 of 2048.
+//! of a step. There 34 or 66 columns and rows times 6, and 42, are at most 438 of 2048.
 
 mod shape;
 
@@ -50,7 +50,7 @@ use shape::{Crossing, Ramp, SLOPE, Shape, magnitude};
 
 /// The least length of runs for which a small triangle may be one.
 pub(crate) const RUN: i32 = 16;
-/// Bits of subpixels, and of the finest side of a small triangle's box.
+/// Bits of the grid's subpixels.
 const fn bits(fine: bool) -> u32 {
     if fine { 8 } else { 4 }
 }
@@ -58,7 +58,7 @@ const fn bits(fine: bool) -> u32 {
 const MORE: u32 = 8;
 /// Components from here on, and differences from twice as much on, might overflow.
 const LARGE: u32 = 1 << 20;
-/// So might differences of depth from here on.
+/// Differences of depth from here on might too.
 const DEEP: u32 = 1 << 18;
 /// The greatest difference of the words of two q: their ratio is at most 17/16.
 const LEVEL: u32 = 1 << 19;

@@ -1,4 +1,4 @@
-//! Edge functions along a row, rounded once to `f32`, for several lanes: without integers of 64 bits and `f64`.
+//! Edge functions along a row, rounded once to `f32`, for several lanes. Steps take no integers of 64 bits, nor `f64`.
 //!
 //! ```text
 //!   E = A + B    A: a multiple of 2^b     |A| <= 2^(24 + b)

@@ -218,7 +218,7 @@ fn keeps_its_bounds(
                 } else {
                     linear
                 };
-                // 1/2 for the vertices, 85/256 for the way, 1/2 for the result; the plain way's more.
+                // 1/2 for the vertices, 88/256 for the way, 1/2 for the result; the plain way's more.
                 let rounding = if small { 1.35 * STEP } else { 68.0 * STEP + case.spread() * 1e-3 };
                 for (got, exact, missed) in [(u, exact, missed(&case)), (v, linear, 0.0)] {
                     let (got, bound) = (f64::from(got), missed + rounding);

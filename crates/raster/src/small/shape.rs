@@ -29,8 +29,9 @@ pub(super) struct Shape<const FINE: bool> {
     down: [i32; 2],
     /// 2^62 over the signed area, which was shifted to the left until it had 32 bits.
     per_area: i32,
-    /// The bits by which the sum is shifted to the left, and a slope to the right, which only fine ones are.
+    /// The bits by which the sum is shifted to the left.
     shift: u32,
+    /// The bits by which a slope is shifted to the right, in fine ones.
     less: u32,
     /// The bits of the box's sides, of which no side is longer.
     extent: u32,
@@ -139,7 +140,7 @@ impl<const FINE: bool> Crossing<FINE> {
         let column = const { column(FINE) };
         let from = ((p[0] - x) << (column - const { bits(FINE) })) + (1 << column);
         if FINE {
-            // The step is too large in triangles that are less than a pixel high, where there is no other row.
+            // The step is too large for edges that are less than a pixel high, which cross no other row.
             let step = fine_quotient(dx << bits(true), dy);
             Self { at: from - 1 + fine_quotient(dx * (y - p[1]), dy), step }
         } else {
