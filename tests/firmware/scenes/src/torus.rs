@@ -81,42 +81,29 @@ pub static TORUS_IN_HALF_WORDS: [HalfWords; TORUS_VERTICES] = {
 };
 
 /// Three indices each.
-pub static TORUS_TRIANGLE_LIST: [[u16; 3]; TORUS_TRIANGLES] = {
-    let mut triangles = [[0; 3]; TORUS_TRIANGLES];
-    let row = AROUND + 1;
-    let (mut at, mut i) = (0, 0);
-    while i < ALONG {
-        let mut j = 0;
-        while j < AROUND {
-            let first = i * row + j;
-            triangles[at] = [first, first + row + 1, first + row];
-            triangles[at + 1] = [first, first + 1, first + row + 1];
-            at += 2;
-            j += 1;
-        }
-        i += 1;
-    }
-    triangles
-};
+pub static TORUS_TRIANGLE_LIST: [[u16; 3]; TORUS_TRIANGLES] = cells(1);
 
 /// Its triangles when cells are four times as long and as wide.
-pub static COARSE_TRIANGLE_LIST: [[u16; 3]; TORUS_TRIANGLES / 16] = {
-    let mut triangles = [[0; 3]; TORUS_TRIANGLES / 16];
-    let row = 4 * (AROUND + 1);
+pub static COARSE_TRIANGLE_LIST: [[u16; 3]; TORUS_TRIANGLES / 16] = cells(4);
+
+/// Two triangles for each cell of so many steps along and around.
+const fn cells<const COUNT: usize>(step: u16) -> [[u16; 3]; COUNT] {
+    let mut triangles = [[0; 3]; COUNT];
+    let row = step * (AROUND + 1);
     let (mut at, mut i) = (0, 0);
-    while i < ALONG / 4 {
+    while i < ALONG / step {
         let mut j = 0;
         while j < AROUND {
             let first = i * row + j;
-            triangles[at] = [first, first + row + 4, first + row];
-            triangles[at + 1] = [first, first + 4, first + row + 4];
+            triangles[at] = [first, first + row + step, first + row];
+            triangles[at + 1] = [first, first + step, first + row + step];
             at += 2;
-            j += 4;
+            j += step;
         }
         i += 1;
     }
     triangles
-};
+}
 
 /// The point `i` of `count` on the unit circle, the last being the first: equal steps of t in each quarter.
 const fn circle(i: u16, count: u16) -> [f32; 2] {
