@@ -60,8 +60,8 @@ const MORE: u32 = 8;
 const LARGE: u32 = 1 << 20;
 /// Differences of depth from here on might too.
 const DEEP: u32 = 1 << 18;
-/// The greatest difference of the words of two q: their ratio is at most 17/16.
-const LEVEL: u32 = 1 << 19;
+/// The greatest difference of the words of two q: their ratio is at most 2.
+const STEEP: u32 = 1 << 23;
 
 /// A bundle with every component mapped, by a function that stands in line.
 #[inline(always)]
@@ -110,7 +110,9 @@ fn planes<const FINE: bool, V: Varying>(
     depth_bits: u32,
 ) -> Option<Planes<V>> {
     let apart = if runs.perspective() { a.q.max(b.q).max(c.q) - a.q.min(b.q).min(c.q) } else { 0 };
-    if apart > LEVEL {
+    // Without a budget a line may miss by a quarter of what a pixel changes.
+    let pixels = if runs.budget().is_some() { 1 << bits(FINE) } else { shape.longer };
+    if apart > STEEP || (apart >> 8) * pixels > STEEP >> 8 << bits(FINE) {
         return None;
     }
     let budget = runs.budget().map(|budget| scaled(budget, 16).clamp(0, LIMIT / 2) - 2);
@@ -130,8 +132,8 @@ fn planes<const FINE: bool, V: Varying>(
             differences.set(differences.get() | magnitude(more[0]) | magnitude(more[1]));
             if let (Some(budget), Mode::Hyperbolic) = (budget, mode) {
                 let widest = magnitude(more[0]).max(magnitude(more[1])).max(magnitude(b.wrapping_sub(c)));
-                // In units of 2^-16: the difference of q is at most that of the words over 2^23.
-                let missed = (widest.min(1 << 21) * ((apart >> 9) + 1)) >> 16;
+                // In units of 2^-16: the ratio of q is at most 1 more than the difference of words over 2^23.
+                let missed = (((widest.min(1 << 21) >> 4) + 1) * ((apart >> 9) + 1)) >> 12;
                 if missed.cast_signed() > budget {
                     large.set(u32::MAX);
                 }
@@ -216,7 +218,7 @@ where
         center(origin[1]),
         area.unsigned_abs(),
         clockwise,
-        ((east - west) | (cy - ay)).cast_unsigned(),
+        (east - west).max(cy - ay).cast_unsigned(),
     );
     let Some(planes) = planes(runs, &shape, [a, b, c, first], target.depth_format().bits()) else {
         return false;

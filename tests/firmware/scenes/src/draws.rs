@@ -11,7 +11,7 @@ use alberti::shaders::{Differentiated, Ready565, Solid, Stored, Unlit, VertexCol
 use alberti::texture::{BaseLevel, Bilinear, Minify, Nearest, NearestLevel, Repeat, Trilinear};
 use alberti::{
     Affine, ColorFormat, Counters, D16, DepthFormat, Exact, FixedPoint, FragmentStage, Geometry, IntegerMesh,
-    IntegerVertex, Interpolation, Mesh, Meshlets, NoDepth, Object, Pass, Planes, Point3, Q16, Rgb565Le, Slot,
+    IntegerVertex, Interpolation, Lines, Mesh, Meshlets, NoDepth, Object, Pass, Planes, Point3, Q16, Rgb565Le, Slot,
     Spans16, Sub4, Sub8, Varying, View,
 };
 
@@ -159,6 +159,11 @@ pub fn textured_spans<K: Counters>(target: &mut Target, camera: &Camera, model: 
     textured_by(Spans16, target, camera, model, counters);
 }
 
+/// The same in fixed point, as seldom divided as a quarter of a texel allows.
+pub fn textured_bounded<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    textured_by(FixedPoint(QUARTER_TEXEL), target, camera, model, counters);
+}
+
 /// The same from plane equations.
 pub fn textured_planes<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
     textured_by(Planes, target, camera, model, counters);
@@ -211,29 +216,38 @@ fn mapped_by<F: FragmentStage<Vec2>, P: Interpolation, K: Counters>(
 
 /// The same in 15 bands of 16 rows. They lie one after the other, so that together they are the whole frame.
 pub fn textured_bands<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
-    bands(target, camera, model, &Mesh::new(model.vertices, model.triangles, mapped), ALL, counters);
+    let mesh = Mesh::new(model.vertices, model.triangles, mapped);
+    bands(FixedPoint(Spans16), target, camera, model, &mesh, ALL, counters);
 }
 
 /// The same of a mesh of integers.
 pub fn integers_bands<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
-    bands(target, camera, model, &integers(model, mapped_integers), ALL, counters);
+    bands(FixedPoint(Spans16), target, camera, model, &integers(model, mapped_integers), ALL, counters);
 }
 
 /// The same of one with meshlets.
 pub fn meshlets_bands<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
-    bands(target, camera, model, &meshlets(model, mapped_integers), ALL, counters);
+    bands(FixedPoint(Spans16), target, camera, model, &meshlets(model, mapped_integers), ALL, counters);
 }
 
 /// The same with 512 slots, a sixth of its vertices.
 pub fn meshlets_cache<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
-    bands(target, camera, model, &meshlets(model, mapped_integers), 512, counters);
+    bands(FixedPoint(Spans16), target, camera, model, &meshlets(model, mapped_integers), 512, counters);
 }
 
 /// As many slots as the torus has vertices.
 const ALL: usize = TORUS_VERTICES;
 
+/// Divided as seldom as a quarter of a texel allows.
+pub fn bounded_bands<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    bands(FixedPoint(QUARTER_TEXEL), target, camera, model, &meshlets(model, mapped_integers), ALL, counters);
+}
+
+const QUARTER_TEXEL: Lines = Lines::bounded(0.25 / 128.0);
+
 #[inline]
 fn bands<K: Counters>(
+    interpolation: impl Interpolation,
     target: &mut Target,
     camera: &Camera,
     model: &Model,
@@ -246,7 +260,7 @@ fn bands<K: Counters>(
     let view = View::new(model.to_eye, camera.perspective);
     let Target { color, depth, slots, listed } = target;
     let mut pass = Pass::new(&view, mesh, stage)
-        .interpolation(FixedPoint(Spans16))
+        .interpolation(interpolation)
         .subpixel(Sub4)
         .slots(slots.mapped.get_mut(..slots_used).unwrap_or_default());
     let (mut prepared, _) = pass.count_prepare([WIDTH, HEIGHT], D16, listed, counters);

@@ -15,7 +15,7 @@ pub use draws::{
     flat_integers, flat_mesh, flat_meshlets, flat_without_depth, gouraud, gouraud_fixed, gouraud_mesh,
     integers_bands, material, material_absent, material_emission, mesh_base_nearest, mesh_mip_nearest,
     meshlets_bands, meshlets_cache, mip_bilinear, mip_bilinear_fixed, mip_nearest, mip_nearest_fixed,
-    textured, textured_affine, textured_bands, textured_fixed, textured_planes, textured_spans, trilinear,
+    textured, textured_affine, textured_bands, textured_bounded, bounded_bands, textured_fixed, textured_planes, textured_spans, trilinear,
     trilinear_fixed, trilinear_spans, trilinear_spans_fixed,
 };
 pub use shapes::PROBE;
@@ -95,6 +95,7 @@ pub static SCENES: &[Scene] = &[
     fill!("fixed-affine-4", 4, affine_fixed),
     fill!("fixed-textured", 1, textured_fixed),
     fill!("fixed-textured-4", 4, textured_fixed),
+    fill!("fixed-bounded", 1, textured_bounded),
     scene!("fixed-mesh-flat", torus(1.0), flat_mesh),
     scene!("fixed-mesh-gouraud", torus(1.0), gouraud_mesh),
     scene!("fixed-mesh-affine", torus(1.0), affine_mesh),
@@ -110,6 +111,8 @@ pub static SCENES: &[Scene] = &[
     scene!("meshlets-affine", torus(1.0), affine_meshlets),
     scene!("meshlets-bands", torus(1.0), meshlets_bands),
     scene!("meshlets-bands-cache", torus(1.0), meshlets_cache),
+    scene!("fixed-mesh-bounded", torus(1.0), textured_bounded),
+    scene!("meshlets-bands-bounded", torus(1.0), bounded_bands),
     fill!("material", 1, material),
     fill!("material-absent", 1, material_absent),
     fill!("material-emission", 1, material_emission),
