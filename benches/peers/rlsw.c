@@ -8,10 +8,11 @@
 //
 // * Colour is RGBA of 8 bits and depth is `float`, its defaults. It blends nothing, and textures are not tinted.
 // * RLSW_USE_SIMD_INTRINSICS is its documented option. It looks at the compiler's target, not at the machine, so it is
-//   built for this one. Immediate mode, arrays and indices are equally fast, within what runs of one differ by.
+//   built for this one.
 // * Its intrinsics for SSE4.1 are off where the compiler has SSE4.2 or AVX too, so SW_HAS_SSE41 is defined here. Of
-//   the builds that were tried it is the fastest: fills and floors take 0.9 of the time with SSE4.1 alone, 0.65 with
-//   AVX2 and no intrinsics, and 0.5 of that with neither.
+//   the builds that were tried this is the fastest. Fills and floors take 0.9 of the time of a build for SSE4.1, 0.65
+//   of one for AVX2 without intrinsics, and 0.5 of one for neither.
+// * Immediate mode, arrays and indices are equally fast, within what runs of one differ by.
 // * Vertices have places and texture coordinates in `float`, but colours in bytes.
 // * It has neither mip maps nor shaders.
 #define PEER "rlsw"
