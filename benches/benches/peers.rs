@@ -107,8 +107,13 @@ fn contestants(scene: &Scene, size: Size, programs: &[[String; 2]]) -> io::Resul
     fs::write(&file, scene_bytes(scene, size))?;
     for [name, path] in programs {
         let mut process = Process::start(path.as_ref(), &file, size)?;
-        eprintln!("{}/{size}: {name} is {}", scene.name, process.name()?);
-        all.push(Contestant::new(name, By::Process(process)));
+        match process.name()? {
+            Ok(version) => {
+                eprintln!("{}/{size}: {name} is {version}", scene.name);
+                all.push(Contestant::new(name, By::Process(process)));
+            }
+            Err(feature) => eprintln!("{}/{size}: {name} is left out, it has no {feature}", scene.name),
+        }
     }
     fs::remove_file(&file)?;
     Ok(all)

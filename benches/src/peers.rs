@@ -73,7 +73,7 @@ pub fn scene_bytes(scene: &Scene, size: Size) -> Vec<u8> {
     bytes
 }
 
-/// A program that draws a scene: see the top of `peers/osmesa.c` for its side.
+/// A program that draws a scene: see the top of `peers/peer.h` for its side.
 #[derive(Debug)]
 pub struct Process {
     child: Child,
@@ -112,12 +112,16 @@ impl Process {
         Ok(answer.trim_end().to_owned())
     }
 
-    /// Its name and version.
+    /// Its name and version, or else the feature that it lacks to draw the scene.
     ///
     /// # Errors
     /// If the program has ended.
-    pub fn name(&mut self) -> io::Result<String> {
-        self.ask("name")
+    pub fn name(&mut self) -> io::Result<Result<String, String>> {
+        let answer = self.ask("name")?;
+        Ok(match answer.strip_prefix("lacks ") {
+            Some(feature) => Err(feature.into()),
+            None => Ok(answer),
+        })
     }
 
     /// Draws frames: the least milliseconds of one.

@@ -123,7 +123,7 @@ const CHORES: &[Chore] = &[
     Chore { name: "bench", arguments: "[filter]", about: "run the benchmarks", run: checks::bench },
     Chore {
         name: "peers",
-        arguments: "[--avx512]",
+        arguments: "[--avx512] [--raylib dir]",
         about: "time all scenes beside all peers in one run, with those in C that can be built here",
         run: peers::run,
     },
@@ -170,7 +170,7 @@ fn help() -> String {
     let mut text = String::from("usage: cargo xtask <command>\n\n");
     for chore in CHORES {
         let call = format!("{} {}", chore.name, chore.arguments);
-        text.push_str(&format!("  {call:<28}  {}\n", chore.about));
+        text.push_str(&format!("  {call:<31}  {}\n", chore.about));
     }
     text.push_str(
         "\n`ci --tests-done` leaves out `cargo test --workspace`: the caller has just run it on this tree.\n",
