@@ -99,34 +99,6 @@ impl<T: Copy> Polygon<T> {
             .filter_map(move |k| Some([at(number)?, at(k)?, at(k + 1)?]))
     }
 
-    /// Keeps the part on the inner sides of planes, one after the other.
-    #[inline(never)]
-    fn clip(mut self, planes: &[ClipPlane]) -> Self
-    where
-        T: Cut,
-    {
-        for plane in planes {
-            let kept = self;
-            self.len = 0;
-            let Some(mut previous) = kept.vertices().last() else { return kept };
-            let mut d_previous = plane.distance(previous);
-            for current in kept.vertices() {
-                let d = plane.distance(current);
-                if (d >= 0.0) != (d_previous >= 0.0) {
-                    let span = d - d_previous;
-                    let mut new = T::between([d / span, -d_previous / span], [previous, current]);
-                    *new.along(plane.axis) = plane.at;
-                    self.push(new);
-                }
-                if d >= 0.0 {
-                    self.push(*current);
-                }
-                (previous, d_previous) = (current, d);
-            }
-        }
-        self
-    }
-
     /// Rounding could give a convex polygon a dent too small to see and so a tenth vertex; it is left away.
     fn push(&mut self, vertex: T) {
         if let Some(slot) = self.vertices.get_mut(self.len) {
@@ -155,39 +127,15 @@ struct ClipPlane {
 
 impl ClipPlane {
     /// The distance inwards, correctly rounded.
-    fn distance<T: Cut>(&self, vertex: &T) -> f32 {
+    fn distance<V: Varying>(&self, vertex: &ProjectedVertex<V>) -> f32 {
         // Products with 1 are exact.
         let mut vertex = *vertex;
         *vertex.along(self.axis) * self.inner - self.at * self.inner
     }
 }
 
-/// A vertex that planes cut edges of.
-trait Cut: Copy {
+impl<V: Varying> ProjectedVertex<V> {
     /// A coordinate.
-    fn along(&mut self, axis: Axis) -> &mut f32;
-
-    /// The vertex at weights (a, b) between two.
-    fn between(weights: [f32; 2], edge: [&Self; 2]) -> Self;
-}
-
-impl<V: Varying> Cut for EyeVertex<V> {
-    fn along(&mut self, axis: Axis) -> &mut f32 {
-        let position = &mut self.position.coords;
-        match axis {
-            Axis::X => &mut position.x,
-            Axis::Y => &mut position.y,
-            Axis::Z => &mut position.z,
-        }
-    }
-
-    fn between(weights: [f32; 2], [i, j]: [&Self; 2]) -> Self {
-        let position = blend2(weights, [i.position.coords, j.position.coords]);
-        EyeVertex { position: Point3::new(position), varying: blend2(weights, [i.varying, j.varying]) }
-    }
-}
-
-impl<V: Varying> Cut for ProjectedVertex<V> {
     fn along(&mut self, axis: Axis) -> &mut f32 {
         match axis {
             Axis::X => &mut self.x,
@@ -196,12 +144,54 @@ impl<V: Varying> Cut for ProjectedVertex<V> {
         }
     }
 
-    fn between(weights: [f32; 2], [i, j]: [&Self; 2]) -> Self {
-        let on_screen = |v: &Self| [v.x, v.y, v.zs, v.q];
-        let [x, y, zs, q] = blend2(weights, [on_screen(i), on_screen(j)]);
-        let [a, b] = [weights[0] * i.q, weights[1] * j.q];
-        let sum = a + b;
-        ProjectedVertex { x, y, zs, q, varying: blend2([a / sum, b / sum], [i.varying, j.varying]) }
+    /// The vertex at weights (a, b) between two. Varyings have the weights of eye space.
+    fn between(weights: [f32; 2], [i, j]: [&Self; 2], space: Space) -> Self {
+        let numbers = |v: &Self| [v.x, v.y, v.zs, v.q];
+        let [x, y, zs, q] = blend2(weights, [numbers(i), numbers(j)]);
+        let weights = match space {
+            Space::Eye => weights,
+            Space::Screen => {
+                let [a, b] = [weights[0] * i.q, weights[1] * j.q];
+                let sum = a + b;
+                [a / sum, b / sum]
+            }
+        };
+        ProjectedVertex { x, y, zs, q, varying: blend2(weights, [i.varying, j.varying]) }
+    }
+}
+
+/// Where edges are cut: before the division, where a vertex has ze in the place of zs and no q, or after it.
+#[derive(Clone, Copy)]
+enum Space {
+    Eye,
+    Screen,
+}
+
+impl<V: Varying> Polygon<ProjectedVertex<V>> {
+    /// Keeps the part on the inner sides of planes, one after the other. Not inlined: both spaces share it.
+    #[inline(never)]
+    fn clip(mut self, planes: &[ClipPlane], space: Space) -> Self {
+        for plane in planes {
+            let kept = self;
+            self.len = 0;
+            let Some(mut previous) = kept.vertices().last() else { return kept };
+            let mut d_previous = plane.distance(previous);
+            for current in kept.vertices() {
+                let d = plane.distance(current);
+                if (d >= 0.0) != (d_previous >= 0.0) {
+                    let span = d - d_previous;
+                    let weights = [d / span, -d_previous / span];
+                    let mut new = ProjectedVertex::between(weights, [previous, current], space);
+                    *new.along(plane.axis) = plane.at;
+                    self.push(new);
+                }
+                if d >= 0.0 {
+                    self.push(*current);
+                }
+                (previous, d_previous) = (current, d);
+            }
+        }
+        self
     }
 }
 
@@ -219,7 +209,14 @@ impl<V: Varying> Cut for ProjectedVertex<V> {
 #[must_use]
 pub fn clip_near_far<V: Varying>(triangle: [EyeVertex<V>; 3], near: f32, far: f32) -> Polygon<EyeVertex<V>> {
     let plane = |at, inner| ClipPlane { axis: Axis::Z, at, inner };
-    Polygon::triangle(triangle).clip(&[plane(near, 1.0), plane(far, -1.0)])
+    let in_eye_space = |EyeVertex { position, varying }| {
+        let [x, y, zs] = position.coords.to_array();
+        ProjectedVertex { x, y, zs, q: 0.0, varying }
+    };
+    let triangle = Polygon::triangle(triangle.map(in_eye_space));
+    triangle
+        .clip(&[plane(near, 1.0), plane(far, -1.0)], Space::Eye)
+        .map(|v| EyeVertex { position: Point3::new([v.x, v.y, v.zs].into()), varying: v.varying })
 }
 
 /// Step 5: the part of a polygon, after the division, within |xs| <= `bounds.x` and |ys| <= `bounds.y`.
@@ -239,12 +236,10 @@ pub fn clip_sides<V: Varying>(
 ) -> Polygon<ProjectedVertex<V>> {
     let SideBounds { x, y } = bounds;
     let plane = |axis, at, inner| ClipPlane { axis, at, inner };
-    polygon.clip(&[
-        plane(Axis::X, -x, 1.0),
-        plane(Axis::X, x, -1.0),
-        plane(Axis::Y, -y, 1.0),
-        plane(Axis::Y, y, -1.0),
-    ])
+    polygon.clip(
+        &[plane(Axis::X, -x, 1.0), plane(Axis::X, x, -1.0), plane(Axis::Y, -y, 1.0), plane(Axis::Y, y, -1.0)],
+        Space::Screen,
+    )
 }
 
 #[cfg(test)]

@@ -317,7 +317,8 @@ impl<F, P: Interpolation> Paint<F, P> {
         let oriented = Oriented::new(vertices, reach.area(), subpixel.bits(), <P::Lanes<L> as Lanes>::FIXED);
         let setup = Setup { interpolation, lanes, oriented: &oriented, stage };
         let samples = SampleBox::new(&oriented, [reach.columns(), reach.rows()], limits);
-        let outcome = if reach.fits_i32() {
+        // In integers 64 bits alone: few triangles come here, and the other copy would be 1.4 KB of code.
+        let outcome = if const { !P::HAS_SMALL } && reach.fits_i32() {
             fill::<i32, _, _, _, _, _, _, _>(target, &samples, &setup, counters)
         } else {
             fill::<i64, _, _, _, _, _, _, _>(target, &samples, &setup, counters)

@@ -159,10 +159,14 @@ impl EdgeInt for i64 {
     }
 }
 
-/// [`EdgeInt::divided`] on cores without such a division: what comes with compilers is ten times as long. Only edges of
-/// thousands of pixels come here.
+/// [`EdgeInt::divided`] on cores without such a division: what comes with compilers is ten times as long. Numbers
+/// that fit `i32` are divided as such; only edges of thousands of pixels take all bits.
 #[inline(never)]
 fn bit_by_bit(x: i64, divisor: i64) -> (i64, i64) {
+    if let (Ok(x), Ok(divisor)) = (i32::try_from(x), i32::try_from(divisor)) {
+        let (quotient, remainder) = x.divided(divisor.max(1));
+        return (quotient.into(), remainder.into());
+    }
     // The complement of a negative number divides like a positive one, and so do the results.
     let sign = x >> 63;
     let (mut quotient, mut remainder) = (x ^ sign, 0);

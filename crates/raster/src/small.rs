@@ -105,13 +105,13 @@ impl<V: Varying> Planes<V> {
 #[inline(always)]
 fn planes<const FINE: bool, V: Varying>(
     runs: impl Runs,
-    shape: &Shape<FINE>,
+    (shape, longer): (&Shape<FINE>, u32),
     [a, b, c, first]: [&Corner<V>; 4],
     depth_bits: u32,
 ) -> Option<Planes<V>> {
     let apart = if runs.perspective() { a.q.max(b.q).max(c.q) - a.q.min(b.q).min(c.q) } else { 0 };
     // Without a budget a line may miss by a quarter of what a pixel changes.
-    let pixels = if runs.budget().is_some() { 1 << bits(FINE) } else { shape.longer };
+    let pixels = if runs.budget().is_some() { 1 << bits(FINE) } else { longer };
     if apart > STEEP || (apart >> 8) * pixels > STEEP >> 8 << bits(FINE) {
         return None;
     }
@@ -218,9 +218,10 @@ where
         center(origin[1]),
         area.unsigned_abs(),
         clockwise,
-        (east - west).max(cy - ay).cast_unsigned(),
+        ((east - west) | (cy - ay)).cast_unsigned(),
     );
-    let Some(planes) = planes(runs, &shape, [a, b, c, first], target.depth_format().bits()) else {
+    let longer = (east - west).max(cy - ay).cast_unsigned();
+    let Some(planes) = planes(runs, (&shape, longer), [a, b, c, first], target.depth_format().bits()) else {
         return false;
     };
 

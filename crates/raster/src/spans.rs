@@ -91,15 +91,15 @@ impl<I: EdgeInt> RowSpans<I> {
 ///
 /// For an edge that bounds from the right the function is turned into -value-1, which is not negative exactly where
 /// the edge's own value is negative: the first column outside. A horizontal edge bounds rows, not columns, and gets a
-/// crossing that never moves.
+/// crossing that never moves. Where the edge is, columns fit 32 bits; in other rows nobody asks, and they may wrap.
 #[derive(Clone, Copy, Debug)]
 struct Crossing<I> {
-    column: I,
+    column: i32,
     /// The function at `column`, less than `step`.
     value: I,
     step: I,
     /// The function's increment for a row: `whole * step + part`, with 0 <= `part` < `step`.
-    whole: I,
+    whole: i32,
     part: I,
 }
 
@@ -115,7 +115,7 @@ impl<I: EdgeInt> Crossing<I> {
         };
         let (columns, value) = value.divided(step);
         let (whole, part) = step_y.divided(step);
-        Self { column: zero - columns, value, step, whole, part }
+        Self { column: columns.to_i32().wrapping_neg(), value, step, whole: whole.to_i32(), part }
     }
 
     #[inline(always)]
@@ -123,7 +123,7 @@ impl<I: EdgeInt> Crossing<I> {
         let value = self.value + self.part;
         let carry = value >= self.step;
         self.value = if carry { value - self.step } else { value };
-        self.column = self.column - self.whole - I::from(i32::from(carry));
+        self.column = self.column.wrapping_sub(self.whole).wrapping_sub(i32::from(carry));
     }
 }
 
@@ -139,7 +139,7 @@ pub struct SpanWalker<I> {
     second_is_left: bool,
     /// The number of rows before that.
     above: i32,
-    width: I,
+    width: i32,
     rows: i32,
 }
 
@@ -164,7 +164,7 @@ impl<I: EdgeInt> SpanWalker<I> {
             second: Crossing::new(second, above),
             second_is_left,
             above,
-            width: I::from(width),
+            width,
             rows: rows - i32::from(cut),
         }
     }
@@ -180,9 +180,7 @@ impl<I: EdgeInt> SpanWalker<I> {
     #[must_use]
     #[inline]
     pub fn span(&self) -> Span {
-        let (start, end) = (self.left.column.max(I::from(0)), self.right.column.min(self.width));
-        // Far outside of the box columns would not fit their type.
-        Span { start: start.min(self.width).to_i32(), end: end.max(I::from(0)).to_i32() }
+        Span { start: self.left.column.max(0), end: self.right.column.min(self.width) }
     }
 
     /// Goes down one row.

@@ -33,8 +33,8 @@ pub(super) struct Shape<const FINE: bool> {
     shift: u32,
     /// The bits by which a slope is shifted to the right, in fine ones.
     less: u32,
-    /// The longer side of the box.
-    pub(super) longer: u32,
+    /// The bits of the box's sides, of which no side is longer.
+    extent: u32,
     /// From the first vertex to the origin's centre, in subpixels: less than a pixel.
     origin: [i32; 2],
 }
@@ -46,7 +46,7 @@ impl<const FINE: bool> Shape<FINE> {
         origin: [i32; 2],
         area: u32,
         clockwise: bool,
-        longer: u32,
+        extent: u32,
     ) -> Self {
         let normalizing = area.leading_zeros();
         let area = area << normalizing;
@@ -63,7 +63,7 @@ impl<const FINE: bool> Shape<FINE> {
             per_area: if clockwise { per_area } else { -per_area },
             shift: normalizing.saturating_sub(SLOPE + 6),
             less: if FINE { (SLOPE + 6).saturating_sub(normalizing) } else { 0 },
-            longer,
+            extent,
             origin: [origin[0] - a[0], origin[1] - a[1]],
         }
     }
@@ -74,7 +74,7 @@ impl<const FINE: bool> Shape<FINE> {
     pub(super) fn holds(&self, differences: u32) -> bool {
         // The sum of two products must be less than 2^31 after the shift. Sides of fine ones have up to 13 bits, so
         // that fewer of the differences' are counted.
-        let (most, unused) = (self.longer + 1, if FINE { 4 } else { 0 });
+        let (most, unused) = (self.extent + 1, if FINE { 4 } else { 0 });
         ((differences >> unused) + 1).wrapping_mul(most) < (1 << (30 - unused)) >> self.shift
     }
 
@@ -208,8 +208,8 @@ mod tests {
         let mut held = 0;
         for &[b, c] in corners {
             let area = (b[0] * c[1] - b[1] * c[0]).unsigned_abs();
-            let longer = magnitude(b[0]) | magnitude(b[1]) | magnitude(c[0]) | magnitude(c[1]);
-            let shape = Shape::<FINE>::new([[0; 2], b, c], [0; 2], area, true, longer);
+            let extent = magnitude(b[0]) | magnitude(b[1]) | magnitude(c[0]) | magnitude(c[1]);
+            let shape = Shape::<FINE>::new([[0; 2], b, c], [0; 2], area, true, extent);
             for k in 0..21 {
                 let ends = [-1 << k, (1 << k) - 1, 1 - (1 << k)];
                 for (b, c) in ends.into_iter().flat_map(|b| ends.map(|c| (b, c))) {

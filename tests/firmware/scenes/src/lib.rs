@@ -95,7 +95,6 @@ pub static SCENES: &[Scene] = &[
     fill!("fixed-affine-4", 4, affine_fixed),
     fill!("fixed-textured", 1, textured_fixed),
     fill!("fixed-textured-4", 4, textured_fixed),
-    fill!("fixed-bounded", 1, textured_bounded),
     scene!("fixed-mesh-flat", torus(1.0), flat_mesh),
     scene!("fixed-mesh-gouraud", torus(1.0), gouraud_mesh),
     scene!("fixed-mesh-affine", torus(1.0), affine_mesh),
