@@ -142,7 +142,7 @@ pub const DESKTOP: Profile<Exact, Rgba8888, F32> =
 ///
 /// # Cost
 /// A fragment: an addition for the depth and one a component. Every 16 columns: a look into a table instead of a
-/// division. 4 bytes a pixel; edge functions of 32 bits up to 2,890 pixels.
+/// division. 4 bytes a pixel; edge functions of 64 bits.
 pub const MCU: Profile<FixedPoint<Spans16>, Rgb565Be, D16> =
     Profile { interpolation: FixedPoint(Spans16), subpixel: Sub4, color: Rgb565Be, depth: D16 };
 
@@ -154,6 +154,6 @@ pub const MCU: Profile<FixedPoint<Spans16>, Rgb565Be, D16> =
 /// within 2^-5 pixel; 5 or 6 bits a channel.
 ///
 /// # Cost
-/// A fragment: an addition a component. 2 bytes a pixel; edge functions of 32 bits up to 2,890 pixels.
+/// A fragment: an addition a component. 2 bytes a pixel; edge functions of 64 bits.
 pub const TINY: Profile<FixedPoint<Affine>, Rgb565Be, NoDepth> =
     Profile { interpolation: FixedPoint(Affine), subpixel: Sub4, color: Rgb565Be, depth: NoDepth };

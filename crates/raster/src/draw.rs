@@ -53,7 +53,7 @@ impl<F, P: Interpolation> Paint<F, P> {
     ///
     /// With one lane, rows of a box of up to 8 samples are tested sample by sample, and six integer divisions give the
     /// ends of the spans of wider ones. Edge functions then have 32 bits up to 179 pixels (8 subpixel bits) or 2,894 (4
-    /// bits) in a square box, and 64 above.
+    /// bits) in a square box, and 64 above; in fixed point always 64.
     ///
     /// With several lanes, boxes of up to 32 samples that lie within the target's columns and one run are tested, all
     /// lanes at once. The pixels are the same.
@@ -317,7 +317,7 @@ impl<F, P: Interpolation> Paint<F, P> {
         let oriented = Oriented::new(vertices, reach.area(), subpixel.bits(), <P::Lanes<L> as Lanes>::FIXED);
         let setup = Setup { interpolation, lanes, oriented: &oriented, stage };
         let samples = SampleBox::new(&oriented, [reach.columns(), reach.rows()], limits);
-        // In integers 64 bits alone: few triangles come here, and the other copy would be 1.4 KB of code.
+        // Policies with a way for small triangles have 64 bits alone, for less code: docs/kernel.md.
         let outcome = if const { !P::HAS_SMALL } && reach.fits_i32() {
             fill::<i32, _, _, _, _, _, _, _>(target, &samples, &setup, counters)
         } else {

@@ -60,7 +60,7 @@ const MORE: u32 = 8;
 const LARGE: u32 = 1 << 20;
 /// Differences of depth from here on might too.
 const DEEP: u32 = 1 << 18;
-/// The greatest difference of the words of two q: their ratio is at most 2.
+/// The greatest difference of the words of two q, which are normal numbers: their ratio is at most 2.
 const STEEP: u32 = 1 << 23;
 
 /// A bundle with every component mapped, by a function that stands in line.
@@ -110,9 +110,10 @@ fn planes<const FINE: bool, V: Varying>(
     depth_bits: u32,
 ) -> Option<Planes<V>> {
     let apart = if runs.perspective() { a.q.max(b.q).max(c.q) - a.q.min(b.q).min(c.q) } else { 0 };
-    // Without a budget a line may miss by a quarter of what a pixel changes.
-    let pixels = if runs.budget().is_some() { 1 << bits(FINE) } else { longer };
-    if apart > STEEP || (apart >> 8) * pixels > STEEP >> 8 << bits(FINE) {
+    // A line misses at most |Δu| (r - 1) / 4, and r - 1 is at most `apart` over 2^23. Without a budget that is to be at
+    // most a quarter of what a pixel changes. The bits cut off are less than what (√r + 1)^2 is above 4.
+    let steep = || (apart >> 8) * longer > STEEP >> 8 << bits(FINE);
+    if apart > STEEP || (runs.budget().is_none() && steep()) {
         return None;
     }
     let budget = runs.budget().map(|budget| scaled(budget, 16).clamp(0, LIMIT / 2) - 2);

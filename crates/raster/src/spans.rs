@@ -46,7 +46,7 @@ impl<I: EdgeInt> RowSpans<I> {
     /// Starts as [`SpanWalker::new`] does.
     #[inline(always)]
     pub(crate) fn new(edges: &[Edge<I>; 3], width: i32, rows: [i32; 2]) -> Self {
-        // Narrow boxes that take 64 bits are higher than any target.
+        // Only in 32 bits: in 64 narrow boxes are higher than any target, or in fixed point mostly small.
         if const { size_of::<I>() == size_of::<i32>() } && width <= TESTED {
             Self::Tested { edges: edges.map(|e| Edge { value: e.value + e.bias, ..e }), width }
         } else {
@@ -176,7 +176,7 @@ impl<I: EdgeInt> SpanWalker<I> {
         self.rows
     }
 
-    /// The current row's span.
+    /// The current row's span. An empty one may lie outside of the box; past [`rows`](Self::rows) it is anything.
     #[must_use]
     #[inline]
     pub fn span(&self) -> Span {

@@ -197,8 +197,8 @@ struct Counts {
     worst_depth: f64,
 }
 
-/// Draws triangles by a policy whose miss is at most `missed` of a case and a row, and which certainly takes those in `one_run`
-/// as one run.
+/// Draws triangles by a policy whose miss is at most `missed` of a case and a row. Those in `one_run` are certainly one
+/// run.
 fn keeps_its_bounds(
     (lines, subpixel): (Lines, Subpixel),
     format: AnyDepth,

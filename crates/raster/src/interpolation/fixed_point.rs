@@ -30,9 +30,11 @@ use core::fmt;
 ///
 /// Triangles whose corners are less than 16 pixels apart on both axes, or 32 on the grid of `Sub4`, are drawn as one
 /// run. There the error is the miss of a straight line over the triangle and 1.35·2^-16; of depths in 16 bits, 2^-20
-/// more. The line may miss by a quarter of what a pixel of the longer side changes, where q has the ratio 1 + 1/n over n
-/// pixels, or by the budget; steeper ones, and a policy of runs below 16 columns, have none. Nor are those one run that
-/// carry more than 16, or differ in depth by more than 2^-10 (of depths in 16 bits, 1/4).
+/// more. With n the pixels of the box's longer side, the line misses at most |Δu|/(4n), or the budget if there is one.
+/// So without a budget the ratio of q is at most about 1 + 1/n; it is never above 2, and q are normal numbers.
+/// Steeper ones are drawn in runs, and all under a policy of runs below 16 columns. So are those that carry more than
+/// 16, or differ in depth by more than 2^-10 (of depths in 16 bits, 1/4).
+///
 /// `Sub4` below 16 pixels is the cheapest. From there on, and on the grid of `Sub8`, components may differ by less
 /// than 1, and depths by a quarter of that.
 ///
@@ -158,7 +160,7 @@ pub struct FixedLines<V: Varying> {
 }
 
 impl<V: Varying> FixedLines<V> {
-    /// Not inlined, as it is long: edges of 32 and of 64 bits share it.
+    /// Not inlined, as it is long.
     #[inline(never)]
     fn new(perspective: bool, triangle: &Oriented<'_, V>) -> Self {
         let shape = Shape::new(triangle);

@@ -11,8 +11,8 @@ use alberti::shaders::{Differentiated, Ready565, Solid, Stored, Unlit, VertexCol
 use alberti::texture::{BaseLevel, Bilinear, Minify, Nearest, NearestLevel, Repeat, Trilinear};
 use alberti::{
     Affine, ColorFormat, Counters, D16, DepthFormat, Exact, FixedPoint, FragmentStage, Geometry, IntegerMesh,
-    IntegerVertex, Interpolation, Lines, Mesh, Meshlets, NoDepth, Object, Pass, Planes, Point3, Q16, Rgb565Le, Slot,
-    Spans16, Sub4, Sub8, Varying, View,
+    IntegerVertex, Interpolation, Lines, Mesh, Meshlets, NoDepth, Object, Pass, Planes, Point3, Q16,
+    Rgb565Le, Slot, Spans16, Sub4, Sub8, Varying, View,
 };
 
 /// Defines ways of drawing: a pass of its own for each, into colour and depth.
@@ -238,11 +238,12 @@ pub fn meshlets_cache<K: Counters>(target: &mut Target, camera: &Camera, model: 
 /// As many slots as the torus has vertices.
 const ALL: usize = TORUS_VERTICES;
 
-/// Divided as seldom as a quarter of a texel allows.
+/// The bands of [`meshlets_bands`], divided as seldom as a quarter of a texel allows.
 pub fn bounded_bands<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
     bands(FixedPoint(QUARTER_TEXEL), target, camera, model, &meshlets(model, mapped_integers), ALL, counters);
 }
 
+/// Lines that miss by at most so much of the texture, which has 128 texels.
 const QUARTER_TEXEL: Lines = Lines::bounded(0.25 / 128.0);
 
 #[inline]
