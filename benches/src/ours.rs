@@ -13,7 +13,7 @@ use alberti::texture::surface::NormalEncoding::Unorm;
 use alberti::texture::{Anisotropic, Bilinear, Mipmap, Nearest, Repeat, Trilinear, mipmap};
 use alberti::{
     Affine, Bands, Exact, F32, FragmentStage, Interpolation, Mesh, Pass, Planes, PreparedTriangle, Rgba8,
-    Rgba8888, Slot, Spans16, Target, Varying, Vector3, View,
+    Rgba8888, Slot, Spans16, Target, Varying, Vector3, View, clear_by_threads,
 };
 use alberti_app::options::{self, DepthFormat, Filter, Policies, Projection, RenderOptions, Shading};
 use alberti_app::render::{self, any_depth};
@@ -25,11 +25,16 @@ use std::num::NonZero;
 /// The policies that are timed, by the name that the benchmark gets. `App` is `Exact` by the kernels of the `alberti`
 /// command, whose policies are chosen at run time. All but [`WITHOUT_SLOTS`] have slots for all vertices, all but
 /// [`BY_BANDS`] depths for the whole frame.
-pub const POLICIES: &[&str] = &["Exact", WITHOUT_SLOTS, BY_BANDS, "Planes", "Spans16", "Affine", "App"];
+pub const POLICIES: &[&str] =
+    &["Exact", BY_TWO, WITHOUT_SLOTS, BY_BANDS, "Planes", "Spans16", "Affine", "App"];
+/// `Exact` by two threads.
+pub const BY_TWO: &str = "two threads";
 /// `Exact` as it is without more said: vertices in a small cache.
 pub const WITHOUT_SLOTS: &str = "Exact-without-slots";
 /// `Exact` in bands that share their depths.
 pub const BY_BANDS: &str = "Exact-by-bands";
+
+const TWO: NonZero<usize> = NonZero::<usize>::MIN.saturating_add(1);
 
 /// The most depths of a band: two megabytes, which stay in the caches where those of a large frame do not.
 const BAND: usize = 1 << 19;
@@ -38,7 +43,7 @@ const BAND: usize = 1 << 19;
 /// their bounds allow.
 #[must_use]
 pub fn is_right(name: &str) -> bool {
-    matches!(name, "Exact" | WITHOUT_SLOTS | BY_BANDS | "Planes" | "App")
+    matches!(name, "Exact" | BY_TWO | WITHOUT_SLOTS | BY_BANDS | "Planes" | "App")
 }
 
 /// The scene under a policy, or nothing when the policy does not draw such a scene.
@@ -56,10 +61,11 @@ pub fn renderer(policy: &str, scene: &Scene, size: Size) -> Option<Box<dyn Rende
     }
     let triangles = scene.triangles.len();
     let band = (BAND / size.width as usize).clamp(1, size.height as usize) * size.width as usize;
-    let (room, depths) = if policy == BY_BANDS {
-        (Some(vec![PreparedTriangle::EMPTY; triangles]), band)
-    } else {
-        (None, size.pixels())
+    let room = || Some(vec![PreparedTriangle::EMPTY; triangles]);
+    let (room, depths) = match policy {
+        BY_BANDS => (room(), band),
+        BY_TWO => (room(), size.pixels()),
+        _ => (None, size.pixels()),
     };
     let canvas = Canvas {
         view: view(&scene.built_in.camera).expect("a view"),
@@ -69,12 +75,13 @@ pub fn renderer(policy: &str, scene: &Scene, size: Size) -> Option<Box<dyn Rende
         size,
         slots: if policy == WITHOUT_SLOTS { 0 } else { model.vertices.len() },
         room,
+        by_two: policy == BY_TWO,
         color: vec![0; size.pixels()],
         depth: vec![0.0; depths],
     };
     if let Some(stones) = &scene.stones {
         return match policy {
-            "Exact" => Some(Box::new(Pavement::new(canvas, stones, Exact))),
+            "Exact" | BY_TWO => Some(Box::new(Pavement::new(canvas, stones, Exact))),
             "Planes" => Some(Box::new(Pavement::new(canvas, stones, Planes))),
             _ => None,
         };
@@ -82,7 +89,7 @@ pub fn renderer(policy: &str, scene: &Scene, size: Size) -> Option<Box<dyn Rende
     let image = model.textures.first().filter(|_| scene.texture.is_some()).cloned();
     let filter = scene.built_in.filter;
     Some(match policy {
-        "Exact" | BY_BANDS => boxed(canvas, image, filter, Exact),
+        "Exact" | BY_TWO | BY_BANDS => boxed(canvas, image, filter, Exact),
         // Few vertices need no slots.
         WITHOUT_SLOTS if triangles > 1000 => boxed(canvas, image, filter, Exact),
         "Planes" => boxed(canvas, image, filter, Planes),
@@ -123,6 +130,8 @@ struct Canvas {
     slots: usize,
     /// Room for the triangles of a frame in bands.
     room: Option<Vec<PreparedTriangle>>,
+    /// Whether these are drawn by two threads.
+    by_two: bool,
     color: Vec<u32>,
     /// Those of all rows, or of a band's.
     depth: Vec<f32>,
@@ -132,25 +141,35 @@ impl Canvas {
     fn render<V: Varying>(
         &mut self,
         slots: &mut [Slot<V>],
-        vertex_stage: impl Fn(&Vertex) -> (Vec3, V),
-        fragment_stage: impl FragmentStage<V, Color = Rgba8>,
+        vertex_stage: impl Fn(&Vertex) -> (Vec3, V) + Sync,
+        fragment_stage: impl FragmentStage<V, Color = Rgba8> + Sync,
         interpolation: impl Interpolation,
-    ) {
-        let Self { view, vertices, triangles, background, room, color, depth, .. } = self;
+    ) where
+        Slot<V>: Send + Sync,
+    {
+        let Self { view, vertices, triangles, background, room, by_two, color, depth, .. } = self;
         let Size { width, height } = self.size;
         let [r, g, b, a] = *background;
         let background = Rgba8::new(r, g, b, a);
         let mesh = Mesh::new(vertices, triangles, vertex_stage);
         let mut pass = Pass::new(view, &mesh, fragment_stage).interpolation(interpolation).slots(slots);
-        if let Some(room) = room {
+        if let (Some(room), false) = (&mut *room, *by_two) {
             let mut bands = Bands::new(Rgba8888, F32, width, height, color, depth).expect("buffers that fit");
             let (mut prepared, _) = pass.prepare(&bands, room);
             bands.draw(background, |band| prepared.draw(band));
         } else {
             let mut target =
                 Target::new(Rgba8888, F32, width, height, color, depth).expect("buffers that fit");
-            target.clear(background);
-            pass.draw(&mut target);
+            match room {
+                Some(room) => {
+                    clear_by_threads(TWO, &mut target, background);
+                    pass.draw_by_threads(TWO, room, &mut target);
+                }
+                None => {
+                    target.clear(background);
+                    pass.draw(&mut target);
+                }
+            }
         }
     }
 }

@@ -48,5 +48,7 @@ pub use prepared::{Prepared, PreparedTriangle};
 pub use profile::{DESKTOP, MCU, Profile, REFERENCE, TINY};
 pub use screen::Sides;
 pub use stats::Stats;
+#[cfg(feature = "std")]
+pub use threads::clear_by_threads;
 pub use vertex::Slot;
 pub use view::{Camera, View};

@@ -10,7 +10,7 @@ use crate::walk::{Walk, stored_by};
 use alberti_math::for_lanes;
 use alberti_math::lanes::{Floating, Machine};
 use alberti_projection::Projection;
-use alberti_raster::{ColorFormat, DepthFormat, FragmentStage, Interpolation, Paint, Target};
+use alberti_raster::{ColorFormat, DepthFormat, FragmentColor, FragmentStage, Interpolation, Paint, Target};
 use core::num::NonZero;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread::{Builder, scope};
@@ -103,6 +103,25 @@ where
         });
         total.into_inner().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// [`Target::clear`] by so many threads, at most 256.
+pub fn clear_by_threads<C, D, Shade>(threads: NonZero<usize>, target: &mut Target<'_, C, D>, color: Shade)
+where
+    C: ColorFormat,
+    D: DepthFormat,
+    Shade: FragmentColor + Sync,
+{
+    let (threads, rows) = (threads.get().min(MOST), target.limits()[1].len());
+    if threads == 1 {
+        return target.clear(color);
+    }
+    let bands = Mutex::new(target.split(rows.div_ceil(threads * BANDS)));
+    together(threads.min(rows), || {
+        while let Some(mut band) = next(&bands) {
+            band.clear(color);
+        }
+    });
 }
 
 /// Does the work in so many threads, and comes back when all are done.

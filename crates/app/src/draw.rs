@@ -14,7 +14,7 @@ use alberti::glam::Vec3;
 use alberti::texture::{Texture, TextureError, format::Rgba8888};
 use alberti::{
     AnyDepth, AnyProjection, Eye, Frame, Geometry, Mesh, Object, Pass, Point3, PreparedTriangle, Projector,
-    Rgba8, Slot, Stats, Subpixel, Target, Vector3, View, ViewError, World, look_at,
+    Rgba8, Slot, Stats, Subpixel, Target, Vector3, View, ViewError, World, clear_by_threads, look_at,
 };
 
 mod erased;
@@ -121,7 +121,7 @@ impl<'a> Drawing<'a> {
     /// Draws the whole model; `progress` hears how many of how many triangles are done.
     pub(crate) fn draw_all(mut self, target: &mut Canvas<'_>, progress: &mut dyn FnMut(u64, u64)) -> Stats {
         let [r, g, b] = self.options.background;
-        target.clear(Rgba8::new(r, g, b, 255));
+        clear_by_threads(self.options.threads, target, Rgba8::new(r, g, b, 255));
         let total = self.model.parts.iter().map(|part| part.triangles.len() as u64).sum();
         let mut done = 0;
         for part in &self.model.parts {

@@ -8,7 +8,7 @@ use alberti::shaders::{Unlit, VertexColor};
 use alberti::texture::{Bilinear, Repeat, Texture};
 use alberti::{
     AnyDepth, ColorFormat, Cull, DepthFormat, Frame, Mesh, Pass, Perspective, Prepared, PreparedTriangle,
-    Rgb565Be, Rgb565Le, Rgba8, Rgba8888, Sides, Slot, Stats, Target, View, Viewport,
+    Rgb565Be, Rgb565Le, Rgba8, Rgba8888, Sides, Slot, Stats, Target, View, Viewport, clear_by_threads,
 };
 use alberti_app::scene::Vertex;
 use alberti_app::scenes::{BuiltIn, NAMES, by_name};
@@ -58,7 +58,8 @@ fn frame<C: ColorFormat<Pixel: Default>>(
     color
 }
 
-/// Vertices, lists and bands by several threads, with room for all triangles or for some, make the frame of one.
+/// The clear, vertices, lists and bands by several threads, with room for all triangles or for some, make the frame of
+/// one.
 #[test]
 fn any_number_of_threads_makes_the_frame() {
     for name in ["mesh", "inside", "gouraud"] {
@@ -68,7 +69,7 @@ fn any_number_of_threads_makes_the_frame() {
         let triangles = model.parts.iter().map(|part| part.triangles.len()).max().expect("parts");
         // A scissor in the middle of the bands' rows.
         let frame = |draw: &dyn Fn(&mut Target<'_, Rgba8888, AnyDepth>, usize) -> Stats| {
-            let (mut color, mut depth) = (vec![0; PIXELS], vec![AnyDepth::D24.farthest(); PIXELS]);
+            let (mut color, mut depth) = (vec![7; PIXELS], vec![9; PIXELS]);
             let mut whole =
                 Target::new(Rgba8888, AnyDepth::D24, WIDTH, HEIGHT, &mut color, &mut depth).expect("a frame");
             let mut target = whole.scissor(3..WIDTH.cast_signed(), 0..HEIGHT.cast_signed() - 5);
@@ -78,7 +79,11 @@ fn any_number_of_threads_makes_the_frame() {
         };
         let pass = |part: usize| Mesh::new(&model.vertices, &model.parts[part].triangles, vertex);
         let slots = || vec![Slot::EMPTY; model.vertices.len()];
+        let background = Rgba8::from_rgb24(0x30_40_50);
         let (color, depth, expected) = frame(&|target, part| {
+            if part == 0 {
+                target.clear(background);
+            }
             Pass::new(&view, &pass(part), VertexColor).slots(&mut slots()).draw_counted(target)
         });
         for (threads, room) in
@@ -90,6 +95,9 @@ fn any_number_of_threads_makes_the_frame() {
                 let mesh = pass(part);
                 let mut slots = slots();
                 let mut pass = Pass::new(&view, &mesh, VertexColor).slots(&mut slots);
+                if part == 0 {
+                    clear_by_threads(threads, target, background);
+                }
                 pass.draw_by_threads(threads, &mut room, target)
             });
             assert!(found == color && depths == depth, "{name} by {threads} threads with room for {room}");
