@@ -87,7 +87,7 @@ impl Case {
         let sample = |column: i32| pixel_centre(column.into(), row.into(), self.subpixel.bits());
         let mut columns = (-SIDE..2 * SIDE).map(sample).filter(|&sample| covers(self.tri, sample));
         let Some(first) = columns.next() else { return 0.0 };
-        let ends = [first, columns.last().unwrap_or(first)];
+        let ends = [first, columns.next_back().unwrap_or(first)];
         let [q, u] = [
             ends.map(|end| dd::linear(self.tri, end, self.q).to_f64()),
             ends.map(|end| dd::hyperbolic(self.tri, end, self.q, self.u).to_f64()),
