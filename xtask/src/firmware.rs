@@ -110,7 +110,7 @@ const BOARDS: &[Board] = &[
             ("fixed-mesh-gouraud", 3_459_572),
             ("fixed-mesh-affine", 2_957_403),
             ("fixed-mesh", 3_319_265),
-            ("fixed-mesh-bounded", 3_157_117),
+            ("fixed-mesh-bounded", 3_260_572),
             ("fixed-mesh-bands", 4_220_452),
             ("fixed-mesh-sub8", 3_268_092),
             ("fixed-mesh-coarse", 1_150_052),
@@ -122,7 +122,7 @@ const BOARDS: &[Board] = &[
             ("meshlets-affine", 2_706_203),
             ("meshlets-bands-cache", 4_409_522),
             ("meshlets-bands", 4_029_818),
-            ("meshlets-bands-bounded", 3_894_598),
+            ("meshlets-bands-bounded", 4_002_240),
         ],
     },
     Board {
