@@ -108,8 +108,7 @@ impl<N: Copy + Add<Output = N> + Sub<Output = N> + Mul<Output = N> + Div<Output 
     /// [`lod`](Gradient::lod) of several pixels: of a texture with the sides `[width, height]`.
     #[inline(always)]
     pub fn lod_lanes<L: Lanes<Number = N>>(self, lanes: L, size: [u32; 2]) -> N {
-        let [across, down] = self.log2_lengths_lanes(lanes, size);
-        lanes.max(across, down)
+        lanes.log2_longer([self.dx, self.dy], size)
     }
 }
 
@@ -153,7 +152,7 @@ impl Gradient<[f32; 2]> {
     /// the lengths are from 2^-16 to 2^15 texels.
     ///
     /// # Cost
-    /// Two logarithms, as [`Lanes::log2_length`] says, and a comparison.
+    /// One logarithm of the greater of two squares, as [`Lanes::log2_longer`] says.
     #[must_use]
     pub fn lod(self, width: u32, height: u32) -> f32 {
         self.lod_lanes(One, [width, height])

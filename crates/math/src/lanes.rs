@@ -17,6 +17,7 @@ pub use one_fixed::OneFixed;
 #[cfg(feature = "simd")]
 pub use several::{Eight, Sixteen};
 
+use crate::map2;
 use core::fmt::Debug;
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
@@ -114,6 +115,14 @@ pub trait Lanes: Copy + Debug + Send + Sync {
     /// Nine multiplications, six additions, a minimum, a conversion and three operations on bits; no root, no table. In
     /// fixed point two products of 64 bits, and integers.
     fn log2_length(self, x: Self::Number, y: Self::Number, scale: [u32; 2]) -> Self::Number;
+    /// The greater of the [`log2_length`](Self::log2_length)s of two vectors, to the bit; of NaN at least the greatest.
+    ///
+    /// # Cost
+    /// One logarithm, of the greater square, five multiplications and five additions; in fixed point two logarithms.
+    #[inline(always)]
+    fn log2_longer(self, [a, b]: [[Self::Number; 2]; 2], scale: [u32; 2]) -> Self::Number {
+        self.max(self.log2_length(a[0], a[1], scale), self.log2_length(b[0], b[1], scale))
+    }
     /// Cosine and sine of the Jacobi rotation of two plane vectors `x` and `y` whose components are multiplied by
     /// `scale`, up to 2^15, before: it makes them orthogonal.
     ///
@@ -144,7 +153,7 @@ pub trait Lanes: Copy + Debug + Send + Sync {
     /// x·2^`bits` rounded down, in two's complement, for |x·2^`bits`| < 2^31 and `bits` up to 30. NaN gives a multiple
     /// of 2^31; numbers beyond give any word.
     fn floor_scaled(self, x: Self::Number, bits: u32) -> Self::U32;
-    /// The same to the nearest, halves up, for |x·2^`bits`| < 2^30.
+    /// The same to the nearest, halves up, for |x·2^`bits`| < 2^30; NaN gives a multiple of 2^30.
     fn round_scaled(self, x: Self::Number, bits: u32) -> Self::U32;
     /// A word whose lowest `bits`, up to 30, are those of x·2^`bits` rounded down, for every number. They are 0 for
     /// numbers that are not finite.
@@ -212,8 +221,27 @@ pub trait Lanes: Copy + Debug + Send + Sync {
 /// two coefficients reach.
 const LOG2: [f32; 2] = [0.422_865_4, -0.159_220_2];
 
-/// Half of log2 of a square in `f32`, by its exponent as it is stored and its mantissa from 1 to 2. At most 64, also if
-/// the square is NaN of either sign.
+/// The square of the length of a vector, after scaling.
+#[inline(always)]
+fn scaled_square<L: Lanes>(lanes: L, [x, y]: [L::Number; 2], scale: [u32; 2]) -> L::Number {
+    #[expect(clippy::cast_precision_loss, reason = "up to 2^15")]
+    let [a, b] = map2(scale, |scale| lanes.splat(scale as f32));
+    let (x, y) = (x * a, y * b);
+    x * x + y * y
+}
+
+/// The greater of two such squares. The difference, 0 otherwise, keeps NaN and infinity, of which a maximum might take
+/// the other.
+#[inline(always)]
+fn longer_square<L: Lanes>(lanes: L, [a, b]: [[L::Number; 2]; 2], scale: [u32; 2]) -> L::Number {
+    let [a, b] = [scaled_square(lanes, a, scale), scaled_square(lanes, b, scale)];
+    #[expect(clippy::eq_op, reason = "of what is not finite, NaN")]
+    let zero = a - a;
+    lanes.max(a, b) + zero
+}
+
+/// Half of log2 of a square in `f32`, by its exponent as it is stored and its mantissa from 1 to 2. It is monotone, and
+/// at most 64, also if the square is NaN of either sign.
 #[inline(always)]
 fn half_log2<L: Lanes>(lanes: L, exponent: L::Number, mantissa: L::Number) -> L::Number {
     let one = lanes.splat(1.0);

@@ -117,14 +117,15 @@ pub trait Wrap: Sealed + Copy + Debug + 'static {
     /// [`between_wide`](Self::between_wide) along a side that is a power of two: all at once.
     #[inline(always)]
     fn between_masked<L: Lanes>(self, lanes: L, u: L::Number, size: u32) -> [L::U32; 3] {
-        let nearest = lanes.round_scaled(self.in_period(lanes, u), size.trailing_zeros() + 8);
-        // Half a texel to the left lies the centre from which distances count; one more keeps it positive.
-        let position = nearest + lanes.word(128);
-        let right = lanes.shr_signed(position, 8);
+        // In 512ths of a texel. One more rounds to 256ths, halves up; half a texel to the left lies the centre from
+        // which distances count, and a texel more keeps them positive.
+        let halves =
+            lanes.floor_scaled(self.in_period(lanes, u), size.trailing_zeros() + 9) + lanes.word(257);
+        let right = lanes.shr_signed(halves, 9);
         [
             self.fold(lanes, right - lanes.word(1), size),
             self.fold(lanes, right, size),
-            position & lanes.word(255),
+            lanes.shr(halves, 1) & lanes.word(255),
         ]
     }
 }

@@ -1,7 +1,6 @@
 //! One sample at a time, in the plain numbers of the machine.
 
-use super::{Floating, Lanes, half_log2, jacobi};
-use crate::map2;
+use super::{Floating, Lanes, half_log2, jacobi, longer_square, scaled_square};
 use core::num::Wrapping;
 
 /// One sample at a time, in `f32`: the reference that all others of `f32` must equal.
@@ -206,12 +205,12 @@ impl Lanes for One {
 
     #[inline(always)]
     fn log2_length(self, x: f32, y: f32, scale: [u32; 2]) -> f32 {
-        #[expect(clippy::cast_precision_loss, reason = "up to 2^15")]
-        let [a, b] = map2(scale, |scale| scale as f32);
-        let (x, y) = (x * a, y * b);
-        let bits = (x * x + y * y).to_bits();
-        let mantissa = f32::from_bits(bits & 0x007f_ffff | 0x3f80_0000);
-        half_log2(self, self.to_numbers(Wrapping(bits >> 23)), mantissa)
+        half_log2_of(scaled_square(self, [x, y], scale))
+    }
+
+    #[inline(always)]
+    fn log2_longer(self, vectors: [[f32; 2]; 2], scale: [u32; 2]) -> f32 {
+        half_log2_of(longer_square(self, vectors, scale))
     }
 
     #[inline(always)]
@@ -293,6 +292,14 @@ impl Floating for One {
 #[inline(always)]
 pub(super) const fn power_of_two(exponent: u32) -> f32 {
     f32::from_bits(127_u32.wrapping_add(exponent) << 23)
+}
+
+/// Half of the logarithm of a square.
+#[inline(always)]
+fn half_log2_of(square: f32) -> f32 {
+    let bits = square.to_bits();
+    let mantissa = f32::from_bits(bits & 0x007f_ffff | 0x3f80_0000);
+    half_log2(One, One.to_numbers(Wrapping(bits >> 23)), mantissa)
 }
 
 /// The nearest integer from 0 to `greatest`.

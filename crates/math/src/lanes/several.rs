@@ -1,7 +1,7 @@
 //! Several samples at a time, in the vector registers that the machine has.
 
 use super::one::power_of_two;
-use super::{Floating, Lanes, half_log2, jacobi};
+use super::{Floating, Lanes, half_log2, jacobi, longer_square, scaled_square};
 use core::fmt::{Debug, Formatter, Result};
 #[cfg(target_arch = "x86_64")]
 use fearless_simd::Level;
@@ -43,6 +43,14 @@ macro_rules! several {
             fn nearest(self, x: $f32<S>, greatest: f32) -> $u32<S> {
                 let rounded = self.max(x + self.splat(0.5), self.splat(0.0));
                 self.min(rounded, self.splat(greatest)).to_int::<$i32<S>>().bitcast()
+            }
+
+            /// Half of the logarithm of a square.
+            #[inline(always)]
+            fn half_log2(self, square: $f32<S>) -> $f32<S> {
+                let bits = square.bitcast::<$u32<S>>();
+                let mantissa = (bits & self.word(0x007f_ffff) | self.word(0x3f80_0000)).bitcast();
+                half_log2(self, self.to_numbers(bits >> 23), mantissa)
             }
 
             /// Without the fraction, and at times without the sign of zero. SSE2 has no instruction for it, and a call
@@ -195,12 +203,12 @@ macro_rules! several {
 
             #[inline(always)]
             fn log2_length(self, x: $f32<S>, y: $f32<S>, scale: [u32; 2]) -> $f32<S> {
-                #[expect(clippy::cast_precision_loss, reason = "up to 2^15")]
-                let [a, b] = scale.map(|scale| self.splat(scale as f32));
-                let (x, y) = (x * a, y * b);
-                let bits = (x * x + y * y).bitcast::<$u32<S>>();
-                let mantissa = (bits & self.word(0x007f_ffff) | self.word(0x3f80_0000)).bitcast();
-                half_log2(self, self.to_numbers(bits >> 23), mantissa)
+                self.half_log2(scaled_square(self, [x, y], scale))
+            }
+
+            #[inline(always)]
+            fn log2_longer(self, vectors: [[$f32<S>; 2]; 2], scale: [u32; 2]) -> $f32<S> {
+                self.half_log2(longer_square(self, vectors, scale))
             }
 
             #[inline(always)]
@@ -228,13 +236,8 @@ macro_rules! several {
 
             #[inline(always)]
             fn round_scaled(self, x: $f32<S>, bits: u32) -> $u32<S> {
-                // floor(x + 1/2), without a sum that would have to be rounded.
-                let x = x * self.splat(power_of_two(bits));
-                let below = self.floor(x);
-                // The greatest number below one half; NaN is not above it.
-                let up = self.splat(0.5f32.next_down()).simd_lt(x - below);
-                let below: $u32<S> = below.to_int::<$i32<S>>().bitcast();
-                up.select(below + self.word(1), below)
+                // The halves below it: an odd one rounds up.
+                self.shr_signed(self.floor_scaled(x, bits + 1) + self.word(1), 1)
             }
 
             #[inline(always)]

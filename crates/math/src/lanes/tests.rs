@@ -88,6 +88,12 @@ fn together_as_alone<L: Floating>(lanes: L) {
             same_number!(lanes.select(mask, p, q), if set { a } else { b });
             same_number!(lanes.to_numbers(x & lanes.word(255)), One.to_numbers(v & Wrapping(255)));
             same_number!(lanes.log2_length(p, q, [3, 5]), One.log2_length(a, b, [3, 5]));
+            same_number!(
+                lanes.log2_longer([[p, q], [q, s]], [3, 5]),
+                One.log2_longer([[a, b], [b, ramp]], [3, 5])
+            );
+            let [across, down] = [One.log2_length(a, b, [3, 5]), One.log2_length(b, ramp, [3, 5])];
+            same_number!(lanes.log2_longer([[p, q], [q, s]], [3, 5]), across.max(down));
             // Of zeros with both signs either one.
             if a != b {
                 same_number!(lanes.min(p, q), One.min(a, b));
@@ -226,6 +232,20 @@ fn log2_length_of_floats() {
     }
     for x in [0.0, -0.0, 1e-45, f32::MIN_POSITIVE, -1e-20] {
         assert!((-63.5..=-63.0).contains(&special(x, 0.0)), "{x}");
+    }
+}
+
+/// So the logarithm of the greater square is the greater logarithm. Over the mantissas of an exponent whose number is
+/// 0, and to the next; other exponents are added and rounded, which keeps the order.
+#[test]
+fn log2_of_squares_is_monotone() {
+    let of = |bits: u32| {
+        let mantissa = f32::from_bits(bits & 0x007f_ffff | 0x3f80_0000);
+        super::half_log2(One, One.to_numbers(Wrapping(bits >> 23)), mantissa)
+    };
+    let one = 1f32.to_bits();
+    for bits in one..=2f32.to_bits() {
+        assert!(of(bits) <= of(bits + 1), "{bits:x}");
     }
 }
 
