@@ -88,6 +88,8 @@ pub struct Samples<'a, L: Lanes, V: Varying> {
     pub weights: &'a [L::Number; 3],
     /// The attributes.
     pub values: &'a V::Of<L::Number>,
+    /// 1/T, if the policy of interpolation has it.
+    pub reciprocal: Option<L::Number>,
 }
 
 impl<L: Lanes, V: Varying> Debug for Samples<'_, L, V> {
@@ -343,10 +345,14 @@ impl<L: Lanes, V: Varying> RunQuotients<L, V> {
         let derivatives = if L::FIXED {
             V::map(&self.numerators, &|[dx, dy, _]: [L::Number; 3]| [dx, dy])
         } else {
-            let [ea, eb, ec] = *at.weights;
-            let [qa, qb, qc] = of.q_lanes(lanes);
-            let t = ea * qa + eb * qb + ec * qc;
-            let per = lanes.splat(1.0) / t;
+            let per = at.reciprocal.unwrap_or_else(
+                #[inline(always)]
+                || {
+                    let [ea, eb, ec] = *at.weights;
+                    let [qa, qb, qc] = of.q_lanes(lanes);
+                    lanes.splat(1.0) / (ea * qa + eb * qb + ec * qc)
+                },
+            );
             let per = per * per;
             #[expect(clippy::cast_precision_loss, reason = "columns are below 2^24")]
             let x = lanes.ramp() + lanes.splat((at.column - self.start) as f32);

@@ -214,4 +214,11 @@ pub trait Interpolate<L: Lanes, V: Varying> {
 
     /// The attributes at each.
     fn attributes(&self, cursor: &Self::Cursor, weights: &[L::Number; 3]) -> V::Of<L::Number>;
+
+    /// 1/T at each, of [`scaled_q`], if the attributes take it too.
+    #[inline(always)]
+    fn reciprocal(&self, weights: &[L::Number; 3]) -> Option<L::Number> {
+        let _ = weights;
+        None
+    }
 }

@@ -343,7 +343,8 @@ where
             return 0;
         }
         let varying = self.triangle.attributes(cursor, weights);
-        let at = Samples { column: place[0], weights, values: &varying };
+        let reciprocal = self.triangle.reciprocal(weights);
+        let at = Samples { column: place[0], weights, values: &varying, reciprocal };
         let gradient = self.stage.derivatives().at(lanes, &self.derivatives, derivatives, &at);
         let (words, kept) = self.stage.shade(&Fragments { lanes, varying, gradient, mask: seen, place });
         // A stage may answer for samples that it was not asked for.

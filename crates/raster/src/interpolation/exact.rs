@@ -95,18 +95,22 @@ impl<L: Floating, V: Varying> ExactTriangle<L, V> {
         }
     }
 
+    /// The weights times the three q, and the reciprocal of their sum.
+    #[inline(always)]
+    fn shares(&self, [e0, e1, e2]: [L::Number; 3]) -> ([L::Number; 3], L::Number) {
+        let [t0, t1, t2] = [e0 * self.q[0], e1 * self.q[1], e2 * self.q[2]];
+        ([t0, t1, t2], self.lanes.splat(1.0) / (t0 + t1 + t2))
+    }
+
     /// The attributes where the edge functions, rounded to `f32`, are `edges`.
     #[must_use]
     #[inline(always)]
     pub fn at(&self, edges: &[L::Number; 3]) -> V::Of<L::Number> {
         let lanes = self.lanes;
         let [e0, e1, e2] = *edges;
-        let t0 = e0 * self.q[0];
-        let t1 = e1 * self.q[1];
-        let t2 = e2 * self.q[2];
-        let one = lanes.splat(1.0);
+        let ([t0, t1, t2], scale) = self.shares(*edges);
         // Where there is nothing linear, compilers leave the second division out.
-        let (scale, linear) = (one / (t0 + t1 + t2), one / (e0 + e1 + e2));
+        let linear = lanes.splat(1.0) / (e0 + e1 + e2);
         let value = in_line(
             #[inline(always)]
             |mode, [a, b, c, lo, hi]: [L::Number; 5]| {
@@ -147,6 +151,11 @@ impl<L: Floating, V: Varying> Interpolate<L, V> for ExactTriangle<L, V> {
     #[inline(always)]
     fn attributes(&self, (): &(), weights: &[L::Number; 3]) -> V::Of<L::Number> {
         self.at(weights)
+    }
+
+    #[inline(always)]
+    fn reciprocal(&self, weights: &[L::Number; 3]) -> Option<L::Number> {
+        Some(self.shares(*weights).1)
     }
 }
 
