@@ -46,6 +46,11 @@ impl Counters for Covered {
     fn span(&mut self, covered: u32, _: u32) {
         self.samples += u64::from(covered);
     }
+
+    fn add(&mut self, Self { samples, outcome }: Self) {
+        self.samples += samples;
+        self.outcome = outcome.or(self.outcome);
+    }
 }
 
 /// A depth format that shows whatever comes and keeps it: the buffer then holds what was interpolated.

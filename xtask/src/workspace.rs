@@ -30,7 +30,7 @@ pub(crate) const EXTERNAL: &[&str] = &["fearless_simd", "glam", "libm"];
 
 /// What one library may depend on besides, behind a feature that is off unless asked for, as (package, dependency).
 pub(crate) const OPTIONAL: &[(&str, &str)] =
-    &[("alberti-texture", "bevy_mikktspace"), ("alberti-raster", "bytemuck")];
+    &[("alberti-texture", "bevy_mikktspace"), ("alberti-raster", "bytemuck"), ("alberti", "rayon-core")];
 
 /// The published crates that need an operating system, as (package, folder below `crates/`).
 pub(crate) const APPLICATIONS: &[(&str, &str)] = &[("alberti-app", "app")];

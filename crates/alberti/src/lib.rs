@@ -14,7 +14,7 @@ mod profile;
 mod screen;
 pub mod shaders;
 mod stats;
-#[cfg(feature = "std")]
+#[cfg(feature = "threads")]
 mod threads;
 mod vertex;
 mod view;
@@ -48,7 +48,7 @@ pub use prepared::{Prepared, PreparedTriangle};
 pub use profile::{DESKTOP, MCU, Profile, REFERENCE, TINY};
 pub use screen::Sides;
 pub use stats::Stats;
-#[cfg(feature = "std")]
+#[cfg(feature = "threads")]
 pub use threads::clear_by_threads;
 pub use vertex::Slot;
 pub use view::{Camera, View};

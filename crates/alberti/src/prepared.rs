@@ -21,7 +21,7 @@ pub struct PreparedTriangle(u32);
 
 impl PreparedTriangle {
     /// The number of a mesh's first triangles that can be listed.
-    #[cfg(feature = "std")]
+    #[cfg(feature = "threads")]
     pub(crate) const MOST: usize = 1 << NUMBER;
 
     /// Room without a triangle.
@@ -40,7 +40,7 @@ impl PreparedTriangle {
 
     /// A question for triangles, whether they have some of these slices: two comparisons of whole words.
     #[inline(always)]
-    fn meets(Slices { first, last }: Slices) -> impl Fn(&&Self) -> bool {
+    pub(crate) fn meets(Slices { first, last }: Slices) -> impl Fn(&&Self) -> bool {
         let below = (u64::from(last) + 1) << FIRST;
         let most = u32::try_from(below - 1).unwrap_or(u32::MAX);
         let least = u32::from(first) << FIRST;
@@ -154,7 +154,8 @@ where
         let (slots, paint) = self.pass.halves();
         let slots = if slots.is_empty() { &mut cache } else { &mut **slots };
         let walk = Walk::again(mesh, screen, slots, self.filled);
-        draw_listed(lanes, (self.listed, self.next), walk, paint, target, counters);
+        let listed = |its| self.listed.iter().filter(PreparedTriangle::meets(its));
+        draw_listed(lanes, (listed, self.next), walk, paint, target, counters);
     }
 
     /// The number of the mesh's triangles that are listed.
@@ -249,17 +250,18 @@ fn rows_of_parts<M: Geometry, F, P: Interpolation, Pr: Projection, K: Counters>(
     rows.map(|rows| (rows, fate))
 }
 
-/// Draws the listed triangles, and those of the mesh from number `next` on, that are in a target.
+/// Draws the triangles that are listed for a target's slices, and those of the mesh from number `next` on.
 #[inline(always)]
-pub(crate) fn draw_listed<L, M, F, P, Pr, C, D, K>(
+pub(crate) fn draw_listed<'l, L, I, M, F, P, Pr, C, D, K>(
     lanes: L,
-    (listed, next): (&[PreparedTriangle], usize),
+    (listed, next): (impl FnOnce(Slices) -> I, usize),
     mut walk: Walk<'_, M, Pr>,
     paint: &Paint<F, P>,
     target: &mut Target<'_, C, D>,
     counters: &mut K,
 ) where
     L: Floating,
+    I: Iterator<Item = &'l PreparedTriangle>,
     M: Geometry,
     F: FragmentStage<M::Varying>,
     P: Interpolation,
@@ -275,8 +277,7 @@ pub(crate) fn draw_listed<L, M, F, P, Pr, C, D, K>(
     if rows.is_empty() {
         return;
     }
-    let its = Slices::of(&rows, top, shift);
-    let listed = listed.iter().filter(PreparedTriangle::meets(its));
+    let listed = listed(Slices::of(&rows, top, shift));
     let remaining = walk.seen(paint.cull, next..walk.mesh().triangles()).flatten();
     let mut batch = paint.batch(lanes, &mut visible);
     walk.triangles(listed.map(|triangle| triangle.number()).chain(remaining), next, counters, &mut batch);
@@ -285,7 +286,7 @@ pub(crate) fn draw_listed<L, M, F, P, Pr, C, D, K>(
 
 /// Slices of a viewport's rows, counted from its first one. There are at most 64, of 2^s rows.
 #[derive(Clone, Copy, Debug)]
-struct Slices {
+pub(crate) struct Slices {
     first: u8,
     last: u8,
 }
@@ -298,6 +299,27 @@ fn slice_shift(rows: &Range<i32>) -> u32 {
 }
 
 impl Slices {
+    /// Those of no rows.
+    #[cfg(feature = "threads")]
+    pub(crate) const NONE: Self = Self { first: u8::MAX, last: 0 };
+
+    /// Those of all these triangles, and those between.
+    #[cfg(feature = "threads")]
+    pub(crate) fn of_all(listed: &[PreparedTriangle]) -> Self {
+        const MASK: u32 = (1 << SLICE) - 1;
+        listed.iter().fold(Self::NONE, |Self { first, last }, PreparedTriangle(word)| {
+            #[expect(clippy::cast_possible_truncation, reason = "six bits")]
+            let its = [word >> FIRST, word >> NUMBER & MASK].map(|slice| slice as u8);
+            Self { first: first.min(its[0]), last: last.max(its[1]) }
+        })
+    }
+
+    /// Whether both have one in common.
+    #[cfg(feature = "threads")]
+    pub(crate) fn meet(self, other: Self) -> bool {
+        self.first <= other.last && other.first <= self.last
+    }
+
     /// The slices of some rows, at least one, of a viewport that begins at `top`.
     #[inline]
     fn of(rows: &Range<i32>, top: i32, shift: u32) -> Self {

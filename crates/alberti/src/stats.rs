@@ -67,4 +67,8 @@ impl Counters for Stats {
         self.fragments += u64::from(covered);
         self.written += u64::from(written);
     }
+
+    fn add(&mut self, other: Self) {
+        *self += other;
+    }
 }

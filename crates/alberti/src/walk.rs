@@ -121,7 +121,7 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     }
 
     /// The walk over a store of all vertices, which others may walk too.
-    #[cfg(feature = "std")]
+    #[cfg(feature = "threads")]
     pub(crate) fn over(mesh: &'a M, screen: Screen<Pr>, stored: &'a [Slot<M::Varying>]) -> Self {
         Self::with_slots(mesh, screen, stored, &mut [])
     }

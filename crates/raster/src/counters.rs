@@ -24,6 +24,13 @@ pub trait Counters {
     fn span(&mut self, covered: u32, written: u32) {
         let _ = (covered, written);
     }
+    /// Other threads have counted this much in the same drawing.
+    fn add(&mut self, other: Self)
+    where
+        Self: Sized;
 }
 
-impl Counters for () {}
+impl Counters for () {
+    #[inline]
+    fn add(&mut self, (): Self) {}
+}

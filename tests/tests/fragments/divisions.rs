@@ -9,7 +9,9 @@ use alberti::{
     Slot, Stats, Subpixel, Target, View, Viewport, World, for_lanes,
 };
 use alberti_tests::narrow::Narrow;
+use rayon_core::{ThreadPool, ThreadPoolBuilder};
 use std::num::NonZero;
+use std::sync::LazyLock;
 
 /// A place, and the three numbers that it carries.
 pub(crate) type Vertex = (Vec3, Vec3);
@@ -51,6 +53,10 @@ pub(crate) fn all_arithmetic(unit: f32) -> Vec<Arithmetic> {
     let fixed = [Arithmetic::Fixed(Lines::affine()), Arithmetic::Integers(Lines::affine(), unit)];
     Machine::all().map(Arithmetic::Floats).chain(fixed).collect()
 }
+
+/// More threads than most machines have cores.
+pub(crate) static POOL: LazyLock<ThreadPool> =
+    LazyLock::new(|| ThreadPoolBuilder::new().num_threads(12).build().expect("threads"));
 
 /// The way in which a frame is divided.
 #[derive(Clone, Copy, Debug)]
@@ -165,7 +171,9 @@ impl Scene {
                     prepared.count_by(lanes, &mut band, &mut stats);
                 }
             }
-            Way::Threads(count) => stats = pass.count_by_threads(lanes, count, &mut room, target),
+            Way::Threads(count) => POOL.install(|| {
+                pass.count_by_threads(lanes, count, &mut room, target, &mut stats);
+            }),
         }
         stats
     }

@@ -9,6 +9,7 @@ use alberti::texture::{Bilinear, Repeat, Texture};
 use alberti::{
     AnyDepth, ColorFormat, Cull, DepthFormat, Frame, Mesh, Pass, Perspective, Prepared, PreparedTriangle,
     Rgb565Be, Rgb565Le, Rgba8, Rgba8888, Sides, Slot, Stats, Target, View, Viewport, clear_by_threads,
+    for_lanes, lanes::Machine,
 };
 use alberti_app::scene::Vertex;
 use alberti_app::scenes::{BuiltIn, NAMES, by_name};
@@ -98,7 +99,11 @@ fn any_number_of_threads_makes_the_frame() {
                 if part == 0 {
                     clear_by_threads(threads, target, background);
                 }
-                pass.draw_by_threads(threads, &mut room, target)
+                let (machine, mut stats) = (Machine::all().next().expect("one"), Stats::default());
+                for_lanes!(machine, lanes => {
+                    pass.count_by_threads(lanes, threads, &mut room, target, &mut stats);
+                });
+                stats
             });
             assert!(found == color && depths == depth, "{name} by {threads} threads with room for {room}");
             let once = |s: Stats| [s.submitted, s.dropped, s.clipped, s.fragments, s.written];

@@ -217,7 +217,7 @@ fn pictures_are_those_without_meshlets() {
         assert!(one == picture(&mut |target| pass.draw(target)), "by lanes in round {round}");
         let mut room = std::vec![PreparedTriangle::EMPTY; [split.triangles.len(), 20][round % 2]];
         let threads = NonZero::new(3).expect("three");
-        let by_threads = picture(&mut |target| _ = pass.draw_by_threads(threads, &mut room, target));
+        let by_threads = picture(&mut |target| pass.draw_by_threads(threads, &mut room, target));
         assert!(one == by_threads, "by threads in round {round}");
         let mut prepared = pass.count_prepare([SIDE; 2], F32, &mut room, &mut ()).0;
         let in_bands =

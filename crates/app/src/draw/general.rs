@@ -179,21 +179,23 @@ impl<'a> Drawing<'a> {
         if let (Some(lines), Arithmetic::Fixed) = (lines, policies.arithmetic) {
             erase_fixed(stage, |stage| {
                 let pass = self.pass(mesh, stage, &mut slots).interpolation(FixedPoint(lines));
-                stats = { pass }.count_by_threads(One, threads, &mut room, target);
+                { pass }.count_by_threads(One, threads, &mut room, target, &mut stats);
             });
             return stats;
         }
         let Some(machine) = Machine::all().next() else { return stats };
         for_lanes!(machine, lanes => erase(lanes, stage, |stage| {
             let mut pass = self.pass(mesh, stage, &mut slots);
-            let room = &mut room;
-            stats = match (policies.interpolation, lines) {
-                (_, Some(lines)) => pass.interpolation(lines).count_by_threads(lanes, threads, room, target),
-                (Interpolation::Plane, None) => {
-                    pass.interpolation(Planes).count_by_threads(lanes, threads, room, target)
+            let (room, stats) = (&mut room, &mut stats);
+            match (policies.interpolation, lines) {
+                (_, Some(lines)) => {
+                    pass.interpolation(lines).count_by_threads(lanes, threads, room, target, stats);
                 }
-                (_, None) => pass.count_by_threads(lanes, threads, room, target),
-            };
+                (Interpolation::Plane, None) => {
+                    pass.interpolation(Planes).count_by_threads(lanes, threads, room, target, stats);
+                }
+                (_, None) => pass.count_by_threads(lanes, threads, room, target, stats),
+            }
         }));
         stats
     }

@@ -6,8 +6,9 @@ use super::{AMBIENT, Canvas, DIFFUSE, Drawing, color, position};
 use crate::options::Shading;
 use crate::scene::{Part, Vertex};
 use alberti::glam::{Vec2, Vec3};
+use alberti::lanes::Machine;
 use alberti::shaders::{Sunlit, Unlit, VertexColor};
-use alberti::{FragmentStage, Rgba8, Slot, Varying};
+use alberti::{FragmentStage, Rgba8, Slot, Varying, for_lanes};
 
 /// A colour, or a texture times that colour.
 pub(super) type Skin<'a> = Scaled<FlatMap<'a>>;
@@ -59,7 +60,12 @@ impl<'a> Drawing<'a> {
         let mesh = self.mesh(triangles, |v| (position(v), varying(v)));
         let mut slots = self.slots(triangles);
         let room = &mut Self::room(triangles);
-        let stats = self.pass(&mesh, stage, &mut slots).draw_by_threads(self.options.threads, room, target);
-        self.stats += stats;
+        let Some(machine) = Machine::all().next() else { return };
+        let mut stats = self.stats;
+        for_lanes!(machine, lanes => {
+            let mut pass = self.pass(&mesh, stage, &mut slots);
+            pass.count_by_threads(lanes, self.options.threads, room, target, &mut stats);
+        });
+        self.stats = stats;
     }
 }
