@@ -39,4 +39,4 @@ pub use q16::{Q16, scaled};
 pub use reciprocal::{reciprocal, reciprocal_signed};
 pub use round::{floor_i32, round_half_up};
 pub use space::{Cube, Eye, Object, Point, Point2, Point3, Space, Vector, Vector2, Vector3, World};
-pub use varying::{Flat, Linear, Mode, Varying, blend2, combine, flatten, hull3, is_finite};
+pub use varying::{Flat, Linear, Mode, Varying, blend2, blend2_by_mode, combine, flatten, hull3, is_finite};

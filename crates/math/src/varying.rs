@@ -263,8 +263,19 @@ pub fn combine<V: Varying, const N: usize>(values: [V; N], f: &impl Fn([f32; N])
 /// pairs changes no bit.
 #[must_use]
 #[inline]
-pub fn blend2<V: Varying>([wa, wb]: [f32; 2], values: [V; 2]) -> V {
-    combine(values, &|[a, b]| clamp(wa * a + wb * b, min(a, b), max(a, b)))
+pub fn blend2<V: Varying>(weights: [f32; 2], values: [V; 2]) -> V {
+    blend2_by_mode(|_| weights, values)
+}
+
+/// [`blend2`] of components whose weights are those of their modes.
+#[must_use]
+#[inline]
+pub fn blend2_by_mode<V: Varying>(weights: impl Fn(Mode) -> [f32; 2], values: [V; 2]) -> V {
+    let blend = |mode, [a, b]: [f32; 2]| {
+        let [wa, wb] = weights(mode);
+        clamp(wa * a + wb * b, min(a, b), max(a, b))
+    };
+    V::from_components(&V::map_by_mode(&V::gather(values), &blend))
 }
 
 /// The least and the greatest of three values, component by component.

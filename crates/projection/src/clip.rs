@@ -12,7 +12,7 @@
 //! flip, and a sum does not care about order. So two triangles that share an edge get the same new vertex whichever way
 //! round each of them walks it, and no crack opens. The coordinate that the plane fixes is set, not computed.
 
-use alberti_math::{Eye, Point3, Varying, blend2};
+use alberti_math::{Eye, Mode, Point3, Varying, blend2, blend2_by_mode};
 
 /// The most vertices a clipped triangle can have: each of six planes adds at most one.
 pub const MAX_POLYGON: usize = 9;
@@ -144,11 +144,11 @@ impl<V: Varying> ProjectedVertex<V> {
         }
     }
 
-    /// The vertex at weights (a, b) between two. Varyings have the weights of eye space.
+    /// The vertex at weights (a, b) between two. Varyings have the weights of eye space, but for linear components.
     fn between(weights: [f32; 2], [i, j]: [&Self; 2], space: Space) -> Self {
         let numbers = |v: &Self| [v.x, v.y, v.zs, v.q];
         let [x, y, zs, q] = blend2(weights, [numbers(i), numbers(j)]);
-        let weights = match space {
+        let in_space = match space {
             Space::Eye => weights,
             Space::Screen => {
                 let [a, b] = [weights[0] * i.q, weights[1] * j.q];
@@ -156,7 +156,8 @@ impl<V: Varying> ProjectedVertex<V> {
                 [a / sum, b / sum]
             }
         };
-        ProjectedVertex { x, y, zs, q, varying: blend2(weights, [i.varying, j.varying]) }
+        let weights = |mode| if mode == Mode::Linear { weights } else { in_space };
+        ProjectedVertex { x, y, zs, q, varying: blend2_by_mode(weights, [i.varying, j.varying]) }
     }
 }
 
@@ -223,7 +224,8 @@ pub fn clip_near_far<V: Varying>(triangle: [EyeVertex<V>; 3], near: f32, far: f3
 ///
 /// xs, ys, zs and q are linear on the screen. The varyings are not: at the screen parameter τ they take the eye-space
 /// parameter t = τ z1 / (τ z1 + (1−τ) z2). Its weights are τ's times q, divided by their sum: the relation of
-/// [`ScreenWeights::to_eye`](crate::ScreenWeights::to_eye), from the q that the vertices have.
+/// [`ScreenWeights::to_eye`](crate::ScreenWeights::to_eye), from the q that the vertices have. Components that are
+/// [`Linear`](alberti_math::Linear) on the screen keep τ's.
 ///
 /// # Precision
 /// At each cut, xs, ys, zs and q are within 4ε (ε = 2^-24) of the larger of the two ends, or of 2^-126 if both are
@@ -245,6 +247,7 @@ pub fn clip_sides<V: Varying>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use alberti_math::Linear;
     use alberti_math::glam::Vec3;
     use std::vec::Vec;
 
@@ -296,6 +299,18 @@ mod tests {
         let cut =
             clipped.vertices().iter().find(|v| v.x == 1.0 && v.y == 0.0).expect("the lower edge is cut");
         assert!((cut.varying - 1.5).abs() < 1e-6 && (cut.q - 1.0 / 1.5).abs() < 1e-6, "{cut:?}");
+    }
+
+    #[test]
+    fn linear_components_stay_linear_on_the_screen() {
+        let triangle = [(-1.0, 0.0, 1.0), (3.0, 0.0, 3.0), (-1.0, 0.5, 1.0)].map(|(x, y, z)| {
+            let ProjectedVertex { zs, q, .. } = projected(x, y, z);
+            ProjectedVertex { x, y, zs, q, varying: (z, Linear(z)) }
+        });
+        let clipped = clip_sides(Polygon::triangle(triangle), SideBounds::CUBE);
+        let cut = clipped.vertices().iter().find(|v| v.x == 1.0 && v.y == 0.0).expect("a cut edge");
+        let (hyperbolic, Linear(linear)) = cut.varying;
+        assert!((hyperbolic - 1.5).abs() < 1e-6 && (linear - 2.0).abs() < 1e-6, "{cut:?}");
     }
 
     #[test]

@@ -9,7 +9,6 @@ use alberti_oracle::rng::{Rng, run_seed};
 use alberti_projection::{AnyProjection, Parallel, Perspective};
 use alberti_raster::{F32, Target};
 use core::f64::consts::PI;
-use core::num::NonZero;
 use std::println;
 use std::vec::Vec;
 
@@ -216,9 +215,12 @@ fn pictures_are_those_without_meshlets() {
         different += right.iter().zip(&one).filter(|(a, b)| a != b).count();
         assert!(one == picture(&mut |target| pass.draw(target)), "by lanes in round {round}");
         let mut room = std::vec![PreparedTriangle::EMPTY; [split.triangles.len(), 20][round % 2]];
-        let threads = NonZero::new(3).expect("three");
-        let by_threads = picture(&mut |target| pass.draw_by_threads(threads, &mut room, target));
-        assert!(one == by_threads, "by threads in round {round}");
+        #[cfg(feature = "threads")]
+        {
+            let threads = core::num::NonZero::new(3).expect("three");
+            let by_threads = picture(&mut |target| pass.draw_by_threads(threads, &mut room, target));
+            assert!(one == by_threads, "by threads in round {round}");
+        }
         let mut prepared = pass.count_prepare([SIDE; 2], F32, &mut room, &mut ()).0;
         let in_bands =
             picture(&mut |target| target.split(13).for_each(|mut band| prepared.draw_by(One, &mut band)));

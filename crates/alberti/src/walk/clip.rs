@@ -6,7 +6,7 @@ use crate::screen::{Screen, Sides};
 use crate::vertex::{Slot, outside};
 use alberti_math::glam::Vec3;
 use alberti_math::lanes::One;
-use alberti_math::{Eye, Fixed, Mode, Point3, Varying, map2, map3};
+use alberti_math::{Eye, Fixed, Linear, Mode, Point3, Varying, map2, map3};
 use alberti_projection::{
     EyeVertex, Polygon, ProjectedVertex, Projection, SideBounds, clip_near_far, clip_sides,
 };
@@ -57,7 +57,7 @@ fn kept<V: Varying>(slot: &Slot<V>) -> Option<&Slot<V>> {
 }
 
 /// The item of the vertex that has all the weight.
-fn own_of<T>([a, b, c]: [Option<T>; 3], weights: Weights) -> Option<T> {
+fn own_of<T>([a, b, c]: [Option<T>; 3], (weights, _): Weights) -> Option<T> {
     match weights.to_array() {
         [1.0, ..] => a,
         [_, 1.0, _] => b,
@@ -108,8 +108,8 @@ fn on_the_screen<V: Varying>(
     Some(Corner::new(numbers, &Vertex { x, y, zs, q, varying: weighted(first, *carried, varying) }))
 }
 
-/// The weights of a triangle's three vertices at a point of it.
-type Weights = Vec3;
+/// The weights of a triangle's three vertices at a point of it: in space, and those that are linear on the screen.
+type Weights = (Vec3, Linear<Vec3>);
 
 /// The vertices that clipping leaves, in terms of the triangle's own: once in a program, whatever these carry. Vertices
 /// without a place on the screen are `None`.
@@ -120,9 +120,9 @@ type Weights = Vec3;
 fn cut<Pr: Projection>(screen: &Screen<Pr>, [a, b, c]: [Point3<Eye>; 3]) -> Polygon<Option<Vertex<Weights>>> {
     let Screen { projection, viewport, depth, sides, guard, subpixel, .. } = screen;
     let triangle = [
-        EyeVertex { position: a, varying: Vec3::X },
-        EyeVertex { position: b, varying: Vec3::Y },
-        EyeVertex { position: c, varying: Vec3::Z },
+        EyeVertex { position: a, varying: (Vec3::X, Linear(Vec3::X)) },
+        EyeVertex { position: b, varying: (Vec3::Y, Linear(Vec3::Y)) },
+        EyeVertex { position: c, varying: (Vec3::Z, Linear(Vec3::Z)) },
     ];
     // 3. The part between the near and the far plane.
     let between = clip_near_far(triangle, projection.near(), projection.far());
@@ -147,11 +147,12 @@ fn cut<Pr: Projection>(screen: &Screen<Pr>, [a, b, c]: [Point3<Eye>; 3]) -> Poly
 
 /// The varying at a point with these weights. Those that are 0 have no part in it, not even in its range; flat
 /// components are those of `first`.
-fn weighted<V: Varying>(first: V, [a, b, c]: [V; 3], weights: Weights) -> V {
+fn weighted<V: Varying>(first: V, [a, b, c]: [V; 3], (in_space, Linear(on_screen)): Weights) -> V {
     let mean = |mode, [a, b, c, first]: [f32; 4]| {
         if mode == Mode::Flat {
             return first;
         }
+        let weights = if mode == Mode::Linear { on_screen } else { in_space };
         let values = [a, b, c];
         let [mut least, mut greatest] = [f32::MAX, f32::MIN];
         for (value, weight) in values.into_iter().zip(weights.to_array()) {
