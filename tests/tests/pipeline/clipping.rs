@@ -1,6 +1,7 @@
 //! Clipping: how exact new vertices are, that neighbours get the same ones, and that nothing is lost, gained or NaN.
 #![allow(clippy::cast_possible_truncation, reason = "random f64 become the f32 that is tested")]
 
+use alberti::{Cull, Frame, Mesh, NoDepth, Pass, Rgba8, Rgba8888, Sides, Subpixel, Target, View};
 use alberti_math::glam::Vec3;
 use alberti_math::{Eye, Point3};
 use alberti_oracle::dd::Dd;
@@ -10,6 +11,7 @@ use alberti_projection::{
     EyeVertex, MAX_POLYGON, Perspective, Polygon, ProjectedVertex, SideBounds, clip_near_far, clip_sides,
 };
 use alberti_tests::errors::Errors;
+use std::iter;
 
 /// The documented bounds, in ε of the larger of the two ends.
 const LINEAR: f64 = 4.0;
@@ -344,4 +346,44 @@ fn slabs_add_up_to_the_triangle() {
     }
     println!("{parts} parts; doubled area, in largest |x| times depth, {errors}");
     assert!(errors.max() <= 4.0 * LINEAR && parts > 200_000, "{errors}");
+}
+
+/// A clipped triangle writes each pixel once and is seen from one side, also where snapping puts a new vertex beyond the
+/// line between its neighbours: the first one drew three pixels twice.
+#[test]
+fn clipped_triangles_are_not_turned_over() {
+    let mut rng = Rng::stream(run_seed(), 10);
+    let first = [
+        Vec3::new(3.65913, 0.2603355, 8.179103),
+        Vec3::new(-4.216201, 0.8391289, 6.342579),
+        Vec3::new(-2.263942, -0.51022154, -9.959759),
+    ];
+    let mut any = || {
+        [(); 3].map(|()| {
+            let [x, y, z] = [5.0, 1.0, 10.0].map(|most| rng.uniform(-most, most) as f32);
+            Vec3::new(x, y, z)
+        })
+    };
+    let perspective = Perspective::new(1.0, 320.0 / 240.0, 0.1, 100.0).expect("possible");
+    let view = View::new(Frame::IDENTITY, perspective);
+    let (mut color, mut depth) = (vec![0; 320 * 240], vec![(); 320 * 240]);
+    let mut clipped = 0;
+    for triangle in iter::once(first).chain(iter::repeat_with(|| any()).take(3000)) {
+        let mesh = Mesh::new(&triangle, &[[0u16, 1, 2]], |&p| (p, ()));
+        for subpixel in [Subpixel::Sub4, Subpixel::Sub8] {
+            let mut draw = |cull| {
+                color.fill(0);
+                let target = Target::new(Rgba8888, NoDepth, 320, 240, &mut color, &mut depth);
+                let pass = Pass::new(&view, &mesh, |()| Some(Rgba8::WHITE)).subpixel(subpixel);
+                let stats = pass.cull(cull).sides(Sides::Cube).draw_counted(&mut target.expect("a frame"));
+                (stats, color.iter().filter(|&&pixel| pixel != 0).count() as u64)
+            };
+            let (stats, drawn) = draw(Cull::None);
+            clipped += stats.clipped;
+            assert_eq!(stats.fragments, drawn, "{triangle:?} by {subpixel:?}");
+            let sides = [Cull::Front, Cull::Back].map(|cull| draw(cull).1);
+            assert!(sides.contains(&0) && sides.contains(&drawn), "{triangle:?} by {subpixel:?}");
+        }
+    }
+    assert!(clipped > 3000, "{clipped}");
 }
