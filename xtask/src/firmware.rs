@@ -31,6 +31,8 @@ struct Board {
     limits: &'static [(&'static str, u64)],
     /// The instructions that meshes took when these were written down. More by a hundredth is a failure.
     meshes: &'static [(&'static str, u64)],
+    /// The bytes of the programs whose size is of interest, likewise.
+    sizes: [u64; WEIGHED.len()],
 }
 
 /// Every board, and the three kinds of core: without hardware for `f32`, with it, and another architecture.
@@ -56,31 +58,37 @@ const BOARDS: &[Board] = &[
             ("fixed-floor-trilinear-spans", 7573),
         ],
         meshes: &[
-            ("mesh", 98_221_925),
+            ("mesh", 98_221_926),
             ("mesh-eighth", 13_492_675),
-            ("mesh-affine", 82_248_426),
+            ("mesh-affine", 82_248_427),
             ("mesh-spans", 109_607_637),
-            ("mesh-planes", 99_962_310),
-            ("mesh-base-nearest", 105_791_656),
-            ("mesh-mip-nearest", 143_358_632),
-            ("fixed-mesh-flat", 14_227_853),
-            ("fixed-mesh-gouraud", 20_050_148),
-            ("fixed-mesh-affine", 15_836_336),
+            ("mesh-planes", 99_962_311),
+            ("mesh-base-nearest", 105_791_658),
+            ("mesh-mip-nearest", 135_831_815),
+            ("fixed-mesh-flat", 14_227_855),
+            ("fixed-mesh-gouraud", 20_050_150),
+            ("fixed-mesh-affine", 15_836_337),
             ("fixed-mesh", 16_917_702),
-            ("fixed-mesh-bounded", 16_203_567),
+            ("fixed-mesh-bounded", 16_248_986),
             ("fixed-mesh-bands", 18_227_893),
-            ("fixed-mesh-sub8", 20_571_361),
-            ("fixed-mesh-coarse", 3_032_181),
-            ("fixed-mesh-eighth", 13_234_582),
+            ("fixed-mesh-sub8", 20_571_362),
+            ("fixed-mesh-coarse", 3_032_182),
+            ("fixed-mesh-eighth", 13_234_585),
             ("integer-mesh-flat", 4_077_808),
             ("integer-mesh-affine", 5_190_630),
-            ("integer-mesh-bands", 7_727_032),
-            ("meshlets-flat", 3_633_051),
-            ("meshlets-affine", 4_715_627),
-            ("meshlets-bands-cache", 8_211_150),
-            ("meshlets-bands", 7_491_485),
-            ("meshlets-bands-bounded", 6_886_818),
+            ("integer-mesh-bands", 7_727_033),
+            ("meshlets-flat", 3_633_082),
+            ("meshlets-affine", 4_715_657),
+            ("meshlets-bands-cache", 8_215_827),
+            ("meshlets-bands", 7_499_017),
+            ("meshlets-bands-bounded", 6_921_312),
+            ("meshlets-distant-flat", 3_937_943),
+            ("meshlets-distant-gouraud", 5_589_425),
+            ("meshlets-distant-affine", 5_188_143),
+            ("meshlets-distant-spans", 5_384_648),
+            ("meshlets-distant-bands", 7_072_320),
         ],
+        sizes: [18_004, 22_924, 87_412],
     },
     Board {
         name: "m4f",
@@ -99,31 +107,37 @@ const BOARDS: &[Board] = &[
             ("fixed-floor-trilinear-spans", 3253),
         ],
         meshes: &[
-            ("mesh", 6_949_005),
-            ("mesh-eighth", 1_181_670),
-            ("mesh-affine", 6_924_950),
-            ("mesh-spans", 7_764_466),
-            ("mesh-planes", 7_343_153),
-            ("mesh-base-nearest", 8_694_146),
-            ("mesh-mip-nearest", 9_815_296),
-            ("fixed-mesh-flat", 2_294_182),
+            ("mesh", 6_954_896),
+            ("mesh-eighth", 1_187_560),
+            ("mesh-affine", 6_930_841),
+            ("mesh-spans", 7_770_356),
+            ("mesh-planes", 7_349_043),
+            ("mesh-base-nearest", 8_714_315),
+            ("mesh-mip-nearest", 9_688_788),
+            ("fixed-mesh-flat", 2_294_192),
             ("fixed-mesh-gouraud", 3_459_572),
-            ("fixed-mesh-affine", 2_957_403),
-            ("fixed-mesh", 3_319_265),
-            ("fixed-mesh-bounded", 3_260_572),
-            ("fixed-mesh-bands", 4_220_452),
-            ("fixed-mesh-sub8", 3_268_092),
-            ("fixed-mesh-coarse", 1_150_052),
-            ("fixed-mesh-eighth", 1_395_148),
-            ("integer-mesh-flat", 2_331_341),
-            ("integer-mesh-affine", 2_859_948),
-            ("integer-mesh-bands", 4_186_750),
-            ("meshlets-flat", 2_190_962),
-            ("meshlets-affine", 2_706_203),
-            ("meshlets-bands-cache", 4_409_522),
-            ("meshlets-bands", 4_029_818),
-            ("meshlets-bands-bounded", 4_002_240),
+            ("fixed-mesh-affine", 2_966_667),
+            ("fixed-mesh", 3_319_267),
+            ("fixed-mesh-bounded", 3_248_793),
+            ("fixed-mesh-bands", 4_317_351),
+            ("fixed-mesh-sub8", 3_277_350),
+            ("fixed-mesh-coarse", 1_150_055),
+            ("fixed-mesh-eighth", 1_395_151),
+            ("integer-mesh-flat", 2_343_127),
+            ("integer-mesh-affine", 2_871_727),
+            ("integer-mesh-bands", 4_291_573),
+            ("meshlets-flat", 2_191_067),
+            ("meshlets-affine", 2_706_217),
+            ("meshlets-bands-cache", 4_421_086),
+            ("meshlets-bands", 4_041_880),
+            ("meshlets-bands-bounded", 3_999_712),
+            ("meshlets-distant-flat", 2_390_103),
+            ("meshlets-distant-gouraud", 3_412_331),
+            ("meshlets-distant-affine", 2_996_216),
+            ("meshlets-distant-spans", 3_077_523),
+            ("meshlets-distant-bands", 4_093_582),
         ],
+        sizes: [13_516, 17_320, 77_684],
     },
     Board {
         name: "rv32",
@@ -146,31 +160,37 @@ const BOARDS: &[Board] = &[
             ("fixed-floor-trilinear-spans", 4765),
         ],
         meshes: &[
-            ("mesh", 57_263_973),
-            ("mesh-eighth", 7_695_391),
-            ("mesh-affine", 50_010_348),
-            ("mesh-spans", 65_336_408),
-            ("mesh-planes", 58_665_907),
-            ("mesh-base-nearest", 62_074_401),
-            ("mesh-mip-nearest", 83_900_260),
-            ("fixed-mesh-flat", 8_176_131),
-            ("fixed-mesh-gouraud", 11_506_435),
-            ("fixed-mesh-affine", 8_961_619),
-            ("fixed-mesh", 9_435_503),
-            ("fixed-mesh-bounded", 9_366_533),
-            ("fixed-mesh-bands", 10_409_116),
-            ("fixed-mesh-sub8", 9_326_858),
-            ("fixed-mesh-coarse", 1_578_184),
-            ("fixed-mesh-eighth", 7_514_776),
-            ("integer-mesh-flat", 2_454_183),
-            ("integer-mesh-affine", 3_027_047),
-            ("integer-mesh-bands", 4_484_977),
-            ("meshlets-flat", 2_156_209),
-            ("meshlets-affine", 2_716_193),
-            ("meshlets-bands-cache", 4_841_870),
-            ("meshlets-bands", 4_316_528),
-            ("meshlets-bands-bounded", 4_240_964),
+            ("mesh", 57_263_972),
+            ("mesh-eighth", 7_695_390),
+            ("mesh-affine", 50_010_347),
+            ("mesh-spans", 65_336_407),
+            ("mesh-planes", 58_665_906),
+            ("mesh-base-nearest", 62_074_400),
+            ("mesh-mip-nearest", 79_530_829),
+            ("fixed-mesh-flat", 8_176_136),
+            ("fixed-mesh-gouraud", 11_506_437),
+            ("fixed-mesh-affine", 8_961_621),
+            ("fixed-mesh", 9_435_505),
+            ("fixed-mesh-bounded", 9_326_850),
+            ("fixed-mesh-bands", 10_409_119),
+            ("fixed-mesh-sub8", 9_326_860),
+            ("fixed-mesh-coarse", 1_578_186),
+            ("fixed-mesh-eighth", 7_514_778),
+            ("integer-mesh-flat", 2_454_186),
+            ("integer-mesh-affine", 3_027_050),
+            ("integer-mesh-bands", 4_484_981),
+            ("meshlets-flat", 2_156_219),
+            ("meshlets-affine", 2_716_203),
+            ("meshlets-bands-cache", 4_837_037),
+            ("meshlets-bands", 4_315_347),
+            ("meshlets-bands-bounded", 4_195_067),
+            ("meshlets-distant-flat", 2_339_727),
+            ("meshlets-distant-gouraud", 3_373_679),
+            ("meshlets-distant-affine", 2_998_955),
+            ("meshlets-distant-spans", 3_147_897),
+            ("meshlets-distant-bands", 4_295_034),
         ],
+        sizes: [20_800, 26_556, 108_768],
     },
 ];
 
@@ -179,12 +199,17 @@ const EQUAL: &[[&str; 2]] = &[["material", "material-absent"]];
 
 /// The program that draws all scenes, and those that are weighed, which must do without functions of `f64`.
 const FRAMES: &str = "alberti-firmware";
-const WEIGHED: &[&str] = &["size-flat", "size-textured", "size-f32"];
+const WEIGHED: [&str; 3] = ["size-flat", "size-textured", "size-f32"];
+
+/// The flag that has the scenes drawn by a program that is built for size.
+const SMALL: &str = "--small";
 
 /// Builds the firmware for the boards, runs it, compares and reports. Stops at the end only, so that a difference on
 /// one board is seen beside the others.
 pub(crate) fn run(arguments: &[String]) -> Outcome {
-    let boards = chosen(arguments)?;
+    let small = arguments.iter().any(|argument| argument == SMALL);
+    let others: Vec<String> = arguments.iter().filter(|argument| *argument != SMALL).cloned().collect();
+    let boards = chosen(&others)?;
     // What is missing is said before anything is built.
     for board in &boards {
         board.emulator.find()?;
@@ -193,7 +218,7 @@ pub(crate) fn run(arguments: &[String]) -> Outcome {
     let expected = expected()?;
     let mut failures = Vec::new();
     for board in boards {
-        failures.extend(check(board, &expected).err());
+        failures.extend(check(board, &expected, small).err());
     }
     if failures.is_empty() { Ok(()) } else { Err(format!("there are failures:\n{}", failures.join("\n"))) }
 }
@@ -209,7 +234,10 @@ fn chosen(arguments: &[String]) -> Result<Vec<&'static Board>, String> {
             })?;
             Ok(vec![board])
         }
-        _ => Err(format!("expected nothing or `--board` and a name, found `{}`", arguments.join(" "))),
+        _ => Err(format!(
+            "expected `--small`, `--board` and a name, or nothing, found `{}`",
+            arguments.join(" ")
+        )),
     }
 }
 
@@ -227,16 +255,18 @@ fn expected() -> Result<Vec<Expected>, String> {
     frames::expected(&output(call("run").arg("--quiet"))?)
 }
 
-/// Builds for one board, runs there, prints the tables; frames that differ are the error.
-fn check(board: &Board, expected: &[Expected]) -> Outcome {
+/// Builds for one board, runs there, prints the tables; frames that differ are the error. What is built for size may
+/// take more instructions.
+fn check(board: &Board, expected: &[Expected], small: bool) -> Outcome {
     let toolchain = Toolchain::find(board.target)?;
     let folder = toolchain.directory().join(board.target);
-    build(&toolchain, board.target, "release", &[FRAMES])?;
-    build(&toolchain, board.target, "small", WEIGHED)?;
+    let profile = if small { "small" } else { "release" };
+    build(&toolchain, board.target, profile, &[FRAMES])?;
+    build(&toolchain, board.target, "small", &WEIGHED)?;
 
     let text = board
         .emulator
-        .run(&folder.join("release").join(FRAMES))
+        .run(&folder.join(profile).join(FRAMES))
         .map_err(|message| format!("board {}: {message}", board.name))?;
     let mut drawn = frames::drawn(&text).map_err(|message| format!("board {}: {message}", board.name))?;
     let (numerator, denominator) = board.instructions_per_tick;
@@ -248,15 +278,18 @@ fn check(board: &Board, expected: &[Expected]) -> Outcome {
     println!("\n{}", frames::table(expected, &drawn));
     println!("    {:<18}{:>10}{:>10}{:>10}", "program, bytes", ".text", ".rodata", "both");
     let mut failures = frames::differences(board.name, expected, &drawn);
-    failures.extend(frames::excesses(board.name, expected, &drawn, board.limits));
-    failures.extend(frames::slower(board.name, &drawn, board.meshes));
+    if !small {
+        failures.extend(frames::excesses(board.name, expected, &drawn, board.limits));
+        failures.extend(frames::slower(board.name, &drawn, board.meshes));
+    }
     failures.extend(frames::unequal(board.name, &drawn, EQUAL));
-    for name in WEIGHED {
+    for (name, most) in WEIGHED.into_iter().zip(board.sizes) {
         let path = folder.join("small").join(name);
         let file = fs::read(&path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
         let program = Program::read(&file).map_err(|message| format!("{}: {message}", path.display()))?;
         let [text, rodata] = [program.text, program.rodata];
         println!("    {name:<18}{text:>10}{rodata:>10}{:>10}", text + rodata);
+        failures.extend(frames::dearer(board.name, name, "bytes of code", Some(text), most));
         let panics = program.panics();
         if !panics.is_empty() {
             failures.push(format!("board {}: {name} can panic: {}", board.name, panics.join(", ")));

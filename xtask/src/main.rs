@@ -85,7 +85,7 @@ const CHORES: &[Chore] = &[
     },
     Chore {
         name: "firmware",
-        arguments: "[--board b]",
+        arguments: "[--board b] [--small]",
         about: "run scenes in an emulator: same bits as here, instructions, code size (boards: m0, m4f, rv32)",
         run: firmware::run,
     },

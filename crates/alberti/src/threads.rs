@@ -43,7 +43,7 @@ where
     /// # Cost
     /// The threads wait for each other three times, some microseconds where the pool is awake. One thread draws the
     /// frame without [`slots`](Self::slots) for all vertices or `room` for all triangles, at most 2^20. So it does for
-    /// meshes with more than twice as many vertices as triangles.
+    /// meshes with more than three times as many vertices as triangles.
     pub fn draw_by_threads<C, D>(
         &mut self,
         threads: NonZero<usize>,
@@ -75,7 +75,7 @@ where
         D: DepthFormat,
         K: Counters + Default + Send,
     {
-        let (mesh, threads) = (self.mesh(), threads.get().min(MOST));
+        let (mesh, threads) = (self.mesh(), at_most(threads));
         let stored = stored_by(mesh, self.halves().0.len());
         let Some(screen) = self.screen(target.size(), target.depth_format()) else { return };
         let triangles = mesh.triangles();
@@ -114,7 +114,7 @@ where
     D: DepthFormat,
     Shade: FragmentColor + Sync,
 {
-    let threads = threads.get().min(MOST);
+    let threads = at_most(threads);
     if threads == 1 {
         return target.clear(color);
     }
@@ -124,6 +124,11 @@ where
             band.clear(color);
         }
     });
+}
+
+/// So many threads, or as many as there are.
+fn at_most(threads: NonZero<usize>) -> usize {
+    threads.get().min(rayon_core::current_num_threads()).min(MOST)
 }
 
 /// Rows of each band but the last, of a frame of so many.

@@ -26,12 +26,12 @@ pub(crate) struct Walk<'a, M: Geometry, Pr: Projection> {
     screen: Screen<Pr>,
 }
 
-/// The number of a mesh's vertices that are stored in so many slots: all, where the slots hold them and most are
-/// probably used, or none.
+/// The number of a mesh's vertices that are stored in so many slots: all, where the slots hold them and all may be used,
+/// or none.
 #[inline]
 pub(crate) fn stored_by(mesh: &impl Geometry, slots: usize) -> usize {
     let vertices = mesh.vertices();
-    if vertices <= slots && vertices / 2 <= mesh.triangles() { vertices } else { 0 }
+    if vertices <= slots && vertices / 3 <= mesh.triangles() { vertices } else { 0 }
 }
 
 /// A taker of triangles on the screen.
@@ -75,7 +75,7 @@ type Passing<'a, V, K> = &'a mut dyn FnMut([&Corner<V>; 3], &mut K);
 
 impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     /// The walk with these slots, of which there is at least one. All vertices are transformed at once where the slots
-    /// hold them, and where most are probably used. With one lane and meshlets, which leave out some, each is
+    /// hold them, and where all may be used. With one lane and meshlets, which leave out some, each is
     /// transformed where a triangle needs it.
     #[inline]
     pub(crate) fn new<L: Floating>(

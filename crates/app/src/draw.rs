@@ -13,8 +13,8 @@ use crate::slide;
 use alberti::glam::Vec3;
 use alberti::texture::{Texture, TextureError, format::Rgba8888};
 use alberti::{
-    AnyDepth, AnyProjection, Eye, Frame, Geometry, Mesh, Object, Pass, Point3, PreparedTriangle, Projector,
-    Rgba8, Slot, Stats, Subpixel, Target, Vector3, View, ViewError, World, clear_by_threads, look_at,
+    AnyDepth, AnyProjection, Eye, Frame, Geometry, Object, Pass, Point3, PreparedTriangle, Projector, Rgba8,
+    Slot, Stats, Subpixel, Target, Vector3, View, ViewError, World, clear_by_threads, look_at,
 };
 
 mod erased;
@@ -23,6 +23,7 @@ mod lamps;
 mod maps;
 mod painted;
 mod plain;
+mod used;
 
 pub(crate) use general::Studio;
 
@@ -162,29 +163,11 @@ impl<'a> Drawing<'a> {
         };
         Pass::new(&self.view, mesh, stage).cull(cull).subpixel(subpixel).slots(slots)
     }
+}
 
-    /// The model's vertices with some of its triangles.
-    fn mesh<'t, V, F: Fn(&Vertex) -> (Point3<Object>, V)>(
-        &self,
-        triangles: &'t [[u32; 3]],
-        vertex_stage: F,
-    ) -> Mesh<'t, Vertex, u32, F>
-    where
-        'a: 't,
-    {
-        Mesh::new(&self.model.vertices, triangles, vertex_stage)
-    }
-
-    /// Room for these triangles in bands.
-    fn room(triangles: &[[u32; 3]]) -> Vec<PreparedTriangle> {
-        vec![PreparedTriangle::EMPTY; triangles.len()]
-    }
-
-    /// Enough for each vertex of these triangles; a model of many small parts must not pay for all of its vertices in
-    /// each.
-    fn slots<V: alberti::Varying>(&self, triangles: &[[u32; 3]]) -> Vec<Slot<V>> {
-        vec![Slot::EMPTY; self.model.vertices.len().min(3 * triangles.len())]
-    }
+/// Room for a mesh's triangles in bands, and for all of its vertices.
+fn memory<M: Geometry>(mesh: &M) -> (Vec<PreparedTriangle>, Vec<Slot<M::Varying>>) {
+    (vec![PreparedTriangle::EMPTY; mesh.triangles()], vec![Slot::EMPTY; mesh.vertices()])
 }
 
 fn position(v: &Vertex) -> Point3<Object> {

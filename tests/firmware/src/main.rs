@@ -6,7 +6,7 @@
 use alberti_firmware::{target, ticks};
 use core::hint::black_box;
 use core::panic::PanicInfo;
-use scenes::{Camera, SCENES};
+use scenes::SCENES;
 use semihosting::{eprintln, println, process};
 
 #[cfg_attr(target_arch = "arm", cortex_m_rt::entry)]
@@ -16,7 +16,7 @@ fn main() -> ! {
     for scene in SCENES {
         target.clear();
         let start = ticks();
-        (scene.draw)(black_box(target), &Camera::STEADY, &scene.model, &mut ());
+        (scene.draw)(black_box(target), &scene.camera, &scene.model, &mut ());
         let end = ticks();
         println!("frame {} {:016x} {}", scene.name, target.hash(), end.wrapping_sub(start));
     }

@@ -100,15 +100,22 @@ pub(super) fn excesses(
 
 /// One line for each scene that takes more than a hundredth more instructions than were written down.
 pub(super) fn slower(board: &str, drawn: &[Drawn], counts: &[(&str, u64)]) -> Vec<String> {
-    let exceeds = |(name, count): &(&str, u64)| match drawn.iter().find(|frame| frame.name == *name) {
-        Some(frame) if frame.cost * 100 <= count * 101 => None,
-        Some(frame) => Some(format!(
-            "board {board}, scene {name}: {} instructions, {count} and a hundredth more are expected at most",
-            frame.cost
+    let found = |name: &str| drawn.iter().find(|frame| frame.name == name).map(|frame| frame.cost);
+    counts
+        .iter()
+        .filter_map(|&(name, count)| dearer(board, name, "instructions", found(name), count))
+        .collect()
+}
+
+/// A line if more than a hundredth more was found than was written down, or nothing.
+pub(super) fn dearer(board: &str, name: &str, unit: &str, found: Option<u64>, count: u64) -> Option<String> {
+    match found {
+        Some(found) if found * 100 <= count * 101 => None,
+        Some(found) => Some(format!(
+            "board {board}, {name}: {found} {unit}, {count} and a hundredth more are expected at most"
         )),
-        None => Some(format!("board {board}: there is a count for `{name}`, which is no scene")),
-    };
-    counts.iter().filter_map(exceeds).collect()
+        None => Some(format!("board {board}: there is a count for `{name}`, which is not there")),
+    }
 }
 
 /// By how many instructions equal costs may seem to differ: a tick is a little more than one.
@@ -190,8 +197,8 @@ mod tests {
         assert_eq!(
             slower("m0", &drawn, &[("mesh", 1000), ("none", 1)]),
             [
-                "board m0, scene mesh: 1011 instructions, 1000 and a hundredth more are expected at most",
-                "board m0: there is a count for `none`, which is no scene",
+                "board m0, mesh: 1011 instructions, 1000 and a hundredth more are expected at most",
+                "board m0: there is a count for `none`, which is not there",
             ]
         );
     }

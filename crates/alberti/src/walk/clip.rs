@@ -12,12 +12,30 @@ use alberti_projection::{
 };
 use alberti_raster as raster;
 use alberti_raster::{Corner, Vertex};
+use core::cell::Cell;
 use core::cmp::Ordering;
 
 /// The parts of a triangle that crosses a plane.
 #[cold]
 #[inline(never)]
 pub(super) fn clip<M: Geometry, Pr: Projection, K>(
+    mesh: &M,
+    screen: &Screen<Pr>,
+    indices: [usize; 3],
+    slots: [&Slot<M::Varying>; 3],
+    sink: Passing<'_, M::Varying, K>,
+    counters: &mut K,
+) {
+    // One of the two is all that is compiled.
+    if has_linear::<M::Varying>() {
+        clip_by::<(Vec3, Linear<Vec3>), _, _, _>(mesh, screen, indices, slots, sink, counters);
+    } else {
+        clip_by::<Vec3, _, _, _>(mesh, screen, indices, slots, sink, counters);
+    }
+}
+
+#[inline(always)]
+fn clip_by<W: Weights, M: Geometry, Pr: Projection, K>(
     mesh: &M,
     screen: &Screen<Pr>,
     indices: [usize; 3],
@@ -32,7 +50,7 @@ pub(super) fn clip<M: Geometry, Pr: Projection, K>(
     let (positions, varyings) = ([a.0, b.0, c.0], [a.1, b.1, c.1]);
     let rotation = first_of(positions);
     let (carried, slots) = (rotated(varyings, rotation), rotated(slots, rotation));
-    let polygon = cut(screen, rotated(positions, rotation));
+    let polygon = cut::<W, Pr>(screen, rotated(positions, rotation));
     // The triangle's own vertices stay where its neighbours have them, to the last bit of integers too.
     let own = if const { M::INTEGERS } { map3(slots, kept) } else { [None; 3] };
     let places = polygon.map(|vertex| {
@@ -57,8 +75,8 @@ fn kept<V: Varying>(slot: &Slot<V>) -> Option<&Slot<V>> {
 }
 
 /// The item of the vertex that has all the weight.
-fn own_of<T>([a, b, c]: [Option<T>; 3], (weights, _): Weights) -> Option<T> {
-    match weights.to_array() {
+fn own_of<T>([a, b, c]: [Option<T>; 3], weights: impl Weights) -> Option<T> {
+    match weights.in_space().to_array() {
         [1.0, ..] => a,
         [_, 1.0, _] => b,
         [.., 1.0] => c,
@@ -100,7 +118,7 @@ fn before_the_eye<M: Geometry, Pr: Projection>(
 #[inline(never)]
 fn on_the_screen<V: Varying>(
     numbers: raster::Numbers,
-    vertex: Option<Vertex<Weights>>,
+    vertex: Option<Vertex<impl Weights>>,
     first: V,
     carried: &[V; 3],
 ) -> Option<Corner<V>> {
@@ -108,8 +126,52 @@ fn on_the_screen<V: Varying>(
     Some(Corner::new(numbers, &Vertex { x, y, zs, q, varying: weighted(first, *carried, varying) }))
 }
 
-/// The weights of a triangle's three vertices at a point of it: in space, and those that are linear on the screen.
-type Weights = (Vec3, Linear<Vec3>);
+/// The weights of a triangle's three vertices at a point of it.
+trait Weights: Varying {
+    /// The vertex that has these alone.
+    fn new(weights: Vec3) -> Self;
+    /// Those in space.
+    fn in_space(self) -> Vec3;
+    /// Those of components that are linear on the screen.
+    fn on_screen(self) -> Vec3;
+}
+
+/// Where nothing is linear on the screen.
+impl Weights for Vec3 {
+    fn new(weights: Vec3) -> Self {
+        weights
+    }
+
+    fn in_space(self) -> Vec3 {
+        self
+    }
+
+    fn on_screen(self) -> Vec3 {
+        self
+    }
+}
+
+impl Weights for (Vec3, Linear<Vec3>) {
+    fn new(weights: Vec3) -> Self {
+        (weights, Linear(weights))
+    }
+
+    fn in_space(self) -> Vec3 {
+        self.0
+    }
+
+    fn on_screen(self) -> Vec3 {
+        self.1.0
+    }
+}
+
+/// Whether a component is linear on the screen, which compilers know.
+#[inline(always)]
+fn has_linear<V: Varying>() -> bool {
+    let found = Cell::new(false);
+    let _ = V::map_by_mode(&V::ZEROS, &|mode, _| found.set(found.get() | (mode == Mode::Linear)));
+    found.get()
+}
 
 /// The vertices that clipping leaves, in terms of the triangle's own: once in a program, whatever these carry. Vertices
 /// without a place on the screen are `None`.
@@ -117,12 +179,15 @@ type Weights = (Vec3, Linear<Vec3>);
 /// Two triangles that share an edge have the same new vertices on it, bit for bit, whatever their third vertex is. Its
 /// weight is 0 there, and stays so, since a cut is between two vertices of the polygon.
 #[inline(never)]
-fn cut<Pr: Projection>(screen: &Screen<Pr>, [a, b, c]: [Point3<Eye>; 3]) -> Polygon<Option<Vertex<Weights>>> {
+fn cut<W: Weights, Pr: Projection>(
+    screen: &Screen<Pr>,
+    [a, b, c]: [Point3<Eye>; 3],
+) -> Polygon<Option<Vertex<W>>> {
     let Screen { projection, viewport, depth, sides, guard, subpixel, .. } = screen;
     let triangle = [
-        EyeVertex { position: a, varying: (Vec3::X, Linear(Vec3::X)) },
-        EyeVertex { position: b, varying: (Vec3::Y, Linear(Vec3::Y)) },
-        EyeVertex { position: c, varying: (Vec3::Z, Linear(Vec3::Z)) },
+        EyeVertex { position: a, varying: W::new(Vec3::X) },
+        EyeVertex { position: b, varying: W::new(Vec3::Y) },
+        EyeVertex { position: c, varying: W::new(Vec3::Z) },
     ];
     // 3. The part between the near and the far plane.
     let between = clip_near_far(triangle, projection.near(), projection.far());
@@ -147,12 +212,12 @@ fn cut<Pr: Projection>(screen: &Screen<Pr>, [a, b, c]: [Point3<Eye>; 3]) -> Poly
 
 /// The varying at a point with these weights. Those that are 0 have no part in it, not even in its range; flat
 /// components are those of `first`.
-fn weighted<V: Varying>(first: V, [a, b, c]: [V; 3], (in_space, Linear(on_screen)): Weights) -> V {
+fn weighted<V: Varying>(first: V, [a, b, c]: [V; 3], weights: impl Weights) -> V {
     let mean = |mode, [a, b, c, first]: [f32; 4]| {
         if mode == Mode::Flat {
             return first;
         }
-        let weights = if mode == Mode::Linear { on_screen } else { in_space };
+        let weights = if mode == Mode::Linear { weights.on_screen() } else { weights.in_space() };
         let values = [a, b, c];
         let [mut least, mut greatest] = [f32::MAX, f32::MIN];
         for (value, weight) in values.into_iter().zip(weights.to_array()) {

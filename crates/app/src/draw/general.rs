@@ -6,7 +6,8 @@ use super::lamps::Lamps;
 use super::maps::{Chains, any_filter};
 use super::painted::Painted;
 use super::plain::Skin;
-use super::{Canvas, Drawing, position, to_light};
+use super::used::Used;
+use super::{Canvas, Drawing, memory, position, to_light};
 use crate::error::Error;
 use crate::options::{Arithmetic, Filter, Interpolation, Projection, RenderOptions, Shading};
 use crate::scene::{Camera, Detail, Model, Part, Vertex};
@@ -17,7 +18,7 @@ use alberti::shaders::material::{AnyLight, AnyReflectance, Framed, Gouraud, Ligh
 use alberti::shaders::{Mix, Slide, Sunlit, Unlit, VertexColor};
 use alberti::texture::{AnyFilter, Clamp, Sampler, format::Rgba8888};
 use alberti::{
-    FixedPoint, FragmentStage, Fragments, Geometry, Homogeneous, Lines, Planes, Point3, Rgba8, Stats,
+    FixedPoint, FragmentStage, Fragments, Geometry, Homogeneous, Lines, Mesh, Planes, Point3, Rgba8, Stats,
     Vector3, for_lanes,
 };
 
@@ -149,13 +150,14 @@ impl<'a> Drawing<'a> {
         let textured = lit || (part.texture.is_some() && shading != Shading::VertexColor);
         let image = self.slide.map(|(_, image)| image.sampler(any_filter(options.filter), Clamp));
         let projector = self.slide.map(|(projector, _)| projector);
-        let mesh = self.mesh(triangles, |v: &Vertex| {
+        let Used { vertices, triangles } = Used::of(&self.model.vertices, triangles);
+        let mesh = Mesh::new(&vertices, &triangles, |v: &Vertex| {
             // The model stands in the world where it was made.
             let world = Point3::new(Vec3::from_array(v.position));
             let on_image = projector.map_or(Homogeneous::default(), |projector| projector.project(world));
             (position(v), (on_image, framed(&surface, textured, &material.lighting, v)))
         });
-        let stats = self.by_policies(&mesh, Shown { surface, image }, triangles, target);
+        let stats = self.by_policies(&mesh, Shown { surface, image }, target);
         self.stats += stats;
     }
 
@@ -164,10 +166,9 @@ impl<'a> Drawing<'a> {
         &self,
         mesh: &(impl Geometry<Varying = Attributes> + Sync),
         stage: Shown<'_>,
-        triangles: &[[u32; 3]],
         target: &mut Canvas<'_>,
     ) -> Stats {
-        let (mut slots, mut room) = (self.slots(triangles), Self::room(triangles));
+        let (mut room, mut slots) = memory(mesh);
         let (mut stats, threads) = (Stats::default(), self.options.threads);
         let policies = self.options.policies;
         let lines = match policies.interpolation {

@@ -2,13 +2,14 @@
 //! camera.
 
 use super::maps::{FlatMap, Scaled, TileMap, flat_map, tile_map};
-use super::{AMBIENT, Canvas, DIFFUSE, Drawing, color, position};
+use super::used::Used;
+use super::{AMBIENT, Canvas, DIFFUSE, Drawing, color, memory, position};
 use crate::options::Shading;
 use crate::scene::{Part, Vertex};
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::Machine;
 use alberti::shaders::{Sunlit, Unlit, VertexColor};
-use alberti::{FragmentStage, Rgba8, Slot, Varying, for_lanes};
+use alberti::{FragmentStage, Mesh, Rgba8, Slot, Varying, for_lanes};
 
 /// A colour, or a texture times that colour.
 pub(super) type Skin<'a> = Scaled<FlatMap<'a>>;
@@ -57,14 +58,14 @@ impl<'a> Drawing<'a> {
     ) where
         Slot<V>: Send + Sync,
     {
-        let mesh = self.mesh(triangles, |v| (position(v), varying(v)));
-        let mut slots = self.slots(triangles);
-        let room = &mut Self::room(triangles);
+        let Used { vertices, triangles } = Used::of(&self.model.vertices, triangles);
+        let mesh = Mesh::new(&vertices, &triangles, |v: &Vertex| (position(v), varying(v)));
+        let (mut room, mut slots) = memory(&mesh);
         let Some(machine) = Machine::all().next() else { return };
         let mut stats = self.stats;
         for_lanes!(machine, lanes => {
             let mut pass = self.pass(&mesh, stage, &mut slots);
-            pass.count_by_threads(lanes, self.options.threads, room, target, &mut stats);
+            pass.count_by_threads(lanes, self.options.threads, &mut room, target, &mut stats);
         });
         self.stats = stats;
     }

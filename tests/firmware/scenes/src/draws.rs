@@ -127,6 +127,9 @@ meshes! {
     flat_meshlets(model) in bare:
         meshlets(model, |v| IntegerVertex::<()> { place: v.position, components: () }), Solid(ORANGE);
 
+    /// The vertices' colours on a mesh of integers with meshlets.
+    gouraud_meshlets(model) in colored: meshlets(model, colored_integers), VertexColor565;
+
     /// The nearest texel on a mesh of integers with meshlets.
     affine_meshlets(model) in mapped: meshlets(model, mapped_integers),
         Stored(model.texture.sampler(Nearest, Repeat));
@@ -214,7 +217,16 @@ fn mapped_by<F: FragmentStage<Vec2>, P: Interpolation, K: Counters>(
     draw(pixels, camera, model, &mesh, stage, interpolation, slots, counters);
 }
 
-/// The same in 15 bands of 16 rows. They lie one after the other, so that together they are the whole frame.
+/// The same of a mesh of integers with meshlets.
+pub fn textured_meshlets<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    let stage = Stored(model.texture.sampler(Nearest, Repeat));
+    let mesh = meshlets(model, mapped_integers);
+    let Target { color, depth, slots, .. } = target;
+    let pixels = alberti::Target::new(Rgb565Le, D16, WIDTH, HEIGHT, color, depth);
+    draw(pixels, camera, model, &mesh, stage, FixedPoint(Spans16), &mut slots.mapped, counters);
+}
+
+/// The nearest texel in 15 bands of 16 rows. They lie one after the other, so that together they are the whole frame.
 pub fn textured_bands<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
     let mesh = Mesh::new(model.vertices, model.triangles, mapped);
     bands(FixedPoint(Spans16), target, camera, model, &mesh, ALL, counters);
@@ -291,6 +303,12 @@ fn meshlets<V: Varying, F: Fn(&HalfWords) -> IntegerVertex<V>>(
     let (triangles, meshlets, ball) = model.meshlets;
     let mesh = IntegerMesh::new(model.integers, triangles, HalfWords::UNIT, vertex_stage);
     Meshlets { mesh, meshlets, ball }
+}
+
+#[inline]
+fn colored_integers(v: &HalfWords) -> IntegerVertex<Ready565> {
+    let components = Ready565::of_integers(v.color.map(|c| Q16::from_bits(i32::from(c) * 257)));
+    IntegerVertex { place: v.position, components }
 }
 
 #[inline]

@@ -13,9 +13,9 @@ pub mod torus;
 pub use draws::{
     affine_fixed, affine_integers, affine_mesh, affine_mesh_sub8, affine_meshlets, bounded_bands, flat,
     flat_fixed, flat_integers, flat_mesh, flat_meshlets, flat_without_depth, gouraud, gouraud_fixed,
-    gouraud_mesh, integers_bands, material, material_absent, material_emission, mesh_base_nearest,
+    gouraud_mesh, gouraud_meshlets, integers_bands, material, material_absent, material_emission, mesh_base_nearest,
     mesh_mip_nearest, meshlets_bands, meshlets_cache, mip_bilinear, mip_bilinear_fixed, mip_nearest,
-    mip_nearest_fixed, textured, textured_affine, textured_bands, textured_bounded, textured_fixed,
+    mip_nearest_fixed, textured, textured_affine, textured_bands, textured_bounded, textured_fixed, textured_meshlets,
     textured_planes, textured_spans, trilinear, trilinear_fixed, trilinear_spans, trilinear_spans_fixed,
 };
 pub use shapes::PROBE;
@@ -23,7 +23,7 @@ pub use shapes::PROBE;
 use alberti::glam::Vec2;
 use alberti::shaders::Ready565;
 use alberti::{D16, DepthFormat, Perspective, PreparedTriangle, Slot};
-use shapes::{Model, coarse_torus, floor, layers, torus};
+use shapes::{Model, coarse_torus, distant_torus, floor, layers, torus};
 use torus::{TORUS_TRIANGLES, TORUS_VERTICES};
 
 /// Columns of the frame.
@@ -43,6 +43,8 @@ pub struct Scene {
     pub name: &'static str,
     /// What is drawn.
     pub model: Model,
+    /// What it is seen through.
+    pub camera: Camera,
     /// How it is drawn: this is what is measured.
     pub draw: Draw<()>,
     /// The same, counting: on the host, since a board must not pay for it.
@@ -52,9 +54,13 @@ pub struct Scene {
 
 macro_rules! scene {
     ($name:literal, $model:expr, $draw:ident) => {
+        scene!($name, $model, $draw, Camera::STEADY)
+    };
+    ($name:literal, $model:expr, $draw:ident, $camera:expr) => {
         Scene {
             name: $name,
             model: $model,
+            camera: $camera,
             draw: $draw,
             #[cfg(feature = "std")]
             count: $draw,
@@ -112,6 +118,11 @@ pub static SCENES: &[Scene] = &[
     scene!("meshlets-bands-cache", torus(1.0), meshlets_cache),
     scene!("fixed-mesh-bounded", torus(1.0), textured_bounded),
     scene!("meshlets-bands-bounded", torus(1.0), bounded_bands),
+    scene!("meshlets-distant-flat", distant_torus(), flat_meshlets, Camera::LONG),
+    scene!("meshlets-distant-gouraud", distant_torus(), gouraud_meshlets, Camera::LONG),
+    scene!("meshlets-distant-affine", distant_torus(), affine_meshlets, Camera::LONG),
+    scene!("meshlets-distant-spans", distant_torus(), textured_meshlets, Camera::LONG),
+    scene!("meshlets-distant-bands", distant_torus(), meshlets_bands, Camera::LONG),
     fill!("material", 1, material),
     fill!("material-absent", 1, material_absent),
     fill!("material-emission", 1, material_emission),
@@ -127,7 +138,7 @@ pub static SCENES: &[Scene] = &[
     scene!("fixed-floor-trilinear-spans", floor(), trilinear_spans_fixed),
 ];
 
-/// What all scenes are seen through.
+/// What a scene is seen through.
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
     perspective: Perspective,
@@ -135,10 +146,17 @@ pub struct Camera {
 
 impl Camera {
     /// A right angle from bottom to top, over the whole frame.
-    pub const STEADY: Self = match Perspective::new(core::f32::consts::FRAC_PI_2, shapes::ASPECT, 0.5, 50.0) {
-        Ok(perspective) => Self { perspective },
-        Err(_) => panic!("a pyramid"),
-    };
+    pub const STEADY: Self = Self::of(core::f32::consts::FRAC_PI_2);
+
+    /// 33 degrees.
+    pub const LONG: Self = Self::of(0.58);
+
+    const fn of(angle: f32) -> Self {
+        match Perspective::new(angle, shapes::ASPECT, 0.5, 50.0) {
+            Ok(perspective) => Self { perspective },
+            Err(_) => panic!("a pyramid"),
+        }
+    }
 }
 
 /// The memory of a frame: colour in little-endian RGB565, depth in 16 bits, the transformed vertices, and

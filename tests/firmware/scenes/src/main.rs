@@ -2,7 +2,7 @@
 //! written pixels. A folder as argument also gets the pictures, as PPM files.
 
 use alberti::Stats;
-use scenes::{Camera, HEIGHT, SCENES, Target, WIDTH};
+use scenes::{HEIGHT, SCENES, Target, WIDTH};
 use std::error::Error;
 use std::path::Path;
 use std::{env, fs};
@@ -12,12 +12,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut target = Box::new(Target::EMPTY);
     for scene in SCENES {
         target.clear();
-        (scene.draw)(&mut target, &Camera::STEADY, &scene.model, &mut ());
+        (scene.draw)(&mut target, &scene.camera, &scene.model, &mut ());
         let hash = target.hash();
 
         target.clear();
         let mut stats = Stats::default();
-        (scene.count)(&mut target, &Camera::STEADY, &scene.model, &mut stats);
+        (scene.count)(&mut target, &scene.camera, &scene.model, &mut stats);
         if target.hash() != hash {
             return Err(format!("{}: counting changes the frame", scene.name).into());
         }

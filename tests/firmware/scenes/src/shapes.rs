@@ -63,6 +63,14 @@ pub const fn torus(size: f32) -> Model {
     }
 }
 
+/// The same farther away, for a longer lens: a little larger on the screen, and as good as without perspective.
+#[must_use]
+pub const fn distant_torus() -> Model {
+    let Model { to_eye, .. } = torus(1.0);
+    let axes = to_eye.axes();
+    Model { to_eye: Frame::from_mat3(axes, Point3::new(Vec3::new(0.0, 0.0, 6.4))), ..torus(1.0) }
+}
+
 /// The same in triangles that are four times as long and as wide.
 #[must_use]
 pub const fn coarse_torus() -> Model {

@@ -24,6 +24,8 @@ pub struct HalfWords {
     pub position: [i16; 3],
     /// In units of 2^-12.
     pub uv: [u16; 2],
+    /// In 255ths.
+    pub color: [u8; 3],
 }
 
 impl HalfWords {
@@ -31,9 +33,10 @@ impl HalfWords {
     pub const UNIT: f32 = 1.0 / 16384.0;
 
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "in range")]
-    const fn of(Vertex { position: [x, y, z], uv: [u, v], .. }: Vertex) -> Self {
+    const fn of(Vertex { position: [x, y, z], color: [r, g, b], uv: [u, v] }: Vertex) -> Self {
         let position = [(x / Self::UNIT) as i16, (y / Self::UNIT) as i16, (z / Self::UNIT) as i16];
-        Self { position, uv: [(u * 4096.0) as u16, (v * 4096.0) as u16] }
+        let color = [(r * 255.0) as u8, (g * 255.0) as u8, (b * 255.0) as u8];
+        Self { position, uv: [(u * 4096.0) as u16, (v * 4096.0) as u16], color }
     }
 }
 

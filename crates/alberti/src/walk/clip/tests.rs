@@ -21,11 +21,6 @@ fn any_rotation_becomes_the_same_one() {
     }
 }
 
-/// Both kinds of weights.
-fn same(weights: Vec3) -> Weights {
-    (weights, Linear(weights))
-}
-
 /// On an edge the third vertex plays no part, wherever it stands in the order, and neither does the direction.
 #[test]
 fn edges_know_nothing_of_the_third_vertex() {
@@ -40,14 +35,14 @@ fn edges_know_nothing_of_the_third_vertex() {
         let [wa, wb] = [t, 1.0 - t];
         let blended = blend2([wa, wb], [a, b]);
         for found in [
-            weighted(c, [a, b, c], same(Vec3::new(wa, wb, 0.0))),
-            weighted(c, [b, other, a], same(Vec3::new(wb, 0.0, wa))),
-            weighted(c, [c, a, b], same(Vec3::new(0.0, wa, wb))),
+            weighted(c, [a, b, c], Vec3::new(wa, wb, 0.0)),
+            weighted(c, [b, other, a], Vec3::new(wb, 0.0, wa)),
+            weighted(c, [c, a, b], Vec3::new(0.0, wa, wb)),
             weighted(Linear(c), [a, b, c].map(Linear), (Vec3::Z, Linear(Vec3::new(wa, wb, 0.0)))).0,
         ] {
             assert_eq!(found.to_bits(), blended.to_bits());
         }
-        assert_eq!(weighted(Flat(c), [a, b, c].map(Flat), same(Vec3::new(wa, wb, 0.0))), Flat(c));
+        assert_eq!(weighted(Flat(c), [a, b, c].map(Flat), Vec3::new(wa, wb, 0.0)), Flat(c));
     }
 }
 
@@ -70,7 +65,7 @@ fn fans_are_not_turned_over() {
         corners.rotate_left(rng.index(4));
         let vertex = |[x, y]: [i64; 2]| {
             let [x, y] = [x, y].map(|c| Fixed::wrapping(i32::try_from(c).expect("small")));
-            Some(Vertex { x, y, zs: 0.0, q: 1.0, varying: same(Vec3::splat(0.25)) })
+            Some(Vertex { x, y, zs: 0.0, q: 1.0, varying: Vec3::splat(0.25) })
         };
         let number = Cell::new(0);
         let polygon = four.map(|_| corners.get(number.replace(number.get() + 1)).copied().and_then(vertex));
