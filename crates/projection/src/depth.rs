@@ -112,9 +112,9 @@ impl DepthMap {
     /// The screen depth zs of a point at eye depth `z` in [A, B]; always within the range.
     ///
     /// # Precision
-    /// Within (α + 1/2)ε of its own α + β/z, absolutely (|α'| + 1/2 for the reversed map). Within (3α + 1/2)ε of that
-    /// of the planes themselves. The two are 1.5ε and 3ε for B/A >= 4, more as the planes approach each other. Onto any
-    /// range, within (|α| + 2|β|/A + m)ε of that of the planes, m the largest |zs|.
+    /// Within (|β|/A + 1/2)ε of its own α + β/z, absolutely, where |β|/A is α, and |α'| + 1 of the reversed map. Within
+    /// (3|β|/A + 1/2)ε of that of the planes themselves. The two are at most 1.84ε and 4.5ε for B/A >= 4, and more as
+    /// the planes approach each other. Onto any range, within (|β|/A + m)ε and (|α| + 2|β|/A + m)ε, m the largest |zs|.
     ///
     /// Monotone: division and addition are correctly rounded, so a larger z never gives a smaller zs (larger, for the
     /// reversed map).

@@ -8,7 +8,7 @@ use alberti_projection::{DepthMap, DepthSteps};
 /// A way to make a map, and its ends at the near and the far plane.
 #[derive(Clone, Copy)]
 struct Kind {
-    name: [&'static str; 4],
+    name: [&'static str; 5],
     make: fn(f32, f32) -> DepthMap,
     ends: [i128; 2],
 }
@@ -19,6 +19,7 @@ const FORWARD: Kind = Kind {
         "DepthMap::zs, forward",
         "DepthMap::z, forward",
         "DepthMap::z of zs, forward",
+        "DepthMap::zs, forward, of α and β",
     ],
     make: |near, far| DepthMap::forward(near, far).expect("0 < near < far"),
     ends: [0, 1],
@@ -30,6 +31,7 @@ const REVERSED: Kind = Kind {
         "DepthMap::zs, reversed",
         "DepthMap::z, reversed",
         "DepthMap::z of zs, reversed",
+        "DepthMap::zs, reversed, of α and β",
     ],
     make: |near, far| DepthMap::reversed(near, far).expect("0 < near < far"),
     ends: [1, 0],
@@ -41,6 +43,7 @@ const SYMMETRIC: Kind = Kind {
         "DepthMap::zs, onto [−1, 1]",
         "DepthMap::z, onto [−1, 1]",
         "DepthMap::z of zs, onto [−1, 1]",
+        "DepthMap::zs, onto [−1, 1], of α and β",
     ],
     make: |near, far| DepthMap::onto([-1.0, 1.0], near, far).expect("0 < near < far"),
     ends: [-1, 1],
@@ -100,6 +103,14 @@ pub(crate) fn tables() -> Vec<Table> {
                 };
                 Sample::new((kind.make)(planes[0], planes[1]).zs(z), &exact, 1.0)
             }));
+            zs.push(Row::new(kind.name[4], about(ratio), own_bound(kind, ratio), move |rng| {
+                let planes = planes(rng, ratio);
+                let (map, z) = ((kind.make)(planes[0], planes[1]), any_z(rng, planes));
+                let exact = from_f32(map.alpha()) + from_f32(map.beta()) / from_f32(z);
+                // The ends are the planes', where α and β miss them.
+                let [least, most] = map.range().map(from_f32);
+                Sample::new(map.zs(z), &exact.clamp(least, most), 1.0)
+            }));
         }
     }
     for kind in KINDS {
@@ -152,6 +163,14 @@ const RESOLUTION: &str = "Errors are relative: of `resolution` against z·δ/(|�
                           zs and β/z that were computed, and of the gap \
                           whose reach `separable_until` is against the one asked for. What formats really tell apart is \
                           in `tests/tests/pipeline/resolution.rs`.";
+
+/// As `DepthMap::zs` says of its own α and β.
+fn own_bound(kind: Kind, ratio: f32) -> f64 {
+    let ratio = f64::from(ratio);
+    let nearest = if ratio.is_finite() { ratio / (ratio - 1.0) } else { 1.0 };
+    // |β|/A, and half of the greatest |zs|; onto [−1, 1] the former is twice as much.
+    if kind.ends == SYMMETRIC.ends { 2.0 * nearest + 0.5 } else { nearest + 0.5 }
+}
 
 /// As `DepthMap::zs` says.
 fn zs_bound(kind: Kind, ratio: f32) -> f64 {

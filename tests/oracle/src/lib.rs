@@ -12,6 +12,8 @@
 //! [`snapped`] is the exception: an f64 pipeline of the usual shape, with exact coverage, so that what snapping does to
 //! a picture can be told apart from what the pipeline's rounding does to it.
 //!
+//! Bounds are tried on random cases, and on worse ones that [`climb`] finds from these.
+//!
 //! Conventions: screen y grows downwards, pixel centres lie at +0.5, eye space has x right, y up and z forward, the
 //! world is right-handed, and counter-clockwise triangles are front faces.
 //!
@@ -33,6 +35,7 @@
 )]
 
 pub mod cases;
+pub mod climb;
 pub mod coverage;
 pub mod dd;
 pub mod gradient;

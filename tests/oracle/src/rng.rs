@@ -25,6 +25,15 @@ pub fn run_seed() -> u64 {
 #[derive(Clone, Debug)]
 pub struct Rng {
     state: [u64; 4],
+    tape: Option<Tape>,
+}
+
+/// What a generator gave, to be given again.
+#[derive(Clone, Debug)]
+struct Tape {
+    numbers: Vec<u64>,
+    /// So many of these have been given.
+    given: usize,
 }
 
 impl Rng {
@@ -32,7 +41,22 @@ impl Rng {
     #[must_use]
     pub fn new(seed: u64) -> Self {
         let mut mix = seed;
-        Self { state: std::array::from_fn(|_| split_mix(&mut mix)) }
+        Self { state: std::array::from_fn(|_| split_mix(&mut mix)), tape: None }
+    }
+
+    /// A generator that gives these numbers, and then those of another one. It keeps what it gives.
+    #[must_use]
+    pub fn replay(numbers: Vec<u64>, then: Self) -> Self {
+        Self { tape: Some(Tape { numbers, given: 0 }), ..then }
+    }
+
+    /// The numbers that a [replaying](Self::replay) generator has given; none of others.
+    #[must_use]
+    pub fn into_tape(self) -> Vec<u64> {
+        self.tape.map_or_else(Vec::new, |Tape { mut numbers, given }| {
+            numbers.truncate(given);
+            numbers
+        })
     }
 
     /// A generator for the `index`-th independent piece of work under `seed`.
@@ -44,6 +68,17 @@ impl Rng {
 
     /// 64 uniform bits.
     pub fn u64(&mut self) -> u64 {
+        let Some(mut tape) = self.tape.take() else { return self.next() };
+        if tape.given == tape.numbers.len() {
+            tape.numbers.push(self.next());
+        }
+        let number = tape.numbers[tape.given];
+        tape.given += 1;
+        self.tape = Some(tape);
+        number
+    }
+
+    fn next(&mut self) -> u64 {
         let s = &mut self.state;
         let result = s[1].wrapping_mul(5).rotate_left(7).wrapping_mul(9);
         let shifted = s[1] << 17;
@@ -149,7 +184,7 @@ mod tests {
     #[test]
     fn xoshiro_matches_its_reference_sequence() {
         // xoshiro256starstar.c from the state 1, 2, 3, 4.
-        let mut rng = Rng { state: [1, 2, 3, 4] };
+        let mut rng = Rng { state: [1, 2, 3, 4], tape: None };
         let got: [u64; 4] = std::array::from_fn(|_| rng.u64());
         assert_eq!(got, [11_520, 0, 1_509_978_240, 1_215_971_899_390_074_240]);
     }
