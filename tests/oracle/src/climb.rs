@@ -1,7 +1,7 @@
 //! Directed search for the worst case: from the worst of many random ones uphill, by small changes.
 //!
-//! A case is whatever is made of the numbers that a generator gives. These numbers are changed, one or two at a time, so
-//! that every test that draws its cases from a [`Rng`] can be climbed as it is.
+//! A case is whatever is made of the numbers that a generator gives. These numbers are changed, one or two at a time,
+//! so that every test that draws its cases from a [`Rng`] can be climbed as it is.
 
 use crate::rng::Rng;
 

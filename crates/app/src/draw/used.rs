@@ -1,4 +1,5 @@
-//! The vertices that some triangles use: what a part of a larger model is drawn from, by as many threads as a whole one.
+//! The vertices that some triangles use: from these a part of a larger model is drawn by as many threads as a whole
+//! one.
 
 use crate::scene::Vertex;
 use std::borrow::Cow;

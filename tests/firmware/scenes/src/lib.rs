@@ -111,6 +111,7 @@ pub static SCENES: &[Scene] = &[
     scene!("fixed-mesh-eighth", torus(0.125), textured_fixed),
     scene!("integer-mesh-flat", torus(1.0), flat_integers),
     scene!("integer-mesh-affine", torus(1.0), affine_integers),
+    scene!("integer-mesh-eighth", torus(0.125), affine_integers),
     scene!("integer-mesh-bands", torus(1.0), integers_bands),
     scene!("meshlets-flat", torus(1.0), flat_meshlets),
     scene!("meshlets-affine", torus(1.0), affine_meshlets),
