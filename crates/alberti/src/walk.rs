@@ -26,8 +26,8 @@ pub(crate) struct Walk<'a, M: Geometry, Pr: Projection> {
     screen: Screen<Pr>,
 }
 
-/// The number of a mesh's vertices that are stored in so many slots: all, where the slots hold them and all may be used,
-/// or none.
+/// The number of a mesh's vertices that are stored in so many slots: all, where the slots hold them and all may be
+/// used, or none.
 #[inline]
 pub(crate) fn stored_by(mesh: &impl Geometry, slots: usize) -> usize {
     let vertices = mesh.vertices();

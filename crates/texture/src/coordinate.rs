@@ -5,7 +5,8 @@
 //! `f32` that matters. With sides of up to 2^14 texels, the borders between texels in the period from 0 to 1 are
 //! `j / size`; the first is at or beyond 2^-14. A float next to it or further out is at least 2^-15, its last bit
 //! is worth at least 2^-15-23 = 2^-38, and so 38 bits of fraction hold it exactly. A float nearer to 0 is rounded
-//! down by less than 2^-38, which takes it neither to the first border nor from one side of 0 to the other.
+//! down by less than 2^-38, which takes it neither to the first border nor from one side of 0 to the other. Distances
+//! from the centres of texels are finer, so for these such floats are looked at [again](near_zero).
 //!
 //! The budget of 64 bits: 39 for the coordinate modulo 2, 14 for the size, 8 for the weights of a filter.
 
@@ -80,17 +81,42 @@ pub(crate) fn bounded(u: f32) -> u64 {
     down(u).wrapping_sub(ALIGN.to_bits())
 }
 
-/// The 256ths from the centre of the leftmost texel to a reduced coordinate, rounded to nearest, halves up.
+/// The 256ths from the centre of the leftmost texel to a reduced coordinate, rounded to nearest, halves up. Not for
+/// those [near 0](near_zero).
 #[inline]
-#[expect(clippy::cast_possible_truncation, reason = "of 53 bits and a sign, the shift leaves 24")]
 pub(crate) fn position(reduced: u64, size: u32) -> i32 {
-    const SHIFT: u32 = FRACTION_BITS - 8;
-    // Half a unit to round to nearest, less half a texel. In 39 + 14 bits and a sign.
-    const OFFSET: i64 = (1 << (SHIFT - 1)) - (128 << SHIFT);
-
     // In `Border` it may be negative.
-    let scaled = reduced.cast_signed() * i64::from(size) + OFFSET;
-    (scaled >> SHIFT) as i32
+    rounded::<FRACTION_BITS>(reduced.cast_signed(), size)
+}
+
+/// [`position`] of a coordinate that 38 bits of fraction do not hold: from -256 to -1, left of the leftmost centre.
+/// None for others.
+///
+/// It is rounded down to 2^-47. Nearer to 0 than 2^-23 is no place where the 256ths change.
+#[inline]
+#[expect(clippy::cast_possible_truncation, reason = "below 2^32")]
+pub(crate) fn near_zero(u: f32, size: u32) -> Option<i32> {
+    const SMALL: f32 = 1.0 / 32768.0;
+    const BITS: u32 = 47;
+
+    (-SMALL < u && u < SMALL).then(|| {
+        let scaled = u * (131_072.0 / (SMALL * SMALL));
+        let whole = scaled as i64;
+        // Where the conversion rounded up, which it does to no more than 24 bits.
+        #[expect(clippy::cast_precision_loss, reason = "as many bits as there were")]
+        let down = whole - i64::from(whole as f32 > scaled);
+        rounded::<BITS>(down, size)
+    })
+}
+
+/// The 256ths of a coordinate with so many bits of fraction.
+#[inline]
+#[expect(clippy::cast_possible_truncation, reason = "the shift leaves 24 bits")]
+fn rounded<const BITS: u32>(coordinate: i64, size: u32) -> i32 {
+    let shift = const { BITS - 8 };
+    // Half a unit to round to nearest, less half a texel. In 39 + 14 bits and a sign.
+    let offset = const { (1 << (BITS - 9)) - (128 << (BITS - 8)) };
+    ((coordinate * i64::from(size) + offset) >> shift) as i32
 }
 
 /// The bits of `ALIGN` + u, rounded down, for |u| < 2^13.
@@ -160,6 +186,49 @@ mod tests {
             let expected = oracle(u).cast_signed() - if u < 0.0 { 2 * ONE.cast_signed() } else { 0 };
             assert_eq!(bounded(u).cast_signed(), expected, "{u:e}, {bits:#x}");
         }
+    }
+
+    /// The 256ths by 128 bits, at the floats beside the places where they change, and anywhere.
+    #[test]
+    fn distances_near_zero_are_correctly_rounded() {
+        let exact = |u: f32, size: u32| {
+            let (significand, exponent) = if u == 0.0 { (0, 0) } else { decoded(u) };
+            // In units of 2^-81, as no more than 81 bits behind the point can decide.
+            let shift = exponent + 81;
+            let scaled = if shift >= 0 { significand << shift } else { significand >> -shift };
+            (scaled * i128::from(size) * 256 + (1 << 80) - (128 << 81)) >> 81
+        };
+        let mut changes = 0;
+        for size in [1u16, 2, 3, 5, 97, 1000, 4328, 8191, 10_007, 16_383, 16_384] {
+            let check = |u: f32| {
+                let found = near_zero(u, size.into()).map(i128::from);
+                assert_eq!(
+                    found,
+                    (u.abs() < 2f32.powi(-15)).then(|| exact(u, size.into())),
+                    "{u:e} of {size}"
+                );
+            };
+            for odd in (-255i16..256).step_by(2) {
+                let change = f32::from(odd) / (512.0 * f32::from(size));
+                let bits = change.abs().to_bits();
+                (bits - 4..bits + 4).for_each(|bits| check(f32::from_bits(bits).copysign(change)));
+                changes += 1;
+            }
+            for bits in (0..0x3900_0000u32).step_by(99_991) {
+                check(f32::from_bits(bits));
+                check(-f32::from_bits(bits));
+            }
+        }
+        assert_eq!(near_zero(-6.769_148_5e-6, 4328).map(|position| position & 255), Some(121));
+        assert_eq!((near_zero(f32::NAN, 3), changes), (None, 11 * 256));
+    }
+
+    /// The significand with its sign, and the exponent of its last bit.
+    fn decoded(u: f32) -> (i128, i32) {
+        let (field, low) = (u.to_bits() >> 23 & 0xff, i128::from(u.to_bits() & 0x007f_ffff));
+        let (magnitude, exponent) =
+            if field == 0 { (low, -149) } else { (low | 0x0080_0000, field.cast_signed() - 150) };
+        (if u < 0.0 { -magnitude } else { magnitude }, exponent)
     }
 
     /// All 2^32 of them take some minutes: `cargo xtask sweep`.

@@ -8,7 +8,7 @@ use alberti_math::Rgba8;
 use alberti_math::lanes::Lanes;
 use core::fmt::Debug;
 
-use crate::coordinate::{FRACTION_BITS, ONE, bounded, clamped, modulo_2, position};
+use crate::coordinate::{FRACTION_BITS, ONE, bounded, clamped, modulo_2, near_zero, position};
 use crate::sealed::Sealed;
 
 /// The continuation of a texture beyond its sides, along one axis: [`Repeat`], [`Clamp`], [`Mirror`] or [`Border`], and
@@ -23,9 +23,9 @@ use crate::sealed::Sealed;
 /// ```
 ///
 /// # Precision
-/// Defined for every `f32`. The coordinate is reduced to the period first and scaled by the size afterwards, and both
-/// are exact. So the texel does not depend on how far from 0 the texture is sampled, as far as the float itself can
-/// tell. From 2^23 on, floats are integers and have no fraction.
+/// Defined for every `f32`. The coordinate is reduced to the period first and scaled by the size afterwards, and what
+/// comes out is that of exact arithmetic. So the texel does not depend on how far from 0 the texture is sampled, as far
+/// as the float itself can tell. From 2^23 on, floats are integers and have no fraction.
 ///
 /// | coordinate | `Repeat`, `Mirror` | `Clamp` | `Border` |
 /// |---|---|---|---|
@@ -73,7 +73,10 @@ pub trait Wrap: Sealed + Copy + Debug + 'static {
     /// the other.
     #[inline(always)]
     fn between_at(self, u: f32, size: u32) -> [u32; 3] {
-        let position = position(self.reduce(u), size);
+        let reduced = self.reduce(u);
+        // Of 0 there is nothing to look at again, to which `Clamp` reduces all that are negative.
+        let near = if reduced == 0 { None } else { near_zero(u, size) };
+        let position = near.unwrap_or_else(|| position(reduced, size));
         let (left, right) = self.neighbours(position >> 8, size);
         [left, right, position.cast_unsigned() & 255]
     }

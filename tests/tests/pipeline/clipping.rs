@@ -348,8 +348,8 @@ fn slabs_add_up_to_the_triangle() {
     assert!(errors.max() <= 4.0 * LINEAR && parts > 200_000, "{errors}");
 }
 
-/// A clipped triangle writes each pixel once and is seen from one side. So it is where snapping puts a new vertex beyond
-/// the line between its neighbours: the first one drew three pixels twice.
+/// A clipped triangle writes each pixel once and is seen from one side. So it is where snapping puts a new vertex
+/// beyond the line between its neighbours. The first one drew three pixels twice.
 #[test]
 fn clipped_triangles_are_not_turned_over() {
     let mut rng = Rng::stream(run_seed(), 10);
