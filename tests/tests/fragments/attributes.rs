@@ -10,6 +10,7 @@
 )]
 
 use alberti_math::{GUARD_PIXELS, Subpixel};
+use alberti_oracle::climb::climb;
 use alberti_oracle::coverage::{Triangle, covers, weights};
 use alberti_oracle::dd::{self, Dd};
 use alberti_oracle::rational::{self, Rational};
@@ -183,6 +184,23 @@ fn interpolated(subpixel: Subpixel, stream: u64, samples: u64) {
     assert!(varying.max() <= FROM_Q, "{varying}: {worst:?}");
     assert!(depth.max() <= DEPTH, "{depth}");
     assert!(steep * 5 > samples && large * 5 > samples, "{steep} steep, {large} large of {samples}");
+
+    let (samples, steps) =
+        if std::env::var_os("ALBERTI_SWEEP").is_some() { (1_000_000, 1_000_000) } else { (100_000, 20_000) };
+    let mut shares = |which: usize| {
+        climb(run_seed() ^ stream, samples, steps, |rng| {
+            let case = any_case(subpixel, rng);
+            let (u, zs) = probe.interpolated(&case.vertices(), case.pixel).expect("covered");
+            let (sample, exact) =
+                (case.sample(subpixel), dd::linear(case.tri, case.sample(subpixel), case.zs));
+            let varying = dd::hyperbolic(case.tri, sample, case.q(), case.u).error_in_eps(u, case.largest());
+            let depth = exact.error_in_eps(zs, exact.to_f64());
+            [varying.abs(), if exact.to_f64() > 0.0 { depth.abs() } else { 0.0 }][which]
+        })
+    };
+    let [varying, depth] = [shares(0), shares(1)];
+    println!("  climbed: varyings {varying:?}, depth {depth:?}");
+    assert!(varying.most <= FROM_Q && depth.most <= DEPTH, "{varying:?} {depth:?}");
 }
 
 fn within(x: f32, [a, b, c]: [f32; 3]) -> bool {

@@ -13,6 +13,7 @@
 use alberti_math::Sub8;
 use alberti_math::lanes::One;
 use alberti_oracle::cases::pixel_centre;
+use alberti_oracle::climb::climb;
 use alberti_oracle::coverage::Triangle;
 use alberti_oracle::dd;
 use alberti_oracle::rng::{Rng, run_seed};
@@ -86,7 +87,8 @@ impl Case {
         const UNIT: f64 = 1.0 / 65536.0;
         let columns = f64::from(self.covered.end - self.covered.start);
         let slopes = self.ratio() * (columns + 4.0) * 2f64.powi(-28);
-        f64::from(steps) * UNIT + self.spread() * (2f64.powi(-17) + slopes)
+        // A closure gets f32.
+        f64::from(steps) * UNIT + self.spread() * (2f64.powi(-17) + slopes) + EPS * self.largest()
     }
 
     fn largest(&self) -> f64 {
@@ -113,7 +115,9 @@ fn any_case(rng: &mut Rng) -> Case {
     let mut q = [1.0, 1.0 / ratio, 1.0 / rng.log_uniform(1.0, ratio)];
     q.rotate_left(rng.index(3));
     let unit = rng.log_uniform(1e-3, 4096.0);
-    let u = [(); 3].map(|()| rng.uniform(-1.0, 1.0) as f32 * unit);
+    // Far from 0 and near one another, too.
+    let (base, spread) = if rng.one_in(4) { (unit, unit * rng.log_uniform(1e-7, 1.0)) } else { (0.0, unit) };
+    let u = [(); 3].map(|()| (base + rng.uniform(-1.0, 1.0) as f32 * spread).clamp(-4096.0, 4096.0));
     // Beyond 0 and 1 there is no depth.
     let zs = [(); 3].map(|()| if rng.one_in(3) { rng.index(2) as f32 } else { rng.unit() as f32 });
     Case { tri, q, zs, u, covered: 0..0 }
@@ -142,32 +146,57 @@ fn each_scaled(
     let mut rng = Rng::stream(run_seed(), stream);
     let mut count = 0;
     while count < samples {
-        let mut case = any_case(&mut rng);
-        let (mut color, mut depth) = ([0; WIDTH as usize], [-1.0; WIDTH as usize]);
-        let size = [WIDTH as u32, LARGEST as u32];
-        let mut band =
-            Target::band(Rgba8888, Recorded, size, ROW as u32, &mut color, &mut depth).expect("a row");
-        let seen = Seen::default();
-        let [a, b, c] = [0, 1, 2].map(|i| vertex(case.tri[i], case.zs[i], case.q[i], case.u[i] * factor));
-        let keep = |u: f32| seen.keep(u);
-        let paint = Paint { stage: keep, interpolation, subpixel: Sub8, cull: Cull::None };
-        paint.triangle(One, &mut band, [&a, &b, &c], &mut ());
-        let covered: Vec<i32> = (0..WIDTH).filter(|&i| color[i as usize] != 0).collect();
-        let (Some(&first), Some(&last)) = (covered.first(), covered.last()) else { continue };
-        // The frame's edges cut rows, whose runs would then start outside of it.
-        if first == 0 || last == WIDTH - 1 {
-            continue;
-        }
-        case.covered = first..last + 1;
-        let stride = covered.len() / 24 + 1;
-        let offset = rng.index(stride);
-        for &column in covered.iter().skip(offset).step_by(stride) {
-            let i = column as usize;
-            let u = f64::from(seen.at(color[i])) / f64::from(factor);
-            check(&case, column, u, f64::from(depth[i]));
-            count += 1;
-        }
+        count += of_any_case(interpolation, &mut rng, factor, &mut check);
     }
+}
+
+/// Some samples of one triangle; tells how many.
+fn of_any_case(
+    interpolation: impl Interpolation,
+    rng: &mut Rng,
+    factor: f32,
+    check: &mut impl FnMut(&Case, i32, f64, f64),
+) -> u64 {
+    let mut case = any_case(rng);
+    let (mut color, mut depth) = ([0; WIDTH as usize], [-1.0; WIDTH as usize]);
+    let size = [WIDTH as u32, LARGEST as u32];
+    let mut band = Target::band(Rgba8888, Recorded, size, ROW as u32, &mut color, &mut depth).expect("a row");
+    let seen = Seen::default();
+    let [a, b, c] = [0, 1, 2].map(|i| vertex(case.tri[i], case.zs[i], case.q[i], case.u[i] * factor));
+    let keep = |u: f32| seen.keep(u);
+    let paint = Paint { stage: keep, interpolation, subpixel: Sub8, cull: Cull::None };
+    paint.triangle(One, &mut band, [&a, &b, &c], &mut ());
+    let covered: Vec<i32> = (0..WIDTH).filter(|&i| color[i as usize] != 0).collect();
+    let (Some(&first), Some(&last)) = (covered.first(), covered.last()) else { return 0 };
+    // The frame's edges cut rows, whose runs would then start outside of it.
+    if first == 0 || last == WIDTH - 1 {
+        return 0;
+    }
+    case.covered = first..last + 1;
+    let stride = covered.len() / 24 + 1;
+    let offset = rng.index(stride);
+    let looked_at = covered.iter().skip(offset).step_by(stride);
+    for &column in looked_at.clone() {
+        let i = column as usize;
+        let u = f64::from(seen.at(color[i])) / f64::from(factor);
+        check(&case, column, u, f64::from(depth[i]));
+    }
+    looked_at.count() as u64
+}
+
+/// Climbs to the worst triangles for a policy. `share` is that of the bound at a sample, which must not exceed 1.
+fn climbs(policy: impl Interpolation, stream: u64, share: impl Fn(&Case, i32, f64) -> f64) {
+    let (samples, steps) =
+        if std::env::var_os("ALBERTI_SWEEP").is_some() { (100_000, 100_000) } else { (4000, 1500) };
+    let found = climb(run_seed() ^ stream, samples, steps, |rng| {
+        let mut worst = 0.0;
+        of_any_case(policy, rng, 1.0, &mut |case, column, u, _| {
+            worst = f64::max(worst, share(case, column, u))
+        });
+        worst
+    });
+    println!("{policy:?}: climbed to {:.3} of the bound, from {:.3}", found.most, found.random);
+    assert!(found.most <= 1.0, "{policy:?}: {found:?}");
 }
 
 /// The documented shares of rounding in the bounds, in ε: of what is linear on the screen and depth, of lines between
@@ -190,15 +219,21 @@ fn depth_error(case: &Case, column: i32, zs: f64) -> f64 {
 fn planes() {
     planes_of(1, 1_000_000, 1.0);
     planes_of(11, 100_000, LARGE);
+    climbs(Planes, 1, |case, column, u| (u - case.hyperbolic(column)).abs() / planes_bound(case, column).0);
+}
+
+/// The bound of `Planes`, and its r.
+fn planes_bound(case: &Case, column: i32) -> (f64, f64) {
+    let first = case.run(column, 64)[0];
+    let last = (column | 63).min(case.covered.end - 1);
+    let r = f64::midpoint(case.q_at(first), case.q_at(last)) / case.q_at(column);
+    ((15.0 * r + 5.0) * EPS * case.largest(), r)
 }
 
 fn planes_of(stream: u64, samples: u64, factor: f32) {
     let (mut worst, mut worst_depth, mut steep) = (0.0, 0.0, 0);
     each_scaled(Planes, stream, samples, factor, |case, column, u, zs| {
-        let first = case.run(column, 64)[0];
-        let last = (column | 63).min(case.covered.end - 1);
-        let r = f64::midpoint(case.q_at(first), case.q_at(last)) / case.q_at(column);
-        let bound = (15.0 * r + 5.0) * EPS * case.largest();
+        let (bound, r) = planes_bound(case, column);
         worst = f64::max(worst, (u - case.hyperbolic(column)).abs() / bound);
         worst_depth = f64::max(worst_depth, depth_error(case, column, zs));
         steep += u64::from(r > 2.0);
@@ -235,6 +270,10 @@ fn spans(length: i32, stream: u64, samples: u64, factor: f32) {
     );
     assert!(worst <= 1.0 && worst_depth <= 1.0);
     assert!(reached > 1000, "the bound is not tested");
+    climbs(lines(length), stream, |case, column, u| {
+        let bound = case.missed(case.run(column, length)) + DIVIDED * EPS * case.largest();
+        (u - case.hyperbolic(column)).abs() / bound
+    });
 }
 
 #[test]
@@ -253,6 +292,10 @@ fn affine() {
     });
     println!("Affine: {worst:.3} of the bound, depth {worst_depth:.3}; {lines} samples far from perspective");
     assert!(worst <= 1.0 && worst_depth <= 1.0 && worst > 0.1 && lines > 1000);
+    climbs(Lines::affine(), 4, |case, column, u| {
+        let straight = dd::linear(case.tri, Case::sample(column), case.u).to_f64();
+        (u - straight).abs() / (LINEAR * EPS * case.largest())
+    });
 }
 
 #[test]
@@ -271,6 +314,9 @@ fn never_over_the_budget() {
         );
         assert!(worst <= 1.0 && worst_depth <= 1.0);
         assert!(reached > 1000, "the budget is not used");
+        climbs(Lines::bounded(budget), stream, |case, column, u| {
+            (u - case.hyperbolic(column)).abs() / (f64::from(budget) + BOUNDED * EPS * case.largest())
+        });
     }
 }
 
@@ -305,6 +351,10 @@ fn fixed_point(
     println!("{policy:?}: {worst:.3} of the bound, depth {worst_depth:.3}; {near} samples near it");
     assert!(worst <= 1.0 && worst_depth <= 1.0);
     assert!(near > 100, "the bound is not tested");
+    climbs(policy, stream, |case, column, u| {
+        let [exact, missed] = policy_bound(case, column);
+        (u - exact).abs() / (missed + case.fixed_point(steps))
+    });
 }
 
 #[test]
@@ -322,4 +372,7 @@ fn lines_in_fixed_point() {
     let within = |case: &Case, column: i32| [case.hyperbolic(column), f64::from(budget)];
     // Rounding is part of the budget.
     fixed_point(FixedPoint(Lines::bounded(budget)), 10, 0, within);
+    // One that is smaller than that cannot be kept: runs are of one column then.
+    let step = 1.0 / 65536.0;
+    fixed_point(FixedPoint(Lines::bounded(step)), 13, 1 + 3, |case, column| [case.hyperbolic(column), 0.0]);
 }

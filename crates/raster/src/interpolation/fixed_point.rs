@@ -23,9 +23,11 @@ use core::fmt;
 /// The error is at most the bound of `R` plus (N + 3)·2^-16 + |Δu|·(2^-17 + r·(C + 4)·2^-28). N are the columns of a
 /// run, C those of the row, Δu is the greatest difference between two vertices, and r the greatest ratio of q in the
 /// triangle. The bound holds for components in ±4096 and r up to 2^20. For [`Lines::bounded`], whose budget includes
-/// the first term, only the second is added. Where the budget is below four steps, all runs are of one column.
+/// the first term, only the second is added. A budget below four steps is not kept: all runs are of one column then,
+/// and the first term is 4·2^-16.
 ///
-/// Varyings are rounded to 2^-16, and beyond ±4096 they count as that. Depth has 31 bits, of which 8 units and one for
+/// Varyings are rounded to 2^-16, and beyond ±4096 they count as that. A closure gets them as `f32`, which rounds by
+/// up to ε·max|ui| beyond 256, ε = 2^-24. Depth has 31 bits, of which 8 units and one for
 /// each column of the row may be wrong, and is rounded to the buffer's format.
 ///
 /// Triangles whose corners are less than 16 pixels apart on both axes, or 32 on the grid of `Sub4`, are drawn as one
