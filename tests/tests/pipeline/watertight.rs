@@ -265,7 +265,7 @@ fn shells(subpixel: Subpixel, sides: Sides, stream: u64, draw: Draw) {
 fn any_view(rng: &mut Rng, roam: f64) -> View {
     let mut any = |size: f64| Vec3::from_array([(); 3].map(|()| rng.uniform(-size, size) as f32));
     let (eye, toward, up) = (any(roam), any(1.0), any(1.0));
-    let near = rng.log_uniform(1e-5, 0.01);
+    let near = rng.log_uniform(1e-6, 0.01);
     let angle = rng.uniform(PI / 6.0, PI / 1.8) as f32;
     let camera = Camera::look_at(eye, eye + toward, up).expect("a direction");
     camera.perspective(angle, near..10.0).expect("a pyramid")

@@ -12,7 +12,7 @@ pub enum Content {
     ///
     /// # Precision
     /// A channel of 8 bits is within 0.55 of the mean in real numbers: 0.5 of the last rounding, and 0.05 of light in
-    /// 16 bits. The mean of the bytes themselves would be off by up to 70.
+    /// 16 bits. The mean of the bytes themselves would be off by up to 73.3.
     #[default]
     Srgb,
     /// Numbers, heights or masks for example, whose mean is that of their values.

@@ -51,7 +51,8 @@ impl Light for Directional {
 /// A light that shines from a point in all directions, such as a bulb. In its own place it shines from (0, 0, 1).
 ///
 /// # Precision
-/// The light that arrives is within 10ε of itself (ε = 2^-24).
+/// The light that arrives is within 10ε of itself (ε = 2^-24), for distances up to 10^19. Farther away, and where a
+/// number of the light is not finite, nothing is promised but that colours are.
 ///
 /// # Cost
 /// Two square roots and four divisions a fragment.
