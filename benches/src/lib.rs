@@ -1,7 +1,7 @@
 //! The same scenes drawn by alberti and by its peers, for `benches/frames.rs` to check and to time.
 //!
 //! A [`Renderer`] is prepared for one scene and one size; what it does in [`Renderer::render`] is what is timed:
-//! clear colour and depth, transform all vertices, draw all triangles. One thread each.
+//! clear colour and depth, transform all vertices, draw all triangles. One thread each, but for `two threads`.
 #![allow(
     clippy::cast_possible_truncation,
     clippy::cast_possible_wrap,

@@ -10,6 +10,7 @@
 //! ```
 
 use crate::{DepthMap, ViewError};
+use alberti_math::Subpixel;
 use alberti_math::lanes::{Lanes, One};
 
 /// The values that a depth buffer can hold, under the names of the rasterizer's formats.
@@ -74,9 +75,52 @@ impl DepthMap {
         narrow(f64::from(z) * step / (f64::from(quotient.abs()) + step))
     }
 
+    /// The distance that two surfaces need so that the nearer one is seen where they are drawn, the farther of them at
+    /// depth `z`. Each may be made of triangles of its own, whose depths are off by something else at each pixel.
+    ///
+    /// `slope` is the sum of |∂z/∂x| and |∂z/∂y|, from pixel to pixel, over z: 0 for what faces the eye. Of a plane it
+    /// is the same everywhere, and about an angle: the tangent of its inclination times that of a pixel.
+    ///
+    /// ```text
+    /// dz = z·δ/(|β|/z + δ),   δ = 2 steps + 2e,   e = ε(7|zs| + 2|β|/z) + slope·snap·|β|/z
+    /// ```
+    ///
+    /// e is what one surface's zs may be off: its vertices' z and zs are rounded, `Exact` interpolates within 6ε, and a
+    /// vertex moves by up to half a subpixel on each axis, `snap`.
+    ///
+    /// ```
+    /// use alberti_math::Sub8;
+    /// use alberti_projection::{DepthMap, DepthSteps};
+    ///
+    /// // A reversed map tells a millimetre apart at two kilometres; but not of floors seen under a flat angle.
+    /// let map = DepthMap::reversed(0.1, 2000.0)?;
+    /// assert!(map.resolution(DepthSteps::F32, 2000.0) < 0.001);
+    /// assert!(map.drawn_resolution(DepthSteps::F32, 2000.0, 0.0, Sub8) < 0.005);
+    /// assert!(map.drawn_resolution(DepthSteps::F32, 2000.0, 0.02, Sub8) > 0.1);
+    /// # Ok::<(), alberti_projection::ViewError>(())
+    /// ```
+    ///
+    /// # Precision
+    /// It is a bound for planes between the near and the far one that [`Exact`] draws; others interpolate depth within
+    /// 12ε of its greatest value. Surfaces that are stored like one of the ends are the exception.
+    ///
+    /// [`Exact`]: https://docs.rs/alberti-raster
+    #[must_use]
+    pub fn drawn_resolution(&self, steps: DepthSteps, z: f32, slope: f32, subpixel: Subpixel) -> f32 {
+        const EPSILON: f64 = 1.0 / 16_777_216.0;
+        let (zs, quotient) = (f64::from(self.zs(z)), f64::from((self.beta() / z).abs()));
+        let snap = 0.5 / f64::from(1_u32 << subpixel.bits());
+        let error = EPSILON * (7.0 * zs.abs() + 2.0 * quotient) + f64::from(slope) * snap * quotient;
+        let step = 2.0 * self.step(steps).max(spacing(self.zs(z))) + 2.0 * error;
+        narrow(f64::from(z) * step / (quotient + step))
+    }
+
     /// The depth, of the farther of two surfaces `gap` apart, where [`resolution`](Self::resolution) reaches `gap`. Up
-    /// to a quarter of it they are told apart for certain, but for depths stored like one of the planes; farther
+    /// to a quarter of it their zs are told apart for certain, but for depths stored like one of the planes; farther
     /// away they may fight for the pixel. It may be nearer than the near plane or farther than the far one.
+    ///
+    /// That is of zs of the two depths, as surfaces have that face the eye, or that are made of the same triangles. Of
+    /// others [`drawn_resolution`](Self::drawn_resolution) tells.
     ///
     /// z(z − gap) = gap·|β|/δ, thus z = gap/2 + √(gap·(gap/4 + |β|/δ)), and not beyond 2^23·gap, where the spacing of
     /// `f32` is all there is.
@@ -99,7 +143,8 @@ impl DepthMap {
     /// The cheapest of [`DepthSteps::FORMATS`] that tells surfaces `gap` apart at the far plane for certain, and the
     /// map to go with it: [`reversed`](Self::reversed) or [`forward`](Self::forward). None where no format does.
     ///
-    /// That takes a [`resolution`](Self::resolution) of at most half the gap with `D16`, and of a quarter with the
+    /// Of surfaces that face the eye, or are made of the same triangles; of others
+    /// [`cheapest_drawn`](Self::cheapest_drawn). That takes a [`resolution`](Self::resolution) of at most half the gap with `D16`, and of a quarter with the
     /// finer formats, where the roundings of `f32` count. Then zs of the far plane and of all that is `gap` or more
     /// before it are stored differently.
     ///
@@ -117,11 +162,34 @@ impl DepthMap {
     /// # Errors
     /// As [`forward`](Self::forward); of an infinite far plane, whose resolution is infinite, there is none to choose.
     pub fn cheapest(near: f32, far: f32, gap: f32) -> Result<Option<(DepthSteps, Self)>, ViewError> {
+        Self::first_format(near, far, |steps, map| map.apart(steps, far) <= gap)
+    }
+
+    /// The same for surfaces as they are drawn, with this greatest `slope`: the cheapest format whose
+    /// [`drawn_resolution`](Self::drawn_resolution) at the far plane is at most the gap.
+    ///
+    /// # Errors
+    /// As [`cheapest`](Self::cheapest).
+    pub fn cheapest_drawn(
+        [near, far]: [f32; 2],
+        gap: f32,
+        slope: f32,
+        subpixel: Subpixel,
+    ) -> Result<Option<(DepthSteps, Self)>, ViewError> {
+        Self::first_format(near, far, |steps, map| map.drawn_resolution(steps, far, slope, subpixel) <= gap)
+    }
+
+    /// The cheapest format that will do, and its map.
+    fn first_format(
+        near: f32,
+        far: f32,
+        will_do: impl Fn(DepthSteps, &Self) -> bool,
+    ) -> Result<Option<(DepthSteps, Self)>, ViewError> {
         let (forward, falling) = (Self::forward(near, far)?, Self::reversed(near, far)?);
         Ok(DepthSteps::FORMATS
             .map(|(steps, reversed)| (steps, if reversed { falling } else { forward }))
             .into_iter()
-            .find(|(steps, map)| map.apart(*steps, far) <= gap))
+            .find(|(steps, map)| will_do(*steps, map)))
     }
 
     /// The distance of surfaces that are stored apart for certain, the farther of them at depth `z`, be it the far

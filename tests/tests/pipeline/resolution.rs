@@ -1,9 +1,11 @@
 //! What the depth formats really tell apart, against what `resolution` and its relatives promise.
 #![allow(clippy::cast_possible_truncation, reason = "random f64 become the f32 that are tested")]
 
+use alberti_math::Subpixel;
 use alberti_oracle::rng::{Rng, run_seed};
 use alberti_projection::{DepthMap, DepthSteps};
-use alberti_raster::{D16, D24, D32, DepthFormat, F32, F32Reversed};
+use alberti_raster::{D16, D24, D32, DepthFormat, F32, F32Reversed, Vertex};
+use alberti_tests::probe::{Probe, Recorded, vertex};
 
 /// A format of the rasterizer, under the name that `resolution` knows it by.
 #[derive(Clone, Copy, Debug)]
@@ -166,6 +168,106 @@ fn the_cheapest_format_stores_the_gap_before_the_far_plane() {
     }
     println!("stored apart: {checked:?}");
     assert!([checked[0], checked[1], checked[4]].iter().all(|&n| n > 2_000), "{checked:?}");
+}
+
+/// A plane whose 1/z is linear on the screen, drawn as a triangle around a pixel: the zs of that pixel.
+fn drawn(probe: &mut Probe<Recorded>, rng: &mut Rng, map: &DepthMap, plane: &Plane) -> Option<f32> {
+    let reach = f64::from(rng.log_uniform(2.0, 300.0));
+    let vertices = [(); 3].map(|()| {
+        let p = plane.pixel.map(|c| f64::from(c) + 0.5 + rng.uniform(-reach, reach));
+        let z = (1.0 / plane.q(p)) as f32;
+        let place = p.map(|c| (c * 256.0 + 0.5).floor() as i64);
+        vertex(place, map.zs(z), 1.0 / z, ())
+    });
+    let within = |v: &Vertex<()>| (plane.planes[0]..plane.planes[1]).contains(&(1.0 / v.q));
+    if !vertices.iter().all(within) {
+        return None;
+    }
+    probe.interpolated(&vertices, plane.pixel).map(|((), zs)| zs)
+}
+
+struct Plane {
+    pixel: [i32; 2],
+    q: f64,
+    gradient: [f64; 2],
+    planes: [f32; 2],
+}
+
+impl Plane {
+    fn q(&self, p: [f64; 2]) -> f64 {
+        let [x, y] = [0, 1].map(|k| p[k] - f64::from(self.pixel[k]) - 0.5);
+        self.q + self.gradient[0] * x + self.gradient[1] * y
+    }
+}
+
+/// Slanted planes of other triangles each: as far apart as `drawn_resolution` says, the nearer one is stored nearer.
+/// At the resolution of zs alone it often is not.
+#[test]
+fn slanted_surfaces_are_told_apart_as_they_are_drawn() {
+    let mut rng = Rng::stream(run_seed(), 6);
+    let mut probe = Probe::new(Recorded, Subpixel::Sub8);
+    let (mut checked, mut closer, mut wrong) = ([0; 5], 0, 0);
+    for i in 0..400_000 {
+        let format = FORMATS[i % 5];
+        let near = rng.log_uniform(1e-2, 10.0);
+        let planes = [near, near * rng.log_uniform(10.0, 1e6)];
+        let map = format.map(planes[0], planes[1]);
+        let z = rng.log_uniform(planes[0], planes[1]);
+        let slope = rng.log_uniform(1e-6, 3e-2);
+        let resolution = map.drawn_resolution(format.steps, z, slope, Subpixel::Sub8);
+        // What is needed, or what zs alone would take.
+        let enough = rng.one_in(2);
+        let gap = if enough { resolution } else { 4.0 * map.resolution(format.steps, z) };
+        let pixel = [(); 2].map(|()| rng.range(1000, 2000) as i32);
+        let share = rng.uniform(-1.0, 1.0);
+        let at = |z: f64| {
+            let both = [share, (1.0 - share.abs()).copysign(share)];
+            Plane { pixel, q: 1.0 / z, gradient: both.map(|part| part * f64::from(slope) / z), planes }
+        };
+        let [farther, nearer] = [f64::from(z), f64::from(z) - f64::from(gap)].map(at);
+        let zs = [drawn(&mut probe, &mut rng, &map, &farther), drawn(&mut probe, &mut rng, &map, &nearer)];
+        let [Some(a), Some(b)] = zs else { continue };
+        let ends = planes.map(|z| format.stored(&map, z));
+        let [a, b] = [a, b].map(format.encode);
+        if ends.contains(&a) || ends.contains(&b) {
+            continue;
+        }
+        let right = if format.reversed { b > a } else { b < a };
+        if enough {
+            assert!(right, "{format:?}: {gap} at {z}, slope {slope}, {planes:?}");
+            checked[i % 5] += 1;
+        } else if gap < resolution {
+            closer += 1;
+            wrong += u32::from(!right);
+        }
+    }
+    println!("told apart {checked:?}; of {closer} that are closer {wrong} wrong");
+    assert!(checked.iter().all(|&n| n > 500) && wrong * 20 > closer, "{checked:?}, {wrong} of {closer}");
+}
+
+/// The cheapest format of surfaces as they are drawn keeps the gap at the far plane, and none before it does.
+#[test]
+fn the_cheapest_format_of_drawn_surfaces_is_the_first_that_does() {
+    let mut rng = Rng::stream(run_seed(), 7);
+    let mut found = [0; 6];
+    for _ in 0..20_000 {
+        let near = rng.log_uniform(1e-3, 1e3);
+        let far = near * rng.log_uniform(2.0, 1e7);
+        let (gap, slope) = (far * rng.log_uniform(1e-7, 1.0), rng.log_uniform(1e-7, 1e-1));
+        let does = |format: &Format| {
+            let map = format.map(near, far);
+            map.drawn_resolution(format.steps, far, slope, Subpixel::Sub4) <= gap
+        };
+        let expected = FORMATS.iter().position(does);
+        let got = DepthMap::cheapest_drawn([near, far], gap, slope, Subpixel::Sub4).expect("0 < near < far");
+        let same = |(steps, map): (DepthSteps, DepthMap)| {
+            FORMATS.iter().position(|f| f.steps == steps && f.reversed == (map.beta() > 0.0))
+        };
+        assert_eq!(got.and_then(same), expected);
+        found[expected.unwrap_or(5)] += 1;
+    }
+    println!("{found:?}");
+    assert!([found[0], found[1], found[5]].iter().all(|&n| n > 500), "{found:?}");
 }
 
 /// Against z - z' in f64, z' being one step nearer, where the answer is beyond doubt.

@@ -227,6 +227,41 @@ fn of_planes_within_the_bound() {
     assert!((0.5..=1.0).contains(&worst));
 }
 
+/// The differences between neighbours on a plane in perspective, by the quotients themselves: off from the derivatives
+/// by half of the greatest second derivative on the way, and by as much where perspective is slight.
+#[test]
+fn neighbours_are_off_by_half_of_the_second_derivative() {
+    let mut random = Random(74);
+    let (mut worst, mut apart) = (0.0f64, 0.0f64);
+    for _ in 0..100_000 {
+        let mut number = || f64::from(random.bits()) / 2f64.powi(31) - 1.0;
+        let [u, v, q] = [number(), number(), number().abs() + 0.1].map(|at| [at, number(), number()]);
+        // 1/z stays positive: it falls to a tenth at most.
+        let q = [q[0], q[1] * 0.9 * q[0], q[2] * 0.9 * q[0]];
+        let at = |step: [f64; 2]| {
+            let [u, v, q] = [u, v, q].map(|plane| plane[0] + plane[1] * step[0] + plane[2] * step[1]);
+            [u / q, v / q]
+        };
+        let found = Gradient::between(at([0.0; 2]), at([1.0, 0.0]), at([0.0, 1.0]));
+        for (axis, found) in [(1, found.dx), (2, found.dy)] {
+            for (plane, found) in [u, v].into_iter().zip(found) {
+                // (U/Q)' = D/Q², (U/Q)'' = −2 D Q'/Q³
+                let d = plane[axis] * q[0] - plane[0] * q[axis];
+                let derivative = d / (q[0] * q[0]);
+                let second = 2.0 * (d * q[axis]).abs() / q[0].min(q[0] + q[axis]).powi(3);
+                let error = (found - derivative).abs();
+                assert!(error <= second / 2.0 + 1e-12 * (1.0 + found.abs()) / q[0], "{error} of {second}");
+                if second > 1e-6 {
+                    worst = worst.max(error / second);
+                }
+                apart = apart.max(error / derivative.abs());
+            }
+        }
+    }
+    println!("differences of neighbours: off by up to {worst:.4} of the second derivative");
+    assert!((0.49..0.51).contains(&worst) && apart > 5.0, "{worst}, {apart}");
+}
+
 #[test]
 fn of_triangles() {
     let mut random = Random(73);

@@ -5,7 +5,7 @@ use alberti_math::Point3;
 use alberti_oracle::rational::{Rational, from_f32, from_int, to_f64};
 use alberti_oracle::rng::{Rng, run_seed};
 use alberti_texture::surface::{triangle_directions, triangle_frame};
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 
 /// ∂p/∂u and ∂p/∂v from [p1 − p0, p2 − p0] = [∂p/∂u, ∂p/∂v] [t1 − t0, t2 − t0], in rationals, and the normal; `None`
 /// where the texture has no area.
@@ -92,6 +92,46 @@ fn directions_are_the_derivatives() {
         );
         assert!(directions <= 1.1 && frames <= 2.1 && lengths <= 1.1 && cosines <= 2.2);
     }
+}
+
+/// On a flat triangle, whose points are their own (u, v), ∂p/∂u is x and ∂p/∂v is y, whatever its corners. With −t10.u
+/// in the place of −t10.v, as is often printed, ∂p/∂u is any other direction, up to the opposite one, or none. And n × x
+/// is y only where the texture is not mirrored.
+#[test]
+fn a_coefficient_that_is_often_misprinted() {
+    let printed = |t10: Vec2, t20: Vec2| {
+        let [t10, t20] = [t10, t20].map(|t| t.as_dvec2());
+        (t10 * t20.y - t20 * t10.x) / t10.perp_dot(t20)
+    };
+    // The usual corners of a square, half of a turn off, and nothing at all.
+    let (minus_x, diagonal) = (Vec2::NEG_X, Vec2::new(-1.0, 1.0));
+    assert_eq!(printed(Vec2::X, Vec2::Y), DVec2::new(1.0, -1.0));
+    assert_eq!(printed(diagonal, Vec2::X), minus_x.as_dvec2());
+    assert_eq!(printed(Vec2::Y, Vec2::X), DVec2::ZERO);
+
+    let mut rng = Rng::new(run_seed());
+    let (mut worst, mut far, mut mirrored, mut count) = (0.0f64, 0, 0, 0);
+    for _ in 0..20_000 {
+        let uv = [(); 3].map(|()| Vec2::new(rng.range(-8, 8) as f32, rng.range(-8, 8) as f32));
+        let [t10, t20] = [uv[1] - uv[0], uv[2] - uv[0]];
+        let corners = uv.map(|t| Point3::new(t.extend(0.0)));
+        let Some([du, dv]) = triangle_directions(corners, uv) else {
+            assert_eq!(t10.perp_dot(t20), 0.0);
+            continue;
+        };
+        assert_eq!([du.coords, dv.coords], [Vec3::X, Vec3::Y], "{uv:?}");
+        let [x, y, n] = axes(triangle_frame(corners, uv).expect("it has an area"));
+        assert_eq!([x, y], [Vec3::X, Vec3::Y], "{uv:?}");
+        let clockwise = t10.perp_dot(t20) < 0.0;
+        assert_eq!(n.cross(x), if clockwise { Vec3::NEG_Y } else { Vec3::Y });
+        let off = printed(t10, t20).angle_to(DVec2::X).abs();
+        worst = if off.is_finite() { worst.max(off) } else { worst };
+        far += u32::from(off > 0.5);
+        mirrored += u32::from(clockwise);
+        count += 1;
+    }
+    println!("{far} of {count} are more than half a radian off, up to {worst:.4}; {mirrored} mirrored");
+    assert!(worst > 3.14 && far > count / 2 && mirrored > count / 3);
 }
 
 /// Coordinates on a line of small integers, moved, so that only exact arithmetic sees it; and a step beside it.
