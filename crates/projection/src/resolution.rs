@@ -85,8 +85,8 @@ impl DepthMap {
     /// dz = z·δ/(|β|/z + δ),   δ = 2 steps + 2e,   e = ε(7|zs| + 2|β|/z) + slope·snap·|β|/z
     /// ```
     ///
-    /// e is what one surface's zs may be off: its vertices' z and zs are rounded, `Exact` interpolates within 6ε, and a
-    /// vertex moves by up to half a subpixel on each axis, `snap`.
+    /// The zs of one surface may be off by e: its vertices' z and zs are rounded, and `Exact` interpolates within 6ε.
+    /// And a vertex moves by up to half a subpixel on each axis, `snap`.
     ///
     /// ```
     /// use alberti_math::Sub8;
@@ -144,9 +144,9 @@ impl DepthMap {
     /// map to go with it: [`reversed`](Self::reversed) or [`forward`](Self::forward). None where no format does.
     ///
     /// Of surfaces that face the eye, or are made of the same triangles; of others
-    /// [`cheapest_drawn`](Self::cheapest_drawn). That takes a [`resolution`](Self::resolution) of at most half the gap with `D16`, and of a quarter with the
-    /// finer formats, where the roundings of `f32` count. Then zs of the far plane and of all that is `gap` or more
-    /// before it are stored differently.
+    /// [`cheapest_drawn`](Self::cheapest_drawn). That takes a [`resolution`](Self::resolution) of at most half the gap
+    /// with `D16`, and of a quarter with the finer formats, where the roundings of `f32` count. Then zs of the far
+    /// plane and of all that is `gap` or more before it are stored differently.
     ///
     /// ```
     /// use alberti_projection::{DepthMap, DepthSteps};
