@@ -174,8 +174,8 @@ mod tests {
         Projector::new(place, fov_y, aspect).expect("a pyramid")
     }
 
-    /// The lecture's example has A = (1, 1, 1), B = (2, 2, 10) before a projector that looks along -z, whose q is -z.
-    /// Here forward is +z and q = z, and x runs to the left. Magnitudes are the same.
+    /// The lecture's example has A = (1, 1, 1) and B = (2, 2, 10), which are behind its projector, as that looks along
+    /// -z. Here forward is +z, q = z, and x runs to the left. Magnitudes are the same.
     #[test]
     fn dividing_comes_after_interpolating() {
         let projector = along_z(0.6, 1.0);

@@ -95,8 +95,8 @@ fn directions_are_the_derivatives() {
 }
 
 /// On a flat triangle, whose points are their own (u, v), ∂p/∂u is x and ∂p/∂v is y, whatever its corners. With −t10.u
-/// in the place of −t10.v, as is often printed, ∂p/∂u is any other direction, up to the opposite one, or none. And n × x
-/// is y only where the texture is not mirrored.
+/// in the place of −t10.v, as is often printed, ∂p/∂u is any other direction, up to the opposite one, or none. And
+/// n × x is y only where the texture is not mirrored.
 #[test]
 fn a_coefficient_that_is_often_misprinted() {
     let printed = |t10: Vec2, t20: Vec2| {
@@ -131,7 +131,7 @@ fn a_coefficient_that_is_often_misprinted() {
         count += 1;
     }
     println!("{far} of {count} are more than half a radian off, up to {worst:.4}; {mirrored} mirrored");
-    assert!(worst > 3.14 && far > count / 2 && mirrored > count / 3);
+    assert!(worst > 3.1 && far > count / 2 && mirrored > count / 3);
 }
 
 /// Coordinates on a line of small integers, moved, so that only exact arithmetic sees it; and a step beside it.
