@@ -13,10 +13,11 @@ pub mod torus;
 pub use draws::{
     affine_fixed, affine_integers, affine_mesh, affine_mesh_sub8, affine_meshlets, bounded_bands, flat,
     flat_fixed, flat_integers, flat_mesh, flat_meshlets, flat_without_depth, gouraud, gouraud_fixed,
-    gouraud_mesh, gouraud_meshlets, integers_bands, material, material_absent, material_emission, mesh_base_nearest,
-    mesh_mip_nearest, meshlets_bands, meshlets_cache, mip_bilinear, mip_bilinear_fixed, mip_nearest,
-    mip_nearest_fixed, textured, textured_affine, textured_bands, textured_bounded, textured_fixed, textured_meshlets,
-    textured_planes, textured_spans, trilinear, trilinear_fixed, trilinear_spans, trilinear_spans_fixed,
+    gouraud_mesh, gouraud_meshlets, integers_bands, material, material_absent, material_emission,
+    mesh_base_nearest, mesh_mip_nearest, meshlets_bands, meshlets_cache, mip_bilinear, mip_bilinear_fixed,
+    mip_nearest, mip_nearest_fixed, textured, textured_affine, textured_bands, textured_bounded,
+    textured_fixed, textured_meshlets, textured_planes, textured_spans, trilinear, trilinear_fixed,
+    trilinear_spans, trilinear_spans_fixed,
 };
 pub use shapes::PROBE;
 
