@@ -44,7 +44,7 @@ impl<F, P: Interpolation> Paint<F, P> {
     ///
     /// # Precision
     /// Coverage is exact. Depth and varyings are those of the interpolation. For [`Exact`](crate::Exact), depth is
-    /// within 6ε of the plane through the three zs (ε = 2^-24), relatively and barring underflow. For all policies it
+    /// within 6ε of the plane through the three zs (ε = 2^-24), relatively, from 2^-77 on. For all policies it
     /// is within the range of the three zs.
     ///
     /// # Cost

@@ -120,7 +120,7 @@ fn any_zs(rng: &mut Rng) -> [f32; 3] {
     [(); 3].map(|()| match kind {
         0 => (base + rng.uniform(-1e-4, 1e-4) as f32).clamp(0.0, 1.0),
         1 => 1.0 - rng.log_uniform(1e-7, 1.0),
-        _ => rng.log_uniform(1e-12, 1.0),
+        _ => rng.log_uniform(2f32.powi(-77), 1.0),
     })
 }
 

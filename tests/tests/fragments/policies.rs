@@ -191,7 +191,7 @@ fn climbs(policy: impl Interpolation, stream: u64, share: impl Fn(&Case, i32, f6
     let found = climb(run_seed() ^ stream, samples, steps, |rng| {
         let mut worst = 0.0;
         of_any_case(policy, rng, 1.0, &mut |case, column, u, _| {
-            worst = f64::max(worst, share(case, column, u))
+            worst = f64::max(worst, share(case, column, u));
         });
         worst
     });

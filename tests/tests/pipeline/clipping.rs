@@ -358,7 +358,7 @@ fn clipped_triangles_are_not_turned_over() {
         Vec3::new(-4.216201, 0.8391289, 6.342579),
         Vec3::new(-2.263942, -0.51022154, -9.959759),
     ];
-    let mut any = || {
+    let any = || {
         [(); 3].map(|()| {
             let [x, y, z] = [5.0, 1.0, 10.0].map(|most| rng.uniform(-most, most) as f32);
             Vec3::new(x, y, z)
@@ -368,7 +368,7 @@ fn clipped_triangles_are_not_turned_over() {
     let view = View::new(Frame::IDENTITY, perspective);
     let (mut color, mut depth) = (vec![0; 320 * 240], vec![(); 320 * 240]);
     let mut clipped = 0;
-    for triangle in iter::once(first).chain(iter::repeat_with(|| any()).take(3000)) {
+    for triangle in iter::once(first).chain(iter::repeat_with(any).take(3000)) {
         let mesh = Mesh::new(&triangle, &[[0u16, 1, 2]], |&p| (p, ()));
         for subpixel in [Subpixel::Sub4, Subpixel::Sub8] {
             let mut draw = |cull| {
