@@ -13,7 +13,16 @@ pub(crate) fn run(arguments: &[String]) -> Outcome {
     let mut command = cargo();
     command.env("ALBERTI_UPDATE_GOLDEN", "1");
     command
-        .args(["test", "--package", "alberti-tests", "--test", "all", "--no-fail-fast", "golden::", "--"])
+        .args([
+            "test",
+            "--package",
+            "alberti-tests",
+            "--test",
+            "pipeline",
+            "--no-fail-fast",
+            "golden::",
+            "--",
+        ])
         .args(arguments);
     command::run(&mut command).map_err(|message| {
         format!(

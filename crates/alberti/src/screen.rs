@@ -39,7 +39,8 @@ pub(crate) struct Screen<Pr: Projection> {
 /// Coordinates above this may overflow when they are subtracted or multiplied.
 const LARGEST: f32 = f32::MAX / 16.0;
 
-/// The places of several vertices in memory: their bits of [`outside`], x and y in subpixels; zs and q.
+/// The places of several vertices in memory: their bits of [`outside`], x and y as bits of
+/// [`Fixed`](alberti_math::Fixed); zs and q.
 type Places<L> = ([<L as Lanes>::Each<u32>; 3], [<L as Lanes>::Each<f32>; 2]);
 
 impl<Pr: Projection> Screen<Pr> {

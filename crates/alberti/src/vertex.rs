@@ -100,7 +100,7 @@ impl<V: Varying> Slot<V> {
         };
         let ([[outside], [x], [y]], [[zs], [q]]) = screen.place(One, &map3(point.coords.to_array(), |c| [c]));
         let outside = outside | if is_finite(varying) { 0 } else { outside::NOWHERE };
-        let place = map2([x, y], |subpixels| Fixed::wrapping(subpixels.cast_signed()));
+        let place = map2([x, y], Fixed::from_bits);
         let components = Corner::<V>::components(screen.numbers, varying);
         let screen = Corner::at(place, screen.numbers, [zs, q], components);
         *self = Self { tag: tag(index), outside, screen };
@@ -201,10 +201,11 @@ impl<V: Varying> Slot<V> {
         }
         let ([outside, x, y], [zs, q]) = screen.place(lanes, &points);
         let places = x.as_ref().iter().zip(y.as_ref()).zip(zs.as_ref().iter().zip(q.as_ref()));
-        for (slot, (outside, ((x, y), (zs, q)))) in slots.iter_mut().zip(outside.as_ref().iter().zip(places))
+        for (slot, (outside, ((&x, &y), (zs, q)))) in
+            slots.iter_mut().zip(outside.as_ref().iter().zip(places))
         {
             slot.outside |= outside;
-            let place = map2([x, y], |subpixels| Fixed::wrapping(subpixels.cast_signed()));
+            let place = map2([x, y], Fixed::from_bits);
             slot.screen = slot.screen.moved(place, screen.numbers, [*zs, *q]);
         }
     }

@@ -1,6 +1,6 @@
 //! Fixed-point screen coordinates, and the bound that keeps the edge functions built on them exact.
 
-use crate::round::round_half_up;
+use crate::round::{floor_i32, round_half_up};
 
 /// The number of fraction bits of snapped coordinates.
 ///
@@ -41,33 +41,50 @@ const _: () = assert!((2 * Fixed::LIMIT as i128).pow(2) <= 1 << 53);
 // A coordinate and a sample one pixel outside fit i32 with room to spare.
 const _: () = assert!((GUARD_PIXELS as i64 + 1) * (1 << GREATEST_BITS) < i32::MAX as i64 / 4);
 
-/// A screen coordinate in subpixels. How many there are to a pixel, a [`Subpixel`] says, which is not stored.
+/// A screen coordinate: the subpixel that it is snapped to, and how far from it the place lies that was snapped. How
+/// many subpixels there are to a pixel, a [`Subpixel`] says, which is not stored.
+///
+/// ```text
+///   bits = 256 subpixels + 128 + moved     -128 <= moved <= 127, in 256ths of a subpixel
+/// ```
+///
+/// So the shift of the word that gives the subpixel rounds to the nearest one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Fixed(i32);
 
-impl Fixed {
-    /// The frame's origin.
-    pub const ZERO: Self = Self(0);
+/// Half of a subpixel, in its parts.
+const HALF: i32 = 1 << (Fixed::PARTS - 1);
 
-    /// The greatest distance from the origin in subpixels: the guard band in the finest grid.
+impl Fixed {
+    /// Bits of a subpixel's parts.
+    pub const PARTS: u32 = 8;
+
+    /// The frame's origin.
+    pub const ZERO: Self = Self(HALF);
+
+    /// One more than the greatest coordinate in subpixels, and the distance of the least from the origin: the guard
+    /// band in the finest grid.
     pub const LIMIT: i32 = GUARD_PIXELS << GREATEST_BITS;
 
-    /// The coordinate of so many subpixels; `None` beyond [`LIMIT`](Self::LIMIT).
+    /// The coordinate of so many subpixels; `None` below -[`LIMIT`](Self::LIMIT) and from `LIMIT` on.
     #[must_use]
     #[inline]
     pub const fn from_subpixels(subpixels: i32) -> Option<Self> {
-        if subpixels < -Self::LIMIT || subpixels > Self::LIMIT { None } else { Some(Self(subpixels)) }
+        if subpixels < -Self::LIMIT || subpixels >= Self::LIMIT {
+            None
+        } else {
+            Some(Self::wrapping(subpixels))
+        }
     }
 
     /// The coordinate of so many subpixels, which from [`LIMIT`](Self::LIMIT) on wrap to -`LIMIT`.
     ///
     /// # Cost
-    /// One instruction, where [`from_subpixels`](Self::from_subpixels) has two comparisons.
+    /// Two instructions, where [`from_subpixels`](Self::from_subpixels) has two comparisons more.
     #[must_use]
     #[inline(always)]
     pub const fn wrapping(subpixels: i32) -> Self {
-        const UNUSED: u32 = i32::BITS - 24;
-        Self(subpixels << UNUSED >> UNUSED)
+        Self(subpixels << Self::PARTS | HALF)
     }
 
     /// `center + offset` pixels, snapped: `offset` is rounded to the nearest subpixel, halves upwards, and `center`,
@@ -76,8 +93,8 @@ impl Fixed {
     /// Rounding the offset alone makes the result independent of where a viewport lies on the target.
     ///
     /// # Precision
-    /// The scaling by 2^bits is exact and the rounding is correct: the result is within 2^-(bits+1) pixel of
-    /// `center + offset`.
+    /// The scaling by 2^bits is exact and the rounding is correct: the subpixel is within 2^-(bits+1) pixel of
+    /// `center + offset`. With [`moved`](Self::moved) added it is at most 2^-(bits+8) pixel less.
     #[must_use]
     #[inline]
     pub fn snap(subpixel: Subpixel, center_in_half_pixels: i32, offset: f32) -> Option<Self> {
@@ -90,14 +107,42 @@ impl Fixed {
         let center = center_in_half_pixels.checked_mul(1 << (bits - 1))?;
         let subpixels = round_half_up(scaled).checked_add(center)?;
         let guard = GUARD_PIXELS << bits;
-        if subpixels < -guard || subpixels > guard { None } else { Some(Self(subpixels)) }
+        if subpixels < -guard || subpixels >= guard {
+            return None;
+        }
+        // Exact: what rounding leaves is a multiple of the number's last bit.
+        #[expect(clippy::cast_precision_loss, reason = "the number itself, or its integer neighbour")]
+        let moved = floor_i32((scaled - (subpixels - center) as f32) * (1 << Self::PARTS) as f32);
+        Some(Self((subpixels << Self::PARTS | HALF) + moved))
     }
 
-    /// The number of subpixels from the origin.
+    /// The coordinate with these bits.
     #[must_use]
-    #[inline]
+    #[inline(always)]
+    pub const fn from_bits(bits: u32) -> Self {
+        Self(bits.cast_signed())
+    }
+
+    /// Its bits.
+    #[must_use]
+    #[inline(always)]
+    pub const fn to_bits(self) -> u32 {
+        self.0.cast_unsigned()
+    }
+
+    /// The nearest subpixel's number, counted from the origin.
+    #[must_use]
+    #[inline(always)]
     pub const fn subpixels(self) -> i32 {
-        self.0
+        self.0 >> Self::PARTS
+    }
+
+    /// The distance from that subpixel to the place that was snapped to it, in 256ths of a subpixel: -128 to 127. It is
+    /// rounded down.
+    #[must_use]
+    #[inline(always)]
+    pub const fn moved(self) -> i32 {
+        (self.0 & (2 * HALF - 1)) - HALF
     }
 }
 
@@ -116,14 +161,32 @@ mod tests {
     }
 
     #[test]
-    fn the_guard_band_is_closed_and_nothing_lies_beyond() {
-        assert_eq!(Fixed::snap(Sub8, 0, 32768.0).map(Fixed::subpixels), Some(1 << 23));
+    fn the_way_from_the_subpixel_is_kept() {
+        // Halves of subpixels, in 256ths and a little less, around centres between pixels and on them.
+        for (subpixel, center, half_parts) in
+            (-3000..3000).flat_map(|k| [(Sub4, 7, k), (Sub8, -12, k), (Sub8, 99_999 / 2, 3 * k + 1)])
+        {
+            let place = f64::from(half_parts) / 512.0;
+            #[expect(clippy::cast_possible_truncation, reason = "exact")]
+            let offset = (place / f64::from(1 << subpixel.bits())) as f32;
+            let found = Fixed::snap(subpixel, center, offset).expect("within the guard band");
+            let moved = f64::from(found.moved()) / 256.0;
+            let from_center = f64::from(found.subpixels() - (center << (subpixel.bits() - 1)));
+            assert_eq!(from_center, (place + 0.5).floor());
+            assert_eq!((from_center + moved) * 256.0, (place * 256.0).floor());
+        }
+        assert_eq!(Fixed::ZERO.moved() | Fixed::wrapping(-77).moved(), 0);
+    }
+
+    #[test]
+    fn the_guard_band_is_half_open_and_nothing_lies_beyond() {
+        assert_eq!(Fixed::snap(Sub8, 0, 32767.996).map(Fixed::subpixels), Some((1 << 23) - 1));
         assert_eq!(Fixed::snap(Sub8, 0, -32768.0).map(Fixed::subpixels), Some(-(1 << 23)));
-        for outside in [32768.01, -32768.01, f32::MAX, f32::INFINITY, f32::NEG_INFINITY, f32::NAN] {
+        for outside in [32768.0, -32768.01, f32::MAX, f32::INFINITY, f32::NEG_INFINITY, f32::NAN] {
             assert_eq!(Fixed::snap(Sub8, 0, outside), None, "{outside}");
         }
         assert_eq!(Fixed::snap(Sub8, i32::MAX, 0.0), None);
-        assert_eq!(Fixed::from_subpixels((1 << 23) + 1), None);
+        assert_eq!(Fixed::from_subpixels(1 << 23), None);
         for (given, wrapped) in [(5, 5), (-5, -5), (1 << 23, -1 << 23), (-1 << 23, -1 << 23), (1 << 24, 0)] {
             assert_eq!(Fixed::wrapping(given).subpixels(), wrapped);
         }

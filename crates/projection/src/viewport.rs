@@ -82,7 +82,8 @@ impl Viewport {
         Some([x, y])
     }
 
-    /// [`to_screen`](Self::to_screen) of several points, in subpixels: any numbers beyond the [`guard`](Self::guard).
+    /// [`to_screen`](Self::to_screen) of several points, as the bits of [`Fixed`]: any beyond the
+    /// [`guard`](Self::guard).
     #[must_use]
     #[inline(always)]
     pub fn to_screen_lanes<L: Lanes>(
@@ -91,10 +92,11 @@ impl Viewport {
         subpixel: Subpixel,
         [xs, ys]: [L::Number; 2],
     ) -> [L::U32; 2] {
-        let bits = subpixel.bits();
-        let [x, y] = map2(self.center(subpixel), |center| lanes.word(center.cast_unsigned()));
+        let center = map2(self.center(subpixel), |center| Fixed::wrapping(center).to_bits());
+        let [x, y] = map2(center, |center| lanes.word(center));
         let [half_x, half_y] = map2(self.half, |half| lanes.splat(half));
-        [lanes.round_scaled(xs * half_x, bits) + x, lanes.round_scaled(-(ys * half_y), bits) + y]
+        let parts = subpixel.bits() + Fixed::PARTS;
+        [lanes.floor_scaled(xs * half_x, parts) + x, lanes.floor_scaled(-(ys * half_y), parts) + y]
     }
 
     /// The largest |xs| and |ys| that [`to_screen`](Self::to_screen) keeps within the guard band, a pixel short of it.

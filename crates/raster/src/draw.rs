@@ -14,9 +14,9 @@ use crate::paint::{Painter, aligned};
 use crate::setup::{Setups, Waiting, Way};
 use crate::spans::RowSpans;
 use crate::target::Target;
-use crate::triangle::{Corner, Corners, Cull, Numbers, Outcome, Reach, Vertex, doubled_area};
+use crate::triangle::{Bounds, Corner, Corners, Cull, Numbers, Outcome, Reach, Vertex, doubled_area};
 use crate::weights::Weights;
-use alberti_math::lanes::{Floating, Lanes};
+use alberti_math::lanes::{Floating, Lanes, One};
 use alberti_math::{Subpixel, Varying, map3};
 use core::marker::PhantomData;
 use core::ops::Range;
@@ -45,7 +45,8 @@ impl<F, P: Interpolation> Paint<F, P> {
     /// # Precision
     /// Coverage is exact. Depth and varyings are those of the interpolation. For [`Exact`](crate::Exact), depth is
     /// within 6ε of the plane through the three zs (ε = 2^-24), relatively, from 2^-77 on. For all policies it
-    /// is within the range of the three zs.
+    /// is within the range of the three zs. [Large triangles](crate::Interpolation#large-triangles) add 4ε of the
+    /// greatest, as theirs are the planes before snapping.
     ///
     /// # Cost
     /// A triangle that covers no sample is not prepared. Many triangles are drawn faster by a
@@ -99,7 +100,7 @@ impl<F, P: Interpolation> Paint<F, P> {
         K: Counters,
     {
         if const { P::HAS_SMALL } {
-            if self.cull.drops(doubled_area(&map3(corners, |corner| corner.place))) {
+            if self.cull.drops(doubled_area(&map3(corners, |corner| corner.place(true)))) {
                 counters.rasterized(Outcome::Culled);
             } else {
                 let [a, b, c] = corners;
@@ -181,7 +182,8 @@ impl<F, P: Interpolation> Paint<F, P> {
         corners: [&Corner<V>; 3],
         limits: &[Range<i32>; 2],
     ) -> Result<Reach, Outcome> {
-        Reach::new(corners, self.subpixel.bits(), self.cull, limits)
+        let fixed = const { <P::Lanes<One> as Lanes>::FIXED };
+        Reach::new(corners, (self.subpixel.bits(), fixed), self.cull, limits)
     }
 
     /// [`triangle`](Self::triangle) for policies that work on several samples at a time: by the kernel of batches.
@@ -211,7 +213,7 @@ impl<F, P: Interpolation> Paint<F, P> {
     /// The triangle with its area, if it is not culled.
     #[inline(always)]
     pub(crate) fn facing<'c, V: Varying>(&self, corners: [&'c Corner<V>; 3]) -> Option<Waiting<'c, V>> {
-        let area = doubled_area(&map3(corners, |corner| corner.place));
+        let area = doubled_area(&map3(corners, |corner| corner.place(false)));
         (!self.cull.drops(area)).then_some((corners, area))
     }
 
@@ -256,7 +258,9 @@ impl<F, P: Interpolation> Paint<F, P> {
                         ),
                         // Integers of 64 bits, as several lanes have the functions in parts of `f32`.
                         Way::Spans => {
-                            let oriented = Oriented::new(*vertices, *area, bits, false);
+                            let mut oriented = Oriented::new(*vertices, *area, bits, false);
+                            let unsnapped = oriented.unsnapped(Bounds::of(&oriented.corners).is_large(bits));
+                            oriented.replace(&unsnapped);
                             let ranges = setups.columns_and_rows(k);
                             let samples = SampleBox::new(&oriented, ranges, limits[0].clone());
                             if const { P::WIDE && F::WIDE } {
@@ -314,7 +318,10 @@ impl<F, P: Interpolation> Paint<F, P> {
     {
         let Self { stage, interpolation, subpixel, .. } = *self;
         let [limits, _] = target.limits();
-        let oriented = Oriented::new(vertices, reach.area(), subpixel.bits(), <P::Lanes<L> as Lanes>::FIXED);
+        let fixed = const { <P::Lanes<L> as Lanes>::FIXED };
+        let mut oriented = Oriented::new(vertices, reach.area(), subpixel.bits(), fixed);
+        let unsnapped = oriented.unsnapped(!fixed && reach.is_large());
+        oriented.replace(&unsnapped);
         let setup = Setup { interpolation, lanes, oriented: &oriented, stage };
         let samples = SampleBox::new(&oriented, [reach.columns(), reach.rows()], limits);
         // Policies with a way for small triangles have 64 bits alone, for less code: docs/kernel.md.

@@ -23,7 +23,7 @@ use crate::target::Target;
 use crate::triangle::{Corner, Corners, Numbers, in_order};
 use crate::{ColorFormat, Counters, DepthFormat, Paint};
 use alberti_math::lanes::{Floating, Lanes};
-use alberti_math::{Varying, map3};
+use alberti_math::{Mode, Varying, hull3, map3};
 use core::fmt::Debug;
 
 /// A policy of interpolation, chosen once per draw. ε is 2^-24.
@@ -38,6 +38,17 @@ use core::fmt::Debug;
 /// | [`FixedPoint`] around one of the last three | theirs, and steps of 2^-16 a column | none: a table |
 ///
 /// The first two work sample by sample, the others by runs of samples.
+///
+/// # Large triangles
+/// A triangle is large if its box is at least 65 pixels wide or high. In floats, what it carries and its depth are
+/// those of its vertices' positions before snapping, which [`Fixed::moved`](alberti_math::Fixed::moved) keeps. Policies
+/// start from the values that the triangle's plane has at the snapped positions. These are within 4ε of the
+/// greatest one, and every policy's error counts from there. As positions are kept to 256ths of a subpixel, the
+/// change along 2^-8 subpixel each way comes to it. Results stay within the range of the three values.
+///
+/// Small triangles carry what the vertices have to the snapped positions, which adds the change along half a subpixel
+/// each way. So do large ones that are less than some ten subpixels wide, or where a subpixel changes q at a vertex
+/// by a sixteenth, and all triangles in fixed point.
 pub trait Interpolation: Prepare + Debug + Send + Sync + 'static {}
 
 /// The way of a policy from a triangle to one that is prepared.
@@ -94,8 +105,10 @@ pub trait Prepare: Copy {
 /// A triangle of positive area, its corners clockwise, with `q` > 0 and finite values.
 #[derive(Clone, Copy, Debug)]
 pub struct Oriented<'a, V: Varying> {
-    /// The vertices.
+    /// The vertices, with the values at their subpixels.
     pub vertices: [&'a Corner<V>; 3],
+    /// The vertices as they were given, between whose values all results lie.
+    pub given: [&'a Corner<V>; 3],
     /// Their positions in subpixels.
     pub corners: Corners,
     /// Twice the area, in subpixels squared.
@@ -113,9 +126,9 @@ impl<'a, V: Varying> Oriented<'a, V> {
     #[inline(always)]
     pub(crate) fn new(vertices: [&'a Corner<V>; 3], doubled_area: i64, bits: u32, fixed: bool) -> Self {
         let first = vertices[0].components;
-        let places = map3(vertices, |corner| corner.place);
+        let places = map3(vertices, |corner| corner.place(fixed));
         let (corners, vertices) = in_order(places, vertices, doubled_area);
-        Self { vertices, corners, doubled_area: doubled_area.abs(), first, bits, fixed }
+        Self { vertices, given: vertices, corners, doubled_area: doubled_area.abs(), first, bits, fixed }
     }
 
     /// Subpixels of a pixel.
@@ -142,10 +155,40 @@ impl<'a, V: Varying> Oriented<'a, V> {
         words::<V>([&a.components, &b.components, &c.components, &self.first])
     }
 
-    /// The same where numbers are `f32`.
+    /// The same where numbers are `f32`, with the range of those given.
     #[inline(always)]
-    pub(crate) fn values(&self) -> V::Of<[f32; 4]> {
-        V::map(&self.words(), &|[a, b, c, first]: [u32; 4]| [a, b, c, first].map(f32::from_bits))
+    pub(crate) fn values(&self) -> V::Of<Values> {
+        let [a, b, c] = self.given;
+        let given = words::<V>([&a.components, &b.components, &c.components, &self.first]);
+        V::map_by_mode(&V::zip(&self.words(), &given), &|mode, pair: ([u32; 4], [u32; 4])| {
+            let ([a, b, c, first], [x, y, z, _]) = pair;
+            match mode {
+                Mode::Hyperbolic | Mode::Linear => Values::new([a, b, c], [x, y, z]),
+                Mode::Flat => Values::new([first; 3], [first; 3]),
+            }
+        })
+    }
+
+    /// The depths where numbers are `f32`.
+    #[inline(always)]
+    pub(crate) fn depths(&self) -> Values {
+        Values::new(map3(self.vertices, |vertex| vertex.zs), map3(self.given, |vertex| vertex.zs))
+    }
+}
+
+/// One number of a triangle.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Values {
+    /// At the three corners.
+    pub(crate) corners: [f32; 3],
+    /// The least and the greatest that it may have.
+    pub(crate) range: [f32; 2],
+}
+
+impl Values {
+    #[inline(always)]
+    fn new(corners: [u32; 3], given: [u32; 3]) -> Self {
+        Self { corners: map3(corners, f32::from_bits), range: hull3(map3(given, f32::from_bits)) }
     }
 }
 

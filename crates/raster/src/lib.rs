@@ -23,6 +23,7 @@ mod small;
 mod spans;
 mod target;
 mod triangle;
+mod unsnapped;
 mod weights;
 
 pub use alberti_math::{Gradient, Rgb565Be, Rgb565Le, Rgba8888};

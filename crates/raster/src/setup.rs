@@ -3,8 +3,9 @@
 use crate::edge::{Edge, FITS_I32};
 use crate::interpolation::Oriented;
 use crate::triangle::Corner;
+use crate::unsnapped::LARGE;
 use alberti_math::lanes::Lanes;
-use alberti_math::{Varying, map3};
+use alberti_math::{Fixed, Varying, map2, map3};
 use core::ops::Range;
 
 /// A triangle that waits for others, not culled, with twice its signed area, positive if it is clockwise.
@@ -13,11 +14,12 @@ pub(crate) type Waiting<'c, V> = ([&'c Corner<V>; 3], i64);
 /// The columns of the widest box for which testing all samples is cheaper than finding where the edges cross the rows.
 pub(crate) const NARROW: u32 = 32;
 
-/// Subpixels of the tallest narrow box whose edge functions are held by `i32`, see [`FITS_I32`]: in it, in the pixel
-/// around it, and from the lanes' first column on.
-const LOW: u32 = 1 << 17;
-/// Twice as many columns as a narrow box has, 256 subpixels each, are more than all that.
-const _: () = assert!(NARROW as i64 * 3 / 2 * 256 * LOW as i64 <= FITS_I32);
+/// Edge functions of narrow boxes that are not large fit `i32`, see [`FITS_I32`]. That is so in them, in the pixel
+/// around them, and from the lanes' first column on. Twice as many columns as a narrow box has, 256 subpixels each, are
+/// more than all that.
+const _: () = assert!(NARROW as i64 * 3 / 2 * 256 * (LARGE as i64 + 1) * 256 <= FITS_I32);
+// A box that is filled by masks is not of a large triangle.
+const _: () = assert!(NARROW.cast_signed() < LARGE);
 
 /// As many triangles as there are lanes: their boxes, their corners in [order](crate::triangle::in_order), and their
 /// edges in words of 32 bits.
@@ -43,13 +45,13 @@ pub(crate) struct Setups<L: Lanes> {
 pub(crate) enum Way {
     /// None: its box has no sample within the target.
     Missed,
-    /// By testing all samples of a box that is narrow, within the target's columns, and in one run.
+    /// By testing all samples of a box that is narrow and low, within the target's columns, and in one run.
     Masks,
     /// By spans.
     Spans,
 }
 
-/// The columns and rows of three corners, and whether they are turned.
+/// The columns and rows of three corners as bits of [`Fixed`], and whether they are turned.
 type Words<L> = [<L as Lanes>::Each<u32>; 7];
 
 impl<L: Lanes> Setups<L> {
@@ -68,11 +70,12 @@ impl<L: Lanes> Setups<L> {
             #[inline(always)]
             |k| {
                 if let Some(Some(([a, b, c], area))) = triangles.as_ref().get(k) {
-                    let ([ax, ay], [bx, by], [cx, cy]) = (a.place, b.place, c.place);
-                    for (words, word) in words.iter_mut().zip([ax, ay, bx, by, cx, cy, i32::from(*area < 0)])
+                    let [[ax, ay], [bx, by], [cx, cy]] =
+                        map3([a, b, c], |corner| map2(corner.unsnapped(), Fixed::to_bits));
+                    for (words, word) in words.iter_mut().zip([ax, ay, bx, by, cx, cy, u32::from(*area < 0)])
                     {
                         if let Some(to) = words.as_mut().get_mut(k) {
-                            *to = word.cast_unsigned();
+                            *to = word;
                         }
                     }
                 }
@@ -104,7 +107,7 @@ impl<L: Lanes> Setups<L> {
         let whole = lanes.equal_words(left, visible[0]) & lanes.equal_words(right, visible[1]);
         let runs = (left ^ (right - lanes.word(1))) & lanes.word(!(run - 1).cast_unsigned());
         let narrow = lanes.less_words(right - first, lanes.word(NARROW + 1))
-            & lanes.less_words(height, lanes.word(LOW))
+            & lanes.less_words(height, lanes.word((LARGE + 1).cast_unsigned() << bits))
             & lanes.equal_words(runs, lanes.word(0));
         let [missed, masks, spans] = [Way::Missed, Way::Masks, Way::Spans].map(|way| lanes.word(way as u32));
         let way = lanes.select_words(narrow & whole, masks, spans);
@@ -165,8 +168,9 @@ impl<L: Lanes> Setups<L> {
             1 => b,
             _ => c,
         });
-        let corners = map3(vertices, |corner| corner.place);
-        Oriented { vertices, corners, doubled_area: area.abs(), first: a.components, bits, fixed: false }
+        let corners = map3(vertices, |corner| corner.place(false));
+        let (first, doubled_area) = (a.components, area.abs());
+        Oriented { vertices, given: vertices, corners, doubled_area, first, bits, fixed: false }
     }
 }
 
@@ -191,7 +195,8 @@ type Point<L> = [<L as Lanes>::U32; 3];
 
 #[inline(always)]
 fn corner<L: Lanes>(lanes: L, [x, y]: [&L::Each<u32>; 2], number: u32) -> Point<L> {
-    [lanes.load_words(x), lanes.load_words(y), lanes.word(number)]
+    let subpixels = |place| lanes.shr_signed(lanes.load_words(place), Fixed::PARTS);
+    [subpixels(x), subpixels(y), lanes.word(number)]
 }
 
 /// The middles of pixels, in subpixels.

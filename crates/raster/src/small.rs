@@ -174,7 +174,7 @@ where
 {
     // Places on the finer grid.
     let finer = if FINE { bits(true) - subpixel.bits() } else { 0 };
-    let place = |corner: &Corner<V>| map2(corner.place, |c| c << finer);
+    let place = |corner: &Corner<V>| map2(corner.place(true), |c| c << finer);
     let [u, v] = map2([place(second), place(third)], |[x, y]| {
         let [from_x, from_y] = place(first);
         [x - from_x, y - from_y]

@@ -2,13 +2,15 @@
 
 use crate::edge::FITS_I32;
 use crate::interpolation::LIMIT;
-use alberti_math::{Fixed, LOW_WORDS_ONLY, Q16, Varying, map3, map4, scaled};
+use crate::unsnapped::LARGE;
+use alberti_math::{Fixed, LOW_WORDS_ONLY, Q16, Varying, map2, map3, map4, scaled};
 use core::cell::RefCell;
 use core::fmt;
 use core::ops::Range;
 
-/// A vertex on the screen, the hand-over from the view pipeline to the rasterizer: everything after it uses the snapped
-/// position.
+/// A vertex on the screen, the hand-over from the view pipeline to the rasterizer. Facing and coverage are those of the
+/// snapped positions. What a [large](crate::Interpolation#large-triangles) triangle carries in floats is that of the
+/// positions before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex<V> {
     /// Columns from the frame's left edge, snapped.
@@ -27,8 +29,8 @@ pub struct Vertex<V> {
 /// share it.
 #[derive(Clone, Copy)]
 pub struct Corner<V: Varying> {
-    /// Columns and rows, in subpixels.
-    pub(crate) place: [i32; 2],
+    /// Columns and rows: the bits of a [`Fixed`], in fixed point subpixels alone.
+    place: [i32; 2],
     /// zs.
     pub(crate) zs: u32,
     /// q, an `f32`.
@@ -48,6 +50,15 @@ pub enum Numbers {
         /// The bits of these, see [`DepthFormat::bits`](crate::DepthFormat::bits).
         depth_bits: u32,
     },
+}
+
+impl Numbers {
+    /// Whether they are integers.
+    #[must_use]
+    #[inline(always)]
+    pub fn are_fixed(self) -> bool {
+        self != Self::Float
+    }
 }
 
 impl<V: Varying> Corner<V> {
@@ -79,11 +90,17 @@ impl<V: Varying> Corner<V> {
         Self { place, zs, q, components: V::map(components, &|x: Q16| within_limit(x.to_bits())) }
     }
 
-    /// The column and the row, in subpixels.
+    /// The column and the row, in subpixels, of a corner in numbers that are `fixed`, or floats.
     #[must_use]
     #[inline(always)]
-    pub fn place(&self) -> [i32; 2] {
-        self.place
+    pub fn place(&self, fixed: bool) -> [i32; 2] {
+        if fixed { self.place } else { map2(self.unsnapped(), Fixed::subpixels) }
+    }
+
+    /// The column and the row where numbers are floats.
+    #[inline(always)]
+    pub(crate) fn unsnapped(&self) -> [Fixed; 2] {
+        map2(self.place, |bits| Fixed::from_bits(bits.cast_unsigned()))
     }
 
     /// The same place with other components.
@@ -96,12 +113,21 @@ impl<V: Varying> Corner<V> {
     /// A corner with these components.
     #[must_use]
     #[inline(always)]
-    pub fn at([x, y]: [Fixed; 2], numbers: Numbers, [zs, q]: [f32; 2], components: V::Of<u32>) -> Self {
-        let zs = match numbers {
-            Numbers::Float => zs.to_bits(),
-            Numbers::Fixed { depth_bits } => rounded_depth(scaled(zs, 31).max(0).cast_unsigned(), depth_bits),
+    pub fn at(place: [Fixed; 2], numbers: Numbers, [zs, q]: [f32; 2], components: V::Of<u32>) -> Self {
+        let (place, zs) = match numbers {
+            Numbers::Float => (map2(place, |c| c.to_bits().cast_signed()), zs.to_bits()),
+            Numbers::Fixed { depth_bits } => {
+                let zs = rounded_depth(scaled(zs, 31).max(0).cast_unsigned(), depth_bits);
+                (map2(place, Fixed::subpixels), zs)
+            }
         };
-        Self { place: [x.subpixels(), y.subpixels()], zs, q: q.to_bits(), components }
+        Self { place, zs, q: q.to_bits(), components }
+    }
+
+    /// The same with other numbers, at the same place.
+    #[inline(always)]
+    pub(crate) fn with_numbers(&self, [zs, q]: [f32; 2], components: V::Of<u32>) -> Self {
+        Self { place: self.place, zs: zs.to_bits(), q: q.to_bits(), components }
     }
 
     /// The same components at another place.
@@ -208,17 +234,18 @@ pub struct Reach {
     columns: [i32; 2],
     rows: [i32; 2],
     fits_i32: bool,
+    is_large: bool,
 }
 
 impl Reach {
     #[inline(always)]
     pub(crate) fn new<V: Varying>(
         vertices: [&Corner<V>; 3],
-        bits: u32,
+        (bits, fixed): (u32, bool),
         cull: Cull,
         [limits, rows]: &[Range<i32>; 2],
     ) -> Result<Self, Outcome> {
-        let corners = map3(vertices, |corner| corner.place);
+        let corners = map3(vertices, |corner| corner.place(fixed));
         let area = doubled_area(&corners);
         if cull.drops(area) {
             return Err(Outcome::Culled);
@@ -228,7 +255,7 @@ impl Reach {
             return Err(Outcome::Missed);
         };
         let (columns, rows) = ([columns.start, columns.end], [rows.start, rows.end]);
-        Ok(Self { area, columns, rows, fits_i32: bounds.fits_i32(bits) })
+        Ok(Self { area, columns, rows, fits_i32: bounds.fits_i32(bits), is_large: bounds.is_large(bits) })
     }
 
     /// The columns whose samples lie in the box.
@@ -249,6 +276,12 @@ impl Reach {
     #[inline(always)]
     pub(crate) fn area(&self) -> i64 {
         self.area
+    }
+
+    /// Whether the triangle is [large](LARGE).
+    #[inline(always)]
+    pub(crate) fn is_large(&self) -> bool {
+        self.is_large
     }
 
     /// Whether edge functions fit `i32` everywhere in the box.
@@ -278,6 +311,13 @@ impl Bounds {
     pub(crate) fn fits_i32(&self, bits: u32) -> bool {
         let side = |axis: usize, more: i32| i64::from(self.max[axis] - self.min[axis] + more);
         side(0, 2 << bits) * side(1, 1 << bits) <= FITS_I32
+    }
+
+    /// Whether a triangle in this box is [large](LARGE), on a grid with so many bits.
+    #[inline]
+    pub(crate) fn is_large(&self, bits: u32) -> bool {
+        let side = |axis: usize| self.max[axis] - self.min[axis];
+        side(0).max(side(1)) >= LARGE << bits
     }
 
     /// All columns, and the rows within the limits, whose samples lie within the box, with so many bits of subpixels;

@@ -27,20 +27,20 @@ const DEPTH: f64 = 6.0;
 
 /// A triangle with what it carries, and a pixel that it covers.
 #[derive(Clone, Copy, Debug)]
-struct Case {
-    tri: Triangle,
-    pixel: [i32; 2],
-    z: [f32; 3],
-    zs: [f32; 3],
-    u: [f32; 3],
+pub(crate) struct Case {
+    pub(crate) tri: Triangle,
+    pub(crate) pixel: [i32; 2],
+    pub(crate) z: [f32; 3],
+    pub(crate) zs: [f32; 3],
+    pub(crate) u: [f32; 3],
 }
 
 impl Case {
-    fn sample(&self, subpixel: Subpixel) -> [i64; 2] {
+    pub(crate) fn sample(&self, subpixel: Subpixel) -> [i64; 2] {
         center(subpixel, self.pixel)
     }
 
-    fn q(&self) -> [f32; 3] {
+    pub(crate) fn q(&self) -> [f32; 3] {
         self.z.map(|z| 1.0 / z)
     }
 
@@ -54,12 +54,12 @@ impl Case {
     }
 
     /// The scale of errors: max|u|, not zero.
-    fn largest(&self) -> f64 {
+    pub(crate) fn largest(&self) -> f64 {
         self.u.iter().fold(0.0, |largest, u| f64::max(largest, f64::from(u.abs())))
     }
 }
 
-fn any_case(subpixel: Subpixel, rng: &mut Rng) -> Case {
+pub(crate) fn any_case(subpixel: Subpixel, rng: &mut Rng) -> Case {
     loop {
         let found = if rng.one_in(4) { thin(subpixel, rng) } else { Some(around(subpixel, rng)) };
         if let Some((tri, pixel)) = found
@@ -203,7 +203,7 @@ fn interpolated(subpixel: Subpixel, stream: u64, samples: u64) {
     assert!(varying.most <= FROM_Q && depth.most <= DEPTH, "{varying:?} {depth:?}");
 }
 
-fn within(x: f32, [a, b, c]: [f32; 3]) -> bool {
+pub(crate) fn within(x: f32, [a, b, c]: [f32; 3]) -> bool {
     a.min(b).min(c) <= x && x <= a.max(b).max(c)
 }
 

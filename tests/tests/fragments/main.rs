@@ -18,5 +18,6 @@ mod profiles;
 mod projector;
 mod reliefs;
 mod threads;
+mod unsnapped;
 mod unsound;
 mod values;

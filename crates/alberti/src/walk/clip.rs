@@ -55,7 +55,10 @@ fn clip_by<W: Weights, M: Geometry, Pr: Projection, K>(
     let own = if const { M::INTEGERS } { map3(slots, kept) } else { [None; 3] };
     let places = polygon.map(|vertex| {
         let Vertex { x, y, varying, .. } = vertex?;
-        Some(own_of(own, varying).map_or([x.subpixels(), y.subpixels()], |own| own.screen.place()))
+        Some(
+            own_of(own, varying)
+                .map_or([x.subpixels(), y.subpixels()], |own| own.screen.place(screen.numbers.are_fixed())),
+        )
     });
     for fan in polygon.fan_around(unfolded(&places)) {
         let corners = fan.map(|vertex| {
@@ -205,7 +208,7 @@ fn cut<W: Weights, Pr: Projection>(
     clip_sides(projected, bounds).map(|v| {
         // All are within the guard band now.
         let place = viewport.to_screen_lanes(One, *subpixel, [v.x, v.y]);
-        let [x, y] = place.map(|subpixels| Fixed::wrapping(subpixels.0.cast_signed()));
+        let [x, y] = place.map(|bits| Fixed::from_bits(bits.0));
         Some(Vertex { x, y, zs: v.zs, q: v.q, varying: v.varying })
     })
 }

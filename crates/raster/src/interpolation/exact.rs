@@ -1,10 +1,11 @@
 //! Hyperbolic (perspective-correct) interpolation from the exact integer edges.
 
 use crate::edge::EdgeInt;
-use crate::interpolation::{Interpolate, Interpolation, Oriented, Prepare, Row};
+use crate::interpolation::{Interpolate, Interpolation, Oriented, Prepare, Row, Values};
 use crate::spans::Span;
+use crate::triangle::Corner;
 use alberti_math::lanes::{Floating, Lanes};
-use alberti_math::{Mode, Varying, hull3, in_line};
+use alberti_math::{Mode, Varying, hull3, in_line, map3};
 use core::fmt;
 
 /// Hyperbolic interpolation from the exact integer edges: at a sample, ti = Ei qi and u = Σ ti ui / Σ ti. Ei is the
@@ -46,14 +47,8 @@ impl Prepare for Exact {
     fn prepare<L: Floating, V: Varying>(self, lanes: L, triangle: &Oriented<'_, V>) -> ExactTriangle<L, V> {
         #[expect(clippy::cast_precision_loss, reason = "rounding to nearest is within the bound")]
         let area = triangle.doubled_area as f32;
-        let [a, b, c] = triangle.vertices;
-        ExactTriangle::with_depth(
-            lanes,
-            [a.zs(), b.zs(), c.zs()],
-            area,
-            [a.q(), b.q(), c.q()],
-            &triangle.values(),
-        )
+        let q = map3(triangle.vertices, Corner::q);
+        ExactTriangle::with_depth(lanes, triangle.depths(), area, q, &triangle.values())
     }
 }
 
@@ -75,21 +70,25 @@ impl<L: Floating, V: Varying> ExactTriangle<L, V> {
     #[must_use]
     #[inline(always)]
     pub fn of_attributes(lanes: L, q: [f32; 3], [a, b, c]: [V; 3]) -> Self {
-        Self::with_depth(lanes, [0.0; 3], 1.0, q, &V::gather([a, b, c, a]))
+        let values = V::map_by_mode(&V::gather([a, b, c]), &|mode, corners: [f32; 3]| {
+            let corners = if mode == Mode::Flat { [corners[0]; 3] } else { corners };
+            Values { corners, range: hull3(corners) }
+        });
+        let depths = Values { corners: [0.0; 3], range: [0.0; 2] };
+        Self::with_depth(lanes, depths, 1.0, q, &values)
     }
 
     #[inline(always)]
-    fn with_depth(lanes: L, zs: [f32; 3], area: f32, q: [f32; 3], values: &V::Of<[f32; 4]>) -> Self {
+    fn with_depth(lanes: L, depths: Values, area: f32, q: [f32; 3], values: &V::Of<Values>) -> Self {
         let splat = |x: f32| lanes.splat(x);
         let scale = power_of_two_near(q[0].max(q[1]).max(q[2]));
-        let [nearest, farthest] = hull3(zs);
+        let Values { corners: zs, range: [nearest, farthest] } = depths;
         Self {
             lanes,
             zs: [splat(zs[0] / area), splat(zs[1] / area), splat(zs[2] / area)],
             nearest_farthest: [splat(nearest), splat(farthest)],
             q: [splat(q[0] * scale), splat(q[1] * scale), splat(q[2] * scale)],
-            values: V::map_by_mode(values, &|mode, [a, b, c, first]: [f32; 4]| {
-                let [lo, hi] = if mode == Mode::Flat { [first; 2] } else { hull3([a, b, c]) };
+            values: V::map(values, &|Values { corners: [a, b, c], range: [lo, hi] }| {
                 [splat(a), splat(b), splat(c), splat(lo), splat(hi)]
             }),
         }

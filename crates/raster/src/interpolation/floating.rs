@@ -3,7 +3,7 @@
 use super::linear::{FloatComponent, FloatPlane, Ramp, Slant, along, count, middle, scaled_q};
 use super::lines::{Affine, LineNumbers, LineTriangle, Lines, Run, Runs, Spans16};
 use crate::edge::EdgeInt;
-use crate::interpolation::{Interpolation, Oriented, Prepare, Row};
+use crate::interpolation::{Interpolation, Oriented, Prepare, Row, Values};
 use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Mode, Varying};
 use core::cell::Cell;
@@ -26,13 +26,13 @@ impl<L: Floating, V: Varying> FloatingLines<L, V> {
         Self {
             lanes,
             q: if perspective { scaled_q(triangle) } else { [1.0; 3] },
-            zs: slant.zs(triangle),
-            components: V::map_by_mode(&triangle.values(), &|mode, [a, b, c, first]: [f32; 4]| match mode {
+            zs: slant.linear(triangle.depths()),
+            components: V::map_by_mode(&triangle.values(), &|mode, values: Values| match mode {
                 Mode::Hyperbolic if perspective => {
-                    FloatComponent::new([a, b, c], FloatPlane::new([a, b, c], [0.0; 3]))
+                    FloatComponent::new(values, FloatPlane::new(values.corners, [0.0; 3]))
                 }
-                Mode::Hyperbolic | Mode::Linear => slant.linear([a, b, c]),
-                Mode::Flat => FloatComponent::flat(first),
+                Mode::Hyperbolic | Mode::Linear => slant.linear(values),
+                Mode::Flat => FloatComponent::flat(values),
             }),
         }
     }

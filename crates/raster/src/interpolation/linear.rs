@@ -17,9 +17,9 @@
 //! product with the columns adds ε·|f − f(m)| <= ε S, and the sum ε·|f|.
 
 use crate::edge::EdgeInt;
-use crate::interpolation::{Oriented, Row};
+use crate::interpolation::{Oriented, Row, Values};
+use alberti_math::Varying;
 use alberti_math::lanes::Lanes;
-use alberti_math::{Varying, hull3};
 
 /// A function that is linear on the screen.
 #[derive(Clone, Copy)]
@@ -60,8 +60,8 @@ pub(crate) struct FloatComponent {
 impl FloatComponent {
     /// A component of these values, in a plane with other factors.
     #[inline(always)]
-    pub(crate) fn new(values: [f32; 3], plane: FloatPlane) -> Self {
-        let [least, greatest] = hull3(values);
+    pub(crate) fn new(values: Values, plane: FloatPlane) -> Self {
+        let [least, greatest] = values.range;
         Self { plane, least, greatest }
     }
 
@@ -79,8 +79,8 @@ impl FloatComponent {
 
     /// A component that is the same everywhere.
     #[inline(always)]
-    pub(crate) fn flat(value: f32) -> Self {
-        Self { plane: FloatPlane { factors: [0.0; 3], across: 0.0 }, least: value, greatest: value }
+    pub(crate) fn flat(values: Values) -> Self {
+        Self::new(values, FloatPlane { factors: [0.0; 3], across: 0.0 })
     }
 }
 
@@ -105,18 +105,11 @@ impl Slant {
 
     /// The component with these values at the vertices, within 12ε of the greatest.
     #[inline(always)]
-    pub(crate) fn linear(&self, values: [f32; 3]) -> FloatComponent {
-        let [a, b, c] = values;
+    pub(crate) fn linear(&self, values: Values) -> FloatComponent {
+        let [a, b, c] = values.corners;
         // Three roundings more: of the area, its reciprocal, and this product.
         let factors = [a * self.per_area, b * self.per_area, c * self.per_area];
         FloatComponent::new(values, FloatPlane::new(factors, self.steps))
-    }
-
-    /// Screen depth.
-    #[inline(always)]
-    pub(crate) fn zs<V: Varying>(&self, triangle: &Oriented<'_, V>) -> FloatComponent {
-        let [a, b, c] = triangle.vertices;
-        self.linear([a.zs(), b.zs(), c.zs()])
     }
 }
 

@@ -3,7 +3,7 @@
 use super::exact::power_of_two_near;
 use super::linear::{FloatComponent, FloatPlane, Ramp, Slant, along, count, middle, scaled_q};
 use crate::edge::EdgeInt;
-use crate::interpolation::{Interpolate, Interpolation, Oriented, Prepare, Row};
+use crate::interpolation::{Interpolate, Interpolation, Oriented, Prepare, Row, Values};
 use crate::spans::Span;
 use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Mode, Varying};
@@ -60,12 +60,15 @@ impl Prepare for Planes {
         let [qa, qb, qc] = scaled_q(triangle).map(|q| q * scale);
         PlaneTriangle {
             lanes,
-            zs: slant.zs(triangle),
+            zs: slant.linear(triangle.depths()),
             q: plane([qa, qb, qc]),
-            components: V::map_by_mode(&triangle.values(), &|mode, [a, b, c, first]: [f32; 4]| match mode {
-                Mode::Hyperbolic => FloatComponent::new([a, b, c], plane([a * qa, b * qb, c * qc])),
-                Mode::Linear => slant.linear([a, b, c]),
-                Mode::Flat => FloatComponent::flat(first),
+            components: V::map_by_mode(&triangle.values(), &|mode, values: Values| {
+                let [a, b, c] = values.corners;
+                match mode {
+                    Mode::Hyperbolic => FloatComponent::new(values, plane([a * qa, b * qb, c * qc])),
+                    Mode::Linear => slant.linear(values),
+                    Mode::Flat => FloatComponent::flat(values),
+                }
             }),
         }
     }
