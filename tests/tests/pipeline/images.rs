@@ -79,6 +79,7 @@ fn check_scene(name: &str, size: (u32, u32), measure: Measure, change: impl FnOn
     check(name, &scene.model, &scene.camera, &options, measure);
 }
 
+const DISPLAY: (u32, u32) = (320, 240);
 const SMALL: (u32, u32) = (640, 480);
 const LARGE: (u32, u32) = (1280, 720);
 
@@ -106,6 +107,7 @@ fn a_gouraud_mesh() {
 fn a_floor_to_the_horizon() {
     check_scene("floor", LARGE, Measure::Snapped, |o| o.filter = Filter::Nearest);
     check_scene("floor", SMALL, Measure::Snapped, |o| o.filter = Filter::Bilinear);
+    check_scene("floor", DISPLAY, Measure::Snapped, |o| o.filter = Filter::Nearest);
 }
 
 #[test]
