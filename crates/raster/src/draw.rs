@@ -319,9 +319,12 @@ impl<F, P: Interpolation> Paint<F, P> {
         let Self { stage, interpolation, subpixel, .. } = *self;
         let [limits, _] = target.limits();
         let fixed = const { <P::Lanes<L> as Lanes>::FIXED };
+        let unsnapped;
         let mut oriented = Oriented::new(vertices, reach.area(), subpixel.bits(), fixed);
-        let unsnapped = oriented.unsnapped(!fixed && reach.is_large());
-        oriented.replace(&unsnapped);
+        if const { !<P::Lanes<L> as Lanes>::FIXED } {
+            unsnapped = oriented.unsnapped(reach.is_large());
+            oriented.replace(&unsnapped);
+        }
         let setup = Setup { interpolation, lanes, oriented: &oriented, stage };
         let samples = SampleBox::new(&oriented, [reach.columns(), reach.rows()], limits);
         // Policies with a way for small triangles have 64 bits alone, for less code: docs/kernel.md.
