@@ -11,6 +11,7 @@ use crate::scene::scenes;
 
 pub(crate) mod partners;
 pub mod run;
+mod staged;
 
 /// Draws 3D models on the CPU, with perspective done right.
 #[derive(Clone, Debug, Parser)]

@@ -3,28 +3,18 @@
 use std::ffi::OsString;
 use std::io::{self, Write as _};
 use std::num::NonZero;
-use std::path::{Path, PathBuf};
-use std::thread::available_parallelism;
 use std::time::Instant;
 
 use clap::error::{ContextKind, ErrorKind};
-use clap::{ArgMatches, CommandFactory as _, FromArgMatches as _};
+use clap::{ArgMatches, CommandFactory as _};
 
-use super::{Cli, RenderArgs, StatsFormat, partners};
-use crate::error::{Error, Warnings, number, quote};
-use crate::load::images::Images;
-use crate::load::scene_file::{self, SceneFile};
-use crate::load::{obj, prepare};
-use crate::options::values::{Color, MAX_THREADS, Size, Threads};
-use crate::options::{
-    Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE, DepthFormat, Filter, Projection, RenderOptions,
-    Shading, Wrap,
-};
-use crate::output::file::Output;
+use super::staged::{Request, Staged};
+use super::{Cli, StatsFormat};
+use crate::error::{Error, quote};
+use crate::options::RenderOptions;
 use crate::output::progress::Progress;
-use crate::output::stats::{Report, Source, Times};
+use crate::output::stats::{Report, Times};
 use crate::render::render;
-use crate::scene::{Camera, Model, Part, Relief, camera, scenes, slide};
 
 /// The exit status for whatever the user can mend.
 pub const FAILURE: u8 = 2;
@@ -72,254 +62,37 @@ fn fail(error: &Error) -> u8 {
     FAILURE
 }
 
-/// The model, and defaults for options that the command line leaves open.
-struct Scene {
-    model: Model,
-    /// A scene's own camera; models have none.
-    camera: Option<Camera>,
-    defaults: (Shading, Filter, Wrap, Cull, DepthFormat),
-    background: [u8; 3],
-    /// Whether a texture has coordinates to follow.
-    has_uv: bool,
-}
-
 fn draw(matches: &ArgMatches) -> Result<(), Error> {
-    let refused = |error: clap::Error| Error::new(error.to_string(), "what --help lists");
-    let mut arguments = RenderArgs::from_arg_matches(matches).map_err(refused)?;
-    let mut scene_file = None;
-    if let Some(path) = arguments.model.as_deref().filter(|path| scene_file::is_scene(path)) {
-        let (file, options) = SceneFile::read(path, matches)?;
-        scene_file = Some(file);
-        // The file's options, and over them those of the command line.
-        arguments = options;
-        arguments.update_from_arg_matches(matches).map_err(refused)?;
-    }
-    // A texture is shown as it is, whatever the materials' colours.
-    arguments.material.whiten();
-    let file = scene_file.as_ref();
-    draw_from(&arguments, file).map_err(|error| match file {
-        Some(file) => file.relocate(error),
-        None => error,
-    })
+    let request = Request::read(matches)?;
+    draw_from(&request).map_err(|error| request.relocate(error))
 }
 
-fn draw_from(arguments: &RenderArgs, file: Option<&SceneFile>) -> Result<(), Error> {
-    let (policies, depth) = arguments.render.policies(arguments.camera.is_parallel());
-    policies.check()?;
-    partners::check(arguments)?;
-    let output = arguments.render.output.as_deref().unwrap_or(Path::new(DEFAULT_OUTPUT));
-    let output = Output::new(output)?;
-    let named = file.map(SceneFile::inputs).unwrap_or_default();
-    for input in inputs(arguments).chain(named) {
-        if output.is(&input) {
-            let found = "a file that is also read";
-            return Err(Error::new(found, "another").file(output.name()).hint("choose another with -o"));
-        }
-    }
-    let start = Instant::now();
-    let mut scene = match file {
-        Some(file) => load_scene_file(arguments, file)?,
-        None => load(arguments)?,
-    };
-    if file.is_none() {
-        put_materials(arguments, &mut scene)?;
-    }
-    partners::check_maps(arguments, &scene.model)?;
-    if let Some(warning) = partners::unused_heights(&scene.model) {
-        warn(&warning.to_string());
-    }
-    if !scene.has_uv && scene.model.parts.iter().any(Part::has_maps) {
-        let found = "a model without texture coordinates (`vt` lines)";
-        let error = Error::new(found, "some for the texture");
-        let error = match (mapped(arguments), &scene.model.source) {
-            (None, Some(path)) => error.file(path),
-            (option, _) => error.place(option.unwrap_or_default()),
-        };
-        warn(&error.hint("every surface gets one texel's colour").to_string());
-    }
-    scene.model.slide = slide::load(&arguments.projector)?;
-    let load = start.elapsed();
-
-    let Size(width, height) = arguments.render.size.unwrap_or(DEFAULT_SIZE);
-    let ball = camera::bounding_sphere(&scene.model);
-    let aspect = f64::from(width) / f64::from(height);
-    let camera = camera::frame(&arguments.camera, scene.camera.as_ref(), ball, aspect)?;
-    if camera::is_behind(&camera, ball) {
-        warn(
-            &Error::new("a camera that looks away from the model", "the model in view")
-                .place("--eye")
-                .to_string(),
-        );
-    }
-    if let Some(slide) = &scene.model.slide
-        && slide::misses(&slide::projector(slide)?, &scene.model)
-    {
-        let found = "an image that falls nowhere on the model";
-        warn(&Error::new(found, "the model before the projector").place("--projector-target").to_string());
-    }
-
-    let (shading, filter, wrap, cull, scene_depth) = scene.defaults;
-    let shiny = shading == Shading::Lambert && has_highlights(arguments, &scene.model);
-    let options = RenderOptions {
-        width,
-        height,
-        background: arguments.render.background.map_or(scene.background, Color::bytes),
-        shading: arguments.render.shading.unwrap_or(if shiny { Shading::Blinn } else { shading }),
-        filter: arguments.render.filter.unwrap_or(filter),
-        wrap: arguments.render.wrap.unwrap_or(wrap),
-        cull: arguments.render.cull.unwrap_or(cull),
-        depth: depth.unwrap_or(scene_depth),
-        projection: projection(arguments, &camera)?,
-        threads: threads(arguments),
-        policies,
-    };
-    if options.shading == Shading::Gouraud && scene.model.parts.iter().any(needs_fragments) {
-        let found = "gouraud with relief, normals, occlusion or reflections, which are left out";
-        warn(&Error::new(found, "phong or blinn for these").place("--shading").to_string());
-    }
+fn draw_from(request: &Request) -> Result<(), Error> {
+    request.check()?;
+    let output = request.output()?;
+    let Staged { model, camera, options, load } = request.stage()?;
     let start = Instant::now();
     let mut progress = Progress::new("drawing");
-    let mut picture = render(&scene.model, &camera, &options, &mut |done, total| progress.set(done, total))?;
+    let mut picture = render(&model, &camera, &options, &mut |done, total| progress.set(done, total))?;
     drop(progress);
     let rendered = start.elapsed();
-    if arguments.stats.is_some() && options.threads.get() > 1 {
+    if request.arguments.stats.is_some() && options.threads.get() > 1 {
         // A triangle counts once, however many threads drew it.
         let alone = RenderOptions { threads: NonZero::<usize>::MIN, ..options };
-        picture.stats = render(&scene.model, &camera, &alone, &mut |_, _| ())?.stats;
+        picture.stats = render(&model, &camera, &alone, &mut |_, _| ())?.stats;
     }
 
     let start = Instant::now();
     output.write(&picture.image)?;
     let times = Times { load, render: rendered, write: start.elapsed() };
-    let source = match &arguments.model {
-        Some(path) => Source::Model(path),
-        None => Source::Scene(name_of(arguments)),
-    };
-    let report = Report { output: output.name(), source, size: (width, height), stats: picture.stats, times };
-    print(&match arguments.stats {
+    let size = (options.width, options.height);
+    let report =
+        Report { output: output.name(), source: request.source(), size, stats: picture.stats, times };
+    print(&match request.arguments.stats {
         None => format!("{}\n", report.summary()),
         Some(StatsFormat::Text) => format!("{}\n{}", report.summary(), report.text()),
         Some(StatsFormat::Json) => format!("{}\n", report.json()),
     })
-}
-
-/// As many threads as are asked for, or as the machine runs at once.
-fn threads(arguments: &RenderArgs) -> NonZero<usize> {
-    let most = NonZero::new(MAX_THREADS).unwrap_or(NonZero::<usize>::MIN);
-    match arguments.threads {
-        Some(Threads(threads)) => threads,
-        None => available_parallelism().unwrap_or(NonZero::<usize>::MIN).min(most),
-    }
-}
-
-fn name_of(arguments: &RenderArgs) -> &str {
-    arguments.scene.as_deref().or(scenes::NAMES.first().copied()).unwrap_or_default()
-}
-
-fn load(arguments: &RenderArgs) -> Result<Scene, Error> {
-    if let Some(path) = &arguments.model {
-        let mut progress = Progress::new("loading");
-        let loaded = obj::load(path, &mut |done, total| progress.set(done, total))?;
-        drop(progress);
-        warn_all(&loaded.warnings);
-        return Ok(Scene {
-            model: loaded.model,
-            camera: None,
-            defaults: Default::default(),
-            background: DEFAULT_BACKGROUND,
-            has_uv: loaded.has_uv,
-        });
-    }
-    let name = name_of(arguments);
-    let scene = scenes::by_name(name).ok_or_else(|| {
-        Error::new(quote(name.as_bytes()), format!("one of {}", scenes::NAMES.join(", "))).place("--scene")
-    })?;
-    Ok(Scene {
-        model: scene.model,
-        camera: Some(scene.camera),
-        defaults: (scene.shading, scene.filter, scene.wrap, scene.cull, scene.depth),
-        background: scene.background,
-        has_uv: true,
-    })
-}
-
-/// Whether light by vertex leaves out something of a part.
-fn needs_fragments(part: &Part) -> bool {
-    let detail = &part.detail;
-    let relief = detail.height.is_some_and(|height| height.relief != Relief::Displacement);
-    relief || detail.normal.is_some() || detail.occlusion.is_some() || detail.environment.is_some()
-}
-
-/// Whether something is said of highlights, beside the faint one that every surface has.
-fn has_highlights(arguments: &RenderArgs, model: &Model) -> bool {
-    let material = &arguments.material;
-    let mapped = |part: &Part| part.detail.specular_map.is_some() || part.detail.shininess_map.is_some();
-    material.specular.is_some() || material.shininess.is_some() || model.parts.iter().any(mapped)
-}
-
-/// The options of materials replace what all materials of a model say.
-fn put_materials(arguments: &RenderArgs, scene: &mut Scene) -> Result<(), Error> {
-    let mut images = Images::new();
-    images.adopt(&mut scene.model);
-    prepare::replace_materials(&mut scene.model, &arguments.material, &mut images)?;
-    let mut warnings = Warnings::default();
-    let wrap = arguments.render.wrap.unwrap_or(scene.defaults.2);
-    prepare::complete(&mut scene.model, &images, wrap, &mut warnings);
-    warn_all(&warnings);
-    images.give(&mut scene.model);
-    Ok(())
-}
-
-/// The scene of a scene file.
-fn load_scene_file(arguments: &RenderArgs, file: &SceneFile) -> Result<Scene, Error> {
-    let mut warnings = Warnings::default();
-    let mut progress = Progress::new("loading");
-    let (model, has_uv) = file
-        .build(&arguments.material, arguments, &mut warnings, &mut |done, total| progress.set(done, total))?;
-    drop(progress);
-    warn_all(&warnings);
-    Ok(Scene { model, camera: None, defaults: Default::default(), background: DEFAULT_BACKGROUND, has_uv })
-}
-
-/// The first option that puts an image on surfaces.
-fn mapped(arguments: &RenderArgs) -> Option<String> {
-    let maps = arguments.material.maps();
-    let (key, _) = maps.into_iter().find(|(key, _)| *key != "environment")?;
-    Some(match key {
-        "color-map" => "--texture".to_owned(),
-        "ao-map" => "--ao".to_owned(),
-        key => format!("--{key}"),
-    })
-}
-
-/// All files that are read, as far as the command line names them.
-fn inputs(arguments: &RenderArgs) -> impl Iterator<Item = PathBuf> {
-    let maps = arguments.material.maps().into_iter().map(|(_, map)| map.path);
-    maps.chain([&arguments.model, &arguments.projector.image].into_iter().flatten().cloned())
-}
-
-/// The projection that was asked for; a parallel one shows as much as the perspective one does around its target.
-fn projection(arguments: &RenderArgs, camera: &Camera) -> Result<Projection, Error> {
-    if !arguments.camera.is_parallel() {
-        return Ok(Projection::Perspective);
-    }
-    let height = arguments.camera.view_height.map_or_else(|| camera::window_height(camera), f32::from);
-    if !(height > 0.0 && height.is_finite()) {
-        let found = format!("a height of {}", number(height));
-        return Err(Error::new(found, "a finite number above 0").place("--view-height"));
-    }
-    Ok(Projection::Parallel { height })
-}
-
-fn warn_all(warnings: &Warnings) {
-    for line in warnings.lines() {
-        warn(&line);
-    }
-}
-
-fn warn(line: &str) {
-    // Without standard error there is nobody to tell.
-    let _ = writeln!(io::stderr(), "warning: {line}");
 }
 
 /// Standard output that nobody reads any more is no failure: the picture is there.

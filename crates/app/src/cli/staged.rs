@@ -1,0 +1,312 @@
+//! From options to all that a picture is made of: the model with its materials, the camera, and the policies.
+
+use std::io::{self, Write as _};
+use std::num::NonZero;
+use std::path::{Path, PathBuf};
+use std::thread::available_parallelism;
+use std::time::{Duration, Instant};
+
+use clap::{ArgMatches, FromArgMatches as _};
+
+use super::{RenderArgs, partners};
+use crate::error::{Error, Warnings, number, quote};
+use crate::load::images::Images;
+use crate::load::scene_file::{self, SceneFile};
+use crate::load::{obj, prepare};
+use crate::options::values::{Color, MAX_THREADS, Size, Threads};
+use crate::options::{
+    Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE, DepthFormat, Filter, Projection, RenderOptions,
+    Shading, Wrap,
+};
+use crate::output::file::Output;
+use crate::output::progress::Progress;
+use crate::output::stats::Source;
+use crate::scene::{Camera, Model, Part, Relief, camera, scenes, slide};
+
+/// The options, and the scene file that some of them come from.
+pub(super) struct Request {
+    pub(super) arguments: RenderArgs,
+    file: Option<SceneFile>,
+}
+
+/// All that a picture is made of.
+pub(super) struct Staged {
+    pub(super) model: Model,
+    pub(super) camera: Camera,
+    pub(super) options: RenderOptions,
+    /// The time that loading took.
+    pub(super) load: Duration,
+}
+
+impl Request {
+    /// The options of a command that has those of [`RenderArgs`].
+    ///
+    /// # Errors
+    /// An option that cannot be understood, here or in the scene file.
+    pub(super) fn read(matches: &ArgMatches) -> Result<Self, Error> {
+        let refused = |error: clap::Error| Error::new(error.to_string(), "what --help lists");
+        let mut arguments = RenderArgs::from_arg_matches(matches).map_err(refused)?;
+        let mut scene_file = None;
+        if let Some(path) = arguments.model.as_deref().filter(|path| scene_file::is_scene(path)) {
+            let (file, options) = SceneFile::read(path, matches)?;
+            scene_file = Some(file);
+            // The file's options, and over them those of the command line.
+            arguments = options;
+            arguments.update_from_arg_matches(matches).map_err(refused)?;
+        }
+        // A texture is shown as it is, whatever the materials' colours.
+        arguments.material.whiten();
+        Ok(Self { arguments, file: scene_file })
+    }
+
+    /// Puts an error in the scene file, if its cause is there.
+    pub(super) fn relocate(&self, error: Error) -> Error {
+        match &self.file {
+            Some(file) => file.relocate(error),
+            None => error,
+        }
+    }
+
+    /// # Errors
+    /// Options that do not go together.
+    pub(super) fn check(&self) -> Result<(), Error> {
+        self.arguments.render.policies(self.arguments.camera.is_parallel()).0.check()?;
+        partners::check(&self.arguments)
+    }
+
+    /// The picture's file.
+    ///
+    /// # Errors
+    /// It cannot be written, or is one that is also read.
+    pub(super) fn output(&self) -> Result<Output, Error> {
+        self.writable(self.arguments.render.output.as_deref().unwrap_or(Path::new(DEFAULT_OUTPUT)), "-o")
+    }
+
+    /// A file that the command writes, as `option` names it.
+    ///
+    /// # Errors
+    /// It cannot be written, or is one that is also read.
+    pub(super) fn writable(&self, path: &Path, option: &str) -> Result<Output, Error> {
+        let output = Output::new(path)?;
+        let named = self.file.as_ref().map(SceneFile::inputs).unwrap_or_default();
+        for input in inputs(&self.arguments).chain(named) {
+            if output.is(&input) {
+                let found = "a file that is also read";
+                let error = Error::new(found, "another").file(output.name());
+                return Err(error.hint(format!("choose another with {option}")));
+            }
+        }
+        Ok(output)
+    }
+
+    /// The origin of the triangles.
+    pub(super) fn source(&self) -> Source<'_> {
+        match &self.arguments.model {
+            Some(path) => Source::Model(path),
+            None => Source::Scene(name_of(&self.arguments)),
+        }
+    }
+
+    /// Loads everything, and warns of repairs.
+    ///
+    /// # Errors
+    /// A file cannot be used, or options do not suit the model.
+    pub(super) fn stage(&self) -> Result<Staged, Error> {
+        let (arguments, file) = (&self.arguments, self.file.as_ref());
+        let (policies, depth) = arguments.render.policies(arguments.camera.is_parallel());
+        let start = Instant::now();
+        let mut scene = match file {
+            Some(file) => load_scene_file(arguments, file)?,
+            None => load(arguments)?,
+        };
+        if file.is_none() {
+            put_materials(arguments, &mut scene)?;
+        }
+        partners::check_maps(arguments, &scene.model)?;
+        if let Some(warning) = partners::unused_heights(&scene.model) {
+            warn(&warning.to_string());
+        }
+        if !scene.has_uv && scene.model.parts.iter().any(Part::has_maps) {
+            let found = "a model without texture coordinates (`vt` lines)";
+            let error = Error::new(found, "some for the texture");
+            let error = match (mapped(arguments), &scene.model.source) {
+                (None, Some(path)) => error.file(path),
+                (option, _) => error.place(option.unwrap_or_default()),
+            };
+            warn(&error.hint("every surface gets one texel's colour").to_string());
+        }
+        scene.model.slide = slide::load(&arguments.projector)?;
+        let load = start.elapsed();
+
+        let Size(width, height) = arguments.render.size.unwrap_or(DEFAULT_SIZE);
+        let ball = camera::bounding_sphere(&scene.model);
+        let aspect = f64::from(width) / f64::from(height);
+        let camera = camera::frame(&arguments.camera, scene.camera.as_ref(), ball, aspect)?;
+        if camera::is_behind(&camera, ball) {
+            warn(
+                &Error::new("a camera that looks away from the model", "the model in view")
+                    .place("--eye")
+                    .to_string(),
+            );
+        }
+        if let Some(slide) = &scene.model.slide
+            && slide::misses(&slide::projector(slide)?, &scene.model)
+        {
+            let found = "an image that falls nowhere on the model";
+            warn(
+                &Error::new(found, "the model before the projector").place("--projector-target").to_string(),
+            );
+        }
+
+        let (shading, filter, wrap, cull, scene_depth) = scene.defaults;
+        let shiny = shading == Shading::Lambert && has_highlights(arguments, &scene.model);
+        let options = RenderOptions {
+            width,
+            height,
+            background: arguments.render.background.map_or(scene.background, Color::bytes),
+            shading: arguments.render.shading.unwrap_or(if shiny { Shading::Blinn } else { shading }),
+            filter: arguments.render.filter.unwrap_or(filter),
+            wrap: arguments.render.wrap.unwrap_or(wrap),
+            cull: arguments.render.cull.unwrap_or(cull),
+            depth: depth.unwrap_or(scene_depth),
+            projection: projection(arguments, &camera)?,
+            threads: threads(arguments),
+            policies,
+        };
+        if options.shading == Shading::Gouraud && scene.model.parts.iter().any(needs_fragments) {
+            let found = "gouraud with relief, normals, occlusion or reflections, which are left out";
+            warn(&Error::new(found, "phong or blinn for these").place("--shading").to_string());
+        }
+        Ok(Staged { model: scene.model, camera, options, load })
+    }
+}
+
+/// The model, and defaults for options that the command line leaves open.
+struct Scene {
+    model: Model,
+    /// A scene's own camera; models have none.
+    camera: Option<Camera>,
+    defaults: (Shading, Filter, Wrap, Cull, DepthFormat),
+    background: [u8; 3],
+    /// Whether a texture has coordinates to follow.
+    has_uv: bool,
+}
+
+/// As many threads as are asked for, or as the machine runs at once.
+fn threads(arguments: &RenderArgs) -> NonZero<usize> {
+    let most = NonZero::new(MAX_THREADS).unwrap_or(NonZero::<usize>::MIN);
+    match arguments.threads {
+        Some(Threads(threads)) => threads,
+        None => available_parallelism().unwrap_or(NonZero::<usize>::MIN).min(most),
+    }
+}
+
+fn name_of(arguments: &RenderArgs) -> &str {
+    arguments.scene.as_deref().or(scenes::NAMES.first().copied()).unwrap_or_default()
+}
+
+fn load(arguments: &RenderArgs) -> Result<Scene, Error> {
+    if let Some(path) = &arguments.model {
+        let mut progress = Progress::new("loading");
+        let loaded = obj::load(path, &mut |done, total| progress.set(done, total))?;
+        drop(progress);
+        warn_all(&loaded.warnings);
+        return Ok(Scene {
+            model: loaded.model,
+            camera: None,
+            defaults: Default::default(),
+            background: DEFAULT_BACKGROUND,
+            has_uv: loaded.has_uv,
+        });
+    }
+    let name = name_of(arguments);
+    let scene = scenes::by_name(name).ok_or_else(|| {
+        Error::new(quote(name.as_bytes()), format!("one of {}", scenes::NAMES.join(", "))).place("--scene")
+    })?;
+    Ok(Scene {
+        model: scene.model,
+        camera: Some(scene.camera),
+        defaults: (scene.shading, scene.filter, scene.wrap, scene.cull, scene.depth),
+        background: scene.background,
+        has_uv: true,
+    })
+}
+
+/// Whether light by vertex leaves out something of a part.
+fn needs_fragments(part: &Part) -> bool {
+    let detail = &part.detail;
+    let relief = detail.height.is_some_and(|height| height.relief != Relief::Displacement);
+    relief || detail.normal.is_some() || detail.occlusion.is_some() || detail.environment.is_some()
+}
+
+/// Whether something is said of highlights, beside the faint one that every surface has.
+fn has_highlights(arguments: &RenderArgs, model: &Model) -> bool {
+    let material = &arguments.material;
+    let mapped = |part: &Part| part.detail.specular_map.is_some() || part.detail.shininess_map.is_some();
+    material.specular.is_some() || material.shininess.is_some() || model.parts.iter().any(mapped)
+}
+
+/// The options of materials replace what all materials of a model say.
+fn put_materials(arguments: &RenderArgs, scene: &mut Scene) -> Result<(), Error> {
+    let mut images = Images::new();
+    images.adopt(&mut scene.model);
+    prepare::replace_materials(&mut scene.model, &arguments.material, &mut images)?;
+    let mut warnings = Warnings::default();
+    let wrap = arguments.render.wrap.unwrap_or(scene.defaults.2);
+    prepare::complete(&mut scene.model, &images, wrap, &mut warnings);
+    warn_all(&warnings);
+    images.give(&mut scene.model);
+    Ok(())
+}
+
+/// The scene of a scene file.
+fn load_scene_file(arguments: &RenderArgs, file: &SceneFile) -> Result<Scene, Error> {
+    let mut warnings = Warnings::default();
+    let mut progress = Progress::new("loading");
+    let (model, has_uv) = file
+        .build(&arguments.material, arguments, &mut warnings, &mut |done, total| progress.set(done, total))?;
+    drop(progress);
+    warn_all(&warnings);
+    Ok(Scene { model, camera: None, defaults: Default::default(), background: DEFAULT_BACKGROUND, has_uv })
+}
+
+/// The first option that puts an image on surfaces.
+fn mapped(arguments: &RenderArgs) -> Option<String> {
+    let maps = arguments.material.maps();
+    let (key, _) = maps.into_iter().find(|(key, _)| *key != "environment")?;
+    Some(match key {
+        "color-map" => "--texture".to_owned(),
+        "ao-map" => "--ao".to_owned(),
+        key => format!("--{key}"),
+    })
+}
+
+/// All files that are read, as far as the command line names them.
+fn inputs(arguments: &RenderArgs) -> impl Iterator<Item = PathBuf> {
+    let maps = arguments.material.maps().into_iter().map(|(_, map)| map.path);
+    maps.chain([&arguments.model, &arguments.projector.image].into_iter().flatten().cloned())
+}
+
+/// The projection that was asked for; a parallel one shows as much as the perspective one does around its target.
+fn projection(arguments: &RenderArgs, camera: &Camera) -> Result<Projection, Error> {
+    if !arguments.camera.is_parallel() {
+        return Ok(Projection::Perspective);
+    }
+    let height = arguments.camera.view_height.map_or_else(|| camera::window_height(camera), f32::from);
+    if !(height > 0.0 && height.is_finite()) {
+        let found = format!("a height of {}", number(height));
+        return Err(Error::new(found, "a finite number above 0").place("--view-height"));
+    }
+    Ok(Projection::Parallel { height })
+}
+
+fn warn_all(warnings: &Warnings) {
+    for line in warnings.lines() {
+        warn(&line);
+    }
+}
+
+pub(super) fn warn(line: &str) {
+    // Without standard error there is nobody to tell.
+    let _ = writeln!(io::stderr(), "warning: {line}");
+}
