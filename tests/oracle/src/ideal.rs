@@ -19,6 +19,8 @@ use crate::view::View;
 use crate::visibility::{Place, Visibility, culled, pixels_between, triangles};
 use std::ops::Range;
 
+pub use crate::visibility::Seen;
+
 /// Renders `scene` as it is, its vertices at their unrounded places.
 ///
 /// # Precision
@@ -29,13 +31,24 @@ use std::ops::Range;
 /// Proportional to the pixels of all bounding boxes; shading is done once per pixel.
 #[must_use]
 pub fn render_ideal(scene: &Scene<'_>) -> Image {
+    visible(scene).resolve(scene)
+}
+
+/// The point that is seen at each pixel, rows from the top: its triangle, counted over all parts, and its texture
+/// coordinates. It is decided as in [`render_ideal`].
+#[must_use]
+pub fn see_ideal(scene: &Scene<'_>) -> Vec<Option<Seen>> {
+    visible(scene).points(scene)
+}
+
+fn visible(scene: &Scene<'_>) -> Visibility {
     let view = View::new(scene);
     let mut visible = Visibility::new(scene);
     for (place, world) in triangles(scene) {
         let eye = world.map(|p| view.to_eye(p));
         draw(scene, &view, &mut visible, place, eye);
     }
-    visible.resolve(scene)
+    visible
 }
 
 fn draw(scene: &Scene<'_>, view: &View, visible: &mut Visibility, place: Place, eye: [Vec3; 3]) {

@@ -3,7 +3,7 @@
 use crate::image::Image;
 use crate::scene::{Cull, Scene};
 use crate::shading::shade;
-use crate::vec3::Vec3;
+use crate::vec3::{Vec3, blend};
 
 /// The nearest hit of every pixel so far.
 #[derive(Debug)]
@@ -19,6 +19,15 @@ struct Hit {
     part: u32,
     triangle: u32,
     weights: Vec3,
+}
+
+/// A point that is seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seen {
+    /// The number of its triangle, counted over all parts in drawing order.
+    pub triangle: u32,
+    /// The texture coordinates there.
+    pub uv: [f64; 2],
 }
 
 /// The place of a triangle in a scene.
@@ -59,6 +68,25 @@ impl Visibility {
             covered: self.hits.iter().map(Option::is_some).collect(),
             depth: self.depth,
         }
+    }
+
+    /// The point that is seen at each pixel.
+    pub(crate) fn points(self, scene: &Scene<'_>) -> Vec<Option<Seen>> {
+        let mut first = vec![0];
+        first.extend(scene.parts.iter().scan(0, |sum, part| {
+            *sum += part.triangles.len() as u32;
+            Some(*sum)
+        }));
+        let point = |hit: Hit| {
+            let vertices = scene.parts[hit.part as usize].triangles[hit.triangle as usize];
+            let uvs = vertices.map(|i| {
+                let [u, v] = scene.vertices[i as usize].uv;
+                [u, v, 0.0]
+            });
+            let [u, v, _] = blend(hit.weights, uvs);
+            Seen { triangle: first[hit.part as usize] + hit.triangle, uv: [u, v] }
+        };
+        self.hits.into_iter().map(|hit| hit.map(point)).collect()
     }
 }
 

@@ -1,0 +1,146 @@
+//! Light by fragment or by vertex, and relief.
+
+use super::Family;
+use crate::frame::{Frame, With, position, uv, wide};
+use crate::row::{Judge, Row};
+use crate::scenes::{SIDE, Scene, scene};
+use alberti::glam::{Vec2, Vec3};
+use alberti::shaders::material::{
+    BlinnPhong, Bump, Color, Directional, Framed, Gouraud, Lambert, Layer, Lighting, Material, Parallax, Phong,
+    Placed, Reflectance, Specular, Viewer,
+};
+use alberti::texture::surface::{LimitedParallax, OffsetParallax, ParallaxOcclusion, Relief, SteepParallax};
+use alberti::texture::{Bilinear, PowerOfTwo, Repeat, Sampler, Texture, format::L8, format::Rgba8888};
+use alberti::{Exact, F32Reversed, FragmentStage, Point3, Rgba8, Sub8, Varying, Vector3};
+use alberti_app::scene::{Model, Part, Vertex};
+use std::sync::LazyLock;
+
+/// Where light is found.
+pub(super) const LIGHT: Family = Family { name: "light", title: "Light", advice: "", rows: light };
+
+/// How a surface gets its depth.
+pub(super) const RELIEF: Family = Family { name: "relief", title: "Relief", advice: "", rows: relief };
+
+const SHININESS: u32 = 40;
+const HIGHLIGHT: Rgba8 = Rgba8::from_rgb24(0xa0_a0_98);
+
+fn lighting<R>(scene: &Scene, reflectance: R) -> Lighting<Directional, R> {
+    Lighting {
+        viewer: Viewer::at(Point3::new(Vec3::from_array(scene.camera.eye))),
+        ambient: Vec3::splat(0.25),
+        lights: Directional::new(Vector3::new(Vec3::new(0.5, 0.9, 0.7)), Vec3::splat(0.75)),
+        reflectance,
+    }
+}
+
+type Colors = Sampler<'static, Rgba8888, Bilinear, Repeat, Repeat, PowerOfTwo>;
+
+fn color(scene: &'static Scene) -> Color<Colors> {
+    let image = &scene.model.textures[0];
+    let texture = Texture::new(Rgba8888, &image.texels, image.width, image.height).expect("a texture");
+    Color(texture.power_of_two().expect("sides that are powers of two").sampler(Bilinear, Repeat))
+}
+
+fn frame<V: Varying + 'static>(
+    scene: &'static Scene,
+    vertex_stage: impl Fn(&Vertex) -> (Vec3, V) + 'static,
+    stage: impl FragmentStage<V, Color = Rgba8> + 'static,
+) -> Frame {
+    wide(scene, vertex_stage, stage, With { interpolation: Exact, depth: F32Reversed, subpixel: Sub8 })
+}
+
+fn placed(v: &Vertex) -> (Vec3, Placed) {
+    (position(v), Placed { position: position(v), normal: Vec3::from_array(v.normal), uv: uv(v) })
+}
+
+fn light(family: &'static str) -> Vec<Row> {
+    fn by_fragment(scene: &'static Scene, reflectance: impl Reflectance + 'static) -> Frame {
+        let layers = (color(scene), Specular(HIGHLIGHT));
+        frame(scene, placed, Material { layers, lighting: lighting(scene, reflectance) })
+    }
+    let rows = ["lit", "dense-mesh"].map(scene).map(|scene| {
+        let of = |name: &str, frame| Row::new(family, name, scene, Judge::Reference, frame);
+        let lamp = lighting(scene, BlinnPhong(SHININESS));
+        let at_vertex = move |v: &Vertex| {
+            let normal = Vector3::new(Vec3::from_array(v.normal));
+            let [scattered, mirrored] = lamp.at_vertex(Point3::new(position(v)), normal);
+            (position(v), (scattered, (mirrored, uv(v))))
+        };
+        let layers = (color(scene), Specular(HIGHLIGHT));
+        [
+            of("fragments, BlinnPhong", by_fragment(scene, BlinnPhong(SHININESS))).as_reference(),
+            of("fragments, Phong", by_fragment(scene, Phong(SHININESS / 4))),
+            of("fragments, Lambert", by_fragment(scene, Lambert)),
+            of("vertices, BlinnPhong", frame(scene, at_vertex, Gouraud { layers })),
+        ]
+    });
+    rows.into_iter().flatten().collect()
+}
+
+/// The heights of the stones: the alpha of their colours.
+static HEIGHTS: LazyLock<Vec<u8>> = LazyLock::new(|| {
+    scene("deep-relief").model.textures[0].texels.iter().map(|&[.., height]| height).collect()
+});
+
+type Heights = Sampler<'static, L8, Bilinear, Repeat, Repeat, PowerOfTwo>;
+
+fn heights(scene: &Scene) -> Relief<Heights> {
+    let texture = Texture::new(L8, &HEIGHTS, SIDE, SIDE).expect("a texture");
+    let map = texture.power_of_two().expect("a power of two").sampler(Bilinear, Repeat);
+    Relief { map, low: -scene.relief, high: 0.0, extent: Vec2::ONE }
+}
+
+/// The stones as a mesh of a vertex every other texel.
+static DISPLACED: LazyLock<Scene> = LazyLock::new(|| {
+    let flat = scene("deep-relief");
+    let relief = heights(flat);
+    let at = |s: f32, t: f32| [3.0 * (s - 0.5), 2.2 * (t - 0.5), 0.0];
+    let mut mesh = crate::scenes::sheet([384, 282], at, [3.0, 2.2]);
+    let step = Vec2::splat(1.0 / 256.0);
+    for vertex in &mut mesh.vertices {
+        let uv = Vec2::from_array(vertex.uv);
+        vertex.position[2] = relief.height(uv);
+        vertex.normal = relief.normal(uv, step).coords.to_array();
+    }
+    let parts = mesh.parts.into_iter().map(|part| Part { texture: Some(0), ..part }).collect();
+    Scene {
+        name: flat.name,
+        about: flat.about,
+        model: Model { parts, textures: flat.model.textures.clone(), ..mesh },
+        camera: flat.camera,
+        levels: vec![],
+        relief: flat.relief,
+    }
+});
+
+fn relief(family: &'static str) -> Vec<Row> {
+    fn framed(v: &Vertex) -> (Vec3, Framed) {
+        (position(v), Framed { position: position(v), axes: [Vec3::X, Vec3::Y, Vec3::Z], uv: uv(v) })
+    }
+    fn layered(scene: &'static Scene, layers: impl Layer<Framed> + 'static) -> Frame {
+        frame(scene, framed, Material { layers, lighting: lighting(scene, BlinnPhong(SHININESS)) })
+    }
+    let scene = scene("deep-relief");
+    let of = |name: &str, frame| Row::new(family, name, scene, Judge::Reference, frame);
+    let (color, mirrored, map) = (color(scene), Specular(HIGHLIGHT), heights(scene));
+    let solid = {
+        let scene: &'static Scene = &DISPLACED;
+        let layers = (color, mirrored);
+        frame(scene, placed, Material { layers, lighting: lighting(scene, BlinnPhong(SHININESS)) })
+    };
+    macro_rules! parallax {
+        ($policy:expr) => {
+            layered(scene, (Parallax { relief: map, policy: $policy }, color, mirrored, Bump(map)))
+        };
+    }
+    vec![
+        of("displaced mesh", solid).as_reference(),
+        of("none", layered(scene, (color, mirrored))),
+        of("Bump", layered(scene, (color, mirrored, Bump(map)))),
+        of("OffsetParallax", parallax!(OffsetParallax)),
+        of("LimitedParallax", parallax!(LimitedParallax)),
+        of("SteepParallax(16)", parallax!(SteepParallax { layers: 16 })),
+        of("ParallaxOcclusion(8)", parallax!(ParallaxOcclusion { layers: 8 })),
+        of("ParallaxOcclusion(32)", parallax!(ParallaxOcclusion { layers: 32 })),
+    ]
+}

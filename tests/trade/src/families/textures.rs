@@ -1,0 +1,97 @@
+//! Reading textures: filters, derivatives for levels of detail, and the way from coordinates to texels.
+
+use super::Family;
+use super::perspective::{TEXELS, nearest};
+use crate::frame::{Frame, With, mapped, wide};
+use crate::row::{Judge, Row};
+use crate::scenes::{Scene, scene};
+use alberti::glam::Vec2;
+use alberti::raster::{PerPixel, PerRun, PerTriangle};
+use alberti::shaders::{Differentiated, Unlit};
+use alberti::texture::{
+    Anisotropic, BaseLevel, Bilinear, Clamp, Minify, MipFilter, Mipmap, Mirror, Nearest, NearestLevel, PowerOfTwo,
+    Repeat, Texture, Trilinear, format::Rgba8888,
+};
+use alberti::{Exact, F32Reversed, FragmentStage, Rgba8, Sub8};
+
+/// How a texel is made of several.
+pub(super) const FILTERS: Family = Family { name: "filter", title: "Filters", advice: "", rows: filters };
+
+/// Where levels of detail come from.
+pub(super) const DERIVATIVES: Family =
+    Family { name: "derivatives", title: "Levels of detail", advice: "", rows: derivatives };
+
+/// How coordinates come to texels.
+pub(super) const ADDRESSES: Family =
+    Family { name: "addresses", title: "Wrap modes and sides", advice: "", rows: addresses };
+
+fn frame(scene: &'static Scene, stage: impl FragmentStage<Vec2, Color = Rgba8> + 'static) -> Frame {
+    wide(scene, mapped, stage, With { interpolation: Exact, depth: F32Reversed, subpixel: Sub8 })
+}
+
+fn levels(scene: &'static Scene) -> Mipmap<'static, Rgba8888, PowerOfTwo> {
+    let [width, height] = scene.sides();
+    let levels = Mipmap::new(Rgba8888, &scene.levels, width, height).expect("a texture");
+    levels.power_of_two().expect("sides that are powers of two")
+}
+
+fn base(scene: &'static Scene) -> Texture<'static, Rgba8888, PowerOfTwo> {
+    let image = &scene.model.textures[0];
+    let texture = Texture::new(Rgba8888, &image.texels, image.width, image.height).expect("a texture");
+    texture.power_of_two().expect("sides that are powers of two")
+}
+
+fn filters(family: &'static str) -> Vec<Row> {
+    fn mip(family: &'static str, name: &str, scene: &'static Scene, filter: impl MipFilter + 'static) -> Row {
+        Row::new(family, name, scene, Judge::Area, frame(scene, Unlit(levels(scene).sampler(filter, Repeat))))
+    }
+    let rows = ["near-flat", "minified", "floor"].map(scene).map(|scene| {
+        let of = |name: &str, frame| Row::new(family, name, scene, Judge::Area, frame);
+        let anisotropic =
+            |probes| mip(family, &format!("Anisotropic({probes})"), scene, Anisotropic { probes, filter: Trilinear });
+        [
+            of("Nearest", frame(scene, nearest(scene))).as_reference(),
+            of("Bilinear", frame(scene, Unlit(base(scene).sampler(Bilinear, Repeat)))),
+            mip(family, "NearestLevel(Nearest)", scene, Minify { min: NearestLevel(Nearest), mag: Nearest }),
+            mip(family, "NearestLevel(Bilinear)", scene, Minify { min: NearestLevel(Bilinear), mag: Bilinear }),
+            mip(family, "Trilinear", scene, Trilinear),
+            anisotropic(2),
+            anisotropic(4),
+            anisotropic(8),
+            anisotropic(16),
+        ]
+    });
+    rows.into_iter().flatten().collect()
+}
+
+fn derivatives(family: &'static str) -> Vec<Row> {
+    let rows = ["minified", "floor", "dense-mesh"].map(scene).map(|scene| {
+        let of = |name: &str, frame| Row::new(family, name, scene, Judge::Reference, frame);
+        let map = Unlit(levels(scene).sampler(Trilinear, Repeat));
+        [
+            of("PerPixel", frame(scene, Differentiated::by(PerPixel, map))).as_reference(),
+            of("PerRun", frame(scene, Differentiated::by(PerRun, map))),
+            of("PerTriangle", frame(scene, Differentiated::by(PerTriangle, map))),
+            of("none: BaseLevel", frame(scene, Unlit(levels(scene).sampler(BaseLevel(Bilinear), Repeat)))),
+        ]
+    });
+    rows.into_iter().flatten().collect()
+}
+
+fn addresses(family: &'static str) -> Vec<Row> {
+    // Where coordinates are in 0..1 all modes give one picture.
+    let rows = ["close-up"].map(scene).map(|scene| {
+        let of = |name: &str, frame| Row::new(family, name, scene, Judge::Rays, frame);
+        let image = &scene.model.textures[0];
+        let any = Texture::new(Rgba8888, &image.texels, image.width, image.height).expect("a texture");
+        let known = any.known::<TEXELS, TEXELS>().expect("sides that are known");
+        [
+            of("Repeat, PowerOfTwo", frame(scene, nearest(scene))).as_reference(),
+            of("Repeat, Known", frame(scene, Unlit(known.sampler(Nearest, Repeat)))),
+            of("Repeat, AnySize", frame(scene, Unlit(any.sampler(Nearest, Repeat)))),
+            of("Clamp, PowerOfTwo", frame(scene, Unlit(base(scene).sampler(Nearest, Clamp)))),
+            of("Mirror, PowerOfTwo", frame(scene, Unlit(base(scene).sampler(Nearest, Mirror)))),
+        ]
+    });
+    rows.into_iter().flatten().collect()
+}

@@ -1,0 +1,173 @@
+//! A frame of a scene by the library's own types: what is measured is what a program that names them gets.
+
+use crate::scenes::{SIZE, Scene};
+use alberti::glam::{Vec2, Vec3};
+use alberti::lanes::One;
+use alberti::{
+    Cull, DepthFormat, Flat, FragmentStage, Interpolation, Mesh, Pass, Rgba8, Rgba8888, Slot, Subpixel, Target,
+    Varying, View,
+};
+use alberti_app::scene::Vertex;
+use alberti_tests::for_widest;
+use std::cell::RefCell;
+
+/// Pixels of a picture.
+pub const PIXELS: usize = SIZE[0] as usize * SIZE[1] as usize;
+
+/// Draws into the words of a picture: clears colour and depth, transforms all vertices, draws all triangles.
+pub type Frame = Box<dyn FnMut(&mut [u32])>;
+
+/// The policies of a frame that every scene has.
+#[derive(Clone, Copy, Debug)]
+pub struct With<P, D> {
+    /// From vertices to pixels.
+    pub interpolation: P,
+    /// The depth buffer.
+    pub depth: D,
+    /// The grid of vertices.
+    pub subpixel: Subpixel,
+}
+
+/// A frame by the widest lanes that there are.
+pub fn wide<V, S, P, D>(
+    scene: &'static Scene,
+    vertex_stage: impl Fn(&Vertex) -> (Vec3, V) + 'static,
+    stage: S,
+    with: With<P, D>,
+) -> Frame
+where
+    V: Varying + 'static,
+    S: FragmentStage<V, Color = Rgba8> + 'static,
+    P: Interpolation,
+    D: DepthFormat + 'static,
+{
+    let mut memory = Memory::new(scene, with.depth);
+    Box::new(move |pixels| {
+        let Memory { view, slots, depth } = &mut memory;
+        let mesh = Mesh::new(&scene.model.vertices, scene.triangles(), &vertex_stage);
+        let mut target = target(pixels, with.depth, depth, scene);
+        let pass = Pass::new(view, &mesh, stage).interpolation(with.interpolation).subpixel(with.subpixel);
+        let mut pass = pass.slots(slots);
+        for_widest!(lanes => pass.draw_by(lanes, &mut target));
+    })
+}
+
+/// A frame by one lane, as [`FixedPoint`](alberti::FixedPoint) has it on every machine.
+pub fn narrow<V, S, P, D>(
+    scene: &'static Scene,
+    vertex_stage: impl Fn(&Vertex) -> (Vec3, V) + 'static,
+    stage: S,
+    with: With<P, D>,
+) -> Frame
+where
+    V: Varying + 'static,
+    S: FragmentStage<V, Color = Rgba8> + 'static,
+    P: Interpolation,
+    D: DepthFormat + 'static,
+{
+    let mut memory = Memory::new(scene, with.depth);
+    Box::new(move |pixels| {
+        let Memory { view, slots, depth } = &mut memory;
+        let mesh = Mesh::new(&scene.model.vertices, scene.triangles(), &vertex_stage);
+        let mut target = target(pixels, with.depth, depth, scene);
+        let pass = Pass::new(view, &mesh, stage).interpolation(with.interpolation).subpixel(with.subpixel);
+        pass.slots(slots).draw_by(One, &mut target);
+    })
+}
+
+/// What a frame needs beside its pixels.
+struct Memory<V: Varying, D: DepthFormat> {
+    view: View,
+    slots: Vec<Slot<V>>,
+    depth: Vec<D::Stored>,
+}
+
+impl<V: Varying, D: DepthFormat> Memory<V, D> {
+    fn new(scene: &Scene, depth: D) -> Self {
+        let slots = vec![Slot::EMPTY; scene.model.vertices.len()];
+        Self { view: scene.view(), slots, depth: vec![depth.farthest(); PIXELS] }
+    }
+}
+
+fn target<'a, D: DepthFormat>(
+    pixels: &'a mut [u32],
+    format: D,
+    depth: &'a mut [D::Stored],
+    scene: &Scene,
+) -> Target<'a, Rgba8888, D> {
+    let [width, height] = SIZE;
+    let mut target = Target::new(Rgba8888, format, width, height, pixels, depth).expect("buffers that fit");
+    target.clear(scene.background());
+    target
+}
+
+/// A triangle's number and texture coordinates at each pixel, by a policy.
+pub type Places = Vec<Option<(u32, [f32; 2])>>;
+
+/// The texture coordinates that are seen at each pixel, bit for bit those of [`wide`].
+///
+/// # Panics
+/// For a scene of more triangles than its numbers can tell apart: 2^20.
+pub fn places<P: Interpolation, D: DepthFormat>(scene: &Scene, with: With<P, D>) -> Places {
+    /// Numbers stay small enough for fixed point.
+    const BASE: u32 = 1024;
+    // Each triangle has vertices of its own, which carry its number.
+    let vertices: Vec<(Vertex, [f32; 2])> = (0..)
+        .zip(scene.triangles())
+        .flat_map(|(number, triangle)| {
+            let digits = [number % BASE, number / BASE].map(|digit: u32| {
+                f32::from(u16::try_from(digit).ok().filter(|&digit| digit < 1024).expect("few triangles"))
+            });
+            triangle.map(|index| (scene.model.vertices[index as usize], digits))
+        })
+        .collect();
+    let triangles: Vec<[u32; 3]> = (0..).step_by(3).map(|k| [k, k + 1, k + 2]).take(vertices.len() / 3).collect();
+    let mesh = Mesh::new(&vertices, &triangles, |(v, number)| {
+        (position(v), (uv(v), Flat(Vec2::from_array(*number))))
+    });
+    let seen = RefCell::new(vec![]);
+    let stage = |(uv, Flat(number)): (Vec2, Flat<Vec2>)| {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "digits from 0 to 1023")]
+        let number = number.x as u32 + BASE * number.y as u32;
+        let mut seen = seen.borrow_mut();
+        seen.push((number, uv.to_array()));
+        u32::try_from(seen.len()).ok()
+    };
+    let mut pixels = vec![0; PIXELS];
+    let mut depth = vec![with.depth.farthest(); PIXELS];
+    let [width, height] = SIZE;
+    let view = scene.view();
+    let mut target =
+        Target::new(Rgba8888, with.depth, width, height, &mut pixels, &mut depth).expect("buffers that fit");
+    let pass = Pass::new(&view, &mesh, &stage).interpolation(with.interpolation).subpixel(with.subpixel);
+    { pass }.draw_by(One, &mut target);
+    let seen = seen.into_inner();
+    pixels.iter().map(|&word| (word != 0).then(|| seen[u32::from_le(word) as usize - 1])).collect()
+}
+
+/// The place of a vertex.
+#[must_use]
+pub fn position(v: &Vertex) -> Vec3 {
+    Vec3::from_array(v.position)
+}
+
+/// Its texture coordinates.
+#[must_use]
+pub fn uv(v: &Vertex) -> Vec2 {
+    Vec2::from_array(v.uv)
+}
+
+/// Both, for a vertex stage.
+#[must_use]
+pub fn mapped(v: &Vertex) -> (Vec3, Vec2) {
+    (position(v), uv(v))
+}
+
+/// The words of a picture as bytes.
+#[must_use]
+pub fn bytes(words: &[u32]) -> Vec<[u8; 4]> {
+    words.iter().map(|word| word.to_ne_bytes()).collect()
+}
+
+/// The cull of all scenes, which is the default of a [`Pass`].
+pub const CULL: Cull = Cull::Back;

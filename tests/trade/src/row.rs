@@ -1,0 +1,70 @@
+//! The rows of the trade: a policy of a family on a scene, and how it is judged.
+
+use crate::frame::{Frame, Places};
+use crate::scenes::Scene;
+
+/// What the picture of a row is compared with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Judge {
+    /// A ray through each pixel's centre in `f64`, with the nearest texel.
+    Rays,
+    /// 64 rays a pixel in `f64`, a bilinear filter at each, and the mean of their light.
+    Area,
+    /// The picture of the family's reference, which the tests hold to `f64`.
+    Reference,
+}
+
+/// A policy on a scene.
+pub struct Row {
+    /// Its family's name.
+    pub family: &'static str,
+    /// The policy's, as its type is written.
+    pub policy: String,
+    /// The scene.
+    pub scene: &'static Scene,
+    /// Whether others of the family are measured as multiples of this one.
+    pub reference: bool,
+    /// The right picture.
+    pub judge: Judge,
+    /// Draws it.
+    pub frame: Frame,
+    /// Finds the texture coordinates, of families in which they differ.
+    pub places: Option<Box<dyn Fn() -> Places>>,
+}
+
+impl Row {
+    /// A row without texture coordinates.
+    pub fn new(
+        family: &'static str,
+        policy: impl Into<String>,
+        scene: &'static Scene,
+        judge: Judge,
+        frame: Frame,
+    ) -> Self {
+        Self { family, policy: policy.into(), scene, reference: false, judge, frame, places: None }
+    }
+
+    /// The row that the others are measured by.
+    #[must_use]
+    pub fn as_reference(self) -> Self {
+        Self { reference: true, ..self }
+    }
+
+    /// With its texture coordinates.
+    #[must_use]
+    pub fn with_places(self, places: impl Fn() -> Places + 'static) -> Self {
+        Self { places: Some(Box::new(places)), ..self }
+    }
+
+    /// Its name in messages and in the table of numbers.
+    #[must_use]
+    pub fn name(&self) -> String {
+        format!("{}/{}/{}", self.family, self.scene.name, self.policy)
+    }
+}
+
+impl std::fmt::Debug for Row {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Row").field("name", &self.name()).field("judge", &self.judge).finish_non_exhaustive()
+    }
+}
