@@ -20,6 +20,7 @@ mod nostd;
 mod package;
 mod peers;
 mod tidy;
+mod trade;
 mod workspace;
 
 use std::ffi::OsString;
@@ -132,6 +133,12 @@ const CHORES: &[Chore] = &[
         arguments: "",
         about: "time frames of 64x64 to 8192x8192 pixels and of 10^2 to 10^7 triangles, and write docs/growth.md",
         run: |_| growth::run(),
+    },
+    Chore {
+        name: "trade",
+        arguments: "[--check]",
+        about: "measure every policy's error and cost, and write docs/trade.md, or compare with its table",
+        run: trade::run,
     },
 ];
 

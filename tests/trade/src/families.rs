@@ -15,14 +15,25 @@ pub struct Family {
     pub title: &'static str,
     /// The paragraph that says what to pick when.
     pub advice: &'static str,
-    /// Makes its rows: in each scene the reference first.
-    pub rows: fn(&'static str) -> Vec<Row>,
+    /// The error that its plot shows, and its front goes by.
+    pub axis: Axis,
+    /// Makes its rows for pictures of a size: in each scene the reference first.
+    pub rows: fn(&'static str, [u32; 2]) -> Vec<Row>,
 }
 
 impl std::fmt::Debug for Family {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Family").field("name", &self.name).finish_non_exhaustive()
     }
+}
+
+/// The error of a plot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// Of texture coordinates, in texels.
+    Texels,
+    /// Of the picture, as somebody sees it who flips between the two.
+    Flip,
 }
 
 /// All of them, in the order of the page.

@@ -1,18 +1,15 @@
 //! A frame of a scene by the library's own types: what is measured is what a program that names them gets.
 
-use crate::scenes::{SIZE, Scene};
+use crate::scenes::Scene;
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::One;
 use alberti::{
-    Cull, DepthFormat, Flat, FragmentStage, Interpolation, Mesh, Pass, Rgba8, Rgba8888, Slot, Subpixel, Target,
+    DepthFormat, Flat, FragmentStage, Interpolation, Mesh, Pass, Rgba8, Rgba8888, Slot, Subpixel, Target,
     Varying, View,
 };
 use alberti_app::scene::Vertex;
 use alberti_tests::for_widest;
 use std::cell::RefCell;
-
-/// Pixels of a picture.
-pub const PIXELS: usize = SIZE[0] as usize * SIZE[1] as usize;
 
 /// Draws into the words of a picture: clears colour and depth, transforms all vertices, draws all triangles.
 pub type Frame = Box<dyn FnMut(&mut [u32])>;
@@ -26,6 +23,14 @@ pub struct With<P, D> {
     pub depth: D,
     /// The grid of vertices.
     pub subpixel: Subpixel,
+    /// Columns and rows.
+    pub size: [u32; 2],
+}
+
+/// The pixels of a picture of this size.
+#[must_use]
+pub fn pixels([width, height]: [u32; 2]) -> usize {
+    width as usize * height as usize
 }
 
 /// A frame by the widest lanes that there are.
@@ -41,11 +46,11 @@ where
     P: Interpolation,
     D: DepthFormat + 'static,
 {
-    let mut memory = Memory::new(scene, with.depth);
-    Box::new(move |pixels| {
+    let mut memory = Memory::new(scene, with.depth, with.size);
+    Box::new(move |words| {
         let Memory { view, slots, depth } = &mut memory;
         let mesh = Mesh::new(&scene.model.vertices, scene.triangles(), &vertex_stage);
-        let mut target = target(pixels, with.depth, depth, scene);
+        let mut target = target((words, depth), with.depth, with.size, scene);
         let pass = Pass::new(view, &mesh, stage).interpolation(with.interpolation).subpixel(with.subpixel);
         let mut pass = pass.slots(slots);
         for_widest!(lanes => pass.draw_by(lanes, &mut target));
@@ -65,11 +70,11 @@ where
     P: Interpolation,
     D: DepthFormat + 'static,
 {
-    let mut memory = Memory::new(scene, with.depth);
-    Box::new(move |pixels| {
+    let mut memory = Memory::new(scene, with.depth, with.size);
+    Box::new(move |words| {
         let Memory { view, slots, depth } = &mut memory;
         let mesh = Mesh::new(&scene.model.vertices, scene.triangles(), &vertex_stage);
-        let mut target = target(pixels, with.depth, depth, scene);
+        let mut target = target((words, depth), with.depth, with.size, scene);
         let pass = Pass::new(view, &mesh, stage).interpolation(with.interpolation).subpixel(with.subpixel);
         pass.slots(slots).draw_by(One, &mut target);
     })
@@ -83,20 +88,19 @@ struct Memory<V: Varying, D: DepthFormat> {
 }
 
 impl<V: Varying, D: DepthFormat> Memory<V, D> {
-    fn new(scene: &Scene, depth: D) -> Self {
+    fn new(scene: &Scene, depth: D, size: [u32; 2]) -> Self {
         let slots = vec![Slot::EMPTY; scene.model.vertices.len()];
-        Self { view: scene.view(), slots, depth: vec![depth.farthest(); PIXELS] }
+        Self { view: scene.view(), slots, depth: vec![depth.farthest(); pixels(size)] }
     }
 }
 
 fn target<'a, D: DepthFormat>(
-    pixels: &'a mut [u32],
+    (words, depth): (&'a mut [u32], &'a mut [D::Stored]),
     format: D,
-    depth: &'a mut [D::Stored],
+    [width, height]: [u32; 2],
     scene: &Scene,
 ) -> Target<'a, Rgba8888, D> {
-    let [width, height] = SIZE;
-    let mut target = Target::new(Rgba8888, format, width, height, pixels, depth).expect("buffers that fit");
+    let mut target = Target::new(Rgba8888, format, width, height, words, depth).expect("buffers that fit");
     target.clear(scene.background());
     target
 }
@@ -121,7 +125,8 @@ pub fn places<P: Interpolation, D: DepthFormat>(scene: &Scene, with: With<P, D>)
             triangle.map(|index| (scene.model.vertices[index as usize], digits))
         })
         .collect();
-    let triangles: Vec<[u32; 3]> = (0..).step_by(3).map(|k| [k, k + 1, k + 2]).take(vertices.len() / 3).collect();
+    let triangles: Vec<[u32; 3]> =
+        (0..).step_by(3).map(|k| [k, k + 1, k + 2]).take(vertices.len() / 3).collect();
     let mesh = Mesh::new(&vertices, &triangles, |(v, number)| {
         (position(v), (uv(v), Flat(Vec2::from_array(*number))))
     });
@@ -133,16 +138,15 @@ pub fn places<P: Interpolation, D: DepthFormat>(scene: &Scene, with: With<P, D>)
         seen.push((number, uv.to_array()));
         u32::try_from(seen.len()).ok()
     };
-    let mut pixels = vec![0; PIXELS];
-    let mut depth = vec![with.depth.farthest(); PIXELS];
-    let [width, height] = SIZE;
-    let view = scene.view();
+    let mut words = vec![0; pixels(with.size)];
+    let mut depth = vec![with.depth.farthest(); words.len()];
+    let ([width, height], view) = (with.size, scene.view());
     let mut target =
-        Target::new(Rgba8888, with.depth, width, height, &mut pixels, &mut depth).expect("buffers that fit");
+        Target::new(Rgba8888, with.depth, width, height, &mut words, &mut depth).expect("buffers that fit");
     let pass = Pass::new(&view, &mesh, &stage).interpolation(with.interpolation).subpixel(with.subpixel);
     { pass }.draw_by(One, &mut target);
     let seen = seen.into_inner();
-    pixels.iter().map(|&word| (word != 0).then(|| seen[u32::from_le(word) as usize - 1])).collect()
+    words.iter().map(|&word| (word != 0).then(|| seen[u32::from_le(word) as usize - 1])).collect()
 }
 
 /// The place of a vertex.
@@ -168,6 +172,3 @@ pub fn mapped(v: &Vertex) -> (Vec3, Vec2) {
 pub fn bytes(words: &[u32]) -> Vec<[u8; 4]> {
     words.iter().map(|word| word.to_ne_bytes()).collect()
 }
-
-/// The cull of all scenes, which is the default of a [`Pass`].
-pub const CULL: Cull = Cull::Back;

@@ -1,7 +1,7 @@
 //! The right pictures: by rays in `f64`.
 
-use crate::frame::PIXELS;
-use crate::scenes::{SIZE, Scene};
+use crate::frame::pixels;
+use crate::scenes::Scene;
 use alberti_app::options::{Filter, RenderOptions};
 use alberti_oracle::ideal::{Seen, render_ideal, see_ideal};
 use alberti_oracle::scene as oracle;
@@ -9,14 +9,14 @@ use alberti_tests::reference::with_scene;
 
 /// The picture of a ray through each pixel's centre, with the nearest texel.
 #[must_use]
-pub fn by_rays(scene: &Scene) -> Vec<[u8; 4]> {
-    drawn(scene, &scene.options(Filter::Nearest), |drawn| render_ideal(drawn).pixels)
+pub fn by_rays(scene: &Scene, size: [u32; 2]) -> Vec<[u8; 4]> {
+    drawn(scene, &scene.options(size, Filter::Nearest), |drawn| render_ideal(drawn).pixels)
 }
 
 /// The point that each of these rays meets.
 #[must_use]
-pub fn points(scene: &Scene) -> Vec<Option<Seen>> {
-    drawn(scene, &scene.options(Filter::Nearest), see_ideal)
+pub fn points(scene: &Scene, size: [u32; 2]) -> Vec<Option<Seen>> {
+    drawn(scene, &scene.options(size, Filter::Nearest), see_ideal)
 }
 
 /// Rays along a side of a pixel.
@@ -24,15 +24,15 @@ const ALONG: u32 = 8;
 
 /// The mean light of 64 rays a pixel, with a bilinear filter at each.
 #[must_use]
-pub fn by_area(scene: &Scene) -> Vec<[u8; 4]> {
-    let [width, height] = SIZE.map(|side| side * ALONG);
-    let options = RenderOptions { width, height, ..scene.options(Filter::Bilinear) };
+pub fn by_area(scene: &Scene, size: [u32; 2]) -> Vec<[u8; 4]> {
+    let [width, height] = size.map(|side| side * ALONG);
+    let options = RenderOptions { width, height, ..scene.options(size, Filter::Bilinear) };
     let fine = drawn(scene, &options, |drawn| render_ideal(drawn).pixels);
     let light = light_of_bytes();
-    let mut sums = vec![[0.0; 3]; PIXELS];
-    for (row, pixels) in fine.chunks(width as usize).enumerate() {
-        let first = row / ALONG as usize * SIZE[0] as usize;
-        for (k, [r, g, b, _]) in pixels.iter().enumerate() {
+    let mut sums = vec![[0.0; 3]; pixels(size)];
+    for (row, line) in fine.chunks(width as usize).enumerate() {
+        let first = row / ALONG as usize * size[0] as usize;
+        for (k, [r, g, b, _]) in line.iter().enumerate() {
             let sum: &mut [f64; 3] = &mut sums[first + k / ALONG as usize];
             for (sum, byte) in sum.iter_mut().zip([r, g, b]) {
                 *sum += light[usize::from(*byte)];
@@ -40,7 +40,12 @@ pub fn by_area(scene: &Scene) -> Vec<[u8; 4]> {
         }
     }
     let byte = |sum: f64| encode(sum / f64::from(ALONG * ALONG));
-    sums.into_iter().map(|sum| { let [r, g, b] = sum.map(byte); [r, g, b, 255] }).collect()
+    sums.into_iter()
+        .map(|sum| {
+            let [r, g, b] = sum.map(byte);
+            [r, g, b, 255]
+        })
+        .collect()
 }
 
 fn drawn<R>(scene: &Scene, options: &RenderOptions, draw: impl FnOnce(&oracle::Scene<'_>) -> R) -> R {

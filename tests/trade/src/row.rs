@@ -1,6 +1,6 @@
 //! The rows of the trade: a policy of a family on a scene, and how it is judged.
 
-use crate::frame::{Frame, Places};
+use crate::frame::{Frame, Places, pixels};
 use crate::scenes::Scene;
 
 /// What the picture of a row is compared with.
@@ -26,6 +26,8 @@ pub struct Row {
     pub reference: bool,
     /// The right picture.
     pub judge: Judge,
+    /// Columns and rows.
+    pub size: [u32; 2],
     /// Draws it.
     pub frame: Frame,
     /// Finds the texture coordinates, of families in which they differ.
@@ -39,9 +41,15 @@ impl Row {
         policy: impl Into<String>,
         scene: &'static Scene,
         judge: Judge,
-        frame: Frame,
+        (size, frame): ([u32; 2], Frame),
     ) -> Self {
-        Self { family, policy: policy.into(), scene, reference: false, judge, frame, places: None }
+        Self { family, policy: policy.into(), scene, reference: false, judge, size, frame, places: None }
+    }
+
+    /// The number of its pixels.
+    #[must_use]
+    pub fn pixels(&self) -> usize {
+        pixels(self.size)
     }
 
     /// The row that the others are measured by.

@@ -11,8 +11,6 @@ use alberti_tests::reference::view;
 use std::num::NonZero;
 use std::sync::LazyLock;
 
-/// Columns and rows of all pictures.
-pub const SIZE: [u32; 2] = [640, 480];
 /// Texels along a side of the textures that are made here.
 pub const SIDE: u32 = 256;
 /// Behind all scenes.
@@ -90,8 +88,7 @@ impl Scene {
 
     /// The options under which the command draws it as it is.
     #[must_use]
-    pub fn options(&self, filter: Filter) -> RenderOptions {
-        let [width, height] = SIZE;
+    pub fn options(&self, [width, height]: [u32; 2], filter: Filter) -> RenderOptions {
         RenderOptions {
             width,
             height,
@@ -112,7 +109,12 @@ impl Scene {
 fn near_flat() -> Scene {
     let at = |s: f32, t: f32| [2.6 * (s - 0.5), 2.0 * (t - 0.5), -2.6 - 0.26 * s];
     let model = textured(sheet([8, 6], at, [2.0, 1.5]), tiles());
-    Scene::new("near-flat", "a wall that leans back: q changes by a tenth across it", model, camera(0.1, 10.0))
+    Scene::new(
+        "near-flat",
+        "a wall that leans back: q changes by a tenth across it",
+        model,
+        camera(0.1, 10.0),
+    )
 }
 
 /// One plane from behind the eye to the horizon.
@@ -120,7 +122,12 @@ fn floor() -> Scene {
     let at = |s: f32, t: f32| [400.0 * (s - 0.5), -1.0, 2.0 - 400.0 * t];
     let model = textured(sheet([1, 1], at, [400.0, 402.0]), tiles());
     let camera = Camera { target: [0.0, -0.25, -1.0], ..camera(0.1, 500.0) };
-    Scene::new("floor", "two triangles from behind the eye to the horizon, through the near plane", model, camera)
+    Scene::new(
+        "floor",
+        "two triangles from behind the eye to the horizon, through the near plane",
+        model,
+        camera,
+    )
 }
 
 /// A wall along the line of sight, whose near end is fifty times as near as its far end.
@@ -169,9 +176,13 @@ fn lit() -> Scene {
         let (a, b) = (s * turn).sin_cos();
         vertex.tangent = [b, 0.0, -a, 1.0];
     }
-    let camera =
-        Camera { eye: [0.0, 1.7, 2.4], target: [0.0, -0.1, 0.0], fov: 45.0, ..camera(0.1, 10.0) };
-    Scene::new("lit", "a torus of 1,024 triangles under a lamp, with a highlight", textured(model, tiles()), camera)
+    let camera = Camera { eye: [0.0, 1.7, 2.4], target: [0.0, -0.1, 0.0], fov: 45.0, ..camera(0.1, 10.0) };
+    Scene::new(
+        "lit",
+        "a torus of 1,024 triangles under a lamp, with a highlight",
+        textured(model, tiles()),
+        camera,
+    )
 }
 
 /// A wall with bumps a twelfth of a tile deep, seen from aside.
@@ -179,7 +190,12 @@ fn relief() -> Scene {
     let at = |s: f32, t: f32| [3.0 * (s - 0.5), 2.2 * (t - 0.5), 0.0];
     let model = textured(sheet([1, 1], at, [3.0, 2.2]), bumps());
     let camera = Camera { eye: [1.5, 0.6, 1.15], target: [0.05, -0.05, 0.0], fov: 50.0, ..camera(0.1, 10.0) };
-    let scene = Scene::new("deep-relief", "a wall with bumps a twelfth of a tile high, seen from aside", model, camera);
+    let scene = Scene::new(
+        "deep-relief",
+        "a wall with bumps a twelfth of a tile high, seen from aside",
+        model,
+        camera,
+    );
     Scene { relief: 1.0 / 12.0, ..scene }
 }
 
@@ -193,13 +209,17 @@ fn share(k: usize, of: u16) -> f32 {
 }
 
 /// A grid of cells, s to the right and t upwards as seen from the front, with so many repeats of a texture.
-pub(crate) fn sheet([columns, rows]: [u16; 2], at: impl Fn(f32, f32) -> [f32; 3], repeats: [f32; 2]) -> Model {
+pub(crate) fn sheet(
+    [columns, rows]: [u16; 2],
+    at: impl Fn(f32, f32) -> [f32; 3],
+    repeats: [f32; 2],
+) -> Model {
     let across = u32::from(columns) + 1;
     let corners = (0..=rows).flat_map(|j| (0..=columns).map(move |i| (i, j)));
     let vertex = |(i, j): (u16, u16)| {
         let [s, t] = [share(i.into(), columns), share(j.into(), rows)];
-        let [left, right, low, high] = [at(s - 1e-3, t), at(s + 1e-3, t), at(s, t - 1e-3), at(s, t + 1e-3)]
-            .map(Vec3::from_array);
+        let [left, right, low, high] =
+            [at(s - 1e-3, t), at(s + 1e-3, t), at(s, t - 1e-3), at(s, t + 1e-3)].map(Vec3::from_array);
         let (along, up) = (right - left, high - low);
         let tangent = along.normalize();
         Vertex {
@@ -212,8 +232,7 @@ pub(crate) fn sheet([columns, rows]: [u16; 2], at: impl Fn(f32, f32) -> [f32; 3]
     };
     let cells = (0..u32::from(rows)).flat_map(|j| (0..u32::from(columns)).map(move |i| j * across + i));
     let halves = |a: u32| [[a, a + 1, a + across + 1], [a, a + across + 1, a + across]];
-    let part =
-        Part { triangles: cells.flat_map(halves).collect(), diffuse: [1.0; 3], ..Part::default() };
+    let part = Part { triangles: cells.flat_map(halves).collect(), diffuse: [1.0; 3], ..Part::default() };
     Model { vertices: corners.map(vertex).collect(), parts: vec![part], ..Model::default() }
 }
 

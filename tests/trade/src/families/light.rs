@@ -1,25 +1,28 @@
 //! Light by fragment or by vertex, and relief.
 
-use super::Family;
-use crate::frame::{Frame, With, position, uv, wide};
+use super::perspective::with;
+use super::{Axis, Family};
+use crate::frame::{Frame, position, uv, wide};
 use crate::row::{Judge, Row};
 use crate::scenes::{SIDE, Scene, scene};
 use alberti::glam::{Vec2, Vec3};
 use alberti::shaders::material::{
-    BlinnPhong, Bump, Color, Directional, Framed, Gouraud, Lambert, Layer, Lighting, Material, Parallax, Phong,
-    Placed, Reflectance, Specular, Viewer,
+    BlinnPhong, Bump, Color, Directional, Framed, Gouraud, Lambert, Layer, Lighting, Material, Parallax,
+    Phong, Placed, Reflectance, Specular, Viewer,
 };
 use alberti::texture::surface::{LimitedParallax, OffsetParallax, ParallaxOcclusion, Relief, SteepParallax};
 use alberti::texture::{Bilinear, PowerOfTwo, Repeat, Sampler, Texture, format::L8, format::Rgba8888};
-use alberti::{Exact, F32Reversed, FragmentStage, Point3, Rgba8, Sub8, Varying, Vector3};
+use alberti::{Exact, FragmentStage, Point3, Rgba8, Varying, Vector3};
 use alberti_app::scene::{Model, Part, Vertex};
 use std::sync::LazyLock;
 
 /// Where light is found.
-pub(super) const LIGHT: Family = Family { name: "light", title: "Light", advice: "", rows: light };
+pub(super) const LIGHT: Family =
+    Family { name: "light", title: "Light", advice: "", axis: Axis::Flip, rows: light };
 
 /// How a surface gets its depth.
-pub(super) const RELIEF: Family = Family { name: "relief", title: "Relief", advice: "", rows: relief };
+pub(super) const RELIEF: Family =
+    Family { name: "relief", title: "Relief", advice: "", axis: Axis::Flip, rows: relief };
 
 const SHININESS: u32 = 40;
 const HIGHLIGHT: Rgba8 = Rgba8::from_rgb24(0xa0_a0_98);
@@ -42,21 +45,24 @@ fn color(scene: &'static Scene) -> Color<Colors> {
 }
 
 fn frame<V: Varying + 'static>(
-    scene: &'static Scene,
+    (scene, size): (&'static Scene, [u32; 2]),
     vertex_stage: impl Fn(&Vertex) -> (Vec3, V) + 'static,
     stage: impl FragmentStage<V, Color = Rgba8> + 'static,
-) -> Frame {
-    wide(scene, vertex_stage, stage, With { interpolation: Exact, depth: F32Reversed, subpixel: Sub8 })
+) -> ([u32; 2], Frame) {
+    (size, wide(scene, vertex_stage, stage, with(Exact, size)))
 }
 
 fn placed(v: &Vertex) -> (Vec3, Placed) {
     (position(v), Placed { position: position(v), normal: Vec3::from_array(v.normal), uv: uv(v) })
 }
 
-fn light(family: &'static str) -> Vec<Row> {
-    fn by_fragment(scene: &'static Scene, reflectance: impl Reflectance + 'static) -> Frame {
+fn light(family: &'static str, size: [u32; 2]) -> Vec<Row> {
+    fn by_fragment(
+        (scene, size): (&'static Scene, [u32; 2]),
+        reflectance: impl Reflectance + 'static,
+    ) -> ([u32; 2], Frame) {
         let layers = (color(scene), Specular(HIGHLIGHT));
-        frame(scene, placed, Material { layers, lighting: lighting(scene, reflectance) })
+        frame((scene, size), placed, Material { layers, lighting: lighting(scene, reflectance) })
     }
     let rows = ["lit", "dense-mesh"].map(scene).map(|scene| {
         let of = |name: &str, frame| Row::new(family, name, scene, Judge::Reference, frame);
@@ -68,10 +74,10 @@ fn light(family: &'static str) -> Vec<Row> {
         };
         let layers = (color(scene), Specular(HIGHLIGHT));
         [
-            of("fragments, BlinnPhong", by_fragment(scene, BlinnPhong(SHININESS))).as_reference(),
-            of("fragments, Phong", by_fragment(scene, Phong(SHININESS / 4))),
-            of("fragments, Lambert", by_fragment(scene, Lambert)),
-            of("vertices, BlinnPhong", frame(scene, at_vertex, Gouraud { layers })),
+            of("fragments, BlinnPhong", by_fragment((scene, size), BlinnPhong(SHININESS))).as_reference(),
+            of("fragments, Phong", by_fragment((scene, size), Phong(SHININESS / 4))),
+            of("fragments, Lambert", by_fragment((scene, size), Lambert)),
+            of("vertices, BlinnPhong", frame((scene, size), at_vertex, Gouraud { layers })),
         ]
     });
     rows.into_iter().flatten().collect()
@@ -113,12 +119,15 @@ static DISPLACED: LazyLock<Scene> = LazyLock::new(|| {
     }
 });
 
-fn relief(family: &'static str) -> Vec<Row> {
+fn relief(family: &'static str, size: [u32; 2]) -> Vec<Row> {
     fn framed(v: &Vertex) -> (Vec3, Framed) {
         (position(v), Framed { position: position(v), axes: [Vec3::X, Vec3::Y, Vec3::Z], uv: uv(v) })
     }
-    fn layered(scene: &'static Scene, layers: impl Layer<Framed> + 'static) -> Frame {
-        frame(scene, framed, Material { layers, lighting: lighting(scene, BlinnPhong(SHININESS)) })
+    fn layered(
+        (scene, size): (&'static Scene, [u32; 2]),
+        layers: impl Layer<Framed> + 'static,
+    ) -> ([u32; 2], Frame) {
+        frame((scene, size), framed, Material { layers, lighting: lighting(scene, BlinnPhong(SHININESS)) })
     }
     let scene = scene("deep-relief");
     let of = |name: &str, frame| Row::new(family, name, scene, Judge::Reference, frame);
@@ -126,17 +135,17 @@ fn relief(family: &'static str) -> Vec<Row> {
     let solid = {
         let scene: &'static Scene = &DISPLACED;
         let layers = (color, mirrored);
-        frame(scene, placed, Material { layers, lighting: lighting(scene, BlinnPhong(SHININESS)) })
+        frame((scene, size), placed, Material { layers, lighting: lighting(scene, BlinnPhong(SHININESS)) })
     };
     macro_rules! parallax {
         ($policy:expr) => {
-            layered(scene, (Parallax { relief: map, policy: $policy }, color, mirrored, Bump(map)))
+            layered((scene, size), (Parallax { relief: map, policy: $policy }, color, mirrored, Bump(map)))
         };
     }
     vec![
         of("displaced mesh", solid).as_reference(),
-        of("none", layered(scene, (color, mirrored))),
-        of("Bump", layered(scene, (color, mirrored, Bump(map)))),
+        of("none", layered((scene, size), (color, mirrored))),
+        of("Bump", layered((scene, size), (color, mirrored, Bump(map)))),
         of("OffsetParallax", parallax!(OffsetParallax)),
         of("LimitedParallax", parallax!(LimitedParallax)),
         of("SteepParallax(16)", parallax!(SteepParallax { layers: 16 })),

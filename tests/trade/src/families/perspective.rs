@@ -1,61 +1,59 @@
 //! From vertices to pixels: perspective, and the numbers in which it is computed.
 
-use super::Family;
+use super::{Axis, Family};
 use crate::frame::{With, mapped, narrow, places, wide};
 use crate::row::{Judge, Row};
 use crate::scenes::{SIDE, Scene, scene};
 use alberti::shaders::Unlit;
 use alberti::texture::{Nearest, PowerOfTwo, Repeat, Sampler, Texture, format::Rgba8888};
-use alberti::{
-    Affine, Exact, F32Reversed, FixedPoint, Interpolation, Lines, Planes, Spans16, Sub8,
-};
+use alberti::{Affine, Exact, F32Reversed, FixedPoint, Interpolation, Lines, Planes, Spans16, Sub8};
 
 /// Which way attributes take across a triangle.
-pub(super) const PERSPECTIVE: Family = Family {
-    name: "perspective",
-    title: "Perspective",
-    advice: "",
-    rows: perspective,
-};
+pub(super) const PERSPECTIVE: Family =
+    Family { name: "perspective", title: "Perspective", advice: "", axis: Axis::Texels, rows: perspective };
 
 /// In which numbers.
-pub(super) const NUMBERS: Family = Family { name: "numbers", title: "Numbers", advice: "", rows: numbers };
+pub(super) const NUMBERS: Family =
+    Family { name: "numbers", title: "Numbers", advice: "", axis: Axis::Texels, rows: numbers };
 
 const SCENES: [&str; 5] = ["near-flat", "floor", "close-up", "dense-mesh", "layers"];
 
 /// Its first texture, read in the shortest way.
-pub(super) fn nearest(scene: &'static Scene) -> Unlit<Sampler<'static, Rgba8888, Nearest, Repeat, Repeat, PowerOfTwo>> {
+pub(super) fn nearest(
+    scene: &'static Scene,
+) -> Unlit<Sampler<'static, Rgba8888, Nearest, Repeat, Repeat, PowerOfTwo>> {
     let image = &scene.model.textures[0];
     let texture = Texture::new(Rgba8888, &image.texels, image.width, image.height).expect("a texture");
     Unlit(texture.power_of_two().expect("sides that are powers of two").sampler(Nearest, Repeat))
 }
 
-fn with<P>(interpolation: P) -> With<P, F32Reversed> {
-    With { interpolation, depth: F32Reversed, subpixel: Sub8 }
+pub(super) fn with<P>(interpolation: P, size: [u32; 2]) -> With<P, F32Reversed> {
+    With { interpolation, depth: F32Reversed, subpixel: Sub8, size }
 }
 
 /// A row of floats, as its type and for its texture coordinates as another that has the same bits.
 fn float(
     family: &'static str,
     name: &str,
-    scene: &'static Scene,
+    (scene, size): (&'static Scene, [u32; 2]),
     interpolation: impl Interpolation,
     same: impl Interpolation,
 ) -> Row {
-    let frame = wide(scene, mapped, nearest(scene), with(interpolation));
-    Row::new(family, name, scene, Judge::Rays, frame).with_places(move || places(scene, with(same)))
+    let frame = wide(scene, mapped, nearest(scene), with(interpolation, size));
+    Row::new(family, name, scene, Judge::Rays, (size, frame))
+        .with_places(move || places(scene, with(same, size)))
 }
 
 fn fixed(
     family: &'static str,
     name: &str,
-    scene: &'static Scene,
+    (scene, size): (&'static Scene, [u32; 2]),
     interpolation: impl Interpolation,
     lines: Lines,
 ) -> Row {
-    let frame = narrow(scene, mapped, nearest(scene), with(interpolation));
-    let places = move || places(scene, with(FixedPoint(lines)));
-    Row::new(family, name, scene, Judge::Rays, frame).with_places(places)
+    let frame = narrow(scene, mapped, nearest(scene), with(interpolation, size));
+    let places = move || places(scene, with(FixedPoint(lines), size));
+    Row::new(family, name, scene, Judge::Rays, (size, frame)).with_places(places)
 }
 
 fn spans(length: i32) -> Lines {
@@ -67,43 +65,49 @@ fn bounded(scene: &Scene, texels: f32) -> Lines {
     Lines::bounded_texels(texels, u16::try_from(width.max(height)).unwrap_or(u16::MAX))
 }
 
-fn perspective(family: &'static str) -> Vec<Row> {
+fn perspective(family: &'static str, size: [u32; 2]) -> Vec<Row> {
     let rows = SCENES.map(scene).map(|scene| {
-        let lines = |name: &str, lines: Lines| float(family, name, scene, lines, lines);
+        let lines = |name: &str, lines: Lines| float(family, name, (scene, size), lines, lines);
         [
-            float(family, "Exact", scene, Exact, Exact).as_reference(),
-            float(family, "Planes", scene, Planes, Planes),
+            float(family, "Exact", (scene, size), Exact, Exact).as_reference(),
+            float(family, "Planes", (scene, size), Planes, Planes),
             lines("Lines::spans(4)", spans(4)),
             lines("Lines::spans(8)", spans(8)),
-            float(family, "Spans16", scene, Spans16, spans(16)),
+            float(family, "Spans16", (scene, size), Spans16, spans(16)),
             lines("Lines::spans(32)", spans(32)),
             lines("Lines::bounded(1/16)", bounded(scene, 1.0 / 16.0)),
             lines("Lines::bounded(1/4)", bounded(scene, 0.25)),
             lines("Lines::bounded(1)", bounded(scene, 1.0)),
-            float(family, "Affine", scene, Affine, Lines::affine()),
+            float(family, "Affine", (scene, size), Affine, Lines::affine()),
         ]
     });
     rows.into_iter().flatten().collect()
 }
 
-fn numbers(family: &'static str) -> Vec<Row> {
+fn numbers(family: &'static str, size: [u32; 2]) -> Vec<Row> {
     let rows = SCENES.map(scene).map(|scene| {
         let sixteenth = bounded(scene, 1.0 / 16.0);
         [
             {
-                let frame = narrow(scene, mapped, nearest(scene), with(Exact));
-                Row::new(family, "f32, Exact", scene, Judge::Rays, frame)
-                    .with_places(move || places(scene, with(Exact)))
+                let frame = narrow(scene, mapped, nearest(scene), with(Exact, size));
+                Row::new(family, "f32, Exact", scene, Judge::Rays, (size, frame))
+                    .with_places(move || places(scene, with(Exact, size)))
                     .as_reference()
             },
             {
-                let frame = narrow(scene, mapped, nearest(scene), with(Spans16));
-                Row::new(family, "f32, Spans16", scene, Judge::Rays, frame)
-                    .with_places(move || places(scene, with(spans(16))))
+                let frame = narrow(scene, mapped, nearest(scene), with(Spans16, size));
+                Row::new(family, "f32, Spans16", scene, Judge::Rays, (size, frame))
+                    .with_places(move || places(scene, with(spans(16), size)))
             },
-            fixed(family, "FixedPoint(Spans16)", scene, FixedPoint(Spans16), spans(16)),
-            fixed(family, "FixedPoint(Lines::bounded(1/16))", scene, FixedPoint(sixteenth), sixteenth),
-            fixed(family, "FixedPoint(Affine)", scene, FixedPoint(Affine), Lines::affine()),
+            fixed(family, "FixedPoint(Spans16)", (scene, size), FixedPoint(Spans16), spans(16)),
+            fixed(
+                family,
+                "FixedPoint(Lines::bounded(1/16))",
+                (scene, size),
+                FixedPoint(sixteenth),
+                sixteenth,
+            ),
+            fixed(family, "FixedPoint(Affine)", (scene, size), FixedPoint(Affine), Lines::affine()),
         ]
     });
     rows.into_iter().flatten().collect()

@@ -1,32 +1,49 @@
 //! Reading textures: filters, derivatives for levels of detail, and the way from coordinates to texels.
 
-use super::Family;
-use super::perspective::{TEXELS, nearest};
-use crate::frame::{Frame, With, mapped, wide};
+use super::perspective::{TEXELS, nearest, with};
+use super::{Axis, Family};
+use crate::frame::{Frame, mapped, wide};
 use crate::row::{Judge, Row};
 use crate::scenes::{Scene, scene};
 use alberti::glam::Vec2;
 use alberti::raster::{PerPixel, PerRun, PerTriangle};
 use alberti::shaders::{Differentiated, Unlit};
 use alberti::texture::{
-    Anisotropic, BaseLevel, Bilinear, Clamp, Minify, MipFilter, Mipmap, Mirror, Nearest, NearestLevel, PowerOfTwo,
-    Repeat, Texture, Trilinear, format::Rgba8888,
+    Anisotropic, BaseLevel, Bilinear, Clamp, Minify, MipFilter, Mipmap, Mirror, Nearest, NearestLevel,
+    PowerOfTwo, Repeat, Texture, Trilinear, format::Rgba8888,
 };
-use alberti::{Exact, F32Reversed, FragmentStage, Rgba8, Sub8};
+use alberti::{Exact, FragmentStage, Rgba8};
 
 /// How a texel is made of several.
-pub(super) const FILTERS: Family = Family { name: "filter", title: "Filters", advice: "", rows: filters };
+pub(super) const FILTERS: Family =
+    Family { name: "filter", title: "Filters", advice: "", axis: Axis::Flip, rows: filters };
 
 /// Where levels of detail come from.
-pub(super) const DERIVATIVES: Family =
-    Family { name: "derivatives", title: "Levels of detail", advice: "", rows: derivatives };
+pub(super) const DERIVATIVES: Family = Family {
+    name: "derivatives",
+    title: "Levels of detail",
+    advice: "",
+    axis: Axis::Flip,
+    rows: derivatives,
+};
 
 /// How coordinates come to texels.
-pub(super) const ADDRESSES: Family =
-    Family { name: "addresses", title: "Wrap modes and sides", advice: "", rows: addresses };
+pub(super) const ADDRESSES: Family = Family {
+    name: "addresses",
+    title: "Wrap modes and sides",
+    advice: "",
+    axis: Axis::Flip,
+    rows: addresses,
+};
 
-fn frame(scene: &'static Scene, stage: impl FragmentStage<Vec2, Color = Rgba8> + 'static) -> Frame {
-    wide(scene, mapped, stage, With { interpolation: Exact, depth: F32Reversed, subpixel: Sub8 })
+/// A scene and the size of its picture.
+type Sized = (&'static Scene, [u32; 2]);
+
+fn frame(
+    (scene, size): Sized,
+    stage: impl FragmentStage<Vec2, Color = Rgba8> + 'static,
+) -> ([u32; 2], Frame) {
+    (size, wide(scene, mapped, stage, with(Exact, size)))
 }
 
 fn levels(scene: &'static Scene) -> Mipmap<'static, Rgba8888, PowerOfTwo> {
@@ -41,20 +58,42 @@ fn base(scene: &'static Scene) -> Texture<'static, Rgba8888, PowerOfTwo> {
     texture.power_of_two().expect("sides that are powers of two")
 }
 
-fn filters(family: &'static str) -> Vec<Row> {
-    fn mip(family: &'static str, name: &str, scene: &'static Scene, filter: impl MipFilter + 'static) -> Row {
-        Row::new(family, name, scene, Judge::Area, frame(scene, Unlit(levels(scene).sampler(filter, Repeat))))
+fn filters(family: &'static str, size: [u32; 2]) -> Vec<Row> {
+    fn mip(family: &'static str, name: &str, (scene, size): Sized, filter: impl MipFilter + 'static) -> Row {
+        Row::new(
+            family,
+            name,
+            scene,
+            Judge::Area,
+            frame((scene, size), Unlit(levels(scene).sampler(filter, Repeat))),
+        )
     }
     let rows = ["near-flat", "minified", "floor"].map(scene).map(|scene| {
         let of = |name: &str, frame| Row::new(family, name, scene, Judge::Area, frame);
-        let anisotropic =
-            |probes| mip(family, &format!("Anisotropic({probes})"), scene, Anisotropic { probes, filter: Trilinear });
+        let anisotropic = |probes| {
+            mip(
+                family,
+                &format!("Anisotropic({probes})"),
+                (scene, size),
+                Anisotropic { probes, filter: Trilinear },
+            )
+        };
         [
-            of("Nearest", frame(scene, nearest(scene))).as_reference(),
-            of("Bilinear", frame(scene, Unlit(base(scene).sampler(Bilinear, Repeat)))),
-            mip(family, "NearestLevel(Nearest)", scene, Minify { min: NearestLevel(Nearest), mag: Nearest }),
-            mip(family, "NearestLevel(Bilinear)", scene, Minify { min: NearestLevel(Bilinear), mag: Bilinear }),
-            mip(family, "Trilinear", scene, Trilinear),
+            of("Nearest", frame((scene, size), nearest(scene))).as_reference(),
+            of("Bilinear", frame((scene, size), Unlit(base(scene).sampler(Bilinear, Repeat)))),
+            mip(
+                family,
+                "NearestLevel(Nearest)",
+                (scene, size),
+                Minify { min: NearestLevel(Nearest), mag: Nearest },
+            ),
+            mip(
+                family,
+                "NearestLevel(Bilinear)",
+                (scene, size),
+                Minify { min: NearestLevel(Bilinear), mag: Bilinear },
+            ),
+            mip(family, "Trilinear", (scene, size), Trilinear),
             anisotropic(2),
             anisotropic(4),
             anisotropic(8),
@@ -64,21 +103,24 @@ fn filters(family: &'static str) -> Vec<Row> {
     rows.into_iter().flatten().collect()
 }
 
-fn derivatives(family: &'static str) -> Vec<Row> {
+fn derivatives(family: &'static str, size: [u32; 2]) -> Vec<Row> {
     let rows = ["minified", "floor", "dense-mesh"].map(scene).map(|scene| {
         let of = |name: &str, frame| Row::new(family, name, scene, Judge::Reference, frame);
         let map = Unlit(levels(scene).sampler(Trilinear, Repeat));
         [
-            of("PerPixel", frame(scene, Differentiated::by(PerPixel, map))).as_reference(),
-            of("PerRun", frame(scene, Differentiated::by(PerRun, map))),
-            of("PerTriangle", frame(scene, Differentiated::by(PerTriangle, map))),
-            of("none: BaseLevel", frame(scene, Unlit(levels(scene).sampler(BaseLevel(Bilinear), Repeat)))),
+            of("PerPixel", frame((scene, size), Differentiated::by(PerPixel, map))).as_reference(),
+            of("PerRun", frame((scene, size), Differentiated::by(PerRun, map))),
+            of("PerTriangle", frame((scene, size), Differentiated::by(PerTriangle, map))),
+            of(
+                "none: BaseLevel",
+                frame((scene, size), Unlit(levels(scene).sampler(BaseLevel(Bilinear), Repeat))),
+            ),
         ]
     });
     rows.into_iter().flatten().collect()
 }
 
-fn addresses(family: &'static str) -> Vec<Row> {
+fn addresses(family: &'static str, size: [u32; 2]) -> Vec<Row> {
     // Where coordinates are in 0..1 all modes give one picture.
     let rows = ["close-up"].map(scene).map(|scene| {
         let of = |name: &str, frame| Row::new(family, name, scene, Judge::Rays, frame);
@@ -86,11 +128,11 @@ fn addresses(family: &'static str) -> Vec<Row> {
         let any = Texture::new(Rgba8888, &image.texels, image.width, image.height).expect("a texture");
         let known = any.known::<TEXELS, TEXELS>().expect("sides that are known");
         [
-            of("Repeat, PowerOfTwo", frame(scene, nearest(scene))).as_reference(),
-            of("Repeat, Known", frame(scene, Unlit(known.sampler(Nearest, Repeat)))),
-            of("Repeat, AnySize", frame(scene, Unlit(any.sampler(Nearest, Repeat)))),
-            of("Clamp, PowerOfTwo", frame(scene, Unlit(base(scene).sampler(Nearest, Clamp)))),
-            of("Mirror, PowerOfTwo", frame(scene, Unlit(base(scene).sampler(Nearest, Mirror)))),
+            of("Repeat, PowerOfTwo", frame((scene, size), nearest(scene))).as_reference(),
+            of("Repeat, Known", frame((scene, size), Unlit(known.sampler(Nearest, Repeat)))),
+            of("Repeat, AnySize", frame((scene, size), Unlit(any.sampler(Nearest, Repeat)))),
+            of("Clamp, PowerOfTwo", frame((scene, size), Unlit(base(scene).sampler(Nearest, Clamp)))),
+            of("Mirror, PowerOfTwo", frame((scene, size), Unlit(base(scene).sampler(Nearest, Mirror)))),
         ]
     });
     rows.into_iter().flatten().collect()

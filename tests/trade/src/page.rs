@@ -1,0 +1,180 @@
+//! The page of the trade, for people: a chapter a family.
+
+use crate::families::{FAMILIES, Family};
+use crate::scenes::SCENES;
+use crate::summary::{Summary, summaries};
+use crate::table::Line;
+use std::fmt::Write as _;
+
+/// The folder of plots and of the worst places, beside the page.
+pub const PICTURES: &str = "pictures/trade";
+
+/// What the figures were measured by.
+#[derive(Clone, Copy, Debug)]
+pub struct Made<'a> {
+    /// The compiler, and the registers of the machine: instructions can be compared where these are the same.
+    pub compiler: &'a str,
+    /// The table of the boards, if they were asked.
+    pub boards: Option<&'a str>,
+}
+
+/// Before the name of the compiler in the page.
+const COMPILER: &str = "Instructions are those of ";
+
+const HEADING: &str = "\
+# The trade: what each approximation costs, and what it loses
+
+Every approximation of this library is a policy with a name and a bound. This page says what each buys. One run draws
+every policy of every family on the same scenes, and compares its pictures with those of rays in `f64`, which share no
+code with the library. So read a family's paragraph first: it says what to pick. The tables say why.
+
+    cargo xtask trade
+
+* **instructions**: of a frame of 320x240 on x86-64, as multiples of the reference's, the first row; the mean of the
+  scenes. They repeat.
+* **time**: of a frame of 640x480 as a multiple of the reference's in the same run, in turns: the median of the scenes,
+  and in brackets the least and the greatest. It does not repeat, and another machine has other times.
+* **texels**: the error of texture coordinates against those of rays, of the 99.9 % of the pixels that have the least,
+  and the largest; the worst scene.
+* **bytes**: the same of the picture's channels, 0 to 255.
+* **PSNR**: of the worst scene, in dB; more is better. **FLIP**: what somebody sees who flips between the picture and
+  the right one, 0 to 1; the mean of the scenes, and the worst.
+* **★**: no other policy of the family is as cheap and as right, and better in one of the two: the Pareto front of
+  instructions and of the error that the plot shows.
+
+The scenes:
+
+";
+
+/// The page.
+#[must_use]
+pub fn page(lines: &[Line], made: Made<'_>) -> String {
+    let mut text = HEADING.to_owned();
+    text.push_str("| scene | what it is |\n|---|---|\n");
+    for scene in SCENES.iter() {
+        let _ = writeln!(text, "| {} | {} |", scene.name, scene.about);
+    }
+    for family in FAMILIES {
+        chapter(&mut text, family, lines);
+    }
+    if let Some(boards) = made.boards {
+        text.push_str("\n## On chips\n\n");
+        text.push_str(boards);
+    }
+    let _ = write!(
+        text,
+        "\n## How it was made\n\n{COMPILER}{}.\n[trade.csv](trade.csv) has each policy on each scene. `cargo xtask \
+         trade --check` measures errors and instructions again, and\nfails, with the row's name, where one is more than \
+         a fiftieth above the table; times are not compared.\n",
+        made.compiler
+    );
+    text
+}
+
+/// The compiler that a page names.
+#[must_use]
+pub fn compiler(page: &str) -> Option<&str> {
+    page.lines().find_map(|line| line.strip_prefix(COMPILER)?.strip_suffix('.'))
+}
+
+fn chapter(text: &mut String, family: &Family, lines: &[Line]) {
+    let all = summaries(family, lines);
+    let _ = writeln!(text, "\n## {}\n\n{}\n", family.title, family.advice);
+    let Family { name, title, .. } = family;
+    if family.has_plot(&all) {
+        let _ = writeln!(text, "![{title}: error against cost]({PICTURES}/{name}.svg)\n");
+    }
+    text.push_str(
+        "| policy | ★ | instructions | time | texels, 99.9 % | largest | bytes, 99.9 % | largest | PSNR | FLIP |\n\
+         |---|---|---|---|---|---|---|---|---|---|\n",
+    );
+    for summary in &all {
+        let _ = writeln!(text, "{}", row(summary));
+    }
+    let wrong: Vec<&Summary> = all.iter().filter(|summary| summary.flip[1] > SEEN).collect();
+    if !wrong.is_empty() {
+        let _ = write!(text, "\nThe worst place of each, on the left, beside the right picture:\n\n");
+        text.push_str("| | |\n|---|---|\n");
+        for pair in wrong.chunks(2) {
+            let cell = |summary: &Summary| {
+                let policy = &summary.policy;
+                format!("{policy}<br>![{policy}]({PICTURES}/{})", picture(name, policy))
+            };
+            let cells: Vec<String> = pair.iter().map(|summary| cell(summary)).collect();
+            let _ = writeln!(text, "| {} |", cells.join(" | "));
+        }
+    }
+}
+
+/// FLIP from which on a policy's worst place is shown.
+pub const SEEN: f64 = 1e-3;
+
+/// The file of a policy's worst place.
+#[must_use]
+pub fn picture(family: &str, policy: &str) -> String {
+    let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
+    let name: String = policy.chars().map(plain).collect();
+    let parts: Vec<&str> = name.split('-').filter(|part| !part.is_empty()).collect();
+    format!("{family}-{}.png", parts.join("-"))
+}
+
+impl Family {
+    /// Whether there is anything to plot: policies of different errors.
+    #[must_use]
+    pub fn has_plot(&self, summaries: &[Summary]) -> bool {
+        let mut errors = summaries.iter().map(|summary| summary.error(self.axis));
+        let first = errors.next().unwrap_or_default();
+        errors.any(|error| (error - first).abs() > 1e-6)
+    }
+}
+
+fn row(summary: &Summary) -> String {
+    let Summary { policy, instructions, time, texels, bytes, psnr, flip, front } = summary;
+    let [texels_largest, texels_most] = match texels {
+        Some(texels) => texels.map(digits),
+        None => ["".into(), "".into()],
+    };
+    format!(
+        "| `{policy}` | {} | {} | {} | {texels_most} | {texels_largest} | {} | {} | {} | {} ({}) |",
+        if *front { "★" } else { "" },
+        instructions.map_or_else(String::new, |ratio| format!("{ratio:.2}")),
+        time.map_or_else(String::new, |[least, median, greatest]| {
+            format!("{median:.2} ({least:.2} to {greatest:.2})")
+        }),
+        bytes[1],
+        bytes[0],
+        if psnr.is_finite() { format!("{psnr:.1}") } else { "∞".to_owned() },
+        digits(flip[0]),
+        digits(flip[1]),
+    )
+}
+
+/// Two digits that count.
+fn digits(number: f64) -> String {
+    match number {
+        0.0 => "0".to_owned(),
+        x if x >= 10.0 => format!("{x:.0}"),
+        x if x >= 1.0 => format!("{x:.1}"),
+        x if x >= 0.1 => format!("{x:.2}"),
+        x if x >= 0.01 => format!("{x:.3}"),
+        x if x >= 0.001 => format!("{x:.4}"),
+        x => format!("{x:.1e}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_compiler_is_found_again() {
+        let page = page(&[], Made { compiler: "rustc 1.95.0, AVX2", boards: None });
+        assert_eq!(compiler(&page), Some("rustc 1.95.0, AVX2"));
+    }
+
+    #[test]
+    fn files_have_plain_names() {
+        assert_eq!(picture("a", "Lines::bounded(1/16)"), "a-lines-bounded-1-16.png");
+        assert_eq!(picture("light", "fragments, Lambert"), "light-fragments-lambert.png");
+    }
+}

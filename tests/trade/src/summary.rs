@@ -1,0 +1,125 @@
+//! A family in short: for each policy its cost and its errors over all scenes, and which of them nothing beats.
+
+use crate::families::{Axis, Family};
+use crate::table::Line;
+
+/// A policy over all scenes of its family.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Summary {
+    /// The policy.
+    pub policy: String,
+    /// The mean of its instructions as multiples of the reference's, where they were counted.
+    pub instructions: Option<f64>,
+    /// The least, the median and the greatest of its times as multiples of the reference's.
+    pub time: Option<[f64; 3]>,
+    /// The worst texture coordinates of any scene, in texels: the largest, and the largest but for one in a thousand.
+    pub texels: Option<[f64; 2]>,
+    /// The same of bytes of the picture.
+    pub bytes: [u8; 2],
+    /// The worst PSNR of any scene, in dB.
+    pub psnr: f64,
+    /// The mean FLIP of the scenes, and the worst.
+    pub flip: [f64; 2],
+    /// Whether no other policy of the family is at once as cheap and as right, and better in one of the two.
+    pub front: bool,
+}
+
+impl Summary {
+    /// The cost that plots and fronts go by: instructions, or else the time.
+    #[must_use]
+    pub fn cost(&self) -> f64 {
+        self.instructions.or(self.time.map(|[_, median, _]| median)).unwrap_or(1.0)
+    }
+
+    /// The error that they go by.
+    #[must_use]
+    pub fn error(&self, axis: Axis) -> f64 {
+        match axis {
+            Axis::Texels => self.texels.map_or(0.0, |[_, most]| most),
+            Axis::Flip => self.flip[0],
+        }
+    }
+}
+
+/// The summaries of a family, in the order of its policies.
+#[must_use]
+pub fn summaries(family: &Family, lines: &[Line]) -> Vec<Summary> {
+    let lines: Vec<&Line> = lines.iter().filter(|line| line.family == family.name).collect();
+    let mut policies: Vec<&str> = vec![];
+    for line in &lines {
+        if !policies.contains(&line.policy.as_str()) {
+            policies.push(&line.policy);
+        }
+    }
+    let mut all: Vec<Summary> = policies
+        .into_iter()
+        .map(|policy| {
+            let own: Vec<&Line> = lines.iter().copied().filter(|line| line.policy == policy).collect();
+            summary(policy, &own, &lines)
+        })
+        .collect();
+    let points: Vec<[f64; 2]> = all.iter().map(|s| [s.cost(), s.error(family.axis)]).collect();
+    for (summary, front) in all.iter_mut().zip(front(&points)) {
+        summary.front = front;
+    }
+    all
+}
+
+fn summary(policy: &str, own: &[&Line], family: &[&Line]) -> Summary {
+    let reference = |line: &Line| family.iter().find(|other| other.reference && other.scene == line.scene);
+    let ratios: Option<Vec<f64>> = own
+        .iter()
+        .map(|line| {
+            let reference = reference(line)?.instructions?;
+            #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
+            let ratio = line.instructions? as f64 / reference as f64;
+            Some(ratio)
+        })
+        .collect();
+    let mut times: Vec<f64> = own.iter().filter_map(|line| Some(line.time?.ratio[1])).collect();
+    times.sort_by(f64::total_cmp);
+    let time = (!times.is_empty()).then(|| [times[0], times[times.len() / 2], times[times.len() - 1]]);
+    let worst = |of: &dyn Fn(&Line) -> f64| own.iter().map(|line| of(line)).fold(0.0, f64::max);
+    let has_texels = own.iter().all(|line| line.errors.texels.is_some());
+    let texels = |line: &Line, most: bool| {
+        line.errors.texels.map_or(0.0, |texels| if most { texels.most } else { texels.largest })
+    };
+    let bytes = |of: fn(&Line) -> u8| own.iter().map(|line| of(line)).max().unwrap_or_default();
+    #[expect(clippy::cast_precision_loss, reason = "few scenes")]
+    let count = own.len() as f64;
+    Summary {
+        policy: policy.to_owned(),
+        // A geometric mean, as of all ratios.
+        instructions: ratios.map(|ratios| (ratios.iter().map(|ratio| ratio.ln()).sum::<f64>() / count).exp()),
+        time,
+        texels: has_texels.then(|| [worst(&|line| texels(line, false)), worst(&|line| texels(line, true))]),
+        bytes: [bytes(|line| line.errors.picture.largest), bytes(|line| line.errors.picture.most)],
+        psnr: own.iter().map(|line| line.errors.picture.psnr()).fold(f64::INFINITY, f64::min),
+        flip: [
+            own.iter().map(|line| line.errors.picture.flip).sum::<f64>() / count,
+            worst(&|line| line.errors.picture.flip),
+        ],
+        front: false,
+    }
+}
+
+/// Of points (cost, error), which are on the Pareto front. Costs within a hundredth count as equal.
+fn front(points: &[[f64; 2]]) -> Vec<bool> {
+    let beats = |a: &[f64; 2], b: &[f64; 2]| {
+        let [cheaper, as_cheap] = [a[0] < b[0] * 0.99, a[0] <= b[0] * 1.01];
+        (as_cheap && a[1] < b[1]) || (cheaper && a[1] <= b[1])
+    };
+    points.iter().map(|point| !points.iter().any(|other| beats(other, point))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_front_is_what_nothing_beats() {
+        let points =
+            [[1.0, 0.1], [2.0, 0.01], [2.0, 0.05], [3.0, 0.01], [0.5, 0.9], [0.5, 1.0], [1.005, 0.1]];
+        assert_eq!(front(&points), [true, true, false, false, true, false, true]);
+    }
+}

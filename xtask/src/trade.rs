@@ -1,0 +1,87 @@
+//! The trade: what each approximation costs and loses, measured by `tests/trade`.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use crate::command::{self, Outcome, cargo, output};
+use crate::workspace;
+
+/// The package that measures.
+const PACKAGE: &str = "alberti-trade";
+/// The function in which a frame is counted, for callgrind's options.
+const MEASURED: &str = "*counts::measured*";
+/// The option for what repeats alone.
+const CHECK: &str = "--check";
+
+/// Writes `docs/trade.md` with its table, plots and pictures, or compares what repeats with the table.
+pub(crate) fn run(arguments: &[String]) -> Outcome {
+    match arguments {
+        [] => measure("write"),
+        [flag] if flag == CHECK => check(),
+        _ => Err(format!("expected nothing or `{CHECK}`, found `{}`", arguments.join(" "))),
+    }
+}
+
+/// Compares errors and instructions with those of the table that is committed.
+pub(crate) fn check() -> Outcome {
+    measure("check")
+}
+
+fn measure(what: &str) -> Outcome {
+    command::run(cargo().args(["build", "--release", "--package", PACKAGE]))?;
+    let program = workspace::target_directory().join("release").join(PACKAGE);
+    let mut line = Command::new(&program);
+    line.arg(what).arg(workspace::root()).args(["--compiler", &compiler()?]);
+    match counts(&program)? {
+        Some(folder) => _ = line.arg("--counts").arg(folder),
+        None => eprintln!("valgrind is not installed: instructions are not counted (Debian: valgrind)"),
+    }
+    command::run(&mut line)
+}
+
+/// The compiler and the registers by which instructions can be compared.
+fn compiler() -> Result<String, String> {
+    let version = output(Command::new("rustc").arg("--version"))?;
+    let version: Vec<&str> = version.split_whitespace().take(2).collect();
+    Ok(format!("{}, {}", version.join(" "), registers()))
+}
+
+/// The widest registers that the library takes under valgrind, which has none of 512 bits.
+fn registers() -> &'static str {
+    #[cfg(target_arch = "x86_64")]
+    if std::is_x86_feature_detected!("avx2") {
+        return "x86-64 with AVX2";
+    }
+    std::env::consts::ARCH
+}
+
+/// Counts every frame's instructions: a folder of callgrind's parts, if valgrind is installed.
+fn counts(program: &Path) -> Result<Option<PathBuf>, String> {
+    let installed = Command::new("valgrind").arg("--version").stdout(Stdio::null()).status();
+    if !installed.is_ok_and(|status| status.success()) {
+        return Ok(None);
+    }
+    let folder = workspace::target_directory().join("trade");
+    let failed = |error: std::io::Error| format!("cannot make {} empty: {error}", folder.display());
+    if folder.exists() {
+        fs::remove_dir_all(&folder).map_err(failed)?;
+    }
+    fs::create_dir_all(&folder).map_err(failed)?;
+    let mut valgrind = Command::new("valgrind");
+    valgrind.args(["--quiet", "--tool=callgrind", "--collect-atstart=no"]);
+    valgrind.arg(format!("--toggle-collect={MEASURED}")).arg(format!("--dump-after={MEASURED}"));
+    valgrind.arg(format!("--callgrind-out-file={}", folder.join("part").display()));
+    command::run(valgrind.arg(program).arg("frames"))?;
+    Ok(Some(folder))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wrong_arguments_are_named() {
+        assert_eq!(run(&["--fast".into()]), Err("expected nothing or `--check`, found `--fast`".into()));
+    }
+}
