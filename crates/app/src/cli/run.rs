@@ -10,7 +10,7 @@ use std::time::Instant;
 use clap::error::{ContextKind, ErrorKind};
 use clap::{ArgMatches, CommandFactory as _, FromArgMatches as _};
 
-use super::{Cli, RenderArgs, StatsFormat, partners};
+use super::{Cli, RenderArgs, StatsFormat, compare, partners};
 use crate::error::{Error, Warnings, number, quote};
 use crate::load::images::Images;
 use crate::load::scene_file::{self, SceneFile};
@@ -30,7 +30,7 @@ use crate::scene::{Camera, Model, Part, Relief, camera, scenes, slide};
 pub const FAILURE: u8 = 2;
 
 /// Runs the command with these arguments, the program's name first. Messages go to standard error; the status is
-/// 0 or [`FAILURE`].
+/// 0, [`compare::EXCEEDED`] or [`FAILURE`].
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let mut command = Cli::command();
     let matches = match command.try_get_matches_from_mut(arguments) {
@@ -38,11 +38,12 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Err(error) => return usage(&error),
     };
     let result = match matches.subcommand() {
-        Some((_, render)) => draw(render),
-        None => print(&command.render_help().to_string()),
+        Some(("compare", pictures)) => compare::run(pictures),
+        Some((_, render)) => draw(render).map(|()| 0),
+        None => print(&command.render_help().to_string()).map(|()| 0),
     };
     match result {
-        Ok(()) => 0,
+        Ok(status) => status,
         Err(error) => fail(&error),
     }
 }
@@ -323,7 +324,7 @@ fn warn(line: &str) {
 }
 
 /// Standard output that nobody reads any more is no failure: the picture is there.
-fn print(text: &str) -> Result<(), Error> {
+pub(super) fn print(text: &str) -> Result<(), Error> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
