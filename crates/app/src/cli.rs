@@ -9,6 +9,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use crate::options::{CameraTable, Material, ProjectorTable, RenderTable};
 use crate::scene::scenes;
 
+pub mod compare;
 pub(crate) mod partners;
 pub mod run;
 mod staged;
@@ -31,6 +32,12 @@ pub enum Command {
     /// and above, from where all of it is in the picture. Camera options that are given replace parts of that view.
     #[command(after_help = EXAMPLES)]
     Render(Box<RenderArgs>),
+    /// Measure the difference between two pictures.
+    ///
+    /// Prints the largest difference, its 99.9 % percentile, the number of outliers, MSE, PSNR and mean FLIP. It does not
+    /// matter which picture comes first.
+    #[command(after_help = compare::HELP)]
+    Compare(compare::CompareArgs),
 }
 
 const EXAMPLES: &str = "\

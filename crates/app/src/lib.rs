@@ -4,6 +4,7 @@ pub mod cli;
 pub mod draw;
 pub mod error;
 pub mod load;
+pub mod measure;
 pub mod options;
 pub mod output;
 pub mod render;

@@ -1,0 +1,196 @@
+//! `alberti compare`: two pictures in, measures and an exit status out.
+
+use std::fmt::Write as _;
+use std::io::{self, Write as _};
+use std::path::PathBuf;
+
+use clap::{ArgMatches, Args, FromArgMatches as _};
+use serde::Serialize;
+
+use super::run::print;
+use crate::error::Error;
+use crate::image_file::{self, MAX_TEXELS};
+use crate::measure::{Comparison, MaxError, Measures, OUTLIER};
+use crate::output::file::Output;
+
+/// The exit status for pictures that differ by more than `--max-error`.
+pub const EXCEEDED: u8 = 1;
+
+/// The text after the options.
+pub(super) const HELP: &str = "\
+Measures:
+  largest          the worst channel of the worst pixel, in steps of a byte (lsb), 0 to 255
+  99.9 percentile  the same, but for the worst thousandth of the pixels
+  outliers         pixels that are off by more than 8 lsb
+  MSE, PSNR        mean squared difference of red, green and blue, and its ratio to 255^2 in dB
+  FLIP             what somebody sees who flips between the two, 0 to 1: the mean of LDR-FLIP
+                   (Andersson et al. 2020) at 67 pixels per degree, a monitor at arm's length
+
+  Alpha is a fourth channel of the first three, and none of the others: nothing is composited.
+  Pictures of 16 bits a channel are rounded to 8 first.
+
+Exit status:
+  0  the pictures were compared, and keep --max-error if it is given
+  1  they differ by more; a line on standard error says which measure exceeds which limit
+  2  they could not be compared
+
+Examples:
+  alberti compare exact.png affine.png
+  alberti compare exact.png affine.png --heat difference.png
+  alberti compare old.png new.png --max-error 2lsb      the 99.9 % percentile at most 2 lsb
+  alberti compare old.png new.png --max-error 0.01flip  the mean FLIP at most 0.01
+  alberti compare old.png new.png --max-error 40db      the PSNR at least 40 dB
+  alberti compare old.png new.png --json | jq .flip";
+
+/// The options of `alberti compare`.
+#[derive(Clone, Debug, Args)]
+pub struct CompareArgs {
+    /// A picture: PNG, JPEG, BMP or TGA.
+    #[arg(value_name = "A.png")]
+    pub first: PathBuf,
+
+    /// Another of the same size.
+    #[arg(value_name = "B.png")]
+    pub second: PathBuf,
+
+    /// Write a picture of the FLIP of each pixel in false colours, from black where the pictures are equal through
+    /// purple and orange to nearly white at 1. Colours follow the square root, so that small errors show.
+    #[arg(long, value_name = "OUT.png")]
+    pub heat: Option<PathBuf>,
+
+    /// Limit of the error, a number with its unit: lsb (99.9 % percentile, at most), flip (mean, at most) or db (PSNR,
+    /// at least).
+    #[arg(long, value_name = "2lsb|0.01flip|40db", allow_hyphen_values = true)]
+    pub max_error: Option<MaxError>,
+
+    /// Print one line of JSON instead of the table. A PSNR of equal colours, which is infinite, is null.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// One line of JSON, in this order.
+#[derive(Serialize)]
+struct Line {
+    a: String,
+    b: String,
+    width: u32,
+    height: u32,
+    /// In steps of a byte.
+    largest: u8,
+    /// Column and row.
+    largest_at: Option<[u32; 2]>,
+    /// In steps of a byte.
+    percentile_99_9: u8,
+    /// In pixels.
+    outliers: usize,
+    mse: f64,
+    /// In dB. Infinity is no number of JSON.
+    psnr: Option<f64>,
+    flip: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    max_error: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    within: Option<bool>,
+}
+
+/// Compares, reports, and tells the exit status.
+pub(super) fn run(matches: &ArgMatches) -> Result<u8, Error> {
+    let arguments = CompareArgs::from_arg_matches(matches)
+        .map_err(|error| Error::new(error.to_string(), "what --help lists"))?;
+    if let Some(MaxError::Texel(_)) = arguments.max_error {
+        let error = Error::new("a limit in texels", "one in lsb, flip or db").place("--max-error");
+        return Err(error.hint("two pictures do not tell texels: `alberti advise` knows them from the scene"));
+    }
+    let output = output(&arguments)?;
+    let first = image_file::load(&arguments.first, MAX_TEXELS)?;
+    let second = image_file::load(&arguments.second, MAX_TEXELS)?;
+    if (first.width, first.height) != (second.width, second.height) {
+        let found = format!("{}x{} pixels", second.width, second.height);
+        let expected = format!("{}x{} as in {}", first.width, first.height, arguments.first.display());
+        let error = Error::new(found, expected).file(&arguments.second);
+        return Err(error.hint("only pictures of one size can be compared"));
+    }
+    let comparison = Comparison::new(&first, &second)?;
+    drop((first, second));
+    if let Some(output) = output {
+        output.write(&comparison.heat()).map_err(|error| error.hint(ANOTHER))?;
+    }
+    let measures = &comparison.measures;
+    let excess = arguments.max_error.and_then(|limit| limit.excess(measures));
+    print(&if arguments.json {
+        json(&arguments, measures, excess.is_none())
+    } else {
+        text(&arguments, measures)
+    })?;
+    let Some(excess) = excess else { return Ok(0) };
+    // Without standard error there is the status.
+    let _ = writeln!(io::stderr(), "exceeded: {excess}");
+    Ok(EXCEEDED)
+}
+
+const ANOTHER: &str = "choose another with --heat";
+
+/// The picture to write. It is none of those that are read.
+fn output(arguments: &CompareArgs) -> Result<Option<Output>, Error> {
+    let Some(named) = &arguments.heat else { return Ok(None) };
+    let output = Output::new(named).map_err(|error| error.hint(ANOTHER))?;
+    if output.is(&arguments.first) || output.is(&arguments.second) {
+        let found = "a file that is also read";
+        return Err(Error::new(found, "another").file(output.name()).hint(ANOTHER));
+    }
+    Ok(Some(output))
+}
+
+fn text(arguments: &CompareArgs, measures: &Measures) -> String {
+    let [width, height] = measures.size;
+    let place = match measures.largest_at {
+        Some([x, y]) => format!("worst pixel, first at {x},{y}"),
+        None => "equal".to_owned(),
+    };
+    let percentile = "all but the worst thousandth".to_owned();
+    let outliers = format!("off by more than {OUTLIER} lsb, of {}", measures.pixels());
+    let rows = [
+        ("largest", measures.largest.to_string(), "lsb", place),
+        ("99.9 percentile", measures.most.to_string(), "lsb", percentile),
+        ("outliers", measures.outliers.to_string(), "pixels", outliers),
+        ("MSE", format!("{:.4}", measures.mse), "lsb^2", "energy, 0 is equal".to_owned()),
+        ("PSNR", decibels(measures.psnr()), "dB", "fidelity, more is better".to_owned()),
+        ("FLIP", format!("{:.6}", measures.flip), "mean", "visibility, 0 is equal, 1 the most".to_owned()),
+    ];
+    let (first, second) = (arguments.first.display(), arguments.second.display());
+    let mut text = format!("{first} and {second}: {width}x{height} pixels\n");
+    for (name, figure, unit, meaning) in rows {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{name:<16}{figure:>12} {unit:<7} {meaning}");
+    }
+    if let Some(heat) = &arguments.heat {
+        let _ = writeln!(text, "FLIP of each pixel in {}", heat.display());
+    }
+    text
+}
+
+fn decibels(psnr: f64) -> String {
+    if psnr.is_finite() { format!("{psnr:.3}") } else { "infinite".to_owned() }
+}
+
+fn json(arguments: &CompareArgs, measures: &Measures, within: bool) -> String {
+    let [width, height] = measures.size;
+    let line = Line {
+        a: arguments.first.display().to_string(),
+        b: arguments.second.display().to_string(),
+        width,
+        height,
+        largest: measures.largest,
+        largest_at: measures.largest_at,
+        percentile_99_9: measures.most,
+        outliers: measures.outliers,
+        mse: measures.mse,
+        psnr: Some(measures.psnr()).filter(|psnr| psnr.is_finite()),
+        flip: measures.flip,
+        max_error: arguments.max_error.map(|limit| limit.to_string()),
+        within: arguments.max_error.map(|_| within),
+    };
+    // Strings and finite numbers cannot be refused.
+    let line = serde_json::to_string(&line).unwrap_or_default();
+    format!("{line}\n")
+}
