@@ -113,8 +113,8 @@ fn short(path: &str) -> &str {
     &path[length..]
 }
 
-/// Whether a row of docs/kernel.md has this figure: the measured one at the start of its cell, the bound as a whole part
-/// of its own. None where there is no such policy.
+/// Whether a row of docs/kernel.md has this figure: the measured one at the start of its cell, the bound as a part of
+/// its own. None where there is no such policy.
 fn in_kernel(kernel: &str, policy: &str, [max, bound]: [&str; 2]) -> Option<bool> {
     let row = kernel.lines().find(|line| line.starts_with(&format!("| `{policy}` | ")))?;
     let cells: Vec<&str> = row.split(" | ").collect();
