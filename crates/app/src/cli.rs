@@ -34,8 +34,8 @@ pub enum Command {
     Render(Box<RenderArgs>),
     /// Measure the difference between two pictures.
     ///
-    /// Prints the largest difference, its 99.9 % percentile, the number of outliers, MSE, PSNR and mean FLIP. It does not
-    /// matter which picture comes first.
+    /// Prints the largest difference, its 99.9 % percentile, the number of outliers, MSE, PSNR and mean FLIP. It does
+    /// not matter which picture comes first.
     #[command(after_help = compare::HELP)]
     Compare(compare::CompareArgs),
 }

@@ -1,6 +1,6 @@
 //! The difference between two pictures, in numbers and as a map.
 //!
-//! | measure | unit | seen by it |
+//! | measure | unit | meaning |
 //! |---|---|---|
 //! | [`Measures::largest`] | steps of a byte (lsb) | the worst pixel |
 //! | [`Measures::most`] | steps of a byte (lsb) | the worst pixel but for one in a thousand |
