@@ -9,6 +9,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use crate::options::{CameraTable, Material, ProjectorTable, RenderTable};
 use crate::scene::scenes;
 
+pub mod advise;
 pub mod compare;
 pub(crate) mod partners;
 pub mod run;
@@ -32,6 +33,12 @@ pub enum Command {
     /// and above, from where all of it is in the picture. Camera options that are given replace parts of that view.
     #[command(after_help = EXAMPLES)]
     Render(Box<RenderArgs>),
+    /// Find the cheapest policies for a scene within a budget of error, and what it pays for nothing.
+    ///
+    /// Draws the scene under all interpolations, arithmetics, depth formats and subpixels, alone and together, measures
+    /// errors and times, and prints the options and the lines of a program that select the pick.
+    #[command(after_help = advise::HELP)]
+    Advise(Box<advise::AdviseArgs>),
     /// Measure the difference between two pictures.
     ///
     /// Prints the largest difference, its 99.9 % percentile, the number of outliers, MSE, PSNR and mean FLIP. It does

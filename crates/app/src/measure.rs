@@ -80,9 +80,8 @@ impl Comparison {
     /// # Errors
     /// The sizes differ, a picture has no pixels or not as many as its size says, or memory is short.
     pub fn new(first: &Image, second: &Image) -> Result<Self, Error> {
-        check(first, second)?;
+        let steps = steps(first, second)?;
         let pairs = || first.texels.iter().zip(&second.texels);
-        let steps: Vec<u8> = pairs().map(|(a, b)| difference(a, b)).collect();
         let largest = steps.iter().copied().max().unwrap_or_default();
         let place = steps.iter().position(|&step| step == largest && step > 0);
         let squares: u64 = pairs().map(|(a, b)| squared(a, b)).sum();
@@ -107,6 +106,15 @@ impl Comparison {
         let texels = self.flip.iter().map(|error| heat::color(error.sqrt())).collect();
         Image { width, height, texels }
     }
+}
+
+/// The largest difference of each pixel's channels alone, in steps of a byte.
+///
+/// # Errors
+/// Those of [`Comparison::new`], but for memory.
+pub fn steps(first: &Image, second: &Image) -> Result<Vec<u8>, Error> {
+    check(first, second)?;
+    Ok(first.texels.iter().zip(&second.texels).map(|(a, b)| difference(a, b)).collect())
 }
 
 fn check(first: &Image, second: &Image) -> Result<(), Error> {

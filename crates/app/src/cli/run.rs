@@ -9,7 +9,7 @@ use clap::error::{ContextKind, ErrorKind};
 use clap::{ArgMatches, CommandFactory as _};
 
 use super::staged::{Request, Staged};
-use super::{Cli, StatsFormat, compare};
+use super::{Cli, StatsFormat, advise, compare};
 use crate::error::{Error, quote};
 use crate::options::RenderOptions;
 use crate::output::progress::Progress;
@@ -28,6 +28,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Err(error) => return usage(&error),
     };
     let result = match matches.subcommand() {
+        Some(("advise", scene)) => advise::run(scene),
         Some(("compare", pictures)) => compare::run(pictures),
         Some((_, render)) => draw(render).map(|()| 0),
         None => print(&command.render_help().to_string()).map(|()| 0),

@@ -89,6 +89,19 @@ pub fn frame(
     Ok(camera)
 }
 
+/// The camera after so many of `turns` equal parts of a turn around its target, about its upward direction. The planes
+/// stay as far away.
+pub(crate) fn turned(camera: &Camera, turn: u32, turns: u32) -> Camera {
+    let wide = |v: [f32; 3]| v.map(f64::from);
+    let (axis, target) = (normalize(wide(camera.up)).unwrap_or([0.0, 1.0, 0.0]), wide(camera.target));
+    let arm = sub(wide(camera.eye), target);
+    let (sin, cos) = (std::f64::consts::TAU * f64::from(turn) / f64::from(turns.max(1))).sin_cos();
+    // Rodrigues' formula.
+    let (across, along) = (cross(axis, arm), dot(axis, arm) * (1.0 - cos));
+    let eye = [0, 1, 2].map(|k| target[k] + arm[k] * cos + across[k] * sin + axis[k] * along);
+    if turn == 0 { *camera } else { Camera { eye: eye.map(narrow), ..*camera } }
+}
+
 /// The height that a camera with perspective sees at the distance of its target.
 pub fn window_height(camera: &Camera) -> f32 {
     let distance = length(sub(camera.target.map(f64::from), camera.eye.map(f64::from)));

@@ -1,0 +1,103 @@
+//! `alberti advise`: a scene and a budget of error in, the cheapest policies out.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::{ArgMatches, Args, FromArgMatches as _};
+
+use super::RenderArgs;
+use super::run::print;
+use super::staged::{Request, Staged};
+use crate::advise::{Advice, advise, json, text, waste};
+use crate::error::Error;
+use crate::measure::{Comparison, MaxError};
+use crate::output::file::Output;
+use crate::output::progress::Progress;
+use crate::scene::Model;
+
+/// The text after the options.
+pub(super) const HELP: &str = "\
+Examples:
+  alberti advise teapot.obj --max-error 0.5texel
+  alberti advise --scene floor --max-error 2lsb --size 320x240
+  alberti advise wet.toml --max-error 0.01flip --image differences
+  alberti advise cow.obj --texture cow.png --max-error 40db --turntable 12 --json";
+
+/// The most cameras of a turntable.
+const MAX_TURNS: u32 = 360;
+
+/// The options of `alberti advise`: those of `render`, and these.
+#[derive(Clone, Debug, Args)]
+pub struct AdviseArgs {
+    /// The scene, as `render` takes it. Its interpolation, arithmetic, depth and subpixels are what is advised on.
+    #[command(flatten)]
+    pub render: RenderArgs,
+
+    /// Limit of the error, a number with its unit: texel (of texture coordinates), lsb (of bytes), both of the 99.9 % of
+    /// the pixels that are least off; flip (mean), or db (PSNR, at least).
+    #[arg(long, value_name = "0.5texel|2lsb|0.01flip|40db", allow_hyphen_values = true, default_value = "2lsb")]
+    pub max_error: MaxError,
+
+    /// Write the picture of the pick, the right one and their difference into this folder.
+    #[arg(long, value_name = "FOLDER")]
+    pub image: Option<PathBuf>,
+
+    /// Look for triangles that are never seen from N cameras around the target.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_TURNS)))]
+    pub turntable: u32,
+
+    /// Print one line of JSON instead of the table.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Tries policies, and prints what was found.
+pub(super) fn run(matches: &ArgMatches) -> Result<u8, Error> {
+    let arguments = AdviseArgs::from_arg_matches(matches)
+        .map_err(|error| Error::new(error.to_string(), "what --help lists"))?;
+    let request = Request::read(matches)?;
+    advise_on(&arguments, &request).map_err(|error| request.relocate(error))?;
+    Ok(0)
+}
+
+fn advise_on(arguments: &AdviseArgs, request: &Request) -> Result<(), Error> {
+    request.check()?;
+    let outputs = arguments.image.as_deref().map(|folder| outputs(folder, request)).transpose()?;
+    let Staged { model, camera, options, .. } = request.stage()?;
+    let mut progress = Progress::new("trying");
+    let mut hear = |done, total| progress.set(done, total);
+    let advice = advise(&model, &camera, &options, arguments.max_error, &mut hear)?;
+    let wastes = waste(&model, &camera, &options, &advice.trials, arguments.turntable)?;
+    drop(progress);
+    if let Some(outputs) = outputs {
+        write(&advice, outputs)?;
+    }
+    let side = largest_side(&model);
+    print(&if arguments.json {
+        format!("{}\n", json(&advice, &wastes, side))
+    } else {
+        text(&advice, &wastes, side)
+    })
+}
+
+/// The files of a folder, which is made if it is not there.
+fn outputs(folder: &Path, request: &Request) -> Result<[Output; 3], Error> {
+    fs::create_dir_all(folder).map_err(|error| {
+        Error::new(format!("a folder that cannot be made ({error})"), "one that can be written").file(folder)
+    })?;
+    let file = |name: &str| request.writable(&folder.join(name), "--image");
+    Ok([file("pick.png")?, file("right.png")?, file("difference.png")?])
+}
+
+fn write(advice: &Advice, [pick, right, difference]: [Output; 3]) -> Result<(), Error> {
+    let (found, reference) = (&advice.trials[advice.pick].picture, &advice.reference.picture);
+    pick.write(found)?;
+    right.write(reference)?;
+    difference.write(&Comparison::new(found, reference)?.heat())
+}
+
+/// The longest side of the model's textures.
+fn largest_side(model: &Model) -> u16 {
+    let sides = model.textures.iter().map(|t| t.width.max(t.height));
+    sides.max().and_then(|side| side.try_into().ok()).unwrap_or(255)
+}
