@@ -1,13 +1,16 @@
 #![doc = include_str!("../README.md")]
 
 pub mod cli;
+pub mod colormap;
 pub mod draw;
 pub mod error;
 pub mod load;
 pub mod options;
 pub mod output;
+pub mod probe;
 pub mod render;
 pub mod scene;
+pub mod show;
 
 pub use load::{image_file, obj};
 pub use scene::{camera, scenes, slide};

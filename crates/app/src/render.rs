@@ -89,7 +89,7 @@ fn shown(format: ColorFormat, [r, g, b, a]: [u8; 4]) -> [u8; 4] {
 }
 
 /// One element a pixel, or an error instead of an abort where memory is short.
-fn buffer<T: Copy>(options: &RenderOptions, value: T) -> Result<Vec<T>, Error> {
+pub(crate) fn buffer<T: Copy>(options: &RenderOptions, value: T) -> Result<Vec<T>, Error> {
     let pixels = options.width as usize * options.height as usize;
     let mut buffer = Vec::new();
     buffer.try_reserve_exact(pixels).map_err(|_| {

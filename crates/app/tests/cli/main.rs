@@ -4,6 +4,7 @@ mod errors;
 mod policies;
 mod projection;
 mod scenes;
+mod show;
 mod success;
 
 use std::ffi::OsStr;
