@@ -8,6 +8,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::options::{CameraTable, Material, ProjectorTable, RenderTable};
 use crate::scene::scenes;
+use crate::show::Show;
 
 pub mod advise;
 pub mod compare;
@@ -90,6 +91,10 @@ pub struct RenderArgs {
     /// the same drawn by one, after the times were taken.
     #[arg(long, value_name = "FORMAT", num_args = 0..=1, default_missing_value = "text")]
     pub stats: Option<StatsFormat>,
+
+    /// Draw one number of each pixel in false colours, and print what they mean.
+    #[arg(long, value_enum, value_name = "WHAT")]
+    pub show: Option<Show>,
 
     /// Parts of every material.
     #[command(flatten)]

@@ -3,7 +3,9 @@
 //!
 //! All of them are values, so few pipelines are compiled for each kind of vector registers. Five are for plain surfaces
 //! by the default interpolation: in these, kernel and fragment stage are optimized together (`draw/plain.rs`). There is
-//! one more for each kind of interpolation, in which the stage is called through a pointer (`draw/general.rs`).
+//! one more for each kind of interpolation, in which the stage is called through a pointer (`draw/general.rs`). Numbers
+//! of pixels come out of these as well (`draw/tapped.rs`); runs of straight lines have two small ones of their own
+//! (`draw/runs.rs`).
 
 use crate::camera::{self, CAMERA};
 use crate::error::Error;
@@ -17,15 +19,19 @@ use alberti::{
     Slot, Stats, Subpixel, Target, Vector3, View, ViewError, World, clear_by_threads, look_at,
 };
 
+mod clothed;
 mod erased;
 mod general;
 mod lamps;
 mod maps;
 mod painted;
 mod plain;
+mod runs;
+mod tapped;
 mod used;
 
 pub(crate) use general::Studio;
+pub(crate) use tapped::{Taken, Tap, WHOLE, Word};
 
 /// Light that falls everywhere.
 pub const AMBIENT: f32 = 0.3;

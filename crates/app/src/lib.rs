@@ -2,14 +2,17 @@
 
 pub mod advise;
 pub mod cli;
+pub mod colormap;
 pub mod draw;
 pub mod error;
 pub mod load;
 pub mod measure;
 pub mod options;
 pub mod output;
+pub mod probe;
 pub mod render;
 pub mod scene;
+pub mod show;
 
 pub use load::{image_file, obj};
 pub use scene::{camera, scenes, slide};

@@ -81,7 +81,7 @@ pub fn any_depth(depth: DepthFormat) -> AnyDepth {
 ///
 /// Nothing that is drawn reads a colour back, so the last one to be stored is all that counts. To round it afterwards
 /// gives the pixels that a buffer of that format would hold.
-fn shown(format: ColorFormat, [r, g, b, a]: [u8; 4]) -> [u8; 4] {
+pub(crate) fn shown(format: ColorFormat, [r, g, b, a]: [u8; 4]) -> [u8; 4] {
     match format {
         ColorFormat::Rgba8 => [r, g, b, a],
         ColorFormat::Rgb565 => Rgb565.decode(rgb565(Rgba8::new(r, g, b, a))).to_bytes(),
@@ -89,7 +89,7 @@ fn shown(format: ColorFormat, [r, g, b, a]: [u8; 4]) -> [u8; 4] {
 }
 
 /// One element a pixel, or an error instead of an abort where memory is short.
-fn buffer<T: Copy>(options: &RenderOptions, value: T) -> Result<Vec<T>, Error> {
+pub(crate) fn buffer<T: Copy>(options: &RenderOptions, value: T) -> Result<Vec<T>, Error> {
     let pixels = options.width as usize * options.height as usize;
     let mut buffer = Vec::new();
     buffer.try_reserve_exact(pixels).map_err(|_| {

@@ -41,3 +41,9 @@ pub use interpolation::{Affine, Exact, FixedPoint, Interpolation, Lines, Planes,
 pub use spans::{Span, SpanWalker};
 pub use target::{Target, TargetError};
 pub use triangle::{Corner, Cull, Numbers, Outcome, Reach, Vertex};
+
+// For the command of this workspace, which draws where straight lines divide. They change as the kernels do.
+#[doc(hidden)]
+pub use differentiation::{Differentiate, Samples};
+#[doc(hidden)]
+pub use interpolation::{Oriented, Row};

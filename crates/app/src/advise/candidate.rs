@@ -1,8 +1,6 @@
 //! Policies that can be advised, as options of the command and as lines of a program.
 
-use crate::options::{
-    Arithmetic, DepthFormat, Interpolation, Policies, RenderOptions, SpanLength, Subpixel,
-};
+use crate::options::{Arithmetic, DepthFormat, Interpolation, Policies, RenderOptions, SpanLength, Subpixel};
 
 /// A choice of what an approximation may be.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -20,7 +20,8 @@ pub fn text(advice: &Advice, wastes: &[Waste], side: u16) -> String {
          against exact, float, f32-reversed, 8 bits. A star: no other way is as fast and as right.\n",
         trials.len()
     );
-    let _ = writeln!(text, "{:>9}  {:>6}  {:>10}  {:>7}     policies", "ms", "time", unit(*budget), "largest");
+    let _ =
+        writeln!(text, "{:>9}  {:>6}  {:>10}  {:>7}     policies", "ms", "time", unit(*budget), "largest");
     for (k, trial) in trials.iter().enumerate().filter(|(k, trial)| {
         *k < ROWS || *k == *pick || advice.is_on_front(trial) || trial.candidate == reference.candidate
     }) {

@@ -37,8 +37,8 @@ pub fn waste(
     trials: &[Trial],
     turns: u32,
 ) -> Result<Vec<Waste>, Error> {
-    let options = Candidate::MOST_PRECISE
-        .options(&RenderOptions { threads: NonZero::<usize>::MIN, ..*options });
+    let options =
+        Candidate::MOST_PRECISE.options(&RenderOptions { threads: NonZero::<usize>::MIN, ..*options });
     let mut lines = vec![];
     triangles(model, camera, &options, turns, &mut lines)?;
     let whole = draw(model, camera, &options)?;
@@ -73,7 +73,8 @@ fn triangles(
         }
     }
     let unseen = seen.iter().filter(|&&seen| !seen).count();
-    let from = if turns == 1 { "from this camera".to_owned() } else { format!("from {turns} cameras around it") };
+    let from =
+        if turns == 1 { "from this camera".to_owned() } else { format!("from {turns} cameras around it") };
     lines.push(format!(
         "triangles: {unseen} of {total} ({:.0} %) show in no pixel {from}",
         percent(unseen as u64, total as u64)

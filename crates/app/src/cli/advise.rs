@@ -35,7 +35,12 @@ pub struct AdviseArgs {
 
     /// Limit of the error, a number with its unit: texel (of texture coordinates), lsb (of bytes), both of the 99.9 % of
     /// the pixels that are least off; flip (mean), or db (PSNR, at least).
-    #[arg(long, value_name = "0.5texel|2lsb|0.01flip|40db", allow_hyphen_values = true, default_value = "2lsb")]
+    #[arg(
+        long,
+        value_name = "0.5texel|2lsb|0.01flip|40db",
+        allow_hyphen_values = true,
+        default_value = "2lsb"
+    )]
     pub max_error: MaxError,
 
     /// Write the picture of the pick, the right one and their difference into this folder.

@@ -11,6 +11,10 @@ use crate::scene::{Model, Part, Relief};
 /// There is one.
 pub(crate) fn check(arguments: &RenderArgs) -> Result<(), Error> {
     arguments.projector.check()?;
+    if arguments.show.is_some() && arguments.stats.is_some() {
+        let error = Error::new("it with --stats, which is of pictures in true colours", "one of the two");
+        return Err(error.place("--show"));
+    }
     let camera = &arguments.camera;
     let of_view =
         camera.view_height.filter(|_| !camera.is_parallel()).map(|_| ("view-height", "projection parallel"));

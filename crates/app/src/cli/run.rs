@@ -1,20 +1,21 @@
 //! The command itself: arguments in, a picture and an exit status out.
 
 use std::ffi::OsString;
-use std::io::{self, Write as _};
+use std::io::{self, IsTerminal as _, Write as _};
 use std::num::NonZero;
 use std::time::Instant;
 
 use clap::error::{ContextKind, ErrorKind};
 use clap::{ArgMatches, CommandFactory as _};
 
-use super::staged::{Request, Staged};
+use super::staged::{Request, Staged, warn};
 use super::{Cli, StatsFormat, advise, compare};
 use crate::error::{Error, quote};
 use crate::options::RenderOptions;
 use crate::output::progress::Progress;
 use crate::output::stats::{Report, Times};
 use crate::render::render;
+use crate::show::{Shown, show};
 
 /// The exit status for whatever the user can mend.
 pub const FAILURE: u8 = 2;
@@ -75,7 +76,15 @@ fn draw_from(request: &Request) -> Result<(), Error> {
     let Staged { model, camera, options, load } = request.stage()?;
     let start = Instant::now();
     let mut progress = Progress::new("drawing");
-    let mut picture = render(&model, &camera, &options, &mut |done, total| progress.set(done, total))?;
+    let hear = &mut |done, total| progress.set(done, total);
+    let (mut picture, legend) = match request.arguments.show {
+        None => (render(&model, &camera, &options, hear)?, None),
+        Some(what) => {
+            let Shown { picture, legend, warning } = show(what, &model, &camera, &options, hear)?;
+            warning.iter().for_each(|warning| warn(&warning.to_string()));
+            (picture, Some(legend.text(io::stdout().is_terminal())))
+        }
+    };
     drop(progress);
     let rendered = start.elapsed();
     if request.arguments.stats.is_some() && options.threads.get() > 1 {
@@ -91,7 +100,7 @@ fn draw_from(request: &Request) -> Result<(), Error> {
     let report =
         Report { output: output.name(), source: request.source(), size, stats: picture.stats, times };
     print(&match request.arguments.stats {
-        None => format!("{}\n", report.summary()),
+        None => format!("{}\n{}", report.summary(), legend.unwrap_or_default()),
         Some(StatsFormat::Text) => format!("{}\n{}", report.summary(), report.text()),
         Some(StatsFormat::Json) => format!("{}\n", report.json()),
     })

@@ -1,8 +1,7 @@
 //! Fragment stages behind a pointer, so that a kernel is compiled once for all of them. The pixels are the stage's own.
 //!
 //! Such a stage gets one bundle, [`Attributes`]. The components that it does not use are interpolated nevertheless. Of
-//! the derivatives there are only those of the texture coordinates. No stage discards, and none learns its place on the
-//! screen.
+//! the derivatives there are only those of the texture coordinates. No stage discards.
 
 use alberti::lanes::{Floating, Lanes, OneFixed};
 use alberti::raster::{Gradient, PerPixel};
@@ -23,8 +22,15 @@ fn with_uv<L: Lanes>(lanes: L, like: &Bundle<L::Number>, uv: [L::Number; 2]) -> 
     (place, framed)
 }
 
-/// The arguments in memory: the bundle, and the derivatives of u and v by column and row.
-type Handed<N> = (Bundle<N>, Gradient<[N; 2]>);
+/// The arguments in memory.
+struct Handed<N: Copy> {
+    varying: Bundle<N>,
+    /// The derivatives of u and v by column and row.
+    gradient: Gradient<[N; 2]>,
+    /// The samples that are asked for, a bit each.
+    mask: u32,
+    place: [i32; 2],
+}
 
 /// A stage for so many samples at a time as there are lanes of floats: their numbers in memory, colours back.
 ///
@@ -44,16 +50,15 @@ pub(super) fn erase<L: Floating>(
     stage: impl FragmentStage<Attributes, Color = Rgba8> + Sync,
     then: impl FnOnce(Erased<'_, L>),
 ) {
-    let shade = |(values, gradient): &Handed<L::Each<f32>>| {
+    let shade = |handed: &Handed<L::Each<f32>>| {
         lanes.vectorize(
             #[inline(always)]
             || {
-                let carried = Attributes::map(values, &|each: L::Each<f32>| lanes.load(&each));
-                let gradient =
-                    gradient.map(|[u, v]| with_uv(lanes, &carried, [lanes.load(&u), lanes.load(&v)]));
-                let mask = lanes.mask(all::<L>());
-                let fragments = Fragments { lanes, varying: carried, gradient, mask, place: [0; 2] };
-                lanes.store_words(stage.shade(&fragments).0)
+                let varying = Attributes::map(&handed.varying, &|each: L::Each<f32>| lanes.load(&each));
+                let loaded = |[u, v]: [L::Each<f32>; 2]| [lanes.load(&u), lanes.load(&v)];
+                let gradient = handed.gradient.map(|uv| with_uv(lanes, &varying, loaded(uv)));
+                let (mask, place) = (lanes.mask(handed.mask), handed.place);
+                lanes.store_words(stage.shade(&Fragments { lanes, varying, gradient, mask, place }).0)
             },
         )
     };
@@ -68,13 +73,17 @@ impl<L: Lanes> FragmentStage<Attributes> for Erased<'_, L> {
     /// `M` is `L` under another name, or fewer.
     #[inline(always)]
     fn shade<M: Lanes>(&self, fragments: &Fragments<M, Attributes>) -> (M::U32, M::Mask) {
-        let Fragments { lanes, varying, gradient, mask, .. } = fragments;
+        let Fragments { lanes, varying, gradient, mask, place } = fragments;
         let each = |number: M::Number| {
             let values = lanes.store(number);
             self.lanes.each(|k| values.as_ref().get(k).copied().unwrap_or_default())
         };
-        let gradient = gradient.map(|(_, framed)| framed.uv.map(each));
-        let words = (self.shade)(&(Attributes::map(varying, &each), gradient));
+        let words = (self.shade)(&Handed {
+            varying: Attributes::map(varying, &each),
+            gradient: gradient.map(|(_, framed)| framed.uv.map(each)),
+            mask: lanes.bits(*mask),
+            place: *place,
+        });
         let words = lanes.each(|k| words.as_ref().get(k).copied().unwrap_or_default());
         (lanes.load_words(&words), *mask)
     }
@@ -89,10 +98,9 @@ pub(super) fn erase_fixed(
     stage: impl FragmentStage<Attributes, Color = Rgba8> + Sync,
     then: impl FnOnce(ErasedFixed<'_>),
 ) {
-    let shade = |(carried, gradient): &Handed<Q16>| {
-        let gradient = gradient.map(|uv| with_uv(OneFixed, carried, uv));
-        let fragments = Fragments { lanes: OneFixed, varying: *carried, gradient, mask: true, place: [0; 2] };
-        stage.shade(&fragments).0.0
+    let shade = |&Handed { varying, gradient, mask, place }: &Handed<Q16>| {
+        let gradient = gradient.map(|uv| with_uv(OneFixed, &varying, uv));
+        stage.shade(&Fragments { lanes: OneFixed, varying, gradient, mask: mask != 0, place }).0.0
     };
     then(ErasedFixed(&shade));
 }
@@ -103,22 +111,22 @@ impl FragmentStage<Attributes> for ErasedFixed<'_> {
 
     #[inline(always)]
     fn shade<M: Lanes>(&self, fragments: &Fragments<M, Attributes>) -> (M::U32, M::Mask) {
-        let Fragments { lanes, varying, gradient, mask, .. } = fragments;
+        let Fragments { lanes, varying, gradient, mask, place } = fragments;
         // In units of 2^-16, in which numbers in fixed point are.
         let bits = |number: M::Number| lanes.store_words(lanes.floor_scaled(number, 16));
-        let carried = Attributes::map(varying, &bits);
+        let (carried, samples) = (Attributes::map(varying, &bits), lanes.bits(*mask));
         let gradient = gradient.map(|(_, framed)| framed.uv.map(bits));
         let words = lanes.each(|k| {
             let at = |words: M::Each<u32>| {
                 Q16::from_bits(words.as_ref().get(k).copied().unwrap_or_default().cast_signed())
             };
-            (self.0)(&(Attributes::map(&carried, &at), gradient.map(|uv| uv.map(at))))
+            (self.0)(&Handed {
+                varying: Attributes::map(&carried, &at),
+                gradient: gradient.map(|uv| uv.map(at)),
+                mask: samples >> k & 1,
+                place: *place,
+            })
         });
         (lanes.load_words(&words), *mask)
     }
-}
-
-/// A bit for each lane.
-fn all<L: Lanes>() -> u32 {
-    (1 << L::COUNT) - 1
 }

@@ -1,26 +1,23 @@
 //! Any surface by any policies: a kernel for each kind of interpolation, and one fragment stage behind a pointer. The
 //! stage is all surfaces that there are, with a projector's image on them.
 
+use super::clothed::{Clothed, Triangles};
 use super::erased::{Attributes, erase, erase_fixed};
 use super::lamps::Lamps;
 use super::maps::{Chains, any_filter};
 use super::painted::Painted;
 use super::plain::Skin;
 use super::used::Used;
-use super::{Canvas, Drawing, memory, position, to_light};
+use super::{Canvas, Drawing, memory, to_light};
 use crate::error::Error;
 use crate::options::{Arithmetic, Filter, Interpolation, Projection, RenderOptions, Shading};
-use crate::scene::{Camera, Detail, Model, Part, Vertex};
-use alberti::glam::{Vec2, Vec3};
+use crate::scene::{Camera, Detail, Model, Part};
 use alberti::lanes::{Lanes, Machine, One};
 use alberti::raster::PerPixel;
-use alberti::shaders::material::{AnyLight, AnyReflectance, Framed, Gouraud, Lighting, Material};
+use alberti::shaders::material::{AnyLight, AnyReflectance, Framed, Gouraud, Material};
 use alberti::shaders::{Mix, Slide, Sunlit, Unlit, VertexColor};
 use alberti::texture::{AnyFilter, Clamp, Sampler, format::Rgba8888};
-use alberti::{
-    FixedPoint, FragmentStage, Fragments, Geometry, Homogeneous, Lines, Mesh, Planes, Point3, Rgba8, Stats,
-    Vector3, for_lanes,
-};
+use alberti::{FixedPoint, FragmentStage, Fragments, Lines, Planes, Rgba8, Stats, for_lanes};
 
 /// Whether a part is more than a plain surface in a picture with these options.
 pub(super) fn is_lit(part: &Part, model: &Model, options: &RenderOptions) -> bool {
@@ -55,7 +52,7 @@ impl Studio {
 
 /// Any surface, asked once for the samples that are worked on together.
 #[derive(Clone, Copy)]
-enum Surface<'a> {
+pub(super) enum Surface<'a> {
     Colors,
     Unlit(Unlit<Skin<'a>>),
     Lit(Sunlit<Unlit<Skin<'a>>>),
@@ -106,35 +103,19 @@ impl FragmentStage<Attributes> for Shown<'_> {
     }
 }
 
-/// The attributes of a vertex for a surface. Components without a use are constant, so that they have no part in how
-/// far a straight line may go. Lights at vertices are carried instead of the first two axes, colours instead of the
-/// third.
-fn framed(surface: &Surface<'_>, textured: bool, lighting: &Light<'_>, v: &Vertex) -> Framed {
-    let [x, y, z, handedness] = v.tangent;
-    let (place, normal) = (Vec3::from_array(v.position), Vec3::from_array(v.normal));
-    let uv = if textured { Vec2::from_array(v.uv) } else { Vec2::ZERO };
-    let flat = |third| Framed { position: Vec3::ZERO, axes: [Vec3::ZERO, Vec3::ZERO, third], uv };
-    match surface {
-        Surface::Colors => flat(Vec3::from_array(v.color)),
-        Surface::Unlit(_) => flat(Vec3::ZERO),
-        Surface::Lit(_) => flat(normal),
-        Surface::ByFragment(_) => {
-            let tangent = Vec3::new(x, y, z);
-            Framed { position: place, axes: [tangent, normal.cross(tangent) * handedness, normal], uv }
-        }
-        Surface::ByVertex(_) => {
-            let [scattered, mirrored] = lighting.at_vertex(Point3::new(place), Vector3::new(normal));
-            Framed { position: place, axes: [scattered, mirrored, normal], uv }
-        }
-    }
-}
-
-/// The lights that fall on a picture's surfaces.
-type Light<'a> = Lighting<&'a [AnyLight], AnyReflectance>;
-
 impl<'a> Drawing<'a> {
     /// A surface by any policies.
     pub(super) fn draw_general(&mut self, part: &Part, triangles: &[[u32; 3]], target: &mut Canvas<'_>) {
+        let clothed = self.clothed(part);
+        let image = self.slide.map(|(_, image)| image.sampler(any_filter(self.options.filter), Clamp));
+        let Used { vertices, triangles } = Used::of(&self.model.vertices, triangles);
+        let mesh = Triangles { clothed: &clothed, vertices: &vertices, triangles: &triangles, numbers: None };
+        let stats = self.by_policies(&mesh, Shown { surface: clothed.surface, image }, target);
+        self.stats += stats;
+    }
+
+    /// A part's surface, and all that its attributes are made of.
+    pub(super) fn clothed(&self, part: &Part) -> Clothed<'a> {
         let Studio { chains, lamps } = self.studio;
         let (options, shading) = (self.options, self.options.shading);
         let painted = Painted::new(part, self.model, chains, options, self.camera);
@@ -148,35 +129,20 @@ impl<'a> Drawing<'a> {
             _ => Surface::Lit(self.lit(self.skin(part))),
         };
         let textured = lit || (part.texture.is_some() && shading != Shading::VertexColor);
-        let image = self.slide.map(|(_, image)| image.sampler(any_filter(options.filter), Clamp));
         let projector = self.slide.map(|(projector, _)| projector);
-        let Used { vertices, triangles } = Used::of(&self.model.vertices, triangles);
-        let mesh = Mesh::new(&vertices, &triangles, |v: &Vertex| {
-            // The model stands in the world where it was made.
-            let world = Point3::new(Vec3::from_array(v.position));
-            let on_image = projector.map_or(Homogeneous::default(), |projector| projector.project(world));
-            (position(v), (on_image, framed(&surface, textured, &material.lighting, v)))
-        });
-        let stats = self.by_policies(&mesh, Shown { surface, image }, target);
-        self.stats += stats;
+        Clothed { surface, lighting: material.lighting, textured, projector }
     }
 
     /// The stage behind a pointer, in one of few kernels.
-    fn by_policies(
+    pub(super) fn by_policies(
         &self,
-        mesh: &(impl Geometry<Varying = Attributes> + Sync),
-        stage: Shown<'_>,
+        mesh: &Triangles<'_, '_>,
+        stage: impl FragmentStage<Attributes, Color = Rgba8> + Sync,
         target: &mut Canvas<'_>,
     ) -> Stats {
         let (mut room, mut slots) = memory(mesh);
         let (mut stats, threads) = (Stats::default(), self.options.threads);
-        let policies = self.options.policies;
-        let lines = match policies.interpolation {
-            Interpolation::Exact | Interpolation::Plane => None,
-            Interpolation::Spans(length) => Lines::spans(length.columns()),
-            Interpolation::Bounded(texels) => Some(Lines::bounded_texels(texels, self.largest_side())),
-            Interpolation::Affine => Some(Lines::affine()),
-        };
+        let (policies, lines) = (self.options.policies, self.lines());
         if let (Some(lines), Arithmetic::Fixed) = (lines, policies.arithmetic) {
             erase_fixed(stage, |stage| {
                 let pass = self.pass(mesh, stage, &mut slots).interpolation(FixedPoint(lines));
@@ -199,6 +165,16 @@ impl<'a> Drawing<'a> {
             }
         }));
         stats
+    }
+
+    /// The straight lines of the options' interpolation, if it has some.
+    pub(super) fn lines(&self) -> Option<Lines> {
+        match self.options.policies.interpolation {
+            Interpolation::Exact | Interpolation::Plane => None,
+            Interpolation::Spans(length) => Lines::spans(length.columns()),
+            Interpolation::Bounded(texels) => Some(Lines::bounded_texels(texels, self.largest_side())),
+            Interpolation::Affine => Some(Lines::affine()),
+        }
     }
 
     /// The longest side of the model's textures, or, without any, the steps of a colour.

@@ -5,6 +5,7 @@ mod errors;
 mod policies;
 mod projection;
 mod scenes;
+mod show;
 mod success;
 
 use std::ffi::OsStr;
