@@ -35,6 +35,15 @@ pub enum Eye {}
 pub enum Cube {}
 
 /// A place in space `S`, with coordinates `V`.
+///
+/// Two places have no sum; a place and a displacement have:
+///
+/// ```compile_fail,E0308
+/// use alberti_math::{Point3, World, glam::Vec3};
+///
+/// let p = Point3::<World>::new(Vec3::ONE);
+/// let sum = p + p;
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point<V, S: Space> {
     /// The coordinates with respect to the origin and axes of `S`.

@@ -175,6 +175,21 @@ mod tests {
         assert_eq!(view.project(&view.depth_map(true), &corner).zs, 0.0);
     }
 
+    /// x = m z, y = n z: one place on the screen, and depths in order.
+    #[test]
+    fn all_of_a_ray_is_at_one_place() {
+        let view = Perspective::new(core::f32::consts::FRAC_PI_2, 1.0, 1.0, 8.0).expect("valid");
+        let [m, n] = [0.375, -0.625];
+        let on_the_ray = [1.0, 2.0, 8.0].map(|z| {
+            let vertex = EyeVertex { position: Point3::new(Vec3::new(m * z, n * z, z)), varying: () };
+            view.project(&view.depth_map(false), &vertex)
+        });
+        assert!(on_the_ray.iter().all(|p| (p.x, p.y) == (m, n)));
+        // α = 8/7, β = -8/7.
+        let zs = on_the_ray.map(|p| p.zs);
+        assert!(zs[0] == 0.0 && (zs[1] - 4.0 / 7.0).abs() < 1e-6 && zs[2] == 1.0, "{zs:?}");
+    }
+
     #[test]
     fn impossible_pyramids_are_refused() {
         assert_eq!(Perspective::new(0.0, 1.0, 1.0, 2.0), Err(ViewError::Angle));

@@ -191,6 +191,35 @@ mod tests {
         assert!((wrong - k * 0.6).abs() < 1e-6);
     }
 
+    /// Divided first it is k ((1 − t) Ax Bz + t Bx Az)/(Az Bz): right of ends that are equally far, or in line with the
+    /// projector.
+    #[test]
+    fn dividing_first_is_right_at_one_depth_or_in_one_direction() {
+        let projector = along_z(1.0, 1.0);
+        let k = 1.0 / 0.5f64.tan();
+        for (a, b, same) in [
+            ([0.5, 4.0], [3.0, 4.0], true),
+            ([0.5, 2.0], [2.0, 8.0], true),
+            ([0.5, 2.0], [3.0, 4.0], false),
+            ([-1.0, 16.0], [0.25, 1.0], false),
+        ] {
+            for t in [0.25f32, 0.5, 0.75] {
+                let c = [0, 1].map(|i| (1.0 - t) * a[i] + t * b[i]);
+                let quotient = |[x, z]: [f32; 2]| {
+                    let shown = projector.project(at(-x, 0.0, z));
+                    f64::from(shown.u) / f64::from(shown.q)
+                };
+                let (last, share) = (quotient(c), f64::from(t));
+                let first = (1.0 - share) * quotient(a) + share * quotient(b);
+                let [a, b, c] = [a, b, c].map(|point| point.map(f64::from));
+                let formula = k * ((1.0 - share) * a[0] * b[1] + share * b[0] * a[1]) / (a[1] * b[1]);
+                assert!((last - k * c[0] / c[1]).abs() < 1e-6, "{a:?} {b:?} {t}");
+                assert!((first - formula).abs() < 1e-6, "{a:?} {b:?} {t}");
+                assert_eq!((first - last).abs() < 1e-6, same, "{a:?} {b:?} {t}");
+            }
+        }
+    }
+
     #[test]
     fn the_image_is_as_wide_and_as_upright_as_its_aspect_says() {
         let projector = along_z(core::f32::consts::FRAC_PI_2, 2.0);

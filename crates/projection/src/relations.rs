@@ -185,6 +185,15 @@ mod tests {
         assert_eq!(weights.z_of_depths(z.map(|z| map.zs(z)), &map), 16.0 / 11.0);
     }
 
+    /// With w = z/d in place of z, whatever the distance d of the image plane.
+    #[test]
+    fn the_distance_of_the_image_plane_falls_out() {
+        let (z, weights) = ([1.0, 2.0, 4.0], ScreenWeights([0.5, 0.25, 0.25]));
+        for d in [0.25, 2.0, 1024.0] {
+            assert_eq!(weights.to_eye(z.map(|z| z / d)), weights.to_eye(z), "{d}");
+        }
+    }
+
     #[test]
     fn ends_stay_ends_whatever_the_depths() {
         for z in [[1.0, 1e9], [f32::MAX / 16.0, f32::from_bits(1)]] {

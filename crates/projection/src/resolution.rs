@@ -237,6 +237,26 @@ mod tests {
         }
     }
 
+    /// 1/dz − 1/z is |β|/(z² δ), and |β| is A without a far plane, AB/(B − A) with one: up to twice that.
+    #[test]
+    fn the_near_plane_makes_the_resolution() {
+        let finest = |near: f32, far: f32| {
+            let map = DepthMap::forward(near, far).expect("0 < near < far");
+            let dz = f64::from(map.resolution(DepthSteps::D16, 16.0));
+            1.0 / dz - 1.0 / 16.0
+        };
+        let is = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-5;
+        for near in [0.25, 1.0, 4.0] {
+            let endless = finest(near, f32::INFINITY);
+            assert!(is(finest(2.0 * near, f32::INFINITY) / endless, 2.0), "{near}");
+            for ratio in [2.0, 4.0, 128.0] {
+                let far = (near * ratio).max(16.0);
+                let [a, b] = [near, far].map(f64::from);
+                assert!(is(finest(near, far) / endless, b / (b - a)), "{near} {far}");
+            }
+        }
+    }
+
     #[test]
     fn a_reversed_float_is_as_fine_as_f32_itself() {
         let map = DepthMap::reversed(1.0, f32::INFINITY).expect("valid");
