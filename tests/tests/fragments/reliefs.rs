@@ -2,16 +2,20 @@
 #![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "rounded on purpose")]
 
 use alberti::glam::{DVec3, Vec2, Vec3};
-use alberti::lanes::Lanes;
+use alberti::lanes::{Lanes, One};
 use alberti::raster::NoDerivatives;
 use alberti::shaders::material::{
-    Bump, Framed, Lambert, Layer, Lighting, Material, OnSurface, Parallax, Surface, Viewer,
+    Bump, Color, Directional, Framed, Lambert, Layer, Lighting, Material, NormalMap, OnSurface, Parallax,
+    Surface, Viewer,
 };
 use alberti::texture::surface::{
-    CentralDifferences, LimitedParallax, OffsetParallax, ParallaxOcclusion, Relief, SteepParallax,
+    CentralDifferences, Grid, LimitedParallax, MeshBuffers, NormalEncoding, OffsetParallax,
+    ParallaxOcclusion, Parametric as _, Relief, Sphere, SteepParallax, displaced_mesh,
 };
-use alberti::{FragmentStage, Point3};
+use alberti::texture::{Nearest, Repeat, Texture, format};
+use alberti::{Camera, F32, FragmentStage, Mesh, Pass, Point3, Rgba8, Rgba8888, Target, Vector3};
 use alberti_oracle::rng::{Rng, run_seed};
+use alberti_tests::narrow::Narrow;
 use std::cell::Cell;
 use std::f64::consts::{PI, TAU};
 
@@ -288,4 +292,109 @@ fn a_parallax_map_on_a_sphere() {
         worst[0], worst[1], worst[2], worst[3]
     );
     assert!(worst.iter().all(|&share| share > 0.7), "{worst:?}");
+}
+
+/// Without a parallax map, what is h above the surface is drawn below where it is: beside the ray through it, by the
+/// angle whose sine is h/D sin θ, with D the distance of that place and θ the ray's angle to the normal. So from twice
+/// as far it is half as much, from straight above nothing.
+#[test]
+fn what_a_flat_surface_misses_shrinks_with_the_distance() {
+    let mut rng = Rng::stream(run_seed(), 5);
+    let (mut worst, mut halves) = (0f64, [f64::INFINITY, 0.0]);
+    for _ in 0..5_000 {
+        let (k, turn) = (rng.uniform(0.0, 4.0), rng.uniform(0.0, TAU));
+        let level = rng.uniform(0.05, 0.3) as f32;
+        let relief = Relief { map: (|_: Vec2| 1.0) as Heights, low: 0.0, high: level, extent: Vec2::ONE };
+        let angles = [16.0, 32.0].map(|height| {
+            let eye = (DVec3::new(turn.cos() * k, turn.sin() * k, 1.0) * height).as_vec3();
+            let surface = Framed { position: Vec3::ZERO, axes: [Vec3::X, Vec3::Y, Vec3::Z], uv: Vec2::ZERO };
+            let (_, found) = seen(Parallax { relief, policy: OffsetParallax }, eye, surface);
+            // The place under what is seen, which is where it is drawn.
+            let below = found.as_dvec2().extend(0.0) - eye.as_dvec3();
+            let sine = f64::from(level) / below.length() * (k / k.hypot(1.0));
+            let off = angle(below, -eye.as_dvec3());
+            worst = worst.max((off - sine.asin()).abs());
+            off
+        });
+        if k > 0.1 {
+            let ratio = angles[0] / angles[1];
+            halves = [f64::min(halves[0], ratio), f64::max(halves[1], ratio)];
+        }
+    }
+    println!(
+        "{worst:e} radians beside the formula; from twice as far 1/{:.3} to 1/{:.3}",
+        halves[0], halves[1]
+    );
+    assert!(worst < 1e-6 && halves[0] > 1.95 && halves[1] < 2.05, "{worst:e}, {halves:?}");
+}
+
+const FRAME: u32 = 160;
+
+/// A sphere of radius 1 with heights on it, drawn: colours and depths.
+fn sphere(map: Heights, stage: impl FragmentStage<Framed, Color = Rgba8>) -> (Vec<u32>, Vec<u32>) {
+    const GRID: Grid = Grid::new(48, 24);
+    let (mut positions, mut normals) = ([(); 2].map(|()| vec![Vec3::ZERO; GRID.vertices()])).into();
+    let (mut uvs, mut triangles) = (vec![Vec2::ZERO; GRID.vertices()], vec![[0; 3]; GRID.triangles()]);
+    let buffers = MeshBuffers {
+        positions: &mut positions,
+        normals: &mut normals,
+        uvs: &mut uvs,
+        triangles: &mut triangles,
+    };
+    let ball = Sphere { radius: 1.0 };
+    let relief = Relief { map, low: 0.0, high: 0.2, extent: Vec2::ONE };
+    displaced_mesh(&ball, &relief, GRID, buffers).expect("as many as the grid has");
+    let vertices: Vec<Framed> = positions
+        .iter()
+        .zip(&uvs)
+        .map(|(&position, &uv)| {
+            let axes = ball.orthonormal_frame(uv).axes();
+            Framed { position, axes: [axes.x_axis, axes.y_axis, axes.z_axis], uv }
+        })
+        .collect();
+    let mesh = Mesh::new(&vertices, &triangles, |vertex| (vertex.position, *vertex));
+    let camera = Camera::look_at(EYE, Vec3::ZERO, Vec3::Y).expect("a place");
+    let view = camera.perspective(0.8, 0.1..10.0).expect("a pyramid");
+    let pixels = (FRAME * FRAME) as usize;
+    let (mut color, mut depth) = (vec![0; pixels], vec![1.0f32; pixels]);
+    let mut target = Target::new(Rgba8888, F32, FRAME, FRAME, &mut color, &mut depth).expect("a frame");
+    Pass::new(&view, &mesh, Narrow(stage)).draw_by(One, &mut target);
+    (color, depth.into_iter().map(f32::to_bits).collect())
+}
+
+const EYE: Vec3 = Vec3::new(1.0, 1.5, 3.0);
+
+/// The same samples and depths, bit for bit, in other colours; a displacement map changes all three.
+#[test]
+fn outline_and_depths_stay_unless_displaced() {
+    let mut rng = Rng::stream(run_seed(), 6);
+    let texels: Vec<[u8; 4]> = (0..64 * 64).map(|_| (rng.u64() as u32 | 0xff00_0000).to_le_bytes()).collect();
+    let texture = Texture::new(format::Rgba8888, &texels, 64, 64).expect("texels");
+    let image = texture.sampler(Nearest, Repeat);
+    let lighting = Lighting {
+        viewer: Viewer::at(Point3::new(EYE)),
+        ambient: Vec3::splat(0.2),
+        lights: Directional::new(Vector3::new(EYE), Vec3::splat(0.8)),
+        reflectance: Lambert,
+    };
+    let relief =
+        Relief { map: wave as Heights, low: -0.2, high: 0.2, extent: Vec2::new(TAU as f32, PI as f32) };
+    let parallax = Parallax { relief, policy: OffsetParallax };
+    let normals = NormalMap { map: image, encoding: NormalEncoding::Unorm, strength: 1.0 };
+    let flat = Material { layers: Color(image), lighting };
+    let bent = Material { layers: (parallax, Bump(relief), Color(image)), lighting };
+    let mapped = Material { layers: (parallax, normals, Color(image)), lighting };
+
+    let covered = |color: &[u32]| -> Vec<bool> { color.iter().map(|&c| c != 0).collect() };
+    let differing = |a: &[u32], b: &[u32]| a.iter().zip(b).filter(|(a, b)| a != b).count();
+    let (color, depth) = sphere(|_| 0.0, flat);
+    let inside = covered(&color).iter().filter(|&&covered| covered).count();
+    for (changed, depths) in [sphere(|_| 0.0, bent), sphere(|_| 0.0, mapped)] {
+        assert!(covered(&color) == covered(&changed) && depth == depths);
+        assert!(differing(&color, &changed) > inside / 2, "the maps show");
+    }
+    let (raised, depths) = sphere(wave, flat);
+    let outline = covered(&color).iter().zip(covered(&raised)).filter(|(a, b)| **a != *b).count();
+    println!("{inside} pixels; displaced {outline} more or less, {} depths", differing(&depth, &depths));
+    assert!(outline > inside / 50 && differing(&depth, &depths) > inside / 2, "{outline} of {inside}");
 }

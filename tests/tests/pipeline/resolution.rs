@@ -247,7 +247,7 @@ fn slanted_surfaces_are_told_apart_as_they_are_drawn() {
 
 /// The cheapest format of surfaces as they are drawn keeps the gap at the far plane, and none before it does.
 #[test]
-fn the_cheapest_format_of_drawn_surfaces_is_the_first_that_does() {
+fn the_cheapest_format_of_drawn_surfaces_is_found() {
     let mut rng = Rng::stream(run_seed(), 7);
     let mut found = [0; 6];
     for _ in 0..20_000 {
@@ -308,7 +308,7 @@ fn the_cheapest_format_that_does_is_found() {
 
 /// Neighbouring f32 between the planes, onto any range: never out of order, never out of range.
 #[test]
-fn order_is_kept_where_beta_is_negative_and_reversed_where_it_is_positive() {
+fn order_is_kept_or_reversed_by_the_sign_of_beta() {
     let mut rng = Rng::stream(run_seed(), 4);
     let mut apart = [0u32; 2];
     for _ in 0..400_000 {
