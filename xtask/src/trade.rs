@@ -9,8 +9,9 @@ use crate::workspace;
 
 /// The package that measures.
 const PACKAGE: &str = "alberti-trade";
-/// The function in which a frame is counted, for callgrind's options.
+/// The functions within which a frame is counted, and at which its count is written, for callgrind's options.
 const MEASURED: &str = "*counts::measured*";
+const ENDED: &str = "*counts::ended*";
 /// The option for what repeats alone.
 const CHECK: &str = "--check";
 
@@ -70,7 +71,7 @@ fn counts(program: &Path) -> Result<Option<PathBuf>, String> {
     fs::create_dir_all(&folder).map_err(failed)?;
     let mut valgrind = Command::new("valgrind");
     valgrind.args(["--quiet", "--tool=callgrind", "--collect-atstart=no"]);
-    valgrind.arg(format!("--toggle-collect={MEASURED}")).arg(format!("--dump-after={MEASURED}"));
+    valgrind.arg(format!("--toggle-collect={MEASURED}")).arg(format!("--dump-before={ENDED}"));
     valgrind.arg(format!("--callgrind-out-file={}", folder.join("part").display()));
     command::run(valgrind.arg(program).arg("frames"))?;
     Ok(Some(folder))

@@ -1,49 +1,49 @@
 //! Errors of a row: of its picture beside the right one, and of its texture coordinates beside those of rays.
 
-use crate::frame::{Places, bytes};
 use crate::reference;
-use crate::row::{Judge, Row};
-use crate::scenes::Scene;
 use alberti_app::measure::{Comparison, Measures, percentile};
 use alberti_app::scene::Image;
 use alberti_oracle::ideal::Seen;
+use alberti_trade::frame::{Places, bytes};
+use alberti_trade::row::{Judge, Row};
+use alberti_trade::scenes::Scene;
 use std::collections::HashMap;
 use std::rc::Rc;
 
 /// The errors of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Errors {
+pub(crate) struct Errors {
     /// Texture coordinates against those of rays, in texels.
-    pub texels: Option<Texels>,
+    pub(crate) texels: Option<Texels>,
     /// The picture against the right one.
-    pub picture: Measures,
+    pub(crate) picture: Measures,
 }
 
 /// Errors of texture coordinates, in texels, at the pixels whose triangle is the right one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Texels {
+pub(crate) struct Texels {
     /// The largest.
-    pub largest: f64,
+    pub(crate) largest: f64,
     /// The largest but for one in a thousand.
-    pub most: f64,
+    pub(crate) most: f64,
 }
 
 /// A picture and what makes it wrong.
 #[derive(Clone, Debug)]
-pub struct Judged {
+pub(crate) struct Judged {
     /// The row's picture.
-    pub picture: Image,
+    pub(crate) picture: Image,
     /// The right one.
-    pub right: Rc<Image>,
+    pub(crate) right: Rc<Image>,
     /// Their differences.
-    pub comparison: Comparison,
+    pub(crate) comparison: Comparison,
     /// In numbers.
-    pub errors: Errors,
+    pub(crate) errors: Errors,
 }
 
 /// Judges rows, and keeps the references that several of them share.
 #[derive(Debug, Default)]
-pub struct Court {
+pub(crate) struct Court {
     pictures: HashMap<(&'static str, Judge), Rc<Image>>,
     points: HashMap<&'static str, Rc<Vec<Option<Seen>>>>,
 }
@@ -53,7 +53,7 @@ impl Court {
     ///
     /// # Panics
     /// Without a reference among the rows.
-    pub fn judge(&mut self, rows: &mut [Row]) -> Vec<Judged> {
+    pub(crate) fn judge(&mut self, rows: &mut [Row]) -> Vec<Judged> {
         let pictures: Vec<Image> = rows.iter_mut().map(picture).collect();
         let reference = rows.iter().position(|row| row.reference).expect("a reference");
         let own = Rc::new(pictures[reference].clone());
@@ -105,7 +105,7 @@ impl Court {
 }
 
 /// The picture that a row draws.
-pub fn picture(row: &mut Row) -> Image {
+pub(crate) fn picture(row: &mut Row) -> Image {
     let mut words = vec![0; row.pixels()];
     (row.frame)(&mut words);
     image(row.size, bytes(&words))

@@ -7,20 +7,29 @@
 //! options: --counts FOLDER of callgrind's parts, --compiler TEXT, --boards FILE of a chapter
 //! ```
 
-use alberti_trade::counts::{self, measured};
-use alberti_trade::errors::{Court, Judged};
+mod counts;
+mod errors;
+mod page;
+mod plot;
+mod reference;
+mod summary;
+mod table;
+mod times;
+mod worst;
+
 use alberti_trade::families::{FAMILIES, Family};
-use alberti_trade::page::{self, Made, PICTURES, SEEN, page, picture};
 use alberti_trade::row::Row;
-use alberti_trade::summary::summaries;
-use alberti_trade::table::{Line, csv, worse};
-use alberti_trade::times::times;
-use alberti_trade::{plot, worst};
+use counts::measured;
+use errors::{Court, Judged};
+use page::{Made, PICTURES, SEEN, has_plot, page, picture};
 use std::collections::HashMap;
 use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use summary::summaries;
+use table::{Line, csv, worse};
+use times::times;
 
 /// Of errors and instructions: a small display.
 const SMALL: [u32; 2] = [320, 240];
@@ -163,7 +172,7 @@ fn write(options: &Options) -> Result<(), Box<dyn Error>> {
     let lines = measure(counts.as_deref(), true, &mut hear)?;
     for family in FAMILIES {
         let summaries = summaries(family, &lines);
-        if family.has_plot(&summaries) {
+        if has_plot(family, &summaries) {
             plot::draw(family, &summaries, &pictures.join(format!("{}.svg", family.name)))?;
         }
     }

@@ -1,21 +1,21 @@
 //! The page of the trade, for people: a chapter a family.
 
-use crate::families::{FAMILIES, Family};
-use crate::scenes::SCENES;
 use crate::summary::{Summary, summaries};
 use crate::table::Line;
+use alberti_trade::families::{FAMILIES, Family};
+use alberti_trade::scenes::SCENES;
 use std::fmt::Write as _;
 
 /// The folder of plots and of the worst places, beside the page.
-pub const PICTURES: &str = "pictures/trade";
+pub(crate) const PICTURES: &str = "pictures/trade";
 
 /// What the figures were measured by.
 #[derive(Clone, Copy, Debug)]
-pub struct Made<'a> {
+pub(crate) struct Made<'a> {
     /// The compiler, and the registers of the machine: instructions can be compared where these are the same.
-    pub compiler: &'a str,
+    pub(crate) compiler: &'a str,
     /// The table of the boards, if they were asked.
-    pub boards: Option<&'a str>,
+    pub(crate) boards: Option<&'a str>,
 }
 
 /// Before the name of the compiler in the page.
@@ -47,8 +47,7 @@ The scenes:
 ";
 
 /// The page.
-#[must_use]
-pub fn page(lines: &[Line], made: Made<'_>) -> String {
+pub(crate) fn page(lines: &[Line], made: Made<'_>) -> String {
     let mut text = HEADING.to_owned();
     text.push_str("| scene | what it is |\n|---|---|\n");
     for scene in SCENES.iter() {
@@ -72,8 +71,7 @@ pub fn page(lines: &[Line], made: Made<'_>) -> String {
 }
 
 /// The compiler that a page names.
-#[must_use]
-pub fn compiler(page: &str) -> Option<&str> {
+pub(crate) fn compiler(page: &str) -> Option<&str> {
     page.lines().find_map(|line| line.strip_prefix(COMPILER)?.strip_suffix('.'))
 }
 
@@ -81,7 +79,7 @@ fn chapter(text: &mut String, family: &Family, lines: &[Line]) {
     let all = summaries(family, lines);
     let _ = writeln!(text, "\n## {}\n\n{}\n", family.title, family.advice);
     let Family { name, title, .. } = family;
-    if family.has_plot(&all) {
+    if has_plot(family, &all) {
         let _ = writeln!(text, "![{title}: error against cost]({PICTURES}/{name}.svg)\n");
     }
     text.push_str(
@@ -107,25 +105,21 @@ fn chapter(text: &mut String, family: &Family, lines: &[Line]) {
 }
 
 /// FLIP from which on a policy's worst place is shown.
-pub const SEEN: f64 = 1e-3;
+pub(crate) const SEEN: f64 = 1e-3;
 
 /// The file of a policy's worst place.
-#[must_use]
-pub fn picture(family: &str, policy: &str) -> String {
+pub(crate) fn picture(family: &str, policy: &str) -> String {
     let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
     let name: String = policy.chars().map(plain).collect();
     let parts: Vec<&str> = name.split('-').filter(|part| !part.is_empty()).collect();
     format!("{family}-{}.png", parts.join("-"))
 }
 
-impl Family {
-    /// Whether there is anything to plot: policies of different errors.
-    #[must_use]
-    pub fn has_plot(&self, summaries: &[Summary]) -> bool {
-        let mut errors = summaries.iter().map(|summary| summary.error(self.axis));
-        let first = errors.next().unwrap_or_default();
-        errors.any(|error| (error - first).abs() > 1e-6)
-    }
+/// Whether there is anything to plot: policies of different errors.
+pub(crate) fn has_plot(family: &Family, summaries: &[Summary]) -> bool {
+    let mut errors = summaries.iter().map(|summary| summary.error(family.axis));
+    let first = errors.next().unwrap_or_default();
+    errors.any(|error| (error - first).abs() > 1e-6)
 }
 
 fn row(summary: &Summary) -> String {

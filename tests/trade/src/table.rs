@@ -6,27 +6,26 @@ use std::fmt::Write as _;
 
 /// A line of the table.
 #[derive(Clone, Debug)]
-pub struct Line {
+pub(crate) struct Line {
     /// The family.
-    pub family: &'static str,
+    pub(crate) family: &'static str,
     /// The scene.
-    pub scene: &'static str,
+    pub(crate) scene: &'static str,
     /// The policy.
-    pub policy: String,
+    pub(crate) policy: String,
     /// Whether the others of its scene are measured by this one.
-    pub reference: bool,
+    pub(crate) reference: bool,
     /// Its errors.
-    pub errors: Errors,
+    pub(crate) errors: Errors,
     /// The instructions of a frame, where they were counted.
-    pub instructions: Option<u64>,
+    pub(crate) instructions: Option<u64>,
     /// The time of a frame, where it was taken.
-    pub time: Option<Time>,
+    pub(crate) time: Option<Time>,
 }
 
 impl Line {
     /// Its name in messages.
-    #[must_use]
-    pub fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         format!("{}/{}/{}", self.family, self.scene, self.policy)
     }
 }
@@ -39,8 +38,7 @@ const COLUMNS: &str = "family,scene,policy,reference,texels_largest,texels_999,b
 const ERRORS: [&str; 5] = ["texels_largest", "texels_999", "byte_largest", "byte_999", "flip"];
 
 /// The table as comma-separated values, with a heading.
-#[must_use]
-pub fn csv(lines: &[Line]) -> String {
+pub(crate) fn csv(lines: &[Line]) -> String {
     let mut text = format!("{COLUMNS}\n");
     for line in lines {
         let picture = line.errors.picture;
@@ -96,8 +94,7 @@ fn fields(line: &str) -> Vec<String> {
 
 /// What is worse in `found` than in the table that is committed: an error or, if they can be compared, the
 /// instructions, by more than a fiftieth; a row that is missing or new. A line for each, with the row's name.
-#[must_use]
-pub fn worse(found: &str, committed: &str, instructions: bool) -> Vec<String> {
+pub(crate) fn worse(found: &str, committed: &str, instructions: bool) -> Vec<String> {
     let columns: Vec<&str> = COLUMNS.split(',').collect();
     let index = |name: &str| columns.iter().position(|column| *column == name).unwrap_or(usize::MAX);
     let name = |fields: &[String]| fields.iter().take(3).cloned().collect::<Vec<_>>().join("/");
