@@ -23,13 +23,6 @@ pub(crate) struct Line {
     pub(crate) time: Option<Time>,
 }
 
-impl Line {
-    /// Its name in messages.
-    pub(crate) fn name(&self) -> String {
-        format!("{}/{}/{}", self.family, self.scene, self.policy)
-    }
-}
-
 /// The columns: names, then errors, the instructions, and what does not repeat.
 const COLUMNS: &str = "family,scene,policy,reference,texels_largest,texels_999,byte_largest,byte_999,off,psnr,flip,\
                        instructions,ms,time_quartile_1,time,time_quartile_3";

@@ -1,5 +1,6 @@
 //! The `alberti` command from outside: what it prints, how it ends, and which files it leaves.
 
+mod advise;
 mod compare;
 mod errors;
 mod policies;

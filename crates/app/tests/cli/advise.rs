@@ -1,0 +1,165 @@
+//! `alberti advise`: errors as `render` and `compare` have them, what is paid for nothing, and wrong input.
+
+use std::ffi::OsStr;
+
+use serde_json::Value;
+
+use crate::{Folder, Run, TRIANGLE, alberti};
+
+/// A square that is seen, and one behind it that is not, half as large; both turned away a little.
+const TWO_SQUARES: &str = "v -1 -1 0\nv 1 -1 0.5\nv 1 1 0.5\nv -1 1 0\nv -0.5 -0.5 -1\nv 0.5 -0.5 -1\nv 0.5 0.5 -1\n\
+                           v -0.5 0.5 -1\nvt 0 0\nvt 3 0\nvt 3 3\nvt 0 3\nf 1/1 2/2 3/3 4/4\nf 5/1 6/2 7/3 8/4\n";
+
+/// Before them.
+const CAMERA: [&str; 8] = ["--eye", "0,0,3", "--target", "0,0,0", "--near", "1", "--far", "10"];
+
+impl Folder {
+    fn advise(&self, arguments: &[&str]) -> Run {
+        alberti(self.0.path(), &[OsStr::new("advise")], arguments)
+    }
+
+    /// The line of JSON of an advice.
+    fn advice(&self, arguments: &[&str]) -> Value {
+        let run = self.advise(&[arguments, &["--json"]].concat());
+        assert_eq!((run.status, run.stdout.lines().count()), (Some(0), 1), "{run:?}");
+        serde_json::from_str(&run.stdout).expect("JSON")
+    }
+}
+
+/// A folder with the squares, and a texture of fine stripes.
+fn squares() -> Folder {
+    let folder = Folder::with(&[("squares.obj", TWO_SQUARES.as_bytes())]);
+    let picture = image::RgbaImage::from_fn(64, 64, |x, y| {
+        image::Rgba([if x % 4 < 2 { 230 } else { 20 }, if y % 8 < 4 { 200 } else { 60 }, 90, 255])
+    });
+    picture.save(folder.path("stripes.png")).expect("a texture");
+    folder
+}
+
+const SCENE: [&str; 9] = [
+    "squares.obj",
+    "--texture",
+    "stripes.png",
+    "--shading",
+    "unlit",
+    "--filter",
+    "nearest",
+    "--size",
+    "160x120",
+];
+
+/// Each trial's error is the one that `compare` finds between the pictures that `render` draws with its options.
+#[test]
+fn errors_are_those_of_the_pictures() {
+    let folder = squares();
+    let scene = [&SCENE[..], &CAMERA].concat();
+    let advice = folder.advice(&[&scene[..], &["--max-error", "3lsb"]].concat());
+    let trials = advice["trials"].as_array().expect("trials");
+    let render = |options: &str, output: &str| {
+        let options: Vec<&str> = options.split(' ').collect();
+        folder.succeeds(&[&scene[..], &options, &["-o", output]].concat());
+    };
+    render("--interpolation exact --arithmetic float --depth f32-reversed --subpixel 8", "right.png");
+    let mut wrong = 0;
+    for trial in trials {
+        let options = trial["options"].as_str().expect("options");
+        if !["affine", "bounded:1 ", "spans:32", "u16", "--subpixel 4"]
+            .iter()
+            .any(|part| options.contains(part))
+        {
+            continue;
+        }
+        render(options, "found.png");
+        let arguments = ["right.png", "found.png", "--json"];
+        let run = alberti(folder.0.path(), &[OsStr::new("compare")], &arguments);
+        let compared: Value = serde_json::from_str(&run.stdout).expect("JSON");
+        assert_eq!(compared["percentile_99_9"].as_f64(), trial["error"].as_f64(), "{options}");
+        assert_eq!(compared["largest"], trial["largest"], "{options}");
+        let within = compared["percentile_99_9"].as_f64() <= Some(3.0);
+        assert_eq!(trial["within"], within, "{options}");
+        wrong += usize::from(!within);
+    }
+    assert!(wrong > 0, "policies are all alike here: {trials:?}");
+}
+
+#[test]
+fn the_pick_is_within_the_budget_and_selects_itself() {
+    let folder = squares();
+    let scene = [&SCENE[..], &CAMERA].concat();
+    for budget in ["0.1texel", "1lsb", "0.001flip", "60db"] {
+        let advice = folder.advice(&[&scene[..], &["--max-error", budget]].concat());
+        assert_eq!(
+            (&advice["pick"]["within"], &advice["pick"]["front"]),
+            (&true.into(), &true.into()),
+            "{advice}"
+        );
+        let trials = advice["trials"].as_array().expect("trials");
+        assert!(trials.iter().any(|trial| trial["options"] == advice["pick"]["options"]));
+        assert!(advice["rust"].as_str().expect("lines").contains("Pass::new"), "{advice}");
+    }
+}
+
+/// In texels, what is exact is right, and straight lines across a square that is turned away are not.
+#[test]
+fn texels_are_measured() {
+    let folder = squares();
+    let scene = [&SCENE[..], &CAMERA].concat();
+    let advice = folder.advice(&[&scene[..], &["--max-error", "0.1texel"]].concat());
+    let error = |options: &str| {
+        let trials = advice["trials"].as_array().expect("trials");
+        let trial =
+            trials.iter().find(|trial| trial["options"].as_str().expect("options").starts_with(options));
+        trial.expect("a trial")["error"].as_f64().expect("a number")
+    };
+    assert!(error("--interpolation exact --arithmetic float --depth f32-reversed") == 0.0);
+    assert!(error("--interpolation plane") < 0.01);
+    assert!(error("--interpolation bounded:0.0625 --arithmetic float") <= 0.0626);
+    // The square spans 192 texels, and q differs by a fifth along it: |Δu| tanh(ln r / 4) is 9.
+    assert!((4.0..20.0).contains(&error("--interpolation affine --arithmetic float")));
+}
+
+#[test]
+fn what_is_paid_for_nothing_is_told() {
+    let folder = squares();
+    let scene = [&SCENE[..], &CAMERA].concat();
+    let wastes = |more: &[&str]| folder.advice(&[&scene[..], more].concat())["waste"].to_string();
+    let from_before = wastes(&[]);
+    assert!(
+        from_before.contains("triangles: 2 of 4 (50 %) show in no pixel from this camera"),
+        "{from_before}"
+    );
+    assert!(from_before.contains("gives the same picture"), "{from_before}");
+    let around = wastes(&["--turntable", "4"]);
+    assert!(around.contains("triangles: 0 of 4 (0 %) show in no pixel from 4 cameras around it"), "{around}");
+}
+
+#[test]
+fn pictures_are_written_on_request() {
+    let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes())]);
+    let run = folder.advise(&["m.obj", "--size", "40x30", "--max-error", "0.01flip", "--image", "out"]);
+    assert_eq!(run.status, Some(0), "{run:?}");
+    for part in
+        ["Cheapest within 0.01flip", "The pick takes", "--interpolation ", "Target::new", "Paid for nothing"]
+    {
+        assert!(run.stdout.contains(part), "{part:?} is not in {}", run.stdout);
+    }
+    for name in ["pick.png", "right.png", "difference.png"] {
+        assert_eq!(image::open(folder.path("out").join(name)).expect("a picture").width(), 40);
+    }
+}
+
+#[test]
+fn wrong_input_is_one_line() {
+    let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes()), ("file", b"")]);
+    for (arguments, part) in [
+        (&["m.obj", "--max-error", "2furlong"][..], "one of the units lsb, flip, db and texel"),
+        (&["m.obj", "--turntable", "0"], "--turntable"),
+        (&["no.obj"], "no.obj"),
+        (&["m.obj", "--image", "file/out"], "file/out"),
+    ] {
+        let run = folder.advise(arguments);
+        assert_eq!((run.status, run.stdout.as_str()), (Some(2), ""), "{run:?}");
+        assert!(run.stderr.contains(part) && run.stderr.lines().count() == 1, "{run:?}");
+    }
+    assert_eq!(folder.names(), ["file", "m.obj"]);
+}
