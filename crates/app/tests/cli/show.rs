@@ -35,7 +35,7 @@ fn the_legend_has_every_colour_and_its_share() {
         ("depth-step", "--scene floor --depth u16"),
         ("depth-step", "--scene cube --projection parallel"),
         ("overdraw", "--scene inside"),
-        ("overdraw", "--scene fill --profile tiny"),
+        ("overdraw", "--scene hero --profile tiny"),
     ] {
         let (run, picture) = shown(&format!("--size 120x90 --show {what} {more}"));
         let mut lines = run.stdout.lines().skip(1);
@@ -68,7 +68,7 @@ fn any_number_of_threads_shows_the_same() {
 #[test]
 fn errors_are_those_of_the_policies() {
     let (run, picture) = shown("--scene mesh --size 80x60 --profile reference --show error");
-    assert!(run.stdout.contains("0, the same  100 %"), "{run:?}");
+    assert!(run.stdout.contains("greatest 0, of 4800"), "{run:?}");
     assert_eq!(colors(&picture).len(), 1);
     // Five bits of a channel are steps of 8, to the nearest.
     let (run, _) = shown("--scene cube --size 80x60 --profile reference --color rgb565 --show error");
