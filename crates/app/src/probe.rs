@@ -1,4 +1,4 @@
-//! Numbers of each pixel instead of a colour: what the interpolation gives, and what the pixel costs.
+//! Numbers of each pixel instead of a colour: interpolated values, and counts of fragments.
 //!
 //! They come out of the kernels that draw the pictures, by the same policies, to the bit. Three drawings take them: one
 //! with the depth test, one without, and for straight lines one that hears of their runs.

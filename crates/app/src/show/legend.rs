@@ -60,7 +60,7 @@ impl Number {
         Self { step, color: None, value: Some(value) }
     }
 
-    /// A step for what has no number.
+    /// A step for pixels that have no number.
     pub(super) fn none(step: usize) -> Self {
         Self { step, color: None, value: None }
     }
@@ -121,7 +121,7 @@ impl Legend {
                 None => "      ".to_owned(),
             };
             // Writing to a string cannot fail.
-            let _ = writeln!(text, "  {color}  {meaning:<wide$}  {:>6}", percent(*pixels, total));
+            let _ = writeln!(text, "  {color}  {meaning:<wide$}  {:>7}", percent(*pixels, total));
         }
         let (count, [least, median, greatest]) = self.numbers;
         if count > 0 {
@@ -136,7 +136,7 @@ impl Legend {
     }
 }
 
-/// A share in percent: what is there is not 0, and what is not all is not 100.
+/// A share in percent: only nothing is 0, and only all is 100.
 #[expect(clippy::cast_precision_loss, reason = "two digits are shown")]
 fn percent(part: u64, of: u64) -> String {
     let share = 100.0 * part as f64 / of.max(1) as f64;
@@ -171,7 +171,7 @@ mod tests {
         let numbers = (4, [0.0, 0.012_345, 1e-7]);
         let legend =
             Legend { title: "T".into(), steps, counted: "x of y".into(), numbers, notes: vec!["N".into()] };
-        let expected = "T\n  0102ff  one    75.00 %\n          three  25.00 %\n  \
+        let expected = "T\n  0102ff  one     75.00 %\n          three   25.00 %\n  \
                         x of y: least 0, median 0.0123, greatest 1e-7, of 4\n  N\n";
         assert_eq!(legend.text(false), expected);
         assert!(legend.text(true).contains("\x1b[48;2;1;2;255m    \x1b[0m 0102ff  one"));

@@ -35,7 +35,7 @@ fn the_legend_has_every_colour_and_its_share() {
         ("depth-step", "--scene floor --depth u16"),
         ("depth-step", "--scene cube --projection parallel"),
         ("overdraw", "--scene inside"),
-        ("overdraw", "--scene fill --profile tiny"),
+        ("overdraw", "--scene hero --profile tiny"),
     ] {
         let (run, picture) = shown(&format!("--size 120x90 --show {what} {more}"));
         let mut lines = run.stdout.lines().skip(1);
@@ -65,14 +65,27 @@ fn any_number_of_threads_shows_the_same() {
     }
 }
 
+/// Two pictures in true colours tell how far each pixel is off, and so which step it is in.
 #[test]
 fn errors_are_those_of_the_policies() {
     let (run, picture) = shown("--scene mesh --size 80x60 --profile reference --show error");
-    assert!(run.stdout.contains("0, the same  100 %"), "{run:?}");
+    assert!(run.stdout.contains("greatest 0, of 4800"), "{run:?}");
     assert_eq!(colors(&picture).len(), 1);
-    // Five bits of a channel are steps of 8, to the nearest.
-    let (run, _) = shown("--scene cube --size 80x60 --profile reference --color rgb565 --show error");
-    assert!(run.stdout.contains("greatest 4, of 4800"), "{run:?}");
+    for (scene, policies) in [("cube", "--color rgb565"), ("hero", "--interpolation affine --depth u16")] {
+        let scene = format!("--scene {scene} --size 80x60");
+        let (run, picture) = shown(&format!("{scene} {policies} --show error"));
+        let [found, precise] = [policies, "--profile reference"].map(|p| shown(&format!("{scene} {p}")).1);
+        let mut steps = HashMap::new();
+        let mut greatest = 0;
+        for ((shown, found), precise) in picture.pixels().zip(found.pixels()).zip(precise.pixels()) {
+            let off = found.0.iter().zip(precise.0).map(|(a, b)| a.abs_diff(b)).max().unwrap_or(0);
+            greatest = greatest.max(off);
+            let color = *steps.entry(off.checked_ilog2()).or_insert(shown.0);
+            assert_eq!(shown.0, color, "{off}");
+        }
+        assert!(run.stdout.contains(&format!("greatest {greatest}, of 4800")), "{run:?}");
+        assert!(steps.len() > 3 && colors(&picture).len() == steps.len(), "{steps:?}");
+    }
 }
 
 /// A triangle that faces the eye at ten units: z²/(65535 |β|) with β = AB/(B - A).

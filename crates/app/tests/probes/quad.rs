@@ -10,7 +10,7 @@ type Vec3 = [f64; 3];
 /// Columns and rows of its pictures.
 pub(crate) const SIZE: (u32, u32) = (200, 150);
 /// Columns and rows of its texture.
-pub(crate) const TEXELS: [u32; 2] = [64, 32];
+pub(crate) const TEXELS: [u32; 2] = [128, 64];
 
 const CORNER: Vec3 = [-2.0, -0.5, 1.5];
 const ALONG_U: Vec3 = [4.0, 0.5, -0.75];
