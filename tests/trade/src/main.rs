@@ -147,7 +147,8 @@ fn measure(counts: Option<&[u64]>, timed: bool, hear: &mut Hear<'_>) -> Result<V
         let mut rest = lines.iter_mut();
         for mut group in FAMILIES.iter().flat_map(|family| by_scene(family, LARGE)) {
             eprintln!("times of {}, {}", group[0].family, group[0].scene.name);
-            for (line, time) in rest.by_ref().zip(times(&mut group)) {
+            // The times first: of two that are zipped, the first is asked once more than the second has.
+            for (time, line) in times(&mut group).into_iter().zip(rest.by_ref()) {
                 line.time = Some(time);
             }
         }

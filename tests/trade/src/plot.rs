@@ -21,7 +21,7 @@ const NOTHING: [f64; 2] = [1e-5, 1e-4];
 /// The file cannot be written.
 pub(crate) fn draw(family: &Family, summaries: &[Summary], path: &Path) -> Result<(), Box<dyn Error>> {
     let (name, least) = match family.axis {
-        Axis::Texels => ("error, texels (99.9 % of pixels, worst scene)", NOTHING[0]),
+        Axis::Texels => ("error, texels (99.9 % of pixels, mean of scenes)", NOTHING[0]),
         Axis::Flip => ("error, mean FLIP of the scenes", NOTHING[1]),
     };
     let point = |summary: &Summary| (summary.cost(), summary.error(family.axis).max(least));
@@ -47,6 +47,7 @@ pub(crate) fn draw(family: &Family, summaries: &[Summary], path: &Path) -> Resul
         .light_line_style(TRANSPARENT)
         .axis_style(INK)
         .label_style(text(13))
+        .x_labels(6)
         .x_desc("cost, multiples of the reference")
         .y_desc(name)
         .x_label_formatter(&|x| format!("{x:.2}"))
@@ -56,12 +57,29 @@ pub(crate) fn draw(family: &Family, summaries: &[Summary], path: &Path) -> Resul
         summaries.iter().zip(&points).filter(|(summary, _)| summary.front).map(|(_, point)| *point).collect();
     on_front.sort_by(|a, b| a.0.total_cmp(&b.0));
     chart.draw_series(LineSeries::new(on_front, FRONT.stroke_width(2)))?;
+    let mut labels: Vec<(i32, i32)> = vec![];
     for (summary, &(x, y)) in summaries.iter().zip(&points) {
         let color = if summary.front { FRONT } else { BEHIND };
         chart.draw_series([Circle::new((x, y), 5, color.filled())])?;
+        let at = chart.backend_coord(&(x, y));
+        let place = label(at, &summary.policy, &mut labels);
         let style = text(12).color(&color);
-        chart.draw_series([EmptyElement::at((x, y)) + Text::new(summary.policy.clone(), (8, -14), style)])?;
+        chart.draw_series([EmptyElement::at((x, y)) + Text::new(summary.policy.clone(), place, style)])?;
     }
     root.present()?;
     Ok(())
+}
+
+/// The place of a label from its point: on the right, or on the left where the picture ends, and below labels that are
+/// there already.
+fn label(at: (i32, i32), policy: &str, labels: &mut Vec<(i32, i32)>) -> (i32, i32) {
+    const HEIGHT: i32 = 13;
+    let width = 7 * i32::try_from(policy.len()).unwrap_or(0);
+    let dx = if at.0 + width > 740 { -width - 8 } else { 8 };
+    let mut dy = -14;
+    while labels.iter().any(|(x, y)| (x - at.0 - dx).abs() < 150 && (y - at.1 - dy).abs() < HEIGHT) {
+        dy += HEIGHT;
+    }
+    labels.push((at.0 + dx, at.1 + dy));
+    (dx, dy)
 }

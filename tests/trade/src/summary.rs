@@ -1,5 +1,6 @@
 //! A family in short: for each policy its cost and its errors over all scenes, and which of them nothing beats.
 
+use crate::errors::Texels;
 use crate::table::Line;
 use alberti_trade::families::{Axis, Family};
 
@@ -12,7 +13,8 @@ pub(crate) struct Summary {
     pub(crate) instructions: Option<f64>,
     /// The least, the median and the greatest of its times as multiples of the reference's.
     pub(crate) time: Option<[f64; 3]>,
-    /// The worst texture coordinates of any scene, in texels: the largest, and the largest but for one in a thousand.
+    /// Errors of texture coordinates in texels: the geometric mean of the scenes, of the largest but for one in a
+    /// thousand; and the largest of any scene.
     pub(crate) texels: Option<[f64; 2]>,
     /// The same of bytes of the picture.
     pub(crate) bytes: [u8; 2],
@@ -33,7 +35,7 @@ impl Summary {
     /// The error that they go by.
     pub(crate) fn error(&self, axis: Axis) -> f64 {
         match axis {
-            Axis::Texels => self.texels.map_or(0.0, |[_, most]| most),
+            Axis::Texels => self.texels.map_or(0.0, |[mean, _]| mean),
             Axis::Flip => self.flip[0],
         }
     }
@@ -77,19 +79,18 @@ fn summary(policy: &str, own: &[&Line], family: &[&Line]) -> Summary {
     times.sort_by(f64::total_cmp);
     let time = (!times.is_empty()).then(|| [times[0], times[times.len() / 2], times[times.len() - 1]]);
     let worst = |of: &dyn Fn(&Line) -> f64| own.iter().map(|line| of(line)).fold(0.0, f64::max);
-    let has_texels = own.iter().all(|line| line.errors.texels.is_some());
-    let texels = |line: &Line, most: bool| {
-        line.errors.texels.map_or(0.0, |texels| if most { texels.most } else { texels.largest })
-    };
+    let texels: Option<Vec<Texels>> = own.iter().map(|line| line.errors.texels).collect();
     let bytes = |of: fn(&Line) -> u8| own.iter().map(|line| of(line)).max().unwrap_or_default();
     #[expect(clippy::cast_precision_loss, reason = "few scenes")]
     let count = own.len() as f64;
     Summary {
         policy: policy.to_owned(),
-        // A geometric mean, as of all ratios.
-        instructions: ratios.map(|ratios| (ratios.iter().map(|ratio| ratio.ln()).sum::<f64>() / count).exp()),
+        instructions: ratios.map(|ratios| geometric_mean(ratios.into_iter())),
         time,
-        texels: has_texels.then(|| [worst(&|line| texels(line, false)), worst(&|line| texels(line, true))]),
+        texels: texels.map(|texels| {
+            let largest = texels.iter().map(|texels| texels.largest).fold(0.0, f64::max);
+            [geometric_mean(texels.iter().map(|texels| texels.most.max(LEAST))), largest]
+        }),
         bytes: [bytes(|line| line.errors.picture.largest), bytes(|line| line.errors.picture.most)],
         psnr: own.iter().map(|line| line.errors.picture.psnr()).fold(f64::INFINITY, f64::min),
         flip: [
@@ -98,6 +99,15 @@ fn summary(policy: &str, own: &[&Line], family: &[&Line]) -> Summary {
         ],
         front: false,
     }
+}
+
+/// Texels that count as no error.
+const LEAST: f64 = 1e-6;
+
+fn geometric_mean(numbers: impl ExactSizeIterator<Item = f64>) -> f64 {
+    #[expect(clippy::cast_precision_loss, reason = "few scenes")]
+    let count = numbers.len() as f64;
+    (numbers.map(f64::ln).sum::<f64>() / count).exp()
 }
 
 /// Of points (cost, error), which are on the Pareto front. Costs within a hundredth count as equal.

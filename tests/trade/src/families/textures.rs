@@ -16,13 +16,20 @@ use alberti::{Exact, FragmentStage, Rgba8};
 
 /// How a texel is made of several.
 pub(super) const FILTERS: Family =
-    Family { name: "filter", title: "Filters", advice: "", axis: Axis::Flip, rows: filters };
+    Family { name: "filter", title: "Filters", advice: "\
+The right picture here is the mean light of 64 rays a pixel, which a filter can only come near to. Magnified, take
+`Bilinear`; squeezed, a mip map: `NearestLevel(Bilinear)` has most of what `Trilinear` has, at two thirds of its price, but
+shows where levels change. `Anisotropic(2)` or `(4)` are sharper on what is seen at a flat angle. More probes gain little
+here: they mean bytes, not light, and the farther they reach, the more that shows as a darker tone.", axis: Axis::Flip, rows: filters };
 
 /// Where levels of detail come from.
 pub(super) const DERIVATIVES: Family = Family {
     name: "derivatives",
     title: "Levels of detail",
-    advice: "",
+    advice: "\
+`PerPixel` on vector registers, where the others save little. On a small core `PerTriangle`, if triangles are small on the
+screen: on a floor of two triangles one level for all is wrong nearly everywhere. `PerRun` lies between the two. Without
+a mip map (`BaseLevel`) the distance shimmers. The right picture is that of `PerPixel`.",
     axis: Axis::Flip,
     rows: derivatives,
 };
@@ -31,7 +38,9 @@ pub(super) const DERIVATIVES: Family = Family {
 pub(super) const ADDRESSES: Family = Family {
     name: "addresses",
     title: "Wrap modes and sides",
-    advice: "",
+    advice: "\
+All show the same; that is tested bit by bit. Give textures sides that are powers of two and say so
+(`Texture::power_of_two`). `Known` sides are for textures that are part of a program on a small core.",
     axis: Axis::Flip,
     rows: addresses,
 };
