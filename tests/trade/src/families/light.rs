@@ -17,19 +17,29 @@ use alberti_app::scene::{Model, Part, Vertex};
 use std::sync::LazyLock;
 
 /// Where light is found.
-pub(super) const LIGHT: Family =
-    Family { name: "light", title: "Light", advice: "\
+pub(super) const LIGHT: Family = Family {
+    name: "light",
+    title: "Light",
+    advice: "\
 Highlights need fragments: at vertices they are found only where a vertex happens to be, and flicker as it moves. For
 light that is scattered alone, vertices suffice if triangles are small. `Phong` with a quarter of the exponent is like
-`BlinnPhong`. The right picture is that of `BlinnPhong` by fragment.", axis: Axis::Flip, rows: light };
+`BlinnPhong`. The right picture is that of `BlinnPhong` by fragment.",
+    axis: Axis::Flip,
+    rows: light,
+};
 
 /// How a surface gets its depth.
-pub(super) const RELIEF: Family =
-    Family { name: "relief", title: "Relief", advice: "\
+pub(super) const RELIEF: Family = Family {
+    name: "relief",
+    title: "Relief",
+    advice: "\
 The right picture is that of a mesh with a vertex every other texel, whose outline and depths no map has. `Bump` is light
 alone, for relief that is shallow or seen from the front. `LimitedParallax` moves the texture for next to nothing.
 `ParallaxOcclusion(8)` is four fifths cheaper than the mesh, and comes nearest to it; more layers are for steeper views.
-`SteepParallax` shows its layers and costs more: take the other.", axis: Axis::Flip, rows: relief };
+`SteepParallax` shows its layers and costs more: take the other.",
+    axis: Axis::Flip,
+    rows: relief,
+};
 
 const SHININESS: u32 = 40;
 const HIGHLIGHT: Rgba8 = Rgba8::from_rgb24(0xa0_a0_98);

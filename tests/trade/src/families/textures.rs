@@ -15,12 +15,17 @@ use alberti::texture::{
 use alberti::{Exact, FragmentStage, Rgba8};
 
 /// How a texel is made of several.
-pub(super) const FILTERS: Family =
-    Family { name: "filter", title: "Filters", advice: "\
+pub(super) const FILTERS: Family = Family {
+    name: "filter",
+    title: "Filters",
+    advice: "\
 The right picture here is the mean light of 64 rays a pixel, which a filter can only come near to. Magnified, take
 `Bilinear`; squeezed, a mip map: `NearestLevel(Bilinear)` has most of what `Trilinear` has, at two thirds of its price, but
 shows where levels change. `Anisotropic(2)` or `(4)` are sharper on what is seen at a flat angle. More probes gain little
-here: they mean bytes, not light, and the farther they reach, the more that shows as a darker tone.", axis: Axis::Flip, rows: filters };
+here: they mean bytes, not light, and the farther they reach, the more that shows as a darker tone.",
+    axis: Axis::Flip,
+    rows: filters,
+};
 
 /// Where levels of detail come from.
 pub(super) const DERIVATIVES: Family = Family {
