@@ -109,6 +109,9 @@ impl<F, P: Interpolation> Paint<F, P> {
             return;
         }
         match self.reach(corners, limits) {
+            Ok(reach) if const { P::CHOOSES } => {
+                self.draw_chosen_alone(lanes, target, corners, &reach, counters);
+            }
             Ok(reach) => self.draw_alone(lanes, target, corners, &reach, counters),
             Err(outcome) => counters.rasterized(outcome),
         }
@@ -217,10 +220,10 @@ impl<F, P: Interpolation> Paint<F, P> {
         (!self.cull.drops(area)).then_some((corners, area))
     }
 
-    /// The second part, for the first `count` of several triangles in order. The counters hear the fate of each. Not
-    /// inlined, as one copy of this kernel is enough.
+    /// The second part, for the first `count` of several triangles in order, which all go the same way. The counters hear
+    /// the fate of each. Not inlined, as one copy of this kernel is enough.
     #[inline(never)]
-    pub(crate) fn draw_batch<L, V, C, D, K>(
+    pub(crate) fn draw_alike<L, V, C, D, K>(
         &self,
         lanes: L,
         target: &mut Target<'_, C, D>,
@@ -281,7 +284,7 @@ impl<F, P: Interpolation> Paint<F, P> {
 
     /// The second part, for one triangle. Not inlined: most triangles do not come here.
     #[inline(never)]
-    fn draw_alone<L, V, C, D, K>(
+    pub(crate) fn draw_alone<L, V, C, D, K>(
         &self,
         lanes: L,
         target: &mut Target<'_, C, D>,

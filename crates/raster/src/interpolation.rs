@@ -1,5 +1,7 @@
 //! Interpolation of depth and attributes between the vertices.
 
+mod bends;
+mod budget;
 mod exact;
 mod fixed_plane;
 mod fixed_point;
@@ -18,6 +20,7 @@ pub use plane::Planes;
 
 use crate::edge::{Edge, EdgeInt};
 use crate::fragment::FragmentStage;
+use crate::setup::Waiting;
 use crate::spans::Span;
 use crate::target::Target;
 use crate::triangle::{Corner, Corners, Numbers, in_order};
@@ -34,7 +37,7 @@ use core::fmt::Debug;
 /// | [`Planes`] | 20ε, and more where q falls along 64 columns | one a fragment |
 /// | [`Spans16`] | the miss of a straight line along 16 columns | two every 16 columns |
 /// | [`Affine`] | the miss of a straight line along the triangle | one a triangle |
-/// | [`Lines`] | one of the two for any length, or a budget | as many as that takes |
+/// | [`Lines`] | one of the two for any length, or a budget and 19ε | as many as that takes |
 /// | [`FixedPoint`] around one of the last three | theirs, and steps of 2^-16 a column | none: a table |
 ///
 /// The first two work sample by sample, the others by runs of samples.
@@ -96,6 +99,17 @@ pub trait Prepare: Copy {
     {
         let _ = (paint, target, corners, counters);
         false
+    }
+
+    /// Whether triangles are drawn in several ways, one of which [`choose`](Self::choose) finds for each.
+    const CHOOSES: bool = false;
+
+    /// The lines by which a triangle on a grid with so many bits is drawn, or none if that is done by [`Exact`]. It
+    /// does not depend on where the triangle is cut, nor on which of its vertices comes first.
+    #[inline(always)]
+    fn choose<V: Varying>(self, triangle: &Waiting<'_, V>, bits: u32) -> Option<Lines> {
+        let _ = (triangle, bits);
+        None
     }
 
     /// A triangle, prepared.

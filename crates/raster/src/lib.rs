@@ -6,6 +6,7 @@ extern crate std;
 
 mod bands;
 mod batch;
+mod chosen;
 mod color;
 mod comparison;
 mod counters;

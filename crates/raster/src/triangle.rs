@@ -320,6 +320,12 @@ impl Bounds {
         side(0).max(side(1)) >= LARGE << bits
     }
 
+    /// Its width in subpixels.
+    #[inline(always)]
+    pub(crate) fn width(&self) -> i32 {
+        self.max[0] - self.min[0]
+    }
+
     /// All columns, and the rows within the limits, whose samples lie within the box, with so many bits of subpixels;
     /// `None` if the limits hold no sample.
     #[inline]

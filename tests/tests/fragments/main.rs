@@ -2,6 +2,7 @@
 //! they read, and how they are lit. A module's tests have its name: `cargo test -p alberti-tests materials::`.
 
 mod attributes;
+mod budget;
 mod depth;
 mod divisions;
 mod gradients;

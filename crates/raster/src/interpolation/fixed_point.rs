@@ -1,8 +1,9 @@
 //! Lines in fixed point: integers only, from the vertices' numbers to the pixel.
 
+use super::budget::{on_screen, units};
 use super::fixed_plane::{FixedPlane, Shape};
 use super::floating::one_run;
-use super::lines::{LineNumbers, LineTriangle, Lines, Run, Runs};
+use super::lines::{Course, LineNumbers, LineTriangle, Lines, Run, Runs};
 use crate::edge::EdgeInt;
 use crate::fragment::FragmentStage;
 use crate::interpolation::{Interpolation, Oriented, Prepare, Row};
@@ -11,7 +12,7 @@ use crate::target::Target;
 use crate::triangle::{Corner, Numbers};
 use crate::{ColorFormat, Counters, DepthFormat, Paint};
 use alberti_math::lanes::{Floating, OneFixed};
-use alberti_math::{Mode, Q16, Sub4, Varying, map2, map3, reciprocal, scaled};
+use alberti_math::{Mode, Q16, Sub4, Varying, map2, map3, reciprocal};
 use core::cell::Cell;
 use core::fmt;
 
@@ -101,7 +102,8 @@ impl<R: Runs> Prepare for FixedPoint<R> {
         _: L,
         triangle: &Oriented<'_, V>,
     ) -> LineTriangle<R, FixedLines<V>> {
-        LineTriangle { runs: self.0, numbers: FixedLines::new(self.0.perspective(), triangle) }
+        let runs = self.0.of_triangle(|budget| on_screen(units(budget), triangle));
+        LineTriangle { runs, numbers: FixedLines::new(runs, triangle) }
     }
 }
 
@@ -159,13 +161,15 @@ pub struct FixedLines<V: Varying> {
     /// The same for a multiple of q, the greatest of the three from 2^30 to 2^31.
     q: (i32, FixedPlane),
     components: V::Of<FixedComponent>,
+    /// The units of the budget, if there is one.
+    budget: i32,
 }
 
 impl<V: Varying> FixedLines<V> {
     /// Not inlined, as it is long.
     #[inline(never)]
-    fn new(perspective: bool, triangle: &Oriented<'_, V>) -> Self {
-        let shape = Shape::new(triangle);
+    fn new(runs: impl Runs, triangle: &Oriented<'_, V>) -> Self {
+        let (shape, perspective) = (Shape::new(triangle), runs.perspective());
         let [a, b, c] = triangle.vertices;
         let zs = [a.zs.cast_signed(), b.zs.cast_signed(), c.zs.cast_signed()];
         // Positive floats are ordered as their words are.
@@ -180,6 +184,7 @@ impl<V: Varying> FixedLines<V> {
                 Mode::Hyperbolic | Mode::Linear => FixedComponent::new(&shape, [a, b, c], None),
                 Mode::Flat => FixedComponent::new(&shape, [first; 3], None),
             }),
+            budget: runs.budget().map_or(0, units),
         }
     }
 }
@@ -187,7 +192,7 @@ impl<V: Varying> FixedLines<V> {
 /// A positive `f32` in units of 2^(e - 157), to the nearest and at least 1. e is the biased exponent of the greatest,
 /// which comes to lie from 2^30 to 2^31 unless it is subnormal.
 #[inline(always)]
-fn relative(word: u32, e: u32) -> i32 {
+pub(super) fn relative(word: u32, e: u32) -> i32 {
     let exponent = word >> 23;
     let mantissa = (word << 9 >> 2) | u32::from(exponent != 0) << 30;
     let shift = e.max(1) - exponent.max(1);
@@ -231,7 +236,7 @@ fn divided(more: i32, normalizing: u32, per_q: i32) -> i32 {
 }
 
 /// The units of a budget for the rounding of the ends of a run, beside one for each of its columns.
-const ROUNDED: i32 = 3;
+pub(super) const ROUNDED_ENDS: i32 = 3;
 
 /// Numbers at a sample, and their increments to the next.
 #[derive(Clone, Copy)]
@@ -317,14 +322,21 @@ impl<V: Varying> LineNumbers<OneFixed, V> for FixedLines<V> {
         }
     }
 
+    const SEARCHES: bool = true;
+
     #[inline(always)]
-    fn within(&self, known: &FixedRow<V>, ends: &FixedEnds<V>, [first, last]: [i32; 2], budget: f32) -> bool {
+    fn has_room(&self, columns: i32) -> bool {
+        self.budget >= columns + ROUNDED_ENDS
+    }
+
+    #[inline(always)]
+    fn within(&self, known: &FixedRow<V>, ends: &FixedEnds<V>, [first, last]: [i32; 2]) -> bool {
         // Each may be off by a unit for each column of the row, and a few at its first.
         let off = u64::from((last - known.first).cast_unsigned()) + 5;
         let [q0, q1] = map2(ends.q, u64::from);
         let apart = q0.abs_diff(q1) + 2 * off;
         // The units for rounding are not there for perspective.
-        let left = scaled(budget, 16).clamp(0, LIMIT / 2) - (last - first) - ROUNDED;
+        let left = self.budget - (last - first) - ROUNDED_ENDS;
         let Ok(left) = u64::try_from(left) else { return false };
         let limit = left * (q0.max(q1) + 3 * q0.min(q1)).saturating_sub(4 * off);
         let within = Cell::new(true);
@@ -338,7 +350,7 @@ impl<V: Varying> LineNumbers<OneFixed, V> for FixedLines<V> {
     #[inline(always)]
     fn line<I: EdgeInt>(
         &self,
-        _: bool,
+        _: Course,
         _: &Row<'_, I>,
         row: &FixedRow<V>,
         run: &Run<FixedEnds<V>>,

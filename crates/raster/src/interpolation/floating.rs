@@ -1,59 +1,65 @@
 //! Lines in `f32`: of components that are linear on the screen by their slopes, of others between two ends.
 
+use super::bends::Bends;
 use super::linear::{FloatComponent, FloatPlane, Ramp, Slant, along, count, middle, scaled_q};
-use super::lines::{Affine, LineNumbers, LineTriangle, Lines, Run, Runs, Spans16};
+use super::lines::{Affine, Course, LineNumbers, LineTriangle, Lines, Run, Runs, Spans16};
 use crate::edge::EdgeInt;
 use crate::interpolation::{Interpolation, Oriented, Prepare, Row, Values};
+use crate::setup::Waiting;
 use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Mode, Varying};
-use core::cell::Cell;
 use core::fmt;
 
-/// A triangle's depth, q and components.
+/// A triangle's depth, q and components; `BENT` where some have parabolas.
 #[derive(Clone, Copy)]
-pub struct FloatingLines<L: Lanes, V: Varying> {
+pub struct FloatingLines<L: Lanes, V: Varying, const BENT: bool> {
     lanes: L,
     q: [f32; 3],
     zs: FloatComponent,
     /// With perspective the factors of hyperbolic ones are their values.
     components: V::Of<FloatComponent>,
+    bends: Bends<V>,
 }
 
-impl<L: Floating, V: Varying> FloatingLines<L, V> {
+impl<L: Floating, V: Varying, const BENT: bool> FloatingLines<L, V, BENT> {
     #[inline(always)]
-    pub(crate) fn new(lanes: L, perspective: bool, triangle: &Oriented<'_, V>) -> Self {
-        let slant = Slant::new(triangle);
+    pub(crate) fn new(lanes: L, runs: impl Runs, triangle: &Oriented<'_, V>) -> Self {
+        let (slant, perspective) = (Slant::new(triangle), runs.perspective());
+        let (bends, values) = if BENT && runs.course() == Course::Parabola {
+            Bends::new(&slant, triangle)
+        } else {
+            (Bends::none(triangle), triangle.values())
+        };
         Self {
             lanes,
             q: if perspective { scaled_q(triangle) } else { [1.0; 3] },
             zs: slant.linear(triangle.depths()),
-            components: V::map_by_mode(&triangle.values(), &|mode, values: Values| match mode {
+            components: V::map_by_mode(&values, &|mode, values: Values| match mode {
                 Mode::Hyperbolic if perspective => {
                     FloatComponent::new(values, FloatPlane::new(values.corners, [0.0; 3]))
                 }
                 Mode::Hyperbolic | Mode::Linear => slant.linear(values),
                 Mode::Flat => FloatComponent::flat(values),
             }),
+            bends,
         }
     }
 }
 
 /// The values at both ends of a run, of what is hyperbolic.
 #[derive(Clone, Copy)]
-pub struct FloatingEnds<V: Varying> {
-    q: [f32; 2],
-    components: V::Of<[f32; 2]>,
-}
+pub struct FloatingEnds<V: Varying>(V::Of<[f32; 2]>);
 
 /// The place of samples in a run, and the numbers that are linear along it.
 #[derive(Clone, Copy)]
 pub struct FloatingCursor<L: Lanes, V: Varying> {
     along: L::Number,
     zs: Ramp<L>,
-    components: V::Of<Ramp<L>>,
+    /// With the factors of the square of the columns.
+    components: V::Of<(Ramp<L>, L::Number)>,
 }
 
-impl<L: Floating, V: Varying> LineNumbers<L, V> for FloatingLines<L, V> {
+impl<L: Floating, V: Varying, const BENT: bool> LineNumbers<L, V> for FloatingLines<L, V, BENT> {
     type Row = ();
     type Ends = FloatingEnds<V>;
     type Cursor = FloatingCursor<L, V>;
@@ -69,10 +75,9 @@ impl<L: Floating, V: Varying> LineNumbers<L, V> for FloatingLines<L, V> {
         (): &(),
         column: i32,
     ) -> FloatingEnds<V> {
-        let components = V::map(&self.components, &|_: FloatComponent| [0.0; 2]);
-        let nothing = FloatingEnds { q: [0.0; 2], components };
-        let FloatingEnds { q: [_, q], components } = self.extend(perspective, row, &(), &nothing, column);
-        FloatingEnds { q: [q; 2], components: V::map(&components, &|[_, value]: [f32; 2]| [value; 2]) }
+        let nothing = FloatingEnds(V::map(&self.components, &|_: FloatComponent| [0.0; 2]));
+        let FloatingEnds(components) = self.extend(perspective, row, &(), &nothing, column);
+        FloatingEnds(V::map(&components, &|[_, value]: [f32; 2]| [value; 2]))
     }
 
     #[inline(always)]
@@ -90,37 +95,19 @@ impl<L: Floating, V: Varying> LineNumbers<L, V> for FloatingLines<L, V> {
         let [ea, eb, ec] = row.at(column).map(I::to_f32);
         let [qa, qb, qc] = self.q;
         let [ta, tb, tc] = [ea * qa, eb * qb, ec * qc];
-        let q = ta + tb + tc;
-        let per_q = 1.0 / q;
+        let per_q = 1.0 / (ta + tb + tc);
         let weights = [ta * per_q, tb * per_q, tc * per_q];
-        FloatingEnds {
-            q: [ends.q[1], q],
-            components: V::map_by_mode(&V::zip(&self.components, &ends.components), &|mode, pair| {
-                let (component, [_, start]): (FloatComponent, [f32; 2]) = pair;
-                if mode == Mode::Hyperbolic { [start, component.plane.at(weights)] } else { [0.0; 2] }
-            }),
-        }
-    }
-
-    #[inline(always)]
-    fn within(&self, (): &(), ends: &FloatingEnds<V>, _: [i32; 2], budget: f32) -> bool {
-        // Rounding may favour a line by a few ε.
-        const ROUNDED: f32 = 1.0 - 8.0 * f32::EPSILON;
-        let [q0, q1] = ends.q;
-        let [low, high] = if q0 < q1 { [q0, q1] } else { [q1, q0] };
-        let (apart, limit) = (high - low, budget * ROUNDED * (high + 3.0 * low));
-        let within = Cell::new(true);
-        let _ = V::map_by_mode(&ends.components, &|mode, [start, end]: [f32; 2]| {
-            within.set(within.get() & (mode != Mode::Hyperbolic || (end - start).abs() * apart <= limit));
-        });
-        within.get()
+        FloatingEnds(V::map_by_mode(&V::zip(&self.components, &ends.0), &|mode, pair| {
+            let (component, [_, start]): (FloatComponent, [f32; 2]) = pair;
+            if mode == Mode::Hyperbolic { [start, component.plane.at(weights)] } else { [0.0; 2] }
+        }))
     }
 
     #[inline(always)]
     #[expect(clippy::cast_precision_loss, reason = "at most 64 columns")]
     fn line<I: EdgeInt>(
         &self,
-        perspective: bool,
+        course: Course,
         row: &Row<'_, I>,
         (): &(),
         run: &Run<FloatingEnds<V>>,
@@ -130,17 +117,26 @@ impl<L: Floating, V: Varying> LineNumbers<L, V> for FloatingLines<L, V> {
         let (lanes, edges) = (self.lanes, middle(row, run.columns));
         // A run of a single sample has no step.
         let per_column = 1.0 / (last - first).max(1) as f32;
+        let lines = V::map_by_mode(&V::zip(&self.components, &run.ends.0), &|mode, pair| {
+            let (component, [start, end]): (FloatComponent, [f32; 2]) = pair;
+            if course == Course::Perspective && mode == Mode::Hyperbolic {
+                [0.5 * (start + end), (end - start) * per_column]
+            } else {
+                [component.plane.at(edges), component.plane.across]
+            }
+        });
+        let straight = |[middle, step]: [f32; 2]| (Ramp::new(lanes, middle, step), lanes.splat(0.0));
         FloatingCursor {
             along: along(lanes, run.columns, aligned),
             zs: Ramp::of(lanes, &self.zs.plane, edges),
-            components: V::map_by_mode(&V::zip(&self.components, &run.ends.components), &|mode, pair| {
-                let (component, [start, end]): (FloatComponent, [f32; 2]) = pair;
-                if perspective && mode == Mode::Hyperbolic {
-                    Ramp::new(lanes, 0.5 * (start + end), (end - start) * per_column)
-                } else {
-                    Ramp::of(lanes, &component.plane, edges)
-                }
-            }),
+            components: if BENT && course == Course::Parabola {
+                let pairs = V::zip(&lines, &self.bends.at(edges));
+                V::map(&pairs, &|([middle, step], [less, flatter, bend]): ([f32; 2], [f32; 3])| {
+                    (Ramp::new(lanes, middle - less, step - flatter), lanes.splat(bend))
+                })
+            } else {
+                V::map(&lines, &straight)
+            },
         }
     }
 
@@ -157,8 +153,9 @@ impl<L: Floating, V: Varying> LineNumbers<L, V> for FloatingLines<L, V> {
     #[inline(always)]
     fn attributes(&self, cursor: &FloatingCursor<L, V>) -> V::Of<L::Number> {
         V::map_by_mode(&V::zip(&self.components, &cursor.components), &|mode, pair| {
-            let (component, ramp): (FloatComponent, Ramp<L>) = pair;
+            let (component, (ramp, bend)): (FloatComponent, (Ramp<L>, L::Number)) = pair;
             match mode {
+                Mode::Hyperbolic if BENT => component.bounded(self.lanes, ramp.bent(bend, cursor.along)),
                 Mode::Hyperbolic | Mode::Linear => component.bounded(self.lanes, ramp.at(cursor.along)),
                 Mode::Flat => component.constant(self.lanes),
             }
@@ -167,12 +164,12 @@ impl<L: Floating, V: Varying> LineNumbers<L, V> for FloatingLines<L, V> {
 }
 
 macro_rules! interpolations {
-    ($($runs:ty)*) => {$(
+    ($($runs:ty, $bent:literal)*) => {$(
         impl Interpolation for $runs {}
 
         impl Prepare for $runs {
             type Lanes<L: Floating> = L;
-            type Triangle<L: Floating, V: Varying> = LineTriangle<Self, FloatingLines<L, V>>;
+            type Triangle<L: Floating, V: Varying> = LineTriangle<Self, FloatingLines<L, V, $bent>>;
             const WIDE: bool = false;
 
             #[inline(always)]
@@ -185,19 +182,26 @@ macro_rules! interpolations {
                 lanes
             }
 
+            // Only lines whose length is a number may have a budget.
+            const CHOOSES: bool = $bent;
+
+            #[inline(always)]
+            fn choose<V: Varying>(self, triangle: &Waiting<'_, V>, bits: u32) -> Option<Lines> {
+                self.lines().and_then(|lines| lines.of_corners(triangle, bits))
+            }
+
             #[inline(always)]
             fn prepare<L: Floating, V: Varying>(
                 self,
                 lanes: L,
                 triangle: &Oriented<'_, V>,
-            ) -> LineTriangle<Self, FloatingLines<L, V>> {
-                let perspective = self.perspective();
-                LineTriangle { runs: self, numbers: FloatingLines::new(lanes, perspective, triangle) }
+            ) -> LineTriangle<Self, FloatingLines<L, V, $bent>> {
+                LineTriangle { runs: self, numbers: FloatingLines::new(lanes, self, triangle) }
             }
         }
     )*};
 }
-interpolations!(Spans16 Affine Lines);
+interpolations!(Spans16, false Affine, false Lines, true);
 
 /// The length of all runs, or 1 if there is none such, see [`Interpolation::run`].
 #[inline(always)]
@@ -205,7 +209,7 @@ pub(super) fn one_run(runs: impl Runs) -> i32 {
     if runs.budget().is_some() { 1 } else { runs.length() }
 }
 
-impl<L: Lanes, V: Varying> fmt::Debug for FloatingLines<L, V> {
+impl<L: Lanes, V: Varying, const BENT: bool> fmt::Debug for FloatingLines<L, V, BENT> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("FloatingLines").finish_non_exhaustive()
     }

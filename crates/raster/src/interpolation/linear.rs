@@ -88,7 +88,7 @@ impl FloatComponent {
 #[derive(Clone, Copy)]
 pub(crate) struct Slant {
     /// 1 over the doubled area.
-    per_area: f32,
+    pub(crate) per_area: f32,
     /// The increments of the edge functions by column: differences of rows, exactly.
     pub(crate) steps: [f32; 3],
 }
@@ -153,6 +153,12 @@ impl<L: Lanes> Ramp<L> {
     #[inline(always)]
     pub(crate) fn at(&self, along: L::Number) -> L::Number {
         self.middle + self.step * along
+    }
+
+    /// The number so many columns along, with a part that grows with their square.
+    #[inline(always)]
+    pub(crate) fn bent(&self, bend: L::Number, along: L::Number) -> L::Number {
+        self.middle + (self.step + bend * along) * along
     }
 }
 

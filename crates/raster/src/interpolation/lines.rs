@@ -30,8 +30,27 @@ pub trait Runs: Copy + Debug + Send + Sync + 'static {
     /// The greatest miss of a component along a run, where runs are to be as long as that allows.
     fn budget(self) -> Option<f32>;
 
+    /// The course of hyperbolic components over a triangle.
+    fn course(self) -> Course;
+
     /// Whether hyperbolic components are so at the ends of runs, or linear on the screen like the rest.
-    fn perspective(self) -> bool;
+    #[inline(always)]
+    fn perspective(self) -> bool {
+        self.course() == Course::Perspective
+    }
+
+    /// The numbers that these are, if they are.
+    #[inline(always)]
+    fn lines(self) -> Option<Lines> {
+        None
+    }
+
+    /// The same with the runs of one triangle, which `choose` finds, where there is a budget.
+    #[inline(always)]
+    fn of_triangle(self, choose: impl FnOnce(f32) -> Option<Lines>) -> Self {
+        let _ = choose;
+        self
+    }
 }
 
 /// Straight lines along 16 columns: exact at a row's first and last sample and at every 16th column; linear between two
@@ -75,13 +94,24 @@ pub struct Affine;
 /// [`affine`](Self::affine).
 ///
 /// # Cost
-/// That of [`Spans16`], and a few comparisons a run. With a budget, that for each run that is looked at, of which some
-/// are too long, and a comparison a component.
+/// That of [`Spans16`], and a few comparisons a run. A component has a product and a sum more a fragment, for
+/// parabolas. With a budget, that of the way that a triangle goes, see [`bounded`](Self::bounded).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lines {
     length: i32,
     budget: Option<f32>,
-    perspective: bool,
+    course: Course,
+}
+
+/// The course of hyperbolic components over a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Course {
+    /// Linear on the screen.
+    Screen,
+    /// The same, and along each row a parabola: what perspective adds where q is the mean of the least and the greatest.
+    Parabola,
+    /// Hyperbolic at the ends of runs, and straight between.
+    Perspective,
 }
 
 impl Lines {
@@ -91,31 +121,62 @@ impl Lines {
     /// [`Affine`].
     #[must_use]
     pub const fn affine() -> Self {
-        Self { length: Self::LONGEST, budget: None, perspective: false }
+        Self { length: Self::LONGEST, budget: None, course: Course::Screen }
     }
 
     /// [`Spans16`] with `length` columns instead of 16; `None` unless that is a power of two up to 64.
     #[must_use]
     pub const fn spans(length: i32) -> Option<Self> {
         if 0 < length && length <= Self::LONGEST && length.count_ones() == 1 {
-            Some(Self { length, budget: None, perspective: true })
+            Some(Self { length, budget: None, course: Course::Perspective })
         } else {
             None
         }
     }
 
-    /// Straight lines as long as they miss no component by more than a `budget`, in the component's own units. The runs
-    /// are the longest of 1, 2, 4 to 64 columns, at multiples of their length, for which that is so.
+    /// A budget that no component misses its exact value by more than, in the component's own units. Each triangle is
+    /// drawn in the first of these ways that keeps it, which is decided once, from its three corners:
+    ///
+    /// 1. a plane and a parabola, along whole rows;
+    /// 2. straight lines along 64 columns, whose ends are hyperbolic;
+    /// 3. [`Exact`](crate::Exact).
+    ///
+    /// The first is for a box of more than 32 columns where q differs by up to an eighth, the second for one of 64. In
+    /// [`FixedPoint`](crate::FixedPoint) the ways are straight lines without correction, or runs: in each place the
+    /// longest of 1, 2, 4 to 64 columns, at multiples of their length, that keeps the budget.
     ///
     /// # Precision
-    /// The budget, and for rounding 19ε·max|ui| with ε = 2^-24; never more. The reason: a line misses a hyperbolic
-    /// component by at most |Δu|·(√r − 1)/(√r + 1) = |Δu|·tanh(ln r/4), and that is not above |Δu|·|Δq|/(max q + 3
-    /// min q), which is compared. So much it misses the curve through the ends that were found. Their values are
-    /// within 9ε, and the line within 6ε, as in [`Spans16`]. The ratio of their q is within 8ε. As tanh(ln r/4)
-    /// changes by at most a quarter of that, the curve moves by 4ε·max|ui|.
+    /// The budget, and for rounding 19ε·max|ui| with ε = 2^-24; never more. With D the greatest difference of two ui
+    /// and r the ratio of q, the first way misses by at most D/5·((r − 1)/(r + 1))², and is rounded by 19ε. The second
+    /// is that of [`Spans16`], of which |∂u/∂x|·|∂q/∂x| has a bound over the triangle. In fixed point a line misses a
+    /// hyperbolic component by at most |Δu|·(√r − 1)/(√r + 1) = |Δu|·tanh(ln r/4), and that is not above
+    /// |Δu|·|Δq|/(max q + 3 min q), which is compared.
+    ///
+    /// # Cost
+    /// Near the least that the triangle can be drawn for, and at most that of `Exact` and some 200 operations a
+    /// triangle in a box of more than 32 columns. Derivatives [by runs](crate::PerRun) are those of whole rows, but in
+    /// the second way.
     #[must_use]
     pub const fn bounded(budget: f32) -> Self {
-        Self { length: Self::LONGEST, budget: Some(budget), perspective: true }
+        Self { length: Self::LONGEST, budget: Some(budget), course: Course::Perspective }
+    }
+
+    /// Planes and parabolas, along whole rows.
+    pub(super) const PARABOLA: Self = Self { length: 1 << 30, course: Course::Parabola, ..Self::affine() };
+
+    /// The longest runs, with perspective at their ends.
+    pub(super) const LONG: Self = Self { course: Course::Perspective, ..Self::affine() };
+
+    /// The budget, if there is one.
+    #[inline(always)]
+    pub(super) const fn kept(self) -> Option<f32> {
+        self.budget
+    }
+
+    /// [`Affine`] by runs of `length` columns, a power of two.
+    #[inline(always)]
+    pub(super) const fn on_screen(length: i32) -> Self {
+        Self { length, ..Self::affine() }
     }
 
     /// The same with a budget of so many texels, in the coordinates of a texture with sides of up to `side` texels.
@@ -137,8 +198,8 @@ impl Runs for Spans16 {
     }
 
     #[inline(always)]
-    fn perspective(self) -> bool {
-        true
+    fn course(self) -> Course {
+        Course::Perspective
     }
 }
 
@@ -154,8 +215,8 @@ impl Runs for Affine {
     }
 
     #[inline(always)]
-    fn perspective(self) -> bool {
-        false
+    fn course(self) -> Course {
+        Course::Screen
     }
 }
 
@@ -171,8 +232,18 @@ impl Runs for Lines {
     }
 
     #[inline(always)]
-    fn perspective(self) -> bool {
-        self.perspective
+    fn course(self) -> Course {
+        self.course
+    }
+
+    #[inline(always)]
+    fn lines(self) -> Option<Lines> {
+        Some(self)
+    }
+
+    #[inline(always)]
+    fn of_triangle(self, choose: impl FnOnce(f32) -> Option<Lines>) -> Self {
+        self.budget.and_then(choose).unwrap_or(self)
     }
 }
 
@@ -191,7 +262,7 @@ pub struct Run<E> {
 
 /// A triangle's linear and hyperbolic components in some kind of numbers, and the straight lines between their values.
 ///
-/// `perspective` is that of the policy, a constant where that is known when compiling.
+/// `perspective` and `course` are those of the policy, constants where they are known when compiling.
 pub trait LineNumbers<L: Lanes, V: Varying> {
     /// The values at a row's first sample.
     type Row: Copy;
@@ -222,15 +293,29 @@ pub trait LineNumbers<L: Lanes, V: Varying> {
         column: i32,
     ) -> Self::Ends;
 
+    /// Whether runs are found one by one where there is a budget.
+    const SEARCHES: bool = false;
+
+    /// Whether the budget leaves anything to a straight line along so many columns.
+    #[inline(always)]
+    fn has_room(&self, columns: i32) -> bool {
+        let _ = columns;
+        true
+    }
+
     /// Whether a straight line between the ends, which are at these columns, misses no component by more than the
     /// budget.
-    fn within(&self, known: &Self::Row, ends: &Self::Ends, columns: [i32; 2], budget: f32) -> bool;
+    #[inline(always)]
+    fn within(&self, known: &Self::Row, ends: &Self::Ends, columns: [i32; 2]) -> bool {
+        let _ = (known, ends, columns);
+        true
+    }
 
     /// The line along a run of a row. Of the two columns the first is the first to be drawn, and the second that of the
     /// first of the samples.
     fn line<I: EdgeInt>(
         &self,
-        perspective: bool,
+        course: Course,
         row: &Row<'_, I>,
         known: &Self::Row,
         run: &Run<Self::Ends>,
@@ -255,11 +340,21 @@ pub struct LineTriangle<R, N> {
 }
 
 impl<R: Runs, N> LineTriangle<R, N> {
+    /// The run of one sample and the columns that follow it, up to `length`, a power of two: the first sample, the last,
+    /// and the column after these.
+    #[inline(always)]
+    fn columns<I: EdgeInt>(row: &Row<'_, I>, [column, length]: [i32; 2]) -> [i32; 3] {
+        let after = (column | (length - 1)) + 1;
+        let first = row.covered.start.max(column & !(length - 1));
+        [first, after.min(row.covered.end - 1), after.min(row.covered.end)]
+    }
+
     /// The run of `length` columns, a power of two, that a covered column is in. `left` are the ends of the run before,
     /// if it was drawn: its last column is this one's first.
     #[inline(always)]
     fn run<I: EdgeInt, L: Lanes, V: Varying>(
         &self,
+        perspective: bool,
         row: &Row<'_, I>,
         known: &N::Row,
         left: Option<N::Ends>,
@@ -268,10 +363,8 @@ impl<R: Runs, N> LineTriangle<R, N> {
     where
         N: LineNumbers<L, V>,
     {
-        let (numbers, perspective) = (&self.numbers, self.runs.perspective());
-        let after = (column | (length - 1)) + 1;
-        let last = after.min(row.covered.end - 1);
-        let first = row.covered.start.max(column & !(length - 1));
+        let numbers = &self.numbers;
+        let [first, last, next] = Self::columns(row, [column, length]);
         let ends = match left {
             Some(ends) if first == column => numbers.extend(perspective, row, known, &ends, last),
             _ => {
@@ -279,7 +372,69 @@ impl<R: Runs, N> LineTriangle<R, N> {
                 if last == first { ends } else { numbers.extend(perspective, row, known, &ends, last) }
             }
         };
-        Run { columns: [first, last], ends, next: after.min(row.covered.end), length }
+        Run { columns: [first, last], ends, next, length }
+    }
+
+    /// The longest run that a covered column is in and that keeps the budget, of those that do not begin before the
+    /// last one's end.
+    #[inline(always)]
+    fn search<I: EdgeInt, L: Lanes, V: Varying>(
+        &self,
+        row: &Row<'_, I>,
+        known: &N::Row,
+        left: Option<N::Ends>,
+        column: i32,
+    ) -> Run<N::Ends>
+    where
+        N: LineNumbers<L, V>,
+    {
+        let mut length = self.runs.length();
+        // A run that begins where another has ended is not part of a longer one that began before: that was too long.
+        if left.is_some() {
+            length = length.min(1 << column.trailing_zeros().min(Lines::LONGEST.trailing_zeros()));
+        }
+        loop {
+            // Ends are not looked for where nothing is left for a line between them.
+            let [first, last, _] = Self::columns(row, [column, length]);
+            if length == 1 || self.numbers.has_room(last - first) {
+                let run = self.run(true, row, known, left, [column, length]);
+                // A run of one sample has nothing between its ends.
+                if length == 1 || self.numbers.within(known, &run.ends, run.columns) {
+                    return run;
+                }
+            }
+            length >>= 1;
+        }
+    }
+
+    /// The run that a covered column is in, with its line.
+    #[inline(always)]
+    fn begin<I: EdgeInt, L: Lanes, V: Varying>(
+        &self,
+        course: Course,
+        row: &Row<'_, I>,
+        (known, left): &mut (N::Row, Option<N::Ends>),
+        [column, aligned]: [i32; 2],
+    ) -> (N::Cursor, Span)
+    where
+        N: LineNumbers<L, V>,
+    {
+        let perspective = course == Course::Perspective;
+        let run = if course == Course::Parabola {
+            let [first, last] = [row.covered.start, row.covered.end - 1];
+            // Without perspective ends are nothing.
+            let ends = self.numbers.begin(false, row, known, first);
+            Run { columns: [first, last], ends, next: row.covered.end, length: 0 }
+        } else if const { N::SEARCHES } && perspective && self.runs.budget().is_some() {
+            self.search(row, known, *left, column)
+        } else {
+            self.run(perspective, row, known, *left, [column, self.runs.length()])
+        };
+        if perspective {
+            *left = Some(run.ends);
+        }
+        let columns = Span { start: run.columns[0], end: run.next };
+        (self.numbers.line(course, row, known, &run, [column, aligned]), columns)
     }
 }
 
@@ -296,32 +451,15 @@ impl<R: Runs, L: Lanes, V: Varying, N: LineNumbers<L, V>> Interpolate<L, V> for 
     fn start<I: EdgeInt>(
         &self,
         row: &Row<'_, I>,
-        (known, left): &mut Self::Row,
+        known: &mut Self::Row,
         column: i32,
         aligned: i32,
     ) -> (N::Cursor, Span) {
-        let mut length = self.runs.length();
-        let run = match self.runs.budget() {
-            None => self.run(row, known, *left, [column, length]),
-            Some(budget) => {
-                // A run that begins where another has ended is not part of a longer one that began before: that was
-                // too long.
-                if left.is_some() {
-                    length = length.min(1 << column.trailing_zeros().min(Lines::LONGEST.trailing_zeros()));
-                }
-                loop {
-                    let run = self.run(row, known, *left, [column, length]);
-                    // A run of one sample has nothing between its ends.
-                    if length == 1 || self.numbers.within(known, &run.ends, run.columns, budget) {
-                        break run;
-                    }
-                    length >>= 1;
-                }
-            }
-        };
-        *left = Some(run.ends);
-        let columns = Span { start: run.columns[0], end: run.next };
-        (self.numbers.line(self.runs.perspective(), row, known, &run, [column, aligned]), columns)
+        // Each as a constant, so that lines on the screen wait for nothing that only the others need.
+        match self.runs.course() {
+            Course::Perspective => self.begin(Course::Perspective, row, known, [column, aligned]),
+            course => self.begin(course, row, known, [column, aligned]),
+        }
     }
 
     #[inline(always)]
