@@ -23,6 +23,25 @@ pub fn vertex<V>(p: [i64; 2], zs: f32, q: f32, varying: V) -> Vertex<V> {
     Vertex { x, y, zs, q, varying }
 }
 
+/// A vertex that was at `p`, in 256ths of subpixels, and was snapped from there.
+///
+/// # Panics
+/// When `p` lies beyond the guard band.
+#[must_use]
+pub fn unsnapped<V>(p: [i64; 2], zs: f32, q: f32, varying: V) -> Vertex<V> {
+    let [x, y] = p.map(|c| {
+        let bits = i32::try_from(c + 128).unwrap_or_else(|_| panic!("{p:?} lies beyond the guard band"));
+        Fixed::from_bits(bits.cast_unsigned())
+    });
+    Vertex { x, y, zs, q, varying }
+}
+
+/// The subpixel that such a place is snapped to.
+#[must_use]
+pub fn snapped(p: [i64; 2]) -> [i64; 2] {
+    p.map(|c| (c + 128).div_euclid(256))
+}
+
 /// Three vertices that carry nothing.
 #[must_use]
 pub fn bare(tri: [[i64; 2]; 3]) -> [Vertex<()>; 3] {

@@ -6,10 +6,7 @@ use alberti_oracle::rng::Rng;
 use alberti_raster::Vertex;
 
 /// A random triangle in or about a small frame, often thin, sometimes a sliver as high as the guard band, with a wide
-/// range of depths; in 1/256 pixel.
-///
-/// # Panics
-/// Never: all of it lies within the guard band.
+/// range of depths; snapped to 1/256 pixel.
 #[must_use]
 #[expect(clippy::cast_possible_truncation, reason = "within the guard band, and f32 by choice")]
 pub fn triangle(rng: &mut Rng) -> [Vertex<Vec3>; 3] {
@@ -19,7 +16,7 @@ pub fn triangle(rng: &mut Rng) -> [Vertex<Vec3>; 3] {
     std::array::from_fn(|_| {
         let mut at = |axis: usize| {
             let pixels = center[axis] + rng.uniform(-size[axis], size[axis]);
-            Fixed::from_subpixels((pixels * 256.0) as i32).expect("within the guard band")
+            Fixed::from_bits(((pixels * 65_536.0) as i32).cast_unsigned())
         };
         let (x, y) = (at(0), at(1));
         let mut component = || rng.uniform(-1.0, 1.0) as f32;

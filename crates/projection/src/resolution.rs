@@ -82,11 +82,12 @@ impl DepthMap {
     /// is the same everywhere, and about an angle: the tangent of its inclination times that of a pixel.
     ///
     /// ```text
-    /// dz = z·δ/(|β|/z + δ),   δ = 2 steps + 2e,   e = ε(7|zs| + 2|β|/z) + slope·snap·|β|/z
+    /// dz = z·δ/(|β|/z + δ),   δ = 2 steps + 2e,   e = ε(8|zs| + 2|β|/z) + slope·snap·|β|/z
     /// ```
     ///
     /// The zs of one surface may be off by e: its vertices' z and zs are rounded, and `Exact` interpolates within 6ε.
-    /// And a vertex moves by up to half a subpixel on each axis, `snap`.
+    /// And a vertex moves by up to half a subpixel on each axis, `snap`. In large triangles zs are moved with it, and
+    /// rounded once more. What moving is off by besides is less than `slope·snap·|β|/z`, which then is not needed.
     ///
     /// ```
     /// use alberti_math::Sub8;
@@ -110,7 +111,7 @@ impl DepthMap {
         const EPSILON: f64 = 1.0 / 16_777_216.0;
         let (zs, quotient) = (f64::from(self.zs(z)), f64::from((self.beta() / z).abs()));
         let snap = 0.5 / f64::from(1_u32 << subpixel.bits());
-        let error = EPSILON * (7.0 * zs.abs() + 2.0 * quotient) + f64::from(slope) * snap * quotient;
+        let error = EPSILON * (8.0 * zs.abs() + 2.0 * quotient) + f64::from(slope) * snap * quotient;
         let step = 2.0 * self.step(steps).max(spacing(self.zs(z))) + 2.0 * error;
         narrow(f64::from(z) * step / (quotient + step))
     }

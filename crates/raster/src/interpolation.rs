@@ -45,13 +45,21 @@ use core::fmt::Debug;
 /// # Large triangles
 /// A triangle is large if its box is at least 65 pixels wide or high. In floats, what it carries and its depth are
 /// those of its vertices' positions before snapping, which [`Fixed::moved`](alberti_math::Fixed::moved) keeps. Policies
-/// start from the values that the triangle's plane has at the snapped positions. These are within 4ε of the
-/// greatest one, and every policy's error counts from there. As positions are kept to 256ths of a subpixel, the
-/// change along 2^-8 subpixel each way comes to it. Results stay within the range of the three values.
+/// start from the values that this plane has at the snapped positions. The plane through these is within 3.04ε·max|u|
+/// of it, and of depths within 1.26ε of the greatest; every policy's error counts from there. Its max|u| is that of
+/// these values, which is greater than the vertices' by 4/62 at most, and its ratios of q are of those there. So
+/// [`Exact`] is within 13ε·max|u|. As positions are kept to 256ths of a subpixel, the change along 2^-8 subpixel each
+/// way comes to it. Results stay within the range of the three values, and exact ones are cut to it.
 ///
 /// Small triangles carry what the vertices have to the snapped positions, which adds the change along half a subpixel
-/// each way. So do large ones that are less than some ten subpixels wide, or where a subpixel changes q at a vertex
-/// by a sixteenth, and all triangles in fixed point.
+/// each way. So do all triangles in fixed point, and large ones that are narrow or steep: where for a vertex
+///
+/// ```text
+/// A < 32 (|x| + |y|) q/min q        A: the doubled area, (x, y): the opposite edge, both before snapping, in subpixels
+/// ```
+///
+/// That is a rule of heights: 32 subpixels at least, or up to 45 in a slanted triangle, where q is the least; where q is
+/// greater, as many times as much. It is decided in floats, within 6ε.
 pub trait Interpolation: Prepare + Debug + Send + Sync + 'static {}
 
 /// The way of a policy from a triangle to one that is prepared.

@@ -114,7 +114,7 @@ fn any_z(rng: &mut Rng) -> [f32; 3] {
 }
 
 /// Screen depths: near one another, near 1 as forward maps make them, or of any size as reversed ones do.
-fn any_zs(rng: &mut Rng) -> [f32; 3] {
+pub(crate) fn any_zs(rng: &mut Rng) -> [f32; 3] {
     let base = rng.unit() as f32;
     let kind = rng.index(3);
     [(); 3].map(|()| match kind {
@@ -125,7 +125,7 @@ fn any_zs(rng: &mut Rng) -> [f32; 3] {
 }
 
 /// Values of both signs over 80 binary orders, or alike, or the texels of a tiled texture.
-fn any_u(rng: &mut Rng) -> [f32; 3] {
+pub(crate) fn any_u(rng: &mut Rng) -> [f32; 3] {
     let kind = rng.index(4);
     let base = rng.log_uniform(2f32.powi(-40), 2f32.powi(40));
     let spread = f64::from(rng.log_uniform(1e-6, 1.0));

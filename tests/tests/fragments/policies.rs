@@ -1,5 +1,6 @@
 //! The approximate interpolations keep the bounds that they state, over depth ratios up to 10^6, rows up to a thousand
-//! pixels, slivers, and values of both signs: against arithmetic of 106 bits at every sample that is looked at.
+//! pixels, slivers, and values of both signs: against arithmetic of 106 bits at every sample that is looked at. Half of
+//! the triangles have vertices that snapping has moved, which counts where the rule of `unsnapped.rs` says so.
 //!
 //! Straight lines are `Lines`, in `f32` and in fixed point, one sample at a time; `lanes.rs` compares that with
 //! several.
@@ -10,15 +11,18 @@
     reason = "pixels and subpixels are small"
 )]
 
+mod fixed_point;
+
+use crate::unsnapped::{Plane, any_move, plane};
 use alberti_math::Sub8;
 use alberti_math::lanes::One;
 use alberti_oracle::cases::pixel_centre;
 use alberti_oracle::climb::climb;
-use alberti_oracle::coverage::Triangle;
+use alberti_oracle::coverage::{Triangle, weights};
 use alberti_oracle::dd;
 use alberti_oracle::rng::{Rng, run_seed};
-use alberti_raster::{Cull, FixedPoint, Interpolation, Lines, Paint, Planes, Rgba8888, Target};
-use alberti_tests::probe::{LARGEST, Recorded, Seen, vertex};
+use alberti_raster::{Cull, Interpolation, Lines, Paint, Planes, Rgba8888, Target};
+use alberti_tests::probe::{LARGEST, Recorded, Seen, snapped, unsnapped};
 
 const EPS: f64 = 1.0 / (1 << 24) as f64;
 const WIDTH: i32 = 1000;
@@ -26,7 +30,12 @@ const ROW: i32 = 400;
 
 /// A triangle, its values, and the covered columns of one row.
 struct Case {
+    /// In 256ths of subpixels, before snapping.
+    parts: Triangle,
+    /// After it, in subpixels.
     tri: Triangle,
+    /// Whether the values lie in the plane before.
+    moved: bool,
     q: [f32; 3],
     zs: [f32; 3],
     u: [f32; 3],
@@ -38,12 +47,44 @@ impl Case {
         pixel_centre(i64::from(column), i64::from(ROW), 8)
     }
 
+    /// The triangle in whose plane the values lie, in 256ths of subpixels.
+    fn plane(&self) -> Triangle {
+        if self.moved { self.parts } else { self.tri.map(|p| p.map(|c| 256 * c)) }
+    }
+
+    fn linear_at(&self, sample: [i64; 2], values: [f32; 3]) -> f64 {
+        dd::linear(self.plane(), sample.map(|c| 256 * c), values).to_f64()
+    }
+
+    fn hyperbolic_at(&self, sample: [i64; 2]) -> f64 {
+        dd::hyperbolic(self.plane(), sample.map(|c| 256 * c), self.q, self.u).to_f64()
+    }
+
     fn q_at(&self, column: i32) -> f64 {
-        dd::linear(self.tri, Self::sample(column), self.q).to_f64()
+        self.linear_at(Self::sample(column), self.q)
     }
 
     fn hyperbolic(&self, column: i32) -> f64 {
-        dd::hyperbolic(self.tri, Self::sample(column), self.q, self.u).to_f64()
+        self.hyperbolic_at(Self::sample(column))
+    }
+
+    /// The straight line between the values at the subpixels.
+    fn straight(&self, column: i32) -> f64 {
+        let e = weights(self.tri, Self::sample(column)).map(|e| e as f64);
+        let u = self.tri.map(|p| self.hyperbolic_at(p));
+        (e[0] * u[0] + e[1] * u[1] + e[2] * u[2]) / (e[0] + e[1] + e[2])
+    }
+
+    /// The distance of a value from the exact one within the range.
+    fn error(&self, u: f64, exact: f64) -> f64 {
+        let [least, greatest] = self.range();
+        (u - exact.clamp(least, greatest)).abs()
+    }
+
+    /// So many ε of the greatest value, and what moving adds.
+    fn rounded(&self, epsilons: f64) -> f64 {
+        let (more, greater) = if self.moved { (MOVED, 16.0 / 15.0) } else { (0.0, 1.0) };
+        (epsilons * greater + more) * EPS * self.largest()
     }
 
     /// The greatest miss of a straight line between two samples.
@@ -55,40 +96,19 @@ impl Case {
 
     /// The greatest ratio of q.
     fn ratio(&self) -> f64 {
-        let [least, greatest] =
-            [f32::min, f32::max].map(|pick| f64::from(self.q.into_iter().reduce(pick).unwrap_or(1.0)));
+        let [least, greatest] = extremes(self.tri.map(|p| self.linear_at(p, self.q)));
         greatest / least
     }
 
     /// The least and the greatest value of the vertices.
     fn range(&self) -> [f64; 2] {
-        [f32::min, f32::max].map(|pick| f64::from(self.u.into_iter().reduce(pick).unwrap_or(0.0)))
+        extremes(self.u.map(f64::from))
     }
 
-    /// The greatest difference between two vertices.
+    /// The greatest difference between two values at the subpixels.
     fn spread(&self) -> f64 {
-        let [least, greatest] = self.range();
+        let [least, greatest] = extremes(self.tri.map(|p| self.hyperbolic_at(p)));
         greatest - least
-    }
-
-    /// The most that a straight line over the whole triangle misses, where `FixedPoint` may draw it as one run.
-    fn missed_by_one_run(&self) -> f64 {
-        let side = |axis: usize| {
-            let at = self.tri.map(|corner| corner[axis]);
-            at.iter().max().unwrap() - at.iter().min().unwrap()
-        };
-        let pixels = side(0).max(side(1)) as f64 / 256.0;
-        let most = 1.0 + 1.001 / pixels.max(1.0);
-        if pixels < 16.0 && self.ratio() < most { self.spread() / (4.0 * pixels.max(1.0)) } else { 0.0 }
-    }
-
-    /// The share of fixed point in the bound of a policy, of which so many steps are rounding.
-    fn fixed_point(&self, steps: i32) -> f64 {
-        const UNIT: f64 = 1.0 / 65536.0;
-        let columns = f64::from(self.covered.end - self.covered.start);
-        let slopes = self.ratio() * (columns + 4.0) * 2f64.powi(-28);
-        // A closure gets f32.
-        f64::from(steps) * UNIT + self.spread() * (2f64.powi(-17) + slopes) + EPS * self.largest()
     }
 
     fn largest(&self) -> f64 {
@@ -100,6 +120,10 @@ impl Case {
         let first = column & !(length - 1);
         [first.max(self.covered.start), (first + length).min(self.covered.end - 1)]
     }
+}
+
+fn extremes(values: [f64; 3]) -> [f64; 2] {
+    [f64::min, f64::max].map(|pick| values.into_iter().reduce(pick).unwrap_or(0.0))
 }
 
 /// A triangle whose q have ratios up to this.
@@ -121,7 +145,9 @@ fn any_case(rng: &mut Rng, steepest: f32) -> Case {
     let u = [(); 3].map(|()| (base + rng.uniform(-1.0, 1.0) as f32 * spread).clamp(-4096.0, 4096.0));
     // Beyond 0 and 1 there is no depth.
     let zs = [(); 3].map(|()| if rng.one_in(3) { rng.index(2) as f32 } else { rng.unit() as f32 });
-    Case { tri, q, zs, u, covered: 0..0 }
+    let moved = if rng.one_in(2) { [(); 3].map(|()| any_move(rng)) } else { [[0; 2]; 3] };
+    let parts = [0, 1, 2].map(|i| [0, 1].map(|k| 256 * tri[i][k] + moved[i][k]));
+    Case { parts, tri: parts.map(snapped), moved: false, q, zs, u, covered: 0..0 }
 }
 
 /// Draws triangles with a policy and hands each of a row's samples to `check`: the case, the column, the value, the
@@ -148,10 +174,15 @@ fn each_scaled(
 ) {
     let samples = if std::env::var_os("ALBERTI_SWEEP").is_some() { 10_000_000 } else { samples };
     let mut rng = Rng::stream(run_seed(), stream);
-    let mut count = 0;
+    let (mut count, mut moved) = (0, 0);
     while count < samples {
-        count += of_any_case(interpolation, &mut rng, [factor, steepest], &mut check);
+        count += of_any_case(interpolation, &mut rng, [factor, steepest], &mut |case: &Case, column, u, zs| {
+            moved += u64::from(case.moved);
+            check(case, column, u, zs);
+        });
     }
+    let fixed = format!("{interpolation:?}").starts_with("FixedPoint");
+    assert!(if fixed { moved == 0 } else { moved > samples / 10 }, "{moved} of {samples}");
 }
 
 /// Some samples of one triangle; tells how many.
@@ -166,9 +197,14 @@ fn of_any_case(
     let size = [WIDTH as u32, LARGEST as u32];
     let mut band = Target::band(Rgba8888, Recorded, size, ROW as u32, &mut color, &mut depth).expect("a row");
     let seen = Seen::default();
-    let [a, b, c] = [0, 1, 2].map(|i| vertex(case.tri[i], case.zs[i], case.q[i], case.u[i] * factor));
+    let [a, b, c] = [0, 1, 2].map(|i| unsnapped(case.parts[i], case.zs[i], case.q[i], case.u[i] * factor));
     let keep = |u: f32| seen.keep(u);
     let paint = Paint { stage: keep, interpolation, subpixel: Sub8, cull: Cull::None };
+    case.moved = match plane(case.parts, case.q, Sub8) {
+        Plane::Before => case.parts != case.plane() && !paint.numbers(Recorded).are_fixed(),
+        Plane::After => false,
+        Plane::Either => return 0,
+    };
     paint.triangle(One, &mut band, [&a, &b, &c], &mut ());
     let covered: Vec<i32> = (0..WIDTH).filter(|&i| color[i as usize] != 0).collect();
     let (Some(&first), Some(&last)) = (covered.first(), covered.last()) else { return 0 };
@@ -218,14 +254,18 @@ fn climbs_up_to(
 const LINEAR: f64 = 12.0;
 const DIVIDED: f64 = 15.0;
 const BOUNDED: f64 = 19.0;
+/// What moving adds, to values and, half of it, to depths.
+const MOVED: f64 = 4.0;
 
 /// A factor that makes the greatest values 2^120.
 const LARGE: f32 = f32::from_bits((127 + 108) << 23);
 
 /// Screen depth is a plane for every policy.
 fn depth_error(case: &Case, column: i32, zs: f64) -> f64 {
-    let largest = case.zs.iter().fold(0.0, |largest, zs| f64::max(largest, f64::from(*zs)));
-    (zs - dd::linear(case.tri, Case::sample(column), case.zs).to_f64()).abs() / (LINEAR * EPS * largest)
+    let [least, largest] = extremes(case.zs.map(f64::from));
+    let exact = case.linear_at(Case::sample(column), case.zs).clamp(least, largest);
+    let epsilons = LINEAR + if case.moved { MOVED / 2.0 } else { 0.0 };
+    (zs - exact).abs() / (epsilons * EPS * largest)
 }
 
 /// Values as they come, and up to 2^120.
@@ -233,7 +273,9 @@ fn depth_error(case: &Case, column: i32, zs: f64) -> f64 {
 fn planes() {
     planes_of(1, 1_000_000, 1.0);
     planes_of(11, 100_000, LARGE);
-    climbs(Planes, 1, |case, column, u| (u - case.hyperbolic(column)).abs() / planes_bound(case, column).0);
+    climbs(Planes, 1, |case, column, u| {
+        case.error(u, case.hyperbolic(column)) / planes_bound(case, column).0
+    });
 }
 
 /// The bound of `Planes`, and its r.
@@ -241,14 +283,14 @@ fn planes_bound(case: &Case, column: i32) -> (f64, f64) {
     let first = case.run(column, 64)[0];
     let last = (column | 63).min(case.covered.end - 1);
     let r = f64::midpoint(case.q_at(first), case.q_at(last)) / case.q_at(column);
-    ((15.0 * r + 5.0) * EPS * case.largest(), r)
+    (case.rounded(15.0 * r + 5.0), r)
 }
 
 fn planes_of(stream: u64, samples: u64, factor: f32) {
     let (mut worst, mut worst_depth, mut steep) = (0.0, 0.0, 0);
     each_scaled(Planes, stream, samples, [factor, STEEPEST], |case, column, u, zs| {
         let (bound, r) = planes_bound(case, column);
-        worst = f64::max(worst, (u - case.hyperbolic(column)).abs() / bound);
+        worst = f64::max(worst, case.error(u, case.hyperbolic(column)) / bound);
         worst_depth = f64::max(worst_depth, depth_error(case, column, zs));
         steep += u64::from(r > 2.0);
     });
@@ -273,8 +315,8 @@ fn spans(length: i32, stream: u64, samples: u64, factor: f32) {
     each_scaled(lines(length), stream, samples, [factor, STEEPEST], |case, column, u, zs| {
         let [first, last] = case.run(column, length);
         let missed = case.missed([first, last]);
-        let rounded = DIVIDED * EPS * case.largest();
-        let error = (u - case.hyperbolic(column)).abs();
+        let rounded = case.rounded(DIVIDED);
+        let error = case.error(u, case.hyperbolic(column));
         worst = f64::max(worst, error / (missed + rounded));
         worst_depth = f64::max(worst_depth, depth_error(case, column, zs));
         reached += u64::from(missed > 100.0 * rounded && error > 0.9 * missed);
@@ -285,8 +327,8 @@ fn spans(length: i32, stream: u64, samples: u64, factor: f32) {
     assert!(worst <= 1.0 && worst_depth <= 1.0);
     assert!(reached > 1000, "the bound is not tested");
     climbs(lines(length), stream, |case, column, u| {
-        let bound = case.missed(case.run(column, length)) + DIVIDED * EPS * case.largest();
-        (u - case.hyperbolic(column)).abs() / bound
+        let bound = case.missed(case.run(column, length)) + case.rounded(DIVIDED);
+        case.error(u, case.hyperbolic(column)) / bound
     });
 }
 
@@ -294,22 +336,18 @@ fn spans(length: i32, stream: u64, samples: u64, factor: f32) {
 fn affine() {
     let (mut worst, mut worst_depth, mut lines) = (0.0, 0.0, 0);
     each_sample(Lines::affine(), 4, 1_000_000, |case, column, u, zs| {
-        let straight = dd::linear(case.tri, Case::sample(column), case.u).to_f64();
-        worst = f64::max(worst, (u - straight).abs() / (LINEAR * EPS * case.largest()));
+        worst = f64::max(worst, case.error(u, case.straight(column)) / case.rounded(LINEAR));
         worst_depth = f64::max(worst_depth, depth_error(case, column, zs));
         // Perspective lies within the formula, between any two vertices.
         let root = case.ratio().sqrt();
         let missed = case.spread() * (root - 1.0) / (root + 1.0);
-        let error = (u - case.hyperbolic(column)).abs();
-        assert!(error <= missed + LINEAR * EPS * case.largest(), "{error:e} where {missed:e} is the bound");
+        let error = case.error(u, case.hyperbolic(column));
+        assert!(error <= missed + case.rounded(LINEAR), "{error:e} where {missed:e} is the bound");
         lines += u64::from(error > 0.3 * missed);
     });
     println!("Affine: {worst:.3} of the bound, depth {worst_depth:.3}; {lines} samples far from perspective");
     assert!(worst <= 1.0 && worst_depth <= 1.0 && worst > 0.1 && lines > 1000);
-    climbs(Lines::affine(), 4, |case, column, u| {
-        let straight = dd::linear(case.tri, Case::sample(column), case.u).to_f64();
-        (u - straight).abs() / (LINEAR * EPS * case.largest())
-    });
+    climbs(Lines::affine(), 4, |case, column, u| case.error(u, case.straight(column)) / case.rounded(LINEAR));
 }
 
 /// Steep ones, of which some are level along rows, and gentle ones.
@@ -322,10 +360,10 @@ fn never_over_the_budget() {
         (15, 0.5, 1.2, 0.7),
     ] {
         let bounded = Lines::bounded(budget);
-        let bound = |case: &Case| f64::from(budget) + BOUNDED * EPS * case.largest();
+        let bound = |case: &Case| f64::from(budget) + case.rounded(BOUNDED);
         let (mut worst, mut worst_depth, mut reached) = (0.0, 0.0, 0);
         each_scaled(bounded, stream, 500_000, [1.0, steepest], |case, column, u, zs| {
-            let error = (u - case.hyperbolic(column)).abs();
+            let error = case.error(u, case.hyperbolic(column));
             worst = f64::max(worst, error / bound(case));
             worst_depth = f64::max(worst_depth, depth_error(case, column, zs));
             reached += u64::from(error > share * f64::from(budget));
@@ -336,64 +374,7 @@ fn never_over_the_budget() {
         assert!(worst <= 1.0 && worst_depth <= 1.0);
         assert!(reached > 100, "the budget is not used: {reached}");
         climbs_up_to(bounded, stream, steepest, |case, column, u| {
-            (u - case.hyperbolic(column)).abs() / bound(case)
+            case.error(u, case.hyperbolic(column)) / bound(case)
         });
     }
-}
-
-/// A unit of depth in fixed point.
-const DEPTH_UNIT: f64 = 1.0 / (1u32 << 31) as f64;
-
-fn fixed_point(
-    policy: impl Interpolation,
-    stream: u64,
-    steps: i32,
-    policy_bound: impl Fn(&Case, i32) -> [f64; 2],
-) {
-    let (mut worst, mut worst_depth, mut near) = (0.0, 0.0, 0);
-    each_sample(policy, stream, 1_000_000, |case, column, u, zs| {
-        let [exact, missed] = policy_bound(case, column);
-        let fixed = case.fixed_point(steps);
-        let error = (u - exact).abs();
-        // Half a step for each vertex's rounding, and the rounding of an f32.
-        let outside = f64::max(case.range()[0] - u, u - case.range()[1]);
-        assert!(
-            outside <= 0.51 / 65536.0 + EPS * case.largest(),
-            "{u} is {outside:e} outside of {:?}",
-            case.u
-        );
-        worst = f64::max(worst, error / (missed + fixed));
-        near += u64::from(error > 0.25 * (missed + fixed));
-        let depth = dd::linear(case.tri, Case::sample(column), case.zs).to_f64();
-        let row = f64::from(case.covered.end - case.covered.start);
-        let depth_bound = (row + 8.0) * DEPTH_UNIT + EPS;
-        worst_depth = f64::max(worst_depth, (zs - depth).abs() / depth_bound);
-    });
-    println!("{policy:?}: {worst:.3} of the bound, depth {worst_depth:.3}; {near} samples near it");
-    assert!(worst <= 1.0 && worst_depth <= 1.0);
-    assert!(near > 100, "the bound is not tested");
-    climbs(policy, stream, |case, column, u| {
-        let [exact, missed] = policy_bound(case, column);
-        (u - exact).abs() / (missed + case.fixed_point(steps))
-    });
-}
-
-#[test]
-fn lines_in_fixed_point() {
-    fixed_point(FixedPoint(lines(16)), 7, 16 + 3, |case, column| {
-        [case.hyperbolic(column), case.missed(case.run(column, 16)).max(case.missed_by_one_run())]
-    });
-    fixed_point(FixedPoint(lines(1)), 8, 1 + 3, |case, column| {
-        [case.hyperbolic(column), case.missed(case.run(column, 1))]
-    });
-    let straight =
-        |case: &Case, column: i32| [dd::linear(case.tri, Case::sample(column), case.u).to_f64(), 0.0];
-    fixed_point(FixedPoint(Lines::affine()), 9, 64 + 3, straight);
-    let budget = 1.0 / 256.0;
-    let within = |case: &Case, column: i32| [case.hyperbolic(column), f64::from(budget)];
-    // Rounding is part of the budget.
-    fixed_point(FixedPoint(Lines::bounded(budget)), 10, 0, within);
-    // One that is smaller than that cannot be kept: runs are of one column then.
-    let step = 1.0 / 65536.0;
-    fixed_point(FixedPoint(Lines::bounded(step)), 13, 1 + 3, |case, column| [case.hyperbolic(column), 0.0]);
 }

@@ -1,80 +1,98 @@
 //! Large triangles carry what their vertices have where these were before snapping: against arithmetic of 106 bits on
-//! the triangle before, over the same kinds of triangles and values as `attributes.rs`.
+//! the triangle before, or on the one after where the documented rule says so.
+//!
+//! Triangles are those of `attributes.rs`; slivers along whose edges vertices are moved; and steep ones, whose far edge
+//! is moved along itself.
 #![allow(
     clippy::cast_possible_truncation,
     clippy::cast_precision_loss,
     reason = "subpixels are within the guard band"
 )]
 
-use crate::attributes::{Case, any_case, within};
+use crate::attributes::{any_case, any_u, any_zs, within};
 use alberti_math::{Fixed, Linear, Subpixel};
+use alberti_oracle::cases::pixel_centre;
 use alberti_oracle::climb::climb;
-use alberti_oracle::coverage::{Triangle, weights};
+use alberti_oracle::coverage::{Triangle, area2, covers};
 use alberti_oracle::dd::{self, Dd};
 use alberti_oracle::rng::{Rng, run_seed};
 use alberti_raster::Vertex;
-use alberti_tests::probe::{Probe, Recorded};
+use alberti_tests::probe::{LARGEST, Probe, Recorded, snapped, unsnapped};
 
-/// The documented bounds, in ε of the greatest: of what vertices carry, 4, and of `Exact` and depth besides.
-const OF_VALUES: f64 = 4.0 + 9.0;
-const OF_DEPTHS: f64 = 4.0 + 6.0;
 const EPS: f64 = 1.0 / (1 << 24) as f64;
 
-/// A case whose vertices were moved by snapping.
+/// The plane in which a triangle's values lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Plane {
+    Before,
+    After,
+    /// Next to the limit of the rule, which the code decides in floats.
+    Either,
+}
+
+/// The rule for a triangle in 256ths of subpixels: its box after snapping has 65 pixels, and before, for each vertex,
+/// the doubled area is at least 32 (|x| + |y|) q/min q, (x, y) being the opposite edge.
+pub(crate) fn plane(parts: Triangle, q: [f32; 3], subpixel: Subpixel) -> Plane {
+    let after = parts.map(snapped);
+    let length = |k: usize| {
+        let at = after.map(|corner| corner[k]);
+        at.iter().max().unwrap() - at.iter().min().unwrap()
+    };
+    if length(0).max(length(1)) < 65 << subpixel.bits() {
+        return Plane::After;
+    }
+    let area = (area2(parts) * area2(after).signum()) as f64 / 65536.0;
+    let least = q.into_iter().reduce(f32::min).map_or(1.0, f64::from);
+    let needed = (0..3).map(|i| {
+        let (from, to) = (parts[(i + 1) % 3], parts[(i + 2) % 3]);
+        let edge = ((to[0] - from[0]).abs() + (to[1] - from[1]).abs()) as f64 / 256.0;
+        32.0 * edge * f64::from(q[i]) / least
+    });
+    match area / needed.fold(f64::MIN_POSITIVE, f64::max) {
+        ..0.999_999 => Plane::After,
+        1.000_001.. => Plane::Before,
+        _ => Plane::Either,
+    }
+}
+
+/// A triangle in 256ths of subpixels with what it carries, and a pixel that it covers after snapping.
 #[derive(Clone, Copy, Debug)]
 struct Moved {
-    case: Case,
-    moved: [[i64; 2]; 3],
+    parts: Triangle,
+    pixel: [i32; 2],
+    q: [f32; 3],
+    zs: [f32; 3],
+    u: [f32; 3],
 }
 
 impl Moved {
-    fn any(subpixel: Subpixel, rng: &mut Rng) -> Self {
-        let case = any_case(subpixel, rng);
-        Self { case, moved: [(); 3].map(|()| [(); 2].map(|()| rng.range(-128, 127))) }
+    /// Of one of the kinds; none if it covers no pixel, or is beyond the guard band.
+    fn any(subpixel: Subpixel, rng: &mut Rng) -> Option<Self> {
+        let (kind, zs, u) = (rng.index(4), any_zs(rng), any_u(rng));
+        let Shape { tri, pixel, moved, q } = match kind {
+            0 => anywhere(subpixel, rng),
+            1 => diagonal(subpixel, rng),
+            2 => sliver(subpixel, rng),
+            _ => horizon(subpixel, rng),
+        };
+        let guard = i64::from(Fixed::LIMIT) >> (8 - subpixel.bits());
+        let seen = pixel.iter().all(|c| (0..LARGEST).contains(c));
+        let within = tri.iter().flatten().all(|c| c.abs() < guard);
+        let found = Self { parts: by(tri, moved), pixel, q, zs, u };
+        (seen && within && covers(tri, found.sample(subpixel))).then_some(found)
+    }
+
+    fn sample(&self, subpixel: Subpixel) -> [i64; 2] {
+        pixel_centre(self.pixel[0].into(), self.pixel[1].into(), subpixel.bits())
     }
 
     fn vertices<V>(&self, varying: impl Fn(f32) -> V) -> [Vertex<V>; 3] {
-        let (Case { tri, zs, u, .. }, q) = (self.case, self.case.q());
-        [0, 1, 2].map(|i| {
-            let at = |k: usize| {
-                let parts = 256 * tri[i][k] + 128 + self.moved[i][k];
-                Fixed::from_bits((parts as i32).cast_unsigned())
-            };
-            Vertex { x: at(0), y: at(1), zs: zs[i], q: q[i], varying: varying(u[i]) }
-        })
+        [0, 1, 2].map(|i| unsnapped(self.parts[i], self.zs[i], self.q[i], varying(self.u[i])))
     }
 
-    /// The triangle before snapping, in 256ths of subpixels.
-    fn before(&self) -> Triangle {
-        [0, 1, 2].map(|i| [0, 1].map(|k| 256 * self.case.tri[i][k] + self.moved[i][k]))
-    }
-
-    /// The weights of the three vertices before at one after, over their sum.
-    fn shares(&self, corner: usize) -> [f64; 3] {
-        let e = weights(self.before(), self.case.tri[corner].map(|c| 256 * c)).map(|e| e as f64);
-        e.map(|weight| weight / (e[0] + e[1] + e[2]))
-    }
-
-    /// Whether the rule for large triangles holds for this one, by a margin.
-    fn is_large(&self, subpixel: Subpixel) -> bool {
-        let length = |k: usize| {
-            let at = self.case.tri.map(|corner| corner[k]);
-            at.iter().max().unwrap() - at.iter().min().unwrap()
-        };
-        let q = self.case.q().map(f64::from);
-        let wide = |corner: usize| {
-            let shares = self.shares(corner);
-            let terms = [0, 1, 2].map(|i| shares[i] * q[i]);
-            let at: f64 = terms.iter().sum();
-            let small = |x: f64| x.abs() < 0.0624;
-            at > 0.0 && (0..3).filter(|&i| i != corner).all(|i| small(shares[i]) && small(terms[i] / at))
-        };
-        length(0).max(length(1)) >= 65 << subpixel.bits() && (0..3).all(wide)
-    }
-
-    /// The shares of the bounds that a value and a depth make use of.
-    fn used(&self, probe: &mut Probe<Recorded>, subpixel: Subpixel, linear: bool) -> [f64; 2] {
-        let Case { pixel, u, zs, .. } = self.case;
+    /// The shares of the documented bounds that the value and the depth make use of, and the plane in which they lie.
+    fn used(&self, probe: &mut Probe<Recorded>, subpixel: Subpixel, linear: bool) -> ([f64; 2], Plane) {
+        let Self { parts, pixel, q, u, zs, .. } = *self;
         let (value, depth) = if linear {
             let found = probe.interpolated(&self.vertices(Linear), pixel);
             found.map(|(Linear(u), zs)| (u, zs)).expect("covered")
@@ -82,18 +100,124 @@ impl Moved {
             probe.interpolated(&self.vertices(|u| u), pixel).expect("covered")
         };
         assert!(within(value, u) && within(depth, zs), "{value} or {depth} outside: {self:?}");
-        // On the triangle before, and within the range.
-        let (tri, sample, q) = (self.before(), self.case.sample(subpixel).map(|c| 256 * c), self.case.q());
-        let share = |found: f32, exact: Dd, values: [f32; 3], bound: f64| {
-            let [least, most] =
-                [f32::min, f32::max].map(|pick| values.into_iter().reduce(pick).unwrap_or(0.0));
-            let scale = f64::from(least.abs().max(most.abs()));
-            let exact = exact.to_f64().clamp(least.into(), most.into());
-            if scale > 0.0 { (f64::from(found) - exact).abs() / (bound * EPS * scale) } else { 0.0 }
+        let on = |tri: Triangle, sample, more: f64| {
+            let exact = if linear { dd::linear(tri, sample, u) } else { dd::hyperbolic(tri, sample, q, u) };
+            [
+                share(value, exact, u, [0.0, 9.0 + more]),
+                share(depth, dd::linear(tri, sample, zs), zs, [6.0, more / 2.0]),
+            ]
         };
-        let exact = if linear { dd::linear(tri, sample, u) } else { dd::hyperbolic(tri, sample, q, u) };
-        [share(value, exact, u, OF_VALUES), share(depth, dd::linear(tri, sample, zs), zs, OF_DEPTHS)]
+        let (after, sample) = (parts.map(snapped), self.sample(subpixel));
+        let plane = plane(parts, q, subpixel);
+        let [before, after] = [on(parts, sample.map(|c| 256 * c), 4.0), on(after, sample, 0.0)];
+        let used = match plane {
+            Plane::Before => before,
+            Plane::After => after,
+            // Of both numbers the same one.
+            Plane::Either if before[0].max(before[1]) < after[0].max(after[1]) => before,
+            Plane::Either => after,
+        };
+        (used, plane)
     }
+}
+
+/// The share of a bound: so many ε of the exact value, and of the greatest one. Results are kept within the range.
+fn share(found: f32, exact: Dd, values: [f32; 3], [relative, absolute]: [f64; 2]) -> f64 {
+    let [least, most] =
+        [f32::min, f32::max].map(|pick| values.into_iter().reduce(pick).map_or(0.0, f64::from));
+    let exact = exact.to_f64().clamp(least, most);
+    let bound = EPS * (relative * exact.abs() + absolute * least.abs().max(most.abs()));
+    let error = (f64::from(found) - exact).abs();
+    if error > 0.0 { error / bound } else { 0.0 }
+}
+
+/// A triangle after snapping, a pixel, what was moved, in 256ths, and q.
+struct Shape {
+    tri: Triangle,
+    pixel: [i32; 2],
+    moved: Triangle,
+    q: [f32; 3],
+}
+
+/// The triangle before snapping.
+fn by(tri: Triangle, moved: Triangle) -> Triangle {
+    [0, 1, 2].map(|i| [0, 1].map(|k| 256 * tri[i][k] + moved[i][k]))
+}
+
+pub(crate) fn any_move(rng: &mut Rng) -> [i64; 2] {
+    [(); 2].map(|()| rng.range(-128, 127))
+}
+
+/// A move along a direction.
+fn along(rng: &mut Rng, [x, y]: [i64; 2]) -> [i64; 2] {
+    let most = 127 / x.abs().max(y.abs());
+    let k = rng.range(-most, most);
+    [k * x, k * y]
+}
+
+fn any_pixel(rng: &mut Rng) -> [i32; 2] {
+    let reach = if rng.one_in(2) { 2000 } else { i64::from(LARGEST) - 1 };
+    [(); 2].map(|()| rng.range(0, reach) as i32)
+}
+
+/// One of `attributes.rs`, moved anyhow.
+fn anywhere(subpixel: Subpixel, rng: &mut Rng) -> Shape {
+    let case = any_case(subpixel, rng);
+    Shape { tri: case.tri, pixel: case.pixel, moved: [(); 3].map(|()| any_move(rng)), q: case.q() }
+}
+
+/// A diagonal and a point a subpixel beside it, all moved along.
+fn diagonal(subpixel: Subpixel, rng: &mut Rng) -> Shape {
+    let one = 1 << subpixel.bits();
+    let pixel = [(); 2].map(|()| rng.range(0, 300) as i32);
+    let center = pixel_centre(pixel[0].into(), pixel[1].into(), subpixel.bits());
+    let near = rng.range(1, 4000);
+    let start = rng.range(0, near);
+    let far = f64::from(rng.log_uniform(100.0, 32000.0)) as i64 * one - rng.range(0, 400);
+    let a = center.map(|c| c - start);
+    let beside = if rng.one_in(2) { [far + 1, far] } else { [far, far + 1] };
+    let tri = [a, [a[0] + beside[0], a[1] + beside[1]], a.map(|c| c + near)];
+    let [most, last] = [(); 2].map(|()| along(rng, [1, 1]));
+    let q = [(); 3].map(|()| rng.log_uniform(1.0, 2.0));
+    Shape { tri, pixel, moved: [most, most, if rng.one_in(2) { last } else { most }], q }
+}
+
+/// Slivers along any direction, from half a subpixel to thousands wide, moved along it.
+fn sliver(subpixel: Subpixel, rng: &mut Rng) -> Shape {
+    let one = f64::from(1 << subpixel.bits());
+    let pixel = any_pixel(rng);
+    let center = pixel_centre(pixel[0].into(), pixel[1].into(), subpixel.bits());
+    let direction = [rng.range(1, 9), rng.range(-9, 9)];
+    let wide = f64::from(rng.log_uniform(0.5, 3000.0));
+    let mut at = |sign: i64| {
+        let length = (f64::from(rng.log_uniform(60.0, 30_000.0)) * one / 9.0) as i64 * sign;
+        [0, 1].map(|k| center[k] + length * direction[k] + rng.uniform(-wide, wide) as i64)
+    };
+    let tri = [at(-1), at(1), at(1)];
+    let moved = [(); 3].map(|()| along(rng, direction));
+    let ratio = rng.log_uniform(1.0, 1e6);
+    Shape { tri, pixel, moved, q: [(); 3].map(|()| rng.log_uniform(1.0, ratio)) }
+}
+
+/// Steep ones: an edge as far as 10^12 times the third vertex, through the pixel or beside it, moved along itself.
+fn horizon(subpixel: Subpixel, rng: &mut Rng) -> Shape {
+    let one = f64::from(1 << subpixel.bits());
+    let pixel = any_pixel(rng);
+    let center = pixel_centre(pixel[0].into(), pixel[1].into(), subpixel.bits());
+    let direction = [rng.range(1, 9), rng.range(1, 9)];
+    let beside = f64::from(rng.log_uniform(1.0, 300.0));
+    let mut far = |sign: i64| {
+        let length = (f64::from(rng.log_uniform(60.0, 15_000.0)) * one / 9.0) as i64 * sign;
+        [0, 1].map(|k| center[k] + length * direction[k] + rng.uniform(-beside, beside) as i64)
+    };
+    let (a, c) = (far(-1), far(1));
+    let away = (f64::from(rng.log_uniform(20.0, 15_000.0)) * one) as i64;
+    let b = [center[0] + away, center[1] - away];
+    let near = if rng.one_in(2) { any_move(rng) } else { along(rng, direction) };
+    let deep = if rng.one_in(2) { 1e3 } else { 1e12 };
+    let z = rng.log_uniform(1.0, deep);
+    let q = [1.0 / z, 1.0, 1.0 / (z * rng.log_uniform(0.25, 4.0))];
+    Shape { tri: [a, b, c], pixel, moved: [along(rng, direction), near, along(rng, direction)], q }
 }
 
 fn large_ones(subpixel: Subpixel, stream: u64, linear: bool) {
@@ -101,18 +225,20 @@ fn large_ones(subpixel: Subpixel, stream: u64, linear: bool) {
     let mut probe = Probe::new(Recorded, subpixel);
     let (samples, steps) = if sweep { (1_000_000, 500_000) } else { (100_000, 20_000) };
     for which in [0, 1] {
-        let mut large = 0;
-        let found = climb(run_seed() ^ stream, samples, steps, |rng| {
-            let case = Moved::any(subpixel, rng);
-            if !case.is_large(subpixel) {
-                return 0.0;
-            }
-            large += 1;
-            case.used(&mut probe, subpixel, linear)[which]
-        });
-        println!("{subpixel:?}, linear: {linear}, {which}: {found:?}, {large} large ones");
-        assert!(found.most <= 1.0, "{found:?}");
-        assert!(large > samples / 3 && found.most > 0.2, "the bound is not tested: {large}, {found:?}");
+        let mut counts = [0; 2];
+        // The planes are climbed apart, so that neither hides the other.
+        for (count, wanted) in counts.iter_mut().zip([Plane::Before, Plane::After]) {
+            let found = climb(run_seed() ^ stream, samples, steps, |rng| {
+                let Some(case) = Moved::any(subpixel, rng) else { return 0.0 };
+                let (used, plane) = case.used(&mut probe, subpixel, linear);
+                assert!(used[which] <= 1.0, "{:.3} of the bound: {case:?}, {plane:?}", used[which]);
+                *count += u64::from(plane == wanted);
+                if plane == wanted { used[which] } else { 0.0 }
+            });
+            println!("{subpixel:?}, linear: {linear}, {which}: {found:?}, {wanted:?}");
+            assert!(found.most > 0.2, "the bound is not tested: {found:?}, {wanted:?}");
+        }
+        assert!(counts.iter().all(|&count| count > samples / 10), "{counts:?} of {samples}");
     }
 }
 
@@ -129,4 +255,50 @@ fn on_the_screen_with_four_bits() {
 #[test]
 fn in_space_with_four_bits() {
     large_ones(Subpixel::Sub4, 33, false);
+}
+
+/// Triangles whose vertices move along their edges: differences of products that cancel.
+#[test]
+fn moves_along_edges() {
+    type Known = (Subpixel, Triangle, Triangle, [f32; 3], [f32; 3], [i32; 2]);
+    let cases: [Known; 4] = [
+        (
+            Subpixel::Sub8,
+            [[231_752, 302_904], [322_399, 502_289], [323_182, 504_050]],
+            [[-35, -77], [-35, -77], [-50, -110]],
+            [2.864_914_7e-6, 1.0, 1.792_669_7e-6],
+            [-1.0, -1.0, 1.0],
+            [1244, 1929],
+        ),
+        (
+            Subpixel::Sub4,
+            [[161_135, 169_425], [311_279, 21_345], [243_764, 233_692]],
+            [[-117, -91], [-58, -128], [-36, -28]],
+            [1.957_313_4e-12, 1.0, 1.828_013_4e-12],
+            [-1.0, 1.0, 1.0],
+            [10_143, 10_645],
+        ),
+        (
+            Subpixel::Sub4,
+            [[-8936, -115_384], [118_369, 46_591], [124_715, 56_453]],
+            [[14, 18], [-36, 105], [-77, -99]],
+            [3.511_573_6e-6, 1.0, 1.926_123e-6],
+            [1.0, -1.0, 1.0],
+            [7351, 2958],
+        ),
+        (
+            Subpixel::Sub8,
+            [[67_711, 29_055], [5_914_877, 5_876_220], [67_718, 29_062]],
+            [[-56, -56], [-56, -56], [-70, -70]],
+            [1.252_779_5, 1.354_111_3, 1.848_667_3],
+            [0.673_412_9, -0.441_444_46, -0.782_076_36],
+            [264, 113],
+        ),
+    ];
+    for (subpixel, tri, moved, q, u, pixel) in cases {
+        let case = Moved { parts: by(tri, moved), pixel, q, zs: [0.25, 0.75, 0.5], u };
+        let (used, plane) = case.used(&mut Probe::new(Recorded, subpixel), subpixel, false);
+        println!("{used:?}, {plane:?}");
+        assert!(plane != Plane::Either && used.iter().all(|&used| used <= 1.0), "{used:?} of {case:?}");
+    }
 }

@@ -16,7 +16,7 @@ use alberti::{
 };
 use alberti_oracle::rng::{Rng, run_seed};
 use alberti_raster::Vertex;
-use alberti_tests::probe::{Probe, Recorded, Seen, draw_widest, steps, vertex};
+use alberti_tests::probe::{Probe, Recorded, Seen, draw_widest, snapped, steps, unsnapped};
 
 const SIZE: i64 = 64;
 /// A pixel that nothing was drawn to: no depth is negative.
@@ -54,7 +54,7 @@ fn visible(color: &[u32], seen: &Seen<[f32; 2]>, depth: &[u32], width: usize, le
     (0..color.len()).filter(|i| i % width >= left).map(bits).collect()
 }
 
-/// Positions in and around the picture, with the zs, the q and the varying of each.
+/// Positions in and around the picture, in 256ths of subpixels, with the zs, the q and the varying of each.
 type Plain = [([i64; 2], f32, f32, [f32; 2]); 3];
 
 fn any_triangle(subpixel: Subpixel, rng: &mut Rng) -> Plain {
@@ -65,13 +65,15 @@ fn any_triangle(subpixel: Subpixel, rng: &mut Rng) -> Plain {
             0 => rng.range(-8, 2 * SIZE + 8) * one / 2,
             _ => rng.range(-SIZE / 4 * one, SIZE * 5 / 4 * one),
         });
+        // What snapping has moved, which counts in large triangles.
+        let p = p.map(|c| 256 * c + rng.range(-128, 127));
         let u = [rng.uniform(-1e3, 1e3) as f32, rng.log_uniform(1e-3, 1e3)];
         (p, rng.unit() as f32, rng.log_uniform(1e-3, 1e3), u)
     })
 }
 
 fn vertices(plain: Plain) -> [Vertex<[f32; 2]>; 3] {
-    plain.map(|(p, zs, q, u)| vertex(p, zs, q, u))
+    plain.map(|(p, zs, q, u)| unsnapped(p, zs, q, u))
 }
 
 #[test]
@@ -88,7 +90,7 @@ fn triangles(subpixel: Subpixel, stream: u64) {
     let mut rng = Rng::stream(run_seed(), stream);
     let mut probe = Probe::new(Recorded, subpixel);
     let picture = |triangle: [&Vertex<_>; 3], corner| picture(subpixel, triangle, corner);
-    let (mut drawn, mut fragments, mut alone) = (0, 0, 0);
+    let (mut drawn, mut fragments, mut alone, mut changed) = (0, 0, 0, 0);
     for _ in 0..3_000 {
         let plain = any_triangle(subpixel, &mut rng);
         let v = vertices(plain);
@@ -96,6 +98,9 @@ fn triangles(subpixel: Subpixel, stream: u64) {
         let expected = picture([a, b, c], [0, 0]);
         drawn += u64::from(expected.fragments > 0);
         fragments += expected.fragments;
+
+        let unmoved = vertices(plain.map(|(p, zs, q, u)| (snapped(p).map(|c| 256 * c), zs, q, u)));
+        changed += u64::from(picture(unmoved.each_ref(), [0, 0]) != expected);
 
         // A pixel drawn alone, however many are worked on at a time otherwise.
         for _ in 0..40 {
@@ -115,7 +120,7 @@ fn triangles(subpixel: Subpixel, stream: u64) {
         // Wide frames take long to look through.
         let widest = if rng.one_in(16) { 16_384 - SIZE } else { 40 };
         let far = [rng.range(0, widest), rng.range(0, 16_384 - SIZE)];
-        let by = far.map(|pixels| pixels * steps(subpixel)[0]);
+        let by = far.map(|pixels| 256 * pixels * steps(subpixel)[0]);
         let moved = vertices(plain.map(|(p, zs, q, u)| ([p[0] + by[0], p[1] + by[1]], zs, q, u)));
         assert!(picture(moved.each_ref(), far) == expected, "{plain:?} by {far:?}");
 
@@ -139,8 +144,8 @@ fn triangles(subpixel: Subpixel, stream: u64) {
         assert!(found.pixels.iter().all(|&p| p == bits || p == NOTHING), "{constant:?} over {plain:?}");
         assert_eq!(found.fragments, expected.fragments);
     }
-    println!("{drawn} triangles of {fragments} fragments, {alone} drawn alone");
-    assert!(drawn > 2_400 && fragments > 500_000 && alone > 5_000);
+    println!("{drawn} triangles of {fragments} fragments, {alone} drawn alone, {changed} moved");
+    assert!(drawn > 2_400 && fragments > 500_000 && alone > 5_000 && changed > 300);
 }
 
 /// Triangles in eye space, some of which cross the near plane and the sides.

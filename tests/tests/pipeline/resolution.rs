@@ -5,7 +5,7 @@ use alberti_math::Subpixel;
 use alberti_oracle::rng::{Rng, run_seed};
 use alberti_projection::{DepthMap, DepthSteps};
 use alberti_raster::{D16, D24, D32, DepthFormat, F32, F32Reversed, Vertex};
-use alberti_tests::probe::{Probe, Recorded, vertex};
+use alberti_tests::probe::{Probe, Recorded, unsnapped};
 
 /// A format of the rasterizer, under the name that `resolution` knows it by.
 #[derive(Clone, Copy, Debug)]
@@ -176,8 +176,7 @@ fn drawn(probe: &mut Probe<Recorded>, rng: &mut Rng, map: &DepthMap, plane: &Pla
     let vertices = [(); 3].map(|()| {
         let p = plane.pixel.map(|c| f64::from(c) + 0.5 + rng.uniform(-reach, reach));
         let z = (1.0 / plane.q(p)) as f32;
-        let place = p.map(|c| (c * 256.0 + 0.5).floor() as i64);
-        vertex(place, map.zs(z), 1.0 / z, ())
+        unsnapped(p.map(|c| (c * 65_536.0).floor() as i64), map.zs(z), 1.0 / z, ())
     });
     let within = |v: &Vertex<()>| (plane.planes[0]..plane.planes[1]).contains(&(1.0 / v.q));
     if !vertices.iter().all(within) {

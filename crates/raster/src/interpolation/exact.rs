@@ -13,7 +13,7 @@ use core::fmt;
 ///
 /// # Precision
 /// Within 9ε·max|ui| of the exact value at the sample (ε = 2^-24), barring over- and underflow: up to |ui| = 2^77 and
-/// ratios of 2^126. 5.1ε is the most that was measured, over ratios of the qi up to 10^12. Counted from zi instead of
+/// ratios of 2^126. 5.98ε is the most that was measured, over ratios of the qi up to 10^12. Counted from zi instead of
 /// qi the bound is 10ε. The result never leaves the range of the three values, so a constant stays constant bit for
 /// bit.
 ///

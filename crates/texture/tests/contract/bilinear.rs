@@ -10,11 +10,13 @@ use crate::oracle::{Mode, Random, SPECIAL};
 /// The texel before the coordinate, not wrapped, and the weight of the next, in 256ths.
 pub(crate) fn position(mode: Mode, u: f32, size: u32) -> (i128, i128) {
     let (significand, halvings) = mode.rational(u);
-    // As a multiple of 2^-38, rounded down; in `f64`, where a scaling by a power of two is exact.
-    let exact = significand as f64 * 2f64.powi(-halvings);
-    let units = (exact * 2f64.powi(38)).floor() as i128;
-    // floor(256 * (units / 2^38 * size - 1/2) + 1/2), all times two.
-    let position = (units * 512 * i128::from(size) - (255 << 38)).div_euclid(1 << 39);
+    // floor(256 * (u * size - 1/2) + 1/2), above and below the bar times 2^(halvings + 1).
+    let scaled = 512 * significand * i128::from(size);
+    let position = match halvings {
+        // The product is below 2^48, and so nothing beside a half.
+        100.. => -128,
+        _ => (scaled - (255 << halvings)).div_euclid(2 << halvings),
+    };
     (position.div_euclid(256), position.rem_euclid(256))
 }
 
@@ -93,7 +95,8 @@ fn for_each_case(mut f: impl FnMut(&Case<'_>)) {
     let noise = |random: &mut Random, extreme: bool| {
         random.bits().to_le_bytes().map(|byte| if extreme { 255 * (byte & 1) } else { byte })
     };
-    for (width, height) in [(1, 1), (2, 2), (1, 3), (5, 3), (64, 16), (100, 7), (3, 16384), (16383, 2)] {
+    let sizes = [(1, 1), (2, 2), (1, 3), (5, 3), (64, 16), (100, 7), (4328, 3), (3, 16384), (16383, 2)];
+    for (width, height) in sizes {
         for extreme in [true, false] {
             let texels: Vec<[u8; 4]> = (0..width * height).map(|_| noise(&mut random, extreme)).collect();
             let texture = Texture::new(Rgba8888, &texels, width, height).unwrap();
@@ -122,6 +125,30 @@ fn random_coordinates() {
             case.check(Vec2::new(random.near_zero(), random.near_zero()));
         }
     });
+}
+
+/// Coordinates of which 38 bits of fraction hold a part: at the steps of the weights, beside them, and anywhere.
+#[test]
+fn coordinates_below_two_to_the_minus_15() {
+    const SMALL: f32 = 1.0 / 32768.0;
+    assert_eq!(position(Mode::Repeat, -6.769_148_5e-6, 4328), (-1, 121));
+    let mut random = Random(5);
+    let mut seen = 0;
+    for_each_case(|case| {
+        let size = [case.texture.width(), case.texture.height()].map(|side| side as f32);
+        for _ in 0..4000 {
+            let mut any = |size: f32| {
+                let odd = 2.0 * (random.bits() % 128) as f32 - 127.0;
+                let step = odd / (512.0 * size);
+                [SMALL / 4.0 * random.near_zero(), step, step.next_down()][random.bits() as usize % 3]
+            };
+            let uv = Vec2::new(any(size[0]), any(size[1]));
+            seen += u32::from(uv.x.abs() < SMALL && uv.y.abs() < SMALL);
+            case.check(uv);
+        }
+        case.check(Vec2::new(-6.769_148_5e-6, 0.5));
+    });
+    assert!(seen > 100_000, "{seen}");
 }
 
 /// Every step of the weights and the ties between them, across both seams.

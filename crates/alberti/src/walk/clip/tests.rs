@@ -1,3 +1,4 @@
+mod folds;
 mod shared_edges;
 
 use super::*;
