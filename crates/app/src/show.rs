@@ -1,7 +1,7 @@
 //! Pictures in false colours: one number of each pixel, with a legend.
 //!
-//! More is lighter, and pixels without a number are white, so that they can be read in print and by the colour-blind. The
-//! numbers are those of [`probe`](crate::probe), or the difference of two pictures.
+//! More is lighter, and pixels without a number are white, so that they can be read in print and by the colour-blind.
+//! The numbers are those of [`probe`](crate::probe), or the difference of two pictures.
 
 use clap::ValueEnum;
 

@@ -171,7 +171,7 @@ mod tests {
         let numbers = (4, [0.0, 0.012_345, 1e-7]);
         let legend =
             Legend { title: "T".into(), steps, counted: "x of y".into(), numbers, notes: vec!["N".into()] };
-        let expected = "T\n  0102ff  one     75.00 %\n          three   25.00 %\n  \
+        let expected = "T\n  0102ff  one    75.00 %\n          three  25.00 %\n  \
                         x of y: least 0, median 0.0123, greatest 1e-7, of 4\n  N\n";
         assert_eq!(legend.text(false), expected);
         assert!(legend.text(true).contains("\x1b[48;2;1;2;255m    \x1b[0m 0102ff  one"));
