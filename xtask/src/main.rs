@@ -12,6 +12,7 @@ mod ci;
 mod command;
 mod elf;
 mod embedded;
+mod extremes;
 mod firmware;
 mod gallery;
 mod golden;
@@ -132,6 +133,12 @@ const CHORES: &[Chore] = &[
         arguments: "",
         about: "time frames of 64x64 to 8192x8192 pixels and of 10^2 to 10^7 triangles, and write docs/growth.md",
         run: |_| growth::run(),
+    },
+    Chore {
+        name: "extremes",
+        arguments: "[--small] [--shard K/N] ...",
+        about: "hold every policy to its bounds at the ends of its parameters, and write docs/extremes.md (--help: more)",
+        run: extremes::measure,
     },
 ];
 
