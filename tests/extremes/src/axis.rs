@@ -92,8 +92,10 @@ pub fn decades(from: i32, to: i32) -> Vec<(f64, String)> {
     named(&(from..=to).map(|power| format!("1e{power}").parse().unwrap_or(f64::NAN)).collect::<Vec<f64>>())
 }
 
-/// A number as it is read best: as it is, or as a power.
+/// A number as it is read best: as it is, or as a power of ten.
 #[must_use]
 pub fn name(value: f64) -> String {
-    if value == 0.0 || (1e-3..1e5).contains(&value.abs()) { value.to_string() } else { format!("{value:e}") }
+    let power = format!("{value:e}");
+    let short = value == 0.0 || (1e-3..1e6).contains(&value.abs());
+    if short && (value < 1e4 || power.contains('.')) { value.to_string() } else { power }
 }

@@ -9,7 +9,7 @@ use alberti::{
     Cull, DepthFormat, Exact, Fixed, FixedPoint, Interpolation, Lines, Planes, Rgba8888, Sub8, Target,
 };
 use alberti_oracle::cases::pixel_centre;
-use alberti_oracle::coverage::{Triangle, covers};
+use alberti_oracle::coverage::{Triangle, covers, weights};
 use alberti_oracle::dd;
 use std::cell::{Cell, RefCell};
 use std::ops::Range;
@@ -108,6 +108,23 @@ impl Case {
         let exact = dd::hyperbolic(before, sample, self.q, self.u).to_f64();
         let [least, most] = self.range();
         exact.clamp(least, most)
+    }
+
+    /// Whether it counts as large beyond doubt, so that its values are those before snapping: a box of 65 pixels, of
+    /// which a subpixel is no great part, nor changes q by one.
+    pub(crate) fn is_large(&self) -> bool {
+        let before = [0, 1, 2].map(|i| [0, 1].map(|k| 256 * self.tri[i][k] + self.moved[i][k]));
+        let q = self.q.map(f64::from);
+        let wide = |corner: usize| {
+            let e = weights(before, self.tri[corner].map(|c| 256 * c)).map(|e| e as f64);
+            let sum: f64 = e.iter().sum();
+            let shares = e.map(|weight| weight / sum);
+            let at: f64 = (0..3).map(|i| shares[i] * q[i]).sum();
+            let small = |x: f64| x.abs() < 0.0624;
+            at > 0.0
+                && (0..3).filter(|&i| i != corner).all(|i| small(shares[i]) && small(shares[i] * q[i] / at))
+        };
+        self.pixels() >= 65.0 && (0..3).all(wide)
     }
 
     /// The least and the greatest value of the vertices.

@@ -100,50 +100,59 @@ fn cell(row: &Measured) -> String {
     format!("{} ({share})", digits(row.error.error))
 }
 
-/// The points from which on each policy is beyond the limit.
+/// The points at which each policy is beyond the limit, and those at which a constructor refuses.
 fn breaks(axis: &Axis, rows: &[Measured]) -> String {
     let (limit, name) = axis.limit;
-    let mut text = format!("Where it breaks, by {} = ", axis.parameter);
-    text = text.trim_end_matches(" = ").to_string() + &format!(": more than {name} from\n\n");
-    let (mut never, mut refused): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
-    let mut lines = String::new();
+    let (mut never, mut lines) = (Vec::new(), String::new());
+    let mut refused: Vec<(String, Vec<String>)> = Vec::new();
     for (series, rows) in series(axis, rows) {
         let policy = quoted(&series.policy);
-        let points: Vec<&str> = rows
-            .iter()
-            .zip(&axis.points)
-            .filter(|(row, _)| row.samples > 0 && row.error.error > limit)
-            .map(|(_, point)| point.1.as_str())
-            .collect();
-        match points.first() {
-            Some(first) => lines += &format!("* {policy}: {first} on\n"),
-            None => never.push(policy),
+        let broken: Vec<bool> = rows.iter().map(|row| row.samples > 0 && row.error.error > limit).collect();
+        let there: Vec<bool> = rows.iter().map(|row| row.samples > 0).collect();
+        match spelled(axis, &broken, &there) {
+            Some(points) => lines += &format!("* {policy}: {points}\n"),
+            None => never.push(policy.clone()),
         }
-        let at: Vec<&str> = rows
-            .iter()
-            .zip(&axis.points)
-            .filter(|(row, _)| row.refused > 0)
-            .map(|(_, point)| point.1.as_str())
-            .collect();
-        if !at.is_empty() {
-            let line = format!("at {} by `{}`", at.join(", "), series.refuses);
-            if !refused.contains(&line) {
-                refused.push(line);
+        let at: Vec<bool> = rows.iter().map(|row| row.refused > 0).collect();
+        if let Some(points) = spelled(axis, &at, &[]) {
+            let line = format!("{points}, by {}", series.refuses);
+            match refused.iter_mut().find(|(other, _)| *other == line) {
+                Some((_, policies)) => policies.push(policy),
+                None => refused.push((line, vec![policy])),
             }
         }
     }
-    if lines.is_empty() {
-        text = format!("Nothing here is ever more than {name}.\n");
+    let mut text = if lines.is_empty() {
+        format!("Nothing here is ever more than {name}.\n")
     } else {
-        text += &lines;
-        if !never.is_empty() {
-            text += &format!("* never: {}\n", never.join(", "));
-        }
-    }
-    if !refused.is_empty() {
-        text += &format!("\n{}\n", wrapped(&format!("Refused {}.", refused.join("; "))));
+        let rest = if never.is_empty() { String::new() } else { format!("* {}: never\n", never.join(", ")) };
+        format!("Where it breaks, with more than {name}, by {}:\n\n{lines}{rest}", axis.parameter)
+    };
+    for (line, policies) in &refused {
+        let whose = if policies.len() == axis.series.len() {
+            String::new()
+        } else {
+            format!(" ({})", policies.join(", "))
+        };
+        text += &format!("\n{}\n", wrapped(&format!("Refused{whose}: {line}.")));
     }
     text
+}
+
+/// The chosen points: everywhere where there is an answer, up to one, from one on, or each by its name.
+fn spelled(axis: &Axis, chosen: &[bool], there: &[bool]) -> Option<String> {
+    let points: Vec<usize> = (0..chosen.len()).filter(|&i| chosen[i]).collect();
+    let name = |i: usize| axis.points[i].1.as_str();
+    let (&first, &last) = (points.first()?, points.last()?);
+    let answers: Vec<usize> = (0..there.len()).filter(|&i| there[i]).collect();
+    let from = answers.iter().filter(|&&i| i >= first).count() == points.len();
+    let to = answers.iter().filter(|&&i| i <= last).count() == points.len();
+    Some(match (from, to) {
+        (true, true) => "everywhere".into(),
+        (true, false) => format!("from {} on", name(first)),
+        (false, true) => format!("up to {}", name(last)),
+        (false, false) => points.iter().map(|&i| name(i)).collect::<Vec<_>>().join(", "),
+    })
 }
 
 /// Every row, with the identities of its worst samples.

@@ -60,7 +60,7 @@ impl Exact64 {
         DVec2::new(eye.x, -eye.y) * (self.cotangent * HALF / eye.z)
     }
 
-    fn from_screen(&self, screen: DVec2, z: f64) -> DVec3 {
+    fn at_screen(&self, screen: DVec2, z: f64) -> DVec3 {
         let [x, y] = (screen * z / (self.cotangent * HALF)).to_array();
         self.eye + self.axes[0] * x - self.axes[1] * y + self.axes[2] * z
     }
@@ -100,7 +100,7 @@ impl Given {
         let place = |angle: f64, rng: &mut Rng| {
             let (sine, cosine) = (angle + rng.uniform(-0.3, 0.3)).sin_cos();
             let screen = DVec2::new(cosine, sine) * rng.uniform(200.0, 500.0);
-            exact.from_screen(screen, scene.distance * rng.uniform(0.7, 1.4))
+            exact.at_screen(screen, scene.distance * rng.uniform(0.7, 1.4))
         };
         let wanted = [0.0, 2.1, 4.2].map(|angle| place(angle, rng));
         let frame = scene.unit.map(|unit| (center.as_vec3(), (1.0 / unit) as f32));
@@ -215,7 +215,8 @@ fn drawn(given: &Given, view: &View, screen: [DVec2; 3], pixel: DVec2) -> Option
 fn to_edges(screen: [DVec2; 3], point: DVec2) -> f64 {
     let edge = |i: usize| {
         let (a, b) = (screen[i], screen[(i + 1) % 3]);
-        ((b - a).perp_dot(point - a) / (b - a).length()).abs()
+        // Of a triangle without area, that nothing covers, it is 0.
+        ((b - a).perp_dot(point - a) / (b - a).length().max(f64::MIN_POSITIVE)).abs()
     };
     edge(0).min(edge(1)).min(edge(2))
 }

@@ -51,7 +51,7 @@ fn formats(
 ) -> Vec<Series> {
     let series = |format: Format| {
         Series::new(format!("{:?}", format.any), move |point, rng, note| measure(&format, point, rng, note))
-            .refused_by("DepthMap::forward, reversed")
+            .refused_by("`DepthMap::forward` and `reversed`")
     };
     FORMATS.into_iter().map(series).collect()
 }
@@ -125,14 +125,14 @@ pub(super) fn gaps() -> Axis {
         let gap = f64::from(end) - f64::from(begin);
         let stated = stored != at_near && stored != at_far && dz <= f64::from(z) / 4.0;
         let factor = if dz < f64::from(z) / 2_097_152.0 { 4.0 } else { 2.0 };
-        let bound = if stated { factor * dz / f64::from(z) } else { f64::INFINITY };
-        Sample::new(100.0 * gap / f64::from(z), 100.0 * bound)
+        let bound = if stated { factor * dz / f64::from(end) } else { f64::INFINITY };
+        Sample::new(100.0 * gap / f64::from(end), 100.0 * bound)
     };
     Axis {
         name: "gaps",
         title: "Gaps that depth formats tell apart",
         about: "The longest stretch of depths that are stored alike, in the far half of the view, in per cent of the \
-                distance. The bound is that of `DepthMap::resolution`: twice its dz, or four times where that is near \
+                distance of their end. The bound is that of `DepthMap::resolution`: twice its dz, or four times where that is near \
                 the spacing of `f32`; none is stated where a step is more than a quarter of the distance, or one of \
                 the planes shares it. This is where forward maps break, `F32` no later than `D24`. `F32Reversed` does \
                 not see the ratio.",
@@ -163,11 +163,12 @@ pub(super) fn layers() -> Axis {
         about: "So many layers over one pixel, all within 10^-7 to 10^-1 of their distance, between planes at 1 and \
                 1000: drawn from the nearest, from the farthest, and shuffled. Stored depths must be in the order of \
                 the distances, the least must stay, and of equal ones the first that was drawn. The error is the \
-                distance of the layer that is seen behind the nearest one; its bound is that of the gaps.",
+                distance of the layer that is seen behind the nearest one; its bound is that of the gaps. It depends on the \
+                format and the distance, not on the number of layers.",
         parameter: "layers",
         points: decades(1, 6),
         unit: "% of the distance",
-        limit: (1.0, "1 % of the distance"),
+        limit: (2.0, "2 % of the distance"),
         dear: 5000,
         series: formats(|format, count, rng, note| layered(format, count as usize, rng, note)),
     }

@@ -12,14 +12,14 @@ const SCENE: Scene = Scene { degrees: 57.0, distance: 10.0, offset: 0.0, unit: N
 /// A pass over scenes that depend on the point.
 fn pass(name: &str, scene: impl Fn(f64) -> Scene + Send + Sync + 'static) -> Series {
     Series::new(name, move |point, rng, note| displaced(&scene(point), rng, note))
-        .refused_by("Camera::look_at, perspective")
+        .refused_by("`Camera::look_at` or `perspective`")
 }
 
 /// Opening angles.
 pub(super) fn angles() -> Axis {
     let lens = |name: &str, snapped: bool| {
         Series::new(name, move |degrees, rng, note| projected(degrees, snapped, rng, note))
-            .refused_by("Perspective::new")
+            .refused_by("`Perspective::new`")
     };
     Axis {
         name: "angles",
@@ -70,7 +70,7 @@ pub(super) fn scales() -> Axis {
                 unit: Some(scale),
                 ..SCENE
             })
-            .refused_by("dropped: beyond f32"),
+            .refused_by("dropping what is beyond `f32`"),
         ],
     }
 }

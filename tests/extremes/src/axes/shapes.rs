@@ -184,9 +184,7 @@ pub(super) fn targets() -> Axis {
     let moved = move |side: f64, rng: &mut Rng| {
         let mut case = make(side.max(256.0), rng);
         case.moved = [(); 3].map(|()| [(); 2].map(|()| rng.range(-128, 127)));
-        // So that the triangle is large beyond doubt, and no subpixel is a sixteenth of it.
-        let fat = area2(case.tri).unsigned_abs() as f64 > (case.pixels() * 0.2 * ONE as f64).powi(2);
-        if fat { case } else { Case { moved: [[0; 2]; 3], ..case } }
+        if case.is_large() { case } else { Case { moved: [[0; 2]; 3], ..case } }
     };
     let mut series: Vec<Series> = policy::KINDS
         .iter()
@@ -196,7 +194,7 @@ pub(super) fn targets() -> Axis {
                 note.take(|| format!("{case:?}"));
                 case.texels(policy, side as i64)
             })
-            .refused_by("Target::band")
+            .refused_by("`Target::band`")
         })
         .collect();
     series.insert(
@@ -206,15 +204,15 @@ pub(super) fn targets() -> Axis {
             note.take(|| format!("{case:?}"));
             case.texels(Policy::Exact, (side as i64).max(256))
         })
-        .refused_by("Target::band"),
+        .refused_by("`Target::band`"),
     );
     Axis {
         name: "targets",
         title: "Sizes of the frame",
         about: "Triangles half to one and a half times as large as a square frame with sides of so many pixels. \
                 Depths are in a ratio of up to 10. The second row counts from the vertices before they were snapped, \
-                as large triangles do (of at least 65 pixels, so its frames begin at 256). Runs of 16 pixels miss \
-                less the larger the frame, as the curve gets flatter; one line across it does not.",
+                as large triangles do (of at least 65 pixels, so its frames begin at 256). The largest frame is no \
+                worse than the smallest: where lines miss, the worst are triangles of few columns in any frame.",
         parameter: "side of the frame, pixels",
         points: named(&[16.0, 64.0, 256.0, 1024.0, 4096.0, 16_384.0, 32_768.0]),
         unit: "texels",
@@ -241,7 +239,7 @@ pub(super) fn offsets() -> Axis {
     };
     let mut series = triangles(&policy::KINDS, LARGEST, make);
     for each in &mut series {
-        each.refuses = "Fixed::from_subpixels";
+        each.refuses = "`Fixed::from_subpixels`";
     }
     Axis {
         name: "offsets",

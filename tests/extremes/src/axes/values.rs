@@ -26,7 +26,7 @@ pub(super) fn ratios() -> Axis {
                 miss the curve, as far as their formula says; the budget of `Lines::bounded` is a 16th of a texel. \
                 `FixedPoint` states a bound up to a ratio of 2^20.",
         parameter: "ratio of depths",
-        points: decades(0, 12),
+        points: named(&[1.0, 1.001, 1.01, 1.1, 2.0]).into_iter().chain(decades(1, 12)).collect(),
         unit: "texels",
         limit: (0.5, "half a texel"),
         dear: 1,
