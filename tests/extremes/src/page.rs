@@ -110,7 +110,7 @@ fn breaks(axis: &Axis, rows: &[Measured]) -> String {
         let broken: Vec<bool> = rows.iter().map(|row| row.samples > 0 && row.error.error > limit).collect();
         let there: Vec<bool> = rows.iter().map(|row| row.samples > 0).collect();
         match spelled(axis, &broken, &there) {
-            Some(points) => lines += &format!("* {policy}: {points}\n"),
+            Some(points) => lines += &format!("{}\n", wrapped(&format!("* {policy}: {points}"))),
             None => never.push(policy.clone()),
         }
         let at: Vec<bool> = rows.iter().map(|row| row.refused > 0).collect();
@@ -125,7 +125,11 @@ fn breaks(axis: &Axis, rows: &[Measured]) -> String {
     let mut text = if lines.is_empty() {
         format!("Nothing here is ever more than {name}.\n")
     } else {
-        let rest = if never.is_empty() { String::new() } else { format!("* {}: never\n", never.join(", ")) };
+        let rest = if never.is_empty() {
+            String::new()
+        } else {
+            format!("{}\n", wrapped(&format!("* {}: never", never.join(", "))))
+        };
         format!("Where it breaks, with more than {name}, by {}:\n\n{lines}{rest}", axis.parameter)
     };
     for (line, policies) in &refused {
