@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use crate::command::Outcome;
-use crate::{assets, checks, firmware, nostd, package, tidy};
+use crate::{assets, checks, extremes, firmware, nostd, package, tidy};
 
 /// The name that the summary and a failure use, and the check.
 type Step = (&'static str, fn() -> Outcome);
@@ -34,6 +34,7 @@ fn steps(tests_done: bool) -> Vec<Step> {
         ("docs", checks::docs),
         TEST,
         ("avx512", checks::avx512),
+        ("extremes", extremes::check),
         ("package", package::run),
         ("nostd", nostd::run),
         ("firmware", || firmware::run(&[])),

@@ -12,6 +12,7 @@ mod ci;
 mod command;
 mod elf;
 mod embedded;
+mod extremes;
 mod firmware;
 mod gallery;
 mod golden;
@@ -139,6 +140,12 @@ const CHORES: &[Chore] = &[
         arguments: "[--check]",
         about: "measure every policy's error and cost, and write docs/trade.md, or compare with its table",
         run: trade::run,
+    },
+    Chore {
+        name: "extremes",
+        arguments: "[--small] [--shard K/N] ...",
+        about: "hold every policy to its bounds at the ends of its parameters, and write docs/extremes.md (--help: more)",
+        run: extremes::measure,
     },
 ];
 

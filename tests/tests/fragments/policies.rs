@@ -176,10 +176,11 @@ fn each_scaled(
     let mut rng = Rng::stream(run_seed(), stream);
     let (mut count, mut moved) = (0, 0);
     while count < samples {
-        count += of_any_case(interpolation, &mut rng, [factor, steepest], &mut |case: &Case, column, u, zs| {
-            moved += u64::from(case.moved);
-            check(case, column, u, zs);
-        });
+        count +=
+            of_any_case(interpolation, &mut rng, [factor, steepest], &mut |case: &Case, column, u, zs| {
+                moved += u64::from(case.moved);
+                check(case, column, u, zs);
+            });
     }
     let fixed = format!("{interpolation:?}").starts_with("FixedPoint");
     assert!(if fixed { moved == 0 } else { moved > samples / 10 }, "{moved} of {samples}");

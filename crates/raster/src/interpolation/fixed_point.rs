@@ -21,11 +21,16 @@ use core::fmt;
 /// same bits on every machine.
 ///
 /// # Precision
-/// The error is at most the bound of `R` plus (N + 3)·2^-16 + |Δu|·(2^-17 + r·(C + 4)·2^-28). N are the columns of a
+/// The error is at most the bound of `R` plus (N + 3)·2^-16 + |Δu|·(2^-17 + r·(C + 4)·3·2^-29). N are the columns of a
 /// run, C those of the row, Δu is the greatest difference between two vertices, and r the greatest ratio of q in the
 /// triangle. The bound holds for components in ±4096 and r up to 2^20. For [`Lines::bounded`], whose budget includes
 /// the first term, only the second is added. A budget below four steps is not kept: all runs are of one column then,
 /// and the first term is 4·2^-16.
+///
+/// The reason for the last term: slopes by column are short of right by up to a unit. Along C columns that moves q by
+/// up to C·2^-30 of the greatest one, and the excess of q·u over a vertex by as much of 2^-29. Where q is the least,
+/// the quotient is off by r·C·(2^-30 + 2^-28)·|Δu|, and a sixth of that more as the divisor is off too. Where the term
+/// is above |Δu|, values stay within their range.
 ///
 /// Varyings are rounded to 2^-16, and beyond ±4096 they count as that. A closure gets them as `f32`, which rounds by
 /// up to ε·max|ui| beyond 256, ε = 2^-24. Depth has 31 bits, of which 8 units and one for

@@ -19,7 +19,7 @@ impl Case {
     fn fixed_point(&self, steps: i32) -> f64 {
         const UNIT: f64 = 1.0 / 65536.0;
         let columns = f64::from(self.covered.end - self.covered.start);
-        let slopes = self.ratio() * (columns + 4.0) * 2f64.powi(-28);
+        let slopes = self.ratio() * (columns + 4.0) * 3.0 * 2f64.powi(-29);
         // A closure gets f32.
         f64::from(steps) * UNIT + self.spread() * (2f64.powi(-17) + slopes) + EPS * self.largest()
     }
