@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use crate::command::Outcome;
-use crate::{assets, checks, extremes, firmware, nostd, package, tidy};
+use crate::{assets, checks, extremes, firmware, nostd, package, tidy, trade};
 
 /// The name that the summary and a failure use, and the check.
 type Step = (&'static str, fn() -> Outcome);
@@ -35,6 +35,7 @@ fn steps(tests_done: bool) -> Vec<Step> {
         TEST,
         ("avx512", checks::avx512),
         ("extremes", extremes::check),
+        ("trade", trade::check),
         ("package", package::run),
         ("nostd", nostd::run),
         ("firmware", || firmware::run(&[])),
