@@ -94,8 +94,8 @@ pub fn advise(
     Ok(Advice { budget, trials, pick, reference })
 }
 
-/// Combinations of policies that were within the budget alone, without those that were tried, in the order of the times
-/// that they promise: the product of the parts' shares of the most precise policies' time.
+/// Combinations of policies that were within the budget alone, but for those that were tried, the promising first. What
+/// they promise is the product of the parts' shares of the most precise policies' time.
 fn combinations(trials: &[Trial], budget: MaxError) -> Vec<Candidate> {
     let within = |trial: &&Trial| budget.admits(trial.error);
     let Some(reference) = trials.iter().find(|trial| trial.candidate == Candidate::MOST_PRECISE) else {

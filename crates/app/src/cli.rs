@@ -36,8 +36,8 @@ pub enum Command {
     Render(Box<RenderArgs>),
     /// Find the cheapest policies for a scene within a budget of error, and what it pays for nothing.
     ///
-    /// Draws the scene under all interpolations, arithmetics, depth formats and subpixels, alone and together, measures
-    /// errors and times, and prints the options and the lines of a program that select the pick.
+    /// Draws the scene under all interpolations, arithmetics, depth formats and subpixels, alone and together, and
+    /// measures errors and times. Prints the options and the lines of a program that select the pick.
     #[command(after_help = advise::HELP)]
     Advise(Box<advise::AdviseArgs>),
     /// Measure the difference between two pictures.

@@ -63,7 +63,7 @@ pub(crate) fn page(lines: &[Line], made: Made<'_>) -> String {
     let _ = write!(
         text,
         "\n## How it was made\n\n{COMPILER}{}.\n[trade.csv](trade.csv) has each policy on each scene. `cargo xtask \
-         trade --check` measures errors and instructions again, and\nfails, with the row's name, where one is more than \
+         trade --check` measures errors and instructions\nagain, and fails, with the row's name, where one is more than \
          a fiftieth above the table; times are not compared.\n",
         made.compiler
     );

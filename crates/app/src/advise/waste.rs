@@ -1,4 +1,4 @@
-//! What a scene pays for nothing: parts of it that change no pixel of its picture.
+//! Parts of a scene that it pays for and that change no pixel of its picture.
 
 use super::Trial;
 use super::candidate::{Candidate, depth_name};

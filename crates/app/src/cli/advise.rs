@@ -33,8 +33,8 @@ pub struct AdviseArgs {
     #[command(flatten)]
     pub render: RenderArgs,
 
-    /// Limit of the error, a number with its unit: texel (of texture coordinates), lsb (of bytes), both of the 99.9 % of
-    /// the pixels that are least off; flip (mean), or db (PSNR, at least).
+    /// Limit of the error, a number with its unit: texel (of texture coordinates), lsb (of bytes), flip (mean), or db
+    /// (PSNR, at least). Texels and bytes are those of the 99.9 % of the pixels that are least off.
     #[arg(
         long,
         value_name = "0.5texel|2lsb|0.01flip|40db",
