@@ -3,12 +3,12 @@
 //! Under callgrind the program draws each row's frame once more within [`measured`], which is all that is collected. At
 //! [`ended`] a part of the profile is written: part n is that of row n.
 
-use alberti_trade::row::Row;
+use crate::row::Row;
 use std::path::Path;
 
 /// Draws a frame that is counted.
 #[inline(never)]
-pub(crate) fn measured(row: &mut Row, words: &mut [u32]) {
+pub fn measured(row: &mut Row, words: &mut [u32]) {
     std::hint::black_box(&mut row.frame)(words);
     ended(words);
 }
@@ -23,7 +23,7 @@ fn ended(words: &[u32]) {
 ///
 /// # Errors
 /// The folder cannot be read, or a part has no sum.
-pub(crate) fn read(folder: &Path) -> Result<Vec<u64>, String> {
+pub fn read(folder: &Path) -> Result<Vec<u64>, String> {
     let failed = |error: std::io::Error| format!("cannot read {}: {error}", folder.display());
     let mut parts = vec![];
     for entry in std::fs::read_dir(folder).map_err(failed)? {

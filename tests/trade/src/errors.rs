@@ -1,49 +1,48 @@
 //! Errors of a row: of its picture beside the right one, and of its texture coordinates beside those of rays.
 
 use crate::reference;
+use crate::row::{Judge, Places, Row, bytes};
+use crate::scenes::Scene;
 use alberti_app::measure::{Comparison, Measures, percentile};
 use alberti_app::scene::Image;
 use alberti_oracle::ideal::Seen;
-use alberti_trade::frame::{Places, bytes};
-use alberti_trade::row::{Judge, Row};
-use alberti_trade::scenes::Scene;
 use std::collections::HashMap;
 use std::rc::Rc;
 
 /// The errors of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Errors {
+pub struct Errors {
     /// Texture coordinates against those of rays, in texels.
-    pub(crate) texels: Option<Texels>,
+    pub texels: Option<Texels>,
     /// The picture against the right one.
-    pub(crate) picture: Measures,
+    pub picture: Measures,
 }
 
 /// Errors of texture coordinates, in texels, at the pixels whose triangle is the right one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Texels {
+pub struct Texels {
     /// The largest.
-    pub(crate) largest: f64,
+    pub largest: f64,
     /// The largest but for one in a thousand.
-    pub(crate) most: f64,
+    pub most: f64,
 }
 
 /// A picture and what makes it wrong.
 #[derive(Clone, Debug)]
-pub(crate) struct Judged {
+pub struct Judged {
     /// The row's picture.
-    pub(crate) picture: Image,
+    pub picture: Image,
     /// The right one.
-    pub(crate) right: Rc<Image>,
+    pub right: Rc<Image>,
     /// Their differences.
-    pub(crate) comparison: Comparison,
+    pub comparison: Comparison,
     /// In numbers.
-    pub(crate) errors: Errors,
+    pub errors: Errors,
 }
 
 /// Judges rows, and keeps the references that several of them share.
 #[derive(Debug, Default)]
-pub(crate) struct Court {
+pub struct Court {
     pictures: HashMap<(&'static str, Judge), Rc<Image>>,
     points: HashMap<&'static str, Rc<Vec<Option<Seen>>>>,
 }
@@ -53,7 +52,7 @@ impl Court {
     ///
     /// # Panics
     /// Without a reference among the rows.
-    pub(crate) fn judge(&mut self, rows: &mut [Row]) -> Vec<Judged> {
+    pub fn judge(&mut self, rows: &mut [Row]) -> Vec<Judged> {
         let pictures: Vec<Image> = rows.iter_mut().map(picture).collect();
         let reference = rows.iter().position(|row| row.reference).expect("a reference");
         let own = Rc::new(pictures[reference].clone());
@@ -105,7 +104,7 @@ impl Court {
 }
 
 /// The picture that a row draws.
-pub(crate) fn picture(row: &mut Row) -> Image {
+pub fn picture(row: &mut Row) -> Image {
     let mut words = vec![0; row.pixels()];
     (row.frame)(&mut words);
     image(row.size, bytes(&words))

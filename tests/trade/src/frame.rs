@@ -1,6 +1,5 @@
 //! A frame of a scene by the library's own types: what is measured is what a program that names them gets.
 
-use crate::scenes::Scene;
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::One;
 use alberti::{
@@ -9,32 +8,25 @@ use alberti::{
 };
 use alberti_app::scene::Vertex;
 use alberti_tests::for_widest;
+use alberti_trade::row::{Frame, Places, pixels};
+use alberti_trade::scenes::Scene;
 use std::cell::RefCell;
-
-/// Draws into the words of a picture: clears colour and depth, transforms all vertices, draws all triangles.
-pub type Frame = Box<dyn FnMut(&mut [u32])>;
 
 /// The policies of a frame that every scene has.
 #[derive(Clone, Copy, Debug)]
-pub struct With<P, D> {
+pub(crate) struct With<P, D> {
     /// From vertices to pixels.
-    pub interpolation: P,
+    pub(crate) interpolation: P,
     /// The depth buffer.
-    pub depth: D,
+    pub(crate) depth: D,
     /// The grid of vertices.
-    pub subpixel: Subpixel,
+    pub(crate) subpixel: Subpixel,
     /// Columns and rows.
-    pub size: [u32; 2],
-}
-
-/// The pixels of a picture of this size.
-#[must_use]
-pub fn pixels([width, height]: [u32; 2]) -> usize {
-    width as usize * height as usize
+    pub(crate) size: [u32; 2],
 }
 
 /// A frame by the widest lanes that there are.
-pub fn wide<V, S, P, D>(
+pub(crate) fn wide<V, S, P, D>(
     scene: &'static Scene,
     vertex_stage: impl Fn(&Vertex) -> (Vec3, V) + 'static,
     stage: S,
@@ -58,7 +50,7 @@ where
 }
 
 /// A frame by one lane, as [`FixedPoint`](alberti::FixedPoint) has it on every machine.
-pub fn narrow<V, S, P, D>(
+pub(crate) fn narrow<V, S, P, D>(
     scene: &'static Scene,
     vertex_stage: impl Fn(&Vertex) -> (Vec3, V) + 'static,
     stage: S,
@@ -105,14 +97,11 @@ fn target<'a, D: DepthFormat>(
     target
 }
 
-/// A triangle's number and texture coordinates at each pixel, by a policy.
-pub type Places = Vec<Option<(u32, [f32; 2])>>;
-
 /// The texture coordinates that are seen at each pixel, bit for bit those of [`wide`].
 ///
 /// # Panics
 /// For a scene of more triangles than its numbers can tell apart: 2^20.
-pub fn places<P: Interpolation, D: DepthFormat>(scene: &Scene, with: With<P, D>) -> Places {
+pub(crate) fn places<P: Interpolation, D: DepthFormat>(scene: &Scene, with: With<P, D>) -> Places {
     /// Numbers stay small enough for fixed point.
     const BASE: u32 = 1024;
     // Each triangle has vertices of its own, which carry its number.
@@ -150,25 +139,16 @@ pub fn places<P: Interpolation, D: DepthFormat>(scene: &Scene, with: With<P, D>)
 }
 
 /// The place of a vertex.
-#[must_use]
-pub fn position(v: &Vertex) -> Vec3 {
+pub(crate) fn position(v: &Vertex) -> Vec3 {
     Vec3::from_array(v.position)
 }
 
 /// Its texture coordinates.
-#[must_use]
-pub fn uv(v: &Vertex) -> Vec2 {
+pub(crate) fn uv(v: &Vertex) -> Vec2 {
     Vec2::from_array(v.uv)
 }
 
 /// Both, for a vertex stage.
-#[must_use]
-pub fn mapped(v: &Vertex) -> (Vec3, Vec2) {
+pub(crate) fn mapped(v: &Vertex) -> (Vec3, Vec2) {
     (position(v), uv(v))
-}
-
-/// The words of a picture as bytes.
-#[must_use]
-pub fn bytes(words: &[u32]) -> Vec<[u8; 4]> {
-    words.iter().map(|word| word.to_ne_bytes()).collect()
 }

@@ -1,9 +1,17 @@
-//! Every policy of every family on the same scenes, as frames that can be drawn, timed and judged.
+//! What each approximation costs and what it loses: scenes, references and times, errors and counts, and the page that
+//! they make, `docs/trade.md`.
 //!
-//! The program of this package measures what each costs and what it loses, and makes `docs/trade.md`. It is apart from
-//! the kernels, which take long to compile.
+//! The frames of all policies are in the program of this package, apart from what has tests: they take long to compile.
 
-pub mod families;
-pub mod frame;
+pub mod counts;
+pub mod errors;
+pub mod family;
+pub mod page;
+pub mod plot;
+pub mod reference;
 pub mod row;
 pub mod scenes;
+pub mod summary;
+pub mod table;
+pub mod times;
+pub mod worst;

@@ -7,29 +7,24 @@
 //! options: --counts FOLDER of callgrind's parts, --compiler TEXT, --boards FILE of a chapter
 //! ```
 
-mod counts;
-mod errors;
-mod page;
-mod plot;
-mod reference;
-mod summary;
-mod table;
-mod times;
-mod worst;
+mod families;
+mod frame;
 
-use alberti_trade::families::{FAMILIES, Family};
+use alberti_trade::counts::{self, measured};
+use alberti_trade::errors::{Court, Judged};
+use alberti_trade::family::Family;
+use alberti_trade::page::{self, Made, PICTURES, SEEN, has_plot, page, picture};
 use alberti_trade::row::Row;
-use counts::measured;
-use errors::{Court, Judged};
-use page::{Made, PICTURES, SEEN, has_plot, page, picture};
+use alberti_trade::summary::summaries;
+use alberti_trade::table::{Line, csv, worse};
+use alberti_trade::times::times;
+use alberti_trade::{plot, worst};
+use families::{FAMILIES, Rows};
 use std::collections::HashMap;
 use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use summary::summaries;
-use table::{Line, csv, worse};
-use times::times;
 
 /// Of errors and instructions: a small display.
 const SMALL: [u32; 2] = [320, 240];
@@ -90,8 +85,8 @@ impl Options {
 
 /// All rows in order, each once before it is counted: memory is touched, and statics are made.
 fn frames() {
-    for family in FAMILIES {
-        for mut row in (family.rows)(family.name, SMALL) {
+    for (family, rows) in FAMILIES {
+        for mut row in rows(family.name, SMALL) {
             let mut words = vec![0; row.pixels()];
             (row.frame)(&mut words);
             measured(&mut row, &mut words);
@@ -100,9 +95,9 @@ fn frames() {
 }
 
 /// The rows of a family, those of a scene together, each group with its reference.
-fn by_scene(family: &Family, size: [u32; 2]) -> Vec<Vec<Row>> {
+fn by_scene((family, rows): &(Family, Rows), size: [u32; 2]) -> Vec<Vec<Row>> {
     let mut groups: Vec<Vec<Row>> = vec![];
-    for row in (family.rows)(family.name, size) {
+    for row in rows(family.name, size) {
         match groups.last_mut() {
             Some(group) if group[0].scene.name == row.scene.name => group.push(row),
             _ => groups.push(vec![row]),
@@ -119,7 +114,7 @@ fn measure(counts: Option<&[u64]>, timed: bool, hear: &mut Hear<'_>) -> Result<V
     let (mut court, mut lines) = (Court::default(), vec![]);
     for family in FAMILIES {
         for mut group in by_scene(family, SMALL) {
-            eprintln!("{}, {}", family.name, group[0].scene.name);
+            eprintln!("{}, {}", group[0].family, group[0].scene.name);
             let judged = court.judge(&mut group);
             for (row, judged) in group.iter().zip(&judged) {
                 hear(row, judged)?;
@@ -171,15 +166,16 @@ fn write(options: &Options) -> Result<(), Box<dyn Error>> {
     };
     let counts = options.counts()?;
     let lines = measure(counts.as_deref(), true, &mut hear)?;
-    for family in FAMILIES {
+    for (family, _) in FAMILIES {
         let summaries = summaries(family, &lines);
         if has_plot(family, &summaries) {
             plot::draw(family, &summaries, &pictures.join(format!("{}.svg", family.name)))?;
         }
     }
+    let families: Vec<Family> = FAMILIES.iter().map(|(family, _)| *family).collect();
     let made = Made { compiler: &options.compiler, boards: options.boards.as_deref() };
     fs::write(options.docs.join("trade.csv"), csv(&lines))?;
-    fs::write(options.docs.join("trade.md"), page(&lines, made))?;
+    fs::write(options.docs.join("trade.md"), page(&families, &lines, made))?;
     println!("Wrote docs/trade.md, docs/trade.csv and docs/{PICTURES}.");
     Ok(())
 }

@@ -1,21 +1,21 @@
 //! The page of the trade, for people: a chapter a family.
 
+use crate::family::{Axis, Family};
+use crate::scenes::SCENES;
 use crate::summary::{Summary, summaries};
 use crate::table::Line;
-use alberti_trade::families::{Axis, FAMILIES, Family};
-use alberti_trade::scenes::SCENES;
 use std::fmt::Write as _;
 
 /// The folder of plots and of the worst places, beside the page.
-pub(crate) const PICTURES: &str = "pictures/trade";
+pub const PICTURES: &str = "pictures/trade";
 
 /// What the figures were measured by.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Made<'a> {
+pub struct Made<'a> {
     /// The compiler, and the registers of the machine: instructions can be compared where these are the same.
-    pub(crate) compiler: &'a str,
+    pub compiler: &'a str,
     /// The table of the boards, if they were asked.
-    pub(crate) boards: Option<&'a str>,
+    pub boards: Option<&'a str>,
 }
 
 /// Before the name of the compiler in the page.
@@ -47,13 +47,13 @@ The scenes:
 ";
 
 /// The page.
-pub(crate) fn page(lines: &[Line], made: Made<'_>) -> String {
+pub fn page(families: &[Family], lines: &[Line], made: Made<'_>) -> String {
     let mut text = HEADING.to_owned();
     text.push_str("| scene | what it is |\n|---|---|\n");
     for scene in SCENES.iter() {
         let _ = writeln!(text, "| {} | {} |", scene.name, scene.about);
     }
-    for family in FAMILIES {
+    for family in families {
         chapter(&mut text, family, lines);
     }
     if let Some(boards) = made.boards {
@@ -71,7 +71,7 @@ pub(crate) fn page(lines: &[Line], made: Made<'_>) -> String {
 }
 
 /// The compiler that a page names.
-pub(crate) fn compiler(page: &str) -> Option<&str> {
+pub fn compiler(page: &str) -> Option<&str> {
     page.lines().find_map(|line| line.strip_prefix(COMPILER)?.strip_suffix('.'))
 }
 
@@ -132,10 +132,10 @@ fn by_scene(text: &mut String, family: &Family, all: &[Summary], lines: &[Line])
 }
 
 /// FLIP from which on a policy's worst place is shown.
-pub(crate) const SEEN: f64 = 1e-3;
+pub const SEEN: f64 = 1e-3;
 
 /// The file of a policy's worst place.
-pub(crate) fn picture(family: &str, policy: &str) -> String {
+pub fn picture(family: &str, policy: &str) -> String {
     let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
     let name: String = policy.chars().map(plain).collect();
     let parts: Vec<&str> = name.split('-').filter(|part| !part.is_empty()).collect();
@@ -143,7 +143,7 @@ pub(crate) fn picture(family: &str, policy: &str) -> String {
 }
 
 /// Whether there is anything to plot: policies of different errors.
-pub(crate) fn has_plot(family: &Family, summaries: &[Summary]) -> bool {
+pub fn has_plot(family: &Family, summaries: &[Summary]) -> bool {
     let mut errors = summaries.iter().map(|summary| summary.error(family.axis));
     let first = errors.next().unwrap_or_default();
     errors.any(|error| (error - first).abs() > 1e-6)
@@ -189,7 +189,7 @@ mod tests {
 
     #[test]
     fn the_compiler_is_found_again() {
-        let page = page(&[], Made { compiler: "rustc 1.95.0, AVX2", boards: None });
+        let page = page(&[], &[], Made { compiler: "rustc 1.95.0, AVX2", boards: None });
         assert_eq!(compiler(&page), Some("rustc 1.95.0, AVX2"));
     }
 

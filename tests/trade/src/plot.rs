@@ -1,7 +1,7 @@
 //! The plot of a family: error against cost, with the front. Its colours are readable on white and on black.
 
+use crate::family::{Axis, Family};
 use crate::summary::Summary;
-use alberti_trade::families::{Axis, Family};
 use plotters::prelude::*;
 use std::error::Error;
 use std::path::Path;
@@ -19,7 +19,7 @@ const NOTHING: [f64; 2] = [1e-5, 1e-4];
 ///
 /// # Errors
 /// The file cannot be written.
-pub(crate) fn draw(family: &Family, summaries: &[Summary], path: &Path) -> Result<(), Box<dyn Error>> {
+pub fn draw(family: &Family, summaries: &[Summary], path: &Path) -> Result<(), Box<dyn Error>> {
     let (name, least) = match family.axis {
         Axis::Texels => ("error, texels (99.9 % of pixels, mean of scenes)", NOTHING[0]),
         Axis::Flip => ("error, mean FLIP of the scenes", NOTHING[1]),

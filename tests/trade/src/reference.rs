@@ -1,19 +1,19 @@
 //! The right pictures: by rays in `f64`.
 
+use crate::row::pixels;
+use crate::scenes::Scene;
 use alberti_app::options::{Filter, RenderOptions};
 use alberti_oracle::ideal::{Seen, render_ideal, see_ideal};
 use alberti_oracle::scene as oracle;
 use alberti_tests::reference::with_scene;
-use alberti_trade::frame::pixels;
-use alberti_trade::scenes::Scene;
 
 /// The picture of a ray through each pixel's centre, with the nearest texel.
-pub(crate) fn by_rays(scene: &Scene, size: [u32; 2]) -> Vec<[u8; 4]> {
+pub fn by_rays(scene: &Scene, size: [u32; 2]) -> Vec<[u8; 4]> {
     drawn(scene, &scene.options(size, Filter::Nearest), |drawn| render_ideal(drawn).pixels)
 }
 
 /// The point that each of these rays meets.
-pub(crate) fn points(scene: &Scene, size: [u32; 2]) -> Vec<Option<Seen>> {
+pub fn points(scene: &Scene, size: [u32; 2]) -> Vec<Option<Seen>> {
     drawn(scene, &scene.options(size, Filter::Nearest), see_ideal)
 }
 
@@ -21,7 +21,7 @@ pub(crate) fn points(scene: &Scene, size: [u32; 2]) -> Vec<Option<Seen>> {
 const ALONG: u32 = 8;
 
 /// The mean light of 64 rays a pixel, with a bilinear filter at each.
-pub(crate) fn by_area(scene: &Scene, size: [u32; 2]) -> Vec<[u8; 4]> {
+pub fn by_area(scene: &Scene, size: [u32; 2]) -> Vec<[u8; 4]> {
     let [width, height] = size.map(|side| side * ALONG);
     let options = RenderOptions { width, height, ..scene.options(size, Filter::Bilinear) };
     let fine = drawn(scene, &options, |drawn| render_ideal(drawn).pixels);

@@ -1,7 +1,24 @@
 //! The rows of the trade: a policy of a family on a scene, and how it is judged.
 
-use crate::frame::{Frame, Places, pixels};
 use crate::scenes::Scene;
+
+/// Draws into the words of a picture: clears colour and depth, transforms all vertices, draws all triangles.
+pub type Frame = Box<dyn FnMut(&mut [u32])>;
+
+/// A triangle's number and texture coordinates at each pixel, by a policy.
+pub type Places = Vec<Option<(u32, [f32; 2])>>;
+
+/// The pixels of a picture of this size.
+#[must_use]
+pub fn pixels([width, height]: [u32; 2]) -> usize {
+    width as usize * height as usize
+}
+
+/// The words of a picture as bytes.
+#[must_use]
+pub fn bytes(words: &[u32]) -> Vec<[u8; 4]> {
+    words.iter().map(|word| word.to_ne_bytes()).collect()
+}
 
 /// What the picture of a row is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

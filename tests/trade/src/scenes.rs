@@ -209,11 +209,7 @@ fn share(k: usize, of: u16) -> f32 {
 }
 
 /// A grid of cells, s to the right and t upwards as seen from the front, with so many repeats of a texture.
-pub(crate) fn sheet(
-    [columns, rows]: [u16; 2],
-    at: impl Fn(f32, f32) -> [f32; 3],
-    repeats: [f32; 2],
-) -> Model {
+pub fn sheet([columns, rows]: [u16; 2], at: impl Fn(f32, f32) -> [f32; 3], repeats: [f32; 2]) -> Model {
     let across = u32::from(columns) + 1;
     let corners = (0..=rows).flat_map(|j| (0..=columns).map(move |i| (i, j)));
     let vertex = |(i, j): (u16, u16)| {

@@ -1,39 +1,39 @@
 //! A family in short: for each policy its cost and its errors over all scenes, and which of them nothing beats.
 
 use crate::errors::Texels;
+use crate::family::{Axis, Family};
 use crate::table::Line;
-use alberti_trade::families::{Axis, Family};
 
 /// A policy over all scenes of its family.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Summary {
+pub struct Summary {
     /// The policy.
-    pub(crate) policy: String,
+    pub policy: String,
     /// The mean of its instructions as multiples of the reference's, where they were counted.
-    pub(crate) instructions: Option<f64>,
+    pub instructions: Option<f64>,
     /// The least, the median and the greatest of its times as multiples of the reference's.
-    pub(crate) time: Option<[f64; 3]>,
+    pub time: Option<[f64; 3]>,
     /// Errors of texture coordinates in texels: the geometric mean of the scenes, of the largest but for one in a
     /// thousand; and the largest of any scene.
-    pub(crate) texels: Option<[f64; 2]>,
+    pub texels: Option<[f64; 2]>,
     /// The same of bytes of the picture.
-    pub(crate) bytes: [u8; 2],
+    pub bytes: [u8; 2],
     /// The worst PSNR of any scene, in dB.
-    pub(crate) psnr: f64,
+    pub psnr: f64,
     /// The mean FLIP of the scenes, and the worst.
-    pub(crate) flip: [f64; 2],
+    pub flip: [f64; 2],
     /// Whether no other policy of the family is at once as cheap and as right, and better in one of the two.
-    pub(crate) front: bool,
+    pub front: bool,
 }
 
 impl Summary {
     /// The cost that plots and fronts go by: instructions, or else the time.
-    pub(crate) fn cost(&self) -> f64 {
+    pub fn cost(&self) -> f64 {
         self.instructions.or(self.time.map(|[_, median, _]| median)).unwrap_or(1.0)
     }
 
     /// The error that they go by.
-    pub(crate) fn error(&self, axis: Axis) -> f64 {
+    pub fn error(&self, axis: Axis) -> f64 {
         match axis {
             Axis::Texels => self.texels.map_or(0.0, |[mean, _]| mean),
             Axis::Flip => self.flip[0],
@@ -42,7 +42,7 @@ impl Summary {
 }
 
 /// The summaries of a family, in the order of its policies.
-pub(crate) fn summaries(family: &Family, lines: &[Line]) -> Vec<Summary> {
+pub fn summaries(family: &Family, lines: &[Line]) -> Vec<Summary> {
     let lines: Vec<&Line> = lines.iter().filter(|line| line.family == family.name).collect();
     let mut policies: Vec<&str> = vec![];
     for line in &lines {

@@ -6,21 +6,21 @@ use std::fmt::Write as _;
 
 /// A line of the table.
 #[derive(Clone, Debug)]
-pub(crate) struct Line {
+pub struct Line {
     /// The family.
-    pub(crate) family: &'static str,
+    pub family: &'static str,
     /// The scene.
-    pub(crate) scene: &'static str,
+    pub scene: &'static str,
     /// The policy.
-    pub(crate) policy: String,
+    pub policy: String,
     /// Whether the others of its scene are measured by this one.
-    pub(crate) reference: bool,
+    pub reference: bool,
     /// Its errors.
-    pub(crate) errors: Errors,
+    pub errors: Errors,
     /// The instructions of a frame, where they were counted.
-    pub(crate) instructions: Option<u64>,
+    pub instructions: Option<u64>,
     /// The time of a frame, where it was taken.
-    pub(crate) time: Option<Time>,
+    pub time: Option<Time>,
 }
 
 /// The columns: names, then errors, the instructions, and what does not repeat.
@@ -31,7 +31,7 @@ const COLUMNS: &str = "family,scene,policy,reference,texels_largest,texels_999,b
 const ERRORS: [&str; 5] = ["texels_largest", "texels_999", "byte_largest", "byte_999", "flip"];
 
 /// The table as comma-separated values, with a heading.
-pub(crate) fn csv(lines: &[Line]) -> String {
+pub fn csv(lines: &[Line]) -> String {
     let mut text = format!("{COLUMNS}\n");
     for line in lines {
         let picture = line.errors.picture;
@@ -87,7 +87,7 @@ fn fields(line: &str) -> Vec<String> {
 
 /// What is worse in `found` than in the table that is committed: an error or, if they can be compared, the
 /// instructions, by more than a fiftieth; a row that is missing or new. A line for each, with the row's name.
-pub(crate) fn worse(found: &str, committed: &str, instructions: bool) -> Vec<String> {
+pub fn worse(found: &str, committed: &str, instructions: bool) -> Vec<String> {
     let columns: Vec<&str> = COLUMNS.split(',').collect();
     let index = |name: &str| columns.iter().position(|column| *column == name).unwrap_or(usize::MAX);
     let name = |fields: &[String]| fields.iter().take(3).cloned().collect::<Vec<_>>().join("/");

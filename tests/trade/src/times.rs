@@ -1,6 +1,6 @@
 //! Times of frames beside that of a reference, taken in turns so that a machine's moods fall on all alike.
 
-use alberti_trade::row::Row;
+use crate::row::Row;
 use std::time::{Duration, Instant};
 
 /// Turns of all rows.
@@ -10,18 +10,18 @@ const LEAST: Duration = Duration::from_millis(3);
 
 /// A frame's time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Time {
+pub struct Time {
     /// The least of all turns, in milliseconds.
-    pub(crate) least: f64,
+    pub least: f64,
     /// Multiples of the reference's time in the same turn: the lower quartile, the median, the upper quartile.
-    pub(crate) ratio: [f64; 3],
+    pub ratio: [f64; 3],
 }
 
 /// Times rows of one scene, of which one is the reference.
 ///
 /// # Panics
 /// Without a reference.
-pub(crate) fn times(rows: &mut [Row]) -> Vec<Time> {
+pub fn times(rows: &mut [Row]) -> Vec<Time> {
     let count = rows.len();
     let reference = rows.iter().position(|row| row.reference).expect("a reference");
     let mut pixels = vec![0; rows[0].pixels()];

@@ -12,7 +12,7 @@ const LARGER: usize = 4;
 const GAP: usize = 8;
 
 /// The place with the most FLIP: its first column and row.
-pub(crate) fn place(judged: &Judged) -> [usize; 2] {
+pub fn place(judged: &Judged) -> [usize; 2] {
     let [width, height] = judged.comparison.measures.size.map(|side| side as usize);
     let flip = &judged.comparison.flip;
     let sum = |[left, top]: [usize; 2]| {
@@ -35,7 +35,7 @@ pub(crate) fn place(judged: &Judged) -> [usize; 2] {
 ///
 /// # Errors
 /// The file cannot be written.
-pub(crate) fn write(judged: &Judged, path: &Path) -> Result<(), image::ImageError> {
+pub fn write(judged: &Judged, path: &Path) -> Result<(), image::ImageError> {
     let [left, top] = place(judged);
     let [columns, rows] = PLACE.map(|side| side * LARGER);
     let width = 2 * columns + GAP;

@@ -1,10 +1,7 @@
 //! Light by fragment or by vertex, and relief.
 
 use super::perspective::with;
-use super::{Axis, Family};
-use crate::frame::{Frame, position, uv, wide};
-use crate::row::{Judge, Row};
-use crate::scenes::{SIDE, Scene, scene};
+use crate::frame::{position, uv, wide};
 use alberti::glam::{Vec2, Vec3};
 use alberti::shaders::material::{
     BlinnPhong, Bump, Color, Directional, Framed, Gouraud, Lambert, Layer, Lighting, Material, Parallax,
@@ -14,6 +11,10 @@ use alberti::texture::surface::{LimitedParallax, OffsetParallax, ParallaxOcclusi
 use alberti::texture::{Bilinear, PowerOfTwo, Repeat, Sampler, Texture, format::L8, format::Rgba8888};
 use alberti::{Exact, FragmentStage, Point3, Rgba8, Varying, Vector3};
 use alberti_app::scene::{Model, Part, Vertex};
+use alberti_trade::family::{Axis, Family};
+use alberti_trade::row::Frame;
+use alberti_trade::row::{Judge, Row};
+use alberti_trade::scenes::{SIDE, Scene, scene};
 use std::sync::LazyLock;
 
 /// Where light is found.
@@ -25,7 +26,6 @@ Highlights need fragments: at vertices they are found only where a vertex happen
 light that is scattered alone, vertices suffice if triangles are small. `Phong` with a quarter of the exponent is like
 `BlinnPhong`. The right picture is that of `BlinnPhong` by fragment.",
     axis: Axis::Flip,
-    rows: light,
 };
 
 /// How a surface gets its depth.
@@ -38,7 +38,6 @@ alone, for relief that is shallow or seen from the front. `LimitedParallax` move
 `ParallaxOcclusion(8)` is four fifths cheaper than the mesh, and comes nearest to it; more layers are for steeper views.
 `SteepParallax` shows its layers and costs more: take the other.",
     axis: Axis::Flip,
-    rows: relief,
 };
 
 const SHININESS: u32 = 40;
@@ -73,7 +72,7 @@ fn placed(v: &Vertex) -> (Vec3, Placed) {
     (position(v), Placed { position: position(v), normal: Vec3::from_array(v.normal), uv: uv(v) })
 }
 
-fn light(family: &'static str, size: [u32; 2]) -> Vec<Row> {
+pub(super) fn light(family: &'static str, size: [u32; 2]) -> Vec<Row> {
     fn by_fragment(
         (scene, size): (&'static Scene, [u32; 2]),
         reflectance: impl Reflectance + 'static,
@@ -118,7 +117,7 @@ static DISPLACED: LazyLock<Scene> = LazyLock::new(|| {
     let flat = scene("deep-relief");
     let relief = heights(flat);
     let at = |s: f32, t: f32| [3.0 * (s - 0.5), 2.2 * (t - 0.5), 0.0];
-    let mut mesh = crate::scenes::sheet([384, 282], at, [3.0, 2.2]);
+    let mut mesh = alberti_trade::scenes::sheet([384, 282], at, [3.0, 2.2]);
     let step = Vec2::splat(1.0 / 256.0);
     for vertex in &mut mesh.vertices {
         let uv = Vec2::from_array(vertex.uv);
@@ -136,7 +135,7 @@ static DISPLACED: LazyLock<Scene> = LazyLock::new(|| {
     }
 });
 
-fn relief(family: &'static str, size: [u32; 2]) -> Vec<Row> {
+pub(super) fn relief(family: &'static str, size: [u32; 2]) -> Vec<Row> {
     fn framed(v: &Vertex) -> (Vec3, Framed) {
         (position(v), Framed { position: position(v), axes: [Vec3::X, Vec3::Y, Vec3::Z], uv: uv(v) })
     }

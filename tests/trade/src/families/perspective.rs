@@ -1,12 +1,12 @@
 //! From vertices to pixels: perspective, and the numbers in which it is computed.
 
-use super::{Axis, Family};
 use crate::frame::{With, mapped, narrow, places, wide};
-use crate::row::{Judge, Row};
-use crate::scenes::{SIDE, Scene, scene};
 use alberti::shaders::Unlit;
 use alberti::texture::{Nearest, PowerOfTwo, Repeat, Sampler, Texture, format::Rgba8888};
 use alberti::{Affine, Exact, F32Reversed, FixedPoint, Interpolation, Lines, Planes, Spans16, Sub8};
+use alberti_trade::family::{Axis, Family};
+use alberti_trade::row::{Judge, Row};
+use alberti_trade::scenes::{SIDE, Scene, scene};
 
 /// Which way attributes take across a triangle.
 pub(super) const PERSPECTIVE: Family = Family {
@@ -20,7 +20,6 @@ texel, on a floor by the whole texture. `Lines::bounded` names the texels that i
 far as they go. Runs of a fixed length, `Spans16` and its kin, promise nothing: steep perspective breaks them. All are for
 cores on which a division is slow; what they cost there is told by [kernel.md](kernel.md).",
     axis: Axis::Texels,
-    rows: perspective,
 };
 
 /// In which numbers.
@@ -33,7 +32,6 @@ On one sample at a time, as a core without vector registers works. Where there a
 Its steps are 2^-16, so a texture that is repeated hundreds of times across a triangle, as on the floor, is tens of texels
 off at the horizon. Divide such triangles.",
     axis: Axis::Texels,
-    rows: numbers,
 };
 
 const SCENES: [&str; 5] = ["near-flat", "floor", "close-up", "dense-mesh", "layers"];
@@ -85,7 +83,7 @@ fn bounded(scene: &Scene, texels: f32) -> Lines {
     Lines::bounded_texels(texels, u16::try_from(width.max(height)).unwrap_or(u16::MAX))
 }
 
-fn perspective(family: &'static str, size: [u32; 2]) -> Vec<Row> {
+pub(super) fn perspective(family: &'static str, size: [u32; 2]) -> Vec<Row> {
     let rows = SCENES.map(scene).map(|scene| {
         let lines = |name: &str, lines: Lines| float(family, name, (scene, size), lines, lines);
         [
@@ -104,7 +102,7 @@ fn perspective(family: &'static str, size: [u32; 2]) -> Vec<Row> {
     rows.into_iter().flatten().collect()
 }
 
-fn numbers(family: &'static str, size: [u32; 2]) -> Vec<Row> {
+pub(super) fn numbers(family: &'static str, size: [u32; 2]) -> Vec<Row> {
     let rows = SCENES.map(scene).map(|scene| {
         let sixteenth = bounded(scene, 1.0 / 16.0);
         [

@@ -1,14 +1,14 @@
 //! What is stored: positions in subpixels, and depths.
 
 use super::perspective::nearest;
-use super::{Axis, Family};
 use crate::frame::{With, mapped, narrow, places, wide};
-use crate::row::{Judge, Row};
-use crate::scenes::{Scene, scene};
 use alberti::{
     D16, D24, D32, DepthFormat, Exact, F32, F32Reversed, FixedPoint, Lines, NoDepth, Spans16, Sub4, Sub8,
     Subpixel,
 };
+use alberti_trade::family::{Axis, Family};
+use alberti_trade::row::{Judge, Row};
+use alberti_trade::scenes::{Scene, scene};
 
 /// The grid of vertices.
 pub(super) const SUBPIXELS: Family = Family {
@@ -18,7 +18,6 @@ pub(super) const SUBPIXELS: Family = Family {
 Take `Sub8` unless a small core draws small triangles in fixed point, which `Sub4` was made for. The grid moves an edge
 by up to 1/32 pixel then, and a texture in fixed point with it; in floats only small triangles move their texture.",
     axis: Axis::Texels,
-    rows: subpixels,
 };
 
 /// The depth buffer.
@@ -31,10 +30,9 @@ half the memory; between these planes, A = 0.02 and B = 2000, surfaces that cros
 tells which format a pair of planes needs. On vector registers integers cost two thirds more, since they are rounded
 correctly; in fixed point they are a shift. Without a depth buffer the order of the triangles decides.",
     axis: Axis::Flip,
-    rows: depths,
 };
 
-fn subpixels(family: &'static str, size: [u32; 2]) -> Vec<Row> {
+pub(super) fn subpixels(family: &'static str, size: [u32; 2]) -> Vec<Row> {
     let float = |name, scene: &'static Scene, subpixel: Subpixel| {
         let with = With { interpolation: Exact, depth: F32Reversed, subpixel, size };
         let frame = wide(scene, mapped, nearest(scene), with);
@@ -58,7 +56,7 @@ fn subpixels(family: &'static str, size: [u32; 2]) -> Vec<Row> {
     rows.into_iter().flatten().collect()
 }
 
-fn depths(family: &'static str, size: [u32; 2]) -> Vec<Row> {
+pub(super) fn depths(family: &'static str, size: [u32; 2]) -> Vec<Row> {
     fn row(
         family: &'static str,
         name: &str,

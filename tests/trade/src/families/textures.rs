@@ -1,10 +1,7 @@
 //! Reading textures: filters, derivatives for levels of detail, and the way from coordinates to texels.
 
 use super::perspective::{TEXELS, nearest, with};
-use super::{Axis, Family};
-use crate::frame::{Frame, mapped, wide};
-use crate::row::{Judge, Row};
-use crate::scenes::{Scene, scene};
+use crate::frame::{mapped, wide};
 use alberti::glam::Vec2;
 use alberti::raster::{PerPixel, PerRun, PerTriangle};
 use alberti::shaders::{Differentiated, Unlit};
@@ -13,6 +10,10 @@ use alberti::texture::{
     PowerOfTwo, Repeat, Texture, Trilinear, format::Rgba8888,
 };
 use alberti::{Exact, FragmentStage, Rgba8};
+use alberti_trade::family::{Axis, Family};
+use alberti_trade::row::Frame;
+use alberti_trade::row::{Judge, Row};
+use alberti_trade::scenes::{Scene, scene};
 
 /// How a texel is made of several.
 pub(super) const FILTERS: Family = Family {
@@ -24,7 +25,6 @@ The right picture here is the mean light of 64 rays a pixel, which a filter can 
 shows where levels change. `Anisotropic(2)` or `(4)` are sharper on what is seen at a flat angle. More probes gain little
 here: they mean bytes, not light, and the farther they reach, the more that shows as a darker tone.",
     axis: Axis::Flip,
-    rows: filters,
 };
 
 /// Where levels of detail come from.
@@ -36,7 +36,6 @@ pub(super) const DERIVATIVES: Family = Family {
 screen: on a floor of two triangles one level for all is wrong nearly everywhere. `PerRun` lies between the two. Without
 a mip map (`BaseLevel`) the distance shimmers. The right picture is that of `PerPixel`.",
     axis: Axis::Flip,
-    rows: derivatives,
 };
 
 /// How coordinates come to texels.
@@ -47,7 +46,6 @@ pub(super) const ADDRESSES: Family = Family {
 All show the same; that is tested bit by bit. Give textures sides that are powers of two and say so
 (`Texture::power_of_two`). `Known` sides are for textures that are part of a program on a small core.",
     axis: Axis::Flip,
-    rows: addresses,
 };
 
 /// A scene and the size of its picture.
@@ -72,7 +70,7 @@ fn base(scene: &'static Scene) -> Texture<'static, Rgba8888, PowerOfTwo> {
     texture.power_of_two().expect("sides that are powers of two")
 }
 
-fn filters(family: &'static str, size: [u32; 2]) -> Vec<Row> {
+pub(super) fn filters(family: &'static str, size: [u32; 2]) -> Vec<Row> {
     fn mip(family: &'static str, name: &str, (scene, size): Sized, filter: impl MipFilter + 'static) -> Row {
         Row::new(
             family,
@@ -117,7 +115,7 @@ fn filters(family: &'static str, size: [u32; 2]) -> Vec<Row> {
     rows.into_iter().flatten().collect()
 }
 
-fn derivatives(family: &'static str, size: [u32; 2]) -> Vec<Row> {
+pub(super) fn derivatives(family: &'static str, size: [u32; 2]) -> Vec<Row> {
     let rows = ["minified", "floor", "dense-mesh"].map(scene).map(|scene| {
         let of = |name: &str, frame| Row::new(family, name, scene, Judge::Reference, frame);
         let map = Unlit(levels(scene).sampler(Trilinear, Repeat));
@@ -134,7 +132,7 @@ fn derivatives(family: &'static str, size: [u32; 2]) -> Vec<Row> {
     rows.into_iter().flatten().collect()
 }
 
-fn addresses(family: &'static str, size: [u32; 2]) -> Vec<Row> {
+pub(super) fn addresses(family: &'static str, size: [u32; 2]) -> Vec<Row> {
     // Where coordinates are in 0..1 all modes give one picture.
     let rows = ["close-up"].map(scene).map(|scene| {
         let of = |name: &str, frame| Row::new(family, name, scene, Judge::Rays, frame);
