@@ -143,7 +143,7 @@ const CHORES: &[Chore] = &[
     },
     Chore {
         name: "extremes",
-        arguments: "[--small] [--shard K/N] ...",
+        arguments: "[--small | --check | ...]",
         about: "hold every policy to its bounds at the ends of its parameters, and write docs/extremes.md (--help: more)",
         run: extremes::measure,
     },

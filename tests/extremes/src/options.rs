@@ -42,6 +42,7 @@ usage: cargo xtask extremes [--small] [--seed S]                       all, here
        cargo xtask extremes [--small] [--seed S] --shard K/N [--out D] one shard of N, to a part in D
        cargo xtask extremes merge D [--compare]                        the parts in D, put together
        cargo xtask extremes replay ROW BLOCK:INDEX [--seed S]          one sample, in words
+       cargo xtask extremes --check                                    --small in four shards, by GNU parallel
 
   --small     the size for a check: seconds; writes no page, but compares one shard with four
   --shard     K counts from 1; without it, that of a Slurm array (SLURM_ARRAY_TASK_ID, _COUNT, _MIN, _STEP) or of a

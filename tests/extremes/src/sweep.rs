@@ -111,14 +111,15 @@ impl Sweep {
         rows ^ hash(&format!("{blocks} {samples} {steps}"))
     }
 
-    /// The results of a shard: of every N-th block of a row.
+    /// The results of a shard: of the blocks that fall to it, as by lot, so that no shard has all the dear ones.
     #[must_use]
     pub fn shard(&self, shard: Shard) -> Results {
         let blocks = self.effort.blocks;
+        let mine = |unit: u64| Rng::new(unit).u64() % shard.of == shard.number - 1;
         let row = |(number, row): (usize, Row<'_>)| {
-            let mine =
-                (0..blocks).filter(|block| (number as u64 * blocks + block) % shard.of == shard.number - 1);
-            mine.map(|block| row.block((self.seed, self.effort), block, &mut Note::default(), |_, _, _| ()))
+            (0..blocks)
+                .filter(|block| mine(number as u64 * blocks + block))
+                .map(|block| row.block((self.seed, self.effort), block, &mut Note::default(), |_, _, _| ()))
                 .fold(Measured::default(), Measured::merge)
         };
         self.rows().enumerate().map(row).collect()

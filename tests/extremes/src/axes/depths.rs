@@ -134,8 +134,8 @@ pub(super) fn gaps() -> Axis {
         about: "The longest stretch of depths that are stored alike, in the far half of the view, in per cent of the \
                 distance of their end. The bound is that of `DepthMap::resolution`: twice its dz, or four times where that is near \
                 the spacing of `f32`; none is stated where a step is more than a quarter of the distance, or one of \
-                the planes shares it. This is where forward maps break, `F32` no later than `D24`. `F32Reversed` does \
-                not see the ratio.",
+                the planes shares it. This is where forward maps break, and `D32` and `F32` no later than `D24`, as all \
+                three come from a zs in `f32`. `F32Reversed` does not see the ratio.",
         parameter: "B/A",
         points: ratios(),
         unit: "% of the distance",

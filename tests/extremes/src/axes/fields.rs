@@ -84,7 +84,7 @@ pub(super) fn distances() -> Axis {
         name: "distances",
         title: "Distances from the world's origin",
         about: "A mesh so many units from the origin, and a camera 10 units from it, in 1024 pixels. 4 million units \
-                away neighbouring `f32` are 0.25 apart, which is 13 pixels here. A frame of its own keeps a mesh in \
+                away neighbouring `f32` are 0.25 apart, which is 24 pixels here. A frame of its own keeps a mesh in \
                 shape, but where it stands is rounded all the same, as the camera is. The last row is the rounding of \
                 the coordinates alone, all else being exact. The remedy is known: subtract the camera's place from \
                 the frames' origins in `f64`, and let the camera stand at the origin, which is the first column.",

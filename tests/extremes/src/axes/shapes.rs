@@ -199,7 +199,7 @@ pub(super) fn targets() -> Axis {
         .collect();
     series.insert(
         1,
-        Series::new("Exact, vertices moved by snapping", move |side, rng, note| {
+        Series::new("Exact before snapping", move |side, rng, note| {
             let case = moved(side, rng);
             note.take(|| format!("{case:?}"));
             case.texels(Policy::Exact, (side as i64).max(256))
