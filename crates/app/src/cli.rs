@@ -12,6 +12,7 @@ use crate::show::Show;
 
 pub mod advise;
 pub mod compare;
+mod explain;
 pub(crate) mod partners;
 pub mod run;
 mod staged;
@@ -46,6 +47,13 @@ pub enum Command {
     /// not matter which picture comes first.
     #[command(after_help = compare::HELP)]
     Compare(compare::CompareArgs),
+    /// Explain a pixel: the journey from the triangle that is seen there to the word that is stored.
+    ///
+    /// All options of `render` hold, but that no picture is written. Each step is printed with its numbers, and with
+    /// the name of its relation in docs/theory.md; what is interpolated is set beside the same in 64 bits. In the end
+    /// the colour is compared with that of the picture.
+    #[command(after_help = explain::EXAMPLES)]
+    Explain(Box<explain::ExplainArgs>),
 }
 
 const EXAMPLES: &str = "\

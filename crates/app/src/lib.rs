@@ -5,6 +5,7 @@ pub mod cli;
 pub mod colormap;
 pub mod draw;
 pub mod error;
+pub mod explain;
 pub mod load;
 pub mod measure;
 pub mod options;

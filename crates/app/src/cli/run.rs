@@ -9,7 +9,7 @@ use clap::error::{ContextKind, ErrorKind};
 use clap::{ArgMatches, CommandFactory as _};
 
 use super::staged::{Request, Staged, warn};
-use super::{Cli, StatsFormat, advise, compare};
+use super::{Cli, StatsFormat, advise, compare, explain};
 use crate::error::{Error, quote};
 use crate::options::RenderOptions;
 use crate::output::progress::Progress;
@@ -23,7 +23,7 @@ pub const FAILURE: u8 = 2;
 /// Runs the command with these arguments, the program's name first. Messages go to standard error; the status is
 /// 0, [`compare::EXCEEDED`] or [`FAILURE`].
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    let mut command = Cli::command();
+    let mut command = Cli::command().mut_subcommand("explain", explain::without_pictures);
     let matches = match command.try_get_matches_from_mut(arguments) {
         Ok(matches) => matches,
         Err(error) => return usage(&error),
@@ -31,6 +31,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let result = match matches.subcommand() {
         Some(("advise", scene)) => advise::run(scene),
         Some(("compare", pictures)) => compare::run(pictures),
+        Some(("explain", pixel)) => explain::run(pixel).map(|()| 0),
         Some((_, render)) => draw(render).map(|()| 0),
         None => print(&command.render_help().to_string()).map(|()| 0),
     };

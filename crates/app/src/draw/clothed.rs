@@ -21,12 +21,12 @@ pub(super) struct Clothed<'a> {
 
 impl Clothed<'_> {
     /// The place of a vertex, and its attributes but for those of the projector's image.
-    fn vertex(&self, v: &Vertex) -> (Point3<Object>, Framed) {
+    pub(super) fn vertex(&self, v: &Vertex) -> (Point3<Object>, Framed) {
         (position(v), framed(self, v))
     }
 
     /// Its place on the projector's image.
-    fn on_image(&self, v: &Vertex) -> Homogeneous {
+    pub(super) fn on_image(&self, v: &Vertex) -> Homogeneous {
         // The model stands in the world where it was made.
         let world = Point3::new(Vec3::from_array(v.position));
         self.projector.map_or(Homogeneous::default(), |projector| projector.project(world))

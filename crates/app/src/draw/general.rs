@@ -81,9 +81,9 @@ impl FragmentStage<Framed> for Surface<'_> {
 
 /// A surface with a projector's image on it, if there is one.
 #[derive(Clone, Copy)]
-struct Shown<'a> {
-    surface: Surface<'a>,
-    image: Option<Sampler<'a, Rgba8888, AnyFilter, Clamp>>,
+pub(super) struct Shown<'a> {
+    pub(super) surface: Surface<'a>,
+    pub(super) image: Option<Sampler<'a, Rgba8888, AnyFilter, Clamp>>,
 }
 
 impl FragmentStage<Attributes> for Shown<'_> {
@@ -178,7 +178,7 @@ impl<'a> Drawing<'a> {
     }
 
     /// The longest side of the model's textures, or, without any, the steps of a colour.
-    fn largest_side(&self) -> u16 {
+    pub(crate) fn largest_side(&self) -> u16 {
         let sides = self.textures.iter().map(|t| t.width().max(t.height()));
         sides.max().and_then(|side| side.try_into().ok()).unwrap_or(255)
     }

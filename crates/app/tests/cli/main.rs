@@ -3,6 +3,7 @@
 mod advise;
 mod compare;
 mod errors;
+mod explain;
 mod policies;
 mod projection;
 mod scenes;
