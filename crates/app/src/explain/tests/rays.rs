@@ -182,8 +182,8 @@ fn corners(model: &Model, triangle: [u32; 3]) -> [V; 3] {
     triangle.map(|index| model.vertices[index as usize].position.map(f64::from))
 }
 
-/// The distance, in pixels, from a pixel's centre to the sphere of radius 1.5 about the origin, as perspective shows it.
-/// It is that of the nearest of places half a pixel apart.
+/// The distance, in pixels, from a pixel's centre to the sphere of radius 1.5 about the origin, as it is seen. It is
+/// that of the nearest of places half a pixel apart.
 pub(super) fn to_outline(camera: &Camera, pixel: [u32; 2]) -> f64 {
     let options = super::options(crate::options::Interpolation::Exact);
     let misses = |place: [f64; 2]| {
