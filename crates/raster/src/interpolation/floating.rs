@@ -10,22 +10,22 @@ use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Mode, Varying};
 use core::fmt;
 
-/// A triangle's depth, q and components; `BENT` where some have parabolas.
+/// A triangle's depth, q and components, and their parabolas where `BENT` is 1 and not 0.
 #[derive(Clone, Copy)]
-pub struct FloatingLines<L: Lanes, V: Varying, const BENT: bool> {
+pub struct FloatingLines<L: Lanes, V: Varying, const BENT: usize> {
     lanes: L,
     q: [f32; 3],
     zs: FloatComponent,
     /// With perspective the factors of hyperbolic ones are their values.
     components: V::Of<FloatComponent>,
-    bends: Bends<V>,
+    bends: [Bends<V>; BENT],
 }
 
-impl<L: Floating, V: Varying, const BENT: bool> FloatingLines<L, V, BENT> {
+impl<L: Floating, V: Varying, const BENT: usize> FloatingLines<L, V, BENT> {
     #[inline(always)]
     pub(crate) fn new(lanes: L, runs: impl Runs, triangle: &Oriented<'_, V>) -> Self {
         let (slant, perspective) = (Slant::new(triangle), runs.perspective());
-        let (bends, values) = if BENT && runs.course() == Course::Parabola {
+        let (bends, values) = if BENT > 0 && runs.course() == Course::Parabola {
             Bends::new(&slant, triangle)
         } else {
             (Bends::none(triangle), triangle.values())
@@ -41,7 +41,7 @@ impl<L: Floating, V: Varying, const BENT: bool> FloatingLines<L, V, BENT> {
                 Mode::Hyperbolic | Mode::Linear => slant.linear(values),
                 Mode::Flat => FloatComponent::flat(values),
             }),
-            bends,
+            bends: [bends; BENT],
         }
     }
 }
@@ -52,17 +52,17 @@ pub struct FloatingEnds<V: Varying>(V::Of<[f32; 2]>);
 
 /// The place of samples in a run, and the numbers that are linear along it.
 #[derive(Clone, Copy)]
-pub struct FloatingCursor<L: Lanes, V: Varying> {
+pub struct FloatingCursor<L: Lanes, V: Varying, const BENT: usize> {
     along: L::Number,
     zs: Ramp<L>,
     /// With the factors of the square of the columns.
-    components: V::Of<(Ramp<L>, L::Number)>,
+    components: V::Of<(Ramp<L>, [L::Number; BENT])>,
 }
 
-impl<L: Floating, V: Varying, const BENT: bool> LineNumbers<L, V> for FloatingLines<L, V, BENT> {
+impl<L: Floating, V: Varying, const BENT: usize> LineNumbers<L, V> for FloatingLines<L, V, BENT> {
     type Row = ();
     type Ends = FloatingEnds<V>;
-    type Cursor = FloatingCursor<L, V>;
+    type Cursor = FloatingCursor<L, V, BENT>;
 
     #[inline(always)]
     fn row<I: EdgeInt>(&self, _: bool, _: &Row<'_, I>) {}
@@ -112,7 +112,7 @@ impl<L: Floating, V: Varying, const BENT: bool> LineNumbers<L, V> for FloatingLi
         (): &(),
         run: &Run<FloatingEnds<V>>,
         [_, aligned]: [i32; 2],
-    ) -> FloatingCursor<L, V> {
+    ) -> FloatingCursor<L, V, BENT> {
         let [first, last] = run.columns;
         let (lanes, edges) = (self.lanes, middle(row, run.columns));
         // A run of a single sample has no step.
@@ -125,14 +125,14 @@ impl<L: Floating, V: Varying, const BENT: bool> LineNumbers<L, V> for FloatingLi
                 [component.plane.at(edges), component.plane.across]
             }
         });
-        let straight = |[middle, step]: [f32; 2]| (Ramp::new(lanes, middle, step), lanes.splat(0.0));
+        let straight = |[middle, step]: [f32; 2]| (Ramp::new(lanes, middle, step), [lanes.splat(0.0); BENT]);
         FloatingCursor {
             along: along(lanes, run.columns, aligned),
             zs: Ramp::of(lanes, &self.zs.plane, edges),
-            components: if BENT && course == Course::Parabola {
-                let pairs = V::zip(&lines, &self.bends.at(edges));
+            components: if let ([bends, ..], Course::Parabola) = (&self.bends[..], course) {
+                let pairs = V::zip(&lines, &bends.at(edges));
                 V::map(&pairs, &|([middle, step], [less, flatter, bend]): ([f32; 2], [f32; 3])| {
-                    (Ramp::new(lanes, middle - less, step - flatter), lanes.splat(bend))
+                    (Ramp::new(lanes, middle - less, step - flatter), [lanes.splat(bend); BENT])
                 })
             } else {
                 V::map(&lines, &straight)
@@ -141,23 +141,25 @@ impl<L: Floating, V: Varying, const BENT: bool> LineNumbers<L, V> for FloatingLi
     }
 
     #[inline(always)]
-    fn advance(&self, cursor: FloatingCursor<L, V>) -> FloatingCursor<L, V> {
+    fn advance(&self, cursor: FloatingCursor<L, V, BENT>) -> FloatingCursor<L, V, BENT> {
         FloatingCursor { along: cursor.along + count(self.lanes), ..cursor }
     }
 
     #[inline(always)]
-    fn depth(&self, cursor: &FloatingCursor<L, V>) -> L::Number {
+    fn depth(&self, cursor: &FloatingCursor<L, V, BENT>) -> L::Number {
         self.zs.bounded(self.lanes, cursor.zs.at(cursor.along))
     }
 
     #[inline(always)]
-    fn attributes(&self, cursor: &FloatingCursor<L, V>) -> V::Of<L::Number> {
+    fn attributes(&self, cursor: &FloatingCursor<L, V, BENT>) -> V::Of<L::Number> {
         V::map_by_mode(&V::zip(&self.components, &cursor.components), &|mode, pair| {
-            let (component, (ramp, bend)): (FloatComponent, (Ramp<L>, L::Number)) = pair;
-            match mode {
-                Mode::Hyperbolic if BENT => component.bounded(self.lanes, ramp.bent(bend, cursor.along)),
-                Mode::Hyperbolic | Mode::Linear => component.bounded(self.lanes, ramp.at(cursor.along)),
-                Mode::Flat => component.constant(self.lanes),
+            let (component, (ramp, bend)): (FloatComponent, (Ramp<L>, [L::Number; BENT])) = pair;
+            match (mode, bend.first()) {
+                (Mode::Flat, _) => component.constant(self.lanes),
+                (Mode::Hyperbolic, Some(&bend)) => {
+                    component.bounded(self.lanes, ramp.bent(bend, cursor.along))
+                }
+                _ => component.bounded(self.lanes, ramp.at(cursor.along)),
             }
         })
     }
@@ -183,7 +185,7 @@ macro_rules! interpolations {
             }
 
             // Only lines whose length is a number may have a budget.
-            const CHOOSES: bool = $bent;
+            const CHOOSES: bool = $bent > 0;
 
             #[inline(always)]
             fn choose<V: Varying>(self, triangle: &Waiting<'_, V>, bits: u32) -> Option<Lines> {
@@ -201,7 +203,7 @@ macro_rules! interpolations {
         }
     )*};
 }
-interpolations!(Spans16, false Affine, false Lines, true);
+interpolations!(Spans16, 0 Affine, 0 Lines, 1);
 
 /// The length of all runs, or 1 if there is none such, see [`Interpolation::run`].
 #[inline(always)]
@@ -209,13 +211,13 @@ pub(super) fn one_run(runs: impl Runs) -> i32 {
     if runs.budget().is_some() { 1 } else { runs.length() }
 }
 
-impl<L: Lanes, V: Varying, const BENT: bool> fmt::Debug for FloatingLines<L, V, BENT> {
+impl<L: Lanes, V: Varying, const BENT: usize> fmt::Debug for FloatingLines<L, V, BENT> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("FloatingLines").finish_non_exhaustive()
     }
 }
 
-impl<L: Lanes, V: Varying> fmt::Debug for FloatingCursor<L, V> {
+impl<L: Lanes, V: Varying, const BENT: usize> fmt::Debug for FloatingCursor<L, V, BENT> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("FloatingCursor").finish_non_exhaustive()
     }

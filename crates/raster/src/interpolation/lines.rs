@@ -430,9 +430,7 @@ impl<R: Runs, N> LineTriangle<R, N> {
         } else {
             self.run(perspective, row, known, *left, [column, self.runs.length()])
         };
-        if perspective {
-            *left = Some(run.ends);
-        }
+        *left = Some(run.ends);
         let columns = Span { start: run.columns[0], end: run.next };
         (self.numbers.line(course, row, known, &run, [column, aligned]), columns)
     }
