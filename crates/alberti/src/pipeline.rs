@@ -13,12 +13,12 @@ use crate::stats::Stats;
 use crate::vertex::Slot;
 use crate::view::View;
 use crate::walk::Walk;
-use alberti_math::lanes::{Floating, Machine};
+use alberti_math::lanes::{Floating, Machine, One};
 use alberti_math::{Frame, Object, Sub8, Subpixel, World, for_lanes};
 use alberti_projection::{Perspective, Projection, Viewport};
 use alberti_raster::{
-    Bands, ColorFormat, Counters, Cull, DepthFormat, Exact, FragmentStage, Interpolation, Numbers, Paint,
-    Target,
+    Bands, ColorFormat, Corner, Counters, Cull, DepthFormat, Exact, FragmentStage, Interpolation, Numbers,
+    Paint, Target,
 };
 use core::fmt;
 
@@ -292,6 +292,23 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
         counters: &mut impl Counters,
     ) -> (Prepared<'p, 'a, M, F, P, Pr, D>, Room<'p>) {
         Prepared::new(self, size, depth, room, counters)
+    }
+
+    /// The triangles on the screen that one of the mesh's is drawn as, in a frame of this size with depths of this
+    /// format. `sink` gets it alone, the parts that clipping has left, or none of one outside the view. Which way they
+    /// face is not asked.
+    pub fn on_screen<D: DepthFormat>(
+        &self,
+        size: [u32; 2],
+        depth: D,
+        triangle: usize,
+        sink: impl FnMut([&Corner<M::Varying>; 3]),
+    ) {
+        let (Some(screen), Some(indices)) = (self.screen(size, depth), self.mesh.triangle(triangle)) else {
+            return;
+        };
+        let mut slots = [Slot::EMPTY; 16];
+        let _fate = Walk::new(One, self.mesh, screen, &mut slots).triangle(indices, sink);
     }
 
     /// The way to the screen of a frame of this size; `None` if it has no pixels.

@@ -112,18 +112,20 @@ impl<Pr: Projection> View<Pr> {
     }
 
     /// The frame that leads from the object's to the eye's coordinates, for an object that stands in `frame` in the
-    /// world, or in the world's own.
+    /// world, or in the world's own: step 1.
+    #[must_use]
     #[inline]
-    pub(crate) fn object_to_eye(&self, frame: Option<&Frame<Object, World>>) -> Frame<Object, Eye> {
+    pub fn object_to_eye(&self, frame: Option<&Frame<Object, World>>) -> Frame<Object, Eye> {
         match frame {
             Some(frame) => self.to_eye * *frame,
             None => Frame::from_mat3(self.to_eye.axes(), self.to_eye.origin()),
         }
     }
 
-    /// The projection for a viewport.
+    /// The projection for a viewport: steps 2 and 4.
+    #[must_use]
     #[inline]
-    pub(crate) fn projection(&self, viewport: &Viewport) -> Pr {
+    pub fn projection(&self, viewport: &Viewport) -> Pr {
         if self.fits { self.projection.with_aspect(viewport.aspect()) } else { self.projection }
     }
 }

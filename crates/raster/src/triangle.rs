@@ -1,9 +1,9 @@
 //! A triangle on the screen, its orientation and its box of samples.
 
 use crate::edge::FITS_I32;
-use crate::interpolation::LIMIT;
+use crate::interpolation::{LIMIT, Oriented};
 use crate::unsnapped::LARGE;
-use alberti_math::{Fixed, LOW_WORDS_ONLY, Q16, Varying, map2, map3, map4, scaled};
+use alberti_math::{Fixed, LOW_WORDS_ONLY, Q16, Subpixel, Varying, map2, map3, map4, scaled};
 use core::cell::RefCell;
 use core::fmt;
 use core::ops::Range;
@@ -135,6 +135,36 @@ impl<V: Varying> Corner<V> {
     #[inline(always)]
     pub fn moved(&self, place: [Fixed; 2], numbers: Numbers, depths: [f32; 2]) -> Self {
         Self::at(place, numbers, depths, self.components)
+    }
+
+    /// The corner as a vertex: what [`new`](Self::new) has made of one. In fixed point zs has half a step of the depth
+    /// buffer in it, components are rounded to 2^-16, and to `f32` beyond 256.
+    #[must_use]
+    pub fn vertex(&self, numbers: Numbers) -> Vertex<V> {
+        let number = |word: u32| match numbers {
+            Numbers::Float => f32::from_bits(word),
+            Numbers::Fixed { .. } => Q16::from_bits(word.cast_signed()).to_f32(),
+        };
+        let fixed = |subpixels: i32| Fixed::from_subpixels(subpixels).unwrap_or(Fixed::ZERO);
+        let [x, y] = if numbers.are_fixed() { map2(self.place, fixed) } else { self.unsnapped() };
+        #[expect(clippy::cast_precision_loss, reason = "rounding to nearest")]
+        let zs = if numbers.are_fixed() { self.zs as f32 / 2_147_483_648.0 } else { self.zs() };
+        Vertex { x, y, zs, q: self.q(), varying: V::from_components(&V::map(&self.components, &number)) }
+    }
+
+    /// The corners of a triangle as it is drawn: clockwise, from the topmost of them, of two the left one. Those of a
+    /// [large](crate::Interpolation#large-triangles) triangle have the values at their subpixels, between which all
+    /// policies interpolate. None without an area.
+    #[must_use]
+    pub fn as_drawn(corners: [&Self; 3], numbers: Numbers, subpixel: Subpixel) -> Option<[Self; 3]> {
+        let (bits, fixed) = (subpixel.bits(), numbers.are_fixed());
+        let area = doubled_area(&map3(corners, |corner| corner.place(fixed)));
+        if area == 0 {
+            return None;
+        }
+        let oriented = Oriented::new(corners, area, bits, fixed);
+        let is_large = !fixed && Bounds::of(&oriented.corners).is_large(bits);
+        Some(oriented.unsnapped(is_large).unwrap_or(map3(oriented.vertices, |corner| *corner)))
     }
 
     /// zs where numbers are `f32`.

@@ -78,14 +78,29 @@ impl<M: MipFilter> Anisotropic<M> {
     }
 }
 
-/// Places along an axis, of several pixels, all in one level of detail.
-struct Probes<L: Lanes> {
-    log2_count: L::U32,
-    axis: [L::Number; 2],
-    lambda: L::Number,
+/// Places along an axis, of several pixels, all in one level of detail: those at which a filter reads its levels.
+#[derive(Clone, Copy, Debug)]
+pub struct Probes<L: Lanes> {
+    /// log2 of their number, 0 to 4.
+    pub log2_count: L::U32,
+    /// The axis along which they lie, as a part of the texture.
+    pub axis: [L::Number; 2],
+    /// The level of detail.
+    pub lambda: L::Number,
 }
 
 impl<L: Lanes> Probes<L> {
+    /// The place of one of 2^`log2_count` probes of pixels at `uv`.
+    #[inline(always)]
+    pub fn place(&self, lanes: L, log2_count: u32, probe: u32, [u, v]: [L::Number; 2]) -> [L::Number; 2] {
+        // (probe + 1/2)/n - 1/2 as a number of halves of n-ths: exact, and no division.
+        let halves = (2 * probe + 1).cast_signed() - (1 << log2_count);
+        let half_of_nth = f32::from_bits((126 - log2_count) << 23);
+        let place = lanes.int_to_number(lanes.int(halves)) * lanes.splat(half_of_nth);
+        let [du, dv] = self.axis;
+        [u + du * place, v + dv * place]
+    }
+
     /// The means of the colours of a filter there.
     #[inline(always)]
     fn mean<F: Storage, Z: Size, U: Wrap, V: Wrap, const N: usize>(
@@ -94,12 +109,11 @@ impl<L: Lanes> Probes<L> {
         filter: impl MipFilter,
         mipmap: &Mipmap<'_, F, Z, N>,
         wrap: (U, V),
-        [u, v]: [L::Number; 2],
+        uv: [L::Number; 2],
     ) -> [L::U32; N] {
-        let Self { log2_count, axis: [du, dv], lambda } = self;
         each_word(
             lanes,
-            log2_count,
+            self.log2_count,
             #[inline(always)]
             |count| {
                 mean_of(
@@ -107,11 +121,7 @@ impl<L: Lanes> Probes<L> {
                     count,
                     #[inline(always)]
                     |probe| {
-                        // (probe + 1/2)/n - 1/2 as a number of halves of n-ths: exact, and no division.
-                        let halves = (2 * probe + 1).cast_signed() - (1 << count);
-                        let half_of_nth = f32::from_bits((126 - count) << 23);
-                        let place = lanes.int_to_number(lanes.int(halves)) * lanes.splat(half_of_nth);
-                        filter.at_lod(lanes, mipmap, wrap, [u + du * place, v + dv * place], lambda)
+                        filter.at_lod(lanes, mipmap, wrap, self.place(lanes, count, probe, uv), self.lambda)
                     },
                 )
             },
@@ -172,6 +182,28 @@ impl AnyMipFilter {
         let mag = if let Self::Base(filter) = self { filter } else { AnyFilter::Bilinear };
         Minify { min: BetweenLevels(Bilinear), mag }
     }
+
+    /// The places and the level of detail at which it reads a texture of these sides for pixels with these derivatives,
+    /// of which λ comes out as `bounded` changes it. At each it is [`Trilinear`]; of level 0 alone λ is -1, as of
+    /// magnification.
+    #[inline(always)]
+    pub fn probes<L: Lanes>(
+        self,
+        lanes: L,
+        gradient: Gradient<[L::Number; 2]>,
+        size: [u32; 2],
+        bounded: impl Fn(L::Number) -> L::Number,
+    ) -> Probes<L> {
+        let zero = lanes.splat(0.0);
+        let alone = |lambda| Probes { log2_count: lanes.word(0), axis: [zero; 2], lambda };
+        match self {
+            Self::Base(_) => alone(lanes.splat(-1.0)),
+            Self::Trilinear => alone(bounded(gradient.lod_lanes(lanes, size))),
+            Self::Anisotropic { probes } => {
+                Anisotropic { probes, filter: Trilinear }.probes(lanes, gradient, size, bounded)
+            }
+        }
+    }
 }
 
 impl MipFilter for AnyMipFilter {
@@ -199,15 +231,6 @@ impl MipFilter for AnyMipFilter {
         gradient: Gradient<[L::Number; 2]>,
         bounded: impl Fn(L::Number) -> L::Number,
     ) -> [L::U32; N] {
-        let zero = lanes.splat(0.0);
-        let alone = |lambda| Probes { log2_count: lanes.word(0), axis: [zero; 2], lambda };
-        let probes = match self {
-            Self::Base(_) => alone(lanes.splat(-1.0)),
-            Self::Trilinear => alone(bounded(gradient.lod_lanes(lanes, mipmap.size()))),
-            Self::Anisotropic { probes } => {
-                Anisotropic { probes, filter: Trilinear }.probes(lanes, gradient, mipmap.size(), bounded)
-            }
-        };
-        probes.mean(lanes, self.shared(), mipmap, wrap, uv)
+        self.probes(lanes, gradient, mipmap.size(), bounded).mean(lanes, self.shared(), mipmap, wrap, uv)
     }
 }

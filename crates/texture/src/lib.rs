@@ -23,7 +23,7 @@ mod texture;
 mod wrap;
 
 pub use alberti_math::Gradient;
-pub use anisotropic::{Anisotropic, AnyMipFilter};
+pub use anisotropic::{Anisotropic, AnyMipFilter, Probes};
 pub use bounded::{Bounded, LodBounds};
 pub use filter::{AnyFilter, Bilinear, Filter, Nearest};
 pub use format::TexelFormat;

@@ -158,9 +158,10 @@ impl<'a, F: Storage, Z: Size, const N: usize> Texture<'a, F, Z, N> {
         [self.width(), self.height()]
     }
 
-    /// [`Size::cells`].
+    /// The column and the row of the texels that [`Nearest`](crate::Nearest) reads at (u, v), rows counted from the
+    /// bottom: those whose cells hold the place.
     #[inline(always)]
-    pub(crate) fn cells<L: Lanes, U: Wrap, V: Wrap>(
+    pub fn cells<L: Lanes, U: Wrap, V: Wrap>(
         &self,
         lanes: L,
         uv: [L::Number; 2],
@@ -169,9 +170,10 @@ impl<'a, F: Storage, Z: Size, const N: usize> Texture<'a, F, Z, N> {
         self.size.cells(lanes, uv, self.sides(), wrap)
     }
 
-    /// [`Size::between`].
+    /// The columns of the texels that [`Bilinear`](crate::Bilinear) reads at (u, v), to the left and to the right, and
+    /// the 256ths from the one to the other. Then the same of rows, counted from the bottom.
     #[inline(always)]
-    pub(crate) fn between<L: Lanes, U: Wrap, V: Wrap>(
+    pub fn between<L: Lanes, U: Wrap, V: Wrap>(
         &self,
         lanes: L,
         uv: [L::Number; 2],

@@ -95,6 +95,21 @@ pub struct Material<M, Ls, R> {
     pub lighting: Lighting<Ls, R>,
 }
 
+impl<M, Ls: Light, R> Material<M, Ls, R> {
+    /// The surface at fragments after all layers: all that the lighting takes.
+    #[inline(always)]
+    pub fn surface<L: Lanes, V: OnSurface>(&self, fragments: &Fragments<L, V>) -> Surface<L>
+    where
+        M: Layer<V>,
+    {
+        let Fragments { lanes, varying, gradient, .. } = *fragments;
+        let surface = Surface::new(lanes, V::uv(&varying), gradient.map(|bundle| V::uv(&bundle)));
+        let mut surface = surface.placed::<V>(lanes, &varying, self.lighting.viewer);
+        self.layers.apply(lanes, &varying, &mut surface);
+        surface
+    }
+}
+
 impl<V, M, Ls, R> FragmentStage<V> for Material<M, Ls, R>
 where
     V: OnSurface,
@@ -107,11 +122,7 @@ where
 
     #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, V>) -> (L::U32, L::Mask) {
-        let Fragments { lanes, varying, gradient, mask, .. } = *fragments;
-        let surface = Surface::new(lanes, V::uv(&varying), gradient.map(|bundle| V::uv(&bundle)));
-        let mut surface = surface.placed::<V>(lanes, &varying, self.lighting.viewer);
-        self.layers.apply(lanes, &varying, &mut surface);
-        (self.lighting.color(lanes, &surface), mask)
+        (self.lighting.color(fragments.lanes, &self.surface(fragments)), fragments.mask)
     }
 }
 
@@ -207,15 +218,24 @@ pub struct Gouraud<M> {
     pub layers: M,
 }
 
+impl<M: Layer<Vec2>> Gouraud<M> {
+    /// The surface at fragments after all layers.
+    #[inline(always)]
+    pub fn surface<L: Lanes>(&self, fragments: &Fragments<L, (Vec3, (Vec3, Vec2))>) -> Surface<L> {
+        let Fragments { lanes, varying: (_, (_, uv)), gradient, .. } = *fragments;
+        let mut surface = Surface::new(lanes, uv, gradient.map(|(_, (_, uv))| uv));
+        self.layers.apply(lanes, &uv, &mut surface);
+        surface
+    }
+}
+
 impl<M: Layer<Vec2>> FragmentStage<(Vec3, (Vec3, Vec2))> for Gouraud<M> {
     type Color = Rgba8;
     type Derivatives = M::Derivatives;
 
     #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, (Vec3, (Vec3, Vec2))>) -> (L::U32, L::Mask) {
-        let Fragments { lanes, varying: (scattered, (mirrored, uv)), gradient, mask, .. } = *fragments;
-        let mut surface = Surface::new(lanes, uv, gradient.map(|(_, (_, uv))| uv));
-        self.layers.apply(lanes, &uv, &mut surface);
-        (surface.seen(lanes, scattered, mirrored), mask)
+        let Fragments { lanes, varying: (scattered, (mirrored, _)), mask, .. } = *fragments;
+        (self.surface(fragments).seen(lanes, scattered, mirrored), mask)
     }
 }

@@ -37,9 +37,9 @@ impl<S> Sunlit<S> {
 }
 
 impl<S> Sunlit<S> {
-    /// The factor for the channels of a surface with this normal.
+    /// The factor for the channels of a surface with this normal: ambient + diffuse · max(0, n·l).
     #[inline(always)]
-    fn light<L: Lanes>(&self, lanes: L, [x, y, z]: [L::Number; 3]) -> L::Number {
+    pub fn light<L: Lanes>(&self, lanes: L, [x, y, z]: [L::Number; 3]) -> L::Number {
         let Vec3 { x: lx, y: ly, z: lz } = self.to_light;
         let [lx, ly, lz] = [lanes.splat(lx), lanes.splat(ly), lanes.splat(lz)];
         let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
