@@ -9,6 +9,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use crate::options::{CameraTable, Material, ProjectorTable, RenderTable};
 use crate::scene::scenes;
 
+mod explain;
 pub(crate) mod partners;
 pub mod run;
 mod staged;
@@ -31,6 +32,13 @@ pub enum Command {
     /// and above, from where all of it is in the picture. Camera options that are given replace parts of that view.
     #[command(after_help = EXAMPLES)]
     Render(Box<RenderArgs>),
+    /// Explain a pixel: the journey from the triangle that is seen there to the word that is stored.
+    ///
+    /// All options of `render` hold, but that no picture is written. Each step is printed with its numbers, and with
+    /// the name of its relation in docs/theory.md; what is interpolated is set beside the same in 64 bits. In the end
+    /// the colour is compared with that of the picture.
+    #[command(after_help = explain::EXAMPLES)]
+    Explain(Box<explain::ExplainArgs>),
 }
 
 const EXAMPLES: &str = "\

@@ -23,9 +23,13 @@ mod lamps;
 mod maps;
 mod painted;
 mod plain;
+mod traced;
 mod used;
 
 pub(crate) use general::Studio;
+pub(crate) use traced::{
+    Arrival, COMPONENTS, Corner3, Light, LightRead, Look, MapRead, Piece, ProbeRead, Traced, components,
+};
 
 /// Light that falls everywhere.
 pub const AMBIENT: f32 = 0.3;
@@ -152,16 +156,29 @@ impl<'a> Drawing<'a> {
         stage: F,
         slots: &'p mut [Slot<M::Varying>],
     ) -> Pass<'p, M, F, alberti::Exact, AnyProjection> {
-        let subpixel = match self.options.policies.subpixel {
+        Pass::new(&self.view, mesh, stage).cull(self.cull()).subpixel(self.subpixel()).slots(slots)
+    }
+
+    /// The view of the camera.
+    pub(crate) fn view(&self) -> &View<AnyProjection> {
+        &self.view
+    }
+
+    /// The vertices' grid.
+    pub(crate) fn subpixel(&self) -> Subpixel {
+        match self.options.policies.subpixel {
             crate::options::Subpixel::Sub4 => Subpixel::Sub4,
             crate::options::Subpixel::Sub8 => Subpixel::Sub8,
-        };
-        let cull = match self.options.cull {
+        }
+    }
+
+    /// The faces that are left out.
+    pub(crate) fn cull(&self) -> alberti::Cull {
+        match self.options.cull {
             Cull::Back => alberti::Cull::Back,
             Cull::Front => alberti::Cull::Front,
             Cull::None => alberti::Cull::None,
-        };
-        Pass::new(&self.view, mesh, stage).cull(cull).subpixel(subpixel).slots(slots)
+        }
     }
 }
 

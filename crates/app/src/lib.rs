@@ -3,6 +3,7 @@
 pub mod cli;
 pub mod draw;
 pub mod error;
+pub mod explain;
 pub mod load;
 pub mod options;
 pub mod output;

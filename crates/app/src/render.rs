@@ -81,7 +81,7 @@ pub fn any_depth(depth: DepthFormat) -> AnyDepth {
 ///
 /// Nothing that is drawn reads a colour back, so the last one to be stored is all that counts. To round it afterwards
 /// gives the pixels that a buffer of that format would hold.
-fn shown(format: ColorFormat, [r, g, b, a]: [u8; 4]) -> [u8; 4] {
+pub(crate) fn shown(format: ColorFormat, [r, g, b, a]: [u8; 4]) -> [u8; 4] {
     match format {
         ColorFormat::Rgba8 => [r, g, b, a],
         ColorFormat::Rgb565 => Rgb565.decode(rgb565(Rgba8::new(r, g, b, a))).to_bytes(),

@@ -9,7 +9,7 @@ use clap::error::{ContextKind, ErrorKind};
 use clap::{ArgMatches, CommandFactory as _};
 
 use super::staged::{Request, Staged};
-use super::{Cli, StatsFormat};
+use super::{Cli, StatsFormat, explain};
 use crate::error::{Error, quote};
 use crate::options::RenderOptions;
 use crate::output::progress::Progress;
@@ -22,12 +22,13 @@ pub const FAILURE: u8 = 2;
 /// Runs the command with these arguments, the program's name first. Messages go to standard error; the status is
 /// 0 or [`FAILURE`].
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    let mut command = Cli::command();
+    let mut command = Cli::command().mut_subcommand("explain", explain::without_pictures);
     let matches = match command.try_get_matches_from_mut(arguments) {
         Ok(matches) => matches,
         Err(error) => return usage(&error),
     };
     let result = match matches.subcommand() {
+        Some(("explain", matches)) => explain::run(matches),
         Some((_, render)) => draw(render),
         None => print(&command.render_help().to_string()),
     };
@@ -96,7 +97,7 @@ fn draw_from(request: &Request) -> Result<(), Error> {
 }
 
 /// Standard output that nobody reads any more is no failure: the picture is there.
-fn print(text: &str) -> Result<(), Error> {
+pub(super) fn print(text: &str) -> Result<(), Error> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {

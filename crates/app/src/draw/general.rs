@@ -55,7 +55,7 @@ impl Studio {
 
 /// Any surface, asked once for the samples that are worked on together.
 #[derive(Clone, Copy)]
-enum Surface<'a> {
+pub(super) enum Surface<'a> {
     Colors,
     Unlit(Unlit<Skin<'a>>),
     Lit(Sunlit<Unlit<Skin<'a>>>),
@@ -84,9 +84,9 @@ impl FragmentStage<Framed> for Surface<'_> {
 
 /// A surface with a projector's image on it, if there is one.
 #[derive(Clone, Copy)]
-struct Shown<'a> {
-    surface: Surface<'a>,
-    image: Option<Sampler<'a, Rgba8888, AnyFilter, Clamp>>,
+pub(super) struct Shown<'a> {
+    pub(super) surface: Surface<'a>,
+    pub(super) image: Option<Sampler<'a, Rgba8888, AnyFilter, Clamp>>,
 }
 
 impl FragmentStage<Attributes> for Shown<'_> {
@@ -109,7 +109,7 @@ impl FragmentStage<Attributes> for Shown<'_> {
 /// The attributes of a vertex for a surface. Components without a use are constant, so that they have no part in how
 /// far a straight line may go. Lights at vertices are carried instead of the first two axes, colours instead of the
 /// third.
-fn framed(surface: &Surface<'_>, textured: bool, lighting: &Light<'_>, v: &Vertex) -> Framed {
+pub(super) fn framed(surface: &Surface<'_>, textured: bool, lighting: &Light<'_>, v: &Vertex) -> Framed {
     let [x, y, z, handedness] = v.tangent;
     let (place, normal) = (Vec3::from_array(v.position), Vec3::from_array(v.normal));
     let uv = if textured { Vec2::from_array(v.uv) } else { Vec2::ZERO };
@@ -130,7 +130,7 @@ fn framed(surface: &Surface<'_>, textured: bool, lighting: &Light<'_>, v: &Verte
 }
 
 /// The lights that fall on a picture's surfaces.
-type Light<'a> = Lighting<&'a [AnyLight], AnyReflectance>;
+pub(super) type Light<'a> = Lighting<&'a [AnyLight], AnyReflectance>;
 
 impl<'a> Drawing<'a> {
     /// A surface by any policies.
@@ -202,7 +202,7 @@ impl<'a> Drawing<'a> {
     }
 
     /// The longest side of the model's textures, or, without any, the steps of a colour.
-    fn largest_side(&self) -> u16 {
+    pub(crate) fn largest_side(&self) -> u16 {
         let sides = self.textures.iter().map(|t| t.width().max(t.height()));
         sides.max().and_then(|side| side.try_into().ok()).unwrap_or(255)
     }

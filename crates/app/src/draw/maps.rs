@@ -75,7 +75,7 @@ fn chain(image: &Image, content: Content) -> Result<Vec<[u8; 4]>, Error> {
 }
 
 /// A filter for mip maps, which may have one level only.
-fn mip_filter(filter: Filter) -> AnyMipFilter {
+pub(super) fn mip_filter(filter: Filter) -> AnyMipFilter {
     match filter {
         Filter::Nearest => AnyMipFilter::Base(AnyFilter::Nearest),
         Filter::Bilinear => AnyMipFilter::Base(AnyFilter::Bilinear),
@@ -90,7 +90,7 @@ pub(super) fn any_filter(filter: Filter) -> AnyFilter {
 }
 
 /// The library's wrap mode of that name.
-fn any_wrap(wrap: Wrap) -> AnyWrap {
+pub(super) fn any_wrap(wrap: Wrap) -> AnyWrap {
     match wrap {
         Wrap::Repeat => AnyWrap::Repeat,
         Wrap::Clamp => AnyWrap::Clamp,
