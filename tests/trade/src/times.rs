@@ -35,16 +35,16 @@ pub fn times(rows: &mut [Row]) -> Vec<Time> {
             repeats.clamp(1, 100)
         })
         .collect();
-    let mut taken = vec![[0.0; ROUNDS]; rows.len()];
+    let mut taken = vec![vec![]; count];
     for round in 0..ROUNDS {
         // Another one begins each turn.
         for k in (0..count).map(|k| (k + round) % count) {
-            taken[k][round] = frame_time(&mut rows[k], &mut pixels, repeats[k]);
+            taken[k].push(frame_time(&mut rows[k], &mut pixels, repeats[k]));
         }
     }
-    let own = taken[reference];
-    let of_row = |times: &[f64; ROUNDS]| {
-        let mut ratios: Vec<f64> = times.iter().zip(own).map(|(time, reference)| time / reference).collect();
+    let own = taken[reference].clone();
+    let of_row = |times: &Vec<f64>| {
+        let mut ratios: Vec<f64> = times.iter().zip(&own).map(|(time, reference)| time / reference).collect();
         ratios.sort_by(f64::total_cmp);
         let least = times.iter().copied().fold(f64::INFINITY, f64::min) * 1e3;
         Time { least, ratio: [ROUNDS / 4, ROUNDS / 2, ROUNDS - 1 - ROUNDS / 4].map(|k| ratios[k]) }
