@@ -10,11 +10,8 @@ use crate::options::{CameraTable, Material, ProjectorTable, RenderTable};
 use crate::scene::scenes;
 use crate::show::Show;
 
-<<<<<<< HEAD
 pub mod advise;
 pub mod compare;
-=======
->>>>>>> explain
 mod explain;
 pub(crate) mod partners;
 pub mod run;
@@ -38,7 +35,6 @@ pub enum Command {
     /// and above, from where all of it is in the picture. Camera options that are given replace parts of that view.
     #[command(after_help = EXAMPLES)]
     Render(Box<RenderArgs>),
-<<<<<<< HEAD
     /// Find the cheapest policies for a scene within a budget of error, and what it pays for nothing.
     ///
     /// Draws the scene under all interpolations, arithmetics, depth formats and subpixels, alone and together, and
@@ -51,8 +47,6 @@ pub enum Command {
     /// not matter which picture comes first.
     #[command(after_help = compare::HELP)]
     Compare(compare::CompareArgs),
-=======
->>>>>>> explain
     /// Explain a pixel: the journey from the triangle that is seen there to the word that is stored.
     ///
     /// All options of `render` hold, but that no picture is written. Each step is printed with its numbers, and with

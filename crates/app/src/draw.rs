@@ -26,19 +26,13 @@ mod lamps;
 mod maps;
 mod painted;
 mod plain;
-<<<<<<< HEAD
 mod runs;
 mod tapped;
-=======
->>>>>>> explain
 mod traced;
 mod used;
 
 pub(crate) use general::Studio;
-<<<<<<< HEAD
 pub(crate) use tapped::{Taken, Tap, WHOLE, Word};
-=======
->>>>>>> explain
 pub(crate) use traced::{
     Arrival, COMPONENTS, Corner3, Light, LightRead, Look, MapRead, Piece, ProbeRead, Traced, components,
 };

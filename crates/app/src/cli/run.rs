@@ -8,13 +8,8 @@ use std::time::Instant;
 use clap::error::{ContextKind, ErrorKind};
 use clap::{ArgMatches, CommandFactory as _};
 
-<<<<<<< HEAD
 use super::staged::{Request, Staged, warn};
 use super::{Cli, StatsFormat, advise, compare, explain};
-=======
-use super::staged::{Request, Staged};
-use super::{Cli, StatsFormat, explain};
->>>>>>> explain
 use crate::error::{Error, quote};
 use crate::options::RenderOptions;
 use crate::output::progress::Progress;
@@ -34,17 +29,11 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Err(error) => return usage(&error),
     };
     let result = match matches.subcommand() {
-<<<<<<< HEAD
         Some(("advise", scene)) => advise::run(scene),
         Some(("compare", pictures)) => compare::run(pictures),
         Some(("explain", pixel)) => explain::run(pixel).map(|()| 0),
         Some((_, render)) => draw(render).map(|()| 0),
         None => print(&command.render_help().to_string()).map(|()| 0),
-=======
-        Some(("explain", matches)) => explain::run(matches),
-        Some((_, render)) => draw(render),
-        None => print(&command.render_help().to_string()),
->>>>>>> explain
     };
     match result {
         Ok(status) => status,

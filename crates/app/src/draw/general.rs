@@ -103,35 +103,6 @@ impl FragmentStage<Attributes> for Shown<'_> {
     }
 }
 
-<<<<<<< HEAD
-=======
-/// The attributes of a vertex for a surface. Components without a use are constant, so that they have no part in how
-/// far a straight line may go. Lights at vertices are carried instead of the first two axes, colours instead of the
-/// third.
-pub(super) fn framed(surface: &Surface<'_>, textured: bool, lighting: &Light<'_>, v: &Vertex) -> Framed {
-    let [x, y, z, handedness] = v.tangent;
-    let (place, normal) = (Vec3::from_array(v.position), Vec3::from_array(v.normal));
-    let uv = if textured { Vec2::from_array(v.uv) } else { Vec2::ZERO };
-    let flat = |third| Framed { position: Vec3::ZERO, axes: [Vec3::ZERO, Vec3::ZERO, third], uv };
-    match surface {
-        Surface::Colors => flat(Vec3::from_array(v.color)),
-        Surface::Unlit(_) => flat(Vec3::ZERO),
-        Surface::Lit(_) => flat(normal),
-        Surface::ByFragment(_) => {
-            let tangent = Vec3::new(x, y, z);
-            Framed { position: place, axes: [tangent, normal.cross(tangent) * handedness, normal], uv }
-        }
-        Surface::ByVertex(_) => {
-            let [scattered, mirrored] = lighting.at_vertex(Point3::new(place), Vector3::new(normal));
-            Framed { position: place, axes: [scattered, mirrored, normal], uv }
-        }
-    }
-}
-
-/// The lights that fall on a picture's surfaces.
-pub(super) type Light<'a> = Lighting<&'a [AnyLight], AnyReflectance>;
-
->>>>>>> explain
 impl<'a> Drawing<'a> {
     /// A surface by any policies.
     pub(super) fn draw_general(&mut self, part: &Part, triangles: &[[u32; 3]], target: &mut Canvas<'_>) {

@@ -5,7 +5,6 @@ mod depth;
 mod look;
 mod reads;
 
-<<<<<<< HEAD
 use super::clothed::Clothed;
 use super::erased::Attributes;
 use super::general::{Shown, Surface};
@@ -13,34 +12,15 @@ use super::maps::any_filter;
 use super::{Drawing, position};
 use crate::error::Error;
 use crate::options::{Arithmetic, Interpolation};
-=======
-use super::erased::Attributes;
-use super::general::{Light as Lights, Shown, Surface, framed, is_lit};
-use super::maps::any_filter;
-use super::painted::Painted;
-use super::{Drawing, position};
-use crate::error::Error;
-use crate::options::{Arithmetic, Interpolation, Shading};
->>>>>>> explain
 use crate::render::any_depth;
 use crate::scene::{Part, Vertex};
 use alberti::glam::Vec3;
 use alberti::lanes::{Lanes, One, OneFixed};
 use alberti::raster::{Corner, Numbers, PerPixel};
-<<<<<<< HEAD
 use alberti::texture::Clamp;
 use alberti::{
     AnyProjection, Cull, DepthFormat as _, Fixed, FixedPoint, FragmentStage, Fragments, Geometry, Gradient,
     Mesh, Object, Pass, Planes, Point3, Q16, Rgba8, Rgba8888, Slot, Stats, Target, Varying,
-=======
-use alberti::shaders::Unlit;
-use alberti::shaders::material::Gouraud;
-use alberti::texture::Clamp;
-use alberti::{
-    AnyProjection, Cull, DepthFormat as _, Fixed, FixedPoint, FragmentStage, Fragments, Geometry, Gradient,
-    Homogeneous, Lines, Mesh, Object, Pass, Planes, Point3, Projector, Q16, Rgba8, Rgba8888, Slot, Stats,
-    Target, Varying,
->>>>>>> explain
 };
 use depth::{Trace, TracedDepth};
 pub(crate) use look::{Light, LightRead, Look};
@@ -112,31 +92,15 @@ pub(crate) struct Piece {
     pub(crate) drawn: [Corner3; 3],
 }
 
-<<<<<<< HEAD
 /// A part's surface, all that its attributes are made of, and the stage that colours it.
 pub(super) struct Dressed<'a> {
     clothed: Clothed<'a>,
     shown: Shown<'a>,
-=======
-/// A part's surface, and all that its attributes are made of.
-pub(super) struct Dressed<'a> {
-    shown: Shown<'a>,
-    lighting: Lights<'a>,
-    textured: bool,
-    projector: Option<Projector>,
->>>>>>> explain
 }
 
 impl Dressed<'_> {
     fn attributes(&self, v: &Vertex) -> Attributes {
-<<<<<<< HEAD
         (self.clothed.on_image(v), self.clothed.vertex(v).1)
-=======
-        // The model stands in the world where it was made.
-        let world = Point3::new(Vec3::from_array(v.position));
-        let on_image = self.projector.map_or(Homogeneous::default(), |projector| projector.project(world));
-        (on_image, framed(&self.shown.surface, self.textured, &self.lighting, v))
->>>>>>> explain
     }
 }
 
@@ -193,11 +157,7 @@ impl<'a> Drawing<'a> {
         let Some(vertices) = indices.and_then(|indices| self.vertices(*indices)) else { return Vec::new() };
         let dressed = self.dressed(part);
         let mesh = Mesh::new(&vertices, &ONE_TRIANGLE, |v: &Vertex| (position(v), dressed.attributes(v)));
-<<<<<<< HEAD
         let carried = match (self.lines(), self.options.policies.arithmetic) {
-=======
-        let carried = match (self.straight(), self.options.policies.arithmetic) {
->>>>>>> explain
             (Some(lines), Arithmetic::Fixed) => {
                 let depth_bits = any_depth(self.options.depth).bits();
                 let pass = self.pass(&mesh, (), &mut []).interpolation(FixedPoint(lines));
@@ -276,11 +236,7 @@ impl<'a> Drawing<'a> {
         let dressed = self.dressed(part);
         let mut used = Vec::new();
         let mut put = |names: &[&'static str], first: usize| used.extend(names.iter().copied().zip(first..));
-<<<<<<< HEAD
         if dressed.clothed.textured {
-=======
-        if dressed.textured {
->>>>>>> explain
             put(&["u", "v"], UV);
         }
         match dressed.shown.surface {
@@ -300,11 +256,7 @@ impl<'a> Drawing<'a> {
                 put(&["mirrored red", "mirrored green", "mirrored blue"], SECOND);
             }
         }
-<<<<<<< HEAD
         if dressed.clothed.projector.is_some() {
-=======
-        if dressed.projector.is_some() {
->>>>>>> explain
             put(&["image u", "image v", "image q"], IMAGE);
         }
         used
@@ -313,11 +265,7 @@ impl<'a> Drawing<'a> {
     /// The sides of the texture on a part, where it is shown.
     pub(crate) fn texture_size(&self, part: &Part) -> Option<[u32; 2]> {
         let texture = self.textures.get(part.texture?)?;
-<<<<<<< HEAD
         self.dressed(part).clothed.textured.then(|| [texture.width(), texture.height()])
-=======
-        self.dressed(part).textured.then(|| [texture.width(), texture.height()])
->>>>>>> explain
     }
 
     /// Draws a triangle by the options' policies.
@@ -331,11 +279,7 @@ impl<'a> Drawing<'a> {
     ) {
         let mut slots = [Slot::EMPTY; 3];
         let mut pass = self.pass(mesh, stage, &mut slots).cull(cull);
-<<<<<<< HEAD
         match (self.lines(), self.options.policies) {
-=======
-        match (self.straight(), self.options.policies) {
->>>>>>> explain
             (Some(lines), policies) if policies.arithmetic == Arithmetic::Fixed => {
                 pass.interpolation(FixedPoint(lines)).count_by(One, target, stats);
             }
@@ -347,44 +291,11 @@ impl<'a> Drawing<'a> {
         }
     }
 
-<<<<<<< HEAD
     /// A part's surface.
     fn dressed(&self, part: &Part) -> Dressed<'a> {
         let clothed = self.clothed(part);
         let image = self.slide.map(|(_, image)| image.sampler(any_filter(self.options.filter), Clamp));
         Dressed { shown: Shown { surface: clothed.surface, image }, clothed }
-=======
-    /// The straight lines of the options' interpolation, if it has some.
-    fn straight(&self) -> Option<Lines> {
-        match self.options.policies.interpolation {
-            Interpolation::Exact | Interpolation::Plane => None,
-            Interpolation::Spans(length) => Lines::spans(length.columns()),
-            Interpolation::Bounded(texels) => Some(Lines::bounded_texels(texels, self.largest_side())),
-            Interpolation::Affine => Some(Lines::affine()),
-        }
-    }
-
-    /// A part's surface.
-    fn dressed(&self, part: &Part) -> Dressed<'a> {
-        let (options, shading) = (self.options, self.options.shading);
-        let painted = Painted::new(part, self.model, &self.studio.chains, options, self.camera);
-        let material = painted.lit(shading, part.detail.shininess, &self.studio.lamps);
-        let lit = is_lit(part, self.model, options);
-        let surface = match shading {
-            Shading::VertexColor => Surface::Colors,
-            Shading::Gouraud if lit => Surface::ByVertex(Gouraud { layers: material.layers }),
-            _ if lit => Surface::ByFragment(material),
-            Shading::Unlit => Surface::Unlit(Unlit(self.skin(part))),
-            _ => Surface::Lit(self.lit(self.skin(part))),
-        };
-        let image = self.slide.map(|(_, image)| image.sampler(any_filter(options.filter), Clamp));
-        Dressed {
-            shown: Shown { surface, image },
-            lighting: material.lighting,
-            textured: lit || (part.texture.is_some() && shading != Shading::VertexColor),
-            projector: self.slide.map(|(projector, _)| projector),
-        }
->>>>>>> explain
     }
 
     fn vertices(&self, indices: [u32; 3]) -> Option<[Vertex; 3]> {
