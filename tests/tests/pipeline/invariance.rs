@@ -59,16 +59,17 @@ type Plain = [([i64; 2], f32, f32, [f32; 2]); 3];
 
 fn any_triangle(subpixel: Subpixel, rng: &mut Rng) -> Plain {
     let [one, _] = steps(subpixel);
+    let (around, deep) = if rng.one_in(2) { (SIZE / 4, 1e3) } else { (SIZE, 1.5) };
     [(); 3].map(|()| {
         let p = [(); 2].map(|()| match rng.index(4) {
             // On the samples' lattice, where ties are.
             0 => rng.range(-8, 2 * SIZE + 8) * one / 2,
-            _ => rng.range(-SIZE / 4 * one, SIZE * 5 / 4 * one),
+            _ => rng.range(-around * one, (SIZE + around) * one),
         });
         // What snapping has moved, which counts in large triangles.
         let p = p.map(|c| 256 * c + rng.range(-128, 127));
         let u = [rng.uniform(-1e3, 1e3) as f32, rng.log_uniform(1e-3, 1e3)];
-        (p, rng.unit() as f32, rng.log_uniform(1e-3, 1e3), u)
+        (p, rng.unit() as f32, rng.log_uniform(1.0 / deep, deep), u)
     })
 }
 
