@@ -108,7 +108,8 @@ pub struct Lines {
 pub enum Course {
     /// Linear on the screen.
     Screen,
-    /// The same, and along each row a parabola: what perspective adds where q is the mean of the least and the greatest.
+    /// The same, and along each row a parabola, the part of perspective where q is the mean of the least and the
+    /// greatest.
     Parabola,
     /// Hyperbolic at the ends of runs, and straight between.
     Perspective,
@@ -142,8 +143,8 @@ impl Lines {
     /// 3. [`Exact`](crate::Exact).
     ///
     /// The first is for a box of more than 32 columns where q differs by up to an eighth, the second for one of 64. In
-    /// [`FixedPoint`](crate::FixedPoint) the ways are straight lines without correction, or runs: in each place the
-    /// longest of 1, 2, 4 to 64 columns, at multiples of their length, that keeps the budget.
+    /// [`FixedPoint`](crate::FixedPoint) the ways are straight lines without correction, or runs. These are the longest
+    /// of 1, 2, 4 to 64 columns, at multiples of their length, that keep the budget.
     ///
     /// # Precision
     /// The budget, and for rounding 19ε·max|ui| with ε = 2^-24; never more. With D the greatest difference of two ui
@@ -340,8 +341,8 @@ pub struct LineTriangle<R, N> {
 }
 
 impl<R: Runs, N> LineTriangle<R, N> {
-    /// The run of one sample and the columns that follow it, up to `length`, a power of two: the first sample, the last,
-    /// and the column after these.
+    /// The run of one sample and the columns that follow it, up to `length`, a power of two: the first sample, the
+    /// last, and the column after these.
     #[inline(always)]
     fn columns<I: EdgeInt>(row: &Row<'_, I>, [column, length]: [i32; 2]) -> [i32; 3] {
         let after = (column | (length - 1)) + 1;
