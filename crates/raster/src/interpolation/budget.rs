@@ -10,8 +10,8 @@
 //! | [`Exact`](crate::Exact) | 0 | everywhere |
 //!
 //! The first, with d = (h − l)/(h + l). Where q is l + λ (h − l), perspective adds to a plane at most
-//! D λ (1 − λ)(h − l)/q, as if all the weight were where q is l or h. The mean of these for q is off by a share of
-//! d |1 − 2 λ|. The product is 2 D d² λ (1 − λ) |1 − 2 λ| / (1 − d (1 − 2 λ)), and at most 0.1993 D d² for d = 1/17.
+//! D λ (1 − λ)(h − l)/q. That is as if all the weight were where q is l or h. The mean of these for q is off by a share
+//! of d |1 − 2 λ|. The product is 2 D d² λ (1 − λ) |1 − 2 λ| / (1 − d (1 − 2 λ)), and at most 0.1993 D d² for d = 1/17.
 //!
 //! In narrow boxes rows are so short that nothing is cheaper than [`Exact`](crate::Exact).
 
