@@ -58,8 +58,8 @@ use core::fmt::Debug;
 /// A < 32 (|x| + |y|) q/min q        A: the doubled area, (x, y): the opposite edge, both before snapping, in subpixels
 /// ```
 ///
-/// That is a rule of heights. Where q is the least they are 32 subpixels at least, or up to 45 in a slanted triangle.
-/// Where q is greater, they are as many times as much. It is decided in floats, within 6ε.
+/// That is a rule of heights. Where q is the least, a vertex is 32 subpixels or more above the opposite edge, or up to
+/// 45 if that is slanted. Where q is greater, it is as many times as much. It is decided in floats, within 6ε.
 pub trait Interpolation: Prepare + Debug + Send + Sync + 'static {}
 
 /// The way of a policy from a triangle to one that is prepared.

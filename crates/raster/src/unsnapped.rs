@@ -24,23 +24,24 @@
 //! 3. |Di'| <= min q/(64 q(P)) <= 1/62.
 //! 4. With M = max|u|, |ui − u(T)| <= 2M, and so |u(P)| <= (1 + 4/62)M.
 //!
-//! Roundings, in ε = 2^-24, without products of two; also that of the decision, 6 of what it compares, is one of these:
+//! Then roundings, in ε = 2^-24. Products of two do not count. So those of the decision do not, which is within 6ε of
+//! what it compares.
 //!
 //! 5. Cross products are of integers, exact. Di has the rounding of one, of the area, of its reciprocal and of the
 //!    product, and 0.03 for two bits of the area: 4.03 of Di.
-//! 6. A term Di (fi − f(T)) adds a difference, a product, and the sum of both terms: 7.03 of it. Those of q are by 2
-//!    and 3 together at most 2/62 q(P). The last sum adds one: q(P) is off by 1.23 of it.
-//! 7. Di' adds a quotient, a product, and what q(P) is off: 7.26 of it. A term of u adds three: 10.26·4/62 M. The last
-//!    sum adds (1 + 4/62)M: u(P) is off by 1.73 M.
-//! 8. What q(P) is off changes the weights of the corners. The mean of the u(P) then changes by 1.23 times half of
+//! 6. A term Di (fi − f(T)) adds a difference, a product, and the sum of both terms: 7.03 of it. By 2 and 3 both terms
+//!    of q together are at most 2/62 q(P). The last sum adds one: q(P) is off by 1.23 of it.
+//! 7. Di' adds a quotient, a product, and what q(P) is off: 7.26 of it. A term of u adds three: 10.26·4/62 M. The
+//!    last sum adds (1 + 4/62)M: u(P) is off by 1.73 M.
+//! 8. What q(P) is off changes the weights of the corners. That changes the mean of the u(P) by 1.23 times half of
 //!    their range, at most: 1.31 M.
 //!
 //! By 7 and 8 the triangle of the P is within 3.04ε·M of the plane. From there any policy goes on, with (1 + 4/62)M in
 //! place of M. `Exact` adds 9(1 + 4/62)ε·M: it is within 13ε·M.
 //!
 //! zs and linear components have the Di. With M the greatest zs, zs(P) is off by 7.03·2/64 M and (1 + 1/32)M, together
-//! 1.26 M. Then `Exact` adds 6ε of Σ Ei|zsi|/Σ Ei, which exceeds zs by no more than 2/32 M, as zs(P) >= −1/32 M. So it
-//! is within 6ε of zs and 2ε·M. A linear component is off by 7.03·4/64 M and (1 + 4/64)M, and so within 13ε·M, too.
+//! 1.26 M. `Exact` adds 6ε of Σ Ei|zsi|/Σ Ei, which exceeds zs by 2/32 M at most, as zs(P) >= −1/32 M. So it is within
+//! 6ε of zs and 2ε·M. A linear component is off by 7.03·4/64 M and (1 + 4/64)M, and so within 13ε·M, too.
 
 use crate::interpolation::Oriented;
 use crate::triangle::Corner;
@@ -49,8 +50,8 @@ use alberti_math::{Fixed, Mode, Varying, map2, map3};
 /// Pixels of the box, one way or the other, from which on a triangle is large.
 pub(crate) const LARGE: i32 = 65;
 
-/// The least height of a vertex over the opposite edge, area/(|x| + |y|), in subpixels, where its q is the least of the
-/// three. Elsewhere it is as many times as much as q is greater. With less a triangle keeps what its vertices have.
+/// The least height of a vertex over the opposite edge, area/(|x| + |y|) in subpixels, where q is the least of the
+/// three. Where it is greater, as many times as much. With less a triangle keeps what its vertices have.
 const HEIGHT: i32 = 32;
 
 /// The Di of the two other vertices, or the Di'.
