@@ -220,8 +220,8 @@ impl<F, P: Interpolation> Paint<F, P> {
         (!self.cull.drops(area)).then_some((corners, area))
     }
 
-    /// The second part, for the first `count` of several triangles in order, which all go the same way. The counters
-    /// hear the fate of each. Not inlined, as one copy of this kernel is enough.
+    /// The second part, for the first `count` of several triangles in order, which all go one way. The counters hear
+    /// the fate of each. Not inlined, as one copy of this kernel is enough.
     #[inline(never)]
     pub(crate) fn draw_alike<L, V, C, D, K>(
         &self,

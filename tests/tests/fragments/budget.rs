@@ -12,6 +12,8 @@ use alberti_tests::probe::vertex;
 use std::ops::Range;
 
 const SIZE: [usize; 2] = [200, 150];
+const WIDTH: f64 = 200.0;
+const HEIGHT: f64 = 150.0;
 
 type Triangle = [Vertex<Vec2>; 3];
 
@@ -79,13 +81,12 @@ fn wide(rng: &mut Rng, columns: Range<f64>, width: f64, q: [f32; 3]) -> Triangle
     let left = rng.uniform(columns.start, columns.end - width);
     let right = rng.uniform(left + width, columns.end);
     let between = rng.uniform(left, right);
-    let mut rows = || rng.uniform(0.0, ROWS);
+    let mut rows = || rng.uniform(0.0, HEIGHT);
     let corners = [[left, rows()], [right, rows()], [between, rows()]];
     triangle(rng, corners, q)
 }
 
-const COLUMNS: Range<f64> = 0.0..200.0;
-const ROWS: f64 = 150.0;
+const COLUMNS: Range<f64> = 0.0..WIDTH;
 
 /// q of three vertices from 1 to this, both of which some have.
 fn steep(rng: &mut Rng, ratio: f32) -> [f32; 3] {
@@ -97,9 +98,9 @@ fn steep(rng: &mut Rng, ratio: f32) -> [f32; 3] {
 /// A triangle of which q is the same along each row: of two vertices in a row, and for the rest.
 fn level(rng: &mut Rng, ratio: f32) -> Triangle {
     let left = rng.uniform(0.0, 60.0);
-    let right = rng.uniform(left + 65.0, COLUMNS.end);
+    let right = rng.uniform(left + 65.0, WIDTH);
     let [row, other] = [rng.uniform(0.0, 60.0), rng.uniform(80.0, 150.0)];
-    let tip = rng.uniform(0.0, COLUMNS.end);
+    let tip = rng.uniform(0.0, WIDTH);
     triangle(rng, [[left, row], [right, row], [tip, other]], [1.0, 1.0, ratio])
 }
 

@@ -9,9 +9,12 @@
 //! | straight lines along 64 columns | 1024 max\|g\| \|∂q/∂x\| / l², see [`along_rows`] | in boxes of 64 columns |
 //! | [`Exact`](crate::Exact) | 0 | everywhere |
 //!
-//! The first, with d = (h − l)/(h + l). Where q is l + λ (h − l), perspective adds to a plane at most
-//! D λ (1 − λ)(h − l)/q. That is as if all the weight were where q is l or h. The mean of these for q is off by a share
-//! of d |1 − 2 λ|. The product is 2 D d² λ (1 − λ) |1 − 2 λ| / (1 − d (1 − 2 λ)), and at most 0.1993 D d² for d = 1/17.
+//! The first, with d = (h − l)/(h + l): perspective adds most to a plane if all weight is where q is l or h. Where q
+//! is l + λ (h − l) that is D λ (1 − λ)(h − l)/q. The mean of l and h instead of q is off by a share of d |1 − 2 λ|.
+//!
+//! ```text
+//! 2 D d² λ (1 − λ) |1 − 2 λ| / (1 − d (1 − 2 λ)) <= 0.1993 D d²     for d = 1/17
+//! ```
 //!
 //! In narrow boxes rows are so short that nothing is cheaper than [`Exact`](crate::Exact).
 
@@ -134,8 +137,8 @@ pub(super) fn units(budget: f32) -> i32 {
 }
 
 /// The runs along which components that are linear on the screen keep a budget of so many units: the longest for which
-/// it has room, or half as long. A plane misses at most D (h − l)/(h + 3 l), with D the greatest difference and q from
-/// l to h.
+/// it has room, or half as long. With D the greatest difference, and q from l to h, a plane misses at most
+/// D (h − l)/(h + 3 l).
 #[inline(always)]
 pub(super) fn on_screen<V: Varying>(budget: i32, triangle: &Oriented<'_, V>) -> Option<Lines> {
     let words = triangle.vertices.map(|corner| corner.q);

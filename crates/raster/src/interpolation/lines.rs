@@ -108,8 +108,7 @@ pub struct Lines {
 pub enum Course {
     /// Linear on the screen.
     Screen,
-    /// The same, and along each row a parabola, the part of perspective where q is the mean of the least and the
-    /// greatest.
+    /// The same, and along each row a parabola: what perspective adds if q is the mean of its least and greatest.
     Parabola,
     /// Hyperbolic at the ends of runs, and straight between.
     Perspective,
@@ -135,28 +134,30 @@ impl Lines {
         }
     }
 
-    /// A budget that no component misses its exact value by more than, in the component's own units. Each triangle is
-    /// drawn in the first of these ways that keeps it, which is decided once, from its three corners:
+    /// The cheapest ways that miss no component by more than a `budget`, in the component's own units. Each triangle is
+    /// drawn in the first of these that keeps it, which is decided once, from its three corners.
     ///
-    /// 1. a plane and a parabola, along whole rows;
-    /// 2. straight lines along 64 columns, whose ends are hyperbolic;
+    /// 1. A plane and a parabola, along whole rows.
+    /// 2. Straight lines along 64 columns, whose ends are hyperbolic.
     /// 3. [`Exact`](crate::Exact).
     ///
-    /// The first is for a box of more than 32 columns where q differs by up to an eighth, the second for one of 64. In
-    /// [`FixedPoint`](crate::FixedPoint) the ways are straight lines without correction, or runs. These are the longest
-    /// of 1, 2, 4 to 64 columns, at multiples of their length, that keep the budget.
+    /// The first is for a box of more than 32 columns where q differs by up to an eighth, the second for one of 64.
+    ///
+    /// In [`FixedPoint`](crate::FixedPoint) there are two ways: straight lines without correction, and runs with it.
+    /// These are the longest of 1, 2, 4 to 64 columns, at multiples of their length, that keep the budget.
     ///
     /// # Precision
     /// The budget, and for rounding 19ε·max|ui| with ε = 2^-24; never more. With D the greatest difference of two ui
-    /// and r the ratio of q, the first way misses by at most D/5·((r − 1)/(r + 1))², and is rounded by 19ε. The second
-    /// is that of [`Spans16`], of which |∂u/∂x|·|∂q/∂x| has a bound over the triangle. In fixed point a line misses a
-    /// hyperbolic component by at most |Δu|·(√r − 1)/(√r + 1) = |Δu|·tanh(ln r/4), and that is not above
-    /// |Δu|·|Δq|/(max q + 3 min q), which is compared.
+    /// and r the ratio of q, the first way misses by at most D/5·((r − 1)/(r + 1))². Its rounding is the greatest, 19ε.
+    /// The second is that of [`Spans16`], with a bound for all of the triangle's runs.
+    ///
+    /// In fixed point a line misses a hyperbolic component by at most |Δu|·(√r − 1)/(√r + 1) = |Δu|·tanh(ln r/4). That
+    /// is not above |Δu|·|Δq|/(max q + 3 min q), which is compared.
     ///
     /// # Cost
-    /// Near the least that the triangle can be drawn for, and at most that of `Exact` and some 200 operations a
-    /// triangle in a box of more than 32 columns. Derivatives [by runs](crate::PerRun) are those of whole rows, but in
-    /// the second way.
+    /// A fragment: without perspective two products and two sums a component, a minimum and a maximum, and no division;
+    /// otherwise that of the other two. A triangle in a box of more than 32 columns: up to some 200 operations for its
+    /// way. Derivatives [by runs](crate::PerRun) are those of whole rows, but in the second way.
     #[must_use]
     pub const fn bounded(budget: f32) -> Self {
         Self { length: Self::LONGEST, budget: Some(budget), course: Course::Perspective }
@@ -341,8 +342,8 @@ pub struct LineTriangle<R, N> {
 }
 
 impl<R: Runs, N> LineTriangle<R, N> {
-    /// The run of one sample and the columns that follow it, up to `length`, a power of two: the first sample, the
-    /// last, and the column after these.
+    /// The run of up to `length` columns, a power of two, that a covered column is in: its first column, its last, and
+    /// the one after it.
     #[inline(always)]
     fn columns<I: EdgeInt>(row: &Row<'_, I>, [column, length]: [i32; 2]) -> [i32; 3] {
         let after = (column | (length - 1)) + 1;
