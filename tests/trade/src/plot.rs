@@ -26,12 +26,13 @@ pub fn draw(family: &Family, summaries: &[Summary], path: &Path) -> Result<(), B
     };
     let point = |summary: &Summary| (summary.cost(), summary.error(family.axis).max(least));
     let points: Vec<(f64, f64)> = summaries.iter().map(point).collect();
-    let range = |of: fn(&(f64, f64)) -> f64, room: f64| {
+    // Room for labels, of which more are above a point than below.
+    let range = |of: fn(&(f64, f64)) -> f64, [below, above]: [f64; 2]| {
         let [low, high] = points
             .iter()
             .map(of)
             .fold([f64::INFINITY, 0.0], |[low, high]: [f64; 2], x| [low.min(x), high.max(x)]);
-        low / room..high * room
+        low / below..high * above
     };
     let root = SVGBackend::new(path, (760, 460)).into_drawing_area();
     let text = |size| ("sans-serif", size).into_font().color(&INK);
@@ -40,14 +41,17 @@ pub fn draw(family: &Family, summaries: &[Summary], path: &Path) -> Result<(), B
         .caption(family.title, text(20))
         .x_label_area_size(44)
         .y_label_area_size(74)
-        .build_cartesian_2d(range(|p| p.0, 1.25).log_scale(), range(|p| p.1, 2.0).log_scale())?;
+        .build_cartesian_2d(
+            range(|p| p.0, [1.25, 1.25]).log_scale(),
+            range(|p| p.1, [5.0, 2.0]).log_scale(),
+        )?;
     chart
         .configure_mesh()
         .bold_line_style(INK.mix(0.35))
         .light_line_style(TRANSPARENT)
         .axis_style(INK)
         .label_style(text(13))
-        .x_labels(6)
+        .x_labels(12)
         .x_desc("cost, multiples of the reference")
         .y_desc(name)
         .x_label_formatter(&|x| format!("{x:.2}"))

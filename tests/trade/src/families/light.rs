@@ -33,10 +33,10 @@ pub(super) const RELIEF: Family = Family {
     name: "relief",
     title: "Relief",
     advice: "\
-The right picture is that of a mesh with a vertex every other texel, whose outline and depths no map has. `Bump` is light
-alone, for relief that is shallow or seen from the front. `LimitedParallax` moves the texture for next to nothing.
-`ParallaxOcclusion(8)` is four fifths cheaper than the mesh, and comes nearest to it; more layers are for steeper views.
-`SteepParallax` shows its layers and costs more: take the other.",
+The right picture is that of a mesh with a vertex every other texel, whose outline and depths no map has. `Bump` is
+light alone, for relief that is shallow or seen from the front. `LimitedParallax` moves the texture for next to
+nothing. `ParallaxOcclusion(8)` is four fifths cheaper than the mesh, and comes nearest to it; more layers are for
+steeper views. `SteepParallax` shows its layers and costs more: take the other.",
     axis: Axis::Flip,
 };
 

@@ -13,12 +13,12 @@ pub(super) const PERSPECTIVE: Family = Family {
     name: "perspective",
     title: "Perspective",
     advice: "\
-On a machine with vector registers take `Exact`: a division there costs next to nothing, and nothing is as right for
-less but straight lines across whole triangles. `Planes` is its equal until q falls steeply. `Affine` is right where all
-of a triangle is equally far, and as wrong as the table says elsewhere: on a mesh of small triangles by a fraction of a
-texel, on a floor by the whole texture. `Lines::bounded` names the texels that it may miss and takes straight lines as
-far as they go. Runs of a fixed length, `Spans16` and its kin, promise nothing: steep perspective breaks them. All are for
-cores on which a division is slow; what they cost there is told by [kernel.md](kernel.md).",
+On a machine with vector registers take `Exact`, or `Lines::bounded` with the texels that it may miss: it draws each
+triangle by a plane, by straight lines or as `Exact`, whichever is the cheapest that keeps the budget, so it is never
+much dearer. `Planes` is its equal until q falls steeply. `Affine` is right where all of a triangle is equally far,
+and as wrong as the table says elsewhere: on a mesh of small triangles by a fraction of a texel, on a floor by the
+whole texture. Runs of a fixed length, `Spans16` and its kin, promise nothing: steep perspective breaks them. They are
+for cores on which a division is slow; what they cost there is told by [kernel.md](kernel.md).",
     axis: Axis::Texels,
 };
 
@@ -28,9 +28,9 @@ pub(super) const NUMBERS: Family = Family {
     title: "Numbers",
     advice: "\
 On one sample at a time, as a core without vector registers works. Where there are no floats take `FixedPoint`, with
-`Spans16` or a budget: it costs about half, and is as right as the lines that it draws, as long as coordinates are small.
-Its steps are 2^-16, so a texture that is repeated hundreds of times across a triangle, as on the floor, is tens of texels
-off at the horizon. Divide such triangles.",
+`Spans16` or a budget: it costs about half, and is as right as the lines that it draws, as long as coordinates are
+small. Its steps are 2^-16, so a texture that is repeated hundreds of times across a triangle, as on the floor, is
+tens of texels off at the horizon. Divide such triangles.",
     axis: Axis::Texels,
 };
 

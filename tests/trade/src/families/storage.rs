@@ -15,8 +15,9 @@ pub(super) const SUBPIXELS: Family = Family {
     name: "subpixels",
     title: "Subpixels",
     advice: "\
-Take `Sub8` unless a small core draws small triangles in fixed point, which `Sub4` was made for. The grid moves an edge
-by up to 1/32 pixel then, and a texture in fixed point with it; in floats only small triangles move their texture.",
+Take `Sub8` unless a small core draws small triangles in fixed point, which `Sub4` was made for. The grid moves an
+edge by up to 1/32 pixel then, and a texture in fixed point with it; in floats only small triangles move their
+texture.",
     axis: Axis::Texels,
 };
 
@@ -25,10 +26,11 @@ pub(super) const DEPTHS: Family = Family {
     name: "depth",
     title: "Depth formats",
     advice: "\
-Take `F32Reversed` on a desktop: it is right at any ratio of the planes, and the cheapest together with `F32`. `D16` is
-half the memory; between these planes, A = 0.02 and B = 2000, surfaces that cross are ragged. `DepthMap::cheapest_drawn`
-tells which format a pair of planes needs. On vector registers integers cost two thirds more, since they are rounded
-correctly; in fixed point they are a shift. Without a depth buffer the order of the triangles decides.",
+Take `F32Reversed` on a desktop: it is right at any ratio of the planes, and the cheapest together with `F32`. `D16`
+is half the memory; between these planes, A = 0.02 and B = 2000, surfaces that cross are ragged.
+`DepthMap::cheapest_drawn` tells which format a pair of planes needs. On vector registers integers cost two thirds
+more, since they are rounded correctly; in fixed point they are a shift. Without a depth buffer the order of the
+triangles decides.",
     axis: Axis::Flip,
 };
 

@@ -21,9 +21,9 @@ pub(super) const FILTERS: Family = Family {
     title: "Filters",
     advice: "\
 The right picture here is the mean light of 64 rays a pixel, which a filter can only come near to. Magnified, take
-`Bilinear`; squeezed, a mip map: `NearestLevel(Bilinear)` has most of what `Trilinear` has, at two thirds of its price, but
-shows where levels change. `Anisotropic(2)` or `(4)` are sharper on what is seen at a flat angle. More probes gain little
-here: they mean bytes, not light, and the farther they reach, the more that shows as a darker tone.",
+`Bilinear`; squeezed, a mip map: `NearestLevel(Bilinear)` has most of what `Trilinear` has, at two thirds of its
+price, but shows where levels change. `Anisotropic(2)` or `(4)` are sharper on what is seen at a flat angle. More
+probes gain little here: they mean bytes, not light, and the farther they reach, the more that shows as a darker tone.",
     axis: Axis::Flip,
 };
 
@@ -32,9 +32,9 @@ pub(super) const DERIVATIVES: Family = Family {
     name: "derivatives",
     title: "Levels of detail",
     advice: "\
-`PerPixel` on vector registers, where the others save little. On a small core `PerTriangle`, if triangles are small on the
-screen: on a floor of two triangles one level for all is wrong nearly everywhere. `PerRun` lies between the two. Without
-a mip map (`BaseLevel`) the distance shimmers. The right picture is that of `PerPixel`.",
+`PerPixel` on vector registers, where the others save little. On a small core `PerTriangle`, if triangles are small on
+the screen: on a floor of two triangles one level for all is wrong nearly everywhere. `PerRun` lies between the two.
+Without a mip map (`BaseLevel`) the distance shimmers. The right picture is that of `PerPixel`.",
     axis: Axis::Flip,
 };
 
