@@ -111,7 +111,7 @@ fn texels_are_measured() {
             trials.iter().find(|trial| trial["options"].as_str().expect("options").starts_with(options));
         trial.expect("a trial")["error"].as_f64().expect("a number")
     };
-    assert!(error("--interpolation exact --arithmetic float --depth f32-reversed") == 0.0);
+    assert!(error("--interpolation exact --arithmetic float --depth f32-reversed --subpixel 8") == 0.0);
     assert!(error("--interpolation plane") < 0.01);
     assert!(error("--interpolation bounded:0.0625 --arithmetic float") <= 0.0626);
     // The square spans 192 texels, and q differs by a fifth along it: |Δu| tanh(ln r / 4) is 9.

@@ -64,9 +64,11 @@ fn exact_is_the_default_and_others_miss_as_they_say() {
     let missed = |policy: &str| difference(&rolled(policy), &exact);
     assert!(missed("plane") < 0.001);
     let (bounded, affine) = (missed("bounded:0.0625"), missed("affine"));
-    assert!(bounded > 0.0 && bounded < 0.01, "{bounded}");
+    // Where nothing cheaper keeps the budget, it is exact; in fixed point there is nothing exact.
+    let fixed = missed("bounded:0.0625 --arithmetic fixed");
+    assert!(bounded < 0.01 && bounded < fixed && fixed < 0.1, "{bounded} {fixed}");
     assert!(affine > 0.5, "{affine}");
-    let all = ["bounded:0.0625", "spans:4", "spans:8", "spans:16", "spans:32", "affine"].map(missed);
+    let all = ["spans:4", "spans:8", "spans:16", "spans:32", "affine"].map(missed);
     assert!(all.is_sorted_by(|a, b| a < b), "{all:?}");
 }
 

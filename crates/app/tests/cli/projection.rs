@@ -102,7 +102,8 @@ fn a_projected_image_has_no_part_in_a_budget_of_texels() {
         RgbImage::from_pixel(side, side, Rgb([255; 3])).save(folder.path("s.png")).expect("a file");
         let arguments = format!(
             "m.obj --size 64x64 --eye 0,1,10 --target 0,0,0 --up 1,1,0 --shading unlit --filter nearest --texture \
-             t.png --projector s.png --projector-eye 0,0.2,0 --projector-target 0,0,0 --interpolation bounded:{texels}"
+             t.png --projector s.png --projector-eye 0,0.2,0 --projector-target 0,0,0 --arithmetic fixed \
+             --interpolation bounded:{texels}"
         );
         folder.succeeds(&arguments.split(' ').collect::<Vec<_>>());
         image::open(folder.path("alberti.png")).expect("a picture").to_rgb8()

@@ -138,9 +138,11 @@ fn texture_coordinates_are_those_of_rays() {
             let worst = error(&format!("bounded:{texels}"), arithmetic);
             let largest = worst[0].max(worst[1]);
             assert!(largest <= budget + more, "bounded:{texels} {arithmetic:?}: {worst:?}");
+            // In floats these triangles are exact, as nothing cheaper keeps the budget.
+            let straight = arithmetic == Arithmetic::Fixed;
             assert!(
-                largest > budget / 8.0,
-                "bounded:{texels} {arithmetic:?}: {worst:?} is not of straight lines"
+                !straight || largest > budget / 8.0,
+                "bounded:{texels}: {worst:?} is not of straight lines"
             );
         }
     }

@@ -78,9 +78,9 @@ fn miss(from: usize, to: usize) -> f64 {
 
 #[test]
 fn bounded_runs_miss_no_more_than_the_budget_and_none_could_be_twice_as_long() {
-    for texels in [0.0625, 0.5] {
+    for texels in [0.5, 2.0] {
         let budget = texels / f64::from(TEXELS[0]);
-        let probes = probed(&format!("bounded:{texels}"), Arithmetic::Float);
+        let probes = probed(&format!("bounded:{texels}"), Arithmetic::Fixed);
         let width = probes.size()[0] as usize;
         let (mut tried, mut lengths) = (0, Vec::new());
         for [first, last] in rows(&probes) {
@@ -100,7 +100,12 @@ fn bounded_runs_miss_no_more_than_the_budget_and_none_could_be_twice_as_long() {
                 let to = (columns.start / (2 * cell) * 2 * cell + 2 * cell) as usize + row;
                 let longer = (from, to.min(last)) != (index, next.min(last));
                 if cell < 64 && longer {
-                    assert!(bound(from, to.min(last)) > budget * 0.99, "{texels} {columns:?} of {cell}");
+                    // The budget has room for the steps of fixed point, too.
+                    let steps = (2 * cell + 4) as f64 / 65536.0;
+                    assert!(
+                        bound(from, to.min(last)) + steps > budget * 0.99,
+                        "{texels} {columns:?} of {cell}"
+                    );
                     tried += 1;
                 }
                 index = next;
@@ -109,6 +114,6 @@ fn bounded_runs_miss_no_more_than_the_budget_and_none_could_be_twice_as_long() {
         }
         lengths.sort_unstable();
         lengths.dedup();
-        assert!(tried > 200 && lengths.len() > 3, "{tried} {lengths:?}");
+        assert!(tried > 30 && lengths.len() > 3, "{tried} {lengths:?}");
     }
 }
