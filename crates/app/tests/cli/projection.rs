@@ -93,7 +93,7 @@ fn a_projector_that_misses_the_model_is_warned_of() {
 fn a_projected_image_has_no_part_in_a_budget_of_texels() {
     let folder = Folder::with(&[(
         "m.obj",
-        b"v -9 0 -9\nv 9 0 -9\nv 9 0 9\nv -9 0 9\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 4/4 3/3 2/2\n",
+        b"v -9 0 -9\nv 9 0 -9\nv 9 0 9\nv -9 0 9\nvt 0 0\nvt 99 0\nvt 99 99\nvt 0 99\nf 1/1 4/4 3/3 2/2\n",
     )]);
     RgbImage::from_fn(16, 16, |x, y| if (x + y) % 2 == 0 { RED } else { BLUE })
         .save(folder.path("t.png"))
@@ -101,7 +101,7 @@ fn a_projected_image_has_no_part_in_a_budget_of_texels() {
     let drawn = |side: u32, texels: f32| {
         RgbImage::from_pixel(side, side, Rgb([255; 3])).save(folder.path("s.png")).expect("a file");
         let arguments = format!(
-            "m.obj --size 64x64 --eye 0,1,10 --target 0,0,0 --up 1,1,0 --shading unlit --filter nearest --texture \
+            "m.obj --size 64x64 --eye 0,30,4 --target 0,0,0 --up 1,1,0 --shading unlit --filter nearest --texture \
              t.png --projector s.png --projector-eye 0,0.2,0 --projector-target 0,0,0 --interpolation bounded:{texels}"
         );
         folder.succeeds(&arguments.split(' ').collect::<Vec<_>>());
