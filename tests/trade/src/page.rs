@@ -34,8 +34,8 @@ code with the library. So read a family's paragraph first: it says what to pick.
   scenes. They repeat.
 * **time**: of a frame of 640x480 as a multiple of the reference's in the same run, in turns: the median of the scenes,
   and in brackets the least and the greatest. It does not repeat, and another machine has other times.
-* **texels**: the error of texture coordinates against those of rays: of the 99.9 % of the pixels that are least off, the
-  geometric mean of the scenes; and the worst pixel of any scene.
+* **texels**: the error of texture coordinates against those of rays: of the 99.9 % of the pixels that are least off,
+  the geometric mean of the scenes; and the worst pixel of any scene.
 * **bytes**: that of the picture's channels, 0 to 255: of 99.9 % of the pixels, and of the worst; of the worst scene.
 * **PSNR**: of the worst scene, in dB; more is better. **FLIP**: what somebody sees who flips between the picture and
   the right one, 0 to 1; the mean of the scenes, and the worst.
