@@ -1,7 +1,7 @@
 //! Instructions of frames, as valgrind's callgrind counts them.
 //!
 //! Under callgrind the program draws each row's frame once more within [`measured`], which is all that is collected. At
-//! [`ended`] a part of the profile is written: part n is that of row n.
+//! `ended` a part of the profile is written: part n is that of row n.
 
 use crate::row::Row;
 use std::path::Path;
