@@ -110,21 +110,19 @@ impl Case {
         exact.clamp(least, most)
     }
 
-    /// Whether it counts as large beyond doubt, so that its values are those before snapping: a box of 65 pixels, of
-    /// which a subpixel is no great part, nor changes q by one.
+    /// Whether it counts as large beyond doubt, so that its values are those before snapping: a box of 65 pixels, and
+    /// at each vertex 32 subpixels of height for the least q, and as many times as much for a greater one.
     pub(crate) fn is_large(&self) -> bool {
         let before = [0, 1, 2].map(|i| [0, 1].map(|k| 256 * self.tri[i][k] + self.moved[i][k]));
         let q = self.q.map(f64::from);
-        let wide = |corner: usize| {
-            let e = weights(before, self.tri[corner].map(|c| 256 * c)).map(|e| e as f64);
-            let sum: f64 = e.iter().sum();
-            let shares = e.map(|weight| weight / sum);
-            let at: f64 = (0..3).map(|i| shares[i] * q[i]).sum();
-            let small = |x: f64| x.abs() < 0.0624;
-            at > 0.0
-                && (0..3).filter(|&i| i != corner).all(|i| small(shares[i]) && small(shares[i] * q[i] / at))
+        let least = q.into_iter().fold(f64::INFINITY, f64::min);
+        let area: f64 = weights(before, before[0]).iter().map(|&e| e as f64).sum();
+        let high = |i: usize| {
+            let [a, b] = [before[(i + 1) % 3], before[(i + 2) % 3]];
+            let edge = ((a[0] - b[0]).abs() + (a[1] - b[1]).abs()) as f64;
+            area.abs() >= 32.01 * 256.0 * edge * q[i] / least
         };
-        self.pixels() >= 65.0 && (0..3).all(wide)
+        self.pixels() >= 65.0 && (0..3).all(high)
     }
 
     /// The least and the greatest value of the vertices.
