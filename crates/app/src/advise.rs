@@ -12,11 +12,13 @@ mod candidate;
 mod measured;
 mod report;
 mod waste;
+mod work;
 
 pub use candidate::Candidate;
 pub use measured::Trial;
 pub use report::{json, text};
 pub use waste::{Waste, waste};
+pub use work::{Work, work};
 
 use crate::error::Error;
 use crate::measure::MaxError;

@@ -32,6 +32,7 @@ mod traced;
 mod used;
 
 pub(crate) use general::Studio;
+pub(crate) use runs::Counted;
 pub(crate) use tapped::{Taken, Tap, WHOLE, Word};
 pub(crate) use traced::{
     Arrival, COMPONENTS, Corner3, Light, LightRead, Look, MapRead, Piece, ProbeRead, Traced, components,

@@ -1,0 +1,204 @@
+//! What a scene makes a renderer do, in counts that do not depend on the machine.
+
+use crate::draw::{Canvas, Counted, Drawing, Studio};
+use crate::error::Error;
+use crate::options::{Arithmetic, Interpolation, RenderOptions};
+use crate::render::{any_depth, buffer};
+use crate::scene::{Camera, Model};
+use alberti::{AnyDepth, Rgba8, Rgba8888, Stats, Target};
+use std::collections::HashSet;
+use std::num::NonZero;
+
+/// Counts of one frame. They are whole numbers, as `f64` for the products that they are made for.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Work {
+    /// Vertices that are transformed: those of each part's triangles, once each.
+    pub vertices: f64,
+    /// Triangles of the model.
+    pub submitted: f64,
+    /// Those that cross a clipping plane.
+    pub clipped: f64,
+    /// Triangles on the screen, of which clipping makes several from one.
+    pub drawn: f64,
+    /// Pairs of a triangle on the screen and a row of which it covers a sample.
+    pub rows: f64,
+    /// Pieces of rows that straight lines interpolate between two divisions, and samples that a budget leaves to exact
+    /// ones. So there are none under `exact`, `plane` and `affine`, nor in a triangle that is one run in all.
+    pub runs: f64,
+    /// Fragments, whose depths are tested.
+    pub tested: f64,
+    /// Fragments that pass, and are written.
+    pub written: f64,
+}
+
+/// Counts the work of a frame.
+///
+/// # Errors
+/// Those of [`render`](crate::render::render).
+pub fn work(model: &Model, camera: &Camera, options: &RenderOptions) -> Result<Work, Error> {
+    options.policies.check()?;
+    let options = RenderOptions { threads: NonZero::<usize>::MIN, ..*options };
+    let RenderOptions { width, height, policies, .. } = options;
+    let studio = Studio::new(model, camera, &options)?;
+    let (mut pixels, mut depth) = (buffer(&options, 0)?, buffer(&options, 0)?);
+    let mut count = |format: AnyDepth, count: &mut dyn FnMut(Drawing<'_>, &mut Canvas<'_>)| {
+        let target = Target::new(Rgba8888, format, width, height, &mut pixels, &mut depth);
+        let mut target = target.map_err(|found| Error::new(found.to_string(), "a size that can be drawn"))?;
+        target.clear(Rgba8::BLACK);
+        count(Drawing::new(model, camera, &options, &studio)?, &mut target);
+        Ok(())
+    };
+    let format = any_depth(options.depth);
+    let (mut stats, mut counted, mut visible) = Default::default();
+    count(format, &mut |drawing, target| stats = drawing.draw_all(target, &mut |_, _| ()))?;
+    count(AnyDepth::NoDepth, &mut |drawing, target| counted = drawing.count_runs(target))?;
+    let Counted { rows, runs, single } = counted;
+    let runs = match (policies.interpolation, policies.arithmetic) {
+        (Interpolation::Affine, _) => 0,
+        (Interpolation::Bounded(_), Arithmetic::Float) => {
+            // Exact samples are divided after the depth test, runs begin before it.
+            count(format, &mut |drawing, target| visible = drawing.count_runs(target))?;
+            runs - single + visible.single
+        }
+        _ => runs,
+    };
+    let vertices = model.parts.iter().map(|part| {
+        let indices: HashSet<u32> = part.triangles.iter().flatten().copied().collect();
+        indices.len() as u64
+    });
+    let Stats { submitted, clipped, drawn, fragments, written, .. } = stats;
+    let number = |count: u64| {
+        #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
+        let number = count as f64;
+        number
+    };
+    Ok(Work {
+        vertices: number(vertices.sum()),
+        submitted: number(submitted),
+        clipped: number(clipped),
+        drawn: number(drawn),
+        rows: number(rows),
+        runs: number(runs),
+        tested: number(fragments),
+        written: number(written),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::options::{Cull, DepthFormat, Filter, Policies, Projection, Shading, Wrap};
+    use crate::scene::{Part, Vertex};
+
+    /// Rows and columns.
+    const SIDE: u32 = 64;
+
+    /// A pixel is 1/8 at a distance of 4.
+    const CAMERA: Camera = Camera {
+        eye: [0.0; 3],
+        target: [0.0, 0.0, -1.0],
+        up: [0.0, 1.0, 0.0],
+        fov: 90.0,
+        near: 1.0,
+        far: 10.0,
+    };
+
+    fn model(corners: &[[f32; 3]], triangles: &[[u32; 3]]) -> Model {
+        let vertex = |&position: &[f32; 3]| {
+            // Texture coordinates that span the shape.
+            Vertex { position, uv: [position[0], position[1] - position[2]], ..Vertex::default() }
+        };
+        let part = Part { triangles: triangles.to_vec(), ..Part::default() };
+        Model { vertices: corners.iter().map(vertex).collect(), parts: vec![part], ..Model::default() }
+    }
+
+    fn counted(model: &Model, interpolation: &str, arithmetic: Arithmetic) -> Work {
+        let interpolation = interpolation.parse().expect("a name");
+        let options = RenderOptions {
+            width: SIDE,
+            height: SIDE,
+            background: [0; 3],
+            shading: Shading::Unlit,
+            filter: Filter::Nearest,
+            wrap: Wrap::Repeat,
+            cull: Cull::None,
+            depth: DepthFormat::U16,
+            projection: Projection::Perspective,
+            threads: NonZero::new(2).expect("two"),
+            policies: Policies { interpolation, arithmetic, ..Policies::default() },
+        };
+        work(model, &CAMERA, &options).expect("a picture")
+    }
+
+    /// A rectangle across the columns 16 to 48 and the rows 24 to 40, and one behind it, with the same pixels.
+    fn rectangles() -> Model {
+        let corners = [4.0, 8.0].map(|distance: f32| {
+            let [x, y] = [distance / 2.0, distance / 4.0];
+            [[-x, -y, -distance], [x, -y, -distance], [x, y, -distance], [-x, y, -distance]]
+        });
+        model(corners.as_flattened(), &[[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]])
+    }
+
+    #[test]
+    fn a_rectangle_before_another_is_drawn_once_and_tested_twice() {
+        let expected = Work {
+            vertices: 8.0,
+            submitted: 4.0,
+            clipped: 0.0,
+            drawn: 4.0,
+            // The diagonal passes between two samples of each of 16 rows, and never at an end.
+            rows: 64.0,
+            runs: 0.0,
+            tested: 1024.0,
+            written: 512.0,
+        };
+        for interpolation in ["exact", "plane", "affine"] {
+            assert_eq!(counted(&rectangles(), interpolation, Arithmetic::Float), expected);
+        }
+        // A row has 32 columns, and the diagonal, at an odd column, cuts a run of more than one in two.
+        for arithmetic in [Arithmetic::Float, Arithmetic::Fixed] {
+            // Runs of 32 columns end in the middle of a row.
+            for (length, pieces) in [(4, 9.0), (8, 5.0), (16, 3.0), (32, 3.0)] {
+                let work = counted(&rectangles(), &format!("spans:{length}"), arithmetic);
+                assert_eq!(work, Work { runs: 2.0 * 16.0 * pieces, ..expected }, "{length} {arithmetic:?}");
+            }
+        }
+        // In boxes of no more than 32 columns floats are exact: each visible sample is divided.
+        let work = counted(&rectangles(), "bounded:0.25", Arithmetic::Float);
+        assert_eq!(work, Work { runs: 512.0, ..expected });
+        // In fixed point a budget with room for the steps along 64 columns leaves a run a row.
+        let work = counted(&rectangles(), "bounded:1", Arithmetic::Fixed);
+        assert_eq!(work, Work { runs: 64.0, ..expected });
+    }
+
+    #[test]
+    fn a_triangle_from_behind_the_camera_is_clipped() {
+        // Two corners are behind; what is left at the near plane is the screen's lower edge.
+        let floor = model(&[[-0.5, -1.0, 1.0], [0.5, -1.0, 1.0], [0.5, -1.0, -4.0]], &[[0, 1, 2]]);
+        let found = counted(&floor, "spans:32", Arithmetic::Float);
+        // On the screen its corners are (36, 40), (28.8, 64) and (48, 64).
+        let (mut rows, mut samples, mut runs) = (0.0, 0.0, 0.0);
+        for row in 40..64 {
+            let down = f64::from(row) + 0.5 - 40.0;
+            let [left, right] = [-7.2, 12.0].map(|across| 36.0 + across * down / 24.0);
+            let columns: Vec<u32> =
+                (0..SIDE).filter(|&column| (left..right).contains(&(f64::from(column) + 0.5))).collect();
+            rows += f64::from(u8::from(!columns.is_empty()));
+            samples += f64::from(u32::try_from(columns.len()).expect("few"));
+            let cells: HashSet<u32> = columns.iter().map(|column| column / 32).collect();
+            runs += f64::from(u32::try_from(cells.len()).expect("two"));
+        }
+        let expected = Work {
+            vertices: 3.0,
+            submitted: 1.0,
+            clipped: 1.0,
+            drawn: 1.0,
+            rows,
+            runs,
+            tested: samples,
+            written: samples,
+        };
+        assert_eq!(found, expected);
+        assert!(rows < 24.0 && runs > rows, "the point is between samples, and runs of 32 columns end at 32");
+    }
+}
