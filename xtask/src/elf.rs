@@ -10,8 +10,8 @@ pub(crate) struct Program {
     pub(crate) text: u64,
     /// Bytes of constants.
     pub(crate) rodata: u64,
-    /// The names of all symbols, mangled, in the order of the file.
-    symbols: Vec<String>,
+    /// The names of all symbols, mangled, and what they stand for, in the order of the file.
+    symbols: Vec<(String, u64)>,
 }
 
 /// Offsets of fields and sizes of entries, which depend on the width of addresses alone.
@@ -24,12 +24,15 @@ struct Layout {
     counts: u64,
     /// The fields flags, offset, size and link in a section's header.
     fields: [u64; 4],
-    /// Bytes of a symbol.
+    /// Bytes of a symbol, and the field with its value.
     symbol: u64,
+    value: u64,
 }
 
-const NARROW: Layout = Layout { address: 4, sections: 32, counts: 46, fields: [8, 16, 20, 24], symbol: 16 };
-const WIDE: Layout = Layout { address: 8, sections: 40, counts: 58, fields: [8, 24, 32, 40], symbol: 24 };
+const NARROW: Layout =
+    Layout { address: 4, sections: 32, counts: 46, fields: [8, 16, 20, 24], symbol: 16, value: 4 };
+const WIDE: Layout =
+    Layout { address: 8, sections: 40, counts: 58, fields: [8, 24, 32, 40], symbol: 24, value: 8 };
 
 /// One header of a section.
 struct Section<'a> {
@@ -66,7 +69,7 @@ impl Program {
 
     /// The functions by which the program can panic: those of `core` by their last name, sorted.
     pub(crate) fn panics(&self) -> Vec<String> {
-        let names = self.symbols.iter().filter(|symbol| symbol.contains("panic")).map(|symbol| path(symbol));
+        let names = self.names().filter(|symbol| symbol.contains("panic")).map(path);
         let mut panics: Vec<String> =
             names.map(|name| name.strip_prefix("core::panicking::").unwrap_or(&name).to_string()).collect();
         panics.sort();
@@ -82,7 +85,7 @@ impl Program {
             (None, Some(name)) => name.contains("df"),
             (None, None) => false,
         };
-        self.symbols.iter().map(String::as_str).filter(double).collect()
+        self.names().filter(double).collect()
     }
 
     /// The number of compiled instances of a generic function, closures in it aside.
@@ -90,7 +93,16 @@ impl Program {
     /// An instance that was inlined into every caller has no symbol, so the number is honest only for functions that
     /// cannot be, such as recursive ones.
     pub(crate) fn instances(&self, function: &str) -> usize {
-        self.symbols.iter().map(|symbol| path(symbol)).filter(|path| path == function).count()
+        self.names().map(path).filter(|path| path == function).count()
+    }
+
+    /// Where a function begins, by its mangled name. The lowest bit, which says Thumb on Arm, is clear.
+    pub(crate) fn address(&self, function: &str) -> Option<u64> {
+        self.symbols.iter().find(|(name, _)| name == function).map(|(_, value)| value & !1)
+    }
+
+    fn names(&self) -> impl Iterator<Item = &str> {
+        self.symbols.iter().map(|(name, _)| name.as_str())
     }
 }
 
@@ -134,18 +146,19 @@ fn sections<'a>(file: &'a [u8], layout: &Layout) -> Option<Vec<Section<'a>>> {
         .collect()
 }
 
-/// The names of all symbols; they are in the section of strings to which that of the symbols links.
+/// All symbols; their names are in the section of strings to which that of the symbols links.
 fn symbols(
     file: &[u8],
     layout: &Layout,
     sections: &[Section<'_>],
     table: &Section<'_>,
-) -> Option<Vec<String>> {
+) -> Option<Vec<(String, u64)>> {
     let strings = sections.get(usize::try_from(table.link).ok()?)?.offset;
     (0..table.size / layout.symbol)
         .map(|index| {
             let entry = table.offset.checked_add(layout.symbol * index)?;
-            string(file, strings.checked_add(number(file, entry, 4)?)?).map(str::to_string)
+            let name = string(file, strings.checked_add(number(file, entry, 4)?)?)?;
+            Some((name.to_string(), number(file, entry.checked_add(layout.value)?, layout.address)?))
         })
         .collect()
 }
@@ -188,6 +201,7 @@ mod tests {
             put(layout.counts + place, 2, value);
         }
         put(symbols + layout.symbol, 4, 32);
+        put(symbols + layout.symbol + layout.value, layout.address, 0x1235);
         // Name, kind, flags, offset, size, link.
         let rows = [
             [1, PROGRAM_BITS, ALLOCATED | 4, 0, 100, 0],
@@ -212,6 +226,8 @@ mod tests {
             let program = Program::read(&file(layout)).unwrap();
             assert_eq!((program.text, program.rodata), (100, 30));
             assert_eq!(program.panics(), ["panic_bounds_check"]);
+            assert_eq!(program.address(&program.symbols[1].0), Some(0x1234));
+            assert_eq!(program.address("main"), None);
         }
     }
 
@@ -220,7 +236,7 @@ mod tests {
         let symbols =
             ["__aeabi_dmul", "__aeabi_f2d", "__aeabi_cdcmple", "__muldf3", "__aeabi_fmul", "__divsi3"];
         let others = ["__aeabi_l2f", "__aeabi_idiv", "_RNvCs_5scenes4df32", "memcpy"];
-        let symbols = symbols.into_iter().chain(others).map(String::from).collect();
+        let symbols = symbols.into_iter().chain(others).map(|name| (name.to_string(), 0)).collect();
         let program = Program { text: 0, rodata: 0, symbols };
         assert_eq!(program.doubles(), ["__aeabi_dmul", "__aeabi_f2d", "__aeabi_cdcmple", "__muldf3"]);
     }
@@ -253,7 +269,7 @@ mod tests {
             "_ZN14alberti_raster4draw18Paint$LT$F$C$P$GT$10draw_batch17h083f00431fb763deE",
             "main",
         ];
-        let program = Program { text: 0, rodata: 0, symbols: symbols.map(str::to_string).to_vec() };
+        let program = Program { text: 0, rodata: 0, symbols: symbols.map(|name| (name.to_string(), 0)).to_vec() };
         assert_eq!(program.instances("alberti::pipeline::draw_from"), 3);
         assert_eq!(program.instances("alberti_raster::draw::Paint::draw_batch"), 1);
         assert_eq!(program.instances("main"), 1);

@@ -6,6 +6,7 @@
 
 mod emulator;
 mod frames;
+mod prices;
 
 use std::fs;
 
@@ -15,6 +16,8 @@ use crate::embedded::Toolchain;
 use crate::workspace::{self, FIRMWARE};
 use emulator::Emulator;
 use frames::{Drawn, Expected};
+
+pub(crate) use prices::prices;
 
 /// A machine that the firmware runs on.
 struct Board {

@@ -5,13 +5,15 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use crate::command::{self, Outcome, cargo, output};
-use crate::workspace;
+use crate::{firmware, workspace};
 
 /// The package that measures.
 const PACKAGE: &str = "alberti-trade";
 /// The functions within which a frame is counted, and at which its count is written, for callgrind's options.
 const MEASURED: &str = "*counts::measured*";
 const ENDED: &str = "*counts::ended*";
+/// The board whose counts are compared with the table.
+const CHECKED: &str = "m4f";
 /// The option for what repeats alone.
 const CHECK: &str = "--check";
 
@@ -38,7 +40,17 @@ fn measure(what: &str) -> Outcome {
         Some(folder) => _ = line.arg("--counts").arg(folder),
         None => eprintln!("valgrind is not installed: instructions are not counted (Debian: valgrind)"),
     }
-    command::run(&mut line)
+    let scenes = workspace::target_directory().join("trade-scenes");
+    command::run(Command::new(&program).arg("scenes").arg(&scenes))?;
+    // Compiling for three boards and thirty sizes takes minutes: a check asks one board for its counts.
+    let prices = if what == "write" {
+        firmware::prices(&scenes, None, true)?
+    } else {
+        firmware::prices(&scenes, Some(CHECKED), false)?
+    };
+    let file = scenes.join("prices.csv");
+    fs::write(&file, prices).map_err(|error| format!("cannot write {}: {error}", file.display()))?;
+    command::run(line.arg("--boards").arg(file))
 }
 
 /// The compiler and the registers by which instructions can be compared.

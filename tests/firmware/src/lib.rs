@@ -1,28 +1,46 @@
-//! What the programs need of a board: memory for a frame, and a count of executed instructions.
+//! What the programs need of a board: memory for a frame, and counts of executed instructions and of stack.
 //!
 //! Boards differ in nothing else, so there is one source for all of them; `boards/` has their memory layouts.
 
 #![no_std]
 
+use core::hint::black_box;
 use core::sync::atomic::{AtomicBool, Ordering};
 use scenes::Target;
+use scenes::policies::{Loaded, Memory};
 
-/// The frame's memory, for the first who asks.
-#[must_use]
-pub fn target() -> Option<&'static mut Target> {
-    static TAKEN: AtomicBool = AtomicBool::new(false);
-    static mut TARGET: Target = Target::EMPTY;
-    // Two steps, since the smallest cores have no atomic swap; there is one thread and no interrupt.
-    if TAKEN.load(Ordering::Relaxed) {
-        return None;
-    }
-    TAKEN.store(true, Ordering::Relaxed);
-    #[expect(
-        unsafe_code,
-        reason = "static memory that is too large for a stack; the flag makes this the only borrow"
-    )]
-    let target = unsafe { &mut *(&raw mut TARGET) };
-    Some(target)
+/// Defines functions that give static memory to the first who asks.
+macro_rules! memories {
+    ($($(#[$doc:meta])* $name:ident: $type:ty;)*) => {$(
+        $(#[$doc])*
+        #[must_use]
+        pub fn $name() -> Option<&'static mut $type> {
+            static TAKEN: AtomicBool = AtomicBool::new(false);
+            static mut MEMORY: $type = <$type>::EMPTY;
+            // Two steps, since the smallest cores have no atomic swap; there is one thread and no interrupt.
+            if TAKEN.load(Ordering::Relaxed) {
+                return None;
+            }
+            TAKEN.store(true, Ordering::Relaxed);
+            #[expect(
+                unsafe_code,
+                reason = "static memory that is too large for a stack; the flag makes this the only borrow"
+            )]
+            let memory = unsafe { &mut *(&raw mut MEMORY) };
+            Some(memory)
+        }
+    )*};
+}
+
+memories! {
+    /// A frame's memory.
+    target: Target;
+
+    /// That of a frame by any policy.
+    memory: Memory;
+
+    /// Room for a scene that is read.
+    loaded: Loaded;
 }
 
 /// A counter that grows with the executed instructions and wraps; `cargo xtask firmware` knows its ticks.
@@ -44,4 +62,43 @@ pub fn ticks() -> u32 {
     #[expect(clippy::cast_possible_truncation, reason = "the low half is enough for a difference")]
     let ticks = riscv::register::minstret::read() as u32;
     ticks
+}
+
+/// A place that `cargo xtask trade` hears of when it is passed, for what it counts between two of them.
+#[inline(never)]
+#[expect(unsafe_code, reason = "the name under which the place is found")]
+#[unsafe(no_mangle)]
+pub extern "C" fn passed() {
+    black_box(());
+}
+
+/// The bytes of stack that a call takes, up to 16 KB: it is written full before, and read after.
+pub fn stack_of(call: impl FnOnce()) -> usize {
+    let bottom = fill();
+    call();
+    unchanged(bottom)
+}
+
+/// Words of the stack that are watched, and what they are filled with.
+const WATCHED: usize = 4096;
+const FILLED: u32 = 0x5ac3_96e1;
+
+/// Fills the stack below the caller's, and tells where that begins.
+#[inline(never)]
+fn fill() -> usize {
+    let mut words = [0; WATCHED];
+    words.fill(black_box(FILLED));
+    black_box(&raw const words) as usize
+}
+
+/// The bytes above the lowest word that is no longer as it was filled.
+#[inline(never)]
+fn unchanged(bottom: usize) -> usize {
+    let kept = (0..WATCHED).take_while(|word| {
+        let place = (bottom + 4 * word) as *const u32;
+        #[expect(unsafe_code, reason = "memory of the stack, which is there whatever it holds")]
+        let word = unsafe { place.read_volatile() };
+        word == FILLED
+    });
+    4 * (WATCHED - kept.count())
 }

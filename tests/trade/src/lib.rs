@@ -3,6 +3,8 @@
 //!
 //! The frames of all policies are in the program of this package, apart from what has tests: they take long to compile.
 
+pub mod boards;
+pub mod calibration;
 pub mod counts;
 pub mod errors;
 pub mod family;

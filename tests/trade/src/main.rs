@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! alberti-trade frames                            draws every row once more in a function that callgrind counts
+//! alberti-trade scenes FOLDER                     writes the scenes that boards draw, as files that they read
 //! alberti-trade write ROOT [OPTION VALUE]...      measures, and writes docs/trade.md, its table and its pictures
 //! alberti-trade check ROOT [OPTION VALUE]...      measures what repeats, and compares it with the table
 //! options: --counts FOLDER of callgrind's parts, --compiler TEXT, --boards FILE of a chapter
@@ -10,6 +11,7 @@
 mod families;
 mod frame;
 
+use alberti_trade::boards::scene_file;
 use alberti_trade::counts::{self, measured};
 use alberti_trade::errors::{Court, Judged};
 use alberti_trade::family::Family;
@@ -39,6 +41,7 @@ fn main() -> ExitCode {
             frames();
             Ok(())
         }
+        ["scenes", folder] => scene_file::write(Path::new(folder)).map_err(Into::into),
         ["write", root, options @ ..] => Options::parse(root, options).and_then(|options| write(&options)),
         ["check", root, options @ ..] => Options::parse(root, options).and_then(|options| check(&options)),
         _ => Err("expected frames, or write or check with the repository's folder".into()),

@@ -48,7 +48,7 @@ pub fn scene(name: &str) -> &'static Scene {
 }
 
 impl Scene {
-    fn new(name: &'static str, about: &'static str, model: Model, camera: Camera) -> Self {
+    pub(crate) fn new(name: &'static str, about: &'static str, model: Model, camera: Camera) -> Self {
         let levels = model.textures.first().map_or_else(Vec::new, |image| {
             let mut texels = image.texels.clone();
             texels.resize(mipmap::texel_count(image.width, image.height), [0; 4]);
@@ -108,7 +108,7 @@ impl Scene {
 /// A wall of 8 by 6 cells that leans back a little: q changes by a tenth across it.
 fn near_flat() -> Scene {
     let at = |s: f32, t: f32| [2.6 * (s - 0.5), 2.0 * (t - 0.5), -2.6 - 0.26 * s];
-    let model = textured(sheet([8, 6], at, [2.0, 1.5]), tiles());
+    let model = tiled(sheet([8, 6], at, [2.0, 1.5]));
     Scene::new(
         "near-flat",
         "a wall that leans back: q changes by a tenth across it",
@@ -120,7 +120,7 @@ fn near_flat() -> Scene {
 /// One plane from behind the eye to the horizon.
 fn floor() -> Scene {
     let at = |s: f32, t: f32| [400.0 * (s - 0.5), -1.0, 2.0 - 400.0 * t];
-    let model = textured(sheet([1, 1], at, [400.0, 402.0]), tiles());
+    let model = tiled(sheet([1, 1], at, [400.0, 402.0]));
     let camera = Camera { target: [0.0, -0.25, -1.0], ..camera(0.1, 500.0) };
     Scene::new(
         "floor",
@@ -133,7 +133,7 @@ fn floor() -> Scene {
 /// A wall along the line of sight, whose near end is fifty times as near as its far end.
 fn close_up() -> Scene {
     let at = |s: f32, t: f32| [-0.02 + 0.5 * s, 1.2 * (t - 0.5) * (0.02 + s), -0.01 - 2.0 * s];
-    let model = textured(sheet([1, 1], at, [1.0, 1.0]), tiles());
+    let model = tiled(sheet([1, 1], at, [1.0, 1.0]));
     let camera = Camera { target: [0.12, 0.0, -1.0], ..camera(0.001, 10.0) };
     Scene::new("close-up", "a wall past the eye: q falls to a hundredth across two triangles", model, camera)
 }
@@ -147,7 +147,7 @@ fn dense_mesh() -> Scene {
 /// A plane whose texture is squeezed, from one texel a pixel to some thirty.
 fn minified() -> Scene {
     let at = |s: f32, t: f32| [12.0 * (s - 0.5), -1.0 + 0.4 * t, -1.2 - 14.0 * t];
-    let model = textured(sheet([6, 8], at, [18.0, 24.0]), tiles());
+    let model = tiled(sheet([6, 8], at, [18.0, 24.0]));
     let camera = Camera { target: [0.0, -0.35, -1.0], ..camera(0.1, 50.0) };
     Scene::new("minified", "a plane that falls away: one to thirty texels a pixel", model, camera)
 }
@@ -180,7 +180,7 @@ fn lit() -> Scene {
     Scene::new(
         "lit",
         "a torus of 1,024 triangles under a lamp, with a highlight",
-        textured(model, tiles()),
+        tiled(model),
         camera,
     )
 }
@@ -200,7 +200,7 @@ fn relief() -> Scene {
 }
 
 /// An eye at the origin that looks along -z.
-fn camera(near: f32, far: f32) -> Camera {
+pub(crate) fn camera(near: f32, far: f32) -> Camera {
     Camera { eye: [0.0; 3], target: [0.0, 0.0, -1.0], up: [0.0, 1.0, 0.0], fov: 50.0, near, far }
 }
 
@@ -230,6 +230,11 @@ pub fn sheet([columns, rows]: [u16; 2], at: impl Fn(f32, f32) -> [f32; 3], repea
     let halves = |a: u32| [[a, a + 1, a + across + 1], [a, a + across + 1, a + across]];
     let part = Part { triangles: cells.flat_map(halves).collect(), diffuse: [1.0; 3], ..Part::default() };
     Model { vertices: corners.map(vertex).collect(), parts: vec![part], ..Model::default() }
+}
+
+/// A model with tiles on it.
+pub(crate) fn tiled(model: Model) -> Model {
+    textured(model, tiles())
 }
 
 fn textured(model: Model, image: Image) -> Model {

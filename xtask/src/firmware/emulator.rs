@@ -11,8 +11,8 @@ use crate::command::{Outcome, describe};
 /// The Debian packages that have the emulators.
 const PACKAGES: &str = "qemu-system-arm qemu-system-misc";
 
-/// A program that hangs must not hang the caller; the slowest takes a tenth of this on a slow machine.
-const LONGEST: Duration = Duration::from_secs(300);
+/// A program that hangs must not hang the caller; the slowest takes a fifth of this on a slow machine.
+const LONGEST: Duration = Duration::from_secs(1500);
 
 /// A machine of one of QEMU's programs.
 #[derive(Debug)]
@@ -40,7 +40,13 @@ impl Emulator {
 
     /// Runs the program to its end, and returns what it prints.
     pub(super) fn run(&self, image: &Path) -> Result<String, String> {
+        self.run_in(Path::new("."), &[], image)
+    }
+
+    /// The same where the program finds the files of a folder, with more arguments.
+    pub(super) fn run_in(&self, folder: &Path, arguments: &[String], image: &Path) -> Result<String, String> {
         let mut command = Command::new(self.program);
+        command.current_dir(folder).args(arguments);
         command.args(self.machine).args(["-nographic", "-monitor", "none", "-serial", "none"]);
         command.args(["-semihosting-config", "enable=on,target=native", "-icount"]);
         command.arg(format!("shift={},sleep=off", self.shift)).arg("-kernel").arg(image);

@@ -7,6 +7,7 @@
 #![no_std]
 
 mod draws;
+pub mod policies;
 pub mod shapes;
 pub mod torus;
 
@@ -23,7 +24,7 @@ pub use shapes::PROBE;
 
 use alberti::glam::Vec2;
 use alberti::shaders::Ready565;
-use alberti::{D16, DepthFormat, Perspective, PreparedTriangle, Slot};
+use alberti::{D16, DepthFormat, Frame, Perspective, PreparedTriangle, Slot, View};
 use shapes::{Model, coarse_torus, distant_torus, floor, layers, torus};
 use torus::{TORUS_TRIANGLES, TORUS_VERTICES};
 
@@ -152,6 +153,12 @@ impl Camera {
 
     /// 33 degrees.
     pub const LONG: Self = Self::of(0.58);
+
+    /// The view of what stands before the eye.
+    #[must_use]
+    pub const fn view(self) -> View {
+        View::new(Frame::IDENTITY, self.perspective)
+    }
 
     const fn of(angle: f32) -> Self {
         match Perspective::new(angle, shapes::ASPECT, 0.5, 50.0) {

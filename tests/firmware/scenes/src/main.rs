@@ -1,7 +1,9 @@
 //! Draws every scene on the host and says what the boards must get, one line each: name, hash, the mesh's triangles,
-//! written pixels. A folder as argument also gets the pictures, as PPM files.
+//! written pixels. A folder as argument also gets the pictures, as PPM files. With `policies` before it, the scenes are
+//! the folder's files `00`, `01` and so on, drawn by every policy: scene, number of the policy, its name, hash.
 
 use alberti::Stats;
+use scenes::policies::{Loaded, Memory, POLICIES};
 use scenes::{HEIGHT, SCENES, Target, WIDTH};
 use std::error::Error;
 use std::path::Path;
@@ -9,6 +11,11 @@ use std::{env, fs};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = env::args_os().nth(1);
+    if let (Some("policies"), Some(files)) =
+        (folder.as_ref().and_then(|word| word.to_str()), env::args_os().nth(2))
+    {
+        return by_policies(Path::new(&files));
+    }
     let mut target = Box::new(Target::EMPTY);
     for scene in SCENES {
         target.clear();
@@ -29,6 +36,23 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("frame {} {hash:016x} {triangles} {}", scene.name, stats.written);
         if let Some(folder) = &folder {
             fs::write(Path::new(folder).join(scene.name).with_extension("ppm"), picture(&target))?;
+        }
+    }
+    Ok(())
+}
+
+/// Draws the scenes of a folder by every policy.
+fn by_policies(folder: &Path) -> Result<(), Box<dyn Error>> {
+    let mut memory = Box::new(Memory::EMPTY);
+    let mut loaded = Box::new(Loaded::EMPTY);
+    for number in 0..100 {
+        let Ok(file) = fs::read(folder.join(format!("{number:02}"))) else { break };
+        let mut words = file.chunks_exact(4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]));
+        let scene = loaded.read(|| words.next()).ok_or_else(|| format!("{number:02} is no scene"))?;
+        for (policy, index) in POLICIES.iter().zip(0..) {
+            memory.clear(policy);
+            (policy.draw)(&mut memory, &scene);
+            println!("{number} {index} {:016x} {}", memory.hash(), policy.name);
         }
     }
     Ok(())

@@ -1,0 +1,278 @@
+//! The policies whose prices are measured, on scenes that a program reads: a textured mesh, not lit, in RGB565.
+//!
+//! Each is a name and a function of its own, so that a program which draws by one contains no other.
+
+use crate::{HEIGHT, PIXELS, WIDTH};
+use alberti::glam::{Mat3, Vec2, Vec3};
+use alberti::lanes::One;
+use alberti::raster::PerRun;
+use alberti::shaders::{Differentiated, Stored, Unlit};
+use alberti::texture::mipmap::texel_count;
+use alberti::texture::{Bilinear, Mipmap, Nearest, PowerOfTwo, Repeat, Texture, Trilinear, format::Rgb565};
+use alberti::{
+    Affine, D16, D24, D32, DepthFormat, Exact, F32, F32Reversed, FixedPoint, FragmentStage, Frame,
+    Interpolation, Lines, Mesh, NoDepth, Pass, Perspective, Planes, Point3, Rgb565Le, Slot, Spans16, Sub4,
+    Sub8, Subpixel, View,
+};
+
+/// A vertex with a texture.
+#[derive(Clone, Copy, Debug)]
+pub struct Mapped {
+    /// In the world.
+    pub position: [f32; 3],
+    /// In textures: 1 is a whole one.
+    pub uv: [f32; 2],
+}
+
+/// Something to draw.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene<'a> {
+    /// From where.
+    pub view: View,
+    /// The mesh.
+    pub vertices: &'a [Mapped],
+    /// Three indices each.
+    pub triangles: &'a [[u16; 3]],
+    /// The texture.
+    pub texture: Texture<'a, Rgb565, PowerOfTwo>,
+    /// All its levels.
+    pub levels: Mipmap<'a, Rgb565, PowerOfTwo>,
+}
+
+/// A way of drawing a scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Policy {
+    /// By what it is called in the tables.
+    pub name: &'static str,
+    /// One frame. The memory has been cleared.
+    pub draw: fn(&mut Memory, &Scene<'_>),
+}
+
+/// Defines the policies: numbers and interpolation, depth, grid, and how the texture is read.
+macro_rules! policies {
+    ($($name:literal: $interpolation:expr, $depth:expr, $subpixel:expr, $stage:ident;)*) => {
+        /// All of them.
+        pub const POLICIES: &[Policy] = &[$(Policy {
+            name: $name,
+            draw: |memory, scene| draw(memory, scene, ($interpolation)(scene), $depth, $subpixel, $stage(scene)),
+        },)*];
+    };
+}
+
+policies! {
+    "float exact": |_| Exact, D16, Sub4, nearest;
+    "float plane": |_| Planes, D16, Sub4, nearest;
+    "float spans:4": |_| spans(4), D16, Sub4, nearest;
+    "float spans:8": |_| spans(8), D16, Sub4, nearest;
+    "float spans:16": |_| Spans16, D16, Sub4, nearest;
+    "float spans:32": |_| spans(32), D16, Sub4, nearest;
+    "float bounded:0.0625": |scene| bounded(0.0625, scene), D16, Sub4, nearest;
+    "float bounded:0.25": |scene| bounded(0.25, scene), D16, Sub4, nearest;
+    "float affine": |_| Affine, D16, Sub4, nearest;
+    "fixed spans:4": |_| FixedPoint(spans(4)), D16, Sub4, nearest;
+    "fixed spans:8": |_| FixedPoint(spans(8)), D16, Sub4, nearest;
+    "fixed spans:16": |_| FixedPoint(Spans16), D16, Sub4, nearest;
+    "fixed spans:32": |_| FixedPoint(spans(32)), D16, Sub4, nearest;
+    "fixed bounded:0.0625": |scene| FixedPoint(bounded(0.0625, scene)), D16, Sub4, nearest;
+    "fixed bounded:0.25": |scene| FixedPoint(bounded(0.25, scene)), D16, Sub4, nearest;
+    "fixed affine": |_| FixedPoint(Affine), D16, Sub4, nearest;
+    "fixed spans:16, none": |_| FixedPoint(Spans16), NoDepth, Sub4, nearest;
+    "fixed spans:16, u24": |_| FixedPoint(Spans16), D24, Sub4, nearest;
+    "fixed spans:16, u32": |_| FixedPoint(Spans16), D32, Sub4, nearest;
+    "fixed spans:16, f32": |_| FixedPoint(Spans16), F32, Sub4, nearest;
+    "fixed spans:16, f32-reversed": |_| FixedPoint(Spans16), F32Reversed, Sub4, nearest;
+    "float exact, none": |_| Exact, NoDepth, Sub4, nearest;
+    "float exact, u24": |_| Exact, D24, Sub4, nearest;
+    "float exact, u32": |_| Exact, D32, Sub4, nearest;
+    "float exact, f32": |_| Exact, F32, Sub4, nearest;
+    "float exact, f32-reversed": |_| Exact, F32Reversed, Sub4, nearest;
+    "fixed spans:16, 8": |_| FixedPoint(Spans16), D16, Sub8, nearest;
+    "float exact, 8": |_| Exact, D16, Sub8, nearest;
+    "fixed spans:16, bilinear": |_| FixedPoint(Spans16), D16, Sub4, bilinear;
+    "fixed spans:16, trilinear": |_| FixedPoint(Spans16), D16, Sub4, trilinear;
+}
+
+#[inline]
+fn spans(length: i32) -> Lines {
+    Lines::spans(length).unwrap_or(Lines::affine())
+}
+
+/// Lines that miss by at most so many texels.
+#[inline]
+fn bounded(texels: f32, scene: &Scene<'_>) -> Lines {
+    let [width, height] = [scene.texture.width(), scene.texture.height()];
+    Lines::bounded_texels(texels, u16::try_from(width.max(height)).unwrap_or(u16::MAX))
+}
+
+#[inline]
+fn nearest<'a>(scene: &Scene<'a>) -> impl FragmentStage<Vec2, Color = u16> + use<'a> {
+    Stored(scene.texture.sampler(Nearest, Repeat))
+}
+
+#[inline]
+fn bilinear<'a>(scene: &Scene<'a>) -> impl FragmentStage<Vec2, Color = alberti::Rgba8> + use<'a> {
+    Unlit(scene.texture.sampler(Bilinear, Repeat))
+}
+
+#[inline]
+fn trilinear<'a>(scene: &Scene<'a>) -> impl FragmentStage<Vec2, Color = alberti::Rgba8> + use<'a> {
+    Differentiated::by(PerRun, Unlit(scene.levels.sampler(Trilinear, Repeat)))
+}
+
+#[inline]
+fn draw<D: Kept>(
+    memory: &mut Memory,
+    scene: &Scene<'_>,
+    interpolation: impl Interpolation,
+    depth: D,
+    subpixel: Subpixel,
+    stage: impl FragmentStage<Vec2>,
+) {
+    let mesh = Mesh::new(scene.vertices, scene.triangles, |v: &Mapped| {
+        (Point3::new(Vec3::from_array(v.position)), Vec2::from_array(v.uv))
+    });
+    let Memory { color, depths, slots } = memory;
+    let target = alberti::Target::new(Rgb565Le, depth, WIDTH, HEIGHT, color, D::within(depths));
+    if let Ok(mut target) = target {
+        let slots = slots.get_mut(..scene.vertices.len()).unwrap_or_default();
+        let pass = Pass::new(&scene.view, &mesh, stage).interpolation(interpolation).subpixel(subpixel);
+        pass.slots(slots).draw_by(One, &mut target);
+    }
+}
+
+/// The most vertices and triangles of a scene, and texels along a side of its texture and in all levels of it.
+pub const MOST: usize = 8192;
+const SIDE: u32 = 256;
+const TEXELS: usize = texel_count(SIDE, SIDE);
+
+/// The memory of a frame.
+#[derive(Debug)]
+pub struct Memory {
+    color: [u16; PIXELS],
+    depths: Depths,
+    slots: [Slot<Vec2>; MOST],
+}
+
+/// Depths of every format.
+#[derive(Debug)]
+struct Depths {
+    nothing: [(); PIXELS],
+    half: [u16; PIXELS],
+    word: [u32; PIXELS],
+    float: [f32; PIXELS],
+}
+
+/// A depth format that has its place in the memory.
+trait Kept: DepthFormat {
+    fn within(depths: &mut Depths) -> &mut [Self::Stored];
+}
+
+macro_rules! kept {
+    ($($format:ty: $field:ident;)*) => {$(
+        impl Kept for $format {
+            #[inline]
+            fn within(depths: &mut Depths) -> &mut [Self::Stored] {
+                &mut depths.$field
+            }
+        }
+    )*};
+}
+
+kept! {
+    NoDepth: nothing;
+    D16: half;
+    D24: word;
+    D32: word;
+    F32: float;
+    F32Reversed: float;
+}
+
+impl Memory {
+    /// As it is before the start.
+    pub const EMPTY: Self = Self {
+        color: [0; PIXELS],
+        depths: Depths { nothing: [(); PIXELS], half: [0; PIXELS], word: [0; PIXELS], float: [0.0; PIXELS] },
+        slots: [Slot::EMPTY; MOST],
+    };
+
+    /// Makes all pixels dark grey and as far away as can be: where depths are reversed, the format's name says so.
+    pub fn clear(&mut self, policy: &Policy) {
+        let Self { color, depths, slots } = self;
+        color.fill(0x2104_u16.to_le());
+        depths.half.fill(D16.farthest());
+        depths.word.fill(if policy.name.ends_with("u24") { D24.farthest() } else { D32.farthest() });
+        let reversed = policy.name.ends_with("reversed");
+        depths.float.fill(if reversed { F32Reversed.farthest() } else { F32.farthest() });
+        slots.fill(Slot::EMPTY);
+    }
+
+    /// The 64-bit FNV-1a hash of the colour's bytes.
+    #[must_use]
+    pub fn hash(&self) -> u64 {
+        let bytes = self.color.iter().flat_map(|pixel| pixel.to_ne_bytes());
+        bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+    }
+}
+
+/// Room for a scene that a program reads.
+#[derive(Debug)]
+pub struct Loaded {
+    vertices: [Mapped; MOST],
+    triangles: [[u16; 3]; MOST],
+    texels: [u16; TEXELS],
+}
+
+impl Loaded {
+    /// Nothing yet.
+    pub const EMPTY: Self = Self {
+        vertices: [Mapped { position: [0.0; 3], uv: [0.0; 2] }; MOST],
+        triangles: [[0; 3]; MOST],
+        texels: [0; TEXELS],
+    };
+
+    /// Reads a scene from words: the numbers of vertices, of triangles, and of texels along a side; the three axes and
+    /// the origin of the world before the eye, the opening angle, the near and the far plane; vertices; indices; texels
+    /// of all levels.
+    ///
+    /// `None` if words are missing, or if it is too large.
+    pub fn read(&mut self, mut next: impl FnMut() -> Option<u32>) -> Option<Scene<'_>> {
+        let [vertices, triangles] = [next()?, next()?].map(|count| usize::try_from(count).unwrap_or(usize::MAX));
+        let side = next()?.min(SIDE);
+        let mut floats = [0.0; 15];
+        for float in &mut floats {
+            *float = f32::from_bits(next()?);
+        }
+        let [x, y, z, origin, [angle, near, far]] =
+            [0, 3, 6, 9, 12].map(|at| [floats[at], floats[at + 1], floats[at + 2]]);
+        let axes = Mat3::from_cols(Vec3::from_array(x), Vec3::from_array(y), Vec3::from_array(z));
+        let to_eye = Frame::from_mat3(axes, Point3::new(Vec3::from_array(origin)));
+        let view = View::new(to_eye, Perspective::new(angle, crate::shapes::ASPECT, near, far).ok()?);
+        let Self { vertices: all, triangles: faces, texels } = self;
+        for Mapped { position, uv } in all.get_mut(..vertices)? {
+            for float in position.iter_mut().chain(uv) {
+                *float = f32::from_bits(next()?);
+            }
+        }
+        for index in faces.get_mut(..triangles)?.iter_mut().flatten() {
+            *index = u16::try_from(next()?).ok()?;
+        }
+        for texel in texels.get_mut(..texel_count(side, side))? {
+            *texel = u16::try_from(next()?).ok()?;
+        }
+        self.scene(view, vertices, triangles, side)
+    }
+
+    /// The scene of what is there.
+    #[must_use]
+    pub fn scene(&self, view: View, vertices: usize, triangles: usize, side: u32) -> Option<Scene<'_>> {
+        let levels = self.texels.get(..texel_count(side, side))?;
+        let base = levels.get(..(side * side) as usize)?;
+        Some(Scene {
+            view,
+            vertices: self.vertices.get(..vertices)?,
+            triangles: self.triangles.get(..triangles)?,
+            texture: Texture::new(Rgb565, base, side, side).ok()?.power_of_two()?,
+            levels: Mipmap::new(Rgb565, levels, side, side).ok()?.power_of_two()?,
+        })
+    }
+}

@@ -1,0 +1,6 @@
+//! The policies' prices on microcontrollers, which emulators count.
+
+mod fit;
+pub mod model;
+pub mod price;
+pub mod scene_file;
