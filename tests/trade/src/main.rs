@@ -4,12 +4,14 @@
 //! alberti-trade frames                            draws every row once more in a function that callgrind counts
 //! alberti-trade write ROOT [OPTION VALUE]...      measures, and writes docs/trade.md, its table and its pictures
 //! alberti-trade check ROOT [OPTION VALUE]...      measures what repeats, and compares it with the table
+//! alberti-trade advice ROOT                       compares advice with the best of all, and writes docs/advice.md
 //! options: --counts FOLDER of callgrind's parts, --compiler TEXT, --boards FILE of a chapter
 //! ```
 
 mod families;
 mod frame;
 
+use alberti_trade::advice;
 use alberti_trade::counts::{self, measured};
 use alberti_trade::errors::{Court, Judged};
 use alberti_trade::family::Family;
@@ -41,7 +43,8 @@ fn main() -> ExitCode {
         }
         ["write", root, options @ ..] => Options::parse(root, options).and_then(|options| write(&options)),
         ["check", root, options @ ..] => Options::parse(root, options).and_then(|options| check(&options)),
-        _ => Err("expected frames, or write or check with the repository's folder".into()),
+        ["advice", root] => advice(Path::new(root)),
+        _ => Err("expected frames, or write, check or advice with the repository's folder".into()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -178,6 +181,13 @@ fn write(options: &Options) -> Result<(), Box<dyn Error>> {
     fs::write(options.docs.join("trade.md"), page(&families, &lines, made))?;
     println!("Wrote docs/trade.md, docs/trade.csv and docs/{PICTURES}.");
     Ok(())
+}
+
+fn advice(root: &Path) -> Result<(), Box<dyn Error>> {
+    let found = advice::measure(root)?;
+    fs::write(root.join("docs/advice.md"), advice::page(&found))?;
+    println!("Wrote docs/advice.md: {}", advice::summary(&found));
+    advice::check(&found).map_err(Into::into)
 }
 
 fn check(options: &Options) -> Result<(), Box<dyn Error>> {

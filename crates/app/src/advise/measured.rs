@@ -68,7 +68,7 @@ impl<'a> Bench<'a> {
         let costs = Costs::new(wish.machine, &options)?;
         let studio = Studio::new(model, camera, &most_precise)?;
         let probes = match wish.budget {
-            MaxError::Texel(_) if model.textures.is_empty() => {
+            MaxError::Texel(_) if model.textures.is_empty() && model.heights.is_empty() => {
                 return Err(Error::new("a scene without textures", "one with texels")
                     .place("--max-error")
                     .hint("give the budget in lsb, flip or db"));

@@ -4,17 +4,18 @@ use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use clap::{ArgMatches, Args, FromArgMatches as _};
+use clap::{ArgMatches, Args, CommandFactory as _, FromArgMatches as _};
 
-use super::RenderArgs;
 use super::run::print;
 use super::staged::{Request, Staged};
+use super::{Cli, RenderArgs};
 use crate::advise::{Advice, Machine, Wish, advise, json, text, waste};
 use crate::error::Error;
 use crate::measure::{Comparison, MaxError};
+use crate::options::RenderOptions;
 use crate::output::file::Output;
 use crate::output::progress::Progress;
-use crate::scene::Model;
+use crate::scene::{Camera, Model};
 
 /// The text after the options.
 pub(super) const HELP: &str = "\
@@ -66,6 +67,21 @@ pub struct AdviseArgs {
     /// Print one line of JSON instead of the table.
     #[arg(long)]
     pub json: bool,
+}
+
+/// The scene that these arguments of `alberti advise` name, with its camera and options.
+///
+/// # Errors
+/// An argument or a file that cannot be used.
+pub fn scene(arguments: &[&str]) -> Result<(Model, Camera, RenderOptions), Error> {
+    let words = ["alberti", "advise"].into_iter().chain(arguments.iter().copied());
+    let matches = Cli::command().try_get_matches_from(words);
+    let matches = matches.map_err(|error| Error::new(error.to_string(), "what --help lists"))?;
+    let Some((_, matches)) = matches.subcommand() else { return Err(Error::new("nothing", "arguments")) };
+    let request = Request::read(matches)?;
+    request.check()?;
+    let Staged { model, camera, options, .. } = request.stage()?;
+    Ok((model, camera, options))
 }
 
 /// The arguments with `--machine` instead of a `--target` that begins with a letter: no point does.
