@@ -148,6 +148,12 @@ const CHORES: &[Chore] = &[
         run: trade::run,
     },
     Chore {
+        name: "advice",
+        arguments: "",
+        about: "compare what `alberti advise` picks with the best of all policies, and write docs/advice.md",
+        run: |_| trade::advice(),
+    },
+    Chore {
         name: "extremes",
         arguments: "[--small | --check | ...]",
         about: "hold every policy to its bounds at the ends of its parameters, and write docs/extremes.md (--help: more)",

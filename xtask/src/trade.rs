@@ -26,6 +26,13 @@ pub(crate) fn run(arguments: &[String]) -> Outcome {
     }
 }
 
+/// Compares what `alberti advise` picks with the best of all, and writes `docs/advice.md`.
+pub(crate) fn advice() -> Outcome {
+    command::run(cargo().args(["build", "--release", "--package", PACKAGE]))?;
+    let program = workspace::target_directory().join("release").join(PACKAGE);
+    command::run(Command::new(program).arg("advice").arg(workspace::root()))
+}
+
 /// Compares errors and instructions with those of the table that is committed.
 pub(crate) fn check() -> Outcome {
     measure("check")

@@ -1,20 +1,28 @@
 //! Advice on a scene: which policies are the cheapest within a budget of error, and what the scene pays for nothing.
 //!
-//! All is measured on the scene itself. The right picture is that of the most precise policies, exact, float,
-//! f32-reversed and 8 bits of subpixels, with the scene's own filter, shading and colour format. Policies are tried in
-//! three steps, as their errors come from different places:
+//! Errors are measured on the scene itself. The right picture is that of the most precise policies, exact, float,
+//! f32-reversed and 8 bits of subpixels, with the scene's own filter, shading and colour format. Costs on the host are
+//! times. Those on chips come from a model, which knows what a vertex, a row, a fragment and so on cost a textured,
+//! unlit mesh, and from the scene's own counts of these: [`Work`].
+//!
+//! Policies are tried in three steps, as their errors come from different places:
 //!
 //! 1. each interpolation, each depth format and each grid alone, the others being the most precise;
-//! 2. all combinations whose parts were within the budget, in the order of the times that these promise;
-//! 3. the first few of them that are drawn within the budget are timed beside each other, and the fastest is the pick.
+//! 2. all combinations whose parts were within the budget, in the order of the costs that these promise;
+//! 3. of the first few of them that are drawn within the budget, the cheapest is the pick. On the host they are timed
+//!    beside each other for that.
 
 mod candidate;
+mod chips;
+mod machine;
 mod measured;
 mod report;
+mod texels;
 mod waste;
 mod work;
 
 pub use candidate::Candidate;
+pub use machine::{Cost, Machine};
 pub use measured::Trial;
 pub use report::{json, text};
 pub use waste::{Waste, waste};
@@ -26,16 +34,29 @@ use crate::options::RenderOptions;
 use crate::scene::{Camera, Model};
 use measured::Bench;
 
-/// Combinations within the budget that are timed beside each other.
-const FINALISTS: usize = 4;
+/// Combinations within the budget of which the cheapest is the pick.
+const FINALISTS: usize = 6;
 /// Combinations that are drawn at most to find these.
-const TRIED: usize = 24;
+const TRIED: usize = 32;
+/// Finalists of a thorough search.
+const MORE_FINALISTS: usize = 12;
+
+/// A user's wish.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wish {
+    /// The budget.
+    pub budget: MaxError,
+    /// The machine that is to draw.
+    pub machine: Machine,
+    /// Whether all combinations are tried instead of the promising ones.
+    pub thorough: bool,
+}
 
 /// The advice on a scene.
 #[derive(Clone, Debug)]
 pub struct Advice {
-    /// The budget.
-    pub budget: MaxError,
+    /// The wish.
+    pub wish: Wish,
     /// Every policy alone and every combination that was tried, the cheapest first.
     pub trials: Vec<Trial>,
     /// The index of the pick; the most precise policies keep every budget.
@@ -47,76 +68,84 @@ pub struct Advice {
 /// Tries policies on a scene.
 ///
 /// # Errors
-/// The scene cannot be drawn.
+/// The scene cannot be drawn, has no texels for a budget of these, or a filter that chips are not advised on.
 pub fn advise(
     model: &Model,
     camera: &Camera,
     options: &RenderOptions,
-    budget: MaxError,
+    wish: Wish,
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<Advice, Error> {
-    let bench = Bench::new(model, camera, options, budget)?;
-    let alone = candidate::alone();
+    let bench = Bench::new(model, camera, options, wish)?;
+    let within = |trial: &Trial| wish.budget.admits(trial.error);
+    let mut alone = if wish.thorough { candidate::combined() } else { candidate::alone() };
+    alone.retain(|candidate| bench.has(*candidate));
     let total = (alone.len() + FINALISTS) as u64;
     let mut trials = vec![];
     for (done, candidate) in (0..).zip(&alone) {
         progress(done, total);
         trials.push(bench.try_out(*candidate)?);
     }
-    let combinations = combinations(&trials, budget);
-    let mut finalists: Vec<Trial> =
-        trials.iter().filter(|trial| budget.admits(trial.error)).cloned().collect();
     let mut found = 0;
-    for candidate in combinations.into_iter().take(TRIED) {
+    for candidate in combinations(&bench, &trials, wish).into_iter().take(TRIED) {
         if found == FINALISTS {
             break;
         }
         let trial = bench.try_out(candidate)?;
-        if budget.admits(trial.error) {
-            found += 1;
-            finalists.push(trial.clone());
-        }
+        found += usize::from(within(&trial));
         trials.push(trial);
         progress((alone.len() + found) as u64, total);
     }
-    finalists.sort_by(|a, b| a.time.total_cmp(&b.time));
-    finalists.truncate(FINALISTS);
+    trials.sort_by(|a, b| a.cost.frame.total_cmp(&b.cost.frame));
+    let most = if wish.thorough { MORE_FINALISTS } else { FINALISTS };
+    let precise = |trial: &&Trial| trial.candidate == Candidate::MOST_PRECISE;
+    let cheap = trials.iter().filter(|trial| within(trial) && !precise(trial)).take(most);
+    // The most precise among them, for the ratio to it.
+    let mut finalists: Vec<Trial> = cheap.chain(trials.iter().find(precise)).cloned().collect();
     bench.time_together(&mut finalists)?;
     for finalist in &finalists {
         if let Some(trial) = trials.iter_mut().find(|trial| trial.candidate == finalist.candidate) {
-            trial.time = finalist.time;
+            trial.cost = finalist.cost;
         }
     }
-    let pick = finalists.iter().min_by(|a, b| a.time.total_cmp(&b.time)).map(|trial| trial.candidate);
-    trials.sort_by(|a, b| a.time.total_cmp(&b.time));
+    let pick = finalists.iter().min_by(|a, b| a.cost.frame.total_cmp(&b.cost.frame));
+    let pick = pick.map(|trial| trial.candidate);
+    trials.sort_by(|a, b| a.cost.frame.total_cmp(&b.cost.frame));
     let at = |candidate| trials.iter().position(|trial: &Trial| trial.candidate == candidate);
     let exact = at(Candidate::MOST_PRECISE).unwrap_or_default();
     let pick = pick.and_then(at).unwrap_or(exact);
     let reference = trials[exact].clone();
-    Ok(Advice { budget, trials, pick, reference })
+    Ok(Advice { wish, trials, pick, reference })
 }
 
-/// Combinations of policies that were within the budget alone, but for those that were tried, the promising first. What
-/// they promise is the product of the parts' shares of the most precise policies' time.
-fn combinations(trials: &[Trial], budget: MaxError) -> Vec<Candidate> {
-    let within = |trial: &&Trial| budget.admits(trial.error);
-    let Some(reference) = trials.iter().find(|trial| trial.candidate == Candidate::MOST_PRECISE) else {
-        return vec![];
-    };
-    let share = |trial: &Trial| trial.time / reference.time;
+/// The median times of some ways of drawing on the host, in turns, in milliseconds.
+///
+/// # Errors
+/// Those of [`advise`].
+pub fn times(
+    model: &Model,
+    camera: &Camera,
+    options: &RenderOptions,
+    candidates: &[Candidate],
+) -> Result<Vec<f64>, Error> {
+    let wish = Wish { budget: MaxError::Lsb(0.0), machine: Machine::Host, thorough: false };
+    Bench::new(model, camera, options, wish)?.medians(candidates)
+}
+
+/// Combinations of policies that were within the budget alone, but for those that were tried, the promising first.
+fn combinations(bench: &Bench<'_>, trials: &[Trial], wish: Wish) -> Vec<Candidate> {
+    let tried = |candidate| trials.iter().find(|trial| trial.candidate == candidate);
+    let within = |trial: &Trial| wish.budget.admits(trial.error);
+    let Some(whole) = tried(Candidate::MOST_PRECISE) else { return vec![] };
     let mut all = vec![];
-    for lines in trials.iter().filter(within).filter(|trial| trial.candidate.is_interpolation()) {
-        for depth in trials.iter().filter(within).filter(|trial| trial.candidate.is_depth()) {
-            for grid in trials.iter().filter(within).filter(|trial| trial.candidate.is_grid()) {
-                let candidate = Candidate {
-                    depth: depth.candidate.depth,
-                    subpixel: grid.candidate.subpixel,
-                    ..lines.candidate
-                };
-                if trials.iter().all(|trial| trial.candidate != candidate) {
-                    all.push((share(lines) * share(depth) * share(grid), candidate));
-                }
-            }
+    for candidate in candidate::combined() {
+        if tried(candidate).is_some() || !bench.has(candidate) {
+            continue;
+        }
+        if let [Some(lines), Some(depth), Some(grid)] = candidate.parts().map(tried)
+            && [lines, depth, grid].into_iter().all(within)
+        {
+            all.push((bench.promise(candidate, [lines, depth, grid], whole), candidate));
         }
     }
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -127,13 +156,13 @@ impl Advice {
     /// Whether no other trial is at once as fast and as right, and better in one of the two.
     #[must_use]
     pub fn is_on_front(&self, trial: &Trial) -> bool {
-        let worse = |a: f64, b: f64| match self.budget {
+        let worse = |a: f64, b: f64| match self.wish.budget {
             MaxError::Db(_) => a < b,
             _ => a > b,
         };
         !self.trials.iter().any(|other| {
-            let (faster, as_right) = (other.time < trial.time, !worse(other.error, trial.error));
-            let (as_fast, better) = (other.time <= trial.time, worse(trial.error, other.error));
+            let (faster, as_right) = (other.cost.frame < trial.cost.frame, !worse(other.error, trial.error));
+            let (as_fast, better) = (other.cost.frame <= trial.cost.frame, worse(trial.error, other.error));
             (faster && as_right) || (as_fast && better)
         })
     }

@@ -71,6 +71,20 @@ pub enum Run {
 /// # Errors
 /// Those of [`render`](crate::render::render).
 pub fn probe(model: &Model, camera: &Camera, options: &RenderOptions) -> Result<Probes, Error> {
+    probe_some(model, camera, options, true)
+}
+
+/// The same without counts of what arrived and without runs, which take a drawing each.
+pub(crate) fn probe_values(model: &Model, camera: &Camera, options: &RenderOptions) -> Result<Probes, Error> {
+    probe_some(model, camera, options, false)
+}
+
+fn probe_some(
+    model: &Model,
+    camera: &Camera,
+    options: &RenderOptions,
+    counts: bool,
+) -> Result<Probes, Error> {
     options.policies.check()?;
     let RenderOptions { width, height, .. } = *options;
     let studio = Studio::new(model, camera, options)?;
@@ -87,9 +101,11 @@ pub fn probe(model: &Model, camera: &Camera, options: &RenderOptions) -> Result<
         how(&mut target);
         Ok(())
     };
-    draw(AnyDepth::NoDepth, &|target| drawing.tap(&tap, Taken::Arrival, target))?;
     let format = any_depth(options.depth);
-    draw(format, &|target| drawing.tap_runs(&tap, target))?;
+    if counts {
+        draw(AnyDepth::NoDepth, &|target| drawing.tap(&tap, Taken::Arrival, target))?;
+        draw(format, &|target| drawing.tap_runs(&tap, target))?;
+    }
     if drawing.numbers_apart() {
         draw(format, &|target| drawing.tap(&tap, Taken::Triangle, target))?;
     }

@@ -3,6 +3,7 @@
 //!
 //! The frames of all policies are in the program of this package, apart from what has tests: they take long to compile.
 
+pub mod advice;
 pub mod boards;
 pub mod calibration;
 pub mod counts;

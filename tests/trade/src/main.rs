@@ -5,12 +5,14 @@
 //! alberti-trade scenes FOLDER                     writes the scenes that boards draw, as files that they read
 //! alberti-trade write ROOT [OPTION VALUE]...      measures, and writes docs/trade.md, its table and its pictures
 //! alberti-trade check ROOT [OPTION VALUE]...      measures what repeats, and compares it with the table
+//! alberti-trade advice ROOT                       compares advice with the best of all, and writes docs/advice.md
 //! options: --counts FOLDER of callgrind's parts, --compiler TEXT, --boards FILE of a chapter
 //! ```
 
 mod families;
 mod frame;
 
+use alberti_trade::advice;
 use alberti_trade::boards::scene_file;
 use alberti_trade::counts::{self, measured};
 use alberti_trade::errors::{Court, Judged};
@@ -44,7 +46,8 @@ fn main() -> ExitCode {
         ["scenes", folder] => scene_file::write(Path::new(folder)).map_err(Into::into),
         ["write", root, options @ ..] => Options::parse(root, options).and_then(|options| write(&options)),
         ["check", root, options @ ..] => Options::parse(root, options).and_then(|options| check(&options)),
-        _ => Err("expected frames, or write or check with the repository's folder".into()),
+        ["advice", root] => advice(Path::new(root)),
+        _ => Err("expected frames, or write, check or advice with the repository's folder".into()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -181,6 +184,13 @@ fn write(options: &Options) -> Result<(), Box<dyn Error>> {
     fs::write(options.docs.join("trade.md"), page(&families, &lines, made))?;
     println!("Wrote docs/trade.md, docs/trade.csv and docs/{PICTURES}.");
     Ok(())
+}
+
+fn advice(root: &Path) -> Result<(), Box<dyn Error>> {
+    let found = advice::measure(root)?;
+    fs::write(root.join("docs/advice.md"), advice::page(&found))?;
+    println!("Wrote docs/advice.md: {}", advice::summary(&found));
+    advice::check(&found).map_err(Into::into)
 }
 
 fn check(options: &Options) -> Result<(), Box<dyn Error>> {

@@ -1,5 +1,6 @@
 //! Policies that can be advised, as options of the command and as lines of a program.
 
+use super::machine::{Machine, subpixel_bits};
 use crate::options::{Arithmetic, DepthFormat, Interpolation, Policies, RenderOptions, SpanLength, Subpixel};
 
 /// A choice of what an approximation may be.
@@ -36,6 +37,17 @@ impl Candidate {
         RenderOptions { policies, depth, ..*options }
     }
 
+    /// The same by its interpolation, its depth buffer and its grid alone.
+    pub(super) fn parts(self) -> [Self; 3] {
+        let Self { interpolation, arithmetic, subpixel, depth } = self;
+        let most_precise = Self::MOST_PRECISE;
+        [
+            Self { interpolation, arithmetic, ..most_precise },
+            Self { depth, ..most_precise },
+            Self { subpixel, ..most_precise },
+        ]
+    }
+
     /// Whether it is the most precise but perhaps for the interpolation.
     pub(super) fn is_interpolation(self) -> bool {
         let Self { interpolation, arithmetic, .. } = self;
@@ -67,9 +79,9 @@ impl Candidate {
         )
     }
 
-    /// The lines of a program that select it. `side` is that of the largest texture.
+    /// The lines of a program for a machine that select it. `side` is that of the largest texture.
     #[must_use]
-    pub fn rust(self, side: u16) -> String {
+    pub fn rust(self, machine: Machine, side: u16) -> String {
         let lines = match self.interpolation {
             Interpolation::Exact => "Exact".to_owned(),
             Interpolation::Plane => "Planes".to_owned(),
@@ -92,21 +104,16 @@ impl Candidate {
             DepthFormat::U16 => "D16",
             DepthFormat::None => "NoDepth",
         };
+        let (color, draw) = if machine.is_chip() {
+            ("Rgb565Le", "slots(&mut slots).draw_by(One, &mut target)")
+        } else {
+            ("Rgba8888", "draw(&mut target)")
+        };
+        let bits = subpixel_bits(self.subpixel);
         format!(
-            "let mut target = Target::new(Rgba8888, {depth}, width, height, &mut color, &mut depth)?;\n\
-             Pass::new(&view, &mesh, stage).interpolation({interpolation}).subpixel(Sub{}).draw(&mut target);\n",
-            subpixel_bits(self.subpixel)
+            "let mut target = Target::new({color}, {depth}, width, height, &mut color, &mut depth)?;\n\
+             Pass::new(&view, &mesh, stage).interpolation({interpolation}).subpixel(Sub{bits}).{draw};\n",
         )
-    }
-
-    /// The bytes of a pixel's depth.
-    #[must_use]
-    pub fn depth_bytes(self) -> usize {
-        match self.depth {
-            DepthFormat::F32 | DepthFormat::F32Reversed | DepthFormat::U32 | DepthFormat::U24 => 4,
-            DepthFormat::U16 => 2,
-            DepthFormat::None => 0,
-        }
     }
 }
 
@@ -122,15 +129,34 @@ pub(super) fn depth_name(depth: DepthFormat) -> &'static str {
     }
 }
 
-fn subpixel_bits(subpixel: Subpixel) -> u32 {
-    match subpixel {
-        Subpixel::Sub4 => 4,
-        Subpixel::Sub8 => 8,
-    }
-}
-
 /// The most precise policies, and each other one alone.
 pub(super) fn alone() -> Vec<Candidate> {
+    let most_precise = Candidate::MOST_PRECISE;
+    let mut all = lines();
+    all.extend(DEPTHS.map(|depth| Candidate { depth, ..most_precise }));
+    all.push(Candidate { subpixel: Subpixel::Sub4, ..most_precise });
+    all
+}
+
+/// All combinations.
+pub(super) fn combined() -> Vec<Candidate> {
+    let all = alone();
+    let of = |is: fn(Candidate) -> bool| all.iter().copied().filter(move |candidate| is(*candidate));
+    let mut combined = vec![];
+    for lines in of(Candidate::is_interpolation) {
+        for Candidate { depth, .. } in of(Candidate::is_depth) {
+            combined.extend(of(Candidate::is_grid).map(|grid| Candidate {
+                depth,
+                subpixel: grid.subpixel,
+                ..lines
+            }));
+        }
+    }
+    combined
+}
+
+/// The most precise policies, and each other interpolation and arithmetic alone.
+fn lines() -> Vec<Candidate> {
     let most_precise = Candidate::MOST_PRECISE;
     let straight = [
         Interpolation::Spans(SpanLength::Four),
@@ -146,8 +172,6 @@ pub(super) fn alone() -> Vec<Candidate> {
     let mut all = vec![most_precise, by(Interpolation::Plane, Arithmetic::Float)];
     all.extend(straight.map(|lines| by(lines, Arithmetic::Float)));
     all.extend(straight.map(|lines| by(lines, Arithmetic::Fixed)));
-    all.extend(DEPTHS.map(|depth| Candidate { depth, ..most_precise }));
-    all.push(Candidate { subpixel: Subpixel::Sub4, ..most_precise });
     all
 }
 
@@ -164,6 +188,13 @@ mod tests {
         }
         assert_eq!(all.iter().filter(|candidate| candidate.is_interpolation()).count(), 18);
         assert_eq!(all.iter().filter(|candidate| candidate.is_depth()).count(), 6);
+        let combined = combined();
+        for (k, candidate) in combined.iter().enumerate() {
+            assert!(
+                !combined[..k].contains(candidate) && candidate.parts().iter().all(|part| all.contains(part))
+            );
+        }
+        assert_eq!(combined.len(), 18 * 6 * 2);
     }
 
     #[test]
@@ -178,9 +209,14 @@ mod tests {
             candidate.command_line(),
             "--interpolation bounded:0.25 --arithmetic fixed --depth u16 --subpixel 4"
         );
-        let rust = candidate.rust(256);
-        for part in ["FixedPoint(Lines::bounded_texels(0.25, 256))", "D16", "Sub4"] {
-            assert!(rust.contains(part), "{rust}");
+        for (machine, own) in [
+            (Machine::Host, ["Target::new(Rgba8888, D16", ".draw(&mut target)"]),
+            (Machine::M0, ["Target::new(Rgb565Le, D16", ".draw_by(One, &mut target)"]),
+        ] {
+            let rust = candidate.rust(machine, 256);
+            for part in own.into_iter().chain(["FixedPoint(Lines::bounded_texels(0.25, 256))", "Sub4"]) {
+                assert!(rust.contains(part), "{rust}");
+            }
         }
     }
 }

@@ -1,20 +1,28 @@
-//! Errors and times of policies on a scene.
+//! Errors and costs of policies on a scene.
 
 use super::candidate::Candidate;
+use super::machine::{Cost, Costs, Machine};
+use super::texels;
+use super::{Wish, Work, work};
 use crate::draw::{Canvas, Drawing, Studio};
 use crate::error::Error;
 use crate::measure::{Comparison, MOST, MaxError, percentile, steps};
 use crate::options::RenderOptions;
-use crate::probe::{Probes, probe};
+use crate::probe::{Probes, probe_values};
 use crate::render::{any_depth, buffer, shown};
 use crate::scene::{Camera, Image, Model};
 use alberti::{Rgba8888, Target};
 use std::num::NonZero;
 use std::time::Instant;
 
-/// Frames of a first measurement, and turns of one beside others.
+/// Frames of a first measurement on the host: so many, and more up to so many milliseconds.
 const FRAMES: usize = 3;
+const MOST_FRAMES: usize = 12;
+const ENOUGH: f64 = 10.0;
+/// Turns of policies that are timed beside each other: as many as that time allows, in milliseconds.
 const TURNS: usize = 7;
+const MOST_TURNS: usize = 31;
+const PATIENCE: f64 = 500.0;
 
 /// Policies that were tried.
 #[derive(Clone, Debug)]
@@ -25,8 +33,10 @@ pub struct Trial {
     pub error: f64,
     /// The largest difference of a byte from the right picture.
     pub largest: u8,
-    /// Milliseconds of a frame on one thread: the least of some, and of finalists the median of turns.
-    pub time: f64,
+    /// The cost. On the host a frame's is the least of some, and of finalists the median of turns.
+    pub cost: Cost,
+    /// What the model of a chip counted.
+    pub(super) work: Work,
     /// The picture.
     pub picture: Image,
 }
@@ -36,9 +46,12 @@ pub(super) struct Bench<'a> {
     model: &'a Model,
     camera: &'a Camera,
     options: RenderOptions,
-    budget: MaxError,
+    wish: Wish,
     studio: Studio,
+    costs: Costs,
     right: Image,
+    /// The work under the most precise policies.
+    work: Work,
     /// Of budgets in texels.
     probes: Option<Probes>,
 }
@@ -48,60 +61,113 @@ impl<'a> Bench<'a> {
         model: &'a Model,
         camera: &'a Camera,
         options: &RenderOptions,
-        budget: MaxError,
+        wish: Wish,
     ) -> Result<Self, Error> {
         let options = RenderOptions { threads: NonZero::<usize>::MIN, ..*options };
         let most_precise = Candidate::MOST_PRECISE.options(&options);
+        let costs = Costs::new(wish.machine, &options)?;
         let studio = Studio::new(model, camera, &most_precise)?;
-        let probes = match budget {
-            MaxError::Texel(_) => Some(probe(model, camera, &most_precise)?),
+        let probes = match wish.budget {
+            MaxError::Texel(_) if model.textures.is_empty() && model.heights.is_empty() => {
+                return Err(Error::new("a scene without textures", "one with texels")
+                    .place("--max-error")
+                    .hint("give the budget in lsb, flip or db"));
+            }
+            MaxError::Texel(_) => Some(probe_values(model, camera, &most_precise)?),
             _ => None,
         };
         let right = Image { width: options.width, height: options.height, texels: vec![] };
-        let mut bench = Self { model, camera, options, budget, studio, right, probes };
-        bench.right = bench.draw(Candidate::MOST_PRECISE, 1)?.0;
+        let work = work(model, camera, &most_precise)?;
+        let mut bench = Self { model, camera, options, wish, studio, costs, right, work, probes };
+        // Several frames, so that the first to be timed finds the machine as warm as the others.
+        bench.right = bench.draw(Candidate::MOST_PRECISE, FRAMES)?.0;
         Ok(bench)
     }
 
-    /// Draws, measures, and times a few frames.
+    /// Whether the machine can draw so.
+    pub(super) fn has(&self, candidate: Candidate) -> bool {
+        self.costs.has(candidate, &self.options)
+    }
+
+    /// Draws, measures, and times a few frames or counts their work.
     pub(super) fn try_out(&self, candidate: Candidate) -> Result<Trial, Error> {
-        let (picture, times) = self.draw(candidate, FRAMES)?;
-        let time = times.into_iter().fold(f64::INFINITY, f64::min);
+        let options = candidate.options(&self.options);
+        let chip = self.wish.machine.is_chip();
+        let (picture, times) = self.draw(candidate, if chip { 1 } else { FRAMES })?;
+        let work = if chip { work(self.model, self.camera, &options)? } else { self.work };
+        let cost = self.costs.of(candidate, &options, &work).unwrap_or_else(|| Cost {
+            frame: times.into_iter().fold(f64::INFINITY, f64::min),
+            flash: 0.0,
+            ram: self.costs.ram(candidate, &options, &work),
+        });
         let differences = steps(&picture, &self.right)?;
-        let error = match self.budget {
+        let error = match self.wish.budget {
             MaxError::Lsb(_) => percentile(&differences, MOST).unwrap_or_default().into(),
             MaxError::Flip(_) => Comparison::new(&picture, &self.right)?.measures.flip,
             MaxError::Db(_) => Comparison::new(&picture, &self.right)?.measures.psnr(),
-            MaxError::Texel(_) => self.texels(candidate)?,
+            MaxError::Texel(_) => self.texels(&options)?,
         };
         let largest = differences.iter().copied().max().unwrap_or_default();
-        Ok(Trial { candidate, error, largest, time, picture })
+        Ok(Trial { candidate, error, largest, cost, work, picture })
     }
 
-    /// Times policies in turns, and puts the medians in.
+    /// The cost that a combination promises by those of its parts, as a share of the most precise policies' cost.
+    pub(super) fn promise(
+        &self,
+        candidate: Candidate,
+        [lines, depth, grid]: [&Trial; 3],
+        whole: &Trial,
+    ) -> f64 {
+        let share = |trial: &Trial| trial.cost.frame / whole.cost.frame;
+        // Of a chip, all that is not known is what the three do to each other's work.
+        let work = Work { written: depth.work.written, ..lines.work };
+        let known = self.costs.of(candidate, &self.options, &work);
+        known.map_or(share(lines) * share(depth) * share(grid), |cost| cost.frame / whole.cost.frame)
+    }
+
+    /// Times policies in turns on the host, and puts the medians in.
     pub(super) fn time_together(&self, trials: &mut [Trial]) -> Result<(), Error> {
-        let mut taken = vec![vec![]; trials.len()];
-        for _ in 0..TURNS {
-            for (trial, taken) in trials.iter().zip(&mut taken) {
-                taken.extend(self.draw(trial.candidate, 1)?.1);
-            }
+        if self.wish.machine != Machine::Host {
+            return Ok(());
         }
-        for (trial, mut taken) in trials.iter_mut().zip(taken) {
-            taken.sort_by(f64::total_cmp);
-            trial.time = taken.get(taken.len() / 2).copied().unwrap_or(trial.time);
+        let candidates: Vec<Candidate> = trials.iter().map(|trial| trial.candidate).collect();
+        for (trial, time) in trials.iter_mut().zip(self.medians(&candidates)?) {
+            trial.cost.frame = time;
         }
         Ok(())
     }
 
-    /// The picture, and the milliseconds of so many frames of it.
+    /// The median times of policies in turns, in milliseconds.
+    pub(super) fn medians(&self, candidates: &[Candidate]) -> Result<Vec<f64>, Error> {
+        let mut taken = vec![vec![]; candidates.len()];
+        let start = Instant::now();
+        for turn in 0..MOST_TURNS {
+            if turn >= TURNS && start.elapsed().as_secs_f64() * 1e3 > PATIENCE {
+                break;
+            }
+            // Another one begins each turn.
+            for k in (0..candidates.len()).map(|k| (k + turn) % candidates.len()) {
+                taken[k].extend(self.draw(candidates[k], 1)?.1);
+            }
+        }
+        let median = |mut times: Vec<f64>| {
+            times.sort_by(f64::total_cmp);
+            times.get(times.len() / 2).copied().unwrap_or(f64::INFINITY)
+        };
+        Ok(taken.into_iter().map(median).collect())
+    }
+
+    /// The picture, and the milliseconds of so many frames of it, or a few more if they are short.
     fn draw(&self, candidate: Candidate, frames: usize) -> Result<(Image, Vec<f64>), Error> {
         let options = candidate.options(&self.options);
         let (mut pixels, mut depth) = (buffer(&options, 0)?, buffer(&options, 0)?);
         let (width, height, format) = (options.width, options.height, any_depth(options.depth));
         let mut target: Canvas<'_> = Target::new(Rgba8888, format, width, height, &mut pixels, &mut depth)
             .map_err(|found| Error::new(found.to_string(), "a size that can be drawn"))?;
-        let mut times = vec![];
-        for _ in 0..frames {
+        let mut times: Vec<f64> = vec![];
+        while times.len() < frames
+            || frames > 1 && times.len() < MOST_FRAMES && times.iter().sum::<f64>() < ENOUGH
+        {
             let drawing = Drawing::new(self.model, self.camera, &options, &self.studio)?;
             let start = Instant::now();
             drawing.draw_all(&mut target, &mut |_, _| ());
@@ -111,25 +177,8 @@ impl<'a> Bench<'a> {
         Ok((Image { width, height, texels: texels.collect() }, times))
     }
 
-    /// The 99.9 % percentile of the distance between texture coordinates, where both see the same triangle: in texels
-    /// of its part's texture, or of 256 where it has none.
-    fn texels(&self, candidate: Candidate) -> Result<f64, Error> {
+    fn texels(&self, options: &RenderOptions) -> Result<f64, Error> {
         let Some(right) = &self.probes else { return Ok(0.0) };
-        let found = probe(self.model, self.camera, &candidate.options(&self.options))?;
-        let sides: Vec<[f64; 2]> = self.model.parts.iter().map(|part| self.sides(part.texture)).collect();
-        let pairs = (0..right.pixels()).filter_map(|index| Some((right.seen(index)?, found.seen(index)?)));
-        let errors: Vec<f64> = pairs
-            .filter(|(a, b)| a.triangle == b.triangle)
-            .filter_map(|(a, b)| {
-                let ([u0, v0], [u1, v1], [width, height]) = (a.uv?, b.uv?, *sides.get(a.part)?);
-                Some(((u1 - u0).abs() * width).max((v1 - v0).abs() * height))
-            })
-            .collect();
-        Ok(percentile(&errors, MOST).unwrap_or_default())
-    }
-
-    fn sides(&self, texture: Option<usize>) -> [f64; 2] {
-        let image = texture.and_then(|index| self.model.textures.get(index));
-        image.map_or([256.0; 2], |image| [image.width, image.height].map(f64::from))
+        Ok(texels::error(self.model, right, &probe_values(self.model, self.camera, options)?))
     }
 }

@@ -1,6 +1,6 @@
 //! The advice as a table for people, or as one line of JSON.
 
-use super::{Advice, Trial, Waste};
+use super::{Advice, Cost, Machine, Trial, Waste, Wish};
 use crate::measure::MaxError;
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -11,42 +11,58 @@ const ROWS: usize = 16;
 /// The advice as text. `side` is that of the largest texture.
 #[must_use]
 pub fn text(advice: &Advice, wastes: &[Waste], side: u16) -> String {
-    let Advice { budget, trials, pick, reference } = advice;
+    let Advice { wish: Wish { budget, machine, .. }, trials, pick, reference } = advice;
     let mut text = String::new();
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "Cheapest within {budget}, of {} ways to draw the scene. Times are of one thread, whole frames; errors are\n\
-         against exact, float, f32-reversed, 8 bits. A star: no other way is as fast and as right.\n",
-        trials.len()
+        "Cheapest within {budget}, of {} ways to draw the scene. {}",
+        trials.len(),
+        costs(*machine)
     );
-    let _ =
-        writeln!(text, "{:>9}  {:>6}  {:>10}  {:>7}     policies", "ms", "time", unit(*budget), "largest");
+    text.push_str(
+        "Errors are against exact, float, f32-reversed, 8 bits. A star: no other way is as cheap and as right.\n\n",
+    );
+    let (cost, ratio) = if machine.is_chip() { ("M instr.", "ratio") } else { ("ms", "time") };
+    let _ = write!(text, "{cost:>9}  {ratio:>6}  {:>10}  {:>7}", unit(*budget), "largest");
+    text.push_str(if machine.is_chip() { "  flash KB   RAM KB     policies\n" } else { "     policies\n" });
     for (k, trial) in trials.iter().enumerate().filter(|(k, trial)| {
         *k < ROWS || *k == *pick || advice.is_on_front(trial) || trial.candidate == reference.candidate
     }) {
         let star = if advice.is_on_front(trial) { '*' } else { ' ' };
         let mark = if k == *pick { ">" } else { " " };
         let within = if budget.admits(trial.error) { ' ' } else { '!' };
-        let _ = writeln!(
+        let Cost { frame, flash, ram } = trial.cost;
+        let shown = if machine.is_chip() { frame / 1e6 } else { frame };
+        let _ = write!(
             text,
-            "{mark}{:>8.2}  {:>6.2}  {:>9}{within}  {:>7}  {star}  {}",
-            trial.time,
-            trial.time / reference.time,
+            "{mark}{shown:>8.2}  {:>6.2}  {:>9}{within}  {:>7}",
+            frame / reference.cost.frame,
             figure(*budget, trial.error),
             trial.largest,
-            trial.candidate.command_line(),
         );
+        if machine.is_chip() {
+            let _ = write!(text, "  {:>8.1}  {:>7.1}", flash / 1024.0, ram / 1024.0);
+        }
+        let _ = writeln!(text, "  {star}  {}", trial.candidate.command_line());
     }
     text.push_str("\n  >: the pick.  !: beyond the budget.  largest: the worst byte of any pixel.\n");
+    if trials.iter().any(|trial| trial.error.is_infinite() && matches!(budget, MaxError::Texel(_))) {
+        text.push_str("  other: more than one pixel in a thousand shows another part or the background.\n");
+    }
     let pick: &Trial = &trials[*pick];
+    let of = if machine.is_chip() { "instructions" } else { "time" };
     let _ = write!(
         text,
-        "\nThe pick takes {:.2} of the time of the most precise policies. On the command line:\n\n    {}\n\nIn a program:\n\n",
-        pick.time / reference.time,
-        pick.candidate.command_line()
+        "\nThe pick takes {:.2} of the {of} of the most precise policies.",
+        pick.cost.frame / reference.cost.frame
     );
-    for line in pick.candidate.rust(side).lines() {
+    if trials.iter().all(|trial| trial.candidate == reference.candidate || !budget.admits(trial.error)) {
+        text.push_str(" Nothing else keeps the budget.");
+    }
+    let _ =
+        write!(text, " On the command line:\n\n    {}\n\nIn a program:\n\n", pick.candidate.command_line());
+    for line in pick.candidate.rust(*machine, side).lines() {
         let _ = writeln!(text, "    {line}");
     }
     if !wastes.is_empty() {
@@ -56,6 +72,18 @@ pub fn text(advice: &Advice, wastes: &[Waste], side: u16) -> String {
         }
     }
     text
+}
+
+/// The meaning of costs, in one or more lines.
+fn costs(machine: Machine) -> String {
+    if !machine.is_chip() {
+        return "Times are of one thread, whole frames.".to_owned();
+    }
+    let name = machine.name();
+    format!(
+        "Instructions are a model's for {name}:\na textured, unlit mesh in RGB565 with this scene's own counts. Shading \
+         adds the same to all. Flash is code;\nRAM is both buffers, a slot for each vertex, and the stack."
+    )
 }
 
 fn unit(budget: MaxError) -> &'static str {
@@ -73,6 +101,7 @@ fn figure(budget: MaxError, error: f64) -> String {
         MaxError::Flip(_) => format!("{error:.5}"),
         MaxError::Db(_) if error.is_infinite() => "equal".to_owned(),
         MaxError::Db(_) => format!("{error:.2}"),
+        MaxError::Texel(_) if error.is_infinite() => "other".to_owned(),
         MaxError::Texel(_) => format!("{error:.4}"),
     }
 }
@@ -81,10 +110,18 @@ fn figure(budget: MaxError, error: f64) -> String {
 #[derive(Serialize)]
 struct Row {
     options: String,
-    ms: f64,
-    /// As a share of the most precise policies' time.
+    /// On the host.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ms: Option<f64>,
+    /// On chips, and so are bytes of code.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    instructions: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    flash: Option<f64>,
+    ram: f64,
+    /// As a share of the most precise policies' time or instructions.
     time: f64,
-    /// In the budget's unit; `null` for an infinite PSNR.
+    /// In the budget's unit; `null` for an infinite PSNR, or where something else is seen.
     error: Option<f64>,
     largest: u8,
     within: bool,
@@ -95,6 +132,7 @@ struct Row {
 #[derive(Serialize)]
 struct Document {
     max_error: String,
+    target: &'static str,
     pick: Row,
     rust: String,
     trials: Vec<Row>,
@@ -104,20 +142,26 @@ struct Document {
 /// The advice as one JSON object on one line.
 #[must_use]
 pub fn json(advice: &Advice, wastes: &[Waste], side: u16) -> String {
+    let Wish { budget, machine, .. } = advice.wish;
+    let chip = machine.is_chip();
     let row = |trial: &Trial| Row {
         options: trial.candidate.command_line(),
-        ms: trial.time,
-        time: trial.time / advice.reference.time,
+        ms: (!chip).then_some(trial.cost.frame),
+        instructions: chip.then_some(trial.cost.frame),
+        flash: chip.then_some(trial.cost.flash),
+        ram: trial.cost.ram,
+        time: trial.cost.frame / advice.reference.cost.frame,
         error: Some(trial.error).filter(|error| error.is_finite()),
         largest: trial.largest,
-        within: advice.budget.admits(trial.error),
+        within: budget.admits(trial.error),
         front: advice.is_on_front(trial),
     };
     let pick = &advice.trials[advice.pick];
     let document = Document {
-        max_error: advice.budget.to_string(),
+        max_error: budget.to_string(),
+        target: machine.name(),
         pick: row(pick),
-        rust: pick.candidate.rust(side),
+        rust: pick.candidate.rust(machine, side),
         trials: advice.trials.iter().map(row).collect(),
         waste: wastes.iter().map(|waste| waste.line.clone()).collect(),
     };

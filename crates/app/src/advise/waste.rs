@@ -1,11 +1,12 @@
 //! Parts of a scene that it pays for and that change no pixel of its picture.
 
-use super::Trial;
 use super::candidate::{Candidate, depth_name};
+use super::machine::{Cost, Costs, Machine, texels};
+use super::{Advice, Work, work};
 use crate::draw::{Drawing, Studio};
 use crate::error::Error;
 use crate::measure::Comparison;
-use crate::options::{Filter, Probes as FilterProbes, RenderOptions};
+use crate::options::{Arithmetic, Filter, Probes as FilterProbes, RenderOptions};
 use crate::probe::probe;
 use crate::render::{any_depth, buffer};
 use crate::scene::{Camera, Detail, Model, camera};
@@ -34,7 +35,7 @@ pub fn waste(
     model: &Model,
     camera: &Camera,
     options: &RenderOptions,
-    trials: &[Trial],
+    advice: &Advice,
     turns: u32,
 ) -> Result<Vec<Waste>, Error> {
     let options =
@@ -42,9 +43,10 @@ pub fn waste(
     let mut lines = vec![];
     triangles(model, camera, &options, turns, &mut lines)?;
     let whole = draw(model, camera, &options)?;
-    maps(model, camera, &options, &whole, &mut lines)?;
-    filters(model, camera, &options, &whole, &mut lines)?;
-    depths(trials, camera, &options, &mut lines);
+    let bill = Bill::new(advice.wish.machine, model, camera, &options)?;
+    maps(model, camera, &options, (&whole, &bill), &mut lines)?;
+    filters(model, camera, &options, (&whole, &bill), &mut lines)?;
+    policies(advice, &bill, camera, &mut lines);
     Ok(lines.into_iter().map(|line| Waste { line }).collect())
 }
 
@@ -113,7 +115,7 @@ fn maps(
     model: &Model,
     camera: &Camera,
     options: &RenderOptions,
-    whole: &Drawn,
+    (whole, bill): (&Drawn, &Bill),
     lines: &mut Vec<String>,
 ) -> Result<(), Error> {
     for (name, is_there, remove) in MAPS {
@@ -126,11 +128,14 @@ fn maps(
         }
         let drawn = draw(&without, camera, options)?;
         let change = Comparison::new(&drawn.0, &whole.0)?.measures;
-        let saves = format!("without them a frame takes {:.1} ms instead of {:.1}", drawn.1, whole.1);
+        let saves = bill.saves(bill.maps(whole.1 - drawn.1, texels(model) - texels(&without)));
         if change.largest == 0 {
-            lines.push(format!("{name}: they change no pixel; {saves}"));
+            lines.push(format!("{name}: they change no pixel; to leave them out {saves}"));
         } else if change.flip < INVISIBLE {
-            lines.push(format!("{name}: nobody sees them (mean FLIP {:.4}); {saves}", change.flip));
+            lines.push(format!(
+                "{name}: nobody sees them (mean FLIP {:.4}); to leave them out {saves}",
+                change.flip
+            ));
         }
     }
     Ok(())
@@ -141,7 +146,7 @@ fn filters(
     model: &Model,
     camera: &Camera,
     options: &RenderOptions,
-    whole: &Drawn,
+    (whole, bill): (&Drawn, &Bill),
     lines: &mut Vec<String>,
 ) -> Result<(), Error> {
     const FILTERS: [(&str, Filter); 4] = [
@@ -160,33 +165,110 @@ fn filters(
         let drawn = draw(model, camera, &RenderOptions { filter, ..*options })?;
         let flip = Comparison::new(&drawn.0, &whole.0)?.measures.flip;
         if flip < INVISIBLE {
-            lines.push(format!(
-                "filter: {name} looks the same (mean FLIP {flip:.4}); with it a frame takes {:.1} ms instead of {:.1}",
-                drawn.1, whole.1
-            ));
+            let saves = bill.saves(bill.filter(whole.1 - drawn.1, options, filter));
+            lines.push(format!("filter: {name} looks the same (mean FLIP {flip:.4}); it {saves}"));
             break;
         }
     }
     Ok(())
 }
 
-/// Depth formats and grids that give the same picture.
-fn depths(trials: &[Trial], camera: &Camera, options: &RenderOptions, lines: &mut Vec<String>) {
-    let same = |trial: &&Trial| trial.largest == 0;
-    let smaller = trials.iter().filter(same).filter(|trial| trial.candidate.is_depth());
-    let pixels = options.width as usize * options.height as usize;
-    if let Some(trial) = smaller.min_by_key(|trial| trial.candidate.depth_bytes()) {
-        let (name, bytes) = (depth_name(trial.candidate.depth), trial.candidate.depth_bytes());
+/// Policies that give the same picture, of each kind: the cheapest, and of depth formats the smallest.
+fn policies(advice: &Advice, bill: &Bill, camera: &Camera, lines: &mut Vec<String>) {
+    let Advice { trials, reference, .. } = advice;
+    let alike = |is: fn(Candidate) -> bool, key: fn(&Cost) -> f64| {
+        let same = trials.iter().filter(|trial| trial.largest == 0 && is(trial.candidate));
+        let least = same.min_by(|a, b| key(&a.cost).total_cmp(&key(&b.cost)))?;
+        let saved = |of: fn(&Cost) -> f64| of(&reference.cost) - of(&least.cost);
+        let saved = Cost { frame: saved(|c| c.frame), flash: saved(|c| c.flash), ram: saved(|c| c.ram) };
+        let saves = bill.saves(saved);
+        (least.candidate != Candidate::MOST_PRECISE).then_some((least.candidate, saves))
+    };
+    if let Some((candidate, saves)) = alike(Candidate::is_interpolation, |cost| cost.frame) {
+        let name = candidate.interpolation;
+        let arithmetic = match candidate.arithmetic {
+            Arithmetic::Float => "float",
+            Arithmetic::Fixed => "fixed",
+        };
         lines.push(format!(
-            "depth: between {} and {} `{name}` gives the same picture, in {} KB where 4 bytes a pixel take {} KB",
-            camera.near,
-            camera.far,
-            bytes * pixels / 1024,
-            4 * pixels / 1024
+            "interpolation: `{name}` in {arithmetic} gives the same picture as exact; it {saves}"
         ));
     }
-    if trials.iter().filter(same).any(|t| t.candidate.is_grid() && t.candidate != Candidate::MOST_PRECISE) {
-        lines.push("subpixels: 4 bits give the same picture as 8".to_owned());
+    if let Some((candidate, saves)) = alike(Candidate::is_depth, |cost| cost.ram) {
+        let (name, near, far) = (depth_name(candidate.depth), camera.near, camera.far);
+        lines.push(format!(
+            "depth: between {near} and {far} `{name}` gives the same picture as f32-reversed; it {saves}"
+        ));
+    }
+    if let Some((_, saves)) = alike(Candidate::is_grid, |cost| cost.frame) {
+        lines.push(format!(
+            "subpixels: 4 bits give the same picture as 8; they {}",
+            saves.replacen("saves", "save", 1)
+        ));
+    }
+}
+
+/// What things cost on the machine that is advised for.
+struct Bill {
+    machine: Machine,
+    costs: Costs,
+    /// The work under the most precise policies.
+    work: Work,
+}
+
+impl Bill {
+    fn new(machine: Machine, model: &Model, camera: &Camera, options: &RenderOptions) -> Result<Self, Error> {
+        Ok(Self { machine, costs: Costs::new(machine, options)?, work: work(model, camera, options)? })
+    }
+
+    /// The saving of so many milliseconds on the host, which a chip has no model of, and of so many texels.
+    fn maps(&self, time: f64, texels: f64) -> Cost {
+        let bytes = texels * self.costs.texel();
+        if self.machine.is_chip() {
+            Cost { flash: bytes, ..Cost::default() }
+        } else {
+            Cost { frame: time, ram: bytes, ..Cost::default() }
+        }
+    }
+
+    /// The saving of another filter instead of the options'.
+    fn filter(&self, time: f64, options: &RenderOptions, filter: Filter) -> Cost {
+        let at = |filter| {
+            self.costs.of(Candidate::MOST_PRECISE, &RenderOptions { filter, ..*options }, &self.work)
+        };
+        match (at(options.filter), at(filter)) {
+            (Some(whole), Some(other)) => Cost {
+                frame: whole.frame - other.frame,
+                flash: whole.flash - other.flash,
+                ram: whole.ram - other.ram,
+            },
+            _ => Cost { frame: time, ..Cost::default() },
+        }
+    }
+
+    /// A saving in words, as far as it is one.
+    fn saves(&self, saved: Cost) -> String {
+        let bytes = |bytes: f64, of: &str| {
+            let text = if bytes < 10240.0 {
+                format!("{bytes:.0} bytes")
+            } else {
+                format!("{:.0} KB", bytes / 1024.0)
+            };
+            (bytes >= 0.5).then(|| format!("{text} of {of}"))
+        };
+        let frame = if self.machine.is_chip() {
+            (saved.frame >= 500.0).then(|| format!("{:.3} M instructions a frame", saved.frame / 1e6))
+        } else {
+            (saved.frame >= 0.005).then(|| format!("{:.2} ms a frame", saved.frame))
+        };
+        let memory = if self.machine.is_chip() { "RAM" } else { "memory" };
+        let parts: Vec<String> =
+            [frame, bytes(saved.flash, "flash"), bytes(saved.ram, memory)].into_iter().flatten().collect();
+        match parts.split_last() {
+            None => "saves nothing".to_owned(),
+            Some((last, [])) => format!("saves {last}"),
+            Some((last, first)) => format!("saves {} and {last}", first.join(", ")),
+        }
     }
 }
 

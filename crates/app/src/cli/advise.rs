@@ -1,19 +1,21 @@
 //! `alberti advise`: a scene and a budget of error in, the cheapest policies out.
 
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use clap::{ArgMatches, Args, FromArgMatches as _};
+use clap::{ArgMatches, Args, CommandFactory as _, FromArgMatches as _};
 
-use super::RenderArgs;
 use super::run::print;
 use super::staged::{Request, Staged};
-use crate::advise::{Advice, advise, json, text, waste};
+use super::{Cli, RenderArgs};
+use crate::advise::{Advice, Machine, Wish, advise, json, text, waste};
 use crate::error::Error;
 use crate::measure::{Comparison, MaxError};
+use crate::options::RenderOptions;
 use crate::output::file::Output;
 use crate::output::progress::Progress;
-use crate::scene::Model;
+use crate::scene::{Camera, Model};
 
 /// The text after the options.
 pub(super) const HELP: &str = "\
@@ -21,6 +23,7 @@ Examples:
   alberti advise teapot.obj --max-error 0.5texel
   alberti advise --scene floor --max-error 2lsb --size 320x240
   alberti advise wet.toml --max-error 0.01flip --image differences
+  alberti advise --scene mesh --max-error 1texel --target m4f
   alberti advise cow.obj --texture cow.png --max-error 40db --turntable 12 --json";
 
 /// The most cameras of a turntable.
@@ -43,6 +46,16 @@ pub struct AdviseArgs {
     )]
     pub max_error: MaxError,
 
+    /// Machine that is to draw. This one is timed. Instructions of chips are a model's, for a textured, unlit mesh with
+    /// the scene's own counts of vertices, rows and fragments; errors are those of any machine. `--target MACHINE` is
+    /// the same.
+    #[arg(long, value_enum, value_name = "MACHINE", default_value_t = Machine::Host)]
+    pub machine: Machine,
+
+    /// Try all combinations, not only the promising ones: some 200 frames instead of 50.
+    #[arg(long)]
+    pub thorough: bool,
+
     /// Write the picture of the pick, the right one and their difference into this folder.
     #[arg(long, value_name = "FOLDER")]
     pub image: Option<PathBuf>,
@@ -54,6 +67,44 @@ pub struct AdviseArgs {
     /// Print one line of JSON instead of the table.
     #[arg(long)]
     pub json: bool,
+}
+
+/// The scene that these arguments of `alberti advise` name, with its camera and options.
+///
+/// # Errors
+/// An argument or a file that cannot be used.
+pub fn scene(arguments: &[&str]) -> Result<(Model, Camera, RenderOptions), Error> {
+    let words = ["alberti", "advise"].into_iter().chain(arguments.iter().copied());
+    let matches = Cli::command().try_get_matches_from(words);
+    let matches = matches.map_err(|error| Error::new(error.to_string(), "what --help lists"))?;
+    let Some((_, matches)) = matches.subcommand() else { return Err(Error::new("nothing", "arguments")) };
+    let request = Request::read(matches)?;
+    request.check()?;
+    let Staged { model, camera, options, .. } = request.stage()?;
+    Ok((model, camera, options))
+}
+
+/// The arguments with `--machine` instead of a `--target` that begins with a letter: no point does.
+pub(super) fn with_machine(arguments: impl IntoIterator<Item = OsString>) -> Vec<OsString> {
+    let mut arguments: Vec<OsString> = arguments.into_iter().collect();
+    if arguments.get(1).is_none_or(|command| command != "advise") {
+        return arguments;
+    }
+    let is_machine = |value: &str| value.starts_with(|first: char| first.is_ascii_alphabetic());
+    for k in 2..arguments.len() {
+        let Some(word) = arguments[k].to_str() else { continue };
+        if word == "--" {
+            break;
+        }
+        let joined = word.strip_prefix("--target=").filter(|value| is_machine(value));
+        let follows = arguments.get(k + 1).and_then(|value| value.to_str()).is_some_and(is_machine);
+        if let Some(value) = joined {
+            arguments[k] = format!("--machine={value}").into();
+        } else if word == "--target" && follows {
+            arguments[k] = "--machine".into();
+        }
+    }
+    arguments
 }
 
 /// Tries policies, and prints what was found.
@@ -71,8 +122,9 @@ fn advise_on(arguments: &AdviseArgs, request: &Request) -> Result<(), Error> {
     let Staged { model, camera, options, .. } = request.stage()?;
     let mut progress = Progress::new("trying");
     let mut hear = |done, total| progress.set(done, total);
-    let advice = advise(&model, &camera, &options, arguments.max_error, &mut hear)?;
-    let wastes = waste(&model, &camera, &options, &advice.trials, arguments.turntable)?;
+    let AdviseArgs { max_error: budget, machine, thorough, turntable, .. } = *arguments;
+    let advice = advise(&model, &camera, &options, Wish { budget, machine, thorough }, &mut hear)?;
+    let wastes = waste(&model, &camera, &options, &advice, turntable)?;
     drop(progress);
     if let Some(outputs) = outputs {
         write(&advice, outputs)?;
@@ -105,4 +157,27 @@ fn write(advice: &Advice, [pick, right, difference]: [Output; 3]) -> Result<(), 
 fn largest_side(model: &Model) -> u16 {
     let sides = model.textures.iter().map(|t| t.width.max(t.height));
     sides.max().and_then(|side| side.try_into().ok()).unwrap_or(255)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_target_with_a_letter_is_a_machine() {
+        let told = |line: &str| {
+            let words = with_machine(line.split(' ').map(OsString::from));
+            words.join(std::ffi::OsStr::new(" ")).into_string().expect("text")
+        };
+        for (line, expected) in [
+            ("alberti advise m.obj --target m4f", "alberti advise m.obj --machine m4f"),
+            ("alberti advise --target=m7 m.obj", "alberti advise --machine=m7 m.obj"),
+            ("alberti advise --target 0,1,2 --target rv32", "alberti advise --target 0,1,2 --machine rv32"),
+            ("alberti advise --target -1,0,0", "alberti advise --target -1,0,0"),
+            ("alberti render --target m4f", "alberti render --target m4f"),
+            ("alberti advise -- --target m4f", "alberti advise -- --target m4f"),
+        ] {
+            assert_eq!(told(line), expected);
+        }
+    }
 }

@@ -24,7 +24,7 @@ pub const FAILURE: u8 = 2;
 /// 0, [`compare::EXCEEDED`] or [`FAILURE`].
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let mut command = Cli::command().mut_subcommand("explain", explain::without_pictures);
-    let matches = match command.try_get_matches_from_mut(arguments) {
+    let matches = match command.try_get_matches_from_mut(advise::with_machine(arguments)) {
         Ok(matches) => matches,
         Err(error) => return usage(&error),
     };
