@@ -26,7 +26,7 @@ pub use machine::{Cost, Machine};
 pub use measured::Trial;
 pub use report::{json, text};
 pub use waste::{Waste, waste};
-pub use work::{Work, work};
+pub use work::{OfKind, Work, work};
 
 use crate::error::Error;
 use crate::measure::MaxError;

@@ -25,7 +25,8 @@ pub trait DepthFormat: Copy + Debug + Send + Sync + 'static {
     /// The stored value nearest to `zs`, which must be in [0, 1].
     fn encode(self, zs: f32) -> Self::Stored;
 
-    /// The bits of a stored integer that is zs·(2^bits − 1) to the nearest, at most 31; 31 as well for all else.
+    /// The bits of a stored integer that is zs·(2^bits − 1) to the nearest, at most 31; 31 as well for all else, and 16
+    /// where nothing is stored: in fixed point, more small triangles have a short way with few.
     #[inline(always)]
     fn bits(self) -> u32 {
         31
@@ -145,6 +146,10 @@ impl DepthFormat for NoDepth {
     fn encode(self, _: f32) {}
     #[inline]
     fn encode_integer(self, _: u32) {}
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        16
+    }
     #[inline]
     fn nearer(self, (): (), (): ()) -> bool {
         true
@@ -322,6 +327,7 @@ impl DepthFormat for AnyDepth {
     #[inline(always)]
     fn bits(self) -> u32 {
         match self {
+            Self::NoDepth => NoDepth.bits(),
             Self::D16 => D16.bits(),
             Self::D24 => D24.bits(),
             _ => 31,

@@ -25,8 +25,17 @@ pub static CALIBRATION: LazyLock<Vec<Scene>> = LazyLock::new(|| {
         new("receding", receding([4, 4])),
         new("clipped", floor([40, 1])),
         new("strips", floor([1, 24])),
+        new("ground", sheet([1, 1], |s, t| [240.0 * (s - 0.5), -0.8, 1.0 - 240.0 * t], [200.0, 200.0])),
+        new("steep", sheet([2, 1], |s, t| [90.0 * (s - 0.5), 3.0 * (t - 0.5), -0.3 - 60.0 * t], [9.0, 9.0])),
         new("soup", soup(&whole([16, 12]))),
         new("half", wall([6, 6], 0.5, 2.0)),
+        new("300-cells", whole([20, 15])),
+        new("crumbs", whole([80, 50])),
+        new("small-layers", together([2.5, 2.3, 2.1].map(|distance| wall([40, 30], 0.6, distance)))),
+        new("beyond", wall([1, 1], 14.0, 2.0)),
+        new("far-beyond", wall([9, 1], 24.0, 2.0)),
+        new("beyond-twice", together([3.0, 2.0].map(|distance| wall([1, 1], 16.0, distance)))),
+        new("beyond-behind", together([2.0, 3.0].map(|distance| wall([1, 1], 18.0, distance)))),
         Scene { name: "torus", about: "", ..clone(scene("lit")) },
         Scene { name: "plane", about: "", ..clone(scene("minified")) },
     ]
@@ -65,10 +74,14 @@ fn floor(cells: [u16; 2]) -> Model {
 }
 
 fn layers(distances: [f32; 4]) -> Model {
+    together(distances.map(|distance| wall([4, 3], 1.0, distance)))
+}
+
+/// Models in one part.
+fn together<const N: usize>(models: [Model; N]) -> Model {
     let mut all = Model::default();
     let mut triangles = vec![];
-    for distance in distances {
-        let Model { vertices, parts, .. } = wall([4, 3], 1.0, distance);
+    for Model { vertices, parts, .. } in models {
         let base = u32::try_from(all.vertices.len()).expect("few vertices");
         all.vertices.extend(vertices);
         triangles.extend(parts[0].triangles.iter().map(|triangle| triangle.map(|index| base + index)));

@@ -13,15 +13,18 @@ use std::collections::HashMap;
 
 /// The table.
 const TABLE: &str = include_str!("chips.csv");
+/// The columns before and after the counts of [`Work`].
+const WORDS: [&str; 3] = ["target", "kind", "name"];
+const BYTES: [&str; 2] = ["flash", "stack"];
+const NUMBERS: usize = Work::NAMES.len() + BYTES.len();
+
 /// Its first line.
-const HEADER: &str =
-    "target,kind,name,frame,vertex,submitted,clipped,drawn,row,run,tested,written,flash,stack";
-/// The columns before numbers.
-const WORDS: usize = 3;
-const NUMBERS: usize = 11;
+fn header() -> String {
+    [&WORDS[..], &Work::NAMES, &BYTES].concat().join(",")
+}
 
 /// The names of each kind, the first that of the kind's base but for `lines`, which has none.
-const KINDS: [(&str, bool, &[&str]); 4] = [
+const KINDS: [(&str, bool, &[&str]); 6] = [
     (
         "lines",
         false,
@@ -42,8 +45,10 @@ const KINDS: [(&str, bool, &[&str]); 4] = [
             "fixed affine",
         ],
     ),
-    ("depth", true, &["u16", "f32", "f32-reversed", "u32", "u24", "none"]),
-    ("subpixel", true, &["4", "8"]),
+    ("float depth", true, &["u16", "f32", "f32-reversed", "u32", "u24", "none"]),
+    ("fixed depth", true, &["u16", "f32", "f32-reversed", "u32", "u24", "none"]),
+    ("float subpixel", true, &["4", "8"]),
+    ("fixed subpixel", true, &["4", "8"]),
     ("filter", true, &["nearest", "bilinear", "trilinear"]),
 ];
 
@@ -61,9 +66,7 @@ pub(super) struct Coefficients {
 impl Coefficients {
     /// The instructions of a frame.
     pub(super) fn frame(&self, work: &Work) -> f64 {
-        let &Work { vertices, submitted, clipped, drawn, rows, runs, tested, written } = work;
-        let counts = [1.0, vertices, submitted, clipped, drawn, rows, runs, tested, written];
-        self.counts.iter().zip(counts).map(|(coefficient, count)| coefficient * count).sum()
+        self.counts.iter().zip(work.counts()).map(|(coefficient, count)| coefficient * count).sum()
     }
 
     fn plus(&self, other: &Self) -> Self {
@@ -81,8 +84,10 @@ impl Chip {
     /// The sum for a way of drawing; `None` if the chip has no such.
     pub(super) fn cost(&self, candidate: Candidate, filter: Filter) -> Option<Coefficients> {
         let lines = self.get("lines", &lines_name(candidate))?;
-        let depth = self.get("depth", depth_name(candidate.depth))?;
-        let grid = self.get("subpixel", &subpixel_bits(candidate.subpixel).to_string())?;
+        let arithmetic = arithmetic_name(candidate);
+        let depth = self.get(&format!("{arithmetic} depth"), depth_name(candidate.depth))?;
+        let bits = subpixel_bits(candidate.subpixel).to_string();
+        let grid = self.get(&format!("{arithmetic} subpixel"), &bits)?;
         Some(lines.plus(depth).plus(grid).plus(self.filter(filter)?))
     }
 
@@ -106,13 +111,17 @@ impl Chip {
 
 /// The name of a candidate's interpolation and arithmetic in the table.
 fn lines_name(candidate: Candidate) -> String {
-    let arithmetic = match candidate.arithmetic {
-        Arithmetic::Float => "float",
-        Arithmetic::Fixed => "fixed",
-    };
+    let arithmetic = arithmetic_name(candidate);
     match candidate.interpolation {
         Interpolation::Bounded(_) => format!("{arithmetic} bounded"),
         interpolation => format!("{arithmetic} {interpolation}"),
+    }
+}
+
+fn arithmetic_name(candidate: Candidate) -> &'static str {
+    match candidate.arithmetic {
+        Arithmetic::Float => "float",
+        Arithmetic::Fixed => "fixed",
     }
 }
 
@@ -137,15 +146,15 @@ fn parse(table: &str) -> Result<HashMap<&'static str, Chip>, Error> {
         CHIPS.iter().map(|chip| (chip.name(), Chip(HashMap::new()))).collect();
     let mut lines = (1..).zip(table.lines());
     match lines.next() {
-        Some((_, HEADER)) => {}
+        Some((_, line)) if line == header() => {}
         found => {
             let found = found.map_or("nothing".to_owned(), |(_, line)| said(line));
-            return Err(wrong(1, found, HEADER.to_owned()));
+            return Err(wrong(1, found, header()));
         }
     }
     for (number, line) in lines {
         let fields: Vec<&str> = line.split(',').collect();
-        let count = WORDS + NUMBERS;
+        let count = WORDS.len() + NUMBERS;
         let (&[target, kind, name], numbers) = fields
             .split_first_chunk()
             .filter(|(_, numbers)| numbers.len() == NUMBERS)
@@ -162,7 +171,7 @@ fn parse(table: &str) -> Result<HashMap<&'static str, Chip>, Error> {
             .find(|known| **known == name)
             .ok_or_else(|| wrong(number, said(name), names.join(", ")))?;
         let mut values = [0.0; NUMBERS];
-        for ((value, text), column) in values.iter_mut().zip(numbers).zip(HEADER.split(',').skip(WORDS)) {
+        for ((value, text), column) in values.iter_mut().zip(numbers).zip(Work::NAMES.into_iter().chain(BYTES)) {
             let parsed = text.parse().ok().filter(|value: &f64| value.is_finite());
             *value = parsed.ok_or_else(|| wrong(number, said(text), format!("a number for {column}")))?;
         }
@@ -193,6 +202,7 @@ fn parse(table: &str) -> Result<HashMap<&'static str, Chip>, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::advise::OfKind;
     use crate::options::{DepthFormat, SpanLength, Subpixel};
 
     #[test]
@@ -203,13 +213,15 @@ mod tests {
         }
     }
 
+    const ZEROS: &str = "0,0,0,0,0,0,0,0,0,0,0,0,0,0";
+
     /// A table in which a line's frame is its number, and its other numbers are 0 but for some.
     fn numbered() -> Vec<String> {
-        let mut lines = vec![HEADER.to_owned()];
+        let mut lines = vec![header()];
         for target in ["m4f", "m0", "rv32"] {
             for (kind, has_base, names) in KINDS {
                 for name in &names[usize::from(has_base)..] {
-                    lines.push(format!("{target},{kind},{name},{},0,0,0,0,0,0,0,0,0,0", lines.len()));
+                    lines.push(format!("{target},{kind},{name},{},{ZEROS},0,0", lines.len()));
                 }
             }
         }
@@ -223,11 +235,11 @@ mod tests {
             lines.iter().position(|line| line.starts_with(start)).expect("a line")
         };
         let line = at(&lines, "m0,lines,fixed spans:8,");
-        lines[line] = "m0,lines,fixed spans:8,1,2,3,5,7,11,13,17,19,1000,300".to_owned();
-        let line = at(&lines, "m0,depth,none,");
-        lines[line] = "m0,depth,none,0.5,0,0,0,0,0,0,-2,-1,-100,-8".to_owned();
+        lines[line] = "m0,lines,fixed spans:8,1,2,3,5,9,8,6,7,11,17,0.5,0.25,0.125,13,19,1000,300".to_owned();
+        let line = at(&lines, "m0,fixed depth,none,");
+        lines[line] = "m0,fixed depth,none,0.5,0,0,0,0,0,0,0,0,-2,0,0,0,0,-1,-100,-8".to_owned();
         let line = at(&lines, "m0,filter,bilinear,");
-        lines[line] = "m0,filter,bilinear,0,0,0,0,0,0,0,0,40,500,16".to_owned();
+        lines[line] = "m0,filter,bilinear,0,0,0,0,0,0,0,0,0,0,0,0,0,0,40,500,16".to_owned();
         let chips = parse(&lines.join("\n")).expect("a table");
         let candidate = Candidate {
             interpolation: Interpolation::Spans(SpanLength::Eight),
@@ -241,14 +253,14 @@ mod tests {
             vertices: 10.0,
             submitted: 20.0,
             clipped: 1.0,
-            drawn: 15.0,
-            rows: 100.0,
+            small: OfKind { triangles: 2.0, rows: 4.0, samples: 8.0 },
+            narrow: OfKind { triangles: 15.0, rows: 100.0, samples: 1000.0 },
+            wide: OfKind { triangles: 16.0, rows: 32.0, samples: 64.0 },
             runs: 200.0,
-            tested: 1000.0,
             written: 600.0,
         };
-        // 1.5 + 20 + 60 + 5 + 105 + 1100 + 2600 + 15000 + 58 · 600
-        assert_eq!(cost.frame(&work), 53_691.5);
+        // 1.5 + 20 + 60 + 5 + (18 + 32 + 48) + (105 + 1100 + 15000) + (8 + 8 + 8) + 2600 + 58 · 600
+        assert_eq!(cost.frame(&work), 53_813.5);
         assert!(chips["m0"].cost(candidate, Filter::Anisotropic(crate::options::Probes::Two)).is_none());
     }
 
@@ -262,9 +274,9 @@ mod tests {
         type Change = fn(&mut Vec<String>);
         let cases: [(Change, &str); 10] = [
             (|lines| lines[0] = "target".into(), "chips.csv:1: found \"target\""),
-            (|lines| lines[3] = "m4f,lines,float spans:4,1".into(), "4 fields, expected 14"),
+            (|lines| lines[3] = "m4f,lines,float spans:4,1".into(), "4 fields, expected 20"),
             (|lines| lines[3] = lines[3].replace("m4f", "m7"), "\"m7\", expected m4f, m0, rv32"),
-            (|lines| lines[3] = lines[3].replace("lines", "line"), "\"line\", expected lines, depth"),
+            (|lines| lines[3] = lines[3].replace("lines", "line"), "\"line\", expected lines, float depth"),
             (
                 |lines| lines[3] = lines[3].replace("spans:4", "spans:5"),
                 "\"float spans:5\", expected float exact",
@@ -273,7 +285,7 @@ mod tests {
             (|lines| lines[3] = lines[3].replace(",3,0", ",inf,0"), "a number for frame"),
             (|lines| lines[3] = lines[2].clone(), "m4f,lines,float plane again"),
             (
-                |lines| lines[3] = "m4f,depth,u16,1,0,0,0,0,0,0,0,0,0,0".into(),
+                |lines| lines[3] = format!("m4f,fixed depth,u16,1,{ZEROS},0,0"),
                 "a difference of u16 from itself",
             ),
             (|lines| _ = lines.remove(3), "expected a line m4f,lines,float spans:4"),

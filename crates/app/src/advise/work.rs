@@ -2,7 +2,7 @@
 
 use crate::draw::{Canvas, Counted, Drawing, Studio};
 use crate::error::Error;
-use crate::options::{Arithmetic, Interpolation, RenderOptions};
+use crate::options::{Arithmetic, DepthFormat, Interpolation, RenderOptions};
 use crate::render::{any_depth, buffer};
 use crate::scene::{Camera, Model};
 use alberti::{AnyDepth, Rgba8, Rgba8888, Stats, Target};
@@ -18,17 +18,61 @@ pub struct Work {
     pub submitted: f64,
     /// Those that cross a clipping plane.
     pub clipped: f64,
-    /// Triangles on the screen, of which clipping makes several from one.
-    pub drawn: f64,
-    /// Pairs of a triangle on the screen and a row of which it covers a sample.
-    pub rows: f64,
+    /// Small triangles on the screen, and those without a sample: in fixed point, by planes of their own.
+    pub small: OfKind,
+    /// Others whose edge functions fit 32 bits.
+    pub narrow: OfKind,
+    /// Those whose edge functions take 64 bits.
+    pub wide: OfKind,
     /// Pieces of rows that straight lines interpolate between two divisions, and samples that a budget leaves to exact
     /// ones. So there are none under `exact`, `plane` and `affine`, nor in a triangle that is one run in all.
     pub runs: f64,
-    /// Fragments, whose depths are tested.
-    pub tested: f64,
-    /// Fragments that pass, and are written.
+    /// Fragments that pass the depth test, and are written.
     pub written: f64,
+}
+
+/// The triangles that are rasterized in one way. Clipping makes several triangles on the screen from one.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct OfKind {
+    /// How many.
+    pub triangles: f64,
+    /// Pairs of a triangle and a row of which it covers a sample.
+    pub rows: f64,
+    /// Fragments, whose depths are tested.
+    pub samples: f64,
+}
+
+impl Work {
+    /// The names of the counts, as the table of a chip's costs has them.
+    pub const NAMES: [&str; 15] = [
+        "frame",
+        "vertex",
+        "submitted",
+        "clipped",
+        "small",
+        "small_row",
+        "small_sample",
+        "narrow",
+        "narrow_row",
+        "narrow_sample",
+        "wide",
+        "wide_row",
+        "wide_sample",
+        "run",
+        "written",
+    ];
+
+    /// The counts in their order. There is one frame.
+    #[must_use]
+    pub fn counts(&self) -> [f64; Self::NAMES.len()] {
+        let &Self { vertices, submitted, clipped, small, narrow, wide, runs, written } = self;
+        let [small, narrow, wide] = [small, narrow, wide].map(|kind| [kind.triangles, kind.rows, kind.samples]);
+        let mut counts = [1.0, vertices, submitted, clipped, 0., 0., 0., 0., 0., 0., 0., 0., 0., runs, written];
+        for (count, of_kind) in counts[4..].iter_mut().zip([small, narrow, wide].as_flattened()) {
+            *count = *of_kind;
+        }
+        counts
+    }
 }
 
 /// Counts the work of a frame.
@@ -51,8 +95,11 @@ pub fn work(model: &Model, camera: &Camera, options: &RenderOptions) -> Result<W
     let format = any_depth(options.depth);
     let (mut stats, mut counted, mut visible) = Default::default();
     count(format, &mut |drawing, target| stats = drawing.draw_all(target, &mut |_, _| ()))?;
-    count(AnyDepth::NoDepth, &mut |drawing, target| counted = drawing.count_runs(target))?;
-    let Counted { rows, runs, single } = counted;
+    // With more bits of depth fewer triangles are small. What is hidden then counts as the kind of what was seen last.
+    let shallow = matches!(options.depth, DepthFormat::U16 | DepthFormat::None);
+    let all = if shallow || policies.arithmetic == Arithmetic::Float { AnyDepth::NoDepth } else { format };
+    count(all, &mut |drawing, target| counted = drawing.count_runs(target))?;
+    let Counted { kinds, runs, single } = counted;
     let runs = match (policies.interpolation, policies.arithmetic) {
         (Interpolation::Affine, _) => 0,
         (Interpolation::Bounded(_), Arithmetic::Float) => {
@@ -66,20 +113,27 @@ pub fn work(model: &Model, camera: &Camera, options: &RenderOptions) -> Result<W
         let indices: HashSet<u32> = part.triangles.iter().flatten().copied().collect();
         indices.len() as u64
     });
-    let Stats { submitted, clipped, drawn, fragments, written, .. } = stats;
+    let Stats { submitted, clipped, drawn, written, .. } = stats;
     let number = |count: u64| {
         #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
         let number = count as f64;
         number
     };
+    let seen: u64 = kinds.iter().map(|kind| kind.triangles).sum();
+    let [mut small, narrow, wide] = kinds.map(|kind| OfKind {
+        triangles: number(kind.triangles),
+        rows: number(kind.rows),
+        samples: number(kind.samples),
+    });
+    small.triangles += number(drawn.saturating_sub(seen));
     Ok(Work {
         vertices: number(vertices.sum()),
         submitted: number(submitted),
         clipped: number(clipped),
-        drawn: number(drawn),
-        rows: number(rows),
+        small,
+        narrow,
+        wide,
         runs: number(runs),
-        tested: number(fragments),
         written: number(written),
     })
 }
@@ -87,7 +141,7 @@ pub fn work(model: &Model, camera: &Camera, options: &RenderOptions) -> Result<W
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::options::{Cull, DepthFormat, Filter, Policies, Projection, Shading, Wrap};
+    use crate::options::{Cull, Filter, Policies, Projection, Shading, Wrap};
     use crate::scene::{Part, Vertex};
 
     /// Rows and columns.
@@ -145,12 +199,11 @@ mod tests {
             vertices: 8.0,
             submitted: 4.0,
             clipped: 0.0,
-            drawn: 4.0,
             // The diagonal passes between two samples of each of 16 rows, and never at an end.
-            rows: 64.0,
+            narrow: OfKind { triangles: 4.0, rows: 64.0, samples: 1024.0 },
             runs: 0.0,
-            tested: 1024.0,
             written: 512.0,
+            ..Work::default()
         };
         for interpolation in ["exact", "plane", "affine"] {
             assert_eq!(counted(&rectangles(), interpolation, Arithmetic::Float), expected);
@@ -192,11 +245,10 @@ mod tests {
             vertices: 3.0,
             submitted: 1.0,
             clipped: 1.0,
-            drawn: 1.0,
-            rows,
+            narrow: OfKind { triangles: 1.0, rows, samples },
             runs,
-            tested: samples,
             written: samples,
+            ..Work::default()
         };
         assert_eq!(found, expected);
         assert!(rows < 24.0 && runs > rows, "the point is between samples, and runs of 32 columns end at 32");

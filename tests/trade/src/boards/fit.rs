@@ -1,7 +1,9 @@
 //! Least squares: the price of each kind of work, from the prices of frames.
 
+use alberti_app::advise::Work;
+
 /// Kinds of work, the frame itself first.
-pub(super) const KINDS: usize = 9;
+pub(super) const KINDS: usize = Work::NAMES.len();
 
 /// How much work of each kind there is.
 pub(super) type Amounts = [f64; KINDS];
@@ -10,11 +12,17 @@ pub(super) type Amounts = [f64; KINDS];
 const PASSES: usize = 20_000;
 
 /// The prices by which amounts add up to totals, each total weighing the same: the squares of relative errors are
-/// least. `scales` are the totals that errors are relative to. Prices are not negative if `positive`.
+/// least. `scales` are the totals that errors are relative to. Only kinds that are `asked` have prices, and these are not
+/// negative if `positive`.
 ///
 /// Each kind in turn takes its best price, until none changes. A little is asked for prices near 0, so that kinds which
 /// no frame tells apart share evenly.
-pub(super) fn fit(rows: &[(Amounts, f64)], scales: &[f64], positive: bool) -> Amounts {
+pub(super) fn fit(
+    rows: &[(Amounts, f64)],
+    scales: &[f64],
+    asked: impl Fn(&str) -> bool,
+    positive: bool,
+) -> Amounts {
     let rows: Vec<(Amounts, f64)> = rows
         .iter()
         .zip(scales)
@@ -27,7 +35,7 @@ pub(super) fn fit(rows: &[(Amounts, f64)], scales: &[f64], positive: bool) -> Am
     let mut rest: Vec<f64> = rows.iter().map(|(_, total)| *total).collect();
     for _ in 0..PASSES {
         for kind in 0..KINDS {
-            if norms[kind] == 0.0 {
+            if norms[kind] == 0.0 || !asked(Work::NAMES[kind]) {
                 continue;
             }
             let slope: f64 = rows.iter().zip(&rest).map(|((amounts, _), rest)| amounts[kind] * rest).sum();
@@ -60,20 +68,20 @@ mod tests {
 
     #[test]
     fn known_prices_are_found_again() {
-        let known = [900.0, 12.0, 30.0, 0.0, 400.0, 70.0, 25.0, 8.0, 20.0];
+        let known = [900.0, 12.0, 30.0, 0.0, 400.0, 70.0, 25.0, 8.0, 20.0, 7.0, 0.0, 3.0, 90.0, 11.0, 2.0];
         // Amounts without a pattern, from 0 to 99.
         let amount = |row: usize, kind: usize| {
             let mixed = (row * 31 + kind * 17 + row * row * 7 + row * kind * 13) % 100;
             f64::from(u32::try_from(mixed).expect("small"))
         };
-        let rows: Vec<(Amounts, f64)> = (0..30)
+        let rows: Vec<(Amounts, f64)> = (0..60)
             .map(|row| {
                 let amounts = std::array::from_fn(|kind| if kind == 0 { 1.0 } else { amount(row, kind) });
                 (amounts, total(&known, &amounts))
             })
             .collect();
         let scales: Vec<f64> = rows.iter().map(|(_, total)| *total).collect();
-        let found = fit(&rows, &scales, true);
+        let found = fit(&rows, &scales, |_| true, true);
         for (amounts, total_known) in &rows {
             assert!((total(&found, amounts) / total_known - 1.0).abs() < 2e-3);
         }
@@ -82,8 +90,9 @@ mod tests {
 
     #[test]
     fn no_price_is_negative_unless_it_may() {
-        let rows = [([1.0, 1.0, 0., 0., 0., 0., 0., 0., 0.], 1.0), ([1.0, 2.0, 0., 0., 0., 0., 0., 0., 0.], 0.5)];
-        assert!(fit(&rows, &[1.0, 1.0], true)[1] >= 0.0);
-        assert!(fit(&rows, &[1.0, 1.0], false)[1] < -0.4);
+        let amounts = |vertices| std::array::from_fn(|kind| [1.0, vertices].get(kind).copied().unwrap_or(0.0));
+        let rows = [(amounts(1.0), 1.0), (amounts(2.0), 0.5)];
+        assert!(fit(&rows, &[1.0, 1.0], |_| true, true)[1] >= 0.0);
+        assert!(fit(&rows, &[1.0, 1.0], |_| true, false)[1] < -0.4);
     }
 }

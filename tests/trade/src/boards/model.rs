@@ -18,7 +18,7 @@ pub struct Entry {
     /// The board.
     pub board: String,
     /// Lines, depth, subpixel or filter.
-    pub kind: &'static str,
+    pub kind: String,
     /// The policy's name, or the part of it.
     pub name: String,
     /// Instructions for each kind of work.
@@ -51,8 +51,8 @@ impl Works {
         *self.0.entry((number, name.to_owned())).or_insert_with(|| {
             let options = policy.candidate.options(&scene.options(SIZE, Filter::Nearest));
             let work = work(&scene.model, &scene.camera, &options).expect("a scene that can be drawn");
-            let Work { vertices, submitted, clipped, drawn, rows, runs, tested, written } = work;
-            [1.0, vertices, submitted, clipped, drawn, rows, runs, tested, written]
+            if std::env::var_os("SHOW").is_some() { eprintln!("W {} {name} {:?}", scene.name, work.counts()); }
+            work.counts()
         })
     }
 }
@@ -79,7 +79,7 @@ pub fn model(prices: &[Price]) -> (Vec<Entry>, Vec<Estimate>) {
                 .iter()
                 .copied()
                 .filter(|price| {
-                    super::price::policy(&price.policy).is_some_and(|other| labelled(&price.policy, other).1 == label)
+                    super::price::policy(&price.policy).is_some_and(|other| labelled(&price.policy, other) == (kind.clone(), label.clone()))
                 })
                 .collect();
             let known = &entries[first..];
@@ -96,7 +96,8 @@ pub fn model(prices: &[Price]) -> (Vec<Entry>, Vec<Estimate>) {
                 rows.push((amounts, count - base.as_ref().map_or(0.0, |base| total(&base.prices, &amounts))));
                 scales.push(count);
             }
-            let fitted = fit(&rows, &scales, base.is_none());
+            let (asked, positive) = asked(&kind);
+            let fitted = fit(&rows, &scales, asked, positive);
             let most = |of: fn(&Price) -> u64, code: bool| {
                 own.iter().filter(|price| price.scene.is_none() == code).map(|price| of(price)).max().unwrap_or(0)
             };
@@ -127,19 +128,25 @@ pub fn model(prices: &[Price]) -> (Vec<Entry>, Vec<Estimate>) {
     (entries, estimates)
 }
 
+/// The kinds of work that a kind of policy has a say in, and whether it can only cost more.
+fn asked(kind: &str) -> (fn(&str) -> bool, bool) {
+    match kind {
+        "lines" => (|_| true, true),
+        "filter" => (|work| ["small", "narrow", "wide", "run", "written"].contains(&work), true),
+        _ => (|work| !["frame", "vertex", "submitted", "clipped", "run"].contains(&work), false),
+    }
+}
+
 /// The kind of a policy's line in the table, and its name there.
-fn labelled(name: &str, policy: Policy) -> (&'static str, String) {
-    let kind = match policy.special {
-        None => "lines",
-        Some(Special::Depth) => "depth",
-        Some(Special::Subpixel) => "subpixel",
-        Some(Special::Filter) => "filter",
-    };
-    let label = match name.split_once(", ") {
-        None => name.split(":0.").next().unwrap_or(name).to_owned(),
-        Some((lines, special)) => format!("{} {special}", lines.split(' ').next().unwrap_or(lines)),
-    };
-    (kind, label)
+fn labelled(name: &str, policy: Policy) -> (String, String) {
+    let (lines, special) = name.split_once(", ").unwrap_or((name, ""));
+    let arithmetic = lines.split(' ').next().unwrap_or(lines);
+    match policy.special {
+        None => ("lines".to_owned(), name.split(":0.").next().unwrap_or(name).to_owned()),
+        Some(Special::Depth) => (format!("{arithmetic} depth"), special.to_owned()),
+        Some(Special::Subpixel) => (format!("{arithmetic} subpixel"), special.to_owned()),
+        Some(Special::Filter) => ("filter".to_owned(), special.to_owned()),
+    }
 }
 
 fn float(count: u64) -> f64 {
@@ -150,7 +157,7 @@ fn float(count: u64) -> f64 {
 
 /// The table as the command reads it.
 pub fn csv(entries: &[Entry]) -> String {
-    let mut text = "target,kind,name,frame,vertex,submitted,clipped,drawn,row,run,tested,written,flash,stack\n".to_owned();
+    let mut text = format!("target,kind,name,{},flash,stack\n", Work::NAMES.join(","));
     for Entry { board, kind, name, prices, code, stack } in entries {
         let prices: Vec<String> = prices.iter().map(|price| format!("{price:.2}")).collect();
         // Writing to a string cannot fail.
