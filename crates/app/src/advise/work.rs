@@ -1,9 +1,9 @@
 //! What a scene makes a renderer do, in counts that do not depend on the machine.
 
-use crate::draw::{Canvas, Counted, Drawing, Studio};
+use crate::draw::{Counted, Drawing, Studio};
 use crate::error::Error;
 use crate::options::{Arithmetic, Interpolation, RenderOptions};
-use crate::render::{any_depth, buffer};
+use crate::render::{any_depth, buffer, render};
 use crate::scene::{Camera, Model};
 use alberti::{AnyDepth, Rgba8, Rgba8888, Stats, Target};
 use std::collections::HashSet;
@@ -38,50 +38,62 @@ pub struct Work {
 pub fn work(model: &Model, camera: &Camera, options: &RenderOptions) -> Result<Work, Error> {
     options.policies.check()?;
     let options = RenderOptions { threads: NonZero::<usize>::MIN, ..*options };
-    let RenderOptions { width, height, policies, .. } = options;
-    let studio = Studio::new(model, camera, &options)?;
-    let (mut pixels, mut depth) = (buffer(&options, 0)?, buffer(&options, 0)?);
-    let mut count = |format: AnyDepth, count: &mut dyn FnMut(Drawing<'_>, &mut Canvas<'_>)| {
-        let target = Target::new(Rgba8888, format, width, height, &mut pixels, &mut depth);
-        let mut target = target.map_err(|found| Error::new(found.to_string(), "a size that can be drawn"))?;
-        target.clear(Rgba8::BLACK);
-        count(Drawing::new(model, camera, &options, &studio)?, &mut target);
-        Ok(())
-    };
-    let format = any_depth(options.depth);
-    let (mut stats, mut counted, mut visible) = Default::default();
-    count(format, &mut |drawing, target| stats = drawing.draw_all(target, &mut |_, _| ()))?;
-    count(AnyDepth::NoDepth, &mut |drawing, target| counted = drawing.count_runs(target))?;
-    let Counted { rows, runs, single } = counted;
-    let runs = match (policies.interpolation, policies.arithmetic) {
-        (Interpolation::Affine, _) => 0,
-        (Interpolation::Bounded(_), Arithmetic::Float) => {
-            // Exact samples are divided after the depth test, runs begin before it.
-            count(format, &mut |drawing, target| visible = drawing.count_runs(target))?;
-            runs - single + visible.single
+    let stats = render(model, camera, &options, &mut |_, _| ())?.stats;
+    Ok(Work::new(vertices(model), stats, counted(model, camera, &options)?))
+}
+
+impl Work {
+    /// Those of a drawing by one thread with these counts.
+    pub(super) fn new(vertices: u64, stats: Stats, Counted { rows, runs, .. }: Counted) -> Self {
+        let Stats { submitted, clipped, drawn, fragments, written, .. } = stats;
+        let number = |count: u64| {
+            #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
+            let number = count as f64;
+            number
+        };
+        Self {
+            vertices: number(vertices),
+            submitted: number(submitted),
+            clipped: number(clipped),
+            drawn: number(drawn),
+            rows: number(rows),
+            runs: number(runs),
+            tested: number(fragments),
+            written: number(written),
         }
-        _ => runs,
-    };
+    }
+}
+
+/// The vertices of all parts.
+pub(super) fn vertices(model: &Model) -> u64 {
     let vertices = model.parts.iter().map(|part| {
         let indices: HashSet<u32> = part.triangles.iter().flatten().copied().collect();
         indices.len() as u64
     });
-    let Stats { submitted, clipped, drawn, fragments, written, .. } = stats;
-    let number = |count: u64| {
-        #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
-        let number = count as f64;
-        number
+    vertices.sum()
+}
+
+/// Rows, and the runs between divisions.
+pub(super) fn counted(model: &Model, camera: &Camera, options: &RenderOptions) -> Result<Counted, Error> {
+    let RenderOptions { width, height, policies, .. } = *options;
+    let studio = Studio::new(model, camera, options)?;
+    let (mut pixels, mut depth) = (buffer(options, 0)?, buffer(options, 0)?);
+    let mut count = |format: AnyDepth| {
+        let target = Target::new(Rgba8888, format, width, height, &mut pixels, &mut depth);
+        let mut target = target.map_err(|found| Error::new(found.to_string(), "a size that can be drawn"))?;
+        target.clear(Rgba8::BLACK);
+        Ok(Drawing::new(model, camera, options, &studio)?.count_runs(&mut target))
     };
-    Ok(Work {
-        vertices: number(vertices.sum()),
-        submitted: number(submitted),
-        clipped: number(clipped),
-        drawn: number(drawn),
-        rows: number(rows),
-        runs: number(runs),
-        tested: number(fragments),
-        written: number(written),
-    })
+    let counted = count(AnyDepth::NoDepth)?;
+    let runs = match (policies.interpolation, policies.arithmetic) {
+        (Interpolation::Affine, _) => 0,
+        // Exact samples are divided after the depth test, runs begin before it.
+        (Interpolation::Bounded(_), Arithmetic::Float) => {
+            counted.runs - counted.single + count(any_depth(options.depth))?.single
+        }
+        _ => counted.runs,
+    };
+    Ok(Counted { runs, ..counted })
 }
 
 #[cfg(test)]
