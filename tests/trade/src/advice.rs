@@ -63,8 +63,9 @@ pub fn measure(root: &Path) -> Result<Vec<Found>, Error> {
     for name in SCENES {
         for machine in MACHINES {
             for budget in BUDGETS {
-                eprintln!("{name}, {}, {budget}", machine.name());
-                all.push(ask(root, name, budget, machine)?);
+                let found = ask(root, name, budget, machine)?;
+                eprintln!("{name}, {}, {budget}: {:.3}, {:.1} s", machine.name(), found.ratio, found.seconds);
+                all.push(found);
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Small scenes that load one part of a renderer each: vertices, triangles that are not seen, rows, pixels.
 
-use crate::scenes::{Scene, camera, tiled, scene, sheet};
+use crate::scenes::{Scene, camera, scene, sheet, tiled};
 use alberti_app::scene::{Model, Part};
 use std::sync::LazyLock;
 

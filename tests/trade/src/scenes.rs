@@ -177,12 +177,7 @@ fn lit() -> Scene {
         vertex.tangent = [b, 0.0, -a, 1.0];
     }
     let camera = Camera { eye: [0.0, 1.7, 2.4], target: [0.0, -0.1, 0.0], fov: 45.0, ..camera(0.1, 10.0) };
-    Scene::new(
-        "lit",
-        "a torus of 1,024 triangles under a lamp, with a highlight",
-        tiled(model),
-        camera,
-    )
+    Scene::new("lit", "a torus of 1,024 triangles under a lamp, with a highlight", tiled(model), camera)
 }
 
 /// A wall with bumps a twelfth of a tile deep, seen from aside.

@@ -171,7 +171,9 @@ fn parse(table: &str) -> Result<HashMap<&'static str, Chip>, Error> {
             .find(|known| **known == name)
             .ok_or_else(|| wrong(number, said(name), names.join(", ")))?;
         let mut values = [0.0; NUMBERS];
-        for ((value, text), column) in values.iter_mut().zip(numbers).zip(Work::NAMES.into_iter().chain(BYTES)) {
+        for ((value, text), column) in
+            values.iter_mut().zip(numbers).zip(Work::NAMES.into_iter().chain(BYTES))
+        {
             let parsed = text.parse().ok().filter(|value: &f64| value.is_finite());
             *value = parsed.ok_or_else(|| wrong(number, said(text), format!("a number for {column}")))?;
         }

@@ -71,8 +71,8 @@ impl Costs {
         let chip = chip(machine)?;
         if chip.filter(options.filter).is_none() {
             return Err(Error::new("an anisotropic filter", "nearest, bilinear or trilinear")
-                .place("--target")
-                .hint("chips are advised on these: choose one with --filter"));
+                .place("--machine")
+                .hint("chips are advised on with these: choose one with --filter"));
         }
         Ok(Self { chip: Some(chip) })
     }

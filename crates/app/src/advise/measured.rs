@@ -2,21 +2,21 @@
 
 use super::candidate::Candidate;
 use super::machine::{Cost, Costs, Machine};
-use super::texels;
-use super::{Wish, Work, work};
-use crate::draw::{Canvas, Drawing, Studio};
+use super::{Wish, Work, texels, work};
+use crate::draw::{Canvas, Counted, Drawing, Studio};
 use crate::error::Error;
 use crate::measure::{Comparison, MOST, MaxError, percentile, steps};
-use crate::options::RenderOptions;
+use crate::options::{Arithmetic, DepthFormat, Interpolation, RenderOptions};
 use crate::probe::{Probes, probe_values};
 use crate::render::{any_depth, buffer, shown};
 use crate::scene::{Camera, Image, Model};
-use alberti::{Rgba8888, Target};
+use alberti::{Rgba8888, Stats, Target};
+use std::cell::RefCell;
 use std::num::NonZero;
 use std::time::Instant;
 
 /// Frames of a first measurement on the host: so many, and more up to so many milliseconds.
-const FRAMES: usize = 3;
+const FRAMES: usize = 2;
 const MOST_FRAMES: usize = 12;
 const ENOUGH: f64 = 10.0;
 /// Turns of policies that are timed beside each other: as many as that time allows, in milliseconds.
@@ -50,8 +50,11 @@ pub(super) struct Bench<'a> {
     studio: Studio,
     costs: Costs,
     right: Image,
-    /// The work under the most precise policies.
+    /// On the host, where vertices alone are asked for.
     work: Work,
+    vertices: u64,
+    /// Rows and runs of what was tried.
+    counted: RefCell<Vec<(Candidate, Counted)>>,
     /// Of budgets in texels.
     probes: Option<Probes>,
 }
@@ -77,10 +80,13 @@ impl<'a> Bench<'a> {
             _ => None,
         };
         let right = Image { width: options.width, height: options.height, texels: vec![] };
-        let work = work(model, camera, &most_precise)?;
-        let mut bench = Self { model, camera, options, wish, studio, costs, right, work, probes };
+        let (vertices, work) = (work::vertices(model), Work::default());
+        let counted = RefCell::default();
+        let mut bench =
+            Self { model, camera, options, wish, studio, costs, right, work, vertices, counted, probes };
         // Several frames, so that the first to be timed finds the machine as warm as the others.
-        bench.right = bench.draw(Candidate::MOST_PRECISE, FRAMES)?.0;
+        bench.right = bench.draw(Candidate::MOST_PRECISE, FRAMES + 1)?.0;
+        bench.work.vertices = Work::new(vertices, Stats::default(), Counted::default()).vertices;
         Ok(bench)
     }
 
@@ -93,8 +99,9 @@ impl<'a> Bench<'a> {
     pub(super) fn try_out(&self, candidate: Candidate) -> Result<Trial, Error> {
         let options = candidate.options(&self.options);
         let chip = self.wish.machine.is_chip();
-        let (picture, times) = self.draw(candidate, if chip { 1 } else { FRAMES })?;
-        let work = if chip { work(self.model, self.camera, &options)? } else { self.work };
+        let few = chip || self.wish.thorough;
+        let (picture, times, stats) = self.draw(candidate, if few { 1 } else { FRAMES })?;
+        let work = if chip { self.count(candidate, stats)? } else { self.work };
         let cost = self.costs.of(candidate, &options, &work).unwrap_or_else(|| Cost {
             frame: times.into_iter().fold(f64::INFINITY, f64::min),
             flash: 0.0,
@@ -109,6 +116,26 @@ impl<'a> Bench<'a> {
         };
         let largest = differences.iter().copied().max().unwrap_or_default();
         Ok(Trial { candidate, error, largest, cost, work, picture })
+    }
+
+    /// The work of a frame with these counts. Of one without a budget, rows and runs do not depend on depths.
+    fn count(&self, candidate: Candidate, stats: Stats) -> Result<Work, Error> {
+        let shallow = matches!(candidate.depth, DepthFormat::None | DepthFormat::U16);
+        let key = match (candidate.interpolation, candidate.arithmetic) {
+            (Interpolation::Bounded(_), _) => candidate,
+            (_, Arithmetic::Fixed) if !shallow => candidate,
+            _ => Candidate { depth: DepthFormat::None, ..candidate },
+        };
+        let known =
+            self.counted.borrow().iter().find(|(known, _)| *known == key).map(|(_, counted)| *counted);
+        let counted = match known {
+            Some(counted) => counted,
+            None => work::counted(self.model, self.camera, &candidate.options(&self.options))?,
+        };
+        if known.is_none() {
+            self.counted.borrow_mut().push((key, counted));
+        }
+        Ok(Work::new(self.vertices, stats, counted))
     }
 
     /// The cost that a combination promises by those of its parts, as a share of the most precise policies' cost.
@@ -158,23 +185,23 @@ impl<'a> Bench<'a> {
     }
 
     /// The picture, and the milliseconds of so many frames of it, or a few more if they are short.
-    fn draw(&self, candidate: Candidate, frames: usize) -> Result<(Image, Vec<f64>), Error> {
+    fn draw(&self, candidate: Candidate, frames: usize) -> Result<(Image, Vec<f64>, Stats), Error> {
         let options = candidate.options(&self.options);
         let (mut pixels, mut depth) = (buffer(&options, 0)?, buffer(&options, 0)?);
         let (width, height, format) = (options.width, options.height, any_depth(options.depth));
         let mut target: Canvas<'_> = Target::new(Rgba8888, format, width, height, &mut pixels, &mut depth)
             .map_err(|found| Error::new(found.to_string(), "a size that can be drawn"))?;
-        let mut times: Vec<f64> = vec![];
+        let (mut times, mut stats): (Vec<f64>, _) = (vec![], Stats::default());
         while times.len() < frames
             || frames > 1 && times.len() < MOST_FRAMES && times.iter().sum::<f64>() < ENOUGH
         {
             let drawing = Drawing::new(self.model, self.camera, &options, &self.studio)?;
             let start = Instant::now();
-            drawing.draw_all(&mut target, &mut |_, _| ());
+            stats = drawing.draw_all(&mut target, &mut |_, _| ());
             times.push(start.elapsed().as_secs_f64() * 1e3);
         }
         let texels = pixels.iter().map(|pixel: &u32| shown(options.policies.color, pixel.to_ne_bytes()));
-        Ok((Image { width, height, texels: texels.collect() }, times))
+        Ok((Image { width, height, texels: texels.collect() }, times, stats))
     }
 
     fn texels(&self, options: &RenderOptions) -> Result<f64, Error> {

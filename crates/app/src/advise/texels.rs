@@ -127,10 +127,10 @@ mod tests {
     fn an_edge_within_a_surface_is_none() {
         let mut model = crossing(1);
         model.parts[0].triangles.truncate(2);
-        // Beyond the picture on all sides.
+        // Beyond the picture on all sides, and with a diagonal that is that of no pixels.
         for vertex in &mut model.vertices {
             let [x, y, z] = vertex.position;
-            vertex.position = [6.0 * x, 6.0 * y, z];
+            vertex.position = [6.1 * x + 0.3, 5.3 * y - 0.2, z];
         }
         let right = probes(&model, DepthFormat::F32, Subpixel::Sub8);
         let found = probes(&model, DepthFormat::F32, Subpixel::Sub4);

@@ -1,9 +1,9 @@
 //! What a scene makes a renderer do, in counts that do not depend on the machine.
 
-use crate::draw::{Canvas, Counted, Drawing, Studio};
+use crate::draw::{Counted, Drawing, Studio};
 use crate::error::Error;
 use crate::options::{Arithmetic, DepthFormat, Interpolation, RenderOptions};
-use crate::render::{any_depth, buffer};
+use crate::render::{any_depth, buffer, render};
 use crate::scene::{Camera, Model};
 use alberti::{AnyDepth, Rgba8, Rgba8888, Stats, Target};
 use std::collections::HashSet;
@@ -62,12 +62,41 @@ impl Work {
         "written",
     ];
 
+    /// Those of a drawing by one thread with these counts.
+    pub(super) fn new(vertices: u64, stats: Stats, Counted { kinds, runs, .. }: Counted) -> Self {
+        let Stats { submitted, clipped, drawn, written, .. } = stats;
+        let number = |count: u64| {
+            #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
+            let number = count as f64;
+            number
+        };
+        let seen: u64 = kinds.iter().map(|kind| kind.triangles).sum();
+        let [mut small, narrow, wide] = kinds.map(|kind| OfKind {
+            triangles: number(kind.triangles),
+            rows: number(kind.rows),
+            samples: number(kind.samples),
+        });
+        small.triangles += number(drawn.saturating_sub(seen));
+        Self {
+            vertices: number(vertices),
+            submitted: number(submitted),
+            clipped: number(clipped),
+            small,
+            narrow,
+            wide,
+            runs: number(runs),
+            written: number(written),
+        }
+    }
+
     /// The counts in their order. There is one frame.
     #[must_use]
     pub fn counts(&self) -> [f64; Self::NAMES.len()] {
         let &Self { vertices, submitted, clipped, small, narrow, wide, runs, written } = self;
-        let [small, narrow, wide] = [small, narrow, wide].map(|kind| [kind.triangles, kind.rows, kind.samples]);
-        let mut counts = [1.0, vertices, submitted, clipped, 0., 0., 0., 0., 0., 0., 0., 0., 0., runs, written];
+        let [small, narrow, wide] =
+            [small, narrow, wide].map(|kind| [kind.triangles, kind.rows, kind.samples]);
+        let mut counts =
+            [1.0, vertices, submitted, clipped, 0., 0., 0., 0., 0., 0., 0., 0., 0., runs, written];
         for (count, of_kind) in counts[4..].iter_mut().zip([small, narrow, wide].as_flattened()) {
             *count = *of_kind;
         }
@@ -82,60 +111,44 @@ impl Work {
 pub fn work(model: &Model, camera: &Camera, options: &RenderOptions) -> Result<Work, Error> {
     options.policies.check()?;
     let options = RenderOptions { threads: NonZero::<usize>::MIN, ..*options };
-    let RenderOptions { width, height, policies, .. } = options;
-    let studio = Studio::new(model, camera, &options)?;
-    let (mut pixels, mut depth) = (buffer(&options, 0)?, buffer(&options, 0)?);
-    let mut count = |format: AnyDepth, count: &mut dyn FnMut(Drawing<'_>, &mut Canvas<'_>)| {
-        let target = Target::new(Rgba8888, format, width, height, &mut pixels, &mut depth);
-        let mut target = target.map_err(|found| Error::new(found.to_string(), "a size that can be drawn"))?;
-        target.clear(Rgba8::BLACK);
-        count(Drawing::new(model, camera, &options, &studio)?, &mut target);
-        Ok(())
-    };
-    let format = any_depth(options.depth);
-    let (mut stats, mut counted, mut visible) = Default::default();
-    count(format, &mut |drawing, target| stats = drawing.draw_all(target, &mut |_, _| ()))?;
-    // With more bits of depth fewer triangles are small. What is hidden then counts as the kind of what was seen last.
-    let shallow = matches!(options.depth, DepthFormat::U16 | DepthFormat::None);
-    let all = if shallow || policies.arithmetic == Arithmetic::Float { AnyDepth::NoDepth } else { format };
-    count(all, &mut |drawing, target| counted = drawing.count_runs(target))?;
-    let Counted { kinds, runs, single } = counted;
-    let runs = match (policies.interpolation, policies.arithmetic) {
-        (Interpolation::Affine, _) => 0,
-        (Interpolation::Bounded(_), Arithmetic::Float) => {
-            // Exact samples are divided after the depth test, runs begin before it.
-            count(format, &mut |drawing, target| visible = drawing.count_runs(target))?;
-            runs - single + visible.single
-        }
-        _ => runs,
-    };
+    let stats = render(model, camera, &options, &mut |_, _| ())?.stats;
+    Ok(Work::new(vertices(model), stats, counted(model, camera, &options)?))
+}
+
+/// The vertices of all parts.
+pub(super) fn vertices(model: &Model) -> u64 {
     let vertices = model.parts.iter().map(|part| {
         let indices: HashSet<u32> = part.triangles.iter().flatten().copied().collect();
         indices.len() as u64
     });
-    let Stats { submitted, clipped, drawn, written, .. } = stats;
-    let number = |count: u64| {
-        #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
-        let number = count as f64;
-        number
+    vertices.sum()
+}
+
+/// Triangles and rows by kinds, and the runs between divisions.
+pub(super) fn counted(model: &Model, camera: &Camera, options: &RenderOptions) -> Result<Counted, Error> {
+    let RenderOptions { width, height, policies, .. } = *options;
+    let studio = Studio::new(model, camera, options)?;
+    let (mut pixels, mut depth) = (buffer(options, 0)?, buffer(options, 0)?);
+    let mut count = |format: AnyDepth| {
+        let target = Target::new(Rgba8888, format, width, height, &mut pixels, &mut depth);
+        let mut target = target.map_err(|found| Error::new(found.to_string(), "a size that can be drawn"))?;
+        target.clear(Rgba8::BLACK);
+        Ok(Drawing::new(model, camera, options, &studio)?.count_runs(&mut target))
     };
-    let seen: u64 = kinds.iter().map(|kind| kind.triangles).sum();
-    let [mut small, narrow, wide] = kinds.map(|kind| OfKind {
-        triangles: number(kind.triangles),
-        rows: number(kind.rows),
-        samples: number(kind.samples),
-    });
-    small.triangles += number(drawn.saturating_sub(seen));
-    Ok(Work {
-        vertices: number(vertices.sum()),
-        submitted: number(submitted),
-        clipped: number(clipped),
-        small,
-        narrow,
-        wide,
-        runs: number(runs),
-        written: number(written),
-    })
+    // With more bits of depth fewer triangles are small. What is hidden then counts as the kind of what was seen last.
+    let format = any_depth(options.depth);
+    let shallow = matches!(options.depth, DepthFormat::U16 | DepthFormat::None);
+    let all = if shallow || policies.arithmetic == Arithmetic::Float { AnyDepth::NoDepth } else { format };
+    let counted = count(all)?;
+    let runs = match (policies.interpolation, policies.arithmetic) {
+        (Interpolation::Affine, _) => 0,
+        // Exact samples are divided after the depth test, runs begin before it.
+        (Interpolation::Bounded(_), Arithmetic::Float) => {
+            counted.runs - counted.single + count(format)?.single
+        }
+        _ => counted.runs,
+    };
+    Ok(Counted { runs, ..counted })
 }
 
 #[cfg(test)]

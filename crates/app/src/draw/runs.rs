@@ -8,12 +8,12 @@ use super::erased::Attributes;
 use super::tapped::{Tap, WHOLE, Word};
 use super::{Canvas, Drawing, memory};
 use crate::options::Arithmetic;
+use alberti::glam::Vec2;
 use alberti::lanes::{Lanes, One};
 use alberti::raster::{
     Counters, Differentiate, Differentiation, EdgeInt, FixedPoint, FragmentStage, Fragments, Gradient,
     Oriented, Outcome, Row, Samples, Span,
 };
-use alberti::glam::Vec2;
 use alberti::{Geometry, Lines, Object, Point3, Q16, Rgba8, Varying};
 use std::cell::Cell;
 
@@ -123,7 +123,8 @@ impl RunsOnly<'_> {
         mask: L::Mask,
         [first, row]: [i32; 2],
     ) -> (L::U32, L::Mask) {
-        let Gradient { dx: start, dy: length } = run.map(|number| lanes.store_words(lanes.floor_scaled(number, 0)));
+        let Gradient { dx: start, dy: length } =
+            run.map(|number| lanes.store_words(lanes.floor_scaled(number, 0)));
         let found = start.as_ref().iter().zip(length.as_ref()).zip(first..);
         for (k, ((&start, &length), column)) in found.enumerate() {
             if lanes.bits(mask) >> k & 1 == 0 {
@@ -243,7 +244,9 @@ impl Drawing<'_> {
     /// that have some.
     pub(crate) fn tap_runs(&self, tap: &Tap, target: &mut Canvas<'_>) {
         if let Some(lines) = self.lines() {
-            self.each_chunk(false, |_, mesh| self.by_runs(mesh, lines, RunsOnly::WriteDown(tap), target, &mut ()));
+            self.each_chunk(false, |_, mesh| {
+                self.by_runs(mesh, lines, RunsOnly::WriteDown(tap), target, &mut ())
+            });
         }
     }
 

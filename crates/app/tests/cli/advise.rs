@@ -114,8 +114,54 @@ fn texels_are_measured() {
     assert!(error("--interpolation exact --arithmetic float --depth f32-reversed --subpixel 8") == 0.0);
     assert!(error("--interpolation plane") < 0.01);
     assert!(error("--interpolation bounded:0.0625 --arithmetic float") <= 0.0626);
+    // The square behind is drawn last. The line of sight to its right edge meets the one before it at x = 1/3, which is 2
+    // in texture coordinates and not 3: 64 texels.
+    let hidden = error("--interpolation exact --arithmetic float --depth none");
+    assert!((60.0..=64.5).contains(&hidden), "{hidden}");
     // The square spans 192 texels, and q differs by a fifth along it: |Δu| tanh(ln r / 4) is 9.
     assert!((4.0..20.0).contains(&error("--interpolation affine --arithmetic float")));
+}
+
+/// The errors of a chip's picture are the host's, and the pick has the fewest instructions of all that keep the budget.
+#[test]
+fn chips_are_advised_by_a_model() {
+    let folder = squares();
+    let scene = [&SCENE[..], &CAMERA, &["--max-error", "1texel"]].concat();
+    let host = folder.advice(&scene);
+    for chip in ["m4f", "m0", "rv32"] {
+        let advice = folder.advice(&[&scene[..], &["--target", chip]].concat());
+        assert_eq!(advice["target"], chip);
+        let least = |trials: &[Value]| {
+            let within = trials.iter().filter(|trial| trial["within"] == true);
+            let costs = within.map(|trial| trial["instructions"].as_f64().expect("a number"));
+            costs.fold(f64::INFINITY, f64::min)
+        };
+        let trials = advice["trials"].as_array().expect("trials");
+        assert_eq!(advice["pick"]["instructions"].as_f64(), Some(least(trials)), "{advice}");
+        assert!(
+            advice["pick"]["ms"].is_null() && advice["rust"].as_str().expect("lines").contains("Rgb565Le")
+        );
+        let mut alike = 0;
+        for own in host["trials"].as_array().expect("trials") {
+            if let Some(trial) = trials.iter().find(|trial| trial["options"] == own["options"]) {
+                assert_eq!(trial["error"], own["error"], "{own}");
+                alike += 1;
+            }
+        }
+        assert!(alike > 20, "{alike}");
+        // All ways to draw keep one that is as cheap, or none that is cheaper.
+        let thorough = folder.advice(&[&scene[..], &["--machine", chip, "--thorough"]].concat());
+        let all = thorough["trials"].as_array().expect("trials");
+        assert_eq!(all.len(), 18 * 6 * 2);
+        assert!(least(trials) <= 1.1 * least(all), "{} {}", least(trials), least(all));
+        // Two bytes a pixel more, but for the stack.
+        let ram = |depth: &str| {
+            let options = format!("--interpolation exact --arithmetic float --depth {depth} --subpixel 8");
+            all.iter().find(|trial| trial["options"] == options).expect("a trial")["ram"].as_f64()
+        };
+        let more = ram("u24").expect("bytes") - ram("u16").expect("bytes");
+        assert!((more - 2.0 * 160.0 * 120.0).abs() < 1024.0, "{more}");
+    }
 }
 
 #[test]
@@ -129,6 +175,11 @@ fn what_is_paid_for_nothing_is_told() {
         "{from_before}"
     );
     assert!(from_before.contains("gives the same picture"), "{from_before}");
+    // `u16` in the place of four bytes a pixel.
+    assert!(from_before.contains("`u16` gives the same picture as f32-reversed; it saves"), "{from_before}");
+    assert!(from_before.contains("38 KB of memory"), "{from_before}");
+    let on_chip = wastes(&["--target", "m0"]);
+    assert!(on_chip.contains("M instructions a frame") && on_chip.contains("38 KB of RAM"), "{on_chip}");
     let around = wastes(&["--turntable", "4"]);
     assert!(around.contains("triangles: 0 of 4 (0 %) show in no pixel from 4 cameras around it"), "{around}");
 }
@@ -154,6 +205,11 @@ fn wrong_input_is_one_line() {
     for (arguments, part) in [
         (&["m.obj", "--max-error", "2furlong"][..], "one of the units lsb, flip, db and texel"),
         (&["m.obj", "--turntable", "0"], "--turntable"),
+        (&["m.obj", "--max-error", "1texel"], "a scene without textures, expected one with texels"),
+        (
+            &["m.obj", "--target", "m0", "--filter", "anisotropic:2"],
+            "expected nearest, bilinear or trilinear",
+        ),
         (&["no.obj"], "no.obj"),
         (&["m.obj", "--image", "file/out"], "file/out"),
     ] {
@@ -162,4 +218,8 @@ fn wrong_input_is_one_line() {
         assert!(run.stderr.contains(part) && run.stderr.lines().count() == 1, "{run:?}");
     }
     assert_eq!(folder.names(), ["file", "m.obj"]);
+    // Words are clap's.
+    let run = folder.advise(&["m.obj", "--target", "m7"]);
+    assert_eq!((run.status, run.stdout.as_str()), (Some(2), ""), "{run:?}");
+    assert!(run.stderr.contains("'m7'") && run.stderr.contains("host, m4f, m0, rv32"), "{run:?}");
 }

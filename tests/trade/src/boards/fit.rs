@@ -90,7 +90,8 @@ mod tests {
 
     #[test]
     fn no_price_is_negative_unless_it_may() {
-        let amounts = |vertices| std::array::from_fn(|kind| [1.0, vertices].get(kind).copied().unwrap_or(0.0));
+        let amounts =
+            |vertices| std::array::from_fn(|kind| [1.0, vertices].get(kind).copied().unwrap_or(0.0));
         let rows = [(amounts(1.0), 1.0), (amounts(2.0), 0.5)];
         assert!(fit(&rows, &[1.0, 1.0], |_| true, true)[1] >= 0.0);
         assert!(fit(&rows, &[1.0, 1.0], |_| true, false)[1] < -0.4);

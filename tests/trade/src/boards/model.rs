@@ -51,7 +51,9 @@ impl Works {
         *self.0.entry((number, name.to_owned())).or_insert_with(|| {
             let options = policy.candidate.options(&scene.options(SIZE, Filter::Nearest));
             let work = work(&scene.model, &scene.camera, &options).expect("a scene that can be drawn");
-            if std::env::var_os("SHOW").is_some() { eprintln!("W {} {name} {:?}", scene.name, work.counts()); }
+            if std::env::var_os("SHOW").is_some() {
+                eprintln!("W {} {name} {:?}", scene.name, work.counts());
+            }
             work.counts()
         })
     }
@@ -79,19 +81,26 @@ pub fn model(prices: &[Price]) -> (Vec<Entry>, Vec<Estimate>) {
                 .iter()
                 .copied()
                 .filter(|price| {
-                    super::price::policy(&price.policy).is_some_and(|other| labelled(&price.policy, other) == (kind.clone(), label.clone()))
+                    super::price::policy(&price.policy)
+                        .is_some_and(|other| labelled(&price.policy, other) == (kind.clone(), label.clone()))
                 })
                 .collect();
             let known = &entries[first..];
             if known.iter().any(|entry: &Entry| entry.name == label && entry.kind == kind) {
                 continue;
             }
-            let base = name.split_once(", ").and_then(|(lines, _)| known.iter().find(|entry| entry.name == lines));
+            let base =
+                name.split_once(", ").and_then(|(lines, _)| known.iter().find(|entry| entry.name == lines));
             let base = base.cloned();
             let (mut rows, mut scales) = (vec![], vec![]);
             for price in &own {
                 let Some(number) = price.scene.filter(|&number| number >= JUDGED.len()) else { continue };
-                let amounts = works.of(number, scenes[number], &price.policy, super::price::policy(&price.policy).expect("a policy"));
+                let amounts = works.of(
+                    number,
+                    scenes[number],
+                    &price.policy,
+                    super::price::policy(&price.policy).expect("a policy"),
+                );
                 let count = float(price.count);
                 rows.push((amounts, count - base.as_ref().map_or(0.0, |base| total(&base.prices, &amounts))));
                 scales.push(count);
@@ -99,9 +108,14 @@ pub fn model(prices: &[Price]) -> (Vec<Entry>, Vec<Estimate>) {
             let (asked, positive) = asked(&kind);
             let fitted = fit(&rows, &scales, asked, positive);
             let most = |of: fn(&Price) -> u64, code: bool| {
-                own.iter().filter(|price| price.scene.is_none() == code).map(|price| of(price)).max().unwrap_or(0)
+                own.iter()
+                    .filter(|price| price.scene.is_none() == code)
+                    .map(|price| of(price))
+                    .max()
+                    .unwrap_or(0)
             };
-            let [code, stack] = [float(most(|price| price.count, true)), float(most(|price| price.stack, false))];
+            let [code, stack] =
+                [float(most(|price| price.count, true)), float(most(|price| price.stack, false))];
             let entry = Entry {
                 board: board.to_owned(),
                 kind,
@@ -112,9 +126,14 @@ pub fn model(prices: &[Price]) -> (Vec<Entry>, Vec<Estimate>) {
             };
             for price in &own {
                 let Some(number) = price.scene.filter(|&number| number < JUDGED.len()) else { continue };
-                let amounts = works.of(number, scenes[number], &price.policy, super::price::policy(&price.policy).expect("a policy"));
-                let estimate =
-                    total(&entry.prices, &amounts) + base.as_ref().map_or(0.0, |base| total(&base.prices, &amounts));
+                let amounts = works.of(
+                    number,
+                    scenes[number],
+                    &price.policy,
+                    super::price::policy(&price.policy).expect("a policy"),
+                );
+                let estimate = total(&entry.prices, &amounts)
+                    + base.as_ref().map_or(0.0, |base| total(&base.prices, &amounts));
                 estimates.push(Estimate {
                     board: board.to_owned(),
                     scene: JUDGED[number],

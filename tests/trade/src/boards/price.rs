@@ -70,7 +70,8 @@ const DEPTHS: [(&str, DepthFormat); 5] = [
 
 /// The policy of a name such as `fixed spans:16, u24`.
 pub fn policy(name: &str) -> Option<Policy> {
-    let (lines, special) = name.split_once(", ").map_or((name, None), |(lines, special)| (lines, Some(special)));
+    let (lines, special) =
+        name.split_once(", ").map_or((name, None), |(lines, special)| (lines, Some(special)));
     let (arithmetic, interpolation) = lines.split_once(' ')?;
     let candidate = Candidate {
         interpolation: interpolation.parse().ok()?,
@@ -99,7 +100,8 @@ mod tests {
 
     #[test]
     fn lines_are_read() {
-        let found = parse("m0,3,\"fixed affine\",12,4,300\nm0,code,\"float exact, u24\",17,,\n").expect("prices");
+        let found =
+            parse("m0,3,\"fixed affine\",12,4,300\nm0,code,\"float exact, u24\",17,,\n").expect("prices");
         let price = |scene, policy: &str, [count, divides, stack]: [u64; 3]| Price {
             board: "m0".into(),
             scene,

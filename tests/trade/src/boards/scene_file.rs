@@ -52,7 +52,8 @@ fn words(scene: &Scene) -> Vec<u32> {
 
 /// The texture in 16 bits, and its mip map.
 fn levels(scene: &Scene, side: u32) -> Vec<u16> {
-    let texel = |&[r, g, b, _]: &[u8; 4]| u16::from(r >> 3) << 11 | u16::from(g >> 2) << 5 | u16::from(b >> 3);
+    let texel =
+        |&[r, g, b, _]: &[u8; 4]| u16::from(r >> 3) << 11 | u16::from(g >> 2) << 5 | u16::from(b >> 3);
     let mut texels: Vec<u16> = scene.model.textures[0].texels.iter().map(texel).collect();
     texels.resize(mipmap::texel_count(side, side), 0);
     mipmap::build(Rgb565, &mut texels, side, side).expect("a texture");
