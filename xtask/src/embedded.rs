@@ -57,17 +57,18 @@ impl Toolchain {
             command.env_remove("LD_LIBRARY_PATH");
             command.args(["-Z", "build-std=core"]);
         }
-        command.arg("--target-dir").arg(self.directory());
+        command.arg("--target-dir").arg(self.directory(target));
         command
     }
 
-    /// Cargo's target directory in such builds, for packages outside this workspace too.
-    pub(crate) fn directory(&self) -> PathBuf {
+    /// Cargo's target directory in builds for `target`, for packages outside this workspace too.
+    pub(crate) fn directory(&self, target: &str) -> PathBuf {
         let directory = workspace::target_directory();
         match self {
             Toolchain::Installed => directory,
-            // One of its own, or each build would throw away what the other compiler has built.
-            Toolchain::BuildStd { .. } => directory.join("build-std"),
+            // One of its own, or each build would throw away what the other compiler has built; and one for each
+            // target, so that none waits for another.
+            Toolchain::BuildStd { .. } => directory.join("build-std").join(target),
         }
     }
 }

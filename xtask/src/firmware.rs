@@ -223,10 +223,25 @@ pub(crate) fn run(arguments: &[String]) -> Outcome {
     }
     let expected = expected()?;
     let mut failures = Vec::new();
-    for board in boards {
-        failures.extend(check(board, &expected, small).err());
+    for outcome in each(&boards, |board| check(board, &expected, small)) {
+        match outcome {
+            Ok((report, found)) => {
+                println!("{report}");
+                failures.extend(found);
+            }
+            Err(message) => failures.push(message),
+        }
     }
     if failures.is_empty() { Ok(()) } else { Err(format!("there are failures:\n{}", failures.join("\n"))) }
+}
+
+/// Does something for each board, all at once: a program of one is compiled by one thread.
+fn each<T: Send>(boards: &[&Board], work: impl Fn(&Board) -> T + Sync) -> Vec<T> {
+    let work = &work;
+    std::thread::scope(|scope| {
+        let threads: Vec<_> = boards.iter().map(|board| scope.spawn(move || work(board))).collect();
+        threads.into_iter().map(|thread| thread.join().expect("no chore panics")).collect()
+    })
 }
 
 /// The boards that the arguments name: one or all.
@@ -261,11 +276,11 @@ fn expected() -> Result<Vec<Expected>, String> {
     frames::expected(&output(call("run").arg("--quiet"))?)
 }
 
-/// Builds for one board, runs there, prints the tables; frames that differ are the error. What is built for size may
+/// Builds for one board and runs there: the tables, and frames that differ or what is dearer. What is built for size may
 /// take more instructions.
-fn check(board: &Board, expected: &[Expected], small: bool) -> Outcome {
+fn check(board: &Board, expected: &[Expected], small: bool) -> Result<(String, Vec<String>), String> {
     let toolchain = Toolchain::find(board.target)?;
-    let folder = toolchain.directory().join(board.target);
+    let folder = toolchain.directory(board.target).join(board.target);
     let profile = if small { "small" } else { "release" };
     build(&toolchain, board.target, profile, &[FRAMES])?;
     build(&toolchain, board.target, "small", &WEIGHED)?;
@@ -280,9 +295,10 @@ fn check(board: &Board, expected: &[Expected], small: bool) -> Outcome {
         *cost = *cost * numerator / denominator;
     }
 
-    println!("\n{}: {} ({}, {})", board.name, board.core, board.target, board.emulator.machine[1]);
-    println!("\n{}", frames::table(expected, &drawn));
-    println!("    {:<18}{:>10}{:>10}{:>10}", "program, bytes", ".text", ".rodata", "both");
+    let mut report =
+        format!("\n{}: {} ({}, {})\n\n", board.name, board.core, board.target, board.emulator.machine[1]);
+    report += &frames::table(expected, &drawn);
+    report += &format!("\n    {:<18}{:>10}{:>10}{:>10}\n", "program, bytes", ".text", ".rodata", "both");
     let mut failures = frames::differences(board.name, expected, &drawn);
     if !small {
         failures.extend(frames::excesses(board.name, expected, &drawn, board.limits));
@@ -294,7 +310,7 @@ fn check(board: &Board, expected: &[Expected], small: bool) -> Outcome {
         let file = fs::read(&path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
         let program = Program::read(&file).map_err(|message| format!("{}: {message}", path.display()))?;
         let [text, rodata] = [program.text, program.rodata];
-        println!("    {name:<18}{text:>10}{rodata:>10}{:>10}", text + rodata);
+        report += &format!("    {name:<18}{text:>10}{rodata:>10}{:>10}\n", text + rodata);
         failures.extend(frames::dearer(board.name, name, "bytes of code", Some(text), most));
         let panics = program.panics();
         if !panics.is_empty() {
@@ -305,8 +321,7 @@ fn check(board: &Board, expected: &[Expected], small: bool) -> Outcome {
             failures.push(format!("board {}: {name} computes in f64: {}", board.name, doubles.join(", ")));
         }
     }
-    println!();
-    if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
+    Ok((report, failures))
 }
 
 /// Builds some of the programs for a board.

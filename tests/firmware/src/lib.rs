@@ -64,6 +64,28 @@ pub fn ticks() -> u32 {
     ticks
 }
 
+/// Makes a program that calls a function and does nothing else.
+#[macro_export]
+macro_rules! program {
+    ($draw:expr) => {
+        #[cfg_attr(target_arch = "arm", cortex_m_rt::entry)]
+        #[cfg_attr(target_arch = "riscv32", riscv_rt::entry)]
+        fn main() -> ! {
+            $draw();
+            loop {
+                core::hint::spin_loop();
+            }
+        }
+
+        #[panic_handler]
+        fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
+            loop {
+                core::hint::spin_loop();
+            }
+        }
+    };
+}
+
 /// A place that `cargo xtask trade` hears of when it is passed, for what it counts between two of them.
 #[inline(never)]
 #[expect(unsafe_code, reason = "the name under which the place is found")]

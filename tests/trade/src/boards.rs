@@ -2,5 +2,7 @@
 
 mod fit;
 pub mod model;
+pub mod page;
 pub mod price;
 pub mod scene_file;
+pub mod table;

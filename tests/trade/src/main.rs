@@ -4,16 +4,18 @@
 //! alberti-trade frames                            draws every row once more in a function that callgrind counts
 //! alberti-trade scenes FOLDER                     writes the scenes that boards draw, as files that they read
 //! alberti-trade write ROOT [OPTION VALUE]...      measures, and writes docs/trade.md, its table and its pictures
+//! alberti-trade boards ROOT [OPTION VALUE]...     writes the tables of the boards, and their chapter of docs/trade.md
 //! alberti-trade check ROOT [OPTION VALUE]...      measures what repeats, and compares it with the table
 //! alberti-trade advice ROOT                       compares advice with the best of all, and writes docs/advice.md
-//! options: --counts FOLDER of callgrind's parts, --compiler TEXT, --boards FILE of a chapter
+//! options: --counts FOLDER of callgrind's parts, --compiler TEXT, --boards FILE of the boards' prices
 //! ```
 
 mod families;
 mod frame;
 
 use alberti_trade::advice;
-use alberti_trade::boards::scene_file;
+use alberti_trade::boards::price::{self, Price};
+use alberti_trade::boards::{self, model, scene_file};
 use alberti_trade::counts::{self, measured};
 use alberti_trade::errors::{Court, Judged};
 use alberti_trade::family::Family;
@@ -45,6 +47,9 @@ fn main() -> ExitCode {
         }
         ["scenes", folder] => scene_file::write(Path::new(folder)).map_err(Into::into),
         ["write", root, options @ ..] => Options::parse(root, options).and_then(|options| write(&options)),
+        ["boards", root, options @ ..] => {
+            Options::parse(root, options).and_then(|options| rewrite_chapter(&options))
+        }
         ["check", root, options @ ..] => Options::parse(root, options).and_then(|options| check(&options)),
         ["advice", root] => advice(Path::new(root)),
         _ => Err("expected frames, or write, check or advice with the repository's folder".into()),
@@ -62,13 +67,15 @@ struct Options {
     docs: PathBuf,
     counts: Option<PathBuf>,
     compiler: String,
-    boards: Option<String>,
+    boards: Option<Vec<Price>>,
+    root: PathBuf,
 }
 
 impl Options {
     fn parse(root: &str, options: &[&str]) -> Result<Self, Box<dyn Error>> {
-        let mut parsed =
-            Self { docs: Path::new(root).join("docs"), counts: None, compiler: String::new(), boards: None };
+        let root = PathBuf::from(root);
+        let docs = root.join("docs");
+        let mut parsed = Self { docs, counts: None, compiler: String::new(), boards: None, root };
         for pair in options.chunks(2) {
             match *pair {
                 ["--counts", folder] => parsed.counts = Some(folder.into()),
@@ -76,7 +83,7 @@ impl Options {
                 ["--boards", file] => {
                     let text =
                         fs::read_to_string(file).map_err(|error| format!("cannot read {file}: {error}"))?;
-                    parsed.boards = Some(text);
+                    parsed.boards = Some(price::parse(&text)?);
                 }
                 _ => return Err(format!("expected an option and its value, found {}", pair.join(" ")).into()),
             }
@@ -179,7 +186,8 @@ fn write(options: &Options) -> Result<(), Box<dyn Error>> {
         }
     }
     let families: Vec<Family> = FAMILIES.iter().map(|(family, _)| *family).collect();
-    let made = Made { compiler: &options.compiler, boards: options.boards.as_deref() };
+    let boards = options.boards.as_deref().map(|prices| boards(options, prices)).transpose()?;
+    let made = Made { compiler: &options.compiler, boards: boards.as_deref() };
     fs::write(options.docs.join("trade.csv"), csv(&lines))?;
     fs::write(options.docs.join("trade.md"), page(&families, &lines, made))?;
     println!("Wrote docs/trade.md, docs/trade.csv and docs/{PICTURES}.");
@@ -192,6 +200,25 @@ fn advice(root: &Path) -> Result<(), Box<dyn Error>> {
     println!("Wrote docs/advice.md: {}", advice::summary(&found));
     advice::check(&found).map_err(Into::into)
 }
+
+/// Writes the tables of the boards, and returns their chapter.
+fn boards(options: &Options, prices: &[Price]) -> Result<String, Box<dyn Error>> {
+    let (entries, estimates) = model::model(prices);
+    fs::write(options.docs.join(BOARDS), boards::table::csv(prices))?;
+    fs::write(options.root.join("crates/app/src/advise/chips.csv"), model::csv(&entries))?;
+    Ok(boards::page::chapter(prices, &estimates))
+}
+
+/// Puts the chapter of the boards into the page as it is.
+fn rewrite_chapter(options: &Options) -> Result<(), Box<dyn Error>> {
+    let prices = options.boards.as_deref().ok_or("boards needs --boards FILE")?;
+    let path = options.docs.join("trade.md");
+    let page = page::with_boards(&fs::read_to_string(&path)?, &boards(options, prices)?);
+    Ok(fs::write(path, page.ok_or("docs/trade.md has no last chapter")?)?)
+}
+
+/// The table of the boards.
+const BOARDS: &str = "trade-boards.csv";
 
 fn check(options: &Options) -> Result<(), Box<dyn Error>> {
     let read = |name: &str| {
@@ -211,7 +238,10 @@ fn check(options: &Options) -> Result<(), Box<dyn Error>> {
         Some(_) => {}
     }
     let lines = measure(counts.as_deref(), false, &mut |_, _| Ok(()))?;
-    let complaints = worse(&csv(&lines), &table, counts.is_some() && same);
+    let mut complaints = worse(&csv(&lines), &table, counts.is_some() && same);
+    if let Some(prices) = &options.boards {
+        complaints.extend(boards::table::worse(&boards::table::csv(prices), &read(BOARDS)?));
+    }
     if complaints.is_empty() {
         println!("{} rows are as docs/trade.csv has them, or better.", lines.len());
         return Ok(());

@@ -57,17 +57,27 @@ pub fn page(families: &[Family], lines: &[Line], made: Made<'_>) -> String {
         chapter(&mut text, family, lines);
     }
     if let Some(boards) = made.boards {
-        text.push_str("\n## On chips\n\n");
-        text.push_str(boards);
+        let _ = write!(text, "{ON_CHIPS}{boards}");
     }
     let _ = write!(
         text,
-        "\n## How it was made\n\n{COMPILER}{}.\n[trade.csv](trade.csv) has each policy on each scene. `cargo xtask \
+        "{LAST}{COMPILER}{}.\n[trade.csv](trade.csv) has each policy on each scene. `cargo xtask \
          trade --check` measures errors and instructions\nagain, and fails, with the row's name, where one is more than \
          a fiftieth above the table; times are not compared.\n",
         made.compiler
     );
     text
+}
+
+/// The titles of the chapters after those of families.
+const ON_CHIPS: &str = "\n## On chips\n\n";
+const LAST: &str = "\n## How it was made\n\n";
+
+/// A page with another chapter of the boards.
+pub fn with_boards(page: &str, boards: &str) -> Option<String> {
+    let (before, last) = page.split_once(LAST)?;
+    let before = before.split_once(ON_CHIPS).map_or(before, |(before, _)| before);
+    Some(format!("{before}{ON_CHIPS}{boards}{LAST}{last}"))
 }
 
 /// The compiler that a page names.
@@ -191,6 +201,13 @@ mod tests {
     fn the_compiler_is_found_again() {
         let page = page(&[], &[], Made { compiler: "rustc 1.95.0, AVX2", boards: None });
         assert_eq!(compiler(&page), Some("rustc 1.95.0, AVX2"));
+    }
+
+    #[test]
+    fn the_chapter_of_the_boards_is_exchanged() {
+        let made = |boards| page(&[], &[], Made { compiler: "rustc 1.95.0, AVX2", boards });
+        assert_eq!(with_boards(&made(None), "new\n"), Some(made(Some("new\n"))));
+        assert_eq!(with_boards(&made(Some("old\n")), "new\n"), Some(made(Some("new\n"))));
     }
 
     #[test]

@@ -54,16 +54,19 @@ struct Right {
 pub(crate) fn prices(folder: &Path, board: Option<&str>, weighed: bool) -> Result<String, String> {
     let right = host(folder)?;
     let plugin = plugin()?;
-    let mut text = String::new();
-    for board in BOARDS.iter().filter(|known| board.is_none_or(|name| name == known.name)) {
+    let boards: Vec<&Board> =
+        BOARDS.iter().filter(|known| board.is_none_or(|name| name == known.name)).collect();
+    let texts = super::each(&boards, |board| {
+        let mut text = String::new();
         board.emulator.find()?;
         let toolchain = Toolchain::find(board.target)?;
         frames(board, &toolchain, folder, &plugin, &right, &mut text)?;
         if weighed {
             sizes(board, &toolchain, &right, &mut text)?;
         }
-    }
-    Ok(text)
+        Ok(text)
+    });
+    Ok(texts.into_iter().collect::<Result<Vec<String>, String>>()?.concat())
 }
 
 /// The frames as the host draws them.
@@ -100,10 +103,10 @@ fn frames(
     text: &mut String,
 ) -> Result<(), String> {
     build(toolchain, board.target, "release", &[DRAWS])?;
-    let image = toolchain.directory().join(board.target).join("release").join(DRAWS);
+    let image = toolchain.directory(board.target).join(board.target).join("release").join(DRAWS);
     let program = read(&image)?;
     let mark = program.address(MARK).ok_or_else(|| format!("there is no `{MARK}` in {}", image.display()))?;
-    let counts = folder.join("divides");
+    let counts = folder.join(format!("divides-{}", board.name));
     let mut option = format!("file={plugin},out={},mark={mark:x}", counts.display());
     for address in DIVISIONS.iter().filter_map(|name| program.address(name)) {
         let _ = write!(option, ",function={address:x}");
@@ -152,7 +155,7 @@ fn sizes(board: &Board, toolchain: &Toolchain, right: &[Right], text: &mut Strin
         build.env(POLICY, &right.policy);
         build.args(["--profile", "small", "--manifest-path", manifest, "--package", package, "--bin", WEIGHED]);
         command::run(&mut build)?;
-        let program = read(&toolchain.directory().join(board.target).join("small").join(WEIGHED))?;
+        let program = read(&toolchain.directory(board.target).join(board.target).join("small").join(WEIGHED))?;
         let _ = writeln!(text, "{},code,{},{},,", board.name, field(right), program.text);
     }
     Ok(())

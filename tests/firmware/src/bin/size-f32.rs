@@ -4,17 +4,14 @@
 #![no_std]
 #![no_main]
 
-use alberti_firmware::target;
-use core::hint::{black_box, spin_loop};
-use core::panic::PanicInfo;
+use alberti_firmware::{program, target};
+use core::hint::black_box;
 use scenes::{
     Camera, PROBE, mip_nearest, textured_affine, textured_planes, textured_spans, trilinear_spans,
     trilinear_spans_fixed,
 };
 
-#[cfg_attr(target_arch = "arm", cortex_m_rt::entry)]
-#[cfg_attr(target_arch = "riscv32", riscv_rt::entry)]
-fn main() -> ! {
+fn draw() {
     if let Some(target) = target() {
         // The compiler must not know what is drawn, nor that nobody looks.
         textured_affine(black_box(&mut *target), &Camera::STEADY, black_box(&PROBE), &mut ());
@@ -25,14 +22,6 @@ fn main() -> ! {
         trilinear_spans_fixed(black_box(&mut *target), &Camera::STEADY, black_box(&PROBE), &mut ());
         black_box(target);
     }
-    loop {
-        spin_loop();
-    }
 }
 
-#[panic_handler]
-fn panic(_: &PanicInfo<'_>) -> ! {
-    loop {
-        spin_loop();
-    }
-}
+program!(draw);

@@ -4,9 +4,8 @@
 #![no_std]
 #![no_main]
 
-use alberti_firmware::{loaded, memory};
-use core::hint::{black_box, spin_loop};
-use core::panic::PanicInfo;
+use alberti_firmware::{loaded, memory, program};
+use core::hint::black_box;
 use scenes::Camera;
 use scenes::policies::{POLICIES, Policy};
 
@@ -23,9 +22,7 @@ const fn number(text: &str) -> usize {
     }
 }
 
-#[cfg_attr(target_arch = "arm", cortex_m_rt::entry)]
-#[cfg_attr(target_arch = "riscv32", riscv_rt::entry)]
-fn main() -> ! {
+fn draw() {
     if let (Some(memory), Some(loaded)) = (memory(), loaded()) {
         // The compiler must not know what is drawn, nor that nobody looks.
         let [vertices, triangles] = [4, 2].map(black_box);
@@ -34,14 +31,6 @@ fn main() -> ! {
         }
         black_box(memory);
     }
-    loop {
-        spin_loop();
-    }
 }
 
-#[panic_handler]
-fn panic(_: &PanicInfo<'_>) -> ! {
-    loop {
-        spin_loop();
-    }
-}
+program!(draw);

@@ -42,109 +42,89 @@ pub struct Estimate {
     pub ratio: f64,
 }
 
-/// The work of policies on scenes: it is the same on every board.
-#[derive(Debug, Default)]
-struct Works(BTreeMap<(usize, String), Amounts>);
-
-impl Works {
-    fn of(&mut self, number: usize, scene: &Scene, name: &str, policy: Policy) -> Amounts {
-        *self.0.entry((number, name.to_owned())).or_insert_with(|| {
-            let options = policy.candidate.options(&scene.options(SIZE, Filter::Nearest));
-            let work = work(&scene.model, &scene.camera, &options).expect("a scene that can be drawn");
-            if std::env::var_os("SHOW").is_some() {
-                eprintln!("W {} {name} {:?}", scene.name, work.counts());
-            }
-            work.counts()
-        })
-    }
-}
-
 /// The table of prices, and how far it is from what was counted on the scenes that it was not fitted to.
 pub fn model(prices: &[Price]) -> (Vec<Entry>, Vec<Estimate>) {
-    let scenes = scenes();
-    let mut works = Works::default();
+    let mut fitting =
+        Fitting { scenes: scenes(), works: BTreeMap::new(), entries: vec![], estimates: vec![] };
     let mut boards: Vec<&str> = prices.iter().map(|price| price.board.as_str()).collect();
     boards.dedup();
-    let (mut entries, mut estimates) = (vec![], vec![]);
     for board in boards {
-        let own: Vec<&Price> = prices.iter().filter(|price| price.board == board).collect();
-        let mut names: Vec<&str> = own.iter().map(|price| price.policy.as_str()).collect();
-        names.sort_unstable();
-        names.dedup();
-        let first = entries.len();
-        // What is usual comes first: the rest is measured by it.
-        let (special, usual): (Vec<&str>, Vec<&str>) = names.into_iter().partition(|name| name.contains(','));
-        for name in usual.into_iter().chain(special) {
-            let Some(policy) = policy(name) else { continue };
-            let (kind, label) = labelled(name, policy);
-            let own: Vec<&Price> = own
-                .iter()
-                .copied()
-                .filter(|price| {
-                    super::price::policy(&price.policy)
-                        .is_some_and(|other| labelled(&price.policy, other) == (kind.clone(), label.clone()))
-                })
-                .collect();
-            let known = &entries[first..];
-            if known.iter().any(|entry: &Entry| entry.name == label && entry.kind == kind) {
-                continue;
-            }
-            let base =
-                name.split_once(", ").and_then(|(lines, _)| known.iter().find(|entry| entry.name == lines));
-            let base = base.cloned();
-            let (mut rows, mut scales) = (vec![], vec![]);
-            for price in &own {
-                let Some(number) = price.scene.filter(|&number| number >= JUDGED.len()) else { continue };
-                let amounts = works.of(
-                    number,
-                    scenes[number],
-                    &price.policy,
-                    super::price::policy(&price.policy).expect("a policy"),
-                );
-                let count = float(price.count);
-                rows.push((amounts, count - base.as_ref().map_or(0.0, |base| total(&base.prices, &amounts))));
-                scales.push(count);
-            }
-            let (asked, positive) = asked(&kind);
-            let fitted = fit(&rows, &scales, asked, positive);
-            let most = |of: fn(&Price) -> u64, code: bool| {
-                own.iter()
-                    .filter(|price| price.scene.is_none() == code)
-                    .map(|price| of(price))
-                    .max()
-                    .unwrap_or(0)
-            };
-            let [code, stack] =
-                [float(most(|price| price.count, true)), float(most(|price| price.stack, false))];
-            let entry = Entry {
-                board: board.to_owned(),
-                kind,
-                name: label,
-                prices: fitted,
-                code: code - base.as_ref().map_or(0.0, |base| base.code),
-                stack: stack - base.as_ref().map_or(0.0, |base| base.stack),
-            };
-            for price in &own {
-                let Some(number) = price.scene.filter(|&number| number < JUDGED.len()) else { continue };
-                let amounts = works.of(
-                    number,
-                    scenes[number],
-                    &price.policy,
-                    super::price::policy(&price.policy).expect("a policy"),
-                );
-                let estimate = total(&entry.prices, &amounts)
-                    + base.as_ref().map_or(0.0, |base| total(&base.prices, &amounts));
-                estimates.push(Estimate {
-                    board: board.to_owned(),
-                    scene: JUDGED[number],
-                    policy: price.policy.clone(),
-                    ratio: estimate / float(price.count),
-                });
-            }
-            entries.push(entry);
+        // By entries, of which that with budgets has several policies.
+        let mut groups: BTreeMap<(bool, String, String), Vec<(&Price, Policy)>> = BTreeMap::new();
+        for price in prices.iter().filter(|price| price.board == board) {
+            let Some(policy) = policy(&price.policy) else { continue };
+            let (kind, name) = labelled(&price.policy, policy);
+            // What is usual comes first: the rest is measured by it.
+            groups.entry((policy.special.is_some(), kind, name)).or_default().push((price, policy));
+        }
+        for ((_, kind, name), group) in groups {
+            fitting.entry(board, kind, name, &group);
         }
     }
-    (entries, estimates)
+    (fitting.entries, fitting.estimates)
+}
+
+/// What is known so far.
+struct Fitting {
+    scenes: Vec<&'static Scene>,
+    /// The work of policies on scenes: it is the same on every board.
+    works: BTreeMap<(usize, String), Amounts>,
+    entries: Vec<Entry>,
+    estimates: Vec<Estimate>,
+}
+
+impl Fitting {
+    /// Fits an entry to its prices, and estimates what it was not fitted to.
+    fn entry(&mut self, board: &str, kind: String, name: String, group: &[(&Price, Policy)]) {
+        let base = group.first().and_then(|(price, _)| {
+            let (lines, _) = price.policy.split_once(", ")?;
+            self.entries.iter().find(|entry| entry.board == board && entry.name == lines).cloned()
+        });
+        let base = base.unwrap_or_else(|| Entry {
+            board: board.to_owned(),
+            kind: String::new(),
+            name: String::new(),
+            prices: Amounts::default(),
+            code: 0.0,
+            stack: 0.0,
+        });
+        let frames = group.iter().filter_map(|(price, policy)| Some((price.scene?, *price, *policy)));
+        let (judged, small): (Vec<_>, Vec<_>) = frames.partition(|(number, ..)| *number < JUDGED.len());
+        let rows: Vec<(Amounts, f64)> = small
+            .iter()
+            .map(|&(number, price, policy)| {
+                let amounts = self.work(number, price, policy);
+                (amounts, float(price.count) - total(&base.prices, &amounts))
+            })
+            .collect();
+        let scales: Vec<f64> = small.iter().map(|(_, price, _)| float(price.count)).collect();
+        let (asked, positive) = asked(&kind);
+        let fitted = fit(&rows, &scales, asked, positive);
+        for (number, price, policy) in judged {
+            let amounts = self.work(number, price, policy);
+            let estimate = total(&base.prices, &amounts) + total(&fitted, &amounts);
+            self.estimates.push(Estimate {
+                board: board.to_owned(),
+                scene: JUDGED[number],
+                policy: price.policy.clone(),
+                ratio: estimate / float(price.count),
+            });
+        }
+        let most = |of: fn(&Price) -> Option<u64>| {
+            float(group.iter().filter_map(|(price, _)| of(price)).max().unwrap_or_default())
+        };
+        let code = most(|price| price.scene.is_none().then_some(price.count)) - base.code;
+        let stack = most(|price| Some(price.stack)) - base.stack;
+        self.entries.push(Entry { board: board.to_owned(), kind, name, prices: fitted, code, stack });
+    }
+
+    fn work(&mut self, number: usize, price: &Price, policy: Policy) -> Amounts {
+        let scene = self.scenes[number];
+        *self.works.entry((number, price.policy.clone())).or_insert_with(|| {
+            let options = policy.candidate.options(&scene.options(SIZE, Filter::Nearest));
+            work(&scene.model, &scene.camera, &options).expect("a scene that can be drawn").counts()
+        })
+    }
 }
 
 /// The kinds of work that a kind of policy has a say in, and whether it can only cost more.
