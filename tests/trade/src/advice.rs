@@ -1,5 +1,5 @@
-//! What `alberti advise` picks, beside the best of all combinations: whether it keeps the budget, and how much dearer it
-//! is. The scenes are none of those that it was tuned on.
+//! Picks of `alberti advise` beside the best of all combinations: whether they keep the budget, and how much dearer
+//! they are. The scenes are none of those that it was tuned on.
 
 use alberti_app::advise::{Candidate, Machine, Trial, Wish, advise, times};
 use alberti_app::cli::advise::scene;
