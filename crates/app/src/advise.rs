@@ -2,8 +2,8 @@
 //!
 //! Errors are measured on the scene itself. The right picture is that of the most precise policies, exact, float,
 //! f32-reversed and 8 bits of subpixels, with the scene's own filter, shading and colour format. Costs on the host are
-//! times. Those on chips come from a model, which knows what a vertex, a row, a fragment and so on cost a textured,
-//! unlit mesh, and from the scene's own counts of these: [`Work`].
+//! times. Those on chips come from a model of a textured, unlit mesh: so many instructions for each vertex, row,
+//! fragment and so on. The scene's own counts of these are its [`Work`].
 //!
 //! Policies are tried in three steps, as their errors come from different places:
 //!

@@ -1,5 +1,5 @@
-//! What `alberti advise` picks, beside the best of all combinations: whether it keeps the budget, and how much dearer it
-//! is. The scenes are none of those that it was tuned on.
+//! Picks of `alberti advise` beside the best of all combinations: whether they keep the budget, and how much dearer
+//! they are. The scenes are none of those that it was tuned on.
 
 use alberti_app::advise::{Candidate, Machine, Trial, Wish, advise, times};
 use alberti_app::cli::advise::scene;
@@ -13,8 +13,8 @@ use std::time::Instant;
 const SCENES: [&str; 10] = [
     "--scene hero",
     "--scene floor",
+    "--scene inside",
     "cobblestones.toml",
-    "displacement.toml",
     "grazing.toml",
     "lights.toml",
     "normal-map.toml",
@@ -87,24 +87,30 @@ fn ask(root: &Path, name: &'static str, budget: MaxError, machine: Machine) -> R
     let all = ask(true)?;
     let pick = &quick.trials[quick.pick];
     let within = all.trials.iter().filter(|trial| budget.admits(trial.error));
-    let mut candidates: Vec<&Trial> = within.take(TIMED).collect();
-    candidates.insert(0, pick);
-    let costs = if machine.is_chip() {
-        candidates.iter().map(|trial| trial.cost.frame).collect()
-    } else {
-        let candidates: Vec<Candidate> = candidates.iter().map(|trial| trial.candidate).collect();
-        times(&model, &camera, &options, &candidates)?
+    let candidates: Vec<&Trial> =
+        within.take(TIMED).filter(|trial| trial.candidate != pick.candidate).collect();
+    let candidates: Vec<&Trial> = [pick].into_iter().chain(candidates).collect();
+    let costs = |trials: &[&Trial]| {
+        if machine.is_chip() {
+            return Ok(trials.iter().map(|trial| trial.cost.frame).collect());
+        }
+        let candidates: Vec<Candidate> = trials.iter().map(|trial| trial.candidate).collect();
+        times(&model, &camera, &options, &candidates)
     };
-    let cheapest = (0..costs.len()).min_by(|a, b| costs[*a].total_cmp(&costs[*b])).unwrap_or(0);
+    let all: Vec<f64> = costs(&candidates)?;
+    let cheapest = (0..all.len()).min_by(|a, b| all[*a].total_cmp(&all[*b])).unwrap_or(0);
+    let best = candidates[cheapest];
+    // Again, as the least of many times owes some of it to luck.
+    let pair: Vec<f64> = if cheapest == 0 { vec![all[0]; 2] } else { costs(&[pick, best])? };
     Ok(Found {
         scene: name.trim_start_matches("--scene ").trim_end_matches(".toml"),
         budget,
         machine,
         pick: pick.candidate.command_line(),
         error: pick.error,
-        best: candidates[cheapest].candidate.command_line(),
-        cost: costs[0],
-        ratio: costs[0] / costs[cheapest],
+        best: best.candidate.command_line(),
+        cost: pair[0],
+        ratio: pair[0] / pair[1],
         seconds,
     })
 }
@@ -143,7 +149,7 @@ const HEADING: &str = "\
 `alberti advise` tries some of the ways to draw a scene. `--thorough` tries all of them: each interpolation with each
 arithmetic, depth format and grid. Here both are asked about ten scenes of 320x240 that the search was not tuned on, and
 the pick is compared with the cheapest of all that keep the budget. On the host both are timed in turns, as medians,
-which do not repeat. Instructions of the m4f are those of the model, and do. Errors are 99.9 % percentiles.
+which do not repeat: below 1 the pick was the cheaper one after all. Instructions of the m4f are those of the model, and do. Errors are 99.9 % percentiles.
 
     cargo xtask advice
 

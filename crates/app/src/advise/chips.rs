@@ -1,8 +1,8 @@
 //! The model of what a frame costs a chip: so many instructions for each vertex, row, fragment and so on.
 //!
 //! The table of coefficients was fitted to frames that emulated boards drew. A line of kind `lines` is the cost of a
-//! textured, unlit mesh with 16-bit depths, 4 bits of subpixels, the nearest texel and RGB565. The others are differences
-//! from that, which add up.
+//! textured, unlit mesh with 16-bit depths, 4 bits of subpixels, the nearest texel and RGB565. The others are
+//! differences from that, which add up.
 
 use super::Work;
 use super::candidate::{Candidate, depth_name};

@@ -35,7 +35,7 @@ pub struct Trial {
     pub largest: u8,
     /// The cost. On the host a frame's is the least of some, and of finalists the median of turns.
     pub cost: Cost,
-    /// What the model of a chip counted.
+    /// The counts for the model of a chip.
     pub(super) work: Work,
     /// The picture.
     pub picture: Image,

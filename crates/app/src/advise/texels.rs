@@ -55,8 +55,8 @@ mod tests {
         far: 10.0,
     };
 
-    /// Two squares with a texture of 64 texels, turned about the vertical axis by the same angle to either side: of each
-    /// a half is before the other's. They are two parts, or one.
+    /// Two squares with a texture of 64 texels, turned about the vertical axis by the same angle to either side. So
+    /// half of each is before the other. They are two parts, or one.
     fn crossing(parts: usize) -> Model {
         let square = |turn: f32| {
             [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0f32]].map(|[x, y]| Vertex {
@@ -121,8 +121,8 @@ mod tests {
         assert!(error(&nothing, &found, &found) == 0.0);
     }
 
-    /// A grid of 1/16 pixel moves the diagonal between two triangles of a square, and places on it by about 1/32 pixel,
-    /// of which one is a fifth of a texel.
+    /// A grid of 1/16 pixel moves the diagonal between two triangles of a square by about 1/32 pixel, and places with
+    /// it. A pixel is a fifth of a texel.
     #[test]
     fn an_edge_within_a_surface_is_none() {
         let mut model = crossing(1);

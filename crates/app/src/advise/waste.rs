@@ -208,7 +208,7 @@ fn policies(advice: &Advice, bill: &Bill, camera: &Camera, lines: &mut Vec<Strin
     }
 }
 
-/// What things cost on the machine that is advised for.
+/// Prices on the machine that is advised for.
 struct Bill {
     machine: Machine,
     costs: Costs,

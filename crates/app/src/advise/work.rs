@@ -1,4 +1,4 @@
-//! What a scene makes a renderer do, in counts that do not depend on the machine.
+//! The work that a scene is for a renderer, in counts that do not depend on the machine.
 
 use crate::draw::{Counted, Drawing, Studio};
 use crate::error::Error;

@@ -114,8 +114,8 @@ fn texels_are_measured() {
     assert!(error("--interpolation exact --arithmetic float --depth f32-reversed --subpixel 8") == 0.0);
     assert!(error("--interpolation plane") < 0.01);
     assert!(error("--interpolation bounded:0.0625 --arithmetic float") <= 0.0626);
-    // The square behind is drawn last. The line of sight to its right edge meets the one before it at x = 1/3, which is 2
-    // in texture coordinates and not 3: 64 texels.
+    // The square behind is drawn last. The line of sight to its right edge meets the one before it at x = 1/3, which is
+    // 2 in texture coordinates and not 3: 64 texels.
     let hidden = error("--interpolation exact --arithmetic float --depth none");
     assert!((60.0..=64.5).contains(&hidden), "{hidden}");
     // The square spans 192 texels, and q differs by a fifth along it: |Δu| tanh(ln r / 4) is 9.
