@@ -149,7 +149,8 @@ const HEADING: &str = "\
 `alberti advise` tries some of the ways to draw a scene. `--thorough` tries all of them: each interpolation with each
 arithmetic, depth format and grid. Here both are asked about ten scenes of 320x240 that the search was not tuned on, and
 the pick is compared with the cheapest of all that keep the budget. On the host both are timed in turns, as medians,
-which do not repeat: below 1 the pick was the cheaper one after all. Instructions of the m4f are those of the model, and do. Errors are 99.9 % percentiles.
+which do not repeat: below 1 the pick was the cheaper one after all. Instructions of the m4f are those of the model, and
+do. Errors are 99.9 % percentiles. A pick is its interpolation, arithmetic, depth format and bits of subpixels.
 
     cargo xtask advice
 
