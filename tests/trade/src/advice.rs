@@ -159,7 +159,8 @@ do. Errors are 99.9 % percentiles. A pick is its interpolation, arithmetic, dept
 /// The page.
 pub fn page(all: &[Found]) -> String {
     let mut text = HEADING.to_owned();
-    let _ = writeln!(text, "{}\n", summary(all));
+    // A sentence a line.
+    let _ = writeln!(text, "{}\n", summary(all).replace(". ", ".\n"));
     text.push_str(
         "| scene | target | budget | pick | error | cost | of the best | best, if another | seconds |\n",
     );
@@ -207,7 +208,7 @@ mod tests {
         let all = [found(Machine::M4f, 0.25, 1.0), found(Machine::Host, 0.75, 1.25)];
         let text = page(&all);
         assert!(text.contains("1 of 2 picks are within the budget, 1 at most 1.10 times"), "{text}");
-        assert!(text.contains("The dearest is 1.250 times"), "{text}");
+        assert!(text.contains("\nThe dearest is 1.250 times"), "{text}");
         let row = "| floor | m4f | 0.5texel | plane, float, u16, 8 | 0.250 | 2.00 M | 1.000 | affine, fixed, u16, 4 | 1.5 |";
         assert!(text.contains(row), "{text}");
         assert!(text.contains("0.750, beyond"), "{text}");
