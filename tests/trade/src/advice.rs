@@ -149,7 +149,8 @@ const HEADING: &str = "\
 `alberti advise` tries some of the ways to draw a scene. `--thorough` tries all of them: each interpolation with each
 arithmetic, depth format and grid. Here both are asked about ten scenes of 320x240 that the search was not tuned on, and
 the pick is compared with the cheapest of all that keep the budget. On the host both are timed in turns, as medians,
-which do not repeat: below 1 the pick was the cheaper one after all. Instructions of the m4f are those of the model, and do. Errors are 99.9 % percentiles.
+which do not repeat: below 1 the pick was the cheaper one after all. Instructions of the m4f are those of the model, and
+do. Errors are 99.9 % percentiles. A pick is its interpolation, arithmetic, depth format and bits of subpixels.
 
     cargo xtask advice
 
@@ -158,7 +159,8 @@ which do not repeat: below 1 the pick was the cheaper one after all. Instruction
 /// The page.
 pub fn page(all: &[Found]) -> String {
     let mut text = HEADING.to_owned();
-    let _ = writeln!(text, "{}\n", summary(all));
+    // A sentence a line.
+    let _ = writeln!(text, "{}\n", summary(all).replace(". ", ".\n"));
     text.push_str(
         "| scene | target | budget | pick | error | cost | of the best | best, if another | seconds |\n",
     );
@@ -206,7 +208,7 @@ mod tests {
         let all = [found(Machine::M4f, 0.25, 1.0), found(Machine::Host, 0.75, 1.25)];
         let text = page(&all);
         assert!(text.contains("1 of 2 picks are within the budget, 1 at most 1.10 times"), "{text}");
-        assert!(text.contains("The dearest is 1.250 times"), "{text}");
+        assert!(text.contains("\nThe dearest is 1.250 times"), "{text}");
         let row = "| floor | m4f | 0.5texel | plane, float, u16, 8 | 0.250 | 2.00 M | 1.000 | affine, fixed, u16, 4 | 1.5 |";
         assert!(text.contains(row), "{text}");
         assert!(text.contains("0.750, beyond"), "{text}");
