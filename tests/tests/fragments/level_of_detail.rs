@@ -95,6 +95,13 @@ fn inside(rng: &mut Rng, [a, b, c]: [[f64; 2]; 3]) -> [f64; 2] {
     [0, 1].map(|k| a[k] + s * (b[k] - a[k]) + t * (c[k] - a[k]))
 }
 
+/// The least height of a triangle.
+fn height([a, b, c]: [[f64; 2]; 3]) -> f64 {
+    let edge = |p: [f64; 2], q: [f64; 2]| [q[0] - p[0], q[1] - p[1]];
+    let ([ux, uy], [vx, vy], [wx, wy]) = (edge(a, b), edge(b, c), edge(c, a));
+    (ux * vy - uy * vx).abs() / ux.hypot(uy).max(vx.hypot(vy)).max(wx.hypot(wy))
+}
+
 /// λ at a pixel, if the triangle covers it.
 fn lambda(vertices: &[Vertex<Carried>; 3], [column, row]: [i32; 2]) -> Option<f64> {
     let told = told(PerPixel, Exact, vertices, row, column..column + 1);
@@ -190,12 +197,17 @@ fn levels_of_detail_of_drawn_planes() {
 
 /// Small triangles keep what their vertices have: within the same of what the plane has up to half a subpixel from the
 /// sample on each axis.
+///
+/// The snapped triangle is the other one under the affine map that takes vertex to vertex. A place is moved by at most
+/// half a subpixel h on each axis, as a mean of the vertices. Gradients are multiplied by 1 + D. The magnitudes in a
+/// column of D sum up to at most 4 h over the least height: from 11 pixels on that changes λ by less than 2^-9.9. The
+/// rest is rounding.
 #[test]
 fn levels_of_detail_of_small_drawn_planes() {
     drawn_planes(33, [16, 64], 0.01, Plane::After);
 }
 
-/// So do large ones that are too steep for the rule.
+/// The same of large ones that are too steep for the rule.
 #[test]
 fn levels_of_detail_of_steep_drawn_planes() {
     drawn_planes(34, [65, 300], 1e-5, Plane::After);
@@ -234,9 +246,8 @@ impl Drawn {
             let [x, y] = viewport.to_screen(Sub8, p.x, p.y).expect("within the guard band");
             Vertex { x, y, zs: p.zs, q: p.q, varying: p.varying }
         });
-        let parts = [0, 1, 2].map(|i| {
-            [vertices[i].x, vertices[i].y].map(|at: Fixed| i64::from(at.to_bits().cast_signed()))
-        });
+        let parts = [0, 1, 2]
+            .map(|i| [vertices[i].x, vertices[i].y].map(|at: Fixed| i64::from(at.to_bits().cast_signed())));
         let plane = plane(parts, [0, 1, 2].map(|i| vertices[i].q), Subpixel::Sub8);
         Self { vertices, known, plane }
     }
@@ -259,17 +270,32 @@ fn drawn_planes(stream: u64, [short, long]: [i64; 2], least: f32, wanted: Plane)
     let most = climbed(&format!("up to {long} pixels, {wanted:?}"), stream, |rng| {
         let side = rng.range(short, long) as f64;
         let corner = [(); 2].map(|()| rng.uniform(0.0, f64::from(SIDE) - side - 1.0));
-        let places = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|d| [0, 1].map(|k| corner[k] + side * d[k]));
+        let shape = if rng.one_in(2) {
+            [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]
+        } else {
+            [(); 3].map(|()| [(); 2].map(|()| rng.unit()))
+        };
+        let places = shape.map(|d| [0, 1].map(|k| corner[k] + side * d[k]));
+        if height(places) < 11.0 {
+            return None;
+        }
         let random = Random::any(rng, places, least);
         let drawn = Drawn::of(&random, places);
         let pixel = inside(rng, places).map(|c| c as i32);
         let found = lambda(&drawn.vertices, pixel).filter(|_| drawn.plane == wanted)?;
-        let [least, most] = drawn.levels(pixel.map(|c| f64::from(c) + 0.5), reach);
+        let centre = pixel.map(|c| f64::from(c) + 0.5);
+        let [least, most] = drawn.levels(centre, reach);
         let error = (least - found).max(found - most);
-        assert!(error <= BOUND, "{found} for {least} to {most}: {:?} {pixel:?}", drawn.vertices);
-        whole = whole.max((found - most).max(least - found).max(most - least));
+        assert!(
+            error <= BOUND,
+            "{found} for {least} to {most}: {:?} {pixel:?} {:?}",
+            drawn.vertices,
+            drawn.known.iter().map(|k| (k.place.map(|c| c * 65536.0), k.q, k.texel)).collect::<Vec<_>>()
+        );
+        whole = whole.max((found - exact_level(&drawn.known, centre)).abs());
         Some((error.max(0.0), random.steep))
     });
     println!("with what snapping does: {whole:.6} (2^{:.2})", whole.log2());
-    assert!(most > 0.0 && (reach == 0.0) == (whole == most));
+    // Without it the bound would not hold.
+    assert!(most > 0.0 && (reach == 0.0) == (whole <= BOUND), "{most} {whole}");
 }

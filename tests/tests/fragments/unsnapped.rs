@@ -365,7 +365,8 @@ fn moves_along_edges_next_to_the_limit() {
     let sliver = |height: i64| -> Known {
         let [x, y] = pixel_centre(700, 500, 8);
         let a = [x - 12_000 + 9, y - 9_000 - 12];
-        let tri = [a, [a[0] + 16_000 - 3 * height, a[1] + 12_000 + 4 * height], [a[0] + 32_000, a[1] + 24_000]];
+        let tri =
+            [a, [a[0] + 16_000 - 3 * height, a[1] + 12_000 + 4 * height], [a[0] + 32_000, a[1] + 24_000]];
         let moved = [[-124, -93], [120, 90], [124, 93]];
         (Subpixel::Sub8, tri, moved, [1.0; 3], [-1.0, 1.0, 1.0], [700, 500])
     };

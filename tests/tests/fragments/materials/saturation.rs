@@ -4,9 +4,7 @@
 use alberti::glam::{DVec3, Vec2, Vec3};
 use alberti::math::lanes::OneFixed;
 use alberti::raster::{Fragments, Gradient};
-use alberti::shaders::material::{
-    Lambert, Light, Lighting, Material, Placed, PointLight, SpotLight, Viewer,
-};
+use alberti::shaders::material::{Lambert, Light, Lighting, Material, Placed, PointLight, SpotLight, Viewer};
 use alberti::{FragmentStage, Point3, Vector3};
 use alberti_math::{Q16, Varying};
 use alberti_oracle::rng::{Rng, run_seed};
@@ -60,8 +58,9 @@ fn lamp(rng: &mut Rng) -> (PointLight, [Q16; 3]) {
     let place = Vec3::from_array([(); 3].map(|()| rng.uniform(-reach, reach) as f32));
     let near = place.clamp(Vec3::splat(-4095.0), Vec3::splat(4095.0));
     let most = if rng.one_in(2) { 4095.0 } else { f64::from(rng.log_uniform(0.1, 4000.0)) };
-    let position =
-        near.to_array().map(|c| Q16::from_f32((f64::from(c) + rng.uniform(-most, most)).clamp(-4096.0, 4096.0) as f32));
+    let position = near
+        .to_array()
+        .map(|c| Q16::from_f32((f64::from(c) + rng.uniform(-most, most)).clamp(-4096.0, 4096.0) as f32));
     let mut factor = || if rng.one_in(3) { 0.0 } else { rng.log_uniform(1e-3, 1e4) };
     let falloff = [factor(), factor(), factor()];
     let color = Vec3::from_array([(); 3].map(|()| rng.log_uniform(1e-2, 1e5)));
@@ -146,7 +145,10 @@ fn surfaces_under_them() {
             }
             let [least, most] = [255.0 * sum[0] - 0.51, 255.0 * sum[1] + 0.51];
             let found = f64::from(byte);
-            assert!(found >= least.min(254.5) && found <= most, "{found} in {least}..{most}: {lights:?}, {position:?}");
+            assert!(
+                found >= least.min(254.5) && found <= most,
+                "{found} in {least}..{most}: {lights:?}, {position:?}"
+            );
             counts[if least > 255.0 { 2 } else { usize::from(most - least < 2.0) }] += 1;
         }
     }

@@ -55,9 +55,9 @@ impl Light for Directional {
 /// number of the light is not finite, nothing is promised but that colours are.
 ///
 /// In fixed point the light counts as within ±28000 on each axis, and its direction is within 2.5·2^-16 from anywhere.
-/// The falloff is that of a vector to the light whose components count as at most 100: beyond that it stays as it is.
-/// It is within 2^-16 and, where the distance is 1/16 or more, what 14·2^-16 of that changes. The sum of the falloff
-/// and what arrives are at most 2^15.
+/// For the falloff, components of the vector to it count as at most 100: a light that is farther is no dimmer. That
+/// distance is within 13·2^-16 where it is 1/16 or more, its square within 1.5·2^-16, and 1/(c + l d + q d²) is rounded
+/// down to 2^-16. The divisor and what arrives are at most 2^15.
 ///
 /// # Cost
 /// Two square roots and four divisions a fragment.

@@ -93,7 +93,7 @@ pub struct Viewer {
 }
 
 impl Viewer {
-    /// A viewer at a point: the camera of a perspective.
+    /// A viewer at a point: the camera of a perspective. In fixed point it counts as within ±28000 on each axis.
     #[must_use]
     pub const fn at(place: Point3<World>) -> Self {
         Self { place: place.coords, weight: 1.0 }

@@ -12,7 +12,11 @@ pub(super) fn splat<L: Lanes>(lanes: L, v: Vec3) -> [L::Number; 3] {
 
 /// The sum of colours.
 #[inline(always)]
-pub(super) fn plus<L: Lanes>(lanes: L, [x, y, z]: [L::Number; 3], [a, b, c]: [L::Number; 3]) -> [L::Number; 3] {
+pub(super) fn plus<L: Lanes>(
+    lanes: L,
+    [x, y, z]: [L::Number; 3],
+    [a, b, c]: [L::Number; 3],
+) -> [L::Number; 3] {
     [lanes.saturating_add(x, a), lanes.saturating_add(y, b), lanes.saturating_add(z, c)]
 }
 
