@@ -246,8 +246,8 @@ impl Drawn {
             let [x, y] = viewport.to_screen(Sub8, p.x, p.y).expect("within the guard band");
             Vertex { x, y, zs: p.zs, q: p.q, varying: p.varying }
         });
-        let parts = [0, 1, 2]
-            .map(|i| [vertices[i].x, vertices[i].y].map(|at: Fixed| i64::from(at.to_bits().cast_signed())));
+        let part = |at: Fixed| i64::from(256 * at.subpixels() + at.moved());
+        let parts = [0, 1, 2].map(|i| [vertices[i].x, vertices[i].y].map(part));
         let plane = plane(parts, [0, 1, 2].map(|i| vertices[i].q), Subpixel::Sub8);
         Self { vertices, known, plane }
     }
@@ -286,12 +286,7 @@ fn drawn_planes(stream: u64, [short, long]: [i64; 2], least: f32, wanted: Plane)
         let centre = pixel.map(|c| f64::from(c) + 0.5);
         let [least, most] = drawn.levels(centre, reach);
         let error = (least - found).max(found - most);
-        assert!(
-            error <= BOUND,
-            "{found} for {least} to {most}: {:?} {pixel:?} {:?}",
-            drawn.vertices,
-            drawn.known.iter().map(|k| (k.place.map(|c| c * 65536.0), k.q, k.texel)).collect::<Vec<_>>()
-        );
+        assert!(error <= BOUND, "{found} for {least} to {most}: {:?} {pixel:?}", drawn.vertices);
         whole = whole.max((found - exact_level(&drawn.known, centre)).abs());
         Some((error.max(0.0), random.steep))
     });
