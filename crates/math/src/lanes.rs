@@ -101,6 +101,21 @@ pub trait Lanes: Copy + Debug + Send + Sync {
     fn min(self, a: Self::Number, b: Self::Number) -> Self::Number;
     /// The greater of two finite numbers; of equal ones the second.
     fn max(self, a: Self::Number, b: Self::Number) -> Self::Number;
+    /// a + b; in fixed point the nearest in the range, where `+` wraps.
+    #[inline(always)]
+    fn saturating_add(self, a: Self::Number, b: Self::Number) -> Self::Number {
+        a + b
+    }
+    /// a - b; in fixed point the nearest in the range, where `-` wraps.
+    #[inline(always)]
+    fn saturating_sub(self, a: Self::Number, b: Self::Number) -> Self::Number {
+        a - b
+    }
+    /// a b; in fixed point the nearest in the range, where `*` wraps.
+    #[inline(always)]
+    fn saturating_mul(self, a: Self::Number, b: Self::Number) -> Self::Number {
+        a * b
+    }
     /// The square root, correctly rounded.
     fn sqrt(self, x: Self::Number) -> Self::Number;
     /// log2 of the length of the vector (x·`scale`\[0\], y·`scale`\[1\]), for scales up to 2^15: of derivatives of

@@ -32,6 +32,35 @@ impl Q16 {
         self.0
     }
 
+    /// The sum, or the nearest in the range.
+    #[must_use]
+    #[inline(always)]
+    pub const fn saturating_add(self, other: Self) -> Self {
+        Self(self.0.saturating_add(other.0))
+    }
+
+    /// The difference, or the nearest in the range.
+    #[must_use]
+    #[inline(always)]
+    pub const fn saturating_sub(self, other: Self) -> Self {
+        Self(self.0.saturating_sub(other.0))
+    }
+
+    /// The product, rounded as it is by `*`, or the nearest in the range.
+    #[must_use]
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "compared before")]
+    pub const fn saturating_mul(self, other: Self) -> Self {
+        let product = (self.0 as i64 * other.0 as i64 + (1 << 15)) >> 16;
+        Self(if product > i32::MAX as i64 {
+            i32::MAX
+        } else if product < i32::MIN as i64 {
+            i32::MIN
+        } else {
+            product as i32
+        })
+    }
+
     /// The nearest to `x`, halves away from 0; NaN is 0.
     ///
     /// # Cost
@@ -192,6 +221,10 @@ mod tests {
                 if let Ok(fits) = i32::try_from(product) {
                     assert_eq!((x * y).to_bits(), fits);
                 }
+                let saturated = [x.saturating_add(y), x.saturating_sub(y), x.saturating_mul(y)];
+                let nearest =
+                    [a + b, a - b, product].map(|exact| exact.clamp(i32::MIN.into(), i32::MAX.into()));
+                assert_eq!(saturated.map(|found| i128::from(found.to_bits())), nearest);
                 let quotient = if b == 0 { 0 } else { a * 65536 / b };
                 assert_eq!(i128::from((x / y).to_bits()), quotient.clamp(i32::MIN.into(), i32::MAX.into()));
             }

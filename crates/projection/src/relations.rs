@@ -194,6 +194,23 @@ mod tests {
         }
     }
 
+    /// In space at t, on the screen at τ = t z2/((1-t) z1 + t z2): of depths 1 and 3, where these are short fractions.
+    #[test]
+    fn the_middle_in_space_is_three_quarters_of_the_way_on_the_screen() {
+        let z = [1.0, 3.0];
+        for (t, tau) in [(0.5, 0.75), (0.25, 0.5), (0.1f32, 0.25)] {
+            let (eye, screen) = (EyeWeights::at(t), ScreenWeights::at(tau));
+            for (found, exact) in [(eye.to_screen(z).0, screen.0), (screen.to_eye(z).0, eye.0)] {
+                for (found, exact) in found.into_iter().zip(exact) {
+                    assert!((found - exact).abs() <= 2e-7, "{t} {tau}: {found} for {exact}");
+                }
+            }
+        }
+        // Depths the other way round: from the far end to the near one.
+        assert_eq!(EyeWeights::at(0.5).to_screen([3.0, 1.0]).0, [0.75, 0.25]);
+        assert_eq!(ScreenWeights::at(0.5).to_eye([3.0, 1.0]).0, [0.25, 0.75]);
+    }
+
     #[test]
     fn ends_stay_ends_whatever_the_depths() {
         for z in [[1.0, 1e9], [f32::MAX / 16.0, f32::from_bits(1)]] {

@@ -60,6 +60,9 @@ use core::fmt::Debug;
 ///
 /// That is a rule of heights. Where q is the least, a vertex is 32 subpixels or more above the opposite edge, or up to
 /// 45 if that is slanted. Where q is greater, it is as many times as much. It is decided in floats, within 6ε.
+///
+/// Triangles are judged one by one, also those that clipping makes of one. Where one is moved and its neighbour is not,
+/// what they carry differs at their edge, by the change along up to half a subpixel each way.
 pub trait Interpolation: Prepare + Debug + Send + Sync + 'static {}
 
 /// The way of a policy from a triangle to one that is prepared.

@@ -92,6 +92,27 @@ fn lighting<R>(reflectance: R) -> Lighting<Lights, R> {
     }
 }
 
+/// The same with lamps so far away that squares of distances do not fit, without falloff, and a blinding one.
+fn far_and_bright<R>(reflectance: R) -> Lighting<Lights, R> {
+    let far = |x, y, z, color| PointLight {
+        position: Point3::new(Vec3::new(x, y, z)),
+        color,
+        falloff: [1.0, 0.0, 0.0],
+    };
+    let lit = lighting(reflectance);
+    let spot = far(-300.0, 900.0, -1000.0, Vec3::new(0.2, 0.6, 3000.0));
+    let axis = Vector3::new(Vec3::new(0.3, -0.9, 1.0));
+    Lighting {
+        viewer: Viewer::at(Point3::new(Vec3::new(0.0, 0.0, -1e4))),
+        lights: (
+            lit.lights.0,
+            [far(200.0, 500.0, -400.0, Vec3::splat(0.4))],
+            SpotLight::new(spot, axis, [0.5, 0.3]),
+        ),
+        ..lit
+    }
+}
+
 fn perspective() -> Perspective {
     Perspective::new(1.0, 1.0, 0.5, 20.0).expect("a pyramid")
 }
@@ -209,6 +230,11 @@ fn fixed_point_draws_nearly_the_same() {
         "Blinn 80",
         3,
         Material { layers: (Color(smooth), Specular(smooth)), lighting: lighting(BlinnPhong(80)) }
+    );
+    compare!(
+        "Blinn 80, far and bright",
+        3,
+        Material { layers: (Color(smooth), Specular(smooth)), lighting: far_and_bright(BlinnPhong(80)) }
     );
     compare!(
         "maps",

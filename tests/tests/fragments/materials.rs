@@ -7,6 +7,7 @@
 )]
 
 mod hostile;
+mod saturation;
 
 use alberti::glam::{DVec3, Vec2, Vec3};
 use alberti::raster::{NoDerivatives, PerPixel};

@@ -2,7 +2,7 @@
 //! the triangle before, or on the one after where the documented rule says so.
 //!
 //! Triangles are those of `attributes.rs`; slivers along whose edges vertices are moved; and steep ones, whose far edge
-//! is moved along itself.
+//! is moved along itself. A third of them are as steep as the rule lets them be.
 #![allow(
     clippy::cast_possible_truncation,
     clippy::cast_precision_loss,
@@ -41,18 +41,22 @@ pub(crate) fn plane(parts: Triangle, q: [f32; 3], subpixel: Subpixel) -> Plane {
     if length(0).max(length(1)) < 65 << subpixel.bits() {
         return Plane::After;
     }
-    let area = (area2(parts) * area2(after).signum()) as f64 / 65536.0;
     let least = q.into_iter().reduce(f32::min).map_or(1.0, f64::from);
-    let needed = (0..3).map(|i| {
-        let (from, to) = (parts[(i + 1) % 3], parts[(i + 2) % 3]);
-        let edge = ((to[0] - from[0]).abs() + (to[1] - from[1]).abs()) as f64 / 256.0;
-        32.0 * edge * f64::from(q[i]) / least
-    });
-    match area / needed.fold(f64::MIN_POSITIVE, f64::max) {
+    let heights = heights(parts).map(|height| height * area2(after).signum() as f64);
+    match (0..3).map(|i| heights[i] * least / f64::from(q[i])).fold(f64::INFINITY, f64::min) {
         ..0.999_999 => Plane::After,
         1.000_001.. => Plane::Before,
         _ => Plane::Either,
     }
+}
+
+/// The doubled area over 32 times the length |x| + |y| of each vertex's opposite edge, in subpixels.
+fn heights(parts: Triangle) -> [f64; 3] {
+    [0, 1, 2].map(|i| {
+        let (from, to) = (parts[(i + 1) % 3], parts[(i + 2) % 3]);
+        let edge = (to[0] - from[0]).abs() + (to[1] - from[1]).abs();
+        area2(parts) as f64 / (32.0 * 256.0 * edge as f64)
+    })
 }
 
 /// A triangle in 256ths of subpixels with what it carries, and a pixel that it covers after snapping.
@@ -68,7 +72,8 @@ struct Moved {
 impl Moved {
     /// Of one of the kinds; none if it covers no pixel, or is beyond the guard band.
     fn any(subpixel: Subpixel, rng: &mut Rng) -> Option<Self> {
-        let (kind, zs, u) = (rng.index(4), any_zs(rng), any_u(rng));
+        let (kind, zs) = (rng.index(4), any_zs(rng));
+        let u = if rng.one_in(2) { any_u(rng) } else { near_one(rng) };
         let Shape { tri, pixel, moved, q } = match kind {
             0 => anywhere(subpixel, rng),
             1 => diagonal(subpixel, rng),
@@ -78,12 +83,34 @@ impl Moved {
         let guard = i64::from(Fixed::LIMIT) >> (8 - subpixel.bits());
         let seen = pixel.iter().all(|c| (0..LARGEST).contains(c));
         let within = tri.iter().flatten().all(|c| c.abs() < guard);
-        let found = Self { parts: by(tri, moved), pixel, q, zs, u };
+        let parts = by(tri, moved);
+        let q = if rng.one_in(3) { limit(heights(parts), rng) } else { q };
+        let found = Self { parts, pixel, q, zs, u };
         (seen && within && covers(tri, found.sample(subpixel))).then_some(found)
     }
 
     fn sample(&self, subpixel: Subpixel) -> [i64; 2] {
         pixel_centre(self.pixel[0].into(), self.pixel[1].into(), subpixel.bits())
+    }
+
+    fn covers(&self, subpixel: Subpixel) -> bool {
+        covers(self.parts.map(snapped), self.sample(subpixel))
+    }
+
+    /// One beside it: each number stays, or is changed by a step of any size.
+    fn beside(self, rng: &mut Rng) -> Self {
+        let step = |rng: &mut Rng, least: f32, most: f32| {
+            let by = f64::from(rng.log_uniform(least, most));
+            if rng.one_in(4) { rng.uniform(-by, by) } else { 0.0 }
+        };
+        let near = |rng: &mut Rng, x: f32| (f64::from(x) * (1.0 + step(rng, 1e-8, 1e-2))) as f32;
+        Self {
+            parts: self.parts.map(|corner| corner.map(|c| c + step(rng, 1.0, 1e5) as i64)),
+            pixel: self.pixel.map(|c| c + step(rng, 1.0, 10.0) as i32),
+            q: self.q.map(|q| near(rng, q)),
+            u: self.u.map(|u| near(rng, u)),
+            ..self
+        }
     }
 
     fn vertices<V>(&self, varying: impl Fn(f32) -> V) -> [Vertex<V>; 3] {
@@ -92,6 +119,20 @@ impl Moved {
 
     /// The shares of the documented bounds that the value and the depth make use of, and the plane in which they lie.
     fn used(&self, probe: &mut Probe<Recorded>, subpixel: Subpixel, linear: bool) -> ([f64; 2], Plane) {
+        let [before, after] = self.shares(probe, subpixel, linear);
+        let plane = plane(self.parts, self.q, subpixel);
+        let used = match plane {
+            Plane::Before => before,
+            Plane::After => after,
+            // Of both numbers the same one.
+            Plane::Either if before[0].max(before[1]) < after[0].max(after[1]) => before,
+            Plane::Either => after,
+        };
+        (used, plane)
+    }
+
+    /// The same as if they lay in the plane before, and in the one after.
+    fn shares(&self, probe: &mut Probe<Recorded>, subpixel: Subpixel, linear: bool) -> [[f64; 2]; 2] {
         let Self { parts, pixel, q, u, zs, .. } = *self;
         let (value, depth) = if linear {
             let found = probe.interpolated(&self.vertices(Linear), pixel);
@@ -108,16 +149,7 @@ impl Moved {
             ]
         };
         let (after, sample) = (parts.map(snapped), self.sample(subpixel));
-        let plane = plane(parts, q, subpixel);
-        let [before, after] = [on(parts, sample.map(|c| 256 * c), 4.0), on(after, sample, 0.0)];
-        let used = match plane {
-            Plane::Before => before,
-            Plane::After => after,
-            // Of both numbers the same one.
-            Plane::Either if before[0].max(before[1]) < after[0].max(after[1]) => before,
-            Plane::Either => after,
-        };
-        (used, plane)
+        [on(parts, sample.map(|c| 256 * c), 4.0), on(after, sample, 0.0)]
     }
 }
 
@@ -137,6 +169,22 @@ struct Shape {
     pixel: [i32; 2],
     moved: Triangle,
     q: [f32; 3],
+}
+
+/// Values near one another, and near to where steps of `f32` double: their roundings do not get smaller with them.
+fn near_one(rng: &mut Rng) -> [f32; 3] {
+    let spread = f64::from(rng.log_uniform(1e-5, 1e-2));
+    [(); 3].map(|()| 1.0 + rng.uniform(-spread, spread) as f32)
+}
+
+/// As great a q as the rule lets each vertex have, or some less.
+fn limit(heights: [f64; 3], rng: &mut Rng) -> [f32; 3] {
+    let mut q = heights.map(|height| {
+        let less = f64::from(rng.log_uniform(1e-5, 0.9));
+        (height.abs() * (1.0 - less)).clamp(1.0, 1e12) as f32
+    });
+    q[rng.index(3)] = 1.0;
+    q
 }
 
 /// The triangle before snapping.
@@ -257,10 +305,16 @@ fn in_space_with_four_bits() {
     large_ones(Subpixel::Sub4, 33, false);
 }
 
-/// Triangles whose vertices move along their edges: differences of products that cancel.
+/// A triangle after snapping, what was moved, q, u and a pixel.
+type Known = (Subpixel, Triangle, Triangle, [f32; 3], [f32; 3], [i32; 2]);
+
+fn known((_, tri, moved, q, u, pixel): Known) -> Moved {
+    Moved { parts: by(tri, moved), pixel, q, zs: [0.25, 0.75, 0.5], u }
+}
+
+/// Triangles whose vertices move along their edges, too narrow or too steep for their planes: the rule refuses them.
 #[test]
-fn moves_along_edges() {
-    type Known = (Subpixel, Triangle, Triangle, [f32; 3], [f32; 3], [i32; 2]);
+fn moves_along_edges_that_are_refused() {
     let cases: [Known; 4] = [
         (
             Subpixel::Sub8,
@@ -295,10 +349,89 @@ fn moves_along_edges() {
             [264, 113],
         ),
     ];
-    for (subpixel, tri, moved, q, u, pixel) in cases {
-        let case = Moved { parts: by(tri, moved), pixel, q, zs: [0.25, 0.75, 0.5], u };
-        let (used, plane) = case.used(&mut Probe::new(Recorded, subpixel), subpixel, false);
+    for case in cases {
+        let (used, plane) = known(case).used(&mut Probe::new(Recorded, case.0), case.0, false);
         println!("{used:?}, {plane:?}");
-        assert!(plane != Plane::Either && used.iter().all(|&used| used <= 1.0), "{used:?} of {case:?}");
+        assert!(plane == Plane::After && used.iter().all(|&used| used <= 1.0), "{used:?} of {case:?}");
     }
+}
+
+/// The same next to the limit of the rule, where products cancel: moved above it, refused below it. Either plane is
+/// beyond the bounds of the other.
+#[test]
+fn moves_along_edges_next_to_the_limit() {
+    // An edge along (4, 3), 40,000 subpixels long, and a vertex above its middle, by so many times (-3, 4). The area
+    // is as many times 200,000, the edge's |x| + |y| is 56,000: the limit is at 8.96.
+    let sliver = |height: i64| -> Known {
+        let [x, y] = pixel_centre(700, 500, 8);
+        let a = [x - 12_000 + 9, y - 9_000 - 12];
+        let tri =
+            [a, [a[0] + 16_000 - 3 * height, a[1] + 12_000 + 4 * height], [a[0] + 32_000, a[1] + 24_000]];
+        let moved = [[-124, -93], [120, 90], [124, 93]];
+        (Subpixel::Sub8, tri, moved, [1.0; 3], [-1.0, 1.0, 1.0], [700, 500])
+    };
+    // The heights of the second vertex are 4655.72 and 23.27 times the least ones.
+    let [second, third] = [
+        |q| -> Known {
+            (
+                Subpixel::Sub4,
+                [[161_135, 169_425], [311_279, 21_345], [243_764, 233_692]],
+                [[-117, -91], [-58, -128], [117, 91]],
+                [1.0, q, 1.0],
+                [-1.0, 1.0, 1.0],
+                [10_143, 10_645],
+            )
+        },
+        |q| -> Known {
+            (
+                Subpixel::Sub4,
+                [[-8936, -115_384], [118_369, 46_591], [124_715, 56_453]],
+                [[98, 126], [-36, 105], [-98, -126]],
+                [1.0, q, 1.0],
+                [1.0, -1.0, -1.0],
+                [7351, 2958],
+            )
+        },
+    ];
+    let cases = [
+        (sliver(9), Plane::Before),
+        (sliver(8), Plane::After),
+        (second(4655.0), Plane::Before),
+        (second(4657.0), Plane::After),
+        (third(23.26), Plane::Before),
+        (third(23.29), Plane::After),
+    ];
+    for (case, expected) in cases {
+        let [before, after] = known(case).shares(&mut Probe::new(Recorded, case.0), case.0, false);
+        println!("{before:?} before, {after:?} after, {expected:?}");
+        let [used, other] = if expected == Plane::Before { [before, after] } else { [after, before] };
+        assert_eq!(plane(known(case).parts, case.3, case.0), expected, "{case:?}");
+        assert!(used.iter().all(|&used| used <= 1.0) && other[0] > 1.0, "{used:?}, {other:?} of {case:?}");
+    }
+}
+
+/// From the worst that is known, by steps of any size in all that it is made of.
+#[test]
+fn values_near_one_another() {
+    let parts = [[934_288, 16_398_450], [1_007_068, 16_407_881], [1_305_056, 15_996_544]];
+    let (q, u) = ([6504.349, 4626.3784, 9124.507], [0.999_374_5, 1.000_000_2, 1.000_450_3]);
+    let known = Moved { parts, pixel: [314, 3910], q, zs: [0.25, 0.75, 0.5], u };
+    let subpixel = Subpixel::Sub4;
+    let mut probe = Probe::new(Recorded, subpixel);
+    let (used, plane) = known.used(&mut probe, subpixel, false);
+    assert!(plane == Plane::Before && used[0] > 7.0 / 13.0, "{used:?}, {plane:?}");
+    // It is one of the cases itself.
+    let sweep = std::env::var_os("ALBERTI_SWEEP").is_some();
+    let steps = if sweep { 1_000_000 } else { 20_000 };
+    let found = climb(run_seed() ^ 35, steps, steps, |rng| {
+        let case = known.beside(rng);
+        if !case.covers(subpixel) {
+            return 0.0;
+        }
+        let (used, plane) = case.used(&mut probe, subpixel, false);
+        assert!(used[0] <= 1.0, "{:.3} of the bound: {case:?}, {plane:?}", used[0]);
+        if plane == Plane::Before { used[0] } else { 0.0 }
+    });
+    println!("{:.3}ε, climbed {:.3}ε", 13.0 * used[0], 13.0 * found.most);
+    assert!(found.most >= used[0], "{found:?}");
 }

@@ -82,7 +82,8 @@ use vector::{plus, splat, times};
 /// * where a light comes in at right angles to the normal, within 20ε, all of its highlight or none.
 ///
 /// A place, normal or direction that is not finite takes no light but the ambient one. A normal of length 0 is (0, 0,
-/// 1). In fixed point positions that are more than 100 from lights, and lights above 1 where they arrive, overflow.
+/// 1). In fixed point nothing wraps: what exceeds 2^15 is that, so that what is brighter than white is white, and lights
+/// that are farther than 100 on an axis count as that far on it where they fall off (see [`PointLight`]).
 ///
 /// # Cost
 /// The layers', and the lighting's. Normals and the direction to the viewer are made unit once each, if something asks
@@ -183,7 +184,10 @@ impl<Ls: Light, R: Reflectance> Lighting<Ls, R> {
             #[inline(always)]
             |[scattered, mirrored], to_light, color| {
                 let [diffuse, specular] = self.reflectance.shares(lanes, normal, to_light, to_viewer, gloss);
-                [plus(scattered, times(color, diffuse)), plus(mirrored, times(color, specular))]
+                [
+                    plus(lanes, scattered, times(lanes, color, diffuse)),
+                    plus(lanes, mirrored, times(lanes, color, specular)),
+                ]
             },
         )
     }
@@ -193,8 +197,8 @@ impl<Ls: Light, R: Reflectance> Lighting<Ls, R> {
     fn color<L: Lanes>(&self, lanes: L, surface: &Surface<L>) -> L::U32 {
         let Surface { position, normal, to_viewer, gloss, .. } = *surface;
         let [scattered, mirrored] = self.shine(lanes, position, normal, to_viewer, gloss);
-        let ambient = times(splat(lanes, self.ambient), surface.openness);
-        surface.seen(lanes, plus(scattered, ambient), mirrored)
+        let ambient = times(lanes, splat(lanes, self.ambient), surface.openness);
+        surface.seen(lanes, plus(lanes, scattered, ambient), mirrored)
     }
 }
 

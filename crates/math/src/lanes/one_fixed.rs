@@ -54,6 +54,21 @@ impl Lanes for OneFixed {
     }
 
     #[inline(always)]
+    fn saturating_add(self, a: Q16, b: Q16) -> Q16 {
+        a.saturating_add(b)
+    }
+
+    #[inline(always)]
+    fn saturating_sub(self, a: Q16, b: Q16) -> Q16 {
+        a.saturating_sub(b)
+    }
+
+    #[inline(always)]
+    fn saturating_mul(self, a: Q16, b: Q16) -> Q16 {
+        a.saturating_mul(b)
+    }
+
+    #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "at most 2^24")]
     fn sqrt(self, x: Q16) -> Q16 {
         let square = u64::from(x.to_bits().max(0).unsigned_abs()) << 16;

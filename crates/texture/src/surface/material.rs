@@ -32,7 +32,7 @@ pub fn lambert_lanes<L: Lanes>(lanes: L, n: [L::Number; 3], l: [L::Number; 3]) -
 }
 
 /// The specular share of the light by Phong: (r·v)^shininess, where r = 2(n·l)n − l is l mirrored by the surface; 0
-/// where the light or the eye is behind.
+/// where the light is behind the surface, or r·v is not above 0.
 ///
 /// Source: Phong, "Illumination for computer generated pictures", CACM 18 (1975).
 ///
@@ -64,8 +64,8 @@ pub fn phong_lanes<L: Lanes>(
     share(lanes, phong_cosine_lanes(lanes, n, l, v), shininess)
 }
 
-/// The cosine that [`phong`] raises to a power, for several samples: r·v, at most 1, and 0 where the light or the eye
-/// is behind. With [`power_each_lanes`] the exponents may differ.
+/// The cosine that [`phong`] raises to a power, for several samples: r·v between 0 and 1, and 0 where the light is
+/// behind the surface. With [`power_each_lanes`] the exponents may differ.
 ///
 /// # Precision
 /// Within 12ε (ε = 2^-24); in fixed point within 5·2^-16.
@@ -84,7 +84,7 @@ pub fn phong_cosine_lanes<L: Lanes>(
 }
 
 /// The specular share of the light by Blinn: (n·h)^shininess, where h is halfway between l and v; 0 where the light is
-/// behind, or opposite to the eye.
+/// behind the surface or opposite to the eye, or n·h is not above 0.
 ///
 /// The highlight of an exponent is about that of a quarter of it in [`phong`].
 ///

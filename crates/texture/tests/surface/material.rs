@@ -116,6 +116,13 @@ fn highlights_in_closed_form() {
         let shares = [lambert(up, behind), phong(up, behind, up, 3), blinn_phong(up, behind, up, 3)];
         assert_eq!(shares, [0.0; 3]);
     }
+    // What is mirrored away from the eye, r·v = -0.352, and an eye far below the surface, n·h = -0.481.
+    assert_eq!([0, 1, 2, 3].map(|m| phong(up, at(0.6, 0.8), at(0.96, 0.28), m)), [0.0; 4]);
+    assert_eq!([0, 1, 2, 3].map(|m| blinn_phong(up, at(0.96, 0.28), at(0.28, -0.96), m)), [0.0; 4]);
+    // Behind the surface both cosines may be above 0: r·v = 0.352 and n·h = 0.822.
+    let (below, above) = (at(0.96, -0.28), at(-0.6, 0.8));
+    assert_eq!([0, 1, 2].map(|m| phong(up, below, above, m)), [0.0; 3]);
+    assert_eq!([0, 1, 2].map(|m| blinn_phong(up, below, above, m)), [0.0; 3]);
     // Light and eye opposite to each other have nothing halfway.
     assert_eq!(blinn_phong(up, up, at(0.0, -1.0), 3), 0.0);
 }

@@ -2,4 +2,5 @@
 
 mod barycentric;
 mod bounds;
+mod relations;
 mod theory;

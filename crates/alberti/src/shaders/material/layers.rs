@@ -109,7 +109,7 @@ of_texels! {
         surface.openness = ambient_occlusion_lanes(lanes, red(lanes, words), layer.strength);
     };
     Emission of Varying: |_, lanes, surface, words| {
-        surface.emission = plus(surface.emission, colors(lanes, words));
+        surface.emission = plus(lanes, surface.emission, colors(lanes, words));
     };
 }
 of_maps! {

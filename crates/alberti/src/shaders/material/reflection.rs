@@ -51,6 +51,6 @@ impl<V: OnSurface, E: Environment, I: Map, M: Map> Layer<V> for Reflection<E, I,
         let square = aside * aside;
         let facing = lanes.splat(self.facing);
         let share = strength * (facing + (one - facing) * (square * square * aside));
-        surface.emission = plus(surface.emission, times(mirrored, share));
+        surface.emission = plus(lanes, surface.emission, times(lanes, mirrored, share));
     }
 }

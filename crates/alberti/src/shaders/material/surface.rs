@@ -7,7 +7,7 @@ use alberti_raster::{Differentiation, Gradient, NoDerivatives};
 use alberti_texture::surface::unit_lanes;
 use core::fmt::Debug;
 
-use super::vector::{by, plus, splat, times};
+use super::vector::{by, plus, times, towards};
 use crate::shaders::wide::pack;
 
 /// The varying of a lit surface.
@@ -93,7 +93,7 @@ pub struct Viewer {
 }
 
 impl Viewer {
-    /// A viewer at a point: the camera of a perspective.
+    /// A viewer at a point: the camera of a perspective. In fixed point it counts as within ±28000 on each axis.
     #[must_use]
     pub const fn at(place: Point3<World>) -> Self {
         Self { place: place.coords, weight: 1.0 }
@@ -109,8 +109,7 @@ impl Viewer {
     #[inline(always)]
     pub(super) fn direction<L: Lanes>(self, lanes: L, [x, y, z]: [L::Number; 3]) -> [L::Number; 3] {
         let weight = lanes.splat(self.weight);
-        let [a, b, c] = splat(lanes, self.place);
-        unit_lanes(lanes, [a - x * weight, b - y * weight, c - z * weight])
+        unit_lanes(lanes, towards(lanes, self.place, [x * weight, y * weight, z * weight]))
     }
 }
 
@@ -173,8 +172,8 @@ impl<L: Lanes> Surface<L> {
     /// The colours that are seen where so much light is scattered, and mirrored.
     #[inline(always)]
     pub(super) fn seen(&self, lanes: L, scattered: [L::Number; 3], mirrored: [L::Number; 3]) -> L::U32 {
-        let seen = plus(by(self.diffuse, scattered), by(self.specular, mirrored));
-        let [r, g, b] = times(plus(self.emission, seen), lanes.splat(255.0));
+        let seen = plus(lanes, by(lanes, self.diffuse, scattered), by(lanes, self.specular, mirrored));
+        let [r, g, b] = times(lanes, plus(lanes, self.emission, seen), lanes.splat(255.0));
         pack(lanes, [lanes.nearest_byte(r), lanes.nearest_byte(g), lanes.nearest_byte(b), self.alpha])
     }
 }
