@@ -136,12 +136,6 @@ const CHORES: &[Chore] = &[
         run: |_| growth::run(),
     },
     Chore {
-        name: "prices",
-        arguments: "X",
-        about: "temporary",
-        run: |a| { let t = crate::firmware::prices(std::path::Path::new(&a[0]), a.get(1).map(String::as_str), a.len() > 2)?; std::fs::write("/tmp/w/prices.csv", t).map_err(|e| e.to_string()) },
-    },
-    Chore {
         name: "trade",
         arguments: "[--check]",
         about: "measure every policy's error and cost, and write docs/trade.md, or compare with its table",
