@@ -269,7 +269,8 @@ mod tests {
             "_ZN14alberti_raster4draw18Paint$LT$F$C$P$GT$10draw_batch17h083f00431fb763deE",
             "main",
         ];
-        let program = Program { text: 0, rodata: 0, symbols: symbols.map(|name| (name.to_string(), 0)).to_vec() };
+        let program =
+            Program { text: 0, rodata: 0, symbols: symbols.map(|name| (name.to_string(), 0)).to_vec() };
         assert_eq!(program.instances("alberti::pipeline::draw_from"), 3);
         assert_eq!(program.instances("alberti_raster::draw::Paint::draw_batch"), 1);
         assert_eq!(program.instances("main"), 1);

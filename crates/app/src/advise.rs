@@ -22,6 +22,7 @@ mod waste;
 mod work;
 
 pub use candidate::Candidate;
+pub use chips::Off;
 pub use machine::{Cost, Machine};
 pub use measured::Trial;
 pub use report::{json, text};
@@ -38,6 +39,8 @@ use measured::Bench;
 const FINALISTS: usize = 6;
 /// Combinations that are drawn at most to find these.
 const TRIED: usize = 32;
+/// Times that these are taken at most, as others seem cheaper than they.
+const ROUNDS: usize = 4;
 /// Finalists of a thorough search.
 const MORE_FINALISTS: usize = 12;
 
@@ -63,6 +66,8 @@ pub struct Advice {
     pub pick: usize,
     /// The right picture's.
     pub reference: Trial,
+    /// How far costs are off, of a chip.
+    pub off: Option<Off>,
 }
 
 /// Tries policies on a scene.
@@ -96,26 +101,32 @@ pub fn advise(
         trials.push(trial);
         progress((alone.len() + found) as u64, total);
     }
-    trials.sort_by(|a, b| a.cost.frame.total_cmp(&b.cost.frame));
-    let most = if wish.thorough { MORE_FINALISTS } else { FINALISTS };
-    let precise = |trial: &&Trial| trial.candidate == Candidate::MOST_PRECISE;
-    let cheap = trials.iter().filter(|trial| within(trial) && !precise(trial)).take(most);
-    // The most precise among them, for the ratio to it.
-    let mut finalists: Vec<Trial> = cheap.chain(trials.iter().find(precise)).cloned().collect();
-    bench.time_together(&mut finalists)?;
-    for finalist in &finalists {
-        if let Some(trial) = trials.iter_mut().find(|trial| trial.candidate == finalist.candidate) {
-            trial.cost = finalist.cost;
+    if wish.machine == Machine::Host {
+        let most = if wish.thorough { MORE_FINALISTS } else { FINALISTS };
+        let mut timed = vec![Candidate::MOST_PRECISE];
+        for _ in 0..ROUNDS {
+            cheapest_first(&mut trials);
+            let cheap = trials.iter().filter(|trial| within(trial)).take(most);
+            let new = cheap.map(|trial| trial.candidate).filter(|candidate| !timed.contains(candidate));
+            let new: Vec<Candidate> = new.collect();
+            if trials.iter().find(|trial| within(trial)).is_none_or(|trial| timed.contains(&trial.candidate))
+            {
+                break;
+            }
+            bench.time_together(&new, &mut trials)?;
+            timed.extend(new);
         }
     }
-    let pick = finalists.iter().min_by(|a, b| a.cost.frame.total_cmp(&b.cost.frame));
-    let pick = pick.map(|trial| trial.candidate);
-    trials.sort_by(|a, b| a.cost.frame.total_cmp(&b.cost.frame));
+    cheapest_first(&mut trials);
     let at = |candidate| trials.iter().position(|trial: &Trial| trial.candidate == candidate);
     let exact = at(Candidate::MOST_PRECISE).unwrap_or_default();
-    let pick = pick.and_then(at).unwrap_or(exact);
+    let pick = trials.iter().position(within).unwrap_or(exact);
     let reference = trials[exact].clone();
-    Ok(Advice { wish, trials, pick, reference })
+    Ok(Advice { wish, trials, pick, reference, off: bench.off() })
+}
+
+fn cheapest_first(trials: &mut [Trial]) {
+    trials.sort_by(|a, b| a.cost.frame.total_cmp(&b.cost.frame));
 }
 
 /// The median times of some ways of drawing on the host, in turns, in milliseconds.

@@ -205,7 +205,7 @@ fn advice(root: &Path) -> Result<(), Box<dyn Error>> {
 fn boards(options: &Options, prices: &[Price]) -> Result<String, Box<dyn Error>> {
     let (entries, estimates) = model::model(prices);
     fs::write(options.docs.join(BOARDS), boards::table::csv(prices))?;
-    fs::write(options.root.join("crates/app/src/advise/chips.csv"), model::csv(&entries))?;
+    fs::write(options.root.join("crates/app/src/advise/chips.csv"), model::csv(&entries, &estimates))?;
     Ok(boards::page::chapter(prices, &estimates))
 }
 

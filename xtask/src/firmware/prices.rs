@@ -21,7 +21,7 @@ const MARK: &str = "passed";
 
 /// The functions that divide on cores without an instruction for it: what Arm's ABI has for 32 bits and for floats, and
 /// what other compilers call the same.
-const DIVISIONS: [&str; 16] = [
+const DIVISIONS: [&str; 18] = [
     "__aeabi_idiv",
     "__aeabi_idivmod",
     "__aeabi_uidiv",
@@ -36,6 +36,8 @@ const DIVISIONS: [&str; 16] = [
     "__umodsi3",
     "__divdi3",
     "__udivdi3",
+    "__moddi3",
+    "__umoddi3",
     "__divsf3",
     "__divdf3",
 ];
@@ -90,7 +92,8 @@ fn plugin() -> Result<String, String> {
     let plugin = workspace::target_directory().join("divides.so");
     let mut compiler = Command::new("cc");
     compiler.args(["-O2", "-shared", "-fPIC", "-o"]).arg(&plugin).arg(source);
-    command::run(&mut compiler).map_err(|error| format!("{error}. A compiler of C is needed (Debian: gcc)"))?;
+    command::run(&mut compiler)
+        .map_err(|error| format!("{error}. A compiler of C is needed (Debian: gcc)"))?;
     Ok(plugin.display().to_string())
 }
 
@@ -115,8 +118,8 @@ fn frames(
         .emulator
         .run_in(folder, &["-plugin".to_string(), option], &image)
         .map_err(|message| format!("board {}: {message}", board.name))?;
-    let marks = fs::read_to_string(&counts)
-        .map_err(|error| format!("cannot read {}: {error}", counts.display()))?;
+    let marks =
+        fs::read_to_string(&counts).map_err(|error| format!("cannot read {}: {error}", counts.display()))?;
     let marks: Vec<u64> = marks.lines().filter_map(|line| line.parse().ok()).collect();
     let lines: Vec<&str> = printed.lines().collect();
     if lines.len() != right.len() || marks.len() != 2 * lines.len() {
@@ -153,9 +156,19 @@ fn sizes(board: &Board, toolchain: &Toolchain, right: &[Right], text: &mut Strin
     for right in right.iter().take_while(|right| right.scene == "0") {
         let mut build = toolchain.cargo("build", board.target);
         build.env(POLICY, &right.policy);
-        build.args(["--profile", "small", "--manifest-path", manifest, "--package", package, "--bin", WEIGHED]);
+        build.args([
+            "--profile",
+            "small",
+            "--manifest-path",
+            manifest,
+            "--package",
+            package,
+            "--bin",
+            WEIGHED,
+        ]);
         command::run(&mut build)?;
-        let program = read(&toolchain.directory(board.target).join(board.target).join("small").join(WEIGHED))?;
+        let program =
+            read(&toolchain.directory(board.target).join(board.target).join("small").join(WEIGHED))?;
         let _ = writeln!(text, "{},code,{},{},,", board.name, field(right), program.text);
     }
     Ok(())

@@ -24,7 +24,7 @@ fn header() -> String {
 }
 
 /// The names of each kind, the first that of the kind's base but for `lines`, which has none.
-const KINDS: [(&str, bool, &[&str]); 6] = [
+const KINDS: [(&str, bool, &[&str]); 7] = [
     (
         "lines",
         false,
@@ -50,6 +50,8 @@ const KINDS: [(&str, bool, &[&str]); 6] = [
     ("float subpixel", true, &["4", "8"]),
     ("fixed subpixel", true, &["4", "8"]),
     ("filter", true, &["nearest", "bilinear", "trilinear"]),
+    // How far estimates were off, in percent, where other lines have the instructions of a frame.
+    ("off", false, &["median", "most", "worst"]),
 ];
 
 /// Coefficients in the order of the table's columns.
@@ -71,9 +73,21 @@ impl Coefficients {
 
     fn plus(&self, other: &Self) -> Self {
         let mut counts = self.counts;
-        counts.iter_mut().zip(other.counts).for_each(|(sum, other)| *sum += other);
+        // Two differences may each be as large as what they are taken from.
+        counts.iter_mut().zip(other.counts).for_each(|(sum, other)| *sum = (*sum + other).max(0.0));
         Self { counts, flash: self.flash + other.flash, stack: self.stack + other.stack }
     }
+}
+
+/// How far estimates were off on scenes that were also run, in percent: the median, nine tenths of them, the worst.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Off {
+    /// The median.
+    pub median: f64,
+    /// The most of nine tenths of them.
+    pub most: f64,
+    /// The most of all.
+    pub worst: f64,
 }
 
 /// The part of the table that is about one chip.
@@ -89,6 +103,12 @@ impl Chip {
         let bits = subpixel_bits(candidate.subpixel).to_string();
         let grid = self.get(&format!("{arithmetic} subpixel"), &bits)?;
         Some(lines.plus(depth).plus(grid).plus(self.filter(filter)?))
+    }
+
+    /// How far it is off.
+    pub(super) fn off(&self) -> Option<Off> {
+        let of = |name| Some(self.get("off", name)?.counts[0]);
+        Some(Off { median: of("median")?, most: of("most")?, worst: of("worst")? })
     }
 
     /// The difference that a filter makes.
@@ -261,6 +281,8 @@ mod tests {
             runs: 200.0,
             written: 600.0,
         };
+        let differences = |more: f64| Coefficients { counts: [more; NUMBERS - 2], flash: 0.0, stack: 0.0 };
+        assert_eq!(differences(1.0).plus(&differences(-2.0)).frame(&work), 0.0);
         // 1.5 + 20 + 60 + 5 + (18 + 32 + 48) + (105 + 1100 + 15000) + (8 + 8 + 8) + 2600 + 58 · 600
         assert_eq!(cost.frame(&work), 53_813.5);
         assert!(chips["m0"].cost(candidate, Filter::Anisotropic(crate::options::Probes::Two)).is_none());

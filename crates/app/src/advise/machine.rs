@@ -2,7 +2,7 @@
 
 use super::Work;
 use super::candidate::Candidate;
-use super::chips::{Chip, chip};
+use super::chips::{Chip, Off, chip};
 use crate::error::Error;
 use crate::options::{DepthFormat, RenderOptions, Subpixel};
 use crate::scene::Model;
@@ -85,6 +85,11 @@ impl Costs {
             flash: known.flash,
             ram: self.ram(candidate, options, work) + known.stack,
         })
+    }
+
+    /// How far costs are off, of a chip.
+    pub(super) fn off(&self) -> Option<Off> {
+        self.chip.as_ref()?.off()
     }
 
     /// Whether it can be drawn so.

@@ -1,7 +1,8 @@
 //! Errors and costs of policies on a scene.
 
+use super::Off;
 use super::candidate::Candidate;
-use super::machine::{Cost, Costs, Machine};
+use super::machine::{Cost, Costs};
 use super::{Wish, Work, texels, work};
 use crate::draw::{Canvas, Counted, Drawing, Studio};
 use crate::error::Error;
@@ -33,7 +34,7 @@ pub struct Trial {
     pub error: f64,
     /// The largest difference of a byte from the right picture.
     pub largest: u8,
-    /// The cost. On the host a frame's is the least of some, and of finalists the median of turns.
+    /// The cost. On the host a frame's is the least of some, or what turns beside the most precise policies make of it.
     pub cost: Cost,
     /// The counts for the model of a chip.
     pub(super) work: Work,
@@ -88,6 +89,11 @@ impl<'a> Bench<'a> {
         bench.right = bench.draw(Candidate::MOST_PRECISE, FRAMES + 1)?.0;
         bench.work.vertices = Work::new(vertices, Stats::default(), Counted::default()).vertices;
         Ok(bench)
+    }
+
+    /// How far costs are off, of a chip.
+    pub(super) fn off(&self) -> Option<Off> {
+        self.costs.off()
     }
 
     /// Whether the machine can draw so.
@@ -152,14 +158,20 @@ impl<'a> Bench<'a> {
         known.map_or(share(lines) * share(depth) * share(grid), |cost| cost.frame / whole.cost.frame)
     }
 
-    /// Times policies in turns on the host, and puts the medians in.
-    pub(super) fn time_together(&self, trials: &mut [Trial]) -> Result<(), Error> {
-        if self.wish.machine != Machine::Host {
+    /// Times policies in turns with the most precise ones, and corrects their times. All that were tried stay multiples
+    /// of one time, the least of the most precise.
+    pub(super) fn time_together(&self, candidates: &[Candidate], trials: &mut [Trial]) -> Result<(), Error> {
+        let of = |trials: &[Trial], candidate| trials.iter().position(|trial| trial.candidate == candidate);
+        let Some(precise) = of(trials, Candidate::MOST_PRECISE).and_then(|at| trials.get(at)) else {
             return Ok(());
-        }
-        let candidates: Vec<Candidate> = trials.iter().map(|trial| trial.candidate).collect();
-        for (trial, time) in trials.iter_mut().zip(self.medians(&candidates)?) {
-            trial.cost.frame = time;
+        };
+        let least = precise.cost.frame;
+        let all: Vec<Candidate> = [&[Candidate::MOST_PRECISE], candidates].concat();
+        let medians = self.medians(&all)?;
+        for (candidate, median) in all.iter().zip(&medians).skip(1) {
+            if let Some(trial) = of(trials, *candidate).and_then(|at| trials.get_mut(at)) {
+                trial.cost.frame = least * median / medians[0];
+            }
         }
         Ok(())
     }

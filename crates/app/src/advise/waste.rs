@@ -77,11 +77,14 @@ fn triangles(
     let unseen = seen.iter().filter(|&&seen| !seen).count();
     let from =
         if turns == 1 { "from this camera".to_owned() } else { format!("from {turns} cameras around it") };
-    lines.push(format!(
-        "triangles: {unseen} of {total} ({:.0} %) show in no pixel {from}",
-        percent(unseen as u64, total as u64)
-    ));
-    if pixels > 0 {
+    if unseen > 0 {
+        lines.push(format!(
+            "triangles: {unseen} of {total} ({:.0} %) show in no pixel {from}",
+            percent(unseen as u64, total as u64)
+        ));
+    }
+    // A hundredth is not worth an order.
+    if shaded * 100 > pixels * 101 {
         let (shaded, covered) = (percent(shaded, pixels) / 100.0, percent(covered, pixels) / 100.0);
         lines.push(format!(
             "overdraw: {shaded:.2} fragments are shaded and {covered:.2} tested for each pixel that is covered; front \
@@ -203,7 +206,7 @@ fn policies(advice: &Advice, bill: &Bill, camera: &Camera, lines: &mut Vec<Strin
     if let Some((_, saves)) = alike(Candidate::is_grid, |cost| cost.frame) {
         lines.push(format!(
             "subpixels: 4 bits give the same picture as 8; they {}",
-            saves.replacen("saves", "save", 1)
+            saves.replacen("saves", "save", 1).replacen("and costs", "and cost", 1)
         ));
     }
 }
@@ -246,7 +249,7 @@ impl Bill {
         }
     }
 
-    /// A saving in words, as far as it is one.
+    /// A saving in words, and what it costs in time.
     fn saves(&self, saved: Cost) -> String {
         let bytes = |bytes: f64, of: &str| {
             let text = if bytes < 10240.0 {
@@ -256,18 +259,26 @@ impl Bill {
             };
             (bytes >= 0.5).then(|| format!("{text} of {of}"))
         };
-        let frame = if self.machine.is_chip() {
-            (saved.frame >= 500.0).then(|| format!("{:.3} M instructions a frame", saved.frame / 1e6))
-        } else {
-            (saved.frame >= 0.005).then(|| format!("{:.2} ms a frame", saved.frame))
+        let frame = |frame: f64| {
+            if self.machine.is_chip() {
+                (frame >= 500.0).then(|| format!("{:.3} M instructions a frame", frame / 1e6))
+            } else {
+                (frame >= 0.005).then(|| format!("{frame:.2} ms a frame"))
+            }
         };
         let memory = if self.machine.is_chip() { "RAM" } else { "memory" };
-        let parts: Vec<String> =
-            [frame, bytes(saved.flash, "flash"), bytes(saved.ram, memory)].into_iter().flatten().collect();
-        match parts.split_last() {
+        let parts: Vec<String> = [frame(saved.frame), bytes(saved.flash, "flash"), bytes(saved.ram, memory)]
+            .into_iter()
+            .flatten()
+            .collect();
+        let saves = match parts.split_last() {
             None => "saves nothing".to_owned(),
             Some((last, [])) => format!("saves {last}"),
             Some((last, first)) => format!("saves {} and {last}", first.join(", ")),
+        };
+        match frame(-saved.frame) {
+            None => saves,
+            Some(dearer) => format!("{saves}, and costs {dearer}"),
         }
     }
 }

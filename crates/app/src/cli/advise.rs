@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgMatches, Args, CommandFactory as _, FromArgMatches as _};
 
+use super::explain::{OF_PICTURES, refuse};
 use super::run::print;
 use super::staged::{Request, Staged};
 use super::{Cli, RenderArgs};
@@ -25,6 +26,9 @@ Examples:
   alberti advise wet.toml --max-error 0.01flip --image differences
   alberti advise --scene mesh --max-error 1texel --target m4f
   alberti advise cow.obj --texture cow.png --max-error 40db --turntable 12 --json";
+
+/// The options on which there is advice.
+const ADVISED_ON: [&str; 4] = ["interpolation", "arithmetic", "depth", "subpixel"];
 
 /// The most cameras of a turntable.
 const MAX_TURNS: u32 = 360;
@@ -112,12 +116,24 @@ pub(super) fn run(matches: &ArgMatches) -> Result<u8, Error> {
     let arguments = AdviseArgs::from_arg_matches(matches)
         .map_err(|error| Error::new(error.to_string(), "what --help lists"))?;
     let request = Request::read(matches)?;
+    refuse(matches, "advise", &OF_PICTURES, "the pictures are those of --image")?;
+    refuse(matches, "advise", &ADVISED_ON, "it is what is advised on")?;
     advise_on(&arguments, &request).map_err(|error| request.relocate(error))?;
     Ok(0)
 }
 
 fn advise_on(arguments: &AdviseArgs, request: &Request) -> Result<(), Error> {
     request.check()?;
+    let missing = arguments.image.as_deref().filter(|folder| !folder.exists());
+    let outcome = advise_and_print(arguments, request);
+    if let (Err(_), Some(folder)) = (&outcome, missing) {
+        // A folder that was made is empty. If it cannot be removed, that is no error of the advice.
+        let _ = fs::remove_dir(folder);
+    }
+    outcome
+}
+
+fn advise_and_print(arguments: &AdviseArgs, request: &Request) -> Result<(), Error> {
     let outputs = arguments.image.as_deref().map(|folder| outputs(folder, request)).transpose()?;
     let Staged { model, camera, options, .. } = request.stage()?;
     let mut progress = Progress::new("trying");

@@ -62,11 +62,27 @@ impl fmt::Display for NoPixel {
 }
 
 /// The options that say what `render` writes.
-const OF_PICTURES: [&str; 2] = ["output", "stats"];
+pub(super) const OF_PICTURES: [&str; 3] = ["output", "stats", "show"];
 
 /// The command without these in its help.
 pub(super) fn without_pictures(command: Command) -> Command {
     OF_PICTURES.into_iter().fold(command, |command, id| command.mut_arg(id, |option| option.hide(true)))
+}
+
+/// Refuses options of `render` that a command has not.
+///
+/// # Errors
+/// One of them stands on the command line.
+pub(super) fn refuse(matches: &ArgMatches, name: &str, ids: &[&str], reason: &str) -> Result<(), Error> {
+    let given = |id: &&&str| matches.value_source(id) == Some(ValueSource::CommandLine);
+    match ids.iter().find(given) {
+        None => Ok(()),
+        Some(id) => {
+            let found = format!("an option that `{name}` has not");
+            let error = Error::new(found, "those of `render` that change the picture");
+            Err(error.place(format!("--{id}")).hint(format!("leave it out: {reason}")))
+        }
+    }
 }
 
 /// # Errors
@@ -80,13 +96,7 @@ fn run_for(request: &Request, matches: &ArgMatches) -> Result<(), Error> {
     let refused = |error: clap::Error| Error::new(error.to_string(), "what --help lists");
     let ExplainArgs { pixel: Pixel(pixel), json, .. } =
         ExplainArgs::from_arg_matches(matches).map_err(refused)?;
-    for id in OF_PICTURES {
-        if matches.value_source(id) == Some(ValueSource::CommandLine) {
-            let error =
-                Error::new("an option that `explain` has not", "those of `render` that change the picture");
-            return Err(error.place(format!("--{id}")).hint("leave it out: no picture is written"));
-        }
-    }
+    refuse(matches, "explain", &OF_PICTURES, "no picture is written")?;
     request.check()?;
     let Staged { model, camera, options, .. } = request.stage()?;
     let journey = explain(&model, &camera, &options, pixel)?;

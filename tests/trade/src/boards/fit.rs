@@ -12,8 +12,8 @@ pub(super) type Amounts = [f64; KINDS];
 const PASSES: usize = 20_000;
 
 /// The prices by which amounts add up to totals, each total weighing the same: the squares of relative errors are
-/// least. `scales` are the totals that errors are relative to. Only kinds that are `asked` have prices, and these are not
-/// negative if `positive`.
+/// least. `scales` are the totals that errors are relative to. Only kinds that are `asked` have prices, and none is below
+/// its `least`.
 ///
 /// Each kind in turn takes its best price, until none changes. A little is asked for prices near 0, so that kinds which
 /// no frame tells apart share evenly.
@@ -21,7 +21,7 @@ pub(super) fn fit(
     rows: &[(Amounts, f64)],
     scales: &[f64],
     asked: impl Fn(&str) -> bool,
-    positive: bool,
+    least: &Amounts,
 ) -> Amounts {
     let rows: Vec<(Amounts, f64)> = rows
         .iter()
@@ -40,10 +40,7 @@ pub(super) fn fit(
             }
             let slope: f64 = rows.iter().zip(&rest).map(|((amounts, _), rest)| amounts[kind] * rest).sum();
             let square = norms[kind] * norms[kind];
-            let mut price = (slope + square * prices[kind]) / (square * (1.0 + EVEN));
-            if positive {
-                price = price.max(0.0);
-            }
+            let price = ((slope + square * prices[kind]) / (square * (1.0 + EVEN))).max(least[kind]);
             let change = price - prices[kind];
             prices[kind] = price;
             for ((amounts, _), rest) in rows.iter().zip(&mut rest) {
@@ -55,7 +52,7 @@ pub(super) fn fit(
 }
 
 /// The share by which prices are pulled to 0.
-const EVEN: f64 = 1e-5;
+const EVEN: f64 = 1e-4;
 
 /// The price of amounts.
 pub(super) fn total(prices: &Amounts, amounts: &Amounts) -> f64 {
@@ -81,7 +78,7 @@ mod tests {
             })
             .collect();
         let scales: Vec<f64> = rows.iter().map(|(_, total)| *total).collect();
-        let found = fit(&rows, &scales, |_| true, true);
+        let found = fit(&rows, &scales, |_| true, &[0.0; KINDS]);
         for (amounts, total_known) in &rows {
             assert!((total(&found, amounts) / total_known - 1.0).abs() < 2e-3);
         }
@@ -89,11 +86,11 @@ mod tests {
     }
 
     #[test]
-    fn no_price_is_negative_unless_it_may() {
+    fn no_price_is_below_its_least() {
         let amounts =
             |vertices| std::array::from_fn(|kind| [1.0, vertices].get(kind).copied().unwrap_or(0.0));
         let rows = [(amounts(1.0), 1.0), (amounts(2.0), 0.5)];
-        assert!(fit(&rows, &[1.0, 1.0], |_| true, true)[1] >= 0.0);
-        assert!(fit(&rows, &[1.0, 1.0], |_| true, false)[1] < -0.4);
+        assert!(fit(&rows, &[1.0, 1.0], |_| true, &[0.0; KINDS])[1] >= 0.0);
+        assert!(fit(&rows, &[1.0, 1.0], |_| true, &[-1.0; KINDS])[1] < -0.4);
     }
 }

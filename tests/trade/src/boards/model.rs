@@ -98,8 +98,10 @@ impl Fitting {
             })
             .collect();
         let scales: Vec<f64> = small.iter().map(|(_, price, _)| float(price.count)).collect();
-        let (asked, positive) = asked(&kind);
-        let fitted = fit(&rows, &scales, asked, positive);
+        let (asked, can_be_cheaper) = asked(&kind);
+        // With its base, no work costs less than nothing.
+        let least = base.prices.map(|price| if can_be_cheaper { -price } else { 0.0 });
+        let fitted = fit(&rows, &scales, asked, &least);
         for (number, price, policy) in judged {
             let amounts = self.work(number, price, policy);
             let estimate = total(&base.prices, &amounts) + total(&fitted, &amounts);
@@ -127,12 +129,12 @@ impl Fitting {
     }
 }
 
-/// The kinds of work that a kind of policy has a say in, and whether it can only cost more.
+/// The kinds of work that a kind of policy has a say in, and whether it can be cheaper than what is usual.
 fn asked(kind: &str) -> (fn(&str) -> bool, bool) {
     match kind {
-        "lines" => (|_| true, true),
-        "filter" => (|work| ["small", "narrow", "wide", "run", "written"].contains(&work), true),
-        _ => (|work| !["frame", "vertex", "submitted", "clipped", "run"].contains(&work), false),
+        "lines" => (|_| true, false),
+        "filter" => (|work| ["small", "narrow", "wide", "run", "written"].contains(&work), false),
+        _ => (|work| !["frame", "vertex", "submitted", "clipped", "run"].contains(&work), true),
     }
 }
 
@@ -148,19 +150,34 @@ fn labelled(name: &str, policy: Policy) -> (String, String) {
     }
 }
 
-fn float(count: u64) -> f64 {
+pub(super) fn float(count: u64) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
     let float = count as f64;
     float
 }
 
+/// How far a board's estimates are off in percent, by shares of them in percent.
+pub(super) fn off(estimates: &[&Estimate], shares: [usize; 3]) -> [f64; 3] {
+    let mut off: Vec<f64> = estimates.iter().map(|estimate| (estimate.ratio - 1.0).abs() * 100.0).collect();
+    off.sort_by(f64::total_cmp);
+    shares.map(|share| off.get((off.len().max(1) - 1) * share / 100).copied().unwrap_or_default())
+}
+
 /// The table as the command reads it.
-pub fn csv(entries: &[Entry]) -> String {
+pub fn csv(entries: &[Entry], estimates: &[Estimate]) -> String {
     let mut text = format!("target,kind,name,{},flash,stack\n", Work::NAMES.join(","));
     for Entry { board, kind, name, prices, code, stack } in entries {
         let prices: Vec<String> = prices.iter().map(|price| format!("{price:.2}")).collect();
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{board},{kind},{name},{},{code},{stack}", prices.join(","));
+    }
+    let mut boards: Vec<&str> = entries.iter().map(|entry| entry.board.as_str()).collect();
+    boards.dedup();
+    for board in boards {
+        let own: Vec<&Estimate> = estimates.iter().filter(|estimate| estimate.board == board).collect();
+        for (name, off) in ["median", "most", "worst"].iter().zip(off(&own, [50, 90, 100])) {
+            let _ = writeln!(text, "{board},off,{name},{off:.1}{}", ",0".repeat(Work::NAMES.len() + 1));
+        }
     }
     text
 }

@@ -1,6 +1,6 @@
 //! The chapter of the page about the boards.
 
-use super::model::Estimate;
+use super::model::{Estimate, float, off};
 use super::price::{Price, policy};
 use super::scene_file::JUDGED;
 use std::fmt::Write as _;
@@ -19,15 +19,16 @@ Errors are those of the chapters above, since bits are the same everywhere.
 
 const ADVICE: &str = "\
 Take `fixed spans:16`: where floats are computed in software it is seven to fifty times as fast as `float exact`, and on
-a Cortex-M4F, which has them, two to five times. `fixed affine` saves a tenth to a third more, and is wrong where
-triangles are large. Runs of 4 and 8 columns give up the short way that small triangles have in fixed point, so that
-meshes cost two to four times as much; a budget, `fixed bounded`, is for those who must know what is missed. Whoever
-wants floats takes `float plane`, or on meshes of small triangles `float exact`. A division takes more than one cycle on
-most cores, so their number stands beside the instructions: on a Cortex-M4F each is one of these, of up to 14 cycles,
-and elsewhere a call, whose instructions are counted.
+a Cortex-M4F, which has them, two to five times. `fixed affine` saves up to a third more on large triangles, next to
+nothing on a mesh of small ones, and is wrong where triangles are large. Runs of 4 and 8 columns give up the short way
+that small triangles have in fixed point, so that meshes cost two to four times as much; a budget, `fixed bounded`, is
+for those who must know what is missed. Whoever wants floats takes `float plane`, or on meshes of small triangles
+`float exact`. A division takes more than one cycle on most cores, so their number stands beside the instructions; where
+there is no instruction for it, it is a call, whose instructions are counted too.
 
 Depths of 16 bits let most small triangles take the short way; those of 24 or 32 bits double or triple the price of a
-mesh in fixed point. To do without a depth buffer is up to a fifth cheaper, and takes 150 KB less memory.
+mesh in fixed point. To do without a depth buffer takes 150 KB less memory and is a little cheaper, unless much is
+hidden: then all of that is shaded.
 
 ";
 
@@ -85,30 +86,20 @@ fn estimated(text: &mut String, estimates: &[Estimate]) {
     );
     for (board, title) in BOARDS {
         for (kind, usual) in [("interpolation", true), ("depth, grid, filter", false)] {
-            let mut own: Vec<(f64, &Estimate)> = estimates
+            let own: Vec<&Estimate> = estimates
                 .iter()
                 .filter(|estimate| estimate.board == board)
                 .filter(|estimate| policy(&estimate.policy).is_some_and(|p| p.special.is_none() == usual))
-                .map(|estimate| ((estimate.ratio - 1.0).abs(), estimate))
                 .collect();
-            own.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let Some((worst, place)) = own.last() else { continue };
-            let at = |share: usize| own[(own.len() - 1) * share / 100].0 * 100.0;
+            let farthest =
+                |a: &&&Estimate, b: &&&Estimate| (a.ratio - 1.0).abs().total_cmp(&(b.ratio - 1.0).abs());
+            let Some(place) = own.iter().max_by(farthest) else { continue };
+            let [median, most, worst] = off(&own, [50, 90, 100]);
             let _ = writeln!(
                 text,
                 "| {title} | {kind} | {:.1} % | {:.1} % | {:.0} % | {}, `{}` |",
-                at(50),
-                at(90),
-                worst * 100.0,
-                place.scene,
-                place.policy
+                median, most, worst, place.scene, place.policy
             );
         }
     }
-}
-
-fn float(count: u64) -> f64 {
-    #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
-    let float = count as f64;
-    float
 }

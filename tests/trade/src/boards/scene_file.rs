@@ -7,7 +7,7 @@ use alberti::texture::format::Rgb565;
 use alberti::texture::mipmap;
 use std::path::Path;
 
-/// Those of the trade that the boards draw: what is estimated is held against these.
+/// The scenes of the trade that the boards draw: estimates are held against these.
 pub const JUDGED: [&str; 5] = ["near-flat", "floor", "close-up", "dense-mesh", "layers"];
 
 /// All scenes of the boards, in the order of their files.

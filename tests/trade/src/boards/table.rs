@@ -1,4 +1,4 @@
-//! The table of what the boards paid, as text that programs read, and what is worse than it.
+//! The table of the boards' prices, as text that programs read, and its comparison with an older one.
 
 use super::price::Price;
 use super::scene_file::JUDGED;

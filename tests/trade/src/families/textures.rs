@@ -23,7 +23,8 @@ pub(super) const FILTERS: Family = Family {
 The right picture here is the mean light of 64 rays a pixel, which a filter can only come near to. Magnified, take
 `Bilinear`; squeezed, a mip map: `NearestLevel(Bilinear)` has most of what `Trilinear` has, at two thirds of its
 price, but shows where levels change. `Anisotropic(2)` or `(4)` are sharper on what is seen at a flat angle. More
-probes gain little here: they mean bytes, not light, and the farther they reach, the more that shows as a darker tone.",
+probes gain little here: they average bytes, not light, and the farther they reach, the more that shows as a darker
+tone.",
     axis: Axis::Flip,
 };
 
