@@ -1,5 +1,5 @@
-//! The level of detail of textured planes in perspective, against its closed form, at any pixel of a triangle: of random
-//! ones, and climbing from the worst of these.
+//! The level of detail of textured planes in perspective, against its closed form, at any pixel of a triangle: of
+//! random ones, and climbing from the worst of these.
 #![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "pixels within a frame")]
 
 use crate::unsnapped::{Plane, plane};

@@ -82,8 +82,8 @@ use vector::{plus, splat, times};
 /// * where a light comes in at right angles to the normal, within 20ε, all of its highlight or none.
 ///
 /// A place, normal or direction that is not finite takes no light but the ambient one. A normal of length 0 is (0, 0,
-/// 1). In fixed point nothing wraps: what exceeds 2^15 is that, so that what is brighter than white is white, and lights
-/// that are farther than 100 on an axis count as that far on it where they fall off (see [`PointLight`]).
+/// 1). In fixed point nothing wraps: what exceeds 2^15 is that, so that what is brighter than white is white. Lights
+/// farther than 100 on an axis fall off as if they were so far on it (see [`PointLight`]).
 ///
 /// # Cost
 /// The layers', and the lighting's. Normals and the direction to the viewer are made unit once each, if something asks

@@ -31,8 +31,8 @@ pub fn lambert_lanes<L: Lanes>(lanes: L, n: [L::Number; 3], l: [L::Number; 3]) -
     lanes.max(dot_lanes(n, l), lanes.splat(0.0))
 }
 
-/// The specular share of the light by Phong: (r·v)^shininess, where r = 2(n·l)n − l is l mirrored by the surface; 0
-/// where the light is behind the surface, or r·v is not above 0.
+/// The specular share of the light by Phong: (r·v)^shininess, where r = 2(n·l)n − l is l mirrored by the surface. It is
+/// 0 where the light is behind the surface, or r·v is not above 0.
 ///
 /// Source: Phong, "Illumination for computer generated pictures", CACM 18 (1975).
 ///
@@ -83,8 +83,8 @@ pub fn phong_cosine_lanes<L: Lanes>(
     lanes.select(lanes.less(zero, cosine), clamped_lanes(lanes, along), zero)
 }
 
-/// The specular share of the light by Blinn: (n·h)^shininess, where h is halfway between l and v; 0 where the light is
-/// behind the surface or opposite to the eye, or n·h is not above 0.
+/// The specular share of the light by Blinn: (n·h)^shininess, where h is halfway between l and v. It is 0 where the
+/// light is behind the surface or opposite to the eye, or n·h is not above 0.
 ///
 /// The highlight of an exponent is about that of a quarter of it in [`phong`].
 ///
