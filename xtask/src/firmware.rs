@@ -276,8 +276,8 @@ fn expected() -> Result<Vec<Expected>, String> {
     frames::expected(&output(call("run").arg("--quiet"))?)
 }
 
-/// Builds for one board and runs there: the tables, and frames that differ or what is dearer. What is built for size may
-/// take more instructions.
+/// Builds for one board and runs there: the tables, and frames that differ or counts that rose. What is built for size
+/// may take more instructions.
 fn check(board: &Board, expected: &[Expected], small: bool) -> Result<(String, Vec<String>), String> {
     let toolchain = Toolchain::find(board.target)?;
     let folder = toolchain.directory(board.target).join(board.target);

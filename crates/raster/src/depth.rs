@@ -25,8 +25,8 @@ pub trait DepthFormat: Copy + Debug + Send + Sync + 'static {
     /// The stored value nearest to `zs`, which must be in [0, 1].
     fn encode(self, zs: f32) -> Self::Stored;
 
-    /// The bits of a stored integer that is zs·(2^bits − 1) to the nearest, at most 31; 31 as well for all else, and 16
-    /// where nothing is stored: in fixed point, more small triangles have a short way with few.
+    /// The bits of a stored integer that is zs·(2^bits − 1) to the nearest, at most 31; 31 as well for all else. Where
+    /// nothing is stored there are 16: with few, more small triangles have a short way in fixed point.
     #[inline(always)]
     fn bits(self) -> u32 {
         31

@@ -197,7 +197,7 @@ pub(crate) struct OfKind {
     pub(crate) samples: u64,
 }
 
-/// What comes from the rasterizer, by kinds. The stage has told the kind of a row when it comes.
+/// Counts of the rasterizer, by kinds. The stage has told the kind of a row when it comes.
 struct Rows<'a> {
     kind: &'a Cell<Kind>,
     kinds: [OfKind; 3],

@@ -12,8 +12,8 @@ pub(super) type Amounts = [f64; KINDS];
 const PASSES: usize = 20_000;
 
 /// The prices by which amounts add up to totals, each total weighing the same: the squares of relative errors are
-/// least. `scales` are the totals that errors are relative to. Only kinds that are `asked` have prices, and none is below
-/// its `least`.
+/// least. `scales` are the totals that errors are relative to. Only kinds that are `asked` have prices, and none is
+/// below its `least`.
 ///
 /// Each kind in turn takes its best price, until none changes. A little is asked for prices near 0, so that kinds which
 /// no frame tells apart share evenly.
