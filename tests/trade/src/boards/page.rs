@@ -18,7 +18,7 @@ Errors are those of the chapters above, since bits are the same everywhere.
 ";
 
 const ADVICE: &str = "\
-Take `fixed spans:16`: where floats are computed in software it is seven to fifty times as fast as `float exact`, and on
+Take `fixed spans:16`: where floats are computed in software it is 7 to 56 times as fast as `float exact`, and on
 a Cortex-M4F, which has them, two to five times. `fixed affine` saves up to a third more on large triangles, next to
 nothing on a mesh of small ones, and is wrong where triangles are large. Runs of 4 and 8 columns give up the short way
 that small triangles have in fixed point, so that meshes cost two to four times as much; a budget, `fixed bounded`, is
