@@ -92,7 +92,7 @@ pub fn advise(
         trials.push(bench.try_out(*candidate)?);
     }
     let mut found = 0;
-    for candidate in combinations(&bench, &trials, wish).into_iter().take(TRIED) {
+    for candidate in combinations(&bench, &trials, wish)?.into_iter().take(TRIED) {
         if found == FINALISTS {
             break;
         }
@@ -144,10 +144,10 @@ pub fn times(
 }
 
 /// Combinations of policies that were within the budget alone, but for those that were tried, the promising first.
-fn combinations(bench: &Bench<'_>, trials: &[Trial], wish: Wish) -> Vec<Candidate> {
+fn combinations(bench: &Bench<'_>, trials: &[Trial], wish: Wish) -> Result<Vec<Candidate>, Error> {
     let tried = |candidate| trials.iter().find(|trial| trial.candidate == candidate);
     let within = |trial: &Trial| wish.budget.admits(trial.error);
-    let Some(whole) = tried(Candidate::MOST_PRECISE) else { return vec![] };
+    let Some(whole) = tried(Candidate::MOST_PRECISE) else { return Ok(vec![]) };
     let mut all = vec![];
     for candidate in candidate::combined() {
         if tried(candidate).is_some() || !bench.has(candidate) {
@@ -156,11 +156,11 @@ fn combinations(bench: &Bench<'_>, trials: &[Trial], wish: Wish) -> Vec<Candidat
         if let [Some(lines), Some(depth), Some(grid)] = candidate.parts().map(tried)
             && [lines, depth, grid].into_iter().all(within)
         {
-            all.push((bench.promise(candidate, [lines, depth, grid], whole), candidate));
+            all.push((bench.promise(candidate, [lines, depth, grid], whole)?, candidate));
         }
     }
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
-    all.into_iter().map(|(_, candidate)| candidate).collect()
+    Ok(all.into_iter().map(|(_, candidate)| candidate).collect())
 }
 
 impl Advice {

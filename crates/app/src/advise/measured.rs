@@ -126,6 +126,11 @@ impl<'a> Bench<'a> {
 
     /// The work of a frame with these counts. Of one without a budget, rows and runs do not depend on depths.
     fn count(&self, candidate: Candidate, stats: Stats) -> Result<Work, Error> {
+        Ok(Work::new(self.vertices, stats, self.counted(candidate)?))
+    }
+
+    /// The same counts again for ways of drawing in which they are the same.
+    fn counted(&self, candidate: Candidate) -> Result<Counted, Error> {
         let shallow = matches!(candidate.depth, DepthFormat::None | DepthFormat::U16);
         let key = match (candidate.interpolation, candidate.arithmetic) {
             (Interpolation::Bounded(_), _) => candidate,
@@ -141,7 +146,7 @@ impl<'a> Bench<'a> {
         if known.is_none() {
             self.counted.borrow_mut().push((key, counted));
         }
-        Ok(Work::new(self.vertices, stats, counted))
+        Ok(counted)
     }
 
     /// The cost that a combination promises by those of its parts, as a share of the most precise policies' cost.
@@ -150,12 +155,23 @@ impl<'a> Bench<'a> {
         candidate: Candidate,
         [lines, depth, grid]: [&Trial; 3],
         whole: &Trial,
-    ) -> f64 {
+    ) -> Result<f64, Error> {
         let share = |trial: &Trial| trial.cost.frame / whole.cost.frame;
-        // Of a chip, all that is not known is what the three do to each other's work.
-        let work = Work { written: depth.work.written, ..lines.work };
+        if !self.wish.machine.is_chip() {
+            return Ok(share(lines) * share(depth) * share(grid));
+        }
+        // Which triangles are small depends on all three, but of depths only on whether they are deep.
+        let shallow = matches!(candidate.depth, DepthFormat::None | DepthFormat::U16);
+        let alike = if shallow { DepthFormat::None } else { DepthFormat::F32Reversed };
+        let Work { submitted, clipped, .. } = lines.work;
+        let work = Work {
+            submitted,
+            clipped,
+            written: depth.work.written,
+            ..self.count(Candidate { depth: alike, ..candidate }, Stats::default())?
+        };
         let known = self.costs.of(candidate, &self.options, &work);
-        known.map_or(share(lines) * share(depth) * share(grid), |cost| cost.frame / whole.cost.frame)
+        Ok(known.map_or(f64::INFINITY, |cost| cost.frame / whole.cost.frame))
     }
 
     /// Times policies in turns with the most precise ones, and corrects their times. All that were tried stay multiples

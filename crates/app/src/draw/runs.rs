@@ -23,8 +23,8 @@ use std::cell::Cell;
 #[derive(Clone, Copy, Debug, Default)]
 struct OfRun;
 
-/// More than there are columns.
-const WIDE: u16 = 1 << 15;
+/// More than there are columns in a run, and as much as fixed point has room for beside them.
+const WIDE: u16 = 1 << 14;
 
 impl Differentiation for OfRun {
     type With<D: Differentiation> = Self;

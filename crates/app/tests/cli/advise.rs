@@ -179,9 +179,9 @@ fn what_is_paid_for_nothing_is_told() {
     assert!(from_before.contains("`u16` gives the same picture as f32-reversed; it saves"), "{from_before}");
     assert!(from_before.contains("38 KB of memory"), "{from_before}");
     let on_chip = wastes(&["--target", "m0"]);
-    assert!(on_chip.contains("M instructions a frame") && on_chip.contains("38 KB of RAM"), "{on_chip}");
+    assert!(on_chip.contains("M instructions a frame") && on_chip.contains("37 KB of RAM"), "{on_chip}");
     let around = wastes(&["--turntable", "4"]);
-    assert!(around.contains("triangles: 0 of 4 (0 %) show in no pixel from 4 cameras around it"), "{around}");
+    assert!(!around.contains("triangles: "), "all are seen: {around}");
 }
 
 #[test]
