@@ -47,7 +47,8 @@ fn by_policies(folder: &Path) -> Result<(), Box<dyn Error>> {
     let mut loaded = Box::new(Loaded::EMPTY);
     for number in 0..100 {
         let Ok(file) = fs::read(folder.join(format!("{number:02}"))) else { break };
-        let mut words = file.chunks_exact(4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]));
+        let mut words =
+            file.chunks_exact(4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]));
         let scene = loaded.read(|| words.next()).ok_or_else(|| format!("{number:02} is no scene"))?;
         for (policy, index) in POLICIES.iter().zip(0..) {
             memory.clear(policy);

@@ -210,7 +210,8 @@ impl Memory {
     #[must_use]
     pub fn hash(&self) -> u64 {
         let bytes = self.color.iter().flat_map(|pixel| pixel.to_ne_bytes());
-        bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+        bytes
+            .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
     }
 }
 
@@ -236,7 +237,8 @@ impl Loaded {
     ///
     /// `None` if words are missing, or if it is too large.
     pub fn read(&mut self, mut next: impl FnMut() -> Option<u32>) -> Option<Scene<'_>> {
-        let [vertices, triangles] = [next()?, next()?].map(|count| usize::try_from(count).unwrap_or(usize::MAX));
+        let [vertices, triangles] =
+            [next()?, next()?].map(|count| usize::try_from(count).unwrap_or(usize::MAX));
         let side = next()?.min(SIDE);
         let mut floats = [0.0; 15];
         for float in &mut floats {
