@@ -245,7 +245,7 @@ impl Drawing<'_> {
     pub(crate) fn tap_runs(&self, tap: &Tap, target: &mut Canvas<'_>) {
         if let Some(lines) = self.lines() {
             self.each_chunk(false, |_, mesh| {
-                self.by_runs(mesh, lines, RunsOnly::WriteDown(tap), target, &mut ())
+                self.by_runs(mesh, lines, RunsOnly::WriteDown(tap), target, &mut ());
             });
         }
     }

@@ -42,6 +42,9 @@ pub struct Estimate {
     pub ratio: f64,
 }
 
+/// The prices that an entry is fitted to.
+type Group<'a> = Vec<(&'a Price, Policy)>;
+
 /// The table of prices, and how far it is from what was counted on the scenes that it was not fitted to.
 pub fn model(prices: &[Price]) -> (Vec<Entry>, Vec<Estimate>) {
     let mut fitting =
@@ -50,7 +53,7 @@ pub fn model(prices: &[Price]) -> (Vec<Entry>, Vec<Estimate>) {
     boards.dedup();
     for board in boards {
         // By entries, of which that with budgets has several policies.
-        let mut groups: BTreeMap<(bool, String, String), Vec<(&Price, Policy)>> = BTreeMap::new();
+        let mut groups: BTreeMap<_, Group<'_>> = BTreeMap::new();
         for price in prices.iter().filter(|price| price.board == board) {
             let Some(policy) = policy(&price.policy) else { continue };
             let (kind, name) = labelled(&price.policy, policy);
