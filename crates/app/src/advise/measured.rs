@@ -1,9 +1,8 @@
 //! Errors and costs of policies on a scene.
 
-use super::Off;
 use super::candidate::Candidate;
 use super::machine::{Cost, Costs};
-use super::{Wish, Work, texels, work};
+use super::{Off, Wish, Work, texels, work};
 use crate::draw::{Canvas, Counted, Drawing, Studio};
 use crate::error::Error;
 use crate::measure::{Comparison, MOST, MaxError, percentile, steps};
@@ -131,10 +130,9 @@ impl<'a> Bench<'a> {
 
     /// The same counts again for ways of drawing in which they are the same.
     fn counted(&self, candidate: Candidate) -> Result<Counted, Error> {
-        let shallow = matches!(candidate.depth, DepthFormat::None | DepthFormat::U16);
         let key = match (candidate.interpolation, candidate.arithmetic) {
             (Interpolation::Bounded(_), _) => candidate,
-            (_, Arithmetic::Fixed) if !shallow => candidate,
+            (_, Arithmetic::Fixed) if !work::is_shallow(candidate.depth) => candidate,
             _ => Candidate { depth: DepthFormat::None, ..candidate },
         };
         let known =
@@ -161,8 +159,8 @@ impl<'a> Bench<'a> {
             return Ok(share(lines) * share(depth) * share(grid));
         }
         // Which triangles are small depends on all three, but of depths only on whether they are deep.
-        let shallow = matches!(candidate.depth, DepthFormat::None | DepthFormat::U16);
-        let alike = if shallow { DepthFormat::None } else { DepthFormat::F32Reversed };
+        let alike =
+            if work::is_shallow(candidate.depth) { DepthFormat::None } else { DepthFormat::F32Reversed };
         let Work { submitted, clipped, .. } = lines.work;
         let work = Work {
             submitted,

@@ -93,14 +93,9 @@ impl Work {
     #[must_use]
     pub fn counts(&self) -> [f64; Self::NAMES.len()] {
         let &Self { vertices, submitted, clipped, small, narrow, wide, runs, written } = self;
-        let [small, narrow, wide] =
+        let [[a, b, c], [d, e, f], [g, h, i]] =
             [small, narrow, wide].map(|kind| [kind.triangles, kind.rows, kind.samples]);
-        let mut counts =
-            [1.0, vertices, submitted, clipped, 0., 0., 0., 0., 0., 0., 0., 0., 0., runs, written];
-        for (count, of_kind) in counts[4..].iter_mut().zip([small, narrow, wide].as_flattened()) {
-            *count = *of_kind;
-        }
-        counts
+        [1.0, vertices, submitted, clipped, a, b, c, d, e, f, g, h, i, runs, written]
     }
 }
 
@@ -124,6 +119,11 @@ pub(super) fn vertices(model: &Model) -> u64 {
     vertices.sum()
 }
 
+/// Whether a depth format has so few bits that all triangles near enough to a point are small in fixed point.
+pub(super) fn is_shallow(depth: DepthFormat) -> bool {
+    matches!(depth, DepthFormat::U16 | DepthFormat::None)
+}
+
 /// Triangles and rows by kinds, and the runs between divisions.
 pub(super) fn counted(model: &Model, camera: &Camera, options: &RenderOptions) -> Result<Counted, Error> {
     let RenderOptions { width, height, policies, .. } = *options;
@@ -137,8 +137,11 @@ pub(super) fn counted(model: &Model, camera: &Camera, options: &RenderOptions) -
     };
     // With more bits of depth fewer triangles are small. What is hidden then counts as the kind of what was seen last.
     let format = any_depth(options.depth);
-    let shallow = matches!(options.depth, DepthFormat::U16 | DepthFormat::None);
-    let all = if shallow || policies.arithmetic == Arithmetic::Float { AnyDepth::NoDepth } else { format };
+    let all = if is_shallow(options.depth) || policies.arithmetic == Arithmetic::Float {
+        AnyDepth::NoDepth
+    } else {
+        format
+    };
     let counted = count(all)?;
     let runs = match (policies.interpolation, policies.arithmetic) {
         (Interpolation::Affine, _) => 0,
@@ -180,6 +183,10 @@ mod tests {
     }
 
     fn counted(model: &Model, interpolation: &str, arithmetic: Arithmetic) -> Work {
+        counted_with(DepthFormat::U16, model, interpolation, arithmetic)
+    }
+
+    fn counted_with(depth: DepthFormat, model: &Model, interpolation: &str, arithmetic: Arithmetic) -> Work {
         let interpolation = interpolation.parse().expect("a name");
         let options = RenderOptions {
             width: SIDE,
@@ -189,7 +196,7 @@ mod tests {
             filter: Filter::Nearest,
             wrap: Wrap::Repeat,
             cull: Cull::None,
-            depth: DepthFormat::U16,
+            depth,
             projection: Projection::Perspective,
             threads: NonZero::new(2).expect("two"),
             policies: Policies { interpolation, arithmetic, ..Policies::default() },
@@ -238,6 +245,15 @@ mod tests {
         // In fixed point a budget with room for the steps along 64 columns leaves a run a row.
         let work = counted(&rectangles(), "bounded:1", Arithmetic::Fixed);
         assert_eq!(work, Work { runs: 64.0, ..in_fixed_point });
+    }
+
+    #[test]
+    fn triangles_are_small_where_depths_have_few_bits() {
+        // Six pixels wide and high, from z = 4 to 4.1: zs changes by 10/9 (1/4 - 1/4.1) = 0.0068, more than 2^-10.
+        let speck = model(&[[0.0, 0.0, -4.0], [0.75, 0.0, -4.0], [0.0, 0.77, -4.1]], &[[0, 1, 2]]);
+        let small = |depth| counted_with(depth, &speck, "affine", Arithmetic::Fixed).small.triangles;
+        assert_eq!([DepthFormat::U16, DepthFormat::None].map(small), [1.0; 2]);
+        assert_eq!([DepthFormat::U24, DepthFormat::F32Reversed].map(small), [0.0; 2]);
     }
 
     #[test]

@@ -6,9 +6,8 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgMatches, Args, CommandFactory as _, FromArgMatches as _};
 
-use super::explain::{OF_PICTURES, refuse};
 use super::run::print;
-use super::staged::{Request, Staged};
+use super::staged::{OF_PICTURES, Request, Staged, refuse};
 use super::{Cli, RenderArgs};
 use crate::advise::{Advice, Machine, Wish, advise, json, text, waste};
 use crate::error::Error;
@@ -28,7 +27,7 @@ Examples:
   alberti advise cow.obj --texture cow.png --max-error 40db --turntable 12 --json";
 
 /// The options on which there is advice.
-const ADVISED_ON: [&str; 4] = ["interpolation", "arithmetic", "depth", "subpixel"];
+pub(super) const ADVISED_ON: [&str; 4] = ["interpolation", "arithmetic", "depth", "subpixel"];
 
 /// The most cameras of a turntable.
 const MAX_TURNS: u32 = 360;

@@ -3,12 +3,11 @@
 use std::fmt;
 use std::str::FromStr;
 
-use clap::parser::ValueSource;
-use clap::{ArgMatches, Args, Command, FromArgMatches as _};
+use clap::{ArgMatches, Args, FromArgMatches as _};
 
 use super::RenderArgs;
 use super::run::print;
-use super::staged::{Request, Staged};
+use super::staged::{OF_PICTURES, Request, Staged, refuse};
 use crate::error::Error;
 use crate::explain::explain;
 
@@ -58,30 +57,6 @@ impl std::error::Error for NoPixel {}
 impl fmt::Display for NoPixel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("a column and a row from 0 on, such as 320,240")
-    }
-}
-
-/// The options that say what `render` writes.
-pub(super) const OF_PICTURES: [&str; 3] = ["output", "stats", "show"];
-
-/// The command without these in its help.
-pub(super) fn without_pictures(command: Command) -> Command {
-    OF_PICTURES.into_iter().fold(command, |command, id| command.mut_arg(id, |option| option.hide(true)))
-}
-
-/// Refuses options of `render` that a command has not.
-///
-/// # Errors
-/// One of them stands on the command line.
-pub(super) fn refuse(matches: &ArgMatches, name: &str, ids: &[&str], reason: &str) -> Result<(), Error> {
-    let given = |id: &&&str| matches.value_source(id) == Some(ValueSource::CommandLine);
-    match ids.iter().find(given) {
-        None => Ok(()),
-        Some(id) => {
-            let found = format!("an option that `{name}` has not");
-            let error = Error::new(found, "those of `render` that change the picture");
-            Err(error.place(format!("--{id}")).hint(format!("leave it out: {reason}")))
-        }
     }
 }
 

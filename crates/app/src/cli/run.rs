@@ -8,7 +8,7 @@ use std::time::Instant;
 use clap::error::{ContextKind, ErrorKind};
 use clap::{ArgMatches, CommandFactory as _};
 
-use super::staged::{Request, Staged, warn};
+use super::staged::{OF_PICTURES, Request, Staged, hidden, warn};
 use super::{Cli, StatsFormat, advise, compare, explain};
 use crate::error::{Error, quote};
 use crate::options::RenderOptions;
@@ -23,7 +23,9 @@ pub const FAILURE: u8 = 2;
 /// Runs the command with these arguments, the program's name first. Messages go to standard error; the status is
 /// 0, [`compare::EXCEEDED`] or [`FAILURE`].
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    let mut command = Cli::command().mut_subcommand("explain", explain::without_pictures);
+    let mut command = Cli::command()
+        .mut_subcommand("explain", |command| hidden(command, &OF_PICTURES))
+        .mut_subcommand("advise", |command| hidden(hidden(command, &OF_PICTURES), &advise::ADVISED_ON));
     let matches = match command.try_get_matches_from_mut(advise::with_machine(arguments)) {
         Ok(matches) => matches,
         Err(error) => return usage(&error),

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
 
-use clap::{ArgMatches, FromArgMatches as _};
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Command, FromArgMatches as _};
 
 use super::{RenderArgs, partners};
 use crate::error::{Error, Warnings, number, quote};
@@ -22,6 +23,30 @@ use crate::output::file::Output;
 use crate::output::progress::Progress;
 use crate::output::stats::Source;
 use crate::scene::{Camera, Model, Part, Relief, camera, scenes, slide};
+
+/// The options that say what `render` writes.
+pub(super) const OF_PICTURES: [&str; 3] = ["output", "stats", "show"];
+
+/// A command without some options in its help.
+pub(super) fn hidden(command: Command, ids: &[&'static str]) -> Command {
+    ids.iter().fold(command, |command, id| command.mut_arg(id, |option| option.hide(true)))
+}
+
+/// Refuses options of `render` that a command has not.
+///
+/// # Errors
+/// One of them stands on the command line.
+pub(super) fn refuse(matches: &ArgMatches, name: &str, ids: &[&str], reason: &str) -> Result<(), Error> {
+    let given = |id: &&&str| matches.value_source(id) == Some(ValueSource::CommandLine);
+    match ids.iter().find(given) {
+        None => Ok(()),
+        Some(id) => {
+            let found = format!("an option that `{name}` has not");
+            let error = Error::new(found, "those of `render` that change the picture");
+            Err(error.place(format!("--{id}")).hint(format!("leave it out: {reason}")))
+        }
+    }
+}
 
 /// The options, and the scene file that some of them come from.
 pub(super) struct Request {

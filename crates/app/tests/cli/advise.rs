@@ -95,6 +95,10 @@ fn the_pick_is_within_the_budget_and_selects_itself() {
         );
         let trials = advice["trials"].as_array().expect("trials");
         assert!(trials.iter().any(|trial| trial["options"] == advice["pick"]["options"]));
+        // Nothing that is listed keeps the budget in less time.
+        let within = trials.iter().filter(|trial| trial["within"] == true);
+        let least = within.map(|trial| trial["ms"].as_f64().expect("a time")).fold(f64::INFINITY, f64::min);
+        assert_eq!(advice["pick"]["ms"].as_f64(), Some(least), "{advice}");
         assert!(advice["rust"].as_str().expect("lines").contains("Pass::new"), "{advice}");
     }
 }
@@ -212,6 +216,9 @@ fn wrong_input_is_one_line() {
         ),
         (&["no.obj"], "no.obj"),
         (&["m.obj", "--image", "file/out"], "file/out"),
+        (&["m.obj", "--max-error", "1texel", "--image", "made"], "a scene without textures"),
+        (&["m.obj", "--interpolation", "affine"], "--interpolation: found an option that `advise` has not"),
+        (&["m.obj", "--show", "error"], "--show: found an option that `advise` has not"),
     ] {
         let run = folder.advise(arguments);
         assert_eq!((run.status, run.stdout.as_str()), (Some(2), ""), "{run:?}");

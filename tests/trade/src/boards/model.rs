@@ -83,31 +83,25 @@ impl Fitting {
             let (lines, _) = price.policy.split_once(", ")?;
             self.entries.iter().find(|entry| entry.board == board && entry.name == lines).cloned()
         });
-        let base = base.unwrap_or_else(|| Entry {
-            board: board.to_owned(),
-            kind: String::new(),
-            name: String::new(),
-            prices: Amounts::default(),
-            code: 0.0,
-            stack: 0.0,
-        });
+        let (base, base_code, base_stack) =
+            base.map_or_else(Default::default, |base| (base.prices, base.code, base.stack));
         let frames = group.iter().filter_map(|(price, policy)| Some((price.scene?, *price, *policy)));
         let (judged, small): (Vec<_>, Vec<_>) = frames.partition(|(number, ..)| *number < JUDGED.len());
         let rows: Vec<(Amounts, f64)> = small
             .iter()
             .map(|&(number, price, policy)| {
                 let amounts = self.work(number, price, policy);
-                (amounts, float(price.count) - total(&base.prices, &amounts))
+                (amounts, float(price.count) - total(&base, &amounts))
             })
             .collect();
         let scales: Vec<f64> = small.iter().map(|(_, price, _)| float(price.count)).collect();
         let (asked, can_be_cheaper) = asked(&kind);
         // With its base, no work costs less than nothing.
-        let least = base.prices.map(|price| if can_be_cheaper { -price } else { 0.0 });
+        let least = base.map(|price| if can_be_cheaper { -price } else { 0.0 });
         let fitted = fit(&rows, &scales, asked, &least);
         for (number, price, policy) in judged {
             let amounts = self.work(number, price, policy);
-            let estimate = total(&base.prices, &amounts) + total(&fitted, &amounts);
+            let estimate = total(&base, &amounts) + total(&fitted, &amounts);
             self.estimates.push(Estimate {
                 board: board.to_owned(),
                 scene: JUDGED[number],
@@ -118,8 +112,8 @@ impl Fitting {
         let most = |of: fn(&Price) -> Option<u64>| {
             float(group.iter().filter_map(|(price, _)| of(price)).max().unwrap_or_default())
         };
-        let code = most(|price| price.scene.is_none().then_some(price.count)) - base.code;
-        let stack = most(|price| Some(price.stack)) - base.stack;
+        let code = most(|price| price.scene.is_none().then_some(price.count)) - base_code;
+        let stack = most(|price| Some(price.stack)) - base_stack;
         self.entries.push(Entry { board: board.to_owned(), kind, name, prices: fitted, code, stack });
     }
 
