@@ -36,10 +36,12 @@ static uint64_t divides, mark, functions[MOST_FUNCTIONS];
 static int function_count, riscv;
 static FILE *out;
 
-/* Whether an instruction divides: div, divu, rem and remu of RISC-V; sdiv, udiv and vdiv of Arm's Thumb. */
+/* Whether an instruction divides: div, divu, rem and remu of RISC-V; sdiv, udiv and vdiv of Arm's Thumb. QEMU appends
+ * two bytes of the next instruction to the last but one of a page, so only the first four are told, and the size is at
+ * least theirs. */
 static int divides_itself(const uint8_t *bytes, size_t size) {
     uint32_t first, second;
-    if (size != 4) return 0;
+    if (size < 4) return 0;
     first = bytes[0] | bytes[1] << 8;
     second = bytes[2] | bytes[3] << 8;
     if (riscv) {

@@ -168,6 +168,21 @@ fn chips_are_advised_by_a_model() {
     }
 }
 
+/// What a combination takes is not what its parts promise, where these decide together which triangles are small: the
+/// search finds it nevertheless.
+#[test]
+fn a_combination_may_be_cheaper_than_its_parts() {
+    let folder = squares();
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/reflection-sphere.toml");
+    let scene = [scene, "--size", "160x120", "--max-error", "0.5texel", "--machine", "m4f"];
+    let cost = |more: &[&str]| {
+        let advice = folder.advice(&[&scene[..], more].concat());
+        advice["pick"]["instructions"].as_f64().expect("a number")
+    };
+    let [found, best] = [cost(&[]), cost(&["--thorough"])];
+    assert!(found <= 1.1 * best, "{found} {best}");
+}
+
 #[test]
 fn what_is_paid_for_nothing_is_told() {
     let folder = squares();
