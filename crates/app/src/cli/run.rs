@@ -5,7 +5,7 @@ use std::io::{self, IsTerminal as _, Write as _};
 use std::num::NonZero;
 use std::time::Instant;
 
-use clap::error::{ContextKind, ErrorKind};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{ArgMatches, CommandFactory as _};
 
 use super::staged::{OF_PICTURES, Request, Staged, hidden, warn};
@@ -46,21 +46,29 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 /// Help and version are no errors. A value that cannot be read gets one line like any other input; for words that
 /// are not options, clap's suggestions are better.
 fn usage(error: &clap::Error) -> u8 {
-    if error.kind() == ErrorKind::ValueValidation
-        && let (Some(option), Some(value), Some(expected)) = (
-            error.get(ContextKind::InvalidArg),
-            error.get(ContextKind::InvalidValue),
-            std::error::Error::source(error),
-        )
+    let expected = match error.kind() {
+        ErrorKind::ValueValidation => std::error::Error::source(error).map(ToString::to_string),
+        ErrorKind::InvalidValue => error.get(ContextKind::ValidValue).map(one_of),
+        _ => None,
+    };
+    let context = |kind| error.get(kind).map(ToString::to_string);
+    if let (Some(option), Some(value), Some(expected)) =
+        (context(ContextKind::InvalidArg), context(ContextKind::InvalidValue), expected)
     {
-        let option = option.to_string();
         let option = option.split(' ').next().unwrap_or_default();
-        let message = Error::new(quote(value.to_string().as_bytes()), expected.to_string());
-        return fail(&message.place(option).hint("see --help"));
+        return fail(&Error::new(quote(value.as_bytes()), expected).place(option).hint("see --help"));
     }
     // A closed pipe cannot be told about.
     let _ = error.print();
     if error.use_stderr() { FAILURE } else { 0 }
+}
+
+/// Values of which an option takes one, as words.
+fn one_of(values: &ContextValue) -> String {
+    match values {
+        ContextValue::Strings(values) if !values.is_empty() => format!("one of {}", values.join(", ")),
+        _ => "a value".to_string(),
+    }
 }
 
 fn fail(error: &Error) -> u8 {

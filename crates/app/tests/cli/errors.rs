@@ -188,6 +188,18 @@ fn sizes_colours_and_threads_that_are_none() {
 }
 
 #[test]
+fn options_that_take_one_of_some_values() {
+    let folder = Folder::with(&[]);
+    for (arguments, expected) in [
+        (&["--subpixel", "7"][..], "--subpixel: found \"7\", expected one of 4, 8; see --help"),
+        (&["--cull", "nope"], "--cull: found \"nope\", expected one of back, front, none; see --help"),
+        (&["--filter"], "--filter: found \"\", expected a value; see --help"),
+    ] {
+        folder.fails(arguments, &[&format!("error: {expected}")]);
+    }
+}
+
+#[test]
 fn options_of_materials_that_are_none() {
     let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes())]);
     for (arguments, part) in [
