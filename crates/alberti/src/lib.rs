@@ -32,10 +32,10 @@ pub use alberti_projection::{
 };
 pub use alberti_raster as raster;
 pub use alberti_raster::{
-    Affine, Always, AnyDepth, Bands, ColorFormat, Counters, Cull, D16, D24, D32, DepthFormat, Equal, Exact,
-    F32, F32Reversed, Farther, FixedPoint, FragmentColor, FragmentStage, Fragments, Gradient, Interpolation,
-    Lines, NoDepth, NoDerivatives, OrEqual, PerPixel, PerRun, PerTriangle, Planes, ReadOnly, Spans16, Target,
-    TargetError,
+    Affine, Always, AnyDepth, AnyDerivatives, Bands, ColorFormat, Counters, Cull, D16, D24, D32, DepthFormat,
+    Equal, Exact, F32, F32Reversed, Farther, FixedPoint, FragmentColor, FragmentStage, Fragments, Gradient,
+    Interpolation, Lines, NoDepth, NoDerivatives, OrEqual, PerPixel, PerRun, PerTriangle, Planes, ReadOnly,
+    Spans16, Target, TargetError,
 };
 pub use alberti_texture as texture;
 pub use error::Error;

@@ -9,14 +9,15 @@
 
 use crate::camera::{self, CAMERA};
 use crate::error::Error;
-use crate::options::{Cull, Interpolation, Projection, RenderOptions};
+use crate::options::{Cull, Interpolation, Lod, Projection, RenderOptions};
 use crate::scene::{Camera, Image, Model, Part, Vertex};
 use crate::slide;
 use alberti::glam::Vec3;
 use alberti::texture::{Texture, TextureError, format::Rgba8888};
 use alberti::{
-    AnyDepth, AnyProjection, Eye, Frame, Geometry, Object, Pass, Point3, PreparedTriangle, Projector, Rgba8,
-    Slot, Stats, Subpixel, Target, Vector3, View, ViewError, World, clear_by_threads, look_at,
+    AnyDepth, AnyDerivatives, AnyProjection, Eye, Frame, Geometry, Object, Pass, Point3, PreparedTriangle,
+    Projector, Rgba8, Slot, Stats, Subpixel, Target, Vector3, View, ViewError, World, clear_by_threads,
+    look_at,
 };
 
 mod clothed;
@@ -85,7 +86,7 @@ pub fn to_light(camera: &Camera) -> Vec3 {
 
 /// A picture under way.
 pub(crate) struct Drawing<'a> {
-    model: &'a Model,
+    pub(crate) model: &'a Model,
     options: &'a RenderOptions,
     view: View<AnyProjection>,
     /// The camera's place.
@@ -176,6 +177,15 @@ impl<'a> Drawing<'a> {
         match self.options.policies.subpixel {
             crate::options::Subpixel::Sub4 => Subpixel::Sub4,
             crate::options::Subpixel::Sub8 => Subpixel::Sub8,
+        }
+    }
+
+    /// The policy for levels of detail.
+    pub(crate) fn derivatives(&self) -> AnyDerivatives {
+        match self.options.policies.lod {
+            Lod::Pixel => AnyDerivatives::PerPixel,
+            Lod::Run => AnyDerivatives::PerRun,
+            Lod::Triangle => AnyDerivatives::PerTriangle,
         }
     }
 

@@ -13,7 +13,7 @@ pub use filter::{Filter, Probes};
 pub(crate) use material::Base;
 pub use material::{MapFile, Material, Origin};
 pub use policies::{
-    Arithmetic, ColorFormat, DepthFormat, Interpolation, Policies, Profile, SpanLength, Subpixel,
+    Arithmetic, ColorFormat, DepthFormat, Interpolation, Lod, Policies, Profile, SpanLength, Subpixel,
 };
 pub(crate) use table::shared;
 pub use table::{CameraTable, ProjectorTable, RenderTable};

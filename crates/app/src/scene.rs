@@ -96,6 +96,18 @@ pub struct Model {
     pub source: Option<PathBuf>,
 }
 
+impl Model {
+    /// The longest side of the textures, or, without any, the steps of a colour.
+    #[must_use]
+    pub fn largest_side(&self) -> u16 {
+        let sides = self.textures.iter().map(|image| image.width.max(image.height));
+        sides.max().and_then(|side| side.try_into().ok()).unwrap_or(COLOR_STEPS)
+    }
+}
+
+/// The steps of a colour from 0 to 1.
+pub(crate) const COLOR_STEPS: u16 = 255;
+
 /// An image that a projector throws on the model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slide {

@@ -11,7 +11,7 @@ use alberti::{
 };
 use alberti_app::draw::{AMBIENT, DIFFUSE, to_light, view};
 use alberti_app::options::{
-    self, Arithmetic, ColorFormat, DepthFormat, Filter, Interpolation, Policies, RenderOptions, Shading,
+    self, Arithmetic, ColorFormat, DepthFormat, Filter, Interpolation, Lod, Policies, RenderOptions, Shading,
     SpanLength, Subpixel, Wrap,
 };
 use alberti_app::render::render;
@@ -210,8 +210,10 @@ where
 #[test]
 fn so_is_each_policy() {
     use {Arithmetic::*, Interpolation as I, Subpixel as S};
-    let policies =
-        |interpolation, arithmetic, color, subpixel| Policies { interpolation, arithmetic, color, subpixel };
+    let policies = |interpolation, arithmetic, color, subpixel| {
+        let lod = Lod::default();
+        Policies { interpolation, arithmetic, color, subpixel, lod }
+    };
     let (rgba, small) = (ColorFormat::Rgba8, ColorFormat::Rgb565);
     let bounded = I::Bounded(0.25);
     let long = I::Spans(SpanLength::ThirtyTwo);

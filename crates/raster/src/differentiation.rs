@@ -1,5 +1,9 @@
 //! Derivatives of attributes: their changes from a pixel to the next, from which a texture's level of detail comes.
 
+mod any;
+
+pub use any::AnyDerivatives;
+
 use crate::edge::EdgeInt;
 use crate::interpolation::{Oriented, Row, scaled_q};
 use crate::spans::Span;
@@ -16,6 +20,7 @@ use core::fmt::{self, Debug};
 /// | [`PerPixel`] | at each sample | one a fragment, which [`Exact`](crate::Exact) shares |
 /// | [`PerRun`] | in the middle of each run of samples | one a run |
 /// | [`PerTriangle`] | at the triangle's centroid | one a triangle |
+/// | [`AnyDerivatives`] | as one of the last three, chosen at run time | as that |
 ///
 /// An attribute u = U/T is the quotient of two functions that are linear on the screen, U = Σ Ei qi ui and T = Σ Ei qi.
 /// In the numerators of its derivatives all products of edge functions cancel but for distances on one axis:

@@ -34,7 +34,7 @@ pub use color::{ColorFormat, FragmentColor, rgb565};
 pub use comparison::{Always, Equal, Farther, OrEqual, ReadOnly};
 pub use counters::Counters;
 pub use depth::{AnyDepth, D16, D24, D32, DepthFormat, F32, F32Reversed, NoDepth};
-pub use differentiation::{Differentiation, NoDerivatives, PerPixel, PerRun, PerTriangle};
+pub use differentiation::{AnyDerivatives, Differentiation, NoDerivatives, PerPixel, PerRun, PerTriangle};
 pub use draw::Paint;
 pub use edge::{Edge, EdgeInt, FITS_I32};
 pub use fragment::{FragmentStage, Fragments};

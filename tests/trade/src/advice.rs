@@ -177,8 +177,38 @@ pub fn page(all: &[Found]) -> String {
             "| {scene} | {name} | {budget} | {pick} | {error:.3}{excess} | {cost} | {ratio:.3} | {best} | {seconds:.1} |"
         );
     }
-    text
+    text + JSON
 }
+
+const JSON: &str = "
+## One line of JSON
+
+`alberti advise --json` prints one object on one line:
+
+| key | meaning |
+|---|---|
+| `max_error` | the budget |
+| `target` | the machine: `host`, `m4f`, `m0` or `rv32` |
+| `pick` | the cheapest way within the budget, a row as below |
+| `rust` | the lines of a program that select it |
+| `trials` | all ways that were tried, a row each, the cheapest first |
+| `waste` | what the scene pays for nothing, a sentence each |
+
+A row is an object with these keys:
+
+| key | meaning |
+|---|---|
+| `options` | those of the command line that select it |
+| `ms` | milliseconds of a frame; on the host only |
+| `instructions` | of a frame, by the model; on chips only |
+| `flash` | bytes of code; on chips only |
+| `ram` | bytes of both buffers, a slot for each vertex, and on chips the stack |
+| `time` | the frame's cost as a share of the most precise policies' |
+| `error` | in the budget's unit; `null` if the picture is equal (PSNR) or something else is seen (texels) |
+| `largest` | the largest difference of a byte of any pixel |
+| `within` | whether the budget is kept |
+| `front` | whether no other way is as cheap and as right |
+";
 
 /// The values of options without their names.
 fn short(options: &str) -> String {

@@ -68,12 +68,9 @@ impl Candidate {
     #[must_use]
     pub fn command_line(self) -> String {
         let Self { interpolation, arithmetic, .. } = self;
-        let arithmetic = match arithmetic {
-            Arithmetic::Float => "float",
-            Arithmetic::Fixed => "fixed",
-        };
         format!(
-            "--interpolation {interpolation} --arithmetic {arithmetic} --depth {} --subpixel {}",
+            "--interpolation {interpolation} --arithmetic {} --depth {} --subpixel {}",
+            arithmetic_name(arithmetic),
             depth_name(self.depth),
             subpixel_bits(self.subpixel),
         )
@@ -82,19 +79,15 @@ impl Candidate {
     /// The lines of a program for a machine that select it. `side` is that of the largest texture.
     #[must_use]
     pub fn rust(self, machine: Machine, side: u16) -> String {
-        let lines = match self.interpolation {
-            Interpolation::Exact => "Exact".to_owned(),
-            Interpolation::Plane => "Planes".to_owned(),
-            Interpolation::Spans(SpanLength::Sixteen) => "Spans16".to_owned(),
+        let (kind, lines) = match self.interpolation {
+            Interpolation::Exact => ("Exact", "Exact".to_owned()),
+            Interpolation::Plane => ("Planes", "Planes".to_owned()),
+            Interpolation::Spans(SpanLength::Sixteen) => ("Spans16", "Spans16".to_owned()),
             Interpolation::Spans(length) => {
-                format!("Lines::spans({}).expect(\"a power of two\")", length.columns())
+                ("Lines", format!("Lines::spans({}).expect(\"a power of two\")", length.columns()))
             }
-            Interpolation::Bounded(texels) => format!("Lines::bounded_texels({texels:?}, {side})"),
-            Interpolation::Affine => "Affine".to_owned(),
-        };
-        let interpolation = match self.arithmetic {
-            Arithmetic::Float => lines,
-            Arithmetic::Fixed => format!("FixedPoint({lines})"),
+            Interpolation::Bounded(texels) => ("Lines", format!("Lines::bounded_texels({texels:?}, {side})")),
+            Interpolation::Affine => ("Affine", "Affine".to_owned()),
         };
         let depth = match self.depth {
             DepthFormat::F32 => "F32",
@@ -104,16 +97,42 @@ impl Candidate {
             DepthFormat::U16 => "D16",
             DepthFormat::None => "NoDepth",
         };
-        let (color, draw) = if machine.is_chip() {
-            ("Rgb565Le", "slots(&mut slots).draw_by(One, &mut target)")
-        } else {
-            ("Rgba8888", "draw(&mut target)")
+        let grid = match self.subpixel {
+            Subpixel::Sub4 => "Sub4",
+            Subpixel::Sub8 => "Sub8",
         };
-        let bits = subpixel_bits(self.subpixel);
+        let color = if machine.is_chip() { "Rgb565Le" } else { "Rgba8888" };
+        let mut names = vec!["Pass", "Target", kind, depth, grid, color];
+        let interpolation = match self.arithmetic {
+            Arithmetic::Float => lines,
+            Arithmetic::Fixed => {
+                names.push("FixedPoint");
+                format!("FixedPoint({lines})")
+            }
+        };
+        names.sort_unstable();
+        let (lanes, draw) = if machine.is_chip() {
+            ("use alberti::lanes::One;\n", ".slots(&mut slots)\n    .draw_by(One, &mut target)")
+        } else {
+            ("", ".draw(&mut target)")
+        };
         format!(
-            "let mut target = Target::new({color}, {depth}, width, height, &mut color, &mut depth)?;\n\
-             Pass::new(&view, &mesh, stage).interpolation({interpolation}).subpixel(Sub{bits}).{draw};\n",
+            "{lanes}use alberti::{{{}}};\n\n\
+             let mut target = Target::new({color}, {depth}, width, height, &mut color, &mut depth)?;\n\
+             Pass::new(&view, &mesh, stage)\n    \
+             .interpolation({interpolation})\n    \
+             .subpixel({grid})\n    \
+             {draw};\n",
+            names.join(", "),
         )
+    }
+}
+
+/// The name of an arithmetic among the options.
+pub(super) fn arithmetic_name(arithmetic: Arithmetic) -> &'static str {
+    match arithmetic {
+        Arithmetic::Float => "float",
+        Arithmetic::Fixed => "fixed",
     }
 }
 
@@ -178,6 +197,7 @@ fn lines() -> Vec<Candidate> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use alberti::{FragmentStage, Geometry, Slot, View};
 
     #[test]
     fn every_policy_is_there_once_and_differs_in_one_thing() {
@@ -209,14 +229,114 @@ mod tests {
             candidate.command_line(),
             "--interpolation bounded:0.25 --arithmetic fixed --depth u16 --subpixel 4"
         );
-        for (machine, own) in [
-            (Machine::Host, ["Target::new(Rgba8888, D16", ".draw(&mut target)"]),
-            (Machine::M0, ["Target::new(Rgb565Le, D16", ".draw_by(One, &mut target)"]),
-        ] {
-            let rust = candidate.rust(machine, 256);
-            for part in own.into_iter().chain(["FixedPoint(Lines::bounded_texels(0.25, 256))", "Sub4"]) {
-                assert!(rust.contains(part), "{rust}");
+        let rust = candidate.rust(Machine::Host, 256);
+        for part in ["Target::new(Rgba8888, D16", "FixedPoint(Lines::bounded_texels(0.25, 256))", "Sub4"] {
+            assert!(rust.contains(part), "{rust}");
+        }
+    }
+
+    /// A program that the compiler has read, and its text.
+    macro_rules! compiled {
+        (($($name:ident: $type:ty),*) $($line:tt)*) => {{
+            #[expect(dead_code, unused_mut, reason = "it is compiled, not run")]
+            #[allow(clippy::too_many_arguments, reason = "some programs have more than others")]
+            fn program($(mut $name: $type),*) -> Result<(), alberti::TargetError> {
+                $($line)*
+                Ok(())
             }
+            stringify!($($line)*)
+        }};
+    }
+
+    /// Policies of one kind that the compiler has read, as text.
+    macro_rules! policies {
+        ($is:path: $($policy:expr),* $(,)?) => {{
+            fn check(_: impl $is) {}
+            $(check($policy);)*
+            [$(stringify!($policy)),*].map(plain)
+        }};
+    }
+
+    /// A text without spaces, and without the comma that closes a list.
+    fn plain(text: &str) -> String {
+        text.replace(char::is_whitespace, "").replace(",}", "}")
+    }
+
+    #[test]
+    fn programs_are_compiled() {
+        let host = compiled! {
+            (width: u32, height: u32, color: [u32; 16], depth: [f32; 16], view: View,
+             mesh: impl Geometry<Varying = ()>, stage: impl FragmentStage<()>)
+            use alberti::{Exact, F32Reversed, Pass, Rgba8888, Sub8, Target};
+
+            let mut target = Target::new(Rgba8888, F32Reversed, width, height, &mut color, &mut depth)?;
+            Pass::new(&view, &mesh, stage)
+                .interpolation(Exact)
+                .subpixel(Sub8)
+                .draw(&mut target);
+        };
+        let chip = compiled! {
+            (width: u32, height: u32, color: [u16; 16], depth: [u16; 16], slots: [Slot<()>; 3], view: View,
+             mesh: impl Geometry<Varying = ()>, stage: impl FragmentStage<()>)
+            use alberti::lanes::One;
+            use alberti::{D16, FixedPoint, Pass, Rgb565Le, Spans16, Sub4, Target};
+
+            let mut target = Target::new(Rgb565Le, D16, width, height, &mut color, &mut depth)?;
+            Pass::new(&view, &mesh, stage)
+                .interpolation(FixedPoint(Spans16))
+                .subpixel(Sub4)
+                .slots(&mut slots)
+                .draw_by(One, &mut target);
+        };
+        let small = Candidate {
+            interpolation: Interpolation::Spans(SpanLength::Sixteen),
+            arithmetic: Arithmetic::Fixed,
+            subpixel: Subpixel::Sub4,
+            depth: DepthFormat::U16,
+        };
+        assert_eq!(plain(&Candidate::MOST_PRECISE.rust(Machine::Host, 64)), plain(host));
+        assert_eq!(plain(&small.rust(Machine::M4f, 64)), plain(chip));
+    }
+
+    #[test]
+    fn policies_are_compiled() {
+        use alberti::*;
+        let interpolations = policies![
+            alberti::Interpolation: Exact,
+            Planes,
+            Spans16,
+            Lines::spans(4).expect("a power of two"),
+            Lines::spans(8).expect("a power of two"),
+            Lines::spans(32).expect("a power of two"),
+            Lines::bounded_texels(0.0625, 64),
+            Lines::bounded_texels(0.25, 64),
+            Lines::bounded_texels(1.0, 64),
+            Affine,
+        ];
+        let depths = policies![alberti::DepthFormat: F32, F32Reversed, D32, D24, D16, NoDepth];
+        let grids = policies![Into<alberti::Subpixel>: Sub4, Sub8];
+        for candidate in combined() {
+            let text = plain(&candidate.rust(Machine::M0, 64));
+            let between = |from: &str, to: &str| {
+                let (_, rest) = text.split_once(from).expect(from);
+                rest.split_once(to).expect(to).0.to_owned()
+            };
+            let lines = between(".interpolation(", ").subpixel(");
+            let inner = lines.strip_prefix("FixedPoint(").and_then(|lines| lines.strip_suffix(')'));
+            assert_eq!(inner.is_some(), candidate.arithmetic == Arithmetic::Fixed, "{text}");
+            let depth = between("Target::new(Rgb565Le,", ",width");
+            let grid = between(".subpixel(", ")");
+            let lines = inner.unwrap_or(&lines);
+            assert!(interpolations.iter().any(|known| known == lines), "{lines}");
+            assert!(depths.contains(&depth) && grids.contains(&grid), "{text}");
+            // Each name is imported.
+            let imported = between("usealberti::{", "};");
+            let imported: Vec<&str> = imported.split(',').collect();
+            let kind = lines.split(|c: char| !c.is_alphanumeric()).next().expect("a name");
+            for name in [kind, &depth, &grid, "Pass", "Target", "Rgb565Le"] {
+                assert!(imported.contains(&name), "{name} is not among {imported:?}");
+            }
+            assert_eq!(imported.contains(&"FixedPoint"), inner.is_some());
         }
     }
 }

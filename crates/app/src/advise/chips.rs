@@ -5,10 +5,10 @@
 //! differences from that, which add up.
 
 use super::Work;
-use super::candidate::{Candidate, depth_name};
+use super::candidate::{Candidate, arithmetic_name, depth_name};
 use super::machine::{Machine, subpixel_bits};
 use crate::error::{Error, quote};
-use crate::options::{Arithmetic, Filter, Interpolation};
+use crate::options::{Arithmetic, Filter, Interpolation, Lod};
 use std::collections::HashMap;
 
 /// The table.
@@ -24,7 +24,7 @@ fn header() -> String {
 }
 
 /// The names of each kind, the first that of the kind's base but for `lines`, which has none.
-const KINDS: [(&str, bool, &[&str]); 7] = [
+const KINDS: [(&str, bool, &[&str]); 8] = [
     (
         "lines",
         false,
@@ -49,7 +49,12 @@ const KINDS: [(&str, bool, &[&str]); 7] = [
     ("fixed depth", true, &["u16", "f32", "f32-reversed", "u32", "u24", "none"]),
     ("float subpixel", true, &["4", "8"]),
     ("fixed subpixel", true, &["4", "8"]),
-    ("filter", true, &["nearest", "bilinear", "trilinear"]),
+    (
+        "float filter",
+        true,
+        &["nearest", "bilinear", "trilinear:pixel", "trilinear:run", "trilinear:triangle"],
+    ),
+    ("fixed filter", true, &["nearest", "bilinear", "trilinear:run", "trilinear:triangle"]),
     // How far estimates were off, in percent, where other lines have the instructions of a frame.
     ("off", false, &["median", "most", "worst"]),
 ];
@@ -96,30 +101,21 @@ pub(super) struct Chip(HashMap<(&'static str, &'static str), Coefficients>);
 
 impl Chip {
     /// The sum for a way of drawing; `None` if the chip has no such.
-    pub(super) fn cost(&self, candidate: Candidate, filter: Filter) -> Option<Coefficients> {
+    pub(super) fn cost(&self, candidate: Candidate, filter: Filter, lod: Lod) -> Option<Coefficients> {
         let lines = self.get("lines", &lines_name(candidate))?;
-        let arithmetic = arithmetic_name(candidate);
+        let arithmetic = arithmetic_name(candidate.arithmetic);
         let depth = self.get(&format!("{arithmetic} depth"), depth_name(candidate.depth))?;
         let bits = subpixel_bits(candidate.subpixel).to_string();
         let grid = self.get(&format!("{arithmetic} subpixel"), &bits)?;
-        Some(lines.plus(depth).plus(grid).plus(self.filter(filter)?))
+        let filter =
+            self.get(&format!("{arithmetic} filter"), filter_name(filter, candidate.arithmetic, lod)?)?;
+        Some(lines.plus(depth).plus(grid).plus(filter))
     }
 
     /// How far it is off.
     pub(super) fn off(&self) -> Option<Off> {
         let of = |name| Some(self.get("off", name)?.counts[0]);
         Some(Off { median: of("median")?, most: of("most")?, worst: of("worst")? })
-    }
-
-    /// The difference that a filter makes.
-    pub(super) fn filter(&self, filter: Filter) -> Option<&Coefficients> {
-        let name = match filter {
-            Filter::Nearest => "nearest",
-            Filter::Bilinear => "bilinear",
-            Filter::Trilinear => "trilinear",
-            Filter::Anisotropic(_) => return None,
-        };
-        self.get("filter", name)
     }
 
     fn get(&self, kind: &str, name: &str) -> Option<&Coefficients> {
@@ -131,17 +127,24 @@ impl Chip {
 
 /// The name of a candidate's interpolation and arithmetic in the table.
 fn lines_name(candidate: Candidate) -> String {
-    let arithmetic = arithmetic_name(candidate);
+    let arithmetic = arithmetic_name(candidate.arithmetic);
     match candidate.interpolation {
         Interpolation::Bounded(_) => format!("{arithmetic} bounded"),
         interpolation => format!("{arithmetic} {interpolation}"),
     }
 }
 
-fn arithmetic_name(candidate: Candidate) -> &'static str {
-    match candidate.arithmetic {
-        Arithmetic::Float => "float",
-        Arithmetic::Fixed => "fixed",
+/// The name of a filter in the table, if it is there. Fixed point finds no level of detail for each pixel.
+fn filter_name(filter: Filter, arithmetic: Arithmetic, lod: Lod) -> Option<&'static str> {
+    match filter {
+        Filter::Nearest => Some("nearest"),
+        Filter::Bilinear => Some("bilinear"),
+        Filter::Trilinear => Some(match (lod, arithmetic) {
+            (Lod::Triangle, _) => "trilinear:triangle",
+            (Lod::Run, _) | (_, Arithmetic::Fixed) => "trilinear:run",
+            (Lod::Pixel, Arithmetic::Float) => "trilinear:pixel",
+        }),
+        Filter::Anisotropic(_) => None,
     }
 }
 
@@ -231,7 +234,9 @@ mod tests {
     fn the_table_is_complete() {
         let chips = parse(TABLE).expect("a table without faults");
         for chip in [Machine::M4f, Machine::M0, Machine::Rv32] {
-            assert!(chips[chip.name()].cost(Candidate::MOST_PRECISE, Filter::Trilinear).is_some());
+            assert!(
+                chips[chip.name()].cost(Candidate::MOST_PRECISE, Filter::Trilinear, Lod::Pixel).is_some()
+            );
         }
     }
 
@@ -260,8 +265,8 @@ mod tests {
         lines[line] = "m0,lines,fixed spans:8,1,2,3,5,9,8,6,7,11,17,0.5,0.25,0.125,13,19,1000,300".to_owned();
         let line = at(&lines, "m0,fixed depth,none,");
         lines[line] = "m0,fixed depth,none,0.5,0,0,0,0,0,0,0,0,-2,0,0,0,0,-1,-100,-8".to_owned();
-        let line = at(&lines, "m0,filter,bilinear,");
-        lines[line] = "m0,filter,bilinear,0,0,0,0,0,0,0,0,0,0,0,0,0,0,40,500,16".to_owned();
+        let line = at(&lines, "m0,fixed filter,bilinear,");
+        lines[line] = "m0,fixed filter,bilinear,0,0,0,0,0,0,0,0,0,0,0,0,0,0,40,500,16".to_owned();
         let chips = parse(&lines.join("\n")).expect("a table");
         let candidate = Candidate {
             interpolation: Interpolation::Spans(SpanLength::Eight),
@@ -269,7 +274,7 @@ mod tests {
             subpixel: Subpixel::Sub4,
             depth: DepthFormat::None,
         };
-        let cost = chips["m0"].cost(candidate, Filter::Bilinear).expect("a cost");
+        let cost = chips["m0"].cost(candidate, Filter::Bilinear, Lod::Pixel).expect("a cost");
         assert_eq!((cost.flash, cost.stack), (1400.0, 308.0));
         let work = Work {
             vertices: 10.0,
@@ -285,7 +290,8 @@ mod tests {
         assert_eq!(differences(1.0).plus(&differences(-2.0)).frame(&work), 0.0);
         // 1.5 + 20 + 60 + 5 + (18 + 32 + 48) + (105 + 1100 + 15000) + (8 + 8 + 8) + 2600 + 58 · 600
         assert_eq!(cost.frame(&work), 53_813.5);
-        assert!(chips["m0"].cost(candidate, Filter::Anisotropic(crate::options::Probes::Two)).is_none());
+        let anisotropic = Filter::Anisotropic(crate::options::Probes::Two);
+        assert!(chips["m0"].cost(candidate, anisotropic, Lod::Pixel).is_none());
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::Work;
 use super::candidate::Candidate;
 use super::chips::{Chip, Off, chip};
 use crate::error::Error;
-use crate::options::{DepthFormat, RenderOptions, Subpixel};
+use crate::options::{DepthFormat, Filter, RenderOptions, Subpixel};
 use crate::scene::Model;
 use clap::ValueEnum;
 
@@ -68,18 +68,17 @@ impl Costs {
         if machine == Machine::Host {
             return Ok(Self { chip: None });
         }
-        let chip = chip(machine)?;
-        if chip.filter(options.filter).is_none() {
+        if matches!(options.filter, Filter::Anisotropic(_)) {
             return Err(Error::new("an anisotropic filter", "nearest, bilinear or trilinear")
-                .place("--machine")
-                .hint("chips are advised on with these: choose one with --filter"));
+                .place("--filter")
+                .hint("chips are advised on with these"));
         }
-        Ok(Self { chip: Some(chip) })
+        Ok(Self { chip: Some(chip(machine)?) })
     }
 
     /// The cost on a chip of a frame with this work, if there is a chip, and it can draw so.
     pub(super) fn of(&self, candidate: Candidate, options: &RenderOptions, work: &Work) -> Option<Cost> {
-        let known = self.chip.as_ref()?.cost(candidate, options.filter)?;
+        let known = self.chip.as_ref()?.cost(candidate, options.filter, options.policies.lod)?;
         Some(Cost {
             frame: known.frame(work),
             flash: known.flash,
@@ -94,7 +93,8 @@ impl Costs {
 
     /// Whether it can be drawn so.
     pub(super) fn has(&self, candidate: Candidate, options: &RenderOptions) -> bool {
-        self.chip.as_ref().is_none_or(|chip| chip.cost(candidate, options.filter).is_some())
+        let RenderOptions { filter, policies, .. } = *options;
+        self.chip.as_ref().is_none_or(|chip| chip.cost(candidate, filter, policies.lod).is_some())
     }
 
     /// Bytes of buffers and vertices.

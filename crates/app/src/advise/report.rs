@@ -143,7 +143,7 @@ struct Document {
     waste: Vec<String>,
 }
 
-/// The advice as one JSON object on one line.
+/// The advice as one JSON object on one line. docs/advice.md has the meaning of its keys.
 #[must_use]
 pub fn json(advice: &Advice, wastes: &[Waste], side: u16) -> String {
     let Wish { budget, machine, .. } = advice.wish;

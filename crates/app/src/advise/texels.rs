@@ -2,10 +2,10 @@
 
 use crate::measure::{MOST, percentile};
 use crate::probe::{Probes, Seen};
-use crate::scene::Model;
+use crate::scene::{COLOR_STEPS, Model};
 
-/// The 99.9 % percentile over the pixels on which either drawing shows something: in texels of the part's texture, or
-/// of 256 where it has none.
+/// The 99.9 % percentile over the pixels on which either drawing shows something, in texels of the part's texture. A
+/// part without one counts as having as many texels along a side as a colour has steps.
 ///
 /// Where both show the same part, texture coordinates are compared, whichever triangles they are on: beyond an edge
 /// within a surface they go on nearly the same. Another part, or the background, is beyond every budget, and so is
@@ -33,7 +33,7 @@ fn apart(right: &Seen, found: &Seen, sides: [f64; 2]) -> f64 {
 
 fn sides(model: &Model, texture: Option<usize>) -> [f64; 2] {
     let image = texture.and_then(|index| model.textures.get(index));
-    image.map_or([256.0; 2], |image| [image.width, image.height].map(f64::from))
+    image.map_or([f64::from(COLOR_STEPS); 2], |image| [image.width, image.height].map(f64::from))
 }
 
 #[cfg(test)]

@@ -29,8 +29,16 @@ Examples:
 /// The options on which there is advice.
 pub(super) const ADVISED_ON: [&str; 4] = ["interpolation", "arithmetic", "depth", "subpixel"];
 
+/// The heading of its own options.
+const OWN: &str = "Advice";
+
 /// The most cameras of a turntable.
 const MAX_TURNS: u32 = 360;
+
+fn turns(text: &str) -> Result<u32, String> {
+    let turns = text.parse().ok().filter(|turns| (1..=MAX_TURNS).contains(turns));
+    turns.ok_or_else(|| format!("an integer from 1 to {MAX_TURNS}"))
+}
 
 /// The options of `alberti advise`: those of `render`, and these.
 #[derive(Clone, Debug, Args)]
@@ -45,30 +53,31 @@ pub struct AdviseArgs {
         long,
         value_name = "0.5texel|2lsb|0.01flip|40db",
         allow_hyphen_values = true,
-        default_value = "2lsb"
+        default_value = "2lsb",
+        help_heading = OWN
     )]
     pub max_error: MaxError,
 
     /// Machine that is to draw. This one is timed. Instructions of chips are a model's, for a textured, unlit mesh with
     /// the scene's own counts of vertices, rows and fragments; errors are those of any machine. `--target MACHINE` is
     /// the same.
-    #[arg(long, value_enum, value_name = "MACHINE", default_value_t = Machine::Host)]
+    #[arg(long, value_enum, value_name = "MACHINE", default_value_t = Machine::Host, help_heading = OWN)]
     pub machine: Machine,
 
     /// Try all combinations, not only the promising ones: some 200 frames instead of 50.
-    #[arg(long)]
+    #[arg(long, help_heading = OWN)]
     pub thorough: bool,
 
     /// Write the picture of the pick, the right one and their difference into this folder.
-    #[arg(long, value_name = "FOLDER")]
+    #[arg(long, value_name = "FOLDER", help_heading = OWN)]
     pub image: Option<PathBuf>,
 
     /// Look for triangles that are never seen from N cameras around the target.
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_TURNS)))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = turns, help_heading = OWN)]
     pub turntable: u32,
 
-    /// Print one line of JSON instead of the table.
-    #[arg(long)]
+    /// Print one line of JSON instead of the table; docs/advice.md has its keys.
+    #[arg(long, help_heading = OWN)]
     pub json: bool,
 }
 
@@ -144,7 +153,7 @@ fn advise_and_print(arguments: &AdviseArgs, request: &Request) -> Result<(), Err
     if let Some(outputs) = outputs {
         write(&advice, outputs)?;
     }
-    let side = largest_side(&model);
+    let side = model.largest_side();
     print(&if arguments.json {
         format!("{}\n", json(&advice, &wastes, side))
     } else {
@@ -166,12 +175,6 @@ fn write(advice: &Advice, [pick, right, difference]: [Output; 3]) -> Result<(), 
     pick.write(found)?;
     right.write(reference)?;
     difference.write(&Comparison::new(found, reference)?.heat())
-}
-
-/// The longest side of the model's textures.
-fn largest_side(model: &Model) -> u16 {
-    let sides = model.textures.iter().map(|t| t.width.max(t.height));
-    sides.max().and_then(|side| side.try_into().ok()).unwrap_or(255)
 }
 
 #[cfg(test)]

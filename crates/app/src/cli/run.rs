@@ -26,9 +26,12 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let mut command = Cli::command()
         .mut_subcommand("explain", |command| hidden(command, &OF_PICTURES))
         .mut_subcommand("advise", |command| hidden(hidden(command, &OF_PICTURES), &advise::ADVISED_ON));
-    let matches = match command.try_get_matches_from_mut(advise::with_machine(arguments)) {
+    let given: Vec<OsString> = arguments.into_iter().collect();
+    let read = advise::with_machine(given.clone());
+    let renamed = read != given;
+    let matches = match command.try_get_matches_from_mut(read) {
         Ok(matches) => matches,
-        Err(error) => return usage(&error),
+        Err(error) => return usage(&error, renamed),
     };
     let result = match matches.subcommand() {
         Some(("advise", scene)) => advise::run(scene),
@@ -44,8 +47,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 }
 
 /// Help and version are no errors. A value that cannot be read gets one line like any other input; for words that
-/// are not options, clap's suggestions are better.
-fn usage(error: &clap::Error) -> u8 {
+/// are not options, clap's suggestions are better. `renamed` says that the machine was given as a target.
+fn usage(error: &clap::Error, renamed: bool) -> u8 {
     let expected = match error.kind() {
         ErrorKind::ValueValidation => std::error::Error::source(error).map(ToString::to_string),
         ErrorKind::InvalidValue => error.get(ContextKind::ValidValue).map(one_of),
@@ -55,7 +58,10 @@ fn usage(error: &clap::Error) -> u8 {
     if let (Some(option), Some(value), Some(expected)) =
         (context(ContextKind::InvalidArg), context(ContextKind::InvalidValue), expected)
     {
-        let option = option.split(' ').next().unwrap_or_default();
+        let option = match option.split(' ').next().unwrap_or_default() {
+            "--machine" if renamed => "--target",
+            option => option,
+        };
         return fail(&Error::new(quote(value.as_bytes()), expected).place(option).hint("see --help"));
     }
     // A closed pipe cannot be told about.

@@ -4,7 +4,7 @@
 //! the derivatives there are only those of the texture coordinates. No stage discards.
 
 use alberti::lanes::{Floating, Lanes, OneFixed};
-use alberti::raster::{Gradient, PerPixel};
+use alberti::raster::{AnyDerivatives, Gradient};
 use alberti::shaders::material::Framed;
 use alberti::{FragmentStage, Fragments, Homogeneous, Q16, Rgba8, Varying};
 
@@ -39,6 +39,7 @@ struct Handed<N: Copy> {
 #[derive(Clone, Copy)]
 pub(super) struct Erased<'a, L: Lanes + 'a> {
     lanes: L,
+    derivatives: AnyDerivatives,
     shade: &'a Shade<'a, L>,
 }
 
@@ -47,6 +48,7 @@ type Shade<'a, L> = dyn Fn(&Handed<<L as Lanes>::Each<f32>>) -> <L as Lanes>::Ea
 /// Calls `then` with `stage`, behind a pointer.
 pub(super) fn erase<L: Floating>(
     lanes: L,
+    derivatives: AnyDerivatives,
     stage: impl FragmentStage<Attributes, Color = Rgba8> + Sync,
     then: impl FnOnce(Erased<'_, L>),
 ) {
@@ -62,13 +64,17 @@ pub(super) fn erase<L: Floating>(
             },
         )
     };
-    then(Erased { lanes, shade: &shade });
+    then(Erased { lanes, derivatives, shade: &shade });
 }
 
 impl<L: Lanes> FragmentStage<Attributes> for Erased<'_, L> {
     type Color = Rgba8;
-    type Derivatives = PerPixel;
+    type Derivatives = AnyDerivatives;
     const WIDE: bool = false;
+
+    fn derivatives(&self) -> AnyDerivatives {
+        self.derivatives
+    }
 
     /// `M` is `L` under another name, or fewer.
     #[inline(always)]
@@ -91,10 +97,14 @@ impl<L: Lanes> FragmentStage<Attributes> for Erased<'_, L> {
 
 /// A stage for one sample in fixed point.
 #[derive(Clone, Copy)]
-pub(super) struct ErasedFixed<'a>(&'a (dyn Fn(&Handed<Q16>) -> u32 + Sync));
+pub(super) struct ErasedFixed<'a> {
+    derivatives: AnyDerivatives,
+    shade: &'a (dyn Fn(&Handed<Q16>) -> u32 + Sync),
+}
 
 /// Calls `then` with `stage` in fixed point, behind a pointer.
 pub(super) fn erase_fixed(
+    derivatives: AnyDerivatives,
     stage: impl FragmentStage<Attributes, Color = Rgba8> + Sync,
     then: impl FnOnce(ErasedFixed<'_>),
 ) {
@@ -102,12 +112,16 @@ pub(super) fn erase_fixed(
         let gradient = gradient.map(|uv| with_uv(OneFixed, &varying, uv));
         stage.shade(&Fragments { lanes: OneFixed, varying, gradient, mask: mask != 0, place }).0.0
     };
-    then(ErasedFixed(&shade));
+    then(ErasedFixed { derivatives, shade: &shade });
 }
 
 impl FragmentStage<Attributes> for ErasedFixed<'_> {
     type Color = Rgba8;
-    type Derivatives = PerPixel;
+    type Derivatives = AnyDerivatives;
+
+    fn derivatives(&self) -> AnyDerivatives {
+        self.derivatives
+    }
 
     #[inline(always)]
     fn shade<M: Lanes>(&self, fragments: &Fragments<M, Attributes>) -> (M::U32, M::Mask) {
@@ -120,7 +134,7 @@ impl FragmentStage<Attributes> for ErasedFixed<'_> {
             let at = |words: M::Each<u32>| {
                 Q16::from_bits(words.as_ref().get(k).copied().unwrap_or_default().cast_signed())
             };
-            (self.0)(&Handed {
+            (self.shade)(&Handed {
                 varying: Attributes::map(&carried, &at),
                 gradient: gradient.map(|uv| uv.map(at)),
                 mask: samples >> k & 1,

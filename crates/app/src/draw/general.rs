@@ -144,14 +144,14 @@ impl<'a> Drawing<'a> {
         let (mut stats, threads) = (Stats::default(), self.options.threads);
         let (policies, lines) = (self.options.policies, self.lines());
         if let (Some(lines), Arithmetic::Fixed) = (lines, policies.arithmetic) {
-            erase_fixed(stage, |stage| {
+            erase_fixed(self.derivatives(), stage, |stage| {
                 let pass = self.pass(mesh, stage, &mut slots).interpolation(FixedPoint(lines));
                 { pass }.count_by_threads(One, threads, &mut room, target, &mut stats);
             });
             return stats;
         }
         let Some(machine) = Machine::all().next() else { return stats };
-        for_lanes!(machine, lanes => erase(lanes, stage, |stage| {
+        for_lanes!(machine, lanes => erase(lanes, self.derivatives(), stage, |stage| {
             let mut pass = self.pass(mesh, stage, &mut slots);
             let (room, stats) = (&mut room, &mut stats);
             match (policies.interpolation, lines) {
@@ -172,14 +172,8 @@ impl<'a> Drawing<'a> {
         match self.options.policies.interpolation {
             Interpolation::Exact | Interpolation::Plane => None,
             Interpolation::Spans(length) => Lines::spans(length.columns()),
-            Interpolation::Bounded(texels) => Some(Lines::bounded_texels(texels, self.largest_side())),
+            Interpolation::Bounded(texels) => Some(Lines::bounded_texels(texels, self.model.largest_side())),
             Interpolation::Affine => Some(Lines::affine()),
         }
-    }
-
-    /// The longest side of the model's textures, or, without any, the steps of a colour.
-    pub(crate) fn largest_side(&self) -> u16 {
-        let sides = self.textures.iter().map(|t| t.width().max(t.height()));
-        sides.max().and_then(|side| side.try_into().ok()).unwrap_or(255)
     }
 }

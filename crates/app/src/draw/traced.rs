@@ -16,7 +16,7 @@ use crate::render::any_depth;
 use crate::scene::{Part, Vertex};
 use alberti::glam::Vec3;
 use alberti::lanes::{Lanes, One, OneFixed};
-use alberti::raster::{Corner, Numbers, PerPixel};
+use alberti::raster::{AnyDerivatives, Corner, Numbers};
 use alberti::texture::Clamp;
 use alberti::{
     AnyProjection, Cull, DepthFormat as _, Fixed, FixedPoint, FragmentStage, Fragments, Geometry, Gradient,
@@ -114,7 +114,7 @@ impl<'a> Drawing<'a> {
         let format = TracedDepth(any_depth(self.options.depth));
         let width = self.options.width as usize;
         let (mut color, mut depth) = (vec![0; width], vec![Trace::cleared(format.0); width]);
-        let records = RefCell::new(Vec::new());
+        let (derivatives, records) = (self.derivatives(), RefCell::new(Vec::new()));
         for (number, part) in self.model.parts.iter().enumerate() {
             let dressed = self.dressed(part);
             for (triangle, indices) in part.triangles.iter().enumerate() {
@@ -127,7 +127,13 @@ impl<'a> Drawing<'a> {
                 let mut pixel = target.scissor(columns, rows);
                 let mesh =
                     Mesh::new(&vertices, &ONE_TRIANGLE, |v: &Vertex| (position(v), dressed.attributes(v)));
-                self.draw_traced(&mesh, Recorder(&records), cull, &mut pixel, &mut traced.stats);
+                self.draw_traced(
+                    &mesh,
+                    Recorder { derivatives, records: &records },
+                    cull,
+                    &mut pixel,
+                    &mut traced.stats,
+                );
                 let records = records.borrow_mut().drain(..).collect::<Vec<Record>>();
                 if records.is_empty() {
                     continue;
@@ -324,11 +330,18 @@ struct Record {
 
 /// A stage that writes them down.
 #[derive(Clone, Copy)]
-struct Recorder<'a>(&'a RefCell<Vec<Record>>);
+struct Recorder<'a> {
+    derivatives: AnyDerivatives,
+    records: &'a RefCell<Vec<Record>>,
+}
 
 impl FragmentStage<Attributes> for Recorder<'_> {
     type Color = Rgba8;
-    type Derivatives = PerPixel;
+    type Derivatives = AnyDerivatives;
+
+    fn derivatives(&self) -> AnyDerivatives {
+        self.derivatives
+    }
 
     /// One lane is all that is drawn with.
     #[inline(always)]
@@ -342,7 +355,7 @@ impl FragmentStage<Attributes> for Recorder<'_> {
             lanes.store(number).as_ref().first().map_or(0, |float: &f32| float.to_bits())
         };
         let all = |bundle: Bundle<L::Number>| Attributes::map(&bundle, &bits);
-        self.0.borrow_mut().push(Record { varying: all(*varying), gradient: gradient.map(all) });
+        self.records.borrow_mut().push(Record { varying: all(*varying), gradient: gradient.map(all) });
         (lanes.word(0), *mask)
     }
 }

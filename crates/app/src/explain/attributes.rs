@@ -92,7 +92,7 @@ impl Scene<'_> {
                 (line + 15.0 * EPSILON * greatest, length.columns())
             }
             Interpolation::Bounded(texels) => {
-                let budget = f64::from(texels / f32::from(self.drawing.largest_side().max(1)));
+                let budget = f64::from(texels / f32::from(self.drawing.model.largest_side().max(1)));
                 let least = if self.is_fixed() { 4.0 / 65536.0 } else { 0.0 };
                 (budget.max(least) + 19.0 * EPSILON * greatest, Lines::LONGEST)
             }

@@ -2,7 +2,7 @@
 
 use super::{Journey, explain, explain_each, theory};
 use crate::options::{
-    Arithmetic, ColorFormat, Cull, DepthFormat, Filter, Interpolation, Policies, Probes, Projection,
+    Arithmetic, ColorFormat, Cull, DepthFormat, Filter, Interpolation, Lod, Policies, Probes, Projection,
     RenderOptions, Shading, SpanLength, Subpixel, Wrap,
 };
 use crate::scene::surfaces::Surface;
@@ -46,14 +46,15 @@ fn policies() -> Vec<(Policies, DepthFormat)> {
         arithmetic: Arithmetic::Fixed,
         color: ColorFormat::Rgb565,
         subpixel,
+        lod: if interpolation == Affine { Lod::Triangle } else { Lod::Pixel },
     };
     vec![
         (float(Exact), DepthFormat::F32Reversed),
         (Policies { subpixel: Subpixel::Sub4, ..float(Exact) }, DepthFormat::U32),
-        (float(Plane), DepthFormat::U24),
+        (Policies { lod: Lod::Run, ..float(Plane) }, DepthFormat::U24),
         (float(Spans(SpanLength::Eight)), DepthFormat::F32),
         (float(Bounded(0.0625)), DepthFormat::U16),
-        (float(Affine), DepthFormat::None),
+        (Policies { lod: Lod::Triangle, ..float(Affine) }, DepthFormat::None),
         (fixed(Spans(SpanLength::Sixteen), Subpixel::Sub4), DepthFormat::U16),
         (fixed(Bounded(0.25), Subpixel::Sub8), DepthFormat::F32Reversed),
         (fixed(Affine, Subpixel::Sub4), DepthFormat::None),

@@ -138,6 +138,18 @@ pub enum Subpixel {
     Sub8,
 }
 
+/// The places at which levels of detail are found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
+pub enum Lod {
+    /// At each pixel; in fixed point as for run.
+    #[default]
+    Pixel,
+    /// In the middle of each run: a row of a triangle, or a straight line of it.
+    Run,
+    /// In the middle of each triangle.
+    Triangle,
+}
+
 /// The policies beside the depth buffer's format.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Policies {
@@ -149,6 +161,8 @@ pub struct Policies {
     pub color: ColorFormat,
     /// The vertices' grid.
     pub subpixel: Subpixel,
+    /// Levels of detail.
+    pub lod: Lod,
 }
 
 impl Policies {
@@ -189,6 +203,7 @@ impl Profile {
             arithmetic: Arithmetic::Fixed,
             color: ColorFormat::Rgb565,
             subpixel: Subpixel::Sub4,
+            lod: Lod::default(),
         };
         match self {
             Self::Reference => (Policies::default(), DepthFormat::F32Reversed),
@@ -199,5 +214,5 @@ impl Profile {
     }
 }
 
-words!(one_of: DepthFormat, Arithmetic, ColorFormat, Subpixel, Profile);
+words!(one_of: DepthFormat, Arithmetic, ColorFormat, Subpixel, Lod, Profile);
 words!(str::parse: Interpolation);

@@ -11,8 +11,8 @@ use serde::{Deserialize, Deserializer};
 
 use super::values::{Color, Finite, Number, Point, Size};
 use super::{
-    Arithmetic, ColorFormat, Cull, DepthFormat, Filter, Interpolation, Policies, Profile, ProjectionKind,
-    Shading, Subpixel, Wrap,
+    Arithmetic, ColorFormat, Cull, DepthFormat, Filter, Interpolation, Lod, Policies, Profile,
+    ProjectionKind, Shading, Subpixel, Wrap,
 };
 use crate::error::Error;
 
@@ -183,6 +183,10 @@ pub struct RenderTable {
     /// Bits of a pixel's fraction to which vertices are snapped [default: 8].
     #[arg(long, value_enum, value_name = "BITS", help_heading = PRECISION)]
     pub subpixel: Option<Subpixel>,
+
+    /// Where levels of detail are found, for trilinear and anisotropic filters [default: pixel].
+    #[arg(long, value_enum, value_name = "WHERE", help_heading = PRECISION)]
+    pub lod: Option<Lod>,
 }
 
 /// The heading of options of surfaces.
@@ -202,6 +206,7 @@ impl RenderTable {
             arithmetic: self.arithmetic.unwrap_or(profile.arithmetic),
             color: self.color_format.unwrap_or(profile.color),
             subpixel: self.subpixel.unwrap_or(profile.subpixel),
+            lod: self.lod.unwrap_or(profile.lod),
         };
         (policies, self.depth.or(depth))
     }

@@ -203,6 +203,46 @@ fn what_is_paid_for_nothing_is_told() {
     assert!(!around.contains("triangles: "), "all are seen: {around}");
 }
 
+/// Attributes without a use, a texture of one colour, and levels of detail where all are the same.
+#[test]
+fn attributes_colours_and_levels_are_told() {
+    let folder = squares();
+    let white = image::RgbaImage::from_pixel(64, 64, image::Rgba([200, 100, 50, 255]));
+    white.save(folder.path("white.png")).expect("a texture");
+    let wastes = |arguments: &[&str]| {
+        let all = [&["squares.obj"], &CAMERA[..], arguments].concat();
+        folder.advice(&all)["waste"].to_string()
+    };
+    let has =
+        |text: &str, part: &str, expected: bool| assert_eq!(text.contains(part), expected, "{part}: {text}");
+    // Eight vertices; normals are those of the faces, which differ.
+    let plain = wastes(&["--shading", "unlit", "--size", "160x120"]);
+    has(
+        &plain,
+        "normals: they change no pixel; to leave them out of the vertices, as floats, saves 96 bytes of",
+        true,
+    );
+    has(
+        &plain,
+        "texture coordinates: they change no pixel; to leave them out of the vertices, as floats, saves 64",
+        true,
+    );
+    has(&plain, "vertex colours", false);
+    has(&plain, "levels of detail", false);
+    let striped = wastes(&["--texture", "stripes.png", "--filter", "trilinear", "--size", "480x360"]);
+    for name in ["colour maps", "texture coordinates", "normals"] {
+        has(&striped, name, false);
+    }
+    // A pixel is well below a texel, so that only the largest level is read.
+    has(&striped, "levels of detail: one a triangle looks the same (mean FLIP 0.0000)", true);
+    let constant = wastes(&["--texture", "white.png", "--size", "160x120"]);
+    has(&constant, "colour maps: they change no pixel; to take each one's mean colour instead saves", true);
+    // 64 x 64 texels of four bytes on the host, and of two in flash.
+    has(&constant, "16 KB of memory", true);
+    let on_chip = wastes(&["--texture", "white.png", "--size", "160x120", "--target", "m4f"]);
+    has(&on_chip, "instead saves 8192 bytes of flash", true);
+}
+
 #[test]
 fn pictures_are_written_on_request() {
     let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes())]);
@@ -223,13 +263,13 @@ fn wrong_input_is_one_line() {
     let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes()), ("file", b"")]);
     for (arguments, part) in [
         (&["m.obj", "--max-error", "2furlong"][..], "one of the units lsb, flip, db and texel"),
-        (&["m.obj", "--turntable", "0"], "--turntable"),
+        (&["m.obj", "--turntable", "0"], "--turntable: found \"0\", expected an integer from 1 to 360"),
         (&["m.obj", "--max-error", "1texel"], "a scene without textures, expected one with texels"),
         (
             &["m.obj", "--target", "m0", "--filter", "anisotropic:2"],
             "expected nearest, bilinear or trilinear",
         ),
-        (&["m.obj", "--target", "m7"], "found \"m7\", expected one of host, m4f, m0, rv32"),
+        (&["m.obj", "--target", "m7"], "--target: found \"m7\", expected one of host, m4f, m0, rv32"),
         (&["no.obj"], "no.obj"),
         (&["m.obj", "--image", "file/out"], "file/out"),
         (&["m.obj", "--max-error", "1texel", "--image", "made"], "a scene without textures"),

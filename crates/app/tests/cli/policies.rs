@@ -50,6 +50,12 @@ fn every_value_draws() {
         let far = found.iter().zip(expected.iter()).filter(|pair| off(*pair)).count();
         assert!(far < expected.len() / 25, "{arguments}: {far}");
     }
+    let trilinear = |lod: &str| picture("mesh", &format!("--filter trilinear --lod {lod}"));
+    let [pixel, run, triangle] = ["pixel", "run", "triangle"].map(trilinear);
+    assert!(pixel == picture("mesh", "--filter trilinear"));
+    for (found, expected) in [(&run, &pixel), (&triangle, &pixel), (&triangle, &run)] {
+        assert!((0.01..0.9).contains(&difference(found, expected)));
+    }
     for arguments in ["--profile tiny", "--depth none", "--interpolation affine --arithmetic fixed"] {
         assert!(difference(&picture("mesh", arguments), &picture("mesh", "")) > 0.0, "{arguments}");
     }

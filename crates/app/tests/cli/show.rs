@@ -157,3 +157,22 @@ fn what_cannot_be_shown_is_refused() {
     let run = folder.render(&["--show", "heat"]);
     assert!(run.status == Some(2) && run.stderr.contains("depth-step"), "{run:?}");
 }
+
+/// A floor of two triangles, which the near plane cuts in three, has a level for each pixel, for each row of a triangle,
+/// or for each of the three.
+#[test]
+fn levels_are_found_where_the_policy_says() {
+    let levels = |lod: &str| {
+        shown(&format!("--scene floor --size 120x90 --filter trilinear --lod {lod} --show lod")).1
+    };
+    let [pixel, run, triangle] = ["pixel", "run", "triangle"].map(levels);
+    assert!(colors(&pixel).len() > 6, "{:?}", colors(&pixel));
+    // And the background.
+    assert!((3..=4).contains(&colors(&triangle).len()), "{:?}", colors(&triangle));
+    assert!(run != pixel && colors(&run).len() > 6);
+    for row in run.rows() {
+        let changes = row.clone().zip(row.skip(1)).filter(|(a, b)| a != b);
+        // From the background to a triangle, to the others, and to the background.
+        assert!(changes.count() <= 4);
+    }
+}

@@ -5,7 +5,7 @@
 use crate::{HEIGHT, PIXELS, WIDTH};
 use alberti::glam::{Mat3, Vec2, Vec3};
 use alberti::lanes::One;
-use alberti::raster::PerRun;
+use alberti::raster::{PerRun, PerTriangle};
 use alberti::shaders::{Differentiated, Stored, Unlit};
 use alberti::texture::mipmap::texel_count;
 use alberti::texture::{Bilinear, Mipmap, Nearest, PowerOfTwo, Repeat, Texture, Trilinear, format::Rgb565};
@@ -89,7 +89,12 @@ policies! {
     "fixed spans:16, 8": |_| FixedPoint(Spans16), D16, Sub8, nearest;
     "float exact, 8": |_| Exact, D16, Sub8, nearest;
     "fixed spans:16, bilinear": |_| FixedPoint(Spans16), D16, Sub4, bilinear;
-    "fixed spans:16, trilinear": |_| FixedPoint(Spans16), D16, Sub4, trilinear;
+    "fixed spans:16, trilinear:run": |_| FixedPoint(Spans16), D16, Sub4, trilinear_per_run;
+    "fixed spans:16, trilinear:triangle": |_| FixedPoint(Spans16), D16, Sub4, trilinear_per_triangle;
+    "float exact, bilinear": |_| Exact, D16, Sub4, bilinear;
+    "float exact, trilinear:pixel": |_| Exact, D16, Sub4, trilinear_per_pixel;
+    "float exact, trilinear:run": |_| Exact, D16, Sub4, trilinear_per_run;
+    "float exact, trilinear:triangle": |_| Exact, D16, Sub4, trilinear_per_triangle;
 }
 
 #[inline]
@@ -115,8 +120,22 @@ fn bilinear<'a>(scene: &Scene<'a>) -> impl FragmentStage<Vec2, Color = alberti::
 }
 
 #[inline]
-fn trilinear<'a>(scene: &Scene<'a>) -> impl FragmentStage<Vec2, Color = alberti::Rgba8> + use<'a> {
-    Differentiated::by(PerRun, Unlit(scene.levels.sampler(Trilinear, Repeat)))
+fn trilinear_per_pixel<'a>(
+    scene: &Scene<'a>,
+) -> impl FragmentStage<Vec2, Color = alberti::Rgba8> + use<'a> {
+    Unlit(scene.levels.sampler(Trilinear, Repeat))
+}
+
+#[inline]
+fn trilinear_per_run<'a>(scene: &Scene<'a>) -> impl FragmentStage<Vec2, Color = alberti::Rgba8> + use<'a> {
+    Differentiated::by(PerRun, trilinear_per_pixel(scene))
+}
+
+#[inline]
+fn trilinear_per_triangle<'a>(
+    scene: &Scene<'a>,
+) -> impl FragmentStage<Vec2, Color = alberti::Rgba8> + use<'a> {
+    Differentiated::by(PerTriangle, trilinear_per_pixel(scene))
 }
 
 #[inline]

@@ -130,7 +130,9 @@ impl Fitting {
 fn asked(kind: &str) -> (fn(&str) -> bool, bool) {
     match kind {
         "lines" => (|_| true, false),
-        "filter" => (|work| ["small", "narrow", "wide", "run", "written"].contains(&work), false),
+        "float filter" | "fixed filter" => {
+            (|work| ["small", "narrow", "wide", "run", "written"].contains(&work), false)
+        }
         _ => (|work| !["frame", "vertex", "submitted", "clipped", "run"].contains(&work), true),
     }
 }
@@ -143,7 +145,7 @@ fn labelled(name: &str, policy: Policy) -> (String, String) {
         None => ("lines".to_owned(), name.split(":0.").next().unwrap_or(name).to_owned()),
         Some(Special::Depth) => (format!("{arithmetic} depth"), special.to_owned()),
         Some(Special::Subpixel) => (format!("{arithmetic} subpixel"), special.to_owned()),
-        Some(Special::Filter) => ("filter".to_owned(), special.to_owned()),
+        Some(Special::Filter) => (format!("{arithmetic} filter"), special.to_owned()),
     }
 }
 

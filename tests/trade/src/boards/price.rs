@@ -1,7 +1,7 @@
 //! Prices as `cargo xtask` reads them off the boards.
 
 use alberti_app::advise::Candidate;
-use alberti_app::options::{Arithmetic, DepthFormat, Filter, Subpixel};
+use alberti_app::options::{Arithmetic, DepthFormat, Filter, Lod, Subpixel};
 
 /// A policy's price on a scene of a board, or in code.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,6 +44,8 @@ pub struct Policy {
     pub candidate: Candidate,
     /// How the texture is read.
     pub filter: Filter,
+    /// Where its levels are found.
+    pub lod: Lod,
     /// What differs from the usual: 16 bits of depth, 4 of subpixels, the nearest texel.
     pub special: Option<Special>,
 }
@@ -68,6 +70,9 @@ const DEPTHS: [(&str, DepthFormat); 5] = [
     ("f32-reversed", DepthFormat::F32Reversed),
 ];
 
+/// The places of levels of detail, as they are called.
+const LODS: [(&str, Lod); 3] = [("pixel", Lod::Pixel), ("run", Lod::Run), ("triangle", Lod::Triangle)];
+
 /// The policy of a name such as `fixed spans:16, u24`.
 pub fn policy(name: &str) -> Option<Policy> {
     let (lines, special) =
@@ -79,7 +84,7 @@ pub fn policy(name: &str) -> Option<Policy> {
         subpixel: Subpixel::Sub4,
         depth: DepthFormat::U16,
     };
-    let usual = Policy { candidate, filter: Filter::Nearest, special: None };
+    let usual = Policy { candidate, filter: Filter::Nearest, lod: Lod::default(), special: None };
     let Some(word) = special else { return Some(usual) };
     if let Some(&(_, depth)) = DEPTHS.iter().find(|(name, _)| *name == word) {
         let candidate = Candidate { depth, ..candidate };
@@ -89,8 +94,12 @@ pub fn policy(name: &str) -> Option<Policy> {
         let candidate = Candidate { subpixel: Subpixel::Sub8, ..candidate };
         return Some(Policy { candidate, special: Some(Special::Subpixel), ..usual });
     }
-    let filter = word.parse().ok()?;
-    Some(Policy { filter, special: Some(Special::Filter), ..usual })
+    let (filter, lod) = word.split_once(':').map_or((word, None), |(filter, lod)| (filter, Some(lod)));
+    let lod = match lod {
+        None => Lod::default(),
+        Some(lod) => LODS.iter().find(|(name, _)| *name == lod)?.1,
+    };
+    Some(Policy { filter: filter.parse().ok()?, lod, special: Some(Special::Filter), ..usual })
 }
 
 #[cfg(test)]
@@ -122,7 +131,12 @@ mod tests {
         assert_eq!(found.candidate.interpolation, Interpolation::Spans(SpanLength::Sixteen));
         assert_eq!((found.candidate.depth, found.special), (DepthFormat::U24, Some(Special::Depth)));
         assert_eq!(policy("float exact, 8").expect("a policy").candidate.subpixel, Subpixel::Sub8);
-        assert_eq!(policy("fixed spans:16, trilinear").expect("a policy").filter, Filter::Trilinear);
-        assert!(policy("fixed spans:7").is_none() && policy("exact").is_none());
+        let found = policy("fixed spans:16, trilinear:run").expect("a policy");
+        assert_eq!((found.filter, found.lod), (Filter::Trilinear, Lod::Run));
+        assert!(
+            policy("float exact, trilinear:row").is_none()
+                && policy("fixed spans:7").is_none()
+                && policy("exact").is_none()
+        );
     }
 }
