@@ -137,8 +137,8 @@ const CHORES: &[Chore] = &[
     },
     Chore {
         name: "trade",
-        arguments: "[--check]",
-        about: "measure every policy's error and cost, and write docs/trade.md, or compare with its table",
+        arguments: "[--check] [--boards]",
+        about: "measure every policy's error and cost, and write docs/trade.md (or its chapter of boards), or compare",
         run: trade::run,
     },
     Chore {

@@ -14,23 +14,46 @@ const MEASURED: &str = "*counts::measured*";
 const ENDED: &str = "*counts::ended*";
 /// The board whose counts are compared with the table.
 const CHECKED: &str = "m4f";
-/// The option for what repeats alone.
+/// The option for what repeats alone, and the one for the boards alone.
 const CHECK: &str = "--check";
+const OF_BOARDS: &str = "--boards";
 
-/// Writes `docs/trade.md` with its table, plots and pictures, or compares what repeats with the table.
+/// Writes `docs/trade.md` with its table, plots and pictures, or the chapter of the boards alone, or compares what
+/// repeats with the table.
 pub(crate) fn run(arguments: &[String]) -> Outcome {
     match arguments {
         [] => measure("write"),
         [flag] if flag == CHECK => check(),
-        _ => Err(format!("expected nothing or `{CHECK}`, found `{}`", arguments.join(" "))),
+        [flag] if flag == OF_BOARDS => boards(),
+        _ => Err(format!("expected nothing, `{CHECK}` or `{OF_BOARDS}`, found `{}`", arguments.join(" "))),
     }
+}
+
+/// Counts on the boards, and writes their chapter and the prices that `alberti advise` goes by.
+fn boards() -> Outcome {
+    let program = build()?;
+    let file = prices(&program, None, true)?;
+    command::run(Command::new(program).arg("boards").arg(workspace::root()).arg("--boards").arg(file))
+}
+
+fn build() -> Result<PathBuf, String> {
+    command::run(cargo().args(["build", "--release", "--package", PACKAGE]))?;
+    Ok(workspace::target_directory().join("release").join(PACKAGE))
+}
+
+/// The file of the prices on all boards, or on that of a name; with the sizes of programs if they are `weighed`.
+fn prices(program: &Path, board: Option<&str>, weighed: bool) -> Result<PathBuf, String> {
+    let scenes = workspace::target_directory().join("trade-scenes");
+    command::run(Command::new(program).arg("scenes").arg(&scenes))?;
+    let prices = firmware::prices(&scenes, board, weighed)?;
+    let file = scenes.join("prices.csv");
+    fs::write(&file, prices).map_err(|error| format!("cannot write {}: {error}", file.display()))?;
+    Ok(file)
 }
 
 /// Compares what `alberti advise` picks with the best of all, and writes `docs/advice.md`.
 pub(crate) fn advice() -> Outcome {
-    command::run(cargo().args(["build", "--release", "--package", PACKAGE]))?;
-    let program = workspace::target_directory().join("release").join(PACKAGE);
-    command::run(Command::new(program).arg("advice").arg(workspace::root()))
+    command::run(Command::new(build()?).arg("advice").arg(workspace::root()))
 }
 
 /// Compares errors and instructions with those of the table that is committed.
@@ -39,24 +62,16 @@ pub(crate) fn check() -> Outcome {
 }
 
 fn measure(what: &str) -> Outcome {
-    command::run(cargo().args(["build", "--release", "--package", PACKAGE]))?;
-    let program = workspace::target_directory().join("release").join(PACKAGE);
+    let program = build()?;
     let mut line = Command::new(&program);
     line.arg(what).arg(workspace::root()).args(["--compiler", &compiler()?]);
     match counts(&program)? {
         Some(folder) => _ = line.arg("--counts").arg(folder),
         None => eprintln!("valgrind is not installed: instructions are not counted (Debian: valgrind)"),
     }
-    let scenes = workspace::target_directory().join("trade-scenes");
-    command::run(Command::new(&program).arg("scenes").arg(&scenes))?;
     // Compiling for three boards and thirty sizes takes minutes: a check asks one board for its counts.
-    let prices = if what == "write" {
-        firmware::prices(&scenes, None, true)?
-    } else {
-        firmware::prices(&scenes, Some(CHECKED), false)?
-    };
-    let file = scenes.join("prices.csv");
-    fs::write(&file, prices).map_err(|error| format!("cannot write {}: {error}", file.display()))?;
+    let file =
+        if what == "write" { prices(&program, None, true)? } else { prices(&program, Some(CHECKED), false)? };
     command::run(line.arg("--boards").arg(file))
 }
 
@@ -102,6 +117,9 @@ mod tests {
 
     #[test]
     fn wrong_arguments_are_named() {
-        assert_eq!(run(&["--fast".into()]), Err("expected nothing or `--check`, found `--fast`".into()));
+        assert_eq!(
+            run(&["--fast".into()]),
+            Err("expected nothing, `--check` or `--boards`, found `--fast`".into())
+        );
     }
 }

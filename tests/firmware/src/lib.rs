@@ -43,25 +43,28 @@ memories! {
     loaded: Loaded;
 }
 
-/// A counter that grows with the executed instructions and wraps; `cargo xtask firmware` knows its ticks.
+/// A counter that grows with the executed instructions; `cargo xtask firmware` knows its ticks.
 ///
-/// It is the counter of the MPS2's FPGA, which runs at 25 MHz of the emulated time.
+/// It is the counter of the MPS2's FPGA, which runs at 25 MHz of the emulated time and wraps after some minutes. The
+/// one beside it, of hundredths of a second, tells how often it has.
 #[cfg(target_arch = "arm")]
 #[must_use]
-pub fn ticks() -> u32 {
-    let counter = 0x4002_8018 as *const u32;
-    #[expect(unsafe_code, reason = "a register of the board, which may be read at any time")]
-    let ticks = unsafe { counter.read_volatile() };
-    ticks
+pub fn ticks() -> u64 {
+    const TICKS_OF_A_HUNDREDTH: u64 = 250_000;
+    let [hundredths, low] = [0x4002_8014 as *const u32, 0x4002_8018 as *const u32];
+    #[expect(unsafe_code, reason = "registers of the board, which may be read at any time")]
+    let (hundredths, low) = unsafe { (hundredths.read_volatile(), low.read_volatile()) };
+    let nearly = u64::from(hundredths) * TICKS_OF_A_HUNDREDTH;
+    #[expect(clippy::cast_possible_truncation, reason = "the low half")]
+    let more = low.wrapping_sub(nearly as u32).cast_signed();
+    nearly.wrapping_add_signed(more.into())
 }
 
-/// A counter that grows with the executed instructions and wraps.
+/// A counter that grows with the executed instructions.
 #[cfg(target_arch = "riscv32")]
 #[must_use]
-pub fn ticks() -> u32 {
-    #[expect(clippy::cast_possible_truncation, reason = "the low half is enough for a difference")]
-    let ticks = riscv::register::minstret::read() as u32;
-    ticks
+pub fn ticks() -> u64 {
+    riscv::register::minstret::read64()
 }
 
 /// Makes a program that calls a function and does nothing else.

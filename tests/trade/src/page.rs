@@ -100,6 +100,7 @@ fn chapter(text: &mut String, family: &Family, lines: &[Line]) {
         let _ = writeln!(text, "{}", row(summary));
     }
     by_scene(text, family, &all, lines);
+    bounded(text, family, lines);
     let wrong: Vec<&Summary> = all.iter().filter(|summary| summary.flip[1] > SEEN).collect();
     if !wrong.is_empty() {
         let _ = write!(text, "\nThe worst place of each, on the left, beside the right picture:\n\n");
@@ -138,6 +139,29 @@ fn by_scene(text: &mut String, family: &Family, all: &[Summary], lines: &[Line])
             })
         });
         let _ = writeln!(text, "| `{policy}` | {} |", cells.collect::<Vec<_>>().join(" | "));
+    }
+}
+
+/// The price of a budget, where it is the least and where it is the most, in a sentence.
+fn bounded(text: &mut String, family: &Family, lines: &[Line]) {
+    const POLICY: &str = "Lines::bounded(1/16)";
+    let line = |scene: &str, policy: &str| {
+        lines.iter().find(|line| (line.family, line.scene, &*line.policy) == (family.name, scene, policy))
+    };
+    let against = |scene: &str, other: &str| {
+        let [own, other] = [line(scene, POLICY)?, line(scene, other)?];
+        #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
+        let instructions = own.instructions? as f64 / other.instructions? as f64;
+        Some((instructions, own.time?.ratio[1] / other.time?.ratio[1]))
+    };
+    if let (Some((flat, flat_time)), Some((steep, steep_time))) =
+        (against("near-flat", "Affine"), against("close-up", "Exact"))
+    {
+        let _ = write!(
+            text,
+            "\n`{POLICY}` takes {flat:.3} times the instructions of `Affine` on near-flat ({flat_time:.2} times its \
+             time), and\n{steep:.3} times those of `Exact` on close-up, the steepest ({steep_time:.2}).\n"
+        );
     }
 }
 

@@ -120,9 +120,7 @@ fn bilinear<'a>(scene: &Scene<'a>) -> impl FragmentStage<Vec2, Color = alberti::
 }
 
 #[inline]
-fn trilinear_per_pixel<'a>(
-    scene: &Scene<'a>,
-) -> impl FragmentStage<Vec2, Color = alberti::Rgba8> + use<'a> {
+fn trilinear_per_pixel<'a>(scene: &Scene<'a>) -> impl FragmentStage<Vec2, Color = alberti::Rgba8> + use<'a> {
     Unlit(scene.levels.sampler(Trilinear, Repeat))
 }
 

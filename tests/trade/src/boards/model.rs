@@ -130,9 +130,9 @@ impl Fitting {
 fn asked(kind: &str) -> (fn(&str) -> bool, bool) {
     match kind {
         "lines" => (|_| true, false),
-        "float filter" | "fixed filter" => {
-            (|work| ["small", "narrow", "wide", "run", "written"].contains(&work), false)
-        }
+        // What is found once a run is found once a row there.
+        "float filter" => (|work| !["frame", "vertex", "submitted", "clipped", "run"].contains(&work), false),
+        "fixed filter" => (|work| ["small", "wide", "run", "written"].contains(&work), false),
         _ => (|work| !["frame", "vertex", "submitted", "clipped", "run"].contains(&work), true),
     }
 }

@@ -30,6 +30,10 @@ Depths of 16 bits let most small triangles take the short way; those of 24 or 32
 mesh in fixed point. To do without a depth buffer takes 150 KB less memory and is a little cheaper, unless much is
 hidden: then all of that is shaded.
 
+A bilinear texture makes a frame in fixed point 1.3 to 3.3 times as dear as the nearest texel, a trilinear one up to 9
+times. One level of detail for each triangle instead of one for each run saves up to half of that where triangles are
+large, where it is also wrong, and nothing on a mesh of small ones, which have one in either case.
+
 ";
 
 /// The chapter.
