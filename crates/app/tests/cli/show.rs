@@ -158,8 +158,8 @@ fn what_cannot_be_shown_is_refused() {
     assert!(run.status == Some(2) && run.stderr.contains("depth-step"), "{run:?}");
 }
 
-/// A floor of two triangles, which the near plane cuts in three, has a level for each pixel, for each row of a triangle,
-/// or for each of the three.
+/// A floor of two triangles, which the near plane cuts in three, has a level for each pixel, for each row of a
+/// triangle, or for each of the three.
 #[test]
 fn levels_are_found_where_the_policy_says() {
     let levels = |lod: &str| {

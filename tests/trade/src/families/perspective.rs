@@ -17,8 +17,8 @@ On a machine with vector registers take `Exact`, or `Lines::bounded` with the te
 triangle by a plane, by straight lines or as `Exact`, whichever is the cheapest that keeps the budget, so it is never
 much dearer. `Planes` is its equal until q falls steeply. `Affine` is right where all of a triangle is equally far,
 and as wrong as the table says elsewhere: on a mesh of small triangles by a fraction of a texel, on a floor by the
-whole texture. The 21 texels of `Exact` are at the horizon of that floor, where a pixel covers tens of thousands. Runs of
-a fixed length, `Spans16` and its kin, promise nothing: steep perspective breaks them. They are for cores on which a
+whole texture. The 21 texels of `Exact` are at the horizon of that floor, where a pixel covers tens of thousands. Runs
+of a fixed length, `Spans16` and its kin, promise nothing: steep perspective breaks them. They are for cores on which a
 division is slow; what they cost there is told by [kernel.md](kernel.md).",
     axis: Axis::Texels,
 };
