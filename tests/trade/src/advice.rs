@@ -4,7 +4,9 @@
 use alberti_app::advise::{Candidate, Machine, Trial, Wish, advise, times};
 use alberti_app::cli::advise::scene;
 use alberti_app::error::Error;
-use alberti_app::measure::MaxError;
+use alberti_app::measure::{Comparison, MaxError};
+use alberti_app::options::ColorFormat;
+use alberti_app::render::render;
 use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Instant;
@@ -86,6 +88,21 @@ fn ask(root: &Path, name: &'static str, budget: MaxError, machine: Machine) -> R
     let seconds = start.elapsed().as_secs_f64();
     let all = ask(true)?;
     let pick = &quick.trials[quick.pick];
+    let error = match budget {
+        // From pictures of the command's own, as `render` and `compare` have them.
+        MaxError::Lsb(_) => {
+            let picture = |candidate: Candidate| {
+                let mut options = candidate.options(&options);
+                if machine.is_chip() {
+                    options.policies.color = ColorFormat::Rgb565;
+                }
+                render(&model, &camera, &options, &mut |_, _| ()).map(|picture| picture.image)
+            };
+            let [found, right] = [picture(pick.candidate)?, picture(Candidate::MOST_PRECISE)?];
+            Comparison::new(&found, &right)?.measures.most.into()
+        }
+        _ => pick.error,
+    };
     let within = all.trials.iter().filter(|trial| budget.admits(trial.error));
     let candidates: Vec<&Trial> =
         within.take(TIMED).filter(|trial| trial.candidate != pick.candidate).collect();
@@ -107,7 +124,7 @@ fn ask(root: &Path, name: &'static str, budget: MaxError, machine: Machine) -> R
         budget,
         machine,
         pick: pick.candidate.command_line(),
-        error: pick.error,
+        error,
         best: best.candidate.command_line(),
         cost: pair[0],
         ratio: pair[0] / pair[1],

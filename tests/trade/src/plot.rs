@@ -52,9 +52,13 @@ pub fn draw(family: &Family, summaries: &[Summary], path: &Path) -> Result<(), B
         .axis_style(INK)
         .label_style(text(13))
         .x_labels(12)
-        .x_desc("cost, multiples of the reference")
+        .x_desc(if summaries.iter().all(|summary| summary.instructions.is_some()) {
+            "instructions of 320x240, multiples of the reference"
+        } else {
+            "time, multiples of the reference"
+        })
         .y_desc(name)
-        .x_label_formatter(&|x| format!("{x:.2}"))
+        .x_label_formatter(&|x| if is_round(*x) { format!("{x:.2}") } else { String::new() })
         .y_label_formatter(&|y| if *y <= least { "none".to_owned() } else { format!("{y:.0e}") })
         .draw()?;
     let mut on_front: Vec<(f64, f64)> =
@@ -72,6 +76,12 @@ pub fn draw(family: &Family, summaries: &[Summary], path: &Path) -> Result<(), B
     }
     root.present()?;
     Ok(())
+}
+
+/// Whether a number is 1, 2 or 5 times a power of ten: those of a logarithmic axis that have room beside each other.
+fn is_round(x: f64) -> bool {
+    let mantissa = x / 10_f64.powf((x.log10() + 1e-9).floor());
+    [1.0, 2.0, 5.0].iter().any(|round| (mantissa / round - 1.0).abs() < 1e-3)
 }
 
 /// The place of a label from its point: on the right, or on the left where the picture ends, and below labels that are

@@ -77,7 +77,7 @@ fn summary(policy: &str, own: &[&Line], family: &[&Line]) -> Summary {
         .collect();
     let mut times: Vec<f64> = own.iter().filter_map(|line| Some(line.time?.ratio[1])).collect();
     times.sort_by(f64::total_cmp);
-    let time = (!times.is_empty()).then(|| [times[0], times[times.len() / 2], times[times.len() - 1]]);
+    let time = (!times.is_empty()).then(|| [times[0], median(&times), times[times.len() - 1]]);
     let worst = |of: &dyn Fn(&Line) -> f64| own.iter().map(|line| of(line)).fold(0.0, f64::max);
     let texels: Option<Vec<Texels>> = own.iter().map(|line| line.errors.texels).collect();
     let bytes = |of: fn(&Line) -> u8| own.iter().map(|line| of(line)).max().unwrap_or_default();
@@ -110,11 +110,18 @@ fn geometric_mean(numbers: impl ExactSizeIterator<Item = f64>) -> f64 {
     (numbers.map(f64::ln).sum::<f64>() / count).exp()
 }
 
-/// Of points (cost, error), which are on the Pareto front. Costs within a hundredth count as equal.
+/// The median of sorted numbers, of an even count the mean of the two in the middle.
+fn median(sorted: &[f64]) -> f64 {
+    let middle = sorted.len() / 2;
+    if sorted.len() % 2 == 1 { sorted[middle] } else { f64::midpoint(sorted[middle - 1], sorted[middle]) }
+}
+
+/// Of points (cost, error), which are on the Pareto front. What differs by less than a hundredth is the same.
 fn front(points: &[[f64; 2]]) -> Vec<bool> {
     let beats = |a: &[f64; 2], b: &[f64; 2]| {
-        let [cheaper, as_cheap] = [a[0] < b[0] * 0.99, a[0] <= b[0] * 1.01];
-        (as_cheap && a[1] < b[1]) || (cheaper && a[1] <= b[1])
+        let less = [0, 1].map(|axis| a[axis] < b[axis] * 0.99);
+        let as_good = [0, 1].map(|axis| a[axis] <= b[axis] * 1.01);
+        (as_good[0] && less[1]) || (less[0] && as_good[1])
     };
     points.iter().map(|point| !points.iter().any(|other| beats(other, point))).collect()
 }
@@ -128,5 +135,11 @@ mod tests {
         let points =
             [[1.0, 0.1], [2.0, 0.01], [2.0, 0.05], [3.0, 0.01], [0.5, 0.9], [0.5, 1.0], [1.005, 0.1]];
         assert_eq!(front(&points), [true, true, false, false, true, false, true]);
+        assert_eq!(front(&[[1.0, 0.100], [0.9, 0.1005]]), [false, true]);
+    }
+
+    #[test]
+    fn medians_are_in_the_middle() {
+        assert_eq!((median(&[1.0, 2.0, 9.0]), median(&[1.0, 3.0]), median(&[4.0])), (2.0, 2.0, 4.0));
     }
 }

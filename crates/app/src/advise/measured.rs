@@ -6,7 +6,7 @@ use super::{Off, Wish, Work, texels, work};
 use crate::draw::{Canvas, Counted, Drawing, Studio};
 use crate::error::Error;
 use crate::measure::{Comparison, MOST, MaxError, percentile, steps};
-use crate::options::{Arithmetic, DepthFormat, Interpolation, RenderOptions};
+use crate::options::{Arithmetic, ColorFormat, DepthFormat, Interpolation, RenderOptions};
 use crate::probe::{Probes, probe_values};
 use crate::render::{any_depth, buffer, shown};
 use crate::scene::{Camera, Image, Model};
@@ -66,7 +66,11 @@ impl<'a> Bench<'a> {
         options: &RenderOptions,
         wish: Wish,
     ) -> Result<Self, Error> {
-        let options = RenderOptions { threads: NonZero::<usize>::MIN, ..*options };
+        let mut options = RenderOptions { threads: NonZero::<usize>::MIN, ..*options };
+        if wish.machine.is_chip() {
+            // As the model's displays have it.
+            options.policies.color = ColorFormat::Rgb565;
+        }
         let most_precise = Candidate::MOST_PRECISE.options(&options);
         let costs = Costs::new(wish.machine, &options)?;
         let studio = Studio::new(model, camera, &most_precise)?;

@@ -20,15 +20,17 @@ pub fn text(advice: &Advice, wastes: &[Waste], side: u16) -> String {
         trials.len(),
         costs(advice)
     );
-    text.push_str(
-        "Errors are against exact, float, f32-reversed, 8 bits. A star: no other way is as cheap and as right.\n\n",
-    );
+    text.push_str("Errors are against exact, float, f32-reversed, 8 bits");
+    text.push_str(if machine.is_chip() { ", both in RGB565, of which a step is 4 or 8 bytes" } else { "" });
+    text.push_str(". A star: no other way is as cheap and as right.\n\n");
     let (cost, ratio) = if machine.is_chip() { ("M instr.", "ratio") } else { ("ms", "time") };
     let _ = write!(text, "{cost:>9}  {ratio:>6}  {:>10}  {:>7}", unit(*budget), "largest");
     text.push_str(if machine.is_chip() { "  flash KB   RAM KB     policies\n" } else { "     policies\n" });
-    for (k, trial) in trials.iter().enumerate().filter(|(k, trial)| {
-        *k < ROWS || *k == *pick || advice.is_on_front(trial) || trial.candidate == reference.candidate
-    }) {
+    let is_shown = |k: usize, trial: &Trial| {
+        k < ROWS || k == *pick || advice.is_on_front(trial) || trial.candidate == reference.candidate
+    };
+    let digits = if machine.is_chip() || reference.cost.frame >= 1.0 { 2 } else { 3 };
+    for (k, trial) in trials.iter().enumerate().filter(|(k, trial)| is_shown(*k, trial)) {
         let star = if advice.is_on_front(trial) { '*' } else { ' ' };
         let mark = if k == *pick { ">" } else { " " };
         let within = if budget.admits(trial.error) { ' ' } else { '!' };
@@ -36,7 +38,7 @@ pub fn text(advice: &Advice, wastes: &[Waste], side: u16) -> String {
         let shown = if machine.is_chip() { frame / 1e6 } else { frame };
         let _ = write!(
             text,
-            "{mark}{shown:>8.2}  {:>6.2}  {:>9}{within}  {:>7}",
+            "{mark}{shown:>8.digits$}  {:>6.2}  {:>9}{within}  {:>7}",
             frame / reference.cost.frame,
             figure(*budget, trial.error),
             trial.largest,
@@ -45,6 +47,10 @@ pub fn text(advice: &Advice, wastes: &[Waste], side: u16) -> String {
             let _ = write!(text, "  {:>8.1}  {:>7.1}", flash / 1024.0, ram / 1024.0);
         }
         let _ = writeln!(text, "  {star}  {}", trial.candidate.command_line());
+    }
+    let left_out = trials.iter().enumerate().filter(|(k, trial)| !is_shown(*k, trial)).count();
+    if left_out > 0 {
+        let _ = writeln!(text, "\n  {left_out} more that are dearer: --json has them.");
     }
     text.push_str("\n  >: the pick.  !: beyond the budget.  largest: the worst byte of any pixel.\n");
     if trials.iter().any(|trial| trial.error.is_infinite() && matches!(budget, MaxError::Texel(_))) {
@@ -66,7 +72,7 @@ pub fn text(advice: &Advice, wastes: &[Waste], side: u16) -> String {
         let _ = writeln!(text, "    {line}");
     }
     if !wastes.is_empty() {
-        text.push_str("\nPaid for nothing, or nearly:\n\n");
+        text.push_str("\nPaid for nothing by the most precise policies, or nearly:\n\n");
         for waste in wastes {
             let _ = writeln!(text, "  * {}", waste.line);
         }
@@ -84,8 +90,9 @@ fn costs(advice: &Advice) -> String {
     let name = advice.wish.machine.name();
     format!(
         "Instructions are a model's for {name}:\na textured, unlit mesh in RGB565 with this scene's own counts. Shading \
-         adds the same to all. On five scenes that were\nalso run the model was off by {median:.1} % (median), at most \
-         {most:.0} % in nine of ten cases, {worst:.0} % in the worst. Flash is code;\nRAM is both buffers, a slot for \
+         is not in it: it adds the same to all but depth\n`none`, which shades what is hidden too. On five scenes that were \
+         also run the model was off by {median:.1} % (median), at most \
+         {most:.0} % in nine of ten\ncases, {worst:.0} % in the worst. Flash is code; RAM is both buffers, a slot for \
          each vertex, and the stack."
     )
 }

@@ -35,8 +35,8 @@ pub fn waste(
     let options =
         Candidate::MOST_PRECISE.options(&RenderOptions { threads: NonZero::<usize>::MIN, ..*options });
     let mut lines = vec![];
-    triangles(model, camera, &options, turns, &mut lines)?;
     let bill = Bill::new(advice, &options)?;
+    triangles((model, camera, &options), turns, &bill, &mut lines)?;
     Look::new(model, camera, &options, &bill)?.lines(&mut lines)?;
     policies(advice, &bill, camera, &mut lines);
     Ok(lines.into_iter().map(|line| Waste { line }).collect())
@@ -44,10 +44,9 @@ pub fn waste(
 
 /// Triangles that are never seen, and fragments that others cover.
 fn triangles(
-    model: &Model,
-    camera: &Camera,
-    options: &RenderOptions,
+    (model, camera, options): (&Model, &Camera, &RenderOptions),
     turns: u32,
+    bill: &Bill,
     lines: &mut Vec<String>,
 ) -> Result<(), Error> {
     let total: usize = model.parts.iter().map(|part| part.triangles.len()).sum();
@@ -71,8 +70,9 @@ fn triangles(
         if turns == 1 { "from this camera".to_owned() } else { format!("from {turns} cameras around it") };
     if unseen > 0 {
         lines.push(format!(
-            "triangles: {unseen} of {total} ({:.0} %) show in no pixel {from}",
-            percent(unseen as u64, total as u64)
+            "triangles: {unseen} of {total} ({:.0} %) show in no pixel {from}; to leave them out {}",
+            percent(unseen as u64, total as u64),
+            bill.saves(bill.triangles(model, camera, options, &seen)?)
         ));
     }
     // A hundredth is not worth an order.

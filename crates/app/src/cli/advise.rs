@@ -59,8 +59,8 @@ pub struct AdviseArgs {
     pub max_error: MaxError,
 
     /// Machine that is to draw. This one is timed. Instructions of chips are a model's, for a textured, unlit mesh with
-    /// the scene's own counts of vertices, rows and fragments; errors are those of any machine. `--target MACHINE` is
-    /// the same.
+    /// the scene's own counts of vertices, rows and fragments; errors are those of any machine, in RGB565. `--target
+    /// MACHINE` is the same.
     #[arg(long, value_enum, value_name = "MACHINE", default_value_t = Machine::Host, help_heading = OWN)]
     pub machine: Machine,
 

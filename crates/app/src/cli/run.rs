@@ -46,8 +46,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     }
 }
 
-/// Help and version are no errors. A value that cannot be read gets one line like any other input; for words that
-/// are not options, clap's suggestions are better. `renamed` says that the machine was given as a target.
+/// Help and version are no errors. All others get one line like any other input, with clap's suggestions. `renamed` says that the machine was given as a target.
 fn usage(error: &clap::Error, renamed: bool) -> u8 {
     let expected = match error.kind() {
         ErrorKind::ValueValidation => std::error::Error::source(error).map(ToString::to_string),
@@ -55,14 +54,39 @@ fn usage(error: &clap::Error, renamed: bool) -> u8 {
         _ => None,
     };
     let context = |kind| error.get(kind).map(ToString::to_string);
+    let named = |text: &str| match text.split(' ').next().unwrap_or_default() {
+        "--machine" if renamed => "--target".to_owned(),
+        option => option.to_owned(),
+    };
+    let refused = |found: &str, expected: String| {
+        let mut error = Error::new(found, expected).hint("see --help");
+        if let Some(option) = context(ContextKind::InvalidArg) {
+            error = error.place(named(&option));
+        }
+        fail(&error)
+    };
+    match error.kind() {
+        ErrorKind::MissingRequiredArgument => {
+            let missing = context(ContextKind::InvalidArg).unwrap_or_default();
+            return fail(&Error::new("nothing", missing).hint("see --help"));
+        }
+        ErrorKind::ArgumentConflict => {
+            let other = context(ContextKind::PriorArg).map(|other| named(&other)).unwrap_or_default();
+            let same = context(ContextKind::InvalidArg).is_some_and(|option| named(&option) == other);
+            let (found, expected) =
+                if same { ("it twice", "once".to_owned()) } else { ("it", format!("no {other} beside it")) };
+            return refused(found, expected);
+        }
+        ErrorKind::UnknownArgument => {
+            let similar = context(ContextKind::SuggestedArg).map(|option| format!(", such as {option}"));
+            return refused("it", format!("an option{}", similar.unwrap_or_default()));
+        }
+        _ => {}
+    }
     if let (Some(option), Some(value), Some(expected)) =
         (context(ContextKind::InvalidArg), context(ContextKind::InvalidValue), expected)
     {
-        let option = match option.split(' ').next().unwrap_or_default() {
-            "--machine" if renamed => "--target",
-            option => option,
-        };
-        return fail(&Error::new(quote(value.as_bytes()), expected).place(option).hint("see --help"));
+        return fail(&Error::new(quote(value.as_bytes()), expected).place(named(&option)).hint("see --help"));
     }
     // A closed pipe cannot be told about.
     let _ = error.print();

@@ -62,7 +62,10 @@ pub(super) fn lod((model, camera, options): Of<'_>) -> Result<(Image, Legend), E
     steps.extend(GREYS.iter().rev().map(|(grey, _, meaning)| Step::new(*grey, *meaning)));
     let first = steps.len();
     steps.extend((1..levels).map(|k| Step::new(along(k - 1, levels), format!("{} to {k}", k - 1))));
-    steps.push(Step::new(along(levels - 1, levels), format!("{} and more: the last level", levels - 1)));
+    steps.push(Step::new(
+        along(levels - 1, levels),
+        format!("{} and more; the last level is {levels}", levels - 1),
+    ));
     let title = "lod: level of detail of the surface's texture, 1 for two texels a pixel, 2 for four, ...";
     paint(options, [title, "level of a pixel"], steps, |index| {
         let Some(seen) = probes.seen(index) else { return Number::none(0) };

@@ -95,10 +95,18 @@ fn the_pick_is_within_the_budget_and_selects_itself() {
         );
         let trials = advice["trials"].as_array().expect("trials");
         assert!(trials.iter().any(|trial| trial["options"] == advice["pick"]["options"]));
-        // Nothing that is listed keeps the budget in less time.
-        let within = trials.iter().filter(|trial| trial["within"] == true);
-        let least = within.map(|trial| trial["ms"].as_f64().expect("a time")).fold(f64::INFINITY, f64::min);
-        assert_eq!(advice["pick"]["ms"].as_f64(), Some(least), "{advice}");
+        // What is listed and keeps the budget in as little time, within a fiftieth, is not nearer to the right picture.
+        let cost = |trial: &Value| trial["ms"].as_f64().expect("a time");
+        let within = || trials.iter().filter(|trial| trial["within"] == true);
+        let least = within().map(cost).fold(f64::INFINITY, f64::min);
+        assert!(cost(&advice["pick"]) <= 1.02 * least, "{advice}");
+        let error = |trial: &Value| match trial["error"].as_f64() {
+            Some(error) if budget.ends_with("db") => -error,
+            Some(error) => error,
+            None => f64::NEG_INFINITY,
+        };
+        let close = within().filter(|trial| cost(trial) <= 1.02 * least);
+        assert!(close.map(error).all(|other| error(&advice["pick"]) <= other), "{advice}");
         assert!(advice["rust"].as_str().expect("lines").contains("Pass::new"), "{advice}");
     }
 }
@@ -141,7 +149,7 @@ fn chips_are_advised_by_a_model() {
             costs.fold(f64::INFINITY, f64::min)
         };
         let trials = advice["trials"].as_array().expect("trials");
-        assert_eq!(advice["pick"]["instructions"].as_f64(), Some(least(trials)), "{advice}");
+        assert!(advice["pick"]["instructions"].as_f64() <= Some(1.02 * least(trials)), "{advice}");
         assert!(
             advice["pick"]["ms"].is_null() && advice["rust"].as_str().expect("lines").contains("Rgb565Le")
         );
@@ -168,6 +176,25 @@ fn chips_are_advised_by_a_model() {
     }
 }
 
+/// A chip's picture has 16 bits a pixel: the error is that of such pictures.
+#[test]
+fn a_chips_colours_have_16_bits() {
+    let folder = squares();
+    let scene = [&SCENE[..], &CAMERA].concat();
+    let advice = folder.advice(&[&scene[..], &["--target", "m4f", "--max-error", "8lsb"]].concat());
+    let render = |options: &str, output: &str| {
+        let options: Vec<&str> = options.split(' ').collect();
+        folder.succeeds(&[&scene[..], &options, &["--color", "rgb565", "-o", output]].concat());
+    };
+    render("--interpolation exact --arithmetic float --depth f32-reversed --subpixel 8", "right.png");
+    for trial in advice["trials"].as_array().expect("trials").iter().step_by(4) {
+        render(trial["options"].as_str().expect("options"), "found.png");
+        let run = alberti(folder.0.path(), &[OsStr::new("compare")], &["right.png", "found.png", "--json"]);
+        let compared: Value = serde_json::from_str(&run.stdout).expect("JSON");
+        assert_eq!(compared["percentile_99_9"].as_f64(), trial["error"].as_f64(), "{trial}");
+    }
+}
+
 /// What a combination takes is not what its parts promise, where these decide together which triangles are small: the
 /// search finds it nevertheless.
 #[test]
@@ -190,7 +217,8 @@ fn what_is_paid_for_nothing_is_told() {
     let wastes = |more: &[&str]| folder.advice(&[&scene[..], more].concat())["waste"].to_string();
     let from_before = wastes(&[]);
     assert!(
-        from_before.contains("triangles: 2 of 4 (50 %) show in no pixel from this camera"),
+        from_before
+            .contains("triangles: 2 of 4 (50 %) show in no pixel from this camera; to leave them out saves"),
         "{from_before}"
     );
     assert!(from_before.contains("gives the same picture"), "{from_before}");
@@ -269,6 +297,9 @@ fn wrong_input_is_one_line() {
             &["m.obj", "--target", "m0", "--filter", "anisotropic:2"],
             "expected nearest, bilinear or trilinear",
         ),
+        (&["m.obj", "--target", "m0", "--target", "m4f"], "--target: found it twice, expected once"),
+        (&["m.obj", "--thorogh"], "--thorogh: found it, expected an option, such as --thorough"),
+        (&["m.obj", "--scene", "hero"], "--scene"),
         (&["m.obj", "--target", "m7"], "--target: found \"m7\", expected one of host, m4f, m0, rv32"),
         (&["no.obj"], "no.obj"),
         (&["m.obj", "--image", "file/out"], "file/out"),

@@ -30,15 +30,12 @@ Depths of 16 bits let most small triangles take the short way; those of 24 or 32
 mesh in fixed point. To do without a depth buffer takes 150 KB less memory and is a little cheaper, unless much is
 hidden: then all of that is shaded.
 
-A bilinear texture makes a frame in fixed point 1.3 to 3.3 times as dear as the nearest texel, a trilinear one up to 9
-times. One level of detail for each triangle instead of one for each run saves up to half of that where triangles are
-large, where it is also wrong, and nothing on a mesh of small ones, which have one in either case.
-
 ";
 
 /// The chapter.
 pub fn chapter(prices: &[Price], estimates: &[Estimate]) -> String {
     let mut text = HEADING.to_owned() + ADVICE;
+    filters(&mut text, prices);
     for (board, title) in BOARDS {
         let own: Vec<&Price> = prices.iter().filter(|price| price.board == board).collect();
         if own.is_empty() {
@@ -66,6 +63,34 @@ pub fn chapter(prices: &[Price], estimates: &[Estimate]) -> String {
     }
     estimated(&mut text, estimates);
     text
+}
+
+/// What filters make of a frame's price in fixed point, from the least to the greatest of all boards and scenes.
+fn filters(text: &mut String, prices: &[Price]) {
+    const USUAL: &str = "fixed spans:16";
+    let judged = |price: &&Price| price.scene.is_some_and(|number| number < JUDGED.len());
+    let range = |policy: &str, other: &str| {
+        let of = |policy: &str, like: &Price| {
+            let same = |price: &&Price| (&price.board, price.scene) == (&like.board, like.scene);
+            prices.iter().filter(same).find(|price| price.policy == policy).map(|price| float(price.count))
+        };
+        let usual = prices.iter().filter(|price| price.policy == USUAL).filter(judged);
+        let ratios = usual.filter_map(|price| Some(of(policy, price)? / of(other, price)?));
+        ratios.fold([f64::INFINITY, 0.0_f64], |[low, high], ratio| [low.min(ratio), high.max(ratio)])
+    };
+    let [bilinear, trilinear] =
+        ["bilinear", "trilinear:run"].map(|filter| range(&format!("{USUAL}, {filter}"), USUAL));
+    let triangle = range(&format!("{USUAL}, trilinear:triangle"), &format!("{USUAL}, trilinear:run"));
+    if bilinear[1] == 0.0 || triangle[1] == 0.0 {
+        return;
+    }
+    let _ = write!(
+        text,
+        "A bilinear texture makes a frame in fixed point {:.1} to {:.1} times as dear as the nearest texel, a trilinear \
+         one\n{:.1} to {:.1} times. One level of detail for each triangle instead of one for each run makes that {:.2} \
+         to {:.2} times\nas dear: the least where triangles are large, where it is also wrong.\n\n",
+        bilinear[0], bilinear[1], trilinear[0], trilinear[1], triangle[0], triangle[1],
+    );
 }
 
 fn row(name: &str, prices: &[&Price]) -> String {

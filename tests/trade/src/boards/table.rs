@@ -7,8 +7,8 @@ use std::fmt::Write as _;
 /// Its first line.
 const HEADING: &str = "board,scene,policy,count,divides,stack";
 
-/// The table: instructions of a frame, divisions and bytes of stack of the scenes of the trade; with `code` for the
-/// scene, bytes of code.
+/// The table: instructions of a frame, divisions and bytes of stack of the scenes of the trade, the latter of one that
+/// is clipped and one that is not; with `code` for the scene, bytes of code.
 pub fn csv(prices: &[Price]) -> String {
     let mut text = format!("{HEADING}\n");
     for Price { board, scene, policy, count, divides, stack } in prices {
@@ -17,6 +17,7 @@ pub fn csv(prices: &[Price]) -> String {
             Some(number) if *number < JUDGED.len() => JUDGED[*number],
             Some(_) => continue,
         };
+        let stack = if *stack == 0 { String::new() } else { stack.to_string() };
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{board},{scene},\"{policy}\",{count},{divides},{stack}");
     }
@@ -56,7 +57,8 @@ pub fn worse(found: &str, committed: &str) -> Vec<String> {
 /// A row's name and its numbers.
 fn row(line: &str) -> Option<(String, [u64; 3])> {
     let (name, numbers) = line.split_once("\",")?;
-    let numbers: Vec<u64> = numbers.split(',').map(|number| number.parse().ok()).collect::<Option<_>>()?;
+    let number = |number: &str| if number.is_empty() { Some(0) } else { number.parse().ok() };
+    let numbers: Vec<u64> = numbers.split(',').map(number).collect::<Option<_>>()?;
     Some((name.replace('"', ""), numbers.try_into().ok()?))
 }
 

@@ -15,11 +15,13 @@ pub(super) const PERSPECTIVE: Family = Family {
     advice: "\
 On a machine with vector registers take `Exact`, or `Lines::bounded` with the texels that it may miss: it draws each
 triangle by a plane, by straight lines or as `Exact`, whichever is the cheapest that keeps the budget, so it is never
-much dearer. `Planes` is its equal until q falls steeply. `Affine` is right where all of a triangle is equally far,
-and as wrong as the table says elsewhere: on a mesh of small triangles by a fraction of a texel, on a floor by the
-whole texture. The 21 texels of `Exact` are at the horizon of that floor, where a pixel covers tens of thousands. Runs
-of a fixed length, `Spans16` and its kin, promise nothing: steep perspective breaks them. They are for cores on which a
-division is slow; what they cost there is told by [kernel.md](kernel.md).",
+much dearer. Here straight lines never are the cheapest, so that all three budgets draw the same; on one lane they are.
+`Planes` is as right until q falls steeply, and cheaper but on meshes of small triangles, where it is a third dearer.
+`Affine` is right where all of a triangle is equally far, and as wrong as the table says elsewhere: on a mesh of small
+triangles by a fraction of a texel, on a floor by the whole texture. The 21 texels of `Exact` are at the horizon of that
+floor, where a pixel covers tens of thousands. Runs of a fixed length, `Spans16` and its kin, promise nothing: steep
+perspective breaks them. They are for cores on which a division is slow; what they cost there is told by
+[kernel.md](kernel.md).",
     axis: Axis::Texels,
 };
 
@@ -28,9 +30,9 @@ pub(super) const NUMBERS: Family = Family {
     name: "numbers",
     title: "Numbers",
     advice: "\
-On one sample at a time, as a core without vector registers works. Where there are no floats take `FixedPoint`, with
-`Spans16` or a budget: it costs about half, and is as right as the lines that it draws, as long as coordinates are
-small. Its steps are 2^-16, so a texture that is repeated hundreds of times across a triangle, as on the floor, is
+On one sample at a time, as a core without vector registers works. Where there are no floats take `FixedPoint`: with
+`Spans16` it takes two thirds of the instructions of `Exact` in floats and less than half of its time; a budget costs
+about as much as those. It is as right as the lines that it draws, as long as coordinates are small. Its steps are 2^-16, so a texture that is repeated hundreds of times across a triangle, as on the floor, is
 tens of texels off at the horizon. Divide such triangles.",
     axis: Axis::Texels,
 };

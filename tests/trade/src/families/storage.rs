@@ -28,8 +28,9 @@ pub(super) const DEPTHS: Family = Family {
     advice: "\
 Take `F32Reversed` on a desktop: it is right at any ratio of the planes, and the cheapest together with `F32`. `D16`
 is half the memory; between these planes, A = 0.02 and B = 2000, surfaces that cross are ragged.
-`DepthMap::cheapest_drawn` tells which format a pair of planes needs. On vector registers integers cost two thirds
-more, since they are rounded correctly; in fixed point they are a shift. Without a depth buffer the order of the
+`DepthMap::cheapest_drawn` tells which format a pair of planes needs. On vector registers integers make a frame that
+does little else two thirds dearer in instructions and more than twice in time, since they are rounded correctly; in
+fixed point they are a shift. Without a depth buffer the order of the
 triangles decides.",
     axis: Axis::Flip,
 };

@@ -203,7 +203,7 @@ fn mean(image: &Image) -> [f32; 3] {
 }
 
 /// The picture, and the least time of two.
-fn draw(model: &Model, camera: &Camera, options: &RenderOptions) -> Result<Drawn, Error> {
+pub(super) fn draw(model: &Model, camera: &Camera, options: &RenderOptions) -> Result<Drawn, Error> {
     let studio = Studio::new(model, camera, options)?;
     let (mut pixels, mut depth) = (buffer(options, 0)?, buffer(options, 0)?);
     let RenderOptions { width, height, .. } = *options;
