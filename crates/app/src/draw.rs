@@ -1,15 +1,14 @@
 //! From a scene and its options to pixels: the one place where names that a user picks at run time become the
 //! library's policies.
 //!
-//! All of them are values, so few pipelines are compiled for each kind of vector registers. Five are for plain surfaces
-//! by the default interpolation: in these, kernel and fragment stage are optimized together (`draw/plain.rs`). There is
-//! one more for each kind of interpolation, in which the stage is called through a pointer (`draw/general.rs`). Numbers
-//! of pixels come out of these as well (`draw/tapped.rs`); runs of straight lines have two small ones of their own
-//! (`draw/runs.rs`).
+//! All of them are values, so few pipelines are compiled for each kind of vector registers and of interpolation. Five
+//! are for plain surfaces in floats: in these, kernel and fragment stage are optimized together (`draw/plain.rs`). One
+//! more calls the stage through a pointer (`draw/general.rs`). Numbers of pixels come out of that as well
+//! (`draw/tapped.rs`); runs of straight lines have two small ones of their own (`draw/runs.rs`).
 
 use crate::camera::{self, CAMERA};
 use crate::error::Error;
-use crate::options::{Cull, Interpolation, Lod, Projection, RenderOptions};
+use crate::options::{Arithmetic, Cull, Lod, Projection, RenderOptions};
 use crate::scene::{Camera, Image, Model, Part, Vertex};
 use crate::slide;
 use alberti::glam::Vec3;
@@ -153,8 +152,8 @@ impl<'a> Drawing<'a> {
 
     /// Whether a part is drawn by the kernels for plain surfaces.
     fn is_plain(&self, part: &Part) -> bool {
-        let exact = self.options.policies.interpolation == Interpolation::Exact;
-        exact && self.slide.is_none() && !general::is_lit(part, self.model, self.options)
+        let float = self.options.policies.arithmetic == Arithmetic::Float;
+        float && self.slide.is_none() && !general::is_lit(part, self.model, self.options)
     }
 
     /// A pass with the options' policies but for the interpolation.

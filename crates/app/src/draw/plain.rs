@@ -4,12 +4,12 @@
 use super::maps::{FlatMap, Scaled, TileMap, flat_map, tile_map};
 use super::used::Used;
 use super::{AMBIENT, Canvas, DIFFUSE, Drawing, color, memory, position};
-use crate::options::Shading;
+use crate::options::{Interpolation, Shading};
 use crate::scene::{Part, Vertex};
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::Machine;
 use alberti::shaders::{Sunlit, Unlit, VertexColor};
-use alberti::{FragmentStage, Mesh, Rgba8, Slot, Varying, for_lanes};
+use alberti::{FragmentStage, Mesh, Planes, Rgba8, Slot, Varying, for_lanes};
 
 /// A colour, or a texture times that colour.
 pub(super) type Skin<'a> = Scaled<FlatMap<'a>>;
@@ -33,7 +33,7 @@ impl<'a> Drawing<'a> {
         Sunlit::new(Unlit(map), self.light, AMBIENT, DIFFUSE)
     }
 
-    /// A plain surface by the default interpolation.
+    /// A plain surface in floats.
     pub(super) fn draw_plain(&mut self, part: &Part, triangles: &[[u32; 3]], target: &mut Canvas<'_>) {
         let normal = |v: &Vertex| Vec3::from_array(v.normal);
         let uv = |v: &Vertex| Vec2::from_array(v.uv);
@@ -62,10 +62,19 @@ impl<'a> Drawing<'a> {
         let mesh = Mesh::new(&vertices, &triangles, |v: &Vertex| (position(v), varying(v)));
         let (mut room, mut slots) = memory(&mesh);
         let Some(machine) = Machine::all().next() else { return };
-        let mut stats = self.stats;
+        let (mut stats, threads, lines) = (self.stats, self.options.threads, self.lines());
         for_lanes!(machine, lanes => {
             let mut pass = self.pass(&mesh, stage, &mut slots);
-            pass.count_by_threads(lanes, self.options.threads, &mut room, target, &mut stats);
+            let (room, stats) = (&mut room, &mut stats);
+            match (self.options.policies.interpolation, lines) {
+                (_, Some(lines)) => {
+                    pass.interpolation(lines).count_by_threads(lanes, threads, room, target, stats);
+                }
+                (Interpolation::Plane, None) => {
+                    pass.interpolation(Planes).count_by_threads(lanes, threads, room, target, stats);
+                }
+                (_, None) => pass.count_by_threads(lanes, threads, room, target, stats),
+            }
         });
         self.stats = stats;
     }

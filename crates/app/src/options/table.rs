@@ -164,7 +164,6 @@ pub struct RenderTable {
     /// spans:N: exact every N = 4, 8, 16 or 32 columns, straight lines between.
     /// bounded:TEXELS: straight lines that miss at most so much of a texel, such as 0.0625.
     /// affine: straight lines across a triangle, no division; textures break along edges.
-    /// Plain surfaces have kernels of their own for exact only: all others take several times as long here.
     #[arg(long, value_name = "HOW", help_heading = PRECISION, verbatim_doc_comment)]
     pub interpolation: Option<Interpolation>,
 
