@@ -1,4 +1,4 @@
-//! Built-in fragment stages. The last three wrap another, so that a scene pays for what it uses.
+//! Built-in fragment stages. Those from [`Tinted`] on wrap another, so that a scene pays for what it uses.
 //!
 //! | stage | varying | colour |
 //! |---|---|---|
@@ -9,6 +9,8 @@
 //! | [`Stored`] | `Vec2` | the same, in the texture's own format |
 //! | [`Tinted`] | the wrapped stage's | the wrapped stage's times a colour |
 //! | [`Sunlit`] | `(Vec3, V)`: a normal and the wrapped stage's | the wrapped stage's, lit |
+//! | [`AlphaTest`], [`AlphaDither`] | the wrapped stage's | the wrapped stage's, with holes |
+//! | [`Fogged`](fog::Fogged) | `(f32, V)`: a fog's coordinate and the wrapped stage's | the wrapped stage's, fading |
 //! | [`Slide`] | `(Homogeneous, V)`: a place on an image and the wrapped stage's | the wrapped stage's, the image on it |
 //!
 //! [`material`] has stages that are composed of maps and lights, [`wide`] the arithmetic for stages of yours.
@@ -16,6 +18,8 @@
 //! All arithmetic is on sRGB bytes, as they are stored.
 
 mod color;
+mod cutout;
+pub mod fog;
 mod map;
 pub mod material;
 mod slide;
@@ -25,6 +29,7 @@ mod tinted;
 pub mod wide;
 
 pub use color::{Ready565, Solid, VertexColor, VertexColor565};
+pub use cutout::{AlphaDither, AlphaTest};
 pub use map::{Called, Map, Times};
 pub use slide::{Mix, Slide};
 pub use sunlit::{Sunlit, face_normal};

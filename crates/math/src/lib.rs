@@ -19,6 +19,7 @@ mod q16;
 mod reciprocal;
 mod round;
 mod space;
+pub mod srgb;
 mod structs;
 mod varying;
 

@@ -1,5 +1,6 @@
 //! Triangles drawn a few at a time.
 
+use crate::bias::biased;
 use crate::color::ColorFormat;
 use crate::counters::Counters;
 use crate::depth::DepthFormat;
@@ -26,7 +27,7 @@ pub struct Batch<'a, 't, 'c, L: Lanes, V: Varying, F, P, C: ColorFormat, D: Dept
     triangles: L::Each<Option<Waiting<'c, V>>>,
     /// Those whose corners are not kept, with their areas, and a bit for each.
     copies: L::Each<([Corner<V>; 3], i64)>,
-    copied: u32,
+    waiting_copies: u32,
     count: usize,
 }
 
@@ -47,7 +48,7 @@ impl<F, P: Interpolation> Paint<F, P> {
     {
         let limits = target.limits();
         let (triangles, copies) = (lanes.each(|_| None), lanes.each(|_| ([Corner::NONE; 3], 0)));
-        Batch { lanes, paint: *self, target, limits, triangles, copies, copied: 0, count: 0 }
+        Batch { lanes, paint: *self, target, limits, triangles, copies, waiting_copies: 0, count: 0 }
     }
 }
 
@@ -64,6 +65,10 @@ where
     #[inline(always)]
     pub fn triangle(&mut self, corners: [&'c Corner<V>; 3], counters: &mut impl Counters) {
         // Constants in blocks of their own, so that no code is made of the other way.
+        if const { D::BIASED } {
+            self.copied(self.biased(corners).each_ref(), counters);
+            return;
+        }
         if const { <P::Lanes<L> as Lanes>::COUNT == 1 } {
             self.paint.draw_one(self.lanes, self.target, &self.limits, corners, counters);
             return;
@@ -81,6 +86,22 @@ where
     /// The same for a triangle whose corners are not kept.
     #[inline(always)]
     pub fn passing(&mut self, corners: [&Corner<V>; 3], counters: &mut impl Counters) {
+        if const { D::BIASED } {
+            self.copied(self.biased(corners).each_ref(), counters);
+        } else {
+            self.copied(corners, counters);
+        }
+    }
+
+    /// The corners with the bias of the depth format.
+    #[inline(always)]
+    fn biased(&self, corners: [&Corner<V>; 3]) -> [Corner<V>; 3] {
+        let fixed = const { <P::Lanes<L> as Lanes>::FIXED };
+        biased(corners, (fixed, self.paint.subpixel.bits()), self.target.depth_format())
+    }
+
+    #[inline(always)]
+    fn copied(&mut self, corners: [&Corner<V>; 3], counters: &mut impl Counters) {
         if const { <P::Lanes<L> as Lanes>::COUNT == 1 } {
             self.paint.draw_one(self.lanes, self.target, &self.limits, corners, counters);
             return;
@@ -91,7 +112,7 @@ where
         };
         if let Some(copy) = self.copies.as_mut().get_mut(self.count) {
             *copy = (corners.map(|corner| *corner), area);
-            self.copied |= 1 << self.count;
+            self.waiting_copies |= 1 << self.count;
         }
         self.added(counters);
     }
@@ -116,7 +137,7 @@ where
 
     #[inline]
     fn draw(&mut self, counters: &mut impl Counters) {
-        let Self { lanes, paint, target, triangles, copies, copied, count, .. } = self;
+        let Self { lanes, paint, target, triangles, copies, waiting_copies: copied, count, .. } = self;
         if *copied == 0 {
             paint.draw_batch(*lanes, target, (triangles, *count), counters);
         } else {

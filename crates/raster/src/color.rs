@@ -1,10 +1,28 @@
 //! Colour targets: how a pixel is stored. A new one is a type with two short methods.
 
+mod blend;
+mod dither;
+mod formats;
+pub mod pack;
+mod resolve;
+
+pub use blend::{Additive, AnyBlend, Blend, Blended, Constant, InLight, Multiply, Over, Premultiplied};
+pub use dither::{Bayer, BlueNoise, Dithered, Pattern};
+pub use resolve::{Average, resolve};
+pub use formats::{
+    Grey1, Grey2, Grey4, Grey8, Indexed, Levels, ReadColor, Rgb332, Rgb444, Rgb666, Rgb888, Xrgb8888, rgb565,
+};
+
+use alberti_math::Rgba8;
 use alberti_math::lanes::Lanes;
-use alberti_math::{Rgb565Be, Rgb565Le, Rgba8, Rgba8888};
 use core::fmt::Debug;
 
-/// A pixel format of a target: [`Rgba8888`], [`Rgb565Le`], [`Rgb565Be`], or one of yours.
+/// A pixel format of a target: [`Rgba8888`](crate::Rgba8888), [`Rgb565Le`](crate::Rgb565Le),
+/// [`Rgb565Be`](crate::Rgb565Be), [others](crate::color), or one of yours.
+///
+/// What happens to a colour on its way into a pixel is a format around a format: [`Blended`] mixes it with what the
+/// pixel shows, [`Dithered`] rounds it by a pattern. A pass that needs one draws to
+/// [`target.with_color`](crate::Target::with_color), and the others do not pay for it.
 ///
 /// ```
 /// use alberti_math::Rgba8;
@@ -44,15 +62,18 @@ pub trait ColorFormat: Copy + Debug + Send + Sync + 'static {
     /// are never asked.
     fn native(self, word: u32) -> Self::Pixel;
 
-    /// Stores pixels for the samples in `mask`, whose colours are the words of `Shade`s.
+    /// Stores pixels for the samples in `mask`, whose colours are the words of `Shade`s. `place` is the column and the
+    /// row of the first.
     #[inline(always)]
     fn store<L: Lanes, Shade: FragmentColor>(
         self,
         lanes: L,
         colors: L::U32,
         mask: L::Mask,
+        place: [i32; 2],
         pixels: &mut L::Each<Self::Pixel>,
     ) {
+        let _ = place;
         let (words, bits) = (lanes.store_words(colors), lanes.bits(mask));
         for (k, (pixel, &word)) in pixels.as_mut().iter_mut().zip(words.as_ref()).enumerate() {
             let new = Shade::pixel(self, word);
@@ -71,6 +92,10 @@ pub trait FragmentColor: Sealed + Copy {
     fn from_word(word: u32) -> Self;
     /// The pixel for such a word.
     fn pixel<C: ColorFormat>(format: C, word: u32) -> C::Pixel;
+    /// The bits of the [`Rgba8`] that is shown for such a word; opaque where the word has no alpha.
+    fn color<C: ReadColor>(format: C, word: u32) -> u32;
+    /// Whether words are those bits already.
+    const IS_COLOR: bool;
 }
 
 /// A bound that other crates cannot name, so that they cannot add to [`FragmentColor`].
@@ -97,6 +122,13 @@ impl FragmentColor for Rgba8 {
     fn pixel<C: ColorFormat>(format: C, word: u32) -> C::Pixel {
         format.pixel(Self::from_bits(word))
     }
+
+    #[inline(always)]
+    fn color<C: ReadColor>(_: C, word: u32) -> u32 {
+        word
+    }
+
+    const IS_COLOR: bool = true;
 }
 
 /// Red, green, blue and alpha, as textures store them.
@@ -116,6 +148,13 @@ impl FragmentColor for [u8; 4] {
     fn pixel<C: ColorFormat>(format: C, word: u32) -> C::Pixel {
         format.pixel(Rgba8::from_bits(word))
     }
+
+    #[inline(always)]
+    fn color<C: ReadColor>(_: C, word: u32) -> u32 {
+        word
+    }
+
+    const IS_COLOR: bool = true;
 }
 
 /// Words of the target's pixels: packed colours as a texture stores them, or indices into a palette.
@@ -143,106 +182,14 @@ macro_rules! words {
                 }
                 format.native(word)
             }
+
+            #[inline(always)]
+            fn color<C: ReadColor>(format: C, word: u32) -> u32 {
+                format.color(Self::pixel(format, word)).to_bits()
+            }
+
+            const IS_COLOR: bool = false;
         }
     )*};
 }
 words!(u8 u16 u32);
-
-impl ColorFormat for Rgba8888 {
-    type Pixel = u32;
-
-    #[inline(always)]
-    fn pixel(self, color: Rgba8) -> u32 {
-        color.to_bits().to_le()
-    }
-
-    #[inline(always)]
-    fn native(self, word: u32) -> u32 {
-        word.to_le()
-    }
-
-    #[cfg(target_endian = "little")]
-    #[inline(always)]
-    fn store<L: Lanes, Shade: FragmentColor>(
-        self,
-        lanes: L,
-        colors: L::U32,
-        mask: L::Mask,
-        pixels: &mut L::Each<u32>,
-    ) {
-        const {
-            assert!(
-                size_of::<Shade>() == 4,
-                "the stage's colour is a word of another size than the target's pixels: let it be Rgba8"
-            );
-        };
-        *pixels = lanes.store_words(lanes.select_words(mask, colors, lanes.load_words(pixels)));
-    }
-}
-
-macro_rules! rgb565 {
-    ($($name:ident: $in_order:ident;)*) => {$(
-        impl ColorFormat for $name {
-            type Pixel = u16;
-
-            #[inline]
-            fn pixel(self, color: Rgba8) -> u16 {
-                rgb565(color).$in_order()
-            }
-
-            #[inline(always)]
-            #[expect(clippy::cast_possible_truncation, reason = "a word of 16 bits")]
-            fn native(self, word: u32) -> u16 {
-                (word as u16).$in_order()
-            }
-        }
-    )*};
-}
-rgb565! {
-    Rgb565Le: to_le;
-    Rgb565Be: to_be;
-}
-
-/// The 16-bit colour nearest to `color`: each channel c becomes c·31/255 or c·63/255 to the nearest; alpha is dropped.
-///
-/// # Precision
-/// Correctly rounded in each channel.
-///
-/// # Cost
-/// Three multiplications, three additions, shifts.
-#[must_use]
-#[inline]
-pub fn rgb565(color: Rgba8) -> u16 {
-    let [r, g, b, _] = color.to_bytes();
-    // Multiply and shift equal the rounded quotients for every byte.
-    let five = |c: u8| (u32::from(c) * 249 + 1014) >> 11;
-    let six = |c: u8| (u32::from(c) * 253 + 505) >> 10;
-    #[expect(clippy::cast_possible_truncation, reason = "5 + 6 + 5 bits")]
-    let packed = (five(r) << 11 | six(g) << 5 | five(b)) as u16;
-    packed
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_byte_goes_to_the_nearest_step() {
-        for c in 0..=255u8 {
-            let packed = rgb565(Rgba8::new(c, c, c, 0));
-            let nearest = |steps: f64| (f64::from(c) * steps / 255.0).round();
-            assert_eq!(f64::from(packed >> 11), nearest(31.0), "red of {c}");
-            assert_eq!(f64::from(packed >> 5 & 63), nearest(63.0), "green of {c}");
-            assert_eq!(f64::from(packed & 31), nearest(31.0), "blue of {c}");
-        }
-    }
-
-    #[test]
-    fn bytes_lie_in_memory_as_the_format_says() {
-        let color = Rgba8::new(255, 128, 0, 7);
-        assert_eq!(Rgba8888.pixel(color).to_ne_bytes(), [255, 128, 0, 7]);
-        let [high, low] = [0b1111_1100, 0b0000_0000];
-        assert_eq!(Rgb565Be.pixel(color).to_ne_bytes(), [high, low]);
-        assert_eq!(Rgb565Le.pixel(color).to_ne_bytes(), [low, high]);
-    }
-}

@@ -16,6 +16,12 @@ macro_rules! like {
 
         impl<D: DepthFormat> DepthFormat for $name<D> {
             type Stored = D::Stored;
+            const BIASED: bool = D::BIASED;
+
+            #[inline]
+            fn bias(self, slope: f32, greatest: f32) -> f32 {
+                self.0.bias(slope, greatest)
+            }
 
             #[inline(always)]
             fn reversed(self) -> bool {

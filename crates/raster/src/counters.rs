@@ -1,6 +1,7 @@
 //! Counts of the events of drawing, for those who ask.
 
 use crate::Outcome;
+use core::ops::Range;
 
 /// Receives counts while drawing. `()` is the one that costs nothing: its methods are empty, and so is what would be
 /// computed for them.
@@ -19,6 +20,11 @@ pub trait Counters {
     fn rasterized(&mut self, outcome: Outcome) {
         let _ = outcome;
     }
+    /// A triangle was drawn, whose samples are in these columns and rows of the frame.
+    #[inline]
+    fn drawn(&mut self, columns: &Range<i32>, rows: &Range<i32>) {
+        let _ = (columns, rows);
+    }
     /// A span of `covered` samples was filled, of which `written` passed the depth test and were not discarded.
     #[inline]
     fn span(&mut self, covered: u32, written: u32) {
@@ -33,4 +39,49 @@ pub trait Counters {
 impl Counters for () {
     #[inline]
     fn add(&mut self, (): Self) {}
+}
+
+/// Both hear of all.
+impl<A: Counters, B: Counters> Counters for (A, B) {
+    #[inline]
+    fn submitted(&mut self) {
+        self.0.submitted();
+        self.1.submitted();
+    }
+
+    #[inline]
+    fn clipped(&mut self) {
+        self.0.clipped();
+        self.1.clipped();
+    }
+
+    #[inline]
+    fn dropped(&mut self) {
+        self.0.dropped();
+        self.1.dropped();
+    }
+
+    #[inline]
+    fn rasterized(&mut self, outcome: Outcome) {
+        self.0.rasterized(outcome);
+        self.1.rasterized(outcome);
+    }
+
+    #[inline]
+    fn drawn(&mut self, columns: &Range<i32>, rows: &Range<i32>) {
+        self.0.drawn(columns, rows);
+        self.1.drawn(columns, rows);
+    }
+
+    #[inline]
+    fn span(&mut self, covered: u32, written: u32) {
+        self.0.span(covered, written);
+        self.1.span(covered, written);
+    }
+
+    #[inline]
+    fn add(&mut self, other: Self) {
+        self.0.add(other.0);
+        self.1.add(other.1);
+    }
 }

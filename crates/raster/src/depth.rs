@@ -40,6 +40,17 @@ pub trait DepthFormat: Copy + Debug + Send + Sync + 'static {
         self.encode((zs as f32 * (1.0 / 4_294_967_296.0)).min(1.0))
     }
 
+    /// Whether triangles are moved by [`bias`](Self::bias).
+    const BIASED: bool = false;
+
+    /// The zs that is added to a triangle whose zs changes by at most `slope` from a pixel to the next, by column or by
+    /// row, and is at most `greatest`.
+    #[inline]
+    fn bias(self, slope: f32, greatest: f32) -> f32 {
+        let _ = (slope, greatest);
+        0.0
+    }
+
     /// Whether `new` is seen in front of `old`.
     fn nearer(self, new: Self::Stored, old: Self::Stored) -> bool;
 

@@ -2,6 +2,7 @@
 //!
 //! Facing, edges, rows, spans, depth, attributes, colour: read [`Paint::triangle`] from top to bottom.
 
+use crate::bias::biased;
 use crate::color::ColorFormat;
 use crate::counters::Counters;
 use crate::depth::DepthFormat;
@@ -73,7 +74,11 @@ impl<F, P: Interpolation> Paint<F, P> {
         K: Counters,
     {
         let numbers = self.numbers(target.depth_format());
-        let corners = vertices.map(|vertex| Corner::new(numbers, vertex));
+        let mut corners = vertices.map(|vertex| Corner::new(numbers, vertex));
+        if const { D::BIASED } {
+            let grid = (numbers.are_fixed(), self.subpixel.bits());
+            corners = biased(corners.each_ref(), grid, target.depth_format());
+        }
         if const { <P::Lanes<L> as Lanes>::COUNT == 1 } {
             let limits = target.limits();
             self.draw_one(lanes, target, &limits, corners.each_ref(), counters);
@@ -276,6 +281,10 @@ impl<F, P: Interpolation> Paint<F, P> {
                             }
                         }
                     };
+                    if outcome == Outcome::Drawn {
+                        let [columns, rows] = setups.columns_and_rows(k);
+                        counters.drawn(&columns, &rows);
+                    }
                     counters.rasterized(outcome);
                 }
             },
@@ -336,6 +345,9 @@ impl<F, P: Interpolation> Paint<F, P> {
         } else {
             fill::<i64, _, _, _, _, _, _, _>(target, &samples, &setup, counters)
         };
+        if outcome == Outcome::Drawn {
+            counters.drawn(&samples.columns, &samples.rows);
+        }
         counters.rasterized(outcome);
     }
 }

@@ -6,8 +6,9 @@ extern crate std;
 
 mod bands;
 mod batch;
+mod bias;
 mod chosen;
-mod color;
+pub mod color;
 mod comparison;
 mod counters;
 mod depth;
@@ -23,6 +24,7 @@ mod setup;
 mod small;
 mod spans;
 mod target;
+mod touched;
 mod triangle;
 mod unsnapped;
 mod weights;
@@ -30,6 +32,7 @@ mod weights;
 pub use alberti_math::{Gradient, Rgb565Be, Rgb565Le, Rgba8888};
 pub use bands::Bands;
 pub use batch::Batch;
+pub use bias::Biased;
 pub use color::{ColorFormat, FragmentColor, rgb565};
 pub use comparison::{Always, Equal, Farther, OrEqual, ReadOnly};
 pub use counters::Counters;
@@ -41,6 +44,7 @@ pub use fragment::{FragmentStage, Fragments};
 pub use interpolation::{Affine, Exact, FixedPoint, Interpolation, Lines, Planes, Spans16};
 pub use spans::{Span, SpanWalker};
 pub use target::{Target, TargetError};
+pub use touched::Touched;
 pub use triangle::{Corner, Cull, Numbers, Outcome, Reach, Vertex};
 
 // For the command of this workspace, which draws where straight lines divide. They change as the kernels do.

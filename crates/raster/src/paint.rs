@@ -349,7 +349,7 @@ where
         let (words, kept) = self.stage.shade(&Fragments { lanes, varying, gradient, mask: seen, place });
         // A stage may answer for samples that it was not asked for.
         let kept = kept & seen;
-        color_format.store::<L, F::Color>(lanes, words, kept, color);
+        color_format.store::<L, F::Color>(lanes, words, kept, place, color);
         depth_format.keep(lanes, &zs, kept, depth);
         lanes.bits(kept).count_ones()
     }

@@ -260,7 +260,13 @@ where
                             let place = [column, row];
                             let (word, kept) =
                                 stage.shade(&Fragments { lanes, varying, gradient, mask: true, place });
-                            formats.0.store::<OneFixed, F::Color>(lanes, word, kept, array::from_mut(color));
+                            formats.0.store::<OneFixed, F::Color>(
+                                lanes,
+                                word,
+                                kept,
+                                place,
+                                array::from_mut(color),
+                            );
                             formats.1.keep(lanes, &new, kept, array::from_mut(stored));
                             written += u32::from(kept);
                         }
@@ -284,6 +290,10 @@ where
             row += 1;
         }
         if row >= end {
+            if outcome == Outcome::Drawn {
+                let own = self::row::<FINE>;
+                counters.drawn(&(own(west).max(columns.start)..own(east + 1).min(columns.end)), &(top..end));
+            }
             counters.rasterized(outcome);
             return true;
         }

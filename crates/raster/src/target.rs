@@ -290,6 +290,14 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
         Target { color_format, depth_format, color, depth, size, strides, first_row, limits }
     }
 
+    /// The same target with another colour format of the same pixels, for passes that store otherwise:
+    /// `target.with_color(Blended { format: Rgb565Le, by: Over })`.
+    pub fn with_color<E: ColorFormat<Pixel = C::Pixel>>(&mut self, color_format: E) -> Target<'_, E, D> {
+        let Self { depth_format, size, strides, first_row, .. } = *self;
+        let (color, depth, limits) = (&mut *self.color, &mut *self.depth, self.limits.clone());
+        Target { color_format, depth_format, color, depth, size, strides, first_row, limits }
+    }
+
     /// Gives every pixel this colour and the farthest depth.
     pub fn clear<Shade: FragmentColor>(&mut self, color: Shade) {
         let pixel = Shade::pixel(self.color_format, color.to_word());

@@ -30,7 +30,7 @@ pub struct Vertex<V> {
 #[derive(Clone, Copy)]
 pub struct Corner<V: Varying> {
     /// Columns and rows: the bits of a [`Fixed`], in fixed point subpixels alone.
-    place: [i32; 2],
+    pub(crate) place: [i32; 2],
     /// zs.
     pub(crate) zs: u32,
     /// q, an `f32`.

@@ -17,12 +17,12 @@ pub mod mipmap;
 mod sampler;
 mod sealed;
 mod size;
-pub mod srgb;
 pub mod surface;
 mod texture;
 mod wrap;
 
 pub use alberti_math::Gradient;
+pub use alberti_math::srgb;
 pub use anisotropic::{Anisotropic, AnyMipFilter, Probes};
 pub use bounded::{Bounded, LodBounds};
 pub use filter::{AnyFilter, Bilinear, Filter, Nearest};

@@ -1,6 +1,7 @@
 //! Tests of fragments across crates: how their components go over a triangle, what their depths are compared with, what
 //! they read, and how they are lit. A module's tests have its name: `cargo test -p alberti-tests materials::`.
 
+mod afterwards;
 mod attributes;
 mod budget;
 mod depth;

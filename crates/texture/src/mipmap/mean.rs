@@ -1,9 +1,8 @@
 //! The mean of texels, for each content.
 
-use alberti_math::Rgba8;
+use alberti_math::{Rgba8, srgb};
 
 use crate::format::Content;
-use crate::srgb;
 
 /// The mean of colours that count so many times: together from 1 to 2^28 times.
 #[inline]

@@ -1,0 +1,302 @@
+//! Fog: colours that fade into one with the distance.
+
+use alberti_math::lanes::Lanes;
+use alberti_math::{Rgba8, Varying, map2};
+use alberti_raster::{FragmentStage, Fragments};
+use core::fmt::Debug;
+
+/// Another stage's colour, fading into that of a fog.
+///
+/// Vertices carry the fog's [`coordinate`](Fog::coordinate) beside what the stage needs. It is linear in space, so that
+/// it is interpolated exactly whatever the triangle's size.
+///
+/// ```
+/// use alberti::shaders::fog::{ExponentialFog, Fog, Fogged};
+/// use alberti::shaders::Solid;
+/// use alberti::{Camera, Mesh, Object, Point3, Rgba8, glam::Vec3};
+///
+/// let view = Camera::default().perspective(1.0, 0.1..100.0)?;
+/// let fog = ExponentialFog { density: 0.05 };
+/// let to_eye = view.object_to_eye(None);
+/// let vertices = [Vec3::ZERO, Vec3::X, Vec3::Y];
+/// let mesh = Mesh::new(&vertices, &[[0_u16, 1, 2]], |v: &Vec3| {
+///     let position = Point3::<Object>::new(*v);
+///     (position, (fog.coordinate((to_eye * position).coords.z), ()))
+/// });
+/// let stage = Fogged { surface: Solid(Rgba8::WHITE), fog, color: Rgba8::from_rgb24(0x80_90_a0) };
+/// # let _ = (mesh, stage);
+/// # Ok::<(), alberti::ViewError>(())
+/// ```
+///
+/// # Precision
+/// The fog's, and half a byte: amounts are 256ths.
+///
+/// # Cost
+/// The fog's, and two products, four sums and shifts.
+#[derive(Clone, Copy, Debug)]
+pub struct Fogged<S, F> {
+    /// The stage.
+    pub surface: S,
+    /// The law.
+    pub fog: F,
+    /// The fog's colour; the surface's alpha is kept.
+    pub color: Rgba8,
+}
+
+/// A law by which a fog grows.
+pub trait Fog: Copy + Debug {
+    /// The number that a vertex at this distance along the line of sight carries.
+    fn coordinate(&self, distance: f32) -> f32;
+
+    /// The fog before fragments with these coordinates, in 256ths.
+    fn amount<L: Lanes>(&self, lanes: L, coordinate: L::Number) -> L::U32;
+}
+
+/// None up to a distance, and nothing else from another on.
+///
+/// ```text
+/// fog = (z − start)/(end − start), from 0 to 1
+/// ```
+///
+/// # Precision
+/// To the nearest 256th of the interpolated coordinate.
+///
+/// # Cost
+/// Two comparisons, a product, a conversion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinearFog {
+    /// The distance at which it begins.
+    pub start: f32,
+    /// The distance at which there is nothing else.
+    pub end: f32,
+}
+
+impl Fog for LinearFog {
+    fn coordinate(&self, distance: f32) -> f32 {
+        let all = (distance - self.start) / (self.end - self.start);
+        // A fog without a depth is a wall.
+        if all.is_nan() { 0.0 } else { all.clamp(-MOST, MOST) }
+    }
+
+    #[inline(always)]
+    fn amount<L: Lanes>(&self, lanes: L, coordinate: L::Number) -> L::U32 {
+        lanes.of_unit(coordinate, 256)
+    }
+}
+
+/// The greatest coordinate, within the range of fixed point.
+const MOST: f32 = 4000.0;
+
+/// What a haze of the same density everywhere leaves.
+///
+/// ```text
+/// fog = 1 − e^(−density · z)
+/// ```
+///
+/// # Precision
+/// Within 1.3 256ths of the formula for the interpolated coordinate, from a table.
+///
+/// # Cost
+/// Two loads from a table of 130 bytes, a product, conversions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExponentialFog {
+    /// One over the distance at which 1/e is left.
+    pub density: f32,
+}
+
+/// A fog that begins softly.
+///
+/// ```text
+/// fog = 1 − e^(−(density · z)²)
+/// ```
+///
+/// # Precision
+/// Within 1.3 256ths of the formula for the interpolated coordinate, from a table.
+///
+/// # Cost
+/// That of [`ExponentialFog`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SquaredFog {
+    /// One over the distance at which 1/e is left.
+    pub density: f32,
+}
+
+/// The cells of tables, and how many of them there are to a unit.
+const CELLS: usize = 64;
+const BITS: [u32; 2] = [3, 4];
+
+macro_rules! tables {
+    ($($name:ident: $bits:expr, $table:ident;)*) => {$(
+        impl Fog for $name {
+            fn coordinate(&self, distance: f32) -> f32 {
+                let coordinate = distance * self.density;
+                if coordinate.is_nan() { 0.0 } else { coordinate.clamp(0.0, MOST) }
+            }
+
+            #[inline(always)]
+            fn amount<L: Lanes>(&self, lanes: L, coordinate: L::Number) -> L::U32 {
+                look_up(lanes, &$table, coordinate, $bits)
+            }
+        }
+    )*};
+}
+tables! {
+    ExponentialFog: BITS[0], EXPONENTIAL;
+    SquaredFog: BITS[1], SQUARED;
+}
+
+/// The amount at a coordinate in units of 2^-`bits` cells, from 0 on, by a straight line through its cell.
+#[inline(always)]
+fn look_up<L: Lanes>(lanes: L, table: &[u16; CELLS + 1], coordinate: L::Number, bits: u32) -> L::U32 {
+    #[expect(clippy::cast_precision_loss, reason = "small")]
+    let end = lanes.splat(CELLS as f32 / (1 << bits) as f32);
+    let within = lanes.max(lanes.min(coordinate, end), lanes.splat(0.0));
+    let at = lanes.floor_scaled(within, bits + 8);
+    let at = lanes.min_words(at, lanes.word((CELLS as u32) << 8));
+    let (cell, along) = (lanes.shr(at, 8), at & lanes.word(255));
+    let [low, high] = lanes.gather_pairs(cell, |cell| {
+        let at = |k: usize| u32::from(table.get(k.min(CELLS)).copied().unwrap_or_default());
+        [at(cell as usize), at(cell as usize + 1)]
+    });
+    // In 65536ths times 256, rounded to 256ths.
+    lanes.shr(lanes.shl(low, 8) + (high - low) * along + lanes.word(1 << 15), 16)
+}
+
+/// 1 − e^(−k/8) in 65536ths, the last entry 65535.
+const EXPONENTIAL: [u16; CELLS + 1] = {
+    // e^(-1/8).
+    const STEP: f64 = 0.882_496_902_584_595_4;
+    let (mut table, mut left, mut k) = ([0; CELLS + 1], 1.0, 0);
+    while k <= CELLS {
+        table[k] = parts(1.0 - left);
+        left *= STEP;
+        k += 1;
+    }
+    table
+};
+
+/// 1 − e^(−(k/16)²) in 65536ths.
+const SQUARED: [u16; CELLS + 1] = {
+    // e^(-1/256), of which (k + 1)² − k² = 2 k + 1 more make the next.
+    const STEP: f64 = 0.996_101_369_470_117_5;
+    let (mut table, mut left, mut factor, mut k) = ([0; CELLS + 1], 1.0, STEP, 0);
+    while k <= CELLS {
+        table[k] = parts(1.0 - left);
+        left *= factor;
+        factor *= STEP * STEP;
+        k += 1;
+    }
+    table
+};
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 65535")]
+const fn parts(part: f64) -> u16 {
+    let parts = part * 65536.0 + 0.5;
+    if parts > 65535.0 { 65535 } else { parts as u16 }
+}
+
+impl<V: Varying, S: FragmentStage<V, Color = Rgba8>, F: Fog> FragmentStage<(f32, V)> for Fogged<S, F> {
+    type Color = Rgba8;
+    type Derivatives = S::Derivatives;
+    const WIDE: bool = S::WIDE;
+
+    #[inline(always)]
+    fn derivatives(&self) -> S::Derivatives {
+        self.surface.derivatives()
+    }
+
+    #[inline(always)]
+    fn shade<L: Lanes>(&self, fragments: &Fragments<L, (f32, V)>) -> (L::U32, L::Mask) {
+        let (lanes, (coordinate, _)) = (fragments.lanes, fragments.varying);
+        let (surface, mask) = self.surface.shade(&fragments.part(|(_, varying)| *varying));
+        let amount = self.fog.amount(lanes, coordinate);
+        let bytes = lanes.word(0x00ff_00ff);
+        let color = self.color.to_bits();
+        let halves = [
+            [surface & bytes, lanes.word(color & 0x00ff_00ff)],
+            // Alpha stays: both are the surface's.
+            [
+                lanes.shr(surface, 8) & bytes,
+                (lanes.shr(surface, 8) & lanes.word(0x00ff_0000)) | lanes.word(color >> 8 & 0xff),
+            ],
+        ];
+        let [red_blue, green_alpha] = map2(halves, |[near, far]| {
+            lanes.shr(lanes.mix_halves(near, far, amount) + lanes.word(0x0080_0080), 8) & bytes
+        });
+        (red_blue | lanes.shl(green_alpha, 8), mask)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shaders::Solid;
+    use alberti_math::Q16;
+    use alberti_math::lanes::{One, OneFixed};
+    use std::f64::consts::E;
+
+    fn amounts(fog: impl Fog, coordinate: f32) -> [f64; 2] {
+        let float = fog.amount(One, coordinate).0;
+        let fixed = fog.amount(OneFixed, Q16::from_f32(coordinate)).0;
+        [float.into(), fixed.into()]
+    }
+
+    #[test]
+    fn fogs_are_their_formulas() {
+        let (mut worst, mut most) = ([0.0_f64; 3], 0.0_f64);
+        for k in 0..40_000 {
+            let z = k as f32 * 0.0005;
+            let x = f64::from(z);
+            let line = LinearFog { start: 2.0, end: 7.0 };
+            let all = [
+                (amounts(line, line.coordinate(z)), ((x - 2.0) / 5.0).clamp(0.0, 1.0)),
+                (amounts(ExponentialFog { density: 1.0 }, z), 1.0 - E.powf(-x)),
+                (amounts(SquaredFog { density: 1.0 }, z), 1.0 - E.powf(-x * x)),
+            ];
+            for (worst, (found, expected)) in worst.iter_mut().zip(all) {
+                for found in found {
+                    *worst = worst.max((found - 256.0 * expected).abs());
+                    most = most.max(found);
+                }
+            }
+        }
+        assert!(worst[0] <= 0.51 && worst[1] <= 1.3 && worst[2] <= 1.3, "{worst:?}");
+        assert!(worst[1] > 0.5 && worst[2] > 0.5 && most == 256.0, "{worst:?} {most}");
+    }
+
+    #[test]
+    fn coordinates_are_distances_by_the_density() {
+        assert_eq!(ExponentialFog { density: 0.25 }.coordinate(8.0), 2.0);
+        assert_eq!(SquaredFog { density: 0.25 }.coordinate(-8.0), 0.0);
+        assert_eq!(LinearFog { start: 4.0, end: 8.0 }.coordinate(6.0), 0.5);
+        assert_eq!(LinearFog { start: 4.0, end: 4.0 }.coordinate(4.0), 0.0);
+        for wild in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e30] {
+            for coordinate in [
+                ExponentialFog { density: wild }.coordinate(0.0),
+                SquaredFog { density: 1.0 }.coordinate(wild),
+                LinearFog { start: wild, end: 1.0 }.coordinate(1.0),
+            ] {
+                assert!(coordinate.abs() <= MOST, "{wild}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_fog_mixes_its_colour_in_and_keeps_alpha() {
+        let fog = LinearFog { start: 0.0, end: 1.0 };
+        for byte in 0..=255_u8 {
+            for k in 0..=64_u8 {
+                let part = f32::from(k) / 64.0;
+                let surface = Solid(Rgba8::new(byte, 255 - byte, byte, byte));
+                let stage = Fogged { surface, fog, color: Rgba8::new(200, 10, 0, 77) };
+                let found = stage.shade_one((part, ())).expect("not discarded").to_bytes();
+                for (found, (near, far)) in
+                    found.into_iter().zip([(byte, 200), (255 - byte, 10), (byte, 0), (byte, byte)])
+                {
+                    let expected = f32::from(near) * (1.0 - part) + f32::from(far) * part;
+                    assert!((f32::from(found) - expected).abs() <= 0.5, "{byte} {part}: {found} {expected}");
+                }
+            }
+        }
+    }
+}

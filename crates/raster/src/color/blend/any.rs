@@ -1,0 +1,87 @@
+//! A blend that is chosen at run time.
+
+use super::{Additive, Blend, Constant, Multiply, Over, Premultiplied};
+use crate::color::{ColorFormat as _, ReadColor};
+use alberti_math::Rgba8;
+use alberti_math::lanes::Lanes;
+
+/// A blend that is chosen at run time; the pixels are those of the blend itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum AnyBlend {
+    /// None: the source.
+    #[default]
+    Replace,
+    /// [`Over`].
+    Over,
+    /// [`Constant`].
+    Constant(u8),
+    /// [`Premultiplied`].
+    Premultiplied,
+    /// [`Additive`].
+    Additive,
+    /// [`Multiply`].
+    Multiply,
+}
+
+/// The same of any blend.
+macro_rules! any {
+    ($self:ident, $blend:ident => $do:expr, $replaced:expr) => {
+        match $self {
+            Self::Replace => $replaced,
+            Self::Over => {
+                let $blend = Over;
+                $do
+            }
+            Self::Constant(alpha) => {
+                let $blend = Constant(alpha);
+                $do
+            }
+            Self::Premultiplied => {
+                let $blend = Premultiplied;
+                $do
+            }
+            Self::Additive => {
+                let $blend = Additive;
+                $do
+            }
+            Self::Multiply => {
+                let $blend = Multiply;
+                $do
+            }
+        }
+    };
+}
+
+impl Blend for AnyBlend {
+    #[inline]
+    fn channel(self, new: u32, old: u32, alpha: u32, one: u32) -> u32 {
+        any!(self, blend => blend.channel(new, old, alpha, one), new)
+    }
+
+    #[inline]
+    fn alpha(self, new: u32, old: u32) -> u32 {
+        any!(self, blend => blend.alpha(new, old), new)
+    }
+
+    #[inline(always)]
+    fn mix<L: Lanes>(self, lanes: L, new: L::U32, old: L::U32) -> L::U32 {
+        any!(self, blend => blend.mix(lanes, new, old), new)
+    }
+
+    #[inline(always)]
+    fn store<L: Lanes, C: ReadColor>(
+        self,
+        lanes: L,
+        format: C,
+        new: L::U32,
+        mask: L::Mask,
+        place: [i32; 2],
+        pixels: &mut L::Each<C::Pixel>,
+    ) {
+        any!(
+            self,
+            blend => blend.store(lanes, format, new, mask, place, pixels),
+            format.store::<L, Rgba8>(lanes, new, mask, place, pixels)
+        );
+    }
+}

@@ -1,0 +1,95 @@
+//! Pixels of less than a byte or two, put side by side in place: the bytes to send.
+//!
+//! As long as it is drawn, a pixel has bytes of its own, since threads, vector registers and blending want to reach it
+//! alone. Afterwards a row or a whole band is packed, in the same memory.
+
+/// Two pixels of [`Rgb444`](super::Rgb444) in three bytes, RRRRGGGG BBBBRRRR GGGGBBBB; an odd last one in two.
+///
+/// # Cost
+/// Two pixels: four loads, three stores, four operations.
+pub fn rgb444(pixels: &mut [[u8; 2]]) -> &[u8] {
+    let count = pixels.len();
+    let bytes = pixels.as_flattened_mut();
+    for pair in 0..count.div_ceil(2) {
+        let at = |k: usize| bytes.get(4 * pair + k).copied().unwrap_or(0);
+        let [high, low, next_high, next_low] = [at(0), at(1), at(2), at(3)];
+        let packed = [high << 4 | low >> 4, low << 4 | next_high & 15, next_low];
+        // Never beyond what was read.
+        bytes.iter_mut().skip(3 * pair).zip(packed).for_each(|(byte, packed)| *byte = packed);
+    }
+    let length = (3 * count).div_ceil(2);
+    bytes.get(..length).unwrap_or_default()
+}
+
+/// Two pixels of [`Grey4`](super::Grey4) in a byte, the first in the high half; each row of `width` begins a byte.
+pub fn grey4(pixels: &mut [u8], width: usize) -> &[u8] {
+    packed(pixels, width, 4)
+}
+
+/// Four pixels of [`Grey2`](super::Grey2) in a byte, the first in the highest bits; each row begins a byte.
+pub fn grey2(pixels: &mut [u8], width: usize) -> &[u8] {
+    packed(pixels, width, 2)
+}
+
+/// Eight pixels of [`Grey1`](super::Grey1) in a byte, the first in the highest bit; each row begins a byte.
+pub fn grey1(pixels: &mut [u8], width: usize) -> &[u8] {
+    packed(pixels, width, 1)
+}
+
+fn packed(pixels: &mut [u8], width: usize, bits: usize) -> &[u8] {
+    let (each, width) = (8 / bits, width.max(1));
+    let mut length = 0;
+    for first in (0..pixels.len()).step_by(width) {
+        let end = pixels.len().min(first + width);
+        for from in (first..end).step_by(each) {
+            let to = end.min(from + each);
+            let group = pixels.get(from..to).unwrap_or_default();
+            let byte = group.iter().zip(1..).fold(0, |byte, (pixel, k)| byte | pixel << (8 - bits * k));
+            if let Some(place) = pixels.get_mut(length) {
+                *place = byte;
+            }
+            length += 1;
+        }
+    }
+    pixels.get(..length).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::vec::Vec;
+
+    /// Bits in a row, the highest first.
+    fn bits(bytes: &[u8]) -> Vec<u8> {
+        bytes.iter().flat_map(|byte| (0..8).rev().map(move |k| byte >> k & 1)).collect()
+    }
+
+    #[test]
+    fn twelve_bits_follow_each_other() {
+        for count in 0..7 {
+            let colors: Vec<u16> = (0..count).map(|k| k * 0x357 + 0x0c1 & 0xfff).collect();
+            let mut pixels: Vec<[u8; 2]> = colors.iter().map(|color| color.to_be_bytes()).collect();
+            let mut expected: Vec<u8> =
+                colors.iter().flat_map(|color| (0..12).rev().map(move |k| (color >> k & 1) as u8)).collect();
+            expected.resize(expected.len().next_multiple_of(8), 0);
+            assert_eq!(bits(rgb444(&mut pixels)), expected, "{count}");
+        }
+    }
+
+    #[test]
+    fn rows_begin_a_byte() {
+        type Pack = fn(&mut [u8], usize) -> &[u8];
+        for (pack, bits_each) in [(grey4 as Pack, 4), (grey2, 2), (grey1, 1)] {
+            for (width, rows) in [(1, 3), (5, 2), (8, 2), (13, 4), (7, 0)] {
+                let mut pixels: Vec<u8> =
+                    (0..width * rows).map(|k| (k * 7 + k / 3) as u8 & ((1 << bits_each) - 1)).collect();
+                let mut expected = Vec::new();
+                for row in pixels.chunks(width) {
+                    expected.extend(row.iter().flat_map(|p| (0..bits_each).rev().map(move |k| p >> k & 1)));
+                    expected.resize(expected.len().next_multiple_of(8), 0);
+                }
+                assert_eq!(bits(pack(&mut pixels, width)), expected, "{bits_each} {width}");
+            }
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! The part of a frame that drawings have touched.
+
+use crate::counters::Counters;
+use core::ops::Range;
+
+/// The rectangle about all samples in the boxes of the triangles that were drawn: what has to be sent to a display, if it
+/// is the rest of the frame before that it shows.
+///
+/// It is a counter, for [`Pass::count_by`](https://docs.rs/alberti/latest/alberti/struct.Pass.html#method.count_by). What
+/// a frame clears it has touched as well: join its rectangle with that of the frame before.
+///
+/// ```
+/// use alberti_raster::Touched;
+///
+/// let (before, now) = (Touched::new(10..20, 5..9), Touched::new(12..24, 4..8));
+/// let send = before.with(&now);
+/// assert_eq!((send.columns(), send.rows()), (10..24, 4..9));
+/// ```
+///
+/// # Cost
+/// A triangle: four comparisons.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Touched {
+    columns: Range<i32>,
+    rows: Range<i32>,
+}
+
+impl Touched {
+    /// These columns and rows; nothing, if there are none of either.
+    #[must_use]
+    pub fn new(columns: Range<i32>, rows: Range<i32>) -> Self {
+        if columns.is_empty() || rows.is_empty() { Self::default() } else { Self { columns, rows } }
+    }
+
+    /// Whether nothing was touched.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.columns.is_empty()
+    }
+
+    /// The columns.
+    #[must_use]
+    pub fn columns(&self) -> Range<i32> {
+        self.columns.clone()
+    }
+
+    /// The rows.
+    #[must_use]
+    pub fn rows(&self) -> Range<i32> {
+        self.rows.clone()
+    }
+
+    /// The rectangle about both.
+    #[must_use]
+    pub fn with(&self, other: &Self) -> Self {
+        match (self.is_empty(), other.is_empty()) {
+            (true, _) => other.clone(),
+            (_, true) => self.clone(),
+            _ => Self { columns: about(&self.columns, &other.columns), rows: about(&self.rows, &other.rows) },
+        }
+    }
+}
+
+#[inline]
+fn about(a: &Range<i32>, b: &Range<i32>) -> Range<i32> {
+    a.start.min(b.start)..a.end.max(b.end)
+}
+
+impl Counters for Touched {
+    #[inline]
+    fn drawn(&mut self, columns: &Range<i32>, rows: &Range<i32>) {
+        *self = self.with(&Self { columns: columns.clone(), rows: rows.clone() });
+    }
+
+    fn add(&mut self, other: Self) {
+        *self = self.with(&other);
+    }
+}
