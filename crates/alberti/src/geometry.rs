@@ -26,6 +26,12 @@ pub trait Geometry {
     /// The place of a vertex, and its attributes. A triangle with a vertex that is `None` is left out.
     fn vertex(&self, number: usize) -> Option<(Point3<Object>, Self::Varying)>;
 
+    /// The edges of all triangles: those that two share twice.
+    fn edges(&self) -> impl Iterator<Item = [usize; 2]> {
+        let triangles = (0..self.triangles()).filter_map(|number| self.triangle(number));
+        triangles.flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]])
+    }
+
     /// Whether vertices are integers. Then [`FixedPoint`](crate::FixedPoint) takes them from
     /// [`integers`](Self::integers), and everything else, the clipper too, the same numbers from
     /// [`vertex`](Self::vertex).

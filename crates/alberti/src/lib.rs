@@ -7,6 +7,7 @@ extern crate std;
 mod error;
 mod geometry;
 mod integers;
+mod lines;
 mod memory;
 mod meshlets;
 pub mod pipeline;
@@ -33,18 +34,18 @@ pub use alberti_projection::{
 };
 pub use alberti_raster as raster;
 pub use alberti_raster::{
-    Affine, Always, AnyDepth, AnyDerivatives, Bands, Biased, ColorFormat, Counters, Cull, D16, D24, D32, DepthFormat,
-    Equal, Exact, F32, F32Reversed, Farther, FixedPoint, FragmentColor, FragmentStage, Fragments, Gradient,
-    Interpolation, Lines, NoDepth, NoDerivatives, OrEqual, PerPixel, PerRun, PerTriangle, Planes, ReadOnly,
-    Spans16, Target, TargetError, Touched,
+    Affine, Always, AnyDepth, AnyDerivatives, Bands, Biased, ColorFormat, Counters, Cull, D16, D24, D32,
+    DepthFormat, Equal, Exact, F32, F32Reversed, Farther, FixedPoint, FragmentColor, FragmentStage,
+    Fragments, Gradient, Interpolation, Lines, NoDepth, NoDerivatives, OrEqual, PerPixel, PerRun,
+    PerTriangle, Planes, ReadOnly, Spans16, Target, TargetError, Touched,
 };
 pub use alberti_texture as texture;
 pub use error::Error;
 pub use geometry::{Geometry, IntegerMesh, IntegerVertex, Mesh};
+pub use memory::Memory;
 #[cfg(feature = "std")]
 pub use meshlets::Split;
 pub use meshlets::{Ball, Meshlet, Meshlets};
-pub use memory::Memory;
 pub use pipeline::{Pass, draw};
 pub use prepared::{Prepared, PreparedTriangle};
 pub use profile::{DESKTOP, MCU, Profile, REFERENCE, TINY};

@@ -2,7 +2,7 @@
 
 use crate::{PreparedTriangle, Slot};
 use alberti_math::Varying;
-use alberti_raster::{ColorFormat, DepthFormat, TargetError};
+use alberti_raster::{ColorFormat, DepthFormat};
 
 /// The memory of a renderer in bands: two bands of colours, one that is drawn and one that is sent; the depths of one;
 /// slots for vertices, and a list of triangles. It is for a `static`, and what does not fit into the RAM of a chip does

@@ -223,6 +223,41 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         self.seldom(indices, &mut (), &mut |corners, ()| sink(corners))
     }
 
+    /// A vertex, transformed.
+    fn slot(&mut self, index: usize) -> Option<Slot<M::Varying>> {
+        if !self.stored.is_empty() {
+            return self.stored.get(index).copied();
+        }
+        let Self { mesh, cache, mask, screen, .. } = self;
+        let slot = cache.get_mut(index & *mask)?;
+        slot.keep(*mesh, screen, index);
+        Some(*slot)
+    }
+
+    /// Hands `sink` the visible part of the line between two vertices, if there is one.
+    #[inline(never)]
+    pub(crate) fn line(&mut self, indices: [usize; 2], sink: impl FnOnce([&Corner<M::Varying>; 2])) -> Fate {
+        let [i, j] = indices;
+        let (Some(a), Some(b)) = (self.slot(i), self.slot(j)) else { return Fate::Dropped };
+        let (any, common) = (a.outside | b.outside, a.outside & b.outside);
+        let there = a.holds(i) && b.holds(j) && any & outside::NOWHERE == 0;
+        if !there || common & (outside::NEAR | outside::FAR | outside::SIDES) != 0 {
+            return Fate::Dropped;
+        }
+        let sides = if self.screen.sides == Sides::Cube { outside::SIDES } else { 0 };
+        if any & (outside::NEAR | outside::FAR | outside::GUARD | sides) == 0 {
+            sink([&a.screen, &b.screen]);
+            return Fate::Whole;
+        }
+        match clip::clip_line(self.mesh, &self.screen, indices) {
+            None => Fate::Dropped,
+            Some([a, b]) => {
+                sink([&a, &b]);
+                Fate::Clipped
+            }
+        }
+    }
+
     /// The corners of a triangle within all planes.
     #[inline(always)]
     pub(crate) fn whole(&mut self, indices: [usize; 3]) -> Option<[&Corner<M::Varying>; 3]> {

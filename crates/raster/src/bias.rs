@@ -122,17 +122,35 @@ pub(crate) fn biased<V: Varying>(
     let depths = map3(corners, depth);
     let slope = slope(&map3(corners, |corner| corner.place(fixed)), depths, bits);
     let bias = format.bias(slope, depths[0].max(depths[1]).max(depths[2]));
+    // Factors that are no numbers move nothing.
+    let bias = if bias.is_finite() { bias } else { 0.0 };
     let moved = |corner: &Corner<V>| {
         let zs = if fixed {
             #[expect(clippy::cast_possible_truncation, reason = "the cast saturates")]
             let steps = (bias * ONE) as i32;
             corner.zs.cast_signed().saturating_add(steps).max(0).cast_unsigned()
         } else {
-            (corner.zs() + bias).max(0.0).min(1.0).to_bits()
+            (corner.zs() + bias).clamp(0.0, 1.0).to_bits()
         };
         Corner { zs, ..*corner }
     };
     map3(corners, moved)
+}
+
+/// The same of a line, whose slope is along it.
+#[inline(never)]
+pub(crate) fn biased_line<V: Varying>(
+    corners: [&Corner<V>; 2],
+    (fixed, bits): (bool, u32),
+    format: impl DepthFormat,
+) -> [Corner<V>; 2] {
+    let [a, b] = corners;
+    let [[ax, ay], [bx, by]] = corners.map(|corner| corner.place(fixed));
+    // A triangle beside it, along whose other side nothing changes.
+    let third =
+        Corner { place: [bx.wrapping_sub(by.wrapping_sub(ay)), by.wrapping_add(bx.wrapping_sub(ax))], ..*b };
+    let [a, b, _] = biased([a, b, &third], (fixed, bits), format);
+    [a, b]
 }
 
 /// The greatest change of a depth from a pixel to the next, by column or by row; 0 without an area.

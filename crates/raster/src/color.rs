@@ -8,10 +8,10 @@ mod resolve;
 
 pub use blend::{Additive, AnyBlend, Blend, Blended, Constant, InLight, Multiply, Over, Premultiplied};
 pub use dither::{Bayer, BlueNoise, Dithered, Pattern};
-pub use resolve::{Average, resolve};
 pub use formats::{
     Grey1, Grey2, Grey4, Grey8, Indexed, Levels, ReadColor, Rgb332, Rgb444, Rgb666, Rgb888, Xrgb8888, rgb565,
 };
+pub use resolve::{Average, resolve};
 
 use alberti_math::Rgba8;
 use alberti_math::lanes::Lanes;

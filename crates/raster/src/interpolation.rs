@@ -12,7 +12,7 @@ mod plane;
 
 pub use exact::Exact;
 pub use fixed_point::FixedPoint;
-pub(crate) use fixed_point::LIMIT;
+pub(crate) use fixed_point::{LIMIT, relative};
 pub(crate) use linear::scaled_q;
 pub(crate) use lines::Runs;
 pub use lines::{Affine, Lines, Spans16};

@@ -17,6 +17,7 @@ mod draw;
 mod edge;
 mod fragment;
 mod interpolation;
+mod line;
 mod mask;
 mod paint;
 mod pixels;

@@ -2,6 +2,7 @@
 //! holes. Each against plain drawing, fragment by fragment, and the same bits by any lanes and in any pieces.
 #![allow(
     clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
     clippy::cast_sign_loss,
     reason = "colours are bytes, and frames are small"
 )]

@@ -10,6 +10,7 @@ mod hostile;
 mod images;
 mod invariance;
 mod lanes;
+mod lines;
 mod pictures;
 mod resolution;
 mod small;

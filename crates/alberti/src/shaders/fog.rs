@@ -15,7 +15,7 @@ use core::fmt::Debug;
 /// use alberti::shaders::Solid;
 /// use alberti::{Camera, Mesh, Object, Point3, Rgba8, glam::Vec3};
 ///
-/// let view = Camera::default().perspective(1.0, 0.1..100.0)?;
+/// let view = Camera::look_at(Vec3::Z * 5.0, Vec3::ZERO, Vec3::Y)?.perspective(1.0, 0.1..100.0)?;
 /// let fog = ExponentialFog { density: 0.05 };
 /// let to_eye = view.object_to_eye(None);
 /// let vertices = [Vec3::ZERO, Vec3::X, Vec3::Y];
@@ -123,6 +123,8 @@ pub struct SquaredFog {
 
 /// The cells of tables, and how many of them there are to a unit.
 const CELLS: usize = 64;
+/// Their number, with eight bits of fraction.
+const END: u32 = 64 << 8;
 const BITS: [u32; 2] = [3, 4];
 
 macro_rules! tables {
@@ -152,7 +154,7 @@ fn look_up<L: Lanes>(lanes: L, table: &[u16; CELLS + 1], coordinate: L::Number, 
     let end = lanes.splat(CELLS as f32 / (1 << bits) as f32);
     let within = lanes.max(lanes.min(coordinate, end), lanes.splat(0.0));
     let at = lanes.floor_scaled(within, bits + 8);
-    let at = lanes.min_words(at, lanes.word((CELLS as u32) << 8));
+    let at = lanes.min_words(at, lanes.word(END));
     let (cell, along) = (lanes.shr(at, 8), at & lanes.word(255));
     let [low, high] = lanes.gather_pairs(cell, |cell| {
         let at = |k: usize| u32::from(table.get(k.min(CELLS)).copied().unwrap_or_default());
@@ -244,8 +246,8 @@ mod tests {
     #[test]
     fn fogs_are_their_formulas() {
         let (mut worst, mut most) = ([0.0_f64; 3], 0.0_f64);
-        for k in 0..40_000 {
-            let z = k as f32 * 0.0005;
+        for k in 0..40_000_u16 {
+            let z = f32::from(k) * 0.0005;
             let x = f64::from(z);
             let line = LinearFog { start: 2.0, end: 7.0 };
             let all = [

@@ -72,6 +72,41 @@ fn clip_by<W: Weights, M: Geometry, Pr: Projection, K>(
     }
 }
 
+/// The part of a line within all planes: of the triangle between its ends that has no area, the two corners that are
+/// the farthest along it. None of a point.
+#[cold]
+#[inline(never)]
+pub(super) fn clip_line<M: Geometry, Pr: Projection>(
+    mesh: &M,
+    screen: &Screen<Pr>,
+    [i, j]: [usize; 2],
+) -> Option<[Corner<M::Varying>; 2]> {
+    if i == j {
+        return None;
+    }
+    let [(a, first), (b, second)] = [before_the_eye(mesh, screen, i)?, before_the_eye(mesh, screen, j)?];
+    let varyings = [first, second, second];
+    if has_linear::<M::Varying>() {
+        ends::<(Vec3, Linear<Vec3>), _, _>(screen, [a, b, b], varyings)
+    } else {
+        ends::<Vec3, _, _>(screen, [a, b, b], varyings)
+    }
+}
+
+fn ends<W: Weights, V: Varying, Pr: Projection>(
+    screen: &Screen<Pr>,
+    positions: [Point3<Eye>; 3],
+    varyings: [V; 3],
+) -> Option<[Corner<V>; 2]> {
+    let polygon = cut::<W, Pr>(screen, positions);
+    let weight = |vertex: &Vertex<W>| vertex.varying.in_space().x;
+    let vertices = || polygon.vertices().iter().flatten().copied();
+    let first = vertices().reduce(|a, b| if weight(&b) > weight(&a) { b } else { a });
+    let last = vertices().reduce(|a, b| if weight(&b) < weight(&a) { b } else { a });
+    let corner = |vertex| on_the_screen(screen.numbers, vertex, varyings[0], &varyings);
+    Some([corner(first)?, corner(last)?])
+}
+
 /// A slot whose place on the screen has a meaning.
 fn kept<V: Varying>(slot: &Slot<V>) -> Option<&Slot<V>> {
     (slot.outside & (outside::NEAR | outside::FAR | outside::GUARD) == 0).then_some(slot)

@@ -67,7 +67,7 @@ mod tests {
     #[test]
     fn twelve_bits_follow_each_other() {
         for count in 0..7 {
-            let colors: Vec<u16> = (0..count).map(|k| k * 0x357 + 0x0c1 & 0xfff).collect();
+            let colors: Vec<u16> = (0..count).map(|k| (k * 0x357 + 0x0c1) & 0xfff).collect();
             let mut pixels: Vec<[u8; 2]> = colors.iter().map(|color| color.to_be_bytes()).collect();
             let mut expected: Vec<u8> =
                 colors.iter().flat_map(|color| (0..12).rev().map(move |k| (color >> k & 1) as u8)).collect();
@@ -81,8 +81,9 @@ mod tests {
         type Pack = fn(&mut [u8], usize) -> &[u8];
         for (pack, bits_each) in [(grey4 as Pack, 4), (grey2, 2), (grey1, 1)] {
             for (width, rows) in [(1, 3), (5, 2), (8, 2), (13, 4), (7, 0)] {
-                let mut pixels: Vec<u8> =
-                    (0..width * rows).map(|k| (k * 7 + k / 3) as u8 & ((1 << bits_each) - 1)).collect();
+                let mut pixels: Vec<u8> = (0..width * rows)
+                    .map(|k| usize::to_le_bytes(k * 7 + k / 3)[0] & ((1 << bits_each) - 1))
+                    .collect();
                 let mut expected = Vec::new();
                 for row in pixels.chunks(width) {
                     expected.extend(row.iter().flat_map(|p| (0..bits_each).rev().map(move |k| p >> k & 1)));

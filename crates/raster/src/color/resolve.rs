@@ -101,8 +101,9 @@ mod tests {
             let s = f64::from(byte) / 255.0;
             if s <= 0.04045 { s / 12.92 } else { ((s + 0.055) / 1.055).powf(2.4) }
         };
-        let from: [u32; 6 * 4] =
-            core::array::from_fn(|k| (k as u32).wrapping_mul(0x9e37_79b1).rotate_left(9) | 0xff00_0000);
+        let from: [u32; 6 * 4] = core::array::from_fn(|k| {
+            u32::try_from(k).expect("few").wrapping_mul(0x9e37_79b1).rotate_left(9) | 0xff00_0000
+        });
         for average in [Average::Light, Average::Bytes] {
             let mut to = [0; 3 * 2];
             resolve((Rgba8888, &from), (Rgba8888, &mut to), 3, 0, 2, average);

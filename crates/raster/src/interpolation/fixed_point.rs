@@ -197,7 +197,7 @@ impl<V: Varying> FixedLines<V> {
 /// A positive `f32` in units of 2^(e - 157), to the nearest and at least 1. e is the biased exponent of the greatest,
 /// which comes to lie from 2^30 to 2^31 unless it is subnormal.
 #[inline(always)]
-pub(super) fn relative(word: u32, e: u32) -> i32 {
+pub(crate) fn relative(word: u32, e: u32) -> i32 {
     let exponent = word >> 23;
     let mantissa = (word << 9 >> 2) | u32::from(exponent != 0) << 30;
     let shift = e.max(1) - exponent.max(1);

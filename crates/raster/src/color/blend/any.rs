@@ -1,7 +1,7 @@
 //! A blend that is chosen at run time.
 
 use super::{Additive, Blend, Constant, Multiply, Over, Premultiplied};
-use crate::color::{ColorFormat as _, ReadColor};
+use crate::color::ReadColor;
 use alberti_math::Rgba8;
 use alberti_math::lanes::Lanes;
 

@@ -66,7 +66,7 @@ fn pixels_have_the_bytes_of_displays() {
     assert_eq!(Rgb666.pixel(color), [63 << 2, 34 << 2, 17 << 2]);
     assert_eq!(Rgb888.pixel(color), [255, 136, 68]);
     assert_eq!(Xrgb8888.pixel(color).to_ne_bytes(), [68, 136, 255, 0]);
-    assert_eq!(Rgb332.pixel(color), 0b111_100_01);
+    assert_eq!(Rgb332.pixel(color), 0b1111_0001);
     assert_eq!(
         [Grey8.pixel(Rgba8::WHITE), Grey4.pixel(Rgba8::WHITE), Grey1.pixel(Rgba8::BLACK)],
         [255, 15, 0]

@@ -1,0 +1,207 @@
+//! Lines against the definition of their pixels in rational numbers, and their attributes against reals.
+#![expect(clippy::cast_precision_loss, reason = "numbers are small")]
+
+use super::*;
+use crate::{Cull, D16, Exact, FixedPoint, NoDepth, Numbers, Spans16, Target, Vertex};
+use alberti_math::{Fixed, Flat, Linear, Rgba8, Rgba8888, Sub8};
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use std::vec;
+use std::vec::Vec;
+
+const SIDE: i32 = 6;
+const BITS: u32 = 4;
+const ONE: i64 = 1 << BITS;
+
+/// Whether a line leaves the diamond about a pixel's centre: it is in it somewhere, and does not end in it.
+fn leaves([a, b]: [[i64; 2]; 2], pixel: [i64; 2]) -> bool {
+    let half = ONE / 2;
+    let centre = pixel.map(|c| c * ONE + half);
+    let [ax, ay] = [a[0] - centre[0], a[1] - centre[1]];
+    let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+    let steep = dx.abs() < dy.abs();
+    // Each edge as p + t d <= half, where the two lower ones belong to the diamond.
+    let edges = [
+        (ax + ay, dx + dy, true),
+        (ay - ax, dy - dx, true),
+        (ax - ay, dx - dy, false),
+        (-ax - ay, -dx - dy, false),
+    ];
+    let inside = |x: i64, y: i64| {
+        let apart = x.abs() + y.abs();
+        apart < half || (apart == half && (y > 0 || (steep && y == 0 && x > 0)))
+    };
+    if inside(b[0] - centre[0], b[1] - centre[1]) {
+        return false;
+    }
+    // The greatest lower and the least upper bound of t, as fractions with positive denominators.
+    let (mut low, mut high) = ((0_i64, 1_i64, true), (1_i64, 1_i64, true));
+    for (p, d, closed) in edges {
+        let (n, m) = (half - p, d);
+        if m == 0 {
+            if n < 0 || (n == 0 && !closed) {
+                return at_right_corner(ax, ay, dx, dy, half, steep);
+            }
+        } else if m > 0 {
+            let (l, r) = (n * high.1, high.0 * m);
+            if l < r || (l == r && !closed) {
+                high = (n, m, closed);
+            }
+        } else {
+            let (n, m) = (-n, -m);
+            let (l, r) = (n * low.1, low.0 * m);
+            if l > r || (l == r && !closed) {
+                low = (n, m, closed);
+            }
+        }
+    }
+    let (l, r) = (low.0 * high.1, high.0 * low.1);
+    l < r || (l == r && low.2 && high.2) || at_right_corner(ax, ay, dx, dy, half, steep)
+}
+
+/// Whether a steep line passes through the corner at (half, 0).
+fn at_right_corner(ax: i64, ay: i64, dx: i64, dy: i64, half: i64, steep: bool) -> bool {
+    let (low, high) = (ay.min(ay + dy), ay.max(ay + dy));
+    steep && (half - ax) * dy == -ay * dx && low <= 0 && high >= 0
+}
+
+/// The pixels that are drawn, and whether one was drawn twice.
+fn drawn(line: [[i64; 2]; 2]) -> Vec<[i64; 2]> {
+    let limits = [0..SIDE, 0..SIDE];
+    let places = line.map(|point| point.map(|c| i32::try_from(c).expect("small")));
+    Walk::new(places, BITS, &limits).map(|(place, _)| place.map(i64::from)).collect()
+}
+
+fn is_right(line: [[i64; 2]; 2]) {
+    let found = drawn(line);
+    let set: BTreeSet<[i64; 2]> = found.iter().copied().collect();
+    assert_eq!(set.len(), found.len(), "{line:?}: a pixel twice");
+    let side = i64::from(SIDE);
+    let all = (0..side).flat_map(|y| (0..side).map(move |x| [x, y]));
+    let expected: BTreeSet<[i64; 2]> =
+        all.filter(|pixel| line[0] != line[1] && leaves(line, *pixel)).collect();
+    assert_eq!(set, expected, "{line:?}");
+}
+
+#[test]
+fn pixels_are_those_whose_diamonds_a_line_leaves() {
+    // All lines between points a quarter of a pixel apart, and some between any.
+    let points: Vec<[i64; 2]> =
+        (0..12).flat_map(|y| (0..12).map(move |x| [x * 4 + 16, y * 4 + 16])).collect();
+    for a in &points {
+        for b in &points {
+            is_right([*a, *b]);
+        }
+    }
+    let mut state = 7_u64;
+    let mut random = |range: i64| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        i64::try_from(state >> 33).expect("31 bits") % range
+    };
+    for _ in 0..30_000 {
+        let mut point = || [random(200) - 50, random(200) - 50];
+        is_right([point(), point()]);
+    }
+}
+
+/// Lines that go on to the right draw each column once.
+#[test]
+fn a_path_has_each_column_once() {
+    let path = [[17, 20], [29, 31], [30, 31], [40, 30], [71, 5], [88, 21]];
+    let all: Vec<i64> = path.windows(2).flat_map(|pair| drawn([pair[0], pair[1]])).map(|[x, _]| x).collect();
+    // From the pixel that the path begins in to the one before that which it ends in.
+    assert_eq!(all, [1, 2, 3, 4]);
+}
+
+type Carried = (f32, Linear<f32>, Flat<f32>);
+
+fn corner(numbers: Numbers, at: [f32; 2], zs: f32, q: f32, values: [f32; 3]) -> Corner<Carried> {
+    let place = at.map(|c| Fixed::snap(Sub8, 0, c).expect("small"));
+    let [hyperbolic, linear, flat] = values;
+    let varying = (hyperbolic, Linear(linear), Flat(flat));
+    Corner::new(numbers, &Vertex { x: place[0], y: place[1], zs, q, varying })
+}
+
+/// The fragments of a line, with the weight of its second end, and its stored depths.
+fn fragments(
+    interpolation: impl Interpolation,
+    ends: [([f32; 2], f32, f32, [f32; 3]); 2],
+) -> (Vec<(i32, Carried)>, Vec<u16>) {
+    const WIDTH: u32 = 64;
+    let (mut color, mut depth) = (vec![0; 64 * 64], vec![u16::MAX; 64 * 64]);
+    let mut target = Target::new(Rgba8888, D16, WIDTH, WIDTH, &mut color, &mut depth).expect("a frame");
+    let seen = RefCell::new(Vec::new());
+    let stage = |varying: Carried| {
+        seen.borrow_mut().push(varying);
+        Some(Rgba8::WHITE)
+    };
+    let paint = Paint { stage: &stage, interpolation, subpixel: Sub8, cull: Cull::None };
+    let numbers = paint.numbers(D16);
+    let [a, b] = ends.map(|(at, zs, q, values)| corner(numbers, at, zs, q, values));
+    paint.line(&mut target, [&a, &b], &mut ());
+    let columns = (0..).zip(color.chunks(64)).flat_map(|(_, row): (i32, &[u32])| {
+        (0..).zip(row).filter(|(_, pixel)| **pixel != 0).map(|(column, _)| column).collect::<Vec<i32>>()
+    });
+    let mut columns: Vec<i32> = columns.collect();
+    columns.sort_unstable();
+    let depths = depth.iter().copied().filter(|depth| *depth != u16::MAX).collect();
+    (columns.into_iter().zip(seen.into_inner()).collect(), depths)
+}
+
+#[test]
+fn attributes_are_those_of_the_line() {
+    let ends = [([3.25, 10.5], 0.2, 1.0, [-3.0, 2.0, 7.0]), ([60.75, 31.0], 0.6, 0.125, [5.0, -1.0, 9.0])];
+    let (a, b) = (ends[0], ends[1]);
+    let check = |found: Vec<(i32, Carried)>, depths: Vec<u16>, allowed: f64| {
+        assert_eq!((found.len(), depths.len()), (58, 58));
+        for ((column, (hyperbolic, Linear(linear), Flat(flat))), depth) in found.into_iter().zip(depths) {
+            let t = (f64::from(column) + 0.5 - 3.25) / 57.5;
+            let along = |a: f32, b: f32| f64::from(a) + (f64::from(b) - f64::from(a)) * t;
+            let q = along(a.2, b.2);
+            let exact = along(a.3[0] * a.2, b.3[0] * b.2) / q;
+            assert!((f64::from(hyperbolic) - exact).abs() <= allowed, "{column}: {hyperbolic} {exact}");
+            assert!((f64::from(linear) - along(a.3[1], b.3[1])).abs() <= allowed, "{column}");
+            assert!((flat - 7.0).abs() < 1e-6);
+            let steps = along(a.1, b.1) * 65535.0;
+            assert!((f64::from(depth) - steps).abs() <= 0.51, "{column}: {depth} {steps}");
+        }
+    };
+    // 8ε of the greatest value, which is 5.
+    let (found, depths) = fragments(Exact, ends);
+    check(found, depths, 8.0 * 5.0 / f64::from(1 << 24));
+    let (found, depths) = fragments(FixedPoint(Spans16), ends);
+    check(found, depths, 1.0 / 32768.0 + 8.0 / f64::from(1 << 28));
+}
+
+/// The pixels of a point, by its place and its size.
+fn point(at: [f32; 2], size: u16, interpolation: impl Interpolation) -> Vec<usize> {
+    let (mut color, mut depth) = (vec![0; 8 * 8], vec![(); 8 * 8]);
+    let mut target = Target::new(Rgba8888, NoDepth, 8, 8, &mut color, &mut depth).expect("a frame");
+    let stage = |_: Carried| Some(Rgba8::WHITE);
+    let paint = Paint { stage, interpolation, subpixel: Sub8, cull: Cull::None };
+    let corner = corner(paint.numbers(NoDepth), at, 0.5, 1.0, [0.0; 3]);
+    paint.point(&mut target, &corner, size, &mut ());
+    (0..64).filter(|k| color[*k] != 0).collect()
+}
+
+#[test]
+fn points_are_squares_about_their_place() {
+    for interpolation in [true, false] {
+        let drawn = |at: [f32; 2], size: u16| {
+            if interpolation { point(at, size, Exact) } else { point(at, size, FixedPoint(Spans16)) }
+        };
+        for (x, y) in (0..120).map(|k| (k as f32 * 0.0625, 7.3 - k as f32 * 0.06)) {
+            for size in 0..4_u16 {
+                // On the grid.
+                let [px, py] = [x, y].map(|c| (c * 256.0).round() / 256.0);
+                let half = f32::from(size) / 2.0;
+                let within = |k: usize| {
+                    let [cx, cy] = [(k % 8) as f32 + 0.5, (k / 8) as f32 + 0.5];
+                    px - half <= cx && cx < px + half && py - half <= cy && cy < py + half
+                };
+                let expected: Vec<usize> = (0..64).filter(|k| within(*k)).collect();
+                assert_eq!(drawn([x, y], size), expected, "{x} {y} {size}");
+            }
+        }
+    }
+}

@@ -1,0 +1,167 @@
+//! Lines through the whole pipeline: their pixels and what they carry against rays in `f64`, cut at all planes, hidden by
+//! surfaces, and with a bias upon them.
+#![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "pixels are few")]
+
+use alberti::glam::{DVec3, Vec3};
+use alberti::shaders::Solid;
+use alberti::{
+    Biased, Camera, Cull, Exact, F32Reversed, FixedPoint, Geometry, Interpolation, Mesh, NoDepth, Pass,
+    Rgba8, Rgba8888, Slot, Spans16, Target, Touched, View,
+};
+use alberti_oracle::rng::{Rng, run_seed};
+use std::cell::RefCell;
+
+const WIDTH: u32 = 160;
+const HEIGHT: u32 = 120;
+const PIXELS: usize = (WIDTH * HEIGHT) as usize;
+const FOV: f32 = 1.2;
+const NEAR: f32 = 0.25;
+const FAR: f32 = 30.0;
+
+fn view() -> View {
+    let camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, Vec3::Y).expect("a camera");
+    camera.perspective(FOV, NEAR..FAR).expect("a view")
+}
+
+/// A place on the screen in pixels.
+fn projected(p: DVec3) -> [f64; 2] {
+    let half = f64::from(HEIGHT) / 2.0;
+    let scale = half / (f64::from(FOV) / 2.0).tan();
+    [f64::from(WIDTH) / 2.0 + p.x / -p.z * scale, half - p.y / -p.z * scale]
+}
+
+/// The pixels of a line, each with the part of the way that its fragment carries.
+fn drawn(ends: [Vec3; 2], interpolation: impl Interpolation) -> Vec<([f64; 2], f64)> {
+    let (mut color, mut depth) = (vec![0; PIXELS], vec![(); PIXELS]);
+    let vertices = [(ends[0], 0.0), (ends[1], 1.0)];
+    let mesh = Mesh::new(&vertices, &[] as &[[u16; 3]], |&(v, t): &(Vec3, f32)| (v, t));
+    let parts = RefCell::new(vec![]);
+    let stage = |t: f32| {
+        parts.borrow_mut().push(f64::from(t));
+        Some(Rgba8::from_bits(u32::try_from(parts.borrow().len()).expect("few")))
+    };
+    let mut target = Target::new(Rgba8888, NoDepth, WIDTH, HEIGHT, &mut color, &mut depth).expect("a frame");
+    let view = view();
+    Pass::new(&view, &mesh, &stage).interpolation(interpolation).draw_lines(&mut target, [[0, 1]]);
+    let parts = parts.into_inner();
+    let place = |k: usize| [(k % WIDTH as usize) as f64 + 0.5, (k / WIDTH as usize) as f64 + 0.5];
+    let found = color.iter().enumerate().filter(|(_, pixel)| **pixel != 0);
+    found.map(|(k, pixel)| (place(k), parts[*pixel as usize - 1])).collect()
+}
+
+/// What of a line is between the near and the far plane, as parts of its way.
+fn between([a, b]: [DVec3; 2]) -> Option<[f64; 2]> {
+    let (mut low, mut high) = (0.0_f64, 1.0_f64);
+    let (za, zb) = (-a.z, -b.z);
+    for (from, to) in
+        [(za - f64::from(NEAR), zb - f64::from(NEAR)), (f64::from(FAR) - za, f64::from(FAR) - zb)]
+    {
+        let at = from / (from - to);
+        if from < 0.0 && to < 0.0 {
+            return None;
+        } else if from < 0.0 {
+            low = low.max(at);
+        } else if to < 0.0 {
+            high = high.min(at);
+        }
+    }
+    (low < high).then_some([low, high])
+}
+
+fn lines_are_right(interpolation: impl Interpolation, stream: u64, step: f64) {
+    let mut rng = Rng::stream(run_seed(), stream);
+    let (mut pixels, mut cut) = (0, 0);
+    for _ in 0..400 {
+        let size = f64::from(rng.log_uniform(0.3, 40.0));
+        let ends = [(); 2].map(|()| {
+            let [x, y] = [(); 2].map(|()| rng.uniform(-size, size) as f32);
+            Vec3::new(x, y, rng.uniform(-size, 0.3 * size) as f32)
+        });
+        let exact = ends.map(Vec3::as_dvec3);
+        let found = drawn(ends, interpolation);
+        let Some([low, high]) = between(exact) else {
+            assert!(found.is_empty(), "{ends:?}");
+            continue;
+        };
+        cut += u32::from(low > 0.0 || high < 1.0);
+        let at = |t: f64| exact[0] + (exact[1] - exact[0]) * t;
+        let [from, to] = [projected(at(low)), projected(at(high))];
+        let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+        let axis = usize::from(dx.abs() < dy.abs());
+        // Snapped by up to 1/512 pixel, and what is far beyond the frame is cut, which moves it as much.
+        let slack = 0.02;
+        for (place, part) in &found {
+            let along = (place[axis] - from[axis]) / (to[axis] - from[axis]);
+            let across = from[1 - axis] + along * (to[1 - axis] - from[1 - axis]);
+            assert!((place[1 - axis] - across).abs() <= 0.5 + slack, "{ends:?} {place:?} {across}");
+            // Along the screen 1/z is linear.
+            let [qa, qb] = [-1.0 / at(low).z, -1.0 / at(high).z];
+            let hyperbolic = along * qb / ((1.0 - along) * qa + along * qb);
+            let exact_part = low + (high - low) * hyperbolic.clamp(0.0, 1.0);
+            // The change along half a subpixel each way, and along a pixel that an end is in.
+            let shift =
+                slack * (high - low) * (qa.max(qb) / qa.min(qb)) / (to[axis] - from[axis]).abs().max(1.0);
+            assert!((part - exact_part).abs() <= 2.0 * shift + step + 1e-5, "{ends:?} {part} {exact_part}");
+        }
+        // One for each column, or row, within the frame, but for the ends.
+        let limit = f64::from([WIDTH, HEIGHT][axis]);
+        let other = f64::from([WIDTH, HEIGHT][1 - axis]);
+        let inside = |c: &i64| {
+            let centre = *c as f64 + 0.5;
+            let along = (centre - from[axis]) / (to[axis] - from[axis]);
+            let across = from[1 - axis] + along * (to[1 - axis] - from[1 - axis]);
+            (0.0..=1.0).contains(&along) && (0.0..other).contains(&across)
+        };
+        let expected = (0..limit as i64).filter(inside).count();
+        assert!(found.len().abs_diff(expected) <= 3, "{ends:?}: {} pixels, {expected}", found.len());
+        pixels += found.len();
+    }
+    assert!(pixels > 5000 && cut > 100, "{pixels} pixels, {cut} lines cut");
+}
+
+#[test]
+fn lines_are_those_of_space() {
+    lines_are_right(Exact, 1, 0.0);
+    lines_are_right(FixedPoint(Spans16), 2, 1.0 / 32768.0);
+}
+
+/// A cube's wires, of which those behind it are hidden, and all others are on it.
+#[test]
+fn wires_are_seen_on_their_surface() {
+    let corner = |k: usize| Vec3::new([-1.0, 1.0][k & 1], [-1.0, 1.0][k >> 1 & 1], [-1.0, 1.0][k >> 2]);
+    let vertices: Vec<Vec3> = (0..8).map(corner).collect();
+    let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5_u16]];
+    let triangles: Vec<[u16; 3]> =
+        faces.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
+    let mesh = Mesh::new(&vertices, &triangles, |v: &Vec3| (*v, ()));
+    let view = Camera::look_at(Vec3::new(2.0, 2.6, 4.0), Vec3::ZERO, Vec3::Y).expect("a camera");
+    let view = view.perspective(0.7, 0.5..20.0).expect("a view");
+    let wires = |interpolation, solid: bool, constant: f32, slots: &mut [Slot<()>]| {
+        let (mut color, mut depth) = (vec![0; PIXELS], vec![0.0; PIXELS]);
+        let mut target =
+            Target::new(Rgba8888, F32Reversed, WIDTH, HEIGHT, &mut color, &mut depth).expect("a frame");
+        let by = |stage| Pass::new(&view, &mesh, stage).cull(Cull::None);
+        if solid {
+            by(Solid(Rgba8::BLACK)).draw(&mut target);
+        }
+        let slope = if constant == 0.0 { 0.0 } else { -1.0 };
+        let mut upon = target.with_depth(Biased { format: F32Reversed, constant, slope, clamp: 0.0 });
+        let mut touched = Touched::default();
+        by(Solid(Rgba8::WHITE)).slots(slots).count_lines(&mut upon, mesh.edges(), &mut touched);
+        let _: Exact = interpolation;
+        let white: Vec<usize> = (0..PIXELS).filter(|k| color[*k] == u32::MAX).collect();
+        for k in &white {
+            let [column, row] = [k % WIDTH as usize, k / WIDTH as usize].map(|c| c as i32);
+            assert!(touched.columns().contains(&column) && touched.rows().contains(&row));
+        }
+        white.len()
+    };
+    let all = wires(Exact, false, 0.0, &mut []);
+    let seen = wires(Exact, true, -4.0, &mut []);
+    let fighting = wires(Exact, true, 0.0, &mut []);
+    assert_eq!(seen, wires(Exact, true, -4.0, &mut [Slot::EMPTY; 8]), "slots change pixels");
+    // Nine of the twelve edges are seen, and three of the six diagonals.
+    let part = seen as f64 / all as f64;
+    assert!((0.6..0.8).contains(&part), "{seen} of {all}");
+    assert!(fighting < seen * 9 / 10, "without a bias {fighting} of {seen} are seen");
+}
