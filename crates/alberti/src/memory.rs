@@ -4,9 +4,9 @@ use crate::{PreparedTriangle, Slot};
 use alberti_math::Varying;
 use alberti_raster::{ColorFormat, DepthFormat};
 
-/// The memory of a renderer in bands: two bands of colours, one that is drawn and one that is sent; the depths of one;
-/// slots for vertices, and a list of triangles. It is for a `static`, and what does not fit into the RAM of a chip does
-/// not link; what is beyond a budget of yours does not compile.
+/// The memory of a renderer in bands. It has the colours of two bands, one that is drawn and one that is sent, the
+/// depths of one, slots for vertices, and a list of triangles. It is for a `static`: too much for the RAM of a chip
+/// does not link, and too much for a budget of yours does not compile.
 ///
 /// ```
 /// use alberti::{D16, Memory, Rgb565Be, glam::Vec2};

@@ -1,9 +1,9 @@
 //! Advice on a scene: which policies are the cheapest within a budget of error, and what the scene pays for nothing.
 //!
 //! Errors are measured on the scene itself. The right picture is that of the most precise policies, exact, float,
-//! f32-reversed and 8 bits of subpixels, with the scene's own filter, shading and colour format, on chips in RGB565. Costs
-//! on the host are times. Those on chips come from a model of a textured, unlit mesh: so many instructions for each vertex, row,
-//! fragment and so on. The scene's own counts of these are its [`Work`].
+//! f32-reversed and 8 bits of subpixels, with the scene's own filter and shading. On chips both are in RGB565. Costs on
+//! the host are times. Those on chips come from a model of a textured, unlit mesh: so many instructions for each
+//! vertex, row, fragment and so on. The scene's own counts of these are its [`Work`].
 //!
 //! Policies are tried in three steps, as their errors come from different places:
 //!

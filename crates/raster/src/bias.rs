@@ -6,8 +6,8 @@ use alberti_math::lanes::Lanes;
 use alberti_math::{Varying, map3};
 
 /// A depth format with a bias for each triangle (Direct3D 11, 15.10), for
-/// [`Target::with_depth`](crate::Target::with_depth): decals and outlines on a surface take a negative one, shadow maps a
-/// positive.
+/// [`Target::with_depth`](crate::Target::with_depth): decals and outlines on a surface take a negative one, shadow maps
+/// a positive.
 ///
 /// ```text
 /// bias = constant · step + slope · max(|∂zs/∂x|, |∂zs/∂y|)

@@ -20,9 +20,9 @@ use core::fmt::Debug;
 /// A pixel format of a target: [`Rgba8888`](crate::Rgba8888), [`Rgb565Le`](crate::Rgb565Le),
 /// [`Rgb565Be`](crate::Rgb565Be), [others](crate::color), or one of yours.
 ///
-/// What happens to a colour on its way into a pixel is a format around a format: [`Blended`] mixes it with what the
-/// pixel shows, [`Dithered`] rounds it by a pattern. A pass that needs one draws to
-/// [`target.with_color`](crate::Target::with_color), and the others do not pay for it.
+/// A colour's way into a pixel is a format around a format: [`Blended`] mixes it with the colour that is there,
+/// [`Dithered`] rounds it by a pattern. A pass that needs one draws to
+/// [`target.with_color`](crate::Target::with_color). The others do not pay for it.
 ///
 /// ```
 /// use alberti_math::Rgba8;

@@ -43,8 +43,8 @@ pub trait DepthFormat: Copy + Debug + Send + Sync + 'static {
     /// Whether triangles are moved by [`bias`](Self::bias).
     const BIASED: bool = false;
 
-    /// The zs that is added to a triangle whose zs changes by at most `slope` from a pixel to the next, by column or by
-    /// row, and is at most `greatest`.
+    /// The zs that is added to a triangle. Its own zs is at most `greatest`, and changes by at most `slope` from a
+    /// pixel to the next, by column or by row.
     #[inline]
     fn bias(self, slope: f32, greatest: f32) -> f32 {
         let _ = (slope, greatest);

@@ -12,10 +12,11 @@ use crate::fragment::FragmentStage;
 use crate::interpolation::{Interpolate, Interpolation, Oriented, Row};
 use crate::mask::RowMask;
 use crate::paint::{Painter, aligned};
+use crate::sample_box::SampleBox;
 use crate::setup::{Setups, Waiting, Way};
 use crate::spans::RowSpans;
 use crate::target::Target;
-use crate::triangle::{Bounds, Corner, Corners, Cull, Numbers, Outcome, Reach, Vertex, doubled_area};
+use crate::triangle::{Bounds, Corner, Cull, Numbers, Outcome, Reach, Vertex, doubled_area};
 use crate::weights::Weights;
 use alberti_math::lanes::{Floating, Lanes, One};
 use alberti_math::{Subpixel, Varying, map3};
@@ -367,50 +368,6 @@ impl<P: Interpolation, L: Floating, V: Varying, F: FragmentStage<V>> Setup<'_, P
         let triangle = interpolation.prepare(lanes, oriented);
         let derivatives = stage.derivatives().prepare(oriented);
         Painter { lanes: interpolation.lanes(lanes), triangle, derivatives, stage, varying: PhantomData }
-    }
-}
-
-/// The samples in a triangle's box, and the columns of the target.
-struct SampleBox<'a> {
-    corners: &'a Corners,
-    /// Bits of the subpixels.
-    bits: u32,
-    columns: Range<i32>,
-    rows: Range<i32>,
-    /// The columns of the target.
-    limits: Range<i32>,
-}
-
-impl<'a> SampleBox<'a> {
-    #[inline(always)]
-    fn new<V: Varying>(
-        oriented: &'a Oriented<'_, V>,
-        [columns, rows]: [Range<i32>; 2],
-        limits: Range<i32>,
-    ) -> Self {
-        Self { corners: &oriented.corners, bits: oriented.bits, columns, rows, limits }
-    }
-
-    /// The number of rows whose samples lie above the middle vertex.
-    #[inline(always)]
-    fn above(&self) -> i32 {
-        // The first corner is the topmost.
-        let [_, [_, b], [_, c]] = *self.corners;
-        let half = 1 << (self.bits - 1);
-        ((b.min(c) + half - 1) >> self.bits) - self.rows.start
-    }
-
-    /// The edges, each opposite the vertex whose weight it is, with their values at the box's first sample.
-    #[inline(always)]
-    fn edges<I: EdgeInt>(&self) -> [Edge<I>; 3] {
-        let (one, half) = (1 << self.bits, 1 << (self.bits - 1));
-        let first_sample = [self.columns.start * one + half, self.rows.start * one + half];
-        let [a, b, c] = *self.corners;
-        [
-            Edge::new(b, c, first_sample, one),
-            Edge::new(c, a, first_sample, one),
-            Edge::new(a, b, first_sample, one),
-        ]
     }
 }
 

@@ -21,6 +21,7 @@ mod line;
 mod mask;
 mod paint;
 mod pixels;
+mod sample_box;
 mod setup;
 mod small;
 mod spans;

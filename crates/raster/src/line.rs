@@ -19,19 +19,19 @@ use segment::{FixedSegment, FloatSegment, Segment, Walk};
 impl<F: Copy, P: Interpolation> Paint<F, P> {
     /// Draws the line from one corner to another into a target, one sample at a time.
     ///
-    /// A pixel belongs to it by the diamond-exit rule (Direct3D 11, 3.4.3): if the line leaves the diamond
-    /// |x| + |y| < ½ about its centre. So a line has one pixel a column, or a row where it is steep, and where
-    /// another goes on in its direction there is neither a gap nor a pixel drawn twice. Ties go to lower edges and corners, of steep lines to right corners as
-    /// well.
+    /// A pixel belongs to it by the diamond-exit rule (Direct3D 11, 3.4.3): if the line leaves the diamond |x| + |y| <
+    /// ½ about its centre. So a line has one pixel a column, or a row where it is steep. Where another goes on in its
+    /// direction there is neither a gap nor a pixel drawn twice. Ties go to lower edges and corners, of steep lines to
+    /// right corners as well.
     ///
     /// # Precision
     /// Pixels are exact. Attributes and depth are those of the point of the line in the pixel's column, or row, with
-    /// perspective by all policies: within 8ε of it in floats, or a step of 2^-15 in fixed point, and 2^-28 of the
-    /// difference between the ends.
+    /// perspective by all policies. In floats they are within 8ε of it; in fixed point within a step of 2^-15, and
+    /// 2^-28 of the difference between the ends.
     ///
     /// # Cost
-    /// A line: a division of 64 bits. A pixel: in floats two divisions and, for a component, three products and sums; in
-    /// fixed point a reciprocal by a table and a product of 64 bits.
+    /// A line: a division of 64 bits. A pixel: in floats two divisions and, for a component, three products and sums;
+    /// in fixed point a reciprocal by a table and a product of 64 bits.
     pub fn line<V, C, D, K>(&self, target: &mut Target<'_, C, D>, corners: [&Corner<V>; 2], counters: &mut K)
     where
         V: Varying,
@@ -59,7 +59,8 @@ impl<F: Copy, P: Interpolation> Paint<F, P> {
 
     /// Draws a square of `size` pixels a side about a corner, all of which have the corner's attributes and depth.
     ///
-    /// A pixel belongs to it if its centre is within, on the left or on the top edge. So a point of size 1 is one pixel.
+    /// A pixel belongs to it if its centre is within, on the left or on the top edge. So a point of size 1 is one
+    /// pixel.
     pub fn point<V, C, D, K>(
         &self,
         target: &mut Target<'_, C, D>,
@@ -99,8 +100,8 @@ impl<F: Copy, P: Interpolation> Paint<F, P> {
         }
     }
 
-    /// Draws the fragments of a segment at pixels, of which the weights of both ends are known. Not inlined, as lines are
-    /// few.
+    /// Draws the fragments of a segment at pixels, of which the weights of both ends are known. Not inlined, as lines
+    /// are few.
     #[inline(never)]
     fn along<L, V, C, D, K>(
         &self,

@@ -3,11 +3,11 @@
 use crate::counters::Counters;
 use core::ops::Range;
 
-/// The rectangle about all samples in the boxes of the triangles that were drawn: what has to be sent to a display, if it
-/// is the rest of the frame before that it shows.
+/// The rectangle about all samples in the boxes of the triangles that were drawn. That much has to be sent to a display
+/// that shows the frame before.
 ///
-/// It is a counter, for [`Pass::count_by`](https://docs.rs/alberti/latest/alberti/struct.Pass.html#method.count_by). What
-/// a frame clears it has touched as well: join its rectangle with that of the frame before.
+/// It is a counter, for [`Pass::count_by`](https://docs.rs/alberti/latest/alberti/struct.Pass.html#method.count_by).
+/// A frame touches the pixels that it clears as well: join its rectangle with that of the frame before.
 ///
 /// ```
 /// use alberti_raster::Touched;

@@ -1,5 +1,5 @@
-//! After the fragment: colours that are mixed with those that are there or rounded by a pattern, depths with a bias, and
-//! holes. Each against plain drawing, fragment by fragment, and the same bits by any lanes and in any pieces.
+//! After the fragment: colours that are mixed with those that are there or rounded by a pattern, depths with a bias,
+//! and holes. Each against plain drawing, fragment by fragment, and the same bits by any lanes and in any pieces.
 #![allow(
     clippy::cast_possible_truncation,
     clippy::cast_possible_wrap,

@@ -1,6 +1,11 @@
-//! Lines through the whole pipeline: their pixels and what they carry against rays in `f64`, cut at all planes, hidden by
-//! surfaces, and with a bias upon them.
-#![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "pixels are few")]
+//! Lines through the whole pipeline: their pixels and what they carry against rays in `f64`, cut at all planes, hidden
+//! by surfaces, and with a bias upon them.
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    clippy::cast_precision_loss,
+    reason = "pixels are few"
+)]
 
 use alberti::glam::{DVec3, Vec3};
 use alberti::shaders::Solid;

@@ -1,5 +1,6 @@
 //! The families of policies, and the rows of each.
 
+mod after;
 mod light;
 mod perspective;
 mod storage;
@@ -22,4 +23,5 @@ pub(crate) const FAMILIES: &[(Family, Rows)] = &[
     (textures::ADDRESSES, textures::addresses),
     (light::LIGHT, light::light),
     (light::RELIEF, light::relief),
+    (after::BLENDS, after::blends),
 ];

@@ -3,8 +3,8 @@
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::One;
 use alberti::{
-    DepthFormat, Flat, FragmentStage, Interpolation, Mesh, Pass, Rgba8, Rgba8888, Slot, Subpixel, Target,
-    Varying, View,
+    ColorFormat, DepthFormat, Flat, FragmentStage, Interpolation, Mesh, Pass, Rgba8, Rgba8888, Slot,
+    Subpixel, Target, Varying, View,
 };
 use alberti_app::scene::Vertex;
 use alberti_tests::for_widest;
@@ -38,6 +38,24 @@ where
     P: Interpolation,
     D: DepthFormat + 'static,
 {
+    colored(scene, vertex_stage, stage, Rgba8888, with)
+}
+
+/// The same whose colours are stored in another way.
+pub(crate) fn colored<V, S, C, P, D>(
+    scene: &'static Scene,
+    vertex_stage: impl Fn(&Vertex) -> (Vec3, V) + 'static,
+    stage: S,
+    format: C,
+    with: With<P, D>,
+) -> Frame
+where
+    V: Varying + 'static,
+    S: FragmentStage<V, Color = Rgba8> + 'static,
+    C: ColorFormat<Pixel = u32>,
+    P: Interpolation,
+    D: DepthFormat + 'static,
+{
     let mut memory = Memory::new(scene, with.depth, with.size);
     Box::new(move |words| {
         let Memory { view, slots, depth } = &mut memory;
@@ -45,6 +63,7 @@ where
         let mut target = target((words, depth), with.depth, with.size, scene);
         let pass = Pass::new(view, &mesh, stage).interpolation(with.interpolation).subpixel(with.subpixel);
         let mut pass = pass.slots(slots);
+        let mut target = target.with_color(format);
         for_widest!(lanes => pass.draw_by(lanes, &mut target));
     })
 }

@@ -18,12 +18,12 @@ pub struct AlphaTest<S> {
     pub least: u8,
 }
 
-/// Screen-door transparency: of another stage's fragments, a part as large as their alpha, by a pattern of pixels. Glass
-/// in any order, with a depth buffer and without blending; seen from near it is a grid.
+/// Screen-door transparency: of another stage's fragments, a part as large as their alpha, by a pattern of pixels.
+/// Glass in any order, with a depth buffer and without blending; seen from near it is a grid.
 ///
 /// # Precision
-/// Of an alpha a, so many of the thresholds of the pattern are below it, which are (k + ½)/64 or (k + ½)/1024. None at 0,
-/// all at 255.
+/// Of an alpha a, so many of the thresholds of the pattern are below it, which are (k + ½)/64 or (k + ½)/1024. None at
+/// 0, all at 255.
 ///
 /// # Cost
 /// A load from the pattern's table, a shift and a comparison.

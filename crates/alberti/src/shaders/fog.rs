@@ -87,7 +87,7 @@ impl Fog for LinearFog {
 /// The greatest coordinate, within the range of fixed point.
 const MOST: f32 = 4000.0;
 
-/// What a haze of the same density everywhere leaves.
+/// A haze of the same density everywhere.
 ///
 /// ```text
 /// fog = 1 − e^(−density · z)

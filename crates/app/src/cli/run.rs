@@ -46,7 +46,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     }
 }
 
-/// Help and version are no errors. All others get one line like any other input, with clap's suggestions. `renamed` says that the machine was given as a target.
+/// Help and version are no errors. All others get one line like any other input, with clap's suggestions. `renamed`
+/// says that the machine was given as a target.
 fn usage(error: &clap::Error, renamed: bool) -> u8 {
     let expected = match error.kind() {
         ErrorKind::ValueValidation => std::error::Error::source(error).map(ToString::to_string),

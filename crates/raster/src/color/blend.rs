@@ -135,7 +135,7 @@ fn saturated<L: Lanes>(lanes: L, sums: L::U32) -> L::U32 {
 pub(super) fn mean<L: Lanes>(lanes: L, new: L::U32, old: L::U32, share: L::U32) -> L::U32 {
     let rest = lanes.word(255) - share;
     let ([new_rb, new_ga], [old_rb, old_ga]) = (halves(lanes, new), halves(lanes, old));
-    // What is drawn is opaque as far as it has a share.
+    // The new colour is opaque as far as it has a share.
     let new_ga = new_ga | lanes.word(0x00ff_0000);
     let parts = map2([[new_rb, old_rb], [new_ga, old_ga]], |[new, old]| {
         bytes_of_255(lanes, new * share + old * rest)

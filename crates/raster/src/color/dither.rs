@@ -11,8 +11,8 @@ mod noise;
 /// A colour format in which a channel between two levels becomes either, by the pixel's place: for
 /// [`Target::new`](crate::Target::new), or [`Target::with_color`](crate::Target::with_color).
 ///
-/// A level is ⌊c·greatest/255 + t⌋, with t from 0 to 1 by the pattern. What is a level already, such as black and white,
-/// stays; the mean over a pattern is that of the channel.
+/// A level is ⌊c·greatest/255 + t⌋, with t from 0 to 1 by the pattern. What is a level already, such as black and
+/// white, stays; the mean over a pattern is that of the channel.
 ///
 /// ```
 /// use alberti_math::{Rgb565Be, Rgba8};

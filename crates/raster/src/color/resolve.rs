@@ -14,12 +14,12 @@ pub enum Average {
     Bytes,
 }
 
-/// Makes a pixel of each square of `factor` x `factor` pixels, which is to be at most 16. `from` has `factor` times as
-/// many columns as `width`, and `to` whole rows of `width`, from `first_row` of the frame on, as far as there are enough
-/// rows in `from`.
+/// Makes a pixel of each square of `factor` x `factor` pixels, with a factor of at most 16. `from` has `factor` times
+/// as many columns as `width`, and `to` whole rows of `width`, from `first_row` of the frame on, as far as there are
+/// enough rows in `from`.
 ///
-/// So a frame is supersampled band by band: bands of `factor` times as many rows and columns are drawn, and each is made
-/// one of the display's, without a large frame anywhere.
+/// So a frame is supersampled band by band, without a large frame anywhere. Bands of `factor` times as many rows and
+/// columns are drawn, and each is made one of the display's.
 ///
 /// ```
 /// use alberti_math::{Rgb565Be, Rgba8, Rgba8888};

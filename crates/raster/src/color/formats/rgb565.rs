@@ -8,9 +8,9 @@ use alberti_math::{Rgb565Be, Rgb565Le, Rgba8};
 macro_rules! rgb565 {
     ($($name:ident: $in_order:ident;)*) => {$(
         /// # Precision
-        /// Of a [mean](ReadColor::mix): the share is rounded to 32nds, and the new colour to the format's levels before.
-        /// So each channel is within 1.5 levels, green 2, of the mean in reals, and of the new colour or the old one
-        /// alone nothing is lost.
+        /// Of a [mean](ReadColor::mix): the share is rounded to 32nds, and the new colour to the format's levels
+        /// before. So each channel is within 1.5 levels, green 2, of the mean in reals, and of the new colour or the
+        /// old one alone nothing is lost.
         impl ReadColor for $name {
             #[inline]
             fn color(self, pixel: u16) -> Rgba8 {

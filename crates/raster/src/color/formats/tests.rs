@@ -26,7 +26,7 @@ fn bytes_lie_in_memory_as_the_format_says() {
     assert_eq!(Rgb565Le.pixel(color).to_ne_bytes(), [low, high]);
 }
 
-/// What is a level of a format stays, through bytes and back; other bytes go to the nearest.
+/// Levels of a format stay, through bytes and back; other bytes go to the nearest.
 fn levels_stay<F: Levels<Pixel: PartialEq + Debug>>(format: F) {
     let [x, y, z] = F::GREATEST;
     for k in 0..=255_u32 {
