@@ -20,10 +20,10 @@ pub trait Counters {
     fn rasterized(&mut self, outcome: Outcome) {
         let _ = outcome;
     }
-    /// A triangle was drawn, whose samples are in these columns and rows of the frame.
-    #[inline]
-    fn drawn(&mut self, columns: &Range<i32>, rows: &Range<i32>) {
-        let _ = (columns, rows);
+    /// The same of a triangle, a line or a point whose samples are in the columns and the rows that `area` has.
+    #[inline(always)]
+    fn touched(&mut self, outcome: Outcome, area: impl FnOnce() -> [Range<i32>; 2]) {
+        let _ = (outcome, area);
     }
     /// A span of `covered` samples was filled, of which `written` passed the depth test and were not discarded.
     #[inline]
@@ -68,9 +68,10 @@ impl<A: Counters, B: Counters> Counters for (A, B) {
     }
 
     #[inline]
-    fn drawn(&mut self, columns: &Range<i32>, rows: &Range<i32>) {
-        self.0.drawn(columns, rows);
-        self.1.drawn(columns, rows);
+    fn touched(&mut self, outcome: Outcome, area: impl FnOnce() -> [Range<i32>; 2]) {
+        let area = area();
+        self.0.touched(outcome, || area.clone());
+        self.1.touched(outcome, || area);
     }
 
     #[inline]

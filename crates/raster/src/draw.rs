@@ -282,10 +282,7 @@ impl<F, P: Interpolation> Paint<F, P> {
                             }
                         }
                     };
-                    if outcome == Outcome::Drawn {
-                        let [columns, rows] = setups.columns_and_rows(k);
-                        counters.drawn(&columns, &rows);
-                    }
+                    counters.touched(outcome, || setups.columns_and_rows(k));
                     counters.rasterized(outcome);
                 }
             },
@@ -346,9 +343,7 @@ impl<F, P: Interpolation> Paint<F, P> {
         } else {
             fill::<i64, _, _, _, _, _, _, _>(target, &samples, &setup, counters)
         };
-        if outcome == Outcome::Drawn {
-            counters.drawn(&samples.columns, &samples.rows);
-        }
+        counters.touched(outcome, || [samples.columns.clone(), samples.rows.clone()]);
         counters.rasterized(outcome);
     }
 }

@@ -124,7 +124,7 @@ impl<F: Copy, P: Interpolation> Paint<F, P> {
             let [column, row] = place;
             let (colors, depths) = target.pixels_from(row, column);
             let (Some(color), Some(depth)) = (colors.first_mut(), depths.first_mut()) else { continue };
-            counters.drawn(&(column..column + 1), &(row..row + 1));
+            counters.touched(Outcome::Drawn, || [column..column + 1, row..row + 1]);
             covered += 1;
             // As many lanes as one.
             let one = |x: &mut C::Pixel| lanes.each(|_| *x);

@@ -290,10 +290,10 @@ where
             row += 1;
         }
         if row >= end {
-            if outcome == Outcome::Drawn {
+            counters.touched(outcome, || {
                 let own = self::row::<FINE>;
-                counters.drawn(&(own(west).max(columns.start)..own(east + 1).min(columns.end)), &(top..end));
-            }
+                [own(west).max(columns.start)..own(east + 1).min(columns.end), top..end]
+            });
             counters.rasterized(outcome);
             return true;
         }

@@ -1,6 +1,7 @@
 //! The part of a frame that drawings have touched.
 
 use crate::counters::Counters;
+use crate::triangle::Outcome;
 use core::ops::Range;
 
 /// The rectangle about all samples in the boxes of the triangles that were drawn. That much has to be sent to a display
@@ -68,8 +69,11 @@ fn about(a: &Range<i32>, b: &Range<i32>) -> Range<i32> {
 
 impl Counters for Touched {
     #[inline]
-    fn drawn(&mut self, columns: &Range<i32>, rows: &Range<i32>) {
-        *self = self.with(&Self { columns: columns.clone(), rows: rows.clone() });
+    fn touched(&mut self, outcome: Outcome, area: impl FnOnce() -> [Range<i32>; 2]) {
+        if outcome == Outcome::Drawn {
+            let [columns, rows] = area();
+            *self = self.with(&Self { columns, rows });
+        }
     }
 
     fn add(&mut self, other: Self) {

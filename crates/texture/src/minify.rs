@@ -234,7 +234,7 @@ impl<Min: MipFilter, Mag: Filter> MipFilter for Minify<Min, Mag> {
 
 /// λ from that of level 0 to that of the last; that of level 0 for NaN.
 #[inline(always)]
-fn among_levels<L: Lanes, F: Storage, Z: Size, const N: usize>(
+pub(crate) fn among_levels<L: Lanes, F: Storage, Z: Size, const N: usize>(
     lanes: L,
     mipmap: &Mipmap<'_, F, Z, N>,
     lambda: L::Number,

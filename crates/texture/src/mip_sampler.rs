@@ -46,6 +46,12 @@ impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: Size, const N: usize>
         Self { mipmap, filter, wrap }
     }
 
+    /// The wrap modes of u and v.
+    #[inline(always)]
+    pub(crate) const fn wraps(&self) -> (U, V) {
+        self.wrap
+    }
+
     /// The mip map that is sampled.
     #[must_use]
     pub const fn mipmap(&self) -> Mipmap<'a, F, Z, N> {

@@ -27,6 +27,12 @@ impl<'a, F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size> Sampler<'a, F, Fl, U
         Self { texture, filter, wrap }
     }
 
+    /// The wrap modes of u and v.
+    #[inline(always)]
+    pub(crate) const fn wraps(&self) -> (U, V) {
+        self.wrap
+    }
+
     /// The texture that is sampled.
     #[must_use]
     pub const fn texture(&self) -> Texture<'a, F, Z> {

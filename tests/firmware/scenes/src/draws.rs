@@ -71,6 +71,14 @@ draws! {
     trilinear_spans_fixed(model): FixedPoint(Spans16), mapped,
         Differentiated::by(PerRun, Unlit(FLOOR_MIPMAP.sampler(Trilinear, Repeat)));
 
+    /// Between levels, by one level of detail for each triangle, in fixed point, of texels as they are stored.
+    trilinear_stored_fixed(model): FixedPoint(Spans16), mapped,
+        Differentiated::by(PerTriangle, Stored(FLOOR_MIPMAP.sampler(Trilinear, Repeat)));
+
+    /// The same by one for each 16 columns.
+    trilinear_stored_spans_fixed(model): FixedPoint(Spans16), mapped,
+        Differentiated::by(PerRun, Stored(FLOOR_MIPMAP.sampler(Trilinear, Repeat)));
+
     /// The vertices' light on the nearest texel: a material of one map.
     material(model): Exact, lit, Gouraud { layers: Color(model.texture.sampler(Nearest, Repeat)) };
 
@@ -187,6 +195,23 @@ fn textured_by<P: Interpolation, K: Counters>(
 ) {
     let stage = Stored(model.texture.sampler(Nearest, Repeat));
     mapped_by(interpolation, stage, target, camera, model, counters);
+}
+
+/// Four texels by colours of 8 bits a channel, in fixed point.
+pub fn bilinear_fixed<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    let stage = Unlit(model.texture.sampler(Bilinear, Repeat));
+    mapped_by(FixedPoint(Spans16), stage, target, camera, model, counters);
+}
+
+/// Four texels as they are stored, in fixed point.
+pub fn bilinear_stored_fixed<K: Counters>(
+    target: &mut Target,
+    camera: &Camera,
+    model: &Model,
+    counters: &mut K,
+) {
+    let stage = Stored(model.texture.sampler(Bilinear, Repeat));
+    mapped_by(FixedPoint(Spans16), stage, target, camera, model, counters);
 }
 
 /// The nearest texel of the nearest level, one for each triangle, of a mesh.

@@ -12,13 +12,14 @@ pub mod shapes;
 pub mod torus;
 
 pub use draws::{
-    affine_fixed, affine_integers, affine_mesh, affine_mesh_sub8, affine_meshlets, bounded_bands, flat,
-    flat_fixed, flat_integers, flat_mesh, flat_meshlets, flat_without_depth, gouraud, gouraud_fixed,
-    gouraud_mesh, gouraud_meshlets, integers_bands, material, material_absent, material_emission,
-    mesh_base_nearest, mesh_mip_nearest, meshlets_bands, meshlets_cache, mip_bilinear, mip_bilinear_fixed,
-    mip_nearest, mip_nearest_fixed, textured, textured_affine, textured_bands, textured_bounded,
-    textured_fixed, textured_meshlets, textured_planes, textured_spans, trilinear, trilinear_fixed,
-    trilinear_spans, trilinear_spans_fixed,
+    affine_fixed, affine_integers, affine_mesh, affine_mesh_sub8, affine_meshlets, bilinear_fixed,
+    bilinear_stored_fixed, bounded_bands, flat, flat_fixed, flat_integers, flat_mesh, flat_meshlets,
+    flat_without_depth, gouraud, gouraud_fixed, gouraud_mesh, gouraud_meshlets, integers_bands, material,
+    material_absent, material_emission, mesh_base_nearest, mesh_mip_nearest, meshlets_bands, meshlets_cache,
+    mip_bilinear, mip_bilinear_fixed, mip_nearest, mip_nearest_fixed, textured, textured_affine,
+    textured_bands, textured_bounded, textured_fixed, textured_meshlets, textured_planes, textured_spans,
+    trilinear, trilinear_fixed, trilinear_spans, trilinear_spans_fixed, trilinear_stored_fixed,
+    trilinear_stored_spans_fixed,
 };
 pub use shapes::PROBE;
 
@@ -103,6 +104,10 @@ pub static SCENES: &[Scene] = &[
     fill!("fixed-affine-4", 4, affine_fixed),
     fill!("fixed-textured", 1, textured_fixed),
     fill!("fixed-textured-4", 4, textured_fixed),
+    fill!("fixed-bilinear", 1, bilinear_fixed),
+    fill!("fixed-bilinear-4", 4, bilinear_fixed),
+    fill!("fixed-bilinear-stored", 1, bilinear_stored_fixed),
+    fill!("fixed-bilinear-stored-4", 4, bilinear_stored_fixed),
     scene!("fixed-mesh-flat", torus(1.0), flat_mesh),
     scene!("fixed-mesh-gouraud", torus(1.0), gouraud_mesh),
     scene!("fixed-mesh-affine", torus(1.0), affine_mesh),
@@ -139,6 +144,8 @@ pub static SCENES: &[Scene] = &[
     scene!("fixed-floor-mip-bilinear", floor(), mip_bilinear_fixed),
     scene!("fixed-floor-trilinear", floor(), trilinear_fixed),
     scene!("fixed-floor-trilinear-spans", floor(), trilinear_spans_fixed),
+    scene!("fixed-floor-trilinear-stored", floor(), trilinear_stored_fixed),
+    scene!("fixed-floor-trilinear-stored-spans", floor(), trilinear_stored_spans_fixed),
 ];
 
 /// What a scene is seen through.
