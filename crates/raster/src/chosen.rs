@@ -5,7 +5,7 @@ use crate::counters::Counters;
 use crate::depth::DepthFormat;
 use crate::draw::Paint;
 use crate::fragment::FragmentStage;
-use crate::interpolation::{Exact, Interpolation};
+use crate::interpolation::{Chosen, Exact, Interpolation, Planes};
 use crate::setup::Waiting;
 use crate::target::Target;
 use crate::triangle::{Corner, Reach};
@@ -64,8 +64,9 @@ impl<F, P: Interpolation> Paint<F, P> {
         K: Counters,
     {
         match self.interpolation.choose(&(corners, reach.area()), self.subpixel.bits()) {
-            Some(lines) => self.by(lines).draw_alone(lanes, target, corners, reach, counters),
-            None => self.by(Exact).draw_alone(lanes, target, corners, reach, counters),
+            Chosen::Lines(lines) => self.by(lines).draw_alone(lanes, target, corners, reach, counters),
+            Chosen::Planes => self.by(Planes).draw_alone(lanes, target, corners, reach, counters),
+            Chosen::Exact => self.by(Exact).draw_alone(lanes, target, corners, reach, counters),
         }
     }
 
@@ -90,7 +91,7 @@ impl<F, P: Interpolation> Paint<F, P> {
         let at = |k: usize| triangles.as_ref().get(k).and_then(Option::as_ref);
         let ways = lanes.each(
             #[inline(always)]
-            |k| at(k).and_then(|triangle| self.interpolation.choose(triangle, bits)),
+            |k| at(k).map_or(Chosen::Exact, |triangle| self.interpolation.choose(triangle, bits)),
         );
         let mut rest = ways.as_ref().get(..count).unwrap_or_default();
         while let Some((&way, others)) = rest.split_first() {
@@ -104,8 +105,9 @@ impl<F, P: Interpolation> Paint<F, P> {
                 &moved
             };
             match way {
-                Some(lines) => self.by(lines).draw_alike(lanes, target, (these, alike), counters),
-                None => self.by(Exact).draw_alike(lanes, target, (these, alike), counters),
+                Chosen::Lines(lines) => self.by(lines).draw_alike(lanes, target, (these, alike), counters),
+                Chosen::Planes => self.by(Planes).draw_alike(lanes, target, (these, alike), counters),
+                Chosen::Exact => self.by(Exact).draw_alike(lanes, target, (these, alike), counters),
             }
             rest = rest.get(alike..).unwrap_or_default();
         }

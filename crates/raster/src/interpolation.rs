@@ -115,16 +115,27 @@ pub trait Prepare: Copy {
     /// Whether triangles are drawn in several ways, one of which [`choose`](Self::choose) finds for each.
     const CHOOSES: bool = false;
 
-    /// The lines by which a triangle on a grid with so many bits is drawn, or none if that is done by [`Exact`]. It
-    /// does not depend on where the triangle is cut, nor on which of its vertices comes first.
+    /// The way in which a triangle on a grid with so many bits is drawn. It does not depend on where the triangle is
+    /// cut, nor on which of its vertices comes first.
     #[inline(always)]
-    fn choose<V: Varying>(self, triangle: &Waiting<'_, V>, bits: u32) -> Option<Lines> {
+    fn choose<V: Varying>(self, triangle: &Waiting<'_, V>, bits: u32) -> Chosen {
         let _ = (triangle, bits);
-        None
+        Chosen::Exact
     }
 
     /// A triangle, prepared.
     fn prepare<L: Floating, V: Varying>(self, lanes: L, triangle: &Oriented<'_, V>) -> Self::Triangle<L, V>;
+}
+
+/// A way of drawing a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Chosen {
+    /// By these lines.
+    Lines(Lines),
+    /// As [`Planes`].
+    Planes,
+    /// As [`Exact`].
+    Exact,
 }
 
 /// A triangle of positive area, its corners clockwise, with `q` > 0 and finite values.

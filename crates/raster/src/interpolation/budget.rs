@@ -7,6 +7,7 @@
 //! |---|---|---|
 //! | a plane and a parabola | D ((h − l)/(h + l))² / 5 | up to h = 9/8 l |
 //! | straight lines along 64 columns | 1024 max\|g\| \|∂q/∂x\| / l², see [`along_rows`] | in boxes of 64 columns |
+//! | [`Planes`](crate::Planes) | its rounding, (15 h/l + 5)ε max\|u\| | in boxes of more than 32 columns |
 //! | [`Exact`](crate::Exact) | 0 | everywhere |
 //!
 //! The first, with d = (h − l)/(h + l): perspective adds most to a plane if all weight is where q is l or h. Where q
@@ -21,7 +22,7 @@
 use super::fixed_point::{LIMIT, ROUNDED_ENDS, relative};
 use super::linear::{Slant, scaled_q};
 use super::lines::Lines;
-use crate::interpolation::{Oriented, Values, words};
+use crate::interpolation::{Chosen, Oriented, Values, words};
 use crate::setup::{NARROW, Waiting};
 use crate::triangle::{Bounds, Corner};
 use alberti_math::{Mode, Varying, hull3, map3, scaled};
@@ -40,13 +41,13 @@ const ROUNDED: f32 = 1.0 - 16.0 * f32::EPSILON;
 const RATIO: f32 = 1.125;
 
 impl Lines {
-    /// The lines for a triangle on a grid with so many bits, where numbers are floats; none where it is drawn exactly.
+    /// The way of a triangle on a grid with so many bits, where numbers are floats.
     #[inline(always)]
-    pub(super) fn of_corners<V: Varying>(self, triangle: &Waiting<'_, V>, bits: u32) -> Option<Self> {
-        let Some(budget) = self.kept() else { return Some(self) };
+    pub(super) fn of_corners<V: Varying>(self, triangle: &Waiting<'_, V>, bits: u32) -> Chosen {
+        let Some(budget) = self.kept() else { return Chosen::Lines(self) };
         let bounds = Bounds::of(&map3(triangle.0, |corner| corner.place(false)));
         if bounds.width() <= NARROW.cast_signed() << bits {
-            None
+            Chosen::Exact
         } else {
             of_wide(budget, triangle, &bounds, bits)
         }
@@ -55,22 +56,37 @@ impl Lines {
 
 /// The same for a box that is not narrow. Not inlined, as most triangles do not come here.
 #[inline(never)]
-fn of_wide<V: Varying>(
-    budget: f32,
-    (corners, area): &Waiting<'_, V>,
-    bounds: &Bounds,
-    bits: u32,
-) -> Option<Lines> {
+fn of_wide<V: Varying>(budget: f32, (corners, area): &Waiting<'_, V>, bounds: &Bounds, bits: u32) -> Chosen {
     // Large ones carry other numbers than their vertices.
     let mut oriented = Oriented::new(*corners, *area, bits, false);
     let unsnapped = oriented.unsnapped(bounds.is_large(bits));
     oriented.replace(&unsnapped);
     if over_all(budget, &oriented.vertices) {
-        Some(Lines::PARABOLA)
+        Chosen::Lines(Lines::PARABOLA)
+    } else if bounds.width() >= Lines::LONGEST << bits && along_rows(budget, &oriented) {
+        Chosen::Lines(Lines::LONG)
+    } else if in_planes(budget, &oriented) {
+        Chosen::Planes
     } else {
-        let rows = bounds.width() >= Lines::LONGEST << bits && along_rows(budget, &oriented);
-        rows.then_some(Lines::LONG)
+        Chosen::Exact
     }
+}
+
+/// Whether the rounding of [`Planes`](crate::Planes) keeps the budget, with the ratio of q over the whole triangle
+/// instead of that along a run.
+#[inline(always)]
+fn in_planes<V: Varying>(budget: f32, triangle: &Oriented<'_, V>) -> bool {
+    const EPS: f32 = 0.5 * f32::EPSILON;
+    let [low, high] = hull3(map3(triangle.vertices, Corner::q));
+    let largest = Cell::new(0.0_f32);
+    let _ = V::map_by_mode(&triangle.values(), &|mode, values: Values| {
+        if mode == Mode::Hyperbolic {
+            let [a, b, c] = map3(values.corners, f32::abs);
+            largest.set(largest.get().max(a).max(b).max(c));
+        }
+    });
+    let share = largest.get() * EPS;
+    15.0 * share * (high / low) + 5.0 * share <= budget * ROUNDED
 }
 
 /// Whether a plane and a parabola keep the budget over the triangle with these corners.

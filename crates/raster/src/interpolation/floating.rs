@@ -4,7 +4,7 @@ use super::bends::Bends;
 use super::linear::{FloatComponent, FloatPlane, Ramp, Slant, along, count, middle, scaled_q};
 use super::lines::{Affine, Course, LineNumbers, LineTriangle, Lines, Run, Runs, Spans16};
 use crate::edge::EdgeInt;
-use crate::interpolation::{Interpolation, Oriented, Prepare, Row, Values};
+use crate::interpolation::{Chosen, Interpolation, Oriented, Prepare, Row, Values};
 use crate::setup::Waiting;
 use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Mode, Varying};
@@ -188,8 +188,8 @@ macro_rules! interpolations {
             const CHOOSES: bool = $bent > 0;
 
             #[inline(always)]
-            fn choose<V: Varying>(self, triangle: &Waiting<'_, V>, bits: u32) -> Option<Lines> {
-                self.lines().and_then(|lines| lines.of_corners(triangle, bits))
+            fn choose<V: Varying>(self, triangle: &Waiting<'_, V>, bits: u32) -> Chosen {
+                self.lines().map_or(Chosen::Exact, |lines| lines.of_corners(triangle, bits))
             }
 
             #[inline(always)]

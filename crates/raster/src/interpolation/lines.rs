@@ -139,9 +139,11 @@ impl Lines {
     ///
     /// 1. A plane and a parabola, along whole rows.
     /// 2. Straight lines along 64 columns, whose ends are hyperbolic.
-    /// 3. [`Exact`](crate::Exact).
+    /// 3. [`Planes`](crate::Planes), whose rounding is to keep the budget.
+    /// 4. [`Exact`](crate::Exact).
     ///
-    /// The first is for a box of more than 32 columns where q differs by up to an eighth, the second for one of 64.
+    /// The first is for a box of more than 32 columns where q differs by up to an eighth, the second for one of 64, the
+    /// third for one of more than 32.
     ///
     /// In [`FixedPoint`](crate::FixedPoint) there are two ways: straight lines without correction, and runs with it.
     /// These are the longest of 1, 2, 4 to 64 columns, at multiples of their length, that keep the budget.
@@ -149,15 +151,16 @@ impl Lines {
     /// # Precision
     /// The budget, and for rounding 19ε·max|ui| with ε = 2^-24; never more. With D the greatest difference of two ui
     /// and r the ratio of q, the first way misses by at most D/5·((r − 1)/(r + 1))². Its rounding is the greatest, 19ε.
-    /// The second is that of [`Spans16`], with a bound for all of the triangle's runs.
+    /// The second is that of [`Spans16`], with a bound for all of the triangle's runs; the third misses by its rounding
+    /// alone, (15 r + 5)ε·max|ui|.
     ///
     /// In fixed point a line misses a hyperbolic component by at most |Δu|·(√r − 1)/(√r + 1) = |Δu|·tanh(ln r/4). That
     /// is not above |Δu|·|Δq|/(max q + 3 min q), which is compared.
     ///
     /// # Cost
     /// A fragment: without perspective two products and two sums a component, a minimum and a maximum, and no division;
-    /// otherwise that of the other two. A triangle in a box of more than 32 columns: up to some 200 operations for its
-    /// way. Derivatives [by runs](crate::PerRun) are those of whole rows, but in the second way.
+    /// otherwise that of the others. A triangle in a box of more than 32 columns: up to some 200 operations for its
+    /// way. Derivatives [by runs](crate::PerRun) are those of whole rows, but in the second and the third way.
     #[must_use]
     pub const fn bounded(budget: f32) -> Self {
         Self { length: Self::LONGEST, budget: Some(budget), course: Course::Perspective }

@@ -14,9 +14,9 @@ pub(super) const PERSPECTIVE: Family = Family {
     title: "Perspective",
     advice: "\
 On a machine with vector registers take `Exact`, or `Lines::bounded` with the texels that it may miss: it draws each
-triangle by a plane, by straight lines or as `Exact`, whichever is the cheapest that keeps the budget, so it is never
-much dearer. Here straight lines never are the cheapest, so that all three budgets draw the same; on one lane they are.
-`Planes` is as right until q falls steeply, and cheaper but on meshes of small triangles, where it is a third dearer.
+triangle by a parabola, by straight lines, as `Planes` or as `Exact`, the first of these that keeps the budget, so it is
+never dearer by more than the choice. `Planes` is as right until q falls steeply, and cheaper but on meshes of small
+triangles, where it is a third dearer.
 `Affine` is right where all of a triangle is equally far, and as wrong as the table says elsewhere: on a mesh of small
 triangles by a fraction of a texel, on a floor by the whole texture. The 21 texels of `Exact` are at the horizon of that
 floor, where a pixel covers tens of thousands. Runs of a fixed length, `Spans16` and its kin, promise nothing: steep
