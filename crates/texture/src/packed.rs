@@ -86,9 +86,9 @@ impl<F: Packed, U: Wrap, V: Wrap, Z: Size> Sampler<'_, F, Bilinear, U, V, Z> {
     /// The texels' mean as such a texel, without a way over colours of 8 bits a channel; a border is black.
     ///
     /// # Precision
-    /// A share is off by up to 9/512, and there are two roundings to a level: a channel is within 2.1 levels of the mean
-    /// in reals, green, which has twice as many, within 3.3; 1.4 and 2.1 are the most that was measured. Equal texels
-    /// give that texel, and a texel's centre gives it.
+    /// A share is off by up to 9/512, and there are two roundings to a level. So a channel is within 2.1 levels of the
+    /// mean in reals, and green, which has twice as many, within 3.3; 1.4 and 2.1 are the most that was measured. Equal
+    /// texels give that texel, and a texel's centre gives it.
     ///
     /// # Cost
     /// Four texels and three products of 32 bits.

@@ -62,7 +62,7 @@ pub fn page(families: &[Family], lines: &[Line], made: Made<'_>) -> String {
     }
     let _ = write!(
         text,
-        "{LAST}The run takes about eleven minutes on two cores, half of them for the boards. {COMPILER}{}.\n[trade.csv](trade.csv) has each policy on each scene. `cargo xtask \
+        "{LAST}The run takes about eleven minutes on two cores, half of them for the boards.\n{COMPILER}{}.\n[trade.csv](trade.csv) has each policy on each scene. `cargo xtask \
          trade --check` measures errors and instructions\nagain, and fails, with the row's name, where one is more than \
          a fiftieth above the table; times are not compared.\n",
         made.compiler
@@ -83,7 +83,7 @@ pub fn with_boards(page: &str, boards: &str) -> Option<String> {
 
 /// The compiler that a page names.
 pub fn compiler(page: &str) -> Option<&str> {
-    page.lines().find_map(|line| line.split_once(COMPILER)?.1.strip_suffix('.'))
+    page.lines().find_map(|line| line.strip_prefix(COMPILER)?.strip_suffix('.'))
 }
 
 fn chapter(text: &mut String, family: &Family, lines: &[Line]) {

@@ -142,8 +142,8 @@ impl Lines {
     /// 3. [`Planes`](crate::Planes), whose rounding is to keep the budget.
     /// 4. [`Exact`](crate::Exact).
     ///
-    /// The first is for a box of more than 32 columns where q differs by up to an eighth, the second for one of 64, the
-    /// third for one of more than 32.
+    /// The first and the third are for boxes of more than 32 columns, the first where q differs by up to an eighth. The
+    /// second is for boxes of 64.
     ///
     /// In [`FixedPoint`](crate::FixedPoint) there are two ways: straight lines without correction, and runs with it.
     /// These are the longest of 1, 2, 4 to 64 columns, at multiples of their length, that keep the budget.

@@ -32,8 +32,9 @@ pub(super) const NUMBERS: Family = Family {
     advice: "\
 On one sample at a time, as a core without vector registers works. Where there are no floats take `FixedPoint`: with
 `Spans16` it takes two thirds of the instructions of `Exact` in floats and less than half of its time; a budget costs
-about as much as those. It is as right as the lines that it draws, as long as coordinates are small. Its steps are 2^-16, so a texture that is repeated hundreds of times across a triangle, as on the floor, is
-tens of texels off at the horizon. Divide such triangles.",
+about as much as those. It is as right as the lines that it draws, as long as coordinates are small. Its steps are
+2^-16, so a texture that is repeated hundreds of times across a triangle, as on the floor, is tens of texels off at the
+horizon. Divide such triangles.",
     axis: Axis::Texels,
 };
 
