@@ -145,6 +145,12 @@ fn between<L: Lanes, F: Packed, Z: Size, U: Wrap, V: Wrap>(
 }
 
 #[cfg(test)]
+#[expect(
+    clippy::cast_precision_loss,
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    reason = "small numbers"
+)]
 mod tests {
     use super::*;
     use crate::{Clamp, Mirror, Repeat};

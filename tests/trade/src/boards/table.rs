@@ -84,6 +84,6 @@ mod tests {
         let price =
             |scene| Price { board: "m0".into(), scene, policy: "a".into(), count: 7, divides: 2, stack: 0 };
         let text = csv(&[price(Some(1)), price(Some(JUDGED.len())), price(None)]);
-        assert_eq!(text, format!("{HEADING}\nm0,floor,\"a\",7,2,0\nm0,code,\"a\",7,2,0\n"));
+        assert_eq!(text, format!("{HEADING}\nm0,floor,\"a\",7,2,\nm0,code,\"a\",7,2,\n"));
     }
 }
