@@ -21,7 +21,7 @@ use core::fmt::Debug;
 /// let vertices = [Vec3::ZERO, Vec3::X, Vec3::Y];
 /// let mesh = Mesh::new(&vertices, &[[0_u16, 1, 2]], |v: &Vec3| {
 ///     let position = Point3::<Object>::new(*v);
-///     (position, (fog.coordinate((to_eye * position).coords.z), ()))
+///     (position, (fog.coordinate(to_eye.to_parent(position).coords.z), ()))
 /// });
 /// let stage = Fogged { surface: Solid(Rgba8::WHITE), fog, color: Rgba8::from_rgb24(0x80_90_a0) };
 /// # let _ = (mesh, stage);
