@@ -56,14 +56,7 @@ impl<C: ReadColor, B: Blend> ColorFormat for Blended<C, B> {
         place: [i32; 2],
         pixels: &mut L::Each<C::Pixel>,
     ) {
-        let colors = if const { Shade::IS_COLOR } {
-            colors
-        } else {
-            let words = lanes.store_words(colors);
-            let color = |k: usize| words.as_ref().get(k).map_or(0, |&word| Shade::color(self.format, word));
-            lanes.load_words(&lanes.each(color))
-        };
-        self.by.store(lanes, self.format, colors, mask, place, pixels);
+        self.by.store::<L, C, Shade>(lanes, self.format, colors, mask, place, pixels);
     }
 }
 
@@ -79,9 +72,9 @@ pub trait Blend: Copy + Debug + Send + Sync + 'static {
     /// The colours of [`channel`](Self::channel) and [`alpha`](Self::alpha) for bytes, several at a time.
     fn mix<L: Lanes>(self, lanes: L, new: L::U32, old: L::U32) -> L::U32;
 
-    /// Stores the mixed colours.
+    /// Stores the mixed colours of words of `Shade`s.
     #[inline(always)]
-    fn store<L: Lanes, C: ReadColor>(
+    fn store<L: Lanes, C: ReadColor, Shade: FragmentColor>(
         self,
         lanes: L,
         format: C,
@@ -90,7 +83,7 @@ pub trait Blend: Copy + Debug + Send + Sync + 'static {
         place: [i32; 2],
         pixels: &mut L::Each<C::Pixel>,
     ) {
-        let old = format.colors(lanes, pixels);
+        let (new, old) = (format.shown::<L, Shade>(lanes, new), format.colors(lanes, pixels));
         format.store::<L, Rgba8>(lanes, self.mix(lanes, new, old), mask, place, pixels);
     }
 }
@@ -167,7 +160,7 @@ impl Blend for Over {
     }
 
     #[inline(always)]
-    fn store<L: Lanes, C: ReadColor>(
+    fn store<L: Lanes, C: ReadColor, Shade: FragmentColor>(
         self,
         lanes: L,
         format: C,
@@ -176,7 +169,8 @@ impl Blend for Over {
         place: [i32; 2],
         pixels: &mut L::Each<C::Pixel>,
     ) {
-        format.mix(lanes, (new, lanes.shr(new, 24)), mask, place, pixels);
+        let alpha = lanes.shr(format.shown::<L, Shade>(lanes, new), 24);
+        format.mix::<L, Shade>(lanes, (new, alpha), mask, place, pixels);
     }
 }
 
@@ -207,7 +201,7 @@ impl Blend for Constant {
     }
 
     #[inline(always)]
-    fn store<L: Lanes, C: ReadColor>(
+    fn store<L: Lanes, C: ReadColor, Shade: FragmentColor>(
         self,
         lanes: L,
         format: C,
@@ -216,7 +210,7 @@ impl Blend for Constant {
         place: [i32; 2],
         pixels: &mut L::Each<C::Pixel>,
     ) {
-        format.mix(lanes, (new, lanes.word(self.0.into())), mask, place, pixels);
+        format.mix::<L, Shade>(lanes, (new, lanes.word(self.0.into())), mask, place, pixels);
     }
 }
 

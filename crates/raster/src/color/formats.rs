@@ -21,12 +21,23 @@ pub trait ReadColor: ColorFormat {
         lanes.load_words(&lanes.each(word))
     }
 
-    /// Stores the mean of what pixels show and of new colours, whose part is `share` 255ths.
+    /// The colours that are shown for the words of `Shade`s, as words.
+    #[inline(always)]
+    fn shown<L: Lanes, Shade: FragmentColor>(self, lanes: L, words: L::U32) -> L::U32 {
+        if const { Shade::IS_COLOR } {
+            return words;
+        }
+        let words = lanes.store_words(words);
+        let color = |k: usize| words.as_ref().get(k).map_or(0, |&word| Shade::color(self, word));
+        lanes.load_words(&lanes.each(color))
+    }
+
+    /// Stores the mean of what pixels show and of new colours, the words of `Shade`s, whose part is `share` 255ths.
     ///
     /// # Precision
     /// Correctly rounded in bytes, then stored as any colour.
     #[inline(always)]
-    fn mix<L: Lanes>(
+    fn mix<L: Lanes, Shade: FragmentColor>(
         self,
         lanes: L,
         (colors, share): (L::U32, L::U32),
@@ -34,8 +45,8 @@ pub trait ReadColor: ColorFormat {
         place: [i32; 2],
         pixels: &mut L::Each<Self::Pixel>,
     ) {
-        let old = self.colors(lanes, pixels);
-        self.store::<L, Rgba8>(lanes, super::blend::mean(lanes, colors, old, share), mask, place, pixels);
+        let (new, old) = (self.shown::<L, Shade>(lanes, colors), self.colors(lanes, pixels));
+        self.store::<L, Rgba8>(lanes, super::blend::mean(lanes, new, old, share), mask, place, pixels);
     }
 }
 

@@ -4,15 +4,16 @@ use crate::shapes::{FLOOR_MIPMAP, Model};
 use crate::torus::{HalfWords, TORUS_VERTICES, Vertex};
 use crate::{Camera, HEIGHT, PIXELS, Target, WIDTH};
 use alberti::glam::{Vec2, Vec3};
-use alberti::lanes::One;
-use alberti::raster::{PerRun, PerTriangle};
+use alberti::lanes::{Lanes, One};
+use alberti::raster::color::{Additive, Blended, Constant, Over};
+use alberti::raster::{Fragments, PerRun, PerTriangle};
 use alberti::shaders::material::{Color, Emission, Gouraud};
 use alberti::shaders::{Differentiated, Ready565, Solid, Stored, Unlit, VertexColor565};
 use alberti::texture::{BaseLevel, Bilinear, Minify, Nearest, NearestLevel, Repeat, Trilinear};
 use alberti::{
     Affine, ColorFormat, Counters, D16, DepthFormat, Exact, FixedPoint, FragmentStage, Geometry, IntegerMesh,
     IntegerVertex, Interpolation, Lines, Mesh, Meshlets, NoDepth, Object, Pass, Planes, Point3, Q16,
-    Rgb565Le, Slot, Spans16, Sub4, Sub8, Varying, View,
+    Rgb565Le, Rgba8, Slot, Spans16, Sub4, Sub8, Varying, View,
 };
 
 /// Defines ways of drawing: a pass of its own for each, into colour and depth.
@@ -97,6 +98,56 @@ draws! {
 
     /// The nearest texel without perspective, in fixed point.
     affine_fixed(model): FixedPoint(Affine), mapped, Stored(model.texture.sampler(Nearest, Repeat));
+
+    /// The same as a colour of 8 bits a channel, with an alpha that is not used.
+    glass_fixed(model): FixedPoint(Affine), mapped, Glass(Unlit(model.texture.sampler(Nearest, Repeat)));
+}
+
+/// Defines ways of drawing that mix with what is there, without perspective, in fixed point.
+macro_rules! blends {
+    ($($(#[$doc:meta])* $name:ident($model:ident): $blend:expr, $stage:expr;)*) => {$(
+        $(#[$doc])*
+        pub fn $name<K: Counters>(target: &mut Target, camera: &Camera, $model: &Model, counters: &mut K) {
+            let mesh = Mesh::new($model.vertices, $model.triangles, mapped);
+            let Ok(mut pixels) = target.with_depth() else { return };
+            let pixels = pixels.with_color(Blended { format: Rgb565Le, by: $blend });
+            draw(Ok(pixels), camera, $model, &mesh, $stage, FixedPoint(Affine), &mut [], counters);
+        }
+    )*};
+}
+
+blends! {
+    /// The nearest texel, as opaque as 100/255.
+    constant_fixed(model): Constant(100), Stored(model.texture.sampler(Nearest, Repeat));
+
+    /// The nearest texel, as opaque as it is green.
+    over_fixed(model): Over, Glass(Unlit(model.texture.sampler(Nearest, Repeat)));
+
+    /// The nearest texel as light.
+    additive_fixed(model): Additive, Glass(Unlit(model.texture.sampler(Nearest, Repeat)));
+}
+
+/// Colours that are as opaque as they are green.
+#[derive(Clone, Copy, Debug)]
+struct Glass<S>(S);
+
+impl<V: Varying, S: FragmentStage<V, Color = Rgba8>> FragmentStage<V> for Glass<S> {
+    type Color = Rgba8;
+    type Derivatives = S::Derivatives;
+    const WIDE: bool = S::WIDE;
+
+    #[inline(always)]
+    fn derivatives(&self) -> S::Derivatives {
+        self.0.derivatives()
+    }
+
+    #[inline(always)]
+    fn shade<L: Lanes>(&self, fragments: &Fragments<L, V>) -> (L::U32, L::Mask) {
+        let lanes = fragments.lanes;
+        let (colors, mask) = self.0.shade(fragments);
+        let alpha = lanes.shl(lanes.shr(colors, 8), 24);
+        (colors & lanes.word(0x00ff_ffff) | alpha, mask)
+    }
 }
 
 /// Defines ways of drawing a mesh, each of whose vertices has a slot of its own, without perspective, in fixed point.

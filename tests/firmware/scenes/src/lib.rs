@@ -12,14 +12,14 @@ pub mod shapes;
 pub mod torus;
 
 pub use draws::{
-    affine_fixed, affine_integers, affine_mesh, affine_mesh_sub8, affine_meshlets, bilinear_fixed,
-    bilinear_stored_fixed, bounded_bands, flat, flat_fixed, flat_integers, flat_mesh, flat_meshlets,
-    flat_without_depth, gouraud, gouraud_fixed, gouraud_mesh, gouraud_meshlets, integers_bands, material,
-    material_absent, material_emission, mesh_base_nearest, mesh_mip_nearest, meshlets_bands, meshlets_cache,
-    mip_bilinear, mip_bilinear_fixed, mip_nearest, mip_nearest_fixed, textured, textured_affine,
-    textured_bands, textured_bounded, textured_fixed, textured_meshlets, textured_planes, textured_spans,
-    trilinear, trilinear_fixed, trilinear_spans, trilinear_spans_fixed, trilinear_stored_fixed,
-    trilinear_stored_spans_fixed,
+    additive_fixed, affine_fixed, affine_integers, affine_mesh, affine_mesh_sub8, affine_meshlets,
+    bilinear_fixed, bilinear_stored_fixed, bounded_bands, constant_fixed, flat, flat_fixed, flat_integers,
+    flat_mesh, flat_meshlets, flat_without_depth, glass_fixed, gouraud, gouraud_fixed, gouraud_mesh,
+    gouraud_meshlets, integers_bands, material, material_absent, material_emission, mesh_base_nearest,
+    mesh_mip_nearest, meshlets_bands, meshlets_cache, mip_bilinear, mip_bilinear_fixed, mip_nearest,
+    mip_nearest_fixed, over_fixed, textured, textured_affine, textured_bands, textured_bounded,
+    textured_fixed, textured_meshlets, textured_planes, textured_spans, trilinear, trilinear_fixed,
+    trilinear_spans, trilinear_spans_fixed, trilinear_stored_fixed, trilinear_stored_spans_fixed,
 };
 pub use shapes::PROBE;
 
@@ -102,6 +102,14 @@ pub static SCENES: &[Scene] = &[
     fill!("fixed-gouraud-4", 4, gouraud_fixed),
     fill!("fixed-affine", 1, affine_fixed),
     fill!("fixed-affine-4", 4, affine_fixed),
+    fill!("fixed-constant", 1, constant_fixed),
+    fill!("fixed-constant-4", 4, constant_fixed),
+    fill!("fixed-glass", 1, glass_fixed),
+    fill!("fixed-glass-4", 4, glass_fixed),
+    fill!("fixed-over", 1, over_fixed),
+    fill!("fixed-over-4", 4, over_fixed),
+    fill!("fixed-additive", 1, additive_fixed),
+    fill!("fixed-additive-4", 4, additive_fixed),
     fill!("fixed-textured", 1, textured_fixed),
     fill!("fixed-textured-4", 4, textured_fixed),
     fill!("fixed-bilinear", 1, bilinear_fixed),

@@ -1,8 +1,7 @@
 //! A blend that is chosen at run time.
 
 use super::{Additive, Blend, Constant, Multiply, Over, Premultiplied};
-use crate::color::ReadColor;
-use alberti_math::Rgba8;
+use crate::color::{FragmentColor, ReadColor};
 use alberti_math::lanes::Lanes;
 
 /// A blend that is chosen at run time; the pixels are those of the blend itself.
@@ -69,7 +68,7 @@ impl Blend for AnyBlend {
     }
 
     #[inline(always)]
-    fn store<L: Lanes, C: ReadColor>(
+    fn store<L: Lanes, C: ReadColor, Shade: FragmentColor>(
         self,
         lanes: L,
         format: C,
@@ -80,8 +79,8 @@ impl Blend for AnyBlend {
     ) {
         any!(
             self,
-            blend => blend.store(lanes, format, new, mask, place, pixels),
-            format.store::<L, Rgba8>(lanes, new, mask, place, pixels)
+            blend => blend.store::<L, C, Shade>(lanes, format, new, mask, place, pixels),
+            format.store::<L, Shade>(lanes, new, mask, place, pixels)
         );
     }
 }

@@ -1,7 +1,7 @@
 //! 16 bits a pixel: what most small displays take.
 
 use super::{Levels, ReadColor, byte};
-use crate::color::ColorFormat;
+use crate::color::{ColorFormat, FragmentColor};
 use alberti_math::lanes::Lanes;
 use alberti_math::{Rgb565Be, Rgb565Le, Rgba8};
 
@@ -20,7 +20,7 @@ macro_rules! rgb565 {
 
             #[inline(always)]
             #[expect(clippy::cast_possible_truncation, reason = "words of 16 bits")]
-            fn mix<L: Lanes>(
+            fn mix<L: Lanes, Shade: FragmentColor>(
                 self,
                 lanes: L,
                 (colors, share): (L::U32, L::U32),
@@ -29,7 +29,10 @@ macro_rules! rgb565 {
                 pixels: &mut L::Each<u16>,
             ) {
                 let new = lanes.store_words(colors);
-                let word = |k: usize| u32::from(rgb565(Rgba8::from_bits(new.as_ref().get(k).copied().unwrap_or_default())));
+                let word = |k: usize| {
+                    let word = new.as_ref().get(k).copied().unwrap_or_default();
+                    u32::from(Shade::pixel(self, word).$in_order())
+                };
                 let new = lanes.load_words(&lanes.each(word));
                 let word = |k: usize| pixels.as_ref().get(k).map_or(0, |pixel| u32::from(pixel.$in_order()));
                 let old = lanes.load_words(&lanes.each(word));

@@ -90,7 +90,7 @@ fn means_of_16_bits_are_as_near_as_they_say() {
                 let new = Rgba8::new(byte, byte, byte, 0);
                 let mut pixel = [old];
                 let colors = (One.word(new.to_bits()), One.word(share));
-                Rgb565Le.mix(One, colors, true, [0; 2], &mut pixel);
+                Rgb565Le.mix::<One, Rgba8>(One, colors, true, [0; 2], &mut pixel);
                 let [r, g, b] = levels565(u16::from_le(pixel[0]));
                 assert_eq!(r, b);
                 let part = f64::from(share) / 255.0;
