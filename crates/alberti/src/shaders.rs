@@ -17,6 +17,20 @@
 //!
 //! All arithmetic is on sRGB bytes, as they are stored.
 
+/// Items of a wrapping stage that are those of the stage `S` in its field `surface`: all but how it shades.
+macro_rules! as_surface {
+    () => {
+        type Color = Rgba8;
+        type Derivatives = S::Derivatives;
+        const WIDE: bool = S::WIDE;
+
+        #[inline(always)]
+        fn derivatives(&self) -> S::Derivatives {
+            self.surface.derivatives()
+        }
+    };
+}
+
 mod color;
 mod cutout;
 pub mod fog;
@@ -35,3 +49,23 @@ pub use slide::{Mix, Slide};
 pub use sunlit::{Sunlit, face_normal};
 pub use texture::{Differentiated, Stored, Unlit};
 pub use tinted::Tinted;
+
+#[cfg(test)]
+mod tests {
+    use super::fog::{Fogged, LinearFog};
+    use super::{Differentiated, Solid, Tinted};
+    use alberti_math::Rgba8;
+    use alberti_raster::{AnyDerivatives, FragmentStage};
+
+    #[test]
+    fn a_wrapped_stage_says_how_it_is_differentiated() {
+        for policy in [AnyDerivatives::PerPixel, AnyDerivatives::PerRun, AnyDerivatives::PerTriangle] {
+            let surface = Differentiated::by(policy, Solid(Rgba8::WHITE));
+            let surface = Tinted { surface, tint: Rgba8::WHITE };
+            assert_eq!(FragmentStage::<()>::derivatives(&surface), policy);
+            let fog = LinearFog { start: 1.0, end: 2.0 };
+            let fogged = Fogged { surface, fog, color: Rgba8::BLACK };
+            assert_eq!(FragmentStage::<(f32, ())>::derivatives(&fogged), policy);
+        }
+    }
+}

@@ -19,7 +19,7 @@ use alberti_trade::boards::{self, model, scene_file};
 use alberti_trade::counts::{self, measured};
 use alberti_trade::errors::{Court, Judged};
 use alberti_trade::family::Family;
-use alberti_trade::page::{self, Made, PICTURES, SEEN, has_plot, page, picture};
+use alberti_trade::page::{self, Made, PICTURES, SEEN, page, picture};
 use alberti_trade::row::Row;
 use alberti_trade::summary::summaries;
 use alberti_trade::table::{Line, csv, worse};
@@ -181,9 +181,7 @@ fn write(options: &Options) -> Result<(), Box<dyn Error>> {
     let lines = measure(counts.as_deref(), true, &mut hear)?;
     for (family, _) in FAMILIES {
         let summaries = summaries(family, &lines);
-        if has_plot(family, &summaries) {
-            plot::draw(family, &summaries, &pictures.join(format!("{}.svg", family.name)))?;
-        }
+        plot::draw(family, &summaries, &pictures.join(format!("{}.svg", family.name)))?;
     }
     let families: Vec<Family> = FAMILIES.iter().map(|(family, _)| *family).collect();
     let boards = options.boards.as_deref().map(|prices| boards(options, prices)).transpose()?;

@@ -90,9 +90,7 @@ fn chapter(text: &mut String, family: &Family, lines: &[Line]) {
     let all = summaries(family, lines);
     let _ = writeln!(text, "\n## {}\n\n{}\n", family.title, family.advice);
     let Family { name, title, .. } = family;
-    if has_plot(family, &all) {
-        let _ = writeln!(text, "![{title}: error against cost]({PICTURES}/{name}.svg)\n");
-    }
+    let _ = writeln!(text, "![{title}: error against cost]({PICTURES}/{name}.svg)\n");
     text.push_str(
         "| policy | ★ | instructions | time | texels | worst | bytes | worst | PSNR | FLIP |\n\
          |---|---|---|---|---|---|---|---|---|---|\n",
@@ -130,7 +128,7 @@ fn by_scene(text: &mut String, family: &Family, all: &[Summary], lines: &[Line])
     let lines: Vec<&Line> = lines.iter().filter(|line| line.family == family.name).collect();
     let mut scenes: Vec<&str> = lines.iter().map(|line| line.scene).collect();
     scenes.dedup();
-    if scenes.len() < 2 || !has_plot(family, all) {
+    if scenes.len() < 2 || !differ(family, all) {
         return;
     }
     let what = match family.axis {
@@ -185,8 +183,8 @@ pub fn picture(family: &str, policy: &str) -> String {
     format!("{family}-{}.png", parts.join("-"))
 }
 
-/// Whether there is anything to plot: policies of different errors.
-pub fn has_plot(family: &Family, summaries: &[Summary]) -> bool {
+/// Whether there are policies of different errors.
+fn differ(family: &Family, summaries: &[Summary]) -> bool {
     let mut errors = summaries.iter().map(|summary| summary.error(family.axis));
     let first = errors.next().unwrap_or_default();
     errors.any(|error| (error - first).abs() > 1e-6)

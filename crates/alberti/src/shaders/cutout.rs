@@ -39,14 +39,7 @@ pub struct AlphaDither<S, P> {
 macro_rules! keeps {
     ($(<$($generic:ident: $bound:path),*> $name:ty: |$self:ident, $fragments:ident, $alpha:ident| $kept:expr;)*) => {$(
         impl<V: Varying, S: FragmentStage<V, Color = Rgba8> $(, $generic: $bound)*> FragmentStage<V> for $name {
-            type Color = Rgba8;
-            type Derivatives = S::Derivatives;
-            const WIDE: bool = S::WIDE;
-
-            #[inline(always)]
-            fn derivatives(&self) -> S::Derivatives {
-                self.surface.derivatives()
-            }
+            as_surface!();
 
             #[inline(always)]
             fn shade<L: Lanes>(&$self, $fragments: &Fragments<L, V>) -> (L::U32, L::Mask) {

@@ -198,14 +198,7 @@ const fn parts(part: f64) -> u16 {
 }
 
 impl<V: Varying, S: FragmentStage<V, Color = Rgba8>, F: Fog> FragmentStage<(f32, V)> for Fogged<S, F> {
-    type Color = Rgba8;
-    type Derivatives = S::Derivatives;
-    const WIDE: bool = S::WIDE;
-
-    #[inline(always)]
-    fn derivatives(&self) -> S::Derivatives {
-        self.surface.derivatives()
-    }
+    as_surface!();
 
     #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, (f32, V)>) -> (L::U32, L::Mask) {

@@ -109,14 +109,7 @@ where
     Fl: Filter,
     Z: Size,
 {
-    type Color = Rgba8;
-    type Derivatives = S::Derivatives;
-    const WIDE: bool = S::WIDE;
-
-    #[inline(always)]
-    fn derivatives(&self) -> S::Derivatives {
-        self.surface.derivatives()
-    }
+    as_surface!();
 
     #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, (Homogeneous, V)>) -> (L::U32, L::Mask) {

@@ -51,14 +51,7 @@ impl<S> Sunlit<S> {
 }
 
 impl<V: Varying, S: FragmentStage<V, Color = Rgba8>> FragmentStage<(Vec3, V)> for Sunlit<S> {
-    type Color = Rgba8;
-    type Derivatives = S::Derivatives;
-    const WIDE: bool = S::WIDE;
-
-    #[inline(always)]
-    fn derivatives(&self) -> S::Derivatives {
-        self.surface.derivatives()
-    }
+    as_surface!();
 
     #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, (Vec3, V)>) -> (L::U32, L::Mask) {

@@ -18,14 +18,7 @@ pub struct Tinted<S> {
 }
 
 impl<V: Varying, S: FragmentStage<V, Color = Rgba8>> FragmentStage<V> for Tinted<S> {
-    type Color = Rgba8;
-    type Derivatives = S::Derivatives;
-    const WIDE: bool = S::WIDE;
-
-    #[inline(always)]
-    fn derivatives(&self) -> S::Derivatives {
-        self.surface.derivatives()
-    }
+    as_surface!();
 
     #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, V>) -> (L::U32, L::Mask) {

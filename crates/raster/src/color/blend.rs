@@ -56,7 +56,13 @@ impl<C: ReadColor, B: Blend> ColorFormat for Blended<C, B> {
         place: [i32; 2],
         pixels: &mut L::Each<C::Pixel>,
     ) {
-        self.by.store::<L, C, Shade>(lanes, self.format, colors, mask, place, pixels);
+        let Self { format, by } = self;
+        let new = format.shown::<L, Shade>(lanes, colors);
+        if let Some(share) = by.share(lanes, lanes.shr(new, 24)) {
+            return format.mix::<L, Shade>(lanes, (colors, share), mask, place, pixels);
+        }
+        let mixed = by.mix(lanes, new, format.colors(lanes, pixels));
+        format.store::<L, Rgba8>(lanes, mixed, mask, place, pixels);
     }
 }
 
@@ -72,19 +78,12 @@ pub trait Blend: Copy + Debug + Send + Sync + 'static {
     /// The colours of [`channel`](Self::channel) and [`alpha`](Self::alpha) for bytes, several at a time.
     fn mix<L: Lanes>(self, lanes: L, new: L::U32, old: L::U32) -> L::U32;
 
-    /// Stores the mixed colours of words of `Shade`s.
+    /// The part of the new colour, in 255ths, where [`mix`](Self::mix) is a mean by it; `alpha` is the source's.
+    /// Formats have ways of their own for means: [`ReadColor::mix`].
     #[inline(always)]
-    fn store<L: Lanes, C: ReadColor, Shade: FragmentColor>(
-        self,
-        lanes: L,
-        format: C,
-        new: L::U32,
-        mask: L::Mask,
-        place: [i32; 2],
-        pixels: &mut L::Each<C::Pixel>,
-    ) {
-        let (new, old) = (format.shown::<L, Shade>(lanes, new), format.colors(lanes, pixels));
-        format.store::<L, Rgba8>(lanes, self.mix(lanes, new, old), mask, place, pixels);
+    fn share<L: Lanes>(self, lanes: L, alpha: L::U32) -> Option<L::U32> {
+        let _ = (lanes, alpha);
+        None
     }
 }
 
@@ -160,17 +159,8 @@ impl Blend for Over {
     }
 
     #[inline(always)]
-    fn store<L: Lanes, C: ReadColor, Shade: FragmentColor>(
-        self,
-        lanes: L,
-        format: C,
-        new: L::U32,
-        mask: L::Mask,
-        place: [i32; 2],
-        pixels: &mut L::Each<C::Pixel>,
-    ) {
-        let alpha = lanes.shr(format.shown::<L, Shade>(lanes, new), 24);
-        format.mix::<L, Shade>(lanes, (new, alpha), mask, place, pixels);
+    fn share<L: Lanes>(self, _: L, alpha: L::U32) -> Option<L::U32> {
+        Some(alpha)
     }
 }
 
@@ -201,16 +191,8 @@ impl Blend for Constant {
     }
 
     #[inline(always)]
-    fn store<L: Lanes, C: ReadColor, Shade: FragmentColor>(
-        self,
-        lanes: L,
-        format: C,
-        new: L::U32,
-        mask: L::Mask,
-        place: [i32; 2],
-        pixels: &mut L::Each<C::Pixel>,
-    ) {
-        format.mix::<L, Shade>(lanes, (new, lanes.word(self.0.into())), mask, place, pixels);
+    fn share<L: Lanes>(self, lanes: L, _: L::U32) -> Option<L::U32> {
+        Some(lanes.word(self.0.into()))
     }
 }
 

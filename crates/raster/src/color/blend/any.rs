@@ -1,7 +1,6 @@
 //! A blend that is chosen at run time.
 
 use super::{Additive, Blend, Constant, Multiply, Over, Premultiplied};
-use crate::color::{FragmentColor, ReadColor};
 use alberti_math::lanes::Lanes;
 
 /// A blend that is chosen at run time; the pixels are those of the blend itself.
@@ -68,19 +67,7 @@ impl Blend for AnyBlend {
     }
 
     #[inline(always)]
-    fn store<L: Lanes, C: ReadColor, Shade: FragmentColor>(
-        self,
-        lanes: L,
-        format: C,
-        new: L::U32,
-        mask: L::Mask,
-        place: [i32; 2],
-        pixels: &mut L::Each<C::Pixel>,
-    ) {
-        any!(
-            self,
-            blend => blend.store::<L, C, Shade>(lanes, format, new, mask, place, pixels),
-            format.store::<L, Shade>(lanes, new, mask, place, pixels)
-        );
+    fn share<L: Lanes>(self, lanes: L, alpha: L::U32) -> Option<L::U32> {
+        any!(self, blend => blend.share(lanes, alpha), None)
     }
 }

@@ -3,6 +3,7 @@
 
 use super::rgb565::levels565;
 use super::*;
+use crate::color::{Blended, Constant};
 use alberti_math::lanes::One;
 use alberti_math::{Rgb565Be, Rgb565Le};
 
@@ -109,4 +110,34 @@ fn means_of_16_bits_are_as_near_as_they_say() {
         }
     }
     assert!(worst[0] <= 1.5 && worst[1] <= 2.0 && worst[0] > 1.2, "{worst:?}");
+}
+
+/// Words of the target mixed by a constant, in both orders of bytes, against the levels' means in reals.
+#[test]
+fn words_of_16_bits_are_mixed_as_they_are() {
+    fn mixed<C: ReadColor<Pixel = u16>>(format: C, alpha: u8, [new, old]: [u16; 2]) -> u16 {
+        let mut pixel = [format.native(old.into())];
+        let blended = Blended { format, by: Constant(alpha) };
+        blended.store::<One, u16>(One, One.word(new.into()), true, [0; 2], &mut pixel);
+        pixel[0]
+    }
+    for alpha in 0..=255_u8 {
+        for k in 0..1000_u32 {
+            let [new, old] = [k, k + 1000].map(|k| (k.wrapping_mul(0x9e37_79b1) >> 16) as u16);
+            let found = mixed(Rgb565Le, alpha, [new, old]);
+            assert_eq!(mixed(Rgb565Be, alpha, [new, old]), found.swap_bytes());
+            let part = f64::from(alpha) / 255.0;
+            let found = levels565(u16::from_le(found));
+            for ((found, [new, old]), most) in found
+                .into_iter()
+                .zip([0, 1, 2].map(|k| [levels565(new)[k], levels565(old)[k]]))
+                .zip([1.05, 1.62, 1.05])
+            {
+                let exact = f64::from(new) * part + f64::from(old) * (1.0 - part);
+                assert!((f64::from(found) - exact).abs() <= most, "{alpha}: {new} on {old} gave {found}");
+            }
+        }
+    }
+    assert_eq!(mixed(Rgb565Le, 255, [0x1234, 0xfedc]), 0x1234_u16.to_le());
+    assert_eq!(mixed(Rgb565Le, 0, [0x1234, 0xfedc]), 0xfedc_u16.to_le());
 }
