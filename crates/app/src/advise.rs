@@ -12,6 +12,8 @@
 //! 3. of the first few of them that are drawn within the budget, the cheapest is the pick; of those that cost the same
 //!    within a fiftieth, the least wrong. On the host they are timed beside each other for that.
 
+use std::cmp::Ordering;
+
 mod candidate;
 mod chips;
 mod machine;
@@ -133,14 +135,18 @@ fn pick(trials: &[Trial], budget: MaxError) -> Option<usize> {
     let least = trials.iter().find(|trial| within(trial))?.cost.frame;
     let close = |trial: &Trial| within(trial) && trial.cost.frame <= least * ALIKE;
     let all = trials.iter().enumerate().filter(|(_, trial)| close(trial));
-    let order = |a: &Trial, b: &Trial| match budget {
+    let best =
+        all.min_by(|(_, a), (_, b)| by_error(budget, a, b).then(a.cost.frame.total_cmp(&b.cost.frame)));
+    best.map(|(index, _)| index)
+}
+
+/// The order of errors, the least first; of equal ones, that of the largest differences.
+fn by_error(budget: MaxError, a: &Trial, b: &Trial) -> Ordering {
+    let errors = match budget {
         MaxError::Db(_) => b.error.total_cmp(&a.error),
         _ => a.error.total_cmp(&b.error),
     };
-    let best = all.min_by(|(_, a), (_, b)| {
-        order(a, b).then(a.largest.cmp(&b.largest)).then(a.cost.frame.total_cmp(&b.cost.frame))
-    });
-    best.map(|(index, _)| index)
+    errors.then(a.largest.cmp(&b.largest))
 }
 
 fn cheapest_first(trials: &mut [Trial]) {
@@ -185,14 +191,46 @@ impl Advice {
     /// Whether no other trial is at once as fast and as right, and better in one of the two.
     #[must_use]
     pub fn is_on_front(&self, trial: &Trial) -> bool {
-        let worse = |a: f64, b: f64| match self.wish.budget {
-            MaxError::Db(_) => a < b,
-            _ => a > b,
-        };
         !self.trials.iter().any(|other| {
-            let (faster, as_right) = (other.cost.frame < trial.cost.frame, !worse(other.error, trial.error));
-            let (as_fast, better) = (other.cost.frame <= trial.cost.frame, worse(trial.error, other.error));
-            (faster && as_right) || (as_fast && better)
+            let error = by_error(self.wish.budget, other, trial);
+            let cost = other.cost.frame.total_cmp(&trial.cost.frame);
+            error.is_le() && cost.is_le() && (error.is_lt() || cost.is_lt())
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Nothing beats the pick, whichever trials cost alike and are alike in error.
+    #[test]
+    fn the_pick_is_on_the_front() {
+        let trial = |error, largest, frame| Trial {
+            candidate: Candidate::MOST_PRECISE,
+            error,
+            largest,
+            cost: Cost { frame, flash: 0.0, ram: 0.0 },
+            work: Work::default(),
+            picture: crate::scene::Image { width: 0, height: 0, texels: vec![] },
+        };
+        for wish in [MaxError::Lsb(2.0), MaxError::Db(2.0)] {
+            for case in 0..3_u32.pow(9) {
+                let digit = |k: u32| (case / 3_u32.pow(k)) % 3;
+                let mut trials = [0, 3, 6].map(|k| {
+                    let (error, frame) = (f64::from(digit(k) + 1), f64::from(digit(k + 2)));
+                    trial(error, digit(k + 1).to_le_bytes()[0], 100.0 + 1.5 * frame)
+                });
+                cheapest_first(&mut trials);
+                let Some(pick) = pick(&trials, wish) else {
+                    assert!(trials.iter().all(|trial| !wish.admits(trial.error)));
+                    continue;
+                };
+                let (reference, wish) =
+                    (trials[0].clone(), Wish { budget: wish, machine: Machine::Host, thorough: false });
+                let advice = Advice { wish, trials: trials.to_vec(), pick, reference, off: None };
+                assert!(advice.is_on_front(&trials[pick]), "{trials:?}, of these {pick}");
+            }
+        }
     }
 }
