@@ -9,6 +9,7 @@
 //! | [`Stored`] | `Vec2` | the same, in the texture's own format |
 //! | [`Tinted`] | the wrapped stage's | the wrapped stage's times a colour |
 //! | [`Sunlit`] | `(Vec3, V)`: a normal and the wrapped stage's | the wrapped stage's, lit |
+//! | [`Lit565`] | `(Light, V)`: a [`Light`] and the wrapped stage's | the wrapped stage's in 16 bits, lit |
 //! | [`AlphaTest`], [`AlphaDither`] | the wrapped stage's | the wrapped stage's, with holes |
 //! | [`Fogged`](fog::Fogged) | `(f32, V)`: a fog's coordinate and the wrapped stage's | the wrapped stage's, fading |
 //! | [`Slide`] | `(Homogeneous, V)`: a place on an image and the wrapped stage's | the wrapped stage's, the image on it |
@@ -17,12 +18,23 @@
 //!
 //! All arithmetic is on sRGB bytes, as they are stored.
 
-/// Items of a wrapping stage that are those of the stage `S` in its field `surface`: all but how it shades.
+/// Items of a wrapping stage that are those of the stage `S` in its field `surface`: all but how it shades. The part of
+/// derivatives that this stage has is named.
 macro_rules! as_surface {
-    () => {
+    ($varying:ty, |$gradient:ident| $part:expr) => {
         type Color = Rgba8;
         type Derivatives = S::Derivatives;
         const WIDE: bool = S::WIDE;
+        const SETTLES: bool = S::SETTLES;
+
+        #[inline(always)]
+        fn settled<L: Lanes>(
+            &self,
+            lanes: L,
+            $gradient: &Gradient<<$varying as Varying>::Of<L::Number>>,
+        ) -> Self {
+            Self { surface: self.surface.settled(lanes, $part), ..*self }
+        }
 
         #[inline(always)]
         fn derivatives(&self) -> S::Derivatives {
@@ -34,6 +46,7 @@ macro_rules! as_surface {
 mod color;
 mod cutout;
 pub mod fog;
+mod lit;
 mod map;
 pub mod material;
 mod slide;
@@ -44,6 +57,7 @@ pub mod wide;
 
 pub use color::{Ready565, Solid, VertexColor, VertexColor565};
 pub use cutout::{AlphaDither, AlphaTest};
+pub use lit::{Light, Lit565};
 pub use map::{Called, Map, Times};
 pub use slide::{Mix, Slide};
 pub use sunlit::{Sunlit, face_normal};

@@ -168,9 +168,15 @@ pub trait Lanes: Copy + Debug + Send + Sync {
     /// x·2^`bits` rounded down, in two's complement, for |x·2^`bits`| < 2^31 and `bits` up to 30. NaN gives a multiple
     /// of 2^31; numbers beyond give any word.
     fn floor_scaled(self, x: Self::Number, bits: u32) -> Self::U32;
+    /// The same for `bits` and `more` together, where x is from -1 below 2 and `bits` are up to 14. On small cores it
+    /// does without a case of its own for many bits.
+    #[inline(always)]
+    fn floor_scaled_finely(self, x: Self::Number, bits: u32, more: u32) -> Self::U32 {
+        self.floor_scaled(x, bits + more)
+    }
     /// The same to the nearest, halves up, for |x·2^`bits`| < 2^30; NaN gives a multiple of 2^30.
     fn round_scaled(self, x: Self::Number, bits: u32) -> Self::U32;
-    /// A word whose lowest `bits`, up to 30, are those of x·2^`bits` rounded down, for every number. They are 0 for
+    /// A word whose lowest `bits`, up to 15, are those of x·2^`bits` rounded down, for every number. They are 0 for
     /// numbers that are not finite.
     #[inline(always)]
     fn floor_fraction_scaled(self, x: Self::Number, bits: u32) -> Self::U32 {

@@ -51,6 +51,9 @@ pub trait Differentiation: Differentiate + Debug + Default + 'static {
 
 /// The way of a policy from a triangle to derivatives at its samples.
 pub trait Differentiate: Copy {
+    /// Whether all of a triangle has the same.
+    const EVERYWHERE: bool = false;
+
     /// The state of a triangle.
     type Triangle<V: Varying>: Copy;
     /// The state of a run of samples.
@@ -64,6 +67,17 @@ pub trait Differentiate: Copy {
 
     /// Prepares a triangle.
     fn prepare<V: Varying>(self, triangle: &Oriented<'_, V>) -> Self::Triangle<V>;
+
+    /// The derivatives, if all of a triangle has the same.
+    #[inline(always)]
+    fn everywhere<L: Lanes, V: Varying>(
+        self,
+        lanes: L,
+        triangle: &Self::Triangle<V>,
+    ) -> Option<Gradient<V::Of<L::Number>>> {
+        let _ = (lanes, triangle);
+        None
+    }
 
     /// Begins a run of a row's samples.
     fn run<L: Lanes, V: Varying, I: EdgeInt>(
@@ -414,7 +428,10 @@ impl Differentiate for PerPixel {
 
 /// Policies whose derivatives are the same along a whole run.
 macro_rules! along_runs {
-    ($($policy:ident: $Triangle:ty, |$of:ident| $prepare:expr, |$triangle:ident, $row:ident, $run:ident| $at:expr;)*) => {$(
+    ($(
+        $policy:ident: $Triangle:ty, |$of:ident| $prepare:expr, |$triangle:ident, $row:ident, $run:ident| $at:expr
+        $(, $more:item)*;
+    )*) => {$(
         impl Differentiation for $policy {
             type With<D: Differentiation> = Self;
         }
@@ -422,6 +439,7 @@ macro_rules! along_runs {
         impl Differentiate for $policy {
             type Triangle<V: Varying> = $Triangle;
             type Run<L: Lanes, V: Varying> = V::Of<[L::Number; 2]>;
+            $($more)*
 
             #[inline(always)]
             fn prepare<V: Varying>(self, $of: &Oriented<'_, V>) -> Self::Triangle<V> {
@@ -454,5 +472,15 @@ macro_rules! along_runs {
 }
 along_runs! {
     PerRun: Quotients<V>, |of| Quotients::new(of), |triangle, row, run| triangle.in_middle(row, run);
-    PerTriangle: V::Of<[f32; 2]>, |of| Quotients::new(of).in_centroid(of.area()), |triangle, _row, _run| *triangle;
+    PerTriangle: V::Of<[f32; 2]>, |of| Quotients::new(of).in_centroid(of.area()), |triangle, _row, _run| *triangle,
+        const EVERYWHERE: bool = true;,
+        #[inline(always)]
+        fn everywhere<L: Lanes, V: Varying>(
+            self,
+            lanes: L,
+            triangle: &Self::Triangle<V>,
+        ) -> Option<Gradient<V::Of<L::Number>>> {
+            let splat = V::map(triangle, &|[dx, dy]: [f32; 2]| [lanes.splat(dx), lanes.splat(dy)]);
+            Some(of_pairs::<V, _>(&splat))
+        };
 }

@@ -361,8 +361,19 @@ impl<P: Interpolation, L: Floating, V: Varying, F: FragmentStage<V>> Setup<'_, P
     fn prepare(&self) -> Painter<P::Lanes<L>, V, P::Triangle<L, V>, F> {
         let Self { interpolation, lanes, oriented, stage } = *self;
         let triangle = interpolation.prepare(lanes, oriented);
-        let derivatives = stage.derivatives().prepare(oriented);
-        Painter { lanes: interpolation.lanes(lanes), triangle, derivatives, stage, varying: PhantomData }
+        let (policy, lanes) = (stage.derivatives(), interpolation.lanes(lanes));
+        const {
+            assert!(
+                !F::SETTLES || <F::Derivatives as Differentiate>::EVERYWHERE,
+                "see FragmentStage::SETTLES"
+            );
+        };
+        let derivatives = policy.prepare(oriented);
+        let stage = match policy.everywhere(lanes, &derivatives) {
+            Some(gradient) if const { F::SETTLES } => stage.settled(lanes, &gradient),
+            _ => stage,
+        };
+        Painter { lanes, triangle, derivatives, stage, varying: PhantomData }
     }
 }
 

@@ -57,6 +57,19 @@ pub trait FragmentStage<V: Varying>: Copy {
         Self::Derivatives::default()
     }
 
+    /// Whether derivatives are to be the same in all of a triangle: then [`settled`](Self::settled) has them. Otherwise
+    /// the stage does not compile.
+    const SETTLES: bool = false;
+
+    /// The stage for a triangle in which all samples have these derivatives: what depends on them alone is found once.
+    /// A stage in another hands it on, and [`SETTLES`](Self::SETTLES).
+    #[inline(always)]
+    #[must_use]
+    fn settled<L: Lanes>(&self, lanes: L, gradient: &Gradient<V::Of<L::Number>>) -> Self {
+        let _ = (lanes, gradient);
+        *self
+    }
+
     /// The colours of several fragments, as words, and those of them that are not discarded. Samples beside the mask
     /// may get any colour: they are not drawn, whether or not they are discarded. Under
     /// [`FixedPoint`](crate::FixedPoint) numbers are `Q16`: within ±32768, in steps of 2^-16.

@@ -231,6 +231,7 @@ where
         <F::Derivatives as Differentiate>::of_slopes::<V>(&V::map(&planes.values, &|ramp: Ramp| {
             [Q16::from_bits(ramp.across >> MORE), Q16::from_bits(ramp.down >> MORE)]
         }));
+    let stage = if const { F::SETTLES } { stage.settled(lanes, &gradient) } else { stage };
     let formats = (target.color_format(), target.depth_format());
     let mut lines = target.lines(top, origin[0]);
     let long = Crossing::<FINE>::new([ax, ay], [cx, cy], center(top));

@@ -52,6 +52,12 @@ impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: Size, const N: usize>
         self.wrap
     }
 
+    /// The filter.
+    #[inline(always)]
+    pub(crate) const fn filter(&self) -> M {
+        self.filter
+    }
+
     /// The mip map that is sampled.
     #[must_use]
     pub const fn mipmap(&self) -> Mipmap<'a, F, Z, N> {

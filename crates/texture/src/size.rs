@@ -39,8 +39,8 @@ pub trait Size: Sealed + Copy + Debug + 'static {
         [wrap.0.cell_masked(lanes, u, width), wrap.1.cell_masked(lanes, v, height)]
     }
 
-    /// The columns to either side of u and the 256ths from the centre of the one to that of the other; the same of rows
-    /// and v.
+    /// The columns to either side of u, and the way from the centre of the one to that of the other in `bits` bits, at
+    /// most 8. Then the same of rows and v.
     #[inline(always)]
     fn between<L: Lanes, U: Wrap, V: Wrap>(
         self,
@@ -48,8 +48,9 @@ pub trait Size: Sealed + Copy + Debug + 'static {
         [u, v]: [L::Number; 2],
         [width, height]: [u32; 2],
         wrap: (U, V),
+        bits: u32,
     ) -> [[L::U32; 3]; 2] {
-        [wrap.0.between_masked(lanes, u, width), wrap.1.between_masked(lanes, v, height)]
+        [wrap.0.between_masked(lanes, u, width, bits), wrap.1.between_masked(lanes, v, height, bits)]
     }
 
     /// [`Wrap::index`] of a two's complement column and row, from -1 to one beyond the period.
@@ -238,11 +239,12 @@ impl Size for AnySize {
         [u, v]: [L::Number; 2],
         [width, height]: [u32; 2],
         wrap: (U, V),
+        bits: u32,
     ) -> [[L::U32; 3]; 2] {
         if self.by_masks {
-            PowerOfTwo.between(lanes, [u, v], [width, height], wrap)
+            PowerOfTwo.between(lanes, [u, v], [width, height], wrap, bits)
         } else {
-            [wrap.0.between_wide(lanes, u, width), wrap.1.between_wide(lanes, v, height)]
+            [wrap.0.between_wide(lanes, u, width, bits), wrap.1.between_wide(lanes, v, height, bits)]
         }
     }
 

@@ -179,7 +179,19 @@ impl<'a, F: Storage, Z: Size, const N: usize> Texture<'a, F, Z, N> {
         uv: [L::Number; 2],
         wrap: (U, V),
     ) -> [[L::U32; 3]; 2] {
-        self.size.between(lanes, uv, self.sides(), wrap)
+        self.between_by(lanes, uv, wrap, 8)
+    }
+
+    /// [`between`](Self::between) by ways from 0 to 1 in so many bits, up to 8.
+    #[inline(always)]
+    pub(crate) fn between_by<L: Lanes, U: Wrap, V: Wrap>(
+        &self,
+        lanes: L,
+        uv: [L::Number; 2],
+        wrap: (U, V),
+        bits: u32,
+    ) -> [[L::U32; 3]; 2] {
+        self.size.between(lanes, uv, self.sides(), wrap, bits)
     }
 
     /// [`Size::indices`].

@@ -69,16 +69,16 @@ pub trait Wrap: Sealed + Copy + Debug + 'static {
         self.cell(self.reduce(u), size)
     }
 
-    /// The texels to the left and to the right of the coordinate, and the 256ths from the centre of the one to that of
-    /// the other.
+    /// The texels to the left and to the right of the coordinate. The third is the way from the centre of the one to that
+    /// of the other, in `bits` bits, at most 8.
     #[inline(always)]
-    fn between_at(self, u: f32, size: u32) -> [u32; 3] {
+    fn between_at(self, u: f32, size: u32, bits: u32) -> [u32; 3] {
         let reduced = self.reduce(u);
         // Of 0 there is nothing to look at again, to which `Clamp` reduces all that are negative.
         let near = if reduced == 0 { None } else { near_zero(u, size) };
-        let position = near.unwrap_or_else(|| position(reduced, size));
+        let position = near.unwrap_or_else(|| position(reduced, size)) + (128 >> bits);
         let (left, right) = self.neighbours(position >> 8, size);
-        [left, right, position.cast_unsigned() & 255]
+        [left, right, (position.cast_unsigned() & 255) >> (8 - bits)]
     }
 
     /// [`cell_at`](Self::cell_at) along a side of any length: in 64 bits, one after the other.
@@ -90,11 +90,11 @@ pub trait Wrap: Sealed + Copy + Debug + 'static {
 
     /// [`between_at`](Self::between_at) along a side of any length: in 64 bits, one after the other.
     ///
-    /// A distance that rounds to 256 comes out as 0 from the next texel, which is the same colour.
+    /// A distance that rounds to a whole one comes out as 0 from the next texel, which is the same colour.
     #[inline(always)]
-    fn between_wide<L: Lanes>(self, lanes: L, u: L::Number, size: u32) -> [L::U32; 3] {
+    fn between_wide<L: Lanes>(self, lanes: L, u: L::Number, size: u32, bits: u32) -> [L::U32; 3] {
         let in_memory = lanes.store(u);
-        let each = lanes.each(|k| self.between_at(at(in_memory.as_ref(), k), size));
+        let each = lanes.each(|k| self.between_at(at(in_memory.as_ref(), k), size, bits));
         let words = |part: usize| {
             lanes.load_words(&lanes.each(|k| each.as_ref().get(k).map_or(0, |parts: &[u32; 3]| parts[part])))
         };
@@ -114,21 +114,21 @@ pub trait Wrap: Sealed + Copy + Debug + 'static {
     /// [`cell_wide`](Self::cell_wide) along a side that is a power of two: all at once.
     #[inline(always)]
     fn cell_masked<L: Lanes>(self, lanes: L, u: L::Number, size: u32) -> L::U32 {
-        self.fold(lanes, lanes.floor_scaled(self.in_period(lanes, u), size.trailing_zeros()), size)
+        self.fold(lanes, lanes.floor_scaled_finely(self.in_period(lanes, u), size.trailing_zeros(), 0), size)
     }
 
     /// [`between_wide`](Self::between_wide) along a side that is a power of two: all at once.
     #[inline(always)]
-    fn between_masked<L: Lanes>(self, lanes: L, u: L::Number, size: u32) -> [L::U32; 3] {
-        // In 512ths of a texel. One more rounds to 256ths, halves up; half a texel to the left lies the centre from
-        // which distances count, and a texel more keeps them positive.
-        let halves =
-            lanes.floor_scaled(self.in_period(lanes, u), size.trailing_zeros() + 9) + lanes.word(257);
-        let right = lanes.shr_signed(halves, 9);
+    fn between_masked<L: Lanes>(self, lanes: L, u: L::Number, size: u32, bits: u32) -> [L::U32; 3] {
+        // In 512ths of a texel. One more rounds to 256ths, halves up, and half a step of fewer bits to these; half a
+        // texel to the left lies the centre from which distances count, and a texel more keeps them positive.
+        let way = lanes.floor_scaled_finely(self.in_period(lanes, u), size.trailing_zeros(), 9)
+            + lanes.word(257 + 2 * (128 >> bits));
+        let right = lanes.shr_signed(way, 9);
         [
             self.fold(lanes, right - lanes.word(1), size),
             self.fold(lanes, right, size),
-            lanes.shr(halves, 1) & lanes.word(255),
+            lanes.shr(way, 9 - bits) & lanes.word((1 << bits) - 1),
         ]
     }
 }

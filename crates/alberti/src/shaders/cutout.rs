@@ -3,7 +3,7 @@
 use alberti_math::lanes::Lanes;
 use alberti_math::{Rgba8, Varying};
 use alberti_raster::color::Pattern;
-use alberti_raster::{FragmentStage, Fragments};
+use alberti_raster::{FragmentStage, Fragments, Gradient};
 
 /// The alpha test: of another stage's fragments, those with an alpha of at least so much, as they are. For leaves and
 /// fences, in any order and with a depth buffer.
@@ -39,7 +39,7 @@ pub struct AlphaDither<S, P> {
 macro_rules! keeps {
     ($(<$($generic:ident: $bound:path),*> $name:ty: |$self:ident, $fragments:ident, $alpha:ident| $kept:expr;)*) => {$(
         impl<V: Varying, S: FragmentStage<V, Color = Rgba8> $(, $generic: $bound)*> FragmentStage<V> for $name {
-            as_surface!();
+            as_surface!(V, |gradient| gradient);
 
             #[inline(always)]
             fn shade<L: Lanes>(&$self, $fragments: &Fragments<L, V>) -> (L::U32, L::Mask) {

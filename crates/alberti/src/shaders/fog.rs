@@ -2,7 +2,7 @@
 
 use alberti_math::lanes::Lanes;
 use alberti_math::{Rgba8, Varying, map2};
-use alberti_raster::{FragmentStage, Fragments};
+use alberti_raster::{FragmentStage, Fragments, Gradient};
 use core::fmt::Debug;
 
 /// Another stage's colour, fading into that of a fog.
@@ -198,7 +198,7 @@ const fn parts(part: f64) -> u16 {
 }
 
 impl<V: Varying, S: FragmentStage<V, Color = Rgba8>, F: Fog> FragmentStage<(f32, V)> for Fogged<S, F> {
-    as_surface!();
+    as_surface!((f32, V), |gradient| &gradient.map(|(_, part)| part));
 
     #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, (f32, V)>) -> (L::U32, L::Mask) {

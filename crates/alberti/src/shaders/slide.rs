@@ -4,7 +4,7 @@ use super::wide::{pack, per_255, unpack};
 use alberti_math::lanes::Lanes;
 use alberti_math::{Rgba8, Varying};
 use alberti_projection::Homogeneous;
-use alberti_raster::{FragmentStage, Fragments};
+use alberti_raster::{FragmentStage, Fragments, Gradient};
 use alberti_texture::format::Storage;
 use alberti_texture::{Clamp, Filter, Sampler, Size};
 
@@ -109,7 +109,7 @@ where
     Fl: Filter,
     Z: Size,
 {
-    as_surface!();
+    as_surface!((Homogeneous, V), |gradient| &gradient.map(|(_, part)| part));
 
     #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, (Homogeneous, V)>) -> (L::U32, L::Mask) {

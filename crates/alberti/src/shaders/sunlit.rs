@@ -4,7 +4,7 @@ use super::wide::lit;
 use alberti_math::glam::Vec3;
 use alberti_math::lanes::Lanes;
 use alberti_math::{Point3, Rgba8, Space, Varying, Vector3, World};
-use alberti_raster::{FragmentStage, Fragments};
+use alberti_raster::{FragmentStage, Fragments, Gradient};
 
 /// Another stage's colour under Lambert's cosine law, with one light at infinity:
 /// colour · (ambient + diffuse · max(0, n·l)).
@@ -51,7 +51,7 @@ impl<S> Sunlit<S> {
 }
 
 impl<V: Varying, S: FragmentStage<V, Color = Rgba8>> FragmentStage<(Vec3, V)> for Sunlit<S> {
-    as_surface!();
+    as_surface!((Vec3, V), |gradient| &gradient.map(|(_, part)| part));
 
     #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, (Vec3, V)>) -> (L::U32, L::Mask) {

@@ -4,8 +4,13 @@ use super::Map;
 use alberti_math::glam::Vec2;
 use alberti_math::lanes::Lanes;
 use alberti_math::{Rgba8, Varying};
-use alberti_raster::{Differentiation, FragmentColor, FragmentStage, Fragments, NoDerivatives, PerPixel};
-use alberti_texture::{Bilinear, MipSampler, Nearest, Packed, Sampler, Size, TexelFormat, Trilinear, Wrap};
+use alberti_raster::{
+    Differentiation, FragmentColor, FragmentStage, Fragments, Gradient, NoDerivatives, PerPixel, PerTriangle,
+};
+use alberti_texture::{
+    Bilinear, Filter, Leveled, MipSampler, Nearest, NearestLevel, Packed, Sampler, Size, TexelFormat,
+    Trilinear, Wrap,
+};
 
 /// A map as it is: a texture, read by a [`Sampler`], or by a [`MipSampler`](alberti_texture::MipSampler) for the part
 /// of it that a pixel covers.
@@ -61,9 +66,16 @@ impl<V: Varying, D: Differentiation, S: FragmentStage<V>> FragmentStage<V> for D
     type Derivatives = D;
     const WIDE: bool = S::WIDE;
 
+    const SETTLES: bool = S::SETTLES;
+
     #[inline(always)]
     fn derivatives(&self) -> D {
         self.policy
+    }
+
+    #[inline(always)]
+    fn settled<L: Lanes>(&self, lanes: L, gradient: &Gradient<V::Of<L::Number>>) -> Self {
+        Self { policy: self.policy, stage: self.stage.settled(lanes, gradient) }
     }
 
     #[inline(always)]
@@ -74,7 +86,8 @@ impl<V: Varying, D: Differentiation, S: FragmentStage<V>> FragmentStage<V> for D
 
 /// A texture's colours as texels that are stored, for targets whose pixels are such texels, or for any of four bytes:
 /// nothing is decoded nor encoded. Of [`Nearest`] the texel, in any format; of [`Bilinear`], and of mip maps of
-/// [`Trilinear`], a mean that is made of [`Packed`] texels.
+/// [`Trilinear`], a mean that is made of [`Packed`] texels. Of a mip map whose levels are chosen once a triangle
+/// ([`Leveled`]), those of its filter.
 ///
 /// # Precision
 /// Means are those of [`Sampler::packed_lanes`] and [`MipSampler::packed_grad_lanes`]: weights have 5 bits.
@@ -113,6 +126,49 @@ impl<F: Packed<Texel: FragmentColor>, U: Wrap, V: Wrap, Z: Size> FragmentStage<V
     }
 }
 
+/// Items of a stage of a map in levels that are chosen for each triangle.
+macro_rules! of_levels {
+    () => {
+        type Color = F::Texel;
+        type Derivatives = PerTriangle;
+        const SETTLES: bool = true;
+
+        #[inline(always)]
+        fn settled<L: Lanes>(&self, lanes: L, gradient: &Gradient<[L::Number; 2]>) -> Self {
+            Self(self.0.settled(lanes, gradient))
+        }
+    };
+}
+
+impl<F: Packed<Texel: FragmentColor>, U: Wrap, V: Wrap, Z: Size> FragmentStage<Vec2>
+    for Stored<Leveled<'_, F, Trilinear, U, V, Z>>
+{
+    of_levels!();
+
+    #[inline(always)]
+    fn shade<L: Lanes>(&self, fragments: &Fragments<L, Vec2>) -> (L::U32, L::Mask) {
+        let Fragments { lanes, varying, mask, .. } = *fragments;
+        (self.0.packed_lanes(lanes, varying), mask)
+    }
+}
+
+impl<'a, F, Fl, U, V, Z> FragmentStage<Vec2> for Stored<Leveled<'a, F, NearestLevel<Fl>, U, V, Z>>
+where
+    F: TexelFormat<Texel: FragmentColor>,
+    Fl: Filter,
+    U: Wrap,
+    V: Wrap,
+    Z: Size,
+    Stored<Sampler<'a, F, Fl, U, V, Z::Level>>: FragmentStage<Vec2, Color = F::Texel>,
+{
+    of_levels!();
+
+    #[inline(always)]
+    fn shade<L: Lanes>(&self, fragments: &Fragments<L, Vec2>) -> (L::U32, L::Mask) {
+        Stored(self.0.level()).shade(fragments)
+    }
+}
+
 impl<F: TexelFormat<Texel: FragmentColor>, U: Wrap, V: Wrap, Z: Size> FragmentStage<Vec2>
     for Stored<Sampler<'_, F, Nearest, U, V, Z>>
 {
@@ -135,7 +191,7 @@ mod tests {
     use alberti_math::lanes::{One, OneFixed};
     use alberti_raster::{Gradient, Rgb565Le};
     use alberti_texture::format::{L8, Rgb565, Rgba8888};
-    use alberti_texture::{Bounded, Clamp, LodBounds, Mipmap, Mirror, Repeat, Texture};
+    use alberti_texture::{Bounded, Clamp, LodBounds, Mipmap, Mirror, NearestLevel, Repeat, Texture};
     use core::num::Wrapping;
 
     /// A fragment alone.
@@ -197,6 +253,51 @@ mod tests {
             let clamped = Stored(texture.sampler(Nearest, Clamp)).shade(&of(OneFixed, at, steady));
             assert_eq!(stored(clamped), texel((k.clamp(0, 65_535)) * 8 / 65_536), "clamp {k}");
         }
+    }
+
+    /// Levels are those nearest to the logarithm in f64; between two, the texel is that of the filter for each sample.
+    #[test]
+    fn levels_are_chosen_once_for_a_triangle() {
+        const SIDE: u32 = 32;
+        let mut texels = std::vec![0_u16; alberti_texture::mipmap::texel_count(SIDE, SIDE)];
+        let noise = |k: usize| (k.wrapping_mul(0x9e37_79b1) >> 13) as u16;
+        texels.iter_mut().enumerate().for_each(|(k, texel)| *texel = noise(k));
+        let map = Mipmap::new(Rgb565, &texels, SIDE, SIDE).expect("all levels");
+        let trilinear = map.sampler(Trilinear, Repeat);
+        let nearest = Stored(map.sampler(NearestLevel(Nearest), Repeat).leveled());
+        let mut levels = [0; 6];
+        for k in 0..4000_u16 {
+            let [u, v] = [f32::from(k % 61) / 61.0, f32::from(k % 97) / 97.0];
+            let size = 2_f32.powf(f32::from(k % 89) / 12.0 - 1.0) / 32.0;
+            let gradient = Gradient { dx: [size, 0.0], dy: [0.0, size * 0.75] };
+
+            let fragments = of(One, [u, v], gradient);
+            let settled = Stored(trilinear.leveled()).settled(One, &gradient);
+            let once = settled.shade(&fragments).0;
+            assert_eq!(once, Stored(trilinear).shade(&fragments).0, "{size}");
+            let fixed = gradient.map(|of| of.map(Q16::from_f32));
+            let fragments = of(OneFixed, [u, v].map(Q16::from_f32), fixed);
+            let once = Stored(trilinear.leveled()).settled(OneFixed, &fixed).shade(&fragments).0;
+            assert_eq!(once, Stored(trilinear).shade(&fragments).0, "{size} in fixed point");
+
+            let lambda = (f64::from(size) * 32.0).log2();
+            if (lambda - lambda.floor() - 0.5).abs() > 0.01 {
+                let level = lambda.round().clamp(0.0, 5.0) as usize;
+                let right = map
+                    .level(level)
+                    .sampler(Nearest, Repeat)
+                    .stored_lanes(One, u, v, |texel| texel.map_or(0, u32::from));
+                assert_eq!(
+                    nearest.settled(One, &gradient).shade(&of(One, [u, v], gradient)).0,
+                    right,
+                    "{lambda}"
+                );
+                levels[level] += 1;
+            }
+        }
+        assert!(levels.iter().all(|&count| count > 100), "{levels:?}");
+        // Without a triangle, the largest level.
+        assert_eq!(nearest.shade_one(Vec2::ZERO), Some(noise(31 * 32)));
     }
 
     #[test]

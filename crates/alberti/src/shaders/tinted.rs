@@ -3,7 +3,7 @@
 use super::wide::times;
 use alberti_math::lanes::Lanes;
 use alberti_math::{Rgba8, Varying};
-use alberti_raster::{FragmentStage, Fragments};
+use alberti_raster::{FragmentStage, Fragments, Gradient};
 
 /// Another stage's colour times a constant one.
 ///
@@ -18,7 +18,7 @@ pub struct Tinted<S> {
 }
 
 impl<V: Varying, S: FragmentStage<V, Color = Rgba8>> FragmentStage<V> for Tinted<S> {
-    as_surface!();
+    as_surface!(V, |gradient| gradient);
 
     #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, V>) -> (L::U32, L::Mask) {

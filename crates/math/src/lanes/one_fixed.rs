@@ -110,6 +110,16 @@ impl Lanes for OneFixed {
     }
 
     #[inline(always)]
+    fn floor_fraction_scaled(self, x: Q16, bits: u32) -> Wrapping<u32> {
+        Wrapping((x.to_bits().cast_unsigned() & 0xffff) << (bits & 15) >> 16)
+    }
+
+    #[inline(always)]
+    fn floor_scaled_finely(self, x: Q16, bits: u32, more: u32) -> Wrapping<u32> {
+        Wrapping((x.to_bits() << (bits & 15) >> (16 - more)).cast_unsigned())
+    }
+
+    #[inline(always)]
     fn round_scaled(self, x: Q16, bits: u32) -> Wrapping<u32> {
         let x = x.to_bits();
         Wrapping(

@@ -104,8 +104,8 @@ impl Wrap for AnyWrap {
     }
 
     #[inline(never)]
-    fn between_at(self, u: f32, size: u32) -> [u32; 3] {
-        matched!(self, |wrap| wrap.between_at(u, size))
+    fn between_at(self, u: f32, size: u32, bits: u32) -> [u32; 3] {
+        matched!(self, |wrap| wrap.between_at(u, size, bits))
     }
 
     // Matched here, once for all lanes, instead of in the steps.
@@ -116,7 +116,7 @@ impl Wrap for AnyWrap {
     }
 
     #[inline(always)]
-    fn between_masked<L: Lanes>(self, lanes: L, u: L::Number, size: u32) -> [L::U32; 3] {
-        matched!(self, |wrap| wrap.between_masked(lanes, u, size))
+    fn between_masked<L: Lanes>(self, lanes: L, u: L::Number, size: u32, bits: u32) -> [L::U32; 3] {
+        matched!(self, |wrap| wrap.between_masked(lanes, u, size, bits))
     }
 }

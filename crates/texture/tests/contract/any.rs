@@ -162,9 +162,11 @@ fn ways_along_a_side() {
         let words = |words: L::U32| lanes.store_words(words);
         let (wide, masked) = (wrap.cell_wide(lanes, u, size), wrap.cell_masked(lanes, u, size));
         assert_eq!(words(wide).as_ref(), words(masked).as_ref(), "{wrap:?} {each:?} of {size}");
-        let (wide, masked) = (wrap.between_wide(lanes, u, size), wrap.between_masked(lanes, u, size));
-        for (wide, masked) in wide.into_iter().zip(masked) {
-            assert_eq!(words(wide).as_ref(), words(masked).as_ref(), "{wrap:?} {each:?} of {size}");
+        for bits in [5, 8] {
+            let wide = wrap.between_wide(lanes, u, size, bits);
+            for (wide, masked) in wide.into_iter().zip(wrap.between_masked(lanes, u, size, bits)) {
+                assert_eq!(words(wide).as_ref(), words(masked).as_ref(), "{wrap:?} {each:?} of {size}");
+            }
         }
     }
     let mut random = Random(122);

@@ -80,6 +80,18 @@ draws! {
     trilinear_stored_spans_fixed(model): FixedPoint(Spans16), mapped,
         Differentiated::by(PerRun, Stored(FLOOR_MIPMAP.sampler(Trilinear, Repeat)));
 
+    /// The nearest texel of the nearest level, found once for each triangle, in fixed point.
+    leveled_nearest_fixed(model): FixedPoint(Spans16), mapped,
+        Stored(FLOOR_MIPMAP.sampler(NearestLevel(Nearest), Repeat).leveled());
+
+    /// Four texels of that.
+    leveled_bilinear_fixed(model): FixedPoint(Spans16), mapped,
+        Stored(FLOOR_MIPMAP.sampler(NearestLevel(Bilinear), Repeat).leveled());
+
+    /// Between two levels that are found once for each triangle.
+    leveled_trilinear_fixed(model): FixedPoint(Spans16), mapped,
+        Stored(FLOOR_MIPMAP.sampler(Trilinear, Repeat).leveled());
+
     /// The vertices' light on the nearest texel: a material of one map.
     material(model): Exact, lit, Gouraud { layers: Color(model.texture.sampler(Nearest, Repeat)) };
 

@@ -15,11 +15,12 @@ pub use draws::{
     additive_fixed, affine_fixed, affine_integers, affine_mesh, affine_mesh_sub8, affine_meshlets,
     bilinear_fixed, bilinear_stored_fixed, bounded_bands, constant_fixed, flat, flat_fixed, flat_integers,
     flat_mesh, flat_meshlets, flat_without_depth, glass_fixed, gouraud, gouraud_fixed, gouraud_mesh,
-    gouraud_meshlets, integers_bands, material, material_absent, material_emission, mesh_base_nearest,
-    mesh_mip_nearest, meshlets_bands, meshlets_cache, mip_bilinear, mip_bilinear_fixed, mip_nearest,
-    mip_nearest_fixed, over_fixed, textured, textured_affine, textured_bands, textured_bounded,
-    textured_fixed, textured_meshlets, textured_planes, textured_spans, trilinear, trilinear_fixed,
-    trilinear_spans, trilinear_spans_fixed, trilinear_stored_fixed, trilinear_stored_spans_fixed,
+    gouraud_meshlets, integers_bands, leveled_bilinear_fixed, leveled_nearest_fixed, leveled_trilinear_fixed,
+    material, material_absent, material_emission, mesh_base_nearest, mesh_mip_nearest, meshlets_bands,
+    meshlets_cache, mip_bilinear, mip_bilinear_fixed, mip_nearest, mip_nearest_fixed, over_fixed, textured,
+    textured_affine, textured_bands, textured_bounded, textured_fixed, textured_meshlets, textured_planes,
+    textured_spans, trilinear, trilinear_fixed, trilinear_spans, trilinear_spans_fixed,
+    trilinear_stored_fixed, trilinear_stored_spans_fixed,
 };
 pub use shapes::PROBE;
 
@@ -154,6 +155,9 @@ pub static SCENES: &[Scene] = &[
     scene!("fixed-floor-trilinear-spans", floor(), trilinear_spans_fixed),
     scene!("fixed-floor-trilinear-stored", floor(), trilinear_stored_fixed),
     scene!("fixed-floor-trilinear-stored-spans", floor(), trilinear_stored_spans_fixed),
+    scene!("fixed-floor-leveled-nearest", floor(), leveled_nearest_fixed),
+    scene!("fixed-floor-leveled-bilinear", floor(), leveled_bilinear_fixed),
+    scene!("fixed-floor-leveled-trilinear", floor(), leveled_trilinear_fixed),
 ];
 
 /// What a scene is seen through.
