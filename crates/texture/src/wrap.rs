@@ -69,8 +69,8 @@ pub trait Wrap: Sealed + Copy + Debug + 'static {
         self.cell(self.reduce(u), size)
     }
 
-    /// The texels to the left and to the right of the coordinate. The third is the way from the centre of the one to that
-    /// of the other, in `bits` bits, at most 8.
+    /// The texels to the left and to the right of the coordinate. The third is the way from the centre of the one to
+    /// that of the other, in `bits` bits, at most 8.
     #[inline(always)]
     fn between_at(self, u: f32, size: u32, bits: u32) -> [u32; 3] {
         let reduced = self.reduce(u);

@@ -257,6 +257,7 @@ mod tests {
 
     /// Levels are those nearest to the logarithm in f64; between two, the texel is that of the filter for each sample.
     #[test]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small numbers")]
     fn levels_are_chosen_once_for_a_triangle() {
         const SIDE: u32 = 32;
         let mut texels = std::vec![0_u16; alberti_texture::mipmap::texel_count(SIDE, SIDE)];
