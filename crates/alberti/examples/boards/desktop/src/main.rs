@@ -1,0 +1,101 @@
+//! The demo in a window, or as an animated picture.
+//!
+//!     cargo run --release                 # a window: space for the numbers, escape to leave
+//!     cargo run --release -- demo.gif     # one turn
+
+use alberti::texture::TexelFormat;
+use alberti::{FixedPoint, Rgb565Be, Spans16};
+use alberti_demo::{Demo, Display, HEIGHT, WIDTH};
+use embassy_futures::block_on;
+use minifb::{Key, KeyRepeat, Scale, Window, WindowOptions};
+use std::convert::Infallible;
+use std::error::Error;
+use std::fs;
+use std::ops::Range;
+use std::process::ExitCode;
+
+/// Frames of a whole turn, and of a second.
+const TURN: usize = 256;
+const FRAMES: usize = 30;
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let outcome = match arguments.as_slice() {
+        [] => window(),
+        [file] if file.ends_with(".gif") => fs::write(file, animation()).map_err(Into::into),
+        _ => Err(format!("expected nothing or the name of a .gif, found `{}`", arguments.join(" ")).into()),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("desktop: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// A display that keeps what it is sent: red, green and blue in the lower 24 bits of each pixel.
+struct Memory(Vec<u32>);
+
+impl Memory {
+    fn new() -> Self {
+        Self(vec![0; usize::from(WIDTH) * usize::from(HEIGHT)])
+    }
+}
+
+impl Display for Memory {
+    type Error = Infallible;
+
+    async fn begin(&mut self) -> Result<(), Infallible> {
+        Ok(())
+    }
+
+    async fn send(&mut self, rows: Range<u16>, bytes: &[u8]) -> Result<(), Infallible> {
+        let pixels = self.0.iter_mut().skip(usize::from(rows.start) * usize::from(WIDTH));
+        for (pixel, bytes) in pixels.zip(bytes.as_chunks().0) {
+            let [red, green, blue, _] = Rgb565Be.decode(u16::from_ne_bytes(*bytes)).to_bytes();
+            *pixel = u32::from_be_bytes([0, red, green, blue]);
+        }
+        Ok(())
+    }
+}
+
+/// Draws the next frame into the memory.
+fn draw(demo: &mut Demo, fixed: bool, memory: &mut Memory) {
+    let Ok(()) = block_on(async {
+        if fixed { demo.frame(FixedPoint(Spans16), memory).await } else { demo.frame(Spans16, memory).await }
+    });
+}
+
+fn window() -> Result<(), Box<dyn Error>> {
+    let (mut demo, mut memory, mut fixed) = (Box::new(Demo::new()), Memory::new(), true);
+    let options = WindowOptions { scale: Scale::X2, ..WindowOptions::default() };
+    let mut window = Window::new("alberti", WIDTH.into(), HEIGHT.into(), options)?;
+    window.set_target_fps(FRAMES);
+    while window.is_open() && !window.is_key_down(Key::Escape) {
+        fixed ^= window.is_key_pressed(Key::Space, KeyRepeat::No);
+        window.set_title(if fixed { "alberti, in fixed point" } else { "alberti, in f32" });
+        draw(&mut demo, fixed, &mut memory);
+        window.update_with_buffer(&memory.0, WIDTH.into(), HEIGHT.into())?;
+    }
+    Ok(())
+}
+
+/// Every fourth frame of a turn, endless, with one palette for all.
+fn animation() -> Vec<u8> {
+    let (mut demo, mut memory) = (Box::new(Demo::new()), Memory::new());
+    let mut file = vec![];
+    let mut encoder = gif::Encoder::new(&mut file, WIDTH, HEIGHT, &[]).expect("a size of 16 bits");
+    encoder.set_repeat(gif::Repeat::Infinite).expect("memory takes all");
+    for number in 0..TURN {
+        draw(&mut demo, true, &mut memory);
+        if number % 4 == 0 {
+            let pixels: Vec<u8> = memory.0.iter().flat_map(|p| p.to_be_bytes().into_iter().skip(1)).collect();
+            let mut frame = gif::Frame::from_rgb_speed(WIDTH, HEIGHT, &pixels, 10);
+            frame.delay = 8;
+            encoder.write_frame(&frame).expect("memory takes all");
+        }
+    }
+    drop(encoder);
+    file
+}
