@@ -122,13 +122,13 @@ pub trait Lanes: Copy + Debug + Send + Sync {
     /// texture coordinates and the sides of a texture, the level of detail.
     ///
     /// # Precision
-    /// Within 2^-11 for lengths from 2^-63 to 2^63, in fixed point from 2^-16 to 2^15, and at powers of two along an
-    /// axis exact. Shorter lengths give at most the least of these, but never less than -63.5 (-16). Longer ones and
-    /// NaN give at least the greatest.
+    /// Within 2^-11 for lengths from 2^-63 to 2^63, in fixed point 1.1·2^-11 from 2^-16 to 2^15, and at powers of two
+    /// along an axis exact. Shorter lengths give at most the least of these, but never less than -63.5 (-16). Longer ones
+    /// and NaN give at least the greatest, in fixed point less 2^-11.
     ///
     /// # Cost
     /// Nine multiplications, six additions, a minimum, a conversion and three operations on bits; no root, no table. In
-    /// fixed point two products of 64 bits, and integers.
+    /// fixed point six products of 32 bits.
     fn log2_length(self, x: Self::Number, y: Self::Number, scale: [u32; 2]) -> Self::Number;
     /// The greater of the [`log2_length`](Self::log2_length)s of two vectors, to the bit; of NaN at least the greatest.
     ///

@@ -306,8 +306,8 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
         for row in rows {
             let (color, depth) = self.pixels_from(row, columns.start);
             let count = columns.len();
-            color.iter_mut().take(count).for_each(|p| *p = pixel);
-            depth.iter_mut().take(count).for_each(|d| *d = farthest);
+            fill(color, count, pixel);
+            fill(depth, count, farthest);
         }
     }
 
@@ -365,6 +365,15 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
         let first = map2(self.strides, |stride| row.wrapping_mul(stride).wrapping_add(place(left)));
         Lines { color: self.color, depth: self.depth, strides: self.strides, first }
     }
+}
+
+/// Gives the first of some pixels a value, 16 at a time: small cores store words then, and several with one
+/// instruction.
+fn fill<T: Copy>(pixels: &mut [T], count: usize, value: T) {
+    let pixels = pixels.split_at_mut_checked(count).map_or(&mut [] as &mut [T], |(pixels, _)| pixels);
+    let (chunks, rest) = pixels.as_chunks_mut();
+    chunks.iter_mut().for_each(|chunk| *chunk = [value; 16]);
+    rest.fill(value);
 }
 
 /// The first elements, and the others.

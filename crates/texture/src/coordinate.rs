@@ -81,21 +81,21 @@ pub(crate) fn bounded(u: f32) -> u64 {
     down(u).wrapping_sub(ALIGN.to_bits())
 }
 
-/// The 256ths from the centre of the leftmost texel to a reduced coordinate, rounded to nearest, halves up. Not for
-/// those [near 0](near_zero).
+/// The way from the centre of the leftmost texel to a reduced coordinate in 2^-`bits`, at most 8, rounded to nearest,
+/// halves up. Not for those [near 0](near_zero).
 #[inline]
-pub(crate) fn position(reduced: u64, size: u32) -> i32 {
+pub(crate) fn position(reduced: u64, size: u32, bits: u32) -> i32 {
     // In `Border` it may be negative.
-    rounded::<FRACTION_BITS>(reduced.cast_signed(), size)
+    rounded::<FRACTION_BITS>(reduced.cast_signed(), size, bits)
 }
 
-/// [`position`] of a coordinate that 38 bits of fraction do not hold: from -256 to -1, left of the leftmost centre.
-/// None for others.
+/// [`position`] of a coordinate that 38 bits of fraction do not hold: below 0, left of the leftmost centre. None
+/// for others.
 ///
 /// It is rounded down to 2^-47. Nearer to 0 than 2^-23 is no place where the 256ths change.
 #[inline]
 #[expect(clippy::cast_possible_truncation, reason = "below 2^32")]
-pub(crate) fn near_zero(u: f32, size: u32) -> Option<i32> {
+pub(crate) fn near_zero(u: f32, size: u32, bits: u32) -> Option<i32> {
     const SMALL: f32 = 1.0 / 32768.0;
     const BITS: u32 = 47;
 
@@ -105,17 +105,17 @@ pub(crate) fn near_zero(u: f32, size: u32) -> Option<i32> {
         // Where the conversion rounded up, which it does to no more than 24 bits.
         #[expect(clippy::cast_precision_loss, reason = "as many bits as there were")]
         let down = whole - i64::from(whole as f32 > scaled);
-        rounded::<BITS>(down, size)
+        rounded::<BITS>(down, size, bits)
     })
 }
 
-/// The 256ths of a coordinate with so many bits of fraction.
+/// The 2^-`bits` of a coordinate with so many bits of fraction.
 #[inline]
 #[expect(clippy::cast_possible_truncation, reason = "the shift leaves 24 bits")]
-fn rounded<const BITS: u32>(coordinate: i64, size: u32) -> i32 {
-    let shift = const { BITS - 8 };
+fn rounded<const BITS: u32>(coordinate: i64, size: u32, bits: u32) -> i32 {
+    let shift = BITS - bits;
     // Half a unit to round to nearest, less half a texel. In 39 + 14 bits and a sign.
-    let offset = const { (1 << (BITS - 9)) - (128 << (BITS - 8)) };
+    let offset = (1 << (shift - 1)) - (1 << (BITS - 1));
     ((coordinate * i64::from(size) + offset) >> shift) as i32
 }
 
@@ -201,7 +201,7 @@ mod tests {
         let mut changes = 0;
         for size in [1u16, 2, 3, 5, 97, 1000, 4328, 8191, 10_007, 16_383, 16_384] {
             let check = |u: f32| {
-                let found = near_zero(u, size.into()).map(i128::from);
+                let found = near_zero(u, size.into(), 8).map(i128::from);
                 assert_eq!(
                     found,
                     (u.abs() < 2f32.powi(-15)).then(|| exact(u, size.into())),
@@ -219,8 +219,8 @@ mod tests {
                 check(-f32::from_bits(bits));
             }
         }
-        assert_eq!(near_zero(-6.769_148_5e-6, 4328).map(|position| position & 255), Some(121));
-        assert_eq!((near_zero(f32::NAN, 3), changes), (None, 11 * 256));
+        assert_eq!(near_zero(-6.769_148_5e-6, 4328, 8).map(|position| position & 255), Some(121));
+        assert_eq!((near_zero(f32::NAN, 3, 8), changes), (None, 11 * 256));
     }
 
     /// The significand with its sign, and the exponent of its last bit.

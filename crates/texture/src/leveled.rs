@@ -27,10 +27,11 @@ impl Levels for Trilinear {
 /// until then in the largest. Made by [`MipSampler::leveled`].
 ///
 /// # Cost
-/// A sample costs what a texture does, or two and a mean. The choice has a logarithm, and the slices of the levels.
+/// A sample costs what a texture does, or two and a mean. The choice has a logarithm, and the slices of the levels. It
+/// refers to the mip map, as it is copied for each triangle.
 #[derive(Clone, Copy)]
 pub struct Leveled<'a, F: Storage, M, U, V = U, Z: Size = AnySize> {
-    map: MipSampler<'a, F, M, U, V, Z>,
+    map: &'a MipSampler<'a, F, M, U, V, Z>,
     near: Texture<'a, F, Z::Level>,
     far: Texture<'a, F, Z::Level>,
     /// The share of the farther level, in 32nds.
@@ -40,7 +41,7 @@ pub struct Leveled<'a, F: Storage, M, U, V = U, Z: Size = AnySize> {
 impl<'a, F: Storage, M: Levels, U: Wrap, V: Wrap, Z: Size> MipSampler<'a, F, M, U, V, Z> {
     /// The same for derivatives that are not asked for at each sample.
     #[must_use]
-    pub fn leveled(self) -> Leveled<'a, F, M, U, V, Z> {
+    pub fn leveled(&'a self) -> Leveled<'a, F, M, U, V, Z> {
         let level = self.mipmap().level(0);
         Leveled { map: self, near: level, far: level, along: 0 }
     }
@@ -89,9 +90,7 @@ impl<F: Packed, U: Wrap, V: Wrap, Z: Size> Leveled<'_, F, Trilinear, U, V, Z> {
     }
 }
 
-impl<F: Storage, M: fmt::Debug, U: fmt::Debug, V: fmt::Debug, Z: Size> fmt::Debug
-    for Leveled<'_, F, M, U, V, Z>
-{
+impl<F: Storage, M, U, V, Z: Size> fmt::Debug for Leveled<'_, F, M, U, V, Z> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Leveled")
             .field("near", &self.near)

@@ -91,8 +91,8 @@ impl<F: Packed, U: Wrap, V: Wrap, Z: Size> Sampler<'_, F, Bilinear, U, V, Z> {
     /// The texels' mean as such a texel, without a way over colours of 8 bits a channel; a border is black.
     ///
     /// # Precision
-    /// A share of an axis is off by up to 9/512, the product of both by 1/64 more, and there is one rounding to a
-    /// level. So a channel is within 2.6 levels of the mean in reals, and green, which has twice as many, within 4.8.
+    /// A share of an axis is off by up to 1/64, the product of both by 1/64 more, and there is one rounding to a level.
+    /// So a channel is within 2.6 levels of the mean in reals, and green, which has twice as many, within 4.8.
     /// The most that was measured is 1.5 and 2.2. Equal texels give that texel, and a texel's centre gives it.
     ///
     /// # Cost

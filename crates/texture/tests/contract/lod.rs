@@ -68,7 +68,8 @@ fn rotations_and_anisotropy() {
         }
     }
     println!("λ: at most {:?} of 2^-11 off, floats and integers", worst.map(|worst| worst * 2048.0));
-    assert!(worst.iter().all(|&worst| worst > 0.8 / 2048.0 && worst <= 1.0 / 2048.0), "{worst:?}");
+    let within = |(worst, bound): (&f64, f64)| *worst > 0.8 / 2048.0 && *worst <= bound / 2048.0;
+    assert!(worst.iter().zip([1.0, 1.1]).all(within), "{worst:?}");
 }
 
 #[test]

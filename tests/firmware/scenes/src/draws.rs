@@ -9,7 +9,10 @@ use alberti::raster::color::{Additive, Blended, Constant, Over};
 use alberti::raster::{Fragments, PerRun, PerTriangle};
 use alberti::shaders::material::{Color, Emission, Gouraud};
 use alberti::shaders::{Differentiated, Ready565, Solid, Stored, Unlit, VertexColor565};
-use alberti::texture::{BaseLevel, Bilinear, Minify, Nearest, NearestLevel, Repeat, Trilinear};
+use alberti::texture::format::Rgb565;
+use alberti::texture::{
+    BaseLevel, Bilinear, Minify, MipSampler, Nearest, NearestLevel, PowerOfTwo, Repeat, Trilinear,
+};
 use alberti::{
     Affine, ColorFormat, Counters, D16, DepthFormat, Exact, FixedPoint, FragmentStage, Geometry, IntegerMesh,
     IntegerVertex, Interpolation, Lines, Mesh, Meshlets, NoDepth, Object, Pass, Planes, Point3, Q16,
@@ -82,15 +85,15 @@ draws! {
 
     /// The nearest texel of the nearest level, found once for each triangle, in fixed point.
     leveled_nearest_fixed(model): FixedPoint(Spans16), mapped,
-        Stored(FLOOR_MIPMAP.sampler(NearestLevel(Nearest), Repeat).leveled());
+        Stored(NEAREST_OF_FLOOR.leveled());
 
     /// Four texels of that.
     leveled_bilinear_fixed(model): FixedPoint(Spans16), mapped,
-        Stored(FLOOR_MIPMAP.sampler(NearestLevel(Bilinear), Repeat).leveled());
+        Stored(BILINEAR_OF_FLOOR.leveled());
 
     /// Between two levels that are found once for each triangle.
     leveled_trilinear_fixed(model): FixedPoint(Spans16), mapped,
-        Stored(FLOOR_MIPMAP.sampler(Trilinear, Repeat).leveled());
+        Stored(TRILINEAR_OF_FLOOR.leveled());
 
     /// The vertices' light on the nearest texel: a material of one map.
     material(model): Exact, lit, Gouraud { layers: Color(model.texture.sampler(Nearest, Repeat)) };
@@ -416,6 +419,13 @@ pub fn flat_without_depth<K: Counters>(
     let pixels = alberti::Target::new(Rgb565Le, NoDepth, WIDTH, HEIGHT, &mut target.color, &mut nothing);
     draw(pixels, camera, model, &mesh, Solid(ORANGE), Exact, &mut [], counters);
 }
+
+/// Samplers of the floor's mip map, to which those refer whose levels are found once a triangle.
+static NEAREST_OF_FLOOR: OfFloor<NearestLevel<Nearest>> = FLOOR_MIPMAP.sampler(NearestLevel(Nearest), Repeat);
+static BILINEAR_OF_FLOOR: OfFloor<NearestLevel<Bilinear>> =
+    FLOOR_MIPMAP.sampler(NearestLevel(Bilinear), Repeat);
+static TRILINEAR_OF_FLOOR: OfFloor<Trilinear> = FLOOR_MIPMAP.sampler(Trilinear, Repeat);
+type OfFloor<M> = MipSampler<'static, Rgb565, M, Repeat, Repeat, PowerOfTwo>;
 
 const NEAREST_MIP: Minify<NearestLevel<Nearest>, Nearest> =
     Minify { min: NearestLevel(Nearest), mag: Nearest };

@@ -9,7 +9,7 @@ mod object;
 use alberti::glam::Vec2;
 use alberti::shaders::Light;
 use alberti::*;
-use core::mem::swap;
+use core::mem::{replace, swap};
 use core::ops::Range;
 use embassy_futures::join::join;
 use object::{TRIANGLES, VERTICES};
@@ -19,7 +19,7 @@ pub const WIDTH: u16 = 320;
 /// Rows of the display.
 pub const HEIGHT: u16 = 240;
 /// Rows of a band.
-pub const ROWS: u16 = 10;
+pub const ROWS: u16 = 16;
 
 const BANDS: usize = (HEIGHT / ROWS) as usize;
 const PIXELS: usize = WIDTH as usize * ROWS as usize;
@@ -27,10 +27,10 @@ const PIXELS: usize = WIDTH as usize * ROWS as usize;
 /// The background.
 const BACKGROUND: Rgba8 = Rgba8::from_rgb24(0x10_18_28);
 
-type Buffers = Memory<Rgb565Be, D16, (Light, Vec2), PIXELS, { VERTICES.len() }, { TRIANGLES.len() }>;
+type Buffers = Memory<Rgb565Be, D16, (Light, Vec2), PIXELS, 320, { TRIANGLES.len() }>;
 
 /// The bytes of RAM that all of it may take, but for the stack.
-const BUDGET: usize = 46 * 1024;
+const BUDGET: usize = 99 * 1024;
 const _: () = assert!(size_of::<Demo>() <= BUDGET, "the demo's memory is larger than its budget");
 
 /// A display, and how it is reached.
@@ -60,14 +60,8 @@ impl Demo {
     /// The demo before its first frame.
     #[must_use]
     pub const fn new() -> Self {
-        let mut shown = [const { 0..0 }; BANDS];
-        let mut band = 0;
-        while band < BANDS {
-            // All rows, for the background.
-            shown[band] = band as u16 * ROWS..(band as u16 + 1) * ROWS;
-            band += 1;
-        }
-        Self { buffers: Buffers::new(0, 0), shown, frame: 0 }
+        // All zeros, which take no room in flash.
+        Self { buffers: Buffers::new(0, 0), shown: [const { 0..0 }; BANDS], frame: 0 }
     }
 
     /// Draws the next frame by `interpolation`, and sends those of its rows that change.
@@ -104,8 +98,9 @@ impl Demo {
                 let mut touched = Touched::default();
                 triangles.count_by(lanes::One, &mut band, &mut touched);
                 let now = rows_of(&touched);
-                let before = core::mem::replace(shown, now.clone());
-                about(&before, &now)
+                let before = replace(shown, now.clone());
+                // The first frame has a background everywhere.
+                if turn == 0 { first as u16..first as u16 + ROWS } else { about(&before, &now) }
             };
             // The transfer is begun first.
             let (sending, rows) = join(sending, drawing).await;

@@ -3,7 +3,7 @@
 use alberti::glam::{Mat3, Vec2, Vec3};
 use alberti::shaders::{Light, Lit565, Stored};
 use alberti::texture::format::Rgb565;
-use alberti::texture::{Leveled, Mipmap, Nearest, NearestLevel, PowerOfTwo, Repeat};
+use alberti::texture::{Leveled, MipSampler, Mipmap, Nearest, NearestLevel, PowerOfTwo, Repeat};
 use alberti::*;
 
 /// A vertex, as it lies in flash.
@@ -28,6 +28,10 @@ static TEXTURE: Mipmap<'static, Rgb565, PowerOfTwo> = match Mipmap::new(Rgb565, 
     Ok(texture) => texture.power_of_two().expect("sides that are"),
     Err(_) => panic!("as many texels as all levels have"),
 };
+
+/// The texel that is nearest in the level that is.
+static TEXELS_OF_LEVELS: MipSampler<'static, Rgb565, NearestLevel<Nearest>, Repeat, Repeat, PowerOfTwo> =
+    TEXTURE.sampler(NearestLevel(Nearest), Repeat);
 
 /// The lens, so that the board computes none of it.
 const LENS: Perspective = match Perspective::new(0.7, super::WIDTH as f32 / super::HEIGHT as f32, 1.0, 8.0) {
@@ -76,7 +80,7 @@ impl Scene {
 
     /// The pass that draws it.
     pub(crate) fn pass<'a, M: Geometry>(&'a self, mesh: &'a M) -> Pass<'a, M, Texels, Exact> {
-        let texels = Stored(TEXTURE.sampler(NearestLevel(Nearest), Repeat).leveled());
+        let texels = Stored(TEXELS_OF_LEVELS.leveled());
         Pass::new(&self.view, mesh, Lit565 { surface: texels }).subpixel(Sub4).at(self.frame)
     }
 }
