@@ -5,7 +5,7 @@
 
 use crate::command::{self, Outcome};
 use crate::embedded::Toolchain;
-use crate::workspace::LIBRARIES;
+use crate::workspace::{LIBRARIES, NEEDS_STD};
 
 /// The smallest core that is supported, and one with hardware for `f32`: between them both float ABIs, and both
 /// with and without atomic compare-and-swap.
@@ -22,9 +22,13 @@ pub(crate) fn run() -> Outcome {
         for library in LIBRARIES {
             // One crate a check: in one check for all, a feature that one crate forgets to pass on would be switched
             // on by another, and hide the mistake.
-            let mut check = toolchain.cargo("check", target);
-            check.args(["--no-default-features", "--features", "libm"]);
-            command::run(check.args(["--package", library.package]))?;
+            let terms: Vec<&str> =
+                library.terms.iter().copied().filter(|feature| *feature != NEEDS_STD).collect();
+            for features in ["libm".to_string(), format!("libm,{}", terms.join(","))] {
+                let mut check = toolchain.cargo("check", target);
+                check.args(["--no-default-features", "--features", &features]);
+                command::run(check.args(["--package", library.package]))?;
+            }
         }
     }
     Ok(())

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-/// A library crate: `no_std`, no allocation, no `unsafe`.
+/// A library crate: `no_std`, no allocation, `unsafe` forbidden.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Library {
     pub(crate) package: &'static str,
@@ -10,30 +10,59 @@ pub(crate) struct Library {
     pub(crate) folder: &'static str,
     /// The crates of this workspace that it may depend on.
     pub(crate) may_use: &'static [&'static str],
+    /// Features named after the crates in whose terms they have the library's values; these are optional dependencies.
+    pub(crate) terms: &'static [&'static str],
 }
 
 /// The crates that run on a microcontroller, each after the crates that it uses.
 pub(crate) const LIBRARIES: &[Library] = &[
-    Library { package: "alberti-math", folder: "math", may_use: &[] },
-    Library { package: "alberti-projection", folder: "projection", may_use: &["alberti-math"] },
-    Library { package: "alberti-raster", folder: "raster", may_use: &["alberti-math"] },
-    Library { package: "alberti-texture", folder: "texture", may_use: &["alberti-math"] },
+    Library {
+        package: "alberti-math",
+        folder: "math",
+        may_use: &[],
+        terms: &["arbitrary", "bytemuck", "defmt", "mint", "serde"],
+    },
+    Library {
+        package: "alberti-projection",
+        folder: "projection",
+        may_use: &["alberti-math"],
+        terms: &["arbitrary", "defmt", "serde"],
+    },
+    Library {
+        package: "alberti-raster",
+        folder: "raster",
+        may_use: &["alberti-math"],
+        terms: &["arbitrary", "bytemuck", "defmt", "embedded-graphics", "serde"],
+    },
+    Library {
+        package: "alberti-texture",
+        folder: "texture",
+        may_use: &["alberti-math"],
+        terms: &["arbitrary", "defmt", "serde"],
+    },
     Library {
         package: "alberti",
         folder: "alberti",
         may_use: &["alberti-math", "alberti-projection", "alberti-raster", "alberti-texture"],
+        terms: &["arbitrary", "bytemuck", "defmt", "embedded-graphics", "mint", "serde"],
     },
 ];
+
+/// The one of these features that needs std, as fuzzers do.
+pub(crate) const NEEDS_STD: &str = "arbitrary";
 
 /// What any library may depend on besides the crates of this workspace.
 pub(crate) const EXTERNAL: &[&str] = &["fearless_simd", "glam", "libm"];
 
 /// What one library may depend on besides, behind a feature that is off unless asked for, as (package, dependency).
 pub(crate) const OPTIONAL: &[(&str, &str)] =
-    &[("alberti-texture", "bevy_mikktspace"), ("alberti-raster", "bytemuck"), ("alberti", "rayon-core")];
+    &[("alberti-texture", "bevy_mikktspace"), ("alberti", "rayon-core")];
 
 /// The published crates that need an operating system, as (package, folder below `crates/`).
 pub(crate) const APPLICATIONS: &[(&str, &str)] = &[("alberti-app", "app")];
+
+/// The package of the tests across crates, which asks the facade for what the application has no use for.
+pub(crate) const TESTS: &str = "alberti-tests";
 
 /// The manifest of the workspace of programs for microcontrollers, and its packages: the programs, and the scenes that
 /// the host draws too.

@@ -20,6 +20,7 @@ use core::fmt;
 /// assert_eq!(refused.to_string(), "3 texels for a texture that takes 4");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Error {
     /// Of a camera, a lens, a projector or a viewport.

@@ -19,6 +19,8 @@ pub use split::Split;
 
 /// A ball in object space.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct Ball {
     /// The centre.
     pub center: Vec3,
@@ -62,6 +64,8 @@ fn corners(mesh: &impl Geometry, number: usize) -> Option<[Vec3; 3]> {
 /// [`Meshlet::new`]; the fields are for meshes that are constants of a program. Bounds that are too small leave out
 /// what could be seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct Meshlet {
     /// The number of the first triangle, and the one after the last.
     pub triangles: [u32; 2],

@@ -71,6 +71,9 @@ use alberti_raster::{
 /// }
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Profile<I, C, D> {
     /// Perspective, and the numbers it is computed in.
     pub interpolation: I,

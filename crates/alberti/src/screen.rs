@@ -10,6 +10,9 @@ use alberti_raster::Numbers;
 
 /// The clip at the sides of the view.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Sides {
     /// Triangles are only cut where they reach beyond the fixed-point range; the rest is left to the rows and columns
     /// that are drawn. Faster, and edges are not moved.

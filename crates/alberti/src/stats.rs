@@ -4,6 +4,9 @@ use alberti_raster::{Counters, Outcome};
 
 /// The fates of triangles and fragments in a drawing: [`Pass::draw_counted`](crate::Pass::draw_counted) has them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Stats {
     /// Triangles submitted.
     pub submitted: u64,

@@ -9,6 +9,8 @@ use core::ops::Range;
 
 /// An observer's place and orientation.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct Camera {
     to_eye: Frame<World, Eye>,
 }
@@ -97,6 +99,8 @@ const WIDEST: f32 = 16384.0;
 
 /// The way from the world to the picture: the eye, and the pyramid or box that it sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct View<Pr = Perspective> {
     to_eye: Frame<World, Eye>,
     projection: Pr,

@@ -4,6 +4,11 @@
 ///
 /// The bytes are sRGB-encoded wherever they come from a texture or go to a target; alpha is linear.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable, bytemuck::TransparentWrapper))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(from = "[u8; 4]", into = "[u8; 4]"))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(transparent)]
 pub struct Rgba8(u32);
 
@@ -56,6 +61,22 @@ pub struct Rgb565Le;
 /// Two bytes, the high one first, as most SPI displays want them: RRRRRGGG GGGBBBBB.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Rgb565Be;
+
+named!(Rgba8888, Rgb565Le, Rgb565Be);
+
+/// Red, green, blue, alpha.
+impl From<[u8; 4]> for Rgba8 {
+    fn from([r, g, b, a]: [u8; 4]) -> Self {
+        Self::new(r, g, b, a)
+    }
+}
+
+/// Red, green, blue, alpha.
+impl From<Rgba8> for [u8; 4] {
+    fn from(color: Rgba8) -> Self {
+        color.to_bytes()
+    }
+}
 
 impl core::fmt::Debug for Rgba8 {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {

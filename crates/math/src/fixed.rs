@@ -7,6 +7,9 @@ use crate::round::{floor_i32, round_half_up};
 /// More bits follow a slowly moving vertex more smoothly: snapping moves a vertex by at most 2^-(bits+1) pixels. Fewer
 /// bits let larger triangles stay in 32-bit edge functions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(u32)]
 pub enum Subpixel {
     /// Four bits (28.4): a vertex moves by at most 1/32 pixel; 32-bit edge functions up to about 2,890 pixels.
@@ -50,6 +53,10 @@ const _: () = assert!((GUARD_PIXELS as i64 + 1) * (1 << GREATEST_BITS) < i32::MA
 ///
 /// So the shift of the word that gives the subpixel rounds to the nearest one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable, bytemuck::TransparentWrapper))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(transparent)]
 pub struct Fixed(i32);
 
 /// Half of a subpixel, in its parts.

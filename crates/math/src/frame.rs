@@ -13,9 +13,16 @@ use glam::{Mat3, Vec3};
 /// The point with local coordinates (a, b, c) is `origin + a x + b y + c z` in the parent, with the axes x, y, z.
 /// Every change of reference in the pipeline is one of these: model to world, world to eye.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(bound = ""))]
+#[cfg_attr(
+    feature = "arbitrary",
+    derive(arbitrary::Arbitrary),
+    arbitrary(bound = "Local: Space, Parent: Space")
+)]
 pub struct Frame<Local, Parent> {
     axes: Mat3,
     origin: Vec3,
+    #[cfg_attr(feature = "serde", serde(skip))]
     spaces: PhantomData<(Local, Parent)>,
 }
 

@@ -21,9 +21,16 @@ use glam::{Mat2, Vec2};
 /// assert_eq!(frame.from_parent(p), Some(Point2::new(Vec2::new(0.25, 0.5))));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(bound = ""))]
+#[cfg_attr(
+    feature = "arbitrary",
+    derive(arbitrary::Arbitrary),
+    arbitrary(bound = "Local: Space, Parent: Space")
+)]
 pub struct Frame2<Local, Parent> {
     axes: Mat2,
     origin: Vec2,
+    #[cfg_attr(feature = "serde", serde(skip))]
     spaces: PhantomData<(Local, Parent)>,
 }
 

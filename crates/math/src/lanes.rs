@@ -123,8 +123,8 @@ pub trait Lanes: Copy + Debug + Send + Sync {
     ///
     /// # Precision
     /// Within 2^-11 for lengths from 2^-63 to 2^63, in fixed point 1.1·2^-11 from 2^-16 to 2^15, and at powers of two
-    /// along an axis exact. Shorter lengths give at most the least of these, but never less than -63.5 (-16). Longer ones
-    /// and NaN give at least the greatest, in fixed point less 2^-11.
+    /// along an axis exact. Shorter lengths give at most the least of these, but never less than -63.5 (-16). Longer
+    /// ones and NaN give at least the greatest, in fixed point less 2^-11.
     ///
     /// # Cost
     /// Nine multiplications, six additions, a minimum, a conversion and three operations on bits; no root, no table. In

@@ -1,8 +1,11 @@
 #![no_std]
 #![doc = include_str!("../README.md")]
 
-#[cfg(any(test, feature = "std"))]
+#[cfg(any(test, feature = "std", feature = "arbitrary"))]
 extern crate std;
+
+#[macro_use]
+mod named;
 
 mod barycentric;
 mod color;
@@ -13,6 +16,8 @@ mod frame2;
 mod gradient;
 mod inlined;
 pub mod lanes;
+#[cfg(feature = "mint")]
+mod minted;
 mod orientation;
 mod product;
 mod q16;
@@ -34,6 +39,8 @@ pub use frame2::Frame2;
 pub use glam;
 pub use gradient::Gradient;
 pub use inlined::{each, each_pair, in_line, map2, map3, map4};
+#[cfg(feature = "mint")]
+pub use minted::NotAffine;
 pub use orientation::{Zone, orientation, signed_area};
 pub use product::{LOW_WORDS_ONLY, high, high_of_half, high_signed, middle};
 pub use q16::{Q16, scaled};

@@ -64,6 +64,7 @@ pub fn orientation<S: Space>(a: Point2<S>, b: Point2<S>, c: Point2<S>) -> Option
 /// vertex 0/   edge 2    \vertex 1
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Zone {
     /// All coordinates are positive.
     Inside,

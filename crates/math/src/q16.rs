@@ -10,6 +10,10 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 /// halves up, and wrap like sums. Quotients are rounded towards zero, and are 0 for a divisor of 0. Quotients, and
 /// floats that are converted, become the nearest in the range.
 #[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable, bytemuck::TransparentWrapper))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(transparent)]
 pub struct Q16(i32);
 
 impl Q16 {

@@ -45,17 +45,35 @@ pub enum Cube {}
 /// let sum = p + p;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "bytemuck", derive(bytemuck::Zeroable, bytemuck::TransparentWrapper))]
+#[cfg_attr(feature = "bytemuck", transparent(V), zeroable(bound = "V: bytemuck::Zeroable"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(transparent))]
+#[cfg_attr(feature = "serde", serde(bound(serialize = "V: serde::Serialize")))]
+#[cfg_attr(feature = "serde", serde(bound(deserialize = "V: serde::Deserialize<'de>")))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", arbitrary(bound = "V: arbitrary::Arbitrary<'arbitrary>, S: Space"))]
+#[repr(transparent)]
 pub struct Point<V, S: Space> {
     /// The coordinates with respect to the origin and axes of `S`.
     pub coords: V,
+    #[cfg_attr(feature = "serde", serde(skip))]
     space: PhantomData<S>,
 }
 
 /// A displacement in space `S`, with components `V`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "bytemuck", derive(bytemuck::Zeroable, bytemuck::TransparentWrapper))]
+#[cfg_attr(feature = "bytemuck", transparent(V), zeroable(bound = "V: bytemuck::Zeroable"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(transparent))]
+#[cfg_attr(feature = "serde", serde(bound(serialize = "V: serde::Serialize")))]
+#[cfg_attr(feature = "serde", serde(bound(deserialize = "V: serde::Deserialize<'de>")))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "arbitrary", arbitrary(bound = "V: arbitrary::Arbitrary<'arbitrary>, S: Space"))]
+#[repr(transparent)]
 pub struct Vector<V, S: Space> {
     /// The components along the axes of `S`.
     pub coords: V,
+    #[cfg_attr(feature = "serde", serde(skip))]
     space: PhantomData<S>,
 }
 

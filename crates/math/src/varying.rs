@@ -6,6 +6,7 @@ use glam::{Vec2, Vec3, Vec4};
 
 /// The interpolation of a component from the vertices to the samples between them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Mode {
     /// Linear in space, as everything is that has not been told otherwise.
     Hyperbolic,
@@ -21,6 +22,12 @@ pub enum Mode {
 /// # Cost
 /// No division for its sake; where all values are linear or flat, none at all.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable, bytemuck::TransparentWrapper))]
+#[cfg_attr(feature = "bytemuck", transparent(V))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(transparent)]
 pub struct Linear<V>(
     /// The value.
     pub V,
@@ -34,6 +41,12 @@ pub struct Linear<V>(
 /// # Cost
 /// None.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable, bytemuck::TransparentWrapper))]
+#[cfg_attr(feature = "bytemuck", transparent(V))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(transparent)]
 pub struct Flat<V>(
     /// The value.
     pub V,

@@ -4,6 +4,7 @@ use core::fmt;
 
 /// The error in the parameters of a camera, a projection or a viewport.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum ViewError {
     /// A parameter is NaN or infinite.

@@ -1,13 +1,15 @@
 #![no_std]
 #![doc = include_str!("../README.md")]
 
-#[cfg(test)]
+#[cfg(any(test, feature = "arbitrary"))]
 extern crate std;
 
 mod camera;
 mod clip;
 mod depth;
 mod error;
+#[cfg(any(feature = "serde", feature = "arbitrary"))]
+mod form;
 mod matrix;
 mod parallel;
 mod perspective;

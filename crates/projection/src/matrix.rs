@@ -7,6 +7,9 @@ use alberti_math::{Eye, Frame, Point3, World};
 
 /// The direction of view in the eye's coordinates of a matrix, x being to the right and y up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Handedness {
     /// -z, as in glam's `camera::rh`.
     Right,
@@ -16,6 +19,9 @@ pub enum Handedness {
 
 /// The clip coordinates that a projection matrix gives, after the division by w.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum ClipSpace {
     /// y up, depth from -1 to 1.
     OpenGl,

@@ -29,13 +29,15 @@ use alberti_math::lanes::{Lanes, One};
 /// in space are linear on the screen. So the rasterizer's policy of straight lines is as right as that with a division
 /// a fragment.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "crate::form::Lens", into = "crate::form::Lens"))]
 pub struct Parallel {
     /// 2/height.
-    scale: f64,
-    scale_x: f32,
+    pub(crate) scale: f64,
+    pub(crate) scale_x: f32,
     scale_y: f32,
-    near: f32,
-    far: f32,
+    pub(crate) near: f32,
+    pub(crate) far: f32,
     forward: LinearDepth,
     reversed: LinearDepth,
 }

@@ -6,13 +6,15 @@ use alberti_math::{Eye, Point3, Varying};
 
 /// A pyramid of view: opening angle, aspect ratio, near and far planes.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "crate::form::Lens", into = "crate::form::Lens"))]
 pub struct Perspective {
     /// cot(fov/2).
-    scale: f64,
-    scale_x: f32,
+    pub(crate) scale: f64,
+    pub(crate) scale_x: f32,
     scale_y: f32,
-    near: f32,
-    far: f32,
+    pub(crate) near: f32,
+    pub(crate) far: f32,
     forward: DepthMap,
     reversed: DepthMap,
 }

@@ -132,6 +132,8 @@ impl Projection for Perspective {
 /// # Cost
 /// A branch for each step, for the vertices that are worked on together.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub enum AnyProjection {
     /// A projection with a vanishing point.
     Perspective(Perspective),

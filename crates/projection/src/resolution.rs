@@ -15,6 +15,9 @@ use alberti_math::lanes::{Lanes, One};
 
 /// The values that a depth buffer can hold, under the names of the rasterizer's formats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum DepthSteps {
     /// 2^16 values, evenly: `D16`.
     D16,

@@ -9,6 +9,9 @@ use core::ops::Range;
 ///
 /// Pixel rows count from the top, so ys = 1 is the upper edge of the viewport's first row.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "crate::form::Rectangle", into = "crate::form::Rectangle"))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Viewport {
     /// Twice the centre, so that odd sizes have an integer one.
     center: [i32; 2],

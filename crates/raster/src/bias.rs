@@ -24,6 +24,9 @@ use alberti_math::{Varying, map3};
 /// A triangle: a copy of its corners, two divisions and some twenty operations in `f32`. With several lanes it waits
 /// for others as a copy.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Biased<D> {
     /// The format.
     pub format: D,

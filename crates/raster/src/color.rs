@@ -2,12 +2,16 @@
 
 mod blend;
 mod dither;
+#[cfg(feature = "embedded-graphics")]
+mod embedded;
 mod formats;
 pub mod pack;
 mod resolve;
 
 pub use blend::{Additive, AnyBlend, Blend, Blended, Constant, InLight, Multiply, Over, Premultiplied};
 pub use dither::{Bayer, BlueNoise, Dithered, Pattern};
+#[cfg(feature = "embedded-graphics")]
+pub use embedded::{EmbeddedBytes, EmbeddedColor};
 pub use formats::{
     Grey1, Grey2, Grey4, Grey8, Indexed, Levels, ReadColor, Rgb332, Rgb444, Rgb666, Rgb888, Xrgb8888, rgb565,
 };

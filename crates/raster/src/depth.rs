@@ -302,6 +302,9 @@ impl DepthFormat for F32Reversed {
 /// Four bytes a pixel. For the samples that are worked on together a match, which is predictable, and with `f32` an
 /// operation or two; rounding to integers as for these.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum AnyDepth {
     /// [`NoDepth`], but with a buffer.
     NoDepth,

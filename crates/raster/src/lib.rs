@@ -1,7 +1,7 @@
 #![no_std]
 #![doc = include_str!("../README.md")]
 
-#[cfg(test)]
+#[cfg(any(test, feature = "arbitrary"))]
 extern crate std;
 
 mod bands;
@@ -15,10 +15,14 @@ mod depth;
 mod differentiation;
 mod draw;
 mod edge;
+#[cfg(feature = "embedded-graphics")]
+mod embedded;
 mod fragment;
 mod interpolation;
 mod line;
 mod mask;
+#[cfg(any(feature = "serde", feature = "arbitrary", feature = "defmt"))]
+mod named;
 mod paint;
 mod pixels;
 mod sample_box;
@@ -42,6 +46,8 @@ pub use depth::{AnyDepth, D16, D24, D32, DepthFormat, F32, F32Reversed, NoDepth}
 pub use differentiation::{AnyDerivatives, Differentiation, NoDerivatives, PerPixel, PerRun, PerTriangle};
 pub use draw::Paint;
 pub use edge::{Edge, EdgeInt, FITS_I32};
+#[cfg(feature = "embedded-graphics")]
+pub use embedded::TargetImage;
 pub use fragment::{FragmentStage, Fragments};
 pub use interpolation::{Affine, Exact, FixedPoint, Interpolation, Lines, Planes, Spans16};
 pub use spans::{Span, SpanWalker};

@@ -33,18 +33,19 @@ pub struct Target<'a, C: ColorFormat, D: DepthFormat> {
     color_format: C,
     depth_format: D,
     color: &'a mut [C::Pixel],
-    depth: &'a mut [D::Stored],
+    pub(crate) depth: &'a mut [D::Stored],
     /// Columns and rows of the frame.
     size: [u32; 2],
     /// Pixels from a row to the next: of the colours, and of the depths.
-    strides: [usize; 2],
-    first_row: usize,
+    pub(crate) strides: [usize; 2],
+    pub(crate) first_row: usize,
     /// The columns and rows of the frame that may be drawn to.
     limits: [Range<i32>; 2],
 }
 
 /// The reason why buffers do not make a target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum TargetError {
     /// No pixels, or more than 16384 columns or rows, or rows beyond the frame's last one.

@@ -21,6 +21,7 @@ use core::ops::Range;
 /// # Cost
 /// A triangle: four comparisons.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Touched {
     columns: Range<i32>,
     rows: Range<i32>,

@@ -220,6 +220,9 @@ impl<V: Varying> fmt::Debug for Corner<V> {
 ///
 /// A front face is one whose vertices run counter-clockwise as seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Cull {
     /// Leave out back faces.
     #[default]
@@ -244,6 +247,7 @@ impl Cull {
 
 /// The fate of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Outcome {
     /// Left out: it faces the wrong way, or has no area after snapping.
     Culled,

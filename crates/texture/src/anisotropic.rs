@@ -38,6 +38,9 @@ use crate::{AnyFilter, BetweenLevels, Bilinear, Gradient, Minify, MipFilter, Mip
 /// # Ok::<(), alberti_texture::TextureError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Anisotropic<M = Trilinear> {
     /// The greatest number of probes: 1, 2, 4, 8 or 16. Others count as the next lower of these, 0 as 1.
     pub probes: u32,
@@ -161,6 +164,9 @@ impl<M: MipFilter> MipFilter for Anisotropic<M> {
 /// # Cost
 /// Two matches a read and one a probe. The code of about four filters: all share that of [`Anisotropic`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum AnyMipFilter {
     /// Level 0 alone, by this filter: no mip map.
     Base(AnyFilter),

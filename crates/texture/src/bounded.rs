@@ -22,6 +22,9 @@ use crate::{Gradient, MipFilter, Mipmap, Size, Trilinear, Wrap};
 /// # Cost
 /// An addition and two comparisons a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LodBounds {
     /// The summand: below 0 for sharper pictures, above for softer ones.
     pub bias: f32,
@@ -72,6 +75,9 @@ impl LodBounds {
 /// # Cost
 /// That of the filter and of [`LodBounds`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Bounded<M = Trilinear> {
     /// The [`MipFilter`].
     pub filter: M,

@@ -96,6 +96,9 @@ pub struct Bilinear;
 /// # Cost
 /// A match for each level that is read, and the code of both.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum AnyFilter {
     /// [`Nearest`].
     #[default]

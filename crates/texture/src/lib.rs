@@ -1,7 +1,7 @@
 #![no_std]
 #![doc = include_str!("../README.md")]
 
-#[cfg(test)]
+#[cfg(any(test, feature = "arbitrary"))]
 extern crate std;
 
 mod anisotropic;
@@ -15,6 +15,8 @@ mod leveled;
 mod minify;
 mod mip_sampler;
 pub mod mipmap;
+#[cfg(any(feature = "serde", feature = "arbitrary", feature = "defmt"))]
+mod named;
 mod packed;
 mod sampler;
 mod sealed;

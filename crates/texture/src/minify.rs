@@ -109,6 +109,9 @@ pub struct Trilinear;
 /// # Cost
 /// One filter, if all samples that are worked on together are on the same side of 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Minify<Min, Mag> {
     /// The [`MipFilter`] of minification.
     pub min: Min,

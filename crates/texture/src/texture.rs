@@ -329,6 +329,7 @@ impl<F: Storage, Z: Size, const N: usize> fmt::Debug for Texture<'_, F, Z, N> {
 
 /// The reason why texels and a size are not a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum TextureError {
     /// A side is 0.

@@ -169,6 +169,9 @@ pub struct Mirror;
 /// # Cost
 /// Three operations a texel more for each axis than [`Clamp`] on all lanes at once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Border(
     /// The colour.
     pub Rgba8,

@@ -4,6 +4,9 @@
 mod bands;
 mod clipping;
 mod coverage;
+mod displays;
+mod drivers;
+mod features;
 mod frames;
 mod golden;
 mod hostile;

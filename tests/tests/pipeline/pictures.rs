@@ -12,6 +12,8 @@ mod after_the_fragment;
 mod color_triangle;
 #[path = "../../../crates/alberti/examples/depth_precision.rs"]
 mod depth_precision;
+#[path = "../../../crates/alberti/examples/embedded_graphics.rs"]
+mod embedded_graphics;
 #[path = "../../../crates/alberti/examples/firmware_frame.rs"]
 mod firmware_frame;
 #[path = "../../../crates/alberti/examples/materials.rs"]
@@ -55,6 +57,11 @@ fn affine_and_hyperbolic_is_what_it_was() {
 #[test]
 fn depth_precision_is_what_it_was() {
     compare("depth_precision.png", depth_precision::picture());
+}
+
+#[test]
+fn embedded_graphics_is_what_it_was() {
+    compare("embedded_graphics.png", embedded_graphics::picture());
 }
 
 #[test]

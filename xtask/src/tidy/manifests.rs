@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::Problem;
 use crate::command::{cargo, output};
-use crate::workspace::{APPLICATIONS, EXTERNAL, LIBRARIES, Library, OPTIONAL};
+use crate::workspace::{APPLICATIONS, EXTERNAL, LIBRARIES, Library, OPTIONAL, TESTS};
 
 /// The library that hands the features of all others on.
 const FACADE: &str = "alberti";
@@ -65,37 +65,44 @@ pub(super) fn packages(metadata: &Value) -> Vec<Problem> {
 }
 
 /// The reason why `library` must not depend on `dependency`, if so.
-fn breach(library: &Library, dependency: &str) -> Option<String> {
-    let optional = OPTIONAL.contains(&(library.package, dependency));
-    if EXTERNAL.contains(&dependency) || library.may_use.contains(&dependency) || optional {
+fn breach(library: &Library, dependency: &Value) -> Option<String> {
+    let name = dependency["name"].as_str()?;
+    if library.terms.contains(&name) {
+        let optional = dependency["optional"] == true;
+        return (!optional)
+            .then(|| format!("`{}` must depend on `{name}` by a feature only", library.package));
+    }
+    let optional = OPTIONAL.contains(&(library.package, name));
+    if EXTERNAL.contains(&name) || library.may_use.contains(&name) || optional {
         return None;
     }
     let mut allowed: Vec<&str> = library.may_use.to_vec();
     allowed.extend(EXTERNAL);
-    Some(format!("`{}` must not depend on `{dependency}`, only on {}", library.package, allowed.join(", ")))
+    Some(format!("`{}` must not depend on `{name}`, only on {}", library.package, allowed.join(", ")))
 }
 
 /// The packages that this one needs to be built, on any target. Development dependencies are free.
-fn dependencies(package: &Value) -> impl Iterator<Item = &str> {
-    let all = list(&package["dependencies"]);
-    all.filter(|dependency| dependency["kind"] != "dev").filter_map(|dependency| dependency["name"].as_str())
+fn dependencies(package: &Value) -> impl Iterator<Item = &Value> {
+    list(&package["dependencies"]).filter(|dependency| dependency["kind"] != "dev")
 }
 
 /// Complaints about features that neither clippy nor the tests would see. Both build all members at once, with what
-/// any of them asks for, so the application must ask the facade for everything.
+/// any of them asks for, so the application or the tests must ask the facade for everything.
 fn untested(metadata: &Value, library: &Value) -> impl Iterator<Item = String> {
     let features = library["features"].as_object().into_iter().flatten().map(|(name, _)| name.as_str());
     let asked: Vec<&str> = APPLICATIONS
         .iter()
-        .filter_map(|(application, _)| package(metadata, application))
-        .flat_map(|application| list(&application["dependencies"]))
+        .map(|&(application, _)| application)
+        .chain([TESTS])
+        .filter_map(|name| package(metadata, name))
+        .flat_map(|package| list(&package["dependencies"]))
         .filter(|dependency| dependency["name"] == FACADE)
         .flat_map(|facade| list(&facade["features"]))
         .filter_map(Value::as_str)
         .collect();
     let missed = features.filter(move |feature| !NOT_ASKED.contains(feature) && !asked.contains(feature));
     missed.map(|feature| {
-        format!("no test sees the feature `{feature}`: let crates/app ask `{FACADE}` for it, under this name")
+        format!("no test sees the feature `{feature}`: let crates/app or tests ask `{FACADE}` for it, under this name")
     })
 }
 
@@ -160,9 +167,9 @@ mod tests {
 
     #[test]
     fn a_library_takes_no_other_crates() {
-        let message = "crates/raster/Cargo.toml:1: `alberti-raster` must not depend on `serde`, only on \
+        let message = "crates/raster/Cargo.toml:1: `alberti-raster` must not depend on `clap`, only on \
                        alberti-math, fearless_simd, glam, libm";
-        assert_eq!(found("alberti-raster", on("serde"), "std"), [message]);
+        assert_eq!(found("alberti-raster", on("clap"), "std"), [message]);
         assert_eq!(found("alberti-raster", json!({ "name": "cc", "kind": "build" }), "std").len(), 1);
         assert_eq!(found("alberti-raster", json!({ "name": "proptest", "kind": "dev" }), "std"), NONE);
         assert_eq!(found("alberti-raster", on("glam"), "std"), NONE);
@@ -175,10 +182,19 @@ mod tests {
     }
 
     #[test]
+    fn terms_of_others_are_optional() {
+        let message = "crates/raster/Cargo.toml:1: `alberti-raster` must depend on `serde` by a feature only";
+        assert_eq!(found("alberti-raster", on("serde"), "std"), [message]);
+        let optional = json!({ "name": "serde", "kind": null, "optional": true });
+        assert_eq!(found("alberti-raster", optional, "std"), NONE);
+        assert_eq!(found("alberti-raster", on("mint"), "std").len(), 1);
+    }
+
+    #[test]
     fn every_feature_is_asked_for() {
         assert_eq!(found("alberti-texture", on("glam"), "libm"), NONE);
-        let message = "crates/texture/Cargo.toml:1: no test sees the feature `tangents`: let crates/app ask \
-                       `alberti` for it, under this name";
+        let message = "crates/texture/Cargo.toml:1: no test sees the feature `tangents`: let crates/app or \
+                       tests ask `alberti` for it, under this name";
         assert_eq!(found("alberti-texture", on("glam"), "tangents"), [message]);
     }
 

@@ -64,6 +64,9 @@ pub trait Fog: Copy + Debug {
 /// # Cost
 /// Two comparisons, a product, a conversion.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LinearFog {
     /// The distance at which it begins.
     pub start: f32,
@@ -99,6 +102,9 @@ const MOST: f32 = 4000.0;
 /// # Cost
 /// Two loads from a table of 130 bytes, a product, conversions.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ExponentialFog {
     /// One over the distance at which 1/e is left.
     pub density: f32,
@@ -116,6 +122,9 @@ pub struct ExponentialFog {
 /// # Cost
 /// That of [`ExponentialFog`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SquaredFog {
     /// One over the distance at which 1/e is left.
     pub density: f32,

@@ -64,6 +64,9 @@ pub struct Slide<S, I> {
 
 /// A mixture of an image's colour and the surface's that it falls on, channel by channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Mix {
     /// The product of both, to the nearest byte: white leaves the surface as it is, black makes it black.
     #[default]

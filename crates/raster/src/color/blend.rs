@@ -27,6 +27,9 @@ use core::fmt::Debug;
 /// That of reading the pixel, and of the blend. Where a format has a way of its own, as RGB565 has, [`Over`] and
 /// [`Constant`] take that.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Blended<C, B> {
     /// The format of the pixels.
     pub format: C,
@@ -169,6 +172,9 @@ impl Blend for Over {
 /// # Precision
 /// Correctly rounded in bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Constant(
     /// Alpha.
     pub u8,

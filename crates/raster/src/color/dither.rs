@@ -32,6 +32,9 @@ mod noise;
 /// A load from a table of 64 (1024) bytes, and for each channel a product, a sum and a division by 255, which is a
 /// product and a shift.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Dithered<C, P> {
     /// The format of the pixels.
     pub format: C,

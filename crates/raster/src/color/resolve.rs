@@ -6,6 +6,9 @@ use alberti_math::{Rgba8, srgb};
 
 /// The mean of several colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Average {
     /// Of their light: edges look as smooth as they are.
     #[default]

@@ -16,6 +16,9 @@ use core::fmt::Debug;
 /// # Cost
 /// A branch for a triangle, for a run, and for the samples that are worked on together; the code of all three.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum AnyDerivatives {
     /// [`PerPixel`].
     #[default]

@@ -9,6 +9,9 @@
 //!      first  last
 //! ```
 
+#[cfg(any(feature = "serde", feature = "arbitrary"))]
+mod form;
+
 use crate::edge::EdgeInt;
 use crate::interpolation::{Interpolate, Row};
 use crate::spans::Span;
@@ -97,6 +100,9 @@ pub struct Affine;
 /// That of [`Spans16`], and a few comparisons a run. A component has a product and a sum more a fragment, for
 /// parabolas. With a budget, that of the way that a triangle goes, see [`bounded`](Self::bounded).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "form::Form", into = "form::Form"))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Lines {
     length: i32,
     budget: Option<f32>,
@@ -105,6 +111,7 @@ pub struct Lines {
 
 /// The course of hyperbolic components over a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Course {
     /// Linear on the screen.
     Screen,

@@ -8,6 +8,8 @@ use alberti_math::lanes::Lanes;
 /// # Cost
 /// A match for the samples that are worked on together. The code of all three.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub enum AnyEnvironment {
     /// [`LatLong`].
     LatLong,

@@ -35,6 +35,9 @@ use alberti_math::lanes::Lanes;
 /// # Cost
 /// Three divisions, one of them by a constant, and some 30 operations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CubeMap {
     /// w, the side of a face in texels: at least 1.
     pub side: u32,

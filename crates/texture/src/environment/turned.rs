@@ -15,6 +15,8 @@ use glam::Mat3;
 /// # Cost
 /// Nine multiplications.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct Turned<E> {
     /// The environment in which directions are looked up.
     pub environment: E,

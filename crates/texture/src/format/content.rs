@@ -7,6 +7,9 @@ use super::TexelFormat;
 /// The meaning of a format's texels, and so of their mean: the texels of smaller levels of a mip map, which
 /// [`build`](crate::mipmap::build) makes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Content {
     /// Colours in sRGB, whose mean is that of their light; alpha is linear. Colours are not weighted by alpha.
     ///

@@ -154,6 +154,7 @@ fn corners<T: Copy>(values: &[T], triangle: [u32; 3]) -> Option<[T; 3]> {
 
 /// A buffer of another length than the mesh has vertices, or triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LengthError {
     /// The length of the first such buffer.
     pub found: usize,

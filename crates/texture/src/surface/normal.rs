@@ -14,6 +14,9 @@ use glam::Vec3;
 
 /// The number that a byte of a normal map stands for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum NormalEncoding {
     /// A byte c stands for 2c/255 − 1, as in glTF and as GPUs read `unorm` textures: -1 and 1 are exact, 0 does not
     /// exist. So the usual flat blue (128, 128, 255) is tilted by 0.32° towards the corner.

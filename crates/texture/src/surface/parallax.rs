@@ -75,6 +75,9 @@ pub struct LimitedParallax;
 ///
 /// Source: McGuire and McGuire, "Steep parallax mapping", I3D 2005.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SteepParallax {
     /// The number of layers: at least 1, and less than 2^15. Numbers beyond count as the nearest of these.
     pub layers: u32,
@@ -90,6 +93,9 @@ pub struct SteepParallax {
 ///
 /// Source: Tatarchuk, "Dynamic parallax occlusion mapping with approximate soft shadows", I3D 2006.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ParallaxOcclusion {
     /// The number of layers: at least 1, and less than 2^15. Numbers beyond count as the nearest of these.
     pub layers: u32,
@@ -214,6 +220,9 @@ impl ParallaxSearch for ParallaxOcclusion {
 /// # Cost
 /// A match for the samples that are worked on together. The code of all four.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum AnyParallax {
     /// [`OffsetParallax`].
     Offset,

@@ -22,6 +22,9 @@ use crate::sealed::Sealed;
 /// Where sides are powers of two, a match for each axis and level that is read, on all lanes at once; elsewhere a call
 /// for each axis and sample. Two comparisons a texel more than the types, for the border. The code of all four modes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum AnyWrap {
     /// [`Repeat`].
     #[default]

@@ -98,12 +98,17 @@ with_highlight! {
     BlinnPhong of [u32; 2]: blinn_phong_cosine_lanes, power_by_gloss;
 }
 
+alberti_math::named!(Lambert, Phong(E: exponent), BlinnPhong(E: exponent));
+
 /// A [`Reflectance`] that is picked at run time, its exponent between two, which may be one: each is the type of its
 /// name, bit for bit.
 ///
 /// # Cost
 /// A match a light, for the samples that are worked on together. The code of all three.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum AnyReflectance {
     /// [`Lambert`].
     Lambert,

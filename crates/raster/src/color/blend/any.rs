@@ -5,6 +5,9 @@ use alberti_math::lanes::Lanes;
 
 /// A blend that is chosen at run time; the pixels are those of the blend itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum AnyBlend {
     /// None: the source.
     #[default]
