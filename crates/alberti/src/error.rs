@@ -1,5 +1,6 @@
 //! One error for all that can be refused.
 
+use crate::baked::BakedError;
 use alberti_projection::ViewError;
 use alberti_raster::TargetError;
 use alberti_texture::TextureError;
@@ -28,6 +29,8 @@ pub enum Error {
     Target(TargetError),
     /// Of a texture or a mip map.
     Texture(TextureError),
+    /// Of a baked file.
+    Baked(BakedError),
 }
 
 macro_rules! from {
@@ -43,6 +46,7 @@ from! {
     View: ViewError;
     Target: TargetError;
     Texture: TextureError;
+    Baked: BakedError;
 }
 
 impl fmt::Display for Error {
@@ -51,6 +55,7 @@ impl fmt::Display for Error {
             Self::View(error) => error.fmt(f),
             Self::Target(error) => error.fmt(f),
             Self::Texture(error) => error.fmt(f),
+            Self::Baked(error) => error.fmt(f),
         }
     }
 }

@@ -4,6 +4,7 @@
 #[cfg(any(test, feature = "std"))]
 extern crate std;
 
+pub mod baked;
 mod error;
 mod geometry;
 mod integers;
