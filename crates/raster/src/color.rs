@@ -82,9 +82,9 @@ pub trait ColorFormat: Copy + Debug + Send + Sync + 'static {
     }
 }
 
-/// A fragment's colour: [`Rgba8`] or its four bytes for any target, or `u8`, `u16`, its two bytes, the low one first, or
-/// `u32` for targets whose pixels have as many bits, which get it as it is. Another size is an error when the program is built. It travels as a word
-/// of 32 bits, of which several fit a register.
+/// A fragment's colour: [`Rgba8`] or its four bytes for any target; or a word for targets whose pixels have as many
+/// bits, which get it as it is. A word is `u8`, `u16` or its two bytes, the low one first, or `u32`. Another size is an
+/// error when the program is built. Colours travel as words of 32 bits, of which several fit a register.
 pub trait FragmentColor: Sealed + Copy {
     /// The colour as a word.
     fn to_word(self) -> u32;

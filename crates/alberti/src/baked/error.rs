@@ -6,7 +6,7 @@ use core::fmt;
 /// The first fault of a file: where it is, what was found there, and what was expected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BakedError {
-    /// What is wrong.
+    /// The kind of fault.
     pub fault: Fault,
     /// The byte of the file where it is.
     pub offset: u32,
@@ -16,7 +16,7 @@ pub struct BakedError {
     pub expected: u32,
 }
 
-/// What can be wrong with a file.
+/// A kind of fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Fault {

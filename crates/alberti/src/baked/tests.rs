@@ -222,7 +222,7 @@ fn draw(baked: &Baked<'_>, view: &View) -> u64 {
 fn drawn_by<A: Attribute>(
     view: &View,
     mesh: &BakedMesh<'_, A>,
-    stage: impl FragmentStage<A::Varying> + Copy,
+    stage: impl FragmentStage<A::Varying>,
 ) -> u64 {
     let (mut colors, mut depths) = ([0_u16; 64], [0_u16; 64]);
     let mut target = Target::new(Rgb565Le, D16, 8, 8, &mut colors, &mut depths).expect("8 x 8");
