@@ -13,8 +13,8 @@ use core::marker::PhantomData;
 /// [`IntegerMesh`](crate::IntegerMesh).
 ///
 /// # Cost
-/// A vertex takes a few instructions more than one of an `IntegerMesh`; its normal a square root and a division of
-/// integers.
+/// That of an `IntegerMesh`, and where numbers may not be loaded from any address, that of making them of bytes. A
+/// normal takes a square root and a division of integers.
 pub struct BakedMesh<'a, A> {
     pub(super) vertices: Vertices<'a>,
     pub(super) triangles: &'a [[u8; 6]],
