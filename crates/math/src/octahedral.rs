@@ -1,6 +1,6 @@
 //! Directions in two bytes: places on an octahedron, unfolded to a square.
 
-use crate::Q16;
+use crate::{Q16, floor_i32};
 use glam::Vec3;
 
 /// The greatest coordinate.
@@ -46,7 +46,7 @@ impl Octahedral {
         let turned_out = [(1.0 - y.abs()).copysign(x), (1.0 - x.abs()).copysign(y)];
         let place = if z < 0.0 { turned_out } else { [x, y] };
         #[expect(clippy::cast_possible_truncation, reason = "at most 127")]
-        let floor = place.map(|c| (c * f32::from(GREATEST)).floor() as i8);
+        let floor = place.map(|c| floor_i32(c * f32::from(GREATEST)) as i8);
         let around = [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[right, up]| {
             let at = |c: i8, more: i8| c.saturating_add(more).clamp(-GREATEST, GREATEST);
             Self([at(floor[0], right), at(floor[1], up)])

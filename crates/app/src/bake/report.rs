@@ -114,7 +114,7 @@ impl<'a> Report<'a> {
         for (name, bytes) in self.memory {
             line(format!("{bytes:>9}  {name}"));
         }
-        line(format!("\nMillions of instructions for a frame of {width}x{height}:\n"));
+        line(format!("\nMillions of instructions for a frame of {width}x{height}, without light:\n"));
         for Estimate { machine, instructions, off } in &self.estimates {
             let millions = instructions / 1e6;
             line(format!("{millions:>9.2}  {}, within {off:.0} % mostly", machine.name()));
