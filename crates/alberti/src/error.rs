@@ -1,5 +1,6 @@
 //! One error for all that can be refused.
 
+use crate::baked::BakedError;
 use alberti_projection::ViewError;
 use alberti_raster::TargetError;
 use alberti_texture::TextureError;
@@ -29,6 +30,8 @@ pub enum Error {
     Target(TargetError),
     /// Of a texture or a mip map.
     Texture(TextureError),
+    /// Of a baked file.
+    Baked(BakedError),
 }
 
 macro_rules! from {
@@ -44,6 +47,7 @@ from! {
     View: ViewError;
     Target: TargetError;
     Texture: TextureError;
+    Baked: BakedError;
 }
 
 impl fmt::Display for Error {
@@ -52,6 +56,7 @@ impl fmt::Display for Error {
             Self::View(error) => error.fmt(f),
             Self::Target(error) => error.fmt(f),
             Self::Texture(error) => error.fmt(f),
+            Self::Baked(error) => error.fmt(f),
         }
     }
 }

@@ -51,10 +51,15 @@ pub trait Geometry {
     /// Whether there are meshlets.
     const MESHLETS: bool = false;
 
-    /// The meshlets, in the order of their triangles, and a ball around them all: see
-    /// [`Meshlets`](crate::Meshlets).
-    fn meshlets(&self) -> (&[Meshlet], Ball) {
-        (&[], Ball::EVERYTHING)
+    /// A meshlet, in the order of their triangles: see [`Meshlets`](crate::Meshlets). `None` from the last on.
+    fn meshlet(&self, number: usize) -> Option<Meshlet> {
+        let _ = number;
+        None
+    }
+
+    /// The ball around the mesh with which the meshlets were made.
+    fn ball(&self) -> Ball {
+        Ball::EVERYTHING
     }
 }
 

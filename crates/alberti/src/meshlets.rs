@@ -185,8 +185,13 @@ impl<M: Geometry> Geometry for Meshlets<'_, M> {
     const MESHLETS: bool = true;
 
     #[inline]
-    fn meshlets(&self) -> (&[Meshlet], Ball) {
-        (self.meshlets, self.ball)
+    fn meshlet(&self, number: usize) -> Option<Meshlet> {
+        self.meshlets.get(number).copied()
+    }
+
+    #[inline]
+    fn ball(&self) -> Ball {
+        self.ball
     }
 }
 
@@ -332,15 +337,14 @@ impl<'a, M: Geometry> Seen<'a, M> {
         cull: Cull,
         numbers: Range<usize>,
     ) -> Self {
-        let sight = const { M::MESHLETS }.then(|| Sight::new(screen, cull, &mesh.meshlets().1));
+        let sight = const { M::MESHLETS }.then(|| Sight::new(screen, cull, &mesh.ball()));
         Self { mesh, sight, rest: numbers, meshlet: 0 }
     }
 
     #[inline(never)]
     fn next_of_meshlets(&mut self) -> Option<Range<usize>> {
-        let (meshlets, _) = self.mesh.meshlets();
         while !self.rest.is_empty() {
-            let Some(meshlet) = meshlets.get(self.meshlet) else {
+            let Some(meshlet) = self.mesh.meshlet(self.meshlet) else {
                 return Some(take(&mut self.rest));
             };
             let [start, end] = meshlet.triangles.map(|number| number as usize);
@@ -352,7 +356,7 @@ impl<'a, M: Geometry> Seen<'a, M> {
             self.meshlet += 1;
             if end > first {
                 self.rest.start = end.min(self.rest.end);
-                if self.sight.as_ref().is_none_or(|sight| sight.sees(meshlet)) {
+                if self.sight.as_ref().is_none_or(|sight| sight.sees(&meshlet)) {
                     return Some(first..self.rest.start);
                 }
             }

@@ -25,7 +25,8 @@ mod work;
 
 pub use candidate::Candidate;
 pub use chips::Off;
-pub use machine::{Cost, Machine};
+pub(crate) use machine::depth_bytes;
+pub use machine::{Cost, Machine, on_chip};
 pub use measured::Trial;
 pub use report::{json, text};
 pub use waste::{Waste, waste};

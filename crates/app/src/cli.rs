@@ -11,6 +11,7 @@ use crate::scene::scenes;
 use crate::show::Show;
 
 pub mod advise;
+pub mod bake;
 pub mod compare;
 mod explain;
 pub(crate) mod partners;
@@ -41,6 +42,13 @@ pub enum Command {
     /// measures errors and times. Prints the options and the lines of a program that select the pick.
     #[command(after_help = advise::HELP)]
     Advise(Box<advise::AdviseArgs>),
+    /// Bake a scene's meshes and textures for flash, and say what they take there.
+    ///
+    /// Vertices become integers, triangles are put in the order of meshlets, textures get the format of the display.
+    /// Only what the shading uses is written: as a file that the library reads in place, and as Rust constants. The
+    /// report has bytes, errors, memory, and instructions a frame.
+    #[command(after_help = bake::HELP)]
+    Bake(Box<bake::BakeArgs>),
     /// Measure the difference between two pictures.
     ///
     /// Prints the largest difference, its 99.9 % percentile, the number of outliers, MSE, PSNR and mean FLIP. It does

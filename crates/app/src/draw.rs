@@ -207,7 +207,7 @@ fn position(v: &Vertex) -> Point3<Object> {
     Point3::new(Vec3::from_array(v.position))
 }
 
-fn color(c: [f32; 3]) -> Rgba8 {
+pub(crate) fn color(c: [f32; 3]) -> Rgba8 {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
     let [r, g, b] = c.map(|x| (x * 255.0 + 0.5) as u8);
     Rgba8::new(r, g, b, 255)

@@ -18,6 +18,7 @@ mod inlined;
 pub mod lanes;
 #[cfg(feature = "mint")]
 mod minted;
+mod octahedral;
 mod orientation;
 mod product;
 mod q16;
@@ -41,6 +42,7 @@ pub use gradient::Gradient;
 pub use inlined::{each, each_pair, in_line, map2, map3, map4};
 #[cfg(feature = "mint")]
 pub use minted::NotAffine;
+pub use octahedral::Octahedral;
 pub use orientation::{Zone, orientation, signed_area};
 pub use product::{LOW_WORDS_ONLY, high, high_of_half, high_signed, middle};
 pub use q16::{Q16, scaled};

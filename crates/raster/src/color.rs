@@ -86,9 +86,9 @@ pub trait ColorFormat: Copy + Debug + Send + Sync + 'static {
     }
 }
 
-/// A fragment's colour: [`Rgba8`] or its four bytes for any target, or `u8`, `u16` or `u32` for targets whose pixels
-/// have as many bits, which get it as it is. Another size is an error when the program is built. It travels as a word
-/// of 32 bits, of which several fit a register.
+/// A fragment's colour: [`Rgba8`] or its four bytes for any target; or a word for targets whose pixels have as many
+/// bits, which get it as it is. A word is `u8`, `u16` or its two bytes, the low one first, or `u32`. Another size is an
+/// error when the program is built. Colours travel as words of 32 bits, of which several fit a register.
 pub trait FragmentColor: Sealed + Copy {
     /// The colour as a word.
     fn to_word(self) -> u32;
@@ -106,6 +106,7 @@ pub trait FragmentColor: Sealed + Copy {
 pub trait Sealed {}
 
 impl Sealed for Rgba8 {}
+impl Sealed for [u8; 2] {}
 impl Sealed for [u8; 4] {}
 impl Sealed for u8 {}
 impl Sealed for u16 {}
@@ -163,17 +164,19 @@ impl FragmentColor for [u8; 4] {
 
 /// Words of the target's pixels: packed colours as a texture stores them, or indices into a palette.
 macro_rules! words {
-    ($($word:ident)*) => {$(
+    ($($word:ty: $to:expr, $from:expr;)*) => {$(
         impl FragmentColor for $word {
             #[inline(always)]
             fn to_word(self) -> u32 {
-                self.into()
+                let word: fn(Self) -> u32 = $to;
+                word(self)
             }
 
             #[inline(always)]
             #[allow(clippy::cast_possible_truncation, reason = "as `to_word` gave it")]
             fn from_word(word: u32) -> Self {
-                word as Self
+                let of: fn(u32) -> Self = $from;
+                of(word)
             }
 
             #[inline(always)]
@@ -196,4 +199,9 @@ macro_rules! words {
         }
     )*};
 }
-words!(u8 u16 u32);
+words! {
+    u8: u32::from, |word| word as u8;
+    u16: u32::from, |word| word as u16;
+    u32: |word| word, |word| word;
+    [u8; 2]: |bytes| u16::from_le_bytes(bytes).into(), |word| (word as u16).to_le_bytes();
+}

@@ -8,13 +8,15 @@
 //! The meaning of the colours is part of the format: they are sRGB, unless it is [`L16`] or wrapped in [`Scalars`] or
 //! [`Normals`].
 
+mod bytes;
 mod content;
 mod indexed;
 mod storage;
 
 pub use alberti_math::{Rgb565Be, Rgb565Le, Rgba8, Rgba8888};
+pub use bytes::InBytes;
 pub use content::{Content, Normals, Scalars};
-pub use indexed::{Indexed, Indexed1, Indexed2, Indexed4, Indexed8};
+pub use indexed::{Indexed, Indexed1, Indexed2, Indexed4, Indexed8, PaletteColor};
 pub use storage::Storage;
 
 use crate::mipmap::mean;

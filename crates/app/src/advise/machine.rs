@@ -4,7 +4,7 @@ use super::Work;
 use super::candidate::Candidate;
 use super::chips::{Chip, Off, chip};
 use crate::error::Error;
-use crate::options::{DepthFormat, Filter, RenderOptions, Subpixel};
+use crate::options::{DepthFormat, Filter, Policies, RenderOptions, Subpixel};
 use crate::scene::Model;
 use clap::ValueEnum;
 
@@ -114,8 +114,23 @@ impl Costs {
     }
 }
 
+/// The cost on a chip of a frame with these options and this work, and how far such estimates are off.
+///
+/// # Errors
+/// The chip has no such way of drawing.
+pub fn on_chip(machine: Machine, options: &RenderOptions, work: &Work) -> Result<(Cost, Option<Off>), Error> {
+    let costs = Costs::new(machine, options)?;
+    let Policies { interpolation, arithmetic, subpixel, .. } = options.policies;
+    let candidate = Candidate { interpolation, arithmetic, subpixel, depth: options.depth };
+    let cost = costs.of(candidate, options, work).ok_or_else(|| {
+        let found = format!("{} on {}", candidate.command_line(), machine.name());
+        Error::new(found, "policies that the model of chips knows").hint("try --profile mcu")
+    })?;
+    Ok((cost, costs.off()))
+}
+
 /// Bytes of a pixel's depth.
-pub(super) fn depth_bytes(depth: DepthFormat) -> f64 {
+pub(crate) fn depth_bytes(depth: DepthFormat) -> f64 {
     match depth {
         DepthFormat::F32 | DepthFormat::F32Reversed | DepthFormat::U32 | DepthFormat::U24 => 4.0,
         DepthFormat::U16 => 2.0,

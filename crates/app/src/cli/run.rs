@@ -9,7 +9,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{ArgMatches, CommandFactory as _};
 
 use super::staged::{OF_PICTURES, Request, Staged, hidden, warn};
-use super::{Cli, StatsFormat, advise, compare, explain};
+use super::{Cli, StatsFormat, advise, bake, compare, explain};
 use crate::error::{Error, quote};
 use crate::options::RenderOptions;
 use crate::output::progress::Progress;
@@ -25,6 +25,7 @@ pub const FAILURE: u8 = 2;
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let mut command = Cli::command()
         .mut_subcommand("explain", |command| hidden(command, &OF_PICTURES))
+        .mut_subcommand("bake", |command| hidden(command, &OF_PICTURES))
         .mut_subcommand("advise", |command| hidden(hidden(command, &OF_PICTURES), &advise::ADVISED_ON));
     let given: Vec<OsString> = arguments.into_iter().collect();
     let read = advise::with_machine(given.clone());
@@ -35,6 +36,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     };
     let result = match matches.subcommand() {
         Some(("advise", scene)) => advise::run(scene),
+        Some(("bake", scene)) => bake::run(scene).map(|()| 0),
         Some(("compare", pictures)) => compare::run(pictures),
         Some(("explain", pixel)) => explain::run(pixel).map(|()| 0),
         Some((_, render)) => draw(render).map(|()| 0),

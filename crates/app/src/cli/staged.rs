@@ -19,7 +19,7 @@ use crate::options::{
     Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE, DepthFormat, Filter, Projection, RenderOptions,
     Shading, Wrap,
 };
-use crate::output::file::Output;
+use crate::output::file::{Output, Whole};
 use crate::output::progress::Progress;
 use crate::output::stats::Source;
 use crate::scene::{Camera, Model, Part, Relief, camera, scenes, slide};
@@ -113,15 +113,28 @@ impl Request {
     /// It cannot be written, or is one that is also read.
     pub(super) fn writable(&self, path: &Path, option: &str) -> Result<Output, Error> {
         let output = Output::new(path)?;
-        let named = self.file.as_ref().map(SceneFile::inputs).unwrap_or_default();
-        for input in inputs(&self.arguments).chain(named) {
-            if output.is(&input) {
-                let found = "a file that is also read";
-                let error = Error::new(found, "another").file(output.name());
-                return Err(error.hint(format!("choose another with {option}")));
-            }
-        }
+        self.check_apart(output.name(), |input| output.is(input), option)?;
         Ok(output)
+    }
+
+    /// The same of a file that is no picture.
+    ///
+    /// # Errors
+    /// It cannot be written, or is one that is also read.
+    pub(super) fn whole(&self, path: &Path, option: &'static str) -> Result<Whole, Error> {
+        let output = Whole::new(path, option)?;
+        self.check_apart(output.name(), |input| output.is(input), option)?;
+        Ok(output)
+    }
+
+    /// Refuses to write what is also read.
+    fn check_apart(&self, name: &Path, is: impl Fn(&Path) -> bool, option: &str) -> Result<(), Error> {
+        let named = self.file.as_ref().map(SceneFile::inputs).unwrap_or_default();
+        if inputs(&self.arguments).chain(named).any(|input| is(&input)) {
+            let error = Error::new("a file that is also read", "another").file(name);
+            return Err(error.hint(format!("choose another with {option}")));
+        }
+        Ok(())
     }
 
     /// The origin of the triangles.

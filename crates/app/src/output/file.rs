@@ -1,4 +1,4 @@
-//! Pictures into files: whole or not at all.
+//! Pictures and others into files: whole or not at all.
 
 use std::fs;
 use std::io::{Cursor, ErrorKind, Write as _};
@@ -18,29 +18,25 @@ const FORMATS: [(&str, ImageFormat); 5] = [
     ("tga", ImageFormat::Tga),
 ];
 
-/// A file that can be written, as far as can be told before there is anything to write.
+/// A file that is written whole or not at all, and that can be written, as far as can be told before there is anything
+/// to write.
 #[derive(Clone, Debug)]
-pub struct Output {
+pub struct Whole {
     named: PathBuf,
     /// `named` with links followed: a link is written through, not replaced.
     path: PathBuf,
-    format: ImageFormat,
+    /// The option that names it.
+    option: &'static str,
 }
 
-impl Output {
-    /// Checks the extension, the folder and the file that may be there already. Nothing is left behind.
+impl Whole {
+    /// Checks the folder and the file that may be there already. Nothing is left behind.
     ///
     /// # Errors
-    /// The extension is unknown, or the file cannot be written.
-    pub fn new(named: &Path) -> Result<Self, Error> {
-        let extension = named.extension().map(|e| e.to_string_lossy().to_lowercase());
-        let known = FORMATS.iter().find(|(name, _)| extension.as_deref() == Some(name));
-        let &(_, format) = known.ok_or_else(|| {
-            let found = extension.map_or("no extension".to_owned(), |e| format!("the extension \".{e}\""));
-            Error::new(found, "one of .png, .jpg, .jpeg, .bmp, .tga").file(named).hint("name the output so")
-        })?;
+    /// The file cannot be written: choose another with `option`.
+    pub fn new(named: &Path, option: &'static str) -> Result<Self, Error> {
         let path = fs::canonicalize(named).unwrap_or_else(|_| named.to_owned());
-        let output = Self { named: named.to_owned(), path, format };
+        let output = Self { named: named.to_owned(), path, option };
         if let Ok(metadata) = fs::metadata(&output.path) {
             if metadata.is_dir() {
                 return Err(output.refused("a directory"));
@@ -66,27 +62,13 @@ impl Output {
         fs::canonicalize(other).is_ok_and(|other| other == self.path)
     }
 
-    /// Encodes and writes the picture, without its alpha. A failure at any point leaves whatever was there before.
+    /// Writes these bytes. A failure at any point leaves whatever was there before.
     ///
     /// # Errors
-    /// Encoding or writing fails: the disk is full, for example.
-    pub fn write(&self, picture: &Image) -> Result<(), Error> {
-        // Encoded in memory first, so that there is a temporary file only for as long as a copy takes.
-        let rgb: Vec<u8> = picture.texels.iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect();
-        let mut encoded = Cursor::new(Vec::new());
-        let (width, height) = (picture.width, picture.height);
-        image::write_buffer_with_format(
-            &mut encoded,
-            &rgb,
-            width,
-            height,
-            ExtendedColorType::Rgb8,
-            self.format,
-        )
-        .map_err(|e| self.refused(&format!("that encoding fails ({e})")))?;
-        drop(rgb);
+    /// Writing fails: the disk is full, for example.
+    pub fn write(&self, bytes: &[u8]) -> Result<(), Error> {
         let mut file = self.temporary()?;
-        file.write_all(encoded.get_ref())
+        file.write_all(bytes)
             .and_then(|()| file.as_file().sync_all())
             .map_err(|e| self.refused(&format!("that writing fails ({e})")))?;
         file.persist(&self.path).map_err(|e| self.refused(&format!("that renaming fails ({})", e.error)))?;
@@ -117,7 +99,63 @@ impl Output {
     }
 
     fn refused(&self, found: &str) -> Error {
-        Error::new(found, "a file that can be written").file(&self.named).hint("choose another with -o")
+        let hint = format!("choose another with {}", self.option);
+        Error::new(found, "a file that can be written").file(&self.named).hint(hint)
+    }
+}
+
+/// A picture's file.
+#[derive(Clone, Debug)]
+pub struct Output {
+    file: Whole,
+    format: ImageFormat,
+}
+
+impl Output {
+    /// Checks the extension, the folder and the file that may be there already. Nothing is left behind.
+    ///
+    /// # Errors
+    /// The extension is unknown, or the file cannot be written.
+    pub fn new(named: &Path) -> Result<Self, Error> {
+        let extension = named.extension().map(|e| e.to_string_lossy().to_lowercase());
+        let known = FORMATS.iter().find(|(name, _)| extension.as_deref() == Some(name));
+        let &(_, format) = known.ok_or_else(|| {
+            let found = extension.map_or("no extension".to_owned(), |e| format!("the extension \".{e}\""));
+            Error::new(found, "one of .png, .jpg, .jpeg, .bmp, .tga").file(named).hint("name the output so")
+        })?;
+        Ok(Self { file: Whole::new(named, "-o")?, format })
+    }
+
+    /// The path as the user gave it, for messages.
+    pub fn name(&self) -> &Path {
+        self.file.name()
+    }
+
+    /// Whether `other` is the same file.
+    pub fn is(&self, other: &Path) -> bool {
+        self.file.is(other)
+    }
+
+    /// Encodes and writes the picture, without its alpha. A failure at any point leaves whatever was there before.
+    ///
+    /// # Errors
+    /// Encoding or writing fails: the disk is full, for example.
+    pub fn write(&self, picture: &Image) -> Result<(), Error> {
+        // Encoded in memory first, so that there is a temporary file only for as long as a copy takes.
+        let rgb: Vec<u8> = picture.texels.iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect();
+        let mut encoded = Cursor::new(Vec::new());
+        let (width, height) = (picture.width, picture.height);
+        image::write_buffer_with_format(
+            &mut encoded,
+            &rgb,
+            width,
+            height,
+            ExtendedColorType::Rgb8,
+            self.format,
+        )
+        .map_err(|e| self.file.refused(&format!("that encoding fails ({e})")))?;
+        drop(rgb);
+        self.file.write(encoded.get_ref())
     }
 }
 

@@ -102,6 +102,18 @@ pub(crate) fn turned(camera: &Camera, turn: u32, turns: u32) -> Camera {
     if turn == 0 { *camera } else { Camera { eye: eye.map(narrow), ..*camera } }
 }
 
+/// The distance of a model's nearest vertex, along the view.
+pub(crate) fn nearest(model: &Model, camera: &Camera) -> f64 {
+    let wide = |v: [f32; 3]| v.map(f64::from);
+    let forward = normalize(sub(wide(camera.target), wide(camera.eye))).unwrap_or([0.0, 0.0, -1.0]);
+    let used = model.parts.iter().flat_map(|part| part.triangles.iter().flatten());
+    let distances = used.map(|&index| {
+        let position = wide(model.vertices[index as usize].position);
+        dot(sub(position, wide(camera.eye)), forward)
+    });
+    distances.fold(f64::MAX, f64::min)
+}
+
 /// The height that a camera with perspective sees at the distance of its target.
 pub fn window_height(camera: &Camera) -> f32 {
     let distance = length(sub(camera.target.map(f64::from), camera.eye.map(f64::from)));

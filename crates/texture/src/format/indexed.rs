@@ -6,6 +6,7 @@ use alberti_math::lanes::Lanes;
 use super::Storage;
 use crate::sealed::Sealed;
 use crate::{Size, Texture};
+use core::fmt::Debug;
 
 /// Indices of 1, 2, 4 or 8 bits, whose colours are in a palette that the texture refers to. The texture takes as
 /// many bits a texel, instead of 32, and the palette can be another one for every view.
@@ -28,23 +29,46 @@ use crate::{Size, Texture};
 /// # Cost
 /// A texel takes two loads and two comparisons instead of one of each, and a shift and a mask.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Indexed<'a, const BITS: u32> {
-    /// The colours, the first of index 0; it may be shorter than the indices reach.
-    pub palette: &'a [Rgba8],
+pub struct Indexed<'a, const BITS: u32, C = Rgba8> {
+    /// The colours, the first of index 0; it may be shorter than the indices reach. They are [`Rgba8`], or, in a file
+    /// that is read in place, four bytes each.
+    pub palette: &'a [C],
 }
 
 /// [`Indexed`] texels of one bit.
-pub type Indexed1<'a> = Indexed<'a, 1>;
+pub type Indexed1<'a, C = Rgba8> = Indexed<'a, 1, C>;
 /// [`Indexed`] texels of two bits.
-pub type Indexed2<'a> = Indexed<'a, 2>;
+pub type Indexed2<'a, C = Rgba8> = Indexed<'a, 2, C>;
 /// [`Indexed`] texels of four bits.
-pub type Indexed4<'a> = Indexed<'a, 4>;
+pub type Indexed4<'a, C = Rgba8> = Indexed<'a, 4, C>;
 /// [`Indexed`] texels of a byte.
-pub type Indexed8<'a> = Indexed<'a, 8>;
+pub type Indexed8<'a, C = Rgba8> = Indexed<'a, 8, C>;
 
-impl<const BITS: u32> Sealed for Indexed<'_, BITS> {}
+/// A colour of a palette: [`Rgba8`], or its four bytes. Sealed.
+pub trait PaletteColor: Sealed + Copy + Debug + Send + Sync + 'static {
+    /// The bits of the [`Rgba8`].
+    fn bits(self) -> u32;
+}
 
-impl<const BITS: u32> Storage for Indexed<'_, BITS> {
+impl Sealed for Rgba8 {}
+impl PaletteColor for Rgba8 {
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        self.to_bits()
+    }
+}
+
+impl Sealed for [u8; 4] {}
+impl PaletteColor for [u8; 4] {
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        u32::from_le_bytes(self)
+    }
+}
+
+impl<const BITS: u32, C: PaletteColor> Sealed for Indexed<'_, BITS, C> {}
+
+impl<const BITS: u32, C: PaletteColor> Storage for Indexed<'_, BITS, C> {
     type Element = u8;
 
     const IN_ELEMENT: u32 = {
@@ -69,7 +93,7 @@ impl<const BITS: u32> Storage for Indexed<'_, BITS> {
         lanes.load_words(&lanes.each(|k| {
             let byte = bytes.get(at(places.as_ref(), k) as usize).copied().unwrap_or_default();
             let index = u32::from(byte).wrapping_shr(at(shifts.as_ref(), k)) & ((1 << BITS) - 1);
-            palette.get(index as usize).map_or(0, |color| color.to_bits())
+            palette.get(index as usize).map_or(0, |color| color.bits())
         }))
     }
 }
@@ -85,6 +109,9 @@ mod tests {
             let bytes: std::vec::Vec<u8> =
                 (0..row_bytes * 3).map(|i| (i * 151 + 77).to_le_bytes()[0]).collect();
             let texture = Texture::new(Indexed::<BITS> { palette }, &bytes, width, 3).unwrap();
+            let colors: std::vec::Vec<_> = palette.iter().map(|color| color.to_bytes()).collect();
+            let palette_of_bytes = Indexed::<BITS, _> { palette: &colors };
+            let texture_of_bytes = Texture::new(palette_of_bytes, &bytes, width, 3).unwrap();
             for y in 0..3 {
                 let row = &bytes[(y * row_bytes) as usize..][..row_bytes as usize];
                 // A row as one number of up to 160 bits, in two halves that no texel straddles.
@@ -96,6 +123,7 @@ mod tests {
                     let index = (number(last) >> (end.next_multiple_of(8) - end)) as usize % (1 << BITS);
                     let expected = palette.get(index).copied().unwrap_or_default();
                     assert_eq!(texture.texel(x, y), expected, "{BITS} bits, {x} of {width}");
+                    assert_eq!(texture_of_bytes.texel(x, y), expected, "{BITS} bits, {x} of {width}");
                 }
             }
             assert!(Texture::new(Indexed::<BITS> { palette }, &bytes[1..], width, 3).is_err());

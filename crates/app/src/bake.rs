@@ -1,0 +1,208 @@
+//! Assets for flash: a scene's meshes and textures in few bytes, in the form in which programs draw them.
+//!
+//! Each part of the model goes the same way. Its triangles are simplified to their share of a budget, and ordered in
+//! meshlets (`shape.rs`). Its vertices are rounded to integers, and joined where nothing parts them any more
+//! (`packed.rs`). Textures are halved, dithered and encoded, level by level (`texels.rs`). The result is an [`Asset`].
+//! It is written as a file that is read in place (`binary.rs`) and as the source of a module (`source.rs`). The
+//! report's errors are those of the file, as the library reads it (`restored.rs`).
+
+mod binary;
+mod packed;
+mod palette;
+mod report;
+mod restored;
+mod shape;
+mod source;
+mod texels;
+
+pub use binary::bytes;
+pub use packed::{Grids, Losses, Packed};
+pub use report::{Estimate, Report};
+pub use restored::restored;
+pub use shape::{Order, Piece};
+pub use source::source;
+pub use texels::{Role, Texture};
+
+use clap::ValueEnum;
+use std::str::FromStr;
+
+use crate::error::Error;
+use crate::options::{Filter, RenderOptions, Shading};
+use crate::scene::{Model, Part};
+use alberti::baked::{Attributes, TexelCode};
+
+/// The format of textures of colours.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
+pub enum Format {
+    /// 5, 6 and 5 bits in two bytes, which displays of either byte order take.
+    #[default]
+    Rgb565,
+    /// 4 bits for red, green, blue and alpha each.
+    Rgb444,
+    /// A byte of luminance.
+    Grey8,
+    /// 4 bits, with a palette of 16 colours.
+    Indexed4,
+    /// A byte, with a palette of 256 colours.
+    Indexed8,
+    /// A byte for red, green, blue and alpha each.
+    Rgba8,
+}
+
+impl Format {
+    /// The number of the format in a file.
+    fn code(self) -> TexelCode {
+        match self {
+            Self::Rgb565 => TexelCode::Rgb565,
+            Self::Rgb444 => TexelCode::Rgba4444,
+            Self::Grey8 => TexelCode::L8,
+            Self::Indexed4 => TexelCode::Indexed4,
+            Self::Indexed8 => TexelCode::Indexed8,
+            Self::Rgba8 => TexelCode::Rgba8888,
+        }
+    }
+}
+
+/// The rounding of colours between two that a format has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
+pub enum Dither {
+    /// To the nearest.
+    #[default]
+    None,
+    /// To either, by the ordered pattern of 8x8 texels.
+    Bayer,
+    /// To either, by blue noise.
+    BlueNoise,
+}
+
+/// The attributes that are asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Asked {
+    /// Those that the scene's shading uses.
+    #[default]
+    Auto,
+    /// These.
+    These(Attributes),
+}
+
+impl Asked {
+    const NAMES: [(&str, Attributes); 5] = [
+        ("none", Attributes::NONE),
+        ("uv", Attributes::UV),
+        ("normal", Attributes::NORMAL),
+        ("tangent", Attributes::TANGENT),
+        ("color", Attributes::COLOR),
+    ];
+    const EXPECTED: &str = "auto, none, or some of uv,normal,tangent,color";
+}
+
+impl FromStr for Asked {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "auto" {
+            return Ok(Self::Auto);
+        }
+        let mut set = Attributes::NONE;
+        for word in text.split(',') {
+            let known = Self::NAMES.into_iter().find(|(name, _)| *name == word.trim());
+            let (_, attribute) = known.ok_or_else(|| Self::EXPECTED.to_owned())?;
+            set = set | attribute;
+        }
+        Ok(Self::These(set))
+    }
+}
+
+/// A user's wish.
+#[derive(Clone, Copy, Debug)]
+pub struct Wish {
+    /// The format of textures of colours.
+    pub format: Format,
+    /// Their rounding.
+    pub dither: Dither,
+    /// The most triangles.
+    pub triangles: Option<usize>,
+    /// The longest side of a texture.
+    pub texture_size: Option<u32>,
+    /// The attributes.
+    pub attributes: Asked,
+    /// The most triangles of a meshlet; 0 for no meshlets.
+    pub meshlets: usize,
+}
+
+impl Default for Wish {
+    fn default() -> Self {
+        Self {
+            format: Format::default(),
+            dither: Dither::default(),
+            triangles: None,
+            texture_size: None,
+            attributes: Asked::Auto,
+            meshlets: 16,
+        }
+    }
+}
+
+/// Meshes and textures as they lie in flash.
+#[derive(Clone, Debug)]
+pub struct Asset {
+    /// The attributes of all vertices.
+    pub attributes: Attributes,
+    /// The grids of places and of texture coordinates.
+    pub grids: Grids,
+    /// The parts that have triangles, in the model's order.
+    pub pieces: Vec<Piece>,
+    /// Those that the parts read. Colours of surfaces come first.
+    pub textures: Vec<Texture>,
+    /// The losses by rounding vertices.
+    pub losses: Losses,
+    /// The most that simplification has moved the surface, in object space.
+    pub moved: f32,
+}
+
+impl Asset {
+    /// Triangles of all parts.
+    #[must_use]
+    pub fn triangles(&self) -> usize {
+        self.pieces.iter().map(|piece| piece.triangles.len()).sum()
+    }
+
+    /// Vertices of all parts.
+    #[must_use]
+    pub fn vertices(&self) -> usize {
+        self.pieces.iter().map(|piece| piece.vertices.len()).sum()
+    }
+}
+
+/// Bakes a model, as these options draw it.
+///
+/// # Errors
+/// There is nothing to draw, too many vertices for their numbers, or texture coordinates too far from 0.
+pub fn bake(model: &Model, options: &RenderOptions, wish: &Wish) -> Result<Asset, Error> {
+    let attributes = match wish.attributes {
+        Asked::Auto => used(model, options),
+        Asked::These(attributes) => attributes,
+    };
+    let (textures, of_parts) = texels::textures(model, options, attributes, wish)?;
+    shape::asset(model, wish, attributes, textures, &of_parts)
+}
+
+/// The attributes that a picture reads.
+#[must_use]
+pub fn used(model: &Model, options: &RenderOptions) -> Attributes {
+    if options.shading == Shading::VertexColor {
+        return Attributes::COLOR;
+    }
+    let lit = options.shading.is_lit();
+    let any = |attribute, has: &dyn Fn(&Part) -> bool| {
+        if model.parts.iter().any(has) { attribute } else { Attributes::NONE }
+    };
+    any(Attributes::UV, &Part::has_maps)
+        | any(Attributes::NORMAL, &|part| lit || part.detail.environment.is_some())
+        | any(Attributes::TANGENT, &|part| lit && part.detail.needs_tangents())
+}
+
+/// Whether a filter reads smaller levels.
+fn is_mipmapped(filter: Filter) -> bool {
+    !matches!(filter, Filter::Nearest | Filter::Bilinear)
+}

@@ -1,0 +1,283 @@
+//! The report: bytes of flash by item, errors, memory, and the time of a frame.
+
+use std::fmt::Write as _;
+
+use serde_json::{Value, json};
+
+use super::binary::length;
+use super::{Asset, restored};
+use crate::advise::{Machine, depth_bytes, on_chip, work};
+use crate::error::Error;
+use crate::measure::{Comparison, Measures};
+use crate::options::{ColorFormat, Policies, Projection, RenderOptions};
+use crate::render::render;
+use crate::scene::{Camera, Model, camera};
+use alberti::baked::{Attributes, HEADER};
+use alberti::{PreparedTriangle, Slot};
+
+/// The report on an asset.
+#[derive(Clone, Debug)]
+pub struct Report<'a> {
+    asset: &'a Asset,
+    /// The triangles of the model.
+    given: usize,
+    size: [u32; 2],
+    band: u32,
+    /// Names and bytes of what lies in flash.
+    pub items: Vec<(String, usize)>,
+    /// Names and bytes of what a renderer in bands has in memory.
+    pub memory: [(&'static str, usize); 4],
+    /// Frames on chips.
+    pub estimates: Vec<Estimate>,
+    /// The greatest loss of a place, in pixels at the scene's camera.
+    pub pixels: f64,
+    /// The greatest loss of texture coordinates, in texels of the largest texture.
+    pub texels: f64,
+    /// The frame of the file against that of the scene.
+    pub measures: Measures,
+}
+
+/// A frame on a chip.
+#[derive(Clone, Copy, Debug)]
+pub struct Estimate {
+    /// The chip.
+    pub machine: Machine,
+    /// Instructions of a frame.
+    pub instructions: f64,
+    /// How far nine tenths of such estimates are off at most, in percent.
+    pub off: f64,
+}
+
+impl<'a> Report<'a> {
+    /// The report on the asset of a scene, and on its file. Instructions are those of the options' policies; frames are
+    /// compared by the most precise ones.
+    ///
+    /// # Errors
+    /// A frame cannot be drawn, or chips are not known to draw so.
+    pub fn new(
+        asset: &'a Asset,
+        file: &[u8],
+        (model, camera, options): (&Model, &Camera, &RenderOptions),
+        band: u32,
+    ) -> Result<Self, Error> {
+        let baked = restored(file, asset, model)?;
+        let work = work(&baked, camera, options)?;
+        let chips = [Machine::M0, Machine::M4f, Machine::Rv32].map(|machine| {
+            let (cost, off) = on_chip(machine, options, &work)?;
+            Ok(Estimate { machine, instructions: cost.frame, off: off.map_or(0.0, |off| off.most) })
+        });
+        let precise = RenderOptions {
+            policies: Policies { color: ColorFormat::Rgba8, ..Policies::default() },
+            depth: crate::options::DepthFormat::F32Reversed,
+            ..*options
+        };
+        let frame = |model| Ok::<_, Error>(render(model, camera, &precise, &mut |_, _| ())?.image);
+        let measures = Comparison::new(&frame(&baked)?, &frame(model)?)?.measures;
+        let side = asset.textures.iter().flat_map(|texture| texture.size).max().unwrap_or(0);
+        Ok(Self {
+            asset,
+            given: model.parts.iter().map(|part| part.triangles.len()).sum(),
+            size: [options.width, options.height],
+            band,
+            items: items(asset),
+            memory: memory(asset, options, band),
+            estimates: chips.into_iter().collect::<Result<_, Error>>()?,
+            pixels: asset.losses.place * 3.0_f64.sqrt() * pixels_a_unit(&baked, camera, options),
+            texels: asset.losses.uv[0].max(asset.losses.uv[1]) * f64::from(side),
+            measures,
+        })
+    }
+
+    /// All bytes in flash.
+    #[must_use]
+    pub fn flash(&self) -> usize {
+        self.items.iter().map(|(_, bytes)| bytes).sum()
+    }
+
+    /// The report as text.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let Self { asset, given, size: [width, height], band, pixels, texels, measures, .. } = self;
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        let mut line = |words: String| _ = writeln!(text, "{words}");
+        let (triangles, vertices) = (asset.triangles(), asset.vertices());
+        line(format!(
+            "{triangles} of {given} triangles, {vertices} vertices, {} bytes of flash:\n",
+            self.flash()
+        ));
+        for (name, bytes) in &self.items {
+            line(format!("{bytes:>9}  {name}"));
+        }
+        let ram: usize = self.memory.iter().map(|(_, bytes)| bytes).sum();
+        line(format!("\n{ram} bytes of RAM, in bands of {band} rows of {width} columns:\n"));
+        for (name, bytes) in self.memory {
+            line(format!("{bytes:>9}  {name}"));
+        }
+        line(format!("\nMillions of instructions for a frame of {width}x{height}, without light:\n"));
+        for Estimate { machine, instructions, off } in &self.estimates {
+            let millions = instructions / 1e6;
+            line(format!("{millions:>9.2}  {}, within {off:.0} % mostly", machine.name()));
+        }
+        line("\nLost at most:\n".to_owned());
+        let losses = &asset.losses;
+        line(format!("  places    {:.1e} of a unit, {pixels:.3} pixels at this camera", losses.place));
+        let has = |attribute| asset.attributes.contains(attribute);
+        if has(Attributes::NORMAL) {
+            line(format!("  normals   {:.2} degrees", losses.normal));
+        }
+        if has(Attributes::TANGENT) {
+            line(format!("  tangents  {:.2} degrees", losses.tangent));
+        }
+        if has(Attributes::UV) {
+            line(format!("  uv        {texels:.3} texels"));
+        }
+        if asset.moved > 0.0 {
+            line(format!("  surface   {:.1e} of a unit, by the simplification", asset.moved));
+        }
+        line(format!(
+            "  frame     {} of 255 for 99.9 % of the pixels, mean FLIP {:.4}",
+            measures.most, measures.flip
+        ));
+        let order = self.order();
+        line(format!(
+            "\nA cache of 16 vertices transforms {:.2} a triangle, before {:.2}.",
+            order[1], order[0]
+        ));
+        text
+    }
+
+    /// Transformed vertices a triangle with a small cache, before and after.
+    fn order(&self) -> [f64; 2] {
+        let weighed = |of: fn(&super::Order) -> f32| {
+            let all =
+                self.asset.pieces.iter().map(|piece| (piece.triangles.len(), f64::from(of(&piece.order))));
+            let (count, sum) = all.fold((0, 0.0), |(count, sum), (triangles, acmr)| {
+                (count + triangles, sum + acmr * f64::from(u32::try_from(triangles).unwrap_or(u32::MAX)))
+            });
+            sum / f64::from(u32::try_from(count).unwrap_or(u32::MAX))
+        };
+        [weighed(|order| order.before), weighed(|order| order.after)]
+    }
+
+    /// The same as one value of JSON.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        let asset = self.asset;
+        let bytes = |items: &[(String, usize)]| -> Vec<Value> {
+            items.iter().map(|(name, bytes)| json!({ "name": name, "bytes": bytes })).collect()
+        };
+        let memory = self.memory.map(|(name, bytes)| (name.to_owned(), bytes));
+        let chips = self.estimates.iter().map(|estimate| {
+            let Estimate { machine, instructions, off } = estimate;
+            json!({ "chip": machine.name(), "instructions": instructions.round(), "off_percent": off })
+        });
+        let [before, after] = self.order();
+        json!({
+            "triangles": asset.triangles(),
+            "triangles_given": self.given,
+            "vertices": asset.vertices(),
+            "flash": self.flash(),
+            "items": bytes(&self.items),
+            "ram": self.memory.iter().map(|(_, bytes)| bytes).sum::<usize>(),
+            "band": self.band,
+            "memory": bytes(&memory),
+            "chips": chips.collect::<Vec<_>>(),
+            "unit": asset.grids.unit,
+            "lost": {
+                "place": asset.losses.place,
+                "pixels": self.pixels,
+                "normal_degrees": asset.losses.normal,
+                "tangent_degrees": asset.losses.tangent,
+                "uv": asset.losses.uv,
+                "texels": self.texels,
+                "surface": asset.moved,
+                "frame": self.measures.most,
+                "frame_largest": self.measures.largest,
+                "flip": self.measures.flip,
+            },
+            "cache_before": before,
+            "cache_after": after,
+        })
+    }
+}
+
+/// All that lies in flash, but for code.
+fn items(asset: &Asset) -> Vec<(String, usize)> {
+    let (vertices, triangles) = (asset.vertices(), asset.triangles());
+    let meshlets: usize = asset.pieces.iter().map(|piece| piece.meshlets.len()).sum();
+    let mut items = vec![
+        ("header and parts".to_owned(), HEADER + 48 * asset.pieces.len() + 16 * asset.textures.len()),
+        (format!("places of {vertices} vertices"), 6 * vertices),
+    ];
+    for (attribute, name, bytes) in [
+        (Attributes::UV, "texture coordinates", 4),
+        (Attributes::NORMAL, "normals", 2),
+        (Attributes::TANGENT, "tangents", 3),
+        (Attributes::COLOR, "colours", 3),
+    ] {
+        if asset.attributes.contains(attribute) {
+            items.push((name.to_owned(), bytes * vertices));
+        }
+    }
+    items.push((format!("indices of {triangles} triangles"), 6 * triangles));
+    items.push((format!("meshlets: {meshlets}"), 28 * meshlets));
+    for (number, texture) in asset.textures.iter().enumerate() {
+        let [width, height] = texture.size;
+        let (role, code) = (texture.role.name(), texture.code);
+        let levels = texture.levels.len();
+        let levels = if levels == 1 { "1 level".to_owned() } else { format!("{levels} levels") };
+        items.push((
+            format!("texture {number}, {role}: {width}x{height} {code:?}, {levels}"),
+            length(texture),
+        ));
+    }
+    items
+}
+
+/// The memory of a renderer in bands, as [`alberti::Memory`] has it: RGB565, and the options' depths.
+fn memory(asset: &Asset, options: &RenderOptions, band: u32) -> [(&'static str, usize); 4] {
+    let pixels = (options.width * band) as usize;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0, 2 or 4")]
+    let depth = depth_bytes(options.depth) as usize;
+    [
+        ("colours of two bands, RGB565", 4 * pixels),
+        ("depths of a band", depth * pixels),
+        ("transformed vertices", asset.vertices() * slot(asset.attributes)),
+        ("list of triangles", asset.triangles() * size_of::<PreparedTriangle>()),
+    ]
+}
+
+/// The bytes of a transformed vertex with these attributes.
+fn slot(attributes: Attributes) -> usize {
+    let numbers =
+        [(Attributes::UV, 2), (Attributes::NORMAL, 3), (Attributes::TANGENT, 4), (Attributes::COLOR, 3)];
+    let carried: usize =
+        numbers.into_iter().filter(|(attribute, _)| attributes.contains(*attribute)).map(|(_, n)| n).sum();
+    size_of::<Slot<()>>() + 4 * carried
+}
+
+/// The most pixels that a unit of object space is wide.
+fn pixels_a_unit(model: &Model, camera: &Camera, options: &RenderOptions) -> f64 {
+    let rows = f64::from(options.height);
+    if let Projection::Parallel { height } = options.projection {
+        return rows / f64::from(height);
+    }
+    let away = camera::nearest(model, camera).max(f64::from(camera.near));
+    rows / 2.0 / (f64::from(camera.fov).to_radians() / 2.0).tan() / away
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alberti::glam::{Vec2, Vec3, Vec4};
+
+    #[test]
+    fn slots_are_as_large_as_the_librarys() {
+        let all = Attributes::UV | Attributes::NORMAL | Attributes::TANGENT;
+        assert_eq!(slot(Attributes::NONE), size_of::<Slot<()>>());
+        assert_eq!(slot(Attributes::UV), size_of::<Slot<Vec2>>());
+        assert_eq!(slot(Attributes::UV | Attributes::NORMAL), size_of::<Slot<(Vec3, Vec2)>>());
+        assert_eq!(slot(all), size_of::<Slot<(Vec4, Vec3, Vec2)>>());
+    }
+}

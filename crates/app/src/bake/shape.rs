@@ -1,0 +1,242 @@
+//! The meshes of parts: fewer triangles, vertices in integers, and the order of both.
+
+use meshoptimizer_rs::{
+    Attributes as Weighed, Positions, SimplifyOptions, SimplifySettings, Workspace, analyze_vertex_cache,
+    optimize_vertex_cache, simplify_scale, simplify_with_attributes,
+};
+use std::collections::HashMap;
+
+use super::packed::{Grids, Losses, Packed};
+use super::texels::Texture;
+use super::{Asset, Wish};
+use crate::error::{Error, quote};
+use crate::scene::{Model, Part, Vertex};
+use alberti::baked::{Attributes, MAX_VERTICES};
+use alberti::{Ball, IntegerMesh, IntegerVertex, Meshlet, Rgba8, Split};
+
+/// The mesh of a part, as it lies in flash.
+#[derive(Clone, Debug)]
+pub struct Piece {
+    /// The number of the part in its model.
+    pub part: usize,
+    /// Its vertices, in the order in which triangles use them.
+    pub vertices: Vec<Packed>,
+    /// Its triangles, those of a meshlet one after the other.
+    pub triangles: Vec<[u16; 3]>,
+    /// Its meshlets.
+    pub meshlets: Vec<Meshlet>,
+    /// The ball around it.
+    pub ball: Ball,
+    /// The surface's colour.
+    pub color: Rgba8,
+    /// The number of its texture among the asset's.
+    pub texture: Option<usize>,
+    /// How often a cache has to transform a vertex.
+    pub order: Order,
+}
+
+/// Transformed vertices a triangle, with a cache of 16 vertices, in the order of the model and in that of the asset.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Order {
+    /// Of the model.
+    pub before: f32,
+    /// Of the asset.
+    pub after: f32,
+}
+
+/// The vertices of a cache without slots for all.
+const CACHE: u32 = 16;
+/// The weight of a unit normal's components, and of texture coordinates, against the size of a model.
+const WEIGHT: f32 = 0.5;
+
+/// The vertices and triangles of a part alone.
+struct Alone {
+    vertices: Vec<Vertex>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl Alone {
+    fn new(model: &Model, part: &Part) -> Self {
+        let mut numbers = HashMap::new();
+        let mut vertices = vec![];
+        let mut number = |index: u32| {
+            *numbers.entry(index).or_insert_with(|| {
+                vertices.push(model.vertices[index as usize]);
+                small(vertices.len() - 1)
+            })
+        };
+        let triangles = part.triangles.iter().map(|triangle| triangle.map(&mut number)).collect();
+        Self { vertices, triangles }
+    }
+
+    /// Takes triangles away, down to so many. Returns how far the surface has moved at most.
+    fn simplify(&mut self, most: usize, lock_border: bool, attributes: Attributes) -> Result<f32, Error> {
+        let positions: Vec<[f32; 3]> = self.vertices.iter().map(|v| v.position).collect();
+        let weighed = |v: &Vertex| {
+            let normal = if attributes.contains(Attributes::NORMAL) { v.normal } else { [0.0; 3] };
+            let [u, v] = if attributes.contains(Attributes::UV) { v.uv } else { [0.0; 2] };
+            [normal[0], normal[1], normal[2], u, v]
+        };
+        let values: Vec<f32> = self.vertices.iter().flat_map(weighed).collect();
+        let options = if lock_border { SimplifyOptions::LOCK_BORDER } else { SimplifyOptions::EMPTY };
+        // No limit of the error: the budget is one of triangles.
+        let settings = SimplifySettings { target_index_count: 3 * most, target_error: 1e6, options };
+        let places = Positions::from_packed(&positions);
+        let simplified = Weighed::from_interleaved(&values, positions.len(), 5, 5, 0)
+            .and_then(|values| {
+                let indices = self.triangles.as_flattened();
+                simplify_with_attributes(
+                    indices,
+                    places,
+                    values,
+                    &[WEIGHT; 5],
+                    None,
+                    settings,
+                    &mut Workspace::default(),
+                )
+            })
+            .map_err(not_ordered)?;
+        self.triangles = simplified.indices.as_chunks().0.to_vec();
+        Ok(simplified.error * simplify_scale(places).map_err(not_ordered)?)
+    }
+
+    /// The vertices in integers, those that are equal as one, and the triangles that are left between them.
+    fn pack(&self, grids: &Grids, attributes: Attributes) -> (Vec<Packed>, Vec<[u32; 3]>, Losses) {
+        let used = || self.triangles.iter().flatten().map(|&index| &self.vertices[index as usize]);
+        let (corners, losses) = grids.pack_all(used(), attributes);
+        let mut numbers = HashMap::new();
+        let mut vertices = vec![];
+        let mut number = |packed: &Packed| {
+            *numbers.entry(*packed).or_insert_with(|| {
+                vertices.push(*packed);
+                small(vertices.len() - 1)
+            })
+        };
+        let triangles = corners.as_chunks().0.iter().filter_map(|[a, b, c]| {
+            let flat = a.place == b.place || b.place == c.place || c.place == a.place;
+            (!flat).then(|| [number(a), number(b), number(c)])
+        });
+        let triangles = triangles.collect();
+        (vertices, triangles, losses)
+    }
+}
+
+/// The asset of a model with these textures, of which each part has one or none.
+pub(super) fn asset(
+    model: &Model,
+    wish: &Wish,
+    attributes: Attributes,
+    textures: Vec<Texture>,
+    of_parts: &[Option<usize>],
+) -> Result<Asset, Error> {
+    let total: usize = model.parts.iter().map(|part| part.triangles.len()).sum();
+    let parts = model.parts.iter().filter(|part| !part.triangles.is_empty()).count();
+    let mut alone = vec![];
+    let mut moved = 0.0_f32;
+    for (number, part) in model.parts.iter().enumerate().filter(|(_, part)| !part.triangles.is_empty()) {
+        let mut mesh = Alone::new(model, part);
+        if let Some(most) = wish.triangles.filter(|&most| most < total) {
+            // Shares are rounded down, so that they are no more together.
+            let share = most * mesh.triangles.len() / total;
+            moved = moved.max(mesh.simplify(share.max(1), parts > 1, attributes)?);
+        }
+        alone.push((number, mesh));
+    }
+    let used = alone
+        .iter()
+        .flat_map(|(_, mesh)| mesh.triangles.iter().flatten().map(|&index| &mesh.vertices[index as usize]));
+    let grids = Grids::new(used, attributes)?;
+    let (mut pieces, mut losses) = (vec![], Losses::default());
+    for (number, mesh) in alone {
+        let part = &model.parts[number];
+        let before = transformed(&mesh.triangles, mesh.vertices.len())?;
+        let (vertices, triangles, lost) = mesh.pack(&grids, attributes);
+        losses = losses.and(lost);
+        if vertices.len() > MAX_VERTICES as usize {
+            let of = if part.name.is_empty() {
+                String::new()
+            } else {
+                format!(" in {}", quote(part.name.as_bytes()))
+            };
+            let found = format!("{} vertices{of}", vertices.len());
+            let error = Error::new(found, format!("at most {MAX_VERTICES} in a part"));
+            return Err(error.hint("choose fewer triangles with --triangles"));
+        }
+        if !triangles.is_empty() {
+            let color = crate::draw::color(part.diffuse);
+            let texture = of_parts[number];
+            pieces.push(ordered(
+                number,
+                (vertices, triangles),
+                &grids,
+                wish.meshlets,
+                (color, texture),
+                before,
+            )?);
+        }
+    }
+    if pieces.is_empty() {
+        return Err(Error::new("a model without triangles", "something to draw"));
+    }
+    Ok(Asset { attributes, grids, pieces, textures, losses, moved })
+}
+
+/// A piece with its triangles in the order of meshlets, or of a cache, and its vertices in the order of their use.
+fn ordered(
+    part: usize,
+    (vertices, triangles): (Vec<Packed>, Vec<[u32; 3]>),
+    grids: &Grids,
+    most: usize,
+    (color, texture): (Rgba8, Option<usize>),
+    before: f32,
+) -> Result<Piece, Error> {
+    let cached = |triangles: &[[u32; 3]]| {
+        let ordered =
+            optimize_vertex_cache(triangles.as_flattened(), vertices.len(), &mut Workspace::default());
+        Ok::<_, Error>(ordered.map_err(not_ordered)?.as_chunks().0.to_vec())
+    };
+    // Meshlets grow from the first triangles that are left, in this order.
+    let mut triangles = cached(&triangles)?;
+    let mut ranges = vec![];
+    if most > 0 {
+        let places: Vec<_> = vertices.iter().map(|vertex| grids.place(vertex)).collect();
+        let split = Split::new(&places, &triangles, most);
+        triangles.clear();
+        for range in &split.meshlets {
+            triangles.extend(cached(&split.triangles[range.start as usize..range.end as usize])?);
+        }
+        ranges = split.meshlets;
+    }
+    let mut numbers = vec![None; vertices.len()];
+    let mut used = vec![];
+    let mut number = |index: u32| {
+        *numbers[index as usize].get_or_insert_with(|| {
+            used.push(vertices[index as usize]);
+            u16::try_from(used.len() - 1).unwrap_or(u16::MAX)
+        })
+    };
+    let triangles: Vec<[u16; 3]> = triangles.into_iter().map(|triangle| triangle.map(&mut number)).collect();
+    let stage = |vertex: &Packed| IntegerVertex::<()> { place: vertex.place, components: () };
+    let mesh = IntegerMesh::new(&used, &triangles, grids.unit, stage);
+    let ball = Ball::of(&mesh);
+    let meshlets = ranges.into_iter().map(|range| Meshlet::new(&mesh, &ball, range)).collect();
+    let wide: Vec<[u32; 3]> = triangles.iter().map(|triangle| triangle.map(u32::from)).collect();
+    let order = Order { before, after: transformed(&wide, used.len())? };
+    Ok(Piece { part, vertices: used, triangles, meshlets, ball, color, texture, order })
+}
+
+/// Transformed vertices a triangle, with a small cache.
+fn transformed(triangles: &[[u32; 3]], vertices: usize) -> Result<f32, Error> {
+    let indices = triangles.as_flattened();
+    let found = analyze_vertex_cache(indices, vertices, CACHE, 0, 0, &mut Workspace::default());
+    Ok(found.map_err(not_ordered)?.acmr)
+}
+
+fn not_ordered(error: meshoptimizer_rs::Error) -> Error {
+    Error::new(format!("a mesh that cannot be ordered ({error})"), "triangles with finite places")
+}
+
+/// A number that is below that of a model's corners, of which there are fewer than 2^32.
+fn small(number: usize) -> u32 {
+    u32::try_from(number).unwrap_or(u32::MAX)
+}

@@ -1,0 +1,329 @@
+//! Textures in few bytes.
+
+use super::palette::Palette;
+use super::{Dither, Format, Wish, is_mipmapped};
+use crate::error::Error;
+use crate::options::RenderOptions;
+use crate::scene::{HeightImage, Image, Map, Model, Part};
+use alberti::Rgba8;
+use alberti::baked::{Attributes, TexelCode};
+use alberti::raster::ColorFormat as _;
+use alberti::raster::color::{Bayer, BlueNoise, Grey8, Pattern as _};
+use alberti::texture::format::{L16, Normals, Rgba8888, Scalars, TexelFormat};
+use alberti::texture::{TextureError, mipmap};
+
+/// A texture as it lies in flash.
+#[derive(Clone, Debug)]
+pub struct Texture {
+    /// Its meaning.
+    pub role: Role,
+    /// The index of its image, or of its heights, in the model.
+    pub image: usize,
+    /// The format.
+    pub code: TexelCode,
+    /// Columns and rows of level 0.
+    pub size: [u16; 2],
+    /// The colours of indices.
+    pub palette: Vec<[u8; 4]>,
+    /// The bytes of each level.
+    pub levels: Vec<Vec<u8>>,
+}
+
+/// The meaning of a texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Role {
+    /// The surface's colour.
+    Color,
+    /// The highlight's colour.
+    Specular,
+    /// Light of its own.
+    Emissive,
+    /// The mirrored surroundings.
+    Environment,
+    /// Directions.
+    Normals,
+    /// Light that arrives.
+    Occlusion,
+    /// Wetness.
+    Wetness,
+    /// The highlight's exponent.
+    Shininess,
+    /// The mirrored share.
+    Reflection,
+    /// Heights.
+    Heights,
+}
+
+impl Role {
+    /// Its name in reports.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Color => "colour",
+            Self::Specular => "specular",
+            Self::Emissive => "emissive",
+            Self::Environment => "environment",
+            Self::Normals => "normals",
+            Self::Occlusion => "occlusion",
+            Self::Wetness => "wetness",
+            Self::Shininess => "shininess",
+            Self::Reflection => "reflection",
+            Self::Heights => "heights",
+        }
+    }
+
+    /// The format of its texels: colours are as the user wishes, what is not seen by itself is kept.
+    fn code(self, format: Format) -> TexelCode {
+        match self {
+            Self::Color | Self::Specular | Self::Emissive | Self::Environment => format.code(),
+            Self::Normals => TexelCode::Rgb8,
+            Self::Heights => TexelCode::L16,
+            Self::Occlusion | Self::Wetness | Self::Shininess | Self::Reflection => TexelCode::L8,
+        }
+    }
+}
+
+/// The textures that a picture with these attributes reads, and the number of each part's own.
+pub(super) fn textures(
+    model: &Model,
+    options: &RenderOptions,
+    attributes: Attributes,
+    wish: &Wish,
+) -> Result<(Vec<Texture>, Vec<Option<usize>>), Error> {
+    let mut textures: Vec<Texture> = vec![];
+    let mut of_parts = vec![None; model.parts.len()];
+    let drawn = || model.parts.iter().enumerate().filter(|(_, part)| !part.triangles.is_empty());
+    if !attributes.contains(Attributes::UV) {
+        return Ok((textures, of_parts));
+    }
+    let mut number = |role, map: Map| {
+        let known = textures.iter().position(|texture| (texture.role, texture.image) == (role, map.image));
+        let mips = is_mipmapped(map.filter.unwrap_or(options.filter));
+        Ok::<_, Error>(match known {
+            Some(number) => number,
+            None => {
+                textures.push(texture(model, role, map.image, mips, wish)?);
+                textures.len() - 1
+            }
+        })
+    };
+    // Numbers of surfaces' colours first.
+    for (k, part) in drawn() {
+        let own = part.texture.map(|image| Map { image, filter: part.detail.filter, wrap: None });
+        of_parts[k] = own.map(|map| number(Role::Color, map)).transpose()?;
+    }
+    for (_, part) in drawn() {
+        for (role, map) in others(part) {
+            number(role, map)?;
+        }
+    }
+    Ok((textures, of_parts))
+}
+
+/// The images of a part beside the surface's colour, and its heights.
+fn others(part: &Part) -> impl Iterator<Item = (Role, Map)> {
+    let detail = &part.detail;
+    let plain = |image| Map { image, filter: Some(crate::options::Filter::Bilinear), wrap: None };
+    let all = [
+        (Role::Specular, detail.specular_map),
+        (Role::Emissive, detail.emissive_map),
+        (Role::Environment, detail.environment.map(|environment| plain(environment.image))),
+        (Role::Normals, detail.normal.map(|normal| normal.map)),
+        (Role::Occlusion, detail.occlusion),
+        (Role::Wetness, detail.wetness_map),
+        (Role::Shininess, detail.shininess_map),
+        (Role::Reflection, detail.reflection_map),
+        (Role::Heights, detail.height.map(|height| plain(height.heights))),
+    ];
+    all.into_iter().filter_map(|(role, map)| Some((role, map?)))
+}
+
+/// An image of the model in its format.
+fn texture(model: &Model, role: Role, image: usize, mips: bool, wish: &Wish) -> Result<Texture, Error> {
+    let code = role.code(wish.format);
+    let broken = |error: TextureError| Error::new(error.to_string(), "textures that can be drawn");
+    let texture = |size: [u32; 2], palette, levels| Texture {
+        role,
+        image,
+        code,
+        size: size.map(|side| u16::try_from(side).unwrap_or(u16::MAX)),
+        palette,
+        levels,
+    };
+    if role == Role::Heights {
+        let HeightImage { width, height, heights } = &model.heights[image];
+        let levels = chain(L16, heights, [*width, *height]).map_err(broken)?;
+        let levels = kept(levels, false, wish.texture_size);
+        let bytes = levels.iter().map(|level| level.texels.iter().flat_map(|h| h.to_le_bytes()).collect());
+        return Ok(texture(levels[0].size, vec![], bytes.collect()));
+    }
+    let Image { width, height, texels } = &model.textures[image];
+    let size = [*width, *height];
+    let levels = match code {
+        TexelCode::Rgb8 => chain(Normals(Rgba8888), texels, size),
+        TexelCode::L8 if role != Role::Color => chain(Scalars(Rgba8888), texels, size),
+        _ => chain(Rgba8888, texels, size),
+    };
+    let levels = kept(levels.map_err(broken)?, mips, wish.texture_size);
+    let Level { size: [width, height], texels } = &levels[0];
+    let largest = Image { width: *width, height: *height, texels: texels.clone() };
+    let palette = match code {
+        TexelCode::Indexed4 => Some(Palette::new(&largest, 16)?),
+        TexelCode::Indexed8 => Some(Palette::new(&largest, 256)?),
+        _ => None,
+    };
+    let numbers = role.code(Format::Rgb565) != TexelCode::Rgb565;
+    let bytes = levels.iter().map(|level| encoded(level, code, palette.as_ref(), (wish.dither, numbers)));
+    let bytes = bytes.collect();
+    Ok(texture([*width, *height], palette.map_or(vec![], |palette| palette.colors), bytes))
+}
+
+/// A level of a mip map.
+struct Level<T> {
+    size: [u32; 2],
+    texels: Vec<T>,
+}
+
+/// All levels of a texture.
+fn chain<F: TexelFormat>(
+    format: F,
+    texels: &[F::Texel],
+    [width, height]: [u32; 2],
+) -> Result<Vec<Level<F::Texel>>, TextureError> {
+    let mut all = texels.to_vec();
+    if let Some(&first) = texels.first() {
+        all.resize(mipmap::texel_count(width, height), first);
+    }
+    mipmap::build(format, &mut all, width, height)?;
+    let mut rest = &all[..];
+    let levels = (0..mipmap::level_count(width, height)).map(|level| {
+        let size = [width, height].map(|side| (side >> level).max(1));
+        let (texels, below) = rest.split_at((size[0] * size[1]) as usize);
+        rest = below;
+        Level { size, texels: texels.to_vec() }
+    });
+    Ok(levels.collect())
+}
+
+/// The levels from the first on whose sides are within a limit: all, or that one.
+fn kept<T>(mut levels: Vec<Level<T>>, mips: bool, most: Option<u32>) -> Vec<Level<T>> {
+    let fits = |level: &Level<T>| most.is_none_or(|most| level.size.into_iter().max() <= Some(most));
+    let first = levels.iter().position(fits).unwrap_or(levels.len() - 1);
+    levels.drain(..first);
+    levels.truncate(if mips { usize::MAX } else { 1 });
+    levels
+}
+
+/// The bytes of a level. Numbers are those of the red channel, and not dithered.
+fn encoded(
+    level: &Level<[u8; 4]>,
+    code: TexelCode,
+    palette: Option<&Palette>,
+    (dither, numbers): (Dither, bool),
+) -> Vec<u8> {
+    let width = level.size[0] as usize;
+    let threshold = |column: usize, row: usize| {
+        let place = [column, row].map(|k| i32::try_from(k).unwrap_or(0));
+        match dither {
+            Dither::None => 127,
+            Dither::Bayer => Bayer.threshold(place),
+            Dither::BlueNoise => BlueNoise.threshold(place),
+        }
+    };
+    // A level of the channel, of which the fraction is compared with the threshold.
+    let channel = |byte: u8, greatest: u32, threshold: u32| (u32::from(byte) * greatest + threshold) / 255;
+    let row = |(row, texels): (usize, &[[u8; 4]])| -> Vec<u8> {
+        let each = || texels.iter().enumerate().map(|(column, &texel)| (texel, threshold(column, row)));
+        let index = |(texel, t)| palette.map_or(0, |palette| palette.index(texel, t));
+        let pair = |pair: &[u8]| pair[0] << 4 | pair.get(1).copied().unwrap_or(0);
+        match code {
+            TexelCode::Rgb565 => each()
+                .flat_map(|([r, g, b, _], t)| {
+                    half(channel(r, 31, t) << 11 | channel(g, 63, t) << 5 | channel(b, 31, t))
+                })
+                .collect(),
+            TexelCode::Rgba4444 => each()
+                .flat_map(|([r, g, b, a], t)| {
+                    let [r, g, b] = [r, g, b].map(|c| channel(c, 15, t));
+                    half(r << 12 | g << 8 | b << 4 | channel(a, 15, 127))
+                })
+                .collect(),
+            TexelCode::L8 if numbers => texels.iter().map(|texel| texel[0]).collect(),
+            TexelCode::L8 => texels.iter().map(|&[r, g, b, a]| Grey8.pixel(Rgba8::new(r, g, b, a))).collect(),
+            TexelCode::Rgb8 => texels.iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect(),
+            TexelCode::Rgba8888 | TexelCode::L16 => texels.as_flattened().to_vec(),
+            TexelCode::Indexed8 => each().map(index).collect(),
+            TexelCode::Indexed4 => each().map(index).collect::<Vec<_>>().chunks(2).map(pair).collect(),
+        }
+    };
+    level.texels.chunks(width).enumerate().flat_map(row).collect()
+}
+
+/// The two bytes of a texel, the low one first.
+fn half(texel: u32) -> [u8; 2] {
+    let [low, high, ..] = texel.to_le_bytes();
+    [low, high]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alberti::texture::format::{Rgb565, Rgba4444};
+
+    fn level(texels: Vec<[u8; 4]>, width: u32) -> Level<[u8; 4]> {
+        let height = u32::try_from(texels.len()).expect("few") / width;
+        Level { size: [width, height], texels }
+    }
+
+    /// Every byte, against the library's nearest texel.
+    #[test]
+    fn texels_are_the_nearest() {
+        let texels: Vec<_> = (0..=255).map(|c: u8| [c, c / 2 + 60, 255 - c, c]).collect();
+        let of = |code| encoded(&level(texels.clone(), 16), code, None, (Dither::None, false));
+        let halves =
+            |bytes: Vec<u8>| bytes.as_chunks().0.iter().map(|&b| u16::from_le_bytes(b)).collect::<Vec<_>>();
+        let nearest = texels.iter().map(|&[r, g, b, a]| Rgba8::new(r, g, b, a));
+        assert_eq!(
+            halves(of(TexelCode::Rgb565)),
+            nearest.clone().map(|c| Rgb565.encode(c)).collect::<Vec<_>>()
+        );
+        assert_eq!(halves(of(TexelCode::Rgba4444)), nearest.map(|c| Rgba4444.encode(c)).collect::<Vec<_>>());
+        assert_eq!(of(TexelCode::Rgba8888), texels.as_flattened());
+    }
+
+    /// A grey between two levels, whose mean is kept by the pattern.
+    #[test]
+    fn dithered_texels_have_the_mean_of_the_colour() {
+        let grey = level(vec![[100; 4]; 32 * 32], 32);
+        for dither in [Dither::Bayer, Dither::BlueNoise] {
+            let bytes = encoded(&grey, TexelCode::Rgb565, None, (dither, false));
+            let reds = bytes.as_chunks().0.iter().map(|&b| f64::from(u16::from_le_bytes(b) >> 11));
+            let mean = reds.sum::<f64>() / 1024.0;
+            assert!((mean - 100.0 * 31.0 / 255.0).abs() < 0.01, "{mean}");
+        }
+    }
+
+    #[test]
+    fn indices_fill_bytes_row_by_row() {
+        let (red, blue) = ([255, 0, 0, 255], [0, 0, 255, 255]);
+        let flag = level(vec![red, blue, red, blue, blue, red], 3);
+        let image = Image { width: 3, height: 2, texels: flag.texels.clone() };
+        let palette = Palette::new(&image, 16).expect("a palette");
+        let bytes = encoded(&flag, TexelCode::Indexed4, Some(&palette), (Dither::None, false));
+        let of = |color| palette.index(color, 127);
+        let (r, b) = (of(red), of(blue));
+        assert_eq!(bytes, [r << 4 | b, r << 4, b << 4 | b, r << 4]);
+    }
+
+    #[test]
+    fn levels_are_halved_until_they_fit() {
+        let sizes = |mips, most| {
+            let levels = chain(Rgba8888, &[[9; 4]; 20 * 6], [20, 6]).expect("levels");
+            kept(levels, mips, most).iter().map(|level| level.size).collect::<Vec<_>>()
+        };
+        assert_eq!(sizes(false, None), [[20, 6]]);
+        assert_eq!(sizes(false, Some(10)), [[10, 3]]);
+        assert_eq!(sizes(true, Some(9)), [[5, 1], [2, 1], [1, 1]]);
+        assert_eq!(sizes(false, Some(1)), [[1, 1]]);
+    }
+}

@@ -1,0 +1,158 @@
+//! `alberti bake`.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::{ArgMatches, Args, FromArgMatches as _};
+
+use super::RenderArgs;
+use super::run::print;
+use super::staged::{OF_PICTURES, Request, Staged, refuse};
+use crate::bake::{Asked, Dither, Format, Report, Wish, bake, bytes, source};
+use crate::error::Error;
+use crate::options::values::Size;
+use crate::options::{MAX_SIDE, Profile};
+use crate::output::file::Whole;
+use crate::output::stats::Source;
+
+pub(super) const HELP: &str = "\
+Examples:
+  alberti bake teapot.obj --out assets               teapot.bin and teapot.rs, and what they take
+  alberti bake cow.obj --texture cow.png --out assets --triangles 1000 --texture-size 128
+  alberti bake cow.obj --out assets --format indexed4 --dither blue-noise --size 240x240
+  alberti bake wet.toml --out assets --filter trilinear --json
+
+docs/bake.md has a program that draws such a file.";
+
+/// The heading of its own options.
+const OWN: &str = "Baking";
+
+/// The size of a frame, unless the user gives one: that of many small displays.
+const FRAME: Size = Size(320, 240);
+
+fn triangles(text: &str) -> Result<usize, String> {
+    text.parse().ok().filter(|&most| most > 0).ok_or_else(|| "a whole number from 1 on".to_owned())
+}
+
+fn side(text: &str) -> Result<u32, String> {
+    let side = text.parse().ok().filter(|side| (1..=MAX_SIDE).contains(side));
+    side.ok_or_else(|| format!("a whole number from 1 to {MAX_SIDE}"))
+}
+
+fn meshlet(text: &str) -> Result<usize, String> {
+    text.parse()
+        .ok()
+        .filter(|most| (0..=1024).contains(most))
+        .ok_or_else(|| "a whole number from 0 to 1024".to_owned())
+}
+
+/// The options of `alberti bake`: those of `render`, and these.
+#[derive(Clone, Debug, Args)]
+pub struct BakeArgs {
+    /// The scene, as `render` takes it. Shading and filter say what is baked, camera, size and policies what a frame
+    /// takes: 320x240 and --profile mcu, unless they are given.
+    #[command(flatten)]
+    pub render: RenderArgs,
+
+    /// Folder for the files, NAME.bin to be read in place and NAME.rs to be compiled; it is made if it is not there.
+    #[arg(long, value_name = "FOLDER", required = true, help_heading = OWN)]
+    pub out: PathBuf,
+
+    /// Format of textures of colours. Normals have 8 bits a channel, numbers 8, heights 16.
+    #[arg(long, value_enum, value_name = "FORMAT", default_value_t, help_heading = OWN)]
+    pub format: Format,
+
+    /// Rounding of textures' colours.
+    #[arg(long, value_enum, value_name = "PATTERN", default_value_t, help_heading = OWN)]
+    pub dither: Dither,
+
+    /// Triangles at most: the surface is simplified, and the report says how far it moves.
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = triangles, help_heading = OWN)]
+    pub triangles: Option<usize>,
+
+    /// Longest side of a texture: larger ones are halved until they fit.
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = side, help_heading = OWN)]
+    pub texture_size: Option<u32>,
+
+    /// Attributes of vertices: auto for those that the shading uses, none, or some of uv,normal,tangent,color.
+    #[arg(long, value_name = "WHICH", default_value = "auto", help_heading = OWN)]
+    pub attributes: Asked,
+
+    /// Triangles of a meshlet, which is left out as a whole where it is not seen; 0 for none.
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = meshlet, help_heading = OWN)]
+    pub meshlets: usize,
+
+    /// Rows of a band, for the report.
+    #[arg(long, value_name = "ROWS", default_value_t = 16, value_parser = side, help_heading = OWN)]
+    pub band: u32,
+
+    /// Print one line of JSON instead of the table.
+    #[arg(long, help_heading = OWN)]
+    pub json: bool,
+}
+
+/// Bakes a scene, and prints what it takes.
+pub(super) fn run(matches: &ArgMatches) -> Result<(), Error> {
+    let arguments = BakeArgs::from_arg_matches(matches)
+        .map_err(|error| Error::new(error.to_string(), "what --help lists"))?;
+    let mut request = Request::read(matches)?;
+    refuse(matches, "bake", &OF_PICTURES, "the files are those of --out")?;
+    let render = &mut request.arguments.render;
+    render.size.get_or_insert(FRAME);
+    render.profile.get_or_insert(Profile::Mcu);
+    let missing = !arguments.out.exists();
+    let outcome = baked(&arguments, &request);
+    if outcome.is_err() && missing {
+        // A folder that was made is empty, or has what was written. If it cannot be removed, that is no error.
+        let _ = fs::remove_dir(&arguments.out);
+    }
+    outcome.map_err(|error| request.relocate(error))
+}
+
+fn baked(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
+    request.check()?;
+    let folder = &arguments.out;
+    if folder.exists() && !folder.is_dir() {
+        return Err(Error::new("a file", "a folder").file(folder).hint("choose another with --out"));
+    }
+    fs::create_dir_all(folder).map_err(|error| {
+        Error::new(format!("a folder that cannot be made ({error})"), "one that can be written").file(folder)
+    })?;
+    let name = name(request);
+    let file = |extension: &str| request.whole(&folder.join(format!("{name}.{extension}")), "--out");
+    let (binary, module) = (file("bin")?, file("rs")?);
+
+    let Staged { model, camera, options, .. } = request.stage()?;
+    let BakeArgs { format, dither, triangles, texture_size, attributes, meshlets, band, .. } = *arguments;
+    let wish = Wish { format, dither, triangles, texture_size, attributes, meshlets };
+    let asset = bake(&model, &options, &wish)?;
+    let bytes = bytes(&asset);
+    let report = Report::new(&asset, &bytes, (&model, &camera, &options), band)?;
+    binary.write(&bytes)?;
+    module.write(source(&asset, &from(request)).as_bytes())?;
+    let names = [&binary, &module].map(|file: &Whole| file.name().display().to_string());
+    print(&if arguments.json {
+        let mut json = report.json();
+        json["files"] = names.into();
+        format!("{json}\n")
+    } else {
+        format!("{} and {}: {}", names[0], names[1], report.text())
+    })
+}
+
+/// The name of the files: that of the model or the scene.
+fn name(request: &Request) -> String {
+    let stem = |path: &Path| path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    match request.source() {
+        Source::Model(path) => stem(path).unwrap_or_else(|| "model".to_owned()),
+        Source::Scene(name) => name.to_owned(),
+    }
+}
+
+/// The origin of the files, without the way to it.
+fn from(request: &Request) -> String {
+    match request.source() {
+        Source::Model(path) => path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+        Source::Scene(name) => format!("the built-in scene `{name}`"),
+    }
+}

@@ -1,0 +1,122 @@
+//! Texels in files that are read in place, where words may begin at any byte.
+
+use super::{Content, Rgb565, TexelFormat};
+use crate::Packed;
+use alberti_math::Rgba8;
+use alberti_math::lanes::Lanes;
+
+/// A format of 16 bits whose texels are two bytes each, the low one first, at any address.
+///
+/// ```
+/// use alberti_texture::{Texture, format::{InBytes, Rgb565}};
+///
+/// // Part of a file: red, and green.
+/// let (texels, _) = [0x00, 0xf8, 0xe0, 0x07].as_chunks::<2>();
+/// let texture = Texture::new(InBytes(Rgb565), texels, 2, 1)?;
+/// assert_eq!(texture.texel(1, 0).to_bytes(), [0, 255, 0, 255]);
+/// # Ok::<(), alberti_texture::TextureError>(())
+/// ```
+///
+/// # Cost
+/// Where words may not be loaded from any address, a load, a shift and a sum more.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct InBytes<F>(
+    /// The format.
+    pub F,
+);
+
+impl<F: TexelFormat<Texel = u16>> TexelFormat for InBytes<F> {
+    type Texel = [u8; 2];
+
+    #[inline]
+    fn content(self) -> Content {
+        self.0.content()
+    }
+
+    #[inline]
+    fn decode(self, texel: [u8; 2]) -> Rgba8 {
+        self.0.decode(u16::from_le_bytes(texel))
+    }
+
+    #[inline]
+    fn scalar(self, texel: [u8; 2]) -> u16 {
+        self.0.scalar(u16::from_le_bytes(texel))
+    }
+
+    #[inline]
+    fn encode(self, color: Rgba8) -> [u8; 2] {
+        self.0.encode(color).to_le_bytes()
+    }
+
+    #[inline]
+    fn mean(self, content: Content, texels: impl Iterator<Item = ([u8; 2], u64)>) -> [u8; 2] {
+        let words = texels.map(|(texel, weight)| (u16::from_le_bytes(texel), weight));
+        self.0.mean(content, words).to_le_bytes()
+    }
+}
+
+impl Packed for InBytes<Rgb565> {
+    #[inline(always)]
+    fn spread<L: Lanes>(lanes: L, texel: L::U32) -> L::U32 {
+        Rgb565::spread(lanes, texel)
+    }
+
+    #[inline(always)]
+    fn blended<L: Lanes>(lanes: L, first: L::U32, second: L::U32, share: L::U32) -> L::U32 {
+        Rgb565::blended(lanes, first, second, share)
+    }
+
+    #[inline(always)]
+    fn mean_of_four<L: Lanes>(lanes: L, spread: [L::U32; 4], weights: [L::U32; 4]) -> L::U32 {
+        Rgb565::mean_of_four(lanes, spread, weights)
+    }
+
+    #[inline(always)]
+    fn gathered<L: Lanes>(lanes: L, spread: L::U32) -> L::U32 {
+        Rgb565::gathered(lanes, spread)
+    }
+
+    #[inline(always)]
+    fn word(texel: [u8; 2]) -> u32 {
+        u16::from_le_bytes(texel).into()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::format::{L16, Rgba4444};
+    use crate::{Bilinear, Repeat, Texture};
+    use alberti_math::lanes::One;
+
+    /// Every texel, by its digits.
+    #[test]
+    fn texels_are_those_of_the_words() {
+        for texel in 0..=u16::MAX {
+            let [high, low] = texel.to_be_bytes();
+            let bytes = [low, high];
+            let color = InBytes(Rgba4444).decode(bytes);
+            assert_eq!(color, Rgba4444.decode(texel));
+            assert_eq!(InBytes(Rgba4444).encode(color), bytes);
+            assert_eq!(InBytes(L16).scalar(bytes), texel);
+            assert_eq!(InBytes::<Rgb565>::word(bytes), texel.into());
+        }
+    }
+
+    #[test]
+    fn means_are_those_of_the_words() {
+        let words = [0x1234, 0xfedc, 0x0f0f, 0x8421_u16];
+        let bytes = words.map(u16::to_le_bytes);
+        let of_words = Texture::new(Rgb565, &words, 2, 2).expect("2 x 2").sampler(Bilinear, Repeat);
+        let of_bytes = Texture::new(InBytes(Rgb565), &bytes, 2, 2).expect("2 x 2").sampler(Bilinear, Repeat);
+        for k in 0..200_u8 {
+            let [u, v] = [f32::from(k) * 0.031, f32::from(k) * -0.017];
+            assert_eq!(of_words.packed_lanes(One, u, v), of_bytes.packed_lanes(One, u, v));
+        }
+        let mut chain = [words.map(u16::to_le_bytes).to_vec(), [[0; 2]].to_vec()].concat();
+        crate::mipmap::build(InBytes(Rgb565), &mut chain, 2, 2).expect("2 x 2");
+        let mut of_words = [0x1234, 0xfedc, 0x0f0f, 0x8421_u16, 0];
+        crate::mipmap::build(Rgb565, &mut of_words, 2, 2).expect("2 x 2");
+        assert_eq!(chain[4], of_words[4].to_le_bytes());
+    }
+}
