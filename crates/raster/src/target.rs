@@ -2,7 +2,7 @@
 
 use crate::color::{ColorFormat, FragmentColor};
 use crate::depth::DepthFormat;
-use crate::pixels::{Pixels, Rows};
+use crate::pixels::{Pixels, Rows, fill};
 use alberti_math::map2;
 use core::fmt;
 use core::iter::from_fn;
@@ -366,15 +366,6 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
         let first = map2(self.strides, |stride| row.wrapping_mul(stride).wrapping_add(place(left)));
         Lines { color: self.color, depth: self.depth, strides: self.strides, first }
     }
-}
-
-/// Gives the first of some pixels a value, 16 at a time: small cores store words then, and several with one
-/// instruction.
-fn fill<T: Copy>(pixels: &mut [T], count: usize, value: T) {
-    let pixels = pixels.split_at_mut_checked(count).map_or(&mut [] as &mut [T], |(pixels, _)| pixels);
-    let (chunks, rest) = pixels.as_chunks_mut();
-    chunks.iter_mut().for_each(|chunk| *chunk = [value; 16]);
-    rest.fill(value);
 }
 
 /// The first elements, and the others.
