@@ -122,7 +122,9 @@ pub(crate) fn run(arguments: &[String]) -> Outcome {
         match table::falls(&committed, &rows) {
             0 => {}
             fallen => {
-                println!("{fallen} figures are more than 1 % lower than in {PLACE}: `--write` writes it anew")
+                println!(
+                    "{fallen} figures are more than 1 % lower than in {PLACE}: `--write` writes it anew"
+                );
             }
         }
     }
