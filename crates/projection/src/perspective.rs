@@ -188,6 +188,7 @@ mod tests {
     }
 
     #[test]
+    #[expect(clippy::cast_possible_truncation, reason = "rounded once, as the quotient is")]
     fn a_quotient_is_that_of_f64_rounded() {
         let mut dividend = 1.234_567e-30f64;
         let mut divisor = 1.7e-19f32;
