@@ -1,14 +1,20 @@
 //! Lays the memory of the board out: its file of `boards/` is what the linker scripts of the runtime crates include.
+//! WebAssembly has no layout of its own.
 
 use std::path::PathBuf;
 use std::{env, fs};
 
 fn main() {
-    let arch = env::var("CARGO_CFG_TARGET_ARCH").expect("cargo sets the architecture");
-    let (board, scripts): (&str, &[&str]) = match arch.as_str() {
-        "arm" => ("boards/mps2.x", &["link.x"]),
-        "riscv32" => ("boards/virt.x", &["memory.x", "link.x"]),
-        other => panic!("there is no board with the architecture `{other}`"),
+    let target = env::var("TARGET").expect("cargo sets the target");
+    let (board, scripts): (&str, &[&str]) = match target.split('-').next().unwrap_or_default() {
+        "wasm32" => return,
+        "thumbv8m.main" => {
+            println!("cargo::rustc-cfg=armv8m");
+            ("boards/an505.x", &["link.x"])
+        }
+        thumb if thumb.starts_with("thumb") => ("boards/mps2.x", &["link.x"]),
+        "riscv32imc" => ("boards/virt.x", &["memory.x", "link.x"]),
+        _ => panic!("there is no board of the target `{target}`"),
     };
     let folder = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets the folder for output"));
     fs::copy(board, folder.join("memory.x")).expect("the board's file is copied");

@@ -3,6 +3,8 @@
 //!
 //! The numbers are those of the System V ABI, chapters "Object Files" and "Symbol Table".
 
+use crate::wasm;
+
 /// Answers about a linked program.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Program {
@@ -10,8 +12,11 @@ pub(crate) struct Program {
     pub(crate) text: u64,
     /// Bytes of constants.
     pub(crate) rodata: u64,
+    /// Bytes of variables, and those among them that begin with another value than zero.
+    pub(crate) statics: u64,
+    pub(crate) data: u64,
     /// The names of all symbols, mangled, and what they stand for, in the order of the file.
-    symbols: Vec<(String, u64)>,
+    pub(crate) symbols: Vec<(String, u64)>,
 }
 
 /// Offsets of fields and sizes of entries, which depend on the width of addresses alone.
@@ -46,25 +51,31 @@ struct Section<'a> {
 
 const PROGRAM_BITS: u64 = 1;
 const SYMBOLS: u64 = 2;
+/// The kind of a section that is zero, and not in the file.
+const NO_BITS: u64 = 8;
 /// The flag of a section that takes room in the program's memory.
 const ALLOCATED: u64 = 2;
 
 impl Program {
-    /// Reads a linked program. Its symbols must not be stripped.
+    /// Reads a linked program, of WebAssembly too. Its symbols must not be stripped.
     pub(crate) fn read(file: &[u8]) -> Result<Program, String> {
+        if file.starts_with(wasm::MAGIC) {
+            return wasm::read(file);
+        }
         let layout = match file.get(..6) {
             Some(b"\x7fELF\x01\x01") => &NARROW,
             Some(b"\x7fELF\x02\x01") => &WIDE,
             _ => return Err("this is not a little-endian ELF file".into()),
         };
         let sections = sections(file, layout).ok_or("this ELF file is not whole")?;
-        let size = |prefix: &str| {
-            let loaded = sections.iter().filter(|s| s.kind == PROGRAM_BITS && s.flags & ALLOCATED != 0);
-            loaded.filter(|s| s.name.starts_with(prefix)).map(|s| s.size).sum()
+        let size = |kind: u64, prefix: &str| {
+            let loaded = sections.iter().filter(|s| s.kind == kind && s.flags & ALLOCATED != 0);
+            loaded.filter(|s| s.name.starts_with(prefix)).map(|s| s.size).sum::<u64>()
         };
         let table = sections.iter().find(|s| s.kind == SYMBOLS).ok_or("the symbols are stripped")?;
         let symbols = symbols(file, layout, &sections, table).ok_or("a symbol lies outside of the file")?;
-        Ok(Program { text: size(".text"), rodata: size(".rodata"), symbols })
+        let [text, rodata, data] = [".text", ".rodata", ".data"].map(|prefix| size(PROGRAM_BITS, prefix));
+        Ok(Program { text, rodata, statics: data + size(NO_BITS, ".bss"), data, symbols })
     }
 
     /// The functions by which the program can panic: those of `core` by their last name, sorted.
@@ -181,13 +192,13 @@ mod tests {
     use super::*;
 
     const STRINGS: &[u8] = b"\0.text\0.rodata.x\0.symtab\0.debug\0\
-        _RNvNtCs4GWT_4core9panicking18panic_bounds_check\0";
+        _RNvNtCs4GWT_4core9panicking18panic_bounds_check\0.data\0.bss\0";
 
-    /// A file with a header, five sections' headers behind it, two symbols (one nameless), and the strings.
+    /// A file with a header, seven sections' headers behind it, two symbols (one nameless), and the strings.
     fn file(layout: &Layout) -> Vec<u8> {
         let header = layout.counts + 6;
         let size = layout.fields[3] + 16;
-        let symbols = header + 5 * size;
+        let symbols = header + 7 * size;
         let names = symbols + 2 * layout.symbol;
         let mut file = vec![0; usize::try_from(names).unwrap()];
         file[..6].copy_from_slice(if layout.address == 4 { b"\x7fELF\x01\x01" } else { b"\x7fELF\x02\x01" });
@@ -197,7 +208,7 @@ mod tests {
             file[at..at + width].copy_from_slice(&value.to_le_bytes()[..width]);
         };
         put(layout.sections, layout.address, header);
-        for (place, value) in [(0, size), (2, 5), (4, 4)] {
+        for (place, value) in [(0, size), (2, 7), (4, 4)] {
             put(layout.counts + place, 2, value);
         }
         put(symbols + layout.symbol, 4, 32);
@@ -209,6 +220,8 @@ mod tests {
             [25, PROGRAM_BITS, 0, 0, 7000, 0],
             [17, SYMBOLS, 0, symbols, 2 * layout.symbol, 4],
             [0, 3, 0, names, 64, 0],
+            [81, PROGRAM_BITS, ALLOCATED | 1, 0, 5, 0],
+            [87, NO_BITS, ALLOCATED | 1, 0, 900, 0],
         ];
         for (index, [name, kind, flags, offset, length, link]) in (0..).zip(rows) {
             let at = header + index * size;
@@ -225,6 +238,7 @@ mod tests {
         for layout in [&NARROW, &WIDE] {
             let program = Program::read(&file(layout)).unwrap();
             assert_eq!((program.text, program.rodata), (100, 30));
+            assert_eq!((program.statics, program.data), (905, 5));
             assert_eq!(program.panics(), ["panic_bounds_check"]);
             assert_eq!(program.address(&program.symbols[1].0), Some(0x1234));
             assert_eq!(program.address("main"), None);
@@ -237,7 +251,7 @@ mod tests {
             ["__aeabi_dmul", "__aeabi_f2d", "__aeabi_cdcmple", "__muldf3", "__aeabi_fmul", "__divsi3"];
         let others = ["__aeabi_l2f", "__aeabi_idiv", "_RNvCs_5scenes4df32", "memcpy"];
         let symbols = symbols.into_iter().chain(others).map(|name| (name.to_string(), 0)).collect();
-        let program = Program { text: 0, rodata: 0, symbols };
+        let program = Program { text: 0, rodata: 0, statics: 0, data: 0, symbols };
         assert_eq!(program.doubles(), ["__aeabi_dmul", "__aeabi_f2d", "__aeabi_cdcmple", "__muldf3"]);
     }
 
@@ -269,8 +283,13 @@ mod tests {
             "_ZN14alberti_raster4draw18Paint$LT$F$C$P$GT$10draw_batch17h083f00431fb763deE",
             "main",
         ];
-        let program =
-            Program { text: 0, rodata: 0, symbols: symbols.map(|name| (name.to_string(), 0)).to_vec() };
+        let program = Program {
+            text: 0,
+            rodata: 0,
+            statics: 0,
+            data: 0,
+            symbols: symbols.map(|name| (name.to_string(), 0)).to_vec(),
+        };
         assert_eq!(program.instances("alberti::pipeline::draw_from"), 3);
         assert_eq!(program.instances("alberti_raster::draw::Paint::draw_batch"), 1);
         assert_eq!(program.instances("main"), 1);

@@ -18,6 +18,19 @@ const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
 /// The library source that matches it (package `rust-web-src`).
 const DEBIAN_SOURCE: &str = "/usr/lib/rustlib/src/rust/library/core";
 
+/// A target, and the processor that code is made for where it is not the target's least.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Target {
+    pub(crate) triple: &'static str,
+    pub(crate) processor: Option<&'static str>,
+}
+
+impl Target {
+    pub(crate) const fn of(triple: &'static str) -> Self {
+        Self { triple, processor: None }
+    }
+}
+
 /// A way to build for one target.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) enum Toolchain {
@@ -29,7 +42,8 @@ pub(crate) enum Toolchain {
 
 impl Toolchain {
     /// Finds the way to build for `target`, or says how to make one.
-    pub(crate) fn find(target: &str) -> Result<Toolchain, String> {
+    pub(crate) fn find(target: Target) -> Result<Toolchain, String> {
+        let target = target.triple;
         let sysroot =
             output(Command::new("rustc").current_dir(workspace::root()).args(["--print", "sysroot"]))?;
         let version = output(Command::new("rustc").current_dir(workspace::root()).arg("-vV"))?;
@@ -45,14 +59,17 @@ impl Toolchain {
     }
 
     /// A cargo that runs `subcommand` for `target`.
-    pub(crate) fn cargo(&self, subcommand: &str, target: &str) -> Command {
+    pub(crate) fn cargo(&self, subcommand: &str, target: Target) -> Command {
         let mut command = cargo();
-        command.args([subcommand, "--target", target]);
+        command.args([subcommand, "--target", target.triple]);
+        if let Some(processor) = target.processor {
+            command.env("RUSTFLAGS", format!("-C target-cpu={processor}"));
+        }
         if let Toolchain::BuildStd { linker } = self {
             command
                 .env("RUSTC", DEBIAN_RUSTC)
                 .env("RUSTC_BOOTSTRAP", "1")
-                .env(linker_variable(target), linker);
+                .env(linker_variable(target.triple), linker);
             // Cargo lets this program find the active toolchain's libraries; Debian's rustc must find its own.
             command.env_remove("LD_LIBRARY_PATH");
             command.args(["-Z", "build-std=core"]);
@@ -61,14 +78,17 @@ impl Toolchain {
         command
     }
 
-    /// Cargo's target directory in builds for `target`, for packages outside this workspace too.
-    pub(crate) fn directory(&self, target: &str) -> PathBuf {
+    /// Cargo's target directory in builds for `target`, for packages outside this workspace too. Each processor has its
+    /// own, since programs for two of them have the same names.
+    pub(crate) fn directory(&self, target: Target) -> PathBuf {
         let directory = workspace::target_directory();
-        match self {
-            Toolchain::Installed => directory,
+        let Target { triple, processor } = target;
+        match (self, processor) {
+            (Toolchain::Installed, None) => directory,
+            (Toolchain::Installed, Some(processor)) => directory.join(processor),
             // One of its own, or each build would throw away what the other compiler has built; and one for each
             // target, so that none waits for another.
-            Toolchain::BuildStd { .. } => directory.join("build-std").join(target),
+            (Toolchain::BuildStd { .. }, _) => directory.join("build-std").join(processor.unwrap_or(triple)),
         }
     }
 }

@@ -22,6 +22,7 @@ mod package;
 mod peers;
 mod tidy;
 mod trade;
+mod wasm;
 mod workspace;
 
 use std::ffi::OsString;
@@ -87,8 +88,8 @@ const CHORES: &[Chore] = &[
     },
     Chore {
         name: "firmware",
-        arguments: "[--board b] [--small]",
-        about: "run scenes in an emulator: same bits as here, instructions, code size (boards: m0, m4f, rv32)",
+        arguments: "[--board b] [--write]",
+        about: "run scenes on emulated cores: same bits as here, instructions, flash and RAM as in the table",
         run: firmware::run,
     },
     Chore { name: "golden", arguments: "[test]", about: "write the golden images anew", run: golden::run },

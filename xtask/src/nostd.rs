@@ -4,20 +4,20 @@
 //! `cargo xtask firmware` makes machine code for the same cores, of programs that use the libraries.
 
 use crate::command::{self, Outcome};
-use crate::embedded::Toolchain;
+use crate::embedded::{Target, Toolchain};
 use crate::workspace::{LIBRARIES, NEEDS_STD};
 
 /// The smallest core that is supported, and one with hardware for `f32`: between them both float ABIs, and both
 /// with and without atomic compare-and-swap.
-const TARGETS: &[&str] = &["thumbv6m-none-eabi", "thumbv7em-none-eabihf"];
+const TARGETS: &[Target] = &[Target::of("thumbv6m-none-eabi"), Target::of("thumbv7em-none-eabihf")];
 
 /// Checks every library for every target.
 pub(crate) fn run() -> Outcome {
-    for target in TARGETS {
-        let toolchain = Toolchain::find(target)?;
+    for &target in TARGETS {
+        let (toolchain, name) = (Toolchain::find(target)?, target.triple);
         match &toolchain {
-            Toolchain::Installed => println!("{target}: the installed target"),
-            Toolchain::BuildStd { .. } => println!("{target}: not installed, core from Debian's source"),
+            Toolchain::Installed => println!("{name}: the installed target"),
+            Toolchain::BuildStd { .. } => println!("{name}: not installed, core from Debian's source"),
         }
         for library in LIBRARIES {
             // One crate a check: in one check for all, a feature that one crate forgets to pass on would be switched

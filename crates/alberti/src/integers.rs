@@ -147,21 +147,24 @@ impl IntegerScreen {
         (depth_bits, reversed): (u32, bool),
     ) -> Option<Self> {
         let sizes = viewport.pixels().map(|range| (range.end - range.start) << (subpixel.bits() - 1));
-        let bits = sizes.map(|size| 32 - (size - 1).leading_zeros());
+        let bits_of = |size: i32| 32 - (size - 1).leading_zeros();
+        let bits = sizes.map(bits_of);
         // Halves of the viewport in powers of two, from 1/2 to 1.
-        let halves = [0, 1].map(|axis| {
+        let halves = sizes.map(|size| {
             #[expect(clippy::cast_precision_loss, reason = "at most 2^22")]
-            let half = sizes[axis] as f32;
-            half / f32::from_bits((127 + bits[axis]) << 23)
+            let half = size as f32;
+            half / f32::from_bits((127 + bits_of(size)) << 23)
         });
         let [scale_x, scale_y, _] = projection.scale_lanes(One, [1.0; 3]);
         let (axes, origin) = (to_eye.axes().transpose(), to_eye.origin().coords.to_array());
         let axes = [axes.x_axis, axes.y_axis, axes.z_axis].map(|row| row.to_array().map(|c| c * unit));
         let perspective = projection.is_perspective();
-        let reaches = [0, 1, 2].map(|axis: usize| {
-            let [a, b, c] = axes[axis].map(f32::abs);
-            (a + b + c) * 32768.0 + origin[axis].abs()
-        });
+        // Axes are constants below, or compilers check them where they compile for size.
+        let reach = |axis: [f32; 3], origin: f32| {
+            let [a, b, c] = axis.map(f32::abs);
+            (a + b + c) * 32768.0 + origin.abs()
+        };
+        let reaches = [reach(axes[0], origin[0]), reach(axes[1], origin[1]), reach(axes[2], origin[2])];
         // In parallel projection z is measured by its own reach, a power of two, as it has nothing to do with w.
         let exponent = reaches[2].to_bits() >> 23;
         let scale_z = if perspective { 1.0 } else { f32::from_bits(254_u32.checked_sub(exponent)? << 23) };
@@ -185,10 +188,10 @@ impl IntegerScreen {
         if !(greatest > 0.0 && (-40..=60).contains(&units) && guard.x >= 1.0 && guard.y >= 1.0) {
             return None;
         }
-        let row = |axis: usize| Row {
-            factors: axes[axis].map(|c| scaled(c * scales[axis], units + 16)),
+        let row = |axis: [f32; 3], origin: f32, scale: f32| Row {
+            factors: axis.map(|c| scaled(c * scale, units + 16)),
             // Three products are rounded down.
-            origin: scaled(origin[axis] * scales[axis], units) + 1,
+            origin: scaled(origin * scale, units) + 1,
         };
         let planes = [projection.near() * scale_z, projection.far() * scale_z];
         let [near, far] = planes.map(|z| scaled(z, units));
@@ -203,7 +206,11 @@ impl IntegerScreen {
         let shifts = bits.map(|bits| SCREEN.cast_unsigned() - bits);
         let inside = |bound: f32, half: f32| scaled(bound * half, 8) - 2;
         Some(Self {
-            rows: [row(0), row(1), row(2)],
+            rows: [
+                row(axes[0], origin[0], scales[0]),
+                row(axes[1], origin[1], scales[1]),
+                row(axes[2], origin[2], scales[2]),
+            ],
             planes: [near, far],
             inner: if cube { [i32::MAX, i32::MIN] } else { sure },
             cube,

@@ -53,8 +53,7 @@ impl Perspective {
     /// The same pyramid for pictures of this aspect ratio, width / height: as high, and as wide as that takes.
     #[must_use]
     pub const fn with_aspect(self, aspect: f32) -> Self {
-        #[expect(clippy::cast_possible_truncation, reason = "rounded once, here")]
-        let scale_x = (self.scale / aspect as f64) as f32;
+        let scale_x = quotient(self.scale, aspect, self.scale_y);
         Self { scale_x, ..self }
     }
 
@@ -102,6 +101,35 @@ impl Perspective {
     pub fn project<V: Varying>(&self, depth: &DepthMap, v: &EyeVertex<V>) -> ProjectedVertex<V> {
         Projection::project(self, depth, v)
     }
+}
+
+/// A quotient of positive normal numbers, rounded once if it is normal too; of others `rounded` by the divisor. It is
+/// found in integers, so that chips without hardware for `f64` need no functions for it.
+const fn quotient(dividend: f64, divisor: f32, rounded: f32) -> f32 {
+    if !(divisor > 0.0 && divisor.is_normal()) {
+        return rounded / divisor;
+    }
+    let (a, b) = (dividend.to_bits(), divisor.to_bits());
+    let mantissas = [a & ((1 << 52) - 1) | 1 << 52, (b & ((1 << 23) - 1) | 1 << 23) as u64];
+    // From 2^28 to 2^30: so many bits more than are kept that the last one may stand for the remainder.
+    let (whole, rest) = (mantissas[0] / mantissas[1], mantissas[0] % mantissas[1]);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "rounded once, here")]
+    let mantissa = (whole as u32 | (rest != 0) as u32) as f32;
+    let exponents = [(a >> 52) as i32 - 1023, (b >> 23).cast_signed() - 127];
+    let exponent = exponents[0] - exponents[1] - 29;
+    mantissa * power(exponent / 2) * power(exponent - exponent / 2)
+}
+
+/// 2^`exponent`, or the normal power next to it.
+const fn power(exponent: i32) -> f32 {
+    let exponent = if exponent < -126 {
+        -126
+    } else if exponent > 127 {
+        127
+    } else {
+        exponent
+    };
+    f32::from_bits((exponent + 127).cast_unsigned() << 23)
 }
 
 /// The factors of x and y by which a pyramid's sides become x = ±z, y = ±z: cot(fov/2)/aspect and cot(fov/2).
@@ -159,6 +187,25 @@ mod tests {
             assert!((cot_half(x) - expected).abs() <= 1e-15 * expected.abs().max(1.0), "{x}");
             x += 1.7e-4;
         }
+    }
+
+    #[test]
+    #[expect(clippy::cast_possible_truncation, reason = "rounded once, as the quotient is")]
+    fn a_quotient_is_that_of_f64_rounded() {
+        let mut dividend = 1.234_567e-30f64;
+        let mut divisor = 1.7e-19f32;
+        for _ in 0..100_000 {
+            let expected = (dividend / f64::from(divisor)) as f32;
+            if expected.is_normal() {
+                assert_eq!(quotient(dividend, divisor, 0.0), expected, "{dividend:e} / {divisor:e}");
+            }
+            dividend *= 1.001_37;
+            divisor *= 1.000_91;
+            dividend = if dividend > 1e30 { dividend / 1e60 } else { dividend };
+            divisor = if divisor > 1e19 { divisor / 1e38 } else { divisor };
+        }
+        assert_eq!(quotient(1.0, 0.0, 1.0), f32::INFINITY);
+        assert!(quotient(1.0, f32::NAN, 1.0).is_nan());
     }
 
     #[test]

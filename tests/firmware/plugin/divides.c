@@ -5,7 +5,7 @@
  *     cc -O2 -shared -fPIC -o divides.so divides.c
  *     qemu-system-arm ... -plugin file=divides.so,out=FILE,mark=ADDRESS,function=ADDRESS,function=...
  *
- * Addresses are hexadecimal. `cargo xtask trade` calls both. */
+ * Addresses are hexadecimal. `cargo xtask firmware` and `trade` call both. */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>

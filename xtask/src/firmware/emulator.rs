@@ -1,4 +1,4 @@
-//! QEMU, as one function from a program to what it prints.
+//! The machines that run programs, QEMU's and Node, as one function from a program to what it prints.
 
 use std::io::{ErrorKind, Read};
 use std::path::Path;
@@ -7,6 +7,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::command::{Outcome, describe};
+use crate::workspace;
 
 /// The Debian packages that have the emulators.
 const PACKAGES: &str = "qemu-system-arm qemu-system-misc";
@@ -14,28 +15,37 @@ const PACKAGES: &str = "qemu-system-arm qemu-system-misc";
 /// A program that hangs must not hang the caller; the slowest takes a fifth of this on a slow machine.
 const LONGEST: Duration = Duration::from_secs(1500);
 
-/// A machine of one of QEMU's programs.
-#[derive(Debug)]
-pub(super) struct Emulator {
-    pub(super) program: &'static str,
-    /// The arguments that choose the machine.
-    pub(super) machine: &'static [&'static str],
-    /// Each instruction takes 2^shift ns of the machine's time: this makes every count repeatable.
-    pub(super) shift: u32,
+/// The program that runs modules of WebAssembly, its package, and the file that tells it how.
+const NODE: &str = "node";
+const NODE_PACKAGE: &str = "nodejs";
+const NODE_SCRIPT: &str = "tests/firmware/boards/node.js";
+
+/// A machine that runs programs.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) enum Machine {
+    Qemu(Qemu),
+    Node,
 }
 
-impl Emulator {
+/// A machine of one of QEMU's programs.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Qemu {
+    pub(super) program: &'static str,
+    /// The arguments that choose the machine.
+    pub(super) arguments: &'static [&'static str],
+    /// Each instruction takes 2^shift ns of the machine's time: this makes every count repeatable.
+    pub(super) shift: u32,
+    /// A tick of `alberti_firmware::ticks` is so many instructions: a fraction.
+    pub(super) instructions_per_tick: (u64, u64),
+}
+
+impl Machine {
     /// Says what to install if the program is missing.
     pub(super) fn find(&self) -> Outcome {
-        let outcome = Command::new(self.program).arg("--version").stdout(Stdio::null()).status();
-        outcome.map(|_| ()).map_err(|error| match error.kind() {
-            ErrorKind::NotFound => format!(
-                "`{}` is not installed. On Debian and Ubuntu `apt-get install {PACKAGES}`, elsewhere the package of \
-                 QEMU's system emulators for Arm and RISC-V; then run this again",
-                self.program
-            ),
-            _ => format!("cannot start `{}`: {error}", self.program),
-        })
+        match self {
+            Self::Qemu(qemu) => find(qemu.program, PACKAGES, "QEMU's system emulators for Arm and RISC-V"),
+            Self::Node => find(NODE, NODE_PACKAGE, "Node.js"),
+        }
     }
 
     /// Runs the program to its end, and returns what it prints.
@@ -45,12 +55,16 @@ impl Emulator {
 
     /// The same where the program finds the files of a folder, with more arguments.
     pub(super) fn run_in(&self, folder: &Path, arguments: &[String], image: &Path) -> Result<String, String> {
-        let mut command = Command::new(self.program);
+        let mut command = match self {
+            Self::Qemu(qemu) => qemu.command(),
+            Self::Node => Command::new(NODE),
+        };
         command.current_dir(folder).args(arguments);
-        command.args(self.machine).args(["-nographic", "-monitor", "none", "-serial", "none"]);
-        command.args(["-semihosting-config", "enable=on,target=native", "-icount"]);
-        command.arg(format!("shift={},sleep=off", self.shift)).arg("-kernel").arg(image);
-        let line = describe(&command);
+        match self {
+            Self::Qemu(_) => command.arg("-kernel"),
+            Self::Node => command.arg(workspace::root().join(NODE_SCRIPT)),
+        };
+        let line = describe(command.arg(image));
         println!("$ {line}");
         let (status, printed, errors) =
             finish(&mut command, LONGEST).map_err(|error| format!("`{line}` {error}"))?;
@@ -60,6 +74,34 @@ impl Emulator {
             Err(format!("`{line}` failed ({status}):\n{printed}{}", errors.trim_end()))
         }
     }
+}
+
+impl Qemu {
+    /// A number of ticks in instructions.
+    pub(super) fn instructions(&self, ticks: u64) -> u64 {
+        let (numerator, denominator) = self.instructions_per_tick;
+        ticks * numerator / denominator
+    }
+
+    fn command(&self) -> Command {
+        let mut command = Command::new(self.program);
+        command.args(self.arguments).args(["-nographic", "-monitor", "none", "-serial", "none"]);
+        command.args(["-semihosting-config", "enable=on,target=native", "-icount"]);
+        command.arg(format!("shift={},sleep=off", self.shift));
+        command
+    }
+}
+
+/// Says which package has a program that is missing, on Debian and as people call it.
+fn find(program: &str, packages: &str, name: &str) -> Outcome {
+    let outcome = Command::new(program).arg("--version").stdout(Stdio::null()).status();
+    outcome.map(|_| ()).map_err(|error| match error.kind() {
+        ErrorKind::NotFound => format!(
+            "`{program}` is not installed. On Debian and Ubuntu `apt-get install {packages}`, elsewhere the package of \
+             {name}; then run this again"
+        ),
+        _ => format!("cannot start `{program}`: {error}"),
+    })
 }
 
 /// Runs `command` and returns its status and both outputs; kills it if it takes too long.
@@ -106,8 +148,7 @@ mod tests {
 
     #[test]
     fn a_missing_emulator_names_the_packages() {
-        let emulator = Emulator { program: "no-such-emulator-here", machine: &[], shift: 0 };
-        let message = emulator.find().unwrap_err();
+        let message = find("no-such-emulator-here", PACKAGES, "an emulator").unwrap_err();
         assert!(message.contains("`no-such-emulator-here`"), "{message}");
         assert!(message.contains("apt-get install qemu-system-arm qemu-system-misc"), "{message}");
     }

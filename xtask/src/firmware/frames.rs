@@ -1,21 +1,21 @@
-//! What the programs print about their frames, the comparison, and the table.
+//! The lines that the programs print about their frames, and the comparison of these.
 
 /// A frame as the host draws it: `frame NAME HASH TRIANGLES PIXELS`.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Expected {
-    name: String,
+    pub(super) name: String,
     /// As it is printed; it is only compared.
     hash: String,
     /// Submitted triangles.
-    triangles: u64,
+    pub(super) triangles: u64,
     /// Written pixels, each as often as it is written.
-    pixels: u64,
+    pub(super) pixels: u64,
 }
 
 /// A frame as a board draws it: `frame NAME HASH TICKS`.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Drawn {
-    name: String,
+    pub(super) name: String,
     hash: String,
     /// Of the drawing alone: ticks as printed; the caller turns them into instructions.
     pub(super) cost: u64,
@@ -75,51 +75,8 @@ pub(super) fn differences(board: &str, expected: &[Expected], drawn: &[Drawn]) -
     lines
 }
 
-/// One line for each scene that takes more instructions a written pixel than it may, in tenths.
-pub(super) fn excesses(
-    board: &str,
-    expected: &[Expected],
-    drawn: &[Drawn],
-    limits: &[(&str, u64)],
-) -> Vec<String> {
-    let exceeds = |(name, limit): &(&str, u64)| {
-        let pixels = expected.iter().find(|scene| scene.name == *name).map_or(1, |scene| scene.pixels.max(1));
-        match drawn.iter().find(|frame| frame.name == *name) {
-            Some(frame) if frame.cost * 10 <= limit * pixels => None,
-            Some(frame) => Some(format!(
-                "board {board}, scene {name}: {} instructions for {pixels} pixels, at most {}.{} each are expected",
-                frame.cost,
-                limit / 10,
-                limit % 10
-            )),
-            None => Some(format!("board {board}: there is a limit for `{name}`, which is no scene")),
-        }
-    };
-    limits.iter().filter_map(exceeds).collect()
-}
-
-/// One line for each scene that takes more than a hundredth more instructions than were written down.
-pub(super) fn slower(board: &str, drawn: &[Drawn], counts: &[(&str, u64)]) -> Vec<String> {
-    let found = |name: &str| drawn.iter().find(|frame| frame.name == name).map(|frame| frame.cost);
-    counts
-        .iter()
-        .filter_map(|&(name, count)| dearer(board, name, "instructions", found(name), count))
-        .collect()
-}
-
-/// A line if more than a hundredth more was found than was written down, or nothing.
-pub(super) fn dearer(board: &str, name: &str, unit: &str, found: Option<u64>, count: u64) -> Option<String> {
-    match found {
-        Some(found) if found * 100 <= count * 101 => None,
-        Some(found) => Some(format!(
-            "board {board}, {name}: {found} {unit}, {count} and a hundredth more are expected at most"
-        )),
-        None => Some(format!("board {board}: there is a count for `{name}`, which is not there")),
-    }
-}
-
-/// By how many instructions equal costs may seem to differ: a tick is a little more than one.
-const TICKS: u64 = 3;
+/// By how many instructions equal costs may seem to differ: a tick is up to one and a half.
+const TICKS: u64 = 4;
 
 /// One line for each pair of scenes that do not take the same instructions or whose frames differ.
 pub(super) fn unequal(board: &str, drawn: &[Drawn], pairs: &[[&str; 2]]) -> Vec<String> {
@@ -137,71 +94,11 @@ pub(super) fn unequal(board: &str, drawn: &[Drawn], pairs: &[[&str; 2]]) -> Vec<
     pairs.iter().filter_map(differs).collect()
 }
 
-/// The frames with their costs in instructions.
-pub(super) fn table(expected: &[Expected], drawn: &[Drawn]) -> String {
-    let mut text = format!(
-        "    {:<28}{:>10}{:>17}{:>12}{:>15}\n",
-        "scene", "bits", "instructions", "per pixel", "per triangle"
-    );
-    for scene in expected {
-        let name = &scene.name;
-        let Some(frame) = drawn.iter().find(|frame| frame.name == *name) else {
-            text.push_str(&format!("    {name:<28}{:>10}\n", "MISSING"));
-            continue;
-        };
-        let bits = if frame.hash == scene.hash { "equal" } else { "DIFFERENT" };
-        let tenths = 10 * frame.cost / scene.pixels.max(1);
-        text.push_str(&format!(
-            "    {name:<28}{bits:>10}{:>17}{:>12}{:>15}\n",
-            grouped(frame.cost),
-            format!("{}.{}", grouped(tenths / 10), tenths % 10),
-            grouped(frame.cost / scene.triangles.max(1)),
-        ));
-    }
-    text
-}
-
-/// The number with a comma after each group of three digits.
-fn grouped(number: u64) -> String {
-    if number < 1000 {
-        return number.to_string();
-    }
-    format!("{},{:03}", grouped(number / 1000), number % 1000)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     const HOST: &str = "frame flat aa 2 300\nframe mesh bb 4000 100\n";
-
-    #[test]
-    fn limits_are_kept_or_told() {
-        let drawn = drawn("frame flat aa 1200\nframe mesh bb 401\n").unwrap();
-        let told = |limits: &[(&str, u64)]| excesses("m0", &expected(HOST).unwrap(), &drawn, limits);
-        assert!(told(&[("flat", 40), ("mesh", 41)]).is_empty());
-        assert_eq!(
-            told(&[("flat", 39), ("mesh", 40), ("none", 1)]),
-            [
-                "board m0, scene flat: 1200 instructions for 300 pixels, at most 3.9 each are expected",
-                "board m0, scene mesh: 401 instructions for 100 pixels, at most 4.0 each are expected",
-                "board m0: there is a limit for `none`, which is no scene",
-            ]
-        );
-    }
-
-    #[test]
-    fn more_by_a_hundredth_is_told() {
-        let drawn = drawn("frame flat aa 1010\nframe mesh bb 1011\n").unwrap();
-        assert_eq!(slower("m0", &drawn, &[("flat", 1000)]), [""; 0]);
-        assert_eq!(
-            slower("m0", &drawn, &[("mesh", 1000), ("none", 1)]),
-            [
-                "board m0, mesh: 1011 instructions, 1000 and a hundredth more are expected at most",
-                "board m0: there is a count for `none`, which is not there",
-            ]
-        );
-    }
 
     fn compare(board: &str) -> Vec<String> {
         differences("m0", &expected(HOST).unwrap(), &drawn(board).unwrap())
@@ -250,13 +147,5 @@ mod tests {
         assert_eq!(drawn("frame flat aa\n"), Err("the line of `flat` has 0 numbers, expected 1".into()));
         assert!(expected("frame flat aa 1\n").is_err());
         assert_eq!(expected(""), Err("the host drew no frames".into()));
-    }
-
-    #[test]
-    fn the_table_divides() {
-        let text = table(&expected(HOST).unwrap(), &drawn("frame flat aa 1234567\n").unwrap());
-        let words: Vec<Vec<&str>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
-        assert_eq!(words[1], ["flat", "equal", "1,234,567", "4,115.2", "617,283"]);
-        assert_eq!(words[2], ["mesh", "MISSING"]);
     }
 }

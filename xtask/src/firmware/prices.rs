@@ -1,13 +1,13 @@
 //! Prices of policies on the boards: instructions and divisions of frames, bytes of stack and of code.
 
 use std::fmt::Write as _;
-use std::fs;
 use std::path::Path;
-use std::process::Command;
 
-use super::{BOARDS, Board, build};
-use crate::command::{self, cargo, output};
-use crate::elf::Program;
+use super::boards::{BOARDS, Board, each};
+use super::divides::Plugin;
+use super::emulator::Machine;
+use super::read_program;
+use crate::command::{cargo, output};
 use crate::embedded::Toolchain;
 use crate::workspace::{self, FIRMWARE};
 
@@ -16,31 +16,8 @@ const DRAWS: &str = "trade";
 const WEIGHED: &str = "size-policy";
 /// The variable that names the latter's policy.
 const POLICY: &str = "ALBERTI_POLICY";
-/// The function that is passed before and after a frame.
-const MARK: &str = "passed";
-
-/// The functions that divide on cores without an instruction for it: what Arm's ABI has for 32 bits and for floats, and
-/// what other compilers call the same.
-const DIVISIONS: [&str; 18] = [
-    "__aeabi_idiv",
-    "__aeabi_idivmod",
-    "__aeabi_uidiv",
-    "__aeabi_uidivmod",
-    "__aeabi_ldivmod",
-    "__aeabi_uldivmod",
-    "__aeabi_fdiv",
-    "__aeabi_ddiv",
-    "__divsi3",
-    "__modsi3",
-    "__udivsi3",
-    "__umodsi3",
-    "__divdi3",
-    "__udivdi3",
-    "__moddi3",
-    "__umoddi3",
-    "__divsf3",
-    "__divdf3",
-];
+/// The boards that have prices.
+const PRICED: [&str; 3] = ["m0", "m4f", "rv32"];
 
 /// What the host says of a frame: it is compared, and names the policy.
 struct Right {
@@ -55,13 +32,15 @@ struct Right {
 /// bytes for the instructions. Only the board of that name is asked, or all.
 pub(crate) fn prices(folder: &Path, board: Option<&str>, weighed: bool) -> Result<String, String> {
     let right = host(folder)?;
-    let plugin = plugin()?;
-    let boards: Vec<&Board> =
-        BOARDS.iter().filter(|known| board.is_none_or(|name| name == known.name)).collect();
-    let texts = super::each(&boards, |board| {
+    let boards: Vec<&Board> = BOARDS
+        .iter()
+        .filter(|known| PRICED.contains(&known.name) && board.is_none_or(|name| name == known.name))
+        .collect();
+    boards.iter().try_for_each(|board| board.find().map(|_| ()))?;
+    let plugin = Plugin::find()?;
+    let texts = each(&boards, |board| {
         let mut text = String::new();
-        board.emulator.find()?;
-        let toolchain = Toolchain::find(board.target)?;
+        let toolchain = board.find()?;
         frames(board, &toolchain, folder, &plugin, &right, &mut text)?;
         if weighed {
             sizes(board, &toolchain, &right, &mut text)?;
@@ -86,55 +65,25 @@ fn host(folder: &Path) -> Result<Vec<Right>, String> {
     text.lines().map(read).collect()
 }
 
-/// The plugin that counts divisions, compiled.
-fn plugin() -> Result<String, String> {
-    let source = workspace::root().join("tests/firmware/plugin/divides.c");
-    let plugin = workspace::target_directory().join("divides.so");
-    let mut compiler = Command::new("cc");
-    compiler.args(["-O2", "-shared", "-fPIC", "-o"]).arg(&plugin).arg(source);
-    command::run(&mut compiler)
-        .map_err(|error| format!("{error}. A compiler of C is needed (Debian: gcc)"))?;
-    Ok(plugin.display().to_string())
-}
-
 fn frames(
     board: &Board,
     toolchain: &Toolchain,
     folder: &Path,
-    plugin: &str,
+    plugin: &Plugin,
     right: &[Right],
     text: &mut String,
 ) -> Result<(), String> {
-    build(toolchain, board.target, "release", &[DRAWS])?;
-    let image = toolchain.directory(board.target).join(board.target).join("release").join(DRAWS);
-    let program = read(&image)?;
-    let mark = program.address(MARK).ok_or_else(|| format!("there is no `{MARK}` in {}", image.display()))?;
-    let counts = folder.join(format!("divides-{}", board.name));
-    let mut option = format!("file={plugin},out={},mark={mark:x}", counts.display());
-    for address in DIVISIONS.iter().filter_map(|name| program.address(name)) {
-        let _ = write!(option, ",function={address:x}");
+    let image = board.image(&board.build(toolchain, "release", &[DRAWS])?, DRAWS);
+    let Machine::Qemu(qemu) = &board.machine else {
+        return Err(board.says("its instructions are not counted"));
+    };
+    let (printed, divides) = plugin.run(board, folder, &image).map_err(|message| board.says(message))?;
+    if divides.len() != right.len() {
+        return Err(board.says(format!("{} frames, expected {}", divides.len(), right.len())));
     }
-    let printed = board
-        .emulator
-        .run_in(folder, &["-plugin".to_string(), option], &image)
-        .map_err(|message| format!("board {}: {message}", board.name))?;
-    let marks =
-        fs::read_to_string(&counts).map_err(|error| format!("cannot read {}: {error}", counts.display()))?;
-    let marks: Vec<u64> = marks.lines().filter_map(|line| line.parse().ok()).collect();
-    let lines: Vec<&str> = printed.lines().collect();
-    if lines.len() != right.len() || marks.len() != 2 * lines.len() {
-        return Err(format!(
-            "board {}: {} frames and {} marks, expected {} and two each",
-            board.name,
-            lines.len(),
-            marks.len(),
-            right.len()
-        ));
-    }
-    let (numerator, denominator) = board.instructions_per_tick;
-    for ((line, right), marks) in lines.into_iter().zip(right).zip(marks.chunks(2)) {
+    for ((line, right), divides) in printed.lines().zip(right).zip(divides) {
         let [scene, policy, hash, ticks, stack] = line.split(' ').collect::<Vec<_>>()[..] else {
-            return Err(format!("board {}: found `{line}`, expected a frame", board.name));
+            return Err(board.says(format!("found `{line}`, expected a frame")));
         };
         if [scene, policy, hash] != [&right.scene, &right.policy, &right.hash] {
             return Err(format!(
@@ -143,8 +92,7 @@ fn frames(
             ));
         }
         let ticks: u64 = ticks.parse().map_err(|_| format!("found `{ticks}`, expected ticks"))?;
-        let instructions = ticks * numerator / denominator;
-        let divides = marks[1] - marks[0];
+        let instructions = qemu.instructions(ticks);
         let _ = writeln!(text, "{},{scene},{},{instructions},{divides},{stack}", board.name, field(right));
     }
     Ok(())
@@ -152,23 +100,9 @@ fn frames(
 
 /// The bytes of code of programs that draw by one policy alone.
 fn sizes(board: &Board, toolchain: &Toolchain, right: &[Right], text: &mut String) -> Result<(), String> {
-    let (manifest, [package, _]) = FIRMWARE;
     for right in right.iter().take_while(|right| right.scene == "0") {
-        let mut build = toolchain.cargo("build", board.target);
-        build.env(POLICY, &right.policy);
-        build.args([
-            "--profile",
-            "small",
-            "--manifest-path",
-            manifest,
-            "--package",
-            package,
-            "--bin",
-            WEIGHED,
-        ]);
-        command::run(&mut build)?;
-        let program =
-            read(&toolchain.directory(board.target).join(board.target).join("small").join(WEIGHED))?;
+        let folder = board.build_with(toolchain, "small", &[WEIGHED], Some((POLICY, &right.policy)))?;
+        let program = read_program(&board.image(&folder, WEIGHED))?;
         let _ = writeln!(text, "{},code,{},{},,", board.name, field(right), program.text);
     }
     Ok(())
@@ -177,9 +111,4 @@ fn sizes(board: &Board, toolchain: &Toolchain, right: &[Right], text: &mut Strin
 /// A policy's name as a field of the table.
 fn field(right: &Right) -> String {
     format!("\"{}\"", right.name)
-}
-
-fn read(path: &Path) -> Result<Program, String> {
-    let file = fs::read(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
-    Program::read(&file).map_err(|message| format!("{}: {message}", path.display()))
 }

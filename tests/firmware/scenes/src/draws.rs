@@ -362,7 +362,7 @@ fn bands<K: Counters>(
     const BAND: usize = PIXELS / 15;
     let stage = Stored(model.texture.sampler(Nearest, Repeat));
     let view = View::new(model.to_eye, camera.perspective);
-    let Target { color, depth, slots, listed } = target;
+    let Target { color, depth, slots, listed, .. } = target;
     let mut pass = Pass::new(&view, mesh, stage)
         .interpolation(interpolation)
         .subpixel(Sub4)
@@ -387,7 +387,7 @@ fn integers<V: Varying, F: Fn(&HalfWords) -> IntegerVertex<V>>(
 
 /// The same with meshlets.
 #[inline]
-fn meshlets<V: Varying, F: Fn(&HalfWords) -> IntegerVertex<V>>(
+pub(crate) fn meshlets<V: Varying, F: Fn(&HalfWords) -> IntegerVertex<V>>(
     model: &Model,
     vertex_stage: F,
 ) -> Meshlets<'static, IntegerMesh<'static, HalfWords, u16, F>> {
@@ -403,7 +403,7 @@ fn colored_integers(v: &HalfWords) -> IntegerVertex<Ready565> {
 }
 
 #[inline]
-fn mapped_integers(v: &HalfWords) -> IntegerVertex<Vec2> {
+pub(crate) fn mapped_integers(v: &HalfWords) -> IntegerVertex<Vec2> {
     IntegerVertex { place: v.position, components: v.uv.map(|c| Q16::from_bits(i32::from(c) << 4)) }
 }
 

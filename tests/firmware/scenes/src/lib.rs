@@ -8,6 +8,7 @@
 
 mod draws;
 pub mod policies;
+pub mod renderer;
 pub mod shapes;
 pub mod torus;
 
@@ -22,6 +23,7 @@ pub use draws::{
     textured_spans, trilinear, trilinear_fixed, trilinear_spans, trilinear_spans_fixed,
     trilinear_stored_fixed, trilinear_stored_spans_fixed,
 };
+pub use renderer::{Renderer, meshlets_renderer};
 pub use shapes::PROBE;
 
 use alberti::glam::Vec2;
@@ -133,6 +135,7 @@ pub static SCENES: &[Scene] = &[
     scene!("meshlets-affine", torus(1.0), affine_meshlets),
     scene!("meshlets-bands", torus(1.0), meshlets_bands),
     scene!("meshlets-bands-cache", torus(1.0), meshlets_cache),
+    scene!("meshlets-renderer", torus(1.0), meshlets_renderer),
     scene!("fixed-mesh-bounded", torus(1.0), textured_bounded),
     scene!("meshlets-bands-bounded", torus(1.0), bounded_bands),
     scene!("meshlets-distant-flat", distant_torus(), flat_meshlets, Camera::LONG),
@@ -187,14 +190,15 @@ impl Camera {
     }
 }
 
-/// The memory of a frame: colour in little-endian RGB565, depth in 16 bits, the transformed vertices, and
-/// the list of the triangles in bands.
+/// The memory of a frame: colour in little-endian RGB565, depth in 16 bits, the transformed vertices, the list of the
+/// triangles in bands; and that of a renderer in bands.
 #[derive(Debug)]
 pub struct Target {
     color: [u16; PIXELS],
     depth: [u16; PIXELS],
     slots: Slots,
     listed: [PreparedTriangle; TORUS_TRIANGLES],
+    renderer: Renderer,
 }
 
 /// Room for the vertices of the torus, by the attributes that they carry.
@@ -216,11 +220,15 @@ impl Target {
             mapped: [Slot::EMPTY; TORUS_VERTICES],
         },
         listed: [PreparedTriangle::EMPTY; TORUS_TRIANGLES],
+        renderer: renderer::EMPTY,
     };
+
+    /// A pixel of nothing: dark grey.
+    const BACKGROUND: u16 = 0x2104_u16.to_le();
 
     /// Makes all pixels dark grey and as far away as can be.
     pub fn clear(&mut self) {
-        self.color.fill(0x2104_u16.to_le());
+        self.color.fill(Self::BACKGROUND);
         self.depth.fill(D16.farthest());
     }
 

@@ -4,26 +4,22 @@
 #![no_std]
 #![no_main]
 
-use alberti_firmware::{loaded, memory, passed, stack_of, ticks};
+use alberti_firmware::{line, loaded, memory, passed, stack_of, talking_program, ticks};
 use core::ffi::CStr;
 use core::hint::black_box;
-use core::panic::PanicInfo;
 use scenes::policies::POLICIES;
 use semihosting::fs::File;
 use semihosting::io::Read;
-use semihosting::{eprintln, println, process};
 
 /// The scenes whose stack is told: one that is clipped, which takes the most, and one that is not.
 const WATCHED: [u8; 2] = [1, 3];
 
-#[cfg_attr(target_arch = "arm", cortex_m_rt::entry)]
-#[cfg_attr(target_arch = "riscv32", riscv_rt::entry)]
-fn main() -> ! {
-    let (Some(memory), Some(loaded)) = (memory(), loaded()) else { process::exit(2) };
+fn frames() -> u8 {
+    let (Some(memory), Some(loaded)) = (memory(), loaded()) else { return 2 };
     for number in 0..100 {
         let name = [b'0' + number / 10, b'0' + number % 10, 0];
         let Ok(Ok(file)) = CStr::from_bytes_with_nul(&name).map(File::open) else { break };
-        let Some(scene) = loaded.read(words(file)) else { process::exit(3) };
+        let Some(scene) = loaded.read(words(file)) else { return 3 };
         for (policy, index) in POLICIES.iter().zip(0..) {
             let draw = policy.draw;
             memory.clear(policy);
@@ -38,10 +34,10 @@ fn main() -> ! {
                 memory.clear(policy);
                 stack = stack_of(|| draw(black_box(memory), black_box(&scene)));
             }
-            println!("{number} {index} {hash:016x} {} {stack}", end.wrapping_sub(start));
+            line(format_args!("{number} {index} {hash:016x} {} {stack}", end.wrapping_sub(start)));
         }
     }
-    process::exit(0)
+    0
 }
 
 /// A file's words, low byte first.
@@ -58,8 +54,4 @@ fn words(mut file: File) -> impl FnMut() -> Option<u32> {
     }
 }
 
-#[panic_handler]
-fn panic(info: &PanicInfo<'_>) -> ! {
-    eprintln!("{info}");
-    process::exit(1)
-}
+talking_program!(frames);
