@@ -6,6 +6,7 @@
 
 mod accuracy;
 mod assets;
+mod boards;
 mod build_cost;
 mod checks;
 mod ci;
@@ -90,6 +91,12 @@ const CHORES: &[Chore] = &[
         arguments: "[--board b] [--small]",
         about: "run scenes in an emulator: same bits as here, instructions, code size (boards: m0, m4f, rv32)",
         run: firmware::run,
+    },
+    Chore {
+        name: "boards",
+        arguments: "[board | qemu]",
+        about: "build the programs of crates/alberti/examples/boards, or one, or run the demo in an emulator",
+        run: boards::run,
     },
     Chore { name: "golden", arguments: "[test]", about: "write the golden images anew", run: golden::run },
     Chore {

@@ -30,7 +30,7 @@ static TEXTURE: Mipmap<'static, Rgb565, PowerOfTwo> = match Mipmap::new(Rgb565, 
 };
 
 /// The lens, so that the board computes none of it.
-const LENS: Perspective = match Perspective::new(0.7, super::WIDTH as f32 / super::HEIGHT as f32, 1.0, 8.0) {
+const LENS: Perspective = match Perspective::new(0.7, panel::WIDTH as f32 / panel::HEIGHT as f32, 1.0, 8.0) {
     Ok(lens) => lens,
     Err(_) => panic!("an impossible lens"),
 };

@@ -5,18 +5,20 @@
 
 use alberti::texture::TexelFormat;
 use alberti::{FixedPoint, Rgb565Be, Spans16};
-use alberti_demo::{Demo, Display, HEIGHT, WIDTH};
+use alberti_demo::{Demo, TURN};
 use embassy_futures::block_on;
 use minifb::{Key, KeyRepeat, Scale, Window, WindowOptions};
+use panel::{Display, HEIGHT, WIDTH};
 use std::convert::Infallible;
 use std::error::Error;
 use std::fs;
 use std::ops::Range;
 use std::process::ExitCode;
 
-/// Frames of a whole turn, and of a second.
-const TURN: usize = 256;
-const FRAMES: usize = 30;
+/// Frames of a second.
+const RATE: usize = 30;
+/// Frames of the animated picture.
+const FRAMES: u32 = 32;
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -71,7 +73,7 @@ fn window() -> Result<(), Box<dyn Error>> {
     let (mut demo, mut memory, mut fixed) = (Box::new(Demo::new()), Memory::new(), true);
     let options = WindowOptions { scale: Scale::X2, ..WindowOptions::default() };
     let mut window = Window::new("alberti", WIDTH.into(), HEIGHT.into(), options)?;
-    window.set_target_fps(FRAMES);
+    window.set_target_fps(RATE);
     while window.is_open() && !window.is_key_down(Key::Escape) {
         fixed ^= window.is_key_pressed(Key::Space, KeyRepeat::No);
         window.set_title(if fixed { "alberti, in fixed point" } else { "alberti, in f32" });
@@ -81,20 +83,19 @@ fn window() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Every fourth frame of a turn, endless, with one palette for all.
+/// Frames of a turn, endless.
 fn animation() -> Vec<u8> {
     let (mut demo, mut memory) = (Box::new(Demo::new()), Memory::new());
     let mut file = vec![];
     let mut encoder = gif::Encoder::new(&mut file, WIDTH, HEIGHT, &[]).expect("a size of 16 bits");
     encoder.set_repeat(gif::Repeat::Infinite).expect("memory takes all");
-    for number in 0..TURN {
+    for _ in 0..FRAMES {
         draw(&mut demo, true, &mut memory);
-        if number % 4 == 0 {
-            let pixels: Vec<u8> = memory.0.iter().flat_map(|p| p.to_be_bytes().into_iter().skip(1)).collect();
-            let mut frame = gif::Frame::from_rgb_speed(WIDTH, HEIGHT, &pixels, 10);
-            frame.delay = 8;
-            encoder.write_frame(&frame).expect("memory takes all");
-        }
+        demo.skip(TURN / FRAMES - 1);
+        let pixels: Vec<u8> = memory.0.iter().flat_map(|p| p.to_be_bytes().into_iter().skip(1)).collect();
+        let mut frame = gif::Frame::from_rgb_speed(WIDTH, HEIGHT, &pixels, 10);
+        frame.delay = 10;
+        encoder.write_frame(&frame).expect("memory takes all");
     }
     drop(encoder);
     file
