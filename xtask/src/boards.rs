@@ -108,10 +108,11 @@ fn build(board: &Board) -> Result<[u64; SECTIONS.len()], String> {
 
 /// Builds a package for a target, and tells where its program is.
 fn build_package(package: &str, target: &str) -> Result<PathBuf, String> {
-    let toolchain = Toolchain::find(target)?;
-    let mut build = toolchain.cargo("build", target);
+    // One directory for all targets: most of what is built is for this machine, macros and build scripts.
+    let directory = workspace::target_directory().join("boards");
+    let mut build = Toolchain::find(target)?.cargo_in(&directory, "build", target);
     command::run(build.args(["--release", "--manifest-path", MANIFEST, "--package", package]))?;
-    Ok(toolchain.directory(target).join(target).join("release").join(package))
+    Ok(directory.join(target).join("release").join(package))
 }
 
 /// The package of a board, and its program. A chip's own name may be that of a crate with its registers.

@@ -46,6 +46,11 @@ impl Toolchain {
 
     /// A cargo that runs `subcommand` for `target`.
     pub(crate) fn cargo(&self, subcommand: &str, target: &str) -> Command {
+        self.cargo_in(&self.directory(target), subcommand, target)
+    }
+
+    /// The same with a target directory of the caller's.
+    pub(crate) fn cargo_in(&self, directory: &Path, subcommand: &str, target: &str) -> Command {
         let mut command = cargo();
         command.args([subcommand, "--target", target]);
         if let Toolchain::BuildStd { linker } = self {
@@ -57,7 +62,7 @@ impl Toolchain {
             command.env_remove("LD_LIBRARY_PATH");
             command.args(["-Z", "build-std=core"]);
         }
-        command.arg("--target-dir").arg(self.directory(target));
+        command.arg("--target-dir").arg(directory);
         command
     }
 

@@ -68,7 +68,7 @@ impl Scene {
         IntegerMesh::new(&VERTICES, &TRIANGLES, UNIT, move |vertex: &Vertex| {
             let [nx, ny, nz] = vertex.normal.map(i32::from);
             let cosine = (nx * x + ny * y + nz * z).max(0);
-            let light = Q16::from_bits(LIGHT[0] + (cosine * (LIGHT[1] >> 8) >> 8));
+            let light = Q16::from_bits(LIGHT[0] + ((cosine * (LIGHT[1] >> 8)) >> 8));
             let uv = vertex.uv.map(|c| Q16::from_bits(i32::from(c) << 4));
             IntegerVertex::<(Light, Vec2)> { place: vertex.place, components: (Light::of_integer(light), uv) }
         })

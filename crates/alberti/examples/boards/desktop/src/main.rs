@@ -6,6 +6,7 @@
 use alberti::texture::TexelFormat;
 use alberti::{FixedPoint, Rgb565Be, Spans16};
 use alberti_demo::{Demo, TURN};
+use color_quant::NeuQuant;
 use embassy_futures::block_on;
 use minifb::{Key, KeyRepeat, Scale, Window, WindowOptions};
 use panel::{Display, HEIGHT, WIDTH};
@@ -19,6 +20,8 @@ use std::process::ExitCode;
 const RATE: usize = 30;
 /// Frames of the animated picture.
 const FRAMES: u32 = 32;
+/// Colours of its palette.
+const COLORS: usize = 64;
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -83,17 +86,22 @@ fn window() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Frames of a turn, endless.
+/// Frames of a turn, endless, with one palette for all.
 fn animation() -> Vec<u8> {
     let (mut demo, mut memory) = (Box::new(Demo::new()), Memory::new());
-    let mut file = vec![];
-    let mut encoder = gif::Encoder::new(&mut file, WIDTH, HEIGHT, &[]).expect("a size of 16 bits");
-    encoder.set_repeat(gif::Repeat::Infinite).expect("memory takes all");
-    for _ in 0..FRAMES {
+    let frames: [Vec<u8>; FRAMES as usize] = std::array::from_fn(|_| {
         draw(&mut demo, true, &mut memory);
         demo.skip(TURN / FRAMES - 1);
-        let pixels: Vec<u8> = memory.0.iter().flat_map(|p| p.to_be_bytes().into_iter().skip(1)).collect();
-        let mut frame = gif::Frame::from_rgb_speed(WIDTH, HEIGHT, &pixels, 10);
+        memory.0.iter().flat_map(|pixel| (pixel << 8 | 0xff).to_be_bytes()).collect()
+    });
+    let palette = NeuQuant::new(10, COLORS, &frames.concat());
+    let mut file = vec![];
+    let mut encoder =
+        gif::Encoder::new(&mut file, WIDTH, HEIGHT, &palette.color_map_rgb()).expect("a size of 16 bits");
+    encoder.set_repeat(gif::Repeat::Infinite).expect("memory takes all");
+    for pixels in &frames {
+        let indices: Vec<u8> = pixels.chunks_exact(4).map(|pixel| palette.index_of(pixel) as u8).collect();
+        let mut frame = gif::Frame::from_indexed_pixels(WIDTH, HEIGHT, indices, None);
         frame.delay = 10;
         encoder.write_frame(&frame).expect("memory takes all");
     }

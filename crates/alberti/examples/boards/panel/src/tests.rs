@@ -143,7 +143,8 @@ fn command(code: u8, data: &[u8]) -> Vec<Event> {
     events
 }
 
-/// The codes and numbers are those of the data sheets: ST7789V, version 1.6, chapter 9; ILI9341, version 1.11, chapter 8.
+/// The codes and numbers are those of the data sheets: of the ST7789V, version 1.6, chapter 9; of the ILI9341, version
+/// 1.11, chapter 8.
 #[test]
 fn the_display_wakes_as_its_data_sheet_says() {
     for (chip, orientation, inversion) in
