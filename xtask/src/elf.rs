@@ -117,6 +117,20 @@ impl Program {
     }
 }
 
+/// The bytes in memory of a linked program's sections, those whose names begin with each prefix.
+pub(crate) fn sizes<const N: usize>(file: &[u8], prefixes: [&str; N]) -> Result<[u64; N], String> {
+    let layout = match file.get(..6) {
+        Some(b"\x7fELF\x01\x01") => &NARROW,
+        _ => return Err("this is not a little-endian ELF file of 32 bits".into()),
+    };
+    let sections = sections(file, layout).ok_or("this ELF file is not whole")?;
+    let size = |prefix: &str| {
+        let loaded = sections.iter().filter(|s| s.flags & ALLOCATED != 0 && s.name.starts_with(prefix));
+        loaded.map(|s| s.size).sum()
+    };
+    Ok(prefixes.map(size))
+}
+
 /// The path of a function, without parameters and arguments in either of Rust's manglings; other names as they are.
 fn path(symbol: &str) -> String {
     let name = format!("{:#}", rustc_demangle::demangle(symbol));
@@ -243,6 +257,8 @@ mod tests {
             assert_eq!(program.address(&program.symbols[1].0), Some(0x1234));
             assert_eq!(program.address("main"), None);
         }
+        assert_eq!(sizes(&file(&NARROW), [".text", ".rodata", ".data"]), Ok([100, 30, 0]));
+        assert!(sizes(&file(&WIDE), [".text"]).is_err());
     }
 
     #[test]

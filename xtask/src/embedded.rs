@@ -60,6 +60,11 @@ impl Toolchain {
 
     /// A cargo that runs `subcommand` for `target`.
     pub(crate) fn cargo(&self, subcommand: &str, target: Target) -> Command {
+        self.cargo_in(&self.directory(target), subcommand, target)
+    }
+
+    /// The same with a target directory of the caller's.
+    pub(crate) fn cargo_in(&self, directory: &Path, subcommand: &str, target: Target) -> Command {
         let mut command = cargo();
         command.args([subcommand, "--target", target.triple]);
         if let Some(processor) = target.processor {
@@ -74,7 +79,7 @@ impl Toolchain {
             command.env_remove("LD_LIBRARY_PATH");
             command.args(["-Z", "build-std=core"]);
         }
-        command.arg("--target-dir").arg(self.directory(target));
+        command.arg("--target-dir").arg(directory);
         command
     }
 

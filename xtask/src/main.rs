@@ -6,6 +6,7 @@
 
 mod accuracy;
 mod assets;
+mod boards;
 mod build_cost;
 mod checks;
 mod ci;
@@ -91,6 +92,12 @@ const CHORES: &[Chore] = &[
         arguments: "[--board b] [--write]",
         about: "run scenes on emulated cores: same bits as here, instructions, flash and RAM as in the table",
         run: firmware::run,
+    },
+    Chore {
+        name: "boards",
+        arguments: "[board | qemu]",
+        about: "build the programs of crates/alberti/examples/boards, or one, or run the demo in an emulator",
+        run: boards::run,
     },
     Chore { name: "golden", arguments: "[test]", about: "write the golden images anew", run: golden::run },
     Chore {

@@ -32,7 +32,10 @@ pub(super) fn lints(file: &str, text: &str) -> Vec<Problem> {
     let lines: Vec<&str> = text.lines().map(str::trim).collect();
     let mut problems = Vec::new();
     let is_package = lines.contains(&"[package]");
-    if is_package && !lines.windows(2).any(|pair| pair == ["[lints]", "workspace = true"]) {
+    let inherits = lines.windows(2).any(|pair| pair == ["[lints]", "workspace = true"]);
+    // A package that others use by its path from elsewhere has none of a workspace's.
+    let alone = lines.contains(&"[lints.rust]") && lines.contains(&LINTS[0]);
+    if is_package && !inherits && !alone {
         problems.push(Problem::new(file, 1, "`[lints]` and below it `workspace = true` are missing"));
     }
     if file == "Cargo.toml" {
@@ -221,6 +224,9 @@ mod tests {
         let inherited = "[package]\nname = \"a\"\n[lints]\nworkspace = true\n";
         assert_eq!(lints("crates/app/Cargo.toml", inherited), []);
         assert_eq!(lints("crates/app/Cargo.toml", "[package]\n[lints]\n[a]\nworkspace = true\n").len(), 1);
+        let alone = "[package]\n[lints.rust]\n";
+        assert_eq!(lints("crates/app/Cargo.toml", alone).len(), 1);
+        assert_eq!(lints("crates/app/Cargo.toml", &format!("{alone}unsafe_code = \"forbid\"\n")), []);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The demo of all boards: a lit, textured object of a thousand triangles that turns, drawn in bands.
 //!
-//! It knows no board. A [`Display`] sends bytes, and while it sends those of one band the next one is drawn.
+//! It knows no board. A [`panel::Display`] sends bytes, and while it sends those of one band the next one is drawn.
 
 #![no_std]
 
@@ -13,55 +13,55 @@ use core::mem::{replace, swap};
 use core::ops::Range;
 use embassy_futures::join::join;
 use object::{TRIANGLES, VERTICES};
+use panel::{Display, HEIGHT, WIDTH};
 
-/// Columns of the display.
-pub const WIDTH: u16 = 320;
-/// Rows of the display.
-pub const HEIGHT: u16 = 240;
 /// Rows of a band.
 pub const ROWS: u16 = 16;
 
 const BANDS: usize = (HEIGHT / ROWS) as usize;
 const PIXELS: usize = WIDTH as usize * ROWS as usize;
 
+/// The frames of a whole turn.
+pub const TURN: u32 = 256;
+
+/// The numbers of most cores. Triangles are so small that straight lines across them miss less than a quarter of a
+/// texel.
+pub const FIXED: FixedPoint<Affine> = FixedPoint(Affine);
+/// The same in floats.
+pub const FLOAT: Affine = Affine;
+
+/// Vertices that are kept; the others are transformed again in each band that has them.
+const SLOTS: usize = 320;
+
 /// The background.
 const BACKGROUND: Rgba8 = Rgba8::from_rgb24(0x10_18_28);
 
-type Buffers = Memory<Rgb565Be, D16, (Light, Vec2), PIXELS, 320, { TRIANGLES.len() }>;
+type Buffers = Memory<Rgb565Be, D16, (Light, Vec2), PIXELS, SLOTS, { TRIANGLES.len() }>;
 
 /// The bytes of RAM that all of it may take, but for the stack.
-const BUDGET: usize = 99 * 1024;
+const BUDGET: usize = 46 * 1024;
 const _: () = assert!(size_of::<Demo>() <= BUDGET, "the demo's memory is larger than its budget");
 
-/// A display, and how it is reached.
-#[allow(async_fn_in_trait, reason = "boards await on the spot, and no thread is there to send it to")]
-pub trait Display {
-    /// A failure of the bus.
-    type Error;
-
-    /// Waits until a frame may begin: for the display's tearing-effect pin, a timer, or both.
-    async fn begin(&mut self) -> Result<(), Self::Error>;
-
-    /// Sends rows of the frame, two bytes a pixel, the higher first.
-    async fn send(&mut self, rows: Range<u16>, bytes: &[u8]) -> Result<(), Self::Error>;
-}
-
-/// The demo's memory, for a `static`: about 45 KB.
+/// The demo's memory, for a `static`: about 46 KB.
 #[derive(Debug)]
 pub struct Demo {
     buffers: Buffers,
-    /// The rows of each band on which the object was in the frame before.
+    /// The rows of each band on which the object was in the frame before; before the first frame none.
     shown: [Range<u16>; BANDS],
-    /// Frames that were drawn.
+    /// Frames that were drawn or left out.
     frame: u32,
 }
 
 impl Demo {
-    /// The demo before its first frame.
+    /// The demo before its first frame: zeros, which take no flash.
     #[must_use]
     pub const fn new() -> Self {
-        // All zeros, which take no room in flash.
         Self { buffers: Buffers::new(0, 0), shown: [const { 0..0 }; BANDS], frame: 0 }
+    }
+
+    /// Leaves out so many frames.
+    pub const fn skip(&mut self, frames: u32) {
+        self.frame = self.frame.wrapping_add(frames);
     }
 
     /// Draws the next frame by `interpolation`, and sends those of its rows that change.
@@ -99,7 +99,7 @@ impl Demo {
                 triangles.count_by(lanes::One, &mut band, &mut touched);
                 let now = rows_of(&touched);
                 let before = replace(shown, now.clone());
-                // The first frame has a background everywhere.
+                // In the first frame all, for the background.
                 if turn == 0 { first as u16..first as u16 + ROWS } else { about(&before, &now) }
             };
             // The transfer is begun first.

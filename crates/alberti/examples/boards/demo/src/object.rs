@@ -34,7 +34,7 @@ static TEXELS_OF_LEVELS: MipSampler<'static, Rgb565, NearestLevel<Nearest>, Repe
     TEXTURE.sampler(NearestLevel(Nearest), Repeat);
 
 /// The lens, so that the board computes none of it.
-const LENS: Perspective = match Perspective::new(0.7, super::WIDTH as f32 / super::HEIGHT as f32, 1.0, 8.0) {
+const LENS: Perspective = match Perspective::new(0.7, panel::WIDTH as f32 / panel::HEIGHT as f32, 1.0, 8.0) {
     Ok(lens) => lens,
     Err(_) => panic!("an impossible lens"),
 };
@@ -72,7 +72,7 @@ impl Scene {
         IntegerMesh::new(&VERTICES, &TRIANGLES, UNIT, move |vertex: &Vertex| {
             let [nx, ny, nz] = vertex.normal.map(i32::from);
             let cosine = (nx * x + ny * y + nz * z).max(0);
-            let light = Q16::from_bits(LIGHT[0] + (cosine * (LIGHT[1] >> 8) >> 8));
+            let light = Q16::from_bits(LIGHT[0] + ((cosine * (LIGHT[1] >> 8)) >> 8));
             let uv = vertex.uv.map(|c| Q16::from_bits(i32::from(c) << 4));
             IntegerVertex::<(Light, Vec2)> { place: vertex.place, components: (Light::of_integer(light), uv) }
         })

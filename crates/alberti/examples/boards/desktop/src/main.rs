@@ -4,19 +4,24 @@
 //!     cargo run --release -- demo.gif     # one turn
 
 use alberti::texture::TexelFormat;
-use alberti::{FixedPoint, Rgb565Be, Spans16};
-use alberti_demo::{Demo, Display, HEIGHT, WIDTH};
+use alberti::Rgb565Be;
+use alberti_demo::{Demo, FIXED, FLOAT, TURN};
+use color_quant::NeuQuant;
 use embassy_futures::block_on;
 use minifb::{Key, KeyRepeat, Scale, Window, WindowOptions};
+use panel::{Display, HEIGHT, WIDTH};
 use std::convert::Infallible;
 use std::error::Error;
 use std::fs;
 use std::ops::Range;
 use std::process::ExitCode;
 
-/// Frames of a whole turn, and of a second.
-const TURN: usize = 256;
-const FRAMES: usize = 30;
+/// Frames of a second.
+const RATE: usize = 30;
+/// Frames of the animated picture.
+const FRAMES: u32 = 32;
+/// Colours of its palette.
+const COLORS: usize = 64;
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -63,7 +68,7 @@ impl Display for Memory {
 /// Draws the next frame into the memory.
 fn draw(demo: &mut Demo, fixed: bool, memory: &mut Memory) {
     let Ok(()) = block_on(async {
-        if fixed { demo.frame(FixedPoint(Spans16), memory).await } else { demo.frame(Spans16, memory).await }
+        if fixed { demo.frame(FIXED, memory).await } else { demo.frame(FLOAT, memory).await }
     });
 }
 
@@ -71,7 +76,7 @@ fn window() -> Result<(), Box<dyn Error>> {
     let (mut demo, mut memory, mut fixed) = (Box::new(Demo::new()), Memory::new(), true);
     let options = WindowOptions { scale: Scale::X2, ..WindowOptions::default() };
     let mut window = Window::new("alberti", WIDTH.into(), HEIGHT.into(), options)?;
-    window.set_target_fps(FRAMES);
+    window.set_target_fps(RATE);
     while window.is_open() && !window.is_key_down(Key::Escape) {
         fixed ^= window.is_key_pressed(Key::Space, KeyRepeat::No);
         window.set_title(if fixed { "alberti, in fixed point" } else { "alberti, in f32" });
@@ -81,20 +86,24 @@ fn window() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Every fourth frame of a turn, endless, with one palette for all.
+/// Frames of a turn, endless, with one palette for all.
 fn animation() -> Vec<u8> {
     let (mut demo, mut memory) = (Box::new(Demo::new()), Memory::new());
-    let mut file = vec![];
-    let mut encoder = gif::Encoder::new(&mut file, WIDTH, HEIGHT, &[]).expect("a size of 16 bits");
-    encoder.set_repeat(gif::Repeat::Infinite).expect("memory takes all");
-    for number in 0..TURN {
+    let frames: [Vec<u8>; FRAMES as usize] = std::array::from_fn(|_| {
         draw(&mut demo, true, &mut memory);
-        if number % 4 == 0 {
-            let pixels: Vec<u8> = memory.0.iter().flat_map(|p| p.to_be_bytes().into_iter().skip(1)).collect();
-            let mut frame = gif::Frame::from_rgb_speed(WIDTH, HEIGHT, &pixels, 10);
-            frame.delay = 8;
-            encoder.write_frame(&frame).expect("memory takes all");
-        }
+        demo.skip(TURN / FRAMES - 1);
+        memory.0.iter().flat_map(|pixel| (pixel << 8 | 0xff).to_be_bytes()).collect()
+    });
+    let palette = NeuQuant::new(10, COLORS, &frames.concat());
+    let mut file = vec![];
+    let mut encoder =
+        gif::Encoder::new(&mut file, WIDTH, HEIGHT, &palette.color_map_rgb()).expect("a size of 16 bits");
+    encoder.set_repeat(gif::Repeat::Infinite).expect("memory takes all");
+    for pixels in &frames {
+        let indices: Vec<u8> = pixels.chunks_exact(4).map(|pixel| palette.index_of(pixel) as u8).collect();
+        let mut frame = gif::Frame::from_indexed_pixels(WIDTH, HEIGHT, indices, None);
+        frame.delay = 10;
+        encoder.write_frame(&frame).expect("memory takes all");
     }
     drop(encoder);
     file

@@ -1,0 +1,62 @@
+//! The demo on a board with an nRF52840, with the pins of Adafruit's Feather.
+//!
+//! | display | pin | function |
+//! |---|---|---|
+//! | SCL, SCK | P0.14 | any that is no low-frequency pin |
+//! | SDA, MOSI | P0.13 | likewise |
+//! | CS | P0.27 | |
+//! | DC, RS | P0.26 | |
+//! | RST | P0.06 | |
+//! | TE | P0.07 | leave it and its line below out where the display has none |
+//! | VCC, BLK | 3V3 | |
+
+#![no_std]
+#![no_main]
+
+use alberti_demo::{Demo, FIXED};
+use embassy_executor::Spawner;
+use embassy_nrf::bind_interrupts;
+use embassy_nrf::config::HfclkSource;
+use embassy_nrf::gpio::{Input, Level, Output, OutputDrive, Pull};
+use embassy_nrf::peripherals::SPI3;
+use embassy_nrf::spim::{self, Config, Frequency, Spim};
+use embassy_time::{Delay, Duration, Ticker};
+use panel::{Chip, Panel, Pins};
+use panic_halt as _;
+use static_cell::ConstStaticCell;
+
+bind_interrupts!(struct Interrupts {
+    SPIM3 => spim::InterruptHandler<SPI3>;
+});
+
+static DEMO: ConstStaticCell<Demo> = ConstStaticCell::new(Demo::new());
+
+#[embassy_executor::main]
+async fn main(_spawner: Spawner) {
+    let mut config = embassy_nrf::config::Config::default();
+    config.hfclk_source = HfclkSource::ExternalXtal;
+    let board = embassy_nrf::init(config);
+    // Of the four, the only one that reaches 32 MHz.
+    let mut config = Config::default();
+    config.frequency = Frequency::M32;
+    config.sck_drive = OutputDrive::HighDrive;
+    config.mosi_drive = OutputDrive::HighDrive;
+    let bus = Spim::new_txonly(board.SPI3, Interrupts, board.P0_14, board.P0_13, config);
+    let pins = Pins {
+        select: Output::new(board.P0_27, Level::High, OutputDrive::Standard),
+        data: Output::new(board.P0_26, Level::High, OutputDrive::Standard),
+        reset: Output::new(board.P0_06, Level::High, OutputDrive::Standard),
+    };
+
+    let mut tearing = Input::new(board.P0_07, Pull::Down);
+    let mut ticker = Ticker::every(Duration::from_hz(30));
+    let pace = async move || {
+        ticker.next().await;
+        tearing.wait_for_rising_edge().await;
+    };
+
+    let Ok(mut panel) = Panel::new(Chip::St7789, bus, pins, &mut Delay, pace).await else { return };
+    let demo = DEMO.take();
+    // Also with an FPU fixed point is the quicker.
+    while demo.frame(FIXED, &mut panel).await.is_ok() {}
+}
