@@ -3,8 +3,8 @@
 //!     cargo run --release                 # a window: space for the numbers, escape to leave
 //!     cargo run --release -- demo.gif     # one turn
 
-use alberti::texture::TexelFormat;
 use alberti::Rgb565Be;
+use alberti::texture::TexelFormat;
 use alberti_demo::{Demo, FIXED, FLOAT, TURN};
 use color_quant::NeuQuant;
 use embassy_futures::block_on;
