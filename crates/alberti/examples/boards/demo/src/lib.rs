@@ -12,7 +12,7 @@ use alberti::*;
 use core::mem::{replace, swap};
 use core::ops::Range;
 use embassy_futures::join::join;
-use object::{TRIANGLES, VERTICES};
+use object::TRIANGLES;
 use panel::{Display, HEIGHT, WIDTH};
 
 /// Rows of a band.
