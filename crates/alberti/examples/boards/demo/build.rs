@@ -10,7 +10,7 @@ use std::path::Path;
 use std::{env, fs};
 
 /// Cells of the tube, along and around; each is two triangles.
-const CELLS: [u16; 2] = [62, 8];
+const CELLS: [u16; 2] = [63, 8];
 /// The texture is on it so many times.
 const TIMES: [u16; 2] = [12, 2];
 /// The sides of the texture.
@@ -39,7 +39,7 @@ fn vertices(source: &mut String) {
         for j in 0..=around {
             let turn = Quat::from_axis_angle(forward, TAU * f32::from(j) / f32::from(around));
             let normal = turn * side;
-            let place = (at + normal * 0.30) * 0.43;
+            let place = (at + normal * 0.30) * 0.42;
             let [place, normal] = [(place, 16384.0), (normal, 127.0)]
                 .map(|(v, scale)| (v * scale).round().to_array().map(|c| c as i16));
             let uv = [(i, along, TIMES[0]), (j, around, TIMES[1])]
