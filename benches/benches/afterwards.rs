@@ -1,8 +1,9 @@
-//! The cost of what comes after the fragment: blends, dithers, fogs and holes, on a tilted square of 1280x720 pixels with
-//! one texel each.
+//! The cost of what comes after the fragment: blends, dithers, fogs and holes, on a tilted square of 1280x720 pixels
+//! with one texel each.
 //!
 //! Before a way is timed, its picture is held against the same drawn one sample at a time, which must not differ in a
-//! bit, and against the formula in `f64`, from the picture without it. Figures are for written pixels, of drawing alone.
+//! bit. It is held against the formula in `f64` as well, from the picture without it. Figures are for written pixels,
+//! of drawing alone.
 #![allow(
     clippy::cast_possible_truncation,
     clippy::cast_precision_loss,
