@@ -257,7 +257,7 @@ mod tests {
             assert_eq!(program.address(&program.symbols[1].0), Some(0x1234));
             assert_eq!(program.address("main"), None);
         }
-        assert_eq!(sizes(&file(&NARROW), [".text", ".rodata", ".data"]), Ok([100, 30, 0]));
+        assert_eq!(sizes(&file(&NARROW), [".text", ".rodata", ".data"]), Ok([100, 30, 5]));
         assert!(sizes(&file(&WIDE), [".text"]).is_err());
     }
 
