@@ -187,7 +187,9 @@ impl<F: TexelFormat<Texel: FragmentColor>, U: Wrap, V: Wrap, Z: Size> FragmentSt
 mod tests {
     use super::*;
     use crate::shaders::{Called, Solid, Times, Tinted};
+    use crate::{Affine, Camera, D16, Exact, FixedPoint, Mesh, Pass, Spans16, Sub4, Target};
     use alberti_math::Q16;
+    use alberti_math::glam::Vec3;
     use alberti_math::lanes::{One, OneFixed};
     use alberti_raster::{Gradient, Rgb565Le};
     use alberti_texture::format::{L8, Rgb565, Rgba8888};
@@ -255,13 +257,17 @@ mod tests {
         }
     }
 
+    #[expect(clippy::cast_possible_truncation, reason = "any bits")]
+    fn noise(k: usize) -> u16 {
+        (k.wrapping_mul(0x9e37_79b1) >> 13) as u16
+    }
+
     /// Levels are those nearest to the logarithm in f64; between two, the texel is that of the filter for each sample.
     #[test]
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small numbers")]
     fn levels_are_chosen_once_for_a_triangle() {
         const SIDE: u32 = 32;
         let mut texels = std::vec![0_u16; alberti_texture::mipmap::texel_count(SIDE, SIDE)];
-        let noise = |k: usize| (k.wrapping_mul(0x9e37_79b1) >> 13) as u16;
         texels.iter_mut().enumerate().for_each(|(k, texel)| *texel = noise(k));
         let map = Mipmap::new(Rgb565, &texels, SIDE, SIDE).expect("all levels");
         let trilinear = map.sampler(Trilinear, Repeat);
@@ -300,6 +306,48 @@ mod tests {
         assert!(levels.iter().all(|&count| count > 100), "{levels:?}");
         // Without a triangle, the largest level.
         assert_eq!(nearest.shade_one(Vec2::ZERO), Some(noise(31 * 32)));
+    }
+
+    /// Triangles of all sizes, in floats and in fixed point: levels found before them are those of each sample.
+    #[test]
+    fn drawn_triangles_have_the_levels_of_their_samples() {
+        const SIDE: u32 = 64;
+        let mut texels = std::vec![0_u16; alberti_texture::mipmap::texel_count(SIDE, SIDE)];
+        texels.iter_mut().enumerate().for_each(|(k, texel)| *texel = noise(k));
+        let map = Mipmap::new(Rgb565, &texels, SIDE, SIDE).expect("all levels").sampler(Trilinear, Repeat);
+        let view = Camera::look_at(Vec3::Z * 3.0, Vec3::ZERO, Vec3::Y).expect("a view");
+        let view = view.perspective(0.8, 0.1..10.0).expect("a lens");
+        for size in [0.05, 0.12, 0.3, 0.9_f32] {
+            let corner =
+                |k: u8| Vec3::new(f32::from(k % 2), f32::from(k / 2) * 0.8, f32::from(k % 2) * 0.2) * size;
+            let corners = [0, 1, 3, 2].map(|k| {
+                (corner(k) - Vec3::splat(size * 0.4), Vec2::new(f32::from(k % 2), f32::from(k / 2)) * 1.7)
+            });
+            let mesh = Mesh::new(&corners, &[[0_u8, 1, 2], [0, 2, 3]], |&corner| corner);
+            let draw = |stage: &dyn Fn(&mut Target<'_, Rgb565Le, D16>)| {
+                let (mut color, mut depth) = (std::vec![0; 160 * 120], std::vec![0; 160 * 120]);
+                let target = Target::new(Rgb565Le, D16, 160, 120, &mut color, &mut depth);
+                let mut target = target.expect("buffers that fit");
+                target.clear(Rgba8::BLACK);
+                stage(&mut target);
+                color
+            };
+            macro_rules! alike {
+                ($interpolation:expr) => {{
+                    let by =
+                        |stage| Pass::new(&view, &mesh, stage).interpolation($interpolation).subpixel(Sub4);
+                    let found = draw(&|target| by(Stored(map.leveled())).draw(target));
+                    let by =
+                        |stage| Pass::new(&view, &mesh, stage).interpolation($interpolation).subpixel(Sub4);
+                    let right = draw(&|target| by(Differentiated::by(PerTriangle, Stored(map))).draw(target));
+                    assert!(found == right, "{size}, {}", stringify!($interpolation));
+                    assert!(found.iter().any(|&pixel| pixel != 0), "{size}: nothing is seen");
+                }};
+            }
+            alike!(Exact);
+            alike!(FixedPoint(Affine));
+            alike!(FixedPoint(Spans16));
+        }
     }
 
     #[test]
