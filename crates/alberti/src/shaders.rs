@@ -7,6 +7,7 @@
 //! | [`VertexColor565`] | [`Ready565`] | the same in 16 bits |
 //! | [`Unlit`] | `Vec2` | a [`Map`]'s, a texture's for one, at the varying |
 //! | [`Stored`] | `Vec2` | the same, in the texture's own format |
+//! | [`TexelDither`] | `Vec2` | the same, a texel of those that a filter would mix |
 //! | [`Tinted`] | the wrapped stage's | the wrapped stage's times a colour |
 //! | [`Sunlit`] | `(Vec3, V)`: a normal and the wrapped stage's | the wrapped stage's, lit |
 //! | [`Lit565`] | `(Light, V)`: a [`Light`] and the wrapped stage's | the wrapped stage's in 16 bits, lit |
@@ -51,7 +52,9 @@ mod map;
 pub mod material;
 mod slide;
 mod sunlit;
+#[macro_use]
 mod texture;
+mod texel_dither;
 mod tinted;
 pub mod wide;
 
@@ -61,6 +64,7 @@ pub use lit::{Light, Lit565};
 pub use map::{Called, Map, Times};
 pub use slide::{Mix, Slide};
 pub use sunlit::{Sunlit, face_normal};
+pub use texel_dither::TexelDither;
 pub use texture::{Differentiated, Stored, Unlit};
 pub use tinted::Tinted;
 

@@ -11,12 +11,14 @@
 mod bytes;
 mod content;
 mod indexed;
+mod pairs;
 mod storage;
 
 pub use alberti_math::{Rgb565Be, Rgb565Le, Rgba8, Rgba8888};
 pub use bytes::InBytes;
 pub use content::{Content, Normals, Scalars};
 pub use indexed::{Indexed, Indexed1, Indexed2, Indexed4, Indexed8, PaletteColor};
+pub use pairs::Rgb565Pairs;
 pub use storage::Storage;
 
 use crate::mipmap::mean;

@@ -4,10 +4,12 @@ use core::fmt;
 
 use alberti_math::lanes::Lanes;
 
-use crate::format::Storage;
+use crate::format::{Rgb565, Storage};
 use crate::minify::{NearestLevel, Trilinear, among_levels};
 use crate::packed::{Packed, bilinear};
-use crate::{AnySize, Filter, Gradient, MipFilter, MipSampler, Sampler, Size, Texture, Wrap};
+use crate::{
+    AnySize, Bilinear, Filter, Gradient, MipFilter, MipSampler, Sampler, Size, TexelFormat, Texture, Wrap,
+};
 
 /// Filters of a level, or of one and the next, that need nothing of λ but which.
 pub trait Levels: MipFilter {
@@ -76,6 +78,32 @@ impl<'a, F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size> Leveled<'a, F, Neare
     }
 }
 
+impl<F: TexelFormat, U: Wrap, V: Wrap, Z: Size> Leveled<'_, F, Trilinear, U, V, Z> {
+    /// [`Sampler::either_lanes`] of one of the levels: the second where its share, in 32nds, and the last of
+    /// `thresholds`, from 0 to 31, add up to one.
+    #[inline(always)]
+    pub fn either_lanes<L: Lanes>(
+        &self,
+        lanes: L,
+        uv: [L::Number; 2],
+        [u, v, level]: [L::U32; 3],
+        word: impl Fn(Option<F::Texel>) -> u32,
+    ) -> L::U32 {
+        let sampled = |texture: &Texture<'_, F, Z::Level>| {
+            let (wrap_u, wrap_v) = self.map.wraps();
+            texture.sampler_per_axis(Bilinear, wrap_u, wrap_v).either_lanes(lanes, uv, [u, v], &word)
+        };
+        let second = lanes.shr(lanes.word(self.along.into()) + level, 5);
+        if const { L::COUNT == 1 } {
+            let first = lanes.bits(lanes.equal_words(second, lanes.word(0))) != 0;
+            return sampled(if first { &self.near } else { &self.far });
+        }
+        let [near, far] = [sampled(&self.near), sampled(&self.far)];
+        let second = lanes.word(0) - second;
+        (near & (lanes.word(u32::MAX) - second)) | (far & second)
+    }
+}
+
 impl<F: Packed, U: Wrap, V: Wrap, Z: Size> Leveled<'_, F, Trilinear, U, V, Z> {
     /// The mean of both levels as a texel: [`MipSampler::packed_grad_lanes`].
     #[inline(always)]
@@ -83,10 +111,10 @@ impl<F: Packed, U: Wrap, V: Wrap, Z: Size> Leveled<'_, F, Trilinear, U, V, Z> {
         let wraps = self.map.wraps();
         let near = bilinear(lanes, &self.near, wraps, uv);
         if self.along == 0 {
-            return F::gathered(lanes, near);
+            return Rgb565::gathered(lanes, near);
         }
         let far = bilinear(lanes, &self.far, wraps, uv);
-        F::gathered(lanes, F::blended(lanes, near, far, lanes.word(self.along.into())))
+        Rgb565::gathered(lanes, Rgb565::blended(lanes, near, far, lanes.word(self.along.into())))
     }
 }
 

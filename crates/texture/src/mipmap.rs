@@ -63,7 +63,7 @@ pub const fn texel_count(width: u32, height: u32) -> usize {
 }
 
 /// The sides of a level.
-const fn size_of_level([width, height]: [u32; 2], level: usize) -> [u32; 2] {
+pub(crate) const fn size_of_level([width, height]: [u32; 2], level: usize) -> [u32; 2] {
     const fn half(side: u32, level: usize) -> u32 {
         let side = side >> level;
         if side == 0 { 1 } else { side }

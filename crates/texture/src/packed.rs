@@ -7,56 +7,74 @@ use crate::format::{Rgb565, TexelFormat};
 use crate::minify::{among_levels, each_word};
 use crate::{Bilinear, Gradient, MipSampler, Mipmap, Sampler, Size, Texture, Trilinear, Wrap};
 
-/// A format whose texels can be mixed as they are stored, by weights of 5 bits.
+/// A format of RGB565 texels, each by itself or with another, which can be mixed as they are stored, by weights of 5
+/// bits.
 pub trait Packed: TexelFormat {
-    /// The texel in the low bits of a word, its channels apart.
-    fn spread<L: Lanes>(lanes: L, texel: L::U32) -> L::U32;
-
-    /// The nearest to the mean of two, of which the second has a share of so many 32nds.
-    fn blended<L: Lanes>(lanes: L, first: L::U32, second: L::U32, share: L::U32) -> L::U32;
-
-    /// The nearest to the mean of four by weights in 32nds, which add up to 32.
-    fn mean_of_four<L: Lanes>(lanes: L, spread: [L::U32; 4], weights: [L::U32; 4]) -> L::U32;
-
-    /// The texel of a word of channels apart.
-    fn gathered<L: Lanes>(lanes: L, spread: L::U32) -> L::U32;
+    /// Whether a texel has with it the one to its right, which is the first of the row for the last.
+    const PAIRS: bool = false;
 
     /// The word of a texel.
     fn word(texel: Self::Texel) -> u32;
-}
 
-/// Green, red and blue with room above each for a product with 32.
-const SPREAD: u32 = 0x07e0_f81f;
-/// A half of 32 in each.
-const HALVES: u32 = 16 << 21 | 16 << 11 | 16;
+    /// The texel of a word, its channels [apart](Rgb565::spread).
+    #[inline(always)]
+    fn texel<L: Lanes>(lanes: L, word: L::U32) -> L::U32 {
+        Rgb565::spread(lanes, word)
+    }
+
+    /// The one to its right, in [`PAIRS`](Self::PAIRS).
+    #[inline(always)]
+    fn next<L: Lanes>(lanes: L, word: L::U32) -> L::U32 {
+        Self::texel(lanes, word)
+    }
+}
 
 impl Packed for Rgb565 {
     #[inline(always)]
-    fn spread<L: Lanes>(lanes: L, texel: L::U32) -> L::U32 {
+    fn word(texel: u16) -> u32 {
+        texel.into()
+    }
+}
+
+/// Green, red and blue with room above each for a product with 32.
+pub(crate) const SPREAD: u32 = 0x07e0_f81f;
+/// A half of 32 in each.
+const HALVES: u32 = 16 << 21 | 16 << 11 | 16;
+
+/// Texels in words, of which the channels are apart: green in the upper half, red and blue in the lower.
+impl Rgb565 {
+    /// The texel in the low bits of a word, its channels apart.
+    #[inline(always)]
+    pub fn spread<L: Lanes>(lanes: L, texel: L::U32) -> L::U32 {
         (texel | lanes.shl(texel, 16)) & lanes.word(SPREAD)
     }
 
+    /// The nearest to the mean of two, of which the second has a share of so many 32nds.
     #[inline(always)]
-    fn blended<L: Lanes>(lanes: L, first: L::U32, second: L::U32, share: L::U32) -> L::U32 {
+    pub fn blended<L: Lanes>(lanes: L, first: L::U32, second: L::U32, share: L::U32) -> L::U32 {
         // The fields of the sum are none below 0; differences that are borrow from the next, and pay it back.
         let sum = lanes.shl(first, 5) + (second - first) * share + lanes.word(HALVES);
         lanes.shr(sum, 5) & lanes.word(SPREAD)
     }
 
+    /// The nearest to the mean of four, by the ways in 32nds from the first to the second and to the third. The last
+    /// number is the share of the fourth, about their product.
     #[inline(always)]
-    fn mean_of_four<L: Lanes>(lanes: L, [a, b, c, d]: [L::U32; 4], weights: [L::U32; 4]) -> L::U32 {
-        let sum = lanes.word(HALVES) + a * weights[0] + b * weights[1] + c * weights[2] + d * weights[3];
+    fn mean_of_four<L: Lanes>(
+        lanes: L,
+        [[a, b], [c, d]]: [[L::U32; 2]; 2],
+        [along, up, both]: [L::U32; 3],
+    ) -> L::U32 {
+        // Shares of all are whole 32nds, none below 0, that add up to 32.
+        let step = b - a;
+        let sum = lanes.word(HALVES) + lanes.shl(a, 5) + step * along + (c - a) * up + (d - c - step) * both;
         lanes.shr(sum, 5) & lanes.word(SPREAD)
     }
 
+    /// The texel of a word of channels apart.
     #[inline(always)]
-    fn gathered<L: Lanes>(lanes: L, spread: L::U32) -> L::U32 {
+    pub fn gathered<L: Lanes>(lanes: L, spread: L::U32) -> L::U32 {
         (spread | lanes.shr(spread, 16)) & lanes.word(0xffff)
-    }
-
-    #[inline(always)]
-    fn word(texel: u16) -> u32 {
-        texel.into()
     }
 }
 
@@ -70,21 +88,28 @@ pub(crate) fn bilinear<L: Lanes, F: Packed, Z: Size, U: Wrap, V: Wrap>(
 ) -> L::U32 {
     let [[left, right, along], [low, high, up]] = texture.between_by(lanes, uv, wrap, 5);
     let last = lanes.word(texture.height().wrapping_sub(1));
+    let low = last - low;
+    // Rows are in memory from the top.
+    let high = if const { V::PERIODIC } {
+        wrap.1.fold(lanes, low - lanes.word(1), texture.height())
+    } else {
+        last - high
+    };
     let [low, high] = map2(
         [low, high],
         #[inline(always)]
         |row| {
-            let [pair] = texture.word_pairs(lanes, last - row, [left, right], |texel| {
-                texel.map_or(0, |texel| F::word(*texel))
-            });
-            map2(pair, |texel| F::spread(lanes, texel))
+            let word = |texel: Option<&F::Texel>| texel.map_or(0, |texel| F::word(*texel));
+            if const { F::PAIRS && U::PERIODIC } {
+                let pair = texture.words(lanes, row, left, word);
+                return [F::texel(lanes, pair), F::next(lanes, pair)];
+            }
+            let [pair] = texture.word_pairs(lanes, row, [left, right], word);
+            map2(pair, |word| F::texel(lanes, word))
         },
     );
-    // Whole 32nds, none below 0, that add up to 32.
     let both = lanes.shr(along * up + lanes.word(16), 5);
-    let [only_along, only_up] = [along - both, up - both];
-    let weights = [lanes.word(32) - along - only_up, only_along, only_up, both];
-    F::mean_of_four(lanes, [low[0], low[1], high[0], high[1]], weights)
+    Rgb565::mean_of_four(lanes, [low, high], [along, up, both])
 }
 
 impl<F: Packed, U: Wrap, V: Wrap, Z: Size> Sampler<'_, F, Bilinear, U, V, Z> {
@@ -96,10 +121,10 @@ impl<F: Packed, U: Wrap, V: Wrap, Z: Size> Sampler<'_, F, Bilinear, U, V, Z> {
     /// The most that was measured is 1.5 and 2.2. Equal texels give that texel, and a texel's centre gives it.
     ///
     /// # Cost
-    /// Four texels and five products of 32 bits.
+    /// Four texels, or two pairs, and four products of 32 bits.
     #[inline(always)]
     pub fn packed_lanes<L: Lanes>(&self, lanes: L, u: L::Number, v: L::Number) -> L::U32 {
-        F::gathered(lanes, bilinear(lanes, &self.texture(), self.wraps(), [u, v]))
+        Rgb565::gathered(lanes, bilinear(lanes, &self.texture(), self.wraps(), [u, v]))
     }
 }
 
@@ -111,7 +136,7 @@ impl<F: Packed, U: Wrap, V: Wrap, Z: Size> MipSampler<'_, F, Trilinear, U, V, Z>
     /// the most that was measured.
     ///
     /// # Cost
-    /// Eight texels and twelve products of 32 bits; half of that where a whole level is asked for.
+    /// Eight texels, or four pairs, and nine products of 32 bits; half of that where a whole level is asked for.
     #[inline(always)]
     pub fn packed_grad_lanes<L: Lanes>(
         &self,
@@ -129,7 +154,7 @@ impl<F: Packed, U: Wrap, V: Wrap, Z: Size> MipSampler<'_, F, Trilinear, U, V, Z>
             #[inline(always)]
             |level| [between::<L, F, Z, U, V>(lanes, &mipmap, self.wraps(), uv, (level as usize, along))],
         );
-        F::gathered(lanes, spread)
+        Rgb565::gathered(lanes, spread)
     }
 }
 
@@ -147,7 +172,7 @@ fn between<L: Lanes, F: Packed, Z: Size, U: Wrap, V: Wrap>(
     if none {
         return near;
     }
-    F::blended(lanes, near, bilinear(lanes, &mipmap.level(level + 1), wrap, uv), along)
+    Rgb565::blended(lanes, near, bilinear(lanes, &mipmap.level(level + 1), wrap, uv), along)
 }
 
 #[cfg(test)]
@@ -159,9 +184,10 @@ fn between<L: Lanes, F: Packed, Z: Size, U: Wrap, V: Wrap>(
 )]
 mod tests {
     use super::*;
-    use crate::{Clamp, Mirror, Repeat};
-    use alberti_math::Q16;
+    use crate::format::Rgb565Pairs;
+    use crate::{Border, Clamp, Mirror, Repeat};
     use alberti_math::lanes::{One, OneFixed};
+    use alberti_math::{Q16, Rgba8};
     use std::vec::Vec;
 
     const SIDE: u32 = 16;
@@ -229,6 +255,35 @@ mod tests {
             for (worst, bound) in of.into_iter().zip(bound) {
                 assert!(worst <= bound && worst > 0.35 * bound, "{bilinear:?} {trilinear:?}");
             }
+        }
+    }
+
+    /// Pairs are nothing but another way to the same texels, in all wraps and levels.
+    #[test]
+    fn means_of_pairs_are_those_of_texels() {
+        fn check<W: Wrap>(wrap: W, texels: &[u16], [width, height]: [u32; 2]) {
+            let mut pairs: Vec<u32> =
+                texels.iter().map(|&texel| Rgb565Pairs.encode(Rgb565.decode(texel))).collect();
+            Rgb565Pairs::link(&mut pairs, width, height);
+            let each = Mipmap::new(Rgb565, texels, width, height).expect("levels");
+            let pairs = Mipmap::new(Rgb565Pairs, &pairs, width, height).expect("levels");
+            for k in 0..3000_u32 {
+                let uv = [k.wrapping_mul(0x9e37_79b1), k.wrapping_mul(0x85eb_ca77)]
+                    .map(|x| (x >> 13) as f32 / 131_072.0 - 2.0);
+                for level in 0..each.levels() {
+                    let right = each.level(level).sampler(Bilinear, wrap).packed_lanes(One, uv[0], uv[1]);
+                    let found = pairs.level(level).sampler(Bilinear, wrap).packed_lanes(One, uv[0], uv[1]);
+                    assert_eq!(found, right, "{wrap:?}, level {level}, {uv:?}");
+                }
+            }
+        }
+        let texels = texels();
+        for sides in [[16, 16], [16, 5], [7, 8]] {
+            let texels = &texels[..crate::mipmap::texel_count(sides[0], sides[1])];
+            check(Repeat, texels, sides);
+            check(Clamp, texels, sides);
+            check(Mirror, texels, sides);
+            check(Border(Rgba8::BLACK), texels, sides);
         }
     }
 

@@ -9,7 +9,7 @@ use glam::Vec2;
 use crate::blend::scalar_number;
 use crate::filter::{Filter, bordered};
 use crate::format::Storage;
-use crate::{AnySize, Nearest, Size, TexelFormat, Texture, Wrap};
+use crate::{AnySize, Bilinear, Nearest, Size, TexelFormat, Texture, Wrap};
 
 /// A texture with a filter and a wrap mode for each axis, which a fragment asks for a colour.
 ///
@@ -82,13 +82,41 @@ impl<F: TexelFormat, U: Wrap, V: Wrap, Z: Size> Sampler<'_, F, Nearest, U, V, Z>
         v: L::Number,
         word: impl Fn(Option<F::Texel>) -> u32,
     ) -> L::U32 {
-        let (texture, (u_wrap, v_wrap)) = (&self.texture, self.wrap);
-        let at = texture.cells(lanes, [u, v], self.wrap);
-        let borders = map2([u_wrap.border(), v_wrap.border()], |border| border.map(|_| word(None)));
-        bordered(lanes, texture.height(), at, borders, |row, column| {
-            texture.words(lanes, row, column, |texel| word(texel.copied()))
-        })
+        stored(lanes, &self.texture, self.wrap, self.texture.cells(lanes, [u, v], self.wrap), word)
     }
+}
+
+impl<F: TexelFormat, U: Wrap, V: Wrap, Z: Size> Sampler<'_, F, Bilinear, U, V, Z> {
+    /// The words that `word` makes of one of the four texels each, as they are stored.
+    ///
+    /// It is the right one where its share, in 256ths, and the first of `thresholds`, from 0 to 255, add up to one. It
+    /// is the upper one by the second. So of many samples with all thresholds the mean is the filter's.
+    #[inline(always)]
+    pub fn either_lanes<L: Lanes>(
+        &self,
+        lanes: L,
+        uv: [L::Number; 2],
+        thresholds: [L::U32; 2],
+        word: impl Fn(Option<F::Texel>) -> u32,
+    ) -> L::U32 {
+        let at = self.texture.either(lanes, uv, self.wrap, thresholds);
+        stored(lanes, &self.texture, self.wrap, at, word)
+    }
+}
+
+/// The words that `word` makes of the texels in a column and a row that is counted from the bottom.
+#[inline(always)]
+fn stored<L: Lanes, F: TexelFormat, U: Wrap, V: Wrap, Z: Size>(
+    lanes: L,
+    texture: &Texture<'_, F, Z>,
+    wrap: (U, V),
+    at: [L::U32; 2],
+    word: impl Fn(Option<F::Texel>) -> u32,
+) -> L::U32 {
+    let borders = map2([wrap.0.border(), wrap.1.border()], |border| border.map(|_| word(None)));
+    bordered(lanes, texture.height(), at, borders, |row, column| {
+        texture.words(lanes, row, column, |texel| word(texel.copied()))
+    })
 }
 
 impl<F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size> fmt::Debug for Sampler<'_, F, Fl, U, V, Z> {

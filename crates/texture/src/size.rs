@@ -53,6 +53,23 @@ pub trait Size: Sealed + Copy + Debug + 'static {
         [wrap.0.between_masked(lanes, u, width, bits), wrap.1.between_masked(lanes, v, height, bits)]
     }
 
+    /// Of the columns of [`between`](Self::between), the right one where its share, in 256ths, and the first of
+    /// `thresholds`, from 0 to 255, add up to one. Then the same of rows and v.
+    #[inline(always)]
+    fn either<L: Lanes, U: Wrap, V: Wrap>(
+        self,
+        lanes: L,
+        [u, v]: [L::Number; 2],
+        [width, height]: [u32; 2],
+        wrap: (U, V),
+        thresholds: [L::U32; 2],
+    ) -> [L::U32; 2] {
+        [
+            wrap.0.either_masked(lanes, u, width, thresholds[0]),
+            wrap.1.either_masked(lanes, v, height, thresholds[1]),
+        ]
+    }
+
     /// [`Wrap::index`] of a two's complement column and row, from -1 to one beyond the period.
     #[inline(always)]
     fn indices<L: Lanes, U: Wrap, V: Wrap>(
@@ -245,6 +262,25 @@ impl Size for AnySize {
             PowerOfTwo.between(lanes, [u, v], [width, height], wrap, bits)
         } else {
             [wrap.0.between_wide(lanes, u, width, bits), wrap.1.between_wide(lanes, v, height, bits)]
+        }
+    }
+
+    #[inline(always)]
+    fn either<L: Lanes, U: Wrap, V: Wrap>(
+        self,
+        lanes: L,
+        [u, v]: [L::Number; 2],
+        [width, height]: [u32; 2],
+        wrap: (U, V),
+        thresholds: [L::U32; 2],
+    ) -> [L::U32; 2] {
+        if self.by_masks {
+            PowerOfTwo.either(lanes, [u, v], [width, height], wrap, thresholds)
+        } else {
+            [
+                wrap.0.either_wide(lanes, u, width, thresholds[0]),
+                wrap.1.either_wide(lanes, v, height, thresholds[1]),
+            ]
         }
     }
 

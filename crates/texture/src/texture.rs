@@ -194,6 +194,20 @@ impl<'a, F: Storage, Z: Size, const N: usize> Texture<'a, F, Z, N> {
         self.size.between(lanes, uv, self.sides(), wrap, bits)
     }
 
+    /// The column and the row, counted from the bottom, of one of the texels that [`between`](Self::between) finds.
+    /// It is the right one where its share, in 256ths, and the first of `thresholds`, from 0 to 255, add up to one. It
+    /// is the upper one by the second.
+    #[inline(always)]
+    pub(crate) fn either<L: Lanes, U: Wrap, V: Wrap>(
+        &self,
+        lanes: L,
+        uv: [L::Number; 2],
+        wrap: (U, V),
+        thresholds: [L::U32; 2],
+    ) -> [L::U32; 2] {
+        self.size.either(lanes, uv, self.sides(), wrap, thresholds)
+    }
+
     /// [`Size::indices`].
     #[inline(always)]
     pub(crate) fn indices<L: Lanes, U: Wrap, V: Wrap>(

@@ -33,6 +33,9 @@ use crate::sealed::Sealed;
 /// | +infinity | as 0 | as the last below 1 | outside |
 /// | -infinity | as 0 | as 0 | outside |
 pub trait Wrap: Sealed + Copy + Debug + 'static {
+    /// Whether the texel to the right of the last is always the first.
+    const PERIODIC: bool = false;
+
     /// The texel that stands at the index `i` of a continued row (or column) of `size` texels: less than `size`,
     /// or 0 if `size` is 0. In [`Border`] there is none outside: `u32::MAX`.
     ///
@@ -117,6 +120,20 @@ pub trait Wrap: Sealed + Copy + Debug + 'static {
         self.fold(lanes, lanes.floor_scaled_finely(self.in_period(lanes, u), size.trailing_zeros(), 0), size)
     }
 
+    /// Of the texels that [`between_wide`](Self::between_wide) finds, the right one where its share, in 256ths, and
+    /// `threshold`, from 0 to 255, add up to one.
+    #[inline(always)]
+    fn either_wide<L: Lanes>(self, lanes: L, u: L::Number, size: u32, threshold: L::U32) -> L::U32 {
+        let [left, right, along] = self.between_wide(lanes, u, size, 8);
+        left + (right - left) * lanes.shr(along + threshold, 8)
+    }
+
+    /// [`either_wide`](Self::either_wide) along a side that is a power of two: all at once.
+    #[inline(always)]
+    fn either_masked<L: Lanes>(self, lanes: L, u: L::Number, size: u32, threshold: L::U32) -> L::U32 {
+        either(self, lanes, self.in_period(lanes, u), size, threshold)
+    }
+
     /// [`between_wide`](Self::between_wide) along a side that is a power of two: all at once.
     #[inline(always)]
     fn between_masked<L: Lanes>(self, lanes: L, u: L::Number, size: u32, bits: u32) -> [L::U32; 3] {
@@ -131,6 +148,14 @@ pub trait Wrap: Sealed + Copy + Debug + 'static {
             lanes.shr(way, 9 - bits) & lanes.word((1 << bits) - 1),
         ]
     }
+}
+
+/// [`Wrap::either_masked`] of a coordinate in the period.
+#[inline(always)]
+fn either<W: Wrap, L: Lanes>(wrap: W, lanes: L, u: L::Number, size: u32, threshold: L::U32) -> L::U32 {
+    // As in `between_masked`: in 512ths, of which half a step more rounds, from the centre half a texel to the left.
+    let way = lanes.floor_scaled_finely(u, size.trailing_zeros(), 9);
+    wrap.fold(lanes, lanes.shr_signed(way + lanes.shl(threshold, 1) - lanes.word(255), 9), size)
 }
 
 /// Element `k`, which there is.
@@ -206,6 +231,8 @@ fn remainder(i: i32, copies: u32, size: u32) -> u64 {
 }
 
 impl Wrap for Repeat {
+    const PERIODIC: bool = true;
+
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "less than the size")]
     fn index(self, i: i32, size: u32) -> u32 {
@@ -242,6 +269,23 @@ impl Wrap for Repeat {
     #[inline(always)]
     fn cell_masked<L: Lanes>(self, lanes: L, u: L::Number, size: u32) -> L::U32 {
         self.fold(lanes, lanes.floor_fraction_scaled(u, size.trailing_zeros()), size)
+    }
+
+    // In fixed point the shifts of a scaling drop what is above the period.
+    #[inline(always)]
+    fn either_masked<L: Lanes>(self, lanes: L, u: L::Number, size: u32, threshold: L::U32) -> L::U32 {
+        let u = if L::FIXED { u } else { self.in_period(lanes, u) };
+        either(self, lanes, u, size, threshold)
+    }
+
+    // Without the texel more, as the remainder of negative numbers is what is sought.
+    #[inline(always)]
+    fn between_masked<L: Lanes>(self, lanes: L, u: L::Number, size: u32, bits: u32) -> [L::U32; 3] {
+        let way = lanes.floor_scaled_finely(self.in_period(lanes, u), size.trailing_zeros(), 9)
+            + lanes.word((256_u32 >> bits).wrapping_sub(256));
+        let left = lanes.shr_signed(way, 9);
+        let right = self.fold(lanes, left + lanes.word(1), size);
+        [self.fold(lanes, left, size), right, lanes.shr(way, 9 - bits) & lanes.word((1 << bits) - 1)]
     }
 }
 

@@ -10,7 +10,7 @@ use crate::elf::Program;
 use crate::embedded::Toolchain;
 
 /// The programs that are weighed, which must do without functions of `f64`.
-pub(super) const WEIGHED: [&str; 4] = ["size-flat", "size-textured", "size-f32", RENDERER];
+pub(super) const WEIGHED: [&str; 5] = ["size-flat", "size-textured", "size-lit", "size-f32", RENDERER];
 /// The one whose memory is a renderer's. The others have memory for every scene.
 pub(super) const RENDERER: &str = "size-bands";
 /// The program that tells how much stack each takes.
@@ -105,7 +105,7 @@ mod tests {
     fn every_program_tells_its_stack() {
         let all: String = WEIGHED.iter().map(|name| format!("stack {name} 100\n")).collect();
         assert_eq!(stacks(&all).unwrap()[1], ("size-textured", 100));
-        assert_eq!(stacks("stack size-flat 7\n"), Err("the stack of 1 programs was told, expected 4".into()));
+        assert_eq!(stacks("stack size-flat 7\n"), Err("the stack of 1 programs was told, expected 5".into()));
         assert_eq!(
             stacks("stack size-none 7\n"),
             Err("found `stack size-none 7`, expected `stack`, a program and its bytes".into())

@@ -3,7 +3,6 @@
 use alberti_math::lanes::Lanes;
 use alberti_math::{Gradient, Mode, Q16, Varying};
 use alberti_raster::{FragmentStage, Fragments};
-use alberti_texture::Packed;
 use alberti_texture::format::Rgb565;
 
 /// Another stage's RGB565 times the light of the vertices, all of it in 16 bits: for textures as they are

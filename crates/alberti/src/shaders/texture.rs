@@ -100,10 +100,8 @@ pub struct Stored<S>(
     pub S,
 );
 
-impl<F: Packed<Texel: FragmentColor>, U: Wrap, V: Wrap, Z: Size> FragmentStage<Vec2>
-    for Stored<Sampler<'_, F, Bilinear, U, V, Z>>
-{
-    type Color = F::Texel;
+impl<F: Packed, U: Wrap, V: Wrap, Z: Size> FragmentStage<Vec2> for Stored<Sampler<'_, F, Bilinear, U, V, Z>> {
+    type Color = u16;
     type Derivatives = NoDerivatives;
 
     #[inline(always)]
@@ -113,10 +111,10 @@ impl<F: Packed<Texel: FragmentColor>, U: Wrap, V: Wrap, Z: Size> FragmentStage<V
     }
 }
 
-impl<F: Packed<Texel: FragmentColor>, U: Wrap, V: Wrap, Z: Size> FragmentStage<Vec2>
+impl<F: Packed, U: Wrap, V: Wrap, Z: Size> FragmentStage<Vec2>
     for Stored<MipSampler<'_, F, Trilinear, U, V, Z>>
 {
-    type Color = F::Texel;
+    type Color = u16;
     type Derivatives = PerPixel;
 
     #[inline(always)]
@@ -129,7 +127,6 @@ impl<F: Packed<Texel: FragmentColor>, U: Wrap, V: Wrap, Z: Size> FragmentStage<V
 /// Items of a stage of a map in levels that are chosen for each triangle.
 macro_rules! of_levels {
     () => {
-        type Color = F::Texel;
         type Derivatives = PerTriangle;
         const SETTLES: bool = true;
 
@@ -140,9 +137,10 @@ macro_rules! of_levels {
     };
 }
 
-impl<F: Packed<Texel: FragmentColor>, U: Wrap, V: Wrap, Z: Size> FragmentStage<Vec2>
+impl<F: Packed, U: Wrap, V: Wrap, Z: Size> FragmentStage<Vec2>
     for Stored<Leveled<'_, F, Trilinear, U, V, Z>>
 {
+    type Color = u16;
     of_levels!();
 
     #[inline(always)]
@@ -154,13 +152,14 @@ impl<F: Packed<Texel: FragmentColor>, U: Wrap, V: Wrap, Z: Size> FragmentStage<V
 
 impl<'a, F, Fl, U, V, Z> FragmentStage<Vec2> for Stored<Leveled<'a, F, NearestLevel<Fl>, U, V, Z>>
 where
-    F: TexelFormat<Texel: FragmentColor>,
+    F: TexelFormat,
     Fl: Filter,
     U: Wrap,
     V: Wrap,
     Z: Size,
-    Stored<Sampler<'a, F, Fl, U, V, Z::Level>>: FragmentStage<Vec2, Color = F::Texel>,
+    Stored<Sampler<'a, F, Fl, U, V, Z::Level>>: FragmentStage<Vec2>,
 {
+    type Color = <Stored<Sampler<'a, F, Fl, U, V, Z::Level>> as FragmentStage<Vec2>>::Color;
     of_levels!();
 
     #[inline(always)]

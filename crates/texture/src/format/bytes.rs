@@ -3,7 +3,6 @@
 use super::{Content, Rgb565, TexelFormat};
 use crate::Packed;
 use alberti_math::Rgba8;
-use alberti_math::lanes::Lanes;
 
 /// A format of 16 bits whose texels are two bytes each, the low one first, at any address.
 ///
@@ -56,26 +55,6 @@ impl<F: TexelFormat<Texel = u16>> TexelFormat for InBytes<F> {
 }
 
 impl Packed for InBytes<Rgb565> {
-    #[inline(always)]
-    fn spread<L: Lanes>(lanes: L, texel: L::U32) -> L::U32 {
-        Rgb565::spread(lanes, texel)
-    }
-
-    #[inline(always)]
-    fn blended<L: Lanes>(lanes: L, first: L::U32, second: L::U32, share: L::U32) -> L::U32 {
-        Rgb565::blended(lanes, first, second, share)
-    }
-
-    #[inline(always)]
-    fn mean_of_four<L: Lanes>(lanes: L, spread: [L::U32; 4], weights: [L::U32; 4]) -> L::U32 {
-        Rgb565::mean_of_four(lanes, spread, weights)
-    }
-
-    #[inline(always)]
-    fn gathered<L: Lanes>(lanes: L, spread: L::U32) -> L::U32 {
-        Rgb565::gathered(lanes, spread)
-    }
-
     #[inline(always)]
     fn word(texel: [u8; 2]) -> u32 {
         u16::from_le_bytes(texel).into()

@@ -1,18 +1,15 @@
 //! The ways of drawing that are measured: each is one call of [`alberti::draw`] on prepared memory.
 
-use crate::shapes::{FLOOR_MIPMAP, Model};
+use crate::shapes::{CHEQUER_PAIRS, Model, TEXTURE};
 use crate::torus::{HalfWords, TORUS_VERTICES, Vertex};
 use crate::{Camera, HEIGHT, PIXELS, Target, WIDTH};
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::{Lanes, One};
+use alberti::raster::Fragments;
 use alberti::raster::color::{Additive, Blended, Constant, Over};
-use alberti::raster::{Fragments, PerRun, PerTriangle};
 use alberti::shaders::material::{Color, Emission, Gouraud};
-use alberti::shaders::{Differentiated, Ready565, Solid, Stored, Unlit, VertexColor565};
-use alberti::texture::format::Rgb565;
-use alberti::texture::{
-    BaseLevel, Bilinear, Minify, MipSampler, Nearest, NearestLevel, PowerOfTwo, Repeat, Trilinear,
-};
+use alberti::shaders::{Ready565, Solid, Stored, TexelDither, Unlit, VertexColor565};
+use alberti::texture::{Bilinear, Nearest, Repeat};
 use alberti::{
     Affine, ColorFormat, Counters, D16, DepthFormat, Exact, FixedPoint, FragmentStage, Geometry, IntegerMesh,
     IntegerVertex, Interpolation, Lines, Mesh, Meshlets, NoDepth, Object, Pass, Planes, Point3, Q16,
@@ -25,10 +22,14 @@ macro_rules! draws {
         $(#[$doc])*
         pub fn $name<K: Counters>(target: &mut Target, camera: &Camera, $model: &Model, counters: &mut K) {
             let mesh = Mesh::new($model.vertices, $model.triangles, $vertex_stage);
-            draw(target.with_depth(), camera, $model, &mesh, $stage, $interpolation, &mut [], counters);
+            $crate::draws::draw(
+                target.with_depth(), camera, $model, &mesh, $stage, $interpolation, &mut [], counters,
+            );
         }
     )*};
 }
+
+pub(crate) use draws;
 
 draws! {
     /// One colour for all.
@@ -43,79 +44,34 @@ draws! {
     /// The vertices' colours without perspective, in fixed point.
     gouraud_fixed(model): FixedPoint(Affine), colored, VertexColor565;
 
-    /// The nearest texel of the nearest level, one for each triangle.
-    mip_nearest(model): Exact, mapped,
-        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler(NEAREST_MIP, Repeat)));
-
-    /// Four texels of the nearest level, one for each triangle.
-    mip_bilinear(model): Exact, mapped,
-        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler(BILINEAR_MIP, Repeat)));
-
-    /// Between levels, by one level of detail for each triangle.
-    trilinear(model): Exact, mapped,
-        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler(Trilinear, Repeat)));
-
-    /// Between levels, by one level of detail for each row of a triangle.
-    trilinear_spans(model): Exact, mapped,
-        Differentiated::by(PerRun, Unlit(FLOOR_MIPMAP.sampler(Trilinear, Repeat)));
-
-    /// The nearest texel of the nearest level, one for each triangle, in fixed point.
-    mip_nearest_fixed(model): FixedPoint(Spans16), mapped,
-        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler(NEAREST_MIP, Repeat)));
-
-    /// Four texels of the nearest level, one for each triangle, in fixed point.
-    mip_bilinear_fixed(model): FixedPoint(Spans16), mapped,
-        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler(BILINEAR_MIP, Repeat)));
-
-    /// Between levels, by one level of detail for each triangle, in fixed point.
-    trilinear_fixed(model): FixedPoint(Spans16), mapped,
-        Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler(Trilinear, Repeat)));
-
-    /// Between levels, by one level of detail for each 16 columns, in fixed point.
-    trilinear_spans_fixed(model): FixedPoint(Spans16), mapped,
-        Differentiated::by(PerRun, Unlit(FLOOR_MIPMAP.sampler(Trilinear, Repeat)));
-
-    /// Between levels, by one level of detail for each triangle, in fixed point, of texels as they are stored.
-    trilinear_stored_fixed(model): FixedPoint(Spans16), mapped,
-        Differentiated::by(PerTriangle, Stored(FLOOR_MIPMAP.sampler(Trilinear, Repeat)));
-
-    /// The same by one for each 16 columns.
-    trilinear_stored_spans_fixed(model): FixedPoint(Spans16), mapped,
-        Differentiated::by(PerRun, Stored(FLOOR_MIPMAP.sampler(Trilinear, Repeat)));
-
-    /// The nearest texel of the nearest level, found once for each triangle, in fixed point.
-    leveled_nearest_fixed(model): FixedPoint(Spans16), mapped,
-        Stored(NEAREST_OF_FLOOR.leveled());
-
-    /// Four texels of that.
-    leveled_bilinear_fixed(model): FixedPoint(Spans16), mapped,
-        Stored(BILINEAR_OF_FLOOR.leveled());
-
-    /// Between two levels that are found once for each triangle.
-    leveled_trilinear_fixed(model): FixedPoint(Spans16), mapped,
-        Stored(TRILINEAR_OF_FLOOR.leveled());
-
     /// The vertices' light on the nearest texel: a material of one map.
-    material(model): Exact, lit, Gouraud { layers: Color(model.texture.sampler(Nearest, Repeat)) };
+    material(model): Exact, lit, Gouraud { layers: Color(TEXTURE.sampler(Nearest, Repeat)) };
 
     /// The same, with the places of the maps that it has not.
     material_absent(model): Exact, lit, Gouraud {
-        layers: ((), Color(model.texture.sampler(Nearest, Repeat)), (), ((), ()), ()),
+        layers: ((), Color(TEXTURE.sampler(Nearest, Repeat)), (), ((), ()), ()),
     };
 
     /// And with one more.
     material_emission(model): Exact, lit, Gouraud {
         layers: (
-            Color(model.texture.sampler(Nearest, Repeat)),
-            Emission(model.texture.sampler(Nearest, Repeat)),
+            Color(TEXTURE.sampler(Nearest, Repeat)),
+            Emission(TEXTURE.sampler(Nearest, Repeat)),
         ),
     };
 
     /// The nearest texel without perspective, in fixed point.
-    affine_fixed(model): FixedPoint(Affine), mapped, Stored(model.texture.sampler(Nearest, Repeat));
+    affine_fixed(model): FixedPoint(Affine), mapped, Stored(TEXTURE.sampler(Nearest, Repeat));
+
+    /// One of four texels, by the place of the pixel, without perspective, in fixed point.
+    dithered_affine_fixed(model): FixedPoint(Affine), mapped,
+        TexelDither(TEXTURE.sampler(Bilinear, Repeat));
+
+    /// Four texels in two pairs without perspective, in fixed point.
+    pairs_affine_fixed(model): FixedPoint(Affine), mapped, Stored(CHEQUER_PAIRS.sampler(Bilinear, Repeat));
 
     /// The same as a colour of 8 bits a channel, with an alpha that is not used.
-    glass_fixed(model): FixedPoint(Affine), mapped, Glass(Unlit(model.texture.sampler(Nearest, Repeat)));
+    glass_fixed(model): FixedPoint(Affine), mapped, Glass(Unlit(TEXTURE.sampler(Nearest, Repeat)));
 }
 
 /// Defines ways of drawing that mix with what is there, without perspective, in fixed point.
@@ -133,13 +89,13 @@ macro_rules! blends {
 
 blends! {
     /// The nearest texel, as opaque as 100/255.
-    constant_fixed(model): Constant(100), Stored(model.texture.sampler(Nearest, Repeat));
+    constant_fixed(model): Constant(100), Stored(TEXTURE.sampler(Nearest, Repeat));
 
     /// The nearest texel, as opaque as it is green.
-    over_fixed(model): Over, Glass(Unlit(model.texture.sampler(Nearest, Repeat)));
+    over_fixed(model): Over, Glass(Unlit(TEXTURE.sampler(Nearest, Repeat)));
 
     /// The nearest texel as light.
-    additive_fixed(model): Additive, Glass(Unlit(model.texture.sampler(Nearest, Repeat)));
+    additive_fixed(model): Additive, Glass(Unlit(TEXTURE.sampler(Nearest, Repeat)));
 }
 
 /// Colours that are as opaque as they are green.
@@ -187,7 +143,7 @@ meshes! {
 
     /// The nearest texel.
     affine_mesh(model) in mapped: Mesh::new(model.vertices, model.triangles, mapped),
-        Stored(model.texture.sampler(Nearest, Repeat));
+        Stored(TEXTURE.sampler(Nearest, Repeat));
 
     /// One colour for all, on a mesh of integers.
     flat_integers(model) in bare: integers(model, |v| IntegerVertex::<()> { place: v.position, components: () }),
@@ -195,7 +151,7 @@ meshes! {
 
     /// The nearest texel on a mesh of integers.
     affine_integers(model) in mapped: integers(model, mapped_integers),
-        Stored(model.texture.sampler(Nearest, Repeat));
+        Stored(TEXTURE.sampler(Nearest, Repeat));
 
     /// One colour for all, on a mesh of integers with meshlets.
     flat_meshlets(model) in bare:
@@ -206,7 +162,7 @@ meshes! {
 
     /// The nearest texel on a mesh of integers with meshlets.
     affine_meshlets(model) in mapped: meshlets(model, mapped_integers),
-        Stored(model.texture.sampler(Nearest, Repeat));
+        Stored(TEXTURE.sampler(Nearest, Repeat));
 }
 
 /// The nearest texel on a mesh, on the finer grid.
@@ -215,7 +171,7 @@ pub fn affine_mesh_sub8<K: Counters>(target: &mut Target, camera: &Camera, model
     let view = View::new(model.to_eye, camera.perspective);
     let Target { color, depth, slots, .. } = target;
     if let Ok(mut pixels) = alberti::Target::new(Rgb565Le, D16, WIDTH, HEIGHT, color, depth) {
-        let pass = Pass::new(&view, &mesh, Stored(model.texture.sampler(Nearest, Repeat)));
+        let pass = Pass::new(&view, &mesh, Stored(TEXTURE.sampler(Nearest, Repeat)));
         let mut pass = pass.interpolation(FixedPoint(Affine)).subpixel(Sub8).slots(&mut slots.mapped);
         pass.count_by(One, &mut pixels, counters);
     }
@@ -259,13 +215,13 @@ fn textured_by<P: Interpolation, K: Counters>(
     model: &Model,
     counters: &mut K,
 ) {
-    let stage = Stored(model.texture.sampler(Nearest, Repeat));
+    let stage = Stored(TEXTURE.sampler(Nearest, Repeat));
     mapped_by(interpolation, stage, target, camera, model, counters);
 }
 
 /// Four texels by colours of 8 bits a channel, in fixed point.
 pub fn bilinear_fixed<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
-    let stage = Unlit(model.texture.sampler(Bilinear, Repeat));
+    let stage = Unlit(TEXTURE.sampler(Bilinear, Repeat));
     mapped_by(FixedPoint(Spans16), stage, target, camera, model, counters);
 }
 
@@ -276,24 +232,23 @@ pub fn bilinear_stored_fixed<K: Counters>(
     model: &Model,
     counters: &mut K,
 ) {
-    let stage = Stored(model.texture.sampler(Bilinear, Repeat));
+    let stage = Stored(TEXTURE.sampler(Bilinear, Repeat));
     mapped_by(FixedPoint(Spans16), stage, target, camera, model, counters);
 }
 
-/// The nearest texel of the nearest level, one for each triangle, of a mesh.
-pub fn mesh_mip_nearest<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
-    let stage = Differentiated::by(PerTriangle, Unlit(FLOOR_MIPMAP.sampler(NEAREST_MIP, Repeat)));
-    mapped_by(Exact, stage, target, camera, model, counters);
-}
-
-/// The same of the finest level, without derivatives.
-pub fn mesh_base_nearest<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
-    let stage = Unlit(FLOOR_MIPMAP.sampler(BaseLevel(Nearest), Repeat));
-    mapped_by(Exact, stage, target, camera, model, counters);
+/// Four texels in two pairs, in fixed point.
+pub fn bilinear_pairs_fixed<K: Counters>(
+    target: &mut Target,
+    camera: &Camera,
+    model: &Model,
+    counters: &mut K,
+) {
+    let stage = Stored(CHEQUER_PAIRS.sampler(Bilinear, Repeat));
+    mapped_by(FixedPoint(Spans16), stage, target, camera, model, counters);
 }
 
 #[inline]
-fn mapped_by<F: FragmentStage<Vec2>, P: Interpolation, K: Counters>(
+pub(crate) fn mapped_by<F: FragmentStage<Vec2>, P: Interpolation, K: Counters>(
     interpolation: P,
     stage: F,
     target: &mut Target,
@@ -310,7 +265,7 @@ fn mapped_by<F: FragmentStage<Vec2>, P: Interpolation, K: Counters>(
 
 /// The same of a mesh of integers with meshlets.
 pub fn textured_meshlets<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
-    let stage = Stored(model.texture.sampler(Nearest, Repeat));
+    let stage = Stored(TEXTURE.sampler(Nearest, Repeat));
     let mesh = meshlets(model, mapped_integers);
     let Target { color, depth, slots, .. } = target;
     let pixels = alberti::Target::new(Rgb565Le, D16, WIDTH, HEIGHT, color, depth);
@@ -360,7 +315,7 @@ fn bands<K: Counters>(
     counters: &mut K,
 ) {
     const BAND: usize = PIXELS / 15;
-    let stage = Stored(model.texture.sampler(Nearest, Repeat));
+    let stage = Stored(TEXTURE.sampler(Nearest, Repeat));
     let view = View::new(model.to_eye, camera.perspective);
     let Target { color, depth, slots, listed, .. } = target;
     let mut pass = Pass::new(&view, mesh, stage)
@@ -420,24 +375,12 @@ pub fn flat_without_depth<K: Counters>(
     draw(pixels, camera, model, &mesh, Solid(ORANGE), Exact, &mut [], counters);
 }
 
-/// Samplers of the floor's mip map, to which those refer whose levels are found once a triangle.
-static NEAREST_OF_FLOOR: OfFloor<NearestLevel<Nearest>> = FLOOR_MIPMAP.sampler(NearestLevel(Nearest), Repeat);
-static BILINEAR_OF_FLOOR: OfFloor<NearestLevel<Bilinear>> =
-    FLOOR_MIPMAP.sampler(NearestLevel(Bilinear), Repeat);
-static TRILINEAR_OF_FLOOR: OfFloor<Trilinear> = FLOOR_MIPMAP.sampler(Trilinear, Repeat);
-type OfFloor<M> = MipSampler<'static, Rgb565, M, Repeat, Repeat, PowerOfTwo>;
-
-const NEAREST_MIP: Minify<NearestLevel<Nearest>, Nearest> =
-    Minify { min: NearestLevel(Nearest), mag: Nearest };
-const BILINEAR_MIP: Minify<NearestLevel<Bilinear>, Bilinear> =
-    Minify { min: NearestLevel(Bilinear), mag: Bilinear };
-
 const ORANGE: u16 = 0xe405;
 
 /// The pass that all ways have in common.
 #[inline]
 #[expect(clippy::too_many_arguments, reason = "all that differs")]
-fn draw<C, D, M, F, P, K>(
+pub(crate) fn draw<C, D, M, F, P, K>(
     target: Result<alberti::Target<'_, C, D>, alberti::TargetError>,
     camera: &Camera,
     model: &Model,
@@ -463,7 +406,7 @@ fn draw<C, D, M, F, P, K>(
 impl Target {
     /// Colour and depth.
     #[inline]
-    fn with_depth(&mut self) -> Result<alberti::Target<'_, Rgb565Le, D16>, alberti::TargetError> {
+    pub(crate) fn with_depth(&mut self) -> Result<alberti::Target<'_, Rgb565Le, D16>, alberti::TargetError> {
         alberti::Target::new(Rgb565Le, D16, WIDTH, HEIGHT, &mut self.color, &mut self.depth)
     }
 }
@@ -476,7 +419,7 @@ fn colored(vertex: &Vertex) -> (Point3<Object>, Ready565) {
     (place(vertex), Ready565::new(Vec3::from_array(vertex.color)))
 }
 
-fn mapped(vertex: &Vertex) -> (Point3<Object>, Vec2) {
+pub(crate) fn mapped(vertex: &Vertex) -> (Point3<Object>, Vec2) {
     (place(vertex), Vec2::from_array(vertex.uv))
 }
 

@@ -7,6 +7,7 @@
 #![no_std]
 
 mod draws;
+mod floor;
 pub mod policies;
 pub mod renderer;
 pub mod shapes;
@@ -14,14 +15,19 @@ pub mod torus;
 
 pub use draws::{
     additive_fixed, affine_fixed, affine_integers, affine_mesh, affine_mesh_sub8, affine_meshlets,
-    bilinear_fixed, bilinear_stored_fixed, bounded_bands, constant_fixed, flat, flat_fixed, flat_integers,
-    flat_mesh, flat_meshlets, flat_without_depth, glass_fixed, gouraud, gouraud_fixed, gouraud_mesh,
-    gouraud_meshlets, integers_bands, leveled_bilinear_fixed, leveled_nearest_fixed, leveled_trilinear_fixed,
-    material, material_absent, material_emission, mesh_base_nearest, mesh_mip_nearest, meshlets_bands,
-    meshlets_cache, mip_bilinear, mip_bilinear_fixed, mip_nearest, mip_nearest_fixed, over_fixed, textured,
-    textured_affine, textured_bands, textured_bounded, textured_fixed, textured_meshlets, textured_planes,
-    textured_spans, trilinear, trilinear_fixed, trilinear_spans, trilinear_spans_fixed,
-    trilinear_stored_fixed, trilinear_stored_spans_fixed,
+    bilinear_fixed, bilinear_pairs_fixed, bilinear_stored_fixed, bounded_bands, constant_fixed,
+    dithered_affine_fixed, flat, flat_fixed, flat_integers, flat_mesh, flat_meshlets, flat_without_depth,
+    glass_fixed, gouraud, gouraud_fixed, gouraud_mesh, gouraud_meshlets, integers_bands, material,
+    material_absent, material_emission, meshlets_bands, meshlets_cache, over_fixed, pairs_affine_fixed,
+    textured, textured_affine, textured_bands, textured_bounded, textured_fixed, textured_meshlets,
+    textured_planes, textured_spans,
+};
+pub use floor::{
+    dithered_bilinear_fixed, dithered_trilinear_fixed, leveled_bilinear_fixed, leveled_nearest_fixed,
+    leveled_trilinear_fixed, lit_fixed, mesh_base_nearest, mesh_mip_nearest, mip_bilinear,
+    mip_bilinear_fixed, mip_nearest, mip_nearest_fixed, pairs_bilinear_fixed, pairs_trilinear_fixed,
+    trilinear, trilinear_fixed, trilinear_spans, trilinear_spans_fixed, trilinear_stored_fixed,
+    trilinear_stored_spans_fixed,
 };
 pub use renderer::{Renderer, meshlets_renderer};
 pub use shapes::PROBE;
@@ -119,6 +125,9 @@ pub static SCENES: &[Scene] = &[
     fill!("fixed-bilinear-4", 4, bilinear_fixed),
     fill!("fixed-bilinear-stored", 1, bilinear_stored_fixed),
     fill!("fixed-bilinear-stored-4", 4, bilinear_stored_fixed),
+    fill!("fixed-bilinear-pairs", 1, bilinear_pairs_fixed),
+    fill!("fixed-affine-pairs", 1, pairs_affine_fixed),
+    fill!("fixed-affine-dither", 1, dithered_affine_fixed),
     scene!("fixed-mesh-flat", torus(1.0), flat_mesh),
     scene!("fixed-mesh-gouraud", torus(1.0), gouraud_mesh),
     scene!("fixed-mesh-affine", torus(1.0), affine_mesh),
@@ -159,8 +168,13 @@ pub static SCENES: &[Scene] = &[
     scene!("fixed-floor-trilinear-stored", floor(), trilinear_stored_fixed),
     scene!("fixed-floor-trilinear-stored-spans", floor(), trilinear_stored_spans_fixed),
     scene!("fixed-floor-leveled-nearest", floor(), leveled_nearest_fixed),
+    scene!("fixed-floor-lit", floor(), lit_fixed),
     scene!("fixed-floor-leveled-bilinear", floor(), leveled_bilinear_fixed),
     scene!("fixed-floor-leveled-trilinear", floor(), leveled_trilinear_fixed),
+    scene!("fixed-floor-dither-bilinear", floor(), dithered_bilinear_fixed),
+    scene!("fixed-floor-dither-trilinear", floor(), dithered_trilinear_fixed),
+    scene!("fixed-floor-pairs-bilinear", floor(), pairs_bilinear_fixed),
+    scene!("fixed-floor-pairs-trilinear", floor(), pairs_trilinear_fixed),
 ];
 
 /// What a scene is seen through.

@@ -1,7 +1,7 @@
 //! A renderer for a chip with little memory: the frame in bands, of which one is drawn while another is sent.
 
 use crate::draws::{mapped_integers, meshlets};
-use crate::shapes::Model;
+use crate::shapes::{Model, TEXTURE};
 use crate::{Camera, HEIGHT, Target, WIDTH};
 use alberti::glam::Vec2;
 use alberti::lanes::One;
@@ -40,7 +40,7 @@ pub fn frame<K: Counters>(
         reason = "a type of its own, or code that scenes share is inlined in neither"
     )]
     let mesh = meshlets(model, |v| mapped_integers(v));
-    let stage = Stored(model.texture.sampler(Nearest, Repeat));
+    let stage = Stored(TEXTURE.sampler(Nearest, Repeat));
     let mut pass =
         Pass::new(&view, &mesh, stage).interpolation(FixedPoint(Spans16)).subpixel(Sub4).slots(slots);
     let (mut prepared, _) = pass.count_prepare([WIDTH, HEIGHT], D16, list, counters);

@@ -8,7 +8,10 @@ use crate::torus::{
 };
 use crate::{HEIGHT, WIDTH};
 use alberti::glam::{Mat3, Vec3};
-use alberti::texture::{Known, Mipmap, PowerOfTwo, Texture, format::Rgb565};
+use alberti::texture::{
+    Known, Mipmap, PowerOfTwo, Texture,
+    format::{Rgb565, Rgb565Pairs},
+};
 use alberti::{Ball, Eye, Frame, Meshlet, Point3, World};
 
 /// Width by height of the frame.
@@ -28,8 +31,6 @@ pub struct Model {
     pub meshlets: (&'static [[u16; 3]], &'static [Meshlet], Ball),
     /// The mesh's place before the eye.
     pub to_eye: Frame<World, Eye>,
-    /// What it wears where it is textured.
-    pub texture: Texture<'static, Rgb565, Known<128, 128>>,
 }
 
 /// So many tilted quads over the whole frame and a quarter beyond, each nearer than those before it.
@@ -41,7 +42,6 @@ pub const fn layers(count: usize) -> Model {
         triangles: QUAD_TRIANGLES.split_at(2 * count).0,
         meshlets: NO_MESHLETS,
         to_eye: Frame::IDENTITY,
-        texture: texture(),
     }
 }
 
@@ -59,7 +59,6 @@ pub const fn torus(size: f32) -> Model {
         triangles: &TORUS_TRIANGLE_LIST,
         meshlets: (&TORUS_MESHLETS.0, &TORUS_MESHLETS.1, TORUS_MESHLETS.2),
         to_eye: Frame::from_mat3(axes, Point3::new(Vec3::new(0.0, 0.0, 2.35))),
-        texture: texture(),
     }
 }
 
@@ -87,7 +86,6 @@ pub const fn floor() -> Model {
         triangles: &FLOOR_TRIANGLES,
         meshlets: NO_MESHLETS,
         to_eye: Frame::IDENTITY,
-        texture: texture(),
     }
 }
 
@@ -102,6 +100,36 @@ pub static FLOOR_MIPMAP: Mipmap<'static, Rgb565, PowerOfTwo> = {
     mipmap
 };
 
+/// The same with neighbours.
+pub static FLOOR_PAIRS: Mipmap<'static, Rgb565Pairs, PowerOfTwo> = {
+    const COUNT: usize = alberti::texture::mipmap::texel_count(64, 64);
+    static PAIRS: [u32; COUNT] = Rgb565Pairs::of(&include!(concat!(env!("OUT_DIR"), "/floor.rs")), 64, 64);
+    let Ok(mipmap) = Mipmap::new(Rgb565Pairs, &PAIRS, 64, 64) else {
+        panic!("the levels of a square of this side")
+    };
+    let Some(mipmap) = mipmap.power_of_two() else { panic!("its side is a power of two") };
+    mipmap
+};
+
+/// What models wear that have no mip map.
+pub static TEXTURE: Texture<'static, Rgb565, Known<128, 128>> = {
+    let Ok(texture) = Texture::new(Rgb565, &CHEQUER, 128, 128) else {
+        panic!("the texels are a square of this side")
+    };
+    let Some(texture) = texture.known() else { panic!("its side is this") };
+    texture
+};
+
+/// The chequer with neighbours.
+pub static CHEQUER_PAIRS: Texture<'static, Rgb565Pairs, Known<128, 128>> = {
+    static PAIRS: [u32; 128 * 128] = Rgb565Pairs::of(&CHEQUER, 128, 128);
+    let Ok(texture) = Texture::new(Rgb565Pairs, &PAIRS, 128, 128) else {
+        panic!("the texels are a square of this side")
+    };
+    let Some(texture) = texture.known() else { panic!("its side is this") };
+    texture
+};
+
 const NO_MESHLETS: (&[[u16; 3]], &[Meshlet], Ball) = (&[], &[], Ball::EVERYTHING);
 
 // The torus in meshlets, made by the build script.
@@ -109,14 +137,6 @@ include!(concat!(env!("OUT_DIR"), "/meshlets.rs"));
 
 /// What the programs draw whose size alone is of interest: one quad.
 pub static PROBE: Model = layers(1);
-
-const fn texture() -> Texture<'static, Rgb565, Known<128, 128>> {
-    let Ok(texture) = Texture::new(Rgb565, &CHEQUER, 128, 128) else {
-        panic!("the texels are a square of this side")
-    };
-    let Some(texture) = texture.known() else { panic!("its side is this") };
-    texture
-}
 
 /// The most layers that there are.
 const LAYERS: usize = 4;

@@ -8,14 +8,15 @@ use alberti_firmware::{bands, line, stack_of, talking_program, target};
 use core::hint::black_box;
 use scenes::shapes::{Model, torus};
 use scenes::{
-    Camera, Draw, Renderer, flat_fixed, mip_nearest, renderer, textured_affine, textured_fixed,
+    Camera, Draw, Renderer, flat_fixed, lit_fixed, mip_nearest, renderer, textured_affine, textured_fixed,
     textured_planes, textured_spans, trilinear_spans, trilinear_spans_fixed,
 };
 
 /// The programs that draw into a whole frame, with their ways of drawing.
-static PROGRAMS: [(&str, &[Draw<()>]); 3] = [
+static PROGRAMS: [(&str, &[Draw<()>]); 4] = [
     ("size-flat", &[flat_fixed]),
     ("size-textured", &[textured_fixed]),
+    ("size-lit", &[lit_fixed]),
     (
         "size-f32",
         &[
