@@ -286,9 +286,15 @@ pub fn blend2<V: Varying>(weights: [f32; 2], values: [V; 2]) -> V {
 pub fn blend2_by_mode<V: Varying>(weights: impl Fn(Mode) -> [f32; 2], values: [V; 2]) -> V {
     let blend = |mode, [a, b]: [f32; 2]| {
         let [wa, wb] = weights(mode);
-        clamp(wa * a + wb * b, min(a, b), max(a, b))
+        blended(wa, wb, a, b)
     };
     V::from_components(&V::map_by_mode(&V::gather(values), &blend))
+}
+
+/// Not inlined, as vertices have many components, and few vertices are made.
+#[inline(never)]
+fn blended(wa: f32, wb: f32, a: f32, b: f32) -> f32 {
+    clamp(wa * a + wb * b, min(a, b), max(a, b))
 }
 
 /// The least and the greatest of three values, component by component.

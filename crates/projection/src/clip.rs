@@ -12,6 +12,7 @@
 //! flip, and a sum does not care about order. So two triangles that share an edge get the same new vertex whichever way
 //! round each of them walks it, and no crack opens. The coordinate that the plane fixes is set, not computed.
 
+use crate::Projection;
 use alberti_math::{Eye, Mode, Point3, Varying, blend2, blend2_by_mode};
 
 /// The most vertices a clipped triangle can have: each of six planes adds at most one.
@@ -98,14 +99,6 @@ impl<T: Copy> Polygon<T> {
         (number + 1..(number + count).saturating_sub(1))
             .filter_map(move |k| Some([at(number)?, at(k)?, at(k + 1)?]))
     }
-
-    /// Rounding could give a convex polygon a dent too small to see and so a tenth vertex; it is left away.
-    fn push(&mut self, vertex: T) {
-        if let Some(slot) = self.vertices.get_mut(self.len) {
-            *slot = vertex;
-            self.len += 1;
-        }
-    }
 }
 
 /// The axis that a plane is at right angles to.
@@ -128,26 +121,32 @@ struct ClipPlane {
 impl ClipPlane {
     /// The distance inwards, correctly rounded.
     fn distance<V: Varying>(&self, vertex: &ProjectedVertex<V>) -> f32 {
+        let along = match self.axis {
+            Axis::X => vertex.x,
+            Axis::Y => vertex.y,
+            Axis::Z => vertex.zs,
+        };
         // Products with 1 are exact.
-        let mut vertex = *vertex;
-        *vertex.along(self.axis) * self.inner - self.at * self.inner
+        along * self.inner - self.at * self.inner
+    }
+
+    /// Puts a vertex on the plane.
+    fn hold<V: Varying>(&self, vertex: &mut ProjectedVertex<V>) {
+        let along = match self.axis {
+            Axis::X => &mut vertex.x,
+            Axis::Y => &mut vertex.y,
+            Axis::Z => &mut vertex.zs,
+        };
+        *along = self.at;
     }
 }
 
 impl<V: Varying> ProjectedVertex<V> {
-    /// A coordinate.
-    fn along(&mut self, axis: Axis) -> &mut f32 {
-        match axis {
-            Axis::X => &mut self.x,
-            Axis::Y => &mut self.y,
-            Axis::Z => &mut self.zs,
-        }
-    }
-
     /// The vertex at weights (a, b) between two. Varyings have the weights of eye space, but for linear components.
     fn between(weights: [f32; 2], [i, j]: [&Self; 2], space: Space) -> Self {
-        let numbers = |v: &Self| [v.x, v.y, v.zs, v.q];
-        let [x, y, zs, q] = blend2(weights, [numbers(i), numbers(j)]);
+        let number = |of: [f32; 2]| blend2(weights, of);
+        let [x, y] = [number([i.x, j.x]), number([i.y, j.y])];
+        let [zs, q] = [number([i.zs, j.zs]), number([i.q, j.q])];
         let in_space = match space {
             Space::Eye => weights,
             Space::Screen => {
@@ -169,31 +168,107 @@ enum Space {
 }
 
 impl<V: Varying> Polygon<ProjectedVertex<V>> {
-    /// Keeps the part on the inner sides of planes, one after the other. Not inlined: both spaces share it.
+    /// Keeps the part on the inner sides of planes, one after the other, in the same memory. Not inlined: both spaces
+    /// share it.
     #[inline(never)]
-    fn clip(mut self, planes: &[ClipPlane], space: Space) -> Self {
+    fn clip(&mut self, planes: &[ClipPlane], space: Space) {
         for plane in planes {
-            let kept = self;
+            // The vertices to come lie at the end, and those that stay at the beginning: of a convex polygon there is
+            // one more at most.
+            let count = self.vertices().len();
+            let first = MAX_POLYGON - count;
+            self.vertices.copy_within(..count, first);
             self.len = 0;
-            let Some(mut previous) = kept.vertices().last() else { return kept };
-            let mut d_previous = plane.distance(previous);
-            for current in kept.vertices() {
-                let d = plane.distance(current);
+            let Some(mut previous) = self.vertices.last().copied().filter(|_| count > 0) else { return };
+            let mut d_previous = plane.distance(&previous);
+            for k in first..MAX_POLYGON {
+                let Some(&current) = self.vertices.get(k) else { return };
+                let d = plane.distance(&current);
                 if (d >= 0.0) != (d_previous >= 0.0) {
                     let span = d - d_previous;
                     let weights = [d / span, -d_previous / span];
-                    let mut new = ProjectedVertex::between(weights, [previous, current], space);
-                    *new.along(plane.axis) = plane.at;
-                    self.push(new);
+                    let mut new = ProjectedVertex::between(weights, [&previous, &current], space);
+                    plane.hold(&mut new);
+                    self.push(new, k);
                 }
                 if d >= 0.0 {
-                    self.push(*current);
+                    self.push(current, k);
                 }
                 (previous, d_previous) = (current, d);
             }
         }
-        self
     }
+
+    /// Adds a vertex while those behind number `seen` are still to come. Rounding could give a convex polygon a dent
+    /// too small to see and so a vertex for which there is no room; it is left away.
+    fn push(&mut self, vertex: ProjectedVertex<V>, seen: usize) {
+        if let Some(slot) = self.vertices.get_mut(self.len)
+            && self.len <= seen
+        {
+            *slot = vertex;
+            self.len += 1;
+        }
+    }
+
+    /// Step 3 of a polygon before the division, whose vertices have z in the place of zs.
+    fn clip_near_far(&mut self, near: f32, far: f32) {
+        let plane = |at, inner| ClipPlane { axis: Axis::Z, at, inner };
+        self.clip(&[plane(near, 1.0), plane(far, -1.0)], Space::Eye);
+    }
+
+    /// Step 5.
+    fn clip_sides(&mut self, SideBounds { x, y }: SideBounds) {
+        let plane = |axis, at, inner| ClipPlane { axis, at, inner };
+        self.clip(
+            &[
+                plane(Axis::X, -x, 1.0),
+                plane(Axis::X, x, -1.0),
+                plane(Axis::Y, -y, 1.0),
+                plane(Axis::Y, y, -1.0),
+            ],
+            Space::Screen,
+        );
+    }
+
+    /// A triangle in eye space, for [`clip_and_project`](Self::clip_and_project): its vertices have z in the place of
+    /// zs.
+    #[must_use]
+    pub fn in_eye_space(triangle: [EyeVertex<V>; 3]) -> Self {
+        Self::triangle(triangle.map(before_the_division))
+    }
+
+    /// Steps 3 to 5 in the memory of one polygon: what [`clip_near_far`], [`Projection::project`] and [`clip_sides`]
+    /// make of a triangle [in eye space](Self::in_eye_space), scaled by the pyramid's scale.
+    ///
+    /// Nothing is left where a vertex has no place on the screen, as a division by a tiny z may overflow.
+    pub fn clip_and_project<P: Projection>(&mut self, projection: &P, depth: &P::Depth, bounds: SideBounds) {
+        self.clip_near_far(projection.near(), projection.far());
+        for vertex in self.vertices.iter_mut().take(self.len) {
+            *vertex = projection.project(depth, &in_eye_space(vertex));
+        }
+        if !self.vertices().iter().all(ProjectedVertex::has_a_place) {
+            self.len = 0;
+        }
+        self.clip_sides(bounds);
+    }
+}
+
+impl<V> ProjectedVertex<V> {
+    /// Whether its numbers leave room to be clipped.
+    fn has_a_place(&self) -> bool {
+        self.x.abs() <= f32::MAX / 4.0 && self.y.abs() <= f32::MAX / 4.0 && self.q.is_finite()
+    }
+}
+
+/// A vertex in eye space, with z in the place of zs.
+fn before_the_division<V>(EyeVertex { position, varying }: EyeVertex<V>) -> ProjectedVertex<V> {
+    let [x, y, zs] = position.coords.to_array();
+    ProjectedVertex { x, y, zs, q: 0.0, varying }
+}
+
+/// The same back.
+fn in_eye_space<V: Copy>(&ProjectedVertex { x, y, zs, varying, .. }: &ProjectedVertex<V>) -> EyeVertex<V> {
+    EyeVertex { position: Point3::new([x, y, zs].into()), varying }
 }
 
 /// Step 3: the part of a triangle in eye space between the planes z = `near` and z = `far`.
@@ -209,15 +284,9 @@ impl<V: Varying> Polygon<ProjectedVertex<V>> {
 /// A subtraction and a comparison for each vertex and plane; a crossing costs two divisions and a blend.
 #[must_use]
 pub fn clip_near_far<V: Varying>(triangle: [EyeVertex<V>; 3], near: f32, far: f32) -> Polygon<EyeVertex<V>> {
-    let plane = |at, inner| ClipPlane { axis: Axis::Z, at, inner };
-    let in_eye_space = |EyeVertex { position, varying }| {
-        let [x, y, zs] = position.coords.to_array();
-        ProjectedVertex { x, y, zs, q: 0.0, varying }
-    };
-    let triangle = Polygon::triangle(triangle.map(in_eye_space));
-    triangle
-        .clip(&[plane(near, 1.0), plane(far, -1.0)], Space::Eye)
-        .map(|v| EyeVertex { position: Point3::new([v.x, v.y, v.zs].into()), varying: v.varying })
+    let mut polygon = Polygon::triangle(triangle.map(before_the_division));
+    polygon.clip_near_far(near, far);
+    polygon.map(|v| in_eye_space(&v))
 }
 
 /// Step 5: the part of a polygon, after the division, within |xs| <= `bounds.x` and |ys| <= `bounds.y`.
@@ -233,15 +302,11 @@ pub fn clip_near_far<V: Varying>(triangle: [EyeVertex<V>; 3], near: f32, far: f3
 /// the plane.
 #[must_use]
 pub fn clip_sides<V: Varying>(
-    polygon: Polygon<ProjectedVertex<V>>,
+    mut polygon: Polygon<ProjectedVertex<V>>,
     bounds: SideBounds,
 ) -> Polygon<ProjectedVertex<V>> {
-    let SideBounds { x, y } = bounds;
-    let plane = |axis, at, inner| ClipPlane { axis, at, inner };
-    polygon.clip(
-        &[plane(Axis::X, -x, 1.0), plane(Axis::X, x, -1.0), plane(Axis::Y, -y, 1.0), plane(Axis::Y, y, -1.0)],
-        Space::Screen,
-    )
+    polygon.clip_sides(bounds);
+    polygon
 }
 
 #[cfg(test)]

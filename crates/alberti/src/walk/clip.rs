@@ -7,10 +7,7 @@ use crate::vertex::{Slot, outside};
 use alberti_math::glam::Vec3;
 use alberti_math::lanes::One;
 use alberti_math::{Eye, Fixed, Linear, Mode, Point3, Varying, map2, map3};
-use alberti_projection::{
-    EyeVertex, Polygon, ProjectedVertex, Projection, SideBounds, clip_near_far, clip_sides,
-};
-use alberti_raster as raster;
+use alberti_projection::{EyeVertex, Polygon, ProjectedVertex, Projection, SideBounds};
 use alberti_raster::{Corner, Vertex};
 use core::cell::Cell;
 use core::cmp::Ordering;
@@ -50,25 +47,24 @@ fn clip_by<W: Weights, M: Geometry, Pr: Projection, K>(
     let (positions, varyings) = ([a.0, b.0, c.0], [a.1, b.1, c.1]);
     let rotation = first_of(positions);
     let (carried, slots) = (rotated(varyings, rotation), rotated(slots, rotation));
-    let polygon = cut::<W, Pr>(screen, rotated(positions, rotation));
+    let mut polygon = in_terms_of_itself::<W>(rotated(positions, rotation));
+    cut(screen, &mut polygon);
     // The triangle's own vertices stay where its neighbours have them, to the last bit of integers too.
     let own = if const { M::INTEGERS } { map3(slots, kept) } else { [None; 3] };
-    let places = polygon.map(|vertex| {
-        let Vertex { x, y, varying, .. } = vertex?;
-        Some(
-            own_of(own, varying)
-                .map_or([x.subpixels(), y.subpixels()], |own| own.screen.place(screen.numbers.are_fixed())),
+    let place = |vertex: &ProjectedVertex<W>| {
+        own_of(own, vertex.varying).map_or_else(
+            || screen.snapped([vertex.x, vertex.y]).map(Fixed::subpixels),
+            |own| own.screen.place(screen.numbers.are_fixed()),
         )
-    });
-    for fan in polygon.fan_around(unfolded(&places)) {
+    };
+    let number = unfolded(&polygon.map(|vertex| place(&vertex)));
+    for fan in polygon.fan_around(number) {
         let corners = fan.map(|vertex| {
-            let corner = on_the_screen(screen.numbers, vertex, varyings[0], &carried)?;
-            let own = own_of(own, vertex?.varying);
-            Some(own.map_or(corner, |own| own.screen.with_components_of(&corner)))
+            let corner = on_the_screen(screen, &vertex, varyings[0], &carried);
+            own_of(own, vertex.varying).map_or(corner, |own| own.screen.with_components_of(&corner))
         });
-        if let [Some(a), Some(b), Some(c)] = &corners {
-            sink([a, b, c], counters);
-        }
+        let [a, b, c] = &corners;
+        sink([a, b, c], counters);
     }
 }
 
@@ -98,13 +94,13 @@ fn ends<W: Weights, V: Varying, Pr: Projection>(
     positions: [Point3<Eye>; 3],
     varyings: [V; 3],
 ) -> Option<[Corner<V>; 2]> {
-    let polygon = cut::<W, Pr>(screen, positions);
-    let weight = |vertex: &Vertex<W>| vertex.varying.in_space().x;
-    let vertices = || polygon.vertices().iter().flatten().copied();
-    let first = vertices().reduce(|a, b| if weight(&b) > weight(&a) { b } else { a });
-    let last = vertices().reduce(|a, b| if weight(&b) < weight(&a) { b } else { a });
-    let corner = |vertex| on_the_screen(screen.numbers, vertex, varyings[0], &varyings);
-    Some([corner(first)?, corner(last)?])
+    let mut polygon = in_terms_of_itself::<W>(positions);
+    cut(screen, &mut polygon);
+    let weight = |vertex: &ProjectedVertex<W>| vertex.varying.in_space().x;
+    let vertices = || polygon.vertices().iter();
+    let first = vertices().reduce(|a, b| if weight(b) > weight(a) { b } else { a })?;
+    let last = vertices().reduce(|a, b| if weight(b) < weight(a) { b } else { a })?;
+    Some([first, last].map(|vertex| on_the_screen(screen, vertex, varyings[0], &varyings)))
 }
 
 /// A slot whose place on the screen has a meaning.
@@ -126,11 +122,10 @@ fn own_of<T>([a, b, c]: [Option<T>; 3], weights: impl Weights) -> Option<T> {
 /// vertex a little into the polygon where it is almost in line with the next ones. A fan that passes over it would draw
 /// samples twice.
 #[inline(never)]
-fn unfolded(places: &Polygon<Option<[i32; 2]>>) -> usize {
+fn unfolded(places: &Polygon<[i32; 2]>) -> usize {
     let folded = |number: &usize| {
         // A bit for either way round.
-        let turns = places.fan_around(*number).map(|fan| {
-            let [Some(a), Some(b), Some(c)] = fan else { return 0 };
+        let turns = places.fan_around(*number).map(|[a, b, c]| {
             let side = |p: [i32; 2]| map2([0, 1], |k: usize| i64::from(p[k] - a[k]));
             let [[ux, uy], [vx, vy]] = [side(b), side(c)];
             let area = ux * vy - uy * vx;
@@ -152,16 +147,24 @@ fn before_the_eye<M: Geometry, Pr: Projection>(
     Some((Point3::new(screen.eye(One, point.coords.to_array()).into()), varying))
 }
 
-/// The corner where the three varyings have weights.
+/// The corner where the three varyings have weights. It is within the guard band.
 #[inline(never)]
-fn on_the_screen<V: Varying>(
-    numbers: raster::Numbers,
-    vertex: Option<Vertex<impl Weights>>,
+fn on_the_screen<V: Varying, Pr: Projection>(
+    screen: &Screen<Pr>,
+    &ProjectedVertex { x, y, zs, q, varying }: &ProjectedVertex<impl Weights>,
     first: V,
     carried: &[V; 3],
-) -> Option<Corner<V>> {
-    let Vertex { x, y, zs, q, varying } = vertex?;
-    Some(Corner::new(numbers, &Vertex { x, y, zs, q, varying: weighted(first, *carried, varying) }))
+) -> Corner<V> {
+    let [x, y] = screen.snapped([x, y]);
+    let varying = weighted(first, carried, varying);
+    Corner::new(screen.numbers, &Vertex { x, y, zs, q, varying })
+}
+
+impl<Pr: Projection> Screen<Pr> {
+    /// Step 6: window-viewport, of a place within the guard band.
+    fn snapped(&self, window: [f32; 2]) -> [Fixed; 2] {
+        self.viewport.to_screen_lanes(One, self.subpixel, window).map(|bits| Fixed::from_bits(bits.0))
+    }
 }
 
 /// The weights of a triangle's three vertices at a point of it.
@@ -211,46 +214,33 @@ fn has_linear<V: Varying>() -> bool {
     found.get()
 }
 
-/// The vertices that clipping leaves, in terms of the triangle's own: once in a program, whatever these carry. Vertices
-/// without a place on the screen are `None`.
+/// A triangle in eye space, in terms of its own vertices. Not inlined, as it is the same for all meshes.
+#[inline(never)]
+fn in_terms_of_itself<W: Weights>([a, b, c]: [Point3<Eye>; 3]) -> Polygon<ProjectedVertex<W>> {
+    Polygon::in_eye_space([
+        EyeVertex { position: a, varying: W::new(Vec3::X) },
+        EyeVertex { position: b, varying: W::new(Vec3::Y) },
+        EyeVertex { position: c, varying: W::new(Vec3::Z) },
+    ])
+}
+
+/// Clips a triangle [`in_terms_of_itself`]: once in a program, whatever its vertices carry.
 ///
 /// Two triangles that share an edge have the same new vertices on it, bit for bit, whatever their third vertex is. Its
 /// weight is 0 there, and stays so, since a cut is between two vertices of the polygon.
 #[inline(never)]
-fn cut<W: Weights, Pr: Projection>(
-    screen: &Screen<Pr>,
-    [a, b, c]: [Point3<Eye>; 3],
-) -> Polygon<Option<Vertex<W>>> {
-    let Screen { projection, viewport, depth, sides, guard, subpixel, .. } = screen;
-    let triangle = [
-        EyeVertex { position: a, varying: W::new(Vec3::X) },
-        EyeVertex { position: b, varying: W::new(Vec3::Y) },
-        EyeVertex { position: c, varying: W::new(Vec3::Z) },
-    ];
-    // 3. The part between the near and the far plane.
-    let between = clip_near_far(triangle, projection.near(), projection.far());
-    // 4. Perspective with depth.
-    let projected = between.map(|v| projection.project(depth, &v));
-    if !projected.vertices().iter().all(finite) {
-        return projected.map(|_| None);
-    }
-    // 5. The sides.
+fn cut<W: Weights, Pr: Projection>(screen: &Screen<Pr>, polygon: &mut Polygon<ProjectedVertex<W>>) {
+    let Screen { projection, depth, sides, guard, .. } = screen;
     let bounds = match sides {
         Sides::GuardBand => *guard,
         Sides::Cube => SideBounds::CUBE,
     };
-    // 6. Window-viewport.
-    clip_sides(projected, bounds).map(|v| {
-        // All are within the guard band now.
-        let place = viewport.to_screen_lanes(One, *subpixel, [v.x, v.y]);
-        let [x, y] = place.map(|bits| Fixed::from_bits(bits.0));
-        Some(Vertex { x, y, zs: v.zs, q: v.q, varying: v.varying })
-    })
+    polygon.clip_and_project(projection, depth, bounds);
 }
 
 /// The varying at a point with these weights. Those that are 0 have no part in it, not even in its range; flat
 /// components are those of `first`.
-fn weighted<V: Varying>(first: V, [a, b, c]: [V; 3], weights: impl Weights) -> V {
+fn weighted<V: Varying>(first: V, &[a, b, c]: &[V; 3], weights: impl Weights) -> V {
     let mean = |mode, [a, b, c, first]: [f32; 4]| {
         if mode == Mode::Flat {
             return first;
@@ -269,11 +259,6 @@ fn weighted<V: Varying>(first: V, [a, b, c]: [V; 3], weights: impl Weights) -> V
         if sum < greatest { sum } else { greatest }
     };
     V::from_components(&V::map_by_mode(&V::gather([a, b, c, first]), &mean))
-}
-
-/// Whether a projected vertex has a place: dividing by a tiny z may overflow.
-fn finite<V>(v: &ProjectedVertex<V>) -> bool {
-    v.x.abs() <= f32::MAX / 4.0 && v.y.abs() <= f32::MAX / 4.0 && v.q.is_finite()
 }
 
 /// The vertex at which clipping and the fan start: the same for the same triangle, whichever vertex it is given from.

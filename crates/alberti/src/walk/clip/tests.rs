@@ -5,6 +5,7 @@ use super::*;
 use alberti_math::{Flat, blend2};
 use alberti_oracle::coverage::{area2, covers};
 use alberti_oracle::rng::{Rng, run_seed};
+use alberti_projection::clip_near_far;
 use core::cell::Cell;
 use std::vec::Vec;
 
@@ -36,14 +37,14 @@ fn edges_know_nothing_of_the_third_vertex() {
         let [wa, wb] = [t, 1.0 - t];
         let blended = blend2([wa, wb], [a, b]);
         for found in [
-            weighted(c, [a, b, c], Vec3::new(wa, wb, 0.0)),
-            weighted(c, [b, other, a], Vec3::new(wb, 0.0, wa)),
-            weighted(c, [c, a, b], Vec3::new(0.0, wa, wb)),
-            weighted(Linear(c), [a, b, c].map(Linear), (Vec3::Z, Linear(Vec3::new(wa, wb, 0.0)))).0,
+            weighted(c, &[a, b, c], Vec3::new(wa, wb, 0.0)),
+            weighted(c, &[b, other, a], Vec3::new(wb, 0.0, wa)),
+            weighted(c, &[c, a, b], Vec3::new(0.0, wa, wb)),
+            weighted(Linear(c), &[a, b, c].map(Linear), (Vec3::Z, Linear(Vec3::new(wa, wb, 0.0)))).0,
         ] {
             assert_eq!(found.to_bits(), blended.to_bits());
         }
-        assert_eq!(weighted(Flat(c), [a, b, c].map(Flat), Vec3::new(wa, wb, 0.0)), Flat(c));
+        assert_eq!(weighted(Flat(c), &[a, b, c].map(Flat), Vec3::new(wa, wb, 0.0)), Flat(c));
     }
 }
 
@@ -64,17 +65,13 @@ fn fans_are_not_turned_over() {
         let between = [0, 1].map(|k| (b[k] * share + c[k] * (8 - share)) / 8 + rng.range(-1, 1));
         let mut corners = [a, b, between, c];
         corners.rotate_left(rng.index(4));
-        let vertex = |[x, y]: [i64; 2]| {
-            let [x, y] = [x, y].map(|c| Fixed::wrapping(i32::try_from(c).expect("small")));
-            Some(Vertex { x, y, zs: 0.0, q: 1.0, varying: Vec3::splat(0.25) })
-        };
         let number = Cell::new(0);
-        let polygon = four.map(|_| corners.get(number.replace(number.get() + 1)).copied().and_then(vertex));
+        let places = four.map(|_| {
+            let corner = corners.get(number.replace(number.get() + 1)).copied().unwrap_or_default();
+            corner.map(|c| i32::try_from(c).expect("small"))
+        });
         let parts = |number| -> Vec<[[i64; 2]; 3]> {
-            let places = polygon
-                .fan_around(number)
-                .map(|fan| fan.map(|v| v.map_or([0; 2], |v| [v.x, v.y].map(|c| i64::from(c.subpixels())))));
-            places.collect()
+            places.fan_around(number).map(|fan| fan.map(|corner| corner.map(i64::from))).collect()
         };
         let is_folded = |number| {
             let signs: Vec<_> = parts(number).into_iter().map(|part| area2(part).signum()).collect();
@@ -86,7 +83,6 @@ fn fans_are_not_turned_over() {
             continue;
         }
         folded += u32::from(is_folded(0));
-        let places = polygon.map(|v| v.map(|v| [v.x, v.y].map(Fixed::subpixels)));
         let parts = parts(unfolded(&places));
         for sample in (0..61 * 61).map(|i| [i % 61, i / 61]) {
             let times = parts.iter().filter(|part| covers(**part, sample)).count();
