@@ -37,7 +37,7 @@ const FRAMES: &str = "alberti-firmware";
 /// The wishes of the caller.
 #[derive(Debug, PartialEq, Eq, Default)]
 struct Options<'a> {
-    /// One board or all instead of the usual ones.
+    /// One board instead of all.
     board: Option<&'a str>,
     /// The scenes drawn by a program that is built for size, and nothing compared but bits.
     small: bool,

@@ -89,6 +89,6 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
         let slots = if slots.is_empty() { &mut few[..] } else { &mut **slots };
         let [columns, rows] = screen.viewport.pixels();
         let mut visible = target.scissor(columns, rows);
-        draw(&mut Walk::new(One, mesh, screen, slots), paint, &mut visible);
+        draw(&mut Walk::new(One, mesh, &screen, slots), paint, &mut visible);
     }
 }

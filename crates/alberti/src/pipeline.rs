@@ -210,7 +210,7 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
         let [columns, rows] = screen.viewport.pixels();
         let mut visible = target.scissor(columns, rows);
         let mut batch = paint.batch(lanes, &mut visible);
-        let mut walk = Walk::new(lanes, mesh, screen, slots);
+        let mut walk = Walk::new(lanes, mesh, &screen, slots);
         for part in walk.seen(paint.cull, 0..usize::MAX) {
             walk.ready(&part);
             walk.triangles(part, 0, counters, &mut batch);
@@ -308,7 +308,7 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
             return;
         };
         let mut slots = [Slot::EMPTY; 16];
-        let _fate = Walk::new(One, self.mesh, screen, &mut slots).triangle(indices, sink);
+        let _fate = Walk::new(One, self.mesh, &screen, &mut slots).triangle(indices, sink);
     }
 
     /// The way to the screen of a frame of this size; `None` if it has no pixels.

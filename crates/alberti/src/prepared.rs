@@ -3,7 +3,6 @@
 use crate::geometry::Geometry;
 use crate::pipeline::Pass;
 use crate::screen::Screen;
-use crate::vertex::Slot;
 use crate::walk::{Fate, Walk};
 use alberti_math::for_lanes;
 use alberti_math::lanes::{Floating, Machine};
@@ -91,18 +90,15 @@ where
         counters: &mut K,
     ) -> (Self, Room<'p>) {
         let screen = pass.screen(size, depth);
-        let (Some(way), Some(machine)) = (screen, Machine::all().next()) else {
+        let (Some(way), Some(machine)) = (&screen, Machine::all().next()) else {
             return (Self { pass, screen, filled: 0, listed: &[], next: usize::MAX, size, depth }, room);
         };
         let pixels = way.viewport.pixels();
-        let mut cache = [Slot::EMPTY; 16];
         let mesh = pass.mesh();
         let (slots, paint) = pass.halves();
-        let lasting = !slots.is_empty();
-        let slots = if lasting { &mut **slots } else { &mut cache };
         let mut walk = for_lanes!(machine, lanes => Walk::new(lanes, mesh, way, slots));
         let (listed, next) = list(&mut walk, paint, &pixels, 0..usize::MAX, room, counters);
-        let filled = if lasting { walk.filled() } else { 0 };
+        let filled = walk.filled();
         let (listed, rest) = room.split_at_mut_checked(listed).unwrap_or_default();
         (Self { pass, screen, filled, listed, next, size, depth }, rest)
     }
@@ -149,10 +145,8 @@ where
             *self.pass.halves().0 = slots;
             return;
         }
-        let Some(screen) = self.screen else { return };
-        let mut cache = [Slot::EMPTY; 16];
+        let Some(screen) = &self.screen else { return };
         let (slots, paint) = self.pass.halves();
-        let slots = if slots.is_empty() { &mut cache } else { &mut **slots };
         let walk = Walk::again(mesh, screen, slots, self.filled);
         let listed = |its| self.listed.iter().filter(PreparedTriangle::meets(its));
         draw_listed(lanes, (listed, self.next), walk, paint, target, counters);

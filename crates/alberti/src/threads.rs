@@ -87,7 +87,7 @@ where
         let Some(store) = slots.get_mut(..stored) else { return };
         fill(lanes, mesh, &screen, store, threads);
         let store = &*store;
-        let walk = || Walk::over(mesh, screen, store);
+        let walk = || Walk::over(mesh, &screen, store);
         let lists = &list_by(threads, walk, paint, room, counters);
 
         let bands = Mutex::new(target.split(band_rows(target.limits()[1].len(), threads)));

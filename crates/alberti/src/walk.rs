@@ -81,17 +81,17 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     pub(crate) fn new<L: Floating>(
         lanes: L,
         mesh: &'a M,
-        screen: Screen<Pr>,
+        screen: &Screen<Pr>,
         slots: &'a mut [Slot<M::Varying>],
     ) -> Self {
         let stored = stored_by(mesh, slots.len());
         if const { M::MESHLETS && L::COUNT == 1 } && stored > 0 {
             slots.iter_mut().for_each(Slot::forget);
-            return Self { mesh, stored: &[], cache: slots, mask: usize::MAX, own: true, screen };
+            return Self { mesh, stored: &[], cache: slots, mask: usize::MAX, own: true, screen: *screen };
         }
         let (store, unused) = slots.split_at_mut_checked(stored).unwrap_or_default();
         unused.fill(Slot::EMPTY);
-        Slot::fill_all(lanes, mesh, &screen, 0, store);
+        Slot::fill_all(lanes, mesh, screen, 0, store);
         Self::with_slots(mesh, screen, store, unused)
     }
 
@@ -100,7 +100,7 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     #[inline]
     pub(crate) fn again(
         mesh: &'a M,
-        screen: Screen<Pr>,
+        screen: &Screen<Pr>,
         slots: &'a mut [Slot<M::Varying>],
         filled: usize,
     ) -> Self {
@@ -112,17 +112,17 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     #[inline]
     fn with_slots(
         mesh: &'a M,
-        screen: Screen<Pr>,
+        screen: &Screen<Pr>,
         stored: &'a [Slot<M::Varying>],
         cache: &'a mut [Slot<M::Varying>],
     ) -> Self {
         let mask = Slot::<M::Varying>::mask(cache.len());
-        Self { mesh, stored, mask, cache, own: false, screen }
+        Self { mesh, stored, mask, cache, own: false, screen: *screen }
     }
 
     /// The walk over a store of all vertices, which others may walk too.
     #[cfg(feature = "threads")]
-    pub(crate) fn over(mesh: &'a M, screen: Screen<Pr>, stored: &'a [Slot<M::Varying>]) -> Self {
+    pub(crate) fn over(mesh: &'a M, screen: &Screen<Pr>, stored: &'a [Slot<M::Varying>]) -> Self {
         Self::with_slots(mesh, screen, stored, &mut [])
     }
 

@@ -13,16 +13,11 @@ pub(super) struct Board {
     pub(super) name: &'static str,
     /// Other cores whose code is the same: they are run under this name.
     pub(super) also: &'static [&'static str],
-    /// Whether it is in every run: continuous integration has minutes for some. The others are alike to one of these.
-    pub(super) usual: bool,
     /// For people.
     pub(super) core: &'static str,
     pub(super) target: Target,
     pub(super) machine: Machine,
 }
-
-/// The name of all boards.
-pub(super) const ALL: &str = "all";
 
 /// Every board, the slowest first.
 ///
@@ -34,7 +29,6 @@ pub(super) const BOARDS: &[Board] = &[
     Board {
         name: "m0",
         also: &["m0plus"],
-        usual: true,
         core: "Cortex-M0 and M0+ code on a Cortex-M3, floats in software, no division",
         target: Target::of("thumbv6m-none-eabi"),
         machine: mps2(&["-machine", "mps2-an385"]),
@@ -42,7 +36,6 @@ pub(super) const BOARDS: &[Board] = &[
     Board {
         name: "m3",
         also: &[],
-        usual: false,
         core: "Cortex-M3, floats in software",
         target: Target::of("thumbv7m-none-eabi"),
         machine: mps2(&["-machine", "mps2-an385"]),
@@ -50,7 +43,6 @@ pub(super) const BOARDS: &[Board] = &[
     Board {
         name: "rv32",
         also: &[],
-        usual: true,
         core: "RV32IMC, floats in software",
         target: Target::of("riscv32imc-unknown-none-elf"),
         machine: Machine::Qemu(Qemu {
@@ -63,7 +55,6 @@ pub(super) const BOARDS: &[Board] = &[
     Board {
         name: "m4f",
         also: &[],
-        usual: true,
         core: "Cortex-M4F",
         target: Target::of("thumbv7em-none-eabihf"),
         machine: mps2(&["-machine", "mps2-an386"]),
@@ -71,7 +62,6 @@ pub(super) const BOARDS: &[Board] = &[
     Board {
         name: "m7",
         also: &[],
-        usual: false,
         core: "Cortex-M7, in the order of its instructions and with those of `f64`",
         target: Target { triple: "thumbv7em-none-eabihf", processor: Some("cortex-m7") },
         machine: mps2(&["-machine", "mps2-an500"]),
@@ -79,7 +69,6 @@ pub(super) const BOARDS: &[Board] = &[
     Board {
         name: "m33",
         also: &[],
-        usual: true,
         core: "Cortex-M33",
         target: Target::of("thumbv8m.main-none-eabihf"),
         machine: Machine::Qemu(Qemu {
@@ -92,7 +81,6 @@ pub(super) const BOARDS: &[Board] = &[
     Board {
         name: "wasm32",
         also: &[],
-        usual: true,
         core: "WebAssembly in Node, whose instructions are not counted",
         target: Target::of("wasm32-unknown-unknown"),
         machine: Machine::Node,
@@ -105,17 +93,14 @@ const fn mps2(arguments: &'static [&'static str]) -> Machine {
 }
 
 impl Board {
-    /// The boards of a name: one, all of them, or without a name the usual ones.
+    /// The board of a name, or without one all boards.
     pub(super) fn named(name: Option<&str>) -> Result<Vec<&'static Board>, String> {
-        let Some(name) = name else { return Ok(BOARDS.iter().filter(|board| board.usual).collect()) };
-        if name == ALL {
-            return Ok(BOARDS.iter().collect());
-        }
+        let Some(name) = name else { return Ok(BOARDS.iter().collect()) };
         let is = |board: &&Board| board.name == name || board.also.contains(&name);
         BOARDS.iter().find(is).map(|board| vec![board]).ok_or_else(|| {
             let names =
                 BOARDS.iter().flat_map(|board| [board.name].into_iter().chain(board.also.iter().copied()));
-            format!("there is no board `{name}`, only {}, or {ALL}", names.collect::<Vec<_>>().join(", "))
+            format!("there is no board `{name}`, only {}", names.collect::<Vec<_>>().join(", "))
         })
     }
 
@@ -187,14 +172,13 @@ mod tests {
     }
 
     #[test]
-    fn one_board_all_or_the_usual_ones() {
-        assert_eq!(names(Some(ALL)).unwrap().len(), BOARDS.len());
-        assert_eq!(names(None), Ok(vec!["m0", "rv32", "m4f", "m33", "wasm32"]));
+    fn one_board_or_all() {
+        assert_eq!(names(None).unwrap().len(), BOARDS.len());
         assert_eq!(names(Some("m4f")), Ok(vec!["m4f"]));
         assert_eq!(names(Some("m0plus")), Ok(vec!["m0"]));
         assert_eq!(
             names(Some("m1")),
-            Err("there is no board `m1`, only m0, m0plus, m3, rv32, m4f, m7, m33, wasm32, or all".into())
+            Err("there is no board `m1`, only m0, m0plus, m3, rv32, m4f, m7, m33, wasm32".into())
         );
     }
 

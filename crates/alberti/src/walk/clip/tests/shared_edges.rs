@@ -77,7 +77,7 @@ fn clipped<V: Varying + Debug>(
     let mut vertices = BTreeSet::new();
     let mut whole = true;
     let paint = Paint { stage: (), interpolation: Exact, subpixel: Sub8, cull: Cull::None };
-    let fate = Walk::new(One, &mesh, screen, &mut [Slot::EMPTY; 3]).triangle([0, 1, 2], |corners| {
+    let fate = Walk::new(One, &mesh, &screen, &mut [Slot::EMPTY; 3]).triangle([0, 1, 2], |corners| {
         whole &= paint.reach(corners, &limits).is_ok();
         for corner in corners {
             let printed = format!("{corner:?}");
