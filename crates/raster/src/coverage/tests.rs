@@ -1,0 +1,1 @@
+//! Coverage against areas by hand, and what cannot be right refused or harmless.
