@@ -9,6 +9,7 @@
 )]
 
 use alberti::glam::{Mat3, Vec3};
+use alberti::lanes::One;
 use alberti::raster::color::{Average, resolve};
 use alberti::raster::{Corner, Paint};
 use alberti::shaders::{Solid, VertexColor};
@@ -367,10 +368,11 @@ fn pictures_are_those_of_many_samples() {
         };
         let (smooth, rough) = (far(&color), far(&plain));
         let mean = |off: &[f64]| off.iter().map(|off| off.abs()).sum::<f64>() / rough.len() as f64;
-        assert!(rough.len() > 400, "{} pixels on the silhouette", rough.len());
-        // Where two parts of the silhouette are in a pixel, which is seldom, areas are added.
+        assert!(rough.len() > 300, "{} pixels on the silhouette", rough.len());
+        // Where two surfaces end in a pixel, which is seldom, areas are added: too much, never too little.
         let wrong = smooth.iter().filter(|off| off.abs() > 16.0).count();
-        assert!(wrong * 100 < rough.len(), "{wrong} of {}", rough.len());
+        assert!(wrong * 40 < rough.len(), "{wrong} of {}", rough.len());
+        assert!(smooth.iter().all(|off| *off > -16.0));
         let [smooth, rough] = [mean(&smooth), mean(&rough)];
         assert!(smooth < 2.0 && rough > 40.0, "{smooth} and without {rough}");
     }
@@ -389,6 +391,9 @@ fn what_is_narrower_than_a_pixel_is_thin() {
         .map(|triangle| bare(triangle).map(|vertex| Corner::new(paint.numbers(NoDepth), &vertex)));
     parts.iter().for_each(|corners| paint.cover(&mut silhouette, corners.each_ref()));
     let coverage = silhouette.coverage();
+    for triangle in [[a, b, c], [b, d, c]] {
+        paint.triangle(One, &mut target, bare(triangle).each_ref(), &mut ());
+    }
     for corners in &parts {
         paint.fringe(&mut target, &coverage, corners.each_ref(), &mut ());
     }
