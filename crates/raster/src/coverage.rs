@@ -67,20 +67,22 @@ use edge::{Edge, Piece};
 /// ```
 ///
 /// # Precision
-/// Sums are exact, in 2^-16 of a pixel, and edges that two triangles share leave nothing. An edge's area in a pixel is
-/// within 2.5·2^-16 of that of the snapped edge: crossings with the sides of pixels are rounded to 2^-16, which is half
-/// of that along each of three, and the area itself to as much. So a pixel through which no silhouette passes is
-/// covered wholly or not at all, to the bit, and a triangle's part is within 7.5·2^-16.
+/// Sums are exact, in 2^-16 of a pixel, and edges that two triangles share leave nothing. So a pixel through which no
+/// silhouette passes is covered wholly or not at all, to the bit. An edge's area in a pixel is within 1.5·2^-16 of that
+/// of the snapped edge, and so a triangle's within 4.5·2^-16. Where the edge crosses the sides of pixels is rounded to
+/// 2^-16: half of a step sideways, and a quarter of one at each of two columns. The area is rounded by the last half.
 ///
 /// Areas are added, whatever part of the pixel they are: of two surfaces that cover a half each the sum is the whole.
 /// What is more than that is the whole. So coverage is exact where one silhouette over the background passes a pixel,
 /// and too great where another begins in the same pixel. Both faces of a closed surface would be twice the area, which
-/// [`Cull::Back`] keeps out. Up to 2047 surfaces may be over one another; beyond, coverage starts anew.
+/// [`Cull::Back`] keeps out. Up to 511 surfaces may be over one another; with more, a pixel may count as not covered.
+///
+/// Silhouettes before another surface, instead of the background, stay as they are.
 ///
 /// # Cost
-/// Four bytes a pixel, cleared and summed once: two loads and stores. An edge: two divisions of 64 bits if it crosses
-/// a row, two more if it passes several centres, and one or two in each row where it crosses columns. A pixel on it:
-/// a product of 64 bits, and two sums in memory. Interiors of triangles cost nothing.
+/// Four bytes a pixel, cleared, summed and read once. An edge: up to four divisions of 64 bits, and up to two more in
+/// each row in which it crosses columns. A pixel on it: a product of 64 bits, and two sums in memory. Interiors of
+/// triangles cost nothing.
 ///
 /// # Source
 /// Areas and heights in cells are those of `FreeType`'s smooth rasterizer (D. Turner); sums of differences along rows
@@ -111,7 +113,7 @@ struct Cells<'a> {
 }
 
 /// Bits of the number of triangles that cover a pixel's centre. What is more carries to the area, and is nothing there.
-const COUNT: u32 = 4;
+const COUNT: u32 = 6;
 
 /// The area of a pixel.
 const WHOLE: i32 = 1 << 16;
@@ -245,7 +247,7 @@ impl Coverage<'_> {
         Part(self.cells.word(place)).area()
     }
 
-    /// Whether a pixel's centre is covered, and so its colour drawn. The same as [`Paint::triangle`] finds, unless 16
+    /// Whether a pixel's centre is covered, and so its colour drawn. The same as [`Paint::triangle`] finds, unless 64
     /// triangles, or a multiple of these, cover the centre.
     #[must_use]
     pub fn has_centre(&self, place: [i32; 2]) -> bool {
