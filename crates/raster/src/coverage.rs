@@ -158,6 +158,12 @@ impl Part {
         (self.area() * 255 + (1 << 15)) >> 16
     }
 
+    /// Whether there is a colour to be mixed, but none that was drawn.
+    #[inline(always)]
+    fn is_fringe(self) -> bool {
+        self.share() > 0 && !self.has_centre()
+    }
+
     #[inline(always)]
     fn has_centre(self) -> bool {
         self.0 & ((1 << COUNT) - 1) != 0

@@ -8,10 +8,11 @@ use crate::depth::DepthFormat;
 use crate::draw::Paint;
 use crate::fragment::FragmentStage;
 use crate::interpolation::Interpolation;
-use crate::target::Target;
-use crate::triangle::{Corner, in_order};
+use crate::target::{Target, narrowed};
+use crate::triangle::{Corner, Corners, in_order};
 use alberti_math::lanes::{Lanes, One};
 use alberti_math::{Mode, Varying, map3};
+use core::ops::Range;
 
 impl<F: Copy, P: Interpolation> Paint<F, P> {
     /// Draws those pixels on the edges of a triangle that are covered, but not at their centre: where the silhouette
@@ -42,7 +43,7 @@ impl<F: Copy, P: Interpolation> Paint<F, P> {
         let limits = coverage.within(target);
         let places = map3(corners, |corner| corner.place(fixed));
         let Some(area) = seen(&places, self.cull, bits) else { return };
-        if misses(&places, bits, &limits) {
+        if misses(&places, bits, &limits) || !coverage.may_have_fringe(&places, bits, &limits) {
             return;
         }
         let flat = corners[0];
@@ -52,15 +53,32 @@ impl<F: Copy, P: Interpolation> Paint<F, P> {
             let (edge, down) = Edge::new([places[k], places[l]]);
             let (upper, lower) = if down { (k, l) } else { (l, k) };
             edge.pieces(bits, &limits, |Piece { place, middle, .. }| {
-                let part = Part(coverage.cells.word(place));
                 let Some(middle) = middle else { return };
-                if part.share() > 0 && !part.has_centre() {
+                if Part(coverage.cells.word(place)).is_fringe() {
                     let upper = with_flat(corners[upper], flat);
                     let pixel = (place, edge.weights(middle, bits));
                     self.between(target, [&upper, corners[lower]], |_| [pixel].into_iter(), counters);
                 }
             });
         }
+    }
+}
+
+impl Coverage<'_> {
+    /// Whether a triangle may have pixels to be drawn: loads alone tell it of small ones, of which most have none.
+    fn may_have_fringe(&self, corners: &Corners, bits: u32, limits: &[Range<i32>; 2]) -> bool {
+        let [columns, rows] = [0, 1].map(|axis: usize| {
+            let [a, b, c] = corners.map(|corner| corner[axis] >> bits);
+            narrowed(&limits[axis], a.min(b).min(c)..a.max(b).max(c) + 1)
+        });
+        if columns.len() > 16 || rows.len() > 16 {
+            return true;
+        }
+        rows.into_iter().any(|row| {
+            let first = self.cells.index([columns.start, row]).unwrap_or(usize::MAX);
+            let words = self.cells.words.get(first..).unwrap_or_default();
+            words.iter().take(columns.len()).any(|word| Part(*word).is_fringe())
+        })
     }
 }
 

@@ -86,6 +86,21 @@ fn pixels_beside_the_mesh_stay() {
     assert_eq!(color, [7, 7, 7, mixed([2, 75, 2]), 7, 7, 7, mixed([64, 139, 66])]);
 }
 
+/// Any part less than the whole is mixed, and the whole is not.
+#[test]
+fn nearly_whole_pixels_are_mixed() {
+    for (sides, red) in [([0, 15, 15, 16], 254), ([0, 15, 16, 16], 255), ([0, 15, 0, 16], 239)] {
+        let (mut color, mut depth, mut cells) = ([u32::MAX; 1], [(); 1], [0; 1]);
+        let mut target = Target::new(Rgba8888, NoDepth, 1, 1, &mut color, &mut depth).expect("a frame");
+        let mut silhouette = Silhouette::new(&target, &mut cells).expect("enough words");
+        for corners in [[0, 0, 16, 15], sides].iter().flat_map(|sides| rectangle(*sides, 0.5)) {
+            paint(()).cover(&mut silhouette, corners.each_ref());
+        }
+        silhouette.coverage().resolve(&mut target, Average::Bytes, |_| Rgba8::BLACK);
+        assert_eq!(color[0].to_ne_bytes()[0], red, "{sides:?}");
+    }
+}
+
 #[test]
 fn what_is_flat_is_that_of_the_first_vertex() {
     let (mut color, mut depth, mut cells) = ([0; 16], [(); 16], [0; 16]);
