@@ -17,9 +17,9 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
     /// Adds the edges of the mesh to a silhouette, those of the faces that the pass draws. Of a closed mesh these are
     /// one side only, as they are by default.
     ///
-    /// All meshes that are to have smooth edges are drawn first, then cover one silhouette; when it is summed, each
-    /// draws its [fringe](Self::draw_fringe), and the target is mixed with its background. Bands do that each for
-    /// themselves, with the words of one band.
+    /// All meshes that are to have smooth edges are drawn first. Then all cover one silhouette. When it is summed, each
+    /// draws its [fringe](Self::draw_fringe), and the target is mixed with its background. Each band does that for
+    /// itself, with the words of one band.
     ///
     /// ```
     /// use alberti::raster::color::Average;
@@ -59,8 +59,8 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
         self.each_on_screen(screen, |paint, corners| paint.cover(&mut visible, corners));
     }
 
-    /// Draws those pixels that the mesh covers in part, but not at their centre, if nothing else is drawn there: with
-    /// the attributes and the depth of its edges, see [`Paint::fringe`]. After all that is in the silhouette is drawn.
+    /// Draws the pixels on edges of the mesh that are covered in part, but by no triangle at their centre. They have the
+    /// attributes and the depth of the edge, see [`Paint::fringe`]. It is for after all meshes are drawn.
     pub fn draw_fringe<C: ColorFormat, D: DepthFormat>(
         &mut self,
         target: &mut Target<'_, C, D>,

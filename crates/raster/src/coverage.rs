@@ -14,7 +14,8 @@ use crate::color::{Average, Blended, ColorFormat, InLight, Over, ReadColor};
 use crate::depth::DepthFormat;
 use crate::draw::Paint;
 use crate::interpolation::Interpolation;
-use crate::target::{Target, TargetError, narrowed};
+use crate::pixels::narrowed;
+use crate::target::{Target, TargetError};
 use crate::triangle::{Corner, Corners, Cull, doubled_area};
 use alberti_math::lanes::{Lanes, One};
 use alberti_math::{GUARD_PIXELS, Rgba8, Varying, map3};
@@ -72,10 +73,10 @@ use edge::{Edge, Piece};
 /// of the snapped edge, and so a triangle's within 4.5·2^-16. Where the edge crosses the sides of pixels is rounded to
 /// 2^-16: half of a step sideways, and a quarter of one at each of two columns. The area is rounded by the last half.
 ///
-/// Areas are added, whatever part of the pixel they are: of two surfaces that cover a half each the sum is the whole.
-/// What is more than that is the whole. So coverage is exact where one silhouette over the background passes a pixel,
-/// and too great where another begins in the same pixel. Both faces of a closed surface would be twice the area, which
-/// [`Cull::Back`] keeps out. Up to 511 surfaces may be over one another; with more, a pixel may count as not covered.
+/// Areas are added, whatever part of the pixel they are, up to the whole: two surfaces that cover a half each are the
+/// whole. So coverage is exact where one silhouette over the background passes a pixel, and too great where another
+/// begins in the same pixel. Both faces of a closed surface would be twice the area, which [`Cull::Back`] keeps out. Up
+/// to 511 surfaces may be over one another; with more, a pixel may count as not covered.
 ///
 /// Silhouettes before another surface, instead of the background, stay as they are.
 ///

@@ -2,7 +2,7 @@
 
 use crate::color::{ColorFormat, FragmentColor};
 use crate::depth::DepthFormat;
-use crate::pixels::{Pixels, Rows, fill};
+use crate::pixels::{Pixels, Rows, fill, narrowed};
 use alberti_math::map2;
 use core::fmt;
 use core::iter::from_fn;
@@ -371,13 +371,6 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
         let first = map2(self.strides, |stride| row.wrapping_mul(stride).wrapping_add(place(left)));
         Lines { color: self.color, depth: self.depth, strides: self.strides, first }
     }
-}
-
-/// What is in both, at a place within the first also where nothing is left.
-#[inline(always)]
-pub(crate) fn narrowed(a: &Range<i32>, b: Range<i32>) -> Range<i32> {
-    let start = a.start.max(b.start).min(a.end);
-    start..a.end.min(b.end).max(start)
 }
 
 /// The first elements, and the others.

@@ -2,14 +2,14 @@
 
 use core::ops::Range;
 
-/// An edge on the screen, in subpixels, from its upper end to its lower one, and of a horizontal one from left to
-/// right: the same for both triangles at it, so that what is rounded cancels.
+/// An edge on the screen, in subpixels, from its upper end to its lower one; a horizontal one from left to right. It is
+/// the same for both triangles at it, so that roundings cancel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Edge {
     ends: [[i32; 2]; 2],
 }
 
-/// What an edge has in one pixel, in 2^-16 of pixels and of their areas.
+/// The part of an edge in one pixel, in 2^-16 of pixels and of their areas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Piece {
     pub(super) place: [i32; 2],
@@ -55,8 +55,8 @@ impl Edge {
         [length - far, far]
     }
 
-    /// The pixels in these columns and rows that the edge passes, row by row, each once. What is left of the first
-    /// column comes as a piece of it with no area, and what is right of the last as one of the column after it.
+    /// The pixels in these columns and rows that the edge passes, row by row, each once. The part left of the columns
+    /// comes as a piece of the first, with no area. The part right of them is one of the column after the last.
     ///
     /// ```text
     ///    from _            x where the edge crosses rows and y where it crosses columns are rounded to the nearest
@@ -85,8 +85,8 @@ impl Edge {
         }
     }
 
-    /// In each row the first pixel whose centre is on the right of the edge, if the row's centres are between its ends;
-    /// as far as that is in these columns, and else the first or the one after the last.
+    /// In each row whose centres are between the ends, the first pixel whose centre is on the right of the edge. If that
+    /// is left of the columns it is their first, and if it is right of them the one after their last.
     ///
     /// It is the top-left rule: centres on the edge are on its right.
     pub(super) fn centres(

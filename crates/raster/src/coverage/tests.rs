@@ -1,5 +1,13 @@
 //! Coverage by hand: cells, limits, what is hidden, and what stays as it is.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    clippy::cast_precision_loss,
+    clippy::cast_sign_loss,
+    reason = "pixels and colours are few"
+)]
+
 use super::*;
 use crate::{Exact, F32, NoDepth, Numbers, Vertex};
 use alberti_math::{Fixed, Flat, Rgba8888, Sub4};
@@ -39,7 +47,7 @@ fn parts(columns: Range<i32>, rectangles: &[[i32; 4]]) -> [u32; 12] {
 fn rectangles_cover_their_parts() {
     let one = [16, 8, 40, 40];
     assert_eq!(parts(0..4, &[one]), [0, 128, 64, 0, 0, 256, 128, 0, 0, 128, 64, 0]);
-    // What begins on the left counts, and what ends on the right.
+    // A rectangle that begins far on the left counts, and so does one that ends far on the right.
     assert_eq!(parts(0..4, &[[-900, -70, 8, 700]]), [128, 0, 0, 0, 128, 0, 0, 0, 128, 0, 0, 0]);
     assert_eq!(parts(0..4, &[[40, 32, 900, 36]]), [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 32, 64]);
     // Within two columns in the middle, and none outside.
