@@ -85,8 +85,8 @@ impl Edge {
         }
     }
 
-    /// In each row whose centres are between the ends, the first pixel whose centre is on the right of the edge. If that
-    /// is left of the columns it is their first, and if it is right of them the one after their last.
+    /// In each row whose centres are between the ends, the first pixel whose centre is right of the edge. If that is
+    /// left of the columns it is their first, and if it is right of them the one after their last.
     ///
     /// It is the top-left rule: centres on the edge are on its right.
     pub(super) fn centres(
