@@ -59,8 +59,8 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
         self.each_on_screen(screen, |paint, corners| paint.cover(&mut visible, corners));
     }
 
-    /// Draws the pixels on edges of the mesh that are covered in part, but not at their centre. They have the attributes
-    /// and the depth of the edge, see [`Paint::fringe`]. It is for after all meshes are drawn.
+    /// Draws the pixels on edges of the mesh that are covered in part, but not at their centre. They have the
+    /// attributes and the depth of the edge, see [`Paint::fringe`]. It is for after all meshes are drawn.
     pub fn draw_fringe<C: ColorFormat, D: DepthFormat>(
         &mut self,
         target: &mut Target<'_, C, D>,
