@@ -1,9 +1,10 @@
 //! The cost of what comes after the fragment: blends, dithers, fogs and holes, on a tilted square of 1280x720 pixels
-//! with one texel each.
+//! with one texel each; and of smooth edges by coverage and by supersampling, on a torus.
 //!
 //! Before a way is timed, its picture is held against the same drawn one sample at a time, which must not differ in a
 //! bit. It is held against the formula in `f64` as well, from the picture without it. Figures are for written pixels,
-//! of drawing alone.
+//! of drawing alone. Those of smooth edges are for whole frames, clears included, and each way is held against the
+//! other.
 #![allow(
     clippy::cast_possible_truncation,
     clippy::cast_precision_loss,
@@ -11,18 +12,20 @@
     reason = "pixels, texels and bytes"
 )]
 
-use alberti::glam::{Vec2, Vec3};
+use alberti::glam::{Mat3, Vec2, Vec3};
 use alberti::lanes::{Floating, Machine, One};
 use alberti::raster::color::{
-    Additive, Bayer, Blended, BlueNoise, Constant, Dithered, InLight, Multiply, Over, Premultiplied,
+    Additive, Average, Bayer, Blended, BlueNoise, Constant, Dithered, InLight, Multiply, Over, Premultiplied,
+    resolve,
 };
 use alberti::shaders::fog::{ExponentialFog, Fog, Fogged, LinearFog, SquaredFog};
-use alberti::shaders::{AlphaDither, AlphaTest, Unlit};
+use alberti::shaders::{AlphaDither, AlphaTest, Solid, Sunlit, Unlit};
 use alberti::texture::format::Rgba8888 as Texels;
+use alberti::texture::surface::{Grid, Parametric, Torus};
 use alberti::texture::{Nearest, Repeat, Texture};
 use alberti::{
-    Always, ColorFormat, Cull, F32, FragmentStage, Frame, Mesh, Pass, Perspective, Rgb565Le, Rgba8, Rgba8888,
-    Stats, Target, View, for_lanes,
+    Always, Bands, ColorFormat, Cull, F32, FragmentStage, Frame, Geometry, Mesh, Object, Pass, Perspective,
+    Point3, Rgb565Le, Rgba8, Rgba8888, Silhouette, Slot, Stats, Target, Vector3, View, for_lanes,
 };
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::time::Duration;
@@ -183,12 +186,123 @@ fn afterwards(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// A torus over [`BEFORE`], with smooth edges in one of these ways.
+#[derive(Clone, Copy, PartialEq)]
+enum Edges {
+    Plain,
+    Coverage,
+    /// So many samples on each side of a pixel.
+    Supersampled(u32),
+}
+
+/// The buffers of a frame: colours, depths, words, and those of larger bands.
+struct Buffers {
+    color: Vec<u32>,
+    depth: Vec<f32>,
+    cells: Vec<i32>,
+    samples: Vec<u32>,
+}
+
+fn frame<M: Geometry>(
+    edges: Edges,
+    pass: &mut Pass<'_, M, impl FragmentStage<M::Varying>>,
+    average: Average,
+    buffers: &mut Buffers,
+) {
+    let Buffers { color, depth, cells, samples } = buffers;
+    if let Edges::Supersampled(factor) = edges {
+        let [width, height] = [WIDTH, HEIGHT].map(|side| side * factor);
+        let samples = &mut samples[..PIXELS.min((16 * factor * width) as usize)];
+        let depth = &mut depth[..samples.len()];
+        let mut bands = Bands::new(Rgba8888, F32, width, height, samples, depth).expect("bands");
+        return bands.draw(BEFORE, |band| {
+            pass.draw(band);
+            let first = band.limits()[1].start / factor.cast_signed();
+            let own = &mut color[(first * WIDTH.cast_signed()) as usize..];
+            let from = (Rgba8888, band.pixels());
+            resolve(from, (Rgba8888, own), WIDTH as usize, first, factor as usize, average);
+        });
+    }
+    let mut target = Target::new(Rgba8888, F32, WIDTH, HEIGHT, color, depth).expect("buffers that fit");
+    target.clear(BEFORE);
+    pass.draw(&mut target);
+    if edges == Edges::Coverage {
+        let mut silhouette = Silhouette::new(&target, cells).expect("words");
+        pass.cover(&mut silhouette);
+        let coverage = silhouette.coverage();
+        pass.draw_fringe(&mut target, &coverage);
+        coverage.resolve(&mut target, average, |_| BEFORE);
+    }
+}
+
+fn smooth_edges(criterion: &mut Criterion) {
+    let ways = [
+        ("plain", Edges::Plain),
+        ("coverage", Edges::Coverage),
+        ("supersampled 2x2", Edges::Supersampled(2)),
+        ("supersampled 4x4", Edges::Supersampled(4)),
+    ];
+    let mut group = criterion.benchmark_group("smooth edges");
+    for (columns, rows) in [(36, 18), (180, 90)] {
+        let (torus, grid) = (Torus { major: 1.0, minor: 0.42 }, Grid::new(columns, rows));
+        let turned = Mat3::from_rotation_x(0.9);
+        let vertices: Vec<(Vec3, Vec3)> = (0..grid.vertices() as u32)
+            .map(|k| {
+                let frame = torus.orthonormal_frame(grid.uv(k));
+                let position: Point3<Object> = frame.origin();
+                (turned * position.coords + Vec3::Z * 4.2, turned * frame.axes().z_axis)
+            })
+            .collect();
+        // As seen from the front, z forward.
+        let triangles: Vec<[u32; 3]> = (0..grid.triangles() as u32)
+            .map(|k| {
+                let [a, b, c] = grid.triangle(k);
+                [a, c, b]
+            })
+            .collect();
+        let lens = Perspective::new(0.66, WIDTH as f32 / HEIGHT as f32, 0.1, 100.0).expect("a perspective");
+        let view = View::new(Frame::IDENTITY, lens);
+        let mut buffers = Buffers {
+            color: vec![0; PIXELS],
+            depth: vec![0.0; PIXELS],
+            cells: vec![0; PIXELS],
+            samples: vec![0; PIXELS],
+        };
+        // In one colour, each way is nearer to the finest than the ways before.
+        let solid = Mesh::new(&vertices, &triangles, |v: &(Vec3, Vec3)| (v.0, ()));
+        let pictures = ways.map(|(_, edges)| {
+            let mut slots = vec![Slot::EMPTY; vertices.len()];
+            let mut pass = Pass::new(&view, &solid, Solid(Rgba8::WHITE)).slots(&mut slots);
+            frame(edges, &mut pass, Average::Bytes, &mut buffers);
+            buffers.color.clone()
+        });
+        let off = |picture: &[u32]| -> f64 {
+            let pairs = picture.iter().zip(&pictures[3]);
+            pairs.map(|(a, b)| (channels(*a)[0] - channels(*b)[0]).abs()).sum()
+        };
+        let [plain, coverage, coarse, _] = [0, 1, 2, 3].map(|k: usize| off(&pictures[k]));
+        assert!(coverage * 5.0 < plain && coverage < coarse, "{plain} {coverage} {coarse}");
+
+        let lit = Mesh::new(&vertices, &triangles, |v: &(Vec3, Vec3)| (v.0, (v.1, ())));
+        let stage = Sunlit::new(Solid(MIST), Vector3::new(Vec3::new(0.4, 0.7, -0.6)), 0.25, 0.8);
+        group.throughput(Throughput::Elements(PIXELS as u64));
+        for (name, edges) in ways {
+            let mut slots = vec![Slot::EMPTY; vertices.len()];
+            let mut pass = Pass::new(&view, &lit, stage).slots(&mut slots);
+            group.bench_function(format!("{name}/{} triangles", triangles.len()), |bencher| {
+                bencher.iter(|| frame(edges, &mut pass, Average::Light, &mut buffers));
+            });
+        }
+    }
+    group.finish();
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default()
         .sample_size(20)
         .warm_up_time(Duration::from_secs(1))
         .measurement_time(Duration::from_secs(2));
-    targets = afterwards
+    targets = afterwards, smooth_edges
 }
 criterion_main!(benches);

@@ -16,6 +16,7 @@ mod prepared;
 mod profile;
 mod screen;
 pub mod shaders;
+mod silhouettes;
 mod stats;
 #[cfg(feature = "threads")]
 mod threads;
@@ -35,10 +36,10 @@ pub use alberti_projection::{
 };
 pub use alberti_raster as raster;
 pub use alberti_raster::{
-    Affine, Always, AnyDepth, AnyDerivatives, Bands, Biased, ColorFormat, Counters, Cull, D16, D24, D32,
-    DepthFormat, Equal, Exact, F32, F32Reversed, Farther, FixedPoint, FragmentColor, FragmentStage,
+    Affine, Always, AnyDepth, AnyDerivatives, Bands, Biased, ColorFormat, Counters, Coverage, Cull, D16, D24,
+    D32, DepthFormat, Equal, Exact, F32, F32Reversed, Farther, FixedPoint, FragmentColor, FragmentStage,
     Fragments, Gradient, Interpolation, Lines, NoDepth, NoDerivatives, OrEqual, PerPixel, PerRun,
-    PerTriangle, Planes, ReadOnly, Spans16, Target, TargetError, Touched,
+    PerTriangle, Planes, ReadOnly, Silhouette, Spans16, Target, TargetError, Touched,
 };
 pub use alberti_texture as texture;
 pub use error::Error;

@@ -40,6 +40,26 @@ impl<F: Copy, P: Interpolation> Paint<F, P> {
         D: DepthFormat,
         K: Counters,
     {
+        let (bits, limits) = (self.subpixel.bits(), target.limits());
+        self.between(target, corners, |places| Walk::new(places, bits, &limits), counters);
+    }
+
+    /// Draws pixels between two corners, of which the weights of both are known, and the places of the corners.
+    #[inline(always)]
+    pub(crate) fn between<V, C, D, K, I>(
+        &self,
+        target: &mut Target<'_, C, D>,
+        corners: [&Corner<V>; 2],
+        pixels: impl FnOnce([[i32; 2]; 2]) -> I,
+        counters: &mut K,
+    ) where
+        V: Varying,
+        F: FragmentStage<V>,
+        C: ColorFormat,
+        D: DepthFormat,
+        K: Counters,
+        I: Iterator<Item = ([i32; 2], [i32; 2])>,
+    {
         let (fixed, bits) = (const { <P::Lanes<One> as Lanes>::FIXED }, self.subpixel.bits());
         let moved;
         let corners = if const { D::BIASED } {
@@ -48,12 +68,12 @@ impl<F: Copy, P: Interpolation> Paint<F, P> {
         } else {
             corners
         };
-        let walk = Walk::new(corners.map(|corner| corner.place(fixed)), bits, &target.limits());
+        let pixels = pixels(corners.map(|corner| corner.place(fixed)));
         // Constants in blocks of their own, so that one way alone is compiled.
         if const { <P::Lanes<One> as Lanes>::FIXED } {
-            self.along(OneFixed, target, walk, &FixedSegment::new(corners), counters);
+            self.along(OneFixed, target, pixels, &FixedSegment::new(corners), counters);
         } else {
-            self.along(One, target, walk, &FloatSegment::new(corners), counters);
+            self.along(One, target, pixels, &FloatSegment::new(corners), counters);
         }
     }
 

@@ -1,6 +1,7 @@
 //! Pixels of a target, row by row.
 
 use core::mem::take;
+use core::ops::Range;
 
 /// Colours and depths.
 pub(crate) type Pixels<'a, C, D> = (&'a mut [C], &'a mut [D]);
@@ -42,4 +43,11 @@ pub(crate) fn fill<T: Copy>(pixels: &mut [T], count: usize, value: T) {
     let (chunks, rest) = pixels.as_chunks_mut();
     chunks.iter_mut().for_each(|chunk| *chunk = [value; 16]);
     rest.fill(value);
+}
+
+/// The columns or rows in both, at a place within the first also where nothing is left.
+#[inline(always)]
+pub(crate) fn narrowed(a: &Range<i32>, b: Range<i32>) -> Range<i32> {
+    let start = a.start.max(b.start).min(a.end);
+    start..a.end.min(b.end).max(start)
 }

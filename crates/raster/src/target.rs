@@ -2,7 +2,7 @@
 
 use crate::color::{ColorFormat, FragmentColor};
 use crate::depth::DepthFormat;
-use crate::pixels::{Pixels, Rows, fill};
+use crate::pixels::{Pixels, Rows, fill, narrowed};
 use alberti_math::map2;
 use core::fmt;
 use core::iter::from_fn;
@@ -78,6 +78,13 @@ pub enum TargetError {
         /// Pixels in the rows that are drawn.
         expected: usize,
     },
+    /// The buffer of a [`Silhouette`](crate::Silhouette) holds fewer words than there are pixels to be drawn to.
+    Coverage {
+        /// Words in the buffer.
+        found: usize,
+        /// Pixels within the target's limits.
+        expected: usize,
+    },
 }
 
 impl fmt::Display for TargetError {
@@ -95,6 +102,9 @@ impl fmt::Display for TargetError {
             }
             Self::Depth { found, expected } => {
                 write!(f, "the depth buffer holds {found} pixels, the rows that are drawn {expected}")
+            }
+            Self::Coverage { found, expected } => {
+                write!(f, "the coverage buffer holds {found} words, the pixels that are drawn are {expected}")
             }
         }
     }
@@ -274,12 +284,7 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
 
     /// The same target, of which only these columns and rows of the frame may be drawn to or cleared.
     pub fn scissor(&mut self, columns: Range<i32>, rows: Range<i32>) -> Target<'_, C, D> {
-        // Between the target's limits, also where nothing is left.
-        let narrow = |a: &Range<i32>, b: Range<i32>| {
-            let start = a.start.max(b.start).min(a.end);
-            start..a.end.min(b.end).max(start)
-        };
-        let limits = [narrow(&self.limits[0], columns), narrow(&self.limits[1], rows)];
+        let limits = [narrowed(&self.limits[0], columns), narrowed(&self.limits[1], rows)];
         Target { color: self.color, depth: self.depth, limits, ..*self }
     }
 

@@ -5,6 +5,7 @@
 //! | question | the pipeline | here |
 //! |---|---|---|
 //! | is a sample covered? | edge functions and a tie rule | the sample moved by an infinitesimal: [`coverage`] |
+//! | what part of a pixel is covered? | sums of heights along edges | the triangle clipped at the pixel's sides: [`area`] |
 //! | what is an attribute worth? | f32 weights | rationals ([`rational`]), or 106-bit floats with a proven bound ([`dd`]) |
 //! | what are a point's coordinates? | quotients of determinants | linear systems in integers: [`linear`] |
 //! | what does a scene look like? | clip, project, interpolate `1/w` | rays against planes in eye space: [`ideal`] |
@@ -34,6 +35,7 @@
     reason = "references move between integers, f32, f64 and rationals all the time; the bounds stand beside the code"
 )]
 
+pub mod area;
 pub mod cases;
 pub mod climb;
 pub mod coverage;

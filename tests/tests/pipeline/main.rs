@@ -16,5 +16,6 @@ mod lanes;
 mod lines;
 mod pictures;
 mod resolution;
+mod silhouettes;
 mod small;
 mod watertight;

@@ -22,6 +22,8 @@ mod materials;
 mod perspective_cube;
 #[path = "../../../crates/alberti/examples/slide_projector.rs"]
 mod slide_projector;
+#[path = "../../../crates/alberti/examples/smooth_edges.rs"]
+mod smooth_edges;
 
 use std::error::Error;
 use std::path::Path;
@@ -67,6 +69,11 @@ fn embedded_graphics_is_what_it_was() {
 #[test]
 fn firmware_frame_is_what_it_was() {
     compare("firmware_frame.png", firmware_frame::picture());
+}
+
+#[test]
+fn smooth_edges_is_what_it_was() {
+    compare("smooth_edges.png", smooth_edges::picture());
 }
 
 #[test]
