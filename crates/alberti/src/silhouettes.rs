@@ -99,7 +99,7 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
         let (slots, paint) = self.halves();
         let mut few = [Slot::EMPTY; 16];
         let slots = if slots.is_empty() { &mut few[..] } else { &mut **slots };
-        let mut walk = for_lanes!(machine, lanes => Walk::new(lanes, mesh, screen, slots));
+        let mut walk = for_lanes!(machine, lanes => Walk::new(lanes, mesh, &screen, slots));
         for part in walk.seen(paint.cull, 0..usize::MAX) {
             walk.ready(&part);
             for indices in part.map_while(|number| mesh.triangle(number)) {

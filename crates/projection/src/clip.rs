@@ -14,6 +14,7 @@
 
 use crate::Projection;
 use alberti_math::{Eye, Mode, Point3, Varying, blend2, blend2_by_mode};
+use core::hint::black_box;
 
 /// The most vertices a clipped triangle can have: each of six planes adds at most one.
 pub const MAX_POLYGON: usize = 9;
@@ -177,7 +178,15 @@ impl<V: Varying> Polygon<ProjectedVertex<V>> {
             // one more at most.
             let count = self.vertices().len();
             let first = MAX_POLYGON - count;
-            self.vertices.copy_within(..count, first);
+            // A loop that compilers do not see through: moving memory is a function of 700 bytes on small cores.
+            for k in (0..count).rev() {
+                black_box(());
+                if let Some(&vertex) = self.vertices.get(k)
+                    && let Some(slot) = self.vertices.get_mut(first + k)
+                {
+                    *slot = vertex;
+                }
+            }
             self.len = 0;
             let Some(mut previous) = self.vertices.last().copied().filter(|_| count > 0) else { return };
             let mut d_previous = plane.distance(&previous);

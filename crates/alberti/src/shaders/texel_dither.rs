@@ -29,9 +29,9 @@ use alberti_texture::{Bilinear, Leveled, NearestLevel, Sampler, Size, TexelForma
 /// ```
 ///
 /// # Precision
-/// A pixel's colour is that of a texel. The mean of a square of two by two with the same coordinates differs from the
-/// filter's by at most 11/32 of the difference between its texels, along an axis by 1/8. A square of four by four has
-/// each of two levels as often as its share says, within 1/8.
+/// A pixel's colour is that of a texel. Where coordinates are the same, the mean of a square of two by two is within
+/// 11/32 of the texels' difference from that of the filter. Along an axis it is within 1/8. A square of four by four
+/// has each of two levels as often as its share says, within 1/8.
 ///
 /// # Cost
 /// In fixed point on a Cortex-M4F 22 instructions more than [`Nearest`](alberti_texture::Nearest) without perspective.

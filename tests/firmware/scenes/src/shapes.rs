@@ -135,13 +135,19 @@ const NO_MESHLETS: (&[[u16; 3]], &[Meshlet], Ball) = (&[], &[], Ball::EVERYTHING
 // The torus in meshlets, made by the build script.
 include!(concat!(env!("OUT_DIR"), "/meshlets.rs"));
 
-/// What the programs draw whose size alone is of interest: one quad.
-pub static PROBE: Model = layers(1);
+/// What the programs draw whose size alone is of interest: one quad, and no byte more.
+pub static PROBE: Model = {
+    static CORNERS: [Vertex; 4] = *quads().first_chunk().expect("four and more");
+    static TRIANGLES: [[u16; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
+    Model { vertices: &CORNERS, triangles: &TRIANGLES, ..layers(1) }
+};
 
 /// The most layers that there are.
 const LAYERS: usize = 4;
 
-static QUADS: [Vertex; 4 * LAYERS] = {
+static QUADS: [Vertex; 4 * LAYERS] = quads();
+
+const fn quads() -> [Vertex; 4 * LAYERS] {
     let corners = [[-1.25, -1.25], [1.25, -1.25], [1.25, 1.25], [-1.25, 1.25]];
     let tilts = [[0.04, 0.024], [-0.04, 0.024], [-0.04, -0.024], [0.04, -0.024]];
     let colors = [[1.0, 0.9, 0.2], [0.1, 0.8, 0.3], [0.2, 0.3, 1.0], [0.9, 0.1, 0.4]];
@@ -163,7 +169,7 @@ static QUADS: [Vertex; 4 * LAYERS] = {
         layer += 1;
     }
     vertices
-};
+}
 
 static QUAD_TRIANGLES: [[u16; 3]; 2 * LAYERS] = {
     let mut triangles = [[0; 3]; 2 * LAYERS];
