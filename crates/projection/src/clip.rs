@@ -178,13 +178,13 @@ impl<V: Varying> Polygon<ProjectedVertex<V>> {
             // one more at most.
             let count = self.vertices().len();
             let first = MAX_POLYGON - count;
-            // A loop that compilers do not see through: moving memory is a function of 700 bytes on small cores.
+            // One by one and in parts: moving memory is a function of 700 bytes on small cores.
             for k in (0..count).rev() {
                 black_box(());
-                if let Some(&vertex) = self.vertices.get(k)
-                    && let Some(slot) = self.vertices.get_mut(first + k)
-                {
-                    *slot = vertex;
+                let Some(&ProjectedVertex { x, y, zs, q, varying }) = self.vertices.get(k) else { return };
+                if let Some(slot) = self.vertices.get_mut(first + k) {
+                    (slot.x, slot.y, slot.zs, slot.q) = (x, y, zs, q);
+                    slot.varying = varying;
                 }
             }
             self.len = 0;
