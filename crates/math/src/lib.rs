@@ -5,6 +5,8 @@
 extern crate std;
 
 #[macro_use]
+mod logged;
+#[macro_use]
 mod named;
 
 mod barycentric;
