@@ -27,7 +27,7 @@ use clap::ValueEnum;
 use std::str::FromStr;
 
 use crate::error::Error;
-use crate::options::{Filter, RenderOptions, Shading};
+use crate::options::{Dither, Filter, RenderOptions, Shading};
 use crate::scene::{Model, Part};
 use alberti::baked::{Attributes, TexelCode};
 
@@ -76,18 +76,6 @@ impl Format {
             Self::Rgba8 => TexelCode::Rgba8888,
         }
     }
-}
-
-/// The rounding of colours between two that a format has.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
-pub enum Dither {
-    /// To the nearest.
-    #[default]
-    None,
-    /// To either, by the ordered pattern of 8x8 texels.
-    Bayer,
-    /// To either, by blue noise.
-    BlueNoise,
 }
 
 /// The attributes that are asked for.

@@ -1,14 +1,14 @@
 //! Textures in few bytes.
 
 use super::palette::Palette;
-use super::{Dither, Format, Wish, is_mipmapped};
+use super::{Format, Wish, is_mipmapped};
 use crate::error::Error;
-use crate::options::RenderOptions;
+use crate::options::{Dither, RenderOptions};
 use crate::scene::{HeightImage, Image, Map, Model, Part};
 use alberti::Rgba8;
 use alberti::baked::{Attributes, TexelCode};
 use alberti::raster::ColorFormat as _;
-use alberti::raster::color::{Bayer, BlueNoise, Grey8, Pattern as _};
+use alberti::raster::color::{Grey8, Pattern as _};
 use alberti::texture::format::{L16, Normals, Rgba8888, Scalars, TexelFormat};
 use alberti::texture::{TextureError, mipmap};
 
@@ -224,14 +224,8 @@ fn encoded(
     (dither, numbers): (Dither, bool),
 ) -> Vec<u8> {
     let width = level.size[0] as usize;
-    let threshold = |column: usize, row: usize| {
-        let place = [column, row].map(|k| i32::try_from(k).unwrap_or(0));
-        match dither {
-            Dither::None => 127,
-            Dither::Bayer => Bayer.threshold(place),
-            Dither::BlueNoise => BlueNoise.threshold(place),
-        }
-    };
+    let threshold =
+        |column: usize, row: usize| dither.threshold([column, row].map(|k| i32::try_from(k).unwrap_or(0)));
     // A level of the channel, of which the fraction is compared with the threshold.
     let channel = |byte: u8, greatest: u32, threshold: u32| (u32::from(byte) * greatest + threshold) / 255;
     let row = |(row, texels): (usize, &[[u8; 4]])| -> Vec<u8> {

@@ -15,6 +15,8 @@ pub(super) struct Clothed<'a> {
     pub(super) lighting: Lighting<&'a [AnyLight], AnyReflectance>,
     /// Whether it has texture coordinates.
     pub(super) textured: bool,
+    /// Whether its fragments have places in the world, whatever the surface.
+    pub(super) placed: bool,
     /// Of the image that falls on it.
     pub(super) projector: Option<Projector>,
 }
@@ -40,7 +42,8 @@ fn framed(clothed: &Clothed<'_>, v: &Vertex) -> Framed {
     let [x, y, z, handedness] = v.tangent;
     let (place, normal) = (Vec3::from_array(v.position), Vec3::from_array(v.normal));
     let uv = if clothed.textured { Vec2::from_array(v.uv) } else { Vec2::ZERO };
-    let flat = |third| Framed { position: Vec3::ZERO, axes: [Vec3::ZERO, Vec3::ZERO, third], uv };
+    let seen = if clothed.placed { place } else { Vec3::ZERO };
+    let flat = |third| Framed { position: seen, axes: [Vec3::ZERO, Vec3::ZERO, third], uv };
     match clothed.surface {
         Surface::Colors => flat(Vec3::from_array(v.color)),
         Surface::Unlit(_) => flat(Vec3::ZERO),
