@@ -85,8 +85,8 @@ pub fn any_depth(depth: DepthFormat) -> AnyDepth {
 
 /// The colour that is seen at a place where pixels are stored in the policies' format.
 ///
-/// Surfaces that are mixed with others are mixed in 8 bits a channel. Nothing else that is drawn reads a colour back, so
-/// that the last one to be stored is all that counts. To round it afterwards gives the pixels that a buffer of that
+/// Surfaces that are mixed with others are mixed in 8 bits a channel. Nothing else that is drawn reads a colour back,
+/// and the last one to be stored is all that counts. To round it afterwards gives the pixels that a buffer of that
 /// format would hold.
 pub(crate) fn shown(policies: &Policies, place: [i32; 2], color: [u8; 4]) -> [u8; 4] {
     let by = policies.dither;

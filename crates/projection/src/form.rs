@@ -1,5 +1,5 @@
-//! Lenses, viewports and projectors as values that files and fuzzers give: checked as by their constructors, and found again bit by
-//! bit.
+//! Lenses, viewports and projectors as values that files and fuzzers give: checked as by their constructors, and found
+//! again bit by bit.
 
 #[cfg(feature = "arbitrary")]
 use arbitrary::{Arbitrary, Unstructured};

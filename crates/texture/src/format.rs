@@ -2,8 +2,8 @@
 //!
 //! A format is a value, mostly without a size: [`Texture`](crate::Texture) carries it, and its decoding is compiled
 //! into the sampling. All decode to the colour [`Rgba8`]. Types of other crates can be formats too. [`Indexed`] texels
-//! are places in a palette, which the format refers to. [`Rgba8888`], [`Rgb565Le`], [`Rgb565Be`] and [`Rgb332`] are also
-//! formats of the rasterizer's targets.
+//! are places in a palette, which the format refers to. [`Rgba8888`], [`Rgb565Le`], [`Rgb565Be`] and [`Rgb332`] are
+//! also formats of the rasterizer's targets.
 //!
 //! The meaning of the colours is part of the format: they are sRGB, unless it is [`L16`] or wrapped in [`Scalars`] or
 //! [`Normals`].

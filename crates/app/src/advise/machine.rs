@@ -114,8 +114,8 @@ impl Costs {
     }
 }
 
-/// The instructions that a frame of a baked mesh takes on a chip with these options and this work, lit from one
-/// direction or not, and how far such estimates are off mostly, in percent.
+/// The instructions that a frame of a baked mesh with this work takes on a chip, lit from one direction or not. Beside
+/// them is how far such estimates are off mostly, in percent.
 ///
 /// # Errors
 /// The chip has no such way of drawing.

@@ -120,7 +120,13 @@ impl<'a> Drawing<'a> {
         let clothed = self.clothed(part);
         let shown = self.shown(clothed.surface, part);
         let Used { vertices, triangles } = Used::of(&self.model.vertices, triangles);
-        let mesh = Triangles { clothed: &clothed, vertices: &vertices, triangles: &triangles, numbers: None };
+        let mesh = Triangles {
+            clothed: &clothed,
+            vertices: &vertices,
+            triangles: &triangles,
+            numbers: None,
+            bare: false,
+        };
         let stats = self.by_policies(&mesh, shown, part.detail.blend, target);
         self.stats += stats;
     }
@@ -159,7 +165,7 @@ impl<'a> Drawing<'a> {
         blend: AnyBlend,
         target: &mut Canvas<'_>,
     ) -> Stats {
-        // What is mixed hides nothing.
+        // Mixed surfaces hide nothing.
         let kept = Kept { format: target.depth_format(), written: blend == AnyBlend::Replace };
         let mut target = target.with_depth(kept);
         let target = &mut target.with_color(Blended { format: Rgba8888, by: blend });

@@ -177,8 +177,13 @@ impl Drawing<'_> {
             for triangles in part.triangles.chunks(CHUNK) {
                 let Used { vertices, triangles } = Used::of(&self.model.vertices, triangles);
                 let numbers = numbered.then_some(first);
-                let mesh =
-                    Triangles { clothed: &clothed, vertices: &vertices, triangles: &triangles, numbers };
+                let mesh = Triangles {
+                    clothed: &clothed,
+                    vertices: &vertices,
+                    triangles: &triangles,
+                    numbers,
+                    bare: false,
+                };
                 draw(part, &mesh);
                 first += u32::try_from(triangles.len()).unwrap_or(0);
             }

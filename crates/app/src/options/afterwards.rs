@@ -1,4 +1,4 @@
-//! What comes after a fragment's colour: fog before it, its mixture with what is behind it, and its rounding.
+//! The ways of a fragment's colour into a picture: a fog before it, its mixture with what is behind it, its rounding.
 
 use std::fmt;
 use std::str::FromStr;

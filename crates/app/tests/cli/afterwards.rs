@@ -3,8 +3,8 @@
 use super::Folder;
 
 const SIZE: [u32; 2] = [64, 48];
-/// At the origin of a camera that looks along -z from (0, 0, 5), with a right angle from top to bottom: the tangent of a
-/// pixel's centre from the middle.
+/// The tangents of a pixel's centre from the middle, for a camera that looks along -z from (0, 0, 5), with a right
+/// angle from top to bottom.
 fn tangents([x, y]: [u32; 2]) -> [f64; 2] {
     let [width, height] = SIZE.map(f64::from);
     [(2.0 * f64::from(x) + 1.0 - width) / height, (height - 2.0 * f64::from(y) - 1.0) / height]

@@ -1,5 +1,5 @@
-//! The policies whose prices are measured, on scenes that a program reads: a textured mesh in RGB565, not lit unless the
-//! name says so. A lit one has normals as if it were about the origin.
+//! The policies whose prices are measured, on scenes that a program reads: a textured mesh in RGB565, not lit unless
+//! the name says so. A lit one has normals as if it were about the origin.
 //!
 //! Each is a name and a function of its own, so that a program which draws by one contains no other.
 
