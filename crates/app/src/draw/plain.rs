@@ -29,16 +29,19 @@ macro_rules! for_plain_lanes {
     }};
 }
 
-/// Whether this machine is one of those.
+/// Whether this machine has such lanes.
 pub(super) fn has_kernels() -> bool {
-    let mut has = false;
-    if let Some(machine) = Machine::all().next() {
-        for_plain_lanes!(machine, lanes => {
-            let _ = lanes;
-            has = true;
-        });
-    }
-    has
+    Machine::all().next().is_some_and(has_plain_lanes)
+}
+
+#[cfg(target_arch = "x86_64")]
+fn has_plain_lanes(machine: Machine) -> bool {
+    matches!(machine, Machine::Avx2(_))
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+fn has_plain_lanes(_: Machine) -> bool {
+    true
 }
 
 impl<'a> Drawing<'a> {
