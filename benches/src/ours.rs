@@ -316,6 +316,7 @@ impl App {
             cull: options::Cull::Back,
             depth: DepthFormat::F32,
             projection: Projection::Perspective,
+            haze: None,
             threads: NonZero::<usize>::MIN,
             policies: Policies::default(),
         };

@@ -32,6 +32,7 @@ pub fn options(scene: &BuiltIn, width: u32, height: u32) -> RenderOptions {
         cull: scene.cull,
         depth: scene.depth,
         projection: Projection::Perspective,
+        haze: None,
         threads: NonZero::<usize>::MIN,
         policies: Policies::default(),
     }

@@ -29,7 +29,7 @@ const EDITED: &str = "crates/raster/src/lib.rs";
 /// The functions of which every combination of stages, policies and lanes has one instance, for several lanes and for
 /// one; too long to be inlined.
 const KERNELS: [&str; 2] =
-    ["alberti_raster::draw::Paint::draw_batch", "alberti_raster::draw::Paint::draw_large"];
+    ["alberti_raster::draw::Paint::draw_alike", "alberti_raster::draw::Paint::draw_alone"];
 
 /// The variable of cargo with the folder of its outputs.
 const TARGET: &str = "CARGO_TARGET_DIR";

@@ -8,7 +8,7 @@ use crate::geometry::{Geometry, IntegerVertex};
 use crate::screen::Screen;
 use alberti_math::glam::{Mat3, Vec3};
 use alberti_math::lanes::One;
-use alberti_math::{Eye, Frame, Object, Point3, map3, scaled};
+use alberti_math::{Eye, Frame, Object, Point3, logged, map3, scaled};
 use alberti_projection::Projection;
 use alberti_raster::Cull;
 use core::mem::take;
@@ -26,6 +26,10 @@ pub struct Ball {
     pub center: Vec3,
     /// The radius.
     pub radius: f32,
+}
+
+logged! {
+    [] Ball: "Ball {{ center: {}, radius: {} }}", |ball| ball.center.to_array(), ball.radius;
 }
 
 impl Ball {
@@ -66,6 +70,7 @@ fn corners(mesh: &impl Geometry, number: usize) -> Option<[Vec3; 3]> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Meshlet {
     /// The number of the first triangle, and the one after the last.
     pub triangles: [u32; 2],

@@ -26,7 +26,7 @@ mod work;
 pub use candidate::Candidate;
 pub use chips::Off;
 pub(crate) use machine::depth_bytes;
-pub use machine::{Cost, Machine, on_chip};
+pub use machine::{Cost, Machine, baked_on_chip};
 pub use measured::Trial;
 pub use report::{json, text};
 pub use waste::{Waste, waste};

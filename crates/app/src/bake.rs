@@ -27,7 +27,7 @@ use clap::ValueEnum;
 use std::str::FromStr;
 
 use crate::error::Error;
-use crate::options::{Filter, RenderOptions, Shading};
+use crate::options::{Dither, Filter, RenderOptions, Shading};
 use crate::scene::{Model, Part};
 use alberti::baked::{Attributes, TexelCode};
 
@@ -37,14 +37,24 @@ pub enum Format {
     /// 5, 6 and 5 bits in two bytes, which displays of either byte order take.
     #[default]
     Rgb565,
+    /// The same with the high byte first: to be sent as they are to displays of that order.
+    Rgb565be,
     /// 4 bits for red, green, blue and alpha each.
     Rgb444,
+    /// 3, 3 and 2 bits in a byte.
+    Rgb332,
     /// A byte of luminance.
     Grey8,
+    /// A bit, with a palette of 2 colours.
+    Indexed1,
+    /// 2 bits, with a palette of 4 colours.
+    Indexed2,
     /// 4 bits, with a palette of 16 colours.
     Indexed4,
     /// A byte, with a palette of 256 colours.
     Indexed8,
+    /// A byte for red, green and blue each.
+    Rgb888,
     /// A byte for red, green, blue and alpha each.
     Rgba8,
 }
@@ -54,25 +64,18 @@ impl Format {
     fn code(self) -> TexelCode {
         match self {
             Self::Rgb565 => TexelCode::Rgb565,
+            Self::Rgb565be => TexelCode::Rgb565Be,
             Self::Rgb444 => TexelCode::Rgba4444,
+            Self::Rgb332 => TexelCode::Rgb332,
             Self::Grey8 => TexelCode::L8,
+            Self::Indexed1 => TexelCode::Indexed1,
+            Self::Indexed2 => TexelCode::Indexed2,
             Self::Indexed4 => TexelCode::Indexed4,
             Self::Indexed8 => TexelCode::Indexed8,
+            Self::Rgb888 => TexelCode::Rgb8,
             Self::Rgba8 => TexelCode::Rgba8888,
         }
     }
-}
-
-/// The rounding of colours between two that a format has.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
-pub enum Dither {
-    /// To the nearest.
-    #[default]
-    None,
-    /// To either, by the ordered pattern of 8x8 texels.
-    Bayer,
-    /// To either, by blue noise.
-    BlueNoise,
 }
 
 /// The attributes that are asked for.

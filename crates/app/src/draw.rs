@@ -22,6 +22,8 @@ use alberti::{
 mod clothed;
 mod erased;
 mod general;
+mod hazy;
+mod kept;
 mod lamps;
 mod maps;
 mod painted;
@@ -152,8 +154,9 @@ impl<'a> Drawing<'a> {
 
     /// Whether a part is drawn by the kernels for plain surfaces.
     fn is_plain(&self, part: &Part) -> bool {
-        let float = self.options.policies.arithmetic == Arithmetic::Float;
-        float && self.slide.is_none() && !general::is_lit(part, self.model, self.options)
+        let float = self.options.policies.arithmetic == Arithmetic::Float && plain::has_kernels();
+        let alone = self.slide.is_none() && self.options.haze.is_none() && !part.detail.is_seen_through();
+        float && alone && !general::is_lit(part, self.model, self.options)
     }
 
     /// A pass with the options' policies but for the interpolation.

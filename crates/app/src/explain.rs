@@ -16,11 +16,12 @@ mod tests;
 mod theory;
 
 use crate::draw::{Arrival, Drawing, Piece, Studio, Traced};
-use crate::error::Error;
-use crate::options::{ColorFormat, DepthFormat, RenderOptions};
+use crate::error::{Error, quote};
+use crate::options::{ColorFormat, DepthFormat, Dither, RenderOptions};
 use crate::render::{any_depth, render, shown};
 use crate::scene::{Camera, Model, Part};
-use alberti::raster::rgb565;
+use alberti::raster::color::{Grey1, Grey2, Grey4, Grey8, Rgb332, Rgb444};
+use alberti::raster::{ColorFormat as _, rgb565};
 use alberti::{AnyProjection, Frame, Object, Rgba8, Viewport};
 use clap::ValueEnum;
 use report::{Block, Cell};
@@ -76,8 +77,36 @@ pub fn explain(
         let expected = format!("one of a picture of {width}x{height}: 0,0 to {},{}", width - 1, height - 1);
         return Err(Error::new(format!("the pixel {x},{y}"), expected).place("--pixel"));
     }
+    check(model, options)?;
     let journeys = explain_each(model, camera, options, &[pixel])?;
     journeys.into_iter().next().ok_or_else(|| Error::new("no journey", "one for the pixel"))
+}
+
+/// # Errors
+/// Something that comes after a fragment's colour, where a journey ends.
+fn check(model: &Model, options: &RenderOptions) -> Result<(), Error> {
+    let refused = |found: String, option: &str| {
+        let hint = "explain ends at the surface's colour";
+        Err(Error::new(found, "a picture without").place(option.to_owned()).hint(hint))
+    };
+    if options.haze.is_some() {
+        return refused("a fog".to_owned(), "--fog");
+    }
+    if options.policies.dither != Dither::None {
+        return refused("a pattern".to_owned(), "--dither");
+    }
+    match model.parts.iter().find(|part| part.detail.is_seen_through()) {
+        Some(part) => {
+            let of = quote(part.name.as_bytes());
+            let error = Error::new(format!("a surface that is blended or has holes ({of})"), "others");
+            let error = error.hint("explain ends at the surface's colour");
+            Err(match &model.source {
+                Some(path) => error.file(path),
+                None => error,
+            })
+        }
+        None => Ok(()),
+    }
 }
 
 /// The same of several pixels of one picture, all of them within it.
@@ -166,7 +195,7 @@ impl Scene<'_> {
             }
             None => blocks.push(self.nothing(model, &traced)?),
         }
-        let derived = shown(options.policies.color, color.to_bytes());
+        let derived = shown(&options.policies, self.place(), color.to_bytes());
         let agrees = derived == found && seen.is_some() == fragment.is_some();
         blocks.push(self.stored(color, found, agrees));
         let size = [options.width, options.height];
@@ -253,6 +282,11 @@ impl Scene<'_> {
         alberti::DepthFormat::farthest(any_depth(self.options.depth))
     }
 
+    /// The pixel's column and row.
+    fn place(&self) -> [i32; 2] {
+        self.pixel.map(u32::cast_signed)
+    }
+
     fn is_fixed(&self) -> bool {
         self.options.policies.arithmetic == crate::options::Arithmetic::Fixed
     }
@@ -265,9 +299,16 @@ impl Scene<'_> {
         let (bits, word) = match format {
             ColorFormat::Rgba8 => (8, u32::from_be_bytes(color.to_bytes())),
             ColorFormat::Rgb565 => (4, rgb565(color).into()),
+            ColorFormat::Rgb444 => (3, u16::from_be_bytes(Rgb444.pixel(color)).into()),
+            ColorFormat::Rgb332 => (2, Rgb332.pixel(color).into()),
+            ColorFormat::Grey8 => (2, Grey8.pixel(color).into()),
+            ColorFormat::Grey4 => (1, Grey4.pixel(color).into()),
+            ColorFormat::Grey2 => (1, Grey2.pixel(color).into()),
+            ColorFormat::Grey1 => (1, Grey1.pixel(color).into()),
         };
         block.value("word", "word (r, g, b, a from the left)", format!("0x{word:0bits$x}"));
-        block.values("shown", "seen as", shown(format, color.to_bytes()).map(u32::from));
+        let seen = shown(&self.options.policies, self.place(), color.to_bytes());
+        block.values("shown", "seen as", seen.map(u32::from));
         block.values("picture", "the picture has", found.map(u32::from));
         let verdict = if agrees {
             "the derived colour is the picture's, to the bit"

@@ -3,12 +3,15 @@
 use clap::ValueEnum;
 use std::num::NonZero;
 
+mod afterwards;
 mod filter;
 mod material;
 mod policies;
 mod table;
 pub mod values;
 
+pub(crate) use afterwards::byte;
+pub use afterwards::{Blend, Dither, Fog, Haze};
 pub use filter::{Filter, Probes};
 pub(crate) use material::Base;
 pub use material::{MapFile, Material, Origin};
@@ -134,6 +137,8 @@ pub struct RenderOptions {
     pub depth: DepthFormat,
     /// The projection.
     pub projection: Projection,
+    /// The fog before all surfaces, not before the background.
+    pub haze: Option<Haze>,
     /// Threads that draw. The pixels are the same for any number; of more than one, each has its own fate of a triangle
     /// in the counts.
     pub threads: NonZero<usize>,

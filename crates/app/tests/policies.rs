@@ -90,6 +90,7 @@ fn options(
         cull: options::Cull::Back,
         depth,
         projection: options::Projection::Perspective,
+        haze: None,
         threads: NonZero::<usize>::MIN,
         policies,
     }
@@ -212,7 +213,7 @@ fn so_is_each_policy() {
     use {Arithmetic::*, Interpolation as I, Subpixel as S};
     let policies = |interpolation, arithmetic, color, subpixel| {
         let lod = Lod::default();
-        Policies { interpolation, arithmetic, color, subpixel, lod }
+        Policies { interpolation, arithmetic, color, subpixel, lod, ..Policies::default() }
     };
     let (rgba, small) = (ColorFormat::Rgba8, ColorFormat::Rgb565);
     let bounded = I::Bounded(0.25);

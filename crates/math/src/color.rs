@@ -62,7 +62,11 @@ pub struct Rgb565Le;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Rgb565Be;
 
-named!(Rgba8888, Rgb565Le, Rgb565Be);
+/// A byte: RRRGGGBB.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Rgb332;
+
+named!(Rgba8888, Rgb565Le, Rgb565Be, Rgb332);
 
 /// Red, green, blue, alpha.
 impl From<[u8; 4]> for Rgba8 {

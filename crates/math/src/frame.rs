@@ -26,6 +26,11 @@ pub struct Frame<Local, Parent> {
     spaces: PhantomData<(Local, Parent)>,
 }
 
+logged! {
+    [L: Space, P: Space] Frame<L, P>: "Frame {{ axes: {}, origin: {} }}",
+        |frame| frame.axes.to_cols_array_2d(), frame.origin.to_array();
+}
+
 impl<L: Space, P: Space> Frame<L, P> {
     /// The frame whose coordinates are the parent's.
     pub const IDENTITY: Self = Self { axes: Mat3::IDENTITY, origin: Vec3::ZERO, spaces: PhantomData };

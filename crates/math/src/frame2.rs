@@ -34,6 +34,11 @@ pub struct Frame2<Local, Parent> {
     spaces: PhantomData<(Local, Parent)>,
 }
 
+logged! {
+    [L: Space, P: Space] Frame2<L, P>: "Frame2 {{ axes: {}, origin: {} }}",
+        |frame| frame.axes.to_cols_array_2d(), frame.origin.to_array();
+}
+
 impl<L: Space, P: Space> Frame2<L, P> {
     /// The frame whose coordinates are the parent's.
     pub const IDENTITY: Self = Self::from_mat2(Mat2::IDENTITY, Point2::new(Vec2::ZERO));

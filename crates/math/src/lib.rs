@@ -5,6 +5,8 @@
 extern crate std;
 
 #[macro_use]
+mod logged;
+#[macro_use]
 mod named;
 
 mod barycentric;
@@ -33,7 +35,7 @@ pub use barycentric::{
     interpolate, map_triangle, plane_coefficients, segment_parameter, segment_weights, tetrahedron_weights,
     triangle_weights,
 };
-pub use color::{Rgb565Be, Rgb565Le, Rgba8, Rgba8888};
+pub use color::{Rgb332, Rgb565Be, Rgb565Le, Rgba8, Rgba8888};
 pub use fixed::{Fixed, GUARD_PIXELS, Sub4, Sub8, Subpixel};
 pub use frame::Frame;
 pub use frame2::Frame2;

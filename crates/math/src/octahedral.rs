@@ -32,6 +32,9 @@ const GREATEST: i8 = 127;
 /// [`nearest`](Self::nearest) gives the nearest of all directions around the place on the octahedron: within 0.64
 /// degrees of the one that was given, 0.33 on average.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Octahedral(
     /// The place on the square, from -127 to 127 on each axis; -128 counts as -127.
     pub [i8; 2],

@@ -86,6 +86,13 @@ pub type Vector2<S> = Vector<Vec2, S>;
 /// A displacement in space.
 pub type Vector3<S> = Vector<Vec3, S>;
 
+logged! {
+    [S: Space] Point2<S>: "Point2({})", |point| point.coords.to_array();
+    [S: Space] Point3<S>: "Point3({})", |point| point.coords.to_array();
+    [S: Space] Vector2<S>: "Vector2({})", |vector| vector.coords.to_array();
+    [S: Space] Vector3<S>: "Vector3({})", |vector| vector.coords.to_array();
+}
+
 impl<V, S: Space> Point<V, S> {
     /// The point with these coordinates.
     #[must_use]

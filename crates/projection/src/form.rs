@@ -1,14 +1,17 @@
-//! Lenses and viewports as values that files and fuzzers give: checked as by their constructors, and found again bit by
-//! bit.
+//! Lenses, viewports and projectors as values that files and fuzzers give: checked as by their constructors, and found
+//! again bit by bit.
 
 #[cfg(feature = "arbitrary")]
 use arbitrary::{Arbitrary, Unstructured};
 
-use crate::{Parallel, Perspective, ViewError, Viewport};
+use crate::{Parallel, Perspective, Projector, ViewError, Viewport};
+use alberti_math::glam::{Mat3, Vec3};
+use alberti_math::{Frame, Point3};
 
 /// A [`Perspective`] or a [`Parallel`].
 #[derive(Clone, Copy)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct Lens {
     /// cot(fov/2), or 2/height.
     scale: f64,
@@ -23,6 +26,13 @@ macro_rules! lenses {
         impl From<$lens> for Lens {
             fn from($lens { scale, scale_x, near, far, .. }: $lens) -> Self {
                 Self { scale, scale_x, near, far }
+            }
+        }
+
+        #[cfg(feature = "defmt")]
+        impl defmt::Format for $lens {
+            fn format(&self, formatter: defmt::Formatter<'_>) {
+                defmt::write!(formatter, "{}", Lens::from(*self));
             }
         }
 
@@ -88,6 +98,48 @@ impl TryFrom<Rectangle> for Viewport {
 
     fn try_from(Rectangle { x, y, width, height }: Rectangle) -> Result<Self, ViewError> {
         Self::new(x, y, width, height)
+    }
+}
+
+/// A [`Projector`]: its place, and the directions on its image, the first two scaled by its opening.
+#[derive(Clone, Copy)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Thrown {
+    eye: Vec3,
+    right: Vec3,
+    up: Vec3,
+    forward: Vec3,
+}
+
+impl From<Projector> for Thrown {
+    fn from(Projector { eye, rows }: Projector) -> Self {
+        let Mat3 { x_axis: right, y_axis: up, z_axis: forward } = rows.axes().transpose();
+        Self { eye: eye.coords, right, up, forward }
+    }
+}
+
+impl TryFrom<Thrown> for Projector {
+    type Error = ViewError;
+
+    fn try_from(Thrown { eye, right, up, forward }: Thrown) -> Result<Self, ViewError> {
+        if ![eye, right, up, forward].into_iter().all(Vec3::is_finite) {
+            return Err(ViewError::NotFinite);
+        }
+        let rows = Mat3::from_cols(right, up, forward).transpose();
+        Ok(Self { eye: Point3::new(eye), rows: Frame::from_mat3(rows, Point3::new(Vec3::ZERO)) })
+    }
+}
+
+#[cfg(feature = "arbitrary")]
+impl<'a> Arbitrary<'a> for Projector {
+    /// Any place and directions of usual sizes.
+    fn arbitrary(bytes: &mut Unstructured<'a>) -> arbitrary::Result<Self> {
+        let mut vector = || {
+            let [x, y, z] = <[i16; 3]>::arbitrary(bytes)?.map(|c| f32::from(c) / 256.0);
+            Ok(Vec3::new(x, y, z))
+        };
+        let thrown = Thrown { eye: vector()?, right: vector()?, up: vector()?, forward: vector()? };
+        Self::try_from(thrown).map_err(|_| arbitrary::Error::IncorrectFormat)
     }
 }
 

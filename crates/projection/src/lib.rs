@@ -8,7 +8,7 @@ mod camera;
 mod clip;
 mod depth;
 mod error;
-#[cfg(any(feature = "serde", feature = "arbitrary"))]
+#[cfg(any(feature = "serde", feature = "arbitrary", feature = "defmt"))]
 mod form;
 mod matrix;
 mod parallel;

@@ -134,6 +134,7 @@ impl Projection for Perspective {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum AnyProjection {
     /// A projection with a vanishing point.
     Perspective(Perspective),

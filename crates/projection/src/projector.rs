@@ -36,11 +36,14 @@ use alberti_math::{Eye, Frame, Mode, Point3, Varying, World};
 /// # Ok::<(), alberti_projection::ViewError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "crate::form::Thrown", into = "crate::form::Thrown"))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Projector {
-    eye: Point3<World>,
+    pub(crate) eye: Point3<World>,
     /// The map of displacements from the eye to (u, v, q): the directions right, up and forward as rows, the first two
     /// scaled.
-    rows: Frame<World, Eye>,
+    pub(crate) rows: Frame<World, Eye>,
 }
 
 impl Projector {
@@ -93,6 +96,9 @@ impl Projector {
 /// As a varying it is like three numbers, linear in space. [`divide`](Self::divide) comes after interpolating, at each
 /// fragment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Homogeneous {
     /// To the right on the image, times q.
     pub u: f32,

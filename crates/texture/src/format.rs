@@ -2,8 +2,8 @@
 //!
 //! A format is a value, mostly without a size: [`Texture`](crate::Texture) carries it, and its decoding is compiled
 //! into the sampling. All decode to the colour [`Rgba8`]. Types of other crates can be formats too. [`Indexed`] texels
-//! are places in a palette, which the format refers to. [`Rgba8888`], [`Rgb565Le`] and [`Rgb565Be`] are also formats of
-//! the rasterizer's targets.
+//! are places in a palette, which the format refers to. [`Rgba8888`], [`Rgb565Le`], [`Rgb565Be`] and [`Rgb332`] are
+//! also formats of the rasterizer's targets.
 //!
 //! The meaning of the colours is part of the format: they are sRGB, unless it is [`L16`] or wrapped in [`Scalars`] or
 //! [`Normals`].
@@ -14,7 +14,7 @@ mod indexed;
 mod pairs;
 mod storage;
 
-pub use alberti_math::{Rgb565Be, Rgb565Le, Rgba8, Rgba8888};
+pub use alberti_math::{Rgb332, Rgb565Be, Rgb565Le, Rgba8, Rgba8888};
 pub use bytes::InBytes;
 pub use content::{Content, Normals, Scalars};
 pub use indexed::{Indexed, Indexed1, Indexed2, Indexed4, Indexed8, PaletteColor};
@@ -48,6 +48,13 @@ pub trait TexelFormat: Copy + Debug + 'static {
     /// A step of a channel of n bits is 255/(2^n − 1) steps of a byte. The texel has the nearest of them, so that a
     /// decoded texel of up to 8 bits a channel encodes to itself.
     fn encode(self, color: Rgba8) -> Self::Texel;
+
+    /// The texel as a colour for targets with such pixels, which put a word's bytes in their order: the same, unless
+    /// texels have another order than the machine's.
+    #[inline(always)]
+    fn native(self, texel: Self::Texel) -> Self::Texel {
+        texel
+    }
 
     /// The number from 0 to 1 that the texel stands for in a map of numbers, such as heights, as a count of 65535ths:
     /// red, and of [`L16`] all bits.
@@ -140,6 +147,11 @@ impl TexelFormat for Rgb565Le {
         Rgb565.decode(u16::from_le(texel))
     }
 
+    #[inline(always)]
+    fn native(self, texel: u16) -> u16 {
+        u16::from_le(texel)
+    }
+
     #[inline]
     fn encode(self, color: Rgba8) -> u16 {
         Rgb565.encode(color).to_le()
@@ -153,6 +165,11 @@ impl TexelFormat for Rgb565Be {
     #[inline]
     fn decode(self, texel: u16) -> Rgba8 {
         Rgb565.decode(u16::from_be(texel))
+    }
+
+    #[inline(always)]
+    fn native(self, texel: u16) -> u16 {
+        u16::from_be(texel)
     }
 
     #[inline]
@@ -182,6 +199,26 @@ impl TexelFormat for Rgba4444 {
     #[inline]
     fn encode(self, color: Rgba8) -> u16 {
         color.to_bytes().iter().fold(0, |texel, &byte| texel << 4 | narrowed(byte, 15))
+    }
+}
+
+/// # Precision
+/// Channels repeat their bits, which is the byte nearest to 255/7 or 85 times the level.
+impl TexelFormat for Rgb332 {
+    type Texel = u8;
+
+    #[inline]
+    fn decode(self, texel: u8) -> Rgba8 {
+        let t = u32::from(texel);
+        // 73/2 is 32 + 4 + 1/2, and 85 is 64 + 16 + 4 + 1.
+        let [red, green] = [t >> 5, t >> 2 & 7].map(|level| (level * 73) >> 1);
+        Rgba8::from_bits(red | green << 8 | ((t & 3) * 85) << 16 | 0xff00_0000)
+    }
+
+    #[inline]
+    fn encode(self, color: Rgba8) -> u8 {
+        let [r, g, b, _] = color.to_bytes();
+        (narrowed(r, 7) << 5 | narrowed(g, 7) << 2 | narrowed(b, 3)).to_le_bytes()[0]
     }
 }
 
@@ -298,6 +335,10 @@ mod tests {
             assert_eq!(Rgb8.decode([byte, 7, 255 - byte]), Rgba8::new(byte, 7, 255 - byte, 255));
             assert_eq!(Rgba8888.decode([1, byte, 3, !byte]), Rgba8::new(1, byte, 3, !byte));
             assert_eq!(La8.decode([byte, 7]), Rgba8::new(byte, byte, byte, 7));
+            let near = |level: u8, greatest: f64| (f64::from(level) * 255.0 / greatest).round();
+            let expected = [near(byte >> 5, 7.0), near(byte >> 2 & 7, 7.0), near(byte & 3, 3.0), 255.0];
+            assert_eq!(Rgb332.decode(byte).to_bytes().map(f64::from), expected);
+            assert_eq!(Rgb332.encode(Rgb332.decode(byte)), byte);
         }
     }
 
@@ -319,7 +360,9 @@ mod tests {
     #[test]
     fn encoding_finds_the_nearest() {
         for byte in 0..=255u8 {
-            for (greatest, step) in [(31u16, 255.0 / 31.0), (63, 255.0 / 63.0), (15, 17.0)] {
+            for (greatest, step) in
+                [(31u16, 255.0 / 31.0), (63, 255.0 / 63.0), (15, 17.0), (7, 255.0 / 7.0), (3, 85.0)]
+            {
                 let found = narrowed(byte, greatest);
                 let distance = |n: u16| (f64::from(n) * step - f64::from(byte)).abs();
                 assert!((0..=greatest).all(|n| distance(found) <= distance(n)), "{byte} of {greatest}");

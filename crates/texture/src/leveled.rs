@@ -50,6 +50,12 @@ impl<'a, F: Storage, M: Levels, U: Wrap, V: Wrap, Z: Size> MipSampler<'a, F, M, 
 }
 
 impl<'a, F: Storage, M: Levels, U: Wrap, V: Wrap, Z: Size> Leveled<'a, F, M, U, V, Z> {
+    /// The format of the texels.
+    #[must_use]
+    pub fn format(&self) -> F {
+        self.near.format()
+    }
+
     /// The same in the levels for the derivatives in the first lane: those of the filter, but that the way between two
     /// is rounded to 32nds.
     #[inline(always)]

@@ -26,6 +26,8 @@
 //! own.
 
 mod displacement;
+#[cfg(any(feature = "serde", feature = "arbitrary"))]
+mod form;
 mod height;
 mod material;
 mod mesh;

@@ -99,6 +99,7 @@ impl Scene {
             cull: Cull::Back,
             depth: alberti_app::options::DepthFormat::F32Reversed,
             projection: Projection::Perspective,
+            haze: None,
             threads: NonZero::<usize>::MIN,
             policies: Policies::default(),
         }

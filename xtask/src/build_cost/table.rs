@@ -52,7 +52,7 @@ const ROWS: &[Row] = &[
     row(Figure::BinaryBytes, "– binary", Unit::Bytes, Some(10_000_000)),
     row(
         Figure::Kernels,
-        "– kernels, for all machines (instances of `Paint::draw_batch` and `draw_large`)",
+        "– kernels, for all machines (instances of `Paint::draw_alike` and `draw_alone`)",
         Unit::Count,
         Some(32),
     ),
@@ -158,7 +158,7 @@ mod tests {
         let table = "| building | goal | measured |\n|---|---:|---:|\n\
             | command, release, from nothing: time | 90 s | 90 s |\n\
             | – binary | 10.0 MB | 10.0 MB, over |\n\
-            | – kernels, for all machines (instances of `Paint::draw_batch` and `draw_large`) | 32 | 13 |\n";
+            | – kernels, for all machines (instances of `Paint::draw_alike` and `draw_alone`) | 32 | 13 |\n";
         assert_eq!(markdown(&figures), table);
         assert_eq!(missed(&figures), ["BinaryBytes is 10.0 MB, goal 10.0 MB"]);
     }

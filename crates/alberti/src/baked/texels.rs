@@ -4,8 +4,10 @@ use super::count;
 use super::error::{BakedError, Fault};
 use super::sections::{half, word};
 use alberti_texture::Mipmap;
-use alberti_texture::format::{InBytes, Indexed4, Indexed8, L8, L16, Rgb8, Rgb565, Rgba4444, Rgba8888};
-use alberti_texture::format::{Indexed, Storage};
+use alberti_texture::format::{
+    InBytes, Indexed, Indexed1, Indexed2, Indexed4, Indexed8, L8, L16, Rgb8, Rgb332, Rgb565, Rgb565Be,
+    Rgba4444, Rgba8888, Storage,
+};
 
 /// A texture with its levels, by the format of its texels. [`Mipmap::level`] of 0 is the largest; a texture that is
 /// not for a mip map has no other.
@@ -28,6 +30,14 @@ pub enum Texels<'a> {
     Rgb8(Mipmap<'a, Rgb8>),
     /// Heights.
     L16(Mipmap<'a, InBytes<L16>>),
+    /// Colours of 16 bits, the high byte first, as displays take them.
+    Rgb565Be(Mipmap<'a, InBytes<Rgb565Be>>),
+    /// Colours of a byte.
+    Rgb332(Mipmap<'a, Rgb332>),
+    /// Colours of a palette of 2.
+    Indexed1(Mipmap<'a, Indexed1<'a, [u8; 4]>>),
+    /// Colours of a palette of 4.
+    Indexed2(Mipmap<'a, Indexed2<'a, [u8; 4]>>),
 }
 
 /// The number of a format of texels in a file.
@@ -50,6 +60,14 @@ pub enum TexelCode {
     Rgb8 = 7,
     /// [`Texels::L16`].
     L16 = 8,
+    /// [`Texels::Rgb565Be`].
+    Rgb565Be = 9,
+    /// [`Texels::Rgb332`].
+    Rgb332 = 10,
+    /// [`Texels::Indexed1`].
+    Indexed1 = 11,
+    /// [`Texels::Indexed2`].
+    Indexed2 = 12,
 }
 
 impl<'a> Texels<'a> {
@@ -79,7 +97,11 @@ impl<'a> Texels<'a> {
             6 => levels.chunks(Rgba8888, texels).map(Self::Rgba8888),
             7 => levels.chunks(Rgb8, texels).map(Self::Rgb8),
             8 => levels.chunks(InBytes(L16), texels).map(Self::L16),
-            _ => return Err(wrong(Fault::Format, code.into(), 8)),
+            9 => levels.chunks(InBytes(Rgb565Be), texels).map(Self::Rgb565Be),
+            10 => levels.of(Rgb332, texels).map(Self::Rgb332),
+            11 => levels.of(Indexed { palette }, texels).map(Self::Indexed1),
+            12 => levels.of(Indexed { palette }, texels).map(Self::Indexed2),
+            _ => return Err(wrong(Fault::Format, code.into(), 12)),
         };
         let expected = u32::from(width) * u32::from(height);
         map.ok_or_else(|| wrong(Fault::Texels, count(levels.length), expected))

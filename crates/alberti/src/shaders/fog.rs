@@ -130,6 +130,45 @@ pub struct SquaredFog {
     pub density: f32,
 }
 
+/// A [`Fog`] that is chosen at run time.
+///
+/// # Precision
+/// That of the fog, whose bits it gives.
+///
+/// # Cost
+/// A match for the samples that are worked on together. The code of all three.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum AnyFog {
+    /// None up to a distance, and nothing else from another on.
+    Linear(LinearFog),
+    /// A haze of the same density everywhere.
+    Exponential(ExponentialFog),
+    /// One that begins softly.
+    Squared(SquaredFog),
+}
+
+impl Fog for AnyFog {
+    fn coordinate(&self, distance: f32) -> f32 {
+        match self {
+            Self::Linear(fog) => fog.coordinate(distance),
+            Self::Exponential(fog) => fog.coordinate(distance),
+            Self::Squared(fog) => fog.coordinate(distance),
+        }
+    }
+
+    #[inline(always)]
+    fn amount<L: Lanes>(&self, lanes: L, coordinate: L::Number) -> L::U32 {
+        match self {
+            Self::Linear(fog) => fog.amount(lanes, coordinate),
+            Self::Exponential(fog) => fog.amount(lanes, coordinate),
+            Self::Squared(fog) => fog.amount(lanes, coordinate),
+        }
+    }
+}
+
 /// The cells of tables, and how many of them there are to a unit.
 const CELLS: usize = 64;
 /// Their number, with eight bits of fraction.
@@ -206,13 +245,10 @@ const fn parts(part: f64) -> u16 {
     if parts > 65535.0 { 65535 } else { parts as u16 }
 }
 
-impl<V: Varying, S: FragmentStage<V, Color = Rgba8>, F: Fog> FragmentStage<(f32, V)> for Fogged<S, F> {
-    as_surface!((f32, V), |gradient| &gradient.map(|(_, part)| part));
-
+impl<S, F: Fog> Fogged<S, F> {
+    /// Colours behind the fog, of which so much is before them.
     #[inline(always)]
-    fn shade<L: Lanes>(&self, fragments: &Fragments<L, (f32, V)>) -> (L::U32, L::Mask) {
-        let (lanes, (coordinate, _)) = (fragments.lanes, fragments.varying);
-        let (surface, mask) = self.surface.shade(&fragments.part(|(_, varying)| *varying));
+    pub fn on<L: Lanes>(&self, lanes: L, coordinate: L::Number, surface: L::U32) -> L::U32 {
         let amount = self.fog.amount(lanes, coordinate);
         let bytes = lanes.word(0x00ff_00ff);
         let color = self.color.to_bits();
@@ -227,7 +263,18 @@ impl<V: Varying, S: FragmentStage<V, Color = Rgba8>, F: Fog> FragmentStage<(f32,
         let [red_blue, green_alpha] = map2(halves, |[near, far]| {
             lanes.shr(lanes.mix_halves(near, far, amount) + lanes.word(0x0080_0080), 8) & bytes
         });
-        (red_blue | lanes.shl(green_alpha, 8), mask)
+        red_blue | lanes.shl(green_alpha, 8)
+    }
+}
+
+impl<V: Varying, S: FragmentStage<V, Color = Rgba8>, F: Fog> FragmentStage<(f32, V)> for Fogged<S, F> {
+    as_surface!((f32, V), |gradient| &gradient.map(|(_, part)| part));
+
+    #[inline(always)]
+    fn shade<L: Lanes>(&self, fragments: &Fragments<L, (f32, V)>) -> (L::U32, L::Mask) {
+        let (lanes, (coordinate, _)) = (fragments.lanes, fragments.varying);
+        let (surface, mask) = self.surface.shade(&fragments.part(|(_, varying)| *varying));
+        (self.on(lanes, coordinate, surface), mask)
     }
 }
 
@@ -257,6 +304,10 @@ mod tests {
                 (amounts(ExponentialFog { density: 1.0 }, z), 1.0 - E.powf(-x)),
                 (amounts(SquaredFog { density: 1.0 }, z), 1.0 - E.powf(-x * x)),
             ];
+            let any = [AnyFog::Linear(line), AnyFog::Exponential(ExponentialFog { density: 1.0 })];
+            assert_eq!(all[0].0, amounts(any[0], any[0].coordinate(z)));
+            assert_eq!(all[1].0, amounts(any[1], any[1].coordinate(z)));
+            assert_eq!(all[2].0, amounts(AnyFog::Squared(SquaredFog { density: 1.0 }), z));
             for (worst, (found, expected)) in worst.iter_mut().zip(all) {
                 for found in found {
                     *worst = worst.max((found - 256.0 * expected).abs());

@@ -53,7 +53,7 @@ impl<F: TexelFormat<Texel: FragmentColor>, U: Wrap, V: Wrap, Z: Size> FragmentSt
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, Vec2>) -> (L::U32, L::Mask) {
         let Fragments { lanes, varying, mask, place, .. } = *fragments;
         let [u, v, _] = thresholds(lanes, place);
-        let texels = self.0.either_lanes(lanes, varying, [u, v], word::<F>);
+        let texels = self.0.either_lanes(lanes, varying, [u, v], word(self.0.texture().format()));
         (texels, mask)
     }
 }
@@ -79,13 +79,14 @@ impl<F: TexelFormat<Texel: FragmentColor>, U: Wrap, V: Wrap, Z: Size> FragmentSt
     #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, Vec2>) -> (L::U32, L::Mask) {
         let Fragments { lanes, varying, mask, place, .. } = *fragments;
-        let texels = self.0.either_lanes(lanes, varying, thresholds(lanes, place), word::<F>);
+        let texels = self.0.either_lanes(lanes, varying, thresholds(lanes, place), word(self.0.format()));
         (texels, mask)
     }
 }
 
-fn word<F: TexelFormat<Texel: FragmentColor>>(texel: Option<F::Texel>) -> u32 {
-    texel.map_or(0, FragmentColor::to_word)
+/// The word of a texel, or of none.
+fn word<F: TexelFormat<Texel: FragmentColor>>(format: F) -> impl Fn(Option<F::Texel>) -> u32 {
+    move |texel| texel.map_or(0, |texel| format.native(texel).to_word())
 }
 
 /// The thresholds of pixels along u and along v, in 256ths, and between levels, in 32nds.

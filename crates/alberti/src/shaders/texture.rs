@@ -177,7 +177,9 @@ impl<F: TexelFormat<Texel: FragmentColor>, U: Wrap, V: Wrap, Z: Size> FragmentSt
     #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, Vec2>) -> (L::U32, L::Mask) {
         let Fragments { lanes, varying: [u, v], mask, .. } = *fragments;
-        let words = self.0.stored_lanes(lanes, u, v, |texel| texel.map_or(0, FragmentColor::to_word));
+        let format = self.0.texture().format();
+        let words =
+            self.0.stored_lanes(lanes, u, v, |texel| texel.map_or(0, |texel| format.native(texel).to_word()));
         (words, mask)
     }
 }
@@ -190,8 +192,8 @@ mod tests {
     use alberti_math::Q16;
     use alberti_math::glam::Vec3;
     use alberti_math::lanes::{One, OneFixed};
-    use alberti_raster::{Gradient, Rgb565Le};
-    use alberti_texture::format::{L8, Rgb565, Rgba8888};
+    use alberti_raster::{Gradient, Rgb565Be, Rgb565Le};
+    use alberti_texture::format::{InBytes, L8, Rgb565, Rgba8888};
     use alberti_texture::{Bounded, Clamp, LodBounds, Mipmap, Mirror, NearestLevel, Repeat, Texture};
     use core::num::Wrapping;
 
@@ -253,6 +255,26 @@ mod tests {
             assert_eq!(stored(folded), texel(mirror.min(15 - mirror)), "mirror {k}");
             let clamped = Stored(texture.sampler(Nearest, Clamp)).shade(&of(OneFixed, at, steady));
             assert_eq!(stored(clamped), texel((k.clamp(0, 65_535)) * 8 / 65_536), "clamp {k}");
+        }
+    }
+
+    /// A red and a blue texel in either order of bytes, on targets of either order: in memory, what these want.
+    #[test]
+    fn stored_texels_have_the_order_of_their_target() {
+        let bytes = [[0xf8, 0x01], [0x00, 0x1f]];
+        let words = bytes.map(u16::from_ne_bytes);
+        let of_bytes = Texture::new(InBytes(Rgb565Be), &bytes, 2, 1).expect("2 x 1");
+        let of_words = Texture::new(Rgb565Be, &words, 2, 1).expect("2 x 1");
+        for (u, [high, low]) in [0.25, 0.75].into_iter().zip(bytes) {
+            let steady = Gradient { dx: [0.0; 2], dy: [0.0; 2] };
+            let fragments = of(One, [u, 0.5], steady);
+            let stored = Stored(of_bytes.sampler(Nearest, Repeat)).shade(&fragments).0.0;
+            assert_eq!(stored, Stored(of_words.sampler(Nearest, Repeat)).shade(&fragments).0.0);
+            assert_eq!(stored, Stored(of_bytes.sampler(Bilinear, Repeat)).shade(&fragments).0.0);
+            for pixel in [<[u8; 2]>::pixel(Rgb565Be, stored), u16::pixel(Rgb565Be, stored)] {
+                assert_eq!(pixel.to_ne_bytes(), [high, low]);
+            }
+            assert_eq!(<[u8; 2]>::pixel(Rgb565Le, stored).to_ne_bytes(), [low, high]);
         }
     }
 

@@ -24,7 +24,7 @@ fn header() -> String {
 }
 
 /// The names of each kind, the first that of the kind's base but for `lines`, which has none.
-const KINDS: [(&str, bool, &[&str]); 8] = [
+const KINDS: [(&str, bool, &[&str]); 11] = [
     (
         "lines",
         false,
@@ -55,8 +55,11 @@ const KINDS: [(&str, bool, &[&str]); 8] = [
         &["nearest", "bilinear", "trilinear:pixel", "trilinear:run", "trilinear:triangle"],
     ),
     ("fixed filter", true, &["nearest", "bilinear", "trilinear:run", "trilinear:triangle"]),
+    ("float light", true, &["unlit", "lambert"]),
+    ("fixed light", true, &["unlit", "lambert"]),
+    ("fixed mesh", true, &["floats", "integers"]),
     // How far estimates were off, in percent, where other lines have the instructions of a frame.
-    ("off", false, &["median", "most", "worst"]),
+    ("off", false, &["median", "most", "worst", "baked"]),
 ];
 
 /// Coefficients in the order of the table's columns.
@@ -93,6 +96,8 @@ pub struct Off {
     pub most: f64,
     /// The most of all.
     pub worst: f64,
+    /// The most of those of lit meshes of integers.
+    pub baked: f64,
 }
 
 /// The part of the table that is about one chip.
@@ -112,10 +117,28 @@ impl Chip {
         Some(lines.plus(depth).plus(grid).plus(filter))
     }
 
+    /// The same for what `alberti bake` writes, lit from one direction or not.
+    pub(super) fn baked(
+        &self,
+        candidate: Candidate,
+        filter: Filter,
+        lod: Lod,
+        is_lit: bool,
+    ) -> Option<Coefficients> {
+        let cost = self.cost(candidate, filter, lod)?;
+        let light = if is_lit { "lambert" } else { "unlit" };
+        let arithmetic = arithmetic_name(candidate.arithmetic);
+        let cost = cost.plus(self.get(&format!("{arithmetic} light"), light)?);
+        Some(match candidate.arithmetic {
+            Arithmetic::Fixed => cost.plus(self.get("fixed mesh", "integers")?),
+            Arithmetic::Float => cost,
+        })
+    }
+
     /// How far it is off.
     pub(super) fn off(&self) -> Option<Off> {
         let of = |name| Some(self.get("off", name)?.counts[0]);
-        Some(Off { median: of("median")?, most: of("most")?, worst: of("worst")? })
+        Some(Off { median: of("median")?, most: of("most")?, worst: of("worst")?, baked: of("baked")? })
     }
 
     fn get(&self, kind: &str, name: &str) -> Option<&Coefficients> {
@@ -290,6 +313,15 @@ mod tests {
         assert_eq!(differences(1.0).plus(&differences(-2.0)).frame(&work), 0.0);
         // 1.5 + 20 + 60 + 5 + (18 + 32 + 48) + (105 + 1100 + 15000) + (8 + 8 + 8) + 2600 + 58 · 600
         assert_eq!(cost.frame(&work), 53_813.5);
+        // A vertex of integers takes 2 less and a lit one 7 more, a lit pixel 100: 10 · 5 + 600 · 100.
+        let line = at(&lines, "m0,fixed mesh,integers,");
+        lines[line] = "m0,fixed mesh,integers,0,-2,0,0,0,0,0,0,0,0,0,0,0,0,0,300,20".to_owned();
+        let line = at(&lines, "m0,fixed light,lambert,");
+        lines[line] = "m0,fixed light,lambert,0,7,0,0,0,0,0,0,0,0,0,0,0,0,100,700,60".to_owned();
+        let chips = parse(&lines.join("\n")).expect("a table");
+        let of = |is_lit| chips["m0"].baked(candidate, Filter::Bilinear, Lod::Pixel, is_lit).expect("a cost");
+        assert_eq!((of(false).frame(&work), of(true).frame(&work)), (53_813.5 - 20.0, 53_813.5 + 60_050.0));
+        assert_eq!((of(true).flash, of(true).stack), (2400.0, 388.0));
         let anisotropic = Filter::Anisotropic(crate::options::Probes::Two);
         assert!(chips["m0"].cost(candidate, anisotropic, Lod::Pixel).is_none());
     }

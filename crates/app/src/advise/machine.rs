@@ -114,19 +114,26 @@ impl Costs {
     }
 }
 
-/// The cost on a chip of a frame with these options and this work, and how far such estimates are off.
+/// The instructions that a frame of a baked mesh with this work takes on a chip, lit from one direction or not. Beside
+/// them is how far such estimates are off mostly, in percent.
 ///
 /// # Errors
 /// The chip has no such way of drawing.
-pub fn on_chip(machine: Machine, options: &RenderOptions, work: &Work) -> Result<(Cost, Option<Off>), Error> {
+pub fn baked_on_chip(
+    machine: Machine,
+    options: &RenderOptions,
+    work: &Work,
+    is_lit: bool,
+) -> Result<(f64, f64), Error> {
     let costs = Costs::new(machine, options)?;
-    let Policies { interpolation, arithmetic, subpixel, .. } = options.policies;
+    let Policies { interpolation, arithmetic, subpixel, lod, .. } = options.policies;
     let candidate = Candidate { interpolation, arithmetic, subpixel, depth: options.depth };
-    let cost = costs.of(candidate, options, work).ok_or_else(|| {
+    let chip = costs.chip.as_ref();
+    let cost = chip.and_then(|chip| chip.baked(candidate, options.filter, lod, is_lit)).ok_or_else(|| {
         let found = format!("{} on {}", candidate.command_line(), machine.name());
         Error::new(found, "policies that the model of chips knows").hint("try --profile mcu")
     })?;
-    Ok((cost, costs.off()))
+    Ok((cost.frame(work), costs.off().map_or(0.0, |off| off.most.max(off.baked))))
 }
 
 /// Bytes of a pixel's depth.

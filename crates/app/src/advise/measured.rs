@@ -230,7 +230,11 @@ impl<'a> Bench<'a> {
             stats = drawing.draw_all(&mut target, &mut |_, _| ());
             times.push(start.elapsed().as_secs_f64() * 1e3);
         }
-        let texels = pixels.iter().map(|pixel: &u32| shown(options.policies.color, pixel.to_ne_bytes()));
+        let places = (0..height.cast_signed())
+            .flat_map(|row| (0..width.cast_signed()).map(move |column| [column, row]));
+        let texels = places.zip(&pixels);
+        let texels =
+            texels.map(|(place, pixel): (_, &u32)| shown(&options.policies, place, pixel.to_ne_bytes()));
         Ok((Image { width, height, texels: texels.collect() }, times, stats))
     }
 

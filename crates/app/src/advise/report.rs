@@ -82,7 +82,7 @@ pub fn text(advice: &Advice, wastes: &[Waste], side: u16) -> String {
 
 /// The meaning of costs, in one or more lines.
 fn costs(advice: &Advice) -> String {
-    let Some(Off { median, most, worst }) = advice.off else {
+    let Some(Off { median, most, worst, .. }) = advice.off else {
         return "Times are of one thread, whole\nframes, by this command: plain surfaces in floats by code of their own, \
                 as a program has it that names its types;\nfixed point, materials and projectors by one stage for all, \
                 which adds the same to each."

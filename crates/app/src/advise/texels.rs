@@ -88,6 +88,7 @@ mod tests {
             cull: Cull::None,
             depth,
             projection: Projection::Perspective,
+            haze: None,
             threads: NonZero::<usize>::MIN,
             policies: Policies { subpixel, ..Policies::default() },
         };

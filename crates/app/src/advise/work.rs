@@ -198,6 +198,7 @@ mod tests {
             cull: Cull::None,
             depth,
             projection: Projection::Perspective,
+            haze: None,
             threads: NonZero::new(2).expect("two"),
             policies: Policies { interpolation, arithmetic, ..Policies::default() },
         };

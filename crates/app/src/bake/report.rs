@@ -6,10 +6,10 @@ use serde_json::{Value, json};
 
 use super::binary::length;
 use super::{Asset, restored};
-use crate::advise::{Machine, depth_bytes, on_chip, work};
+use crate::advise::{Machine, baked_on_chip, depth_bytes, work};
 use crate::error::Error;
 use crate::measure::{Comparison, Measures};
-use crate::options::{ColorFormat, Policies, Projection, RenderOptions};
+use crate::options::{ColorFormat, Policies, Projection, RenderOptions, Shading};
 use crate::render::render;
 use crate::scene::{Camera, Model, camera};
 use alberti::baked::{Attributes, HEADER};
@@ -29,6 +29,8 @@ pub struct Report<'a> {
     pub memory: [(&'static str, usize); 4],
     /// Frames on chips.
     pub estimates: Vec<Estimate>,
+    /// The light that these have.
+    light: Option<&'static str>,
     /// The greatest loss of a place, in pixels at the scene's camera.
     pub pixels: f64,
     /// The greatest loss of texture coordinates, in texels of the largest texture.
@@ -62,13 +64,15 @@ impl<'a> Report<'a> {
     ) -> Result<Self, Error> {
         let baked = restored(file, asset, model)?;
         let work = work(&baked, camera, options)?;
+        let light = light(asset, options);
         let chips = [Machine::M0, Machine::M4f, Machine::Rv32].map(|machine| {
-            let (cost, off) = on_chip(machine, options, &work)?;
-            Ok(Estimate { machine, instructions: cost.frame, off: off.map_or(0.0, |off| off.most) })
+            let (instructions, off) = baked_on_chip(machine, options, &work, light.is_some())?;
+            Ok(Estimate { machine, instructions, off })
         });
         let precise = RenderOptions {
             policies: Policies { color: ColorFormat::Rgba8, ..Policies::default() },
             depth: crate::options::DepthFormat::F32Reversed,
+            haze: None,
             ..*options
         };
         let frame = |model| Ok::<_, Error>(render(model, camera, &precise, &mut |_, _| ())?.image);
@@ -85,6 +89,7 @@ impl<'a> Report<'a> {
             pixels: asset.losses.place * 3.0_f64.sqrt() * pixels_a_unit(&baked, camera, options),
             texels: asset.losses.uv[0].max(asset.losses.uv[1]) * f64::from(side),
             measures,
+            light,
         })
     }
 
@@ -114,7 +119,8 @@ impl<'a> Report<'a> {
         for (name, bytes) in self.memory {
             line(format!("{bytes:>9}  {name}"));
         }
-        line(format!("\nMillions of instructions for a frame of {width}x{height}, without light:\n"));
+        let light = self.light.unwrap_or("without light");
+        line(format!("\nMillions of instructions for a frame of {width}x{height}, {light}:\n"));
         for Estimate { machine, instructions, off } in &self.estimates {
             let millions = instructions / 1e6;
             line(format!("{millions:>9.2}  {}, within {off:.0} % mostly", machine.name()));
@@ -183,6 +189,7 @@ impl<'a> Report<'a> {
             "band": self.band,
             "memory": bytes(&memory),
             "chips": chips.collect::<Vec<_>>(),
+            "light": self.light,
             "unit": asset.grids.unit,
             "lost": {
                 "place": asset.losses.place,
@@ -200,6 +207,16 @@ impl<'a> Report<'a> {
             "cache_after": after,
         })
     }
+}
+
+/// The light that estimates of frames have, in words; `None` where normals are not read. Highlights and maps beside the
+/// surface's colour are not in them.
+fn light(asset: &Asset, options: &RenderOptions) -> Option<&'static str> {
+    let is_lit = options.shading.is_lit() && asset.attributes.contains(Attributes::NORMAL);
+    is_lit.then_some(match options.shading {
+        Shading::Lambert => "in light from one direction",
+        _ => "in diffuse light from one direction, without highlights",
+    })
 }
 
 /// All that lies in flash, but for code.

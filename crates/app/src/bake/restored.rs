@@ -72,6 +72,10 @@ fn largest(texels: &Texels<'_>) -> Image {
         Texels::Rgba8888(map) => image(map),
         Texels::Rgb8(map) => image(map),
         Texels::L16(map) => image(map),
+        Texels::Rgb565Be(map) => image(map),
+        Texels::Rgb332(map) => image(map),
+        Texels::Indexed1(map) => image(map),
+        Texels::Indexed2(map) => image(map),
         _ => Image { width: 1, height: 1, texels: vec![[0; 4]] },
     }
 }

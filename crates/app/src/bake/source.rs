@@ -185,6 +185,10 @@ fn map(text: &mut String, number: usize, texture: &Texture) {
         TexelCode::Rgba4444 => ("Rgba4444", "u16", halves(&all)),
         TexelCode::L16 => ("L16", "u16", halves(&all)),
         TexelCode::L8 => ("L8", "u8", each(&all)),
+        TexelCode::Rgb565Be => ("Rgb565Be", "[u8; 2]", chunks(&all, 2)),
+        TexelCode::Rgb332 => ("Rgb332", "u8", each(&all)),
+        TexelCode::Indexed1 => ("Indexed1", "u8", each(&all)),
+        TexelCode::Indexed2 => ("Indexed2", "u8", each(&all)),
         TexelCode::Indexed4 => ("Indexed4", "u8", each(&all)),
         TexelCode::Indexed8 => ("Indexed8", "u8", each(&all)),
         TexelCode::Rgba8888 => ("Rgba8888", "[u8; 4]", chunks(&all, 4)),
@@ -194,6 +198,9 @@ fn map(text: &mut String, number: usize, texture: &Texture) {
     let indexed = !texture.palette.is_empty();
     let (kind, value) = if indexed {
         (format!("{format}<'static>"), format!("{format} {{ palette: &PALETTE_{number} }}"))
+    } else if texture.code == TexelCode::Rgb565Be {
+        let in_bytes = "alberti::texture::format::InBytes";
+        (format!("{in_bytes}<{format}>"), format!("{in_bytes}({format})"))
     } else {
         (format.clone(), format)
     };

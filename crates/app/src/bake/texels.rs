@@ -1,14 +1,14 @@
 //! Textures in few bytes.
 
 use super::palette::Palette;
-use super::{Dither, Format, Wish, is_mipmapped};
+use super::{Format, Wish, is_mipmapped};
 use crate::error::Error;
-use crate::options::RenderOptions;
+use crate::options::{Dither, RenderOptions};
 use crate::scene::{HeightImage, Image, Map, Model, Part};
 use alberti::Rgba8;
 use alberti::baked::{Attributes, TexelCode};
 use alberti::raster::ColorFormat as _;
-use alberti::raster::color::{Bayer, BlueNoise, Grey8, Pattern as _};
+use alberti::raster::color::{Grey8, Pattern as _};
 use alberti::texture::format::{L16, Normals, Rgba8888, Scalars, TexelFormat};
 use alberti::texture::{TextureError, mipmap};
 
@@ -160,7 +160,7 @@ fn texture(model: &Model, role: Role, image: usize, mips: bool, wish: &Wish) -> 
     let Image { width, height, texels } = &model.textures[image];
     let size = [*width, *height];
     let levels = match code {
-        TexelCode::Rgb8 => chain(Normals(Rgba8888), texels, size),
+        _ if role == Role::Normals => chain(Normals(Rgba8888), texels, size),
         TexelCode::L8 if role != Role::Color => chain(Scalars(Rgba8888), texels, size),
         _ => chain(Rgba8888, texels, size),
     };
@@ -168,6 +168,8 @@ fn texture(model: &Model, role: Role, image: usize, mips: bool, wish: &Wish) -> 
     let Level { size: [width, height], texels } = &levels[0];
     let largest = Image { width: *width, height: *height, texels: texels.clone() };
     let palette = match code {
+        TexelCode::Indexed1 => Some(Palette::new(&largest, 2)?),
+        TexelCode::Indexed2 => Some(Palette::new(&largest, 4)?),
         TexelCode::Indexed4 => Some(Palette::new(&largest, 16)?),
         TexelCode::Indexed8 => Some(Palette::new(&largest, 256)?),
         _ => None,
@@ -222,24 +224,28 @@ fn encoded(
     (dither, numbers): (Dither, bool),
 ) -> Vec<u8> {
     let width = level.size[0] as usize;
-    let threshold = |column: usize, row: usize| {
-        let place = [column, row].map(|k| i32::try_from(k).unwrap_or(0));
-        match dither {
-            Dither::None => 127,
-            Dither::Bayer => Bayer.threshold(place),
-            Dither::BlueNoise => BlueNoise.threshold(place),
-        }
-    };
+    let threshold =
+        |column: usize, row: usize| dither.threshold([column, row].map(|k| i32::try_from(k).unwrap_or(0)));
     // A level of the channel, of which the fraction is compared with the threshold.
     let channel = |byte: u8, greatest: u32, threshold: u32| (u32::from(byte) * greatest + threshold) / 255;
     let row = |(row, texels): (usize, &[[u8; 4]])| -> Vec<u8> {
         let each = || texels.iter().enumerate().map(|(column, &texel)| (texel, threshold(column, row)));
         let index = |(texel, t)| palette.map_or(0, |palette| palette.index(texel, t));
-        let pair = |pair: &[u8]| pair[0] << 4 | pair.get(1).copied().unwrap_or(0);
+        // Indices of so many bits from the highest bits of a byte on.
+        let digits = |bits: u8| -> Vec<u8> {
+            let indices = each().map(index).collect::<Vec<_>>();
+            let byte = |few: &[u8]| (1..).zip(few).fold(0, |byte, (k, index)| byte | index << (8 - k * bits));
+            indices.chunks(usize::from(8 / bits)).map(byte).collect()
+        };
+        let word565 = |([r, g, b, _], t): ([u8; 4], u32)| {
+            half(channel(r, 31, t) << 11 | channel(g, 63, t) << 5 | channel(b, 31, t))
+        };
         match code {
-            TexelCode::Rgb565 => each()
-                .flat_map(|([r, g, b, _], t)| {
-                    half(channel(r, 31, t) << 11 | channel(g, 63, t) << 5 | channel(b, 31, t))
+            TexelCode::Rgb565 => each().flat_map(word565).collect(),
+            TexelCode::Rgb565Be => each().map(word565).flat_map(|[low, high]| [high, low]).collect(),
+            TexelCode::Rgb332 => each()
+                .map(|([r, g, b, _], t)| {
+                    half(channel(r, 7, t) << 5 | channel(g, 7, t) << 2 | channel(b, 3, t))[0]
                 })
                 .collect(),
             TexelCode::Rgba4444 => each()
@@ -253,7 +259,9 @@ fn encoded(
             TexelCode::Rgb8 => texels.iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect(),
             TexelCode::Rgba8888 | TexelCode::L16 => texels.as_flattened().to_vec(),
             TexelCode::Indexed8 => each().map(index).collect(),
-            TexelCode::Indexed4 => each().map(index).collect::<Vec<_>>().chunks(2).map(pair).collect(),
+            TexelCode::Indexed4 => digits(4),
+            TexelCode::Indexed2 => digits(2),
+            TexelCode::Indexed1 => digits(1),
         }
     };
     level.texels.chunks(width).enumerate().flat_map(row).collect()
@@ -289,6 +297,24 @@ mod tests {
         );
         assert_eq!(halves(of(TexelCode::Rgba4444)), nearest.map(|c| Rgba4444.encode(c)).collect::<Vec<_>>());
         assert_eq!(of(TexelCode::Rgba8888), texels.as_flattened());
+        assert_eq!(
+            of(TexelCode::Rgb8),
+            texels.iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect::<Vec<_>>()
+        );
+        // In the order in which they are sent, and the levels by their steps in reals.
+        let mut swapped = of(TexelCode::Rgb565);
+        swapped.as_chunks_mut::<2>().0.iter_mut().for_each(|bytes| bytes.reverse());
+        assert_eq!(of(TexelCode::Rgb565Be), swapped);
+        let bytes = of(TexelCode::Rgb332);
+        assert_eq!(bytes.len(), texels.len());
+        for (byte, [r, g, b, _]) in bytes.into_iter().zip(texels) {
+            for (level, channel, greatest) in
+                [(byte >> 5, r, 7.0), (byte >> 2 & 7, g, 7.0), (byte & 3, b, 3.0)]
+            {
+                let off = f64::from(level) * 255.0 / greatest - f64::from(channel);
+                assert!(off.abs() <= 127.5 / greatest, "{level} for {channel}");
+            }
+        }
     }
 
     /// A grey between two levels, whose mean is kept by the pattern.
@@ -313,6 +339,11 @@ mod tests {
         let of = |color| palette.index(color, 127);
         let (r, b) = (of(red), of(blue));
         assert_eq!(bytes, [r << 4 | b, r << 4, b << 4 | b, r << 4]);
+        // The leftmost in the highest bits, as the library reads them.
+        let bytes = encoded(&flag, TexelCode::Indexed2, Some(&palette), (Dither::None, false));
+        assert_eq!(bytes, [r << 6 | b << 4 | r << 2, b << 6 | b << 4 | r << 2]);
+        let bytes = encoded(&flag, TexelCode::Indexed1, Some(&palette), (Dither::None, false));
+        assert_eq!(bytes, [r << 7 | b << 6 | r << 5, b << 7 | b << 6 | r << 5]);
     }
 
     #[test]

@@ -8,7 +8,7 @@ use clap::{ArgMatches, Args, FromArgMatches as _};
 use super::RenderArgs;
 use super::run::print;
 use super::staged::{OF_PICTURES, Request, Staged, refuse};
-use crate::bake::{Asked, Dither, Format, Report, Wish, bake, bytes, source};
+use crate::bake::{Asked, Format, Report, Wish, bake, bytes, source};
 use crate::error::Error;
 use crate::options::values::Size;
 use crate::options::{MAX_SIDE, Profile};
@@ -61,10 +61,6 @@ pub struct BakeArgs {
     /// Format of textures of colours. Normals have 8 bits a channel, numbers 8, heights 16.
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t, help_heading = OWN)]
     pub format: Format,
-
-    /// Rounding of textures' colours.
-    #[arg(long, value_enum, value_name = "PATTERN", default_value_t, help_heading = OWN)]
-    pub dither: Dither,
 
     /// Triangles at most: the surface is simplified, and the report says how far it moves.
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = triangles, help_heading = OWN)]
@@ -123,7 +119,8 @@ fn baked(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
     let (binary, module) = (file("bin")?, file("rs")?);
 
     let Staged { model, camera, options, .. } = request.stage()?;
-    let BakeArgs { format, dither, triangles, texture_size, attributes, meshlets, band, .. } = *arguments;
+    let BakeArgs { format, triangles, texture_size, attributes, meshlets, band, .. } = *arguments;
+    let dither = options.policies.dither;
     let wish = Wish { format, dither, triangles, texture_size, attributes, meshlets };
     let asset = bake(&model, &options, &wish)?;
     let bytes = bytes(&asset);

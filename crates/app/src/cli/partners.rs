@@ -19,7 +19,9 @@ pub(crate) fn check(arguments: &RenderArgs) -> Result<(), Error> {
     let of_view =
         camera.view_height.filter(|_| !camera.is_parallel()).map(|_| ("view-height", "projection parallel"));
     let of_maps = || arguments.material.lonely().filter(|_| arguments.model.is_none());
-    match of_view.or_else(of_maps) {
+    let render = &arguments.render;
+    let of_fog = render.fog_color.filter(|_| render.fog.is_none()).map(|_| ("fog-color", "fog"));
+    match of_view.or(of_fog).or_else(of_maps) {
         Some((option, partner)) => {
             let found = format!("it without --{partner}");
             Err(Error::new(found, format!("--{partner} as well")).place(format!("--{option}")))

@@ -16,13 +16,13 @@ use crate::load::scene_file::{self, SceneFile};
 use crate::load::{obj, prepare};
 use crate::options::values::{Color, MAX_THREADS, Size, Threads};
 use crate::options::{
-    Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE, DepthFormat, Filter, Projection, RenderOptions,
-    Shading, Wrap,
+    Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE, DepthFormat, Filter, Fog, Haze, Projection,
+    RenderOptions, Shading, Wrap,
 };
 use crate::output::file::{Output, Whole};
 use crate::output::progress::Progress;
 use crate::output::stats::Source;
-use crate::scene::{Camera, Model, Part, Relief, camera, scenes, slide};
+use crate::scene::{Camera, Model, Part, Relief, camera, order, scenes, slide};
 
 /// The options that say what `render` writes.
 pub(super) const OF_PICTURES: [&str; 3] = ["output", "stats", "show"];
@@ -180,6 +180,7 @@ impl Request {
         let ball = camera::bounding_sphere(&scene.model);
         let aspect = f64::from(width) / f64::from(height);
         let camera = camera::frame(&arguments.camera, scene.camera.as_ref(), ball, aspect)?;
+        order::back_to_front(&mut scene.model, &camera);
         if camera::is_behind(&camera, ball) {
             warn(
                 &Error::new("a camera that looks away from the model", "the model in view")
@@ -198,10 +199,16 @@ impl Request {
 
         let (shading, filter, wrap, cull, scene_depth) = scene.defaults;
         let shiny = shading == Shading::Lambert && has_highlights(arguments, &scene.model);
+        let background = arguments.render.background.map_or(scene.background, Color::bytes);
+        let haze = arguments
+            .render
+            .fog
+            .map(|Fog(fog)| Haze { fog, color: arguments.render.fog_color.map_or(background, Color::bytes) });
         let options = RenderOptions {
             width,
             height,
-            background: arguments.render.background.map_or(scene.background, Color::bytes),
+            background,
+            haze,
             shading: arguments.render.shading.unwrap_or(if shiny { Shading::Blinn } else { shading }),
             filter: arguments.render.filter.unwrap_or(filter),
             wrap: arguments.render.wrap.unwrap_or(wrap),

@@ -15,6 +15,8 @@ pub(super) struct Clothed<'a> {
     pub(super) lighting: Lighting<&'a [AnyLight], AnyReflectance>,
     /// Whether it has texture coordinates.
     pub(super) textured: bool,
+    /// Whether its fragments have places in the world, whatever the surface.
+    pub(super) placed: bool,
     /// Of the image that falls on it.
     pub(super) projector: Option<Projector>,
 }
@@ -40,7 +42,8 @@ fn framed(clothed: &Clothed<'_>, v: &Vertex) -> Framed {
     let [x, y, z, handedness] = v.tangent;
     let (place, normal) = (Vec3::from_array(v.position), Vec3::from_array(v.normal));
     let uv = if clothed.textured { Vec2::from_array(v.uv) } else { Vec2::ZERO };
-    let flat = |third| Framed { position: Vec3::ZERO, axes: [Vec3::ZERO, Vec3::ZERO, third], uv };
+    let seen = if clothed.placed { place } else { Vec3::ZERO };
+    let flat = |third| Framed { position: seen, axes: [Vec3::ZERO, Vec3::ZERO, third], uv };
     match clothed.surface {
         Surface::Colors => flat(Vec3::from_array(v.color)),
         Surface::Unlit(_) => flat(Vec3::ZERO),
@@ -57,12 +60,15 @@ fn framed(clothed: &Clothed<'_>, v: &Vertex) -> Framed {
 }
 
 /// Triangles of a part, as the pipeline takes them.
+#[derive(Clone, Copy)]
 pub(super) struct Triangles<'t, 'a> {
     pub(super) clothed: &'t Clothed<'a>,
     pub(super) vertices: &'t [Vertex],
     pub(super) triangles: &'t [[u32; 3]],
     /// The number of the first triangle, where each is to carry its [`Number`] instead of a place on an image.
     pub(super) numbers: Option<u32>,
+    /// Whether they carry texture coordinates alone, and constants for all else.
+    pub(super) bare: bool,
 }
 
 impl Geometry for Triangles<'_, '_> {
@@ -90,6 +96,11 @@ impl Geometry for Triangles<'_, '_> {
         let Some(first) = self.numbers else {
             let v = self.vertices.get(number)?;
             let (place, framed) = self.clothed.vertex(v);
+            if self.bare {
+                let Framed { uv, .. } = framed;
+                let bare = Framed { position: Vec3::ZERO, axes: [Vec3::ZERO; 3], uv };
+                return Some((place, (Homogeneous::default(), bare)));
+            }
             return Some((place, (self.clothed.on_image(v), framed)));
         };
         let index = self.triangles.get(number / 3)?[number % 3];

@@ -1,7 +1,7 @@
 //! Fragment stages behind a pointer, so that a kernel is compiled once for all of them. The pixels are the stage's own.
 //!
 //! Such a stage gets one bundle, [`Attributes`]. The components that it does not use are interpolated nevertheless. Of
-//! the derivatives there are only those of the texture coordinates. No stage discards.
+//! the derivatives there are only those of the texture coordinates.
 
 use alberti::lanes::{Floating, Lanes, OneFixed};
 use alberti::raster::{AnyDerivatives, Gradient};
@@ -32,7 +32,8 @@ struct Handed<N: Copy> {
     place: [i32; 2],
 }
 
-/// A stage for so many samples at a time as there are lanes of floats: their numbers in memory, colours back.
+/// A stage for so many samples at a time as there are lanes of floats: their numbers in memory, colours back, and a bit
+/// for each that is kept.
 ///
 /// # Cost
 /// For the lanes together, a call and a copy each way.
@@ -43,7 +44,7 @@ pub(super) struct Erased<'a, L: Lanes + 'a> {
     shade: &'a Shade<'a, L>,
 }
 
-type Shade<'a, L> = dyn Fn(&Handed<<L as Lanes>::Each<f32>>) -> <L as Lanes>::Each<u32> + Sync + 'a;
+type Shade<'a, L> = dyn Fn(&Handed<<L as Lanes>::Each<f32>>) -> (<L as Lanes>::Each<u32>, u32) + Sync + 'a;
 
 /// Calls `then` with `stage`, behind a pointer.
 pub(super) fn erase<L: Floating>(
@@ -60,7 +61,8 @@ pub(super) fn erase<L: Floating>(
                 let loaded = |[u, v]: [L::Each<f32>; 2]| [lanes.load(&u), lanes.load(&v)];
                 let gradient = handed.gradient.map(|uv| with_uv(lanes, &varying, loaded(uv)));
                 let (mask, place) = (lanes.mask(handed.mask), handed.place);
-                lanes.store_words(stage.shade(&Fragments { lanes, varying, gradient, mask, place }).0)
+                let (words, kept) = stage.shade(&Fragments { lanes, varying, gradient, mask, place });
+                (lanes.store_words(words), lanes.bits(kept))
             },
         )
     };
@@ -84,14 +86,14 @@ impl<L: Lanes> FragmentStage<Attributes> for Erased<'_, L> {
             let values = lanes.store(number);
             self.lanes.each(|k| values.as_ref().get(k).copied().unwrap_or_default())
         };
-        let words = (self.shade)(&Handed {
+        let (words, kept) = (self.shade)(&Handed {
             varying: Attributes::map(varying, &each),
             gradient: gradient.map(|(_, framed)| framed.uv.map(each)),
             mask: lanes.bits(*mask),
             place: *place,
         });
         let words = lanes.each(|k| words.as_ref().get(k).copied().unwrap_or_default());
-        (lanes.load_words(&words), *mask)
+        (lanes.load_words(&words), *mask & lanes.mask(kept))
     }
 }
 
@@ -99,7 +101,7 @@ impl<L: Lanes> FragmentStage<Attributes> for Erased<'_, L> {
 #[derive(Clone, Copy)]
 pub(super) struct ErasedFixed<'a> {
     derivatives: AnyDerivatives,
-    shade: &'a (dyn Fn(&Handed<Q16>) -> u32 + Sync),
+    shade: &'a (dyn Fn(&Handed<Q16>) -> (u32, bool) + Sync),
 }
 
 /// Calls `then` with `stage` in fixed point, behind a pointer.
@@ -110,7 +112,9 @@ pub(super) fn erase_fixed(
 ) {
     let shade = |&Handed { varying, gradient, mask, place }: &Handed<Q16>| {
         let gradient = gradient.map(|uv| with_uv(OneFixed, &varying, uv));
-        stage.shade(&Fragments { lanes: OneFixed, varying, gradient, mask: mask != 0, place }).0.0
+        let (word, kept) =
+            stage.shade(&Fragments { lanes: OneFixed, varying, gradient, mask: mask != 0, place });
+        (word.0, kept)
     };
     then(ErasedFixed { derivatives, shade: &shade });
 }
@@ -130,17 +134,22 @@ impl FragmentStage<Attributes> for ErasedFixed<'_> {
         let bits = |number: M::Number| lanes.store_words(lanes.floor_scaled(number, 16));
         let (carried, samples) = (Attributes::map(varying, &bits), lanes.bits(*mask));
         let gradient = gradient.map(|(_, framed)| framed.uv.map(bits));
-        let words = lanes.each(|k| {
+        let mut kept = 0;
+        let mut word = |k: usize| {
             let at = |words: M::Each<u32>| {
                 Q16::from_bits(words.as_ref().get(k).copied().unwrap_or_default().cast_signed())
             };
-            (self.shade)(&Handed {
+            let (word, keeps) = (self.shade)(&Handed {
                 varying: Attributes::map(&carried, &at),
                 gradient: gradient.map(|uv| uv.map(at)),
                 mask: samples >> k & 1,
                 place: *place,
-            })
-        });
-        (lanes.load_words(&words), *mask)
+            });
+            kept |= u32::from(keeps) << k;
+            word
+        };
+        let mut words = lanes.each(|_| 0);
+        words.as_mut().iter_mut().enumerate().for_each(|(k, slot)| *slot = word(k));
+        (lanes.load_words(&words), *mask & lanes.mask(kept))
     }
 }

@@ -3,6 +3,8 @@
 
 use super::clothed::{Clothed, Triangles};
 use super::erased::{Attributes, erase, erase_fixed};
+use super::hazy::Hazy;
+use super::kept::Kept;
 use super::lamps::Lamps;
 use super::maps::{Chains, any_filter};
 use super::painted::Painted;
@@ -14,6 +16,7 @@ use crate::options::{Arithmetic, Filter, Interpolation, Projection, RenderOption
 use crate::scene::{Camera, Detail, Model, Part};
 use alberti::lanes::{Lanes, Machine, One};
 use alberti::raster::PerPixel;
+use alberti::raster::color::{AnyBlend, Blended};
 use alberti::shaders::material::{AnyLight, AnyReflectance, Framed, Gouraud, Material};
 use alberti::shaders::{Mix, Slide, Sunlit, Unlit, VertexColor};
 use alberti::texture::{AnyFilter, Clamp, Sampler, format::Rgba8888};
@@ -21,8 +24,8 @@ use alberti::{FixedPoint, FragmentStage, Fragments, Lines, Planes, Rgba8, Stats,
 
 /// Whether a part is more than a plain surface in a picture with these options.
 pub(super) fn is_lit(part: &Part, model: &Model, options: &RenderOptions) -> bool {
-    let plain =
-        Detail { specular: part.detail.specular, shininess: part.detail.shininess, ..Detail::default() };
+    let Detail { specular, shininess, blend, alpha_test, .. } = part.detail;
+    let plain = Detail { specular, shininess, blend, alpha_test, ..Detail::default() };
     let mipmapped = part.texture.is_some() && !matches!(options.filter, Filter::Nearest | Filter::Bilinear);
     let highlights = !matches!(options.shading, Shading::Unlit | Shading::VertexColor | Shading::Lambert);
     let lamps = options.shading.is_lit() && (!model.lights.is_empty() || model.ambient.is_some());
@@ -79,11 +82,14 @@ impl FragmentStage<Framed> for Surface<'_> {
     }
 }
 
-/// A surface with a projector's image on it, if there is one.
+/// A surface with a projector's image on it, a fog before it and holes in it, if there are such.
 #[derive(Clone, Copy)]
 pub(super) struct Shown<'a> {
     pub(super) surface: Surface<'a>,
     pub(super) image: Option<Sampler<'a, Rgba8888, AnyFilter, Clamp>>,
+    pub(super) hazy: Option<Hazy>,
+    /// The least alpha that is drawn.
+    pub(super) least: u8,
 }
 
 impl FragmentStage<Attributes> for Shown<'_> {
@@ -92,14 +98,19 @@ impl FragmentStage<Attributes> for Shown<'_> {
 
     #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, Attributes>) -> (L::U32, L::Mask) {
-        let (color, mask) = self.surface.shade(&fragments.part(|(_, framed)| *framed));
-        match self.image {
-            None => (color, mask),
-            Some(image) => {
-                let slide = Slide { surface: (), image, mix: Mix::Modulate };
-                (slide.on(fragments.lanes, &fragments.varying.0, color, mask), mask)
-            }
+        let lanes = fragments.lanes;
+        let (mut color, mut mask) = self.surface.shade(&fragments.part(|(_, framed)| *framed));
+        if self.least > 0 {
+            mask = mask & !lanes.less_words(lanes.shr(color, 24), lanes.word(self.least.into()));
         }
+        if let Some(image) = self.image {
+            let slide = Slide { surface: (), image, mix: Mix::Modulate };
+            color = slide.on(lanes, &fragments.varying.0, color, mask);
+        }
+        if let Some(hazy) = self.hazy {
+            color = hazy.on(lanes, fragments.varying.1.position, color);
+        }
+        (color, mask)
     }
 }
 
@@ -107,11 +118,23 @@ impl<'a> Drawing<'a> {
     /// A surface by any policies.
     pub(super) fn draw_general(&mut self, part: &Part, triangles: &[[u32; 3]], target: &mut Canvas<'_>) {
         let clothed = self.clothed(part);
-        let image = self.slide.map(|(_, image)| image.sampler(any_filter(self.options.filter), Clamp));
+        let shown = self.shown(clothed.surface, part);
         let Used { vertices, triangles } = Used::of(&self.model.vertices, triangles);
-        let mesh = Triangles { clothed: &clothed, vertices: &vertices, triangles: &triangles, numbers: None };
-        let stats = self.by_policies(&mesh, Shown { surface: clothed.surface, image }, target);
+        let mesh = Triangles {
+            clothed: &clothed,
+            vertices: &vertices,
+            triangles: &triangles,
+            numbers: None,
+            bare: false,
+        };
+        let stats = self.by_policies(&mesh, shown, part.detail.blend, target);
         self.stats += stats;
+    }
+
+    /// A part's surface with all that lies on it and before it.
+    pub(super) fn shown(&self, surface: Surface<'a>, part: &Part) -> Shown<'a> {
+        let image = self.slide.map(|(_, image)| image.sampler(any_filter(self.options.filter), Clamp));
+        Shown { surface, image, hazy: self.hazy(part.detail.blend), least: part.detail.alpha_test }
     }
 
     /// A part's surface, and all that its attributes are made of.
@@ -130,16 +153,22 @@ impl<'a> Drawing<'a> {
         };
         let textured = lit || (part.texture.is_some() && shading != Shading::VertexColor);
         let projector = self.slide.map(|(projector, _)| projector);
-        Clothed { surface, lighting: material.lighting, textured, projector }
+        let placed = self.options.haze.is_some();
+        Clothed { surface, lighting: material.lighting, textured, placed, projector }
     }
 
-    /// The stage behind a pointer, in one of few kernels.
+    /// The stage behind a pointer, in one of few kernels, mixed with what is there.
     pub(super) fn by_policies(
         &self,
         mesh: &Triangles<'_, '_>,
         stage: impl FragmentStage<Attributes, Color = Rgba8> + Sync,
+        blend: AnyBlend,
         target: &mut Canvas<'_>,
     ) -> Stats {
+        // Mixed surfaces hide nothing.
+        let kept = Kept { format: target.depth_format(), written: blend == AnyBlend::Replace };
+        let mut target = target.with_depth(kept);
+        let target = &mut target.with_color(Blended { format: Rgba8888, by: blend });
         let (mut room, mut slots) = memory(mesh);
         let (mut stats, threads) = (Stats::default(), self.options.threads);
         let (policies, lines) = (self.options.policies, self.lines());

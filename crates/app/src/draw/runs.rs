@@ -4,17 +4,17 @@
 //! tells a stage. The runs are those of the picture, as the vertices carry the same, and as no bit depends on the
 //! number of lanes: here it is one.
 
+use super::clothed::Triangles;
 use super::erased::Attributes;
 use super::tapped::{Tap, WHOLE, Word};
 use super::{Canvas, Drawing, memory};
 use crate::options::Arithmetic;
-use alberti::glam::Vec2;
 use alberti::lanes::{Lanes, One};
 use alberti::raster::{
     Counters, Differentiate, Differentiation, EdgeInt, FixedPoint, FragmentStage, Fragments, Gradient,
     Oriented, Outcome, Row, Samples, Span,
 };
-use alberti::{Geometry, Lines, Object, Point3, Q16, Rgba8, Varying};
+use alberti::{Lines, Q16, Rgba8, Varying};
 use std::cell::Cell;
 
 /// The policy: by column the first column of the run, by row its columns, and [`WIDE`] more where edges take 64 bits.
@@ -104,16 +104,6 @@ impl FragmentStage<Attributes> for RunsOnly<'_> {
     }
 }
 
-impl FragmentStage<Vec2> for RunsOnly<'_> {
-    type Color = Rgba8;
-    type Derivatives = OfRun;
-
-    fn shade<L: Lanes>(&self, fragments: &Fragments<L, Vec2>) -> (L::U32, L::Mask) {
-        let &Fragments { lanes, gradient, mask, place, .. } = fragments;
-        self.take(lanes, gradient.map(|[u, _]| u), mask, place)
-    }
-}
-
 impl RunsOnly<'_> {
     /// Takes the runs of some fragments.
     fn take<L: Lanes>(
@@ -151,30 +141,6 @@ impl RunsOnly<'_> {
     }
 }
 
-/// Triangles of which only the texture coordinates are interpolated: other attributes would have a say in which are
-/// small.
-struct Textured<'a, M>(&'a M);
-
-impl<M: Geometry<Varying = Attributes>> Geometry for Textured<'_, M> {
-    type Varying = Vec2;
-
-    fn triangles(&self) -> usize {
-        self.0.triangles()
-    }
-
-    fn vertices(&self) -> usize {
-        self.0.vertices()
-    }
-
-    fn triangle(&self, number: usize) -> Option<[usize; 3]> {
-        self.0.triangle(number)
-    }
-
-    fn vertex(&self, number: usize) -> Option<(Point3<Object>, Vec2)> {
-        self.0.vertex(number).map(|(place, (_, framed))| (place, framed.uv))
-    }
-}
-
 /// The ways in which a triangle is rasterized.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Kind {
@@ -203,6 +169,12 @@ struct Rows<'a> {
     kinds: [OfKind; 3],
     /// Whether the next row is a triangle's first.
     first: bool,
+}
+
+impl<'a> Rows<'a> {
+    fn new(runs: &'a Runs) -> Self {
+        Self { kind: &runs.kind, kinds: Default::default(), first: true }
+    }
 }
 
 impl Counters for Rows<'_> {
@@ -245,7 +217,9 @@ impl Drawing<'_> {
     pub(crate) fn tap_runs(&self, tap: &Tap, target: &mut Canvas<'_>) {
         if let Some(lines) = self.lines() {
             self.each_chunk(false, |_, mesh| {
-                self.by_runs(mesh, lines, RunsOnly::WriteDown(tap), target, &mut ());
+                // The rows are not asked for: counters of another type would be kernels of their own.
+                let runs = Runs::default();
+                self.by_runs(mesh, lines, RunsOnly::WriteDown(tap), target, &mut Rows::new(&runs));
             });
         }
     }
@@ -254,10 +228,12 @@ impl Drawing<'_> {
     pub(crate) fn count_runs(&self, target: &mut Canvas<'_>) -> Counted {
         let runs = Runs::default();
         let lines = self.lines();
-        let mut rows = Rows { kind: &runs.kind, kinds: Default::default(), first: true };
+        let mut rows = Rows::new(&runs);
         let stage = RunsOnly::Count(&runs);
         self.each_chunk(false, |_, mesh| {
-            self.by_runs(&Textured(mesh), lines.unwrap_or(Lines::affine()), stage, target, &mut rows);
+            // Other attributes than texture coordinates would have a say in which triangles are small.
+            let bare = Triangles { bare: true, ..*mesh };
+            self.by_runs(&bare, lines.unwrap_or(Lines::affine()), stage, target, &mut rows);
         });
         let (all, single) = (runs.all.get(), runs.single.get());
         if lines.is_some() {
@@ -268,16 +244,14 @@ impl Drawing<'_> {
     }
 
     /// Draws some triangles with one lane.
-    fn by_runs<'r, M: Geometry>(
+    fn by_runs(
         &self,
-        mesh: &M,
+        mesh: &Triangles<'_, '_>,
         lines: Lines,
-        stage: RunsOnly<'r>,
+        stage: RunsOnly<'_>,
         target: &mut Canvas<'_>,
-        counters: &mut impl Counters,
-    ) where
-        RunsOnly<'r>: FragmentStage<M::Varying, Color = Rgba8>,
-    {
+        counters: &mut Rows<'_>,
+    ) {
         let (_, mut slots) = memory(mesh);
         let pass = self.pass(mesh, stage, &mut slots);
         match self.options.policies.arithmetic {

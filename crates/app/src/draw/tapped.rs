@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::scene::Part;
 use alberti::lanes::Lanes;
 use alberti::raster::PerPixel;
+use alberti::raster::color::AnyBlend;
 use alberti::{FragmentStage, Fragments, Rgba8};
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -163,7 +164,8 @@ impl Drawing<'_> {
         self.each_chunk(numbered, |part, mesh| {
             let texture = part.texture.and_then(|texture| self.textures.get(texture));
             let size = texture.filter(|_| mesh.clothed.textured).map(|t| [t.width(), t.height()]);
-            let _ = self.by_policies(mesh, Tapped { tap, taken, numbered, size }, target);
+            let tapped = Tapped { tap, taken, numbered, size };
+            let _ = self.by_policies(mesh, tapped, AnyBlend::Replace, target);
         });
     }
 
@@ -175,8 +177,13 @@ impl Drawing<'_> {
             for triangles in part.triangles.chunks(CHUNK) {
                 let Used { vertices, triangles } = Used::of(&self.model.vertices, triangles);
                 let numbers = numbered.then_some(first);
-                let mesh =
-                    Triangles { clothed: &clothed, vertices: &vertices, triangles: &triangles, numbers };
+                let mesh = Triangles {
+                    clothed: &clothed,
+                    vertices: &vertices,
+                    triangles: &triangles,
+                    numbers,
+                    bare: false,
+                };
                 draw(part, &mesh);
                 first += u32::try_from(triangles.len()).unwrap_or(0);
             }

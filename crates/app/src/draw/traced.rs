@@ -8,7 +8,6 @@ mod reads;
 use super::clothed::Clothed;
 use super::erased::Attributes;
 use super::general::{Shown, Surface};
-use super::maps::any_filter;
 use super::{Drawing, position};
 use crate::error::Error;
 use crate::options::{Arithmetic, Interpolation};
@@ -17,7 +16,6 @@ use crate::scene::{Part, Vertex};
 use alberti::glam::Vec3;
 use alberti::lanes::{Lanes, One, OneFixed};
 use alberti::raster::{AnyDerivatives, Corner, Numbers};
-use alberti::texture::Clamp;
 use alberti::{
     AnyProjection, Cull, DepthFormat as _, Fixed, FixedPoint, FragmentStage, Fragments, Geometry, Gradient,
     Mesh, Object, Pass, Planes, Point3, Q16, Rgba8, Rgba8888, Slot, Stats, Target, Varying,
@@ -300,8 +298,7 @@ impl<'a> Drawing<'a> {
     /// A part's surface.
     fn dressed(&self, part: &Part) -> Dressed<'a> {
         let clothed = self.clothed(part);
-        let image = self.slide.map(|(_, image)| image.sampler(any_filter(self.options.filter), Clamp));
-        Dressed { shown: Shown { surface: clothed.surface, image }, clothed }
+        Dressed { shown: self.shown(clothed.surface, part), clothed }
     }
 
     fn vertices(&self, indices: [u32; 3]) -> Option<[Vertex; 3]> {

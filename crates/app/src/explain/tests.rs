@@ -2,8 +2,8 @@
 
 use super::{Journey, explain, explain_each, theory};
 use crate::options::{
-    Arithmetic, ColorFormat, Cull, DepthFormat, Filter, Interpolation, Lod, Policies, Probes, Projection,
-    RenderOptions, Shading, SpanLength, Subpixel, Wrap,
+    Arithmetic, ColorFormat, Cull, DepthFormat, Dither, Filter, Interpolation, Lod, Policies, Probes,
+    Projection, RenderOptions, Shading, SpanLength, Subpixel, Wrap,
 };
 use crate::scene::surfaces::Surface;
 use crate::scene::{Camera, Image, Model, Part, Vertex, scenes};
@@ -25,6 +25,7 @@ fn options(interpolation: Interpolation) -> RenderOptions {
         cull: Cull::None,
         depth: DepthFormat::F32,
         projection: Projection::Perspective,
+        haze: None,
         threads: NonZero::<usize>::MIN,
         policies: Policies { interpolation, ..Policies::default() },
     }
@@ -45,6 +46,7 @@ fn policies() -> Vec<(Policies, DepthFormat)> {
         interpolation,
         arithmetic: Arithmetic::Fixed,
         color: ColorFormat::Rgb565,
+        dither: Dither::None,
         subpixel,
         lod: if interpolation == Affine { Lod::Triangle } else { Lod::Pixel },
     };

@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::load::images::Images;
 use crate::options::values::{Color, Shininess};
-use crate::options::{DEFAULT_HEIGHT, DEFAULT_REFLECTION, MapFile, Material};
+use crate::options::{Blend, DEFAULT_HEIGHT, DEFAULT_REFLECTION, MapFile, Material, byte};
 use crate::scene::{
     Detail, Environment, EnvironmentKind, HeightMap, Map, NormalMap, NormalSpace, Part, Relief,
 };
@@ -133,7 +133,8 @@ impl Material {
         if let Some(Color(color)) = self.color {
             part.diffuse = color;
         }
-        let Detail { wetness, specular, shininess, emissive, reflection, .. } = &mut part.detail;
+        let Detail { wetness, specular, shininess, emissive, reflection, blend, alpha_test, .. } =
+            &mut part.detail;
         // A map alone says all.
         let mapped = if self.wetness_map.is_some() { 1.0 } else { *wetness };
         *wetness = self.wetness.map_or(mapped, f32::from);
@@ -141,6 +142,8 @@ impl Material {
         *shininess = self.shininess.map_or(*shininess, |Shininess(pair)| pair);
         *emissive = self.emissive.map_or(*emissive, |Color(color)| color);
         *reflection = self.reflection.map_or(*reflection, f32::from);
+        *blend = self.blend.map_or(*blend, |Blend(blend)| blend);
+        *alpha_test = self.alpha_test.map_or(*alpha_test, |least| byte(least.into()));
     }
 }
 

@@ -11,7 +11,7 @@ use serde::de::{Deserializer, MapAccess, Visitor};
 
 use super::table::SURFACE;
 use super::values::{Color, Finite, Number, Repeats, Share, Shininess, Strength, Tuple};
-use super::{Filter, Wrap};
+use super::{Blend, Filter, Wrap};
 use crate::error::Error;
 use crate::scene::{Detail, EnvironmentKind, NormalSpace, Relief};
 
@@ -112,6 +112,14 @@ pub struct Material {
     /// Multiplies `reflection`.
     #[arg(skip)]
     pub reflection_map: Option<MapFile>,
+
+    /// Its mixture with what is behind it.
+    #[arg(skip)]
+    pub blend: Option<Blend>,
+
+    /// The least alpha that is drawn.
+    #[arg(skip)]
+    pub alpha_test: Option<Number<Share>>,
 
     /// The filter of all its maps.
     #[arg(skip)]

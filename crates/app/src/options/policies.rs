@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 use clap::ValueEnum;
 
+use super::Dither;
 use super::values::{one_of, words};
 use crate::error::Error;
 
@@ -124,6 +125,18 @@ pub enum ColorFormat {
     Rgba8,
     /// 5 bits of red, 6 of green, 5 of blue, as small displays have them: gradients show steps.
     Rgb565,
+    /// 4 bits a channel.
+    Rgb444,
+    /// 3 bits of red, 3 of green, 2 of blue.
+    Rgb332,
+    /// 256 levels of luminance.
+    Grey8,
+    /// 16 levels of luminance.
+    Grey4,
+    /// 4 levels of luminance.
+    Grey2,
+    /// Black and white.
+    Grey1,
 }
 
 /// The grid to which vertices are snapped.
@@ -159,6 +172,8 @@ pub struct Policies {
     pub arithmetic: Arithmetic,
     /// The format of colours.
     pub color: ColorFormat,
+    /// Their rounding to it.
+    pub dither: Dither,
     /// The vertices' grid.
     pub subpixel: Subpixel,
     /// Levels of detail.
@@ -202,6 +217,7 @@ impl Profile {
             interpolation,
             arithmetic: Arithmetic::Fixed,
             color: ColorFormat::Rgb565,
+            dither: Dither::None,
             subpixel: Subpixel::Sub4,
             lod: Lod::default(),
         };

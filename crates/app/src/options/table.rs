@@ -11,7 +11,7 @@ use serde::{Deserialize, Deserializer};
 
 use super::values::{Color, Finite, Number, Point, Size};
 use super::{
-    Arithmetic, ColorFormat, Cull, DepthFormat, Filter, Interpolation, Lod, Policies, Profile,
+    Arithmetic, ColorFormat, Cull, DepthFormat, Dither, Filter, Fog, Interpolation, Lod, Policies, Profile,
     ProjectionKind, Shading, Subpixel, Wrap,
 };
 use crate::error::Error;
@@ -153,6 +153,17 @@ pub struct RenderTable {
     #[arg(long, value_enum, value_name = "SIDE", help_heading = SURFACE)]
     pub cull: Option<Cull>,
 
+    /// Fog, by distances before the camera: linear:START,END, exp:DENSITY or exp2:DENSITY [default: none]
+    ///
+    /// linear: from none at START to nothing else at END.
+    /// exp: a haze, 1 - e^(-DENSITY z). exp2: one that begins softly, 1 - e^(-(DENSITY z)^2).
+    #[arg(long, value_name = "FOG", allow_hyphen_values = true, help_heading = SURFACE, verbatim_doc_comment)]
+    pub fog: Option<Fog>,
+
+    /// Colour of the fog; needs --fog [default: the background's].
+    #[arg(long, value_name = "RRGGBB", allow_hyphen_values = true, help_heading = SURFACE)]
+    pub fog_color: Option<Color>,
+
     /// A choice of all that follow, each of which overrides it [default: the scene's depth, else desktop].
     #[arg(long, value_enum, value_name = "PROFILE", help_heading = PRECISION)]
     pub profile: Option<Profile>,
@@ -179,6 +190,10 @@ pub struct RenderTable {
     #[arg(long = "color", value_enum, value_name = "FORMAT", help_heading = PRECISION)]
     pub color_format: Option<ColorFormat>,
 
+    /// Rounding of colours that the format lies between, also of those of baked textures [default: none].
+    #[arg(long, value_enum, value_name = "PATTERN", help_heading = PRECISION)]
+    pub dither: Option<Dither>,
+
     /// Bits of a pixel's fraction to which vertices are snapped [default: 8].
     #[arg(long, value_enum, value_name = "BITS", help_heading = PRECISION)]
     pub subpixel: Option<Subpixel>,
@@ -204,6 +219,7 @@ impl RenderTable {
             interpolation: self.interpolation.unwrap_or(straight),
             arithmetic: self.arithmetic.unwrap_or(profile.arithmetic),
             color: self.color_format.unwrap_or(profile.color),
+            dither: self.dither.unwrap_or(profile.dither),
             subpixel: self.subpixel.unwrap_or(profile.subpixel),
             lod: self.lod.unwrap_or(profile.lod),
         };

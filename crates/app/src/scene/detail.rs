@@ -4,6 +4,7 @@ use clap::ValueEnum;
 
 use crate::options::values::{one_of, words};
 use crate::options::{Filter, Wrap};
+use alberti::raster::color::AnyBlend;
 
 /// An image on a surface, and how it is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,6 +56,10 @@ pub struct Detail {
     pub reflection: f32,
     /// Multiplies `reflection`.
     pub reflection_map: Option<Map>,
+    /// The mixture with what is behind it; those that are mixed are drawn last, and hide nothing.
+    pub blend: AnyBlend,
+    /// The least alpha that is drawn, a byte: 0 for all.
+    pub alpha_test: u8,
 }
 
 impl Default for Detail {
@@ -76,11 +81,19 @@ impl Default for Detail {
             environment: None,
             reflection: 0.0,
             reflection_map: None,
+            blend: AnyBlend::Replace,
+            alpha_test: 0,
         }
     }
 }
 
 impl Detail {
+    /// Whether what is behind it is seen through it, everywhere or through holes.
+    #[must_use]
+    pub fn is_seen_through(&self) -> bool {
+        self.blend != AnyBlend::Replace || self.alpha_test > 0
+    }
+
     /// Whether it needs the vertices' tangents.
     #[must_use]
     pub fn needs_tangents(&self) -> bool {

@@ -144,7 +144,15 @@ fn frames_differ_by_no_more_than_the_report_says() {
     let right = image::open(folder.path("alberti.png")).expect("a picture").to_rgb8();
     let (model, camera, _) = scene(&of_scene).expect("the scene");
     assert!(model.lights.is_empty());
-    for (format, step) in [("rgba8", 0.5), ("rgb565", 4.2), ("indexed8", 24.0)] {
+    for (format, step) in [
+        ("rgba8", 0.5),
+        ("rgb888", 0.5),
+        ("rgb565", 4.2),
+        ("rgb565be", 4.2),
+        // Half a step of red and green, a 7th, and of blue, which is 90, to 85.
+        ("rgb332", 18.3),
+        ("indexed8", 24.0),
+    ] {
         let (report, file) = baked(&folder, "ball", &[&of_scene[..], &["--format", format]].concat());
         let file = Baked::read(&file).expect("a file");
         let (mut color, mut depth) = (vec![0; 160 * 120], vec![0.0; 160 * 120]);
@@ -164,7 +172,10 @@ fn frames_differ_by_no_more_than_the_report_says() {
             }
             match texels {
                 Texels::Rgba8888(map) => drawn!(map),
+                Texels::Rgb8(map) => drawn!(map),
                 Texels::Rgb565(map) => drawn!(map),
+                Texels::Rgb565Be(map) => drawn!(map),
+                Texels::Rgb332(map) => drawn!(map),
                 Texels::Indexed8(map) => drawn!(map),
                 other => panic!("{other:?}"),
             }
@@ -261,10 +272,15 @@ fn textures_have_the_format_and_the_size_that_is_asked_for() {
     };
     for (format, bytes) in [
         ("rgb565", 2 * 64 * 64),
+        ("rgb565be", 2 * 64 * 64),
         ("rgb444", 2 * 64 * 64),
+        ("rgb332", 64 * 64),
         ("grey8", 64 * 64),
+        ("indexed1", 64 * 8 + 2 * 4),
+        ("indexed2", 64 * 16 + 4 * 4),
         ("indexed4", 64 * 32 + 16 * 4),
         ("indexed8", 64 * 64 + 256 * 4),
+        ("rgb888", 3 * 64 * 64),
         ("rgba8", 4 * 64 * 64),
     ] {
         for dither in ["none", "bayer", "blue-noise"] {
@@ -278,6 +294,43 @@ fn textures_have_the_format_and_the_size_that_is_asked_for() {
     let (_, file) = of(&["--filter", "trilinear", "--texture-size", "20"]);
     let Some(Texels::Rgb565(map)) = Baked::read(&file).expect("a file").texture(0) else { panic!("Rgb565") };
     assert_eq!((map.levels(), map.level(0).width()), (5, 16));
+}
+
+/// The constants of a program: their types name the format, and their numbers are the file's bytes.
+#[test]
+fn sources_have_the_texels_of_files() {
+    let folder = folder();
+    for (format, kind, bits) in [
+        ("rgb565", "alberti::texture::format::Rgb565,", 16),
+        ("rgb565be", "alberti::texture::format::InBytes<alberti::texture::format::Rgb565Be>,", 8),
+        ("rgb444", "alberti::texture::format::Rgba4444,", 16),
+        ("rgb332", "alberti::texture::format::Rgb332,", 8),
+        ("indexed1", "alberti::texture::format::Indexed1<'static>,", 8),
+        ("indexed2", "alberti::texture::format::Indexed2<'static>,", 8),
+        ("rgb888", "alberti::texture::format::Rgb8,", 8),
+    ] {
+        let (_, file) = baked(
+            &folder,
+            "ball",
+            &["ball.obj", "--texture", "soft.png", "--format", format, "--dither", "bayer"],
+        );
+        let source = fs::read_to_string(folder.path("out/ball.rs")).expect("the source");
+        assert!(source.contains(kind), "{format}");
+        let (_, texels) = source.split_once("static TEXELS_0: ").expect("texels");
+        let (_, texels) = texels.split_once(" = [").expect("an array");
+        let (texels, rest) = texels.split_once("];").expect("its end");
+        let words = |text: &str, of: fn(&str) -> Option<u32>| -> Vec<u32> {
+            text.split(|c: char| !c.is_ascii_alphanumeric()).filter_map(of).collect()
+        };
+        let mut bytes = vec![];
+        if let Some((_, palette)) = rest.split_once("static PALETTE_0: ") {
+            let colors = words(palette, |word| u32::from_str_radix(word.strip_prefix("0x")?, 16).ok());
+            bytes.extend(colors.into_iter().flat_map(u32::to_le_bytes));
+        }
+        let numbers = words(texels, |word| word.parse().ok());
+        bytes.extend(numbers.into_iter().flat_map(|word| word.to_le_bytes().into_iter().take(bits / 8)));
+        assert!(bytes.len() > 64 * 8 && file.ends_with(&bytes), "{format}: {} bytes", bytes.len());
+    }
 }
 
 /// The report's bytes against the type that a program has.
@@ -308,8 +361,8 @@ fn mistakes_are_told_in_one_line() {
     fs::write(folder.path("large.obj"), large).expect("a file");
     for (arguments, parts) in [
         (
-            &["m.obj", "--out", "out", "--format", "rgb888"][..],
-            &["--format: found \"rgb888\", expected one of rgb565,"][..],
+            &["m.obj", "--out", "out", "--format", "rgb566"][..],
+            &["--format: found \"rgb566\", expected one of rgb565,"][..],
         ),
         (&["m.obj"], &["found nothing, expected --out <FOLDER>"]),
         (&["m.obj", "--out", "file"], &["file: found a file, expected a folder; choose another with --out"]),

@@ -284,3 +284,48 @@ fn usage_errors_have_the_same_status() {
     }
     assert_eq!(folder.names(), ["m.obj"]);
 }
+
+/// One rule for all commands: 0 where all is done, 1 where pictures differ by more than may be, 2 where input is wrong.
+#[test]
+fn all_commands_have_the_same_statuses() {
+    let spoilt: &[u8] = b"v 0 0 zero\n";
+    let files = [("m.obj", TRIANGLE.as_bytes()), ("bad.obj", spoilt), ("bad.toml", b"[render]\nfog = 3\n")];
+    let folder = Folder::with(&files);
+    folder.succeeds(&["m.obj", "--size", "32x24", "-o", "a.png"]);
+    folder.succeeds(&["m.obj", "--size", "32x24", "-o", "b.png", "--background", "ffffff"]);
+    let small = "--size 32x24";
+    let commands = [
+        ("render", format!("m.obj -o c.png {small}"), "m.obj", "-o c.png"),
+        ("bake", format!("m.obj --out out {small}"), "m.obj", "--out out"),
+        ("explain", format!("m.obj --pixel 1,1 {small}"), "m.obj", "--pixel 1,1"),
+        ("advise", format!("m.obj --target m0 {small}"), "m.obj", ""),
+        ("compare", "a.png a.png".to_owned(), "a.png", "a.png"),
+    ];
+    let run = |command: &str, arguments: &str| {
+        let words: Vec<_> = arguments.split_whitespace().collect();
+        crate::alberti(folder.0.path(), &[std::ffi::OsStr::new(command)], &words)
+    };
+    for (command, right, input, rest) in &commands {
+        let done = run(command, right);
+        assert!(done.status == Some(0) && !done.stderr.contains("error"), "{command}: {done:?}");
+        let before = folder.names();
+        let missing = input.replace("m.", "no.").replace("a.", "no.");
+        for wrong in [
+            format!("{right} --no-such-option"),
+            format!("{missing} {rest}"),
+            format!("bad.obj {rest}"),
+            format!("bad.toml {rest}"),
+            format!("{right} --size 0x1"),
+            String::from("--size"),
+        ] {
+            let failed = run(command, &wrong);
+            assert_eq!((failed.status, &failed.stdout[..]), (Some(2), ""), "{command} {wrong}: {failed:?}");
+            assert!(failed.stderr.starts_with("error: "), "{command} {wrong}: {failed:?}");
+            assert_eq!(folder.names(), before, "{command} {wrong}");
+        }
+    }
+    assert_eq!(run("compare", "a.png b.png --max-error 1lsb").status, Some(1));
+    assert_eq!(run("compare", "a.png b.png").status, Some(0));
+    // Without a command there is help; with one that is none, there is not.
+    assert_eq!(run("paint", "m.obj").status, Some(2));
+}

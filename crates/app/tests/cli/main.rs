@@ -1,6 +1,7 @@
 //! The `alberti` command from outside: what it prints, how it ends, and which files it leaves.
 
 mod advise;
+mod afterwards;
 mod bake;
 mod compare;
 mod errors;

@@ -23,6 +23,7 @@ fn options((width, height): (u32, u32), policies: Policies, depth: DepthFormat) 
         cull: Cull::None,
         depth,
         projection: Projection::Perspective,
+        haze: None,
         threads: NonZero::new(3).expect("three"),
         policies,
     }

@@ -2,6 +2,7 @@
 
 mod rgb565;
 
+pub use alberti_math::Rgb332;
 pub use rgb565::rgb565;
 
 use super::{ColorFormat, FragmentColor};
@@ -134,12 +135,15 @@ impl ColorFormat for Rgba8888 {
     }
 }
 
-/// Three levels a pixel as a format stores them, and what it makes of a word.
+/// Three levels a pixel as a format stores them, and what it makes of a word. A format without a description is defined
+/// elsewhere.
 macro_rules! formats {
-    ($($(#[$doc:meta])* $name:ident: $pixel:ty = $greatest:expr, $compose:expr, $read:expr, $native:expr;)*) => {$(
-        $(#[$doc])*
-        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-        pub struct $name;
+    ($($($(#[$doc:meta])+ pub)? $name:ident: $pixel:ty = $greatest:expr, $compose:expr, $read:expr, $native:expr;)*) => {$(
+        $(
+            $(#[$doc])+
+            #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+            pub struct $name;
+        )?
 
         impl ColorFormat for $name {
             type Pixel = $pixel;
@@ -178,26 +182,25 @@ macro_rules! formats {
 formats! {
     /// 12 bits, in two bytes a pixel as long as it is drawn: 0000RRRR GGGGBBBB. [`pack::rgb444`](super::pack::rgb444)
     /// makes three bytes of two pixels, in place.
-    Rgb444: [u8; 2] = [15; 3],
+    pub Rgb444: [u8; 2] = [15; 3],
         |[r, g, b]: [u8; 3]| [r, g << 4 | b],
         |[high, low]: [u8; 2]| [high & 15, low >> 4, low & 15].map(u32::from),
         |[low, high, ..]: [u8; 4]| [high, low];
     /// 18 bits in three bytes, as ILI9341 and ILI9488 take them: RRRRRR00 GGGGGG00 BBBBBB00.
-    Rgb666: [u8; 3] = [63; 3],
+    pub Rgb666: [u8; 3] = [63; 3],
         |levels: [u8; 3]| levels.map(|level| level << 2),
         |bytes: [u8; 3]| bytes.map(|byte| u32::from(byte >> 2)),
         |[r, g, b, _]: [u8; 4]| [r, g, b];
     /// Three bytes: red, green, blue.
-    Rgb888: [u8; 3] = [255; 3],
+    pub Rgb888: [u8; 3] = [255; 3],
         |levels: [u8; 3]| levels,
         |bytes: [u8; 3]| bytes.map(u32::from),
         |[r, g, b, _]: [u8; 4]| [r, g, b];
     /// A word whose bytes are, from the highest, 0, red, green, blue: blue comes first in memory.
-    Xrgb8888: u32 = [255; 3],
+    pub Xrgb8888: u32 = [255; 3],
         |[r, g, b]: [u8; 3]| u32::from_be_bytes([0, r, g, b]).to_le(),
         |word: u32| { let [_, r, g, b] = word.to_le().to_be_bytes(); [r, g, b].map(u32::from) },
         |bytes: [u8; 4]| u32::from_le_bytes(bytes).to_le();
-    /// A byte: RRRGGGBB.
     Rgb332: u8 = [7, 7, 3],
         |[r, g, b]: [u8; 3]| r << 5 | g << 2 | b,
         |byte: u8| [byte >> 5, byte >> 2 & 7, byte & 3].map(u32::from),

@@ -10,6 +10,7 @@ use alberti_math::lanes::Lanes;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum AnyEnvironment {
     /// [`LatLong`].
     LatLong,

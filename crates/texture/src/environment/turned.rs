@@ -3,7 +3,7 @@
 use super::Environment;
 use crate::surface::dot_lanes;
 use alberti_math::lanes::Lanes;
-use alberti_math::map3;
+use alberti_math::{logged, map3};
 use glam::Mat3;
 
 /// An environment that stands turned: directions are given in one frame, such as the world's, and looked up in another,
@@ -22,6 +22,11 @@ pub struct Turned<E> {
     pub environment: E,
     /// Its axes x, y and z, as columns in the frame in which directions are given: unit vectors at right angles.
     pub axes: Mat3,
+}
+
+logged! {
+    [E: defmt::Format] Turned<E>: "Turned {{ environment: {}, axes: {} }}",
+        |turned| turned.environment, turned.axes.to_cols_array_2d();
 }
 
 impl<E: Environment> Environment for Turned<E> {

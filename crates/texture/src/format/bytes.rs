@@ -1,10 +1,10 @@
 //! Texels in files that are read in place, where words may begin at any byte.
 
-use super::{Content, Rgb565, TexelFormat};
+use super::{Content, L16, Rgb565, Rgb565Be, Rgb565Le, Rgba4444, TexelFormat};
 use crate::Packed;
 use alberti_math::Rgba8;
 
-/// A format of 16 bits whose texels are two bytes each, the low one first, at any address.
+/// A format of 16 bits whose texels are two bytes each, at any address: the low one first, but for [`Rgb565Be`].
 ///
 /// ```
 /// use alberti_texture::{Texture, format::{InBytes, Rgb565}};
@@ -24,47 +24,74 @@ pub struct InBytes<F>(
     pub F,
 );
 
-impl<F: TexelFormat<Texel = u16>> TexelFormat for InBytes<F> {
-    type Texel = [u8; 2];
+/// Formats whose texels are made of two bytes by the first function, and made into two by the second.
+macro_rules! in_bytes {
+    ($($format:ty: $of:ident, $to:ident;)*) => {$(
+        impl TexelFormat for InBytes<$format> {
+            type Texel = [u8; 2];
 
-    #[inline]
-    fn content(self) -> Content {
-        self.0.content()
-    }
+            #[inline]
+            fn content(self) -> Content {
+                self.0.content()
+            }
 
-    #[inline]
-    fn decode(self, texel: [u8; 2]) -> Rgba8 {
-        self.0.decode(u16::from_le_bytes(texel))
-    }
+            #[inline]
+            fn decode(self, texel: [u8; 2]) -> Rgba8 {
+                self.0.decode(u16::$of(texel))
+            }
 
-    #[inline]
-    fn scalar(self, texel: [u8; 2]) -> u16 {
-        self.0.scalar(u16::from_le_bytes(texel))
-    }
+            #[inline(always)]
+            fn native(self, texel: [u8; 2]) -> [u8; 2] {
+                self.0.native(u16::$of(texel)).to_le_bytes()
+            }
 
-    #[inline]
-    fn encode(self, color: Rgba8) -> [u8; 2] {
-        self.0.encode(color).to_le_bytes()
-    }
+            #[inline]
+            fn scalar(self, texel: [u8; 2]) -> u16 {
+                self.0.scalar(u16::$of(texel))
+            }
 
-    #[inline]
-    fn mean(self, content: Content, texels: impl Iterator<Item = ([u8; 2], u64)>) -> [u8; 2] {
-        let words = texels.map(|(texel, weight)| (u16::from_le_bytes(texel), weight));
-        self.0.mean(content, words).to_le_bytes()
-    }
+            #[inline]
+            fn encode(self, color: Rgba8) -> [u8; 2] {
+                self.0.encode(color).$to()
+            }
+
+            #[inline]
+            fn mean(self, content: Content, texels: impl Iterator<Item = ([u8; 2], u64)>) -> [u8; 2] {
+                let words = texels.map(|(texel, weight)| (u16::$of(texel), weight));
+                self.0.mean(content, words).$to()
+            }
+        }
+    )*};
+}
+in_bytes! {
+    Rgb565: from_le_bytes, to_le_bytes;
+    Rgba4444: from_le_bytes, to_le_bytes;
+    L16: from_le_bytes, to_le_bytes;
+    // Their words have the order in memory already.
+    Rgb565Le: from_ne_bytes, to_ne_bytes;
+    Rgb565Be: from_ne_bytes, to_ne_bytes;
 }
 
-impl Packed for InBytes<Rgb565> {
-    #[inline(always)]
-    fn word(texel: [u8; 2]) -> u32 {
-        u16::from_le_bytes(texel).into()
-    }
+/// Mixing is that of the words.
+macro_rules! packed {
+    ($($format:ty: $of:ident;)*) => {$(
+        impl Packed for InBytes<$format> {
+            #[inline(always)]
+            fn word(texel: [u8; 2]) -> u32 {
+                u16::$of(texel).into()
+            }
+        }
+    )*};
+}
+packed! {
+    Rgb565: from_le_bytes;
+    Rgb565Le: from_le_bytes;
+    Rgb565Be: from_be_bytes;
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::format::{L16, Rgba4444};
     use crate::{Bilinear, Repeat, Texture};
     use alberti_math::lanes::One;
 
@@ -79,6 +106,14 @@ mod tests {
             assert_eq!(InBytes(Rgba4444).encode(color), bytes);
             assert_eq!(InBytes(L16).scalar(bytes), texel);
             assert_eq!(InBytes::<Rgb565>::word(bytes), texel.into());
+            // The same colour in either order, and the same word for a target.
+            let color = Rgb565.decode(texel);
+            assert_eq!([InBytes(Rgb565).decode(bytes), InBytes(Rgb565Le).decode(bytes)], [color; 2]);
+            assert_eq!(InBytes(Rgb565Be).decode([high, low]), color);
+            assert_eq!(InBytes(Rgb565Be).encode(color), [high, low]);
+            assert_eq!(InBytes::<Rgb565Be>::word([high, low]), texel.into());
+            assert_eq!(InBytes(Rgb565Be).native([high, low]), bytes);
+            assert_eq!([InBytes(Rgb565).native(bytes), InBytes(Rgb565Le).native(bytes)], [bytes; 2]);
         }
     }
 

@@ -56,11 +56,14 @@ pub fn displace(
 ///   0 --- 1 --- 2
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "super::form::Cells", into = "super::form::Cells"))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Grid {
-    columns: u32,
-    rows: u32,
+    pub(super) columns: u32,
+    pub(super) rows: u32,
     /// The number of half cells between the border of the square and the outermost vertices.
-    margin: u32,
+    pub(super) margin: u32,
 }
 
 impl Grid {
@@ -147,6 +150,9 @@ impl Grid {
 /// Two triangles that share an edge, and are divided into as many, have the same vertices along it, in whichever order
 /// their corners are given. These are the same bit for bit but for the signs of zeros: no cracks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "super::form::Parts", into = "super::form::Parts"))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Subdivision {
     n: u32,
 }

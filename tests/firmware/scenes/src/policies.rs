@@ -1,4 +1,5 @@
-//! The policies whose prices are measured, on scenes that a program reads: a textured mesh, not lit, in RGB565.
+//! The policies whose prices are measured, on scenes that a program reads: a textured mesh in RGB565, not lit unless
+//! the name says so. A lit one has normals as if it were about the origin.
 //!
 //! Each is a name and a function of its own, so that a program which draws by one contains no other.
 
@@ -6,13 +7,13 @@ use crate::{HEIGHT, PIXELS, WIDTH};
 use alberti::glam::{Mat3, Vec2, Vec3};
 use alberti::lanes::One;
 use alberti::raster::{PerRun, PerTriangle};
-use alberti::shaders::{Differentiated, Stored, Unlit};
+use alberti::shaders::{Differentiated, Stored, Sunlit, Unlit};
 use alberti::texture::mipmap::texel_count;
 use alberti::texture::{Bilinear, Mipmap, Nearest, PowerOfTwo, Repeat, Texture, Trilinear, format::Rgb565};
 use alberti::{
-    Affine, D16, D24, D32, DepthFormat, Exact, F32, F32Reversed, FixedPoint, FragmentStage, Frame,
-    Interpolation, Lines, Mesh, NoDepth, Pass, Perspective, Planes, Point3, Rgb565Le, Slot, Spans16, Sub4,
-    Sub8, Subpixel, View,
+    Affine, D16, D24, D32, DepthFormat, Exact, F32, F32Reversed, FixedPoint, FragmentStage, Frame, Geometry,
+    IntegerMesh, IntegerVertex, Interpolation, Lines, Mesh, NoDepth, Octahedral, Pass, Perspective, Planes,
+    Point3, Q16, Rgb565Le, Slot, Spans16, Sub4, Sub8, Subpixel, Varying, Vector3, View,
 };
 
 /// A vertex with a texture.
@@ -22,6 +23,16 @@ pub struct Mapped {
     pub position: [f32; 3],
     /// In textures: 1 is a whole one.
     pub uv: [f32; 2],
+    /// Of length 1.
+    pub normal: Vec3,
+}
+
+/// The same as `alberti bake` has it in flash.
+#[derive(Clone, Copy, Debug)]
+pub struct Packed {
+    place: [i16; 3],
+    uv: [u16; 2],
+    normal: [i8; 2],
 }
 
 /// Something to draw.
@@ -31,6 +42,8 @@ pub struct Scene<'a> {
     pub view: View,
     /// The mesh.
     pub vertices: &'a [Mapped],
+    /// The mesh in integers, with the unit of places and the shift of texture coordinates.
+    pub packed: (&'a [Packed], f32, u32),
     /// Three indices each.
     pub triangles: &'a [[u16; 3]],
     /// The texture.
@@ -50,11 +63,26 @@ pub struct Policy {
 
 /// Defines the policies: numbers and interpolation, depth, grid, and how the texture is read.
 macro_rules! policies {
-    ($($name:literal: $interpolation:expr, $depth:expr, $subpixel:expr, $stage:ident;)*) => {
+    (@ $memory:ident, $scene:ident, $ways:ident, $stage:expr) => {
+        draw($memory, $scene, &mapped($scene), $ways, $stage)
+    };
+    (@lambert $memory:ident, $scene:ident, $ways:ident, $stage:expr) => {
+        draw($memory, $scene, &normals($scene), $ways, sunlit($stage))
+    };
+    (@integers $memory:ident, $scene:ident, $ways:ident, $stage:expr) => {
+        draw($memory, $scene, &integers($scene), $ways, $stage)
+    };
+    (@baked $memory:ident, $scene:ident, $ways:ident, $stage:expr) => {
+        draw($memory, $scene, &baked($scene), $ways, sunlit($stage))
+    };
+    ($($name:literal: $interpolation:expr, $depth:expr, $subpixel:expr, $stage:ident $(, $kind:ident)?;)*) => {
         /// All of them.
         pub const POLICIES: &[Policy] = &[$(Policy {
             name: $name,
-            draw: |memory, scene| draw(memory, scene, ($interpolation)(scene), $depth, $subpixel, $stage(scene)),
+            draw: |memory, scene| {
+                let ways = (($interpolation)(scene), $depth, $subpixel);
+                policies!(@$($kind)? memory, scene, ways, $stage(scene));
+            },
         },)*];
     };
 }
@@ -95,6 +123,10 @@ policies! {
     "float exact, trilinear:pixel": |_| Exact, D16, Sub4, trilinear_per_pixel;
     "float exact, trilinear:run": |_| Exact, D16, Sub4, trilinear_per_run;
     "float exact, trilinear:triangle": |_| Exact, D16, Sub4, trilinear_per_triangle;
+    "fixed spans:16, lambert": |_| FixedPoint(Spans16), D16, Sub4, colors, lambert;
+    "fixed spans:16, integers": |_| FixedPoint(Spans16), D16, Sub4, nearest, integers;
+    "fixed spans:16, integers lambert": |_| FixedPoint(Spans16), D16, Sub4, colors, baked;
+    "float exact, lambert": |_| Exact, D16, Sub4, colors, lambert;
 }
 
 #[inline]
@@ -136,23 +168,63 @@ fn trilinear_per_triangle<'a>(
     Differentiated::by(PerTriangle, trilinear_per_pixel(scene))
 }
 
+/// The nearest texel as a colour of 8 bits a channel.
 #[inline]
-fn draw<D: Kept>(
+fn colors<'a>(scene: &Scene<'a>) -> impl FragmentStage<Vec2, Color = alberti::Rgba8> + use<'a> {
+    Unlit(scene.texture.sampler(Nearest, Repeat))
+}
+
+/// A stage in light from one direction.
+#[inline]
+fn sunlit<S>(stage: S) -> Sunlit<S> {
+    Sunlit::new(stage, Vector3::new(Vec3::new(-0.45, 0.6, 1.0)), 0.3, 0.7)
+}
+
+#[inline]
+fn mapped<'a>(scene: &Scene<'a>) -> impl Geometry<Varying = Vec2> + use<'a> {
+    Mesh::new(scene.vertices, scene.triangles, |v: &Mapped| {
+        (Point3::new(Vec3::from_array(v.position)), Vec2::from_array(v.uv))
+    })
+}
+
+#[inline]
+fn normals<'a>(scene: &Scene<'a>) -> impl Geometry<Varying = (Vec3, Vec2)> + use<'a> {
+    Mesh::new(scene.vertices, scene.triangles, |v: &Mapped| {
+        (Point3::new(Vec3::from_array(v.position)), (v.normal, Vec2::from_array(v.uv)))
+    })
+}
+
+#[inline]
+fn integers<'a>(scene: &Scene<'a>) -> impl Geometry<Varying = Vec2> + use<'a> {
+    let (vertices, unit, shift) = scene.packed;
+    IntegerMesh::new(vertices, scene.triangles, unit, move |v: &Packed| IntegerVertex::<Vec2> {
+        place: v.place,
+        components: v.uv.map(|c| Q16::from_bits(i32::from(c) << shift)),
+    })
+}
+
+#[inline]
+fn baked<'a>(scene: &Scene<'a>) -> impl Geometry<Varying = (Vec3, Vec2)> + use<'a> {
+    let (vertices, unit, shift) = scene.packed;
+    IntegerMesh::new(vertices, scene.triangles, unit, move |v: &Packed| {
+        let uv = v.uv.map(|c| Q16::from_bits(i32::from(c) << shift));
+        IntegerVertex::<(Vec3, Vec2)> { place: v.place, components: (Octahedral(v.normal).components(), uv) }
+    })
+}
+
+#[inline]
+fn draw<D: Kept, G: Geometry<Varying: Slotted>>(
     memory: &mut Memory,
     scene: &Scene<'_>,
-    interpolation: impl Interpolation,
-    depth: D,
-    subpixel: Subpixel,
-    stage: impl FragmentStage<Vec2>,
+    mesh: &G,
+    (interpolation, depth, subpixel): (impl Interpolation, D, Subpixel),
+    stage: impl FragmentStage<G::Varying>,
 ) {
-    let mesh = Mesh::new(scene.vertices, scene.triangles, |v: &Mapped| {
-        (Point3::new(Vec3::from_array(v.position)), Vec2::from_array(v.uv))
-    });
     let Memory { color, depths, slots } = memory;
     let target = alberti::Target::new(Rgb565Le, depth, WIDTH, HEIGHT, color, D::within(depths));
     if let Ok(mut target) = target {
-        let slots = slots.get_mut(..scene.vertices.len()).unwrap_or_default();
-        let pass = Pass::new(&scene.view, &mesh, stage).interpolation(interpolation).subpixel(subpixel);
+        let slots = G::Varying::within(slots).get_mut(..scene.vertices.len()).unwrap_or_default();
+        let pass = Pass::new(&scene.view, mesh, stage).interpolation(interpolation).subpixel(subpixel);
         pass.slots(slots).draw_by(One, &mut target);
     }
 }
@@ -167,7 +239,33 @@ const TEXELS: usize = texel_count(SIDE, SIDE);
 pub struct Memory {
     color: [u16; PIXELS],
     depths: Depths,
-    slots: [Slot<Vec2>; MOST],
+    slots: Slots,
+}
+
+/// Transformed vertices, not lit and lit.
+#[derive(Debug)]
+struct Slots {
+    plain: [Slot<Vec2>; MOST],
+    lit: [Slot<(Vec3, Vec2)>; MOST],
+}
+
+/// A varying that has slots in the memory.
+trait Slotted: Varying + Sized {
+    fn within(slots: &mut Slots) -> &mut [Slot<Self>];
+}
+
+impl Slotted for Vec2 {
+    #[inline]
+    fn within(slots: &mut Slots) -> &mut [Slot<Self>] {
+        &mut slots.plain
+    }
+}
+
+impl Slotted for (Vec3, Vec2) {
+    #[inline]
+    fn within(slots: &mut Slots) -> &mut [Slot<Self>] {
+        &mut slots.lit
+    }
 }
 
 /// Depths of every format.
@@ -209,7 +307,7 @@ impl Memory {
     pub const EMPTY: Self = Self {
         color: [0; PIXELS],
         depths: Depths { nothing: [(); PIXELS], half: [0; PIXELS], word: [0; PIXELS], float: [0.0; PIXELS] },
-        slots: [Slot::EMPTY; MOST],
+        slots: Slots { plain: [Slot::EMPTY; MOST], lit: [Slot::EMPTY; MOST] },
     };
 
     /// Makes all pixels dark grey and as far away as can be: where depths are reversed, the format's name says so.
@@ -220,7 +318,8 @@ impl Memory {
         depths.word.fill(if policy.name.ends_with("u24") { D24.farthest() } else { D32.farthest() });
         let reversed = policy.name.ends_with("reversed");
         depths.float.fill(if reversed { F32Reversed.farthest() } else { F32.farthest() });
-        slots.fill(Slot::EMPTY);
+        slots.plain.fill(Slot::EMPTY);
+        slots.lit.fill(Slot::EMPTY);
     }
 
     /// The 64-bit FNV-1a hash of the colour's bytes.
@@ -236,6 +335,9 @@ impl Memory {
 #[derive(Debug)]
 pub struct Loaded {
     vertices: [Mapped; MOST],
+    packed: [Packed; MOST],
+    unit: f32,
+    shift: u32,
     triangles: [[u16; 3]; MOST],
     texels: [u16; TEXELS],
 }
@@ -243,7 +345,10 @@ pub struct Loaded {
 impl Loaded {
     /// Nothing yet.
     pub const EMPTY: Self = Self {
-        vertices: [Mapped { position: [0.0; 3], uv: [0.0; 2] }; MOST],
+        vertices: [Mapped { position: [0.0; 3], uv: [0.0; 2], normal: Vec3::Z }; MOST],
+        packed: [Packed { place: [0; 3], uv: [0; 2], normal: [0; 2] }; MOST],
+        unit: 1.0,
+        shift: 0,
         triangles: [[0; 3]; MOST],
         texels: [0; TEXELS],
     };
@@ -266,11 +371,12 @@ impl Loaded {
         let axes = Mat3::from_cols(Vec3::from_array(x), Vec3::from_array(y), Vec3::from_array(z));
         let to_eye = Frame::from_mat3(axes, Point3::new(Vec3::from_array(origin)));
         let view = View::new(to_eye, Perspective::new(angle, crate::shapes::ASPECT, near, far).ok()?);
-        let Self { vertices: all, triangles: faces, texels } = self;
-        for Mapped { position, uv } in all.get_mut(..vertices)? {
+        let Self { vertices: all, triangles: faces, texels, .. } = self;
+        for Mapped { position, uv, normal } in all.get_mut(..vertices)? {
             for float in position.iter_mut().chain(uv) {
                 *float = f32::from_bits(next()?);
             }
+            *normal = Vec3::from_array(*position).normalize_or(Vec3::Z);
         }
         for index in faces.get_mut(..triangles)?.iter_mut().flatten() {
             *index = u16::try_from(next()?).ok()?;
@@ -278,7 +384,32 @@ impl Loaded {
         for texel in texels.get_mut(..texel_count(side, side))? {
             *texel = u16::try_from(next()?).ok()?;
         }
+        self.pack(vertices)?;
         self.scene(view, vertices, triangles, side)
+    }
+
+    /// Rounds vertices to integers; texture coordinates are not negative.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        clippy::cast_precision_loss,
+        reason = "rounded, and in range"
+    )]
+    fn pack(&mut self, count: usize) -> Option<()> {
+        let all = self.vertices.get(..count)?;
+        let greatest = |of: fn(&Mapped) -> f32| all.iter().map(of).fold(0.0, f32::max);
+        self.unit = greatest(|v| Vec3::from_array(v.position).abs().max_element()).max(1e-9) / 32767.0;
+        let reach = greatest(|v| v.uv[0].max(v.uv[1]));
+        self.shift = (0..12).find(|shift| reach * 65536.0 < (65535_u32 << shift) as f32).unwrap_or(12);
+        let step = (1_u32 << self.shift) as f32 / 65536.0;
+        for (packed, v) in self.packed.iter_mut().zip(all) {
+            *packed = Packed {
+                place: v.position.map(|c| (c / self.unit + if c < 0.0 { -0.5 } else { 0.5 }) as i16),
+                uv: v.uv.map(|c| (c / step + 0.5) as u16),
+                normal: Octahedral::nearest(v.normal).0,
+            };
+        }
+        Some(())
     }
 
     /// The scene of what is there.
@@ -289,6 +420,7 @@ impl Loaded {
         Some(Scene {
             view,
             vertices: self.vertices.get(..vertices)?,
+            packed: (self.packed.get(..vertices)?, self.unit, self.shift),
             triangles: self.triangles.get(..triangles)?,
             texture: Texture::new(Rgb565, base, side, side).ok()?.power_of_two()?,
             levels: Mipmap::new(Rgb565, levels, side, side).ok()?.power_of_two()?,

@@ -3,9 +3,9 @@
 use alberti::glam::{Vec2, Vec3};
 use alberti::raster::color::{AnyBlend, Bayer, Blended, Dithered, Grey4, Over};
 use alberti::shaders::Mix;
-use alberti::shaders::material::AnyReflectance;
+use alberti::shaders::material::{AnyLight, AnyReflectance, Directional, PointLight, SpotLight};
 use alberti::texture::environment::{AnyEnvironment, CubeMap};
-use alberti::texture::surface::{AnyParallax, NormalEncoding};
+use alberti::texture::surface::{AnyParallax, Grid, NormalEncoding, Subdivision};
 use alberti::texture::{
     Anisotropic, AnyFilter, AnyMipFilter, AnyWrap, Bilinear, Bounded, LodBounds, Minify, NearestLevel,
     Trilinear,
@@ -152,4 +152,59 @@ fn counts_and_parts_of_meshes_stay() {
     let vertices = [Vec3::ZERO, Vec3::X, Vec3::Y];
     let mesh = Mesh::new(&vertices, &[[0u16, 1, 2]], |place| (*place, ()));
     stays(Meshlet::new(&mesh, &Ball { center: Vec3::ZERO, radius: 1.0 }, 0..1));
+}
+
+#[test]
+fn lights_are_made_as_by_their_constructors() {
+    let white = Vec3::new(1.0, 0.5, 0.25);
+    is(
+        Directional::new(Vector3::new(Vec3::Y * 9.0), white),
+        r#"{"to_light":[0.0,1.0,0.0],"color":[1.0,0.5,0.25]}"#,
+    );
+    // A direction of any length in a file, and none where there is none.
+    let read = |text: &str| serde_json::from_str::<Directional>(text).expect("a light");
+    let sun = |x, y, z| Directional::new(Vector3::new(Vec3::new(x, y, z)), white);
+    assert_eq!(read(r#"{"to_light":[3.0,0.0,-4.0],"color":[1.0,0.5,0.25]}"#), sun(0.6, 0.0, -0.8));
+    assert_eq!(read(r#"{"to_light":[0.0,0.0,0.0],"color":[1.0,0.5,0.25]}"#), sun(0.0, 0.0, 0.0));
+    let bulb = PointLight { position: Point3::new(Vec3::X), color: white, falloff: [1.0, 0.0, 0.25] };
+    let text = r#"{"position":[1.0,0.0,0.0],"color":[1.0,0.5,0.25],"falloff":[1.0,0.0,0.25]}"#;
+    is(bulb, text);
+    is(
+        AnyLight::Spot(SpotLight::new(bulb, Vector3::new(Vec3::NEG_Y), [0.9, 0.8])),
+        &format!(r#"{{"Spot":{{"point":{text},"axis":[0.0,-1.0,0.0],"cosines":[0.9,0.8]}}}}"#),
+    );
+    for step in 1_u8..100 {
+        let part = f32::from(step) / 20.0;
+        let along = Vector3::new(Vec3::new(part, 1.0 - part, 0.3));
+        stays(Directional::new(along, white));
+        // An edge that is too sharp stays as sharp as it can be.
+        stays(SpotLight::new(bulb, along, [0.5, 0.5 - 0.001 * part]));
+    }
+    refused::<AnyLight>(r#"{"Sun":[]}"#, "expected one of `Directional`, `Point`, `Spot`");
+}
+
+#[test]
+fn grids_and_projectors_are_checked_on_the_way_in() {
+    is(Grid::new(4, 16384), r#"{"columns":4,"rows":16384,"of_texels":false}"#);
+    is(Grid::of_texels(64, 32), r#"{"columns":63,"rows":31,"of_texels":true}"#);
+    is(Subdivision::new(7), r#"{"parts":7}"#);
+    refused::<Grid>(r#"{"columns":0,"rows":4,"of_texels":false}"#, "0 pieces of a side, expected 1 to 16384");
+    refused::<Grid>(r#"{"columns":4,"rows":16385,"of_texels":true}"#, "16385 pieces of a side");
+    refused::<Subdivision>(r#"{"parts":0}"#, "expected 1 to 16384");
+
+    // A right angle, and an image twice as wide as high: to the right it is scaled by a half.
+    let text = r#"{"eye":[0.0,2.0,0.0],"right":[0.5,0.0,0.0],"up":[0.0,1.0,0.0],"forward":[0.0,0.0,-1.0]}"#;
+    let read: Projector = serde_json::from_str(text).expect("a projector");
+    let shown = read.project(Point3::new(Vec3::new(3.0, 4.0, -5.0)));
+    assert_eq!([shown.u, shown.v, shown.q], [1.5, 2.0, 5.0]);
+    is(read, text);
+    let mut far: serde_json::Value = serde_json::from_str(text).expect("a value");
+    far["up"][1] = 1e39.into();
+    let error = serde_json::from_value::<Projector>(far).expect_err("infinite as f32").to_string();
+    assert!(error.contains("finite"), "{error}");
+    for step in 1_u8..60 {
+        let at = Point3::new(Vec3::splat(f32::from(step)));
+        let place = look_at(at, Point3::new(Vec3::X), Vector3::new(Vec3::Y)).expect("a place");
+        stays(Projector::new(place, f32::from(step) / 20.0, 1.5).expect("a projector"));
+    }
 }

@@ -58,6 +58,37 @@ fn views_are_possible() {
     }
 }
 
+#[test]
+fn lights_grids_and_projectors_are_possible() {
+    use alberti::shaders::material::{AnyLight, Directional};
+    use alberti::texture::surface::{Grid, Subdivision};
+    let length = |light: &Directional| {
+        // What a light sends to the origin is its direction and its colour.
+        let numbers = serde_json::to_value(light).expect("plain values")["to_light"].clone();
+        let [x, y, z]: [f64; 3] = serde_json::from_value(numbers).expect("three numbers");
+        (x * x + y * y + z * z).sqrt()
+    };
+    for light in values::<Directional>(2_000) {
+        let length = length(&light);
+        assert!(length == 0.0 || (length - 1.0).abs() < 1e-6, "{light:?}");
+    }
+    let kinds: BTreeSet<_> =
+        values::<AnyLight>(60).map(|light| format!("{light:?}")[..5].to_owned()).collect();
+    assert_eq!(kinds.len(), 3, "{kinds:?}");
+    for (grid, part) in values::<Grid>(2_000).zip(values::<Subdivision>(2_000)) {
+        let most = Grid::MAX_CELLS as usize;
+        assert!(
+            (4..=(most + 1) * (most + 1)).contains(&grid.vertices()) && grid.triangles() >= 2,
+            "{grid:?}"
+        );
+        assert!((1..=Subdivision::MAX_PARTS).contains(&part.parts()), "{part:?}");
+    }
+    for projector in values::<Projector>(2_000) {
+        let shown = projector.project(Point3::new(Vec3::ONE));
+        assert!(shown.u.is_finite() && shown.v.is_finite() && shown.q.is_finite(), "{projector:?}");
+    }
+}
+
 /// A place that is in view more often than not.
 fn usual_place(rng: &mut Rng) -> Vec3 {
     #[expect(clippy::cast_possible_truncation, reason = "f32 by choice")]

@@ -52,16 +52,21 @@ pub fn model(prices: &[Price]) -> (Vec<Entry>, Vec<Estimate>) {
     let mut boards: Vec<&str> = prices.iter().map(|price| price.board.as_str()).collect();
     boards.dedup();
     for board in boards {
-        // By entries, of which that with budgets has several policies.
+        // By entries, of which that with budgets has several policies. What is usual comes first: the rest is measured
+        // by it. What is both lit and of integers comes last: it has no entry, and judges the sum of others.
+        let order =
+            |special: Option<Special>| special.map_or(0, |special| 1 + u8::from(special == Special::Baked));
         let mut groups: BTreeMap<_, Group<'_>> = BTreeMap::new();
         for price in prices.iter().filter(|price| price.board == board) {
             let Some(policy) = policy(&price.policy) else { continue };
             let (kind, name) = labelled(&price.policy, policy);
-            // What is usual comes first: the rest is measured by it.
-            groups.entry((policy.special.is_some(), kind, name)).or_default().push((price, policy));
+            groups.entry((order(policy.special), kind, name)).or_default().push((price, policy));
         }
-        for ((_, kind, name), group) in groups {
-            fitting.entry(board, kind, name, &group);
+        for ((order, kind, name), group) in groups {
+            match order {
+                2 => fitting.judge_baked(board, &group),
+                _ => fitting.entry(board, kind, name, &group),
+            }
         }
     }
     (fitting.entries, fitting.estimates)
@@ -117,6 +122,25 @@ impl Fitting {
         self.entries.push(Entry { board: board.to_owned(), kind, name, prices: fitted, code, stack });
     }
 
+    /// Estimates frames that are lit and of integers by the sum of both.
+    fn judge_baked(&mut self, board: &str, group: &[(&Price, Policy)]) {
+        for (price, policy) in group {
+            let Some(number) = price.scene.filter(|&number| number < JUDGED.len()) else { continue };
+            let amounts = self.work(number, price, *policy);
+            let lines = price.policy.split(", ").next().unwrap_or_default();
+            let parts = [("lines", lines), ("fixed mesh", "integers"), ("fixed light", "lambert")];
+            let own = self.entries.iter().filter(|entry| entry.board == board);
+            let own = own.filter(|entry| parts.contains(&(&entry.kind, &entry.name)));
+            let estimate: f64 = own.map(|entry| total(&entry.prices, &amounts)).sum();
+            self.estimates.push(Estimate {
+                board: board.to_owned(),
+                scene: JUDGED[number],
+                policy: price.policy.clone(),
+                ratio: estimate / float(price.count),
+            });
+        }
+    }
+
     fn work(&mut self, number: usize, price: &Price, policy: Policy) -> Amounts {
         let scene = self.scenes[number];
         *self.works.entry((number, price.policy.clone())).or_insert_with(|| {
@@ -133,6 +157,8 @@ fn asked(kind: &str) -> (fn(&str) -> bool, bool) {
         // What is found once a run is found once a row there.
         "float filter" => (|work| !["frame", "vertex", "submitted", "clipped", "run"].contains(&work), false),
         "fixed filter" => (|work| ["small", "wide", "run", "written"].contains(&work), false),
+        "fixed light" | "float light" => (|work| !["frame", "submitted"].contains(&work), false),
+        "fixed mesh" => (|work| ["vertex", "submitted", "clipped"].contains(&work), true),
         _ => (|work| !["frame", "vertex", "submitted", "clipped", "run"].contains(&work), true),
     }
 }
@@ -146,6 +172,8 @@ fn labelled(name: &str, policy: Policy) -> (String, String) {
         Some(Special::Depth) => (format!("{arithmetic} depth"), special.to_owned()),
         Some(Special::Subpixel) => (format!("{arithmetic} subpixel"), special.to_owned()),
         Some(Special::Filter) => (format!("{arithmetic} filter"), special.to_owned()),
+        Some(Special::Light) => (format!("{arithmetic} light"), special.to_owned()),
+        Some(Special::Mesh | Special::Baked) => (format!("{arithmetic} mesh"), special.to_owned()),
     }
 }
 
@@ -173,8 +201,16 @@ pub fn csv(entries: &[Entry], estimates: &[Estimate]) -> String {
     let mut boards: Vec<&str> = entries.iter().map(|entry| entry.board.as_str()).collect();
     boards.dedup();
     for board in boards {
-        let own: Vec<&Estimate> = estimates.iter().filter(|estimate| estimate.board == board).collect();
-        for (name, off) in ["median", "most", "worst"].iter().zip(off(&own, [50, 90, 100])) {
+        let of = |holds: fn(Special) -> bool, usual| -> Vec<&Estimate> {
+            let own = estimates.iter().filter(|estimate| estimate.board == board);
+            let special = |estimate: &&Estimate| policy(&estimate.policy).map(|policy| policy.special);
+            own.filter(|estimate| special(estimate).is_some_and(|special| special.map_or(usual, holds)))
+                .collect()
+        };
+        let asked = off(&of(|special| !special.is_of_baked(), true), [50, 90, 100]);
+        let [baked, ..] = off(&of(|special| special == Special::Baked, false), [100; 3]);
+        let [median, most, worst] = asked;
+        for (name, off) in [("median", median), ("most", most), ("worst", worst), ("baked", baked)] {
             let _ = writeln!(text, "{board},off,{name},{off:.1}{}", ",0".repeat(Work::NAMES.len() + 1));
         }
     }

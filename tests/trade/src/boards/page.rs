@@ -1,7 +1,7 @@
 //! The chapter of the page about the boards.
 
 use super::model::{Estimate, float, off};
-use super::price::{Price, policy};
+use super::price::{Price, Special, policy};
 use super::scene_file::JUDGED;
 use std::fmt::Write as _;
 
@@ -10,10 +10,11 @@ const BOARDS: [(&str, &str); 3] =
     [("m4f", "Cortex-M4F"), ("m0", "Cortex-M0, floats in software"), ("rv32", "RV32IMC, floats in software")];
 
 const HEADING: &str = "\
-The same scenes of a textured mesh, not lit, on a display of 320x240 in RGB565, as an emulator counts the instructions
-of a frame, without clearing. Every frame has the bits of the host's. Policies are named as the command has them:
-numbers and interpolation, with 16 bits of depth, 4 of subpixels and the nearest texel unless a name says otherwise.
-Errors are those of the chapters above, since bits are the same everywhere.
+The same scenes of a textured mesh on a display of 320x240 in RGB565, as an emulator counts the instructions of a frame,
+without clearing. Every frame has the bits of the host's. Policies are named as the command has them: numbers and
+interpolation, with 16 bits of depth, 4 of subpixels and the nearest texel unless a name says otherwise. Nothing is lit
+but by `lambert`: light from one direction, on interpolated normals. The mesh is one of floats but for `integers`, as
+`alberti bake` writes it. Errors are those of the chapters above, since bits are the same everywhere.
 
 ";
 
@@ -114,11 +115,18 @@ fn estimated(text: &mut String, estimates: &[Estimate]) {
          |---|---|---|---|---|---|\n",
     );
     for (board, title) in BOARDS {
-        for (kind, usual) in [("interpolation", true), ("depth, grid, filter", false)] {
+        type Of = fn(Option<Special>) -> bool;
+        let kinds: [(&str, Of); 4] = [
+            ("interpolation", |special| special.is_none()),
+            ("depth, grid, filter", |special| special.is_some_and(|special| !special.is_of_baked())),
+            ("light, integers", |special| matches!(special, Some(Special::Light | Special::Mesh))),
+            ("both, by the sum", |special| special == Some(Special::Baked)),
+        ];
+        for (kind, is_of) in kinds {
             let own: Vec<&Estimate> = estimates
                 .iter()
                 .filter(|estimate| estimate.board == board)
-                .filter(|estimate| policy(&estimate.policy).is_some_and(|p| p.special.is_none() == usual))
+                .filter(|estimate| policy(&estimate.policy).is_some_and(|policy| is_of(policy.special)))
                 .collect();
             let farthest =
                 |a: &&&Estimate, b: &&&Estimate| (a.ratio - 1.0).abs().total_cmp(&(b.ratio - 1.0).abs());

@@ -59,7 +59,24 @@ pub enum Special {
     Subpixel,
     /// The filter.
     Filter,
+    /// Light from one direction, on normals that are interpolated.
+    Light,
+    /// Vertices of integers.
+    Mesh,
+    /// Both, as what `alberti bake` writes is drawn.
+    Baked,
 }
+
+impl Special {
+    /// Whether it is a part of what `alberti bake` writes, which `alberti advise` does not ask for.
+    pub fn is_of_baked(self) -> bool {
+        matches!(self, Self::Light | Self::Mesh | Self::Baked)
+    }
+}
+
+/// What is special of baked meshes, as it is called.
+const BAKED: [(&str, Special); 3] =
+    [("lambert", Special::Light), ("integers", Special::Mesh), ("integers lambert", Special::Baked)];
 
 /// The depth formats beside the usual, as they are called.
 const DEPTHS: [(&str, DepthFormat); 5] = [
@@ -93,6 +110,9 @@ pub fn policy(name: &str) -> Option<Policy> {
     if word == "8" {
         let candidate = Candidate { subpixel: Subpixel::Sub8, ..candidate };
         return Some(Policy { candidate, special: Some(Special::Subpixel), ..usual });
+    }
+    if let Some(&(_, special)) = BAKED.iter().find(|(name, _)| *name == word) {
+        return Some(Policy { special: Some(special), ..usual });
     }
     let (filter, lod) = word.split_once(':').map_or((word, None), |(filter, lod)| (filter, Some(lod)));
     let lod = match lod {
@@ -133,6 +153,9 @@ mod tests {
         assert_eq!(policy("float exact, 8").expect("a policy").candidate.subpixel, Subpixel::Sub8);
         let found = policy("fixed spans:16, trilinear:run").expect("a policy");
         assert_eq!((found.filter, found.lod), (Filter::Trilinear, Lod::Run));
+        let special = |name| policy(name).expect("a policy").special;
+        assert_eq!(special("float exact, lambert"), Some(Special::Light));
+        assert_eq!(special("fixed spans:16, integers lambert"), Some(Special::Baked));
         assert!(
             policy("float exact, trilinear:row").is_none()
                 && policy("fixed spans:7").is_none()

@@ -1,9 +1,12 @@
 //! Lights: the directions from which light falls on a surface, and its colours.
 
+#[cfg(any(feature = "serde", feature = "arbitrary"))]
+mod form;
+
 use super::vector::{splat, times, towards, within};
 use alberti_math::glam::Vec3;
 use alberti_math::lanes::Lanes;
-use alberti_math::{Point3, Vector3, World};
+use alberti_math::{Point3, Vector3, World, logged};
 use alberti_texture::surface::unit_lanes;
 use core::fmt::Debug;
 
@@ -22,6 +25,8 @@ pub trait Light: Copy + Debug {
 
 /// A light so far away that it shines in one direction, such as the sun.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(from = "form::Sun", into = "form::Sun"))]
 pub struct Directional {
     to_light: Vec3,
     color: Vec3,
@@ -62,6 +67,8 @@ impl Light for Directional {
 /// # Cost
 /// Two square roots and four divisions a fragment.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct PointLight {
     /// The place of the light.
     pub position: Point3<World>,
@@ -110,12 +117,16 @@ impl Light for PointLight {
 /// # Cost
 /// That of a [`PointLight`], and seven multiplications.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(from = "form::Cone", into = "form::Cone"))]
 pub struct SpotLight {
     point: PointLight,
     /// Away from the light.
     axis: Vec3,
-    /// The cosine beyond which nothing arrives, and the increment of the share by a cosine of one.
+    /// The cosines up to which it is whole, and beyond which nothing arrives.
+    inner: f32,
     outer: f32,
+    /// The increment of the share by a cosine of one.
     slope: f32,
 }
 
@@ -127,7 +138,13 @@ impl SpotLight {
     pub fn new(point: PointLight, axis: Vector3<World>, [inner, outer]: [f32; 2]) -> Self {
         // A sharp edge is as steep as numbers in fixed point can tell.
         let slope = 1.0 / (inner - outer).max(1.0 / 4096.0);
-        Self { point, axis: direction(axis), outer, slope }
+        Self { point, axis: direction(axis), inner, outer, slope }
+    }
+
+    /// The cosines of the inner and the outer angle.
+    #[must_use]
+    pub const fn cosines(&self) -> [f32; 2] {
+        [self.inner, self.outer]
     }
 }
 
@@ -154,6 +171,9 @@ impl Light for SpotLight {
 /// # Cost
 /// A match for the samples that are worked on together. The code of all three.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum AnyLight {
     /// One so far away that it shines in one direction.
     Directional(Directional),
@@ -178,6 +198,15 @@ impl Light for AnyLight {
             Self::Spot(light) => light.fold(lanes, position, sum, and),
         }
     }
+}
+
+logged! {
+    [] Directional: "Directional {{ to_light: {}, color: {} }}",
+        |light| light.to_light.to_array(), light.color.to_array();
+    [] PointLight: "PointLight {{ position: {}, color: {}, falloff: {} }}",
+        |light| light.position, light.color.to_array(), light.falloff;
+    [] SpotLight: "SpotLight {{ point: {}, axis: {}, cosines: {} }}",
+        |light| light.point, light.axis.to_array(), light.cosines();
 }
 
 /// The unit vector, each component within ε; zero where there is none.
