@@ -159,12 +159,12 @@ fn wires() -> Result<Pixels> {
     with_torus(|target, view| {
         let mesh = Mesh::new(&vertices, &triangles, |v: &Point| (v.position, ()));
         let bias = Biased { format: F32Reversed, constant: -2.0, slope: -1.0, clamp: 0.0 };
-        let mut pass = Pass::new(view, &mesh, Solid(Rgba8::from_rgb24(0x20_28_38)));
+        let mut pass = Pass::new(view, &mesh, Solid(Rgba8::from_rgb24(0x90_58_18)));
         pass.draw_lines(&mut target.with_depth(bias), mesh.edges());
         // A point has no slope, so that what it stands on has to be left behind by steps.
         let bias = Biased { constant: -60_000.0, slope: 0.0, ..bias };
         let mut pass = Pass::new(view, &mesh, Solid(Rgba8::WHITE));
-        pass.draw_points(&mut target.with_depth(bias), (0..mesh.vertices()).step_by(7), 2);
+        pass.draw_points(&mut target.with_depth(bias), (0..mesh.vertices()).step_by(19), 2);
         Ok(())
     })
 }
