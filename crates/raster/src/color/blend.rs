@@ -25,8 +25,8 @@ use core::fmt::Debug;
 ///
 /// # Cost
 /// That of reading the pixel, and of the blend. Where a format has a way of its own, as RGB565 has, [`Over`] and
-/// [`Constant`] take that: 19 to 21 instructions more a pixel on a Cortex-M4F, 24 to 27 on a Cortex-M0+. Others go by
-/// colours of 8 bits a channel: [`Additive`] 44 and 67.
+/// [`Constant`] take that. It is 19 to 21 instructions more a pixel on a Cortex-M4F, 24 to 27 on a Cortex-M0+. Others
+/// go by colours of 8 bits a channel: [`Additive`] takes 44 and 67.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
