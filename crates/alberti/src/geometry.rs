@@ -72,6 +72,16 @@ pub struct IntegerVertex<V: Varying> {
     pub components: V::Of<Q16>,
 }
 
+impl<V: Varying> IntegerVertex<V> {
+    /// The place in object space, whose unit the mesh knows, and the attributes.
+    #[inline]
+    #[must_use]
+    pub fn to_floats(&self, unit: f32) -> (Point3<Object>, V) {
+        let place = Vec3::from_array(self.place.map(|c| f32::from(c) * unit));
+        (place.into(), V::from_components(&V::map(&self.components, &Q16::to_f32)))
+    }
+}
+
 impl<V: Varying> fmt::Debug for IntegerVertex<V> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("IntegerVertex").field("place", &self.place).finish_non_exhaustive()
@@ -220,9 +230,7 @@ where
 
     #[inline]
     fn vertex(&self, number: usize) -> Option<(Point3<Object>, V)> {
-        let IntegerVertex { place, components } = self.integers(number)?;
-        let place = place.map(|c| f32::from(c) * self.unit);
-        Some((Vec3::from_array(place).into(), V::from_components(&V::map(&components, &Q16::to_f32))))
+        self.integers(number).map(|vertex| vertex.to_floats(self.unit))
     }
 
     const INTEGERS: bool = true;

@@ -17,6 +17,7 @@ mod profile;
 mod screen;
 pub mod shaders;
 mod silhouettes;
+mod staged;
 mod stats;
 #[cfg(feature = "threads")]
 mod threads;
@@ -52,6 +53,7 @@ pub use pipeline::{Pass, draw};
 pub use prepared::{Prepared, PreparedTriangle};
 pub use profile::{DESKTOP, MCU, Profile, REFERENCE, TINY};
 pub use screen::Sides;
+pub use staged::Staged;
 pub use stats::Stats;
 #[cfg(feature = "threads")]
 pub use threads::clear_by_threads;

@@ -4,8 +4,7 @@ use super::attributes::{Attribute, Vertices};
 use super::sections::{half, word};
 use crate::geometry::{Geometry, IntegerVertex};
 use crate::meshlets::{Ball, Meshlet};
-use alberti_math::glam::Vec3;
-use alberti_math::{Object, Point3, Q16, Varying};
+use alberti_math::{Object, Point3};
 use core::fmt;
 use core::marker::PhantomData;
 
@@ -46,9 +45,7 @@ impl<A: Attribute> Geometry for BakedMesh<'_, A> {
 
     #[inline]
     fn vertex(&self, number: usize) -> Option<(Point3<Object>, A::Varying)> {
-        let IntegerVertex { place, components } = self.integers(number)?;
-        let place = Vec3::from_array(place.map(|c| f32::from(c) * self.unit));
-        Some((place.into(), A::Varying::from_components(&A::Varying::map(&components, &Q16::to_f32))))
+        self.integers(number).map(|vertex| vertex.to_floats(self.unit))
     }
 
     const INTEGERS: bool = true;
