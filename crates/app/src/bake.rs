@@ -7,6 +7,7 @@
 //! report's errors are those of the file, as the library reads it (`restored.rs`).
 
 mod binary;
+mod missing;
 mod packed;
 mod palette;
 mod report;
@@ -16,6 +17,7 @@ mod source;
 mod texels;
 
 pub use binary::bytes;
+pub use missing::missing;
 pub use packed::{Grids, Losses, Packed};
 pub use report::{Estimate, Report};
 pub use restored::restored;
@@ -60,6 +62,14 @@ pub enum Format {
 }
 
 impl Format {
+    /// The name of a file's format, as users write it.
+    fn name_of(code: TexelCode) -> String {
+        let known = Self::value_variants().iter().find(|format| format.code() == code);
+        let name = known.and_then(ValueEnum::to_possible_value);
+        // Heights have a format that colours have not.
+        name.map_or_else(|| "grey16".to_owned(), |name| name.get_name().to_owned())
+    }
+
     /// The number of the format in a file.
     fn code(self) -> TexelCode {
         match self {

@@ -97,8 +97,12 @@ fn check(model: &Model, options: &RenderOptions) -> Result<(), Error> {
     }
     match model.parts.iter().find(|part| part.detail.is_seen_through()) {
         Some(part) => {
-            let of = quote(part.name.as_bytes());
-            let error = Error::new(format!("a surface that is blended or has holes ({of})"), "others");
+            let of = if part.name.is_empty() {
+                String::new()
+            } else {
+                format!(" ({})", quote(part.name.as_bytes()))
+            };
+            let error = Error::new(format!("a surface that is blended or has holes{of}"), "others");
             let error = error.hint("explain ends at the surface's colour");
             Err(match &model.source {
                 Some(path) => error.file(path),

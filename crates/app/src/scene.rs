@@ -57,7 +57,7 @@ pub struct Image {
 /// Triangles that share a material.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Part {
-    /// The object's or group's name, for messages.
+    /// The object's or group's name, else that of its material in a scene file; for messages.
     pub name: String,
     /// Indices into [`Model::vertices`], counter-clockwise seen from the front.
     pub triangles: Vec<[u32; 3]>,

@@ -5,7 +5,8 @@ use std::fmt::Write as _;
 use serde_json::{Value, json};
 
 use super::binary::length;
-use super::{Asset, restored};
+use super::missing::opaque;
+use super::{Asset, Format, restored};
 use crate::advise::{Machine, baked_on_chip, depth_bytes, work};
 use crate::error::Error;
 use crate::measure::{Comparison, Measures};
@@ -52,7 +53,7 @@ pub struct Estimate {
 
 impl<'a> Report<'a> {
     /// The report on the asset of a scene, and on its file. Instructions are those of the options' policies; frames are
-    /// compared by the most precise ones.
+    /// compared by the most precise ones, without what the file has not: blends, holes and fog.
     ///
     /// # Errors
     /// A frame cannot be drawn, or chips are not known to draw so.
@@ -62,6 +63,7 @@ impl<'a> Report<'a> {
         (model, camera, options): (&Model, &Camera, &RenderOptions),
         band: u32,
     ) -> Result<Self, Error> {
+        let model = &*opaque(model);
         let baked = restored(file, asset, model)?;
         let work = work(&baked, camera, options)?;
         let light = light(asset, options);
@@ -106,16 +108,16 @@ impl<'a> Report<'a> {
         let mut text = String::new();
         // Writing to a string cannot fail.
         let mut line = |words: String| _ = writeln!(text, "{words}");
-        let (triangles, vertices) = (asset.triangles(), asset.vertices());
-        line(format!(
-            "{triangles} of {given} triangles, {vertices} vertices, {} bytes of flash:\n",
-            self.flash()
-        ));
+        let (triangles, vertices) = (asset.triangles(), counted(asset.vertices(), "vertex", "vertices"));
+        let given = counted(*given, "triangle", "triangles");
+        line(format!("{triangles} of {given}, {vertices}, {} bytes of flash:\n", self.flash()));
         for (name, bytes) in &self.items {
             line(format!("{bytes:>9}  {name}"));
         }
         let ram: usize = self.memory.iter().map(|(_, bytes)| bytes).sum();
-        line(format!("\n{ram} bytes of RAM, in bands of {band} rows of {width} columns:\n"));
+        let rows = counted(*band as usize, "row", "rows");
+        let columns = counted(*width as usize, "column", "columns");
+        line(format!("\n{ram} bytes of RAM, in bands of {rows} of {columns}:\n"));
         for (name, bytes) in self.memory {
             line(format!("{bytes:>9}  {name}"));
         }
@@ -225,7 +227,7 @@ fn items(asset: &Asset) -> Vec<(String, usize)> {
     let meshlets: usize = asset.pieces.iter().map(|piece| piece.meshlets.len()).sum();
     let mut items = vec![
         ("header and parts".to_owned(), HEADER + 48 * asset.pieces.len() + 16 * asset.textures.len()),
-        (format!("places of {vertices} vertices"), 6 * vertices),
+        (format!("places of {}", counted(vertices, "vertex", "vertices")), 6 * vertices),
     ];
     for (attribute, name, bytes) in [
         (Attributes::UV, "texture coordinates", 4),
@@ -237,19 +239,23 @@ fn items(asset: &Asset) -> Vec<(String, usize)> {
             items.push((name.to_owned(), bytes * vertices));
         }
     }
-    items.push((format!("indices of {triangles} triangles"), 6 * triangles));
+    items.push((format!("indices of {}", counted(triangles, "triangle", "triangles")), 6 * triangles));
     items.push((format!("meshlets: {meshlets}"), 28 * meshlets));
     for (number, texture) in asset.textures.iter().enumerate() {
         let [width, height] = texture.size;
-        let (role, code) = (texture.role.name(), texture.code);
-        let levels = texture.levels.len();
-        let levels = if levels == 1 { "1 level".to_owned() } else { format!("{levels} levels") };
+        let (role, format) = (texture.role.name(), Format::name_of(texture.code));
+        let levels = counted(texture.levels.len(), "level", "levels");
         items.push((
-            format!("texture {number}, {role}: {width}x{height} {code:?}, {levels}"),
+            format!("texture {number}, {role}: {width}x{height} {format}, {levels}"),
             length(texture),
         ));
     }
     items
+}
+
+/// A number of things, in words.
+fn counted(number: usize, one: &str, many: &str) -> String {
+    format!("{number} {}", if number == 1 { one } else { many })
 }
 
 /// The memory of a renderer in bands, as [`alberti::Memory`] has it: RGB565, and the options' depths.

@@ -2,7 +2,7 @@
 
 use meshoptimizer_rs::{
     Attributes as Weighed, Positions, SimplifyOptions, SimplifySettings, Workspace, analyze_vertex_cache,
-    optimize_vertex_cache, simplify_scale, simplify_with_attributes,
+    optimize_vertex_cache, simplify_scale, simplify_sloppy, simplify_with_attributes,
 };
 use std::collections::HashMap;
 
@@ -49,6 +49,35 @@ const CACHE: u32 = 16;
 /// The weight of a unit normal's components, and of texture coordinates, against the size of a model.
 const WEIGHT: f32 = 0.5;
 
+/// The error of a simplification that only a number of triangles limits.
+const NO_LIMIT: f32 = 1e6;
+
+/// A way to simplify, the most careful first.
+#[derive(Clone, Copy)]
+enum Way {
+    /// Borders do not move, so that parts stay joined.
+    Locked,
+    /// They do.
+    Free,
+    /// Seams move as well.
+    Permissive,
+    /// By a grid, without regard to seams, normals and texture coordinates.
+    Sloppy,
+}
+
+impl Way {
+    const ALL: [Self; 4] = [Self::Locked, Self::Free, Self::Permissive, Self::Sloppy];
+
+    fn options(self) -> Option<SimplifyOptions> {
+        match self {
+            Self::Locked => Some(SimplifyOptions::LOCK_BORDER),
+            Self::Free => Some(SimplifyOptions::EMPTY),
+            Self::Permissive => Some(SimplifyOptions::PERMISSIVE),
+            Self::Sloppy => None,
+        }
+    }
+}
+
 /// The vertices and triangles of a part alone.
 struct Alone {
     vertices: Vec<Vertex>,
@@ -70,7 +99,9 @@ impl Alone {
     }
 
     /// Takes triangles away, down to so many. Returns how far the surface has moved at most.
-    fn simplify(&mut self, most: usize, lock_border: bool, attributes: Attributes) -> Result<f32, Error> {
+    ///
+    /// The first of these ways that leaves no more is taken, else the one that leaves fewest. Something is left.
+    fn simplify(&mut self, most: usize, ways: &[Way], attributes: Attributes) -> Result<f32, Error> {
         let positions: Vec<[f32; 3]> = self.vertices.iter().map(|v| v.position).collect();
         let weighed = |v: &Vertex| {
             let normal = if attributes.contains(Attributes::NORMAL) { v.normal } else { [0.0; 3] };
@@ -78,26 +109,40 @@ impl Alone {
             [normal[0], normal[1], normal[2], u, v]
         };
         let values: Vec<f32> = self.vertices.iter().flat_map(weighed).collect();
-        let options = if lock_border { SimplifyOptions::LOCK_BORDER } else { SimplifyOptions::EMPTY };
-        // No limit of the error: the budget is one of triangles.
-        let settings = SimplifySettings { target_index_count: 3 * most, target_error: 1e6, options };
         let places = Positions::from_packed(&positions);
-        let simplified = Weighed::from_interleaved(&values, positions.len(), 5, 5, 0)
-            .and_then(|values| {
-                let indices = self.triangles.as_flattened();
-                simplify_with_attributes(
-                    indices,
-                    places,
-                    values,
-                    &[WEIGHT; 5],
-                    None,
-                    settings,
-                    &mut Workspace::default(),
-                )
-            })
-            .map_err(not_ordered)?;
-        self.triangles = simplified.indices.as_chunks().0.to_vec();
-        Ok(simplified.error * simplify_scale(places).map_err(not_ordered)?)
+        let values = Weighed::from_interleaved(&values, positions.len(), 5, 5, 0).map_err(not_ordered)?;
+        let indices = self.triangles.as_flattened();
+        let mut workspace = Workspace::default();
+        let mut best = (indices.to_vec(), 0.0);
+        for way in ways {
+            if best.0.len() <= 3 * most {
+                break;
+            }
+            let simplified = match way.options() {
+                Some(options) => {
+                    let settings =
+                        SimplifySettings { target_index_count: 3 * most, target_error: NO_LIMIT, options };
+                    let weights = [WEIGHT; 5];
+                    simplify_with_attributes(
+                        indices,
+                        places,
+                        values,
+                        &weights,
+                        None,
+                        settings,
+                        &mut workspace,
+                    )
+                }
+                None => simplify_sloppy(indices, places, None, 3 * most, NO_LIMIT, &mut workspace),
+            };
+            let simplified = simplified.map_err(not_ordered)?;
+            if (1..best.0.len()).contains(&simplified.indices.len()) {
+                best = (simplified.indices.to_vec(), simplified.error);
+            }
+        }
+        let (indices, error) = best;
+        self.triangles = indices.as_chunks().0.to_vec();
+        Ok(error * simplify_scale(places).map_err(not_ordered)?)
     }
 
     /// The vertices in integers, those that are equal as one, and the triangles that are left between them.
@@ -112,13 +157,44 @@ impl Alone {
                 small(vertices.len() - 1)
             })
         };
-        let triangles = corners.as_chunks().0.iter().filter_map(|[a, b, c]| {
-            let flat = a.place == b.place || b.place == c.place || c.place == a.place;
-            (!flat).then(|| [number(a), number(b), number(c)])
-        });
-        let triangles = triangles.collect();
+        let areas = corners.as_chunks().0.iter().filter(|[a, b, c]| !is_flat([a.place, b.place, c.place]));
+        let triangles = areas.map(|corners| corners.each_ref().map(&mut number)).collect();
         (vertices, triangles, losses)
     }
+}
+
+/// The parts that have triangles, with their numbers, and how far simplification has moved their surfaces.
+///
+/// Each gets its share of what is left, the largest last: these make up for small ones that cannot do with theirs. Only
+/// if all are too many together are they simplified in the next way.
+fn simplified(
+    model: &Model,
+    wish: &Wish,
+    attributes: Attributes,
+) -> Result<(Vec<(usize, Alone)>, f32), Error> {
+    let parts = || model.parts.iter().enumerate().filter(|(_, part)| !part.triangles.is_empty());
+    let alone = || parts().map(|(number, part)| (number, Alone::new(model, part))).collect::<Vec<_>>();
+    let total: usize = parts().map(|(_, part)| part.triangles.len()).sum();
+    let mut found = (alone(), 0.0_f32);
+    let Some(most) = wish.triangles.filter(|&most| most < total) else { return Ok(found) };
+    let ways = if parts().count() > 1 { &Way::ALL } else { &Way::ALL[1..] };
+    for last in 1..=ways.len() {
+        let (mut meshes, mut moved) = (alone(), 0.0_f32);
+        meshes.sort_by_key(|(_, mesh)| mesh.triangles.len());
+        let (mut left, mut given) = (most, total);
+        for (_, mesh) in &mut meshes {
+            let before = mesh.triangles.len();
+            moved = moved.max(mesh.simplify((left * before / given).max(1), &ways[..last], attributes)?);
+            (left, given) = (left.saturating_sub(mesh.triangles.len()), given - before);
+        }
+        meshes.sort_by_key(|&(number, _)| number);
+        let now: usize = meshes.iter().map(|(_, mesh)| mesh.triangles.len()).sum();
+        found = (meshes, moved);
+        if now <= most {
+            break;
+        }
+    }
+    Ok(found)
 }
 
 /// The asset of a model with these textures, of which each part has one or none.
@@ -129,19 +205,7 @@ pub(super) fn asset(
     textures: Vec<Texture>,
     of_parts: &[Option<usize>],
 ) -> Result<Asset, Error> {
-    let total: usize = model.parts.iter().map(|part| part.triangles.len()).sum();
-    let parts = model.parts.iter().filter(|part| !part.triangles.is_empty()).count();
-    let mut alone = vec![];
-    let mut moved = 0.0_f32;
-    for (number, part) in model.parts.iter().enumerate().filter(|(_, part)| !part.triangles.is_empty()) {
-        let mut mesh = Alone::new(model, part);
-        if let Some(most) = wish.triangles.filter(|&most| most < total) {
-            // Shares are rounded down, so that they are no more together.
-            let share = most * mesh.triangles.len() / total;
-            moved = moved.max(mesh.simplify(share.max(1), parts > 1, attributes)?);
-        }
-        alone.push((number, mesh));
-    }
+    let (alone, moved) = simplified(model, wish, attributes)?;
     let used = alone
         .iter()
         .flat_map(|(_, mesh)| mesh.triangles.iter().flatten().map(|&index| &mesh.vertices[index as usize]));
@@ -236,7 +300,32 @@ fn not_ordered(error: meshoptimizer_rs::Error) -> Error {
     Error::new(format!("a mesh that cannot be ordered ({error})"), "triangles with finite places")
 }
 
+/// Whether the triangle between these places has no area: they are on one line.
+fn is_flat(places: [[i16; 3]; 3]) -> bool {
+    let [a, b, c] = places.map(|place| place.map(i64::from));
+    let [ab, ac] = [b, c].map(|end| [0, 1, 2].map(|axis| end[axis] - a[axis]));
+    // Sides have 17 bits, products 33.
+    (0..3).all(|axis| {
+        let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+        ab[j] * ac[k] == ab[k] * ac[j]
+    })
+}
+
 /// A number that is below that of a model's corners, of which there are fewer than 2^32.
 fn small(number: usize) -> u32 {
     u32::try_from(number).unwrap_or(u32::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_on_a_line_have_no_area() {
+        assert!(is_flat([[0, 0, 0], [1, 2, 3], [-2, -4, -6]]));
+        assert!(is_flat([[-32767; 3], [32767; 3], [0; 3]]));
+        assert!(is_flat([[7, 8, 9], [7, 8, 9], [1, 0, 0]]));
+        assert!(!is_flat([[0, 0, 0], [1, 2, 3], [-2, -4, -5]]));
+        assert!(!is_flat([[-32767, -32767, 0], [32767, 32767, 0], [32767, 32766, 0]]));
+    }
 }

@@ -3,15 +3,16 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use clap::{ArgMatches, Args, FromArgMatches as _};
+use clap::builder::{Resettable, StyledStr};
+use clap::{ArgMatches, Args, Command, FromArgMatches as _, ValueEnum as _};
 
 use super::RenderArgs;
 use super::run::print;
-use super::staged::{OF_PICTURES, Request, Staged, refuse};
-use crate::bake::{Asked, Format, Report, Wish, bake, bytes, source};
-use crate::error::Error;
+use super::staged::{OF_PICTURES, Request, Staged, hidden, refuse, warn};
+use crate::bake::{Asked, Format, Report, Wish, bake, bytes, missing, source};
+use crate::error::{Error, quote};
 use crate::options::values::Size;
-use crate::options::{MAX_SIDE, Profile};
+use crate::options::{ColorFormat, MAX_SIDE, Profile};
 use crate::output::file::Whole;
 use crate::output::stats::Source;
 
@@ -29,6 +30,26 @@ const OWN: &str = "Baking";
 
 /// The size of a frame, unless the user gives one: that of many small displays.
 const FRAME: Size = Size(320, 240);
+
+/// The command with its own defaults in the help of `render`'s options.
+pub(super) fn with_defaults(command: Command) -> Command {
+    let of_profile = ["interpolation", "arithmetic", "depth", "subpixel"].map(|id| (id, "the profile's"));
+    let own = [("size", "320x240"), ("profile", "mcu"), ("color_format", "rgb565, the only one here")];
+    own.into_iter().chain(of_profile).fold(hidden(command, &OF_PICTURES), |command, (id, default)| {
+        command.mut_arg(id, |option| {
+            let new = |help: &StyledStr| StyledStr::from(defaulting(&help.to_string(), default));
+            let (short, long) = (option.get_help().map(new), option.get_long_help().map(new));
+            option.help(Resettable::from(short)).long_help(Resettable::from(long))
+        })
+    })
+}
+
+/// The help of an option with another default.
+fn defaulting(help: &str, default: &str) -> String {
+    const MARK: &str = "[default: ";
+    let parts = help.split_once(MARK).and_then(|(before, rest)| Some((before, rest.split_once(']')?.1)));
+    parts.map_or_else(|| help.to_owned(), |(before, after)| format!("{before}{MARK}{default}]{after}"))
+}
 
 fn triangles(text: &str) -> Result<usize, String> {
     text.parse().ok().filter(|&most| most > 0).ok_or_else(|| "a whole number from 1 on".to_owned())
@@ -107,6 +128,7 @@ pub(super) fn run(matches: &ArgMatches) -> Result<(), Error> {
 
 fn baked(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
     request.check()?;
+    check_color(request.arguments.render.color_format)?;
     let folder = &arguments.out;
     if folder.exists() && !folder.is_dir() {
         return Err(Error::new("a file", "a folder").file(folder).hint("choose another with --out"));
@@ -122,7 +144,14 @@ fn baked(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
     let BakeArgs { format, triangles, texture_size, attributes, meshlets, band, .. } = *arguments;
     let dither = options.policies.dither;
     let wish = Wish { format, dither, triangles, texture_size, attributes, meshlets };
+    for warning in missing(&model, &options) {
+        warn(&request.relocate(warning).to_string());
+    }
     let asset = bake(&model, &options, &wish)?;
+    if let Some(most) = triangles.filter(|&most| asset.triangles() > most) {
+        let found = format!("{} triangles that cannot be fewer", asset.triangles());
+        warn(&Error::new(found, format!("at most {most}")).place("--triangles").to_string());
+    }
     let bytes = bytes(&asset);
     let report = Report::new(&asset, &bytes, (&model, &camera, &options), band)?;
     binary.write(&bytes)?;
@@ -135,6 +164,20 @@ fn baked(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
     } else {
         format!("{} and {}: {}", names[0], names[1], report.text())
     })
+}
+
+/// # Errors
+/// The format of a frame is one for which there is no report.
+fn check_color(format: Option<ColorFormat>) -> Result<(), Error> {
+    match format.filter(|&format| format != ColorFormat::Rgb565) {
+        None => Ok(()),
+        Some(format) => {
+            let name = format.to_possible_value().map(|value| value.get_name().to_owned());
+            let found = quote(name.unwrap_or_default().as_bytes());
+            let error = Error::new(found, "rgb565, the format of a frame in the report").place("--color");
+            Err(error.hint("textures have the format of --format"))
+        }
+    }
 }
 
 /// The name of the files: that of the model or the scene.

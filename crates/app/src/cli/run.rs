@@ -25,7 +25,7 @@ pub const FAILURE: u8 = 2;
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let mut command = Cli::command()
         .mut_subcommand("explain", |command| hidden(command, &OF_PICTURES))
-        .mut_subcommand("bake", |command| hidden(command, &OF_PICTURES))
+        .mut_subcommand("bake", bake::with_defaults)
         .mut_subcommand("advise", |command| hidden(hidden(command, &OF_PICTURES), &advise::ADVISED_ON));
     let given: Vec<OsString> = arguments.into_iter().collect();
     let read = advise::with_machine(given.clone());

@@ -203,7 +203,8 @@ impl Request {
         let haze = arguments
             .render
             .fog
-            .map(|Fog(fog)| Haze { fog, color: arguments.render.fog_color.map_or(background, Color::bytes) });
+            .and_then(|Fog(fog)| fog)
+            .map(|fog| Haze { fog, color: arguments.render.fog_color.map_or(background, Color::bytes) });
         let options = RenderOptions {
             width,
             height,

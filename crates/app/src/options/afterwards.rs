@@ -33,13 +33,13 @@ impl Pattern for Dither {
     }
 }
 
-/// The law of a fog, by distances along the line of sight.
+/// The law of a fog, by distances along the line of sight; `None` takes that of a scene file away.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fog(pub AnyFog);
+pub struct Fog(pub Option<AnyFog>);
 
 impl Fog {
     const EXPECTED: &'static str =
-        "linear:START,END with START below END, exp:DENSITY or exp2:DENSITY above 0";
+        "none, linear:START,END with START below END, exp:DENSITY or exp2:DENSITY above 0";
 }
 
 impl FromStr for Fog {
@@ -48,6 +48,9 @@ impl FromStr for Fog {
     fn from_str(text: &str) -> Result<Self, String> {
         let number = |text: &str| text.parse().ok().filter(|x: &f32| x.is_finite());
         let density = |text: &str| number(text).filter(|&density| density > 0.0);
+        if text == "none" {
+            return Ok(Self(None));
+        }
         let fog = match text.split_once(':') {
             Some(("linear", range)) => range.split_once(',').and_then(|(start, end)| {
                 let (start, end) = (number(start)?, number(end)?);
@@ -59,16 +62,17 @@ impl FromStr for Fog {
             Some(("exp2", text)) => density(text).map(|density| AnyFog::Squared(SquaredFog { density })),
             _ => None,
         };
-        fog.map(Self).ok_or_else(|| format!("{}, such as linear:2,10", Self::EXPECTED))
+        fog.map(|fog| Self(Some(fog))).ok_or_else(|| format!("{}, such as linear:2,10", Self::EXPECTED))
     }
 }
 
 impl fmt::Display for Fog {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
-            AnyFog::Linear(LinearFog { start, end }) => write!(f, "linear:{start},{end}"),
-            AnyFog::Exponential(ExponentialFog { density }) => write!(f, "exp:{density}"),
-            AnyFog::Squared(SquaredFog { density }) => write!(f, "exp2:{density}"),
+            None => f.write_str("none"),
+            Some(AnyFog::Linear(LinearFog { start, end })) => write!(f, "linear:{start},{end}"),
+            Some(AnyFog::Exponential(ExponentialFog { density })) => write!(f, "exp:{density}"),
+            Some(AnyFog::Squared(SquaredFog { density })) => write!(f, "exp2:{density}"),
         }
     }
 }
@@ -119,7 +123,7 @@ mod tests {
     #[test]
     fn fogs_and_blends_are_read() {
         let read = |text: &str| text.parse::<Fog>().map(|fog| fog.to_string());
-        for text in ["linear:2,10", "linear:-1.5,0.25", "exp:0.05", "exp2:3"] {
+        for text in ["none", "linear:2,10", "linear:-1.5,0.25", "exp:0.05", "exp2:3"] {
             assert_eq!(read(text).as_deref(), Ok(text));
         }
         for text in [

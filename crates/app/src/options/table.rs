@@ -153,7 +153,7 @@ pub struct RenderTable {
     #[arg(long, value_enum, value_name = "SIDE", help_heading = SURFACE)]
     pub cull: Option<Cull>,
 
-    /// Fog, by distances before the camera: linear:START,END, exp:DENSITY or exp2:DENSITY [default: none]
+    /// Fog, by distances before the camera: none, linear:START,END, exp:DENSITY or exp2:DENSITY [default: none]
     ///
     /// linear: from none at START to nothing else at END.
     /// exp: a haze, 1 - e^(-DENSITY z). exp2: one that begins softly, 1 - e^(-(DENSITY z)^2).

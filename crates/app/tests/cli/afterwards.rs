@@ -276,7 +276,7 @@ fn mistakes_are_told_where_they_are() {
     for (text, part) in [
         (
             "[render]\nfog = \"linear:5,2\"\n",
-            "s.toml:2: render.fog: found \"linear:5,2\", expected linear:START,END with START below END, exp:DENSITY",
+            "s.toml:2: render.fog: found \"linear:5,2\", expected none, linear:START,END with START below END, exp:DENSITY",
         ),
         (
             "[render]\nfog-color = \"ffffff\"\n",
@@ -301,7 +301,10 @@ fn mistakes_are_told_where_they_are() {
         folder.fails(&["s.toml"], &[part]);
     }
     for (arguments, part) in [
-        (&["--scene", "cube", "--fog", "exp:0"][..], "--fog: found \"exp:0\", expected linear:START,END"),
+        (
+            &["--scene", "cube", "--fog", "exp:0"][..],
+            "--fog: found \"exp:0\", expected none, linear:START,END",
+        ),
         (
             &["--scene", "cube", "--fog-color", "ffffff"],
             "--fog-color: found it without --fog, expected --fog as well",
@@ -321,7 +324,7 @@ fn mistakes_are_told_where_they_are() {
     let scene = format!("{HEAD}{}[material.m]\nblend = \"additive\"\n", pane(6.0, "m"));
     std::fs::write(folder.path("s.toml"), &scene).expect("a file");
     for (arguments, part) in [
-        (&["s.toml"][..], "s.toml: found a surface that is blended or has holes"),
+        (&["s.toml"][..], "s.toml: found a surface that is blended or has holes (\"m\"), expected others"),
         (&["--scene", "cube", "--fog", "exp:1"], "--fog: found a fog, expected a picture without"),
         (&["--scene", "cube", "--dither", "bayer"], "--dither: found a pattern, expected a picture without"),
     ] {
@@ -329,4 +332,17 @@ fn mistakes_are_told_where_they_are() {
         let run = super::alberti(folder.0.path(), &[std::ffi::OsStr::new("explain")], &arguments);
         assert!(run.status == Some(2) && run.stderr.contains(part), "{run:?}");
     }
+}
+
+/// The fog of a scene file, taken away.
+#[test]
+fn no_fog_is_a_fog_too() {
+    let folder = Folder::with(&[]);
+    let bright = "[material.m]\ncolor = \"c08040\"\n";
+    let clear = format!("{HEAD}{}{bright}", pane(6.0, "m"));
+    let hazy = clear.replace("[render]\n", "[render]\nfog = \"exp:0.1\"\nfog-color = \"10c8f0\"\n");
+    let without = drawn(&folder, &clear, &[]);
+    assert!(drawn(&folder, &hazy, &[]) != without);
+    assert!(drawn(&folder, &hazy, &["--fog", "none"]) == without);
+    assert!(drawn(&folder, &hazy.replace("exp:0.1", "none"), &[]) == without);
 }

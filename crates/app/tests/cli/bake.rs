@@ -1,5 +1,8 @@
 //! Assets for flash: files are what they say they lose, draw what the scene is, and cost what the report counts.
 
+mod limits;
+mod told;
+
 use std::f64::consts::{PI, TAU};
 use std::ffi::OsStr;
 use std::fs;
@@ -245,26 +248,6 @@ fn vertices_that_nothing_parts_are_one() {
 }
 
 #[test]
-fn a_budget_of_triangles_is_kept() {
-    let folder = folder();
-    let (report, file) = baked(&folder, "ball", &["ball.obj", "--triangles", "300"]);
-    let triangles = report["triangles"].as_u64().expect("a number");
-    assert!((200..=300).contains(&triangles), "{report}");
-    // The middles of triangles, by how far they are inside of the ball: no more than the surface has moved, and what
-    // it had been inside before.
-    let moved = number(&report, "surface");
-    let file = Baked::read(&file).expect("a file");
-    let mesh = file.parts().next().expect("a part").mesh::<()>().expect("places");
-    let inside = (0..mesh.triangles()).filter_map(|number| mesh.triangle(number)).map(|corners| {
-        let corners = corners.map(|index| mesh.vertex(index).expect("a vertex").0.coords);
-        2.0 - f64::from(((corners[0] + corners[1] + corners[2]) / 3.0).length())
-    });
-    let deepest = inside.fold(0.0, f64::max);
-    let before = 2.0 * (1.0 - (PI / f64::from(COLUMNS)).cos().powi(2));
-    assert!(moved > 0.005 && deepest <= 2.0 * moved + before, "{deepest} {moved} {before}");
-}
-
-#[test]
 fn textures_have_the_format_and_the_size_that_is_asked_for() {
     let folder = folder();
     let of = |arguments: &[&str]| {
@@ -380,6 +363,10 @@ fn mistakes_are_told_in_one_line() {
         (
             &["m.obj", "--out", "out", "--attributes", "uvw"],
             &["--attributes: found \"uvw\", expected auto, none, or some of"],
+        ),
+        (
+            &["m.obj", "--out", "out", "--color", "grey4"],
+            &["--color: found \"grey4\", expected rgb565, the format of a frame in the report; "],
         ),
         (&["m.obj", "--out", "out", "--show", "lod"], &["--show: found an option that `bake` has not"]),
         (

@@ -66,7 +66,10 @@ impl SceneFile {
             if let Some(material) = material {
                 for part in &mut model.parts {
                     let triangles = std::mem::take(&mut part.triangles);
-                    let name = std::mem::take(&mut part.name);
+                    let mut name = std::mem::take(&mut part.name);
+                    if name.is_empty() {
+                        name = object.material.clone().unwrap_or_default();
+                    }
                     *part = Part { name, triangles, diffuse: obj::DEFAULT_DIFFUSE, ..Part::default() };
                 }
                 if object.surface.is_none() {
