@@ -342,6 +342,26 @@ mod tests {
         assert_eq!(clip_near_far(inside, 5.0, 9.0).fan().count(), 0);
     }
 
+    /// As many vertices as there is room for, within all planes, and with one beyond: that would be ten.
+    #[test]
+    fn nine_vertices_stay() {
+        let around = |radius: f32| {
+            let mut turned = [radius, 0.0];
+            let vertices = [(); MAX_POLYGON].map(|()| {
+                let [x, y] = turned;
+                let [cos, sin] = [0.766_044_44_f32, 0.642_787_6];
+                turned = [cos * x - sin * y, sin * x + cos * y];
+                ProjectedVertex { x, y, zs: 0.5, q: 1.0, varying: x }
+            });
+            Polygon { vertices, len: MAX_POLYGON }
+        };
+        let inside = around(0.9);
+        assert_eq!(clip_sides(inside, SideBounds::CUBE).vertices(), inside.vertices());
+        let clipped = clip_sides(around(1.01), SideBounds::CUBE);
+        assert_eq!(clipped.vertices().len(), MAX_POLYGON);
+        assert!(clipped.vertices().iter().all(|v| v.x.abs() <= 1.0 && v.y.abs() <= 1.0));
+    }
+
     #[test]
     fn a_fan_is_around_any_vertex() {
         let four = Polygon { vertices: [0, 1, 2, 3, 9, 9, 9, 9, 9], len: 4 };

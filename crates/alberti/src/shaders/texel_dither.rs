@@ -173,14 +173,18 @@ mod tests {
                 let texture = Texture::new(Rgba8888, &texels, width, height).expect("sides");
                 let stage = TexelDither(texture.sampler(Bilinear, wrap));
                 for k in 0..4000_i32 {
-                    // 256ths of a texel and a quarter of one: no sum is a tie.
-                    let way = [k * 37 % 3001, k * 53 % 2003].map(|way| f64::from(way - 1000) + 0.25);
+                    // 256ths of a texel and a part of one, half for sides of which that is a float: shares are
+                    // rounded to 256ths, halves up.
+                    let part = if width == 8 { 0.5 } else { 0.25 };
+                    let way = [k * 37 % 3001, k * 53 % 2003].map(|way| f64::from(way - 1000) + part);
                     let sides = [f64::from(width), f64::from(height)];
                     let uv = [0, 1].map(|axis| ((way[axis] / 256.0 + 0.5) / sides[axis]) as f32);
                     let place = [k % 9 - 4, k % 7];
                     let thresholds =
                         THRESHOLDS[place[1].rem_euclid(2) as usize][place[0].rem_euclid(2) as usize];
-                    let cell = [0, 1].map(|axis| (way[axis] / 256.0 + thresholds[axis] / 8.0).floor() as i64);
+                    let cell = [0, 1].map(|axis| {
+                        ((way[axis] + 0.5).floor() / 256.0 + thresholds[axis] / 8.0).floor() as i64
+                    });
                     let found = stage.shade(&at(One, uv, place)).0.0;
                     let right = match (index(cell[0], width.into()), index(cell[1], height.into())) {
                         (Some(column), Some(row)) => {
