@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use crate::command::Outcome;
-use crate::{assets, boards, checks, extremes, firmware, nostd, package, tidy, trade};
+use crate::{assets, boards, checks, extremes, firmware, guide, nostd, package, tidy, trade};
 
 /// The name that the summary and a failure use, and the check.
 type Step = (&'static str, fn() -> Outcome);
@@ -39,6 +39,7 @@ fn steps(tests_done: bool) -> Vec<Step> {
         ("package", package::run),
         ("nostd", nostd::run),
         ("boards", boards::check),
+        ("guide", guide::run),
         ("firmware", || firmware::run(&[])),
     ];
     steps.retain(|(name, _)| !(tests_done && *name == TEST.0));

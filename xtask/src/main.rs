@@ -18,6 +18,7 @@ mod firmware;
 mod gallery;
 mod golden;
 mod growth;
+mod guide;
 mod nostd;
 mod package;
 mod peers;
@@ -98,6 +99,12 @@ const CHORES: &[Chore] = &[
         arguments: "[board | qemu]",
         about: "build the programs of crates/alberti/examples/boards, or one, or run the demo in an emulator",
         run: boards::run,
+    },
+    Chore {
+        name: "guide",
+        arguments: "",
+        about: "follow docs/firmware.md word for word, up to the picture and a board's program",
+        run: |_| guide::run(),
     },
     Chore { name: "golden", arguments: "[test]", about: "write the golden images anew", run: golden::run },
     Chore {
