@@ -265,7 +265,7 @@ fn smooth_edges(criterion: &mut Criterion) {
         let mut buffers = Buffers {
             color: vec![0; PIXELS],
             depth: vec![0.0; PIXELS],
-            cells: vec![0; PIXELS],
+            cells: vec![0; PIXELS + 1024 * Silhouette::PLACE],
             samples: vec![0; PIXELS],
         };
         // In one colour, each way is nearer to the finest than the ways before.

@@ -6,7 +6,7 @@
 
 use crate::geometry::Geometry;
 use crate::integers::IntegerScreen;
-use crate::prepared::{Prepared, Room};
+use crate::prepared::{Prepared, Room, sampled};
 use crate::profile::Profile;
 use crate::screen::{Screen, Sides};
 use crate::stats::Stats;
@@ -275,7 +275,7 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
         bands: &Bands<'_, C, D>,
         room: Room<'p>,
     ) -> (Prepared<'p, 'a, M, F, P, Pr, D>, Room<'p>) {
-        Prepared::new(self, bands.size(), bands.depth_format(), room, &mut ())
+        Prepared::new(self, bands.size(), bands.depth_format(), (room, false), sampled, &mut ())
     }
 
     /// [`prepare`](Self::prepare) for frames of this size, whose bands have this depth format.
@@ -291,7 +291,19 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
         room: Room<'p>,
         counters: &mut impl Counters,
     ) -> (Prepared<'p, 'a, M, F, P, Pr, D>, Room<'p>) {
-        Prepared::new(self, size, depth, room, counters)
+        Prepared::new(self, size, depth, (room, false), sampled, counters)
+    }
+
+    /// [`count_prepare`](Self::count_prepare) that lists triangles between samples too, so that
+    /// [`Prepared::cover`] and [`Prepared::draw_fringe`] need no others. Those take room as well.
+    pub fn prepare_smooth<'p, D: DepthFormat>(
+        &'p mut self,
+        size: [u32; 2],
+        depth: D,
+        room: Room<'p>,
+        counters: &mut impl Counters,
+    ) -> (Prepared<'p, 'a, M, F, P, Pr, D>, Room<'p>) {
+        Prepared::new(self, size, depth, (room, true), Paint::touched, counters)
     }
 
     /// The triangles on the screen that one of the mesh's is drawn as, in a frame of this size with depths of this

@@ -4,11 +4,12 @@ use crate::geometry::Geometry;
 use crate::pipeline::Pass;
 use crate::screen::Screen;
 use crate::walk::{Fate, Walk};
-use alberti_math::for_lanes;
 use alberti_math::lanes::{Floating, Machine};
+use alberti_math::{Varying, for_lanes};
 use alberti_projection::Projection;
 use alberti_raster::{
-    ColorFormat, Counters, DepthFormat, FragmentStage, Interpolation, Outcome, Paint, Target,
+    ColorFormat, Corner, Counters, Coverage, DepthFormat, FragmentStage, Interpolation, Outcome, Paint,
+    Silhouette, Target,
 };
 use core::fmt;
 use core::mem::take;
@@ -73,6 +74,8 @@ pub struct Prepared<'p, 'a, M: Geometry, F, P, Pr: Projection, D> {
     /// Columns and rows of the frame.
     size: [u32; 2],
     depth: D,
+    /// Whether triangles between samples are listed too.
+    smooth: bool,
 }
 
 impl<'p, 'a, M, F, P, Pr, D> Prepared<'p, 'a, M, F, P, Pr, D>
@@ -86,21 +89,23 @@ where
         pass: &'p mut Pass<'a, M, F, P, Pr>,
         size: [u32; 2],
         depth: D,
-        room: Room<'p>,
+        (room, smooth): (Room<'p>, bool),
+        rows_of: impl RowsOf<M, F, P> + Copy,
         counters: &mut K,
     ) -> (Self, Room<'p>) {
         let screen = pass.screen(size, depth);
         let (Some(way), Some(machine)) = (&screen, Machine::all().next()) else {
-            return (Self { pass, screen, filled: 0, listed: &[], next: usize::MAX, size, depth }, room);
+            let none = Self { pass, screen, filled: 0, listed: &[], next: usize::MAX, size, depth, smooth };
+            return (none, room);
         };
         let pixels = way.viewport.pixels();
         let mesh = pass.mesh();
         let (slots, paint) = pass.halves();
         let mut walk = for_lanes!(machine, lanes => Walk::new(lanes, mesh, way, slots));
-        let (listed, next) = list(&mut walk, paint, &pixels, 0..usize::MAX, room, counters);
+        let (listed, next) = list(&mut walk, paint, (&pixels, rows_of), 0..usize::MAX, room, counters);
         let filled = walk.filled();
         let (listed, rest) = room.split_at_mut_checked(listed).unwrap_or_default();
-        (Self { pass, screen, filled, listed, next, size, depth }, rest)
+        (Self { pass, screen, filled, listed, next, size, depth, smooth }, rest)
     }
 
     /// Draws into a band of the frame the same as [`Pass::draw`] would, in the same order and with the same pixels.
@@ -136,20 +141,79 @@ where
         F: FragmentStage<M::Varying>,
     {
         let mesh = self.pass.mesh();
-        // A target of another frame, or of depths in another unit, gets all triangles anew, and the slots stay.
-        let (depth, found) = (self.depth, target.depth_format());
-        let same_depth = (found.reversed(), found.bits()) == (depth.reversed(), depth.bits());
-        if target.size() != self.size || !same_depth {
-            let slots = take(self.pass.halves().0);
-            self.pass.count_by(lanes, target, counters);
-            *self.pass.halves().0 = slots;
-            return;
+        // A target of another frame, or of depths in another unit, gets all triangles anew.
+        if !self.fits(target) {
+            return self.anew(|pass| pass.count_by(lanes, target, counters));
         }
         let Some(screen) = &self.screen else { return };
         let (slots, paint) = self.pass.halves();
         let walk = Walk::again(mesh, screen, slots, self.filled);
         let listed = |its| self.listed.iter().filter(PreparedTriangle::meets(its));
         draw_listed(lanes, (listed, self.next), walk, paint, target, counters);
+    }
+
+    /// Adds the edges of the listed triangles to a band's silhouette: [`Pass::cover`] without the geometry half.
+    ///
+    /// Lists of [`Pass::prepare_smooth`] have all that takes. With another, or for a frame of another size, it does all
+    /// of it anew.
+    pub fn cover(&mut self, silhouette: &mut Silhouette<'_>) {
+        if silhouette.size() != self.size || !self.smooth {
+            return self.anew(|pass| pass.cover(silhouette));
+        }
+        let Some([columns, rows]) = self.screen.as_ref().map(|screen| screen.viewport.pixels()) else {
+            return;
+        };
+        let mut visible = silhouette.scissor(columns, rows);
+        let (limits, mut edges) = (visible.limits(), self.pass.halves().1.edges(&mut visible));
+        self.each(limits, |_, corners| edges.triangle(corners));
+        edges.finish();
+    }
+
+    /// Draws the pixels on edges that are covered in part, but not at their centre: [`Pass::draw_fringe`] as
+    /// [`cover`](Self::cover).
+    pub fn draw_fringe<C: ColorFormat>(&mut self, target: &mut Target<'_, C, D>, coverage: &Coverage<'_>)
+    where
+        F: FragmentStage<M::Varying>,
+    {
+        if !self.fits(target) || !self.smooth {
+            return self.anew(|pass| pass.draw_fringe(target, coverage));
+        }
+        let Some([columns, rows]) = self.screen.as_ref().map(|screen| screen.viewport.pixels()) else {
+            return;
+        };
+        let mut visible = target.scissor(columns, rows);
+        self.each(visible.limits(), |paint, corners| paint.fringe(&mut visible, coverage, corners, &mut ()));
+    }
+
+    /// Hands `sink` the listed triangles that may be in these columns and rows, and those that found no room.
+    fn each(
+        &mut self,
+        [_, rows]: [Range<i32>; 2],
+        mut sink: impl FnMut(&Paint<F, P>, [&Corner<M::Varying>; 3]),
+    ) {
+        let (Some(screen), false) = (&self.screen, rows.is_empty()) else { return };
+        let [_, all] = screen.viewport.pixels();
+        let its = Slices::of(&rows, all.start, slice_shift(&all));
+        let mesh = self.pass.mesh();
+        let (slots, paint) = self.pass.halves();
+        let mut walk = Walk::again(mesh, screen, slots, self.filled);
+        let remaining = walk.seen(paint.cull, self.next..mesh.triangles()).flatten();
+        let listed = self.listed.iter().filter(PreparedTriangle::meets(its));
+        walk.each(listed.map(|triangle| triangle.number()).chain(remaining), |corners| sink(paint, corners));
+    }
+
+    /// Whether the target is a band of the frame, with depths in the same unit.
+    fn fits<C: ColorFormat>(&self, target: &Target<'_, C, D>) -> bool {
+        let (depth, found) = (self.depth, target.depth_format());
+        let same_depth = (found.reversed(), found.bits()) == (depth.reversed(), depth.bits());
+        target.size() == self.size && same_depth
+    }
+
+    /// The pass without its slots, which stay.
+    fn anew(&mut self, draw: impl FnOnce(&mut Pass<'a, M, F, P, Pr>)) {
+        let slots = take(self.pass.halves().0);
+        draw(self.pass);
+        *self.pass.halves().0 = slots;
     }
 
     /// The number of the mesh's triangles that are listed.
@@ -175,13 +239,13 @@ impl<M: Geometry, F, P, Pr: Projection, D: fmt::Debug> fmt::Debug for Prepared<'
     }
 }
 
-/// Lists those of a mesh's triangles with these numbers that may be drawn in a viewport of these pixels. Returns how
-/// many, and the first number that found no room, or is past the last.
+/// Lists those of a mesh's triangles with these numbers that have rows in a viewport of these pixels. Returns how many,
+/// and the first number that found no room, or is past the last.
 #[inline(always)]
 pub(crate) fn list<M: Geometry, F, P: Interpolation, Pr: Projection>(
     walk: &mut Walk<'_, M, Pr>,
     paint: &Paint<F, P>,
-    pixels: &[Range<i32>; 2],
+    (pixels, rows_of): (&[Range<i32>; 2], impl RowsOf<M, F, P> + Copy),
     numbers: Range<usize>,
     room: &mut [PreparedTriangle],
     counters: &mut impl Counters,
@@ -194,15 +258,15 @@ pub(crate) fn list<M: Geometry, F, P: Interpolation, Pr: Projection>(
             let Some(indices) = mesh.triangle(number) else { break };
             // The rows of its samples; most triangles are whole.
             let (rows, fate) = match walk.whole(indices) {
-                Some(corners) => match paint.reach(corners, pixels) {
-                    Ok(reach) => (reach.rows(), Fate::Whole),
+                Some(corners) => match rows_of(paint, corners, pixels) {
+                    Ok(rows) => (rows, Fate::Whole),
                     Err(outcome) => {
                         counters.rasterized(outcome);
                         Fate::Whole.count(counters);
                         continue;
                     }
                 },
-                None => match rows_of_parts(walk, paint, pixels, indices, counters) {
+                None => match rows_of_parts(walk, paint, (pixels, rows_of), indices, counters) {
                     Some(found) => found,
                     None => continue,
                 },
@@ -220,19 +284,42 @@ pub(crate) fn list<M: Geometry, F, P: Interpolation, Pr: Projection>(
     (listed, end)
 }
 
+/// The rows of a triangle, among those of a viewport: of its samples, or of its area.
+///
+/// A closure, so that what is not asked for is in no program.
+pub(crate) trait RowsOf<M: Geometry, F, P>:
+    Fn(&Paint<F, P>, [&Corner<M::Varying>; 3], &[Range<i32>; 2]) -> Result<Range<i32>, Outcome>
+{
+}
+
+impl<M: Geometry, F, P, T> RowsOf<M, F, P> for T where
+    T: Fn(&Paint<F, P>, [&Corner<M::Varying>; 3], &[Range<i32>; 2]) -> Result<Range<i32>, Outcome>
+{
+}
+
+/// Those of its samples.
+#[inline(always)]
+pub(crate) fn sampled<F, P: Interpolation, V: Varying>(
+    paint: &Paint<F, P>,
+    corners: [&Corner<V>; 3],
+    pixels: &[Range<i32>; 2],
+) -> Result<Range<i32>, Outcome> {
+    Ok(paint.reach(corners, pixels)?.rows())
+}
+
 /// The rows of all parts of a triangle that may be clipped, and its fate; or none, and then the counters have heard.
 #[inline(never)]
 fn rows_of_parts<M: Geometry, F, P: Interpolation, Pr: Projection, K: Counters>(
     walk: &mut Walk<'_, M, Pr>,
     paint: &Paint<F, P>,
-    pixels: &[Range<i32>; 2],
+    (pixels, rows_of): (&[Range<i32>; 2], impl RowsOf<M, F, P>),
     indices: [usize; 3],
     counters: &mut K,
 ) -> Option<(Range<i32>, Fate)> {
     // Beside the rows, how many parts are never drawn.
     let (mut rows, mut culled, mut missed) = (None, 0, 0);
-    let fate = walk.triangle(indices, |corners| match paint.reach(corners, pixels) {
-        Ok(reach) => rows = Some(union(rows.take(), reach.rows())),
+    let fate = walk.triangle(indices, |corners| match rows_of(paint, corners, pixels) {
+        Ok(its) => rows = Some(union(rows.take(), its)),
         Err(Outcome::Culled) => culled += 1,
         Err(_) => missed += 1,
     });

@@ -19,7 +19,8 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
     ///
     /// All meshes that are to have smooth edges are drawn first. Then all cover one silhouette. When it is summed, each
     /// draws its [fringe](Self::draw_fringe), and the target is mixed with its background. Each band does that for
-    /// itself, with the words of one band.
+    /// itself, with the words of one band. What [`prepare_smooth`](Self::prepare_smooth) lists saves it most of the
+    /// work.
     ///
     /// ```
     /// use alberti::raster::color::Average;
@@ -51,12 +52,13 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
     ///
     /// # Cost
     /// That of the vertices, as for triangles, and of [`Silhouette`], as is that of the fringe.
-    /// [Prepared](Self::prepare) lists are no help: triangles between samples are not in them, but cover a part.
     pub fn cover(&mut self, silhouette: &mut Silhouette<'_>) {
         let Some(screen) = self.screen(silhouette.size(), NoDepth) else { return };
         let [columns, rows] = screen.viewport.pixels();
         let mut visible = silhouette.scissor(columns, rows);
-        self.each_on_screen(screen, |paint, corners| paint.cover(&mut visible, corners));
+        let mut edges = self.halves().1.edges(&mut visible);
+        self.each_on_screen(screen, |_, corners| edges.triangle(corners));
+        edges.finish();
     }
 
     /// Draws the pixels on edges of the mesh that are covered in part, but not at their centre. They have the
@@ -102,14 +104,7 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
         let mut walk = for_lanes!(machine, lanes => Walk::new(lanes, mesh, &screen, slots));
         for part in walk.seen(paint.cull, 0..usize::MAX) {
             walk.ready(&part);
-            for indices in part.map_while(|number| mesh.triangle(number)) {
-                match walk.whole(indices) {
-                    Some(corners) => sink(paint, corners),
-                    None => {
-                        let _fate = walk.triangle(indices, |corners| sink(paint, corners));
-                    }
-                }
-            }
+            walk.each(part, |corners| sink(paint, corners));
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::geometry::Geometry;
 use crate::pipeline::Pass;
-use crate::prepared::{PreparedTriangle, Room, Slices, draw_listed, list};
+use crate::prepared::{PreparedTriangle, Room, Slices, draw_listed, list, sampled};
 use crate::screen::Screen;
 use crate::vertex::Slot;
 use crate::walk::{Walk, stored_by};
@@ -204,7 +204,7 @@ where
         let pixels = walk.pixels();
         while let Some(((room, first), listed)) = next(&parts) {
             let numbers = first..triangles.min(first + part);
-            let (count, _) = list(&mut walk, paint, &pixels, numbers, room, &mut counters);
+            let (count, _) = list(&mut walk, paint, (&pixels, sampled), numbers, room, &mut counters);
             let room = room.get(..count).unwrap_or_default();
             *listed = (Slices::of_all(room), room);
         }

@@ -223,6 +223,23 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         self.seldom(indices, &mut (), &mut |corners, ()| sink(corners))
     }
 
+    /// [`triangles`](Self::triangles) of which the counters hear nothing.
+    pub(crate) fn each(
+        &mut self,
+        numbers: impl Iterator<Item = usize>,
+        mut sink: impl FnMut([&Corner<M::Varying>; 3]),
+    ) {
+        let mesh = self.mesh;
+        for indices in numbers.map_while(|number| mesh.triangle(number)) {
+            match self.whole(indices) {
+                Some(corners) => sink(corners),
+                None => {
+                    let _fate = self.triangle(indices, &mut sink);
+                }
+            }
+        }
+    }
+
     /// A vertex, transformed.
     fn slot(&mut self, index: usize) -> Option<Slot<M::Varying>> {
         if !self.stored.is_empty() {

@@ -43,7 +43,7 @@ pub use bias::Biased;
 pub use color::{ColorFormat, FragmentColor, rgb565};
 pub use comparison::{Always, Equal, Farther, OrEqual, ReadOnly};
 pub use counters::Counters;
-pub use coverage::{Coverage, Silhouette};
+pub use coverage::{Coverage, Edges, Silhouette};
 pub use depth::{AnyDepth, D16, D24, D32, DepthFormat, F32, F32Reversed, NoDepth};
 pub use differentiation::{AnyDerivatives, Differentiation, NoDerivatives, PerPixel, PerRun, PerTriangle};
 pub use draw::Paint;

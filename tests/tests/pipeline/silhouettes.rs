@@ -16,7 +16,8 @@ use alberti::shaders::{Solid, VertexColor};
 use alberti::texture::surface::{Grid, Parametric, Torus};
 use alberti::{
     Bands, Camera, Cull, D16, Exact, F32, FixedPoint, Interpolation, Mesh, NoDepth, Object, Pass, Point3,
-    Rgb565Le, Rgba8, Rgba8888, Silhouette, Slot, Spans16, Sub4, Sub8, Subpixel, Target, View, Viewport,
+    PreparedTriangle, Rgb565Le, Rgba8, Rgba8888, Silhouette, Slot, Spans16, Sub4, Sub8, Subpixel, Target,
+    View, Viewport,
 };
 use alberti_oracle::area::covered;
 use alberti_oracle::cases;
@@ -29,8 +30,22 @@ use std::ops::Range;
 /// What a silhouette knows of a pixel: its part, and whether its centre is covered.
 type Word = (u32, bool);
 
-/// The words of these columns and rows, row by row, with all these triangles in the silhouette.
+/// The words of these columns and rows, row by row, with all these triangles in the silhouette: the same, whether edges
+/// wait for their others, or how many.
 fn words(
+    triangles: &[Triangle],
+    subpixel: Subpixel,
+    interpolation: impl Interpolation,
+    limits: [Range<i32>; 2],
+) -> Vec<Word> {
+    let [none, few, many] =
+        [0, 3, 200].map(|places| words_by(places, triangles, subpixel, interpolation, limits.clone()));
+    assert!(none == few && none == many, "{triangles:?}");
+    none
+}
+
+fn words_by(
+    places: usize,
     triangles: &[Triangle],
     subpixel: Subpixel,
     interpolation: impl Interpolation,
@@ -42,13 +57,15 @@ fn words(
     let first = rows.start.unsigned_abs();
     let mut band = Target::band(Rgba8888, NoDepth, [WIDTH; 2], first, &mut color, &mut depth).expect("rows");
     let target = band.scissor(columns.clone(), rows.clone());
-    let mut cells = vec![77; columns.len() * rows.len()];
+    let mut cells = vec![77; columns.len() * rows.len() + places * Silhouette::PLACE];
     let mut silhouette = Silhouette::new(&target, &mut cells).expect("enough words");
     let paint = Paint { stage: (), interpolation, subpixel, cull: Cull::None };
+    let mut edges = paint.edges(&mut silhouette);
     for triangle in triangles {
         let corners = bare(*triangle).map(|vertex| Corner::new(paint.numbers(NoDepth), &vertex));
-        paint.cover(&mut silhouette, corners.each_ref());
+        edges.triangle(corners.each_ref());
     }
+    edges.finish();
     let coverage = silhouette.coverage();
     let places = rows.flat_map(|row| columns.clone().map(move |column| [column, row]));
     places.map(|place| (coverage.part(place), coverage.has_centre(place))).collect()
@@ -277,12 +294,20 @@ fn view(distance: f32) -> View {
     camera.perspective(0.66, 0.5..10.0).expect("a view")
 }
 
+/// The list that bands share: none, or one with room for so many triangles, with or without those between samples.
+#[derive(Clone, Copy, Debug)]
+enum Shared {
+    Nothing,
+    Smooth(usize),
+    Plain(usize),
+}
+
 /// A picture with smooth edges, by a policy, in bands of so many rows, with so many slots.
 fn smooth(
     distance: f32,
     (interpolation, subpixel): (impl Interpolation, Subpixel),
     rows: u32,
-    slots: usize,
+    (slots, shared): (usize, Shared),
     viewport: Viewport,
 ) -> Vec<u16> {
     let (vertices, triangles) = torus();
@@ -292,21 +317,39 @@ fn smooth(
     let mut bands = Bands::new(Rgb565Le, D16, WIDTH, HEIGHT, &mut color, &mut depth).expect("bands");
     let (mut slots, view) = (vec![Slot::EMPTY; slots], view(distance));
     let sky = |[column, row]: [i32; 2]| Rgba8::new(0, column as u8, row as u8, 255);
+    let mut pass = Pass::new(&view, &mesh, VertexColor).interpolation(interpolation).subpixel(subpixel);
+    pass = pass.slots(&mut slots).viewport(viewport);
+    let mut room = vec![PreparedTriangle::EMPTY; 2 * triangles.len()];
     let mut frame = vec![];
-    while let Some(mut band) = bands.next_band() {
-        let [columns, rows] = band.limits();
-        for [column, row] in rows.flat_map(|row| columns.clone().map(move |column| [column, row])) {
-            band.scissor(column..column + 1, row..row + 1).clear(sky([column, row]));
+    // The three steps by a pass, or by what it has listed.
+    macro_rules! draw {
+        ($way:expr) => {
+            while let Some(mut band) = bands.next_band() {
+                let [columns, rows] = band.limits();
+                for [column, row] in rows.flat_map(|row| columns.clone().map(move |column| [column, row])) {
+                    band.scissor(column..column + 1, row..row + 1).clear(sky([column, row]));
+                }
+                $way.draw(&mut band);
+                let mut silhouette = Silhouette::new(&band, &mut cells).expect("enough words");
+                $way.cover(&mut silhouette);
+                let coverage = silhouette.coverage();
+                $way.draw_fringe(&mut band, &coverage);
+                coverage.resolve(&mut band, Average::Light, sky);
+                frame.extend_from_slice(band.pixels());
+            }
+        };
+    }
+    let size = [WIDTH, HEIGHT];
+    match shared {
+        Shared::Nothing => draw!(pass),
+        Shared::Smooth(count) => {
+            let (mut prepared, _) = pass.prepare_smooth(size, D16, &mut room[..count], &mut ());
+            draw!(prepared);
         }
-        let mut pass = Pass::new(&view, &mesh, VertexColor).interpolation(interpolation).subpixel(subpixel);
-        pass = pass.slots(&mut slots).viewport(viewport);
-        pass.draw(&mut band);
-        let mut silhouette = Silhouette::new(&band, &mut cells).expect("enough words");
-        pass.cover(&mut silhouette);
-        let coverage = silhouette.coverage();
-        pass.draw_fringe(&mut band, &coverage);
-        coverage.resolve(&mut band, Average::Light, sky);
-        frame.extend_from_slice(band.pixels());
+        Shared::Plain(count) => {
+            let (mut prepared, _) = pass.count_prepare(size, D16, &mut room[..count], &mut ());
+            draw!(prepared);
+        }
     }
     frame
 }
@@ -319,9 +362,19 @@ fn bands_and_slots_make_the_frame() {
     for (distance, viewport) in [(4.2, whole), (1.9, whole), (1.3, part)] {
         macro_rules! by {
             ($policy:expr) => {{
-                let frame = smooth(distance, $policy, HEIGHT, 0, viewport);
-                for (rows, slots) in [(1, 0), (7, 700), (50, 33)] {
-                    assert!(smooth(distance, $policy, rows, slots, viewport) == frame, "{rows} rows");
+                let frame = smooth(distance, $policy, HEIGHT, (0, Shared::Nothing), viewport);
+                for (rows, slots, shared) in [
+                    (1, 0, Shared::Nothing),
+                    (7, 700, Shared::Nothing),
+                    (50, 33, Shared::Nothing),
+                    (1, 0, Shared::Smooth(2000)),
+                    (7, 700, Shared::Smooth(2000)),
+                    (HEIGHT, 33, Shared::Smooth(2000)),
+                    (50, 700, Shared::Smooth(300)),
+                    (50, 33, Shared::Plain(2000)),
+                ] {
+                    let found = smooth(distance, $policy, rows, (slots, shared), viewport);
+                    assert!(found == frame, "{rows} rows, {slots} slots, {shared:?}");
                 }
             }};
         }

@@ -1,6 +1,7 @@
 //! The colours of pixels that are covered, but not at their centre.
 
-use super::edge::{Edge, Piece};
+use super::edge::Edge;
+use super::pieces::Piece;
 use super::{Coverage, Part, misses, seen};
 use crate::color::ColorFormat;
 use crate::counters::Counters;
