@@ -71,7 +71,7 @@ draws! {
     pairs_affine_fixed(model): FixedPoint(Affine), mapped, Stored(CHEQUER_PAIRS.sampler(Bilinear, Repeat));
 
     /// The same as a colour of 8 bits a channel, with an alpha that is not used.
-    glass_fixed(model): FixedPoint(Affine), mapped, Glass(Unlit(TEXTURE.sampler(Nearest, Repeat)));
+    glass_fixed(model): FixedPoint(Affine), mapped, glass();
 }
 
 /// Defines ways of drawing that mix with what is there, without perspective, in fixed point.
@@ -92,10 +92,16 @@ blends! {
     constant_fixed(model): Constant(100), Stored(TEXTURE.sampler(Nearest, Repeat));
 
     /// The nearest texel, as opaque as it is green.
-    over_fixed(model): Over, Glass(Unlit(TEXTURE.sampler(Nearest, Repeat)));
+    over_fixed(model): Over, glass();
 
     /// The nearest texel as light.
-    additive_fixed(model): Additive, Glass(Unlit(TEXTURE.sampler(Nearest, Repeat)));
+    additive_fixed(model): Additive, glass();
+}
+
+/// The nearest texel as a colour of 8 bits a channel, as opaque as it is green.
+#[inline]
+pub(crate) fn glass() -> impl FragmentStage<Vec2, Color = Rgba8> {
+    Glass(Unlit(TEXTURE.sampler(Nearest, Repeat)))
 }
 
 /// Colours that are as opaque as they are green.
@@ -375,7 +381,7 @@ pub fn flat_without_depth<K: Counters>(
     draw(pixels, camera, model, &mesh, Solid(ORANGE), Exact, &mut [], counters);
 }
 
-const ORANGE: u16 = 0xe405;
+pub(crate) const ORANGE: u16 = 0xe405;
 
 /// The pass that all ways have in common.
 #[inline]
@@ -411,7 +417,7 @@ impl Target {
     }
 }
 
-fn place(vertex: &Vertex) -> Point3<Object> {
+pub(crate) fn place(vertex: &Vertex) -> Point3<Object> {
     Point3::new(Vec3::from_array(vertex.position))
 }
 

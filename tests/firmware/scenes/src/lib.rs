@@ -6,6 +6,7 @@
 
 #![no_std]
 
+mod afterwards;
 mod draws;
 mod floor;
 pub mod policies;
@@ -13,6 +14,10 @@ pub mod renderer;
 pub mod shapes;
 pub mod torus;
 
+pub use afterwards::{
+    alpha_dithered, alpha_tested, dithered, fogged, hazy, multiplied, noisy, premultiplied, sampled, smooth,
+    wireframe,
+};
 pub use draws::{
     additive_fixed, affine_fixed, affine_integers, affine_mesh, affine_mesh_sub8, affine_meshlets,
     bilinear_fixed, bilinear_pairs_fixed, bilinear_stored_fixed, bounded_bands, constant_fixed,
@@ -119,6 +124,14 @@ pub static SCENES: &[Scene] = &[
     fill!("fixed-over-4", 4, over_fixed),
     fill!("fixed-additive", 1, additive_fixed),
     fill!("fixed-additive-4", 4, additive_fixed),
+    fill!("fixed-premultiplied", 1, premultiplied),
+    fill!("fixed-multiply", 1, multiplied),
+    fill!("fixed-alpha-test", 1, alpha_tested),
+    fill!("fixed-alpha-dither", 1, alpha_dithered),
+    fill!("fixed-fog-linear", 1, hazy),
+    fill!("fixed-fog-exponential", 1, fogged),
+    fill!("fixed-dither-bayer", 1, dithered),
+    fill!("fixed-dither-noise", 1, noisy),
     fill!("fixed-textured", 1, textured_fixed),
     fill!("fixed-textured-4", 4, textured_fixed),
     fill!("fixed-bilinear", 1, bilinear_fixed),
@@ -129,6 +142,9 @@ pub static SCENES: &[Scene] = &[
     fill!("fixed-affine-pairs", 1, pairs_affine_fixed),
     fill!("fixed-affine-dither", 1, dithered_affine_fixed),
     scene!("fixed-mesh-flat", torus(1.0), flat_mesh),
+    scene!("fixed-mesh-lines", coarse_torus(), wireframe),
+    scene!("fixed-mesh-smooth", torus(1.0), smooth),
+    scene!("fixed-mesh-sampled", torus(1.0), sampled),
     scene!("fixed-mesh-gouraud", torus(1.0), gouraud_mesh),
     scene!("fixed-mesh-affine", torus(1.0), affine_mesh),
     scene!("fixed-mesh", torus(1.0), textured_fixed),
@@ -205,13 +221,16 @@ impl Camera {
 }
 
 /// The memory of a frame: colour in little-endian RGB565, depth in 16 bits, the transformed vertices, the list of the
-/// triangles in bands; and that of a renderer in bands.
+/// triangles in bands, the words of a silhouette's band, the samples of a larger frame's band; and that of a renderer
+/// in bands.
 #[derive(Debug)]
 pub struct Target {
     color: [u16; PIXELS],
     depth: [u16; PIXELS],
     slots: Slots,
     listed: [PreparedTriangle; TORUS_TRIANGLES],
+    cells: [i32; afterwards::CELLS],
+    samples: ([u16; afterwards::SAMPLES], [u16; afterwards::SAMPLES]),
     renderer: Renderer,
 }
 
@@ -234,6 +253,8 @@ impl Target {
             mapped: [Slot::EMPTY; TORUS_VERTICES],
         },
         listed: [PreparedTriangle::EMPTY; TORUS_TRIANGLES],
+        cells: [0; afterwards::CELLS],
+        samples: ([0; afterwards::SAMPLES], [0; afterwards::SAMPLES]),
         renderer: renderer::EMPTY,
     };
 
