@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::thread;
 
 use crate::command::{self, Outcome, cargo, output};
 use crate::{firmware, workspace};
@@ -63,16 +64,22 @@ pub(crate) fn check() -> Outcome {
 
 fn measure(what: &str) -> Outcome {
     let program = build()?;
+    // Compiling for three boards and thirty sizes takes minutes: a check asks one board for its counts.
+    let (board, weighed) = if what == "write" { (None, true) } else { (Some(CHECKED), false) };
+    // Valgrind has one thread, and compilers wait for one another: together they take little more than either.
+    let (counts, prices) = thread::scope(|scope| {
+        let counts = scope.spawn(|| counts(&program));
+        let prices = prices(&program, board, weighed);
+        (counts.join(), prices)
+    });
+    let counts = counts.map_err(|_| "counting instructions panicked")??;
     let mut line = Command::new(&program);
     line.arg(what).arg(workspace::root()).args(["--compiler", &compiler()?]);
-    match counts(&program)? {
+    match counts {
         Some(folder) => _ = line.arg("--counts").arg(folder),
         None => eprintln!("valgrind is not installed: instructions are not counted (Debian: valgrind)"),
     }
-    // Compiling for three boards and thirty sizes takes minutes: a check asks one board for its counts.
-    let file =
-        if what == "write" { prices(&program, None, true)? } else { prices(&program, Some(CHECKED), false)? };
-    command::run(line.arg("--boards").arg(file))
+    command::run(line.arg("--boards").arg(prices?))
 }
 
 /// The compiler and the registers by which instructions can be compared.
