@@ -169,8 +169,6 @@ pub struct Asset {
     pub textures: Vec<Texture>,
     /// The losses by rounding vertices.
     pub losses: Losses,
-    /// The most that simplification has moved the surface, in object space.
-    pub moved: f32,
 }
 
 impl Asset {
@@ -178,6 +176,12 @@ impl Asset {
     #[must_use]
     pub fn triangles(&self) -> usize {
         self.pieces.iter().map(|piece| piece.triangles.len()).sum()
+    }
+
+    /// The most that simplification has moved a surface, in object space.
+    #[must_use]
+    pub fn moved(&self) -> f32 {
+        self.pieces.iter().fold(0.0, |most, piece| most.max(piece.moved))
     }
 
     /// Vertices of all parts.

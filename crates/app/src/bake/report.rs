@@ -8,11 +8,11 @@ use super::binary::length;
 use super::missing::opaque;
 use super::{Asset, Format, restored};
 use crate::advise::{Machine, baked_on_chip, depth_bytes, work};
-use crate::error::Error;
+use crate::error::{Error, quote};
 use crate::measure::{Comparison, Measures};
 use crate::options::{ColorFormat, Policies, Projection, RenderOptions, Shading};
 use crate::render::render;
-use crate::scene::{Camera, Model, camera};
+use crate::scene::{Camera, Model, Part, camera};
 use alberti::baked::{Attributes, HEADER};
 use alberti::{PreparedTriangle, Slot};
 
@@ -24,6 +24,8 @@ pub struct Report<'a> {
     given: usize,
     size: [u32; 2],
     band: u32,
+    /// The names of the asset's parts, in brackets, or nothing.
+    names: Vec<String>,
     /// Names and bytes of what lies in flash.
     pub items: Vec<(String, usize)>,
     /// Names and bytes of what a renderer in bands has in memory.
@@ -82,6 +84,7 @@ impl<'a> Report<'a> {
         let side = asset.textures.iter().flat_map(|texture| texture.size).max().unwrap_or(0);
         Ok(Self {
             asset,
+            names: asset.pieces.iter().map(|piece| named(&model.parts[piece.part])).collect(),
             given: model.parts.iter().map(|part| part.triangles.len()).sum(),
             size: [options.width, options.height],
             band,
@@ -140,8 +143,13 @@ impl<'a> Report<'a> {
         if has(Attributes::UV) {
             line(format!("  uv        {texels:.3} texels"));
         }
-        if asset.moved > 0.0 {
-            line(format!("  surface   {:.1e} of a unit, by the simplification", asset.moved));
+        if asset.moved() > 0.0 {
+            line(format!("  surface   {:.1e} of a unit, by the simplification", asset.moved()));
+            let several = asset.pieces.len() > 1;
+            for (piece, name) in asset.pieces.iter().zip(&self.names).filter(|_| several) {
+                let triangles = counted(piece.triangles.len(), "triangle", "triangles");
+                line(format!("            {:.1e}  part {}{name}: {triangles}", piece.moved, piece.part));
+            }
         }
         line(format!(
             "  frame     {} of 255 for 99.9 % of the pixels, mean FLIP {:.4}",
@@ -200,11 +208,14 @@ impl<'a> Report<'a> {
                 "tangent_degrees": asset.losses.tangent,
                 "uv": asset.losses.uv,
                 "texels": self.texels,
-                "surface": asset.moved,
+                "surface": asset.moved(),
                 "frame": self.measures.most,
                 "frame_largest": self.measures.largest,
                 "flip": self.measures.flip,
             },
+            "surfaces": asset.pieces.iter().map(|piece| {
+                json!({ "part": piece.part, "triangles": piece.triangles.len(), "moved": piece.moved })
+            }).collect::<Vec<_>>(),
             "cache_before": before,
             "cache_after": after,
         })
@@ -251,6 +262,11 @@ fn items(asset: &Asset) -> Vec<(String, usize)> {
         ));
     }
     items
+}
+
+/// The name of a part in brackets, after a space, if it has one.
+pub(super) fn named(part: &Part) -> String {
+    if part.name.is_empty() { String::new() } else { format!(" ({})", quote(part.name.as_bytes())) }
 }
 
 /// A number of things, in words.

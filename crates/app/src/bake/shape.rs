@@ -31,6 +31,8 @@ pub struct Piece {
     pub color: Rgba8,
     /// The number of its texture among the asset's.
     pub texture: Option<usize>,
+    /// The most that simplification has moved its surface, in object space.
+    pub moved: f32,
     /// How often a cache has to transform a vertex.
     pub order: Order,
 }
@@ -51,6 +53,9 @@ const WEIGHT: f32 = 0.5;
 
 /// The error of a simplification that only a number of triangles limits.
 const NO_LIMIT: f32 = 1e6;
+
+/// The triangles down to which a part is simplified for a distance: those of the least closed surface.
+const LEAST: usize = 4;
 
 /// A way to simplify, the most careful first.
 #[derive(Clone, Copy)]
@@ -98,10 +103,17 @@ impl Alone {
         Self { vertices, triangles }
     }
 
-    /// Takes triangles away, down to so many. Returns how far the surface has moved at most.
+    /// Takes triangles away, down to so many, as far as the surface is then wrong by at most `error`, in object space.
+    /// Returns how far it has moved at most.
     ///
     /// The first of these ways that leaves no more is taken, else the one that leaves fewest. Something is left.
-    fn simplify(&mut self, most: usize, ways: &[Way], attributes: Attributes) -> Result<f32, Error> {
+    fn simplify(
+        &mut self,
+        most: usize,
+        error: f32,
+        ways: &[Way],
+        attributes: Attributes,
+    ) -> Result<f32, Error> {
         let positions: Vec<[f32; 3]> = self.vertices.iter().map(|v| v.position).collect();
         let weighed = |v: &Vertex| {
             let normal = if attributes.contains(Attributes::NORMAL) { v.normal } else { [0.0; 3] };
@@ -112,6 +124,8 @@ impl Alone {
         let places = Positions::from_packed(&positions);
         let values = Weighed::from_interleaved(&values, positions.len(), 5, 5, 0).map_err(not_ordered)?;
         let indices = self.triangles.as_flattened();
+        let scale = simplify_scale(places).map_err(not_ordered)?;
+        let target_error = (error / scale).min(NO_LIMIT);
         let mut workspace = Workspace::default();
         let mut best = (indices.to_vec(), 0.0);
         for way in ways {
@@ -120,8 +134,7 @@ impl Alone {
             }
             let simplified = match way.options() {
                 Some(options) => {
-                    let settings =
-                        SimplifySettings { target_index_count: 3 * most, target_error: NO_LIMIT, options };
+                    let settings = SimplifySettings { target_index_count: 3 * most, target_error, options };
                     let weights = [WEIGHT; 5];
                     simplify_with_attributes(
                         indices,
@@ -133,7 +146,7 @@ impl Alone {
                         &mut workspace,
                     )
                 }
-                None => simplify_sloppy(indices, places, None, 3 * most, NO_LIMIT, &mut workspace),
+                None => simplify_sloppy(indices, places, None, 3 * most, target_error, &mut workspace),
             };
             let simplified = simplified.map_err(not_ordered)?;
             if (1..best.0.len()).contains(&simplified.indices.len()) {
@@ -142,7 +155,7 @@ impl Alone {
         }
         let (indices, error) = best;
         self.triangles = indices.as_chunks().0.to_vec();
-        Ok(error * simplify_scale(places).map_err(not_ordered)?)
+        Ok(error * scale)
     }
 
     /// The vertices in integers, those that are equal as one, and the triangles that are left between them.
@@ -163,36 +176,69 @@ impl Alone {
     }
 }
 
-/// The parts that have triangles, with their numbers, and how far simplification has moved their surfaces.
+/// A part's number, its mesh, and how far simplification has moved its surface.
+type Simplified = (usize, Alone, f32);
+
+/// The parts that have triangles.
 ///
-/// Each gets its share of what is left, the largest last: these make up for small ones that cannot do with theirs. Only
-/// if all are too many together are they simplified in the next way.
-fn simplified(
-    model: &Model,
-    wish: &Wish,
-    attributes: Attributes,
-) -> Result<(Vec<(usize, Alone)>, f32), Error> {
+/// All may be wrong by the same distance, the least that keeps the budget, in the first way that can. If none can, each
+/// gets its share of what is left, the largest last: these make up for small ones that cannot do with theirs. So does a
+/// part alone, whose share is all.
+fn simplified(model: &Model, wish: &Wish, attributes: Attributes) -> Result<Vec<Simplified>, Error> {
     let parts = || model.parts.iter().enumerate().filter(|(_, part)| !part.triangles.is_empty());
-    let alone = || parts().map(|(number, part)| (number, Alone::new(model, part))).collect::<Vec<_>>();
+    let alone = || parts().map(|(number, part)| (number, Alone::new(model, part), 0.0)).collect::<Vec<_>>();
     let total: usize = parts().map(|(_, part)| part.triangles.len()).sum();
-    let mut found = (alone(), 0.0_f32);
-    let Some(most) = wish.triangles.filter(|&most| most < total) else { return Ok(found) };
-    let ways = if parts().count() > 1 { &Way::ALL } else { &Way::ALL[1..] };
-    for last in 1..=ways.len() {
-        let (mut meshes, mut moved) = (alone(), 0.0_f32);
-        meshes.sort_by_key(|(_, mesh)| mesh.triangles.len());
-        let (mut left, mut given) = (most, total);
-        for (_, mesh) in &mut meshes {
-            let before = mesh.triangles.len();
-            moved = moved.max(mesh.simplify((left * before / given).max(1), &ways[..last], attributes)?);
-            (left, given) = (left.saturating_sub(mesh.triangles.len()), given - before);
+    let Some(most) = wish.triangles.filter(|&most| most < total) else { return Ok(alone()) };
+    let mut ways = &Way::ALL[1..];
+    if parts().count() > 1 {
+        ways = &Way::ALL;
+        for way in [Way::Locked, Way::Free, Way::Permissive] {
+            if let Some(found) = equally_wrong(&alone, most, way, attributes)? {
+                return Ok(found);
+            }
         }
-        meshes.sort_by_key(|&(number, _)| number);
-        let now: usize = meshes.iter().map(|(_, mesh)| mesh.triangles.len()).sum();
-        found = (meshes, moved);
-        if now <= most {
-            break;
+    }
+    let mut meshes = alone();
+    meshes.sort_by_key(|(_, mesh, _)| mesh.triangles.len());
+    let (mut left, mut given) = (most, total);
+    for (_, mesh, moved) in &mut meshes {
+        let before = mesh.triangles.len();
+        *moved = mesh.simplify((left * before / given).max(1), f32::INFINITY, ways, attributes)?;
+        (left, given) = (left.saturating_sub(mesh.triangles.len()), given - before);
+    }
+    meshes.sort_by_key(|&(number, ..)| number);
+    Ok(meshes)
+}
+
+/// The parts with at most so many triangles together, all simplified up to one distance; `None` if none is enough.
+fn equally_wrong(
+    alone: &dyn Fn() -> Vec<Simplified>,
+    most: usize,
+    way: Way,
+    attributes: Attributes,
+) -> Result<Option<Vec<Simplified>>, Error> {
+    let size = alone()
+        .iter()
+        .flat_map(|(_, mesh, _)| &mesh.vertices)
+        .flat_map(|vertex| vertex.position)
+        .fold(0.0_f32, |size, x| size.max(x.abs()));
+    // The distance is a power of two of that size. Eleven halvings leave an exponent to 0.014, a hundredth of it.
+    let (mut lower, mut upper) = (-24.0_f32, 4.0_f32);
+    let mut found = None;
+    let mut exponent = upper;
+    for _ in 0..12 {
+        let mut meshes = alone();
+        for (_, mesh, moved) in &mut meshes {
+            *moved = mesh.simplify(LEAST, size * exponent.exp2(), &[way], attributes)?;
         }
+        if meshes.iter().map(|(_, mesh, _)| mesh.triangles.len()).sum::<usize>() <= most {
+            (found, upper) = (Some(meshes), exponent);
+        } else if found.is_none() {
+            return Ok(None);
+        } else {
+            lower = exponent;
+        }
+        exponent = f32::midpoint(lower, upper);
     }
     Ok(found)
 }
@@ -205,13 +251,13 @@ pub(super) fn asset(
     textures: Vec<Texture>,
     of_parts: &[Option<usize>],
 ) -> Result<Asset, Error> {
-    let (alone, moved) = simplified(model, wish, attributes)?;
-    let used = alone
-        .iter()
-        .flat_map(|(_, mesh)| mesh.triangles.iter().flatten().map(|&index| &mesh.vertices[index as usize]));
+    let alone = simplified(model, wish, attributes)?;
+    let used = alone.iter().flat_map(|(_, mesh, _)| {
+        mesh.triangles.iter().flatten().map(|&index| &mesh.vertices[index as usize])
+    });
     let grids = Grids::new(used, attributes)?;
     let (mut pieces, mut losses) = (vec![], Losses::default());
-    for (number, mesh) in alone {
+    for (number, mesh, moved) in alone {
         let part = &model.parts[number];
         let before = transformed(&mesh.triangles, mesh.vertices.len())?;
         let (vertices, triangles, lost) = mesh.pack(&grids, attributes);
@@ -229,20 +275,15 @@ pub(super) fn asset(
         if !triangles.is_empty() {
             let color = crate::draw::color(part.diffuse);
             let texture = of_parts[number];
-            pieces.push(ordered(
-                number,
-                (vertices, triangles),
-                &grids,
-                wish.meshlets,
-                (color, texture),
-                before,
-            )?);
+            let piece =
+                ordered(number, (vertices, triangles), &grids, wish.meshlets, (color, texture), before)?;
+            pieces.push(Piece { moved, ..piece });
         }
     }
     if pieces.is_empty() {
         return Err(Error::new("a model without triangles", "something to draw"));
     }
-    Ok(Asset { attributes, grids, pieces, textures, losses, moved })
+    Ok(Asset { attributes, grids, pieces, textures, losses })
 }
 
 /// A piece with its triangles in the order of meshlets, or of a cache, and its vertices in the order of their use.
@@ -286,7 +327,7 @@ fn ordered(
     let meshlets = ranges.into_iter().map(|range| Meshlet::new(&mesh, &ball, range)).collect();
     let wide: Vec<[u32; 3]> = triangles.iter().map(|triangle| triangle.map(u32::from)).collect();
     let order = Order { before, after: transformed(&wide, used.len())? };
-    Ok(Piece { part, vertices: used, triangles, meshlets, ball, color, texture, order })
+    Ok(Piece { moved: 0.0, part, vertices: used, triangles, meshlets, ball, color, texture, order })
 }
 
 /// Transformed vertices a triangle, with a small cache.

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use alberti::Geometry as _;
 use alberti::baked::Baked;
 
-use super::{COLUMNS, bake, baked, folder, image, number};
+use super::{COLUMNS, ROWS, bake, baked, folder, image, number};
 use crate::Folder;
 
 #[test]
@@ -50,6 +50,44 @@ fn a_budget_is_kept_whatever_the_borders() {
         let triangles = report["triangles"].as_u64().expect("a number");
         assert!((1..=most).contains(&triangles) && number(&report, "surface") >= 0.0, "{report}");
     }
+}
+
+/// A flat sheet beside a ball: triangles that the sheet has no use for are the ball's, and each states its own error.
+#[test]
+fn a_budget_goes_where_it_is_needed() {
+    let mut sheet = "o sheet\n".to_owned();
+    for k in 0..21 * 21_u32 {
+        sheet += &format!("v {} -3 {}\nvt {} {}\nvn 0 1 0\n", k % 21, k / 21, k % 21, k / 21);
+    }
+    for k in (0..21 * 20).filter(|k| k % 21 < 20) {
+        let [a, b, c, d] = [k, k + 21, k + 22, k + 1].map(|corner| corner + 1);
+        sheet += &format!("f {a}/{a}/{a} {b}/{b}/{b} {c}/{c}/{c} {d}/{d}/{d}\n");
+    }
+    // Indices that count from the end do not care how many vertices there were before.
+    let all = (ROWS + 1) * (COLUMNS + 1);
+    let ball = super::ball();
+    let ball = ball.lines().map(|line| match line.strip_prefix("f ") {
+        Some(face) => {
+            let corner =
+                |word: &str| word.split('/').next().and_then(|k| k.parse::<u32>().ok()).expect("one");
+            let back = face.split(' ').map(|word| corner(word).abs_diff(all + 1));
+            format!("f {}\n", back.map(|k| format!("-{k}/-{k}/-{k}")).collect::<Vec<_>>().join(" "))
+        }
+        None => line.to_owned(),
+    });
+    let ball = ball.collect::<Vec<_>>().join("\n");
+    let folder = Folder::with(&[("two.obj", format!("{sheet}o ball\n{ball}\n").as_bytes())]);
+    let run = bake(&folder, &["two.obj", "--triangles", "500", "--attributes", "normal", "--json"]);
+    assert_eq!(run.status, Some(0), "{run:?}");
+    let report: serde_json::Value = serde_json::from_str(&run.stdout).expect("one line of JSON");
+    let triangles = report["triangles"].as_u64().expect("a number");
+    assert!((400..=500).contains(&triangles), "{report}");
+    let parts = report["surfaces"].as_array().expect("a list");
+    let of = |part: usize, key: &str| parts[part][key].as_f64().expect("a number");
+    // A share of 500 would leave the ball with 329.
+    assert!(of(0, "triangles") <= 100.0 && of(1, "triangles") >= 360.0, "{report}");
+    assert!(of(0, "moved") < 0.1 * of(1, "moved"), "{report}");
+    assert!((number(&report, "surface") - of(1, "moved")).abs() < 1e-9, "{report}");
 }
 
 /// A part keeps a triangle, so that a budget may be too small: then the command says so.

@@ -4,7 +4,7 @@ use std::ffi::OsStr;
 
 use serde_json::Value;
 
-use super::{bake, baked, folder, number};
+use super::{bake, baked, folder, image, number};
 use crate::{Folder, alberti};
 
 /// A scene with all that a file has not, against the same without.
@@ -42,6 +42,32 @@ fn what_a_file_has_not_is_told() {
     let (without, _) = baked(&folder, "bare", &["bare.toml"]);
     assert_eq!(report["lost"], without["lost"]);
     assert!(number(&report, "frame") <= 1.0, "{report}");
+}
+
+/// Lights beside the one that programs have, and a projector's image: a line for each.
+#[test]
+fn lights_and_a_projector_are_told() {
+    let lights = "[[light]]\nkind = \"point\"\nposition = [0, 3, 3]\n\
+                  [[light]]\nkind = \"directional\"\ndirection = [0, -1, -1]\n\
+                  [[light]]\nkind = \"directional\"\ndirection = [1, -1, -1]\n";
+    let object = "[[object]]\nsurface = \"plane\"\nrotation = [90, 0, 0]\n";
+    let slide = "[projector]\nimage = \"soft.png\"\neye = [0, 0, 3]\ntarget = [0, 0, 0]\n";
+    let lit = format!("{object}{lights}{slide}[render]\nshading = \"lambert\"\n");
+    let unlit = format!("{object}{lights}[render]\nshading = \"unlit\"\n");
+    let files = [("lit.toml", lit.as_bytes()), ("unlit.toml", unlit.as_bytes()), ("soft.png", &image())];
+    let folder = Folder::with(&files);
+    let run = bake(&folder, &["lit.toml"]);
+    let lines: Vec<_> = run.stderr.lines().collect();
+    assert_eq!((run.status, lines.len()), (Some(0), 3), "{run:?}");
+    for (line, part) in lines.into_iter().zip([
+        "found a point light (light[0])",
+        "found a further directional light (light[2])",
+        "found a projector's image",
+    ]) {
+        assert!(line.starts_with("warning: ") && line.contains(part), "{part:?} is not in {line}");
+    }
+    let run = bake(&folder, &["unlit.toml"]);
+    assert_eq!((run.status, &run.stderr[..]), (Some(0), ""), "{run:?}");
 }
 
 #[test]
