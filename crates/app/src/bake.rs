@@ -30,7 +30,7 @@ use std::str::FromStr;
 
 use crate::error::Error;
 use crate::options::{Dither, Filter, RenderOptions, Shading};
-use crate::scene::{Model, Part};
+use crate::scene::{Camera, Model, Part};
 use alberti::baked::{Attributes, TexelCode};
 
 /// The format of textures of colours.
@@ -191,17 +191,21 @@ impl Asset {
     }
 }
 
-/// Bakes a model, as these options draw it.
+/// Bakes a model, as these options draw it. Of several parts those near the camera keep more of their triangles.
 ///
 /// # Errors
 /// There is nothing to draw, too many vertices for their numbers, or texture coordinates too far from 0.
-pub fn bake(model: &Model, options: &RenderOptions, wish: &Wish) -> Result<Asset, Error> {
+pub fn bake(
+    (model, camera): (&Model, &Camera),
+    options: &RenderOptions,
+    wish: &Wish,
+) -> Result<Asset, Error> {
     let attributes = match wish.attributes {
         Asked::Auto => used(model, options),
         Asked::These(attributes) => attributes,
     };
     let (textures, of_parts) = texels::textures(model, options, attributes, wish)?;
-    shape::asset(model, wish, attributes, textures, &of_parts)
+    shape::asset((model, camera.eye), wish, attributes, textures, &of_parts)
 }
 
 /// The attributes that a picture reads.

@@ -12,6 +12,7 @@ use super::{Asset, Wish};
 use crate::error::{Error, quote};
 use crate::scene::{Model, Part, Vertex};
 use alberti::baked::{Attributes, MAX_VERTICES};
+use alberti::glam::Vec3;
 use alberti::{Ball, IntegerMesh, IntegerVertex, Meshlet, Rgba8, Split};
 
 /// The mesh of a part, as it lies in flash.
@@ -181,10 +182,15 @@ type Simplified = (usize, Alone, f32);
 
 /// The parts that have triangles.
 ///
-/// All may be wrong by the same distance, the least that keeps the budget, in the first way that can. If none can, each
-/// gets its share of what is left, the largest last: these make up for small ones that cannot do with theirs. So does a
-/// part alone, whose share is all.
-fn simplified(model: &Model, wish: &Wish, attributes: Attributes) -> Result<Vec<Simplified>, Error> {
+/// All may be wrong by the same angle as seen from `eye`, the least that keeps the budget, in the first way that can.
+/// If none can, each gets its share of what is left, the largest last: these make up for small ones that cannot do with
+/// theirs. So does a part alone, whose share is all.
+fn simplified(
+    model: &Model,
+    eye: [f32; 3],
+    wish: &Wish,
+    attributes: Attributes,
+) -> Result<Vec<Simplified>, Error> {
     let parts = || model.parts.iter().enumerate().filter(|(_, part)| !part.triangles.is_empty());
     let alone = || parts().map(|(number, part)| (number, Alone::new(model, part), 0.0)).collect::<Vec<_>>();
     let total: usize = parts().map(|(_, part)| part.triangles.len()).sum();
@@ -193,7 +199,7 @@ fn simplified(model: &Model, wish: &Wish, attributes: Attributes) -> Result<Vec<
     if parts().count() > 1 {
         ways = &Way::ALL;
         for way in [Way::Locked, Way::Free, Way::Permissive] {
-            if let Some(found) = equally_wrong(&alone, most, way, attributes)? {
+            if let Some(found) = equally_wrong(&alone, eye, most, way, attributes)? {
                 return Ok(found);
             }
         }
@@ -210,26 +216,30 @@ fn simplified(model: &Model, wish: &Wish, attributes: Attributes) -> Result<Vec<
     Ok(meshes)
 }
 
-/// The parts with at most so many triangles together, all simplified up to one distance; `None` if none is enough.
+/// The parts with at most so many triangles together, all simplified up to one part of their distance from `eye`;
+/// `None` if none is enough.
 fn equally_wrong(
     alone: &dyn Fn() -> Vec<Simplified>,
+    eye: [f32; 3],
     most: usize,
     way: Way,
     attributes: Attributes,
 ) -> Result<Option<Vec<Simplified>>, Error> {
-    let size = alone()
-        .iter()
-        .flat_map(|(_, mesh, _)| &mesh.vertices)
-        .flat_map(|vertex| vertex.position)
-        .fold(0.0_f32, |size, x| size.max(x.abs()));
-    // The distance is a power of two of that size. Eleven halvings leave an exponent to 0.014, a hundredth of it.
+    let distance = |vertex: &Vertex| Vec3::from_array(vertex.position).distance(Vec3::from_array(eye));
+    let parts = alone();
+    let farthest = parts.iter().flat_map(|(_, mesh, _)| &mesh.vertices).map(distance).fold(0.0, f32::max);
+    // A part around the eye is not without an error.
+    let nearest =
+        |mesh: &Alone| mesh.vertices.iter().map(distance).fold(farthest, f32::min).max(farthest / 64.0);
+    let distances: Vec<f32> = parts.iter().map(|(_, mesh, _)| nearest(mesh)).collect();
+    // A power of two of it. Eleven halvings leave an exponent to 0.014, a hundredth of the error.
     let (mut lower, mut upper) = (-24.0_f32, 4.0_f32);
     let mut found = None;
     let mut exponent = upper;
     for _ in 0..12 {
         let mut meshes = alone();
-        for (_, mesh, moved) in &mut meshes {
-            *moved = mesh.simplify(LEAST, size * exponent.exp2(), &[way], attributes)?;
+        for ((_, mesh, moved), distance) in meshes.iter_mut().zip(&distances) {
+            *moved = mesh.simplify(LEAST, distance * exponent.exp2(), &[way], attributes)?;
         }
         if meshes.iter().map(|(_, mesh, _)| mesh.triangles.len()).sum::<usize>() <= most {
             (found, upper) = (Some(meshes), exponent);
@@ -245,13 +255,13 @@ fn equally_wrong(
 
 /// The asset of a model with these textures, of which each part has one or none.
 pub(super) fn asset(
-    model: &Model,
+    (model, eye): (&Model, [f32; 3]),
     wish: &Wish,
     attributes: Attributes,
     textures: Vec<Texture>,
     of_parts: &[Option<usize>],
 ) -> Result<Asset, Error> {
-    let alone = simplified(model, wish, attributes)?;
+    let alone = simplified(model, eye, wish, attributes)?;
     let used = alone.iter().flat_map(|(_, mesh, _)| {
         mesh.triangles.iter().flatten().map(|&index| &mesh.vertices[index as usize])
     });

@@ -147,7 +147,7 @@ fn baked(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
     for warning in missing(&model, &options) {
         warn(&request.relocate(warning).to_string());
     }
-    let asset = bake(&model, &options, &wish)?;
+    let asset = bake((&model, &camera), &options, &wish)?;
     if let Some(most) = triangles.filter(|&most| asset.triangles() > most) {
         let found = format!("{} triangles that cannot be fewer", asset.triangles());
         warn(&Error::new(found, format!("at most {most}")).place("--triangles").to_string());
