@@ -37,6 +37,13 @@ macro_rules! as_surface {
             Self { surface: self.surface.settled(lanes, $part), ..*self }
         }
 
+        const BY_ROWS: bool = S::BY_ROWS;
+
+        #[inline(always)]
+        fn in_row(&self, row: i32) -> Self {
+            Self { surface: self.surface.in_row(row), ..*self }
+        }
+
         #[inline(always)]
         fn derivatives(&self) -> S::Derivatives {
             self.surface.derivatives()

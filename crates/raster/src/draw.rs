@@ -401,14 +401,21 @@ where
         RowSpans::new(&edges, columns.end - columns.start, [samples.above(), rows.end - rows.start]);
     let weights = Weights::new(setup.interpolation.lanes(setup.lanes), &edges, setup.oriented.doubled_area);
     // A triangle that covers no sample is not prepared.
-    let mut painter = None;
+    let (mut painter, mut stage) = (None, None::<F>);
     for row in rows.clone() {
         let covered = spans.next_row().shifted(columns.start);
         if covered.start.max(limits.start) < covered.end.min(limits.end) {
             if painter.is_none() {
-                painter = Some(setup.prepare());
+                let prepared = setup.prepare();
+                if const { F::BY_ROWS } {
+                    stage = Some(prepared.stage);
+                }
+                painter = Some(prepared);
             }
-            if let Some(painter) = &painter {
+            if let Some(painter) = &mut painter {
+                if let Some(stage) = stage {
+                    painter.stage = stage.in_row(row);
+                }
                 let row = Row { row, covered, origin: columns.start, edges: &edges };
                 painter.row(target, &row, limits, &weights, counters);
             }
@@ -451,7 +458,8 @@ where
         }
         bits = mask.next_row();
     }
-    let painter = prepare();
+    let mut painter = prepare();
+    let stage = painter.stage;
     if const { Painter::<L, V, T, F>::EVERYWHERE } {
         bits = mask.inside();
     }
@@ -459,6 +467,9 @@ where
     let mut pixels = target.rows_from(row, left);
     while row < rows.end {
         if bits != 0 {
+            if const { F::BY_ROWS } {
+                painter.stage = stage.in_row(row);
+            }
             painter.masked(formats, pixels.row(), [left, row], bits, &mask, counters);
         }
         row += 1;

@@ -70,6 +70,18 @@ pub trait FragmentStage<V: Varying>: Copy {
         *self
     }
 
+    /// Whether there is a stage for each row: then [`in_row`](Self::in_row) has it.
+    const BY_ROWS: bool = false;
+
+    /// The stage for the fragments of a row, which is asked for before these. A stage in another hands it on, and
+    /// [`BY_ROWS`](Self::BY_ROWS).
+    #[inline(always)]
+    #[must_use]
+    fn in_row(&self, row: i32) -> Self {
+        let _ = row;
+        *self
+    }
+
     /// The colours of several fragments, as words, and those of them that are not discarded. Samples beside the mask
     /// may get any colour: they are not drawn, whether or not they are discarded. Under
     /// [`FixedPoint`](crate::FixedPoint) numbers are `Q16`: within ±32768, in steps of 2^-16.

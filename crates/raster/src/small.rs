@@ -251,6 +251,7 @@ where
                 outcome = Outcome::Drawn;
                 let first = [columns.start, row - origin[1]];
                 if let Some((colors, depths)) = lines.run(columns.start, count) {
+                    let stage = if const { F::BY_ROWS } { stage.in_row(row) } else { stage };
                     let mut depth = planes.zs.at(first);
                     let mut cursor = V::map(&planes.values, &|ramp: Ramp| ramp.at(first));
                     let (mut written, mut column) = (0, origin[0] + columns.start);

@@ -84,29 +84,22 @@ impl<'a, F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size> Leveled<'a, F, Neare
     }
 }
 
-impl<F: TexelFormat, U: Wrap, V: Wrap, Z: Size> Leveled<'_, F, Trilinear, U, V, Z> {
-    /// [`Sampler::either_lanes`] of one of the levels: the second where its share, in 32nds, and the last of
-    /// `thresholds`, from 0 to 31, add up to one.
+impl<'a, F: TexelFormat, U: Wrap, V: Wrap, Z: Size> Leveled<'a, F, Trilinear, U, V, Z> {
+    /// The same in one of the two levels: the second where its share, in 32nds, and the threshold, from 0 to 31, add up
+    /// to one.
     #[inline(always)]
-    pub fn either_lanes<L: Lanes>(
-        &self,
-        lanes: L,
-        uv: [L::Number; 2],
-        [u, v, level]: [L::U32; 3],
-        word: impl Fn(Option<F::Texel>) -> u32,
-    ) -> L::U32 {
-        let sampled = |texture: &Texture<'_, F, Z::Level>| {
-            let (wrap_u, wrap_v) = self.map.wraps();
-            texture.sampler_per_axis(Bilinear, wrap_u, wrap_v).either_lanes(lanes, uv, [u, v], &word)
-        };
-        let second = lanes.shr(lanes.word(self.along.into()) + level, 5);
-        if const { L::COUNT == 1 } {
-            let first = lanes.bits(lanes.equal_words(second, lanes.word(0))) != 0;
-            return sampled(if first { &self.near } else { &self.far });
-        }
-        let [near, far] = [sampled(&self.near), sampled(&self.far)];
-        let second = lanes.word(0) - second;
-        (near & (lanes.word(u32::MAX) - second)) | (far & second)
+    #[must_use]
+    pub fn either(&self, threshold: u8) -> Self {
+        let near = if self.along + (threshold & 31) < 32 { self.near } else { self.far };
+        Self { map: self.map, near, far: near, along: 0 }
+    }
+
+    /// The first level alone, with the filter of each.
+    #[inline(always)]
+    #[must_use]
+    pub fn level(&self) -> Sampler<'a, F, Bilinear, U, V, Z::Level> {
+        let (u, v) = self.map.wraps();
+        self.near.sampler_per_axis(Bilinear, u, v)
     }
 }
 

@@ -100,6 +100,13 @@ impl<V: Varying, S: FragmentStage<V, Color = u16>> FragmentStage<(Light, V)> for
         Self { surface: self.surface.settled(lanes, &gradient.map(|(_, part)| part)) }
     }
 
+    const BY_ROWS: bool = S::BY_ROWS;
+
+    #[inline(always)]
+    fn in_row(&self, row: i32) -> Self {
+        Self { surface: self.surface.in_row(row) }
+    }
+
     // Interpolated light stays between that of the vertices, and so does not leave the channels.
     #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, (Light, V)>) -> (L::U32, L::Mask) {

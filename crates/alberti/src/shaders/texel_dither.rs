@@ -8,7 +8,7 @@ use alberti_texture::{Bilinear, Leveled, NearestLevel, Sampler, Size, TexelForma
 /// A texture's colours as texels that are stored, one for each pixel, of those that [`Bilinear`] would mix.
 ///
 /// The place of the pixel decides which, so that neighbours have them as often as their shares say. The eye does the
-/// mixing, as with other dithers. Of [`Trilinear`] the level is chosen in this way too.
+/// mixing, as with other dithers. Of [`Trilinear`] each row is in one of the levels, by its place among four.
 ///
 /// ```
 /// use alberti::shaders::TexelDither;
@@ -28,13 +28,16 @@ use alberti_texture::{Bilinear, Leveled, NearestLevel, Sampler, Size, TexelForma
 /// odd row   3/8   7/8          7/8   5/8
 /// ```
 ///
+/// A row has the second level by a threshold of 1/8, 3/8, 7/8 or 5/8, in turns from the top.
+///
 /// # Precision
 /// A pixel's colour is that of a texel. Where coordinates are the same, the mean of a square of two by two is within
-/// 11/32 of the texels' difference from that of the filter. Along an axis it is within 1/8. A square of four by four
-/// has each of two levels as often as its share says, within 1/8.
+/// 11/32 of the texels' difference from that of the filter. Along an axis it is within 1/8. Four rows have each of two
+/// levels as often as its share says, within 1/8 + 1/64.
 ///
 /// # Cost
 /// In fixed point on a Cortex-M4F 22 instructions more than [`Nearest`](alberti_texture::Nearest) without perspective.
+/// A second level adds less than one, as each row has one of both.
 /// [`Stored`](super::Stored) takes 46 more of [`Rgb565Pairs`](alberti_texture::format::Rgb565Pairs) and 60 of others.
 /// Texels of any format, as none are mixed: they need not be [packed](alberti_texture::Packed).
 #[derive(Clone, Copy, Debug)]
@@ -52,7 +55,7 @@ impl<F: TexelFormat<Texel: FragmentColor>, U: Wrap, V: Wrap, Z: Size> FragmentSt
     #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, Vec2>) -> (L::U32, L::Mask) {
         let Fragments { lanes, varying, mask, place, .. } = *fragments;
-        let [u, v, _] = thresholds(lanes, place);
+        let [u, v] = thresholds(lanes, place);
         let texels = self.0.either_lanes(lanes, varying, [u, v], word(self.0.texture().format()));
         (texels, mask)
     }
@@ -75,12 +78,21 @@ impl<F: TexelFormat<Texel: FragmentColor>, U: Wrap, V: Wrap, Z: Size> FragmentSt
 {
     type Color = F::Texel;
     of_levels!();
+    const BY_ROWS: bool = true;
+
+    #[inline(always)]
+    fn in_row(&self, row: i32) -> Self {
+        Self(self.0.either(match row & 3 {
+            0 => 4,
+            1 => 12,
+            2 => 28,
+            _ => 20,
+        }))
+    }
 
     #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, Vec2>) -> (L::U32, L::Mask) {
-        let Fragments { lanes, varying, mask, place, .. } = *fragments;
-        let texels = self.0.either_lanes(lanes, varying, thresholds(lanes, place), word(self.0.format()));
-        (texels, mask)
+        TexelDither(self.0.level()).shade(fragments)
     }
 }
 
@@ -89,15 +101,15 @@ fn word<F: TexelFormat<Texel: FragmentColor>>(format: F) -> impl Fn(Option<F::Te
     move |texel| texel.map_or(0, |texel| format.native(texel).to_word())
 }
 
-/// The thresholds of pixels along u and along v, in 256ths, and between levels, in 32nds.
+/// The thresholds of pixels along u and along v, in 256ths.
 #[inline(always)]
-fn thresholds<L: Lanes>(lanes: L, [column, row]: [i32; 2]) -> [L::U32; 3] {
+fn thresholds<L: Lanes>(lanes: L, [column, row]: [i32; 2]) -> [L::U32; 2] {
     let [column, row] = [column.cast_unsigned(), row.cast_unsigned()];
     let odd = row & 1;
-    let [row_u, row_v, row_level] = [32 + 64 * odd, 96 + 128 * odd, row << 4 ^ row << 2];
+    let [row_u, row_v] = [32 + 64 * odd, 96 + 128 * odd];
     let at = |column: u32| {
         let odd = column & 1;
-        [row_u + 128 * odd, row_v - 64 * odd, 4 + ((column << 3 ^ row_level) & 24)]
+        [row_u + 128 * odd, row_v - 64 * odd]
     };
     if const { L::COUNT == 1 } {
         return at(column).map(|threshold| lanes.word(threshold));
@@ -107,17 +119,20 @@ fn thresholds<L: Lanes>(lanes: L, [column, row]: [i32; 2]) -> [L::U32; 3] {
         k = k.wrapping_add(1);
         at(k.wrapping_sub(1))
     });
-    [0, 1, 2].map(|axis| {
-        lanes.load_words(&lanes.each(|k| each.as_ref().get(k).map_or(0, |at: &[u32; 3]| at[axis])))
+    [0, 1].map(|axis| {
+        lanes.load_words(&lanes.each(|k| each.as_ref().get(k).map_or(0, |at: &[u32; 2]| at[axis])))
     })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Frame, Mesh, Pass, Perspective, Point3, View};
     use alberti_math::Q16;
+    use alberti_math::glam::Vec3;
     use alberti_math::lanes::{One, OneFixed};
-    use alberti_raster::FragmentStage;
+    use alberti_raster::color::Grey8;
+    use alberti_raster::{Affine, Exact, FixedPoint, FragmentStage, Interpolation, NoDepth, Spans16, Target};
     use alberti_texture::format::{L8, Rgba8888};
     use alberti_texture::{Border, Clamp, Mipmap, Mirror, Repeat, Texture};
     use std::vec::Vec;
@@ -125,6 +140,11 @@ mod tests {
     fn at<L: Lanes<Mask = bool>>(lanes: L, varying: [L::Number; 2], place: [i32; 2]) -> Fragments<L, Vec2> {
         let none = [lanes.splat(0.0); 2];
         Fragments { lanes, varying, gradient: Gradient { dx: none, dy: none }, mask: true, place }
+    }
+
+    /// The word of a pixel at a place in its row.
+    fn shaded(stage: impl FragmentStage<Vec2>, uv: [f32; 2], place: [i32; 2]) -> u32 {
+        stage.in_row(place[1]).shade(&at(One, uv, place)).0.0
     }
 
     fn square(side: i32, [column, row]: [i32; 2]) -> impl Iterator<Item = [i32; 2]> {
@@ -207,7 +227,7 @@ mod tests {
         check(Border(alberti_math::Rgba8::from_bits(0)), |i, size| (0..size).contains(&i).then_some(i));
     }
 
-    /// Of two levels a square of four by four has each as its share says.
+    /// Of two levels any four rows have each as its share says.
     #[test]
     fn levels_are_as_frequent_as_their_shares() {
         const SIDE: u32 = 8;
@@ -222,12 +242,55 @@ mod tests {
             let gradient = Gradient { dx: [step, 0.0], dy: [0.0, step] };
             let settled = TexelDither(map.leveled()).settled(One, &gradient);
             for corner in [[0, 0], [4, 8], [1, 2], [-5, 3]] {
-                let far: u32 =
-                    square(4, corner).map(|place| settled.shade(&at(One, [0.3, 0.7], place)).0.0).sum();
+                let far: u32 = square(4, corner).map(|place| shaded(settled, [0.3, 0.7], place)).sum();
                 worst = worst.max((f64::from(far) / 16.0 - share).abs());
                 seen += far;
             }
         }
         assert!(worst <= 0.125 + 1.0 / 64.0 && worst > 0.1 && seen > 1000, "{worst}, {seen}");
+    }
+
+    /// Every kernel asks for a row's stage: large triangles and small ones, one sample at a time and several.
+    #[test]
+    fn rows_are_drawn_in_one_of_two_levels() {
+        fn check(interpolation: impl Interpolation, cells: u16, share: f32) {
+            const SIDE: u32 = 64;
+            let mut texels = std::vec![0_u8; alberti_texture::mipmap::texel_count(SIDE, SIDE)];
+            texels[(SIDE * SIDE) as usize..].fill(1);
+            let map = Mipmap::new(L8, &texels, SIDE, SIDE).expect("levels").sampler(Trilinear, Repeat);
+            // A square that fills 40 x 40 pixels, of which each is so many texels wide.
+            let along = share.exp2() * 40.0 / 64.0;
+            let side = cells + 1;
+            let vertices: Vec<[f32; 2]> = (0..side * side)
+                .map(|k| [k % side, k / side].map(|k| f32::from(k) / f32::from(cells)))
+                .collect();
+            let triangles: Vec<[u16; 3]> = (0..cells * cells)
+                .map(|k| k / cells * side + k % cells)
+                .flat_map(|k| [[k, k + 1, k + side + 1], [k, k + side + 1, k + side]])
+                .collect();
+            let mesh = Mesh::new(&vertices, &triangles, |&[x, y]: &[f32; 2]| {
+                (Point3::new(Vec3::new(2.0 * x - 1.0, 2.0 * y - 1.0, 1.0)), Vec2::new(x, y) * along)
+            });
+            let lens = Perspective::new(core::f32::consts::FRAC_PI_2, 1.0, 0.5, 2.0).expect("a lens");
+            let view = View::new(Frame::IDENTITY, lens);
+            let (mut color, mut depth) = ([9_u8; 1600], [(); 1600]);
+            let mut target = Target::new(Grey8, NoDepth, 40, 40, &mut color, &mut depth).expect("a frame");
+            Pass::new(&view, &mesh, TexelDither(map.leveled()))
+                .interpolation(interpolation)
+                .draw(&mut target);
+            for (row, pixels) in color.chunks(40).enumerate() {
+                let far = share + [1.0, 3.0, 7.0, 5.0][row % 4] / 8.0 >= 1.0;
+                let right = [u8::from(far); 40];
+                assert_eq!(pixels, right, "row {row}, {cells} cells, {interpolation:?}");
+            }
+        }
+        for cells in [1, 4, 16] {
+            for share in [0.05, 0.2, 0.45, 0.7, 0.95] {
+                check(Exact, cells, share);
+                check(Spans16, cells, share);
+                check(FixedPoint(Affine), cells, share);
+                check(FixedPoint(Spans16), cells, share);
+            }
+        }
     }
 }

@@ -78,6 +78,13 @@ impl<V: Varying, D: Differentiation, S: FragmentStage<V>> FragmentStage<V> for D
         Self { policy: self.policy, stage: self.stage.settled(lanes, gradient) }
     }
 
+    const BY_ROWS: bool = S::BY_ROWS;
+
+    #[inline(always)]
+    fn in_row(&self, row: i32) -> Self {
+        Self { policy: self.policy, stage: self.stage.in_row(row) }
+    }
+
     #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, V>) -> (L::U32, L::Mask) {
         self.stage.shade(fragments)
