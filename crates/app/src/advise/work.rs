@@ -183,16 +183,21 @@ mod tests {
     }
 
     fn counted(model: &Model, interpolation: &str, arithmetic: Arithmetic) -> Work {
-        counted_with(DepthFormat::U16, model, interpolation, arithmetic)
+        counted_with((DepthFormat::U16, Shading::Unlit), model, interpolation, arithmetic)
     }
 
-    fn counted_with(depth: DepthFormat, model: &Model, interpolation: &str, arithmetic: Arithmetic) -> Work {
+    fn counted_with(
+        (depth, shading): (DepthFormat, Shading),
+        model: &Model,
+        interpolation: &str,
+        arithmetic: Arithmetic,
+    ) -> Work {
         let interpolation = interpolation.parse().expect("a name");
         let options = RenderOptions {
             width: SIDE,
             height: SIDE,
             background: [0; 3],
-            shading: Shading::Unlit,
+            shading,
             filter: Filter::Nearest,
             wrap: Wrap::Repeat,
             cull: Cull::None,
@@ -248,11 +253,27 @@ mod tests {
         assert_eq!(work, Work { runs: 64.0, ..in_fixed_point });
     }
 
+    /// Colours have no say in which triangles are small: prices are those of textures.
+    #[test]
+    fn other_attributes_do_not_make_triangles_large() {
+        // Eight pixels wide and high, all at one place of the texture, and q changes by a quarter.
+        let mut shape = model(&[[0.0, 0.0, -4.0], [1.25, 0.0, -5.0], [0.0, 1.125, -4.5]], &[[0, 1, 2]]);
+        for (vertex, color) in shape.vertices.iter_mut().zip([[0.0; 3], [1.0; 3], [1.0, 0.0, 1.0]]) {
+            (vertex.uv, vertex.color) = ([0.0; 2], color);
+        }
+        let kind = (DepthFormat::U16, Shading::VertexColor);
+        let work = counted_with(kind, &shape, "bounded:0.01", Arithmetic::Fixed);
+        let none = OfKind::default();
+        assert_eq!((work.small.triangles, work.narrow, work.wide), (1.0, none, none));
+    }
+
     #[test]
     fn triangles_are_small_where_depths_have_few_bits() {
         // Six pixels wide and high, from z = 4 to 4.1: zs changes by 10/9 (1/4 - 1/4.1) = 0.0068, more than 2^-10.
         let speck = model(&[[0.0, 0.0, -4.0], [0.75, 0.0, -4.0], [0.0, 0.77, -4.1]], &[[0, 1, 2]]);
-        let small = |depth| counted_with(depth, &speck, "affine", Arithmetic::Fixed).small.triangles;
+        let small = |depth| {
+            counted_with((depth, Shading::Unlit), &speck, "affine", Arithmetic::Fixed).small.triangles
+        };
         assert_eq!([DepthFormat::U16, DepthFormat::None].map(small), [1.0; 2]);
         assert_eq!([DepthFormat::U24, DepthFormat::F32Reversed].map(small), [0.0; 2]);
     }
