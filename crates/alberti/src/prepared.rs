@@ -2,7 +2,6 @@
 
 use crate::geometry::Geometry;
 use crate::pipeline::Pass;
-use crate::screen::Screen;
 use crate::walk::{Fate, Walk};
 use alberti_math::for_lanes;
 use alberti_math::lanes::{Floating, Machine};
@@ -63,8 +62,6 @@ pub(crate) type Room<'a> = &'a mut [PreparedTriangle];
 /// [`draw`](Self::draw).
 pub struct Prepared<'p, 'a, M: Geometry, F, P, Pr: Projection, D> {
     pass: &'p mut Pass<'a, M, F, P, Pr>,
-    /// The way to the screen; `None` if the frame has no pixels.
-    screen: Option<Screen<Pr>>,
     /// The number of vertices that have slots of their own, in which they stay.
     filled: usize,
     listed: &'p [PreparedTriangle],
@@ -82,6 +79,7 @@ where
     Pr: Projection,
     D: DepthFormat,
 {
+    #[inline]
     pub(crate) fn new<K: Counters>(
         pass: &'p mut Pass<'a, M, F, P, Pr>,
         size: [u32; 2],
@@ -89,18 +87,27 @@ where
         room: Room<'p>,
         counters: &mut K,
     ) -> (Self, Room<'p>) {
-        let screen = pass.screen(size, depth);
-        let (Some(way), Some(machine)) = (&screen, Machine::all().next()) else {
-            return (Self { pass, screen, filled: 0, listed: &[], next: usize::MAX, size, depth }, room);
-        };
-        let pixels = way.viewport.pixels();
-        let mesh = pass.mesh();
-        let (slots, paint) = pass.halves();
-        let mut walk = for_lanes!(machine, lanes => Walk::new(lanes, mesh, way, slots));
-        let (listed, next) = list(&mut walk, paint, &pixels, 0..usize::MAX, room, counters);
-        let filled = walk.filled();
+        pass.aim(size, depth);
+        let mut prepared = Self { pass, filled: 0, listed: &[], next: usize::MAX, size, depth };
+        let rest = prepared.list(room, counters);
+        (prepared, rest)
+    }
+
+    /// Lists the triangles, and returns the room that is left. Not inlined, nor is drawing: the stack has the variables
+    /// of one.
+    #[inline(never)]
+    fn list<K: Counters>(&mut self, room: Room<'p>, counters: &mut K) -> Room<'p> {
+        let mesh = self.pass.mesh();
+        let (slots, paint, screen) = self.pass.aimed();
+        let (Some(screen), Some(machine)) = (screen, Machine::all().next()) else { return room };
+        let pixels = screen.viewport.pixels();
+        let mut walk = for_lanes!(machine, lanes => Walk::new(lanes, mesh, screen, slots));
+        let listed;
+        (listed, self.next) = list(&mut walk, paint, &pixels, 0..usize::MAX, room, counters);
+        self.filled = walk.filled();
         let (listed, rest) = room.split_at_mut_checked(listed).unwrap_or_default();
-        (Self { pass, screen, filled, listed, next, size, depth }, rest)
+        self.listed = listed;
+        rest
     }
 
     /// Draws into a band of the frame the same as [`Pass::draw`] would, in the same order and with the same pixels.
@@ -135,18 +142,45 @@ where
     ) where
         F: FragmentStage<M::Varying>,
     {
-        let mesh = self.pass.mesh();
         // A target of another frame, or of depths in another unit, gets all triangles anew, and the slots stay.
         let (depth, found) = (self.depth, target.depth_format());
         let same_depth = (found.reversed(), found.bits()) == (depth.reversed(), depth.bits());
         if target.size() != self.size || !same_depth {
-            let slots = take(self.pass.halves().0);
-            self.pass.count_by(lanes, target, counters);
-            *self.pass.halves().0 = slots;
-            return;
+            self.draw_other(lanes, target, counters);
+        } else {
+            self.draw_own(lanes, target, counters);
         }
-        let Some(screen) = &self.screen else { return };
-        let (slots, paint) = self.pass.halves();
+    }
+
+    /// Draws into a target of another frame.
+    #[cold]
+    #[inline(never)]
+    fn draw_other<L: Floating, C: ColorFormat, K: Counters>(
+        &mut self,
+        lanes: L,
+        target: &mut Target<'_, C, D>,
+        counters: &mut K,
+    ) where
+        F: FragmentStage<M::Varying>,
+    {
+        let slots = take(self.pass.halves().0);
+        self.pass.count_by(lanes, target, counters);
+        *self.pass.halves().0 = slots;
+    }
+
+    /// Draws into a band of its own frame. Not inlined, nor is listing: the stack has the variables of one.
+    #[inline(never)]
+    fn draw_own<L: Floating, C: ColorFormat, K: Counters>(
+        &mut self,
+        lanes: L,
+        target: &mut Target<'_, C, D>,
+        counters: &mut K,
+    ) where
+        F: FragmentStage<M::Varying>,
+    {
+        let mesh = self.pass.mesh();
+        let (slots, paint, screen) = self.pass.aimed();
+        let Some(screen) = screen else { return };
         let walk = Walk::again(mesh, screen, slots, self.filled);
         let listed = |its| self.listed.iter().filter(PreparedTriangle::meets(its));
         draw_listed(lanes, (listed, self.next), walk, paint, target, counters);
@@ -272,9 +306,12 @@ pub(crate) fn draw_listed<'l, L, I, M, F, P, Pr, C, D, K>(
         return;
     }
     let listed = listed(Slices::of(&rows, top, shift));
-    let remaining = walk.seen(paint.cull, next..walk.mesh().triangles()).flatten();
     let mut batch = paint.batch(lanes, &mut visible);
-    walk.triangles(listed.map(|triangle| triangle.number()).chain(remaining), next, counters, &mut batch);
+    walk.triangles(listed.map(|triangle| triangle.number()), next, counters, &mut batch);
+    let remaining = next..walk.mesh().triangles();
+    if !remaining.is_empty() {
+        walk.rest(paint.cull, remaining, counters, &mut batch);
+    }
     batch.finish(counters);
 }
 
