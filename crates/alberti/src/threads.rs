@@ -190,7 +190,7 @@ where
     M: Geometry + 's,
     F: Sync,
     P: Interpolation,
-    Pr: Projection,
+    Pr: Projection + 's,
     K: Counters + Default + Send,
 {
     let triangles = walk().mesh().triangles();
