@@ -111,8 +111,9 @@ where
         let (Some(screen), Some(machine)) = (screen, Machine::all().next()) else { return room };
         let pixels = screen.viewport.pixels();
         let mut walk = for_lanes!(machine, lanes => Walk::new(lanes, mesh, screen, slots));
-        let (listed, next) = list(&mut walk, paint, (&pixels, rows_of), 0..usize::MAX, room, counters);
-        (self.filled, self.next) = (walk.filled(), next);
+        let listed;
+        (listed, self.next) = list(&mut walk, paint, (&pixels, rows_of), 0..usize::MAX, room, counters);
+        self.filled = walk.filled();
         let (listed, rest) = room.split_at_mut_checked(listed).unwrap_or_default();
         self.listed = listed;
         rest

@@ -110,9 +110,8 @@ impl<F, P: Interpolation> Paint<F, P> {
                 counters.rasterized(Outcome::Culled);
             } else {
                 let [a, b, c] = corners;
-                let small = self.draw_small::<false, _, _, _, _>(target, a, b, c, counters)
-                    || self.draw_small::<true, _, _, _, _>(target, a, b, c, counters);
-                if !small {
+                if !self.draw_coarse(target, a, b, c, counters) && !self.draw_fine(target, a, b, c, counters)
+                {
                     self.draw_large(lanes, target, a, b, c, counters);
                 }
             }
@@ -127,11 +126,11 @@ impl<F, P: Interpolation> Paint<F, P> {
         }
     }
 
-    /// [`draw_one`](Self::draw_one) for a triangle that faces the right way, if it is small, coarse or `FINE`, and the
-    /// policy has a way for it; whether it was so. Its corners are in registers, as those of an array are not. None of
-    /// the three ways is called by another, so that the stack has the variables of one.
+    /// [`draw_one`](Self::draw_one) for a triangle that faces the right way, if it is a coarse small one and the policy
+    /// has a way for it; whether it was so. Its corners are in registers, as those of an array are not. None of the
+    /// three ways is called by another, so that the stack has the variables of one.
     #[inline(never)]
-    fn draw_small<const FINE: bool, V, C, D, K>(
+    fn draw_coarse<V, C, D, K>(
         &self,
         target: &mut Target<'_, C, D>,
         a: &Corner<V>,
@@ -146,7 +145,27 @@ impl<F, P: Interpolation> Paint<F, P> {
         D: DepthFormat,
         K: Counters,
     {
-        self.interpolation.draw_small::<FINE, _, _, _, _, _>(self, target, [a, b, c], counters)
+        self.interpolation.draw_small::<false, _, _, _, _, _>(self, target, [a, b, c], counters)
+    }
+
+    /// The same for a fine one.
+    #[inline(never)]
+    fn draw_fine<V, C, D, K>(
+        &self,
+        target: &mut Target<'_, C, D>,
+        a: &Corner<V>,
+        b: &Corner<V>,
+        c: &Corner<V>,
+        counters: &mut K,
+    ) -> bool
+    where
+        V: Varying,
+        F: FragmentStage<V>,
+        C: ColorFormat,
+        D: DepthFormat,
+        K: Counters,
+    {
+        self.interpolation.draw_small::<true, _, _, _, _, _>(self, target, [a, b, c], counters)
     }
 
     /// The same for one that is not small. A call, as such are rare.
