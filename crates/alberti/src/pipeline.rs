@@ -41,7 +41,7 @@ where
 /// Vertices that are not finite, or larger than `f32::MAX`/16 in eye space, drop their triangles, and so do those that
 /// carry NaN or an infinity. The pixels do not depend on the slots, on counting, or on the division of the frame into
 /// bands; nor, but for [`Flat`](alberti_math::Flat) components, on the vertex that comes first.
-pub struct Pass<'a, M: Geometry, F, P = Exact, Pr: Projection = Perspective> {
+pub struct Pass<'a, M: Geometry, F, P = Exact, Pr = Perspective> {
     view: &'a View<Pr>,
     mesh: &'a M,
     frame: Option<Frame<Object, World>>,
@@ -49,12 +49,7 @@ pub struct Pass<'a, M: Geometry, F, P = Exact, Pr: Projection = Perspective> {
     sides: Sides,
     slots: &'a mut [Slot<M::Varying>],
     paint: Paint<F, P>,
-    /// The way to the screen of the frame that it is prepared for: it is moved nowhere, as it is large.
-    way: Option<Screen<Pr>>,
 }
-
-/// The slots of the geometry half, the paint half, and the way between.
-type Aimed<'p, V, F, P, Pr> = (&'p mut [Slot<V>], &'p Paint<F, P>, Option<&'p Screen<Pr>>);
 
 impl<'a, M: Geometry, F, Pr: Projection> Pass<'a, M, F, Exact, Pr> {
     /// The mesh, where it was made, in a view of the whole target, coloured by `stage`; without back faces, exact, and
@@ -62,16 +57,7 @@ impl<'a, M: Geometry, F, Pr: Projection> Pass<'a, M, F, Exact, Pr> {
     #[inline]
     pub fn new(view: &'a View<Pr>, mesh: &'a M, stage: F) -> Self {
         let paint = Paint { stage, interpolation: Exact, subpixel: Sub8, cull: Cull::Back };
-        Self {
-            view,
-            mesh,
-            frame: None,
-            viewport: None,
-            sides: Sides::GuardBand,
-            slots: &mut [],
-            paint,
-            way: None,
-        }
+        Self { view, mesh, frame: None, viewport: None, sides: Sides::GuardBand, slots: &mut [], paint }
     }
 }
 
@@ -132,10 +118,10 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
     #[must_use]
     #[inline]
     pub fn interpolation<Q: Interpolation>(self, interpolation: Q) -> Pass<'a, M, F, Q, Pr> {
-        let Self { view, mesh, frame, viewport, sides, slots, paint, way } = self;
+        let Self { view, mesh, frame, viewport, sides, slots, paint } = self;
         let Paint { stage, subpixel, cull, .. } = paint;
         let paint = Paint { stage, interpolation, subpixel, cull };
-        Pass { view, mesh, frame, viewport, sides, slots, paint, way }
+        Pass { view, mesh, frame, viewport, sides, slots, paint }
     }
 
     /// The grid to which vertices are snapped, instead of [`Sub8`].
@@ -371,12 +357,6 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
         })
     }
 
-    /// Finds the way to the screen of a frame. Not inlined: what it takes is not on the stack while the frame is drawn.
-    #[inline(never)]
-    pub(crate) fn aim(&mut self, size: [u32; 2], depth: impl DepthFormat) {
-        self.way = self.screen(size, depth);
-    }
-
     /// The mesh.
     pub(crate) fn mesh(&self) -> &'a M {
         self.mesh
@@ -387,16 +367,9 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
     pub(crate) fn halves(&mut self) -> (&mut &'a mut [Slot<M::Varying>], &Paint<F, P>) {
         (&mut self.slots, &self.paint)
     }
-
-    /// The same, and the way that was found.
-    #[inline]
-    pub(crate) fn aimed(&mut self) -> Aimed<'_, M::Varying, F, P, Pr> {
-        let Self { slots, paint, way, .. } = self;
-        (slots, paint, way.as_ref())
-    }
 }
 
-impl<M: Geometry, F, P: fmt::Debug, Pr: Projection + fmt::Debug> fmt::Debug for Pass<'_, M, F, P, Pr> {
+impl<M: Geometry, F, P: fmt::Debug, Pr: fmt::Debug> fmt::Debug for Pass<'_, M, F, P, Pr> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Pass")
             .field("view", &self.view)

@@ -2,6 +2,7 @@
 
 use crate::geometry::Geometry;
 use crate::pipeline::Pass;
+use crate::screen::Screen;
 use crate::walk::{Fate, Walk};
 use alberti_math::lanes::{Floating, Machine};
 use alberti_math::{Varying, for_lanes};
@@ -63,6 +64,8 @@ pub(crate) type Room<'a> = &'a mut [PreparedTriangle];
 /// [`draw`](Self::draw).
 pub struct Prepared<'p, 'a, M: Geometry, F, P, Pr: Projection, D> {
     pass: &'p mut Pass<'a, M, F, P, Pr>,
+    /// The way to the screen; `None` if the frame has no pixels.
+    screen: Option<Screen<Pr>>,
     /// The number of vertices that have slots of their own, in which they stay.
     filled: usize,
     listed: &'p [PreparedTriangle],
@@ -82,7 +85,6 @@ where
     Pr: Projection,
     D: DepthFormat,
 {
-    #[inline]
     pub(crate) fn new<K: Counters>(
         pass: &'p mut Pass<'a, M, F, P, Pr>,
         size: [u32; 2],
@@ -91,32 +93,19 @@ where
         rows_of: impl RowsOf<M, F, P> + Copy,
         counters: &mut K,
     ) -> (Self, Room<'p>) {
-        pass.aim(size, depth);
-        let mut prepared = Self { pass, filled: 0, listed: &[], next: usize::MAX, size, depth, smooth };
-        let rest = prepared.list(room, rows_of, counters);
-        (prepared, rest)
-    }
-
-    /// Lists the triangles, and returns the room that is left. Not inlined, nor is drawing: the stack has the variables
-    /// of one.
-    #[inline(never)]
-    fn list<K: Counters>(
-        &mut self,
-        room: Room<'p>,
-        rows_of: impl RowsOf<M, F, P> + Copy,
-        counters: &mut K,
-    ) -> Room<'p> {
-        let mesh = self.pass.mesh();
-        let (slots, paint, screen) = self.pass.aimed();
-        let (Some(screen), Some(machine)) = (screen, Machine::all().next()) else { return room };
-        let pixels = screen.viewport.pixels();
-        let mut walk = for_lanes!(machine, lanes => Walk::new(lanes, mesh, screen, slots));
-        let listed;
-        (listed, self.next) = list(&mut walk, paint, (&pixels, rows_of), 0..usize::MAX, room, counters);
-        self.filled = walk.filled();
+        let screen = pass.screen(size, depth);
+        let (Some(way), Some(machine)) = (&screen, Machine::all().next()) else {
+            let none = Self { pass, screen, filled: 0, listed: &[], next: usize::MAX, size, depth, smooth };
+            return (none, room);
+        };
+        let pixels = way.viewport.pixels();
+        let mesh = pass.mesh();
+        let (slots, paint) = pass.halves();
+        let mut walk = for_lanes!(machine, lanes => Walk::new(lanes, mesh, way, slots));
+        let (listed, next) = list(&mut walk, paint, (&pixels, rows_of), 0..usize::MAX, room, counters);
+        let filled = walk.filled();
         let (listed, rest) = room.split_at_mut_checked(listed).unwrap_or_default();
-        self.listed = listed;
-        rest
+        (Self { pass, screen, filled, listed, next, size, depth, smooth }, rest)
     }
 
     /// Draws into a band of the frame the same as [`Pass::draw`] would, in the same order and with the same pixels.
@@ -151,41 +140,13 @@ where
     ) where
         F: FragmentStage<M::Varying>,
     {
-        // A target of another frame, or of depths in another unit, gets all triangles anew.
-        if self.fits(target) {
-            self.draw_own(lanes, target, counters);
-        } else {
-            self.draw_other(lanes, target, counters);
-        }
-    }
-
-    /// Draws into a target of another frame.
-    #[cold]
-    #[inline(never)]
-    fn draw_other<L: Floating, C: ColorFormat, K: Counters>(
-        &mut self,
-        lanes: L,
-        target: &mut Target<'_, C, D>,
-        counters: &mut K,
-    ) where
-        F: FragmentStage<M::Varying>,
-    {
-        self.anew(|pass| pass.count_by(lanes, target, counters));
-    }
-
-    /// Draws into a band of its own frame. Not inlined, nor is listing: the stack has the variables of one.
-    #[inline(never)]
-    fn draw_own<L: Floating, C: ColorFormat, K: Counters>(
-        &mut self,
-        lanes: L,
-        target: &mut Target<'_, C, D>,
-        counters: &mut K,
-    ) where
-        F: FragmentStage<M::Varying>,
-    {
         let mesh = self.pass.mesh();
-        let (slots, paint, screen) = self.pass.aimed();
-        let Some(screen) = screen else { return };
+        // A target of another frame, or of depths in another unit, gets all triangles anew.
+        if !self.fits(target) {
+            return self.anew(|pass| pass.count_by(lanes, target, counters));
+        }
+        let Some(screen) = &self.screen else { return };
+        let (slots, paint) = self.pass.halves();
         let walk = Walk::again(mesh, screen, slots, self.filled);
         let listed = |its| self.listed.iter().filter(PreparedTriangle::meets(its));
         draw_listed(lanes, (listed, self.next), walk, paint, target, counters);
@@ -199,7 +160,9 @@ where
         if silhouette.size() != self.size || !self.smooth {
             return self.anew(|pass| pass.cover(silhouette));
         }
-        let Some([columns, rows]) = self.pixels() else { return };
+        let Some([columns, rows]) = self.screen.as_ref().map(|screen| screen.viewport.pixels()) else {
+            return;
+        };
         let mut visible = silhouette.scissor(columns, rows);
         let (limits, mut edges) = (visible.limits(), self.pass.halves().1.edges(&mut visible));
         self.each(limits, |_, corners| edges.triangle(corners));
@@ -215,7 +178,9 @@ where
         if !self.fits(target) || !self.smooth {
             return self.anew(|pass| pass.draw_fringe(target, coverage));
         }
-        let Some([columns, rows]) = self.pixels() else { return };
+        let Some([columns, rows]) = self.screen.as_ref().map(|screen| screen.viewport.pixels()) else {
+            return;
+        };
         let mut visible = target.scissor(columns, rows);
         self.each(visible.limits(), |paint, corners| paint.fringe(&mut visible, coverage, corners, &mut ()));
     }
@@ -226,20 +191,15 @@ where
         [_, rows]: [Range<i32>; 2],
         mut sink: impl FnMut(&Paint<F, P>, [&Corner<M::Varying>; 3]),
     ) {
-        let mesh = self.pass.mesh();
-        let (slots, paint, screen) = self.pass.aimed();
-        let (Some(screen), false) = (screen, rows.is_empty()) else { return };
+        let (Some(screen), false) = (&self.screen, rows.is_empty()) else { return };
         let [_, all] = screen.viewport.pixels();
         let its = Slices::of(&rows, all.start, slice_shift(&all));
+        let mesh = self.pass.mesh();
+        let (slots, paint) = self.pass.halves();
         let mut walk = Walk::again(mesh, screen, slots, self.filled);
         let remaining = walk.seen(paint.cull, self.next..mesh.triangles()).flatten();
         let listed = self.listed.iter().filter(PreparedTriangle::meets(its));
         walk.each(listed.map(|triangle| triangle.number()).chain(remaining), |corners| sink(paint, corners));
-    }
-
-    /// The columns and rows of the viewport; none of a frame without pixels.
-    fn pixels(&mut self) -> Option<[Range<i32>; 2]> {
-        self.pass.aimed().2.map(|screen| screen.viewport.pixels())
     }
 
     /// Whether the target is a band of the frame, with depths in the same unit.
@@ -399,12 +359,9 @@ pub(crate) fn draw_listed<'l, L, I, M, F, P, Pr, C, D, K>(
         return;
     }
     let listed = listed(Slices::of(&rows, top, shift));
+    let remaining = walk.seen(paint.cull, next..walk.mesh().triangles()).flatten();
     let mut batch = paint.batch(lanes, &mut visible);
-    walk.triangles(listed.map(|triangle| triangle.number()), next, counters, &mut batch);
-    let remaining = next..walk.mesh().triangles();
-    if !remaining.is_empty() {
-        walk.rest(paint.cull, remaining, counters, &mut batch);
-    }
+    walk.triangles(listed.map(|triangle| triangle.number()).chain(remaining), next, counters, &mut batch);
     batch.finish(counters);
 }
 

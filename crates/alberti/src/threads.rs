@@ -190,7 +190,7 @@ where
     M: Geometry + 's,
     F: Sync,
     P: Interpolation,
-    Pr: Projection + 's,
+    Pr: Projection,
     K: Counters + Default + Send,
 {
     let triangles = walk().mesh().triangles();

@@ -8,7 +8,7 @@ use crate::screen::{Screen, Sides};
 use crate::vertex::{Slot, outside};
 use alberti_math::lanes::Floating;
 use alberti_math::{Varying, map3};
-use alberti_projection::{Polygon, Projection};
+use alberti_projection::Projection;
 use alberti_raster::{Batch, ColorFormat, Corner, Counters, Cull, DepthFormat, FragmentStage, Interpolation};
 use clip::clip;
 use core::ops::Range;
@@ -23,7 +23,7 @@ pub(crate) struct Walk<'a, M: Geometry, Pr: Projection> {
     mask: usize,
     /// Whether the cache has a slot for each vertex, filled before the triangles of a part come to it.
     own: bool,
-    screen: &'a Screen<Pr>,
+    screen: Screen<Pr>,
 }
 
 /// The number of a mesh's vertices that are stored in so many slots: all, where the slots hold them and all may be
@@ -70,30 +70,8 @@ where
     }
 }
 
-/// The parts of a triangle on the screen. They are drawn when all that clips is off the stack.
-#[derive(Clone, Copy)]
-struct Parts<V: Varying> {
-    polygon: Polygon<Corner<V>>,
-    /// The vertex around which the fan is.
-    first: usize,
-}
-
-impl<V: Varying> Parts<V> {
-    #[inline(always)]
-    fn none() -> Self {
-        Self { polygon: Polygon::empty(Corner::NONE), first: 0 }
-    }
-
-    /// Finds that vertex for parts in numbers that are `fixed`, or floats.
-    #[inline(never)]
-    fn unfold(&mut self, fixed: bool) {
-        self.first = clip::unfolded(&self.polygon.map(|corner| corner.place(fixed)));
-    }
-
-    fn triangles(&self) -> impl Iterator<Item = [&Corner<V>; 3]> {
-        self.polygon.fan_around(self.first)
-    }
-}
+/// A taker of triangles whose corners do not stay.
+type Passing<'a, V, K> = &'a mut dyn FnMut([&Corner<V>; 3], &mut K);
 
 impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     /// The walk with these slots, of which there is at least one. All vertices are transformed at once where the slots
@@ -103,13 +81,13 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     pub(crate) fn new<L: Floating>(
         lanes: L,
         mesh: &'a M,
-        screen: &'a Screen<Pr>,
+        screen: &Screen<Pr>,
         slots: &'a mut [Slot<M::Varying>],
     ) -> Self {
         let stored = stored_by(mesh, slots.len());
         if const { M::MESHLETS && L::COUNT == 1 } && stored > 0 {
             slots.iter_mut().for_each(Slot::forget);
-            return Self { mesh, stored: &[], cache: slots, mask: usize::MAX, own: true, screen };
+            return Self { mesh, stored: &[], cache: slots, mask: usize::MAX, own: true, screen: *screen };
         }
         let (store, unused) = slots.split_at_mut_checked(stored).unwrap_or_default();
         unused.fill(Slot::EMPTY);
@@ -122,7 +100,7 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     #[inline]
     pub(crate) fn again(
         mesh: &'a M,
-        screen: &'a Screen<Pr>,
+        screen: &Screen<Pr>,
         slots: &'a mut [Slot<M::Varying>],
         filled: usize,
     ) -> Self {
@@ -134,17 +112,17 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     #[inline]
     fn with_slots(
         mesh: &'a M,
-        screen: &'a Screen<Pr>,
+        screen: &Screen<Pr>,
         stored: &'a [Slot<M::Varying>],
         cache: &'a mut [Slot<M::Varying>],
     ) -> Self {
         let mask = Slot::<M::Varying>::mask(cache.len());
-        Self { mesh, stored, mask, cache, own: false, screen }
+        Self { mesh, stored, mask, cache, own: false, screen: *screen }
     }
 
     /// The walk over a store of all vertices, which others may walk too.
     #[cfg(feature = "threads")]
-    pub(crate) fn over(mesh: &'a M, screen: &'a Screen<Pr>, stored: &'a [Slot<M::Varying>]) -> Self {
+    pub(crate) fn over(mesh: &'a M, screen: &Screen<Pr>, stored: &'a [Slot<M::Varying>]) -> Self {
         Self::with_slots(mesh, screen, stored, &mut [])
     }
 
@@ -156,7 +134,7 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     /// Those of the mesh's triangles with these numbers of which something may be seen, in parts.
     #[inline(always)]
     pub(crate) fn seen(&self, cull: Cull, numbers: Range<usize>) -> Seen<'a, M> {
-        Seen::new(self.mesh, self.screen, cull, numbers)
+        Seen::new(self.mesh, &self.screen, cull, numbers)
     }
 
     /// Transforms the vertices of these triangles that have slots of their own, but are not there yet.
@@ -169,13 +147,13 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
 
     #[inline(never)]
     fn transform(&mut self, part: Range<usize>) {
-        let (mesh, screen, cache) = (self.mesh, self.screen, &mut *self.cache);
+        let Self { mesh, cache, screen, .. } = self;
         for indices in part.map_while(|number| mesh.triangle(number)) {
             for index in indices {
                 if let Some(slot) = cache.get_mut(index)
                     && slot.is_empty()
                 {
-                    slot.fill_alone(mesh, screen, index);
+                    slot.fill_alone(*mesh, screen, index);
                 }
             }
         }
@@ -227,25 +205,11 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
                     sink.triangle(corners, counters);
                 }
             };
-            let fate = self.parts(indices, counters, sink);
+            let mut passing = |corners: [&_; 3], counters: &mut K| sink.seldom(corners, counters);
+            let fate = self.seldom(indices, counters, &mut passing);
             if number >= heard {
                 fate.count(counters);
             }
-        }
-    }
-
-    /// [`triangles`](Self::triangles) for those that found no room in a list, of which the counters have not heard.
-    #[cold]
-    #[inline(never)]
-    pub(crate) fn rest<K: Counters>(
-        &mut self,
-        cull: Cull,
-        numbers: Range<usize>,
-        counters: &mut K,
-        sink: &mut impl Sink<'a, M::Varying, K>,
-    ) {
-        for part in self.seen(cull, numbers) {
-            self.triangles(part, 0, counters, sink);
         }
     }
 
@@ -254,23 +218,9 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     pub(crate) fn triangle(
         &mut self,
         indices: [usize; 3],
-        sink: impl FnMut([&Corner<M::Varying>; 3]),
+        mut sink: impl FnMut([&Corner<M::Varying>; 3]),
     ) -> Fate {
-        let mut parts = Parts::none();
-        let fate = self.seldom(indices, &mut parts);
-        parts.triangles().for_each(sink);
-        fate
-    }
-
-    /// The same for a sink of its own.
-    #[inline(never)]
-    fn parts<K>(
-        &mut self,
-        indices: [usize; 3],
-        counters: &mut K,
-        sink: &mut impl Sink<'a, M::Varying, K>,
-    ) -> Fate {
-        self.triangle(indices, |corners| sink.seldom(corners, counters))
+        self.seldom(indices, &mut (), &mut |corners, ()| sink(corners))
     }
 
     /// [`triangles`](Self::triangles) of which the counters hear nothing.
@@ -316,7 +266,7 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
             sink([&a.screen, &b.screen]);
             return Fate::Whole;
         }
-        match clip::clip_line(self.mesh, self.screen, indices) {
+        match clip::clip_line(self.mesh, &self.screen, indices) {
             None => Fate::Dropped,
             Some([a, b]) => {
                 sink([&a, &b]);
@@ -337,11 +287,11 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         if const { M::MESHLETS } && self.own {
             return inside(self.cache, indices);
         }
-        let (mesh, screen, mask, cache) = (self.mesh, self.screen, self.mask, &mut *self.cache);
+        let Self { mesh, cache, mask, screen, .. } = self;
         for index in indices {
-            cache.get_mut(index & mask)?.keep(mesh, screen, index);
+            cache.get_mut(index & *mask)?.keep(*mesh, screen, index);
         }
-        let [a, b, c] = map3(indices, |index| cache.get(index & mask));
+        let [a, b, c] = map3(indices, |index| cache.get(index & *mask));
         let (a, b, c) = (a?, b?, c?);
         let all_there = a.holds(indices[0]) && b.holds(indices[1]);
         (all_there && a.outside | b.outside | c.outside == 0).then_some([&a.screen, &b.screen, &c.screen])
@@ -349,7 +299,7 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
 
     /// [`triangles`](Self::triangles) for one that is to be clipped, or whose vertices may not be in slots.
     #[inline(never)]
-    fn seldom(&mut self, indices: [usize; 3], parts: &mut Parts<M::Varying>) -> Fate {
+    fn seldom<K>(&mut self, indices: [usize; 3], counters: &mut K, sink: Passing<'_, M::Varying, K>) -> Fate {
         let Self { mesh, stored, cache, mask, screen, .. } = self;
         let [i, j, k] = indices;
         let places = if stored.is_empty() { map3(indices, |index| index & *mask) } else { indices };
@@ -384,11 +334,10 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         }
         let sides = if screen.sides == Sides::Cube { outside::SIDES } else { 0 };
         if all & (outside::NEAR | outside::FAR | outside::GUARD | sides) == 0 {
-            parts.polygon.replace(corners.into_iter().map(|slot| slot.screen.by_numbers()));
+            sink([&corners[0].screen, &corners[1].screen, &corners[2].screen], counters);
             return Fate::Whole;
         }
-        clip(*mesh, screen, indices, corners, parts);
-        parts.unfold(screen.numbers.are_fixed());
+        clip(*mesh, screen, indices, corners, sink, counters);
         Fate::Clipped
     }
 }

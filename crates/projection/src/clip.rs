@@ -74,23 +74,6 @@ impl<T: Copy> Polygon<T> {
         Self { vertices, len: 3 }
     }
 
-    /// A polygon without vertices, in whose memory are such.
-    #[must_use]
-    #[inline(always)]
-    pub const fn empty(vertex: T) -> Self {
-        Self { vertices: [vertex; MAX_POLYGON], len: 0 }
-    }
-
-    /// Puts these vertices in the place of its own, as far as there is room.
-    #[inline(always)]
-    pub fn replace(&mut self, vertices: impl Iterator<Item = T>) {
-        self.len = 0;
-        for (place, vertex) in self.vertices.iter_mut().zip(vertices) {
-            *place = vertex;
-            self.len += 1;
-        }
-    }
-
     /// The vertices in order, none if nothing is left.
     #[must_use]
     pub fn vertices(&self) -> &[T] {
@@ -105,15 +88,15 @@ impl<T: Copy> Polygon<T> {
 
     /// The triangles of the fan around the first vertex.
     pub fn fan(&self) -> impl Iterator<Item = [T; 3]> {
-        self.fan_around(0).map(|corners| corners.map(|&corner| corner))
+        self.fan_around(0)
     }
 
     /// The triangles of the fan around the vertex of this number; around the first, if there is no such vertex.
-    pub fn fan_around(&self, number: usize) -> impl Iterator<Item = [&T; 3]> {
+    pub fn fan_around(&self, number: usize) -> impl Iterator<Item = [T; 3]> {
         let vertices = self.vertices();
         let count = vertices.len();
         let number = if number < count { number } else { 0 };
-        let at = move |k: usize| vertices.get(if k < count { k } else { k - count });
+        let at = move |k: usize| vertices.get(if k < count { k } else { k - count }).copied();
         (number + 1..(number + count).saturating_sub(1))
             .filter_map(move |k| Some([at(number)?, at(k)?, at(k + 1)?]))
     }
@@ -256,15 +239,15 @@ impl<V: Varying> Polygon<ProjectedVertex<V>> {
         );
     }
 
-    /// Puts a triangle in eye space in the place of the polygon, for [`clip_and_project`](Self::clip_and_project): its
-    /// vertices have z in the place of zs.
-    #[inline]
-    pub fn put_in_eye_space(&mut self, triangle: [EyeVertex<V>; 3]) {
-        self.replace(triangle.into_iter().map(before_the_division));
+    /// A triangle in eye space, for [`clip_and_project`](Self::clip_and_project): its vertices have z in the place of
+    /// zs.
+    #[must_use]
+    pub fn in_eye_space(triangle: [EyeVertex<V>; 3]) -> Self {
+        Self::triangle(triangle.map(before_the_division))
     }
 
     /// Steps 3 to 5 in the memory of one polygon: what [`clip_near_far`], [`Projection::project`] and [`clip_sides`]
-    /// make of a triangle [in eye space](Self::put_in_eye_space), scaled by the pyramid's scale.
+    /// make of a triangle [in eye space](Self::in_eye_space), scaled by the pyramid's scale.
     ///
     /// Nothing is left where a vertex has no place on the screen, as a division by a tiny z may overflow.
     pub fn clip_and_project<P: Projection>(&mut self, projection: &P, depth: &P::Depth, bounds: SideBounds) {
@@ -382,8 +365,7 @@ mod tests {
     #[test]
     fn a_fan_is_around_any_vertex() {
         let four = Polygon { vertices: [0, 1, 2, 3, 9, 9, 9, 9, 9], len: 4 };
-        let around =
-            |number| four.fan_around(number).map(|part| part.map(|&vertex| vertex)).collect::<Vec<_>>();
+        let around = |number| four.fan_around(number).collect::<Vec<_>>();
         assert_eq!(around(0), [[0, 1, 2], [0, 2, 3]]);
         assert_eq!(around(1), [[1, 2, 3], [1, 3, 0]]);
         assert_eq!(around(3), [[3, 0, 1], [3, 1, 2]]);

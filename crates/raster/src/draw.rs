@@ -110,10 +110,7 @@ impl<F, P: Interpolation> Paint<F, P> {
                 counters.rasterized(Outcome::Culled);
             } else {
                 let [a, b, c] = corners;
-                if !self.draw_coarse(target, a, b, c, counters) && !self.draw_fine(target, a, b, c, counters)
-                {
-                    self.draw_large(lanes, target, a, b, c, counters);
-                }
+                self.draw_seen(lanes, target, a, b, c, counters);
             }
             return;
         }
@@ -126,51 +123,10 @@ impl<F, P: Interpolation> Paint<F, P> {
         }
     }
 
-    /// [`draw_one`](Self::draw_one) for a triangle that faces the right way, if it is a coarse small one and the policy
-    /// has a way for it; whether it was so. Its corners are in registers, as those of an array are not. None of the
-    /// three ways is called by another, so that the stack has the variables of one.
+    /// [`draw_one`](Self::draw_one) for a triangle that faces the right way, by a policy that has a way for small ones.
+    /// Its corners are in registers, as those of an array are not.
     #[inline(never)]
-    fn draw_coarse<V, C, D, K>(
-        &self,
-        target: &mut Target<'_, C, D>,
-        a: &Corner<V>,
-        b: &Corner<V>,
-        c: &Corner<V>,
-        counters: &mut K,
-    ) -> bool
-    where
-        V: Varying,
-        F: FragmentStage<V>,
-        C: ColorFormat,
-        D: DepthFormat,
-        K: Counters,
-    {
-        self.interpolation.draw_small::<false, _, _, _, _, _>(self, target, [a, b, c], counters)
-    }
-
-    /// The same for a fine one.
-    #[inline(never)]
-    fn draw_fine<V, C, D, K>(
-        &self,
-        target: &mut Target<'_, C, D>,
-        a: &Corner<V>,
-        b: &Corner<V>,
-        c: &Corner<V>,
-        counters: &mut K,
-    ) -> bool
-    where
-        V: Varying,
-        F: FragmentStage<V>,
-        C: ColorFormat,
-        D: DepthFormat,
-        K: Counters,
-    {
-        self.interpolation.draw_small::<true, _, _, _, _, _>(self, target, [a, b, c], counters)
-    }
-
-    /// The same for one that is not small. A call, as such are rare.
-    #[inline(never)]
-    fn draw_large<L, V, C, D, K>(
+    fn draw_seen<L, V, C, D, K>(
         &self,
         lanes: L,
         target: &mut Target<'_, C, D>,
@@ -186,7 +142,30 @@ impl<F, P: Interpolation> Paint<F, P> {
         D: DepthFormat,
         K: Counters,
     {
-        let corners = [a, b, c];
+        if !self.interpolation.draw_small::<false, _, _, _, _, _>(self, target, [a, b, c], counters) {
+            self.draw_large(lanes, target, [a, b, c], counters);
+        }
+    }
+
+    /// The same for one that is not a coarse small one. A call, as such are rare on the grid of `Sub4`.
+    #[inline(never)]
+    fn draw_large<L, V, C, D, K>(
+        self,
+        lanes: L,
+        target: &mut Target<'_, C, D>,
+        corners: [&Corner<V>; 3],
+        counters: &mut K,
+    ) where
+        L: Floating,
+        V: Varying,
+        F: FragmentStage<V>,
+        C: ColorFormat,
+        D: DepthFormat,
+        K: Counters,
+    {
+        if self.interpolation.draw_small::<true, _, _, _, _, _>(&self, target, corners, counters) {
+            return;
+        }
         match self.reach(corners, &target.limits()) {
             Ok(reach) => self.draw_alone(lanes, target, corners, &reach, counters),
             Err(outcome) => counters.rasterized(outcome),

@@ -103,14 +103,6 @@ impl<V: Varying> Corner<V> {
         map2(self.place, |bits| Fixed::from_bits(bits.cast_unsigned()))
     }
 
-    /// A copy, number by number: moving memory is a function of 700 bytes on small cores.
-    #[must_use]
-    #[inline(always)]
-    pub fn by_numbers(&self) -> Self {
-        let Self { place: [x, y], zs, q, components } = self;
-        Self { place: [*x, *y], zs: *zs, q: *q, components: V::map(components, &|word: u32| word) }
-    }
-
     /// The same place with other components.
     #[must_use]
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! Steps 3 to 6 for triangles that cross a plane: from three vertices to the fan that is left of them on the screen.
 
-use super::Parts;
+use super::Passing;
 use crate::geometry::Geometry;
 use crate::screen::{Screen, Sides};
 use crate::vertex::{Slot, outside};
@@ -15,28 +15,30 @@ use core::cmp::Ordering;
 /// The parts of a triangle that crosses a plane.
 #[cold]
 #[inline(never)]
-pub(super) fn clip<M: Geometry, Pr: Projection>(
+pub(super) fn clip<M: Geometry, Pr: Projection, K>(
     mesh: &M,
     screen: &Screen<Pr>,
     indices: [usize; 3],
     slots: [&Slot<M::Varying>; 3],
-    parts: &mut Parts<M::Varying>,
+    sink: Passing<'_, M::Varying, K>,
+    counters: &mut K,
 ) {
     // One of the two is all that is compiled.
     if has_linear::<M::Varying>() {
-        clip_by::<(Vec3, Linear<Vec3>), _, _>(mesh, screen, indices, slots, parts);
+        clip_by::<(Vec3, Linear<Vec3>), _, _, _>(mesh, screen, indices, slots, sink, counters);
     } else {
-        clip_by::<Vec3, _, _>(mesh, screen, indices, slots, parts);
+        clip_by::<Vec3, _, _, _>(mesh, screen, indices, slots, sink, counters);
     }
 }
 
 #[inline(always)]
-fn clip_by<W: Weights, M: Geometry, Pr: Projection>(
+fn clip_by<W: Weights, M: Geometry, Pr: Projection, K>(
     mesh: &M,
     screen: &Screen<Pr>,
     indices: [usize; 3],
     slots: [&Slot<M::Varying>; 3],
-    parts: &mut Parts<M::Varying>,
+    sink: Passing<'_, M::Varying, K>,
+    counters: &mut K,
 ) {
     // Slots do without these, since few triangles are clipped.
     let [Some(a), Some(b), Some(c)] = indices.map(|index| before_the_eye(mesh, screen, index)) else {
@@ -45,15 +47,25 @@ fn clip_by<W: Weights, M: Geometry, Pr: Projection>(
     let (positions, varyings) = ([a.0, b.0, c.0], [a.1, b.1, c.1]);
     let rotation = first_of(positions);
     let (carried, slots) = (rotated(varyings, rotation), rotated(slots, rotation));
-    let mut polygon = W::NOTHING;
-    in_terms_of_itself(&mut polygon, &rotated(positions, rotation));
+    let mut polygon = in_terms_of_itself::<W>(rotated(positions, rotation));
     cut(screen, &mut polygon);
     // The triangle's own vertices stay where its neighbours have them, to the last bit of integers too.
     let own = if const { M::INTEGERS } { map3(slots, kept) } else { [None; 3] };
-    parts.polygon.replace(polygon.vertices().iter().map(|vertex| {
-        let corner = on_the_screen(screen, vertex, varyings[0], &carried);
-        own_of(own, vertex.varying).map_or(corner, |own| own.screen.with_components_of(&corner))
-    }));
+    let place = |vertex: &ProjectedVertex<W>| {
+        own_of(own, vertex.varying).map_or_else(
+            || screen.snapped([vertex.x, vertex.y]).map(Fixed::subpixels),
+            |own| own.screen.place(screen.numbers.are_fixed()),
+        )
+    };
+    let number = unfolded(&polygon.map(|vertex| place(&vertex)));
+    for fan in polygon.fan_around(number) {
+        let corners = fan.map(|vertex| {
+            let corner = on_the_screen(screen, &vertex, varyings[0], &carried);
+            own_of(own, vertex.varying).map_or(corner, |own| own.screen.with_components_of(&corner))
+        });
+        let [a, b, c] = &corners;
+        sink([a, b, c], counters);
+    }
 }
 
 /// The part of a line within all planes: of the triangle between its ends that has no area, the two corners that are
@@ -82,8 +94,7 @@ fn ends<W: Weights, V: Varying, Pr: Projection>(
     positions: [Point3<Eye>; 3],
     varyings: [V; 3],
 ) -> Option<[Corner<V>; 2]> {
-    let mut polygon = W::NOTHING;
-    in_terms_of_itself(&mut polygon, &positions);
+    let mut polygon = in_terms_of_itself::<W>(positions);
     cut(screen, &mut polygon);
     let weight = |vertex: &ProjectedVertex<W>| vertex.varying.in_space().x;
     let vertices = || polygon.vertices().iter();
@@ -111,10 +122,10 @@ fn own_of<T>([a, b, c]: [Option<T>; 3], weights: impl Weights) -> Option<T> {
 /// vertex a little into the polygon where it is almost in line with the next ones. A fan that passes over it would draw
 /// samples twice.
 #[inline(never)]
-pub(super) fn unfolded(places: &Polygon<[i32; 2]>) -> usize {
+fn unfolded(places: &Polygon<[i32; 2]>) -> usize {
     let folded = |number: &usize| {
         // A bit for either way round.
-        let turns = places.fan_around(*number).map(|[&a, &b, &c]| {
+        let turns = places.fan_around(*number).map(|[a, b, c]| {
             let side = |p: [i32; 2]| map2([0, 1], |k: usize| i64::from(p[k] - a[k]));
             let [[ux, uy], [vx, vy]] = [side(b), side(c)];
             let area = ux * vy - uy * vx;
@@ -158,11 +169,6 @@ impl<Pr: Projection> Screen<Pr> {
 
 /// The weights of a triangle's three vertices at a point of it.
 trait Weights: Varying {
-    /// Those of no vertex.
-    const ZERO: Self;
-    /// A polygon without vertices, a constant: what is computed is made beside its place, and moved there.
-    const NOTHING: Polygon<ProjectedVertex<Self>> =
-        Polygon::empty(ProjectedVertex { x: 0.0, y: 0.0, zs: 0.0, q: 0.0, varying: Self::ZERO });
     /// The vertex that has these alone.
     fn new(weights: Vec3) -> Self;
     /// Those in space.
@@ -173,8 +179,6 @@ trait Weights: Varying {
 
 /// Where nothing is linear on the screen.
 impl Weights for Vec3 {
-    const ZERO: Self = Vec3::ZERO;
-
     fn new(weights: Vec3) -> Self {
         weights
     }
@@ -189,8 +193,6 @@ impl Weights for Vec3 {
 }
 
 impl Weights for (Vec3, Linear<Vec3>) {
-    const ZERO: Self = (Vec3::ZERO, Linear(Vec3::ZERO));
-
     fn new(weights: Vec3) -> Self {
         (weights, Linear(weights))
     }
@@ -212,15 +214,14 @@ fn has_linear<V: Varying>() -> bool {
     found.get()
 }
 
-/// Makes a triangle in eye space of a polygon, in terms of its own vertices. Not inlined, as it is the same for all
-/// meshes.
+/// A triangle in eye space, in terms of its own vertices. Not inlined, as it is the same for all meshes.
 #[inline(never)]
-fn in_terms_of_itself<W: Weights>(polygon: &mut Polygon<ProjectedVertex<W>>, [a, b, c]: &[Point3<Eye>; 3]) {
-    polygon.put_in_eye_space([
-        EyeVertex { position: *a, varying: W::new(Vec3::X) },
-        EyeVertex { position: *b, varying: W::new(Vec3::Y) },
-        EyeVertex { position: *c, varying: W::new(Vec3::Z) },
-    ]);
+fn in_terms_of_itself<W: Weights>([a, b, c]: [Point3<Eye>; 3]) -> Polygon<ProjectedVertex<W>> {
+    Polygon::in_eye_space([
+        EyeVertex { position: a, varying: W::new(Vec3::X) },
+        EyeVertex { position: b, varying: W::new(Vec3::Y) },
+        EyeVertex { position: c, varying: W::new(Vec3::Z) },
+    ])
 }
 
 /// Clips a triangle [`in_terms_of_itself`]: once in a program, whatever its vertices carry.

@@ -38,17 +38,14 @@ fn counts(scale: Scale, subpixel: Subpixel, sides: Sides, stream: u64) -> [u64; 
         };
         let corners = [(); 3].map(|()| Vec3::new(coordinate(), coordinate(), coordinate()));
         let scaled = corners.map(|corner| Point3::new(screen.eye(One, corner.to_array()).into()));
-        let mut polygon = <Vec3 as Weights>::NOTHING;
-        in_terms_of_itself(&mut polygon, &rotated(scaled, first_of(scaled)));
+        let mut polygon = in_terms_of_itself::<Vec3>(rotated(scaled, first_of(scaled)));
         cut(&screen, &mut polygon);
         if polygon.vertices().len() < 4 {
             continue;
         }
         let places = polygon.map(|v| screen.snapped([v.x, v.y]).map(Fixed::subpixels));
-        let parts: Vec<_> = places
-            .fan_around(unfolded(&places))
-            .map(|part| part.map(|&place| place.map(i64::from)))
-            .collect();
+        let parts: Vec<_> =
+            places.fan_around(unfolded(&places)).map(|part| part.map(|place| place.map(i64::from))).collect();
         let turned = |sign| parts.iter().any(|part| area2(*part).signum() == sign);
         counts[0] += 1;
         if turned(1) && turned(-1) {
