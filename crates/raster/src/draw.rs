@@ -406,16 +406,17 @@ where
         let covered = spans.next_row().shifted(columns.start);
         if covered.start.max(limits.start) < covered.end.min(limits.end) {
             if painter.is_none() {
-                let prepared = setup.prepare();
+                painter = Some(setup.prepare());
                 if const { F::BY_ROWS } {
-                    stage = Some(prepared.stage);
+                    stage = painter.as_ref().map(|painter| painter.stage);
                 }
-                painter = Some(prepared);
             }
-            if let Some(painter) = &mut painter {
-                if let Some(stage) = stage {
-                    painter.stage = stage.in_row(row);
-                }
+            if const { F::BY_ROWS }
+                && let (Some(painter), Some(stage)) = (&mut painter, stage)
+            {
+                painter.stage = stage.in_row(row);
+            }
+            if let Some(painter) = &painter {
                 let row = Row { row, covered, origin: columns.start, edges: &edges };
                 painter.row(target, &row, limits, &weights, counters);
             }

@@ -251,7 +251,9 @@ where
                 outcome = Outcome::Drawn;
                 let first = [columns.start, row - origin[1]];
                 if let Some((colors, depths)) = lines.run(columns.start, count) {
-                    let stage = if const { F::BY_ROWS } { stage.in_row(row) } else { stage };
+                    // By reference, as a copy of a large one for each row would be dear.
+                    let in_row = const { F::BY_ROWS }.then(|| stage.in_row(row));
+                    let stage = in_row.as_ref().unwrap_or(&stage);
                     let mut depth = planes.zs.at(first);
                     let mut cursor = V::map(&planes.values, &|ramp: Ramp| ramp.at(first));
                     let (mut written, mut column) = (0, origin[0] + columns.start);
