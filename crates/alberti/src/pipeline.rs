@@ -213,7 +213,7 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
         let mut walk = Walk::new(lanes, mesh, &screen, slots);
         for part in walk.seen(paint.cull, 0..usize::MAX) {
             walk.ready(&part);
-            walk.triangles(part, 0, counters, &mut batch);
+            walk.triangles::<false, _>(part, counters, &mut batch);
         }
         batch.finish(counters);
     }

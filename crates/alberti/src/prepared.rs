@@ -359,9 +359,12 @@ pub(crate) fn draw_listed<'l, L, I, M, F, P, Pr, C, D, K>(
         return;
     }
     let listed = listed(Slices::of(&rows, top, shift));
-    let remaining = walk.seen(paint.cull, next..walk.mesh().triangles()).flatten();
     let mut batch = paint.batch(lanes, &mut visible);
-    walk.triangles(listed.map(|triangle| triangle.number()).chain(remaining), next, counters, &mut batch);
+    walk.triangles::<true, _>(listed.map(|triangle| triangle.number()), counters, &mut batch);
+    let remaining = next..walk.mesh().triangles();
+    if !remaining.is_empty() {
+        walk.rest(paint.cull, remaining, counters, &mut batch);
+    }
     batch.finish(counters);
 }
 

@@ -38,7 +38,9 @@ pub(crate) fn stored_by(mesh: &impl Geometry, slots: usize) -> usize {
 pub(crate) trait Sink<'a, V: Varying, K> {
     /// Takes a triangle whose corners stay as long as the walk's slots.
     fn triangle(&mut self, corners: [&'a Corner<V>; 3], counters: &mut K);
-    /// Takes a triangle whose corners do not.
+    /// The same for one that is known to face the right way.
+    fn facing(&mut self, corners: [&'a Corner<V>; 3], counters: &mut K);
+    /// Takes a triangle whose corners do not stay.
     fn passing(&mut self, corners: [&Corner<V>; 3], counters: &mut K);
     /// The same on ways that are seldom taken, for which one copy of what follows is enough.
     fn seldom(&mut self, corners: [&Corner<V>; 3], counters: &mut K);
@@ -57,6 +59,11 @@ where
     #[inline(always)]
     fn triangle(&mut self, corners: [&'a Corner<V>; 3], counters: &mut K) {
         self.triangle(corners, counters);
+    }
+
+    #[inline(always)]
+    fn facing(&mut self, corners: [&'a Corner<V>; 3], counters: &mut K) {
+        self.facing(corners, counters);
     }
 
     #[inline(always)]
@@ -141,21 +148,7 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     #[inline(always)]
     pub(crate) fn ready(&mut self, part: &Range<usize>) {
         if const { M::MESHLETS } && self.own {
-            self.transform(part.clone());
-        }
-    }
-
-    #[inline(never)]
-    fn transform(&mut self, part: Range<usize>) {
-        let Self { mesh, cache, screen, .. } = self;
-        for indices in part.map_while(|number| mesh.triangle(number)) {
-            for index in indices {
-                if let Some(slot) = cache.get_mut(index)
-                    && slot.is_empty()
-                {
-                    slot.fill_alone(*mesh, screen, index);
-                }
-            }
+            transform(self.mesh, &self.screen, self.cache, part.clone());
         }
     }
 
@@ -170,13 +163,12 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     }
 
     /// Hands `sink` the visible parts of the triangles with these numbers, on the screen: of each nothing, itself, or
-    /// the fan that clipping leaves. It ends before the first number that the mesh has not. The counters have heard
-    /// before of those below number `heard`.
+    /// the fan that clipping leaves. It ends before the first number that the mesh has not. Of those that are `LISTED`
+    /// the counters have heard, and they face the right way if they are whole.
     #[inline(always)]
-    pub(crate) fn triangles<K: Counters>(
+    pub(crate) fn triangles<const LISTED: bool, K: Counters>(
         &mut self,
         mut numbers: impl Iterator<Item = usize>,
-        heard: usize,
         counters: &mut K,
         sink: &mut impl Sink<'a, M::Varying, K>,
     ) {
@@ -184,12 +176,12 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         loop {
             let slots = self.stored;
             // Most triangles of a mesh that fits are inside.
-            let (number, indices) = loop {
+            let indices = loop {
                 let Some(number) = numbers.next() else { return };
                 let Some(indices) = mesh.triangle(number) else { return };
                 if slots.is_empty() {
-                    let Some(corners) = self.cached(indices) else { break (number, indices) };
-                    if number >= heard {
+                    let Some(corners) = self.cached(indices) else { break indices };
+                    if !LISTED {
                         counters.submitted();
                     }
                     if const { M::MESHLETS } {
@@ -198,18 +190,37 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
                         sink.seldom(corners, counters);
                     }
                 } else {
-                    let Some(corners) = inside(slots, indices) else { break (number, indices) };
-                    if number >= heard {
+                    let Some(corners) = inside(slots, indices) else { break indices };
+                    if !LISTED {
                         counters.submitted();
                     }
-                    sink.triangle(corners, counters);
+                    if LISTED {
+                        sink.facing(corners, counters);
+                    } else {
+                        sink.triangle(corners, counters);
+                    }
                 }
             };
             let mut passing = |corners: [&_; 3], counters: &mut K| sink.seldom(corners, counters);
             let fate = self.seldom(indices, counters, &mut passing);
-            if number >= heard {
+            if !LISTED {
                 fate.count(counters);
             }
+        }
+    }
+
+    /// [`triangles`](Self::triangles) for those that found no room in a list.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn rest<K: Counters>(
+        &mut self,
+        cull: Cull,
+        numbers: Range<usize>,
+        counters: &mut K,
+        sink: &mut impl Sink<'a, M::Varying, K>,
+    ) {
+        for part in self.seen(cull, numbers) {
+            self.triangles::<false, _>(part, counters, sink);
         }
     }
 
@@ -339,6 +350,26 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         }
         clip(*mesh, screen, indices, corners, sink, counters);
         Fate::Clipped
+    }
+}
+
+/// Fills the slots of these triangles' vertices that are empty. They are arguments, so that compilers know them apart:
+/// what is read of the screen then stays in registers.
+#[inline(never)]
+fn transform<M: Geometry, Pr: Projection>(
+    mesh: &M,
+    screen: &Screen<Pr>,
+    slots: &mut [Slot<M::Varying>],
+    part: Range<usize>,
+) {
+    for indices in part.map_while(|number| mesh.triangle(number)) {
+        for index in indices {
+            if let Some(slot) = slots.get_mut(index)
+                && slot.is_empty()
+            {
+                slot.fill_alone(mesh, screen, index);
+            }
+        }
     }
 }
 

@@ -83,6 +83,16 @@ where
         self.added(counters);
     }
 
+    /// The same for a triangle that is known to face the right way.
+    #[inline(always)]
+    pub fn facing(&mut self, corners: [&'c Corner<V>; 3], counters: &mut impl Counters) {
+        if const { !D::BIASED && <P::Lanes<L> as Lanes>::COUNT == 1 } {
+            self.paint.draw_facing(self.lanes, self.target, &self.limits, corners, counters);
+        } else {
+            self.triangle(corners, counters);
+        }
+    }
+
     /// The same for a triangle whose corners are not kept.
     #[inline(always)]
     pub fn passing(&mut self, corners: [&Corner<V>; 3], counters: &mut impl Counters) {

@@ -105,13 +105,35 @@ impl<F, P: Interpolation> Paint<F, P> {
         D: DepthFormat,
         K: Counters,
     {
+        if const { P::HAS_SMALL }
+            && self.cull.drops(doubled_area(&map3(corners, |corner| corner.place(true))))
+        {
+            counters.rasterized(Outcome::Culled);
+        } else {
+            self.draw_facing(lanes, target, limits, corners, counters);
+        }
+    }
+
+    /// [`draw_one`](Self::draw_one) for a triangle that is known to face the right way.
+    #[inline(always)]
+    pub(crate) fn draw_facing<L, V, C, D, K>(
+        &self,
+        lanes: L,
+        target: &mut Target<'_, C, D>,
+        limits: &[Range<i32>; 2],
+        corners: [&Corner<V>; 3],
+        counters: &mut K,
+    ) where
+        L: Floating,
+        V: Varying,
+        F: FragmentStage<V>,
+        C: ColorFormat,
+        D: DepthFormat,
+        K: Counters,
+    {
         if const { P::HAS_SMALL } {
-            if self.cull.drops(doubled_area(&map3(corners, |corner| corner.place(true)))) {
-                counters.rasterized(Outcome::Culled);
-            } else {
-                let [a, b, c] = corners;
-                self.draw_seen(lanes, target, a, b, c, counters);
-            }
+            let [a, b, c] = corners;
+            self.draw_seen(lanes, target, a, b, c, counters);
             return;
         }
         match self.reach(corners, limits) {
@@ -167,7 +189,7 @@ impl<F, P: Interpolation> Paint<F, P> {
             return;
         }
         match self.reach(corners, &target.limits()) {
-            Ok(reach) => self.draw_alone(lanes, target, corners, &reach, counters),
+            Ok(reach) => self.draw(lanes, target, corners, &reach, counters),
             Err(outcome) => counters.rasterized(outcome),
         }
     }
