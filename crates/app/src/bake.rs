@@ -17,7 +17,7 @@ mod source;
 mod texels;
 
 pub use binary::bytes;
-pub use missing::missing;
+pub use missing::{left_out, missing};
 pub use packed::{Grids, Losses, Packed};
 pub use report::{Estimate, Report};
 pub use restored::restored;
@@ -26,11 +26,12 @@ pub use source::source;
 pub use texels::{Role, Texture};
 
 use clap::ValueEnum;
+use std::borrow::Cow;
 use std::str::FromStr;
 
 use crate::error::Error;
 use crate::options::{Dither, Filter, RenderOptions, Shading};
-use crate::scene::{Camera, Model, Part};
+use crate::scene::{Camera, Model, Part, tangents};
 use alberti::baked::{Attributes, TexelCode};
 
 /// The format of textures of colours.
@@ -119,6 +120,8 @@ impl FromStr for Asked {
         let mut set = Attributes::NONE;
         for word in text.split(',') {
             let known = Self::NAMES.into_iter().find(|(name, _)| *name == word.trim());
+            // None is nothing beside others.
+            let known = known.filter(|&(_, attribute)| attribute != Attributes::NONE || word == text);
             let (_, attribute) = known.ok_or_else(|| Self::EXPECTED.to_owned())?;
             set = set | attribute;
         }
@@ -163,8 +166,10 @@ pub struct Asset {
     pub attributes: Attributes,
     /// The grids of places and of texture coordinates.
     pub grids: Grids,
-    /// The parts that have triangles, in the model's order.
+    /// The parts that have triangles with an area, in the model's order.
     pub pieces: Vec<Piece>,
+    /// The numbers of those that had triangles, of which none has an area on the grid.
+    pub lost_parts: Vec<usize>,
     /// Those that the parts read. Colours of surfaces come first.
     pub textures: Vec<Texture>,
     /// The losses by rounding vertices.
@@ -194,7 +199,8 @@ impl Asset {
 /// Bakes a model, as these options draw it. Of several parts those near the camera keep more of their triangles.
 ///
 /// # Errors
-/// There is nothing to draw, too many vertices for their numbers, or texture coordinates too far from 0.
+/// There is nothing to draw, too many vertices, parts or textures for their numbers, or texture coordinates too far
+/// from 0.
 pub fn bake(
     (model, camera): (&Model, &Camera),
     options: &RenderOptions,
@@ -204,8 +210,20 @@ pub fn bake(
         Asked::Auto => used(model, options),
         Asked::These(attributes) => attributes,
     };
-    let (textures, of_parts) = texels::textures(model, options, attributes, wish)?;
-    shape::asset((model, camera.eye), wish, attributes, textures, &of_parts)
+    let mut model = Cow::Borrowed(model);
+    if attributes.contains(Attributes::TANGENT) {
+        tangents::complete(model.to_mut(), |_| true);
+    }
+    let (textures, of_parts) = texels::textures(&model, options, attributes, wish)?;
+    let asset = shape::asset((&model, camera.eye), wish, attributes, textures, &of_parts)?;
+    let few = |found: usize, of: &str, hint: &str| {
+        let most = u16::MAX;
+        let error = Error::new(format!("{found} {of}"), format!("at most {most} in a file"));
+        if found > most.into() { Err(error.hint(hint)) } else { Ok(()) }
+    };
+    few(asset.pieces.len(), "parts", "join those of one material")?;
+    few(asset.textures.len(), "textures", "join some")?;
+    Ok(asset)
 }
 
 /// The attributes that a picture reads.

@@ -54,8 +54,9 @@ pub struct Estimate {
 }
 
 impl<'a> Report<'a> {
-    /// The report on the asset of a scene, and on its file. Instructions are those of the options' policies; frames are
-    /// compared by the most precise ones, without what the file has not: blends, holes and fog.
+    /// The report on the asset of a scene, and on its file, in bands of so many rows, or those of the frame.
+    /// Instructions are those of the options' policies; frames are compared by the most precise ones, without what the
+    /// file has not: blends, holes and fog.
     ///
     /// # Errors
     /// A frame cannot be drawn, or chips are not known to draw so.
@@ -65,7 +66,7 @@ impl<'a> Report<'a> {
         (model, camera, options): (&Model, &Camera, &RenderOptions),
         band: u32,
     ) -> Result<Self, Error> {
-        let model = &*opaque(model);
+        let (model, band) = (&*opaque(model), band.min(options.height));
         let baked = restored(file, asset, model)?;
         let work = work(&baked, camera, options)?;
         let light = light(asset, options);
@@ -270,7 +271,7 @@ pub(super) fn named(part: &Part) -> String {
 }
 
 /// A number of things, in words.
-fn counted(number: usize, one: &str, many: &str) -> String {
+pub(super) fn counted(number: usize, one: &str, many: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { many })
 }
 

@@ -1,6 +1,7 @@
 //! Assets for flash: files are what they say they lose, draw what the scene is, and cost what the report counts.
 
 mod limits;
+mod mistakes;
 mod told;
 
 use std::f64::consts::{PI, TAU};
@@ -331,62 +332,4 @@ fn memory_is_that_of_the_library() {
         assert_eq!(chip["chip"], name);
         assert!(chip["instructions"].as_f64() > Some(1e5));
     }
-}
-
-#[test]
-fn mistakes_are_told_in_one_line() {
-    let folder = folder();
-    fs::write(folder.path("file"), "").expect("a file");
-    let mut large = String::new();
-    for k in 0..30_000 {
-        large += &format!("v {k} 0 0\nv {k} 1 0\nv {k} 0 1\nf -3 -2 -1\n");
-    }
-    fs::write(folder.path("large.obj"), large).expect("a file");
-    for (arguments, parts) in [
-        (
-            &["m.obj", "--out", "out", "--format", "rgb566"][..],
-            &["--format: found \"rgb566\", expected one of rgb565,"][..],
-        ),
-        (&["m.obj"], &["found nothing, expected --out <FOLDER>"]),
-        (&["m.obj", "--out", "file"], &["file: found a file, expected a folder; choose another with --out"]),
-        (&["m.obj", "--out", "file/in"], &["found a folder that cannot be made"]),
-        (&["no.obj", "--out", "out"], &["no.obj: found no such file"]),
-        (&["m.obj", "--texture", "no.png", "--out", "out"], &["no.png: found no such file"]),
-        (
-            &["large.obj", "--out", "out"],
-            &["found 90000 vertices", "expected at most 65536 in a part", "--triangles"],
-        ),
-        (
-            &["m.obj", "--out", "out", "--triangles", "0"],
-            &["--triangles: found \"0\", expected a whole number from 1 on"],
-        ),
-        (
-            &["m.obj", "--out", "out", "--attributes", "uvw"],
-            &["--attributes: found \"uvw\", expected auto, none, or some of"],
-        ),
-        (
-            &["m.obj", "--out", "out", "--color", "grey4"],
-            &["--color: found \"grey4\", expected rgb565, the format of a frame in the report; "],
-        ),
-        (&["m.obj", "--out", "out", "--show", "lod"], &["--show: found an option that `bake` has not"]),
-        (
-            &["m.obj", "--out", "out", "--filter", "anisotropic:4", "--texture", "soft.png"],
-            &["--filter: found an anisotropic filter"],
-        ),
-    ] {
-        let before = folder.names();
-        let run = alberti(folder.0.path(), &[OsStr::new("bake")], arguments);
-        assert_eq!((run.status, &run.stdout[..]), (Some(2), ""), "{run:?}");
-        assert_eq!(run.stderr.lines().count(), 1, "{run:?}");
-        for part in parts {
-            assert!(run.stderr.contains(part), "{part:?} is not in {}", run.stderr);
-        }
-        assert_eq!(folder.names(), before, "{arguments:?}");
-    }
-    // What was there stays where the new cannot be made.
-    fs::create_dir(folder.path("kept")).expect("a folder");
-    fs::write(folder.path("kept/large.bin"), "old").expect("a file");
-    alberti(folder.0.path(), &[OsStr::new("bake")], &["large.obj", "--out", "kept"]);
-    assert_eq!(fs::read(folder.path("kept/large.bin")).expect("the file"), b"old");
-    assert_eq!(fs::read_dir(folder.path("kept")).expect("the folder").count(), 1);
 }
