@@ -30,6 +30,7 @@ use std::borrow::Cow;
 use std::str::FromStr;
 
 use crate::error::Error;
+use crate::options::values::name_of;
 use crate::options::{Dither, Filter, RenderOptions, Shading};
 use crate::scene::{Camera, Model, Part, tangents};
 use alberti::baked::{Attributes, TexelCode};
@@ -66,9 +67,8 @@ impl Format {
     /// The name of a file's format, as users write it.
     fn name_of(code: TexelCode) -> String {
         let known = Self::value_variants().iter().find(|format| format.code() == code);
-        let name = known.and_then(ValueEnum::to_possible_value);
         // Heights have a format that colours have not.
-        name.map_or_else(|| "grey16".to_owned(), |name| name.get_name().to_owned())
+        known.map_or_else(|| "grey16".to_owned(), |&format| name_of(format))
     }
 
     /// The number of the format in a file.

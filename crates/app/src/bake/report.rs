@@ -10,6 +10,7 @@ use super::{Asset, Format, restored};
 use crate::advise::{Machine, baked_on_chip, depth_bytes, work};
 use crate::error::{Error, quote};
 use crate::measure::{Comparison, Measures};
+use crate::options::values::name_of;
 use crate::options::{ColorFormat, Policies, Projection, RenderOptions, Shading};
 use crate::render::render;
 use crate::scene::{Camera, Model, Part, camera};
@@ -24,12 +25,13 @@ pub struct Report<'a> {
     given: usize,
     size: [u32; 2],
     band: u32,
+    color: ColorFormat,
     /// The names of the asset's parts, in brackets, or nothing.
     names: Vec<String>,
     /// Names and bytes of what lies in flash.
     pub items: Vec<(String, usize)>,
     /// Names and bytes of what a renderer in bands has in memory.
-    pub memory: [(&'static str, usize); 4],
+    pub memory: [(String, usize); 4],
     /// Frames on chips.
     pub estimates: Vec<Estimate>,
     /// The light that these have.
@@ -89,6 +91,7 @@ impl<'a> Report<'a> {
             given: model.parts.iter().map(|part| part.triangles.len()).sum(),
             size: [options.width, options.height],
             band,
+            color: options.policies.color,
             items: items(asset),
             memory: memory(asset, options, band),
             estimates: chips.into_iter().collect::<Result<_, Error>>()?,
@@ -122,11 +125,13 @@ impl<'a> Report<'a> {
         let rows = counted(*band as usize, "row", "rows");
         let columns = counted(*width as usize, "column", "columns");
         line(format!("\n{ram} bytes of RAM, in bands of {rows} of {columns}:\n"));
-        for (name, bytes) in self.memory {
+        for (name, bytes) in &self.memory {
             line(format!("{bytes:>9}  {name}"));
         }
         let light = self.light.unwrap_or("without light");
-        line(format!("\nMillions of instructions for a frame of {width}x{height}, {light}:\n"));
+        // Prices are those of these pixels.
+        let format = if self.color == ColorFormat::Rgb565 { "" } else { " in rgb565" };
+        line(format!("\nMillions of instructions for a frame of {width}x{height}{format}, {light}:\n"));
         for Estimate { machine, instructions, off } in &self.estimates {
             let millions = instructions / 1e6;
             line(format!("{millions:>9.2}  {}, within {off:.0} % mostly", machine.name()));
@@ -184,7 +189,6 @@ impl<'a> Report<'a> {
         let bytes = |items: &[(String, usize)]| -> Vec<Value> {
             items.iter().map(|(name, bytes)| json!({ "name": name, "bytes": bytes })).collect()
         };
-        let memory = self.memory.map(|(name, bytes)| (name.to_owned(), bytes));
         let chips = self.estimates.iter().map(|estimate| {
             let Estimate { machine, instructions, off } = estimate;
             json!({ "chip": machine.name(), "instructions": instructions.round(), "off_percent": off })
@@ -198,7 +202,7 @@ impl<'a> Report<'a> {
             "items": bytes(&self.items),
             "ram": self.memory.iter().map(|(_, bytes)| bytes).sum::<usize>(),
             "band": self.band,
-            "memory": bytes(&memory),
+            "memory": bytes(&self.memory),
             "chips": chips.collect::<Vec<_>>(),
             "light": self.light,
             "unit": asset.grids.unit,
@@ -275,16 +279,17 @@ pub(super) fn counted(number: usize, one: &str, many: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { many })
 }
 
-/// The memory of a renderer in bands, as [`alberti::Memory`] has it: RGB565, and the options' depths.
-fn memory(asset: &Asset, options: &RenderOptions, band: u32) -> [(&'static str, usize); 4] {
+/// The memory of a renderer in bands, as [`alberti::Memory`] has it, with the options' colours and depths.
+fn memory(asset: &Asset, options: &RenderOptions, band: u32) -> [(String, usize); 4] {
     let pixels = (options.width * band) as usize;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0, 2 or 4")]
     let depth = depth_bytes(options.depth) as usize;
+    let color = options.policies.color;
     [
-        ("colours of two bands, RGB565", 4 * pixels),
-        ("depths of a band", depth * pixels),
-        ("transformed vertices", asset.vertices() * slot(asset.attributes)),
-        ("list of triangles", asset.triangles() * size_of::<PreparedTriangle>()),
+        (format!("colours of two bands, {}", name_of(color)), 2 * color.bytes() * pixels),
+        ("depths of a band".to_owned(), depth * pixels),
+        ("transformed vertices".to_owned(), asset.vertices() * slot(asset.attributes)),
+        ("list of triangles".to_owned(), asset.triangles() * size_of::<PreparedTriangle>()),
     ]
 }
 

@@ -4,15 +4,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::builder::{Resettable, StyledStr};
-use clap::{ArgMatches, Args, Command, FromArgMatches as _, ValueEnum as _};
+use clap::{ArgMatches, Args, Command, FromArgMatches as _};
 
 use super::RenderArgs;
 use super::run::print;
 use super::staged::{OF_PICTURES, Request, Staged, hidden, refuse, warn};
 use crate::bake::{Asked, Format, Report, Wish, bake, bytes, left_out, missing, source};
-use crate::error::{Error, quote};
+use crate::error::Error;
 use crate::options::values::Size;
-use crate::options::{ColorFormat, MAX_SIDE, Profile};
+use crate::options::{MAX_SIDE, Profile};
 use crate::output::file::Whole;
 use crate::output::stats::Source;
 
@@ -33,8 +33,9 @@ const FRAME: Size = Size(320, 240);
 
 /// The command with its own defaults in the help of `render`'s options.
 pub(super) fn with_defaults(command: Command) -> Command {
-    let of_profile = ["interpolation", "arithmetic", "depth", "subpixel"].map(|id| (id, "the profile's"));
-    let own = [("size", "320x240"), ("profile", "mcu"), ("color_format", "rgb565, the only one here")];
+    let of_profile = ["interpolation", "arithmetic", "depth", "subpixel", "color_format"];
+    let of_profile = of_profile.map(|id| (id, "the profile's"));
+    let own = [("size", "320x240"), ("profile", "mcu")];
     own.into_iter().chain(of_profile).fold(hidden(command, &OF_PICTURES), |command, (id, default)| {
         command.mut_arg(id, |option| {
             let new = |help: &StyledStr| StyledStr::from(defaulting(&help.to_string(), default));
@@ -133,7 +134,6 @@ pub(super) fn run(matches: &ArgMatches) -> Result<(), Error> {
 
 fn baked(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
     request.check()?;
-    check_color(request.arguments.render.color_format)?;
     let folder = &arguments.out;
     if folder.exists() && !folder.is_dir() {
         return Err(Error::new("a file", "a folder").file(folder).hint("choose another with --out"));
@@ -174,20 +174,6 @@ fn baked(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
     } else {
         format!("{} and {}: {}", names[0], names[1], report.text())
     })
-}
-
-/// # Errors
-/// The format of a frame is one for which there is no report.
-fn check_color(format: Option<ColorFormat>) -> Result<(), Error> {
-    match format.filter(|&format| format != ColorFormat::Rgb565) {
-        None => Ok(()),
-        Some(format) => {
-            let name = format.to_possible_value().map(|value| value.get_name().to_owned());
-            let found = quote(name.unwrap_or_default().as_bytes());
-            let error = Error::new(found, "rgb565, the format of a frame in the report").place("--color");
-            Err(error.hint("textures have the format of --format"))
-        }
-    }
 }
 
 /// The name of the files: that of the model or the scene.

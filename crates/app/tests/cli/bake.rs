@@ -11,6 +11,7 @@ use std::path::Path;
 
 use alberti::baked::{Attributes, Baked, Normal, Texels, Uv};
 use alberti::glam::{Vec2, Vec3};
+use alberti::raster::color;
 use alberti::shaders::{Sunlit, Unlit};
 use alberti::texture::{Bilinear, Repeat};
 use alberti::{Cull, D16, F32Reversed, Geometry, Memory, Pass, Rgb565Be, Rgba8, Rgba8888, Target, Vector3};
@@ -317,18 +318,44 @@ fn sources_have_the_texels_of_files() {
     }
 }
 
-/// The report's bytes against the type that a program has.
+/// The report's bytes against the type that a program has, in each format of a display.
 #[test]
 fn memory_is_that_of_the_library() {
     let folder = folder();
-    let (report, _) = baked(&folder, "ball", &["ball.obj", "--texture", "soft.png", "--band", "8"]);
-    let [vertices, triangles] = ["vertices", "triangles"].map(|key| report[key].as_u64().expect("a number"));
-    // One vertex and one triangle, and the rest by their sizes.
-    type Frame = Memory<Rgb565Be, D16, (Vec3, Vec2), { 320 * 8 }, 1, 1>;
-    let slot = size_of::<alberti::Slot<(Vec3, Vec2)>>() as u64;
-    let expected = Frame::BYTES as u64 + (vertices - 1) * slot + (triangles - 1) * 4;
-    assert_eq!(report["ram"].as_u64(), Some(expected), "{report}");
-    for (chip, name) in report["chips"].as_array().expect("chips").iter().zip(["m0", "m4f", "rv32"]) {
+    // One vertex and one triangle.
+    macro_rules! bytes {
+        ($format:ty) => {
+            Memory::<$format, D16, (Vec3, Vec2), { 320 * 8 }, 1, 1>::BYTES as u64
+        };
+    }
+    let mut chips = vec![];
+    for (format, frame) in [
+        ("rgb565", bytes!(Rgb565Be)),
+        ("rgba8", bytes!(Rgba8888)),
+        ("rgb444", bytes!(color::Rgb444)),
+        ("rgb666", bytes!(color::Rgb666)),
+        ("rgb888", bytes!(color::Rgb888)),
+        ("xrgb8888", bytes!(color::Xrgb8888)),
+        ("rgb332", bytes!(color::Rgb332)),
+        ("indexed8", bytes!(color::Indexed)),
+        ("grey8", bytes!(color::Grey8)),
+        ("grey4", bytes!(color::Grey4)),
+        ("grey2", bytes!(color::Grey2)),
+        ("grey1", bytes!(color::Grey1)),
+    ] {
+        let of = ["ball.obj", "--texture", "soft.png", "--band", "8", "--color", format];
+        let (report, _) = baked(&folder, "ball", &of);
+        let [vertices, triangles] =
+            ["vertices", "triangles"].map(|key| report[key].as_u64().expect("a number"));
+        let slot = size_of::<alberti::Slot<(Vec3, Vec2)>>() as u64;
+        let expected = frame + (vertices - 1) * slot + (triangles - 1) * 4;
+        assert_eq!(report["ram"].as_u64(), Some(expected), "{report}");
+        assert_eq!(report["memory"][0]["name"], format!("colours of two bands, {format}"));
+        // Prices are those of one format.
+        chips.push(report["chips"].clone());
+        assert_eq!(report["chips"], chips[0]);
+    }
+    for (chip, name) in chips[0].as_array().expect("chips").iter().zip(["m0", "m4f", "rv32"]) {
         assert_eq!(chip["chip"], name);
         assert!(chip["instructions"].as_f64() > Some(1e5));
     }

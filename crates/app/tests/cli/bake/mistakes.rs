@@ -76,8 +76,8 @@ fn mistakes_are_told_in_one_line() {
         (&["no.obj", "--out", "a/b/c"], &["no.obj: found no such file"]),
         (&["flat.obj", "--out", "a/b/c"], &["flat.obj: found"]),
         (
-            &["m.obj", "--out", "out", "--color", "grey4"],
-            &["--color: found \"grey4\", expected rgb565, the format of a frame in the report; "],
+            &["m.obj", "--out", "out", "--color", "rgb999"],
+            &["--color: found \"rgb999\", expected one of rgba8, rgb565, rgb444, rgb666, rgb888, xrgb8888,"],
         ),
         (&["m.obj", "--out", "out", "--show", "lod"], &["--show: found an option that `bake` has not"]),
         (
