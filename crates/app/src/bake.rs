@@ -43,12 +43,20 @@ pub enum Format {
     Rgb565,
     /// The same with the high byte first: to be sent as they are to displays of that order.
     Rgb565be,
+    /// rgb565, each texel with the next in a word: twice the flash, and less to do for bilinear filters in integers.
+    Rgb565Pairs,
     /// 4 bits for red, green, blue and alpha each.
     Rgb444,
     /// 3, 3 and 2 bits in a byte.
     Rgb332,
     /// A byte of luminance.
     Grey8,
+    /// 16 levels of luminance, two texels a byte.
+    Grey4,
+    /// 4 levels of luminance, four texels a byte.
+    Grey2,
+    /// Black and white, eight texels a byte.
+    Grey1,
     /// A bit, with a palette of 2 colours.
     Indexed1,
     /// 2 bits, with a palette of 4 colours.
@@ -61,17 +69,18 @@ pub enum Format {
     Rgb888,
     /// A byte for red, green, blue and alpha each.
     Rgba8,
+    /// 16 bits of height: not for colours.
+    #[value(skip)]
+    Grey16,
 }
 
 impl Format {
-    /// The name of a file's format, as users write it.
-    fn name_of(code: TexelCode) -> String {
-        let known = Self::value_variants().iter().find(|format| format.code() == code);
-        // Heights have a format that colours have not.
-        known.map_or_else(|| "grey16".to_owned(), |&format| name_of(format))
+    /// Its name, as users write it.
+    fn name(self) -> String {
+        if self == Self::Grey16 { "grey16".to_owned() } else { name_of(self) }
     }
 
-    /// The number of the format in a file.
+    /// The number of the format in a file. Levels of grey are indices into a ramp of as many.
     fn code(self) -> TexelCode {
         match self {
             Self::Rgb565 => TexelCode::Rgb565,
@@ -79,9 +88,11 @@ impl Format {
             Self::Rgb444 => TexelCode::Rgba4444,
             Self::Rgb332 => TexelCode::Rgb332,
             Self::Grey8 => TexelCode::L8,
-            Self::Indexed1 => TexelCode::Indexed1,
-            Self::Indexed2 => TexelCode::Indexed2,
-            Self::Indexed4 => TexelCode::Indexed4,
+            Self::Grey16 => TexelCode::L16,
+            Self::Rgb565Pairs => TexelCode::Rgb565Pairs,
+            Self::Grey1 | Self::Indexed1 => TexelCode::Indexed1,
+            Self::Grey2 | Self::Indexed2 => TexelCode::Indexed2,
+            Self::Grey4 | Self::Indexed4 => TexelCode::Indexed4,
             Self::Indexed8 => TexelCode::Indexed8,
             Self::Rgb888 => TexelCode::Rgb8,
             Self::Rgba8 => TexelCode::Rgba8888,

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::binary::length;
 use super::missing::opaque;
-use super::{Asset, Format, restored};
+use super::{Asset, restored};
 use crate::advise::{Machine, baked_on_chip, depth_bytes, work};
 use crate::error::{Error, quote};
 use crate::measure::{Comparison, Measures};
@@ -259,7 +259,7 @@ fn items(asset: &Asset) -> Vec<(String, usize)> {
     items.push((format!("meshlets: {meshlets}"), 28 * meshlets));
     for (number, texture) in asset.textures.iter().enumerate() {
         let [width, height] = texture.size;
-        let (role, format) = (texture.role.name(), Format::name_of(texture.code));
+        let (role, format) = (texture.role.name(), texture.format.name());
         let levels = counted(texture.levels.len(), "level", "levels");
         items.push((
             format!("texture {number}, {role}: {width}x{height} {format}, {levels}"),

@@ -11,6 +11,7 @@ use std::path::Path;
 
 use alberti::baked::{Attributes, Baked, Normal, Texels, Uv};
 use alberti::glam::{Vec2, Vec3};
+use alberti::lanes::One;
 use alberti::raster::color;
 use alberti::shaders::{Sunlit, Unlit};
 use alberti::texture::{Bilinear, Repeat};
@@ -154,6 +155,7 @@ fn frames_differ_by_no_more_than_the_report_says() {
         ("rgb888", 0.5),
         ("rgb565", 4.2),
         ("rgb565be", 4.2),
+        ("rgb565-pairs", 4.2),
         // Half a step of red and green, a 7th, and of blue, which is 90, to 85.
         ("rgb332", 18.3),
         ("indexed8", 24.0),
@@ -180,6 +182,7 @@ fn frames_differ_by_no_more_than_the_report_says() {
                 Texels::Rgb8(map) => drawn!(map),
                 Texels::Rgb565(map) => drawn!(map),
                 Texels::Rgb565Be(map) => drawn!(map),
+                Texels::Rgb565Pairs(map) => drawn!(map),
                 Texels::Rgb332(map) => drawn!(map),
                 Texels::Indexed8(map) => drawn!(map),
                 other => panic!("{other:?}"),
@@ -258,9 +261,13 @@ fn textures_have_the_format_and_the_size_that_is_asked_for() {
     for (format, bytes) in [
         ("rgb565", 2 * 64 * 64),
         ("rgb565be", 2 * 64 * 64),
+        ("rgb565-pairs", 4 * 64 * 64),
         ("rgb444", 2 * 64 * 64),
         ("rgb332", 64 * 64),
         ("grey8", 64 * 64),
+        ("grey4", 64 * 32 + 16 * 4),
+        ("grey2", 64 * 16 + 4 * 4),
+        ("grey1", 64 * 8 + 2 * 4),
         ("indexed1", 64 * 8 + 2 * 4),
         ("indexed2", 64 * 16 + 4 * 4),
         ("indexed4", 64 * 32 + 16 * 4),
@@ -281,6 +288,30 @@ fn textures_have_the_format_and_the_size_that_is_asked_for() {
     assert_eq!((map.levels(), map.level(0).width()), (5, 16));
 }
 
+/// Pairs have the means of single texels, in every level and over edges, as stages in integers read them.
+#[test]
+fn pairs_are_read_as_single_texels() {
+    let folder = folder();
+    let arguments = ["ball.obj", "--texture", "soft.png", "--filter", "trilinear", "--dither", "bayer"];
+    let of = |format| baked(&folder, "ball", &[&arguments[..], &["--format", format]].concat()).1;
+    let (single, pairs) = (of("rgb565"), of("rgb565-pairs"));
+    let (single, pairs) = (Baked::read(&single).expect("a file"), Baked::read(&pairs).expect("a file"));
+    let (Some(Texels::Rgb565(single)), Some(Texels::Rgb565Pairs(pairs))) =
+        (single.texture(0), pairs.texture(0))
+    else {
+        panic!("both formats")
+    };
+    assert_eq!((single.levels(), pairs.levels()), (7, 7));
+    for level in 0..7 {
+        let single = single.level(level).sampler(Bilinear, Repeat);
+        let pairs = pairs.level(level).sampler(Bilinear, Repeat);
+        for k in 0..2000_u16 {
+            let [u, v] = [f32::from(k) * 0.00317, f32::from(k) * -0.0211];
+            assert_eq!(single.packed_lanes(One, u, v), pairs.packed_lanes(One, u, v), "{level}: {u} {v}");
+        }
+    }
+}
+
 /// The constants of a program: their types name the format, and their numbers are the file's bytes.
 #[test]
 fn sources_have_the_texels_of_files() {
@@ -288,8 +319,10 @@ fn sources_have_the_texels_of_files() {
     for (format, kind, bits) in [
         ("rgb565", "alberti::texture::format::Rgb565,", 16),
         ("rgb565be", "alberti::texture::format::InBytes<alberti::texture::format::Rgb565Be>,", 8),
+        ("rgb565-pairs", "alberti::texture::format::Rgb565Pairs,", 32),
         ("rgb444", "alberti::texture::format::Rgba4444,", 16),
         ("rgb332", "alberti::texture::format::Rgb332,", 8),
+        ("grey4", "alberti::texture::format::Indexed4<'static>,", 8),
         ("indexed1", "alberti::texture::format::Indexed1<'static>,", 8),
         ("indexed2", "alberti::texture::format::Indexed2<'static>,", 8),
         ("rgb888", "alberti::texture::format::Rgb8,", 8),
