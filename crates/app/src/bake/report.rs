@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::binary::length;
 use super::missing::opaque;
 use super::{Asset, restored};
-use crate::advise::{Machine, baked_on_chip, depth_bytes, work};
+use crate::advise::{Kin, Machine, baked_on_chip, depth_bytes, work};
 use crate::error::{Error, quote};
 use crate::measure::{Comparison, Measures};
 use crate::options::values::name_of;
@@ -48,7 +48,7 @@ pub struct Report<'a> {
 #[derive(Clone, Copy, Debug)]
 pub struct Estimate {
     /// The chip.
-    pub machine: Machine,
+    pub chip: &'static str,
     /// Instructions of a frame.
     pub instructions: f64,
     /// How far nine tenths of such estimates are off at most, in percent.
@@ -72,10 +72,6 @@ impl<'a> Report<'a> {
         let baked = restored(file, asset, model)?;
         let work = work(&baked, camera, options)?;
         let light = light(asset, options);
-        let chips = [Machine::M0, Machine::M4f, Machine::Rv32].map(|machine| {
-            let (instructions, off) = baked_on_chip(machine, options, &work, light.is_some())?;
-            Ok(Estimate { machine, instructions, off })
-        });
         let precise = RenderOptions {
             policies: Policies { color: ColorFormat::Rgba8, ..Policies::default() },
             depth: crate::options::DepthFormat::F32Reversed,
@@ -94,7 +90,7 @@ impl<'a> Report<'a> {
             color: options.policies.color,
             items: items(asset),
             memory: memory(asset, options, band),
-            estimates: chips.into_iter().collect::<Result<_, Error>>()?,
+            estimates: estimates(|machine| baked_on_chip(machine, options, &work, light.is_some()))?,
             pixels: asset.losses.place * 3.0_f64.sqrt() * pixels_a_unit(&baked, camera, options),
             texels: asset.losses.uv[0].max(asset.losses.uv[1]) * f64::from(side),
             measures,
@@ -132,9 +128,9 @@ impl<'a> Report<'a> {
         // Prices are those of these pixels.
         let format = if self.color == ColorFormat::Rgb565 { "" } else { " in rgb565" };
         line(format!("\nMillions of instructions for a frame of {width}x{height}{format}, {light}:\n"));
-        for Estimate { machine, instructions, off } in &self.estimates {
+        for Estimate { chip, instructions, off } in &self.estimates {
             let millions = instructions / 1e6;
-            line(format!("{millions:>9.2}  {}, within {off:.0} % mostly", machine.name()));
+            line(format!("{millions:>9.2}  {chip}, within {off:.0} % mostly"));
         }
         line("\nLost at most:\n".to_owned());
         let losses = &asset.losses;
@@ -190,8 +186,8 @@ impl<'a> Report<'a> {
             items.iter().map(|(name, bytes)| json!({ "name": name, "bytes": bytes })).collect()
         };
         let chips = self.estimates.iter().map(|estimate| {
-            let Estimate { machine, instructions, off } = estimate;
-            json!({ "chip": machine.name(), "instructions": instructions.round(), "off_percent": off })
+            let Estimate { chip, instructions, off } = estimate;
+            json!({ "chip": chip, "instructions": instructions.round(), "off_percent": off })
         });
         let [before, after] = self.order();
         json!({
@@ -225,6 +221,19 @@ impl<'a> Report<'a> {
             "cache_after": after,
         })
     }
+}
+
+/// Estimates for chips of the model, each before those that are its kin.
+fn estimates(of: impl Fn(Machine) -> Result<(f64, f64), Error>) -> Result<Vec<Estimate>, Error> {
+    let mut all = vec![];
+    for machine in [Machine::M0, Machine::M4f, Machine::Rv32] {
+        let own = of(machine)?;
+        let kin =
+            Kin::ALL.into_iter().filter(|kin| kin.of == machine).map(|kin| (kin.name, kin.estimate(own)));
+        let estimates = std::iter::once((machine.name(), own)).chain(kin);
+        all.extend(estimates.map(|(chip, (instructions, off))| Estimate { chip, instructions, off }));
+    }
+    Ok(all)
 }
 
 /// The light that estimates of frames have, in words; `None` where normals are not read. Highlights and maps beside the
