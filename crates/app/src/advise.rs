@@ -16,6 +16,7 @@ use std::cmp::Ordering;
 
 mod candidate;
 mod chips;
+mod kin;
 mod machine;
 mod measured;
 mod report;
@@ -25,6 +26,7 @@ mod work;
 
 pub use candidate::Candidate;
 pub use chips::Off;
+pub use kin::Kin;
 pub(crate) use machine::depth_bytes;
 pub use machine::{Cost, Machine, baked_on_chip};
 pub use measured::Trial;

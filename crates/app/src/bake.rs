@@ -17,7 +17,7 @@ mod source;
 mod texels;
 
 pub use binary::bytes;
-pub use missing::missing;
+pub use missing::{left_out, missing};
 pub use packed::{Grids, Losses, Packed};
 pub use report::{Estimate, Report};
 pub use restored::restored;
@@ -26,11 +26,13 @@ pub use source::source;
 pub use texels::{Role, Texture};
 
 use clap::ValueEnum;
+use std::borrow::Cow;
 use std::str::FromStr;
 
 use crate::error::Error;
+use crate::options::values::name_of;
 use crate::options::{Dither, Filter, RenderOptions, Shading};
-use crate::scene::{Camera, Model, Part};
+use crate::scene::{Camera, Model, Part, tangents};
 use alberti::baked::{Attributes, TexelCode};
 
 /// The format of textures of colours.
@@ -41,12 +43,20 @@ pub enum Format {
     Rgb565,
     /// The same with the high byte first: to be sent as they are to displays of that order.
     Rgb565be,
+    /// rgb565, each texel with the next in a word: twice the flash, and less to do for bilinear filters in integers.
+    Rgb565Pairs,
     /// 4 bits for red, green, blue and alpha each.
     Rgb444,
     /// 3, 3 and 2 bits in a byte.
     Rgb332,
     /// A byte of luminance.
     Grey8,
+    /// 16 levels of luminance, two texels a byte.
+    Grey4,
+    /// 4 levels of luminance, four texels a byte.
+    Grey2,
+    /// Black and white, eight texels a byte.
+    Grey1,
     /// A bit, with a palette of 2 colours.
     Indexed1,
     /// 2 bits, with a palette of 4 colours.
@@ -59,18 +69,18 @@ pub enum Format {
     Rgb888,
     /// A byte for red, green, blue and alpha each.
     Rgba8,
+    /// 16 bits of height: not for colours.
+    #[value(skip)]
+    Grey16,
 }
 
 impl Format {
-    /// The name of a file's format, as users write it.
-    fn name_of(code: TexelCode) -> String {
-        let known = Self::value_variants().iter().find(|format| format.code() == code);
-        let name = known.and_then(ValueEnum::to_possible_value);
-        // Heights have a format that colours have not.
-        name.map_or_else(|| "grey16".to_owned(), |name| name.get_name().to_owned())
+    /// Its name, as users write it.
+    fn name(self) -> String {
+        if self == Self::Grey16 { "grey16".to_owned() } else { name_of(self) }
     }
 
-    /// The number of the format in a file.
+    /// The number of the format in a file. Levels of grey are indices into a ramp of as many.
     fn code(self) -> TexelCode {
         match self {
             Self::Rgb565 => TexelCode::Rgb565,
@@ -78,9 +88,11 @@ impl Format {
             Self::Rgb444 => TexelCode::Rgba4444,
             Self::Rgb332 => TexelCode::Rgb332,
             Self::Grey8 => TexelCode::L8,
-            Self::Indexed1 => TexelCode::Indexed1,
-            Self::Indexed2 => TexelCode::Indexed2,
-            Self::Indexed4 => TexelCode::Indexed4,
+            Self::Grey16 => TexelCode::L16,
+            Self::Rgb565Pairs => TexelCode::Rgb565Pairs,
+            Self::Grey1 | Self::Indexed1 => TexelCode::Indexed1,
+            Self::Grey2 | Self::Indexed2 => TexelCode::Indexed2,
+            Self::Grey4 | Self::Indexed4 => TexelCode::Indexed4,
             Self::Indexed8 => TexelCode::Indexed8,
             Self::Rgb888 => TexelCode::Rgb8,
             Self::Rgba8 => TexelCode::Rgba8888,
@@ -119,6 +131,8 @@ impl FromStr for Asked {
         let mut set = Attributes::NONE;
         for word in text.split(',') {
             let known = Self::NAMES.into_iter().find(|(name, _)| *name == word.trim());
+            // None is nothing beside others.
+            let known = known.filter(|&(_, attribute)| attribute != Attributes::NONE || word == text);
             let (_, attribute) = known.ok_or_else(|| Self::EXPECTED.to_owned())?;
             set = set | attribute;
         }
@@ -163,8 +177,10 @@ pub struct Asset {
     pub attributes: Attributes,
     /// The grids of places and of texture coordinates.
     pub grids: Grids,
-    /// The parts that have triangles, in the model's order.
+    /// The parts that have triangles with an area, in the model's order.
     pub pieces: Vec<Piece>,
+    /// The numbers of those that had triangles, of which none has an area on the grid.
+    pub lost_parts: Vec<usize>,
     /// Those that the parts read. Colours of surfaces come first.
     pub textures: Vec<Texture>,
     /// The losses by rounding vertices.
@@ -194,7 +210,8 @@ impl Asset {
 /// Bakes a model, as these options draw it. Of several parts those near the camera keep more of their triangles.
 ///
 /// # Errors
-/// There is nothing to draw, too many vertices for their numbers, or texture coordinates too far from 0.
+/// There is nothing to draw, too many vertices, parts or textures for their numbers, or texture coordinates too far
+/// from 0.
 pub fn bake(
     (model, camera): (&Model, &Camera),
     options: &RenderOptions,
@@ -204,8 +221,20 @@ pub fn bake(
         Asked::Auto => used(model, options),
         Asked::These(attributes) => attributes,
     };
-    let (textures, of_parts) = texels::textures(model, options, attributes, wish)?;
-    shape::asset((model, camera.eye), wish, attributes, textures, &of_parts)
+    let mut model = Cow::Borrowed(model);
+    if attributes.contains(Attributes::TANGENT) {
+        tangents::complete(model.to_mut(), |_| true);
+    }
+    let (textures, of_parts) = texels::textures(&model, options, attributes, wish)?;
+    let asset = shape::asset((&model, camera.eye), wish, attributes, textures, &of_parts)?;
+    let few = |found: usize, of: &str, hint: &str| {
+        let most = u16::MAX;
+        let error = Error::new(format!("{found} {of}"), format!("at most {most} in a file"));
+        if found > most.into() { Err(error.hint(hint)) } else { Ok(()) }
+    };
+    few(asset.pieces.len(), "parts", "join those of one material")?;
+    few(asset.textures.len(), "textures", "join some")?;
+    Ok(asset)
 }
 
 /// The attributes that a picture reads.

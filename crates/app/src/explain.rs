@@ -15,15 +15,14 @@ mod surface;
 mod tests;
 mod theory;
 
+use crate::display::{Stored, stored};
 use crate::draw::{Arrival, Drawing, Piece, Studio, Traced};
 use crate::error::{Error, quote};
-use crate::options::{ColorFormat, DepthFormat, Dither, RenderOptions};
-use crate::render::{any_depth, render, shown};
+use crate::options::values::name_of;
+use crate::options::{DepthFormat, Dither, RenderOptions};
+use crate::render::{any_depth, render};
 use crate::scene::{Camera, Model, Part};
-use alberti::raster::color::{Grey1, Grey2, Grey4, Grey8, Rgb332, Rgb444};
-use alberti::raster::{ColorFormat as _, rgb565};
 use alberti::{AnyProjection, Frame, Object, Rgba8, Viewport};
-use clap::ValueEnum;
 use report::{Block, Cell};
 use serde_json::{Map, Value, json};
 use shape::Shape;
@@ -199,7 +198,7 @@ impl Scene<'_> {
             }
             None => blocks.push(self.nothing(model, &traced)?),
         }
-        let derived = shown(&options.policies, self.place(), color.to_bytes());
+        let derived = stored(&options.policies, self.place(), color.to_bytes()).color;
         let agrees = derived == found && seen.is_some() == fragment.is_some();
         blocks.push(self.stored(color, found, agrees));
         let size = [options.width, options.height];
@@ -298,20 +297,10 @@ impl Scene<'_> {
     /// The colour, the word, and whether it is that of the picture.
     fn stored(&self, color: Rgba8, found: [u8; 4], agrees: bool) -> Block {
         let mut block = Block::new("stored", "stored", &[]);
-        let format = self.options.policies.color;
+        let Stored { word, digits, color: seen } =
+            stored(&self.options.policies, self.place(), color.to_bytes());
         block.values("color", "colour", color.to_bytes().map(u32::from));
-        let (bits, word) = match format {
-            ColorFormat::Rgba8 => (8, u32::from_be_bytes(color.to_bytes())),
-            ColorFormat::Rgb565 => (4, rgb565(color).into()),
-            ColorFormat::Rgb444 => (3, u16::from_be_bytes(Rgb444.pixel(color)).into()),
-            ColorFormat::Rgb332 => (2, Rgb332.pixel(color).into()),
-            ColorFormat::Grey8 => (2, Grey8.pixel(color).into()),
-            ColorFormat::Grey4 => (1, Grey4.pixel(color).into()),
-            ColorFormat::Grey2 => (1, Grey2.pixel(color).into()),
-            ColorFormat::Grey1 => (1, Grey1.pixel(color).into()),
-        };
-        block.value("word", "word (r, g, b, a from the left)", format!("0x{word:0bits$x}"));
-        let seen = shown(&self.options.policies, self.place(), color.to_bytes());
+        block.value("word", "word (r, g, b, a from the left)", format!("0x{word:0digits$x}"));
         block.values("shown", "seen as", seen.map(u32::from));
         block.values("picture", "the picture has", found.map(u32::from));
         let verdict = if agrees {
@@ -322,9 +311,4 @@ impl Scene<'_> {
         block.note("verdict", verdict);
         block
     }
-}
-
-/// The option's word for a value.
-fn name_of(value: impl ValueEnum) -> String {
-    value.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
 }

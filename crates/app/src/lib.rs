@@ -4,6 +4,7 @@ pub mod advise;
 pub mod bake;
 pub mod cli;
 pub mod colormap;
+mod display;
 pub mod draw;
 pub mod error;
 pub mod explain;

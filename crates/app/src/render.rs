@@ -1,15 +1,11 @@
 //! From a scene to a picture.
 
+use crate::display::stored;
 use crate::draw::{Drawing, Studio};
 use crate::error::Error;
-use crate::options::{ColorFormat, DepthFormat, Dither, Policies, RenderOptions};
+use crate::options::{DepthFormat, RenderOptions};
 use crate::scene::{Camera, Image, Model};
-use alberti::lanes::One;
-use alberti::raster::ColorFormat as _;
-use alberti::raster::color::{Dithered, Grey1, Grey2, Grey4, Grey8, Levels, Rgb332, Rgb444};
-use alberti::texture::TexelFormat as _;
-use alberti::{AnyDepth, DepthFormat as _, Rgb565Le, Rgba8, Rgba8888, Stats, Target};
-use std::num::Wrapping;
+use alberti::{AnyDepth, DepthFormat as _, Rgba8888, Stats, Target};
 
 /// A finished picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -46,7 +42,7 @@ pub fn render(
     let rows = texels.chunks_mut(width as usize).zip(pixels.chunks(width as usize));
     for ((texels, pixels), row) in rows.zip(0..) {
         for ((texel, pixel), column) in texels.iter_mut().zip(pixels).zip(0..) {
-            *texel = shown(&options.policies, [column, row], pixel.to_ne_bytes());
+            *texel = stored(&options.policies, [column, row], pixel.to_ne_bytes()).color;
         }
     }
     Ok(Picture { image: Image { width, height, texels }, stats })
@@ -81,39 +77,6 @@ pub fn any_depth(depth: DepthFormat) -> AnyDepth {
         DepthFormat::U16 => AnyDepth::D16,
         DepthFormat::None => AnyDepth::NoDepth,
     }
-}
-
-/// The colour that is seen at a place where pixels are stored in the policies' format.
-///
-/// Surfaces that are mixed with others are mixed in 8 bits a channel. Nothing else that is drawn reads a colour back,
-/// and the last one to be stored is all that counts. To round it afterwards gives the pixels that a buffer of that
-/// format would hold.
-pub(crate) fn shown(policies: &Policies, place: [i32; 2], color: [u8; 4]) -> [u8; 4] {
-    let by = policies.dither;
-    match policies.color {
-        ColorFormat::Rgba8 => color,
-        ColorFormat::Rgb565 => Rgb565Le.decode(pixel(Rgb565Le, by, place, color)).to_bytes(),
-        ColorFormat::Rgb444 => seen(Rgb444, by, place, color),
-        ColorFormat::Rgb332 => seen(Rgb332, by, place, color),
-        ColorFormat::Grey8 => seen(Grey8, by, place, color),
-        ColorFormat::Grey4 => seen(Grey4, by, place, color),
-        ColorFormat::Grey2 => seen(Grey2, by, place, color),
-        ColorFormat::Grey1 => seen(Grey1, by, place, color),
-    }
-}
-
-/// The colour of a pixel of a format.
-fn seen<F: Levels>(format: F, by: Dither, place: [i32; 2], color: [u8; 4]) -> [u8; 4] {
-    format.color(pixel(format, by, place, color)).to_bytes()
-}
-
-/// A pixel, as a target of the library stores it there.
-fn pixel<F: Levels>(format: F, by: Dither, place: [i32; 2], [r, g, b, a]: [u8; 4]) -> F::Pixel {
-    let color = Rgba8::new(r, g, b, a);
-    let mut pixel = [format.pixel(color)];
-    Dithered { format, by }.store::<One, Rgba8>(One, Wrapping(color.to_bits()), true, place, &mut pixel);
-    let [pixel] = pixel;
-    pixel
 }
 
 /// One element a pixel, or an error instead of an abort where memory is short.

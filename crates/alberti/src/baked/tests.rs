@@ -175,7 +175,7 @@ fn faults_are_told_with_their_place() {
             &[1],
             std::format!("byte {parts} of a baked file: found texture 1, expected one below 1"),
         ),
-        (textures, &[13], std::format!("byte {textures} of a baked file: found texels of format 13")),
+        (textures, &[14], std::format!("byte {textures} of a baked file: found texels of format 14")),
         (textures + 4, &[3], std::format!("byte {textures} of a baked file: found 3 bytes of texels")),
         (textures + 12, &[12], std::format!("byte {textures} of a baked file: found 12 bytes of texels")),
     ] {

@@ -6,7 +6,7 @@ use super::sections::{half, word};
 use alberti_texture::Mipmap;
 use alberti_texture::format::{
     InBytes, Indexed, Indexed1, Indexed2, Indexed4, Indexed8, L8, L16, Rgb8, Rgb332, Rgb565, Rgb565Be,
-    Rgba4444, Rgba8888, Storage,
+    Rgb565Pairs, Rgba4444, Rgba8888, Storage,
 };
 
 /// A texture with its levels, by the format of its texels. [`Mipmap::level`] of 0 is the largest; a texture that is
@@ -38,6 +38,8 @@ pub enum Texels<'a> {
     Indexed1(Mipmap<'a, Indexed1<'a, [u8; 4]>>),
     /// Colours of a palette of 4.
     Indexed2(Mipmap<'a, Indexed2<'a, [u8; 4]>>),
+    /// Colours of 16 bits, each with the next, for bilinear filters of stages in integers.
+    Rgb565Pairs(Mipmap<'a, InBytes<Rgb565Pairs>>),
 }
 
 /// The number of a format of texels in a file.
@@ -68,6 +70,8 @@ pub enum TexelCode {
     Indexed1 = 11,
     /// [`Texels::Indexed2`].
     Indexed2 = 12,
+    /// [`Texels::Rgb565Pairs`].
+    Rgb565Pairs = 13,
 }
 
 impl<'a> Texels<'a> {
@@ -101,7 +105,8 @@ impl<'a> Texels<'a> {
             10 => levels.of(Rgb332, texels).map(Self::Rgb332),
             11 => levels.of(Indexed { palette }, texels).map(Self::Indexed1),
             12 => levels.of(Indexed { palette }, texels).map(Self::Indexed2),
-            _ => return Err(wrong(Fault::Format, code.into(), 12)),
+            13 => levels.chunks(InBytes(Rgb565Pairs), texels).map(Self::Rgb565Pairs),
+            _ => return Err(wrong(Fault::Format, code.into(), 13)),
         };
         let expected = u32::from(width) * u32::from(height);
         map.ok_or_else(|| wrong(Fault::Texels, count(levels.length), expected))

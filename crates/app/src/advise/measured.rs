@@ -3,12 +3,13 @@
 use super::candidate::Candidate;
 use super::machine::{Cost, Costs};
 use super::{Off, Wish, Work, texels, work};
+use crate::display::stored;
 use crate::draw::{Canvas, Counted, Drawing, Studio};
 use crate::error::Error;
 use crate::measure::{Comparison, MOST, MaxError, percentile, steps};
 use crate::options::{Arithmetic, ColorFormat, DepthFormat, Interpolation, RenderOptions};
 use crate::probe::{Probes, probe_values};
-use crate::render::{any_depth, buffer, shown};
+use crate::render::{any_depth, buffer};
 use crate::scene::{Camera, Image, Model};
 use alberti::{Rgba8888, Stats, Target};
 use std::cell::RefCell;
@@ -233,8 +234,8 @@ impl<'a> Bench<'a> {
         let places = (0..height.cast_signed())
             .flat_map(|row| (0..width.cast_signed()).map(move |column| [column, row]));
         let texels = places.zip(&pixels);
-        let texels =
-            texels.map(|(place, pixel): (_, &u32)| shown(&options.policies, place, pixel.to_ne_bytes()));
+        let texels = texels
+            .map(|(place, pixel): (_, &u32)| stored(&options.policies, place, pixel.to_ne_bytes()).color);
         Ok((Image { width, height, texels: texels.collect() }, times, stats))
     }
 

@@ -98,7 +98,7 @@ fn entry(texture: &Texture, place: usize) -> Vec<u8> {
     let colors = u16::try_from(texture.palette.len()).unwrap_or(0);
     let [width, height] = texture.size;
     let mut bytes =
-        [texture.code as u16, colors, width, height].map(u16::to_le_bytes).as_flattened().to_vec();
+        [texture.format.code() as u16, colors, width, height].map(u16::to_le_bytes).as_flattened().to_vec();
     bytes.extend([place, length(texture)].map(|n| count(n).to_le_bytes()).as_flattened());
     bytes
 }

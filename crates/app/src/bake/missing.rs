@@ -2,22 +2,28 @@
 
 use std::borrow::Cow;
 
-use super::report::named;
-use crate::error::Error;
+use super::report::{counted, named};
+use super::{Asked, Asset};
+use crate::error::{Error, number};
 use crate::options::RenderOptions;
 use crate::scene::{Detail, Light, Model};
+use alberti::baked::Attributes;
 use alberti::raster::color::AnyBlend;
 
 /// The words on what only the report's frames have.
 const DRAWN: &str = "the file and the instructions have none, the report's frames have it";
 
-/// A warning for each of them.
-pub fn missing(model: &Model, options: &RenderOptions) -> Vec<Error> {
+/// A warning for each of them, and for attributes that are asked of a model without. Those without a place are about
+/// the model.
+pub fn missing(model: &Model, options: &RenderOptions, asked: Asked) -> Vec<Error> {
     let mut all = vec![];
-    let own = |error: Error| match &model.source {
-        Some(path) => error.file(path),
-        None => error,
-    };
+    if let Asked::These(attributes) = asked
+        && attributes.contains(Attributes::UV)
+        && model.vertices.iter().all(|vertex| vertex.uv == [0.0; 2])
+    {
+        let error = Error::new("uv of a model without texture coordinates", "one that has some");
+        all.push(error.place("--attributes").hint("all are 0"));
+    }
     for part in model.parts.iter().filter(|part| !part.triangles.is_empty()) {
         let of = named(part);
         let things = [
@@ -26,8 +32,7 @@ pub fn missing(model: &Model, options: &RenderOptions) -> Vec<Error> {
         ];
         for (_, found, expected, hint) in things.into_iter().filter(|thing| thing.0) {
             let error = Error::new(format!("a surface {found}{of}"), expected);
-            let error = error.hint(format!("the file has {hint}, and neither have the report's frames"));
-            all.push(own(error));
+            all.push(error.hint(format!("the file has {hint}, and neither have the report's frames")));
         }
     }
     if options.haze.is_some() {
@@ -37,15 +42,15 @@ pub fn missing(model: &Model, options: &RenderOptions) -> Vec<Error> {
     // Frames of the report are under all of the scene's lights, and under its image.
     let plain = |light: &Light| matches!(light, Light::Directional { .. });
     let first = model.lights.iter().position(plain);
-    let lights = model.lights.iter().enumerate().filter(|&(number, _)| Some(number) != first);
-    for (number, light) in lights.filter(|_| options.shading.is_lit()) {
+    let lights = model.lights.iter().enumerate().filter(|&(k, _)| Some(k) != first);
+    for (k, light) in lights.filter(|_| options.shading.is_lit()) {
         let kind = match light {
             Light::Directional { .. } => "a further directional light",
             Light::Point { .. } => "a point light",
             Light::Spot { .. } => "a spot light",
         };
-        let error = Error::new(format!("{kind} (light[{number}])"), "at most one, from one direction");
-        all.push(own(error.hint(DRAWN)));
+        let error = Error::new(format!("{kind} (light[{k}])"), "at most one, from one direction");
+        all.push(error.hint(DRAWN));
     }
     if model.slide.is_some() {
         let error = Error::new("a projector's image", "a scene without").place("--projector");
@@ -61,6 +66,15 @@ pub fn missing(model: &Model, options: &RenderOptions) -> Vec<Error> {
         is_new
     });
     all
+}
+
+/// A warning of the parts that an asset has lost, about the model.
+pub fn left_out(model: &Model, asset: &Asset) -> Option<Error> {
+    let &first = asset.lost_parts.first()?;
+    let (unit, of) = (number(asset.grids.unit), named(&model.parts[first]));
+    let parts = counted(asset.lost_parts.len(), "part", "parts");
+    let found = format!("{parts} without an area in steps of {unit}, from part {first}{of} on");
+    Some(Error::new(found, "larger triangles, or a smaller model").hint("the file has none of these"))
 }
 
 /// The model without them, as the file has it: nothing is seen through its surfaces.

@@ -92,7 +92,8 @@ impl Grids {
             if low < -MAX_UV || high > MAX_UV || shift > 12 {
                 let [low, high] = [low, high].map(|c| number(narrow(c / 65536.0)));
                 let found = format!("texture coordinates from {low} to {high}");
-                return Err(Error::new(found, "some from -4096 to 4096, and within 4096 of each other"));
+                let error = Error::new(found, "some from -4096 to 4096, and within 4096 of each other");
+                return Err(error.hint("let textures repeat less, or leave out uv by --attributes"));
             }
             #[expect(clippy::cast_possible_truncation, reason = "within 2^28")]
             let origin = low as i32;
@@ -158,9 +159,12 @@ impl Grids {
     }
 }
 
-/// The two bytes of a direction, and the angle to it in degrees.
+/// The two bytes of a direction, and the angle to it in degrees; 0 for none, which is no direction to miss.
 fn octahedral(direction: [f32; 3]) -> ([i8; 2], f64) {
     let found = Octahedral::nearest(Vec3::from_array(direction));
+    if direction == [0.0; 3] {
+        return (found.0, 0.0);
+    }
     let unit = found.to_vec3().to_array().map(f64::from);
     let chord = length(sub(unit, direction.map(f64::from)));
     (found.0, (2.0 * (chord / 2.0).min(1.0).asin()).to_degrees())

@@ -2,12 +2,17 @@
 
 use crate::error::Error;
 use crate::scene::Image;
+use alberti::Rgba8;
+use alberti::raster::ColorFormat as _;
+use alberti::raster::color::Grey8;
 
 /// A palette, and the way to its nearest colour.
 pub(super) struct Palette {
     pub(super) colors: Vec<[u8; 4]>,
     /// How far a colour may be from it, on average: the reach of dithering.
     spread: i32,
+    /// Whether it is a ramp of greys, whose levels are those of luminance.
+    is_ramp: bool,
 }
 
 impl Palette {
@@ -24,12 +29,23 @@ impl Palette {
         let found = quantizr::QuantizeResult::quantize(&picture, &options);
         let palette = found.get_palette();
         let colors = palette.entries.iter().take(palette.count as usize).map(|c| [c.r, c.g, c.b, c.a]);
-        let mut palette = Self { colors: colors.collect(), spread: 0 };
+        let mut palette = Self { colors: colors.collect(), spread: 0, is_ramp: false };
         let squares: i64 = image.texels.iter().map(|&texel| i64::from(palette.nearest(texel).1)).sum();
         // The deviation of a channel, twice on either side.
         let count = i64::try_from(image.texels.len()).unwrap_or(i64::MAX).max(1);
         palette.spread = i32::try_from((squares / (3 * count)).isqrt()).unwrap_or(255) * 4;
         Ok(palette)
+    }
+
+    /// So many greys from black to white, up to 16.
+    pub(super) fn ramp(count: u8) -> Self {
+        let steps = count - 1;
+        let grey = |level: u8| [level * (255 / steps); 3];
+        let colors = (0..count).map(|level| {
+            let [r, g, b] = grey(level);
+            [r, g, b, 255]
+        });
+        Self { colors: colors.collect(), spread: 0, is_ramp: true }
     }
 
     /// The number of the colour that is nearest, by the sum of the channels' squares, and that sum.
@@ -44,6 +60,12 @@ impl Palette {
 
     /// The number of the colour for a texel with a threshold of so many 255ths; 127 for the nearest.
     pub(super) fn index(&self, texel: [u8; 4], threshold: u32) -> u8 {
+        if self.is_ramp {
+            let [r, g, b, a] = texel;
+            let greatest = u32::try_from(self.colors.len() - 1).unwrap_or(0);
+            let level = (u32::from(Grey8.pixel(Rgba8::new(r, g, b, a))) * greatest + threshold) / 255;
+            return level.to_le_bytes()[0];
+        }
         let shift = self.spread * (threshold.cast_signed() - 127) / 255;
         let [r, g, b, a] = texel;
         let moved = |c: u8| u8::try_from((i32::from(c) + shift).clamp(0, 255)).unwrap_or(c);

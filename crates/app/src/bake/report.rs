@@ -6,10 +6,11 @@ use serde_json::{Value, json};
 
 use super::binary::length;
 use super::missing::opaque;
-use super::{Asset, Format, restored};
-use crate::advise::{Machine, baked_on_chip, depth_bytes, work};
+use super::{Asset, restored};
+use crate::advise::{Kin, Machine, baked_on_chip, depth_bytes, work};
 use crate::error::{Error, quote};
 use crate::measure::{Comparison, Measures};
+use crate::options::values::name_of;
 use crate::options::{ColorFormat, Policies, Projection, RenderOptions, Shading};
 use crate::render::render;
 use crate::scene::{Camera, Model, Part, camera};
@@ -24,12 +25,13 @@ pub struct Report<'a> {
     given: usize,
     size: [u32; 2],
     band: u32,
+    color: ColorFormat,
     /// The names of the asset's parts, in brackets, or nothing.
     names: Vec<String>,
     /// Names and bytes of what lies in flash.
     pub items: Vec<(String, usize)>,
     /// Names and bytes of what a renderer in bands has in memory.
-    pub memory: [(&'static str, usize); 4],
+    pub memory: [(String, usize); 4],
     /// Frames on chips.
     pub estimates: Vec<Estimate>,
     /// The light that these have.
@@ -46,7 +48,7 @@ pub struct Report<'a> {
 #[derive(Clone, Copy, Debug)]
 pub struct Estimate {
     /// The chip.
-    pub machine: Machine,
+    pub chip: &'static str,
     /// Instructions of a frame.
     pub instructions: f64,
     /// How far nine tenths of such estimates are off at most, in percent.
@@ -54,8 +56,9 @@ pub struct Estimate {
 }
 
 impl<'a> Report<'a> {
-    /// The report on the asset of a scene, and on its file. Instructions are those of the options' policies; frames are
-    /// compared by the most precise ones, without what the file has not: blends, holes and fog.
+    /// The report on the asset of a scene, and on its file, in bands of so many rows, or those of the frame.
+    /// Instructions are those of the options' policies; frames are compared by the most precise ones, without what the
+    /// file has not: blends, holes and fog.
     ///
     /// # Errors
     /// A frame cannot be drawn, or chips are not known to draw so.
@@ -65,14 +68,10 @@ impl<'a> Report<'a> {
         (model, camera, options): (&Model, &Camera, &RenderOptions),
         band: u32,
     ) -> Result<Self, Error> {
-        let model = &*opaque(model);
+        let (model, band) = (&*opaque(model), band.min(options.height));
         let baked = restored(file, asset, model)?;
         let work = work(&baked, camera, options)?;
         let light = light(asset, options);
-        let chips = [Machine::M0, Machine::M4f, Machine::Rv32].map(|machine| {
-            let (instructions, off) = baked_on_chip(machine, options, &work, light.is_some())?;
-            Ok(Estimate { machine, instructions, off })
-        });
         let precise = RenderOptions {
             policies: Policies { color: ColorFormat::Rgba8, ..Policies::default() },
             depth: crate::options::DepthFormat::F32Reversed,
@@ -88,9 +87,10 @@ impl<'a> Report<'a> {
             given: model.parts.iter().map(|part| part.triangles.len()).sum(),
             size: [options.width, options.height],
             band,
+            color: options.policies.color,
             items: items(asset),
             memory: memory(asset, options, band),
-            estimates: chips.into_iter().collect::<Result<_, Error>>()?,
+            estimates: estimates(|machine| baked_on_chip(machine, options, &work, light.is_some()))?,
             pixels: asset.losses.place * 3.0_f64.sqrt() * pixels_a_unit(&baked, camera, options),
             texels: asset.losses.uv[0].max(asset.losses.uv[1]) * f64::from(side),
             measures,
@@ -121,14 +121,16 @@ impl<'a> Report<'a> {
         let rows = counted(*band as usize, "row", "rows");
         let columns = counted(*width as usize, "column", "columns");
         line(format!("\n{ram} bytes of RAM, in bands of {rows} of {columns}:\n"));
-        for (name, bytes) in self.memory {
+        for (name, bytes) in &self.memory {
             line(format!("{bytes:>9}  {name}"));
         }
         let light = self.light.unwrap_or("without light");
-        line(format!("\nMillions of instructions for a frame of {width}x{height}, {light}:\n"));
-        for Estimate { machine, instructions, off } in &self.estimates {
+        // Prices are those of these pixels.
+        let format = if self.color == ColorFormat::Rgb565 { "" } else { " in rgb565" };
+        line(format!("\nMillions of instructions for a frame of {width}x{height}{format}, {light}:\n"));
+        for Estimate { chip, instructions, off } in &self.estimates {
             let millions = instructions / 1e6;
-            line(format!("{millions:>9.2}  {}, within {off:.0} % mostly", machine.name()));
+            line(format!("{millions:>9.2}  {chip}, within {off:.0} % mostly"));
         }
         line("\nLost at most:\n".to_owned());
         let losses = &asset.losses;
@@ -183,10 +185,9 @@ impl<'a> Report<'a> {
         let bytes = |items: &[(String, usize)]| -> Vec<Value> {
             items.iter().map(|(name, bytes)| json!({ "name": name, "bytes": bytes })).collect()
         };
-        let memory = self.memory.map(|(name, bytes)| (name.to_owned(), bytes));
         let chips = self.estimates.iter().map(|estimate| {
-            let Estimate { machine, instructions, off } = estimate;
-            json!({ "chip": machine.name(), "instructions": instructions.round(), "off_percent": off })
+            let Estimate { chip, instructions, off } = estimate;
+            json!({ "chip": chip, "instructions": instructions.round(), "off_percent": off })
         });
         let [before, after] = self.order();
         json!({
@@ -197,7 +198,7 @@ impl<'a> Report<'a> {
             "items": bytes(&self.items),
             "ram": self.memory.iter().map(|(_, bytes)| bytes).sum::<usize>(),
             "band": self.band,
-            "memory": bytes(&memory),
+            "memory": bytes(&self.memory),
             "chips": chips.collect::<Vec<_>>(),
             "light": self.light,
             "unit": asset.grids.unit,
@@ -220,6 +221,19 @@ impl<'a> Report<'a> {
             "cache_after": after,
         })
     }
+}
+
+/// Estimates for chips of the model, each before those that are its kin.
+fn estimates(of: impl Fn(Machine) -> Result<(f64, f64), Error>) -> Result<Vec<Estimate>, Error> {
+    let mut all = vec![];
+    for machine in [Machine::M0, Machine::M4f, Machine::Rv32] {
+        let own = of(machine)?;
+        let kin =
+            Kin::ALL.into_iter().filter(|kin| kin.of == machine).map(|kin| (kin.name, kin.estimate(own)));
+        let estimates = std::iter::once((machine.name(), own)).chain(kin);
+        all.extend(estimates.map(|(chip, (instructions, off))| Estimate { chip, instructions, off }));
+    }
+    Ok(all)
 }
 
 /// The light that estimates of frames have, in words; `None` where normals are not read. Highlights and maps beside the
@@ -254,7 +268,7 @@ fn items(asset: &Asset) -> Vec<(String, usize)> {
     items.push((format!("meshlets: {meshlets}"), 28 * meshlets));
     for (number, texture) in asset.textures.iter().enumerate() {
         let [width, height] = texture.size;
-        let (role, format) = (texture.role.name(), Format::name_of(texture.code));
+        let (role, format) = (texture.role.name(), texture.format.name());
         let levels = counted(texture.levels.len(), "level", "levels");
         items.push((
             format!("texture {number}, {role}: {width}x{height} {format}, {levels}"),
@@ -270,20 +284,21 @@ pub(super) fn named(part: &Part) -> String {
 }
 
 /// A number of things, in words.
-fn counted(number: usize, one: &str, many: &str) -> String {
+pub(super) fn counted(number: usize, one: &str, many: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { many })
 }
 
-/// The memory of a renderer in bands, as [`alberti::Memory`] has it: RGB565, and the options' depths.
-fn memory(asset: &Asset, options: &RenderOptions, band: u32) -> [(&'static str, usize); 4] {
+/// The memory of a renderer in bands, as [`alberti::Memory`] has it, with the options' colours and depths.
+fn memory(asset: &Asset, options: &RenderOptions, band: u32) -> [(String, usize); 4] {
     let pixels = (options.width * band) as usize;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0, 2 or 4")]
     let depth = depth_bytes(options.depth) as usize;
+    let color = options.policies.color;
     [
-        ("colours of two bands, RGB565", 4 * pixels),
-        ("depths of a band", depth * pixels),
-        ("transformed vertices", asset.vertices() * slot(asset.attributes)),
-        ("list of triangles", asset.triangles() * size_of::<PreparedTriangle>()),
+        (format!("colours of two bands, {}", name_of(color)), 2 * color.bytes() * pixels),
+        ("depths of a band".to_owned(), depth * pixels),
+        ("transformed vertices".to_owned(), asset.vertices() * slot(asset.attributes)),
+        ("list of triangles".to_owned(), asset.triangles() * size_of::<PreparedTriangle>()),
     ]
 }
 

@@ -7,9 +7,10 @@ use meshoptimizer_rs::{
 use std::collections::HashMap;
 
 use super::packed::{Grids, Losses, Packed};
+use super::report::named;
 use super::texels::Texture;
 use super::{Asset, Wish};
-use crate::error::{Error, quote};
+use crate::error::{Error, number};
 use crate::scene::{Model, Part, Vertex};
 use alberti::baked::{Attributes, MAX_VERTICES};
 use alberti::glam::Vec3;
@@ -266,34 +267,31 @@ pub(super) fn asset(
         mesh.triangles.iter().flatten().map(|&index| &mesh.vertices[index as usize])
     });
     let grids = Grids::new(used, attributes)?;
-    let (mut pieces, mut losses) = (vec![], Losses::default());
-    for (number, mesh, moved) in alone {
-        let part = &model.parts[number];
+    let (mut pieces, mut lost_parts, mut losses) = (vec![], vec![], Losses::default());
+    for (k, mesh, moved) in alone {
+        let part = &model.parts[k];
         let before = transformed(&mesh.triangles, mesh.vertices.len())?;
         let (vertices, triangles, lost) = mesh.pack(&grids, attributes);
         losses = losses.and(lost);
         if vertices.len() > MAX_VERTICES as usize {
-            let of = if part.name.is_empty() {
-                String::new()
-            } else {
-                format!(" in {}", quote(part.name.as_bytes()))
-            };
-            let found = format!("{} vertices{of}", vertices.len());
-            let error = Error::new(found, format!("at most {MAX_VERTICES} in a part"));
+            let found = format!("{} vertices of a part{}", vertices.len(), named(part));
+            let error = Error::new(found, format!("at most {MAX_VERTICES}"));
             return Err(error.hint("choose fewer triangles with --triangles"));
         }
-        if !triangles.is_empty() {
+        if triangles.is_empty() {
+            lost_parts.push(k);
+        } else {
             let color = crate::draw::color(part.diffuse);
-            let texture = of_parts[number];
-            let piece =
-                ordered(number, (vertices, triangles), &grids, wish.meshlets, (color, texture), before)?;
+            let texture = of_parts[k];
+            let piece = ordered(k, (vertices, triangles), &grids, wish.meshlets, (color, texture), before)?;
             pieces.push(Piece { moved, ..piece });
         }
     }
     if pieces.is_empty() {
-        return Err(Error::new("a model without triangles", "something to draw"));
+        let found = format!("no triangle with an area in steps of {}", number(grids.unit));
+        return Err(Error::new(found, "some").hint("move the model to the origin: steps are from there"));
     }
-    Ok(Asset { attributes, grids, pieces, textures, losses })
+    Ok(Asset { attributes, grids, pieces, lost_parts, textures, losses })
 }
 
 /// A piece with its triangles in the order of meshlets, or of a cache, and its vertices in the order of their use.

@@ -2,9 +2,9 @@
 
 use std::fmt::{Display, Write as _};
 
-use super::Asset;
 use super::shape::Piece;
 use super::texels::Texture;
+use super::{Asset, Format};
 use alberti::baked::{Attributes, TexelCode};
 
 /// The columns of a line of numbers.
@@ -177,15 +177,18 @@ fn map(text: &mut String, number: usize, texture: &Texture) {
     let [width, height] = texture.size;
     let halves =
         |bytes: &Vec<u8>| bytes.as_chunks().0.iter().map(|&b| u16::from_le_bytes(b).to_string()).collect();
+    let words =
+        |bytes: &Vec<u8>| bytes.as_chunks().0.iter().map(|&b| u32::from_le_bytes(b).to_string()).collect();
     let each = |bytes: &Vec<u8>| bytes.iter().map(u8::to_string).collect();
     let chunks = |bytes: &Vec<u8>, n: usize| bytes.chunks(n).map(|chunk| format!("{chunk:?}")).collect();
     let all: Vec<u8> = texture.levels.concat();
-    let (format, element, texels): (&str, &str, Vec<String>) = match texture.code {
+    let (format, element, texels): (&str, &str, Vec<String>) = match texture.format.code() {
         TexelCode::Rgb565 => ("Rgb565", "u16", halves(&all)),
         TexelCode::Rgba4444 => ("Rgba4444", "u16", halves(&all)),
         TexelCode::L16 => ("L16", "u16", halves(&all)),
         TexelCode::L8 => ("L8", "u8", each(&all)),
         TexelCode::Rgb565Be => ("Rgb565Be", "[u8; 2]", chunks(&all, 2)),
+        TexelCode::Rgb565Pairs => ("Rgb565Pairs", "u32", words(&all)),
         TexelCode::Rgb332 => ("Rgb332", "u8", each(&all)),
         TexelCode::Indexed1 => ("Indexed1", "u8", each(&all)),
         TexelCode::Indexed2 => ("Indexed2", "u8", each(&all)),
@@ -198,7 +201,7 @@ fn map(text: &mut String, number: usize, texture: &Texture) {
     let indexed = !texture.palette.is_empty();
     let (kind, value) = if indexed {
         (format!("{format}<'static>"), format!("{format} {{ palette: &PALETTE_{number} }}"))
-    } else if texture.code == TexelCode::Rgb565Be {
+    } else if texture.format == Format::Rgb565be {
         let in_bytes = "alberti::texture::format::InBytes";
         (format!("{in_bytes}<{format}>"), format!("{in_bytes}({format})"))
     } else {

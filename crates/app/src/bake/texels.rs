@@ -9,7 +9,7 @@ use alberti::Rgba8;
 use alberti::baked::{Attributes, TexelCode};
 use alberti::raster::ColorFormat as _;
 use alberti::raster::color::{Grey8, Pattern as _};
-use alberti::texture::format::{L16, Normals, Rgba8888, Scalars, TexelFormat};
+use alberti::texture::format::{L16, Normals, Rgb565, Rgb565Pairs, Rgba8888, Scalars, TexelFormat};
 use alberti::texture::{TextureError, mipmap};
 
 /// A texture as it lies in flash.
@@ -20,7 +20,7 @@ pub struct Texture {
     /// The index of its image, or of its heights, in the model.
     pub image: usize,
     /// The format.
-    pub code: TexelCode,
+    pub format: Format,
     /// Columns and rows of level 0.
     pub size: [u16; 2],
     /// The colours of indices.
@@ -73,12 +73,12 @@ impl Role {
     }
 
     /// The format of its texels: colours are as the user wishes, what is not seen by itself is kept.
-    fn code(self, format: Format) -> TexelCode {
+    fn format(self, wish: Format) -> Format {
         match self {
-            Self::Color | Self::Specular | Self::Emissive | Self::Environment => format.code(),
-            Self::Normals => TexelCode::Rgb8,
-            Self::Heights => TexelCode::L16,
-            Self::Occlusion | Self::Wetness | Self::Shininess | Self::Reflection => TexelCode::L8,
+            Self::Color | Self::Specular | Self::Emissive | Self::Environment => wish,
+            Self::Normals => Format::Rgb888,
+            Self::Heights => Format::Grey16,
+            Self::Occlusion | Self::Wetness | Self::Shininess | Self::Reflection => Format::Grey8,
         }
     }
 }
@@ -140,12 +140,12 @@ fn others(part: &Part) -> impl Iterator<Item = (Role, Map)> {
 
 /// An image of the model in its format.
 fn texture(model: &Model, role: Role, image: usize, mips: bool, wish: &Wish) -> Result<Texture, Error> {
-    let code = role.code(wish.format);
+    let format = role.format(wish.format);
     let broken = |error: TextureError| Error::new(error.to_string(), "textures that can be drawn");
     let texture = |size: [u32; 2], palette, levels| Texture {
         role,
         image,
-        code,
+        format,
         size: size.map(|side| u16::try_from(side).unwrap_or(u16::MAX)),
         palette,
         levels,
@@ -159,23 +159,28 @@ fn texture(model: &Model, role: Role, image: usize, mips: bool, wish: &Wish) -> 
     }
     let Image { width, height, texels } = &model.textures[image];
     let size = [*width, *height];
-    let levels = match code {
-        _ if role == Role::Normals => chain(Normals(Rgba8888), texels, size),
-        TexelCode::L8 if role != Role::Color => chain(Scalars(Rgba8888), texels, size),
+    // Numbers are what no wish changes.
+    let numbers = role.format(Format::Rgb565) != Format::Rgb565;
+    let levels = match role {
+        Role::Normals => chain(Normals(Rgba8888), texels, size),
+        _ if numbers => chain(Scalars(Rgba8888), texels, size),
         _ => chain(Rgba8888, texels, size),
     };
     let levels = kept(levels.map_err(broken)?, mips, wish.texture_size);
     let Level { size: [width, height], texels } = &levels[0];
     let largest = Image { width: *width, height: *height, texels: texels.clone() };
-    let palette = match code {
-        TexelCode::Indexed1 => Some(Palette::new(&largest, 2)?),
-        TexelCode::Indexed2 => Some(Palette::new(&largest, 4)?),
-        TexelCode::Indexed4 => Some(Palette::new(&largest, 16)?),
-        TexelCode::Indexed8 => Some(Palette::new(&largest, 256)?),
+    let palette = match format {
+        Format::Grey1 => Some(Palette::ramp(2)),
+        Format::Grey2 => Some(Palette::ramp(4)),
+        Format::Grey4 => Some(Palette::ramp(16)),
+        Format::Indexed1 => Some(Palette::new(&largest, 2)?),
+        Format::Indexed2 => Some(Palette::new(&largest, 4)?),
+        Format::Indexed4 => Some(Palette::new(&largest, 16)?),
+        Format::Indexed8 => Some(Palette::new(&largest, 256)?),
         _ => None,
     };
-    let numbers = role.code(Format::Rgb565) != TexelCode::Rgb565;
-    let bytes = levels.iter().map(|level| encoded(level, code, palette.as_ref(), (wish.dither, numbers)));
+    let bytes =
+        levels.iter().map(|level| encoded(level, format.code(), palette.as_ref(), (wish.dither, numbers)));
     let bytes = bytes.collect();
     Ok(texture([*width, *height], palette.map_or(vec![], |palette| palette.colors), bytes))
 }
@@ -242,6 +247,13 @@ fn encoded(
         };
         match code {
             TexelCode::Rgb565 => each().flat_map(word565).collect(),
+            TexelCode::Rgb565Pairs => {
+                let own = |texel| Rgb565Pairs.encode(Rgb565.decode(texel));
+                let mut pairs: Vec<u32> =
+                    each().map(word565).map(|bytes| own(u16::from_le_bytes(bytes))).collect();
+                Rgb565Pairs::link(&mut pairs, level.size[0], 1);
+                pairs.into_iter().flat_map(u32::to_le_bytes).collect()
+            }
             TexelCode::Rgb565Be => each().map(word565).flat_map(|[low, high]| [high, low]).collect(),
             TexelCode::Rgb332 => each()
                 .map(|([r, g, b, _], t)| {
@@ -276,7 +288,7 @@ fn half(texel: u32) -> [u8; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use alberti::texture::format::{Rgb565, Rgba4444};
+    use alberti::texture::format::Rgba4444;
 
     fn level(texels: Vec<[u8; 4]>, width: u32) -> Level<[u8; 4]> {
         let height = u32::try_from(texels.len()).expect("few") / width;
@@ -327,6 +339,43 @@ mod tests {
             let mean = reds.sum::<f64>() / 1024.0;
             assert!((mean - 100.0 * 31.0 / 255.0).abs() < 0.01, "{mean}");
         }
+    }
+
+    /// The same of a few greys, which are all there is in their bits.
+    #[test]
+    fn dithered_greys_have_the_mean_of_the_luminance() {
+        // 77 · 90 + 150 · 120 + 29 · 30 = 25800, and 256 of it is 100.8.
+        let color = level(vec![[90, 120, 30, 255]; 32 * 32], 32);
+        for (bits, code) in [(1, TexelCode::Indexed1), (2, TexelCode::Indexed2), (4, TexelCode::Indexed4)] {
+            let greatest = (1_u8 << bits) - 1;
+            let ramp = Palette::ramp(greatest + 1);
+            for (k, grey) in ramp.colors.iter().enumerate() {
+                let right = f64::from(u8::try_from(k).expect("few")) * 255.0 / f64::from(greatest);
+                assert!(grey[..3].iter().all(|&c| f64::from(c) == right) && grey[3] == 255, "{grey:?}");
+            }
+            for dither in [Dither::Bayer, Dither::BlueNoise] {
+                let bytes = encoded(&color, code, Some(&ramp), (dither, false));
+                let levels =
+                    bytes.iter().flat_map(|byte| (0..8 / bits).map(move |k| byte >> (k * bits) & greatest));
+                let mean = levels.map(f64::from).sum::<f64>() / 1024.0;
+                let right = 101.0 * f64::from(greatest) / 255.0;
+                assert!((mean - right).abs() < 0.01, "{bits}: {mean} for {right}");
+            }
+        }
+    }
+
+    /// Fields of words, by hand: those of a texel, and of the next in its row.
+    #[test]
+    fn pairs_have_the_next_of_their_row() {
+        let colors = [[248, 4, 16, 255], [8, 252, 248, 255], [16, 8, 8, 255]];
+        let levels = [[30, 1, 2], [1, 62, 30], [2, 2, 1_u32]];
+        let bytes = encoded(&level(colors.to_vec(), 3), TexelCode::Rgb565Pairs, None, (Dither::None, false));
+        let words: Vec<u32> = bytes.as_chunks().0.iter().map(|&word| u32::from_le_bytes(word)).collect();
+        let pair = |own: usize, next: usize| {
+            let ([r, g, b], [red, green, blue]) = (levels[own], levels[next]);
+            red << 27 | g << 21 | blue << 16 | r << 11 | green << 5 | b
+        };
+        assert_eq!(words, [pair(0, 1), pair(1, 2), pair(2, 0)]);
     }
 
     #[test]

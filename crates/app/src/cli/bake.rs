@@ -4,15 +4,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::builder::{Resettable, StyledStr};
-use clap::{ArgMatches, Args, Command, FromArgMatches as _, ValueEnum as _};
+use clap::{ArgMatches, Args, Command, FromArgMatches as _};
 
 use super::RenderArgs;
 use super::run::print;
 use super::staged::{OF_PICTURES, Request, Staged, hidden, refuse, warn};
-use crate::bake::{Asked, Format, Report, Wish, bake, bytes, missing, source};
-use crate::error::{Error, quote};
+use crate::bake::{Asked, Format, Report, Wish, bake, bytes, left_out, missing, source};
+use crate::error::Error;
 use crate::options::values::Size;
-use crate::options::{ColorFormat, MAX_SIDE, Profile};
+use crate::options::{MAX_SIDE, Profile};
 use crate::output::file::Whole;
 use crate::output::stats::Source;
 
@@ -33,8 +33,9 @@ const FRAME: Size = Size(320, 240);
 
 /// The command with its own defaults in the help of `render`'s options.
 pub(super) fn with_defaults(command: Command) -> Command {
-    let of_profile = ["interpolation", "arithmetic", "depth", "subpixel"].map(|id| (id, "the profile's"));
-    let own = [("size", "320x240"), ("profile", "mcu"), ("color_format", "rgb565, the only one here")];
+    let of_profile = ["interpolation", "arithmetic", "depth", "subpixel", "color_format"];
+    let of_profile = of_profile.map(|id| (id, "the profile's"));
+    let own = [("size", "320x240"), ("profile", "mcu")];
     own.into_iter().chain(of_profile).fold(hidden(command, &OF_PICTURES), |command, (id, default)| {
         command.mut_arg(id, |option| {
             let new = |help: &StyledStr| StyledStr::from(defaulting(&help.to_string(), default));
@@ -51,8 +52,9 @@ fn defaulting(help: &str, default: &str) -> String {
     parts.map_or_else(|| help.to_owned(), |(before, after)| format!("{before}{MARK}{default}]{after}"))
 }
 
-fn triangles(text: &str) -> Result<usize, String> {
-    text.parse().ok().filter(|&most| most > 0).ok_or_else(|| "a whole number from 1 on".to_owned())
+fn triangles(text: &str) -> Result<u32, String> {
+    let most = text.parse().ok().filter(|&most| most > 0);
+    most.ok_or_else(|| format!("a whole number from 1 to {}", u32::MAX))
 }
 
 fn side(text: &str) -> Result<u32, String> {
@@ -85,7 +87,7 @@ pub struct BakeArgs {
 
     /// Triangles at most: the surface is simplified, and the report says how far it moves.
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = triangles, help_heading = OWN)]
-    pub triangles: Option<usize>,
+    pub triangles: Option<u32>,
 
     /// Longest side of a texture: larger ones are halved until they fit.
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = side, help_heading = OWN)]
@@ -96,11 +98,13 @@ pub struct BakeArgs {
     pub attributes: Asked,
 
     /// Triangles of a meshlet, which is left out as a whole where it is not seen; 0 for none.
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = meshlet, help_heading = OWN)]
+    #[arg(long, value_name = "N", default_value_t = 16, allow_hyphen_values = true, value_parser = meshlet)]
+    #[arg(help_heading = OWN)]
     pub meshlets: usize,
 
-    /// Rows of a band, for the report.
-    #[arg(long, value_name = "ROWS", default_value_t = 16, value_parser = side, help_heading = OWN)]
+    /// Rows of a band, for the report: those of the frame at most.
+    #[arg(long, value_name = "ROWS", default_value_t = 16, allow_hyphen_values = true, value_parser = side)]
+    #[arg(help_heading = OWN)]
     pub band: u32,
 
     /// Print one line of JSON instead of the table.
@@ -117,18 +121,19 @@ pub(super) fn run(matches: &ArgMatches) -> Result<(), Error> {
     let render = &mut request.arguments.render;
     render.size.get_or_insert(FRAME);
     render.profile.get_or_insert(Profile::Mcu);
-    let missing = !arguments.out.exists();
+    let out = &arguments.out;
+    let is_missing = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.exists();
+    let missing: Vec<&Path> = out.ancestors().take_while(is_missing).collect();
     let outcome = baked(&arguments, &request);
-    if outcome.is_err() && missing {
-        // A folder that was made is empty, or has what was written. If it cannot be removed, that is no error.
-        let _ = fs::remove_dir(&arguments.out);
+    if outcome.is_err() {
+        // Folders that were made are empty, the deepest first. If one cannot be removed, that is no error.
+        missing.into_iter().for_each(|folder| _ = fs::remove_dir(folder));
     }
     outcome.map_err(|error| request.relocate(error))
 }
 
 fn baked(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
     request.check()?;
-    check_color(request.arguments.render.color_format)?;
     let folder = &arguments.out;
     if folder.exists() && !folder.is_dir() {
         return Err(Error::new("a file", "a folder").file(folder).hint("choose another with --out"));
@@ -143,19 +148,24 @@ fn baked(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
     let Staged { model, camera, options, .. } = request.stage()?;
     let BakeArgs { format, triangles, texture_size, attributes, meshlets, band, .. } = *arguments;
     let dither = options.policies.dither;
+    let triangles = triangles.map(|most| most as usize);
     let wish = Wish { format, dither, triangles, texture_size, attributes, meshlets };
-    for warning in missing(&model, &options) {
-        warn(&request.relocate(warning).to_string());
-    }
-    let asset = bake((&model, &camera), &options, &wish)?;
+    // All that has no other place is about the model.
+    let own = |error: Error| match &model.source {
+        Some(path) if error.place_name().is_none() => error.file(path),
+        _ => error,
+    };
+    let told = |warning: Error| warn(&request.relocate(own(warning)).to_string());
+    missing(&model, &options, attributes).into_iter().for_each(told);
+    let asset = bake((&model, &camera), &options, &wish).map_err(own)?;
+    left_out(&model, &asset).into_iter().for_each(told);
     if let Some(most) = triangles.filter(|&most| asset.triangles() > most) {
         let found = format!("{} triangles that cannot be fewer", asset.triangles());
         warn(&Error::new(found, format!("at most {most}")).place("--triangles").to_string());
     }
     let bytes = bytes(&asset);
     let report = Report::new(&asset, &bytes, (&model, &camera, &options), band)?;
-    binary.write(&bytes)?;
-    module.write(source(&asset, &from(request)).as_bytes())?;
+    Whole::write_all(&[(&binary, &bytes), (&module, source(&asset, &from(request)).as_bytes())])?;
     let names = [&binary, &module].map(|file: &Whole| file.name().display().to_string());
     print(&if arguments.json {
         let mut json = report.json();
@@ -164,20 +174,6 @@ fn baked(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
     } else {
         format!("{} and {}: {}", names[0], names[1], report.text())
     })
-}
-
-/// # Errors
-/// The format of a frame is one for which there is no report.
-fn check_color(format: Option<ColorFormat>) -> Result<(), Error> {
-    match format.filter(|&format| format != ColorFormat::Rgb565) {
-        None => Ok(()),
-        Some(format) => {
-            let name = format.to_possible_value().map(|value| value.get_name().to_owned());
-            let found = quote(name.unwrap_or_default().as_bytes());
-            let error = Error::new(found, "rgb565, the format of a frame in the report").place("--color");
-            Err(error.hint("textures have the format of --format"))
-        }
-    }
 }
 
 /// The name of the files: that of the model or the scene.

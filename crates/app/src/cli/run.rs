@@ -57,9 +57,11 @@ fn usage(error: &clap::Error, renamed: bool) -> u8 {
         _ => None,
     };
     let context = |kind| error.get(kind).map(ToString::to_string);
+    // An option without its value's name. A model stands for itself, in brackets.
     let named = |text: &str| match text.split(' ').next().unwrap_or_default() {
         "--machine" if renamed => "--target".to_owned(),
-        option => option.to_owned(),
+        option if option.starts_with('-') => option.to_owned(),
+        _ => text.trim_start_matches('[').trim_end_matches(']').to_owned(),
     };
     let refused = |found: &str, expected: String| {
         let mut error = Error::new(found, expected).hint("see --help");

@@ -32,5 +32,5 @@ pub(crate) fn complete(model: &mut Model, images: &Images, wrap: Wrap, warnings:
     if model.parts.iter().any(|part| part.detail.height.as_ref().is_some_and(displaced)) {
         displace::displace(model, images, wrap, warnings);
     }
-    tangents::complete(model);
+    tangents::complete(model, |part| part.detail.needs_tangents());
 }

@@ -127,8 +127,16 @@ pub enum ColorFormat {
     Rgb565,
     /// 4 bits a channel.
     Rgb444,
+    /// 6 bits a channel, in a byte each.
+    Rgb666,
+    /// 8 bits a channel, in three bytes.
+    Rgb888,
+    /// The same in a word, whose highest byte is unused.
+    Xrgb8888,
     /// 3 bits of red, 3 of green, 2 of blue.
     Rgb332,
+    /// Indices into a palette of 216 colours, 6 levels a channel.
+    Indexed8,
     /// 256 levels of luminance.
     Grey8,
     /// 16 levels of luminance.
@@ -137,6 +145,19 @@ pub enum ColorFormat {
     Grey2,
     /// Black and white.
     Grey1,
+}
+
+impl ColorFormat {
+    /// Bytes of a pixel as long as it is drawn; those of less than a byte, and of 12 bits, are packed to be sent.
+    #[must_use]
+    pub fn bytes(self) -> usize {
+        match self {
+            Self::Rgba8 | Self::Xrgb8888 => 4,
+            Self::Rgb666 | Self::Rgb888 => 3,
+            Self::Rgb565 | Self::Rgb444 => 2,
+            Self::Rgb332 | Self::Indexed8 | Self::Grey8 | Self::Grey4 | Self::Grey2 | Self::Grey1 => 1,
+        }
+    }
 }
 
 /// The grid to which vertices are snapped.

@@ -314,6 +314,11 @@ pub(crate) fn one_of<T: ValueEnum>(text: &str) -> Result<T, String> {
     })
 }
 
+/// The option's word for a value.
+pub(crate) fn name_of(value: impl ValueEnum) -> String {
+    value.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
+}
+
 /// Types that scene files write as the command line does, read by one function.
 macro_rules! words {
     ($parse:path: $($T:ty),*) => {

@@ -67,12 +67,29 @@ impl Whole {
     /// # Errors
     /// Writing fails: the disk is full, for example.
     pub fn write(&self, bytes: &[u8]) -> Result<(), Error> {
+        Self::write_all(&[(self, bytes)])
+    }
+
+    /// Writes several files that belong together: none is replaced before all are written.
+    ///
+    /// # Errors
+    /// Writing one fails.
+    pub fn write_all(files: &[(&Self, &[u8])]) -> Result<(), Error> {
+        let written = files.iter().map(|(file, bytes)| file.written(bytes)).collect::<Result<Vec<_>, _>>()?;
+        for ((file, _), new) in files.iter().zip(written) {
+            new.persist(&file.path)
+                .map_err(|e| file.refused(&format!("that renaming fails ({})", e.error)))?;
+        }
+        Ok(())
+    }
+
+    /// A new file of these bytes in the output's folder.
+    fn written(&self, bytes: &[u8]) -> Result<NamedTempFile, Error> {
         let mut file = self.temporary()?;
         file.write_all(bytes)
             .and_then(|()| file.as_file().sync_all())
             .map_err(|e| self.refused(&format!("that writing fails ({e})")))?;
-        file.persist(&self.path).map_err(|e| self.refused(&format!("that renaming fails ({})", e.error)))?;
-        Ok(())
+        Ok(file)
     }
 
     /// A new file in the output's folder, deleted when dropped.
@@ -205,6 +222,24 @@ mod tests {
             assert!(message.contains(found), "{message}");
         }
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3);
+    }
+
+    #[test]
+    fn files_that_belong_together_are_written_together() {
+        let folder = tempfile::tempdir().unwrap();
+        let (first, gone) = (folder.path().join("a"), folder.path().join("gone"));
+        fs::write(&first, "old").unwrap();
+        fs::create_dir(&gone).unwrap();
+        let files = [&first, &gone.join("b")].map(|path| Whole::new(path, "--out").unwrap());
+        let write = || Whole::write_all(&[(&files[0], b"new"), (&files[1], b"new")]);
+        fs::remove_dir(&gone).unwrap();
+        let message = write().unwrap_err().to_string();
+        assert!(message.contains("found no such folder"), "{message}");
+        assert_eq!(fs::read(&first).unwrap(), b"old");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+        fs::create_dir(&gone).unwrap();
+        write().unwrap();
+        assert_eq!([fs::read(&first).unwrap(), fs::read(gone.join("b")).unwrap()], [b"new", b"new"]);
     }
 
     /// A folder that exists is never said to be missing.

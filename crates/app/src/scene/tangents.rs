@@ -9,17 +9,17 @@ use alberti::texture::surface::{frame_of_tangent, mikktspace, vertex_tangents};
 use crate::scene::normals::{cross, length, narrow, sub};
 use crate::scene::{Model, Part, Relief, Vertex};
 
-/// Gives the vertices of each part that needs them tangents by MikkTSpace, in which most normal maps are made, unless
+/// Gives the vertices of each of `these` parts tangents by MikkTSpace, in which most normal maps are made, unless
 /// they have some. A vertex whose triangles ask for different ones, as at the seam of a mirrored texture, becomes
 /// several. Where the texture has no area, any direction on the surface does. A displaced part gets the mean of its
 /// triangles' tangents.
 ///
 /// # Cost
-/// Some 500 bytes a triangle while it runs, 40 a vertex for a displaced part; nothing where no map needs tangents.
-pub(crate) fn complete(model: &mut Model) {
+/// Some 500 bytes a triangle while it runs, 40 a vertex for a displaced part; nothing for other parts.
+pub(crate) fn complete(model: &mut Model, these: impl Fn(&Part) -> bool) {
     let Model { vertices, parts, .. } = model;
     let mut split: HashMap<(u32, [u32; 4]), u32> = HashMap::new();
-    for part in parts.iter_mut().filter(|part| part.detail.needs_tangents()) {
+    for part in parts.iter_mut().filter(|part| these(part)) {
         let all = part.triangles.iter().flatten();
         if all.clone().all(|&i| vertices[i as usize].tangent[3].abs() > 0.0) {
             continue;
@@ -130,14 +130,14 @@ mod tests {
     #[test]
     fn mirrored_textures_have_both_tangents_at_their_seam() {
         let mut model = mirrored();
-        complete(&mut model);
+        complete(&mut model, |part| part.detail.needs_tangents());
         assert_eq!(model.vertices.len(), 6);
         let tangents = |t: usize| model.parts[0].triangles[t].map(|i| model.vertices[i as usize].tangent);
         assert_eq!(tangents(0), [[1.0, 0.0, 0.0, 1.0]; 3]);
         assert_eq!(tangents(1), [[-1.0, 0.0, 0.0, -1.0]; 3]);
         // Twice is as once.
         let before = model.clone();
-        complete(&mut model);
+        complete(&mut model, |part| part.detail.needs_tangents());
         assert_eq!(model, before);
     }
 
@@ -153,7 +153,7 @@ mod tests {
         };
         model.parts[0].detail.height = Some(map);
         model.parts[0].triangles.pop();
-        complete(&mut model);
+        complete(&mut model, |part| part.detail.needs_tangents());
         assert!(
             model.parts[0].triangles[0]
                 .iter()
@@ -166,7 +166,7 @@ mod tests {
         let mut model = mirrored();
         model.parts[0].detail = Detail::default();
         let before = model.clone();
-        complete(&mut model);
+        complete(&mut model, |part| part.detail.needs_tangents());
         assert_eq!(model, before);
     }
 
@@ -179,7 +179,7 @@ mod tests {
             let [x, y, z] = vertex.position;
             (vertex.position, vertex.normal) = ([z, y, -x], [1.0, 0.0, 0.0]);
         }
-        complete(&mut model);
+        complete(&mut model, |part| part.detail.needs_tangents());
         for vertex in &model.vertices {
             let [x, y, z, _] = vertex.tangent;
             assert!(x.abs() < 1e-6 && (y * y + z * z - 1.0).abs() < 1e-6, "{vertex:?}");

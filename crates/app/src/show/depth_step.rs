@@ -4,11 +4,11 @@ use super::legend::{Legend, Number, Step, paint, short};
 use super::{Of, nothing};
 use crate::colormap::viridis;
 use crate::error::Error;
+use crate::options::values::name_of;
 use crate::options::{DepthFormat, Projection};
 use crate::probe::probe;
 use crate::scene::Image;
 use alberti::projection::{DepthMap, DepthSteps};
-use clap::ValueEnum as _;
 
 /// Steps of the scale to ten times as much.
 const PER_DECADE: f32 = 2.0;
@@ -71,8 +71,7 @@ pub(super) fn depth_step((model, camera, options): Of<'_>) -> Result<(Image, Leg
         steps.push(Step::new(viridis((share - DECADES[1]) / DECADES[0] + 1.0), meaning));
         step += 1.0;
     }
-    let name =
-        options.depth.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned());
+    let name = name_of(options.depth);
     let title = format!(
         "depth-step: distance that surfaces need to be told apart by {name} between planes at {} and {}",
         short(near),

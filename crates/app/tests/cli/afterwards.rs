@@ -238,7 +238,11 @@ fn patterns_have_the_mean_of_the_colour() {
     for (format, greatest, color) in [
         ("rgb565", [31.0, 63.0, 31.0], color),
         ("rgb444", [15.0; 3], color),
+        ("rgb666", [63.0; 3], color),
+        ("rgb888", [255.0; 3], color),
+        ("xrgb8888", [255.0; 3], color),
         ("rgb332", [7.0, 7.0, 3.0], color),
+        ("indexed8", [5.0; 3], color),
         ("grey8", [255.0; 3], grey),
         ("grey4", [15.0; 3], grey),
         ("grey2", [3.0; 3], grey),
@@ -314,8 +318,8 @@ fn mistakes_are_told_where_they_are() {
             "--dither: found \"on\", expected one of none, bayer, blue-noise",
         ),
         (
-            &["--scene", "cube", "--color", "rgb888"],
-            "--color: found \"rgb888\", expected one of rgba8, rgb565, rgb444,",
+            &["--scene", "cube", "--color", "rgb999"],
+            "--color: found \"rgb999\", expected one of rgba8, rgb565, rgb444,",
         ),
     ] {
         folder.fails(arguments, &[part]);

@@ -1,6 +1,7 @@
 //! Assets for flash: files are what they say they lose, draw what the scene is, and cost what the report counts.
 
 mod limits;
+mod mistakes;
 mod told;
 
 use std::f64::consts::{PI, TAU};
@@ -10,6 +11,8 @@ use std::path::Path;
 
 use alberti::baked::{Attributes, Baked, Normal, Texels, Uv};
 use alberti::glam::{Vec2, Vec3};
+use alberti::lanes::One;
+use alberti::raster::color;
 use alberti::shaders::{Sunlit, Unlit};
 use alberti::texture::{Bilinear, Repeat};
 use alberti::{Cull, D16, F32Reversed, Geometry, Memory, Pass, Rgb565Be, Rgba8, Rgba8888, Target, Vector3};
@@ -152,6 +155,7 @@ fn frames_differ_by_no_more_than_the_report_says() {
         ("rgb888", 0.5),
         ("rgb565", 4.2),
         ("rgb565be", 4.2),
+        ("rgb565-pairs", 4.2),
         // Half a step of red and green, a 7th, and of blue, which is 90, to 85.
         ("rgb332", 18.3),
         ("indexed8", 24.0),
@@ -178,6 +182,7 @@ fn frames_differ_by_no_more_than_the_report_says() {
                 Texels::Rgb8(map) => drawn!(map),
                 Texels::Rgb565(map) => drawn!(map),
                 Texels::Rgb565Be(map) => drawn!(map),
+                Texels::Rgb565Pairs(map) => drawn!(map),
                 Texels::Rgb332(map) => drawn!(map),
                 Texels::Indexed8(map) => drawn!(map),
                 other => panic!("{other:?}"),
@@ -256,9 +261,13 @@ fn textures_have_the_format_and_the_size_that_is_asked_for() {
     for (format, bytes) in [
         ("rgb565", 2 * 64 * 64),
         ("rgb565be", 2 * 64 * 64),
+        ("rgb565-pairs", 4 * 64 * 64),
         ("rgb444", 2 * 64 * 64),
         ("rgb332", 64 * 64),
         ("grey8", 64 * 64),
+        ("grey4", 64 * 32 + 16 * 4),
+        ("grey2", 64 * 16 + 4 * 4),
+        ("grey1", 64 * 8 + 2 * 4),
         ("indexed1", 64 * 8 + 2 * 4),
         ("indexed2", 64 * 16 + 4 * 4),
         ("indexed4", 64 * 32 + 16 * 4),
@@ -279,6 +288,30 @@ fn textures_have_the_format_and_the_size_that_is_asked_for() {
     assert_eq!((map.levels(), map.level(0).width()), (5, 16));
 }
 
+/// Pairs have the means of single texels, in every level and over edges, as stages in integers read them.
+#[test]
+fn pairs_are_read_as_single_texels() {
+    let folder = folder();
+    let arguments = ["ball.obj", "--texture", "soft.png", "--filter", "trilinear", "--dither", "bayer"];
+    let of = |format| baked(&folder, "ball", &[&arguments[..], &["--format", format]].concat()).1;
+    let (single, pairs) = (of("rgb565"), of("rgb565-pairs"));
+    let (single, pairs) = (Baked::read(&single).expect("a file"), Baked::read(&pairs).expect("a file"));
+    let (Some(Texels::Rgb565(single)), Some(Texels::Rgb565Pairs(pairs))) =
+        (single.texture(0), pairs.texture(0))
+    else {
+        panic!("both formats")
+    };
+    assert_eq!((single.levels(), pairs.levels()), (7, 7));
+    for level in 0..7 {
+        let single = single.level(level).sampler(Bilinear, Repeat);
+        let pairs = pairs.level(level).sampler(Bilinear, Repeat);
+        for k in 0..2000_u16 {
+            let [u, v] = [f32::from(k) * 0.00317, f32::from(k) * -0.0211];
+            assert_eq!(single.packed_lanes(One, u, v), pairs.packed_lanes(One, u, v), "{level}: {u} {v}");
+        }
+    }
+}
+
 /// The constants of a program: their types name the format, and their numbers are the file's bytes.
 #[test]
 fn sources_have_the_texels_of_files() {
@@ -286,8 +319,10 @@ fn sources_have_the_texels_of_files() {
     for (format, kind, bits) in [
         ("rgb565", "alberti::texture::format::Rgb565,", 16),
         ("rgb565be", "alberti::texture::format::InBytes<alberti::texture::format::Rgb565Be>,", 8),
+        ("rgb565-pairs", "alberti::texture::format::Rgb565Pairs,", 32),
         ("rgb444", "alberti::texture::format::Rgba4444,", 16),
         ("rgb332", "alberti::texture::format::Rgb332,", 8),
+        ("grey4", "alberti::texture::format::Indexed4<'static>,", 8),
         ("indexed1", "alberti::texture::format::Indexed1<'static>,", 8),
         ("indexed2", "alberti::texture::format::Indexed2<'static>,", 8),
         ("rgb888", "alberti::texture::format::Rgb8,", 8),
@@ -316,77 +351,47 @@ fn sources_have_the_texels_of_files() {
     }
 }
 
-/// The report's bytes against the type that a program has.
+/// The report's bytes against the type that a program has, in each format of a display.
 #[test]
 fn memory_is_that_of_the_library() {
     let folder = folder();
-    let (report, _) = baked(&folder, "ball", &["ball.obj", "--texture", "soft.png", "--band", "8"]);
-    let [vertices, triangles] = ["vertices", "triangles"].map(|key| report[key].as_u64().expect("a number"));
-    // One vertex and one triangle, and the rest by their sizes.
-    type Frame = Memory<Rgb565Be, D16, (Vec3, Vec2), { 320 * 8 }, 1, 1>;
-    let slot = size_of::<alberti::Slot<(Vec3, Vec2)>>() as u64;
-    let expected = Frame::BYTES as u64 + (vertices - 1) * slot + (triangles - 1) * 4;
-    assert_eq!(report["ram"].as_u64(), Some(expected), "{report}");
-    for (chip, name) in report["chips"].as_array().expect("chips").iter().zip(["m0", "m4f", "rv32"]) {
+    // One vertex and one triangle.
+    macro_rules! bytes {
+        ($format:ty) => {
+            Memory::<$format, D16, (Vec3, Vec2), { 320 * 8 }, 1, 1>::BYTES as u64
+        };
+    }
+    let mut chips = vec![];
+    for (format, frame) in [
+        ("rgb565", bytes!(Rgb565Be)),
+        ("rgba8", bytes!(Rgba8888)),
+        ("rgb444", bytes!(color::Rgb444)),
+        ("rgb666", bytes!(color::Rgb666)),
+        ("rgb888", bytes!(color::Rgb888)),
+        ("xrgb8888", bytes!(color::Xrgb8888)),
+        ("rgb332", bytes!(color::Rgb332)),
+        ("indexed8", bytes!(color::Indexed)),
+        ("grey8", bytes!(color::Grey8)),
+        ("grey4", bytes!(color::Grey4)),
+        ("grey2", bytes!(color::Grey2)),
+        ("grey1", bytes!(color::Grey1)),
+    ] {
+        let of = ["ball.obj", "--texture", "soft.png", "--band", "8", "--color", format];
+        let (report, _) = baked(&folder, "ball", &of);
+        let [vertices, triangles] =
+            ["vertices", "triangles"].map(|key| report[key].as_u64().expect("a number"));
+        let slot = size_of::<alberti::Slot<(Vec3, Vec2)>>() as u64;
+        let expected = frame + (vertices - 1) * slot + (triangles - 1) * 4;
+        assert_eq!(report["ram"].as_u64(), Some(expected), "{report}");
+        assert_eq!(report["memory"][0]["name"], format!("colours of two bands, {format}"));
+        // Prices are those of one format.
+        chips.push(report["chips"].clone());
+        assert_eq!(report["chips"], chips[0]);
+    }
+    for (chip, name) in
+        chips[0].as_array().expect("chips").iter().zip(["m0", "m4f", "m7", "m33", "rv32", "m3"])
+    {
         assert_eq!(chip["chip"], name);
         assert!(chip["instructions"].as_f64() > Some(1e5));
     }
-}
-
-#[test]
-fn mistakes_are_told_in_one_line() {
-    let folder = folder();
-    fs::write(folder.path("file"), "").expect("a file");
-    let mut large = String::new();
-    for k in 0..30_000 {
-        large += &format!("v {k} 0 0\nv {k} 1 0\nv {k} 0 1\nf -3 -2 -1\n");
-    }
-    fs::write(folder.path("large.obj"), large).expect("a file");
-    for (arguments, parts) in [
-        (
-            &["m.obj", "--out", "out", "--format", "rgb566"][..],
-            &["--format: found \"rgb566\", expected one of rgb565,"][..],
-        ),
-        (&["m.obj"], &["found nothing, expected --out <FOLDER>"]),
-        (&["m.obj", "--out", "file"], &["file: found a file, expected a folder; choose another with --out"]),
-        (&["m.obj", "--out", "file/in"], &["found a folder that cannot be made"]),
-        (&["no.obj", "--out", "out"], &["no.obj: found no such file"]),
-        (&["m.obj", "--texture", "no.png", "--out", "out"], &["no.png: found no such file"]),
-        (
-            &["large.obj", "--out", "out"],
-            &["found 90000 vertices", "expected at most 65536 in a part", "--triangles"],
-        ),
-        (
-            &["m.obj", "--out", "out", "--triangles", "0"],
-            &["--triangles: found \"0\", expected a whole number from 1 on"],
-        ),
-        (
-            &["m.obj", "--out", "out", "--attributes", "uvw"],
-            &["--attributes: found \"uvw\", expected auto, none, or some of"],
-        ),
-        (
-            &["m.obj", "--out", "out", "--color", "grey4"],
-            &["--color: found \"grey4\", expected rgb565, the format of a frame in the report; "],
-        ),
-        (&["m.obj", "--out", "out", "--show", "lod"], &["--show: found an option that `bake` has not"]),
-        (
-            &["m.obj", "--out", "out", "--filter", "anisotropic:4", "--texture", "soft.png"],
-            &["--filter: found an anisotropic filter"],
-        ),
-    ] {
-        let before = folder.names();
-        let run = alberti(folder.0.path(), &[OsStr::new("bake")], arguments);
-        assert_eq!((run.status, &run.stdout[..]), (Some(2), ""), "{run:?}");
-        assert_eq!(run.stderr.lines().count(), 1, "{run:?}");
-        for part in parts {
-            assert!(run.stderr.contains(part), "{part:?} is not in {}", run.stderr);
-        }
-        assert_eq!(folder.names(), before, "{arguments:?}");
-    }
-    // What was there stays where the new cannot be made.
-    fs::create_dir(folder.path("kept")).expect("a folder");
-    fs::write(folder.path("kept/large.bin"), "old").expect("a file");
-    alberti(folder.0.path(), &[OsStr::new("bake")], &["large.obj", "--out", "kept"]);
-    assert_eq!(fs::read(folder.path("kept/large.bin")).expect("the file"), b"old");
-    assert_eq!(fs::read_dir(folder.path("kept")).expect("the folder").count(), 1);
 }

@@ -140,7 +140,7 @@ fn what_does_not_go_together_is_refused() {
         let part = format!("error: --interpolation: found \"{value}\", expected exact, plane, spans:4");
         folder.fails(&["--interpolation", value], &[&part]);
     }
-    for arguments in ["--depth f16", "--color rgb888", "--subpixel 6", "--arithmetic int", "--profile fast"] {
+    for arguments in ["--depth f16", "--color rgb999", "--subpixel 6", "--arithmetic int", "--profile fast"] {
         let run = folder.render(&arguments.split(' ').collect::<Vec<_>>());
         assert!(run.status == Some(2) && run.stderr.starts_with("error: "), "{run:?}");
     }

@@ -1,10 +1,11 @@
 //! Texels in files that are read in place, where words may begin at any byte.
 
-use super::{Content, L16, Rgb565, Rgb565Be, Rgb565Le, Rgba4444, TexelFormat};
+use super::{Content, L16, Rgb565, Rgb565Be, Rgb565Le, Rgb565Pairs, Rgba4444, TexelFormat};
 use crate::Packed;
 use alberti_math::Rgba8;
+use alberti_math::lanes::Lanes;
 
-/// A format of 16 bits whose texels are two bytes each, at any address: the low one first, but for [`Rgb565Be`].
+/// A format of words whose texels are bytes, at any address: the low one first, but for [`Rgb565Be`].
 ///
 /// ```
 /// use alberti_texture::{Texture, format::{InBytes, Rgb565}};
@@ -17,18 +18,18 @@ use alberti_math::Rgba8;
 /// ```
 ///
 /// # Cost
-/// Where words may not be loaded from any address, a load, a shift and a sum more.
+/// Where words may not be loaded from any address, a load, a shift and a sum more for each byte beyond the first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct InBytes<F>(
     /// The format.
     pub F,
 );
 
-/// Formats whose texels are made of two bytes by the first function, and made into two by the second.
+/// Formats whose words are made of bytes by the first function, and made into bytes by the second.
 macro_rules! in_bytes {
-    ($($format:ty: $of:ident, $to:ident;)*) => {$(
+    ($($format:ty: $word:ty, $of:ident, $to:ident;)*) => {$(
         impl TexelFormat for InBytes<$format> {
-            type Texel = [u8; 2];
+            type Texel = [u8; size_of::<$word>()];
 
             #[inline]
             fn content(self) -> Content {
@@ -36,40 +37,41 @@ macro_rules! in_bytes {
             }
 
             #[inline]
-            fn decode(self, texel: [u8; 2]) -> Rgba8 {
-                self.0.decode(u16::$of(texel))
+            fn decode(self, texel: [u8; size_of::<$word>()]) -> Rgba8 {
+                self.0.decode(<$word>::$of(texel))
             }
 
             #[inline(always)]
-            fn native(self, texel: [u8; 2]) -> [u8; 2] {
-                self.0.native(u16::$of(texel)).to_le_bytes()
+            fn native(self, texel: [u8; size_of::<$word>()]) -> [u8; size_of::<$word>()] {
+                self.0.native(<$word>::$of(texel)).to_le_bytes()
             }
 
             #[inline]
-            fn scalar(self, texel: [u8; 2]) -> u16 {
-                self.0.scalar(u16::$of(texel))
+            fn scalar(self, texel: [u8; size_of::<$word>()]) -> u16 {
+                self.0.scalar(<$word>::$of(texel))
             }
 
             #[inline]
-            fn encode(self, color: Rgba8) -> [u8; 2] {
+            fn encode(self, color: Rgba8) -> [u8; size_of::<$word>()] {
                 self.0.encode(color).$to()
             }
 
             #[inline]
-            fn mean(self, content: Content, texels: impl Iterator<Item = ([u8; 2], u64)>) -> [u8; 2] {
-                let words = texels.map(|(texel, weight)| (u16::$of(texel), weight));
+            fn mean(self, content: Content, texels: impl Iterator<Item = ([u8; size_of::<$word>()], u64)>) -> [u8; size_of::<$word>()] {
+                let words = texels.map(|(texel, weight)| (<$word>::$of(texel), weight));
                 self.0.mean(content, words).$to()
             }
         }
     )*};
 }
 in_bytes! {
-    Rgb565: from_le_bytes, to_le_bytes;
-    Rgba4444: from_le_bytes, to_le_bytes;
-    L16: from_le_bytes, to_le_bytes;
+    Rgb565: u16, from_le_bytes, to_le_bytes;
+    Rgba4444: u16, from_le_bytes, to_le_bytes;
+    L16: u16, from_le_bytes, to_le_bytes;
+    Rgb565Pairs: u32, from_le_bytes, to_le_bytes;
     // Their words have the order in memory already.
-    Rgb565Le: from_ne_bytes, to_ne_bytes;
-    Rgb565Be: from_ne_bytes, to_ne_bytes;
+    Rgb565Le: u16, from_ne_bytes, to_ne_bytes;
+    Rgb565Be: u16, from_ne_bytes, to_ne_bytes;
 }
 
 /// Mixing is that of the words.
@@ -87,6 +89,25 @@ packed! {
     Rgb565: from_le_bytes;
     Rgb565Le: from_le_bytes;
     Rgb565Be: from_be_bytes;
+}
+
+impl Packed for InBytes<Rgb565Pairs> {
+    const PAIRS: bool = true;
+
+    #[inline(always)]
+    fn word(texel: [u8; 4]) -> u32 {
+        u32::from_le_bytes(texel)
+    }
+
+    #[inline(always)]
+    fn texel<L: Lanes>(lanes: L, word: L::U32) -> L::U32 {
+        Rgb565Pairs::texel(lanes, word)
+    }
+
+    #[inline(always)]
+    fn next<L: Lanes>(lanes: L, word: L::U32) -> L::U32 {
+        Rgb565Pairs::next(lanes, word)
+    }
 }
 
 #[cfg(test)]
@@ -126,6 +147,17 @@ mod tests {
         for k in 0..200_u8 {
             let [u, v] = [f32::from(k) * 0.031, f32::from(k) * -0.017];
             assert_eq!(of_words.packed_lanes(One, u, v), of_bytes.packed_lanes(One, u, v));
+        }
+        // Pairs at any address give the same.
+        let pairs = Rgb565Pairs::of(&words, 2, 2).map(u32::to_le_bytes);
+        let of_pairs =
+            Texture::new(InBytes(Rgb565Pairs), &pairs, 2, 2).expect("2 x 2").sampler(Bilinear, Repeat);
+        for k in 0..200_u8 {
+            let [u, v] = [f32::from(k) * 0.031, f32::from(k) * -0.017];
+            assert_eq!(of_words.packed_lanes(One, u, v), of_pairs.packed_lanes(One, u, v));
+        }
+        for (pair, word) in pairs.into_iter().zip(words) {
+            assert_eq!(InBytes(Rgb565Pairs).decode(pair), Rgb565.decode(word));
         }
         let mut chain = [words.map(u16::to_le_bytes).to_vec(), [[0; 2]].to_vec()].concat();
         crate::mipmap::build(InBytes(Rgb565), &mut chain, 2, 2).expect("2 x 2");
