@@ -11,6 +11,7 @@ mod frames;
 mod page;
 mod prices;
 mod programs;
+mod quoted;
 mod table;
 
 use std::fs;
@@ -129,6 +130,16 @@ pub(crate) fn run(arguments: &[String]) -> Outcome {
         }
     }
     Ok(())
+}
+
+/// The faults of pages, as file, line and message: their figures of the committed table.
+pub(crate) fn misquoted(pages: &[(&str, String)]) -> Result<Vec<(String, usize, String)>, String> {
+    let (rows, counts) = (table::read(&text(PLACE)?)?, text(PAGE)?);
+    let of = |(file, page): &(&str, String)| {
+        let faults = quoted::faults(page, &rows, &counts);
+        faults.into_iter().map(|(line, message)| (file.to_string(), line, message)).collect::<Vec<_>>()
+    };
+    Ok(pages.iter().flat_map(of).collect())
 }
 
 /// A file of the repository.

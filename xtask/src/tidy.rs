@@ -13,7 +13,7 @@ use std::fs;
 use std::process::Command;
 
 use crate::command::{Outcome, output};
-use crate::{gallery, workspace};
+use crate::{firmware, gallery, workspace};
 
 /// A breach of a rule.
 #[derive(Debug, PartialEq, Eq)]
@@ -43,6 +43,7 @@ pub(crate) fn run() -> Outcome {
     let gallery = gallery::problems(&files)?;
     problems.extend(gallery.into_iter().map(|(file, message)| Problem::new(&file, 1, message)));
     problems.extend(manifests::packages(&manifests::metadata()?));
+    let mut pages = Vec::new();
     for file in &files {
         let is_manifest = file.ends_with("Cargo.toml");
         if !(is_manifest || file.ends_with(".rs") || file.ends_with(".md")) {
@@ -55,8 +56,13 @@ pub(crate) fn run() -> Outcome {
         } else {
             problems.extend(sources::check(file, &text));
             problems.extend(style::check(file, &text));
+            if file.ends_with(".md") {
+                pages.push((file.as_str(), text));
+            }
         }
     }
+    let misquoted = firmware::misquoted(&pages)?;
+    problems.extend(misquoted.into_iter().map(|(file, line, message)| Problem::new(&file, line, message)));
     for problem in &problems {
         println!("{problem}");
     }

@@ -19,6 +19,7 @@ mod policies;
 mod profiles;
 mod projector;
 mod reliefs;
+mod texel_dither;
 mod threads;
 mod unsnapped;
 mod unsound;

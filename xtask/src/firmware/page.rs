@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use super::boards::{BOARDS, Board};
 use super::frames::Expected;
 use super::programs::{MOST_RAM, MOST_STACK, RENDERER, WEIGHED};
+use super::quoted::COUNTED;
 use super::table::{PLACE, Row, Unit, figure};
 
 /// Its place in the repository.
@@ -17,8 +18,9 @@ pub(super) fn page(rows: &[Row], expected: &[Expected]) -> String {
          `cargo xtask firmware --write` writes this page and [its numbers](../{PLACE}).\n\
          Without `--write` it compares, and fails where a number is more than 1 % higher.\n\
          [tests/firmware](../tests/firmware) says what the scenes and the numbers are.\n\n\
-         ## Memory of a renderer\n\n{}",
-        renderer(rows)
+         ## Memory of a renderer\n\n{}\n## Scenes\n\n{}",
+        renderer(rows),
+        counted(expected)
     );
     for board in BOARDS.iter().filter(|board| rows.iter().any(|row| row.board == board.name)) {
         let _ = write!(text, "\n## {}\n\n{}.\n\n", heading(board), board.core);
@@ -48,6 +50,15 @@ fn renderer(rows: &[Row]) -> String {
         let (Some(statics), Some(stack)) = (of(Unit::Statics), of(Unit::Stack)) else { continue };
         let cells = [Some(statics), Some(stack), Some(statics + stack), of(Unit::Code), of(Unit::Constants)];
         let _ = writeln!(text, "| {} | {} |", heading(board), joined(&cells));
+    }
+    text
+}
+
+/// Submitted triangles and written pixels of each scene.
+fn counted(expected: &[Expected]) -> String {
+    let mut text = format!("| {} |\n|---|---|---|\n", COUNTED.join(" | "));
+    for Expected { name, triangles, pixels, .. } in expected {
+        let _ = writeln!(text, "| {name} | {} | {} |", grouped(*triangles), grouped(*pixels));
     }
     text
 }
@@ -126,6 +137,7 @@ mod tests {
         has("| `m0` and `m0plus` | 47,000 | 1,500 | 48,500 | 1,000 | 23 |");
         has("| size-bands | 1,000 | 23 | 1,023 | 1,500 |");
         has("| size-flat | – | – | – | – |");
-        assert_eq!(page.matches("| scene |").count(), 2);
+        has("| flat | 2 | 300 |");
+        assert_eq!(page.matches("| scene |").count(), 3);
     }
 }

@@ -1,7 +1,7 @@
 //! Fog: colours that fade into one with the distance.
 
 use alberti_math::lanes::Lanes;
-use alberti_math::{Rgba8, Varying, map2};
+use alberti_math::{Rgba8, Varying};
 use alberti_raster::{FragmentStage, Fragments, Gradient};
 use core::fmt::Debug;
 
@@ -252,19 +252,19 @@ impl<S, F: Fog> Fogged<S, F> {
         let amount = self.fog.amount(lanes, coordinate);
         let bytes = lanes.word(0x00ff_00ff);
         let color = self.color.to_bits();
-        let halves = [
-            [surface & bytes, lanes.word(color & 0x00ff_00ff)],
-            // Alpha stays: both are the surface's.
-            [
-                lanes.shr(surface, 8) & bytes,
-                (lanes.shr(surface, 8) & lanes.word(0x00ff_0000)) | lanes.word(color >> 8 & 0xff),
-            ],
-        ];
-        let [red_blue, green_alpha] = map2(halves, |[near, far]| {
-            lanes.shr(lanes.mix_halves(near, far, amount) + lanes.word(0x0080_0080), 8) & bytes
-        });
+        let red_blue = mixed(lanes, surface & bytes, lanes.word(color & 0x00ff_00ff), amount);
+        let near = lanes.shr(surface, 8);
+        // Alpha stays: both are the surface's.
+        let far = (near & lanes.word(0x00ff_0000)) | lanes.word(color >> 8 & 0xff);
+        let green_alpha = mixed(lanes, near & bytes, far, amount);
         red_blue | lanes.shl(green_alpha, 8)
     }
+}
+
+/// Two bytes in the halves of a word, of which the far ones have a part of so many 256ths.
+#[inline(always)]
+fn mixed<L: Lanes>(lanes: L, near: L::U32, far: L::U32, amount: L::U32) -> L::U32 {
+    lanes.shr(lanes.mix_halves(near, far, amount) + lanes.word(0x0080_0080), 8) & lanes.word(0x00ff_00ff)
 }
 
 impl<V: Varying, S: FragmentStage<V, Color = Rgba8>, F: Fog> FragmentStage<(f32, V)> for Fogged<S, F> {

@@ -31,9 +31,19 @@ use alberti_texture::{Bilinear, Leveled, NearestLevel, Sampler, Size, TexelForma
 /// A row has the second level by a threshold of 1/8, 3/8, 7/8 or 5/8, in turns from the top.
 ///
 /// # Precision
-/// A pixel's colour is that of a texel. Where coordinates are the same, the mean of a square of two by two is within
-/// 11/32 of the texels' difference from that of the filter. Along an axis it is within 1/8. Four rows have each of two
-/// levels as often as its share says, within 1/8 + 1/64.
+/// A pixel's colour is that of a texel. Means of pixels that have the same coordinates are off those of the filter by
+/// at most so much of the difference between its texels:
+///
+/// | pixels | filter | any texels | that differ along u alone | along v alone | by level alone |
+/// |---|---|---|---|---|---|
+/// | 2 x 2 | [`Bilinear`], [`NearestLevel`] | 11/32 = 0.344 | 1/8 | 1/8 | |
+/// | 4 x 4 | [`Trilinear`] | 69/128 = 0.539 | 5/16 | 3/8 | 1/8 |
+///
+/// Shares are rounded to 256ths, of levels to 32nds, which adds up to 0.003, and 1/64 by level alone. The mean is
+/// constant between thresholds, and the filter's is linear in each share. So the worst is at a corner of the box
+/// between thresholds, and the bounds are the largest of these. Rows are why 0.539 is more than 0.344: a level that
+/// has one of the four rows has two of its four places along u and v. Turns in which the levels alternate row by row
+/// would be off by 0.781, as both rows of a level have the same places then.
 ///
 /// # Cost
 /// In fixed point on a Cortex-M4F 22 instructions more than [`Nearest`](alberti_texture::Nearest) without perspective.

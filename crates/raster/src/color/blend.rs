@@ -6,7 +6,7 @@ pub use any::AnyBlend;
 
 use super::{ColorFormat, FragmentColor, ReadColor};
 use alberti_math::lanes::Lanes;
-use alberti_math::{Rgba8, map2, srgb};
+use alberti_math::{Rgba8, srgb};
 use core::fmt::Debug;
 
 /// A colour format that mixes each fragment with what its pixel shows: for
@@ -133,10 +133,23 @@ pub(super) fn mean<L: Lanes>(lanes: L, new: L::U32, old: L::U32, share: L::U32) 
     let ([new_rb, new_ga], [old_rb, old_ga]) = (halves(lanes, new), halves(lanes, old));
     // The new colour is opaque as far as it has a share.
     let new_ga = new_ga | lanes.word(0x00ff_0000);
-    let parts = map2([[new_rb, old_rb], [new_ga, old_ga]], |[new, old]| {
-        bytes_of_255(lanes, new * share + old * rest)
-    });
-    joined(lanes, parts)
+    joined(
+        lanes,
+        [mixed(lanes, [new_rb, old_rb], [share, rest]), mixed(lanes, [new_ga, old_ga], [share, rest])],
+    )
+}
+
+/// The halves of a mean. A function, since compilers leave a closure that is called twice out of the loop, and so
+/// without the registers that this is compiled for.
+#[inline(always)]
+fn mixed<L: Lanes>(lanes: L, [new, old]: [L::U32; 2], [share, rest]: [L::U32; 2]) -> L::U32 {
+    bytes_of_255(lanes, new * share + old * rest)
+}
+
+/// The halves of a sum in which one has a share.
+#[inline(always)]
+fn summed<L: Lanes>(lanes: L, whole: L::U32, part: L::U32, share: L::U32) -> L::U32 {
+    saturated(lanes, whole + bytes_of_255(lanes, part * share))
 }
 
 /// Source · alpha + destination · (1 − alpha): the usual one, for colours that are not multiplied by their alpha.
@@ -226,10 +239,7 @@ impl Blend for Premultiplied {
     fn mix<L: Lanes>(self, lanes: L, new: L::U32, old: L::U32) -> L::U32 {
         let rest = lanes.word(255) - lanes.shr(new, 24);
         let ([new_rb, new_ga], [old_rb, old_ga]) = (halves(lanes, new), halves(lanes, old));
-        let parts = map2([[new_rb, old_rb], [new_ga, old_ga]], |[new, old]| {
-            saturated(lanes, new + bytes_of_255(lanes, old * rest))
-        });
-        joined(lanes, parts)
+        joined(lanes, [summed(lanes, new_rb, old_rb, rest), summed(lanes, new_ga, old_ga, rest)])
     }
 }
 
@@ -256,10 +266,7 @@ impl Blend for Additive {
         let alpha = lanes.shr(new, 24);
         let ([new_rb, new_ga], [old_rb, old_ga]) = (halves(lanes, new), halves(lanes, old));
         let new_g = new_ga & lanes.word(255);
-        let parts = map2([[new_rb, old_rb], [new_g, old_ga]], |[new, old]| {
-            saturated(lanes, bytes_of_255(lanes, new * alpha) + old)
-        });
-        joined(lanes, parts)
+        joined(lanes, [summed(lanes, old_rb, new_rb, alpha), summed(lanes, old_ga, new_g, alpha)])
     }
 }
 
@@ -290,9 +297,8 @@ impl Blend for Multiply {
         let green = (new_ga & low) * (old_ga & low);
         // Alpha as it is: times 255.
         let alpha = lanes.shr(old_ga, 16) * low;
-        let halves = [[red, blue], [green, alpha]];
-        let parts = map2(halves, |[a, b]| bytes_of_255(lanes, a | lanes.shl(b, 16)));
-        joined(lanes, parts)
+        let [red_blue, green_alpha] = [red | lanes.shl(blue, 16), green | lanes.shl(alpha, 16)];
+        joined(lanes, [bytes_of_255(lanes, red_blue), bytes_of_255(lanes, green_alpha)])
     }
 }
 
