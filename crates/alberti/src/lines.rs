@@ -69,9 +69,22 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
     ) where
         F: FragmentStage<M::Varying>,
     {
+        self.count_points(target, vertices, size, &mut ());
+    }
+
+    /// [`draw_points`](Self::draw_points), of whose pixels `counters` hear.
+    pub fn count_points<C: ColorFormat, D: DepthFormat>(
+        &mut self,
+        target: &mut Target<'_, C, D>,
+        vertices: impl IntoIterator<Item = usize>,
+        size: u16,
+        counters: &mut impl Counters,
+    ) where
+        F: FragmentStage<M::Varying>,
+    {
         self.with_walk(target, |walk, paint, target| {
             for vertex in vertices {
-                let _fate = walk.line([vertex; 2], |[corner, _]| paint.point(target, corner, size, &mut ()));
+                let _fate = walk.line([vertex; 2], |[corner, _]| paint.point(target, corner, size, counters));
             }
         });
     }

@@ -175,14 +175,26 @@ where
     where
         F: FragmentStage<M::Varying>,
     {
+        self.count_fringe(target, coverage, &mut ());
+    }
+
+    /// [`draw_fringe`](Self::draw_fringe), of whose pixels `counters` hear, each as of a triangle.
+    pub fn count_fringe<C: ColorFormat>(
+        &mut self,
+        target: &mut Target<'_, C, D>,
+        coverage: &Coverage<'_>,
+        counters: &mut impl Counters,
+    ) where
+        F: FragmentStage<M::Varying>,
+    {
         if !self.fits(target) || !self.smooth {
-            return self.anew(|pass| pass.draw_fringe(target, coverage));
+            return self.anew(|pass| pass.count_fringe(target, coverage, counters));
         }
         let Some([columns, rows]) = self.screen.as_ref().map(|screen| screen.viewport.pixels()) else {
             return;
         };
         let mut visible = target.scissor(columns, rows);
-        self.each(visible.limits(), |paint, corners| paint.fringe(&mut visible, coverage, corners, &mut ()));
+        self.each(visible.limits(), |paint, corners| paint.fringe(&mut visible, coverage, corners, counters));
     }
 
     /// Hands `sink` the listed triangles that may be in these columns and rows, and those that found no room.

@@ -189,7 +189,7 @@ impl<F, P: Interpolation> Paint<F, P> {
             return;
         }
         match self.reach(corners, &target.limits()) {
-            Ok(reach) => self.draw(lanes, target, corners, &reach, counters),
+            Ok(reach) => self.draw_alone(lanes, target, corners, &reach, counters),
             Err(outcome) => counters.rasterized(outcome),
         }
     }
@@ -304,7 +304,10 @@ impl<F, P: Interpolation> Paint<F, P> {
                             }
                         }
                     };
-                    counters.touched(outcome, || setups.columns_and_rows(k));
+                    counters.touched(outcome, || {
+                        let [columns, rows] = setups.columns_and_rows(k);
+                        [within(&columns, &limits[0]), rows]
+                    });
                     counters.rasterized(outcome);
                 }
             },
@@ -365,9 +368,15 @@ impl<F, P: Interpolation> Paint<F, P> {
         } else {
             fill::<i64, _, _, _, _, _, _, _>(target, &samples, &setup, counters)
         };
-        counters.touched(outcome, || [samples.columns.clone(), samples.rows.clone()]);
+        counters.touched(outcome, || [within(&samples.columns, &samples.limits), samples.rows.clone()]);
         counters.rasterized(outcome);
     }
+}
+
+/// The columns of a box that are among the limits.
+#[inline]
+fn within(columns: &Range<i32>, limits: &Range<i32>) -> Range<i32> {
+    columns.start.max(limits.start)..columns.end.min(limits.end)
 }
 
 /// A triangle before the preparation that only its fragments need.

@@ -4,8 +4,8 @@ use crate::counters::Counters;
 use crate::triangle::Outcome;
 use core::ops::Range;
 
-/// The rectangle about all samples in the boxes of the triangles that were drawn. That much has to be sent to a display
-/// that shows the frame before.
+/// The rectangle about all samples of the target in the boxes of what was drawn: triangles, lines, points and fringes.
+/// That much has to be sent to a display that shows the frame before.
 ///
 /// It is a counter, for [`Pass::count_by`](https://docs.rs/alberti/latest/alberti/struct.Pass.html#method.count_by).
 /// A frame touches the pixels that it clears as well: join its rectangle with that of the frame before.

@@ -18,4 +18,5 @@ mod pictures;
 mod resolution;
 mod silhouettes;
 mod small;
+mod touched;
 mod watertight;
