@@ -6,21 +6,15 @@ use crate::bias::biased;
 use crate::color::ColorFormat;
 use crate::counters::Counters;
 use crate::depth::DepthFormat;
-use crate::differentiation::Differentiate;
-use crate::edge::{Edge, EdgeInt};
+use crate::fill::{Setup, fill, fill_masked};
 use crate::fragment::FragmentStage;
-use crate::interpolation::{Interpolate, Interpolation, Oriented, Row};
-use crate::mask::RowMask;
-use crate::paint::{Painter, aligned};
+use crate::interpolation::{Interpolation, Oriented};
 use crate::sample_box::SampleBox;
 use crate::setup::{Setups, Waiting, Way};
-use crate::spans::RowSpans;
 use crate::target::Target;
 use crate::triangle::{Bounds, Corner, Cull, Numbers, Outcome, Reach, Vertex, doubled_area};
-use crate::weights::Weights;
 use alberti_math::lanes::{Floating, Lanes, One};
 use alberti_math::{Subpixel, Varying, map3};
-use core::marker::PhantomData;
 use core::ops::Range;
 
 /// The way from triangles on the screen to pixels: the half of the pipeline that knows no matrix and no mesh.
@@ -377,141 +371,4 @@ impl<F, P: Interpolation> Paint<F, P> {
 #[inline]
 fn within(columns: &Range<i32>, limits: &Range<i32>) -> Range<i32> {
     columns.start.max(limits.start)..columns.end.min(limits.end)
-}
-
-/// A triangle before the preparation that only its fragments need.
-struct Setup<'a, P, L, V: Varying, F> {
-    interpolation: P,
-    lanes: L,
-    oriented: &'a Oriented<'a, V>,
-    stage: F,
-}
-
-impl<P: Interpolation, L: Floating, V: Varying, F: FragmentStage<V>> Setup<'_, P, L, V, F> {
-    #[inline(always)]
-    fn prepare(&self) -> Painter<P::Lanes<L>, V, P::Triangle<L, V>, F> {
-        let Self { interpolation, lanes, oriented, stage } = *self;
-        let triangle = interpolation.prepare(lanes, oriented);
-        let (policy, lanes) = (stage.derivatives(), interpolation.lanes(lanes));
-        const {
-            assert!(
-                !F::SETTLES || <F::Derivatives as Differentiate>::EVERYWHERE,
-                "see FragmentStage::SETTLES"
-            );
-        };
-        let derivatives = policy.prepare(oriented);
-        let stage = match policy.everywhere(lanes, &derivatives) {
-            Some(gradient) if const { F::SETTLES } => stage.settled(lanes, &gradient),
-            _ => stage,
-        };
-        Painter { lanes, triangle, derivatives, stage, varying: PhantomData }
-    }
-}
-
-/// Fills the covered samples of a box, row by row. `I` is wide enough for every edge function in it.
-#[inline(always)]
-fn fill<I, P, L, V, F, C, D, K>(
-    target: &mut Target<'_, C, D>,
-    samples: &SampleBox<'_>,
-    setup: &Setup<'_, P, L, V, F>,
-    counters: &mut K,
-) -> Outcome
-where
-    I: EdgeInt,
-    L: Floating,
-    V: Varying,
-    P: Interpolation,
-    F: FragmentStage<V>,
-    C: ColorFormat,
-    D: DepthFormat,
-    K: Counters,
-{
-    let SampleBox { columns, rows, limits, .. } = samples;
-    let mut edges = samples.edges::<I>();
-    let mut spans =
-        RowSpans::new(&edges, columns.end - columns.start, [samples.above(), rows.end - rows.start]);
-    let weights = Weights::new(setup.interpolation.lanes(setup.lanes), &edges, setup.oriented.doubled_area);
-    // A triangle that covers no sample is not prepared.
-    let (mut painter, mut stage) = (None, None::<F>);
-    for row in rows.clone() {
-        let covered = spans.next_row().shifted(columns.start);
-        if covered.start.max(limits.start) < covered.end.min(limits.end) {
-            if painter.is_none() {
-                painter = Some(setup.prepare());
-                if const { F::BY_ROWS } {
-                    stage = painter.as_ref().map(|painter| painter.stage);
-                }
-            }
-            if const { F::BY_ROWS }
-                && let (Some(painter), Some(stage)) = (&mut painter, stage)
-            {
-                painter.stage = stage.in_row(row);
-            }
-            if let Some(painter) = &painter {
-                let row = Row { row, covered, origin: columns.start, edges: &edges };
-                painter.row(target, &row, limits, &weights, counters);
-            }
-        }
-        for edge in &mut edges {
-            edge.value = edge.value + edge.step_y;
-        }
-    }
-    if painter.is_some() { Outcome::Drawn } else { Outcome::Missed }
-}
-
-/// The same for several lanes and a box that is [filled by masks](Way::Masks): without spans.
-#[inline(always)]
-fn fill_masked<L, V, T, F, C, D, K>(
-    lanes: L,
-    target: &mut Target<'_, C, D>,
-    [columns, rows]: [Range<i32>; 2],
-    edges: [Edge<i32>; 3],
-    prepare: impl FnOnce() -> Painter<L, V, T, F>,
-    counters: &mut K,
-) -> Outcome
-where
-    L: Lanes,
-    V: Varying,
-    T: Interpolate<L, V>,
-    F: FragmentStage<V>,
-    C: ColorFormat,
-    D: DepthFormat,
-    K: Counters,
-{
-    let left = aligned::<L>(columns.start);
-    let mut mask = RowMask::new(lanes, edges, columns, rows.start);
-    let mut row = rows.start;
-    let mut bits = mask.bits();
-    // A triangle that covers no sample is not prepared.
-    while bits == 0 {
-        row += 1;
-        if row >= rows.end {
-            return Outcome::Missed;
-        }
-        bits = mask.next_row();
-    }
-    let mut painter = prepare();
-    let stage = painter.stage;
-    if const { Painter::<L, V, T, F>::EVERYWHERE } {
-        bits = mask.inside();
-    }
-    let formats = (target.color_format(), target.depth_format());
-    let mut pixels = target.rows_from(row, left);
-    while row < rows.end {
-        if bits != 0 {
-            if const { F::BY_ROWS } {
-                painter.stage = stage.in_row(row);
-            }
-            painter.masked(formats, pixels.row(), [left, row], bits, &mask, counters);
-        }
-        row += 1;
-        pixels.down();
-        if const { Painter::<L, V, T, F>::EVERYWHERE } {
-            mask.down();
-            bits = mask.inside();
-        } else {
-            bits = mask.next_row();
-        }
-    }
-    Outcome::Drawn
 }

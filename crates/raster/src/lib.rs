@@ -18,6 +18,7 @@ mod draw;
 mod edge;
 #[cfg(feature = "embedded-graphics")]
 mod embedded;
+mod fill;
 mod fragment;
 mod interpolation;
 mod line;

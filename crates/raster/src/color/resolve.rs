@@ -45,9 +45,9 @@ pub enum Average {
 /// Correctly rounded, of light in 65535ths; then stored as any colour.
 ///
 /// # Cost
-/// A square of one colour: a load and a comparison a sample, its colour and a store. Another, a sample: its colour, three
-/// loads from a table and sums; a pixel: four divisions, three searches of eight steps, and a store. Of bytes, neither
-/// tables nor searches.
+/// A square of one colour: a load and a comparison a sample, its colour and a store. Another, a sample: its colour,
+/// three loads from a table and sums; a pixel: four divisions, three searches of eight steps, and a store. Of bytes,
+/// neither tables nor searches.
 #[inline(never)]
 pub fn resolve<C: ReadColor<Pixel: PartialEq>, E: ColorFormat>(
     (format, from): (C, &[C::Pixel]),
