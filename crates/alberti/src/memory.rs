@@ -61,6 +61,14 @@ impl<
 
     /// Does nothing, unless it takes more bytes than there are: then the program does not compile.
     ///
+    /// ```compile_fail,E0080
+    /// use alberti::glam::Vec2;
+    /// use alberti::{D16, Memory, Rgb565Be};
+    ///
+    /// // A band alone takes 2560 * (2 * 2 + 2) bytes.
+    /// const _: () = Memory::<Rgb565Be, D16, Vec2, 2560, 0, 0>::must_fit(15_359);
+    /// ```
+    ///
     /// # Panics
     /// While compiling, in a constant.
     pub const fn must_fit(bytes: usize) {

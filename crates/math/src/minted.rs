@@ -36,6 +36,7 @@ coordinates! {
 
 /// A matrix whose last row is not that of a frame: 0, …, 0, 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct NotAffine;
 
 impl fmt::Display for NotAffine {

@@ -261,7 +261,8 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
     }
 
     /// The bytes of the colours, in the order in which a display or a file wants them: for its driver's DMA, without a
-    /// copy. Of a window, all of the slice that it was made of. Behind the feature `bytemuck`.
+    /// copy. Of a window, all of the slice that it was made of. Formats of less than a byte a pixel, and `Rgb444`,
+    /// have a word for each in memory: [`pack`](crate::color::pack) puts these together. Behind the feature `bytemuck`.
     ///
     /// ```
     /// use alberti_math::{Rgb565Be, Rgba8};
