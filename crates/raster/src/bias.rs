@@ -34,7 +34,7 @@ pub struct Biased<D> {
     pub constant: f32,
     /// The factor of the slope.
     pub slope: f32,
-    /// The most that a bias moves, as a zs; 0 for no limit.
+    /// The most that a bias moves either way, as a zs of either sign; 0 for no limit. Direct3D limits one way alone.
     pub clamp: f32,
 }
 
@@ -49,7 +49,8 @@ impl<D: DepthFormat> DepthFormat for Biased<D> {
             _ => f32::from_bits((greatest.to_bits() & 0x7f80_0000).saturating_sub(23 << 23)),
         };
         let farther = self.constant * step + self.slope * slope;
-        let most = if self.clamp > 0.0 { self.clamp } else { 1.0 };
+        let clamp = self.clamp.abs();
+        let most = if clamp > 0.0 { clamp } else { 1.0 };
         let farther = farther.max(-most).min(most);
         self.format.bias(slope, greatest) + if self.reversed() { -farther } else { farther }
     }
@@ -201,7 +202,10 @@ mod tests {
             all_are(moved(numbers, of(0.0, 2.0)), 0.02);
             all_are(moved(numbers, of(-3.0, -2.0)), -0.02 - 3.0 / 65536.0);
             all_are(moved(numbers, Equal(of(0.0, 2.0))), 0.02);
-            all_are(moved(numbers, Biased { clamp: 0.005, ..of(0.0, -2.0) }), -0.005);
+            for clamp in [0.005, -0.005] {
+                all_are(moved(numbers, Biased { clamp, ..of(0.0, -2.0) }), -0.005);
+                all_are(moved(numbers, Biased { clamp, ..of(0.0, 2.0) }), 0.005);
+            }
             all_are(moved(numbers, Biased { format: of(0.0, 2.0), ..of(0.0, 1.0).with(of(0.0, 2.0)) }), 0.03);
         }
     }
