@@ -158,7 +158,9 @@ impl<F: Copy, P: Interpolation> Paint<F, P> {
             let varying = segment.attributes(lanes, weights);
             let steady = V::map(&varying, &|_| lanes.splat(0.0));
             let gradient = Gradient { dx: steady, dy: steady };
-            let (word, kept) = self.stage.shade(&Fragments { lanes, varying, gradient, mask: seen, place });
+            let in_row = const { F::BY_ROWS }.then(|| self.stage.in_row(row));
+            let stage = in_row.as_ref().unwrap_or(&self.stage);
+            let (word, kept) = stage.shade(&Fragments { lanes, varying, gradient, mask: seen, place });
             let kept = kept & seen;
             color_format.store::<L, F::Color>(lanes, word, kept, place, &mut pixel);
             depth_format.keep(lanes, &zs, kept, &mut stored);

@@ -16,6 +16,7 @@ mod lanes;
 mod lines;
 mod pictures;
 mod resolution;
+mod rows;
 mod silhouettes;
 mod small;
 mod touched;
