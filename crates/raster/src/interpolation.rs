@@ -92,7 +92,7 @@ pub trait Prepare: Copy {
     const HAS_SMALL: bool = false;
 
     /// Draws a small triangle that faces the right way in a way of its own, if the policy has one for it, and returns
-    /// whether it had. `paint` says all but how to interpolate. The `FINE` way takes larger ones, and the finer grid.
+    /// whether it had. `paint` says all but how to interpolate. The `FINE` way is that of the finer grid.
     #[inline(always)]
     fn draw_small<const FINE: bool, V, F, C, D, K>(
         self,

@@ -12,24 +12,24 @@
 //!        c
 //! ```
 //!
-//! There are two kinds. Coarse ones are on the grid of `Sub4`, with sides below 16 pixels. Fine ones are on that of
-//! `Sub8`, with sides below 16 pixels, or on that of `Sub4`, with sides below 32. They are a little dearer.
+//! There are two kinds. Coarse ones are on the grid of `Sub4`, with sides below 32 pixels. Fine ones are on that of
+//! `Sub8`, with sides below 16 pixels, and a little dearer.
 //!
 //! # Coverage
 //! An edge that is at most 2^h subpixels of 2^-b pixel high crosses a row's centre at a sample, or at least 2^-(h + b)
 //! column from it. A little is taken off crossings, so that those at samples lie before them.
 //!
-//! * Coarse: 2^-12 are 256 units of 2^-20, of which 128 are taken off. Rounding moves crossings by less: 32 units on
-//!   the way to the first row, two for each of 16 rows, and one for the shift.
+//! * Coarse: 2^-13 are 256 units of 2^-21, of which 128 are taken off. Rounding moves crossings by less: two units for
+//!   each of 32 rows, on the way to the first one or after it, and one for the shift.
 //! * Fine: 2^-20 are 32 units of 2^-25, of which one is taken off. Rounding takes off less than one on the way to the
-//!   first row, and less than one for each of 16 rows. With 4 bits 2^-13 are 4096 units, for 32 rows.
+//!   first row, and less than one for each of 16 rows.
 //!
 //! # Values
-//! In units of 2^-24 a column or a row adds its slope within 1.4, for up to 17 of each. In fine ones that is 1.25, for
-//! up to 33 of each. The way from the first vertex to the next sample, less than a pixel on both axes, is within 33,
-//! and in fine ones within 5. So the error stays below 88 of 128, which are half a step of 2^-16. The three vertices
-//! are whole steps. So the nearest step is within their range, and a constant stays one. Depths are followed in 2^-12
-//! of a step. There 34 or 66 columns and rows times 6, and 42, are at most 438 of 2048.
+//! In units of 2^-24 a column or a row adds its slope within 1.4, for up to 33 of each, in fine ones for 17. The way
+//! from the first vertex to the next sample, less than a pixel on both axes, is within 33, and in fine ones within 5. So
+//! the error stays below 126 of 128, which are half a step of 2^-16. The three vertices are whole steps. So the nearest
+//! step is within their range, and a constant stays one. Depths are followed in 2^-12 of a step. There 66 columns and
+//! rows times 6, and 42, are at most 438 of 2048.
 
 mod shape;
 
@@ -43,7 +43,7 @@ use crate::paint::as_it_stands;
 use crate::target::Target;
 use crate::triangle::{Corner, Outcome};
 use alberti_math::lanes::OneFixed;
-use alberti_math::{Mode, Q16, Subpixel, Varying, map2, map3, map4, scaled};
+use alberti_math::{Mode, Q16, Varying, map2, map3, map4, scaled};
 use core::array;
 use core::cell::Cell;
 use shape::{Crossing, Ramp, SLOPE, Shape, magnitude};
@@ -155,11 +155,12 @@ fn planes<const FINE: bool, V: Varying>(
 }
 
 /// Draws a triangle that faces the right way. Its corners have to be near each other, no number may be out of range,
-/// and one run has to do for it: returns whether it was so. Coarse ones are on the grid of `Sub4`.
+/// and one run has to do for it: returns whether it was so. Coarse ones are on the grid of `Sub4`, fine ones on that of
+/// `Sub8`.
 #[inline(always)]
 pub(crate) fn draw<const FINE: bool, R, V, F, C, D, K>(
     runs: R,
-    (stage, subpixel): (F, Subpixel),
+    stage: F,
     target: &mut Target<'_, C, D>,
     [first, second, third]: [&Corner<V>; 3],
     counters: &mut K,
@@ -172,16 +173,14 @@ where
     D: DepthFormat,
     K: Counters,
 {
-    // Places on the finer grid.
-    let finer = if FINE { bits(true) - subpixel.bits() } else { 0 };
-    let place = |corner: &Corner<V>| map2(corner.place(true), |c| c << finer);
+    let place = |corner: &Corner<V>| corner.place(true);
     let [u, v] = map2([place(second), place(third)], |[x, y]| {
         let [from_x, from_y] = place(first);
         [x - from_x, y - from_y]
     });
     let area = u[0].wrapping_mul(v[1]).wrapping_sub(u[1].wrapping_mul(v[0]));
     // By rows, and within a row by columns; of corners that are near each other.
-    let key = |[x, y]: [i32; 2]| (y << const { if FINE { 14 } else { 9 } }).wrapping_add(x);
+    let key = |[x, y]: [i32; 2]| (y << const { if FINE { 13 } else { 10 } }).wrapping_add(x);
     // From top to bottom, and from left to right: no bit depends on the order that was given.
     let (mut a, mut b, mut c, mut clockwise) = ((first, 0), (second, key(u)), (third, key(v)), area > 0);
     if b.1 < a.1 {
@@ -197,7 +196,7 @@ where
     let [[ax, ay], [bx, by], [cx, cy]] = map3([a, b, c], place);
 
     let (west, east) = (ax.min(bx).min(cx), ax.max(bx).max(cx));
-    let reach = if FINE { (1 << 12) << u32::from(finer != 0) } else { 1 << 8 };
+    let reach = if FINE { 1 << 12 } else { 1 << 9 };
     let below = [by - ay, cy - ay].map(i32::cast_unsigned);
     if east - west >= reach || (below[0] | below[1]) >= reach.cast_unsigned() {
         return false;

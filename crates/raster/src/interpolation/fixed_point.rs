@@ -12,7 +12,7 @@ use crate::target::Target;
 use crate::triangle::{Corner, Numbers};
 use crate::{ColorFormat, Counters, DepthFormat, Paint};
 use alberti_math::lanes::{Floating, OneFixed};
-use alberti_math::{Mode, Q16, Sub4, Varying, map2, map3, reciprocal};
+use alberti_math::{Mode, Q16, Sub8, Varying, map2, map3, reciprocal};
 use core::cell::Cell;
 use core::fmt;
 
@@ -97,8 +97,8 @@ impl<R: Runs> Prepare for FixedPoint<R> {
     {
         let Paint { stage, subpixel, .. } = *paint;
         self.0.length() >= small::RUN
-            && (FINE || subpixel == Sub4)
-            && small::draw::<FINE, _, _, _, _, _, _>(self.0, (stage, subpixel), target, corners, counters)
+            && FINE == (subpixel == Sub8)
+            && small::draw::<FINE, _, _, _, _, _, _>(self.0, stage, target, corners, counters)
     }
 
     #[inline(always)]

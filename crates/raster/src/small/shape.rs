@@ -50,11 +50,11 @@ impl<const FINE: bool> Shape<FINE> {
     ) -> Self {
         let normalizing = area.leading_zeros();
         let area = area << normalizing;
-        // The area of a coarse one has 16 bits.
-        let per_area = if FINE {
-            reciprocal_signed((area >> 1).cast_signed())
+        // The area of a coarse one has 18 bits.
+        let per_area = if !FINE && LOW_WORDS_ONLY {
+            reciprocal_18(area)
         } else {
-            reciprocal_16((area >> 16) as u16)
+            reciprocal_signed((area >> 1).cast_signed())
         };
         let normalizing = normalizing + const { bits(FINE) };
         Self {
@@ -98,18 +98,22 @@ impl<const FINE: bool> Shape<FINE> {
     }
 }
 
-/// 2^46 / x, for x from 2^15 on.
+/// 2^62 / x, for x of 18 bits, shifted to the left until it has 32.
 ///
 /// # Precision
 /// Within 2^-28, relatively: the table's 2^-9 become 2^-17 and 2^-34, and the product is cut at 2^-29.
 #[inline(always)]
-fn reciprocal_16(x: u16) -> i32 {
-    let first = (reciprocal::<0>(u32::from(x) << 16) >> 1).cast_signed();
-    // y (2 - x y), with x in [1, 2) in units of 2^-15 and y in (1/2, 1] in 2^-31. The difference from 1 is small, and
-    // so are factors with as many bits as count.
-    let left = |y: i32| (1 << 30) - high_of_half(x, y.cast_unsigned()).cast_signed();
-    let y = first + (((first >> 14) * (left(first) >> 8)) >> 8);
-    y + (((y >> 15) * left(y)) >> 15)
+fn reciprocal_18(x: u32) -> i32 {
+    let first = (reciprocal::<0>(x) >> 1).cast_signed();
+    let (upper, lower) = ((x >> 16) as u16, (x >> 14) & 3);
+    // y (2 - x y), with x in [1, 2) in units of 2^-31 and y in (1/2, 1] in 2^-31. The difference from 1 is small, and
+    // so are factors with as many bits as count. Of x the first time 16 bits do.
+    let left = |y: i32, lower: u32| {
+        let y = y.cast_unsigned();
+        (1 << 30) - (high_of_half(upper, y) + ((lower * (y >> 2)) >> 16)).cast_signed()
+    };
+    let y = first + (((first >> 14) * (left(first, 0) >> 8)) >> 8);
+    y + (((y >> 15) * left(y, lower)) >> 15)
 }
 
 /// `x`, or of a negative number the complement: it has no bit from the k-th on if the number is in -2^k..2^k.
@@ -120,7 +124,7 @@ pub(super) fn magnitude(x: i32) -> u32 {
 
 /// Bits of a crossing's fraction.
 const fn column(fine: bool) -> u32 {
-    if fine { 25 } else { 20 }
+    if fine { 25 } else { 21 }
 }
 
 /// The first column whose centre is not to the left of an edge, in a row: the highest bits of `at`, from those of
@@ -133,7 +137,7 @@ pub(super) struct Crossing<const FINE: bool> {
 
 impl<const FINE: bool> Crossing<FINE> {
     /// The edge down from `p` to `q`, in the row of a sample that is at a height between. Columns count from that
-    /// sample's. The edge is less than 2^8 subpixels high, a fine one 2^13.
+    /// sample's. The edge is less than 2^9 subpixels high, a fine one 2^12.
     #[inline(always)]
     pub(super) fn new(p: [i32; 2], q: [i32; 2], [x, y]: [i32; 2]) -> Self {
         let [dx, dy] = [q[0] - p[0], (q[1] - p[1]).max(1)];
@@ -185,14 +189,17 @@ static PER_HEIGHT: [u16; 257] = {
     table
 };
 
-/// 2^20 dx / dy for |dx| and dy up to 2^8, within two units: without a division.
+/// 2^21 dx / dy for |dx| and dy up to 2^9, within two units: without a division.
 #[inline(always)]
 fn quotient(dx: i32, dy: i32) -> i32 {
-    let per_height = i32::from(PER_HEIGHT.get(dy.cast_unsigned() as usize).copied().unwrap_or(0));
-    let mut quotient = (dx * per_height) << 4;
-    // The table is within dy 2^-16, relatively, and each time what is left is as much smaller.
+    // The table has every second one of large heights.
+    let coarser = dy.cast_unsigned() >> 8;
+    let entry = PER_HEIGHT.get((dy.cast_unsigned() >> coarser) as usize).copied().unwrap_or(0);
+    let per_height = i32::from(entry >> coarser);
+    let mut quotient = (dx * per_height) << 5;
+    // The first is within dy 2^-15, relatively, and each time what is left is as much smaller.
     for _ in 0..2 {
-        let left = (dx << 20) - quotient * dy;
+        let left = (dx << 21) - quotient * dy;
         quotient += (left * per_height) >> 16;
     }
     quotient
@@ -235,6 +242,8 @@ mod tests {
             [[-255, 0], [0, 255]],
             [[16, 1], [0, 16]],
             [[1, 255], [-1, 255]],
+            [[-511, 0], [0, 511]],
+            [[1, 511], [-1, 511]],
         ]);
         none_overflow::<true>(&[
             [[-64, 3], [64, 4]],
@@ -247,9 +256,9 @@ mod tests {
 
     #[test]
     fn quotients_without_division_are_within_two_units() {
-        for dx in -256..=256 {
-            for dy in 1..=256 {
-                let exact = f64::from(dx << 20) / f64::from(dy);
+        for dx in -512..512 {
+            for dy in 1..512 {
+                let exact = f64::from(dx << 21) / f64::from(dy);
                 assert!((f64::from(quotient(dx, dy)) - exact).abs() <= 2.0, "{dx} / {dy}");
             }
         }
@@ -269,10 +278,10 @@ mod tests {
     #[test]
     fn reciprocals_of_areas_keep_their_bound() {
         let mut worst = 0.0;
-        for x in 1 << 15..=u16::MAX {
-            let y = reciprocal_16(x);
+        for x in (1 << 17..1 << 18u32).map(|area| area << 14) {
+            let y = reciprocal_18(x);
             assert!(y > 0, "{x}: {y}");
-            worst = f64::max(worst, (f64::from(x) * f64::from(y) / 2f64.powi(46) - 1.0).abs());
+            worst = f64::max(worst, (f64::from(x) * f64::from(y) / 2f64.powi(62) - 1.0).abs());
         }
         println!("2^{:.2}", worst.log2());
         assert!(worst <= 2f64.powi(-28) && worst > 2f64.powi(-32));
