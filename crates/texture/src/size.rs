@@ -345,8 +345,9 @@ impl Size for PowerOfTwo {
         width: u32,
         word: impl Fn(Option<&T>) -> u32,
     ) -> L::U32 {
-        // A power of two less one: no index is changed, and compilers see that none is too large.
-        let last = texels.len().wrapping_sub(1);
+        // A power of two less one: no index is changed, and compilers see that none is too large. One at a time costs
+        // less with a comparison.
+        let last = if L::FIXED { usize::MAX } else { texels.len().wrapping_sub(1) };
         let indices = self.row_start(lanes, row, width) + column;
         lanes.gather(
             indices,

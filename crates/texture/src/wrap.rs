@@ -268,7 +268,9 @@ impl Wrap for Repeat {
 
     #[inline(always)]
     fn cell_masked<L: Lanes>(self, lanes: L, u: L::Number, size: u32) -> L::U32 {
-        self.fold(lanes, lanes.floor_fraction_scaled(u, size.trailing_zeros()), size)
+        let cell = lanes.floor_fraction_scaled(u, size.trailing_zeros());
+        // In fixed point it is one of the texture already.
+        if L::FIXED { cell } else { self.fold(lanes, cell, size) }
     }
 
     // In fixed point the shifts of a scaling drop what is above the period.

@@ -117,7 +117,7 @@ impl Lanes for OneFixed {
 
     #[inline(always)]
     fn floor_fraction_scaled(self, x: Q16, bits: u32) -> Wrapping<u32> {
-        Wrapping((x.to_bits().cast_unsigned() & 0xffff) << (bits & 15) >> 16)
+        Wrapping((x.to_bits().cast_unsigned() & 0xffff) >> (16 - (bits & 15)))
     }
 
     #[inline(always)]
