@@ -74,7 +74,12 @@ impl Rgb565 {
     /// The texel of a word of channels apart.
     #[inline(always)]
     pub fn gathered<L: Lanes>(lanes: L, spread: L::U32) -> L::U32 {
-        (spread | lanes.shr(spread, 16)) & lanes.word(0xffff)
+        if L::FIXED {
+            // A product, as compilers would make two masks of one for a sum.
+            lanes.shr(spread * lanes.word(0x1_0001), 16)
+        } else {
+            (spread | lanes.shr(spread, 16)) & lanes.word(0xffff)
+        }
     }
 }
 
