@@ -62,7 +62,7 @@ impl<'a, F: Storage, M: Levels, U: Wrap, V: Wrap, Z: Size> Leveled<'a, F, M, U, 
     #[must_use]
     pub fn settled<L: Lanes>(&self, lanes: L, gradient: &Gradient<[L::Number; 2]>) -> Self {
         let map = self.map.mipmap();
-        let lambda = among_levels(lanes, &map, gradient.lod_lanes(lanes, map.size()));
+        let lambda = among_levels(lanes, map, gradient.lod_lanes(lanes, map.size()));
         let bits = const { if M::TWO { 5 } else { 0 } };
         let position = lanes.store_words(lanes.round_scaled(lambda, bits));
         let position = position.as_ref().first().copied().unwrap_or_default();

@@ -60,8 +60,8 @@ impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: Size, const N: usize>
 
     /// The mip map that is sampled.
     #[must_use]
-    pub const fn mipmap(&self) -> Mipmap<'a, F, Z, N> {
-        self.mipmap
+    pub const fn mipmap(&self) -> &Mipmap<'a, F, Z, N> {
+        &self.mipmap
     }
 
     /// The colours of each of several maps ([`Mipmap::together`]): those of [`sample_grad`](MipSampler::sample_grad),

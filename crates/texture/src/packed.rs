@@ -151,13 +151,13 @@ impl<F: Packed, U: Wrap, V: Wrap, Z: Size> MipSampler<'_, F, Trilinear, U, V, Z>
     ) -> L::U32 {
         let mipmap = self.mipmap();
         let lambda = gradient.lod_lanes(lanes, mipmap.size());
-        let position = lanes.round_scaled(among_levels(lanes, &mipmap, lambda), 5);
+        let position = lanes.round_scaled(among_levels(lanes, mipmap, lambda), 5);
         let along = position & lanes.word(31);
         let [spread] = each_word(
             lanes,
             lanes.shr(position, 5),
             #[inline(always)]
-            |level| [between::<L, F, Z, U, V>(lanes, &mipmap, self.wraps(), uv, (level as usize, along))],
+            |level| [between::<L, F, Z, U, V>(lanes, mipmap, self.wraps(), uv, (level as usize, along))],
         );
         Rgb565::gathered(lanes, spread)
     }
