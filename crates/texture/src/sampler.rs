@@ -115,7 +115,7 @@ fn stored<L: Lanes, F: TexelFormat, U: Wrap, V: Wrap, Z: Size>(
 ) -> L::U32 {
     let borders = map2([wrap.0.border(), wrap.1.border()], |border| border.map(|_| word(None)));
     bordered(lanes, texture.height(), at, borders, |row, column| {
-        texture.words(lanes, row, column, |texel| word(texel.copied()))
+        texture.lone_words(lanes, row, column, |texel| word(texel.copied()))
     })
 }
 

@@ -93,6 +93,19 @@ pub trait Size: Sealed + Copy + Debug + 'static {
         word: impl Fn(Option<&T>) -> u32,
     ) -> L::U32;
 
+    /// [`words`](Self::words) where a sample reads no other texel.
+    #[inline(always)]
+    fn lone_words<L: Lanes, T>(
+        self,
+        lanes: L,
+        texels: Self::Texels<'_, T>,
+        at: [L::U32; 2],
+        width: u32,
+        word: impl Fn(Option<&T>) -> u32,
+    ) -> L::U32 {
+        self.words(lanes, texels, at, width, word)
+    }
+
     /// The index of a row's first texel, in rows of `width`.
     #[inline(always)]
     fn row_start<L: Lanes>(self, lanes: L, row: L::U32, width: u32) -> L::U32 {
@@ -345,15 +358,37 @@ impl Size for PowerOfTwo {
         width: u32,
         word: impl Fn(Option<&T>) -> u32,
     ) -> L::U32 {
-        // A power of two less one: no index is changed, and compilers see that none is too large. One at a time costs
-        // less with a comparison.
-        let last = if L::FIXED { usize::MAX } else { texels.len().wrapping_sub(1) };
+        // A power of two less one: no index is changed, and compilers see that none is too large.
+        let last = texels.len().wrapping_sub(1);
         let indices = self.row_start(lanes, row, width) + column;
         lanes.gather(
             indices,
             #[inline(always)]
             |index| word(texels.get(index as usize & last)),
         )
+    }
+
+    #[inline(always)]
+    fn lone_words<L: Lanes, T>(
+        self,
+        lanes: L,
+        texels: &[T],
+        at: [L::U32; 2],
+        width: u32,
+        word: impl Fn(Option<&T>) -> u32,
+    ) -> L::U32 {
+        if L::FIXED {
+            // By a comparison, as a mask would be one more number.
+            let [row, column] = at;
+            let indices = self.row_start(lanes, row, width) + column;
+            lanes.gather(
+                indices,
+                #[inline(always)]
+                |index| word(texels.get(index as usize)),
+            )
+        } else {
+            self.words(lanes, texels, at, width, word)
+        }
     }
 }
 

@@ -321,6 +321,19 @@ impl<F: TexelFormat, Z: Size> Texture<'_, F, Z> {
         let [texels] = self.planes;
         self.size.words(lanes, texels, [row, column], self.width(), word)
     }
+
+    /// [`words`](Self::words) where a sample reads no other texel.
+    #[inline(always)]
+    pub(crate) fn lone_words<L: Lanes>(
+        &self,
+        lanes: L,
+        row: L::U32,
+        column: L::U32,
+        word: impl Fn(Option<&F::Texel>) -> u32,
+    ) -> L::U32 {
+        let [texels] = self.planes;
+        self.size.lone_words(lanes, texels, [row, column], self.width(), word)
+    }
 }
 
 impl<F: Storage, Z: Size, const N: usize> Clone for Texture<'_, F, Z, N> {
