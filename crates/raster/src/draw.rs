@@ -11,10 +11,11 @@ use crate::fragment::FragmentStage;
 use crate::interpolation::{Interpolation, Oriented};
 use crate::sample_box::SampleBox;
 use crate::setup::{Setups, Waiting, Way};
+use crate::small::{Coarse, Either, Fine};
 use crate::target::Target;
 use crate::triangle::{Bounds, Corner, Cull, Numbers, Outcome, Reach, Vertex, doubled_area};
 use alberti_math::lanes::{Floating, Lanes, One};
-use alberti_math::{Subpixel, Varying, map3};
+use alberti_math::{LOW_WORDS_ONLY, Sub8, Subpixel, Varying, map3};
 use core::ops::Range;
 
 /// The way from triangles on the screen to pixels: the half of the pipeline that knows no matrix and no mesh.
@@ -158,7 +159,14 @@ impl<F, P: Interpolation> Paint<F, P> {
         D: DepthFormat,
         K: Counters,
     {
-        if !self.interpolation.draw_small::<false, _, _, _, _, _>(self, target, [a, b, c], counters) {
+        // Where memory is scarce, one kernel does for both grids.
+        let drawn = if LOW_WORDS_ONLY {
+            let grid = Either { fine: self.subpixel == Sub8 };
+            self.interpolation.draw_small(grid, self, target, [a, b, c], counters)
+        } else {
+            self.interpolation.draw_small(Coarse, self, target, [a, b, c], counters)
+        };
+        if !drawn {
             self.draw_large(lanes, target, [a, b, c], counters);
         }
     }
@@ -179,7 +187,7 @@ impl<F, P: Interpolation> Paint<F, P> {
         D: DepthFormat,
         K: Counters,
     {
-        if self.interpolation.draw_small::<true, _, _, _, _, _>(&self, target, corners, counters) {
+        if !LOW_WORDS_ONLY && self.interpolation.draw_small(Fine, &self, target, corners, counters) {
             return;
         }
         match self.reach(corners, &target.limits()) {

@@ -21,6 +21,7 @@ pub use plane::Planes;
 use crate::edge::{Edge, EdgeInt};
 use crate::fragment::FragmentStage;
 use crate::setup::Waiting;
+use crate::small::Grid;
 use crate::spans::Span;
 use crate::target::Target;
 use crate::triangle::{Corner, Corners, Numbers, in_order};
@@ -92,23 +93,25 @@ pub trait Prepare: Copy {
     const HAS_SMALL: bool = false;
 
     /// Draws a small triangle that faces the right way in a way of its own, if the policy has one for it, and returns
-    /// whether it had. `paint` says all but how to interpolate. The `FINE` way is that of the finer grid.
+    /// whether it had. `paint` says all but how to interpolate; it may be known what grid that has.
     #[inline(always)]
-    fn draw_small<const FINE: bool, V, F, C, D, K>(
+    fn draw_small<G, V, F, C, D, K>(
         self,
+        grid: G,
         paint: &Paint<F, Self>,
         target: &mut Target<'_, C, D>,
         corners: [&Corner<V>; 3],
         counters: &mut K,
     ) -> bool
     where
+        G: Grid,
         V: Varying,
         F: FragmentStage<V>,
         C: ColorFormat,
         D: DepthFormat,
         K: Counters,
     {
-        let _ = (paint, target, corners, counters);
+        let _ = (grid, paint, target, corners, counters);
         false
     }
 

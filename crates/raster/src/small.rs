@@ -31,7 +31,10 @@
 //! step is within their range, and a constant stays one. Depths are followed in 2^-12 of a step. There 66 columns and
 //! rows times 6, and 42, are at most 438 of 2048.
 
+mod grid;
 mod shape;
+
+pub(crate) use grid::{Coarse, Either, Fine, Grid};
 
 use crate::color::ColorFormat;
 use crate::counters::Counters;
@@ -50,10 +53,6 @@ use shape::{Crossing, Ramp, SLOPE, Shape, magnitude};
 
 /// The least length of runs for which a small triangle may be one.
 pub(crate) const RUN: i32 = 16;
-/// Bits of the grid's subpixels.
-const fn bits(fine: bool) -> u32 {
-    if fine { 8 } else { 4 }
-}
 /// Bits of an attribute's fraction, beyond those of [`Q16`].
 const MORE: u32 = 8;
 /// Components from here on, and differences from twice as much on, might overflow.
@@ -71,15 +70,15 @@ fn inlined<V: Varying, T: Copy, U: Copy>(bundle: &V::Of<T>, f: impl Fn(Mode, T) 
 
 /// The first row whose centre is not above `y`, or the first column whose centre is not to the left of it.
 #[inline(always)]
-fn row<const FINE: bool>(y: i32) -> i32 {
-    let bits = const { bits(FINE) };
+fn row(grid: impl Grid, y: i32) -> i32 {
+    let bits = grid.bits();
     (y + (1 << (bits - 1)) - 1) >> bits
 }
 
 /// The centre of a sample.
 #[inline(always)]
-fn center<const FINE: bool>(sample: [i32; 2]) -> [i32; 2] {
-    let bits = const { bits(FINE) };
+fn center(grid: impl Grid, sample: [i32; 2]) -> [i32; 2] {
+    let bits = grid.bits();
     map2(sample, |c| (c << bits) + (1 << (bits - 1)))
 }
 
@@ -103,16 +102,17 @@ impl<V: Varying> Planes<V> {
 /// The planes over three corners; the fourth has the flat components. None if numbers are out of range, or if a
 /// straight line misses more than the policy allows.
 #[inline(always)]
-fn planes<const FINE: bool, V: Varying>(
+fn planes<G: Grid, V: Varying>(
+    grid: G,
     runs: impl Runs,
-    (shape, longer): (&Shape<FINE>, u32),
+    (shape, longer): (&Shape<G>, u32),
     [a, b, c, first]: [&Corner<V>; 4],
     depth_bits: u32,
 ) -> Option<Planes<V>> {
     let apart = if runs.perspective() { a.q.max(b.q).max(c.q) - a.q.min(b.q).min(c.q) } else { 0 };
     // A line misses at most |Δu| (r - 1) / 4, and r - 1 is at most `apart` over 2^23. Without a budget that is to be at
     // most a quarter of what a pixel changes. The bits cut off are less than what (√r + 1)^2 is above 4.
-    let steep = || (apart >> 8) * longer > STEEP >> 8 << bits(FINE);
+    let steep = || (apart >> 8) * longer > STEEP >> 8 << grid.bits();
     if apart > STEEP || (runs.budget().is_none() && steep()) {
         return None;
     }
@@ -158,7 +158,8 @@ fn planes<const FINE: bool, V: Varying>(
 /// and one run has to do for it: returns whether it was so. Coarse ones are on the grid of `Sub4`, fine ones on that of
 /// `Sub8`.
 #[inline(always)]
-pub(crate) fn draw<const FINE: bool, R, V, F, C, D, K>(
+pub(crate) fn draw<G, R, V, F, C, D, K>(
+    grid: G,
     runs: R,
     stage: F,
     target: &mut Target<'_, C, D>,
@@ -166,6 +167,7 @@ pub(crate) fn draw<const FINE: bool, R, V, F, C, D, K>(
     counters: &mut K,
 ) -> bool
 where
+    G: Grid,
     R: Runs,
     V: Varying,
     F: FragmentStage<V>,
@@ -180,7 +182,7 @@ where
     });
     let area = u[0].wrapping_mul(v[1]).wrapping_sub(u[1].wrapping_mul(v[0]));
     // By rows, and within a row by columns; of corners that are near each other.
-    let key = |[x, y]: [i32; 2]| (y << const { if FINE { 13 } else { 10 } }).wrapping_add(x);
+    let key = |[x, y]: [i32; 2]| (y << if grid.is_fine() { 13 } else { 10 }).wrapping_add(x);
     // From top to bottom, and from left to right: no bit depends on the order that was given.
     let (mut a, mut b, mut c, mut clockwise) = ((first, 0), (second, key(u)), (third, key(v)), area > 0);
     if b.1 < a.1 {
@@ -196,13 +198,13 @@ where
     let [[ax, ay], [bx, by], [cx, cy]] = map3([a, b, c], place);
 
     let (west, east) = (ax.min(bx).min(cx), ax.max(bx).max(cx));
-    let reach = if FINE { 1 << 12 } else { 1 << 9 };
+    let reach = if grid.is_fine() { 1 << 12 } else { 1 << 9 };
     let below = [by - ay, cy - ay].map(i32::cast_unsigned);
     if east - west >= reach || (below[0] | below[1]) >= reach.cast_unsigned() {
         return false;
     }
     let [columns, rows] = target.limits();
-    let row = row::<FINE>;
+    let row = |y: i32| row(grid, y);
     // The first sample that is neither above nor to the left of the highest vertex.
     let origin = [row(ax), row(ay)];
     let (top, end) = (origin[1].max(rows.start), row(cy).min(rows.end));
@@ -212,8 +214,9 @@ where
     }
     let [from, to] = [columns.start - origin[0], columns.end - origin[0]];
     let middle = row(by).max(top).min(end);
-    let center = |row: i32| center::<FINE>([origin[0], row]);
-    let shape = Shape::<FINE>::new(
+    let center = |row: i32| center(grid, [origin[0], row]);
+    let shape = Shape::new(
+        grid,
         [[ax, ay], [bx, by], [cx, cy]],
         center(origin[1]),
         area.unsigned_abs(),
@@ -221,7 +224,7 @@ where
         ((east - west) | (cy - ay)).cast_unsigned(),
     );
     let longer = (east - west).max(cy - ay).cast_unsigned();
-    let Some(planes) = planes(runs, (&shape, longer), [a, b, c, first], target.depth_format().bits()) else {
+    let Some(planes) = planes(grid, runs, (&shape, longer), [a, b, c, first], target.depth_format().bits()) else {
         return false;
     };
 
@@ -233,14 +236,14 @@ where
     let stage = if const { F::SETTLES } { stage.settled(lanes, &gradient) } else { stage };
     let formats = (target.color_format(), target.depth_format());
     let mut lines = target.lines(top, origin[0]);
-    let long = Crossing::<FINE>::new([ax, ay], [cx, cy], center(top));
+    let long = Crossing::new(grid, [ax, ay], [cx, cy], center(top));
     let (mut start, mut stop) = (long, long);
     let (mut outcome, mut row, mut below) = (Outcome::Missed, top, middle);
     let mut ends = [[ax, ay], [bx, by]];
     loop {
         // The short edge of these rows.
         if row < below {
-            let short = Crossing::new(ends[0], ends[1], center(row));
+            let short = Crossing::new(grid, ends[0], ends[1], center(row));
             *(if clockwise { &mut stop } else { &mut start }) = short;
         }
         while row < below {
@@ -294,7 +297,7 @@ where
         }
         if row >= end {
             counters.touched(outcome, || {
-                let own = self::row::<FINE>;
+                let own = |y: i32| self::row(grid, y);
                 [own(west).max(columns.start)..own(east + 1).min(columns.end), top..end]
             });
             counters.rasterized(outcome);

@@ -7,7 +7,7 @@ use super::lines::{Course, LineNumbers, LineTriangle, Lines, Run, Runs};
 use crate::edge::EdgeInt;
 use crate::fragment::FragmentStage;
 use crate::interpolation::{Interpolation, Oriented, Prepare, Row};
-use crate::small;
+use crate::small::{self, Grid};
 use crate::target::Target;
 use crate::triangle::{Corner, Numbers};
 use crate::{ColorFormat, Counters, DepthFormat, Paint};
@@ -81,14 +81,16 @@ impl<R: Runs> Prepare for FixedPoint<R> {
     }
 
     #[inline(always)]
-    fn draw_small<const FINE: bool, V, F, C, D, K>(
+    fn draw_small<G, V, F, C, D, K>(
         self,
+        grid: G,
         paint: &Paint<F, Self>,
         target: &mut Target<'_, C, D>,
         corners: [&Corner<V>; 3],
         counters: &mut K,
     ) -> bool
     where
+        G: Grid,
         V: Varying,
         F: FragmentStage<V>,
         C: ColorFormat,
@@ -97,8 +99,8 @@ impl<R: Runs> Prepare for FixedPoint<R> {
     {
         let Paint { stage, subpixel, .. } = *paint;
         self.0.length() >= small::RUN
-            && FINE == (subpixel == Sub8)
-            && small::draw::<FINE, _, _, _, _, _, _>(self.0, stage, target, corners, counters)
+            && grid.is_fine() == (subpixel == Sub8)
+            && small::draw(grid, self.0, stage, target, corners, counters)
     }
 
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! The shape of a small triangle: where its edges cross the rows, and the planes over it.
 
-use super::bits;
+use super::{Coarse, Fine, Grid};
 use alberti_math::{LOW_WORDS_ONLY, high_of_half, high_signed, reciprocal, reciprocal_signed};
 
 /// Bits of a slope's fraction, beyond those of the number.
@@ -23,7 +23,8 @@ impl Ramp {
 }
 
 /// The numbers that all slopes have in common.
-pub(super) struct Shape<const FINE: bool> {
+pub(super) struct Shape<G> {
+    grid: G,
     /// The factors of the second and the third vertex in a slope's sum, for columns and for rows.
     right: [i32; 2],
     down: [i32; 2],
@@ -39,9 +40,10 @@ pub(super) struct Shape<const FINE: bool> {
     origin: [i32; 2],
 }
 
-impl<const FINE: bool> Shape<FINE> {
+impl<G: Grid> Shape<G> {
     #[inline(always)]
     pub(super) fn new(
+        grid: G,
         [a, b, c]: [[i32; 2]; 3],
         origin: [i32; 2],
         area: u32,
@@ -51,18 +53,19 @@ impl<const FINE: bool> Shape<FINE> {
         let normalizing = area.leading_zeros();
         let area = area << normalizing;
         // The area of a coarse one has 18 bits.
-        let per_area = if !FINE && LOW_WORDS_ONLY {
+        let per_area = if !grid.is_fine() && LOW_WORDS_ONLY {
             reciprocal_18(area)
         } else {
             reciprocal_signed((area >> 1).cast_signed())
         };
-        let normalizing = normalizing + const { bits(FINE) };
+        let normalizing = normalizing + grid.bits();
         Self {
+            grid,
             right: [c[1] - a[1], a[1] - b[1]],
             down: [a[0] - c[0], b[0] - a[0]],
             per_area: if clockwise { per_area } else { -per_area },
             shift: normalizing.saturating_sub(SLOPE + 6),
-            less: if FINE { (SLOPE + 6).saturating_sub(normalizing) } else { 0 },
+            less: if grid.is_fine() { (SLOPE + 6).saturating_sub(normalizing) } else { 0 },
             extent,
             origin: [origin[0] - a[0], origin[1] - a[1]],
         }
@@ -74,7 +77,7 @@ impl<const FINE: bool> Shape<FINE> {
     pub(super) fn holds(&self, differences: u32) -> bool {
         // The sum of two products must be less than 2^31 after the shift. Sides of fine ones have up to 13 bits, so
         // that fewer of the differences' are counted.
-        let (most, unused) = (self.extent + 1, if FINE { 4 } else { 0 });
+        let (most, unused) = (self.extent + 1, if self.grid.is_fine() { 4 } else { 0 });
         ((differences >> unused) + 1).wrapping_mul(most) < (1 << (30 - unused)) >> self.shift
     }
 
@@ -91,7 +94,7 @@ impl<const FINE: bool> Shape<FINE> {
         let across = self.slope(more, self.right) >> (SLOPE - bits);
         let down = self.slope(more, self.down) >> (SLOPE - bits);
         let part = |slope: i32, origin: i32| {
-            if FINE { (slope >> 8) * origin + (((slope & 255) * origin) >> 8) } else { (slope >> 4) * origin }
+            if self.grid.is_fine() { (slope >> 8) * origin + (((slope & 255) * origin) >> 8) } else { (slope >> 4) * origin }
         };
         let at = at.wrapping_add(part(across, self.origin[0])).wrapping_add(part(down, self.origin[1]));
         Ramp { at, across, down }
@@ -122,41 +125,46 @@ pub(super) fn magnitude(x: i32) -> u32 {
     (x ^ (x >> 31)).cast_unsigned()
 }
 
+/// Bits of the fraction of a fine crossing.
+const FINE_COLUMN: u32 = 25;
+
 /// Bits of a crossing's fraction.
-const fn column(fine: bool) -> u32 {
-    if fine { 25 } else { 21 }
+#[inline(always)]
+fn column(grid: impl Grid) -> u32 {
+    if grid.is_fine() { FINE_COLUMN } else { 21 }
 }
 
 /// The first column whose centre is not to the left of an edge, in a row: the highest bits of `at`, from those of
 /// [`column`] on.
 #[derive(Clone, Copy)]
-pub(super) struct Crossing<const FINE: bool> {
+pub(super) struct Crossing<G> {
+    grid: G,
     at: i32,
     step: i32,
 }
 
-impl<const FINE: bool> Crossing<FINE> {
+impl<G: Grid> Crossing<G> {
     /// The edge down from `p` to `q`, in the row of a sample that is at a height between. Columns count from that
     /// sample's. The edge is less than 2^9 subpixels high, a fine one 2^12.
     #[inline(always)]
-    pub(super) fn new(p: [i32; 2], q: [i32; 2], [x, y]: [i32; 2]) -> Self {
+    pub(super) fn new(grid: G, p: [i32; 2], q: [i32; 2], [x, y]: [i32; 2]) -> Self {
         let [dx, dy] = [q[0] - p[0], (q[1] - p[1]).max(1)];
-        let column = const { column(FINE) };
-        let from = ((p[0] - x) << (column - const { bits(FINE) })) + (1 << column);
-        if FINE {
+        let column = column(grid);
+        let from = ((p[0] - x) << (column - grid.bits())) + (1 << column);
+        if grid.is_fine() {
             // The step is too large for edges that are less than a pixel high, which cross no other row.
-            let step = fine_quotient(dx << bits(true), dy);
-            Self { at: from - 1 + fine_quotient(dx * (y - p[1]), dy), step }
+            let step = fine_quotient(dx << Fine.bits(), dy);
+            Self { grid, at: from - 1 + fine_quotient(dx * (y - p[1]), dy), step }
         } else {
             let step = if LOW_WORDS_ONLY { quotient(dx, dy) } else { (dx << column) / dy };
-            Self { at: from - (1 << 7) + (step.wrapping_mul(y - p[1]) >> bits(false)), step }
+            Self { grid, at: from - (1 << 7) + (step.wrapping_mul(y - p[1]) >> Coarse.bits()), step }
         }
     }
 
     /// The column.
     #[inline(always)]
     pub(super) fn column(self) -> i32 {
-        self.at >> const { column(FINE) }
+        self.at >> column(self.grid)
     }
 
     /// Goes down one row.
@@ -170,7 +178,7 @@ impl<const FINE: bool> Crossing<FINE> {
 #[inline(always)]
 fn fine_quotient(n: i32, d: i32) -> i32 {
     const MOST: i32 = 1 << 13;
-    const FRACTION: u32 = column(true) - bits(true);
+    const FRACTION: u32 = FINE_COLUMN - 8;
     let (n, d) = (n.wrapping_add(d << 13).cast_unsigned(), d.cast_unsigned());
     let (whole, rest) = (n / d, ((n % d) << FRACTION) / d);
     (whole.cast_signed().wrapping_sub(MOST) << FRACTION).wrapping_add(rest.cast_signed())
@@ -211,12 +219,12 @@ mod tests {
     use std::println;
 
     /// The greatest differences of either sign, also those of which the magnitude is one less.
-    fn none_overflow<const FINE: bool>(corners: &[[[i32; 2]; 2]]) {
+    fn none_overflow(grid: impl Grid, corners: &[[[i32; 2]; 2]]) {
         let mut held = 0;
         for &[b, c] in corners {
             let area = (b[0] * c[1] - b[1] * c[0]).unsigned_abs();
             let extent = magnitude(b[0]) | magnitude(b[1]) | magnitude(c[0]) | magnitude(c[1]);
-            let shape = Shape::<FINE>::new([[0; 2], b, c], [0; 2], area, true, extent);
+            let shape = Shape::new(grid, [[0; 2], b, c], [0; 2], area, true, extent);
             for k in 0..21 {
                 let ends = [-1 << k, (1 << k) - 1, 1 - (1 << k)];
                 for (b, c) in ends.into_iter().flat_map(|b| ends.map(|c| (b, c))) {
@@ -237,7 +245,7 @@ mod tests {
 
     #[test]
     fn slopes_that_hold_do_not_overflow() {
-        none_overflow::<false>(&[
+        none_overflow(Coarse, &[
             [[-64, 3], [64, 4]],
             [[-255, 0], [0, 255]],
             [[16, 1], [0, 16]],
@@ -245,7 +253,7 @@ mod tests {
             [[-511, 0], [0, 511]],
             [[1, 511], [-1, 511]],
         ]);
-        none_overflow::<true>(&[
+        none_overflow(Fine, &[
             [[-64, 3], [64, 4]],
             [[-4095, 0], [0, 4095]],
             [[-8191, 0], [0, 8191]],
