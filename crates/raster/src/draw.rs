@@ -15,7 +15,7 @@ use crate::small::{Coarse, Either, Fine};
 use crate::target::Target;
 use crate::triangle::{Bounds, Corner, Cull, Numbers, Outcome, Reach, Vertex, doubled_area};
 use alberti_math::lanes::{Floating, Lanes, One};
-use alberti_math::{LOW_WORDS_ONLY, Sub8, Subpixel, Varying, map3};
+use alberti_math::{Sub8, Subpixel, Varying, map3};
 use core::ops::Range;
 
 /// The way from triangles on the screen to pixels: the half of the pipeline that knows no matrix and no mesh.
@@ -159,8 +159,7 @@ impl<F, P: Interpolation> Paint<F, P> {
         D: DepthFormat,
         K: Counters,
     {
-        // Where memory is scarce, one kernel does for both grids.
-        let drawn = if LOW_WORDS_ONLY {
+        let drawn = if cfg!(feature = "small-code") {
             let grid = Either { fine: self.subpixel == Sub8 };
             self.interpolation.draw_small(grid, self, target, [a, b, c], counters)
         } else {
@@ -187,7 +186,7 @@ impl<F, P: Interpolation> Paint<F, P> {
         D: DepthFormat,
         K: Counters,
     {
-        if !LOW_WORDS_ONLY && self.interpolation.draw_small(Fine, &self, target, corners, counters) {
+        if !cfg!(feature = "small-code") && self.interpolation.draw_small(Fine, &self, target, corners, counters) {
             return;
         }
         match self.reach(corners, &target.limits()) {

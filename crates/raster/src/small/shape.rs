@@ -113,7 +113,7 @@ fn reciprocal_18(x: u32) -> i32 {
     // so are factors with as many bits as count. Of x the first time 16 bits do.
     let left = |y: i32, lower: u32| {
         let y = y.cast_unsigned();
-        (1 << 30) - (high_of_half(upper, y) + ((lower * (y >> 2)) >> 16)).cast_signed()
+        (1 << 30) - (high_of_half(upper, y) + ((lower * (y >> 16)) >> 2)).cast_signed()
     };
     let y = first + (((first >> 14) * (left(first, 0) >> 8)) >> 8);
     y + (((y >> 15) * left(y, lower)) >> 15)
@@ -185,8 +185,8 @@ fn fine_quotient(n: i32, d: i32) -> i32 {
 }
 
 /// 2^16 / d, rounded down.
-static PER_HEIGHT: [u16; 257] = {
-    let mut table = [u16::MAX; 257];
+static PER_HEIGHT: [u16; 512] = {
+    let mut table = [u16::MAX; 512];
     let mut d = 2;
     while d < table.len() {
         #[expect(clippy::cast_possible_truncation, reason = "from 2 on")]
@@ -200,12 +200,9 @@ static PER_HEIGHT: [u16; 257] = {
 /// 2^21 dx / dy for |dx| and dy up to 2^9, within two units: without a division.
 #[inline(always)]
 fn quotient(dx: i32, dy: i32) -> i32 {
-    // The table has every second one of large heights.
-    let coarser = dy.cast_unsigned() >> 8;
-    let entry = PER_HEIGHT.get((dy.cast_unsigned() >> coarser) as usize).copied().unwrap_or(0);
-    let per_height = i32::from(entry >> coarser);
+    let per_height = i32::from(PER_HEIGHT.get(dy.cast_unsigned() as usize).copied().unwrap_or(0));
     let mut quotient = (dx * per_height) << 5;
-    // The first is within dy 2^-15, relatively, and each time what is left is as much smaller.
+    // The table is within dy 2^-16, relatively, and each time what is left is as much smaller.
     for _ in 0..2 {
         let left = (dx << 21) - quotient * dy;
         quotient += (left * per_height) >> 16;
