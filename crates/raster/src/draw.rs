@@ -186,7 +186,9 @@ impl<F, P: Interpolation> Paint<F, P> {
         D: DepthFormat,
         K: Counters,
     {
-        if !cfg!(feature = "small-code") && self.interpolation.draw_small(Fine, &self, target, corners, counters) {
+        if !cfg!(feature = "small-code")
+            && self.interpolation.draw_small(Fine, &self, target, corners, counters)
+        {
             return;
         }
         match self.reach(corners, &target.limits()) {

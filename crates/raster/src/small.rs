@@ -224,7 +224,8 @@ where
         ((east - west) | (cy - ay)).cast_unsigned(),
     );
     let longer = (east - west).max(cy - ay).cast_unsigned();
-    let Some(planes) = planes(grid, runs, (&shape, longer), [a, b, c, first], target.depth_format().bits()) else {
+    let Some(planes) = planes(grid, runs, (&shape, longer), [a, b, c, first], target.depth_format().bits())
+    else {
         return false;
     };
 

@@ -117,21 +117,23 @@ impl Board {
         profile: &str,
         names: &[&str],
     ) -> Result<PathBuf, String> {
-        self.build_with(toolchain, profile, names, None)
+        self.build_with(toolchain, profile, names, &[], None)
     }
 
-    /// The same with a variable set.
+    /// The same with features, and a variable set.
     pub(super) fn build_with(
         &self,
         toolchain: &Toolchain,
         profile: &str,
         names: &[&str],
+        features: &[&str],
         variable: Option<(&str, &str)>,
     ) -> Result<PathBuf, String> {
         let (manifest, [package, _]) = FIRMWARE;
         let mut build = toolchain.cargo("build", self.target);
         build.envs(variable).args(["--profile", profile, "--manifest-path", manifest, "--package", package]);
         build.args(names.iter().flat_map(|name| ["--bin", name]));
+        build.args(features.iter().flat_map(|feature| ["--features", feature]));
         command::run(&mut build)?;
         Ok(toolchain.directory(self.target).join(self.target.triple).join(profile))
     }

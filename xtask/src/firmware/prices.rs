@@ -101,7 +101,7 @@ fn frames(
 /// The bytes of code of programs that draw by one policy alone.
 fn sizes(board: &Board, toolchain: &Toolchain, right: &[Right], text: &mut String) -> Result<(), String> {
     for right in right.iter().take_while(|right| right.scene == "0") {
-        let folder = board.build_with(toolchain, "small", &[WEIGHED], Some((POLICY, &right.policy)))?;
+        let folder = board.build_with(toolchain, "small", &[WEIGHED], &[], Some((POLICY, &right.policy)))?;
         let program = read_program(&board.image(&folder, WEIGHED))?;
         let _ = writeln!(text, "{},code,{},{},,", board.name, field(right), program.text);
     }

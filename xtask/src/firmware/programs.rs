@@ -15,6 +15,8 @@ pub(super) const WEIGHED: [&str; 5] = ["size-flat", "size-textured", "size-lit",
 pub(super) const RENDERER: &str = "size-bands";
 /// The program that tells how much stack each takes.
 const STACK: &str = "stack";
+/// The feature of programs that have to fit.
+const SMALL_CODE: &str = "small-code";
 
 /// The most bytes that the renderer in bands may take of RAM, and of these for its stack.
 pub(super) const MOST_RAM: u64 = 48 * 1024;
@@ -25,7 +27,7 @@ pub(super) fn weigh(board: &Board, toolchain: &Toolchain) -> Result<(Vec<Row>, V
     let mut names = WEIGHED.to_vec();
     let is_counted = board.machine != Machine::Node;
     names.extend(is_counted.then_some(STACK));
-    let folder = board.build(toolchain, "small", &names)?;
+    let folder = board.build_with(toolchain, "small", &names, &[SMALL_CODE], None)?;
     let mut rows = Vec::new();
     let mut failures = Vec::new();
     let mut add = |name: &str, unit, figure| {

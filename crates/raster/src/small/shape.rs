@@ -94,7 +94,11 @@ impl<G: Grid> Shape<G> {
         let across = self.slope(more, self.right) >> (SLOPE - bits);
         let down = self.slope(more, self.down) >> (SLOPE - bits);
         let part = |slope: i32, origin: i32| {
-            if self.grid.is_fine() { (slope >> 8) * origin + (((slope & 255) * origin) >> 8) } else { (slope >> 4) * origin }
+            if self.grid.is_fine() {
+                (slope >> 8) * origin + (((slope & 255) * origin) >> 8)
+            } else {
+                (slope >> 4) * origin
+            }
         };
         let at = at.wrapping_add(part(across, self.origin[0])).wrapping_add(part(down, self.origin[1]));
         Ramp { at, across, down }
@@ -242,21 +246,27 @@ mod tests {
 
     #[test]
     fn slopes_that_hold_do_not_overflow() {
-        none_overflow(Coarse, &[
-            [[-64, 3], [64, 4]],
-            [[-255, 0], [0, 255]],
-            [[16, 1], [0, 16]],
-            [[1, 255], [-1, 255]],
-            [[-511, 0], [0, 511]],
-            [[1, 511], [-1, 511]],
-        ]);
-        none_overflow(Fine, &[
-            [[-64, 3], [64, 4]],
-            [[-4095, 0], [0, 4095]],
-            [[-8191, 0], [0, 8191]],
-            [[1, 8191], [-1, 8191]],
-            [[200, 900], [1000, 300]],
-        ]);
+        none_overflow(
+            Coarse,
+            &[
+                [[-64, 3], [64, 4]],
+                [[-255, 0], [0, 255]],
+                [[16, 1], [0, 16]],
+                [[1, 255], [-1, 255]],
+                [[-511, 0], [0, 511]],
+                [[1, 511], [-1, 511]],
+            ],
+        );
+        none_overflow(
+            Fine,
+            &[
+                [[-64, 3], [64, 4]],
+                [[-4095, 0], [0, 4095]],
+                [[-8191, 0], [0, 8191]],
+                [[1, 8191], [-1, 8191]],
+                [[200, 900], [1000, 300]],
+            ],
+        );
     }
 
     #[test]
