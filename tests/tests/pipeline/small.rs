@@ -117,12 +117,12 @@ impl Case {
         let one = f64::from(1 << self.subpixel.bits());
         let longest = self.longest();
         let side = if longest < 16.0 { 16.0 } else { 32.0 };
-        let fine = longest >= 16.0 || self.subpixel == Sub8;
+        let fine = self.subpixel == Sub8;
         let area = area2(self.tri).unsigned_abs() as f64 / (one * one);
         let steepness = |spread: f64| spread * 2.0 * side / area;
         let [za, zb, zc] = self.zs.map(f64::from);
         let deep = za.max(zb).max(zc) - za.min(zb).min(zc);
-        // A little less than the 2^18 units in which depths are followed, and where sides have 13 bits, of 2^16.
+        // A little less than the 2^18 units in which depths are followed, and where sides have 12 bits, of 2^16.
         let deepest = if format == AnyDepth::D16 { 0.24 } else { 0.95 / 1024.0 };
         let deepest = if fine { deepest / 4.0 } else { deepest };
         let widest = if fine { 0.95 } else { 30.0 };
@@ -239,8 +239,8 @@ fn keeps_its_bounds(
                 } else {
                     linear
                 };
-                // 1/2 for the vertices, 88/256 for the way, 1/2 for the result; the plain way's more.
-                let rounding = if small { 1.35 * STEP } else { 68.0 * STEP + case.spread() * 1e-3 };
+                // 1/2 for the vertices, 126/256 for the way, 1/2 for the result; the plain way's more.
+                let rounding = if small { 1.5 * STEP } else { 68.0 * STEP + case.spread() * 1e-3 };
                 for (got, exact, missed) in [(u, exact, missed), (v, linear, 0.0)] {
                     let (got, bound) = (f64::from(got), missed + rounding);
                     let error = (got - exact).abs();

@@ -110,7 +110,7 @@ impl Scene<'_> {
         };
         let bounded = matches!(self.options.policies.interpolation, Interpolation::Bounded(_));
         // Small ones are one run.
-        if shape.extent() < small && !bounded { in_runs.max(over_triangle + 1.35 / 65536.0) } else { in_runs }
+        if shape.extent() < small && !bounded { in_runs.max(over_triangle + 1.5 / 65536.0) } else { in_runs }
     }
 
     /// The ends of the run that the pixel is in, counted from it: multiples of the length, or the row's ends.

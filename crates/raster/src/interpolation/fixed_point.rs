@@ -37,21 +37,20 @@ use core::fmt;
 /// each column of the row may be wrong, and is rounded to the buffer's format.
 ///
 /// Triangles whose corners are less than 16 pixels apart on both axes, or 32 on the grid of `Sub4`, are drawn as one
-/// run. There the error is the miss of a straight line over the triangle and 1.35·2^-16; of depths in 16 bits, 2^-20
+/// run. There the error is the miss of a straight line over the triangle and 1.5·2^-16; of depths in 16 bits, 2^-20
 /// more. With n the pixels of the box's longer side, the line misses at most |Δu|/(4n), or the budget if there is one.
 /// So without a budget the ratio of q is at most about 1 + 1/n; it is never above 2, and q are normal numbers.
 /// Steeper ones are drawn in runs, and all under a policy of runs below 16 columns. So are those that carry more than
 /// 16, or differ in depth by more than 2^-10 (of depths in 16 bits, 1/4).
 ///
-/// `Sub4` below 16 pixels is the cheapest. From there on, and on the grid of `Sub8`, components may differ by less
-/// than 1, and depths by a quarter of that.
+/// `Sub4` is the cheapest. On the grid of `Sub8` components may differ by less than 1, and depths by a quarter of that.
 ///
 /// # Cost
 /// A fragment: an addition for the depth and one for each component. A run: a product for each component, and with
 /// perspective one of 32 bits to 64 more and two for the reciprocal. A row: two of 32 bits to 64 for each number. A
 /// triangle: some sixty instructions for the plane through each three. A vertex: about fifteen instructions for each
-/// number. A small triangle: ten products of 32 bits for each number, and two a row; twelve divisions if it is longer
-/// than 16 pixels, or on the grid of `Sub8`. `docs/kernel.md` has counts for three kinds of core.
+/// number. A small triangle: ten products of 32 bits for each number, and two a row; twelve divisions on the grid of
+/// `Sub8`. `docs/kernel.md` has counts for three kinds of core.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FixedPoint<R>(
     /// The division of rows.

@@ -141,7 +141,7 @@ impl Drawing<'_> {
                 let read = |(name, map, content): (&'static str, Option<scene::Map>, Content)| {
                     let of = any_map(self.model, &self.studio.chains, options, map?, content)?;
                     let value = Rgba8::from_bits(word(lanes, of.read(lanes, uv, &gradient)));
-                    Some(read(lanes, way(name, map?), Levels::Mipmap(of.0.mipmap()), at, value))
+                    Some(read(lanes, way(name, map?), Levels::Mipmap(*of.0.mipmap()), at, value))
                 };
                 used_maps(part, options.shading, by_vertex).into_iter().filter_map(read).collect()
             }
