@@ -38,7 +38,8 @@ use core::fmt::Debug;
 /// 1.9, of the mean by the fog's formula.
 ///
 /// # Cost
-/// The fog's, and two products, four sums and shifts. In RGB565 a product, and eight sums, shifts and masks.
+/// The fog's, and two products, four sums and shifts. In RGB565 a product, and ten sums, shifts and masks: with
+/// [`LinearFog`] 28 instructions more a pixel on a Cortex-M4F, 42 on a Cortex-M0+.
 #[derive(Clone, Copy, Debug)]
 pub struct Fogged<S, F, C = Rgba8> {
     /// The stage.
