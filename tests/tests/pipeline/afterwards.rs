@@ -126,10 +126,10 @@ impl Place {
 
 const SIDE: u32 = 8;
 
-/// Texels of any alpha, a quarter of which are the same.
+/// Texels of odd red and any alpha, a quarter of which are the same.
 fn texels() -> Vec<[u8; 4]> {
     let mut rng = Rng::stream(run_seed(), 77);
-    let texel = |k: u32| if k % 4 == 1 { KEY } else { (rng.u64() as u32).to_le_bytes() };
+    let texel = |k: u32| if k % 4 == 1 { KEY } else { (rng.u64() as u32 | 1).to_le_bytes() };
     (0..SIDE * SIDE).map(texel).collect()
 }
 

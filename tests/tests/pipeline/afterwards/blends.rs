@@ -1,6 +1,6 @@
 //! Blends and dithers, whose colours are those of texels and of the background, to the bit.
 
-use super::{GREATEST, PIXELS, Place, bare, bayer, each, levels, sampler, texels};
+use super::{GREATEST, PIXELS, bare, bayer, each, levels, sampler, texels};
 use alberti::shaders::Unlit;
 use alberti::texture::format;
 use alberti::{Rgb565Be, Rgba8888};
