@@ -1,6 +1,6 @@
-//! What comes after the fragment, drawn by passes over a whole frame, in floats by one lane and by several, and in fixed
-//! point: each against its formula in `f64`. The places that a pixel shows are found by rays, or, without perspective,
-//! on the screen.
+//! Blends, dithers, fogs and holes, drawn by passes over a whole frame: in floats by one lane and by several, and in
+//! fixed point. Each is held against its formula in `f64`. The places that a pixel shows are found by rays, or, without
+//! perspective, on the screen.
 #![allow(
     clippy::cast_possible_truncation,
     clippy::cast_possible_wrap,

@@ -86,7 +86,7 @@ fn fogs_on_stored_texels_are_as_near_as_they_say() {
     }
 }
 
-/// What is left out is as before.
+/// Pixels in holes are as before.
 fn has_holes<C: ColorFormat<Pixel: PartialEq>>(
     format: C,
     before: C::Pixel,
