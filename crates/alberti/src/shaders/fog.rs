@@ -384,10 +384,10 @@ mod tests {
     #[test]
     fn a_fog_mixes_levels_as_nearly_as_it_says() {
         let mut worst = [0.0_f64; 3];
-        for k in 0..30_000_u32 {
-            let texel = (k.wrapping_mul(0x9e37_79b1) >> 16) as u16;
-            let color = [0xffff, 0, 0x8410, !texel][k as usize % 4];
-            let z = f32::from(k as u16 % 4096) / 1024.0;
+        for k in 0..30_000_u16 {
+            let texel = k.wrapping_mul(0x9e37);
+            let color = [0xffff, 0, 0x8410, !texel][usize::from(k % 4)];
+            let z = f32::from(k % 4099) / 1024.0;
             let x = f64::from(z);
             let line = LinearFog { start: 1.0, end: 3.5 };
             let fogs = [
