@@ -15,12 +15,12 @@
 use alberti::glam::{Mat3, Vec2, Vec3};
 use alberti::lanes::{Floating, Machine, One};
 use alberti::raster::color::{
-    Additive, Average, Bayer, Blended, BlueNoise, Constant, Dithered, InLight, Multiply, Over, Premultiplied,
-    resolve,
+    Additive, Average, Bayer, Blended, BlueNoise, Constant, Dithered, Grey4, InLight, Multiply, Over,
+    Premultiplied, Rgb332, Rgb666, resolve, rgb565,
 };
 use alberti::shaders::fog::{ExponentialFog, Fog, Fogged, LinearFog, SquaredFog};
-use alberti::shaders::{AlphaDither, AlphaTest, Solid, Sunlit, Unlit};
-use alberti::texture::format::Rgba8888 as Texels;
+use alberti::shaders::{AlphaDither, AlphaTest, ColorKey, Solid, Stored, Sunlit, Unlit};
+use alberti::texture::format::{Rgb565, Rgba8888 as Texels};
 use alberti::texture::surface::{Grid, Parametric, Torus};
 use alberti::texture::{Nearest, Repeat, Texture};
 use alberti::{
@@ -39,6 +39,9 @@ const SIDE: u32 = 256;
 const BEFORE: Rgba8 = Rgba8::new(40, 120, 200, 255);
 /// The fog's colour.
 const MIST: Rgba8 = Rgba8::new(150, 160, 170, 255);
+
+/// The colour that is no colour.
+const KEY: u16 = 0;
 
 /// The square's corners: a place, its distance and its texture coordinates.
 const CORNERS: [(Vec3, Vec2); 4] = [
@@ -83,8 +86,16 @@ fn channels(pixel: u32) -> Channels {
     pixel.to_ne_bytes().map(f64::from)
 }
 
+/// Red, green and blue of a pixel of 16 bits.
+fn levels(pixel: u16) -> [f64; 3] {
+    [pixel >> 11, pixel >> 5 & 63, pixel & 31].map(f64::from)
+}
+
 fn afterwards(criterion: &mut Criterion) {
     let texels = texels();
+    let words: Vec<u16> = texels.iter().map(|&texel| rgb565(texel.into())).collect();
+    let stored = Texture::new(Rgb565, &words, SIDE, SIDE).expect("a texture");
+    let stored = Stored(stored.power_of_two().expect("a power of two").sampler(Nearest, Repeat));
     let texture = Texture::new(Texels, &texels, SIDE, SIDE).expect("a texture");
     let texture = texture.power_of_two().expect("a power of two").sampler(Nearest, Repeat);
     let surface = Unlit(texture);
@@ -98,6 +109,9 @@ fn afterwards(criterion: &mut Criterion) {
     let mut distances = vec![0; PIXELS];
     let tell = |distance: f32| Some(Rgba8::from_bits((distance * 65536.0) as u32));
     draw(One, Rgba8888, &mut distances, &mut depth, |v| (v.0, v.0.z), tell);
+
+    let mut packed = vec![0; PIXELS];
+    draw(One, Rgb565Le, &mut packed, &mut depth, bare, stored);
 
     let mut group = criterion.benchmark_group("afterwards");
     macro_rules! rows {
@@ -133,11 +147,12 @@ fn afterwards(criterion: &mut Criterion) {
     let light = |c: f64| if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) };
     let byte = |c: f64| if c <= 0.003_130_8 { c * 12.92 } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };
     // Dithered levels are one of the two about the colour.
-    let dithered = |k: usize, found: u16| {
-        let levels = [found >> 11, found >> 5 & 63, found & 31].map(f64::from);
+    let near = |k: usize, found: [f64; 3], greatest: [f64; 3]| {
         let texel = channels(plain[k]);
-        (0..3).all(|c| (levels[c] - texel[c] / 255.0 * [31.0, 63.0, 31.0][c]).abs() < 1.0)
+        (0..3).all(|c| (found[c] - texel[c] / 255.0 * greatest[c]).abs() < 1.0)
     };
+    let dithered = |k: usize, found: u16| near(k, levels(found), [31.0, 63.0, 31.0]);
+    let keyed = |k: usize, found: u16| found == if packed[k] == KEY { 0 } else { packed[k] };
     // A fog's amount, of the distance.
     let fogged = |amount: fn(f64) -> f64| {
         let (plain, distances) = (&plain, &distances);
@@ -172,6 +187,27 @@ fn afterwards(criterion: &mut Criterion) {
         "rgb565": Rgb565Le, 0, bare, surface, dithered;
         "rgb565 bayer": Dithered { format: Rgb565Le, by: Bayer }, 0, bare, surface, dithered;
         "rgb565 blue noise": Dithered { format: Rgb565Le, by: BlueNoise }, 0, bare, surface, dithered;
+        "stored": Rgb565Le, 0, bare, stored, |k: usize, found: u16| found == packed[k];
+        "color key": Rgb565Le, 0, bare, ColorKey { surface: stored, key: KEY }, keyed;
+        "linear fog on stored": Rgb565Le, 0, |v: &_| misty(v, &|z| linear.coordinate(z)),
+            Fogged { surface: stored, fog: linear, color: rgb565(MIST) },
+            |k: usize, found: u16| {
+                let z = f64::from(u32::from_ne_bytes(distances[k].to_ne_bytes())) / 65536.0;
+                let fog = ((z - 2.0) / 2.0).clamp(0.0, 1.0);
+                let [texel, mist, found] = [packed[k], rgb565(MIST), found].map(levels);
+                (0..3).all(|c| (texel[c] * (1.0 - fog) + mist[c] * fog - found[c]).abs() < 2.0)
+            };
+        "rgb332": Rgb332, 0, bare, surface, |k: usize, found: u8| {
+            near(k, [found >> 5, found >> 2 & 7, found & 3].map(f64::from), [7.0, 7.0, 3.0])
+        };
+        "rgb666": Rgb666, [0; 3], bare, surface, |k: usize, found: [u8; 3]| {
+            near(k, found.map(|byte| f64::from(byte >> 2)), [63.0; 3])
+        };
+        "grey4 bayer": Dithered { format: Grey4, by: Bayer }, 0, bare, surface, |k: usize, found: u8| {
+            let [r, g, b, _] = channels(plain[k]);
+            let grey = 0.299 * r + 0.587 * g + 0.114 * b;
+            (f64::from(found) - grey / 17.0).abs() < 1.1
+        };
         "linear fog": Rgba8888, before, |v: &_| misty(v, &|z| linear.coordinate(z)),
             Fogged { surface, fog: linear, color: MIST }, fogged(|z| ((z - 2.0) / 2.0).clamp(0.0, 1.0));
         "exponential fog": Rgba8888, before, |v: &_| misty(v, &|z| exponential.coordinate(z)),

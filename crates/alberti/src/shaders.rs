@@ -11,7 +11,7 @@
 //! | [`Tinted`] | the wrapped stage's | the wrapped stage's times a colour |
 //! | [`Sunlit`] | `(Vec3, V)`: a normal and the wrapped stage's | the wrapped stage's, lit |
 //! | [`Lit565`] | `(Light, V)`: a [`Light`] and the wrapped stage's | the wrapped stage's in 16 bits, lit |
-//! | [`AlphaTest`], [`AlphaDither`] | the wrapped stage's | the wrapped stage's, with holes |
+//! | [`AlphaTest`], [`ColorKey`], [`AlphaDither`] | the wrapped stage's | the wrapped stage's, with holes |
 //! | [`Fogged`](fog::Fogged) | `(f32, V)`: a fog's coordinate and the wrapped stage's | the wrapped stage's, fading |
 //! | [`Slide`] | `(Homogeneous, V)`: a place on an image and the wrapped stage's | the wrapped stage's, the image on it |
 //!
@@ -23,7 +23,7 @@
 /// derivatives that this stage has is named.
 macro_rules! as_surface {
     ($varying:ty, |$gradient:ident| $part:expr) => {
-        type Color = Rgba8;
+        type Color = S::Color;
         type Derivatives = S::Derivatives;
         const WIDE: bool = S::WIDE;
         const SETTLES: bool = S::SETTLES;
@@ -66,7 +66,7 @@ mod tinted;
 pub mod wide;
 
 pub use color::{Ready565, Solid, VertexColor, VertexColor565};
-pub use cutout::{AlphaDither, AlphaTest};
+pub use cutout::{AlphaDither, AlphaTest, ColorKey};
 pub use lit::{Light, Lit565};
 pub use map::{Called, Map, Times};
 pub use slide::{Mix, Slide};

@@ -273,6 +273,10 @@ impl Coverage<'_> {
     ///
     /// # Precision
     /// The part is rounded to 255ths, of bytes or of light; then each channel correctly.
+    ///
+    /// # Cost
+    /// A word a pixel. One that is covered in part: both colours, and [`Over`], of light in [`InLight`]. Of bytes in
+    /// RGB565, with a torus in the frame, 8.5 instructions a pixel of it on a Cortex-M4F, 12 on a Cortex-M0+.
     pub fn resolve<C: ReadColor, D: DepthFormat>(
         &self,
         target: &mut Target<'_, C, D>,

@@ -349,6 +349,10 @@ where
         let (words, kept) = self.stage.shade(&Fragments { lanes, varying, gradient, mask: seen, place });
         // A stage may answer for samples that it was not asked for.
         let kept = kept & seen;
+        // One sample in a hole is done with; where there are no holes, nobody asks.
+        if const { L::COUNT == 1 } && lanes.bits(kept) == 0 {
+            return 0;
+        }
         color_format.store::<L, F::Color>(lanes, words, kept, place, color);
         depth_format.keep(lanes, &zs, kept, depth);
         lanes.bits(kept).count_ones()

@@ -267,15 +267,12 @@ where
                             let place = [column, row];
                             let (word, kept) =
                                 stage.shade(&Fragments { lanes, varying, gradient, mask: true, place });
-                            formats.0.store::<OneFixed, F::Color>(
-                                lanes,
-                                word,
-                                kept,
-                                place,
-                                array::from_mut(color),
-                            );
-                            formats.1.keep(lanes, &new, kept, array::from_mut(stored));
-                            written += u32::from(kept);
+                            if kept {
+                                let color = array::from_mut(color);
+                                formats.0.store::<OneFixed, F::Color>(lanes, word, true, place, color);
+                                formats.1.keep(lanes, &new, true, array::from_mut(stored));
+                                written += 1;
+                            }
                         }
                         depth = depth.wrapping_add(planes.zs.across);
                         cursor = V::map_by_mode(

@@ -1,6 +1,7 @@
 //! Tests of the pipeline across crates: vertices, clipping, coverage, bands and whole pictures. Each kernel is compiled
 //! once for all that draw by it. A module's tests have its name: `cargo test -p alberti-tests bands::`.
 
+mod afterwards;
 mod bands;
 mod clipping;
 mod coverage;

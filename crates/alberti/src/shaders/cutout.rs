@@ -1,21 +1,59 @@
-//! Holes: fragments of another stage that its alpha leaves out.
+//! Holes: fragments of another stage that its alpha, or a colour, leaves out.
 
+use alberti_math::Varying;
 use alberti_math::lanes::Lanes;
-use alberti_math::{Rgba8, Varying};
 use alberti_raster::color::Pattern;
-use alberti_raster::{FragmentStage, Fragments, Gradient};
+use alberti_raster::{FragmentColor, FragmentStage, Fragments, Gradient};
 
 /// The alpha test: of another stage's fragments, those with an alpha of at least so much, as they are. For leaves and
-/// fences, in any order and with a depth buffer.
+/// fences, in any order and with a depth buffer. Colours are [`Rgba8`](alberti_math::Rgba8), or the four bytes of such
+/// texels; words without alpha do not compile, and have [`ColorKey`].
+///
+/// # Precision
+/// Exact.
 ///
 /// # Cost
-/// A shift and a comparison.
+/// A shift and a comparison. A textured pixel in fixed point takes 39 instructions on a Cortex-M4F where 41 % are
+/// drawn, and 53 without the test; on a Cortex-M0+ 81 and 93.
 #[derive(Clone, Copy, Debug)]
 pub struct AlphaTest<S> {
     /// The stage.
     pub surface: S,
     /// The least alpha that is drawn; 0 draws all.
     pub least: u8,
+}
+
+/// A colour key: of another stage's fragments, those of any other colour, as they are. It cuts holes into textures
+/// without alpha, such as RGB565 or indices into a palette, as the target [stores](super::Stored) them.
+///
+/// ```
+/// use alberti::FragmentStage;
+/// use alberti::glam::Vec2;
+/// use alberti::shaders::{ColorKey, Stored};
+/// use alberti::texture::{Nearest, Repeat, Texture, format::Rgb565};
+///
+/// let texture = Texture::new(Rgb565, &[0xf81f, 0x07e0], 2, 1)?;
+/// let stage = ColorKey { surface: Stored(texture.sampler(Nearest, Repeat)), key: 0xf81f };
+/// assert_eq!(stage.shade_one(Vec2::new(0.25, 0.5)), None);
+/// assert_eq!(stage.shade_one(Vec2::new(0.75, 0.5)), Some(0x07e0));
+/// # Ok::<(), alberti::texture::TextureError>(())
+/// ```
+///
+/// Filters that mix texels mix the key into their neighbours. [`Nearest`](alberti_texture::Nearest) and
+/// [`TexelDither`](super::TexelDither) mix none. Stages that change colours, as [`Lit565`](super::Lit565) or
+/// [`Fogged`](super::fog::Fogged), belong around it.
+///
+/// # Precision
+/// Exact: all bits of the word are compared, alpha among them.
+///
+/// # Cost
+/// A comparison: 3 instructions more a pixel on a Cortex-M4F and on a Cortex-M0+.
+#[derive(Clone, Copy, Debug)]
+pub struct ColorKey<S, C> {
+    /// The stage.
+    pub surface: S,
+    /// The colour that is not drawn.
+    pub key: C,
 }
 
 /// Screen-door transparency: of another stage's fragments, a part as large as their alpha, by a pattern of pixels.
@@ -26,7 +64,8 @@ pub struct AlphaTest<S> {
 /// 0, all at 255.
 ///
 /// # Cost
-/// A load from the pattern's table, a shift and a comparison.
+/// A load from the pattern's table, a shift and a comparison. A textured pixel in fixed point takes 46 instructions on
+/// a Cortex-M4F where 37 % are drawn, and 53 without the pattern; on a Cortex-M0+ 90 and 93.
 #[derive(Clone, Copy, Debug)]
 pub struct AlphaDither<S, P> {
     /// The stage.
@@ -35,33 +74,45 @@ pub struct AlphaDither<S, P> {
     pub by: P,
 }
 
+/// The alpha of colours that have one.
+#[inline(always)]
+fn alpha<L: Lanes, C: FragmentColor>(lanes: L, colors: L::U32) -> L::U32 {
+    const { assert!(C::IS_COLOR, "the stage's colours have no alpha: ColorKey leaves out one of them") };
+    lanes.shr(colors, 24)
+}
+
 /// A wrapping stage whose fragments are kept where `kept` says.
 macro_rules! keeps {
-    ($(<$($generic:ident: $bound:path),*> $name:ty: |$self:ident, $fragments:ident, $alpha:ident| $kept:expr;)*) => {$(
-        impl<V: Varying, S: FragmentStage<V, Color = Rgba8> $(, $generic: $bound)*> FragmentStage<V> for $name {
+    ($(<$($generic:ident: $bound:path),*> $name:ty: |$self:ident, $fragments:ident, $colors:ident| $kept:expr;)*) => {$(
+        impl<V: Varying, C: FragmentColor, S: FragmentStage<V, Color = C> $(, $generic: $bound)*> FragmentStage<V>
+            for $name
+        {
             as_surface!(V, |gradient| gradient);
 
             #[inline(always)]
             fn shade<L: Lanes>(&$self, $fragments: &Fragments<L, V>) -> (L::U32, L::Mask) {
-                let (colors, mask) = $self.surface.shade($fragments);
-                let $alpha = $fragments.lanes.shr(colors, 24);
-                (colors, mask & $kept)
+                let ($colors, mask) = $self.surface.shade($fragments);
+                ($colors, mask & $kept)
             }
         }
     )*};
 }
 keeps! {
-    <> AlphaTest<S>: |self, fragments, alpha| {
+    <> AlphaTest<S>: |self, fragments, colors| {
         let lanes = fragments.lanes;
-        !lanes.less_words(alpha, lanes.word(self.least.into()))
+        !lanes.less_words(alpha::<L, C>(lanes, colors), lanes.word(self.least.into()))
     };
-    <P: Pattern> AlphaDither<S, P>: |self, fragments, alpha| {
+    <> ColorKey<S, C>: |self, fragments, colors| {
+        let lanes = fragments.lanes;
+        !lanes.equal_words(colors, lanes.word(self.key.to_word()))
+    };
+    <P: Pattern> AlphaDither<S, P>: |self, fragments, colors| {
         let (lanes, [column, row]) = (fragments.lanes, fragments.place);
         let columns = lanes.each(|k| {
             let column = column.wrapping_add(i32::try_from(k).unwrap_or(0));
             self.by.threshold([column, row])
         });
-        lanes.less_words(lanes.load_words(&columns), alpha)
+        lanes.less_words(lanes.load_words(&columns), alpha::<L, C>(lanes, colors))
     };
 }
 
@@ -69,8 +120,8 @@ keeps! {
 mod tests {
     use super::*;
     use crate::shaders::Solid;
-    use alberti_math::Gradient;
     use alberti_math::lanes::One;
+    use alberti_math::{Gradient, Rgba8};
     use alberti_raster::color::{Bayer, BlueNoise};
 
     #[test]
@@ -81,7 +132,26 @@ mod tests {
             let color = Rgba8::new(1, 2, 3, alpha);
             let found = AlphaTest { surface: Solid(color), least }.shade_one(());
             assert_eq!(found, kept.then_some(color), "{alpha} {least}");
+            let texel = Solid(color.to_bytes());
+            assert_eq!(AlphaTest { surface: texel, least }.shade_one(()), kept.then_some(color.to_bytes()));
         }
+    }
+
+    #[test]
+    fn a_key_leaves_out_one_colour() {
+        fn keyed<C: FragmentColor>(color: C, key: C) -> bool {
+            ColorKey { surface: Solid(color), key }.shade_one(()).is_none()
+        }
+        for bit in 0..16 {
+            assert!(keyed(0xa5c3_u16, 0xa5c3) && !keyed(0xa5c3_u16, 0xa5c3 ^ 1 << bit));
+            assert!(
+                keyed([0xc3, 0xa5], [0xc3, 0xa5])
+                    && !keyed([0xc3, 0xa5], (0xa5c3_u16 ^ 1 << bit).to_le_bytes())
+            );
+        }
+        assert!(keyed(7_u8, 7) && !keyed(7_u8, 6));
+        let [clear, opaque] = [0, 255].map(|alpha| Rgba8::new(1, 2, 3, alpha));
+        assert!(keyed(clear, clear) && !keyed(clear, opaque));
     }
 
     fn drawn(by: impl Pattern, alpha: u8, side: i32) -> u32 {

@@ -2,13 +2,18 @@
 
 use alberti_math::lanes::Lanes;
 use alberti_math::{Rgba8, Varying};
-use alberti_raster::{FragmentStage, Fragments, Gradient};
+use alberti_raster::{FragmentColor, FragmentStage, Fragments, Gradient};
+use alberti_texture::format::Rgb565;
 use core::fmt::Debug;
 
 /// Another stage's colour, fading into that of a fog.
 ///
 /// Vertices carry the fog's [`coordinate`](Fog::coordinate) beside what the stage needs. It is linear in space, so that
 /// it is interpolated exactly whatever the triangle's size.
+///
+/// The stage's colours are of 8 bits a channel, or words of 16 bits, which are RGB565: those of
+/// [`Stored`](super::Stored) texels, under [light](super::Lit565) or not. The fog's is such a word then, as
+/// [`rgb565`](alberti_raster::color::rgb565) makes it.
 ///
 /// ```
 /// use alberti::shaders::fog::{ExponentialFog, Fog, Fogged};
@@ -29,18 +34,20 @@ use core::fmt::Debug;
 /// ```
 ///
 /// # Precision
-/// The fog's, and half a byte: amounts are 256ths.
+/// The fog's, and half a byte: amounts are 256ths. In RGB565 they are 32nds: each channel is within 1.2 levels, green
+/// 1.9, of the mean by the fog's formula.
 ///
 /// # Cost
-/// The fog's, and two products, four sums and shifts.
+/// The fog's, and two products, four sums and shifts. In RGB565 a product, and ten sums, shifts and masks: with
+/// [`LinearFog`] 28 instructions more a pixel on a Cortex-M4F, 42 on a Cortex-M0+.
 #[derive(Clone, Copy, Debug)]
-pub struct Fogged<S, F> {
+pub struct Fogged<S, F, C = Rgba8> {
     /// The stage.
     pub surface: S,
     /// The law.
     pub fog: F,
-    /// The fog's colour; the surface's alpha is kept.
-    pub color: Rgba8,
+    /// The fog's colour, as the stage has them; the surface's alpha is kept.
+    pub color: C,
 }
 
 /// A law by which a fog grows.
@@ -245,20 +252,36 @@ const fn parts(part: f64) -> u16 {
     if parts > 65535.0 { 65535 } else { parts as u16 }
 }
 
-impl<S, F: Fog> Fogged<S, F> {
+impl<S, F: Fog, C: FragmentColor> Fogged<S, F, C> {
     /// Colours behind the fog, of which so much is before them.
     #[inline(always)]
     pub fn on<L: Lanes>(&self, lanes: L, coordinate: L::Number, surface: L::U32) -> L::U32 {
-        let amount = self.fog.amount(lanes, coordinate);
-        let bytes = lanes.word(0x00ff_00ff);
-        let color = self.color.to_bits();
-        let red_blue = mixed(lanes, surface & bytes, lanes.word(color & 0x00ff_00ff), amount);
-        let near = lanes.shr(surface, 8);
-        // Alpha stays: both are the surface's.
-        let far = (near & lanes.word(0x00ff_0000)) | lanes.word(color >> 8 & 0xff);
-        let green_alpha = mixed(lanes, near & bytes, far, amount);
-        red_blue | lanes.shl(green_alpha, 8)
+        let (amount, color) = (self.fog.amount(lanes, coordinate), self.color.to_word());
+        if const { C::IS_COLOR } {
+            return bytes(lanes, surface, color, amount);
+        }
+        const {
+            assert!(
+                C::IS_COLOR || size_of::<C>() == 2,
+                "the stage's colours are no RGB565: let them be Rgba8 before a fog"
+            );
+        };
+        let [near, far] = [surface, lanes.word(color)].map(|texel| Rgb565::spread(lanes, texel));
+        let amount = lanes.shr(amount + lanes.word(4), 3);
+        Rgb565::gathered(lanes, Rgb565::blended(lanes, near, far, amount))
     }
+}
+
+/// Colours of bytes, of which the far one has a part of so many 256ths.
+#[inline(always)]
+fn bytes<L: Lanes>(lanes: L, surface: L::U32, color: u32, amount: L::U32) -> L::U32 {
+    let bytes = lanes.word(0x00ff_00ff);
+    let red_blue = mixed(lanes, surface & bytes, lanes.word(color & 0x00ff_00ff), amount);
+    let near = lanes.shr(surface, 8);
+    // Alpha stays: both are the surface's.
+    let far = (near & lanes.word(0x00ff_0000)) | lanes.word(color >> 8 & 0xff);
+    let green_alpha = mixed(lanes, near & bytes, far, amount);
+    red_blue | lanes.shl(green_alpha, 8)
 }
 
 /// Two bytes in the halves of a word, of which the far ones have a part of so many 256ths.
@@ -267,7 +290,9 @@ fn mixed<L: Lanes>(lanes: L, near: L::U32, far: L::U32, amount: L::U32) -> L::U3
     lanes.shr(lanes.mix_halves(near, far, amount) + lanes.word(0x0080_0080), 8) & lanes.word(0x00ff_00ff)
 }
 
-impl<V: Varying, S: FragmentStage<V, Color = Rgba8>, F: Fog> FragmentStage<(f32, V)> for Fogged<S, F> {
+impl<V: Varying, C: FragmentColor, S: FragmentStage<V, Color = C>, F: Fog> FragmentStage<(f32, V)>
+    for Fogged<S, F, C>
+{
     as_surface!((f32, V), |gradient| &gradient.map(|(_, part)| part));
 
     #[inline(always)]
@@ -352,6 +377,39 @@ mod tests {
                     assert!((f32::from(found) - expected).abs() <= 0.5, "{byte} {part}: {found} {expected}");
                 }
             }
+        }
+    }
+
+    /// Words of 16 bits against the mean in reals of each channel, by the formula of each fog.
+    #[test]
+    fn a_fog_mixes_levels_as_nearly_as_it_says() {
+        let mut worst = [0.0_f64; 3];
+        for k in 0..30_000_u16 {
+            let texel = k.wrapping_mul(0x9e37);
+            let color = [0xffff, 0, 0x8410, !texel][usize::from(k % 4)];
+            let z = f32::from(k % 4099) / 1024.0;
+            let x = f64::from(z);
+            let line = LinearFog { start: 1.0, end: 3.5 };
+            let fogs = [
+                (AnyFog::Linear(line), ((x - 1.0) / 2.5).clamp(0.0, 1.0)),
+                (AnyFog::Exponential(ExponentialFog { density: 1.0 }), 1.0 - E.powf(-x)),
+                (AnyFog::Squared(SquaredFog { density: 1.0 }), 1.0 - E.powf(-x * x)),
+            ];
+            for (fog, amount) in fogs {
+                let stage = Fogged { surface: Solid(texel), fog, color };
+                let found = stage.shade_one((fog.coordinate(z), ())).expect("not discarded");
+                let bytes = Fogged { surface: Solid(texel.to_le_bytes()), fog, color: color.to_le_bytes() };
+                assert_eq!(bytes.shade_one((fog.coordinate(z), ())), Some(found.to_le_bytes()));
+                for (channel, (shift, mask)) in [(11, 31), (5, 63), (0, 31)].into_iter().enumerate() {
+                    let [near, far, found] =
+                        [texel, color, found].map(|word| f64::from(word >> shift & mask));
+                    let off = (near * (1.0 - amount) + far * amount - found).abs();
+                    worst[channel] = worst[channel].max(off);
+                }
+            }
+        }
+        for (worst, bound) in worst.into_iter().zip([1.2, 1.9, 1.2]) {
+            assert!(worst <= bound && worst > 0.8 * bound, "{worst} of {bound}");
         }
     }
 }

@@ -25,8 +25,7 @@ use core::fmt::Debug;
 ///
 /// # Cost
 /// That of reading the pixel, and of the blend. Where a format has a way of its own, as RGB565 has, [`Over`] and
-/// [`Constant`] take that. It is 19 to 21 instructions more a pixel on a Cortex-M4F, 24 to 27 on a Cortex-M0+. Others
-/// go by colours of 8 bits a channel: [`Additive`] takes 44 and 67.
+/// [`Constant`] take that. Others go by colours of 8 bits a channel.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
@@ -155,7 +154,10 @@ fn summed<L: Lanes>(lanes: L, whole: L::U32, part: L::U32, share: L::U32) -> L::
 /// Source · alpha + destination · (1 − alpha): the usual one, for colours that are not multiplied by their alpha.
 ///
 /// # Precision
-/// Correctly rounded in bytes.
+/// Correctly rounded in bytes; in RGB565 as its [mean](ReadColor::mix).
+///
+/// # Cost
+/// Four products of a word; in RGB565 one, which is 19 instructions more a pixel on a Cortex-M4F, 27 on a Cortex-M0+.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Over;
 
@@ -184,7 +186,10 @@ impl Blend for Over {
 /// [`Over`] by the same alpha for all, in 255ths, whatever that of the source is.
 ///
 /// # Precision
-/// Correctly rounded in bytes.
+/// That of [`Over`].
+///
+/// # Cost
+/// That of [`Over`]; in RGB565 21 instructions more a pixel on a Cortex-M4F, 24 on a Cortex-M0+.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
@@ -221,6 +226,10 @@ impl Blend for Constant {
 ///
 /// # Precision
 /// Correctly rounded in bytes.
+///
+/// # Cost
+/// Two products of a word, and sums that stop at 255. By way of bytes in RGB565 it is 56 instructions more a pixel on a
+/// Cortex-M4F, 81 on a Cortex-M0+.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Premultiplied;
 
@@ -247,6 +256,10 @@ impl Blend for Premultiplied {
 ///
 /// # Precision
 /// Correctly rounded in bytes.
+///
+/// # Cost
+/// Two products of a word, and sums that stop at 255. By way of bytes in RGB565 it is 44 instructions more a pixel on a
+/// Cortex-M4F, 67 on a Cortex-M0+.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Additive;
 
@@ -274,6 +287,9 @@ impl Blend for Additive {
 ///
 /// # Precision
 /// Correctly rounded in bytes.
+///
+/// # Cost
+/// Three products. By way of bytes in RGB565 it is 42 instructions more a pixel on a Cortex-M4F, 65 on a Cortex-M0+.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Multiply;
 
@@ -309,7 +325,8 @@ impl Blend for Multiply {
 /// [`srgb`].
 ///
 /// # Cost
-/// A sample after the other: six loads and three searches of eight steps, in tables of a kilobyte together.
+/// A sample after the other: six loads and three searches of eight steps, in tables of a kilobyte together. Around
+/// [`Over`] in RGB565 it is 213 instructions more a pixel on a Cortex-M4F, 912 on a Cortex-M0+.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct InLight<B>(
     /// The blend.

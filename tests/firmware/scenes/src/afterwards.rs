@@ -7,17 +7,18 @@ use crate::{Camera, HEIGHT, PIXELS, Target, WIDTH};
 use alberti::glam::Vec2;
 use alberti::lanes::One;
 use alberti::raster::color::{
-    Average, Bayer, Blended, BlueNoise, Dithered, Multiply, Premultiplied, resolve,
+    Average, Bayer, Blended, BlueNoise, Dithered, InLight, Multiply, Over, Premultiplied, resolve, rgb565,
 };
-use alberti::shaders::fog::{ExponentialFog, Fog, Fogged, LinearFog};
-use alberti::shaders::{AlphaDither, AlphaTest, Solid, Unlit};
+use alberti::shaders::fog::{ExponentialFog, Fog, Fogged, LinearFog, SquaredFog};
+use alberti::shaders::{AlphaDither, AlphaTest, ColorKey, Solid, Stored, Unlit};
 use alberti::texture::{Nearest, Repeat};
 use alberti::{
-    Affine, Counters, D16, FixedPoint, Geometry, Mesh, Object, Pass, Point3, Rgb565Le, Rgba8, Silhouette,
-    Sub4, View,
+    Affine, Biased, Counters, D16, FixedPoint, Geometry, Mesh, Object, Pass, Point3, Rgb565Le, Rgba8,
+    Silhouette, Sub4, View,
 };
 
 const FOG: ExponentialFog = ExponentialFog { density: 0.3 };
+const SOFT: SquaredFog = SquaredFog { density: 0.3 };
 const HAZE: LinearFog = LinearFog { start: 1.0, end: 8.0 };
 const MIST: Rgba8 = Rgba8::new(150, 160, 170, 255);
 
@@ -29,6 +30,18 @@ draws! {
     /// The same in one that grows as the distance.
     hazy(model): FixedPoint(Affine), |v: &Vertex| misty(v, HAZE),
         Fogged { surface: Unlit(TEXTURE.sampler(Nearest, Repeat)), fog: HAZE, color: MIST };
+
+    /// The same in one that begins softly.
+    squared(model): FixedPoint(Affine), |v: &Vertex| misty(v, SOFT),
+        Fogged { surface: Unlit(TEXTURE.sampler(Nearest, Repeat)), fog: SOFT, color: MIST };
+
+    /// The nearest texel as it is stored in a fog that grows as the distance.
+    hazy_stored(model): FixedPoint(Affine), |v: &Vertex| misty(v, HAZE),
+        Fogged { surface: Stored(TEXTURE.sampler(Nearest, Repeat)), fog: HAZE, color: rgb565(MIST) };
+
+    /// The nearest texel as it is stored, but for one in 500.
+    keyed(model): FixedPoint(Affine), mapped,
+        ColorKey { surface: Stored(TEXTURE.sampler(Nearest, Repeat)), key: 0x100d };
 
     /// The nearest texel where it is green enough.
     alpha_tested(model): FixedPoint(Affine), mapped,
@@ -68,8 +81,21 @@ formats! {
     /// The nearest texel over what is there, from which its green is taken.
     premultiplied: Blended { format: Rgb565Le, by: Premultiplied }, glass();
 
+    /// The nearest texel as opaque as it is green, in light.
+    in_light: Blended { format: Rgb565Le, by: InLight(Over) }, glass();
+
     /// The nearest texel as a filter of what is there.
     multiplied: Blended { format: Rgb565Le, by: Multiply }, glass();
+}
+
+/// The nearest texel on a mesh that is nearer than it is.
+pub fn biased<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    let mesh = Mesh::new(model.vertices, model.triangles, mapped);
+    let Target { color, depth, slots, .. } = target;
+    let format = Biased { format: D16, constant: -2.0, slope: -1.0, clamp: 0.0 };
+    let pixels = alberti::Target::new(Rgb565Le, format, WIDTH, HEIGHT, color, depth);
+    let stage = Stored(TEXTURE.sampler(Nearest, Repeat));
+    draw(pixels, camera, model, &mesh, stage, FixedPoint(Affine), &mut slots.mapped, counters);
 }
 
 /// The edges of a mesh's triangles, a pixel wide.

@@ -9,14 +9,15 @@
 mod afterwards;
 mod draws;
 mod floor;
+mod formats;
 pub mod policies;
 pub mod renderer;
 pub mod shapes;
 pub mod torus;
 
 pub use afterwards::{
-    alpha_dithered, alpha_tested, dithered, fogged, hazy, multiplied, noisy, premultiplied, sampled, smooth,
-    wireframe,
+    alpha_dithered, alpha_tested, biased, dithered, fogged, hazy, hazy_stored, in_light, keyed, multiplied,
+    noisy, premultiplied, sampled, smooth, squared, wireframe,
 };
 pub use draws::{
     additive_fixed, affine_fixed, affine_integers, affine_mesh, affine_mesh_sub8, affine_meshlets,
@@ -34,6 +35,7 @@ pub use floor::{
     trilinear, trilinear_fixed, trilinear_spans, trilinear_spans_fixed, trilinear_stored_fixed,
     trilinear_stored_spans_fixed,
 };
+pub use formats::{grey4, indexed, rgb332, rgb444, rgb666};
 pub use renderer::{Renderer, meshlets_renderer};
 pub use shapes::PROBE;
 
@@ -126,12 +128,21 @@ pub static SCENES: &[Scene] = &[
     fill!("fixed-additive-4", 4, additive_fixed),
     fill!("fixed-premultiplied", 1, premultiplied),
     fill!("fixed-multiply", 1, multiplied),
+    fill!("fixed-in-light", 1, in_light),
     fill!("fixed-alpha-test", 1, alpha_tested),
+    fill!("fixed-color-key", 1, keyed),
     fill!("fixed-alpha-dither", 1, alpha_dithered),
     fill!("fixed-fog-linear", 1, hazy),
     fill!("fixed-fog-exponential", 1, fogged),
+    fill!("fixed-fog-squared", 1, squared),
+    fill!("fixed-fog-stored", 1, hazy_stored),
     fill!("fixed-dither-bayer", 1, dithered),
     fill!("fixed-dither-noise", 1, noisy),
+    fill!("fixed-rgb444", 1, rgb444),
+    fill!("fixed-rgb666", 1, rgb666),
+    fill!("fixed-rgb332", 1, rgb332),
+    fill!("fixed-grey4", 1, grey4),
+    fill!("fixed-indexed", 1, indexed),
     fill!("fixed-textured", 1, textured_fixed),
     fill!("fixed-textured-4", 4, textured_fixed),
     fill!("fixed-bilinear", 1, bilinear_fixed),
@@ -147,6 +158,7 @@ pub static SCENES: &[Scene] = &[
     scene!("fixed-mesh-sampled", torus(1.0), sampled),
     scene!("fixed-mesh-gouraud", torus(1.0), gouraud_mesh),
     scene!("fixed-mesh-affine", torus(1.0), affine_mesh),
+    scene!("fixed-mesh-biased", torus(1.0), biased),
     scene!("fixed-mesh", torus(1.0), textured_fixed),
     scene!("fixed-mesh-sub8", torus(1.0), affine_mesh_sub8),
     scene!("fixed-mesh-coarse", coarse_torus(), affine_mesh),
@@ -221,8 +233,8 @@ impl Camera {
 }
 
 /// The memory of a frame: colour in little-endian RGB565, depth in 16 bits, the transformed vertices, the list of the
-/// triangles in bands, the words of a silhouette's band, the samples of a larger frame's band; and that of a renderer
-/// in bands.
+/// triangles in bands, the words of a silhouette's band, the samples of a larger frame's band; that of a renderer in
+/// bands; and colour in other formats.
 #[derive(Debug)]
 pub struct Target {
     color: [u16; PIXELS],
@@ -232,6 +244,7 @@ pub struct Target {
     cells: [i32; afterwards::CELLS],
     samples: ([u16; afterwards::SAMPLES], [u16; afterwards::SAMPLES]),
     renderer: Renderer,
+    bytes: formats::Bytes,
 }
 
 /// Room for the vertices of the torus, by the attributes that they carry.
@@ -256,6 +269,7 @@ impl Target {
         cells: [0; afterwards::CELLS],
         samples: ([0; afterwards::SAMPLES], [0; afterwards::SAMPLES]),
         renderer: renderer::EMPTY,
+        bytes: formats::Bytes::EMPTY,
     };
 
     /// A pixel of nothing: dark grey.
@@ -265,15 +279,17 @@ impl Target {
     pub fn clear(&mut self) {
         self.color.fill(Self::BACKGROUND);
         self.depth.fill(D16.farthest());
+        self.bytes.clear();
     }
 
-    /// The 64-bit FNV-1a hash of the colour's bytes, then the depth's, low byte first.
+    /// The 64-bit FNV-1a hash of the colour's bytes, the depth's, low byte first, and those in another format.
     #[must_use]
     pub fn hash(&self) -> u64 {
         let color = self.color.iter().flat_map(|pixel| pixel.to_ne_bytes());
         let depth = self.depth.iter().flat_map(|depth| depth.to_le_bytes());
         color
             .chain(depth)
+            .chain(self.bytes.drawn().iter().copied())
             .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
     }
 

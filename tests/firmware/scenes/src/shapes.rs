@@ -10,7 +10,7 @@ use crate::{HEIGHT, WIDTH};
 use alberti::glam::{Mat3, Vec3};
 use alberti::texture::{
     Known, Mipmap, PowerOfTwo, Texture,
-    format::{Rgb565, Rgb565Pairs},
+    format::{L8, Rgb565, Rgb565Pairs},
 };
 use alberti::{Ball, Eye, Frame, Meshlet, Point3, World};
 
@@ -114,6 +114,23 @@ pub static FLOOR_PAIRS: Mipmap<'static, Rgb565Pairs, PowerOfTwo> = {
 /// What models wear that have no mip map.
 pub static TEXTURE: Texture<'static, Rgb565, Known<128, 128>> = {
     let Ok(texture) = Texture::new(Rgb565, &CHEQUER, 128, 128) else {
+        panic!("the texels are a square of this side")
+    };
+    let Some(texture) = texture.known() else { panic!("its side is this") };
+    texture
+};
+
+/// The low bytes of its texels: places in a palette.
+pub static INDICES: Texture<'static, L8, Known<128, 128>> = {
+    static BYTES: [u8; 128 * 128] = {
+        let (mut bytes, mut at) = ([0; 128 * 128], 0);
+        while at < bytes.len() {
+            bytes[at] = CHEQUER[at].to_le_bytes()[0];
+            at += 1;
+        }
+        bytes
+    };
+    let Ok(texture) = Texture::new(L8, &BYTES, 128, 128) else {
         panic!("the texels are a square of this side")
     };
     let Some(texture) = texture.known() else { panic!("its side is this") };
