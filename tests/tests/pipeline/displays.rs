@@ -144,7 +144,7 @@ fn formats_around_a_format_are_shown_as_that() {
     let half = Blended { format: Rgb565Be, by: Constant(128) };
     let mut target = Target::new(half, D16, SIZE[0], SIZE[1], &mut color, &mut depth).expect("fits");
     draw_pattern(&mut target);
-    // Not mixed.
+    // A colour that is drawn to it is not mixed.
     Rectangle::new(Point::new(0, 4), Size::new(2, 1))
         .into_styled(PrimitiveStyle::with_fill(Rgb565::GREEN))
         .draw(&mut target)

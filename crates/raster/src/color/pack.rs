@@ -21,8 +21,8 @@ use core::ops::Range;
 /// [aligned](crate::Touched::aligned).
 ///
 /// # Cost
-/// Each row but the first is copied; of whole rows none is. A `u32`, of which a caller makes two pixels of 16 bits, takes
-/// as long as one of these: 2.7 instructions on a Cortex-M4F, 4 on a Cortex-M0+.
+/// Each row but the first is copied; of whole rows none is. A `u32`, of which a caller makes two pixels of 16 bits,
+/// takes as long as one of these: 2.7 instructions on a Cortex-M4F, 4 on a Cortex-M0+.
 pub fn rectangle<P: Copy>(
     pixels: &mut [P],
     width: usize,

@@ -134,8 +134,8 @@ fn of_frame(range: Range<i32>) -> Range<u16> {
     start..end
 }
 
-/// The bytes of a rectangle of the frame between even columns, whose rows are in this band. Pixels move as words of two,
-/// which takes half as long.
+/// The bytes of a rectangle of the frame between even columns, whose rows are in this band. Pixels move as words of
+/// two, which takes half as long.
 fn bytes_of<'a>(band: &'a mut [u16], columns: &Range<u16>, rows: &Range<u16>) -> &'a [u8] {
     let pairs: &mut [u32] = bytemuck::try_cast_slice_mut(band).unwrap_or_default();
     let [left, right, width] = [columns.start, columns.end, WIDTH].map(|column| usize::from(column / 2));

@@ -29,7 +29,7 @@ pub trait Display {
     /// Waits until a frame may begin: for the display's tearing-effect pin, a timer, or both.
     async fn begin(&mut self) -> Result<(), Self::Error>;
 
-    /// Sends a rectangle of the frame, neither of whose ranges is empty: its pixels row by row, without those beside it.
+    /// Sends a rectangle of the frame, neither of whose ranges is empty: its pixels row by row, without those beside.
     async fn send(&mut self, columns: Range<u16>, rows: Range<u16>, bytes: &[u8]) -> Result<(), Self::Error>;
 }
 
