@@ -52,8 +52,8 @@ pub fn rectangle<P: Copy>(
     pixels.get_mut(..rows.len() * count).unwrap_or_default()
 }
 
-/// Two pixels of [`Rgb444`](super::Rgb444) in three bytes, RRRRGGGG BBBBRRRR GGGGBBBB; an odd last one in two, of which
-/// a display may not see the end: give it even columns, by [`Touched::aligned`](crate::Touched::aligned).
+/// Two pixels of [`Rgb444`](super::Rgb444) in three bytes, RRRRGGGG BBBBRRRR GGGGBBBB; an odd last one in two. Displays
+/// may not take that one: [`Touched::aligned`](crate::Touched::aligned) has even columns.
 ///
 /// # Cost
 /// Two pixels: four loads, three stores, four operations.
