@@ -41,7 +41,12 @@ pub(crate) fn picture() -> common::File {
 }
 
 /// Draws a frame on any display of embedded-graphics.
-fn frame<D: DrawTarget<Color = Rgb565>>(display: &mut D) -> Result<(), Error> {
+///
+/// # Errors
+/// Those of the display, and of a view or bands that cannot be.
+fn frame<D: DrawTarget<Color = Rgb565, Error: std::error::Error + 'static>>(
+    display: &mut D,
+) -> Result<(), Box<dyn std::error::Error>> {
     let (mut color, mut depth) = ([0; PIXELS], [0; PIXELS]);
     let view = Camera::look_at(Vec3::new(0.0, 1.0, 3.6), Vec3::new(0.0, 0.25, 0.0), Vec3::Y)?
         .perspective(0.8, 0.2..12.0)?;
@@ -51,12 +56,13 @@ fn frame<D: DrawTarget<Color = Rgb565>>(display: &mut D) -> Result<(), Error> {
     let mesh = Mesh::new(&vertices, &triangles, |place| (*place, color_of(*place)));
 
     let mut bands = Bands::new(Rgb565Be, D16, SIZE[0], SIZE[1], &mut color, &mut depth)?;
-    bands.draw(SKY, |band| {
-        draw(band, &view, &mesh, VertexColor);
-        let Ok(()) = instruments(band);
+    while let Some(mut band) = bands.next_band() {
+        band.clear(SKY);
+        draw(&mut band, &view, &mesh, VertexColor);
+        let Ok(()) = instruments(&mut band);
         // With a driver that takes bytes, this is `send(band.bytes())`.
-        let _ = band.show(display);
-    });
+        band.show(display)?;
+    }
     Ok(())
 }
 

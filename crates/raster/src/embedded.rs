@@ -173,8 +173,8 @@ impl<C: ColorFormat, D: DepthFormat> OriginDimensions for Target<'_, C, D> {
 /// ```
 ///
 /// # Cost
-/// A shape filled row by row costs its pixels. Pixels that come alone, as of texts and circles' edges, cost some twenty
-/// instructions each.
+/// A shape filled row by row costs its pixels: 0.03 to 0.04 ns each on a desktop. Pixels that come alone, as of texts
+/// and circles' edges, cost 2 to 3 ns each (`cargo bench -p alberti-benches --bench displays`).
 impl<C: EmbeddedColor, D: DepthFormat> DrawTarget for Target<'_, C, D> {
     type Color = C::Color;
     type Error = Infallible;

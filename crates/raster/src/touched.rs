@@ -30,8 +30,9 @@ pub struct Touched {
 impl Touched {
     /// These columns and rows; nothing, if there are none of either.
     #[must_use]
-    pub fn new(columns: Range<i32>, rows: Range<i32>) -> Self {
-        if columns.is_empty() || rows.is_empty() { Self::default() } else { Self { columns, rows } }
+    pub const fn new(columns: Range<i32>, rows: Range<i32>) -> Self {
+        let empty = columns.start >= columns.end || rows.start >= rows.end;
+        if empty { Self { columns: 0..0, rows: 0..0 } } else { Self { columns, rows } }
     }
 
     /// Whether nothing was touched.
@@ -61,6 +62,17 @@ impl Touched {
             _ => Self { columns: about(&self.columns, &other.columns), rows: about(&self.rows, &other.rows) },
         }
     }
+
+    /// The rectangle about this one whose columns begin and end at multiples of `columns`: for pixels that share bytes,
+    /// 2 of [`Rgb444`](crate::color::Rgb444) and [`Grey4`](crate::color::Grey4), 4 of [`Grey2`](crate::color::Grey2),
+    /// 8 of [`Grey1`](crate::color::Grey1). It lies in frames whose width is such a multiple.
+    #[must_use]
+    pub fn aligned(&self, columns: i32) -> Self {
+        let each = columns.max(1);
+        let below = |column: i32| column.saturating_sub(column.rem_euclid(each));
+        let Range { start, end } = self.columns;
+        Self { columns: below(start)..below(end.saturating_add(each - 1)), rows: self.rows() }
+    }
 }
 
 #[inline]
@@ -79,5 +91,25 @@ impl Counters for Touched {
 
     fn add(&mut self, other: Self) {
         *self = self.with(&other);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn aligned_columns_are_the_nearest_multiples_about() {
+        for each in 1..9 {
+            for (start, end) in (-20..20).flat_map(|start| (start + 1..21).map(move |end| (start, end))) {
+                let aligned = Touched::new(start..end, 3..5).aligned(each).columns();
+                let multiple = |column: &i32| column % each == 0;
+                let expected =
+                    (-30..=start).rev().find(multiple).zip((end..30).find(multiple)).map(|(a, b)| a..b);
+                assert_eq!(Some(aligned), expected, "{start}..{end} by {each}");
+            }
+            assert!(Touched::default().aligned(each).is_empty());
+        }
+        let _ = Touched::new(i32::MIN..i32::MAX, 0..1).aligned(7);
     }
 }

@@ -3,7 +3,8 @@
 
 use alberti::glam::Vec3;
 use alberti::raster::color::{
-    EmbeddedColor, Grey1, Grey2, Grey4, Grey8, ReadColor, Rgb666, Rgb888, Xrgb8888, pack,
+    Bayer, Blended, Constant, Dithered, EmbeddedColor, Grey1, Grey2, Grey4, Grey8, ReadColor, Rgb666, Rgb888,
+    Xrgb8888, pack,
 };
 use alberti::shaders::Solid;
 use alberti::*;
@@ -12,7 +13,7 @@ use embedded_graphics::image::{GetPixel, Image, ImageDrawable, ImageRaw};
 use embedded_graphics::mock_display::{ColorMapping, MockDisplay};
 use embedded_graphics::mono_font::{MonoTextStyle, ascii::FONT_6X10};
 use embedded_graphics::pixelcolor::raw::{BigEndian, LittleEndian, RawU16};
-use embedded_graphics::pixelcolor::{Gray4, Rgb565};
+use embedded_graphics::pixelcolor::{BinaryColor, Gray4, Rgb565};
 use embedded_graphics::prelude::*;
 use embedded_graphics::primitives::{Circle, PrimitiveStyle, PrimitiveStyleBuilder, Rectangle, Triangle};
 use embedded_graphics::text::Text;
@@ -119,6 +120,50 @@ fn bytes_are_a_raw_image() {
     for place in Rectangle::new(Point::new(-1, -1), Size::new(8, 7)).points() {
         assert_eq!(image.pixel(place), raw.pixel(place), "{place}");
     }
+}
+
+/// Black and white in a pattern, and red over blue by half: as any image, and as displays that store what is drawn to
+/// them as it is.
+#[test]
+fn formats_around_a_format_are_shown_as_that() {
+    let (mut color, mut depth) = ([0; PIXELS], [0; PIXELS]);
+    let dithered = Dithered { format: Grey1, by: Bayer };
+    let mut target = Target::new(dithered, D16, SIZE[0], SIZE[1], &mut color, &mut depth).expect("fits");
+    draw_pattern(&mut target);
+    let column = Rectangle::new(Point::new(2, 0), Size::new(1, 5));
+    target.fill_solid(&column, BinaryColor::On).expect("never fails");
+    let (mut display, image) = (MockDisplay::new(), target.image());
+    Image::new(&image, Point::zero()).draw(&mut display).expect("never fails");
+    for place in target.bounding_box().points() {
+        let shown = display.get_pixel(place);
+        assert_eq!(shown, image.pixel(place), "{place}");
+        assert!(shown == Some(BinaryColor::On) || !column.contains(place), "{place}");
+    }
+
+    let (mut color, mut depth) = ([0; PIXELS], [0; PIXELS]);
+    let half = Blended { format: Rgb565Be, by: Constant(128) };
+    let mut target = Target::new(half, D16, SIZE[0], SIZE[1], &mut color, &mut depth).expect("fits");
+    draw_pattern(&mut target);
+    // A colour that is drawn to it is not mixed.
+    Rectangle::new(Point::new(0, 4), Size::new(2, 1))
+        .into_styled(PrimitiveStyle::with_fill(Rgb565::GREEN))
+        .draw(&mut target)
+        .expect("never fails");
+    let mut display = MockDisplay::new();
+    target.show(&mut display).expect("never fails");
+    // Red over blue is neither.
+    display.set_allow_overdraw(true);
+    for place in Rectangle::new(Point::new(1, 1), Size::new(4, 2)).points() {
+        let mixed = display.get_pixel(place).expect("shown");
+        assert!(mixed.r().abs_diff(16) <= 1 && mixed.g() == 0 && mixed.b().abs_diff(16) <= 1, "{mixed:?}");
+        display.set_pixel(place, Some(Rgb565::RED));
+    }
+    display.assert_pattern(&["BBBBBB", "BRRRRB", "BRRRRB", "BBBBYY", "GGBBYY"]);
+    let mut raw = MockDisplay::<Rgb565>::new();
+    target.image_raw().expect("whole rows").draw(&mut raw).expect("never fails");
+    let mut shown = MockDisplay::new();
+    target.show(&mut shown).expect("never fails");
+    raw.assert_eq(&shown);
 }
 
 #[test]

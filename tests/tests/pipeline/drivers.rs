@@ -5,11 +5,15 @@
 use alberti::*;
 use display_interface::{DataFormat, DisplayError, WriteOnlyDataCommand};
 use display_interface_spi::SPIInterface;
+use embassy_futures::{join::join, yield_now};
+use embedded_hal_async::spi::{ErrorKind, ErrorType, Operation, SpiDevice};
 use embedded_hal_mock::eh1::delay::NoopDelay;
 use embedded_hal_mock::eh1::digital::{Mock as Pin, State, Transaction as Level};
 use embedded_hal_mock::eh1::spi::{Mock as Spi, Transaction};
 use mipidsi::interface::SpiInterface;
 use mipidsi::models::{ILI9341Rgb565, Model, ST7789};
+use std::cell::RefCell;
+use std::mem::swap;
 
 /// A frame in the middle of displays of 240 x 320, in bands of two rows, the last of which has one.
 const SIZE: [u16; 2] = [4, 5];
@@ -155,30 +159,76 @@ fn display_interface_gets_the_bytes_of_bands() {
     pin.done();
 }
 
+/// An SPI device as those with DMA are: a few bytes go on the spot, and the transfer of more ends at its second poll.
+struct Dma<'a> {
+    spi: Spi<u8>,
+    log: &'a RefCell<Vec<&'static str>>,
+}
+
+impl ErrorType for Dma<'_> {
+    type Error = ErrorKind;
+}
+
+impl SpiDevice for Dma<'_> {
+    async fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) -> Result<(), ErrorKind> {
+        let pixels = matches!(operations, [Operation::Write(bytes)] if bytes.len() > 4);
+        if pixels {
+            self.log.borrow_mut().push("begun");
+            yield_now().await;
+        }
+        SpiDevice::transaction(&mut self.spi, operations).await?;
+        if pixels {
+            self.log.borrow_mut().push("sent");
+        }
+        Ok(())
+    }
+}
+
+/// With the colours of two bands one is drawn while the other is on the wire: by one task, as on a board.
 #[test]
-fn lcd_async_gets_the_bytes_of_bands() {
+fn lcd_async_sends_a_band_while_the_next_is_drawn() {
     use lcd_async::interface::SpiInterface;
     let mut wire = st7789();
     BANDS.iter().for_each(|(row, pixels)| wire.band(*row, pixels));
     let (mut spi, mut pin) = wire.mocks();
-    let interface = SpiInterface::new(spi.clone(), pin.clone());
+    let log = RefCell::default();
+    let interface = SpiInterface::new(Dma { spi: spi.clone(), log: &log }, pin.clone());
     pollster::block_on(async {
         let model = lcd_async::models::ST7789;
         let mut delay = NoopDelay::new();
         let mut display = lcd_async::Builder::new(model, interface).init(&mut delay).await.expect("mocks");
-        // Drawn synchronously, sent asynchronously: with the memory of two bands, one while the other is drawn.
-        let (mut color, mut depth) = ([0; 8], [(); 8]);
-        let [width, height] = SIZE.map(u32::from);
-        let mut bands = Bands::new(Rgb565Be, NoDepth, width, height, &mut color, &mut depth).expect("fits");
-        while let Some(mut band) = bands.next_band() {
-            band.clear(BACKGROUND);
-            band.scissor(2..3, 0..5).clear(BAR);
-            let [_, rows] = band.limits().map(|range| [range.start, range.end - range.start]);
-            let [first, count] = rows.map(|row| u16::try_from(row).expect("small"));
-            let row = PLACE[1] + first;
-            display.show_raw_data(PLACE[0], row, SIZE[0], count, band.bytes()).await.expect("mocks");
+        let (mut colors, mut depth) = ([[0; 8]; 2], [(); 8]);
+        let [drawn, sent] = &mut colors;
+        let (mut drawn, mut sent) = (drawn, sent);
+        // The first row and the pixels of the band that is sent.
+        let mut ready = (0, 0);
+        for first in [0, 2, 4, 6] {
+            let (row, pixels) = ready;
+            let bytes = bytemuck::cast_slice(&sent[..pixels]);
+            let rows = u16::try_from(pixels).expect("small") / SIZE[0];
+            let sending = async {
+                if rows > 0 {
+                    let place = [PLACE[0], PLACE[1] + row];
+                    display.show_raw_data(place[0], place[1], SIZE[0], rows, bytes).await.expect("mocks");
+                }
+            };
+            let drawing = async {
+                let pixels = usize::from(SIZE[0] * SIZE[1].saturating_sub(first).min(2));
+                let (colors, depth) = (&mut drawn[..pixels], &mut depth[..pixels]);
+                let band = Target::band(Rgb565Be, NoDepth, SIZE.map(u32::from), first.into(), colors, depth);
+                let Ok(mut band) = band else { return 0 };
+                band.clear(BACKGROUND);
+                band.scissor(2..3, 0..5).clear(BAR);
+                log.borrow_mut().push("drawn");
+                pixels
+            };
+            let ((), pixels) = join(sending, drawing).await;
+            ready = (first, pixels);
+            swap(&mut drawn, &mut sent);
         }
     });
     spi.done();
     pin.done();
+    let overlapping = ["begun", "drawn", "sent"];
+    assert_eq!(log.take(), [&["drawn"][..], &overlapping, &overlapping, &["begun", "sent"]].concat());
 }

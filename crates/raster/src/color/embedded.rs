@@ -1,6 +1,9 @@
 //! Formats whose pixels are colours of embedded-graphics.
 
-use super::{ColorFormat, Grey1, Grey2, Grey4, Grey8, Rgb666, Rgb888, Xrgb8888};
+use super::{
+    Blend, Blended, ColorFormat, Dithered, Grey1, Grey2, Grey4, Grey8, Levels, Pattern, ReadColor, Rgb666,
+    Rgb888, Xrgb8888,
+};
 use alberti_math::{Rgb565Be, Rgb565Le, Rgba8888};
 use embedded_graphics::pixelcolor::raw::{BigEndian, ByteOrder, LittleEndian, RawData};
 use embedded_graphics::pixelcolor::{self as embedded, BinaryColor, GrayColor, PixelColor, RgbColor};
@@ -13,6 +16,7 @@ use embedded_graphics::pixelcolor::{self as embedded, BinaryColor, GrayColor, Pi
 /// | [`Rgb888`], [`Rgba8888`], [`Xrgb8888`] | `Rgb888`; alpha is 255 where there is one |
 /// | [`Rgb666`] | `Rgb666` |
 /// | [`Grey8`], [`Grey4`], [`Grey2`], [`Grey1`] | `Gray8`, `Gray4`, `Gray2`, `BinaryColor` |
+/// | [`Dithered`], [`Blended`] | that of their format: what embedded-graphics draws is stored as it is |
 pub trait EmbeddedColor: ColorFormat {
     /// The colour in embedded-graphics.
     type Color: PixelColor;
@@ -24,7 +28,8 @@ pub trait EmbeddedColor: ColorFormat {
     fn of_embedded(self, color: Self::Color) -> Self::Pixel;
 }
 
-/// A format whose pixels lie in memory as those of an `ImageRaw`: [`Rgb565Be`], [`Rgb565Le`], [`Rgb888`] and [`Grey8`].
+/// A format whose pixels lie in memory as those of an `ImageRaw`: [`Rgb565Be`], [`Rgb565Le`], [`Rgb888`] and [`Grey8`],
+/// also [`Dithered`] or [`Blended`].
 ///
 /// Greys of less than a byte do so after they are [packed](super::pack): `ImageRaw::new(pack::grey4(..), width)`.
 pub trait EmbeddedBytes: EmbeddedColor<Color: From<<Self::Color as PixelColor>::Raw>> {
@@ -66,6 +71,33 @@ embedded! {
     Grey4: embedded::Gray4, embedded::Gray4::new, |color: embedded::Gray4| color.luma();
     Grey2: embedded::Gray2, embedded::Gray2::new, |color: embedded::Gray2| color.luma();
     Grey1: BinaryColor, |pixel: u8| BinaryColor::from(pixel != 0), |color: BinaryColor| color.is_on().into();
+}
+
+/// Formats around a format, whose pixels are those of this one.
+macro_rules! around {
+    ($($name:ident<C: $format:ident, W: $way:ident>;)*) => {$(
+        impl<C: $format + EmbeddedColor, W: $way> EmbeddedColor for $name<C, W> {
+            type Color = C::Color;
+
+            #[inline]
+            fn to_embedded(self, pixel: C::Pixel) -> C::Color {
+                self.format.to_embedded(pixel)
+            }
+
+            #[inline]
+            fn of_embedded(self, color: C::Color) -> C::Pixel {
+                self.format.of_embedded(color)
+            }
+        }
+
+        impl<C: $format + EmbeddedBytes, W: $way> EmbeddedBytes for $name<C, W> {
+            type Order = C::Order;
+        }
+    )*};
+}
+around! {
+    Dithered<C: Levels, W: Pattern>;
+    Blended<C: ReadColor, W: Blend>;
 }
 
 impl EmbeddedBytes for Rgb565Le {

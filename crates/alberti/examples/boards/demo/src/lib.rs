@@ -7,9 +7,10 @@
 mod object;
 
 use alberti::glam::Vec2;
+use alberti::raster::color::pack;
 use alberti::shaders::Light;
 use alberti::*;
-use core::mem::{replace, swap};
+use core::mem::{offset_of, replace, swap};
 use core::ops::Range;
 use embassy_futures::join::join;
 use object::TRIANGLES;
@@ -42,12 +43,19 @@ type Buffers = Memory<Rgb565Be, D16, (Light, Vec2), PIXELS, SLOTS, { TRIANGLES.l
 const BUDGET: usize = 46 * 1024;
 const _: () = assert!(size_of::<Demo>() <= BUDGET, "the demo's memory is larger than its budget");
 
+const _: () = assert!(
+    align_of::<Demo>().is_multiple_of(4) && offset_of!(Demo, buffers.colors).is_multiple_of(4),
+    "colours are sent as words of two pixels"
+);
+
+const NOTHING: Touched = Touched::new(0..0, 0..0);
+
 /// The demo's memory, for a `static`: about 46 KB.
 #[derive(Debug)]
 pub struct Demo {
     buffers: Buffers,
-    /// The rows of each band on which the object was in the frame before; before the first frame none.
-    shown: [Range<u16>; BANDS],
+    /// Where in each band the object was in the frame before; before the first frame nowhere.
+    shown: [Touched; BANDS],
     /// Frames that were drawn or left out.
     frame: u32,
 }
@@ -56,7 +64,7 @@ impl Demo {
     /// The demo before its first frame: zeros, which take no flash.
     #[must_use]
     pub const fn new() -> Self {
-        Self { buffers: Buffers::new(0, 0), shown: [const { 0..0 }; BANDS], frame: 0 }
+        Self { buffers: Buffers::new(0, 0), shown: [const { NOTHING }; BANDS], frame: 0 }
     }
 
     /// Leaves out so many frames.
@@ -64,7 +72,7 @@ impl Demo {
         self.frame = self.frame.wrapping_add(frames);
     }
 
-    /// Draws the next frame by `interpolation`, and sends those of its rows that change.
+    /// Draws the next frame by `interpolation`, and sends of each band the rectangle that changes.
     ///
     /// # Errors
     /// Those of the display.
@@ -84,28 +92,30 @@ impl Demo {
 
         display.begin().await?;
         let (mut drawn, mut sent) = (drawn, sent);
-        let mut ready = 0..0;
+        let mut ready = NOTHING;
         // One turn more than there are bands, as the last is sent while nothing is drawn.
         for (number, shown) in shown.iter_mut().map(Some).chain([None]).enumerate() {
             let first = number * usize::from(ROWS);
-            let (rows, bytes) = (ready.clone(), bytes_of(&*sent, &ready));
-            let sending = async { if rows.is_empty() { Ok(()) } else { display.send(rows, bytes).await } };
+            let [columns, rows] = [ready.columns(), ready.rows()].map(of_frame);
+            let bytes = bytes_of(&mut *sent, &columns, &rows);
+            let sending =
+                async { if bytes.is_empty() { Ok(()) } else { display.send(columns, rows, bytes).await } };
             let drawing = async {
-                let Some(shown) = shown else { return 0..0 };
+                let Some(shown) = shown else { return NOTHING };
                 let band = Target::band(Rgb565Be, D16, size, first as u32, &mut *drawn, depths);
-                let Ok(mut band) = band else { return 0..0 };
+                let Ok(mut band) = band else { return NOTHING };
                 band.clear(BACKGROUND);
-                let mut touched = Touched::default();
-                triangles.count_by(lanes::One, &mut band, &mut touched);
-                let now = rows_of(&touched);
+                let mut now = Touched::default();
+                triangles.count_by(lanes::One, &mut band, &mut now);
                 let before = replace(shown, now.clone());
+                let [columns, rows] = band.limits();
                 // In the first frame all, for the background.
-                if turn == 0 { first as u16..first as u16 + ROWS } else { about(&before, &now) }
+                if turn == 0 { Touched::new(columns, rows) } else { before.with(&now).aligned(2) }
             };
             // The transfer is begun first.
-            let (sending, rows) = join(sending, drawing).await;
+            let (sending, changed) = join(sending, drawing).await;
             sending?;
-            ready = rows;
+            ready = changed;
             swap(&mut drawn, &mut sent);
         }
         Ok(())
@@ -118,26 +128,17 @@ impl Default for Demo {
     }
 }
 
-/// The rows of a band that triangles have touched.
-fn rows_of(touched: &Touched) -> Range<u16> {
-    let rows = touched.rows();
-    let row = |row: i32| u16::try_from(row).unwrap_or_default();
-    row(rows.start)..row(rows.end)
+/// Columns or rows as the display counts them.
+fn of_frame(range: Range<i32>) -> Range<u16> {
+    let [start, end] = [range.start, range.end].map(|place| u16::try_from(place).unwrap_or_default());
+    start..end
 }
 
-/// The rows of both, and those between.
-fn about(a: &Range<u16>, b: &Range<u16>) -> Range<u16> {
-    match (a.is_empty(), b.is_empty()) {
-        (true, _) => b.clone(),
-        (_, true) => a.clone(),
-        _ => a.start.min(b.start)..a.end.max(b.end),
-    }
-}
-
-/// The bytes of these rows of the frame, of those of the band that they are in.
-fn bytes_of<'a>(band: &'a [u16], rows: &Range<u16>) -> &'a [u8] {
-    let (first, count) = (rows.start % ROWS, rows.len());
-    let width = usize::from(WIDTH);
-    let pixels = band.get(usize::from(first) * width..).and_then(|rest| rest.get(..count * width));
-    bytemuck::cast_slice(pixels.unwrap_or_default())
+/// The bytes of a rectangle of the frame between even columns, whose rows are in this band. Pixels move as words of
+/// two, which takes half as long.
+fn bytes_of<'a>(band: &'a mut [u16], columns: &Range<u16>, rows: &Range<u16>) -> &'a [u8] {
+    let pairs: &mut [u32] = bytemuck::try_cast_slice_mut(band).unwrap_or_default();
+    let [left, right, width] = [columns.start, columns.end, WIDTH].map(|column| usize::from(column / 2));
+    let first = usize::from(rows.start % ROWS);
+    bytemuck::cast_slice(pack::rectangle(pairs, width, left..right, first..first + rows.len()))
 }

@@ -2,6 +2,7 @@
 //!
 //!     cargo run --release                 # a window: space for the numbers, escape to leave
 //!     cargo run --release -- demo.gif     # one turn
+//!     cargo run --release -- bytes        # those that a display is sent for a frame, on average over a turn
 
 use alberti::Rgb565Be;
 use alberti::texture::TexelFormat;
@@ -28,7 +29,12 @@ fn main() -> ExitCode {
     let outcome = match arguments.as_slice() {
         [] => window(),
         [file] if file.ends_with(".gif") => fs::write(file, animation()).map_err(Into::into),
-        _ => Err(format!("expected nothing or the name of a .gif, found `{}`", arguments.join(" ")).into()),
+        [word] if word == "bytes" => {
+            println!("{} bytes a frame", mean_of_bytes());
+            Ok(())
+        }
+        _ => Err(format!("expected nothing, the name of a .gif or `bytes`, found `{}`", arguments.join(" "))
+            .into()),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
@@ -40,11 +46,15 @@ fn main() -> ExitCode {
 }
 
 /// A display that keeps what it is sent: red, green and blue in the lower 24 bits of each pixel.
-struct Memory(Vec<u32>);
+struct Memory {
+    pixels: Vec<u32>,
+    /// Bytes that it was sent.
+    sent: usize,
+}
 
 impl Memory {
     fn new() -> Self {
-        Self(vec![0; usize::from(WIDTH) * usize::from(HEIGHT)])
+        Self { pixels: vec![0; usize::from(WIDTH) * usize::from(HEIGHT)], sent: 0 }
     }
 }
 
@@ -55,12 +65,16 @@ impl Display for Memory {
         Ok(())
     }
 
-    async fn send(&mut self, rows: Range<u16>, bytes: &[u8]) -> Result<(), Infallible> {
-        let pixels = self.0.iter_mut().skip(usize::from(rows.start) * usize::from(WIDTH));
-        for (pixel, bytes) in pixels.zip(bytes.as_chunks().0) {
-            let [red, green, blue, _] = Rgb565Be.decode(u16::from_ne_bytes(*bytes)).to_bytes();
-            *pixel = u32::from_be_bytes([0, red, green, blue]);
+    async fn send(&mut self, columns: Range<u16>, rows: Range<u16>, bytes: &[u8]) -> Result<(), Infallible> {
+        let (left, width) = (usize::from(columns.start), columns.len());
+        let frame = self.pixels.chunks_exact_mut(WIDTH.into()).skip(rows.start.into());
+        for (row, bytes) in frame.zip(bytes.chunks_exact(2 * width)) {
+            for (pixel, bytes) in row[left..left + width].iter_mut().zip(bytes.as_chunks().0) {
+                let [red, green, blue, _] = Rgb565Be.decode(u16::from_ne_bytes(*bytes)).to_bytes();
+                *pixel = u32::from_be_bytes([0, red, green, blue]);
+            }
         }
+        self.sent += bytes.len();
         Ok(())
     }
 }
@@ -81,9 +95,18 @@ fn window() -> Result<(), Box<dyn Error>> {
         fixed ^= window.is_key_pressed(Key::Space, KeyRepeat::No);
         window.set_title(if fixed { "alberti, in fixed point" } else { "alberti, in f32" });
         draw(&mut demo, fixed, &mut memory);
-        window.update_with_buffer(&memory.0, WIDTH.into(), HEIGHT.into())?;
+        window.update_with_buffer(&memory.pixels, WIDTH.into(), HEIGHT.into())?;
     }
     Ok(())
+}
+
+/// The bytes that are sent for a frame, but for the first.
+fn mean_of_bytes() -> usize {
+    let (mut demo, mut memory) = (Box::new(Demo::new()), Memory::new());
+    draw(&mut demo, true, &mut memory);
+    memory.sent = 0;
+    (0..TURN).for_each(|_| draw(&mut demo, true, &mut memory));
+    memory.sent / TURN as usize
 }
 
 /// Frames of a turn, endless, with one palette for all.
@@ -92,7 +115,7 @@ fn animation() -> Vec<u8> {
     let frames: [Vec<u8>; FRAMES as usize] = std::array::from_fn(|_| {
         draw(&mut demo, true, &mut memory);
         demo.skip(TURN / FRAMES - 1);
-        memory.0.iter().flat_map(|pixel| (pixel << 8 | 0xff).to_be_bytes()).collect()
+        memory.pixels.iter().flat_map(|pixel| (pixel << 8 | 0xff).to_be_bytes()).collect()
     });
     let palette = NeuQuant::new(10, COLORS, &frames.concat());
     let mut file = vec![];

@@ -23,7 +23,7 @@ use esp_hal::interrupt::software::SoftwareInterruptControl;
 use esp_hal::spi::master::{Config, Spi};
 use esp_hal::time::Rate;
 use esp_hal::timer::timg::TimerGroup;
-use panel::{Chip, Panel, Pins, WIDTH};
+use panel::{Chip, Panel, Pins, PixelFormat, WIDTH};
 use panic_halt as _;
 use static_cell::ConstStaticCell;
 
@@ -68,7 +68,8 @@ async fn main(_spawner: Spawner) {
         tearing.wait_for_rising_edge().await;
     };
 
-    let Ok(mut panel) = Panel::new(Chip::St7789, bus, pins, &mut Delay, pace).await else { return };
+    let chip = Chip::St7789(PixelFormat::Rgb565);
+    let Ok(mut panel) = Panel::new(chip, bus, pins, &mut Delay, pace).await else { return };
     let demo = DEMO.take();
     // Without an FPU fixed point is the quicker.
     while demo.frame(FIXED, &mut panel).await.is_ok() {}

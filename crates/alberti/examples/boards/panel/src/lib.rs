@@ -29,17 +29,27 @@ pub trait Display {
     /// Waits until a frame may begin: for the display's tearing-effect pin, a timer, or both.
     async fn begin(&mut self) -> Result<(), Self::Error>;
 
-    /// Sends rows of the frame, two bytes a pixel, the higher first.
-    async fn send(&mut self, rows: Range<u16>, bytes: &[u8]) -> Result<(), Self::Error>;
+    /// Sends a rectangle of the frame, neither of whose ranges is empty: its pixels row by row, without those beside.
+    async fn send(&mut self, columns: Range<u16>, rows: Range<u16>, bytes: &[u8]) -> Result<(), Self::Error>;
 }
 
 /// The chip that drives the glass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Chip {
     /// Most often with a glass that shows colours inverted.
-    St7789,
-    /// With blue and red exchanged.
+    St7789(PixelFormat),
+    /// With blue and red exchanged. It has pixels of 16 bits, which it gets here, and of 18, but none of 12.
     Ili9341,
+}
+
+/// Pixels as they are sent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PixelFormat {
+    /// Two bytes a pixel, RRRRRGGG GGGBBBBB.
+    Rgb565,
+    /// Three bytes for two pixels, RRRRGGGG BBBBRRRR GGGGBBBB. A rectangle begins and ends at even columns, as the data
+    /// sheet does not say what becomes of a pixel alone.
+    Rgb444,
 }
 
 /// The pins beside the bus.
@@ -59,6 +69,8 @@ pub struct Panel<B, P, W> {
     bus: B,
     pins: Pins<P>,
     pace: W,
+    /// Those that the display takes pixels for.
+    columns: Range<u16>,
 }
 
 impl<B, P, W> Panel<B, P, W>
@@ -78,7 +90,7 @@ where
         delay: &mut impl DelayNs,
         pace: W,
     ) -> Result<Self, B::Error> {
-        let mut panel = Self { bus, pins, pace };
+        let mut panel = Self { bus, pins, pace, columns: 0..0 };
         let Ok(()) = panel.pins.select.set_low();
         let Ok(()) = panel.pins.reset.set_low();
         delay.delay_ms(10).await;
@@ -86,36 +98,43 @@ where
         delay.delay_ms(120).await;
         panel.command(command::SLEEP_OUT, &[])?;
         delay.delay_ms(120).await;
-        let (orientation, inversion) = match chip {
+        let (orientation, inversion, format) = match chip {
             // Rows and columns exchanged, then columns turned round, or blue before red.
-            Chip::St7789 => (0x60, command::INVERTED),
-            Chip::Ili9341 => (0x28, command::NOT_INVERTED),
+            Chip::St7789(format) => (0x60, command::INVERTED, format),
+            Chip::Ili9341 => (0x28, command::NOT_INVERTED, PixelFormat::Rgb565),
         };
-        panel.command(command::PIXEL_FORMAT, &[0x55])?;
+        let (code, bits) = match format {
+            PixelFormat::Rgb565 => (0x55, 16),
+            PixelFormat::Rgb444 => (0x53, 12),
+        };
+        panel.command(command::PIXEL_FORMAT, &[code])?;
         panel.command(command::ORIENTATION, &[orientation])?;
         panel.command(inversion, &[])?;
-        panel.command(command::COLUMNS, &ends(&(0..WIDTH)))?;
         // Between frames only, not between lines.
         panel.command(command::TEARING_EFFECT, &[0])?;
-        panel.blank()?;
+        panel.blank(bits)?;
         panel.command(command::DISPLAY_ON, &[])?;
         Ok(panel)
     }
 
-    /// Clears the display's memory, which holds noise.
-    fn blank(&mut self) -> Result<(), B::Error> {
-        self.window(&(0..HEIGHT))?;
+    /// Clears the display's memory, which holds noise, by pixels of so many bits.
+    fn blank(&mut self, bits: usize) -> Result<(), B::Error> {
+        self.window(0..WIDTH, 0..HEIGHT)?;
         // In pieces that also a DMA takes which cannot read flash, and copies them on the stack.
         const PIECE: usize = 128;
-        for _ in 0..2 * usize::from(WIDTH) * usize::from(HEIGHT) / PIECE {
+        for _ in 0..bits * usize::from(WIDTH) * usize::from(HEIGHT) / (8 * PIECE) {
             SpiBus::write(&mut self.bus, &[0; PIECE])?;
         }
         SpiBus::flush(&mut self.bus)
     }
 
-    /// Has the display take what follows for pixels of these rows.
-    fn window(&mut self, rows: &Range<u16>) -> Result<(), B::Error> {
-        self.command(command::ROWS, &ends(rows))?;
+    /// Has the display take what follows for pixels of this rectangle.
+    fn window(&mut self, columns: Range<u16>, rows: Range<u16>) -> Result<(), B::Error> {
+        if columns != self.columns {
+            self.command(command::COLUMNS, &ends(&columns))?;
+            self.columns = columns;
+        }
+        self.command(command::ROWS, &ends(&rows))?;
         self.command(command::PIXELS, &[])
     }
 
@@ -146,8 +165,8 @@ where
         Ok(())
     }
 
-    async fn send(&mut self, rows: Range<u16>, bytes: &[u8]) -> Result<(), B::Error> {
-        self.window(&rows)?;
+    async fn send(&mut self, columns: Range<u16>, rows: Range<u16>, bytes: &[u8]) -> Result<(), B::Error> {
+        self.window(columns, rows)?;
         Transfers::write(&mut self.bus, bytes).await?;
         Transfers::flush(&mut self.bus).await
     }

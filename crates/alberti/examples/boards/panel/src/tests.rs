@@ -147,9 +147,12 @@ fn command(code: u8, data: &[u8]) -> Vec<Event> {
 /// 1.11, chapter 8.
 #[test]
 fn the_display_wakes_as_its_data_sheet_says() {
-    for (chip, orientation, inversion) in
-        [(Chip::St7789, 0b0110_0000, 0x21), (Chip::Ili9341, 0b0010_1000, 0x20)]
-    {
+    let st7789 = |format| (Chip::St7789(format), 0b0110_0000, 0x21);
+    for ((chip, orientation, inversion), format, zeros) in [
+        (st7789(PixelFormat::Rgb565), 0b0101_0101, 1200),
+        (st7789(PixelFormat::Rgb444), 0b0101_0011, 900),
+        ((Chip::Ili9341, 0b0010_1000, 0x20), 0b0101_0101, 1200),
+    ] {
         let log = Log::default();
         panel(chip, &log);
         let mut expected = Vec::from([
@@ -161,33 +164,76 @@ fn the_display_wakes_as_its_data_sheet_says() {
         ]);
         expected.extend(command(0x11, &[]));
         expected.push(Wait(120_000_000));
-        expected.extend(command(0x3a, &[0x55]));
+        expected.extend(command(0x3a, &[format]));
         expected.extend(command(0x36, &[orientation]));
         expected.extend(command(inversion, &[]));
-        expected.extend(command(0x2a, &[0, 0, 1, 0x3f]));
         expected.extend(command(0x35, &[0]));
+        expected.extend(command(0x2a, &[0, 0, 1, 0x3f]));
         expected.extend(command(0x2b, &[0, 0, 0, 239]));
         expected.extend(command(0x2c, &[]));
-        expected.extend((0..1200).map(|_| Bytes(Vec::from([0; 128]))));
+        expected.extend((0..zeros).map(|_| Bytes(Vec::from([0; 128]))));
         expected.extend(command(0x29, &[]));
         assert_eq!(log.take(), expected, "{chip:?}");
     }
 }
 
+const RGB565: Chip = Chip::St7789(PixelFormat::Rgb565);
+
 #[test]
-fn rows_go_to_their_window() {
+fn rectangles_go_to_their_window() {
     let log = Log::default();
-    let mut panel = panel(Chip::St7789, &log);
+    let mut panel = panel(RGB565, &log);
     log.take();
     let pixels = [0x12; 3 * 640];
     let Ok(()) = block_on(async {
         panel.begin().await?;
-        panel.send(230..233, &pixels).await
+        panel.send(0..320, 230..233, &pixels).await?;
+        panel.send(255..258, 7..9, &pixels[..12]).await?;
+        panel.send(255..258, 9..10, &pixels[..6]).await?;
+        panel.send(255..259, 9..10, &pixels[..8]).await
     });
     let mut expected = Vec::from([Frame]);
-    expected.extend(command(0x2b, &[0, 230, 0, 232]));
+    // Columns only where they are others than before: at first all.
+    let mut window = |columns: &[u8], rows: [u8; 4], bytes: usize| {
+        if !columns.is_empty() {
+            expected.extend(command(0x2a, columns));
+        }
+        expected.extend(command(0x2b, &rows));
+        expected.extend(command(0x2c, &[]));
+        expected.push(Transfer(Vec::from(&pixels[..bytes])));
+    };
+    window(&[], [0, 230, 0, 232], 1920);
+    window(&[0, 255, 1, 1], [0, 7, 0, 8], 12);
+    window(&[], [0, 9, 0, 9], 6);
+    window(&[0, 255, 1, 2], [0, 9, 0, 9], 8);
+    assert_eq!(log.take(), expected);
+}
+
+/// A band of 12 bits a pixel, of which columns 3 to 7 changed: 2 to 7 are sent, in whole bytes.
+#[test]
+fn pixels_of_twelve_bits_share_bytes() {
+    use alberti::raster::color::{Rgb444, pack};
+    use alberti::{NoDepth, Rgba8, Target, Touched};
+    const WIDE: usize = WIDTH as usize;
+    let (mut color, mut depth) = ([[0; 2]; 4 * WIDE], [(); 4 * WIDE]);
+    let mut band = Target::band(Rgb444, NoDepth, [320, 240], 16, &mut color, &mut depth).expect("four rows");
+    band.clear(Rgba8::from_rgb24(0x11_22_33));
+    band.scissor(3..8, 17..20).clear(Rgba8::from_rgb24(0xaa_bb_cc));
+    band.scissor(7..8, 19..20).clear(Rgba8::from_rgb24(0xdd_ee_ff));
+    let changed = Touched::new(3..8, 17..20).aligned(2);
+    assert_eq!((changed.columns(), changed.rows()), (2..8, 17..20));
+    let bytes = pack::rgb444(pack::rectangle(&mut color, WIDE, 2..8, 1..4));
+
+    let log = Log::default();
+    let mut panel = panel(Chip::St7789(PixelFormat::Rgb444), &log);
+    log.take();
+    let Ok(()) = block_on(panel.send(2..8, 17..20, bytes));
+    let row = [0x12, 0x3a, 0xbc, 0xab, 0xca, 0xbc, 0xab, 0xca, 0xbc];
+    let last = [0x12, 0x3a, 0xbc, 0xab, 0xca, 0xbc, 0xab, 0xcd, 0xef];
+    let mut expected = command(0x2a, &[0, 2, 0, 7]);
+    expected.extend(command(0x2b, &[0, 17, 0, 19]));
     expected.extend(command(0x2c, &[]));
-    expected.push(Transfer(pixels.to_vec()));
+    expected.push(Transfer([row, row, last].concat()));
     assert_eq!(log.take(), expected);
 }
 
@@ -198,7 +244,7 @@ fn the_first_poll_begins_the_transfer() {
     let mut panel = panel(Chip::Ili9341, &log);
     log.take();
     let pixels = [7; 640];
-    let mut sending = pin!(panel.send(0..1, &pixels));
+    let mut sending = pin!(panel.send(0..320, 0..1, &pixels));
     let mut context = Context::from_waker(Waker::noop());
     assert_eq!(sending.as_mut().poll(&mut context), Poll::Pending);
     assert_eq!(log.take().last(), Some(&Transfer(pixels.to_vec())));

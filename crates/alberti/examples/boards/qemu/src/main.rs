@@ -38,13 +38,13 @@ impl Display for Sink {
         Ok(())
     }
 
-    async fn send(&mut self, rows: Range<u16>, bytes: &[u8]) -> Result<(), Infallible> {
+    async fn send(&mut self, columns: Range<u16>, rows: Range<u16>, bytes: &[u8]) -> Result<(), Infallible> {
         let start = instructions();
         self.first.get_or_insert(start);
-        let [a, b] = rows.start.to_le_bytes();
+        let places = [columns.start, columns.end, rows.start, rows.end].map(u16::to_le_bytes);
         // All of it between the two counts.
         let mut hash = black_box(self.hash);
-        for byte in [a, b].iter().chain(bytes) {
+        for byte in places.as_flattened().iter().chain(bytes) {
             hash = (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
         }
         self.hash = black_box(hash);

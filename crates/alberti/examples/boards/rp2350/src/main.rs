@@ -20,7 +20,7 @@ use embassy_rp::peripherals::DMA_CH0;
 use embassy_rp::spi::{Config, Spi};
 use embassy_rp::{bind_interrupts, dma};
 use embassy_time::{Delay, Duration, Ticker};
-use panel::{Chip, Panel, Pins};
+use panel::{Chip, Panel, Pins, PixelFormat};
 use panic_halt as _;
 use static_cell::ConstStaticCell;
 
@@ -51,7 +51,8 @@ async fn main(_spawner: Spawner) {
         tearing.wait_for_rising_edge().await;
     };
 
-    let Ok(mut panel) = Panel::new(Chip::St7789, bus, pins, &mut Delay, pace).await else { return };
+    let chip = Chip::St7789(PixelFormat::Rgb565);
+    let Ok(mut panel) = Panel::new(chip, bus, pins, &mut Delay, pace).await else { return };
     let demo = DEMO.take();
     // Also with an FPU fixed point is the quicker.
     while demo.frame(FIXED, &mut panel).await.is_ok() {}
