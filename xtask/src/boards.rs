@@ -7,7 +7,7 @@
 mod emulated;
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use crate::command::{self, Outcome, cargo};
@@ -32,6 +32,9 @@ const BOARDS: &[Board] = &[
     Board { name: "nrf52840", target: Target::of("thumbv7em-none-eabihf") },
     Board { name: "esp32c3", target: Target::of("riscv32imc-unknown-none-elf") },
 ];
+
+/// The picture of the demo in the guide.
+const PICTURE: &str = "docs/pictures/demo.gif";
 
 /// The members that any machine compiles.
 const SHARED: [&str; 4] = ["alberti-demo", "panel", "desktop", "alberti-qemu"];
@@ -81,7 +84,22 @@ pub(crate) fn check() -> Outcome {
     command::run(here("clippy", &SHARED).args(["--", "-D", "warnings"]))?;
     command::run(&mut here("test", &["panel"]))?;
     println!("{}", emulated::run()?);
+    is_current()?;
     run(&[])
+}
+
+/// Draws the animated picture of the demo anew, and compares it with the one that the guide shows.
+fn is_current() -> Outcome {
+    let drawn = workspace::target_directory().join("demo.gif");
+    let mut draw = cargo();
+    draw.args(["run", "--release", "--quiet", "--manifest-path", MANIFEST, "--package", "desktop"]);
+    draw.arg("--target-dir").arg(workspace::target_directory()).arg("--").arg(&drawn);
+    command::run(&mut draw)?;
+    let read = |path: &Path| fs::read(path).map_err(|error| format!("cannot read {}: {error}", path.display()));
+    if read(&drawn)? != read(&workspace::root().join(PICTURE))? {
+        return Err(format!("{PICTURE} is not what the demo draws: copy {} there", drawn.display()));
+    }
+    Ok(())
 }
 
 /// The boards that the arguments name: one, or all.

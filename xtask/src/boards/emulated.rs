@@ -12,15 +12,15 @@ struct Core {
     name: &'static str,
     target: Target,
     machine: &'static str,
-    /// The instructions that a frame takes on average, in fixed point, as they were when this was written down. More
-    /// by a hundredth is a failure.
-    mean: u64,
+    /// The instructions that a frame takes in fixed point, on average and at worst, as they were when this was written
+    /// down. More by a hundredth is a failure.
+    counts: [u64; 2],
 }
 
 /// Code for Cortex-M0 runs on a Cortex-M3.
 const CORES: [Core; 2] = [
-    Core { name: "m0", target: Target::of("thumbv6m-none-eabi"), machine: "mps2-an385", mean: 4_345_000 },
-    Core { name: "m4f", target: Target::of("thumbv7em-none-eabihf"), machine: "mps2-an386", mean: 2_600_000 },
+    Core { name: "m0", target: Target::of("thumbv6m-none-eabi"), machine: "mps2-an385", counts: [9_060_000, 9_270_000] },
+    Core { name: "m4f", target: Target::of("thumbv7em-none-eabihf"), machine: "mps2-an386", counts: [9_520_000, 9_650_000] },
 ];
 
 /// The program, for any of them and for this machine.
@@ -81,9 +81,11 @@ fn emulate(core: &Core, expected: &[Frame<'_>]) -> Result<String, String> {
         let worst = all.iter().max().copied().unwrap_or_default();
         let cells = [mean(&all), worst, mean(&first)].map(millions).map(|cell| format!("{cell:>12}"));
         rows += &format!("    {:<6}{kind:<8}{}{stack:>12}\n", core.name, cells.concat());
-        if kind == "fixed" && mean(&all) > core.mean + core.mean / 100 {
-            let (now, before) = (mean(&all), core.mean);
-            return Err(format!("{}: a frame takes {now} instructions, and took {before}", core.name));
+        let now = [("a frame on average", mean(&all)), ("the worst frame", worst)];
+        for ((which, now), before) in now.into_iter().zip(core.counts) {
+            if kind == "fixed" && now > before + before / 100 {
+                return Err(format!("{}: {which} takes {now} instructions, and took {before}", core.name));
+            }
         }
     }
     Ok(rows)

@@ -39,7 +39,7 @@ fn vertices(source: &mut String) {
         for j in 0..=around {
             let turn = Quat::from_axis_angle(forward, TAU * f32::from(j) / f32::from(around));
             let normal = turn * side;
-            let place = (at + normal * 0.30) * 0.42;
+            let place = (at + normal * 0.30) * 0.44;
             let [place, normal] = [(place, 16384.0), (normal, 127.0)]
                 .map(|(v, scale)| (v * scale).round().to_array().map(|c| c as i16));
             let uv = [(i, along, TIMES[0]), (j, around, TIMES[1])]
