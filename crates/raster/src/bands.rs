@@ -2,7 +2,8 @@
 
 use crate::color::{ColorFormat, FragmentColor};
 use crate::depth::DepthFormat;
-use crate::target::{LARGEST, Target, TargetError, must_reach};
+use crate::error::TargetError;
+use crate::target::{LARGEST, Target, must_reach};
 
 /// A frame that is drawn band by band, each in the memory of the one before: its depths, and its colours too where
 /// these are no whole frame or [window](Self::window).
@@ -108,7 +109,7 @@ impl<'a, C: ColorFormat, D: DepthFormat> Bands<'a, C, D> {
         depth: &'a mut [D::Stored],
     ) -> Result<Self, TargetError> {
         let [columns, rows] = size.map(|side| side as usize);
-        // What is left over behind a whole frame is no part of any row.
+        // Pixels behind a whole frame are no part of any row.
         let (pixels, width) = (depth.len().min(columns.saturating_mul(rows)), size[0]);
         if width != 0 && !pixels.is_multiple_of(columns) {
             return Err(TargetError::Rows { pixels, width });
