@@ -95,7 +95,8 @@ fn is_current() -> Outcome {
     draw.args(["run", "--release", "--quiet", "--manifest-path", MANIFEST, "--package", "desktop"]);
     draw.arg("--target-dir").arg(workspace::target_directory()).arg("--").arg(&drawn);
     command::run(&mut draw)?;
-    let read = |path: &Path| fs::read(path).map_err(|error| format!("cannot read {}: {error}", path.display()));
+    let read =
+        |path: &Path| fs::read(path).map_err(|error| format!("cannot read {}: {error}", path.display()));
     if read(&drawn)? != read(&workspace::root().join(PICTURE))? {
         return Err(format!("{PICTURE} is not what the demo draws: copy {} there", drawn.display()));
     }

@@ -18,6 +18,10 @@ const LOCK: &str = "crates/alberti/examples/boards/Cargo.lock";
 /// The line that bakes the reader's model, and the one that builds a program, and runs it.
 const BAKE: &str = "cargo run --release -- bake ";
 const BUILD: &str = "cargo run --release";
+/// The program's library, the words that its budget begins with, and a budget that it exceeds.
+const LIBRARY: &str = "../src/lib.rs";
+const BUDGET: &str = "Room::must_fit(";
+const SMALL: u32 = 1000;
 /// Lines that only a machine of one's own takes: they install tools.
 const INSTALL: [&str; 2] = ["rustup ", "sudo "];
 
@@ -52,6 +56,8 @@ pub(crate) fn run() -> Outcome {
     let picture = room.join("turntable/emulator/frame.ppm");
     let bytes = fs::read(&picture).map_err(|error| format!("cannot read {}: {error}", picture.display()))?;
     ball::compare(&bytes).map_err(|message| format!("{}: {message}", picture.display()))?;
+    reader.here = room.join("turntable/emulator");
+    reader.overspend()?;
     println!("{PAGE} was followed in {}; its picture is that of rays", room.display());
     Ok(())
 }
@@ -77,6 +83,23 @@ fn link(from: &Path, to: &Path) -> std::io::Result<()> {
 #[cfg(not(unix))]
 fn link(_: &Path, _: &Path) -> std::io::Result<()> {
     Err(std::io::Error::other("links to folders need Unix"))
+}
+
+/// Fails unless the compiler's message has the bytes that the renderer takes, and those that are too many.
+fn told(message: &str) -> Outcome {
+    let number = |words: &str| {
+        let (_, rest) = message.split_once(words)?;
+        rest.split_once(' ')?.0.parse::<u32>().ok()
+    };
+    let taken = number("the renderer's memory takes ");
+    let beyond = taken.and_then(|taken| number(&format!("takes {taken} bytes, ")));
+    let sum = beyond.filter(|beyond| message.contains(&format!("{beyond} more than {SMALL}")));
+    match (taken, sum.map(|beyond| beyond + SMALL)) {
+        (Some(taken), Some(sum)) if taken == sum => Ok(()),
+        _ => {
+            Err(format!("the compiler does not say how far a budget of {SMALL} bytes is exceeded: {message}"))
+        }
+    }
 }
 
 impl Reader {
@@ -107,8 +130,28 @@ impl Reader {
         command::run(Command::new("sh").args(["-c", line]).current_dir(&self.here))
     }
 
+    /// Gives the program too small a budget, and reads what the compiler says of it.
+    fn overspend(&self) -> Outcome {
+        let library = self.here.join(LIBRARY);
+        let failed = |error| format!("cannot change {}: {error}", library.display());
+        let text = fs::read_to_string(&library).map_err(failed)?;
+        let (before, rest) = text.split_once(BUDGET).ok_or_else(|| format!("no `{BUDGET}` in {LIBRARY}"))?;
+        let (_, after) = rest.split_once(')').ok_or_else(|| format!("no end of `{BUDGET}` in {LIBRARY}"))?;
+        fs::write(&library, format!("{before}{BUDGET}{SMALL}){after}")).map_err(failed)?;
+        let outcome = command::output(&mut self.building()?);
+        fs::write(&library, text).map_err(failed)?;
+        match outcome {
+            Ok(_) => Err(format!("a budget of {SMALL} bytes was kept")),
+            Err(message) => told(&message),
+        }
+    }
+
     /// Builds the program here for its target, and runs it if that is an emulator's.
     fn build(&self) -> Outcome {
+        command::run(&mut self.building()?)
+    }
+
+    fn building(&self) -> Result<Command, String> {
         let lock = self.here.join("../Cargo.lock");
         fs::copy(workspace::root().join(LOCK), &lock)
             .map_err(|error| format!("cannot write {}: {error}", lock.display()))?;
@@ -117,7 +160,8 @@ impl Reader {
         // Nothing is flashed: there is no board.
         let subcommand = if self.here.ends_with("emulator") { "run" } else { "build" };
         let mut build = Toolchain::find(target)?.cargo_in(&directory, subcommand, target);
-        command::run(build.arg("--release").current_dir(&self.here))
+        build.arg("--release").current_dir(&self.here);
+        Ok(build)
     }
 
     /// The target that the folder's configuration names.
@@ -128,5 +172,23 @@ impl Reader {
         let known = ["thumbv6m-none-eabi", "thumbv7em-none-eabihf"];
         let named = known.into_iter().find(|triple| text.contains(&format!("target = \"{triple}\"")));
         named.map(Target::of).ok_or_else(|| format!("{}: no target of {}", file.display(), known.join(", ")))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_a_message_with_its_numbers_is_taken() {
+        let message = |taken, beyond| {
+            format!(
+                "error[E0080]: evaluation panicked: the renderer's memory takes {taken} bytes, {beyond} more than 1000\n"
+            )
+        };
+        assert_eq!(told(&message(3000, 2000)), Ok(()));
+        for wrong in [message(3000, 2001), "evaluation panicked: the renderer's memory takes 1 byte".into()] {
+            assert!(told(&wrong).unwrap_err().contains(&wrong));
+        }
     }
 }

@@ -50,35 +50,27 @@ static VERTICES: [([i8; 3], [u8; 2]); 5] = [
 ];
 static TRIANGLES: [[u8; 3]; 4] = [[1, 0, 4], [2, 1, 4], [3, 2, 4], [0, 3, 4]];
 
-/// The memory of a frame: what a board has as `static`.
-struct Memory {
-    color: [u16; PIXELS],
-    depth: [u16; PIXELS],
-    slots: [Slot<Vec2>; VERTICES.len()],
-    room: [PreparedTriangle; TRIANGLES.len()],
-}
+/// All memory, as a board has it in a `static`: a fifth of what the frame's colours would take.
+type Room = Memory<Rgb565Be, D16, Vec2, PIXELS, { VERTICES.len() }, { TRIANGLES.len() }>;
+const _: () = Room::must_fit(32 * 1024);
 
 fn main() -> ExitCode {
     common::write("firmware_frame.png", picture)
 }
 
 pub(crate) fn picture() -> common::File {
-    let mut memory = Box::new(Memory {
-        color: [0; PIXELS],
-        depth: [0; PIXELS],
-        slots: [Slot::EMPTY; VERTICES.len()],
-        room: [PreparedTriangle::EMPTY; TRIANGLES.len()],
-    });
+    let mut room = Box::new(Room::new(0, 0));
     let mut display = Vec::new();
-    frame(&mut memory, |bytes| display.extend_from_slice(bytes))?;
+    frame(&mut room, |bytes| display.extend_from_slice(bytes))?;
     let shown = |bytes: &[u8; 2]| Rgb565Be.decode(u16::from_ne_bytes(*bytes)).to_bits();
     let pixels: Vec<u32> = display.as_chunks().0.iter().map(shown).collect();
     common::png(WIDTH.into(), &pixels)
 }
 
 /// Draws a frame, whose bytes `send` gets in the display's order.
-fn frame(memory: &mut Memory, mut send: impl FnMut(&[u8])) -> Result<(), Error> {
-    let Memory { color, depth, slots, room } = memory;
+fn frame(room: &mut Room, mut send: impl FnMut(&[u8])) -> Result<(), Error> {
+    // `send` is done when it returns, so one band of colours is enough.
+    let Room { colors: [colors, _], depths, slots, list } = room;
     let view = Camera::look_at(Vec3::new(1.2, 1.5, -5.0), Vec3::Y * 0.1, Vec3::Y)?.through(LENS);
     let stage = Stored(SQUARES.sampler(Nearest, Repeat));
     let mesh = Mesh::new(&VERTICES, &TRIANGLES, |(place, uv)| {
@@ -86,9 +78,9 @@ fn frame(memory: &mut Memory, mut send: impl FnMut(&[u8])) -> Result<(), Error> 
     });
 
     // The geometry once, then sixteen rows at a time.
-    let mut bands = Bands::new(Rgb565Be, D16, WIDTH.into(), HEIGHT.into(), color, depth)?;
+    let mut bands = Bands::new(Rgb565Be, D16, WIDTH.into(), HEIGHT.into(), colors, depths)?;
     let mut pass = Pass::new(&view, &mesh, stage).with(MCU).slots(slots);
-    let (mut triangles, _) = pass.prepare(&bands, room);
+    let (mut triangles, _) = pass.prepare(&bands, list);
     bands.draw(common::BACKGROUND, |band| {
         triangles.draw(band);
         send(band.bytes());

@@ -3,7 +3,7 @@
 //! Everything is little-endian, and nothing is aligned. So a file can be anywhere in flash, and is read on any machine.
 //!
 //! ```text
-//! header     60 bytes  [`MAGIC`], [`VERSION`], counts, the unit of places, the grid of texture coordinates
+//! header     32 bytes  [`MAGIC`], [`VERSION`], counts, the unit of places
 //! places      6 bytes a vertex, three i16           vertices of all parts, each kind of attribute for itself,
 //! coordinates 4 bytes, two u16                      and only those that [`Attributes`] name
 //! normals     2 bytes, an [`Octahedral`]
@@ -11,7 +11,8 @@
 //! colours     3 bytes, sRGB
 //! triangles   6 bytes a triangle, three u16         numbers of vertices within the part
 //! meshlets   28 bytes each                          numbers of triangles within the part
-//! parts      48 bytes each                          ranges of the above, a ball, a colour and a texture's number
+//! parts      60 bytes each                          ranges of the above, a ball, a colour, a texture's number, and
+//!                                                   the grid of texture coordinates
 //! textures   16 bytes each                          format, size, place of the palette and of the texels behind it
 //! texels                                            level after level
 //! ```
@@ -38,15 +39,18 @@ use sections::{Sections, float, half, word};
 
 /// The first bytes of a file.
 pub const MAGIC: [u8; 4] = *b"ALBK";
-/// The version of the format that is read.
-pub const VERSION: u16 = 1;
+/// The version of the format that is read. Files of version 1, in which all parts had one grid, are to be baked again.
+pub const VERSION: u16 = 2;
 /// The bytes of the header.
-pub const HEADER: usize = 60;
+pub const HEADER: usize = 32;
+/// The bytes of a part.
+pub const PART: usize = 60;
 /// The most vertices of a part, whose numbers are `u16`.
 pub const MAX_VERTICES: u32 = 1 << 16;
 
 /// The greatest distance of texture coordinates from 0, and the most that a grid spans: 2^12.
 const MAX_UV: u32 = 1 << 28;
+const MAX_SHIFT: u16 = 12;
 /// The number of no texture.
 const NONE: u16 = u16::MAX;
 
@@ -83,9 +87,6 @@ pub struct Baked<'a> {
     textures: &'a [[u8; 16]],
 }
 
-/// The bytes of a part.
-const PART: usize = 48;
-
 impl<'a> Baked<'a> {
     /// The view of a file, which must end where the file does.
     ///
@@ -115,22 +116,13 @@ impl<'a> Baked<'a> {
         check(length as usize == bytes.len(), Fault::Length, 8, length, count(bytes.len()))?;
         let unit = float(header, 28);
         check(unit > 0.0 && unit.is_finite(), Fault::Number, 28, unit.to_bits(), 0)?;
-        let origin = [32, 36].map(|at| word(header, at).cast_signed());
-        let shifts = [40, 42].map(|at| half(header, at));
-        for ((at, far), (origin, shift)) in
-            [(32, 40), (36, 42)].into_iter().zip(origin.into_iter().zip(shifts))
-        {
-            check(origin.unsigned_abs() <= MAX_UV, Fault::Grid, at, origin.unsigned_abs(), MAX_UV)?;
-            check(shift <= 12, Fault::Grid, far, shift.into(), 12)?;
-        }
-        let grid = Grid { origin, shifts };
 
         let [vertices, triangles, meshlets, parts, textures] = [12, 16, 20, 24, 26].map(|at| {
             let number = if at < 24 { word(header, at) } else { half(header, at).into() };
             (at, number)
         });
         let mut sections = Sections { bytes, at: HEADER };
-        let vertices = Vertices::read(&mut sections, (attributes, grid), vertices)?;
+        let vertices = Vertices::read(&mut sections, attributes, vertices)?;
         let baked = Self {
             bytes,
             attributes,
@@ -168,6 +160,15 @@ impl<'a> Baked<'a> {
             let texture = half(part, 44);
             if texture != NONE && usize::from(texture) >= self.textures.len() {
                 return wrong(Fault::Texture, part, texture.into(), count(self.textures.len()));
+            }
+            let Grid { origin, shifts } = grid(part);
+            for (origin, shift) in origin.into_iter().map(i32::unsigned_abs).zip(shifts) {
+                if origin > MAX_UV {
+                    return wrong(Fault::Grid, part, origin, MAX_UV);
+                }
+                if shift > MAX_SHIFT {
+                    return wrong(Fault::Grid, part, shift.into(), MAX_SHIFT.into());
+                }
             }
             let ball = self.ball(part);
             if !(ball.center.is_finite() && ball.radius.is_finite() && ball.radius >= 0.0) {
@@ -261,13 +262,21 @@ impl<'a> BakedPart<'a> {
         }
         let range = |at: usize| [word(bytes, at), word(bytes, at + 4)];
         Ok(BakedMesh {
-            vertices: baked.vertices.part(range(0)),
+            vertices: baked.vertices.part(range(0), grid(bytes)),
             triangles: within(baked.triangles, range(8)),
             meshlets: within(baked.meshlets, range(16)),
             ball: baked.ball(bytes),
             unit: baked.unit,
             attributes: PhantomData,
         })
+    }
+}
+
+/// The grid of a part's texture coordinates.
+fn grid(part: &[u8; PART]) -> Grid {
+    Grid {
+        origin: [48, 52].map(|at| word(part, at).cast_signed()),
+        shifts: [56, 58].map(|at| half(part, at)),
     }
 }
 

@@ -175,8 +175,8 @@ impl Default for Wish {
 pub struct Asset {
     /// The attributes of all vertices.
     pub attributes: Attributes,
-    /// The grids of places and of texture coordinates.
-    pub grids: Grids,
+    /// The unit of places, in object space.
+    pub unit: f32,
     /// The parts that have triangles with an area, in the model's order.
     pub pieces: Vec<Piece>,
     /// The numbers of those that had triangles, of which none has an area on the grid.

@@ -18,6 +18,7 @@ mod draw;
 mod edge;
 #[cfg(feature = "embedded-graphics")]
 mod embedded;
+mod error;
 mod fill;
 mod fragment;
 mod interpolation;
@@ -51,10 +52,11 @@ pub use draw::Paint;
 pub use edge::{Edge, EdgeInt, FITS_I32};
 #[cfg(feature = "embedded-graphics")]
 pub use embedded::TargetImage;
+pub use error::TargetError;
 pub use fragment::{FragmentStage, Fragments};
 pub use interpolation::{Affine, Exact, FixedPoint, Interpolation, Lines, Planes, Spans16};
 pub use spans::{Span, SpanWalker};
-pub use target::{Target, TargetError};
+pub use target::Target;
 pub use touched::Touched;
 pub use triangle::{Corner, Cull, Numbers, Outcome, Reach, Vertex};
 

@@ -2,9 +2,9 @@
 
 use crate::color::{ColorFormat, FragmentColor};
 use crate::depth::DepthFormat;
+use crate::error::TargetError;
 use crate::pixels::{Pixels, Rows, fill, narrowed};
 use alberti_math::map2;
-use core::fmt;
 use core::iter::from_fn;
 use core::mem::{replace, take};
 use core::ops::Range;
@@ -12,9 +12,10 @@ use core::ops::Range;
 /// Consecutive rows of a frame, in buffers of the caller's, whose pixels do not depend on the division:
 ///
 /// * all of them ([`new`](Self::new)),
-/// * all of a window into a larger picture ([`window`](Self::window)),
 /// * a band of a frame that does not fit in memory ([`band`](Self::band), or [`Bands`](crate::Bands) for one band after
-///   the other).
+///   the other),
+/// * all of a window into a larger picture, or a band of it ([`window`](Self::window), or
+///   [`Bands::window`](crate::Bands::window)).
 ///
 /// Rows count from the top. The depth buffer holds `width` values a row, without padding.
 ///
@@ -42,75 +43,6 @@ pub struct Target<'a, C: ColorFormat, D: DepthFormat> {
     /// The columns and rows of the frame that may be drawn to.
     limits: [Range<i32>; 2],
 }
-
-/// The reason why buffers do not make a target.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub enum TargetError {
-    /// No pixels, or more than 16384 columns or rows, or rows beyond the frame's last one.
-    Size,
-    /// The buffers of a band do not hold whole rows.
-    Rows {
-        /// Pixels in the band.
-        pixels: usize,
-        /// Pixels a row.
-        width: u32,
-    },
-    /// The colour buffer holds another number of pixels than the frame, or fewer than a window reaches over.
-    Color {
-        /// Pixels in the colour buffer.
-        found: usize,
-        /// Pixels of the frame, or from a window's first to its last.
-        expected: usize,
-    },
-    /// The rows of a window overlap.
-    Stride {
-        /// Pixels from a row to the next.
-        stride: usize,
-        /// Pixels a row.
-        width: u32,
-    },
-    /// The depth buffer holds another number of pixels than the rows that are drawn.
-    Depth {
-        /// Pixels in the depth buffer.
-        found: usize,
-        /// Pixels in the rows that are drawn.
-        expected: usize,
-    },
-    /// The buffer of a [`Silhouette`](crate::Silhouette) holds fewer words than there are pixels to be drawn to.
-    Coverage {
-        /// Words in the buffer.
-        found: usize,
-        /// Pixels within the target's limits.
-        expected: usize,
-    },
-}
-
-impl fmt::Display for TargetError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Size => f.write_str("a target needs 1 to 16384 columns and rows, within its frame"),
-            Self::Rows { pixels, width } => {
-                write!(f, "a band's {pixels} pixels do not make the frame's rows of {width}")
-            }
-            Self::Color { found, expected } => {
-                write!(f, "the colour buffer holds {found} pixels, the frame or window takes {expected}")
-            }
-            Self::Stride { stride, width } => {
-                write!(f, "rows that begin {stride} pixels apart are no room for {width}")
-            }
-            Self::Depth { found, expected } => {
-                write!(f, "the depth buffer holds {found} pixels, the rows that are drawn {expected}")
-            }
-            Self::Coverage { found, expected } => {
-                write!(f, "the coverage buffer holds {found} words, the pixels that are drawn are {expected}")
-            }
-        }
-    }
-}
-
-impl core::error::Error for TargetError {}
 
 /// The largest width and height of a frame.
 pub(crate) const LARGEST: u32 = 1 << 14;
@@ -166,9 +98,10 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
         Self::of_rows(formats, [width, height], [first_row, rows], width as usize, color, depth)
     }
 
-    /// A whole frame of `width` x `height` pixels in a larger picture, such as a window of a user interface. `color`
-    /// begins with the frame's first pixel, and each row begins `stride` pixels after the one above. So `color` has at
-    /// least (`height` − 1)·`stride` + `width` pixels, and `depth` `width`·`height`.
+    /// These rows of a frame of `width` x `height` pixels, in a larger picture, such as a window of a user interface:
+    /// `0..height` for all of it. `color` begins with the first pixel of the first of them, and each row begins
+    /// `stride` pixels after the one above. So for n rows `color` has at least (n − 1)·`stride` + `width` pixels, and
+    /// `depth` has n·`width`.
     ///
     /// ```
     /// use alberti_math::{Rgba8, Rgba8888};
@@ -176,37 +109,36 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
     ///
     /// // A window of 2 x 3 pixels, at column 1 of row 2 of a picture of 4 x 6.
     /// let (mut picture, mut depth) = ([0; 4 * 6], [(); 2 * 3]);
-    /// let mut window = Target::window(Rgba8888, NoDepth, [2, 3], 4, &mut picture[2 * 4 + 1..], &mut depth)?;
-    /// window.clear(Rgba8::WHITE);
+    /// let place = &mut picture[2 * 4 + 1..];
+    /// Target::window(Rgba8888, NoDepth, [2, 3], 0..3, 4, place, &mut depth)?.clear(Rgba8::WHITE);
     /// assert_eq!(picture[2 * 4..3 * 4], [0, u32::MAX, u32::MAX, 0]);
+    ///
+    /// // The same in memory for two rows of the picture: the last two, which are rows 1 and 2 of the window.
+    /// let mut part = [0; 4 * 2];
+    /// let mut band = Target::window(Rgba8888, NoDepth, [2, 3], 1..3, 4, &mut part[1..], &mut depth[..2 * 2])?;
+    /// band.clear(Rgba8::WHITE);
+    /// assert_eq!(part, [0, u32::MAX, u32::MAX, 0, 0, u32::MAX, u32::MAX, 0]);
     /// # Ok::<(), alberti_raster::TargetError>(())
     /// ```
     ///
     /// # Errors
-    /// [`TargetError`] when the buffers' lengths do not fit the size and the stride, or these the limits.
+    /// [`TargetError`] when the buffers' lengths do not fit the rows and the stride, or these the frame or the limits.
     pub fn window(
         color_format: C,
         depth_format: D,
-        [width, height]: [u32; 2],
+        size: [u32; 2],
+        rows: Range<u32>,
         stride: usize,
         color: &'a mut [C::Pixel],
         depth: &'a mut [D::Stored],
     ) -> Result<Self, TargetError> {
-        let last = (height as usize).checked_sub(1).ok_or(TargetError::Size)?;
-        let pixels = color.len();
-        let wanted = last.checked_mul(stride).and_then(|above| above.checked_add(width as usize));
-        if stride < width as usize {
-            return Err(TargetError::Stride { stride, width });
-        }
-        let expected = wanted.unwrap_or(usize::MAX);
-        if expected > pixels {
-            return Err(TargetError::Color { found: pixels, expected });
-        }
-        let formats = (color_format, depth_format);
-        Self::of_rows(formats, [width, height], [0, height], stride, color, depth)
+        let count = rows.end.saturating_sub(rows.start);
+        must_reach(color.len(), [size[0], count], stride)?;
+        Self::of_rows((color_format, depth_format), size, [rows.start, count], stride, color, depth)
     }
 
-    fn of_rows(
+    /// So many rows from one on, whose buffers of colours are long enough for the stride.
+    pub(crate) fn of_rows(
         (color_format, depth_format): (C, D),
         [width, height]: [u32; 2],
         [first_row, rows]: [u32; 2],
@@ -374,6 +306,17 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
     }
 }
 
+/// Fails unless so many pixels hold a window of these columns and rows.
+pub(crate) fn must_reach(found: usize, [width, rows]: [u32; 2], stride: usize) -> Result<(), TargetError> {
+    let above = (rows as usize).checked_sub(1).ok_or(TargetError::Size)?;
+    if stride < width as usize {
+        return Err(TargetError::Stride { stride, width });
+    }
+    let reached = above.checked_mul(stride).and_then(|above| above.checked_add(width as usize));
+    let expected = reached.unwrap_or(usize::MAX);
+    if found < expected { Err(TargetError::Color { found, expected }) } else { Ok(()) }
+}
+
 /// The first elements, and the others.
 fn split_off<T>(all: &mut [T], count: usize) -> (&mut [T], &mut [T]) {
     let count = count.min(all.len());
@@ -480,19 +423,43 @@ mod tests {
     fn a_window_leaves_what_is_beside_it() {
         // 3 x 2 in rows of 5, the last of which ends with the window.
         let (mut color, mut depth) = ([0u32; 8], [0u16; 6]);
-        let mut window = Target::window(Rgba8888, D16, [3, 2], 5, &mut color, &mut depth).expect("fits");
+        let mut window =
+            Target::window(Rgba8888, D16, [3, 2], 0..2, 5, &mut color, &mut depth).expect("fits");
         window.clear(Rgba8::WHITE);
         assert_eq!((window.pixels_from(0, 1).0.len(), window.pixels_from(1, 1).0.len()), (5, 2));
         let w = u32::MAX;
         assert_eq!(color, [w, w, w, 0, 0, w, w, w]);
-        let mut error = |size, stride, pixels: usize| {
-            Target::window(Rgba8888, D16, size, stride, &mut color[..pixels], &mut depth).map(|_| ()).err()
+        let mut error = |size: [u32; 2], rows, stride, pixels: usize| {
+            Target::window(Rgba8888, D16, size, rows, stride, &mut color[..pixels], &mut depth)
+                .map(|_| ())
+                .err()
         };
-        assert_eq!(error([3, 2], 5, 7), Some(TargetError::Color { found: 7, expected: 8 }));
-        assert_eq!(error([3, 2], 2, 8), Some(TargetError::Stride { stride: 2, width: 3 }));
-        assert_eq!(error([3, 0], 3, 8), Some(TargetError::Size));
-        assert_eq!(error([2, 2], 5, 8), Some(TargetError::Depth { found: 6, expected: 4 }));
-        let expected = usize::MAX;
-        assert_eq!(error([3, 2], expected, 8), Some(TargetError::Color { found: 8, expected }));
+        // Both rows of the frame, or the last two of the largest.
+        for (height, rows) in [(2, 0..2), (LARGEST, LARGEST - 2..LARGEST)] {
+            let mut error = |width, stride, pixels| error([width, height], rows.clone(), stride, pixels);
+            assert_eq!(error(3, 5, 8), None);
+            assert_eq!(error(3, 5, 7), Some(TargetError::Color { found: 7, expected: 8 }));
+            assert_eq!(error(3, 2, 8), Some(TargetError::Stride { stride: 2, width: 3 }));
+            assert_eq!(error(2, 5, 8), Some(TargetError::Depth { found: 6, expected: 4 }));
+            let expected = usize::MAX;
+            assert_eq!(error(3, expected, 8), Some(TargetError::Color { found: 8, expected }));
+        }
+        let (none, after) = (1..1, LARGEST - 1..LARGEST + 1);
+        #[expect(clippy::reversed_empty_ranges, reason = "no rows either")]
+        let turned = 2..1;
+        for (height, rows) in
+            [(0, 0..0), (2, none), (2, turned), (2, 1..3), (LARGEST, after), (LARGEST + 1, 0..2)]
+        {
+            assert_eq!(
+                error([3, height], rows.clone(), 3, 8),
+                Some(TargetError::Size),
+                "{rows:?} of {height}"
+            );
+        }
+        // One row, and no pixel behind it, whatever the stride is.
+        let mut row =
+            Target::window(Rgba8888, D16, [3, 9], 8..9, usize::MAX, &mut color[..3], &mut depth[..3]);
+        row.as_mut().expect("fits").clear(Rgba8::BLACK);
+        assert_eq!(color[3..], [0, 0, w, w, w]);
     }
 }

@@ -196,8 +196,16 @@ impl Memory {
     }
 
     pub(crate) fn target(&mut self, format: AnyDepth) -> Canvas<'_> {
-        Target::window(Rgba8888, format, self.size, self.stride, &mut self.color, &mut self.depth)
-            .expect("a window")
+        Target::window(
+            Rgba8888,
+            format,
+            self.size,
+            0..self.size[1],
+            self.stride,
+            &mut self.color,
+            &mut self.depth,
+        )
+        .expect("a window")
     }
 
     /// The number of pixels that were drawn.

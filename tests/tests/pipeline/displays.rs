@@ -182,7 +182,8 @@ fn packed_greys_are_a_raw_image() {
 fn windows_are_shown_without_their_neighbours() {
     // 6 x 5 in rows of 8, the last of which ends with the window.
     let (mut color, mut depth) = ([u16::from_be(0x07e0); 8 * 4 + 6], [0; PIXELS]);
-    let mut window = Target::window(Rgb565Be, D16, SIZE, 8, &mut color, &mut depth).expect("fits");
+    let mut window =
+        Target::window(Rgb565Be, D16, SIZE, 0..SIZE[1], 8, &mut color, &mut depth).expect("fits");
     draw_pattern(&mut window);
     assert!(window.image_raw().is_none());
     let mut display = MockDisplay::new();

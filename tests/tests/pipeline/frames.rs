@@ -91,8 +91,8 @@ fn a_window_shows_the_frame_and_nothing_beside_it() {
         let mut picture = vec![SENTINEL; corner + (height - 1) * stride + width + below];
         let mut its_depth = vec![DEPTH.farthest(); depth.len()];
         let memory = &mut picture[corner..];
-        let mut window =
-            Target::window(Rgba8888, DEPTH, size, stride, memory, &mut its_depth).expect("a window");
+        let mut window = Target::window(Rgba8888, DEPTH, size, 0..size[1], stride, memory, &mut its_depth)
+            .expect("a window");
         // Cleared to the colour of pixels that no triangle covers in the frame.
         window.clear(0u32);
         soup.draw(&mut window, &view, None);

@@ -19,8 +19,18 @@ struct Core {
 
 /// Code for Cortex-M0 runs on a Cortex-M3.
 const CORES: [Core; 2] = [
-    Core { name: "m0", target: Target::of("thumbv6m-none-eabi"), machine: "mps2-an385", counts: [9_060_000, 9_270_000] },
-    Core { name: "m4f", target: Target::of("thumbv7em-none-eabihf"), machine: "mps2-an386", counts: [9_520_000, 9_650_000] },
+    Core {
+        name: "m0",
+        target: Target::of("thumbv6m-none-eabi"),
+        machine: "mps2-an385",
+        counts: [9_060_000, 9_270_000],
+    },
+    Core {
+        name: "m4f",
+        target: Target::of("thumbv7em-none-eabihf"),
+        machine: "mps2-an386",
+        counts: [9_520_000, 9_650_000],
+    },
 ];
 
 /// The program, for any of them and for this machine.

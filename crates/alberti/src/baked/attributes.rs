@@ -58,8 +58,8 @@ impl BitOr for Attributes {
     }
 }
 
-/// The places of texture coordinates: `origin + (c << shift)` 65536ths.
-#[derive(Clone, Copy, Debug)]
+/// The places of a part's texture coordinates: `origin + (c << shift)` 65536ths.
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Grid {
     pub(super) origin: [i32; 2],
     pub(super) shifts: [u16; 2],
@@ -80,7 +80,7 @@ impl<'a> Vertices<'a> {
     /// Those of a file, so many.
     pub(super) fn read(
         sections: &mut Sections<'a>,
-        (attributes, grid): (Attributes, Grid),
+        attributes: Attributes,
         (stated, all): (usize, u32),
     ) -> Result<Self, BakedError> {
         let some = |attribute| (stated, if attributes.contains(attribute) { all } else { 0 });
@@ -90,19 +90,19 @@ impl<'a> Vertices<'a> {
             normals: sections.take(some(Attributes::NORMAL))?,
             tangents: sections.take(some(Attributes::TANGENT))?,
             colors: sections.take(some(Attributes::COLOR))?,
-            grid,
+            grid: Grid::default(),
         })
     }
 
-    /// Those of a part.
-    pub(super) fn part(&self, range: [u32; 2]) -> Self {
+    /// Those of a part, on its grid.
+    pub(super) fn part(&self, range: [u32; 2], grid: Grid) -> Self {
         Self {
             places: within(self.places, range),
             uvs: within(self.uvs, range),
             normals: within(self.normals, range),
             tangents: within(self.tangents, range),
             colors: within(self.colors, range),
-            grid: self.grid,
+            grid,
         }
     }
 

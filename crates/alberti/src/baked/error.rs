@@ -34,7 +34,7 @@ pub enum Fault {
     Count,
     /// A number is not finite, or negative, or a unit that is 0.
     Number,
-    /// The grid of texture coordinates is too wide.
+    /// The grid of a part's texture coordinates is too wide.
     Grid,
     /// A part or a meshlet reaches beyond what there is.
     Range,

@@ -47,16 +47,12 @@ impl File {
     fn new() -> Self {
         let mut file = Self::default();
         file.0.extend(b"ALBK");
-        file.halves([1, 15]);
+        file.halves([2, 15]);
         // The length, then the numbers of vertices, triangles and meshlets.
         file.words([0, 7, 3, 1]);
         // The numbers of parts and textures.
         file.halves([2, 1]);
         file.floats([UNIT]);
-        // The grid: u from -1 in steps of 2^-15, v from 0 in steps of 2^-16.
-        file.words([(-65536_i32).cast_unsigned(), 0]);
-        file.halves([1, 0]);
-        file.0.resize(HEADER, 0);
 
         file.halves(PLACES.as_flattened().iter().map(|c| c.cast_unsigned()));
         file.halves(COORDINATES.as_flattened().iter().copied());
@@ -72,11 +68,16 @@ impl File {
         file.halves(meshlet.axis.map(i16::cast_unsigned));
         file.halves([meshlet.squared_sine]);
         file.halves(meshlet.depths.map(i16::cast_unsigned));
-        for (ranges, texture) in [([0, 4, 0, 2, 0, 1], 0), ([4, 3, 2, 1, 1, 0], u16::MAX)] {
+        // The grids: u from -1 in steps of 2^-15, v from 0 in steps of 2^-16; and both from 4095 in steps of 2^-4.
+        let grids = [([-65536, 0], [1, 0]), ([4095 << 16; 2], [12; 2])];
+        let parts = [([0, 4, 0, 2, 0, 1], 0), ([4, 3, 2, 1, 1, 0], u16::MAX)];
+        for ((ranges, texture), (origin, shifts)) in parts.into_iter().zip(grids) {
             file.words(ranges);
             file.floats([0.0, 0.0, -0.25, 2.0]);
             file.0.extend([1, 2, 3, 4]);
             file.halves([texture, 0]);
+            file.words(origin.map(i32::cast_unsigned));
+            file.halves(shifts);
         }
         // Indices of 4 bits, two colours, 2 x 2 texels.
         file.halves([4, 2, 2, 2]);
@@ -126,6 +127,9 @@ fn a_file_is_what_was_written() {
     let mesh = parts[1].mesh::<Uv>().expect("coordinates");
     assert_eq!(mesh.triangle(0), Some([0, 1, 2]));
     assert_eq!(mesh.integers(1).map(|vertex| vertex.place), Some(PLACES[5]));
+    // So is the grid.
+    let (_, uv) = mesh.vertex(1).expect("a vertex");
+    assert_eq!(uv.to_array(), [4095.0 + 3.0 / 16.0, 4095.0 + 4.0 / 16.0]);
 
     let Some(Texels::Indexed4(map)) = baked.texture(0) else { panic!("indices of 4 bits") };
     assert_eq!(map.levels(), 2);
@@ -150,14 +154,13 @@ fn faults_are_told_with_their_place() {
     let textures = parts + 2 * PART;
     for (at, bytes, message) in [
         (0, &b"ELF."[..], "byte 0 of a baked file: found \"ELF.\", expected \"ALBK\"".to_string()),
-        (4, &[2], "byte 4 of a baked file: found version 2, expected 1".to_string()),
+        (4, &[1], "byte 4 of a baked file: found version 1, expected 2".to_string()),
         (7, &[1], "byte 6 of a baked file: found attributes 0b100001111, expected 0b1111".to_string()),
         (8, &[0, 0], std::format!("found 0 bytes, expected {}", file.len())),
         (14, &[1], "byte 12 of a baked file: found 65543 elements, expected at most".to_string()),
         (16, &[255; 4], "byte 16 of a baked file: found 4294967295 elements, expected at most".to_string()),
         (28, &[0; 4], "byte 28 of a baked file: found 0e0, expected a finite number above 0".to_string()),
         (28, &[0, 0, 192, 127], "byte 28 of a baked file: found NaN".to_string()),
-        (40, &[13], "byte 40 of a baked file: found a grid of 13, expected at most 12".to_string()),
         (
             triangles + 8,
             &[4, 0],
@@ -175,6 +178,16 @@ fn faults_are_told_with_their_place() {
             &[1],
             std::format!("byte {parts} of a baked file: found texture 1, expected one below 1"),
         ),
+        (
+            parts + 56,
+            &[13],
+            std::format!("byte {parts} of a baked file: found a grid of 13, expected at most 12"),
+        ),
+        (
+            parts + PART + 51,
+            &[0x10],
+            std::format!("byte {} of a baked file: found a grid of 285147136, expected", parts + PART),
+        ),
         (textures, &[14], std::format!("byte {textures} of a baked file: found texels of format 14")),
         (textures + 4, &[3], std::format!("byte {textures} of a baked file: found 3 bytes of texels")),
         (textures + 12, &[12], std::format!("byte {textures} of a baked file: found 12 bytes of texels")),
@@ -185,13 +198,14 @@ fn faults_are_told_with_their_place() {
     // Without normals there is no mesh of them: the sections move, so the file is one of other vertices.
     let mut poor = File::default();
     poor.0.extend(b"ALBK");
-    poor.halves([1, 1]);
-    poor.words([60 + 48, 0, 0, 0]);
+    poor.halves([2, 1]);
+    poor.words([32 + 60, 0, 0, 0]);
     poor.halves([1, 0]);
     poor.floats([1.0]);
     poor.0.resize(HEADER + 40, 0);
     poor.0.extend([0; 4]);
     poor.halves([u16::MAX, 0]);
+    poor.0.extend([0; 12]);
     let baked = Baked::read(&poor.0).expect("a file of nothing");
     let part = baked.parts().next().expect("a part");
     assert!(part.mesh::<Uv>().is_ok());

@@ -59,9 +59,7 @@ fn header(asset: &Asset, [vertices, triangles, meshlets]: [u32; 3], length: usiz
     header.extend([count(length), vertices, triangles, meshlets].map(u32::to_le_bytes).as_flattened());
     let few = [asset.pieces.len(), asset.textures.len()].map(|n| u16::try_from(n).unwrap_or(u16::MAX));
     header.extend(few.map(u16::to_le_bytes).as_flattened());
-    header.extend(asset.grids.unit.to_le_bytes());
-    header.extend(asset.grids.origin.map(i32::to_le_bytes).as_flattened());
-    header.extend(asset.grids.shifts.map(u16::to_le_bytes).as_flattened());
+    header.extend(asset.unit.to_le_bytes());
     header
 }
 
@@ -91,6 +89,8 @@ fn part(piece: &Piece, starts: &mut [u32; 3]) -> Vec<u8> {
     bytes.extend(piece.color.to_bytes());
     let texture = piece.texture.and_then(|number| u16::try_from(number).ok()).unwrap_or(NONE);
     bytes.extend([texture, 0].map(u16::to_le_bytes).as_flattened());
+    bytes.extend(piece.grids.origin.map(i32::to_le_bytes).as_flattened());
+    bytes.extend(piece.grids.shifts.map(u16::to_le_bytes).as_flattened());
     bytes
 }
 

@@ -71,7 +71,7 @@ pub fn missing(model: &Model, options: &RenderOptions, asked: Asked) -> Vec<Erro
 /// A warning of the parts that an asset has lost, about the model.
 pub fn left_out(model: &Model, asset: &Asset) -> Option<Error> {
     let &first = asset.lost_parts.first()?;
-    let (unit, of) = (number(asset.grids.unit), named(&model.parts[first]));
+    let (unit, of) = (number(asset.unit), named(&model.parts[first]));
     let parts = counted(asset.lost_parts.len(), "part", "parts");
     let found = format!("{parts} without an area in steps of {unit}, from part {first}{of} on");
     Some(Error::new(found, "larger triangles, or a smaller model").hint("the file has none of these"))

@@ -22,10 +22,10 @@ pub struct Packed {
     pub color: [u8; 3],
 }
 
-/// The numbers that integers stand for.
+/// The numbers that a part's integers stand for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grids {
-    /// The unit of places, in object space.
+    /// The unit of places, in object space: that of all parts.
     pub unit: f32,
     /// 65536ths of a texture, where coordinates of 0 are.
     pub origin: [i32; 2],
@@ -63,18 +63,24 @@ const REACH: f64 = 32767.0;
 /// 65536ths of the greatest texture coordinate: 4096.
 const MAX_UV: f64 = 268_435_456.0;
 
+/// The smallest unit of these vertices' places.
+pub(super) fn unit<'a>(vertices: impl Iterator<Item = &'a Vertex>) -> f32 {
+    let reach = vertices.flat_map(|v| v.position).map(|c| f64::from(c).abs()).fold(0.0, f64::max);
+    let unit = if reach > 0.0 { narrow(reach / REACH) } else { 1.0 };
+    unit.max(f32::MIN_POSITIVE)
+}
+
 impl Grids {
-    /// The finest that hold these vertices.
+    /// The finest that hold these vertices of a part.
     ///
     /// # Errors
     /// Texture coordinates are too far from 0.
     pub(super) fn new<'a>(
+        unit: f32,
         vertices: impl Iterator<Item = &'a Vertex> + Clone,
         attributes: Attributes,
     ) -> Result<Self, Error> {
-        let reach = vertices.clone().flat_map(|v| v.position).map(|c| f64::from(c).abs()).fold(0.0, f64::max);
-        let unit = if reach > 0.0 { narrow(reach / REACH) } else { 1.0 };
-        let mut grids = Self { unit: unit.max(f32::MIN_POSITIVE), origin: [0; 2], shifts: [0; 2] };
+        let mut grids = Self { unit, origin: [0; 2], shifts: [0; 2] };
         if !attributes.contains(Attributes::UV) {
             return Ok(grids);
         }
@@ -182,7 +188,7 @@ mod tests {
     fn grids_are_as_fine_as_they_can_be() {
         let shape = [vertex([-3.0, 1.0, 0.5], [0.0, -1.25]), vertex([2.0, 0.0, 0.0], [1.0, 2.5])];
         let attributes = Attributes::UV | Attributes::NORMAL;
-        let grids = Grids::new(shape.iter(), attributes).expect("grids");
+        let grids = Grids::new(unit(shape.iter()), shape.iter(), attributes).expect("grids");
         assert_eq!((grids.unit, grids.origin, grids.shifts), (3.0 / 32767.0, [0, -81920], [0, 2]));
         let (packed, losses) = grids.pack_all(shape.iter(), attributes);
         assert_eq!(packed[0].place, [-32767, 10922, 5461]);
@@ -198,7 +204,7 @@ mod tests {
     fn coordinates_have_an_end() {
         let refused = |uv| {
             let shape = [vertex([0.0; 3], uv), vertex([0.0; 3], [0.0; 2])];
-            Grids::new(shape.iter(), Attributes::UV).expect_err("too far").to_string()
+            Grids::new(1.0, shape.iter(), Attributes::UV).expect_err("too far").to_string()
         };
         assert!(refused([5000.0, 0.0]).contains("found texture coordinates from 0 to 5000"));
         assert!(refused([0.0, -4097.0]).contains("from -4097 to 0"));

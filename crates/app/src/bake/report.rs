@@ -6,7 +6,8 @@ use serde_json::{Value, json};
 
 use super::binary::length;
 use super::missing::opaque;
-use super::{Asset, restored};
+use super::texels::Role;
+use super::{Asset, Format, restored};
 use crate::advise::{Kin, Machine, baked_on_chip, depth_bytes, work};
 use crate::error::{Error, quote};
 use crate::measure::{Comparison, Measures};
@@ -14,7 +15,7 @@ use crate::options::values::name_of;
 use crate::options::{ColorFormat, Policies, Projection, RenderOptions, Shading};
 use crate::render::render;
 use crate::scene::{Camera, Model, Part, camera};
-use alberti::baked::{Attributes, HEADER};
+use alberti::baked::{Attributes, HEADER, PART};
 use alberti::{PreparedTriangle, Slot};
 
 /// The report on an asset.
@@ -36,6 +37,8 @@ pub struct Report<'a> {
     pub estimates: Vec<Estimate>,
     /// The light that these have.
     light: Option<&'static str>,
+    /// The things of the scene that these have not.
+    pub unpriced: Vec<String>,
     /// The greatest loss of a place, in pixels at the scene's camera.
     pub pixels: f64,
     /// The greatest loss of texture coordinates, in texels of the largest texture.
@@ -95,6 +98,7 @@ impl<'a> Report<'a> {
             texels: asset.losses.uv[0].max(asset.losses.uv[1]) * f64::from(side),
             measures,
             light,
+            unpriced: unpriced(asset, options, band),
         })
     }
 
@@ -131,6 +135,22 @@ impl<'a> Report<'a> {
         for Estimate { chip, instructions, off } in &self.estimates {
             let millions = instructions / 1e6;
             line(format!("{millions:>9.2}  {chip}, within {off:.0} % mostly"));
+        }
+        if !self.unpriced.is_empty() {
+            line(format!("\nNot in these: {}.", self.unpriced.join(", ")));
+        }
+        if asset.pieces.len() > 1 {
+            let passes = asset.pieces.len();
+            line(format!("\n{passes} passes a frame, as docs/bake.md has them under \"Several parts\":\n"));
+            for (number, (piece, name)) in asset.pieces.iter().zip(&self.names).enumerate() {
+                let surface = match piece.texture {
+                    Some(texture) => format!("texture {texture}"),
+                    None => "no texture".to_owned(),
+                };
+                let triangles = counted(piece.triangles.len(), "triangle", "triangles");
+                let vertices = counted(piece.vertices.len(), "vertex", "vertices");
+                line(format!("{number:>9}  {triangles}, {vertices}, {surface}{name}"));
+            }
         }
         line("\nLost at most:\n".to_owned());
         let losses = &asset.losses;
@@ -201,7 +221,8 @@ impl<'a> Report<'a> {
             "memory": bytes(&self.memory),
             "chips": chips.collect::<Vec<_>>(),
             "light": self.light,
-            "unit": asset.grids.unit,
+            "unpriced": self.unpriced,
+            "unit": asset.unit,
             "lost": {
                 "place": asset.losses.place,
                 "pixels": self.pixels,
@@ -215,7 +236,13 @@ impl<'a> Report<'a> {
                 "flip": self.measures.flip,
             },
             "surfaces": asset.pieces.iter().map(|piece| {
-                json!({ "part": piece.part, "triangles": piece.triangles.len(), "moved": piece.moved })
+                json!({
+                    "part": piece.part,
+                    "triangles": piece.triangles.len(),
+                    "vertices": piece.vertices.len(),
+                    "texture": piece.texture,
+                    "moved": piece.moved,
+                })
             }).collect::<Vec<_>>(),
             "cache_before": before,
             "cache_after": after,
@@ -246,12 +273,30 @@ fn light(asset: &Asset, options: &RenderOptions) -> Option<&'static str> {
     })
 }
 
+/// The things of a scene that estimates of frames do not have, in words: prices are those of a whole frame, of pixels
+/// and texels in RGB565.
+fn unpriced(asset: &Asset, options: &RenderOptions, band: u32) -> Vec<String> {
+    let mut all = vec![];
+    let color = options.policies.color;
+    if color != ColorFormat::Rgb565 {
+        all.push(format!("pixels of {}", name_of(color)));
+    }
+    let of_colors = asset.textures.iter().find(|texture| texture.role == Role::Color);
+    if let Some(texture) = of_colors.filter(|texture| texture.format != Format::Rgb565) {
+        all.push(format!("texels of {}", texture.format.name()));
+    }
+    if band < options.height {
+        all.push("setting up triangles again that reach into further bands".to_owned());
+    }
+    all
+}
+
 /// All that lies in flash, but for code.
 fn items(asset: &Asset) -> Vec<(String, usize)> {
     let (vertices, triangles) = (asset.vertices(), asset.triangles());
     let meshlets: usize = asset.pieces.iter().map(|piece| piece.meshlets.len()).sum();
     let mut items = vec![
-        ("header and parts".to_owned(), HEADER + 48 * asset.pieces.len() + 16 * asset.textures.len()),
+        ("header and parts".to_owned(), HEADER + PART * asset.pieces.len() + 16 * asset.textures.len()),
         (format!("places of {}", counted(vertices, "vertex", "vertices")), 6 * vertices),
     ];
     for (attribute, name, bytes) in [

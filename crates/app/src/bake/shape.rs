@@ -6,7 +6,7 @@ use meshoptimizer_rs::{
 };
 use std::collections::HashMap;
 
-use super::packed::{Grids, Losses, Packed};
+use super::packed::{Grids, Losses, Packed, unit};
 use super::report::named;
 use super::texels::Texture;
 use super::{Asset, Wish};
@@ -21,6 +21,8 @@ use alberti::{Ball, IntegerMesh, IntegerVertex, Meshlet, Rgba8, Split};
 pub struct Piece {
     /// The number of the part in its model.
     pub part: usize,
+    /// The numbers that its vertices stand for.
+    pub grids: Grids,
     /// Its vertices, in the order in which triangles use them.
     pub vertices: Vec<Packed>,
     /// Its triangles, those of a meshlet one after the other.
@@ -160,10 +162,14 @@ impl Alone {
         Ok(error * scale)
     }
 
+    /// The vertices that triangles use, one after the other.
+    fn corners(&self) -> impl Iterator<Item = &Vertex> + Clone {
+        self.triangles.iter().flatten().map(|&index| &self.vertices[index as usize])
+    }
+
     /// The vertices in integers, those that are equal as one, and the triangles that are left between them.
     fn pack(&self, grids: &Grids, attributes: Attributes) -> (Vec<Packed>, Vec<[u32; 3]>, Losses) {
-        let used = || self.triangles.iter().flatten().map(|&index| &self.vertices[index as usize]);
-        let (corners, losses) = grids.pack_all(used(), attributes);
+        let (corners, losses) = grids.pack_all(self.corners(), attributes);
         let mut numbers = HashMap::new();
         let mut vertices = vec![];
         let mut number = |packed: &Packed| {
@@ -263,14 +269,12 @@ pub(super) fn asset(
     of_parts: &[Option<usize>],
 ) -> Result<Asset, Error> {
     let alone = simplified(model, eye, wish, attributes)?;
-    let used = alone.iter().flat_map(|(_, mesh, _)| {
-        mesh.triangles.iter().flatten().map(|&index| &mesh.vertices[index as usize])
-    });
-    let grids = Grids::new(used, attributes)?;
+    let unit = unit(alone.iter().flat_map(|(_, mesh, _)| mesh.corners()));
     let (mut pieces, mut lost_parts, mut losses) = (vec![], vec![], Losses::default());
     for (k, mesh, moved) in alone {
         let part = &model.parts[k];
         let before = transformed(&mesh.triangles, mesh.vertices.len())?;
+        let grids = Grids::new(unit, mesh.corners(), attributes)?;
         let (vertices, triangles, lost) = mesh.pack(&grids, attributes);
         losses = losses.and(lost);
         if vertices.len() > MAX_VERTICES as usize {
@@ -283,22 +287,22 @@ pub(super) fn asset(
         } else {
             let color = crate::draw::color(part.diffuse);
             let texture = of_parts[k];
-            let piece = ordered(k, (vertices, triangles), &grids, wish.meshlets, (color, texture), before)?;
+            let piece = ordered(k, (vertices, triangles), grids, wish.meshlets, (color, texture), before)?;
             pieces.push(Piece { moved, ..piece });
         }
     }
     if pieces.is_empty() {
-        let found = format!("no triangle with an area in steps of {}", number(grids.unit));
+        let found = format!("no triangle with an area in steps of {}", number(unit));
         return Err(Error::new(found, "some").hint("move the model to the origin: steps are from there"));
     }
-    Ok(Asset { attributes, grids, pieces, lost_parts, textures, losses })
+    Ok(Asset { attributes, unit, pieces, lost_parts, textures, losses })
 }
 
 /// A piece with its triangles in the order of meshlets, or of a cache, and its vertices in the order of their use.
 fn ordered(
     part: usize,
     (vertices, triangles): (Vec<Packed>, Vec<[u32; 3]>),
-    grids: &Grids,
+    grids: Grids,
     most: usize,
     (color, texture): (Rgba8, Option<usize>),
     before: f32,
@@ -335,7 +339,7 @@ fn ordered(
     let meshlets = ranges.into_iter().map(|range| Meshlet::new(&mesh, &ball, range)).collect();
     let wide: Vec<[u32; 3]> = triangles.iter().map(|triangle| triangle.map(u32::from)).collect();
     let order = Order { before, after: transformed(&wide, used.len())? };
-    Ok(Piece { moved: 0.0, part, vertices: used, triangles, meshlets, ball, color, texture, order })
+    Ok(Piece { moved: 0.0, part, grids, vertices: used, triangles, meshlets, ball, color, texture, order })
 }
 
 /// Transformed vertices a triangle, with a small cache.

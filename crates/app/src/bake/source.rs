@@ -40,10 +40,10 @@ struct Carried {
     components: String,
 }
 
-/// Those that vertices carry, in the order of the varying.
-fn carried(asset: &Asset) -> Vec<Carried> {
+/// Those that a part's vertices carry, in the order of the varying.
+fn carried(asset: &Asset, piece: &Piece) -> Vec<Carried> {
     let [u, v] = [0, 1].map(|axis| {
-        let (origin, shift) = (asset.grids.origin[axis], asset.grids.shifts[axis]);
+        let (origin, shift) = (piece.grids.origin[axis], piece.grids.shifts[axis]);
         let steps = format!("i32::from({})", ["u", "v"][axis]);
         let steps = if shift > 0 { format!("({steps} << {shift})") } else { steps };
         let sum = if origin == 0 { steps } else { format!("{origin} + {steps}") };
@@ -106,7 +106,7 @@ fn imports(asset: &Asset, carried: &[Carried], meshlets: bool) -> String {
 }
 
 fn mesh(text: &mut String, asset: &Asset, number: usize, piece: &Piece) {
-    let carried = carried(asset);
+    let carried = carried(asset, piece);
     let list = |first: &[&'static str], of: fn(&Carried) -> &'static str| {
         tuple(&first.iter().copied().chain(carried.iter().map(of)).collect::<Vec<_>>())
     };
@@ -115,7 +115,7 @@ fn mesh(text: &mut String, asset: &Asset, number: usize, piece: &Piece) {
     let whole: Vec<_> = carried.iter().map(|c| format!("alberti::glam::{}", c.varying)).collect();
     let whole = tuple(&whole.iter().map(String::as_str).collect::<Vec<_>>());
     let [vertices, triangles, meshlets] = [piece.vertices.len(), piece.triangles.len(), piece.meshlets.len()];
-    let unit = asset.grids.unit;
+    let unit = asset.unit;
     let texture = piece.texture.map_or(String::new(), |texture| format!(", of `TEXTURE_{texture}`"));
     // Writing to a string cannot fail.
     let _ = write!(

@@ -53,11 +53,8 @@ impl<G: Grid> Shape<G> {
         let normalizing = area.leading_zeros();
         let area = area << normalizing;
         // The area of a coarse one has 18 bits.
-        let per_area = if grid.is_fine() {
-            reciprocal_signed((area >> 1).cast_signed())
-        } else {
-            reciprocal_18(area)
-        };
+        let per_area =
+            if grid.is_fine() { reciprocal_signed((area >> 1).cast_signed()) } else { reciprocal_18(area) };
         let normalizing = normalizing + grid.bits();
         Self {
             grid,

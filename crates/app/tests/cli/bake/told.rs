@@ -1,7 +1,11 @@
 //! What the command says: of things that a file has not, of defaults, and of what it made.
 
 use std::ffi::OsStr;
+use std::fs;
 
+use alberti::Geometry;
+use alberti::baked::{Baked, Uv};
+use alberti::glam::Vec2;
 use serde_json::Value;
 
 use super::{bake, baked, folder, image, number};
@@ -102,4 +106,89 @@ fn the_report_has_the_words_of_the_options() {
             assert!(run.stdout.contains(part), "{part:?} is not in {}", run.stdout);
         }
     }
+}
+
+/// A floor of many repeats and a card upon it, of two materials.
+const FLOOR_AND_CARD: &str = "mtllib m.mtl\n\
+    v -9 0 -9\nv 9 0 -9\nv 9 0 9\nv -9 0 9\nv -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\n\
+    vt -50 -50\nvt 50 -50\nvt 50 50\nvt -50 50\nvt 0.125 0.25\nvt 0.9 0.25\nvt 0.9 0.75\nvt 0.125 0.75\n\
+    usemtl floor\nf 4/4 3/3 2/2 1/1\nusemtl card\nf 5/5 6/6 7/7 8/8\n";
+const MATERIALS: &str = "newmtl floor\nKd 0.5 0.5 0.5\nmap_Kd soft.png\nnewmtl card\nKd 1 0 0\n";
+
+/// Each part has texture coordinates in steps of its own, in the file and in the source.
+#[test]
+fn a_floor_of_many_repeats_leaves_other_parts_as_fine() {
+    let files =
+        [("f.obj", FLOOR_AND_CARD.as_bytes()), ("m.mtl", MATERIALS.as_bytes()), ("soft.png", &image())];
+    let folder = Folder::with(&files);
+    let (_, file) = baked(&folder, "f", &["f.obj", "--attributes", "uv"]);
+    let file = Baked::read(&file).expect("a file");
+    let corners = |part: usize| {
+        let mesh = file.parts().nth(part).expect("two parts").mesh::<Uv>().expect("coordinates");
+        let mut all: Vec<_> = (0..mesh.vertices()).filter_map(|n| mesh.vertex(n)).map(|(_, uv)| uv).collect();
+        all.sort_by(|a, b| a.to_array().map(f32::to_bits).cmp(&b.to_array().map(f32::to_bits)));
+        all
+    };
+    let off = |found: &[Vec2], expected: [[f32; 2]; 4]| {
+        let far = |uv: &Vec2| {
+            let to = |corner: [f32; 2]| (Vec2::from_array(corner) - *uv).abs().max_element();
+            expected.into_iter().map(to).fold(f32::MAX, f32::min)
+        };
+        assert_eq!(found.len(), 4, "{found:?}");
+        found.iter().map(far).fold(0.0, f32::max)
+    };
+    // A hundred repeats are steps of 2^-9; one is steps of 2^-16.
+    let floor = off(&corners(0), [[-50.0, -50.0], [50.0, -50.0], [50.0, 50.0], [-50.0, 50.0]]);
+    let card = off(&corners(1), [[0.125, 0.25], [0.9, 0.25], [0.9, 0.75], [0.125, 0.75]]);
+    assert!(floor <= 1.0 / 1024.0 && card > 0.0 && card <= 1.0 / 131_072.0, "{floor} {card}");
+    let source = fs::read_to_string(folder.path("out/f.rs")).expect("the source");
+    let halves: Vec<_> = source.split("pub fn mesh_").skip(1).collect();
+    assert!(halves[0].contains("i32::from(u) << 7") && !halves[1].contains("<<"), "{source}");
+}
+
+/// Parts are passes: the report says how many, and names the chapter that has their lines.
+#[test]
+fn several_parts_are_told_as_passes() {
+    let files =
+        [("f.obj", FLOOR_AND_CARD.as_bytes()), ("m.mtl", MATERIALS.as_bytes()), ("soft.png", &image())];
+    let folder = Folder::with(&files);
+    let run = bake(&folder, &["f.obj"]);
+    assert_eq!((run.status, &run.stderr[..]), (Some(0), ""), "{run:?}");
+    let passes = "\n2 passes a frame, as docs/bake.md has them under \"Several parts\":\n\n        \
+                  0  2 triangles, 4 vertices, texture 0";
+    assert!(run.stdout.contains(passes), "{}", run.stdout);
+    assert!(run.stdout.contains("        1  2 triangles, 4 vertices, no texture"), "{}", run.stdout);
+    assert!(include_str!("../../../../../docs/bake.md").contains("\n### Several parts\n"));
+    let json: Value = serde_json::from_str(&bake(&folder, &["f.obj", "--json"]).stdout).expect("JSON");
+    let of = |part: usize, key: &str| json["surfaces"][part][key].clone();
+    assert_eq!((of(0, "texture"), of(1, "texture"), of(1, "vertices")), (0.into(), Value::Null, 4.into()));
+    let run = bake(&self::folder(), &["ball.obj"]);
+    assert!(run.status == Some(0) && !run.stdout.contains("passes"), "{}", run.stdout);
+}
+
+/// Instructions grow with the frame, from its edges to its pixels, and the report names what has no price.
+#[test]
+fn estimates_are_of_the_size_and_say_what_they_leave_out() {
+    let folder = folder();
+    let of = |size: &str| {
+        let (report, _) = baked(&folder, "ball", &["ball.obj", "--texture", "soft.png", "--size", size]);
+        let chips = report["chips"].as_array().expect("chips").clone();
+        chips.iter().map(|chip| chip["instructions"].as_f64().expect("a number")).collect::<Vec<_>>()
+    };
+    let [small, middle, large] = ["160x120", "320x240", "640x480"].map(of);
+    for ((small, middle), large) in small.into_iter().zip(middle).zip(large) {
+        // Of a sum of a constant, a side and its square, differences grow by two to four.
+        let growth = (large - middle) / (middle - small);
+        assert!(small > 0.0 && growth > 2.0 && growth < 4.0, "{small} {middle} {large}");
+    }
+    let of = |arguments: &[&str]| {
+        let run = bake(&folder, &[&["ball.obj", "--texture", "soft.png"], arguments].concat());
+        assert_eq!(run.status, Some(0), "{run:?}");
+        run.stdout.lines().find(|line| line.starts_with("Not in these: ")).map(str::to_owned)
+    };
+    let bands = "setting up triangles again that reach into further bands.";
+    assert_eq!(of(&["--band", "240"]), None);
+    assert_eq!(of(&[]), Some(format!("Not in these: {bands}")));
+    let found = of(&["--color", "rgb666", "--format", "indexed8"]);
+    assert_eq!(found, Some(format!("Not in these: pixels of rgb666, texels of indexed8, {bands}")));
 }
