@@ -23,13 +23,13 @@ const CORES: [Core; 2] = [
         name: "m0",
         target: Target::of("thumbv6m-none-eabi"),
         machine: "mps2-an385",
-        counts: [9_060_000, 9_270_000],
+        counts: [4_010_000, 4_250_000],
     },
     Core {
         name: "m4f",
         target: Target::of("thumbv7em-none-eabihf"),
         machine: "mps2-an386",
-        counts: [9_520_000, 9_650_000],
+        counts: [2_510_000, 2_630_000],
     },
 ];
 
