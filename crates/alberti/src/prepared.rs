@@ -214,15 +214,22 @@ where
         walk.each(listed.map(|triangle| triangle.number()).chain(remaining), |corners| sink(paint, corners));
     }
 
+    /// The way of any of the mesh's vertices to the screen; none if the frame has no pixels.
+    pub(crate) fn any_walk(&mut self) -> Option<(Walk<'_, M, Pr>, &Paint<F, P>)> {
+        let (mesh, screen) = (self.pass.mesh(), self.screen.as_ref()?);
+        let (slots, paint) = self.pass.halves();
+        Some((Walk::again_any(mesh, screen, slots, self.filled), paint))
+    }
+
     /// Whether the target is a band of the frame, with depths in the same unit.
-    fn fits<C: ColorFormat>(&self, target: &Target<'_, C, D>) -> bool {
+    pub(crate) fn fits<C: ColorFormat>(&self, target: &Target<'_, C, D>) -> bool {
         let (depth, found) = (self.depth, target.depth_format());
         let same_depth = (found.reversed(), found.bits()) == (depth.reversed(), depth.bits());
         target.size() == self.size && same_depth
     }
 
     /// The pass without its slots, which stay.
-    fn anew(&mut self, draw: impl FnOnce(&mut Pass<'a, M, F, P, Pr>)) {
+    pub(crate) fn anew(&mut self, draw: impl FnOnce(&mut Pass<'a, M, F, P, Pr>)) {
         let slots = take(self.pass.halves().0);
         draw(self.pass);
         *self.pass.halves().0 = slots;
