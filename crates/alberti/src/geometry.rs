@@ -59,13 +59,11 @@ pub trait Geometry {
                 count = sort_once(room);
                 full = count == room.len();
             }
-            match room.get_mut(count) {
-                Some(place) => {
-                    *place = edge;
-                    count += 1;
-                }
-                None if room.binary_search(&edge).is_ok() => {}
-                None => return None,
+            if let Some(place) = room.get_mut(count) {
+                *place = edge;
+                count += 1;
+            } else if room.binary_search(&edge).is_err() {
+                return None;
             }
         }
         let (edges, _) = room.split_at_mut_checked(count)?;

@@ -11,7 +11,8 @@ use alberti_raster::{ColorFormat, Counters, DepthFormat, FragmentStage, Interpol
 
 impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr> {
     /// Draws lines between vertices of the mesh, which pairs of indices name, a pixel wide: those of
-    /// [`edges`](Geometry::edges) for a wireframe. What it needs of the pass is all but the faces that are left out.
+    /// [`edges`](Geometry::edges) for a wireframe, or each once of [`unique_edges`](Geometry::unique_edges). What it
+    /// needs of the pass is all but the faces that are left out.
     ///
     /// Lines are cut at the planes as triangles are, in the same points. For a wireframe on a surface draw the surface
     /// first, and the lines in a target with a bias: `target.with_depth(Biased { .. })`.

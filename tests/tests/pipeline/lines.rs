@@ -10,8 +10,8 @@
 use alberti::glam::{DVec3, Vec3};
 use alberti::shaders::Solid;
 use alberti::{
-    Biased, Camera, Cull, Exact, F32Reversed, FixedPoint, Frame, Geometry, Interpolation, Mesh, NoDepth,
-    Pass, PreparedTriangle, Rgba8, Rgba8888, Slot, Spans16, Target, Touched, View,
+    Ball, Biased, Camera, Cull, Exact, F32Reversed, FixedPoint, Frame, Geometry, Interpolation, Mesh,
+    NoDepth, Pass, PreparedTriangle, Rgba8, Rgba8888, Slot, Spans16, Target, Touched, View,
 };
 use alberti_oracle::rng::{Rng, run_seed};
 use std::cell::RefCell;
@@ -179,7 +179,7 @@ type Rows = (Vec<u32>, Vec<f32>);
 fn bands_are_the_frame<M: Geometry<Varying = f32>>(mesh: &M, interpolation: impl Interpolation, seed: u64) {
     let mut rng = Rng::stream(run_seed(), seed);
     let view = view();
-    let frame = Frame::from_translation(Vec3::new(0.0, 0.0, -2.0));
+    let frame = Frame::at(Point3::new(Vec3::new(0.0, 0.0, -2.0)));
     let stage = |t: f32| Some(Rgba8::from_bits(t.to_bits() | 1));
     let upon = Biased { format: F32Reversed, constant: 3.0, slope: 1.0, clamp: 0.0 };
     let vertices = mesh.vertices();
@@ -198,7 +198,7 @@ fn bands_are_the_frame<M: Geometry<Varying = f32>>(mesh: &M, interpolation: impl
             Target::band(Rgba8888, upon, size, top, color, depth).expect("a band")
         };
         if prepared {
-            let mut listed = vec![PreparedTriangle::EMPTY; rng.below(9) as usize];
+            let mut listed = vec![PreparedTriangle::EMPTY; rng.index(9)];
             let (mut prepared, _) = pass.count_prepare([WIDTH, HEIGHT], upon, &mut listed, &mut ());
             for ((color, depth), top) in bands {
                 let mut band = band(color, depth, top);
@@ -243,30 +243,36 @@ fn lines_in_bands_are_those_of_the_frame() {
     bands_are_the_frame(&mesh, FixedPoint(Spans16), 6);
 }
 
-/// Meshlets out of view leave vertices out, of which lines are drawn nevertheless.
+/// Vertices of meshlets that face away are left out, but lines between them are drawn.
 #[test]
 fn lines_of_meshlets_are_drawn() {
     let vertices: Vec<(Vec3, f32)> = (0..42)
         .map(|k| {
             let angle = k as f32 * 0.15;
-            (Vec3::new(angle.cos() * 0.8, angle.sin() * 0.8, if k % 2 == 0 { 0.0 } else { -0.3 }), angle)
+            let radius = if k % 2 == 0 { 0.5 } else { 0.9 };
+            (Vec3::new(angle.cos() * radius, angle.sin() * radius, 0.0), angle)
         })
         .collect();
-    // Seen from behind, so that all are left out.
-    let triangles: Vec<[u16; 3]> = (0..40).map(|k| [k + (k + 1) % 2, k + k % 2, k + 2]).collect();
+    // A ring, of which each half of the triangles faces another way.
+    let triangles: Vec<[u16; 3]> = (0..40_u16)
+        .map(|k| if (k % 2 == 0) == (k < 20) { [k, k + 1, k + 2] } else { [k + 1, k, k + 2] })
+        .collect();
     let mesh = Mesh::new(&vertices, &triangles, |v: &(Vec3, f32)| *v);
-    let mut rng = Rng::stream(run_seed(), 9);
-    let _ = rng.below(2);
-    bands_are_the_frame(&mesh, Exact, 7);
+    let ball = Ball::of(&mesh);
+    let parts: Vec<Meshlet> =
+        [0..10, 10..20, 20..30, 30..40].into_iter().map(|part| Meshlet::new(&mesh, &ball, part)).collect();
+    let meshlets = Meshlets { mesh, meshlets: &parts, ball };
+    bands_are_the_frame(&meshlets, Exact, 7);
+    bands_are_the_frame(&meshlets, FixedPoint(Spans16), 7);
 }
 
 #[test]
 fn unique_edges_are_a_set() {
     let mut rng = Rng::stream(run_seed(), 8);
-    for round in 0..200_u64 {
-        let vertices = 3 + rng.below(12);
-        let triangles: Vec<[u8; 3]> = (0..rng.below(40) + round % 2)
-            .map(|_| [(); 3].map(|()| u8::try_from(rng.below(vertices)).expect("few")))
+    for round in 0..200_usize {
+        let vertices = 3 + rng.index(12);
+        let triangles: Vec<[u8; 3]> = (0..rng.index(40) + round % 2)
+            .map(|_| [(); 3].map(|()| u8::try_from(rng.index(vertices)).expect("few")))
             .collect();
         let mesh = Mesh::new(&[Vec3::ZERO; 16], &triangles, |v: &Vec3| (*v, ()));
         let pairs = triangles.iter().flat_map(|[a, b, c]| [[*a, *b], [*b, *c], [*c, *a]]);

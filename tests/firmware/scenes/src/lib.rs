@@ -143,6 +143,8 @@ pub static SCENES: &[Scene] = &[
     fill!("fixed-affine-dither", 1, dithered_affine_fixed),
     scene!("fixed-mesh-flat", torus(1.0), flat_mesh),
     scene!("fixed-mesh-lines", coarse_torus(), wireframe),
+    scene!("fixed-mesh-lines-bands", coarse_torus(), wireframe_bands),
+    scene!("fixed-mesh-points", coarse_torus(), cloud),
     scene!("fixed-mesh-smooth", torus(1.0), smooth),
     scene!("fixed-mesh-sampled", torus(1.0), sampled),
     scene!("fixed-mesh-gouraud", torus(1.0), gouraud_mesh),
