@@ -11,7 +11,8 @@ use alberti::glam::{DVec3, Vec3};
 use alberti::shaders::Solid;
 use alberti::{
     Ball, Biased, Camera, Cull, Exact, F32Reversed, FixedPoint, Frame, Geometry, Interpolation, Mesh,
-    NoDepth, Pass, PreparedTriangle, Rgba8, Rgba8888, Slot, Spans16, Target, Touched, View,
+    Meshlet, Meshlets, NoDepth, Pass, Point3, PreparedTriangle, Rgba8, Rgba8888, Slot, Spans16, Target,
+    Touched, View,
 };
 use alberti_oracle::rng::{Rng, run_seed};
 use std::cell::RefCell;
