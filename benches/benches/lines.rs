@@ -1,8 +1,13 @@
 //! The cost of lines, points and depth bias: a torus of 16,200 triangles in 1280x720 pixels, in floats.
 //!
-//! Before lines are timed, their pixels are held against the places of the vertices in `f64`, and those in bands against
-//! the whole frame, from which they must not differ in a bit. Depths with a bias are held against those without.
-#![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "pixels")]
+//! Before lines are timed, their pixels are held against the places of the vertices in `f64`, and those in bands
+//! against the whole frame, from which they must not differ in a bit. Depths with a bias are held against those without.
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
+    clippy::cast_sign_loss,
+    reason = "places of pixels in a frame"
+)]
 
 use alberti::glam::{Mat3, Vec3};
 use alberti::shaders::Solid;
@@ -121,7 +126,9 @@ fn lines(criterion: &mut Criterion) {
     let pixel = |[x, y]: [f64; 2]| (y as u32 * WIDTH + x as u32) as usize;
     for vertex in &vertices {
         let [x, y] = on_screen(*vertex);
-        let moved = [-0.004, 0.004].map(|by| pixel([x + by, y + by]));
+        // Places are rounded to subpixels, so that one near a border may be on either side of it.
+        let near = [[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]];
+        let moved = near.map(|[right, down]| pixel([x + 0.004 * right, y + 0.004 * down]));
         assert!(moved.iter().any(|k| buffers.0[*k] != 0), "a point is not drawn");
     }
     group.throughput(Throughput::Elements(vertices.len() as u64));

@@ -32,11 +32,11 @@ pub trait Geometry {
         triangles.flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]])
     }
 
-    /// The edges of all triangles, each once, from the lower number to the higher and in the order of these. It is right
-    /// for open meshes as well, and for edges of more than two triangles. `None` if there is no room for them.
+    /// The edges of all triangles, each once, from the lower number to the higher and in the order of these. It is
+    /// right for open meshes as well, and for edges of more than two triangles. `None` if there is no room for them.
     ///
-    /// For a mesh that stays this is done once, when the program starts, or before it is compiled. As lines, a vertex at
-    /// which all edges end has no pixel of its own, by the diamond-exit rule.
+    /// For a mesh that stays this is done once, when the program starts, or before it is compiled. As lines, a vertex
+    /// at which all edges end has no pixel of its own, by the diamond-exit rule.
     ///
     /// ```
     /// use alberti::{Geometry, Mesh, glam::Vec3};

@@ -58,6 +58,9 @@ const FIRST: u32 = NUMBER + SLICE;
 /// Room for triangles.
 pub(crate) type Room<'a> = &'a mut [PreparedTriangle];
 
+/// The way of vertices to the screen, and how what is between them is painted.
+type Way<'a, M, F, P, Pr> = (Walk<'a, M, Pr>, &'a Paint<F, P>);
+
 /// A pass whose triangles have been transformed, clipped and culled for all bands of a frame: see [`Pass::prepare`].
 ///
 /// Triangles that did not find room, and those after the first 2^20, are transformed, clipped and culled again by each
@@ -215,7 +218,7 @@ where
     }
 
     /// The way of any of the mesh's vertices to the screen; none if the frame has no pixels.
-    pub(crate) fn any_walk(&mut self) -> Option<(Walk<'_, M, Pr>, &Paint<F, P>)> {
+    pub(crate) fn any_walk(&mut self) -> Option<Way<'_, M, F, P, Pr>> {
         let (mesh, screen) = (self.pass.mesh(), self.screen.as_ref()?);
         let (slots, paint) = self.pass.halves();
         Some((Walk::again_any(mesh, screen, slots, self.filled), paint))

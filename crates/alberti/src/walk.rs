@@ -80,6 +80,9 @@ where
 /// A taker of triangles whose corners do not stay.
 type Passing<'a, V, K> = &'a mut dyn FnMut([&Corner<V>; 3], &mut K);
 
+/// A taker of lines whose ends do not stay.
+type PassingLine<'a, V> = &'a mut dyn FnMut([&Corner<V>; 2]);
+
 impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     /// The walk with these slots, of which there is at least one. All vertices are transformed at once where the slots
     /// hold them, and where all may be used. With one lane and meshlets, which leave out some, each is
@@ -115,8 +118,8 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         Self::with_slots(mesh, screen, stored, cache)
     }
 
-    /// [`again`](Self::again) for any of the mesh's vertices. Of meshlets that are not seen an earlier walk may have left
-    /// out vertices, which are transformed when they are needed.
+    /// [`again`](Self::again) for any of the mesh's vertices. Of meshlets that are not seen an earlier walk may have
+    /// left out vertices, which are transformed when they are needed.
     pub(crate) fn again_any(
         mesh: &'a M,
         screen: &Screen<Pr>,
@@ -295,7 +298,7 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
 
     /// [`line`](Self::line) for one that may be cut, or whose ends may not be in slots.
     #[inline(never)]
-    fn seldom_line(&self, indices: [usize; 2], sink: &mut dyn FnMut([&Corner<M::Varying>; 2])) -> Fate {
+    fn seldom_line(&self, indices: [usize; 2], sink: PassingLine<'_, M::Varying>) -> Fate {
         let (slots, mask) =
             if self.stored.is_empty() { (&*self.cache, self.mask) } else { (self.stored, usize::MAX) };
         let kept = |index: usize| slots.get(index & mask).filter(|slot| slot.holds(index));

@@ -32,8 +32,8 @@ impl<F: Copy, P: Interpolation> Paint<F, P> {
     /// # Cost
     /// A line out of the target: four comparisons. Another: a division of 32 bits, one more for each side of the target
     /// that it crosses, and one in floats or a reciprocal by a table. Lines of more than 2,896 pixels (`Sub8`) may
-    /// divide in 64 bits. A pixel: for its depth a product and a sum, in fixed point a sum of 64 bits; for attributes
-    /// that are hyperbolic a division, in fixed point a reciprocal by a table and products of 64 bits.
+    /// divide in 64 bits. A pixel: for its depth a product and a sum, in fixed point a sum of 64 bits. For attributes
+    /// that are hyperbolic it is a division, in fixed point a reciprocal by a table and products of 64 bits.
     #[inline(always)]
     pub fn line<V, C, D, K>(&self, target: &mut Target<'_, C, D>, corners: [&Corner<V>; 2], counters: &mut K)
     where

@@ -107,8 +107,6 @@ pub fn cloud<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, c
     let Ok(mut pixels) = alberti::Target::new(Rgb565Le, D16, WIDTH, HEIGHT, color, depth) else { return };
     let pass = Pass::new(&view, &mesh, Solid(ORANGE)).interpolation(FixedPoint(Affine)).subpixel(Sub4);
     let corners = mesh.edges().map(|[corner, _]| corner);
-    // Counters hear of triangles and lines alone.
-    (0..mesh.triangles()).for_each(|_| counters.submitted());
     pass.slots(&mut slots.bare).count_points(&mut pixels, corners, 3, counters);
 }
 
