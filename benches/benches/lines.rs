@@ -1,7 +1,8 @@
 //! The cost of lines, points and depth bias: a torus of 16,200 triangles in 1280x720 pixels, in floats.
 //!
 //! Before lines are timed, their pixels are held against the places of the vertices in `f64`, and those in bands
-//! against the whole frame, from which they must not differ in a bit. Depths with a bias are held against those without.
+//! against the whole frame, from which they must not differ in a bit. Depths with a bias are held against those
+//! without.
 #![allow(
     clippy::cast_possible_truncation,
     clippy::cast_precision_loss,

@@ -15,8 +15,8 @@ pub mod shapes;
 pub mod torus;
 
 pub use afterwards::{
-    alpha_dithered, alpha_tested, dithered, fogged, hazy, multiplied, noisy, premultiplied, sampled, smooth,
-    wireframe,
+    alpha_dithered, alpha_tested, cloud, dithered, fogged, hazy, multiplied, noisy, premultiplied, sampled,
+    smooth, wireframe, wireframe_bands,
 };
 pub use draws::{
     additive_fixed, affine_fixed, affine_integers, affine_mesh, affine_mesh_sub8, affine_meshlets,
