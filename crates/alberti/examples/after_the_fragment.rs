@@ -160,7 +160,9 @@ fn wires() -> Result<Pixels> {
         let mesh = Mesh::new(&vertices, &triangles, |v: &Point| (v.position, ()));
         let bias = Biased { format: F32Reversed, constant: -2.0, slope: -1.0, clamp: 0.0 };
         let mut pass = Pass::new(view, &mesh, Solid(Rgba8::from_rgb24(0x90_58_18)));
-        pass.draw_lines(&mut target.with_depth(bias), mesh.edges());
+        let mut room = vec![[0; 2]; 3 * triangles.len()];
+        let edges = mesh.unique_edges(&mut room).unwrap_or_default();
+        pass.draw_lines(&mut target.with_depth(bias), edges.iter().copied());
         // A point has no slope, so that what it stands on has to be left behind by steps.
         let bias = Biased { constant: -60_000.0, slope: 0.0, ..bias };
         let mut pass = Pass::new(view, &mesh, Solid(Rgba8::WHITE));

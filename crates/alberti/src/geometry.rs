@@ -32,6 +32,45 @@ pub trait Geometry {
         triangles.flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]])
     }
 
+    /// The edges of all triangles, each once, from the lower number to the higher and in the order of these. It is
+    /// right for open meshes as well, and for edges of more than two triangles. `None` if there is no room for them.
+    ///
+    /// For a mesh that stays this is done once, when the program starts, or before it is compiled. As lines, a vertex
+    /// at which all edges end has no pixel of its own, by the diamond-exit rule.
+    ///
+    /// ```
+    /// use alberti::{Geometry, Mesh, glam::Vec3};
+    ///
+    /// // Two triangles with an edge in common.
+    /// let mesh = Mesh::new(&[Vec3::ZERO; 4], &[[0u16, 1, 2], [2, 1, 3]], |&v| (v, ()));
+    /// let mut room = [[0; 2]; 6];
+    /// assert_eq!(mesh.unique_edges(&mut room), Some(&[[0, 1], [0, 2], [1, 2], [1, 3], [2, 3]][..]));
+    /// assert_eq!(mesh.unique_edges(&mut room[..4]), None);
+    /// ```
+    ///
+    /// # Cost
+    /// With room for three edges a triangle, one sort. With less it sorts whenever that is full, down to room for the
+    /// edges alone.
+    fn unique_edges<'e>(&self, room: &'e mut [[usize; 2]]) -> Option<&'e [[usize; 2]]> {
+        let (mut count, mut full) = (0, false);
+        for [a, b] in self.edges().filter(|[a, b]| a != b) {
+            let edge = [a.min(b), a.max(b)];
+            if count == room.len() && !full {
+                count = sort_once(room);
+                full = count == room.len();
+            }
+            if let Some(place) = room.get_mut(count) {
+                *place = edge;
+                count += 1;
+            } else if room.binary_search(&edge).is_err() {
+                return None;
+            }
+        }
+        let (edges, _) = room.split_at_mut_checked(count)?;
+        let count = sort_once(edges);
+        edges.get(..count)
+    }
+
     /// Whether vertices are integers. Then [`FixedPoint`](crate::FixedPoint) takes them from
     /// [`integers`](Self::integers), and everything else, the clipper too, the same numbers from
     /// [`vertex`](Self::vertex).
@@ -61,6 +100,24 @@ pub trait Geometry {
     fn ball(&self) -> Ball {
         Ball::EVERYTHING
     }
+}
+
+/// Sorts edges, leaves each once at the beginning, and returns how many these are.
+fn sort_once(edges: &mut [[usize; 2]]) -> usize {
+    edges.sort_unstable();
+    let mut count = 0;
+    let mut last = None;
+    for k in 0..edges.len() {
+        let edge = edges.get(k).copied();
+        if edge != last
+            && let (Some(edge), Some(place)) = (edge, edges.get_mut(count))
+        {
+            *place = edge;
+            count += 1;
+        }
+        last = edge;
+    }
+    count
 }
 
 /// A vertex in integers.

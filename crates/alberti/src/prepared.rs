@@ -58,6 +58,9 @@ const FIRST: u32 = NUMBER + SLICE;
 /// Room for triangles.
 pub(crate) type Room<'a> = &'a mut [PreparedTriangle];
 
+/// The way of vertices to the screen, and how what is between them is painted.
+type Way<'a, M, F, P, Pr> = (Walk<'a, M, Pr>, &'a Paint<F, P>);
+
 /// A pass whose triangles have been transformed, clipped and culled for all bands of a frame: see [`Pass::prepare`].
 ///
 /// Triangles that did not find room, and those after the first 2^20, are transformed, clipped and culled again by each
@@ -214,15 +217,22 @@ where
         walk.each(listed.map(|triangle| triangle.number()).chain(remaining), |corners| sink(paint, corners));
     }
 
+    /// The way of any of the mesh's vertices to the screen; none if the frame has no pixels.
+    pub(crate) fn any_walk(&mut self) -> Option<Way<'_, M, F, P, Pr>> {
+        let (mesh, screen) = (self.pass.mesh(), self.screen.as_ref()?);
+        let (slots, paint) = self.pass.halves();
+        Some((Walk::again_any(mesh, screen, slots, self.filled), paint))
+    }
+
     /// Whether the target is a band of the frame, with depths in the same unit.
-    fn fits<C: ColorFormat>(&self, target: &Target<'_, C, D>) -> bool {
+    pub(crate) fn fits<C: ColorFormat>(&self, target: &Target<'_, C, D>) -> bool {
         let (depth, found) = (self.depth, target.depth_format());
         let same_depth = (found.reversed(), found.bits()) == (depth.reversed(), depth.bits());
         target.size() == self.size && same_depth
     }
 
     /// The pass without its slots, which stay.
-    fn anew(&mut self, draw: impl FnOnce(&mut Pass<'a, M, F, P, Pr>)) {
+    pub(crate) fn anew(&mut self, draw: impl FnOnce(&mut Pass<'a, M, F, P, Pr>)) {
         let slots = take(self.pass.halves().0);
         draw(self.pass);
         *self.pass.halves().0 = slots;

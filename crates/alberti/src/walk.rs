@@ -80,6 +80,9 @@ where
 /// A taker of triangles whose corners do not stay.
 type Passing<'a, V, K> = &'a mut dyn FnMut([&Corner<V>; 3], &mut K);
 
+/// A taker of lines whose ends do not stay.
+type PassingLine<'a, V> = &'a mut dyn FnMut([&Corner<V>; 2]);
+
 impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     /// The walk with these slots, of which there is at least one. All vertices are transformed at once where the slots
     /// hold them, and where all may be used. With one lane and meshlets, which leave out some, each is
@@ -113,6 +116,20 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
     ) -> Self {
         let (stored, cache) = slots.split_at_mut_checked(filled).unwrap_or_default();
         Self::with_slots(mesh, screen, stored, cache)
+    }
+
+    /// [`again`](Self::again) for any of the mesh's vertices. Of meshlets that are not seen an earlier walk may have
+    /// left out vertices, which are transformed when they are needed.
+    pub(crate) fn again_any(
+        mesh: &'a M,
+        screen: &Screen<Pr>,
+        slots: &'a mut [Slot<M::Varying>],
+        filled: usize,
+    ) -> Self {
+        if const { M::MESHLETS } && filled > 0 {
+            return Self { mesh, stored: &[], cache: slots, mask: usize::MAX, own: true, screen: *screen };
+        }
+        Self::again(mesh, screen, slots, filled)
     }
 
     /// The walk over these slots.
@@ -251,22 +268,50 @@ impl<'a, M: Geometry, Pr: Projection> Walk<'a, M, Pr> {
         }
     }
 
-    /// A vertex, transformed.
-    fn slot(&mut self, index: usize) -> Option<Slot<M::Varying>> {
-        if !self.stored.is_empty() {
-            return self.stored.get(index).copied();
+    /// Hands `sink` the visible part of the line between two vertices, if there is one.
+    #[inline(always)]
+    pub(crate) fn line(
+        &mut self,
+        indices: [usize; 2],
+        mut sink: impl FnMut([&Corner<M::Varying>; 2]),
+    ) -> Fate {
+        let Self { mesh, stored, cache, mask, screen, .. } = self;
+        let [i, j] = indices;
+        let ends = if stored.is_empty() {
+            for index in indices {
+                if let Some(slot) = cache.get_mut(index & *mask) {
+                    slot.keep(*mesh, screen, index);
+                }
+            }
+            [cache.get(i & *mask).filter(|slot| slot.holds(i)), cache.get(j & *mask)]
+        } else {
+            [stored.get(i), stored.get(j)]
+        };
+        if let [Some(a), Some(b)] = ends
+            && a.outside | b.outside == 0
+        {
+            sink([&a.screen, &b.screen]);
+            return Fate::Whole;
         }
-        let Self { mesh, cache, mask, screen, .. } = self;
-        let slot = cache.get_mut(index & *mask)?;
-        slot.keep(*mesh, screen, index);
-        Some(*slot)
+        self.seldom_line(indices, &mut sink)
     }
 
-    /// Hands `sink` the visible part of the line between two vertices, if there is one.
+    /// [`line`](Self::line) for one that may be cut, or whose ends may not be in slots.
     #[inline(never)]
-    pub(crate) fn line(&mut self, indices: [usize; 2], sink: impl FnOnce([&Corner<M::Varying>; 2])) -> Fate {
+    fn seldom_line(&self, indices: [usize; 2], sink: PassingLine<'_, M::Varying>) -> Fate {
+        let (slots, mask) =
+            if self.stored.is_empty() { (&*self.cache, self.mask) } else { (self.stored, usize::MAX) };
+        let kept = |index: usize| slots.get(index & mask).filter(|slot| slot.holds(index));
         let [i, j] = indices;
-        let (Some(a), Some(b)) = (self.slot(i), self.slot(j)) else { return Fate::Dropped };
+        let own;
+        let [a, b] = if let (Some(a), Some(b)) = (kept(i), kept(j)) {
+            [a, b]
+        } else {
+            // Both share a slot, or there is no such vertex.
+            own = alone(self.mesh, &self.screen, indices);
+            let [a, b] = &own;
+            [a, b]
+        };
         let (any, common) = (a.outside | b.outside, a.outside & b.outside);
         let there = a.holds(i) && b.holds(j) && any & outside::NOWHERE == 0;
         if !there || common & (outside::NEAR | outside::FAR | outside::SIDES) != 0 {
@@ -407,11 +452,11 @@ fn inside<V: Varying>(slots: &[Slot<V>], [i, j, k]: [usize; 3]) -> Option<[&Corn
 /// A triangle's vertices in slots of their own.
 #[cold]
 #[inline(never)]
-fn alone<M: Geometry, Pr: Projection>(
+fn alone<M: Geometry, Pr: Projection, const N: usize>(
     mesh: &M,
     screen: &Screen<Pr>,
-    indices: [usize; 3],
-) -> [Slot<M::Varying>; 3] {
+    indices: [usize; N],
+) -> [Slot<M::Varying>; N] {
     indices.map(|index| {
         let mut slot = Slot::EMPTY;
         slot.keep(mesh, screen, index);

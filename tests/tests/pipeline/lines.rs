@@ -10,11 +10,13 @@
 use alberti::glam::{DVec3, Vec3};
 use alberti::shaders::Solid;
 use alberti::{
-    Biased, Camera, Cull, Exact, F32Reversed, FixedPoint, Geometry, Interpolation, Mesh, NoDepth, Pass,
-    Rgba8, Rgba8888, Slot, Spans16, Target, Touched, View,
+    Ball, Biased, Camera, Cull, Exact, F32Reversed, FixedPoint, Frame, Geometry, Interpolation, Mesh,
+    Meshlet, Meshlets, NoDepth, Pass, Point3, PreparedTriangle, Rgba8, Rgba8888, Slot, Spans16, Target,
+    Touched, View,
 };
 use alberti_oracle::rng::{Rng, run_seed};
 use std::cell::RefCell;
+use std::collections::BTreeSet;
 
 const WIDTH: u32 = 160;
 const HEIGHT: u32 = 120;
@@ -169,4 +171,123 @@ fn wires_are_seen_on_their_surface() {
     let part = seen as f64 / all as f64;
     assert!((0.6..0.8).contains(&part), "{seen} of {all}");
     assert!(fighting < seen * 9 / 10, "without a bias {fighting} of {seen} are seen");
+}
+
+/// A band's rows of a frame: colours and depths.
+type Rows = (Vec<u32>, Vec<f32>);
+
+/// Lines and points in bands of any heights, prepared or not, with any slots, have the bits of the whole frame.
+fn bands_are_the_frame<M: Geometry<Varying = f32>>(mesh: &M, interpolation: impl Interpolation, seed: u64) {
+    let mut rng = Rng::stream(run_seed(), seed);
+    let view = view();
+    let frame = Frame::at(Point3::new(Vec3::new(0.0, 0.0, -2.0)));
+    let stage = |t: f32| Some(Rgba8::from_bits(t.to_bits() | 1));
+    let upon = Biased { format: F32Reversed, constant: 3.0, slope: 1.0, clamp: 0.0 };
+    let vertices = mesh.vertices();
+    let mut room = vec![[0; 2]; 3 * mesh.triangles()];
+    let edges = mesh.unique_edges(&mut room).expect("room for all").iter().copied();
+    let mut frame_of = |slots: usize, height: usize, prepared: bool| -> Rows {
+        let (mut color, mut depth) = (vec![0; PIXELS], vec![0.0; PIXELS]);
+        let mut slots = vec![Slot::EMPTY; slots];
+        let pass = Pass::new(&view, mesh, &stage).at(frame).interpolation(interpolation);
+        let mut pass = pass.slots(&mut slots);
+        let row = WIDTH as usize;
+        let bands = color.chunks_mut(height * row).zip(depth.chunks_mut(height * row));
+        let bands = bands.zip((0..).step_by(height));
+        let band = |color, depth, top| {
+            let size = [WIDTH, HEIGHT];
+            Target::band(Rgba8888, upon, size, top, color, depth).expect("a band")
+        };
+        if prepared {
+            let mut listed = vec![PreparedTriangle::EMPTY; rng.index(9)];
+            let (mut prepared, _) = pass.count_prepare([WIDTH, HEIGHT], upon, &mut listed, &mut ());
+            for ((color, depth), top) in bands {
+                let mut band = band(color, depth, top);
+                prepared.draw_lines(&mut band, edges.clone());
+                prepared.draw_points(&mut band, 0..vertices, 3);
+            }
+        } else {
+            for ((color, depth), top) in bands {
+                let mut band = band(color, depth, top);
+                pass.draw_lines(&mut band, edges.clone());
+                pass.draw_points(&mut band, 0..vertices, 3);
+            }
+        }
+        (color, depth)
+    };
+    let whole = frame_of(0, HEIGHT as usize, false);
+    assert!(whole.0.iter().filter(|pixel| **pixel != 0).count() > 1000);
+    for (slots, height) in [(0, 8), (7, 8), (vertices, 8), (vertices, 1), (vertices + 3, 13), (vertices, 120)]
+    {
+        for prepared in [false, true] {
+            let bits = |rows: &Rows| rows.1.iter().map(|depth| depth.to_bits()).collect::<Vec<_>>();
+            let found = frame_of(slots, height, prepared);
+            assert!(found.0 == whole.0 && bits(&found) == bits(&whole), "{slots} {height} {prepared}");
+        }
+    }
+}
+
+#[test]
+fn lines_in_bands_are_those_of_the_frame() {
+    // A wide strip, some of whose vertices are behind the eye, beyond the far plane or far outside of the view.
+    let mut rng = Rng::stream(run_seed(), 4);
+    let vertices: Vec<(Vec3, f32)> = (0..60)
+        .map(|_| {
+            let size = f64::from(rng.log_uniform(0.5, 30.0));
+            let [x, y, t] = [(); 3].map(|()| rng.uniform(-size, size) as f32);
+            (Vec3::new(x, y, rng.uniform(-size, 2.4) as f32), t)
+        })
+        .collect();
+    let triangles: Vec<[u16; 3]> = (0..58).map(|k| [k, k + 1, k + 2]).collect();
+    let mesh = Mesh::new(&vertices, &triangles, |v: &(Vec3, f32)| *v);
+    bands_are_the_frame(&mesh, Exact, 5);
+    bands_are_the_frame(&mesh, FixedPoint(Spans16), 6);
+}
+
+/// Vertices of meshlets that face away are left out, but lines between them are drawn.
+#[test]
+fn lines_of_meshlets_are_drawn() {
+    let vertices: Vec<(Vec3, f32)> = (0..42)
+        .map(|k| {
+            let angle = k as f32 * 0.15;
+            let radius = if k % 2 == 0 { 0.5 } else { 0.9 };
+            (Vec3::new(angle.cos() * radius, angle.sin() * radius, 0.0), angle)
+        })
+        .collect();
+    // A ring, of which each half of the triangles faces another way.
+    let triangles: Vec<[u16; 3]> = (0..40_u16)
+        .map(|k| if (k % 2 == 0) == (k < 20) { [k, k + 1, k + 2] } else { [k + 1, k, k + 2] })
+        .collect();
+    let mesh = Mesh::new(&vertices, &triangles, |v: &(Vec3, f32)| *v);
+    let ball = Ball::of(&mesh);
+    let parts: Vec<Meshlet> =
+        [0..10, 10..20, 20..30, 30..40].into_iter().map(|part| Meshlet::new(&mesh, &ball, part)).collect();
+    let meshlets = Meshlets { mesh, meshlets: &parts, ball };
+    bands_are_the_frame(&meshlets, Exact, 7);
+    bands_are_the_frame(&meshlets, FixedPoint(Spans16), 7);
+}
+
+#[test]
+fn unique_edges_are_a_set() {
+    let mut rng = Rng::stream(run_seed(), 8);
+    for round in 0..200_usize {
+        let vertices = 3 + rng.index(12);
+        let triangles: Vec<[u8; 3]> = (0..rng.index(40) + round % 2)
+            .map(|_| [(); 3].map(|()| u8::try_from(rng.index(vertices)).expect("few")))
+            .collect();
+        let mesh = Mesh::new(&[Vec3::ZERO; 16], &triangles, |v: &Vec3| (*v, ()));
+        let pairs = triangles.iter().flat_map(|[a, b, c]| [[*a, *b], [*b, *c], [*c, *a]]);
+        let expected: BTreeSet<[usize; 2]> = pairs
+            .filter(|[a, b]| a != b)
+            .map(|[a, b]| [usize::from(a.min(b)), usize::from(a.max(b))])
+            .collect();
+        let expected: Vec<[usize; 2]> = expected.into_iter().collect();
+        for room in
+            [3 * triangles.len(), expected.len(), expected.len() + 3, expected.len().saturating_sub(1)]
+        {
+            let mut room = vec![[7; 2]; room];
+            let enough = room.len() >= expected.len();
+            assert_eq!(mesh.unique_edges(&mut room), enough.then_some(&expected[..]));
+        }
+    }
 }

@@ -58,8 +58,9 @@ impl<F: Copy, P: Interpolation> Paint<F, P> {
                 let Some(middle) = middle else { return };
                 if Part(coverage.cells.word(place)).is_fringe() {
                     let upper = with_flat(corners[upper], flat);
-                    let pixel = (place, edge.weights(middle, bits));
-                    self.between(target, [&upper, corners[lower]], |_| [pixel].into_iter(), counters);
+                    let [near, far] = edge.weights(middle, bits);
+                    let pixel = [(place, far)].into_iter();
+                    self.between(target, [&upper, corners[lower]], near + far, pixel, counters);
                 }
             });
         }

@@ -2,7 +2,7 @@
 #![expect(clippy::cast_precision_loss, reason = "numbers are small")]
 
 use super::*;
-use crate::{Cull, D16, Exact, FixedPoint, NoDepth, Numbers, Spans16, Target, Vertex};
+use crate::{Cull, D16, Exact, F32, FixedPoint, NoDepth, Numbers, Spans16, Target, Vertex};
 use alberti_math::{Fixed, Flat, Linear, Rgba8, Rgba8888, Sub8};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -104,6 +104,99 @@ fn pixels_are_those_whose_diamonds_a_line_leaves() {
     }
 }
 
+/// Windows of a frame have of a line those of its pixels that are in them, so far along it as in the whole frame. Lines
+/// are of any length, so that divisions are of 32 and of 64 bits.
+#[test]
+fn windows_have_the_pixels_of_the_whole_line() {
+    let mut state = 11_u64;
+    let mut random = |range: i64| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        i64::try_from(state >> 33).expect("31 bits") % range
+    };
+    let mut drawn = 0;
+    for k in 0..40_000 {
+        let size = [300, 3000, 1 << 14, 1 << 23][k % 4];
+        let mut point = || [random(2 * size) - size, random(2 * size) - size];
+        let line = [point(), point()];
+        // A window about a point of the line, or near it.
+        let (t, off) = (random(1001), random(9) - 4);
+        let middle = [0, 1].map(|c: usize| {
+            let place = line[0][c] + (line[1][c] - line[0][c]) * t / 1000;
+            (place >> BITS) + off * i64::from(u8::from(c == 0))
+        });
+        let sides = [random(7) + 1, random(7) + 1];
+        let window = [0, 1].map(|c: usize| middle[c] - sides[c] / 2..middle[c] - sides[c] / 2 + sides[c]);
+        let limits = window.clone().map(|range| {
+            i32::try_from(range.start).expect("small")..i32::try_from(range.end).expect("small")
+        });
+        let places = line.map(|point| point.map(|c| i32::try_from(c).expect("small")));
+        let found: Vec<([i32; 2], i32)> = Walk::new(places, BITS, &limits).collect();
+        let mut pixels: Vec<[i64; 2]> = found.iter().map(|(place, _)| place.map(i64::from)).collect();
+        pixels.sort_unstable();
+        let [columns, rows] = window;
+        let all = columns.flat_map(|x| rows.clone().map(move |y| [x, y]));
+        let expected: Vec<[i64; 2]> =
+            all.filter(|pixel| line[0] != line[1] && leaves(line, *pixel)).collect();
+        assert_eq!(pixels, expected, "{line:?} in {limits:?}");
+        assert!(found.is_empty() || !misses(places, BITS, &limits), "{line:?} in {limits:?}");
+        let axis = usize::from((line[0][0] - line[1][0]).abs() < (line[0][1] - line[1][1]).abs());
+        let length = (line[1][axis] - line[0][axis]).abs();
+        for (place, far) in found {
+            let centre = i64::from(place[axis]) * ONE + ONE / 2;
+            let way = (centre - line[0][axis]) * (line[1][axis] - line[0][axis]).signum();
+            assert_eq!(i64::from(far), way.clamp(0, length), "{line:?} {place:?}");
+            drawn += 1;
+        }
+    }
+    assert!(drawn > 60_000, "{drawn} pixels");
+}
+
+/// Depths by sums are within their bounds of reals, between the ends, and the same wherever the sums begin.
+#[test]
+fn depths_are_those_of_the_line() {
+    let mut state = 3_u64;
+    let mut random = |range: u64| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 20) % range
+    };
+    for k in 0..20_000 {
+        let length = 1 + random([40, 3000, 1 << 17, 1 << 24][k % 4]);
+        let length = i32::try_from(length).expect("24 bits");
+        let mut depth = || match random(5) {
+            0 => 0,
+            1 => i32::MAX as u32,
+            _ => u32::try_from(random(1 << 31)).expect("31 bits"),
+        };
+        let words = [depth(), depth()];
+        let corners = |zs: u32| Corner::<()> { zs, ..Corner::NONE };
+        let [a, b] = words.map(corners);
+        let mut sums = FixedSegment::new([&a, &b], length, 16);
+        let [c, d] = words.map(|word| corners((word as f32 / (1_u32 << 31) as f32).to_bits()));
+        let mut floats = FloatSegment::new([&c, &d], length);
+        let greatest = f64::from(c.zs().max(d.zs()));
+        let mut far = i32::try_from(random(16)).expect("few").min(length);
+        for _ in 0..20 {
+            let t = f64::from(far) / f64::from(length);
+            let [from, to] = words.map(f64::from);
+            let exact = from + (to - from) * t;
+            let found = Segment::<OneFixed, ()>::depth(&mut sums, OneFixed, far);
+            let again = FixedSegment::new([&a, &b], length, 16);
+            let again = Segment::<OneFixed, ()>::depth(&mut { again }, OneFixed, far);
+            assert_eq!(found, again, "{words:?} {far} of {length}");
+            // Depth formats take twice as much.
+            let found = found >> 1;
+            assert!((words[0].min(words[1])..=words[0].max(words[1])).contains(&found), "{words:?} {found}");
+            let allowed = 1.0 + (to - from).abs() / f64::from(1 << 28);
+            assert!((f64::from(found) - exact).abs() <= allowed, "{words:?} {far} of {length}: {found}");
+            let exact = f64::from(c.zs()) + (f64::from(d.zs()) - f64::from(c.zs())) * t;
+            let found = f64::from(Segment::<One, ()>::depth(&mut floats, One, far));
+            assert!((found - exact).abs() <= 9.0 / f64::from(1 << 24) * greatest, "{found} {exact}");
+            let more = if random(4) == 0 { i32::try_from(random(999)).expect("few") } else { 16 };
+            far = (far + more).min(length);
+        }
+    }
+}
+
 /// Lines that go on to the right draw each column once.
 #[test]
 fn a_path_has_each_column_once() {
@@ -182,6 +275,28 @@ fn point(at: [f32; 2], size: u16, interpolation: impl Interpolation) -> Vec<usiz
     let corner = corner(paint.numbers(NoDepth), at, 0.5, 1.0, [0.0; 3]);
     paint.point(&mut target, &corner, size, &mut ());
     (0..64).filter(|k| color[*k] != 0).collect()
+}
+
+/// All pixels of a point have its depth and attributes, to the bit.
+#[test]
+fn points_are_their_corner() {
+    fn check(interpolation: impl Interpolation, values: [f32; 3]) {
+        let (mut color, mut depth) = (vec![0; 8 * 8], vec![1.0; 8 * 8]);
+        let mut target = Target::new(Rgba8888, F32, 8, 8, &mut color, &mut depth).expect("a frame");
+        let seen = RefCell::new(Vec::new());
+        let stage = |varying: Carried| {
+            seen.borrow_mut().push(varying);
+            Some(Rgba8::WHITE)
+        };
+        let paint = Paint { stage: &stage, interpolation, subpixel: Sub8, cull: Cull::None };
+        let corner = corner(paint.numbers(F32), [4.2, 3.9], 0.375, 0.7, values);
+        paint.point(&mut target, &corner, 3, &mut ());
+        let [a, b, c] = values;
+        assert_eq!(seen.into_inner(), [(a, Linear(b), Flat(c)); 9]);
+        assert_eq!(depth.iter().filter(|depth| depth.to_bits() == 0.375_f32.to_bits()).count(), 9);
+    }
+    check(Exact, [0.1, -3.7, 1e9]);
+    check(FixedPoint(Spans16), [0.125, -3.5, 17.0625]);
 }
 
 #[test]

@@ -108,6 +108,34 @@ pub fn wireframe<K: Counters>(target: &mut Target, camera: &Camera, model: &Mode
     pass.slots(&mut slots.bare).count_lines(&mut pixels, mesh.edges(), counters);
 }
 
+/// The same in bands of 8 rows.
+pub fn wireframe_bands<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    let mesh = Mesh::new(model.vertices, model.triangles, |v: &Vertex| (place(v), ()));
+    let view = View::new(model.to_eye, camera.perspective);
+    let Target { color, depth, slots, .. } = target;
+    let pass = Pass::new(&view, &mesh, Solid(ORANGE)).interpolation(FixedPoint(Affine)).subpixel(Sub4);
+    let mut pass = pass.slots(&mut slots.bare);
+    let (mut prepared, _) = pass.count_prepare([WIDTH, HEIGHT], D16, &mut [], &mut ());
+    let pixels = 8 * WIDTH as usize;
+    let bands = color.chunks_mut(pixels).zip(depth.chunks_mut(pixels));
+    for ((color, depth), top) in bands.zip((0..HEIGHT).step_by(8)) {
+        let band = alberti::Target::band(Rgb565Le, D16, [WIDTH, HEIGHT], top, color, depth);
+        let Ok(mut band) = band else { continue };
+        prepared.count_lines(&mut band, mesh.edges(), counters);
+    }
+}
+
+/// The corners of a mesh's triangles as points of three pixels a side.
+pub fn cloud<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    let mesh = Mesh::new(model.vertices, model.triangles, |v: &Vertex| (place(v), ()));
+    let view = View::new(model.to_eye, camera.perspective);
+    let Target { color, depth, slots, .. } = target;
+    let Ok(mut pixels) = alberti::Target::new(Rgb565Le, D16, WIDTH, HEIGHT, color, depth) else { return };
+    let pass = Pass::new(&view, &mesh, Solid(ORANGE)).interpolation(FixedPoint(Affine)).subpixel(Sub4);
+    let corners = mesh.edges().map(|[corner, _]| corner);
+    pass.slots(&mut slots.bare).count_points(&mut pixels, corners, 3, counters);
+}
+
 /// Rows of a band of [`smooth`], and the words for its silhouette, with 256 places for edges that wait.
 const ROWS: usize = 16;
 pub(crate) const CELLS: usize = PIXELS * ROWS / HEIGHT as usize + 256 * Silhouette::PLACE;

@@ -16,8 +16,8 @@ pub mod shapes;
 pub mod torus;
 
 pub use afterwards::{
-    alpha_dithered, alpha_tested, biased, dithered, fogged, hazy, hazy_stored, in_light, keyed, multiplied,
-    noisy, premultiplied, sampled, smooth, squared, wireframe,
+    alpha_dithered, alpha_tested, biased, cloud, dithered, fogged, hazy, hazy_stored, in_light, keyed,
+    multiplied, noisy, premultiplied, sampled, smooth, squared, wireframe, wireframe_bands,
 };
 pub use draws::{
     additive_fixed, affine_fixed, affine_integers, affine_mesh, affine_mesh_sub8, affine_meshlets,
@@ -154,6 +154,8 @@ pub static SCENES: &[Scene] = &[
     fill!("fixed-affine-dither", 1, dithered_affine_fixed),
     scene!("fixed-mesh-flat", torus(1.0), flat_mesh),
     scene!("fixed-mesh-lines", coarse_torus(), wireframe),
+    scene!("fixed-mesh-lines-bands", coarse_torus(), wireframe_bands),
+    scene!("fixed-mesh-points", coarse_torus(), cloud),
     scene!("fixed-mesh-smooth", torus(1.0), smooth),
     scene!("fixed-mesh-sampled", torus(1.0), sampled),
     scene!("fixed-mesh-gouraud", torus(1.0), gouraud_mesh),

@@ -29,9 +29,11 @@ fn main() -> Result<(), Box<dyn Error>> {
             return Err(format!("{}: counting changes the frame", scene.name).into());
         }
         let triangles = scene.model.triangles.len() as u64;
-        // Meshlets that are not seen are not submitted; bands without a list, and lines, are submitted several times.
+        // Meshlets that are not seen are not submitted, nor are points; bands without a list, and lines, are several
+        // times.
         let submitted = stats.submitted > 0 && stats.submitted.is_multiple_of(triangles);
-        if stats.written == 0 || !submitted && !scene.name.starts_with("meshlets") {
+        let others = scene.name.starts_with("meshlets") || scene.name.ends_with("points");
+        if stats.written == 0 || !submitted && !others {
             return Err(format!("{}: not drawn: {stats:?}", scene.name).into());
         }
         println!("frame {} {hash:016x} {triangles} {}", scene.name, stats.written);
