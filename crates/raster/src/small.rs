@@ -26,10 +26,10 @@
 //!
 //! # Values
 //! In units of 2^-24 a column or a row adds its slope within 1.4, for up to 33 of each, in fine ones for 17. The way
-//! from the first vertex to the next sample, less than a pixel on both axes, is within 33, and in fine ones within 5. So
-//! the error stays below 126 of 128, which are half a step of 2^-16. The three vertices are whole steps. So the nearest
-//! step is within their range, and a constant stays one. Depths are followed in 2^-12 of a step. There 66 columns and
-//! rows times 6, and 42, are at most 438 of 2048.
+//! from the first vertex to the next sample, less than a pixel on both axes, is within 33, and in fine ones within 5.
+//! So the error stays below 126 of 128, which are half a step of 2^-16. The three vertices are whole steps. So the
+//! nearest step is within their range, and a constant stays one. Depths are followed in 2^-12 of a step. There 66
+//! columns and rows times 6, and 42, are at most 438 of 2048.
 
 mod grid;
 mod shape;
