@@ -19,8 +19,8 @@ impl Kin {
     /// Those of [`Machine::M4f`] with floating point, and Cortex-M3, which has products and floats in software as
     /// [`Machine::Rv32`] has them.
     pub const ALL: [Self; 3] = [
-        Self { name: "m3", of: Machine::Rv32, ratio: 1.0, apart: 11.5 },
-        Self { name: "m7", of: Machine::M4f, ratio: 0.99, apart: 5.0 },
+        Self { name: "m3", of: Machine::Rv32, ratio: 1.0, apart: 12.5 },
+        Self { name: "m7", of: Machine::M4f, ratio: 0.99, apart: 5.5 },
         Self { name: "m33", of: Machine::M4f, ratio: 1.01, apart: 6.5 },
     ];
 
@@ -39,7 +39,7 @@ mod tests {
     /// Instructions that emulated boards counted.
     const COUNTS: &str = include_str!("../../../../tests/firmware/counts.csv");
 
-    /// Every mesh that boards draw, of floats and of integers, whole and in bands.
+    /// Every mesh of triangles that boards draw, of floats and of integers, whole and in bands.
     #[test]
     fn ratios_are_those_of_the_boards_counts() {
         let mut counts = HashMap::new();
@@ -47,6 +47,7 @@ mod tests {
             let fields: Vec<&str> = line.split(',').collect();
             if let &[board, scene, "instructions", count] = &fields[..]
                 && scene.contains("mesh")
+                && !["lines", "points"].iter().any(|other| scene.contains(other))
             {
                 counts.insert((board, scene), count.parse::<f64>().expect("a number"));
             }
