@@ -33,7 +33,9 @@ const BOARDS: &[Board] = &[
     Board { name: "esp32c3", target: Target::of("riscv32imc-unknown-none-elf") },
 ];
 
-/// The picture of the demo in the guide.
+/// The guide, which tells the bytes that the demo sends.
+const GUIDE: &str = "docs/firmware.md";
+/// The picture of the demo in it.
 const PICTURE: &str = "docs/pictures/demo.gif";
 
 /// The members that any machine compiles.
@@ -100,7 +102,25 @@ fn is_current() -> Outcome {
     if read(&drawn)? != read(&workspace::root().join(PICTURE))? {
         return Err(format!("{PICTURE} is not what the demo draws: copy {} there", drawn.display()));
     }
-    Ok(())
+    sent_are_told()
+}
+
+/// Counts the bytes that the demo sends for a frame, and looks for them in the guide.
+fn sent_are_told() -> Outcome {
+    let mut count = cargo();
+    count.args(["run", "--release", "--quiet", "--manifest-path", MANIFEST, "--package", "desktop"]);
+    count.arg("--target-dir").arg(workspace::target_directory()).args(["--", "bytes"]);
+    let text = command::output(&mut count)?;
+    let bytes: u64 = (text.split(' ').next().and_then(|word| word.parse().ok()))
+        .ok_or_else(|| format!("expected the bytes of a frame, found `{}`", text.trim()))?;
+    let told =
+        format!("on average {} KB of the frame's {}", (bytes + 500) / 1000, (2 * 320 * 240 + 500) / 1000);
+    let page =
+        fs::read_to_string(workspace::root().join(GUIDE)).map_err(|error| format!("{GUIDE}: {error}"))?;
+    if page.split_whitespace().collect::<Vec<_>>().join(" ").contains(&told) {
+        return Ok(());
+    }
+    Err(format!("{GUIDE} does not say \"{told}\", which is what the demo sends"))
 }
 
 /// The boards that the arguments name: one, or all.

@@ -50,6 +50,21 @@ fn check(frame: &[u16], touched: &Touched, what: &str) {
     assert_eq!(touched.is_empty(), !(0..PIXELS).any(|k| changed(&k)), "{what}: {touched:?}");
 }
 
+/// Asserts that no column and no row is a pixel or more outside the triangle, whose places on the screen are in `f64`.
+fn check_tight(corners: [Vec3; 3], touched: &Touched) {
+    let half = f64::from(HEIGHT) / 2.0 / f64::from(1.2_f32 / 2.0).tan();
+    let places = corners.map(|corner| {
+        let [x, y, z] = corner.to_array().map(f64::from);
+        [f64::from(WIDTH) / 2.0 - x / z * half, f64::from(HEIGHT) / 2.0 + y / z * half]
+    });
+    for (axis, range) in [touched.columns(), touched.rows()].into_iter().enumerate() {
+        let ends =
+            [f64::min, f64::max].map(|of| places.map(|place| place[axis]).into_iter().reduce(of).unwrap());
+        let within = f64::from(range.start) > ends[0] - 1.0 && f64::from(range.end) < ends[1] + 1.0;
+        assert!(touched.is_empty() || within, "{touched:?} of a triangle at {places:?}");
+    }
+}
+
 /// Draws one triangle in one frame, in one lane and in all.
 fn plain(corners: [Vec3; 3], (interpolation, subpixel): (impl Interpolation, Subpixel)) {
     let (view, indices) = (view(), [[0_u16, 1, 2]]);
@@ -67,6 +82,7 @@ fn plain(corners: [Vec3; 3], (interpolation, subpixel): (impl Interpolation, Sub
             for_lanes!(widest, lanes => pass.count_by(lanes, &mut target, &mut touched));
         }
         check(&color, &touched, "a triangle");
+        check_tight(corners, &touched);
     };
     draw(true);
     draw(false);

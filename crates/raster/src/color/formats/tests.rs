@@ -80,6 +80,18 @@ fn pixels_have_the_bytes_of_displays() {
     assert_eq!(Indexed(&PALETTE).native(2), 2);
 }
 
+/// Words that are pixels but for the order of bytes: those of the bytes that displays take, by hand.
+#[test]
+fn words_of_pixels_have_the_bytes_of_displays() {
+    assert_eq!(Rgb565Be.native(0x1234).to_ne_bytes(), [0x12, 0x34]);
+    assert_eq!(Rgb565Le.native(0x1234).to_ne_bytes(), [0x34, 0x12]);
+    assert_eq!(Rgb444.native(0x0f84), [0x0f, 0x84]);
+    assert_eq!(Xrgb8888.native(0x00ff_8844).to_ne_bytes(), [0x44, 0x88, 0xff, 0]);
+    assert_eq!(Rgba8888.native(0x0744_88ff).to_ne_bytes(), [0xff, 0x88, 0x44, 7]);
+    let bytes = [Rgb332.native(0xf1), Grey8.native(0xa4), Grey4.native(15), Grey2.native(3), Grey1.native(1)];
+    assert_eq!(bytes, [0xf1, 0xa4, 15, 3, 1]);
+}
+
 /// Means in RGB565 against reals, for all shares, all bytes and all levels.
 #[test]
 fn means_of_16_bits_are_as_near_as_they_say() {

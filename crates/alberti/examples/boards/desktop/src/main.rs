@@ -1,7 +1,7 @@
 //! The demo in a window, or as an animated picture.
 //!
 //!     cargo run --release                 # a window: space for the numbers, escape to leave
-//!     cargo run --release -- demo.gif     # one turn
+//!     cargo run --release -- demo.gif     # one turn, the left half in fixed point, the right one in floats
 //!     cargo run --release -- bytes        # those that a display is sent for a frame, on average over a turn
 
 use alberti::Rgb565Be;
@@ -109,13 +109,18 @@ fn mean_of_bytes() -> usize {
     memory.sent / TURN as usize
 }
 
-/// Frames of a turn, endless, with one palette for all.
+/// Frames of a turn, endless, with one palette for all: the left half in fixed point, the right one in floats.
 fn animation() -> Vec<u8> {
-    let (mut demo, mut memory) = (Box::new(Demo::new()), Memory::new());
+    let mut halves = [true, false].map(|fixed| (fixed, Box::new(Demo::new()), Memory::new()));
     let frames: [Vec<u8>; FRAMES as usize] = std::array::from_fn(|_| {
-        draw(&mut demo, true, &mut memory);
-        demo.skip(TURN / FRAMES - 1);
-        memory.pixels.iter().flat_map(|pixel| (pixel << 8 | 0xff).to_be_bytes()).collect()
+        for (fixed, demo, memory) in &mut halves {
+            draw(demo, *fixed, memory);
+            demo.skip(TURN / FRAMES - 1);
+        }
+        let [left, right] = halves.each_ref().map(|(_, _, memory)| memory.pixels.chunks(WIDTH.into()));
+        let half = usize::from(WIDTH / 2);
+        let rows = left.zip(right).flat_map(|(left, right)| left[..half].iter().chain(&right[half..]));
+        rows.flat_map(|pixel| (pixel << 8 | 0xff).to_be_bytes()).collect()
     });
     let palette = NeuQuant::new(10, COLORS, &frames.concat());
     let mut file = vec![];
