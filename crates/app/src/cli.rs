@@ -78,8 +78,8 @@ Examples:
 /// The options of `alberti render`. Those that are absent are left to the model or the scene.
 #[derive(Clone, Debug, Default, Args)]
 pub struct RenderArgs {
-    /// Wavefront OBJ model to draw, with the materials and textures that it names; or a scene file, whose name ends in
-    /// .toml, and which options override.
+    /// Wavefront OBJ model to draw, with the materials and textures that it names, perhaps compressed by gzip, or - for
+    /// standard input; or a scene file, whose name ends in .toml, and which options override.
     #[arg(value_name = "MODEL.obj or SCENE.toml")]
     pub model: Option<PathBuf>,
 

@@ -55,6 +55,8 @@ struct Fragment<'a> {
     /// The triangle's vertices in object space.
     vertices: [crate::scene::Vertex; 3],
     indices: [u32; 3],
+    /// That of the model.
+    origin: [f64; 3],
     /// Its parts on the screen, and the number of the one that covers the pixel.
     pieces: Vec<Piece>,
     number: usize,
@@ -263,7 +265,8 @@ impl Scene<'_> {
         let pieces = self.drawing.pieces(part, arrival.triangle);
         let shapes = pieces.iter().map(|piece| Shape::new(piece, self.pixel, self.drawing.subpixel()));
         let (number, shape) = shapes.enumerate().find(|(_, shape)| shape.covers())?;
-        Some(Fragment { arrival, part, vertices: [a?, b?, c?], indices, pieces, number, shape })
+        let (vertices, origin) = ([a?, b?, c?], model.origin);
+        Some(Fragment { arrival, part, vertices, indices, origin, pieces, number, shape })
     }
 
     /// zs as it was interpolated.

@@ -6,6 +6,7 @@ use std::num::NonZero;
 mod afterwards;
 mod filter;
 mod material;
+mod normals;
 mod policies;
 mod table;
 pub mod values;
@@ -15,6 +16,7 @@ pub use afterwards::{Blend, Dither, Fog, Haze};
 pub use filter::{Filter, Probes};
 pub(crate) use material::Base;
 pub use material::{MapFile, Material, Origin};
+pub use normals::{DEFAULT_CREASE, Normals};
 pub use policies::{
     Arithmetic, ColorFormat, DepthFormat, Interpolation, Lod, Policies, Profile, SpanLength, Subpixel,
 };

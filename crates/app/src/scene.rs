@@ -10,7 +10,9 @@ pub mod slide;
 
 pub(crate) mod displace;
 pub(crate) mod order;
+pub(crate) mod origin;
 pub(crate) mod place;
+pub(crate) mod polygon;
 pub(crate) mod surfaces;
 pub(crate) mod tangents;
 
@@ -95,6 +97,9 @@ pub struct Model {
     pub slide: Option<Slide>,
     /// The file that it came from.
     pub source: Option<PathBuf>,
+    /// The point of the file's coordinates that is (0, 0, 0) here: all positions in the model, of lights and of cameras
+    /// are less by it. It is 0 unless the model is far from its own origin.
+    pub origin: [f64; 3],
 }
 
 impl Model {

@@ -140,7 +140,7 @@ fn a_real_model_from_three_cameras() {
         eprintln!("SKIPPED: no model in {}", folder.display());
         return;
     }
-    let loaded = obj::load(&folder.join("spot_triangulated.obj"), &mut |_, _| {}).expect("a model");
+    let loaded = obj::load(&folder.join("spot_triangulated.obj"), None, &mut |_, _| {}).expect("a model");
     let mut model = loaded.model;
     model.textures =
         vec![image_file::load(&folder.join("spot_texture.png"), image_file::MAX_TEXELS).expect("a texture")];

@@ -15,6 +15,10 @@ pub(crate) fn check(arguments: &RenderArgs) -> Result<(), Error> {
         let error = Error::new("it with --stats, which is of pictures in true colours", "one of the two");
         return Err(error.place("--show"));
     }
+    if arguments.render.normals.is_some() && arguments.model.is_none() {
+        let error = Error::new("it without a model", "a model, whose normals are made");
+        return Err(error.place("--normals").hint("built-in scenes have their own"));
+    }
     let camera = &arguments.camera;
     let of_view =
         camera.view_height.filter(|_| !camera.is_parallel()).map(|_| ("view-height", "projection parallel"));

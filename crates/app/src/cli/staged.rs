@@ -173,13 +173,15 @@ impl Request {
             };
             warn(&error.hint("every surface gets one texel's colour").to_string());
         }
-        scene.model.slide = slide::load(&arguments.projector)?;
+        let origin = scene.model.origin;
+        scene.model.slide = slide::load(&arguments.projector.clone().counted_from(origin))?;
         let load = start.elapsed();
 
         let Size(width, height) = arguments.render.size.unwrap_or(DEFAULT_SIZE);
         let ball = camera::bounding_sphere(&scene.model);
         let aspect = f64::from(width) / f64::from(height);
-        let camera = camera::frame(&arguments.camera, scene.camera.as_ref(), ball, aspect)?;
+        let camera =
+            camera::frame(&arguments.camera.counted_from(origin), scene.camera.as_ref(), ball, aspect)?;
         order::back_to_front(&mut scene.model, &camera);
         if camera::is_behind(&camera, ball) {
             warn(
@@ -254,7 +256,7 @@ fn name_of(arguments: &RenderArgs) -> &str {
 fn load(arguments: &RenderArgs) -> Result<Scene, Error> {
     if let Some(path) = &arguments.model {
         let mut progress = Progress::new("loading");
-        let loaded = obj::load(path, &mut |done, total| progress.set(done, total))?;
+        let loaded = obj::load(path, arguments.render.normals, &mut |done, total| progress.set(done, total))?;
         drop(progress);
         warn_all(&loaded.warnings);
         return Ok(Scene {

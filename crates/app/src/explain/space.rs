@@ -36,6 +36,9 @@ impl Scene<'_> {
         block.value("name", "its name", fragment.part.name.as_str());
         block.value("triangle", "triangle of the part", fragment.arrival.triangle);
         block.values("vertices", "vertices of the model", fragment.indices);
+        if fragment.origin.iter().any(|x| x.abs() > 0.0) {
+            block.values("origin", "counted from, in the file", fragment.origin);
+        }
         for ((key, label), v) in KEYS.into_iter().zip(fragment.vertices) {
             block.values(key, label, v.position);
         }

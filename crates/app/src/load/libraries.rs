@@ -7,7 +7,7 @@ use crate::error::{Error, Warnings, quote};
 use crate::load::images::Images;
 use crate::load::input;
 use crate::load::mtl::{self, CheckedMtl};
-use crate::load::obj::check::{CheckedObj, Named};
+use crate::load::obj::{Named, ObjText};
 use crate::options::Material;
 use crate::scene::{Model, Part};
 
@@ -27,7 +27,7 @@ impl Libraries {
     ///
     /// # Errors
     /// A `Kd` whose numbers are missing or are none.
-    pub(crate) fn read(path: &Path, obj: &CheckedObj, warnings: &mut Warnings) -> Result<Self, Error> {
+    pub(crate) fn read(path: &Path, obj: &ObjText, warnings: &mut Warnings) -> Result<Self, Error> {
         let mut libraries = Self { checked: CheckedMtl::default(), images: Images::new() };
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut complete = true;
@@ -73,7 +73,7 @@ impl Libraries {
         self.images.give(model);
     }
 
-    fn look_up(&self, path: &Path, obj: &CheckedObj, warnings: &mut Warnings) {
+    fn look_up(&self, path: &Path, obj: &ObjText, warnings: &mut Warnings) {
         let expected = if obj.libraries.is_empty() {
             "a material of that name (the file names no `mtllib`)"
         } else {
@@ -113,7 +113,7 @@ fn bytes_of(obj: &Path, named: &Named, file: &Path) -> Result<Vec<u8>, Error> {
         let found = format!("no file \"{}\"", file.display());
         return Err(Error::new(found, mtl::KIND).file(obj).line(named.line).hint(HINT));
     }
-    input::read(file, mtl::KIND, MAX_LIBRARY_BYTES).map_err(|e| e.hint(HINT))
+    input::read_text(file, mtl::KIND, MAX_LIBRARY_BYTES).map_err(|e| e.hint(HINT))
 }
 
 /// A `mtllib` line names one file, with spaces perhaps, or several files.

@@ -31,7 +31,7 @@ impl CheckedMtl {
     /// # Errors
     /// A `Kd` whose numbers are missing or are none.
     pub(crate) fn add(&mut self, bytes: &[u8], path: &Path, warnings: &mut Warnings) -> Result<(), Error> {
-        if let Some(found) = not_text(bytes) {
+        if let Some(found) = not_text(bytes, 0) {
             warnings.push(Error::new(found, KIND).file(path).hint("its materials are left out"));
             return Ok(());
         }

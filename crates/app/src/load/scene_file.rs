@@ -52,7 +52,7 @@ impl SceneFile {
             return Err(error.hint("the README of alberti-app describes scene files"));
         }
         scene.complete_materials()?;
-        scene.lights()?;
+        scene.lights([0.0; 3])?;
         scene.check_objects()?;
         let options = scene.options(matches)?;
         Ok((scene, options))
@@ -118,10 +118,11 @@ impl SceneFile {
         warnings: &mut Warnings,
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<(Model, bool), Error> {
+        let render = &arguments.render;
         let (mut model, has_uv) =
-            self.objects(over, arguments.render.wrap.unwrap_or_default(), warnings, progress)?;
+            self.objects(over, (render.wrap.unwrap_or_default(), render.normals), warnings, progress)?;
         model.source = Some(self.source.path().to_owned());
-        model.lights = self.lights()?;
+        model.lights = self.lights(model.origin)?;
         model.ambient = self.ambient();
         Ok((model, has_uv))
     }

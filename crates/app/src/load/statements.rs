@@ -2,15 +2,17 @@
 
 use std::borrow::Cow;
 
-/// The reason why these bytes are not lines of text, if they are not: `found` for a message.
-pub(crate) fn not_text(bytes: &[u8]) -> Option<String> {
-    if bytes.is_empty() {
+/// The reason why these bytes, which come after so many of the file, are not lines of text, if they are not: `found` for
+/// a message.
+pub(crate) fn not_text(bytes: &[u8], before: u64) -> Option<String> {
+    if before == 0 && bytes.is_empty() {
         return Some("an empty file".to_owned());
     }
-    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+    if before == 0 && (bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff])) {
         return Some("UTF-16 text".to_owned());
     }
-    bytes.iter().position(|&b| b == 0).map(|at| format!("a binary file (a zero byte at offset {at})"))
+    let zero = bytes.iter().position(|&b| b == 0)?;
+    Some(format!("a binary file (a zero byte at offset {})", before + zero as u64))
 }
 
 /// The logical lines of a text, each with the number of its first physical line.
@@ -28,11 +30,6 @@ impl<'a> Lines<'a> {
     /// The lines of `bytes`.
     pub(crate) fn new(bytes: &'a [u8]) -> Self {
         Self { rest: bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes), number: 0 }
-    }
-
-    /// Bytes that no line returned so far has touched.
-    pub(crate) fn remaining(&self) -> usize {
-        self.rest.len()
     }
 
     /// Physical lines read so far.

@@ -11,8 +11,8 @@ use serde::{Deserialize, Deserializer};
 
 use super::values::{Color, Finite, Number, Point, Size};
 use super::{
-    Arithmetic, ColorFormat, Cull, DepthFormat, Dither, Filter, Fog, Interpolation, Lod, Policies, Profile,
-    ProjectionKind, Shading, Subpixel, Wrap,
+    Arithmetic, ColorFormat, Cull, DepthFormat, Dither, Filter, Fog, Interpolation, Lod, Normals, Policies,
+    Profile, ProjectionKind, Shading, Subpixel, Wrap,
 };
 use crate::error::Error;
 
@@ -55,6 +55,14 @@ pub struct CameraTable {
 }
 
 impl CameraTable {
+    /// The same, counted from `origin`.
+    #[must_use]
+    pub(crate) fn counted_from(self, origin: [f64; 3]) -> Self {
+        let [eye, target] =
+            [self.eye, self.target].map(|point| point.map(|point| point.counted_from(origin)));
+        Self { eye, target, ..self }
+    }
+
     /// Whether the projection is parallel.
     #[must_use]
     pub fn is_parallel(&self) -> bool {
@@ -94,6 +102,14 @@ pub struct ProjectorTable {
 }
 
 impl ProjectorTable {
+    /// The same, counted from `origin`.
+    #[must_use]
+    pub(crate) fn counted_from(self, origin: [f64; 3]) -> Self {
+        let [eye, target] =
+            [self.eye, self.target].map(|point| point.map(|point| point.counted_from(origin)));
+        Self { eye, target, ..self }
+    }
+
     /// # Errors
     /// Some of it, but not all that a projector needs.
     pub(crate) fn check(&self) -> Result<(), Error> {
@@ -152,6 +168,15 @@ pub struct RenderTable {
     /// Which triangles to leave out by the side they show [default: none].
     #[arg(long, value_enum, value_name = "SIDE", help_heading = SURFACE)]
     pub cull: Option<Cull>,
+
+    /// How surfaces without normals get theirs: smooth, flat or crease:DEG; overrides the model's own [default: its own]
+    ///
+    /// smooth: one normal at each position, so that no edge is seen.
+    /// flat: one for each face, so that every edge is seen.
+    /// crease:DEG: edges at which faces turn by DEG degrees or more are sharp, 0 to 180.
+    /// The model's own: its `vn`, else its smoothing groups (`s`), else crease:60.
+    #[arg(long, value_name = "HOW", help_heading = SURFACE, verbatim_doc_comment)]
+    pub normals: Option<Normals>,
 
     /// Fog, by distances before the camera: none, linear:START,END, exp:DENSITY or exp2:DENSITY [default: none]
     ///

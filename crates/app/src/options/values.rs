@@ -10,6 +10,7 @@ use clap::ValueEnum;
 use serde::de::{Deserialize, Deserializer, Error, Expected, SeqAccess, Unexpected, Visitor};
 
 use crate::error::quote;
+use crate::scene::normals::{narrow, sub};
 
 /// The longest side of a picture, in pixels.
 pub const MAX_SIDE: u32 = 16384;
@@ -79,9 +80,9 @@ kinds! {
     };
 }
 
-/// `N` numbers of a kind: `X,Y,Z` on the command line, `[x, y, z]` in a scene file.
+/// `N` numbers of a kind: `X,Y,Z` on the command line, `[x, y, z]` in a scene file. They are finite as f32 too.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tuple<const N: usize, K>(pub [f32; N], PhantomData<K>);
+pub struct Tuple<const N: usize, K>([f64; N], PhantomData<K>);
 
 /// A single number of a kind.
 pub type Number<K> = Tuple<1, K>;
@@ -91,17 +92,23 @@ pub type Point = Tuple<3, Finite>;
 
 impl<const N: usize, K> From<[f32; N]> for Tuple<N, K> {
     fn from(numbers: [f32; N]) -> Self {
-        Self(numbers, PhantomData)
+        Self(numbers.map(f64::from), PhantomData)
     }
 }
 
 impl<K> From<f32> for Number<K> {
     fn from(number: f32) -> Self {
-        Self([number], PhantomData)
+        [number].into()
     }
 }
 
 impl<const N: usize, K> From<Tuple<N, K>> for [f32; N] {
+    fn from(tuple: Tuple<N, K>) -> Self {
+        tuple.0.map(narrow)
+    }
+}
+
+impl<const N: usize, K> From<Tuple<N, K>> for [f64; N] {
     fn from(tuple: Tuple<N, K>) -> Self {
         tuple.0
     }
@@ -109,7 +116,15 @@ impl<const N: usize, K> From<Tuple<N, K>> for [f32; N] {
 
 impl<K> From<Number<K>> for f32 {
     fn from(Tuple([number], _): Number<K>) -> Self {
-        number
+        narrow(number)
+    }
+}
+
+impl Point {
+    /// The point, counted from `origin`.
+    #[must_use]
+    pub(crate) fn counted_from(self, origin: [f64; 3]) -> Self {
+        Self(sub(self.0, origin), PhantomData)
     }
 }
 
@@ -123,12 +138,13 @@ impl Tuple<2, Side> {
 }
 
 impl<const N: usize, K: Kind> Tuple<N, K> {
-    fn of(numbers: &[f32]) -> Option<Self> {
+    fn of(numbers: &[f64]) -> Option<Self> {
         let numbers = match numbers {
             [one] if K::ONE_FOR_ALL => [*one; N],
             many => many.try_into().ok()?,
         };
-        numbers.iter().all(|&x| x.is_finite() && K::contains(x)).then_some(numbers.into())
+        let all = numbers.iter().map(|&x| narrow(x)).all(|x| x.is_finite() && K::contains(x));
+        all.then_some(Self(numbers, PhantomData))
     }
 }
 
@@ -136,7 +152,7 @@ impl<const N: usize, K: Kind> FromStr for Tuple<N, K> {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let numbers: Option<Vec<f32>> = text.split(',').map(|word| word.trim().parse().ok()).collect();
+        let numbers: Option<Vec<f64>> = text.split(',').map(|word| word.trim().parse().ok()).collect();
         numbers.and_then(|numbers| Self::of(&numbers)).ok_or_else(|| match N {
             1 => K::ONE.to_owned(),
             2 => format!("two {} LO,HI without spaces, such as -0.05,0", K::MANY),
@@ -165,15 +181,13 @@ impl<'de, const N: usize, K: Kind> Visitor<'de> for Components<N, K> {
         }
     }
 
-    #[expect(clippy::cast_precision_loss, reason = "it becomes an f32 anyway")]
+    #[expect(clippy::cast_precision_loss, reason = "it becomes an f64 anyway")]
     fn visit_i64<E: Error>(self, x: i64) -> Result<Self::Value, E> {
         self.visit_f64(x as f64)
     }
 
     fn visit_f64<E: Error>(self, x: f64) -> Result<Self::Value, E> {
-        #[expect(clippy::cast_possible_truncation, reason = "rounded once")]
-        let found = Tuple::of(&[x as f32]);
-        found.ok_or_else(|| E::custom(format_args!("{x}, expected {}", &self as &dyn Expected)))
+        Tuple::of(&[x]).ok_or_else(|| E::custom(format_args!("{x}, expected {}", &self as &dyn Expected)))
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Self::Value, A::Error> {
@@ -191,7 +205,7 @@ impl<'de, const N: usize, K: Kind> Visitor<'de> for Components<N, K> {
         numbers
             .as_slice()
             .try_into()
-            .map(|numbers: [f32; N]| numbers.into())
+            .map(|numbers: [f64; N]| Tuple(numbers, PhantomData))
             .map_err(|_| wrong(numbers.len()))
     }
 }
@@ -208,7 +222,8 @@ impl Shininess {
 impl TryFrom<Tuple<2, Exponent>> for Shininess {
     type Error = String;
 
-    fn try_from(Tuple(pair @ [least, greatest], _): Tuple<2, Exponent>) -> Result<Self, String> {
+    fn try_from(pair: Tuple<2, Exponent>) -> Result<Self, String> {
+        let pair @ [least, greatest] = pair.into();
         let ordered = (least <= greatest).then_some(Self(pair));
         ordered.ok_or_else(|| format!("{least} and {greatest}, expected {}", Self::EXPECTED))
     }

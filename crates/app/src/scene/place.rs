@@ -15,13 +15,29 @@ pub(crate) struct Placement {
 }
 
 impl Placement {
-    /// Puts all vertices of a model there. Front faces stay front faces, and unit vectors stay unit vectors.
+    /// The places of a model's points, counted from a new origin.
+    pub(crate) fn places(&self, model: &Model, origin: [f64; 3]) -> impl Fn([f32; 3]) -> [f64; 3] + use<> {
+        let (rows, scale) = (self.turned(), self.scale);
+        let turned = move |v: [f64; 3]| {
+            let scaled = [0, 1, 2].map(|axis| v[axis] * scale[axis]);
+            rows.map(|row| dot(row, scaled))
+        };
+        let from = turned(model.origin);
+        let shift = [0, 1, 2].map(|axis| from[axis] + self.position[axis] - origin[axis]);
+        move |position| {
+            let point = turned(position.map(f64::from));
+            [0, 1, 2].map(|axis| point[axis] + shift[axis])
+        }
+    }
+
+    /// Puts all vertices of a model there, counted from a new origin. Front faces stay front faces, and unit vectors stay unit vectors.
     ///
     /// Heights are stretched along the normal, as the parts of the surface are on average over their area: by their
     /// volume's growth over their area's. Where scales are unequal that is the mean on a curved surface, and that
     /// heights lean is left out.
-    pub(crate) fn apply(&self, model: &mut Model) {
-        if *self == (Self { position: [0.0; 3], rotation: [0.0; 3], scale: [1.0; 3] }) {
+    pub(crate) fn apply(&self, model: &mut Model, origin: [f64; 3]) {
+        let still = Self { position: [0.0; 3], rotation: [0.0; 3], scale: [1.0; 3] };
+        if *self == still && model.origin == origin {
             return;
         }
         let rows = self.turned();
@@ -31,9 +47,10 @@ impl Placement {
         let volume = self.scale.iter().product::<f64>();
         let mirrored = volume < 0.0;
         let areas: Vec<f64> = model.parts.iter().map(|part| tangents::area(&model.vertices, part)).collect();
+        let place = self.places(model, origin);
+        model.origin = origin;
         for vertex in &mut model.vertices {
-            let point = turn(scaled(vertex.position.map(f64::from)));
-            vertex.position = [0, 1, 2].map(|axis| narrow(point[axis] + self.position[axis]));
+            vertex.position = place(vertex.position).map(narrow);
             let normal = normalize(turn(unscaled(vertex.normal.map(f64::from)))).unwrap_or([0.0, 0.0, 1.0]);
             vertex.normal = normal.map(narrow);
             let [x, y, z, handedness] = vertex.tangent;
@@ -115,7 +132,7 @@ mod tests {
 
     fn first(placement: Placement) -> [f32; 3] {
         let mut model = model();
-        placement.apply(&mut model);
+        placement.apply(&mut model, [0.0; 3]);
         model.vertices[0].position
     }
 
@@ -137,7 +154,8 @@ mod tests {
     fn normals_tangents_and_front_faces_go_along() {
         for scale in [[1.0, 1.0, 1.0], [-2.0, 1.0, 3.0], [1.0, -1.0, -1.0], [0.5, 4.0, -1.0]] {
             let mut model = model();
-            Placement { position: [1.0, 2.0, 3.0], rotation: [20.0, 30.0, 40.0], scale }.apply(&mut model);
+            Placement { position: [1.0, 2.0, 3.0], rotation: [20.0, 30.0, 40.0], scale }
+                .apply(&mut model, [0.0; 3]);
             let [a, b, c] = model.parts[0].triangles[0].map(|i| model.vertices[i as usize]);
             let [p, q, r] = [a, b, c].map(|v| v.position.map(f64::from));
             let across = normalize(cross(sub(q, p), sub(r, p))).unwrap();
@@ -160,7 +178,7 @@ mod tests {
         for scale in [[2.0, 1.0, 4.0], [1.0, -3.0, 0.5], [-0.25, 5.0, 5.0]] {
             let mut model = model();
             model.parts[0].detail.normal = Some(normal);
-            Placement { rotation: [20.0, 30.0, 40.0], scale, ..STILL }.apply(&mut model);
+            Placement { rotation: [20.0, 30.0, 40.0], scale, ..STILL }.apply(&mut model, [0.0; 3]);
             let axes = model.parts[0].detail.normal.unwrap().axes.map(|axis| axis.map(f64::from));
             // Of the plane x + 2y + 3z = 0, and two directions in it.
             let placed = [0, 1, 2].map(|k| axes[0][k] + 2.0 * axes[1][k] + 3.0 * axes[2][k]);
@@ -182,7 +200,7 @@ mod tests {
             let mut model = model();
             let height = HeightMap { heights: 0, wrap: None, relief, range: [-1.0, 2.0], extent: [1.0; 2] };
             model.parts[0].detail.height = Some(height);
-            Placement { rotation: [20.0, 30.0, 40.0], scale, ..STILL }.apply(&mut model);
+            Placement { rotation: [20.0, 30.0, 40.0], scale, ..STILL }.apply(&mut model, [0.0; 3]);
             model.parts[0].detail.height.unwrap()
         };
         // The triangle faces z, with u along x and v along y.

@@ -18,7 +18,7 @@ pub fn load(table: &ProjectorTable) -> Result<Option<Slide>, Error> {
         return Ok(None);
     };
     let fov = fov.map_or(DEFAULT_FOV, f32::from);
-    let projector = camera::projector(eye.0, target.0, fov)?;
+    let projector = camera::projector((*eye).into(), (*target).into(), fov)?;
     Ok(Some(Slide { image: image_file::load(path, image_file::MAX_TEXELS)?, projector }))
 }
 

@@ -1,8 +1,9 @@
 //! Tests of the OBJ loader: from files to a model.
 
-use std::fs;
+use std::{fs, io};
 
 use super::*;
+use crate::scene::Vertex;
 
 const CORNERS: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
@@ -12,7 +13,7 @@ fn load_files(files: &[(&str, &[u8])]) -> (Model, Vec<String>) {
     for (name, bytes) in files {
         fs::write(folder.path().join(name), bytes).unwrap();
     }
-    let loaded = load(&folder.path().join("m.obj"), &mut |done, total| assert!(done <= total)).unwrap();
+    let loaded = load(&folder.path().join("m.obj"), None, &mut |done, total| assert!(done <= total)).unwrap();
     let prefix = format!("{}/", folder.path().display());
     (loaded.model, loaded.warnings.lines().map(|l| l.replace(&prefix, "")).collect())
 }
@@ -156,7 +157,131 @@ fn missing_files_leave_the_default() {
 
 #[test]
 fn degenerate_faces_are_kept() {
-    assert_eq!(load_text(&format!("{CORNERS}f 1 1 1\nf 1 2 1\n")).parts[0].triangles.len(), 2);
+    assert_eq!(load_text(&format!("{CORNERS}f 1 1 1\nf 1 2 3\n")).parts[0].triangles.len(), 2);
+    let obj = format!("{CORNERS}f 1 1 1\nf 1 2 1\n");
+    let (model, warnings) = load_files(&[("m.obj", obj.as_bytes())]);
+    assert_eq!(model.parts[0].triangles.len(), 2);
+    assert_eq!(
+        warnings,
+        ["m.obj: found only faces without area, expected a surface; there is nothing to see"]
+    );
+}
+
+#[test]
+fn concave_faces_are_cut_and_crossing_ones_told() {
+    let model = load_text("v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 3 0\nv 0 3 0\nf 2 3 4 5 6 1\n");
+    let area = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|i| model.vertices[i as usize].position);
+        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    };
+    let areas: Vec<_> = model.parts[0].triangles.iter().map(area).collect();
+    assert!(
+        areas.iter().all(|&area| area > 0.0) && (areas.iter().sum::<f32>() - 8.0).abs() < 1e-6,
+        "{areas:?}"
+    );
+
+    let text = format!("{CORNERS}f 1 2 3 4\nf 1 3 2 4\nf 3 1 2 4\n");
+    let (_, warnings) = load_files(&[("m.obj", text.as_bytes())]);
+    assert_eq!(
+        warnings,
+        ["m.obj:6: found 2 faces that cross themselves, expected outlines that do not cross themselves; \
+          this is the first; their fill may be wrong"]
+    );
+}
+
+/// The vertices of a box whose faces are quads, loaded with these lines before them.
+fn box_with(lines: [&str; 2], normals: Option<Normals>) -> Model {
+    let mut text = "vn 0 0 1\n".to_owned();
+    for corner in 0..8 {
+        text += &format!("v {} {} {}\n", corner & 1, corner >> 1 & 1, corner >> 2);
+    }
+    let faces = ["1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"];
+    for (i, face) in faces.iter().enumerate() {
+        text += &format!("{}\nf {face}\n", lines[i / 3]);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.obj");
+    fs::write(&path, text).unwrap();
+    load(&path, normals, &mut |_, _| {}).unwrap().model
+}
+
+#[test]
+fn smoothing_groups_are_obeyed_unless_normals_are_asked_for() {
+    let vertices = |lines, normals| box_with(lines, normals).vertices.len();
+    // Of angles, of no groups, of one group.
+    assert_eq!(vertices(["", ""], None), 24);
+    assert_eq!(vertices(["s off", "s 0"], None), 24);
+    assert_eq!(vertices(["s 1", "s 1"], None), 8);
+    // Three faces that have all corners, and the three opposite ones.
+    assert_eq!(vertices(["s 1", "s 2"], None), 16);
+    // Those before any `s` have an angle.
+    assert_eq!(vertices(["", "s 2"], None), 3 * 4 + 8);
+    for (normals, wanted) in
+        [(Normals::Smooth, 8), (Normals::Flat, 24), (Normals::Crease(60.0), 24), (Normals::Crease(91.0), 8)]
+    {
+        for lines in [["", ""], ["s 1", "s off"]] {
+            assert_eq!(vertices(lines, Some(normals)), wanted, "{normals:?}");
+        }
+    }
+    let flat = box_with(["s off", "s off"], None);
+    for triangle in &flat.parts[0].triangles {
+        let normals = triangle.map(|i| flat.vertices[i as usize].normal);
+        assert!(normals == [normals[0]; 3] && normals[0].iter().filter(|x| x.abs() == 1.0).count() == 1);
+    }
+}
+
+#[test]
+fn normals_of_the_file_come_first_unless_others_are_asked_for() {
+    let text = format!("{CORNERS}vn 0 1 0\nf 1//1 2//1 3//1\n");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.obj");
+    fs::write(&path, text).unwrap();
+    let normal = |normals| load(&path, normals, &mut |_, _| {}).unwrap().model.vertices[0].normal;
+    assert_eq!(normal(None), [0.0, 1.0, 0.0]);
+    assert_eq!(normal(Some(Normals::Flat)), [0.0, 0.0, 1.0]);
+}
+
+#[test]
+fn far_models_keep_their_shape() {
+    let text = |[x, y, z]: [f64; 3]| {
+        let at = |[a, b, c]: [f64; 3]| format!("v {} {} {}\n", x + a, y + b, z + c);
+        let corners = [[0.0, 0.015_625, 0.0], [1.0, 0.0, 0.031_25], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        corners.map(at).concat() + "f 1 2 3\nf 1 3 4\nf 1 4 2\nf 2 4 3\n"
+    };
+    let (near, far) = (load_text(&text([0.0; 3])), load_text(&text([500_000.0, 120.0, 4e6])));
+    // The unit of the origin is the extent of 1.
+    let shift = [0, 1, 2].map(|axis| far.origin[axis] - [500_000.0, 120.0, 4e6][axis]);
+    assert_eq!((near.origin, shift.map(f64::abs)), ([0.0; 3], [1.0; 3].map(|x| shift[0].abs() * x)));
+    for (a, b) in near.vertices.iter().zip(&far.vertices) {
+        let moved = [0, 1, 2].map(|axis| f64::from(b.position[axis]) + shift[axis]);
+        assert_eq!((a.position.map(f64::from), a.normal), (moved, b.normal));
+    }
+}
+
+#[test]
+fn corners_of_many_kinds_at_one_position_are_found_again() {
+    use std::fmt::Write as _;
+    let mut text = format!("{CORNERS}vn 0 0 1\n");
+    for i in 0..40 {
+        writeln!(text, "vt 0.{i} 0").unwrap();
+    }
+    // Twice the same, so that half of the corners are known; then in an object of its own.
+    for object in 0..4 {
+        if object == 2 {
+            text += "o next\n";
+        }
+        for i in 1..=40 {
+            writeln!(text, "f 1/{i}/1 2/1/1 3/1/1").unwrap();
+        }
+    }
+    let model = load_text(&text);
+    assert_eq!((model.vertices.len(), model.parts.len()), (2 * 42, 2));
+    for part in &model.parts {
+        for (i, triangle) in part.triangles.iter().enumerate() {
+            let wanted: f32 = format!("0.{}", i % 40).parse().unwrap();
+            assert_eq!(model.vertices[triangle[0] as usize].uv, [wanted, 0.0]);
+        }
+    }
 }
 
 #[test]
@@ -225,7 +350,7 @@ fn mutated_files_load_or_are_refused_on_one_line() {
             }
             fs::write(path, bytes).unwrap();
         }
-        match load(&obj, &mut |_, _| {}) {
+        match load(&obj, None, &mut |_, _| {}) {
             Ok(Loaded { model, warnings, .. }) => {
                 loaded += 1;
                 assert!(warnings.lines().all(|w| w.lines().count() == 1));

@@ -11,13 +11,13 @@ use crate::scene::normals::{narrow, normalize, sub};
 const ANGLE: [f32; 2] = [20.0, 30.0];
 
 impl SceneFile {
-    /// The lights.
+    /// The lights, with their places counted from `origin`.
     ///
     /// # Errors
     /// A key is missing, or is none of that kind of light, or a direction is none.
-    pub(super) fn lights(&self) -> Result<Vec<Light>, Error> {
+    pub(super) fn lights(&self, origin: [f64; 3]) -> Result<Vec<Light>, Error> {
         let lights = self.file.light.iter().enumerate();
-        lights.map(|(index, light)| self.light(light, &format!("light[{index}]"))).collect()
+        lights.map(|(index, light)| self.light(light, &format!("light[{index}]"), origin)).collect()
     }
 
     /// The light from everywhere.
@@ -25,7 +25,7 @@ impl SceneFile {
         self.file.ambient.as_ref().map(|ambient| factors(ambient.color, ambient.intensity))
     }
 
-    fn light(&self, light: &tables::Light, path: &str) -> Result<Light, Error> {
+    fn light(&self, light: &tables::Light, path: &str, origin: [f64; 3]) -> Result<Light, Error> {
         let Some(kind) = light.kind else {
             return Err(self.source.error(path, "a light without kind", "directional, point or spot"));
         };
@@ -40,7 +40,7 @@ impl SceneFile {
         let color = factors(light.color, light.intensity);
         let range = light.range.map_or(f32::INFINITY, f32::from);
         let position = || match light.position {
-            Some(position) => Ok(position.into()),
+            Some(position) => Ok(sub(position.into(), origin).map(narrow)),
             None => Err(self.source.error(path, "a light without position", "the point where it is")),
         };
         Ok(match kind {
@@ -62,7 +62,7 @@ impl SceneFile {
 
     /// From where the light is: its direction, or from its position to its target.
     fn direction(&self, light: &tables::Light, path: &str) -> Result<[f32; 3], Error> {
-        let wide = |value: Tuple<3, Place>| value.0.map(f64::from);
+        let wide = |value: Tuple<3, Place>| <[f64; 3]>::from(value);
         let (along, key) = match (light.direction, light.position, light.target) {
             (Some(_), _, Some(_)) => {
                 return Err(self.source.error(

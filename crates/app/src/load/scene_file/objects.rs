@@ -6,8 +6,9 @@ use crate::error::{Error, Warnings, quote};
 use crate::load::images::Images;
 use crate::load::{obj, prepare};
 use crate::options::values::Tuple;
-use crate::options::{Material, Wrap};
+use crate::options::{Material, Normals, Wrap};
 use crate::scene::displace::MAX_VERTICES;
+use crate::scene::origin;
 use crate::scene::place::Placement;
 use crate::scene::surfaces::Surface;
 use crate::scene::{Model, Part, Relief};
@@ -40,12 +41,12 @@ impl SceneFile {
     pub(super) fn objects(
         &self,
         over: &Material,
-        wrap: Wrap,
+        (wrap, normals): (Wrap, Option<Normals>),
         warnings: &mut Warnings,
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<(Model, bool), Error> {
         let mut images = Images::new();
-        let (mut all, mut has_uv) = (Model::default(), true);
+        let (mut placed, mut has_uv) = (Vec::new(), true);
         for (object, path) in self.all() {
             let material = self.material_of(object, &path)?;
             let mut coordinates = true;
@@ -56,7 +57,7 @@ impl SceneFile {
                     surface.mesh(segments, uv_scale(material))
                 }
                 None => {
-                    let loaded = self.model(object, &path, progress)?;
+                    let loaded = self.model(object, &path, normals, progress)?;
                     loaded.warnings.each(|warning| warnings.push(warning));
                     coordinates = loaded.has_uv;
                     loaded.model
@@ -81,7 +82,14 @@ impl SceneFile {
             prepare::replace_materials(&mut model, over, &mut images)?;
             has_uv &= coordinates || !model.parts.iter().any(Part::has_maps);
             prepare::complete(&mut model, &images, wrap, warnings);
-            placement(object).apply(&mut model);
+            placed.push((model, placement(object), path));
+        }
+        let points = placed.iter().flat_map(|(model, placement, _)| {
+            model.vertices.iter().map(|vertex| vertex.position).map(placement.places(model, [0.0; 3]))
+        });
+        let mut all = Model { origin: origin::of(points), ..Model::default() };
+        for (mut model, placement, path) in placed {
+            placement.apply(&mut model, all.origin);
             append(&mut all, model, || self.source.error(&path, "more than 4 billion vertices", "fewer"))?;
         }
         images.give(&mut all);
@@ -170,10 +178,11 @@ impl SceneFile {
         &self,
         object: &Object,
         path: &str,
+        normals: Option<Normals>,
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<obj::Loaded, Error> {
         let Some(name) = &object.model else { return Err(Error::new("no model", "a model")) };
-        obj::load(&self.source.beside(name), progress).map_err(|error| {
+        obj::load(&self.source.beside(name), normals, progress).map_err(|error| {
             let found = format!("a model {} that cannot be used ({error})", quote(name.as_bytes()));
             self.source.error(&format!("{path}.model"), found, "a Wavefront OBJ model")
         })
@@ -190,9 +199,9 @@ fn cells([columns, rows]: [u32; 2]) -> u64 {
 
 fn placement(object: &Object) -> Placement {
     Placement {
-        position: object.position.map_or([0.0; 3], |p| p.0.map(f64::from)),
-        rotation: object.rotation.map_or([0.0; 3], |r| r.0.map(f64::from)),
-        scale: object.scale.map_or([1.0; 3], |s| s.0.map(f64::from)),
+        position: object.position.map_or([0.0; 3], Into::into),
+        rotation: object.rotation.map_or([0.0; 3], Into::into),
+        scale: object.scale.map_or([1.0; 3], Into::into),
     }
 }
 

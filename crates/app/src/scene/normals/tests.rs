@@ -1,0 +1,192 @@
+//! Tests of the making of normals.
+
+use super::*;
+use crate::scene::{Part, Vertex};
+
+fn model(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Model {
+    let vertex = |&position| Vertex { position, ..Vertex::default() };
+    let part = Part { triangles: triangles.to_vec(), ..Part::default() };
+    Model { vertices: positions.iter().map(vertex).collect(), parts: vec![part], ..Model::default() }
+}
+
+fn smooth(model: &mut Model) {
+    by(model, Group::numbered(0), 0.0);
+}
+
+fn by(model: &mut Model, group: Group, crease: f32) {
+    let groups = vec![group; model.parts.iter().map(|part| part.triangles.len()).sum()];
+    complete(model, &groups, crease);
+}
+
+fn close(a: [f32; 3], b: [f32; 3]) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6)
+}
+
+#[test]
+fn a_cube_corner_is_diagonal_however_its_faces_are_cut() {
+    // Three unit squares at the origin, of which only one has its diagonal there.
+    let positions =
+        [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.], [0., 1., 1.], [0., 0., 1.], [1., 0., 1.]];
+    let triangles = [[0, 2, 1], [0, 3, 2], [0, 5, 3], [3, 5, 4], [0, 1, 5], [1, 6, 5]];
+    let mut model = model(&positions, &triangles);
+    smooth(&mut model);
+    let d = -1.0 / 3.0_f32.sqrt();
+    assert!(close(model.vertices[0].normal, [d, d, d]), "{:?}", model.vertices[0].normal);
+}
+
+#[test]
+fn vertices_at_one_position_share_a_normal() {
+    let positions = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [-0., 0., 0.], [0., 1., 0.], [0., 0., 1.]];
+    let mut model = model(&positions, &[[0, 1, 2], [3, 4, 5]]);
+    smooth(&mut model);
+    assert_eq!(model.vertices[0].normal, model.vertices[3].normal);
+    let d = 0.5_f32.sqrt();
+    assert!(close(model.vertices[0].normal, [d, 0.0, d]));
+}
+
+#[test]
+fn given_normals_are_kept_and_made_unit() {
+    let mut model = model(&[[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]], &[[0, 1, 2]]);
+    model.vertices[1].normal = [0.0, 3.0, 4.0];
+    smooth(&mut model);
+    assert!(close(model.vertices[0].normal, [0.0, 0.0, 1.0]));
+    assert!(close(model.vertices[1].normal, [0.0, 0.6, 0.8]));
+}
+
+#[test]
+fn degenerate_triangles_leave_a_unit_normal() {
+    let mut model = model(&[[0., 0., 0.], [1e15, 0., 0.], [1e15, 0., 0.]], &[[0, 1, 2], [0, 0, 0]]);
+    smooth(&mut model);
+    assert_eq!(model.vertices[0].normal, [0.0, 0.0, 1.0]);
+}
+
+/// A prism over a regular polygon, without ends: two triangles a side.
+fn prism(sides: u32) -> Model {
+    let at = |i: u32, z: f32| {
+        let angle = std::f64::consts::TAU * f64::from(i % sides) / f64::from(sides);
+        [narrow(angle.cos()), narrow(angle.sin()), z]
+    };
+    let positions: Vec<_> = (0..sides).flat_map(|i| [at(i, 0.0), at(i, 1.0)]).collect();
+    let around = |i: u32| i % (2 * sides);
+    let triangles: Vec<_> = (0..sides)
+        .flat_map(|i| {
+            let [a, b, c, d] = [2 * i, around(2 * i + 2), around(2 * i + 3), 2 * i + 1];
+            [[a, b, c], [a, c, d]]
+        })
+        .collect();
+    model(&positions, &triangles)
+}
+
+/// The normals at each corner of each triangle.
+fn normals(model: &Model) -> Vec<[[f32; 3]; 3]> {
+    all(model).map(|triangle| triangle.map(|i| model.vertices[i as usize].normal)).collect()
+}
+
+#[test]
+fn edges_are_sharp_from_the_angle_on() {
+    for sides in [3, 4, 5, 6, 7, 12, 40] {
+        let turn = narrow(360.0 / f64::from(sides));
+        for (crease, sharp) in [(turn - 0.1, true), (turn, true), (turn + 0.1, false), (180.0, false)] {
+            let mut model = prism(sides);
+            by(&mut model, Group::BY_ANGLE, crease);
+            assert_eq!(
+                model.vertices.len(),
+                (if sharp { 4 } else { 2 }) * sides as usize,
+                "{sides} {crease}"
+            );
+            for (i, triangle) in (0_u32..).zip(normals(&model)) {
+                let middle = (turn * (narrow(f64::from(i / 2)) + 0.5)).to_radians();
+                for (normal, index) in triangle.into_iter().zip(model.parts[0].triangles[i as usize]) {
+                    let [x, y, _] = model.vertices[index as usize].position;
+                    let wanted = if sharp { [middle.cos(), middle.sin(), 0.0] } else { [x, y, 0.0] };
+                    assert!(close(normal, wanted), "{sides} {crease}: {normal:?} {wanted:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn flat_faces_have_their_own_normals() {
+    let mut model = prism(5);
+    by(&mut model, Group::ALONE, 0.0);
+    assert_eq!(model.vertices.len(), 30);
+    for triangle in normals(&model) {
+        assert!(triangle.iter().all(|&normal| close(normal, triangle[0])), "{triangle:?}");
+    }
+    // As polygons of two triangles each, they share corners within.
+    let mut quads = prism(5);
+    let groups: Vec<_> = (0..10).map(|i| Group::polygon(i / 2)).collect();
+    complete(&mut quads, &groups, 0.0);
+    assert_eq!(quads.vertices.len(), 20);
+    assert!(
+        normals(&quads).iter().flatten().zip(normals(&model).iter().flatten()).all(|(a, b)| close(*a, *b))
+    );
+}
+
+#[test]
+fn groups_end_where_another_begins() {
+    let mut model = prism(4);
+    let groups: Vec<_> = [1, 1, 1, 1, 2, 2, 3, 3].map(Group::numbered).to_vec();
+    complete(&mut model, &groups, 0.0);
+    // The edge within group 1 is smooth, the other three are sharp.
+    assert_eq!(model.vertices.len(), 2 + 3 * 4);
+    assert!(close(normals(&model)[0][1], [0.0, 1.0, 0.0]));
+}
+
+#[test]
+fn the_sides_of_a_cone_are_smooth_at_its_tip() {
+    // So many triangles at one position show whether that takes their square.
+    let sides = 300_000_u32;
+    let at = |i: u32| {
+        let angle = std::f64::consts::TAU * f64::from(i) / f64::from(sides);
+        [narrow(angle.cos()), narrow(angle.sin()), 0.0]
+    };
+    let positions: Vec<_> = (0..sides).map(at).chain([[0.0, 0.0, 1.0]]).collect();
+    let triangles: Vec<_> = (0..sides).map(|i| [i, (i + 1) % sides, sides]).collect();
+    let mut model = model(&positions, &triangles);
+    by(&mut model, Group::BY_ANGLE, 60.0);
+    assert_eq!(model.vertices.len(), positions.len());
+    let tip = model.vertices[sides as usize].normal;
+    assert!(tip[2] > 0.999, "{tip:?}");
+}
+
+#[test]
+fn an_edge_of_many_triangles_joins_neighbours() {
+    // Leaves of a book, each modelled on both sides.
+    let leaves = 50_000_u32;
+    let mut positions = vec![[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+    let mut triangles = Vec::new();
+    for i in 0..leaves {
+        let angle = narrow(f64::from(i) / f64::from(leaves));
+        positions.push([angle.cos(), angle.sin(), 0.5]);
+        triangles.extend([[0, 1, i + 2], [1, 0, i + 2]]);
+    }
+    let mut model = model(&positions, &triangles);
+    by(&mut model, Group::BY_ANGLE, 60.0);
+    for (triangle, normals) in all(&model).zip(normals(&model)) {
+        let face = normal_of(&model, triangle).unwrap();
+        let along = dot(face, normals[2].map(f64::from));
+        assert!(along > 0.99, "{along}");
+    }
+}
+
+#[test]
+fn both_sides_of_a_sheet_keep_their_normals() {
+    let positions = [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]];
+    let mut model = model(&positions, &[[0, 1, 2], [2, 1, 0], [0, 2, 3], [3, 2, 0]]);
+    by(&mut model, Group::BY_ANGLE, 60.0);
+    assert_eq!(model.vertices.len(), 8);
+    for (i, triangle) in normals(&model).into_iter().enumerate() {
+        let up = if i % 2 == 0 { 1.0 } else { -1.0 };
+        assert!(triangle.iter().all(|&normal| close(normal, [0.0, 0.0, up])), "{i}");
+    }
+}
+
+#[test]
+fn corners_without_area_split_nothing() {
+    let positions = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]];
+    let mut model = model(&positions, &[[0, 1, 1], [0, 1, 2], [2, 2, 0]]);
+    by(&mut model, Group::BY_ANGLE, 60.0);
+    assert!(model.vertices.iter().all(|v| v.normal == [0.0, 0.0, 1.0]) && model.vertices.len() == 3);
+}

@@ -1,0 +1,256 @@
+//! Polygons as triangles.
+//!
+//! ```text
+//!   4-------3         ears of the L: 0 1 2, then 0 2 5 of the rest,
+//!   |     / |         and so on; 2 is reflex, so 1 2 3 is none
+//!   |   2---1         A ring is one polygon too, cut open along a bridge
+//!   | /   /           whose two ends come twice.
+//!   5---0
+//! ```
+
+use robust::{Coord, orient2d};
+
+use crate::scene::normals::{cross, sub};
+
+/// Corners per cell of the grid in which blunt ones are looked for.
+const CORNERS_A_CELL: usize = 2;
+
+/// Ears are few if the next is farther than so many corners.
+const SCARCE: usize = 64;
+
+/// The comparisons that a polygon may take, for each corner and beside that.
+const EFFORT: [usize; 2] = [1000, 100_000_000];
+
+/// Cuts a polygon in space into triangles of its corners' numbers, always two fewer than it has corners, and turned as
+/// it is. Whether it could: what crosses itself on its plane has no inside, and gets some triangles.
+///
+/// It is cut on the plane of two axes that its normal (Newell's, the sum over edges) is nearest to. A fan about corner 0
+/// is taken where all its triangles have an area of the polygon's sign, as those of convex polygons have. Otherwise ears
+/// are clipped (Meisters, Polygons have ears, 1975), with exact signs of areas (Shewchuk, Adaptive precision
+/// floating-point arithmetic, 1997). An outline may touch itself, as along the bridge to a hole. Corners in a line get
+/// triangles with an area where they can, so that neighbours who share them leave no gap.
+///
+/// # Cost
+/// Linear for fans. For ears, about linear in corners where triangles stay small, as in bands, and quadratic where long
+/// ones are needed, as in rings; a ring of 10,000 corners is no trouble. After about a second it gives up, as if the
+/// polygon crossed itself.
+pub(crate) fn triangulate(points: &[[f64; 3]], triangles: &mut Vec<[u32; 3]>) -> bool {
+    let corners = u32::try_from(points.len()).unwrap_or(u32::MAX);
+    let fan = (1..corners.saturating_sub(1)).map(|i| [0, i, i + 1]);
+    if corners <= 3 {
+        triangles.extend(fan);
+        return true;
+    }
+    let flat = on_plane(points);
+    if fan.clone().all(|[a, b, c]| turn(&flat, a, b, c) > 0.0) {
+        triangles.extend(fan);
+        return true;
+    }
+    Ears::new(&flat).clip(triangles)
+}
+
+/// The corners on the plane that the polygon's normal is nearest to, counter-clockwise as a whole.
+fn on_plane(points: &[[f64; 3]]) -> Vec<Coord<f64>> {
+    let Some(&origin) = points.first() else { return Vec::new() };
+    let mut normal = [0.0; 3];
+    for (i, &point) in points.iter().enumerate() {
+        let next = points[(i + 1) % points.len()];
+        // From the first corner on, so that a place far away costs no digits.
+        let across = cross(sub(point, origin), sub(next, origin));
+        normal = [0, 1, 2].map(|axis| normal[axis] + across[axis]);
+    }
+    let [x, y, z] = normal.map(f64::abs);
+    let (u, v, along) = if z >= x && z >= y {
+        (0, 1, normal[2])
+    } else if x >= y {
+        (1, 2, normal[0])
+    } else {
+        (2, 0, normal[1])
+    };
+    let (u, v) = if along < 0.0 { (v, u) } else { (u, v) };
+    points.iter().map(|point| Coord { x: point[u], y: point[v] }).collect()
+}
+
+/// Twice the area, above 0 if counter-clockwise; its sign is exact.
+fn turn(points: &[Coord<f64>], a: u32, b: u32, c: u32) -> f64 {
+    let [a, b, c] = [a, b, c].map(|i| points[i as usize]);
+    orient2d(a, b, c)
+}
+
+/// A polygon whose ears are being clipped: what is left is a ring of corners.
+struct Ears<'a> {
+    points: &'a [Coord<f64>],
+    next: Vec<u32>,
+    last: Vec<u32>,
+    /// Whether it may be in the way of an ear: the inner angle is not below 180 degrees, or 0 as at the tip of a slit.
+    /// Clipping makes angles smaller, so none comes to be so.
+    blunt: Vec<bool>,
+    grid: Grid,
+    effort: usize,
+}
+
+impl<'a> Ears<'a> {
+    fn new(points: &'a [Coord<f64>]) -> Self {
+        let corners = u32::try_from(points.len()).unwrap_or(u32::MAX);
+        let next: Vec<u32> = (0..corners).map(|i| (i + 1) % corners).collect();
+        let last: Vec<u32> = (0..corners).map(|i| (i + corners - 1) % corners).collect();
+        let blunt: Vec<bool> =
+            (0..corners).map(|i| turn(points, last[i as usize], i, next[i as usize]) <= 0.0).collect();
+        let grid = Grid::new(points, &blunt);
+        let effort = points.len().saturating_mul(EFFORT[0]).saturating_add(EFFORT[1]);
+        Self { points, next, last, blunt, grid, effort }
+    }
+
+    fn turn(&self, a: u32, b: u32, c: u32) -> f64 {
+        turn(self.points, a, b, c)
+    }
+
+    /// All triangles, and whether none had to be forced.
+    fn clip(mut self, triangles: &mut Vec<[u32; 3]>) -> bool {
+        let (mut at, mut left, mut simple) = (0, self.points.len(), true);
+        // Corners looked at since the last was clipped.
+        let (mut since, mut scarce) = (0, false);
+        while left > 3 {
+            if self.effort == 0 {
+                // Too complicated: a fan of what is left.
+                let ring = std::iter::successors(Some(at), |&i| Some(self.next[i as usize]));
+                let pairs = ring.clone().skip(1).zip(ring.skip(2)).take(left - 2);
+                triangles.extend(pairs.map(|(b, c)| [at, b, c]));
+                return false;
+            }
+            if since < left && !self.is_ear(at) {
+                at = self.next[at as usize];
+                since += 1;
+                continue;
+            }
+            if since >= left {
+                self.effort = self.effort.saturating_sub(left);
+                let flat = self.find(at, left, |turn| turn.abs() <= 0.0);
+                // What has neither ears nor corners in a line crosses itself.
+                simple &= flat.is_some();
+                at = flat.or_else(|| self.find(at, left, |turn| turn > 0.0)).unwrap_or(at);
+            }
+            let (last, next) = (self.last[at as usize], self.next[at as usize]);
+            triangles.push([last, at, next]);
+            self.next[last as usize] = next;
+            self.last[next as usize] = last;
+            self.blunt[at as usize] = false;
+            for i in [last, next] {
+                let (before, after) = (self.last[i as usize], self.next[i as usize]);
+                self.blunt[i as usize] &= self.turn(before, i, after) <= 0.0;
+            }
+            // Every other corner, so that triangles stay rounder; but where ears are few, the next is beside the last.
+            scarce |= since > SCARCE;
+            at = if scarce { last } else { self.next[next as usize] };
+            (left, since) = (left - 1, 0);
+        }
+        let (last, next) = (self.last[at as usize], self.next[at as usize]);
+        simple &= self.turn(last, at, next) >= 0.0;
+        triangles.push([last, at, next]);
+        simple
+    }
+
+    /// The first corner from here on with such a turn.
+    fn find(&self, from: u32, left: usize, is: impl Fn(f64) -> bool) -> Option<u32> {
+        let mut ring = std::iter::successors(Some(from), |&i| Some(self.next[i as usize])).take(left);
+        ring.find(|&i| is(self.turn(self.last[i as usize], i, self.next[i as usize])))
+    }
+
+    /// Whether the triangle of a corner and its neighbours is inside, with an area, and nothing else in it.
+    fn is_ear(&mut self, at: u32) -> bool {
+        let (a, b, c) = (self.last[at as usize], at, self.next[at as usize]);
+        self.effort = self.effort.saturating_sub(1);
+        if self.turn(a, b, c) <= 0.0 || !self.between(a, c) || !self.between(c, a) {
+            return false;
+        }
+        let [p, q, r] = [a, b, c].map(|i| self.points[i as usize]);
+        let low = Coord { x: p.x.min(q.x).min(r.x), y: p.y.min(q.y).min(r.y) };
+        let high = Coord { x: p.x.max(q.x).max(r.x), y: p.y.max(q.y).max(r.y) };
+        let mut looked = 0;
+        let clear = self.grid.within(low, high).all(|i| {
+            looked += 1;
+            let point = self.points[i as usize];
+            let outside = !self.blunt[i as usize]
+                || point.x < low.x
+                || point.x > high.x
+                || point.y < low.y
+                || point.y > high.y
+                // The ends of a bridge come twice. Which side of them is inside has been seen.
+                || [p, q, r].contains(&point);
+            outside || self.turn(a, b, i) < 0.0 || self.turn(b, c, i) < 0.0 || self.turn(c, a, i) < 0.0
+        });
+        self.effort = self.effort.saturating_sub(looked);
+        clear
+    }
+
+    /// Whether the line from corner `i` to `to` begins inside.
+    fn between(&self, i: u32, to: u32) -> bool {
+        let (last, next) = (self.last[i as usize], self.next[i as usize]);
+        let (left, right) = (self.turn(i, next, to) >= 0.0, self.turn(last, i, to) >= 0.0);
+        if self.turn(last, i, next) < 0.0 { left || right } else { left && right }
+    }
+}
+
+/// The blunt corners by their places.
+struct Grid {
+    low: Coord<f64>,
+    /// Cells a unit.
+    scale: [f64; 2],
+    side: usize,
+    /// Where each cell's corners begin.
+    starts: Vec<u32>,
+    corners: Vec<u32>,
+}
+
+impl Grid {
+    fn new(points: &[Coord<f64>], blunt: &[bool]) -> Self {
+        let (mut low, mut high) = (Coord { x: f64::MAX, y: f64::MAX }, Coord { x: f64::MIN, y: f64::MIN });
+        for point in points {
+            low = Coord { x: low.x.min(point.x), y: low.y.min(point.y) };
+            high = Coord { x: high.x.max(point.x), y: high.y.max(point.y) };
+        }
+        let count = blunt.iter().filter(|&&blunt| blunt).count();
+        let side = (count / CORNERS_A_CELL).isqrt().max(1);
+        #[expect(clippy::cast_precision_loss, reason = "thousands at most")]
+        let scale = [high.x - low.x, high.y - low.y].map(|size| side as f64 / size);
+        let mut grid = Self { low, scale, side, starts: vec![0; side * side + 1], corners: Vec::new() };
+        let cells: Vec<(u32, usize)> = (0_u32..)
+            .zip(points.iter().zip(blunt))
+            .filter(|(_, (_, blunt))| **blunt)
+            .map(|(i, (point, _))| (i, grid.cell(*point)))
+            .map(|(i, [column, row])| (i, row * side + column))
+            .collect();
+        for (_, cell) in &cells {
+            grid.starts[cell + 1] += 1;
+        }
+        for cell in 0..side * side {
+            grid.starts[cell + 1] += grid.starts[cell];
+        }
+        grid.corners.resize(cells.len(), 0);
+        let mut ends = grid.starts.clone();
+        for (i, cell) in cells {
+            grid.corners[ends[cell] as usize] = i;
+            ends[cell] += 1;
+        }
+        grid
+    }
+
+    /// The column and the row of a point.
+    fn cell(&self, point: Coord<f64>) -> [usize; 2] {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturation is wanted")]
+        let index = |at: f64| (at as usize).min(self.side - 1);
+        [index((point.x - self.low.x) * self.scale[0]), index((point.y - self.low.y) * self.scale[1])]
+    }
+
+    /// The corners in all cells that this box touches.
+    fn within(&self, low: Coord<f64>, high: Coord<f64>) -> impl Iterator<Item = u32> {
+        let ([left, bottom], [right, top]) = (self.cell(low), self.cell(high));
+        (bottom..=top).flat_map(move |row| {
+            let [from, to] = [self.starts[row * self.side + left], self.starts[row * self.side + right + 1]];
+            self.corners[from as usize..to as usize].iter().copied()
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests;
