@@ -5,6 +5,7 @@ use std::num::NonZero;
 
 mod afterwards;
 mod filter;
+mod light;
 mod material;
 mod policies;
 mod table;
@@ -13,6 +14,7 @@ pub mod values;
 pub(crate) use afterwards::byte;
 pub use afterwards::{Blend, Dither, Fog, Haze};
 pub use filter::{Filter, Probes};
+pub use light::LightOptions;
 pub(crate) use material::Base;
 pub use material::{MapFile, Material, Origin};
 pub use policies::{
@@ -139,6 +141,8 @@ pub struct RenderOptions {
     pub projection: Projection,
     /// The fog before all surfaces, not before the background.
     pub haze: Option<Haze>,
+    /// The light.
+    pub light: LightOptions,
     /// Threads that draw. The pixels are the same for any number; of more than one, each has its own fate of a triangle
     /// in the counts.
     pub threads: NonZero<usize>,

@@ -16,8 +16,8 @@ use crate::load::scene_file::{self, SceneFile};
 use crate::load::{obj, prepare};
 use crate::options::values::{Color, MAX_THREADS, Size, Threads};
 use crate::options::{
-    Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE, DepthFormat, Filter, Fog, Haze, Projection,
-    RenderOptions, Shading, Wrap,
+    Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE, DepthFormat, Filter, Fog, Haze, LightOptions,
+    Projection, RenderOptions, Shading, Wrap,
 };
 use crate::output::file::{Output, Whole};
 use crate::output::progress::Progress;
@@ -210,6 +210,7 @@ impl Request {
             height,
             background,
             haze,
+            light: LightOptions { two_sided: arguments.render.two_sided.unwrap_or(true) },
             shading: arguments.render.shading.unwrap_or(if shiny { Shading::Blinn } else { shading }),
             filter: arguments.render.filter.unwrap_or(filter),
             wrap: arguments.render.wrap.unwrap_or(wrap),

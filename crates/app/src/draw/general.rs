@@ -119,7 +119,7 @@ impl<'a> Drawing<'a> {
     pub(super) fn draw_general(&mut self, part: &Part, triangles: &[[u32; 3]], target: &mut Canvas<'_>) {
         let clothed = self.clothed(part);
         let shown = self.shown(clothed.surface, part);
-        let Used { vertices, triangles } = Used::of(&self.model.vertices, triangles);
+        let Used { vertices, triangles } = self.sided(triangles);
         let mesh = Triangles {
             clothed: &clothed,
             vertices: &vertices,

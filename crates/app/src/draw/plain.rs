@@ -88,7 +88,7 @@ impl<'a> Drawing<'a> {
     ) where
         Slot<V>: Send + Sync,
     {
-        let Used { vertices, triangles } = Used::of(&self.model.vertices, triangles);
+        let Used { vertices, triangles } = self.sided(triangles);
         let mesh = Mesh::new(&vertices, &triangles, |v: &Vertex| (position(v), varying(v)));
         let (mut room, mut slots) = memory(&mesh);
         let Some(machine) = Machine::all().next() else { return };
@@ -114,7 +114,7 @@ impl<'a> Drawing<'a> {
 mod tests {
     use super::*;
     use crate::draw::Studio;
-    use crate::options::{DepthFormat, Filter, Policies, RenderOptions};
+    use crate::options::{DepthFormat, Filter, LightOptions, Policies, RenderOptions};
     use crate::render::any_depth;
     use crate::scene::scenes;
     use alberti::{DepthFormat as _, Rgba8888, Target};
@@ -139,6 +139,7 @@ mod tests {
                     depth: DepthFormat::F32,
                     projection: crate::options::Projection::Perspective,
                     haze: None,
+                    light: LightOptions::default(),
                     threads: NonZero::<usize>::MIN,
                     policies: Policies {
                         interpolation: interpolation.parse().expect("a name"),

@@ -153,6 +153,10 @@ pub struct RenderTable {
     #[arg(long, value_enum, value_name = "SIDE", help_heading = SURFACE)]
     pub cull: Option<Cull>,
 
+    /// Whether surfaces that are seen from behind are lit as if they faced the viewer [default: true].
+    #[arg(long, value_name = "true|false", help_heading = SURFACE)]
+    pub two_sided: Option<bool>,
+
     /// Fog, by distances before the camera: none, linear:START,END, exp:DENSITY or exp2:DENSITY [default: none]
     ///
     /// linear: from none at START to nothing else at END.
