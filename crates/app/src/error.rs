@@ -13,6 +13,7 @@ pub struct Error {
     found: String,
     expected: String,
     hint: Option<Box<str>>,
+    about: &'static str,
 }
 
 impl Error {
@@ -25,6 +26,7 @@ impl Error {
             found: found.into(),
             expected: expected.into(),
             hint: None,
+            about: "",
         }
     }
 
@@ -68,6 +70,13 @@ impl Error {
         self
     }
 
+    /// The key of a material that it is about.
+    #[must_use]
+    pub(crate) fn about(mut self, key: &'static str) -> Self {
+        self.about = key;
+        self
+    }
+
     /// The remedy, or the repair that was made.
     #[must_use]
     pub fn hint(mut self, hint: impl Into<Box<str>>) -> Self {
@@ -101,6 +110,13 @@ impl Warnings {
     /// Hands each on that is kept.
     pub(crate) fn each(self, hear: impl FnMut(Error)) {
         self.first.into_iter().for_each(hear);
+    }
+
+    /// Those that are not about this key of a material.
+    #[must_use]
+    pub(crate) fn without(mut self, key: &str) -> Self {
+        self.first.retain(|warning| warning.about != key);
+        self
     }
 
     /// One line each, and one for those that were only counted.

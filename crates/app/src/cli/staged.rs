@@ -224,6 +224,9 @@ impl Request {
             let found = "gouraud with relief, normals, occlusion or reflections, which are left out";
             warn(&Error::new(found, "phong or blinn for these").place("--shading").to_string());
         }
+        if let Some(warning) = partners::unseen_colors(&scene.model, options.shading) {
+            warn(&warning.to_string());
+        }
         Ok(Staged { model: scene.model, camera, options, load })
     }
 }
@@ -257,7 +260,10 @@ fn load(arguments: &RenderArgs) -> Result<Scene, Error> {
         let mut progress = Progress::new("loading");
         let loaded = obj::load(path, &mut |done, total| progress.set(done, total))?;
         drop(progress);
-        warn_all(&loaded.warnings);
+        // Of what an option replaces there is nothing to say.
+        let replaced = arguments.material.maps().into_iter();
+        let warnings = replaced.fold(loaded.warnings, |warnings, (key, _)| warnings.without(key));
+        warn_all(&warnings);
         return Ok(Scene {
             model: loaded.model,
             camera: None,
@@ -289,7 +295,9 @@ fn needs_fragments(part: &Part) -> bool {
 /// Whether something is said of highlights, beside the faint one that every surface has.
 fn has_highlights(arguments: &RenderArgs, model: &Model) -> bool {
     let material = &arguments.material;
-    let mapped = |part: &Part| part.detail.specular_map.is_some() || part.detail.shininess_map.is_some();
+    let mapped = |part: &Part| {
+        part.detail.shiny || part.detail.specular_map.is_some() || part.detail.shininess_map.is_some()
+    };
     material.specular.is_some() || material.shininess.is_some() || model.parts.iter().any(mapped)
 }
 
@@ -298,6 +306,7 @@ fn put_materials(arguments: &RenderArgs, scene: &mut Scene) -> Result<(), Error>
     let mut images = Images::new();
     images.adopt(&mut scene.model);
     prepare::replace_materials(&mut scene.model, &arguments.material, &mut images)?;
+    prepare::unmix(&mut scene.model, &arguments.material, &mut images);
     let mut warnings = Warnings::default();
     let wrap = arguments.render.wrap.unwrap_or(scene.defaults.2);
     prepare::complete(&mut scene.model, &images, wrap, &mut warnings);

@@ -24,8 +24,8 @@ use alberti::{FixedPoint, FragmentStage, Fragments, Lines, Planes, Rgba8, Stats,
 
 /// Whether a part is more than a plain surface in a picture with these options.
 pub(super) fn is_lit(part: &Part, model: &Model, options: &RenderOptions) -> bool {
-    let Detail { specular, shininess, blend, alpha_test, .. } = part.detail;
-    let plain = Detail { specular, shininess, blend, alpha_test, ..Detail::default() };
+    let Detail { specular, shininess, blend, alpha_test, shiny, .. } = part.detail;
+    let plain = Detail { specular, shininess, blend, alpha_test, shiny, ..Detail::default() };
     let mipmapped = part.texture.is_some() && !matches!(options.filter, Filter::Nearest | Filter::Bilinear);
     let highlights = !matches!(options.shading, Shading::Unlit | Shading::VertexColor | Shading::Lambert);
     let lamps = options.shading.is_lit() && (!model.lights.is_empty() || model.ambient.is_some());
@@ -154,7 +154,8 @@ impl<'a> Drawing<'a> {
         let textured = lit || (part.texture.is_some() && shading != Shading::VertexColor);
         let projector = self.slide.map(|(projector, _)| projector);
         let placed = self.options.haze.is_some();
-        Clothed { surface, lighting: material.lighting, textured, placed, projector }
+        let colored = part.detail.carries_colors();
+        Clothed { surface, lighting: material.lighting, colored, textured, placed, projector }
     }
 
     /// The stage behind a pointer, in one of few kernels, mixed with what is there.

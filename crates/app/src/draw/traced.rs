@@ -250,6 +250,9 @@ impl<'a> Drawing<'a> {
             Surface::Lit(_) => put(&NORMAL, THIRD),
             Surface::ByFragment(_) => {
                 put(&NORMAL, THIRD);
+                if part.detail.carries_colors() {
+                    put(&["red", "green", "blue"], FIRST);
+                }
                 if part.detail.needs_tangents() {
                     put(&["tangent x", "tangent y", "tangent z"], FIRST);
                     put(&["bitangent x", "bitangent y", "bitangent z"], SECOND);

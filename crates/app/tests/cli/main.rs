@@ -7,6 +7,7 @@ mod compare;
 mod errors;
 mod explain;
 mod light;
+mod materials;
 mod policies;
 mod projection;
 mod scenes;
