@@ -30,6 +30,7 @@ mod maps;
 mod painted;
 mod plain;
 mod runs;
+mod studio;
 mod tapped;
 mod traced;
 mod used;
@@ -37,6 +38,7 @@ mod used;
 use facing::Viewpoint;
 pub(crate) use general::Studio;
 pub(crate) use runs::Counted;
+use studio::Rig;
 pub(crate) use tapped::{Taken, Tap, WHOLE, Word};
 pub(crate) use traced::{
     Arrival, COMPONENTS, Corner3, Light, LightRead, Look, MapRead, Piece, ProbeRead, Traced, components,
@@ -95,7 +97,7 @@ pub(crate) struct Drawing<'a> {
     view: View<AnyProjection>,
     /// The camera's place.
     camera: Frame<Eye, World>,
-    light: Vector3<World>,
+    rig: Rig,
     /// For two-sided light.
     viewpoint: Option<Viewpoint>,
     studio: &'a Studio,
@@ -129,7 +131,7 @@ impl<'a> Drawing<'a> {
             options,
             view,
             camera: frame(camera).map_err(refused)?,
-            light: Vector3::new(to_light(camera)),
+            rig: Rig::new(camera, options.light.key),
             viewpoint: Viewpoint::of(camera, options),
             studio,
             textures,

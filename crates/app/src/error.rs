@@ -13,8 +13,12 @@ pub struct Error {
     found: String,
     expected: String,
     hint: Option<Box<str>>,
-    about: &'static str,
+    /// An index into [`MAPS`].
+    about: Option<u8>,
 }
+
+/// The keys of a material that warnings are about.
+const MAPS: [&str; 3] = ["color-map", "normal-map", "environment"];
 
 impl Error {
     /// `found …, expected …`: the parts that no message lacks.
@@ -26,7 +30,7 @@ impl Error {
             found: found.into(),
             expected: expected.into(),
             hint: None,
-            about: "",
+            about: None,
         }
     }
 
@@ -70,10 +74,10 @@ impl Error {
         self
     }
 
-    /// The key of a material that it is about.
+    /// The key of a material that it is about, if an option replaces that.
     #[must_use]
-    pub(crate) fn about(mut self, key: &'static str) -> Self {
-        self.about = key;
+    pub(crate) fn about(mut self, key: &str) -> Self {
+        self.about = (0..).zip(MAPS).find(|(_, map)| *map == key).map(|(index, _)| index);
         self
     }
 
@@ -115,7 +119,8 @@ impl Warnings {
     /// Those that are not about this key of a material.
     #[must_use]
     pub(crate) fn without(mut self, key: &str) -> Self {
-        self.first.retain(|warning| warning.about != key);
+        let about = |warning: &Error| warning.about.and_then(|index| MAPS.get(usize::from(index)).copied());
+        self.first.retain(|warning| about(warning) != Some(key));
         self
     }
 

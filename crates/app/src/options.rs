@@ -14,7 +14,7 @@ pub mod values;
 pub(crate) use afterwards::byte;
 pub use afterwards::{Blend, Dither, Fog, Haze};
 pub use filter::{Filter, Probes};
-pub use light::LightOptions;
+pub use light::{KeyLight, LightOptions};
 pub(crate) use material::Base;
 pub use material::{MapFile, Material, Origin};
 pub use policies::{

@@ -45,6 +45,13 @@ pub(crate) fn check_maps(arguments: &RenderArgs, model: &Model) -> Result<(), Er
     }
 }
 
+/// The warning of a direction of light that nothing is lit from.
+pub(crate) fn unused_light(arguments: &RenderArgs, model: &Model) -> Option<Error> {
+    arguments.render.light.filter(|_| !model.lights.is_empty() || model.ambient.is_some())?;
+    let error = Error::new("it in a scene with lights of its own", "a scene without").place("--light");
+    Some(error.hint("the scene's are used"))
+}
+
 /// The warning of colours of vertices that are asked for and not there, or there and not shown.
 pub(crate) fn unseen_colors(model: &Model, shading: Shading) -> Option<Error> {
     let white = model.vertices.iter().all(|vertex| vertex.color == [1.0; 3]);

@@ -16,13 +16,13 @@ use crate::load::scene_file::{self, SceneFile};
 use crate::load::{obj, prepare};
 use crate::options::values::{Color, MAX_THREADS, Size, Threads};
 use crate::options::{
-    Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE, DepthFormat, Filter, Fog, Haze, LightOptions,
-    Projection, RenderOptions, Shading, Wrap,
+    CameraTable, Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE, DepthFormat, Filter, Fog, Haze,
+    KeyLight, LightOptions, Projection, RenderOptions, Shading, Wrap,
 };
 use crate::output::file::{Output, Whole};
 use crate::output::progress::Progress;
 use crate::output::stats::Source;
-use crate::scene::{Camera, Model, Part, Relief, camera, order, scenes, slide};
+use crate::scene::{Camera, Model, Part, Relief, camera, ground, order, scenes, slide};
 
 /// The options that say what `render` writes.
 pub(super) const OF_PICTURES: [&str; 3] = ["output", "stats", "show"];
@@ -145,6 +145,31 @@ impl Request {
         }
     }
 
+    /// The same for a picture: with a ground under the model, if that is asked for.
+    ///
+    /// # Errors
+    /// As those of [`stage`](Self::stage).
+    pub(super) fn stage_on_ground(&self) -> Result<Staged, Error> {
+        let mut staged = self.stage()?;
+        let of_file = self.file.is_none() && self.arguments.model.is_some() && self.arguments.show.is_none();
+        let unseen = || partners::unseen_colors(&staged.model, staged.options.shading);
+        if let Some(warning) = of_file.then(unseen).flatten() {
+            warn(&warning.to_string());
+        }
+        if self.arguments.render.ground != Some(true) {
+            return Ok(staged);
+        }
+        if staged.options.shading == Shading::VertexColor {
+            let error = Error::new("it with vertex-color, which has no shadows", "another shading");
+            warn(&error.place("--ground").hint("it is left out").to_string());
+            return Ok(staged);
+        }
+        let CameraTable { near, far, .. } = self.arguments.camera;
+        ground::add(&mut staged.model, &mut staged.camera, [near.is_some(), far.is_some()]);
+        order::back_to_front(&mut staged.model, &staged.camera);
+        Ok(staged)
+    }
+
     /// Loads everything, and warns of repairs.
     ///
     /// # Errors
@@ -210,7 +235,15 @@ impl Request {
             height,
             background,
             haze,
-            light: LightOptions { two_sided: arguments.render.two_sided.unwrap_or(true) },
+            light: LightOptions {
+                two_sided: arguments.render.two_sided.unwrap_or(true),
+                // Built-in scenes are those of the library's tests, in its light.
+                key: arguments.render.light.unwrap_or(if arguments.model.is_some() {
+                    KeyLight::STUDIO
+                } else {
+                    KeyLight::Lamp
+                }),
+            },
             shading: arguments.render.shading.unwrap_or(if shiny { Shading::Blinn } else { shading }),
             filter: arguments.render.filter.unwrap_or(filter),
             wrap: arguments.render.wrap.unwrap_or(wrap),
@@ -224,7 +257,7 @@ impl Request {
             let found = "gouraud with relief, normals, occlusion or reflections, which are left out";
             warn(&Error::new(found, "phong or blinn for these").place("--shading").to_string());
         }
-        if let Some(warning) = partners::unseen_colors(&scene.model, options.shading) {
+        if let Some(warning) = partners::unused_light(arguments, &scene.model) {
             warn(&warning.to_string());
         }
         Ok(Staged { model: scene.model, camera, options, load })

@@ -114,10 +114,10 @@ mod tests {
         let mut vertices = triangle([[0.0, 0.0, 1.0]; 3]).to_vec();
         vertices.push(corner([1.0, 0.0, -1.0], [-0.6, 0.0, -0.8]));
         let triangles = [[0, 1, 2], [1, 0, 3], [0, 1, 9]];
-        let front = Viewpoint { place: [0.2, 9.0, 0.4], weight: 1.0 };
+        let front = Viewpoint { place: [0.2, -9.0, 0.4], weight: 1.0 };
         let (all, own) = front.turned((&vertices[..]).into(), (&triangles[..]).into());
         assert_eq!((all.len(), own[0], own[2]), (vertices.len(), [0, 1, 2], [0, 1, 9]));
-        let back = Viewpoint { place: [0.2, 9.0, -0.4], weight: 1.0 };
+        let back = Viewpoint { place: [0.2, -9.0, -0.4], weight: 1.0 };
         let (all, own) = back.turned((&vertices[..]).into(), (&triangles[..]).into());
         assert_eq!((own[0], own[1], own[2]), ([4, 5, 6], [1, 0, 3], [0, 1, 9]));
         assert_eq!(all[..4], vertices[..]);

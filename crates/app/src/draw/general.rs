@@ -9,8 +9,9 @@ use super::lamps::Lamps;
 use super::maps::{Chains, any_filter};
 use super::painted::Painted;
 use super::plain::Skin;
+use super::studio::{Lamplit, Rig};
 use super::used::Used;
-use super::{Canvas, Drawing, memory, to_light};
+use super::{Canvas, Drawing, memory};
 use crate::error::Error;
 use crate::options::{Arithmetic, Filter, Interpolation, Projection, RenderOptions, Shading};
 use crate::scene::{Camera, Detail, Model, Part};
@@ -18,7 +19,7 @@ use alberti::lanes::{Lanes, Machine, One};
 use alberti::raster::PerPixel;
 use alberti::raster::color::{AnyBlend, Blended};
 use alberti::shaders::material::{AnyLight, AnyReflectance, Framed, Gouraud, Material};
-use alberti::shaders::{Mix, Slide, Sunlit, Unlit, VertexColor};
+use alberti::shaders::{Mix, Slide, Unlit, VertexColor};
 use alberti::texture::{AnyFilter, Clamp, Sampler, format::Rgba8888};
 use alberti::{FixedPoint, FragmentStage, Fragments, Lines, Planes, Rgba8, Stats, for_lanes};
 
@@ -48,7 +49,7 @@ impl Studio {
         let parallel = options.projection != Projection::Perspective;
         Ok(Self {
             chains: Chains::new(model, options)?,
-            lamps: Lamps::new(model, camera, parallel, to_light(camera)),
+            lamps: Lamps::new(model, camera, parallel, &Rig::new(camera, options.light.key)),
         })
     }
 }
@@ -58,7 +59,7 @@ impl Studio {
 pub(super) enum Surface<'a> {
     Colors,
     Unlit(Unlit<Skin<'a>>),
-    Lit(Sunlit<Unlit<Skin<'a>>>),
+    Lit(Lamplit<Skin<'a>>),
     ByFragment(Material<Painted<'a>, &'a [AnyLight], AnyReflectance>),
     ByVertex(Gouraud<Painted<'a>>),
 }

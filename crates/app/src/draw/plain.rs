@@ -5,13 +5,14 @@
 //! AVX2, as before 2013, they are drawn like any surface: the pixels are the same, and fifteen kernels less are built.
 
 use super::maps::{FlatMap, Scaled, TileMap, flat_map, tile_map};
+use super::studio::Lamplit;
 use super::used::Used;
-use super::{AMBIENT, Canvas, DIFFUSE, Drawing, color, memory, position};
+use super::{Canvas, Drawing, color, memory, position};
 use crate::options::{Interpolation, Shading};
 use crate::scene::{Part, Vertex};
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::Machine;
-use alberti::shaders::{Sunlit, Unlit, VertexColor};
+use alberti::shaders::{Unlit, VertexColor};
 use alberti::{FragmentStage, Mesh, Planes, Rgba8, Slot, Varying};
 
 /// A colour, or a texture times that colour.
@@ -58,9 +59,9 @@ impl<'a> Drawing<'a> {
         tile_map(*texture, self.options).filter(|_| color(part.diffuse) == Rgba8::WHITE)
     }
 
-    /// A map in the light from beside the camera.
-    pub(super) fn lit<M>(&self, map: M) -> Sunlit<Unlit<M>> {
-        Sunlit::new(Unlit(map), self.light, AMBIENT, DIFFUSE)
+    /// A map in the light of a model without lights.
+    pub(super) fn lit<M: Copy>(&self, map: M) -> Lamplit<M> {
+        Lamplit::new(map, self.rig)
     }
 
     /// A plain surface in floats.

@@ -126,9 +126,8 @@ impl Images {
             let white = Image { texels: vec![[255; 4]; source.texels.len()], ..*source };
             let mut image = colors.and_then(|index| all.get(index)).unwrap_or(&white).clone();
             // The texel of the other that holds the middle of this one.
-            let at = |k: u32, of: u32, side: u32| {
-                (u64::from(2 * k + 1) * u64::from(side) / (2 * u64::from(of))) as usize
-            };
+            // Sides are at most 2^14.
+            let at = |k: u32, of: u32, side: u32| ((2 * k + 1) * side / (2 * of)) as usize;
             let (width, height) = (image.width, image.height);
             for (texels, row) in image.texels.chunks_mut(width as usize).zip(0..) {
                 for ([.., alpha], column) in texels.iter_mut().zip(0..) {

@@ -1,7 +1,7 @@
 //! MTL files: the lines that are used, checked.
 //!
-//! Keywords count in any letters. A `Kd` whose numbers are missing or are none is an error. What else is broken or missing becomes a warning, and
-//! the material keeps its default: a picture with a wrong colour is better than none.
+//! Keywords count in any letters. A `Kd` whose numbers are missing or are none is an error. What else is broken or
+//! missing becomes a warning, and the material keeps its default: a picture with a wrong colour is better than none.
 
 use std::collections::HashMap;
 use std::path::Path;

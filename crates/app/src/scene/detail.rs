@@ -64,7 +64,7 @@ pub struct Detail {
     pub shiny: bool,
     /// Whether the vertices' colours multiply its own.
     pub colored: bool,
-    /// What its coordinates are still to be multiplied by, and what is to be added then.
+    /// Factors by which its coordinates are still to be multiplied, and terms to be added then.
     pub(crate) placed: Option<[[f32; 2]; 2]>,
 }
 

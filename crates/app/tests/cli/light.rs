@@ -92,3 +92,90 @@ fn backs_are_explained() {
         );
     }
 }
+
+/// A box seen from a corner, by default and with a key light from elsewhere: its sides differ.
+#[test]
+fn models_without_lights_get_three() {
+    let corners = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n";
+    let normals = "vn 0 0 1\nvn 1 0 0\nvn 0 1 0\n";
+    let faces = "f 5//1 6//1 7//1 8//1\nf 2//2 3//2 7//2 6//2\nf 4//3 8//3 7//3 3//3\n";
+    let folder = Folder::with(&[
+        ("box.obj", [corners, normals, faces].concat().as_bytes()),
+        ("box.toml", b"[[object]]\nmodel = \"box.obj\"\n[render]\nlight = \"-35,40\"\n"),
+        ("lit.toml", b"[[object]]\nmodel = \"box.obj\"\n[ambient]\nintensity = 0.5\n"),
+    ]);
+    let sides = |name: &str, more: &[&str]| {
+        let eye = ["--eye", "3,2.5,5", "--target", "0,0,0", "--size", "90x90", "--diffuse", "ffffff"];
+        let run = folder.succeeds(&[&[name], &eye[..], more].concat());
+        let picture = image::open(folder.path("alberti.png")).expect("a picture").to_rgb8();
+        let mut found: Vec<u8> = picture.pixels().map(|pixel| pixel.0[0]).collect();
+        found.sort_unstable();
+        found.dedup();
+        (found, run.stderr)
+    };
+    let (found, warnings) = sides("box.obj", &[]);
+    // The background and three sides, none of them white, each a tenth from the next.
+    assert!(found.len() == 4 && warnings.is_empty(), "{found:?} {warnings}");
+    assert!(found[3] < 255 && found.windows(2).all(|pair| pair[1] - pair[0] > 25), "{found:?}");
+    assert_eq!(sides("box.toml", &[]).0, found);
+    assert_eq!(
+        sides("box.obj", &["--light", "-35,40", "--shading", "phong", "--specular", "000000"]).0,
+        found
+    );
+    assert_ne!(sides("box.obj", &["--light", "60,10"]).0, found);
+    let (_, warnings) = sides("lit.toml", &["--light", "0,0"]);
+    assert!(warnings.contains("--light: found it in a scene with lights of its own"), "{warnings}");
+    folder.fails(&["box.obj", "--light", "north"], &["--light", "such as -35,40"]);
+    folder.fails(&["box.obj", "--ground=north"], &["--ground: found \"north\"", "one of true, false"]);
+}
+
+/// What is said of a pixel under three lights is what is drawn there.
+#[test]
+fn three_lights_are_explained() {
+    let folder = Folder::with(&[("sheet.obj", sheet(true).as_bytes())]);
+    for shading in ["lambert", "blinn"] {
+        let arguments = ["sheet.obj", "--shading", shading, "--size", "96x72", "--pixel", "48,36"];
+        let run = alberti(folder.path("").as_path(), &[OsStr::new("explain")], &arguments);
+        assert_eq!(run.status, Some(0), "{run:?}");
+        assert!(run.stdout.ends_with("the derived colour is the picture's, to the bit\n"), "{run:?}");
+    }
+}
+
+/// A box that stands on a ground has a shadow around it, and nothing changes far from it.
+#[test]
+fn a_ground_has_a_soft_shadow() {
+    let corners = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n";
+    let sides = "f 5 6 7 8\nf 2 1 4 3\nf 2 3 7 6\nf 1 5 8 4\nf 4 8 7 3\nf 1 2 6 5\n";
+    let folder = Folder::with(&[("box.obj", [corners, sides].concat().as_bytes())]);
+    let view =
+        ["box.obj", "--eye", "0,4,9", "--target", "0,-0.2,0", "--size", "90x90", "--background", "c0c0c0"];
+    let picture = |more: &[&str]| {
+        folder.succeeds(&[&view[..], more].concat());
+        image::open(folder.path("alberti.png")).expect("a picture").to_rgb8()
+    };
+    let (bare, ground) = (picture(&["--ground=false"]), picture(&["--ground"]));
+    assert_eq!(bare, picture(&[]));
+    let changed: Vec<_> =
+        bare.enumerate_pixels().filter(|(x, y, p)| ground.get_pixel(*x, *y) != *p).collect();
+    assert!(changed.len() > 300, "{}", changed.len());
+    for (x, y, before) in changed {
+        // Darker, evenly, and on the background alone.
+        let [r, g, b] = ground.get_pixel(x, y).0;
+        assert!(before.0 == [0xc0; 3] && r < 0xc0 && r == g && g == b, "{x} {y} {before:?} {r} {g} {b}");
+    }
+    let darkest = ground.pixels().map(|pixel| pixel.0[0]).min().unwrap_or(0);
+    assert!(darkest < 0x90, "{darkest}");
+    for corner in [(0, 0), (89, 0)] {
+        assert_eq!(ground.get_pixel(corner.0, corner.1).0, [0xc0; 3]);
+    }
+    let (x, y, _) = ground.enumerate_pixels().find(|(.., pixel)| pixel.0[0] == darkest).expect("a pixel");
+    let pixel = format!("{x},{y}");
+    let run = alberti(
+        folder.path("").as_path(),
+        &[OsStr::new("explain")],
+        &[&view[..], &["--ground", "--pixel", &pixel]].concat(),
+    );
+    assert!(run.stdout.ends_with("the derived colour is the picture's, to the bit\n"), "{run:?}");
+    let run = folder.succeeds(&[&view[..], &["--ground", "--shading", "vertex-color"]].concat());
+    assert!(run.stderr.contains("--ground: found it with vertex-color"), "{run:?}");
+}

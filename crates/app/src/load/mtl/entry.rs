@@ -34,7 +34,7 @@ pub(crate) struct Entry {
     pub(crate) metallic: Option<f32>,
     pub(crate) roughness_map: Option<MapFile>,
     pub(crate) metallic_map: Option<MapFile>,
-    /// `-s` and `-o` of its textures: what coordinates are multiplied by, and what is added then.
+    /// `-s` and `-o` of its textures: factors of coordinates, and terms added then.
     pub(crate) placed: Option<[[f32; 2]; 2]>,
 }
 

@@ -112,7 +112,7 @@ struct Options<'a> {
 }
 
 impl Options<'_> {
-    /// What coordinates are multiplied by, and what is added then, if that changes them.
+    /// The factors of coordinates, and the terms added then, if these change them.
     fn placed(&self) -> Option<[[f32; 2]; 2]> {
         let placed = [self.scale.unwrap_or([1.0; 2]), self.offset.unwrap_or([0.0; 2])];
         (placed != [[1.0; 2], [0.0; 2]]).then_some(placed)
@@ -135,12 +135,12 @@ fn options(rest: &[u8]) -> (&[u8], Options<'_>) {
         };
         let first = keyword(after).0;
         let mut numbers = [None; 3];
-        for n in 0..most {
+        for (n, slot) in numbers.iter_mut().enumerate().take(most) {
             let (argument, next) = keyword(after);
             if n >= least && number(argument).is_none() {
                 break;
             }
-            numbers[n] = number(argument);
+            *slot = number(argument);
             after = next;
         }
         let pair = |missing: f32| [0, 1].map(|k: usize| numbers[k].unwrap_or(missing));
