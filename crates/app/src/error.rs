@@ -11,7 +11,7 @@ pub struct Error {
     line: Option<usize>,
     key: Option<Box<str>>,
     found: String,
-    expected: String,
+    expected: Box<str>,
     hint: Option<Box<str>>,
     /// An index into [`MAPS`].
     about: Option<u8>,
@@ -28,7 +28,7 @@ impl Error {
             line: None,
             key: None,
             found: found.into(),
-            expected: expected.into(),
+            expected: Into::<String>::into(expected).into(),
             hint: None,
             about: None,
         }
@@ -69,7 +69,7 @@ impl Error {
     /// The same in other words.
     #[must_use]
     pub(crate) fn reworded(mut self, reword: impl Fn(&str) -> String) -> Self {
-        (self.found, self.expected) = (reword(&self.found), reword(&self.expected));
+        (self.found, self.expected) = (reword(&self.found), reword(&self.expected).into());
         self.hint = self.hint.map(|hint| reword(&hint).into());
         self
     }

@@ -157,18 +157,18 @@ fn a_ground_has_a_soft_shadow() {
     assert_eq!(bare, picture(&[]));
     let changed: Vec<_> =
         bare.enumerate_pixels().filter(|(x, y, p)| ground.get_pixel(*x, *y) != *p).collect();
-    assert!(changed.len() > 300, "{}", changed.len());
-    for (x, y, before) in changed {
+    assert!(changed.len() > 30, "{}", changed.len());
+    for &(x, y, before) in &changed {
         // Darker, evenly, and on the background alone.
         let [r, g, b] = ground.get_pixel(x, y).0;
         assert!(before.0 == [0xc0; 3] && r < 0xc0 && r == g && g == b, "{x} {y} {before:?} {r} {g} {b}");
     }
-    let darkest = ground.pixels().map(|pixel| pixel.0[0]).min().unwrap_or(0);
-    assert!(darkest < 0x90, "{darkest}");
+    let dark = changed.iter().map(|&(x, y, _)| (ground.get_pixel(x, y).0[0], x, y)).min();
+    let (darkest, x, y) = dark.expect("a pixel");
+    assert!(darkest < 0xa8, "{darkest}");
     for corner in [(0, 0), (89, 0)] {
         assert_eq!(ground.get_pixel(corner.0, corner.1).0, [0xc0; 3]);
     }
-    let (x, y, _) = ground.enumerate_pixels().find(|(.., pixel)| pixel.0[0] == darkest).expect("a pixel");
     let pixel = format!("{x},{y}");
     let run = alberti(
         folder.path("").as_path(),
