@@ -15,7 +15,9 @@ use alberti::{
     Affine, Bands, Exact, F32, FragmentStage, Interpolation, Mesh, Pass, Planes, PreparedTriangle, Rgba8,
     Rgba8888, Slot, Spans16, Target, Varying, Vector3, View, clear_by_threads,
 };
-use alberti_app::options::{self, DepthFormat, Filter, Policies, Projection, RenderOptions, Shading};
+use alberti_app::options::{
+    self, DepthFormat, Filter, LightOptions, Policies, Projection, RenderOptions, Shading,
+};
 use alberti_app::render::{self, any_depth};
 use alberti_app::scene::{Camera, Image, Model, Part, Vertex};
 use alberti_app::scenes::BuiltIn;
@@ -317,6 +319,7 @@ impl App {
             depth: DepthFormat::F32,
             projection: Projection::Perspective,
             haze: None,
+            light: LightOptions::default(),
             threads: NonZero::<usize>::MIN,
             policies: Policies::default(),
         };

@@ -3,7 +3,7 @@
 use alberti::glam::Vec3;
 use alberti::{View, ViewError};
 use alberti_app::draw::{AMBIENT, DIFFUSE, to_light};
-use alberti_app::options::{Cull, Filter, Policies, Projection, RenderOptions, Shading, Wrap};
+use alberti_app::options::{Cull, Filter, LightOptions, Policies, Projection, RenderOptions, Shading, Wrap};
 use alberti_app::scene::{Camera, Model};
 use alberti_app::scenes::BuiltIn;
 use alberti_oracle::scene as oracle;
@@ -33,6 +33,7 @@ pub fn options(scene: &BuiltIn, width: u32, height: u32) -> RenderOptions {
         depth: scene.depth,
         projection: Projection::Perspective,
         haze: None,
+        light: LightOptions::default(),
         threads: NonZero::<usize>::MIN,
         policies: Policies::default(),
     }

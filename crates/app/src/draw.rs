@@ -21,6 +21,7 @@ use alberti::{
 
 mod clothed;
 mod erased;
+mod facing;
 mod general;
 mod hazy;
 mod kept;
@@ -29,16 +30,20 @@ mod maps;
 mod painted;
 mod plain;
 mod runs;
+mod studio;
 mod tapped;
 mod traced;
 mod used;
 
+use facing::Viewpoint;
 pub(crate) use general::Studio;
 pub(crate) use runs::Counted;
+use studio::Rig;
 pub(crate) use tapped::{Taken, Tap, WHOLE, Word};
 pub(crate) use traced::{
     Arrival, COMPONENTS, Corner3, Light, LightRead, Look, MapRead, Piece, ProbeRead, Traced, components,
 };
+use used::Used;
 
 /// Light that falls everywhere.
 pub const AMBIENT: f32 = 0.3;
@@ -92,7 +97,9 @@ pub(crate) struct Drawing<'a> {
     view: View<AnyProjection>,
     /// The camera's place.
     camera: Frame<Eye, World>,
-    light: Vector3<World>,
+    rig: Rig,
+    /// For two-sided light.
+    viewpoint: Option<Viewpoint>,
     studio: &'a Studio,
     textures: Vec<Texture<'a, Rgba8888>>,
     /// The projector and its image.
@@ -124,7 +131,8 @@ impl<'a> Drawing<'a> {
             options,
             view,
             camera: frame(camera).map_err(refused)?,
-            light: Vector3::new(to_light(camera)),
+            rig: Rig::new(camera, options.light.key),
+            viewpoint: Viewpoint::of(camera, options),
             studio,
             textures,
             slide: slide.transpose()?,
@@ -157,6 +165,17 @@ impl<'a> Drawing<'a> {
         let float = self.options.policies.arithmetic == Arithmetic::Float && plain::has_kernels();
         let alone = self.slide.is_none() && self.options.haze.is_none() && !part.detail.is_seen_through();
         float && alone && !general::is_lit(part, self.model, self.options)
+    }
+
+    /// The triangles of a part, and the vertices that they use.
+    fn sided<'t>(&self, triangles: &'t [[u32; 3]]) -> Used<'t>
+    where
+        'a: 't,
+    {
+        let Used { vertices, triangles } = Used::of(&self.model.vertices, triangles);
+        let Some(viewpoint) = self.viewpoint else { return Used { vertices, triangles } };
+        let (vertices, triangles) = viewpoint.turned(vertices, triangles);
+        Used { vertices, triangles }
     }
 
     /// A pass with the options' policies but for the interpolation.

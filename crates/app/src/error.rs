@@ -11,9 +11,14 @@ pub struct Error {
     line: Option<usize>,
     key: Option<Box<str>>,
     found: String,
-    expected: String,
+    expected: Box<str>,
     hint: Option<Box<str>>,
+    /// An index into [`MAPS`].
+    about: Option<u8>,
 }
+
+/// The keys of a material that warnings are about.
+const MAPS: [&str; 3] = ["color-map", "normal-map", "environment"];
 
 impl Error {
     /// `found …, expected …`: the parts that no message lacks.
@@ -23,8 +28,9 @@ impl Error {
             line: None,
             key: None,
             found: found.into(),
-            expected: expected.into(),
+            expected: Into::<String>::into(expected).into(),
             hint: None,
+            about: None,
         }
     }
 
@@ -63,8 +69,15 @@ impl Error {
     /// The same in other words.
     #[must_use]
     pub(crate) fn reworded(mut self, reword: impl Fn(&str) -> String) -> Self {
-        (self.found, self.expected) = (reword(&self.found), reword(&self.expected));
+        (self.found, self.expected) = (reword(&self.found), reword(&self.expected).into());
         self.hint = self.hint.map(|hint| reword(&hint).into());
+        self
+    }
+
+    /// The key of a material that it is about, if an option replaces that.
+    #[must_use]
+    pub(crate) fn about(mut self, key: &str) -> Self {
+        self.about = (0..).zip(MAPS).find(|(_, map)| *map == key).map(|(index, _)| index);
         self
     }
 
@@ -101,6 +114,14 @@ impl Warnings {
     /// Hands each on that is kept.
     pub(crate) fn each(self, hear: impl FnMut(Error)) {
         self.first.into_iter().for_each(hear);
+    }
+
+    /// Those that are not about this key of a material.
+    #[must_use]
+    pub(crate) fn without(mut self, key: &str) -> Self {
+        let about = |warning: &Error| warning.about.and_then(|index| MAPS.get(usize::from(index)).copied());
+        self.first.retain(|warning| about(warning) != Some(key));
+        self
     }
 
     /// One line each, and one for those that were only counted.

@@ -11,4 +11,5 @@ pub(crate) mod prepare;
 pub(crate) mod scene_file;
 
 mod mtl;
+mod paths;
 mod statements;

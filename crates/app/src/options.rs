@@ -5,6 +5,7 @@ use std::num::NonZero;
 
 mod afterwards;
 mod filter;
+mod light;
 mod material;
 mod normals;
 mod policies;
@@ -14,6 +15,7 @@ pub mod values;
 pub(crate) use afterwards::byte;
 pub use afterwards::{Blend, Dither, Fog, Haze};
 pub use filter::{Filter, Probes};
+pub use light::{KeyLight, LightOptions};
 pub(crate) use material::Base;
 pub use material::{MapFile, Material, Origin};
 pub use normals::{DEFAULT_CREASE, Normals};
@@ -141,6 +143,8 @@ pub struct RenderOptions {
     pub projection: Projection,
     /// The fog before all surfaces, not before the background.
     pub haze: Option<Haze>,
+    /// The light.
+    pub light: LightOptions,
     /// Threads that draw. The pixels are the same for any number; of more than one, each has its own fate of a triangle
     /// in the counts.
     pub threads: NonZero<usize>,

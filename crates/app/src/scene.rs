@@ -9,6 +9,7 @@ pub mod scenes;
 pub mod slide;
 
 pub(crate) mod displace;
+pub(crate) mod ground;
 pub(crate) mod order;
 pub(crate) mod origin;
 pub(crate) mod place;

@@ -11,8 +11,8 @@ use alberti::{
 };
 use alberti_app::draw::{AMBIENT, DIFFUSE, to_light, view};
 use alberti_app::options::{
-    self, Arithmetic, ColorFormat, DepthFormat, Filter, Interpolation, Lod, Policies, RenderOptions, Shading,
-    SpanLength, Subpixel, Wrap,
+    self, Arithmetic, ColorFormat, DepthFormat, Filter, Interpolation, LightOptions, Lod, Policies,
+    RenderOptions, Shading, SpanLength, Subpixel, Wrap,
 };
 use alberti_app::render::render;
 use alberti_app::scene::{self, Vertex};
@@ -91,6 +91,7 @@ fn options(
         depth,
         projection: options::Projection::Perspective,
         haze: None,
+        light: LightOptions::default(),
         threads: NonZero::<usize>::MIN,
         policies,
     }

@@ -396,7 +396,9 @@ fn each_layer_alone() {
             oracle::Viewer::Towards(direction) => direction,
         };
         let share = x * schlick(f64::from(facing), white.normal, to_eye);
-        alone!(mirror, emission: numbers(sky.to_bytes()).map(|c| c * share));
+        // What is mirrored is not scattered.
+        let emission = numbers(sky.to_bytes()).map(|c| c * share);
+        alone!(mirror, emission: emission, diffuse: [1.0 - share; 3]);
     }
     worst.done("each layer alone");
 }

@@ -4,7 +4,7 @@ use alberti::glam::Vec3;
 use alberti::texture::format::Rgba8888;
 use alberti::texture::mipmap;
 use alberti::{Rgba8, View};
-use alberti_app::options::{Cull, Filter, Policies, Projection, RenderOptions, Shading, Wrap};
+use alberti_app::options::{Cull, Filter, LightOptions, Policies, Projection, RenderOptions, Shading, Wrap};
 use alberti_app::scene::{Camera, Image, Model, Part, Vertex};
 use alberti_app::scenes::by_name;
 use alberti_tests::reference::view;
@@ -100,6 +100,7 @@ impl Scene {
             depth: alberti_app::options::DepthFormat::F32Reversed,
             projection: Projection::Perspective,
             haze: None,
+            light: LightOptions::default(),
             threads: NonZero::<usize>::MIN,
             policies: Policies::default(),
         }

@@ -89,6 +89,7 @@ mod tests {
             depth,
             projection: Projection::Perspective,
             haze: None,
+            light: crate::options::LightOptions::default(),
             threads: NonZero::<usize>::MIN,
             policies: Policies { subpixel, ..Policies::default() },
         };

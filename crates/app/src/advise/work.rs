@@ -204,6 +204,7 @@ mod tests {
             depth,
             projection: Projection::Perspective,
             haze: None,
+            light: crate::options::LightOptions::default(),
             threads: NonZero::new(2).expect("two"),
             policies: Policies { interpolation, arithmetic, ..Policies::default() },
         };

@@ -12,7 +12,7 @@ use super::{Cli, RenderArgs};
 use crate::advise::{Advice, Machine, Wish, advise, json, text, waste};
 use crate::error::Error;
 use crate::measure::{Comparison, MaxError};
-use crate::options::RenderOptions;
+use crate::options::{LightOptions, RenderOptions};
 use crate::output::file::Output;
 use crate::output::progress::Progress;
 use crate::scene::{Camera, Model};
@@ -92,7 +92,9 @@ pub fn scene(arguments: &[&str]) -> Result<(Model, Camera, RenderOptions), Error
     let Some((_, matches)) = matches.subcommand() else { return Err(Error::new("nothing", "arguments")) };
     let request = Request::read(matches)?;
     request.check()?;
-    let Staged { model, camera, options, .. } = request.stage()?;
+    let Staged { model, camera, mut options, .. } = request.stage()?;
+    // A program has one lamp, and surfaces of one side.
+    options.light = LightOptions::default();
     Ok((model, camera, options))
 }
 
@@ -143,7 +145,9 @@ fn advise_on(arguments: &AdviseArgs, request: &Request) -> Result<(), Error> {
 
 fn advise_and_print(arguments: &AdviseArgs, request: &Request) -> Result<(), Error> {
     let outputs = arguments.image.as_deref().map(|folder| outputs(folder, request)).transpose()?;
-    let Staged { model, camera, options, .. } = request.stage()?;
+    let Staged { model, camera, mut options, .. } = request.stage()?;
+    // A program has one lamp, and surfaces of one side.
+    options.light = LightOptions::default();
     let mut progress = Progress::new("trying");
     let mut hear = |done, total| progress.set(done, total);
     let AdviseArgs { max_error: budget, machine, thorough, turntable, .. } = *arguments;

@@ -12,7 +12,7 @@ use super::staged::{OF_PICTURES, Request, Staged, hidden, refuse, warn};
 use crate::bake::{Asked, Format, Report, Wish, bake, bytes, left_out, missing, source};
 use crate::error::Error;
 use crate::options::values::Size;
-use crate::options::{MAX_SIDE, Profile};
+use crate::options::{LightOptions, MAX_SIDE, Profile};
 use crate::output::file::Whole;
 use crate::output::stats::Source;
 
@@ -145,7 +145,9 @@ fn baked(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
     let file = |extension: &str| request.whole(&folder.join(format!("{name}.{extension}")), "--out");
     let (binary, module) = (file("bin")?, file("rs")?);
 
-    let Staged { model, camera, options, .. } = request.stage()?;
+    let Staged { model, camera, mut options, .. } = request.stage()?;
+    // A program has one lamp, and surfaces of one side.
+    options.light = LightOptions::default();
     let BakeArgs { format, triangles, texture_size, attributes, meshlets, band, .. } = *arguments;
     let dither = options.policies.dither;
     let triangles = triangles.map(|most| most as usize);

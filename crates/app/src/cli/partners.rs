@@ -2,7 +2,7 @@
 
 use crate::cli::RenderArgs;
 use crate::error::{Error, quote};
-use crate::options::Base;
+use crate::options::{Base, Shading};
 use crate::scene::{Model, Part, Relief};
 
 /// An option that does nothing without another is a mistake. Options of maps may be meant for those of a model.
@@ -47,6 +47,33 @@ pub(crate) fn check_maps(arguments: &RenderArgs, model: &Model) -> Result<(), Er
         }
         None => Ok(()),
     }
+}
+
+/// The warning of a direction of light that nothing is lit from.
+pub(crate) fn unused_light(arguments: &RenderArgs, model: &Model) -> Option<Error> {
+    arguments.render.light.filter(|_| !model.lights.is_empty() || model.ambient.is_some())?;
+    let error = Error::new("it in a scene with lights of its own", "a scene without").place("--light");
+    Some(error.hint("the scene's are used"))
+}
+
+/// The warning of colours of vertices that are asked for and not there, or there and not shown.
+pub(crate) fn unseen_colors(model: &Model, shading: Shading) -> Option<Error> {
+    let white = model.vertices.iter().all(|vertex| vertex.color == [1.0; 3]);
+    if shading == Shading::VertexColor && white {
+        let found = "a model whose vertices have no colours";
+        let error = Error::new(found, "some, as in `v x y z r g b`").place("--shading");
+        return Some(error.hint("all of it is white"));
+    }
+    let lost = |part: &Part| part.detail.colored && part.detail.needs_tangents();
+    if shading == Shading::VertexColor || !model.parts.iter().any(lost) {
+        return None;
+    }
+    let found = "colours of vertices on a surface with normals or heights of a map";
+    let error = Error::new(found, "one of both").hint("the colours of vertices are left out");
+    Some(match &model.source {
+        Some(path) => error.file(path),
+        None => error.place("--shading"),
+    })
 }
 
 /// The warning of heights that are not used, as a surface's normals are those of its normal map.

@@ -60,7 +60,7 @@ fn usage(error: &clap::Error, renamed: bool) -> u8 {
     // An option without its value's name. A model stands for itself, in brackets.
     let named = |text: &str| match text.split(' ').next().unwrap_or_default() {
         "--machine" if renamed => "--target".to_owned(),
-        option if option.starts_with('-') => option.to_owned(),
+        option if option.starts_with('-') => option.split('[').next().unwrap_or(option).to_owned(),
         _ => text.trim_start_matches('[').trim_end_matches(']').to_owned(),
     };
     let refused = |found: &str, expected: String| {
@@ -119,7 +119,7 @@ fn draw(matches: &ArgMatches) -> Result<(), Error> {
 fn draw_from(request: &Request) -> Result<(), Error> {
     request.check()?;
     let output = request.output()?;
-    let Staged { model, camera, options, load } = request.stage()?;
+    let Staged { model, camera, options, load } = request.stage_on_ground()?;
     let start = Instant::now();
     let mut progress = Progress::new("drawing");
     let hear = &mut |done, total| progress.set(done, total);

@@ -16,13 +16,13 @@ use crate::load::scene_file::{self, SceneFile};
 use crate::load::{obj, prepare};
 use crate::options::values::{Color, MAX_THREADS, Size, Threads};
 use crate::options::{
-    Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE, DepthFormat, Filter, Fog, Haze, Projection,
-    RenderOptions, Shading, Wrap,
+    CameraTable, Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE, DepthFormat, Filter, Fog, Haze,
+    KeyLight, LightOptions, Projection, RenderOptions, Shading, Wrap,
 };
 use crate::output::file::{Output, Whole};
 use crate::output::progress::Progress;
 use crate::output::stats::Source;
-use crate::scene::{Camera, Model, Part, Relief, camera, order, scenes, slide};
+use crate::scene::{Camera, Model, Part, Relief, camera, ground, order, scenes, slide};
 
 /// The options that say what `render` writes.
 pub(super) const OF_PICTURES: [&str; 3] = ["output", "stats", "show"];
@@ -145,6 +145,31 @@ impl Request {
         }
     }
 
+    /// The same for a picture: with a ground under the model, if that is asked for.
+    ///
+    /// # Errors
+    /// As those of [`stage`](Self::stage).
+    pub(super) fn stage_on_ground(&self) -> Result<Staged, Error> {
+        let mut staged = self.stage()?;
+        let of_file = self.file.is_none() && self.arguments.model.is_some() && self.arguments.show.is_none();
+        let unseen = || partners::unseen_colors(&staged.model, staged.options.shading);
+        if let Some(warning) = of_file.then(unseen).flatten() {
+            warn(&warning.to_string());
+        }
+        if self.arguments.render.ground != Some(true) {
+            return Ok(staged);
+        }
+        if staged.options.shading == Shading::VertexColor {
+            let error = Error::new("it with vertex-color, which has no shadows", "another shading");
+            warn(&error.place("--ground").hint("it is left out").to_string());
+            return Ok(staged);
+        }
+        let CameraTable { near, far, .. } = self.arguments.camera;
+        ground::add(&mut staged.model, &mut staged.camera, [near.is_some(), far.is_some()]);
+        order::back_to_front(&mut staged.model, &staged.camera);
+        Ok(staged)
+    }
+
     /// Loads everything, and warns of repairs.
     ///
     /// # Errors
@@ -212,6 +237,15 @@ impl Request {
             height,
             background,
             haze,
+            light: LightOptions {
+                two_sided: arguments.render.two_sided.unwrap_or(true),
+                // Built-in scenes are those of the library's tests, in its light.
+                key: arguments.render.light.unwrap_or(if arguments.model.is_some() {
+                    KeyLight::STUDIO
+                } else {
+                    KeyLight::Lamp
+                }),
+            },
             shading: arguments.render.shading.unwrap_or(if shiny { Shading::Blinn } else { shading }),
             filter: arguments.render.filter.unwrap_or(filter),
             wrap: arguments.render.wrap.unwrap_or(wrap),
@@ -224,6 +258,9 @@ impl Request {
         if options.shading == Shading::Gouraud && scene.model.parts.iter().any(needs_fragments) {
             let found = "gouraud with relief, normals, occlusion or reflections, which are left out";
             warn(&Error::new(found, "phong or blinn for these").place("--shading").to_string());
+        }
+        if let Some(warning) = partners::unused_light(arguments, &scene.model) {
+            warn(&warning.to_string());
         }
         Ok(Staged { model: scene.model, camera, options, load })
     }
@@ -258,7 +295,10 @@ fn load(arguments: &RenderArgs) -> Result<Scene, Error> {
         let mut progress = Progress::new("loading");
         let loaded = obj::load(path, arguments.render.normals, &mut |done, total| progress.set(done, total))?;
         drop(progress);
-        warn_all(&loaded.warnings);
+        // Of what an option replaces there is nothing to say.
+        let replaced = arguments.material.maps().into_iter();
+        let warnings = replaced.fold(loaded.warnings, |warnings, (key, _)| warnings.without(key));
+        warn_all(&warnings);
         return Ok(Scene {
             model: loaded.model,
             camera: None,
@@ -290,7 +330,9 @@ fn needs_fragments(part: &Part) -> bool {
 /// Whether something is said of highlights, beside the faint one that every surface has.
 fn has_highlights(arguments: &RenderArgs, model: &Model) -> bool {
     let material = &arguments.material;
-    let mapped = |part: &Part| part.detail.specular_map.is_some() || part.detail.shininess_map.is_some();
+    let mapped = |part: &Part| {
+        part.detail.shiny || part.detail.specular_map.is_some() || part.detail.shininess_map.is_some()
+    };
     material.specular.is_some() || material.shininess.is_some() || model.parts.iter().any(mapped)
 }
 
@@ -299,6 +341,7 @@ fn put_materials(arguments: &RenderArgs, scene: &mut Scene) -> Result<(), Error>
     let mut images = Images::new();
     images.adopt(&mut scene.model);
     prepare::replace_materials(&mut scene.model, &arguments.material, &mut images)?;
+    prepare::unmix(&mut scene.model, &arguments.material, &mut images);
     let mut warnings = Warnings::default();
     let wrap = arguments.render.wrap.unwrap_or(scene.defaults.2);
     prepare::complete(&mut scene.model, &images, wrap, &mut warnings);

@@ -13,6 +13,8 @@ pub(super) struct Clothed<'a> {
     pub(super) surface: Surface<'a>,
     /// The lights that fall on it.
     pub(super) lighting: Lighting<&'a [AnyLight], AnyReflectance>,
+    /// Whether the vertices' colours multiply its own.
+    pub(super) colored: bool,
     /// Whether it has texture coordinates.
     pub(super) textured: bool,
     /// Whether its fragments have places in the world, whatever the surface.
@@ -37,7 +39,7 @@ impl Clothed<'_> {
 
 /// The attributes of a vertex for a surface. Components without a use are constant, so that they have no part in how
 /// far a straight line may go. Lights at vertices are carried instead of the first two axes, colours instead of the
-/// third.
+/// third, or of the first where they multiply a lit surface's.
 fn framed(clothed: &Clothed<'_>, v: &Vertex) -> Framed {
     let [x, y, z, handedness] = v.tangent;
     let (place, normal) = (Vec3::from_array(v.position), Vec3::from_array(v.normal));
@@ -49,12 +51,17 @@ fn framed(clothed: &Clothed<'_>, v: &Vertex) -> Framed {
         Surface::Unlit(_) => flat(Vec3::ZERO),
         Surface::Lit(_) => flat(normal),
         Surface::ByFragment(_) => {
+            let color = Vec3::from_array(v.color);
+            if clothed.colored {
+                return Framed { position: place, axes: [color, Vec3::ZERO, normal], uv };
+            }
             let tangent = Vec3::new(x, y, z);
             Framed { position: place, axes: [tangent, normal.cross(tangent) * handedness, normal], uv }
         }
         Surface::ByVertex(_) => {
             let [scattered, mirrored] = clothed.lighting.at_vertex(Point3::new(place), Vector3::new(normal));
-            Framed { position: place, axes: [scattered, mirrored, normal], uv }
+            let color = if clothed.colored { Vec3::from_array(v.color) } else { Vec3::ONE };
+            Framed { position: place, axes: [scattered * color, mirrored, normal], uv }
         }
     }
 }

@@ -9,8 +9,9 @@ use super::lamps::Lamps;
 use super::maps::{Chains, any_filter};
 use super::painted::Painted;
 use super::plain::Skin;
+use super::studio::{Lamplit, Rig};
 use super::used::Used;
-use super::{Canvas, Drawing, memory, to_light};
+use super::{Canvas, Drawing, memory};
 use crate::error::Error;
 use crate::options::{Arithmetic, Filter, Interpolation, Projection, RenderOptions, Shading};
 use crate::scene::{Camera, Detail, Model, Part};
@@ -18,14 +19,14 @@ use alberti::lanes::{Lanes, Machine, One};
 use alberti::raster::PerPixel;
 use alberti::raster::color::{AnyBlend, Blended};
 use alberti::shaders::material::{AnyLight, AnyReflectance, Framed, Gouraud, Material};
-use alberti::shaders::{Mix, Slide, Sunlit, Unlit, VertexColor};
+use alberti::shaders::{Mix, Slide, Unlit, VertexColor};
 use alberti::texture::{AnyFilter, Clamp, Sampler, format::Rgba8888};
 use alberti::{FixedPoint, FragmentStage, Fragments, Lines, Planes, Rgba8, Stats, for_lanes};
 
 /// Whether a part is more than a plain surface in a picture with these options.
 pub(super) fn is_lit(part: &Part, model: &Model, options: &RenderOptions) -> bool {
-    let Detail { specular, shininess, blend, alpha_test, .. } = part.detail;
-    let plain = Detail { specular, shininess, blend, alpha_test, ..Detail::default() };
+    let Detail { specular, shininess, blend, alpha_test, shiny, .. } = part.detail;
+    let plain = Detail { specular, shininess, blend, alpha_test, shiny, ..Detail::default() };
     let mipmapped = part.texture.is_some() && !matches!(options.filter, Filter::Nearest | Filter::Bilinear);
     let highlights = !matches!(options.shading, Shading::Unlit | Shading::VertexColor | Shading::Lambert);
     let lamps = options.shading.is_lit() && (!model.lights.is_empty() || model.ambient.is_some());
@@ -48,7 +49,7 @@ impl Studio {
         let parallel = options.projection != Projection::Perspective;
         Ok(Self {
             chains: Chains::new(model, options)?,
-            lamps: Lamps::new(model, camera, parallel, to_light(camera)),
+            lamps: Lamps::new(model, camera, parallel, &Rig::new(camera, options.light.key)),
         })
     }
 }
@@ -58,7 +59,7 @@ impl Studio {
 pub(super) enum Surface<'a> {
     Colors,
     Unlit(Unlit<Skin<'a>>),
-    Lit(Sunlit<Unlit<Skin<'a>>>),
+    Lit(Lamplit<Skin<'a>>),
     ByFragment(Material<Painted<'a>, &'a [AnyLight], AnyReflectance>),
     ByVertex(Gouraud<Painted<'a>>),
 }
@@ -119,7 +120,7 @@ impl<'a> Drawing<'a> {
     pub(super) fn draw_general(&mut self, part: &Part, triangles: &[[u32; 3]], target: &mut Canvas<'_>) {
         let clothed = self.clothed(part);
         let shown = self.shown(clothed.surface, part);
-        let Used { vertices, triangles } = Used::of(&self.model.vertices, triangles);
+        let Used { vertices, triangles } = self.sided(triangles);
         let mesh = Triangles {
             clothed: &clothed,
             vertices: &vertices,
@@ -154,7 +155,8 @@ impl<'a> Drawing<'a> {
         let textured = lit || (part.texture.is_some() && shading != Shading::VertexColor);
         let projector = self.slide.map(|(projector, _)| projector);
         let placed = self.options.haze.is_some();
-        Clothed { surface, lighting: material.lighting, textured, placed, projector }
+        let colored = part.detail.carries_colors();
+        Clothed { surface, lighting: material.lighting, colored, textured, placed, projector }
     }
 
     /// The stage behind a pointer, in one of few kernels, mixed with what is there.

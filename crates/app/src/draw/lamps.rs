@@ -1,6 +1,7 @@
 //! Lights, environments and parallax maps whose kind is chosen at run time.
 
-use super::{AMBIENT, DIFFUSE};
+use super::AMBIENT;
+use super::studio::Rig;
 use crate::scene::{self, Camera, EnvironmentKind, Image, Model};
 use alberti::glam::Vec3;
 use alberti::shaders::material::{AnyLight, Directional, PointLight, SpotLight, Viewer};
@@ -17,15 +18,19 @@ pub(crate) struct Lamps {
 }
 
 impl Lamps {
-    /// The lighting of a model, or else light from the direction `to_light`.
-    pub(super) fn new(model: &Model, camera: &Camera, parallel: bool, to_light: Vec3) -> Self {
+    /// The lighting of a model, or else of a rig.
+    pub(super) fn new(model: &Model, camera: &Camera, parallel: bool, rig: &Rig) -> Self {
         let lights: Vec<AnyLight> = model.lights.iter().map(lamp).collect();
         let own = lights.is_empty() && model.ambient.is_none();
-        let beside = AnyLight::Directional(Directional::new(Vector3::new(to_light), Vec3::splat(DIFFUSE)));
+        let beside = |(to_light, strength)| {
+            AnyLight::Directional(Directional::new(Vector3::new(to_light), Vec3::splat(strength)))
+        };
         let [eye, target] = [camera.eye, camera.target].map(Vec3::from_array);
         Self {
-            ambient: model.ambient.map_or(Vec3::splat(AMBIENT), Vec3::from_array),
-            lights: if own { vec![beside] } else { lights },
+            ambient: model
+                .ambient
+                .map_or(Vec3::splat(if own { rig.ambient } else { AMBIENT }), Vec3::from_array),
+            lights: if own { rig.shining().map(beside).collect() } else { lights },
             viewer: if parallel {
                 Viewer::towards(Vector3::new(eye - target))
             } else {

@@ -24,6 +24,8 @@ pub(super) struct Painted<'a> {
     parallax: Option<Parallax<AnyHeights<'a>, AnyParallax>>,
     normal: Facing<'a>,
     color: Color<Scaled<AnyMap<'a>>>,
+    /// Whether the vertices' colours, carried instead of the first axis, multiply that.
+    colored: bool,
     specular: Option<Specular<Scaled<AnyMap<'a>>>>,
     gloss: Option<Gloss<AnyMap<'a>>>,
     wetness: Option<Wetness<Scaled<AnyMap<'a>>>>,
@@ -73,6 +75,11 @@ impl Layer<Framed> for Painted<'_> {
             Facing::Bump(layer) => Layer::<Framed>::apply(layer, lanes, varyings, surface),
         }
         Layer::<Vec2>::apply(self, lanes, &{ surface.uv }, surface);
+        if self.colored {
+            let [[r, g, b], ..] = varyings.axes;
+            let [red, green, blue] = surface.diffuse;
+            surface.diffuse = [red * r, green * g, blue * b];
+        }
         Layer::<Framed>::apply(&self.occlusion, lanes, varyings, surface);
         Layer::<Framed>::apply(&self.reflection, lanes, varyings, surface);
     }
@@ -137,6 +144,7 @@ impl<'a> Painted<'a> {
             parallax,
             normal: normal.unwrap_or(Facing::AsVertices),
             color: Color(scaled(part.diffuse, colors(part.color_map()))),
+            colored: detail.carries_colors() && options.shading != Shading::Gouraud,
             specular: highlights.then(|| Specular(scaled(detail.specular, colors(detail.specular_map)))),
             gloss: numbers(detail.shininess_map).map(Gloss),
             wetness: (detail.wetness > 0.0)

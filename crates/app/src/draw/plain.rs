@@ -5,13 +5,14 @@
 //! AVX2, as before 2013, they are drawn like any surface: the pixels are the same, and fifteen kernels less are built.
 
 use super::maps::{FlatMap, Scaled, TileMap, flat_map, tile_map};
+use super::studio::Lamplit;
 use super::used::Used;
-use super::{AMBIENT, Canvas, DIFFUSE, Drawing, color, memory, position};
+use super::{Canvas, Drawing, color, memory, position};
 use crate::options::{Interpolation, Shading};
 use crate::scene::{Part, Vertex};
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::Machine;
-use alberti::shaders::{Sunlit, Unlit, VertexColor};
+use alberti::shaders::{Unlit, VertexColor};
 use alberti::{FragmentStage, Mesh, Planes, Rgba8, Slot, Varying};
 
 /// A colour, or a texture times that colour.
@@ -58,9 +59,9 @@ impl<'a> Drawing<'a> {
         tile_map(*texture, self.options).filter(|_| color(part.diffuse) == Rgba8::WHITE)
     }
 
-    /// A map in the light from beside the camera.
-    pub(super) fn lit<M>(&self, map: M) -> Sunlit<Unlit<M>> {
-        Sunlit::new(Unlit(map), self.light, AMBIENT, DIFFUSE)
+    /// A map in the light of a model without lights.
+    pub(super) fn lit<M: Copy>(&self, map: M) -> Lamplit<M> {
+        Lamplit::new(map, self.rig)
     }
 
     /// A plain surface in floats.
@@ -88,7 +89,7 @@ impl<'a> Drawing<'a> {
     ) where
         Slot<V>: Send + Sync,
     {
-        let Used { vertices, triangles } = Used::of(&self.model.vertices, triangles);
+        let Used { vertices, triangles } = self.sided(triangles);
         let mesh = Mesh::new(&vertices, &triangles, |v: &Vertex| (position(v), varying(v)));
         let (mut room, mut slots) = memory(&mesh);
         let Some(machine) = Machine::all().next() else { return };
@@ -114,7 +115,7 @@ impl<'a> Drawing<'a> {
 mod tests {
     use super::*;
     use crate::draw::Studio;
-    use crate::options::{DepthFormat, Filter, Policies, RenderOptions};
+    use crate::options::{DepthFormat, Filter, LightOptions, Policies, RenderOptions};
     use crate::render::any_depth;
     use crate::scene::scenes;
     use alberti::{DepthFormat as _, Rgba8888, Target};
@@ -139,6 +140,7 @@ mod tests {
                     depth: DepthFormat::F32,
                     projection: crate::options::Projection::Perspective,
                     haze: None,
+                    light: LightOptions::default(),
                     threads: NonZero::<usize>::MIN,
                     policies: Policies {
                         interpolation: interpolation.parse().expect("a name"),

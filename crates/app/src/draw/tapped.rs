@@ -175,7 +175,7 @@ impl Drawing<'_> {
         for part in &self.model.parts {
             let clothed = self.clothed(part);
             for triangles in part.triangles.chunks(CHUNK) {
-                let Used { vertices, triangles } = Used::of(&self.model.vertices, triangles);
+                let Used { vertices, triangles } = self.sided(triangles);
                 let numbers = numbered.then_some(first);
                 let mesh = Triangles {
                     clothed: &clothed,

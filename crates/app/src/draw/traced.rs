@@ -7,6 +7,7 @@ mod reads;
 
 use super::clothed::Clothed;
 use super::erased::Attributes;
+use super::facing::turn;
 use super::general::{Shown, Surface};
 use super::{Drawing, position};
 use crate::error::Error;
@@ -249,6 +250,9 @@ impl<'a> Drawing<'a> {
             Surface::Lit(_) => put(&NORMAL, THIRD),
             Surface::ByFragment(_) => {
                 put(&NORMAL, THIRD);
+                if part.detail.carries_colors() {
+                    put(&["red", "green", "blue"], FIRST);
+                }
                 if part.detail.needs_tangents() {
                     put(&["tangent x", "tangent y", "tangent z"], FIRST);
                     put(&["bitangent x", "bitangent y", "bitangent z"], SECOND);
@@ -303,7 +307,9 @@ impl<'a> Drawing<'a> {
 
     fn vertices(&self, indices: [u32; 3]) -> Option<[Vertex; 3]> {
         let [a, b, c] = indices.map(|index| self.model.vertices.get(index as usize).copied());
-        Some([a?, b?, c?])
+        let vertices = [a?, b?, c?];
+        let behind = self.viewpoint.is_some_and(|viewpoint| viewpoint.is_behind(vertices.each_ref()));
+        Some(if behind { vertices.each_ref().map(turn) } else { vertices })
     }
 
     fn size(&self) -> [u32; 2] {

@@ -39,7 +39,8 @@ impl Scene<'_> {
         let relations: &'static [Relation] = match (&look.light, self.options.shading) {
             (Light::None, Shading::VertexColor) => &[theory::VERTEX_COLOR],
             (Light::None, _) => &[theory::COLOR_MAP],
-            (Light::Sun { .. }, _) => &[theory::SUNLIGHT],
+            (Light::Sun { lights, .. }, _) if lights.len() == 1 => &[theory::SUNLIGHT],
+            (Light::Sun { .. }, _) => &[theory::LAMPS],
             (Light::Lamps { .. }, _) => &[theory::LAMPS],
         };
         let mut block = Block::new("light", "16. light and colour", relations);
@@ -47,16 +48,27 @@ impl Scene<'_> {
             Light::None => {
                 block.note("none", "no light: colours are as they are");
             }
-            Light::Sun { normal, to_light, ambient, diffuse, factor } => {
+            Light::Sun { normal, lights, ambient, factor } => {
                 let length = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
                 let unit = normal.map(|x| x / length);
-                let cosine: f64 = unit.iter().zip(to_light).map(|(a, b)| a * b).sum();
+                let cosine = |to_light: &[f64; 3]| unit.iter().zip(to_light).map(|(a, b)| a * b).sum::<f64>();
                 block.values("normal", "normal, made unit", unit);
-                block.values("to_light", "direction to the light", *to_light);
-                block.value("cosine", "cosine between them", cosine);
-                block.value("ambient", "ambient", *ambient);
-                block.value("diffuse", "diffuse, of the cosine above 0", *diffuse);
-                block.value("factor", "factor: ambient + diffuse x cosine", *factor);
+                if let [(to_light, diffuse)] = &lights[..] {
+                    block.values("to_light", "direction to the light", *to_light);
+                    block.value("cosine", "cosine between them", cosine(to_light));
+                    block.value("ambient", "ambient", *ambient);
+                    block.value("diffuse", "diffuse, of the cosine above 0", *diffuse);
+                    block.value("factor", "factor: ambient + diffuse x cosine", *factor);
+                } else {
+                    let row = |(to_light, diffuse): &([f64; 3], f64)| {
+                        let numbers = to_light.iter().copied().chain([cosine(to_light), *diffuse]);
+                        numbers.map(Cell::from).collect()
+                    };
+                    let columns = ["to x", "to y", "to z", "cosine", "diffuse"];
+                    block.table("lights", &columns, lights.iter().map(row).collect());
+                    block.value("ambient", "ambient", *ambient);
+                    block.value("factor", "factor: ambient + sum of diffuse x cosine above 0", *factor);
+                }
             }
             lamps @ Light::Lamps { .. } => put_lamps(&mut block, lamps),
         }

@@ -2,8 +2,8 @@
 
 use super::{Journey, explain, explain_each, theory};
 use crate::options::{
-    Arithmetic, ColorFormat, Cull, DepthFormat, Dither, Filter, Interpolation, Lod, Policies, Probes,
-    Projection, RenderOptions, Shading, SpanLength, Subpixel, Wrap,
+    Arithmetic, ColorFormat, Cull, DepthFormat, Dither, Filter, Interpolation, LightOptions, Lod, Policies,
+    Probes, Projection, RenderOptions, Shading, SpanLength, Subpixel, Wrap,
 };
 use crate::scene::surfaces::Surface;
 use crate::scene::{Camera, Image, Model, Part, Vertex, scenes};
@@ -26,6 +26,7 @@ fn options(interpolation: Interpolation) -> RenderOptions {
         depth: DepthFormat::F32,
         projection: Projection::Perspective,
         haze: None,
+        light: LightOptions::default(),
         threads: NonZero::<usize>::MIN,
         policies: Policies { interpolation, ..Policies::default() },
     }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{Error, quote};
 use crate::load::image_file;
+use crate::load::mtl::Alpha;
 use crate::options::MapFile;
 use crate::scene::{HeightImage, Image, Model};
 
@@ -14,6 +15,19 @@ pub(crate) struct Images {
     textures: Read<Image>,
     heights: Read<HeightImage>,
     texels_left: u64,
+    /// Textures that were made of others, by what they were made of.
+    made: HashMap<Made, usize>,
+}
+
+/// A texture that is made of others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Made {
+    /// 255 less its colours.
+    Inverted(usize),
+    /// The colours of the first, white without one, and as its alpha the second.
+    WithAlpha(Option<usize>, usize),
+    /// Its alpha times this.
+    Faded(usize, u8),
 }
 
 /// Images of a kind, and their indices by file. `None` is a file of which an error has been told.
@@ -49,7 +63,12 @@ impl<T> Read<T> {
 impl Images {
     /// None yet.
     pub(crate) fn new() -> Self {
-        Self { textures: Read::new(), heights: Read::new(), texels_left: image_file::MAX_TEXELS }
+        Self {
+            textures: Read::new(),
+            heights: Read::new(),
+            texels_left: image_file::MAX_TEXELS,
+            made: HashMap::new(),
+        }
     }
 
     /// The index of a texture; `None` where an error has been told before.
@@ -81,6 +100,74 @@ impl Images {
     /// A texture's width and height.
     pub(crate) fn size(&self, index: usize) -> Option<[u32; 2]> {
         self.textures.all.get(index).map(|image| [image.width, image.height])
+    }
+
+    /// The alpha of a texture.
+    pub(crate) fn alpha(&self, index: usize) -> Alpha {
+        self.textures.all.get(index).map_or(Alpha::Opaque, |image| Alpha::of(&image.texels))
+    }
+
+    /// The texture of 255 less its colours: of roughness, smoothness.
+    pub(crate) fn inverted(&mut self, index: usize) -> usize {
+        self.made(Made::Inverted(index), |all| {
+            let mut image = all.get(index)?.clone();
+            for [r, g, b, _] in &mut image.texels {
+                [*r, *g, *b] = [255 - *r, 255 - *g, 255 - *b];
+            }
+            Some(image)
+        })
+    }
+
+    /// A texture whose alpha is that of another one: its alpha if it has such, else its red.
+    pub(crate) fn with_alpha(&mut self, colors: Option<usize>, alpha: usize) -> usize {
+        self.made(Made::WithAlpha(colors, alpha), |all| {
+            let source = all.get(alpha)?;
+            let has_alpha = Alpha::of(&source.texels) != Alpha::Opaque;
+            let white = Image { texels: vec![[255; 4]; source.texels.len()], ..*source };
+            let mut image = colors.and_then(|index| all.get(index)).unwrap_or(&white).clone();
+            // The texel of the other that holds the middle of this one.
+            // Sides are at most 2^14.
+            let at = |k: u32, of: u32, side: u32| ((2 * k + 1) * side / (2 * of)) as usize;
+            let (width, height) = (image.width, image.height);
+            for (texels, row) in image.texels.chunks_mut(width as usize).zip(0..) {
+                for ([.., alpha], column) in texels.iter_mut().zip(0..) {
+                    let (x, y) = (at(column, width, source.width), at(row, height, source.height));
+                    let [red, .., own] = source.texels.get(y * source.width as usize + x).copied()?;
+                    *alpha = if has_alpha { own } else { red };
+                }
+            }
+            Some(image)
+        })
+    }
+
+    /// A texture whose alpha is multiplied by a share, a byte.
+    pub(crate) fn faded(&mut self, index: usize, share: u8) -> usize {
+        self.made(Made::Faded(index, share), |all| {
+            let mut image = all.get(index)?.clone();
+            for [.., alpha] in &mut image.texels {
+                let product = u32::from(*alpha) * u32::from(share);
+                *alpha = ((product + 127) / 255).to_le_bytes()[0];
+            }
+            Some(image)
+        })
+    }
+
+    /// The index of a texture that is made of others, or of the first of them where there is no room for it.
+    fn made(&mut self, made: Made, make: impl FnOnce(&[Image]) -> Option<Image>) -> usize {
+        if let Some(&known) = self.made.get(&made) {
+            return known;
+        }
+        let (Made::Inverted(source) | Made::WithAlpha(_, source) | Made::Faded(source, _)) = made;
+        let index = match make(&self.textures.all) {
+            Some(image) if image.texels.len() as u64 <= self.texels_left => {
+                self.texels_left -= image.texels.len() as u64;
+                self.textures.all.push(image);
+                self.textures.all.len() - 1
+            }
+            _ => source,
+        };
+        self.made.insert(made, index);
+        index
     }
 
     /// Heights that have been read.

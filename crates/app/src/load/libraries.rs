@@ -7,9 +7,10 @@ use crate::error::{Error, Warnings, quote};
 use crate::load::images::Images;
 use crate::load::input;
 use crate::load::mtl::{self, CheckedMtl};
-use crate::load::obj::{Named, ObjText};
+use crate::load::obj::{DEFAULT_DIFFUSE, Named, ObjText};
+use crate::load::paths::{existing, unquoted};
 use crate::options::Material;
-use crate::scene::{Model, Part};
+use crate::scene::{Model, Part, Vertex};
 
 /// The largest material library that is read, in bytes.
 const MAX_LIBRARY_BYTES: u64 = 1 << 26;
@@ -56,8 +57,8 @@ impl Libraries {
 
     /// Gives a part of a model of this radius the material with that index. What cannot be used becomes a warning.
     pub(crate) fn apply(&mut self, index: usize, part: &mut Part, radius: f32, warnings: &mut Warnings) {
-        let Some(material) = self.checked.materials.get_mut(index) else { return };
-        if let Some(warning) = normals_as_bump(material, &mut self.images) {
+        let Some(entry) = self.checked.materials.get_mut(index) else { return };
+        if let Some(warning) = normals_as_bump(&mut entry.material, &mut self.images) {
             warnings.push(warning);
         }
         let mut warn = |error: Error| {
@@ -65,11 +66,14 @@ impl Libraries {
             Ok(())
         };
         // Errors have become warnings.
-        let _ = material.apply(part, radius, &mut self.images, &mut warn);
+        let _ = entry.drawn().apply(part, radius, &mut self.images, &mut warn);
+        let _ = entry.complete(part, &mut self.images, &mut warn);
     }
 
-    /// Gives the model the images read.
+    /// Gives the model the images read, and its surfaces the rest of what files say of them.
     pub(crate) fn give_images(self, model: &mut Model) {
+        show_colors(model);
+        place_textures(model);
         self.images.give(model);
     }
 
@@ -86,6 +90,35 @@ impl Libraries {
                     .line(used.line)
                     .hint("the default material is used"),
             );
+        }
+    }
+}
+
+/// Has the colours of vertices show where a file has such. They multiply the material's, and the grey of none is white.
+fn show_colors(model: &mut Model) {
+    let Model { vertices, parts, .. } = model;
+    let colored = |&index: &u32| vertices.get(index as usize).is_some_and(|v| v.color != [1.0; 3]);
+    for part in parts {
+        part.detail.colored = part.triangles.iter().flatten().any(colored);
+        if part.detail.colored && part.diffuse == DEFAULT_DIFFUSE {
+            part.diffuse = [1.0; 3];
+        }
+    }
+}
+
+/// Scales and moves coordinates as the textures of a part ask for: of vertices that belong to that part alone.
+fn place_textures(model: &mut Model) {
+    let Model { vertices, parts, .. } = model;
+    for part in parts {
+        let Some([scale, offset]) = part.detail.placed.take() else { continue };
+        let mut own: HashMap<u32, u32> = HashMap::new();
+        for index in part.triangles.iter_mut().flatten() {
+            *index = *own.entry(*index).or_insert_with(|| {
+                let vertex = vertices.get(*index as usize).copied().unwrap_or_default();
+                let uv = [0, 1].map(|k| vertex.uv[k] * scale[k] + offset[k]);
+                vertices.push(Vertex { uv, ..vertex });
+                u32::try_from(vertices.len() - 1).unwrap_or(u32::MAX)
+            });
         }
     }
 }
@@ -118,26 +151,13 @@ fn bytes_of(obj: &Path, named: &Named, file: &Path) -> Result<Vec<u8>, Error> {
 
 /// A `mtllib` line names one file, with spaces perhaps, or several files.
 fn files_of(folder: &Path, named: &Named) -> Vec<PathBuf> {
-    if let Some(file) = existing(folder, &named.name) {
-        return vec![file];
+    let name = unquoted(&named.name);
+    if let Some(found) = existing(folder, name) {
+        return vec![found.path];
     }
-    let words: Vec<PathBuf> = named
-        .name
+    let words: Vec<PathBuf> = name
         .split_whitespace()
-        .map(|word| existing(folder, word).unwrap_or_else(|| folder.join(word)))
+        .map(|word| existing(folder, word).map_or_else(|| folder.join(word), |found| found.path))
         .collect();
-    if words.iter().any(|file| file.exists()) { words } else { vec![folder.join(&named.name)] }
-}
-
-/// The file of that name in the folder. Files written on Windows may have `\` between folders.
-pub(crate) fn existing(folder: &Path, name: &str) -> Option<PathBuf> {
-    let as_is = folder.join(name);
-    let with_slashes = || folder.join(name.replace('\\', "/"));
-    if name.is_empty() {
-        None
-    } else if as_is.exists() {
-        Some(as_is)
-    } else {
-        Some(with_slashes()).filter(|file| file.exists())
-    }
+    if words.iter().any(|file| file.exists()) { words } else { vec![folder.join(name)] }
 }

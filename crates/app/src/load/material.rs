@@ -24,22 +24,24 @@ impl Material {
         on_error: OnError<'_>,
     ) -> Result<(), Error> {
         self.set_constants(part);
-        let mut texture = |map: &Option<MapFile>| match map {
+        let mut texture = |map: &Option<MapFile>, about: &'static str| match map {
             None => Ok(None),
-            Some(map) => read(images.texture(map), on_error).map(|image| {
-                image.map(|image| Map {
-                    image,
-                    filter: map.filter.or(self.filter),
-                    wrap: map.wrap.or(self.wrap),
+            Some(map) => {
+                read(images.texture(map).map_err(|error| error.about(about)), on_error).map(|image| {
+                    image.map(|image| Map {
+                        image,
+                        filter: map.filter.or(self.filter),
+                        wrap: map.wrap.or(self.wrap),
+                    })
                 })
-            }),
+            }
         };
-        if let Some(map) = texture(&self.color_map)? {
+        if let Some(map) = texture(&self.color_map, "color-map")? {
             part.texture = Some(map.image);
             (part.detail.filter, part.detail.wrap) = (map.filter, map.wrap);
         }
         let detail = &mut part.detail;
-        if let Some(map) = texture(&self.normal_map)? {
+        if let Some(map) = texture(&self.normal_map, "normal-map")? {
             // The settings of the map that was there are kept for this one.
             let before = detail.normal.unwrap_or(NormalMap {
                 map,
@@ -56,18 +58,18 @@ impl Material {
             (&self.shininess_map, &mut detail.shininess_map),
             (&self.reflection_map, &mut detail.reflection_map),
         ] {
-            *slot = texture(map)?.or(*slot);
+            *slot = texture(map, "")?.or(*slot);
         }
         for (map, given, slot, constant) in [
             (&self.specular_map, self.specular, &mut detail.specular_map, &mut detail.specular),
             (&self.emissive_map, self.emissive, &mut detail.emissive_map, &mut detail.emissive),
         ] {
-            if let Some(map) = texture(map)? {
+            if let Some(map) = texture(map, "")? {
                 *slot = Some(map);
                 *constant = given.map_or([1.0; 3], |Color(color)| color);
             }
         }
-        if let Some(map) = texture(&self.environment)? {
+        if let Some(map) = texture(&self.environment, "environment")? {
             if detail.environment.is_none() {
                 detail.reflection = self.reflection.map_or(DEFAULT_REFLECTION, f32::from);
             }
@@ -133,8 +135,10 @@ impl Material {
         if let Some(Color(color)) = self.color {
             part.diffuse = color;
         }
-        let Detail { wetness, specular, shininess, emissive, reflection, blend, alpha_test, .. } =
+        let Detail { wetness, specular, shininess, emissive, reflection, blend, alpha_test, shiny, .. } =
             &mut part.detail;
+        let none = self.specular == Some(Color([0.0; 3]));
+        *shiny = !none && (*shiny || self.specular.is_some() || self.shininess.is_some());
         // A map alone says all.
         let mapped = if self.wetness_map.is_some() { 1.0 } else { *wetness };
         *wetness = self.wetness.map_or(mapped, f32::from);

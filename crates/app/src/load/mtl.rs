@@ -1,17 +1,20 @@
 //! MTL files: the lines that are used, checked.
 //!
-//! A `Kd` whose numbers are missing or are none is an error. What else is broken or missing becomes a warning, and
-//! the material keeps its default: a picture with a wrong colour is better than none.
+//! Keywords count in any letters. A `Kd` whose numbers are missing or are none is an error. What else is broken or
+//! missing becomes a warning, and the material keeps its default: a picture with a wrong colour is better than none.
 
 use std::collections::HashMap;
 use std::path::Path;
 
 use crate::error::{Error, Warnings, number, quote};
-use crate::load::statements::{Lines, Statement, not_text};
+use crate::load::statements::{Lines, Statement, keyword, not_text};
+use crate::options::Origin;
 use crate::options::values::{Color, MAX_SHININESS, Shininess};
-use crate::options::{Material, Origin};
 
+mod entry;
 mod maps;
+
+pub(crate) use entry::{Alpha, Entry, see_through};
 
 /// The name of a material library in messages.
 pub(crate) const KIND: &str = "an MTL material library";
@@ -20,7 +23,7 @@ pub(crate) const KIND: &str = "an MTL material library";
 #[derive(Clone, Debug, Default)]
 pub(crate) struct CheckedMtl {
     /// In the order of their `newmtl` lines.
-    pub(crate) materials: Vec<Material>,
+    pub(crate) materials: Vec<Entry>,
     /// Names and indices; of equal names, the last counts.
     pub(crate) names: HashMap<String, usize>,
 }
@@ -36,13 +39,14 @@ impl CheckedMtl {
             return Ok(());
         }
         let mut named = false;
+        let mut ignored = Ignored::default();
         for (number, line) in Lines::new(bytes) {
             let place = |error: Error| error.file(path).line(number);
             let statement = Statement::new(number, &line);
-            if let Some(warning) = self.statement(&statement, path, &mut named).map_err(place)? {
-                warnings.push(place(warning));
-            }
+            let found = self.statement(&statement, path, &mut named, &mut ignored).map_err(place)?;
+            found.into_iter().for_each(|warning| warnings.push(place(warning)));
         }
+        ignored.told(path, warnings);
         Ok(())
     }
 
@@ -52,43 +56,52 @@ impl CheckedMtl {
         line: &Statement<'_>,
         path: &Path,
         named: &mut bool,
-    ) -> Result<Option<Error>, Error> {
-        if line.word == b"newmtl" {
+        ignored: &mut Ignored,
+    ) -> Result<Vec<Error>, Error> {
+        if line.word.eq_ignore_ascii_case(b"newmtl") {
             let name = line.name();
             *named = !name.is_empty();
             if name.is_empty() {
                 let warning = Error::new("`newmtl` without a name", "`newmtl NAME`");
-                return Ok(Some(warning.hint("the lines up to the next one are left out")));
+                return Ok(vec![warning.hint("the lines up to the next one are left out")]);
             }
             self.names.insert(name, self.materials.len());
-            self.materials.push(Material::default());
-            return Ok(None);
+            self.materials.push(Entry::default());
+            return Ok(Vec::new());
         }
         let lower = line.word.to_ascii_lowercase();
         let numbers = match lower.as_slice() {
             b"ka" | b"kd" | b"ks" | b"ke" => 3,
-            b"ns" | b"ni" | b"d" | b"illum" => 1,
-            b"map_kd" | b"map_ks" | b"map_ns" | b"map_ke" | b"map_bump" | b"bump" | b"norm" | b"refl" => 0,
-            _ => return Ok(None),
+            b"ns" | b"ni" | b"d" | b"tr" | b"illum" | b"pr" | b"pm" => 1,
+            b"map_kd" | b"map_ks" | b"map_ns" | b"map_ke" | b"map_d" | b"map_pr" | b"map_pm" => 0,
+            b"map_bump" | b"bump" | b"disp" | b"norm" | b"map_norm" | b"refl" | b"map_refl" => 0,
+            // Ambient light is the scene's.
+            b"map_ka" => return Ok(Vec::new()),
+            _ => {
+                ignored.add(&format!("`{}`", line.keyword()), line.line);
+                return Ok(Vec::new());
+            }
         };
-        let Some(material) = self.materials.last_mut().filter(|_| *named) else {
+        let Some(entry) = self.materials.last_mut().filter(|_| *named) else {
             let warning = Error::new(format!("{} before `newmtl`", quote(line.word)), "`newmtl NAME` first");
-            return Ok(Some(warning.hint("the line is left out")));
+            return Ok(vec![warning.hint("the line is left out")]);
         };
         if numbers == 0 {
             let origin = Origin { file: path.to_owned(), line: line.line, ..Origin::default() };
-            return Ok(maps::read(material, &lower, line, origin));
+            return Ok(maps::read(entry, &lower, line, origin, ignored));
         }
         let values = match values(line, numbers) {
             Ok(values) => values,
             Err(error) if lower == b"kd" => return Err(error.hint("correct the line")),
-            Err(warning) => return Ok(Some(warning.hint("the line is left out"))),
+            Err(warning) => return Ok(vec![warning.hint("the line is left out")]),
         };
-        let Some([r, g, b]) = values else { return Ok(None) };
+        let Some([r, g, b]) = values else { return Ok(Vec::new()) };
+        let material = &mut entry.material;
         let color = Some(Color([r, g, b].map(|x| x.clamp(0.0, 1.0))));
         let (most, used): (f32, &[f32]) = match lower.as_slice() {
             b"ks" | b"ke" => (1.0, &[r, g, b]),
             b"ns" => (MAX_SHININESS, &[r]),
+            b"d" | b"tr" | b"pr" | b"pm" => (1.0, &[r]),
             _ => (f32::INFINITY, &[]),
         };
         match lower.as_slice() {
@@ -100,24 +113,64 @@ impl CheckedMtl {
                 let greatest = r.clamp(0.0, MAX_SHININESS);
                 material.shininess = Some(Shininess([greatest.min(1.0), greatest]));
             }
+            b"d" => entry.opacity = Some(r.clamp(0.0, 1.0)),
+            // Some exporters mean the opacity.
+            b"tr" if r >= 1.0 && entry.opacity.is_none() => {
+                let warning =
+                    Error::new(format!("`{} {}`, nothing to be seen", line.keyword(), number(r)), "less");
+                return Ok(vec![warning.hint("the line is left out")]);
+            }
+            b"tr" => entry.transparency = Some(r.clamp(0.0, 1.0)),
+            b"illum" => entry.illumination = Some(r),
+            b"pr" => entry.roughness = Some(r.clamp(0.0, 1.0)),
+            b"pm" => entry.metallic = Some(r.clamp(0.0, 1.0)),
             _ => {}
         }
-        Ok(used.iter().find(|x| !(0.0..=most).contains(*x)).map(|x| {
+        let beyond = used.iter().find(|x| !(0.0..=most).contains(*x));
+        Ok(Vec::from_iter(beyond.map(|x| {
             let found = format!("{} after `{}`", number(*x), line.keyword());
             Error::new(found, format!("a number from 0 to {most}")).hint("it is clamped")
-        }))
+        })))
+    }
+}
+
+/// The kinds of statements and options of a library that have no effect, each told once.
+#[derive(Debug, Default)]
+struct Ignored(Vec<(String, usize, usize)>);
+
+impl Ignored {
+    /// One on that line.
+    fn add(&mut self, kind: &str, line: usize) {
+        match self.0.iter_mut().find(|(known, ..)| known.eq_ignore_ascii_case(kind)) {
+            Some((.., count)) => *count += 1,
+            None => self.0.push((kind.to_owned(), line, 1)),
+        }
+    }
+
+    /// Warns of each kind, where it stands first.
+    fn told(self, path: &Path, warnings: &mut Warnings) {
+        for (kind, line, count) in self.0 {
+            let found = if count > 1 { format!("{kind}, {count} times") } else { kind };
+            let warning = Error::new(found, "a statement that is drawn").file(path).line(line);
+            warnings.push(warning.hint("it is left out"));
+        }
     }
 }
 
 /// The numbers of a line that should have `wanted` of them, when they are numbers at all. Colours may also be given as
 /// `spectral FILE` or `xyz X Y Z`, which is legal and not supported. One number is a grey, as the format says.
 fn values(line: &Statement<'_>, wanted: usize) -> Result<Option<[f32; 3]>, Error> {
-    if matches!(line.words().next(), Some(b"spectral" | b"xyz" | b"-halo")) {
+    if matches!(line.words().next(), Some(b"spectral" | b"xyz")) {
         return Ok(None);
     }
     let name = line.keyword();
     let form = if wanted == 3 { " r g b` with finite numbers" } else { "` and a number" };
     let broken = |found: String| Error::new(found, format!("`{name}{form}"));
+    if line.words().next() == Some(b"-halo") {
+        // The share at the rim; the other is in the middle.
+        let (_, rest) = keyword(line.rest);
+        return values(&Statement { rest, ..*line }, wanted);
+    }
     match line.numbers() {
         Err(word) => Err(broken(format!("{} after `{name}`", quote(word)))),
         Ok(([grey, _, _], 1)) => Ok(Some([grey; 3])),

@@ -2,11 +2,13 @@
 
 use crate::error::{Error, Warnings};
 use crate::load::images::Images;
+use crate::load::mtl::see_through;
 use crate::options::{Material, Wrap};
 use crate::scene::camera;
 use crate::scene::normals::narrow;
 use crate::scene::{Model, Relief};
 use crate::scene::{displace, tangents};
+use alberti::raster::color::AnyBlend;
 
 /// Gives this material to all parts of a model.
 ///
@@ -19,6 +21,18 @@ pub(crate) fn replace_materials(
 ) -> Result<(), Error> {
     let radius = narrow(camera::bounding_sphere(model).radius);
     model.parts.iter_mut().try_for_each(|part| material.apply(part, radius, images, &mut Err))
+}
+
+/// A texture or a colour of the command line replaces the colours of vertices as well, and a texture the holes of the
+/// materials' by its own.
+pub(crate) fn unmix(model: &mut Model, material: &Material, images: &mut Images) {
+    for part in &mut model.parts {
+        part.detail.colored &= material.color.is_none();
+        if material.color_map.is_some() {
+            (part.detail.blend, part.detail.alpha_test) = (AnyBlend::Replace, 0);
+            see_through(part, 1.0, images);
+        }
+    }
 }
 
 /// Moves the vertices where a height map says so, and completes what maps need: the lengths of the textures' sides on

@@ -20,8 +20,8 @@ use crate::scene::{Detail, EnvironmentKind, NormalSpace, Relief};
 #[command(next_help_heading = "Material")]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 pub struct Material {
-    /// The surface's colour.
-    #[arg(skip)]
+    /// Colour of every surface, as hexadecimal sRGB [default: the materials', else grey].
+    #[arg(long = "diffuse", value_name = "RRGGBB", allow_hyphen_values = true, help_heading = SURFACE)]
     pub color: Option<Color>,
 
     /// Image to put on every surface instead of the materials' textures.

@@ -11,8 +11,8 @@ use serde::{Deserialize, Deserializer};
 
 use super::values::{Color, Finite, Number, Point, Size};
 use super::{
-    Arithmetic, ColorFormat, Cull, DepthFormat, Dither, Filter, Fog, Interpolation, Lod, Normals, Policies,
-    Profile, ProjectionKind, Shading, Subpixel, Wrap,
+    Arithmetic, ColorFormat, Cull, DepthFormat, Dither, Filter, Fog, Interpolation, KeyLight, Lod, Normals,
+    Policies, Profile, ProjectionKind, Shading, Subpixel, Wrap,
 };
 use crate::error::Error;
 
@@ -177,6 +177,21 @@ pub struct RenderTable {
     /// The model's own: its `vn`, else its smoothing groups (`s`), else crease:60.
     #[arg(long, value_name = "HOW", help_heading = SURFACE, verbatim_doc_comment)]
     pub normals: Option<Normals>,
+
+    /// Whether surfaces that are seen from behind are lit as if they faced the viewer [default: true].
+    #[arg(long, value_name = "true|false", help_heading = SURFACE)]
+    pub two_sided: Option<bool>,
+
+    /// Direction of the main light of a model without lights, as lamp or two angles [default: -35,40].
+    ///
+    /// Angles are degrees to the right of the camera and above it. A fill and a rim light turn with it. lamp is one
+    /// light beside the camera, as built-in scenes have it.
+    #[arg(long, value_name = "AZ,EL", allow_hyphen_values = true, help_heading = SURFACE)]
+    pub light: Option<KeyLight>,
+
+    /// A ground at the lowest point, of which a soft shadow is seen. In pictures and `explain` alone.
+    #[arg(long, value_name = "true|false", num_args = 0..=1, require_equals = true, default_missing_value = "true", help_heading = SURFACE)]
+    pub ground: Option<bool>,
 
     /// Fog, by distances before the camera: none, linear:START,END, exp:DENSITY or exp2:DENSITY [default: none]
     ///

@@ -60,6 +60,12 @@ pub struct Detail {
     pub blend: AnyBlend,
     /// The least alpha that is drawn, a byte: 0 for all.
     pub alpha_test: u8,
+    /// Whether its file says something of highlights.
+    pub shiny: bool,
+    /// Whether the vertices' colours multiply its own.
+    pub colored: bool,
+    /// Factors by which its coordinates are still to be multiplied, and terms to be added then.
+    pub(crate) placed: Option<[[f32; 2]; 2]>,
 }
 
 impl Default for Detail {
@@ -83,6 +89,9 @@ impl Default for Detail {
             reflection_map: None,
             blend: AnyBlend::Replace,
             alpha_test: 0,
+            shiny: false,
+            colored: false,
+            placed: None,
         }
     }
 }
@@ -92,6 +101,12 @@ impl Detail {
     #[must_use]
     pub fn is_seen_through(&self) -> bool {
         self.blend != AnyBlend::Replace || self.alpha_test > 0
+    }
+
+    /// Whether the vertices' colours show: where a map needs tangents, there is no room for them.
+    #[must_use]
+    pub fn carries_colors(&self) -> bool {
+        self.colored && !self.needs_tangents()
     }
 
     /// Whether it needs the vertices' tangents.

@@ -1,10 +1,11 @@
-//! The order of parts: what is seen through comes after what is behind it.
+//! The order of parts and of triangles: what is seen through comes after what is behind it.
 
 use super::{Camera, Model, Part};
 use alberti::raster::color::AnyBlend;
 
 /// Puts parts that are mixed with what is behind them last, those farthest from the camera first; the others stay as
-/// they are. The distance is that of the middle of a part's box along the line of sight.
+/// they are. The distance is that of the middle of a part's box along the line of sight. Within such a part, triangles
+/// whose middles are farthest come first.
 pub(crate) fn back_to_front(model: &mut Model, camera: &Camera) {
     if model.parts.iter().all(|part| part.detail.blend == AnyBlend::Replace) {
         return;
@@ -32,6 +33,16 @@ pub(crate) fn back_to_front(model: &mut Model, camera: &Camera) {
         (Some(a), Some(b)) => b.total_cmp(a),
         _ => a.is_some().cmp(&b.is_some()),
     });
+    let along = |index: &u32| {
+        let place = model.vertices.get(*index as usize).map_or([0.0; 3], |v| v.position);
+        (0..3).map(|axis| f64::from(place[axis]) * forward[axis]).sum::<f64>()
+    };
+    for (part, _) in parts.iter_mut().filter(|(_, key)| key.is_some()) {
+        let far = |triangle: [u32; 3]| (triangle.iter().map(along).sum::<f64>(), triangle);
+        let mut triangles: Vec<_> = std::mem::take(&mut part.triangles).into_iter().map(far).collect();
+        triangles.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        part.triangles = triangles.into_iter().map(|(_, triangle)| triangle).collect();
+    }
     model.parts = parts.into_iter().map(|(part, _)| part).collect();
 }
 
@@ -39,6 +50,27 @@ pub(crate) fn back_to_front(model: &mut Model, camera: &Camera) {
 mod tests {
     use super::*;
     use crate::scene::Vertex;
+
+    #[test]
+    fn within_a_part_the_farthest_triangle_comes_first() {
+        let vertices: Vec<_> =
+            [2.0, 7.0, 4.0].map(|z| Vertex { position: [0.0, 0.0, -z], ..Vertex::default() }).to_vec();
+        let mut part = Part { triangles: vec![[0; 3], [0, 1, 1], [2; 3], [1; 3]], ..Part::default() };
+        let solid = part.clone();
+        part.detail.blend = AnyBlend::Over;
+        let mut model = Model { vertices, parts: vec![part, solid], ..Model::default() };
+        let camera = Camera {
+            eye: [0.0; 3],
+            target: [0.0, 0.0, -1.0],
+            up: [0.0, 1.0, 0.0],
+            fov: 40.0,
+            near: 0.1,
+            far: 20.0,
+        };
+        back_to_front(&mut model, &camera);
+        assert_eq!(model.parts[0].triangles, [[0; 3], [0, 1, 1], [2; 3], [1; 3]]);
+        assert_eq!(model.parts[1].triangles, [[1; 3], [0, 1, 1], [2; 3], [0; 3]]);
+    }
 
     #[test]
     fn what_is_mixed_comes_last_and_the_farthest_first() {

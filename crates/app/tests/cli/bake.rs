@@ -145,7 +145,7 @@ fn frames_differ_by_no_more_than_the_report_says() {
     let soft = folder.path("soft.png");
     let of_scene =
         [ball.to_str().expect("text"), "--texture", soft.to_str().expect("text"), "--size", "160x120"];
-    let frame = ["--profile", "reference"];
+    let frame = ["--profile", "reference", "--light", "lamp", "--two-sided", "false"];
     folder.succeeds(&[&of_scene[..], &frame].concat());
     let right = image::open(folder.path("alberti.png")).expect("a picture").to_rgb8();
     let (model, camera, _) = scene(&of_scene).expect("the scene");

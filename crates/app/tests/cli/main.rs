@@ -6,6 +6,8 @@ mod bake;
 mod compare;
 mod errors;
 mod explain;
+mod light;
+mod materials;
 mod models;
 mod policies;
 mod projection;

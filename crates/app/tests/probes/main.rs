@@ -7,7 +7,8 @@ mod quad;
 mod runs;
 
 use alberti_app::options::{
-    Arithmetic, Cull, DepthFormat, Filter, Interpolation, Policies, Projection, RenderOptions, Shading, Wrap,
+    Arithmetic, Cull, DepthFormat, Filter, Interpolation, LightOptions, Policies, Projection, RenderOptions,
+    Shading, Wrap,
 };
 use std::num::NonZero;
 
@@ -24,6 +25,7 @@ fn options((width, height): (u32, u32), policies: Policies, depth: DepthFormat) 
         depth,
         projection: Projection::Perspective,
         haze: None,
+        light: LightOptions::default(),
         threads: NonZero::new(3).expect("three"),
         policies,
     }

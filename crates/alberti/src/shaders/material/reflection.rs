@@ -9,7 +9,8 @@ use alberti_raster::Gradient;
 use alberti_texture::environment::{Environment, reflect_lanes};
 
 /// A reflection map: an image of the surroundings, which are far away, mirrored by the surface. It comes after the
-/// layers that bend the normal.
+/// layers that bend the normal, and after [`Color`](super::Color) and [`Wetness`](super::Wetness): light that is
+/// mirrored is not scattered, so that the diffuse colour loses the share.
 ///
 /// The mirrored share is, by Schlick, strength (f + (1 − f) (1 − n·v)^5), with the normal n and the direction v to the
 /// viewer. f is the share that the surface mirrors when looked at from above: 1 for a mirror, 0.04 for glass or
@@ -19,7 +20,7 @@ use alberti_texture::environment::{Environment, reflect_lanes};
 /// inexpensive BRDF model for physically-based rendering", Eurographics 1994.
 ///
 /// # Cost
-/// The direction's place in the image, as its [`Environment`] says, two maps, and some 20 operations. The derivatives
+/// The direction's place in the image, as its [`Environment`] says, two maps, and some 25 operations. The derivatives
 /// of the mirrored direction are not known, so of mip maps level 0 is read.
 #[derive(Clone, Copy, Debug)]
 pub struct Reflection<E, I, M> {
@@ -52,5 +53,6 @@ impl<V: OnSurface, E: Environment, I: Map, M: Map> Layer<V> for Reflection<E, I,
         let facing = lanes.splat(self.facing);
         let share = strength * (facing + (one - facing) * (square * square * aside));
         surface.emission = plus(lanes, surface.emission, times(lanes, mirrored, share));
+        surface.diffuse = times(lanes, surface.diffuse, one - share);
     }
 }

@@ -3,7 +3,7 @@
 use super::reads::{Levels, MapRead, Way, read, word};
 use super::{Attributes, Dressed, Surface};
 use crate::draw::maps::{any_heights, any_map};
-use crate::draw::{AMBIENT, DIFFUSE, Drawing, color};
+use crate::draw::{Drawing, color};
 use crate::options::Shading;
 use crate::scene::{self, Part, Relief};
 use alberti::lanes::Lanes;
@@ -38,8 +38,8 @@ pub(crate) struct Look {
 pub(crate) enum Light {
     /// None is asked for: the colours are as they are.
     None,
-    /// Light from beside the camera.
-    Sun { normal: [f64; 3], to_light: [f64; 3], ambient: f64, diffuse: f64, factor: f64 },
+    /// White light of a model without lights: each one's direction and strength.
+    Sun { normal: [f64; 3], lights: Vec<([f64; 3], f64)>, ambient: f64, factor: f64 },
     /// Lights by fragment, or as they were found at the vertices and interpolated.
     Lamps {
         /// The normal and the direction to the viewer; none at the vertices.
@@ -177,9 +177,12 @@ impl Drawing<'_> {
             Surface::Lit(sunlit) => {
                 let light = Light::Sun {
                     normal: three(axes[2]),
-                    to_light: self.light.coords.as_dvec3().normalize_or_zero().to_array(),
-                    ambient: AMBIENT.into(),
-                    diffuse: DIFFUSE.into(),
+                    lights: self
+                        .rig
+                        .shining()
+                        .map(|(to, strength)| (to.as_dvec3().normalize_or_zero().to_array(), strength.into()))
+                        .collect(),
+                    ambient: self.rig.ambient.into(),
                     factor: number(lanes, sunlit.light(lanes, axes[2])),
                 };
                 (uv, light)

@@ -2,51 +2,69 @@
 
 use std::path::Path;
 
+use super::{Entry, Ignored};
 use crate::error::{Error, quote};
-use crate::load::libraries::existing;
+use crate::load::paths::{existing, unquoted};
 use crate::load::statements::{Statement, keyword, number};
-use crate::options::{MapFile, Material, Origin, Wrap};
+use crate::options::{MapFile, Origin, Wrap};
 use crate::scene::EnvironmentKind;
 
 /// Puts the image that a line names into the material, and returns what there is to warn of. `lower` is the line's
 /// first word in small letters, `origin` the line.
 pub(super) fn read(
-    material: &mut Material,
+    entry: &mut Entry,
     lower: &[u8],
     line: &Statement<'_>,
     origin: Origin,
-) -> Option<Error> {
+    ignored: &mut Ignored,
+) -> Vec<Error> {
     let word = line.keyword();
     let (name, options) = options(line.rest);
-    let name = String::from_utf8_lossy(name).trim().to_owned();
+    let name = unquoted(&String::from_utf8_lossy(name)).to_owned();
     if name.is_empty() {
         let (found, expected) = (format!("`{word}` without a file"), format!("`{word} FILE`"));
-        return Some(Error::new(found, expected).hint("the line is left out"));
+        return vec![Error::new(found, expected).hint("the line is left out")];
     }
+    let mut warnings = Vec::new();
     let folder = origin.file.parent().unwrap_or(Path::new(""));
+    let found = existing(folder, &name);
+    if let Some(found) = found.as_ref().filter(|found| found.renamed) {
+        let shown = found.path.strip_prefix(folder).unwrap_or(&found.path).display().to_string();
+        let error = Error::new(format!("no file {}", quote(name.as_bytes())), "the name of an image");
+        let key = if lower == b"map_kd" { "color-map" } else { "" };
+        warnings.push(error.hint(format!("{} is used", quote(shown.as_bytes()))).about(key));
+    }
     let map = Some(MapFile {
-        path: existing(folder, &name).unwrap_or_else(|| folder.join(&name)),
+        path: found.map_or_else(|| folder.join(&name), |found| found.path),
         origin: Some(Origin { text: name, ..origin }),
         filter: None,
         wrap: options.clamp.then_some(Wrap::Clamp),
     });
-    let mut skipped = options.skipped;
+    let line_number = line.line;
+    let material = &mut entry.material;
     match lower {
         b"map_kd" => material.color_map = map,
         b"map_ks" => material.specular_map = map,
         b"map_ns" => material.shininess_map = map,
         b"map_ke" => material.emissive_map = map,
-        b"norm" => {
+        b"map_d" => entry.alpha_map = map,
+        b"map_pr" => entry.roughness_map = map,
+        b"map_pm" => entry.metallic_map = map,
+        b"norm" | b"map_norm" => {
             material.normal_map = map;
             material.normal_strength = options.multiplier.map(|x| x.clamp(0.0, 100.0).into());
         }
-        b"refl" => {
+        b"refl" | b"map_refl" => {
             if let Some(kind) = options.kind.filter(|kind| *kind != b"sphere") {
                 let found = format!("`{word}` of type {}", quote(kind));
-                return Some(Error::new(found, "`-type sphere`").hint("the line is left out"));
+                warnings.push(Error::new(found, "`-type sphere`").hint("the line is left out"));
+                return warnings;
             }
             material.environment = map;
             material.environment_kind = Some(EnvironmentKind::Sphere);
+        }
+        b"disp" if material.height_map.is_some() => {
+            ignored.add(&format!("`{word}` beside `bump`"), line_number);
         }
         _ => {
             material.height_map = map;
@@ -55,13 +73,25 @@ pub(super) fn read(
     }
     if let Some(found) = options.broken {
         let found = format!("{} after `-bm`", quote(found));
-        return Some(Error::new(found, "a finite number").hint("the option is left out"));
+        warnings.push(Error::new(found, "a finite number").hint("the option is left out"));
     }
-    skipped |= options.multiplier.is_some() && !matches!(lower, b"bump" | b"map_bump" | b"norm");
-    skipped.then(|| {
-        let (found, expected) = (format!("`{word}` with options"), format!("`{word} FILE`"));
-        Error::new(found, expected).hint("the options are left out")
-    })
+    let bumpy = matches!(lower, b"bump" | b"map_bump" | b"disp" | b"norm" | b"map_norm");
+    if options.multiplier.is_some() && !bumpy {
+        ignored.add(&format!("`-bm` of `{word}`"), line_number);
+    }
+    for option in &options.skipped {
+        ignored.add(&format!("`{}` of textures", String::from_utf8_lossy(option)), line_number);
+    }
+    // All maps of a material lie on its surface as its texture does.
+    if let Some(placed) = options.placed() {
+        match entry.placed {
+            Some(other) if other != placed && lower != b"map_kd" => {
+                ignored.add(&format!("`-s` or `-o` of `{word}`, another than of the texture"), line_number);
+            }
+            _ => entry.placed = Some(placed),
+        }
+    }
+    warnings
 }
 
 /// The options before the file's name.
@@ -74,8 +104,19 @@ struct Options<'a> {
     broken: Option<&'a [u8]>,
     /// `-type`.
     kind: Option<&'a [u8]>,
-    /// Whether there are others.
-    skipped: bool,
+    /// `-s` and `-o`.
+    scale: Option<[f32; 2]>,
+    offset: Option<[f32; 2]>,
+    /// Others.
+    skipped: Vec<&'a [u8]>,
+}
+
+impl Options<'_> {
+    /// The factors of coordinates, and the terms added then, if these change them.
+    fn placed(&self) -> Option<[[f32; 2]; 2]> {
+        let placed = [self.scale.unwrap_or([1.0; 2]), self.offset.unwrap_or([0.0; 2])];
+        (placed != [[1.0; 2], [0.0; 2]]).then_some(placed)
+    }
 }
 
 /// The file's name after the options of a texture line, and those. Names may hold spaces.
@@ -84,7 +125,7 @@ fn options(rest: &[u8]) -> (&[u8], Options<'_>) {
     let mut options = Options::default();
     while rest.first() == Some(&b'-') {
         let (option, mut after) = keyword(rest);
-        let (least, most) = match option {
+        let (least, most) = match option.to_ascii_lowercase().as_slice() {
             b"-blendu" | b"-blendv" | b"-cc" | b"-clamp" | b"-imfchan" | b"-type" => (1, 1),
             b"-texres" | b"-boost" | b"-bm" => (1, 1),
             b"-mm" => (2, 2),
@@ -93,21 +134,28 @@ fn options(rest: &[u8]) -> (&[u8], Options<'_>) {
             _ => break,
         };
         let first = keyword(after).0;
-        for n in 0..most {
+        let mut numbers = [None; 3];
+        for (n, slot) in numbers.iter_mut().enumerate().take(most) {
             let (argument, next) = keyword(after);
             if n >= least && number(argument).is_none() {
                 break;
             }
+            *slot = number(argument);
             after = next;
         }
-        match option {
+        let pair = |missing: f32| [0, 1].map(|k: usize| numbers[k].unwrap_or(missing));
+        match option.to_ascii_lowercase().as_slice() {
             b"-clamp" => options.clamp = first.eq_ignore_ascii_case(b"on"),
             b"-bm" => {
                 options.multiplier = number(first);
                 options.broken = options.multiplier.is_none().then_some(first);
             }
             b"-type" => options.kind = Some(first),
-            _ => options.skipped = true,
+            b"-s" => options.scale = Some(pair(1.0)),
+            b"-o" => options.offset = Some(pair(0.0)),
+            // The defaults.
+            b"-blendu" | b"-blendv" if first.eq_ignore_ascii_case(b"on") => {}
+            _ => options.skipped.push(option),
         }
         rest = after;
     }

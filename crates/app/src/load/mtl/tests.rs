@@ -1,5 +1,5 @@
 use super::*;
-use crate::options::Wrap;
+use crate::options::{Material, Wrap};
 use crate::scene::EnvironmentKind;
 
 fn run(text: &[u8]) -> (CheckedMtl, Vec<String>) {
@@ -12,14 +12,124 @@ fn run(text: &[u8]) -> (CheckedMtl, Vec<String>) {
 fn only_what_is_used_is_passed_on() {
     let (checked, warnings) =
         run(b"newmtl a b\r\n\tKa 0 0 0\n Kd 1 0.5 0 # x\nKd 0.5\nillum 2\nmap_Kd wood 1.png\nTf\n");
-    assert_eq!(checked.materials[0].color, Some(Color([0.5; 3])));
-    let map = checked.materials[0].color_map.clone().expect("a map");
+    assert_eq!(checked.materials[0].material.color, Some(Color([0.5; 3])));
+    let map = checked.materials[0].material.color_map.clone().expect("a map");
     assert_eq!(
         (map.path, map.origin.map(|o| (o.line, o.text))),
         ("wood 1.png".into(), Some((6, "wood 1.png".into())))
     );
     assert_eq!(checked.names, HashMap::from([("a b".to_owned(), 0)]));
-    assert!(warnings.is_empty(), "{warnings:?}");
+    let expected = "m.mtl:7: found `Tf`, expected a statement that is drawn; it is left out";
+    assert_eq!(warnings, [expected]);
+}
+
+#[test]
+fn each_kind_that_is_ignored_is_told_once() {
+    let text = b"newmtl a\nTf 1 1 1\nNi 1\nKa 0 0 0\nmap_Ka x\nKM 1\nnewmtl b\ntf 0 0 0\nbump b\ndisp d\nbump -t 1 c\n";
+    let (_, warnings) = run(text);
+    let told = [
+        "2: found `Tf`, 2 times,",
+        "6: found `KM`,",
+        "10: found `disp` beside `bump`,",
+        "11: found `-t` of textures,",
+    ];
+    assert_eq!(warnings.len(), told.len(), "{warnings:?}");
+    for (warning, told) in warnings.iter().zip(told) {
+        assert!(warning.starts_with(&format!("m.mtl:{told} expected")), "{warning}");
+    }
+}
+
+#[test]
+fn keywords_count_in_any_letters() {
+    let text = "newmtl a\nKd 1 0 0\nKs 0 1 0\nNs 9\nd 0.25\nPr 0.5\nPm 0\nillum 2\nmap_Kd A.png\nmap_d D.png\nnorm N\n";
+    let lower = text.replace("Kd", "kd").replace("Ks", "ks").replace("Ns", "ns").replace('P', "p");
+    let upper = text.replace("newmtl", "NEWMTL").replace("illum", "ILLUM").replace("map_", "MAP_");
+    let upper = upper.replace("d 0.25", "D 0.25").replace("norm", "Norm");
+    let found = run(text.as_bytes()).0.materials;
+    assert!(
+        found[0].opacity == Some(0.25) && found[0].alpha_map.is_some() && found[0].roughness == Some(0.5)
+    );
+    for other in [lower, upper] {
+        assert_eq!(run(other.as_bytes()).0.materials, found, "{other}");
+    }
+}
+
+/// A material's highlight: its colour in red, and its exponent.
+fn highlight(text: &str) -> (f32, f32) {
+    let drawn = run(format!("newmtl a\nKd 0.5 0.5 0.5\n{text}\n").as_bytes()).0.materials[0].drawn();
+    let specular = drawn.specular.map_or(f32::NAN, |Color([red, ..])| red);
+    (specular, drawn.shininess.map_or(0.0, |Shininess([_, greatest])| greatest))
+}
+
+#[test]
+fn highlights_are_those_of_the_file() {
+    for (text, expected) in [
+        ("", (0.0, 0.0)),
+        ("Ks 0 0 0\nNs 90", (0.0, 90.0)),
+        ("Ks .5 .5 .5\nNs 90", (0.5, 90.0)),
+        ("Ks .5 .5 .5", (0.5, 0.0)),
+        ("Ks .5 .5 .5\nNs 90\nillum 2", (0.5, 90.0)),
+        ("Ks .5 .5 .5\nNs 90\nillum 1", (0.0, 90.0)),
+        ("Ks .5 .5 .5\nNs 0", (0.0, 0.0)),
+        ("Ks .5 .5 .5\nNs 2", (0.125, 2.0)),
+    ] {
+        assert_eq!(highlight(text), expected, "{text}");
+    }
+    // alpha = 0.25: 2/alpha² - 2 = 30, and 0.04 (30 + 8)/8.
+    let (specular, exponent) = highlight("Pr 0.5");
+    assert!((specular - 0.19).abs() < 1e-5 && (exponent - 30.0).abs() < 1e-4, "{specular} {exponent}");
+    // Metal mirrors in its own colour, as much of that as there is.
+    assert!((highlight("Pr 0.9\nPm 1").0 - 0.5 * (1.048_32 + 8.0) / 8.0 * 1.048_32 / 8.0).abs() < 1e-3);
+    assert!(highlight("Pr 1\nPm 1").0.abs() <= 0.0);
+    assert_eq!(highlight("Ks .5 .5 .5\nNs 90\nPr 1\nPm 0"), (0.5, 90.0));
+}
+
+#[test]
+fn opacity_comes_before_transparency() {
+    for (text, opacity, warned) in [
+        ("", 1.0, 0),
+        ("d 0.25", 0.25, 0),
+        ("Tr 0.75", 0.25, 0),
+        ("d 0.5\nTr 0.75", 0.5, 0),
+        ("Tr 0.75\nd 0.5", 0.5, 0),
+        ("d -halo 0.5", 0.5, 0),
+        ("Tr 1", 1.0, 1),
+        ("d 2", 1.0, 1),
+    ] {
+        let (checked, warnings) = run(format!("newmtl a\n{text}\n").as_bytes());
+        assert!((checked.materials[0].opacity() - opacity).abs() < 1e-6, "{text}");
+        assert_eq!(warnings.len(), warned, "{text} {warnings:?}");
+    }
+}
+
+#[test]
+fn textures_are_placed() {
+    let placed = |text: &str| {
+        let (checked, warnings) = run(format!("newmtl a\n{text}\n").as_bytes());
+        (checked.materials[0].placed, warnings.len())
+    };
+    assert_eq!(placed("map_Kd -s 2 3 1 -o .5 .25 0 a.png"), (Some([[2.0, 3.0], [0.5, 0.25]]), 0));
+    assert_eq!(placed("map_Kd -s 1 1 1 -o 0 0 0 a.png"), (None, 0));
+    assert_eq!(placed("map_Kd -s 2 2 a\nbump -s 2 2 b"), (Some([[2.0, 2.0], [0.0, 0.0]]), 0));
+    assert_eq!(placed("map_Kd -s 2 2 a\nbump -s 3 3 b"), (Some([[2.0, 2.0], [0.0, 0.0]]), 1));
+}
+
+#[test]
+fn alpha_is_holes_or_shades() {
+    let texels = |alphas: &[u8]| alphas.iter().map(|&alpha| [9, 9, 9, alpha]).collect::<Vec<_>>();
+    for (alphas, expected) in [
+        (&[255; 20][..], Alpha::Opaque),
+        (&[0; 20], Alpha::Opaque),
+        (&[250; 20], Alpha::Opaque),
+        (&[0, 255, 255, 0], Alpha::Holes),
+        (&[100; 20], Alpha::Shades),
+        (&[0, 0, 255, 128], Alpha::Shades),
+    ] {
+        assert_eq!(Alpha::of(&texels(alphas)), expected, "{alphas:?}");
+    }
+    let mut rims = [255; 40];
+    rims[..3].copy_from_slice(&[0, 60, 200]);
+    assert_eq!(Alpha::of(&texels(&rims)), Alpha::Holes);
 }
 
 #[test]
@@ -50,7 +160,7 @@ fn broken_lines_are_left_out_and_named() {
         ("newmtl", "found `newmtl` without a name"),
     ] {
         let (checked, warnings) = run(format!("newmtl a\n{line}\n").as_bytes());
-        assert_eq!(checked.materials, [Material::default()]);
+        assert_eq!(checked.materials, [Entry::default()]);
         assert_eq!(warnings.len(), 1);
         assert!(warnings[0].starts_with(&format!("m.mtl:2: {found}")), "{warnings:?}");
     }
@@ -59,21 +169,22 @@ fn broken_lines_are_left_out_and_named() {
 #[test]
 fn lines_before_a_name_are_left_out() {
     let (checked, warnings) = run(b"Kd 1 1 1\nnewmtl\nKd 0 0 0\nnewmtl b\n");
-    assert_eq!(checked.materials, [Material::default()]);
+    assert_eq!(checked.materials, [Entry::default()]);
     assert_eq!(checked.names, HashMap::from([("b".to_owned(), 0)]));
     assert_eq!(warnings.len(), 3);
 }
 
 #[test]
 fn options_of_textures_are_skipped() {
-    let name = |checked: &CheckedMtl| checked.materials[0].color_map.clone().map(|map| map.path);
+    let name = |checked: &CheckedMtl| checked.materials[0].material.color_map.clone().map(|map| map.path);
     for (line, warned) in [
-        ("-s 1 2 3 a b.png", 1),
+        ("-s 1 2 3 a b.png", 0),
         ("-mm 0 1 -o 0.5 a b.png", 1),
         ("-bm 1 a b.png", 1),
         ("-clamp on a b.png", 0),
         ("-clamp off a b.png", 0),
-        ("-clamp on -o 1 a b.png", 1),
+        ("-clamp on -o 1 a b.png", 0),
+        ("-mm 0 1 -cc on -blendu on a b.png", 2),
     ] {
         let (checked, warnings) = run(format!("newmtl x\nmap_Kd {line}").as_bytes());
         assert_eq!(name(&checked), Some("a b.png".into()));
@@ -82,7 +193,7 @@ fn options_of_textures_are_skipped() {
     let (checked, _) = run(b"newmtl x\nmap_Kd -a.png");
     assert_eq!(name(&checked), Some("-a.png".into()));
     let (checked, _) = run(b"newmtl x\nmap_Kd -clamp on a.png");
-    assert_eq!(checked.materials[0].color_map.as_ref().and_then(|map| map.wrap), Some(Wrap::Clamp));
+    assert_eq!(checked.materials[0].material.color_map.as_ref().and_then(|map| map.wrap), Some(Wrap::Clamp));
 }
 
 #[test]
@@ -99,7 +210,7 @@ fn numbers_out_of_range_are_clamped_and_named() {
         assert_eq!(warnings.len(), 1, "{line} {warnings:?}");
         assert!(warnings[0].starts_with(&format!("m.mtl:2: {found}")), "{warnings:?}");
         let Material { shininess, specular, emissive, normal_strength, height_scale, .. } =
-            &checked.materials[0];
+            &checked.materials[0].material;
         assert!(shininess.iter().flat_map(|n| n.0).all(|n| (0.0..=65536.0).contains(&n)));
         assert!(
             [specular, emissive].into_iter().flatten().flat_map(|c| c.0).all(|x| (0.0..=1.0).contains(&x))
@@ -113,7 +224,7 @@ fn all_maps_are_read() {
     let (checked, warnings) = run(b"newmtl x\nmap_Ks s\nmap_Ns n\nKs .5 1 0\nNs 40\nKe 1\nmap_Ke e\n\
         bump -bm 3 b\nnorm m\nrefl -type sphere r");
     assert!(warnings.is_empty(), "{warnings:?}");
-    let found = &checked.materials[0];
+    let found = &checked.materials[0].material;
     assert_eq!(
         (found.specular, found.shininess),
         (Some(Color([0.5, 1.0, 0.0])), Some(Shininess([1.0, 40.0])))
@@ -136,7 +247,7 @@ fn all_maps_are_read() {
 #[test]
 fn sides_of_a_cube_are_left_out() {
     let (checked, warnings) = run(b"newmtl x\nrefl -type cube_top t.png\n");
-    assert_eq!(checked.materials[0].environment, None);
+    assert_eq!(checked.materials[0].material.environment, None);
     assert!(warnings[0].starts_with("m.mtl:2: found `refl` of type \"cube_top\""), "{warnings:?}");
 }
 

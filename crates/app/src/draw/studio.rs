@@ -1,0 +1,196 @@
+//! The light of a model that has none: one lamp, or a key light with two that make shapes plain.
+
+use super::{AMBIENT, DIFFUSE, frame};
+use crate::options::KeyLight;
+use crate::scene::Camera;
+use alberti::glam::Vec3;
+use alberti::lanes::Lanes;
+use alberti::shaders::{Sunlit, Unlit};
+use alberti::{FragmentStage, Fragments, Rgba8, Varying, Vector3};
+
+/// Light that falls everywhere, and white lights, each a unit vector towards it and its strength.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rig {
+    pub(crate) ambient: f32,
+    /// The key light, which counts alone where the others have no strength; fill light, and rim light.
+    pub(crate) lights: [(Vec3, f32); 3],
+}
+
+/// Light from everywhere, from the key light, from the other side, and from behind. They are weaker where a
+/// surface would get more than 1.
+const STUDIO: (f32, [f32; 3]) = (0.2, [0.7, 0.22, 0.2]);
+
+/// The directions of fill and rim light: degrees to the right of the key light, and above the camera.
+const BESIDE: [[f32; 2]; 2] = [[85.0, 5.0], [190.0, 35.0]];
+
+impl Rig {
+    /// That of a camera.
+    pub(super) fn new(camera: &Camera, key: KeyLight) -> Self {
+        let none = (Vec3::Y, 0.0);
+        let KeyLight::Studio([azimuth, elevation]) = key else {
+            return Self { ambient: AMBIENT, lights: [(super::to_light(camera), DIFFUSE), none, none] };
+        };
+        let axes = frame(camera).ok().map(|frame| frame.axes());
+        let towards = |azimuth: f32, elevation: f32| {
+            let ((right, near), (up, level)) =
+                (azimuth.to_radians().sin_cos(), elevation.to_radians().sin_cos());
+            let to_light = Vec3::new(right * level, up, -near * level);
+            axes.map_or(Vec3::Y, |axes| (axes * to_light).normalize())
+        };
+        let (ambient, [main, fill, rim]) = STUDIO;
+        let [[a, b], [c, d]] = BESIDE;
+        let to_lights = [towards(azimuth, elevation), towards(azimuth + a, b), towards(azimuth + c, d)];
+        // The most that a surface gets is the longest sum of some of the vectors.
+        let sum = |subset: u32| {
+            let vectors = to_lights.into_iter().zip([main, fill, rim]).zip(0..);
+            vectors
+                .filter(|(_, k)| subset >> k & 1 != 0)
+                .map(|((to, strength), _)| to * strength)
+                .sum::<Vec3>()
+        };
+        let most = (1..8).map(|subset| sum(subset).length()).fold(0.0, f32::max);
+        let share = ((1.0 - ambient) / most).min(1.0);
+        Self { ambient, lights: [0, 1, 2].map(|k| (to_lights[k], [main, fill, rim][k] * share)) }
+    }
+
+    /// The lights that have some strength.
+    pub(crate) fn shining(&self) -> impl Iterator<Item = (Vec3, f32)> {
+        self.lights.into_iter().filter(|&(_, strength)| strength > 0.0)
+    }
+}
+
+/// A map in the light of a rig. Of one lamp it is the library's [`Sunlit`], to the bit.
+#[derive(Clone, Copy)]
+pub(super) struct Lamplit<M> {
+    lamp: Sunlit<Unlit<M>>,
+    map: Unlit<M>,
+    rig: Rig,
+    /// Whether there is more than one lamp.
+    more: bool,
+}
+
+impl<M: Copy> Lamplit<M> {
+    pub(super) fn new(map: M, rig: Rig) -> Self {
+        let (to_light, strength) = rig.lights[0];
+        let lamp = Sunlit::new(Unlit(map), Vector3::new(to_light), rig.ambient, strength);
+        Self { lamp, map: Unlit(map), rig, more: rig.shining().count() > 1 }
+    }
+
+    /// The factor for the colours of a surface with this normal.
+    #[inline(always)]
+    pub(super) fn light<L: Lanes>(&self, lanes: L, normal: [L::Number; 3]) -> L::Number {
+        if self.more { self.sum(lanes, normal) } else { self.lamp.light(lanes, normal) }
+    }
+
+    /// The same of three lights: ambient + Σ strength · max(0, n·l).
+    #[inline(always)]
+    fn sum<L: Lanes>(&self, lanes: L, [x, y, z]: [L::Number; 3]) -> L::Number {
+        let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
+        let scale = one / lanes.sqrt(x * x + y * y + z * z);
+        let mut sum = lanes.splat(self.rig.ambient);
+        for (Vec3 { x: lx, y: ly, z: lz }, strength) in self.rig.lights {
+            let cosine = (x * lanes.splat(lx) + y * lanes.splat(ly) + z * lanes.splat(lz)) * scale;
+            // As in `Sunlit`, a normal without a direction takes none.
+            let facing = lanes.select(lanes.less(zero, cosine), lanes.min(cosine, one), zero);
+            sum = sum + lanes.splat(strength) * facing;
+        }
+        sum
+    }
+}
+
+impl<V: Varying, M: Copy> FragmentStage<(Vec3, V)> for Lamplit<M>
+where
+    Unlit<M>: FragmentStage<V, Color = Rgba8>,
+{
+    type Color = Rgba8;
+    type Derivatives = <Unlit<M> as FragmentStage<V>>::Derivatives;
+    const WIDE: bool = <Unlit<M> as FragmentStage<V>>::WIDE;
+
+    fn derivatives(&self) -> Self::Derivatives {
+        self.map.derivatives()
+    }
+
+    #[inline(always)]
+    fn shade<L: Lanes>(&self, fragments: &Fragments<L, (Vec3, V)>) -> (L::U32, L::Mask) {
+        if !self.more {
+            return self.lamp.shade(fragments);
+        }
+        let (lanes, (normal, _)) = (fragments.lanes, fragments.varying);
+        let (color, mask) = self.map.shade(&fragments.part(|(_, varying)| *varying));
+        let (light, byte) = (self.sum(lanes, normal), lanes.word(255));
+        let lit = |shift: u32| {
+            let channel = lanes.to_numbers(lanes.shr(color, shift) & byte);
+            lanes.shl(lanes.nearest_byte(channel * light), shift)
+        };
+        (lit(0) | lit(8) | lit(16) | (color & lanes.word(0xff00_0000)), mask)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CAMERA: Camera = Camera {
+        eye: [0.0, 0.0, 5.0],
+        target: [0.0; 3],
+        up: [0.0, 1.0, 0.0],
+        fov: 40.0,
+        near: 1.0,
+        far: 9.0,
+    };
+
+    fn light(rig: &Rig, normal: Vec3) -> f32 {
+        rig.shining()
+            .fold(rig.ambient, |sum, (to_light, strength)| sum + strength * normal.dot(to_light).max(0.0))
+    }
+
+    /// Whatever is white stays below white, and no side is as dark as the ambient light but from below and behind.
+    #[test]
+    fn nothing_is_clipped() {
+        for key in [
+            KeyLight::Lamp,
+            KeyLight::STUDIO,
+            KeyLight::Studio([120.0, -20.0]),
+            KeyLight::Studio([0.0, 90.0]),
+        ] {
+            let rig = Rig::new(&CAMERA, key);
+            let mut most = 0.0_f32;
+            for k in 0..20_000_u16 {
+                let (z, turn) = (f32::from(k) / 10_000.0 - 1.0, f32::from(k) * 2.399_963);
+                let around = (1.0 - z * z).max(0.0).sqrt();
+                most = most.max(light(&rig, Vec3::new(around * turn.cos(), around * turn.sin(), z)));
+            }
+            assert!(most < 1.000_01 && most > 0.85, "{key:?} {most}");
+        }
+    }
+
+    /// The sides of a box that a camera sees from a corner differ by a tenth of white at least.
+    #[test]
+    fn the_sides_of_a_box_differ() {
+        let camera = Camera { eye: [3.0, 2.25, 5.0], ..CAMERA };
+        let rig = Rig::new(&camera, KeyLight::STUDIO);
+        let [right, top, front] = [Vec3::X, Vec3::Y, Vec3::Z].map(|normal| light(&rig, normal));
+        for (a, b) in [(right, top), (top, front), (front, right)] {
+            assert!((a - b).abs() > 0.1, "{right} {top} {front}");
+        }
+    }
+
+    /// A stage of one sample, and of a key light in the direction that is asked for.
+    #[test]
+    fn fragments_get_the_sum() {
+        let rig = Rig::new(&CAMERA, KeyLight::Studio([90.0, 0.0]));
+        assert!((rig.lights[0].0 - Vec3::X).length() < 1e-6);
+        for rig in [rig, Rig::new(&CAMERA, KeyLight::Lamp)] {
+            let stage = Lamplit::new(Rgba8::new(200, 100, 50, 77), rig);
+            for normal in [Vec3::X, Vec3::new(0.3, 3.0, -0.5), Vec3::new(-1.0, 0.2, 0.4)] {
+                let expected = light(&rig, normal.normalize());
+                let color =
+                    stage.shade_one((normal, alberti::glam::Vec2::ZERO)).expect("a colour").to_bytes();
+                for (found, of) in color.into_iter().zip([200.0, 100.0, 50.0]) {
+                    assert!((f32::from(found) - of * expected).abs() < 0.51, "{color:?} {expected}");
+                }
+                assert_eq!(color[3], 77);
+            }
+        }
+    }
+}

@@ -1,0 +1,167 @@
+//! A material as an MTL file says it, and as it is drawn.
+
+use crate::error::Error;
+use crate::load::images::Images;
+use crate::options::values::{Color, MAX_SHININESS, Shininess};
+use crate::options::{MapFile, Material};
+use crate::scene::{Detail, Map, Part};
+use alberti::raster::color::AnyBlend;
+
+/// The exponent below which a highlight is so broad that it fades, to none at 0.
+const BROAD: f32 = 8.0;
+
+/// The greatest exponent of a roughness map without a `Pr`.
+const POLISHED: f32 = 256.0;
+
+/// The share of light that a surface that is no metal mirrors head-on.
+const DIELECTRIC: f32 = 0.04;
+
+/// A material of a library.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Entry {
+    /// The lines that say what a scene file can say.
+    pub(crate) material: Material,
+    /// `d`.
+    pub(crate) opacity: Option<f32>,
+    /// `Tr`, which counts where there is no `d`.
+    pub(crate) transparency: Option<f32>,
+    /// `map_d`.
+    pub(crate) alpha_map: Option<MapFile>,
+    /// `illum`.
+    pub(crate) illumination: Option<f32>,
+    /// `Pr`, `Pm` and their maps.
+    pub(crate) roughness: Option<f32>,
+    pub(crate) metallic: Option<f32>,
+    pub(crate) roughness_map: Option<MapFile>,
+    pub(crate) metallic_map: Option<MapFile>,
+    /// `-s` and `-o` of its textures: factors of coordinates, and terms added then.
+    pub(crate) placed: Option<[[f32; 2]; 2]>,
+}
+
+impl Entry {
+    /// The material that is drawn: with highlights where the file has such.
+    pub(crate) fn drawn(&self) -> Material {
+        let mut drawn = self.material.clone();
+        let matt = self.illumination.is_some_and(|model| model < 2.0);
+        let metal = self.metallic.unwrap_or(0.0);
+        if let Some(roughness) = self.roughness.filter(|_| drawn.shininess.is_none()) {
+            // The exponent of Blinn's highlight that is as wide as that of a microfacet surface.
+            let alpha = (roughness * roughness).max(0.001);
+            let exponent = (2.0 / (alpha * alpha) - 2.0).clamp(0.0, MAX_SHININESS);
+            drawn.shininess = Some(Shininess([exponent.min(1.0), exponent]));
+        } else if self.roughness_map.is_some() && drawn.shininess.is_none() {
+            drawn.shininess = Some(Shininess([1.0, POLISHED]));
+        }
+        let physical = self.roughness.is_some() || self.metallic.is_some() || self.roughness_map.is_some();
+        let exponent = drawn.shininess.map(|Shininess([_, greatest])| greatest);
+        if matt {
+            (drawn.specular, drawn.specular_map) = (Some(Color([0.0; 3])), None);
+        } else if drawn.specular.is_none() && drawn.specular_map.is_none() {
+            let Color(color) = drawn.color.unwrap_or(Color([0.8; 3]));
+            // The height of a highlight that keeps its light as it narrows.
+            let height = (exponent.unwrap_or(32.0) + 8.0) / 8.0;
+            let mirrored = |c: f32| ((DIELECTRIC + (c - DIELECTRIC) * metal) * height).clamp(0.0, 1.0);
+            drawn.specular = Some(Color(if physical { color.map(mirrored) } else { [0.0; 3] }));
+        }
+        if let (Some(Color(color)), Some(exponent)) = (&mut drawn.specular, exponent) {
+            *color = color.map(|c| c * (exponent / BROAD).min(1.0));
+        }
+        if metal > 0.0 {
+            let Color(color) = drawn.color.unwrap_or(Color([0.8; 3]));
+            drawn.color = Some(Color(color.map(|c| c * (1.0 - 0.5 * metal))));
+            if drawn.environment.is_some() && drawn.reflection.is_none() {
+                drawn.reflection = Some(metal.into());
+            }
+        }
+        if let Some(map) = &self.metallic_map {
+            if drawn.environment.is_some() {
+                drawn.reflection_map = Some(map.clone());
+            } else if drawn.specular_map.is_none() && !matt {
+                drawn.specular_map = Some(map.clone());
+            }
+        }
+        drawn
+    }
+
+    /// The share of light that does not go through: `d` before `Tr`.
+    pub(crate) fn opacity(&self) -> f32 {
+        self.opacity.or(self.transparency.map(|share| 1.0 - share)).unwrap_or(1.0)
+    }
+
+    /// Gives a part what goes beyond a scene file's materials.
+    ///
+    /// # Errors
+    /// Those that `warn` passes on.
+    pub(crate) fn complete(
+        &self,
+        part: &mut Part,
+        images: &mut Images,
+        warn: &mut dyn FnMut(Error) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let mut read = |map: &Option<MapFile>, images: &mut Images| match map {
+            None => Ok(None),
+            Some(map) => images.texture(map).or_else(|error| warn(error).map(|()| None)),
+        };
+        if let (Some(image), None) = (read(&self.roughness_map, images)?, part.detail.shininess_map) {
+            let wrap = self.roughness_map.as_ref().and_then(|map| map.wrap);
+            part.detail.shininess_map = Some(Map { image: images.inverted(image), filter: None, wrap });
+        }
+        let alpha = read(&self.alpha_map, images)?;
+        if let Some(alpha) = alpha {
+            part.texture = Some(images.with_alpha(part.texture, alpha));
+        }
+        see_through(part, self.opacity(), images);
+        part.detail.placed = self.placed;
+        Ok(())
+    }
+}
+
+/// Has what is behind a part show through it: where it is glass, or where its texture has holes.
+///
+/// A texture whose alpha is nearly everywhere all or nothing is cut out, in any order and with depths. Others are mixed
+/// with what is behind them, from the back to the front.
+pub(crate) fn see_through(part: &mut Part, opacity: f32, images: &mut Images) {
+    let alpha = part.texture.map_or(Alpha::Opaque, |image| images.alpha(image));
+    let byte = crate::options::byte(opacity);
+    let Detail { blend, alpha_test, .. } = &mut part.detail;
+    match (alpha, byte) {
+        (Alpha::Opaque, 255) => {}
+        (Alpha::Opaque, _) => *blend = AnyBlend::Constant(byte),
+        (Alpha::Holes, 255) => *alpha_test = 128,
+        (_, 255) => *blend = AnyBlend::Over,
+        (_, _) => {
+            part.texture = part.texture.map(|image| images.faded(image, byte));
+            *blend = AnyBlend::Over;
+        }
+    }
+}
+
+/// The alpha of a texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Alpha {
+    /// 255 everywhere; or 0 everywhere, where it means nothing.
+    Opaque,
+    /// All or nothing, but for the rims.
+    Holes,
+    /// Anything between.
+    Shades,
+}
+
+impl Alpha {
+    /// Of these texels: holes, if at most a tenth of those that show are between.
+    pub(crate) fn of(texels: &[[u8; 4]]) -> Self {
+        let count = |is: &dyn Fn(u8) -> bool| texels.iter().filter(|&&[.., alpha]| is(alpha)).count();
+        let (shown, least) = (count(&|alpha| alpha >= 8), count(&|alpha| alpha < 255));
+        if shown == 0 || least == 0 {
+            return Self::Opaque;
+        }
+        let between = count(&|alpha| (8..248).contains(&alpha));
+        if 10 * between > shown {
+            Self::Shades
+        } else if between == 0 && shown == texels.len() {
+            Self::Opaque
+        } else {
+            Self::Holes
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! Files by the names that models give them, which were often written on another machine.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A file that a name means.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Found {
+    pub(crate) path: PathBuf,
+    /// Whether it has another name: in other letters, or without the folders before it.
+    pub(crate) renamed: bool,
+}
+
+/// The name without quotes around it.
+pub(crate) fn unquoted(name: &str) -> &str {
+    let name = name.trim();
+    let within = |quote: char| name.strip_prefix(quote).and_then(|rest| rest.strip_suffix(quote));
+    within('"').or_else(|| within('\'')).unwrap_or(name).trim()
+}
+
+/// The file of that name in the folder. Files written on Windows may have `\` between folders. What is not there may be
+/// there with other capitals, or beside the file that names it, without the folders of another machine.
+pub(crate) fn existing(folder: &Path, name: &str) -> Option<Found> {
+    if name.is_empty() {
+        return None;
+    }
+    let slashed = name.replace('\\', "/");
+    for name in [name, slashed.as_str()] {
+        let path = folder.join(name);
+        if path.exists() {
+            return Some(Found { path, renamed: false });
+        }
+    }
+    let base = slashed.rsplit('/').next().filter(|base| !base.is_empty())?;
+    let relative = !slashed.starts_with('/') && slashed.as_bytes().get(1) != Some(&b':');
+    let found = relative.then(|| without_case(folder, &slashed)).flatten();
+    let found = found.or_else(|| Some(folder.join(base)).filter(|path| path.exists()));
+    let path = found.or_else(|| without_case(folder, base))?;
+    Some(Found { path, renamed: true })
+}
+
+/// The file whose name is this but for capitals, folder by folder.
+fn without_case(folder: &Path, name: &str) -> Option<PathBuf> {
+    let mut path = folder.to_owned();
+    for part in name.split('/').filter(|part| !part.is_empty() && *part != ".") {
+        let next = path.join(part);
+        if part == ".." || next.exists() {
+            path = next;
+            continue;
+        }
+        let here = if path.as_os_str().is_empty() { Path::new(".") } else { &path };
+        let lower = part.to_lowercase();
+        let mut names: Vec<_> = fs::read_dir(here)
+            .ok()?
+            .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+            .filter(|name| name.to_lowercase() == lower)
+            .collect();
+        // The order in a folder is none.
+        names.sort();
+        path = path.join(names.first()?);
+    }
+    path.exists().then_some(path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_other_machines_are_found() {
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::create_dir(folder.path().join("Maps")).expect("a folder");
+        for name in ["wood.png", "Maps/Stone.PNG"] {
+            fs::write(folder.path().join(name), "x").expect("a file");
+        }
+        for (name, found, renamed) in [
+            ("wood.png", "wood.png", false),
+            ("Maps\\Stone.PNG", "Maps/Stone.PNG", false),
+            ("./wood.png", "./wood.png", false),
+            ("WOOD.png", "wood.png", true),
+            ("maps\\stone.png", "Maps/Stone.PNG", true),
+            ("C:\\Users\\x\\wood.png", "wood.png", true),
+            ("C:/Users/x/Wood.PNG", "wood.png", true),
+            ("/home/x/wood.png", "wood.png", true),
+            ("textures/wood.png", "wood.png", true),
+            ("..\\nowhere\\wood.png", "wood.png", true),
+        ] {
+            let expected = Found { path: folder.path().join(found), renamed };
+            assert_eq!(existing(folder.path(), name), Some(expected), "{name}");
+        }
+        for name in ["", "stone.png", "C:\\x\\other.png", "maps\\other.png"] {
+            assert_eq!(existing(folder.path(), name), None, "{name}");
+        }
+        for (name, bare) in
+            [("\"a b.png\"", "a b.png"), ("'a'", "a"), ("a", "a"), ("\"a", "\"a"), ("\"", "\"")]
+        {
+            assert_eq!(unquoted(name), bare);
+        }
+    }
+}

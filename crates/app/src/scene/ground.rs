@@ -1,0 +1,341 @@
+//! A ground under a model, of which only its soft shadow is seen: the background shows through all else.
+//!
+//! The shadow is that of a sky without a sun. The lowest surface over each cell of a grid darkens it: what touches the
+//! ground within a narrow rim, what is higher farther around, and less. It is a texture of alpha, made once.
+
+use super::{Camera, Image, Map, Model, Part, Vertex};
+use crate::options::{Filter, Wrap};
+use crate::scene::normals::{dot, narrow, normalize, sub};
+use alberti::raster::color::AnyBlend;
+
+/// Cells along a side of the ground.
+const SIDE: usize = 256;
+
+/// The same as a number.
+const CELLS: f64 = 256.0;
+
+/// Heights in cells, how far around what is so high darkens the ground, and how much.
+const LEVELS: [(f64, usize, f64); 4] = [(0.0, 2, 0.62), (6.0, 6, 0.5), (24.0, 14, 0.34), (64.0, 26, 0.2)];
+
+/// The share of a ball's radius that the ground reaches beyond what stands on it.
+const RIM: f64 = 0.6;
+
+/// A ground before the eyes of a camera.
+struct Ground {
+    /// The upward axis and its sign.
+    up: (usize, f64),
+    /// The corner with the least coordinates, in the other two axes, and the side.
+    corner: [f64; 2],
+    side: f64,
+    /// The height along the upward axis.
+    low: f64,
+}
+
+/// Adds a ground at the model's lowest point, unless the camera is below it. Planes of the camera that the user has not
+/// set, as `fixed` says of near and far, are moved so that all of it is between them.
+pub(crate) fn add(model: &mut Model, camera: &mut Camera, fixed: [bool; 2]) {
+    let Some(ground) = Ground::under(model, camera) else { return };
+    let texels = ground.shadow(model).into_iter().map(|alpha| [0, 0, 0, alpha]).collect();
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|uv| ground.place(uv));
+    stretch(camera, &corners, fixed);
+    let first = u32::try_from(model.vertices.len()).unwrap_or(u32::MAX);
+    let mut normal = [0.0; 3];
+    normal[ground.up.0] = narrow(ground.up.1);
+    let uvs = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    model.vertices.extend(corners.iter().zip(uvs).map(|(place, uv)| Vertex {
+        position: place.map(narrow),
+        normal,
+        uv,
+        ..Vertex::default()
+    }));
+    let side = u32::try_from(SIDE).unwrap_or(0);
+    model.textures.push(Image { width: side, height: side, texels });
+    let map =
+        Map { image: model.textures.len() - 1, filter: Some(Filter::Bilinear), wrap: Some(Wrap::Clamp) };
+    let triangles = vec![[first, first + 1, first + 2], [first, first + 2, first + 3]];
+    let mut part = Part { name: "ground".to_owned(), triangles, texture: Some(map.image), ..Part::default() };
+    (part.detail.filter, part.detail.wrap) = (map.filter, map.wrap);
+    (part.detail.blend, part.detail.specular) = (AnyBlend::Over, [0.0; 3]);
+    model.parts.push(part);
+}
+
+/// Moves the planes of a camera so that these points are between them.
+fn stretch(camera: &mut Camera, points: &[[f64; 3]], fixed: [bool; 2]) {
+    let eye = camera.eye.map(f64::from);
+    let Some(forward) = normalize(sub(camera.target.map(f64::from), eye)) else { return };
+    for &point in points {
+        let along = narrow(dot(sub(point, eye), forward));
+        if !fixed[0] && along > 0.0 {
+            camera.near = camera.near.min(0.99 * along);
+        }
+        if !fixed[1] {
+            camera.far = camera.far.max(1.01 * along);
+        }
+    }
+}
+
+impl Ground {
+    fn under(model: &Model, camera: &Camera) -> Option<Self> {
+        let up = (0..3).max_by(|&a, &b| camera.up[a].abs().total_cmp(&camera.up[b].abs()))?;
+        let sign = f64::from(camera.up[up].signum());
+        let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+        for place in places(model) {
+            for axis in 0..3 {
+                bounds[0][axis] = bounds[0][axis].min(place[axis]);
+                bounds[1][axis] = bounds[1][axis].max(place[axis]);
+            }
+        }
+        let [least, most] = bounds;
+        let size = sub(most, least);
+        let radius = dot(size, size).sqrt() / 2.0;
+        if !(radius > 0.0 && radius.is_finite()) {
+            return None;
+        }
+        // Just below, so that what stands on it hides it.
+        let low = if sign > 0.0 { least[up] } else { most[up] } - sign * 1e-4 * radius;
+        let above = sign * (f64::from(camera.eye[up]) - low);
+        let axes = others(up);
+        let side = size[axes[0]].max(size[axes[1]]) + 2.0 * RIM * radius;
+        let corner = axes.map(|axis| f64::midpoint(least[axis], most[axis]) - side / 2.0);
+        (above > 0.0).then_some(Self { up: (up, sign), corner, side, low })
+    }
+
+    /// A place on it, of shares of its sides.
+    fn place(&self, shares: [f64; 2]) -> [f64; 3] {
+        let mut place = [self.low; 3];
+        for ((axis, corner), share) in others(self.up.0).into_iter().zip(self.corner).zip(shares) {
+            place[axis] = corner + share * self.side;
+        }
+        place
+    }
+
+    /// A place in cells: columns, rows, and how high.
+    fn cells(&self, place: [f64; 3]) -> [f64; 3] {
+        let scale = CELLS / self.side;
+        let [a, b] = others(self.up.0);
+        let height = self.up.1 * (place[self.up.0] - self.low);
+        [(place[a] - self.corner[0]) * scale, (place[b] - self.corner[1]) * scale, height * scale]
+    }
+
+    /// The alpha of each cell, rows from the one with the greatest coordinate.
+    fn shadow(&self, model: &Model) -> Vec<u8> {
+        let lowest = self.lowest(model);
+        let mut dark = vec![0.0; SIDE * SIDE];
+        for (level, &(height, radius, strength)) in LEVELS.iter().enumerate() {
+            // Shares fall linearly to the next levels.
+            let below = level.checked_sub(1).map(|k| LEVELS[k].0);
+            let above = LEVELS.get(level + 1).map(|next| next.0);
+            let share = |h: f64| {
+                let of = |other: Option<f64>| {
+                    other.map_or(1.0, |other| ((h - other) / (height - other)).clamp(0.0, 1.0))
+                };
+                if h < height { of(below) } else { of(above.or(Some(2.0 * height))) }
+            };
+            let mut mask: Vec<f64> = lowest.iter().map(|&h| strength * share(h)).collect();
+            for _ in 0..3 {
+                blur(&mut mask, radius);
+            }
+            dark.iter_mut().zip(&mask).for_each(|(sum, share)| *sum += share);
+        }
+        let rows = dark.chunks(SIDE).enumerate().rev();
+        rows.flat_map(|(row, cells)| {
+            cells.iter().enumerate().map(move |(column, &dark)| {
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "the cast saturates"
+                )]
+                let alpha = (dark.min(0.7) * edge(row) * edge(column) * 255.0).round() as u8;
+                alpha
+            })
+        })
+        .collect()
+    }
+
+    /// The height of the lowest surface over each cell, in cells; infinite where there is none.
+    fn lowest(&self, model: &Model) -> Vec<f64> {
+        let mut lowest = vec![f64::INFINITY; SIDE * SIDE];
+        let mut put = |column: f64, row: f64, height: f64| {
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
+            let (column, row) = (column as usize, row as usize);
+            if let Some(cell) = lowest.get_mut(row * SIDE + column).filter(|_| column < SIDE) {
+                *cell = cell.min(height.max(0.0));
+            }
+        };
+        let triangles = model.parts.iter().flat_map(|part| &part.triangles);
+        for triangle in triangles {
+            let [Some(a), Some(b), Some(c)] = triangle.map(|k| model.vertices.get(k as usize)) else {
+                continue;
+            };
+            let corners = [a, b, c].map(|v| self.cells(v.position.map(f64::from)));
+            // Walls and triangles smaller than a cell are there as well.
+            for (from, to) in [(0, 1), (1, 2), (2, 0)] {
+                follow(corners[from], corners[to], &mut put);
+            }
+            cover(corners, &mut put);
+        }
+        lowest
+    }
+}
+
+/// Hands on places along an edge, no more than a cell apart.
+fn follow(from: [f64; 3], to: [f64; 3], put: &mut impl FnMut(f64, f64, f64)) {
+    let across = sub(to, from);
+    let steps = across[0].abs().max(across[1].abs()).ceil().clamp(1.0, CELLS);
+    let along = std::iter::successors(Some(0.0), |k| Some(k + 1.0)).take_while(|k| *k <= steps);
+    for share in along.map(|k| k / steps) {
+        let [column, row, height] = [0, 1, 2].map(|k| from[k] + share * across[k]);
+        put(column, row, height);
+    }
+}
+
+/// Hands on the middles of all cells in a triangle, and its height there.
+fn cover([a, b, c]: [[f64; 3]; 3], put: &mut impl FnMut(f64, f64, f64)) {
+    let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    // Places that are not finite are none either.
+    if area.abs() <= 1e-9 || !area.is_finite() {
+        return;
+    }
+    let range = |axis: usize| {
+        let least = a[axis].min(b[axis]).min(c[axis]).floor().max(0.0);
+        let most = a[axis].max(b[axis]).max(c[axis]).ceil().min(CELLS);
+        std::iter::successors(Some(least + 0.5), |x| Some(x + 1.0)).take_while(move |x| *x < most)
+    };
+    for row in range(1) {
+        for column in range(0) {
+            let beside = |p: [f64; 3], q: [f64; 3]| {
+                ((q[0] - p[0]) * (row - p[1]) - (q[1] - p[1]) * (column - p[0])) / area
+            };
+            let weights = [beside(b, c), beside(c, a), beside(a, b)];
+            if weights.iter().all(|&weight| weight >= 0.0) {
+                put(column, row, weights[0] * a[2] + weights[1] * b[2] + weights[2] * c[2]);
+            }
+        }
+    }
+}
+
+/// From 0 at the sides of the ground to 1 an eighth of it within.
+fn edge(cell: usize) -> f64 {
+    let within = u32::try_from(cell.min(SIDE - 1 - cell)).map_or(0.0, f64::from);
+    let share = (within / (CELLS / 8.0)).min(1.0);
+    share * share * (3.0 - 2.0 * share)
+}
+
+/// The mean of so many cells on each side, along rows and then along columns; beyond the sides there is nothing.
+fn blur(cells: &mut [f64], radius: usize) {
+    let mut line = vec![0.0; SIDE];
+    let width = u32::try_from(2 * radius + 1).map_or(1.0, f64::from);
+    for (stride, step) in [(1, SIDE), (SIDE, 1)] {
+        for start in (0..SIDE).map(|k| k * step) {
+            line.iter_mut().enumerate().for_each(|(k, x)| *x = cells[start + k * stride]);
+            let mut sum: f64 = line[..radius].iter().sum();
+            for k in 0..SIDE {
+                sum += line.get(k + radius).copied().unwrap_or(0.0);
+                cells[start + k * stride] = (sum / width).max(0.0);
+                sum -= k.checked_sub(radius).map_or(0.0, |k| line[k]);
+            }
+        }
+    }
+}
+
+/// The axes of the ground, so that they and the upward one are right-handed.
+fn others(up: usize) -> [usize; 2] {
+    [(up + 1) % 3, (up + 2) % 3]
+}
+
+/// The places of all vertices that are drawn.
+fn places(model: &Model) -> impl Iterator<Item = [f64; 3]> {
+    let used = model.parts.iter().flat_map(|part| part.triangles.iter().flatten());
+    used.filter_map(|&k| model.vertices.get(k as usize)).map(|v| v.position.map(f64::from))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CAMERA: Camera = Camera {
+        eye: [3.0, 2.0, 4.0],
+        target: [0.0; 3],
+        up: [0.0, 1.0, 0.0],
+        fov: 40.0,
+        near: 4.0,
+        far: 6.0,
+    };
+
+    /// A square of 2 by 2 at this height, over a speck on the ground at the origin.
+    fn square(height: f32) -> Model {
+        let corner = |[x, z]: [f32; 2]| Vertex { position: [x, height, z], ..Vertex::default() };
+        let mut vertices = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(corner).to_vec();
+        vertices.push(Vertex::default());
+        let triangles = vec![[0, 1, 2], [0, 2, 3], [4, 4, 4]];
+        Model { vertices, parts: vec![Part { triangles, ..Part::default() }], ..Model::default() }
+    }
+
+    fn alpha(model: &Model, [x, z]: [f64; 2]) -> u8 {
+        let ground = Ground::under(model, &CAMERA).expect("a ground");
+        let [column, row, _] = ground.cells([x, 0.0, z]);
+        let cells = ground.shadow(model);
+        // Rows come from the top of the image.
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 255")]
+        let (column, row) = (column as usize, row as usize);
+        cells[(SIDE - 1 - row) * SIDE + column]
+    }
+
+    #[test]
+    fn what_is_near_is_darker_and_sharper() {
+        let [low, high] = [0.01, 0.8].map(square);
+        assert!(alpha(&low, [0.0, 0.0]) > 120, "{}", alpha(&low, [0.0, 0.0]));
+        assert!(alpha(&low, [0.9, 0.0]) > alpha(&high, [0.9, 0.0]));
+        // Beyond the rim there is nothing of what is near, and something of what is high.
+        assert!(alpha(&low, [1.2, 0.0]) < 5 && alpha(&high, [1.2, 0.0]) > 5);
+        for model in [&low, &high] {
+            assert_eq!(
+                [[0.7, 0.0], [0.0, 0.7], [-0.7, 0.0]]
+                    .map(|at| alpha(model, at).abs_diff(alpha(model, [0.0, -0.7])))
+                    .map(|off| off < 9),
+                [true; 3]
+            );
+        }
+    }
+
+    #[test]
+    fn the_ground_is_under_all_and_between_the_planes() {
+        let mut model = square(0.5);
+        let mut camera = CAMERA;
+        add(&mut model, &mut camera, [false; 2]);
+        let part = model.parts.last().expect("a part");
+        assert_eq!((model.parts.len(), part.triangles.len(), model.textures.len()), (2, 2, 1));
+        let eye = CAMERA.eye.map(f64::from);
+        let forward = normalize(sub([0.0; 3], eye)).expect("a direction");
+        for vertex in &model.vertices[5..] {
+            assert!(vertex.position[1] < 0.0 && vertex.position[1] > -0.01);
+            let along = dot(sub(vertex.position.map(f64::from), eye), forward);
+            assert!(along < 0.0 || (f64::from(camera.near)..f64::from(camera.far)).contains(&along));
+        }
+        // The image's first row is at v = 1, and the front of the ground is above.
+        let [a, b, c] = part.triangles[0].map(|k| model.vertices[k as usize].position.map(f64::from));
+        assert!(crate::scene::normals::cross(sub(b, a), sub(c, a))[1] > 0.0);
+        let below = Camera { eye: [3.0, -2.0, 4.0], ..CAMERA };
+        let mut model = square(0.5);
+        add(&mut model, &mut { below }, [false; 2]);
+        assert_eq!(model.parts.len(), 1);
+    }
+
+    /// The means of rows and columns, one by one.
+    #[test]
+    fn a_blur_is_a_mean() {
+        let mut cells: Vec<f64> = (0..65536_u32).map(|k| f64::from(k * 7919 % 101)).collect();
+        let before = cells.clone();
+        blur(&mut cells, 3);
+        for (row, column) in [(0, 0), (100, 37), (255, 254), (2, 250)] {
+            let near = |k: usize| move |&other: &usize| other.abs_diff(k) <= 3;
+            let rows = (0..SIDE).filter(near(row));
+            let sum: f64 = rows
+                .flat_map(|y| (0..SIDE).filter(near(column)).map(move |x| y * SIDE + x))
+                .map(|index| before[index])
+                .sum();
+            let found: f64 = cells[row * SIDE + column];
+            assert!((found - sum / 49.0).abs() < 1e-9, "{found} {}", sum / 49.0);
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! Light: two-sided, of the models' materials, from beside the camera, and in linear space.
+
+use std::ffi::OsStr;
+use std::fs;
+
+use crate::{Folder, alberti};
+
+/// A bent sheet of two squares, with or against its winding.
+fn sheet(turned: bool) -> String {
+    let normal = |[x, z]: [f64; 2]| {
+        let sign = if turned { -1.0 } else { 1.0 };
+        format!("vn {} 0 {}\n", sign * x, sign * z)
+    };
+    let mut text = String::from("v -1 -1 0\nv 0 -1 0.4\nv 1 -1 0\nv -1 1 0\nv 0 1 0.4\nv 1 1 0\n");
+    text += "vt 0 0\nvt 1 0\nvt 2 0\nvt 0 1\nvt 1 1\nvt 2 1\n";
+    text += &[[-0.6, 0.8], [0.0, 1.0], [0.6, 0.8]].map(normal).concat();
+    let [a, b, c] = [[[1, 1], [4, 1]], [[2, 2], [5, 2]], [[3, 3], [6, 3]]];
+    for face in [[a[0], b[0], b[1]], [a[0], b[1], a[1]], [b[0], c[0], c[1]], [b[0], c[1], b[1]]] {
+        let mut corners = face.map(|[place, normal]| format!("{place}/{place}/{normal}"));
+        if turned {
+            corners.reverse();
+        }
+        text += &format!("f {}\n", corners.join(" "));
+    }
+    text
+}
+
+fn checks() -> Vec<u8> {
+    let texel = |x: u32, y: u32| if (x + y).is_multiple_of(2) { [250, 90, 40] } else { [60, 130, 240] };
+    let image = image::RgbImage::from_fn(4, 4, |x, y| image::Rgb(texel(x, y)));
+    let mut png = std::io::Cursor::new(Vec::new());
+    image.write_to(&mut png, image::ImageFormat::Png).expect("a picture in memory");
+    png.into_inner()
+}
+
+/// The back of a sheet is lit as the front of the same sheet that is wound the other way, with opposite normals.
+#[test]
+fn backs_are_lit_as_fronts() {
+    let png = checks();
+    let folder = Folder::with(&[
+        ("sheet.obj", sheet(false).as_bytes()),
+        ("turned.obj", sheet(true).as_bytes()),
+        ("checks.png", &png),
+    ]);
+    let picture = |model: &str, more: &[&str]| {
+        let mut arguments = vec![model, "--size", "96x72", "--texture", "checks.png", "--eye", "1,0.5,-5"];
+        arguments.extend(more);
+        folder.succeeds(&arguments);
+        fs::read(folder.path("alberti.png")).expect("a picture")
+    };
+    for more in [
+        &["--shading", "lambert"][..],
+        &["--shading", "gouraud", "--specular", "ffffff"],
+        &["--shading", "blinn", "--specular", "ffffff"],
+        &["--shading", "phong", "--height-map", "checks.png"],
+        &["--shading", "phong", "--height-map", "checks.png", "--relief", "occlusion"],
+        &["--shading", "lambert", "--projection", "parallel"],
+        &["--shading", "lambert", "--profile", "tiny"],
+        &["--shading", "lambert", "--cull", "front"],
+    ] {
+        let found = picture("sheet.obj", more);
+        let front = [more, &["--cull", "none"]].concat();
+        let expected = picture("turned.obj", if more.contains(&"--cull") { &front[..2] } else { more });
+        assert!(found == expected, "{more:?}");
+        let one_sided = picture("sheet.obj", &[more, &["--two-sided", "false"]].concat());
+        assert!(one_sided != found, "{more:?}");
+        // From the front there is nothing to turn.
+        let front = |two: &str| picture("turned.obj", &[more, &["--two-sided", two]].concat());
+        assert!(front("true") == front("false"), "{more:?}");
+    }
+    let culled = ["--cull", "back"];
+    assert!(
+        picture("sheet.obj", &culled) == picture("sheet.obj", &["--cull", "back", "--two-sided", "false"])
+    );
+}
+
+/// What is said of a pixel that is seen from behind is what is drawn there.
+#[test]
+fn backs_are_explained() {
+    let folder = Folder::with(&[("sheet.obj", sheet(false).as_bytes())]);
+    for shading in ["lambert", "blinn", "gouraud"] {
+        let arguments =
+            ["sheet.obj", "--eye", "1,0.5,-5", "--shading", shading, "--size", "96x72", "--pixel", "48,36"];
+        let run = alberti(folder.path("").as_path(), &[OsStr::new("explain")], &arguments);
+        assert_eq!(run.status, Some(0), "{run:?}");
+        assert!(
+            run.stdout
+                .lines()
+                .last()
+                .is_some_and(|line| line.contains("the derived colour is the picture's, to the bit")),
+            "{run:?}"
+        );
+    }
+}
+
+/// A box seen from a corner, by default and with a key light from elsewhere: its sides differ.
+#[test]
+fn models_without_lights_get_three() {
+    let corners = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n";
+    let normals = "vn 0 0 1\nvn 1 0 0\nvn 0 1 0\n";
+    let faces = "f 5//1 6//1 7//1 8//1\nf 2//2 3//2 7//2 6//2\nf 4//3 8//3 7//3 3//3\n";
+    let folder = Folder::with(&[
+        ("box.obj", [corners, normals, faces].concat().as_bytes()),
+        ("box.toml", b"[[object]]\nmodel = \"box.obj\"\n[render]\nlight = \"-35,40\"\n"),
+        ("lit.toml", b"[[object]]\nmodel = \"box.obj\"\n[ambient]\nintensity = 0.5\n"),
+    ]);
+    let sides = |name: &str, more: &[&str]| {
+        let eye = ["--eye", "3,2.5,5", "--target", "0,0,0", "--size", "90x90", "--diffuse", "ffffff"];
+        let run = folder.succeeds(&[&[name], &eye[..], more].concat());
+        let picture = image::open(folder.path("alberti.png")).expect("a picture").to_rgb8();
+        let mut found: Vec<u8> = picture.pixels().map(|pixel| pixel.0[0]).collect();
+        found.sort_unstable();
+        found.dedup();
+        (found, run.stderr)
+    };
+    let (found, warnings) = sides("box.obj", &[]);
+    // The background and three sides, none of them white, each a tenth from the next.
+    assert!(found.len() == 4 && warnings.is_empty(), "{found:?} {warnings}");
+    assert!(found[3] < 255 && found.windows(2).all(|pair| pair[1] - pair[0] > 25), "{found:?}");
+    assert_eq!(sides("box.toml", &[]).0, found);
+    assert_eq!(
+        sides("box.obj", &["--light", "-35,40", "--shading", "phong", "--specular", "000000"]).0,
+        found
+    );
+    assert_ne!(sides("box.obj", &["--light", "60,10"]).0, found);
+    let (_, warnings) = sides("lit.toml", &["--light", "0,0"]);
+    assert!(warnings.contains("--light: found it in a scene with lights of its own"), "{warnings}");
+    folder.fails(&["box.obj", "--light", "north"], &["--light", "such as -35,40"]);
+    folder.fails(&["box.obj", "--ground=north"], &["--ground: found \"north\"", "one of true, false"]);
+}
+
+/// What is said of a pixel under three lights is what is drawn there.
+#[test]
+fn three_lights_are_explained() {
+    let folder = Folder::with(&[("sheet.obj", sheet(true).as_bytes())]);
+    for shading in ["lambert", "blinn"] {
+        let arguments = ["sheet.obj", "--shading", shading, "--size", "96x72", "--pixel", "48,36"];
+        let run = alberti(folder.path("").as_path(), &[OsStr::new("explain")], &arguments);
+        assert_eq!(run.status, Some(0), "{run:?}");
+        assert!(run.stdout.ends_with("the derived colour is the picture's, to the bit\n"), "{run:?}");
+    }
+}
+
+/// A box that stands on a ground has a shadow around it, and nothing changes far from it.
+#[test]
+fn a_ground_has_a_soft_shadow() {
+    let corners = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n";
+    let sides = "f 5 6 7 8\nf 2 1 4 3\nf 2 3 7 6\nf 1 5 8 4\nf 4 8 7 3\nf 1 2 6 5\n";
+    let folder = Folder::with(&[("box.obj", [corners, sides].concat().as_bytes())]);
+    let view =
+        ["box.obj", "--eye", "0,4,9", "--target", "0,-0.2,0", "--size", "90x90", "--background", "c0c0c0"];
+    let picture = |more: &[&str]| {
+        folder.succeeds(&[&view[..], more].concat());
+        image::open(folder.path("alberti.png")).expect("a picture").to_rgb8()
+    };
+    let (bare, ground) = (picture(&["--ground=false"]), picture(&["--ground"]));
+    assert_eq!(bare, picture(&[]));
+    let changed: Vec<_> =
+        bare.enumerate_pixels().filter(|(x, y, p)| ground.get_pixel(*x, *y) != *p).collect();
+    assert!(changed.len() > 30, "{}", changed.len());
+    for &(x, y, before) in &changed {
+        // Darker, evenly, and on the background alone.
+        let [r, g, b] = ground.get_pixel(x, y).0;
+        assert!(before.0 == [0xc0; 3] && r < 0xc0 && r == g && g == b, "{x} {y} {before:?} {r} {g} {b}");
+    }
+    let dark = changed.iter().map(|&(x, y, _)| (ground.get_pixel(x, y).0[0], x, y)).min();
+    let (darkest, x, y) = dark.expect("a pixel");
+    assert!(darkest < 0xa8, "{darkest}");
+    for corner in [(0, 0), (89, 0)] {
+        assert_eq!(ground.get_pixel(corner.0, corner.1).0, [0xc0; 3]);
+    }
+    let pixel = format!("{x},{y}");
+    let run = alberti(
+        folder.path("").as_path(),
+        &[OsStr::new("explain")],
+        &[&view[..], &["--ground", "--pixel", &pixel]].concat(),
+    );
+    assert!(run.stdout.ends_with("the derived colour is the picture's, to the bit\n"), "{run:?}");
+    let run = folder.succeeds(&[&view[..], &["--ground", "--shading", "vertex-color"]].concat());
+    assert!(run.stderr.contains("--ground: found it with vertex-color"), "{run:?}");
+}

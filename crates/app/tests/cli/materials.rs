@@ -1,0 +1,228 @@
+//! Materials of MTL files, as they come out in pictures.
+
+use std::fs;
+
+use crate::Folder;
+
+/// A square that fills the picture, with two triangles in the order in which they are given.
+const SQUARE: &str = "mtllib m.mtl\nv -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n\
+    usemtl a\nf 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/4/1\n";
+
+/// It is seen along its normal.
+const FRONT: [&str; 10] =
+    ["--eye", "0,0,9", "--target", "0,0,0", "--fov", "40", "--size", "16x16", "--background", "204060"];
+
+fn png(width: u32, height: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> Vec<u8> {
+    let image = image::RgbaImage::from_fn(width, height, |x, y| image::Rgba(texel(x, y)));
+    let mut png = std::io::Cursor::new(Vec::new());
+    image.write_to(&mut png, image::ImageFormat::Png).expect("a picture in memory");
+    png.into_inner()
+}
+
+fn folder(obj: &str, mtl: &str) -> Folder {
+    Folder::with(&[("m.obj", obj.as_bytes()), ("m.mtl", mtl.as_bytes())])
+}
+
+/// The picture from the front, and the warnings.
+fn seen(folder: &Folder, more: &[&str]) -> (image::RgbImage, String) {
+    let run = folder.succeeds(&[&["m.obj"], &FRONT[..], more].concat());
+    (image::open(folder.path("alberti.png")).expect("a picture").to_rgb8(), run.stderr)
+}
+
+/// Columns of grey.
+const GREYS: [[u8; 4]; 4] =
+    [[255, 255, 255, 255], [128, 128, 128, 255], [0, 0, 0, 255], [128, 128, 128, 255]];
+
+fn near([r, g, b]: [u8; 3], expected: [f64; 3]) -> bool {
+    [r, g, b].into_iter().zip(expected).all(|(found, expected)| (f64::from(found) - expected).abs() <= 1.0)
+}
+
+const BEHIND: [f64; 3] = [32.0, 64.0, 96.0];
+
+/// `d` and `Tr` are shares of the colour over the background.
+#[test]
+fn glass_is_mixed_with_what_is_behind() {
+    for (line, share) in
+        [("d 0.3", 0.3), ("Tr 0.7", 0.3), ("D 0.3\nTr 0.1", 0.3), ("d 1", 1.0), ("Tr 0", 1.0)]
+    {
+        let folder = folder(SQUARE, &format!("newmtl a\nKd 1 0.5 0\n{line}\n"));
+        let (picture, warnings) = seen(&folder, &["--shading", "unlit"]);
+        let color = [255.0, 127.5, 0.0];
+        let expected = [0, 1, 2].map(|k| share * color[k] + (1.0 - share) * BEHIND[k]);
+        assert!(near(picture.get_pixel(8, 8).0, expected), "{line} {:?}", picture.get_pixel(8, 8));
+        assert_eq!(warnings, "");
+    }
+}
+
+/// The same picture, whichever of two panes of one object comes first in the file: the farther one is drawn first.
+#[test]
+fn panes_are_sorted() {
+    let pane = |z: f32, material: &str| {
+        format!("v -9 -9 {z}\nv 9 -9 {z}\nv 0 9 {z}\nusemtl {material}\nf -3 -2 -1\n")
+    };
+    let mtl = "newmtl a\nKd 1 0 0\nd 0.5\nnewmtl b\nKd 0 1 0\nd 0.25\n";
+    let expected = [0, 1, 2].map(|k| {
+        let far = 0.25 * [0.0, 255.0, 0.0][k] + 0.75 * BEHIND[k];
+        0.5 * [255.0, 0.0, 0.0][k] + 0.5 * far
+    });
+    for panes in [[pane(1.0, "a"), pane(-1.0, "b")], [pane(-1.0, "b"), pane(1.0, "a")]] {
+        let folder = folder(&format!("mtllib m.mtl\n{}", panes.concat()), mtl);
+        let (picture, _) = seen(&folder, &["--shading", "unlit"]);
+        assert!(near(picture.get_pixel(8, 8).0, expected), "{:?}", picture.get_pixel(8, 8));
+    }
+    // In one part, in which the colours are those of the vertices.
+    let colored = |z: f32, color: &str| {
+        format!("v -9 -9 {z} {color}\nv 9 -9 {z} {color}\nv 0 9 {z} {color}\nf -3 -2 -1\n")
+    };
+    let [near, far] = [colored(1.0, "1 0 0"), colored(-1.0, "0 1 0")];
+    let pictures = [[&near, &far], [&far, &near]].map(|panes| {
+        let panes: String = panes.into_iter().map(String::as_str).collect();
+        let folder = folder(&format!("mtllib m.mtl\nusemtl a\n{panes}"), "newmtl a\nKd 1 1 1\nd 0.5\n");
+        seen(&folder, &["--shading", "unlit"]).0
+    });
+    assert_eq!(pictures[0], pictures[1]);
+    let [r, g, _] = pictures[0].get_pixel(8, 8).0;
+    assert!((135..=136).contains(&r) && (79..=81).contains(&g), "{r} {g}");
+}
+
+/// The alpha of a texture, of another image, or of either times `d`.
+#[test]
+fn alpha_of_textures_counts() {
+    // Columns of alpha 255, 0, 0, 0; and 255, 128, 0, 128.
+    let holes = png(4, 4, |x, _| [250, 250, 250, if x == 0 { 255 } else { 0 }]);
+    let shades = png(4, 4, |x, _| [250, 250, 250, [255, 128, 0, 128][x as usize]]);
+    let grey = png(4, 4, |x, _| GREYS[x as usize]);
+    let wide = png(8, 8, |_, _| [250, 250, 250, 255]);
+    let plain = png(1, 1, |_, _| [250, 250, 250, 255]);
+    let alpha = |mtl: &str, column: u32| {
+        let folder = folder(SQUARE, &format!("newmtl a\nKd 1 1 1\n{mtl}\n"));
+        for (name, bytes) in [
+            ("holes.png", &holes),
+            ("shades.png", &shades),
+            ("grey.png", &grey),
+            ("plain.png", &plain),
+            ("wide.png", &wide),
+        ] {
+            fs::write(folder.path(name), bytes).expect("a file");
+        }
+        // The whole square: it is 18 wide, and so is what is seen at a distance of 9.
+        let whole = ["m.obj", "--eye", "0,0,9", "--target", "0,0,0", "--fov", "90", "--size", "16x16"];
+        let rest = ["--background", "204060", "--shading", "unlit", "--filter", "nearest"];
+        let warnings = folder.succeeds(&[&whole[..], &rest].concat()).stderr;
+        let picture = image::open(folder.path("alberti.png")).expect("a picture").to_rgb8();
+        assert_eq!(warnings, "");
+        let found = f64::from(picture.get_pixel(2 + 4 * column, 8).0[0]);
+        (found - BEHIND[0]) / (250.0 - BEHIND[0])
+    };
+    let eq = |found: f64, expected: f64| assert!((found - expected).abs() < 0.01, "{found} {expected}");
+    for (mtl, expected) in [
+        ("map_Kd holes.png", [1.0, 0.0, 0.0, 0.0]),
+        ("map_Kd shades.png", [1.0, 0.5, 0.0, 0.5]),
+        ("map_Kd wide.png\nmap_d grey.png", [1.0, 0.5, 0.0, 0.5]),
+        ("map_Kd wide.png\nmap_d holes.png", [1.0, 0.0, 0.0, 0.0]),
+        ("map_Kd holes.png\nd 0.5", [0.5, 0.0, 0.0, 0.0]),
+        ("map_Kd shades.png\nd 0.5", [0.5, 0.25, 0.0, 0.25]),
+        ("map_Kd plain.png", [1.0; 4]),
+    ] {
+        for (column, expected) in (0..4).zip(expected) {
+            eq(alpha(mtl, column), expected);
+        }
+    }
+    for (column, expected) in (0..4).zip([1.02, 0.51, 0.0, 0.51]) {
+        eq(alpha("map_d grey.png", column), expected);
+    }
+}
+
+/// Of a white lamp along the normal, a surface with `Ks` has a highlight in the middle; one without has none.
+#[test]
+fn highlights_need_not_be_asked_for() {
+    let bright = |mtl: &str, more: &[&str]| {
+        let folder = folder(SQUARE, &format!("newmtl a\nKd 0.4 0.4 0.4\n{mtl}\n"));
+        let (picture, _) = seen(&folder, more);
+        picture.pixels().map(|pixel| pixel.0[0]).max().unwrap_or(0)
+    };
+    let matt = bright("", &["--shading", "lambert"]);
+    for mtl in ["", "Ks 0 0 0\nNs 50", "Ks 0.5 0.5 0.5\nNs 0", "Ks 0.5 0.5 0.5\nNs 10\nillum 1"] {
+        assert_eq!(bright(mtl, &[]), matt, "{mtl}");
+    }
+    for mtl in ["Ks 0.5 0.5 0.5\nNs 10", "ks 0.5 0.5 0.5\nns 10\nillum 2", "Pr 0.5"] {
+        assert!(bright(mtl, &[]) > matt + 3, "{mtl} {}", bright(mtl, &[]));
+        assert_eq!(bright(mtl, &["--shading", "lambert"]), matt, "{mtl}");
+    }
+}
+
+/// Colours of vertices multiply the material's, under the light that falls on white.
+#[test]
+fn colours_of_vertices_show() {
+    let square = |color: &str| {
+        let corner = |[x, y]: [i32; 2]| format!("v {x} {y} 0 {color}\n");
+        let corners = [[-9, -9], [9, -9], [9, 9], [-9, 9]].map(corner).concat();
+        format!("mtllib m.mtl\n{corners}vn 0 0 1\nusemtl a\nf 1//1 2//1 3//1\nf 1//1 3//1 4//1\n")
+    };
+    let mtl = "newmtl a\nKd 1 0.5 1\n";
+    let pixel = |color: &str, more: &[&str]| {
+        seen(&folder(&square(color), mtl), more).0.get_pixel(8, 8).0.map(f64::from)
+    };
+    for shading in ["lambert", "gouraud", "phong", "unlit"] {
+        let more = ["--shading", shading, "--specular", "000000"];
+        let [white, found] = ["1 1 1", "0.5 1 0.25"].map(|color| pixel(color, &more));
+        let expected = [0.5 * white[0], white[1], 0.25 * white[2]];
+        assert!(
+            found.iter().zip(expected).all(|(a, b)| (a - b).abs() <= 1.0),
+            "{shading} {found:?} {expected:?}"
+        );
+    }
+    // Unless an option gives all of it a colour.
+    assert_eq!(pixel("0.5 1 0.25", &["--diffuse", "ff80ff", "--shading", "unlit"]), [255.0, 128.0, 255.0]);
+    let asked = |color| seen(&folder(&square(color), mtl), &["--shading", "vertex-color"]).1;
+    assert_eq!(asked("0.5 1 0.25"), "");
+    assert!(
+        asked("1 1 1").contains("--shading: found a model whose vertices have no colours"),
+        "{}",
+        asked("1 1 1")
+    );
+}
+
+/// `-s` and `-o` are those of coordinates that a file has itself.
+#[test]
+fn textures_are_scaled_and_moved() {
+    let checks = png(4, 4, |x, y| [(60 * x) as u8, (60 * y) as u8, 9, 255]);
+    let picture = |obj: &str, mtl: &str| {
+        let folder = folder(obj, mtl);
+        fs::write(folder.path("c.png"), &checks).expect("a file");
+        seen(&folder, &["--filter", "nearest"]).0
+    };
+    let moved = SQUARE
+        .replace("vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1", "vt 0.5 0.25\nvt 2.5 0.25\nvt 2.5 3.25\nvt 0.5 3.25");
+    let found = picture(SQUARE, "newmtl a\nKd 1 1 1\nmap_Kd -s 2 3 1 -o 0.5 0.25 0 c.png\n");
+    assert_eq!(found, picture(&moved, "newmtl a\nKd 1 1 1\nmap_Kd c.png\n"));
+    assert_ne!(found, picture(SQUARE, "newmtl a\nKd 1 1 1\nmap_Kd c.png\n"));
+}
+
+/// Names from other machines are found beside the library, and said; `--texture` has nothing to say of them.
+#[test]
+fn textures_are_found_under_other_names() {
+    let blue = png(2, 2, |_, _| [0, 0, 200, 255]);
+    for (name, warned) in [
+        ("blue.png", false),
+        ("\"blue.png\"", false),
+        (".\\blue.png", false),
+        ("Blue.PNG", true),
+        ("C:\\art\\blue.png", true),
+        ("/home/x/blue.png", true),
+        ("\"D:\\my art\\BLUE.png\"", true),
+    ] {
+        let folder = folder(SQUARE, &format!("newmtl a\nKd 1 1 1\nmap_Kd {name}\n"));
+        fs::write(folder.path("blue.png"), &blue).expect("a file");
+        let (picture, warnings) = seen(&folder, &["--shading", "unlit"]);
+        assert_eq!(picture.get_pixel(8, 8).0, [0, 0, 200], "{name}");
+        assert_eq!(warnings.contains("\"blue.png\" is used"), warned, "{name} {warnings}");
+        assert_eq!(warnings.is_empty(), !warned, "{name} {warnings}");
+        assert_eq!(seen(&folder, &["--texture", "blue.png"]).1, "", "{name}");
+    }
+    let folder = folder(SQUARE, "newmtl a\nmap_Kd gone.png\nTf 1 1 1\n");
+    fs::write(folder.path("blue.png"), &blue).expect("a file");
+    assert_eq!(seen(&folder, &[]).1.lines().count(), 2);
+    let warnings = seen(&folder, &["--texture", "blue.png"]).1;
+    assert!(warnings.contains("m.mtl:3: found `Tf`") && warnings.lines().count() == 1, "{warnings}");
+}
