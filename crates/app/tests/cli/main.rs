@@ -6,6 +6,7 @@ mod bake;
 mod compare;
 mod errors;
 mod explain;
+mod picture;
 mod policies;
 mod projection;
 mod scenes;
