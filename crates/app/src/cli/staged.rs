@@ -17,7 +17,7 @@ use crate::load::{obj, prepare};
 use crate::options::values::{Color, MAX_THREADS, Size, Threads, name_of as name_of_value};
 use crate::options::{
     Background, ColorFormat, Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE, DepthFormat, Filter,
-    Fog, Haze, Policies, Projection, RenderOptions, Samples, Shading, Wrap,
+    Fog, Haze, Profile, Projection, RenderOptions, Samples, Shading, Wrap,
 };
 use crate::output::file::{Output, Whole};
 use crate::output::progress::Progress;
@@ -270,7 +270,7 @@ fn samples(arguments: &RenderArgs, options: &RenderOptions) -> Result<Samples, E
     let (width, height) = (options.width, options.height);
     match arguments.render.samples {
         Some(samples) => samples.check(width, height).map(|()| samples),
-        None if is_small(&options.policies) => Ok(Samples::One),
+        None if is_small(arguments) => Ok(Samples::One),
         None => Ok(Samples::usual(width, height)),
     }
 }
@@ -309,14 +309,15 @@ fn load(arguments: &RenderArgs) -> Result<Scene, Error> {
 /// Defaults of models and scene files. What a small display shows is read in the shortest way, and all else without
 /// shimmer.
 fn of_models(arguments: &RenderArgs) -> (Shading, Filter, Wrap, Cull, DepthFormat) {
-    let (policies, _) = arguments.render.policies(arguments.camera.is_parallel());
-    let filter = if is_small(&policies) { Filter::Bilinear } else { Filter::Trilinear };
+    let filter = if is_small(arguments) { Filter::Bilinear } else { Filter::Trilinear };
     (Shading::default(), filter, Wrap::default(), Cull::default(), DepthFormat::default())
 }
 
 /// Whether a picture is as a small display has it.
-fn is_small(policies: &Policies) -> bool {
+fn is_small(arguments: &RenderArgs) -> bool {
+    let (policies, _) = arguments.render.policies(arguments.camera.is_parallel());
     policies.color != ColorFormat::Rgba8
+        || matches!(arguments.render.profile, Some(Profile::Mcu | Profile::Tiny))
 }
 
 /// Whether light by vertex leaves out something of a part.

@@ -56,7 +56,7 @@ fn scene_files_have_samples_backgrounds_and_views() {
     let [top, bottom] = [0, 23].map(|y| seen.get_pixel(0, y).0);
     assert!(top[0] > 240 && top[2] < 16 && bottom[0] < 16 && bottom[2] > 240, "{top:?} {bottom:?}");
     folder.fails(&["b.toml"], &["b.toml:4: render.samples: found 3, expected 1, 4 or 16"]);
-    folder.fails(&["c.toml"], &["no.png: found no such file"]);
+    folder.fails(&["c.toml"], &["c.toml:3: background: found no such file"]);
     folder.fails(&["d.toml"], &["found it with"]);
 }
 

@@ -14,7 +14,7 @@ fn picture(z: f32, arguments: &str) -> RgbImage {
     let folder = Folder::with(&[("m.obj", square(z).as_bytes())]);
     let slide = RgbImage::from_fn(4, 2, |x, _| if x < 2 { RED } else { BLUE });
     slide.save(folder.path("slide.png")).expect("a file");
-    let view = "m.obj --size 64x64 --eye 0,0,8 --target 0,0,0 --fov 30 --near 1 --far 30 --shading unlit";
+    let view = "m.obj --samples 1 --size 64x64 --eye 0,0,8 --target 0,0,0 --fov 30 --near 1 --far 30 --shading unlit";
     folder.succeeds(&format!("{view} {arguments}").split_whitespace().collect::<Vec<_>>());
     image::open(folder.path("alberti.png")).expect("a picture").to_rgb8()
 }

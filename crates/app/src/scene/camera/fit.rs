@@ -44,14 +44,19 @@ pub(super) fn fit(
     let tangents = lens.tangents.map(|tangent| tangent * (1.0 - MARGIN));
     let depths = if lens.parallel { [0.0; 2] } else { tangents };
     let Extremes { sides, nearest } = extremes(model, ball, axes, depths);
-    let clear = if lens.parallel { f64::INFINITY } else { nearest - CLEARANCE * ball.radius };
+    // Parallel lines see what is behind the eye as well.
+    let (clear, least) = if lens.parallel {
+        (f64::INFINITY, 1e-3 * ball.radius)
+    } else {
+        (nearest - CLEARANCE * ball.radius, CLEARANCE * ball.radius)
+    };
     let [right, up, forward] = axes;
     let at =
         |[x, y, z]: [f64; 3]| [0, 1, 2].map(|k| ball.center[k] + x * right[k] + y * up[k] + z * forward[k]);
     if let Some(target) = target {
         let from = sub(target, ball.center);
         let (place, depth) = ([dot(from, right), dot(from, up)], dot(from, forward));
-        let mut distance = (depth - clear).max(CLEARANCE * ball.radius);
+        let mut distance = (depth - clear).max(least);
         for k in 0..2 {
             for (side, sign) in sides[k].into_iter().zip([1.0, -1.0]) {
                 distance = distance.max((side - sign * place[k] + depths[k] * depth) / tangents[k]);
@@ -59,7 +64,7 @@ pub(super) fn fit(
         }
         return (at([place[0], place[1], depth - distance]), target);
     }
-    let mut depth = clear.min(-CLEARANCE * ball.radius);
+    let mut depth = clear.min(-least);
     for (pair, tangent) in sides.into_iter().zip(tangents) {
         depth = depth.min(-(pair[0] + pair[1]) / (2.0 * tangent));
     }
