@@ -144,9 +144,19 @@ impl<'a> Drawing<'a> {
     pub(crate) fn draw_all(mut self, target: &mut Canvas<'_>, progress: &mut dyn FnMut(u64, u64)) -> Stats {
         let [r, g, b] = self.options.background;
         clear_by_threads(self.options.threads, target, Rgba8::new(r, g, b, 255));
+        self.draw_parts(target, progress)
+    }
+
+    /// The same over what the target holds already.
+    pub(crate) fn draw_parts(
+        &mut self,
+        target: &mut Canvas<'_>,
+        progress: &mut dyn FnMut(u64, u64),
+    ) -> Stats {
         let total = self.model.parts.iter().map(|part| part.triangles.len() as u64).sum();
         let mut done = 0;
-        for part in &self.model.parts {
+        let model = self.model;
+        for part in &model.parts {
             for triangles in part.triangles.chunks(CHUNK) {
                 if self.is_plain(part) {
                     self.draw_plain(part, triangles, target);
@@ -157,7 +167,7 @@ impl<'a> Drawing<'a> {
                 progress(done, total);
             }
         }
-        self.stats
+        std::mem::take(&mut self.stats)
     }
 
     /// Whether a part is drawn by the kernels for plain surfaces.

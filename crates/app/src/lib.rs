@@ -14,6 +14,7 @@ pub mod options;
 pub mod output;
 pub mod probe;
 pub mod render;
+pub mod samples;
 pub mod scene;
 pub mod show;
 

@@ -4,16 +4,20 @@ use clap::ValueEnum;
 use std::num::NonZero;
 
 mod afterwards;
+mod background;
+mod colors;
 mod filter;
 mod light;
 mod material;
 mod normals;
 mod policies;
+mod samples;
 mod table;
 pub mod values;
 
 pub(crate) use afterwards::byte;
 pub use afterwards::{Blend, Dither, Fog, Haze};
+pub use background::Background;
 pub use filter::{Filter, Probes};
 pub use light::{KeyLight, LightOptions};
 pub(crate) use material::Base;
@@ -22,6 +26,7 @@ pub use normals::{DEFAULT_CREASE, Normals};
 pub use policies::{
     Arithmetic, ColorFormat, DepthFormat, Interpolation, Lod, Policies, Profile, SpanLength, Subpixel,
 };
+pub use samples::Samples;
 pub(crate) use table::shared;
 pub use table::{CameraTable, ProjectorTable, RenderTable};
 pub use values::MAX_SIDE;
@@ -95,7 +100,46 @@ pub enum Cull {
     None,
 }
 
-words!(one_of: Shading, Wrap, Cull, ProjectionKind);
+words!(one_of: Shading, Wrap, Cull, ProjectionKind, ViewSide, FileFormat);
+
+/// The format of a picture's file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum FileFormat {
+    /// PNG.
+    Png,
+    /// JPEG.
+    Jpg,
+    /// BMP.
+    Bmp,
+    /// TGA.
+    Tga,
+    /// WebP without loss.
+    #[value(name = "webp")]
+    WebP,
+    /// QOI.
+    Qoi,
+    /// PPM.
+    Ppm,
+}
+
+/// The side of a model that is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ViewSide {
+    /// From +z where y is up, and from -y where z is.
+    Front,
+    /// From behind.
+    Back,
+    /// From -x.
+    Left,
+    /// From +x.
+    Right,
+    /// From above.
+    Top,
+    /// From below.
+    Bottom,
+    /// From the front, the right and above, along a cube's diagonal.
+    Iso,
+}
 
 /// The projection, as options have it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

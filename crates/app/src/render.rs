@@ -81,14 +81,18 @@ pub fn any_depth(depth: DepthFormat) -> AnyDepth {
 
 /// One element a pixel, or an error instead of an abort where memory is short.
 pub(crate) fn buffer<T: Copy>(options: &RenderOptions, value: T) -> Result<Vec<T>, Error> {
-    let pixels = options.width as usize * options.height as usize;
+    room(options, options.width as usize * options.height as usize, value)
+}
+
+/// So many elements for a picture, or an error instead of an abort where memory is short.
+pub(crate) fn room<T: Copy>(options: &RenderOptions, count: usize, value: T) -> Result<Vec<T>, Error> {
     let mut buffer = Vec::new();
-    buffer.try_reserve_exact(pixels).map_err(|_| {
+    buffer.try_reserve_exact(count).map_err(|_| {
         let found = format!("too little memory for {}x{} pixels", options.width, options.height);
-        Error::new(found, format!("{} MiB", (pixels * size_of::<T>()) >> 20))
+        Error::new(found, format!("{} MiB", (count * size_of::<T>()) >> 20))
             .place("--size")
             .hint("choose a smaller size")
     })?;
-    buffer.resize(pixels, value);
+    buffer.resize(count, value);
     Ok(buffer)
 }

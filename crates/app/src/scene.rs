@@ -3,6 +3,7 @@
 
 use std::path::PathBuf;
 
+pub mod backdrop;
 pub mod camera;
 pub mod normals;
 pub mod scenes;

@@ -133,7 +133,7 @@ const ANOTHER: &str = "choose another with --heat";
 /// The picture to write. It is none of those that are read.
 fn output(arguments: &CompareArgs) -> Result<Option<Output>, Error> {
     let Some(named) = &arguments.heat else { return Ok(None) };
-    let output = Output::new(named).map_err(|error| error.hint(ANOTHER))?;
+    let output = Output::new(named, None).map_err(|error| error.hint(ANOTHER))?;
     if output.is(&arguments.first) || output.is(&arguments.second) {
         let found = "a file that is also read";
         return Err(Error::new(found, "another").file(output.name()).hint(ANOTHER));

@@ -11,6 +11,7 @@ use crate::scene::{Model, Part, Relief};
 /// There is one.
 pub(crate) fn check(arguments: &RenderArgs) -> Result<(), Error> {
     arguments.projector.check()?;
+    arguments.camera.check()?;
     if arguments.show.is_some() && arguments.stats.is_some() {
         let error = Error::new("it with --stats, which is of pictures in true colours", "one of the two");
         return Err(error.place("--show"));

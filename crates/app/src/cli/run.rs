@@ -14,7 +14,8 @@ use crate::error::{Error, quote};
 use crate::options::RenderOptions;
 use crate::output::progress::Progress;
 use crate::output::stats::{Report, Times};
-use crate::render::render;
+use crate::samples::supersampled;
+use crate::scene::backdrop::Backdrop;
 use crate::show::{Shown, show};
 
 /// The exit status for whatever the user can mend.
@@ -119,12 +120,12 @@ fn draw(matches: &ArgMatches) -> Result<(), Error> {
 fn draw_from(request: &Request) -> Result<(), Error> {
     request.check()?;
     let output = request.output()?;
-    let Staged { model, camera, options, load } = request.stage_on_ground()?;
+    let Staged { model, camera, options, samples, backdrop, load } = request.stage_on_ground()?;
     let start = Instant::now();
     let mut progress = Progress::new("drawing");
     let hear = &mut |done, total| progress.set(done, total);
     let (mut picture, legend) = match request.arguments.show {
-        None => (render(&model, &camera, &options, hear)?, None),
+        None => (supersampled(&model, &camera, &options, samples, &backdrop, hear)?, None),
         Some(what) => {
             let Shown { picture, legend, warning } = show(what, &model, &camera, &options, hear)?;
             warning.iter().for_each(|warning| warn(&warning.to_string()));
@@ -136,20 +137,39 @@ fn draw_from(request: &Request) -> Result<(), Error> {
     if request.arguments.stats.is_some() && options.threads.get() > 1 {
         // A triangle counts once, however many threads drew it.
         let alone = RenderOptions { threads: NonZero::<usize>::MIN, ..options };
-        picture.stats = render(&model, &camera, &alone, &mut |_, _| ())?.stats;
+        picture.stats = supersampled(&model, &camera, &alone, samples, &backdrop, &mut |_, _| ())?.stats;
     }
 
     let start = Instant::now();
-    output.write(&picture.image)?;
+    if request.arguments.show.is_none() && backdrop == Backdrop::Transparent {
+        output.write_with_alpha(&picture.image)?;
+    } else {
+        output.write(&picture.image)?;
+    }
     let times = Times { load, render: rendered, write: start.elapsed() };
     let size = (options.width, options.height);
-    let report =
-        Report { output: output.name(), source: request.source(), size, stats: picture.stats, times };
-    print(&match request.arguments.stats {
+    let projection = options.projection;
+    let report = Report {
+        output: output.name(),
+        source: request.source(),
+        size,
+        stats: picture.stats,
+        times,
+        camera,
+        origin: model.origin,
+        projection,
+    };
+    let text = match request.arguments.stats {
         None => format!("{}\n{}", report.summary(), legend.unwrap_or_default()),
         Some(StatsFormat::Text) => format!("{}\n{}", report.summary(), report.text()),
         Some(StatsFormat::Json) => format!("{}\n", report.json()),
-    })
+    };
+    if output.is_standard() {
+        // The picture has the other way.
+        let _ = io::stderr().write_all(text.as_bytes());
+        return Ok(());
+    }
+    print(&text)
 }
 
 /// Standard output that nobody reads any more is no failure: the picture is there.

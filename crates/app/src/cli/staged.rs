@@ -14,18 +14,20 @@ use crate::error::{Error, Warnings, number, quote};
 use crate::load::images::Images;
 use crate::load::scene_file::{self, SceneFile};
 use crate::load::{obj, prepare};
-use crate::options::values::{Color, MAX_THREADS, Size, Threads};
+use crate::options::values::{Color, MAX_THREADS, Size, Threads, name_of as name_of_value};
 use crate::options::{
-    CameraTable, Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE, DepthFormat, Filter, Fog, Haze,
-    KeyLight, LightOptions, Projection, RenderOptions, Shading, Wrap,
+    Background, CameraTable, ColorFormat, Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE,
+    DepthFormat, Filter, Fog, Haze, KeyLight, LightOptions, Profile, Projection, RenderOptions, Samples,
+    Shading, Wrap,
 };
 use crate::output::file::{Output, Whole};
 use crate::output::progress::Progress;
 use crate::output::stats::Source;
+use crate::scene::backdrop::Backdrop;
 use crate::scene::{Camera, Model, Part, Relief, camera, ground, order, scenes, slide};
 
 /// The options that say what `render` writes.
-pub(super) const OF_PICTURES: [&str; 3] = ["output", "stats", "show"];
+pub(super) const OF_PICTURES: [&str; 5] = ["output", "output_format", "samples", "stats", "show"];
 
 /// A command without some options in its help.
 pub(super) fn hidden(command: Command, ids: &[&'static str]) -> Command {
@@ -59,6 +61,8 @@ pub(super) struct Staged {
     pub(super) model: Model,
     pub(super) camera: Camera,
     pub(super) options: RenderOptions,
+    pub(super) samples: Samples,
+    pub(super) backdrop: Backdrop,
     /// The time that loading took.
     pub(super) load: Duration,
 }
@@ -75,8 +79,12 @@ impl Request {
         if let Some(path) = arguments.model.as_deref().filter(|path| scene_file::is_scene(path)) {
             let (file, options) = SceneFile::read(path, matches)?;
             scene_file = Some(file);
+            let given = arguments.camera;
             // The file's options, and over them those of the command line.
             arguments = options;
+            if given.turns() || given.eye.is_some() {
+                arguments.camera.forget_place();
+            }
             arguments.update_from_arg_matches(matches).map_err(refused)?;
         }
         // A texture is shown as it is, whatever the materials' colours.
@@ -104,7 +112,15 @@ impl Request {
     /// # Errors
     /// It cannot be written, or is one that is also read.
     pub(super) fn output(&self) -> Result<Output, Error> {
-        self.writable(self.arguments.render.output.as_deref().unwrap_or(Path::new(DEFAULT_OUTPUT)), "-o")
+        let render = &self.arguments.render;
+        let named = render.output.as_deref().unwrap_or(Path::new(DEFAULT_OUTPUT));
+        let format = render.output_format.map(name_of_value);
+        let output = Output::new(named, format.as_deref())?;
+        if render.background == Some(Background::Transparent) {
+            output.check_alpha()?;
+        }
+        self.check_apart(output.name(), |input| output.is(input), "-o")?;
+        Ok(output)
     }
 
     /// A file that the command writes, as `option` names it.
@@ -112,7 +128,7 @@ impl Request {
     /// # Errors
     /// It cannot be written, or is one that is also read.
     pub(super) fn writable(&self, path: &Path, option: &str) -> Result<Output, Error> {
-        let output = Output::new(path)?;
+        let output = Output::new(path, None)?;
         self.check_apart(output.name(), |input| output.is(input), option)?;
         Ok(output)
     }
@@ -205,8 +221,8 @@ impl Request {
         let Size(width, height) = arguments.render.size.unwrap_or(DEFAULT_SIZE);
         let ball = camera::bounding_sphere(&scene.model);
         let aspect = f64::from(width) / f64::from(height);
-        let camera =
-            camera::frame(&arguments.camera.counted_from(origin), scene.camera.as_ref(), ball, aspect)?;
+        let wishes = arguments.camera.counted_from(origin);
+        let camera = camera::frame(&wishes, scene.camera.as_ref(), (&scene.model, ball), aspect)?;
         order::back_to_front(&mut scene.model, &camera);
         if camera::is_behind(&camera, ball) {
             warn(
@@ -226,7 +242,8 @@ impl Request {
 
         let (shading, filter, wrap, cull, scene_depth) = scene.defaults;
         let shiny = shading == Shading::Lambert && has_highlights(arguments, &scene.model);
-        let background = arguments.render.background.map_or(scene.background, Color::bytes);
+        let background = arguments.render.background.as_ref();
+        let background = background.and_then(Background::flat).unwrap_or(scene.background);
         let haze = arguments
             .render
             .fog
@@ -262,7 +279,9 @@ impl Request {
         if let Some(warning) = partners::unused_light(arguments, &scene.model) {
             warn(&warning.to_string());
         }
-        Ok(Staged { model: scene.model, camera, options, load })
+        let samples = samples(arguments, &options)?;
+        let backdrop = Backdrop::new(arguments.render.background.as_ref(), &options)?;
+        Ok(Staged { model: scene.model, camera, options, samples, backdrop, load })
     }
 }
 
@@ -286,6 +305,16 @@ fn threads(arguments: &RenderArgs) -> NonZero<usize> {
     }
 }
 
+/// Samples a pixel: several unless the picture is as a small display has it.
+fn samples(arguments: &RenderArgs, options: &RenderOptions) -> Result<Samples, Error> {
+    let (width, height) = (options.width, options.height);
+    match arguments.render.samples {
+        Some(samples) => samples.check(width, height).map(|()| samples),
+        None if is_small(arguments) => Ok(Samples::One),
+        None => Ok(Samples::usual(width, height)),
+    }
+}
+
 fn name_of(arguments: &RenderArgs) -> &str {
     arguments.scene.as_deref().or(scenes::NAMES.first().copied()).unwrap_or_default()
 }
@@ -302,7 +331,7 @@ fn load(arguments: &RenderArgs) -> Result<Scene, Error> {
         return Ok(Scene {
             model: loaded.model,
             camera: None,
-            defaults: Default::default(),
+            defaults: of_models(arguments),
             background: DEFAULT_BACKGROUND,
             has_uv: loaded.has_uv,
         });
@@ -318,6 +347,20 @@ fn load(arguments: &RenderArgs) -> Result<Scene, Error> {
         background: scene.background,
         has_uv: true,
     })
+}
+
+/// Defaults of models and scene files. What a small display shows is read in the shortest way, and all else without
+/// shimmer.
+fn of_models(arguments: &RenderArgs) -> (Shading, Filter, Wrap, Cull, DepthFormat) {
+    let filter = if is_small(arguments) { Filter::Bilinear } else { Filter::Trilinear };
+    (Shading::default(), filter, Wrap::default(), Cull::default(), DepthFormat::default())
+}
+
+/// Whether a picture is as a small display has it.
+fn is_small(arguments: &RenderArgs) -> bool {
+    let (policies, _) = arguments.render.policies(arguments.camera.is_parallel());
+    policies.color != ColorFormat::Rgba8
+        || matches!(arguments.render.profile, Some(Profile::Mcu | Profile::Tiny))
 }
 
 /// Whether light by vertex leaves out something of a part.
@@ -358,7 +401,7 @@ fn load_scene_file(arguments: &RenderArgs, file: &SceneFile) -> Result<Scene, Er
         .build(&arguments.material, arguments, &mut warnings, &mut |done, total| progress.set(done, total))?;
     drop(progress);
     warn_all(&warnings);
-    Ok(Scene { model, camera: None, defaults: Default::default(), background: DEFAULT_BACKGROUND, has_uv })
+    Ok(Scene { model, camera: None, defaults: of_models(arguments), background: DEFAULT_BACKGROUND, has_uv })
 }
 
 /// The first option that puts an image on surfaces.
@@ -375,7 +418,10 @@ fn mapped(arguments: &RenderArgs) -> Option<String> {
 /// All files that are read, as far as the command line names them.
 fn inputs(arguments: &RenderArgs) -> impl Iterator<Item = PathBuf> {
     let maps = arguments.material.maps().into_iter().map(|(_, map)| map.path);
-    maps.chain([&arguments.model, &arguments.projector.image].into_iter().flatten().cloned())
+    let background =
+        arguments.render.background.clone().and_then(|mut background| background.file().cloned());
+    let named = [&arguments.model, &arguments.projector.image].into_iter().flatten().cloned();
+    maps.chain(named).chain(background)
 }
 
 /// The projection that was asked for; a parallel one shows as much as the perspective one does around its target.
@@ -383,7 +429,9 @@ fn projection(arguments: &RenderArgs, camera: &Camera) -> Result<Projection, Err
     if !arguments.camera.is_parallel() {
         return Ok(Projection::Perspective);
     }
-    let height = arguments.camera.view_height.map_or_else(|| camera::window_height(camera), f32::from);
+    let height = arguments.camera.view_height.map(f32::from);
+    let height =
+        height.map_or_else(|| camera::window_height(camera), |height| height / arguments.camera.zoom());
     if !(height > 0.0 && height.is_finite()) {
         let found = format!("a height of {}", number(height));
         return Err(Error::new(found, "a finite number above 0").place("--view-height"));

@@ -10,7 +10,7 @@ use clap::ArgMatches;
 
 use crate::cli::RenderArgs;
 use crate::error::{Error, Warnings};
-use crate::options::{Material, shared};
+use crate::options::{Background, Material, shared};
 use crate::scene::Model;
 
 mod lights;
@@ -77,9 +77,14 @@ impl SceneFile {
         let File { size, background, output, camera, projector, render, .. } = &self.file;
         let (mut render, mut projector) = (render.clone(), projector.clone());
         render.size = render.size.or(*size);
-        render.background = render.background.or(*background);
+        render.background = render.background.or_else(|| background.clone());
         render.output = render.output.or(output.as_ref().map(PathBuf::from));
-        for (option, path) in [("--output", &mut render.output), ("--projector", &mut projector.image)] {
+        let behind = render.background.as_mut().and_then(Background::file);
+        for (option, path) in [
+            ("--output", render.output.as_mut()),
+            ("--projector", projector.image.as_mut()),
+            ("--background", behind),
+        ] {
             let Some(path) = path else { continue };
             *path = self.source.beside(&path);
             if let Some(key) = self.keys.get(option).cloned() {

@@ -9,10 +9,10 @@ use clap::builder::Resettable;
 use clap::{Args, Command};
 use serde::{Deserialize, Deserializer};
 
-use super::values::{Color, Finite, Number, Point, Size};
+use super::values::{Color, Elevation, Finite, Number, Point, Size, Zoom};
 use super::{
-    Arithmetic, ColorFormat, Cull, DepthFormat, Dither, Filter, Fog, Interpolation, KeyLight, Lod, Normals,
-    Policies, Profile, ProjectionKind, Shading, Subpixel, Wrap,
+    Arithmetic, Background, ColorFormat, Cull, DepthFormat, Dither, FileFormat, Filter, Fog, Interpolation,
+    KeyLight, Lod, Normals, Policies, Profile, ProjectionKind, Samples, Shading, Subpixel, ViewSide, Wrap,
 };
 use crate::error::Error;
 
@@ -32,6 +32,26 @@ pub struct CameraTable {
     /// The direction that is up in the image [default: 0,1,0].
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     pub up: Option<Point>,
+
+    /// Degrees around the model, from the front to the right; instead of --eye [default: 31].
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    pub azimuth: Option<Number<Finite>>,
+
+    /// Degrees above the model, -90 to 90; instead of --eye [default: 21].
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    pub elevation: Option<Number<Elevation>>,
+
+    /// The side that is seen; instead of --eye, --azimuth and --elevation.
+    #[arg(long, value_enum, value_name = "SIDE")]
+    pub view: Option<ViewSide>,
+
+    /// Degrees by which the camera leans to the right [default: 0].
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    pub roll: Option<Number<Finite>>,
+
+    /// Factor by which things are larger in the picture; it narrows the opening angle [default: 1].
+    #[arg(long, value_name = "FACTOR", allow_hyphen_values = true)]
+    pub zoom: Option<Number<Zoom>>,
 
     /// Vertical opening angle in degrees, from the bottom of the image to the top [default: 40].
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
@@ -67,6 +87,41 @@ impl CameraTable {
     #[must_use]
     pub fn is_parallel(&self) -> bool {
         self.projection == Some(ProjectionKind::Parallel)
+    }
+
+    /// Whether it says from which side the model is seen, instead of an eye.
+    pub(crate) fn turns(&self) -> bool {
+        self.azimuth.is_some() || self.elevation.is_some() || self.view.is_some()
+    }
+
+    /// The factor of sizes in the picture.
+    pub(crate) fn zoom(&self) -> f32 {
+        self.zoom.map_or(1.0, f32::from)
+    }
+
+    /// Leaves the place of the eye open, for options that say it in another way.
+    pub(crate) fn forget_place(&mut self) {
+        *self = Self { eye: None, azimuth: None, elevation: None, view: None, ..*self };
+    }
+
+    /// # Errors
+    /// The place of the eye is said in two ways.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let angle = self.azimuth.map(|_| "--azimuth").or(self.elevation.map(|_| "--elevation"));
+        let eye = self.eye.map(|_| "--eye");
+        let view = self.view.map(|_| "--view");
+        let twice = match (view.or(angle), eye, view.and(angle)) {
+            (Some(option), Some(eye), _) => Some((option, eye)),
+            (Some(view), None, Some(angle)) => Some((angle, view)),
+            _ => None,
+        };
+        match twice {
+            Some((option, other)) => {
+                let found = format!("it with {other}, which says where the camera is as well");
+                Err(Error::new(found, "one of the two").place(option))
+            }
+            None => Ok(()),
+        }
     }
 }
 
@@ -135,20 +190,31 @@ impl ProjectorTable {
 #[command(next_help_heading = Resettable::Reset)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 pub struct RenderTable {
-    /// Image to write; the extension says the format: png, jpg, bmp or tga [default: alberti.png].
+    /// Image to write; the extension says the format: png, jpg, bmp, tga, webp, qoi or ppm; - is standard output
+    /// [default: alberti.png].
     #[arg(short, long, value_name = "FILE")]
     #[serde(deserialize_with = "file")]
     pub output: Option<PathBuf>,
+
+    /// Format of the image, whatever its extension [default: of standard output png].
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub output_format: Option<FileFormat>,
 
     /// Width and height of the image in pixels, each up to 16384 [default: 640x480].
     #[arg(long, value_name = "WxH", allow_hyphen_values = true)]
     pub size: Option<Size>,
 
-    /// Colour behind the model, as hexadecimal sRGB [default: 20242c for a model].
-    #[arg(long, value_name = "RRGGBB", allow_hyphen_values = true)]
-    pub background: Option<Color>,
+    /// Background: a colour (RRGGBB or a name), transparent, a gradient TOP..BOTTOM of two colours, or an image file,
+    /// which covers the picture [default: 20242c for a model].
+    #[arg(long, value_name = "WHAT", allow_hyphen_values = true)]
+    pub background: Option<Background>,
 
-    /// How textures are read: nearest, bilinear, trilinear or anisotropic:N [default: bilinear]
+    /// Samples a pixel, averaged in linear light: 4 and 16 smooth edges. `explain`, `advise`, `bake` and --show have
+    /// one [default: 4; with --profile mcu or a --color of fewer bits 1].
+    #[arg(long, value_enum, value_name = "N", hide_possible_values = true)]
+    pub samples: Option<Samples>,
+
+    /// How textures are read: nearest, bilinear, trilinear or anisotropic:N [default: trilinear]
     ///
     /// nearest: the texel that contains the point.
     /// bilinear: a weighted mean of the four texels around the point.

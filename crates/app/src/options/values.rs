@@ -52,6 +52,10 @@ macro_rules! kinds {
 kinds! {
     /// Any number.
     Finite, "a finite number", "finite numbers", |_| true;
+    /// An angle above a plane.
+    Elevation, "an angle from -90 to 90 degrees", "angles from -90 to 90 degrees", |x| x.abs() <= 90.0;
+    /// A factor of sizes.
+    Zoom, "a number from 0.01 to 100", "numbers from 0.01 to 100", |x| (0.01..=100.0).contains(&x);
     /// A share.
     Share, "a number from 0 to 1", "numbers from 0 to 1", |x| (0.0..=1.0).contains(&x);
     /// The steepness of normals.
@@ -283,6 +287,9 @@ impl FromStr for Size {
 pub struct Color(pub [f32; 3]);
 
 impl Color {
+    /// The values.
+    pub(crate) const EXPECTED: &'static str = "six hexadecimal digits RRGGBB, or a name of CSS such as teal";
+
     /// The channels from 0 to 255.
     #[must_use]
     pub fn bytes(self) -> [u8; 3] {
@@ -301,11 +308,14 @@ impl FromStr for Color {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
+        if let Some(rgb) = super::colors::named(text) {
+            return Ok(rgb.into());
+        }
         let digits = text.strip_prefix('#').unwrap_or(text);
         let value = u32::from_str_radix(digits, 16).ok();
         // from_str_radix takes a sign as well.
         let value = value.filter(|_| digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_hexdigit()));
-        let [_, r, g, b] = value.ok_or("six hexadecimal digits RRGGBB, such as 20242c")?.to_be_bytes();
+        let [_, r, g, b] = value.ok_or(Self::EXPECTED)?.to_be_bytes();
         Ok([r, g, b].into())
     }
 }

@@ -1,22 +1,33 @@
 //! Pictures and others into files: whole or not at all.
 
 use std::fs;
-use std::io::{Cursor, ErrorKind, Write as _};
+use std::io::{self, Cursor, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
-use image::{ExtendedColorType, ImageFormat};
+use image::codecs::pnm::{PnmEncoder, PnmSubtype, SampleEncoding};
+use image::{ExtendedColorType, ImageEncoder as _, ImageFormat};
 use tempfile::NamedTempFile;
 
 use crate::error::Error;
 use crate::scene::Image;
 
-const FORMATS: [(&str, ImageFormat); 5] = [
+const FORMATS: [(&str, ImageFormat); 8] = [
     ("png", ImageFormat::Png),
     ("jpg", ImageFormat::Jpeg),
     ("jpeg", ImageFormat::Jpeg),
     ("bmp", ImageFormat::Bmp),
     ("tga", ImageFormat::Tga),
+    ("webp", ImageFormat::WebP),
+    ("qoi", ImageFormat::Qoi),
+    ("ppm", ImageFormat::Pnm),
 ];
+
+/// The formats whose pixels have an alpha here.
+const WITH_ALPHA: [ImageFormat; 4] =
+    [ImageFormat::Png, ImageFormat::Tga, ImageFormat::WebP, ImageFormat::Qoi];
+
+/// The name that stands for standard output.
+const STANDARD: &str = "-";
 
 /// A file that is written whole or not at all, and that can be written, as far as can be told before there is anything
 /// to write.
@@ -35,8 +46,18 @@ impl Whole {
     /// # Errors
     /// The file cannot be written: choose another with `option`.
     pub fn new(named: &Path, option: &'static str) -> Result<Self, Error> {
-        let path = fs::canonicalize(named).unwrap_or_else(|_| named.to_owned());
+        let path = followed(named);
         let output = Self { named: named.to_owned(), path, option };
+        if named.to_string_lossy().ends_with(std::path::is_separator) {
+            return Err(output.refused("the name of a folder"));
+        }
+        if let Err(error) = fs::symlink_metadata(&output.path)
+            && error.kind() != ErrorKind::NotFound
+            && error.kind() != ErrorKind::NotADirectory
+            && error.kind() != ErrorKind::PermissionDenied
+        {
+            return Err(output.refused(&format!("a name that no file can have ({error})")));
+        }
         if let Ok(metadata) = fs::metadata(&output.path) {
             if metadata.is_dir() {
                 return Err(output.refused("a directory"));
@@ -87,6 +108,11 @@ impl Whole {
     fn written(&self, bytes: &[u8]) -> Result<NamedTempFile, Error> {
         let mut file = self.temporary()?;
         file.write_all(bytes)
+            .and_then(|()| match fs::metadata(&self.path) {
+                // A file that is replaced keeps its permissions.
+                Ok(old) => file.as_file().set_permissions(old.permissions()),
+                Err(_) => Ok(()),
+            })
             .and_then(|()| file.as_file().sync_all())
             .map_err(|e| self.refused(&format!("that writing fails ({e})")))?;
         Ok(file)
@@ -121,36 +147,71 @@ impl Whole {
     }
 }
 
-/// A picture's file.
+/// The file that a name stands for: links are followed, also to where nothing is yet.
+fn followed(named: &Path) -> PathBuf {
+    let mut path = named.to_owned();
+    // As many as systems follow.
+    for _ in 0..40 {
+        let Ok(next) = fs::read_link(&path) else { break };
+        path = path.parent().unwrap_or(Path::new("")).join(next);
+    }
+    fs::canonicalize(&path).unwrap_or(path)
+}
+
+/// A picture's file, or standard output.
 #[derive(Clone, Debug)]
 pub struct Output {
-    file: Whole,
+    named: PathBuf,
+    /// Without one, standard output.
+    file: Option<Whole>,
     format: ImageFormat,
 }
 
 impl Output {
-    /// Checks the extension, the folder and the file that may be there already. Nothing is left behind.
+    /// Checks the extension, the folder and the file that may be there already. Nothing is left behind. The extension
+    /// says the format, unless `format` names one as if it were an extension. `-` is standard output, and PNG.
     ///
     /// # Errors
     /// The extension is unknown, or the file cannot be written.
-    pub fn new(named: &Path) -> Result<Self, Error> {
+    pub fn new(named: &Path, format: Option<&str>) -> Result<Self, Error> {
+        let standard = named.as_os_str() == STANDARD;
         let extension = named.extension().map(|e| e.to_string_lossy().to_lowercase());
+        let extension = format.map(str::to_owned).or(extension);
+        let extension = extension.or_else(|| standard.then(|| "png".to_owned()));
         let known = FORMATS.iter().find(|(name, _)| extension.as_deref() == Some(name));
         let &(_, format) = known.ok_or_else(|| {
             let found = extension.map_or("no extension".to_owned(), |e| format!("the extension \".{e}\""));
-            Error::new(found, "one of .png, .jpg, .jpeg, .bmp, .tga").file(named).hint("name the output so")
+            let all = FORMATS.map(|(name, _)| format!(".{name}")).join(", ");
+            let error = Error::new(found, format!("one of {all}")).file(named);
+            error.hint("name the output so, or give --output-format")
         })?;
-        Ok(Self { file: Whole::new(named, "-o")?, format })
+        let file = if standard { None } else { Some(Whole::new(named, "-o")?) };
+        Ok(Self { named: named.to_owned(), file, format })
     }
 
     /// The path as the user gave it, for messages.
     pub fn name(&self) -> &Path {
-        self.file.name()
+        &self.named
+    }
+
+    /// Whether it is standard output.
+    pub fn is_standard(&self) -> bool {
+        self.file.is_none()
     }
 
     /// Whether `other` is the same file.
     pub fn is(&self, other: &Path) -> bool {
-        self.file.is(other)
+        self.file.as_ref().is_some_and(|file| file.is(other))
+    }
+
+    /// # Errors
+    /// Its format has no alpha.
+    pub fn check_alpha(&self) -> Result<(), Error> {
+        if WITH_ALPHA.contains(&self.format) {
+            return Ok(());
+        }
+        let error = Error::new("a format without transparency", "png, tga, webp or qoi").file(&self.named);
+        Err(error.hint("choose another with -o, or another --background"))
     }
 
     /// Encodes and writes the picture, without its alpha. A failure at any point leaves whatever was there before.
@@ -158,22 +219,50 @@ impl Output {
     /// # Errors
     /// Encoding or writing fails: the disk is full, for example.
     pub fn write(&self, picture: &Image) -> Result<(), Error> {
-        // Encoded in memory first, so that there is a temporary file only for as long as a copy takes.
         let rgb: Vec<u8> = picture.texels.iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect();
+        self.encode(picture, &rgb, ExtendedColorType::Rgb8)
+    }
+
+    /// The same with its alpha.
+    ///
+    /// # Errors
+    /// Those of [`write`](Self::write), and of [`check_alpha`](Self::check_alpha).
+    pub fn write_with_alpha(&self, picture: &Image) -> Result<(), Error> {
+        self.check_alpha()?;
+        self.encode(picture, picture.texels.as_flattened(), ExtendedColorType::Rgba8)
+    }
+
+    fn encode(&self, picture: &Image, bytes: &[u8], colors: ExtendedColorType) -> Result<(), Error> {
+        // Encoded in memory first, so that there is a temporary file only for as long as a copy takes.
         let mut encoded = Cursor::new(Vec::new());
         let (width, height) = (picture.width, picture.height);
-        image::write_buffer_with_format(
-            &mut encoded,
-            &rgb,
-            width,
-            height,
-            ExtendedColorType::Rgb8,
-            self.format,
-        )
-        .map_err(|e| self.file.refused(&format!("that encoding fails ({e})")))?;
-        drop(rgb);
-        self.file.write(encoded.get_ref())
+        let written = if self.format == ImageFormat::Pnm {
+            // P6: the kind that all programs read.
+            let encoder = PnmEncoder::new(&mut encoded);
+            let encoder = encoder.with_subtype(PnmSubtype::Pixmap(SampleEncoding::Binary));
+            encoder.write_image(bytes, width, height, colors)
+        } else {
+            image::write_buffer_with_format(&mut encoded, bytes, width, height, colors, self.format)
+        };
+        written.map_err(|error| {
+            let found = format!("that encoding fails ({error})");
+            Error::new(found, "a picture of another size or format").file(&self.named)
+        })?;
+        match &self.file {
+            Some(file) => file.write(encoded.get_ref()),
+            None => write_standard(encoded.get_ref()),
+        }
     }
+}
+
+/// # Errors
+/// Nobody reads it.
+fn write_standard(bytes: &[u8]) -> Result<(), Error> {
+    let mut out = io::stdout().lock();
+    out.write_all(bytes).and_then(|()| out.flush()).map_err(|error| {
+        let found = format!("that writing fails ({error})");
+        Error::new(found, "to write the picture").place("standard output")
+    })
 }
 
 #[cfg(test)]
@@ -189,11 +278,18 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         for (extension, format) in FORMATS {
             let path = folder.path().join(format!("a.{}", extension.to_uppercase()));
-            Output::new(&path).unwrap().write(&picture()).unwrap();
+            Output::new(&path, None).unwrap().write(&picture()).unwrap();
             let back = image::load_from_memory_with_format(&fs::read(&path).unwrap(), format).unwrap();
             assert_eq!((back.width(), back.height()), (2, 1));
             if format != ImageFormat::Jpeg {
                 assert_eq!(back.to_rgba8().as_raw(), &[255, 0, 0, 255, 0, 0, 255, 255]);
+            }
+            let clear = Image { width: 1, height: 2, texels: vec![[9, 8, 7, 6], [255, 0, 0, 255]] };
+            let output = Output::new(&path, None).unwrap();
+            assert_eq!(output.write_with_alpha(&clear).is_ok(), WITH_ALPHA.contains(&format));
+            if WITH_ALPHA.contains(&format) {
+                let back = image::load_from_memory_with_format(&fs::read(&path).unwrap(), format).unwrap();
+                assert_eq!(back.to_rgba8().as_raw(), clear.texels.as_flattened());
             }
             fs::remove_file(path).unwrap();
         }
@@ -217,8 +313,10 @@ mod tests {
             ("no/a.png", "found no such folder"),
             ("file/a.png", "found a file in the place of its folder"),
             ("r.png", "found a file that is read-only"),
+            ("x.png/", "found the name of a folder"),
+            (&format!("{}.png", "x".repeat(300)), "found a name that no file can have"),
         ] {
-            let message = Output::new(&at(name)).unwrap_err().to_string();
+            let message = Output::new(&at(name), None).unwrap_err().to_string();
             assert!(message.contains(found), "{message}");
         }
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3);
@@ -246,7 +344,7 @@ mod tests {
     #[cfg(target_os = "linux")]
     #[test]
     fn folders_of_the_system_take_no_new_files() {
-        let message = Output::new(Path::new("/proc/x.png")).unwrap_err().to_string();
+        let message = Output::new(Path::new("/proc/x.png"), None).unwrap_err().to_string();
         let expected =
             "/proc/x.png: found a folder that takes no new files, expected a file that can be written";
         assert!(message.starts_with(expected), "{message}");
@@ -259,11 +357,19 @@ mod tests {
         let (file, link) = (folder.path().join("a.png"), folder.path().join("l.png"));
         fs::write(&file, "old").unwrap();
         std::os::unix::fs::symlink(&file, &link).unwrap();
-        let output = Output::new(&link).unwrap();
+        let output = Output::new(&link, None).unwrap();
         assert_eq!(fs::read(&file).unwrap(), b"old");
         output.write(&picture()).unwrap();
         assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
         assert!(fs::read(&file).unwrap().starts_with(b"\x89PNG"));
         assert!(output.is(&file));
+        // Permissions stay, and a link to nothing yet is followed as well.
+        use std::os::unix::fs::PermissionsExt as _;
+        fs::set_permissions(&file, fs::Permissions::from_mode(0o640)).unwrap();
+        output.write(&picture()).unwrap();
+        assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o640);
+        fs::remove_file(&file).unwrap();
+        Output::new(&link, None).unwrap().write(&picture()).unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink() && file.is_file());
     }
 }

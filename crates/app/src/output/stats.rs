@@ -1,7 +1,11 @@
 //! The cost of a picture: counts from the pipeline and times from the clock, as text or as JSON.
 
+use crate::camera::as_options;
+use crate::options::Projection;
+use crate::scene::Camera;
 use alberti::Stats;
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
+use serde_json::json;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -31,6 +35,12 @@ pub struct Report<'a> {
     pub stats: Stats,
     /// Times.
     pub times: Times,
+    /// The camera that was used.
+    pub camera: Camera,
+    /// The point from which its coordinates are counted.
+    pub origin: [f64; 3],
+    /// Its projection.
+    pub projection: Projection,
 }
 
 /// The origin of the triangles.
@@ -43,7 +53,7 @@ pub enum Source<'a> {
 }
 
 impl Report<'_> {
-    /// One line: what was made from what.
+    /// A line of what was made from what, and one of the options of the camera that saw it.
     pub fn summary(&self) -> String {
         let source = match self.source {
             Source::Model(path) => path.display().to_string(),
@@ -51,10 +61,11 @@ impl Report<'_> {
         };
         let (width, height) = self.size;
         format!(
-            "{source}: {} triangles in {:.1} ms, {width}x{height} pixels in {}",
+            "{source}: {} triangles in {:.1} ms, {width}x{height} pixels in {}\ncamera: {}",
             self.stats.submitted,
             ms(self.times.render),
-            self.output.display()
+            self.output.display(),
+            as_options(&self.camera, self.origin, self.projection)
         )
     }
 
@@ -71,8 +82,9 @@ impl Report<'_> {
         text
     }
 
-    /// One JSON object on one line: `output`, `model` or `scene`, `width`, `height`, the counts (see [`Stats`]), and
-    /// `ms` with `load`, `render` and `write`.
+    /// One JSON object on one line: `output`, `model` or `scene`, `width`, `height`, the counts (see [`Stats`]),
+    /// `camera` and `ms`. The camera has its numbers and, as `options`, the words that make it again; `ms` has `load`,
+    /// `render` and `write`.
     pub fn json(&self) -> String {
         // Strings and finite numbers cannot be refused.
         serde_json::to_string(self).unwrap_or_default()
@@ -114,6 +126,12 @@ impl Serialize for Report<'_> {
         for (name, count) in self.counts() {
             fields.serialize_entry(name, &count)?;
         }
+        let Camera { eye, target, up, fov, near, far } = self.camera;
+        let options = as_options(&self.camera, self.origin, self.projection);
+        let numbers = json!({
+            "eye": eye, "target": target, "up": up, "fov": fov, "near": near, "far": far, "options": options,
+        });
+        fields.serialize_entry("camera", &numbers)?;
         let thousandths = |time| (ms(time) * 1e3).round() / 1e3;
         let times = self.durations().map(|(name, time)| (name, thousandths(time)));
         fields.serialize_entry("ms", &BTreeMap::from(times))?;
@@ -128,7 +146,16 @@ mod tests {
     fn report<'a>(output: &'a Path, source: Source<'a>) -> Report<'a> {
         let stats = Stats { submitted: 5, clipped: 4, culled: 3, drawn: 2, fragments: 1, ..Stats::default() };
         let times = Times { load: Duration::from_micros(1500), ..Times::default() };
-        Report { output, source, size: (7, 6), stats, times }
+        let camera = Camera {
+            eye: [0.0, 1.5, 1e-7],
+            target: [0.0; 3],
+            up: [0.0, 1.0, 0.0],
+            fov: 40.0,
+            near: 0.1,
+            far: 10.0,
+        };
+        let projection = Projection::Parallel { height: 2.5 };
+        Report { output, source, size: (7, 6), stats, times, camera, origin: [0.0; 3], projection }
     }
 
     #[test]
@@ -151,6 +178,9 @@ mod tests {
     fn text_names_everything() {
         let report = report(Path::new("a.png"), Source::Model(Path::new("m.obj")));
         assert_eq!(report.text().lines().count(), 11);
-        assert_eq!(report.summary(), "m.obj: 5 triangles in 0.0 ms, 7x6 pixels in a.png");
+        let summary = "m.obj: 5 triangles in 0.0 ms, 7x6 pixels in a.png\n\
+                       camera: --eye 0,1.5,1e-7 --target 0,0,0 --up 0,1,0 --fov 40 --near 0.1 --far 10 \
+                       --projection parallel --view-height 2.5";
+        assert_eq!(report.summary(), summary);
     }
 }

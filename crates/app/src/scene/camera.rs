@@ -6,6 +6,10 @@ use crate::options::{CameraTable, DEFAULT_FOV, Projection};
 use crate::scene::normals::{cross, dot, length, narrow, normalize, sub};
 use crate::scene::{Camera, Model};
 use alberti::ViewError;
+use fit::{Lens, fit};
+
+mod fit;
+mod pose;
 
 /// A ball around a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,15 +40,15 @@ pub fn bounding_sphere(model: &Model) -> Sphere {
     Sphere { center, radius: if radius > 0.0 { radius } else { 1.0 } }
 }
 
-/// The camera of these options. Parts that they leave open come from `base`, a scene's own camera. Without it they are
-/// chosen so that the ball fills the picture of `aspect` (width to height), seen from the front, the right and above.
-/// Near and far enclose the ball as seen from the eye that results, unless eye, target and base leave them as they were
-/// made.
+/// The camera of these options. Parts that they leave open come from `base`, a scene's own camera. Without it the
+/// silhouette of the model fills the picture of `aspect` (width to height). It is seen from the front, the right and
+/// above, or from where the options say. Near and far enclose the ball as seen from the eye that results,
+/// unless eye, target and base leave them as they were made.
 ///
 /// # Errors
 /// The first of these that does not hold, with the option that sets it:
 ///
-/// * all is finite;
+/// * all is finite, and the model neither too small nor too large to look at;
 /// * the opening angle is between 0 and 180 degrees;
 /// * the eye is apart from its target;
 /// * up is not along the view;
@@ -52,41 +56,113 @@ pub fn bounding_sphere(model: &Model) -> Sphere {
 pub fn frame(
     wishes: &CameraTable,
     base: Option<&Camera>,
-    ball: Sphere,
+    (model, ball): (&Model, Sphere),
     aspect: f64,
 ) -> Result<Camera, Error> {
     let point = |point: Option<Point>| point.map(<[f32; 3]>::from);
+    let wide = |v: [f32; 3]| v.map(f64::from);
     let fov = wishes.fov.map(f32::from).or(base.map(|b| b.fov)).unwrap_or(DEFAULT_FOV);
     check_fov(fov, &CAMERA)?;
-    let target = point(wishes.target).or(base.map(|b| b.target)).unwrap_or(ball.center.map(narrow));
-    let wide = |v: [f32; 3]| v.map(f64::from);
+    let given = point(wishes.target).or(base.map(|b| b.target));
     let up = point(wishes.up).or(base.map(|b| b.up));
-    let eye = match point(wishes.eye).or(base.map(|b| b.eye)) {
-        Some(eye) => eye,
-        None => {
-            let away = three_quarter(wide(up.unwrap_or([0.0, 1.0, 0.0])));
-            let distance = distance(ball.radius, f64::from(fov).to_radians(), aspect);
-            let from = wide(target);
-            [0, 1, 2].map(|axis| narrow(from[axis] + away[axis] * distance))
+    let own = point(wishes.eye).or(base.filter(|_| !wishes.turns()).map(|b| b.eye));
+    let upright = up.map_or([0.0, 1.0, 0.0], wide);
+    let away = pose::away(wishes, upright);
+    let (eye, target) = match (own, base) {
+        (Some(eye), _) => (eye, given.unwrap_or(ball.center.map(narrow))),
+        (None, Some(base)) => {
+            // Around the target of the scene, as far from it.
+            let distance = length(sub(wide(base.target), wide(base.eye)));
+            let target = given.unwrap_or(base.target);
+            ([0, 1, 2].map(|k| narrow(f64::from(target[k]) + away[k] * distance)), target)
+        }
+        (None, None) => {
+            check_radius(model, ball)?;
+            let view = away.map(|x| -x);
+            let right =
+                normalize(cross(view, pose::upwards(wishes, upright, away))).unwrap_or([1.0, 0.0, 0.0]);
+            let tangent = (f64::from(fov).to_radians() / 2.0).tan();
+            let lens = Lens { tangents: [tangent * aspect, tangent], parallel: wishes.is_parallel() };
+            let axes = [right, cross(right, view), view];
+            let (eye, target) = fit((model, ball), axes, lens, given.map(wide));
+            (eye.map(narrow), given.unwrap_or(target.map(narrow)))
         }
     };
     let view = sub(wide(target), wide(eye));
-    let up = up.unwrap_or_else(|| upwards(view));
+    let mut up = match (own, up) {
+        (None, _) => pose::upwards(wishes, upright, away).map(narrow),
+        (Some(_), Some(up)) => up,
+        (Some(_), None) => upwards(view),
+    };
+    if let Some(roll) = wishes.roll {
+        up = pose::rolled(wide(up), view, f64::from(f32::from(roll))).map(narrow);
+    }
+    let kept = wishes.eye.is_none() && wishes.target.is_none() && !wishes.turns();
     let (near, far) = match base {
-        Some(base) if wishes.eye.is_none() && wishes.target.is_none() => (base.near, base.far),
-        _ => planes(sub(ball.center, wide(eye)), view, ball.radius),
+        Some(base) if kept => (base.near, base.far),
+        _ => planes(sub(ball.center, wide(eye)), view, ball.radius, own.is_none() && wishes.is_parallel()),
     };
     let camera = Camera {
         eye,
         target,
         up,
-        fov,
+        fov: zoomed(fov, wishes.zoom()),
         near: wishes.near.map_or(near, f32::from),
         far: wishes.far.map_or(far, f32::from),
     };
     check(&camera, &CAMERA)?;
     check_planes(&camera, wishes.is_parallel(), [near, far])?;
     Ok(camera)
+}
+
+/// The angle that shows things so many times as large in the middle of the picture.
+fn zoomed(fov: f32, zoom: f32) -> f32 {
+    if zoom == 1.0 {
+        return fov;
+    }
+    let tangent = (f64::from(fov).to_radians() / 2.0).tan() / f64::from(zoom);
+    narrow(2.0 * tangent.atan().to_degrees())
+}
+
+/// The options that make this camera again, bit for bit, for a model whose coordinates are counted from `origin`.
+#[must_use]
+pub fn as_options(camera: &Camera, origin: [f64; 3], projection: Projection) -> String {
+    let point = |point: [f32; 3]| point.map(number).join(",");
+    let place = |point: [f32; 3]| {
+        let coordinate = |axis: usize| match origin[axis] {
+            0.0 => number(point[axis]),
+            origin => (f64::from(point[axis]) + origin).to_string(),
+        };
+        [0, 1, 2].map(coordinate).join(",")
+    };
+    let Camera { eye, target, up, fov, near, far } = *camera;
+    let mut options = format!(
+        "--eye {} --target {} --up {} --fov {} --near {} --far {}",
+        place(eye),
+        place(target),
+        point(up),
+        number(fov),
+        number(near),
+        number(far)
+    );
+    if let Projection::Parallel { height } = projection {
+        options += &format!(" --projection parallel --view-height {}", number(height));
+    }
+    options
+}
+
+/// # Errors
+/// Coordinates in which no camera can be placed.
+fn check_radius(model: &Model, ball: Sphere) -> Result<(), Error> {
+    if (1e-15..=1e15).contains(&ball.radius) {
+        return Ok(());
+    }
+    let found = format!("a model of radius {:e}", ball.radius);
+    let error = Error::new(found, "one from 1e-15 to 1e15").hint("scale its coordinates");
+    Err(match &model.source {
+        Some(path) => error.file(path),
+        None => error,
+    })
 }
 
 /// The camera after so many of `turns` equal parts of a turn around its target, about its upward direction. The planes
@@ -138,6 +214,9 @@ pub fn is_behind(camera: &Camera, ball: Sphere) -> bool {
     let view = normalize(sub(camera.target.map(f64::from), eye)).unwrap_or([0.0; 3]);
     dot(sub(ball.center, eye), view) < f64::from(camera.near).min(0.0) - ball.radius
 }
+
+/// The least opening angle, in degrees: of a smaller one, places from which all is in view are too far away.
+const LEAST_FOV: f32 = 0.001;
 
 /// The options that set a camera's parts.
 pub(crate) struct Names {
@@ -234,22 +313,17 @@ fn check_planes(camera: &Camera, parallel: bool, usable: [f32; 2]) -> Result<(),
 }
 
 fn check_fov(fov: f32, names: &Names) -> Result<(), Error> {
-    if fov > 0.0 && fov < 180.0 {
+    if (LEAST_FOV..180.0).contains(&fov) {
         return Ok(());
+    }
+    if fov > 0.0 && fov < LEAST_FOV {
+        let found = format!("{} degrees", number(fov));
+        let expected = format!("an angle of at least {LEAST_FOV} degrees");
+        return Err(Error::new(found, expected).place(names.fov).hint("40 is usual"));
     }
     Err(Error::new(format!("{} degrees", number(fov)), "an angle above 0 and below 180 degrees")
         .place(names.fov)
         .hint("40 is usual"))
-}
-
-/// The unit vector from a model to a viewer in front of it, a third to the right and a little above. The front
-/// is +z when y is up, and -y when z is up, as modelling programs have it.
-fn three_quarter(up: [f64; 3]) -> [f64; 3] {
-    let up = normalize(up).unwrap_or([0.0, 1.0, 0.0]);
-    let front = normalize(cross([1.0, 0.0, 0.0], up)).unwrap_or([0.0, 0.0, 1.0]);
-    let right = cross(up, front);
-    let away = [0, 1, 2].map(|axis| front[axis] + 0.6 * right[axis] + 0.45 * up[axis]);
-    normalize(away).unwrap_or(front)
 }
 
 /// The direction upwards in a picture whose user has not said it: y, unless that is no direction across the view. When
@@ -258,19 +332,14 @@ fn upwards(view: [f64; 3]) -> [f32; 3] {
     if parallel(view, [0.0, 1.0, 0.0]) { [0.0, 0.0, -1.0] } else { [0.0, 1.0, 0.0] }
 }
 
-/// The distance from a ball's centre at which it just fits between the sides of the view, with a little room.
-fn distance(radius: f64, fov: f64, aspect: f64) -> f64 {
-    let vertical = fov / 2.0;
-    let horizontal = (vertical.tan() * aspect).atan();
-    1.05 * radius / vertical.min(horizontal).sin()
-}
-
 /// Near and far planes around a ball, with a little room. From within the ball, near is a thousandth of far: the
-/// depth buffer needs a ratio that it can resolve. For a ball behind the viewer, as if it were around him.
-fn planes(to_center: [f64; 3], view: [f64; 3], radius: f64) -> (f32, f32) {
+/// depth buffer needs a ratio that it can resolve. For a ball behind the viewer, as if it were around him. Planes that
+/// may be `anywhere` are around the ball wherever it is.
+fn planes(to_center: [f64; 3], view: [f64; 3], radius: f64, anywhere: bool) -> (f32, f32) {
     let depth = dot(to_center, normalize(view).unwrap_or([0.0; 3]));
     let far = if depth + radius > 0.0 { depth + 1.01 * radius } else { radius };
-    let near = (depth - 1.01 * radius).max(far / 1000.0);
+    let near = depth - 1.01 * radius;
+    let near = if anywhere { near } else { near.max(far / 1000.0) };
     (narrow(near), narrow(far))
 }
 

@@ -34,7 +34,7 @@ fn halves(color: [u8; 3], alphas: [u8; 2]) -> Vec<u8> {
 
 fn drawn(folder: &Folder, scene: &str, arguments: &[&str]) -> image::RgbImage {
     std::fs::write(folder.path("s.toml"), scene).expect("a file");
-    let run = folder.succeeds(&[&["s.toml"][..], arguments].concat());
+    let run = folder.succeeds(&[&["s.toml", "--samples", "1"][..], arguments].concat());
     assert_eq!(run.stderr, "", "{scene}");
     image::open(folder.path("a.png")).expect("a picture").to_rgb8()
 }

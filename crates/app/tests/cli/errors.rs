@@ -181,7 +181,7 @@ fn sizes_colours_and_threads_that_are_none() {
         let found = format!("error: --threads: found \"{threads}\", expected a whole number from 1 to 256");
         folder.fails(&["--threads", threads], &[&found]);
     }
-    for color in ["red", "fff", "12345g", "+12345", "#12345", "1234567", ""] {
+    for color in ["reddish", "fff", "12345g", "+12345", "#12345", "1234567", ""] {
         let found = format!("error: --background: found \"{color}\", expected six hexadecimal digits");
         folder.fails(&["--background", color], &[&found]);
     }
@@ -221,7 +221,7 @@ fn options_of_materials_that_are_none() {
             "--shininess 9,8",
             "error: --shininess: found \"9,8\", expected a number from 0 to 65536, or a least",
         ),
-        ("--specular red", "error: --specular: found \"red\", expected six hexadecimal digits"),
+        ("--specular reddish", "error: --specular: found \"reddish\", expected six hexadecimal digits"),
         ("--normal-map no.png", "error: no.png: found no such file"),
         ("--height-map m.obj", "error: m.obj: found a file of another format"),
     ] {

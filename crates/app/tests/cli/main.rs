@@ -9,6 +9,7 @@ mod explain;
 mod light;
 mod materials;
 mod models;
+mod picture;
 mod policies;
 mod projection;
 mod scenes;

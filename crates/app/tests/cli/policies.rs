@@ -7,7 +7,7 @@ use crate::Folder;
 /// A small picture of a built-in scene under these options.
 fn picture(scene: &str, arguments: &str) -> RgbImage {
     let folder = Folder::with(&[]);
-    let all = format!("--scene {scene} --size 160x120 {arguments}");
+    let all = format!("--scene {scene} --size 160x120 --samples 1 {arguments}");
     folder.succeeds(&all.split_whitespace().collect::<Vec<_>>());
     image::open(folder.path("alberti.png")).expect("a picture").to_rgb8()
 }

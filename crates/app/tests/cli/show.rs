@@ -38,7 +38,7 @@ fn the_legend_has_every_colour_and_its_share() {
         ("overdraw", "--scene hero --profile tiny"),
     ] {
         let (run, picture) = shown(&format!("--size 120x90 --show {what} {more}"));
-        let mut lines = run.stdout.lines().skip(1);
+        let mut lines = run.stdout.lines().skip(2);
         assert!(lines.next().is_some_and(|title| title.starts_with(&format!("{what}: "))), "{run:?}");
         let mut left = colors(&picture);
         assert!(left.len() > 1, "{what} {more}");
@@ -72,7 +72,7 @@ fn errors_are_those_of_the_policies() {
     assert!(run.stdout.contains("greatest 0, of 4800"), "{run:?}");
     assert_eq!(colors(&picture).len(), 1);
     for (scene, policies) in [("cube", "--color rgb565"), ("hero", "--interpolation affine --depth u16")] {
-        let scene = format!("--scene {scene} --size 80x60");
+        let scene = format!("--scene {scene} --size 80x60 --samples 1");
         let (run, picture) = shown(&format!("{scene} {policies} --show error"));
         let [found, precise] = [policies, "--profile reference"].map(|p| shown(&format!("{scene} {p}")).1);
         let mut steps = HashMap::new();

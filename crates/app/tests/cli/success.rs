@@ -13,7 +13,7 @@ fn without_arguments_there_is_a_picture() {
     let size = image::image_dimensions(folder.path("alberti.png")).expect("a picture");
     assert_eq!(size, (640, 480));
     assert_eq!(run.stderr, "");
-    assert_eq!(run.stdout.lines().count(), 1);
+    assert_eq!(run.stdout.lines().count(), 2);
     for part in ["hero", "640x480", " triangles", " ms", "alberti.png"] {
         assert!(run.stdout.contains(part), "{part} is not in {}", run.stdout);
     }

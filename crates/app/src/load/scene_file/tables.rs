@@ -8,14 +8,14 @@ use serde::Deserialize;
 use crate::options::values::{
     Color, HalfAngle, Intensity, Length, Number, Place, Scale, Side, Size, Tuple, one_of, words,
 };
-use crate::options::{CameraTable, Material, ProjectorTable, RenderTable};
+use crate::options::{Background, CameraTable, Material, ProjectorTable, RenderTable};
 
 /// The whole file.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct File {
     pub(super) size: Option<Size>,
-    pub(super) background: Option<Color>,
+    pub(super) background: Option<Background>,
     pub(super) output: Option<String>,
     pub(super) camera: CameraTable,
     pub(super) projector: ProjectorTable,

@@ -63,7 +63,7 @@ fn options_are_filled_in_and_the_command_line_comes_first() {
     let (folder, _, arguments) = read(&[("s.toml", text.as_bytes())]).unwrap();
     let RenderArgs { camera, render, .. } = arguments;
     assert_eq!((render.size, camera.eye), (Some(Size(320, 200)), Some([1.0, 2.5, 3.0].into())));
-    assert_eq!(render.background, Some([0x10, 0x20, 0x30].into()));
+    assert_eq!(render.background.and_then(|background| background.flat()), Some([0x10, 0x20, 0x30]));
     assert_eq!(render.output, Some(folder.path().join("out.png")));
     assert_eq!((camera.fov, render.shading), (Some(30.0.into()), Some(Shading::Blinn)));
     assert_eq!(render.filter, Some(Filter::Anisotropic(Probes::Eight)));

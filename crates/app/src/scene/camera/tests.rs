@@ -6,12 +6,17 @@ use crate::scene::Vertex;
 
 const BALL: Sphere = Sphere { center: [1.0, 2.0, 3.0], radius: 2.0 };
 
+/// The ball as a model: nothing else is known of one without vertices.
+fn model() -> Model {
+    Model::default()
+}
+
 fn of(wishes: CameraTable) -> Camera {
-    frame(&wishes, None, BALL, 4.0 / 3.0).unwrap()
+    frame(&wishes, None, (&model(), BALL), 4.0 / 3.0).unwrap()
 }
 
 fn refused(wishes: CameraTable) -> String {
-    frame(&wishes, None, BALL, 1.0).unwrap_err().to_string()
+    frame(&wishes, None, (&model(), BALL), 1.0).unwrap_err().to_string()
 }
 
 /// Whether the ball lies between all six planes.
@@ -39,13 +44,17 @@ fn the_automatic_camera_shows_the_whole_ball() {
             for up in [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [1.0, 1.0, -1.0]] {
                 let wishes =
                     CameraTable { fov: Some(fov.into()), up: Some(up.into()), ..CameraTable::default() };
-                let camera = frame(&wishes, None, BALL, aspect).unwrap();
+                let camera = frame(&wishes, None, (&model(), BALL), aspect).unwrap();
                 assert!(contains(&camera, aspect), "{aspect} {camera:?}");
             }
         }
     }
     let camera = of(CameraTable::default());
     assert_eq!((camera.target, camera.up, camera.fov), ([1.0, 2.0, 3.0], [0.0, 1.0, 0.0], DEFAULT_FOV));
+    let zoomed = of(CameraTable { zoom: Some(2.0.into()), ..CameraTable::default() });
+    assert_eq!((zoomed.eye, zoomed.target), (camera.eye, camera.target));
+    let tangents = [camera, zoomed].map(|camera| (f64::from(camera.fov).to_radians() / 2.0).tan());
+    assert!((tangents[0] / tangents[1] - 2.0).abs() < 1e-6);
     assert!(camera.eye[0] > 1.0 && camera.eye[1] > 2.0 && camera.eye[2] > 3.0);
 }
 
@@ -108,9 +117,9 @@ fn looking_down_needs_no_up() {
 fn a_scene_keeps_its_own_planes_unless_the_view_changes() {
     let base =
         Camera { eye: [9.0; 3], target: [0.0; 3], up: [0.0, 1.0, 0.0], fov: 50.0, near: 0.1, far: 77.0 };
-    assert_eq!(frame(&CameraTable::default(), Some(&base), BALL, 1.0).unwrap(), base);
+    assert_eq!(frame(&CameraTable::default(), Some(&base), (&model(), BALL), 1.0).unwrap(), base);
     let moved = CameraTable { eye: Some([0.0, 0.0, 50.0].into()), ..CameraTable::default() };
-    assert!(frame(&moved, Some(&base), BALL, 1.0).unwrap().near > 40.0);
+    assert!(frame(&moved, Some(&base), (&model(), BALL), 1.0).unwrap().near > 40.0);
 }
 
 #[test]
@@ -159,7 +168,7 @@ fn what_is_not_a_camera_is_refused() {
         let message = refused(wishes);
         assert!(message.starts_with(start), "{message}");
     }
-    assert!(frame(&CameraTable { fov: Some(1e-38.into()), ..none }, None, BALL, 1.0).is_err());
+    assert!(frame(&CameraTable { fov: Some(1e-38.into()), ..none }, None, (&model(), BALL), 1.0).is_err());
     // The advice can be taken.
     let message = refused(CameraTable { near: Some(1e9.into()), eye: Some([1.0, 2.0, 13.0].into()), ..none });
     assert!(message.ends_with("; try --near 7.98 --far 12.02"), "{message}");

@@ -55,8 +55,8 @@ fn errors_name_line_and_key() {
             "s.toml:1: size: found 1.5, expected a whole number from 1 to 16384",
         ),
         (
-            &format!("background = \"red\"\n{MINIMAL}"),
-            "s.toml:1: background: found \"red\", expected six hexadecimal digits",
+            &format!("background = \"reddish\"\n{MINIMAL}"),
+            "s.toml:1: background: found \"reddish\", expected six hexadecimal digits",
         ),
         (
             &format!("size = [1, 1]\n{MINIMAL}[render]\nsize = [1, 1]\n"),

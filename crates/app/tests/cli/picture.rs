@@ -1,0 +1,198 @@
+//! What a picture is made of beside the model: samples, the background, the camera, and the file.
+
+use std::ffi::OsStr;
+use std::fs;
+
+use crate::{Folder, TRIANGLE, alberti};
+
+fn folder() -> Folder {
+    Folder::with(&[("m.obj", TRIANGLE.as_bytes())])
+}
+
+fn picture(folder: &Folder, name: &str) -> image::RgbaImage {
+    image::open(folder.path(name)).expect("a picture").to_rgba8()
+}
+
+#[test]
+fn edges_are_smooth_unless_a_display_is_shown() {
+    let folder = folder();
+    let colors = |options: &str| {
+        let words = ["m.obj", "--size", "64x48", "--shading", "unlit", "--roll", "17", "-o", "a.png"];
+        folder.succeeds(&words.into_iter().chain(options.split_whitespace()).collect::<Vec<_>>());
+        let mut colors: Vec<_> = picture(&folder, "a.png").pixels().map(|pixel| pixel.0).collect();
+        colors.sort_unstable();
+        colors.dedup();
+        colors.len()
+    };
+    assert_eq!(colors("--samples 1"), 2);
+    assert_eq!(colors("--profile mcu"), 2);
+    assert_eq!(colors("--color rgb565"), 2);
+    let (four, sixteen) = (colors(""), colors("--samples 16"));
+    assert!((3..=5).contains(&four) && (8..=17).contains(&sixteen), "{four} {sixteen}");
+    folder.fails(&["m.obj", "--samples", "2"], &["--samples: found \"2\", expected one of 1, 4, 16"]);
+    let large = ["m.obj", "--samples", "16", "--size", "4097x1"];
+    folder.fails(&large, &["--samples: found 16 a pixel of 4097x1, expected pictures of at most 4096x4096"]);
+}
+
+#[test]
+fn scene_files_have_samples_backgrounds_and_views() {
+    let scene = |render: &str| {
+        format!("size = [32, 24]\noutput = \"s.png\"\n{render}\n[[object]]\nsurface = \"torus\"\n")
+    };
+    let folder = Folder::with(&[
+        (
+            "a.toml",
+            scene("background = \"red..blue\"\n[render]\nsamples = 16\n[camera]\nview = \"top\"").as_bytes(),
+        ),
+        ("b.toml", scene("[render]\nsamples = 3").as_bytes()),
+        ("c.toml", scene("background = \"no.png\"").as_bytes()),
+        ("d.toml", scene("[camera]\nview = \"top\"\neye = [1, 2, 3]").as_bytes()),
+    ]);
+    let run = folder.succeeds(&["a.toml"]);
+    assert!(run.stdout.contains("--up 0,0,-1"), "{run:?}");
+    let run = folder.succeeds(&["a.toml", "--azimuth", "0"]);
+    assert!(run.stdout.contains("--up 0,1,0"), "{run:?}");
+    let seen = picture(&folder, "s.png");
+    let [top, bottom] = [0, 23].map(|y| seen.get_pixel(0, y).0);
+    assert!(top[0] > 240 && top[2] < 16 && bottom[0] < 16 && bottom[2] > 240, "{top:?} {bottom:?}");
+    folder.fails(&["b.toml"], &["b.toml:4: render.samples: found 3, expected 1, 4 or 16"]);
+    folder.fails(&["c.toml"], &["c.toml:3: background: found no such file"]);
+    folder.fails(&["d.toml"], &["found it with"]);
+}
+
+#[test]
+fn a_transparent_picture_has_an_alpha_where_the_format_has() {
+    let folder = folder();
+    let of = |name: &'static str| ["m.obj", "--size", "32x24", "--background", "transparent", "-o", name];
+    for name in ["a.png", "a.tga", "a.webp", "a.qoi"] {
+        folder.succeeds(&of(name));
+        let alphas: Vec<u8> = picture(&folder, name).pixels().map(|pixel| pixel.0[3]).collect();
+        assert!(alphas.contains(&0) && alphas.contains(&255) && alphas.iter().any(|a| (1..255).contains(a)));
+    }
+    for name in ["b.jpg", "b.ppm", "b.bmp"] {
+        folder.fails(&of(name), &["found a format without transparency, expected png, tga, webp or qoi"]);
+    }
+    let wrong = ["m.obj", "--background", "reddish"];
+    folder.fails(
+        &wrong,
+        &["--background: found \"reddish\", expected six hexadecimal digits RRGGBB, or a name"],
+    );
+}
+
+#[test]
+fn the_printed_camera_makes_the_same_picture() {
+    let folder = folder();
+    let size = ["m.obj", "--size", "40x30"];
+    for options in [
+        "",
+        "--azimuth 200 --elevation -33 --zoom 1.7",
+        "--view top --roll 12",
+        "--view iso --projection parallel",
+        "--eye 1,2,3 --roll -170",
+        "--target 0.1,0.2,0.3 --up 0,0,1 --fov 11.3",
+    ] {
+        let words = size.into_iter().chain(options.split_whitespace());
+        let run = folder.succeeds(&words.chain(["-o", "a.png"]).collect::<Vec<_>>());
+        let told = run.stdout.lines().find_map(|line| line.strip_prefix("camera: ")).expect("a camera");
+        let again = folder
+            .succeeds(&size.into_iter().chain(told.split(' ')).chain(["-o", "b.png"]).collect::<Vec<_>>());
+        assert!(again.stdout.contains(told), "{again:?}\n{told}");
+        let [first, second] = ["a.png", "b.png"].map(|name| fs::read(folder.path(name)).expect("a picture"));
+        assert!(first == second, "{options}: {told}");
+        let more = ["--stats", "json"];
+        let json = folder
+            .succeeds(&size.into_iter().chain(options.split_whitespace()).chain(more).collect::<Vec<_>>());
+        let json: serde_json::Value = serde_json::from_str(&json.stdout).expect("JSON");
+        assert_eq!(json["camera"]["options"], told);
+    }
+}
+
+#[test]
+fn cameras_that_contradict_themselves_are_refused() {
+    let folder = folder();
+    for (options, told) in [
+        ("--eye 1,2,3 --azimuth 20", "--azimuth: found it with --eye"),
+        ("--eye 1,2,3 --view top", "--view: found it with --eye"),
+        ("--view top --elevation 3", "--elevation: found it with --view"),
+        ("--elevation 91", "--elevation: found \"91\", expected an angle from -90 to 90 degrees"),
+        ("--zoom 0", "--zoom: found \"0\", expected a number from 0.01 to 100"),
+        ("--fov 1e-30", "--fov: found 1e-30 degrees, expected an angle of at least 0.001 degrees"),
+    ] {
+        folder.fails(&["m.obj"].into_iter().chain(options.split(' ')).collect::<Vec<_>>(), &[told]);
+    }
+    let tiny = Folder::with(&[("t.obj", &b"v 0 0 0\nv 1e-40 0 0\nv 0 1e-40 0\nf 1 2 3\n"[..])]);
+    tiny.fails(&["t.obj"], &["t.obj: found a model of radius "]);
+}
+
+#[test]
+fn a_model_fills_the_picture_from_every_side() {
+    // A box ten times as long as it is high.
+    let corner = |k: u32| format!("v {} {} {}\n", k & 1, 10 * (k >> 1 & 1), k >> 2 & 1);
+    let mut text: String = (0..8).map(corner).collect();
+    for face in ["1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"] {
+        text += &format!("f {face}\n");
+    }
+    let folder = Folder::with(&[("box.obj", text.as_bytes())]);
+    for view in ["front", "back", "left", "right", "top", "bottom", "iso"] {
+        for projection in ["perspective", "parallel"] {
+            let size = ["box.obj", "--size", "200x100", "--view", view, "--projection", projection];
+            folder.succeeds(
+                &size.into_iter().chain(["--background", "black", "-o", "a.png"]).collect::<Vec<_>>(),
+            );
+            let seen = picture(&folder, "a.png");
+            let lit = seen.enumerate_pixels().filter(|(_, _, pixel)| pixel.0[..3] != [0; 3]);
+            let (mut low, mut high) = ([u32::MAX; 2], [0; 2]);
+            for (x, y, _) in lit {
+                low = [low[0].min(x), low[1].min(y)];
+                high = [high[0].max(x), high[1].max(y)];
+            }
+            let free = [low[0], 199 - high[0], low[1], 99 - high[1]];
+            let (side, other) = (free[0].min(free[1]), free[2].min(free[3]));
+            // 4 % of half a side.
+            assert!(side >= 3 && other >= 1, "{view} {projection} {free:?}");
+            assert!(side <= 5 || other <= 3, "{view} {projection} {free:?}");
+            assert!(
+                free[0].abs_diff(free[1]) <= 2 && free[2].abs_diff(free[3]) <= 2,
+                "{view} {projection} {free:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn pictures_have_more_formats_and_standard_output() {
+    let folder = folder();
+    let small = ["m.obj", "--size", "16x12", "-o"];
+    for (name, start) in [("a.webp", &b"RIFF"[..]), ("a.qoi", b"qoif"), ("a.ppm", b"P6")] {
+        folder.succeeds(&small.into_iter().chain([name]).collect::<Vec<_>>());
+        assert!(fs::read(folder.path(name)).expect("the picture").starts_with(start), "{name}");
+        assert_eq!(image::open(folder.path(name)).expect("a picture").to_rgb8().dimensions(), (16, 12));
+    }
+    let before = folder.names();
+    for (more, start) in [(&["-"][..], &b"\x89PNG"[..]), (&["-", "--output-format", "ppm"], b"P6")] {
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_alberti"))
+            .current_dir(folder.path(""))
+            .arg("render")
+            .args(small)
+            .args(more)
+            .output()
+            .expect("the command");
+        assert!(output.status.success() && output.stdout.starts_with(start), "{more:?}");
+        let told = String::from_utf8(output.stderr).expect("text");
+        assert!(told.contains("pixels in -\n"), "{told}");
+    }
+    folder.succeeds(&["m.obj", "--size", "16x12", "-o", "plain", "--output-format", "png"]);
+    assert_eq!(folder.names().len(), before.len() + 1);
+    for (name, found) in [
+        ("x.png/", "found the name of a folder"),
+        (&format!("{}.png", "x".repeat(300)), "found a name that no file"),
+    ] {
+        folder.fails(&["missing.obj", "-o", name], &[found]);
+    }
+    let run =
+        alberti(&folder.path(""), &[OsStr::new("explain")], &["m.obj", "--pixel", "1,1", "--samples", "4"]);
+    assert!(
+        run.status == Some(2) && run.stderr.contains("--samples: found an option that `explain`"),
+        "{run:?}"
+    );
+}
