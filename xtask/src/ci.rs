@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use crate::command::Outcome;
-use crate::{assets, boards, checks, extremes, firmware, guide, nostd, package, tidy, trade};
+use crate::{assets, boards, checks, extremes, firmware, gallery, guide, nostd, package, tidy, trade};
 
 /// The name that the summary and a failure use, and the check.
 type Step = (&'static str, fn() -> Outcome);
@@ -33,6 +33,7 @@ fn steps(tests_done: bool) -> Vec<Step> {
         ("lint", checks::lint),
         ("docs", checks::docs),
         TEST,
+        ("gallery", gallery::check),
         ("avx512", checks::avx512),
         ("extremes", extremes::check),
         ("trade", trade::check),

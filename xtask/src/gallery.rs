@@ -4,13 +4,15 @@
 //! `cargo xtask tidy` writes the page in memory and compares it with the one in the repository.
 
 mod header;
+mod looks;
 
 use std::fs;
 use std::path::Path;
 
-use crate::command::{Outcome, cargo, run as run_command};
+use crate::command::Outcome;
 use crate::workspace;
 use header::Header;
+use looks::{App, Looks, in_pairs};
 
 /// The page that the chore writes, and the folder of its pictures, as the page links to it.
 const PAGE: &str = "docs/gallery.md";
@@ -56,6 +58,8 @@ Each picture is a scene file in [crates/app/scenes](../crates/app/scenes), drawn
 All pictures and this page are made by
 
     cargo xtask gallery
+
+and `cargo xtask gallery --check` says which pictures are not what the scenes look like now.
 ";
 
 /// One picture.
@@ -83,29 +87,51 @@ impl Picture<'_> {
     }
 }
 
-/// Renders the scenes whose names contain the argument, or all, and writes the page.
+/// Renders the scenes whose names contain the argument, or all, and writes the page. `--check` renders all of them
+/// small, and says which pictures are not what the scenes look like now.
 pub(crate) fn run(arguments: &[String]) -> Outcome {
     let filter = match arguments {
         [] => "",
+        [option] if option == "--check" => return check(),
         [filter] => filter,
         _ => return Err(format!("expected at most one name, found `{}`", arguments.join(" "))),
     };
     let scenes = read()?;
+    let app = App::build()?;
     let root = workspace::root();
     let folder = root.join(Path::new(PAGE).with_file_name(PICTURES));
     fs::create_dir_all(&folder).map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
-    for (scene, header) in scenes.iter().flat_map(|(_, scenes)| scenes) {
-        for picture in pictures(scene, header).filter(|_| scene.contains(filter)) {
-            println!("{}", picture.file());
-            let mut app = cargo();
-            app.args(["run", "--quiet", "--release", "--"]).args(picture.arguments());
-            run_command(app.arg("--output").arg(folder.join(picture.file())))?;
-        }
+    let all = all(&scenes);
+    let mut looks = Looks::read()?;
+    let chosen: Vec<&Picture<'_>> = all.iter().filter(|picture| picture.scene.contains(filter)).collect();
+    for (picture, look) in chosen.iter().zip(in_pairs(&chosen, |picture| app.draw(picture, &folder))?) {
+        looks.set(&picture.file(), look);
     }
+    looks.keep(&all.iter().map(Picture::file).collect::<Vec<_>>());
+    looks.write()?;
     let page = page(&scenes);
     fs::write(root.join(PAGE), page).map_err(|error| format!("cannot write {PAGE}: {error}"))?;
     println!("Wrote {PAGE}.");
     Ok(())
+}
+
+/// # Errors
+/// A picture is not current.
+pub(crate) fn check() -> Outcome {
+    let (scenes, app, looks) = (read()?, App::build()?, Looks::read()?);
+    let all = all(&scenes);
+    let now = in_pairs(&all.iter().collect::<Vec<_>>(), |picture| app.look(picture))?;
+    let stale = all.iter().zip(now).filter(|(picture, look)| looks.of(&picture.file()) != Some(look));
+    let stale: Vec<String> = stale.map(|(picture, _)| picture.file()).collect();
+    if stale.is_empty() {
+        println!("The gallery's {} pictures are current.", all.len());
+        return Ok(());
+    }
+    Err(format!("not current: {}; `cargo xtask gallery` renders them anew", stale.join(", ")))
+}
+
+fn all<'a>(scenes: &'a [Section]) -> Vec<Picture<'a>> {
+    scenes.iter().flat_map(|(_, scenes)| scenes).flat_map(|(scene, header)| pictures(scene, header)).collect()
 }
 
 /// What is wrong with the page and its pictures among `files`, all that the repository has: as (file, message).
@@ -134,7 +160,7 @@ fn missing_and_stray(shown: &[String], files: &[String]) -> Vec<(String, String)
             .push((picture, "a picture of the gallery is missing: `cargo xtask gallery` renders it".into()));
     }
     let folder = path(&String::new());
-    for file in files.iter().filter(|file| file.starts_with(&folder)) {
+    for file in files.iter().filter(|file| file.starts_with(&folder) && *file != looks::FILE) {
         if !shown.iter().any(|picture| path(picture) == *file) {
             problems.push((file.clone(), "a picture that the gallery does not show".into()));
         }

@@ -121,8 +121,8 @@ const CHORES: &[Chore] = &[
     },
     Chore {
         name: "gallery",
-        arguments: "[scene]",
-        about: "render the scenes of crates/app/scenes, and write docs/gallery.md",
+        arguments: "[scene|--check]",
+        about: "render the scenes of crates/app/scenes, and write docs/gallery.md, or check that all is current",
         run: gallery::run,
     },
     Chore {
