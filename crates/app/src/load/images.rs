@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::error::{Error, quote};
 use crate::load::image_file;
 use crate::options::MapFile;
+use crate::output::clock::{Work, timed};
 use crate::scene::{HeightImage, Image, Model};
 
 /// Images read so far.
@@ -59,7 +60,7 @@ impl Images {
     pub(crate) fn texture(&mut self, map: &MapFile) -> Result<Option<usize>, Error> {
         let left = &mut self.texels_left;
         self.textures.index(map, |path| {
-            let image = image_file::load(path, *left)?;
+            let image = timed(Work::Maps, || image_file::load(path, *left))?;
             *left = left.saturating_sub(image.texels.len() as u64);
             Ok(image)
         })
@@ -72,7 +73,7 @@ impl Images {
     pub(crate) fn heights(&mut self, map: &MapFile) -> Result<Option<usize>, Error> {
         let left = &mut self.texels_left;
         self.heights.index(map, |path| {
-            let image = image_file::load_heights(path, *left)?;
+            let image = timed(Work::Maps, || image_file::load_heights(path, *left))?;
             *left = left.saturating_sub(image.heights.len() as u64);
             Ok(image)
         })

@@ -125,7 +125,7 @@ pub struct RenderTable {
     pub output: Option<PathBuf>,
 
     /// Width and height of the image in pixels, each up to 16384 [default: 640x480].
-    #[arg(long, value_name = "WxH", allow_hyphen_values = true)]
+    #[arg(short, long, value_name = "WxH", allow_hyphen_values = true)]
     pub size: Option<Size>,
 
     /// Colour behind the model, as hexadecimal sRGB [default: 20242c for a model].

@@ -10,8 +10,12 @@ use std::time::Duration;
 /// Wall-clock times.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Times {
-    /// Reading the model, or making it.
+    /// Reading the model, or making it, but for its maps.
     pub load: Duration,
+    /// Reading and decoding its maps.
+    pub maps: Duration,
+    /// Making mip maps of them.
+    pub mip_maps: Duration,
     /// Drawing.
     pub render: Duration,
     /// Encoding and writing the file.
@@ -43,17 +47,24 @@ pub enum Source<'a> {
 }
 
 impl Report<'_> {
-    /// One line: what was made from what.
+    /// One line: what was made from what, and the times that are not 0.
     pub fn summary(&self) -> String {
         let source = match self.source {
             Source::Model(path) => path.display().to_string(),
             Source::Scene(name) => format!("built-in scene {name}"),
         };
         let (width, height) = self.size;
+        let names = ["load", "maps", "mip maps", "draw", "encode"];
+        let times = names.into_iter().zip(self.durations()).map(|(name, (_, time))| (name, ms(time)));
+        let times =
+            times.filter(|(_, time)| *time >= 0.05).map(|(name, time)| format!("{name} {time:.1} ms"));
+        let mut times = times.collect::<Vec<_>>().join(", ");
+        if !times.is_empty() {
+            times.insert_str(0, "; ");
+        }
         format!(
-            "{source}: {} triangles in {:.1} ms, {width}x{height} pixels in {}",
+            "{source}: {} triangles, {width}x{height} pixels in {}{times}",
             self.stats.submitted,
-            ms(self.times.render),
             self.output.display()
         )
     }
@@ -72,7 +83,7 @@ impl Report<'_> {
     }
 
     /// One JSON object on one line: `output`, `model` or `scene`, `width`, `height`, the counts (see [`Stats`]), and
-    /// `ms` with `load`, `render` and `write`.
+    /// `ms` with `load`, `maps`, `mip_maps`, `render` and `write`.
     pub fn json(&self) -> String {
         // Strings and finite numbers cannot be refused.
         serde_json::to_string(self).unwrap_or_default()
@@ -92,8 +103,9 @@ impl Report<'_> {
         ]
     }
 
-    fn durations(&self) -> [(&'static str, Duration); 3] {
-        [("load", self.times.load), ("render", self.times.render), ("write", self.times.write)]
+    fn durations(&self) -> [(&'static str, Duration); 5] {
+        let Times { load, maps, mip_maps, render, write } = self.times;
+        [("load", load), ("maps", maps), ("mip_maps", mip_maps), ("render", render), ("write", write)]
     }
 }
 
@@ -143,14 +155,26 @@ mod tests {
         assert_eq!(value["fragments"], 1);
         assert_eq!(value["ms"]["load"], 1.5);
         assert!(!text.contains('\n'));
-        let names = ["output", "scene", "width", "triangles_in", "written", "ms", "load", "render", "write"];
+        let names = [
+            "output",
+            "scene",
+            "width",
+            "triangles_in",
+            "written",
+            "ms",
+            "load",
+            "maps",
+            "mip_maps",
+            "render",
+            "write",
+        ];
         assert!(names.map(|name| text.find(&format!("\"{name}\":"))).is_sorted(), "{text}");
     }
 
     #[test]
     fn text_names_everything() {
         let report = report(Path::new("a.png"), Source::Model(Path::new("m.obj")));
-        assert_eq!(report.text().lines().count(), 11);
-        assert_eq!(report.summary(), "m.obj: 5 triangles in 0.0 ms, 7x6 pixels in a.png");
+        assert_eq!(report.text().lines().count(), 13);
+        assert_eq!(report.summary(), "m.obj: 5 triangles, 7x6 pixels in a.png; load 1.5 ms");
     }
 }

@@ -11,6 +11,7 @@ mod projection;
 mod scenes;
 mod show;
 mod success;
+mod usage;
 
 use std::ffi::OsStr;
 use std::fs;
