@@ -14,13 +14,15 @@ pub mod advise;
 pub mod bake;
 pub mod compare;
 mod explain;
+mod help;
 pub(crate) mod partners;
 pub mod run;
 mod staged;
+mod words;
 
 /// Draws 3D models on the CPU, with perspective done right.
 #[derive(Clone, Debug, Parser)]
-#[command(name = "alberti", version, max_term_width = 100)]
+#[command(name = "alberti", version, max_term_width = 100, disable_help_subcommand = true)]
 pub struct Cli {
     /// The subcommand.
     #[command(subcommand)]
@@ -62,24 +64,42 @@ pub enum Command {
     /// the colour is compared with that of the picture.
     #[command(after_help = explain::EXAMPLES)]
     Explain(Box<explain::ExplainArgs>),
+    /// Print a shell's completions of this command.
+    #[command(
+        after_help = "Examples:\n  alberti completions bash > ~/.local/share/bash-completion/completions/alberti\n  \
+        alberti completions zsh > ~/.zfunc/_alberti"
+    )]
+    Completions {
+        /// The shell.
+        #[arg(value_enum)]
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page: `alberti man | man -l -`.
+    Man,
+    /// Print help on a command or a kind of options.
+    Help {
+        /// A command, or a kind of options, such as camera.
+        topic: Option<String>,
+    },
 }
 
 const EXAMPLES: &str = "\
 Examples:
-  alberti render                                     the built-in scene, into alberti.png
-  alberti render teapot.obj -o teapot.png            a model, all of it in view
-  alberti render cow.obj --texture cow.png --eye 2,1,-3
-  alberti render wet.toml --shading phong            a scene file, drawn with other light
-  alberti render --scene floor --interpolation affine
-  alberti render --scene cube --projection parallel
-  alberti render --projector slide.png --projector-eye 0,2,6 --projector-target 0,1,0
-  alberti render --scene floor --size 1920x1080 --stats json";
+  alberti teapot.obj -o teapot.png      a model; the word render may be left out
+  alberti cow.obj --texture cow.png --eye 2,1,-3
+  alberti wet.toml --shading phong      a scene file, drawn with other light
+  alberti render                        the built-in scene, into alberti.png
+  alberti --scene floor --interpolation affine
+  alberti --scene cube --projection parallel
+  alberti --scene floor -s 1920x1080 --stats json";
 
 /// The options of `alberti render`. Those that are absent are left to the model or the scene.
 #[derive(Clone, Debug, Default, Args)]
 pub struct RenderArgs {
-    /// Wavefront OBJ model to draw, with the materials and textures that it names, perhaps compressed by gzip, or - for
-    /// standard input; or a scene file, whose name ends in .toml, and which options override.
+    /// Wavefront OBJ model to draw, or a scene file.
+    ///
+    /// A model is drawn with the materials and textures that it names; it may be compressed by gzip, and - is standard
+    /// input. A scene file's name ends in .toml; options override what it says.
     #[arg(value_name = "MODEL.obj or SCENE.toml")]
     pub model: Option<PathBuf>,
 
@@ -99,14 +119,25 @@ pub struct RenderArgs {
     #[command(flatten)]
     pub render: RenderTable,
 
-    /// Threads that draw; the picture is the same for any number [default: as many as the machine runs at once].
-    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    /// List the built-in scenes.
+    #[arg(long)]
+    pub list_scenes: bool,
+
+    /// Threads that draw [default: as many as the machine runs at once].
+    ///
+    /// The picture is the same for any number.
+    #[arg(short = 'j', long, value_name = "N", allow_hyphen_values = true)]
     pub threads: Option<Threads>,
 
-    /// Print counts and times, as a table or as one line of JSON. Of several threads' pictures, the counts are those of
-    /// the same drawn by one, after the times were taken.
+    /// Print counts and times, as a table or as one line of JSON.
+    ///
+    /// Of several threads' pictures, the counts are those of the same drawn by one, after the times were taken.
     #[arg(long, value_name = "FORMAT", num_args = 0..=1, default_missing_value = "text")]
     pub stats: Option<StatsFormat>,
+
+    /// Print errors alone: no summary, no warnings, no progress.
+    #[arg(short, long)]
+    pub quiet: bool,
 
     /// Draw one number of each pixel in false colours, and print what they mean.
     #[arg(long, value_enum, value_name = "WHAT")]

@@ -3,4 +3,5 @@
 pub mod file;
 pub mod stats;
 
+pub(crate) mod clock;
 pub(crate) mod progress;

@@ -64,11 +64,17 @@ pub trait TexelFormat: Copy + Debug + 'static {
         u16::from(red) * 257
     }
 
-    /// The mean of texels that count so many times, together from 1 to 2^28 times, if they mean this content: that of
-    /// their colours.
+    /// The numbers of a texel whose sums make a [`mean`](Self::mean), if it means this content: light or bytes.
     #[inline]
-    fn mean(self, content: Content, texels: impl Iterator<Item = (Self::Texel, u64)>) -> Self::Texel {
-        self.encode(mean::of_colors(content, texels.map(|(texel, weight)| (self.decode(texel), weight))))
+    fn addends(self, content: Content, texel: Self::Texel) -> [u16; 4] {
+        mean::addends(content, self.decode(texel))
+    }
+
+    /// The mean of texels by the sums of their [`addends`](Self::addends), each as often as its texel counts, together
+    /// `count` times, from 1 to 2^28.
+    #[inline]
+    fn mean(self, content: Content, sums: [u64; 4], count: u64) -> Self::Texel {
+        self.encode(mean::of_colors(content, sums, count))
     }
 }
 
@@ -297,10 +303,15 @@ impl TexelFormat for L16 {
         u16::from(color.to_bytes()[0]) * 257
     }
 
-    /// The mean of all 16 bits, whatever the content.
+    /// All 16 bits, whatever the content.
     #[inline]
-    fn mean(self, _: Content, texels: impl Iterator<Item = (u16, u64)>) -> u16 {
-        mean::of_numbers(texels)
+    fn addends(self, _: Content, texel: u16) -> [u16; 4] {
+        [texel, 0, 0, 0]
+    }
+
+    #[inline]
+    fn mean(self, _: Content, [sum, ..]: [u64; 4], count: u64) -> u16 {
+        mean::rounded(sum, count)
     }
 }
 

@@ -18,6 +18,12 @@ pub const EXCEEDED: u8 = 1;
 
 /// The text after the options.
 pub(super) const HELP: &str = "\
+Examples:
+  alberti compare exact.png affine.png
+  alberti compare exact.png affine.png --heat difference.png
+  alberti compare old.png new.png --max-error 0.01flip  the mean FLIP at most 0.01
+  alberti compare old.png new.png --json | jq .flip
+
 Measures:
   largest          the worst channel of the worst pixel, in steps of a byte (lsb), 0 to 255
   99.9 percentile  the same, but for the worst thousandth of the pixels
@@ -32,15 +38,7 @@ Measures:
 Exit status:
   0  the pictures were compared, and keep --max-error if it is given
   1  they differ by more; a line on standard error says which measure exceeds which limit
-  2  they could not be compared
-
-Examples:
-  alberti compare exact.png affine.png
-  alberti compare exact.png affine.png --heat difference.png
-  alberti compare old.png new.png --max-error 2lsb      the 99.9 % percentile at most 2 lsb
-  alberti compare old.png new.png --max-error 0.01flip  the mean FLIP at most 0.01
-  alberti compare old.png new.png --max-error 40db      the PSNR at least 40 dB
-  alberti compare old.png new.png --json | jq .flip";
+  2  they could not be compared";
 
 /// The options of `alberti compare`.
 #[derive(Clone, Debug, Args)]

@@ -6,16 +6,18 @@ use std::num::NonZero;
 use std::time::Instant;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{ArgMatches, CommandFactory as _};
+use clap::{ArgMatches, Command, CommandFactory as _};
 
 use super::staged::{OF_PICTURES, Request, Staged, hidden, warn};
-use super::{Cli, StatsFormat, advise, bake, compare, explain};
+use super::{Cli, StatsFormat, advise, bake, compare, explain, help, words};
 use crate::error::{Error, quote};
 use crate::options::RenderOptions;
-use crate::output::progress::Progress;
+use crate::output::clock::{Work, spent};
+use crate::output::progress::{Progress, is_silent, silence, waiting};
 use crate::output::stats::{Report, Times};
 use crate::samples::supersampled;
 use crate::scene::backdrop::Backdrop;
+use crate::scene::scenes;
 use crate::show::{Shown, show};
 
 /// The exit status for whatever the user can mend.
@@ -24,29 +26,54 @@ pub const FAILURE: u8 = 2;
 /// Runs the command with these arguments, the program's name first. Messages go to standard error; the status is
 /// 0, [`compare::EXCEEDED`] or [`FAILURE`].
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    let mut command = Cli::command()
-        .mut_subcommand("explain", |command| hidden(command, &OF_PICTURES))
-        .mut_subcommand("bake", bake::with_defaults)
-        .mut_subcommand("advise", |command| hidden(hidden(command, &OF_PICTURES), &advise::ADVISED_ON));
+    let mut command = command();
     let given: Vec<OsString> = arguments.into_iter().collect();
+    if words::list_scenes(&given) {
+        return print(&scenes::list()).map_or_else(|error| fail(&error), |()| 0);
+    }
+    if let Some(page) = help::asked(&given, &command) {
+        return page.and_then(|page| print(&page)).map_or_else(|error| fail(&error), |()| 0);
+    }
+    let given = match words::with_command(given, &command) {
+        Ok(words) => words,
+        Err(error) => return fail(&error),
+    };
     let read = advise::with_machine(given.clone());
     let renamed = read != given;
     let matches = match command.try_get_matches_from_mut(read) {
         Ok(matches) => matches,
         Err(error) => return usage(&error, renamed),
     };
+    silence(matches.subcommand().is_some_and(|(_, options)| is_quiet(options)));
     let result = match matches.subcommand() {
         Some(("advise", scene)) => advise::run(scene),
         Some(("bake", scene)) => bake::run(scene).map(|()| 0),
         Some(("compare", pictures)) => compare::run(pictures),
+        Some(("completions", words)) => completions(words).map(|()| 0),
+        Some(("man", _)) => man().map(|()| 0),
         Some(("explain", pixel)) => explain::run(pixel).map(|()| 0),
         Some((_, render)) => draw(render).map(|()| 0),
-        None => print(&command.render_help().to_string()).map(|()| 0),
+        // Words without a command ask for help.
+        None => Ok(0),
     };
     match result {
         Ok(status) => status,
         Err(error) => fail(&error),
     }
+}
+
+/// The command as it is read and explained.
+pub(super) fn command() -> Command {
+    Cli::command()
+        .args_override_self(true)
+        .mut_subcommand("explain", |command| hidden(command, &OF_PICTURES))
+        .mut_subcommand("bake", bake::with_defaults)
+        .mut_subcommand("advise", |command| hidden(hidden(command, &OF_PICTURES), &advise::ADVISED_ON))
+}
+
+/// Whether a command that can be quiet is to be.
+fn is_quiet(options: &ArgMatches) -> bool {
+    options.try_get_one::<bool>("quiet").ok().flatten().is_some_and(|&quiet| quiet)
 }
 
 /// Help and version are no errors. All others get one line like any other input, with clap's suggestions. `renamed`
@@ -64,39 +91,44 @@ fn usage(error: &clap::Error, renamed: bool) -> u8 {
         option if option.starts_with('-') => option.split('[').next().unwrap_or(option).to_owned(),
         _ => text.trim_start_matches('[').trim_end_matches(']').to_owned(),
     };
-    let refused = |found: &str, expected: String| {
-        let mut error = Error::new(found, expected).hint("see --help");
-        if let Some(option) = context(ContextKind::InvalidArg) {
-            error = error.place(named(&option));
+    let option = context(ContextKind::InvalidArg).map(|option| named(&option));
+    let value = context(ContextKind::InvalidValue).map(|value| quote(value.as_bytes()));
+    let or_nothing = |value: Option<String>| value.unwrap_or_else(|| "nothing".to_owned());
+    let (found, expected) = match error.kind() {
+        ErrorKind::DisplayHelp
+        | ErrorKind::DisplayVersion
+        | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
+            // A closed pipe cannot be told about.
+            let _ = error.print();
+            return if error.use_stderr() { FAILURE } else { 0 };
         }
-        fail(&error)
-    };
-    match error.kind() {
         ErrorKind::MissingRequiredArgument => {
             let missing = context(ContextKind::InvalidArg).unwrap_or_default();
             return fail(&Error::new("nothing", missing).hint("see --help"));
         }
         ErrorKind::ArgumentConflict => {
             let other = context(ContextKind::PriorArg).map(|other| named(&other)).unwrap_or_default();
-            let same = context(ContextKind::InvalidArg).is_some_and(|option| named(&option) == other);
-            let (found, expected) =
-                if same { ("it twice", "once".to_owned()) } else { ("it", format!("no {other} beside it")) };
-            return refused(found, expected);
+            ("it".to_owned(), format!("no {other} beside it"))
+        }
+        ErrorKind::UnknownArgument if option.as_ref().is_some_and(|option| !option.starts_with('-')) => {
+            ("a second file".to_owned(), "one".to_owned())
         }
         ErrorKind::UnknownArgument => {
             let similar = context(ContextKind::SuggestedArg).map(|option| format!(", such as {option}"));
-            return refused("it", format!("an option{}", similar.unwrap_or_default()));
+            ("it".to_owned(), format!("an option{}", similar.unwrap_or_default()))
         }
-        _ => {}
-    }
-    if let (Some(option), Some(value), Some(expected)) =
-        (context(ContextKind::InvalidArg), context(ContextKind::InvalidValue), expected)
-    {
-        return fail(&Error::new(quote(value.as_bytes()), expected).place(named(&option)).hint("see --help"));
-    }
-    // A closed pipe cannot be told about.
-    let _ = error.print();
-    if error.use_stderr() { FAILURE } else { 0 }
+        ErrorKind::ValueValidation | ErrorKind::InvalidValue => {
+            (or_nothing(value), expected.unwrap_or_else(|| "a value".to_owned()))
+        }
+        ErrorKind::TooManyValues => (or_nothing(value), "no value".to_owned()),
+        ErrorKind::InvalidUtf8 => ("text that is not Unicode".to_owned(), "Unicode".to_owned()),
+        _ => ("words that are not understood".to_owned(), "those of --help".to_owned()),
+    };
+    let error = Error::new(found, expected).hint("see --help");
+    fail(&match option {
+        Some(option) => error.place(option),
+        None => error,
+    })
 }
 
 /// Values of which an option takes one, as words.
@@ -133,20 +165,22 @@ fn draw_from(request: &Request) -> Result<(), Error> {
         }
     };
     drop(progress);
-    let rendered = start.elapsed();
+    let (maps, mip_maps) = (spent(Work::Maps), spent(Work::MipMaps));
+    let render_time = start.elapsed().saturating_sub(mip_maps);
     if request.arguments.stats.is_some() && options.threads.get() > 1 {
         // A triangle counts once, however many threads drew it.
         let alone = RenderOptions { threads: NonZero::<usize>::MIN, ..options };
-        picture.stats = supersampled(&model, &camera, &alone, samples, &backdrop, &mut |_, _| ())?.stats;
+        let counted = || supersampled(&model, &camera, &alone, samples, &backdrop, &mut |_, _| ());
+        picture.stats = waiting("counting", counted)?.stats;
     }
 
     let start = Instant::now();
-    if request.arguments.show.is_none() && backdrop == Backdrop::Transparent {
-        output.write_with_alpha(&picture.image)?;
-    } else {
-        output.write(&picture.image)?;
-    }
-    let times = Times { load, render: rendered, write: start.elapsed() };
+    let seen_through = request.arguments.show.is_none() && backdrop == Backdrop::Transparent;
+    waiting("encoding", || {
+        if seen_through { output.write_with_alpha(&picture.image) } else { output.write(&picture.image) }
+    })?;
+    let load = load.saturating_sub(maps);
+    let times = Times { load, maps, mip_maps, render: render_time, write: start.elapsed() };
     let size = (options.width, options.height);
     let projection = options.projection;
     let report = Report {
@@ -160,7 +194,9 @@ fn draw_from(request: &Request) -> Result<(), Error> {
         projection,
     };
     let text = match request.arguments.stats {
+        None if is_silent() => legend.unwrap_or_default(),
         None => format!("{}\n{}", report.summary(), legend.unwrap_or_default()),
+        Some(StatsFormat::Text) if is_silent() => report.text(),
         Some(StatsFormat::Text) => format!("{}\n{}", report.summary(), report.text()),
         Some(StatsFormat::Json) => format!("{}\n", report.json()),
     };
@@ -170,6 +206,26 @@ fn draw_from(request: &Request) -> Result<(), Error> {
         return Ok(());
     }
     print(&text)
+}
+
+fn completions(words: &ArgMatches) -> Result<(), Error> {
+    let mut script = Vec::new();
+    if let Some(&shell) = words.get_one::<clap_complete::Shell>("shell") {
+        clap_complete::generate(shell, &mut command(), "alberti", &mut script);
+    }
+    print(&String::from_utf8_lossy(&script))
+}
+
+/// The manual page: the first page of the help, and all options of `render`.
+fn man() -> Result<(), Error> {
+    let command = command();
+    let mut page = Vec::new();
+    // Writing to memory does not fail.
+    let _ = clap_mangen::Man::new(command.clone()).render(&mut page);
+    if let Some(render) = command.find_subcommand("render") {
+        let _ = clap_mangen::Man::new(render.clone()).render_options_section(&mut page);
+    }
+    print(&String::from_utf8_lossy(&page))
 }
 
 /// Standard output that nobody reads any more is no failure: the picture is there.

@@ -21,7 +21,7 @@ use crate::options::{
     Shading, Wrap,
 };
 use crate::output::file::{Output, Whole};
-use crate::output::progress::Progress;
+use crate::output::progress::{Progress, is_silent, waiting};
 use crate::output::stats::Source;
 use crate::scene::backdrop::Backdrop;
 use crate::scene::{Camera, Model, Part, Relief, camera, ground, order, scenes, slide};
@@ -199,7 +199,7 @@ impl Request {
             None => load(arguments)?,
         };
         if file.is_none() {
-            put_materials(arguments, &mut scene)?;
+            waiting("reading maps", || put_materials(arguments, &mut scene))?;
         }
         partners::check_maps(arguments, &scene.model)?;
         if let Some(warning) = partners::unused_heights(&scene.model) {
@@ -446,6 +446,9 @@ fn warn_all(warnings: &Warnings) {
 }
 
 pub(super) fn warn(line: &str) {
+    if is_silent() {
+        return;
+    }
     // Without standard error there is nobody to tell.
     let _ = writeln!(io::stderr(), "warning: {line}");
 }

@@ -3,6 +3,8 @@
 
 use crate::error::Error;
 use crate::options::{Filter, RenderOptions, Wrap};
+use crate::output::clock::{Work, timed};
+use crate::output::progress::waiting;
 use crate::scene::{EnvironmentKind, HeightImage, Image, Map, Model, Part};
 use alberti::glam::Vec2;
 use alberti::shaders::material::{Called, Times};
@@ -12,7 +14,9 @@ use alberti::texture::{
     AnyFilter, AnyMipFilter, AnyWrap, MipSampler, Mipmap, Nearest, PowerOfTwo, Repeat, Sampler, Texture,
     mipmap,
 };
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
+use std::panic::resume_unwind;
+use std::thread::ScopedJoinHandle;
 
 /// The mip maps that a model's surfaces are drawn with.
 #[derive(Debug, Default)]
@@ -24,18 +28,37 @@ impl Chains {
     /// # Errors
     /// A texture that cannot be drawn.
     pub(crate) fn new(model: &Model, options: &RenderOptions) -> Result<Self, Error> {
-        let mut chains = HashMap::new();
+        let mut wanted = BTreeMap::new();
         for part in &model.parts {
             for (map, content) in part.maps() {
                 let mipmapped =
                     !matches!(map.filter.unwrap_or(options.filter), Filter::Nearest | Filter::Bilinear);
-                if let Some(image) = model.textures.get(map.image).filter(|_| mipmapped)
-                    && !chains.contains_key(&(map.image, content))
-                {
-                    chains.insert((map.image, content), chain(image, content)?);
+                if let Some(image) = model.textures.get(map.image).filter(|_| mipmapped) {
+                    wanted.insert((map.image, content as u8), (image, content));
                 }
             }
         }
+        let wanted: Vec<_> =
+            wanted.into_iter().map(|((index, _), (image, content))| (index, image, content)).collect();
+        let each = |&(index, image, content): &(usize, &Image, Content)| {
+            Ok(((index, content), chain(image, content)?))
+        };
+        let made =
+            |share: &[(usize, &Image, Content)]| share.iter().map(each).collect::<Result<Vec<_>, Error>>();
+        let share = wanted.len().div_ceil(options.threads.get()).max(1);
+        let shares = timed(Work::MipMaps, || {
+            waiting("making mip maps", || {
+                std::thread::scope(|scope| {
+                    let threads: Vec<_> =
+                        wanted.chunks(share).map(|share| scope.spawn(move || made(share))).collect();
+                    let joined = |thread: ScopedJoinHandle<'_, _>| {
+                        thread.join().unwrap_or_else(|panic| resume_unwind(panic))
+                    };
+                    threads.into_iter().map(joined).collect::<Result<Vec<_>, Error>>()
+                })
+            })
+        })?;
+        let chains = shares.into_iter().flatten().collect();
         Ok(Self(chains))
     }
 }

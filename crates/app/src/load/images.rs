@@ -7,6 +7,7 @@ use crate::error::{Error, quote};
 use crate::load::image_file;
 use crate::load::mtl::Alpha;
 use crate::options::MapFile;
+use crate::output::clock::{Work, timed};
 use crate::scene::{HeightImage, Image, Model};
 
 /// Images read so far.
@@ -78,7 +79,7 @@ impl Images {
     pub(crate) fn texture(&mut self, map: &MapFile) -> Result<Option<usize>, Error> {
         let left = &mut self.texels_left;
         self.textures.index(map, |path| {
-            let image = image_file::load(path, *left)?;
+            let image = timed(Work::Maps, || image_file::load(path, *left))?;
             *left = left.saturating_sub(image.texels.len() as u64);
             Ok(image)
         })
@@ -91,7 +92,7 @@ impl Images {
     pub(crate) fn heights(&mut self, map: &MapFile) -> Result<Option<usize>, Error> {
         let left = &mut self.texels_left;
         self.heights.index(map, |path| {
-            let image = image_file::load_heights(path, *left)?;
+            let image = timed(Work::Maps, || image_file::load_heights(path, *left))?;
             *left = left.saturating_sub(image.heights.len() as u64);
             Ok(image)
         })

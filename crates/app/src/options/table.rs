@@ -201,7 +201,7 @@ pub struct RenderTable {
     pub output_format: Option<FileFormat>,
 
     /// Width and height of the image in pixels, each up to 16384 [default: 640x480].
-    #[arg(long, value_name = "WxH", allow_hyphen_values = true)]
+    #[arg(short, long, value_name = "WxH", allow_hyphen_values = true)]
     pub size: Option<Size>,
 
     /// Background: a colour (RRGGBB or a name), transparent, a gradient TOP..BOTTOM of two colours, or an image file,

@@ -3,6 +3,7 @@
 use std::fs;
 use std::io::{self, Cursor, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use image::codecs::pnm::{PnmEncoder, PnmSubtype, SampleEncoding};
 use image::{ExtendedColorType, ImageEncoder as _, ImageFormat};
@@ -28,6 +29,35 @@ const WITH_ALPHA: [ImageFormat; 4] =
 
 /// The name that stands for standard output.
 const STANDARD: &str = "-";
+
+/// Temporary files that may be there. Who has it makes files, or gives them their names; after a signal, nobody.
+static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+fn temporary_files() -> MutexGuard<'static, Vec<PathBuf>> {
+    TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// From now on SIGINT and SIGTERM end the process as always, but remove temporary files before. Files that belong
+/// together are either all replaced by then, or none. Other systems than Unix have no such signals.
+pub fn clean_up_on_signals() {
+    #[cfg(unix)]
+    {
+        use signal_hook::consts::{SIGINT, SIGTERM};
+        use signal_hook::iterator::Signals;
+        use signal_hook::low_level::emulate_default_handler;
+
+        // Without it, signals are what they were.
+        let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else { return };
+        std::thread::spawn(move || {
+            for signal in signals.forever() {
+                let files = temporary_files();
+                // Most of them are gone already.
+                files.iter().for_each(|file| _ = fs::remove_file(file));
+                let _ = emulate_default_handler(signal);
+            }
+        });
+    }
+}
 
 /// A file that is written whole or not at all, and that can be written, as far as can be told before there is anything
 /// to write.
@@ -97,6 +127,7 @@ impl Whole {
     /// Writing one fails.
     pub fn write_all(files: &[(&Self, &[u8])]) -> Result<(), Error> {
         let written = files.iter().map(|(file, bytes)| file.written(bytes)).collect::<Result<Vec<_>, _>>()?;
+        let _undisturbed = temporary_files();
         for ((file, _), new) in files.iter().zip(written) {
             new.persist(&file.path)
                 .map_err(|e| file.refused(&format!("that renaming fails ({})", e.error)))?;
@@ -129,7 +160,8 @@ impl Whole {
         // As for any new file, not private as for most temporary ones.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        builder.tempfile_in(folder).map_err(|error| {
+        let mut files = temporary_files();
+        let file = builder.tempfile_in(folder).map_err(|error| {
             // Some folders are there, and answer that a new file is not: those of the system's own files.
             self.refused(&match (error.kind(), folder.is_dir()) {
                 (ErrorKind::NotFound, true) => "a folder that takes no new files".to_owned(),
@@ -138,7 +170,9 @@ impl Whole {
                 (ErrorKind::PermissionDenied, _) => "a folder that may not be written".to_owned(),
                 _ => format!("a folder that cannot be written ({error})"),
             })
-        })
+        })?;
+        files.push(file.path().to_owned());
+        Ok(file)
     }
 
     fn refused(&self, found: &str) -> Error {

@@ -14,8 +14,12 @@ use std::time::Duration;
 /// Wall-clock times.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Times {
-    /// Reading the model, or making it.
+    /// Reading the model, or making it, but for its maps.
     pub load: Duration,
+    /// Reading and decoding its maps.
+    pub maps: Duration,
+    /// Making mip maps of them.
+    pub mip_maps: Duration,
     /// Drawing.
     pub render: Duration,
     /// Encoding and writing the file.
@@ -53,17 +57,24 @@ pub enum Source<'a> {
 }
 
 impl Report<'_> {
-    /// A line of what was made from what, and one of the options of the camera that saw it.
+    /// A line of what was made from what, with the times that are not 0, and one of the options of the camera that saw it.
     pub fn summary(&self) -> String {
         let source = match self.source {
             Source::Model(path) => path.display().to_string(),
             Source::Scene(name) => format!("built-in scene {name}"),
         };
         let (width, height) = self.size;
+        let names = ["load", "maps", "mip maps", "draw", "encode"];
+        let times = names.into_iter().zip(self.durations()).map(|(name, (_, time))| (name, ms(time)));
+        let times =
+            times.filter(|(_, time)| *time >= 0.05).map(|(name, time)| format!("{name} {time:.1} ms"));
+        let mut times = times.collect::<Vec<_>>().join(", ");
+        if !times.is_empty() {
+            times.insert_str(0, "; ");
+        }
         format!(
-            "{source}: {} triangles in {:.1} ms, {width}x{height} pixels in {}\ncamera: {}",
+            "{source}: {} triangles, {width}x{height} pixels in {}{times}\ncamera: {}",
             self.stats.submitted,
-            ms(self.times.render),
             self.output.display(),
             as_options(&self.camera, self.origin, self.projection)
         )
@@ -84,7 +95,7 @@ impl Report<'_> {
 
     /// One JSON object on one line: `output`, `model` or `scene`, `width`, `height`, the counts (see [`Stats`]),
     /// `camera` and `ms`. The camera has its numbers and, as `options`, the words that make it again; `ms` has `load`,
-    /// `render` and `write`.
+    /// `maps`, `mip_maps`, `render` and `write`.
     pub fn json(&self) -> String {
         // Strings and finite numbers cannot be refused.
         serde_json::to_string(self).unwrap_or_default()
@@ -104,8 +115,9 @@ impl Report<'_> {
         ]
     }
 
-    fn durations(&self) -> [(&'static str, Duration); 3] {
-        [("load", self.times.load), ("render", self.times.render), ("write", self.times.write)]
+    fn durations(&self) -> [(&'static str, Duration); 5] {
+        let Times { load, maps, mip_maps, render, write } = self.times;
+        [("load", load), ("maps", maps), ("mip_maps", mip_maps), ("render", render), ("write", write)]
     }
 }
 
@@ -170,15 +182,27 @@ mod tests {
         assert_eq!(value["fragments"], 1);
         assert_eq!(value["ms"]["load"], 1.5);
         assert!(!text.contains('\n'));
-        let names = ["output", "scene", "width", "triangles_in", "written", "ms", "load", "render", "write"];
+        let names = [
+            "output",
+            "scene",
+            "width",
+            "triangles_in",
+            "written",
+            "ms",
+            "load",
+            "maps",
+            "mip_maps",
+            "render",
+            "write",
+        ];
         assert!(names.map(|name| text.find(&format!("\"{name}\":"))).is_sorted(), "{text}");
     }
 
     #[test]
     fn text_names_everything() {
         let report = report(Path::new("a.png"), Source::Model(Path::new("m.obj")));
-        assert_eq!(report.text().lines().count(), 11);
-        let summary = "m.obj: 5 triangles in 0.0 ms, 7x6 pixels in a.png\n\
+        assert_eq!(report.text().lines().count(), 13);
+        let summary = "m.obj: 5 triangles, 7x6 pixels in a.png; load 1.5 ms\n\
                        camera: --eye 0,1.5,1e-7 --target 0,0,0 --up 0,1,0 --fov 40 --near 0.1 --far 10 \
                        --projection parallel --view-height 2.5";
         assert_eq!(report.summary(), summary);

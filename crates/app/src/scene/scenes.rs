@@ -1,15 +1,5 @@
 //! Built-in scenes, made by formulas: pictures to look at, loads to time, and traps to fall into.
 //!
-//! | name | what |
-//! |---|---|
-//! | `hero` | a mazzocchio on a pedestal in a Florentine arcade: the default picture |
-//! | `fill` | 16 tilted textured screens with a depth test: fragments |
-//! | `mesh` | a textured knot of 5,900 triangles |
-//! | `gouraud` | a vertex-coloured lump of 69,312 triangles: vertices and setup |
-//! | `floor` | one plane from behind the camera to the horizon: the near plane |
-//! | `cube` | the colour cube |
-//! | `inside` | a grotto from within: triangles across all six sides of the view volume |
-//!
 //! Every scene is the same on every machine up to the last bit of `sin` and `cos`, which are taken in f64
 //! and rounded to f32. Front faces are counter-clockwise; space is right-handed, y up.
 
@@ -51,8 +41,33 @@ pub struct BuiltIn {
     pub depth: DepthFormat,
 }
 
+/// The scenes' names, the default first, and their purpose.
+const ABOUT: [(&str, &str); 7] = [
+    ("hero", "a mazzocchio on a pedestal in a Florentine arcade: the default picture"),
+    ("fill", "16 tilted textured screens with a depth test: fragments"),
+    ("mesh", "a textured knot of 5,900 triangles"),
+    ("gouraud", "a vertex-coloured lump of 69,312 triangles: vertices and setup"),
+    ("floor", "one plane from behind the camera to the horizon: the near plane"),
+    ("cube", "the colour cube"),
+    ("inside", "a grotto from within: triangles across all six sides of the view volume"),
+];
+
 /// The names that [`by_name`] knows, the default first.
-pub const NAMES: &[&str] = &["hero", "fill", "mesh", "gouraud", "floor", "cube", "inside"];
+pub const NAMES: &[&str] = &{
+    let mut names = [""; ABOUT.len()];
+    let mut k = 0;
+    while k < names.len() {
+        names[k] = ABOUT[k].0;
+        k += 1;
+    }
+    names
+};
+
+/// A line for each scene: its name and its purpose.
+#[must_use]
+pub fn list() -> String {
+    ABOUT.iter().map(|(name, about)| format!("{name:<9}{about}\n")).collect()
+}
 
 /// The built-in scene of that name.
 pub fn by_name(name: &str) -> Option<BuiltIn> {

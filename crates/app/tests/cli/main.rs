@@ -15,6 +15,7 @@ mod projection;
 mod scenes;
 mod show;
 mod success;
+mod usage;
 
 use std::ffi::OsStr;
 use std::fs;

@@ -57,9 +57,13 @@ macro_rules! in_bytes {
             }
 
             #[inline]
-            fn mean(self, content: Content, texels: impl Iterator<Item = ([u8; size_of::<$word>()], u64)>) -> [u8; size_of::<$word>()] {
-                let words = texels.map(|(texel, weight)| (<$word>::$of(texel), weight));
-                self.0.mean(content, words).$to()
+            fn addends(self, content: Content, texel: [u8; size_of::<$word>()]) -> [u16; 4] {
+                self.0.addends(content, <$word>::$of(texel))
+            }
+
+            #[inline]
+            fn mean(self, content: Content, sums: [u64; 4], count: u64) -> [u8; size_of::<$word>()] {
+                self.0.mean(content, sums, count).$to()
             }
         }
     )*};

@@ -82,8 +82,13 @@ macro_rules! stands_for {
             }
 
             #[inline]
-            fn mean(self, content: Content, texels: impl Iterator<Item = (F::Texel, u64)>) -> F::Texel {
-                self.0.mean(content, texels)
+            fn addends(self, content: Content, texel: F::Texel) -> [u16; 4] {
+                self.0.addends(content, texel)
+            }
+
+            #[inline]
+            fn mean(self, content: Content, sums: [u64; 4], count: u64) -> F::Texel {
+                self.0.mean(content, sums, count)
             }
         }
     )*};

@@ -4,56 +4,41 @@ use alberti_math::{Rgba8, srgb};
 
 use crate::format::Content;
 
-/// The mean of colours that count so many times: together from 1 to 2^28 times.
+/// The numbers of a colour whose sums make a mean: amounts of light, or bytes.
 #[inline]
-pub(crate) fn of_colors(content: Content, colors: impl Iterator<Item = (Rgba8, u64)>) -> Rgba8 {
-    let colors = colors.map(|(color, weight)| (color.to_bytes(), weight));
-    let [r, g, b, a] = match content {
-        Content::Srgb => {
-            let light =
-                |[r, g, b, a]: [u8; 4]| [srgb::to_light(r), srgb::to_light(g), srgb::to_light(b), a.into()];
-            let ([r, g, b, a], weights) = sums(colors.map(|(color, weight)| (light(color), weight)));
-            let [r, g, b] = [r, g, b].map(|sum| srgb::to_byte(rounded(sum, weights)));
-            [r, g, b, byte(a, weights)]
-        }
-        Content::Scalars => {
-            let (sums, weights) = sums(colors);
-            sums.map(|sum| byte(sum, weights))
-        }
+pub(crate) fn addends(content: Content, color: Rgba8) -> [u16; 4] {
+    let [r, g, b, a] = color.to_bytes();
+    match content {
+        Content::Srgb => [srgb::to_light(r), srgb::to_light(g), srgb::to_light(b), a.into()],
+        Content::Scalars | Content::Normals => [r.into(), g.into(), b.into(), a.into()],
+    }
+}
+
+/// The mean of colours by the sums of their addends, each times a weight, and that of the weights: from 1 to 2^28.
+#[inline]
+pub(crate) fn of_colors(content: Content, [x, y, z, alpha]: [u64; 4], weights: u64) -> Rgba8 {
+    let alpha = byte(alpha, weights);
+    let [r, g, b] = match content {
+        Content::Srgb => [x, y, z].map(|sum| srgb::to_byte(rounded(sum, weights))),
+        Content::Scalars => [x, y, z].map(|sum| byte(sum, weights)),
         Content::Normals => {
-            let ([x, y, z, alpha], weights) = sums(colors);
             // In units of 1/255 of the weights: at most 2^36 either way.
             let vector = [x, y, z].map(|sum| (2 * sum).cast_signed() - (255 * weights).cast_signed());
-            let [r, g, b] = unit(vector).unwrap_or([128, 128, 255]);
-            [r, g, b, byte(alpha, weights)]
+            unit(vector).unwrap_or([128, 128, 255])
         }
     };
-    Rgba8::new(r, g, b, a)
-}
-
-/// The mean of numbers that count so many times.
-#[inline]
-pub(crate) fn of_numbers(numbers: impl Iterator<Item = (u16, u64)>) -> u16 {
-    let ([sum], weights) = sums(numbers.map(|(number, weight)| ([number], weight)));
-    rounded(sum, weights)
-}
-
-/// The sums of the channels times their weights, and that of the weights.
-#[inline]
-fn sums<T: Into<u64>, const N: usize>(texels: impl Iterator<Item = ([T; N], u64)>) -> ([u64; N], u64) {
-    texels.fold(([0; N], 0), |(mut sums, weights), (channels, weight)| {
-        for (sum, channel) in sums.iter_mut().zip(channels) {
-            *sum += weight * channel.into();
-        }
-        (sums, weights + weight)
-    })
+    Rgba8::new(r, g, b, alpha)
 }
 
 /// `sum / weights`, rounded to nearest, halves up; at most 65535.
 #[inline]
 #[expect(clippy::cast_possible_truncation, reason = "a mean of such numbers")]
-fn rounded(sum: u64, weights: u64) -> u16 {
-    ((2 * sum + weights) / (2 * weights).max(1)) as u16
+pub(crate) fn rounded(sum: u64, weights: u64) -> u16 {
+    let (dividend, divisor) = (2 * sum + weights, (2 * weights).max(1));
+    // Chips divide 64 bits by hundreds of instructions.
+    let quotient =
+        if divisor.is_power_of_two() { dividend >> divisor.trailing_zeros() } else { dividend / divisor };
+    quotient as u16
 }
 
 /// The same for a mean of bytes.

@@ -1,0 +1,212 @@
+//! Help: a page for each command, with examples first and the common options, and one for each group of options.
+
+use std::ffi::OsString;
+
+use clap::builder::{Resettable, StyledStr};
+use clap::{Arg, Command};
+
+use super::words::{before_files, nearest};
+use crate::error::Error;
+
+/// The options of `render` that its page has. All others are in the topics.
+const COMMON: [&str; 12] = [
+    "model",
+    "output",
+    "size",
+    "scene",
+    "color_map",
+    "eye",
+    "fov",
+    "shading",
+    "filter",
+    "threads",
+    "quiet",
+    "stats",
+];
+
+/// The topic of options without a heading.
+const GENERAL: &str = "output";
+
+/// The topic of all options.
+const ALL: &str = "all";
+
+/// The first page.
+const FIRST: &str = "\
+Usage: alberti MODEL.obj|SCENE.toml [OPTIONS]
+       alberti COMMAND ...
+
+Examples:
+  alberti teapot.obj                a model, all of it in view, into alberti.png
+  alberti cow.obj --texture cow.png -o cow.jpg -s 1920x1080
+  alberti wet.toml --shading phong  a scene file, drawn with other light
+  alberti --scene floor             a built-in scene
+  alberti compare a.png b.png       the difference of two pictures
+
+Commands:
+{subcommands}
+
+Help:
+  alberti render --help             the common options
+  alberti help COMMAND              another command
+  alberti help TOPIC                options of one kind, where TOPIC is one of
+                                    {topics}
+  alberti help all                  all options
+";
+
+/// The help that these words ask for, if they do.
+///
+/// # Errors
+/// There is no such topic.
+pub(super) fn asked(words: &[OsString], command: &Command) -> Option<Result<String, Error>> {
+    let words: Vec<_> = before_files(words).map(|word| word.to_string_lossy()).collect();
+    let named = |word: &&str| command.find_subcommand(word).is_some();
+    let first = words.first().map(|word| &**word);
+    let Some(first) = first else { return Some(Ok(first_page(command))) };
+    if first == "help" {
+        let Some(topic) = words.get(1) else { return Some(Ok(first_page(command))) };
+        let more = words.get(2).map(|word| &**word);
+        return Some(if named(&&**topic) {
+            of_command(command, topic, more)
+        } else {
+            of_topic(command, topic)
+        });
+    }
+    let at = words.iter().position(|word| word == "--help" || word == "-h")?;
+    let more = words.get(at + 1).map(|word| &**word).filter(|word| is_topic(command, word));
+    match (Some(first).filter(named), more) {
+        (Some(name), _) => Some(of_command(command, name, more)),
+        (None, Some(topic)) => Some(of_topic(command, topic)),
+        (None, None) if at == 0 => Some(Ok(first_page(command))),
+        (None, None) => Some(of_command(command, "render", None)),
+    }
+}
+
+fn first_page(command: &Command) -> String {
+    let topics = topics(command).join(", ");
+    let about = command.get_about().map(StyledStr::to_string).unwrap_or_default();
+    let template = "{subcommands}";
+    let subcommands = command.clone().help_template(template).render_help().to_string();
+    let page = FIRST.replace("{topics}", &topics).replace("{subcommands}", subcommands.trim_end());
+    format!("{about}.\n\n{page}")
+}
+
+/// The page of a command, or with a topic its options of that kind.
+fn of_command(command: &Command, name: &str, topic: Option<&str>) -> Result<String, Error> {
+    let own = |argument: &Arg| own(command, name, argument);
+    let Some(mut page) = command.find_subcommand(name).cloned() else { return Ok(String::new()) };
+    page = page.bin_name(format!("alberti {name}"));
+    if page.get_arguments().all(own) && name != "render" {
+        let template = "{about-with-newline}\n{usage-heading} {usage}{after-help}\n\n{all-args}";
+        return Ok(text(page.help_template(template).render_long_help()));
+    }
+    match topic {
+        Some(ALL) => {
+            let template = "{about-with-newline}\n{usage-heading} {usage}{after-help}\n\n{all-args}";
+            Ok(text(page.help_template(template).render_long_help()))
+        }
+        Some(topic) if is_topic(command, topic) => Ok(options(page, topic)),
+        Some(topic) => Err(no_topic(command, topic)),
+        None => {
+            let common = |argument: &Arg| match name {
+                "render" => COMMON.contains(&argument.get_id().as_str()),
+                _ => own(argument) || argument.get_id() == "model",
+            };
+            let page = page.mut_args(|argument| {
+                let hidden = argument.is_hide_set() || !common(&argument);
+                let takes_values = argument.get_action().takes_values();
+                let long = argument.get_help().cloned();
+                argument.hide(hidden).hide_possible_values(takes_values).long_help(Resettable::from(long))
+            });
+            let template = "{about-with-newline}\n{usage-heading} {usage}{after-help}\n\n{all-args}";
+            let page = text(page.help_template(template).render_help());
+            Ok(format!("{page}\n{}", pointers(command, name)))
+        }
+    }
+}
+
+/// Whether an option belongs to a command alone.
+fn own(command: &Command, name: &str, argument: &Arg) -> bool {
+    let shared = command.find_subcommand("render");
+    let shared =
+        shared.is_some_and(|render| render.get_arguments().any(|of| of.get_id() == argument.get_id()));
+    name == "render" || !shared
+}
+
+/// The options of other pages, by name.
+fn pointers(command: &Command, name: &str) -> String {
+    let Some(render) = command.find_subcommand(name) else { return String::new() };
+    let mut text = format!("More options, by alberti help {name} TOPIC:\n");
+    for topic in topics(command) {
+        let of_topic = render.get_arguments().filter(|argument| {
+            topic_of(argument) == topic
+                && !argument.is_hide_set()
+                && (name == "render" || !own(command, name, argument))
+        });
+        let mut line = format!("  {topic:<11}");
+        for option in of_topic.filter_map(Arg::get_long) {
+            if line.len() + option.len() + 3 > 80 {
+                text.push_str(&format!("{}\n", line.trim_end()));
+                line = " ".repeat(13);
+            }
+            line.push_str(&format!("--{option} "));
+        }
+        text.push_str(&format!("{}\n", line.trim_end()));
+    }
+    text.push_str("  all        everything\n");
+    text
+}
+
+fn of_topic(command: &Command, topic: &str) -> Result<String, Error> {
+    match command.find_subcommand("render").cloned() {
+        _ if topic == ALL => of_command(command, "render", Some(ALL)),
+        Some(render) if is_topic(command, topic) => Ok(options(render, topic)),
+        _ => Err(no_topic(command, topic)),
+    }
+}
+
+/// The options of a topic, with all that is said of them.
+fn options(page: Command, topic: &str) -> String {
+    let page = page.mut_args(|argument| {
+        let hidden = argument.is_hide_set() || topic_of(&argument) != topic || argument.is_positional();
+        argument.hide(hidden)
+    });
+    let mut page = page.disable_help_flag(true).help_template("{all-args}");
+    text(page.render_long_help())
+}
+
+fn no_topic(command: &Command, topic: &str) -> Error {
+    let topics = topics(command);
+    let known = || command.get_subcommands().map(Command::get_name).chain(topics.iter().map(String::as_str));
+    let error =
+        Error::new("no such command or topic", format!("one of {}", known().collect::<Vec<_>>().join(", ")));
+    let error = error.place(topic);
+    match nearest(topic, known()) {
+        Some(name) => error.hint(format!("did you mean {name}?")),
+        None => error,
+    }
+}
+
+fn is_topic(command: &Command, word: &str) -> bool {
+    word == ALL || topics(command).iter().any(|topic| topic == word)
+}
+
+/// The groups of the options of `render`, in their order.
+fn topics(command: &Command) -> Vec<String> {
+    let render = command.find_subcommand("render");
+    let mut topics = vec![GENERAL.to_owned()];
+    for topic in render.into_iter().flat_map(Command::get_arguments).map(topic_of) {
+        if !topics.contains(&topic) {
+            topics.push(topic);
+        }
+    }
+    topics
+}
+
+fn topic_of(argument: &Arg) -> String {
+    argument.get_help_heading().map_or_else(|| GENERAL.to_owned(), str::to_lowercase)
+}
+
+/// Plain text, without empty lines at its end.
+fn text(page: StyledStr) -> String {
+    format!("{}\n", page.to_string().trim_end())
+}

@@ -1,0 +1,190 @@
+//! The command line itself: words that may be left out, help, scripts for shells, and signals.
+
+use std::ffi::OsStr;
+use std::fs;
+use std::process::Command;
+
+use crate::{Folder, Run, TRIANGLE, alberti};
+
+fn run(folder: &Folder, line: &str) -> Run {
+    let words: Vec<_> = line.split_whitespace().collect();
+    alberti(&folder.path("."), &[] as &[&OsStr], &words)
+}
+
+#[test]
+fn a_file_is_rendered_without_the_word() {
+    let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes())]);
+    for line in ["m.obj -s 16x8", "-s 16x8 m.obj", "--scene cube -s 16x8 -j 1"] {
+        let made = run(&folder, line);
+        assert_eq!((made.status, &made.stderr[..]), (Some(0), ""), "{line}: {made:?}");
+        assert_eq!(image::image_dimensions(folder.path("alberti.png")).expect("a picture"), (16, 8));
+        fs::remove_file(folder.path("alberti.png")).expect("the picture");
+    }
+    for (line, told) in [
+        (
+            "rednr m.obj",
+            "error: rednr: found neither a command nor a file, expected one of both; did you mean render?",
+        ),
+        (
+            "floor",
+            "error: floor: found neither a command nor a file, expected one of both; did you mean --scene floor?",
+        ),
+        ("no.obj", "error: no.obj: found no such file, expected a Wavefront OBJ model"),
+        ("m.obj other.obj", "error: other.obj: found a second file, expected one; see --help"),
+    ] {
+        let made = run(&folder, line);
+        assert_eq!((made.status, made.stderr.lines().count()), (Some(2), 1), "{made:?}");
+        assert!(made.stderr.starts_with(told), "{made:?}");
+    }
+}
+
+#[test]
+fn the_last_of_repeated_options_wins() {
+    let folder = Folder::with(&[("s.toml", b"size = [8, 8]\n[[object]]\nsurface = \"plane\"\n")]);
+    for line in ["--size 9x9 -s 16x8", "s.toml -s 9x9 --filter nearest --size 16x8 --filter trilinear -q -q"]
+    {
+        let made = run(&folder, line);
+        assert_eq!((made.status, &made.stderr[..]), (Some(0), ""), "{made:?}");
+        assert_eq!(image::image_dimensions(folder.path("alberti.png")).expect("a picture"), (16, 8));
+    }
+}
+
+#[test]
+fn quiet_leaves_errors_and_results() {
+    let folder = Folder::with(&[("m.obj", format!("mtllib no.mtl\n{TRIANGLE}").as_bytes())]);
+    let made = run(&folder, "m.obj -s 8x8 -q");
+    assert_eq!((made.status, &made.stdout[..], &made.stderr[..]), (Some(0), "", ""));
+    let made = run(&folder, "m.obj -s 8x8 -q --stats json");
+    assert!(made.stdout.starts_with('{') && made.stderr.is_empty(), "{made:?}");
+    let made = run(&folder, "no.obj -q");
+    assert!(made.status == Some(2) && made.stderr.starts_with("error: "), "{made:?}");
+}
+
+#[test]
+fn times_are_told_by_work() {
+    let folder = Folder::with(&[]);
+    let made = run(&folder, "--scene floor -s 64x48 --filter trilinear --stats json");
+    let json: serde_json::Value = serde_json::from_str(&made.stdout).expect("JSON");
+    for work in ["load", "maps", "mip_maps", "render", "write"] {
+        assert!(json["ms"][work].is_f64(), "{json}");
+    }
+    assert!(json["ms"]["mip_maps"].as_f64() > Some(0.0), "{json}");
+    let made = run(&folder, "--scene floor -s 64x48 --filter trilinear");
+    assert!(made.stdout.contains(" pixels in alberti.png; load "), "{made:?}");
+}
+
+#[test]
+fn mistakes_of_usage_are_one_line() {
+    let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes())]);
+    for (line, told) in [
+        ("m.obj --quiet=yes", "error: --quiet: found \"yes\", expected no value; see --help"),
+        ("m.obj --siez 3x3", "error: --siez: found it, expected an option, such as --size; see --help"),
+        ("m.obj --scene cube", "error: --scene: found it, expected no MODEL.obj beside it; see --help"),
+        ("compare a.png", "error: found nothing, expected <B.png>; see --help"),
+        ("help camra", "error: camra: found no such command or topic, expected one of "),
+        ("completions fisch", "error: <SHELL>: found \"fisch\", expected one of bash, "),
+    ] {
+        let made = run(&folder, line);
+        assert_eq!((made.status, made.stderr.lines().count()), (Some(2), 1), "{line}: {made:?}");
+        assert!(made.stderr.starts_with(told), "{line}: {made:?}");
+    }
+    assert_eq!(folder.names(), ["m.obj"]);
+}
+
+#[test]
+fn help_is_short_and_has_the_rest_behind_topics() {
+    let folder = Folder::with(&[]);
+    let page = |line: &str| {
+        let words: Vec<_> = line.split_whitespace().collect();
+        let output = Command::new(env!("CARGO_BIN_EXE_alberti"))
+            .current_dir(folder.path("."))
+            .env("COLUMNS", "80")
+            .args(words)
+            .output()
+            .expect("the command");
+        assert_eq!((output.status.code(), &output.stderr[..]), (Some(0), &b""[..]), "{line}");
+        String::from_utf8(output.stdout).expect("text")
+    };
+    for line in [
+        "",
+        "--help",
+        "help",
+        "render --help",
+        "help render",
+        "bake -h",
+        "advise -h",
+        "explain -h",
+        "compare -h",
+    ] {
+        let page = page(line);
+        assert!(page.lines().count() <= 60, "{line}: {} lines", page.lines().count());
+        let examples = page.find("Examples:").expect("examples");
+        assert!(page.find("--output").is_none_or(|options| examples < options), "{line}");
+    }
+    assert_eq!(page("m.obj --help"), page("render --help"));
+    assert!(page("help camera").contains("--near <A>") && !page("help camera").contains("--wrap"));
+    assert_eq!(page("help camera"), page("render --help camera"));
+    let all = page("help all");
+    for option in
+        ["--near", "--wrap", "--lod", "--height-map", "--show", "--projector-fov", "affine: straight"]
+    {
+        assert!(all.contains(option), "{option}");
+    }
+    assert!(page("--list-scenes").starts_with("hero "));
+    assert_eq!(page("--list-scenes").lines().count(), alberti_app::scenes::NAMES.len());
+}
+
+#[test]
+fn shells_and_man_have_their_texts() {
+    let folder = Folder::with(&[]);
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let made = run(&folder, &format!("completions {shell}"));
+        assert!(made.status == Some(0) && made.stdout.contains("projector-fov"), "{shell}");
+    }
+    let page = run(&folder, "man").stdout;
+    for part in [".TH alberti 1", "advise", "projector\\-fov"] {
+        assert!(page.contains(part), "{part}");
+    }
+}
+
+/// At the moment when there is a temporary file, and at others.
+#[cfg(unix)]
+#[test]
+fn signals_leave_no_temporary_file() {
+    use std::os::unix::process::ExitStatusExt as _;
+    use std::time::{Duration, Instant};
+    for (signal, number, delay) in
+        [("-TERM", 15, None), ("-INT", 2, None), ("-TERM", 15, Some(1)), ("-INT", 2, Some(30))]
+    {
+        let folder = Folder::with(&[("out.bmp", b"old")]);
+        let mut child = Command::new(env!("CARGO_BIN_EXE_alberti"))
+            .current_dir(folder.path("."))
+            .args(["--scene", "cube", "-q", "-s", "6000x6000", "-o", "out.bmp"])
+            .spawn()
+            .expect("the command");
+        let start = Instant::now();
+        let writes = || {
+            let entries = fs::read_dir(folder.path(".")).expect("the folder").flatten();
+            let mut temporary = entries.filter(|e| e.file_name().to_string_lossy().starts_with(".alberti-"));
+            temporary.any(|entry| entry.metadata().is_ok_and(|metadata| metadata.len() > 0))
+        };
+        match delay {
+            Some(delay) => std::thread::sleep(Duration::from_millis(delay)),
+            None => {
+                while !writes() && child.try_wait().expect("a child").is_none() {
+                    assert!(start.elapsed() < Duration::from_secs(300), "nothing is written");
+                }
+            }
+        }
+        let sent = Command::new("kill").args([signal, &child.id().to_string()]).status();
+        let status = child.wait().expect("the child");
+        assert_eq!(folder.names(), ["out.bmp"], "{sent:?} {status:?}");
+        let found = fs::read(folder.path("out.bmp")).expect("the picture");
+        if status.success() {
+            assert_eq!(found.len(), 54 + 3 * 6000 * 6000);
+        } else {
+            assert_eq!(status.signal(), Some(number));
+            assert!(found == b"old" || found.len() == 54 + 3 * 6000 * 6000);
+        }
+    }
+}
