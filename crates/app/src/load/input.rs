@@ -11,8 +11,8 @@ use flate2::bufread::MultiGzDecoder;
 
 use crate::error::Error;
 
-/// The largest OBJ file that is read, in bytes, decompressed. What is made of it has to fit in memory: about as many
-/// bytes as it has itself, or six times as many where its numbers are as short as can be.
+/// The largest OBJ file that is read, in bytes, decompressed. Its model has to fit in memory: about as many bytes, or
+/// six times as many where numbers are as short as can be.
 pub const MAX_TEXT_BYTES: u64 = 1 << 31;
 
 /// The name that stands for standard input.

@@ -1,9 +1,9 @@
 //! OBJ models with their materials and textures.
 //!
-//! Polygons become triangles (`crate::scene::polygon`). Missing normals are made ([`crate::scene::normals`]): in smoothing
-//! groups where the file has some, else by the angle between faces. Missing texture coordinates are (0, 0), missing colours white, missing materials grey.
-//! Texture coordinates are kept as they are, v up. Materials are looked for beside the model, textures beside the
-//! material library.
+//! Polygons become triangles (`crate::scene::polygon`). Missing normals are made ([`crate::scene::normals`]): in
+//! smoothing groups where the file has some, else by the angle between faces. Missing texture coordinates are (0, 0),
+//! missing colours white, missing materials grey. Texture coordinates are kept as they are, v up. Materials are looked
+//! for beside the model, textures beside the material library.
 
 use std::path::Path;
 

@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 
-/// The reason why these bytes, which come after so many of the file, are not lines of text, if they are not: `found` for
-/// a message.
+/// The reason why these bytes, which come after so many of the file, are not lines of text, if they are not: `found`
+/// for a message.
 pub(crate) fn not_text(bytes: &[u8], before: u64) -> Option<String> {
     if before == 0 && bytes.is_empty() {
         return Some("an empty file".to_owned());

@@ -57,7 +57,7 @@ pub enum Source<'a> {
 }
 
 impl Report<'_> {
-    /// A line of what was made from what, with the times that are not 0, and one of the options of the camera that saw it.
+    /// A line of what was made from what, with the times that are not 0, and one of the camera's options.
     pub fn summary(&self) -> String {
         let source = match self.source {
             Source::Model(path) => path.display().to_string(),

@@ -34,20 +34,20 @@ impl Group {
 const NEIGHBOURS: usize = 8;
 
 /// Normalizes the model's normals, and gives each vertex whose normal is (0, 0, 0) one of its own making. That is the
-/// mean of the normals of the triangles at its position that belong together, weighted by their angles there (Thürmer
-/// and Wüthrich, Computing vertex normals from polygonal facets, 1998). So the result depends on the surface, not on how
-/// a polygon was cut into triangles or where a seam in the texture parts two vertices. Triangles of all parts count.
+/// mean of the normals of the triangles there that belong together, weighted by their angles (Thürmer and Wüthrich,
+/// Computing vertex normals from polygonal facets, 1998). So the result depends on the surface alone. It is the same
+/// however a polygon was cut, and where a seam in the texture parts two vertices. Triangles of all parts count.
 ///
 /// Triangles belong together that share a number in `groups`, which has one for each triangle, in the parts' order. Of
-/// [`Group::BY_ANGLE`], those do that share an edge at which they turn by less than `crease` degrees, and those that
+/// [`Group::BY_ANGLE`], those do that share an edge at which they turn by less than `crease` degrees. So do those that
 /// follow from these: around the tip of a cone all sides belong together. A vertex where several normals meet becomes
 /// several.
 ///
 /// Where the mean vanishes, at a vertex of degenerate triangles only or of a folded surface, it is (0, 0, 1).
 ///
 /// # Cost
-/// Linear in vertices and triangles but for sorting the edges at each vertex: some 60 bytes a triangle and 40 a vertex
-/// while it runs, and nothing where no normal is missing.
+/// Linear in vertices and triangles, but for sorting the edges at each vertex. While it runs, it takes some 60 bytes a
+/// triangle and 40 a vertex. Where no normal is missing it takes nothing.
 pub fn complete(model: &mut Model, groups: &[Group], crease: f32) {
     let mut missing = false;
     for vertex in &mut model.vertices {
@@ -176,7 +176,7 @@ impl Sets {
         }
         let mut sorted = vec![(0_u32, 0_u32); starts[places] as usize];
         for (a, b, corner) in edges().filter(|(a, b, _)| a != b) {
-            // What has been filled is counted by moving the start on; it ends as that of the next.
+            // The start moves on with each that is filled, and ends as that of the next.
             let at = &mut starts[a.min(b) as usize];
             sorted[*at as usize] = (a.max(b), corner);
             *at += 1;

@@ -30,7 +30,8 @@ impl Placement {
         }
     }
 
-    /// Puts all vertices of a model there, counted from a new origin. Front faces stay front faces, and unit vectors stay unit vectors.
+    /// Puts all vertices of a model there, counted from a new origin. Front faces stay front faces, and unit vectors
+    /// stay unit vectors.
     ///
     /// Heights are stretched along the normal, as the parts of the surface are on average over their area: by their
     /// volume's growth over their area's. Where scales are unequal that is the mean on a curved surface, and that

@@ -24,16 +24,16 @@ const EFFORT: [usize; 2] = [1000, 100_000_000];
 /// Cuts a polygon in space into triangles of its corners' numbers, always two fewer than it has corners, and turned as
 /// it is. Whether it could: what crosses itself on its plane has no inside, and gets some triangles.
 ///
-/// It is cut on the plane of two axes that its normal (Newell's, the sum over edges) is nearest to. A fan about corner 0
-/// is taken where all its triangles have an area of the polygon's sign, as those of convex polygons have. Otherwise ears
-/// are clipped (Meisters, Polygons have ears, 1975), with exact signs of areas (Shewchuk, Adaptive precision
-/// floating-point arithmetic, 1997). An outline may touch itself, as along the bridge to a hole. Corners in a line get
-/// triangles with an area where they can, so that neighbours who share them leave no gap.
+/// It is cut on the plane of two axes that its normal (Newell's, the sum over edges) is nearest to. Where all triangles
+/// of a fan about corner 0 have areas of the polygon's sign, as in convex polygons, it is that fan. Otherwise ears are
+/// clipped (Meisters, Polygons have ears, 1975), with exact signs of areas (Shewchuk, Adaptive precision floating-point
+/// arithmetic, 1997). An outline may touch itself, as along the bridge to a hole. Corners in a line get triangles with
+/// an area where they can, so that neighbours who share them leave no gap.
 ///
 /// # Cost
-/// Linear for fans. For ears, about linear in corners where triangles stay small, as in bands, and quadratic where long
-/// ones are needed, as in rings; a ring of 10,000 corners is no trouble. After about a second it gives up, as if the
-/// polygon crossed itself.
+/// Linear for fans. Ears are about linear in corners where triangles stay small, as in bands. They are quadratic where
+/// long ones are needed, as in rings; a ring of 10,000 corners is no trouble. After about a second of steps, which it
+/// counts, it gives up, as if the polygon crossed itself.
 pub(crate) fn triangulate(points: &[[f64; 3]], triangles: &mut Vec<[u32; 3]>) -> bool {
     let corners = u32::try_from(points.len()).unwrap_or(u32::MAX);
     let fan = (1..corners.saturating_sub(1)).map(|i| [0, i, i + 1]);
@@ -126,7 +126,7 @@ impl<'a> Ears<'a> {
             if since >= left {
                 self.effort = self.effort.saturating_sub(left);
                 let flat = self.find(at, left, |turn| turn.abs() <= 0.0);
-                // What has neither ears nor corners in a line crosses itself.
+                // A rest with neither ears nor corners in a line crosses itself.
                 simple &= flat.is_some();
                 at = flat.or_else(|| self.find(at, left, |turn| turn > 0.0)).unwrap_or(at);
             }

@@ -33,7 +33,8 @@ pub(crate) struct Built {
 }
 
 /// Builds the parts in the file's order: a new one begins at each object and at each change of material. `materials`
-/// are their names and numbers. `made` says how normals are made, whatever the file has; without it they are the file's.
+/// are their names and numbers. `made` says how normals are made, whatever the file has; without it they are those of
+/// the file.
 ///
 /// # Errors
 /// There are too many vertices.

@@ -8,8 +8,8 @@ const POWERS: [f64; 23] = [
 
 /// A number that is finite as an f32 too, correctly rounded to an f64.
 ///
-/// Digits with a point, as long as they fit 53 bits, are one exact integer and one exact power of ten, so that one
-/// division rounds once (Clinger, How to read floating point numbers accurately, 1990). All else is left to `str::parse`.
+/// Digits with a point, as long as they fit 53 bits, are an exact integer and an exact power of ten. So one division
+/// rounds once (Clinger, How to read floating point numbers accurately, 1990). All else is left to `str::parse`.
 pub(crate) fn number(word: &[u8]) -> Option<f64> {
     simple(word).or_else(|| any(word))
 }

@@ -69,7 +69,7 @@ impl ObjText {
         let (mut bytes, mut offset, mut ended) = (Vec::new(), 0, false);
         while !ended {
             let start = bytes.len();
-            // What is left over is of one line, which may be a long one.
+            // The rest is of one line, which may be a long one.
             let wanted = (2 * start).max(threads * BLOCK);
             ended = stream.fill(&mut bytes, wanted)?;
             if let Some(found) = not_text(&bytes[start..], offset) {
