@@ -261,7 +261,7 @@ mod tests {
         let text = "# Tea\n#\n# Hot.\n#\n# With `--wrap clamp`: cold.\n";
         let scenes = [("Drinks", vec![("tea", Header::read(text).unwrap())])];
         let (_, pictures) =
-            page(&scenes).split_once("gallery\n\n## ").map(|(a, b)| (a.len(), b.to_string())).unwrap();
+            page(&scenes).split_once("now.\n\n## ").map(|(a, b)| (a.len(), b.to_string())).unwrap();
         assert_eq!(
             pictures,
             "Drinks\n\n### Tea\n\n![Tea](gallery/tea.jpg)\n\nHot.\n\n    \

@@ -293,7 +293,9 @@ pub(super) fn asset(
     }
     if pieces.is_empty() {
         let found = format!("no triangle with an area in steps of {}", number(unit));
-        return Err(Error::new(found, "some").hint("move the model to the origin: steps are from there"));
+        return Err(
+            Error::new(found, "some").hint("leave out what lies far from it: the farthest is 32767 steps")
+        );
     }
     Ok(Asset { attributes, unit, pieces, lost_parts, textures, losses })
 }

@@ -146,6 +146,10 @@ fn baked(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
     let (binary, module) = (file("bin")?, file("rs")?);
 
     let Staged { model, camera, mut options, .. } = request.stage()?;
+    if model.origin != [0.0; 3] {
+        let found = format!("a model around {}", model.origin.map(|x| x.to_string()).join(","));
+        warn(&Error::new(found, "one near the origin").hint("places are counted from there").to_string());
+    }
     // A program has one lamp, and surfaces of one side.
     options.light = LightOptions::default();
     let BakeArgs { format, triangles, texture_size, attributes, meshlets, band, .. } = *arguments;

@@ -73,7 +73,7 @@ fn run_for(request: &Request, matches: &ArgMatches) -> Result<(), Error> {
         ExplainArgs::from_arg_matches(matches).map_err(refused)?;
     refuse(matches, "explain", &OF_PICTURES, "no picture is written")?;
     request.check()?;
-    let Staged { model, camera, options, .. } = request.stage_on_ground()?;
+    let Staged { model, camera, options, .. } = request.stage()?;
     let journey = explain(&model, &camera, &options, pixel)?;
     print(&if json { format!("{}\n", journey.json()) } else { journey.text() })
 }

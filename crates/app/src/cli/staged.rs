@@ -27,7 +27,7 @@ use crate::scene::backdrop::Backdrop;
 use crate::scene::{Camera, Model, Part, Relief, camera, ground, order, scenes, slide};
 
 /// The options that say what `render` writes.
-pub(super) const OF_PICTURES: [&str; 5] = ["output", "output_format", "samples", "stats", "show"];
+pub(super) const OF_PICTURES: [&str; 6] = ["output", "output_format", "samples", "stats", "show", "ground"];
 
 /// A command without some options in its help.
 pub(super) fn hidden(command: Command, ids: &[&'static str]) -> Command {

@@ -50,7 +50,7 @@ pub(super) fn with_command(mut words: Vec<OsString>, command: &Command) -> Resul
 /// The name that is most like a word, if one is at all.
 pub(super) fn nearest<'a>(word: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let (distance, name) = names.map(|name| (strsim::damerau_levenshtein(word, name), name)).min()?;
-    (3 * distance <= word.chars().count().max(3)).then_some(name)
+    (3 * distance <= word.chars().count().max(name.len())).then_some(name)
 }
 
 #[cfg(test)]

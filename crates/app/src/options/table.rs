@@ -255,7 +255,7 @@ pub struct RenderTable {
     #[arg(long, value_name = "AZ,EL", allow_hyphen_values = true, help_heading = SURFACE)]
     pub light: Option<KeyLight>,
 
-    /// A ground at the lowest point, of which a soft shadow is seen. In pictures and `explain` alone.
+    /// A ground at the lowest point, of which a soft shadow is seen. In pictures alone.
     #[arg(long, value_name = "true|false", num_args = 0..=1, require_equals = true, default_missing_value = "true", help_heading = SURFACE)]
     pub ground: Option<bool>,
 

@@ -16,7 +16,7 @@ fn pixel(folder: &Folder, name: &str, x: u32, y: u32) -> [u8; 3] {
 fn a_scene_is_drawn_as_its_file_says() {
     let folder = Folder::with(&[("s.toml", SCENE.as_bytes())]);
     let run = folder.succeeds(&["s.toml"]);
-    assert!(run.stdout.starts_with("s.toml: 576 triangles in "), "{run:?}");
+    assert!(run.stdout.starts_with("s.toml: 576 triangles, "), "{run:?}");
     assert_eq!(run.stderr, "");
     let size = image::image_dimensions(folder.path("from-file.png")).expect("a picture");
     assert_eq!(size, (40, 30));

@@ -79,7 +79,10 @@ fn mistakes_of_usage_are_one_line() {
     for (line, told) in [
         ("m.obj --quiet=yes", "error: --quiet: found \"yes\", expected no value; see --help"),
         ("m.obj --siez 3x3", "error: --siez: found it, expected an option, such as --size; see --help"),
-        ("m.obj --scene cube", "error: --scene: found it, expected no MODEL.obj beside it; see --help"),
+        (
+            "m.obj --scene cube",
+            "error: MODEL.obj or SCENE.toml: found it, expected no --scene beside it; see --help",
+        ),
         ("compare a.png", "error: found nothing, expected <B.png>; see --help"),
         ("help camra", "error: camra: found no such command or topic, expected one of "),
         ("completions fisch", "error: <SHELL>: found \"fisch\", expected one of bash, "),

@@ -140,6 +140,8 @@ macro_rules! meshes {
     )*};
 }
 
+pub(crate) use meshes;
+
 meshes! {
     /// One colour for all.
     flat_mesh(model) in bare: Mesh::new(model.vertices, model.triangles, |v| (place(v), ())), Solid(ORANGE);

@@ -1,9 +1,9 @@
 //! Ways of reading the floor's mip map, and one on a mesh.
 
-use crate::draws::{draws, mapped, mapped_by};
+use crate::draws::{draw, draws, mapped, mapped_by, meshes};
 use crate::shapes::{FLOOR_MIPMAP, FLOOR_PAIRS, Model};
 use crate::torus::Vertex;
-use crate::{Camera, Target};
+use crate::{Camera, HEIGHT, Target, WIDTH};
 use alberti::glam::Vec2;
 use alberti::raster::{PerRun, PerTriangle};
 use alberti::shaders::{Differentiated, Light, Lit565, Stored, TexelDither, Unlit};
@@ -11,7 +11,7 @@ use alberti::texture::format::{Rgb565, Rgb565Pairs};
 use alberti::texture::{
     BaseLevel, Bilinear, Minify, MipSampler, Nearest, NearestLevel, PowerOfTwo, Repeat, Trilinear,
 };
-use alberti::{Counters, Exact, FixedPoint, Mesh, Object, Point3, Spans16};
+use alberti::{Affine, Counters, D16, Exact, FixedPoint, Mesh, Object, Point3, Rgb565Le, Spans16};
 
 draws! {
     /// The nearest texel of the nearest level, one for each triangle.
@@ -84,6 +84,12 @@ draws! {
     /// One of eight texels of two levels.
     dithered_trilinear_fixed(model): FixedPoint(Spans16), mapped,
         TexelDither(TRILINEAR_OF_FLOOR.leveled());
+}
+
+meshes! {
+    /// The nearest texel of the nearest level, found once for each triangle, on a mesh.
+    leveled_mesh(model) in mapped: Mesh::new(model.vertices, model.triangles, mapped),
+        Stored(NEAREST_OF_FLOOR.leveled());
 }
 
 /// The nearest texel of the nearest level, one for each triangle, of a mesh.

@@ -29,11 +29,11 @@ pub use draws::{
     textured_planes, textured_spans,
 };
 pub use floor::{
-    dithered_bilinear_fixed, dithered_trilinear_fixed, leveled_bilinear_fixed, leveled_nearest_fixed,
-    leveled_trilinear_fixed, lit_fixed, mesh_base_nearest, mesh_mip_nearest, mip_bilinear,
-    mip_bilinear_fixed, mip_nearest, mip_nearest_fixed, pairs_bilinear_fixed, pairs_trilinear_fixed,
-    trilinear, trilinear_fixed, trilinear_spans, trilinear_spans_fixed, trilinear_stored_fixed,
-    trilinear_stored_spans_fixed,
+    dithered_bilinear_fixed, dithered_trilinear_fixed, leveled_bilinear_fixed, leveled_mesh,
+    leveled_nearest_fixed, leveled_trilinear_fixed, lit_fixed, mesh_base_nearest, mesh_mip_nearest,
+    mip_bilinear, mip_bilinear_fixed, mip_nearest, mip_nearest_fixed, pairs_bilinear_fixed,
+    pairs_trilinear_fixed, trilinear, trilinear_fixed, trilinear_spans, trilinear_spans_fixed,
+    trilinear_stored_fixed, trilinear_stored_spans_fixed,
 };
 pub use formats::{grey4, indexed, rgb332, rgb444, rgb666};
 pub use renderer::{Renderer, meshlets_renderer};
@@ -164,6 +164,8 @@ pub static SCENES: &[Scene] = &[
     scene!("fixed-mesh", torus(1.0), textured_fixed),
     scene!("fixed-mesh-sub8", torus(1.0), affine_mesh_sub8),
     scene!("fixed-mesh-coarse", coarse_torus(), affine_mesh),
+    scene!("fixed-mesh-leveled", torus(1.0), leveled_mesh),
+    scene!("fixed-mesh-leveled-coarse", coarse_torus(), leveled_mesh),
     scene!("fixed-mesh-bands", torus(1.0), textured_bands),
     scene!("fixed-mesh-eighth", torus(0.125), textured_fixed),
     scene!("integer-mesh-flat", torus(1.0), flat_integers),

@@ -77,7 +77,7 @@ fn lights_and_a_projector_are_told() {
 #[test]
 fn help_has_the_defaults_of_this_command() {
     let folder = Folder::with(&[]);
-    let run = alberti(folder.0.path(), &[OsStr::new("bake")], &["--help"]);
+    let run = alberti(folder.0.path(), &[OsStr::new("help")], &["bake", "all"]);
     assert_eq!(run.status, Some(0), "{run:?}");
     let words = run.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
     let defaults = ["320x240", "mcu", "the profile's"];
