@@ -119,7 +119,7 @@ fn normals_are_an_option_and_a_key() {
         ("smooth", Some("smooth")),
         ("crease", Some("crease:60")),
         ("flat", Some("flat")),
-        ("sharp", Some("crease:5")),
+        ("sharp", Some("crease:1")),
     ] {
         let option = normals.map(|normals| ["--normals", normals]);
         let picture = format!("{name}.png");

@@ -106,7 +106,7 @@ impl Block {
     pub(crate) fn read(bytes: &[u8]) -> Self {
         let mut block = Self::default();
         let mut lines = Lines::new(bytes);
-        while let Some((number, line)) = lines.next() {
+        for (number, line) in lines.by_ref() {
             if let Err(fault) = block.statement(&Statement::new(number, &line)) {
                 block.fault = Some((number, fault));
                 break;
