@@ -183,10 +183,12 @@ fn colours_of_vertices_show() {
     );
 }
 
+const STEPS: [u8; 4] = [0, 60, 120, 180];
+
 /// `-s` and `-o` are those of coordinates that a file has itself.
 #[test]
 fn textures_are_scaled_and_moved() {
-    let checks = png(4, 4, |x, y| [(60 * x) as u8, (60 * y) as u8, 9, 255]);
+    let checks = png(4, 4, |x, y| [STEPS[x as usize], STEPS[y as usize], 9, 255]);
     let picture = |obj: &str, mtl: &str| {
         let folder = folder(obj, mtl);
         fs::write(folder.path("c.png"), &checks).expect("a file");
