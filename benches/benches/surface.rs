@@ -21,6 +21,7 @@ use alberti::shaders::{Differentiated, Unlit, material};
 use alberti::texture::surface::{LimitedParallax, NormalEncoding::Unorm, Relief};
 use alberti::texture::{
     Anisotropic, Bilinear, Minify, Mipmap, Nearest, NearestLevel, PowerOfTwo, Repeat, Texture, Trilinear,
+    mipmap,
 };
 use alberti::{
     Always, Cull, F32, FragmentStage, Frame, Mesh, Pass, Perspective, Point3, Rgba8, Rgba8888, Slot, Stats,
@@ -268,12 +269,45 @@ fn surface(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// Mip maps of an image whose sides are powers of two, and of one whose sides are not. The last texel is the mean of
+/// all light, in `f64`.
+fn mip_maps(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("mip-maps");
+    for side in [1024_u32, 1000] {
+        let area = (side * side) as usize;
+        let mut texels = vec![[0; 4]; mipmap::texel_count(side, side)];
+        for (texel, k) in texels.iter_mut().zip(0..area as u32) {
+            let [r, g, b, _] = k.wrapping_mul(0x9e37_79b1).to_le_bytes();
+            *texel = [r, g, b, 255];
+        }
+        mipmap::build(Rgba8888, &mut texels, side, side).expect("room for all levels");
+        let last = texels.last().copied().unwrap_or_default();
+        for (channel, found) in last.into_iter().enumerate().take(3) {
+            let sum: f64 = texels[..area].iter().map(|texel| light(texel[channel])).sum();
+            let [below, above] = [found.saturating_sub(1), found.saturating_add(1)].map(light);
+            let mean = sum / area as f64;
+            assert!(below < mean && mean < above, "{side}: {found} in channel {channel}, of light {mean}");
+        }
+        group.throughput(Throughput::Elements(area as u64));
+        group.bench_function(format!("{side}x{side}"), |bencher| {
+            bencher.iter(|| mipmap::build(Rgba8888, &mut texels, side, side));
+        });
+    }
+    group.finish();
+}
+
+/// The light of a byte of sRGB.
+fn light(byte: u8) -> f64 {
+    let x = f64::from(byte) / 255.0;
+    if x <= 0.04045 { x / 12.92 } else { ((x + 0.055) / 1.055).powf(2.4) }
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default()
         .sample_size(20)
         .warm_up_time(Duration::from_secs(1))
         .measurement_time(Duration::from_secs(2));
-    targets = surface
+    targets = surface, mip_maps
 }
 criterion_main!(benches);
