@@ -58,6 +58,19 @@ fn a_far_model_looks_as_at_the_origin() {
     }
 }
 
+/// The camera that a summary tells is in the file's coordinates, and makes the same picture.
+#[test]
+fn the_camera_of_a_far_model_is_told_where_it_is() {
+    let folder = Folder::with(&[("far.obj", ball([500_000.0, 120.0, 4e6]).as_bytes())]);
+    let picture = ["far.obj", "--size", "160x120", "-o"];
+    let run = folder.succeeds(&[&picture[..], &["fitted.png"]].concat());
+    let told = run.stdout.lines().find_map(|line| line.strip_prefix("camera: ")).expect("a camera");
+    assert!(told.contains("--target 500000") || told.contains("--target 499999."), "{told}");
+    let again: Vec<&str> = told.split(' ').collect();
+    folder.succeeds(&[&picture[..], &["again.png"], &again].concat());
+    assert_eq!(difference(&folder, ["fitted.png", "again.png"]), (0, 0), "{told}");
+}
+
 #[test]
 fn scene_files_speak_in_their_own_coordinates() {
     let scene = |model: &str, [x, y, z]: [f64; 3]| {
