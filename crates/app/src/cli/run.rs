@@ -152,7 +152,7 @@ fn draw(matches: &ArgMatches) -> Result<(), Error> {
 fn draw_from(request: &Request) -> Result<(), Error> {
     request.check()?;
     let output = request.output()?;
-    let Staged { model, camera, options, samples, backdrop, load } = request.stage_on_ground()?;
+    let Staged { model, camera, options, samples, backdrop, load } = request.stage_picture()?;
     let start = Instant::now();
     let mut progress = Progress::new("drawing");
     let hear = &mut |done, total| progress.set(done, total);

@@ -26,7 +26,7 @@ use crate::output::stats::Source;
 use crate::scene::backdrop::Backdrop;
 use crate::scene::{Camera, Model, Part, Relief, camera, ground, order, scenes, slide};
 
-/// The options that say what `render` writes.
+/// The options of pictures alone, which other commands refuse.
 pub(super) const OF_PICTURES: [&str; 6] = ["output", "output_format", "samples", "stats", "show", "ground"];
 
 /// A command without some options in its help.
@@ -161,11 +161,12 @@ impl Request {
         }
     }
 
-    /// The same for a picture: with a ground under the model, if that is asked for.
+    /// [`stage`](Self::stage) for a picture: warns of colours that are not seen, and puts a ground under the model, if
+    /// that is asked for.
     ///
     /// # Errors
     /// As those of [`stage`](Self::stage).
-    pub(super) fn stage_on_ground(&self) -> Result<Staged, Error> {
+    pub(super) fn stage_picture(&self) -> Result<Staged, Error> {
         let mut staged = self.stage()?;
         let of_file = self.file.is_none() && self.arguments.model.is_some() && self.arguments.show.is_none();
         let unseen = || partners::unseen_colors(&staged.model, staged.options.shading);
