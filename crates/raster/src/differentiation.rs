@@ -1,16 +1,20 @@
 //! Derivatives of attributes: their changes from a pixel to the next, from which a texture's level of detail comes.
 
 mod any;
+mod fixed;
+mod floating;
 
 pub use any::AnyDerivatives;
 
 use crate::edge::EdgeInt;
-use crate::interpolation::{Oriented, Row, scaled_q};
+use crate::interpolation::{Oriented, Row};
 use crate::spans::Span;
-use crate::triangle::Corners;
 use alberti_math::lanes::Lanes;
-use alberti_math::{Gradient, Mode, Q16, Varying};
+use alberti_math::{Gradient, Q16, Varying};
 use core::fmt::{self, Debug};
+use fixed::FixedQuotients;
+use floating::Quotients;
+pub use floating::RunQuotients;
 
 /// A policy of differentiation, which a [`FragmentStage`](crate::FragmentStage) chooses.
 ///
@@ -41,8 +45,16 @@ use core::fmt::{self, Debug};
 /// That is as if distances were off by a few ε s. Up to s of 3,000 pixels it is less than what snapping to 8 bits does
 /// to them. Components that are linear on the screen are within 4ε relatively and 2ε s Δu/area.
 ///
-/// In fixed point, where weights are not at hand as numbers, [`PerPixel`] is [`PerRun`]. Derivatives are those of the
-/// components as they are interpolated, rounded to 2^-16 at the vertices. A small triangle that is one run has its
+/// In fixed point, where weights are not at hand as numbers, [`PerPixel`] is [`PerRun`]. Components are those that are
+/// rounded to 2^-16 at the vertices. Integers of 32 bits have derivatives within N (2^-8 + r 2^-25), and half a step of
+/// 2^-16. There r is the ratio of the greatest q of the three to that of the place, and
+///
+/// ```text
+/// N = r s Δu / (2 area)
+/// ```
+///
+/// is the most that the derivative could be in a triangle of this size. Where it is that, the level of detail is off by
+/// 0.006. It is as if corners were off by s/256, which matters in thin ones. A small triangle that is one run has its
 /// slopes everywhere, see [`FixedPoint`](crate::FixedPoint).
 pub trait Differentiation: Differentiate + Debug + Default + 'static {
     /// The policy of a stage whose parts take this and `D`: the first of the two that is not [`NoDerivatives`].
@@ -180,14 +192,15 @@ pub struct PerPixel;
 /// row of the triangle.
 ///
 /// # Precision
-/// There, within 12ε relatively and 7ε M, with ε = 2^-24 and M that of [`Differentiation`]; in fixed point rounded to
-/// the nearest step of 2^-16. With r >= 1 the ratio of q in the middle and at an end, ∂u/∂x is off by a factor of r².
+/// There, within 12ε relatively and 7ε M, with ε = 2^-24 and M that of [`Differentiation`], which has the bound in fixed
+/// point. With r >= 1 the ratio of q in the middle and at an end, ∂u/∂x is off by a factor of r².
 /// So the level of detail is off by 2 log2 r.
 ///
 /// The reason: that of [`PerPixel`], without the second product of the reciprocal.
 ///
 /// # Cost
-/// A run: some fifteen operations and a division, and twelve a component. All of it is `f32`.
+/// A run: some fifteen operations and a division, and twelve a component, of `f32`. In fixed point some sixty of
+/// integers, of which eight are products of 32 bits to 64, and thirty a component, all products of which fit a word.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct PerRun;
 
@@ -196,192 +209,78 @@ pub struct PerRun;
 /// # Precision
 /// There, within 12ε relatively and 8ε M: that of [`PerRun`], and a rounding of the distances. With r >= 1 the ratio of
 /// q there and at a vertex, ∂u/∂x is off by up to a factor of r². A triangle that was clipped counts as the pieces that
-/// are drawn.
+/// are drawn. [`Differentiation`] has the bound in fixed point.
 ///
 /// # Cost
-/// A triangle: some 20 operations and a division, and 21 for each component. All of it is `f32`.
+/// A triangle: some 20 operations and a division, and 21 for each component, of `f32`. In fixed point some 150 of
+/// integers, of which four are products of 32 bits to 64, and 50 a component. `docs/texture.md` has counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct PerTriangle;
 
-/// The quotients of a triangle.
+/// The quotients of a triangle as words, as only the lanes say whether they are integers.
 #[derive(Clone, Copy)]
-pub struct Quotients<V: Varying> {
-    corners: Corners,
-    /// Bits of the subpixels.
-    bits: u32,
-    q: [f32; 3],
-    /// Of hyperbolic components twice the area times ga, gb and gc, for distances in subpixels and derivatives by
-    /// pixels; of others the derivatives themselves.
-    numerators: V::Of<[f32; 3]>,
+pub struct Words<V: Varying> {
+    shape: [u32; 10],
+    components: V::Of<[u32; 3]>,
 }
 
-impl<V: Varying> Debug for Quotients<V> {
+impl<V: Varying> Debug for Words<V> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Quotients").finish_non_exhaustive()
+        f.debug_struct("Words").finish_non_exhaustive()
     }
 }
 
-impl<V: Varying> Quotients<V> {
+impl<V: Varying> Words<V> {
     #[inline(always)]
     fn new(triangle: &Oriented<'_, V>) -> Self {
-        let q = scaled_q(triangle);
-        let [qa, qb, qc] = q;
-        let [a, b, c] = triangle.corners;
-        let one = number(triangle.one());
-        let common = triangle.area() * one;
-        let factors = [qb * qc * common, qc * qa * common, qa * qb * common];
-        // Increments of the edge functions of the second and the third vertex: for a pixel to the right, and for one
-        // down.
-        let of_b = [number(c[1] - a[1]), number(a[0] - c[0])];
-        let of_c = [number(a[1] - b[1]), number(b[0] - a[0])];
-        let per_area = one / triangle.area();
-        let fixed = triangle.fixed;
-        let numerators = V::map_by_mode(&triangle.words(), &|mode, [u, v, w, _]: [u32; 4]| {
-            let less = |u: u32, v: u32| difference(fixed, u, v);
-            match mode {
-                Mode::Hyperbolic => {
-                    [factors[0] * less(v, w), factors[1] * less(w, u), factors[2] * less(u, v)]
-                }
-                Mode::Linear => {
-                    let [v, w] = [less(v, u), less(w, u)];
-                    let per = |k: usize| (of_b[k] * v + of_c[k] * w) * per_area;
-                    [per(0), per(1), 0.0]
-                }
-                Mode::Flat => [0.0; 3],
-            }
-        });
-        Self { corners: triangle.corners, bits: triangle.bits, q, numerators }
-    }
-
-    /// The derivatives by column and row at a place with these [distances](Self::distances), where `per` is 1/T².
-    #[inline(always)]
-    fn at(&self, distances: [[f32; 3]; 2], per: f32) -> V::Of<[f32; 2]> {
-        V::map_by_mode(&self.numerators, &|mode, g: [f32; 3]| {
-            if mode == Mode::Hyperbolic { distances.map(|along| sum(along, g) * per) } else { [g[0], g[1]] }
-        })
-    }
-
-    /// The distances of a place from the corners by rows, and of the corners from it by columns, times a factor. The
-    /// place and the distances are in subpixels, and times that factor.
-    #[inline(always)]
-    fn distances(&self, [x, y]: [i32; 2], factor: i32) -> [[f32; 3]; 2] {
-        [self.corners.map(|[_, k]| number(y - factor * k)), self.corners.map(|[k, _]| number(factor * k - x))]
-    }
-
-    /// A sample's place in subpixels.
-    #[inline(always)]
-    fn sample(&self, place: [i32; 2]) -> [i32; 2] {
-        place.map(|k| (k << self.bits) + (1 << self.bits >> 1))
-    }
-
-    /// The three q.
-    #[inline(always)]
-    fn q_lanes<L: Lanes>(&self, lanes: L) -> [L::Number; 3] {
-        self.q.map(|q| lanes.splat(q))
-    }
-
-    /// The derivatives in the middle of a run of a row.
-    #[inline(always)]
-    fn in_middle<I: EdgeInt>(&self, row: &Row<'_, I>, run: Span) -> V::Of<[f32; 2]> {
-        let column = run.start + ((run.end - run.start) >> 1);
-        let t = sum(row.at(column).map(I::to_f32), self.q);
-        self.at(self.distances(self.sample([column, row.row]), 1), 1.0 / (t * t))
-    }
-
-    /// The derivatives at the centroid.
-    #[inline(always)]
-    fn in_centroid(&self, area: f32) -> V::Of<[f32; 2]> {
-        let [a, b, c] = self.corners;
-        let [qa, qb, qc] = self.q;
-        // Three times the distances, and three times T.
-        let t = area * (qa + qb + qc);
-        self.at(self.distances([a[0] + b[0] + c[0], a[1] + b[1] + c[1]], 3), 3.0 / (t * t))
-    }
-}
-
-/// A distance as a number: exactly, but for three times one.
-#[inline(always)]
-#[expect(clippy::cast_precision_loss, reason = "at most 2^24, and three times that is rounded")]
-fn number(distance: i32) -> f32 {
-    distance as f32
-}
-
-/// The difference of two components.
-#[inline(always)]
-#[expect(clippy::cast_precision_loss, reason = "rounding to nearest is within the bounds")]
-fn difference(fixed: bool, u: u32, v: u32) -> f32 {
-    if fixed {
-        (u.cast_signed() - v.cast_signed()) as f32 * (1.0 / 65536.0)
-    } else {
-        f32::from_bits(u) - f32::from_bits(v)
-    }
-}
-
-#[inline(always)]
-fn sum([a, b, c]: [f32; 3], [x, y, z]: [f32; 3]) -> f32 {
-    a * x + b * y + c * z
-}
-
-/// A run, to differentiate at its samples.
-#[derive(Clone, Copy)]
-pub struct RunQuotients<L: Lanes, V: Varying> {
-    /// The column from which x is counted.
-    start: i32,
-    /// The numerators by column and by row at `start`, and what the second loses by column, of hyperbolic components;
-    /// of others, and in fixed point of all, the derivatives themselves.
-    numerators: V::Of<[L::Number; 3]>,
-}
-
-impl<L: Lanes, V: Varying> Debug for RunQuotients<L, V> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("RunQuotients").finish_non_exhaustive()
-    }
-}
-
-impl<L: Lanes, V: Varying> RunQuotients<L, V> {
-    #[inline(always)]
-    fn new<I: EdgeInt>(lanes: L, of: &Quotients<V>, row: &Row<'_, I>, run: Span) -> Self {
-        let splat = |x: f32| lanes.splat(x);
-        if L::FIXED {
-            let derivatives = of.in_middle(row, run);
-            let numerators = V::map(&derivatives, &|[dx, dy]: [f32; 2]| [splat(dx), splat(dy), splat(0.0)]);
-            return Self { start: 0, numerators };
-        }
-        let [rows, columns] = of.distances(of.sample([run.start, row.row]), 1);
-        let one = number(1 << of.bits);
-        Self {
-            start: run.start,
-            numerators: V::map_by_mode(&of.numerators, &|mode, g: [f32; 3]| match mode {
-                Mode::Hyperbolic => [sum(rows, g), sum(columns, g), (g[0] + g[1] + g[2]) * one].map(splat),
-                _ => g.map(splat),
-            }),
-        }
-    }
-
-    /// The derivatives at samples.
-    #[inline(always)]
-    fn at(&self, lanes: L, of: &Quotients<V>, at: &Samples<'_, L, V>) -> Gradient<V::Of<L::Number>> {
-        let derivatives = if L::FIXED {
-            V::map(&self.numerators, &|[dx, dy, _]: [L::Number; 3]| [dx, dy])
+        if triangle.fixed {
+            FixedQuotients::new::<2>(triangle).to_words()
         } else {
-            let per = at.reciprocal.unwrap_or_else(
-                #[inline(always)]
-                || {
-                    let [ea, eb, ec] = *at.weights;
-                    let [qa, qb, qc] = of.q_lanes(lanes);
-                    lanes.splat(1.0) / (ea * qa + eb * qb + ec * qc)
-                },
-            );
-            let per = per * per;
-            #[expect(clippy::cast_precision_loss, reason = "columns are below 2^24")]
-            let x = lanes.ramp() + lanes.splat((at.column - self.start) as f32);
-            V::map_by_mode(&self.numerators, &|mode, [a, b, j]: [L::Number; 3]| match mode {
-                Mode::Hyperbolic => [a * per, (b - j * x) * per],
-                _ => [a, b],
-            })
-        };
-        of_pairs::<V, _>(&derivatives)
+            Quotients::new(triangle).to_words()
+        }
     }
+}
+
+/// The derivatives in the middle of a run of a row.
+#[inline(always)]
+fn in_middle<L: Lanes, V: Varying, I: EdgeInt>(
+    lanes: L,
+    of: &Words<V>,
+    row: &Row<'_, I>,
+    run: Span,
+) -> V::Of<[L::Number; 2]> {
+    if L::FIXED {
+        let pairs = FixedQuotients::of_words(of).in_middle(row, run);
+        V::map(&pairs, &|pair: [Q16; 2]| pair.map(|derivative| lanes.splat_fixed(derivative)))
+    } else {
+        let pairs = Quotients::of_words(of).in_middle(row, run);
+        V::map(&pairs, &|pair: [f32; 2]| pair.map(|derivative| lanes.splat(derivative)))
+    }
+}
+
+/// The words of the derivatives at the centroid.
+#[inline(always)]
+fn in_centroid<V: Varying>(triangle: &Oriented<'_, V>) -> V::Of<[u32; 2]> {
+    if triangle.fixed {
+        let pairs = FixedQuotients::new::<1>(triangle).in_centroid();
+        V::map(&pairs, &|pair: [Q16; 2]| pair.map(|derivative| derivative.to_bits().cast_unsigned()))
+    } else {
+        let pairs = Quotients::new(triangle).in_centroid(triangle.area());
+        V::map(&pairs, &|pair: [f32; 2]| pair.map(f32::to_bits))
+    }
+}
+
+/// The numbers of words.
+#[inline(always)]
+fn numbers<V: Varying, L: Lanes>(lanes: L, words: &V::Of<[u32; 2]>) -> Gradient<V::Of<L::Number>> {
+    let number = |word: u32| {
+        if L::FIXED {
+            lanes.splat_fixed(Q16::from_bits(word.cast_signed()))
+        } else {
+            lanes.splat(f32::from_bits(word))
+        }
+    };
+    of_pairs::<V, _>(&V::map(words, &|pair: [u32; 2]| pair.map(number)))
 }
 
 /// A pair for each component as a pair of bundles.
@@ -395,19 +294,19 @@ impl Differentiation for PerPixel {
 }
 
 impl Differentiate for PerPixel {
-    type Triangle<V: Varying> = Quotients<V>;
+    type Triangle<V: Varying> = Words<V>;
     type Run<L: Lanes, V: Varying> = RunQuotients<L, V>;
 
     #[inline(always)]
-    fn prepare<V: Varying>(self, triangle: &Oriented<'_, V>) -> Quotients<V> {
-        Quotients::new(triangle)
+    fn prepare<V: Varying>(self, triangle: &Oriented<'_, V>) -> Words<V> {
+        Words::new(triangle)
     }
 
     #[inline(always)]
     fn run<L: Lanes, V: Varying, I: EdgeInt>(
         self,
         lanes: L,
-        triangle: &Quotients<V>,
+        triangle: &Words<V>,
         row: &Row<'_, I>,
         run: Span,
     ) -> RunQuotients<L, V> {
@@ -418,7 +317,7 @@ impl Differentiate for PerPixel {
     fn at<L: Lanes, V: Varying>(
         self,
         lanes: L,
-        triangle: &Quotients<V>,
+        triangle: &Words<V>,
         run: &RunQuotients<L, V>,
         at: &Samples<'_, L, V>,
     ) -> Gradient<V::Of<L::Number>> {
@@ -426,61 +325,77 @@ impl Differentiate for PerPixel {
     }
 }
 
-/// Policies whose derivatives are the same along a whole run.
-macro_rules! along_runs {
-    ($(
-        $policy:ident: $Triangle:ty, |$of:ident| $prepare:expr, |$triangle:ident, $row:ident, $run:ident| $at:expr
-        $(, $more:item)*;
-    )*) => {$(
-        impl Differentiation for $policy {
-            type With<D: Differentiation> = Self;
-        }
-
-        impl Differentiate for $policy {
-            type Triangle<V: Varying> = $Triangle;
-            type Run<L: Lanes, V: Varying> = V::Of<[L::Number; 2]>;
-            $($more)*
-
-            #[inline(always)]
-            fn prepare<V: Varying>(self, $of: &Oriented<'_, V>) -> Self::Triangle<V> {
-                $prepare
-            }
-
-            #[inline(always)]
-            fn run<L: Lanes, V: Varying, I: EdgeInt>(
-                self,
-                lanes: L,
-                $triangle: &Self::Triangle<V>,
-                $row: &Row<'_, I>,
-                $run: Span,
-            ) -> Self::Run<L, V> {
-                V::map(&$at, &|[dx, dy]: [f32; 2]| [lanes.splat(dx), lanes.splat(dy)])
-            }
-
-            #[inline(always)]
-            fn at<L: Lanes, V: Varying>(
-                self,
-                _: L,
-                _: &Self::Triangle<V>,
-                run: &Self::Run<L, V>,
-                _: &Samples<'_, L, V>,
-            ) -> Gradient<V::Of<L::Number>> {
-                of_pairs::<V, _>(run)
-            }
-        }
-    )*};
+impl Differentiation for PerRun {
+    type With<D: Differentiation> = Self;
 }
-along_runs! {
-    PerRun: Quotients<V>, |of| Quotients::new(of), |triangle, row, run| triangle.in_middle(row, run);
-    PerTriangle: V::Of<[f32; 2]>, |of| Quotients::new(of).in_centroid(of.area()), |triangle, _row, _run| *triangle,
-        const EVERYWHERE: bool = true;,
-        #[inline(always)]
-        fn everywhere<L: Lanes, V: Varying>(
-            self,
-            lanes: L,
-            triangle: &Self::Triangle<V>,
-        ) -> Option<Gradient<V::Of<L::Number>>> {
-            let splat = V::map(triangle, &|[dx, dy]: [f32; 2]| [lanes.splat(dx), lanes.splat(dy)]);
-            Some(of_pairs::<V, _>(&splat))
-        };
+
+impl Differentiate for PerRun {
+    type Triangle<V: Varying> = Words<V>;
+    type Run<L: Lanes, V: Varying> = V::Of<[L::Number; 2]>;
+
+    #[inline(always)]
+    fn prepare<V: Varying>(self, triangle: &Oriented<'_, V>) -> Words<V> {
+        Words::new(triangle)
+    }
+
+    #[inline(always)]
+    fn run<L: Lanes, V: Varying, I: EdgeInt>(
+        self,
+        lanes: L,
+        triangle: &Words<V>,
+        row: &Row<'_, I>,
+        run: Span,
+    ) -> Self::Run<L, V> {
+        in_middle(lanes, triangle, row, run)
+    }
+
+    #[inline(always)]
+    fn at<L: Lanes, V: Varying>(
+        self,
+        _: L,
+        _: &Words<V>,
+        run: &Self::Run<L, V>,
+        _: &Samples<'_, L, V>,
+    ) -> Gradient<V::Of<L::Number>> {
+        of_pairs::<V, _>(run)
+    }
+}
+
+impl Differentiation for PerTriangle {
+    type With<D: Differentiation> = Self;
+}
+
+impl Differentiate for PerTriangle {
+    const EVERYWHERE: bool = true;
+
+    type Triangle<V: Varying> = V::Of<[u32; 2]>;
+    type Run<L: Lanes, V: Varying> = ();
+
+    #[inline(always)]
+    fn prepare<V: Varying>(self, triangle: &Oriented<'_, V>) -> V::Of<[u32; 2]> {
+        in_centroid(triangle)
+    }
+
+    #[inline(always)]
+    fn everywhere<L: Lanes, V: Varying>(
+        self,
+        lanes: L,
+        triangle: &V::Of<[u32; 2]>,
+    ) -> Option<Gradient<V::Of<L::Number>>> {
+        Some(numbers::<V, L>(lanes, triangle))
+    }
+
+    #[inline(always)]
+    fn run<L: Lanes, V: Varying, I: EdgeInt>(self, _: L, _: &V::Of<[u32; 2]>, _: &Row<'_, I>, _: Span) {}
+
+    #[inline(always)]
+    fn at<L: Lanes, V: Varying>(
+        self,
+        lanes: L,
+        triangle: &V::Of<[u32; 2]>,
+        (): &(),
+        _: &Samples<'_, L, V>,
+    ) -> Gradient<V::Of<L::Number>> {
+        numbers::<V, L>(lanes, triangle)
+    }
 }

@@ -31,8 +31,7 @@ impl<P: Interpolation, L: Floating, V: Varying, F: FragmentStage<V>> Setup<'_, P
     #[inline(always)]
     pub(crate) fn prepare(&self) -> Painter<P::Lanes<L>, V, P::Triangle<L, V>, F> {
         let Self { interpolation, lanes, oriented, stage } = *self;
-        let triangle = interpolation.prepare(lanes, oriented);
-        let (policy, lanes) = (stage.derivatives(), interpolation.lanes(lanes));
+        let (policy, numbers) = (stage.derivatives(), interpolation.lanes(lanes));
         const {
             assert!(
                 !F::SETTLES || <F::Derivatives as Differentiate>::EVERYWHERE,
@@ -40,11 +39,13 @@ impl<P: Interpolation, L: Floating, V: Varying, F: FragmentStage<V>> Setup<'_, P
             );
         };
         let derivatives = policy.prepare(oriented);
-        let stage = match policy.everywhere(lanes, &derivatives) {
-            Some(gradient) if const { F::SETTLES } => stage.settled(lanes, &gradient),
+        let stage = match policy.everywhere(numbers, &derivatives) {
+            Some(gradient) if const { F::SETTLES } => stage.settled(numbers, &gradient),
             _ => stage,
         };
-        Painter { lanes, triangle, derivatives, stage, varying: PhantomData }
+        // Last, so that compilers put it where the painter is.
+        let triangle = interpolation.prepare(lanes, oriented);
+        Painter { lanes: numbers, triangle, derivatives, stage, varying: PhantomData }
     }
 }
 
@@ -72,25 +73,20 @@ where
         RowSpans::new(&edges, columns.end - columns.start, [samples.above(), rows.end - rows.start]);
     let weights = Weights::new(setup.interpolation.lanes(setup.lanes), &edges, setup.oriented.doubled_area);
     // A triangle that covers no sample is not prepared.
-    let (mut painter, mut stage) = (None, None::<F>);
+    let (mut painter, mut stage) = (None, None);
     for row in rows.clone() {
         let covered = spans.next_row().shifted(columns.start);
         if covered.start.max(limits.start) < covered.end.min(limits.end) {
-            if painter.is_none() {
-                painter = Some(setup.prepare());
-                if const { F::BY_ROWS } {
-                    stage = painter.as_ref().map(|painter| painter.stage);
-                }
-            }
-            if const { F::BY_ROWS }
-                && let (Some(painter), Some(stage)) = (&mut painter, stage)
-            {
+            let painter = painter.get_or_insert_with(
+                #[inline(always)]
+                || setup.prepare(),
+            );
+            if const { F::BY_ROWS } {
+                let stage = *stage.get_or_insert(painter.stage);
                 painter.stage = stage.in_row(row);
             }
-            if let Some(painter) = &painter {
-                let row = Row { row, covered, origin: columns.start, edges: &edges };
-                painter.row(target, &row, limits, &weights, counters);
-            }
+            let row = Row { row, covered, origin: columns.start, edges: &edges };
+            painter.row(target, &row, limits, &weights, counters);
         }
         for edge in &mut edges {
             edge.value = edge.value + edge.step_y;

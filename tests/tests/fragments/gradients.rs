@@ -26,6 +26,7 @@ use std::ops::Range;
 
 /// Bits of the grid.
 const BITS: u32 = 8;
+const STEP: f64 = 1.0 / 65536.0;
 const EPS: f64 = 1.0 / (1 << 24) as f64;
 /// The documented bounds in ε, relatively and of M: by column and by row of each sample, in the middle of a run, at the
 /// centroid, and of linear components.
@@ -34,6 +35,8 @@ const BY_ROW: [f64; 2] = [14.0 * EPS, 10.0 * EPS];
 const IN_MIDDLE: [f64; 2] = [12.0 * EPS, 7.0 * EPS];
 const IN_CENTROID: [f64; 2] = [12.0 * EPS, 8.0 * EPS];
 const LINEAR: [f64; 2] = [4.0 * EPS, 4.0 * EPS];
+/// That of N in integers, and for each unit of the ratio of the greatest q to that of the place.
+const FIXED: [f64; 2] = [1.0 / 256.0, 1.0 / (1 << 25) as f64];
 
 /// A triangle with its values, and a pixel that it covers.
 #[derive(Clone, Copy, Debug)]
@@ -89,6 +92,21 @@ impl Case {
         let [a, b, c] = self.q.map(f64::from);
         let area = area2(self.tri).unsigned_abs() as f64;
         self.longest() * area * spread(self.component(k)) * (a * b + b * c + c * a) / (t * t)
+    }
+
+    /// The same in steps of 2^-16. None beyond 255, where `f32` does not hold these, nor, from 4096 on, do integers.
+    fn in_steps(&self) -> Option<Self> {
+        let rounded = |u: f32| ((f64::from(u) / STEP).round() * STEP) as f32;
+        let case = Self { values: self.values.map(|values| values.map(rounded)), ..*self };
+        case.values.as_flattened().iter().all(|u| u.abs() <= 255.0).then_some(case)
+    }
+
+    /// The bound in integers, but for the last step: N and its parts.
+    fn of_integers(&self, k: usize, t: f64) -> f64 {
+        let area = area2(self.tri).unsigned_abs() as f64;
+        let steepest = f64::from(self.q.into_iter().fold(0.0, f32::max)) * area / t.abs();
+        let n = self.longest() * spread(self.component(k)) * steepest / area;
+        n * (FIXED[0] + steepest * FIXED[1])
     }
 }
 
@@ -171,6 +189,8 @@ fn each_sample(
 #[derive(Debug, Default)]
 struct Worst {
     of_bound: f64,
+    /// The same where the bound is more than 100 steps of 2^-16, so that rounding to these is nothing.
+    of_much: f64,
 }
 
 impl Worst {
@@ -181,11 +201,14 @@ impl Worst {
         assert!(error <= bound, "{got:e} for {exact:e}: {:.3} of the bound, {case:?}", error / bound);
         if bound > 0.0 {
             self.of_bound = self.of_bound.max(error / bound);
+            if bound > 100.0 * STEP {
+                self.of_much = self.of_much.max(error / bound);
+            }
         }
     }
 
     fn report(&self, name: &str) {
-        println!("{name}: {:.3} of the bound", self.of_bound);
+        println!("{name}: {:.3} of the bound, {:.3} where it is large", self.of_bound, self.of_much);
     }
 }
 
@@ -235,8 +258,6 @@ fn per_span() {
     in_middles(PerRun, Lines::affine(), 7, 64, 0.0);
 }
 
-const STEP: f64 = 1.0 / 65536.0;
-
 /// There all policies but that of triangles are that of runs, and numbers are rounded to 2^-16: those at the vertices
 /// as well.
 #[test]
@@ -256,22 +277,22 @@ fn in_middles(
 ) {
     let (mut worst, mut linear, mut off) = (Worst::default(), Worst::default(), 0);
     each_sample(differentiation, policy, stream, 8_000, |case, column, told| {
-        let rounded = |u: f32| if step == 0.0 { u } else { ((f64::from(u) / STEP).round() * STEP) as f32 };
-        let case = &Case { values: case.values.map(|values| values.map(rounded)), ..*case };
-        // Beyond, `f32` does not hold what is rounded, nor, from 4096 on, do integers.
-        if step != 0.0 && case.values.as_flattened().iter().any(|u| u.abs() > 255.0) {
-            return;
-        }
+        let Some(case) = (if step == 0.0 { Some(*case) } else { case.in_steps() }) else { return };
+        let case = &case;
         let first = if length == i32::MAX { i32::MIN / 2 } else { column & !(length - 1) };
         let covered = case.covered();
         let run = covered.start.max(first)..covered.end.min(first.saturating_add(length));
         let middle = run.start + (run.end - run.start) / 2;
         for k in 0..2 {
             let exact = case.slopes(middle, k);
-            let apart = IN_MIDDLE[1] * case.magnitude(k, exact.t);
+            let bound = if step == 0.0 {
+                [IN_MIDDLE[0], IN_MIDDLE[1] * case.magnitude(k, exact.t)]
+            } else {
+                [0.0, case.of_integers(k, exact.t) + step]
+            };
             for (got, exact) in [told.dx[k], told.dy[k]].into_iter().zip(exact.derivative) {
                 if step == 0.0 || exact.abs() < 32767.0 {
-                    worst.add(case, got, exact, [IN_MIDDLE[0], apart + step]);
+                    worst.add(case, got, exact, bound);
                 }
             }
             let here = case.slopes(column, k).derivative[0];
@@ -282,7 +303,10 @@ fn in_middles(
         }
     });
     worst.report(&format!("{differentiation:?} of {policy:?}"));
-    assert!(worst.of_bound > 0.2 && off > 300, "{off} samples are off from the middle");
+    assert!(
+        worst.of_bound > 0.2 && worst.of_much > 0.05 && off > 300,
+        "{off} samples are off from the middle"
+    );
 }
 
 #[test]
@@ -300,4 +324,25 @@ fn per_triangle() {
     });
     worst.report("PerTriangle");
     assert!(worst.of_bound > 0.2);
+}
+
+#[test]
+fn per_triangle_in_fixed_point() {
+    let mut worst = Worst::default();
+    each_sample(PerTriangle, FixedPoint(spans(16)), 12, 20_000, |case, _, told| {
+        let Some(case) = case.in_steps() else { return };
+        for k in 0..3 {
+            let q = if k == 2 { [1.0; 3] } else { case.q };
+            let exact = gradient::in_centroid(case.tri, BITS, q, case.component(k));
+            let bound = Case { q, ..case }.of_integers(k, exact.t) + STEP / 2.0;
+            for (got, exact) in [told.dx[k], told.dy[k]].into_iter().zip(exact.derivative) {
+                if exact.abs() < 32767.0 {
+                    worst.add(&case, got, exact, [0.0, bound]);
+                }
+            }
+        }
+        assert_eq!([told.dx[3], told.dy[3]], [0.0; 2]);
+    });
+    worst.report("PerTriangle in fixed point");
+    assert!(worst.of_bound > 0.2 && worst.of_much > 0.1);
 }

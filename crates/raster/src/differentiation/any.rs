@@ -73,7 +73,7 @@ impl Differentiate for AnyDerivatives {
         match triangle {
             OneOf::Pixel(of) => OneOf::Pixel(PerPixel.run::<L, V, I>(lanes, of, row, run)),
             OneOf::Run(of) => OneOf::Run(PerRun.run::<L, V, I>(lanes, of, row, run)),
-            OneOf::Triangle(of) => OneOf::Triangle(PerTriangle.run::<L, V, I>(lanes, of, row, run)),
+            OneOf::Triangle(_) => OneOf::Triangle(()),
         }
     }
 
@@ -87,8 +87,9 @@ impl Differentiate for AnyDerivatives {
     ) -> Gradient<V::Of<L::Number>> {
         match (triangle, run) {
             (OneOf::Pixel(of), OneOf::Pixel(run)) => PerPixel.at(lanes, of, run, at),
+            (OneOf::Triangle(of), OneOf::Triangle(())) => PerTriangle.at(lanes, of, &(), at),
             // The same along the run, whatever the triangle has.
-            (_, OneOf::Run(run) | OneOf::Triangle(run)) => of_pairs::<V, _>(run),
+            (_, OneOf::Run(run)) => of_pairs::<V, _>(run),
             // No state of a run is that of another policy's triangle.
             _ => NoDerivatives.at(lanes, &(), &(), at),
         }

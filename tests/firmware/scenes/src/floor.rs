@@ -5,13 +5,16 @@ use crate::shapes::{FLOOR_MIPMAP, FLOOR_PAIRS, Model};
 use crate::torus::Vertex;
 use crate::{Camera, HEIGHT, Target, WIDTH};
 use alberti::glam::Vec2;
-use alberti::raster::{PerRun, PerTriangle};
+use alberti::math::Gradient;
+use alberti::math::lanes::Lanes;
+use alberti::raster::{Differentiation, FragmentStage, Fragments, NoDerivatives, PerRun, PerTriangle};
 use alberti::shaders::{Differentiated, Light, Lit565, Stored, TexelDither, Unlit};
 use alberti::texture::format::{Rgb565, Rgb565Pairs};
 use alberti::texture::{
     BaseLevel, Bilinear, Minify, MipSampler, Nearest, NearestLevel, PowerOfTwo, Repeat, Trilinear,
 };
 use alberti::{Affine, Counters, D16, Exact, FixedPoint, Mesh, Object, Point3, Rgb565Le, Spans16};
+use core::hint::black_box;
 
 draws! {
     /// The nearest texel of the nearest level, one for each triangle.
@@ -58,7 +61,15 @@ draws! {
     leveled_nearest_fixed(model): FixedPoint(Spans16), mapped,
         Stored(NEAREST_OF_FLOOR.leveled());
 
-    /// The same under the light of the vertices: all that a small display shows of a model.
+    /// The same in one level, which compilers do not know.
+    one_level_fixed(model): FixedPoint(Spans16), mapped,
+        OneLevel(NoDerivatives, Stored(black_box(NEAREST_OF_FLOOR.leveled())));
+
+    /// The same with the derivatives of each triangle, which nothing uses.
+    derived_fixed(model): FixedPoint(Spans16), mapped,
+        OneLevel(PerTriangle, Stored(black_box(NEAREST_OF_FLOOR.leveled())));
+
+    /// That of a level for each triangle under the light of the vertices: all that a small display shows of a model.
     lit_fixed(model): FixedPoint(Spans16), shone_on, Lit565 { surface: Stored(NEAREST_OF_FLOOR.leveled()) };
 
     /// Four texels of a level.
@@ -90,6 +101,10 @@ meshes! {
     /// The nearest texel of the nearest level, found once for each triangle, on a mesh.
     leveled_mesh(model) in mapped: Mesh::new(model.vertices, model.triangles, mapped),
         Stored(NEAREST_OF_FLOOR.leveled());
+
+    /// The same in one level.
+    one_level_mesh(model) in mapped: Mesh::new(model.vertices, model.triangles, mapped),
+        OneLevel(NoDerivatives, Stored(black_box(NEAREST_OF_FLOOR.leveled())));
 }
 
 /// The nearest texel of the nearest level, one for each triangle, of a mesh.
@@ -102,6 +117,30 @@ pub fn mesh_mip_nearest<K: Counters>(target: &mut Target, camera: &Camera, model
 pub fn mesh_base_nearest<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
     let stage = Unlit(FLOOR_MIPMAP.sampler(BaseLevel(Nearest), Repeat));
     mapped_by(Exact, stage, target, camera, model, counters);
+}
+
+/// A stage that stays in the level that it has: as long a way for each pixel as where that is found. Derivatives are
+/// found, if the policy is one that does, and not used.
+#[derive(Clone, Copy)]
+struct OneLevel<D, S>(D, S);
+
+impl<D: Differentiation, S: FragmentStage<Vec2>> FragmentStage<Vec2> for OneLevel<D, S> {
+    type Color = S::Color;
+    type Derivatives = D;
+    const SETTLES: bool = D::EVERYWHERE;
+
+    #[inline(always)]
+    fn settled<L: Lanes>(&self, _: L, gradient: &Gradient<[L::Number; 2]>) -> Self {
+        // Each as a value: nothing has to lie in memory.
+        let Gradient { dx, dy } = *gradient;
+        let _ = (dx.map(black_box), dy.map(black_box));
+        *self
+    }
+
+    #[inline(always)]
+    fn shade<L: Lanes>(&self, fragments: &Fragments<L, Vec2>) -> (L::U32, L::Mask) {
+        self.1.shade(fragments)
+    }
 }
 
 /// As much light as the vertex is red.

@@ -29,11 +29,11 @@ pub use draws::{
     textured_planes, textured_spans,
 };
 pub use floor::{
-    dithered_bilinear_fixed, dithered_trilinear_fixed, leveled_bilinear_fixed, leveled_mesh,
+    derived_fixed, dithered_bilinear_fixed, dithered_trilinear_fixed, leveled_bilinear_fixed, leveled_mesh,
     leveled_nearest_fixed, leveled_trilinear_fixed, lit_fixed, mesh_base_nearest, mesh_mip_nearest,
-    mip_bilinear, mip_bilinear_fixed, mip_nearest, mip_nearest_fixed, pairs_bilinear_fixed,
-    pairs_trilinear_fixed, trilinear, trilinear_fixed, trilinear_spans, trilinear_spans_fixed,
-    trilinear_stored_fixed, trilinear_stored_spans_fixed,
+    mip_bilinear, mip_bilinear_fixed, mip_nearest, mip_nearest_fixed, one_level_fixed, one_level_mesh,
+    pairs_bilinear_fixed, pairs_trilinear_fixed, trilinear, trilinear_fixed, trilinear_spans,
+    trilinear_spans_fixed, trilinear_stored_fixed, trilinear_stored_spans_fixed,
 };
 pub use formats::{grey4, indexed, rgb332, rgb444, rgb666};
 pub use renderer::{Renderer, meshlets_renderer};
@@ -164,7 +164,9 @@ pub static SCENES: &[Scene] = &[
     scene!("fixed-mesh", torus(1.0), textured_fixed),
     scene!("fixed-mesh-sub8", torus(1.0), affine_mesh_sub8),
     scene!("fixed-mesh-coarse", coarse_torus(), affine_mesh),
+    scene!("fixed-mesh-one-level", torus(1.0), one_level_mesh),
     scene!("fixed-mesh-leveled", torus(1.0), leveled_mesh),
+    scene!("fixed-mesh-one-level-coarse", coarse_torus(), one_level_mesh),
     scene!("fixed-mesh-leveled-coarse", coarse_torus(), leveled_mesh),
     scene!("fixed-mesh-bands", torus(1.0), textured_bands),
     scene!("fixed-mesh-eighth", torus(0.125), textured_fixed),
@@ -199,6 +201,8 @@ pub static SCENES: &[Scene] = &[
     scene!("fixed-floor-trilinear-spans", floor(), trilinear_spans_fixed),
     scene!("fixed-floor-trilinear-stored", floor(), trilinear_stored_fixed),
     scene!("fixed-floor-trilinear-stored-spans", floor(), trilinear_stored_spans_fixed),
+    scene!("fixed-floor-one-level", floor(), one_level_fixed),
+    scene!("fixed-floor-derived", floor(), derived_fixed),
     scene!("fixed-floor-leveled-nearest", floor(), leveled_nearest_fixed),
     scene!("fixed-floor-lit", floor(), lit_fixed),
     scene!("fixed-floor-leveled-bilinear", floor(), leveled_bilinear_fixed),
