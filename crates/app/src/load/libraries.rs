@@ -1,6 +1,6 @@
 //! The material libraries of an OBJ model, and the textures that they name.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Warnings, quote};
@@ -9,8 +9,9 @@ use crate::load::input;
 use crate::load::mtl::{self, CheckedMtl};
 use crate::load::obj::{DEFAULT_DIFFUSE, Named, ObjText};
 use crate::load::paths::{existing, unquoted};
+use crate::load::seen;
 use crate::options::Material;
-use crate::scene::{Model, Part, Vertex};
+use crate::scene::{MaterialNote, Model, Part, Vertex};
 
 /// The largest material library that is read, in bytes.
 const MAX_LIBRARY_BYTES: u64 = 1 << 26;
@@ -21,6 +22,8 @@ const MAX_LIBRARY_BYTES: u64 = 1 << 26;
 pub(crate) struct Libraries {
     checked: CheckedMtl,
     images: Images,
+    /// The materials that parts have been given.
+    notes: BTreeMap<usize, MaterialNote>,
 }
 
 impl Libraries {
@@ -29,7 +32,8 @@ impl Libraries {
     /// # Errors
     /// A `Kd` whose numbers are missing or are none.
     pub(crate) fn read(path: &Path, obj: &ObjText, warnings: &mut Warnings) -> Result<Self, Error> {
-        let mut libraries = Self { checked: CheckedMtl::default(), images: Images::new() };
+        let mut libraries =
+            Self { checked: CheckedMtl::default(), images: Images::new(), notes: BTreeMap::new() };
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut complete = true;
         for named in &obj.libraries {
@@ -68,10 +72,13 @@ impl Libraries {
         // Errors have become warnings.
         let _ = entry.drawn().apply(part, radius, &mut self.images, &mut warn);
         let _ = entry.complete(part, &mut self.images, &mut warn);
+        part.material.clone_from(&entry.name);
+        self.notes.entry(index).or_insert_with(|| entry.note(&self.images));
     }
 
     /// Gives the model the images read, and its surfaces the rest of what files say of them.
     pub(crate) fn give_images(self, model: &mut Model) {
+        model.notes.materials.extend(self.notes.into_values());
         show_colors(model);
         place_textures(model);
         self.images.give(model);
@@ -142,6 +149,7 @@ fn normals_as_bump(material: &mut Material, images: &mut Images) -> Option<Error
 /// The library that `obj` names.
 fn bytes_of(obj: &Path, named: &Named, file: &Path) -> Result<Vec<u8>, Error> {
     const HINT: &str = "the default material is used";
+    seen::see(file);
     if !file.exists() {
         let found = format!("no file \"{}\"", file.display());
         return Err(Error::new(found, mtl::KIND).file(obj).line(named.line).hint(HINT));

@@ -65,8 +65,8 @@ impl CheckedMtl {
                 let warning = Error::new("`newmtl` without a name", "`newmtl NAME`");
                 return Ok(vec![warning.hint("the lines up to the next one are left out")]);
             }
-            self.names.insert(name, self.materials.len());
-            self.materials.push(Entry::default());
+            self.names.insert(name.clone(), self.materials.len());
+            self.materials.push(Entry { name, ..Entry::default() });
             return Ok(Vec::new());
         }
         let lower = line.word.to_ascii_lowercase();

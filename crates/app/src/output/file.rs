@@ -28,7 +28,7 @@ const WITH_ALPHA: [ImageFormat; 4] =
     [ImageFormat::Png, ImageFormat::Tga, ImageFormat::WebP, ImageFormat::Qoi];
 
 /// The name that stands for standard output.
-const STANDARD: &str = "-";
+pub(crate) const STANDARD: &str = "-";
 
 /// Temporary files that may be there. Who has it makes files, or gives them their names; after a signal, nobody.
 static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());

@@ -12,7 +12,7 @@ use crate::load::input;
 use crate::options::Origin;
 
 /// The name of a scene file in messages.
-const KIND: &str = "a scene file in TOML";
+pub(crate) const KIND: &str = "a scene file in TOML";
 
 /// The largest scene file that is read, in bytes.
 const MAX_BYTES: u64 = 1 << 24;
