@@ -92,12 +92,10 @@ impl Info<'_> {
         if let Some(more) = more(materials.len()) {
             line(format!("  and {more} more"));
         }
-        match &self.costs {
-            Ok(report) => {
-                line(format!("\nOn a board, as alberti bake has it: {}", report.costs().trim_end()))
-            }
-            Err(error) => line(format!("\nOn a board, not as it is: {error}")),
-        }
+        line(match &self.costs {
+            Ok(report) => format!("\nOn a board, as alberti bake has it: {}", report.costs().trim_end()),
+            Err(error) => format!("\nOn a board, not as it is: {error}"),
+        });
         for left_out in &self.left_out {
             line(format!("Not on a board: {left_out}."));
         }

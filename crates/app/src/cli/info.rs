@@ -28,13 +28,13 @@ const BAND: u32 = 16;
 /// The options of `alberti info`: those of `render`, and these.
 #[derive(Clone, Debug, Args)]
 pub struct InfoArgs {
-    /// The scene, as `render` takes it.
-    #[command(flatten)]
-    pub render: RenderArgs,
-
     /// Print one line of JSON.
     #[arg(long)]
     pub json: bool,
+
+    /// The scene, as `render` takes it.
+    #[command(flatten)]
+    pub render: RenderArgs,
 }
 
 /// Loads a model or a scene, and prints what there is to say of it.

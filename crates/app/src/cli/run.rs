@@ -113,12 +113,21 @@ fn usage(error: &clap::Error, renamed: bool) -> u8 {
             let other = context(ContextKind::PriorArg).map(|other| named(&other)).unwrap_or_default();
             ("it".to_owned(), format!("no {other} beside it"))
         }
+        ErrorKind::UnknownArgument if option.as_ref().is_some_and(|word| word.parse::<f64>().is_ok()) => (
+            "a number on its own".to_owned(),
+            "numbers that belong together with commas, as 0,1.5,-3".to_owned(),
+        ),
         ErrorKind::UnknownArgument if option.as_ref().is_some_and(|option| !option.starts_with('-')) => {
             ("a second file".to_owned(), "one".to_owned())
         }
         ErrorKind::UnknownArgument => {
             let similar = context(ContextKind::SuggestedArg).map(|option| format!(", such as {option}"));
             ("it".to_owned(), format!("an option{}", similar.unwrap_or_default()))
+        }
+        ErrorKind::InvalidValue
+            if context(ContextKind::InvalidValue).is_some_and(|value| value.is_empty()) =>
+        {
+            ("nothing".to_owned(), expected.unwrap_or_else(|| "a value".to_owned()))
         }
         ErrorKind::ValueValidation | ErrorKind::InvalidValue => {
             (or_nothing(value), expected.unwrap_or_else(|| "a value".to_owned()))

@@ -226,7 +226,7 @@ impl Request {
             warn(&error.hint("every surface gets one texel's colour").to_string());
         }
         let origin = scene.model.origin;
-        scene.model.slide = slide::load(&arguments.projector.clone().counted_from(origin))?;
+        scene.model.slide = slide::load(&arguments.projector, origin)?;
         let load = start.elapsed();
 
         let Size(width, height) = arguments.render.size.unwrap_or(DEFAULT_SIZE);

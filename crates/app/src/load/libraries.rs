@@ -1,14 +1,14 @@
 //! The material libraries of an OBJ model, and the textures that they name.
 
 use std::collections::{BTreeMap, HashMap};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::error::{Error, Warnings, quote};
 use crate::load::images::Images;
 use crate::load::input;
 use crate::load::mtl::{self, CheckedMtl};
 use crate::load::obj::{DEFAULT_DIFFUSE, Named, ObjText};
-use crate::load::paths::{existing, unquoted};
+use crate::load::paths::{Found, existing, unquoted};
 use crate::load::seen;
 use crate::options::Material;
 use crate::scene::{MaterialNote, Model, Part, Vertex};
@@ -37,7 +37,13 @@ impl Libraries {
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut complete = true;
         for named in &obj.libraries {
-            for file in files_of(folder, named) {
+            for Found { path: file, renamed } in files_of(folder, named) {
+                if renamed {
+                    let shown = file.strip_prefix(folder).unwrap_or(&file).display().to_string();
+                    let error = Error::new(format!("no file {}", quote(named.name.as_bytes())), mtl::KIND);
+                    let error = error.file(path).line(named.line);
+                    warnings.push(error.hint(format!("{} is used", quote(shown.as_bytes()))));
+                }
                 match bytes_of(path, named, &file) {
                     Ok(bytes) => libraries.checked.add(&bytes, &file, warnings)?,
                     Err(warning) => {
@@ -158,14 +164,13 @@ fn bytes_of(obj: &Path, named: &Named, file: &Path) -> Result<Vec<u8>, Error> {
 }
 
 /// A `mtllib` line names one file, with spaces perhaps, or several files.
-fn files_of(folder: &Path, named: &Named) -> Vec<PathBuf> {
+fn files_of(folder: &Path, named: &Named) -> Vec<Found> {
+    let missing = |name: &str| Found { path: folder.join(name), renamed: false };
     let name = unquoted(&named.name);
     if let Some(found) = existing(folder, name) {
-        return vec![found.path];
+        return vec![found];
     }
-    let words: Vec<PathBuf> = name
-        .split_whitespace()
-        .map(|word| existing(folder, word).map_or_else(|| folder.join(word), |found| found.path))
-        .collect();
-    if words.iter().any(|file| file.exists()) { words } else { vec![folder.join(name)] }
+    let words = name.split_whitespace();
+    let words: Vec<_> = words.map(|word| existing(folder, word).unwrap_or_else(|| missing(word))).collect();
+    if words.iter().any(|found| found.path.exists()) { words } else { vec![missing(name)] }
 }

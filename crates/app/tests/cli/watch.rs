@@ -97,6 +97,33 @@ fn a_picture_follows_its_files() {
     assert_eq!(folder.names(), ["errors", "m.mtl", "m.obj", "p.png", "s.toml", "t.png"]);
 }
 
+/// A job that a shell has put into the background ignores SIGINT.
+#[cfg(target_os = "linux")]
+#[test]
+fn signals_that_are_ignored_stay_so() {
+    let folder = Folder::with(&[("m.obj", MODEL.as_bytes()), ("m.mtl", b"newmtl a\nKd 1 0 0\n")]);
+    let script =
+        "trap '' INT; exec \"$0\" watch m.obj -o p.png -q -s 8x8 --samples 1 --shading unlit --eye 0,0,5";
+    let mut child = Watching(
+        Command::new("sh")
+            .current_dir(folder.0.path())
+            .args(["-c", script, env!("CARGO_BIN_EXE_alberti")])
+            .spawn()
+            .expect("the command"),
+    );
+    let middle = || image::open(folder.path("p.png")).ok().map(|picture| picture.to_rgb8().get_pixel(4, 4).0);
+    let send = |signal: &str| {
+        let sent = Command::new("kill").args([signal, &child.0.id().to_string()]).status();
+        assert!(sent.expect("kill").success());
+    };
+    wait_for("the first picture", || middle() == Some([255, 0, 0]));
+    send("-INT");
+    fs::write(folder.path("m.mtl"), "newmtl a\nKd 0 0 1\n").expect("a file");
+    wait_for("a picture after the signal", || middle() == Some([0, 0, 255]));
+    send("-TERM");
+    assert_eq!(child.0.wait().expect("an end").signal(), Some(15));
+}
+
 #[test]
 fn there_is_something_to_watch() {
     let folder = Folder::with(&[("m.obj", MODEL.as_bytes())]);
