@@ -15,9 +15,11 @@ pub mod bake;
 pub mod compare;
 mod explain;
 mod help;
+mod info;
 pub(crate) mod partners;
 pub mod run;
 mod staged;
+mod watch;
 mod words;
 
 /// Draws 3D models on the CPU, with perspective done right.
@@ -64,6 +66,18 @@ pub enum Command {
     /// the colour is compared with that of the picture.
     #[command(after_help = explain::EXAMPLES)]
     Explain(Box<explain::ExplainArgs>),
+    /// Tell of a model: its size, materials and maps, and what it takes on boards.
+    ///
+    /// Triangles, extents, parts, materials with their files, memory, and flash, RAM and instructions as `alberti bake`
+    /// has them, for a frame of 320x240.
+    #[command(after_help = info::HELP)]
+    Info(Box<info::InfoArgs>),
+    /// Draw a picture, and again whenever one of its files changes.
+    ///
+    /// Takes the options of `render`. The scene file, models, material libraries and images are watched. A file that
+    /// has an error is told, and the last picture stays. Ctrl-C ends it.
+    #[command(after_help = watch::HELP)]
+    Watch(Box<RenderArgs>),
     /// Print a shell's completions of this command.
     #[command(
         after_help = "Examples:\n  alberti completions bash > ~/.local/share/bash-completion/completions/alberti\n  \

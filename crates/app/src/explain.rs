@@ -22,6 +22,7 @@ use crate::options::values::name_of;
 use crate::options::{DepthFormat, Dither, RenderOptions};
 use crate::render::{any_depth, render};
 use crate::scene::{Camera, Model, Part};
+use alberti::raster::color::AnyBlend;
 use alberti::{AnyProjection, Frame, Object, Rgba8, Viewport};
 use report::{Block, Cell};
 use serde_json::{Map, Value, json};
@@ -66,7 +67,7 @@ struct Fragment<'a> {
 /// Explains a pixel of the picture that [`render`] draws of the same.
 ///
 /// # Errors
-/// A pixel outside the picture, and those of [`render`].
+/// A pixel outside the picture, or of a surface that is seen through, and those of [`render`].
 pub fn explain(
     model: &Model,
     camera: &Camera,
@@ -78,14 +79,14 @@ pub fn explain(
         let expected = format!("one of a picture of {width}x{height}: 0,0 to {},{}", width - 1, height - 1);
         return Err(Error::new(format!("the pixel {x},{y}"), expected).place("--pixel"));
     }
-    check(model, options)?;
+    check(options)?;
     let journeys = explain_each(model, camera, options, &[pixel])?;
     journeys.into_iter().next().ok_or_else(|| Error::new("no journey", "one for the pixel"))
 }
 
 /// # Errors
 /// Something that comes after a fragment's colour, where a journey ends.
-fn check(model: &Model, options: &RenderOptions) -> Result<(), Error> {
+fn check(options: &RenderOptions) -> Result<(), Error> {
     let refused = |found: String, option: &str| {
         let hint = "explain ends at the surface's colour";
         Err(Error::new(found, "a picture without").place(option.to_owned()).hint(hint))
@@ -96,22 +97,33 @@ fn check(model: &Model, options: &RenderOptions) -> Result<(), Error> {
     if options.policies.dither != Dither::None {
         return refused("a pattern".to_owned(), "--dither");
     }
-    match model.parts.iter().find(|part| part.detail.is_seen_through()) {
-        Some(part) => {
-            let of = if part.name.is_empty() {
-                String::new()
-            } else {
-                format!(" ({})", quote(part.name.as_bytes()))
-            };
-            let error = Error::new(format!("a surface that is blended or has holes{of}"), "others");
-            let error = error.hint("explain ends at the surface's colour");
-            Err(match &model.source {
-                Some(path) => error.file(path),
-                None => error,
-            })
+    Ok(())
+}
+
+/// # Errors
+/// The pixel shows something that is mixed with what is behind it, or has holes.
+fn check_opaque(model: &Model, traced: &Traced) -> Result<(), Error> {
+    let part = |arrival: &Arrival| model.parts.get(arrival.part);
+    let seen: Vec<_> = traced.arrivals.iter().filter(|arrival| arrival.seen).collect();
+    let is_open = |arrival: &&&Arrival| part(arrival).is_some_and(|part| part.detail.is_seen_through());
+    let Some(open) = seen.iter().rfind(is_open) else { return Ok(()) };
+    let named = |arrival: &Arrival| {
+        let name = part(arrival).map(|part| part.name.as_str()).filter(|name| !name.is_empty());
+        let of = name.map(|name| format!(" of {}", quote(name.as_bytes()))).unwrap_or_default();
+        format!("triangle {}{of}", arrival.triangle)
+    };
+    let how = match part(open).map(|part| (part.detail.blend, part.detail.alpha_test)) {
+        Some((AnyBlend::Constant(alpha), _)) => {
+            format!("that is blended with an alpha of {:.3}", f64::from(alpha) / 255.0)
         }
-        None => Ok(()),
-    }
+        Some((AnyBlend::Replace, _)) => "that has holes".to_owned(),
+        _ => "that is blended".to_owned(),
+    };
+    let opaque = seen.iter().rfind(|arrival| !is_open(arrival));
+    let behind = opaque.map_or_else(|| "the background".to_owned(), |arrival| named(arrival));
+    let found = format!("{} {how}, before {behind}", named(open));
+    let error = Error::new(found, "a pixel of opaque surfaces").place("--pixel");
+    Err(error.hint("explain ends at the surface's colour: choose another pixel"))
 }
 
 /// The same of several pixels of one picture, all of them within it.
@@ -183,6 +195,7 @@ impl Scene<'_> {
     fn journey(&self, model: &Model, found: [u8; 4]) -> Result<Journey, Error> {
         let options = self.options;
         let traced = self.drawing.trace(self.pixel, self.drawing.cull())?;
+        check_opaque(model, &traced)?;
         let mut blocks = vec![self.policies(), self.fragments(model, &traced)];
         let seen = traced.arrivals.iter().rfind(|arrival| arrival.seen);
         let fragment = seen.and_then(|arrival| self.fragment(model, arrival));

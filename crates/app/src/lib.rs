@@ -8,6 +8,7 @@ mod display;
 pub mod draw;
 pub mod error;
 pub mod explain;
+pub mod info;
 pub mod load;
 pub mod measure;
 pub mod options;

@@ -12,4 +12,5 @@ pub(crate) mod scene_file;
 
 mod mtl;
 mod paths;
+pub(crate) mod seen;
 mod statements;

@@ -65,6 +65,8 @@ pub struct Part {
     pub name: String,
     /// Indices into [`Model::vertices`], counter-clockwise seen from the front.
     pub triangles: Vec<[u32; 3]>,
+    /// The material's name in its file, or nothing; for reports.
+    pub material: String,
     /// Diffuse colour, sRGB in 0..=1.
     pub diffuse: [f32; 3],
     /// Index into [`Model::textures`].
@@ -102,6 +104,37 @@ pub struct Model {
     /// The point of the file's coordinates that is (0, 0, 0) here: all positions in the model, of lights and of cameras
     /// are less by it. It is 0 unless the model is far from its own origin.
     pub origin: [f64; 3],
+    /// Things that its files say and that are not drawn as such.
+    pub notes: Notes,
+}
+
+/// Things that files say of a model and that are not drawn as such: for reports.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Notes {
+    /// The vertices whose normals are a file's; all others were made.
+    pub normals: usize,
+    /// The materials of the parts.
+    pub materials: Vec<MaterialNote>,
+}
+
+/// The images that a material names.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct MaterialNote {
+    /// The material's name.
+    pub name: String,
+    /// Its maps.
+    pub maps: Vec<MapNote>,
+}
+
+/// An image that a material names.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MapNote {
+    /// The key in a scene file, or one of `alpha-map`, `roughness-map` and `metallic-map`, which only MTL files have.
+    pub key: &'static str,
+    /// The file that was looked for.
+    pub path: PathBuf,
+    /// Width and height; `None` where it could not be read.
+    pub size: Option<[u32; 2]>,
 }
 
 impl Model {

@@ -108,16 +108,13 @@ impl<'a> Report<'a> {
         self.items.iter().map(|(_, bytes)| bytes).sum()
     }
 
-    /// The report as text.
+    /// The costs of it on a board, as text: flash, RAM and instructions.
     #[must_use]
-    pub fn text(&self) -> String {
-        let Self { asset, given, size: [width, height], band, pixels, texels, measures, .. } = self;
-        let mut text = String::new();
+    pub fn costs(&self) -> String {
+        let Self { size: [width, height], band, .. } = self;
+        let mut text = format!("{} bytes of flash:\n\n", self.flash());
         // Writing to a string cannot fail.
         let mut line = |words: String| _ = writeln!(text, "{words}");
-        let (triangles, vertices) = (asset.triangles(), counted(asset.vertices(), "vertex", "vertices"));
-        let given = counted(*given, "triangle", "triangles");
-        line(format!("{triangles} of {given}, {vertices}, {} bytes of flash:\n", self.flash()));
         for (name, bytes) in &self.items {
             line(format!("{bytes:>9}  {name}"));
         }
@@ -139,6 +136,18 @@ impl<'a> Report<'a> {
         if !self.unpriced.is_empty() {
             line(format!("\nNot in these: {}.", self.unpriced.join(", ")));
         }
+        text
+    }
+
+    /// The report as text.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let Self { asset, given, pixels, texels, measures, .. } = self;
+        let (triangles, vertices) = (asset.triangles(), counted(asset.vertices(), "vertex", "vertices"));
+        let given = counted(*given, "triangle", "triangles");
+        let mut text = format!("{triangles} of {given}, {vertices}, {}", self.costs());
+        // Writing to a string cannot fail.
+        let mut line = |words: String| _ = writeln!(text, "{words}");
         if asset.pieces.len() > 1 {
             let passes = asset.pieces.len();
             line(format!("\n{passes} passes a frame, as docs/bake.md has them under \"Several parts\":\n"));
@@ -329,7 +338,7 @@ pub(super) fn named(part: &Part) -> String {
 }
 
 /// A number of things, in words.
-pub(super) fn counted(number: usize, one: &str, many: &str) -> String {
+pub(crate) fn counted(number: usize, one: &str, many: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { many })
 }
 

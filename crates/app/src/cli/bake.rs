@@ -118,9 +118,7 @@ pub(super) fn run(matches: &ArgMatches) -> Result<(), Error> {
         .map_err(|error| Error::new(error.to_string(), "what --help lists"))?;
     let mut request = Request::read(matches)?;
     refuse(matches, "bake", &OF_PICTURES, "the files are those of --out")?;
-    let render = &mut request.arguments.render;
-    render.size.get_or_insert(FRAME);
-    render.profile.get_or_insert(Profile::Mcu);
+    frame(&mut request);
     let out = &arguments.out;
     let is_missing = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.exists();
     let missing: Vec<&Path> = out.ancestors().take_while(is_missing).collect();
@@ -130,6 +128,13 @@ pub(super) fn run(matches: &ArgMatches) -> Result<(), Error> {
         missing.into_iter().for_each(|folder| _ = fs::remove_dir(folder));
     }
     outcome.map_err(|error| request.relocate(error))
+}
+
+/// The frame of a board, as far as the options leave it open.
+pub(super) fn frame(request: &mut Request) {
+    let render = &mut request.arguments.render;
+    render.size.get_or_insert(FRAME);
+    render.profile.get_or_insert(Profile::Mcu);
 }
 
 fn baked(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {

@@ -43,7 +43,7 @@ Exit status:
 /// The options of `alberti compare`.
 #[derive(Clone, Debug, Args)]
 pub struct CompareArgs {
-    /// A picture: PNG, JPEG, BMP or TGA.
+    /// A picture: PNG, JPEG, BMP, TGA, WebP, QOI or PPM.
     #[arg(value_name = "A.png")]
     pub first: PathBuf,
 
@@ -64,6 +64,10 @@ pub struct CompareArgs {
     /// Print one line of JSON instead of the table. A PSNR of equal colours, which is infinite, is null.
     #[arg(long)]
     pub json: bool,
+
+    /// Print errors alone: no table, nor which limit is exceeded. The exit status says that.
+    #[arg(short, long)]
+    pub quiet: bool,
 }
 
 /// One line of JSON, in this order.
@@ -117,10 +121,15 @@ pub(super) fn run(matches: &ArgMatches) -> Result<u8, Error> {
     let excess = arguments.max_error.and_then(|limit| limit.excess(measures));
     print(&if arguments.json {
         json(&arguments, measures, excess.is_none())
+    } else if arguments.quiet {
+        String::new()
     } else {
         text(&arguments, measures)
     })?;
     let Some(excess) = excess else { return Ok(0) };
+    if arguments.quiet {
+        return Ok(EXCEEDED);
+    }
     // Without standard error there is the status.
     let _ = writeln!(io::stderr(), "exceeded: {excess}");
     Ok(EXCEEDED)

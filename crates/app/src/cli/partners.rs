@@ -44,7 +44,8 @@ pub(crate) fn check_maps(arguments: &RenderArgs, model: &Model) -> Result<(), Er
     match arguments.material.about_maps().find(|(_, base)| missing(base)) {
         Some((option, base)) => {
             let found = format!("a model without {}", base.name);
-            Err(Error::new(found, "one that it can be said of").place(format!("--{option}")))
+            let error = Error::new(found, format!("{} for it", base.name)).place(format!("--{option}"));
+            Err(error.hint(format!("give one with --{}", base.key)))
         }
         None => Ok(()),
     }

@@ -9,7 +9,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{ArgMatches, Command, CommandFactory as _};
 
 use super::staged::{OF_PICTURES, Request, Staged, hidden, warn};
-use super::{Cli, StatsFormat, advise, bake, compare, explain, help, words};
+use super::{Cli, StatsFormat, advise, bake, compare, explain, help, info, watch, words};
 use crate::error::{Error, quote};
 use crate::options::RenderOptions;
 use crate::output::clock::{Work, spent};
@@ -51,6 +51,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Some(("compare", pictures)) => compare::run(pictures),
         Some(("completions", words)) => completions(words).map(|()| 0),
         Some(("man", _)) => man().map(|()| 0),
+        Some(("info", model)) => info::run(model).map(|()| 0),
+        Some(("watch", render)) => watch::run(render).map(|()| 0),
         Some(("explain", pixel)) => explain::run(pixel).map(|()| 0),
         Some((_, render)) => draw(render).map(|()| 0),
         // Words without a command ask for help.
@@ -67,6 +69,7 @@ pub(super) fn command() -> Command {
     Cli::command()
         .args_override_self(true)
         .mut_subcommand("explain", |command| hidden(command, &OF_PICTURES))
+        .mut_subcommand("info", bake::with_defaults)
         .mut_subcommand("bake", bake::with_defaults)
         .mut_subcommand("advise", |command| hidden(hidden(command, &OF_PICTURES), &advise::ADVISED_ON))
 }
@@ -110,12 +113,21 @@ fn usage(error: &clap::Error, renamed: bool) -> u8 {
             let other = context(ContextKind::PriorArg).map(|other| named(&other)).unwrap_or_default();
             ("it".to_owned(), format!("no {other} beside it"))
         }
+        ErrorKind::UnknownArgument if option.as_ref().is_some_and(|word| word.parse::<f64>().is_ok()) => (
+            "a number on its own".to_owned(),
+            "numbers that belong together with commas, as 0,1.5,-3".to_owned(),
+        ),
         ErrorKind::UnknownArgument if option.as_ref().is_some_and(|option| !option.starts_with('-')) => {
             ("a second file".to_owned(), "one".to_owned())
         }
         ErrorKind::UnknownArgument => {
             let similar = context(ContextKind::SuggestedArg).map(|option| format!(", such as {option}"));
             ("it".to_owned(), format!("an option{}", similar.unwrap_or_default()))
+        }
+        ErrorKind::InvalidValue
+            if context(ContextKind::InvalidValue).is_some_and(|value| value.is_empty()) =>
+        {
+            ("nothing".to_owned(), expected.unwrap_or_else(|| "a value".to_owned()))
         }
         ErrorKind::ValueValidation | ErrorKind::InvalidValue => {
             (or_nothing(value), expected.unwrap_or_else(|| "a value".to_owned()))
@@ -139,18 +151,19 @@ fn one_of(values: &ContextValue) -> String {
     }
 }
 
-fn fail(error: &Error) -> u8 {
+pub(super) fn fail(error: &Error) -> u8 {
     let _ = writeln!(io::stderr(), "error: {error}");
     FAILURE
 }
 
-fn draw(matches: &ArgMatches) -> Result<(), Error> {
+pub(super) fn draw(matches: &ArgMatches) -> Result<(), Error> {
     let request = Request::read(matches)?;
     draw_from(&request).map_err(|error| request.relocate(error))
 }
 
 fn draw_from(request: &Request) -> Result<(), Error> {
     request.check()?;
+    let before = [Work::Maps, Work::MipMaps].map(spent);
     let output = request.output()?;
     let Staged { model, camera, options, samples, backdrop, load } = request.stage_picture()?;
     let start = Instant::now();
@@ -165,7 +178,7 @@ fn draw_from(request: &Request) -> Result<(), Error> {
         }
     };
     drop(progress);
-    let (maps, mip_maps) = (spent(Work::Maps), spent(Work::MipMaps));
+    let (maps, mip_maps) = (spent(Work::Maps) - before[0], spent(Work::MipMaps) - before[1]);
     let render_time = start.elapsed().saturating_sub(mip_maps);
     if request.arguments.stats.is_some() && options.threads.get() > 1 {
         // A triangle counts once, however many threads drew it.

@@ -3,6 +3,7 @@
 use std::io::{self, Write as _};
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
 
@@ -90,6 +91,15 @@ impl Request {
         // A texture is shown as it is, whatever the materials' colours.
         arguments.material.whiten();
         Ok(Self { arguments, file: scene_file })
+    }
+
+    /// The options of the command line alone.
+    ///
+    /// # Errors
+    /// One that cannot be understood.
+    pub(super) fn given(matches: &ArgMatches) -> Result<Self, Error> {
+        let refused = |error: clap::Error| Error::new(error.to_string(), "what --help lists");
+        Ok(Self { arguments: RenderArgs::from_arg_matches(matches).map_err(refused)?, file: None })
     }
 
     /// Puts an error in the scene file, if its cause is there.
@@ -216,7 +226,7 @@ impl Request {
             warn(&error.hint("every surface gets one texel's colour").to_string());
         }
         let origin = scene.model.origin;
-        scene.model.slide = slide::load(&arguments.projector.clone().counted_from(origin))?;
+        scene.model.slide = slide::load(&arguments.projector, origin)?;
         let load = start.elapsed();
 
         let Size(width, height) = arguments.render.size.unwrap_or(DEFAULT_SIZE);
@@ -446,7 +456,16 @@ fn warn_all(warnings: &Warnings) {
     }
 }
 
+/// Warnings so far.
+static TOLD: Mutex<Vec<String>> = Mutex::new(Vec::new());
+
+/// Warnings of this run, printed or not.
+pub(super) fn told() -> Vec<String> {
+    TOLD.lock().unwrap_or_else(PoisonError::into_inner).clone()
+}
+
 pub(super) fn warn(line: &str) {
+    TOLD.lock().unwrap_or_else(PoisonError::into_inner).push(line.to_owned());
     if is_silent() {
         return;
     }

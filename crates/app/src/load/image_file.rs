@@ -1,6 +1,6 @@
 //! Textures from image files.
 
-use std::io::Cursor;
+use std::io::{self, Cursor};
 use std::path::Path;
 
 use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
@@ -18,7 +18,7 @@ pub const MAX_TEXELS: u64 = 1 << 27;
 /// The largest image file that is read, in bytes.
 pub const MAX_FILE_BYTES: u64 = 1 << 30;
 
-const KIND: &str = "a PNG, JPEG, BMP or TGA image";
+const KIND: &str = "a PNG, JPEG, BMP, TGA, WebP, QOI or PPM image";
 
 /// Reads an image of at most `budget` texels, and of [`MAX_SIDE`] a side. The format is told by the contents, or
 /// else by the extension (TGA files have no mark of their own).
@@ -55,11 +55,14 @@ pub fn load_heights(path: &Path, budget: u64) -> Result<HeightImage, Error> {
 
 fn decode(path: &Path, budget: u64) -> Result<DynamicImage, Error> {
     let bytes = input::read(path, KIND, MAX_FILE_BYTES)?;
-    let format = image::guess_format(&bytes).or_else(|_| ImageFormat::from_path(path));
-    let format = format.ok().filter(ImageFormat::reading_enabled).ok_or_else(|| {
+    // Of the others, the name does not count.
+    let unmarked = || ImageFormat::from_path(path).ok().filter(|format| *format == ImageFormat::Tga);
+    let format = image::guess_format(&bytes).ok().or_else(unmarked);
+    let format = format.filter(ImageFormat::reading_enabled).ok_or_else(|| {
         let found = if bytes.is_empty() { "an empty file" } else { "a file of another format" };
         Error::new(found, KIND).file(path).hint("convert it to PNG")
     })?;
+    let broken = |error: ImageError| broken(path, format, &error);
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     let mut limits = Limits::no_limits();
     limits.max_image_width = Some(MAX_SIDE);
@@ -68,27 +71,47 @@ fn decode(path: &Path, budget: u64) -> Result<DynamicImage, Error> {
     // is why the header is checked below.
     limits.max_alloc = Some(budget.saturating_mul(8).saturating_add(1 << 26));
     reader.limits(limits);
-    let mut decoder = reader.into_decoder().map_err(|e| broken(path, &e))?;
+    let mut decoder = reader.into_decoder().map_err(broken)?;
     let (width, height) = decoder.dimensions();
     let texels = u64::from(width) * u64::from(height);
     if width == 0 || height == 0 || width > MAX_SIDE || height > MAX_SIDE || texels > budget {
         return Err(too_large(format!("an image of {width}x{height}"), budget).file(path));
     }
-    let orientation = decoder.orientation().map_err(|e| broken(path, &e))?;
-    let mut picture = DynamicImage::from_decoder(decoder).map_err(|e| broken(path, &e))?;
+    let orientation = decoder.orientation().map_err(broken)?;
+    let mut picture = DynamicImage::from_decoder(decoder).map_err(broken)?;
     picture.apply_orientation(orientation);
     Ok(picture)
 }
 
 fn too_large(found: String, budget: u64) -> Error {
-    Error::new(found, format!("1 to {MAX_SIDE} texels a side and at most {budget} in all")).hint("resize it")
+    let texels = match budget {
+        MAX_TEXELS => format!("at most {MAX_TEXELS} in all"),
+        left => format!("no more than are left of {MAX_TEXELS} for all images, {left}"),
+    };
+    Error::new(found, format!("1 to {MAX_SIDE} texels a side and {texels}")).hint("resize it")
 }
 
-fn broken(path: &Path, error: &ImageError) -> Error {
-    match error {
-        ImageError::Limits(_) => too_large("an image that is too large".to_owned(), MAX_TEXELS).file(path),
-        _ => Error::new(format!("a broken image ({error})"), KIND).file(path).hint("save it again as PNG"),
-    }
+/// The error of a decoder in words that are not its own.
+fn broken(path: &Path, format: ImageFormat, error: &ImageError) -> Error {
+    let ends = |error: &io::Error| error.kind() == io::ErrorKind::UnexpectedEof;
+    let fault = match error {
+        ImageError::Limits(_) => {
+            return too_large("an image that is too large".to_owned(), MAX_TEXELS).file(path);
+        }
+        ImageError::IoError(error) if ends(error) => "that ends too early",
+        ImageError::Unsupported(_) => "of a kind that is not read",
+        _ => "that is damaged",
+    };
+    let name = match format {
+        ImageFormat::Jpeg => "JPEG",
+        ImageFormat::WebP => "WebP",
+        ImageFormat::Pnm => "PPM",
+        ImageFormat::Bmp => "BMP",
+        ImageFormat::Qoi => "QOI",
+        ImageFormat::Tga => "TGA",
+        _ => "PNG",
+    };
+    Error::new(format!("a {name} image {fault}"), "a whole one").file(path).hint("save it again")
 }
 
 #[cfg(test)]
@@ -157,6 +180,48 @@ mod tests {
     }
 
     #[test]
+    fn faults_are_told_in_plain_words() {
+        let folder = tempfile::tempdir().unwrap();
+        let picture = image::RgbImage::from_fn(40, 40, |x, y| {
+            image::Rgb([x, y, x * y].map(|c| u8::try_from(c % 251).unwrap_or_default()))
+        });
+        for (name, kind) in [
+            ("a.png", "PNG"),
+            ("a.jpg", "JPEG"),
+            ("a.bmp", "BMP"),
+            ("a.tga", "TGA"),
+            ("a.qoi", "QOI"),
+            ("a.webp", "WebP"),
+            ("a.ppm", "PPM"),
+        ] {
+            let path = folder.path().join(name);
+            picture.save(&path).unwrap();
+            let bytes = fs::read(&path).unwrap();
+            // Cut off, or a byte in the head turned over: whatever its decoder says is not in the message.
+            let mut turned = bytes.clone();
+            turned[17] ^= 0x55;
+            for bytes in [&bytes[..bytes.len() / 2], &bytes[..12], &turned[..]] {
+                fs::write(&path, bytes).unwrap();
+                let Err(error) = load(&path, MAX_TEXELS) else { continue };
+                let message = error.to_string();
+                let message = message.split_once(": found ").unwrap().1;
+                let faults = ["that ends too early", "of a kind that is not read", "that is damaged"];
+                let known = faults
+                    .map(|fault| format!("a {kind} image {fault}, expected a whole one; save it again"))
+                    .contains(&message.to_owned());
+                let size = message.starts_with("an image ") && message.ends_with("in all; resize it");
+                assert!(known || size, "{message}");
+            }
+        }
+        let path = file(&folder, "a.png", &fs::read(folder.path().join("a.ppm")).unwrap());
+        let message = load(&path, MAX_TEXELS).map(|_| ()).unwrap_err().to_string();
+        assert!(message.contains("PPM"), "{message}");
+        let path = file(&folder, "a.tga", &tga(3, 3, &[0; 27]));
+        let message = load(&path, 0).unwrap_err().to_string();
+        assert!(message.contains("no more than are left of 134217728 for all images, 0;"), "{message}");
+    }
+
+    #[test]
     fn what_is_not_an_image_is_refused() {
         let folder = tempfile::tempdir().unwrap();
         for (name, bytes) in
@@ -164,7 +229,8 @@ mod tests {
         {
             let path = file(&folder, name, bytes);
             let message = load(&path, MAX_TEXELS).unwrap_err().to_string();
-            assert!(message.contains("expected a PNG, JPEG, BMP or TGA image"), "{message}");
+            let expected = ["expected a PNG, JPEG, BMP, TGA, WebP, QOI or PPM image", "expected a whole one"];
+            assert!(expected.iter().any(|expected| message.contains(expected)), "{message}");
             assert_eq!(message.lines().count(), 1);
         }
         assert!(load(folder.path(), MAX_TEXELS).unwrap_err().to_string().contains("found a directory"));

@@ -8,7 +8,7 @@ use crate::load::image_file;
 use crate::load::mtl::Alpha;
 use crate::options::MapFile;
 use crate::output::clock::{Work, timed};
-use crate::scene::{HeightImage, Image, Model};
+use crate::scene::{HeightImage, Image, MapNote, Model};
 
 /// Images read so far.
 #[derive(Debug)]
@@ -41,6 +41,11 @@ struct Read<T> {
 impl<T> Read<T> {
     fn new() -> Self {
         Self { all: Vec::new(), at: HashMap::new() }
+    }
+
+    /// The image of a file that has been read.
+    fn image(&self, path: &Path) -> Option<&T> {
+        self.all.get((*self.at.get(path)?)?)
     }
 
     /// The index of an image, which `load` reads if it has not been read.
@@ -101,6 +106,15 @@ impl Images {
     /// A texture's width and height.
     pub(crate) fn size(&self, index: usize) -> Option<[u32; 2]> {
         self.textures.all.get(index).map(|image| [image.width, image.height])
+    }
+
+    /// Maps, and the sizes of those that have been read.
+    pub(crate) fn notes(&self, maps: Vec<(&'static str, MapFile)>) -> Vec<MapNote> {
+        let size = |path: &PathBuf| {
+            let heights = || self.heights.image(path).map(|image| [image.width, image.height]);
+            self.textures.image(path).map(|image| [image.width, image.height]).or_else(heights)
+        };
+        maps.into_iter().map(|(key, map)| MapNote { key, size: size(&map.path), path: map.path }).collect()
     }
 
     /// The alpha of a texture.

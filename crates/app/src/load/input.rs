@@ -10,6 +10,7 @@ use std::rc::Rc;
 use flate2::bufread::MultiGzDecoder;
 
 use crate::error::Error;
+use crate::load::seen;
 
 /// The largest OBJ file that is read, in bytes, decompressed. Its model has to fit in memory: about as many bytes, or
 /// six times as many where numbers are as short as can be.
@@ -48,6 +49,14 @@ pub(crate) fn read_text(path: &Path, kind: &'static str, limit: u64) -> Result<V
     let mut bytes = Vec::new();
     while !stream.fill(&mut bytes, usize::MAX)? {}
     Ok(bytes)
+}
+
+/// Whether a file can be opened.
+///
+/// # Errors
+/// It is missing, cannot be read, or is a directory or a device.
+pub(crate) fn check(path: &Path, kind: &str) -> Result<(), Error> {
+    open(path, kind).map(|_| ())
 }
 
 /// The name of a file of text in messages.
@@ -145,6 +154,7 @@ impl<R: Read> Read for Counted<R> {
 
 /// A regular file and its length.
 fn open(path: &Path, kind: &str) -> Result<(File, u64), Error> {
+    seen::see(path);
     let unreadable = |error: &io::Error| unreadable(path, kind, error);
     let metadata = fs::metadata(path).map_err(|e| unreadable(&e))?;
     if metadata.is_dir() {

@@ -1,16 +1,17 @@
 //! The material libraries of an OBJ model, and the textures that they name.
 
-use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::collections::{BTreeMap, HashMap};
+use std::path::Path;
 
 use crate::error::{Error, Warnings, quote};
 use crate::load::images::Images;
 use crate::load::input;
 use crate::load::mtl::{self, CheckedMtl};
 use crate::load::obj::{DEFAULT_DIFFUSE, Named, ObjText};
-use crate::load::paths::{existing, unquoted};
+use crate::load::paths::{Found, existing, unquoted};
+use crate::load::seen;
 use crate::options::Material;
-use crate::scene::{Model, Part, Vertex};
+use crate::scene::{MaterialNote, Model, Part, Vertex};
 
 /// The largest material library that is read, in bytes.
 const MAX_LIBRARY_BYTES: u64 = 1 << 26;
@@ -21,6 +22,8 @@ const MAX_LIBRARY_BYTES: u64 = 1 << 26;
 pub(crate) struct Libraries {
     checked: CheckedMtl,
     images: Images,
+    /// The materials that parts have been given.
+    notes: BTreeMap<usize, MaterialNote>,
 }
 
 impl Libraries {
@@ -29,11 +32,18 @@ impl Libraries {
     /// # Errors
     /// A `Kd` whose numbers are missing or are none.
     pub(crate) fn read(path: &Path, obj: &ObjText, warnings: &mut Warnings) -> Result<Self, Error> {
-        let mut libraries = Self { checked: CheckedMtl::default(), images: Images::new() };
+        let mut libraries =
+            Self { checked: CheckedMtl::default(), images: Images::new(), notes: BTreeMap::new() };
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut complete = true;
         for named in &obj.libraries {
-            for file in files_of(folder, named) {
+            for Found { path: file, renamed } in files_of(folder, named) {
+                if renamed {
+                    let shown = file.strip_prefix(folder).unwrap_or(&file).display().to_string();
+                    let error = Error::new(format!("no file {}", quote(named.name.as_bytes())), mtl::KIND);
+                    let error = error.file(path).line(named.line);
+                    warnings.push(error.hint(format!("{} is used", quote(shown.as_bytes()))));
+                }
                 match bytes_of(path, named, &file) {
                     Ok(bytes) => libraries.checked.add(&bytes, &file, warnings)?,
                     Err(warning) => {
@@ -68,10 +78,13 @@ impl Libraries {
         // Errors have become warnings.
         let _ = entry.drawn().apply(part, radius, &mut self.images, &mut warn);
         let _ = entry.complete(part, &mut self.images, &mut warn);
+        part.material.clone_from(&entry.name);
+        self.notes.entry(index).or_insert_with(|| entry.note(&self.images));
     }
 
     /// Gives the model the images read, and its surfaces the rest of what files say of them.
     pub(crate) fn give_images(self, model: &mut Model) {
+        model.notes.materials.extend(self.notes.into_values());
         show_colors(model);
         place_textures(model);
         self.images.give(model);
@@ -142,6 +155,7 @@ fn normals_as_bump(material: &mut Material, images: &mut Images) -> Option<Error
 /// The library that `obj` names.
 fn bytes_of(obj: &Path, named: &Named, file: &Path) -> Result<Vec<u8>, Error> {
     const HINT: &str = "the default material is used";
+    seen::see(file);
     if !file.exists() {
         let found = format!("no file \"{}\"", file.display());
         return Err(Error::new(found, mtl::KIND).file(obj).line(named.line).hint(HINT));
@@ -150,14 +164,13 @@ fn bytes_of(obj: &Path, named: &Named, file: &Path) -> Result<Vec<u8>, Error> {
 }
 
 /// A `mtllib` line names one file, with spaces perhaps, or several files.
-fn files_of(folder: &Path, named: &Named) -> Vec<PathBuf> {
+fn files_of(folder: &Path, named: &Named) -> Vec<Found> {
+    let missing = |name: &str| Found { path: folder.join(name), renamed: false };
     let name = unquoted(&named.name);
     if let Some(found) = existing(folder, name) {
-        return vec![found.path];
+        return vec![found];
     }
-    let words: Vec<PathBuf> = name
-        .split_whitespace()
-        .map(|word| existing(folder, word).map_or_else(|| folder.join(word), |found| found.path))
-        .collect();
-    if words.iter().any(|file| file.exists()) { words } else { vec![folder.join(name)] }
+    let words = name.split_whitespace();
+    let words: Vec<_> = words.map(|word| existing(folder, word).unwrap_or_else(|| missing(word))).collect();
+    if words.iter().any(|found| found.path.exists()) { words } else { vec![missing(name)] }
 }

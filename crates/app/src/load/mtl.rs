@@ -38,7 +38,7 @@ impl CheckedMtl {
             warnings.push(Error::new(found, KIND).file(path).hint("its materials are left out"));
             return Ok(());
         }
-        let mut named = false;
+        let mut named = None;
         let mut ignored = Ignored::default();
         for (number, line) in Lines::new(bytes) {
             let place = |error: Error| error.file(path).line(number);
@@ -50,23 +50,23 @@ impl CheckedMtl {
         Ok(())
     }
 
-    /// Takes a line, and returns what there is to warn of.
+    /// Takes a line, and returns what there is to warn of. `named` is whether the last `newmtl` had a name.
     fn statement(
         &mut self,
         line: &Statement<'_>,
         path: &Path,
-        named: &mut bool,
+        named: &mut Option<bool>,
         ignored: &mut Ignored,
     ) -> Result<Vec<Error>, Error> {
         if line.word.eq_ignore_ascii_case(b"newmtl") {
             let name = line.name();
-            *named = !name.is_empty();
+            *named = Some(!name.is_empty());
             if name.is_empty() {
                 let warning = Error::new("`newmtl` without a name", "`newmtl NAME`");
                 return Ok(vec![warning.hint("the lines up to the next one are left out")]);
             }
-            self.names.insert(name, self.materials.len());
-            self.materials.push(Entry::default());
+            self.names.insert(name.clone(), self.materials.len());
+            self.materials.push(Entry { name, ..Entry::default() });
             return Ok(Vec::new());
         }
         let lower = line.word.to_ascii_lowercase();
@@ -82,7 +82,10 @@ impl CheckedMtl {
                 return Ok(Vec::new());
             }
         };
-        let Some(entry) = self.materials.last_mut().filter(|_| *named) else {
+        if *named == Some(false) {
+            return Ok(Vec::new());
+        }
+        let Some(entry) = self.materials.last_mut().filter(|_| named.is_some()) else {
             let warning = Error::new(format!("{} before `newmtl`", quote(line.word)), "`newmtl NAME` first");
             return Ok(vec![warning.hint("the line is left out")]);
         };

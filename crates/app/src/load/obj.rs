@@ -87,6 +87,7 @@ pub fn load(
         }
     }
     libraries.give_images(&mut model);
+    model.notes.normals = model.vertices.iter().filter(|vertex| vertex.normal != [0.0; 3]).count();
     let crease = if let Some(Normals::Crease(degrees)) = normals { degrees } else { DEFAULT_CREASE };
     normals::complete(&mut model, &groups, crease);
     Ok(Loaded { model, warnings, has_uv })

@@ -6,7 +6,7 @@ use crate::load::mtl::see_through;
 use crate::options::{Material, Wrap};
 use crate::scene::camera;
 use crate::scene::normals::narrow;
-use crate::scene::{Model, Relief};
+use crate::scene::{MaterialNote, Model, Relief};
 use crate::scene::{displace, tangents};
 use alberti::raster::color::AnyBlend;
 
@@ -20,7 +20,17 @@ pub(crate) fn replace_materials(
     images: &mut Images,
 ) -> Result<(), Error> {
     let radius = narrow(camera::bounding_sphere(model).radius);
-    model.parts.iter_mut().try_for_each(|part| material.apply(part, radius, images, &mut Err))
+    model.parts.iter_mut().try_for_each(|part| material.apply(part, radius, images, &mut Err))?;
+    let maps = images.notes(material.maps());
+    let notes = &mut model.notes.materials;
+    if notes.is_empty() && !maps.is_empty() {
+        notes.push(MaterialNote::default());
+    }
+    for note in notes {
+        note.maps.retain(|old| maps.iter().all(|new| new.key != old.key));
+        note.maps.extend(maps.iter().cloned());
+    }
+    Ok(())
 }
 
 /// A texture or a colour of the command line replaces the colours of vertices as well, and a texture the holes of the

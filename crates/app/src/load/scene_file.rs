@@ -19,6 +19,7 @@ mod objects;
 mod source;
 mod tables;
 
+pub(crate) use source::KIND;
 use source::Source;
 use tables::File;
 

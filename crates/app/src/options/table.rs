@@ -157,14 +157,6 @@ pub struct ProjectorTable {
 }
 
 impl ProjectorTable {
-    /// The same, counted from `origin`.
-    #[must_use]
-    pub(crate) fn counted_from(self, origin: [f64; 3]) -> Self {
-        let [eye, target] =
-            [self.eye, self.target].map(|point| point.map(|point| point.counted_from(origin)));
-        Self { eye, target, ..self }
-    }
-
     /// # Errors
     /// Some of it, but not all that a projector needs.
     pub(crate) fn check(&self) -> Result<(), Error> {

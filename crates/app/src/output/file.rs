@@ -28,7 +28,7 @@ const WITH_ALPHA: [ImageFormat; 4] =
     [ImageFormat::Png, ImageFormat::Tga, ImageFormat::WebP, ImageFormat::Qoi];
 
 /// The name that stands for standard output.
-const STANDARD: &str = "-";
+pub(crate) const STANDARD: &str = "-";
 
 /// Temporary files that may be there. Who has it makes files, or gives them their names; after a signal, nobody.
 static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
@@ -37,8 +37,9 @@ fn temporary_files() -> MutexGuard<'static, Vec<PathBuf>> {
     TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// From now on SIGINT and SIGTERM end the process as always, but remove temporary files before. Files that belong
-/// together are either all replaced by then, or none. Other systems than Unix have no such signals.
+/// From now on SIGINT and SIGTERM, unless they are ignored, end the process as always, but remove temporary files
+/// before. Files that belong together are either all replaced by then, or none. Other systems than Unix have no such
+/// signals.
 pub fn clean_up_on_signals() {
     #[cfg(unix)]
     {
@@ -47,7 +48,8 @@ pub fn clean_up_on_signals() {
         use signal_hook::low_level::emulate_default_handler;
 
         // Without it, signals are what they were.
-        let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else { return };
+        let heeded = [SIGINT, SIGTERM].into_iter().filter(|&signal| !is_ignored(signal));
+        let Ok(mut signals) = Signals::new(heeded) else { return };
         std::thread::spawn(move || {
             for signal in signals.forever() {
                 let files = temporary_files();
@@ -57,6 +59,16 @@ pub fn clean_up_on_signals() {
             }
         });
     }
+}
+
+/// Whether whoever started this process wants it to ignore a signal, as shells do with jobs in the background. Linux
+/// tells; elsewhere, nothing is known of it.
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0);
+    mask >> (signal - 1) & 1 == 1
 }
 
 /// A file that is written whole or not at all, and that can be written, as far as can be told before there is anything

@@ -110,8 +110,14 @@ pub fn frame(
         near: wishes.near.map_or(near, f32::from),
         far: wishes.far.map_or(far, f32::from),
     };
-    check(&camera, &CAMERA)?;
-    check_planes(&camera, wishes.is_parallel(), [near, far])?;
+    let names = Names { origin: model.origin, ..CAMERA };
+    let checked = check(&camera, &names).and_then(|()| match base {
+        // The planes are those around the ball.
+        None if wishes.near.is_none() && wishes.far.is_none() => check_distance(&camera, &names),
+        _ => check_planes(&camera, wishes.is_parallel(), [near, far]),
+    });
+    // Of a model that no camera can look at, places are wrong by themselves.
+    checked.map_err(|error| check_radius(model, ball).err().unwrap_or(error))?;
     Ok(camera)
 }
 
@@ -128,13 +134,7 @@ fn zoomed(fov: f32, zoom: f32) -> f32 {
 #[must_use]
 pub fn as_options(camera: &Camera, origin: [f64; 3], projection: Projection) -> String {
     let point = |point: [f32; 3]| point.map(number).join(",");
-    let place = |point: [f32; 3]| {
-        let coordinate = |axis: usize| match origin[axis] {
-            0.0 => number(point[axis]),
-            origin => (f64::from(point[axis]) + origin).to_string(),
-        };
-        [0, 1, 2].map(coordinate).join(",")
-    };
+    let place = |point| place(point, origin);
     let Camera { eye, target, up, fov, near, far } = *camera;
     let mut options = format!(
         "--eye {} --target {} --up {} --fov {} --near {} --far {}",
@@ -157,7 +157,7 @@ fn check_radius(model: &Model, ball: Sphere) -> Result<(), Error> {
     if (1e-15..=1e15).contains(&ball.radius) {
         return Ok(());
     }
-    let found = format!("a model of radius {:e}", ball.radius);
+    let found = format!("a model of radius {:.2e}", ball.radius);
     let error = Error::new(found, "one from 1e-15 to 1e15").hint("scale its coordinates");
     Err(match &model.source {
         Some(path) => error.file(path),
@@ -196,14 +196,15 @@ pub fn window_height(camera: &Camera) -> f32 {
     narrow(2.0 * distance * (f64::from(camera.fov).to_radians() / 2.0).tan())
 }
 
-/// The place and the opening angle of a projector, upright unless it points straight up or down.
+/// The place and the opening angle of a projector, upright unless it points straight up or down. Its places are counted
+/// from `origin`.
 ///
 /// # Errors
 /// As those of [`frame`], with the options that set them.
-pub fn projector(eye: [f32; 3], target: [f32; 3], fov: f32) -> Result<Camera, Error> {
+pub fn projector(eye: [f32; 3], target: [f32; 3], fov: f32, origin: [f64; 3]) -> Result<Camera, Error> {
     let view = sub(target.map(f64::from), eye.map(f64::from));
     let camera = Camera { eye, target, up: upwards(view), fov, near: 1.0, far: 2.0 };
-    check(&camera, &PROJECTOR)?;
+    check(&camera, &Names { origin, ..PROJECTOR })?;
     Ok(camera)
 }
 
@@ -225,11 +226,19 @@ pub(crate) struct Names {
     up: &'static str,
     fov: &'static str,
     shape: &'static str,
+    /// The point from which the camera's places are counted; messages have the file's.
+    origin: [f64; 3],
+}
+
+impl Names {
+    fn show(&self, point: [f32; 3]) -> String {
+        place(point, self.origin)
+    }
 }
 
 /// The camera's own.
 pub(crate) const CAMERA: Names =
-    Names { eye: "--eye", target: "--target", up: "--up", fov: "--fov", shape: "--size" };
+    Names { eye: "--eye", target: "--target", up: "--up", fov: "--fov", shape: "--size", origin: [0.0; 3] };
 
 /// A projector's `up` is chosen so that it cannot be wrong.
 pub(crate) const PROJECTOR: Names = Names {
@@ -238,14 +247,15 @@ pub(crate) const PROJECTOR: Names = Names {
     up: "--projector-target",
     fov: "--projector-fov",
     shape: "--projector",
+    origin: [0.0; 3],
 };
 
 /// The library's refusal of a camera that has passed the checks here: numbers too small or too large for it.
 pub(crate) fn refused(why: ViewError, camera: &Camera, projection: Projection, names: &Names) -> Error {
-    let Camera { eye, target, near, far, .. } = *camera;
+    let Camera { near, far, .. } = *camera;
     match (why, projection) {
         (ViewError::NotFinite | ViewError::EyeAtTarget, _) => {
-            let found = format!("no direction from {} to {}", show(eye), show(target));
+            let found = "an eye and a target between which 32-bit floats have no direction";
             Error::new(found, "two points whose difference fits a 32-bit float").place(names.eye)
         }
         (ViewError::UpAlongView, _) => up_along_view(camera, names),
@@ -270,18 +280,33 @@ pub(crate) fn refused(why: ViewError, camera: &Camera, projection: Projection, n
     }
 }
 
+/// The planes around a ball are apart, unless it is a point in 32 bits from there.
+fn check_distance(camera: &Camera, names: &Names) -> Result<(), Error> {
+    if camera.far > camera.near && camera.far.is_finite() && camera.near.is_finite() {
+        return Ok(());
+    }
+    let found =
+        format!("an eye at {}, from where the model is a point in 32-bit floats", names.show(camera.eye));
+    Err(Error::new(found, "one nearer to the model").place(names.eye))
+}
+
 fn check(camera: &Camera, names: &Names) -> Result<(), Error> {
     let Camera { eye, target, up, fov, .. } = *camera;
     for (option, point) in [(names.eye, eye), (names.target, target), (names.up, up)] {
         if point.iter().any(|x| !x.is_finite()) {
             let hint = format!("give {} and {} nearer to the model", names.eye, names.target);
-            return Err(Error::new(show(point), "finite coordinates").place(option).hint(hint));
+            return Err(Error::new(names.show(point), "finite coordinates").place(option).hint(hint));
         }
     }
     check_fov(fov, names)?;
     let view = sub(target.map(f64::from), eye.map(f64::from));
     if normalize(view).is_none() {
-        let found = format!("the eye and its target both at {}", show(eye));
+        let [at, towards] = [eye, target].map(|point| names.show(point));
+        let found = if at == towards {
+            format!("the eye and its target both at {at}")
+        } else {
+            format!("the eye at {at} and its target at {towards}, too near for 32-bit floats")
+        };
         let hint = format!("move {} or {}", names.eye, names.target);
         return Err(Error::new(found, "two points").place(names.eye).hint(hint));
     }
@@ -292,7 +317,7 @@ fn check(camera: &Camera, names: &Names) -> Result<(), Error> {
 }
 
 fn up_along_view(camera: &Camera, names: &Names) -> Error {
-    let found = format!("{}, which is 0 or along the view", show(camera.up));
+    let found = format!("{}, which is 0 or along the view", camera.up.map(number).join(","));
     Error::new(found, "a direction across the view").place(names.up).hint("choose another axis")
 }
 
@@ -351,8 +376,13 @@ fn parallel(a: [f64; 3], b: [f64; 3]) -> bool {
     }
 }
 
-fn show([x, y, z]: [f32; 3]) -> String {
-    format!("{x},{y},{z}")
+/// A place as its author has it, whose coordinates are counted from `origin`.
+fn place(point: [f32; 3], origin: [f64; 3]) -> String {
+    let coordinate = |axis: usize| match origin[axis] {
+        0.0 => number(point[axis]),
+        origin => (f64::from(point[axis]) + origin).to_string(),
+    };
+    [0, 1, 2].map(coordinate).join(",")
 }
 
 #[cfg(test)]

@@ -9,16 +9,17 @@ use crate::scene::{Model, Slide};
 use alberti::glam::Vec3;
 use alberti::{Homogeneous, Point3, Projector};
 
-/// The projector that was asked for, with its image.
+/// The projector that was asked for, with its image, in places that are counted from `origin`.
 ///
 /// # Errors
 /// The projector or its image cannot be.
-pub fn load(table: &ProjectorTable) -> Result<Option<Slide>, Error> {
+pub fn load(table: &ProjectorTable, origin: [f64; 3]) -> Result<Option<Slide>, Error> {
     let ProjectorTable { image: Some(path), eye: Some(eye), target: Some(target), fov } = table else {
         return Ok(None);
     };
+    let [eye, target] = [eye, target].map(|point| point.counted_from(origin));
     let fov = fov.map_or(DEFAULT_FOV, f32::from);
-    let projector = camera::projector((*eye).into(), (*target).into(), fov)?;
+    let projector = camera::projector(eye.into(), target.into(), fov, origin)?;
     Ok(Some(Slide { image: image_file::load(path, image_file::MAX_TEXELS)?, projector }))
 }
 
@@ -55,7 +56,7 @@ mod tests {
         let model = Model { vertices: vec![vertex(-1.0), vertex(1.0)], ..Model::default() };
         let image = Image { width: 2, height: 1, texels: vec![[0; 4]; 2] };
         // At a distance of 1, it is 2 units high and 4 wide.
-        let projector = camera::projector(eye, target, 90.0).expect("a projector");
+        let projector = camera::projector(eye, target, 90.0, [0.0; 3]).expect("a projector");
         misses(&projector_of(Slide { image, projector }), &model)
     }
 

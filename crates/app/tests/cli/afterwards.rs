@@ -325,17 +325,26 @@ fn mistakes_are_told_where_they_are() {
         folder.fails(arguments, &[part]);
     }
     // A journey ends at the surface's colour.
-    let scene = format!("{HEAD}{}[material.m]\nblend = \"additive\"\n", pane(6.0, "m"));
+    let panes = [pane(8.0, "wall"), pane(6.0, "m").replace("size = [13.2", "size = [1, 1] # ")].concat();
+    let scene =
+        format!("{HEAD}{panes}[material.m]\nblend = \"additive\"\n[material.wall]\ncolor = \"ff0000\"\n");
     std::fs::write(folder.path("s.toml"), &scene).expect("a file");
     for (arguments, part) in [
-        (&["s.toml"][..], "s.toml: found a surface that is blended or has holes (\"m\"), expected others"),
-        (&["--scene", "cube", "--fog", "exp:1"], "--fog: found a fog, expected a picture without"),
+        (
+            &["s.toml"][..],
+            "--pixel: found triangle 1 of \"m\" that is blended, before triangle 1 of \"wall\", expected a pixel",
+        ),
+        (&["--scene", "cube", "--fog", "exp:1"][..], "--fog: found a fog, expected a picture without"),
         (&["--scene", "cube", "--dither", "bayer"], "--dither: found a pattern, expected a picture without"),
     ] {
-        let arguments = [arguments, &["--pixel", "1,1"]].concat();
+        let arguments = [arguments, &["--pixel", "32,24"]].concat();
         let run = super::alberti(folder.0.path(), &[std::ffi::OsStr::new("explain")], &arguments);
         assert!(run.status == Some(2) && run.stderr.contains(part), "{run:?}");
     }
+    // Beside it there is a journey, of the picture that has it.
+    let run =
+        super::alberti(folder.0.path(), &[std::ffi::OsStr::new("explain")], &["s.toml", "--pixel", "32,2"]);
+    assert!(run.stdout.contains("the derived colour is the picture's, to the bit"), "{run:?}");
 }
 
 /// The fog of a scene file, taken away.

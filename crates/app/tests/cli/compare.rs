@@ -169,12 +169,22 @@ fn heat_is_black_where_pictures_are_equal() {
 }
 
 #[test]
+fn quiet_leaves_the_status() {
+    let folder = pictures();
+    for (limit, status) in [("255lsb", 0), ("0lsb", 1)] {
+        let arguments = ["grey.png", "three.png", "-q", "--max-error", limit];
+        let run = alberti(folder.0.path(), &[OsStr::new("compare")], &arguments);
+        assert_eq!((run.status, run.stdout.as_str(), run.stderr.as_str()), (Some(status), "", ""), "{run:?}");
+    }
+}
+
+#[test]
 fn what_cannot_be_compared_is_said() {
     let folder = pictures();
     fs::write(folder.path("notes.png"), "no picture").expect("a file");
     folder.refuses("grey.png no.png", &["error: no.png: found no such file"]);
     folder.refuses("no.png grey.png", &["error: no.png: found no such file"]);
-    folder.refuses("notes.png grey.png", &["error: notes.png: found a broken image"]);
+    folder.refuses("notes.png grey.png", &["error: notes.png: found a file of another format"]);
     folder.refuses("grey.png wide.png", &["error: wide.png: found 51x40 pixels", "50x40 as in grey.png"]);
 }
 

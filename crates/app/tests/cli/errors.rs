@@ -193,9 +193,37 @@ fn options_that_take_one_of_some_values() {
     for (arguments, expected) in [
         (&["--subpixel", "7"][..], "--subpixel: found \"7\", expected one of 4, 8; see --help"),
         (&["--cull", "nope"], "--cull: found \"nope\", expected one of back, front, none; see --help"),
-        (&["--filter"], "--filter: found \"\", expected a value; see --help"),
+        (&["--filter"], "--filter: found nothing, expected a value; see --help"),
     ] {
         folder.fails(arguments, &[&format!("error: {expected}")]);
+    }
+}
+
+#[test]
+fn places_of_far_models_are_their_authors() {
+    let far = "v 500000 120 4000000\nv 500001 120 4000000\nv 500000 121 4000000\nf 1 2 3\n";
+    let tiny = "v 0 0 0\nv 1e-40 0 0\nv 0 1e-40 0\nf 1 2 3\n";
+    let folder = Folder::with(&[("far.obj", far.as_bytes()), ("tiny.obj", tiny.as_bytes())]);
+    let at = "500000,120,4000000";
+    for (arguments, part) in [
+        (
+            vec!["far.obj", "--eye", at, "--target", at],
+            "error: --eye: found the eye and its target both at 500000,120,4000000,",
+        ),
+        (
+            vec!["far.obj", "--projector", "p.png", "--projector-eye", at, "--projector-target", at],
+            "error: --projector-eye: found the eye and its target both at 500000,120,4000000,",
+        ),
+        // The model is at fault, and not the eye.
+        (
+            vec!["tiny.obj", "--eye", "0,0,1e-40"],
+            "error: tiny.obj: found a model of radius 7.07e-41, expected one from",
+        ),
+        // The planes are not the user's.
+        (vec!["far.obj", "--eye", "1e30,0,0"], "error: --eye: found an eye at 1"),
+        (vec!["far.obj", "--fov", "1e-30"], "error: --fov: found 1e-30 degrees"),
+    ] {
+        folder.fails(&arguments, &[part]);
     }
 }
 
@@ -207,7 +235,7 @@ fn options_of_materials_that_are_none() {
         ("--filter anisotropic:3", "expected nearest, bilinear, trilinear or anisotropic:N with N = 2, 4, 8"),
         (
             "--normal-space object",
-            "error: --normal-space: found a model without a normal map, expected one that it can be said of",
+            "error: --normal-space: found a model without a normal map, expected a normal map for it; give one with --normal-map",
         ),
         ("--normal-strength 2", "error: --normal-strength: found a model without a normal map"),
         ("--relief steep", "error: --relief: found a model without a height map"),

@@ -6,6 +6,7 @@ mod bake;
 mod compare;
 mod errors;
 mod explain;
+mod info;
 mod light;
 mod materials;
 mod models;
@@ -16,6 +17,7 @@ mod scenes;
 mod show;
 mod success;
 mod usage;
+mod watch;
 
 use std::ffi::OsStr;
 use std::fs;

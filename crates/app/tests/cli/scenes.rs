@@ -142,7 +142,7 @@ fn options_say_what_is_made_of_a_scenes_maps() {
     assert_ne!(bytes(&["steep.toml", "--height-range", "-0.1,0"]), bytes(&["steep.toml"]));
     folder.fails(
         &["m.obj", "--relief", "steep"],
-        &["error: --relief: found a model without a height map, expected one that it can be said of"],
+        &["error: --relief: found a model without a height map, expected a height map for it; give one with --height-map"],
     );
     folder.fails(
         &["steep.toml", "--normal-strength", "2"],

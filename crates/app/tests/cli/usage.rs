@@ -83,6 +83,8 @@ fn mistakes_of_usage_are_one_line() {
             "m.obj --scene cube",
             "error: MODEL.obj or SCENE.toml: found it, expected no --scene beside it; see --help",
         ),
+        ("m.obj --eye 1 2 3", "error: 2: found a number on its own, expected numbers that belong together"),
+        ("m.obj -o", "error: --output: found nothing, expected a value; see --help"),
         ("compare a.png", "error: found nothing, expected <B.png>; see --help"),
         ("help camra", "error: camra: found no such command or topic, expected one of "),
         ("completions fisch", "error: <SHELL>: found \"fisch\", expected one of bash, "),
@@ -190,4 +192,27 @@ fn signals_leave_no_temporary_file() {
             assert!(found == b"old" || found.len() == 54 + 3 * 6000 * 6000);
         }
     }
+}
+
+/// Long work shows a bar on a terminal, which is gone at the end, and none elsewhere. `script` has the terminal;
+/// without that program there is nothing to see.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_bar_is_shown_on_terminals_alone() {
+    let folder = Folder::with(&[]);
+    let long = ["--scene", "hero", "-s", "1600x1000", "--samples", "16", "-o", "p.bmp"];
+    let on_terminal = |more: &str| {
+        let command = format!("{} {} {more}", env!("CARGO_BIN_EXE_alberti"), long.join(" "));
+        let mut script = Command::new("script");
+        script.current_dir(folder.path(".")).args(["-qec", &command, "/dev/null"]);
+        let output = script.stdin(std::process::Stdio::null()).output().ok()?;
+        Some(String::from_utf8_lossy(&output.stdout).into_owned())
+    };
+    let Some(shown) = on_terminal("") else { return };
+    let (bar, rest) = shown.rsplit_once("\u{1b}[2K").expect("a line that is cleared");
+    assert!(bar.contains("drawing "), "{shown}");
+    assert!(rest.starts_with("built-in scene hero: ") && !rest.contains("drawing "), "{rest}");
+    assert_eq!(on_terminal("-q").as_deref(), Some(""));
+    let run = folder.succeeds(&long);
+    assert_eq!(run.stderr, "");
 }

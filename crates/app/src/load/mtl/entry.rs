@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::load::images::Images;
 use crate::options::values::{Color, MAX_SHININESS, Shininess};
 use crate::options::{MapFile, Material};
-use crate::scene::{Detail, Map, Part};
+use crate::scene::{Detail, Map, MaterialNote, Part};
 use alberti::raster::color::AnyBlend;
 
 /// The exponent below which a highlight is so broad that it fades, to none at 0.
@@ -19,6 +19,8 @@ const DIELECTRIC: f32 = 0.04;
 /// A material of a library.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Entry {
+    /// Its name.
+    pub(crate) name: String,
     /// The lines that say what a scene file can say.
     pub(crate) material: Material,
     /// `d`.
@@ -86,6 +88,19 @@ impl Entry {
     /// The share of light that does not go through: `d` before `Tr`.
     pub(crate) fn opacity(&self) -> f32 {
         self.opacity.or(self.transparency.map(|share| 1.0 - share)).unwrap_or(1.0)
+    }
+
+    /// Its name and maps, once these have been read.
+    pub(crate) fn note(&self, images: &Images) -> MaterialNote {
+        let mut maps = self.material.maps();
+        for (key, map) in [
+            ("alpha-map", &self.alpha_map),
+            ("roughness-map", &self.roughness_map),
+            ("metallic-map", &self.metallic_map),
+        ] {
+            maps.extend(map.clone().map(|map| (key, map)));
+        }
+        MaterialNote { name: self.name.clone(), maps: images.notes(maps) }
     }
 
     /// Gives a part what goes beyond a scene file's materials.

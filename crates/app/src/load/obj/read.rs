@@ -88,9 +88,10 @@ impl ObjText {
         text.check_indices().map_err(|error| error.file(path))?;
         if text.faces.iter().all(|faces| faces.faces.is_empty()) {
             let found = format!("no faces in {} lines", text.lines);
-            return Err(Error::new(found, "an OBJ model with faces (lines like `f 1 2 3`)")
-                .file(path)
-                .hint("check that this is the right file"));
+            let other = path.extension().is_some_and(|of| !of.eq_ignore_ascii_case("obj"));
+            let hint = if other { "export the model as OBJ" } else { "check that this is the right file" };
+            let error = Error::new(found, "an OBJ model with faces (lines like `f 1 2 3`)");
+            return Err(error.file(path).hint(hint));
         }
         Ok(text)
     }

@@ -46,6 +46,15 @@ fn polygons_become_fans() {
 }
 
 #[test]
+fn libraries_of_other_names_are_told() {
+    let obj = format!("mtllib C:\\x\\M.MTL\n{CORNERS}usemtl a\nf 1 2 3\n");
+    let (model, warnings) = load_files(&[("m.obj", obj.as_bytes()), ("m.mtl", b"newmtl a\nKd 1 0 0\n")]);
+    assert_eq!(model.parts[0].diffuse, [1.0, 0.0, 0.0]);
+    let found = r#"m.obj:1: found no file "C:\x\M.MTL", expected an MTL material library; "m.mtl" is used"#;
+    assert_eq!(warnings, [found]);
+}
+
+#[test]
 fn negative_indices_count_back_from_where_they_stand() {
     let model = load_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 5 5 5\nf -1 -3 -2\n");
     let wanted: [[f32; 3]; 6] =

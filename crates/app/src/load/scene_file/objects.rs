@@ -11,7 +11,7 @@ use crate::scene::displace::MAX_VERTICES;
 use crate::scene::origin;
 use crate::scene::place::Placement;
 use crate::scene::surfaces::Surface;
-use crate::scene::{Model, Part, Relief};
+use crate::scene::{MaterialNote, Model, Part, Relief};
 
 /// The most cells along u or v.
 const MAX_SEGMENTS: u32 = 1 << 14;
@@ -71,13 +71,17 @@ impl SceneFile {
                     if name.is_empty() {
                         name = object.material.clone().unwrap_or_default();
                     }
-                    *part = Part { name, triangles, diffuse: obj::DEFAULT_DIFFUSE, ..Part::default() };
+                    let material = object.material.clone().unwrap_or_default();
+                    *part =
+                        Part { name, material, triangles, diffuse: obj::DEFAULT_DIFFUSE, ..Part::default() };
                 }
                 if object.surface.is_none() {
                     let [su, sv] = uv_scale(Some(material));
                     model.vertices.iter_mut().for_each(|v| v.uv = [v.uv[0] * su, v.uv[1] * sv]);
                 }
                 prepare::replace_materials(&mut model, material, &mut images)?;
+                let name = object.material.clone().unwrap_or_default();
+                model.notes.materials = vec![MaterialNote { name, maps: images.notes(material.maps()) }];
             }
             prepare::replace_materials(&mut model, over, &mut images)?;
             has_uv &= coordinates || !model.parts.iter().any(Part::has_maps);
@@ -213,5 +217,11 @@ fn append(all: &mut Model, mut model: Model, too_many: impl Fn() -> Error) -> Re
         part.triangles.iter_mut().flatten().for_each(|index| *index += first);
     }
     all.parts.append(&mut model.parts);
+    all.notes.normals += model.notes.normals;
+    for note in model.notes.materials {
+        if !all.notes.materials.contains(&note) {
+            all.notes.materials.push(note);
+        }
+    }
     Ok(())
 }

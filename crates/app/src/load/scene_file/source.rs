@@ -12,7 +12,7 @@ use crate::load::input;
 use crate::options::Origin;
 
 /// The name of a scene file in messages.
-const KIND: &str = "a scene file in TOML";
+pub(crate) const KIND: &str = "a scene file in TOML";
 
 /// The largest scene file that is read, in bytes.
 const MAX_BYTES: u64 = 1 << 24;
@@ -57,8 +57,14 @@ impl Source {
         })?;
         // As far as it can be read: what is wrong is told below.
         let mut keys = Vec::new();
-        collect(DeTable::parse_recoverable(&text).0.get_ref(), "", &mut keys);
+        let (table, faults) = DeTable::parse_recoverable(&text);
+        collect(table.get_ref(), "", &mut keys);
+        let array = if faults.is_empty() { array_for_table(table.get_ref()) } else { None };
+        drop(table);
         let source = Self { path: path.to_owned(), text, keys };
+        if let Some(path) = array {
+            return Err(source.error(&path, "an array", format!("a table, [{path}]")));
+        }
         match toml::from_str(&source.text) {
             Ok(file) => Ok((source, file)),
             Err(error) => Err(source.refused(&error)),
@@ -149,9 +155,19 @@ impl Source {
             (None, None) if found.is_empty() => (self.found(&at), plain(expected)),
             (None, None) => (found.to_owned(), plain(expected)),
         };
-        let (found, expected) = (in_words(&plain(&found)), in_words(&expected));
+        let key = self.key_at(&at).or_else(|| self.key_on_line(&at).map(str::to_owned));
+        let is_date =
+            || self.text.get(at.clone()).is_some_and(|text| text.starts_with(|c: char| c.is_ascii_digit()));
+        let found = match in_words(&plain(&found)) {
+            found if found == TABLE && is_date() => "a date or a time".to_owned(),
+            found => found,
+        };
+        let expected = match (in_words(&expected), &key) {
+            (expected, Some(key)) if expected == ARRAY => format!("tables under [[{key}]]"),
+            (expected, _) => expected,
+        };
         let mut error = Error::new(found, expected.as_str()).file(&self.path).line(self.line(&at));
-        if let Some(key) = self.key_at(&at).or_else(|| self.key_on_line(&at).map(str::to_owned)) {
+        if let Some(key) = key {
             error = error.key(key);
         }
         match unknown.and_then(|key| nearest(key, &expected)) {
@@ -169,14 +185,37 @@ impl Source {
     }
 }
 
+const TABLE: &str = "a table";
+const ARRAY: &str = "an array";
+
 /// The words of TOML for those of the reader.
 fn in_words(name: &str) -> String {
     match name {
-        "map" | "a map" => "a table".to_owned(),
-        "a sequence" => "a list, of tables by [[ ]]".to_owned(),
-        name if name.starts_with("struct ") => "a table".to_owned(),
-        name => name.to_owned(),
+        "map" | "a map" => TABLE,
+        "sequence" | "a sequence" => ARRAY,
+        "a boolean" => "true or false",
+        name if name.starts_with("struct ") => TABLE,
+        name => name,
     }
+    .to_owned()
+}
+
+/// The first key of a table that has an array: the reader would take its values for those of the table's keys.
+fn array_for_table(file: &DeTable<'_>) -> Option<String> {
+    let is_array = |value: &Spanned<DeValue<'_>>| matches!(value.get_ref(), DeValue::Array(_));
+    for (key, value) in file {
+        let key = key.get_ref();
+        if ["camera", "projector", "render", "ambient", "material"].contains(&&**key) && is_array(value) {
+            return Some(key.to_string());
+        }
+        if let (DeValue::Table(materials), "material") = (value.get_ref(), &**key) {
+            let name = materials.iter().find(|(_, material)| is_array(material));
+            if let Some((name, _)) = name {
+                return Some(format!("{key}.{}", name.get_ref()));
+            }
+        }
+    }
+    None
 }
 
 /// Without the marks around names.

@@ -91,8 +91,8 @@ fn a_window_is_as_high_as_its_angle_says() {
 
 #[test]
 fn a_projector_is_a_camera_under_other_names() {
-    assert_eq!(projector([0.0, 9.0, 0.0], [0.0; 3], 30.0).map(|c| c.up), Ok([0.0, 0.0, -1.0]));
-    assert_eq!(projector([1.0, 9.0, 0.0], [0.0; 3], 30.0).map(|c| c.up), Ok([0.0, 1.0, 0.0]));
+    assert_eq!(projector([0.0, 9.0, 0.0], [0.0; 3], 30.0, [0.0; 3]).map(|c| c.up), Ok([0.0, 0.0, -1.0]));
+    assert_eq!(projector([1.0, 9.0, 0.0], [0.0; 3], 30.0, [0.0; 3]).map(|c| c.up), Ok([0.0, 1.0, 0.0]));
     for (eye, fov, start) in [
         (
             [0.0; 3],
@@ -102,7 +102,7 @@ fn a_projector_is_a_camera_under_other_names() {
         ([f32::NAN; 3], 30.0, "--projector-eye: found NaN,NaN,NaN"),
         ([1.0; 3], 180.0, "--projector-fov: found 180 degrees"),
     ] {
-        let message = projector(eye, [0.0; 3], fov).unwrap_err().to_string();
+        let message = projector(eye, [0.0; 3], fov, [0.0; 3]).unwrap_err().to_string();
         assert!(message.starts_with(start), "{message}");
     }
 }

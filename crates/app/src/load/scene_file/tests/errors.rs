@@ -13,6 +13,35 @@ fn refused(text: &str) -> String {
 }
 
 #[test]
+fn kinds_of_values_have_the_words_of_toml() {
+    let with = |text: &str| format!("{text}{MINIMAL}");
+    for (text, wanted) in [
+        ("object = 3\n", "s.toml:1: object: found integer 3, expected tables under [[object]]"),
+        (
+            "[object]\nsurface = \"plane\"\n",
+            "s.toml:1: object: found a table, expected tables under [[object]]",
+        ),
+        (&with("[light]\n"), "s.toml:1: light: found a table, expected tables under [[light]]"),
+        (&with("[[camera]]\n"), "s.toml:1: camera: found an array, expected a table, [camera]"),
+        (&with("camera = [1]\n"), "s.toml:1: camera: found an array, expected a table, [camera]"),
+        (&with("[[material.a]]\n"), "s.toml:1: material.a: found an array, expected a table, [material.a]"),
+        (&with("background = [1]\n"), "s.toml:1: background: found an array, expected a string"),
+        (&with("[camera]\nfov = 1979-05-27\n"), "s.toml:2: camera.fov: found a date or a time, expected a"),
+        (
+            &with("[camera]\nfov = { x = 1 }\n"),
+            "s.toml:2: camera.fov: found a table, expected a finite number",
+        ),
+        (
+            &with("[render]\ntwo-sided = 1\n"),
+            "s.toml:2: render.two-sided: found integer 1, expected true or false",
+        ),
+    ] {
+        let message = refused(text);
+        assert!(message.starts_with(wanted), "{message}");
+    }
+}
+
+#[test]
 fn errors_name_line_and_key() {
     let with = |text: &str| format!("{MINIMAL}{text}");
     for (text, wanted) in [
