@@ -82,7 +82,8 @@ impl Drawing<'_> {
             let Surface::ByFragment(material) = shown.surface else { return };
             match part.detail.blend {
                 AnyBlend::Replace => {}
-                AnyBlend::Over => shown.least = shown.least.max(HIDING),
+                AnyBlend::Constant(alpha) if alpha >= HIDING => {}
+                AnyBlend::Over | AnyBlend::Premultiplied => shown.least = shown.least.max(HIDING),
                 _ => return,
             }
             let texture = part.texture.and_then(|texture| self.textures.get(texture));

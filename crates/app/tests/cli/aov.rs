@@ -204,6 +204,11 @@ fn holes_are_seen_through() {
             near(depths[index], 1e10, 0.0);
         }
     }
+    // What hides more than half counts.
+    std::fs::write(folder.path("m.mtl"), material.replace("0.3", "0.8")).expect("a file");
+    folder.succeeds(&words("m.obj --aov depth --aov-format exr"));
+    let glass = channel(&folder.path("x.exr"), "Z").iter().filter(|z| (**z - 2.0).abs() < 1e-5).count();
+    assert!(glass > 1000, "{glass}");
 }
 
 #[test]
