@@ -103,9 +103,7 @@ Examples:
   alberti cow.obj --texture cow.png --eye 2,1,-3
   alberti wet.toml --shading phong      a scene file, drawn with other light
   alberti render                        the built-in scene, into alberti.png
-  alberti --scene floor --interpolation affine
-  alberti --scene cube --projection parallel
-  alberti --scene floor -s 1920x1080 --stats json";
+  alberti --scene floor --interpolation affine -s 1920x1080 --stats json";
 
 /// The options of `alberti render`. Those that are absent are left to the model or the scene.
 #[derive(Clone, Debug, Default, Args)]

@@ -31,6 +31,7 @@ mod painted;
 mod plain;
 mod runs;
 mod studio;
+mod surveyed;
 mod tapped;
 mod traced;
 mod used;
@@ -39,6 +40,7 @@ use facing::Viewpoint;
 pub(crate) use general::Studio;
 pub(crate) use runs::Counted;
 use studio::Rig;
+pub(crate) use surveyed::{KNOWN, Known};
 pub(crate) use tapped::{Taken, Tap, WHOLE, Word};
 pub(crate) use traced::{
     Arrival, COMPONENTS, Corner3, Light, LightRead, Look, MapRead, Piece, ProbeRead, Traced, components,

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 pub mod advise;
+pub mod aov;
 pub mod bake;
 pub mod cli;
 pub mod colormap;

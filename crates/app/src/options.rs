@@ -4,6 +4,7 @@ use clap::ValueEnum;
 use std::num::NonZero;
 
 mod afterwards;
+mod aov;
 mod background;
 mod colors;
 mod filter;
@@ -17,6 +18,7 @@ pub mod values;
 
 pub(crate) use afterwards::byte;
 pub use afterwards::{Blend, Dither, Fog, Haze};
+pub use aov::{Aov, AovFormat, Aovs};
 pub use background::Background;
 pub use filter::{Filter, Probes};
 pub use light::{KeyLight, LightOptions};
@@ -100,7 +102,7 @@ pub enum Cull {
     None,
 }
 
-words!(one_of: Shading, Wrap, Cull, ProjectionKind, ViewSide, FileFormat);
+words!(one_of: Shading, Wrap, Cull, ProjectionKind, ViewSide, FileFormat, AovFormat);
 
 /// The format of a picture's file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

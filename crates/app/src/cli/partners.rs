@@ -26,7 +26,8 @@ pub(crate) fn check(arguments: &RenderArgs) -> Result<(), Error> {
     let of_maps = || arguments.material.lonely().filter(|_| arguments.model.is_none());
     let render = &arguments.render;
     let of_fog = render.fog_color.filter(|_| render.fog.is_none()).map(|_| ("fog-color", "fog"));
-    match of_view.or(of_fog).or_else(of_maps) {
+    let of_aov = render.aov_format.filter(|_| render.aov.is_none()).map(|_| ("aov-format", "aov"));
+    match of_view.or(of_fog).or(of_aov).or_else(of_maps) {
         Some((option, partner)) => {
             let found = format!("it without --{partner}");
             Err(Error::new(found, format!("--{partner} as well")).place(format!("--{option}")))

@@ -10,6 +10,7 @@ use clap::{ArgMatches, Command, CommandFactory as _};
 
 use super::staged::{OF_PICTURES, Request, Staged, hidden, warn};
 use super::{Cli, StatsFormat, advise, bake, compare, explain, help, info, watch, words};
+use crate::aov::layers;
 use crate::error::{Error, quote};
 use crate::options::RenderOptions;
 use crate::output::clock::{Work, spent};
@@ -165,6 +166,7 @@ fn draw_from(request: &Request) -> Result<(), Error> {
     request.check()?;
     let before = [Work::Maps, Work::MipMaps].map(spent);
     let output = request.output()?;
+    let beside = request.beside(&output)?;
     let Staged { model, camera, options, samples, backdrop, load } = request.stage_picture()?;
     let start = Instant::now();
     let mut progress = Progress::new("drawing");
@@ -178,6 +180,8 @@ fn draw_from(request: &Request) -> Result<(), Error> {
         }
     };
     drop(progress);
+    let layers = beside.as_ref().map(|_| waiting("drawing numbers", || layers(&model, &camera, &options)));
+    let layers = layers.transpose()?;
     let (maps, mip_maps) = (spent(Work::Maps) - before[0], spent(Work::MipMaps) - before[1]);
     let render_time = start.elapsed().saturating_sub(mip_maps);
     if request.arguments.stats.is_some() && options.threads.get() > 1 {
@@ -190,7 +194,11 @@ fn draw_from(request: &Request) -> Result<(), Error> {
     let start = Instant::now();
     let seen_through = request.arguments.show.is_none() && backdrop == Backdrop::Transparent;
     waiting("encoding", || {
-        if seen_through { output.write_with_alpha(&picture.image) } else { output.write(&picture.image) }
+        let others = match beside.as_ref().zip(layers.as_ref()) {
+            Some((beside, layers)) => beside.encoded(layers, &picture.image, &camera)?,
+            None => Vec::new(),
+        };
+        output.write_beside(&output.encoded(&picture.image, seen_through)?, &others)
     })?;
     let load = load.saturating_sub(maps);
     let times = Times { load, maps, mip_maps, render: render_time, write: start.elapsed() };
@@ -206,11 +214,15 @@ fn draw_from(request: &Request) -> Result<(), Error> {
         origin: model.origin,
         projection,
     };
+    let summary = || {
+        let files = beside.as_ref().map(|beside| beside.summary(&camera)).unwrap_or_default();
+        format!("{}\n{files}", report.summary())
+    };
     let text = match request.arguments.stats {
         None if is_silent() => legend.unwrap_or_default(),
-        None => format!("{}\n{}", report.summary(), legend.unwrap_or_default()),
+        None => format!("{}{}", summary(), legend.unwrap_or_default()),
         Some(StatsFormat::Text) if is_silent() => report.text(),
-        Some(StatsFormat::Text) => format!("{}\n{}", report.summary(), report.text()),
+        Some(StatsFormat::Text) => format!("{}{}", summary(), report.text()),
         Some(StatsFormat::Json) => format!("{}\n", report.json()),
     };
     if output.is_standard() {

@@ -21,6 +21,7 @@ use crate::options::{
     DepthFormat, Filter, Fog, Haze, KeyLight, LightOptions, Profile, Projection, RenderOptions, Samples,
     Shading, Wrap,
 };
+use crate::output::aov::{self, Beside};
 use crate::output::file::{Output, Whole};
 use crate::output::progress::{Progress, is_silent, waiting};
 use crate::output::stats::Source;
@@ -28,7 +29,8 @@ use crate::scene::backdrop::Backdrop;
 use crate::scene::{Camera, Model, Part, Relief, camera, ground, order, scenes, slide};
 
 /// The options of pictures alone, which other commands refuse.
-pub(super) const OF_PICTURES: [&str; 6] = ["output", "output_format", "samples", "stats", "show", "ground"];
+pub(super) const OF_PICTURES: [&str; 8] =
+    ["output", "output_format", "aov", "aov_format", "samples", "stats", "show", "ground"];
 
 /// A command without some options in its help.
 pub(super) fn hidden(command: Command, ids: &[&'static str]) -> Command {
@@ -131,6 +133,19 @@ impl Request {
         }
         self.check_apart(output.name(), |input| output.is(input), "-o")?;
         Ok(output)
+    }
+
+    /// The files beside the picture, if there are some.
+    ///
+    /// # Errors
+    /// One cannot be written, or is one that is also read.
+    pub(super) fn beside(&self, output: &Output) -> Result<Option<Beside>, Error> {
+        let render = &self.arguments.render;
+        let Some(aovs) = render.aov.clone() else { return Ok(None) };
+        let format = render.aov_format.unwrap_or_default();
+        let names = aov::names(output, &aovs, format)?;
+        let files = names.iter().map(|name| self.whole(name, "-o")).collect::<Result<Vec<_>, _>>()?;
+        Ok(Some(Beside::new(aovs, format, files)))
     }
 
     /// A file that the command writes, as `option` names it.

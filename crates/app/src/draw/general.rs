@@ -159,6 +159,18 @@ impl<'a> Drawing<'a> {
         Clothed { surface, lighting: material.lighting, colored, textured, placed, projector }
     }
 
+    /// A part's surface as a material at each fragment, whatever the shading, with all attributes but an image's.
+    pub(super) fn clothed_whole(&self, part: &Part) -> (Clothed<'a>, Shown<'a>) {
+        let Studio { chains, lamps } = self.studio;
+        let painted = Painted::new(part, self.model, chains, self.options, self.camera);
+        let material = painted.lit(self.options.shading, part.detail.shininess, lamps);
+        let surface = Surface::ByFragment(material);
+        let colored = part.detail.carries_colors();
+        let lighting = material.lighting;
+        let clothed = Clothed { surface, lighting, colored, textured: true, placed: true, projector: None };
+        (clothed, Shown { surface, image: None, hazy: None, least: part.detail.alpha_test })
+    }
+
     /// The stage behind a pointer, in one of few kernels, mixed with what is there.
     pub(super) fn by_policies(
         &self,

@@ -1,6 +1,6 @@
 //! A stage that writes down numbers of fragments instead of making colours, in the kernels that draw the pictures.
 
-use super::clothed::{Number, Triangles};
+use super::clothed::{Clothed, Number, Triangles};
 use super::erased::Attributes;
 use super::used::Used;
 use super::{CHUNK, Canvas, Drawing};
@@ -38,6 +38,12 @@ pub(crate) const WHOLE: u32 = u32::MAX;
 
 const WORDS: usize = Word::RunLength as usize + 1;
 
+impl From<Word> for usize {
+    fn from(word: Word) -> Self {
+        word as Self
+    }
+}
+
 /// The part of a fragment's numbers that a drawing takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Taken {
@@ -49,48 +55,48 @@ pub(crate) enum Taken {
     Arrival,
 }
 
-/// The numbers of all pixels. Threads draw different pixels, so that each word has one writer.
+/// The numbers of all pixels, so many each. Threads draw different pixels, so that each word has one writer.
 #[derive(Debug)]
-pub(crate) struct Tap {
+pub(crate) struct Tap<const COUNT: usize = WORDS> {
     width: u32,
-    pixels: Vec<[AtomicU32; WORDS]>,
+    pixels: Vec<[AtomicU32; COUNT]>,
 }
 
-impl Tap {
+impl<const COUNT: usize> Tap<COUNT> {
     /// Zeros, or an error where memory is short.
     pub(crate) fn new(width: u32, height: u32) -> Result<Self, Error> {
         let count = width as usize * height as usize;
         let mut pixels = Vec::new();
         pixels.try_reserve_exact(count).map_err(|_| {
             let found = format!("too little memory for the numbers of {width}x{height} pixels");
-            let expected = format!("{} MiB", (count * size_of::<[AtomicU32; WORDS]>()) >> 20);
+            let expected = format!("{} MiB", (count * size_of::<[AtomicU32; COUNT]>()) >> 20);
             Error::new(found, expected).place("--size").hint("choose a smaller size")
         })?;
-        pixels.resize_with(count, Default::default);
+        pixels.resize_with(count, || [const { AtomicU32::new(0) }; COUNT]);
         Ok(Self { width, pixels })
     }
 
     /// A number of the pixel with this index.
-    pub(crate) fn read(&self, index: usize, word: Word) -> u32 {
-        self.pixels.get(index).map_or(0, |words| words[word as usize].load(Relaxed))
+    pub(crate) fn read(&self, index: usize, word: impl Into<usize>) -> u32 {
+        self.pixels.get(index).and_then(|words| words.get(word.into())).map_or(0, |word| word.load(Relaxed))
     }
 
-    pub(super) fn write(&self, [column, row]: [i32; 2], word: Word, value: u32) {
+    pub(super) fn write(&self, [column, row]: [i32; 2], word: impl Into<usize>, value: u32) {
         if let Some(at) = self.at([column, row], word) {
             at.store(value, Relaxed);
         }
     }
 
-    fn count(&self, place: [i32; 2], word: Word) {
+    fn count(&self, place: [i32; 2], word: impl Into<usize>) {
         if let Some(at) = self.at(place, word) {
             at.fetch_add(1, Relaxed);
         }
     }
 
-    fn at(&self, place: [i32; 2], word: Word) -> Option<&AtomicU32> {
+    fn at(&self, place: [i32; 2], word: impl Into<usize>) -> Option<&AtomicU32> {
         let [column, row] = place.map(i32::cast_unsigned);
         let words = self.pixels.get(row as usize * self.width as usize + column as usize)?;
-        Some(&words[word as usize])
+        words.get(word.into())
     }
 }
 
@@ -170,10 +176,20 @@ impl Drawing<'_> {
     }
 
     /// Calls `draw` for all triangles, in drawing order, with or without their numbers.
-    pub(super) fn each_chunk(&self, numbered: bool, mut draw: impl FnMut(&Part, &Triangles<'_, '_>)) {
+    pub(super) fn each_chunk(&self, numbered: bool, draw: impl FnMut(&Part, &Triangles<'_, '_>)) {
+        self.each_chunk_clothed(|part| self.clothed(part), numbered, draw);
+    }
+
+    /// The same with surfaces of one's own.
+    pub(super) fn each_chunk_clothed<'c>(
+        &self,
+        clothe: impl Fn(&Part) -> Clothed<'c>,
+        numbered: bool,
+        mut draw: impl FnMut(&Part, &Triangles<'_, '_>),
+    ) {
         let mut first = 0;
         for part in &self.model.parts {
-            let clothed = self.clothed(part);
+            let clothed = clothe(part);
             for triangles in part.triangles.chunks(CHUNK) {
                 let Used { vertices, triangles } = self.sided(triangles);
                 let numbers = numbered.then_some(first);

@@ -11,8 +11,9 @@ use serde::{Deserialize, Deserializer};
 
 use super::values::{Color, Elevation, Finite, Number, Point, Size, Zoom};
 use super::{
-    Arithmetic, Background, ColorFormat, Cull, DepthFormat, Dither, FileFormat, Filter, Fog, Interpolation,
-    KeyLight, Lod, Normals, Policies, Profile, ProjectionKind, Samples, Shading, Subpixel, ViewSide, Wrap,
+    AovFormat, Aovs, Arithmetic, Background, ColorFormat, Cull, DepthFormat, Dither, FileFormat, Filter, Fog,
+    Interpolation, KeyLight, Lod, Normals, Policies, Profile, ProjectionKind, Samples, Shading, Subpixel,
+    ViewSide, Wrap,
 };
 use crate::error::Error;
 
@@ -191,6 +192,21 @@ pub struct RenderTable {
     /// Format of the image, whatever its extension [default: of standard output png].
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub output_format: Option<FileFormat>,
+
+    /// Numbers of what pixels show, in files beside the picture: depth, normal, uv, id and lod, with commas between.
+    ///
+    /// Beside x.png are x.depth.png, x.normal.png and so on, or x.exr with all of them. Numbers are those in the middle
+    /// of a pixel, whatever --samples says, and exact, whatever --interpolation says.
+    #[arg(long, value_name = "WHAT")]
+    pub aov: Option<Aovs>,
+
+    /// Format of --aov: png16 or exr [default: png16]
+    ///
+    /// png16: PNG of 16 bits a channel. The summary says how to get the numbers back.
+    /// exr: one OpenEXR file of 32 bits a channel, with the picture as RGBA in linear light.
+    /// Its layers are Z in units of the scene, N in world space, UV, id and lod.
+    #[arg(long, value_enum, value_name = "FORMAT", hide_possible_values = true, verbatim_doc_comment)]
+    pub aov_format: Option<AovFormat>,
 
     /// Width and height of the image in pixels, each up to 16384 [default: 640x480].
     #[arg(short, long, value_name = "WxH", allow_hyphen_values = true)]

@@ -265,8 +265,7 @@ impl Output {
     /// # Errors
     /// Encoding or writing fails: the disk is full, for example.
     pub fn write(&self, picture: &Image) -> Result<(), Error> {
-        let rgb: Vec<u8> = picture.texels.iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect();
-        self.encode(picture, &rgb, ExtendedColorType::Rgb8)
+        self.write_beside(&self.encoded(picture, false)?, &[])
     }
 
     /// The same with its alpha.
@@ -274,11 +273,23 @@ impl Output {
     /// # Errors
     /// Those of [`write`](Self::write), and of [`check_alpha`](Self::check_alpha).
     pub fn write_with_alpha(&self, picture: &Image) -> Result<(), Error> {
-        self.check_alpha()?;
-        self.encode(picture, picture.texels.as_flattened(), ExtendedColorType::Rgba8)
+        self.write_beside(&self.encoded(picture, true)?, &[])
     }
 
-    fn encode(&self, picture: &Image, bytes: &[u8], colors: ExtendedColorType) -> Result<(), Error> {
+    /// The bytes of the picture's file, with or without its alpha.
+    ///
+    /// # Errors
+    /// Encoding fails, or the format has no alpha.
+    pub fn encoded(&self, picture: &Image, alpha: bool) -> Result<Vec<u8>, Error> {
+        if alpha {
+            self.check_alpha()?;
+            return self.encode(picture, picture.texels.as_flattened(), ExtendedColorType::Rgba8);
+        }
+        let rgb: Vec<u8> = picture.texels.iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect();
+        self.encode(picture, &rgb, ExtendedColorType::Rgb8)
+    }
+
+    fn encode(&self, picture: &Image, bytes: &[u8], colors: ExtendedColorType) -> Result<Vec<u8>, Error> {
         // Encoded in memory first, so that there is a temporary file only for as long as a copy takes.
         let mut encoded = Cursor::new(Vec::new());
         let (width, height) = (picture.width, picture.height);
@@ -294,10 +305,17 @@ impl Output {
             let found = format!("that encoding fails ({error})");
             Error::new(found, "a picture of another size or format").file(&self.named)
         })?;
-        match &self.file {
-            Some(file) => file.write(encoded.get_ref()),
-            None => write_standard(encoded.get_ref()),
-        }
+        Ok(encoded.into_inner())
+    }
+
+    /// Writes the bytes of the picture, and other files that belong to it: none is replaced before all are written.
+    ///
+    /// # Errors
+    /// Writing one fails.
+    pub fn write_beside(&self, encoded: &[u8], others: &[(&Whole, Vec<u8>)]) -> Result<(), Error> {
+        let Some(file) = &self.file else { return write_standard(encoded) };
+        let others = others.iter().map(|(other, bytes)| (*other, &bytes[..]));
+        Whole::write_all(&[(file, encoded)].into_iter().chain(others).collect::<Vec<_>>())
     }
 }
 

@@ -107,6 +107,11 @@ fn sets(model: &Model, groups: &[Group], crease: f32) -> (Vec<u32>, usize) {
     let mut by_angle = false;
     for ((triangle, &group), first) in all(model).zip(groups).zip((0_u32..).step_by(3)) {
         by_angle |= group == Group::BY_ANGLE;
+        if group == Group::ALONE {
+            // One sum serves all three.
+            sets.join(first, first + 1);
+            sets.join(first, first + 2);
+        }
         if group == Group::BY_ANGLE || group == Group::ALONE {
             continue;
         }
@@ -265,7 +270,7 @@ fn give(model: &mut Model, groups: &[Group], sets: &[u32], sums: &[[f64; 3]]) {
                 vertices.push(vertex);
                 u32::try_from(vertices.len() - 1).unwrap_or(NONE)
             };
-            // The set of a flat triangle has no other corner.
+            // The set of a flat triangle has no other corner there.
             *index = match group {
                 Group::ALONE => new(),
                 _ => *others.entry((*index, set)).or_insert_with(new),

@@ -2,6 +2,7 @@
 
 mod advise;
 mod afterwards;
+mod aov;
 mod bake;
 mod compare;
 mod errors;
