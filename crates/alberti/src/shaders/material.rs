@@ -11,7 +11,7 @@
 //! A [`Material`] is compiled for its layers: one that is absent is no code. [`Together`] are layers that find their
 //! places in maps of one size once. Everything is wide, and the same at every
 //! width. Directions and places are in world space; colours are numbers from 0 to 1 in the encoding of the texels, like
-//! those of all built-in stages, or amounts of light [`InSpace`] of [`LinearLight`].
+//! those of all built-in stages. In [`LinearLight`] they are amounts of light: see [`InSpace`].
 //!
 //! ```
 //! use alberti::shaders::material::{

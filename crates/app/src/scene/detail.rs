@@ -268,14 +268,14 @@ pub enum Light {
     Directional {
         /// Towards the light, unit length.
         to_light: [f32; 3],
-        /// What arrives where it is whole.
+        /// The light that arrives where it is whole.
         color: Glow,
     },
     /// From a point.
     Point {
         /// The place.
         position: [f32; 3],
-        /// What arrives where it is whole.
+        /// The light that arrives where it is whole.
         color: Glow,
         /// The distance at which it is half as strong: 1 / (1 + (d / range)²). Infinite: no weaker anywhere.
         range: f32,
@@ -286,7 +286,7 @@ pub enum Light {
         position: [f32; 3],
         /// The direction, of unit length.
         direction: [f32; 3],
-        /// What arrives where it is whole.
+        /// The light that arrives where it is whole.
         color: Glow,
         /// As of a point.
         range: f32,

@@ -96,8 +96,8 @@ impl LightSpace for AnyLightSpace {
 /// mirror.
 ///
 /// # Precision
-/// Where [`Material`] has ½ + x of a byte, it is ½ + 1/64 + S/32 + 13 x: texels become light within 2^-17 of the
-/// greatest, light becomes bytes within 0.011 before they are rounded, and near black a byte is 1/3295 of the light.
+/// Where [`Material`] has ½ + x of a byte, it is ½ + 1/64 + S/32 + 13 x. Texels become light within 2^-17 of the
+/// greatest. Light becomes bytes within 0.011 before they are rounded, and near black a byte is 1/3295 of the light.
 /// Amounts above 2^14 count as that. In fixed point colours are within 2 bytes of that in floats, for S up to 4.
 ///
 /// # Cost
