@@ -133,7 +133,7 @@ impl<'a> Drawing<'a> {
             options,
             view,
             camera: frame(camera).map_err(refused)?,
-            rig: Rig::new(camera, options.light.key),
+            rig: Rig::new(camera, options),
             viewpoint: Viewpoint::of(camera, options),
             studio,
             textures,

@@ -21,7 +21,7 @@ pub use afterwards::{Blend, Dither, Fog, Haze};
 pub use aov::{Aov, AovFormat, Aovs};
 pub use background::Background;
 pub use filter::{Filter, Probes};
-pub use light::{KeyLight, LightOptions};
+pub use light::{KeyLight, LightOptions, LightSpace};
 pub(crate) use material::Base;
 pub use material::{MapFile, Material, Origin};
 pub use normals::{DEFAULT_CREASE, Normals};
@@ -196,4 +196,12 @@ pub struct RenderOptions {
     pub threads: NonZero<usize>,
     /// The other policies, which [`render`](crate::render::render) takes for ones that go together.
     pub policies: Policies,
+}
+
+impl RenderOptions {
+    /// Whether surfaces are lit in amounts of light.
+    #[must_use]
+    pub fn in_linear_light(&self) -> bool {
+        self.light.space == LightSpace::Linear && self.shading.is_lit()
+    }
 }

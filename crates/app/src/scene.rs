@@ -21,7 +21,8 @@ pub(crate) mod tangents;
 mod detail;
 
 pub use detail::{
-    Detail, Environment, EnvironmentKind, HeightImage, HeightMap, Light, Map, NormalMap, NormalSpace, Relief,
+    Detail, Environment, EnvironmentKind, Glow, HeightImage, HeightMap, Light, Map, NormalMap, NormalSpace,
+    Relief,
 };
 
 /// A vertex as a file or a generator gives it. Positions and normals are in object space (right-handed, y up).
@@ -95,8 +96,8 @@ pub struct Model {
     pub heights: Vec<HeightImage>,
     /// Without any, there is a lamp beside the camera.
     pub lights: Vec<Light>,
-    /// Light from everywhere, as a linear factor; `None`: as much as suits the lamp beside the camera.
-    pub ambient: Option<[f32; 3]>,
+    /// Light from everywhere; `None`: as much as suits the lamp beside the camera.
+    pub ambient: Option<Glow>,
     /// The projector and its image.
     pub slide: Option<Slide>,
     /// The file that it came from.

@@ -13,8 +13,7 @@ use alberti_math::lanes::Lanes;
 use alberti_math::{Gradient, Q16, Varying};
 use core::fmt::{self, Debug};
 use fixed::FixedQuotients;
-use floating::Quotients;
-pub use floating::RunQuotients;
+use floating::{Quotients, RunQuotients};
 
 /// A policy of differentiation, which a [`FragmentStage`](crate::FragmentStage) chooses.
 ///

@@ -176,6 +176,28 @@ pub fn schlick(facing: f64, normal: Vec3, to_viewer: Vec3) -> f64 {
     facing + (1.0 - facing) * (1.0 - cosine(normal, to_viewer).clamp(0.0, 1.0)).powi(5)
 }
 
+/// The amount of light of sRGB, by IEC 61966-2-1, for each channel from 0 to 1.
+#[must_use]
+pub fn light(color: Vec3) -> Vec3 {
+    color.map(|s| if s <= 0.04045 { s / 12.92 } else { ((s + 0.055) / 1.055).powf(2.4) })
+}
+
+/// What a screen shows of amounts of light, as sRGB from 0 to 1: beyond a brightest channel of 0.8, compressed and
+/// paler, as Khronos' neutral tone mapper has it.
+#[must_use]
+pub fn on_screen(light: Vec3) -> Vec3 {
+    let peak = light.into_iter().fold(0.0, f64::max);
+    let mapped = if peak > 0.8 {
+        // The hyperbola that goes on from the line of slope 1 at 0.8, and comes near to 1.
+        let new = 0.8 + (peak - 0.8) * 0.2 / (0.2 + (peak - 0.8));
+        let own = 1.0 / (0.15 * (peak - new) + 1.0);
+        light.map(|c| own * c * (new / peak) + (1.0 - own) * new)
+    } else {
+        light
+    };
+    mapped.map(|c| if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -7,6 +7,7 @@
 )]
 
 mod hostile;
+mod linear;
 mod saturation;
 
 use alberti::glam::{DVec3, Vec2, Vec3};

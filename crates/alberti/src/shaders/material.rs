@@ -11,7 +11,7 @@
 //! A [`Material`] is compiled for its layers: one that is absent is no code. [`Together`] are layers that find their
 //! places in maps of one size once. Everything is wide, and the same at every
 //! width. Directions and places are in world space; colours are numbers from 0 to 1 in the encoding of the texels, like
-//! those of all built-in stages.
+//! those of all built-in stages. In [`LinearLight`] they are amounts of light: see [`InSpace`].
 //!
 //! ```
 //! use alberti::shaders::material::{
@@ -39,6 +39,7 @@
 
 mod layers;
 mod light;
+mod light_space;
 mod reflectance;
 mod reflection;
 mod relief;
@@ -48,6 +49,7 @@ mod vector;
 
 pub use layers::{Color, Emission, Gloss, Occlusion, Specular, Wetness};
 pub use light::{AnyLight, Directional, Light, PointLight, SpotLight};
+pub use light_space::{AnyLightSpace, InSpace, LightSpace, LinearLight};
 pub use map::{Called, Map, Times};
 pub use reflectance::{AnyReflectance, BlinnPhong, Lambert, Phong, Reflectance};
 pub use reflection::Reflection;
@@ -103,8 +105,17 @@ impl<M, Ls: Light, R> Material<M, Ls, R> {
     where
         M: Layer<V>,
     {
+        self.surface_in(fragments, false)
+    }
+
+    /// The same in linear light or not.
+    #[inline(always)]
+    fn surface_in<L: Lanes, V: OnSurface>(&self, fragments: &Fragments<L, V>, linear: bool) -> Surface<L>
+    where
+        M: Layer<V>,
+    {
         let Fragments { lanes, varying, gradient, .. } = *fragments;
-        let surface = Surface::new(lanes, V::uv(&varying), gradient.map(|bundle| V::uv(&bundle)));
+        let surface = Surface::new(lanes, V::uv(&varying), gradient.map(|bundle| V::uv(&bundle)), linear);
         let mut surface = surface.placed::<V>(lanes, &varying, self.lighting.viewer);
         self.layers.apply(lanes, &varying, &mut surface);
         surface
@@ -226,8 +237,18 @@ impl<M: Layer<Vec2>> Gouraud<M> {
     /// The surface at fragments after all layers.
     #[inline(always)]
     pub fn surface<L: Lanes>(&self, fragments: &Fragments<L, (Vec3, (Vec3, Vec2))>) -> Surface<L> {
+        self.surface_in(fragments, false)
+    }
+
+    /// The same in linear light or not.
+    #[inline(always)]
+    fn surface_in<L: Lanes>(
+        &self,
+        fragments: &Fragments<L, (Vec3, (Vec3, Vec2))>,
+        linear: bool,
+    ) -> Surface<L> {
         let Fragments { lanes, varying: (_, (_, uv)), gradient, .. } = *fragments;
-        let mut surface = Surface::new(lanes, uv, gradient.map(|(_, (_, uv))| uv));
+        let mut surface = Surface::new(lanes, uv, gradient.map(|(_, (_, uv))| uv), linear);
         self.layers.apply(lanes, &uv, &mut surface);
         surface
     }

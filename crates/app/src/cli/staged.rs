@@ -18,8 +18,8 @@ use crate::load::{obj, prepare};
 use crate::options::values::{Color, MAX_THREADS, Size, Threads, name_of as name_of_value};
 use crate::options::{
     Background, CameraTable, ColorFormat, Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE,
-    DepthFormat, Filter, Fog, Haze, KeyLight, LightOptions, Profile, Projection, RenderOptions, Samples,
-    Shading, Wrap,
+    DepthFormat, Filter, Fog, Haze, KeyLight, LightOptions, LightSpace, Profile, Projection, RenderOptions,
+    Samples, Shading, Wrap,
 };
 use crate::output::aov::{self, Beside};
 use crate::output::file::{Output, Whole};
@@ -288,6 +288,7 @@ impl Request {
                 } else {
                     KeyLight::Lamp
                 }),
+                space: arguments.render.light_space.unwrap_or(LightSpace::Srgb),
             },
             shading: arguments.render.shading.unwrap_or(if shiny { Shading::Blinn } else { shading }),
             filter: arguments.render.filter.unwrap_or(filter),

@@ -3,7 +3,7 @@
 use super::erased::Attributes;
 use super::general::Surface;
 use super::position;
-use crate::scene::Vertex;
+use crate::scene::{Glow, Vertex};
 use alberti::glam::{Vec2, Vec3};
 use alberti::shaders::material::{AnyLight, AnyReflectance, Framed, Lighting};
 use alberti::{Geometry, Homogeneous, Object, Point3, Projector, Vector3};
@@ -13,6 +13,8 @@ pub(super) struct Clothed<'a> {
     pub(super) surface: Surface<'a>,
     /// The lights that fall on it.
     pub(super) lighting: Lighting<&'a [AnyLight], AnyReflectance>,
+    /// Whether colours are amounts of light.
+    pub(super) linear: bool,
     /// Whether the vertices' colours multiply its own.
     pub(super) colored: bool,
     /// Whether it has texture coordinates.
@@ -27,6 +29,11 @@ impl Clothed<'_> {
     /// The place of a vertex, and its attributes but for those of the projector's image.
     pub(super) fn vertex(&self, v: &Vertex) -> (Point3<Object>, Framed) {
         (position(v), framed(self, v))
+    }
+
+    /// Its colour, in the space of the surface's light.
+    fn color(&self, v: &Vertex) -> Vec3 {
+        Vec3::from_array(Glow { color: v.color, intensity: 1.0 }.factors(self.linear))
     }
 
     /// Its place on the projector's image.
@@ -51,16 +58,15 @@ fn framed(clothed: &Clothed<'_>, v: &Vertex) -> Framed {
         Surface::Unlit(_) => flat(Vec3::ZERO),
         Surface::Lit(_) => flat(normal),
         Surface::ByFragment(_) => {
-            let color = Vec3::from_array(v.color);
             if clothed.colored {
-                return Framed { position: place, axes: [color, Vec3::ZERO, normal], uv };
+                return Framed { position: place, axes: [clothed.color(v), Vec3::ZERO, normal], uv };
             }
             let tangent = Vec3::new(x, y, z);
             Framed { position: place, axes: [tangent, normal.cross(tangent) * handedness, normal], uv }
         }
         Surface::ByVertex(_) => {
             let [scattered, mirrored] = clothed.lighting.at_vertex(Point3::new(place), Vector3::new(normal));
-            let color = if clothed.colored { Vec3::from_array(v.color) } else { Vec3::ONE };
+            let color = if clothed.colored { clothed.color(v) } else { Vec3::ONE };
             Framed { position: place, axes: [scattered * color, mirrored, normal], uv }
         }
     }

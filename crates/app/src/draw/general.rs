@@ -13,12 +13,14 @@ use super::studio::{Lamplit, Rig};
 use super::used::Used;
 use super::{Canvas, Drawing, memory};
 use crate::error::Error;
-use crate::options::{Arithmetic, Filter, Interpolation, Projection, RenderOptions, Shading};
+use crate::options::{Arithmetic, Filter, Interpolation, RenderOptions, Shading};
 use crate::scene::{Camera, Detail, Model, Part};
 use alberti::lanes::{Lanes, Machine, One};
 use alberti::raster::PerPixel;
 use alberti::raster::color::{AnyBlend, Blended};
-use alberti::shaders::material::{AnyLight, AnyReflectance, Framed, Gouraud, Material};
+use alberti::shaders::material::{
+    AnyLight, AnyLightSpace, AnyReflectance, Framed, Gouraud, InSpace, Material,
+};
 use alberti::shaders::{Mix, Slide, Unlit, VertexColor};
 use alberti::texture::{AnyFilter, Clamp, Sampler, format::Rgba8888};
 use alberti::{FixedPoint, FragmentStage, Fragments, Lines, Planes, Rgba8, Stats, for_lanes};
@@ -30,7 +32,8 @@ pub(super) fn is_lit(part: &Part, model: &Model, options: &RenderOptions) -> boo
     let mipmapped = part.texture.is_some() && !matches!(options.filter, Filter::Nearest | Filter::Bilinear);
     let highlights = !matches!(options.shading, Shading::Unlit | Shading::VertexColor | Shading::Lambert);
     let lamps = options.shading.is_lit() && (!model.lights.is_empty() || model.ambient.is_some());
-    options.shading != Shading::VertexColor && (part.detail != plain || mipmapped || highlights || lamps)
+    let more = mipmapped || highlights || lamps || options.in_linear_light();
+    options.shading != Shading::VertexColor && (part.detail != plain || more)
 }
 
 /// The maps and the lights that all surfaces share.
@@ -46,10 +49,9 @@ impl Studio {
     /// # Errors
     /// A texture that cannot be drawn.
     pub(crate) fn new(model: &Model, camera: &Camera, options: &RenderOptions) -> Result<Self, Error> {
-        let parallel = options.projection != Projection::Perspective;
         Ok(Self {
             chains: Chains::new(model, options)?,
-            lamps: Lamps::new(model, camera, parallel, &Rig::new(camera, options.light.key)),
+            lamps: Lamps::new(model, camera, options, &Rig::new(camera, options)),
         })
     }
 }
@@ -60,8 +62,8 @@ pub(super) enum Surface<'a> {
     Colors,
     Unlit(Unlit<Skin<'a>>),
     Lit(Lamplit<Skin<'a>>),
-    ByFragment(Material<Painted<'a>, &'a [AnyLight], AnyReflectance>),
-    ByVertex(Gouraud<Painted<'a>>),
+    ByFragment(InSpace<Material<Painted<'a>, &'a [AnyLight], AnyReflectance>, AnyLightSpace>),
+    ByVertex(InSpace<Gouraud<Painted<'a>>, AnyLightSpace>),
 }
 
 impl FragmentStage<Framed> for Surface<'_> {
@@ -145,10 +147,14 @@ impl<'a> Drawing<'a> {
         let painted = Painted::new(part, self.model, chains, options, self.camera);
         let material = painted.lit(shading, part.detail.shininess, lamps);
         let lit = is_lit(part, self.model, options);
+        let linear = options.in_linear_light();
+        let space = if linear { AnyLightSpace::Linear } else { AnyLightSpace::Srgb };
         let surface = match shading {
             Shading::VertexColor => Surface::Colors,
-            Shading::Gouraud if lit => Surface::ByVertex(Gouraud { layers: material.layers }),
-            _ if lit => Surface::ByFragment(material),
+            Shading::Gouraud if lit => {
+                Surface::ByVertex(InSpace { surface: Gouraud { layers: material.layers }, space })
+            }
+            _ if lit => Surface::ByFragment(InSpace { surface: material, space }),
             Shading::Unlit => Surface::Unlit(Unlit(self.skin(part))),
             _ => Surface::Lit(self.lit(self.skin(part))),
         };
@@ -156,7 +162,7 @@ impl<'a> Drawing<'a> {
         let projector = self.slide.map(|(projector, _)| projector);
         let placed = self.options.haze.is_some();
         let colored = part.detail.carries_colors();
-        Clothed { surface, lighting: material.lighting, colored, textured, placed, projector }
+        Clothed { surface, lighting: material.lighting, linear, colored, textured, placed, projector }
     }
 
     /// A part's surface as a material at each fragment, whatever the shading, with all attributes but an image's.

@@ -2,7 +2,8 @@
 
 use super::AMBIENT;
 use super::studio::Rig;
-use crate::scene::{self, Camera, EnvironmentKind, Image, Model};
+use crate::options::{Projection, RenderOptions};
+use crate::scene::{self, Camera, EnvironmentKind, Glow, Image, Model};
 use alberti::glam::Vec3;
 use alberti::shaders::material::{AnyLight, Directional, PointLight, SpotLight, Viewer};
 use alberti::texture::environment::{AnyEnvironment, CubeMap, SphereMap, Turned};
@@ -19,19 +20,19 @@ pub(crate) struct Lamps {
 
 impl Lamps {
     /// The lighting of a model, or else of a rig.
-    pub(super) fn new(model: &Model, camera: &Camera, parallel: bool, rig: &Rig) -> Self {
-        let lights: Vec<AnyLight> = model.lights.iter().map(lamp).collect();
+    pub(super) fn new(model: &Model, camera: &Camera, options: &RenderOptions, rig: &Rig) -> Self {
+        let linear = options.in_linear_light();
+        let lights: Vec<AnyLight> = model.lights.iter().map(|light| lamp(light, linear)).collect();
         let own = lights.is_empty() && model.ambient.is_none();
         let beside = |(to_light, strength)| {
             AnyLight::Directional(Directional::new(Vector3::new(to_light), Vec3::splat(strength)))
         };
+        let ambient = model.ambient.unwrap_or(Glow { color: [AMBIENT; 3], intensity: 1.0 });
         let [eye, target] = [camera.eye, camera.target].map(Vec3::from_array);
         Self {
-            ambient: model
-                .ambient
-                .map_or(Vec3::splat(if own { rig.ambient } else { AMBIENT }), Vec3::from_array),
+            ambient: if own { Vec3::splat(rig.ambient) } else { amount(ambient, linear) },
             lights: if own { rig.shining().map(beside).collect() } else { lights },
-            viewer: if parallel {
+            viewer: if options.projection != Projection::Perspective {
                 Viewer::towards(Vector3::new(eye - target))
             } else {
                 Viewer::at(Point3::new(eye))
@@ -40,17 +41,21 @@ impl Lamps {
     }
 }
 
+fn amount(glow: Glow, linear: bool) -> Vec3 {
+    Vec3::from_array(glow.factors(linear))
+}
+
 /// A model's light.
-fn lamp(light: &scene::Light) -> AnyLight {
-    let point = |position: [f32; 3], color: [f32; 3], range: f32| PointLight {
+fn lamp(light: &scene::Light, linear: bool) -> AnyLight {
+    let point = |position: [f32; 3], color: Glow, range: f32| PointLight {
         position: Point3::new(Vec3::from_array(position)),
-        color: Vec3::from_array(color),
+        color: amount(color, linear),
         falloff: [1.0, 0.0, 1.0 / (range * range)],
     };
     match *light {
         scene::Light::Directional { to_light, color } => {
             let to_light = Vector3::new(Vec3::from_array(to_light));
-            AnyLight::Directional(Directional::new(to_light, Vec3::from_array(color)))
+            AnyLight::Directional(Directional::new(to_light, amount(color, linear)))
         }
         scene::Light::Point { position, color, range } => AnyLight::Point(point(position, color, range)),
         scene::Light::Spot { position, direction, color, range, inner, outer } => {

@@ -1,7 +1,7 @@
 //! The light of a model that has none: one lamp, or a key light with two that make shapes plain.
 
 use super::{AMBIENT, DIFFUSE, frame};
-use crate::options::KeyLight;
+use crate::options::{KeyLight, RenderOptions};
 use crate::scene::Camera;
 use alberti::glam::Vec3;
 use alberti::lanes::Lanes;
@@ -20,15 +20,26 @@ pub(crate) struct Rig {
 /// surface would get more than 1.
 const STUDIO: (f32, [f32; 3]) = (0.2, [0.7, 0.22, 0.2]);
 
+/// The same in amounts of light, of which less makes a byte in the shade.
+const LINEAR_STUDIO: (f32, [f32; 3]) = (0.06, [0.8, 0.14, 0.25]);
+
+/// The lamp in amounts of light, with the ambient light.
+const LINEAR_LAMP: [f32; 2] = [0.08, 0.92];
+
 /// The directions of fill and rim light: degrees to the right of the key light, and above the camera.
 const BESIDE: [[f32; 2]; 2] = [[85.0, 5.0], [190.0, 35.0]];
 
 impl Rig {
     /// That of a camera.
-    pub(super) fn new(camera: &Camera, key: KeyLight) -> Self {
+    pub(super) fn new(camera: &Camera, options: &RenderOptions) -> Self {
+        Self::of(camera, options.light.key, options.in_linear_light())
+    }
+
+    fn of(camera: &Camera, key: KeyLight, linear: bool) -> Self {
         let none = (Vec3::Y, 0.0);
         let KeyLight::Studio([azimuth, elevation]) = key else {
-            return Self { ambient: AMBIENT, lights: [(super::to_light(camera), DIFFUSE), none, none] };
+            let [ambient, lamp] = if linear { LINEAR_LAMP } else { [AMBIENT, DIFFUSE] };
+            return Self { ambient, lights: [(super::to_light(camera), lamp), none, none] };
         };
         let axes = frame(camera).ok().map(|frame| frame.axes());
         let towards = |azimuth: f32, elevation: f32| {
@@ -37,7 +48,7 @@ impl Rig {
             let to_light = Vec3::new(right * level, up, -near * level);
             axes.map_or(Vec3::Y, |axes| (axes * to_light).normalize())
         };
-        let (ambient, [main, fill, rim]) = STUDIO;
+        let (ambient, [main, fill, rim]) = if linear { LINEAR_STUDIO } else { STUDIO };
         let [[a, b], [c, d]] = BESIDE;
         let to_lights = [towards(azimuth, elevation), towards(azimuth + a, b), towards(azimuth + c, d)];
         // The most that a surface gets is the longest sum of some of the vectors.
@@ -85,16 +96,16 @@ impl<M: Copy> Lamplit<M> {
     /// The same of three lights: ambient + Σ strength · max(0, n·l).
     #[inline(always)]
     fn sum<L: Lanes>(&self, lanes: L, [x, y, z]: [L::Number; 3]) -> L::Number {
-        let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
-        let scale = one / lanes.sqrt(x * x + y * y + z * z);
-        let mut sum = lanes.splat(self.rig.ambient);
-        for (Vec3 { x: lx, y: ly, z: lz }, strength) in self.rig.lights {
-            let cosine = (x * lanes.splat(lx) + y * lanes.splat(ly) + z * lanes.splat(lz)) * scale;
-            // As in `Sunlit`, a normal without a direction takes none.
-            let facing = lanes.select(lanes.less(zero, cosine), lanes.min(cosine, one), zero);
-            sum = sum + lanes.splat(strength) * facing;
+        let zero = lanes.splat(0.0);
+        let mut sum = zero;
+        for (to_light, strength) in self.rig.lights {
+            let Vec3 { x: lx, y: ly, z: lz } = to_light * strength;
+            let along = x * lanes.splat(lx) + y * lanes.splat(ly) + z * lanes.splat(lz);
+            sum = sum + lanes.max(along, zero);
         }
-        sum
+        // All are divided by the normal's length at once. As in `Sunlit`, one without a direction takes none.
+        let arriving = sum / lanes.sqrt(x * x + y * y + z * z);
+        lanes.splat(self.rig.ambient) + lanes.select(lanes.less(zero, sum), arriving, zero)
     }
 }
 
@@ -153,14 +164,17 @@ mod tests {
             KeyLight::Studio([120.0, -20.0]),
             KeyLight::Studio([0.0, 90.0]),
         ] {
-            let rig = Rig::new(&CAMERA, key);
-            let mut most = 0.0_f32;
+            let rigs = [false, true].map(|linear| Rig::of(&CAMERA, key, linear));
+            let mut most = [0.0_f32; 2];
             for k in 0..20_000_u16 {
                 let (z, turn) = (f32::from(k) / 10_000.0 - 1.0, f32::from(k) * 2.399_963);
                 let around = (1.0 - z * z).max(0.0).sqrt();
-                most = most.max(light(&rig, Vec3::new(around * turn.cos(), around * turn.sin(), z)));
+                let normal = Vec3::new(around * turn.cos(), around * turn.sin(), z);
+                for (most, rig) in most.iter_mut().zip(&rigs) {
+                    *most = most.max(light(rig, normal));
+                }
             }
-            assert!(most < 1.000_01 && most > 0.85, "{key:?} {most}");
+            assert!(most.iter().all(|most| (0.85..1.000_01).contains(most)), "{key:?} {most:?}");
         }
     }
 
@@ -168,7 +182,7 @@ mod tests {
     #[test]
     fn the_sides_of_a_box_differ() {
         let camera = Camera { eye: [3.0, 2.25, 5.0], ..CAMERA };
-        let rig = Rig::new(&camera, KeyLight::STUDIO);
+        let rig = Rig::of(&camera, KeyLight::STUDIO, false);
         let [right, top, front] = [Vec3::X, Vec3::Y, Vec3::Z].map(|normal| light(&rig, normal));
         for (a, b) in [(right, top), (top, front), (front, right)] {
             assert!((a - b).abs() > 0.1, "{right} {top} {front}");
@@ -178,9 +192,9 @@ mod tests {
     /// A stage of one sample, and of a key light in the direction that is asked for.
     #[test]
     fn fragments_get_the_sum() {
-        let rig = Rig::new(&CAMERA, KeyLight::Studio([90.0, 0.0]));
+        let rig = Rig::of(&CAMERA, KeyLight::Studio([90.0, 0.0]), false);
         assert!((rig.lights[0].0 - Vec3::X).length() < 1e-6);
-        for rig in [rig, Rig::new(&CAMERA, KeyLight::Lamp)] {
+        for rig in [rig, Rig::of(&CAMERA, KeyLight::Lamp, false)] {
             let stage = Lamplit::new(Rgba8::new(200, 100, 50, 77), rig);
             for normal in [Vec3::X, Vec3::new(0.3, 3.0, -0.5), Vec3::new(-1.0, 0.2, 0.4)] {
                 let expected = light(&rig, normal.normalize());

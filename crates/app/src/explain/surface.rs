@@ -70,7 +70,13 @@ impl Scene<'_> {
                     block.value("factor", "factor: ambient + sum of diffuse x cosine above 0", *factor);
                 }
             }
-            lamps @ Light::Lamps { .. } => put_lamps(&mut block, lamps),
+            lamps @ Light::Lamps { .. } => {
+                if self.options.in_linear_light() {
+                    let space = "amounts of light, tone-mapped and encoded as sRGB";
+                    block.value("space", "colours and lights", space);
+                }
+                put_lamps(&mut block, lamps);
+            }
         }
         if fragment.part.texture.is_none() || look.factor != Rgba8::WHITE {
             block.value("material", "the material's colour", hex(look.factor));

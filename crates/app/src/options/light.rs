@@ -3,7 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
-use super::values::words;
+use super::values::{one_of, words};
+use clap::ValueEnum;
 
 /// Policies of light. The default is that of a program that does without: surfaces of one side, and one lamp.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -12,6 +13,18 @@ pub struct LightOptions {
     pub two_sided: bool,
     /// The light of a scene that has none.
     pub key: KeyLight,
+    /// The space in which it is computed.
+    pub space: LightSpace,
+}
+
+/// The space in which light is computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum LightSpace {
+    /// The bytes of colours as they are.
+    #[default]
+    Srgb,
+    /// Amounts of light, of which what is brighter than the screen is tone-mapped.
+    Linear,
 }
 
 /// The light of a scene that has none of its own.
@@ -55,6 +68,7 @@ impl fmt::Display for KeyLight {
 }
 
 words!(str::parse: KeyLight);
+words!(one_of: LightSpace);
 
 #[cfg(test)]
 mod tests {

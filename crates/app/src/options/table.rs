@@ -12,8 +12,8 @@ use serde::{Deserialize, Deserializer};
 use super::values::{Color, Elevation, Finite, Number, Point, Size, Zoom};
 use super::{
     AovFormat, Aovs, Arithmetic, Background, ColorFormat, Cull, DepthFormat, Dither, FileFormat, Filter, Fog,
-    Interpolation, KeyLight, Lod, Normals, Policies, Profile, ProjectionKind, Samples, Shading, Subpixel,
-    ViewSide, Wrap,
+    Interpolation, KeyLight, LightSpace, Lod, Normals, Policies, Profile, ProjectionKind, Samples, Shading,
+    Subpixel, ViewSide, Wrap,
 };
 use crate::error::Error;
 
@@ -262,6 +262,13 @@ pub struct RenderTable {
     /// light beside the camera, as built-in scenes have it.
     #[arg(long, value_name = "AZ,EL", allow_hyphen_values = true, help_heading = SURFACE)]
     pub light: Option<KeyLight>,
+
+    /// Space in which light is added up: bytes of sRGB as they are, or amounts of light [default: srgb].
+    ///
+    /// In linear, colours are decoded from sRGB, and the sum is tone-mapped, so that highlights keep their shape, and
+    /// encoded. Files of `bake` do not have it.
+    #[arg(long, value_enum, value_name = "SPACE", help_heading = SURFACE)]
+    pub light_space: Option<LightSpace>,
 
     /// A ground at the lowest point, of which a soft shadow is seen. In pictures alone.
     #[arg(long, value_name = "true|false", num_args = 0..=1, require_equals = true, default_missing_value = "true", help_heading = SURFACE)]

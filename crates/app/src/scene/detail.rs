@@ -4,6 +4,8 @@ use clap::ValueEnum;
 
 use crate::options::values::{one_of, words};
 use crate::options::{Filter, Wrap};
+use crate::scene::normals::narrow;
+use alberti::math::srgb;
 use alberti::raster::color::AnyBlend;
 
 /// An image on a surface, and how it is read.
@@ -241,23 +243,40 @@ pub struct HeightImage {
     pub heights: Vec<u16>,
 }
 
-/// A light in world space. Colours are factors of the light that a white surface sends back, linear and not limited
-/// to 1.
+/// Light of a colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Glow {
+    /// sRGB in 0..=1.
+    pub color: [f32; 3],
+    /// A factor, not limited to 1.
+    pub intensity: f32,
+}
+
+impl Glow {
+    /// The factors of what a white surface sends back: bytes, or amounts of light.
+    #[must_use]
+    pub fn factors(self, linear: bool) -> [f32; 3] {
+        let share = |share: f32| if linear { narrow(srgb::light(share.into())) } else { share };
+        self.color.map(|color| share(color) * self.intensity)
+    }
+}
+
+/// A light in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Light {
     /// From so far away that it comes from one direction.
     Directional {
         /// Towards the light, unit length.
         to_light: [f32; 3],
-        /// Colour times intensity.
-        color: [f32; 3],
+        /// The light that arrives where it is whole.
+        color: Glow,
     },
     /// From a point.
     Point {
         /// The place.
         position: [f32; 3],
-        /// Colour times intensity.
-        color: [f32; 3],
+        /// The light that arrives where it is whole.
+        color: Glow,
         /// The distance at which it is half as strong: 1 / (1 + (d / range)²). Infinite: no weaker anywhere.
         range: f32,
     },
@@ -267,8 +286,8 @@ pub enum Light {
         position: [f32; 3],
         /// The direction, of unit length.
         direction: [f32; 3],
-        /// Colour times intensity.
-        color: [f32; 3],
+        /// The light that arrives where it is whole.
+        color: Glow,
         /// As of a point.
         range: f32,
         /// Degrees from the axis up to which it is full.

@@ -177,3 +177,71 @@ fn a_ground_has_a_soft_shadow() {
     let run = folder.succeeds(&[&view[..], &["--ground", "--shading", "vertex-color"]].concat());
     assert!(run.stderr.contains("--ground: found it with vertex-color"), "{run:?}");
 }
+
+/// The same face in either space, by the relations of each in `f64`; by an option and by a key of a scene.
+#[test]
+fn light_is_added_up_in_linear_space() {
+    let decoded = |s: f64| if s <= 0.04045 { s / 12.92 } else { ((s + 0.055) / 1.055).powf(2.4) };
+    let encoded = |x: f64| if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
+    let scene = |intensity: f64, key: &str| {
+        format!(
+            "[camera]\neye = [0, 0, 3]\ntarget = [0, 0, 0]\n[[object]]\nsurface = \"plane\"\nrotation = [90, 0, 0]\n\
+             material = \"m\"\n[material.m]\ncolor = \"c08040\"\n[ambient]\ncolor = \"806040\"\nintensity = 0.5\n\
+             [[light]]\nkind = \"directional\"\ndirection = [0, -0.8, -0.6]\ncolor = \"c0ffe0\"\n\
+             intensity = {intensity}\n[render]\nsize = [32, 32]\nsamples = 1\n{key}"
+        )
+    };
+    let texts = [0.9, 6.0, 9.0]
+        .map(|intensity| [scene(intensity, ""), scene(intensity, "light-space = \"linear\"\n")]);
+    let middle = |text: &str, more: &[&str]| {
+        let folder = Folder::with(&[("s.toml", text.as_bytes())]);
+        folder.succeeds(&[&["s.toml"], more].concat());
+        image::open(folder.path("alberti.png")).expect("a picture").to_rgb8().get_pixel(16, 16).0
+    };
+    for ([plain, keyed], intensity) in texts.iter().zip([0.9, 6.0, 9.0]) {
+        let linear = middle(keyed, &[]);
+        assert_eq!(middle(plain, &["--light-space", "linear"]), linear);
+        assert_eq!(middle(keyed, &["--light-space", "srgb"]), middle(plain, &[]));
+        let channels = [(0xc0, 0x80, 0xc0), (0x80, 0x60, 0xff), (0x40, 0x40, 0xe0)];
+        let sum = |of: &dyn Fn(f64) -> f64| {
+            channels.map(|(own, ambient, light)| {
+                let [own, ambient, light] = [own, ambient, light].map(|byte| of(f64::from(byte) / 255.0));
+                own * (0.5 * ambient + 0.6 * intensity * light)
+            })
+        };
+        let bytes = middle(plain, &[]);
+        for (found, exact) in bytes.into_iter().zip(sum(&|s| s)) {
+            assert!((f64::from(found) - (255.0 * exact).min(255.0)).abs() < 0.6, "{bytes:?}");
+        }
+        let light = sum(&decoded);
+        let peak = light.into_iter().fold(0.0, f64::max);
+        let new = if peak > 0.8 { 1.0 - 0.04 / (peak - 0.6) } else { peak };
+        let white = 1.0 - 1.0 / (1.0 + 0.15 * (peak - new));
+        for (found, exact) in linear.into_iter().zip(light) {
+            let shown = exact * new / peak * (1.0 - white) + new * white;
+            assert!((f64::from(found) - 255.0 * encoded(shown)).abs() < 0.7, "{linear:?} {light:?}");
+        }
+    }
+    let [_, [six, _], [nine, _]] = &texts;
+    let [six, nine] = [six, nine].map(|text| middle(text, &["--light-space", "linear"]));
+    assert!(six != nine && six.iter().max() < Some(&255), "{six:?} {nine:?}");
+    // Without light there is no space of it.
+    let unlit =
+        ["linear", "srgb"].map(|space| middle(&texts[0][0], &["--shading", "unlit", "--light-space", space]));
+    assert_eq!(unlit[0], unlit[1]);
+    let folder = Folder::with(&[("s.toml", texts[0][0].as_bytes())]);
+    folder.fails(&["s.toml", "--light-space", "gamma"], &["--light-space", "srgb", "linear"]);
+}
+
+/// What is said of a pixel in linear light is what is drawn there.
+#[test]
+fn linear_light_is_explained() {
+    let folder = Folder::with(&[("sheet.obj", sheet(true).as_bytes())]);
+    for shading in ["lambert", "blinn", "gouraud"] {
+        let arguments = ["sheet.obj", "--shading", shading, "--light-space", "linear", "--pixel", "320,240"];
+        let run = alberti(folder.path("").as_path(), &[OsStr::new("explain")], &arguments);
+        assert_eq!(run.status, Some(0), "{run:?}");
+        assert!(run.stdout.contains("amounts of light"), "{run:?}");
+        assert!(run.stdout.ends_with("the derived colour is the picture's, to the bit\n"), "{run:?}");
+    }
+}

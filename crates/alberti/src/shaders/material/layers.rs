@@ -96,10 +96,10 @@ macro_rules! of_texels {
 }
 of_texels! {
     Color of Varying: |_, lanes, surface, words| {
-        surface.diffuse = colors(lanes, words);
+        surface.diffuse = surface.colors(lanes, words);
         surface.alpha = lanes.shr(words, 24);
     };
-    Specular of Varying: |_, lanes, surface, words| surface.specular = colors(lanes, words);
+    Specular of Varying: |_, lanes, surface, words| surface.specular = surface.colors(lanes, words);
     Gloss of Varying: |_, lanes, surface, words| surface.gloss = red(lanes, words);
     Wetness of Varying: |_, lanes, surface, words| {
         let wetness = red(lanes, words);
@@ -109,7 +109,7 @@ of_texels! {
         surface.openness = ambient_occlusion_lanes(lanes, red(lanes, words), layer.strength);
     };
     Emission of Varying: |_, lanes, surface, words| {
-        surface.emission = plus(lanes, surface.emission, colors(lanes, words));
+        surface.emission = plus(lanes, surface.emission, surface.colors(lanes, words));
     };
 }
 of_maps! {

@@ -1,6 +1,6 @@
 //! Reflections of a surface's surroundings.
 
-use super::layers::{colors, red};
+use super::layers::red;
 use super::map::Map;
 use super::surface::{Layer, OnSurface, Surface};
 use super::vector::{plus, times};
@@ -44,7 +44,7 @@ impl<V: OnSurface, E: Environment, I: Map, M: Map> Layer<V> for Reflection<E, I,
         let direction = reflect_lanes(lanes, surface.normal, surface.to_viewer);
         let uv = self.environment.place(lanes, direction);
         let steady = Gradient { dx: [zero; 2], dy: [zero; 2] };
-        let mirrored = colors(lanes, self.image.read(lanes, uv, &steady));
+        let mirrored = surface.colors(lanes, self.image.read(lanes, uv, &steady));
         let strength = red(lanes, self.strength.read(lanes, surface.uv, &surface.gradient));
 
         let cosine = lanes.min(lanes.max(nx * vx + ny * vy + nz * vz, zero), one);

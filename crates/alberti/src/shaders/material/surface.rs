@@ -7,6 +7,8 @@ use alberti_raster::{Differentiation, Gradient, NoDerivatives};
 use alberti_texture::surface::unit_lanes;
 use core::fmt::Debug;
 
+use super::layers::colors;
+use super::light_space::{decoded, shown};
 use super::vector::{by, plus, times, towards};
 use crate::shaders::wide::pack;
 
@@ -139,12 +141,19 @@ pub struct Surface<L: Lanes> {
     pub emission: [L::Number; 3],
     /// The alpha that is stored, a byte: 255 to begin with.
     pub alpha: L::U32,
+    /// Whether the colours are amounts of light, or else bytes over 255: see [`InSpace`](super::InSpace).
+    pub linear: bool,
 }
 
 impl<L: Lanes> Surface<L> {
     /// A surface that is white, matt, and nowhere.
     #[inline(always)]
-    pub(super) fn new(lanes: L, uv: [L::Number; 2], gradient: Gradient<[L::Number; 2]>) -> Self {
+    pub(super) fn new(
+        lanes: L,
+        uv: [L::Number; 2],
+        gradient: Gradient<[L::Number; 2]>,
+        linear: bool,
+    ) -> Self {
         let (zero, one) = (lanes.splat(0.0), lanes.splat(1.0));
         Self {
             uv,
@@ -158,7 +167,14 @@ impl<L: Lanes> Surface<L> {
             openness: one,
             emission: [zero; 3],
             alpha: lanes.word(255),
+            linear,
         }
+    }
+
+    /// The three colours of words, from 0 to 1, in the space of this surface.
+    #[inline(always)]
+    pub fn colors(&self, lanes: L, words: L::U32) -> [L::Number; 3] {
+        if self.linear { decoded(lanes, words) } else { colors(lanes, words) }
     }
 
     /// The same surface in its place.
@@ -173,7 +189,8 @@ impl<L: Lanes> Surface<L> {
     #[inline(always)]
     pub(super) fn seen(&self, lanes: L, scattered: [L::Number; 3], mirrored: [L::Number; 3]) -> L::U32 {
         let seen = plus(lanes, by(lanes, self.diffuse, scattered), by(lanes, self.specular, mirrored));
-        let [r, g, b] = times(lanes, plus(lanes, self.emission, seen), lanes.splat(255.0));
+        let seen = plus(lanes, self.emission, seen);
+        let [r, g, b] = if self.linear { shown(lanes, seen) } else { times(lanes, seen, lanes.splat(255.0)) };
         pack(lanes, [lanes.nearest_byte(r), lanes.nearest_byte(g), lanes.nearest_byte(b), self.alpha])
     }
 }

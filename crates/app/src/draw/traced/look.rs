@@ -189,7 +189,7 @@ impl Drawing<'_> {
             }
             Surface::ByFragment(material) => {
                 let surface = material.surface(framed);
-                let lighting = &material.lighting;
+                let lighting = &material.surface.lighting;
                 let shine = |light: &AnyLight| {
                     let arrives = light.fold(lanes, surface.position, None, |_, to, color| Some((to, color)));
                     let (to_light, color) = arrives?;

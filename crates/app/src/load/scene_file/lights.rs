@@ -4,8 +4,8 @@ use super::SceneFile;
 use super::tables::{self, LightKind};
 use crate::error::Error;
 use crate::options::values::{Color, Intensity, Number, Place, Tuple};
-use crate::scene::Light;
 use crate::scene::normals::{narrow, normalize, sub};
+use crate::scene::{Glow, Light};
 
 /// Degrees from a spot's axis up to which it is full, and from which there is none.
 const ANGLE: [f32; 2] = [20.0, 30.0];
@@ -21,8 +21,8 @@ impl SceneFile {
     }
 
     /// The light from everywhere.
-    pub(super) fn ambient(&self) -> Option<[f32; 3]> {
-        self.file.ambient.as_ref().map(|ambient| factors(ambient.color, ambient.intensity))
+    pub(super) fn ambient(&self) -> Option<Glow> {
+        self.file.ambient.as_ref().map(|ambient| glow(ambient.color, ambient.intensity))
     }
 
     fn light(&self, light: &tables::Light, path: &str, origin: [f64; 3]) -> Result<Light, Error> {
@@ -37,7 +37,7 @@ impl SceneFile {
         ] {
             self.source.only(&format!("{path}.{key}"), has, what)?;
         }
-        let color = factors(light.color, light.intensity);
+        let color = glow(light.color, light.intensity);
         let range = light.range.map_or(f32::INFINITY, f32::from);
         let position = || match light.position {
             Some(position) => Ok(sub(position.into(), origin).map(narrow)),
@@ -86,7 +86,7 @@ impl SceneFile {
     }
 }
 
-fn factors(color: Option<Color>, intensity: Option<Number<Intensity>>) -> [f32; 3] {
+fn glow(color: Option<Color>, intensity: Option<Number<Intensity>>) -> Glow {
     let Color(color) = color.unwrap_or(Color([1.0; 3]));
-    color.map(|share| share * intensity.map_or(1.0, f32::from))
+    Glow { color, intensity: intensity.map_or(1.0, f32::from) }
 }

@@ -3,6 +3,7 @@
 use super::*;
 use crate::options::values::Size;
 use crate::options::{CameraTable, Filter, Probes, ProjectorTable, RenderTable, Shading};
+use crate::scene::Glow;
 use crate::scene::{EnvironmentKind, Light, NormalSpace, Relief};
 use clap::{Args as _, Command, FromArgMatches as _};
 use serde::de::DeserializeOwned;
@@ -137,13 +138,17 @@ fn materials_lights_and_places_arrive() {
     let corners: Vec<_> = model.vertices.iter().map(|v| v.position).collect();
     assert_eq!(corners, [[-2.0, 3.0, 0.0], [2.0, 3.0, 0.0], [-2.0, 7.0, 0.0], [2.0, 7.0, 0.0]]);
     assert!(model.vertices.iter().all(|v| v.normal == [0.0, 0.0, 1.0] && v.tangent == [1.0, 0.0, 0.0, 1.0]));
-    assert_eq!(model.ambient, Some([0.25; 3]));
-    let color = [1.0; 3];
+    assert_eq!(model.ambient, Some(Glow { color: [1.0; 3], intensity: 0.25 }));
+    let color = Glow { color: [1.0; 3], intensity: 1.0 };
     assert_eq!(
         model.lights,
         [
             Light::Directional { to_light: [0.0, 1.0, 0.0], color },
-            Light::Point { position: [1.0, 2.0, 3.0], color: [0.0, 2.0, 0.0], range: 10.0 },
+            Light::Point {
+                position: [1.0, 2.0, 3.0],
+                color: Glow { color: [0.0, 1.0, 0.0], intensity: 2.0 },
+                range: 10.0
+            },
             Light::Spot {
                 position: [0.0, 4.0, 0.0],
                 direction: [0.0, -1.0, 0.0],
