@@ -148,7 +148,7 @@ impl<'a> Drawing<'a> {
         let material = painted.lit(shading, part.detail.shininess, lamps);
         let lit = is_lit(part, self.model, options);
         let linear = options.in_linear_light();
-        let space = if linear { AnyLightSpace::Linear } else { AnyLightSpace::Srgb };
+        let space = light_space(linear);
         let surface = match shading {
             Shading::VertexColor => Surface::Colors,
             Shading::Gouraud if lit => {
@@ -170,10 +170,11 @@ impl<'a> Drawing<'a> {
         let Studio { chains, lamps } = self.studio;
         let painted = Painted::new(part, self.model, chains, self.options, self.camera);
         let material = painted.lit(self.options.shading, part.detail.shininess, lamps);
-        let surface = Surface::ByFragment(material);
-        let colored = part.detail.carries_colors();
-        let lighting = material.lighting;
-        let clothed = Clothed { surface, lighting, colored, textured: true, placed: true, projector: None };
+        let linear = self.options.in_linear_light();
+        let surface = Surface::ByFragment(InSpace { surface: material, space: light_space(linear) });
+        let (lighting, colored) = (material.lighting, part.detail.carries_colors());
+        let clothed =
+            Clothed { surface, lighting, linear, colored, textured: true, placed: true, projector: None };
         (clothed, Shown { surface, image: None, hazy: None, least: part.detail.alpha_test })
     }
 
@@ -225,4 +226,9 @@ impl<'a> Drawing<'a> {
             Interpolation::Affine => Some(Lines::affine()),
         }
     }
+}
+
+/// The space of light.
+fn light_space(linear: bool) -> AnyLightSpace {
+    if linear { AnyLightSpace::Linear } else { AnyLightSpace::Srgb }
 }
