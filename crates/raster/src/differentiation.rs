@@ -191,9 +191,9 @@ pub struct PerPixel;
 /// row of the triangle.
 ///
 /// # Precision
-/// There, within 12ε relatively and 7ε M, with ε = 2^-24 and M that of [`Differentiation`], which has the bound in fixed
-/// point. With r >= 1 the ratio of q in the middle and at an end, ∂u/∂x is off by a factor of r².
-/// So the level of detail is off by 2 log2 r.
+/// There, within 12ε relatively and 7ε M, with ε = 2^-24 and M that of [`Differentiation`]. That has the bound in fixed
+/// point as well. With r >= 1 the ratio of q in the middle and at an end, ∂u/∂x is off by a factor of r². So the level
+/// of detail is off by 2 log2 r.
 ///
 /// The reason: that of [`PerPixel`], without the second product of the reciprocal.
 ///

@@ -38,14 +38,18 @@ impl<P: Interpolation, L: Floating, V: Varying, F: FragmentStage<V>> Setup<'_, P
                 "see FragmentStage::SETTLES"
             );
         };
-        let derivatives = policy.prepare(oriented);
-        let stage = match policy.everywhere(numbers, &derivatives) {
-            Some(gradient) if const { F::SETTLES } => stage.settled(numbers, &gradient),
-            _ => stage,
-        };
-        // Last, so that compilers put it where the painter is.
-        let triangle = interpolation.prepare(lanes, oriented);
-        Painter { lanes: numbers, triangle, derivatives, stage, varying: PhantomData }
+        // Compilers keep the planes where the painter is to be if they come last, and in registers if they come first.
+        if const { F::SETTLES } {
+            let derivatives = policy.prepare(oriented);
+            let gradient = policy.everywhere(numbers, &derivatives);
+            let stage = gradient.map_or(stage, |gradient| stage.settled(numbers, &gradient));
+            let triangle = interpolation.prepare(lanes, oriented);
+            Painter { lanes: numbers, triangle, derivatives, stage, varying: PhantomData }
+        } else {
+            let triangle = interpolation.prepare(lanes, oriented);
+            let derivatives = policy.prepare(oriented);
+            Painter { lanes: numbers, triangle, derivatives, stage, varying: PhantomData }
+        }
     }
 }
 

@@ -21,9 +21,9 @@ const SHARE: u32 = 15;
 /// ```
 ///
 /// # Precision
-/// In units of 2^-13 of N (see [`Differentiation`](super::Differentiation)): shares are within 1.5 of 2^-15, so that u
-/// is off by 2.5; with two factors g, their rounding and that of their sum, what stands before a ∂λ is by 9.1. There are
-/// two of these. Distances, the sum over both and one over the area add 5.5. That is less than 32, or N/256.
+/// In units of 2^-13 of N, see [`Differentiation`](super::Differentiation): shares are within 1.5 of 2^-15, so that u
+/// is off by 2.5. What stands before a ∂λ is off by 9.1, as two g are rounded, and their sum. There are two of these.
+/// Distances, the sum over both and one over the area add 5.5. That is less than 32, or N/256.
 #[derive(Clone, Copy)]
 pub(super) struct FixedQuotients<V: Varying> {
     /// The increments of the edge functions of the second and the third vertex by column and by row, in `BITS` bits.
