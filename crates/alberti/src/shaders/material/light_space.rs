@@ -89,7 +89,7 @@ impl LightSpace for AnyLightSpace {
 /// // Half of the byte, or half of the light.
 /// assert_eq!(gray.shade_one(place), Some(Rgba8::from_rgb24(0x60_60_60)));
 /// let gray = InSpace { surface: gray, space: LinearLight };
-/// assert_eq!(gray.shade_one(place), Some(Rgba8::from_rgb24(0x8d_8d_8d)));
+/// assert_eq!(gray.shade_one(place), Some(Rgba8::from_rgb24(0x8c_8c_8c)));
 /// ```
 ///
 /// Source: IEC 61966-2-1; Khronos PBR Neutral tone mapper (2024), without its offset for the light that surfaces
