@@ -45,8 +45,9 @@ use floating::{Quotients, RunQuotients};
 /// to them. Components that are linear on the screen are within 4ε relatively and 2ε s Δu/area.
 ///
 /// In fixed point, where weights are not at hand as numbers, [`PerPixel`] is [`PerRun`]. Components are those that are
-/// rounded to 2^-16 at the vertices. Integers of 32 bits have derivatives within N (2^-8 + r 2^-25), and half a step of
-/// 2^-16. There r is the ratio of the greatest q of the three to that of the place, and
+/// rounded to 2^-16 at the vertices. Integers of 32 bits have derivatives within N (2^-8 + r 2^-24), and half a step of
+/// 2^-16, where they are below 2^15 and q are normal numbers. With r the ratio of the greatest q of the three to that
+/// of the place,
 ///
 /// ```text
 /// N = r s Δu / (2 area)
@@ -199,7 +200,7 @@ pub struct PerPixel;
 ///
 /// # Cost
 /// A run: some fifteen operations and a division, and twelve a component, of `f32`. In fixed point some sixty of
-/// integers, of which eight are products of 32 bits to 64, and thirty a component, all products of which fit a word.
+/// integers, of which seven are products of 32 bits to 64, and thirty a component, all products of which fit a word.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct PerRun;
 

@@ -35,7 +35,7 @@ const BY_ROW: [f64; 2] = [14.0 * EPS, 10.0 * EPS];
 const IN_MIDDLE: [f64; 2] = [12.0 * EPS, 7.0 * EPS];
 const IN_CENTROID: [f64; 2] = [12.0 * EPS, 8.0 * EPS];
 const LINEAR: [f64; 2] = [4.0 * EPS, 4.0 * EPS];
-/// That of N in integers, and for each unit of the ratio of the greatest q to that of the place.
+/// In integers, parts of N: the documented one, and half of the documented one for each unit of r.
 const FIXED: [f64; 2] = [1.0 / 256.0, 1.0 / (1 << 25) as f64];
 
 /// A triangle with its values, and a pixel that it covers.
