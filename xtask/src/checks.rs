@@ -58,13 +58,20 @@ pub(crate) fn bench(arguments: &[String]) -> Outcome {
     run(cargo().args(["bench", "--package", "alberti-benches", "--"]).args(arguments))
 }
 
-/// Checks the code that only the feature `avx512` compiles, and the lanes of such a machine against one lane. All else
-/// is the same code over other lanes, and would take minutes to compile once more.
-pub(crate) fn avx512() -> Outcome {
+/// Checks the code that only the features `avx512` and `sse2` compile, and the lanes of such machines against one lane.
+/// All else is the same code over other lanes, and would take minutes to compile once more.
+pub(crate) fn registers() -> Outcome {
     run(cargo()
-        .args(["clippy", "--package", "alberti-benches", "--all-targets", "--features", "avx512"])
+        .args([
+            "clippy",
+            "--package",
+            "alberti-benches",
+            "--all-targets",
+            "--features",
+            "avx512,alberti/sse2",
+        ])
         .args(["--", "-D", "warnings"]))?;
-    run(cargo().args(["test", "--package", "alberti-math", "--features", "avx512", "--lib", "lanes::"]))
+    run(cargo().args(["test", "--package", "alberti-math", "--features", "avx512,sse2", "--lib", "lanes::"]))
 }
 
 /// Runs the tests that can look at every single `f32`, or at ten million triangles and samples, instead of at some: on
@@ -72,7 +79,7 @@ pub(crate) fn avx512() -> Outcome {
 pub(crate) fn sweep() -> Outcome {
     let sweep = |arguments: &[&str]| run(cargo().env("ALBERTI_SWEEP", "1").arg("test").args(arguments));
     sweep(&["--package", "alberti-texture", "every_257th_float"])?;
-    let pipeline = ["--package", "alberti-tests", "--features", "alberti/avx512"];
+    let pipeline = ["--package", "alberti-tests", "--features", "alberti/avx512,alberti/sse2"];
     let modules = ["lanes::", "small::", "gradients::", "planes::", "policies::"];
     sweep(&[&pipeline[..], &["--test", "pipeline", "--test", "fragments", "--"], &modules].concat())
 }

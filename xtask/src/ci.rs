@@ -34,7 +34,7 @@ fn steps(tests_done: bool) -> Vec<Step> {
         ("docs", checks::docs),
         TEST,
         ("gallery", gallery::check),
-        ("avx512", checks::avx512),
+        ("registers", checks::registers),
         ("extremes", extremes::check),
         ("trade", trade::check),
         ("package", package::run),

@@ -12,8 +12,8 @@ use crate::workspace::{APPLICATIONS, EXTERNAL, LIBRARIES, Library, OPTIONAL, TES
 const FACADE: &str = "alberti";
 
 /// Features that the host's builds leave out: without `default` nothing is lost, `libm` is for targets without std,
-/// `avx512` has a step of its own, and `small-code` takes a way that tests take by its name.
-const NOT_ASKED: [&str; 4] = ["default", "libm", "avx512", "small-code"];
+/// `avx512` and `sse2` have a step of their own, and `small-code` takes a way that tests take by its name.
+const NOT_ASKED: [&str; 5] = ["default", "libm", "avx512", "sse2", "small-code"];
 
 /// Lints that the workspace's manifest must set, because a rule rests on them alone: no unsafe code, nothing unfinished
 /// or left over from debugging.

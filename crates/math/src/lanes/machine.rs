@@ -4,10 +4,12 @@
 
 #[cfg(all(feature = "simd", target_arch = "x86_64"))]
 mod here {
-    use crate::lanes::Eight;
+    use crate::lanes::{Eight, One};
     #[cfg(feature = "avx512")]
     use fearless_simd::Avx512;
-    use fearless_simd::{Avx2, Level, Sse2};
+    #[cfg(feature = "sse2")]
+    use fearless_simd::Sse2;
+    use fearless_simd::{Avx2, Level};
 
     /// The lanes of a machine, which [`for_lanes!`](crate::for_lanes) turns into a [`Lanes`](super::super::Lanes) type.
     #[derive(Clone, Copy, Debug)]
@@ -17,8 +19,11 @@ mod here {
         Avx512(Eight<Avx512>),
         /// Eight in a register of 256 bits.
         Avx2(Eight<Avx2>),
-        /// Eight in two registers of 128 bits, which every x86-64 machine has.
+        /// Eight in two registers of 128 bits, which every x86-64 machine has: behind the feature `sse2`.
+        #[cfg(feature = "sse2")]
         Sse2(Eight<Sse2>),
+        /// One sample at a time.
+        One(One),
     }
 
     impl Machine {
@@ -26,38 +31,69 @@ mod here {
         pub fn all() -> impl Iterator<Item = Self> {
             let level = Level::try_detect().unwrap_or(Level::baseline());
             let avx2 = level.as_avx2().map(|proof| Self::Avx2(Eight(proof)));
-            let sse2 = Level::baseline().as_sse2().map(|proof| Self::Sse2(Eight(proof)));
             #[cfg(feature = "avx512")]
             let avx512 = level.as_avx512().map(|proof| Self::Avx512(Eight(proof)));
             #[cfg(not(feature = "avx512"))]
             let avx512 = None;
-            [avx512, avx2, sse2].into_iter().flatten()
+            #[cfg(feature = "sse2")]
+            let sse2 = Level::baseline().as_sse2().map(|proof| Self::Sse2(Eight(proof)));
+            #[cfg(not(feature = "sse2"))]
+            let sse2 = None;
+            [avx512, avx2, sse2, Some(Self::One(One))].into_iter().flatten()
         }
     }
 
-    /// The expansion of [`for_lanes!`](crate::for_lanes).
-    #[cfg(feature = "avx512")]
+    /// The expansion of [`for_lanes!`](crate::for_lanes): the kinds that there always are, then those of features.
     #[doc(hidden)]
     #[macro_export]
     macro_rules! __for_lanes {
         ($machine:expr, $lanes:ident => $body:expr) => {
-            match $machine {
-                $crate::lanes::Machine::Avx512($lanes) => $body,
-                $crate::lanes::Machine::Avx2($lanes) => $body,
-                $crate::lanes::Machine::Sse2($lanes) => $body,
-            }
+            $crate::__for_avx512!($machine, $lanes => $body, [Avx2 One])
         };
     }
 
-    /// The expansion of [`for_lanes!`](crate::for_lanes).
+    #[cfg(feature = "avx512")]
+    #[doc(hidden)]
+    #[macro_export]
+    macro_rules! __for_avx512 {
+        ($machine:expr, $lanes:ident => $body:expr, [$($kind:ident)*]) => {
+            $crate::__for_sse2!($machine, $lanes => $body, [$($kind)* Avx512])
+        };
+    }
+
     #[cfg(not(feature = "avx512"))]
     #[doc(hidden)]
     #[macro_export]
-    macro_rules! __for_lanes {
-        ($machine:expr, $lanes:ident => $body:expr) => {
+    macro_rules! __for_avx512 {
+        ($machine:expr, $lanes:ident => $body:expr, [$($kind:ident)*]) => {
+            $crate::__for_sse2!($machine, $lanes => $body, [$($kind)*])
+        };
+    }
+
+    #[cfg(feature = "sse2")]
+    #[doc(hidden)]
+    #[macro_export]
+    macro_rules! __for_sse2 {
+        ($machine:expr, $lanes:ident => $body:expr, [$($kind:ident)*]) => {
+            $crate::__for_kinds!($machine, $lanes => $body, [$($kind)* Sse2])
+        };
+    }
+
+    #[cfg(not(feature = "sse2"))]
+    #[doc(hidden)]
+    #[macro_export]
+    macro_rules! __for_sse2 {
+        ($machine:expr, $lanes:ident => $body:expr, [$($kind:ident)*]) => {
+            $crate::__for_kinds!($machine, $lanes => $body, [$($kind)*])
+        };
+    }
+
+    #[doc(hidden)]
+    #[macro_export]
+    macro_rules! __for_kinds {
+        ($machine:expr, $lanes:ident => $body:expr, [$($kind:ident)*]) => {
             match $machine {
-                $crate::lanes::Machine::Avx2($lanes) => $body,
-                $crate::lanes::Machine::Sse2($lanes) => $body,
+                $($crate::lanes::Machine::$kind($lanes) => $body,)*
             }
         };
     }

@@ -69,13 +69,31 @@ fn places(random: &mut Random) -> Vec<([f32; 8], [f32; 8], [Q16; 2])> {
     (0..150).map(|_| (hostile(random), hostile(random), [fixed(random), fixed(random)])).collect()
 }
 
-/// Colours and numbers of a sampler, at every width and in fixed point.
+/// Colours and numbers of a sampler: of eight places one by one, and of one in fixed point.
+type Shown = ([[u32; 2]; 8], [u32; 2]);
+
 fn shown<F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size>(
     sampler: Sampler<'_, F, Fl, U, V, Z>,
     places: &Places,
-) -> Vec<u32> {
-    let mut shown = Vec::new();
-    for &(u, v, [x, y]) in places {
+) -> Vec<Shown> {
+    let of = |&(u, v, [x, y]): &([f32; 8], [f32; 8], [Q16; 2])| {
+        let one = std::array::from_fn(|k| {
+            let color = sampler.sample(Vec2::new(u[k], v[k])).to_bits();
+            [color, sampler.scalar_lanes(One, u[k], v[k]).to_bits()]
+        });
+        let number = sampler.scalar_lanes(OneFixed, x, y).to_bits().cast_unsigned();
+        (one, [sampler.sample_lanes(OneFixed, x, y).0, number])
+    };
+    places.iter().map(of).collect()
+}
+
+/// At every width what there is one by one.
+fn check_wide<F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size>(
+    sampler: Sampler<'_, F, Fl, U, V, Z>,
+    places: &Places,
+    expected: &[Shown],
+) {
+    for (&(u, v, _), (expected, _)) in places.iter().zip(expected) {
         for machine in Machine::all() {
             for_lanes!(machine, lanes => {
                 let (words, numbers) = lanes.vectorize(
@@ -86,17 +104,12 @@ fn shown<F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size>(
                         (words, lanes.store(sampler.scalar_lanes(lanes, u, v)))
                     },
                 );
-                shown.extend(words.as_ref());
-                shown.extend(numbers.as_ref().iter().map(|number| number.to_bits()));
+                for ((&word, &number), expected) in words.as_ref().iter().zip(numbers.as_ref()).zip(expected) {
+                    assert_eq!([word, number.to_bits()], *expected, "{sampler:?} {u:?} {v:?}");
+                }
             });
         }
-        for (&u, &v) in u.iter().zip(&v) {
-            shown.push(sampler.sample(Vec2::new(u, v)).to_bits());
-        }
-        shown.push(sampler.sample_lanes(OneFixed, x, y).0);
-        shown.push(sampler.scalar_lanes(OneFixed, x, y).to_bits().cast_unsigned());
     }
-    shown
 }
 
 /// Each wrap mode on each axis, with both filters, in textures of any size and of powers of two.
@@ -107,23 +120,33 @@ fn filters_wrap_modes_and_sizes() {
         let texels = noise(&mut random, width, height, false);
         let texture = Texture::new(Rgba8888, &texels[..(width * height) as usize], width, height).unwrap();
         let places = places(&mut random);
-        let any = |filter, u, v| shown(texture.sampler_per_axis(filter, u, v), &places);
+        let check_any = |filter, u, v, expected: &[Shown]| {
+            let any = texture.sampler_per_axis(filter, u, v);
+            assert_eq!(shown(any, &places), expected, "{any:?}");
+            check_wide(any, &places, expected);
+        };
         macro_rules! pair {
-            ($u:expr, $v:expr, $any_u:expr, $any_v:expr) => {
+            ($u:expr, $v:expr, $any_u:expr, $any_v:expr, |$power_of_two:ident, $expected:ident| $wide:block) => {
                 let nearest = shown(texture.sampler_per_axis(Nearest, $u, $v), &places);
-                assert_eq!(any(AnyFilter::Nearest, $any_u, $any_v), nearest, "{texture:?} {:?}", $any_u);
+                check_any(AnyFilter::Nearest, $any_u, $any_v, &nearest);
                 let bilinear = shown(texture.sampler_per_axis(Bilinear, $u, $v), &places);
-                assert_eq!(any(AnyFilter::Bilinear, $any_u, $any_v), bilinear, "{texture:?} {:?}", $any_u);
+                check_any(AnyFilter::Bilinear, $any_u, $any_v, &bilinear);
                 if let Some(texture) = texture.power_of_two() {
                     assert_eq!(shown(texture.sampler_per_axis(Nearest, $u, $v), &places), nearest);
-                    assert_eq!(shown(texture.sampler_per_axis(Bilinear, $u, $v), &places), bilinear);
+                    let ($power_of_two, $expected) = (texture.sampler_per_axis(Bilinear, $u, $v), bilinear);
+                    assert_eq!(shown($power_of_two, &places), $expected);
+                    $wide
                 }
             };
         }
-        pair!(Repeat, Clamp, AnyWrap::Repeat, AnyWrap::Clamp);
-        pair!(Clamp, Mirror, AnyWrap::Clamp, AnyWrap::Mirror);
-        pair!(Mirror, Border(COLOR), AnyWrap::Mirror, AnyWrap::Border(COLOR));
-        pair!(Border(COLOR), Repeat, AnyWrap::Border(COLOR), AnyWrap::Repeat);
+        pair!(Repeat, Clamp, AnyWrap::Repeat, AnyWrap::Clamp, |sampler, expected| {
+            check_wide(sampler, &places, &expected);
+        });
+        pair!(Clamp, Mirror, AnyWrap::Clamp, AnyWrap::Mirror, |sampler, expected| {});
+        pair!(Mirror, Border(COLOR), AnyWrap::Mirror, AnyWrap::Border(COLOR), |sampler, expected| {
+            check_wide(sampler, &places, &expected);
+        });
+        pair!(Border(COLOR), Repeat, AnyWrap::Border(COLOR), AnyWrap::Repeat, |sampler, expected| {});
     }
 }
 
@@ -235,18 +258,47 @@ fn bilinear_heights() {
     }
 }
 
-/// Colours by a level of detail and by derivatives, with bounds and without, at every width and in fixed point.
+/// Coordinates, λ and derivatives for all lanes, and in fixed point.
+type Footprint = ([[f32; 8]; 7], [Q16; 7]);
+
+/// Colours by a level of detail, by derivatives and by these with bounds: of eight places one by one, and the first two
+/// of one in fixed point.
+type Read = ([[u32; 3]; 8], [u32; 2]);
+
 fn read<M: MipFilter, U: Wrap, V: Wrap, Z: Size>(
     mipmap: Mipmap<'_, Rgba8888, Z>,
     filter: M,
     (u_wrap, v_wrap): (U, V),
-    values: &[([[f32; 8]; 7], [Q16; 7])],
-) -> Vec<u32> {
-    let mut read = Vec::new();
+    values: &[Footprint],
+) -> Vec<Read> {
     let sampler = mipmap.sampler_per_axis(filter, u_wrap, v_wrap);
     let bounds = LodBounds { bias: 0.5, least: -1.0, greatest: 2.5 };
     let bounded = mipmap.sampler_per_axis(Bounded { filter, bounds }, u_wrap, v_wrap);
-    for &(values, [x, y, level, du_dx, dv_dx, du_dy, dv_dy]) in values {
+    let of = |&(values, [x, y, level, du_dx, dv_dx, du_dy, dv_dy]): &Footprint| {
+        let one = std::array::from_fn(|k| {
+            let [u, v, lambda, du_dx, dv_dx, du_dy, dv_dy] = values.map(|each| each[k]);
+            let (uv, d) = (Vec2::new(u, v), Gradient { dx: [du_dx, dv_dx], dy: [du_dy, dv_dy] });
+            let colors =
+                [sampler.sample_lod(uv, lambda), sampler.sample_grad(uv, d), bounded.sample_grad(uv, d)];
+            colors.map(Rgba8::to_bits)
+        });
+        let d = Gradient { dx: [du_dx, dv_dx], dy: [du_dy, dv_dy] };
+        let by_lod = sampler.sample_lod_lanes(OneFixed, x, y, level).0;
+        (one, [by_lod, sampler.sample_grad_lanes(OneFixed, x, y, d).0])
+    };
+    values.iter().map(of).collect()
+}
+
+/// At every width what there is one by one.
+fn check_wide_read<M: MipFilter, U: Wrap, V: Wrap, Z: Size>(
+    mipmap: Mipmap<'_, Rgba8888, Z>,
+    filter: M,
+    (u_wrap, v_wrap): (U, V),
+    values: &[Footprint],
+    expected: &[Read],
+) {
+    let sampler = mipmap.sampler_per_axis(filter, u_wrap, v_wrap);
+    for (&(values, _), (expected, _)) in values.iter().zip(expected) {
         for machine in Machine::all() {
             for_lanes!(machine, lanes => {
                 let [by_lod, by_gradient] = lanes.vectorize(
@@ -259,24 +311,17 @@ fn read<M: MipFilter, U: Wrap, V: Wrap, Z: Size>(
                         [by_lod, lanes.store_words(sampler.sample_grad_lanes(lanes, u, v, d))]
                     },
                 );
-                read.extend(by_lod.as_ref());
-                read.extend(by_gradient.as_ref());
+                let found = by_lod.as_ref().iter().zip(by_gradient.as_ref());
+                for ((&by_lod, &by_gradient), expected) in found.zip(expected) {
+                    assert_eq!([by_lod, by_gradient], expected[..2], "{sampler:?} {values:?}");
+                }
             });
         }
-        let d = Gradient { dx: [du_dx, dv_dx], dy: [du_dy, dv_dy] };
-        read.push(sampler.sample_lod_lanes(OneFixed, x, y, level).0);
-        read.push(sampler.sample_grad_lanes(OneFixed, x, y, d).0);
-        for k in 0..8 {
-            let [u, v, _, du_dx, dv_dx, du_dy, dv_dy] = values.map(|each| each[k]);
-            let d = Gradient { dx: [du_dx, dv_dx], dy: [du_dy, dv_dy] };
-            read.push(bounded.sample_grad(Vec2::new(u, v), d).to_bits());
-        }
     }
-    read
 }
 
 /// Coordinates, λ and derivatives: any, or such as pixels have.
-fn footprints(random: &mut Random) -> Vec<([[f32; 8]; 7], [Q16; 7])> {
+fn footprints(random: &mut Random) -> Vec<Footprint> {
     let each = |i: u32, random: &mut Random| {
         let scale = if i.is_multiple_of(2) { 1.0 } else { 1.0 / 16.0 };
         let mut values: [[f32; 8]; 7] = std::array::from_fn(|_| hostile(random));
@@ -293,15 +338,17 @@ fn mip_filters() {
         let texels = noise(&mut random, width, height, false);
         let mipmap = Mipmap::new(Rgba8888, &texels, width, height).unwrap();
         let values = footprints(&mut random);
-        let any = |filter| read(mipmap, filter, (AnyWrap::Repeat, AnyWrap::Mirror), &values);
-        let nearest = BaseLevel(Nearest);
-        let expected = read(mipmap, nearest, (Repeat, Mirror), &values);
-        assert_eq!(any(AnyMipFilter::Base(AnyFilter::Nearest)), expected, "{mipmap:?}");
-        let bilinear = BaseLevel(Bilinear);
-        let expected = read(mipmap, bilinear, (Repeat, Mirror), &values);
-        assert_eq!(any(AnyMipFilter::Base(AnyFilter::Bilinear)), expected, "{mipmap:?}");
+        let check_any = |filter, expected: &[Read]| {
+            let wraps = (AnyWrap::Repeat, AnyWrap::Mirror);
+            assert_eq!(read(mipmap, filter, wraps, &values), expected, "{filter:?} {mipmap:?}");
+            check_wide_read(mipmap, filter, wraps, &values, expected);
+        };
+        let nearest = read(mipmap, BaseLevel(Nearest), (Repeat, Mirror), &values);
+        check_any(AnyMipFilter::Base(AnyFilter::Nearest), &nearest);
+        let bilinear = read(mipmap, BaseLevel(Bilinear), (Repeat, Mirror), &values);
+        check_any(AnyMipFilter::Base(AnyFilter::Bilinear), &bilinear);
         let trilinear = read(mipmap, Trilinear, (Repeat, Mirror), &values);
-        assert_eq!(any(AnyMipFilter::Trilinear), trilinear, "{mipmap:?}");
+        check_any(AnyMipFilter::Trilinear, &trilinear);
         // The name and its parts, with and without a way for magnification.
         let parts = BetweenLevels(Bilinear);
         assert_eq!(read(mipmap, parts, (Repeat, Mirror), &values), trilinear, "{mipmap:?}");
@@ -310,9 +357,10 @@ fn mip_filters() {
         for probes in [1, 2, 4, 8, 16] {
             let filter = Anisotropic { probes, filter: Trilinear };
             let expected = read(mipmap, filter, (Repeat, Mirror), &values);
-            assert_eq!(any(AnyMipFilter::Anisotropic { probes }), expected, "{probes} {mipmap:?}");
+            check_any(AnyMipFilter::Anisotropic { probes }, &expected);
             if let Some(mipmap) = mipmap.power_of_two() {
                 assert_eq!(read(mipmap, filter, (Repeat, Mirror), &values), expected);
+                check_wide_read(mipmap, filter, (Repeat, Mirror), &values, &expected);
             }
         }
     }
