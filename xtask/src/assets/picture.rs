@@ -30,6 +30,23 @@ impl Picture {
         Picture { width, pixels: Pixels::Rgb(pixels) }
     }
 
+    /// The same, each pixel the mean of `side * side` places in it: for what changes within one.
+    pub(super) fn averaged(
+        width: usize,
+        height: usize,
+        side: usize,
+        color: impl Fn([f64; 2]) -> [f64; 3],
+    ) -> Picture {
+        Picture::rgb(width, height, |[u, v]| {
+            let mut sum = [0.0; 3];
+            for [s, t] in places(side, side) {
+                let found = color([u + (s - 0.5) / width as f64, v + (t - 0.5) / height as f64]);
+                sum = std::array::from_fn(|index| sum[index] + found[index]);
+            }
+            sum.map(|x| x / (side * side) as f64)
+        })
+    }
+
     /// The same with one of the palette's colours for each pixel.
     pub(super) fn indexed(
         width: usize,

@@ -5,6 +5,9 @@ use super::picture::{Picture, html};
 
 const SEED: u32 = 0x5C1E_0000;
 
+/// Places in a texel, by column and by row: borders of fields and hills are thinner than a texel.
+const SIDE: usize = 3;
+
 /// The three maps, under their names.
 pub(super) fn maps() -> Vec<(&'static str, Picture)> {
     vec![("sky-lat-long", lat_long()), ("sky-cube", cube()), ("sky-sphere", sphere())]
@@ -55,7 +58,7 @@ fn ground([x, y, z]: [f64; 3], hills: f64) -> [f64; 3] {
 /// All around, and from straight down to straight up: u grows to the right as one looks at the horizon, v upwards, and
 /// -z is in the middle.
 fn lat_long() -> Picture {
-    Picture::rgb(512, 256, |[u, v]| {
+    Picture::averaged(1024, 512, SIDE, |[u, v]| {
         let ([cos, sin], [out, up]) = (turn(u), turn((v - 0.5) / 2.0));
         light([-sin * out, up, cos * out])
     })
@@ -63,7 +66,7 @@ fn lat_long() -> Picture {
 
 /// Six faces one below the other, +x, -x, +y, -y, +z, -z, each as section 8.13 of the OpenGL 4.6 specification lays it.
 fn cube() -> Picture {
-    Picture::rgb(128, 6 * 128, |[u, v]| {
+    Picture::averaged(256, 6 * 256, SIDE, |[u, v]| {
         // t grows downwards: OpenGL counts an image's rows as they lie in memory.
         let down = (1.0 - v) * 6.0;
         let face = down.floor();
@@ -82,7 +85,7 @@ fn cube() -> Picture {
 /// A mirror ball seen from far away along -z, as section 12.1 of the OpenGL 1.3 specification maps reflected rays: the
 /// middle shows what is behind the eye, the rim what is in front of it.
 fn sphere() -> Picture {
-    Picture::rgb(224, 224, |uv| {
+    Picture::averaged(512, 512, SIDE, |uv| {
         let [x, y] = uv.map(|x| 2.0 * x - 1.0);
         let square = x * x + y * y;
         // Beyond the rim, what is on it.
