@@ -46,8 +46,8 @@ pub(crate) use floating::FloatQuotients;
 ///
 /// In fixed point, where weights are not at hand as numbers, [`PerPixel`] is [`PerRun`]. Components are those that are
 /// rounded to 2^-16 at the vertices. Integers of 32 bits have derivatives within N (2^-8 + r 2^-24), and half a step of
-/// 2^-16, where they are below 2^15 and q are normal numbers. With r the ratio of the greatest q of the three to that
-/// of the place,
+/// 2^-16, where they are below 2^15. That holds for all q > 0, up to r of 2^25, as multiples of q are taken whose
+/// greatest has 30 bits. With r the ratio of the greatest q of the three to that of the place,
 ///
 /// ```text
 /// N = r s Δu / (2 area)
@@ -116,12 +116,12 @@ pub trait Differentiate: Copy {
 
 /// The quotients that a triangle's attributes are, in numbers of a kind. A policy of interpolation has them in its own.
 pub trait Quotients<L: Lanes, V: Varying>: Copy {
-    /// What is found of a triangle's area, for these and for interpolation.
+    /// A number that comes from a triangle's area, for these and for interpolation.
     type Area: Copy;
     /// The state of a run, for derivatives at each of its samples.
     type Run: Copy;
 
-    /// What is found of an area, twice which is given.
+    /// That number of an area, twice which is given.
     fn area(doubled: i64) -> Self::Area;
 
     /// The quotients of a triangle.
@@ -236,8 +236,8 @@ pub struct PerPixel;
 /// The reason: that of [`PerPixel`], without the second product of the reciprocal.
 ///
 /// # Cost
-/// A run: some fifteen operations and a division, and twelve a component, of `f32`. In fixed point some sixty of
-/// integers, of which seven are products of 32 bits to 64, and thirty a component, all products of which fit a word.
+/// A run: some fifteen operations and a division, and twelve a component, of `f32`. In fixed point some 110 of
+/// integers, of which five are products of 32 bits to 64, and twenty a component, all products of which fit a word.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct PerRun;
 
@@ -250,7 +250,7 @@ pub struct PerRun;
 ///
 /// # Cost
 /// A triangle: some 20 operations and a division, and 21 for each component, of `f32`. In fixed point some 150 of
-/// integers, of which four are products of 32 bits to 64, and 50 a component. `docs/texture.md` has counts.
+/// integers, and 35 a component, all products of which fit a word. `docs/texture.md` has counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct PerTriangle;
 

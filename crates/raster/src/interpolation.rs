@@ -141,7 +141,7 @@ pub trait Prepare: Copy {
 pub(crate) type QuotientsOf<P, L, V> =
     <<P as Prepare>::Triangle<L, V> as Interpolate<<P as Prepare>::Lanes<L>, V>>::Quotients;
 
-/// What a policy knows of a triangle's area.
+/// The number of a triangle's area that a policy and these quotients share.
 pub(crate) type AreaOf<P, L, V> = <QuotientsOf<P, L, V> as Quotients<<P as Prepare>::Lanes<L>, V>>::Area;
 
 /// A way of drawing a triangle.

@@ -19,8 +19,8 @@
 //! 9 r 2^-29 Δu. As parts of N they are 7 r 2^-29 and 9 r 2^-29, to the first order, and less than r 2^-24 up to r of
 //! 2^25. At the centroid, where r is at most 3, λ are exact.
 //!
-//! All sums fit 32 bits: N is the most that ∂u is, that of a component which is 1 at a vertex is the most for its ∂p,
-//! and N comes to lie below 2^30.
+//! All sums fit 32 bits. N is the most that ∂u is, and comes to lie below 2^30. A ∂p is the ∂u of a component that is 1
+//! at its vertex, and 0 at the others.
 
 use super::{Quotients, Samples, of_pairs};
 use crate::edge::EdgeInt;
