@@ -17,7 +17,6 @@ pub use one_fixed::OneFixed;
 #[cfg(feature = "simd")]
 pub use several::{Eight, Sixteen};
 
-use crate::Q16;
 use crate::map2;
 use core::fmt::Debug;
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
@@ -34,7 +33,7 @@ pub trait Lanes: Copy + Debug + Send + Sync {
     const STEP: i32 = Self::COUNT as i32;
     /// Whether numbers are in fixed point.
     const FIXED: bool;
-    /// A number for each: `f32`, or [`Q16`].
+    /// A number for each: `f32`, or [`Q16`](crate::Q16).
     type Number: Copy
         + Add<Output = Self::Number>
         + Sub<Output = Self::Number>
@@ -70,11 +69,6 @@ pub trait Lanes: Copy + Debug + Send + Sync {
 
     /// The same number for each.
     fn splat(self, x: f32) -> Self::Number;
-    /// The same for one in fixed point: as it is where numbers are, otherwise rounded.
-    #[inline(always)]
-    fn splat_fixed(self, x: Q16) -> Self::Number {
-        self.splat(x.to_f32())
-    }
     /// The same word for each.
     fn word(self, x: u32) -> Self::U32;
     /// 0, 1, 2 and so on.

@@ -48,7 +48,7 @@ pub use octahedral::Octahedral;
 pub use orientation::{Zone, orientation, signed_area};
 pub use product::{LOW_WORDS_ONLY, high, high_of_half, high_signed, middle};
 pub use q16::{Q16, scaled};
-pub use reciprocal::{reciprocal, reciprocal_signed};
+pub use reciprocal::{reciprocal, reciprocal_of_half, reciprocal_signed};
 pub use round::{floor_i32, round_half_up};
 pub use space::{Cube, Eye, Object, Point, Point2, Point3, Space, Vector, Vector2, Vector3, World};
 pub use varying::{Flat, Linear, Mode, Varying, blend2, blend2_by_mode, combine, flatten, hull3, is_finite};

@@ -62,6 +62,23 @@ pub fn reciprocal_signed(x: i32) -> i32 {
     y + (((y >> 15) * left(y)) >> 14)
 }
 
+/// 2^32 / x for x from 2^15 to 2^16 - 1, below 2^17.
+///
+/// # Precision
+/// Never too large, and short of it by less than 2^-15, relatively.
+///
+/// # Cost
+/// A load from a table of 512 bytes, and two small products.
+#[must_use]
+#[inline(always)]
+pub fn reciprocal_of_half(x: u32) -> u32 {
+    let entry = TABLE.get((x >> 7 & 255) as usize).copied().unwrap_or(0);
+    let y = i32::from(entry) | 1 << 16;
+    // Of x y what is left to 2^32, less one, as a word does not hold that.
+    let left = !x.cast_signed().wrapping_mul(y);
+    (y + ((y * (left >> 10)) >> 22)).cast_unsigned()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -79,6 +96,19 @@ mod tests {
             );
         }
         worst
+    }
+
+    #[test]
+    fn reciprocals_of_half_words_keep_their_bound_and_never_exceed() {
+        let mut worst = 0.0;
+        for x in 1 << 15..1 << 16 {
+            let y = reciprocal_of_half(x);
+            let short = 1.0 - f64::from(x) * f64::from(y) / 2f64.powi(32);
+            assert!(y < 1 << 17 && short >= 0.0, "{x}: {y}");
+            worst = f64::max(worst, short);
+        }
+        println!("2^{:.2}", worst.log2());
+        assert!(worst < 2f64.powi(-15) && worst > 2f64.powi(-17));
     }
 
     #[test]

@@ -12,8 +12,8 @@ use crate::spans::Span;
 use alberti_math::lanes::Lanes;
 use alberti_math::{Gradient, Q16, Varying};
 use core::fmt::{self, Debug};
-use fixed::FixedQuotients;
-use floating::{Quotients, RunQuotients};
+pub(crate) use fixed::FixedQuotients;
+pub(crate) use floating::FloatQuotients;
 
 /// A policy of differentiation, which a [`FragmentStage`](crate::FragmentStage) chooses.
 ///
@@ -46,8 +46,8 @@ use floating::{Quotients, RunQuotients};
 ///
 /// In fixed point, where weights are not at hand as numbers, [`PerPixel`] is [`PerRun`]. Components are those that are
 /// rounded to 2^-16 at the vertices. Integers of 32 bits have derivatives within N (2^-8 + r 2^-24), and half a step of
-/// 2^-16, where they are below 2^15 and q are normal numbers. With r the ratio of the greatest q of the three to that
-/// of the place,
+/// 2^-16, where they are below 2^15. That holds for all q > 0, up to r of 2^25, as multiples of q are taken whose
+/// greatest has 30 bits. With r the ratio of the greatest q of the three to that of the place,
 ///
 /// ```text
 /// N = r s Δu / (2 area)
@@ -67,9 +67,9 @@ pub trait Differentiate: Copy {
     const EVERYWHERE: bool = false;
 
     /// The state of a triangle.
-    type Triangle<V: Varying>: Copy;
+    type Triangle<L: Lanes, V: Varying, Q: Quotients<L, V>>: Copy;
     /// The state of a run of samples.
-    type Run<L: Lanes, V: Varying>: Copy;
+    type Run<L: Lanes, V: Varying, Q: Quotients<L, V>>: Copy;
 
     /// The derivatives where attributes are linear, with these slopes by column and by row.
     #[inline(always)]
@@ -77,37 +77,67 @@ pub trait Differentiate: Copy {
         of_pairs::<V, _>(slopes)
     }
 
-    /// Prepares a triangle.
-    fn prepare<V: Varying>(self, triangle: &Oriented<'_, V>) -> Self::Triangle<V>;
+    /// Prepares a triangle, of which the quotients take the `area`.
+    fn prepare<L: Lanes, V: Varying, Q: Quotients<L, V>>(
+        self,
+        lanes: L,
+        triangle: &Oriented<'_, V>,
+        area: Q::Area,
+    ) -> Self::Triangle<L, V, Q>;
 
     /// The derivatives, if all of a triangle has the same.
     #[inline(always)]
-    fn everywhere<L: Lanes, V: Varying>(
+    fn everywhere<L: Lanes, V: Varying, Q: Quotients<L, V>>(
         self,
-        lanes: L,
-        triangle: &Self::Triangle<V>,
+        triangle: &Self::Triangle<L, V, Q>,
     ) -> Option<Gradient<V::Of<L::Number>>> {
-        let _ = (lanes, triangle);
+        let _ = triangle;
         None
     }
 
     /// Begins a run of a row's samples.
-    fn run<L: Lanes, V: Varying, I: EdgeInt>(
+    fn run<L: Lanes, V: Varying, Q: Quotients<L, V>, I: EdgeInt>(
         self,
         lanes: L,
-        triangle: &Self::Triangle<V>,
+        triangle: &Self::Triangle<L, V, Q>,
         row: &Row<'_, I>,
         run: Span,
-    ) -> Self::Run<L, V>;
+    ) -> Self::Run<L, V, Q>;
 
     /// The derivatives at the samples `at`.
-    fn at<L: Lanes, V: Varying>(
+    fn at<L: Lanes, V: Varying, Q: Quotients<L, V>>(
         self,
         lanes: L,
-        triangle: &Self::Triangle<V>,
-        run: &Self::Run<L, V>,
+        triangle: &Self::Triangle<L, V, Q>,
+        run: &Self::Run<L, V, Q>,
         at: &Samples<'_, L, V>,
     ) -> Gradient<V::Of<L::Number>>;
+}
+
+/// The quotients that a triangle's attributes are, in numbers of a kind. A policy of interpolation has them in its own.
+pub trait Quotients<L: Lanes, V: Varying>: Copy {
+    /// A number that comes from a triangle's area, for these and for interpolation.
+    type Area: Copy;
+    /// The state of a run, for derivatives at each of its samples.
+    type Run: Copy;
+
+    /// That number of an area, twice which is given.
+    fn area(doubled: i64) -> Self::Area;
+
+    /// The quotients of a triangle.
+    fn new(triangle: &Oriented<'_, V>, area: Self::Area) -> Self;
+
+    /// The derivatives at its centroid, by column and by row.
+    fn in_centroid(lanes: L, triangle: &Oriented<'_, V>, area: Self::Area) -> V::Of<[L::Number; 2]>;
+
+    /// The derivatives in the middle of a run of a row, by column and by row.
+    fn in_middle<I: EdgeInt>(&self, lanes: L, row: &Row<'_, I>, run: Span) -> V::Of<[L::Number; 2]>;
+
+    /// Begins a run of a row's samples.
+    fn run<I: EdgeInt>(&self, lanes: L, row: &Row<'_, I>, run: Span) -> Self::Run;
+
+    /// The derivatives at samples of that run.
+    fn at(&self, lanes: L, run: &Self::Run, at: &Samples<'_, L, V>) -> Gradient<V::Of<L::Number>>;
 }
 
 /// Samples side by side.
@@ -141,8 +171,8 @@ impl Differentiation for NoDerivatives {
 }
 
 impl Differentiate for NoDerivatives {
-    type Triangle<V: Varying> = ();
-    type Run<L: Lanes, V: Varying> = ();
+    type Triangle<L: Lanes, V: Varying, Q: Quotients<L, V>> = ();
+    type Run<L: Lanes, V: Varying, Q: Quotients<L, V>> = ();
 
     #[inline(always)]
     fn of_slopes<V: Varying>(slopes: &V::Of<[Q16; 2]>) -> Gradient<V::Of<Q16>> {
@@ -151,13 +181,20 @@ impl Differentiate for NoDerivatives {
     }
 
     #[inline(always)]
-    fn prepare<V: Varying>(self, _: &Oriented<'_, V>) {}
+    fn prepare<L: Lanes, V: Varying, Q: Quotients<L, V>>(self, _: L, _: &Oriented<'_, V>, _: Q::Area) {}
 
     #[inline(always)]
-    fn run<L: Lanes, V: Varying, I: EdgeInt>(self, _: L, (): &(), _: &Row<'_, I>, _: Span) {}
+    fn run<L: Lanes, V: Varying, Q: Quotients<L, V>, I: EdgeInt>(
+        self,
+        _: L,
+        (): &(),
+        _: &Row<'_, I>,
+        _: Span,
+    ) {
+    }
 
     #[inline(always)]
-    fn at<L: Lanes, V: Varying>(
+    fn at<L: Lanes, V: Varying, Q: Quotients<L, V>>(
         self,
         lanes: L,
         (): &(),
@@ -199,8 +236,8 @@ pub struct PerPixel;
 /// The reason: that of [`PerPixel`], without the second product of the reciprocal.
 ///
 /// # Cost
-/// A run: some fifteen operations and a division, and twelve a component, of `f32`. In fixed point some sixty of
-/// integers, of which seven are products of 32 bits to 64, and thirty a component, all products of which fit a word.
+/// A run: some fifteen operations and a division, and twelve a component, of `f32`. In fixed point some 110 of
+/// integers, of which five are products of 32 bits to 64, and twenty a component, all products of which fit a word.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct PerRun;
 
@@ -213,75 +250,9 @@ pub struct PerRun;
 ///
 /// # Cost
 /// A triangle: some 20 operations and a division, and 21 for each component, of `f32`. In fixed point some 150 of
-/// integers, of which four are products of 32 bits to 64, and 50 a component. `docs/texture.md` has counts.
+/// integers, and 35 a component, all products of which fit a word. `docs/texture.md` has counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct PerTriangle;
-
-/// The quotients of a triangle as words, as only the lanes say whether they are integers.
-#[derive(Clone, Copy)]
-pub struct Words<V: Varying> {
-    shape: [u32; 10],
-    components: V::Of<[u32; 3]>,
-}
-
-impl<V: Varying> Debug for Words<V> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Words").finish_non_exhaustive()
-    }
-}
-
-impl<V: Varying> Words<V> {
-    #[inline(always)]
-    fn new(triangle: &Oriented<'_, V>) -> Self {
-        if triangle.fixed {
-            FixedQuotients::new::<2>(triangle).to_words()
-        } else {
-            Quotients::new(triangle).to_words()
-        }
-    }
-}
-
-/// The derivatives in the middle of a run of a row.
-#[inline(always)]
-fn in_middle<L: Lanes, V: Varying, I: EdgeInt>(
-    lanes: L,
-    of: &Words<V>,
-    row: &Row<'_, I>,
-    run: Span,
-) -> V::Of<[L::Number; 2]> {
-    if L::FIXED {
-        let pairs = FixedQuotients::of_words(of).in_middle(row, run);
-        V::map(&pairs, &|pair: [Q16; 2]| pair.map(|derivative| lanes.splat_fixed(derivative)))
-    } else {
-        let pairs = Quotients::of_words(of).in_middle(row, run);
-        V::map(&pairs, &|pair: [f32; 2]| pair.map(|derivative| lanes.splat(derivative)))
-    }
-}
-
-/// The words of the derivatives at the centroid.
-#[inline(always)]
-fn in_centroid<V: Varying>(triangle: &Oriented<'_, V>) -> V::Of<[u32; 2]> {
-    if triangle.fixed {
-        let pairs = FixedQuotients::new::<1>(triangle).in_centroid();
-        V::map(&pairs, &|pair: [Q16; 2]| pair.map(|derivative| derivative.to_bits().cast_unsigned()))
-    } else {
-        let pairs = Quotients::new(triangle).in_centroid(triangle.area());
-        V::map(&pairs, &|pair: [f32; 2]| pair.map(f32::to_bits))
-    }
-}
-
-/// The numbers of words.
-#[inline(always)]
-fn numbers<V: Varying, L: Lanes>(lanes: L, words: &V::Of<[u32; 2]>) -> Gradient<V::Of<L::Number>> {
-    let number = |word: u32| {
-        if L::FIXED {
-            lanes.splat_fixed(Q16::from_bits(word.cast_signed()))
-        } else {
-            lanes.splat(f32::from_bits(word))
-        }
-    };
-    of_pairs::<V, _>(&V::map(words, &|pair: [u32; 2]| pair.map(number)))
-}
 
 /// A pair for each component as a pair of bundles.
 #[inline(always)]
@@ -294,34 +265,39 @@ impl Differentiation for PerPixel {
 }
 
 impl Differentiate for PerPixel {
-    type Triangle<V: Varying> = Words<V>;
-    type Run<L: Lanes, V: Varying> = RunQuotients<L, V>;
+    type Triangle<L: Lanes, V: Varying, Q: Quotients<L, V>> = Q;
+    type Run<L: Lanes, V: Varying, Q: Quotients<L, V>> = Q::Run;
 
     #[inline(always)]
-    fn prepare<V: Varying>(self, triangle: &Oriented<'_, V>) -> Words<V> {
-        Words::new(triangle)
+    fn prepare<L: Lanes, V: Varying, Q: Quotients<L, V>>(
+        self,
+        _: L,
+        triangle: &Oriented<'_, V>,
+        area: Q::Area,
+    ) -> Q {
+        Q::new(triangle, area)
     }
 
     #[inline(always)]
-    fn run<L: Lanes, V: Varying, I: EdgeInt>(
+    fn run<L: Lanes, V: Varying, Q: Quotients<L, V>, I: EdgeInt>(
         self,
         lanes: L,
-        triangle: &Words<V>,
+        triangle: &Q,
         row: &Row<'_, I>,
         run: Span,
-    ) -> RunQuotients<L, V> {
-        RunQuotients::new(lanes, triangle, row, run)
+    ) -> Q::Run {
+        triangle.run(lanes, row, run)
     }
 
     #[inline(always)]
-    fn at<L: Lanes, V: Varying>(
+    fn at<L: Lanes, V: Varying, Q: Quotients<L, V>>(
         self,
         lanes: L,
-        triangle: &Words<V>,
-        run: &RunQuotients<L, V>,
+        triangle: &Q,
+        run: &Q::Run,
         at: &Samples<'_, L, V>,
     ) -> Gradient<V::Of<L::Number>> {
-        run.at(lanes, triangle, at)
+        triangle.at(lanes, run, at)
     }
 }
 
@@ -330,31 +306,36 @@ impl Differentiation for PerRun {
 }
 
 impl Differentiate for PerRun {
-    type Triangle<V: Varying> = Words<V>;
-    type Run<L: Lanes, V: Varying> = V::Of<[L::Number; 2]>;
+    type Triangle<L: Lanes, V: Varying, Q: Quotients<L, V>> = Q;
+    type Run<L: Lanes, V: Varying, Q: Quotients<L, V>> = V::Of<[L::Number; 2]>;
 
     #[inline(always)]
-    fn prepare<V: Varying>(self, triangle: &Oriented<'_, V>) -> Words<V> {
-        Words::new(triangle)
-    }
-
-    #[inline(always)]
-    fn run<L: Lanes, V: Varying, I: EdgeInt>(
-        self,
-        lanes: L,
-        triangle: &Words<V>,
-        row: &Row<'_, I>,
-        run: Span,
-    ) -> Self::Run<L, V> {
-        in_middle(lanes, triangle, row, run)
-    }
-
-    #[inline(always)]
-    fn at<L: Lanes, V: Varying>(
+    fn prepare<L: Lanes, V: Varying, Q: Quotients<L, V>>(
         self,
         _: L,
-        _: &Words<V>,
-        run: &Self::Run<L, V>,
+        triangle: &Oriented<'_, V>,
+        area: Q::Area,
+    ) -> Q {
+        Q::new(triangle, area)
+    }
+
+    #[inline(always)]
+    fn run<L: Lanes, V: Varying, Q: Quotients<L, V>, I: EdgeInt>(
+        self,
+        lanes: L,
+        triangle: &Q,
+        row: &Row<'_, I>,
+        run: Span,
+    ) -> V::Of<[L::Number; 2]> {
+        triangle.in_middle(lanes, row, run)
+    }
+
+    #[inline(always)]
+    fn at<L: Lanes, V: Varying, Q: Quotients<L, V>>(
+        self,
+        _: L,
+        _: &Q,
+        run: &V::Of<[L::Number; 2]>,
         _: &Samples<'_, L, V>,
     ) -> Gradient<V::Of<L::Number>> {
         of_pairs::<V, _>(run)
@@ -368,34 +349,45 @@ impl Differentiation for PerTriangle {
 impl Differentiate for PerTriangle {
     const EVERYWHERE: bool = true;
 
-    type Triangle<V: Varying> = V::Of<[u32; 2]>;
-    type Run<L: Lanes, V: Varying> = ();
+    type Triangle<L: Lanes, V: Varying, Q: Quotients<L, V>> = V::Of<[L::Number; 2]>;
+    type Run<L: Lanes, V: Varying, Q: Quotients<L, V>> = ();
 
     #[inline(always)]
-    fn prepare<V: Varying>(self, triangle: &Oriented<'_, V>) -> V::Of<[u32; 2]> {
-        in_centroid(triangle)
+    fn prepare<L: Lanes, V: Varying, Q: Quotients<L, V>>(
+        self,
+        lanes: L,
+        triangle: &Oriented<'_, V>,
+        area: Q::Area,
+    ) -> V::Of<[L::Number; 2]> {
+        Q::in_centroid(lanes, triangle, area)
     }
 
     #[inline(always)]
-    fn everywhere<L: Lanes, V: Varying>(
+    fn everywhere<L: Lanes, V: Varying, Q: Quotients<L, V>>(
         self,
-        lanes: L,
-        triangle: &V::Of<[u32; 2]>,
+        triangle: &V::Of<[L::Number; 2]>,
     ) -> Option<Gradient<V::Of<L::Number>>> {
-        Some(numbers::<V, L>(lanes, triangle))
+        Some(of_pairs::<V, _>(triangle))
     }
 
     #[inline(always)]
-    fn run<L: Lanes, V: Varying, I: EdgeInt>(self, _: L, _: &V::Of<[u32; 2]>, _: &Row<'_, I>, _: Span) {}
+    fn run<L: Lanes, V: Varying, Q: Quotients<L, V>, I: EdgeInt>(
+        self,
+        _: L,
+        _: &V::Of<[L::Number; 2]>,
+        _: &Row<'_, I>,
+        _: Span,
+    ) {
+    }
 
     #[inline(always)]
-    fn at<L: Lanes, V: Varying>(
+    fn at<L: Lanes, V: Varying, Q: Quotients<L, V>>(
         self,
-        lanes: L,
-        triangle: &V::Of<[u32; 2]>,
+        _: L,
+        triangle: &V::Of<[L::Number; 2]>,
         (): &(),
         _: &Samples<'_, L, V>,
     ) -> Gradient<V::Of<L::Number>> {
-        numbers::<V, L>(lanes, triangle)
+        of_pairs::<V, _>(triangle)
     }
 }

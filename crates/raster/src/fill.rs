@@ -3,10 +3,10 @@
 use crate::color::ColorFormat;
 use crate::counters::Counters;
 use crate::depth::DepthFormat;
-use crate::differentiation::Differentiate;
+use crate::differentiation::{Differentiate, Quotients};
 use crate::edge::{Edge, EdgeInt};
 use crate::fragment::FragmentStage;
-use crate::interpolation::{Interpolate, Interpolation, Oriented, Row};
+use crate::interpolation::{Interpolate, Interpolation, Oriented, QuotientsOf, Row};
 use crate::mask::RowMask;
 use crate::paint::{Painter, aligned};
 use crate::sample_box::SampleBox;
@@ -38,16 +38,17 @@ impl<P: Interpolation, L: Floating, V: Varying, F: FragmentStage<V>> Setup<'_, P
                 "see FragmentStage::SETTLES"
             );
         };
+        let area = QuotientsOf::<P, L, V>::area(oriented.doubled_area);
         // Compilers keep the planes where the painter is to be if they come last, and in registers if they come first.
         if const { F::SETTLES } {
-            let derivatives = policy.prepare(oriented);
-            let gradient = policy.everywhere(numbers, &derivatives);
+            let derivatives = policy.prepare::<_, V, QuotientsOf<P, L, V>>(numbers, oriented, area);
+            let gradient = policy.everywhere::<_, V, QuotientsOf<P, L, V>>(&derivatives);
             let stage = gradient.map_or(stage, |gradient| stage.settled(numbers, &gradient));
-            let triangle = interpolation.prepare(lanes, oriented);
+            let triangle = interpolation.prepare(lanes, oriented, area);
             Painter { lanes: numbers, triangle, derivatives, stage, varying: PhantomData }
         } else {
-            let triangle = interpolation.prepare(lanes, oriented);
-            let derivatives = policy.prepare(oriented);
+            let triangle = interpolation.prepare(lanes, oriented, area);
+            let derivatives = policy.prepare::<_, V, QuotientsOf<P, L, V>>(numbers, oriented, area);
             Painter { lanes: numbers, triangle, derivatives, stage, varying: PhantomData }
         }
     }

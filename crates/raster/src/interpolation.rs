@@ -11,6 +11,7 @@ mod lines;
 mod plane;
 
 pub use exact::Exact;
+pub(crate) use fixed_plane::Area;
 pub use fixed_point::FixedPoint;
 pub(crate) use fixed_point::{LIMIT, relative};
 pub(crate) use linear::scaled_q;
@@ -18,6 +19,7 @@ pub(crate) use lines::Runs;
 pub use lines::{Affine, Lines, Spans16};
 pub use plane::Planes;
 
+use crate::differentiation::Quotients;
 use crate::edge::{Edge, EdgeInt};
 use crate::fragment::FragmentStage;
 use crate::setup::Waiting;
@@ -127,8 +129,20 @@ pub trait Prepare: Copy {
     }
 
     /// A triangle, prepared.
-    fn prepare<L: Floating, V: Varying>(self, lanes: L, triangle: &Oriented<'_, V>) -> Self::Triangle<L, V>;
+    fn prepare<L: Floating, V: Varying>(
+        self,
+        lanes: L,
+        triangle: &Oriented<'_, V>,
+        area: AreaOf<Self, L, V>,
+    ) -> Self::Triangle<L, V>;
 }
+
+/// The quotients of a policy's triangles.
+pub(crate) type QuotientsOf<P, L, V> =
+    <<P as Prepare>::Triangle<L, V> as Interpolate<<P as Prepare>::Lanes<L>, V>>::Quotients;
+
+/// The number of a triangle's area that a policy and these quotients share.
+pub(crate) type AreaOf<P, L, V> = <QuotientsOf<P, L, V> as Quotients<<P as Prepare>::Lanes<L>, V>>::Area;
 
 /// A way of drawing a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -273,6 +287,8 @@ pub trait Interpolate<L: Lanes, V: Varying> {
     type Row;
     /// The state of a group of samples.
     type Cursor: Copy;
+    /// The quotients that its attributes are.
+    type Quotients: Quotients<L, V>;
 
     /// Begins a row.
     fn row<I: EdgeInt>(&self, row: &Row<'_, I>) -> Self::Row;

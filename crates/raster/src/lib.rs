@@ -62,6 +62,6 @@ pub use triangle::{Corner, Cull, Numbers, Outcome, Reach, Vertex};
 
 // For the command of this workspace, which draws where straight lines divide. They change as the kernels do.
 #[doc(hidden)]
-pub use differentiation::{Differentiate, Samples};
+pub use differentiation::{Differentiate, Quotients, Samples};
 #[doc(hidden)]
 pub use interpolation::{Oriented, Row};

@@ -21,16 +21,17 @@ use core::ops::Range;
 use core::slice::from_mut;
 
 /// A prepared triangle: its depth and attributes, their derivatives, and the stage that makes colours of them.
-pub(crate) struct Painter<L, V: Varying, T, F: FragmentStage<V>> {
+pub(crate) struct Painter<L: Lanes, V: Varying, T: Interpolate<L, V>, F: FragmentStage<V>> {
     pub(crate) lanes: L,
     pub(crate) triangle: T,
-    pub(crate) derivatives: <F::Derivatives as Differentiate>::Triangle<V>,
+    pub(crate) derivatives: <F::Derivatives as Differentiate>::Triangle<L, V, T::Quotients>,
     pub(crate) stage: F,
     pub(crate) varying: PhantomData<V>,
 }
 
 /// A run of samples: its attributes, and their derivatives.
-type RunState<C, D, L, V> = (C, <D as Differentiate>::Run<L, V>);
+type RunState<T, D, L, V> = (<T as Interpolate<L, V>>::Cursor, RunDerivatives<T, D, L, V>);
+type RunDerivatives<T, D, L, V> = <D as Differentiate>::Run<L, V, <T as Interpolate<L, V>>::Quotients>;
 
 impl<L, V, T, F> Painter<L, V, T, F>
 where
@@ -40,7 +41,7 @@ where
     F: FragmentStage<V>,
 {
     /// Whether no sample asks which others a row covers, as rows and runs have no state.
-    pub(crate) const EVERYWHERE: bool = size_of::<(T::Row, RunState<T::Cursor, F::Derivatives, L, V>)>() == 0;
+    pub(crate) const EVERYWHERE: bool = size_of::<(T::Row, RunState<T, F::Derivatives, L, V>)>() == 0;
 
     /// Fills the columns in `limits` that a row of the triangle covers.
     #[inline(always)]
@@ -131,7 +132,7 @@ where
         known: &mut T::Row,
         column: i32,
         aligned: i32,
-    ) -> (RunState<T::Cursor, F::Derivatives, L, V>, Span) {
+    ) -> (RunState<T, F::Derivatives, L, V>, Span) {
         let (cursor, run) = self.triangle.start(row, known, column, aligned);
         ((cursor, self.stage.derivatives().run(self.lanes, &self.derivatives, row, run)), run)
     }
@@ -144,7 +145,7 @@ where
         formats: (C, D),
         (colors, depths): Pixels<'_, C::Pixel, D::Stored>,
         column: i32,
-        (first, derivatives): &RunState<T::Cursor, F::Derivatives, L, V>,
+        (first, derivatives): &RunState<T, F::Derivatives, L, V>,
     ) -> u32
     where
         I: EdgeInt,
@@ -183,7 +184,7 @@ where
         &self,
         formats: (C, D),
         pixel: Group<'_, L, C::Pixel, D::Stored>,
-        derivatives: &<F::Derivatives as Differentiate>::Run<L, V>,
+        derivatives: &RunDerivatives<T, F::Derivatives, L, V>,
         next: &mut Next<T::Cursor, I::Of<L>, I>,
     ) where
         I: EdgeInt,
@@ -277,7 +278,7 @@ where
         (last_colors, last_depths): Pixels<'_, C::Pixel, D::Stored>,
         (row, weights): (&Row<'_, I>, &Weights<L>),
         columns: Range<i32>,
-        (mut cursor, derivatives): RunState<T::Cursor, F::Derivatives, L, V>,
+        (mut cursor, derivatives): RunState<T, F::Derivatives, L, V>,
     ) -> u32
     where
         I: EdgeInt,
@@ -329,7 +330,7 @@ where
         (color_format, depth_format): (C, D),
         (color, depth): Group<'_, L, C::Pixel, D::Stored>,
         mask: L::Mask,
-        (cursor, derivatives): (&T::Cursor, &<F::Derivatives as Differentiate>::Run<L, V>),
+        (cursor, derivatives): (&T::Cursor, &RunDerivatives<T, F::Derivatives, L, V>),
         (place, weights): ([i32; 2], &[L::Number; 3]),
     ) -> u32
     where

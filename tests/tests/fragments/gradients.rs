@@ -162,18 +162,27 @@ fn samples(of: u64) -> u64 {
     if std::env::var_os("ALBERTI_SWEEP").is_some() { 100 * of } else { of }
 }
 
+/// The same with q of the smallest numbers, subnormal ones and a few above these.
+fn with_smallest_q(rng: &mut Rng) -> Case {
+    let q = [(); 3].map(|()| {
+        let most = 1 << rng.range(1, 25);
+        f32::from_bits(rng.range(1, most) as u32)
+    });
+    Case { q, ..any_case(rng) }
+}
+
 /// Draws the pixel of many triangles, and some beside it, and hands on the news of each.
 fn each_sample(
     differentiation: impl Differentiation,
     policy: impl Interpolation,
-    stream: u64,
-    count: u64,
+    cases: fn(&mut Rng) -> Case,
+    (stream, count): (u64, u64),
     mut check: impl FnMut(&Case, i32, &Told),
 ) {
     let mut rng = Rng::stream(run_seed(), stream);
     let mut seen = 0;
     while seen < samples(count) {
-        let case = any_case(&mut rng);
+        let case = cases(&mut rng);
         let start = (case.pixel[0] - rng.index(3) as i32).max(0);
         let told =
             told(differentiation, policy, &case.vertices(), case.pixel[1], start..(start + 3).min(LARGEST));
@@ -227,7 +236,7 @@ fn check_others(case: &Case, told: &Told, worst: &mut Worst) {
 fn per_pixel() {
     let (mut by_column, mut by_row, mut linear) = (Worst::default(), Worst::default(), Worst::default());
     let (mut far, mut thin) = (0, 0);
-    each_sample(PerPixel, Exact, 1, 40_000, |case, column, told| {
+    each_sample(PerPixel, Exact, any_case, (1, 40_000), |case, column, told| {
         let columns = column - case.covered().start;
         for k in 0..2 {
             let exact = case.slopes(column, k);
@@ -251,19 +260,20 @@ fn per_pixel() {
 
 #[test]
 fn per_span() {
-    in_middles(PerRun, Exact, 3, i32::MAX, 0.0);
-    in_middles(PerRun, Planes, 4, 64, 0.0);
-    in_middles(PerRun, spans(8), 5, 8, 0.0);
-    in_middles(PerRun, spans(32), 6, 32, 0.0);
-    in_middles(PerRun, Lines::affine(), 7, 64, 0.0);
+    in_middles(PerRun, Exact, any_case, 3, i32::MAX, 0.0);
+    in_middles(PerRun, Planes, any_case, 4, 64, 0.0);
+    in_middles(PerRun, spans(8), any_case, 5, 8, 0.0);
+    in_middles(PerRun, spans(32), any_case, 6, 32, 0.0);
+    in_middles(PerRun, Lines::affine(), any_case, 7, 64, 0.0);
 }
 
 /// There all policies but that of triangles are that of runs, and numbers are rounded to 2^-16: those at the vertices
 /// as well.
 #[test]
 fn in_fixed_point() {
-    in_middles(PerRun, FixedPoint(spans(16)), 8, 16, STEP / 2.0);
-    in_middles(PerPixel, FixedPoint(spans(8)), 9, 8, STEP / 2.0);
+    in_middles(PerRun, FixedPoint(spans(16)), any_case, 8, 16, STEP / 2.0);
+    in_middles(PerPixel, FixedPoint(spans(8)), any_case, 9, 8, STEP / 2.0);
+    in_middles(PerRun, FixedPoint(spans(16)), with_smallest_q, 10, 16, STEP / 2.0);
 }
 
 /// The derivatives that each sample gets are right in the middle of its run: of up to `length` columns from a multiple
@@ -271,12 +281,13 @@ fn in_fixed_point() {
 fn in_middles(
     differentiation: impl Differentiation,
     policy: impl Interpolation,
+    cases: fn(&mut Rng) -> Case,
     stream: u64,
     length: i32,
     step: f64,
 ) {
     let (mut worst, mut linear, mut off) = (Worst::default(), Worst::default(), 0);
-    each_sample(differentiation, policy, stream, 8_000, |case, column, told| {
+    each_sample(differentiation, policy, cases, (stream, 8_000), |case, column, told| {
         let Some(case) = (if step == 0.0 { Some(*case) } else { case.in_steps() }) else { return };
         let case = &case;
         let first = if length == i32::MAX { i32::MIN / 2 } else { column & !(length - 1) };
@@ -312,7 +323,7 @@ fn in_middles(
 #[test]
 fn per_triangle() {
     let (mut worst, mut linear) = (Worst::default(), Worst::default());
-    each_sample(PerTriangle, Exact, 11, 40_000, |case, _, told| {
+    each_sample(PerTriangle, Exact, any_case, (11, 40_000), |case, _, told| {
         for k in 0..2 {
             let exact = gradient::in_centroid(case.tri, BITS, case.q, case.component(k));
             let apart = IN_CENTROID[1] * case.magnitude(k, exact.t);
@@ -328,8 +339,13 @@ fn per_triangle() {
 
 #[test]
 fn per_triangle_in_fixed_point() {
+    in_centroids_of_integers(any_case, 12);
+    in_centroids_of_integers(with_smallest_q, 13);
+}
+
+fn in_centroids_of_integers(cases: fn(&mut Rng) -> Case, stream: u64) {
     let mut worst = Worst::default();
-    each_sample(PerTriangle, FixedPoint(spans(16)), 12, 20_000, |case, _, told| {
+    each_sample(PerTriangle, FixedPoint(spans(16)), cases, (stream, 20_000), |case, _, told| {
         let Some(case) = case.in_steps() else { return };
         for k in 0..3 {
             let q = if k == 2 { [1.0; 3] } else { case.q };

@@ -12,7 +12,7 @@ use crate::options::Arithmetic;
 use alberti::lanes::{Lanes, One};
 use alberti::raster::{
     Counters, Differentiate, Differentiation, EdgeInt, FixedPoint, FragmentStage, Fragments, Gradient,
-    Oriented, Outcome, Row, Samples, Span,
+    Oriented, Outcome, Quotients, Row, Samples, Span,
 };
 use alberti::{Lines, Q16, Rgba8, Varying};
 use std::cell::Cell;
@@ -31,22 +31,28 @@ impl Differentiation for OfRun {
 }
 
 impl Differentiate for OfRun {
-    type Triangle<V: Varying> = ();
-    type Run<L: Lanes, V: Varying> = (Span, u16);
+    type Triangle<L: Lanes, V: Varying, Q: Quotients<L, V>> = ();
+    type Run<L: Lanes, V: Varying, Q: Quotients<L, V>> = (Span, u16);
 
     fn of_slopes<V: Varying>(slopes: &V::Of<[Q16; 2]>) -> Gradient<V::Of<Q16>> {
         let zeros = V::map(slopes, &|_: [Q16; 2]| Q16::ZERO);
         Gradient { dx: zeros, dy: zeros }
     }
 
-    fn prepare<V: Varying>(self, _: &Oriented<'_, V>) {}
+    fn prepare<L: Lanes, V: Varying, Q: Quotients<L, V>>(self, _: L, _: &Oriented<'_, V>, _: Q::Area) {}
 
-    fn run<L: Lanes, V: Varying, I: EdgeInt>(self, _: L, (): &(), _: &Row<'_, I>, run: Span) -> (Span, u16) {
+    fn run<L: Lanes, V: Varying, Q: Quotients<L, V>, I: EdgeInt>(
+        self,
+        _: L,
+        (): &(),
+        _: &Row<'_, I>,
+        run: Span,
+    ) -> (Span, u16) {
         (run, if size_of::<I>() > 4 { WIDE } else { 0 })
     }
 
     #[expect(clippy::cast_precision_loss, reason = "columns are at most 2^14")]
-    fn at<L: Lanes, V: Varying>(
+    fn at<L: Lanes, V: Varying, Q: Quotients<L, V>>(
         self,
         lanes: L,
         (): &(),

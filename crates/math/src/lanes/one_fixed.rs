@@ -24,11 +24,6 @@ impl Lanes for OneFixed {
     }
 
     #[inline(always)]
-    fn splat_fixed(self, x: Q16) -> Q16 {
-        x
-    }
-
-    #[inline(always)]
     fn ramp(self) -> Q16 {
         Q16::ZERO
     }

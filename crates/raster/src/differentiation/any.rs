@@ -1,7 +1,8 @@
 //! A policy of differentiation that is chosen at run time.
 
 use super::{
-    Differentiate, Differentiation, NoDerivatives, PerPixel, PerRun, PerTriangle, Samples, of_pairs,
+    Differentiate, Differentiation, NoDerivatives, PerPixel, PerRun, PerTriangle, Quotients, Samples,
+    of_pairs,
 };
 use crate::edge::EdgeInt;
 use crate::interpolation::{Oriented, Row};
@@ -44,54 +45,59 @@ impl Differentiation for AnyDerivatives {
     type With<D: Differentiation> = Self;
 }
 
-type OfTriangle<D, V> = <D as Differentiate>::Triangle<V>;
-type OfRun<D, L, V> = <D as Differentiate>::Run<L, V>;
+type OfTriangle<D, L, V, Q> = <D as Differentiate>::Triangle<L, V, Q>;
+type OfRun<D, L, V, Q> = <D as Differentiate>::Run<L, V, Q>;
 
 impl Differentiate for AnyDerivatives {
-    type Triangle<V: Varying> =
-        OneOf<OfTriangle<PerPixel, V>, OfTriangle<PerRun, V>, OfTriangle<PerTriangle, V>>;
-    type Run<L: Lanes, V: Varying> =
-        OneOf<OfRun<PerPixel, L, V>, OfRun<PerRun, L, V>, OfRun<PerTriangle, L, V>>;
+    type Triangle<L: Lanes, V: Varying, Q: Quotients<L, V>> =
+        OneOf<OfTriangle<PerPixel, L, V, Q>, OfTriangle<PerRun, L, V, Q>, OfTriangle<PerTriangle, L, V, Q>>;
+    type Run<L: Lanes, V: Varying, Q: Quotients<L, V>> =
+        OneOf<OfRun<PerPixel, L, V, Q>, OfRun<PerRun, L, V, Q>, OfRun<PerTriangle, L, V, Q>>;
 
     #[inline(always)]
-    fn prepare<V: Varying>(self, triangle: &Oriented<'_, V>) -> Self::Triangle<V> {
+    fn prepare<L: Lanes, V: Varying, Q: Quotients<L, V>>(
+        self,
+        lanes: L,
+        triangle: &Oriented<'_, V>,
+        area: Q::Area,
+    ) -> Self::Triangle<L, V, Q> {
         match self {
-            Self::PerPixel => OneOf::Pixel(PerPixel.prepare(triangle)),
-            Self::PerRun => OneOf::Run(PerRun.prepare(triangle)),
-            Self::PerTriangle => OneOf::Triangle(PerTriangle.prepare(triangle)),
+            Self::PerPixel => OneOf::Pixel(PerPixel.prepare(lanes, triangle, area)),
+            Self::PerRun => OneOf::Run(PerRun.prepare(lanes, triangle, area)),
+            Self::PerTriangle => OneOf::Triangle(PerTriangle.prepare::<L, V, Q>(lanes, triangle, area)),
         }
     }
 
     #[inline(always)]
-    fn run<L: Lanes, V: Varying, I: EdgeInt>(
+    fn run<L: Lanes, V: Varying, Q: Quotients<L, V>, I: EdgeInt>(
         self,
         lanes: L,
-        triangle: &Self::Triangle<V>,
+        triangle: &Self::Triangle<L, V, Q>,
         row: &Row<'_, I>,
         run: Span,
-    ) -> Self::Run<L, V> {
+    ) -> Self::Run<L, V, Q> {
         match triangle {
-            OneOf::Pixel(of) => OneOf::Pixel(PerPixel.run::<L, V, I>(lanes, of, row, run)),
-            OneOf::Run(of) => OneOf::Run(PerRun.run::<L, V, I>(lanes, of, row, run)),
+            OneOf::Pixel(of) => OneOf::Pixel(PerPixel.run::<L, V, Q, I>(lanes, of, row, run)),
+            OneOf::Run(of) => OneOf::Run(PerRun.run::<L, V, Q, I>(lanes, of, row, run)),
             OneOf::Triangle(_) => OneOf::Triangle(()),
         }
     }
 
     #[inline(always)]
-    fn at<L: Lanes, V: Varying>(
+    fn at<L: Lanes, V: Varying, Q: Quotients<L, V>>(
         self,
         lanes: L,
-        triangle: &Self::Triangle<V>,
-        run: &Self::Run<L, V>,
+        triangle: &Self::Triangle<L, V, Q>,
+        run: &Self::Run<L, V, Q>,
         at: &Samples<'_, L, V>,
     ) -> Gradient<V::Of<L::Number>> {
         match (triangle, run) {
-            (OneOf::Pixel(of), OneOf::Pixel(run)) => PerPixel.at(lanes, of, run, at),
-            (OneOf::Triangle(of), OneOf::Triangle(())) => PerTriangle.at(lanes, of, &(), at),
+            (OneOf::Pixel(of), OneOf::Pixel(run)) => PerPixel.at::<L, V, Q>(lanes, of, run, at),
+            (OneOf::Triangle(of), OneOf::Triangle(())) => of_pairs::<V, _>(of),
             // The same along the run, whatever the triangle has.
             (_, OneOf::Run(run)) => of_pairs::<V, _>(run),
             // No state of a run is that of another policy's triangle.
-            _ => NoDerivatives.at(lanes, &(), &(), at),
+            _ => NoDerivatives.at::<L, V, Q>(lanes, &(), &(), at),
         }
     }
 }

@@ -1,17 +1,17 @@
 //! Derivatives in `f32`.
 
-use super::{Samples, Words, in_middle, of_pairs};
+use super::{Quotients, Samples, of_pairs};
 use crate::edge::EdgeInt;
 use crate::interpolation::{Oriented, Row, scaled_q};
 use crate::spans::Span;
 use crate::triangle::Corners;
-use alberti_math::lanes::Lanes;
+use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Gradient, Mode, Varying};
 use core::fmt::{self, Debug};
 
 /// The quotients of a triangle, in floats.
 #[derive(Clone, Copy)]
-pub(super) struct Quotients<V: Varying> {
+pub struct FloatQuotients<V: Varying> {
     corners: Corners,
     /// Bits of the subpixels.
     bits: u32,
@@ -21,30 +21,21 @@ pub(super) struct Quotients<V: Varying> {
     numerators: V::Of<[f32; 3]>,
 }
 
-impl<V: Varying> Quotients<V> {
-    #[inline(always)]
-    pub(super) fn to_words(self) -> Words<V> {
-        let [[a, b], [c, d], [e, f]] = self.corners.map(|place| place.map(i32::cast_unsigned));
-        let [p, q, r] = self.q.map(f32::to_bits);
-        Words {
-            shape: [a, b, c, d, e, f, self.bits, p, q, r],
-            components: V::map(&self.numerators, &|g: [f32; 3]| g.map(f32::to_bits)),
-        }
+impl<V: Varying> Debug for FloatQuotients<V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("FloatQuotients").finish_non_exhaustive()
     }
+}
+
+impl<L: Floating, V: Varying> Quotients<L, V> for FloatQuotients<V> {
+    type Area = ();
+    type Run = RunQuotients<L, V>;
 
     #[inline(always)]
-    pub(super) fn of_words(words: &Words<V>) -> Self {
-        let [a, b, c, d, e, f, bits, p, q, r] = words.shape;
-        Self {
-            corners: [[a, b], [c, d], [e, f]].map(|place| place.map(u32::cast_signed)),
-            bits,
-            q: [p, q, r].map(f32::from_bits),
-            numerators: V::map(&words.components, &|g: [u32; 3]| g.map(f32::from_bits)),
-        }
-    }
+    fn area(_: i64) {}
 
     #[inline(always)]
-    pub(super) fn new(triangle: &Oriented<'_, V>) -> Self {
+    fn new(triangle: &Oriented<'_, V>, (): ()) -> Self {
         let q = scaled_q(triangle);
         let [qa, qb, qc] = q;
         let [a, b, c] = triangle.corners;
@@ -73,11 +64,66 @@ impl<V: Varying> Quotients<V> {
         Self { corners: triangle.corners, bits: triangle.bits, q, numerators }
     }
 
+    #[inline(always)]
+    fn in_centroid(lanes: L, triangle: &Oriented<'_, V>, (): ()) -> V::Of<[L::Number; 2]> {
+        let of = <Self as Quotients<L, V>>::new(triangle, ());
+        let ([a, b, c], [qa, qb, qc]) = (of.corners, of.q);
+        // Three times the distances, and three times T.
+        let t = triangle.area() * (qa + qb + qc);
+        of.derivatives(lanes, of.distances([a[0] + b[0] + c[0], a[1] + b[1] + c[1]], 3), 3.0 / (t * t))
+    }
+
+    #[inline(always)]
+    fn in_middle<I: EdgeInt>(&self, lanes: L, row: &Row<'_, I>, run: Span) -> V::Of<[L::Number; 2]> {
+        let column = run.start + ((run.end - run.start) >> 1);
+        let t = sum(row.at(column).map(I::to_f32), self.q);
+        self.derivatives(lanes, self.distances(self.sample([column, row.row]), 1), 1.0 / (t * t))
+    }
+
+    #[inline(always)]
+    fn run<I: EdgeInt>(&self, lanes: L, row: &Row<'_, I>, run: Span) -> RunQuotients<L, V> {
+        let splat = |x: f32| lanes.splat(x);
+        let [rows, columns] = self.distances(self.sample([run.start, row.row]), 1);
+        let one = number(1 << self.bits);
+        RunQuotients {
+            start: run.start,
+            numerators: V::map_by_mode(&self.numerators, &|mode, g: [f32; 3]| match mode {
+                Mode::Hyperbolic => [sum(rows, g), sum(columns, g), (g[0] + g[1] + g[2]) * one].map(splat),
+                _ => g.map(splat),
+            }),
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, lanes: L, run: &RunQuotients<L, V>, at: &Samples<'_, L, V>) -> Gradient<V::Of<L::Number>> {
+        let per = at.reciprocal.unwrap_or_else(
+            #[inline(always)]
+            || {
+                let ([ea, eb, ec], [qa, qb, qc]) = (*at.weights, self.q.map(|q| lanes.splat(q)));
+                lanes.splat(1.0) / (ea * qa + eb * qb + ec * qc)
+            },
+        );
+        let per = per * per;
+        #[expect(clippy::cast_precision_loss, reason = "columns are below 2^24")]
+        let x = lanes.ramp() + lanes.splat((at.column - run.start) as f32);
+        of_pairs::<V, _>(&V::map_by_mode(&run.numerators, &|mode, [a, b, j]: [L::Number; 3]| match mode {
+            Mode::Hyperbolic => [a * per, (b - j * x) * per],
+            _ => [a, b],
+        }))
+    }
+}
+
+impl<V: Varying> FloatQuotients<V> {
     /// The derivatives by column and row at a place with these [distances](Self::distances), where `per` is 1/T².
     #[inline(always)]
-    fn at(&self, distances: [[f32; 3]; 2], per: f32) -> V::Of<[f32; 2]> {
+    fn derivatives<L: Lanes>(&self, lanes: L, distances: [[f32; 3]; 2], per: f32) -> V::Of<[L::Number; 2]> {
         V::map_by_mode(&self.numerators, &|mode, g: [f32; 3]| {
-            if mode == Mode::Hyperbolic { distances.map(|along| sum(along, g) * per) } else { [g[0], g[1]] }
+            let pair = if mode == Mode::Hyperbolic {
+                distances.map(|along| sum(along, g) * per)
+            } else {
+                [g[0], g[1]]
+            };
+            pair.map(|derivative| lanes.splat(derivative))
         })
     }
 
@@ -92,30 +138,6 @@ impl<V: Varying> Quotients<V> {
     #[inline(always)]
     fn sample(&self, place: [i32; 2]) -> [i32; 2] {
         place.map(|k| (k << self.bits) + (1 << self.bits >> 1))
-    }
-
-    /// The three q.
-    #[inline(always)]
-    fn q_lanes<L: Lanes>(&self, lanes: L) -> [L::Number; 3] {
-        self.q.map(|q| lanes.splat(q))
-    }
-
-    /// The derivatives in the middle of a run of a row.
-    #[inline(always)]
-    pub(super) fn in_middle<I: EdgeInt>(&self, row: &Row<'_, I>, run: Span) -> V::Of<[f32; 2]> {
-        let column = run.start + ((run.end - run.start) >> 1);
-        let t = sum(row.at(column).map(I::to_f32), self.q);
-        self.at(self.distances(self.sample([column, row.row]), 1), 1.0 / (t * t))
-    }
-
-    /// The derivatives at the centroid.
-    #[inline(always)]
-    pub(super) fn in_centroid(&self, area: f32) -> V::Of<[f32; 2]> {
-        let [a, b, c] = self.corners;
-        let [qa, qb, qc] = self.q;
-        // Three times the distances, and three times T.
-        let t = area * (qa + qb + qc);
-        self.at(self.distances([a[0] + b[0] + c[0], a[1] + b[1] + c[1]], 3), 3.0 / (t * t))
     }
 }
 
@@ -137,59 +159,12 @@ pub struct RunQuotients<L: Lanes, V: Varying> {
     /// The column from which x is counted.
     start: i32,
     /// The numerators by column and by row at `start`, and what the second loses by column, of hyperbolic components;
-    /// of others, and in fixed point of all, the derivatives themselves.
+    /// of others the derivatives themselves.
     numerators: V::Of<[L::Number; 3]>,
 }
 
 impl<L: Lanes, V: Varying> Debug for RunQuotients<L, V> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("RunQuotients").finish_non_exhaustive()
-    }
-}
-
-impl<L: Lanes, V: Varying> RunQuotients<L, V> {
-    #[inline(always)]
-    pub(super) fn new<I: EdgeInt>(lanes: L, of: &Words<V>, row: &Row<'_, I>, run: Span) -> Self {
-        let splat = |x: f32| lanes.splat(x);
-        if L::FIXED {
-            let numerators =
-                V::map(&in_middle(lanes, of, row, run), &|[dx, dy]: [L::Number; 2]| [dx, dy, splat(0.0)]);
-            return Self { start: 0, numerators };
-        }
-        let of = Quotients::of_words(of);
-        let [rows, columns] = of.distances(of.sample([run.start, row.row]), 1);
-        let one = number(1 << of.bits);
-        Self {
-            start: run.start,
-            numerators: V::map_by_mode(&of.numerators, &|mode, g: [f32; 3]| match mode {
-                Mode::Hyperbolic => [sum(rows, g), sum(columns, g), (g[0] + g[1] + g[2]) * one].map(splat),
-                _ => g.map(splat),
-            }),
-        }
-    }
-
-    /// The derivatives at samples.
-    #[inline(always)]
-    pub(super) fn at(&self, lanes: L, of: &Words<V>, at: &Samples<'_, L, V>) -> Gradient<V::Of<L::Number>> {
-        let derivatives = if L::FIXED {
-            V::map(&self.numerators, &|[dx, dy, _]: [L::Number; 3]| [dx, dy])
-        } else {
-            let per = at.reciprocal.unwrap_or_else(
-                #[inline(always)]
-                || {
-                    let [ea, eb, ec] = *at.weights;
-                    let [qa, qb, qc] = Quotients::of_words(of).q_lanes(lanes);
-                    lanes.splat(1.0) / (ea * qa + eb * qb + ec * qc)
-                },
-            );
-            let per = per * per;
-            #[expect(clippy::cast_precision_loss, reason = "columns are below 2^24")]
-            let x = lanes.ramp() + lanes.splat((at.column - self.start) as f32);
-            V::map_by_mode(&self.numerators, &|mode, [a, b, j]: [L::Number; 3]| match mode {
-                Mode::Hyperbolic => [a * per, (b - j * x) * per],
-                _ => [a, b],
-            })
-        };
-        of_pairs::<V, _>(&derivatives)
     }
 }

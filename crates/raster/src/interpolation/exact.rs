@@ -1,5 +1,6 @@
 //! Hyperbolic (perspective-correct) interpolation from the exact integer edges.
 
+use crate::differentiation::FloatQuotients;
 use crate::edge::EdgeInt;
 use crate::interpolation::{Interpolate, Interpolation, Oriented, Prepare, Row, Values};
 use crate::spans::Span;
@@ -44,7 +45,12 @@ impl Prepare for Exact {
     }
 
     #[inline(always)]
-    fn prepare<L: Floating, V: Varying>(self, lanes: L, triangle: &Oriented<'_, V>) -> ExactTriangle<L, V> {
+    fn prepare<L: Floating, V: Varying>(
+        self,
+        lanes: L,
+        triangle: &Oriented<'_, V>,
+        (): (),
+    ) -> ExactTriangle<L, V> {
         #[expect(clippy::cast_precision_loss, reason = "rounding to nearest is within the bound")]
         let area = triangle.doubled_area as f32;
         let q = map3(triangle.vertices, Corner::q);
@@ -128,6 +134,7 @@ impl<L: Floating, V: Varying> ExactTriangle<L, V> {
 impl<L: Floating, V: Varying> Interpolate<L, V> for ExactTriangle<L, V> {
     type Row = ();
     type Cursor = ();
+    type Quotients = FloatQuotients<V>;
 
     #[inline(always)]
     fn row<I: EdgeInt>(&self, _: &Row<'_, I>) {}

@@ -30,10 +30,7 @@ impl FixedPlane {
 /// The shape of a triangle.
 #[derive(Clone, Copy)]
 pub(crate) struct Shape {
-    /// The number of last bits without which edge functions are below 2^32.
-    dropped: u32,
-    /// The area without those bits.
-    area: Reciprocal,
+    area: Area,
     /// The increments of the edge functions of the second and the third vertex for a step of one subpixel to the right.
     across: [i32; 2],
     /// Bits of the subpixels.
@@ -42,17 +39,9 @@ pub(crate) struct Shape {
 
 impl Shape {
     #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive and below 2^32")]
-    pub(crate) fn new<V: Varying>(triangle: &Oriented<'_, V>) -> Self {
-        let bits = 64 - triangle.doubled_area.leading_zeros();
-        let dropped = bits.saturating_sub(32);
+    pub(crate) fn new<V: Varying>(triangle: &Oriented<'_, V>, area: Area) -> Self {
         let [a, b, c] = triangle.corners;
-        Self {
-            dropped,
-            area: Reciprocal::new((triangle.doubled_area >> dropped) as u32),
-            across: [c[1] - a[1], a[1] - b[1]],
-            bits: triangle.bits,
-        }
+        Self { area, across: [c[1] - a[1], a[1] - b[1]], bits: triangle.bits }
     }
 
     /// The plane through three numbers that differ by less than 2^31.
@@ -71,11 +60,11 @@ impl Shape {
         reason = "the highest 32 bits of 64, and what was found to fit"
     )]
     fn slope(&self, more: i64) -> i32 {
-        let Self { dropped, area, bits, .. } = self;
+        let Self { area, bits, .. } = self;
         let normalizing = more.unsigned_abs().leading_zeros() & 63;
         let high = ((more.unsigned_abs() << normalizing) >> 32) as u32;
         let product = u64::from(high) * u64::from(area.quotient);
-        let shift = (31 + normalizing + dropped).saturating_sub(bits + area.normalizing);
+        let shift = (31 + normalizing + area.dropped).saturating_sub(bits + area.normalizing);
         let magnitude = if shift < 64 { (product >> shift).min(i32::MAX as u64) as i32 } else { 0 };
         if more < 0 { -magnitude } else { magnitude }
     }
@@ -84,7 +73,7 @@ impl Shape {
     #[inline(always)]
     pub(crate) fn weights<I: EdgeInt>(&self, [_, b, c]: [I; 3]) -> [i32; 2] {
         let weight = |e: I| {
-            let part = u64::from(e.without_last(self.dropped) << self.area.normalizing);
+            let part = u64::from(e.without_last(self.area.dropped) << self.area.normalizing);
             // Compilers see that this is negative, and then have the one instruction that multiplies signed numbers.
             -(((part * u64::from(self.area.quotient)) >> (63 - WEIGHT)) as i32)
         };
@@ -92,18 +81,24 @@ impl Shape {
     }
 }
 
-/// One over a word that is not 0.
-#[derive(Clone, Copy)]
-struct Reciprocal {
-    /// The number of bits that bring the word to 2^31 or more; `quotient` is 2^63 over that.
-    normalizing: u32,
-    quotient: u32,
+/// One over twice the area.
+#[derive(Clone, Copy, Debug)]
+pub struct Area {
+    /// The number of last bits without which edge functions are below 2^32.
+    pub(crate) dropped: u32,
+    /// The number of bits that bring the area without those to 2^31 or more; `quotient` is 2^63 over that.
+    pub(crate) normalizing: u32,
+    pub(crate) quotient: u32,
 }
 
-impl Reciprocal {
-    #[inline(always)]
-    fn new(x: u32) -> Self {
-        let normalizing = x.leading_zeros();
-        Self { normalizing, quotient: reciprocal::<2>(x << normalizing) }
+impl Area {
+    /// Not inlined: compilers would find it before the first row, where there may be none.
+    #[inline(never)]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive and below 2^32")]
+    pub(crate) fn new(doubled: i64) -> Self {
+        let dropped = (64 - doubled.leading_zeros()).saturating_sub(32);
+        let word = (doubled >> dropped) as u32;
+        let normalizing = word.leading_zeros();
+        Self { dropped, normalizing, quotient: reciprocal::<2>(word << normalizing) }
     }
 }

@@ -1,9 +1,10 @@
 //! Lines in fixed point: integers only, from the vertices' numbers to the pixel.
 
 use super::budget::{on_screen, units};
-use super::fixed_plane::{FixedPlane, Shape};
+use super::fixed_plane::{Area, FixedPlane, Shape};
 use super::floating::one_run;
 use super::lines::{Course, LineNumbers, LineTriangle, Lines, Run, Runs};
+use crate::differentiation::FixedQuotients;
 use crate::edge::EdgeInt;
 use crate::fragment::FragmentStage;
 use crate::interpolation::{Interpolation, Oriented, Prepare, Row};
@@ -107,9 +108,10 @@ impl<R: Runs> Prepare for FixedPoint<R> {
         self,
         _: L,
         triangle: &Oriented<'_, V>,
+        area: Area,
     ) -> LineTriangle<R, FixedLines<V>> {
         let runs = self.0.of_triangle(|budget| on_screen(units(budget), triangle));
-        LineTriangle { runs, numbers: FixedLines::new(runs, triangle) }
+        LineTriangle { runs, numbers: FixedLines::new(runs, triangle, area) }
     }
 }
 
@@ -174,8 +176,8 @@ pub struct FixedLines<V: Varying> {
 impl<V: Varying> FixedLines<V> {
     /// Not inlined, as it is long.
     #[inline(never)]
-    fn new(runs: impl Runs, triangle: &Oriented<'_, V>) -> Self {
-        let (shape, perspective) = (Shape::new(triangle), runs.perspective());
+    fn new(runs: impl Runs, triangle: &Oriented<'_, V>, area: Area) -> Self {
+        let (shape, perspective) = (Shape::new(triangle, area), runs.perspective());
         let [a, b, c] = triangle.vertices;
         let zs = [a.zs.cast_signed(), b.zs.cast_signed(), c.zs.cast_signed()];
         // Positive floats are ordered as their words are.
@@ -269,6 +271,7 @@ impl<V: Varying> LineNumbers<OneFixed, V> for FixedLines<V> {
     type Row = FixedRow<V>;
     type Ends = FixedEnds<V>;
     type Cursor = FixedCursor<V>;
+    type Quotients = FixedQuotients<V>;
 
     #[inline(always)]
     fn row<I: EdgeInt>(&self, perspective: bool, row: &Row<'_, I>) -> FixedRow<V> {

@@ -3,6 +3,7 @@
 use super::bends::Bends;
 use super::linear::{FloatComponent, FloatPlane, Ramp, Slant, along, count, middle, scaled_q};
 use super::lines::{Affine, Course, LineNumbers, LineTriangle, Lines, Run, Runs, Spans16};
+use crate::differentiation::FloatQuotients;
 use crate::edge::EdgeInt;
 use crate::interpolation::{Chosen, Interpolation, Oriented, Prepare, Row, Values};
 use crate::setup::Waiting;
@@ -63,6 +64,7 @@ impl<L: Floating, V: Varying, const BENT: usize> LineNumbers<L, V> for FloatingL
     type Row = ();
     type Ends = FloatingEnds<V>;
     type Cursor = FloatingCursor<L, V, BENT>;
+    type Quotients = FloatQuotients<V>;
 
     #[inline(always)]
     fn row<I: EdgeInt>(&self, _: bool, _: &Row<'_, I>) {}
@@ -197,6 +199,7 @@ macro_rules! interpolations {
                 self,
                 lanes: L,
                 triangle: &Oriented<'_, V>,
+                (): (),
             ) -> LineTriangle<Self, FloatingLines<L, V, $bent>> {
                 LineTriangle { runs: self, numbers: FloatingLines::new(lanes, self, triangle) }
             }

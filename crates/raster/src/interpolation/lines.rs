@@ -12,6 +12,7 @@
 #[cfg(any(feature = "serde", feature = "arbitrary"))]
 mod form;
 
+use crate::differentiation::Quotients;
 use crate::edge::EdgeInt;
 use crate::interpolation::{Interpolate, Row};
 use crate::spans::Span;
@@ -282,6 +283,8 @@ pub trait LineNumbers<L: Lanes, V: Varying> {
     type Ends: Copy;
     /// The values at a group of samples.
     type Cursor: Copy;
+    /// The quotients that the components are.
+    type Quotients: Quotients<L, V>;
 
     /// Begins a row.
     fn row<I: EdgeInt>(&self, perspective: bool, row: &Row<'_, I>) -> Self::Row;
@@ -451,6 +454,7 @@ impl<R: Runs, N> LineTriangle<R, N> {
 impl<R: Runs, L: Lanes, V: Varying, N: LineNumbers<L, V>> Interpolate<L, V> for LineTriangle<R, N> {
     type Row = (N::Row, Option<N::Ends>);
     type Cursor = N::Cursor;
+    type Quotients = N::Quotients;
 
     #[inline(always)]
     fn row<I: EdgeInt>(&self, row: &Row<'_, I>) -> Self::Row {

@@ -2,6 +2,7 @@
 
 use super::exact::power_of_two_near;
 use super::linear::{FloatComponent, FloatPlane, Ramp, Slant, along, count, middle, scaled_q};
+use crate::differentiation::FloatQuotients;
 use crate::edge::EdgeInt;
 use crate::interpolation::{Interpolate, Interpolation, Oriented, Prepare, Row, Values};
 use crate::spans::Span;
@@ -52,7 +53,12 @@ impl Prepare for Planes {
     }
 
     #[inline(always)]
-    fn prepare<L: Floating, V: Varying>(self, lanes: L, triangle: &Oriented<'_, V>) -> PlaneTriangle<L, V> {
+    fn prepare<L: Floating, V: Varying>(
+        self,
+        lanes: L,
+        triangle: &Oriented<'_, V>,
+        (): (),
+    ) -> PlaneTriangle<L, V> {
         let slant = Slant::new(triangle);
         let plane = |factors: [f32; 3]| FloatPlane::new(factors, slant.steps);
         // By a power of two, and so exactly: products with edge functions then are below 4.
@@ -95,6 +101,7 @@ pub struct PlaneCursor<L: Lanes, V: Varying> {
 impl<L: Floating, V: Varying> Interpolate<L, V> for PlaneTriangle<L, V> {
     type Row = ();
     type Cursor = PlaneCursor<L, V>;
+    type Quotients = FloatQuotients<V>;
 
     #[inline(always)]
     fn row<I: EdgeInt>(&self, _: &Row<'_, I>) {}
