@@ -6,6 +6,7 @@ pub mod narrow;
 pub mod probe;
 pub mod random;
 pub mod reference;
+pub mod sweep;
 pub mod widest;
 
 /// The README's example is a test.

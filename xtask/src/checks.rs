@@ -80,6 +80,15 @@ pub(crate) fn sweep() -> Outcome {
     let sweep = |arguments: &[&str]| run(cargo().env("ALBERTI_SWEEP", "1").arg("test").args(arguments));
     sweep(&["--package", "alberti-texture", "every_257th_float"])?;
     let pipeline = ["--package", "alberti-tests", "--features", "alberti/avx512,alberti/sse2"];
-    let modules = ["lanes::", "small::", "gradients::", "planes::", "policies::"];
+    let modules = [
+        "lanes::",
+        "small::",
+        "gradients::",
+        "planes::",
+        "policies::",
+        "coverage::",
+        "attributes::",
+        "hostile::",
+    ];
     sweep(&[&pipeline[..], &["--test", "pipeline", "--test", "fragments", "--"], &modules].concat())
 }

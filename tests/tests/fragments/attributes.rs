@@ -19,6 +19,7 @@ use alberti_oracle::{cases, cases::pixel_centre};
 use alberti_raster::Vertex;
 use alberti_tests::errors::Errors;
 use alberti_tests::probe::{LARGEST, Probe, Recorded, steps, vertex};
+use alberti_tests::sweep::or_swept;
 
 /// The documented bounds, in ε: of a varying against 1/z as given and against z, and of depth.
 const FROM_Q: f64 = 9.0;
@@ -142,12 +143,12 @@ pub(crate) fn any_u(rng: &mut Rng) -> [f32; 3] {
 
 #[test]
 fn varyings_and_depths_with_eight_bits() {
-    interpolated(Subpixel::Sub8, 8, 5_000_000);
+    interpolated(Subpixel::Sub8, 8, or_swept(1_000_000, 5_000_000));
 }
 
 #[test]
 fn varyings_and_depths_with_four_bits() {
-    interpolated(Subpixel::Sub4, 4, 5_000_000);
+    interpolated(Subpixel::Sub4, 4, or_swept(1_000_000, 5_000_000));
 }
 
 fn interpolated(subpixel: Subpixel, stream: u64, samples: u64) {
@@ -185,8 +186,7 @@ fn interpolated(subpixel: Subpixel, stream: u64, samples: u64) {
     assert!(depth.max() <= DEPTH, "{depth}");
     assert!(steep * 5 > samples && large * 5 > samples, "{steep} steep, {large} large of {samples}");
 
-    let (samples, steps) =
-        if std::env::var_os("ALBERTI_SWEEP").is_some() { (1_000_000, 1_000_000) } else { (100_000, 20_000) };
+    let (samples, steps) = or_swept((40_000, 10_000), (1_000_000, 1_000_000));
     let mut shares = |which: usize| {
         climb(run_seed() ^ stream, samples, steps, |rng| {
             let case = any_case(subpixel, rng);

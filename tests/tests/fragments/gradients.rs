@@ -22,6 +22,7 @@ use alberti_raster::{
 };
 use alberti_tests::derivatives::{Carried, Told, carried, told};
 use alberti_tests::probe::{LARGEST, vertex};
+use alberti_tests::sweep::or_swept;
 use std::ops::Range;
 
 /// Bits of the grid.
@@ -159,7 +160,7 @@ fn spans(length: i32) -> Lines {
 }
 
 fn samples(of: u64) -> u64 {
-    if std::env::var_os("ALBERTI_SWEEP").is_some() { 100 * of } else { of }
+    or_swept(of, 100 * of)
 }
 
 /// The same with q of the smallest numbers, subnormal ones and a few above these.

@@ -11,6 +11,7 @@ use alberti_projection::{EyeVertex, Perspective, Viewport};
 use alberti_raster::{Exact, PerPixel, Vertex};
 use alberti_tests::derivatives::{Carried, SIZE, carried, told};
 use alberti_tests::probe::unsnapped;
+use alberti_tests::sweep::or_swept;
 
 type Matrix = [[f64; 2]; 2];
 
@@ -110,8 +111,7 @@ fn lambda(vertices: &[Vertex<Carried>; 3], [column, row]: [i32; 2]) -> Option<f6
 
 /// Climbs the error of cases, as a share of what is allowed. None is a case that does not count.
 fn climbed(name: &str, stream: u64, mut share: impl FnMut(&mut Rng) -> Option<(f64, bool)>) -> f64 {
-    let sweep = std::env::var_os("ALBERTI_SWEEP").is_some();
-    let (samples, steps) = if sweep { (1_000_000, 200_000) } else { (100_000, 10_000) };
+    let (samples, steps) = or_swept((100_000, 10_000), (1_000_000, 200_000));
     let (mut count, mut steep) = (0, 0);
     let found = climb(run_seed() ^ stream, samples, steps, |rng| {
         share(rng).map_or(0.0, |(share, is_steep)| {

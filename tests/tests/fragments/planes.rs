@@ -23,6 +23,7 @@ use alberti::{
     Viewport,
 };
 use alberti_oracle::rng::{Rng, run_seed};
+use alberti_tests::sweep::or_swept;
 use std::f64::consts::TAU;
 
 /// Columns and rows of the frame.
@@ -322,7 +323,7 @@ fn check(fan: &Fan, arithmetic: Arithmetic, counts: &mut Counts) {
 fn fans(at: At, stream: u64, enough: [u64; 3]) {
     let mut rng = Rng::stream(run_seed(), stream);
     let mut counts = Counts::default();
-    for _ in 0..if std::env::var_os("ALBERTI_SWEEP").is_some() { 2_000 } else { 80 } {
+    for _ in 0..or_swept(80, 2_000) {
         for arithmetic in all_arithmetic(UNIT) {
             let fan = Fan::any(&mut rng, at, matches!(arithmetic, Arithmetic::Integers(..)));
             check(&fan, arithmetic, &mut counts);

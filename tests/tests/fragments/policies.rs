@@ -23,6 +23,7 @@ use alberti_oracle::dd;
 use alberti_oracle::rng::{Rng, run_seed};
 use alberti_raster::{Cull, Interpolation, Lines, Paint, Planes, Rgba8888, Target};
 use alberti_tests::probe::{LARGEST, Recorded, Seen, snapped, unsnapped};
+use alberti_tests::sweep::or_swept;
 
 const EPS: f64 = 1.0 / (1 << 24) as f64;
 const WIDTH: i32 = 1000;
@@ -172,7 +173,7 @@ fn each_scaled(
     [factor, steepest]: [f32; 2],
     mut check: impl FnMut(&Case, i32, f64, f64),
 ) {
-    let samples = if std::env::var_os("ALBERTI_SWEEP").is_some() { 10_000_000 } else { samples };
+    let samples = or_swept(samples, 10_000_000);
     let mut rng = Rng::stream(run_seed(), stream);
     let (mut count, mut moved) = (0, 0);
     while count < samples {
@@ -237,8 +238,7 @@ fn climbs_up_to(
     steepest: f32,
     share: impl Fn(&Case, i32, f64) -> f64,
 ) {
-    let (samples, steps) =
-        if std::env::var_os("ALBERTI_SWEEP").is_some() { (100_000, 100_000) } else { (4000, 1500) };
+    let (samples, steps) = or_swept((2000, 800), (100_000, 100_000));
     let found = climb(run_seed() ^ stream, samples, steps, |rng| {
         let mut worst = 0.0;
         of_any_case(policy, rng, [1.0, steepest], &mut |case, column, u, _| {

@@ -18,6 +18,7 @@ use alberti_oracle::dd::{self, Dd};
 use alberti_oracle::rng::{Rng, run_seed};
 use alberti_raster::Vertex;
 use alberti_tests::probe::{LARGEST, Probe, Recorded, snapped, unsnapped};
+use alberti_tests::sweep::or_swept;
 
 const EPS: f64 = 1.0 / (1 << 24) as f64;
 
@@ -269,9 +270,8 @@ fn horizon(subpixel: Subpixel, rng: &mut Rng) -> Shape {
 }
 
 fn large_ones(subpixel: Subpixel, stream: u64, linear: bool) {
-    let sweep = std::env::var_os("ALBERTI_SWEEP").is_some();
     let mut probe = Probe::new(Recorded, subpixel);
-    let (samples, steps) = if sweep { (1_000_000, 500_000) } else { (100_000, 20_000) };
+    let (samples, steps) = or_swept((100_000, 20_000), (1_000_000, 500_000));
     for which in [0, 1] {
         let mut counts = [0; 2];
         // The planes are climbed apart, so that neither hides the other.
@@ -421,8 +421,7 @@ fn values_near_one_another() {
     let (used, plane) = known.used(&mut probe, subpixel, false);
     assert!(plane == Plane::Before && used[0] > 7.0 / 13.0, "{used:?}, {plane:?}");
     // It is one of the cases itself.
-    let sweep = std::env::var_os("ALBERTI_SWEEP").is_some();
-    let steps = if sweep { 1_000_000 } else { 20_000 };
+    let steps = or_swept(20_000, 1_000_000);
     let found = climb(run_seed() ^ 35, steps, steps, |rng| {
         let case = known.beside(rng);
         if !case.covers(subpixel) {

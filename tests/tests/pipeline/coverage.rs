@@ -17,6 +17,7 @@ use alberti_oracle::coverage::{Triangle, area2, covers, weights};
 use alberti_oracle::rng::{Rng, run_seed};
 use alberti_raster::{Cull, Edge, FITS_I32, NoDepth, Outcome, Rgba8888, Span, SpanWalker, Target};
 use alberti_tests::probe::{Covered, LARGEST, Probe, bare, draw_widest, steps};
+use alberti_tests::sweep::or_swept;
 
 /// All 289^3 ordered triples of 28.4 positions in the closed pixel, of which these have positive area, and so many of
 /// those the sample exactly on the line of an edge.
@@ -76,15 +77,15 @@ fn adversarial_samples_with_eight_bits() {
     adversarial(Subpixel::Sub8, 8);
 }
 
-/// Half of the 10^7 samples: through the edge functions wherever the sample lies, and through the rasterizer wherever
-/// a frame can have it.
+/// Half of the 10^7 samples of a sweep: through the edge functions wherever the sample lies, and through the rasterizer
+/// wherever a frame can have it.
 fn adversarial(subpixel: Subpixel, stream: u64) {
-    const SAMPLES: u64 = 5_000_000;
+    let samples = or_swept(1_000_000, 5_000_000);
     let (bits, guard) = (subpixel.bits(), i64::from(GUARD_PIXELS) << subpixel.bits());
     let mut rng = Rng::stream(run_seed(), stream);
     let mut probe = Probe::new(NoDepth, subpixel);
     let (mut ties, mut covered, mut spans, mut drawn, mut drawn_ties) = (0, 0, 0, 0, 0);
-    for _ in 0..SAMPLES {
+    for _ in 0..samples {
         let case = cases::any(&mut rng, bits, guard);
         let (expected, tie) = (covers(case.tri, case.sample), on_a_line(case.tri, case.sample));
         assert_eq!(inside(subpixel, case.tri, case.sample), expected, "{case:?}");
@@ -112,10 +113,10 @@ fn adversarial(subpixel: Subpixel, stream: u64) {
         }
     }
     println!(
-        "{SAMPLES} samples, {ties} ties, {covered} covered, {spans} spans; {drawn} drawn, {drawn_ties} ties"
+        "{samples} samples, {ties} ties, {covered} covered, {spans} spans; {drawn} drawn, {drawn_ties} ties"
     );
-    assert!(ties * 20 >= SAMPLES && drawn_ties * 20 >= drawn, "too few ties: {ties}, {drawn_ties}");
-    assert!(covered * 10 >= SAMPLES && spans * 4 >= SAMPLES && drawn * 4 >= SAMPLES * 3);
+    assert!(ties * 20 >= samples && drawn_ties * 20 >= drawn, "too few ties: {ties}, {drawn_ties}");
+    assert!(covered * 10 >= samples && spans * 4 >= samples && drawn * 4 >= samples * 3);
 }
 
 fn on_a_line(tri: Triangle, sample: [i64; 2]) -> bool {

@@ -13,6 +13,7 @@ use alberti::{
 };
 use alberti_tests::for_widest;
 use alberti_tests::narrow::Narrow;
+use alberti_tests::sweep::or_swept;
 use proptest::prelude::*;
 
 const WIDTH: u32 = 40;
@@ -161,7 +162,7 @@ fn check_all(case: &Case) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 100_000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: or_swept(25_000, 100_000), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn any_mesh_is_drawn_within_its_viewport_or_not_at_all(case in case()) {

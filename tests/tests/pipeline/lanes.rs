@@ -19,6 +19,7 @@ use alberti_oracle::rng::{Rng, run_seed};
 use alberti_raster::{Corner, Paint};
 use alberti_tests::random::triangle;
 use alberti_tests::reference::view;
+use alberti_tests::sweep::or_swept;
 
 /// Random triangles over each other: the colours have every bit of the varying.
 fn random_frame<D: DepthFormat<Stored = u32>>(
@@ -97,7 +98,7 @@ const WIDTH: usize = 101;
 
 fn random_triangles<D: DepthFormat<Stored = u32>>(format: D, interpolation: impl Interpolation, stream: u64) {
     // Ten million triangles take some minutes: `cargo xtask sweep`.
-    let frames = if std::env::var_os("ALBERTI_SWEEP").is_some() { 2500 } else { 60 };
+    let frames = or_swept(40, 2500);
     for part in 0..frames {
         let triangles = random(run_seed() ^ part ^ stream << 32);
         let one = random_frame(format, interpolation, One, Triangles::OneByOne(&triangles));
@@ -163,10 +164,9 @@ fn pieces_of_a_frame_are_the_frame() {
 #[test]
 fn boxes_of_all_sizes() {
     let sizes = || (0..=40).chain([63, 64, 65, 127, 128, 129, 255, 257, 511, 513, 1025, 2047, 4000]);
-    let sweep = std::env::var_os("ALBERTI_SWEEP").is_some();
     let (mut drawn, mut rng) = (0, Rng::stream(run_seed(), 20));
     for (w, h) in sizes().flat_map(|w| sizes().map(move |h| (w, h))) {
-        let triangles: Vec<_> = (0..if sweep { 400 } else { 3 }).map(|_| boxed(&mut rng, [w, h])).collect();
+        let triangles: Vec<_> = (0..or_swept(3, 400)).map(|_| boxed(&mut rng, [w, h])).collect();
         let frame = |lanes: &dyn Fn(&mut Target<'_, Rgba8888, AnyDepth>)| {
             // The upper left corner of large ones, or a strip through their middle.
             let (size, first) = ([WIDTH as u32, 4200], if h > 200 { h.unsigned_abs() / 2 } else { 0 });

@@ -18,6 +18,7 @@ use alberti_oracle::rng::{Rng, run_seed};
 use alberti_raster::{AnyDepth, Cull, FixedPoint, Interpolation, Lines, Paint, Rgba8888, Target, Vertex};
 use alberti_tests::for_widest;
 use alberti_tests::probe::{Seen, vertex};
+use alberti_tests::sweep::or_swept;
 use std::ops::Range;
 
 const SIDE: i32 = 64;
@@ -207,7 +208,7 @@ fn keeps_its_bounds(
     one_run: impl Fn(&Case) -> bool,
     missed: impl Fn(&Case, i32) -> f64,
 ) {
-    let count = if std::env::var_os("ALBERTI_SWEEP").is_some() { 1_000_000 } else { 4_000 };
+    let count = or_swept(4_000, 1_000_000);
     let mut rng = Rng::stream(run_seed(), stream);
     let mut counts = Counts::default();
     for _ in 0..count {
@@ -326,7 +327,7 @@ fn budgets_are_kept() {
 /// what the policy allows to each way.
 #[test]
 fn large_triangles_go_another_way_to_the_same_pixels() {
-    let count = if std::env::var_os("ALBERTI_SWEEP").is_some() { 10_000_000 } else { 8_000 };
+    let count = or_swept(8_000, 10_000_000);
     let mut rng = Rng::stream(run_seed(), 8);
     let (mut small, mut covered, mut differing, mut worst) = ([0; 2], 0, 0, 0.0f64);
     for turn in 0..count {

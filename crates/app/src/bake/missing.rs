@@ -5,8 +5,8 @@ use std::borrow::Cow;
 use super::report::{counted, named};
 use super::{Asked, Asset};
 use crate::error::{Error, number};
-use crate::options::RenderOptions;
-use crate::scene::{Detail, Light, Model};
+use crate::options::{RenderOptions, Shading};
+use crate::scene::{Detail, Light, Model, Part};
 use alberti::baked::Attributes;
 use alberti::raster::color::AnyBlend;
 
@@ -26,7 +26,9 @@ pub fn missing(model: &Model, options: &RenderOptions, asked: Asked) -> Vec<Erro
     }
     for part in model.parts.iter().filter(|part| !part.triangles.is_empty()) {
         let of = named(part);
+        let loses_colors = part.detail.carries_colors() && !kept_colors(options, asked);
         let things = [
+            (loses_colors, "that colours of its vertices multiply", "one without", "no colours of vertices"),
             (part.detail.blend != AnyBlend::Replace, "that is blended", "an opaque one", "no blend"),
             (part.detail.alpha_test > 0, "that has holes", "one without", "no alpha test"),
         ];
@@ -77,15 +79,26 @@ pub fn left_out(model: &Model, asset: &Asset) -> Option<Error> {
     Some(Error::new(found, "larger triangles, or a smaller model").hint("the file has none of these"))
 }
 
-/// The model without them, as the file has it: nothing is seen through its surfaces.
-pub(super) fn opaque(model: &Model) -> Cow<'_, Model> {
-    if !model.parts.iter().any(|part| part.detail.is_seen_through()) {
+/// Whether vertices have their colours in the file.
+fn kept_colors(options: &RenderOptions, asked: Asked) -> bool {
+    match asked {
+        Asked::Auto => options.shading == Shading::VertexColor,
+        Asked::These(attributes) => attributes.contains(Attributes::COLOR),
+    }
+}
+
+/// The model without them, as the file with these attributes has it: nothing is seen through its surfaces.
+pub(super) fn as_filed(model: &Model, attributes: Attributes) -> Cow<'_, Model> {
+    let has_colors = attributes.contains(Attributes::COLOR);
+    let loses_colors = |part: &Part| part.detail.carries_colors() && !has_colors;
+    if !model.parts.iter().any(|part| part.detail.is_seen_through() || loses_colors(part)) {
         return Cow::Borrowed(model);
     }
-    let mut opaque = model.clone();
-    for part in &mut opaque.parts {
+    let mut filed = model.clone();
+    for part in &mut filed.parts {
         let Detail { blend, alpha_test, .. } = Detail::default();
         (part.detail.blend, part.detail.alpha_test) = (blend, alpha_test);
+        part.detail.colored &= has_colors;
     }
-    Cow::Owned(opaque)
+    Cow::Owned(filed)
 }

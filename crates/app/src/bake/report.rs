@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use serde_json::{Value, json};
 
 use super::binary::length;
-use super::missing::opaque;
+use super::missing::as_filed;
 use super::texels::Role;
 use super::{Asset, Format, restored};
 use crate::advise::{Kin, Machine, baked_on_chip, depth_bytes, work};
@@ -61,7 +61,7 @@ pub struct Estimate {
 impl<'a> Report<'a> {
     /// The report on the asset of a scene, and on its file, in bands of so many rows, or those of the frame.
     /// Instructions are those of the options' policies; frames are compared by the most precise ones, without what the
-    /// file has not: blends, holes and fog.
+    /// file has not: blends, holes, fog and, unless they are asked for, colours of vertices.
     ///
     /// # Errors
     /// A frame cannot be drawn, or chips are not known to draw so.
@@ -71,7 +71,7 @@ impl<'a> Report<'a> {
         (model, camera, options): (&Model, &Camera, &RenderOptions),
         band: u32,
     ) -> Result<Self, Error> {
-        let (model, band) = (&*opaque(model), band.min(options.height));
+        let (model, band) = (&*as_filed(model, asset.attributes), band.min(options.height));
         let baked = restored(file, asset, model)?;
         let work = work(&baked, camera, options)?;
         let light = light(asset, options);

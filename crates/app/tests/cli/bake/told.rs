@@ -48,6 +48,24 @@ fn what_a_file_has_not_is_told() {
     assert!(number(&report, "frame") <= 1.0, "{report}");
 }
 
+/// Colours of vertices that multiply a surface: told unless the file has them, and left out of the frames compared.
+#[test]
+fn colours_of_vertices_are_told() {
+    let square = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0 1 1 0\nf 1 2 3\nf 1 3 4\n";
+    let folder = Folder::with(&[("square.obj", square.as_bytes())]);
+    let of = |arguments: &[&str], warnings: usize| {
+        let run = bake(&folder, &[&["square.obj", "--json"], arguments].concat());
+        assert_eq!((run.status, run.stderr.lines().count()), (Some(0), warnings), "{run:?}");
+        let found = "square.obj: found a surface that colours of its vertices multiply";
+        assert_eq!(run.stderr.contains(found), warnings > 0, "{run:?}");
+        let report: Value = serde_json::from_str(&run.stdout).expect("one line of JSON");
+        assert!(number(&report, "frame") <= 1.0, "{report}");
+    };
+    of(&[], 1);
+    of(&["--attributes", "normal,color"], 0);
+    of(&["--shading", "vertex-color"], 0);
+}
+
 /// Lights beside the one that programs have, and a projector's image: a line for each.
 #[test]
 fn lights_and_a_projector_are_told() {
