@@ -60,8 +60,8 @@ pub struct Estimate {
 
 impl<'a> Report<'a> {
     /// The report on the asset of a scene, and on its file, in bands of so many rows, or those of the frame.
-    /// Instructions are those of the options' policies; frames are compared by the most precise ones, without what the
-    /// file has not: blends, holes, fog and, unless they are asked for, colours of vertices.
+    /// Instructions are those of the options' policies. Frames are compared by the most precise ones, without what the
+    /// file has not: blends, holes, fog, and often colours of vertices.
     ///
     /// # Errors
     /// A frame cannot be drawn, or chips are not known to draw so.
