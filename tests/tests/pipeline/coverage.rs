@@ -19,10 +19,10 @@ use alberti_raster::{Cull, Edge, FITS_I32, NoDepth, Outcome, Rgba8888, Span, Spa
 use alberti_tests::probe::{Covered, LARGEST, Probe, bare, draw_widest, steps};
 use alberti_tests::sweep::or_swept;
 
-/// All 289^3 ordered triples of 28.4 positions in the closed pixel, of which these have positive area, and so many of
-/// those the sample exactly on the line of an edge.
-const POSITIVE: u32 = 11_791_152;
-const ON_A_LINE: u32 = 744_192;
+/// All 289^3 ordered triples of 28.4 positions in the closed pixel, each of which is there three times, by its three
+/// beginnings: of these so many have positive area, and so many of those the sample exactly on the line of an edge.
+const POSITIVE: u32 = 11_791_152 / 3;
+const ON_A_LINE: u32 = 744_192 / 3;
 
 #[test]
 fn every_triangle_within_a_pixel() {
@@ -38,9 +38,10 @@ fn every_triangle_within_a_pixel() {
         (count.samples, count.outcome)
     };
     let (mut positive, mut on_a_line, mut covered) = (0, 0, 0);
-    for &a in &points {
-        for &b in &points {
-            for &c in &points {
+    // Each from its first point.
+    for (i, &a) in points.iter().enumerate() {
+        for &b in &points[i + 1..] {
+            for &c in &points[i + 1..] {
                 let tri = [a, b, c];
                 if area2(tri) <= 0 {
                     continue;
@@ -64,7 +65,7 @@ fn every_triangle_within_a_pixel() {
     }
     println!("{positive} triangles, {on_a_line} with the sample on a line, {covered} cover it");
     assert_eq!((positive, on_a_line), (POSITIVE, ON_A_LINE));
-    assert!(covered > 1_000_000);
+    assert!(covered > 300_000);
 }
 
 #[test]

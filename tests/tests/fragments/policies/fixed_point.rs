@@ -35,7 +35,7 @@ fn fixed_point(
     policy_bound: impl Fn(&Case, i32) -> [f64; 2],
 ) {
     let (mut worst, mut worst_depth, mut near) = (0.0, 0.0, 0);
-    each_sample(policy, stream, 1_000_000, |case, column, u, zs| {
+    each_sample(policy, stream, 300_000, |case, column, u, zs| {
         let [exact, missed] = policy_bound(case, column);
         let fixed = case.fixed_point(steps);
         let error = (u - exact).abs();
