@@ -62,6 +62,9 @@ fn decode(path: &Path, budget: u64) -> Result<DynamicImage, Error> {
         let found = if bytes.is_empty() { "an empty file" } else { "a file of another format" };
         Error::new(found, KIND).file(path).hint("convert it to PNG")
     })?;
+    if format == ImageFormat::Jpeg && is_cut_off(&bytes) {
+        return Err(broken(path, format, &ImageError::IoError(io::ErrorKind::UnexpectedEof.into())));
+    }
     let broken = |error: ImageError| broken(path, format, &error);
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     let mut limits = Limits::no_limits();
@@ -81,6 +84,26 @@ fn decode(path: &Path, budget: u64) -> Result<DynamicImage, Error> {
     let mut picture = DynamicImage::from_decoder(decoder).map_err(broken)?;
     picture.apply_orientation(orientation);
     Ok(picture)
+}
+
+/// Whether a JPEG file has no marker of an end behind its picture, about which decoders say nothing: they make up the
+/// rest. Markers and their lengths are those of ITU-T T.81, annex B; one in a thumbnail does not count.
+fn is_cut_off(jpeg: &[u8]) -> bool {
+    const END: u8 = 0xd9;
+    let mut rest = jpeg.get(2..).unwrap_or_default();
+    loop {
+        // In the data of a scan 0xff is followed by 0, or by the number of a restart.
+        let marker = |pair: &[u8]| pair[0] == 0xff && !matches!(pair[1], 0 | 0xd0..=0xd7 | 0xff);
+        let Some(at) = rest.windows(2).position(marker) else { return true };
+        let (kind, behind) = (rest[at + 1], &rest[at + 2..]);
+        if kind == END {
+            return false;
+        }
+        let Some(length) = behind.first_chunk().map(|bytes| usize::from(u16::from_be_bytes(*bytes))) else {
+            return true;
+        };
+        rest = behind.get(length..).unwrap_or_default();
+    }
 }
 
 fn too_large(found: String, budget: u64) -> Error {
@@ -219,6 +242,33 @@ mod tests {
         let path = file(&folder, "a.tga", &tga(3, 3, &[0; 27]));
         let message = load(&path, 0).unwrap_err().to_string();
         assert!(message.contains("no more than are left of 134217728 for all images, 0;"), "{message}");
+    }
+
+    /// Wherever its data are cut, and whatever a thumbnail has; what stands behind the end is no fault.
+    #[test]
+    fn a_jpeg_that_is_cut_off_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.jpg");
+        let picture = image::RgbImage::from_fn(64, 64, |x, y| {
+            image::Rgb([x, y, x ^ y].map(|c| u8::try_from(4 * c).unwrap_or_default()))
+        });
+        picture.save(&path).unwrap();
+        let whole = fs::read(&path).unwrap();
+        let thumbnail = [&[0xff, 0xe1, 0, 6, 0xff, 0xd9, 0xff, 0xd9], &whole[2..]].concat();
+        let with_thumbnail = [&whole[..2], &thumbnail].concat();
+        for bytes in [&whole, &with_thumbnail] {
+            let expected = load(&path, MAX_TEXELS).unwrap();
+            fs::write(&path, [bytes, &b"more"[..]].concat()).unwrap();
+            assert_eq!(load(&path, MAX_TEXELS).unwrap(), expected);
+            for end in [bytes.len() - 1, bytes.len() - 2, bytes.len() * 9 / 10, bytes.len() * 2 / 3] {
+                let cut = file(&folder, "cut.jpg", &bytes[..end]);
+                let message = load(&cut, MAX_TEXELS).map(|_| ()).unwrap_err().to_string();
+                assert!(
+                    message.contains("found a JPEG image that ends too early, expected"),
+                    "{end}: {message}"
+                );
+            }
+        }
     }
 
     #[test]
