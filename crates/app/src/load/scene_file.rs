@@ -125,8 +125,9 @@ impl SceneFile {
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<(Model, bool), Error> {
         let render = &arguments.render;
+        let normals = render.normals.filter(|_| !self.keys.contains_key("--normals"));
         let (mut model, has_uv) =
-            self.objects(over, (render.wrap.unwrap_or_default(), render.normals), warnings, progress)?;
+            self.objects(over, (render.wrap.unwrap_or_default(), normals), warnings, progress)?;
         model.source = Some(self.source.path().to_owned());
         model.lights = self.lights(model.origin)?;
         model.ambient = self.ambient();

@@ -37,7 +37,8 @@ impl SceneFile {
         name.map(|name| self.material(name, &format!("{path}.material"))).transpose()
     }
 
-    /// All objects as one model, and whether all have coordinates for their textures.
+    /// All objects as one model, and whether all have coordinates for their textures. `over` and `normals` are what the
+    /// command line says, which goes over what objects say.
     pub(super) fn objects(
         &self,
         over: &Material,
@@ -115,6 +116,7 @@ impl SceneFile {
         }
         let is = |kinds: &[SurfaceKind]| kind.is_some_and(|kind| kinds.contains(&kind));
         for (name, has, what) in [
+            ("normals", kind.is_none(), "a model"),
             ("segments", kind.is_some(), "a surface"),
             ("size", is(&[SurfaceKind::Plane]), "a plane"),
             ("radius", is(&[SurfaceKind::Sphere, SurfaceKind::Cylinder]), "a sphere or a cylinder"),
@@ -185,6 +187,7 @@ impl SceneFile {
         normals: Option<Normals>,
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<obj::Loaded, Error> {
+        let normals = normals.or(object.normals).or(self.file.render.normals);
         let Some(name) = &object.model else { return Err(Error::new("no model", "a model")) };
         obj::load(&self.source.beside(name), normals, progress).map_err(|error| {
             let found = format!("a model {} that cannot be used ({error})", quote(name.as_bytes()));

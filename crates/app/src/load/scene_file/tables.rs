@@ -8,7 +8,7 @@ use serde::Deserialize;
 use crate::options::values::{
     Color, HalfAngle, Intensity, Length, Number, Place, Scale, Side, Size, Tuple, one_of, words,
 };
-use crate::options::{Background, CameraTable, Material, ProjectorTable, RenderTable};
+use crate::options::{Background, CameraTable, Material, Normals, ProjectorTable, RenderTable};
 
 /// The whole file.
 #[derive(Debug, Default, Deserialize)]
@@ -31,6 +31,7 @@ pub(super) struct File {
 #[serde(deny_unknown_fields, default)]
 pub(super) struct Object {
     pub(super) model: Option<String>,
+    pub(super) normals: Option<Normals>,
     pub(super) surface: Option<SurfaceKind>,
     pub(super) segments: Option<Tuple<2, Side>>,
     pub(super) size: Option<Tuple<2, Length>>,

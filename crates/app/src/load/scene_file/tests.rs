@@ -55,6 +55,31 @@ fn image(width: usize, texels: &[[u8; 3]]) -> Vec<u8> {
     bytes.into_inner()
 }
 
+/// A roof whose two sides share an edge: four vertices where it is smooth, six where it is flat.
+#[test]
+fn normals_are_those_of_the_command_line_then_of_the_object_then_of_all() {
+    const ROOF: &str = "v 0 0 0\nv 1 0 0\nv 1 0.2 1\nv 1 0 2\nf 1 3 2\nf 1 4 3\n";
+    const OBJECTS: &str = "[[object]]\nmodel = \"roof.obj\"\n\
+         [[object]]\nmodel = \"roof.obj\"\nnormals = \"smooth\"\n";
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("roof.obj"), ROOF).unwrap();
+    let vertices = |all: &str, given: &str| {
+        let path = folder.path().join("s.toml");
+        fs::write(&path, format!("{all}{OBJECTS}")).unwrap();
+        let given = words(given);
+        let (scene, mut arguments) = SceneFile::read(&path, &given).unwrap();
+        arguments.update_from_arg_matches(&given).unwrap();
+        let warnings = &mut Warnings::default();
+        let (model, _) = scene.build(&Material::default(), &arguments, warnings, &mut |_, _| ()).unwrap();
+        model.vertices.len()
+    };
+    let flat = "[render]\nnormals = \"flat\"\n";
+    assert_eq!(vertices("", ""), 4 + 4);
+    assert_eq!(vertices(flat, ""), 6 + 4);
+    assert_eq!(vertices("", "--normals flat"), 6 + 6);
+    assert_eq!(vertices(flat, "--normals smooth"), 4 + 4);
+}
+
 #[test]
 fn options_are_filled_in_and_the_command_line_comes_first() {
     let text = "size = [320, 200]\nbackground = \"102030\"\noutput = \"out.png\"\n\

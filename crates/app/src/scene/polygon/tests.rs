@@ -227,9 +227,15 @@ fn what_has_no_area_gets_as_many_triangles() {
 
 #[test]
 fn large_polygons_end() {
-    for outline in
-        [comb(2_500), band(50_000, 20.0, |t| 1.0 + 20.0 * t, 0.5), ring(5_000, 5_000), star(50_000, 0.9)]
-    {
+    let small_hole = circle(50_000, 2.0).into_iter().chain(circle(50_000, 0.01).into_iter().rev()).collect();
+    for outline in [
+        comb(25_000),
+        band(50_000, 20.0, |t| 1.0 + 20.0 * t, 0.5),
+        ring(50_000, 50_000),
+        small_hole,
+        ring(100, 90_000),
+        star(50_000, 0.9),
+    ] {
         let points: Vec<_> = outline.iter().map(|&[x, y]| [x, y, 0.0]).collect();
         let mut triangles = Vec::new();
         assert!(triangulate(&points, &mut triangles));

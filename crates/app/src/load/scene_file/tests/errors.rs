@@ -126,6 +126,10 @@ fn errors_name_line_and_key() {
             "s.toml:3: object.radius: found a key that has no use here, expected a sphere or a cylinder",
         ),
         (
+            &with("normals = \"flat\"\n"),
+            "s.toml:3: object.normals: found a key that has no use here, expected a model",
+        ),
+        (
             &with("segments = [9000, 9000]\n"),
             "s.toml:3: object.segments: found 81000000 cells, expected at most 1048576",
         ),
