@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::error::{Error, quote};
 use crate::load::image_file;
 use crate::load::mtl::Alpha;
-use crate::options::MapFile;
+use crate::options::{MapFile, byte};
 use crate::output::clock::{Work, timed};
 use crate::scene::{HeightImage, Image, MapNote, Model};
 
@@ -29,7 +29,27 @@ enum Made {
     WithAlpha(Option<usize>, usize),
     /// Its alpha times this.
     Faded(usize, u8),
+    /// Its colours by a factor, as an `f32`'s bits, and more by a term.
+    Ranged(usize, [u32; 2]),
+    /// The colours of the first, white without one, of which metal by the second, times a byte, scatters half.
+    Dull(Option<usize>, (usize, u8)),
+    /// What such a surface mirrors.
+    Mirroring(Mirroring),
 }
+
+/// A surface whose highlights differ from place to place. Maps that are missing are white.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Mirroring {
+    /// The texture, and what its colours are multiplied by.
+    pub(crate) colors: (Option<usize>, [u8; 3]),
+    /// The share of metal.
+    pub(crate) metal: (Option<usize>, u8),
+    /// Where exponents of highlights go from the first to the second.
+    pub(crate) gloss: (Option<usize>, [u32; 2]),
+}
+
+/// The share of light that a surface that is no metal mirrors head-on.
+pub(crate) const DIELECTRIC: f32 = 0.04;
 
 /// Images of a kind, and their indices by file. `None` is a file of which an error has been told.
 #[derive(Debug)]
@@ -83,10 +103,14 @@ impl Images {
     /// The file cannot be read, or is no image.
     pub(crate) fn texture(&mut self, map: &MapFile) -> Result<Option<usize>, Error> {
         let left = &mut self.texels_left;
-        self.textures.index(map, |path| {
+        let index = self.textures.index(map, |path| {
             let image = timed(Work::Maps, || image_file::load(path, *left))?;
             *left = left.saturating_sub(image.texels.len() as u64);
             Ok(image)
+        })?;
+        Ok(match map.range {
+            Some(range) => index.map(|index| self.ranged(index, range)),
+            None => index,
         })
     }
 
@@ -124,65 +148,102 @@ impl Images {
 
     /// The texture of 255 less its colours: of roughness, smoothness.
     pub(crate) fn inverted(&mut self, index: usize) -> usize {
-        self.made(Made::Inverted(index), |all| {
-            let mut image = all.get(index)?.clone();
-            for [r, g, b, _] in &mut image.texels {
-                [*r, *g, *b] = [255 - *r, 255 - *g, 255 - *b];
-            }
-            Some(image)
-        })
-    }
-
-    /// A texture whose alpha is that of another one: its alpha if it has such, else its red.
-    pub(crate) fn with_alpha(&mut self, colors: Option<usize>, alpha: usize) -> usize {
-        self.made(Made::WithAlpha(colors, alpha), |all| {
-            let source = all.get(alpha)?;
-            let has_alpha = Alpha::of(&source.texels) != Alpha::Opaque;
-            let white = Image { texels: vec![[255; 4]; source.texels.len()], ..*source };
-            let mut image = colors.and_then(|index| all.get(index)).unwrap_or(&white).clone();
-            // The texel of the other that holds the middle of this one.
-            // Sides are at most 2^14.
-            let at = |k: u32, of: u32, side: u32| ((2 * k + 1) * side / (2 * of)) as usize;
-            let (width, height) = (image.width, image.height);
-            for (texels, row) in image.texels.chunks_mut(width as usize).zip(0..) {
-                for ([.., alpha], column) in texels.iter_mut().zip(0..) {
-                    let (x, y) = (at(column, width, source.width), at(row, height, source.height));
-                    let [red, .., own] = source.texels.get(y * source.width as usize + x).copied()?;
-                    *alpha = if has_alpha { own } else { red };
-                }
-            }
-            Some(image)
-        })
+        self.changed(index, Made::Inverted(index), |[r, g, b, a]| [255 - r, 255 - g, 255 - b, a])
     }
 
     /// A texture whose alpha is multiplied by a share, a byte.
     pub(crate) fn faded(&mut self, index: usize, share: u8) -> usize {
-        self.made(Made::Faded(index, share), |all| {
-            let mut image = all.get(index)?.clone();
-            for [.., alpha] in &mut image.texels {
-                let product = u32::from(*alpha) * u32::from(share);
-                *alpha = ((product + 127) / 255).to_le_bytes()[0];
-            }
-            Some(image)
+        self.changed(index, Made::Faded(index, share), |[r, g, b, a]| [r, g, b, times(a, share)])
+    }
+
+    /// A texture whose colours are multiplied by the second of `range`, to which the first is added, from 0 to 1.
+    fn ranged(&mut self, index: usize, [base, gain]: [f32; 2]) -> usize {
+        self.changed(index, Made::Ranged(index, [base, gain].map(f32::to_bits)), |[r, g, b, a]| {
+            let [r, g, b] = [r, g, b].map(|c| byte(base + gain * share(c)));
+            [r, g, b, a]
         })
     }
 
-    /// The index of a texture that is made of others, or of the first of them where there is no room for it.
-    fn made(&mut self, made: Made, make: impl FnOnce(&[Image]) -> Option<Image>) -> usize {
-        if let Some(&known) = self.made.get(&made) {
-            return known;
-        }
-        let (Made::Inverted(source) | Made::WithAlpha(_, source) | Made::Faded(source, _)) = made;
-        let index = match make(&self.textures.all) {
-            Some(image) if image.texels.len() as u64 <= self.texels_left => {
-                self.texels_left -= image.texels.len() as u64;
-                self.textures.all.push(image);
-                self.textures.all.len() - 1
-            }
-            _ => source,
+    fn changed(&mut self, index: usize, made: Made, change: impl Fn([u8; 4]) -> [u8; 4]) -> usize {
+        let make = |all: &[Image]| {
+            let image = all.get(index)?;
+            Some(Image { texels: image.texels.iter().map(|&texel| change(texel)).collect(), ..*image })
         };
+        self.made(made, make).unwrap_or(index)
+    }
+
+    /// A texture whose alpha is that of another one: its alpha if it has such, else its red.
+    pub(crate) fn with_alpha(&mut self, colors: Option<usize>, alpha: usize) -> Option<usize> {
+        let has_alpha = self.alpha(alpha) != Alpha::Opaque;
+        let maps = [colors.or(Some(alpha)), Some(alpha), None];
+        self.together(maps, Made::WithAlpha(colors, alpha), |[color, [red, .., own], _]| {
+            let [r, g, b, _] = if colors.is_some() { color } else { [255; 4] };
+            [r, g, b, if has_alpha { own } else { red }]
+        })
+    }
+
+    /// The texture of a surface that is metal in places: the light that it scatters.
+    pub(crate) fn dull(&mut self, colors: Option<usize>, (metal, by): (usize, u8)) -> Option<usize> {
+        let made = Made::Dull(colors, (metal, by));
+        self.together([colors, Some(metal), None], made, |[[r, g, b, a], [metal, ..], _]| {
+            let scattered = 255 - times(metal, by) / 2;
+            let [r, g, b] = [r, g, b].map(|c| times(c, scattered));
+            [r, g, b, a]
+        })
+    }
+
+    /// What a surface mirrors head-on, times `height` of the exponent there.
+    pub(crate) fn mirroring(&mut self, of: Mirroring, height: impl Fn(f32) -> f32) -> Option<usize> {
+        let Mirroring { colors, metal, gloss } = of;
+        self.together([colors.0, metal.0, gloss.0], Made::Mirroring(of), |[color, [red, ..], [sharp, ..]]| {
+            let metal = share(times(red, metal.1));
+            let [least, greatest] = gloss.1.map(f32::from_bits);
+            let height = height(least + (greatest - least) * share(sharp));
+            let mirrored = |axis: usize| {
+                let own = share(times(color[axis], colors.1[axis]));
+                byte((DIELECTRIC + (own - DIELECTRIC) * metal) * height)
+            };
+            [mirrored(0), mirrored(1), mirrored(2), 255]
+        })
+    }
+
+    /// A texture of others: as large as the first that is there, of their texels that hold the middle of its own.
+    /// `None` where there is no room for it.
+    fn together(
+        &mut self,
+        maps: [Option<usize>; 3],
+        made: Made,
+        change: impl Fn([[u8; 4]; 3]) -> [u8; 4],
+    ) -> Option<usize> {
+        self.made(made, |all| {
+            let images = maps.map(|index| all.get(index?));
+            let [width, height] = images.iter().flatten().next().map(|image| [image.width, image.height])?;
+            // Sides are at most 2^14.
+            let at = |k: u32, of: u32, side: u32| ((2 * k + 1) * side / (2 * of)) as usize;
+            let texel = |row: u32, column: u32| {
+                change(images.map(|image| {
+                    let Some(image) = image else { return [255; 4] };
+                    let (x, y) = (at(column, width, image.width), at(row, height, image.height));
+                    image.texels.get(y * image.width as usize + x).copied().unwrap_or([255; 4])
+                }))
+            };
+            let texels = (0..height).flat_map(|row| (0..width).map(move |column| (row, column)));
+            let texels = texels.map(|(row, column)| texel(row, column)).collect();
+            Some(Image { width, height, texels })
+        })
+    }
+
+    /// The index of a texture that is made of others; `None` where there is no room for it.
+    fn made(&mut self, made: Made, make: impl FnOnce(&[Image]) -> Option<Image>) -> Option<usize> {
+        if let Some(&known) = self.made.get(&made) {
+            return Some(known);
+        }
+        let image = make(&self.textures.all).filter(|image| image.texels.len() as u64 <= self.texels_left)?;
+        self.texels_left -= image.texels.len() as u64;
+        self.textures.all.push(image);
+        let index = self.textures.all.len() - 1;
         self.made.insert(made, index);
-        index
+        Some(index)
     }
 
     /// Heights that have been read.
@@ -230,6 +291,16 @@ impl Images {
     }
 }
 
+/// A byte as a share of 255.
+fn share(byte: u8) -> f32 {
+    f32::from(byte) / 255.0
+}
+
+/// The product of two shares, rounded to nearest.
+fn times(a: u8, b: u8) -> u8 {
+    ((u32::from(a) * u32::from(b) + 127) / 255).to_le_bytes()[0]
+}
+
 /// Images in the order in which they are named.
 struct Renumbered<T> {
     all: Vec<Option<T>>,
@@ -258,3 +329,6 @@ fn unusable(map: &MapFile, error: Error) -> Error {
     let found = format!("a texture {} that cannot be used ({error})", quote(origin.text.as_bytes()));
     map.place(Error::new(found, "an image"))
 }
+
+#[cfg(test)]
+mod tests;

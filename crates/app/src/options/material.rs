@@ -216,7 +216,7 @@ impl Material {
 }
 
 /// An image that a material names.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct MapFile {
     /// The image's file.
     pub path: PathBuf,
@@ -226,6 +226,8 @@ pub struct MapFile {
     pub filter: Option<Filter>,
     /// Its own wrap mode.
     pub wrap: Option<Wrap>,
+    /// What is added to its colours, from 0 to 1, once they have been multiplied by the second.
+    pub range: Option<[f32; 2]>,
 }
 
 /// A place in a file of text.
@@ -289,7 +291,7 @@ impl<'de> Deserialize<'de> for MapFile {
 
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<MapFile, A::Error> {
                 let Table { file, filter, wrap } = Table::deserialize(MapAccessDeserializer::new(map))?;
-                Ok(MapFile { path: file.into(), origin: None, filter, wrap })
+                Ok(MapFile { filter, wrap, ..MapFile::given(Path::new(&file)) })
             }
         }
         deserializer.deserialize_any(Either)

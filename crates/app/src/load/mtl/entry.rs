@@ -1,9 +1,9 @@
 //! A material as an MTL file says it, and as it is drawn.
 
 use crate::error::Error;
-use crate::load::images::Images;
+use crate::load::images::{DIELECTRIC, Images, Mirroring};
 use crate::options::values::{Color, MAX_SHININESS, Shininess};
-use crate::options::{MapFile, Material};
+use crate::options::{MapFile, Material, byte};
 use crate::scene::{Detail, Map, MaterialNote, Part};
 use alberti::raster::color::AnyBlend;
 
@@ -12,9 +12,6 @@ const BROAD: f32 = 8.0;
 
 /// The greatest exponent of a roughness map without a `Pr`.
 const POLISHED: f32 = 256.0;
-
-/// The share of light that a surface that is no metal mirrors head-on.
-const DIELECTRIC: f32 = 0.04;
 
 /// A material of a library.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -44,8 +41,9 @@ impl Entry {
     /// The material that is drawn: with highlights where the file has such.
     pub(crate) fn drawn(&self) -> Material {
         let mut drawn = self.material.clone();
-        let matt = self.illumination.is_some_and(|model| model < 2.0);
-        let metal = self.metallic.unwrap_or(0.0);
+        let matt = self.is_matt();
+        // Where a map says it, `complete` has the rest.
+        let metal = self.metallic.filter(|_| self.metallic_map.is_none()).unwrap_or(0.0);
         if let Some(roughness) = self.roughness.filter(|_| drawn.shininess.is_none()) {
             // The exponent of Blinn's highlight that is as wide as that of a microfacet surface.
             let alpha = (roughness * roughness).max(0.001);
@@ -54,14 +52,16 @@ impl Entry {
         } else if self.roughness_map.is_some() && drawn.shininess.is_none() {
             drawn.shininess = Some(Shininess([1.0, POLISHED]));
         }
-        let physical = self.roughness.is_some() || self.metallic.is_some() || self.roughness_map.is_some();
+        let physical = self.roughness.is_some()
+            || self.metallic.is_some()
+            || self.roughness_map.is_some()
+            || self.metallic_map.is_some();
         let exponent = drawn.shininess.map(|Shininess([_, greatest])| greatest);
         if matt {
             (drawn.specular, drawn.specular_map) = (Some(Color([0.0; 3])), None);
         } else if drawn.specular.is_none() && drawn.specular_map.is_none() {
             let Color(color) = drawn.color.unwrap_or(Color([0.8; 3]));
-            // The height of a highlight that keeps its light as it narrows.
-            let height = (exponent.unwrap_or(32.0) + 8.0) / 8.0;
+            let height = height(exponent.unwrap_or(32.0));
             let mirrored = |c: f32| ((DIELECTRIC + (c - DIELECTRIC) * metal) * height).clamp(0.0, 1.0);
             drawn.specular = Some(Color(if physical { color.map(mirrored) } else { [0.0; 3] }));
         }
@@ -75,14 +75,16 @@ impl Entry {
                 drawn.reflection = Some(metal.into());
             }
         }
-        if let Some(map) = &self.metallic_map {
-            if drawn.environment.is_some() {
-                drawn.reflection_map = Some(map.clone());
-            } else if drawn.specular_map.is_none() && !matt {
-                drawn.specular_map = Some(map.clone());
-            }
+        if let Some(map) = self.metallic_map.as_ref().filter(|_| drawn.environment.is_some()) {
+            drawn.reflection_map = Some(map.clone());
+            drawn.reflection = drawn.reflection.or(Some(self.metallic.unwrap_or(1.0).into()));
         }
         drawn
+    }
+
+    /// Whether it says that there are no highlights.
+    fn is_matt(&self) -> bool {
+        self.illumination.is_some_and(|model| model < 2.0)
     }
 
     /// The share of light that does not go through: `d` before `Tr`.
@@ -103,6 +105,31 @@ impl Entry {
         MaterialNote { name: self.name.clone(), maps: images.notes(maps) }
     }
 
+    /// Has a part's highlights follow its maps of roughness and of metal, unless the file says what they are.
+    fn mirror(&self, part: &mut Part, gloss: Option<usize>, metal: Option<usize>, images: &mut Images) {
+        let highlights = self.material.specular.is_some() || self.material.specular_map.is_some();
+        if highlights || self.is_matt() {
+            return;
+        }
+        let share = self.metallic.unwrap_or(if metal.is_some() { 1.0 } else { 0.0 });
+        // The colour before `drawn` made it darker.
+        let scattered = if metal.is_some() { 1.0 } else { 1.0 - 0.5 * share };
+        let exponents = part.detail.shininess;
+        let exponents = if gloss.is_some() { exponents } else { [exponents[1]; 2] };
+        let mirroring = images.mirroring(
+            Mirroring {
+                colors: (part.texture, part.diffuse.map(|c| byte(c / scattered))),
+                metal: (metal, byte(share)),
+                gloss: (gloss, exponents.map(f32::to_bits)),
+            },
+            |exponent| height(exponent) * (exponent / BROAD).min(1.0),
+        );
+        if let Some(image) = mirroring {
+            part.detail.specular_map = Some(Map { image, filter: None, wrap: part.detail.wrap });
+            part.detail.specular = [1.0; 3];
+        }
+    }
+
     /// Gives a part what goes beyond a scene file's materials.
     ///
     /// # Errors
@@ -117,18 +144,33 @@ impl Entry {
             None => Ok(None),
             Some(map) => images.texture(map).or_else(|error| warn(error).map(|()| None)),
         };
-        if let (Some(image), None) = (read(&self.roughness_map, images)?, part.detail.shininess_map) {
+        let rough = read(&self.roughness_map, images)?.filter(|_| part.detail.shininess_map.is_none());
+        let gloss = rough.map(|image| images.inverted(image));
+        if let Some(image) = gloss {
             let wrap = self.roughness_map.as_ref().and_then(|map| map.wrap);
-            part.detail.shininess_map = Some(Map { image: images.inverted(image), filter: None, wrap });
+            part.detail.shininess_map = Some(Map { image, filter: None, wrap });
+        }
+        let metal = read(&self.metallic_map, images)?;
+        if gloss.is_some() || metal.is_some() {
+            self.mirror(part, gloss, metal, images);
+        }
+        if let Some(image) = metal {
+            let dull = images.dull(part.texture, (image, byte(self.metallic.unwrap_or(1.0))));
+            part.texture = dull.or(part.texture);
         }
         let alpha = read(&self.alpha_map, images)?;
         if let Some(alpha) = alpha {
-            part.texture = Some(images.with_alpha(part.texture, alpha));
+            part.texture = images.with_alpha(part.texture, alpha).or(part.texture);
         }
         see_through(part, self.opacity(), images);
         part.detail.placed = self.placed;
         Ok(())
     }
+}
+
+/// The height of a highlight that keeps its light as it narrows.
+fn height(exponent: f32) -> f32 {
+    (exponent + 8.0) / 8.0
 }
 
 /// Has what is behind a part show through it: where it is glass, or where its texture has holes.
@@ -137,7 +179,7 @@ impl Entry {
 /// with what is behind them, from the back to the front.
 pub(crate) fn see_through(part: &mut Part, opacity: f32, images: &mut Images) {
     let alpha = part.texture.map_or(Alpha::Opaque, |image| images.alpha(image));
-    let byte = crate::options::byte(opacity);
+    let byte = byte(opacity);
     let Detail { blend, alpha_test, .. } = &mut part.detail;
     match (alpha, byte) {
         (Alpha::Opaque, 255) => {}

@@ -34,11 +34,14 @@ pub(super) fn read(
         let key = if lower == b"map_kd" { "color-map" } else { "" };
         warnings.push(error.hint(format!("{} is used", quote(shown.as_bytes()))).about(key));
     }
+    // Of directions there is no range.
+    let directions = matches!(lower, b"norm" | b"map_norm" | b"refl" | b"map_refl");
     let map = Some(MapFile {
         path: found.map_or_else(|| folder.join(&name), |found| found.path),
         origin: Some(Origin { text: name, ..origin }),
         filter: None,
         wrap: options.clamp.then_some(Wrap::Clamp),
+        range: options.range.filter(|range| !directions && *range != [0.0, 1.0]),
     });
     let line_number = line.line;
     let material = &mut entry.material;
@@ -68,16 +71,20 @@ pub(super) fn read(
         }
         _ => {
             material.height_map = map;
-            material.height_scale = options.multiplier;
+            let gain = options.range.map(|[_, gain]| gain);
+            material.height_scale = options.multiplier.map(|by| by * gain.unwrap_or(1.0)).or(gain);
         }
     }
-    if let Some(found) = options.broken {
-        let found = format!("{} after `-bm`", quote(found));
-        warnings.push(Error::new(found, "a finite number").hint("the option is left out"));
+    for (option, word, expected) in &options.broken {
+        let found = format!("{} after `{option}`", quote(word));
+        warnings.push(Error::new(found, *expected).hint("the option is left out"));
     }
     let bumpy = matches!(lower, b"bump" | b"map_bump" | b"disp" | b"norm" | b"map_norm");
     if options.multiplier.is_some() && !bumpy {
         ignored.add(&format!("`-bm` of `{word}`"), line_number);
+    }
+    if options.range.is_some() && directions {
+        ignored.add(&format!("`-mm` of `{word}`"), line_number);
     }
     for option in &options.skipped {
         ignored.add(&format!("`{}` of textures", String::from_utf8_lossy(option)), line_number);
@@ -100,8 +107,10 @@ struct Options<'a> {
     clamp: bool,
     /// `-bm`.
     multiplier: Option<f32>,
-    /// The word after `-bm`, if it is no number.
-    broken: Option<&'a [u8]>,
+    /// `-mm`.
+    range: Option<[f32; 2]>,
+    /// Options whose words are no numbers, with the first word and what it should be.
+    broken: Vec<(&'static str, &'a [u8], &'static str)>,
     /// `-type`.
     kind: Option<&'a [u8]>,
     /// `-s` and `-o`.
@@ -148,7 +157,12 @@ fn options(rest: &[u8]) -> (&[u8], Options<'_>) {
             b"-clamp" => options.clamp = first.eq_ignore_ascii_case(b"on"),
             b"-bm" => {
                 options.multiplier = number(first);
-                options.broken = options.multiplier.is_none().then_some(first);
+                options.broken.extend(numbers[0].is_none().then_some(("-bm", first, "a finite number")));
+            }
+            b"-mm" => {
+                options.range = numbers[0].zip(numbers[1]).map(|(base, gain)| [base, gain]);
+                let broken = options.range.is_none().then_some(("-mm", first, "two finite numbers"));
+                options.broken.extend(broken);
             }
             b"-type" => options.kind = Some(first),
             b"-s" => options.scale = Some(pair(1.0)),

@@ -115,6 +115,24 @@ fn textures_are_placed() {
 }
 
 #[test]
+fn ranges_are_those_of_colours_and_heights() {
+    let material = |line: &str| {
+        let (checked, warnings) = run(format!("newmtl a\n{line}\n").as_bytes());
+        (checked.materials[0].material.clone(), warnings.len())
+    };
+    let color = |line: &str| material(line).0.color_map.and_then(|map| map.range);
+    assert_eq!(color("map_Kd -mm 0.25 0.5 a.png"), Some([0.25, 0.5]));
+    assert_eq!(color("map_Kd -mm 0 1 a.png"), None);
+    for (line, scale) in
+        [("", None), ("-mm 0 3", Some(3.0)), ("-bm 2 -mm 0 3", Some(6.0)), ("-bm 2", Some(2.0))]
+    {
+        assert_eq!(material(&format!("bump {line} a.png")).0.height_scale, scale, "{line}");
+    }
+    let (normals, warnings) = material("norm -mm 0 0.5 a.png");
+    assert_eq!((normals.normal_map.and_then(|map| map.range), warnings), (None, 1));
+}
+
+#[test]
 fn alpha_is_holes_or_shades() {
     let texels = |alphas: &[u8]| alphas.iter().map(|&alpha| [9, 9, 9, alpha]).collect::<Vec<_>>();
     for (alphas, expected) in [
@@ -180,12 +198,12 @@ fn options_of_textures_are_skipped() {
     let name = |checked: &CheckedMtl| checked.materials[0].material.color_map.clone().map(|map| map.path);
     for (line, warned) in [
         ("-s 1 2 3 a b.png", 0),
-        ("-mm 0 1 -o 0.5 a b.png", 1),
+        ("-mm 0 1 -o 0.5 a b.png", 0),
         ("-bm 1 a b.png", 1),
         ("-clamp on a b.png", 0),
         ("-clamp off a b.png", 0),
         ("-clamp on -o 1 a b.png", 0),
-        ("-mm 0 1 -cc on -blendu on a b.png", 2),
+        ("-mm 0 1 -cc on -blendu on a b.png", 1),
     ] {
         let (checked, warnings) = run(format!("newmtl x\nmap_Kd {line}").as_bytes());
         assert_eq!(name(&checked), Some("a b.png".into()));
@@ -206,6 +224,10 @@ fn numbers_out_of_range_are_clamped_and_named() {
         ("Ks 0 -1 0", "found -1 after `Ks`, expected a number from 0 to 1"),
         ("bump -bm nan b.png", "found \"nan\" after `-bm`, expected a finite number; the option is left out"),
         ("norm -bm x b.png", "found \"x\" after `-bm`, expected a finite number"),
+        (
+            "map_Kd -mm x 1 b.png",
+            "found \"x\" after `-mm`, expected two finite numbers; the option is left out",
+        ),
     ] {
         let (checked, warnings) = run(format!("newmtl a\n{line}\n").as_bytes());
         assert_eq!(warnings.len(), 1, "{line} {warnings:?}");

