@@ -12,7 +12,7 @@ use crate::advise::{Kin, Machine, baked_on_chip, depth_bytes, work};
 use crate::error::{Error, quote};
 use crate::measure::{Comparison, Measures};
 use crate::options::values::name_of;
-use crate::options::{ColorFormat, Policies, Projection, RenderOptions, Shading};
+use crate::options::{ColorFormat, Filter, Policies, Projection, RenderOptions, Shading};
 use crate::render::render;
 use crate::scene::{Camera, Model, Part, camera};
 use alberti::baked::{Attributes, HEADER, PART};
@@ -93,7 +93,7 @@ impl<'a> Report<'a> {
             color: options.policies.color,
             items: items(asset),
             memory: memory(asset, options, band),
-            estimates: estimates(|machine| baked_on_chip(machine, options, &work, light.is_some()))?,
+            estimates: estimates(|machine| baked_on_chip(machine, &priced(options), &work, light.is_some()))?,
             pixels: asset.losses.place * 3.0_f64.sqrt() * pixels_a_unit(&baked, camera, options),
             texels: asset.losses.uv[0].max(asset.losses.uv[1]) * f64::from(side),
             measures,
@@ -282,6 +282,15 @@ fn light(asset: &Asset, options: &RenderOptions) -> Option<&'static str> {
     })
 }
 
+/// The options that estimates are for: with one probe of an anisotropic filter.
+fn priced(options: &RenderOptions) -> RenderOptions {
+    let filter = match options.filter {
+        Filter::Anisotropic(_) => Filter::Trilinear,
+        other => other,
+    };
+    RenderOptions { filter, ..*options }
+}
+
 /// The things of a scene that estimates of frames do not have, in words: prices are those of a whole frame, of pixels
 /// and texels in RGB565.
 fn unpriced(asset: &Asset, options: &RenderOptions, band: u32) -> Vec<String> {
@@ -289,6 +298,9 @@ fn unpriced(asset: &Asset, options: &RenderOptions, band: u32) -> Vec<String> {
     let color = options.policies.color;
     if color != ColorFormat::Rgb565 {
         all.push(format!("pixels of {}", name_of(color)));
+    }
+    if let Filter::Anisotropic(_) = options.filter {
+        all.push("all but one of the probes of the anisotropic filter".to_owned());
     }
     let of_colors = asset.textures.iter().find(|texture| texture.role == Role::Color);
     if let Some(texture) = of_colors.filter(|texture| texture.format != Format::Rgb565) {

@@ -83,10 +83,6 @@ fn mistakes_are_told_in_one_line() {
             &["--color: found \"rgb999\", expected one of rgba8, rgb565, rgb444, rgb666, rgb888, xrgb8888,"],
         ),
         (&["m.obj", "--out", "out", "--show", "lod"], &["--show: found an option that `bake` has not"]),
-        (
-            &["m.obj", "--out", "out", "--filter", "anisotropic:4", "--texture", "soft.png"],
-            &["--filter: found an anisotropic filter"],
-        ),
     ] {
         let before = folder.names();
         let run = alberti(folder.0.path(), &[OsStr::new("bake")], arguments);

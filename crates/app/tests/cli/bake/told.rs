@@ -2,6 +2,7 @@
 
 use std::ffi::OsStr;
 use std::fs;
+use std::path::Path;
 
 use alberti::Geometry;
 use alberti::baked::{Baked, Uv};
@@ -209,4 +210,31 @@ fn estimates_are_of_the_size_and_say_what_they_leave_out() {
     assert_eq!(of(&[]), Some(format!("Not in these: {bands}")));
     let found = of(&["--color", "rgb666", "--format", "indexed8"]);
     assert_eq!(found, Some(format!("Not in these: pixels of rgb666, texels of indexed8, {bands}")));
+    let found = of(&["--filter", "anisotropic:4", "--band", "240"]);
+    let probes = "Not in these: all but one of the probes of the anisotropic filter.";
+    assert_eq!(found.as_deref(), Some(probes));
+}
+
+/// The report on docs/bake.md, of a model from beside the repository, where there is one.
+#[test]
+fn the_page_shows_what_is_told() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let models = root.join("../shared/models/spot");
+    if !models.is_dir() {
+        eprintln!("SKIPPED: no model in {}", models.display());
+        return;
+    }
+    let folder = Folder::with(&[]);
+    let clone = folder.path("clone");
+    fs::create_dir(&clone).expect("a folder for the test");
+    for (from, to) in [("spot_triangulated.obj", "spot.obj"), ("spot_texture.png", "spot.png")] {
+        fs::copy(models.join(from), clone.join(to)).expect("a file of the model");
+    }
+    let page = fs::read_to_string(root.join("docs/bake.md")).expect("the page");
+    let (_, shown) = page.split_once("$ cargo run --release -- ").expect("a command");
+    let (command, shown) = shown.split_once('\n').expect("a report");
+    let (report, _) = shown.split_once("```").expect("an end");
+    let run = alberti(&clone, &[], &command.split(' ').collect::<Vec<_>>());
+    assert_eq!((run.status, &run.stderr[..]), (Some(0), ""), "{run:?}");
+    assert_eq!(run.stdout, report);
 }
