@@ -23,6 +23,11 @@ macro_rules! like {
                 self.0.bias(slope, greatest)
             }
 
+            #[inline]
+            fn bias_steps(self, slope: u64, greatest: u32) -> i64 {
+                self.0.bias_steps(slope, greatest)
+            }
+
             #[inline(always)]
             fn reversed(self) -> bool {
                 self.0.reversed()

@@ -51,6 +51,13 @@ pub trait DepthFormat: Copy + Debug + Send + Sync + 'static {
         0.0
     }
 
+    /// The same for fixed point, in steps of 2^-31.
+    #[inline]
+    fn bias_steps(self, slope: u64, greatest: u32) -> i64 {
+        let _ = (slope, greatest);
+        0
+    }
+
     /// Whether `new` is seen in front of `old`.
     fn nearer(self, new: Self::Stored, old: Self::Stored) -> bool;
 

@@ -2,6 +2,8 @@
 #![expect(clippy::cast_possible_truncation, reason = "bytes")]
 
 use super::*;
+use crate::color::{Grey1, Grey2, Grey4, Grey8, Indexed, Rgb332, Rgb444, Rgb666, Rgb888, Xrgb8888};
+use alberti_math::Rgba8888;
 use alberti_math::lanes::One;
 
 /// The nearest integer to a/b.
@@ -74,4 +76,82 @@ fn in_light_half_and_half_is_half_the_light() {
             assert!(apart(mixed) <= apart(other) * 1.1 + 2.0 / 65535.0, "{n} {o}: {mixed}");
         }
     }
+}
+
+/// A blend of channels in reals, from 0 to 255: of new, old, and the new one's alpha from 0 to 1.
+type Real = fn(f64, f64, f64) -> f64;
+
+const REALS: [(AnyBlend, Real); 5] = [
+    (AnyBlend::Over, |n, o, a| n * a + o * (1.0 - a)),
+    (AnyBlend::Constant(77), |n, o, _| (n * 77.0 + o * 178.0) / 255.0),
+    (AnyBlend::Premultiplied, |n, o, a| (n + o * (1.0 - a)).min(255.0)),
+    (AnyBlend::Additive, |n, o, a| (n * a + o).min(255.0)),
+    (AnyBlend::Multiply, |n, o, _| n * o / 255.0),
+];
+
+/// What pixels show after each blend, against that of what they showed before; `off` is how far one may be.
+fn in_format<F: ReadColor>(format: F, off: impl Fn([f64; 3], [f64; 3]) -> f64) {
+    for (by, real) in REALS {
+        for k in 0..3000_u32 {
+            let bytes = [k, k + 5000].map(|k| k.wrapping_mul(0x9e37_79b1).to_le_bytes());
+            let [new, before] = bytes.map(|[r, g, b, a]| Rgba8::new(r, g, b, a));
+            let mut pixel = [format.pixel(before)];
+            let [[n @ .., alpha], [o @ .., _]] =
+                [new, format.color(pixel[0])].map(|color| color.to_bytes().map(f64::from));
+            let exact = [0, 1, 2].map(|c| real(n[c], o[c], alpha / 255.0));
+            Blended { format, by }.store::<One, Rgba8>(
+                One,
+                One.word(new.to_bits()),
+                true,
+                [0; 2],
+                &mut pixel,
+            );
+            let [found @ .., _] = format.color(pixel[0]).to_bytes().map(f64::from);
+            assert!(off(found, exact) <= 1.0, "{format:?} {by:?} {new:?} {o:?}: {found:?} {exact:?}");
+        }
+    }
+}
+
+/// Of formats with so many steps: half a step, and half a byte of the mean and of what is shown.
+fn steps(greatest: [u32; 3]) -> impl Fn([f64; 3], [f64; 3]) -> f64 {
+    move |found, exact| {
+        let off = |c: usize| (found[c] - exact[c]).abs() / (127.5 / f64::from(greatest[c]) + 1.0);
+        off(0).max(off(1)).max(off(2))
+    }
+}
+
+/// Of greys, whose weights are 256ths: two bytes more.
+fn greys(greatest: u32) -> impl Fn([f64; 3], [f64; 3]) -> f64 {
+    move |[found, ..], [r, g, b]| {
+        (found - (0.299 * r + 0.587 * g + 0.114 * b)).abs() / (127.5 / f64::from(greatest) + 3.0)
+    }
+}
+
+#[test]
+fn blends_in_every_format_are_of_what_is_shown() {
+    in_format(Rgba8888, steps([255; 3]));
+    in_format(Rgb444, steps([15; 3]));
+    in_format(Rgb666, steps([63; 3]));
+    in_format(Rgb888, steps([255; 3]));
+    in_format(Xrgb8888, steps([255; 3]));
+    in_format(Rgb332, steps([7, 7, 3]));
+    in_format(Grey8, greys(255));
+    in_format(Grey4, greys(15));
+    in_format(Grey2, greys(3));
+    in_format(Grey1, greys(1));
+    static PALETTE: [Rgba8; 5] = [
+        Rgba8::BLACK,
+        Rgba8::WHITE,
+        Rgba8::new(200, 30, 20, 255),
+        Rgba8::new(9, 90, 240, 255),
+        Rgba8::new(99, 99, 90, 255),
+    ];
+    in_format(Indexed(&PALETTE), |found, exact| {
+        let apart = |[r, g, b]: [f64; 3]| {
+            ((r - exact[0]).powi(2) + (g - exact[1]).powi(2) + (b - exact[2]).powi(2)).sqrt()
+        };
+        let all = PALETTE.map(|color| apart([0, 1, 2].map(|c| f64::from(color.to_bytes()[c]))));
+        // The mean's rounding moves it by less than 1.
+        apart(found) - all.into_iter().fold(f64::INFINITY, f64::min)
+    });
 }
