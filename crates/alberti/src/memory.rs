@@ -64,7 +64,7 @@ impl<
     }
 
     /// Does nothing, unless it takes more bytes than there are: then the program does not compile, and the compiler
-    /// says how many bytes are wanted, and how many there are.
+    /// says how many bytes are wanted, and how many there are. The stack is not counted: drawing takes some 4 KB of it.
     ///
     /// ```compile_fail,E0080
     /// use alberti::glam::Vec2;

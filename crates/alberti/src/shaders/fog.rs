@@ -9,7 +9,8 @@ use core::fmt::Debug;
 /// Another stage's colour, fading into that of a fog.
 ///
 /// Vertices carry the fog's [`coordinate`](Fog::coordinate) beside what the stage needs. It is linear in space, so that
-/// it is interpolated exactly whatever the triangle's size.
+/// it is interpolated exactly whatever the triangle's size, also where it reaches behind the eye. Its range is ±4000: of
+/// a triangle with a vertex beyond 4000 depths of a [`LinearFog`], or 4000 over a density, the fog is another one.
 ///
 /// The stage's colours are of 8 bits a channel, or words of 16 bits, which are RGB565: those of
 /// [`Stored`](super::Stored) texels, under [light](super::Lit565) or not. The fog's is such a word then, as
@@ -39,7 +40,7 @@ use core::fmt::Debug;
 ///
 /// # Cost
 /// The fog's, and two products, four sums and shifts. In RGB565 a product, and ten sums, shifts and masks: with
-/// [`LinearFog`] 28 instructions more a pixel on a Cortex-M4F, 42 on a Cortex-M0+.
+/// [`LinearFog`] 30 instructions more a pixel on a Cortex-M4F, 42 on a Cortex-M0+.
 #[derive(Clone, Copy, Debug)]
 pub struct Fogged<S, F, C = Rgba8> {
     /// The stage.
@@ -52,7 +53,7 @@ pub struct Fogged<S, F, C = Rgba8> {
 
 /// A law by which a fog grows.
 pub trait Fog: Copy + Debug {
-    /// The number that a vertex at this distance along the line of sight carries.
+    /// The number that a vertex at this distance along the line of sight carries, negative behind the eye.
     fn coordinate(&self, distance: f32) -> f32;
 
     /// The fog before fragments with these coordinates, in 256ths.
@@ -187,7 +188,7 @@ macro_rules! tables {
         impl Fog for $name {
             fn coordinate(&self, distance: f32) -> f32 {
                 let coordinate = distance * self.density;
-                if coordinate.is_nan() { 0.0 } else { coordinate.clamp(0.0, MOST) }
+                if coordinate.is_nan() { 0.0 } else { coordinate.clamp(-MOST, MOST) }
             }
 
             #[inline(always)]
@@ -347,7 +348,7 @@ mod tests {
     #[test]
     fn coordinates_are_distances_by_the_density() {
         assert_eq!(ExponentialFog { density: 0.25 }.coordinate(8.0), 2.0);
-        assert_eq!(SquaredFog { density: 0.25 }.coordinate(-8.0), 0.0);
+        assert_eq!(SquaredFog { density: 0.25 }.coordinate(-8.0), -2.0);
         assert_eq!(LinearFog { start: 4.0, end: 8.0 }.coordinate(6.0), 0.5);
         assert_eq!(LinearFog { start: 4.0, end: 4.0 }.coordinate(4.0), 0.0);
         for wild in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e30] {

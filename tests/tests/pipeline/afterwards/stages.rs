@@ -1,11 +1,17 @@
 //! Fogs and holes, of colours of 8 bits a channel and of texels as they are stored.
 
-use super::{Corner, KEY, PIXELS, Place, bare, bayer, each, levels, sampler, texels, words};
+use super::{
+    Corner, FOV, HEIGHT, KEY, NEAR, PIXELS, Place, WIDTH, bare, bayer, each, levels, sampler, texels, words,
+};
 use alberti::glam::{Vec2, Vec3};
 use alberti::shaders::fog::{AnyFog, ExponentialFog, Fog, Fogged, LinearFog, SquaredFog};
-use alberti::shaders::{AlphaDither, AlphaTest, ColorKey, Stored, Unlit};
+use alberti::shaders::{AlphaDither, AlphaTest, ColorKey, Solid, Stored, Unlit};
 use alberti::texture::format;
-use alberti::{ColorFormat, FragmentStage, Rgb565Be, Rgba8, Rgba8888};
+use alberti::{
+    Camera, ColorFormat, Cull, FixedPoint, FragmentStage, Mesh, NoDepth, Pass, Rgb565Be, Rgba8, Rgba8888,
+    Spans16, Target,
+};
+use alberti_math::lanes::One;
 use alberti_raster::color::Bayer;
 
 /// A fog's part of a colour at a distance.
@@ -54,6 +60,54 @@ fn fogs_are_their_formulas_of_the_distance() {
             },
         );
         assert!(range[1] - range[0] > 0.1, "{fog:?} is everywhere the same: {range:?}");
+    }
+}
+
+/// A floor from behind the eye: distances go on being linear there, and fogs are those of the distance.
+#[test]
+fn fogs_go_on_behind_the_eye() {
+    const DROP: f32 = 2.0;
+    let floor = [[-400.0, 30.0], [400.0, 30.0], [0.0, -100.0]].map(|[x, z]| Vec3::new(x, -DROP, z));
+    let view = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, Vec3::Y)
+        .and_then(|camera| camera.perspective(FOV.to_radians() as f32, NEAR..200.0))
+        .expect("a view");
+    let fogs: [(AnyFog, Formula); 3] = [
+        (AnyFog::Linear(LinearFog { start: 3.0, end: 20.0 }), |z| ((z - 3.0) / 17.0).clamp(0.0, 1.0)),
+        (AnyFog::Exponential(ExponentialFog { density: 0.1 }), |z| 1.0 - (-0.1 * z).exp()),
+        (AnyFog::Squared(SquaredFog { density: 0.1 }), |z| 1.0 - (-0.01 * z * z).exp()),
+    ];
+    for (fog, formula) in fogs {
+        let mesh = Mesh::new(&floor, &[[0_u16, 1, 2]], |&at: &Vec3| (at, (fog.coordinate(-at.z), ())));
+        let stage = Fogged { surface: Solid(Rgba8::BLACK), fog, color: Rgba8::WHITE };
+        let frames = [false, true].map(|fixed| {
+            let (mut color, mut depth) = (vec![0_u32; PIXELS], vec![(); PIXELS]);
+            let mut target =
+                Target::new(Rgba8888, NoDepth, WIDTH, HEIGHT, &mut color, &mut depth).expect("a frame");
+            let mut pass = Pass::new(&view, &mesh, stage).cull(Cull::None);
+            match fixed {
+                true => pass.interpolation(FixedPoint(Spans16)).draw_by(One, &mut target),
+                false => pass.draw_by(One, &mut target),
+            };
+            color
+        });
+        let mut drawn = 0;
+        for row in 0..HEIGHT as usize {
+            let up = 1.0 - 2.0 * (row as f64 + 0.5) / f64::from(HEIGHT);
+            let distance = -f64::from(DROP) / (up * (FOV.to_radians() / 2.0).tan());
+            for column in 0..WIDTH as usize {
+                for frame in &frames {
+                    let [found, .., alpha] = frame[row * WIDTH as usize + column].to_ne_bytes();
+                    if alpha == 0 {
+                        continue;
+                    }
+                    // The fog's 1.3 256ths and half a byte, and as much for rounded distances.
+                    let off = 255.0 * formula(distance) - f64::from(found);
+                    assert!(off.abs() <= 2.6, "{fog:?} at {distance}: {found} is off by {off}");
+                    drawn += 1;
+                }
+            }
+        }
+        assert!(drawn > PIXELS / 2, "{drawn}");
     }
 }
 
