@@ -8,6 +8,7 @@ mod emulated;
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::time::Instant;
 
 use crate::command::{self, Outcome, cargo};
@@ -41,14 +42,19 @@ const PICTURE: &str = "docs/pictures/demo.gif";
 /// The members that any machine compiles.
 const SHARED: [&str; 4] = ["alberti-demo", "panel", "desktop", "alberti-qemu"];
 
-/// The word for the emulator, beside the names of boards.
+/// The words for the emulator and for all checks, beside the names of boards.
 const QEMU: &str = "qemu";
+const CHECK: &str = "check";
 
 /// Sections, as they are told.
 const SECTIONS: [&str; 4] = [".text", ".rodata", ".data", ".bss"];
 
-/// Builds the programs, or one, and tells their sizes; or draws in an emulator, and tells what frames take.
+/// Builds the programs, or one, and tells their sizes; or draws in an emulator, and tells what frames take; or checks
+/// all.
 pub(crate) fn run(arguments: &[String]) -> Outcome {
+    if matches!(arguments, [word] if word == CHECK) {
+        return check();
+    }
     if matches!(arguments, [name] if name == QEMU) {
         println!("{}", emulated::run()?);
         return Ok(());
@@ -69,7 +75,7 @@ pub(crate) fn run(arguments: &[String]) -> Outcome {
 }
 
 /// Checks the format and the lints of what boards share, tests it, and builds the programs of all boards.
-pub(crate) fn check() -> Outcome {
+fn check() -> Outcome {
     let mut format = cargo();
     format.args(["fmt", "--check", "--manifest-path", MANIFEST]);
     for member in SHARED.into_iter().map(String::from).chain(BOARDS.iter().map(package)) {
@@ -93,10 +99,7 @@ pub(crate) fn check() -> Outcome {
 /// Draws the animated picture of the demo anew, and compares it with the one that the guide shows.
 fn is_current() -> Outcome {
     let drawn = workspace::target_directory().join("demo.gif");
-    let mut draw = cargo();
-    draw.args(["run", "--release", "--quiet", "--manifest-path", MANIFEST, "--package", "desktop"]);
-    draw.arg("--target-dir").arg(workspace::target_directory()).arg("--").arg(&drawn);
-    command::run(&mut draw)?;
+    command::run(desktop().arg(&drawn))?;
     let read =
         |path: &Path| fs::read(path).map_err(|error| format!("cannot read {}: {error}", path.display()));
     if read(&drawn)? != read(&workspace::root().join(PICTURE))? {
@@ -105,12 +108,17 @@ fn is_current() -> Outcome {
     sent_are_told()
 }
 
+/// The demo on this machine; its arguments follow.
+fn desktop() -> Command {
+    let mut run = cargo();
+    run.args(["run", "--profile", "desktop", "--quiet", "--manifest-path", MANIFEST, "--package", "desktop"]);
+    run.arg("--target-dir").arg(workspace::target_directory()).arg("--");
+    run
+}
+
 /// Counts the bytes that the demo sends for a frame, and looks for them in the guide.
 fn sent_are_told() -> Outcome {
-    let mut count = cargo();
-    count.args(["run", "--release", "--quiet", "--manifest-path", MANIFEST, "--package", "desktop"]);
-    count.arg("--target-dir").arg(workspace::target_directory()).args(["--", "bytes"]);
-    let text = command::output(&mut count)?;
+    let text = command::output(desktop().arg("bytes"))?;
     let bytes: u64 = (text.split(' ').next().and_then(|word| word.parse().ok()))
         .ok_or_else(|| format!("expected the bytes of a frame, found `{}`", text.trim()))?;
     let told =
@@ -131,7 +139,7 @@ fn chosen(arguments: &[String]) -> Result<&'static [Board], String> {
             let board = BOARDS.iter().find(|board| board.name == name);
             board.map(std::slice::from_ref).ok_or_else(|| {
                 let names: Vec<&str> = BOARDS.iter().map(|board| board.name).collect();
-                format!("there is no board `{name}`, only {} and {QEMU}", names.join(", "))
+                format!("there is no board `{name}`, only {}, {QEMU} and {CHECK}", names.join(", "))
             })
         }
         _ => Err(format!("expected the name of a board, or nothing, found `{}`", arguments.join(" "))),

@@ -48,7 +48,7 @@ const CHORES: &[Chore] = &[
     Chore {
         name: "ci",
         arguments: "[--tests-done]",
-        about: "every check below, in order, up to the first failure",
+        about: "the checks below, up to the first failure",
         run: ci::run,
     },
     Chore {
@@ -96,8 +96,8 @@ const CHORES: &[Chore] = &[
     },
     Chore {
         name: "boards",
-        arguments: "[board | qemu]",
-        about: "build the programs of crates/alberti/examples/boards, or one, or run the demo in an emulator",
+        arguments: "[board | qemu | check]",
+        about: "build the programs of crates/alberti/examples/boards, or one, or run the demo in an emulator, or all",
         run: boards::run,
     },
     Chore {

@@ -21,7 +21,7 @@ fn main() -> ExitCode {
     common::write("affine_and_hyperbolic.png", picture)
 }
 
-pub(crate) fn picture() -> common::File {
+fn picture() -> common::File {
     let (mut color, mut depth) = (vec![0; PIXELS], vec![0.0; PIXELS]);
     let (width, height) = (u32::from(2 * WIDTH), u32::from(HEIGHT));
     let mut target = Target::new(Rgba8888, F32, width, height, &mut color, &mut depth)?;

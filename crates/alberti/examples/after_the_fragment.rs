@@ -32,7 +32,7 @@ fn main() -> ExitCode {
     common::write("after_the_fragment.png", picture)
 }
 
-pub(crate) fn picture() -> common::File {
+fn picture() -> common::File {
     let colored = [glass()?, glow()?, fog()?, holes()?, wires()?, smooth()?];
     let greys = [grey(&colored[0], Bayer), grey(&colored[1], BlueNoise), grey(&colored[2], BlueNoise)];
     let columns = SIZE[0] as usize;

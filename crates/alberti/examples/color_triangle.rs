@@ -22,7 +22,7 @@ fn main() -> ExitCode {
     common::write("color_triangle.png", picture)
 }
 
-pub(crate) fn picture() -> common::File {
+fn picture() -> common::File {
     let corners: [Corner; 3] = [([-0.9, -0.8], Vec3::X), ([0.9, -0.8], Vec3::Y), ([0.0, 0.85], Vec3::Z)];
 
     // The picture is yours, and so is its memory: a colour and a depth for each pixel.

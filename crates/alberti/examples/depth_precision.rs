@@ -35,7 +35,7 @@ fn main() -> ExitCode {
     common::write("depth_precision.png", picture)
 }
 
-pub(crate) fn picture() -> common::File {
+fn picture() -> common::File {
     println!("The depth that one step of the buffer takes; cards are {GAP} of their distance apart:\n");
     println!("{:>12}{}  dz = 1 at", "distance", DISTANCES.map(|z| format!("{z:>10}")).concat());
 

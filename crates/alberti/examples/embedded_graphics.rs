@@ -31,7 +31,7 @@ fn main() -> ExitCode {
     common::write("embedded_graphics.png", picture)
 }
 
-pub(crate) fn picture() -> common::File {
+fn picture() -> common::File {
     let mut display = SimulatorDisplay::<Rgb565>::new(Size::new(SIZE[0], SIZE[1]));
     frame(&mut display)?;
     let image = display.to_rgb_output_image(&OutputSettings::default());

@@ -58,7 +58,7 @@ fn main() -> ExitCode {
     common::write("firmware_frame.png", picture)
 }
 
-pub(crate) fn picture() -> common::File {
+fn picture() -> common::File {
     let mut room = Box::new(Room::new(0, 0));
     let mut display = Vec::new();
     frame(&mut room, |bytes| display.extend_from_slice(bytes))?;

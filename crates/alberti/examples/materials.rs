@@ -26,7 +26,7 @@ fn main() -> ExitCode {
     common::write("materials.png", picture)
 }
 
-pub(crate) fn picture() -> common::File {
+fn picture() -> common::File {
     let [colors, normals, heights] = textures();
     let side = SIDE.cast_unsigned();
     let [colors, normals, heights] =

@@ -33,7 +33,7 @@ fn main() -> ExitCode {
     common::write("perspective_cube.gif", picture)
 }
 
-pub(crate) fn picture() -> common::File {
+fn picture() -> common::File {
     let [cos, sin] = STEP;
     let step = Mat3::from_cols(Vec3::new(cos, 0.0, -sin), Vec3::Y, Vec3::new(sin, 0.0, cos));
     let mut turned = Mat3::IDENTITY;

@@ -27,7 +27,7 @@ fn main() -> ExitCode {
     common::write("slide_projector.png", picture)
 }
 
-pub(crate) fn picture() -> common::File {
+fn picture() -> common::File {
     let [width, height] = SIZE.map(u32::from);
     let mut pixels = vec![0; 2 * (width * height) as usize];
     let right = throw(|on_image| on_image)?;

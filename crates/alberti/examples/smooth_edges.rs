@@ -22,7 +22,7 @@ fn main() -> ExitCode {
     common::write("smooth_edges.png", picture)
 }
 
-pub(crate) fn picture() -> common::File {
+fn picture() -> common::File {
     let scene = Scene::new()?;
     let pictures = [scene.plain()?, scene.covered()?, scene.sampled()?];
     let columns = SIZE[0] as usize;

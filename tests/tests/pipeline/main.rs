@@ -15,7 +15,6 @@ mod images;
 mod invariance;
 mod lanes;
 mod lines;
-mod pictures;
 mod resolution;
 mod rows;
 mod silhouettes;
