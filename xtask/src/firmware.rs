@@ -87,7 +87,10 @@ pub(crate) fn run(arguments: &[String]) -> Outcome {
 
     let (mut rows, mut failures) = (Vec::new(), Vec::new());
     let checked = each(&boards, |board| {
-        let found = check(board, &expected, options.small, plugin.as_ref().ok(), &folder)?;
+        let weighs = board.is_weighed || options.write || options.board.is_some();
+        let stand = committed.iter().filter(|row| row.board == board.name && row.unit.is_of_programs());
+        let stand = (!weighs).then(|| stand.cloned().collect());
+        let found = check(board, &expected, stand, options.small, plugin.as_ref().ok(), &folder)?;
         // Told at once: the slowest takes a while.
         println!("board {} drew {} frames", board.name, expected.len());
         Ok::<_, String>(found)
@@ -169,10 +172,12 @@ fn expected() -> Result<Vec<Expected>, String> {
     frames::expected(&output(call("run").arg("--quiet"))?)
 }
 
-/// Builds for one board and runs there: the rows of the table, and what is wrong.
+/// Builds for one board and runs there: the rows of the table, and what is wrong. Programs are weighed unless their
+/// rows `stand`.
 fn check(
     board: &Board,
     expected: &[Expected],
+    stand: Option<Vec<Row>>,
     small: bool,
     plugin: Option<&Plugin>,
     folder: &Path,
@@ -198,6 +203,10 @@ fn check(
             rows.push(row(Unit::Instructions, *cost));
             rows.extend(divides.get(number).map(|divides| row(Unit::Divides, *divides)));
         }
+    }
+    if let Some(stand) = stand {
+        rows.extend(stand);
+        return Ok((rows, failures));
     }
     let (weighed, faults) = programs::weigh(board, &toolchain)?;
     rows.extend(weighed);

@@ -9,9 +9,9 @@ use crate::fragment::FragmentStage;
 use crate::interpolation::Interpolation;
 use crate::setup::Waiting;
 use crate::target::Target;
-use crate::triangle::{Corner, Outcome};
-use alberti_math::Varying;
+use crate::triangle::{Corner, Outcome, doubled_area};
 use alberti_math::lanes::{Floating, Lanes};
+use alberti_math::{Varying, map3};
 use core::fmt;
 use core::ops::Range;
 
@@ -66,7 +66,7 @@ where
     pub fn triangle(&mut self, corners: [&'c Corner<V>; 3], counters: &mut impl Counters) {
         // Constants in blocks of their own, so that no code is made of the other way.
         if const { D::BIASED } {
-            self.copied(self.biased(corners).each_ref(), counters);
+            self.passing(corners, counters);
             return;
         }
         if const { <P::Lanes<L> as Lanes>::COUNT == 1 } {
@@ -96,18 +96,16 @@ where
     /// The same for a triangle whose corners are not kept.
     #[inline(always)]
     pub fn passing(&mut self, corners: [&Corner<V>; 3], counters: &mut impl Counters) {
-        if const { D::BIASED } {
-            self.copied(self.biased(corners).each_ref(), counters);
-        } else {
-            self.copied(corners, counters);
+        if const { !D::BIASED } {
+            return self.copied(corners, counters);
         }
-    }
-
-    /// The corners with the bias of the depth format.
-    #[inline(always)]
-    fn biased(&self, corners: [&Corner<V>; 3]) -> [Corner<V>; 3] {
         let fixed = const { <P::Lanes<L> as Lanes>::FIXED };
-        biased(corners, (fixed, self.paint.subpixel.bits()), self.target.depth_format())
+        // Without a bias for those that are not drawn.
+        if self.paint.cull.drops(doubled_area(&map3(corners, |corner| corner.place(fixed)))) {
+            return counters.rasterized(Outcome::Culled);
+        }
+        let grid = (fixed, self.paint.subpixel.bits());
+        self.copied(biased(corners, grid, self.target.depth_format()).each_ref(), counters);
     }
 
     #[inline(always)]

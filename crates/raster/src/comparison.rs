@@ -24,7 +24,7 @@ macro_rules! like {
             }
 
             #[inline]
-            fn bias_steps(self, slope: u64, greatest: u32) -> i64 {
+            fn bias_steps(self, slope: u32, greatest: u32) -> i64 {
                 self.0.bias_steps(slope, greatest)
             }
 

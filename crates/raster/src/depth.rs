@@ -53,7 +53,7 @@ pub trait DepthFormat: Copy + Debug + Send + Sync + 'static {
 
     /// The same for fixed point, in steps of 2^-31.
     #[inline]
-    fn bias_steps(self, slope: u64, greatest: u32) -> i64 {
+    fn bias_steps(self, slope: u32, greatest: u32) -> i64 {
         let _ = (slope, greatest);
         0
     }

@@ -37,6 +37,11 @@ impl Unit {
         (Self::Stack, "stack"),
     ];
 
+    /// Whether it is one of programs, not of frames.
+    pub(super) fn is_of_programs(self) -> bool {
+        !matches!(self, Self::Instructions | Self::Divides)
+    }
+
     /// The word in the table.
     fn word(self) -> &'static str {
         Self::ALL.iter().find(|(unit, _)| *unit == self).map_or("", |(_, word)| word)

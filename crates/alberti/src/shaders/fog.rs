@@ -9,8 +9,8 @@ use core::fmt::Debug;
 /// Another stage's colour, fading into that of a fog.
 ///
 /// Vertices carry the fog's [`coordinate`](Fog::coordinate) beside what the stage needs. It is linear in space, so that
-/// it is interpolated exactly whatever the triangle's size, also where it reaches behind the eye. Its range is ±4000: of
-/// a triangle with a vertex beyond 4000 depths of a [`LinearFog`], or 4000 over a density, the fog is another one.
+/// it is interpolated exactly whatever the triangle's size, also where it reaches behind the eye. Its range is ±4000:
+/// where a vertex is beyond 4000 depths of a [`LinearFog`], or 4000 over a density, the triangle's fog is another one.
 ///
 /// The stage's colours are of 8 bits a channel, or words of 16 bits, which are RGB565: those of
 /// [`Stored`](super::Stored) texels, under [light](super::Lit565) or not. The fog's is such a word then, as

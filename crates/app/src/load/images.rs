@@ -33,7 +33,7 @@ enum Made {
     Ranged(usize, [u32; 2]),
     /// The colours of the first, white without one, of which metal by the second, times a byte, scatters half.
     Dull(Option<usize>, (usize, u8)),
-    /// What such a surface mirrors.
+    /// The light that such a surface mirrors.
     Mirroring(Mirroring),
 }
 
@@ -192,7 +192,7 @@ impl Images {
         })
     }
 
-    /// What a surface mirrors head-on, times `height` of the exponent there.
+    /// The light that a surface mirrors head-on, times `height` of the exponent there.
     pub(crate) fn mirroring(&mut self, of: Mirroring, height: impl Fn(f32) -> f32) -> Option<usize> {
         let Mirroring { colors, metal, gloss } = of;
         self.together([colors.0, metal.0, gloss.0], Made::Mirroring(of), |[color, [red, ..], [sharp, ..]]| {

@@ -226,7 +226,7 @@ pub struct MapFile {
     pub filter: Option<Filter>,
     /// Its own wrap mode.
     pub wrap: Option<Wrap>,
-    /// What is added to its colours, from 0 to 1, once they have been multiplied by the second.
+    /// A term added to its colours, from 0 to 1, after they were multiplied by the second.
     pub range: Option<[f32; 2]>,
 }
 

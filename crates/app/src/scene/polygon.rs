@@ -32,7 +32,7 @@ const EFFORT: [usize; 2] = [500, 25_000_000];
 /// an area where they can, so that neighbours who share them leave no gap.
 ///
 /// # Cost
-/// Linear for fans. An ear asks a tree for the blunt corners that are in it: a ring of a million corners takes a second.
+/// Linear for fans. An ear asks a tree for the blunt corners within: a ring of a million corners takes a second.
 /// After about a second of steps, and 20 microseconds a corner, which it counts, it gives up, as if the polygon crossed
 /// itself. Outlines that cross nowhere come to that if all of a million corners get in each other's way.
 pub(crate) fn triangulate(points: &[[f64; 3]], triangles: &mut Vec<[u32; 3]>) -> bool {

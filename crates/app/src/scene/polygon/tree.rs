@@ -8,7 +8,7 @@ const LEAF: usize = 8;
 /// The leaf of a corner that is in none.
 const NONE: u32 = u32::MAX;
 
-/// Corners, halved by their places until few are left (a k-d tree: Bentley, Multidimensional binary search trees, 1975).
+/// Corners, halved by their places until few are left (Bentley, Multidimensional binary search trees, 1975).
 pub(super) struct Tree {
     /// The children of node n are 2n + 1 and 2n + 2.
     nodes: Vec<Node>,
@@ -77,8 +77,8 @@ impl Tree {
         }
     }
 
-    /// Whether one of the corners that may be in a triangle, counter-clockwise, or on its edges, is such a one. `looked`
-    /// counts nodes and corners.
+    /// Whether such a one is among the corners that may be in a triangle, counter-clockwise, or on its edges.
+    /// `looked` counts nodes and corners.
     pub(super) fn any(
         &self,
         triangle: [Coord<f64>; 3],

@@ -89,7 +89,7 @@ const REALS: [(AnyBlend, Real); 5] = [
     (AnyBlend::Multiply, |n, o, _| n * o / 255.0),
 ];
 
-/// What pixels show after each blend, against that of what they showed before; `off` is how far one may be.
+/// The colours shown after each blend, against those of what was shown before; `off` is 1 for the most allowed.
 fn in_format<F: ReadColor>(format: F, off: impl Fn([f64; 3], [f64; 3]) -> f64) {
     for (by, real) in REALS {
         for k in 0..3000_u32 {

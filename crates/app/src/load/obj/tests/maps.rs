@@ -108,7 +108,7 @@ fn maps_of_metal_dull_the_colour_and_tint_highlights() {
         // 0.04 (n + 8)/8, times n/8 below an exponent n of 8: n is 1, 256 and 9.
         assert_eq!((highlight, detail.shininess), ([mirrored, mirrored, mirrored, 255], [1.0, 256.0]));
     }
-    // What the file says of highlights stays.
+    // Highlights that the file has stay.
     let mtl = b"newmtl m\nKs 0.25 0.25 0.25\nmap_Pm m.png\n";
     let files = [("m.obj", MAPPED.as_bytes()), ("m.mtl", mtl), ("m.png", &image([255; 3]))];
     let part = &load_files(&files).0.parts[0];
