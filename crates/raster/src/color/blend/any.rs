@@ -4,6 +4,12 @@ use super::{Additive, Blend, Constant, Multiply, Over, Premultiplied};
 use alberti_math::lanes::Lanes;
 
 /// A blend that is chosen at run time; the pixels are those of the blend itself.
+///
+/// # Precision
+/// That of the blend, whose bits it gives.
+///
+/// # Cost
+/// A match for the samples that are worked on together. The code of all six.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
