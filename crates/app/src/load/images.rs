@@ -35,6 +35,8 @@ enum Made {
     Dull(Option<usize>, (usize, u8)),
     /// The light that such a surface mirrors.
     Mirroring(Mirroring),
+    /// The first, white without one, fainter by the second, where exponents go from the first to the second of these.
+    Fainter(Option<usize>, usize, [u32; 2]),
 }
 
 /// A surface whose highlights differ from place to place. Maps that are missing are white.
@@ -207,7 +209,27 @@ impl Images {
         })
     }
 
-    /// A texture of others: as large as the first that is there, of their texels that hold the middle of its own.
+    /// The colours of highlights, times a share of the exponent there. `None` where that is 1 everywhere, or where
+    /// there is no room for it.
+    pub(crate) fn fainter(
+        &mut self,
+        colors: Option<usize>,
+        gloss: usize,
+        [least, greatest]: [f32; 2],
+        share_of: impl Fn(f32) -> f32,
+    ) -> Option<usize> {
+        let light = |gloss: u8| byte(share_of(least + (greatest - least) * share(gloss)));
+        if self.textures.all.get(gloss)?.texels.iter().all(|&[gloss, ..]| light(gloss) == 255) {
+            return None;
+        }
+        let made = Made::Fainter(colors, gloss, [least, greatest].map(f32::to_bits));
+        self.together([colors, Some(gloss), None], made, |[[r, g, b, a], [gloss, ..], _]| {
+            let [r, g, b] = [r, g, b].map(|c| times(c, light(gloss)));
+            [r, g, b, a]
+        })
+    }
+
+    /// A texture of others: as large as the largest on each axis, of their texels that hold the middle of its own.
     /// `None` where there is no room for it.
     fn together(
         &mut self,
@@ -217,7 +239,8 @@ impl Images {
     ) -> Option<usize> {
         self.made(made, |all| {
             let images = maps.map(|index| all.get(index?));
-            let [width, height] = images.iter().flatten().next().map(|image| [image.width, image.height])?;
+            let sides = images.iter().flatten().map(|image| [image.width, image.height]);
+            let [width, height] = sides.reduce(|[a, b], [c, d]| [a.max(c), b.max(d)])?;
             // Sides are at most 2^14.
             let at = |k: u32, of: u32, side: u32| ((2 * k + 1) * side / (2 * of)) as usize;
             let texel = |row: u32, column: u32| {

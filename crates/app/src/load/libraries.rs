@@ -11,6 +11,7 @@ use crate::load::obj::{DEFAULT_DIFFUSE, Named, ObjText};
 use crate::load::paths::{Found, existing, unquoted};
 use crate::load::seen;
 use crate::options::Material;
+use crate::options::values::Color;
 use crate::scene::{MaterialNote, Model, Part, Vertex};
 
 /// The largest material library that is read, in bytes.
@@ -70,6 +71,9 @@ impl Libraries {
         let Some(entry) = self.checked.materials.get_mut(index) else { return };
         if let Some(warning) = normals_as_bump(&mut entry.material, &mut self.images) {
             warnings.push(warning);
+        }
+        if !self.notes.contains_key(&index) {
+            blackened(&entry.material).into_iter().for_each(|warning| warnings.push(warning));
         }
         let mut warn = |error: Error| {
             warnings.push(error.hint("the surface goes without"));
@@ -134,6 +138,22 @@ fn place_textures(model: &mut Model) {
             });
         }
     }
+}
+
+/// Warns of triangles that have maps but no texture coordinates, in a model that has these elsewhere.
+pub(crate) fn bare(model: &Model) -> Option<Error> {
+    let placed = |&index: &u32| model.vertices.get(index as usize).is_some_and(|v| v.uv != [0.0; 2]);
+    let bare = |part: &&Part| part.triangles.iter().any(|triangle| !triangle.iter().any(placed));
+    let part = model.parts.iter().filter(|part| part.has_maps()).find(bare)?;
+    let found = format!("faces of {} without texture coordinates", quote(part.material.as_bytes()));
+    Some(Error::new(found, "some for its texture").hint("they get one texel's colour"))
+}
+
+/// Some exporters write a black `Kd` beside a texture, whose colours it multiplies.
+fn blackened(material: &Material) -> Option<Error> {
+    let map = material.color_map.as_ref().filter(|_| material.color == Some(Color([0.0; 3])))?;
+    let error = Error::new("`map_Kd` under `Kd 0 0 0`", "a colour that is multiplied by that of the texture");
+    Some(map.place(error).hint("it is black, unless `--diffuse` says another"))
 }
 
 /// Exporters write normal maps into `bump` as well. They are used as normal maps.

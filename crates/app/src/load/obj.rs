@@ -9,7 +9,7 @@ use std::path::Path;
 
 use crate::error::{Error, Warnings};
 use crate::load::input::{self, Stream};
-use crate::load::libraries::Libraries;
+use crate::load::libraries::{self, Libraries};
 use crate::options::{DEFAULT_CREASE, Normals};
 use crate::scene::Model;
 use crate::scene::{camera, normals};
@@ -62,6 +62,8 @@ pub fn load(
     }
     let mut libraries = Libraries::read(path, &text, &mut warnings)?;
     let has_uv = text.corners_with_uv > 0;
+    let corners: usize = text.faces.iter().map(|faces| faces.corners.len()).sum();
+    let some_uv = has_uv && text.corners_with_uv < corners;
     let Built { mut model, materials, groups, crossing, has_area } =
         build(text, libraries.names(), normals).map_err(|error| error.file(path))?;
     if crossing.0 > 0 {
@@ -85,6 +87,9 @@ pub fn load(
         if let Some(index) = material {
             libraries.apply(index, part, radius, &mut warnings);
         }
+    }
+    if let Some(warning) = libraries::bare(&model).filter(|_| some_uv) {
+        warnings.push(warning.file(path));
     }
     libraries.give_images(&mut model);
     model.notes.normals = model.vertices.iter().filter(|vertex| vertex.normal != [0.0; 3]).count();

@@ -120,6 +120,7 @@ fn alpha_of_textures_counts() {
         ("map_Kd shades.png", [1.0, 0.5, 0.0, 0.5]),
         ("map_Kd wide.png\nmap_d grey.png", [1.0, 0.5, 0.0, 0.5]),
         ("map_Kd wide.png\nmap_d holes.png", [1.0, 0.0, 0.0, 0.0]),
+        ("map_Kd plain.png\nmap_d grey.png", [1.0, 0.5, 0.0, 0.5]),
         ("map_Kd holes.png\nd 0.5", [0.5, 0.0, 0.0, 0.0]),
         ("map_Kd shades.png\nd 0.5", [0.5, 0.25, 0.0, 0.25]),
         ("map_Kd plain.png", [1.0; 4]),
@@ -131,6 +132,10 @@ fn alpha_of_textures_counts() {
     for (column, expected) in (0..4).zip([1.02, 0.51, 0.0, 0.51]) {
         eq(alpha("map_d grey.png", column), expected);
     }
+    // At u = 0.625, 1.625 and so on: its third texel, and beyond its edge the last.
+    for (column, expected) in (0..4).zip([0.0, 0.51, 0.51, 0.51]) {
+        eq(alpha("map_d -clamp on -s 4 1 1 grey.png", column), expected);
+    }
 }
 
 /// Of a white lamp along the normal, a surface with `Ks` has a highlight in the middle; one without has none.
@@ -138,6 +143,9 @@ fn alpha_of_textures_counts() {
 fn highlights_need_not_be_asked_for() {
     let bright = |mtl: &str, more: &[&str]| {
         let folder = folder(SQUARE, &format!("newmtl a\nKd 0.4 0.4 0.4\n{mtl}\n"));
+        for (name, grey) in [("black.png", 0), ("white.png", 255)] {
+            fs::write(folder.path(name), png(1, 1, |_, _| [grey, grey, grey, 255])).expect("a file");
+        }
         let (picture, _) = seen(&folder, more);
         picture.pixels().map(|pixel| pixel.0[0]).max().unwrap_or(0)
     };
@@ -149,6 +157,28 @@ fn highlights_need_not_be_asked_for() {
         assert!(bright(mtl, &[]) > matt + 3, "{mtl} {}", bright(mtl, &[]));
         assert_eq!(bright(mtl, &["--shading", "lambert"]), matt, "{mtl}");
     }
+    // A map of exponents fades as the exponents themselves do: to an eighth at 1.
+    let shine = "Ks 0.8 0.8 0.8\nNs 64\nmap_Ns";
+    let faded = bright("Ks 0.8 0.8 0.8\nNs 1", &[]);
+    assert!(bright(&format!("{shine} black.png"), &[]).abs_diff(faded) <= 1, "{faded}");
+    assert_eq!(bright(&format!("{shine} white.png"), &[]), bright("Ks 0.8 0.8 0.8\nNs 64", &[]));
+}
+
+/// The texture is multiplied by `Kd`, which is white where there is none. A black one is said.
+#[test]
+fn textures_are_multiplied_by_kd() {
+    let shown = |kd: &str, more: &[&str]| {
+        let folder = folder(SQUARE, &format!("newmtl a\n{kd}\nmap_Kd c.png\n"));
+        fs::write(folder.path("c.png"), png(1, 1, |_, _| [200, 100, 50, 255])).expect("a file");
+        let (picture, warnings) = seen(&folder, &[&["--shading", "unlit"], more].concat());
+        (picture.get_pixel(8, 8).0, warnings)
+    };
+    assert_eq!(shown("", &[]), ([200, 100, 50], String::new()));
+    let (found, warnings) = shown("Kd 0.5 1 0", &[]);
+    assert!(near(found, [100.0, 100.0, 0.0]) && warnings.is_empty(), "{found:?} {warnings}");
+    let (found, warnings) = shown("Kd 0 0 0", &[]);
+    assert!(found == [0; 3] && warnings.contains("m.mtl:3: found `map_Kd` under `Kd 0 0 0`"), "{warnings}");
+    assert_eq!(shown("Kd 0 0 0", &["--diffuse", "ffffff"]).0, [200, 100, 50]);
 }
 
 /// Colours of vertices multiply the material's, under the light that falls on white.

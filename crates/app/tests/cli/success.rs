@@ -167,11 +167,15 @@ fn maps_that_cannot_be_seen_are_warnings() {
                  normal-map = \"h.png\"\nheight-map = \"h.png\"\n";
     let two = format!("{scene}[[object]]\nsurface = \"sphere\"\nmaterial = \"a\"\n");
     let no_uv = "m.obj: found a model without texture coordinates (`vt` lines), expected some";
+    let some_uv = "m.obj: found faces of \"a\" without texture coordinates, expected some for its texture";
+    let partly = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\nf 3 2 1\n";
     let unused = "found a normal map and heights for bumps on the surface";
     for (name, obj, mtl, text, wanted) in [
         ("m.obj", obj(bare), mtl("map_Kd h.png\n"), "", Some(no_uv)),
         ("m.obj", obj(bare), mtl("map_Ns h.png\n"), "", Some(no_uv)),
         ("m.obj", obj(bare), mtl("Kd 1 0 0\nrefl h.png\n"), "", None),
+        ("m.obj", obj(partly), mtl("map_Kd h.png\n"), "", Some(some_uv)),
+        ("m.obj", obj(partly), mtl("Kd 1 0 0\n"), "", None),
         ("m.obj", obj(TRIANGLE), mtl("map_Kd h.png\n"), "", None),
         ("m.obj", obj(TRIANGLE), mtl(both), "", Some(unused)),
         ("s.toml", String::new(), String::new(), two.as_str(), Some(unused)),

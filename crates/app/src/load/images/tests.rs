@@ -61,6 +61,27 @@ fn metal_mirrors_in_its_colour_and_scatters_less() {
 }
 
 #[test]
+fn broad_highlights_are_fainter() {
+    let (_folder, mut images, colors, gloss) = images();
+    // Reds of 255 and 64 are exponents of 20 and, within a byte, 5.77.
+    let share = |exponent: f32| (exponent / 8.0).min(1.0);
+    for first in [Some(colors), None] {
+        let fainter = images.fainter(first, gloss, [1.0, 20.0], share);
+        let fainter = texels(&images, fainter);
+        assert_eq!(fainter.len(), if first.is_some() { 4 } else { 2 });
+        for (i, texel) in fainter.into_iter().enumerate() {
+            let color = if first.is_some() { texels(&images, first)[i] } else { [255; 4] };
+            let share = [1.0, (1.0 + 19.0 * 64.0 / 255.0) / 8.0][i % 2];
+            for axis in 0..3 {
+                assert!((f64::from(texel[axis]) - share * f64::from(color[axis])).abs() <= 1.0);
+            }
+        }
+    }
+    // Where no highlight is that broad nothing is made.
+    assert_eq!(images.fainter(Some(colors), gloss, [8.0, 20.0], share), None);
+}
+
+#[test]
 fn ranges_are_a_factor_and_a_term() {
     let (folder, mut images, colors, _) = images();
     let plain = texels(&images, Some(colors));
@@ -93,8 +114,11 @@ fn alpha_is_that_of_the_texel_in_the_middle() {
     // Red where there is no alpha.
     assert_eq!(alphas(&mut images, Some(colors), metal), [255, 64, 255, 64]);
     assert_eq!(alphas(&mut images, None, metal), [255, 64]);
-    // The second of two rows: its texels' middles.
-    assert_eq!(alphas(&mut images, Some(metal), colors), [255, 0]);
+    // As fine as the alpha, where the colours are coarser: their one row is each of its two.
+    assert_eq!(alphas(&mut images, Some(metal), colors), [255, 9, 255, 0]);
+    let masked = images.with_alpha(Some(metal), colors);
+    let reds: Vec<u8> = texels(&images, masked).into_iter().map(|[red, ..]| red).collect();
+    assert_eq!(reds, [255, 64, 255, 64]);
     let faded = images.faded(colors, 51);
     assert_eq!(of(&images, Some(faded)), [51, 2, 51, 0]);
 }

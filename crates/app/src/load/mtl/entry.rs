@@ -33,14 +33,21 @@ pub(crate) struct Entry {
     pub(crate) metallic: Option<f32>,
     pub(crate) roughness_map: Option<MapFile>,
     pub(crate) metallic_map: Option<MapFile>,
-    /// `-s` and `-o` of its textures: factors of coordinates, and terms added then.
+    /// `-s` and `-o` of its first texture, or of that of `Kd`: factors of coordinates, and terms added then.
     pub(crate) placed: Option<[[f32; 2]; 2]>,
 }
+
+/// Coordinates as they are.
+pub(super) const UNPLACED: [[f32; 2]; 2] = [[1.0; 2], [0.0; 2]];
 
 impl Entry {
     /// The material that is drawn: with highlights where the file has such.
     pub(crate) fn drawn(&self) -> Material {
         let mut drawn = self.material.clone();
+        if drawn.color_map.is_some() && drawn.color.is_none() {
+            // Nothing says that the texture is darker than its image.
+            drawn.color = Some(Color([1.0; 3]));
+        }
         let matt = self.is_matt();
         // Where a map says it, `complete` has the rest.
         let metal = self.metallic.filter(|_| self.metallic_map.is_none()).unwrap_or(0.0);
@@ -66,7 +73,7 @@ impl Entry {
             drawn.specular = Some(Color(if physical { color.map(mirrored) } else { [0.0; 3] }));
         }
         if let (Some(Color(color)), Some(exponent)) = (&mut drawn.specular, exponent) {
-            *color = color.map(|c| c * (exponent / BROAD).min(1.0));
+            *color = color.map(|c| c * faintness(exponent));
         }
         if metal > 0.0 {
             let Color(color) = drawn.color.unwrap_or(Color([0.8; 3]));
@@ -122,11 +129,24 @@ impl Entry {
                 metal: (metal, byte(share)),
                 gloss: (gloss, exponents.map(f32::to_bits)),
             },
-            |exponent| height(exponent) * (exponent / BROAD).min(1.0),
+            |exponent| height(exponent) * faintness(exponent),
         );
         if let Some(image) = mirroring {
             part.detail.specular_map = Some(Map { image, filter: None, wrap: part.detail.wrap });
             part.detail.specular = [1.0; 3];
+        }
+    }
+
+    /// Has a part's highlights fade where its map of exponents makes them broad.
+    fn fade(&self, part: &mut Part, images: &mut Images) {
+        let Detail { shininess, shininess_map, specular_map, .. } = &mut part.detail;
+        let Some(gloss) = shininess_map.filter(|_| !self.is_matt()) else { return };
+        // The colour has faded as the greatest does.
+        let most = faintness(shininess[1]).max(f32::MIN_POSITIVE);
+        let colors = specular_map.map(|map| map.image);
+        let share = |exponent| (faintness(exponent) / most).min(1.0);
+        if let Some(image) = images.fainter(colors, gloss.image, *shininess, share) {
+            *specular_map = Some(Map { image, ..specular_map.unwrap_or(gloss) });
         }
     }
 
@@ -144,6 +164,7 @@ impl Entry {
             None => Ok(None),
             Some(map) => images.texture(map).or_else(|error| warn(error).map(|()| None)),
         };
+        self.fade(part, images);
         let rough = read(&self.roughness_map, images)?.filter(|_| part.detail.shininess_map.is_none());
         let gloss = rough.map(|image| images.inverted(image));
         if let Some(image) = gloss {
@@ -160,10 +181,13 @@ impl Entry {
         }
         let alpha = read(&self.alpha_map, images)?;
         if let Some(alpha) = alpha {
+            if part.texture.is_none() {
+                part.detail.wrap = self.alpha_map.as_ref().and_then(|map| map.wrap);
+            }
             part.texture = images.with_alpha(part.texture, alpha).or(part.texture);
         }
         see_through(part, self.opacity(), images);
-        part.detail.placed = self.placed;
+        part.detail.placed = self.placed.filter(|placed| *placed != UNPLACED);
         Ok(())
     }
 }
@@ -171,6 +195,11 @@ impl Entry {
 /// The height of a highlight that keeps its light as it narrows.
 fn height(exponent: f32) -> f32 {
     (exponent + 8.0) / 8.0
+}
+
+/// The share that is left of a highlight, so that broad ones fade.
+fn faintness(exponent: f32) -> f32 {
+    (exponent / BROAD).min(1.0)
 }
 
 /// Has what is behind a part show through it: where it is glass, or where its texture has holes.

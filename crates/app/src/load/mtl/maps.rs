@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::entry::UNPLACED;
 use super::{Entry, Ignored};
 use crate::error::{Error, quote};
 use crate::load::paths::{existing, unquoted};
@@ -45,6 +46,7 @@ pub(super) fn read(
     });
     let line_number = line.line;
     let material = &mut entry.material;
+    let left_out = lower == b"disp" && material.height_map.is_some();
     match lower {
         b"map_kd" => material.color_map = map,
         b"map_ks" => material.specular_map = map,
@@ -66,7 +68,7 @@ pub(super) fn read(
             material.environment = map;
             material.environment_kind = Some(EnvironmentKind::Sphere);
         }
-        b"disp" if material.height_map.is_some() => {
+        b"disp" if left_out => {
             ignored.add(&format!("`{word}` beside `bump`"), line_number);
         }
         _ => {
@@ -89,16 +91,27 @@ pub(super) fn read(
     for option in &options.skipped {
         ignored.add(&format!("`{}` of textures", String::from_utf8_lossy(option)), line_number);
     }
-    // All maps of a material lie on its surface as its texture does.
-    if let Some(placed) = options.placed() {
-        match entry.placed {
-            Some(other) if other != placed && lower != b"map_kd" => {
-                ignored.add(&format!("`-s` or `-o` of `{word}`, another than of the texture"), line_number);
-            }
-            _ => entry.placed = Some(placed),
-        }
+    if !left_out {
+        let kind = place(entry, lower, options.placed());
+        kind.into_iter().for_each(|kind| ignored.add(&kind.replace("MAP", word.as_ref()), line_number));
     }
     warnings
+}
+
+/// Places the material's maps as one of them is: that of `Kd`, or without one the first. Returns what is left out.
+fn place(entry: &mut Entry, lower: &[u8], placed: [[f32; 2]; 2]) -> Option<&'static str> {
+    // Surroundings do not lie on the surface.
+    if matches!(lower, b"refl" | b"map_refl") {
+        return (placed != UNPLACED).then_some("`-s` or `-o` of `MAP`");
+    }
+    let before = entry.placed.unwrap_or(placed);
+    if lower == b"map_kd" || entry.placed.is_none() {
+        entry.placed = Some(placed);
+    }
+    (before != placed).then_some(match lower {
+        b"map_kd" => "`-s` or `-o` before `MAP`, another than of it",
+        _ => "`-s` or `-o` of `MAP`, another than of the texture",
+    })
 }
 
 /// The options before the file's name.
@@ -121,10 +134,10 @@ struct Options<'a> {
 }
 
 impl Options<'_> {
-    /// The factors of coordinates, and the terms added then, if these change them.
-    fn placed(&self) -> Option<[[f32; 2]; 2]> {
-        let placed = [self.scale.unwrap_or([1.0; 2]), self.offset.unwrap_or([0.0; 2])];
-        (placed != [[1.0; 2], [0.0; 2]]).then_some(placed)
+    /// The factors of coordinates, and the terms added then.
+    fn placed(&self) -> [[f32; 2]; 2] {
+        let [scale, offset] = UNPLACED;
+        [self.scale.unwrap_or(scale), self.offset.unwrap_or(offset)]
     }
 }
 

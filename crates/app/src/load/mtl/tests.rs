@@ -85,6 +85,14 @@ fn highlights_are_those_of_the_file() {
 }
 
 #[test]
+fn a_texture_without_a_colour_is_as_bright_as_its_image() {
+    let color = |text: &str| run(format!("newmtl a\n{text}\n").as_bytes()).0.materials[0].drawn().color;
+    assert_eq!(color("map_Kd a.png"), Some(Color([1.0; 3])));
+    assert_eq!(color("Kd .5 .5 .5\nmap_Kd a.png"), Some(Color([0.5; 3])));
+    assert_eq!(color("Ks 1 1 1"), None);
+}
+
+#[test]
 fn opacity_comes_before_transparency() {
     for (text, opacity, warned) in [
         ("", 1.0, 0),
@@ -109,7 +117,12 @@ fn textures_are_placed() {
         (checked.materials[0].placed, warnings.len())
     };
     assert_eq!(placed("map_Kd -s 2 3 1 -o .5 .25 0 a.png"), (Some([[2.0, 3.0], [0.5, 0.25]]), 0));
-    assert_eq!(placed("map_Kd -s 1 1 1 -o 0 0 0 a.png"), (None, 0));
+    assert_eq!(placed("map_Kd -s 1 1 1 -o 0 0 0 a.png"), (Some([[1.0; 2], [0.0; 2]]), 0));
+    // The texture of `Kd` stays as it is, wherever its line is.
+    assert_eq!(placed("map_Kd a\nbump -s 4 4 b\nmap_d -o .5 c"), (Some([[1.0; 2], [0.0; 2]]), 2));
+    assert_eq!(placed("bump -s 4 4 b\nmap_Kd a"), (Some([[1.0; 2], [0.0; 2]]), 1));
+    assert_eq!(placed("bump -s 4 4 b\ndisp d"), (Some([[4.0; 2], [0.0; 2]]), 1));
+    assert_eq!(placed("refl -type sphere b\nbump -s 4 4 b"), (Some([[4.0; 2], [0.0; 2]]), 0));
     assert_eq!(placed("map_Kd -s 2 2 a\nbump -s 2 2 b"), (Some([[2.0, 2.0], [0.0, 0.0]]), 0));
     assert_eq!(placed("map_Kd -s 2 2 a\nbump -s 3 3 b"), (Some([[2.0, 2.0], [0.0, 0.0]]), 1));
 }
