@@ -117,11 +117,9 @@ impl Reader {
             return Ok(());
         }
         if let Some(arguments) = line.strip_prefix(BAKE) {
-            // The program of the tests, which is there already: it bakes the same.
-            let mut bake = cargo();
-            bake.args(["build", "--quiet", "--workspace", "--bin", "alberti"]);
-            command::run(&mut bake)?;
-            let mut bake = Command::new(workspace::target_directory().join("debug/alberti"));
+            // In the folder of this repository's builds, where the gallery's is already.
+            command::run(cargo().args(["build", "--release", "--quiet", "--bin", "alberti"]))?;
+            let mut bake = Command::new(workspace::target_directory().join("release/alberti"));
             return command::run(bake.arg("bake").args(arguments.split_whitespace()).current_dir(&self.here));
         }
         if line == BUILD {

@@ -35,16 +35,20 @@
     reason = "references move between integers, f32, f64 and rationals all the time; the bounds stand beside the code"
 )]
 
+#[cfg(feature = "rationals")]
 pub mod area;
 pub mod cases;
 pub mod climb;
 pub mod coverage;
 pub mod dd;
+#[cfg(feature = "rationals")]
 pub mod gradient;
 pub mod ideal;
 pub mod image;
+#[cfg(feature = "rationals")]
 pub mod linear;
 pub mod material;
+#[cfg(feature = "rationals")]
 pub mod rational;
 pub mod rng;
 pub mod sampling;
