@@ -1,5 +1,7 @@
 //! All checks in one run: what continuous integration calls, and what to call before a commit.
 
+mod passed;
+
 use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -7,15 +9,66 @@ use std::{env, fs, io, thread};
 
 use crate::command::Outcome;
 use crate::{assets, checks, extremes, gallery, guide, package, tidy, trade, workspace};
+use passed::Passed;
 
 /// The name that the summary and a failure use, and the check.
 type Step = (&'static str, fn() -> Outcome);
 
-const TEST: Step = ("test", checks::test);
+/// A chore of this program by its words, under its first word as name.
+type Chore = &'static [&'static str];
 
-/// The chores that build for boards and run there, by their words. They have build directories of their own, and much
-/// of their time one core waits for the other: so they are done beside the other checks.
-const BESIDE: [&[&str]; 3] = [&["nostd"], &["boards", "check"], &["firmware"]];
+const TEST: &str = "test";
+
+/// The chores that build for boards and run there. They have build directories of their own, and much of their time one
+/// core waits for the other: so they are done beside the other checks.
+const BESIDE: [Chore; 3] = [&["nostd"], &["boards", "check"], &["firmware"]];
+
+/// What is still done where `firmware` stands: one board shows that the table is that of these files.
+const SAMPLE: Chore = &["firmware", "--board", "m4f"];
+
+/// The wishes of the caller.
+#[derive(Debug, PartialEq, Eq, Default)]
+struct Options<'a> {
+    /// The caller has just run `cargo test --workspace` on this tree.
+    tests_done: bool,
+    /// Checks are done that stand, too.
+    all: bool,
+    /// These checks alone, whether they stand or not.
+    named: Vec<&'a str>,
+}
+
+impl<'a> Options<'a> {
+    fn read(arguments: &'a [String]) -> Result<Self, String> {
+        let mut options = Self::default();
+        for word in arguments {
+            match word.as_str() {
+                "--tests-done" => options.tests_done = true,
+                "--all" => options.all = true,
+                name if names().any(|known| known == name) => options.named.push(name),
+                _ => {
+                    let names = names().collect::<Vec<_>>().join(", ");
+                    return Err(format!(
+                        "expected `--tests-done`, `--all` or one of {names}, found `{word}`"
+                    ));
+                }
+            }
+        }
+        Ok(options)
+    }
+
+    /// Whether a check is done, where it `stands` or not.
+    fn takes(&self, name: &str, stands: bool) -> bool {
+        if !self.named.is_empty() {
+            return self.named.contains(&name);
+        }
+        !(self.tests_done && name == TEST) && (self.all || !stands)
+    }
+}
+
+/// The names of all checks.
+fn names() -> impl Iterator<Item = &'static str> {
+    STEPS.iter().map(|step| step.0).chain(BESIDE.iter().map(|words| words[0]))
+}
 
 /// A chore that was done beside others.
 struct Done {
@@ -25,67 +78,82 @@ struct Done {
     printed: String,
 }
 
-/// Runs every check in order and stops at the first that fails.
-///
-/// The order is by the price of finding a failure: text first, then one compilation, then the tests, then the builds
-/// that start from nothing. Little is compiled twice: `docs` and `package` share the metadata of most dependencies with
-/// `lint`, and `trade` has the libraries that `gallery` has compiled.
+/// The checks in order, by the price of finding a failure: text first, then one compilation, then the tests, then the
+/// builds that start from nothing. Little is compiled twice: `docs` and `package` share the metadata of most
+/// dependencies with `lint`; `trade` and `guide` have the app that `gallery` has compiled.
+const STEPS: &[Step] = &[
+    ("tidy", tidy::run),
+    ("assets", assets::check),
+    ("fmt", checks::fmt),
+    ("lint", checks::lint),
+    ("docs", checks::docs),
+    (TEST, checks::test),
+    ("gallery", gallery::check),
+    ("trade", trade::check),
+    ("registers", checks::registers),
+    ("extremes", extremes::check),
+    ("package", package::run),
+    ("guide", guide::run),
+];
+
+/// Runs the checks and stops at the first that fails. Long ones stand if they have passed on the same files before.
 pub(crate) fn run(arguments: &[String]) -> Outcome {
-    let tests_done = match arguments {
-        [] => false,
-        [flag] if flag == "--tests-done" => true,
-        _ => return Err(format!("expected nothing or `--tests-done`, found `{}`", arguments.join(" "))),
-    };
-    run_steps(&steps(tests_done), &BESIDE, chore)
+    let options = Options::read(arguments)?;
+    let mut passed = Passed::read()?;
+    let takes = |name: &str| options.takes(name, passed.stands(name));
+    let steps: Vec<Step> = STEPS.iter().filter(|step| takes(step.0)).copied().collect();
+    let mut beside: Vec<Chore> = BESIDE.into_iter().filter(|words| takes(words[0])).collect();
+    let standing: Vec<_> = names().filter(|name| passed.stands(name) && !takes(name)).collect();
+    if options.named.is_empty() && !standing.is_empty() {
+        println!("{} passed on these files ({}): `--all` repeats them", standing.join(", "), passed::PLACE);
+        beside.extend(standing.contains(&SAMPLE[0]).then_some(SAMPLE));
+    }
+    let (done, outcome) = run_steps(&steps, &beside, chore);
+    // A sample is not the whole.
+    let whole = done.iter().map(String::as_str).filter(|name| takes(name));
+    passed.keep(whole.collect::<Vec<_>>().into_iter())?;
+    outcome
 }
 
-/// The checks in order, without `test` where the caller has just run `cargo test --workspace` on this tree.
-fn steps(tests_done: bool) -> Vec<Step> {
-    let mut steps: Vec<Step> = vec![
-        ("tidy", tidy::run),
-        ("assets", assets::check),
-        ("fmt", checks::fmt),
-        ("lint", checks::lint),
-        ("docs", checks::docs),
-        TEST,
-        ("gallery", gallery::check),
-        ("trade", trade::check),
-        ("registers", checks::registers),
-        ("extremes", extremes::check),
-        ("package", package::run),
-        ("guide", guide::run),
-    ];
-    steps.retain(|(name, _)| !(tests_done && *name == TEST.0));
-    steps
-}
-
-/// Runs the steps, and chores beside them, of which is told at the end.
-fn run_steps(steps: &[Step], beside: &[&[&str]], chore: fn(&[&str]) -> Result<String, String>) -> Outcome {
+/// Runs the steps, and chores beside them, of which is told at the end: the names of those that passed, and the first
+/// failure.
+fn run_steps(
+    steps: &[Step],
+    beside: &[Chore],
+    chore: fn(&[&str]) -> Result<String, String>,
+) -> (Vec<String>, Outcome) {
     let start = Instant::now();
     let failed = AtomicBool::new(false);
-    let ((mut summary, outcome), done) = thread::scope(|scope| {
+    let ((mut passed, outcome), done) = thread::scope(|scope| {
         let others = scope.spawn(|| run_beside(beside, chore, &failed));
         let own = in_order(steps, &failed);
         (own, others.join())
     });
-    let done = done.map_err(|_| "a chore beside the others panicked".to_owned())?;
+    let Ok(done) = done else { return (Vec::new(), Err("a chore beside the others panicked".to_owned())) };
     let mut outcomes = vec![outcome];
     for Done { name, elapsed, outcome, printed } in done {
-        let elapsed = seconds(elapsed);
         println!("\n==> {name}, beside the others\n{printed}");
-        println!("==> {name} {} {elapsed}", if outcome.is_ok() { "passed in" } else { "failed after" });
-        summary.push_str(&format!("    {name:<12}{elapsed:>9}\n"));
+        println!(
+            "==> {name} {} {}",
+            if outcome.is_ok() { "passed in" } else { "failed after" },
+            seconds(elapsed)
+        );
         outcomes.push(outcome.map_err(|message| format!("step `{name}`: {message}")));
+        if outcomes.last().is_some_and(Result::is_ok) {
+            passed.push((name, elapsed));
+        }
     }
-    outcomes.into_iter().collect::<Outcome>()?;
-    let all = steps.len() + beside.len();
-    println!("\nxtask ci: all {all} steps passed in {}\n{summary}", seconds(start.elapsed()));
-    Ok(())
+    let outcome = outcomes.into_iter().collect::<Outcome>();
+    if outcome.is_ok() {
+        println!("\nxtask ci: all {} steps passed in {}", passed.len(), seconds(start.elapsed()));
+        passed.iter().for_each(|(name, elapsed)| println!("    {name:<12}{:>9}", seconds(*elapsed)));
+    }
+    (passed.into_iter().map(|(name, _)| name).collect(), outcome)
 }
 
-/// Runs steps up to the first that fails, or after which another has: lines of the summary, and the outcome.
-fn in_order(steps: &[Step], failed: &AtomicBool) -> (String, Outcome) {
-    let mut summary = String::new();
+/// Runs steps up to the first that fails, or after which another has: those that passed, and the outcome.
+fn in_order(steps: &[Step], failed: &AtomicBool) -> (Vec<(String, Duration)>, Outcome) {
+    let mut passed = Vec::new();
     for (index, (name, step)) in steps.iter().enumerate() {
         if failed.load(Ordering::Relaxed) {
             break;
@@ -93,20 +161,20 @@ fn in_order(steps: &[Step], failed: &AtomicBool) -> (String, Outcome) {
         println!("\n==> {name} ({} of {})", index + 1, steps.len());
         let start = Instant::now();
         let outcome = step();
-        let elapsed = seconds(start.elapsed());
+        let elapsed = start.elapsed();
         if let Err(message) = outcome {
             failed.store(true, Ordering::Relaxed);
-            println!("==> {name} failed after {elapsed}");
-            return (summary, Err(format!("step `{name}`: {message}")));
+            println!("==> {name} failed after {}", seconds(elapsed));
+            return (passed, Err(format!("step `{name}`: {message}")));
         }
-        println!("==> {name} passed in {elapsed}");
-        summary.push_str(&format!("    {name:<12}{elapsed:>9}\n"));
+        println!("==> {name} passed in {}", seconds(elapsed));
+        passed.push(((*name).to_owned(), elapsed));
     }
-    (summary, Ok(()))
+    (passed, Ok(()))
 }
 
 fn run_beside(
-    chores: &[&[&str]],
+    chores: &[Chore],
     chore: fn(&[&str]) -> Result<String, String>,
     failed: &AtomicBool,
 ) -> Vec<Done> {
@@ -158,7 +226,8 @@ mod tests {
             ("bad", || Err("no".into())),
             ("never", || panic!("a step after the failure ran")),
         ];
-        assert_eq!(run_steps(&steps, &[], |_| Ok(String::new())), Err("step `bad`: no".into()));
+        let (passed, outcome) = run_steps(&steps, &[], |_| Ok(String::new()));
+        assert_eq!((passed, outcome), (vec!["good".to_owned()], Err("step `bad`: no".into())));
     }
 
     #[test]
@@ -168,33 +237,37 @@ mod tests {
             "bad" => Err("no".to_owned()),
             _ => panic!("a chore after the failure ran"),
         };
-        let outcome = run_steps(&[], &[&["good"], &["bad", "check"], &["never"]], chore);
-        assert_eq!(outcome, Err("step `bad`: see above".into()));
+        let (passed, outcome) = run_steps(&[], &[&["good"], &["bad", "check"], &["never"]], chore);
+        assert_eq!((passed, outcome), (vec!["good".to_owned()], Err("step `bad`: see above".into())));
         let wait = || {
             std::thread::sleep(Duration::from_millis(200));
             Ok(())
         };
         let steps: [Step; 2] = [("wait", wait), ("never", || panic!("a step after the failure ran"))];
-        assert_eq!(run_steps(&steps, &[&["bad"]], chore), Err("step `bad`: see above".into()));
+        assert_eq!(run_steps(&steps, &[&["bad"]], chore).1, Err("step `bad`: see above".into()));
     }
 
     #[test]
     fn what_is_done_beside_is_a_chore() {
-        for words in BESIDE {
+        for words in BESIDE.into_iter().chain([SAMPLE]) {
             assert!(crate::CHORES.iter().any(|chore| chore.name == words[0]), "{words:?}");
         }
     }
 
     #[test]
-    fn only_the_test_step_depends_on_the_flag() {
-        let names = |done| steps(done).iter().map(|step| step.0).collect::<Vec<_>>();
-        let (mut all, without) = (names(false), names(true));
-        all.retain(|name| *name != "test");
-        assert_eq!((all, without.len() + 1), (without.clone(), steps(false).len()));
+    fn checks_are_left_out_or_named() {
+        let taken = |text: &str, name, stands| {
+            let words: Vec<String> = text.split_whitespace().map(str::to_owned).collect();
+            Options::read(&words).unwrap().takes(name, stands)
+        };
+        assert!(taken("", "test", false) && !taken("--tests-done", "test", false));
+        assert!(!taken("--tests-done", "boards", true) && taken("--all", "boards", true));
+        assert!(taken("boards lint", "boards", true) && !taken("boards lint", "test", false));
     }
 
     #[test]
-    fn an_unknown_flag_is_refused() {
-        assert!(run(&["--fast".to_string()]).unwrap_err().contains("`--fast`"));
+    fn an_unknown_word_is_refused() {
+        let refused = run(&["--fast".to_string()]).unwrap_err();
+        assert!(refused.contains("`--fast`") && refused.contains("tidy, assets"), "{refused}");
     }
 }

@@ -14,7 +14,7 @@ use crate::command::{cargo, output};
 use crate::workspace;
 
 /// Debian's rustc (package `rustc-web`).
-const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
+pub(crate) const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
 /// The library source that matches it (package `rust-web-src`).
 const DEBIAN_SOURCE: &str = "/usr/lib/rustlib/src/rust/library/core";
 

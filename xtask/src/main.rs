@@ -47,8 +47,8 @@ struct Chore {
 const CHORES: &[Chore] = &[
     Chore {
         name: "ci",
-        arguments: "[--tests-done]",
-        about: "the checks below, up to the first failure",
+        arguments: "[--tests-done] [--all] [CHECK...]",
+        about: "the checks below, or those named, up to the first failure",
         run: ci::run,
     },
     Chore {
@@ -208,7 +208,9 @@ fn help() -> String {
         text.push_str(&format!("  {call:<31}  {}\n", chore.about));
     }
     text.push_str(
-        "\n`ci --tests-done` leaves out `cargo test --workspace`: the caller has just run it on this tree.\n",
+        "\n`ci --tests-done` leaves out `cargo test --workspace`: the caller has just run it on this tree. Long checks are
+left out, but for a sample, where they have passed on the same files, of which .ci/passed keeps the digests;
+`--all` does all.\n",
     );
     text
 }

@@ -76,7 +76,7 @@ pub(crate) fn run() -> Outcome {
 }
 
 /// The files that git tracks or would add, without those that are deleted in the working tree.
-fn tracked_files() -> Result<Vec<String>, String> {
+pub(crate) fn tracked_files() -> Result<Vec<String>, String> {
     let mut git = Command::new("git");
     git.current_dir(workspace::root()).args(["ls-files", "-z", "--cached", "--others", "--exclude-standard"]);
     let listing = output(&mut git)?;

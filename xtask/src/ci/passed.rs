@@ -1,0 +1,145 @@
+//! Long checks that have passed on the very files that they read, by which compilers: these need no second run.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::process::Command;
+
+use crate::command::{Outcome, output};
+use crate::embedded::DEBIAN_RUSTC;
+use crate::{tidy, workspace};
+
+/// The file with a line for each long check: its name, and the digest of what it passed on.
+pub(super) const PLACE: &str = ".ci/passed";
+
+/// What each program for chips depends on.
+const CHIPS: &[&str] = &[
+    "Cargo.toml",
+    "crates/alberti/",
+    "crates/math/",
+    "crates/projection/",
+    "crates/raster/",
+    "crates/texture/",
+    "docs/firmware",
+    "docs/pictures/demo.gif",
+    "tests/firmware/",
+    "xtask/src/",
+];
+/// The same with the app, and what measures it.
+const TOOLS: &[&str] = &["Cargo.lock", "crates/app/", "docs/trade", "tests/"];
+
+/// The checks that may stand, and the beginnings of the names of the files that they read.
+const LONG: [(&str, &[&[&str]]); 4] =
+    [("firmware", &[CHIPS]), ("boards", &[CHIPS]), ("trade", &[CHIPS, TOOLS]), ("guide", &[CHIPS, TOOLS])];
+
+/// The digests of what the long checks read now, and those of when they passed last.
+pub(super) struct Passed {
+    now: BTreeMap<&'static str, u64>,
+    then: BTreeMap<String, u64>,
+}
+
+impl Passed {
+    /// Reads the files.
+    pub(super) fn read() -> Result<Self, String> {
+        let mut compilers = output(Command::new("rustc").current_dir(workspace::root()).arg("-vV"))?;
+        // Where there is none, the active one builds for chips.
+        compilers += &output(Command::new(DEBIAN_RUSTC).arg("-vV")).unwrap_or_default();
+        let files = tidy::tracked_files()?;
+        let mut now = BTreeMap::new();
+        for (name, groups) in LONG {
+            let mut digest = Digest::default();
+            digest.add(compilers.as_bytes());
+            for file in files.iter().filter(|file| groups.iter().any(|group| reads(group, file))) {
+                digest.add(file.as_bytes());
+                let path = workspace::root().join(file);
+                let read = fs::read(&path);
+                digest.add(&read.map_err(|error| format!("cannot read {}: {error}", path.display()))?);
+            }
+            now.insert(name, digest.0);
+        }
+        // Without the file, or with one of another form, none has passed.
+        let text = fs::read_to_string(workspace::root().join(PLACE)).unwrap_or_default();
+        Ok(Self { now, then: lines(&text) })
+    }
+
+    /// Whether a check has passed on what it reads.
+    pub(super) fn stands(&self, name: &str) -> bool {
+        self.now.get(name).is_some_and(|now| self.then.get(name) == Some(now))
+    }
+
+    /// Keeps the names of long checks that have passed now.
+    pub(super) fn keep<'a>(&mut self, names: impl Iterator<Item = &'a str>) -> Outcome {
+        for name in names {
+            if let Some((name, now)) = self.now.get_key_value(name) {
+                self.then.insert((*name).to_owned(), *now);
+            }
+        }
+        let text: String = self.then.iter().map(|(name, digest)| format!("{name} {digest:016x}\n")).collect();
+        let path = workspace::root().join(PLACE);
+        fs::write(&path, text).map_err(|error| format!("cannot write {}: {error}", path.display()))
+    }
+}
+
+fn reads(group: &[&str], file: &str) -> bool {
+    // The pages are prose but for their figures, which `tidy` compares.
+    group.iter().any(|beginning| file.starts_with(beginning))
+}
+
+/// The lines `NAME DIGEST`.
+fn lines(text: &str) -> BTreeMap<String, u64> {
+    let line = |line: &str| {
+        let (name, digest) = line.split_once(' ')?;
+        Some((name.to_owned(), u64::from_str_radix(digest, 16).ok()?))
+    };
+    text.lines().filter_map(line).collect()
+}
+
+/// A digest by Fowler, Noll and Vo (FNV-1a), of parts with their lengths.
+struct Digest(u64);
+
+impl Default for Digest {
+    fn default() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+}
+
+impl Digest {
+    fn add(&mut self, part: &[u8]) {
+        let length = (part.len() as u64).to_le_bytes();
+        for byte in length.iter().chain(part) {
+            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_check_stands_until_what_it_reads_changes() {
+        let mut passed =
+            Passed { now: [("boards", 7), ("trade", 9)].into(), then: lines("boards 7\ntrade 8\n") };
+        assert_eq!(["boards", "trade", "lint"].map(|name| passed.stands(name)), [true, false, false]);
+        passed.then = lines("boards\nmore words than these\ntrade x\n");
+        assert!(passed.then.is_empty() && !passed.stands("boards"));
+    }
+
+    #[test]
+    fn every_byte_counts() {
+        let of = |parts: &[&str]| {
+            let mut digest = Digest::default();
+            parts.iter().for_each(|part| digest.add(part.as_bytes()));
+            digest.0
+        };
+        let all = [of(&["ab", "c"]), of(&["a", "bc"]), of(&["abc"]), of(&["ab", "d"]), of(&["ab", ""])];
+        assert!(all.iter().enumerate().all(|(i, one)| !all[..i].contains(one)));
+    }
+
+    #[test]
+    fn long_checks_read_files_that_are_there() {
+        let files = tidy::tracked_files().unwrap();
+        for beginning in LONG.iter().flat_map(|(_, groups)| groups.iter().copied().flatten()) {
+            assert!(files.iter().any(|file| file.starts_with(beginning)), "{beginning}");
+        }
+    }
+}
