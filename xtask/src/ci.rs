@@ -108,10 +108,10 @@ pub(crate) fn run(arguments: &[String]) -> Outcome {
         println!("{} passed on these files ({}): `--all` repeats them", standing.join(", "), passed::PLACE);
         beside.extend(standing.contains(&SAMPLE[0]).then_some(SAMPLE));
     }
-    let (done, outcome) = run_steps(&steps, &beside, chore);
+    let (mut done, outcome) = run_steps(&steps, &beside, chore);
     // A sample is not the whole.
-    let whole = done.iter().map(String::as_str).filter(|name| takes(name));
-    passed.keep(whole.collect::<Vec<_>>().into_iter())?;
+    done.retain(|name| takes(name));
+    passed.keep(&done)?;
     outcome
 }
 
