@@ -185,7 +185,7 @@ impl<C: EmbeddedColor, D: DepthFormat> DrawTarget for Target<'_, C, D> {
             if !columns.contains(&x) || !rows.contains(&y) {
                 continue;
             }
-            if let Some(pixel) = self.pixels_from(y, x).0.first_mut() {
+            if let Some((pixel, _)) = self.pixel(y, x) {
                 *pixel = format.of_embedded(color);
             }
         }

@@ -68,16 +68,17 @@ impl<F: Copy, P: Interpolation> Paint<F, P> {
         let fixed = const { <P::Lanes<One> as Lanes>::FIXED };
         let places = corners.map(|corner| corner.place(fixed));
         let pixels = Walk::new(places, self.subpixel.bits(), &target.limits());
-        self.between(target, corners, length(places), pixels, counters);
+        self.between(target, corners, [pixels.far(), length(places)], pixels, counters);
     }
 
-    /// Draws pixels between two corners, of which it is known how far they are of the `length` from one to the other.
+    /// Draws pixels in a row between two corners, of which it is known how far they are of the `length` from one to the
+    /// other: the first so far.
     #[inline(always)]
     pub(crate) fn between<V, C, D, K>(
         &self,
         target: &mut Target<'_, C, D>,
         corners: [&Corner<V>; 2],
-        length: i32,
+        [first, length]: [i32; 2],
         pixels: impl Iterator<Item = ([i32; 2], i32)>,
         counters: &mut K,
     ) where
@@ -97,7 +98,8 @@ impl<F: Copy, P: Interpolation> Paint<F, P> {
         };
         // Constants in blocks of their own, so that one way alone is compiled.
         if const { <P::Lanes<One> as Lanes>::FIXED } {
-            self.along(OneFixed, target, pixels, FixedSegment::new(corners, length, 1 << bits), counters);
+            let segment = FixedSegment::new(corners, length, [first, 1 << bits]);
+            self.along(OneFixed, target, pixels, segment, counters);
         } else {
             self.along(One, target, pixels, FloatSegment::new(corners, length), counters);
         }
@@ -176,8 +178,7 @@ impl<F: Copy, P: Interpolation> Paint<F, P> {
         let (mut covered, mut written) = (0, 0);
         for (place, far) in pixels {
             let [column, row] = place;
-            let (colors, depths) = target.pixels_from(row, column);
-            let (Some(color), Some(depth)) = (colors.first_mut(), depths.first_mut()) else { continue };
+            let Some((color, depth)) = target.pixel(row, column) else { continue };
             counters.touched(Outcome::Drawn, || [column..column + 1, row..row + 1]);
             covered += 1;
             // As many lanes as one.

@@ -273,6 +273,15 @@ impl<'a, C: ColorFormat, D: DepthFormat> Target<'a, C, D> {
         Rows { colors, depths, strides }
     }
 
+    /// One pixel within the [limits](Self::limits), and its depth.
+    #[inline(always)]
+    #[expect(clippy::cast_sign_loss, reason = "what is above or on the left wraps")]
+    pub(crate) fn pixel(&mut self, row: i32, column: i32) -> Option<(&mut C::Pixel, &mut D::Stored)> {
+        let (row, column) = ((row as usize).wrapping_sub(self.first_row), column as usize);
+        let [color, depth] = map2(self.strides, |stride| row.wrapping_mul(stride).wrapping_add(column));
+        Some((self.color.get_mut(color)?, self.depth.get_mut(depth)?))
+    }
+
     /// The target in parts of so many rows, at least one, from the top of its memory; the last may have fewer. Parts
     /// above a [`scissor`](Self::scissor) have no rows to be drawn. Several threads may draw to one part each.
     pub fn split(&mut self, rows: usize) -> impl Iterator<Item = Target<'_, C, D>> {

@@ -60,7 +60,7 @@ impl<F: Copy, P: Interpolation> Paint<F, P> {
                     let upper = with_flat(corners[upper], flat);
                     let [near, far] = edge.weights(middle, bits);
                     let pixel = [(place, far)].into_iter();
-                    self.between(target, [&upper, corners[lower]], near + far, pixel, counters);
+                    self.between(target, [&upper, corners[lower]], [far, near + far], pixel, counters);
                 }
             });
         }

@@ -7,25 +7,26 @@ use alberti_math::{Mode, Q16, Varying, high, reciprocal};
 use core::ops::Range;
 
 /// The pixels of a line by the diamond-exit rule, each with how far along the line it is.
+///
+/// They are those at whose centres, along the longer axis, the line is; the one that it begins in, as the line through
+/// both ends is in its row there; and not the one that it ends in.
 pub(super) struct Walk {
-    /// The columns, or rows of a steep line, that are left, in order, and the step from one to the next.
-    next: i32,
-    left: i32,
-    step: i32,
     steep: bool,
-    bits: u32,
-    /// Along the longer axis: where it begins, its length, and how far the next centre is.
-    start: i32,
-    length: i32,
+    /// The next column, or row of a steep line, the step to the one after, and how many are left.
+    next: i32,
+    step: i32,
+    left: i32,
+    /// How far the next centre is along the longer axis, the way from one to the next, and that from end to end.
     far: i32,
+    one: i32,
+    length: i32,
     /// Across it: the row, or column, at the next centre, and what is left of the division by the length.
     row: i32,
     rest: i32,
     more: i32,
-    /// The pixels whose diamonds the ends are in.
-    first: Option<[i32; 2]>,
-    last: Option<[i32; 2]>,
-    limits: [Range<i32>; 2],
+    /// The first row, or column, that is drawn, and how many are.
+    top: i32,
+    height: u32,
 }
 
 impl Walk {
@@ -38,16 +39,27 @@ impl Walk {
         let step = if end >= start { 1 } else { -1 };
         let length = (end - start).abs();
         let slope = across_end - across;
-        // The first and the last column whose centre is between the ends.
+        // The first and the last column whose centre is between the ends, or that of the first pixel.
         let [low, high] = [start.min(end), start.max(end)];
-        let (low, high) = ((low + half - 1) >> bits, (high - half) >> bits);
-        let (first_column, last_column) = if step > 0 { (low, high) } else { (high, low) };
+        let (mut low, mut high) = ((low + half - 1) >> bits, (high - half) >> bits);
+        let [begins, ends] = [[start, across], [end, across_end]].map(|end| column_of(end, bits, steep));
+        let is_short = low > high;
+        if let Some(column) = begins {
+            [low, high] = if is_short { [column; 2] } else { [low.min(column), high.max(column)] };
+        }
+        if let Some(column) = ends {
+            if step > 0 && column == high {
+                high -= 1;
+            } else if step < 0 && column == low {
+                low += 1;
+            }
+        }
         let [columns, rows] = if steep { [&limits[1], &limits[0]] } else { [&limits[0], &limits[1]] };
         let within = columns_within((start, length * step), (across, slope), bits, rows);
         let low = low.max(columns.start).max(within.start);
         let high = high.min(columns.end - 1).min(within.end - 1);
         let next = if step > 0 { low } else { high };
-        let left = if length > 0 { (high - low + 1).max(0) } else { 0 };
+        let left = if length > 0 { high - low + 1 } else { 0 };
         // At a centre c the line is at across + (c − start)·slope, in the row that this over `one` is above, up to and
         // with 1: that is one less than the quotient rounded up. Bits below a pixel are left out before the division,
         // as a step to the next centre does not change them.
@@ -59,35 +71,49 @@ impl Walk {
         } else {
             (0, 0)
         };
-        let inside = |point: [i32; 2]| diamond(point, bits, steep);
-        let own = inside(from).filter(|_| length > 0);
-        let own_column = own.map(|place| if steep { place[1] } else { place[0] });
-        // Before the first centre there may be a pixel that the line begins in.
-        let between = (first_column - last_column) * step <= 0;
-        let begins_before = own_column.is_some_and(|column| !between || (first_column - column) * step > 0);
-        Self {
-            next,
-            left,
-            step,
+        let mut walk = Self {
             steep,
-            bits,
-            start,
-            length,
+            next,
+            step,
+            left,
             far,
+            one,
+            length,
             row: base + row,
             rest,
             more: slope,
-            first: own.filter(|_| begins_before),
-            last: inside(to),
-            limits: limits.clone(),
+            top: rows.start,
+            height: (rows.end - rows.start).max(0).cast_unsigned(),
+        };
+        while walk.left > 0 && !walk.is_seen() {
+            walk.step();
         }
+        walk
     }
 
-    /// How far along the line a pixel before the first centre is.
-    fn before(&self, [column, row]: [i32; 2]) -> i32 {
-        let along = if self.steep { row } else { column };
-        let centre = (along << self.bits) + (1 << self.bits >> 1);
-        ((centre - self.start) * self.step).clamp(0, self.length)
+    /// How far along the line the first pixel is.
+    pub(super) fn far(&self) -> i32 {
+        self.far
+    }
+
+    #[inline(always)]
+    fn is_seen(&self) -> bool {
+        self.row.wrapping_sub(self.top).cast_unsigned() < self.height
+    }
+
+    #[inline(always)]
+    fn step(&mut self) {
+        self.left -= 1;
+        self.next += self.step;
+        self.far += self.one;
+        self.rest += self.more;
+        if self.rest >= self.length {
+            self.rest -= self.length;
+            self.row += 1;
+        } else if self.rest < 0 {
+            self.rest += self.length;
+            self.row -= 1;
+        }
     }
 }
 
@@ -141,68 +167,57 @@ fn columns_within(
 
 /// The quotient of a number by a positive one, rounded down, and what is left. Few are too great for 32 bits.
 fn divided(number: i64, by: i32) -> (i32, i32) {
+    let by = by.max(1);
+    #[expect(clippy::cast_possible_truncation, reason = "rows and columns are far within")]
     let (quotient, rest) = if let Ok(number) = i32::try_from(number) {
-        (number / by, number % by)
+        let quotient = number / by;
+        (quotient, number - quotient * by)
     } else {
-        #[expect(clippy::cast_possible_truncation, reason = "rows and columns are far within")]
-        [number / i64::from(by), number % i64::from(by)].map(|x| x as i32).into()
+        let quotient = number / i64::from(by);
+        (quotient as i32, (number - quotient * i64::from(by)) as i32)
     };
     if rest < 0 { (quotient - 1, rest + by) } else { (quotient, rest) }
 }
 
-/// The pixel whose diamond a point is in, if it is in one.
-fn diamond([x, y]: [i32; 2], bits: u32, steep: bool) -> Option<[i32; 2]> {
+/// The column, or the row of a steep line, of the pixel whose diamond a point is in, if it is in one: the point's place
+/// along the line and that across it.
+fn column_of([along, across]: [i32; 2], bits: u32, steep: bool) -> Option<i32> {
     let half = 1 << bits >> 1;
-    // Lower corners and right ones are on the border to the next pixel.
-    let candidates = [[x, y], [x, y - 1], [x - 1, y]];
-    candidates.into_iter().map(|place| place.map(|c| c >> bits)).find(|place| {
-        let [right, down] = [x - (place[0] << bits) - half, y - (place[1] << bits) - half];
-        let apart = right.abs() + down.abs();
-        apart < half || (apart == half && (down > 0 || (steep && down == 0 && right > 0)))
-    })
-}
-
-impl Iterator for Walk {
-    /// The column and the row, and how far along the line that is, in subpixels.
-    type Item = ([i32; 2], i32);
-
-    fn next(&mut self) -> Option<Self::Item> {
-        let seen = |walk: &Self, place: [i32; 2]| {
-            let [columns, rows] = &walk.limits;
-            columns.contains(&place[0]) && rows.contains(&place[1]) && walk.last != Some(place)
-        };
-        if let Some(place) = self.first.take()
-            && seen(self, place)
-        {
-            return Some((place, self.before(place)));
-        }
-        while self.left > 0 {
-            let place = if self.steep { [self.row, self.next] } else { [self.next, self.row] };
-            let far = self.far;
-            self.left -= 1;
-            self.next += self.step;
-            self.far += 1 << self.bits;
-            self.rest += self.more;
-            if self.rest >= self.length {
-                self.rest -= self.length;
-                self.row += 1;
-            } else if self.rest < 0 {
-                self.rest += self.length;
-                self.row -= 1;
-            }
-            if seen(self, place) {
-                return Some((place, far));
-            }
-        }
-        None
+    let column = along >> bits;
+    let [on, beside] = [along, across].map(|c| (c & (2 * half - 1)) - half);
+    match on.abs() + beside.abs() {
+        apart if apart < half => Some(column),
+        apart if apart > half => None,
+        // On the border, of which lower edges and corners belong to it, of a steep line the right corner as well. Those
+        // corners are here the upper one of the pixel below, and the left one of the pixel beside.
+        _ if steep && on < 0 => (beside == 0).then_some(column - 1),
+        _ => (steep || beside > 0 || on == 0).then_some(column),
     }
 }
 
-/// Depth and attributes along a line, at places that are counted in its parts.
+impl Iterator for Walk {
+    /// The column and the row, and how far along the line that is, in subpixels: below 0 where it begins behind the
+    /// first centre.
+    type Item = ([i32; 2], i32);
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.left <= 0 || !self.is_seen() {
+            return None;
+        }
+        let place = if self.steep { [self.row, self.next] } else { [self.next, self.row] };
+        let far = self.far;
+        self.step();
+        Some((place, far))
+    }
+}
+
+/// Depth and attributes along a line, at places that are counted in its parts. What is before its beginning has those
+/// of the beginning.
 pub(super) trait Segment<L: Lanes, V: Varying> {
-    /// The depth so far along.
+    /// The depth so far along: a pixel further each time.
     fn depth(&mut self, lanes: L, far: i32) -> L::Depth;
-    /// The attributes there.
+    /// The attributes so far along.
     fn attributes(&self, lanes: L, far: i32) -> V::Of<L::Number>;
 }
 
@@ -241,10 +256,11 @@ fn mean([a, b]: [f32; 2], share: f32) -> f32 {
 #[expect(clippy::cast_precision_loss, reason = "rounding to nearest")]
 impl<V: Varying> Segment<One, V> for FloatSegment<V> {
     fn depth(&mut self, _: One, far: i32) -> f32 {
-        mean(self.zs, far as f32 * self.part)
+        mean(self.zs, far.max(0) as f32 * self.part)
     }
 
     fn attributes(&self, _: One, far: i32) -> V::Of<f32> {
+        let far = far.max(0);
         let linear = far as f32 * self.part;
         let [a, b] = [(self.length - far) as f32 * self.q[0], far as f32 * self.q[1]];
         let hyperbolic = if b > 0.0 { b / (a + b) } else { 0.0 };
@@ -269,38 +285,39 @@ pub(super) struct FixedSegment<V: Varying> {
 
 /// A depth that grows with the way, in units of 2^-62: by integers, so that sums have no errors, wherever they begin.
 struct Sloped {
-    /// The way to the place before, and the depth there.
-    far: i32,
+    /// At the beginning of the line.
+    from: i64,
+    /// At the next pixel, and what it grows by from one to the next, which a shorter line never does.
     zs: i64,
-    /// For each part of the way, and for a pixel, which a shorter line never goes.
-    more: i64,
-    pixel: (i32, i64),
+    pixel: i64,
 }
 
 impl Sloped {
-    /// From one to another in units of 2^-31, on a way of which `part` is 2^63 over its length without its zeros.
-    fn new([from, to]: [u32; 2], (zeros, part): (u32, u32), pixel: i32) -> Self {
+    /// From one to another in units of 2^-31, on a way of which `part` is 2^63 over its length without its zeros. The
+    /// first pixel is so far along it, the next one `pixel` further.
+    fn new([from, to]: [u32; 2], (zeros, part): (u32, u32), [first, pixel]: [i32; 2]) -> Self {
         // Towards 0, and `part` is not too large either, so that no end is passed.
         let more =
             ((u64::from(from.abs_diff(to)) * u64::from(part >> 1)) >> (31 - zeros.min(31))).cast_signed();
         let more = if to < from { -more } else { more };
-        Self { far: 0, zs: i64::from(from) << 31, more, pixel: (pixel, more.wrapping_mul(i64::from(pixel))) }
+        let from = i64::from(from) << 31;
+        let [first, pixel] = [first, pixel].map(|way| more.wrapping_mul(i64::from(way)));
+        Self { from, zs: from.wrapping_add(first), pixel }
     }
 
+    /// At the pixel that is so far along, and then at the next.
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between the two")]
-    fn at(&mut self, far: i32) -> u32 {
-        let (pixel, more) = self.pixel;
-        let way = far - self.far;
-        self.zs += if way == pixel { more } else { i64::from(way) * self.more };
-        self.far = far;
-        (self.zs >> 31) as u32
+    fn next(&mut self, far: i32) -> u32 {
+        let zs = if far < 0 { self.from } else { self.zs };
+        self.zs = self.zs.wrapping_add(self.pixel);
+        (zs >> 31) as u32
     }
 }
 
 impl<V: Varying> FixedSegment<V> {
-    /// Between two corners so many parts apart, of which a pixel has so many.
-    pub(super) fn new([a, b]: [&Corner<V>; 2], length: i32, pixel: i32) -> Self {
+    /// Between two corners so many parts apart. The first pixel is so far from one, the next so far from the first.
+    pub(super) fn new([a, b]: [&Corner<V>; 2], length: i32, pixels: [i32; 2]) -> Self {
         let pairs = V::zip(&a.components, &b.components);
         let values = V::map(&pairs, &|(a, b): (u32, u32)| [a, b].map(u32::cast_signed));
         let greatest = a.q.max(b.q) >> 23;
@@ -308,7 +325,7 @@ impl<V: Varying> FixedSegment<V> {
         let length = length.max(1).cast_unsigned();
         let zeros = length.leading_zeros();
         let part = reciprocal::<2>(length << zeros);
-        Self { depth: Sloped::new([a.zs, b.zs], (zeros, part), pixel), q, values, length, zeros, part }
+        Self { depth: Sloped::new([a.zs, b.zs], (zeros, part), pixels), q, values, length, zeros, part }
     }
 }
 
@@ -330,12 +347,12 @@ impl<V: Varying> Segment<OneFixed, V> for FixedSegment<V> {
     #[inline(always)]
     fn depth(&mut self, _: OneFixed, far: i32) -> u32 {
         // As depth formats take words: twice as many.
-        self.depth.at(far) << 1
+        self.depth.next(far) << 1
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "between the two")]
     fn attributes(&self, _: OneFixed, far: i32) -> V::Of<Q16> {
-        let far = far.cast_unsigned().min(self.length);
+        let far = far.max(0).cast_unsigned().min(self.length);
         let linear = high(far << self.zeros, self.part);
         let [a, b] = [self.length - far, far].map(u64::from);
         let hyperbolic = share([a * u64::from(self.q[0]), b * u64::from(self.q[1])]);
