@@ -28,16 +28,20 @@ macro_rules! rgb565 {
                 _: [i32; 2],
                 pixels: &mut L::Each<u16>,
             ) {
-                let new = lanes.store_words(colors);
-                let word = |k: usize| {
-                    let word = new.as_ref().get(k).copied().unwrap_or_default();
-                    u32::from(Shade::pixel(self, word).$in_order())
+                let new = if const { Shade::IS_COLOR } {
+                    spread_of(lanes, colors)
+                } else {
+                    let words = lanes.store_words(colors);
+                    let word = |k: usize| {
+                        let word = words.as_ref().get(k).copied().unwrap_or_default();
+                        u32::from(Shade::pixel(self, word).$in_order())
+                    };
+                    spread(lanes, lanes.load_words(&lanes.each(word)))
                 };
-                let new = lanes.load_words(&lanes.each(word));
                 let word = |k: usize| pixels.as_ref().get(k).map_or(0, |pixel| u32::from(pixel.$in_order()));
                 let old = lanes.load_words(&lanes.each(word));
                 let share = lanes.shr(share + lanes.word(4), 3);
-                let mixed = lanes.store_words(mean565(lanes, [new, old], share));
+                let mixed = lanes.store_words(mean565(lanes, [new, spread(lanes, old)], share));
                 let bits = lanes.bits(mask);
                 for (k, (pixel, &word)) in pixels.as_mut().iter_mut().zip(mixed.as_ref()).enumerate() {
                     *pixel = if bits >> k & 1 != 0 { (word as u16).$in_order() } else { *pixel };
@@ -76,16 +80,32 @@ rgb565! {
     Rgb565Be: to_be;
 }
 
+/// Red and blue of a colour of 8 bits a channel.
+const RED_BLUE: u32 = 0x00ff_00ff;
 /// Green, red and blue of a 16-bit colour, with room above each for a product with 32.
 const SPREAD: u32 = 0x07e0_f81f;
 /// A half of 32 in each.
 const HALVES: u32 = 16 << 21 | 16 << 11 | 16;
 
-/// The mean of 16-bit colours in the low halves of words, of which the first has `share` 32nds.
+/// A 16-bit colour in the low half of a word, spread.
+#[inline(always)]
+fn spread<L: Lanes>(lanes: L, color: L::U32) -> L::U32 {
+    (color | lanes.shl(color, 16)) & lanes.word(SPREAD)
+}
+
+/// The same of a colour of 8 bits a channel: [`rgb565`], spread.
+#[inline(always)]
+fn spread_of<L: Lanes>(lanes: L, color: L::U32) -> L::U32 {
+    let red_blue = (color & lanes.word(RED_BLUE)) * lanes.word(249) + lanes.word(1014 << 16 | 1014);
+    let green = (lanes.shr(color, 8) & lanes.word(255)) * lanes.word(253) + lanes.word(505);
+    (red_blue & lanes.word(0xf800))
+        | lanes.shr(red_blue, 27)
+        | (lanes.shl(green, 11) & lanes.word(0x07e0_0000))
+}
+
+/// The mean of spread colours, of which the first has `share` 32nds: a 16-bit colour in the low half of a word.
 #[inline(always)]
 fn mean565<L: Lanes>(lanes: L, [new, old]: [L::U32; 2], share: L::U32) -> L::U32 {
-    let spread = |color: L::U32| (color | lanes.shl(color, 16)) & lanes.word(SPREAD);
-    let (new, old) = (spread(new), spread(old));
     // The fields of the sum are none below 0; differences that are borrow from the next, and pay it back.
     let sum = lanes.shl(old, 5) + (new - old) * share + lanes.word(HALVES);
     let mean = lanes.shr(sum, 5) & lanes.word(SPREAD);
@@ -105,15 +125,15 @@ pub(super) fn levels565(color: u16) -> [u32; 3] {
 /// Correctly rounded in each channel.
 ///
 /// # Cost
-/// Three multiplications, three additions, shifts.
+/// Two multiplications, two additions, shifts.
 #[must_use]
 #[inline]
 pub fn rgb565(color: Rgba8) -> u16 {
-    let [r, g, b, _] = color.to_bytes();
-    // Multiply and shift equal the rounded quotients for every byte.
-    let five = |c: u8| (u32::from(c) * 249 + 1014) >> 11;
-    let six = |c: u8| (u32::from(c) * 253 + 505) >> 10;
+    let bits = color.to_bits();
+    // Multiply and shift equal the rounded quotients for every byte. Red and blue are two halves of a word.
+    let red_blue = (bits & RED_BLUE) * 249 + (1014 << 16 | 1014);
+    let green = (bits >> 8 & 255) * 253 + 505;
     #[expect(clippy::cast_possible_truncation, reason = "5 + 6 + 5 bits")]
-    let packed = (five(r) << 11 | six(g) << 5 | five(b)) as u16;
+    let packed = (red_blue & 0xf800 | green >> 5 & 0x07e0 | red_blue >> 27) as u16;
     packed
 }
