@@ -40,7 +40,7 @@ pub use alberti_raster::{
     Affine, Always, AnyDepth, AnyDerivatives, Bands, Biased, ColorFormat, Counters, Coverage, Cull, D16, D24,
     D32, DepthFormat, Equal, Exact, F32, F32Reversed, Farther, FixedPoint, FragmentColor, FragmentStage,
     Fragments, Gradient, Interpolation, Lines, NoDepth, NoDerivatives, OrEqual, PerPixel, PerRun,
-    PerTriangle, Planes, ReadOnly, Silhouette, Spans16, Target, TargetError, Touched,
+    PerTriangle, PingPong, Planes, ReadOnly, Ready, Silhouette, Spans16, Target, TargetError, Touched, Turn,
 };
 pub use alberti_texture as texture;
 pub use error::Error;

@@ -4,7 +4,7 @@ use crate::{PreparedTriangle, Slot};
 use alberti_math::Varying;
 use alberti_raster::{ColorFormat, DepthFormat};
 
-/// The memory of a renderer in bands. It has the colours of two bands, one that is drawn and one that is sent, the
+/// The memory of a renderer in bands. It has the colours of two bands, for a [`PingPong`](crate::PingPong), the
 /// depths of one, slots for vertices, and a list of triangles. It is for a `static`: too much for the RAM of a chip
 /// does not link, and too much for a budget of yours does not compile.
 ///
@@ -18,7 +18,7 @@ use alberti_raster::{ColorFormat, DepthFormat};
 /// // Firmware has a `ConstStaticCell` of the crate `static_cell` for the mutex, and takes the memory out of it once.
 /// static MEMORY: Mutex<Frame> = Mutex::new(Frame::new(0, u16::MAX));
 /// let Ok(mut memory) = MEMORY.lock() else { return };
-/// let Memory { colors: [drawn, sent], depths, slots, list } = &mut *memory;
+/// let Memory { colors: [first, second], depths, slots, list } = &mut *memory;
 /// assert_eq!(Frame::BYTES, 2 * 320 * 16 * 2 + 320 * 16 * 2 + 600 * 32 + 1000 * 4);
 /// ```
 #[derive(Clone, Debug)]

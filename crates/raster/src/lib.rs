@@ -27,6 +27,7 @@ mod mask;
 #[cfg(any(feature = "serde", feature = "arbitrary", feature = "defmt"))]
 mod named;
 mod paint;
+mod ping_pong;
 mod pixels;
 mod sample_box;
 mod setup;
@@ -55,6 +56,7 @@ pub use embedded::TargetImage;
 pub use error::TargetError;
 pub use fragment::{FragmentStage, Fragments};
 pub use interpolation::{Affine, Exact, FixedPoint, Interpolation, Lines, Planes, Spans16};
+pub use ping_pong::{PingPong, Ready, Turn};
 pub use spans::{Span, SpanWalker};
 pub use target::Target;
 pub use touched::Touched;

@@ -13,7 +13,6 @@ use embedded_hal_mock::eh1::spi::{Mock as Spi, Transaction};
 use mipidsi::interface::SpiInterface;
 use mipidsi::models::{ILI9341Rgb565, Model, ST7789};
 use std::cell::RefCell;
-use std::mem::swap;
 
 /// A frame in the middle of displays of 240 x 320, in bands of two rows, the last of which has one.
 const SIZE: [u16; 2] = [4, 5];
@@ -198,33 +197,25 @@ fn lcd_async_sends_a_band_while_the_next_is_drawn() {
         let mut delay = NoopDelay::new();
         let mut display = lcd_async::Builder::new(model, interface).init(&mut delay).await.expect("mocks");
         let (mut colors, mut depth) = ([[0; 8]; 2], [(); 8]);
-        let [drawn, sent] = &mut colors;
-        let (mut drawn, mut sent) = (drawn, sent);
-        // The first row and the pixels of the band that is sent.
-        let mut ready = (0, 0);
-        for first in [0, 2, 4, 6] {
-            let (row, pixels) = ready;
-            let bytes = bytemuck::cast_slice(&sent[..pixels]);
-            let rows = u16::try_from(pixels).expect("small") / SIZE[0];
+        let [first, second] = &mut colors;
+        let mut bands =
+            PingPong::new(Rgb565Be, NoDepth, SIZE.map(u32::from), [first, second], &mut depth).expect("fits");
+        while let Some(Turn { band, ready }) = bands.turn() {
             let sending = async {
-                if rows > 0 {
-                    let place = [PLACE[0], PLACE[1] + row];
-                    display.show_raw_data(place[0], place[1], SIZE[0], rows, bytes).await.expect("mocks");
+                if let Some(Ready { rows, pixels }) = ready {
+                    let (place, count) = ([PLACE[0], PLACE[1] + rows.start], rows.end - rows.start);
+                    let bytes = bytemuck::cast_slice(pixels);
+                    display.show_raw_data(place[0], place[1], SIZE[0], count, bytes).await.expect("mocks");
                 }
             };
             let drawing = async {
-                let pixels = usize::from(SIZE[0] * SIZE[1].saturating_sub(first).min(2));
-                let (colors, depth) = (&mut drawn[..pixels], &mut depth[..pixels]);
-                let band = Target::band(Rgb565Be, NoDepth, SIZE.map(u32::from), first.into(), colors, depth);
-                let Ok(mut band) = band else { return 0 };
-                band.clear(BACKGROUND);
-                band.scissor(2..3, 0..5).clear(BAR);
-                log.borrow_mut().push("drawn");
-                pixels
+                if let Some(mut band) = band {
+                    band.clear(BACKGROUND);
+                    band.scissor(2..3, 0..5).clear(BAR);
+                    log.borrow_mut().push("drawn");
+                }
             };
-            let ((), pixels) = join(sending, drawing).await;
-            ready = (first, pixels);
-            swap(&mut drawn, &mut sent);
+            join(sending, drawing).await;
         }
     });
     spi.done();

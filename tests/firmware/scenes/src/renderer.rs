@@ -7,7 +7,7 @@ use alberti::glam::Vec2;
 use alberti::lanes::One;
 use alberti::shaders::Stored;
 use alberti::texture::{Nearest, Repeat};
-use alberti::{Counters, D16, DepthFormat, FixedPoint, Memory, Pass, Rgb565Le, Spans16, Sub4, View};
+use alberti::{Counters, D16, FixedPoint, Memory, Pass, PingPong, Rgb565Le, Spans16, Sub4, Turn, View};
 
 /// Rows of a band.
 const ROWS: u32 = 8;
@@ -44,15 +44,16 @@ pub fn frame<K: Counters>(
     let mut pass =
         Pass::new(&view, &mesh, stage).interpolation(FixedPoint(Spans16)).subpixel(Sub4).slots(slots);
     let (mut prepared, _) = pass.count_prepare([WIDTH, HEIGHT], D16, list, counters);
-    let [mut drawn, mut sent] = colors.each_mut();
-    for top in (0..HEIGHT).step_by(ROWS as usize) {
-        drawn.fill(Target::BACKGROUND);
-        depths.fill(D16.farthest());
-        if let Ok(mut band) = alberti::Target::band(Rgb565Le, D16, [WIDTH, HEIGHT], top, drawn, depths) {
+    let colors = colors.each_mut().map(|colors| &mut colors[..]);
+    let Ok(mut bands) = PingPong::new(Rgb565Le, D16, [WIDTH, HEIGHT], colors, depths) else { return };
+    while let Some(Turn { band, ready }) = bands.turn() {
+        if let Some(ready) = ready {
+            send(ready.pixels);
+        }
+        if let Some(mut band) = band {
+            band.clear(Target::BACKGROUND);
             prepared.count_by(One, &mut band, counters);
         }
-        send(drawn);
-        core::mem::swap(&mut drawn, &mut sent);
     }
 }
 

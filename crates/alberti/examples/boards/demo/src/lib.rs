@@ -10,7 +10,7 @@ use alberti::glam::Vec2;
 use alberti::raster::color::pack;
 use alberti::shaders::Light;
 use alberti::*;
-use core::mem::{offset_of, replace, swap};
+use core::mem::{offset_of, replace};
 use core::ops::Range;
 use embassy_futures::join::join;
 use object::TRIANGLES;
@@ -81,7 +81,7 @@ impl Demo {
         interpolation: impl Interpolation,
         display: &mut D,
     ) -> Result<(), D::Error> {
-        let Self { buffers: Memory { colors: [drawn, sent], depths, slots, list }, shown, frame } = self;
+        let Self { buffers: Memory { colors: [first, second], depths, slots, list }, shown, frame } = self;
         let turn = *frame;
         *frame = frame.wrapping_add(1);
         let scene = object::Scene::at(turn);
@@ -91,19 +91,18 @@ impl Demo {
         let (mut triangles, _) = pass.count_prepare(size, D16, list, &mut ());
 
         display.begin().await?;
-        let (mut drawn, mut sent) = (drawn, sent);
-        let mut ready = NOTHING;
-        // One turn more than there are bands, as the last is sent while nothing is drawn.
-        for (number, shown) in shown.iter_mut().map(Some).chain([None]).enumerate() {
-            let first = number * usize::from(ROWS);
-            let [columns, rows] = [ready.columns(), ready.rows()].map(of_frame);
-            let bytes = bytes_of(&mut *sent, &columns, &rows);
+        let Ok(mut bands) = PingPong::new(Rgb565Be, D16, size, [first, second], depths) else {
+            return Ok(());
+        };
+        let mut shown = shown.iter_mut();
+        let mut changed = NOTHING;
+        while let Some(Turn { band, ready }) = bands.turn() {
+            let [columns, rows] = [changed.columns(), changed.rows()].map(of_frame);
+            let bytes = ready.map_or(&[][..], |ready| bytes_of(ready.pixels, &columns, &rows));
             let sending =
                 async { if bytes.is_empty() { Ok(()) } else { display.send(columns, rows, bytes).await } };
             let drawing = async {
-                let Some(shown) = shown else { return NOTHING };
-                let band = Target::band(Rgb565Be, D16, size, first as u32, &mut *drawn, depths);
-                let Ok(mut band) = band else { return NOTHING };
+                let (Some(mut band), Some(shown)) = (band, shown.next()) else { return NOTHING };
                 band.clear(BACKGROUND);
                 let mut now = Touched::default();
                 triangles.count_by(lanes::One, &mut band, &mut now);
@@ -113,10 +112,9 @@ impl Demo {
                 if turn == 0 { Touched::new(columns, rows) } else { before.with(&now).aligned(2) }
             };
             // The transfer is begun first.
-            let (sending, changed) = join(sending, drawing).await;
-            sending?;
-            ready = changed;
-            swap(&mut drawn, &mut sent);
+            let (sent, now) = join(sending, drawing).await;
+            sent?;
+            changed = now;
         }
         Ok(())
     }
