@@ -107,12 +107,8 @@ keeps! {
         !lanes.equal_words(colors, lanes.word(self.key.to_word()))
     };
     <P: Pattern> AlphaDither<S, P>: |self, fragments, colors| {
-        let (lanes, [column, row]) = (fragments.lanes, fragments.place);
-        let columns = lanes.each(|k| {
-            let column = column.wrapping_add(i32::try_from(k).unwrap_or(0));
-            self.by.threshold([column, row])
-        });
-        lanes.less_words(lanes.load_words(&columns), alpha::<L, C>(lanes, colors))
+        let lanes = fragments.lanes;
+        lanes.less_words(self.by.thresholds(lanes, fragments.place), alpha::<L, C>(lanes, colors))
     };
 }
 

@@ -6,6 +6,7 @@ use std::str::FromStr;
 use clap::ValueEnum;
 
 use super::values::{one_of, words};
+use alberti::lanes::Lanes;
 use alberti::raster::color::{AnyBlend, Bayer, BlueNoise, Pattern};
 use alberti::shaders::fog::{AnyFog, ExponentialFog, LinearFog, SquaredFog};
 
@@ -29,6 +30,15 @@ impl Pattern for Dither {
             Self::None => 127,
             Self::Bayer => Bayer.threshold(place),
             Self::BlueNoise => BlueNoise.threshold(place),
+        }
+    }
+
+    #[inline(always)]
+    fn thresholds<L: Lanes>(self, lanes: L, place: [i32; 2]) -> L::U32 {
+        match self {
+            Self::None => lanes.word(127),
+            Self::Bayer => Bayer.thresholds(lanes, place),
+            Self::BlueNoise => BlueNoise.thresholds(lanes, place),
         }
     }
 }

@@ -68,8 +68,9 @@ impl<C: Levels, P: Pattern> ColorFormat for Dithered<C, P> {
             return self.format.store::<L, Shade>(lanes, colors, mask, [column, row], pixels);
         }
         let (words, bits) = (lanes.store_words(colors), lanes.bits(mask));
-        for ((pixel, &word), k) in pixels.as_mut().iter_mut().zip(words.as_ref()).zip(0..) {
-            let more = self.by.threshold([column + k, row]);
+        let thresholds = lanes.store_words(self.by.thresholds(lanes, [column, row]));
+        let samples = words.as_ref().iter().zip(thresholds.as_ref());
+        for ((pixel, (&word, &more)), k) in pixels.as_mut().iter_mut().zip(samples).zip(0..) {
             let [a, b, c] = self.format.channels(Rgba8::from_bits(word));
             let [x, y, z] = C::GREATEST;
             let new = self.format.compose([level(a, x, more), level(b, y, more), level(c, z, more)]);
@@ -89,6 +90,40 @@ impl<C: Levels, P: Pattern> ReadColor for Dithered<C, P> {
 pub trait Pattern: Copy + Debug + Send + Sync + 'static {
     /// The threshold of a pixel in 255ths of a level, from 0 to 254; all are as frequent as the others in a pattern.
     fn threshold(self, place: [i32; 2]) -> u32;
+
+    /// Those of as many pixels from one on as there are lanes.
+    #[inline(always)]
+    fn thresholds<L: Lanes>(self, lanes: L, [column, row]: [i32; 2]) -> L::U32 {
+        lanes.load_words(&lanes.each(|k| {
+            let column = column.wrapping_add(i32::try_from(k).unwrap_or(0));
+            self.threshold([column, row])
+        }))
+    }
+}
+
+/// Rows of a pattern, each with so many of its first thresholds behind it that lanes find theirs side by side.
+const fn continued<const SIDE: usize, const WIDTH: usize>(rows: &[u8]) -> [[u8; WIDTH]; SIDE] {
+    let mut table = [[0; WIDTH]; SIDE];
+    let mut place = 0;
+    while place < SIDE * WIDTH {
+        let (column, row) = (place % WIDTH, place / WIDTH);
+        table[row][column] = rows[row * SIDE + column % SIDE];
+        place += 1;
+    }
+    table
+}
+
+/// The thresholds of lanes from a place on in [`continued`] rows, which have sixteen more than the pattern.
+#[inline(always)]
+fn side_by_side<L: Lanes, const SIDE: usize, const WIDTH: usize>(
+    lanes: L,
+    table: &[[u8; WIDTH]; SIDE],
+    place: [i32; 2],
+) -> L::U32 {
+    const { assert!(L::COUNT <= 16 && SIDE + 16 == WIDTH, "rows are continued for sixteen lanes") };
+    let [column, row] = place.map(|k| k.cast_unsigned() as usize % SIDE);
+    let row = table[row].get(column..column + L::COUNT).unwrap_or_default();
+    lanes.load_words(&lanes.each(|k| row.get(k).map_or(0, |&threshold| threshold.into())))
 }
 
 /// The ordered pattern of 8 x 8 pixels (Bayer 1973): the finest texture there is, which shows as a weave.
@@ -101,6 +136,15 @@ impl Pattern for Bayer {
         const TABLE: [u8; 64] = bayer();
         let [column, row] = place.map(|k| k.cast_unsigned() as usize % 8);
         TABLE[row * 8 + column].into()
+    }
+
+    #[inline(always)]
+    fn thresholds<L: Lanes>(self, lanes: L, place: [i32; 2]) -> L::U32 {
+        static TABLE: [[u8; 8 + 16]; 8] = continued(&bayer());
+        if const { L::COUNT == 1 } {
+            return lanes.word(self.threshold(place));
+        }
+        side_by_side(lanes, &TABLE, place)
     }
 }
 
@@ -136,6 +180,15 @@ impl Pattern for BlueNoise {
     fn threshold(self, place: [i32; 2]) -> u32 {
         let [column, row] = place.map(|k| k.cast_unsigned() as usize % noise::SIDE);
         noise::THRESHOLDS[row * noise::SIDE + column].into()
+    }
+
+    #[inline(always)]
+    fn thresholds<L: Lanes>(self, lanes: L, place: [i32; 2]) -> L::U32 {
+        static TABLE: [[u8; noise::SIDE + 16]; noise::SIDE] = continued(&noise::THRESHOLDS);
+        if const { L::COUNT == 1 } {
+            return lanes.word(self.threshold(place));
+        }
+        side_by_side(lanes, &TABLE, place)
     }
 }
 
@@ -176,6 +229,20 @@ mod tests {
     fn the_mean_over_a_pattern_is_the_colour() {
         means(Bayer, 8);
         means(BlueNoise, 32);
+    }
+
+    #[test]
+    fn thresholds_of_lanes_are_those_of_their_pixels() {
+        let (weave, noise) = (continued::<8, 24>(&bayer()), continued::<32, 48>(&noise::THRESHOLDS));
+        for place in (-40..40).map(|k| [k, 3 * k + 7]) {
+            for k in 0..16_u8 {
+                let at = [place[0] + i32::from(k), place[1]];
+                let index = |side: i32| place.map(|c| c.rem_euclid(side) as usize);
+                let ([x, y], [column, row]) = (index(8), index(32));
+                assert_eq!(u32::from(weave[y][x + usize::from(k)]), Bayer.threshold(at));
+                assert_eq!(u32::from(noise[row][column + usize::from(k)]), BlueNoise.threshold(at));
+            }
+        }
     }
 
     #[test]
