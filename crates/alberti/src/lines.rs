@@ -163,7 +163,7 @@ where
     ) where
         F: FragmentStage<M::Varying>,
     {
-        if !self.fits(target) {
+        if !self.has_depths_of(target) {
             return self.anew(|pass| pass.count_lines(target, lines, counters));
         }
         self.with_walk(target, |walk, paint, target| draw_lines(walk, paint, target, lines, counters));
@@ -194,7 +194,7 @@ where
     ) where
         F: FragmentStage<M::Varying>,
     {
-        if !self.fits(target) {
+        if !self.has_depths_of(target) {
             return self.anew(|pass| pass.count_points(target, vertices, size, counters));
         }
         self.with_walk(target, |walk, paint, target| {

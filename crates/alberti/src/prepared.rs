@@ -74,8 +74,6 @@ pub struct Prepared<'p, 'a, M: Geometry, F, P, Pr: Projection, D> {
     listed: &'p [PreparedTriangle],
     /// The first of the mesh's triangles that found no room.
     next: usize,
-    /// Columns and rows of the frame.
-    size: [u32; 2],
     depth: D,
     /// Whether triangles between samples are listed too.
     smooth: bool,
@@ -98,7 +96,7 @@ where
     ) -> (Self, Room<'p>) {
         let screen = pass.screen(size, depth);
         let (Some(way), Some(machine)) = (&screen, Machine::all().next()) else {
-            let none = Self { pass, screen, filled: 0, listed: &[], next: usize::MAX, size, depth, smooth };
+            let none = Self { pass, screen, filled: 0, listed: &[], next: usize::MAX, depth, smooth };
             return (none, room);
         };
         let pixels = way.viewport.pixels();
@@ -108,12 +106,12 @@ where
         let (listed, next) = list(&mut walk, paint, (&pixels, rows_of), 0..usize::MAX, room, counters);
         let filled = walk.filled();
         let (listed, rest) = room.split_at_mut_checked(listed).unwrap_or_default();
-        (Self { pass, screen, filled, listed, next, size, depth, smooth }, rest)
+        (Self { pass, screen, filled, listed, next, depth, smooth }, rest)
     }
 
     /// Draws into a band of the frame the same as [`Pass::draw`] would, in the same order and with the same pixels.
-    /// Into a target of another frame's size, or whose depth runs the other way or has other bits, it draws as
-    /// [`Pass::draw`] without slots.
+    /// A target of another size gets the same, cut off where it ends. Into one whose depth runs the other way or has
+    /// other bits it draws as [`Pass::draw`] without slots.
     pub fn draw<C: ColorFormat>(&mut self, target: &mut Target<'_, C, D>)
     where
         F: FragmentStage<M::Varying>,
@@ -144,8 +142,8 @@ where
         F: FragmentStage<M::Varying>,
     {
         let mesh = self.pass.mesh();
-        // A target of another frame, or of depths in another unit, gets all triangles anew.
-        if !self.fits(target) {
+        // A target of depths in another unit gets all triangles anew.
+        if !self.has_depths_of(target) {
             return self.anew(|pass| pass.count_by(lanes, target, counters));
         }
         let Some(screen) = &self.screen else { return };
@@ -157,10 +155,9 @@ where
 
     /// Adds the edges of the listed triangles to a band's silhouette: [`Pass::cover`] without the geometry half.
     ///
-    /// Lists of [`Pass::prepare_smooth`] have all that takes. With another, or for a frame of another size, it does all
-    /// of it anew.
+    /// Lists of [`Pass::prepare_smooth`] have all that takes. With another it does all of it anew.
     pub fn cover(&mut self, silhouette: &mut Silhouette<'_>) {
-        if silhouette.size() != self.size || !self.smooth {
+        if !self.smooth {
             return self.anew(|pass| pass.cover(silhouette));
         }
         let Some([columns, rows]) = self.screen.as_ref().map(|screen| screen.viewport.pixels()) else {
@@ -190,7 +187,7 @@ where
     ) where
         F: FragmentStage<M::Varying>,
     {
-        if !self.fits(target) || !self.smooth {
+        if !self.has_depths_of(target) || !self.smooth {
             return self.anew(|pass| pass.count_fringe(target, coverage, counters));
         }
         let Some([columns, rows]) = self.screen.as_ref().map(|screen| screen.viewport.pixels()) else {
@@ -224,11 +221,10 @@ where
         Some((Walk::again_any(mesh, screen, slots, self.filled), paint))
     }
 
-    /// Whether the target is a band of the frame, with depths in the same unit.
-    pub(crate) fn fits<C: ColorFormat>(&self, target: &Target<'_, C, D>) -> bool {
+    /// Whether the target has depths in the same unit: of most formats that is known when the program is built.
+    pub(crate) fn has_depths_of<C: ColorFormat>(&self, target: &Target<'_, C, D>) -> bool {
         let (depth, found) = (self.depth, target.depth_format());
-        let same_depth = (found.reversed(), found.bits()) == (depth.reversed(), depth.bits());
-        target.size() == self.size && same_depth
+        (found.reversed(), found.bits()) == (depth.reversed(), depth.bits())
     }
 
     /// The pass without its slots, which stay.

@@ -7,8 +7,8 @@ use crate::target::{LARGEST, Target};
 use core::mem::swap;
 use core::ops::Range;
 
-/// A frame that is drawn band by band into two memories of colours by turns: in each [turn](Self::turn) one band is
-/// drawn while that of the turn before is sent to a display.
+/// A frame that is drawn band by band into two memories of colours by turns. In each [turn](Self::turn) one band is
+/// drawn, while that of the turn before is sent to a display.
 ///
 /// ```
 /// use alberti_math::{Rgb565Be, Rgba8};
@@ -47,7 +47,7 @@ pub struct PingPong<'a, C: ColorFormat, D: DepthFormat> {
     last: Range<u32>,
 }
 
-/// What there is to do at once: both at the same time, or one after the other.
+/// Two bands: one to draw and one to send, at the same time or one after the other.
 #[derive(Debug)]
 pub struct Turn<'t, C: ColorFormat, D: DepthFormat> {
     /// The band to be drawn, whose pixels and depths are whatever its memory holds; none in the last turn.
@@ -155,7 +155,7 @@ mod tests {
                 let number = u32::try_from(sent.len()).expect("few");
                 if let Some(Ready { rows, pixels }) = ready {
                     assert_eq!(pixels.len(), 4 * rows.len());
-                    // What was drawn in the turn before, though another band has been drawn since.
+                    // The turn before drew it, though another band has been drawn since.
                     if let Some(mut band) = band {
                         drawn.push(band.limits()[1].clone());
                         band.clear(Rgba8::from_rgb24(number + 1));

@@ -21,3 +21,4 @@ mod silhouettes;
 mod small;
 mod touched;
 mod watertight;
+mod windows;

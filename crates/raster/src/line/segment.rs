@@ -8,8 +8,8 @@ use core::ops::Range;
 
 /// The pixels of a line by the diamond-exit rule, each with how far along the line it is.
 ///
-/// They are those at whose centres, along the longer axis, the line is; the one that it begins in, as the line through
-/// both ends is in its row there; and not the one that it ends in.
+/// They are those at whose centres, along the longer axis, the line is, but for the one that it ends in. The one that
+/// it begins in is of them wherever its centre is, as the line through both ends is in its row there.
 pub(super) struct Walk {
     steep: bool,
     /// The next column, or row of a steep line, the step to the one after, and how many are left.
@@ -179,8 +179,8 @@ fn divided(number: i64, by: i32) -> (i32, i32) {
     if rest < 0 { (quotient - 1, rest + by) } else { (quotient, rest) }
 }
 
-/// The column, or the row of a steep line, of the pixel whose diamond a point is in, if it is in one: the point's place
-/// along the line and that across it.
+/// The column, or the row of a steep line, of the pixel whose diamond has a point, if one has. The point is given by
+/// its place along the line and that across it.
 fn column_of([along, across]: [i32; 2], bits: u32, steep: bool) -> Option<i32> {
     let half = 1 << bits >> 1;
     let column = along >> bits;
@@ -188,8 +188,8 @@ fn column_of([along, across]: [i32; 2], bits: u32, steep: bool) -> Option<i32> {
     match on.abs() + beside.abs() {
         apart if apart < half => Some(column),
         apart if apart > half => None,
-        // On the border, of which lower edges and corners belong to it, of a steep line the right corner as well. Those
-        // corners are here the upper one of the pixel below, and the left one of the pixel beside.
+        // The border, of which lower edges and corners belong to it, of a steep line the right corner as well. Here
+        // they are the upper corner of the pixel below, and the left one of the pixel beside.
         _ if steep && on < 0 => (beside == 0).then_some(column - 1),
         _ => (steep || beside > 0 || on == 0).then_some(column),
     }
