@@ -144,6 +144,21 @@ const BACKGROUND: Rgba8 = Rgba8::from_rgb24(0x21_20_21);
 
 /// One colour for all with smooth edges, in bands.
 pub fn smooth<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    cover(target, (camera, model), Average::Bytes, counters);
+}
+
+/// The same, whose means are of light.
+pub fn smooth_in_light<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    cover(target, (camera, model), Average::Light, counters);
+}
+
+#[inline]
+fn cover<K: Counters>(
+    target: &mut Target,
+    (camera, model): (&Camera, &Model),
+    average: Average,
+    counters: &mut K,
+) {
     let mesh = Mesh::new(model.vertices, model.triangles, |v: &Vertex| (place(v), ()));
     let view = View::new(model.to_eye, camera.perspective);
     let Target { color, depth, slots, cells, listed, .. } = target;
@@ -160,7 +175,7 @@ pub fn smooth<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, 
         prepared.cover(&mut silhouette);
         let coverage = silhouette.coverage();
         prepared.draw_fringe(&mut band, &coverage);
-        coverage.resolve(&mut band, Average::Bytes, |_| BACKGROUND);
+        coverage.resolve(&mut band, average, |_| BACKGROUND);
     }
 }
 
@@ -169,6 +184,21 @@ pub(crate) const SAMPLES: usize = PIXELS * 4 / 30;
 
 /// The same with four samples a pixel, in bands.
 pub fn sampled<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    sample(target, (camera, model), Average::Bytes, counters);
+}
+
+/// The same, whose means are of light.
+pub fn sampled_in_light<K: Counters>(target: &mut Target, camera: &Camera, model: &Model, counters: &mut K) {
+    sample(target, (camera, model), Average::Light, counters);
+}
+
+#[inline]
+fn sample<K: Counters>(
+    target: &mut Target,
+    (camera, model): (&Camera, &Model),
+    average: Average,
+    counters: &mut K,
+) {
     const SIZE: [u32; 2] = [2 * WIDTH, 2 * HEIGHT];
     let mesh = Mesh::new(model.vertices, model.triangles, |v: &Vertex| (place(v), ()));
     let view = View::new(model.to_eye, camera.perspective);
@@ -183,6 +213,6 @@ pub fn sampled<K: Counters>(target: &mut Target, camera: &Camera, model: &Model,
         band.clear(BACKGROUND);
         prepared.count_by(One, &mut band, counters);
         let (from, first) = ((Rgb565Le, band.pixels()), first.cast_signed());
-        resolve(from, (Rgb565Le, own), WIDTH as usize, first, 2, Average::Bytes);
+        resolve(from, (Rgb565Le, own), WIDTH as usize, first, 2, average);
     }
 }

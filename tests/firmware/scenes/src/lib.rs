@@ -17,7 +17,8 @@ pub mod torus;
 
 pub use afterwards::{
     alpha_dithered, alpha_tested, biased, cloud, dithered, fogged, hazy, hazy_stored, in_light, keyed,
-    multiplied, noisy, premultiplied, sampled, smooth, squared, wireframe, wireframe_bands,
+    multiplied, noisy, premultiplied, sampled, sampled_in_light, smooth, smooth_in_light, squared, wireframe,
+    wireframe_bands,
 };
 pub use draws::{
     additive_fixed, affine_fixed, affine_integers, affine_mesh, affine_mesh_sub8, affine_meshlets,
@@ -35,7 +36,7 @@ pub use floor::{
     pairs_bilinear_fixed, pairs_trilinear_fixed, trilinear, trilinear_fixed, trilinear_spans,
     trilinear_spans_fixed, trilinear_stored_fixed, trilinear_stored_spans_fixed,
 };
-pub use formats::{grey4, indexed, rgb332, rgb444, rgb666};
+pub use formats::{grey1, grey2, grey4, grey8, indexed, rgb332, rgb444, rgb666, rgb888, xrgb8888};
 pub use renderer::{Renderer, meshlets_renderer};
 pub use shapes::PROBE;
 
@@ -140,8 +141,13 @@ pub static SCENES: &[Scene] = &[
     fill!("fixed-dither-noise", 1, noisy),
     fill!("fixed-rgb444", 1, rgb444),
     fill!("fixed-rgb666", 1, rgb666),
+    fill!("fixed-rgb888", 1, rgb888),
+    fill!("fixed-xrgb8888", 1, xrgb8888),
     fill!("fixed-rgb332", 1, rgb332),
+    fill!("fixed-grey8", 1, grey8),
     fill!("fixed-grey4", 1, grey4),
+    fill!("fixed-grey2", 1, grey2),
+    fill!("fixed-grey1", 1, grey1),
     fill!("fixed-indexed", 1, indexed),
     fill!("fixed-textured", 1, textured_fixed),
     fill!("fixed-textured-4", 4, textured_fixed),
@@ -157,7 +163,9 @@ pub static SCENES: &[Scene] = &[
     scene!("fixed-mesh-lines-bands", coarse_torus(), wireframe_bands),
     scene!("fixed-mesh-points", coarse_torus(), cloud),
     scene!("fixed-mesh-smooth", torus(1.0), smooth),
+    scene!("fixed-mesh-smooth-light", torus(1.0), smooth_in_light),
     scene!("fixed-mesh-sampled", torus(1.0), sampled),
+    scene!("fixed-mesh-sampled-light", torus(1.0), sampled_in_light),
     scene!("fixed-mesh-gouraud", torus(1.0), gouraud_mesh),
     scene!("fixed-mesh-affine", torus(1.0), affine_mesh),
     scene!("fixed-mesh-biased", torus(1.0), biased),
@@ -252,7 +260,7 @@ pub struct Target {
     cells: [i32; afterwards::CELLS],
     samples: ([u16; afterwards::SAMPLES], [u16; afterwards::SAMPLES]),
     renderer: Renderer,
-    bytes: formats::Bytes,
+    other: formats::Pixels,
 }
 
 /// Room for the vertices of the torus, by the attributes that they carry.
@@ -277,7 +285,7 @@ impl Target {
         cells: [0; afterwards::CELLS],
         samples: ([0; afterwards::SAMPLES], [0; afterwards::SAMPLES]),
         renderer: renderer::EMPTY,
-        bytes: formats::Bytes::EMPTY,
+        other: formats::Pixels::EMPTY,
     };
 
     /// A pixel of nothing: dark grey.
@@ -287,7 +295,7 @@ impl Target {
     pub fn clear(&mut self) {
         self.color.fill(Self::BACKGROUND);
         self.depth.fill(D16.farthest());
-        self.bytes.clear();
+        self.other.clear();
     }
 
     /// The 64-bit FNV-1a hash of the colour's bytes, the depth's, low byte first, and those in another format.
@@ -297,7 +305,7 @@ impl Target {
         let depth = self.depth.iter().flat_map(|depth| depth.to_le_bytes());
         color
             .chain(depth)
-            .chain(self.bytes.drawn().iter().copied())
+            .chain(self.other.drawn())
             .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
     }
 
