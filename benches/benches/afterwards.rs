@@ -15,12 +15,12 @@
 use alberti::glam::{Mat3, Vec2, Vec3};
 use alberti::lanes::{Floating, Machine, One};
 use alberti::raster::color::{
-    Additive, Average, Bayer, Blended, BlueNoise, Constant, Dithered, Grey4, InLight, Multiply, Over,
-    Premultiplied, Rgb332, Rgb666, resolve, rgb565,
+    Additive, Average, Bayer, Blended, BlueNoise, Constant, Dithered, Grey1, Grey4, Grey8, InLight, Indexed,
+    Multiply, Over, Premultiplied, Rgb332, Rgb444, Rgb666, Rgb888, Xrgb8888, resolve, rgb565,
 };
 use alberti::shaders::fog::{ExponentialFog, Fog, Fogged, LinearFog, SquaredFog};
 use alberti::shaders::{AlphaDither, AlphaTest, ColorKey, Solid, Stored, Sunlit, Unlit};
-use alberti::texture::format::{Rgb565, Rgba8888 as Texels};
+use alberti::texture::format::{L8, Rgb565, Rgba8888 as Texels};
 use alberti::texture::surface::{Grid, Parametric, Torus};
 use alberti::texture::{Nearest, Repeat, Texture};
 use alberti::{
@@ -96,6 +96,9 @@ fn afterwards(criterion: &mut Criterion) {
     let words: Vec<u16> = texels.iter().map(|&texel| rgb565(texel.into())).collect();
     let stored = Texture::new(Rgb565, &words, SIDE, SIDE).expect("a texture");
     let stored = Stored(stored.power_of_two().expect("a power of two").sampler(Nearest, Repeat));
+    let reds: Vec<u8> = texels.iter().map(|texel| texel[0]).collect();
+    let indices = Texture::new(L8, &reds, SIDE, SIDE).expect("a texture");
+    let indices = Stored(indices.power_of_two().expect("a power of two").sampler(Nearest, Repeat));
     let texture = Texture::new(Texels, &texels, SIDE, SIDE).expect("a texture");
     let texture = texture.power_of_two().expect("a power of two").sampler(Nearest, Repeat);
     let surface = Unlit(texture);
@@ -151,6 +154,10 @@ fn afterwards(criterion: &mut Criterion) {
         let texel = channels(plain[k]);
         (0..3).all(|c| (found[c] - texel[c] / 255.0 * greatest[c]).abs() < 1.0)
     };
+    let grey = |k: usize| {
+        let [r, g, b, _] = channels(plain[k]);
+        0.299 * r + 0.587 * g + 0.114 * b
+    };
     let dithered = |k: usize, found: u16| near(k, levels(found), [31.0, 63.0, 31.0]);
     let keyed = |k: usize, found: u16| found == if packed[k] == KEY { 0 } else { packed[k] };
     // A fog's amount, of the distance.
@@ -203,11 +210,21 @@ fn afterwards(criterion: &mut Criterion) {
         "rgb666": Rgb666, [0; 3], bare, surface, |k: usize, found: [u8; 3]| {
             near(k, found.map(|byte| f64::from(byte >> 2)), [63.0; 3])
         };
-        "grey4 bayer": Dithered { format: Grey4, by: Bayer }, 0, bare, surface, |k: usize, found: u8| {
-            let [r, g, b, _] = channels(plain[k]);
-            let grey = 0.299 * r + 0.587 * g + 0.114 * b;
-            (f64::from(found) - grey / 17.0).abs() < 1.1
+        "rgb444": Rgb444, [0; 2], bare, surface, |k: usize, [high, low]: [u8; 2]| {
+            near(k, [high & 15, low >> 4, low & 15].map(f64::from), [15.0; 3])
         };
+        "rgb888": Rgb888, [0; 3], bare, surface, |k: usize, found: [u8; 3]| found == plain[k].to_ne_bytes()[..3];
+        "xrgb8888": Xrgb8888, 0, bare, surface, |k: usize, found: u32| {
+            let [r, g, b, _] = plain[k].to_ne_bytes();
+            found.to_le_bytes() == [b, g, r, 0]
+        };
+        "grey8": Grey8, 0, bare, surface, |k: usize, found: u8| (f64::from(found) - grey(k)).abs() < 1.0;
+        "grey4 bayer": Dithered { format: Grey4, by: Bayer }, 0, bare, surface,
+            |k: usize, found: u8| (f64::from(found) - grey(k) / 17.0).abs() < 1.1;
+        "grey1 bayer": Dithered { format: Grey1, by: Bayer }, 0, bare, surface,
+            |k: usize, found: u8| (f64::from(found) - grey(k) / 255.0).abs() < 1.1;
+        "indexed": Indexed(&[Rgba8::BLACK, Rgba8::WHITE]), 0, bare, indices,
+            |k: usize, found: u8| found == plain[k].to_ne_bytes()[0];
         "linear fog": Rgba8888, before, |v: &_| misty(v, &|z| linear.coordinate(z)),
             Fogged { surface, fog: linear, color: MIST }, fogged(|z| ((z - 2.0) / 2.0).clamp(0.0, 1.0));
         "exponential fog": Rgba8888, before, |v: &_| misty(v, &|z| exponential.coordinate(z)),
@@ -217,6 +234,8 @@ fn afterwards(criterion: &mut Criterion) {
         "alpha test": Rgba8888, before, bare, AlphaTest { surface, least: 128 },
             |k, found| kept(k, found, channels(plain[k])[3] >= 128.0);
         "alpha dither": Rgba8888, before, bare, AlphaDither { surface, by: Bayer },
+            |k, found| kept(k, found, true) || kept(k, found, false);
+        "alpha dither blue noise": Rgba8888, before, bare, AlphaDither { surface, by: BlueNoise },
             |k, found| kept(k, found, true) || kept(k, found, false);
     }
     group.finish();

@@ -75,8 +75,8 @@ impl raster::ColorFormat for Cube {
     type Pixel = u8;
 
     fn pixel(self, color: Rgba8) -> u8 {
-        let [r, g, b] = self.channels(color);
-        self.compose([r, g, b].map(|byte| (byte * 5 + 127) / 255))
+        let [r, g, b, _] = color.to_bytes().map(|byte| (u32::from(byte) * 5 + 127) / 255);
+        self.native(36 * r + 6 * g + b)
     }
 
     fn native(self, word: u32) -> u8 {
@@ -93,10 +93,7 @@ impl ReadColor for Cube {
 
 impl Levels for Cube {
     const GREATEST: [u32; 3] = [5; 3];
-
-    fn compose(self, [r, g, b]: [u32; 3]) -> u8 {
-        (36 * r + 6 * g + b).to_le_bytes()[0]
-    }
+    const PLACES: [u32; 3] = [36, 6, 1];
 }
 
 #[cfg(test)]

@@ -78,11 +78,23 @@ pub trait ColorFormat: Copy + Debug + Send + Sync + 'static {
         pixels: &mut L::Each<Self::Pixel>,
     ) {
         let _ = place;
-        let (words, bits) = (lanes.store_words(colors), lanes.bits(mask));
-        for (k, (pixel, &word)) in pixels.as_mut().iter_mut().zip(words.as_ref()).enumerate() {
-            let new = Shade::pixel(self, word);
-            *pixel = if bits >> k & 1 != 0 { new } else { *pixel };
-        }
+        store_each::<Self, L, Shade>(self, lanes, colors, mask, pixels);
+    }
+}
+
+/// Stores a pixel after the other.
+#[inline(always)]
+fn store_each<F: ColorFormat, L: Lanes, Shade: FragmentColor>(
+    format: F,
+    lanes: L,
+    colors: L::U32,
+    mask: L::Mask,
+    pixels: &mut L::Each<F::Pixel>,
+) {
+    let (words, bits) = (lanes.store_words(colors), lanes.bits(mask));
+    for (k, (pixel, &word)) in pixels.as_mut().iter_mut().zip(words.as_ref()).enumerate() {
+        let new = Shade::pixel(format, word);
+        *pixel = if bits >> k & 1 != 0 { new } else { *pixel };
     }
 }
 

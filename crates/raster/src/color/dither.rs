@@ -1,6 +1,6 @@
 //! Rounding to a display's few levels by a pattern, so that the eye finds the shades between them again.
 
-use super::formats::level;
+use super::formats::store_levels;
 use super::{ColorFormat, FragmentColor, Levels, ReadColor};
 use alberti_math::Rgba8;
 use alberti_math::lanes::Lanes;
@@ -61,21 +61,11 @@ impl<C: Levels, P: Pattern> ColorFormat for Dithered<C, P> {
         lanes: L,
         colors: L::U32,
         mask: L::Mask,
-        [column, row]: [i32; 2],
+        place: [i32; 2],
         pixels: &mut L::Each<C::Pixel>,
     ) {
-        if const { !Shade::IS_COLOR } {
-            return self.format.store::<L, Shade>(lanes, colors, mask, [column, row], pixels);
-        }
-        let (words, bits) = (lanes.store_words(colors), lanes.bits(mask));
-        let thresholds = lanes.store_words(self.by.thresholds(lanes, [column, row]));
-        let samples = words.as_ref().iter().zip(thresholds.as_ref());
-        for ((pixel, (&word, &more)), k) in pixels.as_mut().iter_mut().zip(samples).zip(0..) {
-            let [a, b, c] = self.format.channels(Rgba8::from_bits(word));
-            let [x, y, z] = C::GREATEST;
-            let new = self.format.compose([level(a, x, more), level(b, y, more), level(c, z, more)]);
-            *pixel = if bits >> k & 1 != 0 { new } else { *pixel };
-        }
+        let thresholds = self.by.thresholds(lanes, place);
+        store_levels::<C, L, Shade>(self.format, lanes, (colors, thresholds), mask, pixels);
     }
 }
 

@@ -5,8 +5,8 @@ mod rgb565;
 pub use alberti_math::Rgb332;
 pub use rgb565::rgb565;
 
-use super::{ColorFormat, FragmentColor};
-use alberti_math::lanes::Lanes;
+use super::{ColorFormat, FragmentColor, store_each};
+use alberti_math::lanes::{Lanes, One};
 use alberti_math::{Rgba8, Rgba8888};
 use core::fmt::Debug;
 
@@ -53,32 +53,87 @@ pub trait ReadColor: ColorFormat {
 
 /// A format of a few levels a channel.
 pub trait Levels: ReadColor {
-    /// The greatest level of each channel, at most 255.
+    /// The greatest level of each channel, at most 255; 0 of a channel that there is not.
     const GREATEST: [u32; 3];
 
-    /// The pixel of these levels.
-    fn compose(self, levels: [u32; 3]) -> Self::Pixel;
+    /// The difference that one level more of each channel makes to the word that is
+    /// [`native`](ColorFormat::native).
+    const PLACES: [u32; 3];
 
-    /// The bytes that levels are made of: red, green and blue, unless it is a grey.
+    /// The bytes that levels are made of, of colours as words: red, green and blue, unless it is a grey.
     #[inline(always)]
-    fn channels(self, color: Rgba8) -> [u32; 3] {
-        let [r, g, b, _] = color.to_bytes().map(u32::from);
-        [r, g, b]
+    fn channels<L: Lanes>(self, lanes: L, colors: L::U32) -> [L::U32; 3] {
+        bytes(lanes, colors)
     }
 }
 
-/// The level of a byte, whose 255ths are cut off after `more` of them were added.
+/// Red, green and blue of colours.
 #[inline(always)]
-pub(super) fn level(byte: u32, greatest: u32, more: u32) -> u32 {
-    (byte * greatest + more) / 255
+fn bytes<L: Lanes>(lanes: L, colors: L::U32) -> [L::U32; 3] {
+    let byte = lanes.word(255);
+    [colors & byte, lanes.shr(colors, 8) & byte, lanes.shr(colors, 16) & byte]
 }
 
-/// The nearest levels of a colour.
+/// The 255th parts of numbers below 2^16, cut off.
 #[inline(always)]
-fn nearest<F: Levels>(format: F, color: Rgba8) -> F::Pixel {
-    let [a, b, c] = format.channels(color);
-    let [x, y, z] = F::GREATEST;
-    format.compose([level(a, x, 127), level(b, y, 127), level(c, z, 127)])
+fn parts<L: Lanes>(lanes: L, number: L::U32) -> L::U32 {
+    lanes.shr(number * lanes.word(0x8081), 23)
+}
+
+/// A half of a level in 255ths, so that what is cut off was rounded.
+const HALF: u32 = 127;
+
+/// The levels of colours in their places, whose 255ths are cut off after `more` of them, at most 254, were added.
+#[inline(always)]
+fn levels<F: Levels, L: Lanes>(format: F, lanes: L, colors: L::U32, more: L::U32) -> L::U32 {
+    let ([a, b, c], [x, y, z], [i, j, k]) = (format.channels(lanes, colors), F::GREATEST, F::PLACES);
+    let level = |byte: L::U32, greatest: u32| match greatest {
+        0 | 255 => byte,
+        _ => parts(lanes, byte * lanes.word(greatest) + more),
+    };
+    level(a, x) * lanes.word(i) + level(b, y) * lanes.word(j) + level(c, z) * lanes.word(k)
+}
+
+/// Stores pixels of a format of few levels as [`ColorFormat::store`] does, rounded by thresholds in 255ths.
+#[inline(always)]
+pub(super) fn store_levels<F: Levels, L: Lanes, Shade: FragmentColor>(
+    format: F,
+    lanes: L,
+    (colors, thresholds): (L::U32, L::U32),
+    mask: L::Mask,
+    pixels: &mut L::Each<F::Pixel>,
+) {
+    if const { !Shade::IS_COLOR } {
+        return store_each::<F, L, Shade>(format, lanes, colors, mask, pixels);
+    }
+    let (words, bits) = (lanes.store_words(levels(format, lanes, colors, thresholds)), lanes.bits(mask));
+    for (k, (pixel, &word)) in pixels.as_mut().iter_mut().zip(words.as_ref()).enumerate() {
+        let new = format.native(word);
+        *pixel = if bits >> k & 1 != 0 { new } else { *pixel };
+    }
+}
+
+/// Rounding to the nearest level, as formats of few levels do it.
+macro_rules! nearest {
+    () => {
+        #[inline(always)]
+        fn pixel(self, color: Rgba8) -> Self::Pixel {
+            let word = levels(self, One, One.word(color.to_bits()), One.word(HALF));
+            self.native(One.store_words(word)[0])
+        }
+
+        #[inline(always)]
+        fn store<L: Lanes, Shade: FragmentColor>(
+            self,
+            lanes: L,
+            colors: L::U32,
+            mask: L::Mask,
+            _: [i32; 2],
+            pixels: &mut L::Each<Self::Pixel>,
+        ) {
+            store_levels::<Self, L, Shade>(self, lanes, (colors, lanes.word(HALF)), mask, pixels);
+        }
+    };
 }
 
 /// The byte of a level.
@@ -86,13 +141,6 @@ fn nearest<F: Levels>(format: F, color: Rgba8) -> F::Pixel {
 #[expect(clippy::cast_possible_truncation, reason = "at most 255")]
 fn byte(level: u32, greatest: u32) -> u8 {
     ((level * 255 + greatest / 2) / greatest) as u8
-}
-
-/// Luminance as a byte, by the weights of BT.601.
-#[inline(always)]
-fn luminance(color: Rgba8) -> u32 {
-    let [r, g, b, _] = color.to_bytes().map(u32::from);
-    (r * 77 + g * 150 + b * 29 + 128) >> 8
 }
 
 impl ReadColor for Rgba8888 {
@@ -135,10 +183,10 @@ impl ColorFormat for Rgba8888 {
     }
 }
 
-/// Three levels a pixel as a format stores them, and what it makes of a word. A format without a description is defined
-/// elsewhere.
+/// Three levels a pixel: the greatest, their places in a word, and the pixel's way from and to them. A format without a
+/// description is defined elsewhere.
 macro_rules! formats {
-    ($($($(#[$doc:meta])+ pub)? $name:ident: $pixel:ty = $greatest:expr, $compose:expr, $read:expr, $native:expr;)*) => {$(
+    ($($($(#[$doc:meta])+ pub)? $name:ident: $pixel:ty = $greatest:expr, $places:expr, $native:expr, $read:expr;)*) => {$(
         $(
             $(#[$doc])+
             #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -148,10 +196,7 @@ macro_rules! formats {
         impl ColorFormat for $name {
             type Pixel = $pixel;
 
-            #[inline]
-            fn pixel(self, color: Rgba8) -> $pixel {
-                nearest(self, color)
-            }
+            nearest!();
 
             #[inline(always)]
             fn native(self, word: u32) -> $pixel {
@@ -170,41 +215,31 @@ macro_rules! formats {
 
         impl Levels for $name {
             const GREATEST: [u32; 3] = $greatest;
-
-            #[inline(always)]
-            fn compose(self, levels: [u32; 3]) -> $pixel {
-                let [r, g, b] = levels.map(|level| level.to_le_bytes()[0]);
-                $compose([r, g, b])
-            }
+            const PLACES: [u32; 3] = $places;
         }
     )*};
 }
 formats! {
     /// 12 bits, in two bytes a pixel as long as it is drawn: 0000RRRR GGGGBBBB. [`pack::rgb444`](super::pack::rgb444)
     /// makes three bytes of two pixels, in place.
-    pub Rgb444: [u8; 2] = [15; 3],
-        |[r, g, b]: [u8; 3]| [r, g << 4 | b],
-        |[high, low]: [u8; 2]| [high & 15, low >> 4, low & 15].map(u32::from),
-        |[low, high, ..]: [u8; 4]| [high, low];
+    pub Rgb444: [u8; 2] = [15; 3], [1 << 8, 1 << 4, 1],
+        |[low, high, ..]: [u8; 4]| [high, low],
+        |[high, low]: [u8; 2]| [high & 15, low >> 4, low & 15].map(u32::from);
     /// 18 bits in three bytes, as ILI9341 and ILI9488 take them: RRRRRR00 GGGGGG00 BBBBBB00.
-    pub Rgb666: [u8; 3] = [63; 3],
-        |levels: [u8; 3]| levels.map(|level| level << 2),
-        |bytes: [u8; 3]| bytes.map(|byte| u32::from(byte >> 2)),
-        |[r, g, b, _]: [u8; 4]| [r, g, b];
+    pub Rgb666: [u8; 3] = [63; 3], [1 << 2, 1 << 10, 1 << 18],
+        |[r, g, b, _]: [u8; 4]| [r, g, b],
+        |bytes: [u8; 3]| bytes.map(|byte| u32::from(byte >> 2));
     /// Three bytes: red, green, blue.
-    pub Rgb888: [u8; 3] = [255; 3],
-        |levels: [u8; 3]| levels,
-        |bytes: [u8; 3]| bytes.map(u32::from),
-        |[r, g, b, _]: [u8; 4]| [r, g, b];
+    pub Rgb888: [u8; 3] = [255; 3], [1, 1 << 8, 1 << 16],
+        |[r, g, b, _]: [u8; 4]| [r, g, b],
+        |bytes: [u8; 3]| bytes.map(u32::from);
     /// A word whose bytes are, from the highest, 0, red, green, blue: blue comes first in memory.
-    pub Xrgb8888: u32 = [255; 3],
-        |[r, g, b]: [u8; 3]| u32::from_be_bytes([0, r, g, b]).to_le(),
-        |word: u32| { let [_, r, g, b] = word.to_le().to_be_bytes(); [r, g, b].map(u32::from) },
-        |bytes: [u8; 4]| u32::from_le_bytes(bytes).to_le();
-    Rgb332: u8 = [7, 7, 3],
-        |[r, g, b]: [u8; 3]| r << 5 | g << 2 | b,
-        |byte: u8| [byte >> 5, byte >> 2 & 7, byte & 3].map(u32::from),
-        |[low, ..]: [u8; 4]| low;
+    pub Xrgb8888: u32 = [255; 3], [1 << 16, 1 << 8, 1],
+        |bytes: [u8; 4]| u32::from_le_bytes(bytes).to_le(),
+        |word: u32| { let [_, r, g, b] = word.to_le().to_be_bytes(); [r, g, b].map(u32::from) };
+    Rgb332: u8 = [7, 7, 3], [1 << 5, 1 << 2, 1],
+        |[low, ..]: [u8; 4]| low,
+        |byte: u8| [byte >> 5, byte >> 2 & 7, byte & 3].map(u32::from);
 }
 
 /// Formats of luminance, by the weights of BT.601: a byte a pixel as long as it is drawn.
@@ -217,10 +252,7 @@ macro_rules! greys {
         impl ColorFormat for $name {
             type Pixel = u8;
 
-            #[inline]
-            fn pixel(self, color: Rgba8) -> u8 {
-                nearest(self, color)
-            }
+            nearest!();
 
             #[inline(always)]
             fn native(self, word: u32) -> u8 {
@@ -238,25 +270,23 @@ macro_rules! greys {
 
         impl Levels for $name {
             const GREATEST: [u32; 3] = [$greatest, 0, 0];
+            const PLACES: [u32; 3] = [1, 0, 0];
 
             #[inline(always)]
-            fn compose(self, [level, ..]: [u32; 3]) -> u8 {
-                level.to_le_bytes()[0]
-            }
-
-            #[inline(always)]
-            fn channels(self, color: Rgba8) -> [u32; 3] {
-                [luminance(color), 0, 0]
+            fn channels<L: Lanes>(self, lanes: L, colors: L::U32) -> [L::U32; 3] {
+                let [r, g, b] = bytes(lanes, colors);
+                let sum = r * lanes.word(77) + g * lanes.word(150) + b * lanes.word(29) + lanes.word(128);
+                [lanes.shr(sum, 8), lanes.word(0), lanes.word(0)]
             }
         }
     )*};
 }
 greys! {
-    /// 256 levels.
+    /// 256 levels of luminance by the weights of BT.601 in 256ths, which are within one level.
     Grey8: 255;
-    /// 16 levels; [`pack::grey4`](super::pack::grey4) puts two pixels in a byte.
+    /// 16 levels of the same; [`pack::grey4`](super::pack::grey4) puts two pixels in a byte.
     Grey4: 15;
-    /// 4 levels; [`pack::grey2`](super::pack::grey2) puts four pixels in a byte.
+    /// Four levels of the same; [`pack::grey2`](super::pack::grey2) puts four pixels in a byte.
     Grey2: 3;
     /// Black and white; [`pack::grey1`](super::pack::grey1) puts eight pixels in a byte.
     Grey1: 1;

@@ -51,12 +51,7 @@ macro_rules! rgb565 {
 
         impl Levels for $name {
             const GREATEST: [u32; 3] = [31, 63, 31];
-
-            #[inline(always)]
-            #[expect(clippy::cast_possible_truncation, reason = "5 + 6 + 5 bits")]
-            fn compose(self, [r, g, b]: [u32; 3]) -> u16 {
-                ((r << 11 | g << 5 | b) as u16).$in_order()
-            }
+            const PLACES: [u32; 3] = [1 << 11, 1 << 5, 1];
         }
 
         impl ColorFormat for $name {

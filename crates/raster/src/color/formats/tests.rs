@@ -27,12 +27,20 @@ fn bytes_lie_in_memory_as_the_format_says() {
     assert_eq!(Rgb565Le.pixel(color).to_ne_bytes(), [low, high]);
 }
 
+#[test]
+fn parts_of_numbers_are_quotients() {
+    for number in 0..1 << 16 {
+        assert_eq!(One.store_words(parts(One, One.word(number))), [number / 255]);
+    }
+}
+
 /// Levels of a format stay, through bytes and back; other bytes go to the nearest.
 fn levels_stay<F: Levels<Pixel: PartialEq + Debug>>(format: F) {
     let [x, y, z] = F::GREATEST;
     for k in 0..=255_u32 {
         let levels = [k.min(x), (k / 2).min(y), (255 - k).min(z)];
-        let pixel = format.compose(levels);
+        let word: u32 = levels.iter().zip(F::PLACES).map(|(level, place)| level * place).sum();
+        let pixel = format.native(word);
         assert_eq!(format.pixel(format.color(pixel)), pixel, "{format:?} {levels:?}");
         let grey = Rgba8::new(k as u8, k as u8, k as u8, 9);
         let shown = format.color(format.pixel(grey)).to_bytes();
@@ -99,7 +107,7 @@ fn means_of_16_bits_are_as_near_as_they_say() {
     for share in 0..=255_u32 {
         for byte in 0..=255_u8 {
             for level in 0..64_u32 {
-                let old = Rgb565Le.compose([level / 2, level, level / 2]);
+                let old = Rgb565Le.native((level / 2) << 11 | level << 5 | (level / 2));
                 let new = Rgba8::new(byte, byte, byte, 0);
                 let mut pixel = [old];
                 let colors = (One.word(new.to_bits()), One.word(share));
