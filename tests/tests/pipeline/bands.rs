@@ -7,9 +7,9 @@ use alberti::glam::{Vec2, Vec3};
 use alberti::shaders::{Unlit, VertexColor};
 use alberti::texture::{Bilinear, Repeat, Texture};
 use alberti::{
-    AnyDepth, Bands, ColorFormat, Cull, DepthFormat, Frame, Mesh, Pass, Perspective, Prepared,
-    PreparedTriangle, Rgb565Be, Rgb565Le, Rgba8, Rgba8888, Sides, Slot, Stats, Target, View, Viewport,
-    clear_by_threads, for_lanes, lanes::Machine,
+    AnyDepth, ColorFormat, Cull, DepthFormat, Frame, Mesh, Pass, Perspective, Prepared, PreparedTriangle,
+    Rgb565Be, Rgb565Le, Rgba8, Rgba8888, Sides, Slot, Stats, Target, View, Viewport, clear_by_threads,
+    for_lanes, lanes::Machine,
 };
 use alberti_app::scene::Vertex;
 use alberti_app::scenes::{BuiltIn, NAMES, by_name};
