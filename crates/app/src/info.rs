@@ -59,13 +59,12 @@ impl Info<'_> {
         ));
         line(format!("\n{}:\n", counted(model.parts.len(), "part", "parts")));
         for part in model.parts.iter().take(LISTED) {
-            let name = if part.name.is_empty() { String::new() } else { quote(part.name.as_bytes()) };
-            let material = match part.material.as_str() {
-                "" => String::new(),
-                name => format!(", material {}", quote(name.as_bytes())),
-            };
-            let look = look(part).map(|look| format!(", {look}")).unwrap_or_default();
-            line(format!("{:>9}  {name}{material}{look}", part.triangles.len()));
+            let named =
+                |name: &str, of: &str| (!name.is_empty()).then(|| format!("{of}{}", quote(name.as_bytes())));
+            let name =
+                [named(&part.name, ""), named(&part.material, "material "), look(part).map(str::to_owned)];
+            let name = name.into_iter().flatten().collect::<Vec<_>>().join(", ");
+            line(format!("{:>9}  {name}", part.triangles.len()));
         }
         let more = |count: usize| count.checked_sub(LISTED).filter(|&more| more > 0);
         if let Some(more) = more(model.parts.len()) {

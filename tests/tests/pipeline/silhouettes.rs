@@ -275,6 +275,8 @@ fn fringes_carry_what_the_pixel_has_of_the_triangle() {
 
 const WIDTH: u32 = 160;
 const HEIGHT: u32 = 120;
+/// A pixel beside a window.
+const BESIDE: u16 = 0xf81f;
 
 /// A torus, with its normals as colours.
 fn torus() -> (Vec<(Vec3, Vec3)>, Vec<[u32; 3]>) {
@@ -302,7 +304,8 @@ enum Shared {
     Plain(usize),
 }
 
-/// A picture with smooth edges, by a policy, in bands of so many rows, with so many slots.
+/// A picture with smooth edges, by a policy, in bands of so many rows, with so many slots. Bands are of a window with
+/// pixels beside it, which stay, unless there is one band.
 fn smooth(
     distance: f32,
     (interpolation, subpixel): (impl Interpolation, Subpixel),
@@ -313,14 +316,17 @@ fn smooth(
     let (vertices, triangles) = torus();
     let mesh = Mesh::new(&vertices, &triangles, |v: &(Vec3, Vec3)| *v);
     let pixels = (WIDTH * rows) as usize;
-    let (mut color, mut depth, mut cells) = (vec![0; pixels], vec![0; pixels], vec![0; pixels]);
-    let mut bands = Bands::new(Rgb565Le, D16, WIDTH, HEIGHT, &mut color, &mut depth).expect("bands");
+    let (mut depth, mut cells) = (vec![0; pixels], vec![0; pixels]);
+    let beside = if rows == HEIGHT { 0 } else { 3 };
+    let stride = WIDTH as usize + beside;
+    let mut picture = vec![BESIDE; stride * HEIGHT as usize];
+    let place = &mut picture[beside / 2..];
+    let mut bands = Bands::window(Rgb565Le, D16, [WIDTH, HEIGHT], stride, place, &mut depth).expect("bands");
     let (mut slots, view) = (vec![Slot::EMPTY; slots], view(distance));
     let sky = |[column, row]: [i32; 2]| Rgba8::new(0, column as u8, row as u8, 255);
     let mut pass = Pass::new(&view, &mesh, VertexColor).interpolation(interpolation).subpixel(subpixel);
     pass = pass.slots(&mut slots).viewport(viewport);
     let mut room = vec![PreparedTriangle::EMPTY; 2 * triangles.len()];
-    let mut frame = vec![];
     // The three steps by a pass, or by what it has listed.
     macro_rules! draw {
         ($way:expr) => {
@@ -335,7 +341,6 @@ fn smooth(
                 let coverage = silhouette.coverage();
                 $way.draw_fringe(&mut band, &coverage);
                 coverage.resolve(&mut band, Average::Light, sky);
-                frame.extend_from_slice(band.pixels());
             }
         };
     }
@@ -351,7 +356,10 @@ fn smooth(
             draw!(prepared);
         }
     }
-    frame
+    let columns = beside / 2..beside / 2 + WIDTH as usize;
+    let outside = |(place, pixel)| (!columns.contains(&(place % stride))).then_some(pixel);
+    assert!(picture.iter().enumerate().filter_map(outside).all(|&pixel| pixel == BESIDE), "pixels beside");
+    picture.chunks(stride).flat_map(|row| &row[columns.clone()]).copied().collect()
 }
 
 #[test]

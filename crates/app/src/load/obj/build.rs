@@ -12,9 +12,6 @@ use crate::scene::origin;
 use crate::scene::polygon::triangulate;
 use crate::scene::{Model, Part, Vertex};
 
-/// The name of faces before any `o` or `g`, and of an object without a name.
-const UNNAMED: &str = "unnamed_object";
-
 /// Links that are followed at a position before a table is asked.
 const SHORT: usize = 8;
 
@@ -47,7 +44,7 @@ pub(crate) fn build(
     let mut builder = Builder {
         out: Built::default(),
         vertices: Vertices::new(&text, origin),
-        name: UNNAMED.to_owned(),
+        name: String::new(),
         material: None,
         smoothing: None,
         triangles: Vec::new(),
@@ -99,7 +96,7 @@ impl Builder {
         match event {
             Event::Object(name) => {
                 self.end_part();
-                self.name = if name.is_empty() { UNNAMED.to_owned() } else { name };
+                self.name = name;
             }
             Event::Material(name, _) => {
                 let material = materials.get(&name).copied();

@@ -66,11 +66,12 @@ fn negative_indices_count_back_from_where_they_stand() {
 
 #[test]
 fn objects_become_parts() {
-    let model =
-        load_text(&format!("o empty\n{CORNERS}o one\nf 1 2 3\ng two three\nf 1 3 4\nf 2 3 4\no last\n"));
+    let model = load_text(&format!(
+        "{CORNERS}f 1 2 3\no empty\no one\nf 1 2 3\ng two three\nf 1 3 4\nf 2 3 4\no last\n"
+    ));
     let parts: Vec<_> = model.parts.iter().map(|p| (p.name.as_str(), p.triangles.len())).collect();
-    assert_eq!(parts, [("one", 1), ("two three", 2)]);
-    assert_eq!(model.parts[1].triangles[0], [3, 4, 5]);
+    assert_eq!(parts, [("", 1), ("one", 1), ("two three", 2)]);
+    assert_eq!(model.parts[2].triangles[0], [6, 7, 8]);
     assert_eq!(model.parts[0].diffuse, DEFAULT_DIFFUSE);
 }
 

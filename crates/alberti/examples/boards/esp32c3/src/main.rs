@@ -7,7 +7,7 @@
 //! | CS | GPIO10 | |
 //! | DC, RS | GPIO4 | |
 //! | RST | GPIO5 | |
-//! | TE | GPIO3 | leave it and its line below out where the display has none |
+//! | TE | GPIO3 | need not be wired |
 //! | VCC, BLK | 3V3 | |
 
 #![no_std]
@@ -15,7 +15,7 @@
 
 use alberti_demo::{Demo, FIXED, ROWS};
 use embassy_executor::Spawner;
-use embassy_time::{Delay, Duration, Ticker};
+use embassy_time::{Delay, Duration, Instant, Ticker, with_timeout};
 use esp_hal::clock::CpuClock;
 use esp_hal::dma::{DmaRxBuf, DmaTxBuf};
 use esp_hal::gpio::{Input, InputConfig, Level, Output, OutputConfig, Pull};
@@ -32,6 +32,9 @@ esp_bootloader_esp_idf::esp_app_desc!();
 
 /// The bytes of a band.
 const BAND: usize = 2 * WIDTH as usize * ROWS as usize;
+
+/// The time of a frame, if the core is quick enough for it.
+const FRAME: Duration = Duration::from_hz(30);
 
 static DEMO: ConstStaticCell<Demo> = ConstStaticCell::new(Demo::new());
 
@@ -62,10 +65,18 @@ async fn main(_spawner: Spawner) {
     };
 
     let mut tearing = Input::new(board.GPIO3, InputConfig::default().with_pull(Pull::Down));
-    let mut ticker = Ticker::every(Duration::from_hz(30));
+    let mut is_wired = true;
+    let (mut ticker, mut began) = (Ticker::every(FRAME), Instant::MIN);
     let pace = async move || {
-        ticker.next().await;
-        tearing.wait_for_rising_edge().await;
+        // After a frame that took longer the next one begins at once, and none catches up.
+        if began.elapsed() < FRAME {
+            ticker.next().await;
+        } else {
+            ticker.reset();
+        }
+        // Twice as long as the display waits between its frames.
+        is_wired = is_wired && with_timeout(FRAME, tearing.wait_for_rising_edge()).await.is_ok();
+        began = Instant::now();
     };
 
     let chip = Chip::St7789(PixelFormat::Rgb565);

@@ -7,7 +7,7 @@
 //! | CS | GP17 | |
 //! | DC, RS | GP16 | |
 //! | RST | GP20 | |
-//! | TE | GP21 | leave it and its line below out where the display has none |
+//! | TE | GP21 | need not be wired |
 //! | VCC, BLK | 3V3 | |
 
 #![no_std]
@@ -19,7 +19,7 @@ use embassy_rp::gpio::{Input, Level, Output, Pull};
 use embassy_rp::peripherals::DMA_CH0;
 use embassy_rp::spi::{Config, Spi};
 use embassy_rp::{bind_interrupts, dma};
-use embassy_time::{Delay, Duration, Ticker};
+use embassy_time::{Delay, Duration, Instant, Ticker, with_timeout};
 use panel::{Chip, Panel, Pins, PixelFormat};
 use panic_halt as _;
 use static_cell::ConstStaticCell;
@@ -27,6 +27,9 @@ use static_cell::ConstStaticCell;
 bind_interrupts!(struct Interrupts {
     DMA_IRQ_0 => dma::InterruptHandler<DMA_CH0>;
 });
+
+/// The time of a frame, if the core is quick enough for it.
+const FRAME: Duration = Duration::from_hz(30);
 
 static DEMO: ConstStaticCell<Demo> = ConstStaticCell::new(Demo::new());
 
@@ -44,10 +47,18 @@ async fn main(_spawner: Spawner) {
     };
 
     let mut tearing = Input::new(board.PIN_21, Pull::Down);
-    let mut ticker = Ticker::every(Duration::from_hz(30));
+    let mut is_wired = true;
+    let (mut ticker, mut began) = (Ticker::every(FRAME), Instant::MIN);
     let pace = async move || {
-        ticker.next().await;
-        tearing.wait_for_rising_edge().await;
+        // After a frame that took longer the next one begins at once, and none catches up.
+        if began.elapsed() < FRAME {
+            ticker.next().await;
+        } else {
+            ticker.reset();
+        }
+        // Twice as long as the display waits between its frames.
+        is_wired = is_wired && with_timeout(FRAME, tearing.wait_for_rising_edge()).await.is_ok();
+        began = Instant::now();
     };
 
     let chip = Chip::St7789(PixelFormat::Rgb565);

@@ -7,7 +7,7 @@
 //! | CS | PA4 | |
 //! | DC, RS | PB0 | |
 //! | RST | PB1 | |
-//! | TE | PB10 | leave it and its line below out where the display has none |
+//! | TE | PB10 | need not be wired |
 //! | VCC, BLK | 3V3 | |
 
 #![no_std]
@@ -22,7 +22,7 @@ use embassy_stm32::peripherals::DMA2_CH3;
 use embassy_stm32::spi::{Config, Spi};
 use embassy_stm32::time::Hertz;
 use embassy_stm32::{bind_interrupts, dma, rcc};
-use embassy_time::{Delay, Duration, Ticker};
+use embassy_time::{Delay, Duration, Instant, Ticker, with_timeout};
 use panel::{Chip, Panel, Pins, PixelFormat};
 use panic_halt as _;
 use static_cell::ConstStaticCell;
@@ -31,6 +31,9 @@ bind_interrupts!(struct Interrupts {
     DMA2_STREAM3 => dma::InterruptHandler<DMA2_CH3>;
     EXTI15_10 => exti::InterruptHandler<EXTI15_10>;
 });
+
+/// The time of a frame, if the core is quick enough for it.
+const FRAME: Duration = Duration::from_hz(30);
 
 static DEMO: ConstStaticCell<Demo> = ConstStaticCell::new(Demo::new());
 
@@ -67,10 +70,18 @@ async fn main(_spawner: Spawner) {
     };
 
     let mut tearing = ExtiInput::new(board.PB10, board.EXTI10, Pull::Down, Interrupts);
-    let mut ticker = Ticker::every(Duration::from_hz(30));
+    let mut is_wired = true;
+    let (mut ticker, mut began) = (Ticker::every(FRAME), Instant::MIN);
     let pace = async move || {
-        ticker.next().await;
-        tearing.wait_for_rising_edge().await;
+        // After a frame that took longer the next one begins at once, and none catches up.
+        if began.elapsed() < FRAME {
+            ticker.next().await;
+        } else {
+            ticker.reset();
+        }
+        // Twice as long as the display waits between its frames.
+        is_wired = is_wired && with_timeout(FRAME, tearing.wait_for_rising_edge()).await.is_ok();
+        began = Instant::now();
     };
 
     let chip = Chip::St7789(PixelFormat::Rgb565);
