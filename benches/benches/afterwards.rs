@@ -15,8 +15,8 @@
 use alberti::glam::{Mat3, Vec2, Vec3};
 use alberti::lanes::{Floating, Machine, One};
 use alberti::raster::color::{
-    Additive, Average, Bayer, Blended, BlueNoise, Constant, Dithered, Grey1, Grey4, Grey8, InLight, Indexed,
-    Multiply, Over, Premultiplied, Rgb332, Rgb444, Rgb666, Rgb888, Xrgb8888, resolve, rgb565,
+    Additive, Average, Bayer, Blended, BlueNoise, Constant, Dithered, Grey1, Grey2, Grey4, Grey8, InLight,
+    Indexed, Multiply, Over, Premultiplied, Rgb332, Rgb444, Rgb666, Rgb888, Xrgb8888, resolve, rgb565,
 };
 use alberti::shaders::fog::{ExponentialFog, Fog, Fogged, LinearFog, SquaredFog};
 use alberti::shaders::{AlphaDither, AlphaTest, ColorKey, Solid, Stored, Sunlit, Unlit};
@@ -85,6 +85,9 @@ type Channels = [f64; 4];
 fn channels(pixel: u32) -> Channels {
     pixel.to_ne_bytes().map(f64::from)
 }
+
+/// The greatest levels of a pixel of 16 bits.
+const MOST: [f64; 3] = [31.0, 63.0, 31.0];
 
 /// Red, green and blue of a pixel of 16 bits.
 fn levels(pixel: u16) -> [f64; 3] {
@@ -158,7 +161,13 @@ fn afterwards(criterion: &mut Criterion) {
         let [r, g, b, _] = channels(plain[k]);
         0.299 * r + 0.587 * g + 0.114 * b
     };
-    let dithered = |k: usize, found: u16| near(k, levels(found), [31.0, 63.0, 31.0]);
+    let dithered = |k: usize, found: u16| near(k, levels(found), MOST);
+    // Of a mean in levels the share is rounded to 32nds.
+    let mean565 = |k: usize, found: u16, share: f64| {
+        let (texel, there) = (channels(plain[k]), levels(rgb565(BEFORE)));
+        let mean = |c: usize| texel[c] / 255.0 * MOST[c] * share + there[c] * (1.0 - share);
+        (0..3).all(|c| (mean(c) - levels(found)[c]).abs() < [1.5, 2.0, 1.5][c])
+    };
     let keyed = |k: usize, found: u16| found == if packed[k] == KEY { 0 } else { packed[k] };
     // A fog's amount, of the distance.
     let fogged = |amount: fn(f64) -> f64| {
@@ -194,6 +203,16 @@ fn afterwards(criterion: &mut Criterion) {
         "rgb565": Rgb565Le, 0, bare, surface, dithered;
         "rgb565 bayer": Dithered { format: Rgb565Le, by: Bayer }, 0, bare, surface, dithered;
         "rgb565 blue noise": Dithered { format: Rgb565Le, by: BlueNoise }, 0, bare, surface, dithered;
+        "rgb565 over": Blended { format: Rgb565Le, by: Over }, rgb565(BEFORE), bare, surface,
+            |k: usize, found: u16| mean565(k, found, channels(plain[k])[3] / 255.0);
+        "rgb565 constant": Blended { format: Rgb565Le, by: Constant(51) }, rgb565(BEFORE), bare, surface,
+            |k: usize, found: u16| mean565(k, found, 0.2);
+        "rgb565 additive": Blended { format: Rgb565Le, by: Additive }, rgb565(BEFORE), bare, surface,
+            |k: usize, found: u16| {
+                let ([texel @ .., a], there) = (channels(plain[k]), levels(rgb565(BEFORE)));
+                let sum = |c: usize| (texel[c] * a / 65025.0 + there[c] / MOST[c]).min(1.0) * MOST[c];
+                (0..3).all(|c| (sum(c) - levels(found)[c]).abs() < 0.8)
+            };
         "stored": Rgb565Le, 0, bare, stored, |k: usize, found: u16| found == packed[k];
         "color key": Rgb565Le, 0, bare, ColorKey { surface: stored, key: KEY }, keyed;
         "linear fog on stored": Rgb565Le, 0, |v: &_| misty(v, &|z| linear.coordinate(z)),
@@ -221,6 +240,8 @@ fn afterwards(criterion: &mut Criterion) {
         "grey8": Grey8, 0, bare, surface, |k: usize, found: u8| (f64::from(found) - grey(k)).abs() < 1.0;
         "grey4 bayer": Dithered { format: Grey4, by: Bayer }, 0, bare, surface,
             |k: usize, found: u8| (f64::from(found) - grey(k) / 17.0).abs() < 1.1;
+        "grey2 bayer": Dithered { format: Grey2, by: Bayer }, 0, bare, surface,
+            |k: usize, found: u8| (f64::from(found) - grey(k) / 85.0).abs() < 1.1;
         "grey1 bayer": Dithered { format: Grey1, by: Bayer }, 0, bare, surface,
             |k: usize, found: u8| (f64::from(found) - grey(k) / 255.0).abs() < 1.1;
         "indexed": Indexed(&[Rgba8::BLACK, Rgba8::WHITE]), 0, bare, indices,

@@ -10,6 +10,7 @@
 )]
 
 mod blends;
+mod formats;
 mod stages;
 
 use alberti::glam::{Vec2, Vec3};

@@ -16,7 +16,8 @@ pub(super) fn page(rows: &[Row], expected: &[Expected]) -> String {
     let mut text = format!(
         "# Counts on cores\n\n\
          `cargo xtask firmware --write` writes this page and [its numbers](../{PLACE}).\n\
-         Without `--write` it compares, and fails where a number is more than 1 % higher.\n\
+         Without `--write` it compares, and fails where a number is more than 1 % higher; sizes on `m3`, `m7` and\n\
+         `m33`, which are like another board's, by `--board` alone.\n\
          [tests/firmware](../tests/firmware) says what the scenes and the numbers are.\n\n\
          ## Memory of a renderer\n\n{}\n## Scenes\n\n{}",
         renderer(rows),

@@ -13,8 +13,8 @@ use alberti_raster::{FragmentColor, FragmentStage, Fragments, Gradient};
 /// Exact.
 ///
 /// # Cost
-/// A shift and a comparison. A textured pixel in fixed point takes 39 instructions on a Cortex-M4F where 41 % are
-/// drawn, and 53 without the test; on a Cortex-M0+ 81 and 93.
+/// A shift and a comparison. A textured pixel in fixed point takes 37 instructions on a Cortex-M4F where 41 % are
+/// drawn, and 50 without the test; on a Cortex-M0+ 73 and 89.
 #[derive(Clone, Copy, Debug)]
 pub struct AlphaTest<S> {
     /// The stage.
@@ -64,8 +64,8 @@ pub struct ColorKey<S, C> {
 /// 0, all at 255.
 ///
 /// # Cost
-/// A load from the pattern's table, a shift and a comparison. A textured pixel in fixed point takes 46 instructions on
-/// a Cortex-M4F where 37 % are drawn, and 53 without the pattern; on a Cortex-M0+ 90 and 93.
+/// A load from the pattern's table, a shift and a comparison. A textured pixel in fixed point takes 45 instructions on
+/// a Cortex-M4F where 37 % are drawn, and 50 without the pattern; on a Cortex-M0+ 82 and 89.
 #[derive(Clone, Copy, Debug)]
 pub struct AlphaDither<S, P> {
     /// The stage.

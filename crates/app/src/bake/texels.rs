@@ -96,12 +96,19 @@ pub(super) fn textures(
     if !attributes.contains(Attributes::UV) {
         return Ok((textures, of_parts));
     }
+    let own = |part: &Part| part.texture.map(|image| Map { image, filter: part.detail.filter, wrap: None });
+    // An image has mip maps if any that reads it has a filter for them.
+    let mipmapped: Vec<_> = drawn()
+        .flat_map(|(_, part)| own(part).map(|map| (Role::Color, map)).into_iter().chain(others(part)))
+        .filter(|(_, map)| is_mipmapped(map.filter.unwrap_or(options.filter)))
+        .map(|(role, map)| (role, map.image))
+        .collect();
     let mut number = |role, map: Map| {
         let known = textures.iter().position(|texture| (texture.role, texture.image) == (role, map.image));
-        let mips = is_mipmapped(map.filter.unwrap_or(options.filter));
         Ok::<_, Error>(match known {
             Some(number) => number,
             None => {
+                let mips = mipmapped.contains(&(role, map.image));
                 textures.push(texture(model, role, map.image, mips, wish)?);
                 textures.len() - 1
             }
@@ -109,8 +116,7 @@ pub(super) fn textures(
     };
     // Numbers of surfaces' colours first.
     for (k, part) in drawn() {
-        let own = part.texture.map(|image| Map { image, filter: part.detail.filter, wrap: None });
-        of_parts[k] = own.map(|map| number(Role::Color, map)).transpose()?;
+        of_parts[k] = own(part).map(|map| number(Role::Color, map)).transpose()?;
     }
     for (_, part) in drawn() {
         for (role, map) in others(part) {

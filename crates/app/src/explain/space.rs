@@ -33,7 +33,9 @@ impl Scene<'_> {
             &[theory::CHANGE_OF_FRAME],
         );
         block.value("part", "part", fragment.arrival.part);
-        block.value("name", "its name", fragment.part.name.as_str());
+        if !fragment.part.name.is_empty() {
+            block.value("name", "its name", fragment.part.name.as_str());
+        }
         block.value("triangle", "triangle of the part", fragment.arrival.triangle);
         block.values("vertices", "vertices of the model", fragment.indices);
         if fragment.origin.iter().any(|x| x.abs() > 0.0) {

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use alberti::Geometry;
-use alberti::baked::{Baked, Uv};
+use alberti::baked::{Baked, Texels, Uv};
 use alberti::glam::Vec2;
 use serde_json::Value;
 
@@ -163,6 +163,26 @@ fn a_floor_of_many_repeats_leaves_other_parts_as_fine() {
     let source = fs::read_to_string(folder.path("out/f.rs")).expect("the source");
     let halves: Vec<_> = source.split("pub fn mesh_").skip(1).collect();
     assert!(halves[0].contains("i32::from(u) << 7") && !halves[1].contains("<<"), "{source}");
+}
+
+/// An image has mip maps if any of its readers has a filter for them, whichever comes first.
+#[test]
+fn mip_maps_are_those_of_all_parts() {
+    let object = |filter: &str| format!("[[object]]\nsurface = \"plane\"\nmaterial = \"{filter}\"\n");
+    let material =
+        |filter: &str| format!("[material.{filter}]\ntexture = \"soft.png\"\nfilter = \"{filter}\"\n");
+    let levels = |filters: [&str; 2]| {
+        let scene = filters.map(object).concat() + &filters.map(material).concat();
+        let folder = Folder::with(&[("s.toml", scene.as_bytes()), ("soft.png", &image())]);
+        let (_, file) = baked(&folder, "s", &["s.toml", "--attributes", "uv"]);
+        let Some(Texels::Rgb565(map)) = Baked::read(&file).expect("a file").texture(0) else {
+            panic!("Rgb565")
+        };
+        map.levels()
+    };
+    assert_eq!(levels(["nearest", "trilinear"]), 7);
+    assert_eq!(levels(["trilinear", "nearest"]), 7);
+    assert_eq!(levels(["nearest", "bilinear"]), 1);
 }
 
 /// Parts are passes: the report says how many, and names the chapter that has their lines.

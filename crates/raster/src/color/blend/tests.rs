@@ -43,6 +43,11 @@ fn over(n: u64, o: u64, [a, b]: [u64; 2]) -> [u64; 2] {
 }
 
 #[test]
+fn parts_of_255_are_nearest() {
+    assert!((0..=65535 * 255).all(|x| of_255(x) == (2 * x + 255) / 510));
+}
+
+#[test]
 fn blends_are_their_definitions() {
     is(Over, over);
     is(Constant(77), |n, o, [_, b]| over(n, o, [77, b]));
