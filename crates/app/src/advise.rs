@@ -28,7 +28,7 @@ pub use candidate::Candidate;
 pub use chips::Off;
 pub use kin::Kin;
 pub(crate) use machine::depth_bytes;
-pub use machine::{Cost, Machine, baked_on_chip};
+pub use machine::{Cost, LitAt, Machine, baked_on_chip};
 pub use measured::Trial;
 pub use report::{json, text};
 pub use waste::{Waste, waste};

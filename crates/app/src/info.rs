@@ -64,7 +64,7 @@ impl Info<'_> {
             let name =
                 [named(&part.name, ""), named(&part.material, "material "), look(part).map(str::to_owned)];
             let name = name.into_iter().flatten().collect::<Vec<_>>().join(", ");
-            line(format!("{:>9}  {name}", part.triangles.len()));
+            line(format!("{:>9}  {name}", part.triangles.len()).trim_end().to_owned());
         }
         let more = |count: usize| count.checked_sub(LISTED).filter(|&more| more > 0);
         if let Some(more) = more(model.parts.len()) {

@@ -6,7 +6,7 @@
 
 use super::Work;
 use super::candidate::{Candidate, arithmetic_name, depth_name};
-use super::machine::{Machine, subpixel_bits};
+use super::machine::{LitAt, Machine, subpixel_bits};
 use crate::error::{Error, quote};
 use crate::options::{Arithmetic, Filter, Interpolation, Lod};
 use std::collections::HashMap;
@@ -56,7 +56,7 @@ const KINDS: [(&str, bool, &[&str]); 11] = [
     ),
     ("fixed filter", true, &["nearest", "bilinear", "trilinear:run", "trilinear:triangle"]),
     ("float light", true, &["unlit", "lambert"]),
-    ("fixed light", true, &["unlit", "lambert"]),
+    ("fixed light", true, &["unlit", "lambert", "vertex"]),
     ("fixed mesh", true, &["floats", "integers"]),
     // How far estimates were off, in percent, where other lines have the instructions of a frame.
     ("off", false, &["median", "most", "worst", "baked"]),
@@ -117,16 +117,20 @@ impl Chip {
         Some(lines.plus(depth).plus(grid).plus(filter))
     }
 
-    /// The same for what `alberti bake` writes, lit from one direction or not.
+    /// The same for what `alberti bake` writes.
     pub(super) fn baked(
         &self,
         candidate: Candidate,
         filter: Filter,
         lod: Lod,
-        is_lit: bool,
+        lit: LitAt,
     ) -> Option<Coefficients> {
         let cost = self.cost(candidate, filter, lod)?;
-        let light = if is_lit { "lambert" } else { "unlit" };
+        let light = match lit {
+            LitAt::Nowhere => "unlit",
+            LitAt::Pixels => "lambert",
+            LitAt::Vertices => "vertex",
+        };
         let arithmetic = arithmetic_name(candidate.arithmetic);
         let cost = cost.plus(self.get(&format!("{arithmetic} light"), light)?);
         Some(match candidate.arithmetic {
@@ -318,10 +322,15 @@ mod tests {
         lines[line] = "m0,fixed mesh,integers,0,-2,0,0,0,0,0,0,0,0,0,0,0,0,0,300,20".to_owned();
         let line = at(&lines, "m0,fixed light,lambert,");
         lines[line] = "m0,fixed light,lambert,0,7,0,0,0,0,0,0,0,0,0,0,0,0,100,700,60".to_owned();
+        // A vertex that is lit itself takes 5 more, and a pixel 3.
+        let line = at(&lines, "m0,fixed light,vertex,");
+        lines[line] = "m0,fixed light,vertex,0,5,0,0,0,0,0,0,0,0,0,0,0,0,3,0,0".to_owned();
         let chips = parse(&lines.join("\n")).expect("a table");
-        let of = |is_lit| chips["m0"].baked(candidate, Filter::Bilinear, Lod::Pixel, is_lit).expect("a cost");
-        assert_eq!((of(false).frame(&work), of(true).frame(&work)), (53_813.5 - 20.0, 53_813.5 + 60_050.0));
-        assert_eq!((of(true).flash, of(true).stack), (2400.0, 388.0));
+        let of = |lit| chips["m0"].baked(candidate, Filter::Bilinear, Lod::Pixel, lit).expect("a cost");
+        let [unlit, lit, at_vertices] = [LitAt::Nowhere, LitAt::Pixels, LitAt::Vertices].map(of);
+        assert_eq!((unlit.frame(&work), lit.frame(&work)), (53_813.5 - 20.0, 53_813.5 + 60_050.0));
+        assert_eq!(at_vertices.frame(&work), 53_813.5 + 30.0 + 1800.0);
+        assert_eq!((lit.flash, lit.stack), (2400.0, 388.0));
         let anisotropic = Filter::Anisotropic(crate::options::Probes::Two);
         assert!(chips["m0"].cost(candidate, anisotropic, Lod::Pixel).is_none());
     }

@@ -114,8 +114,19 @@ impl Costs {
     }
 }
 
-/// The instructions that a frame of a baked mesh with this work takes on a chip, lit from one direction or not. Beside
-/// them is how far such estimates are off mostly, in percent.
+/// The places where a baked mesh is lit from one direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LitAt {
+    /// Nowhere.
+    Nowhere,
+    /// At each pixel, on a normal that is interpolated.
+    Pixels,
+    /// At each vertex: the texels of the target's format get it as it is there.
+    Vertices,
+}
+
+/// The instructions that a frame of a baked mesh with this work takes on a chip. Beside them is how far such estimates
+/// are off mostly, in percent. Light at vertices has prices in fixed point alone.
 ///
 /// # Errors
 /// The chip has no such way of drawing.
@@ -123,13 +134,13 @@ pub fn baked_on_chip(
     machine: Machine,
     options: &RenderOptions,
     work: &Work,
-    is_lit: bool,
+    lit: LitAt,
 ) -> Result<(f64, f64), Error> {
     let costs = Costs::new(machine, options)?;
     let Policies { interpolation, arithmetic, subpixel, lod, .. } = options.policies;
     let candidate = Candidate { interpolation, arithmetic, subpixel, depth: options.depth };
     let chip = costs.chip.as_ref();
-    let cost = chip.and_then(|chip| chip.baked(candidate, options.filter, lod, is_lit)).ok_or_else(|| {
+    let cost = chip.and_then(|chip| chip.baked(candidate, options.filter, lod, lit)).ok_or_else(|| {
         let found = format!("{} on {}", candidate.command_line(), machine.name());
         Error::new(found, "policies that the model of chips knows").hint("try --profile mcu")
     })?;

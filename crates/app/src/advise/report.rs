@@ -21,7 +21,7 @@ pub fn text(advice: &Advice, wastes: &[Waste], side: u16) -> String {
         costs(advice)
     );
     text.push_str("Errors are against exact, float, f32-reversed, 8 bits");
-    text.push_str(if machine.is_chip() { ", both in RGB565, of which a step is 4 or 8 bytes" } else { "" });
+    text.push_str(if machine.is_chip() { ",\nboth in RGB565, of which a step is 4 or 8 bytes" } else { "" });
     text.push_str(". A star: no other way is as cheap and as right.\n\n");
     let (cost, ratio) = if machine.is_chip() { ("M instr.", "ratio") } else { ("ms", "time") };
     let _ = write!(text, "{cost:>9}  {ratio:>6}  {:>10}  {:>7}", unit(*budget), "largest");
@@ -83,18 +83,19 @@ pub fn text(advice: &Advice, wastes: &[Waste], side: u16) -> String {
 /// The meaning of costs, in one or more lines.
 fn costs(advice: &Advice) -> String {
     let Some(Off { median, most, worst, .. }) = advice.off else {
-        return "Times are of one thread, whole\nframes, by this command: plain surfaces in floats by code of their own, \
-                as a program has it that names its types;\nfixed point, materials and projectors by one stage for all, \
+        return "Times are of one thread,\n\
+                whole frames, by this command: plain surfaces in floats by code of their own, as a program\n\
+                has it that names its types; fixed point, materials and projectors by one stage for all,\n\
                 which adds the same to each."
             .to_owned();
     };
     let name = advice.wish.machine.name();
     format!(
-        "Instructions are a model's for {name}:\na textured, unlit mesh in RGB565 with this scene's own counts. Shading \
-         is not in it: it adds the same to all but depth\n`none`, which shades what is hidden too. On five scenes that were \
-         also run the model was off by {median:.1} % (median), at most \
-         {most:.0} % in nine of ten\ncases, {worst:.0} % in the worst. Flash is code; RAM is both buffers, a slot for \
-         each vertex, and the stack."
+        "Instructions are a model's for {name}:\n\
+         a textured, unlit mesh in RGB565 with this scene's own counts. Shading is not in it: it adds\n\
+         the same to all but depth `none`, which shades what is hidden too. On five scenes that were\n\
+         also run the model was off by {median:.1} % (median), at most {most:.0} % in nine of ten cases,\n\
+         {worst:.0} % in the worst. Flash is code; RAM is both buffers, a slot for each vertex, and the stack."
     )
 }
 

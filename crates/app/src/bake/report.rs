@@ -8,11 +8,11 @@ use super::binary::length;
 use super::missing::as_filed;
 use super::texels::Role;
 use super::{Asset, Format, restored};
-use crate::advise::{Kin, Machine, baked_on_chip, depth_bytes, work};
+use crate::advise::{Kin, LitAt, Machine, baked_on_chip, depth_bytes, work};
 use crate::error::{Error, quote};
 use crate::measure::{Comparison, Measures};
 use crate::options::values::name_of;
-use crate::options::{ColorFormat, Filter, Policies, Projection, RenderOptions, Shading};
+use crate::options::{Arithmetic, ColorFormat, Filter, Policies, Projection, RenderOptions, Shading};
 use crate::render::render;
 use crate::scene::{Camera, Model, Part, camera};
 use alberti::baked::{Attributes, HEADER, PART};
@@ -54,6 +54,8 @@ pub struct Estimate {
     pub chip: &'static str,
     /// Instructions of a frame.
     pub instructions: f64,
+    /// Those of one with light at the vertices instead, on the nearest texel, if there is light in fixed point.
+    pub at_vertices: Option<f64>,
     /// How far nine tenths of such estimates are off at most, in percent.
     pub off: f64,
 }
@@ -93,7 +95,9 @@ impl<'a> Report<'a> {
             color: options.policies.color,
             items: items(asset),
             memory: memory(asset, options, band),
-            estimates: estimates(|machine| baked_on_chip(machine, &priced(options), &work, light.is_some()))?,
+            estimates: estimates(options, light.is_some(), |machine, options, lit| {
+                baked_on_chip(machine, options, &work, lit)
+            })?,
             pixels: asset.losses.place * 3.0_f64.sqrt() * pixels_a_unit(&baked, camera, options),
             texels: asset.losses.uv[0].max(asset.losses.uv[1]) * f64::from(side),
             measures,
@@ -128,10 +132,16 @@ impl<'a> Report<'a> {
         let light = self.light.unwrap_or("without light");
         // Prices are those of these pixels.
         let format = if self.color == ColorFormat::Rgb565 { "" } else { " in rgb565" };
-        line(format!("\nMillions of instructions for a frame of {width}x{height}{format}, {light}:\n"));
-        for Estimate { chip, instructions, off } in &self.estimates {
-            let millions = instructions / 1e6;
-            line(format!("{millions:>9.2}  {chip}, within {off:.0} % mostly"));
+        let is_alternative = self.estimates.iter().any(|estimate| estimate.at_vertices.is_some());
+        let alternative =
+            if is_alternative { ",\nand with that light at the vertices, on the nearest texel" } else { "" };
+        line(format!(
+            "\nMillions of instructions for a frame of {width}x{height}{format}, {light}{alternative}:\n"
+        ));
+        for Estimate { chip, instructions, at_vertices, off } in &self.estimates {
+            let all = [Some(*instructions), *at_vertices].into_iter().flatten();
+            let millions: String = all.map(|count| format!("{:>9.2}", count / 1e6)).collect();
+            line(format!("{millions}  {chip}, within {off:.0} % mostly"));
         }
         if !self.unpriced.is_empty() {
             line(format!("\nNot in these: {}.", self.unpriced.join(", ")));
@@ -215,8 +225,13 @@ impl<'a> Report<'a> {
             items.iter().map(|(name, bytes)| json!({ "name": name, "bytes": bytes })).collect()
         };
         let chips = self.estimates.iter().map(|estimate| {
-            let Estimate { chip, instructions, off } = estimate;
-            json!({ "chip": chip, "instructions": instructions.round(), "off_percent": off })
+            let Estimate { chip, instructions, at_vertices, off } = estimate;
+            json!({
+                "chip": chip,
+                "instructions": instructions.round(),
+                "instructions_lit_at_vertices": at_vertices.map(f64::round),
+                "off_percent": off,
+            })
         });
         let [before, after] = self.order();
         json!({
@@ -259,15 +274,30 @@ impl<'a> Report<'a> {
     }
 }
 
-/// Estimates for chips of the model, each before those that are its kin.
-fn estimates(of: impl Fn(Machine) -> Result<(f64, f64), Error>) -> Result<Vec<Estimate>, Error> {
+/// Estimates for chips of the model, each before those that are its kin, of frames with light or without.
+fn estimates(
+    options: &RenderOptions,
+    is_lit: bool,
+    of: impl Fn(Machine, &RenderOptions, LitAt) -> Result<(f64, f64), Error>,
+) -> Result<Vec<Estimate>, Error> {
+    let nearest = RenderOptions { filter: Filter::Nearest, ..*options };
+    let has_vertices = is_lit && options.policies.arithmetic == Arithmetic::Fixed;
     let mut all = vec![];
     for machine in [Machine::M0, Machine::M4f, Machine::Rv32] {
-        let own = of(machine)?;
-        let kin =
-            Kin::ALL.into_iter().filter(|kin| kin.of == machine).map(|kin| (kin.name, kin.estimate(own)));
-        let estimates = std::iter::once((machine.name(), own)).chain(kin);
-        all.extend(estimates.map(|(chip, (instructions, off))| Estimate { chip, instructions, off }));
+        let lit = if is_lit { LitAt::Pixels } else { LitAt::Nowhere };
+        let own = of(machine, &priced(options), lit)?;
+        let at_vertices = has_vertices.then(|| of(machine, &nearest, LitAt::Vertices)).transpose()?;
+        all.push(Estimate {
+            chip: machine.name(),
+            instructions: own.0,
+            at_vertices: at_vertices.map(|(instructions, _)| instructions),
+            off: own.1,
+        });
+        all.extend(Kin::ALL.into_iter().filter(|kin| kin.of == machine).map(|kin| {
+            let (instructions, off) = kin.estimate(own);
+            let at_vertices = at_vertices.map(|of_kin| kin.estimate(of_kin).0);
+            Estimate { chip: kin.name, instructions, at_vertices, off }
+        }));
     }
     Ok(all)
 }

@@ -7,13 +7,13 @@ use crate::{HEIGHT, PIXELS, WIDTH};
 use alberti::glam::{Mat3, Vec2, Vec3};
 use alberti::lanes::One;
 use alberti::raster::{PerRun, PerTriangle};
-use alberti::shaders::{Differentiated, Stored, Sunlit, Unlit};
+use alberti::shaders::{Differentiated, Light, Lit565, Stored, Sunlit, Unlit};
 use alberti::texture::mipmap::texel_count;
 use alberti::texture::{Bilinear, Mipmap, Nearest, PowerOfTwo, Repeat, Texture, Trilinear, format::Rgb565};
 use alberti::{
     Affine, D16, D24, D32, DepthFormat, Exact, F32, F32Reversed, FixedPoint, FragmentStage, Frame, Geometry,
     IntegerMesh, IntegerVertex, Interpolation, Lines, Mesh, NoDepth, Octahedral, Pass, Perspective, Planes,
-    Point3, Q16, Rgb565Le, Slot, Spans16, Sub4, Sub8, Subpixel, Varying, Vector3, View,
+    Point3, Q16, Rgb565Le, Slot, Spans16, Staged, Sub4, Sub8, Subpixel, Varying, Vector3, View,
 };
 
 /// A vertex with a texture.
@@ -72,6 +72,9 @@ macro_rules! policies {
     (@integers $memory:ident, $scene:ident, $ways:ident, $stage:expr) => {
         draw($memory, $scene, &integers($scene), $ways, $stage)
     };
+    (@vertex $memory:ident, $scene:ident, $ways:ident, $stage:expr) => {
+        draw($memory, $scene, &lit_vertices($scene), $ways, Lit565 { surface: $stage })
+    };
     (@baked $memory:ident, $scene:ident, $ways:ident, $stage:expr) => {
         draw($memory, $scene, &baked($scene), $ways, sunlit($stage))
     };
@@ -125,6 +128,7 @@ policies! {
     "float exact, trilinear:triangle": |_| Exact, D16, Sub4, trilinear_per_triangle;
     "fixed spans:16, lambert": |_| FixedPoint(Spans16), D16, Sub4, colors, lambert;
     "fixed spans:16, integers": |_| FixedPoint(Spans16), D16, Sub4, nearest, integers;
+    "fixed spans:16, integers vertex": |_| FixedPoint(Spans16), D16, Sub4, nearest, vertex;
     "fixed spans:16, integers lambert": |_| FixedPoint(Spans16), D16, Sub4, colors, baked;
     "float exact, lambert": |_| Exact, D16, Sub4, colors, lambert;
 }
@@ -212,6 +216,18 @@ fn baked<'a>(scene: &Scene<'a>) -> impl Geometry<Varying = (Vec3, Vec2)> + use<'
     })
 }
 
+/// The same with light at the vertices.
+#[inline]
+fn lit_vertices<'a>(scene: &Scene<'a>) -> impl Geometry<Varying = (Light, Vec2)> + use<'a> {
+    let to_light = [-0.36, 0.48, 0.8].map(Q16::from_f32);
+    Staged::new(baked(scene), move |IntegerVertex { place, components: (normal, uv) }| {
+        let [x, y, z] = to_light;
+        let cosine = normal[0] * x + normal[1] * y + normal[2] * z;
+        let light = Q16::from_f32(0.3) + cosine.max(Q16::ZERO) * Q16::from_f32(0.7);
+        IntegerVertex::<(Light, Vec2)> { place, components: (Light::of_integer(light), uv) }
+    })
+}
+
 #[inline]
 fn draw<D: Kept, G: Geometry<Varying: Slotted>>(
     memory: &mut Memory,
@@ -242,10 +258,11 @@ pub struct Memory {
     slots: Slots,
 }
 
-/// Transformed vertices, not lit and lit.
+/// Transformed vertices: not lit, with their light, and with normals.
 #[derive(Debug)]
 struct Slots {
     plain: [Slot<Vec2>; MOST],
+    shaded: [Slot<(Light, Vec2)>; MOST],
     lit: [Slot<(Vec3, Vec2)>; MOST],
 }
 
@@ -258,6 +275,13 @@ impl Slotted for Vec2 {
     #[inline]
     fn within(slots: &mut Slots) -> &mut [Slot<Self>] {
         &mut slots.plain
+    }
+}
+
+impl Slotted for (Light, Vec2) {
+    #[inline]
+    fn within(slots: &mut Slots) -> &mut [Slot<Self>] {
+        &mut slots.shaded
     }
 }
 
@@ -307,7 +331,7 @@ impl Memory {
     pub const EMPTY: Self = Self {
         color: [0; PIXELS],
         depths: Depths { nothing: [(); PIXELS], half: [0; PIXELS], word: [0; PIXELS], float: [0.0; PIXELS] },
-        slots: Slots { plain: [Slot::EMPTY; MOST], lit: [Slot::EMPTY; MOST] },
+        slots: Slots { plain: [Slot::EMPTY; MOST], shaded: [Slot::EMPTY; MOST], lit: [Slot::EMPTY; MOST] },
     };
 
     /// Makes all pixels dark grey and as far away as can be: where depths are reversed, the format's name says so.
@@ -319,6 +343,7 @@ impl Memory {
         let reversed = policy.name.ends_with("reversed");
         depths.float.fill(if reversed { F32Reversed.farthest() } else { F32.farthest() });
         slots.plain.fill(Slot::EMPTY);
+        slots.shaded.fill(Slot::EMPTY);
         slots.lit.fill(Slot::EMPTY);
     }
 

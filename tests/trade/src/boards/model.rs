@@ -53,9 +53,14 @@ pub fn model(prices: &[Price]) -> (Vec<Entry>, Vec<Estimate>) {
     boards.dedup();
     for board in boards {
         // By entries, of which that with budgets has several policies. What is usual comes first: the rest is measured
-        // by it. What is both lit and of integers comes last: it has no entry, and judges the sum of others.
-        let order =
-            |special: Option<Special>| special.map_or(0, |special| 1 + u8::from(special == Special::Baked));
+        // by it, light at vertices by integers besides. What is both lit and of integers comes last: it has no entry,
+        // and judges the sum of others.
+        let order = |special: Option<Special>| match special {
+            None => 0,
+            Some(Special::Vertex) => 2,
+            Some(Special::Baked) => 3,
+            Some(_) => 1,
+        };
         let mut groups: BTreeMap<_, Group<'_>> = BTreeMap::new();
         for price in prices.iter().filter(|price| price.board == board) {
             let Some(policy) = policy(&price.policy) else { continue };
@@ -64,7 +69,7 @@ pub fn model(prices: &[Price]) -> (Vec<Entry>, Vec<Estimate>) {
         }
         for ((order, kind, name), group) in groups {
             match order {
-                2 => fitting.judge_baked(board, &group),
+                3 => fitting.judge_baked(board, &group),
                 _ => fitting.entry(board, kind, name, &group),
             }
         }
@@ -84,12 +89,21 @@ struct Fitting {
 impl Fitting {
     /// Fits an entry to its prices, and estimates what it was not fitted to.
     fn entry(&mut self, board: &str, kind: String, name: String, group: &[(&Price, Policy)]) {
-        let base = group.first().and_then(|(price, _)| {
-            let (lines, _) = price.policy.split_once(", ")?;
-            self.entries.iter().find(|entry| entry.board == board && entry.name == lines).cloned()
+        let bases = group.first().map_or(vec![], |(price, policy)| {
+            let lines = price.policy.split_once(", ").map(|(lines, _)| ("lines", lines));
+            let mesh = (policy.special == Some(Special::Vertex)).then_some(("fixed mesh", "integers"));
+            lines.into_iter().chain(mesh).collect()
         });
-        let (base, base_code, base_stack) =
-            base.map_or_else(Default::default, |base| (base.prices, base.code, base.stack));
+        let bases = bases.iter().filter_map(|base| {
+            self.entries.iter().find(|entry| entry.board == board && (&*entry.kind, &*entry.name) == *base)
+        });
+        let mut base = Amounts::default();
+        let (mut base_code, mut base_stack) = (0.0, 0.0);
+        for entry in bases {
+            base.iter_mut().zip(entry.prices).for_each(|(sum, price)| *sum += price);
+            base_code += entry.code;
+            base_stack += entry.stack;
+        }
         let frames = group.iter().filter_map(|(price, policy)| Some((price.scene?, *price, *policy)));
         let (judged, small): (Vec<_>, Vec<_>) = frames.partition(|(number, ..)| *number < JUDGED.len());
         let rows: Vec<(Amounts, f64)> = small
@@ -173,6 +187,7 @@ fn labelled(name: &str, policy: Policy) -> (String, String) {
         Some(Special::Subpixel) => (format!("{arithmetic} subpixel"), special.to_owned()),
         Some(Special::Filter) => (format!("{arithmetic} filter"), special.to_owned()),
         Some(Special::Light) => (format!("{arithmetic} light"), special.to_owned()),
+        Some(Special::Vertex) => (format!("{arithmetic} light"), "vertex".to_owned()),
         Some(Special::Mesh | Special::Baked) => (format!("{arithmetic} mesh"), special.to_owned()),
     }
 }
@@ -208,7 +223,8 @@ pub fn csv(entries: &[Entry], estimates: &[Estimate]) -> String {
                 .collect()
         };
         let asked = off(&of(|special| !special.is_of_baked(), true), [50, 90, 100]);
-        let [baked, ..] = off(&of(|special| special == Special::Baked, false), [100; 3]);
+        let [baked, ..] =
+            off(&of(|special| matches!(special, Special::Vertex | Special::Baked), false), [100; 3]);
         let [median, most, worst] = asked;
         for (name, off) in [("median", median), ("most", most), ("worst", worst), ("baked", baked)] {
             let _ = writeln!(text, "{board},off,{name},{off:.1}{}", ",0".repeat(Work::NAMES.len() + 1));

@@ -13,8 +13,9 @@ const HEADING: &str = "\
 The same scenes of a textured mesh on a display of 320x240 in RGB565, as an emulator counts the instructions of a frame,
 without clearing. Every frame has the bits of the host's. Policies are named as the command has them: numbers and
 interpolation, with 16 bits of depth, 4 of subpixels and the nearest texel unless a name says otherwise. Nothing is lit
-but by `lambert`: light from one direction, on interpolated normals. The mesh is one of floats but for `integers`, as
-`alberti bake` writes it. Errors are those of the chapters above, since bits are the same everywhere.
+but by `lambert`: light from one direction, on interpolated normals, and by `vertex`: the same light at vertices
+(`Lit565`). The mesh is one of floats but for `integers`, as `alberti bake` writes it.
+Errors are those of the chapters above, since bits are the same everywhere.
 
 ";
 
@@ -119,7 +120,9 @@ fn estimated(text: &mut String, estimates: &[Estimate]) {
         let kinds: [(&str, Of); 4] = [
             ("interpolation", |special| special.is_none()),
             ("depth, grid, filter", |special| special.is_some_and(|special| !special.is_of_baked())),
-            ("light, integers", |special| matches!(special, Some(Special::Light | Special::Mesh))),
+            ("light, integers", |special| {
+                matches!(special, Some(Special::Light | Special::Mesh | Special::Vertex))
+            }),
             ("both, by the sum", |special| special == Some(Special::Baked)),
         ];
         for (kind, is_of) in kinds {

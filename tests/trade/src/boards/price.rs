@@ -63,20 +63,26 @@ pub enum Special {
     Light,
     /// Vertices of integers.
     Mesh,
-    /// Both, as what `alberti bake` writes is drawn.
+    /// These with light at each.
+    Vertex,
+    /// Integers, and light on their normals, as what `alberti bake` writes is drawn.
     Baked,
 }
 
 impl Special {
     /// Whether it is a part of what `alberti bake` writes, which `alberti advise` does not ask for.
     pub fn is_of_baked(self) -> bool {
-        matches!(self, Self::Light | Self::Mesh | Self::Baked)
+        matches!(self, Self::Light | Self::Mesh | Self::Vertex | Self::Baked)
     }
 }
 
 /// What is special of baked meshes, as it is called.
-const BAKED: [(&str, Special); 3] =
-    [("lambert", Special::Light), ("integers", Special::Mesh), ("integers lambert", Special::Baked)];
+const BAKED: [(&str, Special); 4] = [
+    ("lambert", Special::Light),
+    ("integers", Special::Mesh),
+    ("integers vertex", Special::Vertex),
+    ("integers lambert", Special::Baked),
+];
 
 /// The depth formats beside the usual, as they are called.
 const DEPTHS: [(&str, DepthFormat); 5] = [
@@ -155,6 +161,7 @@ mod tests {
         assert_eq!((found.filter, found.lod), (Filter::Trilinear, Lod::Run));
         let special = |name| policy(name).expect("a policy").special;
         assert_eq!(special("float exact, lambert"), Some(Special::Light));
+        assert_eq!(special("fixed spans:16, integers vertex"), Some(Special::Vertex));
         assert_eq!(special("fixed spans:16, integers lambert"), Some(Special::Baked));
         assert!(
             policy("float exact, trilinear:row").is_none()

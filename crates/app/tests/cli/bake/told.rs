@@ -170,7 +170,7 @@ fn a_floor_of_many_repeats_leaves_other_parts_as_fine() {
 fn mip_maps_are_those_of_all_parts() {
     let object = |filter: &str| format!("[[object]]\nsurface = \"plane\"\nmaterial = \"{filter}\"\n");
     let material =
-        |filter: &str| format!("[material.{filter}]\ntexture = \"soft.png\"\nfilter = \"{filter}\"\n");
+        |filter: &str| format!("[material.{filter}]\ncolor-map = \"soft.png\"\nfilter = \"{filter}\"\n");
     let levels = |filters: [&str; 2]| {
         let scene = filters.map(object).concat() + &filters.map(material).concat();
         let folder = Folder::with(&[("s.toml", scene.as_bytes()), ("soft.png", &image())]);
@@ -219,6 +219,21 @@ fn estimates_are_of_the_size_and_say_what_they_leave_out() {
         // Of a sum of a constant, a side and its square, differences grow by two to four.
         let growth = (large - middle) / (middle - small);
         assert!(small > 0.0 && growth > 2.0 && growth < 4.0, "{small} {middle} {large}");
+    }
+    // Light at vertices is an alternative where there is light, in fixed point.
+    for (arguments, is_told) in
+        [(&[][..], true), (&["--shading", "unlit"], false), (&["--profile", "reference"], false)]
+    {
+        let arguments = [&["ball.obj", "--texture", "soft.png"], arguments].concat();
+        let (report, _) = baked(&folder, "ball", &arguments);
+        for chip in report["chips"].as_array().expect("chips") {
+            let [pixels, vertices] =
+                ["instructions", "instructions_lit_at_vertices"].map(|key| chip[key].as_f64());
+            assert_eq!(vertices.is_some(), is_told, "{arguments:?}");
+            assert!(vertices.is_none_or(|count| count > 1e5 && Some(count * 2.0) < pixels), "{chip}");
+        }
+        let words = ",\nand with that light at the vertices, on the nearest texel:";
+        assert_eq!(bake(&folder, &arguments).stdout.contains(words), is_told, "{arguments:?}");
     }
     let of = |arguments: &[&str]| {
         let run = bake(&folder, &[&["ball.obj", "--texture", "soft.png"], arguments].concat());
