@@ -62,9 +62,9 @@ async fn main(_spawner: Spawner) {
         } else {
             ticker.reset();
         }
+        began = Instant::now();
         // Twice as long as the display waits between its frames.
         is_wired = is_wired && with_timeout(FRAME, tearing.wait_for_rising_edge()).await.is_ok();
-        began = Instant::now();
     };
 
     let chip = Chip::St7789(PixelFormat::Rgb565);
