@@ -42,6 +42,11 @@ impl Pixels {
         self.bytes.get_mut(..N * PIXELS).unwrap_or_default().as_chunks_mut().0
     }
 
+    /// Pixels of one byte, to draw to.
+    fn of_single_bytes(&mut self) -> &mut [u8] {
+        self.of_bytes::<1>().as_flattened_mut()
+    }
+
     /// Pixels of a word, to draw to.
     fn of_words(&mut self) -> &mut [u32] {
         self.drawn = [0, PIXELS];
@@ -98,24 +103,24 @@ formats! {
     xrgb8888: Xrgb8888, texels(), |other| other.of_words();
 
     /// A byte of three channels.
-    rgb332: Rgb332, texels(), |other| other.of_bytes::<1>().as_flattened_mut();
+    rgb332: Rgb332, texels(), |other| other.of_single_bytes();
 
     /// A byte of grey.
-    grey8: Grey8, texels(), |other| other.of_bytes::<1>().as_flattened_mut();
+    grey8: Grey8, texels(), |other| other.of_single_bytes();
 
     /// 16 levels of grey in a pattern, two pixels in a byte.
     grey4: Dithered { format: Grey4, by: Bayer }, texels(),
-        |other| other.of_bytes::<1>().as_flattened_mut(), |pixels| pack::grey4(pixels, WIDTH as usize);
+        |other| other.of_single_bytes(), |pixels| pack::grey4(pixels, WIDTH as usize);
 
     /// Four levels, four pixels in a byte.
     grey2: Dithered { format: Grey2, by: Bayer }, texels(),
-        |other| other.of_bytes::<1>().as_flattened_mut(), |pixels| pack::grey2(pixels, WIDTH as usize);
+        |other| other.of_single_bytes(), |pixels| pack::grey2(pixels, WIDTH as usize);
 
     /// Black and white, eight pixels in a byte.
     grey1: Dithered { format: Grey1, by: Bayer }, texels(),
-        |other| other.of_bytes::<1>().as_flattened_mut(), |pixels| pack::grey1(pixels, WIDTH as usize);
+        |other| other.of_single_bytes(), |pixels| pack::grey1(pixels, WIDTH as usize);
 
     /// Texels that are indices into the target's palette.
     indexed: Indexed(&[Rgba8::BLACK, Rgba8::WHITE]), Stored(INDICES.sampler(Nearest, Repeat)),
-        |other| other.of_bytes::<1>().as_flattened_mut();
+        |other| other.of_single_bytes();
 }

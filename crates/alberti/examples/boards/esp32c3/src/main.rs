@@ -15,7 +15,7 @@
 
 use alberti_demo::{Demo, FIXED, ROWS};
 use embassy_executor::Spawner;
-use embassy_time::{Delay, Duration, Instant, Ticker, with_timeout};
+use embassy_time::{Delay, Duration};
 use esp_hal::clock::CpuClock;
 use esp_hal::dma::{DmaRxBuf, DmaTxBuf};
 use esp_hal::gpio::{Input, InputConfig, Level, Output, OutputConfig, Pull};
@@ -23,7 +23,7 @@ use esp_hal::interrupt::software::SoftwareInterruptControl;
 use esp_hal::spi::master::{Config, Spi};
 use esp_hal::time::Rate;
 use esp_hal::timer::timg::TimerGroup;
-use panel::{Chip, Panel, Pins, PixelFormat, WIDTH};
+use panel::{Chip, Pace, Panel, Pins, PixelFormat, WIDTH};
 use panic_halt as _;
 use static_cell::ConstStaticCell;
 
@@ -64,21 +64,8 @@ async fn main(_spawner: Spawner) {
         reset: Output::new(board.GPIO5, Level::High, OutputConfig::default()),
     };
 
-    let mut tearing = Input::new(board.GPIO3, InputConfig::default().with_pull(Pull::Down));
-    let mut is_wired = true;
-    let (mut ticker, mut began) = (Ticker::every(FRAME), Instant::MIN);
-    let pace = async move || {
-        // After a frame that took longer the next one begins at once, and none catches up.
-        if began.elapsed() < FRAME {
-            ticker.next().await;
-        } else {
-            ticker.reset();
-        }
-        began = Instant::now();
-        // Twice as long as the display waits between its frames.
-        is_wired = is_wired && with_timeout(FRAME, tearing.wait_for_rising_edge()).await.is_ok();
-    };
-
+    let tearing = Input::new(board.GPIO3, InputConfig::default().with_pull(Pull::Down));
+    let pace = Pace::new(FRAME, tearing);
     let chip = Chip::St7789(PixelFormat::Rgb565);
     let Ok(mut panel) = Panel::new(chip, bus, pins, &mut Delay, pace).await else { return };
     let demo = DEMO.take();

@@ -20,8 +20,8 @@ use embassy_nrf::config::HfclkSource;
 use embassy_nrf::gpio::{Input, Level, Output, OutputDrive, Pull};
 use embassy_nrf::peripherals::SPI2;
 use embassy_nrf::spim::{self, Config, Frequency, Spim};
-use embassy_time::{Delay, Duration, Instant, Ticker, with_timeout};
-use panel::{Chip, Panel, Pins, PixelFormat};
+use embassy_time::{Delay, Duration};
+use panel::{Chip, Pace, Panel, Pins, PixelFormat};
 use panic_halt as _;
 use static_cell::ConstStaticCell;
 
@@ -52,21 +52,8 @@ async fn main(_spawner: Spawner) {
         reset: Output::new(board.P0_06, Level::High, OutputDrive::Standard),
     };
 
-    let mut tearing = Input::new(board.P0_07, Pull::Down);
-    let mut is_wired = true;
-    let (mut ticker, mut began) = (Ticker::every(FRAME), Instant::MIN);
-    let pace = async move || {
-        // After a frame that took longer the next one begins at once, and none catches up.
-        if began.elapsed() < FRAME {
-            ticker.next().await;
-        } else {
-            ticker.reset();
-        }
-        began = Instant::now();
-        // Twice as long as the display waits between its frames.
-        is_wired = is_wired && with_timeout(FRAME, tearing.wait_for_rising_edge()).await.is_ok();
-    };
-
+    let tearing = Input::new(board.P0_07, Pull::Down);
+    let pace = Pace::new(FRAME, tearing);
     let chip = Chip::St7789(PixelFormat::Rgb565);
     let Ok(mut panel) = Panel::new(chip, bus, pins, &mut Delay, pace).await else { return };
     let demo = DEMO.take();

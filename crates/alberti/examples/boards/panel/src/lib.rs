@@ -5,14 +5,18 @@
 
 #![no_std]
 
+mod pace;
 #[cfg(test)]
 mod tests;
+
+pub use pace::Pace;
 
 use core::convert::Infallible;
 use core::ops::Range;
 use embedded_hal::digital::OutputPin;
 use embedded_hal::spi::SpiBus;
 use embedded_hal_async::delay::DelayNs;
+use embedded_hal_async::digital::Wait;
 use embedded_hal_async::spi::SpiBus as Transfers;
 
 /// Columns of a display.
@@ -63,23 +67,23 @@ pub struct Pins<P> {
     pub reset: P,
 }
 
-/// A display that waits in a way of the board's before each frame.
+/// A display behind a bus, whose frames are paced.
 #[derive(Debug)]
-pub struct Panel<B, P, W> {
+pub struct Panel<B, P, T> {
     bus: B,
     pins: Pins<P>,
-    pace: W,
+    pace: Pace<T>,
     /// Those that the display takes pixels for.
     columns: Range<u16>,
 }
 
-impl<B, P, W> Panel<B, P, W>
+impl<B, P, T> Panel<B, P, T>
 where
     B: SpiBus + Transfers,
     P: OutputPin<Error = Infallible>,
-    W: AsyncFnMut(),
+    T: Wait,
 {
-    /// Wakes the display, in landscape, with its tearing-effect line on. `pace` waits until a frame may begin.
+    /// Wakes the display, in landscape, with its tearing-effect line on.
     ///
     /// # Errors
     /// Those of the bus.
@@ -88,7 +92,7 @@ where
         bus: B,
         pins: Pins<P>,
         delay: &mut impl DelayNs,
-        pace: W,
+        pace: Pace<T>,
     ) -> Result<Self, B::Error> {
         let mut panel = Self { bus, pins, pace, columns: 0..0 };
         let Ok(()) = panel.pins.select.set_low();
@@ -152,16 +156,16 @@ where
     }
 }
 
-impl<B, P, W> Display for Panel<B, P, W>
+impl<B, P, T> Display for Panel<B, P, T>
 where
     B: SpiBus + Transfers,
     P: OutputPin<Error = Infallible>,
-    W: AsyncFnMut(),
+    T: Wait,
 {
     type Error = B::Error;
 
     async fn begin(&mut self) -> Result<(), B::Error> {
-        (self.pace)().await;
+        self.pace.next().await;
         Ok(())
     }
 

@@ -8,6 +8,7 @@ use core::future::Future;
 use core::pin::pin;
 use core::task::{Context, Poll, Waker};
 use embassy_futures::block_on;
+use embassy_time::Duration;
 use embedded_hal::digital::ErrorType as PinError;
 use embedded_hal::spi::ErrorType;
 use std::rc::Rc;
@@ -20,7 +21,7 @@ enum Event {
     Bytes(Vec<u8>),
     /// A transfer by DMA, whose first poll this is.
     Transfer(Vec<u8>),
-    Wait(u32),
+    Delay(u32),
     Frame,
 }
 use Event::*;
@@ -114,19 +115,48 @@ struct Clock(Log);
 
 impl DelayNs for Clock {
     async fn delay_ns(&mut self, nanoseconds: u32) {
-        self.0.push(Wait(nanoseconds));
+        self.0.push(Delay(nanoseconds));
     }
 
     async fn delay_ms(&mut self, milliseconds: u32) {
-        self.0.push(Wait(milliseconds * 1_000_000));
+        self.0.push(Delay(milliseconds * 1_000_000));
     }
 }
 
-fn panel(chip: Chip, log: &Log) -> Panel<Bus, Pin, impl AsyncFnMut()> {
+/// A tearing-effect pin that rises whenever it is waited for.
+struct Tearing(Log);
+
+impl PinError for Tearing {
+    type Error = Infallible;
+}
+
+impl Wait for Tearing {
+    async fn wait_for_rising_edge(&mut self) -> Result<(), Infallible> {
+        self.0.push(Frame);
+        Ok(())
+    }
+
+    async fn wait_for_high(&mut self) -> Result<(), Infallible> {
+        panic!("an edge is waited for")
+    }
+
+    async fn wait_for_low(&mut self) -> Result<(), Infallible> {
+        panic!("an edge is waited for")
+    }
+
+    async fn wait_for_falling_edge(&mut self) -> Result<(), Infallible> {
+        panic!("an edge is waited for")
+    }
+
+    async fn wait_for_any_edge(&mut self) -> Result<(), Infallible> {
+        panic!("an edge is waited for")
+    }
+}
+
+fn panel(chip: Chip, log: &Log) -> Panel<Bus, Pin, Tearing> {
     let pins = ["select", "data", "reset"].map(|name| Pin(name, log.clone()));
     let [select, data, reset] = pins;
-    let frames = log.clone();
-    let pace = async move || frames.push(Frame);
+    let pace = Pace::new(Duration::MIN, Tearing(log.clone()));
     let mut delay = Clock(log.clone());
     let Ok(panel) =
         block_on(Panel::new(chip, Bus(log.clone()), Pins { select, data, reset }, &mut delay, pace));
@@ -158,12 +188,12 @@ fn the_display_wakes_as_its_data_sheet_says() {
         let mut expected = Vec::from([
             Event::Pin("select", false),
             Event::Pin("reset", false),
-            Wait(10_000_000),
+            Delay(10_000_000),
             Event::Pin("reset", true),
-            Wait(120_000_000),
+            Delay(120_000_000),
         ]);
         expected.extend(command(0x11, &[]));
-        expected.push(Wait(120_000_000));
+        expected.push(Delay(120_000_000));
         expected.extend(command(0x3a, &[format]));
         expected.extend(command(0x36, &[orientation]));
         expected.extend(command(inversion, &[]));

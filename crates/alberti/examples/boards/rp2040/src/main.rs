@@ -19,8 +19,8 @@ use embassy_rp::gpio::{Input, Level, Output, Pull};
 use embassy_rp::peripherals::DMA_CH0;
 use embassy_rp::spi::{Config, Spi};
 use embassy_rp::{bind_interrupts, dma};
-use embassy_time::{Delay, Duration, Instant, Ticker, with_timeout};
-use panel::{Chip, Panel, Pins, PixelFormat};
+use embassy_time::{Delay, Duration};
+use panel::{Chip, Pace, Panel, Pins, PixelFormat};
 use panic_halt as _;
 use static_cell::ConstStaticCell;
 
@@ -46,21 +46,8 @@ async fn main(_spawner: Spawner) {
         reset: Output::new(board.PIN_20, Level::High),
     };
 
-    let mut tearing = Input::new(board.PIN_21, Pull::Down);
-    let mut is_wired = true;
-    let (mut ticker, mut began) = (Ticker::every(FRAME), Instant::MIN);
-    let pace = async move || {
-        // After a frame that took longer the next one begins at once, and none catches up.
-        if began.elapsed() < FRAME {
-            ticker.next().await;
-        } else {
-            ticker.reset();
-        }
-        began = Instant::now();
-        // Twice as long as the display waits between its frames.
-        is_wired = is_wired && with_timeout(FRAME, tearing.wait_for_rising_edge()).await.is_ok();
-    };
-
+    let tearing = Input::new(board.PIN_21, Pull::Down);
+    let pace = Pace::new(FRAME, tearing);
     let chip = Chip::St7789(PixelFormat::Rgb565);
     let Ok(mut panel) = Panel::new(chip, bus, pins, &mut Delay, pace).await else { return };
     let demo = DEMO.take();
