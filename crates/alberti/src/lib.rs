@@ -28,7 +28,8 @@ mod walk;
 pub use alberti_math as math;
 pub use alberti_math::{
     Eye, Fixed, Flat, Frame, Linear, Mode, Object, Octahedral, Point3, Q16, Rgb565Be, Rgb565Le, Rgba8,
-    Rgba8888, Sub4, Sub8, Subpixel, Varying, Vector3, World, for_lanes, glam, lanes, lanes::Lanes, varying,
+    Rgba565, Rgba8888, Sub4, Sub8, Subpixel, Varying, Vector3, World, for_lanes, glam, lanes, lanes::Lanes,
+    varying,
 };
 pub use alberti_projection as projection;
 pub use alberti_projection::{

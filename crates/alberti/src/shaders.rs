@@ -7,6 +7,7 @@
 //! | [`VertexColor565`] | [`Ready565`] | the same in 16 bits |
 //! | [`Unlit`] | `Vec2` | a [`Map`]'s, a texture's for one, at the varying |
 //! | [`Stored`] | `Vec2` | the same, in the texture's own format |
+//! | [`StoredAlpha`] | `Vec2` | texels with alpha, ready for [`Over`](alberti_raster::color::Over) on RGB565 |
 //! | [`TexelDither`] | `Vec2` | the same, a texel of those that a filter would mix |
 //! | [`Tinted`] | the wrapped stage's | the wrapped stage's times a colour |
 //! | [`Sunlit`] | `(Vec3, V)`: a normal and the wrapped stage's | the wrapped stage's, lit |
@@ -58,6 +59,7 @@ mod lit;
 mod map;
 pub mod material;
 mod slide;
+mod stored_alpha;
 mod sunlit;
 #[macro_use]
 mod texture;
@@ -70,6 +72,7 @@ pub use cutout::{AlphaDither, AlphaTest, ColorKey};
 pub use lit::{Light, Lit565};
 pub use map::{Called, Map, Times};
 pub use slide::{Mix, Slide};
+pub use stored_alpha::StoredAlpha;
 pub use sunlit::{Sunlit, face_normal};
 pub use texel_dither::TexelDither;
 pub use texture::{Differentiated, Stored, Unlit};

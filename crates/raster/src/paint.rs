@@ -354,8 +354,13 @@ where
         if const { L::COUNT == 1 } && lanes.bits(kept) == 0 {
             return 0;
         }
+        if const { C::DEPTH_FIRST } {
+            depth_format.keep(lanes, &zs, kept, depth);
+        }
         color_format.store::<L, F::Color>(lanes, words, kept, place, color);
-        depth_format.keep(lanes, &zs, kept, depth);
+        if const { !C::DEPTH_FIRST } {
+            depth_format.keep(lanes, &zs, kept, depth);
+        }
         lanes.bits(kept).count_ones()
     }
 }

@@ -8,13 +8,15 @@
 //! The meaning of the colours is part of the format: they are sRGB, unless it is [`L16`] or wrapped in [`Scalars`] or
 //! [`Normals`].
 
+mod alpha;
 mod bytes;
 mod content;
 mod indexed;
 mod pairs;
 mod storage;
 
-pub use alberti_math::{Rgb332, Rgb565Be, Rgb565Le, Rgba8, Rgba8888};
+pub use alberti_math::{Rgb332, Rgb565Be, Rgb565Le, Rgba8, Rgba565, Rgba8888};
+pub use alpha::Rgb565Alpha;
 pub use bytes::InBytes;
 pub use content::{Content, Normals, Scalars};
 pub use indexed::{Indexed, Indexed1, Indexed2, Indexed4, Indexed8, PaletteColor};
@@ -54,6 +56,12 @@ pub trait TexelFormat: Copy + Debug + 'static {
     #[inline(always)]
     fn native(self, texel: Self::Texel) -> Self::Texel {
         texel
+    }
+
+    /// The texel's colour as it is drawn over pixels of RGB565: of [`Rgb565Alpha`] the texel itself.
+    #[inline]
+    fn rgba565(self, texel: Self::Texel) -> Rgba565 {
+        Rgba565::new(self.decode(texel))
     }
 
     /// The number from 0 to 1 that the texel stands for in a map of numbers, such as heights, as a count of 65535ths:

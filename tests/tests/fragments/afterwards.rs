@@ -10,7 +10,7 @@
 use alberti::glam::Vec3;
 use alberti::shaders::{AlphaDither, AlphaTest, Solid};
 use alberti_math::lanes::{Floating, One};
-use alberti_math::{Fixed, Rgb565Be, Rgba8, Sub8};
+use alberti_math::{Fixed, Rgb565Be, Rgba8, Rgba565, Sub8};
 use alberti_oracle::rng::{Rng, run_seed};
 use alberti_raster::color::{
     AnyBlend, Bayer, Blended, BlueNoise, Dithered, InLight, Over, ReadColor, Rgb332, Rgb888,
@@ -46,9 +46,20 @@ fn drawn<C: ColorFormat>(
     triangles: &[[Vertex<Vec3>; 3]],
     pieces: &[[usize; 4]],
 ) -> Vec<C::Pixel> {
+    drawn_by(shade, format, interpolation, lanes, (triangles, pieces))
+}
+
+/// The same by another stage.
+fn drawn_by<C: ColorFormat>(
+    stage: impl FragmentStage<Vec3>,
+    format: C,
+    interpolation: impl Interpolation,
+    lanes: impl Floating,
+    (triangles, pieces): (&[[Vertex<Vec3>; 3]], &[[usize; 4]]),
+) -> Vec<C::Pixel> {
     let mut color: Vec<C::Pixel> = (0..WIDTH * HEIGHT).map(|k| format.pixel(background(k))).collect();
     let mut depth = vec![(); color.len()];
-    let paint = Paint { stage: shade, interpolation, subpixel: Sub8, cull: Cull::None };
+    let paint = Paint { stage, interpolation, subpixel: Sub8, cull: Cull::None };
     for &[left, right, top, bottom] in pieces {
         let (color, depth) =
             (&mut color[top * WIDTH..bottom * WIDTH], &mut depth[top * WIDTH..bottom * WIDTH]);
@@ -71,10 +82,21 @@ fn background(k: usize) -> Rgba8 {
 
 /// The same bits by one lane and by several, in one piece and in some.
 fn same_bits<C: ColorFormat<Pixel: PartialEq>>(format: C, interpolation: impl Interpolation, stream: u64) {
-    let all = triangles(run_seed() ^ stream << 32);
-    let whole = drawn(format, interpolation, One, &all, &WHOLE);
-    assert!(whole == for_widest!(lanes => drawn(format, interpolation, lanes, &all, &PIECES)), "{format:?}");
-    let untouched = drawn(format, interpolation, One, &[], &WHOLE);
+    same_bits_by(shade, format, interpolation, stream);
+}
+
+/// The same by another stage.
+fn same_bits_by<C: ColorFormat<Pixel: PartialEq>>(
+    stage: impl FragmentStage<Vec3>,
+    format: C,
+    interpolation: impl Interpolation,
+    stream: u64,
+) {
+    let all = &triangles(run_seed() ^ stream << 32);
+    let whole = drawn_by(stage, format, interpolation, One, (all, &WHOLE));
+    let pieces = for_widest!(lanes => drawn_by(stage, format, interpolation, lanes, (all, &PIECES)));
+    assert!(whole == pieces, "{format:?}");
+    let untouched = drawn_by(stage, format, interpolation, One, (&[], &WHOLE));
     let changed = whole.iter().zip(&untouched).filter(|(a, b)| a != b).count();
     assert!(changed > 3000, "next to nothing was drawn");
 }
@@ -85,6 +107,10 @@ fn lanes_and_pieces_change_no_bit() {
     same_bits(Blended { format: Rgb565Be, by: Over }, Exact, 2);
     same_bits(Dithered { format: Rgb332, by: BlueNoise }, Exact, 3);
     same_bits(Blended { format: Dithered { format: Rgb888, by: Bayer }, by: InLight(Over) }, Exact, 4);
+    // Colours that are ready to be drawn over.
+    let ready = |v: Vec3| shade(v).map(Rgba565::new);
+    same_bits_by(ready, Blended { format: Rgb565Be, by: Over }, Exact, 5);
+    same_bits_by(ready, Blended { format: Rgb565Be, by: Over }, FixedPoint(Spans16), 6);
 }
 
 /// Each triangle drawn alone says where its fragments are and what they are; by the definition each is mixed with what

@@ -6,7 +6,7 @@ pub use any::AnyBlend;
 
 use super::{ColorFormat, FragmentColor, ReadColor};
 use alberti_math::lanes::Lanes;
-use alberti_math::{Rgba8, high, srgb};
+use alberti_math::{LOW_WORDS_ONLY, Rgba8, high, srgb};
 use core::fmt::Debug;
 
 /// A colour format that mixes each fragment with what its pixel shows: for
@@ -40,6 +40,8 @@ pub struct Blended<C, B> {
 impl<C: ReadColor, B: Blend> ColorFormat for Blended<C, B> {
     type Pixel = C::Pixel;
 
+    const DEPTH_FIRST: bool = B::DEPTH_FIRST;
+
     #[inline(always)]
     fn pixel(self, color: Rgba8) -> C::Pixel {
         self.format.pixel(color)
@@ -60,6 +62,9 @@ impl<C: ReadColor, B: Blend> ColorFormat for Blended<C, B> {
         pixels: &mut L::Each<C::Pixel>,
     ) {
         let Self { format, by } = self;
+        if const { Shade::IS_RGBA565 } && by.is_over() {
+            return format.over(lanes, colors, mask, place, pixels);
+        }
         let new = format.shown::<L, Shade>(lanes, colors);
         if let Some(share) = by.share(lanes, lanes.shr(new, 24)) {
             return format.mix::<L, Shade>(lanes, (colors, share), mask, place, pixels);
@@ -72,6 +77,9 @@ impl<C: ReadColor, B: Blend> ColorFormat for Blended<C, B> {
 /// A way of mixing a new colour, the source, with that of a pixel, the destination. Alpha is the source's; a format
 /// with alpha keeps what is behind the pixel then.
 pub trait Blend: Copy + Debug + Send + Sync + 'static {
+    /// That of [`ColorFormat`].
+    const DEPTH_FIRST: bool = true;
+
     /// A channel of both, where `one` is the greatest value, at most 65535, and alpha counts 255ths.
     fn channel(self, new: u32, old: u32, alpha: u32, one: u32) -> u32;
 
@@ -80,6 +88,12 @@ pub trait Blend: Copy + Debug + Send + Sync + 'static {
 
     /// The colours of [`channel`](Self::channel) and [`alpha`](Self::alpha) for bytes, several at a time.
     fn mix<L: Lanes>(self, lanes: L, new: L::U32, old: L::U32) -> L::U32;
+
+    /// Whether it is [`Over`], which formats have ways of their own for: [`ReadColor::over`].
+    #[inline(always)]
+    fn is_over(self) -> bool {
+        false
+    }
 
     /// The part of the new colour, in 255ths, where [`mix`](Self::mix) is a mean by it; `alpha` is the source's.
     /// Formats have ways of their own for means: [`ReadColor::mix`].
@@ -179,6 +193,11 @@ impl Blend for Over {
     }
 
     #[inline(always)]
+    fn is_over(self) -> bool {
+        true
+    }
+
+    #[inline(always)]
     fn share<L: Lanes>(self, _: L, alpha: L::U32) -> Option<L::U32> {
         Some(alpha)
     }
@@ -201,6 +220,8 @@ pub struct Constant(
 );
 
 impl Blend for Constant {
+    const DEPTH_FIRST: bool = !LOW_WORDS_ONLY;
+
     #[inline(always)]
     fn channel(self, new: u32, old: u32, _: u32, one: u32) -> u32 {
         Over.channel(new, old, self.0.into(), one)
@@ -295,6 +316,8 @@ impl Blend for Additive {
 pub struct Multiply;
 
 impl Blend for Multiply {
+    const DEPTH_FIRST: bool = false;
+
     #[inline(always)]
     fn channel(self, new: u32, old: u32, _: u32, one: u32) -> u32 {
         (new * old + one / 2) / one

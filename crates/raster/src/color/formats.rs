@@ -7,7 +7,7 @@ pub use rgb565::rgb565;
 
 use super::{ColorFormat, FragmentColor, store_each};
 use alberti_math::lanes::{Lanes, One};
-use alberti_math::{Rgba8, Rgba8888};
+use alberti_math::{Rgba8, Rgba565, Rgba8888};
 use core::fmt::Debug;
 
 /// A format whose pixels say what colour they show.
@@ -48,6 +48,23 @@ pub trait ReadColor: ColorFormat {
     ) {
         let (new, old) = (self.shown::<L, Shade>(lanes, colors), self.colors(lanes, pixels));
         self.store::<L, Rgba8>(lanes, super::blend::mean(lanes, new, old, share), mask, place, pixels);
+    }
+
+    /// Stores new colours, the words of [`Rgba565`], as [`Over`](super::Over) has them above those of pixels.
+    ///
+    /// # Precision
+    /// That of [`mix`](Self::mix); of RGB565 that of [`Rgba565`].
+    #[inline(always)]
+    fn over<L: Lanes>(
+        self,
+        lanes: L,
+        words: L::U32,
+        mask: L::Mask,
+        place: [i32; 2],
+        pixels: &mut L::Each<Self::Pixel>,
+    ) {
+        let colors = self.shown::<L, Rgba565>(lanes, words);
+        self.mix::<L, Rgba8>(lanes, (colors, lanes.shr(colors, 24)), mask, place, pixels);
     }
 }
 
@@ -116,6 +133,8 @@ pub(super) fn store_levels<F: Levels, L: Lanes, Shade: FragmentColor>(
 /// Rounding to the nearest level, as formats of few levels do it.
 macro_rules! nearest {
     () => {
+        const DEPTH_FIRST: bool = false;
+
         #[inline(always)]
         fn pixel(self, color: Rgba8) -> Self::Pixel {
             let word = levels(self, One, One.word(color.to_bits()), One.word(HALF));

@@ -1,9 +1,9 @@
 //! Texels in files that are read in place, where words may begin at any byte.
 
-use super::{Content, L16, Rgb565, Rgb565Be, Rgb565Le, Rgb565Pairs, Rgba4444, TexelFormat};
+use super::{Content, L16, Rgb565, Rgb565Alpha, Rgb565Be, Rgb565Le, Rgb565Pairs, Rgba4444, TexelFormat};
 use crate::Packed;
-use alberti_math::Rgba8;
 use alberti_math::lanes::Lanes;
+use alberti_math::{Rgba8, Rgba565};
 
 /// A format of words whose texels are bytes, at any address: the low one first, but for [`Rgb565Be`].
 ///
@@ -46,6 +46,11 @@ macro_rules! in_bytes {
                 self.0.native(<$word>::$of(texel)).to_le_bytes()
             }
 
+            #[inline(always)]
+            fn rgba565(self, texel: [u8; size_of::<$word>()]) -> Rgba565 {
+                self.0.rgba565(<$word>::$of(texel))
+            }
+
             #[inline]
             fn scalar(self, texel: [u8; size_of::<$word>()]) -> u16 {
                 self.0.scalar(<$word>::$of(texel))
@@ -73,6 +78,7 @@ in_bytes! {
     Rgba4444: u16, from_le_bytes, to_le_bytes;
     L16: u16, from_le_bytes, to_le_bytes;
     Rgb565Pairs: u32, from_le_bytes, to_le_bytes;
+    Rgb565Alpha: u32, from_le_bytes, to_le_bytes;
     // Their words have the order in memory already.
     Rgb565Le: u16, from_ne_bytes, to_ne_bytes;
     Rgb565Be: u16, from_ne_bytes, to_ne_bytes;

@@ -1,6 +1,6 @@
 //! The ways of drawing that are measured: each is one call of [`alberti::draw`] on prepared memory.
 
-use crate::shapes::{CHEQUER_PAIRS, Model, TEXTURE};
+use crate::shapes::{CHEQUER_PAIRS, GLASS, Model, TEXTURE};
 use crate::torus::{HalfWords, TORUS_VERTICES, Vertex};
 use crate::{Camera, HEIGHT, PIXELS, Target, WIDTH};
 use alberti::glam::{Vec2, Vec3};
@@ -8,7 +8,7 @@ use alberti::lanes::{Lanes, One};
 use alberti::raster::Fragments;
 use alberti::raster::color::{Additive, Blended, Constant, Over};
 use alberti::shaders::material::{Color, Emission, Gouraud};
-use alberti::shaders::{Ready565, Solid, Stored, TexelDither, Unlit, VertexColor565};
+use alberti::shaders::{Ready565, Solid, Stored, StoredAlpha, TexelDither, Unlit, VertexColor565};
 use alberti::texture::{Bilinear, Nearest, Repeat};
 use alberti::{
     Affine, ColorFormat, Counters, D16, DepthFormat, Exact, FixedPoint, FragmentStage, Geometry, IntegerMesh,
@@ -93,6 +93,9 @@ blends! {
 
     /// The nearest texel, as opaque as it is green.
     over_fixed(model): Over, glass();
+
+    /// The nearest texel, as opaque as it is green, of words for this.
+    over_stored_fixed(model): Over, StoredAlpha(GLASS.sampler(Nearest, Repeat));
 
     /// The nearest texel as light.
     additive_fixed(model): Additive, glass();

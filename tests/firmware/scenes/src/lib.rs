@@ -25,9 +25,9 @@ pub use draws::{
     bilinear_fixed, bilinear_pairs_fixed, bilinear_stored_fixed, bounded_bands, constant_fixed,
     dithered_affine_fixed, flat, flat_fixed, flat_integers, flat_mesh, flat_meshlets, flat_without_depth,
     glass_fixed, gouraud, gouraud_fixed, gouraud_mesh, gouraud_meshlets, integers_bands, material,
-    material_absent, material_emission, meshlets_bands, meshlets_cache, over_fixed, pairs_affine_fixed,
-    textured, textured_affine, textured_bands, textured_bounded, textured_fixed, textured_meshlets,
-    textured_planes, textured_spans,
+    material_absent, material_emission, meshlets_bands, meshlets_cache, over_fixed, over_stored_fixed,
+    pairs_affine_fixed, textured, textured_affine, textured_bands, textured_bounded, textured_fixed,
+    textured_meshlets, textured_planes, textured_spans,
 };
 pub use floor::{
     derived_fixed, dithered_bilinear_fixed, dithered_trilinear_fixed, leveled_bilinear_fixed, leveled_mesh,
@@ -125,6 +125,8 @@ pub static SCENES: &[Scene] = &[
     fill!("fixed-glass-4", 4, glass_fixed),
     fill!("fixed-over", 1, over_fixed),
     fill!("fixed-over-4", 4, over_fixed),
+    fill!("fixed-over-stored", 1, over_stored_fixed),
+    fill!("fixed-over-stored-4", 4, over_stored_fixed),
     fill!("fixed-additive", 1, additive_fixed),
     fill!("fixed-additive-4", 4, additive_fixed),
     fill!("fixed-premultiplied", 1, premultiplied),

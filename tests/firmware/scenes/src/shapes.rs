@@ -10,9 +10,9 @@ use crate::{HEIGHT, WIDTH};
 use alberti::glam::{Mat3, Vec3};
 use alberti::texture::{
     Known, Mipmap, PowerOfTwo, Texture,
-    format::{L8, Rgb565, Rgb565Pairs},
+    format::{L8, Rgb565, Rgb565Alpha, Rgb565Pairs},
 };
-use alberti::{Ball, Eye, Frame, Meshlet, Point3, World};
+use alberti::{Ball, Eye, Frame, Meshlet, Point3, Rgba8, Rgba565, World};
 
 /// Width by height of the frame.
 #[expect(clippy::cast_precision_loss, reason = "small integers")]
@@ -131,6 +131,27 @@ pub static INDICES: Texture<'static, L8, Known<128, 128>> = {
         bytes
     };
     let Ok(texture) = Texture::new(L8, &BYTES, 128, 128) else {
+        panic!("the texels are a square of this side")
+    };
+    let Some(texture) = texture.known() else { panic!("its side is this") };
+    texture
+};
+
+/// The texels of [`TEXTURE`], as opaque as they are green.
+pub static GLASS: Texture<'static, Rgb565Alpha, Known<128, 128>> = {
+    static WORDS: [u32; 128 * 128] = {
+        let (mut words, mut at) = ([0; 128 * 128], 0);
+        while at < words.len() {
+            let texel = CHEQUER[at] as u32;
+            // As the format's decoder has them.
+            let [r, g, b] = [texel >> 11, texel >> 5 & 63, texel & 31];
+            let [r, g, b] = [r << 3 | r >> 2, g << 2 | g >> 4, b << 3 | b >> 2];
+            words[at] = Rgba565::new(Rgba8::from_bits(g << 24 | b << 16 | g << 8 | r)).to_bits();
+            at += 1;
+        }
+        words
+    };
+    let Ok(texture) = Texture::new(Rgb565Alpha, &WORDS, 128, 128) else {
         panic!("the texels are a square of this side")
     };
     let Some(texture) = texture.known() else { panic!("its side is this") };

@@ -40,6 +40,7 @@ fn geometry_is_its_numbers() {
     is(math::Frame2::<Object, World>::IDENTITY, r#"{"axes":[1.0,0.0,0.0,1.0],"origin":[0.0,0.0]}"#);
     is((Flat(2.0_f32), Linear(3.0_f32)), "[2.0,3.0]");
     is(Rgba8::new(1, 2, 3, 4), "[1,2,3,4]");
+    is(Rgba565::from_bits(1234), "1234");
     refused::<Point3<World>>("[1.0,2.0]", "expected");
     refused::<Rgba8>("[1,2,3,256]", "256");
 }

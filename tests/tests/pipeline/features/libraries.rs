@@ -84,6 +84,7 @@ fn plain_values_are_their_bits() {
     assert_eq!(bytemuck::cast_slice::<_, u8>(&[Flat(1.0_f32), Flat(2.0)]), bytes.as_flattened());
     assert_eq!(bytemuck::cast_slice::<_, u8>(&[Linear(1.0_f32), Linear(2.0)]), bytes.as_flattened());
     assert_eq!(bytemuck::cast::<Rgba8, u32>(Rgba8::new(1, 2, 3, 4)), 0x04_03_02_01);
+    assert_eq!(bytemuck::cast::<Rgba565, u32>(Rgba565::from_bits(7)), 7);
     assert_eq!(bytemuck::cast::<Q16, i32>(Q16::ONE), 1 << 16);
     assert_eq!(bytemuck::cast::<Fixed, u32>(Fixed::from_bits(77)), 77);
 }

@@ -54,6 +54,7 @@ fn small_values_are_sent() {
     assert_eq!(sent(&AnyBlend::Constant(9)), [2, 9]);
     assert_eq!(sent(&Sub8), [1]);
     assert_eq!(sent(&Rgba8::new(1, 2, 3, 4)), [1, 2, 3, 4]);
+    assert_eq!(sent(&Rgba565::from_bits(0x04_03_02_01)), [1, 2, 3, 4]);
     // A name, and after it the numbers of the fields.
     let biased = sent(&Biased { format: OrEqual(D16), constant: 1.0, slope: -2.5, clamp: 0.25 });
     let numbers: Vec<u8> = [1.0_f32, -2.5, 0.25].iter().flat_map(|number| number.to_le_bytes()).collect();

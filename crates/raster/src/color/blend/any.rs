@@ -76,6 +76,11 @@ impl Blend for AnyBlend {
     }
 
     #[inline(always)]
+    fn is_over(self) -> bool {
+        matches!(self, Self::Over)
+    }
+
+    #[inline(always)]
     fn share<L: Lanes>(self, lanes: L, alpha: L::U32) -> Option<L::U32> {
         any!(self, blend => blend.share(lanes, alpha), None)
     }

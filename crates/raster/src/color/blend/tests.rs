@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::color::{Grey1, Grey2, Grey4, Grey8, Indexed, Rgb332, Rgb444, Rgb666, Rgb888, Xrgb8888};
-use alberti_math::Rgba8888;
+use alberti_math::{Rgb565Be, Rgb565Le, Rgba565, Rgba8888};
 use alberti_math::lanes::One;
 
 /// The nearest integer to a/b.
@@ -159,4 +159,49 @@ fn blends_in_every_format_are_of_what_is_shown() {
         // The mean's rounding moves it by less than 1.
         apart(found) - all.into_iter().fold(f64::INFINITY, f64::min)
     });
+}
+
+/// Colours that are ready to be drawn over RGB565, and what is shown after that.
+fn ready<F: ReadColor<Pixel: PartialEq>>(format: F, off: impl Fn([f64; 3], [f64; 3]) -> f64) {
+    for k in 0..3000_u32 {
+        let bytes = [k, k + 5000].map(|k| k.wrapping_mul(0x9e37_79b1).to_le_bytes());
+        let [word, before] = bytes.map(|[r, g, b, a]| Rgba8::new(r, g, b, a));
+        let word = Rgba565::new(word);
+        let before = [format.pixel(before)];
+        let [[n @ .., alpha], [o @ .., _]] =
+            [word.to_rgba8(), format.color(before[0])].map(|color| color.to_bytes().map(f64::from));
+        let after = |by: AnyBlend, mask| {
+            let mut pixel = before;
+            let word = One.word(word.to_bits());
+            Blended { format, by }.store::<One, Rgba565>(One, word, mask, [0; 2], &mut pixel);
+            pixel
+        };
+        let mut pixel = before;
+        let bits = One.word(word.to_bits());
+        Blended { format, by: Over }.store::<One, Rgba565>(One, bits, true, [0; 2], &mut pixel);
+        assert!(pixel == after(AnyBlend::Over, true) && before == after(AnyBlend::Over, false));
+        let [found @ .., _] = format.color(pixel[0]).to_bytes().map(f64::from);
+        let a = alpha / 255.0;
+        let exact = [0, 1, 2].map(|c| n[c] * a + o[c] * (1.0 - a));
+        assert!(off(found, exact) <= 1.0, "{format:?} {word:?} {o:?}: {found:?} {exact:?}");
+        // Other blends have its colour.
+        let [found @ .., _] = format.color(after(AnyBlend::Multiply, true)[0]).to_bytes().map(f64::from);
+        let exact = [0, 1, 2].map(|c| n[c] * o[c] / 255.0);
+        assert!(off(found, exact) <= 1.0, "{format:?} {word:?} {o:?}: {found:?} {exact:?}");
+    }
+}
+
+#[test]
+fn colors_are_drawn_over_any_format_as_they_are() {
+    // 1.5 levels, green 2, and half a byte of what is shown.
+    let within = |found: [f64; 3], exact: [f64; 3]| {
+        let off = |c: usize, most: f64| (found[c] - exact[c]).abs() / (most + 0.5);
+        off(0, 1.5 * 255.0 / 31.0).max(off(1, 2.0 * 255.0 / 63.0)).max(off(2, 1.5 * 255.0 / 31.0))
+    };
+    ready(Rgb565Le, within);
+    ready(Rgb565Be, within);
+    ready(Rgba8888, steps([255; 3]));
+    ready(Rgb444, steps([15; 3]));
+    ready(Rgb332, steps([7, 7, 3]));
+    ready(Grey8, greys(255));
 }

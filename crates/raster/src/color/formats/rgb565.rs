@@ -5,6 +5,18 @@ use crate::color::{ColorFormat, FragmentColor};
 use alberti_math::lanes::Lanes;
 use alberti_math::{Rgb565Be, Rgb565Le, Rgba8};
 
+/// Replaces pixels by an expression of them, spread.
+macro_rules! replace {
+    ($in_order:ident, ($lanes:ident, $mask:ident, $pixels:ident), |$old:ident| $new:expr) => {
+        let word = |k: usize| $pixels.as_ref().get(k).map_or(0, |pixel| u32::from(pixel.$in_order()));
+        let $old = spread($lanes, $lanes.load_words(&$lanes.each(word)));
+        let (new, bits) = ($lanes.store_words($new), $lanes.bits($mask));
+        for (k, (pixel, &word)) in $pixels.as_mut().iter_mut().zip(new.as_ref()).enumerate() {
+            *pixel = if bits >> k & 1 != 0 { (word as u16).$in_order() } else { *pixel };
+        }
+    };
+}
+
 macro_rules! rgb565 {
     ($($name:ident: $in_order:ident;)*) => {$(
         /// # Precision
@@ -38,14 +50,22 @@ macro_rules! rgb565 {
                     };
                     spread(lanes, lanes.load_words(&lanes.each(word)))
                 };
-                let word = |k: usize| pixels.as_ref().get(k).map_or(0, |pixel| u32::from(pixel.$in_order()));
-                let old = lanes.load_words(&lanes.each(word));
                 let share = lanes.shr(share + lanes.word(4), 3);
-                let mixed = lanes.store_words(mean565(lanes, [new, spread(lanes, old)], share));
-                let bits = lanes.bits(mask);
-                for (k, (pixel, &word)) in pixels.as_mut().iter_mut().zip(mixed.as_ref()).enumerate() {
-                    *pixel = if bits >> k & 1 != 0 { (word as u16).$in_order() } else { *pixel };
-                }
+                replace!($in_order, (lanes, mask, pixels), |old| mean565(lanes, [new, old], share));
+            }
+
+            #[inline(always)]
+            #[expect(clippy::cast_possible_truncation, reason = "words of 16 bits")]
+            fn over<L: Lanes>(
+                self,
+                lanes: L,
+                words: L::U32,
+                mask: L::Mask,
+                _: [i32; 2],
+                pixels: &mut L::Each<u16>,
+            ) {
+                let share = lanes.shr(words, 10) & lanes.word(63);
+                replace!($in_order, (lanes, mask, pixels), |old| joined(lanes, old * share + words));
             }
         }
 
@@ -102,7 +122,12 @@ fn spread_of<L: Lanes>(lanes: L, color: L::U32) -> L::U32 {
 #[inline(always)]
 fn mean565<L: Lanes>(lanes: L, [new, old]: [L::U32; 2], share: L::U32) -> L::U32 {
     // The fields of the sum are none below 0; differences that are borrow from the next, and pay it back.
-    let sum = lanes.shl(old, 5) + (new - old) * share + lanes.word(HALVES);
+    joined(lanes, lanes.shl(old, 5) + (new - old) * share + lanes.word(HALVES))
+}
+
+/// The 16-bit colour of 32 times one that is spread, in the low half of a word.
+#[inline(always)]
+fn joined<L: Lanes>(lanes: L, sum: L::U32) -> L::U32 {
     let mean = lanes.shr(sum, 5) & lanes.word(SPREAD);
     mean | lanes.shr(mean, 16)
 }
