@@ -19,10 +19,10 @@ use alberti::raster::color::{
     Indexed, Multiply, Over, Premultiplied, Rgb332, Rgb444, Rgb666, Rgb888, Xrgb8888, resolve, rgb565,
 };
 use alberti::shaders::fog::{ExponentialFog, Fog, Fogged, LinearFog, SquaredFog};
-use alberti::shaders::{AlphaDither, AlphaTest, ColorKey, Solid, Stored, Sunlit, Unlit};
-use alberti::texture::format::{L8, Rgb565, Rgba8888 as Texels};
+use alberti::shaders::{AlphaDither, AlphaTest, ColorKey, Solid, Stored, StoredAlpha, Sunlit, Unlit};
+use alberti::texture::format::{L8, Rgb565, Rgb565Alpha, Rgba8888 as Texels};
 use alberti::texture::surface::{Grid, Parametric, Torus};
-use alberti::texture::{Nearest, Repeat, Texture};
+use alberti::texture::{Nearest, Repeat, TexelFormat as _, Texture};
 use alberti::{
     Always, Bands, ColorFormat, Cull, F32, FragmentStage, Frame, Geometry, Mesh, Object, Pass, Perspective,
     Point3, Rgb565Le, Rgba8, Rgba8888, Silhouette, Slot, Stats, Target, Vector3, View, for_lanes,
@@ -99,6 +99,9 @@ fn afterwards(criterion: &mut Criterion) {
     let words: Vec<u16> = texels.iter().map(|&texel| rgb565(texel.into())).collect();
     let stored = Texture::new(Rgb565, &words, SIDE, SIDE).expect("a texture");
     let stored = Stored(stored.power_of_two().expect("a power of two").sampler(Nearest, Repeat));
+    let ready: Vec<u32> = texels.iter().map(|&texel| Rgb565Alpha.encode(texel.into())).collect();
+    let ready = Texture::new(Rgb565Alpha, &ready, SIDE, SIDE).expect("a texture");
+    let ready = StoredAlpha(ready.power_of_two().expect("a power of two").sampler(Nearest, Repeat));
     let reds: Vec<u8> = texels.iter().map(|texel| texel[0]).collect();
     let indices = Texture::new(L8, &reds, SIDE, SIDE).expect("a texture");
     let indices = Stored(indices.power_of_two().expect("a power of two").sampler(Nearest, Repeat));
@@ -204,6 +207,8 @@ fn afterwards(criterion: &mut Criterion) {
         "rgb565 bayer": Dithered { format: Rgb565Le, by: Bayer }, 0, bare, surface, dithered;
         "rgb565 blue noise": Dithered { format: Rgb565Le, by: BlueNoise }, 0, bare, surface, dithered;
         "rgb565 over": Blended { format: Rgb565Le, by: Over }, rgb565(BEFORE), bare, surface,
+            |k: usize, found: u16| mean565(k, found, channels(plain[k])[3] / 255.0);
+        "rgb565 over, stored": Blended { format: Rgb565Le, by: Over }, rgb565(BEFORE), bare, ready,
             |k: usize, found: u16| mean565(k, found, channels(plain[k])[3] / 255.0);
         "rgb565 constant": Blended { format: Rgb565Le, by: Constant(51) }, rgb565(BEFORE), bare, surface,
             |k: usize, found: u16| mean565(k, found, 0.2);

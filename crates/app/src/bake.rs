@@ -46,6 +46,8 @@ pub enum Format {
     Rgb565be,
     /// rgb565, each texel with the next in a word: twice the flash, and less to do for bilinear filters in integers.
     Rgb565Pairs,
+    /// rgb565 with alpha, multiplied by it, in four bytes: drawn over RGB565 in half the instructions of rgba8.
+    Rgb565Alpha,
     /// 4 bits for red, green, blue and alpha each.
     Rgb444,
     /// 3, 3 and 2 bits in a byte.
@@ -91,6 +93,7 @@ impl Format {
             Self::Grey8 => TexelCode::L8,
             Self::Grey16 => TexelCode::L16,
             Self::Rgb565Pairs => TexelCode::Rgb565Pairs,
+            Self::Rgb565Alpha => TexelCode::Rgb565Alpha,
             Self::Grey1 | Self::Indexed1 => TexelCode::Indexed1,
             Self::Grey2 | Self::Indexed2 => TexelCode::Indexed2,
             Self::Grey4 | Self::Indexed4 => TexelCode::Indexed4,

@@ -2,8 +2,8 @@
 
 use crate::Rgba8;
 
-/// Red, green and blue of 5, 6 and 5 bits, each multiplied by alpha already, and of a pixel behind it the share that
-/// stays, in 32nds from 0 to 32.
+/// Red, green and blue of 5, 6 and 5 bits, multiplied by alpha. And the share that stays of a pixel behind, in 32nds
+/// from 0 to 32.
 ///
 /// ```text
 /// bit 31   26 25 24     21 20  16 15     10 9    5 4 3     0
@@ -157,7 +157,7 @@ mod tests {
             words += 1;
         }
         assert_eq!(words, 65536);
-        // Whatever bits there are, there is a colour.
+        // A colour there is of any bits.
         for k in 0..100_000_u32 {
             Rgba565::from_bits(k.wrapping_mul(0x9e37_79b1)).to_rgba8();
         }

@@ -51,6 +51,10 @@ pub trait FragmentStage<V: Varying>: Copy {
     /// A stage that hands on all attributes through memory is faster with fewer.
     const WIDE: bool = true;
 
+    /// Whether a depth is stored before its colour, whatever the format says: see
+    /// [`ColorFormat`](crate::ColorFormat::DEPTH_FIRST).
+    const DEPTH_FIRST: bool = false;
+
     /// That policy.
     #[inline(always)]
     fn derivatives(&self) -> Self::Derivatives {

@@ -354,11 +354,12 @@ where
         if const { L::COUNT == 1 } && lanes.bits(kept) == 0 {
             return 0;
         }
-        if const { C::DEPTH_FIRST } {
+        let depth_first = const { C::DEPTH_FIRST || F::DEPTH_FIRST };
+        if depth_first {
             depth_format.keep(lanes, &zs, kept, depth);
         }
         color_format.store::<L, F::Color>(lanes, words, kept, place, color);
-        if const { !C::DEPTH_FIRST } {
+        if !depth_first {
             depth_format.keep(lanes, &zs, kept, depth);
         }
         lanes.bits(kept).count_ones()

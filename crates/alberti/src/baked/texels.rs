@@ -5,8 +5,8 @@ use super::error::{BakedError, Fault};
 use super::sections::{half, word};
 use alberti_texture::Mipmap;
 use alberti_texture::format::{
-    InBytes, Indexed, Indexed1, Indexed2, Indexed4, Indexed8, L8, L16, Rgb8, Rgb332, Rgb565, Rgb565Be,
-    Rgb565Pairs, Rgba4444, Rgba8888, Storage,
+    InBytes, Indexed, Indexed1, Indexed2, Indexed4, Indexed8, L8, L16, Rgb8, Rgb332, Rgb565, Rgb565Alpha,
+    Rgb565Be, Rgb565Pairs, Rgba4444, Rgba8888, Storage,
 };
 
 /// A texture with its levels, by the format of its texels. [`Mipmap::level`] of 0 is the largest; a texture that is
@@ -40,6 +40,8 @@ pub enum Texels<'a> {
     Indexed2(Mipmap<'a, Indexed2<'a, [u8; 4]>>),
     /// Colours of 16 bits, each with the next, for bilinear filters of stages in integers.
     Rgb565Pairs(Mipmap<'a, InBytes<Rgb565Pairs>>),
+    /// Colours of 16 bits with alpha, for what is drawn over RGB565.
+    Rgb565Alpha(Mipmap<'a, InBytes<Rgb565Alpha>>),
 }
 
 /// The number of a format of texels in a file.
@@ -72,6 +74,8 @@ pub enum TexelCode {
     Indexed2 = 12,
     /// [`Texels::Rgb565Pairs`].
     Rgb565Pairs = 13,
+    /// [`Texels::Rgb565Alpha`].
+    Rgb565Alpha = 14,
 }
 
 impl<'a> Texels<'a> {
@@ -106,7 +110,8 @@ impl<'a> Texels<'a> {
             11 => levels.of(Indexed { palette }, texels).map(Self::Indexed1),
             12 => levels.of(Indexed { palette }, texels).map(Self::Indexed2),
             13 => levels.chunks(InBytes(Rgb565Pairs), texels).map(Self::Rgb565Pairs),
-            _ => return Err(wrong(Fault::Format, code.into(), 13)),
+            14 => levels.chunks(InBytes(Rgb565Alpha), texels).map(Self::Rgb565Alpha),
+            _ => return Err(wrong(Fault::Format, code.into(), 14)),
         };
         let expected = u32::from(width) * u32::from(height);
         map.ok_or_else(|| wrong(Fault::Texels, count(levels.length), expected))

@@ -110,6 +110,7 @@ impl Varying for Ready565 {
 impl FragmentStage<Ready565> for VertexColor565 {
     type Color = u16;
     type Derivatives = NoDerivatives;
+    const DEPTH_FIRST: bool = true;
 
     // Interpolated components stay between those of the vertices, and so do not leave the channels.
     #[inline(always)]

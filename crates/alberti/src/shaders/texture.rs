@@ -110,6 +110,7 @@ pub struct Stored<S>(
 impl<F: Packed, U: Wrap, V: Wrap, Z: Size> FragmentStage<Vec2> for Stored<Sampler<'_, F, Bilinear, U, V, Z>> {
     type Color = u16;
     type Derivatives = NoDerivatives;
+    const DEPTH_FIRST: bool = true;
 
     #[inline(always)]
     fn shade<L: Lanes>(&self, fragments: &Fragments<L, Vec2>) -> (L::U32, L::Mask) {

@@ -77,6 +77,7 @@ fn largest(texels: &Texels<'_>) -> Image {
         Texels::Indexed1(map) => image(map),
         Texels::Indexed2(map) => image(map),
         Texels::Rgb565Pairs(map) => image(map),
+        Texels::Rgb565Alpha(map) => image(map),
         _ => Image { width: 1, height: 1, texels: vec![[0; 4]] },
     }
 }

@@ -189,6 +189,7 @@ fn map(text: &mut String, number: usize, texture: &Texture) {
         TexelCode::L8 => ("L8", "u8", each(&all)),
         TexelCode::Rgb565Be => ("Rgb565Be", "[u8; 2]", chunks(&all, 2)),
         TexelCode::Rgb565Pairs => ("Rgb565Pairs", "u32", words(&all)),
+        TexelCode::Rgb565Alpha => ("Rgb565Alpha", "u32", words(&all)),
         TexelCode::Rgb332 => ("Rgb332", "u8", each(&all)),
         TexelCode::Indexed1 => ("Indexed1", "u8", each(&all)),
         TexelCode::Indexed2 => ("Indexed2", "u8", each(&all)),

@@ -5,12 +5,12 @@ use super::{Format, Wish, is_mipmapped};
 use crate::error::Error;
 use crate::options::{Dither, RenderOptions};
 use crate::scene::{HeightImage, Image, Map, Model, Part};
-use alberti::Rgba8;
 use alberti::baked::{Attributes, TexelCode};
 use alberti::raster::ColorFormat as _;
 use alberti::raster::color::{Grey8, Pattern as _};
 use alberti::texture::format::{L16, Normals, Rgb565, Rgb565Pairs, Rgba8888, Scalars, TexelFormat};
 use alberti::texture::{TextureError, mipmap};
+use alberti::{Rgba8, Rgba565};
 
 /// A texture as it lies in flash.
 #[derive(Clone, Debug)]
@@ -260,6 +260,16 @@ fn encoded(
                 Rgb565Pairs::link(&mut pairs, level.size[0], 1);
                 pairs.into_iter().flat_map(u32::to_le_bytes).collect()
             }
+            TexelCode::Rgb565Alpha => each()
+                .map(|(texel, t)| {
+                    // Of a dithered one the levels of its colour.
+                    let own =
+                        |[low, high]: [u8; 2]| Rgb565.decode(u16::from_le_bytes([low, high])).to_bytes();
+                    let [r, g, b, _] = if dither == Dither::None { texel } else { own(word565((texel, t))) };
+                    Rgba565::new(Rgba8::new(r, g, b, texel[3])).to_bits()
+                })
+                .flat_map(u32::to_le_bytes)
+                .collect(),
             TexelCode::Rgb565Be => each().map(word565).flat_map(|[low, high]| [high, low]).collect(),
             TexelCode::Rgb332 => each()
                 .map(|([r, g, b, _], t)| {
@@ -382,6 +392,26 @@ mod tests {
             red << 27 | g << 21 | blue << 16 | r << 11 | green << 5 | b
         };
         assert_eq!(words, [pair(0, 1), pair(1, 2), pair(2, 0)]);
+    }
+
+    /// Words with alpha, of which those that are dithered have the levels of `rgb565` where they are opaque.
+    #[test]
+    fn words_have_alpha() {
+        let colors = vec![[200, 100, 30, 255], [200, 100, 30, 90], [7, 8, 9, 0]];
+        let words = |dither| -> Vec<Rgba565> {
+            let of = |code| encoded(&level(colors.clone(), 3), code, None, (dither, false));
+            let alpha = of(TexelCode::Rgb565Alpha);
+            let words: Vec<u32> = alpha.as_chunks().0.iter().map(|&word| u32::from_le_bytes(word)).collect();
+            let opaque = u16::from_le_bytes(*of(TexelCode::Rgb565).first_chunk().expect("a texel"));
+            assert_eq!(words[0], Rgba565::new(Rgb565.decode(opaque)).to_bits());
+            words.into_iter().map(Rgba565::from_bits).collect()
+        };
+        let own = |[r, g, b, a]: [u8; 4]| Rgba565::new(Rgba8::new(r, g, b, a));
+        assert_eq!(words(Dither::None), [own(colors[0]), own(colors[1]), own(colors[2])]);
+        let [_, half, none] = words(Dither::Bayer)[..] else { panic!("three") };
+        assert_eq!(none, own(colors[2]));
+        let [r, g, b, a] = half.to_rgba8().to_bytes();
+        assert!(a.abs_diff(90) < 5 && r.abs_diff(200) < 30 && g.abs_diff(100) < 20 && b.abs_diff(30) < 30);
     }
 
     #[test]

@@ -133,8 +133,6 @@ pub(super) fn store_levels<F: Levels, L: Lanes, Shade: FragmentColor>(
 /// Rounding to the nearest level, as formats of few levels do it.
 macro_rules! nearest {
     () => {
-        const DEPTH_FIRST: bool = false;
-
         #[inline(always)]
         fn pixel(self, color: Rgba8) -> Self::Pixel {
             let word = levels(self, One, One.word(color.to_bits()), One.word(HALF));

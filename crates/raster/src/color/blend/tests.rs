@@ -3,8 +3,8 @@
 
 use super::*;
 use crate::color::{Grey1, Grey2, Grey4, Grey8, Indexed, Rgb332, Rgb444, Rgb666, Rgb888, Xrgb8888};
-use alberti_math::{Rgb565Be, Rgb565Le, Rgba565, Rgba8888};
 use alberti_math::lanes::One;
+use alberti_math::{Rgb565Be, Rgb565Le, Rgba565, Rgba8888};
 
 /// The nearest integer to a/b.
 fn nearest(a: u64, b: u64) -> u64 {
