@@ -18,6 +18,7 @@ use alberti::shaders::material::{
     Placed, Shared, Specular, Together, Viewer, Wetness,
 };
 use alberti::shaders::{Differentiated, Unlit, material};
+use alberti::texture::format::Normals;
 use alberti::texture::surface::{LimitedParallax, NormalEncoding::Unorm, Relief};
 use alberti::texture::{
     Anisotropic, Bilinear, Minify, Mipmap, Nearest, NearestLevel, PowerOfTwo, Repeat, Texture, Trilinear,
@@ -269,11 +270,11 @@ fn surface(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Mip maps of an image whose sides are powers of two, and of one whose sides are not. The last texel is the mean of
-/// all light, in `f64`.
+/// Mip maps of an image whose sides are powers of two, of one whose sides are even, of one of which each level has odd
+/// sides, and of normals. The last texel is the mean of all light, or of all vectors, in `f64`.
 fn mip_maps(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("mip-maps");
-    for side in [1024_u32, 1000] {
+    for side in [1024_u32, 1000, 1023] {
         let area = (side * side) as usize;
         let mut texels = vec![[0; 4]; mipmap::texel_count(side, side)];
         for (texel, k) in texels.iter_mut().zip(0..area as u32) {
@@ -291,6 +292,16 @@ fn mip_maps(criterion: &mut Criterion) {
         group.throughput(Throughput::Elements(area as u64));
         group.bench_function(format!("{side}x{side}"), |bencher| {
             bencher.iter(|| mipmap::build(Rgba8888, &mut texels, side, side));
+        });
+        mipmap::build(Normals(Rgba8888), &mut texels, side, side).expect("room for all levels");
+        let sum = texels[..area].iter().fold(DVec3::ZERO, |sum, &[x, y, z, _]| {
+            sum + DVec3::from([x, y, z].map(|byte| 2.0 * f64::from(byte) / 255.0 - 1.0))
+        });
+        let [x, y, z, _] = texels.last().copied().unwrap_or_default().map(f64::from);
+        let right = (sum.normalize() + 1.0) * 127.5;
+        assert!((DVec3::new(x, y, z) - right).abs().max_element() < 0.51, "{side}: {x} {y} {z} for {right}");
+        group.bench_function(format!("{side}x{side}, normals"), |bencher| {
+            bencher.iter(|| mipmap::build(Normals(Rgba8888), &mut texels, side, side));
         });
     }
     group.finish();

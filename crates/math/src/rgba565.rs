@@ -76,11 +76,11 @@ impl Rgba565 {
             let level = (64 * (self.0 >> place & greatest) + below(k, share)).saturating_sub(32);
             let unit = 64 * greatest * alpha;
             let byte = (level * 65025 + unit / 2) / unit;
-            channels[k] = if byte < 255 { byte as u8 } else { 255 };
+            channels[k] = if byte < 255 { byte.to_le_bytes()[0] } else { 255 };
             k += 1;
         }
         let [r, g, b] = channels;
-        Rgba8::new(r, g, b, alpha as u8)
+        Rgba8::new(r, g, b, alpha.to_le_bytes()[0])
     }
 
     /// The word with these bits.
@@ -96,7 +96,7 @@ impl Rgba565 {
     }
 }
 
-/// What a channel has below its level in 64ths of it: a half, or the share. That of a colour alone rounds nothing.
+/// The part of a channel below its level, in 64ths of it: a half, or the share. That of a colour alone rounds nothing.
 const fn below(channel: usize, share: u32) -> u32 {
     if channel == 0 && 0 < share && share < 32 { share } else { 32 }
 }
@@ -159,7 +159,7 @@ mod tests {
         assert_eq!(words, 65536);
         // A colour there is of any bits.
         for k in 0..100_000_u32 {
-            Rgba565::from_bits(k.wrapping_mul(0x9e37_79b1)).to_rgba8();
+            let _ = Rgba565::from_bits(k.wrapping_mul(0x9e37_79b1)).to_rgba8();
         }
     }
 }

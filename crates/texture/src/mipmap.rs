@@ -18,7 +18,7 @@ mod build;
 pub(crate) mod mean;
 
 pub use alpha::preserve_coverage;
-pub use build::build;
+pub use build::{Piece, Pieces, build, pieces};
 
 use core::fmt;
 

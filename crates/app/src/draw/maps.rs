@@ -9,14 +9,14 @@ use crate::scene::{EnvironmentKind, HeightImage, Image, Map, Model, Part};
 use alberti::glam::Vec2;
 use alberti::shaders::material::{Called, Times};
 use alberti::texture::format::{Content, L16, Normals, Rgba8888, Scalars};
+use alberti::texture::mipmap::Piece;
 use alberti::texture::surface::BilinearHeights;
 use alberti::texture::{
-    AnyFilter, AnyMipFilter, AnyWrap, MipSampler, Mipmap, Nearest, PowerOfTwo, Repeat, Sampler, Texture,
-    mipmap,
+    AnyFilter, AnyMipFilter, AnyWrap, MipSampler, Mipmap, Nearest, PowerOfTwo, Repeat, Sampler, TexelFormat,
+    Texture, TextureError, mipmap,
 };
 use std::collections::{BTreeMap, HashMap};
-use std::panic::resume_unwind;
-use std::thread::ScopedJoinHandle;
+use std::sync::{Mutex, PoisonError};
 
 /// The mip maps that a model's surfaces are drawn with.
 #[derive(Debug, Default)]
@@ -38,29 +38,69 @@ impl Chains {
                 }
             }
         }
-        let wanted: Vec<_> =
-            wanted.into_iter().map(|((index, _), (image, content))| (index, image, content)).collect();
-        let each = |&(index, image, content): &(usize, &Image, Content)| {
-            Ok(((index, content), chain(image, content)?))
-        };
-        let made =
-            |share: &[(usize, &Image, Content)]| share.iter().map(each).collect::<Result<Vec<_>, Error>>();
-        let share = wanted.len().div_ceil(options.threads.get()).max(1);
-        let shares = timed(Work::MipMaps, || {
+        timed(Work::MipMaps, || {
             waiting("making mip maps", || {
-                std::thread::scope(|scope| {
-                    let threads: Vec<_> =
-                        wanted.chunks(share).map(|share| scope.spawn(move || made(share))).collect();
-                    let joined = |thread: ScopedJoinHandle<'_, _>| {
-                        thread.join().unwrap_or_else(|panic| resume_unwind(panic))
-                    };
-                    threads.into_iter().map(joined).collect::<Result<Vec<_>, Error>>()
-                })
+                let mut chains = HashMap::new();
+                for (&(index, _), &(image, content)) in &wanted {
+                    chains.insert((index, content), room(image));
+                }
+                let mut work = vec![];
+                for ((index, content), texels) in &mut chains {
+                    let (image, _) = wanted[&(*index, *content as u8)];
+                    work.extend(pieces(*content, texels, [image.width, image.height])?);
+                }
+                by_threads(work, options.threads.get());
+                Ok(Self(chains))
             })
-        })?;
-        let chains = shares.into_iter().flatten().collect();
-        Ok(Self(chains))
+        })
     }
+}
+
+/// Work for a thread.
+type Task<'a> = Box<dyn FnOnce() + Send + 'a>;
+
+/// Does all of the work by so many threads, each of which takes what comes next.
+fn by_threads(work: Vec<Task<'_>>, threads: usize) {
+    let threads = threads.min(work.len());
+    let work = Mutex::new(work.into_iter());
+    // None is held while a task runs, so none is poisoned.
+    let next = || work.lock().unwrap_or_else(PoisonError::into_inner).next();
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                while let Some(task) = next() {
+                    task();
+                }
+            });
+        }
+    });
+}
+
+/// The texels of an image, and room for its smaller levels.
+fn room(image: &Image) -> Vec<[u8; 4]> {
+    let count = mipmap::texel_count(image.width, image.height);
+    let mut texels = Vec::with_capacity(count);
+    texels.extend_from_slice(&image.texels);
+    texels.resize(count, [0; 4]);
+    texels
+}
+
+/// The work of filling the smaller levels.
+fn pieces(content: Content, texels: &mut [[u8; 4]], size: [u32; 2]) -> Result<Vec<Task<'_>>, Error> {
+    fn of<'a, F: TexelFormat<Texel = [u8; 4]> + Send>(
+        format: F,
+        texels: &'a mut [[u8; 4]],
+        [width, height]: [u32; 2],
+    ) -> Result<Vec<Task<'a>>, TextureError> {
+        let task = |piece: Piece<'a, F>| -> Task<'a> { Box::new(move || piece.build()) };
+        Ok(mipmap::pieces(format, texels, width, height)?.map(task).collect())
+    }
+    let pieces = match content {
+        Content::Srgb => of(Rgba8888, texels, size),
+        Content::Scalars => of(Scalars(Rgba8888), texels, size),
+        Content::Normals => of(Normals(Rgba8888), texels, size),
+    };
+    pieces.map_err(|e| Error::new(e.to_string(), "textures that can be drawn"))
 }
 
 impl Part {
@@ -81,20 +121,6 @@ impl Part {
         let numbers = numbers.into_iter().filter_map(content(Content::Scalars));
         colors.chain(numbers).chain(normals.into_iter().filter_map(content(Content::Normals)))
     }
-}
-
-/// All levels.
-fn chain(image: &Image, content: Content) -> Result<Vec<[u8; 4]>, Error> {
-    let (width, height) = (image.width, image.height);
-    let mut texels = image.texels.clone();
-    texels.resize(mipmap::texel_count(width, height), [0; 4]);
-    let built = match content {
-        Content::Srgb => mipmap::build(Rgba8888, &mut texels, width, height),
-        Content::Scalars => mipmap::build(Scalars(Rgba8888), &mut texels, width, height),
-        Content::Normals => mipmap::build(Normals(Rgba8888), &mut texels, width, height),
-    };
-    built.map_err(|e| Error::new(e.to_string(), "textures that can be drawn"))?;
-    Ok(texels)
 }
 
 /// A filter for mip maps, which may have one level only.

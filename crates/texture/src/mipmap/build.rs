@@ -1,6 +1,7 @@
 //! Filling the smaller levels.
 
 use alberti_math::map2;
+use core::mem::take;
 
 use super::{MAX_LEVELS, level_count, size_of_level, texel_count};
 use crate::format::TexelFormat;
@@ -44,29 +45,65 @@ pub fn build<F: TexelFormat>(
     width: u32,
     height: u32,
 ) -> Result<(), TextureError> {
+    pieces(format, texels, width, height)?.for_each(Piece::build);
+    Ok(())
+}
+
+/// The work of [`build`] in pieces, which threads may share: each fills some levels, and reads level 0. There is one
+/// where sides are powers of two, and otherwise one more after each level with an odd side. The first has most to do.
+///
+/// # Errors
+/// Those of [`build`].
+pub fn pieces<F: TexelFormat>(
+    format: F,
+    texels: &mut [F::Texel],
+    width: u32,
+    height: u32,
+) -> Result<Pieces<'_, F>, TextureError> {
     let area = width.saturating_mul(height) as usize;
     // For its errors.
     Texture::new(format, texels.get(..area).unwrap_or(texels), width, height)?;
     let (found, expected) = (texels.len(), texel_count(width, height));
+    #[expect(clippy::cast_possible_truncation, reason = "at most 4/3 of 2^28")]
+    let wrong = TextureError::Length { found, expected: expected as u32 };
     if found != expected {
-        #[expect(clippy::cast_possible_truncation, reason = "at most 4/3 of 2^28")]
-        return Err(TextureError::Length { found, expected: expected as u32 });
+        return Err(wrong);
     }
-    let levels = level_count(width, height);
-    let mut first = 1;
-    while first < levels {
-        let mut halves = Halves::new(format, texels, [width, height], first);
-        let mut last = first;
-        while last + 1 < levels && halves.go_on_after(last) {
-            last += 1;
+    let (largest, rest) = texels.split_at_mut_checked(area).ok_or(wrong)?;
+    Ok(Pieces { format, largest, rest, size: [width, height], first: 1 })
+}
+
+/// The pieces of [`pieces`].
+#[derive(Debug)]
+pub struct Pieces<'a, F: TexelFormat> {
+    format: F,
+    /// Level 0.
+    largest: &'a [F::Texel],
+    /// The levels that are in no piece yet, and the first of them.
+    rest: &'a mut [F::Texel],
+    size: [u32; 2],
+    first: usize,
+}
+
+impl<'a, F: TexelFormat> Iterator for Pieces<'a, F> {
+    type Item = Piece<'a, F>;
+
+    fn next(&mut self) -> Option<Piece<'a, F>> {
+        let Self { format, largest, size, first, .. } = *self;
+        let levels = level_count(size[0], size[1]);
+        if first >= levels {
+            return None;
         }
-        let [columns, rows] = size_of_level([width, height], last);
-        for place in (0..rows).flat_map(|y| (0..columns).map(move |x| [x, y])) {
-            halves.sums(last, place);
+        let mut piece = Piece::new(format, largest, size, first);
+        while piece.last + 1 < levels && piece.can_go_on() {
+            piece.last += 1;
         }
-        first = last + 1;
+        let end = piece.begin.get(piece.last + 1).copied().unwrap_or_default();
+        let begin = piece.begin.get(first).copied().unwrap_or_default();
+        let (own, rest) = take(&mut self.rest).split_at_mut_checked((end - begin) as usize)?;
+        (piece.texels, self.rest, self.first) = (own, rest, piece.last + 1);
+        Some(piece)
     }
-    Ok(())
 }
 
 /// Levels, each of half the sides of the one before. A texel covers whole texels of that, so that its sums are sums of
@@ -79,23 +116,27 @@ pub fn build<F: TexelFormat>(
 ///  | 3 | 4 |       |
 ///  +---+---+-------+
 /// ```
-struct Halves<'a, F: TexelFormat> {
+#[derive(Debug)]
+pub struct Piece<'a, F: TexelFormat> {
     format: F,
-    texels: &'a mut [F::Texel],
+    /// Level 0, and its size.
+    largest: &'a [F::Texel],
     size: [u32; 2],
-    /// The first of them, which is made of level 0.
+    /// The texels of all levels from the first, which is made of level 0, to the last.
+    texels: &'a mut [F::Texel],
     first: usize,
+    last: usize,
     /// On each axis the parts of level 0 that a texel of the first covers, and those of a texel of level 0.
     parts: [[u32; 2]; 2],
     /// The parts that a texel of each level covers.
     weights: [u64; MAX_LEVELS],
-    /// The places where levels begin.
-    begin: [u32; MAX_LEVELS],
+    /// The places where levels begin, and where the last one ends.
+    begin: [u32; MAX_LEVELS + 1],
 }
 
-impl<'a, F: TexelFormat> Halves<'a, F> {
-    fn new(format: F, texels: &'a mut [F::Texel], size: [u32; 2], first: usize) -> Self {
-        let mut begin = [0; MAX_LEVELS];
+impl<'a, F: TexelFormat> Piece<'a, F> {
+    fn new(format: F, largest: &'a [F::Texel], size: [u32; 2], first: usize) -> Self {
+        let mut begin = [0; MAX_LEVELS + 1];
         let mut end = 0;
         for (level, begin) in begin.iter_mut().enumerate() {
             *begin = end;
@@ -110,13 +151,21 @@ impl<'a, F: TexelFormat> Halves<'a, F> {
             let [columns, rows] = map2([columns, rows], |side| u64::from(side).min(1 << level));
             *weight = wide * high * columns * rows;
         }
-        Self { format, texels, size, first, parts, weights, begin }
+        Self { format, largest, size, texels: &mut [], first, last: first, parts, weights, begin }
     }
 
-    /// Whether the level after this one halves it, and its sums have room.
-    fn go_on_after(&self, level: usize) -> bool {
-        let halves = size_of_level(self.size, level).iter().all(|side| *side == 1 || side % 2 == 0);
-        halves && self.weights.get(level + 1).is_some_and(|weight| *weight <= MOST)
+    /// Fills the levels.
+    pub fn build(mut self) {
+        let [columns, rows] = size_of_level(self.size, self.last);
+        for place in (0..rows).flat_map(|y| (0..columns).map(move |x| [x, y])) {
+            self.sums(self.last, place);
+        }
+    }
+
+    /// Whether the level after the last one halves it, and its sums have room.
+    fn can_go_on(&self) -> bool {
+        let halves = size_of_level(self.size, self.last).iter().all(|side| *side == 1 || side % 2 == 0);
+        halves && self.weights.get(self.last + 1).is_some_and(|weight| *weight <= MOST)
     }
 
     /// The sums of the part of level 0 that a texel covers. It is filled, and so are those of the levels from the first
@@ -128,13 +177,13 @@ impl<'a, F: TexelFormat> Halves<'a, F> {
         if level == self.first && self.parts == [[2, 1]; 2] {
             for row in [2 * y, 2 * y + 1] {
                 let begin = (row * self.size[0] + 2 * x) as usize;
-                for &texel in self.texels.get(begin..begin + 2).unwrap_or_default() {
+                for &texel in self.largest.get(begin..begin + 2).unwrap_or_default() {
                     sums = sum(sums, format.addends(content, texel).map(u64::from), 1);
                 }
             }
         } else if level == self.first {
             let [across, down] = [Covered::new(x, self.parts[0]), Covered::new(y, self.parts[1])];
-            let rows = self.texels.chunks_exact(self.size[0] as usize);
+            let rows = self.largest.chunks_exact(self.size[0] as usize);
             for (texels, weight) in down.of(rows) {
                 sums = sum(sums, across.sums(format, texels), weight);
             }
@@ -147,9 +196,10 @@ impl<'a, F: TexelFormat> Halves<'a, F> {
                 }
             }
         }
-        let begin = self.begin.get(level).copied().unwrap_or_default();
+        let [begin, own] =
+            [level, self.first].map(|level| self.begin.get(level).copied().unwrap_or_default());
         let weights = self.weights.get(level).copied().unwrap_or_default();
-        if let Some(texel) = self.texels.get_mut((begin + y * columns + x) as usize) {
+        if let Some(texel) = self.texels.get_mut((begin - own + y * columns + x) as usize) {
             *texel = format.mean(content, sums, weights);
         }
         sums

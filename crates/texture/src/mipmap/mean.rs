@@ -49,18 +49,17 @@ fn byte(sum: u64, weights: u64) -> u8 {
 
 /// A vector divided by its length, -1 to 1 as 0 to 255; `None` if it is 0. Components are below 2^40.
 fn unit(vector: [i64; 3]) -> Option<[u8; 3]> {
-    let greatest = vector.iter().fold(0, |greatest, x| x.unsigned_abs().max(greatest));
-    if greatest == 0 {
+    #[expect(clippy::cast_precision_loss, reason = "they are below 2^40")]
+    let vector = vector.map(|x| x as f64);
+    let squares: f64 = vector.iter().map(|x| x * x).sum();
+    if squares == 0.0 {
         return None;
     }
-    // The greatest gets 30 bits, so that the sum of squares fits.
-    let bits = 64 - greatest.leading_zeros();
-    let vector = vector.map(|x| if bits > 30 { x >> (bits - 30) } else { x << (30 - bits) });
-    let squares: u64 = vector.iter().map(|x| x.unsigned_abs() * x.unsigned_abs()).sum();
-    let length = squares.isqrt().cast_signed();
-    // 255 (1 + x) / 2, where rounding may have left the length a little less than a component.
-    Some(vector.map(|x| {
-        let steps = (255 * (x + length) + length) / (2 * length).max(1);
-        steps.clamp(0, 255).to_le_bytes()[0]
-    }))
+    // By Newton's iteration, since `core` has no square root: within 4 %, 0.2 %, 5e-6 and 4e-11.
+    let mut reciprocal = f64::from_bits(0x5fe6_eb50_c7b5_37a9 - (squares.to_bits() >> 1));
+    for _ in 0..3 {
+        reciprocal *= 1.5 - 0.5 * squares * reciprocal * reciprocal;
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "they stop at 0 and 255")]
+    Some(vector.map(|x| (127.5 + 127.5 * (x * reciprocal) + 0.5) as u8))
 }
