@@ -42,14 +42,21 @@ impl Chains {
             waiting("making mip maps", || {
                 let mut chains = HashMap::new();
                 for (&(index, _), &(image, content)) in &wanted {
-                    chains.insert((index, content), room(image));
+                    let count = mipmap::texel_count(image.width, image.height);
+                    chains.insert((index, content), vec![[0; 4]; count]);
                 }
+                let threads = options.threads.get();
+                let mut work = vec![];
+                for (&(index, content), texels) in &mut chains {
+                    work.extend(copies(&wanted[&(index, content as u8)].0.texels, texels));
+                }
+                by_threads(work, threads);
                 let mut work = vec![];
                 for ((index, content), texels) in &mut chains {
                     let (image, _) = wanted[&(*index, *content as u8)];
-                    work.extend(pieces(*content, texels, [image.width, image.height])?);
+                    work.extend(pieces(*content, texels, [image.width, image.height], threads)?);
                 }
-                by_threads(work, options.threads.get());
+                by_threads(work, threads);
                 Ok(Self(chains))
             })
         })
@@ -76,29 +83,41 @@ fn by_threads(work: Vec<Task<'_>>, threads: usize) {
     });
 }
 
-/// The texels of an image, and room for its smaller levels.
-fn room(image: &Image) -> Vec<[u8; 4]> {
-    let count = mipmap::texel_count(image.width, image.height);
-    let mut texels = Vec::with_capacity(count);
-    texels.extend_from_slice(&image.texels);
-    texels.resize(count, [0; 4]);
-    texels
+/// The work of copying an image, which is the largest level. Most of it is the memory's first use.
+fn copies<'a>(image: &'a [[u8; 4]], texels: &'a mut [[u8; 4]]) -> impl Iterator<Item = Task<'a>> {
+    const PIECE: usize = 1 << 20;
+    let pieces = image.chunks(PIECE).zip(texels.chunks_mut(PIECE));
+    pieces.map(|(from, to)| -> Task<'a> { Box::new(|| to[..from.len()].copy_from_slice(from)) })
 }
 
-/// The work of filling the smaller levels.
-fn pieces(content: Content, texels: &mut [[u8; 4]], size: [u32; 2]) -> Result<Vec<Task<'_>>, Error> {
+/// The work of filling the smaller levels, for so many threads.
+fn pieces(
+    content: Content,
+    texels: &mut [[u8; 4]],
+    size: [u32; 2],
+    threads: usize,
+) -> Result<Vec<Task<'_>>, Error> {
     fn of<'a, F: TexelFormat<Texel = [u8; 4]> + Send>(
         format: F,
         texels: &'a mut [[u8; 4]],
         [width, height]: [u32; 2],
+        threads: usize,
     ) -> Result<Vec<Task<'a>>, TextureError> {
+        let mut pieces: Vec<_> = mipmap::pieces(format, texels, width, height)?.collect();
+        // Halves of halves, until there are some for each thread, or nothing can be split.
+        let mut before = 0;
+        while threads > 1 && before < pieces.len() && pieces.len() < 4 * threads {
+            before = pieces.len();
+            let lower: Vec<_> = pieces.iter_mut().filter_map(Piece::split).collect();
+            pieces.extend(lower);
+        }
         let task = |piece: Piece<'a, F>| -> Task<'a> { Box::new(move || piece.build()) };
-        Ok(mipmap::pieces(format, texels, width, height)?.map(task).collect())
+        Ok(pieces.into_iter().map(task).collect())
     }
     let pieces = match content {
-        Content::Srgb => of(Rgba8888, texels, size),
-        Content::Scalars => of(Scalars(Rgba8888), texels, size),
-        Content::Normals => of(Normals(Rgba8888), texels, size),
+        Content::Srgb => of(Rgba8888, texels, size, threads),
+        Content::Scalars => of(Scalars(Rgba8888), texels, size, threads),
+        Content::Normals => of(Normals(Rgba8888), texels, size, threads),
     };
     pieces.map_err(|e| Error::new(e.to_string(), "textures that can be drawn"))
 }

@@ -46,8 +46,7 @@ pub enum Average {
 ///
 /// # Cost
 /// A square of one colour: a load and a comparison a sample, its colour and a store. Another, a sample: its colour,
-/// three loads from a table and sums; a pixel: four divisions, three searches of eight steps, and a store. Of bytes,
-/// neither tables nor searches.
+/// three loads from a table and sums; a pixel: four divisions, six loads from tables, and a store. Of bytes, no tables.
 #[inline(never)]
 pub fn resolve<C: ReadColor<Pixel: PartialEq>, E: ColorFormat>(
     (format, from): (C, &[C::Pixel]),

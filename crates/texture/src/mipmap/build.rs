@@ -2,6 +2,7 @@
 
 use alberti_math::map2;
 use core::mem::take;
+use core::ops::Range;
 
 use super::{MAX_LEVELS, level_count, size_of_level, texel_count};
 use crate::format::TexelFormat;
@@ -50,7 +51,8 @@ pub fn build<F: TexelFormat>(
 }
 
 /// The work of [`build`] in pieces, which threads may share: each fills some levels, and reads level 0. There is one
-/// where sides are powers of two, and otherwise one more after each level with an odd side. The first has most to do.
+/// where sides are powers of two, and otherwise one more after each level with an odd side. The first has most to do,
+/// and each may be [split](Piece::split).
 ///
 /// # Errors
 /// Those of [`build`].
@@ -98,10 +100,13 @@ impl<'a, F: TexelFormat> Iterator for Pieces<'a, F> {
         while piece.last + 1 < levels && piece.can_go_on() {
             piece.last += 1;
         }
-        let end = piece.begin.get(piece.last + 1).copied().unwrap_or_default();
-        let begin = piece.begin.get(first).copied().unwrap_or_default();
-        let (own, rest) = take(&mut self.rest).split_at_mut_checked((end - begin) as usize)?;
-        (piece.texels, self.rest, self.first) = (own, rest, piece.last + 1);
+        for (own, level) in piece.levels.iter_mut().zip(0..=piece.last).skip(first) {
+            let [columns, rows] = size_of_level(size, level);
+            let rest;
+            (*own, rest) = take(&mut self.rest).split_at_mut_checked((columns * rows) as usize)?;
+            self.rest = rest;
+        }
+        self.first = piece.last + 1;
         Some(piece)
     }
 }
@@ -122,27 +127,20 @@ pub struct Piece<'a, F: TexelFormat> {
     /// Level 0, and its size.
     largest: &'a [F::Texel],
     size: [u32; 2],
-    /// The texels of all levels from the first, which is made of level 0, to the last.
-    texels: &'a mut [F::Texel],
+    /// The levels from the first, which is made of level 0, to the last. Of each those rows that the last one's cover,
+    /// and the number of the first of them.
+    levels: [&'a mut [F::Texel]; MAX_LEVELS],
+    tops: [u32; MAX_LEVELS],
     first: usize,
     last: usize,
     /// On each axis the parts of level 0 that a texel of the first covers, and those of a texel of level 0.
     parts: [[u32; 2]; 2],
     /// The parts that a texel of each level covers.
     weights: [u64; MAX_LEVELS],
-    /// The places where levels begin, and where the last one ends.
-    begin: [u32; MAX_LEVELS + 1],
 }
 
 impl<'a, F: TexelFormat> Piece<'a, F> {
     fn new(format: F, largest: &'a [F::Texel], size: [u32; 2], first: usize) -> Self {
-        let mut begin = [0; MAX_LEVELS + 1];
-        let mut end = 0;
-        for (level, begin) in begin.iter_mut().enumerate() {
-            *begin = end;
-            let [columns, rows] = size_of_level(size, level);
-            end += columns * rows;
-        }
         let [columns, rows] = size_of_level(size, first);
         let parts = [lowest([size[0], columns]), lowest([size[1], rows])];
         let [[wide, _], [high, _]] = parts.map(|of| of.map(u64::from));
@@ -151,13 +149,44 @@ impl<'a, F: TexelFormat> Piece<'a, F> {
             let [columns, rows] = map2([columns, rows], |side| u64::from(side).min(1 << level));
             *weight = wide * high * columns * rows;
         }
-        Self { format, largest, size, texels: &mut [], first, last: first, parts, weights, begin }
+        let (levels, tops) = Default::default();
+        Self { format, largest, size, levels, tops, first, last: first, parts, weights }
+    }
+
+    /// The rows of the last level, and the columns.
+    fn rows(&self) -> (Range<u32>, u32) {
+        let [columns, _] = size_of_level(self.size, self.last);
+        let top = self.tops.get(self.last).copied().unwrap_or_default();
+        let texels = self.levels.get(self.last).map_or(0, |level| level.len());
+        #[expect(clippy::cast_possible_truncation, reason = "at most 2^14 rows")]
+        (top..top + (texels / columns as usize) as u32, columns)
+    }
+
+    /// Takes off the lower half of the rows, if the last level has more than one.
+    pub fn split(&mut self) -> Option<Self> {
+        let (Range { start, end }, _) = self.rows();
+        let upper = (end - start) / 2;
+        if upper == 0 {
+            return None;
+        }
+        let mut lower = Self::new(self.format, self.largest, self.size, self.first);
+        lower.last = self.last;
+        let [_, all] = size_of_level(self.size, self.last);
+        let levels = self.levels.iter_mut().zip(&self.tops).zip(lower.levels.iter_mut().zip(&mut lower.tops));
+        for (level, ((own, top), (below, middle))) in levels.enumerate() {
+            let [columns, rows] = size_of_level(self.size, level);
+            // Whole numbers of rows for each of the last level.
+            let upper = upper * (rows / all);
+            *middle = top + upper;
+            (*own, *below) = take(own).split_at_mut_checked((upper * columns) as usize).unwrap_or_default();
+        }
+        Some(lower)
     }
 
     /// Fills the levels.
     pub fn build(mut self) {
-        let [columns, rows] = size_of_level(self.size, self.last);
-        for place in (0..rows).flat_map(|y| (0..columns).map(move |x| [x, y])) {
+        let (rows, columns) = self.rows();
+        for place in rows.flat_map(|y| (0..columns).map(move |x| [x, y])) {
             self.sums(self.last, place);
         }
     }
@@ -171,38 +200,63 @@ impl<'a, F: TexelFormat> Piece<'a, F> {
     /// The sums of the part of level 0 that a texel covers. It is filled, and so are those of the levels from the first
     /// on that it covers. Calls are as deep as there are levels.
     fn sums(&mut self, level: usize, [x, y]: [u32; 2]) -> [u64; 4] {
-        let (format, content) = (self.format, self.format.content());
-        let [columns, _] = size_of_level(self.size, level);
+        if level <= self.first {
+            return self.sums_of_first([x, y]);
+        }
+        // A side of one texel is not halved.
+        let [across, down] = map2(size_of_level(self.size, level - 1), |side| side.min(2));
         let mut sums = [0; 4];
-        if level == self.first && self.parts == [[2, 1]; 2] {
+        for row in y * down..(y + 1) * down {
+            for column in x * across..(x + 1) * across {
+                let place = [column, row];
+                let part = if level == self.first + 1 {
+                    self.sums_of_first(place)
+                } else {
+                    self.sums(level - 1, place)
+                };
+                sums = sum(sums, part, 1);
+            }
+        }
+        self.fill(level, [x, y], sums);
+        sums
+    }
+
+    /// The same of the first level.
+    #[inline]
+    fn sums_of_first(&mut self, [x, y]: [u32; 2]) -> [u64; 4] {
+        let (format, content) = (self.format, self.format.content());
+        let mut sums = [0; 4];
+        if self.parts == [[2, 1]; 2] {
+            let mut few = [0_u32; 4];
             for row in [2 * y, 2 * y + 1] {
                 let begin = (row * self.size[0] + 2 * x) as usize;
                 for &texel in self.largest.get(begin..begin + 2).unwrap_or_default() {
-                    sums = sum(sums, format.addends(content, texel).map(u64::from), 1);
+                    let addends = format.addends(content, texel);
+                    few = [0, 1, 2, 3].map(|k: usize| few[k] + u32::from(addends[k]));
                 }
             }
-        } else if level == self.first {
+            sums = few.map(u64::from);
+        } else {
             let [across, down] = [Covered::new(x, self.parts[0]), Covered::new(y, self.parts[1])];
             let rows = self.largest.chunks_exact(self.size[0] as usize);
             for (texels, weight) in down.of(rows) {
                 sums = sum(sums, across.sums(format, texels), weight);
             }
-        } else {
-            // A side of one texel is not halved.
-            let [across, down] = map2(size_of_level(self.size, level - 1), |side| side.min(2));
-            for row in y * down..(y + 1) * down {
-                for column in x * across..(x + 1) * across {
-                    sums = sum(sums, self.sums(level - 1, [column, row]), 1);
-                }
-            }
         }
-        let [begin, own] =
-            [level, self.first].map(|level| self.begin.get(level).copied().unwrap_or_default());
-        let weights = self.weights.get(level).copied().unwrap_or_default();
-        if let Some(texel) = self.texels.get_mut((begin - own + y * columns + x) as usize) {
-            *texel = format.mean(content, sums, weights);
-        }
+        self.fill(self.first, [x, y], sums);
         sums
+    }
+
+    /// Stores the mean that is made of these sums.
+    #[inline]
+    fn fill(&mut self, level: usize, [x, y]: [u32; 2], sums: [u64; 4]) {
+        let [columns, _] = size_of_level(self.size, level);
+        let get = |of: [u32; MAX_LEVELS]| of.get(level).copied().unwrap_or_default();
+        let place = (y - get(self.tops)) * columns + x;
+        let weights = self.weights.get(level).copied().unwrap_or_default();
+        if let Some(texel) = self.levels.get_mut(level).and_then(|level| level.get_mut(place as usize)) {
+            *texel = self.format.mean(self.format.content(), sums, weights);
+        }
     }
 }
 

@@ -32,6 +32,32 @@ fn built<F: TexelFormat>(format: F, base: &[F::Texel], width: u32, height: u32) 
     texels
 }
 
+/// Pieces fill the levels in any order, whole, in halves and in halves of these: as all at once.
+#[test]
+fn pieces_are_levels() {
+    let mut random = Random(7);
+    let mut most = 0;
+    for (width, height) in SIZES.into_iter().chain([(60, 44), (16, 1)]) {
+        let base: Vec<[u8; 4]> = (0..width * height).map(|_| random.bits().to_le_bytes()).collect();
+        let whole = built(Rgba8888, &base, width, height);
+        for halvings in 0..4 {
+            let mut texels = vec![[0; 4]; whole.len()];
+            texels[..base.len()].copy_from_slice(&base);
+            let mut pieces: Vec<_> = mipmap::pieces(Rgba8888, &mut texels, width, height).unwrap().collect();
+            for _ in 0..halvings {
+                let lower: Vec<_> = pieces.iter_mut().filter_map(mipmap::Piece::split).collect();
+                pieces.extend(lower);
+            }
+            most = most.max(pieces.len());
+            pieces.into_iter().rev().for_each(mipmap::Piece::build);
+            assert_eq!(texels, whole, "{width} x {height}, {halvings}");
+        }
+    }
+    assert!(most > 10, "{most}");
+    assert!(mipmap::pieces(Rgba8888, &mut [[0; 4]; 4], 2, 2).is_err());
+    assert!(mipmap::pieces(Rgba8888, &mut [], 0, 2).is_err());
+}
+
 /// Each texel of each smaller level, and the mean over its rectangle in real numbers, by what `value` makes of texels.
 fn for_each_mean<T: Copy, const N: usize>(
     texels: &[T],
