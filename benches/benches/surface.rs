@@ -14,8 +14,8 @@ use alberti::glam::{DVec2, DVec3, Vec2, Vec3};
 use alberti::lanes::{Floating, Machine, One};
 use alberti::raster::{PerRun, PerTriangle};
 use alberti::shaders::material::{
-    Color, Directional, Emission, Framed, Gloss, Lambert, Lighting, Material, NormalMap, Occlusion, Parallax,
-    Placed, Shared, Specular, Together, Viewer, Wetness,
+    Color, Directional, Emission, Framed, Gloss, InSpace, Lambert, Lighting, LinearLight, Material,
+    NormalMap, Occlusion, Parallax, Placed, Shared, Specular, Together, Viewer, Wetness,
 };
 use alberti::shaders::{Differentiated, Unlit, material};
 use alberti::texture::format::Normals;
@@ -262,6 +262,8 @@ fn surface(criterion: &mut Criterion) {
         "anisotropic-8": bare, Unlit(mip(&maps.color).sampler(Anisotropic { probes: 8, filter: Trilinear }, Repeat));
         "anisotropic-16": bare, Unlit(mip(&maps.color).sampler(Anisotropic { probes: 16, filter: Trilinear }, Repeat));
         "lights": placed, Material { layers: (Color(color),), lighting: lit };
+        "lights, in light": placed,
+            InSpace { surface: Material { layers: (Color(color),), lighting: lit }, space: LinearLight };
         "normal-map": framed, Material { layers: (Color(color), normal), lighting: lit };
         "normal-map, together": framed, Material { layers: together, lighting: lit };
         "parallax": framed, Material { layers: (parallax, Color(color), normal), lighting: lit };

@@ -111,11 +111,8 @@ impl CheckedMtl {
             b"kd" => material.color = color,
             b"ks" => material.specular = color,
             b"ke" => material.emissive = color,
-            // The exponent; where a map says 0 there is no more than a sheen.
-            b"ns" => {
-                let greatest = r.clamp(0.0, MAX_SHININESS);
-                material.shininess = Some(Shininess([greatest.min(1.0), greatest]));
-            }
+            // The exponent; where a map says 0 there is no highlight.
+            b"ns" => material.shininess = Some(Shininess([0.0, r.clamp(0.0, MAX_SHININESS)])),
             b"d" => entry.opacity = Some(r.clamp(0.0, 1.0)),
             // Some exporters mean the opacity.
             b"tr" if r >= 1.0 && entry.opacity.is_none() => {

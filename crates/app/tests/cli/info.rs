@@ -73,6 +73,19 @@ fn a_model_is_told_in_json() {
     assert!(!left_out.is_empty(), "glass is not drawn on boards");
 }
 
+/// Surfaces without a material are named after their kind.
+#[test]
+fn surfaces_have_names() {
+    let scene = "[camera]\neye = [0, 1, 4]\ntarget = [0, 0, 0]\n[[object]]\nsurface = \"sphere\"\n\
+        [[object]]\nsurface = \"plane\"\nmaterial = \"wood\"\n[material.wood]\ncolor = \"804020\"\n";
+    let folder = Folder::with(&[("s.toml", scene.as_bytes())]);
+    let told = json_of(&folder, &["s.toml"]);
+    let names =
+        told["parts"].as_array().expect("parts").iter().map(|part| [&part["name"], &part["material"]]);
+    let expected = [[json!("sphere"), json!("")], [json!("wood"), json!("wood")]];
+    assert!(names.eq(expected.iter().map(|[name, material]| [name, material])), "{told}");
+}
+
 /// The costs are those that `alberti bake` reports of the same scene.
 #[test]
 fn costs_are_those_of_bake() {

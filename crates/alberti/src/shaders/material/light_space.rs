@@ -102,7 +102,8 @@ impl LightSpace for AnyLightSpace {
 ///
 /// # Cost
 /// A load from a table of 512 bytes and two divisions for each channel of a layer. A fragment: six roots, six
-/// divisions and some 50 operations.
+/// divisions and some 50 operations. With one light and a trilinear texture that is four times as long as without, by
+/// lanes of AVX2 (`lights, in light` in `benches/benches/surface.rs`).
 #[derive(Clone, Copy, Debug)]
 pub struct InSpace<S, P> {
     /// The surface.

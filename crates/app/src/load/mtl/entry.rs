@@ -55,9 +55,9 @@ impl Entry {
             // The exponent of Blinn's highlight that is as wide as that of a microfacet surface.
             let alpha = (roughness * roughness).max(0.001);
             let exponent = (2.0 / (alpha * alpha) - 2.0).clamp(0.0, MAX_SHININESS);
-            drawn.shininess = Some(Shininess([exponent.min(1.0), exponent]));
+            drawn.shininess = Some(Shininess([0.0, exponent]));
         } else if self.roughness_map.is_some() && drawn.shininess.is_none() {
-            drawn.shininess = Some(Shininess([1.0, POLISHED]));
+            drawn.shininess = Some(Shininess([0.0, POLISHED]));
         }
         let physical = self.roughness.is_some()
             || self.metallic.is_some()

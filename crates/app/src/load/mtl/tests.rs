@@ -263,7 +263,7 @@ fn all_maps_are_read() {
     let found = &checked.materials[0].material;
     assert_eq!(
         (found.specular, found.shininess),
-        (Some(Color([0.5, 1.0, 0.0])), Some(Shininess([1.0, 40.0])))
+        (Some(Color([0.5, 1.0, 0.0])), Some(Shininess([0.0, 40.0])))
     );
     assert_eq!((found.emissive, found.height_scale), (Some(Color([1.0; 3])), Some(3.0)));
     let maps = [

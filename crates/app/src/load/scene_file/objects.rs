@@ -5,7 +5,7 @@ use super::tables::{Object, SurfaceKind};
 use crate::error::{Error, Warnings, quote};
 use crate::load::images::Images;
 use crate::load::{obj, prepare};
-use crate::options::values::Tuple;
+use crate::options::values::{Tuple, name_of};
 use crate::options::{Material, Normals, Wrap};
 use crate::scene::displace::MAX_VERTICES;
 use crate::scene::origin;
@@ -55,7 +55,10 @@ impl SceneFile {
                 Some(surface) => {
                     let segments =
                         self.segments(surface, object, &path, [Some(over), material], &mut images)?;
-                    surface.mesh(segments, uv_scale(material))
+                    let mut model = surface.mesh(segments, uv_scale(material));
+                    let kind = object.surface.filter(|_| object.material.is_none());
+                    model.parts.iter_mut().for_each(|part| part.name = kind.map(name_of).unwrap_or_default());
+                    model
                 }
                 None => {
                     let loaded = self.model(object, &path, normals, progress)?;

@@ -29,7 +29,7 @@ fn maps_of_a_library_reach_their_part() {
     assert_eq!(detail.emissive_map.unwrap().wrap, Some(crate::options::Wrap::Clamp));
     assert_eq!(
         (detail.specular, detail.shininess, detail.emissive),
-        ([1.0; 3], [1.0, 50.0], [1.0, 0.0, 0.0])
+        ([1.0; 3], [0.0, 50.0], [1.0, 0.0, 0.0])
     );
     let normal = detail.normal.unwrap();
     assert_eq!((red(normal.map.image), normal.strength.to_bits()), (128, 0.5_f32.to_bits()));
@@ -102,14 +102,14 @@ fn maps_of_metal_dull_the_colour_and_tint_highlights() {
         assert_eq!(part.detail.specular, [1.0; 3]);
     }
     // Where a surface is rough, its highlights are as faint as they are broad.
-    for (rough, mirrored) in [([255; 3], 1), ([0; 3], 255), ([247; 3], 22)] {
+    for (rough, mirrored) in [([255; 3], 0), ([0; 3], 255), ([247; 3], 20)] {
         let mtl = b"newmtl m\nKd 0.5 0.5 0.5\nmap_Pr r.png\n";
         let files = [("m.obj", MAPPED.as_bytes()), ("m.mtl", mtl), ("r.png", &image(rough))];
         let (model, _) = load_files(&files);
         let detail = &model.parts[0].detail;
         let highlight = model.textures[detail.specular_map.unwrap().image].texels[0];
-        // 0.04 (n + 8)/8, times n/8 below an exponent n of 8: n is 1, 256 and 9.
-        assert_eq!((highlight, detail.shininess), ([mirrored, mirrored, mirrored, 255], [1.0, 256.0]));
+        // 0.04 (n + 8)/8, times n/8 below an exponent n of 8: n is 0, 256 and 8.
+        assert_eq!((highlight, detail.shininess), ([mirrored, mirrored, mirrored, 255], [0.0, 256.0]));
     }
     // Highlights that the file has stay.
     let mtl = b"newmtl m\nKs 0.25 0.25 0.25\nmap_Pm m.png\n";
