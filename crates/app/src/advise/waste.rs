@@ -9,6 +9,7 @@ use super::machine::Cost;
 use crate::error::{Error, number};
 use crate::options::RenderOptions;
 use crate::probe::probe;
+use crate::scene::normals::narrow;
 use crate::scene::{Camera, Model, camera};
 use bill::Bill;
 use look::Look;
@@ -53,7 +54,13 @@ fn triangles(
     let mut seen = vec![false; total];
     let (mut shaded, mut covered, mut pixels) = (0_u64, 0_u64, 0_u64);
     for turn in 0..turns {
-        let probes = probe(model, &camera::turned(camera, turn, turns), options)?;
+        let mut turned = camera::turned(camera, turn, turns);
+        if turn > 0 {
+            // From there something may be nearer.
+            let nearest = narrow(0.99 * camera::nearest(model, &turned));
+            turned.near = turned.near.min(nearest.max(turned.far / 1000.0));
+        }
+        let probes = probe(model, &turned, options)?;
         for index in 0..probes.pixels() {
             shaded += u64::from(probes.shaded(index));
             covered += u64::from(probes.covered(index));

@@ -119,7 +119,7 @@ fn usage(error: &clap::Error, renamed: bool) -> u8 {
             "numbers that belong together with commas, as 0,1.5,-3".to_owned(),
         ),
         ErrorKind::UnknownArgument if option.as_ref().is_some_and(|option| !option.starts_with('-')) => {
-            ("a second file".to_owned(), "one".to_owned())
+            ("one word too many".to_owned(), "fewer files".to_owned())
         }
         ErrorKind::UnknownArgument => {
             let similar = context(ContextKind::SuggestedArg).map(|option| format!(", such as {option}"));

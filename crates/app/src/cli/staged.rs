@@ -18,8 +18,8 @@ use crate::load::{obj, prepare};
 use crate::options::values::{Color, MAX_THREADS, Size, Threads, name_of as name_of_value};
 use crate::options::{
     Background, CameraTable, ColorFormat, Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE,
-    DepthFormat, Filter, Fog, Haze, KeyLight, LightOptions, LightSpace, Profile, Projection, RenderOptions,
-    Samples, Shading, Wrap,
+    DepthFormat, Filter, Fog, Haze, Interpolation, KeyLight, LightOptions, LightSpace, Profile, Projection,
+    RenderOptions, Samples, Shading, Wrap,
 };
 use crate::output::aov::{self, Beside};
 use crate::output::file::{Output, Whole};
@@ -47,8 +47,8 @@ pub(super) fn refuse(matches: &ArgMatches, name: &str, ids: &[&str], reason: &st
         None => Ok(()),
         Some(id) => {
             let found = format!("an option that `{name}` has not");
-            let error = Error::new(found, "those of `render` that change the picture");
-            Err(error.place(format!("--{id}")).hint(format!("leave it out: {reason}")))
+            let error = Error::new(found, "those of `render` that it uses");
+            Err(error.place(format!("--{}", id.replace('_', "-"))).hint(format!("leave it out: {reason}")))
         }
     }
 }
@@ -57,6 +57,8 @@ pub(super) fn refuse(matches: &ArgMatches, name: &str, ids: &[&str], reason: &st
 pub(super) struct Request {
     pub(super) arguments: RenderArgs,
     file: Option<SceneFile>,
+    /// The camera of the file, if it has a place that the command line says in another way.
+    orbit: Option<CameraTable>,
 }
 
 /// All that a picture is made of.
@@ -78,7 +80,7 @@ impl Request {
     pub(super) fn read(matches: &ArgMatches) -> Result<Self, Error> {
         let refused = |error: clap::Error| Error::new(error.to_string(), "what --help lists");
         let mut arguments = RenderArgs::from_arg_matches(matches).map_err(refused)?;
-        let mut scene_file = None;
+        let (mut scene_file, mut orbit) = (None, None);
         if let Some(path) = arguments.model.as_deref().filter(|path| scene_file::is_scene(path)) {
             let (file, options) = SceneFile::read(path, matches)?;
             scene_file = Some(file);
@@ -86,13 +88,14 @@ impl Request {
             // The file's options, and over them those of the command line.
             arguments = options;
             if given.turns() || given.eye.is_some() {
+                orbit = Some(arguments.camera).filter(|camera| camera.eye.is_some());
                 arguments.camera.forget_place();
             }
             arguments.update_from_arg_matches(matches).map_err(refused)?;
         }
         // A texture is shown as it is, whatever the materials' colours.
         arguments.material.whiten();
-        Ok(Self { arguments, file: scene_file })
+        Ok(Self { arguments, file: scene_file, orbit })
     }
 
     /// The options of the command line alone.
@@ -101,7 +104,8 @@ impl Request {
     /// One that cannot be understood.
     pub(super) fn given(matches: &ArgMatches) -> Result<Self, Error> {
         let refused = |error: clap::Error| Error::new(error.to_string(), "what --help lists");
-        Ok(Self { arguments: RenderArgs::from_arg_matches(matches).map_err(refused)?, file: None })
+        let arguments = RenderArgs::from_arg_matches(matches).map_err(refused)?;
+        Ok(Self { arguments, file: None, orbit: None })
     }
 
     /// Puts an error in the scene file, if its cause is there.
@@ -207,7 +211,8 @@ impl Request {
             return Ok(staged);
         }
         let CameraTable { near, far, .. } = self.arguments.camera;
-        ground::add(&mut staged.model, &mut staged.camera, [near.is_some(), far.is_some()]);
+        let affine = staged.options.policies.interpolation == Interpolation::Affine;
+        ground::add(&mut staged.model, &mut staged.camera, [near.is_some(), far.is_some()], affine);
         order::back_to_front(&mut staged.model, &staged.camera);
         Ok(staged)
     }
@@ -248,7 +253,10 @@ impl Request {
         let ball = camera::bounding_sphere(&scene.model);
         let aspect = f64::from(width) / f64::from(height);
         let wishes = arguments.camera.counted_from(origin);
-        let camera = camera::frame(&wishes, scene.camera.as_ref(), (&scene.model, ball), aspect)?;
+        let all = (&scene.model, ball);
+        let orbit = self.orbit.map(|camera| camera::frame(&camera.counted_from(origin), None, all, aspect));
+        let base = scene.camera.or(orbit.transpose()?);
+        let camera = camera::frame(&wishes, base.as_ref(), all, aspect)?;
         order::back_to_front(&mut scene.model, &camera);
         if camera::is_behind(&camera, ball) {
             warn(

@@ -113,7 +113,12 @@ impl CheckedMtl {
             b"ke" => material.emissive = color,
             // The exponent; where a map says 0 there is no highlight.
             b"ns" => material.shininess = Some(Shininess([0.0, r.clamp(0.0, MAX_SHININESS)])),
-            b"d" => entry.opacity = Some(r.clamp(0.0, 1.0)),
+            b"d" if r <= 0.0 => {
+                entry.opacity = Some(0.0);
+                let found = format!("`{} {}`, nothing to be seen", line.keyword(), number(r));
+                return Ok(vec![Error::new(found, "more").hint("the material is not drawn")]);
+            }
+            b"d" => entry.opacity = Some(r.min(1.0)),
             // Some exporters mean the opacity.
             b"tr" if r >= 1.0 && entry.opacity.is_none() => {
                 let warning =

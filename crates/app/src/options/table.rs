@@ -100,9 +100,10 @@ impl CameraTable {
         self.zoom.map_or(1.0, f32::from)
     }
 
-    /// Leaves the place of the eye open, for options that say it in another way.
+    /// Leaves the place of the eye open, and the planes before it, for options that say it in another way.
     pub(crate) fn forget_place(&mut self) {
-        *self = Self { eye: None, azimuth: None, elevation: None, view: None, ..*self };
+        *self =
+            Self { eye: None, azimuth: None, elevation: None, view: None, near: None, far: None, ..*self };
     }
 
     /// # Errors

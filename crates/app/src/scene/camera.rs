@@ -102,7 +102,7 @@ pub fn frame(
         Some(base) if kept => (base.near, base.far),
         _ => planes(sub(ball.center, wide(eye)), view, ball.radius, own.is_none() && wishes.is_parallel()),
     };
-    let camera = Camera {
+    let mut camera = Camera {
         eye,
         target,
         up,
@@ -110,6 +110,9 @@ pub fn frame(
         near: wishes.near.map_or(near, f32::from),
         far: wishes.far.map_or(far, f32::from),
     };
+    if !kept && wishes.near.is_none() && !wishes.is_parallel() {
+        camera.near = before(model, &camera);
+    }
     let names = Names { origin: model.origin, ..CAMERA };
     let checked = check(&camera, &names).and_then(|()| match base {
         // The planes are those around the ball.
@@ -366,6 +369,14 @@ fn planes(to_center: [f64; 3], view: [f64; 3], radius: f64, anywhere: bool) -> (
     let near = depth - 1.01 * radius;
     let near = if anywhere { near } else { near.max(far / 1000.0) };
     (narrow(near), narrow(far))
+}
+
+/// The near plane of a camera that is within the ball about a model. It is just before what is nearest, if nothing is
+/// behind the eye.
+fn before(model: &Model, camera: &Camera) -> f32 {
+    let within = camera.near <= camera.far / 999.0;
+    let nearest = if within { 0.99 * nearest(model, camera) } else { 0.0 };
+    if nearest < f64::from(camera.far) { camera.near.max(narrow(nearest)) } else { camera.near }
 }
 
 /// Whether two directions are so close that their cross product says nothing in f32, or one of them is 0.

@@ -32,8 +32,9 @@ struct Ground {
 }
 
 /// Adds a ground at the model's lowest point, unless the camera is below it. Planes of the camera that the user has not
-/// set, as `fixed` says of near and far, are moved so that all of it is between them.
-pub(crate) fn add(model: &mut Model, camera: &mut Camera, fixed: [bool; 2]) {
+/// set, as `fixed` says of near and far, are moved so that all of it is between them. Where attributes are `affine`, it
+/// is of so many squares that none shows that.
+pub(crate) fn add(model: &mut Model, camera: &mut Camera, fixed: [bool; 2], affine: bool) {
     let Some(ground) = Ground::under(model, camera) else { return };
     let texels = ground.shadow(model).into_iter().map(|alpha| [0, 0, 0, alpha]).collect();
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|uv| ground.place(uv));
@@ -41,18 +42,28 @@ pub(crate) fn add(model: &mut Model, camera: &mut Camera, fixed: [bool; 2]) {
     let first = u32::try_from(model.vertices.len()).unwrap_or(u32::MAX);
     let mut normal = [0.0; 3];
     normal[ground.up.0] = narrow(ground.up.1);
-    let uvs = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-    model.vertices.extend(corners.iter().zip(uvs).map(|(place, uv)| Vertex {
-        position: place.map(narrow),
+    let squares: u16 = if affine { 48 } else { 1 };
+    let shares = || (0..=squares).map(|k| f64::from(k) / f64::from(squares));
+    let uvs = shares().flat_map(|v| shares().map(move |u| [u, v]));
+    model.vertices.extend(uvs.map(|uv| Vertex {
+        position: ground.place(uv).map(narrow),
         normal,
-        uv,
+        uv: uv.map(narrow),
         ..Vertex::default()
     }));
     let side = u32::try_from(SIDE).unwrap_or(0);
     model.textures.push(Image { width: side, height: side, texels });
     let map =
         Map { image: model.textures.len() - 1, filter: Some(Filter::Bilinear), wrap: Some(Wrap::Clamp) };
-    let triangles = vec![[first, first + 1, first + 2], [first, first + 2, first + 3]];
+    let squares = u32::from(squares);
+    let corner = |row: u32, column: u32| first + row * (squares + 1) + column;
+    let square = |(row, column): (u32, u32)| {
+        let [a, b] = [0, 1].map(|right| corner(row, column + right));
+        let [d, c] = [0, 1].map(|right| corner(row + 1, column + right));
+        [[a, b, c], [a, c, d]]
+    };
+    let places = (0..squares).flat_map(|row| (0..squares).map(move |column| (row, column)));
+    let triangles = places.flat_map(square).collect();
     let mut part = Part { name: "ground".to_owned(), triangles, texture: Some(map.image), ..Part::default() };
     (part.detail.filter, part.detail.wrap) = (map.filter, map.wrap);
     (part.detail.blend, part.detail.specular) = (AnyBlend::Over, [0.0; 3]);
@@ -302,7 +313,7 @@ mod tests {
     fn the_ground_is_under_all_and_between_the_planes() {
         let mut model = square(0.5);
         let mut camera = CAMERA;
-        add(&mut model, &mut camera, [false; 2]);
+        add(&mut model, &mut camera, [false; 2], false);
         let part = model.parts.last().expect("a part");
         assert_eq!((model.parts.len(), part.triangles.len(), model.textures.len()), (2, 2, 1));
         let eye = CAMERA.eye.map(f64::from);
@@ -317,8 +328,37 @@ mod tests {
         assert!(crate::scene::normals::cross(sub(b, a), sub(c, a))[1] > 0.0);
         let below = Camera { eye: [3.0, -2.0, 4.0], ..CAMERA };
         let mut model = square(0.5);
-        add(&mut model, &mut { below }, [false; 2]);
+        add(&mut model, &mut { below }, [false; 2], true);
         assert_eq!(model.parts.len(), 1);
+    }
+
+    /// Squares lie side by side, each with the coordinates of its place, and are as large as the whole.
+    #[test]
+    fn squares_are_the_ground() {
+        let grounds = [false, true].map(|affine| {
+            let mut model = square(0.5);
+            add(&mut model, &mut { CAMERA }, [false; 2], affine);
+            model
+        });
+        let area = |model: &Model| -> f64 {
+            let triangles = model.parts[1].triangles.iter();
+            let areas = triangles.map(|triangle| {
+                let [a, b, c] = triangle.map(|k| model.vertices[k as usize].position.map(f64::from));
+                crate::scene::normals::cross(sub(b, a), sub(c, a))[1] / 2.0
+            });
+            // All face upwards.
+            areas.inspect(|&area| assert!(area > 0.0)).sum()
+        };
+        let [one, many] = [&grounds[0], &grounds[1]];
+        assert!(many.parts[1].triangles.len() > 4000);
+        assert!((area(many) / area(one) - 1.0).abs() < 1e-4);
+        let [first, last] = [one.vertices[5], one.vertices[8]];
+        for vertex in &many.vertices[5..] {
+            for (axis, share) in others(1).into_iter().zip(vertex.uv) {
+                let [low, high] = [first, last].map(|corner| corner.position[axis]);
+                assert!((vertex.position[axis] - (low + (high - low) * share)).abs() < 1e-5, "{vertex:?}");
+            }
+        }
     }
 
     /// The means of rows and columns, one by one.

@@ -161,7 +161,7 @@ fn wrong_input_is_one_error() {
         (&["no.obj"][..], "no.obj: found no such file, expected a Wavefront OBJ model"),
         (&["a.obj"], "a.obj:1: found vertex index 1"),
         (&["p.png"], "p.png: found "),
-        (&["t.obj", "t.obj"], "found a second file, expected one"),
+        (&["t.obj", "t.obj"], "found one word too many, expected fewer files"),
         (&["t.obj", "--output", "x.png"], "--output: found an option that `info` has not"),
         (&["t.obj", "--sizes", "3"], "--sizes: found it, expected an option, such as --size"),
     ] {

@@ -143,7 +143,7 @@ fn alpha_of_textures_counts() {
 fn highlights_need_not_be_asked_for() {
     let bright = |mtl: &str, more: &[&str]| {
         let folder = folder(SQUARE, &format!("newmtl a\nKd 0.4 0.4 0.4\n{mtl}\n"));
-        for (name, grey) in [("black.png", 0), ("white.png", 255)] {
+        for (name, grey) in [("black.png", 0), ("dark.png", 4), ("white.png", 255)] {
             fs::write(folder.path(name), png(1, 1, |_, _| [grey, grey, grey, 255])).expect("a file");
         }
         let (picture, _) = seen(&folder, more);
@@ -157,10 +157,11 @@ fn highlights_need_not_be_asked_for() {
         assert!(bright(mtl, &[]) > matt + 3, "{mtl} {}", bright(mtl, &[]));
         assert_eq!(bright(mtl, &["--shading", "lambert"]), matt, "{mtl}");
     }
-    // A map of exponents fades as the exponents themselves do: to an eighth at 1.
+    // A map of exponents fades as the exponents themselves do: to nothing at 0, and to an eighth at 1.
     let shine = "Ks 0.8 0.8 0.8\nNs 64\nmap_Ns";
+    assert_eq!(bright(&format!("{shine} black.png"), &[]), matt);
     let faded = bright("Ks 0.8 0.8 0.8\nNs 1", &[]);
-    assert!(bright(&format!("{shine} black.png"), &[]).abs_diff(faded) <= 1, "{faded}");
+    assert!(bright(&format!("{shine} dark.png"), &[]).abs_diff(faded) <= 1, "{faded}");
     assert_eq!(bright(&format!("{shine} white.png"), &[]), bright("Ks 0.8 0.8 0.8\nNs 64", &[]));
 }
 

@@ -60,6 +60,43 @@ fn scene_files_have_samples_backgrounds_and_views() {
     folder.fails(&["d.toml"], &["found it with"]);
 }
 
+/// A scene with an eye of its own is turned at the eye's distance, and its planes go along.
+#[test]
+fn scenes_are_turned_around_their_target() {
+    let scene = "size = [32, 24]\n[camera]\neye = [0, 0, 3]\ntarget = [0, 0, 0]\nnear = 2.9\nfar = 3.1\n\
+        [[object]]\nsurface = \"torus\"\n[[object]]\nsurface = \"plane\"\nposition = [0, 0, -40]\n";
+    let folder = Folder::with(&[("a.toml", scene.as_bytes())]);
+    let camera = |arguments: &[&str]| {
+        let run = folder.succeeds(&[&["a.toml", "--stats", "json"], arguments].concat());
+        let told: serde_json::Value = serde_json::from_str(&run.stdout).expect("JSON");
+        let words: Vec<String> =
+            told["camera"]["options"].as_str().expect("options").split(' ').map(str::to_owned).collect();
+        move |option: &str| -> Vec<f64> {
+            let at = words.iter().position(|word| word == option).expect("the option");
+            words[at + 1].split(',').map(|number| number.parse().expect("a number")).collect()
+        }
+    };
+    let own = camera(&[]);
+    assert_eq!((own("--eye"), own("--near"), own("--far")), (vec![0.0, 0.0, 3.0], vec![2.9], vec![3.1]));
+    // The torus is 0.35 thick and 1.35 wide from its middle.
+    for (turn, nearest) in [
+        (&["--azimuth", "90", "--elevation", "0"][..], 1.65),
+        (&["--view", "top"], 2.65),
+        (&["--eye", "0,3,0.1"], 2.62),
+    ] {
+        let turned = camera(turn);
+        let distance = turned("--eye").iter().map(|x| x * x).sum::<f64>().sqrt();
+        assert!((distance - 3.0).abs() < 0.01, "{turn:?} {distance}");
+        let near = turned("--near")[0];
+        assert!(
+            (0.95 * nearest..nearest + 0.02).contains(&near) && turned("--far")[0] > 4.35,
+            "{turn:?} {near}"
+        );
+    }
+    let fixed = camera(&["--azimuth", "90", "--far", "77"]);
+    assert_eq!(fixed("--far"), [77.0]);
+}
+
 #[test]
 fn a_transparent_picture_has_an_alpha_where_the_format_has() {
     let folder = folder();

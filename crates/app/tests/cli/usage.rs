@@ -30,7 +30,7 @@ fn a_file_is_rendered_without_the_word() {
             "error: floor: found neither a command nor a file, expected one of both; did you mean --scene floor?",
         ),
         ("no.obj", "error: no.obj: found no such file, expected a Wavefront OBJ model"),
-        ("m.obj other.obj", "error: other.obj: found a second file, expected one; see --help"),
+        ("m.obj other.obj", "error: other.obj: found one word too many, expected fewer files; see --help"),
     ] {
         let made = run(&folder, line);
         assert_eq!((made.status, made.stderr.lines().count()), (Some(2), 1), "{made:?}");

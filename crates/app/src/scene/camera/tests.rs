@@ -79,6 +79,26 @@ fn planes_follow_the_eye() {
     assert_eq!((kept.near, kept.far), (0.5, 99.0));
 }
 
+/// A long wall, with the eye before its middle: within its ball, and far from all of it.
+#[test]
+fn near_is_just_before_what_is_nearest() {
+    let corners = [[-10.0, 0.0, 0.0], [10.0, 0.0, 0.0], [10.0, 1.0, 0.0]];
+    let vertices = corners.map(|position| Vertex { position, ..Vertex::default() });
+    let part = crate::scene::Part { triangles: vec![[0, 1, 2]], ..crate::scene::Part::default() };
+    let wall = Model { vertices: vertices.into(), parts: vec![part], ..Model::default() };
+    let seen = |eye: [f32; 3], near: Option<f32>| {
+        let near = near.map(Into::into);
+        let wishes = CameraTable { eye: Some(eye.into()), near, ..CameraTable::default() };
+        frame(&wishes, None, (&wall, bounding_sphere(&wall)), 1.0).unwrap()
+    };
+    let camera = seen([0.0, 0.5, 5.0], None);
+    assert!((4.8..5.0).contains(&camera.near) && camera.far > 5.0, "{camera:?}");
+    assert_eq!(seen([0.0, 0.5, 5.0], Some(0.25)).near, 0.25);
+    // Beside the wall something is behind the eye.
+    let within = seen([1.0, 0.5, 0.1], None);
+    assert!(within.near > 0.0 && within.near < 0.1, "{within:?}");
+}
+
 #[test]
 fn a_window_is_as_high_as_its_angle_says() {
     let camera = of(CameraTable {
