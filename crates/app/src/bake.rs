@@ -46,7 +46,7 @@ pub enum Format {
     Rgb565be,
     /// rgb565, each texel with the next in a word: twice the flash, and less to do for bilinear filters in integers.
     Rgb565Pairs,
-    /// rgb565 with alpha, multiplied by it, in four bytes: drawn over RGB565 in half the instructions of rgba8.
+    /// rgb565 with alpha, multiplied by it, in four bytes: drawn over RGB565 in half the time of rgba8.
     Rgb565Alpha,
     /// 4 bits for red, green, blue and alpha each.
     Rgb444,

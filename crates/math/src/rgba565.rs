@@ -17,7 +17,7 @@ use crate::Rgba8;
 /// Of a mean in RGB565: each channel is within 1.5 levels, green 2, of that in reals of the colour and the pixel. An
 /// opaque colour replaces the pixel, and one with an alpha of 3 and less keeps it. No sum with a word of
 /// [`new`](Self::new) carries from one field to the next.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable, bytemuck::TransparentWrapper))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
@@ -83,7 +83,7 @@ impl Rgba565 {
         Rgba8::new(r, g, b, alpha.to_le_bytes()[0])
     }
 
-    /// The word with these bits.
+    /// The word with these bits. Of others than [`new`](Self::new) has, sums carry from field to field.
     #[must_use]
     pub const fn from_bits(bits: u32) -> Self {
         Self(bits)

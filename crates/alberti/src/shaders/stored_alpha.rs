@@ -29,8 +29,8 @@ use alberti_texture::{Leveled, Nearest, NearestLevel, Sampler, Size, TexelFormat
 /// That of [`Rgba565`].
 ///
 /// # Cost
-/// On RGB565 that of [`Stored`](super::Stored), and one product of a word. In other formats, and other targets, three
-/// divisions.
+/// On RGB565 that of [`Stored`](super::Stored), and one product of a word. Texels of other formats take three
+/// quotients, and so do other targets. Beyond a border there is nothing, whatever its colour.
 #[derive(Clone, Copy, Debug)]
 pub struct StoredAlpha<S>(
     /// The texture with its wrap mode.

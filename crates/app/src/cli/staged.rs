@@ -57,7 +57,7 @@ pub(super) fn refuse(matches: &ArgMatches, name: &str, ids: &[&str], reason: &st
 pub(super) struct Request {
     pub(super) arguments: RenderArgs,
     file: Option<SceneFile>,
-    /// The camera of the file, if it has a place that the command line says in another way.
+    /// The eye and the target of the file, if the command line turns its camera.
     orbit: Option<CameraTable>,
 }
 
@@ -88,8 +88,8 @@ impl Request {
             // The file's options, and over them those of the command line.
             arguments = options;
             if given.turns() || given.eye.is_some() {
-                orbit = Some(arguments.camera).filter(|camera| camera.eye.is_some());
-                arguments.camera.forget_place();
+                let before = arguments.camera.forget_place();
+                orbit = Some(before).filter(|camera| given.turns() && camera.eye.is_some());
             }
             arguments.update_from_arg_matches(matches).map_err(refused)?;
         }
@@ -104,8 +104,11 @@ impl Request {
     /// One that cannot be understood.
     pub(super) fn given(matches: &ArgMatches) -> Result<Self, Error> {
         let refused = |error: clap::Error| Error::new(error.to_string(), "what --help lists");
-        let arguments = RenderArgs::from_arg_matches(matches).map_err(refused)?;
-        Ok(Self { arguments, file: None, orbit: None })
+        RenderArgs::from_arg_matches(matches).map_err(refused).map(|arguments| Self {
+            arguments,
+            file: None,
+            orbit: None,
+        })
     }
 
     /// Puts an error in the scene file, if its cause is there.
@@ -253,17 +256,12 @@ impl Request {
         let ball = camera::bounding_sphere(&scene.model);
         let aspect = f64::from(width) / f64::from(height);
         let wishes = arguments.camera.counted_from(origin);
-        let all = (&scene.model, ball);
-        let orbit = self.orbit.map(|camera| camera::frame(&camera.counted_from(origin), None, all, aspect));
-        let base = scene.camera.or(orbit.transpose()?);
-        let camera = camera::frame(&wishes, base.as_ref(), all, aspect)?;
+        let base = scene.camera.or(self.orbit.map(|table| camera::orbit(&table.counted_from(origin), ball)));
+        let camera = camera::frame(&wishes, base.as_ref(), (&scene.model, ball), aspect)?;
         order::back_to_front(&mut scene.model, &camera);
         if camera::is_behind(&camera, ball) {
-            warn(
-                &Error::new("a camera that looks away from the model", "the model in view")
-                    .place("--eye")
-                    .to_string(),
-            );
+            let error = Error::new("a camera that looks away from the model", "the model in view");
+            warn(&error.place("--eye").to_string());
         }
         if let Some(slide) = &scene.model.slide
             && slide::misses(&slide::projector(slide)?, &scene.model)

@@ -116,7 +116,7 @@ impl CheckedMtl {
             b"d" if r <= 0.0 => {
                 entry.opacity = Some(0.0);
                 let found = format!("`{} {}`, nothing to be seen", line.keyword(), number(r));
-                return Ok(vec![Error::new(found, "more").hint("the material is not drawn")]);
+                return Ok(vec![Error::new(found, "more").hint("a picture shows none of it")]);
             }
             b"d" => entry.opacity = Some(r.min(1.0)),
             // Some exporters mean the opacity.

@@ -100,10 +100,13 @@ impl CameraTable {
         self.zoom.map_or(1.0, f32::from)
     }
 
-    /// Leaves the place of the eye open, and the planes before it, for options that say it in another way.
-    pub(crate) fn forget_place(&mut self) {
+    /// Leaves the place of the eye open, and the planes before it, for options that say it in another way. The eye and
+    /// the target are handed back.
+    pub(crate) fn forget_place(&mut self) -> Self {
+        let Self { eye, target, .. } = *self;
         *self =
             Self { eye: None, azimuth: None, elevation: None, view: None, near: None, far: None, ..*self };
+        Self { eye, target, ..Self::default() }
     }
 
     /// # Errors

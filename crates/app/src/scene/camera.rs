@@ -168,6 +168,14 @@ fn check_radius(model: &Model, ball: Sphere) -> Result<(), Error> {
     })
 }
 
+/// The camera around whose target another is turned, at its distance: with these places, and usual otherwise.
+pub(crate) fn orbit(places: &CameraTable, ball: Sphere) -> Camera {
+    let point = |point: Option<Point>| point.map(<[f32; 3]>::from);
+    let target = point(places.target).unwrap_or(ball.center.map(narrow));
+    let eye = point(places.eye).unwrap_or(target);
+    Camera { eye, target, up: [0.0, 1.0, 0.0], fov: DEFAULT_FOV, near: 1.0, far: 2.0 }
+}
+
 /// The camera after so many of `turns` equal parts of a turn around its target, about its upward direction. The planes
 /// stay as far away.
 pub(crate) fn turned(camera: &Camera, turn: u32, turns: u32) -> Camera {

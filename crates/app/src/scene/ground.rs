@@ -74,14 +74,20 @@ pub(crate) fn add(model: &mut Model, camera: &mut Camera, fixed: [bool; 2], affi
 fn stretch(camera: &mut Camera, points: &[[f64; 3]], fixed: [bool; 2]) {
     let eye = camera.eye.map(f64::from);
     let Some(forward) = normalize(sub(camera.target.map(f64::from), eye)) else { return };
+    let mut behind = false;
     for &point in points {
         let along = narrow(dot(sub(point, eye), forward));
         if !fixed[0] && along > 0.0 {
             camera.near = camera.near.min(0.99 * along);
         }
+        behind |= along <= 0.0;
         if !fixed[1] {
             camera.far = camera.far.max(1.01 * along);
         }
+    }
+    if behind && !fixed[0] {
+        // It reaches up to the eye.
+        camera.near = camera.near.min(camera.far / 1000.0);
     }
 }
 
@@ -321,7 +327,7 @@ mod tests {
         for vertex in &model.vertices[5..] {
             assert!(vertex.position[1] < 0.0 && vertex.position[1] > -0.01);
             let along = dot(sub(vertex.position.map(f64::from), eye), forward);
-            assert!(along < 0.0 || (f64::from(camera.near)..f64::from(camera.far)).contains(&along));
+            assert!((f64::from(camera.near)..f64::from(camera.far)).contains(&along));
         }
         // The image's first row is at v = 1, and the front of the ground is above.
         let [a, b, c] = part.triangles[0].map(|k| model.vertices[k as usize].position.map(f64::from));
@@ -330,6 +336,17 @@ mod tests {
         let mut model = square(0.5);
         add(&mut model, &mut { below }, [false; 2], true);
         assert_eq!(model.parts.len(), 1);
+    }
+
+    /// A camera with the ground on all sides of it.
+    #[test]
+    fn a_ground_up_to_the_eye_is_not_cut_off() {
+        let mut camera = Camera { eye: [0.4, 0.5, 0.4], target: [0.0, 0.5, 0.0], near: 0.3, ..CAMERA };
+        add(&mut square(0.5), &mut camera, [false; 2], false);
+        assert!(camera.near > 0.0 && camera.near < 0.01, "{camera:?}");
+        let mut fixed = Camera { near: 0.3, ..camera };
+        add(&mut square(0.5), &mut fixed, [true, false], false);
+        assert!((fixed.near - 0.3).abs() < f32::EPSILON);
     }
 
     /// Squares lie side by side, each with the coordinates of its place, and are as large as the whole.

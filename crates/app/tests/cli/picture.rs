@@ -93,6 +93,15 @@ fn scenes_are_turned_around_their_target() {
             "{turn:?} {near}"
         );
     }
+    // As large, and as upright, as the file says once.
+    fs::write(folder.path("a.toml"), scene.replace("near", "zoom = 2\nroll = 30\nnear")).expect("a file");
+    let leaning = camera(&["--view", "front"]);
+    let half = (leaning("--fov")[0] / 2.0).to_radians().tan();
+    assert!((half - 20_f64.to_radians().tan() / 2.0).abs() < 1e-4);
+    let up = leaning("--up");
+    assert!((up[1] - 30_f64.to_radians().cos()).abs() < 1e-4 && (up[0].abs() - 0.5).abs() < 1e-4, "{up:?}");
+    fs::write(folder.path("a.toml"), scene.replace("[0, 0, 3]", "[0, 3, 0]")).expect("a file");
+    assert_eq!(camera(&["--view", "front"])("--eye"), [0.0, 0.0, 3.0]);
     let fixed = camera(&["--azimuth", "90", "--far", "77"]);
     assert_eq!(fixed("--far"), [77.0]);
 }

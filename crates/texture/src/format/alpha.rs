@@ -17,7 +17,8 @@ use alberti_math::{Rgba8, Rgba565};
 /// ```
 ///
 /// # Precision
-/// Alpha has 33 levels. Colours have the fewer the less alpha there is: none where it is 3 and less.
+/// Alpha has 33 levels. Colours have the fewer the less alpha there is: none, and so black, where it is 3 and less.
+/// Levels of a mip map are therefore built in another format and encoded then, as `alberti bake` does.
 ///
 /// # Cost
 /// Four bytes a texel. Decoding takes three divisions; a stage that leaves words as they are takes none.

@@ -52,7 +52,7 @@ pub fn build<F: TexelFormat>(
 
 /// The work of [`build`] in pieces, which threads may share: each fills some levels, and reads level 0. There is one
 /// where sides are powers of two, and otherwise one more after each level with an odd side. The first has most to do,
-/// and each may be [split](Piece::split).
+/// and pieces may be [split](Piece::split) whose last level has more than one row.
 ///
 /// # Errors
 /// Those of [`build`].

@@ -103,6 +103,7 @@ fn opacity_comes_before_transparency() {
         ("d -halo 0.5", 0.5, 0),
         ("Tr 1", 1.0, 1),
         ("d 2", 1.0, 1),
+        ("d 0", 0.0, 1),
     ] {
         let (checked, warnings) = run(format!("newmtl a\n{text}\n").as_bytes());
         assert!((checked.materials[0].opacity() - opacity).abs() < 1e-6, "{text}");

@@ -5,8 +5,8 @@ use embedded_hal_async::digital::Wait;
 
 /// A ticker of frames that none catches up with, and the display's tearing-effect pin.
 ///
-/// Frames are due a period apart. One that is late begins at once, and those after it are counted from there. Each then
-/// waits for the pin to rise, which tells that the display begins to read its memory anew.
+/// Frames are due a period apart. One that is late is due at once, and those after it are counted from there. Each
+/// begins as the pin rises after that, which tells that the display begins to read its memory anew.
 #[derive(Debug)]
 pub struct Pace<T> {
     period: Duration,
@@ -92,7 +92,8 @@ mod tests {
         let _alone = CLOCK.lock().unwrap_or_else(PoisonError::into_inner);
         let advance = |time| MockDriver::get().advance(Duration::from_micros(time));
         let now = Instant::now().as_micros();
-        advance((now / every + 100) * every - now);
+        // The clock begins at 0, and frames are due a period after that at the earliest.
+        advance(((now + PERIOD) / every + 1) * every - now);
         let mut pace = Pace::new(Duration::from_micros(PERIOD), pin);
         let start = Instant::now().as_micros();
         let mut begins = Vec::new();
@@ -112,7 +113,7 @@ mod tests {
 
     #[test]
     fn frames_are_a_period_apart() {
-        // The first two find out that there is no pin.
+        // The first finds out that there is no pin, and the second is late for that.
         let times = begins(STEP, Pin(None), &[10_000; 6]);
         let first = PERIOD + 10_000;
         let expected =
