@@ -188,7 +188,7 @@ fn faults_are_told_with_their_place() {
             &[0x10],
             std::format!("byte {} of a baked file: found a grid of 285147136, expected", parts + PART),
         ),
-        (textures, &[14], std::format!("byte {textures} of a baked file: found texels of format 14")),
+        (textures, &[15], std::format!("byte {textures} of a baked file: found texels of format 15")),
         (textures + 4, &[3], std::format!("byte {textures} of a baked file: found 3 bytes of texels")),
         (textures + 12, &[12], std::format!("byte {textures} of a baked file: found 12 bytes of texels")),
     ] {
