@@ -37,12 +37,11 @@ impl<T: Wait> Pace<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use core::convert::Infallible;
+    use crate::tests::Rising;
     use core::future::{Future, pending};
     use core::pin::pin;
     use core::task::{Context, Waker};
     use embassy_time::MockDriver;
-    use embedded_hal::digital::ErrorType;
     use std::sync::{Mutex, PoisonError};
     use std::vec::Vec;
 
@@ -54,41 +53,22 @@ mod tests {
     const STEP: u64 = 10;
     const PERIOD: u64 = 33_300;
 
-    /// A pin that rises at multiples of so many microseconds, or never.
-    struct Pin(Option<u64>);
-
-    impl ErrorType for Pin {
-        type Error = Infallible;
+    /// A pin that never rises.
+    fn absent() -> Rising<impl AsyncFnMut()> {
+        Rising(async || pending().await)
     }
 
-    impl Wait for Pin {
-        async fn wait_for_rising_edge(&mut self) -> Result<(), Infallible> {
-            let Some(every) = self.0 else { return pending().await };
+    /// A pin that rises at multiples of so many microseconds.
+    fn rising(every: u64) -> Rising<impl AsyncFnMut()> {
+        Rising(async move || {
             let next = (Instant::now().as_micros() / every + 1) * every;
             Timer::at(Instant::from_micros(next)).await;
-            Ok(())
-        }
-
-        async fn wait_for_high(&mut self) -> Result<(), Infallible> {
-            panic!("an edge is waited for")
-        }
-
-        async fn wait_for_low(&mut self) -> Result<(), Infallible> {
-            panic!("an edge is waited for")
-        }
-
-        async fn wait_for_falling_edge(&mut self) -> Result<(), Infallible> {
-            panic!("an edge is waited for")
-        }
-
-        async fn wait_for_any_edge(&mut self) -> Result<(), Infallible> {
-            panic!("an edge is waited for")
-        }
+        })
     }
 
     /// When each frame begins, in microseconds, if drawing them takes so long. The first begins at a multiple of
     /// `every`.
-    fn begins(every: u64, pin: Pin, drawing: &[u64]) -> Vec<u64> {
+    fn begins(every: u64, pin: impl Wait, drawing: &[u64]) -> Vec<u64> {
         let _alone = CLOCK.lock().unwrap_or_else(PoisonError::into_inner);
         let advance = |time| MockDriver::get().advance(Duration::from_micros(time));
         let now = Instant::now().as_micros();
@@ -114,7 +94,7 @@ mod tests {
     #[test]
     fn frames_are_a_period_apart() {
         // The first finds out that there is no pin, and the second is late for that.
-        let times = begins(STEP, Pin(None), &[10_000; 6]);
+        let times = begins(STEP, absent(), &[10_000; 6]);
         let first = PERIOD + 10_000;
         let expected =
             [PERIOD, first, first + PERIOD, first + 2 * PERIOD, first + 3 * PERIOD, first + 4 * PERIOD];
@@ -123,7 +103,7 @@ mod tests {
 
     #[test]
     fn late_frames_begin_at_once_and_none_catches_up() {
-        let times = begins(STEP, Pin(None), &[50_000, 0, 0, 120_000, 5_000, 40_000, 0, 0]);
+        let times = begins(STEP, absent(), &[50_000, 0, 0, 120_000, 5_000, 40_000, 0, 0]);
         let second = PERIOD + 50_000;
         let late = second + 2 * PERIOD + 120_000;
         let later = late + PERIOD + 40_000;
@@ -137,7 +117,7 @@ mod tests {
 
     #[test]
     fn quick_frames_begin_with_the_display_after_they_are_due() {
-        let times = begins(SHOWN, Pin(Some(SHOWN)), &[10_000; 40]);
+        let times = begins(SHOWN, rising(SHOWN), &[10_000; 40]);
         let expected: Vec<u64> = (0..40).map(|frame| (frame * PERIOD / SHOWN + 1) * SHOWN).collect();
         assert_eq!(times, expected);
     }
@@ -146,7 +126,7 @@ mod tests {
     #[test]
     fn slow_frames_begin_with_the_next_of_the_display() {
         for (drawing, displayed) in [(32_000, 2), (34_000, 3), (45_000, 3), (51_000, 4)] {
-            let times = begins(SHOWN, Pin(Some(SHOWN)), &[drawing; 40]);
+            let times = begins(SHOWN, rising(SHOWN), &[drawing; 40]);
             let expected: Vec<u64> = (0..40).map(|frame| SHOWN * (1 + frame * displayed)).collect();
             assert_eq!(times, expected, "{drawing}");
         }
@@ -155,7 +135,7 @@ mod tests {
     /// A pin that is as slow as frames is one that is not there.
     #[test]
     fn a_pin_that_does_not_rise_is_waited_for_once() {
-        let times = begins(PERIOD * 2, Pin(Some(PERIOD * 2)), &[1000; 5]);
+        let times = begins(PERIOD * 2, rising(PERIOD * 2), &[1000; 5]);
         let first = PERIOD + 1000;
         assert_eq!(times, [PERIOD, first, first + PERIOD, first + 2 * PERIOD, first + 3 * PERIOD]);
     }

@@ -123,16 +123,16 @@ impl DelayNs for Clock {
     }
 }
 
-/// A tearing-effect pin that rises whenever it is waited for.
-struct Tearing(Log);
+/// A pin whose rising edge is when the closure's future is ready.
+pub(crate) struct Rising<F>(pub(crate) F);
 
-impl PinError for Tearing {
+impl<F> PinError for Rising<F> {
     type Error = Infallible;
 }
 
-impl Wait for Tearing {
+impl<F: AsyncFnMut()> Wait for Rising<F> {
     async fn wait_for_rising_edge(&mut self) -> Result<(), Infallible> {
-        self.0.push(Frame);
+        (self.0)().await;
         Ok(())
     }
 
@@ -153,10 +153,11 @@ impl Wait for Tearing {
     }
 }
 
-fn panel(chip: Chip, log: &Log) -> Panel<Bus, Pin, Tearing> {
+fn panel(chip: Chip, log: &Log) -> Panel<Bus, Pin, Rising<impl AsyncFnMut()>> {
     let pins = ["select", "data", "reset"].map(|name| Pin(name, log.clone()));
     let [select, data, reset] = pins;
-    let pace = Pace::new(Duration::MIN, Tearing(log.clone()));
+    let frames = log.clone();
+    let pace = Pace::new(Duration::MIN, Rising(async move || frames.push(Frame)));
     let mut delay = Clock(log.clone());
     let Ok(panel) =
         block_on(Panel::new(chip, Bus(log.clone()), Pins { select, data, reset }, &mut delay, pace));
