@@ -19,7 +19,6 @@ mod texels;
 pub use binary::bytes;
 pub use missing::{left_out, missing};
 pub use packed::{Grids, Losses, Packed};
-pub(crate) use report::counted;
 pub use report::{Estimate, Report};
 pub use restored::restored;
 pub use shape::{Order, Piece};

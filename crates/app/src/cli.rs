@@ -17,6 +17,7 @@ mod explain;
 mod help;
 mod info;
 pub(crate) mod partners;
+mod picture;
 pub mod run;
 mod staged;
 mod watch;
@@ -147,7 +148,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "FORMAT", num_args = 0..=1, default_missing_value = "text")]
     pub stats: Option<StatsFormat>,
 
-    /// Print errors alone: no summary, no warnings, no progress.
+    /// Print errors alone, and what --stats asks for: no summary, no legend, no warnings, no progress.
     #[arg(short, long)]
     pub quiet: bool,
 

@@ -81,6 +81,18 @@ impl Error {
         self
     }
 
+    /// Whether it is about a line.
+    pub(crate) fn has_line(&self) -> bool {
+        self.line.is_some()
+    }
+
+    /// The same of a file that another one names: it is told there.
+    #[must_use]
+    pub(crate) fn of(self, named: &str) -> Self {
+        let found = format!("{} for {named}", self.found);
+        Self { place: None, line: None, key: None, found, ..self }
+    }
+
     /// The remedy, or the repair that was made.
     #[must_use]
     pub fn hint(mut self, hint: impl Into<Box<str>>) -> Self {
@@ -169,6 +181,11 @@ pub fn quote(bytes: &[u8]) -> String {
 /// A number for a message: not with dozens of zeros.
 pub fn number(x: f32) -> String {
     if x == 0.0 || (1e-5..1e10).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") }
+}
+
+/// A number of things, in words.
+pub(crate) fn counted(number: usize, one: &str, many: &str) -> String {
+    format!("{number} {}", if number == 1 { one } else { many })
 }
 
 /// File names and file contents may hold line breaks and terminal escapes; messages may not.

@@ -168,7 +168,11 @@ impl Journey {
     #[must_use]
     pub fn text(&self) -> String {
         let ([x, y], [width, height]) = (self.pixel, self.size);
-        let blocks: Vec<String> = self.blocks.iter().map(Block::text).collect();
+        let numbers = self.blocks.iter().scan(0, |steps, block| {
+            *steps += u32::from(block.is_step());
+            Some(block.is_step().then_some(*steps))
+        });
+        let blocks: Vec<String> = self.blocks.iter().zip(numbers).map(|(block, n)| block.text(n)).collect();
         format!(
             "pixel {x},{y} of {width}x{height}; relations are those of docs/theory.md\n\n{}",
             blocks.join("\n")
@@ -237,7 +241,7 @@ impl Scene<'_> {
 
     /// The fragments that came to the pixel.
     fn fragments(&self, model: &Model, traced: &Traced) -> Block {
-        let mut block = Block::new("fragments", "1. fragments, in drawing order", &[theory::Z_BUFFER]);
+        let mut block = Block::new("fragments", "fragments, in drawing order", &[theory::Z_BUFFER]);
         if traced.arrivals.is_empty() {
             block.note("none", "no triangle covers the pixel");
             return block;
@@ -318,11 +322,11 @@ impl Scene<'_> {
         block.values("color", "colour", color.to_bytes().map(u32::from));
         block.value("word", "word (r, g, b, a from the left)", format!("0x{word:0digits$x}"));
         block.values("shown", "seen as", seen.map(u32::from));
-        block.values("picture", "the picture has", found.map(u32::from));
+        block.values("picture", "a picture of one sample has", found.map(u32::from));
         let verdict = if agrees {
-            "the derived colour is the picture's, to the bit"
+            "the derived colour is that of the picture with one sample a pixel, to the bit"
         } else {
-            "DEFECT: the derived colour is not the picture's; please report it"
+            "DEFECT: the derived colour is not that of the picture; please report it"
         };
         block.note("verdict", verdict);
         block

@@ -5,7 +5,8 @@ use std::path::{Component, Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use crate::bake::{Report, counted};
+use crate::bake::Report;
+use crate::error::counted;
 use crate::error::{Error, quote};
 use crate::scene::{Image, MapNote, Model, Part, Vertex};
 

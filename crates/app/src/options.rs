@@ -110,6 +110,7 @@ pub enum FileFormat {
     /// PNG.
     Png,
     /// JPEG.
+    #[value(alias = "jpeg")]
     Jpg,
     /// BMP.
     Bmp,

@@ -47,6 +47,17 @@ pub enum Model {
     Phong(u32),
     /// The angle between the normal and the direction halfway between light and eye.
     Blinn(u32),
+    /// That of Phong or of Blinn, times four times the cosine of the light's angle, at most 1.
+    Soft(u32, Angle),
+}
+
+/// The angle that a highlight is of.
+#[derive(Clone, Copy, Debug)]
+pub enum Angle {
+    /// As [`Model::Phong`] has it.
+    Phong,
+    /// As [`Model::Blinn`] has it.
+    Blinn,
 }
 
 /// What a surface is at a point.
@@ -97,14 +108,15 @@ pub fn seen(point: &Point, lights: &[Light], ambient: Vec3, model: Model, viewer
         let l = light.at.from(point.position);
         let facing = cosine(n, l);
         let [arriving, steepness] = share(light, l);
+        let softened = if matches!(model, Model::Soft(..)) { (4.0 * facing).min(1.0) } else { 1.0 };
         let (highlight, sure) = match model {
             Model::Lambert => (0.0, 1.0),
-            Model::Phong(exponent) => {
+            Model::Phong(exponent) | Model::Soft(exponent, Angle::Phong) => {
                 // cos(r, v) of r = 2 (n·l) n − l, for unit vectors.
                 let c = 2.0 * facing * cosine(n, v) - cosine(l, v);
                 (power(c, exponent), c.abs())
             }
-            Model::Blinn(exponent) => {
+            Model::Blinn(exponent) | Model::Soft(exponent, Angle::Blinn) => {
                 // (n·l + n·v)/|l + v|, and |l + v|² = 2 + 2 l·v.
                 let length = (2.0 + 2.0 * cosine(l, v)).sqrt();
                 let c = (facing + cosine(n, v)) / length;
@@ -117,8 +129,9 @@ pub fn seen(point: &Point, lights: &[Light], ambient: Vec3, model: Model, viewer
         seen.light += most(light.color) * arriving;
         if facing > 0.0 {
             for i in 0..3 {
-                seen.color[i] +=
-                    light.color[i] * arriving * (point.diffuse[i] * facing + point.specular[i] * highlight);
+                seen.color[i] += light.color[i]
+                    * arriving
+                    * (point.diffuse[i] * facing + point.specular[i] * highlight * softened);
             }
         }
     }

@@ -13,16 +13,16 @@ mod saturation;
 use alberti::glam::{DVec3, Vec2, Vec3};
 use alberti::raster::{NoDerivatives, PerPixel};
 use alberti::shaders::material::{
-    BlinnPhong, Color, Directional, Emission, Framed, Gloss, Gouraud, Lambert, Lighting, Material, NormalMap,
-    ObjectNormals, Occlusion, Phong, Placed, PointLight, Reflectance, Reflection, Specular, SpotLight,
-    TwoChannels, Viewer, Wetness,
+    BlinnPhong, Color, Directional, Emission, Framed, Gloss, Gouraud, Grazing, Lambert, Lighting, Material,
+    NormalMap, ObjectNormals, Occlusion, Phong, Placed, PointLight, Reflectance, Reflection, Specular,
+    SpotLight, TwoChannels, Viewer, Wetness,
 };
 use alberti::texture::environment::LatLong;
 use alberti::texture::format::Rgba8888;
 use alberti::texture::{Mipmap, Nearest, Repeat, Texture, Trilinear, surface::NormalEncoding::Unorm};
 use alberti::{FragmentStage, Frame, Point3, Rgba8, Vector3, World};
 use alberti_oracle::material::{
-    self as oracle, Light, Model, Point, Seen, mapped_normal, nearest, numbers, schlick,
+    self as oracle, Angle, Light, Model, Point, Seen, mapped_normal, nearest, numbers, schlick,
 };
 use alberti_oracle::rng::{Rng, run_seed};
 use alberti_oracle::scene;
@@ -145,7 +145,7 @@ impl Worst {
         let Seen { color, light, margin, opposite, steepness } = seen;
         let exponent = match model {
             Model::Lambert => 0,
-            Model::Phong(exponent) | Model::Blinn(exponent) => exponent,
+            Model::Phong(exponent) | Model::Blinn(exponent) | Model::Soft(exponent, _) => exponent,
         };
         if margin < 1e-5 {
             return;
@@ -193,7 +193,7 @@ fn exponent(rng: &mut Rng) -> u32 {
 #[test]
 fn lights_on_a_bare_surface() {
     let mut rng = Rng::stream(run_seed(), 1);
-    let mut worst = [(); 3].map(|()| Worst::default());
+    let mut worst = [(); 5].map(|()| Worst::default());
     for _ in 0..20_000 {
         let lit = lit(&mut rng);
         let surface = Placed {
@@ -215,8 +215,14 @@ fn lights_on_a_bare_surface() {
         worst[1].judge(found, &point, &lit, Model::Phong(e), "Phong");
         let found = of(&|| Material { layers, lighting: lit.lighting(BlinnPhong(e)) }.shade_one(surface));
         worst[2].judge(found, &point, &lit, Model::Blinn(e), "BlinnPhong");
+        let (phong, blinn) = (lit.lighting(Grazing(Phong(e))), lit.lighting(Grazing(BlinnPhong(e))));
+        let found = of(&|| Material { layers, lighting: phong }.shade_one(surface));
+        worst[3].judge(found, &point, &lit, Model::Soft(e, Angle::Phong), "soft Phong");
+        let found = of(&|| Material { layers, lighting: blinn }.shade_one(surface));
+        worst[4].judge(found, &point, &lit, Model::Soft(e, Angle::Blinn), "soft BlinnPhong");
     }
-    for (worst, name) in worst.iter().zip(["Lambert", "Phong", "BlinnPhong"]) {
+    for (worst, name) in worst.iter().zip(["Lambert", "Phong", "BlinnPhong", "soft Phong", "soft BlinnPhong"])
+    {
         worst.done(name);
     }
 }
@@ -274,6 +280,8 @@ fn light_at_vertices() {
     shine("Lambert", 6, |_| Lambert, |_| Model::Lambert);
     shine("Phong", 7, Phong::<u32>, Model::Phong);
     shine("BlinnPhong", 8, BlinnPhong::<u32>, Model::Blinn);
+    shine("soft Phong", 9, |e| Grazing(Phong(e)), |e| Model::Soft(e, Angle::Phong));
+    shine("soft BlinnPhong", 10, |e| Grazing(BlinnPhong(e)), |e| Model::Soft(e, Angle::Blinn));
 }
 
 /// Textures of sides that are a power of two, and that are not.

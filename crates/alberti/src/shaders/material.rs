@@ -51,7 +51,7 @@ pub use layers::{Color, Emission, Gloss, Occlusion, Specular, Wetness};
 pub use light::{AnyLight, Directional, Light, PointLight, SpotLight};
 pub use light_space::{AnyLightSpace, InSpace, LightSpace, LinearLight};
 pub use map::{Called, Map, Times};
-pub use reflectance::{AnyReflectance, BlinnPhong, Lambert, Phong, Reflectance};
+pub use reflectance::{AnyReflectance, BlinnPhong, Grazing, Lambert, Phong, Reflectance};
 pub use reflection::Reflection;
 pub use relief::{Bump, NormalMap, ObjectNormals, Parallax, TwoChannels};
 pub use surface::{Axes, Framed, Layer, OnSurface, Placed, Surface, Viewer};

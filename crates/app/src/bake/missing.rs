@@ -2,8 +2,9 @@
 
 use std::borrow::Cow;
 
-use super::report::{counted, named};
+use super::report::named;
 use super::{Asked, Asset};
+use crate::error::counted;
 use crate::error::{Error, number};
 use crate::options::{RenderOptions, Shading};
 use crate::scene::{Detail, Light, Model, Part};

@@ -9,7 +9,7 @@ use super::missing::as_filed;
 use super::texels::Role;
 use super::{Asset, Format, restored};
 use crate::advise::{Kin, LitAt, Machine, baked_on_chip, depth_bytes, work};
-use crate::error::{Error, quote};
+use crate::error::{Error, counted, quote};
 use crate::measure::{Comparison, Measures};
 use crate::options::values::name_of;
 use crate::options::{Arithmetic, ColorFormat, Filter, Policies, Projection, RenderOptions, Shading};
@@ -378,12 +378,6 @@ fn items(asset: &Asset) -> Vec<(String, usize)> {
 pub(super) fn named(part: &Part) -> String {
     if part.name.is_empty() { String::new() } else { format!(" ({})", quote(part.name.as_bytes())) }
 }
-
-/// A number of things, in words.
-pub(crate) fn counted(number: usize, one: &str, many: &str) -> String {
-    format!("{number} {}", if number == 1 { one } else { many })
-}
-
 /// The memory of a renderer in bands, as [`alberti::Memory`] has it, with the options' colours and depths.
 fn memory(asset: &Asset, options: &RenderOptions, band: u32) -> [(String, usize); 4] {
     let pixels = (options.width * band) as usize;

@@ -13,7 +13,7 @@ use crate::bake::{Asked, Format, Report, Wish, bake, bytes, left_out, missing, s
 use crate::error::Error;
 use crate::options::values::Size;
 use crate::options::{LightOptions, MAX_SIDE, Profile};
-use crate::output::file::Whole;
+use crate::output::file::{STANDARD, Whole};
 use crate::output::stats::Source;
 
 pub(super) const HELP: &str = "\
@@ -191,7 +191,10 @@ fn baked(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
 fn name(request: &Request) -> String {
     let stem = |path: &Path| path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     match request.source() {
-        Source::Model(path) => stem(path).unwrap_or_else(|| "model".to_owned()),
+        // Standard input has no name.
+        Source::Model(path) => {
+            stem(path).filter(|stem| stem != STANDARD).unwrap_or_else(|| "model".to_owned())
+        }
         Source::Scene(name) => name.to_owned(),
     }
 }

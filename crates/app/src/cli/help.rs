@@ -30,6 +30,12 @@ const GENERAL: &str = "output";
 /// The topic of all options.
 const ALL: &str = "all";
 
+/// The topic of scene files, and their part of the manual.
+const SCENE_FILES: (&str, &str) = ("scene-files", "## Scene files\n");
+
+/// The manual.
+const MANUAL: &str = include_str!("../../README.md");
+
 /// The first page.
 const FIRST: &str = "\
 Usage: alberti MODEL.obj|SCENE.toml [OPTIONS]
@@ -51,6 +57,7 @@ Help:
   alberti help TOPIC                options of one kind, where TOPIC is one of
                                     {topics}
   alberti help all                  all options
+  alberti help scene-files          what a scene file can say
 ";
 
 /// The help that these words ask for, if they do.
@@ -104,8 +111,11 @@ fn of_command(command: &Command, name: &str, topic: Option<&str>) -> Result<Stri
             let template = "{about-with-newline}\n{usage-heading} {usage}{after-help}\n\n{all-args}";
             Ok(text(page.help_template(template).render_long_help()))
         }
-        Some(topic) if is_topic(command, topic) => Ok(options(page, topic)),
-        Some(topic) => Err(no_topic(command, topic)),
+        Some(topic) if is_topic(command, topic) => {
+            let has = page.get_arguments().any(|argument| is_shown(argument, topic));
+            if has { Ok(options(page, topic)) } else { Err(no_options(name, topic)) }
+        }
+        Some(topic) => Err(no_options(name, topic)),
         None => {
             let common = |argument: &Arg| match name {
                 "render" => COMMON.contains(&argument.get_id().as_str()),
@@ -119,7 +129,7 @@ fn of_command(command: &Command, name: &str, topic: Option<&str>) -> Result<Stri
             });
             let template = "{about-with-newline}\n{usage-heading} {usage}{after-help}\n\n{all-args}";
             let page = text(page.help_template(template).render_help());
-            Ok(format!("{page}\n{}", pointers(command, name)))
+            Ok(format!("{page}{}", pointers(command, name)))
         }
     }
 }
@@ -135,12 +145,10 @@ fn own(command: &Command, name: &str, argument: &Arg) -> bool {
 /// The options of other pages, by name.
 fn pointers(command: &Command, name: &str) -> String {
     let Some(render) = command.find_subcommand(name) else { return String::new() };
-    let mut text = format!("More options, by alberti help {name} TOPIC:\n");
+    let mut text = String::new();
     for topic in topics(command) {
         let of_topic = render.get_arguments().filter(|argument| {
-            topic_of(argument) == topic
-                && !argument.is_hide_set()
-                && (name == "render" || !own(command, name, argument))
+            is_shown(argument, &topic) && (name == "render" || !own(command, name, argument))
         });
         let mut line = format!("  {topic:<11}");
         for option in of_topic.filter_map(Arg::get_long) {
@@ -150,33 +158,55 @@ fn pointers(command: &Command, name: &str) -> String {
             }
             line.push_str(&format!("--{option} "));
         }
-        text.push_str(&format!("{}\n", line.trim_end()));
+        if !line.trim_end().ends_with(&topic) {
+            text.push_str(&format!("{}\n", line.trim_end()));
+        }
     }
-    text.push_str("  all        everything\n");
-    text
+    if text.is_empty() {
+        return text;
+    }
+    format!("\nMore options, by alberti help {name} TOPIC:\n{text}  all        everything\n")
 }
 
 fn of_topic(command: &Command, topic: &str) -> Result<String, Error> {
     match command.find_subcommand("render").cloned() {
         _ if topic == ALL => of_command(command, "render", Some(ALL)),
+        _ if topic == SCENE_FILES.0 => Ok(scene_files().to_owned()),
         Some(render) if is_topic(command, topic) => Ok(options(render, topic)),
         _ => Err(no_topic(command, topic)),
     }
 }
 
+/// The part of the manual that is about scene files.
+fn scene_files() -> &'static str {
+    let part = MANUAL.split_once(SCENE_FILES.1).map_or("", |(_, part)| part);
+    part.split("\n## ").next().unwrap_or(part).trim_start()
+}
+
+/// Whether an option of a command is in a topic's page.
+fn is_shown(argument: &Arg, topic: &str) -> bool {
+    topic_of(argument) == topic && !argument.is_hide_set() && !argument.is_positional()
+}
+
 /// The options of a topic, with all that is said of them.
 fn options(page: Command, topic: &str) -> String {
     let page = page.mut_args(|argument| {
-        let hidden = argument.is_hide_set() || topic_of(&argument) != topic || argument.is_positional();
+        let hidden = !is_shown(&argument, topic);
         argument.hide(hidden)
     });
     let mut page = page.disable_help_flag(true).help_template("{all-args}");
     text(page.render_long_help())
 }
 
+fn no_options(name: &str, topic: &str) -> Error {
+    let error = Error::new(format!("no such options of `{name}`"), "a topic of its page").place(topic);
+    error.hint(format!("see alberti help {name}"))
+}
+
 fn no_topic(command: &Command, topic: &str) -> Error {
     let topics = topics(command);
-    let known = || command.get_subcommands().map(Command::get_name).chain(topics.iter().map(String::as_str));
+    let topics = || topics.iter().map(String::as_str).chain([SCENE_FILES.0]);
+    let known = || command.get_subcommands().map(Command::get_name).chain(topics());
     let error =
         Error::new("no such command or topic", format!("one of {}", known().collect::<Vec<_>>().join(", ")));
     let error = error.place(topic);

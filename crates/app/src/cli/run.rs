@@ -122,7 +122,9 @@ fn usage(error: &clap::Error, renamed: bool) -> u8 {
             ("one word too many".to_owned(), "fewer files".to_owned())
         }
         ErrorKind::UnknownArgument => {
-            let similar = context(ContextKind::SuggestedArg).map(|option| format!(", such as {option}"));
+            let meant = option.as_deref().and_then(words::of_others).map(str::to_owned);
+            let similar = meant.or_else(|| context(ContextKind::SuggestedArg));
+            let similar = similar.map(|option| format!(", such as {option}"));
             ("it".to_owned(), format!("an option{}", similar.unwrap_or_default()))
         }
         ErrorKind::InvalidValue
@@ -167,7 +169,13 @@ fn draw_from(request: &Request) -> Result<(), Error> {
     let before = [Work::Maps, Work::MipMaps].map(spent);
     let output = request.output()?;
     let beside = request.beside(&output)?;
-    let Staged { model, camera, options, samples, backdrop, load } = request.stage_picture()?;
+    let mut staged = request.stage_picture()?;
+    // Numbers are those of the model, without a ground.
+    let seen = staged.camera;
+    let numbers = || waiting("drawing numbers", || layers(&staged.model, &seen, &staged.options));
+    let layers = beside.as_ref().map(|_| numbers()).transpose()?;
+    request.add_ground(&mut staged);
+    let Staged { model, camera, options, samples, backdrop, load } = staged;
     let start = Instant::now();
     let mut progress = Progress::new("drawing");
     let hear = &mut |done, total| progress.set(done, total);
@@ -180,8 +188,6 @@ fn draw_from(request: &Request) -> Result<(), Error> {
         }
     };
     drop(progress);
-    let layers = beside.as_ref().map(|_| waiting("drawing numbers", || layers(&model, &camera, &options)));
-    let layers = layers.transpose()?;
     let (maps, mip_maps) = (spent(Work::Maps) - before[0], spent(Work::MipMaps) - before[1]);
     let render_time = start.elapsed().saturating_sub(mip_maps);
     if request.arguments.stats.is_some() && options.threads.get() > 1 {
@@ -195,7 +201,7 @@ fn draw_from(request: &Request) -> Result<(), Error> {
     let seen_through = request.arguments.show.is_none() && backdrop == Backdrop::Transparent;
     waiting("encoding", || {
         let others = match beside.as_ref().zip(layers.as_ref()) {
-            Some((beside, layers)) => beside.encoded(layers, &picture.image, &camera)?,
+            Some((beside, layers)) => beside.encoded(layers, &picture.image, &seen)?,
             None => Vec::new(),
         };
         output.write_beside(&output.encoded(&picture.image, seen_through)?, &others)
@@ -215,11 +221,11 @@ fn draw_from(request: &Request) -> Result<(), Error> {
         projection,
     };
     let summary = || {
-        let files = beside.as_ref().map(|beside| beside.summary(&camera)).unwrap_or_default();
+        let files = beside.as_ref().map(|beside| beside.summary(&seen)).unwrap_or_default();
         format!("{}\n{files}", report.summary())
     };
     let text = match request.arguments.stats {
-        None if is_silent() => legend.unwrap_or_default(),
+        None if is_silent() => String::new(),
         None => format!("{}{}", summary(), legend.unwrap_or_default()),
         Some(StatsFormat::Text) if is_silent() => report.text(),
         Some(StatsFormat::Text) => format!("{}{}", summary(), report.text()),

@@ -18,15 +18,15 @@ use crate::load::{obj, prepare};
 use crate::options::values::{Color, MAX_THREADS, Size, Threads, name_of as name_of_value};
 use crate::options::{
     Background, CameraTable, ColorFormat, Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE,
-    DepthFormat, Filter, Fog, Haze, Interpolation, KeyLight, LightOptions, LightSpace, Profile, Projection,
-    RenderOptions, Samples, Shading, Wrap,
+    DepthFormat, Filter, Fog, Haze, KeyLight, LightOptions, LightSpace, Profile, Projection, RenderOptions,
+    Samples, Shading, Wrap,
 };
 use crate::output::aov::{self, Beside};
 use crate::output::file::{Output, Whole};
 use crate::output::progress::{Progress, is_silent, waiting};
 use crate::output::stats::Source;
 use crate::scene::backdrop::Backdrop;
-use crate::scene::{Camera, Model, Part, Relief, camera, ground, order, scenes, slide};
+use crate::scene::{Camera, Model, Part, Relief, camera, order, scenes, slide};
 
 /// The options of pictures alone, which other commands refuse.
 pub(super) const OF_PICTURES: [&str; 8] =
@@ -56,7 +56,7 @@ pub(super) fn refuse(matches: &ArgMatches, name: &str, ids: &[&str], reason: &st
 /// The options, and the scene file that some of them come from.
 pub(super) struct Request {
     pub(super) arguments: RenderArgs,
-    file: Option<SceneFile>,
+    pub(super) file: Option<SceneFile>,
     /// The eye and the target of the file, if the command line turns its camera.
     orbit: Option<CameraTable>,
 }
@@ -193,33 +193,6 @@ impl Request {
         }
     }
 
-    /// [`stage`](Self::stage) for a picture: warns of colours that are not seen, and puts a ground under the model, if
-    /// that is asked for.
-    ///
-    /// # Errors
-    /// As those of [`stage`](Self::stage).
-    pub(super) fn stage_picture(&self) -> Result<Staged, Error> {
-        let mut staged = self.stage()?;
-        let of_file = self.file.is_none() && self.arguments.model.is_some() && self.arguments.show.is_none();
-        let unseen = || partners::unseen_colors(&staged.model, staged.options.shading);
-        if let Some(warning) = of_file.then(unseen).flatten() {
-            warn(&warning.to_string());
-        }
-        if self.arguments.render.ground != Some(true) {
-            return Ok(staged);
-        }
-        if staged.options.shading == Shading::VertexColor {
-            let error = Error::new("it with vertex-color, which has no shadows", "another shading");
-            warn(&error.place("--ground").hint("it is left out").to_string());
-            return Ok(staged);
-        }
-        let CameraTable { near, far, .. } = self.arguments.camera;
-        let affine = staged.options.policies.interpolation == Interpolation::Affine;
-        ground::add(&mut staged.model, &mut staged.camera, [near.is_some(), far.is_some()], affine);
-        order::back_to_front(&mut staged.model, &staged.camera);
-        Ok(staged)
-    }
-
     /// Loads everything, and warns of repairs.
     ///
     /// # Errors
@@ -246,7 +219,7 @@ impl Request {
                 (None, Some(path)) => error.file(path),
                 (option, _) => error.place(option.unwrap_or_default()),
             };
-            warn(&error.hint("every surface gets one texel's colour").to_string());
+            warn(&error.hint("all of a surface gets the same texel").to_string());
         }
         let origin = scene.model.origin;
         scene.model.slide = slide::load(&arguments.projector, origin)?;
@@ -420,7 +393,7 @@ fn put_materials(arguments: &RenderArgs, scene: &mut Scene) -> Result<(), Error>
     prepare::unmix(&mut scene.model, &arguments.material, &mut images);
     let mut warnings = Warnings::default();
     let wrap = arguments.render.wrap.unwrap_or(scene.defaults.2);
-    prepare::complete(&mut scene.model, &images, wrap, &mut warnings);
+    prepare::complete(&mut scene.model, &mut images, wrap, &mut warnings);
     warn_all(&warnings);
     images.give(&mut scene.model);
     Ok(())

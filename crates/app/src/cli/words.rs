@@ -47,6 +47,23 @@ pub(super) fn with_command(mut words: Vec<OsString>, command: &Command) -> Resul
     Err(Error::new("neither a command nor a file", "one of both").place(place).hint(hint))
 }
 
+/// The option for what others call so.
+pub(super) fn of_others(option: &str) -> Option<&'static str> {
+    Some(match option {
+        "--width" | "--height" | "--resolution" | "-w" => "--size WIDTHxHEIGHT",
+        "--msaa" | "--aa" | "--antialias" | "--antialiasing" | "--supersample" => "--samples",
+        "--camera" | "--position" | "--from" => "--eye",
+        "--look-at" | "--lookat" | "--to" | "--center" => "--target",
+        "--rotate" | "--angle" | "--yaw" => "--azimuth",
+        "--pitch" => "--elevation",
+        "--bg" | "--background-color" => "--background",
+        "--colour" => "--diffuse",
+        "--silent" => "--quiet",
+        "--verbose" => "--stats",
+        _ => return None,
+    })
+}
+
 /// The name that is most like a word, if one is at all.
 pub(super) fn nearest<'a>(word: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let (distance, name) = names.map(|name| (strsim::damerau_levenshtein(word, name), name)).min()?;

@@ -2,17 +2,18 @@
 
 use super::erased::Attributes;
 use super::general::Surface;
+use super::painted::Shine;
 use super::position;
 use crate::scene::{Glow, Vertex};
 use alberti::glam::{Vec2, Vec3};
-use alberti::shaders::material::{AnyLight, AnyReflectance, Framed, Lighting};
+use alberti::shaders::material::{AnyLight, Framed, Lighting};
 use alberti::{Geometry, Homogeneous, Object, Point3, Projector, Vector3};
 
 /// A part's surface, and all that its attributes are made of.
 pub(super) struct Clothed<'a> {
     pub(super) surface: Surface<'a>,
     /// The lights that fall on it.
-    pub(super) lighting: Lighting<&'a [AnyLight], AnyReflectance>,
+    pub(super) lighting: Lighting<&'a [AnyLight], Shine>,
     /// Whether colours are amounts of light.
     pub(super) linear: bool,
     /// Whether the vertices' colours multiply its own.

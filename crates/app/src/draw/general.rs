@@ -7,7 +7,7 @@ use super::hazy::Hazy;
 use super::kept::Kept;
 use super::lamps::Lamps;
 use super::maps::{Chains, any_filter};
-use super::painted::Painted;
+use super::painted::{Painted, Shine};
 use super::plain::Skin;
 use super::studio::{Lamplit, Rig};
 use super::used::Used;
@@ -18,9 +18,7 @@ use crate::scene::{Camera, Detail, Model, Part};
 use alberti::lanes::{Lanes, Machine, One};
 use alberti::raster::PerPixel;
 use alberti::raster::color::{AnyBlend, Blended};
-use alberti::shaders::material::{
-    AnyLight, AnyLightSpace, AnyReflectance, Framed, Gouraud, InSpace, Material,
-};
+use alberti::shaders::material::{AnyLight, AnyLightSpace, Framed, Gouraud, InSpace, Material};
 use alberti::shaders::{Mix, Slide, Unlit, VertexColor};
 use alberti::texture::{AnyFilter, Clamp, Sampler, format::Rgba8888};
 use alberti::{FixedPoint, FragmentStage, Fragments, Lines, Planes, Rgba8, Stats, for_lanes};
@@ -62,7 +60,7 @@ pub(super) enum Surface<'a> {
     Colors,
     Unlit(Unlit<Skin<'a>>),
     Lit(Lamplit<Skin<'a>>),
-    ByFragment(InSpace<Material<Painted<'a>, &'a [AnyLight], AnyReflectance>, AnyLightSpace>),
+    ByFragment(InSpace<Material<Painted<'a>, &'a [AnyLight], Shine>, AnyLightSpace>),
     ByVertex(InSpace<Gouraud<Painted<'a>>, AnyLightSpace>),
 }
 

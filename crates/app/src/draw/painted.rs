@@ -10,13 +10,16 @@ use alberti::glam::{Mat3, Vec2, Vec3};
 use alberti::lanes::Lanes;
 use alberti::raster::PerPixel;
 use alberti::shaders::material::{
-    AnyLight, AnyReflectance, Bump, Color, Emission, Framed, Gloss, Layer, Lighting, Material, NormalMap,
-    ObjectNormals, Occlusion, Parallax, Reflection, Specular, Surface, Wetness,
+    AnyLight, AnyReflectance, Bump, Color, Emission, Framed, Gloss, Grazing, Layer, Lighting, Material,
+    NormalMap, ObjectNormals, Occlusion, Parallax, Reflection, Specular, Surface, Wetness,
 };
 use alberti::texture::environment::AnyEnvironment;
 use alberti::texture::format::Content;
 use alberti::texture::surface::{AnyParallax, CentralDifferences, NormalEncoding::Unorm, Relief};
 use alberti::{Eye, Frame, Point3, Varying, World};
+
+/// How a surface reflects: highlights have no edge where the light comes from behind.
+pub(super) type Shine = Grazing<AnyReflectance>;
 
 /// The layers of a part.
 #[derive(Clone, Copy, Debug)]
@@ -162,7 +165,7 @@ impl<'a> Painted<'a> {
         shading: Shading,
         exponents: [f32; 2],
         lamps: &'a Lamps,
-    ) -> Material<Self, &'a [AnyLight], AnyReflectance> {
+    ) -> Material<Self, &'a [AnyLight], Shine> {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
         let exponents = exponents.map(|exponent| (exponent + 0.5) as u32);
         let reflectance = match shading {
@@ -174,6 +177,9 @@ impl<'a> Painted<'a> {
             Shading::Unlit | Shading::VertexColor => (Vec3::ONE, &[][..]),
             _ => (lamps.ambient, &lamps.lights[..]),
         };
-        Material { layers: self, lighting: Lighting { viewer: lamps.viewer, ambient, lights, reflectance } }
+        Material {
+            layers: self,
+            lighting: Lighting { viewer: lamps.viewer, ambient, lights, reflectance: Grazing(reflectance) },
+        }
     }
 }

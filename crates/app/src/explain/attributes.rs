@@ -33,7 +33,7 @@ impl Scene<'_> {
 
     fn values(&self, fragment: &Fragment<'_>, used: &[(&'static str, usize)]) -> Block {
         let shape = &fragment.shape;
-        let title = format!("12. attributes, by {}", self.options.policies.interpolation);
+        let title = format!("attributes, by {}", self.options.policies.interpolation);
         let mut block = Block::new("attributes", title, &[theory::HYPERBOLIC, theory::AFFINE]);
         if used.is_empty() {
             block.note("none", "the surface uses none: it has one colour");
@@ -121,7 +121,7 @@ impl Scene<'_> {
 
     fn derivatives(&self, fragment: &Fragment<'_>, used: &[(&'static str, usize)], size: [u32; 2]) -> Block {
         let shape = &fragment.shape;
-        let title = "13. derivatives of u and v by the column and the row of a pixel";
+        let title = "derivatives of u and v by the column and the row of a pixel";
         let mut block = Block::new("derivatives", title, &[theory::DERIVATIVES, theory::LEVEL]);
         let gradient = fragment.arrival.gradient.map(|bundle| components(&bundle));
         let uv: Vec<_> = used.iter().filter(|(name, _)| ["u", "v"].contains(name)).collect();

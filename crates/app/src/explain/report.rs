@@ -203,9 +203,15 @@ impl Block {
         Value::Object(object)
     }
 
-    /// Its lines, under its title.
-    pub(crate) fn text(&self) -> String {
-        let mut text = self.title.clone();
+    /// Whether it is a step of the journey: neither what holds all along nor where it ends.
+    pub(crate) fn is_step(&self) -> bool {
+        !matches!(self.key, "policies" | "nothing" | "stored")
+    }
+
+    /// Its lines, under its title, which has a number if it is a step.
+    pub(crate) fn text(&self, number: Option<u32>) -> String {
+        let mut text = number.map(|number| format!("{number}. ")).unwrap_or_default();
+        text.push_str(&self.title);
         if !self.relations.is_empty() {
             let names: Vec<String> = self.relations.iter().map(Relation::name).collect();
             let _ = write!(text, "  (theory: {})", names.join("; "));
@@ -283,7 +289,8 @@ mod tests {
         block.values("c", "the other", [300, 4]);
         block.value("d", "one", "word");
         let lines = "title\n  first        1  20\n  the other  300   4\n  one        word\n";
-        assert_eq!(block.text(), lines);
+        assert_eq!(block.text(None), lines);
+        assert_eq!(block.text(Some(3)), format!("3. {lines}"));
         assert_eq!(block.json(), json!({ "b": [1, 20], "c": [300, 4], "d": "word" }));
     }
 }

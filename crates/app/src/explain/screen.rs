@@ -15,7 +15,7 @@ impl Scene<'_> {
 
     fn facing(&self, fragment: &Fragment<'_>) -> Block {
         let shape = &fragment.shape;
-        let mut block = Block::new("facing", "8. facing, by twice the signed area", &[theory::AREAS]);
+        let mut block = Block::new("facing", "facing, by twice the signed area", &[theory::AREAS]);
         block.value("doubled_area", "area x 2, in subpixels squared", shape.area);
         let side = if shape.area < 0 {
             "the front: counter-clockwise as seen"
@@ -39,7 +39,7 @@ impl Scene<'_> {
 
     fn edges(&self, fragment: &Fragment<'_>) -> Block {
         let shape = &fragment.shape;
-        let title = "9. edge functions at the pixel's centre, in integers";
+        let title = "edge functions at the pixel's centre, in integers";
         let mut block = Block::new("edges", title, &[theory::EDGES, theory::TIES]);
         block.values("sample", "the sample, in subpixels", shape.sample);
         let row = |(name, edge): (&str, &Edge<i64>)| {
@@ -57,7 +57,7 @@ impl Scene<'_> {
 
     fn weights(&self, fragment: &Fragment<'_>) -> Block {
         let shape = &fragment.shape;
-        let title = "10. weights of the corners P, Q, R";
+        let title = "weights of the corners P, Q, R";
         let mut block = Block::new("weights", title, &[theory::AREAS, theory::INVERSES]);
         block.values("screen", "on the screen: edges over the area", shape.screen());
         block.values("q", "q of the corners, at their subpixels", shape.q);
@@ -71,7 +71,7 @@ impl Scene<'_> {
     fn depth(&self, fragment: &Fragment<'_>) -> Block {
         let shape = &fragment.shape;
         let format = self.options.depth;
-        let title = "11. depth";
+        let title = "depth";
         let mut block = match self.projection {
             AnyProjection::Perspective(_) => Block::new(
                 "depth",

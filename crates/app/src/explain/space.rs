@@ -29,7 +29,7 @@ impl Scene<'_> {
     fn object(&self, fragment: &Fragment<'_>) -> Block {
         let mut block = Block::new(
             "object",
-            "2. the triangle, in object space, which is the world's",
+            "the triangle, in object space, which is the world's",
             &[theory::CHANGE_OF_FRAME],
         );
         block.value("part", "part", fragment.arrival.part);
@@ -48,7 +48,7 @@ impl Scene<'_> {
     }
 
     fn eye(&self, eye: &[Point3<Eye>; 3]) -> Block {
-        let mut block = Block::new("eye", "3. in eye space: x right, y up, z forward", &[theory::EYE]);
+        let mut block = Block::new("eye", "in eye space: x right, y up, z forward", &[theory::EYE]);
         block.values("eye", "the eye, in the world", self.camera.eye);
         for ((key, label), p) in KEYS.into_iter().zip(eye) {
             block.values(key, label, p.coords.to_array());
@@ -59,9 +59,9 @@ impl Scene<'_> {
     fn pyramid(&self, scaled: &[Point3<Eye>; 3]) -> Block {
         let perspective = self.projection.is_perspective();
         let (title, relation) = if perspective {
-            ("4. pyramid scale: the sides of the view become x = ±z, y = ±z", &[theory::PYRAMID])
+            ("pyramid scale: the sides of the view become x = ±z, y = ±z", &[theory::PYRAMID])
         } else {
-            ("4. scaled to the window: the sides of the view become x = ±1, y = ±1", &[theory::PARALLEL])
+            ("scaled to the window: the sides of the view become x = ±1, y = ±1", &[theory::PARALLEL])
         };
         let mut block = Block::new("scaled", title, relation);
         let [x, y, _] = self.projection.scale(Point3::new(Vec3::ONE)).coords.to_array();
@@ -80,7 +80,7 @@ impl Scene<'_> {
     }
 
     fn near_far(&self, scaled: &[Point3<Eye>; 3], left: &Polygon<EyeVertex<Vec3>>) -> Block {
-        let mut block = Block::new("clip", "5. clip at the near and the far plane", &[theory::NEAR_FAR]);
+        let mut block = Block::new("clip", "clip at the near and the far plane", &[theory::NEAR_FAR]);
         let [near, far] = [self.projection.near(), self.projection.far()];
         block.values("planes", "z = A and z = B", [near, far]);
         let (before, behind) =
@@ -108,14 +108,14 @@ impl Scene<'_> {
         let reversed = alberti::DepthFormat::reversed(crate::render::any_depth(self.options.depth));
         let mut block = match self.projection {
             AnyProjection::Perspective(perspective) => {
-                let title = "6. perspective with depth: xs = x/z, ys = y/z, zs = α + β/z, q = 1/z";
+                let title = "perspective with depth: xs = x/z, ys = y/z, zs = α + β/z, q = 1/z";
                 let mut block = Block::new("projected", title, &[theory::DIVISION, theory::PLANES_AB]);
                 let map = perspective.depth_map(reversed);
                 block.values("alpha_beta", "α and β", [map.alpha(), map.beta()]);
                 block
             }
             AnyProjection::Parallel(_) => {
-                let title = "6. parallel projection: xs = x, ys = y, q = 1";
+                let title = "parallel projection: xs = x, ys = y, q = 1";
                 Block::new("projected", title, &[theory::PARALLEL, theory::LINEAR_DEPTH])
             }
         };
@@ -142,7 +142,7 @@ impl Scene<'_> {
     fn viewport(&self, fragment: &Fragment<'_>) -> Block {
         let mut block = Block::new(
             "viewport",
-            "7. viewport: x = (xs + 1) W/2, y = (1 - ys) H/2, snapped to subpixels",
+            "viewport: x = (xs + 1) W/2, y = (1 - ys) H/2, snapped to subpixels",
             &[theory::VIEWPORT],
         );
         let Some(piece) = fragment.pieces.get(fragment.number) else { return block };

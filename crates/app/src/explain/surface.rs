@@ -23,7 +23,7 @@ impl Scene<'_> {
         }
         blocks.push(self.light(fragment, look));
         if let Some(slide) = look.slide {
-            let title = "17. the projector's image, divided at the fragment";
+            let title = "the projector's image, divided at the fragment";
             let mut block = Block::new("slide", title, &[theory::SLIDE]);
             block.values("place", "u/q and v/q", slide.place);
             match slide.color {
@@ -43,7 +43,7 @@ impl Scene<'_> {
             (Light::Sun { .. }, _) => &[theory::LAMPS],
             (Light::Lamps { .. }, _) => &[theory::LAMPS],
         };
-        let mut block = Block::new("light", "16. light and colour", relations);
+        let mut block = Block::new("light", "light and colour", relations);
         match &look.light {
             Light::None => {
                 block.note("none", "no light: colours are as they are");
@@ -138,7 +138,7 @@ fn texture(map: &MapRead, look: &Look) -> Block {
         Filter::Bilinear => &[theory::TEXTURE, theory::BILINEAR],
         Filter::Trilinear | Filter::Anisotropic(_) => &[theory::TEXTURE, theory::LEVEL, theory::TRILINEAR],
     };
-    let mut block = Block::new("texture", "14. the texture", relations);
+    let mut block = Block::new("texture", "the texture", relations);
     let [width, height] = map.size;
     block.values("size", "columns and rows", map.size);
     block.value("filter", "filter", filter(map.filter));
@@ -191,7 +191,7 @@ fn texture(map: &MapRead, look: &Look) -> Block {
 
 /// The values of the other maps.
 fn maps(others: &[MapRead], look: &Look) -> Block {
-    let mut block = Block::new("maps", "15. other maps, at the same place", &[theory::TEXTURE]);
+    let mut block = Block::new("maps", "other maps, at the same place", &[theory::TEXTURE]);
     let row = |map: &MapRead| {
         let [width, height] = map.size;
         vec![

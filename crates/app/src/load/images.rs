@@ -349,8 +349,7 @@ impl<T> Renumbered<T> {
 /// The error of an image, at the line that names it if a file does.
 fn unusable(map: &MapFile, error: Error) -> Error {
     let Some(origin) = &map.origin else { return error };
-    let found = format!("a texture {} that cannot be used ({error})", quote(origin.text.as_bytes()));
-    map.place(Error::new(found, "an image"))
+    map.place(error.of(&format!("the texture {}", quote(origin.text.as_bytes()))))
 }
 
 #[cfg(test)]

@@ -176,9 +176,7 @@ fn too_long(path: &Path, kind: &str, length: u64, limit: u64, how: &str) -> Erro
 /// An error of the system while reading, as a message.
 pub(crate) fn unreadable(path: &Path, kind: &str, error: &io::Error) -> Error {
     match error.kind() {
-        io::ErrorKind::NotFound => {
-            Error::new("no such file", kind).file(path).hint("check the path and the current directory")
-        }
+        io::ErrorKind::NotFound => Error::new("no such file", kind).file(path).hint("check its path"),
         io::ErrorKind::PermissionDenied => {
             Error::new("a file that may not be read", kind).file(path).hint("check its permissions")
         }

@@ -8,7 +8,7 @@ use crate::load::images::Images;
 use crate::load::input;
 use crate::load::mtl::{self, CheckedMtl};
 use crate::load::obj::{DEFAULT_DIFFUSE, Named, ObjText};
-use crate::load::paths::{Found, existing, unquoted};
+use crate::load::paths::{Found, existing, file_name};
 use crate::load::seen;
 use crate::options::Material;
 use crate::options::values::Color;
@@ -146,7 +146,7 @@ pub(crate) fn bare(model: &Model) -> Option<Error> {
     let bare = |part: &&Part| part.triangles.iter().any(|triangle| !triangle.iter().any(placed));
     let part = model.parts.iter().filter(|part| part.has_maps()).find(bare)?;
     let found = format!("faces of {} without texture coordinates", quote(part.material.as_bytes()));
-    Some(Error::new(found, "some for its texture").hint("they get one texel's colour"))
+    Some(Error::new(found, "some for its texture").hint("all of each gets the same texel"))
 }
 
 /// Some exporters write a black `Kd` beside a texture, whose colours it multiplies.
@@ -186,7 +186,7 @@ fn bytes_of(obj: &Path, named: &Named, file: &Path) -> Result<Vec<u8>, Error> {
 /// A `mtllib` line names one file, with spaces perhaps, or several files.
 fn files_of(folder: &Path, named: &Named) -> Vec<Found> {
     let missing = |name: &str| Found { path: folder.join(name), renamed: false };
-    let name = unquoted(&named.name);
+    let name = file_name(folder, &named.name);
     if let Some(found) = existing(folder, name) {
         return vec![found];
     }

@@ -98,7 +98,11 @@ impl CheckedMtl {
             Err(error) if lower == b"kd" => return Err(error.hint("correct the line")),
             Err(warning) => return Ok(vec![warning.hint("the line is left out")]),
         };
-        let Some([r, g, b]) = values else { return Ok(Vec::new()) };
+        let Some([r, g, b]) = values else {
+            let form = String::from_utf8_lossy(keyword(line.rest).0).into_owned();
+            ignored.add(&format!("`{} {form}`", line.keyword()), line.line);
+            return Ok(Vec::new());
+        };
         let material = &mut entry.material;
         let color = Some(Color([r, g, b].map(|x| x.clamp(0.0, 1.0))));
         let (most, used): (f32, &[f32]) = match lower.as_slice() {

@@ -12,10 +12,21 @@ pub(crate) struct Found {
 }
 
 /// The name without quotes around it.
-pub(crate) fn unquoted(name: &str) -> &str {
+fn unquoted(name: &str) -> &str {
     let name = name.trim();
     let within = |quote: char| name.strip_prefix(quote).and_then(|rest| rest.strip_suffix(quote));
     within('"').or_else(|| within('\'')).unwrap_or(name).trim()
+}
+
+/// The name of a file at the end of a line, without quotes around it, and without a comment behind it unless there is
+/// a file that is called so.
+pub(crate) fn file_name<'a>(folder: &Path, rest: &'a str) -> &'a str {
+    let whole = unquoted(rest);
+    let is_comment = |at: &usize| rest[..*at].chars().next_back().is_none_or(char::is_whitespace);
+    match rest.match_indices('#').map(|(at, _)| at).find(is_comment) {
+        Some(at) if existing(folder, whole).is_none() => unquoted(&rest[..at]),
+        _ => whole,
+    }
 }
 
 /// The file of that name in the folder. Files written on Windows may have `\` between folders. What is not there may be
@@ -90,6 +101,18 @@ mod tests {
         }
         for name in ["", "stone.png", "C:\\x\\other.png", "maps\\other.png"] {
             assert_eq!(existing(folder.path(), name), None, "{name}");
+        }
+        fs::write(folder.path().join("Wood #1.png"), "x").expect("a file");
+        for (rest, name) in [
+            ("wood.png # oak", "wood.png"),
+            ("\"wood.png\"\t#oak", "wood.png"),
+            ("Wood #1.png", "Wood #1.png"),
+            ("\"Wood #1.png\"", "Wood #1.png"),
+            ("Wood #2.png", "Wood"),
+            ("a#b.png", "a#b.png"),
+            ("# none", ""),
+        ] {
+            assert_eq!(file_name(folder.path(), rest), name);
         }
         for (name, bare) in
             [("\"a b.png\"", "a b.png"), ("'a'", "a"), ("a", "a"), ("\"a", "\"a"), ("\"", "\"")]

@@ -6,9 +6,12 @@ use crate::load::mtl::see_through;
 use crate::options::{Material, Wrap};
 use crate::scene::camera;
 use crate::scene::normals::narrow;
-use crate::scene::{MaterialNote, Model, Relief};
+use crate::scene::{Detail, Map, MaterialNote, Model, Relief};
 use crate::scene::{displace, tangents};
 use alberti::raster::color::AnyBlend;
+
+/// The exponent below which a highlight is so broad that it fades, to none at 0.
+const BROAD: f32 = 8.0;
 
 /// Gives this material to all parts of a model.
 ///
@@ -46,9 +49,10 @@ pub(crate) fn unmix(model: &mut Model, material: &Material, images: &mut Images)
 }
 
 /// Moves the vertices where a height map says so, and completes what maps need: the lengths of the textures' sides on
-/// the surface, and tangents. `wrap` is how heights continue where their map does not say.
-pub(crate) fn complete(model: &mut Model, images: &Images, wrap: Wrap, warnings: &mut Warnings) {
+/// the surface, and tangents. `wrap` is how heights continue where their map does not say. Broad highlights fade.
+pub(crate) fn complete(model: &mut Model, images: &mut Images, wrap: Wrap, warnings: &mut Warnings) {
     for part in &mut model.parts {
+        fade(&mut part.detail, images);
         let extent = tangents::extent(&model.vertices, part);
         part.detail.height.iter_mut().for_each(|height| height.extent = extent);
     }
@@ -57,4 +61,20 @@ pub(crate) fn complete(model: &mut Model, images: &Images, wrap: Wrap, warnings:
         displace::displace(model, images, wrap, warnings);
     }
     tangents::complete(model, |part| part.detail.needs_tangents());
+}
+
+/// Has highlights fade where their exponents make them broad: as their greatest does, and where a map has less, more.
+fn fade(detail: &mut Detail, images: &mut Images) {
+    let faintness = |exponent: f32| (exponent / BROAD).min(1.0);
+    let Detail { shininess, shininess_map, specular, specular_map, .. } = detail;
+    if *specular == [0.0; 3] {
+        return;
+    }
+    let most = faintness(shininess[1]);
+    *specular = specular.map(|c| c * most);
+    let Some(gloss) = shininess_map.filter(|_| most > 0.0) else { return };
+    let share = |exponent| (faintness(exponent) / most).min(1.0);
+    if let Some(image) = images.fainter(specular_map.map(|map| map.image), gloss.image, *shininess, share) {
+        *specular_map = Some(Map { image, ..specular_map.unwrap_or(gloss) });
+    }
 }

@@ -50,7 +50,7 @@ impl SceneFile {
         let mut scene = Self { source, file, keys: BTreeMap::new() };
         if scene.file.object.is_empty() {
             let error = Error::new("no [[object]]", "at least one").file(path);
-            return Err(error.hint("the README of alberti-app describes scene files"));
+            return Err(error.hint("see alberti help scene-files"));
         }
         scene.complete_materials()?;
         scene.lights([0.0; 3])?;

@@ -43,7 +43,7 @@ impl FromStr for Background {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        if text == "transparent" {
+        if text.eq_ignore_ascii_case("transparent") {
             return Ok(Self::Transparent);
         }
         if let Ok(color) = text.parse() {
@@ -76,9 +76,9 @@ mod tests {
         assert_eq!(read("white").map(|b| b.flat()), Ok(Some([255; 3])));
         assert_eq!(read("white..000000").map(|b| b.flat()), Ok(Some([128; 3])));
         assert_eq!(read("transparent"), Ok(Background::Transparent));
+        assert_eq!(read("Transparent"), Ok(Background::Transparent));
         assert_eq!(read("a/sky.JPG"), Ok(Background::Image("a/sky.JPG".into())));
-        for text in
-            ["", "fff", "whitee", "white..", "..", "white..fff", "transparent..white", "sky", "sky.gif"]
+        for text in ["", "ff", "whitee", "white..", "..", "white..ff", "transparent..white", "sky", "sky.gif"]
         {
             assert!(read(text).is_err_and(|expected| expected.contains("transparent")), "{text}");
         }

@@ -21,7 +21,7 @@ use crate::scene::{Detail, EnvironmentKind, NormalSpace, Relief};
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 pub struct Material {
     /// Colour of every surface, as hexadecimal sRGB [default: the materials', else grey].
-    #[arg(long = "diffuse", value_name = "RRGGBB", allow_hyphen_values = true, help_heading = SURFACE)]
+    #[arg(long = "diffuse", value_name = "COLOR", allow_hyphen_values = true, help_heading = SURFACE)]
     pub color: Option<Color>,
 
     /// Image to put on every surface instead of the materials' textures.
@@ -73,7 +73,7 @@ pub struct Material {
     pub wetness_map: Option<MapFile>,
 
     /// Colour of highlights, as hexadecimal sRGB [default: the materials', else 404040].
-    #[arg(long, value_name = "RRGGBB", allow_hyphen_values = true)]
+    #[arg(long, value_name = "COLOR", allow_hyphen_values = true)]
     pub specular: Option<Color>,
 
     /// Multiplies `specular`.

@@ -54,7 +54,8 @@ pub struct CameraTable {
     #[arg(long, value_name = "FACTOR", allow_hyphen_values = true)]
     pub zoom: Option<Number<Zoom>>,
 
-    /// Vertical opening angle in degrees, from the bottom of the image to the top [default: 40].
+    /// Vertical opening angle in degrees, from the bottom of the image to the top [default: 40; less in
+    /// pictures wider than 16:9, unless --eye is given].
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub fov: Option<Number<Finite>>,
 
@@ -216,8 +217,8 @@ pub struct RenderTable {
     #[arg(short, long, value_name = "WxH", allow_hyphen_values = true)]
     pub size: Option<Size>,
 
-    /// Background: a colour (RRGGBB or a name), transparent, a gradient TOP..BOTTOM of two colours, or an image file,
-    /// which covers the picture [default: 20242c for a model].
+    /// Background: a colour (RRGGBB, RGB or a name), transparent, a gradient TOP..BOTTOM of two colours, or an
+    /// image file, which covers the picture [default: 20242c for a model].
     #[arg(long, value_name = "WHAT", allow_hyphen_values = true)]
     pub background: Option<Background>,
 
@@ -247,11 +248,11 @@ pub struct RenderTable {
     #[arg(long, value_enum, value_name = "SIDE", help_heading = SURFACE)]
     pub cull: Option<Cull>,
 
-    /// How surfaces get normals: smooth, flat or crease:DEG; overrides the model's own [default: its own]
+    /// How surfaces get normals: smooth, flat or crease[:DEG]; overrides the model's own [default: its own]
     ///
     /// smooth: one normal at each position, so that no edge is seen.
     /// flat: one for each face, so that every edge is seen.
-    /// crease:DEG: edges at which faces turn by DEG degrees or more are sharp, 0 to 180.
+    /// crease:DEG: edges at which faces turn by DEG degrees or more are sharp, 0 to 180; 60 without a number.
     /// The model's own: its `vn`, else its smoothing groups (`s`), else crease:60.
     #[arg(long, value_name = "HOW", help_heading = SURFACE, verbatim_doc_comment)]
     pub normals: Option<Normals>,
@@ -286,7 +287,7 @@ pub struct RenderTable {
     pub fog: Option<Fog>,
 
     /// Colour of the fog; needs --fog [default: the background's].
-    #[arg(long, value_name = "RRGGBB", allow_hyphen_values = true, help_heading = SURFACE)]
+    #[arg(long, value_name = "COLOR", allow_hyphen_values = true, help_heading = SURFACE)]
     pub fog_color: Option<Color>,
 
     /// A choice of all that follow, each of which overrides it [default: the scene's depth, else desktop].

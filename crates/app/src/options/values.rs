@@ -288,7 +288,8 @@ pub struct Color(pub [f32; 3]);
 
 impl Color {
     /// The values.
-    pub(crate) const EXPECTED: &'static str = "six hexadecimal digits RRGGBB, or a name of CSS such as teal";
+    pub(crate) const EXPECTED: &'static str =
+        "hexadecimal digits RRGGBB or RGB, or a name of CSS such as teal";
 
     /// The channels from 0 to 255.
     #[must_use]
@@ -311,12 +312,15 @@ impl FromStr for Color {
         if let Some(rgb) = super::colors::named(text) {
             return Ok(rgb.into());
         }
-        let digits = text.strip_prefix('#').unwrap_or(text);
+        let digits = text.strip_prefix('#').or(text.strip_prefix("0x")).unwrap_or(text);
         let value = u32::from_str_radix(digits, 16).ok();
         // from_str_radix takes a sign as well.
-        let value = value.filter(|_| digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_hexdigit()));
-        let [_, r, g, b] = value.ok_or(Self::EXPECTED)?.to_be_bytes();
-        Ok([r, g, b].into())
+        let value = value.filter(|_| digits.bytes().all(|b| b.is_ascii_hexdigit()));
+        match (value.map(u32::to_be_bytes), digits.len()) {
+            (Some([_, r, g, b]), 6) => Ok([r, g, b].into()),
+            (Some([.., high, low]), 3) => Ok([high & 15, low >> 4, low & 15].map(|digit| 17 * digit).into()),
+            _ => Err(Self::EXPECTED.to_owned()),
+        }
     }
 }
 
@@ -374,6 +378,8 @@ mod tests {
         assert_eq!(read("-1,2.5,3e2"), Ok(Point::from([-1.0, 2.5, 300.0])));
         assert_eq!(read("20242c").map(Color::bytes), Ok([0x20, 0x24, 0x2c]));
         assert_eq!(read("#FFffFF"), Ok(Color([1.0; 3])));
+        assert_eq!(read("#2aC").map(Color::bytes), Ok([0x22, 0xaa, 0xcc]));
+        assert_eq!(read("0x20242c").map(Color::bytes), Ok([0x20, 0x24, 0x2c]));
         assert_eq!(read("-0.5,1"), Ok(Tuple::<2, Finite>::from([-0.5, 1.0])));
         assert_eq!(read("8"), Ok(Shininess([8.0, 8.0])));
         assert_eq!(read("8,64"), Ok(Shininess([8.0, 64.0])));
@@ -389,7 +395,7 @@ mod tests {
         for text in ["", "1,2", "1,2,3,4", "1,2,x", "nan,0,0", "inf,0,0", "1e400,0,0"] {
             assert!(read::<Point>(text).is_err(), "{text}");
         }
-        for text in ["", "fff", "gggggg", "+12345", "-12345", "1234567", "ééé"] {
+        for text in ["", "ffff", "gggggg", "+12345", "-12345", "+12", "1234567", "#0xfff", "ééé"] {
             assert!(read::<Color>(text).is_err(), "{text}");
         }
         for text in ["", "1", "1,2,3", "nan,1", "1, "] {

@@ -31,9 +31,8 @@ pub struct Beside {
 /// # Errors
 /// The picture has no name, or one of these.
 pub fn names(output: &Output, aovs: &Aovs, format: AovFormat) -> Result<Vec<PathBuf>, Error> {
-    if output.is_standard() {
-        let error =
-            Error::new("it with a picture on standard output", "one in a file, whose name files have");
+    if !output.is_file() {
+        let error = Error::new("it with a picture that is no file", "one in a file, whose name files have");
         return Err(error.place("--aov").hint("name the picture with -o"));
     }
     let named = output.name();

@@ -208,14 +208,23 @@ fn followed(named: &Path) -> PathBuf {
 #[derive(Clone, Debug)]
 pub struct Output {
     named: PathBuf,
-    /// Without one, standard output.
-    file: Option<Whole>,
+    sink: Sink,
     format: ImageFormat,
+}
+
+/// The way that a picture's bytes take.
+#[derive(Clone, Debug)]
+enum Sink {
+    Standard,
+    /// A device or a pipe, which nothing can be renamed to.
+    Stream(PathBuf),
+    File(Whole),
 }
 
 impl Output {
     /// Checks the extension, the folder and the file that may be there already. Nothing is left behind. The extension
-    /// says the format, unless `format` names one as if it were an extension. `-` is standard output, and PNG.
+    /// says the format, unless `format` names one as if it were an extension. `-` is standard output, which is PNG, and
+    /// so are devices and pipes without an extension.
     ///
     /// # Errors
     /// The extension is unknown, or the file cannot be written.
@@ -223,7 +232,8 @@ impl Output {
         let standard = named.as_os_str() == STANDARD;
         let extension = named.extension().map(|e| e.to_string_lossy().to_lowercase());
         let extension = format.map(str::to_owned).or(extension);
-        let extension = extension.or_else(|| standard.then(|| "png".to_owned()));
+        let is_stream = fs::metadata(named).is_ok_and(|is| !is.is_file() && !is.is_dir());
+        let extension = extension.or_else(|| (standard || is_stream).then(|| "png".to_owned()));
         let known = FORMATS.iter().find(|(name, _)| extension.as_deref() == Some(name));
         let &(_, format) = known.ok_or_else(|| {
             let found = extension.map_or("no extension".to_owned(), |e| format!("the extension \".{e}\""));
@@ -231,8 +241,12 @@ impl Output {
             let error = Error::new(found, format!("one of {all}")).file(named);
             error.hint("name the output so, or give --output-format")
         })?;
-        let file = if standard { None } else { Some(Whole::new(named, "-o")?) };
-        Ok(Self { named: named.to_owned(), file, format })
+        let sink = match (standard, is_stream) {
+            (true, _) => Sink::Standard,
+            (_, true) => Sink::Stream(named.to_owned()),
+            (..) => Sink::File(Whole::new(named, "-o")?),
+        };
+        Ok(Self { named: named.to_owned(), sink, format })
     }
 
     /// The path as the user gave it, for messages.
@@ -242,12 +256,17 @@ impl Output {
 
     /// Whether it is standard output.
     pub fn is_standard(&self) -> bool {
-        self.file.is_none()
+        matches!(self.sink, Sink::Standard)
+    }
+
+    /// Whether it is a file, beside which others can be.
+    pub fn is_file(&self) -> bool {
+        matches!(self.sink, Sink::File(_))
     }
 
     /// Whether `other` is the same file.
     pub fn is(&self, other: &Path) -> bool {
-        self.file.as_ref().is_some_and(|file| file.is(other))
+        matches!(&self.sink, Sink::File(file) if file.is(other))
     }
 
     /// # Errors
@@ -313,7 +332,16 @@ impl Output {
     /// # Errors
     /// Writing one fails.
     pub fn write_beside(&self, encoded: &[u8], others: &[(&Whole, Vec<u8>)]) -> Result<(), Error> {
-        let Some(file) = &self.file else { return write_standard(encoded) };
+        let file = match &self.sink {
+            Sink::File(file) => file,
+            Sink::Standard => return write_stream(&mut io::stdout().lock(), encoded, "standard output"),
+            Sink::Stream(path) => {
+                let place = path.display().to_string();
+                let mut stream = fs::OpenOptions::new().write(true).open(path);
+                let mut stream = stream.as_mut().map_err(|error| unwritten(error, &place))?;
+                return write_stream(&mut stream, encoded, &place);
+            }
+        };
         let others = others.iter().map(|(other, bytes)| (*other, &bytes[..]));
         Whole::write_all(&[(file, encoded)].into_iter().chain(others).collect::<Vec<_>>())
     }
@@ -321,12 +349,12 @@ impl Output {
 
 /// # Errors
 /// Nobody reads it.
-fn write_standard(bytes: &[u8]) -> Result<(), Error> {
-    let mut out = io::stdout().lock();
-    out.write_all(bytes).and_then(|()| out.flush()).map_err(|error| {
-        let found = format!("that writing fails ({error})");
-        Error::new(found, "to write the picture").place("standard output")
-    })
+fn write_stream(out: &mut dyn io::Write, bytes: &[u8], place: &str) -> Result<(), Error> {
+    out.write_all(bytes).and_then(|()| out.flush()).map_err(|error| unwritten(&error, place))
+}
+
+fn unwritten(error: &io::Error, place: &str) -> Error {
+    Error::new(format!("that writing fails ({error})"), "to write the picture").place(place)
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! The cost of a picture: counts from the pipeline and times from the clock, as text or as JSON.
 
 use crate::camera::as_options;
+use crate::error::counted;
 use crate::options::Projection;
 use crate::scene::Camera;
 use alberti::Stats;
@@ -73,8 +74,8 @@ impl Report<'_> {
             times.insert_str(0, "; ");
         }
         format!(
-            "{source}: {} triangles, {width}x{height} pixels in {}{times}\ncamera: {}",
-            self.stats.submitted,
+            "{source}: {}, {width}x{height} pixels in {}{times}\ncamera: {}",
+            counted(usize::try_from(self.stats.submitted).unwrap_or(usize::MAX), "triangle", "triangles"),
             self.output.display(),
             as_options(&self.camera, self.origin, self.projection)
         )

@@ -61,7 +61,8 @@ pub fn frame(
 ) -> Result<Camera, Error> {
     let point = |point: Option<Point>| point.map(<[f32; 3]>::from);
     let wide = |v: [f32; 3]| v.map(f64::from);
-    let fov = wishes.fov.map(f32::from).or(base.map(|b| b.fov)).unwrap_or(DEFAULT_FOV);
+    let usual = if wishes.eye.is_some() { DEFAULT_FOV } else { usual_fov(aspect) };
+    let fov = wishes.fov.map(f32::from).or(base.map(|b| b.fov)).unwrap_or(usual);
     check_fov(fov, &CAMERA)?;
     let given = point(wishes.target).or(base.map(|b| b.target));
     let up = point(wishes.up).or(base.map(|b| b.up));
@@ -122,6 +123,17 @@ pub fn frame(
     // Of a model that no camera can look at, places are wrong by themselves.
     checked.map_err(|error| check_radius(model, ball).err().unwrap_or(error))?;
     Ok(camera)
+}
+
+/// The opening angle of pictures for which none is given: as wide at most as those of 16:9, since what is far aside is
+/// stretched.
+fn usual_fov(aspect: f64) -> f32 {
+    let tangent = (f64::from(DEFAULT_FOV).to_radians() / 2.0).tan();
+    let widest = tangent * 16.0 / 9.0;
+    if tangent * aspect <= widest {
+        return DEFAULT_FOV;
+    }
+    narrow(2.0 * (widest / aspect).atan().to_degrees())
 }
 
 /// The angle that shows things so many times as large in the middle of the picture.

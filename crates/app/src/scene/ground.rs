@@ -31,11 +31,11 @@ struct Ground {
     low: f64,
 }
 
-/// Adds a ground at the model's lowest point, unless the camera is below it. Planes of the camera that the user has not
-/// set, as `fixed` says of near and far, are moved so that all of it is between them. Where attributes are `affine`, it
-/// is of so many squares that none shows that.
-pub(crate) fn add(model: &mut Model, camera: &mut Camera, fixed: [bool; 2], affine: bool) {
-    let Some(ground) = Ground::under(model, camera) else { return };
+/// Adds a ground at the model's lowest point, unless the camera is below it, and says whether it did. Planes of the
+/// camera that the user has not set, as `fixed` says of near and far, are moved so that all of it is between them.
+/// Where attributes are `affine`, it is of so many squares that none shows that.
+pub(crate) fn add(model: &mut Model, camera: &mut Camera, fixed: [bool; 2], affine: bool) -> bool {
+    let Some(ground) = Ground::under(model, camera) else { return false };
     let texels = ground.shadow(model).into_iter().map(|alpha| [0, 0, 0, alpha]).collect();
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|uv| ground.place(uv));
     stretch(camera, &corners, fixed);
@@ -68,6 +68,7 @@ pub(crate) fn add(model: &mut Model, camera: &mut Camera, fixed: [bool; 2], affi
     (part.detail.filter, part.detail.wrap) = (map.filter, map.wrap);
     (part.detail.blend, part.detail.specular) = (AnyBlend::Over, [0.0; 3]);
     model.parts.push(part);
+    true
 }
 
 /// Moves the planes of a camera so that these points are between them.

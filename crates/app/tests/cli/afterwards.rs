@@ -344,7 +344,10 @@ fn mistakes_are_told_where_they_are() {
     // Beside it there is a journey, of the picture that has it.
     let run =
         super::alberti(folder.0.path(), &[std::ffi::OsStr::new("explain")], &["s.toml", "--pixel", "32,2"]);
-    assert!(run.stdout.contains("the derived colour is the picture's, to the bit"), "{run:?}");
+    assert!(
+        run.stdout.contains("the derived colour is that of the picture with one sample a pixel, to the bit"),
+        "{run:?}"
+    );
 }
 
 /// The fog of a scene file, taken away.

@@ -181,8 +181,8 @@ fn sizes_colours_and_threads_that_are_none() {
         let found = format!("error: --threads: found \"{threads}\", expected a whole number from 1 to 256");
         folder.fails(&["--threads", threads], &[&found]);
     }
-    for color in ["reddish", "fff", "12345g", "+12345", "#12345", "1234567", ""] {
-        let found = format!("error: --background: found \"{color}\", expected six hexadecimal digits");
+    for color in ["reddish", "ffff", "12345g", "+12345", "#12345", "1234567", ""] {
+        let found = format!("error: --background: found \"{color}\", expected hexadecimal digits");
         folder.fails(&["--background", color], &[&found]);
     }
 }
@@ -249,7 +249,7 @@ fn options_of_materials_that_are_none() {
             "--shininess 9,8",
             "error: --shininess: found \"9,8\", expected a number from 0 to 65536, or a least",
         ),
-        ("--specular reddish", "error: --specular: found \"reddish\", expected six hexadecimal digits"),
+        ("--specular reddish", "error: --specular: found \"reddish\", expected hexadecimal digits"),
         ("--normal-map no.png", "error: no.png: found no such file"),
         ("--height-map m.obj", "error: m.obj: found a file of another format"),
     ] {

@@ -21,7 +21,11 @@ fn a_pixel_is_explained_and_no_file_is_written() {
     let run = explain(&folder, &[&VIEW[..], &["--pixel", "16,12"]].concat());
     assert_eq!((run.status, run.stderr.as_str()), (Some(0), ""), "{run:?}");
     assert!(run.stdout.starts_with("pixel 16,12 of 32x24;"), "{run:?}");
-    assert!(run.stdout.ends_with("the derived colour is the picture's, to the bit\n"), "{run:?}");
+    assert!(
+        run.stdout
+            .ends_with("the derived colour is that of the picture with one sample a pixel, to the bit\n"),
+        "{run:?}"
+    );
     let steps =
         ["1. fragments", "3. in eye space", "(theory: The view pipeline", "9. edge functions", "hyperbolic"];
     for step in steps {

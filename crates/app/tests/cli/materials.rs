@@ -163,6 +163,9 @@ fn highlights_need_not_be_asked_for() {
     let faded = bright("Ks 0.8 0.8 0.8\nNs 1", &[]);
     assert!(bright(&format!("{shine} dark.png"), &[]).abs_diff(faded) <= 1, "{faded}");
     assert_eq!(bright(&format!("{shine} white.png"), &[]), bright("Ks 0.8 0.8 0.8\nNs 64", &[]));
+    // So does an option, which takes the place of the file's.
+    assert_eq!(bright("Ks 0.8 0.8 0.8\nNs 64", &["--shininess", "1"]), faded);
+    assert_eq!(bright("Ks 0.8 0.8 0.8\nNs 1", &["--shininess", "64"]), bright("Ks 0.8 0.8 0.8\nNs 64", &[]));
 }
 
 /// The texture is multiplied by `Kd`, which is white where there is none. A black one is said.

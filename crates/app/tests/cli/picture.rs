@@ -121,7 +121,7 @@ fn a_transparent_picture_has_an_alpha_where_the_format_has() {
     let wrong = ["m.obj", "--background", "reddish"];
     folder.fails(
         &wrong,
-        &["--background: found \"reddish\", expected six hexadecimal digits RRGGBB, or a name"],
+        &["--background: found \"reddish\", expected hexadecimal digits RRGGBB or RGB, or a name"],
     );
 }
 

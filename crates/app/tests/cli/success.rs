@@ -115,9 +115,12 @@ fn broken_materials_are_warnings() {
     let obj = format!("mtllib m.mtl\nusemtl red\n{TRIANGLE}usemtl blue\nf 1 2 3\n");
     for (mtl, place) in [
         (&b"newmtl red\nmap_Kd\n"[..], "warning: m.mtl:2: found `map_Kd` without a file"),
-        (b"newmtl red\nmap_Kd no.png\n", "warning: m.mtl:2: found a texture \"no.png\" that cannot be used"),
-        (b"newmtl red\nmap_Kd m.obj\n", "warning: m.mtl:2: found a texture \"m.obj\" that cannot be used"),
-        (b"newmtl red\nmap_Kd .\n", "warning: m.mtl:2: found a texture \".\" that cannot be used"),
+        (b"newmtl red\nmap_Kd no.png\n", "warning: m.mtl:2: found no such file for the texture \"no.png\""),
+        (
+            b"newmtl red\nmap_Kd m.obj\n",
+            "warning: m.mtl:2: found a file of another format for the texture \"m.obj\"",
+        ),
+        (b"newmtl red\nmap_Kd .\n", "warning: m.mtl:2: found a directory for the texture \".\""),
         (b"newmtl red\n", "warning: m.obj:11: found `usemtl` \"blue\""),
         (b"\0\x01\x02", "warning: m.mtl: found a binary file"),
         (b"", "warning: m.mtl: found an empty file"),

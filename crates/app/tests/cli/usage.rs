@@ -56,6 +56,8 @@ fn quiet_leaves_errors_and_results() {
     assert_eq!((made.status, &made.stdout[..], &made.stderr[..]), (Some(0), "", ""));
     let made = run(&folder, "m.obj -s 8x8 -q --stats json");
     assert!(made.stdout.starts_with('{') && made.stderr.is_empty(), "{made:?}");
+    let made = run(&folder, "m.obj -s 8x8 -q --show overdraw");
+    assert_eq!((made.status, &made.stdout[..], &made.stderr[..]), (Some(0), "", ""));
     let made = run(&folder, "no.obj -q");
     assert!(made.status == Some(2) && made.stderr.starts_with("error: "), "{made:?}");
 }
@@ -78,6 +80,10 @@ fn mistakes_of_usage_are_one_line() {
     let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes())]);
     for (line, told) in [
         ("m.obj --quiet=yes", "error: --quiet: found \"yes\", expected no value; see --help"),
+        (
+            "m.obj --width 3",
+            "error: --width: found it, expected an option, such as --size WIDTHxHEIGHT; see --help",
+        ),
         ("m.obj --siez 3x3", "error: --siez: found it, expected an option, such as --size; see --help"),
         (
             "m.obj --scene cube",
@@ -86,6 +92,8 @@ fn mistakes_of_usage_are_one_line() {
         ("m.obj --eye 1 2 3", "error: 2: found a number on its own, expected numbers that belong together"),
         ("m.obj -o", "error: --output: found nothing, expected a value; see --help"),
         ("compare a.png", "error: found nothing, expected <B.png>; see --help"),
+        ("help compare camera", "error: camera: found no such options of `compare`, expected"),
+        ("help compare compare", "error: compare: found no such options of `compare`, expected"),
         ("help camra", "error: camra: found no such command or topic, expected one of "),
         ("completions fisch", "error: <SHELL>: found \"fisch\", expected one of bash, "),
     ] {
@@ -135,8 +143,36 @@ fn help_is_short_and_has_the_rest_behind_topics() {
     {
         assert!(all.contains(option), "{option}");
     }
+    let compared = page("help compare");
+    assert!(compared.contains("output     --quiet") && !compared.contains("camera"), "{compared}");
+    // All tables that scene files have.
+    let scenes = page("help scene-files");
+    for part in ["[camera]", "`[[object]]`", "`[material.NAME]`", "`[[light]]`", "`[projector]`"] {
+        assert!(scenes.contains(part), "{part}");
+    }
+    assert!(!scenes.contains("\n## "));
     assert!(page("--list-scenes").starts_with("hero "));
     assert_eq!(page("--list-scenes").lines().count(), alberti_app::scenes::NAMES.len());
+}
+
+/// A device takes the picture itself, and one that is full is an error.
+#[cfg(target_os = "linux")]
+#[test]
+fn devices_and_pipes_take_pictures() {
+    let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes())]);
+    run(&folder, "m.obj -s 16x8 -o a.png");
+    let made = run(&folder, "m.obj -s 16x8 -o /dev/null");
+    assert_eq!((made.status, &made.stderr[..]), (Some(0), ""), "{made:?}");
+    folder.fails(&["m.obj", "-s", "16x8", "-o", "/dev/full"], &["/dev/full: found that writing fails"]);
+    folder.fails(&["m.obj", "-o", "/dev/null", "--aov", "depth"], &["a picture that is no file"]);
+    let pipe = format!(
+        "mkfifo p && (cat p > b.png & {} m.obj -s 16x8 -o p -q; wait)",
+        env!("CARGO_BIN_EXE_alberti")
+    );
+    let status = Command::new("sh").current_dir(folder.path(".")).args(["-c", &pipe]).status();
+    assert!(status.is_ok_and(|status| status.success()));
+    let [a, b] = ["a.png", "b.png"].map(|name| fs::read(folder.path(name)).expect("a picture"));
+    assert!(!a.is_empty() && a == b);
 }
 
 #[test]

@@ -214,7 +214,7 @@ impl Drawing<'_> {
                 };
                 let light = Light::Lamps {
                     directions: Some([three(surface.normal), three(surface.to_viewer)]),
-                    reflectance: name(lighting.reflectance),
+                    reflectance: name(lighting.reflectance.0),
                     ambient: lighting.ambient.as_dvec3().to_array(),
                     openness: number(lanes, surface.openness),
                     gloss: number(lanes, surface.gloss),

@@ -7,9 +7,6 @@ use crate::options::{MapFile, Material, byte};
 use crate::scene::{Detail, Map, MaterialNote, Part};
 use alberti::raster::color::AnyBlend;
 
-/// The exponent below which a highlight is so broad that it fades, to none at 0.
-const BROAD: f32 = 8.0;
-
 /// The greatest exponent of a roughness map without a `Pr`.
 const POLISHED: f32 = 256.0;
 
@@ -72,9 +69,6 @@ impl Entry {
             let mirrored = |c: f32| ((DIELECTRIC + (c - DIELECTRIC) * metal) * height).clamp(0.0, 1.0);
             drawn.specular = Some(Color(if physical { color.map(mirrored) } else { [0.0; 3] }));
         }
-        if let (Some(Color(color)), Some(exponent)) = (&mut drawn.specular, exponent) {
-            *color = color.map(|c| c * faintness(exponent));
-        }
         if metal > 0.0 {
             let Color(color) = drawn.color.unwrap_or(Color([0.8; 3]));
             drawn.color = Some(Color(color.map(|c| c * (1.0 - 0.5 * metal))));
@@ -129,24 +123,11 @@ impl Entry {
                 metal: (metal, byte(share)),
                 gloss: (gloss, exponents.map(f32::to_bits)),
             },
-            |exponent| height(exponent) * faintness(exponent),
+            height,
         );
         if let Some(image) = mirroring {
             part.detail.specular_map = Some(Map { image, filter: None, wrap: part.detail.wrap });
             part.detail.specular = [1.0; 3];
-        }
-    }
-
-    /// Has a part's highlights fade where its map of exponents makes them broad.
-    fn fade(&self, part: &mut Part, images: &mut Images) {
-        let Detail { shininess, shininess_map, specular_map, .. } = &mut part.detail;
-        let Some(gloss) = shininess_map.filter(|_| !self.is_matt()) else { return };
-        // The colour has faded as the greatest does.
-        let most = faintness(shininess[1]).max(f32::MIN_POSITIVE);
-        let colors = specular_map.map(|map| map.image);
-        let share = |exponent| (faintness(exponent) / most).min(1.0);
-        if let Some(image) = images.fainter(colors, gloss.image, *shininess, share) {
-            *specular_map = Some(Map { image, ..specular_map.unwrap_or(gloss) });
         }
     }
 
@@ -164,7 +145,6 @@ impl Entry {
             None => Ok(None),
             Some(map) => images.texture(map).or_else(|error| warn(error).map(|()| None)),
         };
-        self.fade(part, images);
         let rough = read(&self.roughness_map, images)?.filter(|_| part.detail.shininess_map.is_none());
         let gloss = rough.map(|image| images.inverted(image));
         if let Some(image) = gloss {
@@ -195,11 +175,6 @@ impl Entry {
 /// The height of a highlight that keeps its light as it narrows.
 fn height(exponent: f32) -> f32 {
     (exponent + 8.0) / 8.0
-}
-
-/// The share that is left of a highlight, so that broad ones fade.
-fn faintness(exponent: f32) -> f32 {
-    (exponent / BROAD).min(1.0)
 }
 
 /// Has what is behind a part show through it: where it is glass, or where its texture has holes.

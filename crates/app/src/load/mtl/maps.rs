@@ -5,7 +5,7 @@ use std::path::Path;
 use super::entry::UNPLACED;
 use super::{Entry, Ignored};
 use crate::error::{Error, quote};
-use crate::load::paths::{existing, unquoted};
+use crate::load::paths::{existing, file_name};
 use crate::load::statements::{Statement, keyword, number};
 use crate::options::{MapFile, Origin, Wrap};
 use crate::scene::EnvironmentKind;
@@ -21,13 +21,13 @@ pub(super) fn read(
 ) -> Vec<Error> {
     let word = line.keyword();
     let (name, options) = options(line.rest);
-    let name = unquoted(&String::from_utf8_lossy(name)).to_owned();
+    let folder = origin.file.parent().unwrap_or(Path::new(""));
+    let name = file_name(folder, &String::from_utf8_lossy(name)).to_owned();
     if name.is_empty() {
         let (found, expected) = (format!("`{word}` without a file"), format!("`{word} FILE`"));
         return vec![Error::new(found, expected).hint("the line is left out")];
     }
     let mut warnings = Vec::new();
-    let folder = origin.file.parent().unwrap_or(Path::new(""));
     let found = existing(folder, &name);
     if let Some(found) = found.as_ref().filter(|found| found.renamed) {
         let shown = found.path.strip_prefix(folder).unwrap_or(&found.path).display().to_string();

@@ -159,7 +159,7 @@ fn missing_files_leave_the_default() {
     let starts = [
         "m.obj:10: found `usemtl` \"\"",
         "m.obj:12: found `usemtl` \"blue\"",
-        "m.mtl:2: found a texture \"no.png\"",
+        "m.mtl:2: found no such file for the texture \"no.png\"",
     ];
     assert_eq!(warnings.len(), 3, "{warnings:?}");
     for (warning, start) in warnings.iter().zip(starts) {

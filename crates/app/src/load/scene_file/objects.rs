@@ -89,7 +89,7 @@ impl SceneFile {
             }
             prepare::replace_materials(&mut model, over, &mut images)?;
             has_uv &= coordinates || !model.parts.iter().any(Part::has_maps);
-            prepare::complete(&mut model, &images, wrap, warnings);
+            prepare::complete(&mut model, &mut images, wrap, warnings);
             placed.push((model, placement(object), path));
         }
         let points = placed.iter().flat_map(|(model, placement, _)| {
@@ -193,8 +193,12 @@ impl SceneFile {
         let normals = normals.or(object.normals).or(self.file.render.normals);
         let Some(name) = &object.model else { return Err(Error::new("no model", "a model")) };
         obj::load(&self.source.beside(name), normals, progress).map_err(|error| {
-            let found = format!("a model {} that cannot be used ({error})", quote(name.as_bytes()));
-            self.source.error(&format!("{path}.model"), found, "a Wavefront OBJ model")
+            // Faults of its lines are told there.
+            if error.has_line() {
+                return error;
+            }
+            let error = error.of(&format!("the model {}", quote(name.as_bytes())));
+            self.source.place(error, &format!("{path}.model"))
         })
     }
 }

@@ -42,8 +42,10 @@ pub(super) fn fit(
     target: Option<[f64; 3]>,
 ) -> ([f64; 3], [f64; 3]) {
     let tangents = lens.tangents.map(|tangent| tangent * (1.0 - MARGIN));
+    let used = used(model);
     let depths = if lens.parallel { [0.0; 2] } else { tangents };
-    let Extremes { sides, nearest } = extremes(model, ball, axes, depths);
+    let points = || points(model, ball, &used);
+    let Extremes { sides, nearest } = extremes(points(), ball, axes, depths);
     // Parallel lines see what is behind the eye as well.
     let (clear, least) = if lens.parallel {
         (f64::INFINITY, 1e-3 * ball.radius)
@@ -68,22 +70,84 @@ pub(super) fn fit(
     for (pair, tangent) in sides.into_iter().zip(tangents) {
         depth = depth.min(-(pair[0] + pair[1]) / (2.0 * tangent));
     }
-    let [x, y] = sides.map(|[high, low]| (high - low) / 2.0);
+    let mut place = sides.map(|[high, low]| (high - low) / 2.0);
+    if !lens.parallel {
+        place = centred(points, axes, place, depth);
+    }
+    let [x, y] = place;
     (at([x, y, depth]), at([x, y, 0.0]))
 }
 
-/// Those of all vertices that triangles use, relative to the ball's middle.
-fn extremes(model: &Model, ball: Sphere, [right, up, forward]: Axes, depths: [f64; 2]) -> Extremes {
+/// The place beside the view, near this one, from which the silhouette is in the middle of the picture, for an eye at
+/// that depth.
+///
+/// At the place x, a point at (p, z) is seen at (p − x)/(z − depth). Both extremes are as far from the middle at the
+/// mean of their places by their nearness. Those are new extremes, at most a few times.
+fn centred<P: Iterator<Item = [f64; 3]>>(
+    points: impl Fn() -> P,
+    [right, up, forward]: Axes,
+    place: [f64; 2],
+    depth: f64,
+) -> [f64; 2] {
+    const STEPS: usize = 8;
+    let mut place = place;
+    for _ in 0..STEPS {
+        // Of each axis the least and the greatest tangent, and the place and the nearness there.
+        let mut ends = [[(f64::INFINITY, 0.0, 0.0), (f64::NEG_INFINITY, 0.0, 0.0)]; 2];
+        for from in points() {
+            let near = 1.0 / (dot(from, forward) - depth);
+            for ((ends, at), axis) in ends.iter_mut().zip(place).zip([right, up]) {
+                let p = dot(from, axis);
+                let end = ((p - at) * near, p, near);
+                if end.0 < ends[0].0 {
+                    ends[0] = end;
+                }
+                if end.0 > ends[1].0 {
+                    ends[1] = end;
+                }
+            }
+        }
+        let before = place;
+        for (at, [(_, a, near_a), (_, b, near_b)]) in place.iter_mut().zip(ends) {
+            let middle = (a * near_a + b * near_b) / (near_a + near_b);
+            *at = if middle.is_finite() { middle } else { *at };
+        }
+        if place == before {
+            break;
+        }
+    }
+    place
+}
+
+/// Whether triangles use each vertex; all, if there are no triangles.
+fn used(model: &Model) -> Vec<bool> {
     let mut used = vec![false; model.vertices.len()];
     for index in model.parts.iter().flat_map(|part| part.triangles.iter().flatten()) {
         if let Some(used) = used.get_mut(*index as usize) {
             *used = true;
         }
     }
-    let all = !used.contains(&true);
+    if !used.contains(&true) {
+        used.fill(true);
+    }
+    used
+}
+
+/// The places of vertices that are used, relative to the ball's middle.
+fn points(model: &Model, ball: Sphere, used: &[bool]) -> impl Iterator<Item = [f64; 3]> {
+    let pairs = model.vertices.iter().zip(used).filter(|(_, used)| **used);
+    pairs.map(move |(vertex, _)| sub(vertex.position.map(f64::from), ball.center))
+}
+
+/// Those of these points; of none, those of the ball.
+fn extremes(
+    points: impl Iterator<Item = [f64; 3]>,
+    ball: Sphere,
+    [right, up, forward]: Axes,
+    depths: [f64; 2],
+) -> Extremes {
     let mut found = Extremes { sides: [[f64::NEG_INFINITY; 2]; 2], nearest: f64::INFINITY };
-    for (vertex, _) in model.vertices.iter().zip(used).filter(|(_, used)| *used || all) {
-        let from = sub(vertex.position.map(f64::from), ball.center);
+    for from in points {
         let (place, z) = ([dot(from, right), dot(from, up)], dot(from, forward));
         for k in 0..2 {
             let [high, low] = found.sides[k];
@@ -159,6 +223,8 @@ mod tests {
                 if parallel || clear > 1.001 * CLEARANCE * ball.radius {
                     assert!((widest - 2.0 * (1.0 - MARGIN)).abs() < 1e-9, "{sides:?}");
                 }
+                // The side that does not limit the distance is in the middle as well.
+                assert!(sides.iter().all(|[low, high]| (low + high).abs() < 1e-9), "{sides:?}");
                 for [low, high] in sides {
                     assert!(low >= MARGIN - 1.0 - 1e-9 && high <= 1.0 - MARGIN + 1e-9, "{sides:?}");
                 }

@@ -51,6 +51,13 @@ fn the_automatic_camera_shows_the_whole_ball() {
     }
     let camera = of(CameraTable::default());
     assert_eq!((camera.target, camera.up, camera.fov), ([1.0, 2.0, 3.0], [0.0, 1.0, 0.0], DEFAULT_FOV));
+    // Beyond 16:9 the angle narrows, so that pictures are no wider.
+    let wide = |aspect| frame(&CameraTable::default(), None, (&model(), BALL), aspect).unwrap();
+    let half = |camera: Camera| (f64::from(camera.fov).to_radians() / 2.0).tan();
+    assert_eq!(wide(16.0 / 9.0).fov, DEFAULT_FOV);
+    assert!((half(wide(32.0 / 9.0)) - half(camera) / 2.0).abs() < 1e-6 && contains(&wide(4.0), 4.0));
+    let from = CameraTable { eye: Some([5.0, 2.0, 9.0].into()), ..CameraTable::default() };
+    assert_eq!(frame(&from, None, (&model(), BALL), 4.0).unwrap().fov, DEFAULT_FOV);
     let zoomed = of(CameraTable { zoom: Some(2.0.into()), ..CameraTable::default() });
     assert_eq!((zoomed.eye, zoomed.target), (camera.eye, camera.target));
     let tangents = [camera, zoomed].map(|camera| (f64::from(camera.fov).to_radians() / 2.0).tan());

@@ -74,7 +74,7 @@ fn broken_maps_leave_the_surface_without() {
         );
         assert_eq!(warnings.len(), 1, "{key} {warnings:?}");
         assert!(
-            warnings[0].starts_with("m.mtl:3: found a texture \"no.png\" that cannot be used"),
+            warnings[0].starts_with("m.mtl:3: found no such file for the texture \"no.png\", expected"),
             "{warnings:?}"
         );
     }
@@ -101,14 +101,14 @@ fn maps_of_metal_dull_the_colour_and_tint_highlights() {
         assert!(off[0] <= 1 && off[1] <= 4, "{lines} {off:?}");
         assert_eq!(part.detail.specular, [1.0; 3]);
     }
-    // Where a surface is rough, its highlights are as faint as they are broad.
-    for (rough, mirrored) in [([255; 3], 0), ([0; 3], 255), ([247; 3], 20)] {
+    // Where a surface is rough, its highlights are as faint as they are broad, before `prepare` has these fade.
+    for (rough, mirrored) in [([255; 3], 10), ([0; 3], 255), ([247; 3], 20)] {
         let mtl = b"newmtl m\nKd 0.5 0.5 0.5\nmap_Pr r.png\n";
         let files = [("m.obj", MAPPED.as_bytes()), ("m.mtl", mtl), ("r.png", &image(rough))];
         let (model, _) = load_files(&files);
         let detail = &model.parts[0].detail;
         let highlight = model.textures[detail.specular_map.unwrap().image].texels[0];
-        // 0.04 (n + 8)/8, times n/8 below an exponent n of 8: n is 0, 256 and 8.
+        // 0.04 (n + 8)/8: n is 0, 256 and 8.
         assert_eq!((highlight, detail.shininess), ([mirrored, mirrored, mirrored, 255], [0.0, 256.0]));
     }
     // Highlights that the file has stay.
