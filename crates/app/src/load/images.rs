@@ -229,8 +229,8 @@ impl Images {
         })
     }
 
-    /// A texture of others: as large as the largest on each axis, of their texels that hold the middle of its own.
-    /// `None` where there is no room for it.
+    /// A texture of others: as large as the largest on each axis, of their colours in the middles of its texels. `None`
+    /// where there is no room for it.
     fn together(
         &mut self,
         maps: [Option<usize>; 3],
@@ -241,13 +241,11 @@ impl Images {
             let images = maps.map(|index| all.get(index?));
             let sides = images.iter().flatten().map(|image| [image.width, image.height]);
             let [width, height] = sides.reduce(|[a, b], [c, d]| [a.max(c), b.max(d)])?;
-            // Sides are at most 2^14.
-            let at = |k: u32, of: u32, side: u32| ((2 * k + 1) * side / (2 * of)) as usize;
             let texel = |row: u32, column: u32| {
                 change(images.map(|image| {
                     let Some(image) = image else { return [255; 4] };
-                    let (x, y) = (at(column, width, image.width), at(row, height, image.height));
-                    image.texels.get(y * image.width as usize + x).copied().unwrap_or([255; 4])
+                    let [x, y] = [(column, width, image.width), (row, height, image.height)].map(between);
+                    magnified(image, [x, y])
                 }))
             };
             let texels = (0..height).flat_map(|row| (0..width).map(move |column| (row, column)));
@@ -312,6 +310,38 @@ impl Images {
         }
         (model.textures, model.heights) = (textures.used, heights.used);
     }
+}
+
+/// The texel of a side on which the middle of texel `k` of `of` lies or after which it comes, and how far towards the
+/// next, in 256ths. Beyond the outermost middles it is theirs.
+fn between((k, of, side): (u32, u32, u32)) -> [u32; 2] {
+    // Sides are at most 2^14.
+    let at = 128 * (2 * u64::from(k) + 1) * u64::from(side) / u64::from(of.max(1));
+    let at = at.saturating_sub(128).min(256 * u64::from(side.saturating_sub(1)));
+    [at >> 8, at & 255].map(|part| u32::try_from(part).unwrap_or(0))
+}
+
+/// The colour of an image between texels, by the shares of four of them.
+fn magnified(image: &Image, [[x, right], [y, down]]: [[u32; 2]; 2]) -> [u8; 4] {
+    let texel = |x: u32, y: u32| {
+        let at = y as usize * image.width as usize + x as usize;
+        image.texels.get(at).copied().unwrap_or([255; 4])
+    };
+    if [right, down] == [0; 2] {
+        return texel(x, y);
+    }
+    let (next, below) = (x + u32::from(right > 0), y + u32::from(down > 0));
+    let four = [
+        (x, y, 256 - right, 256 - down),
+        (next, y, right, 256 - down),
+        (x, below, 256 - right, down),
+        (next, below, right, down),
+    ];
+    let four = four.map(|(x, y, across, along)| (texel(x, y), across * along));
+    [0, 1, 2, 3].map(|k: usize| {
+        let sum: u32 = four.iter().map(|(texel, share)| u32::from(texel[k]) * share).sum();
+        ((sum + (1 << 15)) >> 16).to_le_bytes()[0]
+    })
 }
 
 /// A byte as a share of 255.

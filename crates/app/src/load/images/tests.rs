@@ -102,8 +102,8 @@ fn ranges_are_a_factor_and_a_term() {
 }
 
 #[test]
-fn alpha_is_that_of_the_texel_in_the_middle() {
-    let (_folder, mut images, colors, metal) = images();
+fn maps_together_are_as_between_texels() {
+    let (folder, mut images, colors, metal) = images();
     let of = |images: &Images, index| {
         texels(images, index).into_iter().map(|[.., alpha]| alpha).collect::<Vec<_>>()
     };
@@ -120,5 +120,22 @@ fn alpha_is_that_of_the_texel_in_the_middle() {
     let reds: Vec<u8> = texels(&images, masked).into_iter().map(|[red, ..]| red).collect();
     assert_eq!(reds, [255, 64, 255, 64]);
     let faded = images.faded(colors, 51);
+    // Colours between texels: those of two by two for a mask of five by three.
+    let path = folder.path().join("mask.png");
+    image::RgbaImage::from_pixel(5, 3, image::Rgba([7, 0, 0, 255])).save(&path).unwrap();
+    let mask = images.texture(&MapFile::given(&path)).unwrap().unwrap();
+    let fine = images.with_alpha(Some(colors), mask);
+    let (fine, coarse) = (texels(&images, fine), texels(&images, Some(colors)));
+    for (i, texel) in fine.iter().enumerate() {
+        let place = |k: usize, of: f64| ((k as f64 + 0.5) * 2.0 / of - 0.5).clamp(0.0, 1.0);
+        let [x, y] = [place(i % 5, 5.0), place(i / 5, 3.0)];
+        for axis in 0..3 {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|k: usize| f64::from(coarse[k][axis]));
+            let exact = (a * (1.0 - x) + b * x) * (1.0 - y) + (c * (1.0 - x) + d * x) * y;
+            // Places are rounded down to 256ths.
+            assert!((f64::from(texel[axis]) - exact).abs() <= 0.5 + 2.0 * 245.0 / 256.0, "{exact} {texel:?}");
+        }
+        assert_eq!(texel[3], 7);
+    }
     assert_eq!(of(&images, Some(faded)), [51, 2, 51, 0]);
 }
