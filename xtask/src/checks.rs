@@ -1,7 +1,9 @@
 //! The checks that are one call of cargo each.
 
 use crate::command::{Outcome, cargo, run};
+use crate::elf::Program;
 use crate::workspace::{self, FIRMWARE};
+use std::fs;
 
 /// Checks the formatting of every member, and of the firmware.
 pub(crate) fn fmt() -> Outcome {
@@ -72,6 +74,29 @@ pub(crate) fn registers() -> Outcome {
         ])
         .args(["--", "-D", "warnings"]))?;
     run(cargo().args(["test", "--package", "alberti-math", "--features", "avx512,sse2", "--lib", "lanes::"]))
+}
+
+/// Checks that no operation on lanes is a call: then all functions with lanes were inlined to where the machine's
+/// instructions may be used. Of a closure that was not, the picture is right, and takes up to three times as long.
+pub(crate) fn lanes() -> Outcome {
+    if !cfg!(target_arch = "x86_64") {
+        println!("This machine's lanes need no inlining.");
+        return Ok(());
+    }
+    run(cargo().args(["build", "--release", "--package", "alberti-app"]))?;
+    let app = workspace::target_directory().join("release/alberti");
+    let file = fs::read(&app).map_err(|error| format!("{}: {error}", app.display()))?;
+    let symbols = Program::read(&file)?.symbols;
+    if symbols.is_empty() {
+        return Err(format!("{}: no symbols", app.display()));
+    }
+    match symbols.iter().filter(|(name, _)| name.contains("__fearless_simd_kernel")).count() {
+        0 => Ok(()),
+        count => Err(format!(
+            "{count} operations on lanes are functions of {}: who calls them lacks `#[inline(always)]`",
+            app.display()
+        )),
+    }
 }
 
 /// Runs the tests that can look at every single `f32`, or at ten million triangles and samples, instead of at some: on

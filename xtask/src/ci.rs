@@ -80,7 +80,7 @@ struct Done {
 
 /// The checks in order, by the price of finding a failure: text first, then one compilation, then the tests, then the
 /// builds that start from nothing. Little is compiled twice: `docs` and `package` share the metadata of most
-/// dependencies with `lint`; `trade` and `guide` have the app that `gallery` has compiled.
+/// dependencies with `lint`; `lanes`, `trade` and `guide` have the app that `gallery` has compiled.
 const STEPS: &[Step] = &[
     ("tidy", tidy::run),
     ("assets", assets::check),
@@ -89,6 +89,7 @@ const STEPS: &[Step] = &[
     ("docs", checks::docs),
     (TEST, checks::test),
     ("gallery", gallery::check),
+    ("lanes", checks::lanes),
     ("trade", trade::check),
     ("registers", checks::registers),
     ("extremes", extremes::check),

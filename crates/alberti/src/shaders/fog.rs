@@ -267,7 +267,7 @@ impl<S, F: Fog, C: FragmentColor> Fogged<S, F, C> {
                 "the stage's colours are no RGB565: let them be Rgba8 before a fog"
             );
         };
-        let [near, far] = [surface, lanes.word(color)].map(|texel| Rgb565::spread(lanes, texel));
+        let (near, far) = (Rgb565::spread(lanes, surface), Rgb565::spread(lanes, lanes.word(color)));
         let amount = lanes.shr(amount + lanes.word(4), 3);
         Rgb565::gathered(lanes, Rgb565::blended(lanes, near, far, amount))
     }

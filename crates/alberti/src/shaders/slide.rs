@@ -98,8 +98,9 @@ impl<S, F: Storage, Fl: Filter, Z: Size> Slide<S, Sampler<'_, F, Fl, Clamp, Clam
         let half = lanes.splat(0.5);
         let image = self.image.sample_lanes(lanes, u * half + half, v * half + half);
         let ([r, g, b, a], [image_r, image_g, image_b, _]) = (unpack(lanes, surface), unpack(lanes, image));
-        let mixed = [(r, image_r), (g, image_g), (b, image_b)].map(|(s, i)| self.mix.channel(lanes, s, i));
-        let [r, g, b] = mixed;
+        let mix = self.mix;
+        let [r, g, b] =
+            [mix.channel(lanes, r, image_r), mix.channel(lanes, g, image_g), mix.channel(lanes, b, image_b)];
         lanes.select_words(inside, pack(lanes, [r, g, b, a]), surface)
     }
 }

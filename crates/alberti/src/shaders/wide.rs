@@ -97,6 +97,9 @@
 //! Greater is `less` with its arguments the other way round. A vector is an array of numbers: [`dot_lanes`],
 //! [`unit_lanes`], [`absolute_lanes`] and [`clamped_lanes`] are for them, and one that is the same for all fragments is
 //! `v.to_array().map(|x| lanes.splat(x))`.
+//!
+//! Functions with lanes, and closures that do more than that, are `#[inline(always)]`. Others are compiled for every
+//! machine, where each operation on lanes is a call: such a stage takes up to three times as long.
 
 use alberti_math::Rgba8;
 use alberti_math::lanes::Lanes;

@@ -17,7 +17,8 @@ type Bundle<N> = <Attributes as Varying>::Of<N>;
 /// A bundle of derivatives, of which only those of the texture coordinates are not 0.
 #[inline(always)]
 fn with_uv<L: Lanes>(lanes: L, like: &Bundle<L::Number>, uv: [L::Number; 2]) -> Bundle<L::Number> {
-    let (place, mut framed) = Attributes::map(like, &|_| lanes.splat(0.0));
+    let zero = lanes.splat(0.0);
+    let (place, mut framed) = Attributes::map(like, &|_| zero);
     framed.uv = uv;
     (place, framed)
 }
@@ -58,8 +59,10 @@ pub(super) fn erase<L: Floating>(
             #[inline(always)]
             || {
                 let varying = Attributes::map(&handed.varying, &|each: L::Each<f32>| lanes.load(&each));
-                let loaded = |[u, v]: [L::Each<f32>; 2]| [lanes.load(&u), lanes.load(&v)];
-                let gradient = handed.gradient.map(|uv| with_uv(lanes, &varying, loaded(uv)));
+                let gradient = handed.gradient.map(
+                    #[inline(always)]
+                    |[u, v]| with_uv(lanes, &varying, [lanes.load(&u), lanes.load(&v)]),
+                );
                 let (mask, place) = (lanes.mask(handed.mask), handed.place);
                 let (words, kept) = stage.shade(&Fragments { lanes, varying, gradient, mask, place });
                 (lanes.store_words(words), lanes.bits(kept))

@@ -128,13 +128,18 @@ where
         }
         let (lanes, (normal, _)) = (fragments.lanes, fragments.varying);
         let (color, mask) = self.map.shade(&fragments.part(|(_, varying)| *varying));
-        let (light, byte) = (self.sum(lanes, normal), lanes.word(255));
-        let lit = |shift: u32| {
-            let channel = lanes.to_numbers(lanes.shr(color, shift) & byte);
-            lanes.shl(lanes.nearest_byte(channel * light), shift)
-        };
-        (lit(0) | lit(8) | lit(16) | (color & lanes.word(0xff00_0000)), mask)
+        let light = self.sum(lanes, normal);
+        let [red, green, blue] =
+            [lit(lanes, color, 0, light), lit(lanes, color, 8, light), lit(lanes, color, 16, light)];
+        (red | green | blue | (color & lanes.word(0xff00_0000)), mask)
     }
+}
+
+/// The channel at that bit of a colour, times the light.
+#[inline(always)]
+fn lit<L: Lanes>(lanes: L, color: L::U32, shift: u32, light: L::Number) -> L::U32 {
+    let channel = lanes.to_numbers(lanes.shr(color, shift) & lanes.word(255));
+    lanes.shl(lanes.nearest_byte(channel * light), shift)
 }
 
 #[cfg(test)]

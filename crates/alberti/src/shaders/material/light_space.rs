@@ -101,9 +101,9 @@ impl LightSpace for AnyLightSpace {
 /// Amounts above 2^14 count as that. In fixed point colours are within 2 bytes of that in floats, for S up to 4.
 ///
 /// # Cost
-/// A load from a table of 512 bytes and two divisions for each channel of a layer. A fragment: six roots, six
-/// divisions and some 50 operations. With one light and a trilinear texture that is four times as long as without, by
-/// lanes of AVX2 (`lights, in light` in `benches/benches/surface.rs`).
+/// A load from a table of 512 bytes and a division for each channel of a layer. A fragment: six roots, six divisions
+/// and some 50 operations. With one light and a trilinear texture that is 1.4 times as long as without, by lanes of AVX2
+/// (`lights, in light` in `benches/benches/surface.rs`).
 #[derive(Clone, Copy, Debug)]
 pub struct InSpace<S, P> {
     /// The surface.
@@ -183,33 +183,46 @@ pub(super) fn shown<L: Lanes>(lanes: L, light: [L::Number; 3]) -> [L::Number; 3]
 #[inline(always)]
 fn decode<L: Lanes>(lanes: L, words: L::U32) -> [L::Number; 3] {
     let [r, g, b, _] = unpack(lanes, words);
-    let light = |byte: L::U32| {
-        let light = lanes.gather(byte, |byte| {
+    [light(lanes, r), light(lanes, g), light(lanes, b)]
+}
+
+/// The amount of light of a channel.
+#[inline(always)]
+fn light<L: Lanes>(lanes: L, byte: L::U32) -> L::Number {
+    let light = lanes.gather(
+        byte,
+        #[inline(always)]
+        |byte| {
             let [byte, ..] = byte.to_le_bytes();
             srgb::to_light(byte).into()
-        });
-        // In two halves, since 65535 is more than fixed point holds.
-        let [high, low] = [lanes.shr(light, 8), light & lanes.word(255)].map(|half| lanes.to_numbers(half));
-        (high + low / lanes.splat(256.0)) / lanes.splat(65535.0 / 256.0)
-    };
-    [light(r), light(g), light(b)]
+        },
+    );
+    // In two halves, since 65535 is more than fixed point holds.
+    let (high, low) = (lanes.to_numbers(lanes.shr(light, 8)), lanes.to_numbers(light & lanes.word(255)));
+    (high + low * lanes.splat(1.0 / 256.0)) / lanes.splat(65535.0 / 256.0)
 }
 
 /// Amounts of light as the screen shows them: each at most 1.
 #[inline(always)]
 fn mapped<L: Lanes>(lanes: L, light: [L::Number; 3]) -> [L::Number; 3] {
     let (one, start) = (lanes.splat(1.0), lanes.splat(START));
-    let [r, g, b] = light.map(|channel| lanes.min(lanes.splat(MOST), channel));
+    let most = lanes.splat(MOST);
+    let [r, g, b] = light;
+    let [r, g, b] = [lanes.min(most, r), lanes.min(most, g), lanes.min(most, b)];
     let peak = lanes.max(lanes.max(r, lanes.max(g, b)), start);
     let rest = one - start;
     let compressed = one - rest * rest / (peak - (start - rest));
     // The share of white.
     let white = one - one / (one + lanes.splat(DESATURATION) * (peak - compressed));
     let bright = lanes.less(start, peak);
-    [r, g, b].map(|channel| {
-        let own = channel / peak * compressed;
-        lanes.select(bright, own + (compressed - own) * white, channel)
-    })
+    // A closure would be a function without lanes' instructions.
+    macro_rules! mapped {
+        ($channel:ident) => {{
+            let own = $channel / peak * compressed;
+            lanes.select(bright, own + (compressed - own) * white, $channel)
+        }};
+    }
+    [mapped!(r), mapped!(g), mapped!(b)]
 }
 
 /// The channels of sRGB, times 255, of amounts of light from 0 to 1.
@@ -217,8 +230,9 @@ fn mapped<L: Lanes>(lanes: L, light: [L::Number; 3]) -> [L::Number; 3] {
 fn encoded<L: Lanes>(lanes: L, light: L::Number) -> L::Number {
     // Negative numbers, which have no root, are not chosen.
     let quarter = lanes.sqrt(lanes.sqrt(light));
-    let [a, b, c, d, e] = ENCODED.map(|coefficient| lanes.splat(coefficient));
-    let curve = a + quarter * (b + quarter * (c + quarter * (d + quarter * e)));
+    let [a, b, c, d, e] = ENCODED;
+    let curve = lanes.splat(c) + quarter * (lanes.splat(d) + quarter * lanes.splat(e));
+    let curve = lanes.splat(a) + quarter * (lanes.splat(b) + quarter * curve);
     let line = lanes.splat(12.92) * light;
     lanes.select(lanes.less(lanes.splat(0.003_130_8), light), curve, line) * lanes.splat(255.0)
 }
