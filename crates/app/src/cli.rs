@@ -16,6 +16,7 @@ pub mod compare;
 mod explain;
 mod help;
 mod info;
+mod manual;
 pub(crate) mod partners;
 mod picture;
 pub mod run;

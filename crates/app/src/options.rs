@@ -59,7 +59,7 @@ pub enum Shading {
     Unlit,
     /// The vertices' colours, interpolated.
     VertexColor,
-    /// Diffuse light from beside the camera on the texture or the material's colour.
+    /// Diffuse light on the texture or the material's colour.
     #[default]
     Lambert,
     /// Diffuse light and highlights, found at the vertices and interpolated: small highlights are lost.

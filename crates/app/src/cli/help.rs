@@ -5,6 +5,7 @@ use std::ffi::OsString;
 use clap::builder::{Resettable, StyledStr};
 use clap::{Arg, Command};
 
+use super::manual;
 use super::words::{before_files, nearest};
 use crate::error::Error;
 
@@ -31,10 +32,7 @@ const GENERAL: &str = "output";
 const ALL: &str = "all";
 
 /// The topic of scene files, and their part of the manual.
-const SCENE_FILES: (&str, &str) = ("scene-files", "## Scene files\n");
-
-/// The manual.
-const MANUAL: &str = include_str!("../../README.md");
+const SCENE_FILES: (&str, &str) = ("scene-files", "Scene files");
 
 /// The first page.
 const FIRST: &str = "\
@@ -64,11 +62,14 @@ Help:
 ///
 /// # Errors
 /// There is no such topic.
-pub(super) fn asked(words: &[OsString], command: &Command) -> Option<Result<String, Error>> {
-    let words: Vec<_> = before_files(words).map(|word| word.to_string_lossy()).collect();
+pub(super) fn asked(given: &[OsString], command: &Command) -> Option<Result<String, Error>> {
+    let words: Vec<_> = before_files(given).map(|word| word.to_string_lossy()).collect();
     let named = |word: &&str| command.find_subcommand(word).is_some();
     let first = words.first().map(|word| &**word);
-    let Some(first) = first else { return Some(Ok(first_page(command))) };
+    if given.len() <= 1 {
+        return Some(Ok(first_page(command)));
+    }
+    let first = first?;
     if first == "help" {
         let Some(topic) = words.get(1) else { return Some(Ok(first_page(command))) };
         let more = words.get(2).map(|word| &**word);
@@ -171,16 +172,10 @@ fn pointers(command: &Command, name: &str) -> String {
 fn of_topic(command: &Command, topic: &str) -> Result<String, Error> {
     match command.find_subcommand("render").cloned() {
         _ if topic == ALL => of_command(command, "render", Some(ALL)),
-        _ if topic == SCENE_FILES.0 => Ok(scene_files().to_owned()),
+        _ if topic == SCENE_FILES.0 => Ok(manual::section(SCENE_FILES.1)),
         Some(render) if is_topic(command, topic) => Ok(options(render, topic)),
         _ => Err(no_topic(command, topic)),
     }
-}
-
-/// The part of the manual that is about scene files.
-fn scene_files() -> &'static str {
-    let part = MANUAL.split_once(SCENE_FILES.1).map_or("", |(_, part)| part);
-    part.split("\n## ").next().unwrap_or(part).trim_start()
 }
 
 /// Whether an option of a command is in a topic's page.
@@ -238,5 +233,8 @@ fn topic_of(argument: &Arg) -> String {
 
 /// Plain text, without empty lines at its end.
 fn text(page: StyledStr) -> String {
-    format!("{}\n", page.to_string().trim_end())
+    // Both options print the same here.
+    let page =
+        page.to_string().replace(" (see more with '--help')", "").replace(" (see a summary with '-h')", "");
+    format!("{}\n", page.trim_end())
 }

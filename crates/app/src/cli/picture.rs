@@ -1,25 +1,59 @@
 //! Pictures beyond their scenes: a ground, and warnings.
 
 use super::partners;
-use super::staged::{Request, Staged, warn};
+use super::staged::{Request, Staged, told, warn};
 use crate::error::Error;
-use crate::options::values::name_of;
-use crate::options::{CameraTable, ColorFormat, Dither, Interpolation, Shading};
+use crate::options::values::{Size, name_of};
+use crate::options::{
+    CameraTable, ColorFormat, Cull, DEFAULT_SIZE, Dither, Interpolation, Projection, Samples, Shading,
+};
+use crate::scene::normals::sub;
 use crate::scene::{ground, order};
+use alberti::Stats;
 
 impl Request {
-    /// [`stage`](Self::stage) for a picture: warns of colours that are not seen.
+    /// [`stage`](Self::stage) for a picture: warns of colours that are not seen, and has glass in glass in order.
     ///
     /// # Errors
     /// As those of [`stage`](Self::stage).
     pub(super) fn stage_picture(&self) -> Result<Staged, Error> {
-        let staged = self.stage()?;
+        let mut staged = self.stage()?;
+        let Staged { model, camera, options, .. } = &mut staged;
+        let eye = camera.eye.map(f64::from);
+        let towards = sub(eye, camera.target.map(f64::from));
+        let eye = if options.projection == Projection::Perspective { Ok(eye) } else { Err(towards) };
+        order::shells(model, camera, eye);
         let of_file = self.file.is_none() && self.arguments.model.is_some() && self.arguments.show.is_none();
         let unseen = || partners::unseen_colors(&staged.model, staged.options.shading);
         if let Some(warning) = of_file.then(unseen).flatten() {
             warn(&warning.to_string());
         }
+        let Size(width, height) = self.arguments.render.size.unwrap_or(DEFAULT_SIZE);
+        if Samples::usual(width, height) == Samples::One && self.arguments.render.samples.is_none() {
+            let found = format!("a picture of {width}x{height}, too large for 4 samples a pixel");
+            warn(
+                &Error::new(found, "at most 8192 a side")
+                    .place("--size")
+                    .hint("edges are not smooth")
+                    .to_string(),
+            );
+        }
         Ok(staged)
+    }
+
+    /// Warns of a picture in which nothing of the model is seen, and why.
+    pub(super) fn warn_of_nothing(&self, stats: &Stats, cull: Cull) {
+        if stats.written > 0 || !told().is_empty() || self.arguments.show.is_some() {
+            return;
+        }
+        let hint = if stats.dropped >= stats.submitted {
+            "all of it is outside the view: see --eye, --target, --zoom, --near and --far"
+        } else if cull != Cull::None && stats.culled + stats.dropped >= stats.submitted {
+            "its faces are left out by --cull"
+        } else {
+            "its faces are seen edge-on, or are smaller than pixels, or are outside the picture"
+        };
+        warn(&Error::new("nothing of the model in the picture", "some of it").hint(hint).to_string());
     }
 
     /// Puts a ground under the model of a picture, if that is asked for.
@@ -48,6 +82,5 @@ impl Request {
             let error = Error::new(found, "a smooth one").place("--ground");
             warn(&error.hint("--dither blue-noise leaves no rings").to_string());
         }
-        order::back_to_front(model, camera);
     }
 }

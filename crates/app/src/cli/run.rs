@@ -12,7 +12,7 @@ use super::staged::{OF_PICTURES, Request, Staged, hidden, warn};
 use super::{Cli, StatsFormat, advise, bake, compare, explain, help, info, watch, words};
 use crate::aov::layers;
 use crate::error::{Error, quote};
-use crate::options::RenderOptions;
+use crate::options::{RenderOptions, Samples};
 use crate::output::clock::{Work, spent};
 use crate::output::progress::{Progress, is_silent, silence, waiting};
 use crate::output::stats::{Report, Times};
@@ -108,24 +108,27 @@ fn usage(error: &clap::Error, renamed: bool) -> u8 {
         }
         ErrorKind::MissingRequiredArgument => {
             let missing = context(ContextKind::InvalidArg).unwrap_or_default();
-            return fail(&Error::new("nothing", missing).hint("see --help"));
+            return fail(&Error::new("too few words", format!("{missing} as well")).hint("see --help"));
         }
         ErrorKind::ArgumentConflict => {
             let other = context(ContextKind::PriorArg).map(|other| named(&other)).unwrap_or_default();
-            ("it".to_owned(), format!("no {other} beside it"))
+            (format!("it beside {other}"), "one of the two".to_owned())
         }
         ErrorKind::UnknownArgument if option.as_ref().is_some_and(|word| word.parse::<f64>().is_ok()) => (
             "a number on its own".to_owned(),
             "numbers that belong together with commas, as 0,1.5,-3".to_owned(),
         ),
         ErrorKind::UnknownArgument if option.as_ref().is_some_and(|option| !option.starts_with('-')) => {
-            ("one word too many".to_owned(), "fewer files".to_owned())
+            ("one file too many".to_owned(), "no other file or word".to_owned())
         }
         ErrorKind::UnknownArgument => {
             let meant = option.as_deref().and_then(words::of_others).map(str::to_owned);
             let similar = meant.or_else(|| context(ContextKind::SuggestedArg));
             let similar = similar.map(|option| format!(", such as {option}"));
-            ("it".to_owned(), format!("an option{}", similar.unwrap_or_default()))
+            (
+                "no such option".to_owned(),
+                format!("one{}", similar.unwrap_or_else(|| " of its help".to_owned())),
+            )
         }
         ErrorKind::InvalidValue
             if context(ContextKind::InvalidValue).is_some_and(|value| value.is_empty()) =>
@@ -174,6 +177,7 @@ fn draw_from(request: &Request) -> Result<(), Error> {
     let seen = staged.camera;
     let numbers = || waiting("drawing numbers", || layers(&staged.model, &seen, &staged.options));
     let layers = beside.as_ref().map(|_| numbers()).transpose()?;
+    let triangles = staged.model.parts.iter().map(|part| part.triangles.len()).sum();
     request.add_ground(&mut staged);
     let Staged { model, camera, options, samples, backdrop, load } = staged;
     let start = Instant::now();
@@ -188,6 +192,7 @@ fn draw_from(request: &Request) -> Result<(), Error> {
         }
     };
     drop(progress);
+    request.warn_of_nothing(&picture.stats, options.cull);
     let (maps, mip_maps) = (spent(Work::Maps) - before[0], spent(Work::MipMaps) - before[1]);
     let render_time = start.elapsed().saturating_sub(mip_maps);
     if request.arguments.stats.is_some() && options.threads.get() > 1 {
@@ -214,6 +219,8 @@ fn draw_from(request: &Request) -> Result<(), Error> {
         output: output.name(),
         source: request.source(),
         size,
+        samples: if request.arguments.show.is_some() { Samples::One } else { samples },
+        triangles,
         stats: picture.stats,
         times,
         camera,
@@ -242,20 +249,39 @@ fn draw_from(request: &Request) -> Result<(), Error> {
 fn completions(words: &ArgMatches) -> Result<(), Error> {
     let mut script = Vec::new();
     if let Some(&shell) = words.get_one::<clap_complete::Shell>("shell") {
-        clap_complete::generate(shell, &mut command(), "alberti", &mut script);
+        clap_complete::generate(shell, &mut with_options(command()), "alberti", &mut script);
     }
     print(&String::from_utf8_lossy(&script))
 }
 
-/// The manual page: the first page of the help, and all options of `render`.
+/// The command with the options of `render`, whose word may be left out.
+fn with_options(command: Command) -> Command {
+    let render = command.find_subcommand("render").cloned().unwrap_or_default();
+    command.args(render.get_arguments())
+}
+
+/// The manual page: all options of `render`, and the other commands.
 fn man() -> Result<(), Error> {
-    let command = command();
+    let all = with_options(command());
+    let names = all.get_subcommands().filter(|command| command.get_name() != "render");
+    let about = |command: &Command| {
+        format!("  alberti {:<12} {}", command.get_name(), command.get_about().cloned().unwrap_or_default())
+    };
+    let commands: Vec<_> = names.map(about).collect();
+    // Other pages there are none: each command has its help.
+    let alone = Command::new("alberti")
+        .version(env!("CARGO_PKG_VERSION"))
+        .about(all.get_about().cloned().unwrap_or_default())
+        .args(
+            all.get_arguments().filter(|argument| !["help", "version"].contains(&argument.get_id().as_str())),
+        )
+        .after_help(format!(
+            "Commands, of which alberti help COMMAND tells more:\n\n{}",
+            commands.join("\n\n")
+        ));
     let mut page = Vec::new();
     // Writing to memory does not fail.
-    let _ = clap_mangen::Man::new(command.clone()).render(&mut page);
-    if let Some(render) = command.find_subcommand("render") {
-        let _ = clap_mangen::Man::new(render.clone()).render_options_section(&mut page);
-    }
+    let _ = clap_mangen::Man::new(alone).render(&mut page);
     print(&String::from_utf8_lossy(&page))
 }
 

@@ -44,7 +44,7 @@ pub(super) fn with_command(mut words: Vec<OsString>, command: &Command) -> Resul
         None => "see --help".to_owned(),
     };
     let place = if text.is_empty() { quote(b"") } else { text.into_owned() };
-    Err(Error::new("neither a command nor a file", "one of both").place(place).hint(hint))
+    Err(Error::new("no such command and no file", "one of the two").place(place).hint(hint))
 }
 
 /// The option for what others call so.
@@ -96,17 +96,17 @@ mod tests {
         for (line, expected) in [
             (
                 "alberti rednr m.obj",
-                "rednr: found neither a command nor a file, expected one of both; did you mean render?",
+                "rednr: found no such command and no file, expected one of the two; did you mean render?",
             ),
             (
                 "alberti floor",
-                "floor: found neither a command nor a file, expected one of both; did you mean --scene floor?",
+                "floor: found no such command and no file, expected one of the two; did you mean --scene floor?",
             ),
             (
                 "alberti teapot",
-                "teapot: found neither a command nor a file, expected one of both; see --help",
+                "teapot: found no such command and no file, expected one of the two; see --help",
             ),
-            ("alberti ", "\"\": found neither a command nor a file, expected one of both; see --help"),
+            ("alberti ", "\"\": found no such command and no file, expected one of the two; see --help"),
         ] {
             assert_eq!(told(line), Err(expected.to_owned()));
         }

@@ -3,7 +3,7 @@
 use super::{AMBIENT, DIFFUSE, frame};
 use crate::options::{KeyLight, RenderOptions};
 use crate::scene::Camera;
-use alberti::glam::Vec3;
+use alberti::glam::{Mat3, Vec3};
 use alberti::lanes::Lanes;
 use alberti::shaders::{Sunlit, Unlit};
 use alberti::{FragmentStage, Fragments, Rgba8, Varying, Vector3};
@@ -26,7 +26,7 @@ const LINEAR_STUDIO: (f32, [f32; 3]) = (0.06, [0.8, 0.14, 0.25]);
 /// The lamp in amounts of light, with the ambient light.
 const LINEAR_LAMP: [f32; 2] = [0.08, 0.92];
 
-/// The directions of fill and rim light: degrees to the right of the key light, and above the camera.
+/// The directions of fill and rim light: degrees to the right of the key light, and above the horizon.
 const BESIDE: [[f32; 2]; 2] = [[85.0, 5.0], [190.0, 35.0]];
 
 impl Rig {
@@ -41,7 +41,7 @@ impl Rig {
             let [ambient, lamp] = if linear { LINEAR_LAMP } else { [AMBIENT, DIFFUSE] };
             return Self { ambient, lights: [(super::to_light(camera), lamp), none, none] };
         };
-        let axes = frame(camera).ok().map(|frame| frame.axes());
+        let axes = frame(camera).ok().map(|frame| level(camera, frame.axes()));
         let towards = |azimuth: f32, elevation: f32| {
             let ((right, near), (up, level)) =
                 (azimuth.to_radians().sin_cos(), elevation.to_radians().sin_cos());
@@ -68,6 +68,18 @@ impl Rig {
     pub(crate) fn shining(&self) -> impl Iterator<Item = (Vec3, f32)> {
         self.lights.into_iter().filter(|&(_, strength)| strength > 0.0)
     }
+}
+
+/// The axes of a camera, turned to the horizon where it looks down: lights above it would leave the walls in the dark.
+fn level(camera: &Camera, axes: Mat3) -> Mat3 {
+    let up = Vec3::from_array(camera.up).normalize_or(axes.y_axis);
+    if axes.z_axis.dot(up) >= 0.0 {
+        return axes;
+    }
+    // Right is across the upward direction already.
+    let ahead = axes.x_axis.cross(up);
+    let ahead = if axes.x_axis.cross(axes.y_axis).dot(axes.z_axis) < 0.0 { -ahead } else { ahead };
+    Mat3::from_cols(axes.x_axis, up, ahead)
 }
 
 /// A map in the light of a rig. Of one lamp it is the library's [`Sunlit`], to the bit.
@@ -186,11 +198,15 @@ mod tests {
     /// The sides of a box that a camera sees from a corner differ by a tenth of white at least.
     #[test]
     fn the_sides_of_a_box_differ() {
-        let camera = Camera { eye: [3.0, 2.25, 5.0], ..CAMERA };
-        let rig = Rig::of(&camera, KeyLight::STUDIO, false);
-        let [right, top, front] = [Vec3::X, Vec3::Y, Vec3::Z].map(|normal| light(&rig, normal));
-        for (a, b) in [(right, top), (top, front), (front, right)] {
-            assert!((a - b).abs() > 0.1, "{right} {top} {front}");
+        // However high the camera is.
+        for height in [0.5, 2.25, 6.0, 20.0] {
+            let camera = Camera { eye: [3.0, height, 5.0], ..CAMERA };
+            let rig = Rig::of(&camera, KeyLight::STUDIO, false);
+            let [right, top, front] = [Vec3::X, Vec3::Y, Vec3::Z].map(|normal| light(&rig, normal));
+            for (a, b) in [(right, top), (top, front), (front, right)] {
+                assert!((a - b).abs() > 0.1, "{right} {top} {front}");
+            }
+            assert!(right.min(front) > 0.35, "{right} {front}");
         }
     }
 

@@ -178,7 +178,8 @@ impl Images {
     pub(crate) fn with_alpha(&mut self, colors: Option<usize>, alpha: usize) -> Option<usize> {
         let has_alpha = self.alpha(alpha) != Alpha::Opaque;
         let maps = [colors.or(Some(alpha)), Some(alpha), None];
-        self.together(maps, Made::WithAlpha(colors, alpha), |[color, [red, .., own], _]| {
+        // Holes stay holes, without shades at their rims.
+        self.together(maps, false, Made::WithAlpha(colors, alpha), |[color, [red, .., own], _]| {
             let [r, g, b, _] = if colors.is_some() { color } else { [255; 4] };
             [r, g, b, if has_alpha { own } else { red }]
         })
@@ -187,7 +188,7 @@ impl Images {
     /// The texture of a surface that is metal in places: the light that it scatters.
     pub(crate) fn dull(&mut self, colors: Option<usize>, (metal, by): (usize, u8)) -> Option<usize> {
         let made = Made::Dull(colors, (metal, by));
-        self.together([colors, Some(metal), None], made, |[[r, g, b, a], [metal, ..], _]| {
+        self.together([colors, Some(metal), None], true, made, |[[r, g, b, a], [metal, ..], _]| {
             let scattered = 255 - times(metal, by) / 2;
             let [r, g, b] = [r, g, b].map(|c| times(c, scattered));
             [r, g, b, a]
@@ -197,16 +198,21 @@ impl Images {
     /// The light that a surface mirrors head-on, times `height` of the exponent there.
     pub(crate) fn mirroring(&mut self, of: Mirroring, height: impl Fn(f32) -> f32) -> Option<usize> {
         let Mirroring { colors, metal, gloss } = of;
-        self.together([colors.0, metal.0, gloss.0], Made::Mirroring(of), |[color, [red, ..], [sharp, ..]]| {
-            let metal = share(times(red, metal.1));
-            let [least, greatest] = gloss.1.map(f32::from_bits);
-            let height = height(least + (greatest - least) * share(sharp));
-            let mirrored = |axis: usize| {
-                let own = share(times(color[axis], colors.1[axis]));
-                byte((DIELECTRIC + (own - DIELECTRIC) * metal) * height)
-            };
-            [mirrored(0), mirrored(1), mirrored(2), 255]
-        })
+        self.together(
+            [colors.0, metal.0, gloss.0],
+            true,
+            Made::Mirroring(of),
+            |[color, [red, ..], [sharp, ..]]| {
+                let metal = share(times(red, metal.1));
+                let [least, greatest] = gloss.1.map(f32::from_bits);
+                let height = height(least + (greatest - least) * share(sharp));
+                let mirrored = |axis: usize| {
+                    let own = share(times(color[axis], colors.1[axis]));
+                    byte((DIELECTRIC + (own - DIELECTRIC) * metal) * height)
+                };
+                [mirrored(0), mirrored(1), mirrored(2), 255]
+            },
+        )
     }
 
     /// The colours of highlights, times a share of the exponent there. `None` where that is 1 everywhere, or where
@@ -223,17 +229,19 @@ impl Images {
             return None;
         }
         let made = Made::Fainter(colors, gloss, [least, greatest].map(f32::to_bits));
-        self.together([colors, Some(gloss), None], made, |[[r, g, b, a], [gloss, ..], _]| {
+        self.together([colors, Some(gloss), None], true, made, |[[r, g, b, a], [gloss, ..], _]| {
             let [r, g, b] = [r, g, b].map(|c| times(c, light(gloss)));
             [r, g, b, a]
         })
     }
 
-    /// A texture of others: as large as the largest on each axis, of their colours in the middles of its texels. `None`
+    /// A texture of others: as large as the largest on each axis, of their colours in the middles of its texels. Of the
+    /// second map these are texels of its own, unless it is to be `smooth`. `None`
     /// where there is no room for it.
     fn together(
         &mut self,
         maps: [Option<usize>; 3],
+        smooth: bool,
         made: Made,
         change: impl Fn([[u8; 4]; 3]) -> [u8; 4],
     ) -> Option<usize> {
@@ -242,10 +250,16 @@ impl Images {
             let sides = images.iter().flatten().map(|image| [image.width, image.height]);
             let [width, height] = sides.reduce(|[a, b], [c, d]| [a.max(c), b.max(d)])?;
             let texel = |row: u32, column: u32| {
+                let mut number = 0;
                 change(images.map(|image| {
+                    number += 1;
                     let Some(image) = image else { return [255; 4] };
-                    let [x, y] = [(column, width, image.width), (row, height, image.height)].map(between);
-                    magnified(image, [x, y])
+                    let axes = [(column, width, image.width), (row, height, image.height)];
+                    // All but the second are smooth in any case.
+                    magnified(
+                        image,
+                        axes.map(|axis| if smooth || number != 2 { between(axis) } else { on(axis) }),
+                    )
                 }))
             };
             let texels = (0..height).flat_map(|row| (0..width).map(move |column| (row, column)));
@@ -319,6 +333,12 @@ fn between((k, of, side): (u32, u32, u32)) -> [u32; 2] {
     let at = 128 * (2 * u64::from(k) + 1) * u64::from(side) / u64::from(of.max(1));
     let at = at.saturating_sub(128).min(256 * u64::from(side.saturating_sub(1)));
     [at >> 8, at & 255].map(|part| u32::try_from(part).unwrap_or(0))
+}
+
+/// The texel of a side that the middle of texel `k` of `of` is in, with nothing of the next.
+fn on((k, of, side): (u32, u32, u32)) -> [u32; 2] {
+    let at = (2 * u64::from(k) + 1) * u64::from(side) / (2 * u64::from(of.max(1)));
+    [u32::try_from(at).unwrap_or(0), 0]
 }
 
 /// The colour of an image between texels, by the shares of four of them.

@@ -106,7 +106,7 @@ impl CheckedMtl {
         let material = &mut entry.material;
         let color = Some(Color([r, g, b].map(|x| x.clamp(0.0, 1.0))));
         let (most, used): (f32, &[f32]) = match lower.as_slice() {
-            b"ks" | b"ke" => (1.0, &[r, g, b]),
+            b"kd" | b"ks" | b"ke" => (1.0, &[r, g, b]),
             b"ns" => (MAX_SHININESS, &[r]),
             b"d" | b"tr" | b"pr" | b"pm" => (1.0, &[r]),
             _ => (f32::INFINITY, &[]),

@@ -60,6 +60,9 @@ pub fn load(
         let found = format!("{} vertex colours outside 0 to 1", text.colors_out_of_range);
         warnings.push(Error::new(found, "red, green and blue in 0 to 1").file(path).hint("they are clamped"));
     }
+    if let Some(undrawn) = text.undrawn() {
+        warnings.push(Error::new(undrawn, "faces").file(path).hint("they are not drawn"));
+    }
     let mut libraries = Libraries::read(path, &text, &mut warnings)?;
     let has_uv = text.corners_with_uv > 0;
     let corners: usize = text.faces.iter().map(|faces| faces.corners.len()).sum();

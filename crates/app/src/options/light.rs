@@ -40,7 +40,7 @@ pub enum KeyLight {
 
 impl KeyLight {
     /// From the upper left.
-    pub const STUDIO: Self = Self::Studio([-35.0, 40.0]);
+    pub const STUDIO: Self = Self::Studio([-35.0, 50.0]);
 }
 
 impl FromStr for KeyLight {
@@ -54,7 +54,7 @@ impl FromStr for KeyLight {
             "lamp" => Some(Self::Lamp),
             _ => text.split_once(',').and_then(angles).map(Self::Studio),
         }
-        .ok_or_else(|| "lamp, or two angles up to 360 and 90 degrees, such as -35,40".to_owned())
+        .ok_or_else(|| "lamp, or two angles up to 360 and 90 degrees, such as -35,50".to_owned())
     }
 }
 
@@ -80,7 +80,7 @@ mod tests {
             assert_eq!(text.parse::<KeyLight>().map(|light| light.to_string()).as_deref(), Ok(text));
         }
         for text in ["", "lamps", "1", "1,2,3", "361,0", "0,91", "nan,0", "0,inf"] {
-            assert!(text.parse::<KeyLight>().is_err_and(|expected| expected.contains("-35,40")), "{text}");
+            assert!(text.parse::<KeyLight>().is_err_and(|expected| expected.contains("-35,50")), "{text}");
         }
     }
 }

@@ -261,10 +261,10 @@ pub struct RenderTable {
     #[arg(long, value_name = "true|false", help_heading = SURFACE)]
     pub two_sided: Option<bool>,
 
-    /// Direction of the main light of a model without lights, as lamp or two angles [default: -35,40].
+    /// Direction of the main light of a model without lights, as lamp or two angles [default: -35,50].
     ///
-    /// Angles are degrees to the right of the camera and above it. A fill and a rim light turn with it. lamp is one
-    /// light beside the camera, as built-in scenes have it.
+    /// Angles are degrees to the right of the camera and above the horizon, or above the camera where that looks up. A
+    /// fill and a rim light turn with it. lamp is one light beside the camera, as built-in scenes have it.
     #[arg(long, value_name = "AZ,EL", allow_hyphen_values = true, help_heading = SURFACE)]
     pub light: Option<KeyLight>,
 

@@ -329,9 +329,27 @@ pub(crate) fn word<'de, T, D: Deserializer<'de>>(
     deserializer: D,
     parse: impl Fn(&str) -> Result<T, String>,
 ) -> Result<T, D::Error> {
-    let text = String::deserialize(deserializer)?;
-    parse(&text)
-        .map_err(|expected| D::Error::custom(format_args!("{}, expected {expected}", quote(text.as_bytes()))))
+    deserializer.deserialize_any(Text(PhantomData, parse))
+}
+
+/// A reader of text, which says what text is expected where there is something else.
+struct Text<T, P>(PhantomData<T>, P);
+
+impl<T, P: Fn(&str) -> Result<T, String>> Visitor<'_> for Text<T, P> {
+    type Value = T;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // Nothing is no value of any kind.
+        match (self.1)("") {
+            Err(expected) => write!(f, "text in quotes: {expected}"),
+            Ok(_) => f.write_str("text in quotes"),
+        }
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<T, E> {
+        let refused = |expected| E::custom(format_args!("{}, expected {expected}", quote(text.as_bytes())));
+        (self.1)(text).map_err(refused)
+    }
 }
 
 /// The choice of that name.

@@ -2,7 +2,7 @@
 
 use crate::camera::as_options;
 use crate::error::counted;
-use crate::options::Projection;
+use crate::options::{Projection, Samples};
 use crate::scene::Camera;
 use alberti::Stats;
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
@@ -36,6 +36,10 @@ pub struct Report<'a> {
     pub source: Source<'a>,
     /// The picture's size.
     pub size: (u32, u32),
+    /// Samples a pixel.
+    pub samples: Samples,
+    /// Triangles of the model: without those of a ground, which counts have.
+    pub triangles: usize,
     /// Counts.
     pub stats: Stats,
     /// Times.
@@ -75,7 +79,7 @@ impl Report<'_> {
         }
         format!(
             "{source}: {}, {width}x{height} pixels in {}{times}\ncamera: {}",
-            counted(usize::try_from(self.stats.submitted).unwrap_or(usize::MAX), "triangle", "triangles"),
+            counted(self.triangles, "triangle", "triangles"),
             self.output.display(),
             as_options(&self.camera, self.origin, self.projection)
         )
@@ -94,9 +98,9 @@ impl Report<'_> {
         text
     }
 
-    /// One JSON object on one line: `output`, `model` or `scene`, `width`, `height`, the counts (see [`Stats`]),
-    /// `camera` and `ms`. The camera has its numbers and, as `options`, the words that make it again; `ms` has `load`,
-    /// `maps`, `mip_maps`, `render` and `write`.
+    /// One JSON object on one line: `output`, `model` or `scene`, `width`, `height`, `samples`, the counts (see
+    /// [`Stats`]), `camera` and `ms`. The camera has its numbers and, as `options`, the words that make it
+    /// again; `ms` has `load`, `maps`, `mip_maps`, `render` and `write`.
     pub fn json(&self) -> String {
         // Strings and finite numbers cannot be refused.
         serde_json::to_string(self).unwrap_or_default()
@@ -136,6 +140,7 @@ impl Serialize for Report<'_> {
         }
         fields.serialize_entry("width", &self.size.0)?;
         fields.serialize_entry("height", &self.size.1)?;
+        fields.serialize_entry("samples", &self.samples.side().pow(2))?;
         for (name, count) in self.counts() {
             fields.serialize_entry(name, &count)?;
         }
@@ -168,7 +173,19 @@ mod tests {
             far: 10.0,
         };
         let projection = Projection::Parallel { height: 2.5 };
-        Report { output, source, size: (7, 6), stats, times, camera, origin: [0.0; 3], projection }
+        let (samples, triangles) = (Samples::Four, 5);
+        Report {
+            output,
+            source,
+            size: (7, 6),
+            samples,
+            triangles,
+            stats,
+            times,
+            camera,
+            origin: [0.0; 3],
+            projection,
+        }
     }
 
     #[test]

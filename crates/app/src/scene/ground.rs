@@ -3,10 +3,13 @@
 //! The shadow is that of a sky without a sun. The lowest surface over each cell of a grid darkens it: what touches the
 //! ground within a narrow rim, what is higher farther around, and less. It is a texture of alpha, made once.
 
-use super::{Camera, Image, Map, Model, Part, Vertex};
+use super::{Camera, Image, Map, Model, Part, Vertex, order};
 use crate::options::{Filter, Wrap};
 use crate::scene::normals::{dot, narrow, normalize, sub};
 use alberti::raster::color::AnyBlend;
+use opacity::{alpha, threshold};
+
+mod opacity;
 
 /// Cells along a side of the ground.
 const SIDE: usize = 256;
@@ -67,7 +70,7 @@ pub(crate) fn add(model: &mut Model, camera: &mut Camera, fixed: [bool; 2], affi
     let mut part = Part { name: "ground".to_owned(), triangles, texture: Some(map.image), ..Part::default() };
     (part.detail.filter, part.detail.wrap) = (map.filter, map.wrap);
     (part.detail.blend, part.detail.specular) = (AnyBlend::Over, [0.0; 3]);
-    model.parts.push(part);
+    order::behind_all(model, part);
     true
 }
 
@@ -180,35 +183,46 @@ impl Ground {
                 *cell = cell.min(height.max(0.0));
             }
         };
-        let triangles = model.parts.iter().flat_map(|part| &part.triangles);
-        for triangle in triangles {
-            let [Some(a), Some(b), Some(c)] = triangle.map(|k| model.vertices.get(k as usize)) else {
-                continue;
-            };
-            let corners = [a, b, c].map(|v| self.cells(v.position.map(f64::from)));
-            // Walls and triangles smaller than a cell are there as well.
-            for (from, to) in [(0, 1), (1, 2), (2, 0)] {
-                follow(corners[from], corners[to], &mut put);
+        for part in &model.parts {
+            let alpha = alpha(model, part);
+            for triangle in &part.triangles {
+                let [Some(a), Some(b), Some(c)] = triangle.map(|k| model.vertices.get(k as usize)) else {
+                    continue;
+                };
+                let corner = |v: &Vertex| {
+                    let [column, row, height] = self.cells(v.position.map(f64::from));
+                    let [u, v] = v.uv.map(f64::from);
+                    [column, row, height, u, v]
+                };
+                let corners = [a, b, c].map(corner);
+                let mut put = |[column, row, height, u, v]: [f64; 5]| {
+                    if alpha([u, v]) > threshold(column, row) {
+                        put(column, row, height);
+                    }
+                };
+                // Walls and triangles smaller than a cell are there as well.
+                for (from, to) in [(0, 1), (1, 2), (2, 0)] {
+                    follow(corners[from], corners[to], &mut put);
+                }
+                cover(corners, &mut put);
             }
-            cover(corners, &mut put);
         }
         lowest
     }
 }
 
 /// Hands on places along an edge, no more than a cell apart.
-fn follow(from: [f64; 3], to: [f64; 3], put: &mut impl FnMut(f64, f64, f64)) {
-    let across = sub(to, from);
+fn follow(from: [f64; 5], to: [f64; 5], put: &mut impl FnMut([f64; 5])) {
+    let across = [0, 1, 2, 3, 4].map(|k: usize| to[k] - from[k]);
     let steps = across[0].abs().max(across[1].abs()).ceil().clamp(1.0, CELLS);
     let along = std::iter::successors(Some(0.0), |k| Some(k + 1.0)).take_while(|k| *k <= steps);
     for share in along.map(|k| k / steps) {
-        let [column, row, height] = [0, 1, 2].map(|k| from[k] + share * across[k]);
-        put(column, row, height);
+        put([0, 1, 2, 3, 4].map(|k: usize| from[k] + share * across[k]));
     }
 }
 
-/// Hands on the middles of all cells in a triangle, and its height there.
-fn cover([a, b, c]: [[f64; 3]; 3], put: &mut impl FnMut(f64, f64, f64)) {
+/// Hands on the middles of all cells in a triangle, its height there, and its coordinates.
+fn cover([a, b, c]: [[f64; 5]; 3], put: &mut impl FnMut([f64; 5])) {
     let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     // Places that are not finite are none either.
     if area.abs() <= 1e-9 || !area.is_finite() {
@@ -221,12 +235,13 @@ fn cover([a, b, c]: [[f64; 3]; 3], put: &mut impl FnMut(f64, f64, f64)) {
     };
     for row in range(1) {
         for column in range(0) {
-            let beside = |p: [f64; 3], q: [f64; 3]| {
+            let beside = |p: [f64; 5], q: [f64; 5]| {
                 ((q[0] - p[0]) * (row - p[1]) - (q[1] - p[1]) * (column - p[0])) / area
             };
             let weights = [beside(b, c), beside(c, a), beside(a, b)];
             if weights.iter().all(|&weight| weight >= 0.0) {
-                put(column, row, weights[0] * a[2] + weights[1] * b[2] + weights[2] * c[2]);
+                let mean = |k: usize| weights[0] * a[k] + weights[1] * b[k] + weights[2] * c[k];
+                put([column, row, mean(2), mean(3), mean(4)]);
             }
         }
     }

@@ -297,7 +297,7 @@ fn wrong_input_is_one_line() {
             &["m.obj", "--target", "m0", "--filter", "anisotropic:2"],
             "expected nearest, bilinear or trilinear",
         ),
-        (&["m.obj", "--thorogh"], "--thorogh: found it, expected an option, such as --thorough"),
+        (&["m.obj", "--thorogh"], "--thorogh: found no such option, expected one, such as --thorough"),
         (&["m.obj", "--scene", "hero"], "--scene"),
         (&["m.obj", "--target", "m7"], "--target: found \"m7\", expected one of host, m4f, m0, rv32"),
         (&["no.obj"], "no.obj"),

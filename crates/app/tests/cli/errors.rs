@@ -17,7 +17,7 @@ fn files_that_are_not_models() {
     model(b"Dear reader,\nthis is no model.\n", &["error: m.obj: found no faces in 2 lines"]);
     model(b"v 0 0 0\nv 1 0 0\nv 0 1 0\n", &["error: m.obj: found no faces in 3 lines"]);
     model(b"\xff\xfev\0 \x001\0", &["error: m.obj: found UTF-16 text"]);
-    model(b"\xff\xff\xff\xff", &["error: m.obj: found no faces in 1 lines"]);
+    model(b"\xff\xff\xff\xff", &["error: m.obj: found no faces in 1 line,"]);
 }
 
 #[test]

@@ -99,7 +99,7 @@ fn models_without_lights_get_three() {
     let faces = "f 5//1 6//1 7//1 8//1\nf 2//2 3//2 7//2 6//2\nf 4//3 8//3 7//3 3//3\n";
     let folder = Folder::with(&[
         ("box.obj", [corners, normals, faces].concat().as_bytes()),
-        ("box.toml", b"[[object]]\nmodel = \"box.obj\"\n[render]\nlight = \"-35,40\"\n"),
+        ("box.toml", b"[[object]]\nmodel = \"box.obj\"\n[render]\nlight = \"-35,50\"\n"),
         ("lit.toml", b"[[object]]\nmodel = \"box.obj\"\n[ambient]\nintensity = 0.5\n"),
     ]);
     let sides = |name: &str, more: &[&str]| {
@@ -117,13 +117,13 @@ fn models_without_lights_get_three() {
     assert!(found[3] < 255 && found.windows(2).all(|pair| pair[1] - pair[0] > 25), "{found:?}");
     assert_eq!(sides("box.toml", &[]).0, found);
     assert_eq!(
-        sides("box.obj", &["--light", "-35,40", "--shading", "phong", "--specular", "000000"]).0,
+        sides("box.obj", &["--light", "-35,50", "--shading", "phong", "--specular", "000000"]).0,
         found
     );
     assert_ne!(sides("box.obj", &["--light", "60,10"]).0, found);
     let (_, warnings) = sides("lit.toml", &["--light", "0,0"]);
     assert!(warnings.contains("--light: found it in a scene with lights of its own"), "{warnings}");
-    folder.fails(&["box.obj", "--light", "north"], &["--light", "such as -35,40"]);
+    folder.fails(&["box.obj", "--light", "north"], &["--light", "such as -35,50"]);
     folder.fails(&["box.obj", "--ground=north"], &["--ground: found \"north\"", "one of true, false"]);
 }
 

@@ -11,6 +11,7 @@ mod info;
 mod light;
 mod materials;
 mod models;
+mod nothing;
 mod picture;
 mod policies;
 mod projection;

@@ -124,7 +124,7 @@ fn scene_files_speak_in_their_own_coordinates() {
 #[test]
 fn normals_are_an_option_and_a_key() {
     let ball = ball([0.0; 3]);
-    let toml = "[render]\nnormals = \"flat\"\nlight = \"-35,40\"\n[[object]]\nmodel = \"m.obj\"\n";
+    let toml = "[render]\nnormals = \"flat\"\nlight = \"-35,50\"\n[[object]]\nmodel = \"m.obj\"\n";
     let folder = Folder::with(&[("m.obj", ball.as_bytes()), ("s.toml", toml.as_bytes())]);
     let size = ["--size", "96x96", "-o"];
     for (name, normals) in [

@@ -23,14 +23,17 @@ fn a_file_is_rendered_without_the_word() {
     for (line, told) in [
         (
             "rednr m.obj",
-            "error: rednr: found neither a command nor a file, expected one of both; did you mean render?",
+            "error: rednr: found no such command and no file, expected one of the two; did you mean render?",
         ),
         (
             "floor",
-            "error: floor: found neither a command nor a file, expected one of both; did you mean --scene floor?",
+            "error: floor: found no such command and no file, expected one of the two; did you mean --scene floor?",
         ),
         ("no.obj", "error: no.obj: found no such file, expected a Wavefront OBJ model"),
-        ("m.obj other.obj", "error: other.obj: found one word too many, expected fewer files; see --help"),
+        (
+            "m.obj other.obj",
+            "error: other.obj: found one file too many, expected no other file or word; see --help",
+        ),
     ] {
         let made = run(&folder, line);
         assert_eq!((made.status, made.stderr.lines().count()), (Some(2), 1), "{made:?}");
@@ -58,6 +61,13 @@ fn quiet_leaves_errors_and_results() {
     assert!(made.stdout.starts_with('{') && made.stderr.is_empty(), "{made:?}");
     let made = run(&folder, "m.obj -s 8x8 -q --show overdraw");
     assert_eq!((made.status, &made.stdout[..], &made.stderr[..]), (Some(0), "", ""));
+    let made = run(&folder, "-s 8x8 -q -- m.obj");
+    assert_eq!((made.status, &made.stdout[..], &made.stderr[..]), (Some(0), "", ""));
+    let made = run(&folder, "-- no.obj");
+    assert!(
+        made.status == Some(2) && made.stderr.starts_with("error: no.obj: found no such file"),
+        "{made:?}"
+    );
     let made = run(&folder, "no.obj -q");
     assert!(made.status == Some(2) && made.stderr.starts_with("error: "), "{made:?}");
 }
@@ -82,16 +92,16 @@ fn mistakes_of_usage_are_one_line() {
         ("m.obj --quiet=yes", "error: --quiet: found \"yes\", expected no value; see --help"),
         (
             "m.obj --width 3",
-            "error: --width: found it, expected an option, such as --size WIDTHxHEIGHT; see --help",
+            "error: --width: found no such option, expected one, such as --size WIDTHxHEIGHT; see --help",
         ),
-        ("m.obj --siez 3x3", "error: --siez: found it, expected an option, such as --size; see --help"),
+        ("m.obj --siez 3x3", "error: --siez: found no such option, expected one, such as --size; see --help"),
         (
             "m.obj --scene cube",
-            "error: MODEL.obj or SCENE.toml: found it, expected no --scene beside it; see --help",
+            "error: MODEL.obj or SCENE.toml: found it beside --scene, expected one of the two; see --help",
         ),
         ("m.obj --eye 1 2 3", "error: 2: found a number on its own, expected numbers that belong together"),
         ("m.obj -o", "error: --output: found nothing, expected a value; see --help"),
-        ("compare a.png", "error: found nothing, expected <B.png>; see --help"),
+        ("compare a.png", "error: found too few words, expected <B.png> as well; see --help"),
         ("help compare camera", "error: camera: found no such options of `compare`, expected"),
         ("help compare compare", "error: compare: found no such options of `compare`, expected"),
         ("help camra", "error: camra: found no such command or topic, expected one of "),
@@ -147,7 +157,7 @@ fn help_is_short_and_has_the_rest_behind_topics() {
     assert!(compared.contains("output     --quiet") && !compared.contains("camera"), "{compared}");
     // All tables that scene files have.
     let scenes = page("help scene-files");
-    for part in ["[camera]", "`[[object]]`", "`[material.NAME]`", "`[[light]]`", "`[projector]`"] {
+    for part in ["[camera]", "[[object]]", "[material.NAME]", "[[light]]", "[projector]"] {
         assert!(scenes.contains(part), "{part}");
     }
     assert!(!scenes.contains("\n## "));

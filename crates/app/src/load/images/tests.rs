@@ -127,7 +127,8 @@ fn maps_together_are_as_between_texels() {
     let fine = images.with_alpha(Some(colors), mask);
     let (fine, coarse) = (texels(&images, fine), texels(&images, Some(colors)));
     for (i, texel) in fine.iter().enumerate() {
-        let place = |k: usize, of: f64| ((k as f64 + 0.5) * 2.0 / of - 0.5).clamp(0.0, 1.0);
+        let i = u32::try_from(i).unwrap();
+        let place = |k: u32, of: f64| ((f64::from(k) + 0.5) * 2.0 / of - 0.5).clamp(0.0, 1.0);
         let [x, y] = [place(i % 5, 5.0), place(i / 5, 3.0)];
         for axis in 0..3 {
             let [a, b, c, d] = [0, 1, 2, 3].map(|k: usize| f64::from(coarse[k][axis]));

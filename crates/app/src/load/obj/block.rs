@@ -39,6 +39,13 @@ pub(crate) enum Event {
     Smoothing(u32),
 }
 
+/// The things that are not drawn: one, and several.
+pub(crate) const UNDRAWN: [[&str; 2]; 3] = [
+    ["line (`l`)", "lines (`l`)"],
+    ["point (`p`)", "points (`p`)"],
+    ["curve or surface", "curves or surfaces"],
+];
+
 /// Faces and the statements between them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Faces {
@@ -92,6 +99,8 @@ pub(crate) struct Block {
     pub(crate) libraries: Vec<(String, usize)>,
     pub(crate) corners_with_uv: usize,
     pub(crate) colors_out_of_range: usize,
+    /// Statements of things that are no faces: [`UNDRAWN`].
+    pub(crate) undrawn: [usize; 3],
     /// Physical lines.
     pub(crate) lines: usize,
     /// The first error, and its line.
@@ -101,8 +110,8 @@ pub(crate) struct Block {
 impl Block {
     /// Reads a block, up to its first error. Lines count from 1 in it.
     ///
-    /// Ignored: lines (`l`), points (`p`), curves and surfaces, and whatever else the word at the start of a line may
-    /// be. An index may point to a later line, as some exporters write it, unless it is negative.
+    /// Counted: lines, points, curves and surfaces. Ignored is whatever else the word at the start of a line
+    /// may be. An index may point to a later line, as some exporters write it, unless it is negative.
     pub(crate) fn read(bytes: &[u8]) -> Self {
         let mut block = Self::default();
         let mut lines = Lines::new(bytes);
@@ -136,6 +145,9 @@ impl Block {
             b"s" => event(Event::Smoothing(smoothing(line))),
             b"usemtl" => event(Event::Material(line.name(), line.line)),
             b"mtllib" => self.libraries.push((line.name(), line.line)),
+            b"l" => self.undrawn[0] += 1,
+            b"p" => self.undrawn[1] += 1,
+            b"curv" | b"curv2" | b"surf" => self.undrawn[2] += 1,
             _ => {}
         }
         Ok(())

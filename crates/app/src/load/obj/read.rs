@@ -7,8 +7,8 @@ use std::path::Path;
 use std::thread;
 
 use super::KIND;
-use super::block::{Block, Event, Faces, Fault, WHITE};
-use crate::error::Error;
+use super::block::{Block, Event, Faces, Fault, UNDRAWN, WHITE};
+use crate::error::{Error, counted};
 use crate::load::input::Stream;
 use crate::load::statements::not_text;
 
@@ -45,6 +45,7 @@ pub(crate) struct ObjText {
     pub(crate) corners_with_uv: usize,
     /// The number of colours that had to be clamped.
     pub(crate) colors_out_of_range: usize,
+    undrawn: [usize; 3],
     known: HashSet<String>,
     greatest: [u32; 3],
     huge: Option<i64>,
@@ -87,13 +88,27 @@ impl ObjText {
         }
         text.check_indices().map_err(|error| error.file(path))?;
         if text.faces.iter().all(|faces| faces.faces.is_empty()) {
-            let found = format!("no faces in {} lines", text.lines);
+            let mut found = format!("no faces in {}", counted(text.lines, "line", "lines"));
             let other = path.extension().is_some_and(|of| !of.eq_ignore_ascii_case("obj"));
-            let hint = if other { "export the model as OBJ" } else { "check that this is the right file" };
+            let hint = match text.undrawn() {
+                Some(undrawn) => {
+                    found = format!("no faces, but {undrawn}");
+                    "points, lines and curves are not drawn"
+                }
+                None if other => "export the model as OBJ",
+                None => "check that this is the right file",
+            };
             let error = Error::new(found, "an OBJ model with faces (lines like `f 1 2 3`)");
             return Err(error.file(path).hint(hint));
         }
         Ok(text)
+    }
+
+    /// The statements of things that are not drawn, in words.
+    pub(crate) fn undrawn(&self) -> Option<String> {
+        let kinds = self.undrawn.into_iter().zip(UNDRAWN).filter(|(count, _)| *count > 0);
+        let words: Vec<_> = kinds.map(|(count, [one, many])| counted(count, one, many)).collect();
+        (!words.is_empty()).then(|| words.join(" and "))
     }
 
     fn counts(&self) -> [usize; 3] {
@@ -102,6 +117,7 @@ impl ObjText {
 
     fn append(&mut self, mut block: Block) -> Result<(), Error> {
         let (before, lines) = (self.counts(), self.lines);
+        self.undrawn.iter_mut().zip(block.undrawn).for_each(|(sum, count)| *sum += count);
         for relative in &block.relative {
             let (which, have) = (usize::from(relative.which), relative.have as usize);
             let index = (before[which] + have + 1).checked_sub(relative.back as usize).filter(|&i| i > 0);

@@ -22,7 +22,7 @@ fn load_files(files: &[(&str, &[u8])]) -> (Model, Vec<String>) {
 
 fn load_text(text: &str) -> Model {
     let (model, warnings) = load_files(&[("m.obj", text.as_bytes())]);
-    assert!(warnings.is_empty(), "{warnings:?}");
+    assert!(warnings.iter().all(|warning| warning.ends_with("they are not drawn")), "{warnings:?}");
     model
 }
 
@@ -122,7 +122,7 @@ fn materials_and_textures_come_from_beside_the_files() {
         ("b.mtl", b"newmtl red wood\r\nKd 2 .5 .5\r\nmap_Kd a wood.png\r\n"),
         ("a wood.png", &image([10, 20, 30])),
     ]);
-    assert!(warnings.is_empty(), "{warnings:?}");
+    assert_eq!(warnings, ["b.mtl:2: found 2 after `Kd`, expected a number from 0 to 1; it is clamped"]);
     let parts: Vec<_> = model.parts.iter().map(|p| (p.diffuse, p.texture)).collect();
     assert_eq!(parts, [([1.0, 0.0, 0.0], None), ([1.0, 0.5, 0.5], Some(0)), ([1.0, 0.0, 0.0], None)]);
     assert_eq!(model.textures[0].texels, [[10, 20, 30, 255]; 4]);
@@ -165,6 +165,14 @@ fn missing_files_leave_the_default() {
     for (warning, start) in warnings.iter().zip(starts) {
         assert!(warning.starts_with(start), "{warning}");
     }
+}
+
+#[test]
+fn what_is_not_drawn_is_told() {
+    let obj = format!("{CORNERS}f 1 2 3\np 1\np 2\nl 1 2 3\nsurf 0 1 0 1 1 2 3\n");
+    let (_, warnings) = load_files(&[("m.obj", obj.as_bytes())]);
+    let told = "m.obj: found 1 line (`l`) and 2 points (`p`) and 1 curve or surface, expected faces; they are not drawn";
+    assert_eq!(warnings, [told]);
 }
 
 #[test]

@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 use super::tables::File;
 use crate::error::{Error, quote};
 use crate::load::input;
-use crate::options::Origin;
+use crate::options::{Origin, shared};
 
 /// The name of a scene file in messages.
 pub(crate) const KIND: &str = "a scene file in TOML";
@@ -142,7 +142,9 @@ impl Source {
     /// A message of the reader's, in the form that all messages have.
     fn refused(&self, error: &toml::de::Error) -> Error {
         let message = error.message().replace('\n', ", ");
-        let (found, expected) = message.split_once("expected ").unwrap_or((&message, KIND));
+        let before = error.span().and_then(|at| self.text.get(..at.start));
+        let (message, remedy) = mended(&message, before.is_some_and(|before| before.ends_with('[')));
+        let (found, expected) = message.split_once("expected ").unwrap_or((message, KIND));
         let found = found.trim_end_matches([',', ' ']);
         let kinds = ["invalid type: ", "invalid value: "];
         let found = kinds.iter().find_map(|kind| found.strip_prefix(kind)).unwrap_or(found);
@@ -170,8 +172,12 @@ impl Source {
         if let Some(key) = key {
             error = error.key(key);
         }
-        match unknown.and_then(|key| nearest(key, &expected)) {
-            Some(key) => error.hint(format!("did you mean {key}?")),
+        let meant = unknown.and_then(|key| {
+            let near = nearest(key, &expected).map(|near| format!("did you mean {near}?"));
+            near.or_else(|| elsewhere(key)).or_else(|| of_others(key, &expected))
+        });
+        match meant.or_else(|| remedy.map(str::to_owned)) {
+            Some(hint) => error.hint(hint),
             None => error,
         }
     }
@@ -183,6 +189,52 @@ impl Source {
             None => "the end of the line".to_owned(),
         }
     }
+}
+
+/// The reader's messages on what is no TOML in the words of all others, with a remedy.
+fn mended(message: &str, is_table: bool) -> (&str, Option<&'static str>) {
+    let begins = |start: &str| message.starts_with(start);
+    if begins("string values must be quoted") {
+        return (
+            "expected a value",
+            Some("text has quotes around it, and values in brackets have commas between"),
+        );
+    }
+    if ["invalid literal string", "invalid basic string", "invalid multi-line"].into_iter().any(begins) {
+        return ("text without its closing quotes, expected these", None);
+    }
+    if begins("duplicate key") {
+        let remedy = "of tables that there may be several of, each begins with two brackets, as [[object]]";
+        return ("a key for the second time, expected it once", is_table.then_some(remedy));
+    }
+    (message, None)
+}
+
+/// A hint to the table of a key that stands in another one, or at the top.
+fn elsewhere(key: &str) -> Option<String> {
+    let shared = shared();
+    let table = shared.iter().find_map(|option| option.key.strip_suffix(key)?.strip_suffix('.'))?;
+    Some(format!("it belongs in [{table}]"))
+}
+
+/// A hint to the key for what others call so, if that is one of those expected.
+fn of_others(key: &str, expected: &str) -> Option<String> {
+    let ours = match key {
+        "opacity" | "alpha" | "transparency" => "blend",
+        "roughness" | "gloss" | "exponent" => "shininess",
+        "texture" | "map" | "diffuse-map" | "albedo" => "color-map",
+        "diffuse" | "colour" => "color",
+        "emission" => "emissive",
+        "type" => "kind",
+        "position" | "from" => "eye",
+        "look-at" | "lookat" | "to" => "target",
+        "mesh" | "file" => "model",
+        "rotate" => "rotation",
+        "translate" | "translation" => "position",
+        _ => return None,
+    };
+    let known = expected.split([',', ' ']).any(|known| known == ours);
+    known.then(|| format!("did you mean {ours}?"))
 }
 
 const TABLE: &str = "a table";

@@ -28,7 +28,7 @@ fn mistakes_are_told_in_one_line() {
             &["m.obj", "--out", "out", "--format", "rgb566"][..],
             &["--format: found \"rgb566\", expected one of rgb565,"][..],
         ),
-        (&["m.obj"], &["found nothing, expected --out <FOLDER>"]),
+        (&["m.obj"], &["found too few words, expected --out <FOLDER> as well"]),
         (&["m.obj", "--out", "file"], &["file: found a file, expected a folder; choose another with --out"]),
         (&["m.obj", "--out", "file/in"], &["found a folder that cannot be made"]),
         (&["no.obj", "--out", "out"], &["no.obj: found no such file"]),
@@ -60,7 +60,7 @@ fn mistakes_are_told_in_one_line() {
         (&["m.obj", "--out", "out", "--band", "-1"], &["--band: found \"-1\", expected a whole number"]),
         (
             &["m.obj", "--out", "out", "--scene", "cube"],
-            &["error: MODEL.obj or SCENE.toml: found it, expected no --scene"],
+            &["error: MODEL.obj or SCENE.toml: found it beside --scene"],
         ),
         // Triangles of one unit at a distance of which that is a millionth, and one on a line.
         (

@@ -22,11 +22,24 @@ fn kinds_of_values_have_the_words_of_toml() {
             "[object]\nsurface = \"plane\"\n",
             "s.toml:1: object: found a table, expected tables under [[object]]",
         ),
+        (
+            "[object]\nsurface = \"plane\"\n[object]\n",
+            "s.toml:3: object: found a key for the second time, expected it once; of tables",
+        ),
+        (&with("size = [640, 48 0]\n"), "s.toml:1: size: found \"48 0\", expected a value; text has quotes"),
+        (
+            &with("background = 'red\n"),
+            "s.toml:1: background: found text without its closing quotes, expected these",
+        ),
+        (&with("samples = 4\n"), "s.toml:1: samples: found the unknown key \"samples\", expected one of"),
         (&with("[light]\n"), "s.toml:1: light: found a table, expected tables under [[light]]"),
         (&with("[[camera]]\n"), "s.toml:1: camera: found an array, expected a table, [camera]"),
         (&with("camera = [1]\n"), "s.toml:1: camera: found an array, expected a table, [camera]"),
         (&with("[[material.a]]\n"), "s.toml:1: material.a: found an array, expected a table, [material.a]"),
-        (&with("background = [1]\n"), "s.toml:1: background: found an array, expected a string"),
+        (
+            &with("background = [1]\n"),
+            "s.toml:1: background: found an array, expected text in quotes: hexadecimal digits",
+        ),
         (&with("[camera]\nfov = 1979-05-27\n"), "s.toml:2: camera.fov: found a date or a time, expected a"),
         (
             &with("[camera]\nfov = { x = 1 }\n"),
@@ -50,7 +63,7 @@ fn errors_name_line_and_key() {
         ("size = [1,", "s.toml:1: size: found unclosed array, expected ]"),
         ("a\n", "s.toml:1: found "),
         ("[camera\n", "s.toml:1: camera: found unclosed table, expected ]"),
-        ("[camera]\nfov = 1\nfov = 2\n", "s.toml:3: fov: found duplicate key, expected "),
+        ("[camera]\nfov = 1\nfov = 2\n", "s.toml:3: fov: found a key for the second time, expected it once"),
         (
             &with("[camera]\nfow = 40\n"),
             "s.toml:4: camera.fow: found the unknown key \"fow\", expected one of eye, ",
@@ -100,7 +113,10 @@ fn errors_name_line_and_key() {
             &with("[render]\nfilter = \"cubic\"\n"),
             "s.toml:4: render.filter: found \"cubic\", expected nearest, bilinear, trilinear or",
         ),
-        (&with("[render]\ndepth = 3\n"), "s.toml:4: render.depth: found integer 3, expected a string"),
+        (
+            &with("[render]\ndepth = 3\n"),
+            "s.toml:4: render.depth: found integer 3, expected text in quotes: one of f32",
+        ),
         (
             &with("[projector]\neye = [1, 2, 3]\n"),
             "s.toml:4: projector.eye: found it without projector.image and projector.target",

@@ -1,0 +1,74 @@
+//! The share of a surface that has a shadow: glass little, and holes none.
+
+use crate::scene::{Model, Part};
+use alberti::raster::color::AnyBlend;
+
+/// The opacity of a part at texture coordinates, from 0 to 1.
+pub(super) fn alpha<'a>(model: &'a Model, part: &'a Part) -> impl Fn([f64; 2]) -> f64 + 'a {
+    let image =
+        part.texture.filter(|_| part.detail.is_seen_through()).and_then(|index| model.textures.get(index));
+    let placed = move |[u, v]: [f64; 2]| {
+        let image = image?;
+        let at = |c: f64, side: u32| {
+            let share = c.rem_euclid(1.0) * f64::from(side);
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
+            let texel = share as usize;
+            texel.min(side as usize - 1)
+        };
+        let (column, row) = (at(u, image.width), at(1.0 - v, image.height));
+        image.texels.get(row * image.width as usize + column).map(|[.., alpha]| *alpha)
+    };
+    move |uv| match (part.detail.blend, part.detail.alpha_test) {
+        (AnyBlend::Constant(alpha), _) => f64::from(alpha) / 255.0,
+        (AnyBlend::Replace, least) if placed(uv).is_some_and(|alpha| alpha < least) => 0.0,
+        (AnyBlend::Replace, _) => 1.0,
+        (AnyBlend::Over, _) => placed(uv).map_or(1.0, |alpha| f64::from(alpha) / 255.0),
+        // Light that is added or taken away is no shadow.
+        _ => 0.0,
+    }
+}
+
+/// The opacity from which on a cell counts as covered: of cells side by side, as many as the opacity says.
+pub(super) fn threshold(column: f64, row: f64) -> f64 {
+    // Fractions of multiples of two numbers that are as far as can be from any ratio.
+    let share = (0.754_877_666 * column.floor() + 0.569_840_291 * row.floor()).rem_euclid(1.0);
+    share.clamp(1.0 / 512.0, 511.0 / 512.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Image;
+
+    #[test]
+    fn opacity_is_that_of_the_texture_or_of_the_blend() {
+        let texels = vec![[0, 0, 0, 0], [0, 0, 0, 255], [0, 0, 0, 51], [0, 0, 0, 128]];
+        let model = Model { textures: vec![Image { width: 2, height: 2, texels }], ..Model::default() };
+        let of = |blend: AnyBlend, alpha_test: u8| {
+            let mut part = Part { texture: Some(0), ..Part::default() };
+            (part.detail.blend, part.detail.alpha_test) = (blend, alpha_test);
+            // The upper row, then the lower, and once around.
+            [[0.2, 0.9], [0.7, 0.9], [0.2, 0.1], [-0.2, 1.1]]
+                .map(|uv| (alpha(&model, &part)(uv) * 255.0).round())
+        };
+        assert_eq!(of(AnyBlend::Replace, 0), [255.0; 4]);
+        assert_eq!(of(AnyBlend::Replace, 100), [0.0, 255.0, 0.0, 255.0]);
+        assert_eq!(of(AnyBlend::Over, 0), [0.0, 255.0, 51.0, 128.0]);
+        assert_eq!(of(AnyBlend::Constant(51), 0), [51.0; 4]);
+        assert_eq!(of(AnyBlend::Additive, 0), [0.0; 4]);
+    }
+
+    /// In any square of cells about as many are covered as the opacity says.
+    #[test]
+    fn as_many_cells_are_covered_as_the_opacity_says() {
+        for opacity in [0.02, 0.2, 0.5, 0.9] {
+            for corner in [[0, 0], [100, 37]] {
+                let cells = (0..400).map(|k| [corner[0] + k % 20, corner[1] + k / 20]);
+                let covered =
+                    cells.filter(|cell| opacity > threshold(cell[0].into(), cell[1].into())).count();
+                let share = f64::from(u32::try_from(covered).unwrap()) / 400.0;
+                assert!((share - opacity).abs() < 0.03, "{opacity}: {share}");
+            }
+        }
+    }
+}
