@@ -120,7 +120,7 @@ fn linker_variable(target: &str) -> String {
 }
 
 /// The host in the output of `rustc -vV`.
-fn host(version: &str) -> Option<&str> {
+pub(crate) fn host(version: &str) -> Option<&str> {
     version.lines().find_map(|line| line.strip_prefix("host: "))
 }
 

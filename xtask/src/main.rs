@@ -15,6 +15,7 @@ mod elf;
 mod embedded;
 mod extremes;
 mod firmware;
+mod fuzz;
 mod gallery;
 mod golden;
 mod growth;
@@ -130,6 +131,12 @@ const CHORES: &[Chore] = &[
         arguments: "",
         about: "the tests that can look at every f32, or at ten million triangles, for minutes",
         run: |_| checks::sweep(),
+    },
+    Chore {
+        name: "fuzz",
+        arguments: "[target...] [--time S] [--jobs N] [--keep]",
+        about: "fuzz the targets of tests/hostile, guided by coverage; --keep adds cases to the corpora",
+        run: fuzz::fuzz,
     },
     Chore {
         name: "build-cost",

@@ -44,7 +44,9 @@ impl Octahedral {
     /// The nearest to a direction of any length. What has none is (0, 0, 1).
     #[must_use]
     pub fn nearest(direction: Vec3) -> Self {
-        let Some(unit) = direction.try_normalize() else { return Self([0; 2]) };
+        // Squares of the longest component neither vanish nor overflow then.
+        let scaled = direction / direction.abs().max_element();
+        let Some(unit) = scaled.try_normalize() else { return Self([0; 2]) };
         let [x, y, z] = (unit / (unit.x.abs() + unit.y.abs() + unit.z.abs())).to_array();
         let turned_out = [(1.0 - y.abs()).copysign(x), (1.0 - x.abs()).copysign(y)];
         let place = if z < 0.0 { turned_out } else { [x, y] };
@@ -153,7 +155,10 @@ mod tests {
     #[test]
     fn axes_are_exact_and_nothing_looks_forward() {
         for axis in [Vec3::X, Vec3::Y, Vec3::Z, -Vec3::X, -Vec3::Y, -Vec3::Z] {
-            assert!(Octahedral::nearest(axis * 5.0).to_vec3().distance(axis) < 1.0 / 16384.0, "{axis}");
+            for length in [5.0, 1e30, 1e-40] {
+                let found = Octahedral::nearest(axis * length).to_vec3();
+                assert!(found.distance(axis) < 1.0 / 16384.0, "{axis} {length}");
+            }
         }
         for none in [Vec3::ZERO, Vec3::NAN, Vec3::INFINITY] {
             assert_eq!(Octahedral::nearest(none).to_vec3(), Vec3::Z);

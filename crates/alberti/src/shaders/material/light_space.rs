@@ -100,9 +100,10 @@ impl LightSpace for AnyLightSpace {
 /// greatest. Light becomes bytes within 0.011 before they are rounded, and near black a byte is 1/3295 of the light.
 /// Amounts above 2^14 count as that. In fixed point colours are within 2 bytes of that in floats, for S up to 4.
 ///
-/// # Cost A load from a table of 512 bytes and a division for each channel of a layer. A fragment: six roots, six
-/// divisions and some 50 operations. With one light and a trilinear texture that is 1.4 times as long as without,
-/// by lanes of AVX2 (`lights, in light` in `benches/benches/surface.rs`).
+/// # Cost
+/// A load from a table of 512 bytes and a division for each channel of a layer. A fragment: six roots, six divisions
+/// and some 50 operations. With one light and a trilinear texture that is 1.4 times as long as without, by lanes of
+/// AVX2 (`lights, in light` in `benches/benches/surface.rs`).
 #[derive(Clone, Copy, Debug)]
 pub struct InSpace<S, P> {
     /// The surface.

@@ -1,0 +1,4 @@
+//! The fuzz target `baked`.
+#![no_main]
+
+alberti_fuzz::program!("baked");

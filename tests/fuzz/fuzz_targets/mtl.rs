@@ -1,0 +1,4 @@
+//! The fuzz target `mtl`.
+#![no_main]
+
+alberti_fuzz::program!("mtl");

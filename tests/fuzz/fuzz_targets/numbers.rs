@@ -1,0 +1,4 @@
+//! The fuzz target `numbers`.
+#![no_main]
+
+alberti_fuzz::program!("numbers");

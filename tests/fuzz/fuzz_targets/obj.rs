@@ -1,0 +1,4 @@
+//! The fuzz target `obj`.
+#![no_main]
+
+alberti_fuzz::program!("obj");

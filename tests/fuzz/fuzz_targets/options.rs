@@ -1,0 +1,4 @@
+//! The fuzz target `options`.
+#![no_main]
+
+alberti_fuzz::program!("options");

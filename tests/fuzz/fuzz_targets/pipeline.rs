@@ -1,0 +1,4 @@
+//! The fuzz target `pipeline`.
+#![no_main]
+
+alberti_fuzz::program!("pipeline");

@@ -1,0 +1,4 @@
+//! The fuzz target `surface`.
+#![no_main]
+
+alberti_fuzz::program!("surface");

@@ -1,0 +1,4 @@
+//! The fuzz target `triangle`.
+#![no_main]
+
+alberti_fuzz::program!("triangle");

@@ -1,0 +1,4 @@
+//! The fuzz target `view`.
+#![no_main]
+
+alberti_fuzz::program!("view");
