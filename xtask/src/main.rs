@@ -22,6 +22,7 @@ mod guide;
 mod nostd;
 mod package;
 mod peers;
+mod seeded;
 mod tidy;
 mod trade;
 mod wasm;
@@ -130,6 +131,12 @@ const CHORES: &[Chore] = &[
         arguments: "",
         about: "the tests that can look at every f32, or at ten million triangles, for minutes",
         run: |_| checks::sweep(),
+    },
+    Chore {
+        name: "seeded-bugs",
+        arguments: "[--apply] [NAME...]",
+        about: "put the bugs of tests/seeded into a copy one by one: a test must notice each (--apply: only look)",
+        run: seeded::run,
     },
     Chore {
         name: "build-cost",
