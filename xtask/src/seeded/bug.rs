@@ -35,11 +35,12 @@ impl Bug {
             return Err("the first lines are not `# test: ` and `# bug: `".into());
         };
         let words: Vec<&str> = test.split_whitespace().collect();
-        let (package, target, filter) = match words[..] {
-            [package, "--lib", filter] => (package, vec!["--lib"], filter),
-            [package, "--test", name, filter] => (package, vec!["--test", name], filter),
-            _ => return Err("expected `PACKAGE --lib TEST` or `PACKAGE --test NAME TEST`".into()),
+        let [package, target @ .., filter] = &words[..] else {
+            return Err("expected `PACKAGE --lib TEST`".into());
         };
+        if !matches!(target, ["--lib"] | ["--test", _] | ["--features", _, "--lib"]) {
+            return Err("expected `--lib`, `--features FEATURES --lib` or `--test NAME`".into());
+        }
         if place(package).is_none() {
             return Err(format!("`{package}` is no library, nor the package of tests"));
         }
@@ -54,9 +55,9 @@ impl Bug {
         Ok(Self {
             name: name.into(),
             about: about.into(),
-            package: package.into(),
-            target: target.into_iter().map(str::to_owned).collect(),
-            filter: filter.into(),
+            package: (*package).into(),
+            target: target.iter().map(|&word| word.to_owned()).collect(),
+            filter: (*filter).into(),
             files,
         })
     }
@@ -136,15 +137,22 @@ mod tests {
         );
         assert_eq!((bug.function(), bug.place()), ("all", Some(0)));
         assert!(bug.is_called("half") && bug.is_called("07-half") && !bug.is_called("07"));
+        let bug = read("alberti-raster --features alberti-math/simd --lib a", DIFF).unwrap();
+        assert_eq!(bug.target.join(" "), "--features alberti-math/simd --lib");
         let bug = read("alberti-tests --test pipeline coverage::all", DIFF).unwrap();
         assert_eq!((bug.target.join(" "), bug.place()), ("--test pipeline".into(), Some(LIBRARIES.len())));
     }
 
     #[test]
     fn other_headers_are_refused() {
-        for test in
-            ["", "alberti-math", "alberti-math --lib", "alberti-app --lib a", "alberti-math --bin a b"]
-        {
+        for test in [
+            "",
+            "alberti-math",
+            "alberti-math --lib",
+            "alberti-app --lib a",
+            "alberti-math --bin a b",
+            "alberti-math --features a b",
+        ] {
             assert!(read(test, DIFF).is_err(), "{test}");
         }
         assert!(read("alberti-math --lib a", "").is_err());
