@@ -27,7 +27,7 @@ fn side([a, b, p]: [[i64; 2]; 3]) -> i64 {
     signs.into_iter().find(|&sign| sign != 0).map_or(0, i64::signum)
 }
 
-/// What a sample carries, if it is the triangle's.
+/// The number that a sample carries, if it is the triangle's.
 fn carried([(a, qa, ua), (b, qb, ub), (c, qc, uc)]: [Given; 3], p: [i64; 2]) -> Option<f64> {
     let edges = [[b, c, p], [c, a, p], [a, b, p]];
     let sides = edges.map(side);
