@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use std::{env, fs, io, thread};
 
 use crate::command::Outcome;
-use crate::{assets, checks, extremes, gallery, guide, package, tidy, trade, workspace};
+use crate::{assets, checks, extremes, gallery, guide, package, seeded, tidy, trade, workspace};
 use passed::Passed;
 
 /// The name that the summary and a failure use, and the check.
@@ -84,6 +84,7 @@ struct Done {
 const STEPS: &[Step] = &[
     ("tidy", tidy::run),
     ("assets", assets::check),
+    ("seeded-bugs", seeded::check),
     ("fmt", checks::fmt),
     ("lint", checks::lint),
     ("docs", checks::docs),

@@ -23,6 +23,7 @@ mod guide;
 mod nostd;
 mod package;
 mod peers;
+mod seeded;
 mod tidy;
 mod trade;
 mod wasm;
@@ -137,6 +138,10 @@ const CHORES: &[Chore] = &[
         arguments: "[target...] [--time S] [--jobs N] [--keep]",
         about: "fuzz the targets of tests/hostile, guided by coverage; --keep adds cases to the corpora",
         run: fuzz::fuzz,
+        name: "seeded-bugs",
+        arguments: "[--apply] [NAME...]",
+        about: "put the bugs of tests/seeded into a copy one by one: a test must notice each (--apply: only look)",
+        run: seeded::run,
     },
     Chore {
         name: "build-cost",

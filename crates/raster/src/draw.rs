@@ -381,3 +381,6 @@ impl<F, P: Interpolation> Paint<F, P> {
 fn within(columns: &Range<i32>, limits: &Range<i32>) -> Range<i32> {
     columns.start.max(limits.start)..columns.end.min(limits.end)
 }
+
+#[cfg(test)]
+mod tests;

@@ -235,6 +235,19 @@ mod tests {
         }
     }
 
+    /// Of twice the side: four times the smaller one's ranks, and 0, 2, 3, 1 in its quarters by rows.
+    #[test]
+    fn the_weave_is_that_of_bayer() {
+        let rank = |[x, y]: [usize; 2]| {
+            (0..3).fold(0, |rank, bit| 4 * rank + [[0, 2], [3, 1]][y >> bit & 1][x >> bit & 1])
+        };
+        assert_eq!([0, 1, 2, 3, 4, 5, 6, 7].map(|x| rank([x, 0])), [0, 32, 8, 40, 2, 34, 10, 42]);
+        for place in (0..64).map(|k| [k % 8, k / 8]) {
+            let middle = (2 * rank(place) + 1) * 255 / 128;
+            assert_eq!(Bayer.threshold(place.map(|k| k as i32)), middle, "{place:?}");
+        }
+    }
+
     #[test]
     fn thresholds_are_as_frequent_as_each_other() {
         for side in [8, 32] {

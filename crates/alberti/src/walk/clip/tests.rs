@@ -45,6 +45,14 @@ fn edges_know_nothing_of_the_third_vertex() {
             assert_eq!(found.to_bits(), blended.to_bits());
         }
         assert_eq!(weighted(Flat(c), &[a, b, c].map(Flat), Vec3::new(wa, wb, 0.0)), Flat(c));
+        // Ends that carry the same are held to it, whatever the third vertex carries.
+        for found in [
+            weighted(c, &[a, a, c], Vec3::new(wa, wb, 0.0)),
+            weighted(c, &[a, other, a], Vec3::new(wb, 0.0, wa)),
+            weighted(c, &[c, a, a], Vec3::new(0.0, wa, wb)),
+        ] {
+            assert_eq!(found.to_bits(), a.to_bits());
+        }
     }
 }
 
