@@ -133,7 +133,8 @@ fn one(program: &Path, name: &str, work: &Path, options: &Options<'_>) -> Outcom
     println!("$ {}", describe(&command));
     let ended = command.output().map_err(io)?;
     let told = String::from_utf8_lossy(&ended.stderr);
-    let last = told.lines().rfind(|line| line.starts_with('#')).unwrap_or("no word of it");
+    let last =
+        told.lines().rfind(|line| line.starts_with('#') && line.contains("cov:")).unwrap_or("no word of it");
     println!("{name}: {last}");
     if !ended.status.success() {
         let cases: Vec<PathBuf> =

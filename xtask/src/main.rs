@@ -138,6 +138,8 @@ const CHORES: &[Chore] = &[
         arguments: "[target...] [--time S] [--jobs N] [--keep]",
         about: "fuzz the targets of tests/hostile, guided by coverage; --keep adds cases to the corpora",
         run: fuzz::fuzz,
+    },
+    Chore {
         name: "seeded-bugs",
         arguments: "[--apply] [NAME...]",
         about: "put the bugs of tests/seeded into a copy one by one: a test must notice each (--apply: only look)",
