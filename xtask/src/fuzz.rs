@@ -74,14 +74,7 @@ pub(crate) fn fuzz(arguments: &[String]) -> Outcome {
     let host = embedded::host(&version).ok_or("`rustc -vV` names no host")?;
     let built = workspace::target_directory().join("fuzz");
     let mut build = cargo();
-    build.env("RUSTFLAGS", FLAGS).args([
-        "build",
-        "--release",
-        "--target",
-        &host,
-        "--manifest-path",
-        MANIFEST,
-    ]);
+    build.env("RUSTFLAGS", FLAGS).args(["build", "--release", "--target", host, "--manifest-path", MANIFEST]);
     run(build.arg("--target-dir").arg(&built))?;
     let names: Vec<_> = all
         .iter()

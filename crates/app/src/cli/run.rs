@@ -8,7 +8,7 @@ use std::time::Instant;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{ArgMatches, Command, CommandFactory as _};
 
-use super::staged::{OF_PICTURES, Request, Staged, hidden, warn};
+use super::staged::{OF_PICTURES, Request, Staged, forget, hidden, warn};
 use super::{Cli, StatsFormat, advise, bake, compare, explain, help, info, watch, words};
 use crate::aov::layers;
 use crate::error::{Error, quote};
@@ -168,6 +168,7 @@ pub(super) fn draw(matches: &ArgMatches) -> Result<(), Error> {
 }
 
 fn draw_from(request: &Request) -> Result<(), Error> {
+    forget();
     request.check()?;
     let before = [Work::Maps, Work::MipMaps].map(spent);
     let output = request.output()?;

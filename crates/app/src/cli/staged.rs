@@ -454,6 +454,11 @@ fn warn_all(warnings: &Warnings) {
 /// Warnings so far.
 static TOLD: Mutex<Vec<String>> = Mutex::new(Vec::new());
 
+/// Begins a run without warnings.
+pub(super) fn forget() {
+    TOLD.lock().unwrap_or_else(PoisonError::into_inner).clear();
+}
+
 /// Warnings of this run, printed or not.
 pub(super) fn told() -> Vec<String> {
     TOLD.lock().unwrap_or_else(PoisonError::into_inner).clone()
