@@ -248,7 +248,7 @@ pub struct RenderTable {
     #[arg(long, value_enum, value_name = "SIDE", help_heading = SURFACE)]
     pub cull: Option<Cull>,
 
-    /// How surfaces get normals: smooth, flat or crease[:DEG]; overrides the model's own [default: its own]
+    /// How surfaces get normals: smooth, flat, crease or crease:DEG; overrides the model's own [default: its own]
     ///
     /// smooth: one normal at each position, so that no edge is seen.
     /// flat: one for each face, so that every edge is seen.
