@@ -27,18 +27,23 @@ pub const FAILURE: u8 = 2;
 /// Runs the command with these arguments, the program's name first. Messages go to standard error; the status is
 /// 0, [`compare::EXCEEDED`] or [`FAILURE`].
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    attempt(arguments).unwrap_or_else(|error| fail(&error))
+}
+
+/// [`run`] with the error of a failure, which is not told.
+///
+/// # Errors
+/// Whatever the user can mend.
+pub fn attempt(arguments: impl IntoIterator<Item = OsString>) -> Result<u8, Error> {
     let mut command = command();
     let given: Vec<OsString> = arguments.into_iter().collect();
     if words::list_scenes(&given) {
-        return print(&scenes::list()).map_or_else(|error| fail(&error), |()| 0);
+        return print(&scenes::list()).map(|()| 0);
     }
     if let Some(page) = help::asked(&given, &command) {
-        return page.and_then(|page| print(&page)).map_or_else(|error| fail(&error), |()| 0);
+        return page.and_then(|page| print(&page)).map(|()| 0);
     }
-    let given = match words::with_command(given, &command) {
-        Ok(words) => words,
-        Err(error) => return fail(&error),
-    };
+    let given = words::with_command(given, &command)?;
     let read = advise::with_machine(given.clone());
     let renamed = read != given;
     let matches = match command.try_get_matches_from_mut(read) {
@@ -46,7 +51,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Err(error) => return usage(&error, renamed),
     };
     silence(matches.subcommand().is_some_and(|(_, options)| is_quiet(options)));
-    let result = match matches.subcommand() {
+    match matches.subcommand() {
         Some(("advise", scene)) => advise::run(scene),
         Some(("bake", scene)) => bake::run(scene).map(|()| 0),
         Some(("compare", pictures)) => compare::run(pictures),
@@ -58,10 +63,6 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Some((_, render)) => draw(render).map(|()| 0),
         // Words without a command ask for help.
         None => Ok(0),
-    };
-    match result {
-        Ok(status) => status,
-        Err(error) => fail(&error),
     }
 }
 
@@ -82,7 +83,7 @@ fn is_quiet(options: &ArgMatches) -> bool {
 
 /// Help and version are no errors. All others get one line like any other input, with clap's suggestions. `renamed`
 /// says that the machine was given as a target.
-fn usage(error: &clap::Error, renamed: bool) -> u8 {
+fn usage(error: &clap::Error, renamed: bool) -> Result<u8, Error> {
     let expected = match error.kind() {
         ErrorKind::ValueValidation => std::error::Error::source(error).map(ToString::to_string),
         ErrorKind::InvalidValue => error.get(ContextKind::ValidValue).map(one_of),
@@ -104,11 +105,11 @@ fn usage(error: &clap::Error, renamed: bool) -> u8 {
         | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             // A closed pipe cannot be told about.
             let _ = error.print();
-            return if error.use_stderr() { FAILURE } else { 0 };
+            return Ok(if error.use_stderr() { FAILURE } else { 0 });
         }
         ErrorKind::MissingRequiredArgument => {
             let missing = context(ContextKind::InvalidArg).unwrap_or_default();
-            return fail(&Error::new("too few words", format!("{missing} as well")).hint("see --help"));
+            return Err(Error::new("too few words", format!("{missing} as well")).hint("see --help"));
         }
         ErrorKind::ArgumentConflict => {
             let other = context(ContextKind::PriorArg).map(|other| named(&other)).unwrap_or_default();
@@ -143,7 +144,7 @@ fn usage(error: &clap::Error, renamed: bool) -> u8 {
         _ => ("words that are not understood".to_owned(), "those of --help".to_owned()),
     };
     let error = Error::new(found, expected).hint("see --help");
-    fail(&match option {
+    Err(match option {
         Some(option) => error.place(option),
         None => error,
     })
