@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 use crate::bake::Report;
 use crate::error::counted;
 use crate::error::{Error, quote};
+use crate::options::byte;
 use crate::scene::{Image, MapNote, Model, Part, Vertex};
 
 /// Parts and materials that the text lists; JSON has all.
@@ -62,8 +63,13 @@ impl Info<'_> {
         for part in model.parts.iter().take(LISTED) {
             let named =
                 |name: &str, of: &str| (!name.is_empty()).then(|| format!("{of}{}", quote(name.as_bytes())));
-            let name =
-                [named(&part.name, ""), named(&part.material, "material "), look(part).map(str::to_owned)];
+            let name = [
+                named(&part.name, ""),
+                named(&part.material, "material "),
+                Some(format!("color {}", hexadecimal(part.diffuse))),
+                exponents(part).map(|range| format!("exponent {range}")),
+                look(part).map(str::to_owned),
+            ];
             let name = name.into_iter().flatten().collect::<Vec<_>>().join(", ");
             line(format!("{:>9}  {name}", part.triangles.len()).trim_end().to_owned());
         }
@@ -114,6 +120,8 @@ impl Info<'_> {
                 "material": part.material,
                 "triangles": part.triangles.len(),
                 "color": part.diffuse,
+                "specular": part.detail.specular,
+                "exponent": exponents(part),
                 "look": look(part),
             })
         });
@@ -212,6 +220,19 @@ fn memory(model: &Model) -> [usize; 3] {
     let heights: usize = model.heights.iter().map(|image| size_of_val(image.heights.as_slice())).sum();
     let maps = model.textures.iter().map(texels).sum::<usize>() + heights;
     [model.vertices.len() * size_of::<Vertex>(), triangles(model) * size_of::<[u32; 3]>(), maps]
+}
+
+/// A colour as options have it.
+fn hexadecimal(color: [f32; 3]) -> String {
+    color.map(|c| format!("{:02x}", byte(c))).concat()
+}
+
+/// The exponent of highlights, or the range of it; nothing where no material says that there are any.
+fn exponents(part: &Part) -> Option<String> {
+    let [least, greatest] = part.detail.shininess;
+    let range = part.detail.shininess_map.map_or_else(String::new, |_| format!("{least} to "));
+    let shines = !part.material.is_empty() && part.detail.specular != [0.0; 3];
+    shines.then(|| format!("{range}{greatest}"))
 }
 
 /// The way in which what is behind a part shows through it, if it does.

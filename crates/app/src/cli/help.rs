@@ -89,6 +89,13 @@ pub(super) fn asked(given: &[OsString], command: &Command) -> Option<Result<Stri
     }
 }
 
+/// All words that help is there for: commands and topics.
+pub(super) fn all_topics(command: &Command) -> Vec<String> {
+    let commands = command.get_subcommands().map(|command| command.get_name().to_owned());
+    let topics = topics(command).into_iter().chain([ALL.to_owned(), SCENE_FILES.0.to_owned()]);
+    commands.chain(topics).collect()
+}
+
 fn first_page(command: &Command) -> String {
     let topics = topics(command).join(", ");
     let about = command.get_about().map(StyledStr::to_string).unwrap_or_default();

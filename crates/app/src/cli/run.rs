@@ -5,8 +5,9 @@ use std::io::{self, IsTerminal as _, Write as _};
 use std::num::NonZero;
 use std::time::Instant;
 
+use clap::builder::PossibleValuesParser;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{ArgMatches, Command, CommandFactory as _};
+use clap::{Arg, ArgMatches, Command, CommandFactory as _};
 
 use super::staged::{OF_PICTURES, Request, Staged, forget, hidden, warn};
 use super::{Cli, StatsFormat, advise, bake, compare, explain, help, info, watch, words};
@@ -117,7 +118,7 @@ fn usage(error: &clap::Error, renamed: bool) -> Result<u8, Error> {
         }
         ErrorKind::UnknownArgument if option.as_ref().is_some_and(|word| word.parse::<f64>().is_ok()) => (
             "a number on its own".to_owned(),
-            "numbers that belong together with commas, as 0,1.5,-3".to_owned(),
+            "an option, or numbers that belong together with commas, as 0,1.5,-3".to_owned(),
         ),
         ErrorKind::UnknownArgument if option.as_ref().is_some_and(|option| !option.starts_with('-')) => {
             ("one file too many".to_owned(), "no other file or word".to_owned())
@@ -251,9 +252,33 @@ fn draw_from(request: &Request) -> Result<(), Error> {
 fn completions(words: &ArgMatches) -> Result<(), Error> {
     let mut script = Vec::new();
     if let Some(&shell) = words.get_one::<clap_complete::Shell>("shell") {
-        clap_complete::generate(shell, &mut with_options(command()), "alberti", &mut script);
+        let command = with_suggestions(with_options(command()));
+        clap_complete::generate(shell, &mut { command }, "alberti", &mut script);
     }
     print(&String::from_utf8_lossy(&script))
+}
+
+/// Values to choose from, of options that take others as well.
+const SUGGESTED: [(&str, &[&str]); 8] = [
+    ("filter", &["nearest", "bilinear", "trilinear", "anisotropic:4", "anisotropic:16"]),
+    ("normals", &["smooth", "flat", "crease", "crease:30"]),
+    ("interpolation", &["exact", "plane", "spans:8", "spans:16", "bounded:0.0625", "affine"]),
+    ("background", &["transparent", "white", "black", "gray"]),
+    ("aov", &["depth", "normal", "uv", "id", "lod", "depth,normal,uv,id,lod"]),
+    ("fog", &["none", "linear:1,10", "exp:0.1", "exp2:0.1"]),
+    ("light", &["lamp", "-35,50"]),
+    ("size", &["640x480", "1280x720", "1920x1080"]),
+];
+
+/// The command with values that a shell may suggest.
+fn with_suggestions(command: Command) -> Command {
+    let topics = PossibleValuesParser::new(help::all_topics(&command));
+    let suggested = |argument: Arg| match SUGGESTED.iter().find(|(id, _)| argument.get_id() == id) {
+        Some((_, values)) => argument.value_parser(PossibleValuesParser::new(*values)),
+        None => argument,
+    };
+    let command = command.mut_args(suggested).mut_subcommands(|command| command.mut_args(suggested));
+    command.mut_subcommand("help", |help| help.mut_arg("topic", |topic| topic.value_parser(topics)))
 }
 
 /// The command with the options of `render`, whose word may be left out.

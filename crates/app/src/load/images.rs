@@ -53,6 +53,9 @@ pub(crate) struct Mirroring {
 /// The share of light that a surface that is no metal mirrors head-on.
 pub(crate) const DIELECTRIC: f32 = 0.04;
 
+/// All three maps are smooth.
+const SMOOTH: [bool; 3] = [true; 3];
+
 /// Images of a kind, and their indices by file. `None` is a file of which an error has been told.
 #[derive(Debug)]
 struct Read<T> {
@@ -179,16 +182,21 @@ impl Images {
         let has_alpha = self.alpha(alpha) != Alpha::Opaque;
         let maps = [colors.or(Some(alpha)), Some(alpha), None];
         // Holes stay holes, without shades at their rims.
-        self.together(maps, false, Made::WithAlpha(colors, alpha), |[color, [red, .., own], _]| {
-            let [r, g, b, _] = if colors.is_some() { color } else { [255; 4] };
-            [r, g, b, if has_alpha { own } else { red }]
-        })
+        self.together(
+            maps,
+            [true, false, true],
+            Made::WithAlpha(colors, alpha),
+            |[color, [red, .., own], _]| {
+                let [r, g, b, _] = if colors.is_some() { color } else { [255; 4] };
+                [r, g, b, if has_alpha { own } else { red }]
+            },
+        )
     }
 
     /// The texture of a surface that is metal in places: the light that it scatters.
     pub(crate) fn dull(&mut self, colors: Option<usize>, (metal, by): (usize, u8)) -> Option<usize> {
         let made = Made::Dull(colors, (metal, by));
-        self.together([colors, Some(metal), None], true, made, |[[r, g, b, a], [metal, ..], _]| {
+        self.together([colors, Some(metal), None], SMOOTH, made, |[[r, g, b, a], [metal, ..], _]| {
             let scattered = 255 - times(metal, by) / 2;
             let [r, g, b] = [r, g, b].map(|c| times(c, scattered));
             [r, g, b, a]
@@ -200,7 +208,7 @@ impl Images {
         let Mirroring { colors, metal, gloss } = of;
         self.together(
             [colors.0, metal.0, gloss.0],
-            true,
+            SMOOTH,
             Made::Mirroring(of),
             |[color, [red, ..], [sharp, ..]]| {
                 let metal = share(times(red, metal.1));
@@ -229,19 +237,18 @@ impl Images {
             return None;
         }
         let made = Made::Fainter(colors, gloss, [least, greatest].map(f32::to_bits));
-        self.together([colors, Some(gloss), None], true, made, |[[r, g, b, a], [gloss, ..], _]| {
+        self.together([colors, Some(gloss), None], SMOOTH, made, |[[r, g, b, a], [gloss, ..], _]| {
             let [r, g, b] = [r, g, b].map(|c| times(c, light(gloss)));
             [r, g, b, a]
         })
     }
 
-    /// A texture of others: as large as the largest on each axis, of their colours in the middles of its texels. Of the
-    /// second map these are texels of its own, unless it is to be `smooth`. `None`
-    /// where there is no room for it.
+    /// A texture of others: as large as the largest on each axis, of their colours in the middles of its texels. Of
+    /// maps that are `smooth` these are means, of others texels of their own. `None` where there is no room for it.
     fn together(
         &mut self,
         maps: [Option<usize>; 3],
-        smooth: bool,
+        smooth: [bool; 3],
         made: Made,
         change: impl Fn([[u8; 4]; 3]) -> [u8; 4],
     ) -> Option<usize> {
@@ -250,16 +257,10 @@ impl Images {
             let sides = images.iter().flatten().map(|image| [image.width, image.height]);
             let [width, height] = sides.reduce(|[a, b], [c, d]| [a.max(c), b.max(d)])?;
             let texel = |row: u32, column: u32| {
-                let mut number = 0;
-                change(images.map(|image| {
-                    number += 1;
-                    let Some(image) = image else { return [255; 4] };
+                change([0, 1, 2].map(|number| {
+                    let Some(image) = images[number] else { return [255; 4] };
                     let axes = [(column, width, image.width), (row, height, image.height)];
-                    // All but the second are smooth in any case.
-                    magnified(
-                        image,
-                        axes.map(|axis| if smooth || number != 2 { between(axis) } else { on(axis) }),
-                    )
+                    magnified(image, axes.map(if smooth[number] { between } else { on }))
                 }))
             };
             let texels = (0..height).flat_map(|row| (0..width).map(move |column| (row, column)));

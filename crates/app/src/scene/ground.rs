@@ -20,6 +20,9 @@ const CELLS: f64 = 256.0;
 /// Heights in cells, how far around what is so high darkens the ground, and how much.
 const LEVELS: [(f64, usize, f64); 4] = [(0.0, 2, 0.62), (6.0, 6, 0.5), (24.0, 14, 0.34), (64.0, 26, 0.2)];
 
+/// The least area of a triangle that covers cells, in cells.
+const LEAST: f64 = 1e-9;
+
 /// The share of a ball's radius that the ground reaches beyond what stands on it.
 const RIM: f64 = 0.6;
 
@@ -195,8 +198,9 @@ impl Ground {
                     [column, row, height, u, v]
                 };
                 let corners = [a, b, c].map(corner);
+                let steps = steps(corners);
                 let mut put = |[column, row, height, u, v]: [f64; 5]| {
-                    if alpha([u, v]) > threshold(column, row) {
+                    if alpha([u, v], steps) > threshold(column, row) {
                         put(column, row, height);
                     }
                 };
@@ -221,11 +225,30 @@ fn follow(from: [f64; 5], to: [f64; 5], put: &mut impl FnMut([f64; 5])) {
     }
 }
 
+/// How far texture coordinates go from one cell to the next, and from one row of cells to the next.
+fn steps([a, b, c]: [[f64; 5]; 3]) -> [[f64; 2]; 2] {
+    let area = area([a, b, c]);
+    if area.abs() <= LEAST || !area.is_finite() {
+        return [[0.0; 2]; 2];
+    }
+    let along = |k: usize| {
+        let [p, q] = [b[k] - a[k], c[k] - a[k]];
+        [(p * (c[1] - a[1]) - q * (b[1] - a[1])) / area, (q * (b[0] - a[0]) - p * (c[0] - a[0])) / area]
+    };
+    let [[ux, uy], [vx, vy]] = [along(3), along(4)];
+    [[ux, vx], [uy, vy]]
+}
+
+/// Twice the area of a triangle on the ground, in cells.
+fn area([a, b, c]: [[f64; 5]; 3]) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
 /// Hands on the middles of all cells in a triangle, its height there, and its coordinates.
 fn cover([a, b, c]: [[f64; 5]; 3], put: &mut impl FnMut([f64; 5])) {
-    let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    let area = area([a, b, c]);
     // Places that are not finite are none either.
-    if area.abs() <= 1e-9 || !area.is_finite() {
+    if area.abs() <= LEAST || !area.is_finite() {
         return;
     }
     let range = |axis: usize| {

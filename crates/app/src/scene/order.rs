@@ -112,11 +112,13 @@ mod tests {
             let place = [0, 1, 2].map(|axis| if k >> axis & 1 == 1 { size } else { -size });
             Vertex { position: place, ..Vertex::default() }
         };
-        // The two sides across z, each facing outwards, of both boxes.
+        // All sides of both boxes, each facing outwards: those along z reach from the far to the near end.
         let vertices = [3.0, 1.0].into_iter().flat_map(|size| (0..8).map(move |k| corner(k, size))).collect();
         let part = |first: u32| {
-            let sides = [[4, 5, 7], [4, 7, 6], [0, 3, 1], [0, 2, 3]];
-            let triangles = sides.map(|side: [u32; 3]| side.map(|k| first + k)).to_vec();
+            let sides = [[4, 5, 7, 6], [0, 2, 3, 1], [1, 3, 7, 5], [0, 4, 6, 2], [2, 6, 7, 3], [0, 1, 5, 4]];
+            let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
+            let triangles = sides.into_iter().flat_map(halves);
+            let triangles = triangles.map(|side| side.map(|k| first + k)).collect();
             let mut part = Part { name: first.to_string(), triangles, ..Part::default() };
             part.detail.blend = AnyBlend::Constant(128);
             part

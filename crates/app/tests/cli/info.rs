@@ -61,6 +61,9 @@ fn a_model_is_told_in_json() {
         assert_eq!(told[key], expected, "{key}");
     }
     let parts = told["parts"].as_array().expect("parts");
+    assert!(
+        parts.iter().all(|part| part["specular"] == json!([0.0, 0.0, 0.0]) && part["exponent"].is_null())
+    );
     let expected = [("floor", "wood", 2, Value::Null), ("wall", "glass", 1, json!("blended"))];
     assert_eq!(parts.len(), expected.len());
     for (part, (name, material, triangles, look)) in parts.iter().zip(expected) {
@@ -110,8 +113,8 @@ fn text_has_all_of_it() {
         "  z        0 to 4, 4\n",
         "  origin   counted from ",
         "  normals  made\n",
-        "        2  \"floor\", material \"wood\"\n",
-        "        1  \"wall\", material \"glass\", blended\n",
+        "        2  \"floor\", material \"wood\", color ffffff\n",
+        "        1  \"wall\", material \"glass\", color cccccc, blended\n",
         "    color-map      wood.png, 3x2\n",
         "    height-map     no.png, missing\n",
         " bytes of flash:\n",

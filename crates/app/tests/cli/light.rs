@@ -74,6 +74,24 @@ fn backs_are_lit_as_fronts() {
     );
 }
 
+/// The broad highlight of a ball that is lit from the side ends softly where the light does.
+#[test]
+fn broad_highlights_have_no_edge() {
+    let scene = "[[object]]\nsurface = \"sphere\"\nsegments = [96, 96]\nmaterial = \"wax\"\n\
+        [material.wax]\ncolor = \"808080\"\nspecular = \"white\"\nshininess = 4\n\
+        [[light]]\nkind = \"directional\"\ndirection = [-1, 0, 0.3]\n\
+        [camera]\neye = [0, 0, 6]\ntarget = [0, 0, 0]\n";
+    let folder = Folder::with(&[("ball.toml", scene.as_bytes())]);
+    for shading in ["phong", "blinn"] {
+        folder.succeeds(&["ball.toml", "--shading", shading, "--size", "400x300", "--samples", "1"]);
+        let picture = image::open(folder.path("alberti.png")).expect("a picture").to_rgb8();
+        let row: Vec<u8> = (140..262).map(|x| picture.get_pixel(x, 150).0[0]).collect();
+        let step = row.windows(2).map(|pair| pair[0].abs_diff(pair[1])).max();
+        assert!(step < Some(14), "{shading}: {row:?}");
+        assert!(row.iter().max() > Some(&150), "{shading}: {row:?}");
+    }
+}
+
 /// What is said of a pixel that is seen from behind is what is drawn there.
 #[test]
 fn backs_are_explained() {

@@ -99,7 +99,7 @@ fn mistakes_of_usage_are_one_line() {
             "m.obj --scene cube",
             "error: MODEL.obj or SCENE.toml: found it beside --scene, expected one of the two; see --help",
         ),
-        ("m.obj --eye 1 2 3", "error: 2: found a number on its own, expected numbers that belong together"),
+        ("m.obj --eye 1 2 3", "error: 2: found a number on its own, expected an option, or numbers that "),
         ("m.obj -o", "error: --output: found nothing, expected a value; see --help"),
         ("compare a.png", "error: found too few words, expected <B.png> as well; see --help"),
         ("help compare camera", "error: camera: found no such options of `compare`, expected"),
@@ -191,6 +191,12 @@ fn shells_and_man_have_their_texts() {
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         let made = run(&folder, &format!("completions {shell}"));
         assert!(made.status == Some(0) && made.stdout.contains("projector-fov"), "{shell}");
+    }
+    let script = run(&folder, "completions bash").stdout;
+    for suggested in
+        ["\"nearest bilinear trilinear anisotropic:4 ", " render compare watch ", " scene-files\""]
+    {
+        assert!(script.contains(suggested), "{suggested}");
     }
     let page = run(&folder, "man").stdout;
     for part in [".TH alberti 1", "advise", "projector\\-fov"] {

@@ -1,14 +1,17 @@
 //! The share of a surface that has a shadow: glass little, and holes none.
 
-use crate::scene::{Model, Part};
+use crate::scene::{Image, Model, Part};
 use alberti::raster::color::AnyBlend;
 
-/// The opacity of a part at texture coordinates, from 0 to 1.
-pub(super) fn alpha<'a>(model: &'a Model, part: &'a Part) -> impl Fn([f64; 2]) -> f64 + 'a {
+/// Places on each side of a cell of which the opacity is the mean: nets are finer than cells.
+const PLACES: [f64; 6] = [-5.0, -3.0, -1.0, 1.0, 3.0, 5.0];
+
+/// The mean opacity of a part, from 0 to 1, over the cell around texture coordinates. These go by `across` to the next
+/// cell in a row, and by `along` to the next row.
+pub(super) fn alpha<'a>(model: &'a Model, part: &'a Part) -> impl Fn([f64; 2], [[f64; 2]; 2]) -> f64 + 'a {
     let image =
         part.texture.filter(|_| part.detail.is_seen_through()).and_then(|index| model.textures.get(index));
-    let placed = move |[u, v]: [f64; 2]| {
-        let image = image?;
+    let texel = |image: &Image, [u, v]: [f64; 2]| {
         let at = |c: f64, side: u32| {
             let share = c.rem_euclid(1.0) * f64::from(side);
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
@@ -16,15 +19,23 @@ pub(super) fn alpha<'a>(model: &'a Model, part: &'a Part) -> impl Fn([f64; 2]) -
             texel.min(side as usize - 1)
         };
         let (column, row) = (at(u, image.width), at(1.0 - v, image.height));
-        image.texels.get(row * image.width as usize + column).map(|[.., alpha]| *alpha)
+        image.texels.get(row * image.width as usize + column).map_or(255, |[.., alpha]| *alpha)
     };
-    move |uv| match (part.detail.blend, part.detail.alpha_test) {
-        (AnyBlend::Constant(alpha), _) => f64::from(alpha) / 255.0,
-        (AnyBlend::Replace, least) if placed(uv).is_some_and(|alpha| alpha < least) => 0.0,
-        (AnyBlend::Replace, _) => 1.0,
-        (AnyBlend::Over, _) => placed(uv).map_or(1.0, |alpha| f64::from(alpha) / 255.0),
-        // Light that is added or taken away is no shadow.
-        _ => 0.0,
+    move |[u, v], [across, along]| {
+        let mean = |of: &dyn Fn(u8) -> f64| {
+            let Some(image) = image else { return 1.0 };
+            let offsets = PLACES.iter().flat_map(|x| PLACES.iter().map(move |y| [x / 12.0, y / 12.0]));
+            let places =
+                offsets.map(|[x, y]| [u + x * across[0] + y * along[0], v + x * across[1] + y * along[1]]);
+            places.map(|place| of(texel(image, place))).sum::<f64>() / 36.0
+        };
+        match (part.detail.blend, part.detail.alpha_test) {
+            (AnyBlend::Constant(alpha), _) => f64::from(alpha) / 255.0,
+            (AnyBlend::Replace, least) => mean(&|alpha| f64::from(u8::from(alpha >= least))),
+            (AnyBlend::Over, _) => mean(&|alpha| f64::from(alpha) / 255.0),
+            // Light that is added or taken away is no shadow.
+            _ => 0.0,
+        }
     }
 }
 
@@ -38,7 +49,6 @@ pub(super) fn threshold(column: f64, row: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Image;
 
     #[test]
     fn opacity_is_that_of_the_texture_or_of_the_blend() {
@@ -49,13 +59,32 @@ mod tests {
             (part.detail.blend, part.detail.alpha_test) = (blend, alpha_test);
             // The upper row, then the lower, and once around.
             [[0.2, 0.9], [0.7, 0.9], [0.2, 0.1], [-0.2, 1.1]]
-                .map(|uv| (alpha(&model, &part)(uv) * 255.0).round())
+                .map(|uv| (alpha(&model, &part)(uv, [[0.0; 2]; 2]) * 255.0).round())
         };
         assert_eq!(of(AnyBlend::Replace, 0), [255.0; 4]);
         assert_eq!(of(AnyBlend::Replace, 100), [0.0, 255.0, 0.0, 255.0]);
         assert_eq!(of(AnyBlend::Over, 0), [0.0, 255.0, 51.0, 128.0]);
         assert_eq!(of(AnyBlend::Constant(51), 0), [51.0; 4]);
         assert_eq!(of(AnyBlend::Additive, 0), [0.0; 4]);
+    }
+
+    /// A net of threads of which each second is none, below and above the size of cells.
+    #[test]
+    fn a_fine_net_is_its_mean_and_a_coarse_one_is_not() {
+        let texels = vec![[0, 0, 0, 0], [0, 0, 0, 255]];
+        let model = Model { textures: vec![Image { width: 2, height: 1, texels }], ..Model::default() };
+        let mut part = Part { texture: Some(0), ..Part::default() };
+        (part.detail.blend, part.detail.alpha_test) = (AnyBlend::Replace, 128);
+        let alpha = alpha(&model, &part);
+        for start in [0.0, 0.1, 0.37, 0.5, 0.81] {
+            for cell in [[[1.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [1.0, 0.0]], [[5.0, 0.3], [-0.3, 2.0]]] {
+                let found = alpha([start, 0.4], cell);
+                assert!((found - 0.5).abs() < 0.1, "{found} {start} {cell:?}");
+            }
+        }
+        let cell = [[0.1, 0.0], [0.0, 0.1]];
+        let ends = [0.25, 0.75].map(|u| alpha([u, 0.4], cell));
+        assert!(ends[0] == 0.0 && ends[1] > 0.999, "{ends:?}");
     }
 
     /// In any square of cells about as many are covered as the opacity says.
