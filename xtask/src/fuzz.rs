@@ -10,9 +10,10 @@ use std::process::Command;
 use crate::command::{Outcome, cargo, describe, output, run};
 use crate::{embedded, workspace};
 
-/// The manifest of the programs, and the folder of kept cases.
+/// The manifest of the programs, and the folders of kept cases and of words.
 const MANIFEST: &str = "tests/fuzz/Cargo.toml";
 const CORPUS: &str = "tests/hostile/corpus";
+const DICTIONARIES: &str = "tests/fuzz/dictionaries";
 
 /// The flags of cargo-fuzz 0.13 on stable.
 const FLAGS: &str = "--cfg fuzzing -Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4 \
@@ -35,11 +36,13 @@ struct Options<'a> {
     jobs: u32,
     /// Whether few cases that reach as much as all are to be kept in the repository.
     keep: bool,
+    /// One of so many machines, counted from 1: each takes other targets.
+    shard: [usize; 2],
 }
 
 impl<'a> Options<'a> {
     fn read(arguments: &'a [String]) -> Result<Self, String> {
-        let mut options = Self { targets: Vec::new(), time: 60, jobs: 1, keep: false };
+        let mut options = Self { targets: Vec::new(), time: 60, jobs: 1, keep: false, shard: [1, 1] };
         let mut words = arguments.iter().map(String::as_str);
         while let Some(word) = words.next() {
             let mut number = || {
@@ -50,15 +53,50 @@ impl<'a> Options<'a> {
                 "--time" => options.time = number()?,
                 "--jobs" => options.jobs = number()?,
                 "--keep" => options.keep = true,
+                "--shard" => options.shard = shard(words.next())?,
                 option if option.starts_with('-') => {
                     return Err(format!(
-                        "expected targets, `--time S`, `--jobs N` or `--keep`, found `{option}`"
+                        "expected targets, `--time S`, `--jobs N`, `--shard K/N` or `--keep`, found `{option}`"
                     ));
                 }
                 target => options.targets.push(target),
             }
         }
         Ok(options)
+    }
+}
+
+/// K of N, from 1.
+///
+/// # Errors
+/// It is something else.
+pub(crate) fn shard(word: Option<&str>) -> Result<[usize; 2], String> {
+    let numbers = word.and_then(|word| word.split_once('/'));
+    let numbers = numbers.and_then(|(k, n)| Some([k.parse().ok()?, n.parse().ok()?]));
+    let within = numbers.filter(|&[k, n]: &[usize; 2]| k >= 1 && k <= n);
+    within.ok_or_else(|| {
+        format!("expected K/N, such as 2/8, after `--shard`, found `{}`", word.unwrap_or("nothing"))
+    })
+}
+
+/// What a target's run came to.
+struct Ended {
+    executions: u64,
+    /// Edges of the program's control flow that were taken.
+    edges: u64,
+    /// Cases that reach as much as all.
+    cases: u64,
+}
+
+impl Ended {
+    /// By what libFuzzer told, the first number in its last line of a kind.
+    fn read(told: &str) -> Option<Self> {
+        let last = told.lines().rfind(|line| line.starts_with('#') && line.contains("cov:"))?;
+        let words: Vec<&str> = last.split_whitespace().collect();
+        let number = |word: &str| word.split('/').next()?.parse::<u64>().ok();
+        let after = |key: &str| number(words.get(words.iter().position(|word| *word == key)? + 1)?);
+        let executions = number(words.first()?.trim_start_matches('#').trim_end_matches(':'))?;
+        Some(Self { executions, edges: after("cov:")?, cases: after("corp:")? })
     }
 }
 
@@ -79,13 +117,21 @@ pub(crate) fn fuzz(arguments: &[String]) -> Outcome {
     let names: Vec<_> = all
         .iter()
         .filter(|name| options.targets.is_empty() || options.targets.contains(&name.as_str()))
+        .enumerate()
+        .filter(|(number, _)| number % options.shard[1] == options.shard[0] - 1)
+        .map(|(_, name)| name)
         .collect();
+    println!("{:<14}{:>14}{:>8}{:>8}", "target", "executions", "edges", "cases");
+    let mut all = 0;
     for name in names {
         let program = built.join(host).join("release").join(name);
         let work = built.join("work").join(name);
         let outcome = one(&program, name, &work, &options);
-        outcome.map_err(|message| format!("{name}: {message}"))?;
+        let Ended { executions, edges, cases } = outcome.map_err(|message| format!("{name}: {message}"))?;
+        println!("{name:<14}{executions:>14}{edges:>8}{cases:>8}");
+        all += executions;
     }
+    println!("{:<14}{all:>14}", "all");
     Ok(())
 }
 
@@ -99,7 +145,7 @@ fn targets() -> Result<Vec<String>, String> {
     Ok(names)
 }
 
-fn one(program: &Path, name: &str, work: &Path, options: &Options<'_>) -> Outcome {
+fn one(program: &Path, name: &str, work: &Path, options: &Options<'_>) -> Result<Ended, String> {
     let io = |error: std::io::Error| error.to_string();
     let (corpus, found) = (work.join("corpus"), work.join("found"));
     [&corpus, &found].into_iter().try_for_each(fs::create_dir_all).map_err(io)?;
@@ -120,15 +166,16 @@ fn one(program: &Path, name: &str, work: &Path, options: &Options<'_>) -> Outcom
         "-max_len=2000",
         "-close_fd_mask=3",
     ]);
+    // Words of the language that a target reads.
+    let words = workspace::root().join(DICTIONARIES).join(format!("{name}.dict"));
+    if words.exists() {
+        command.arg(format!("-dict={}", words.display()));
+    }
     if options.jobs > 1 {
         command.arg(format!("-fork={}", options.jobs));
     }
-    println!("$ {}", describe(&command));
     let ended = command.output().map_err(io)?;
     let told = String::from_utf8_lossy(&ended.stderr);
-    let last =
-        told.lines().rfind(|line| line.starts_with('#') && line.contains("cov:")).unwrap_or("no word of it");
-    println!("{name}: {last}");
     if !ended.status.success() {
         let cases: Vec<PathBuf> =
             fs::read_dir(&found).map_err(io)?.filter_map(|entry| Some(entry.ok()?.path())).collect();
@@ -142,7 +189,10 @@ fn one(program: &Path, name: &str, work: &Path, options: &Options<'_>) -> Outcom
             kept.display()
         ));
     }
-    if options.keep { keep(program, work, &corpus, &kept) } else { Ok(()) }
+    if options.keep {
+        keep(program, work, &corpus, &kept)?;
+    }
+    Ended::read(&told).ok_or_else(|| format!("no count at the end of `{}`", describe(&command)))
 }
 
 /// Keeps few cases that reach as much as all, the short ones first.
@@ -206,6 +256,27 @@ mod tests {
     }
 
     #[test]
+    fn ends_are_read() {
+        let told =
+            "#1\tINITED cov: 5 ft: 6\nx\n#2048\tDONE   cov: 731 ft: 2345 corp: 92/4012b lim: 80 exec/s: 9\n";
+        let ended = Ended::read(told).unwrap();
+        assert_eq!([ended.executions, ended.edges, ended.cases], [2048, 731, 92]);
+        let forked =
+            "#300: cov: 10 ft: 20 corp: 7 exec/s: 5 oom/timeout/crash: 0/0/0 time: 3s job: 1 dft_time: 0\n";
+        let ended = Ended::read(forked).unwrap();
+        assert_eq!([ended.executions, ended.edges, ended.cases], [300, 10, 7]);
+        assert!(Ended::read("no word\n").is_none());
+    }
+
+    #[test]
+    fn shards_are_read() {
+        assert_eq!(shard(Some("2/8")), Ok([2, 8]));
+        for word in [None, Some("0/3"), Some("4/3"), Some("1"), Some("a/b")] {
+            assert!(shard(word).is_err(), "{word:?}");
+        }
+    }
+
+    #[test]
     fn lines_are_bytes() {
         assert_eq!(bytes(&digits(&[0, 10, 255])), Some(vec![0, 10, 255]));
         assert_eq!((bytes("0"), bytes("0g"), bytes("é")), (None, None, None));
@@ -216,7 +287,7 @@ mod tests {
         let programs = workspace::root().join("tests/fuzz/fuzz_targets");
         let manifest = fs::read_to_string(workspace::root().join(MANIFEST)).unwrap();
         let targets = targets().unwrap();
-        assert!(targets.len() >= 14);
+        assert!(targets.len() >= 15);
         for name in targets {
             assert!(programs.join(format!("{name}.rs")).is_file(), "{name}");
             assert!(manifest.contains(&format!("name = \"{name}\"")), "{name}");

@@ -135,7 +135,7 @@ const CHORES: &[Chore] = &[
     },
     Chore {
         name: "fuzz",
-        arguments: "[target...] [--time S] [--jobs N] [--keep]",
+        arguments: "[target...] [--time S] [--jobs N] [--shard K/N] [--keep]",
         about: "fuzz the targets of tests/hostile, guided by coverage; --keep adds cases to the corpora",
         run: fuzz::fuzz,
     },

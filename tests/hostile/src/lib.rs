@@ -17,6 +17,7 @@ mod app;
 mod baked;
 pub mod bits;
 mod clip;
+mod displacement;
 mod mipmap;
 mod numbers;
 mod pipeline;
@@ -38,6 +39,7 @@ pub const TARGETS: &[(&str, Body)] = &[
     ("sampler", sampler::run),
     ("mipmap", mipmap::run),
     ("surface", surface::run),
+    ("displacement", displacement::run),
     ("baked", baked::run),
     ("obj", app::obj),
     ("mtl", app::mtl),

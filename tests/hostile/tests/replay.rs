@@ -24,7 +24,18 @@ fn replay(names: &[&str]) {
 
 #[test]
 fn libraries_keep_their_invariants() {
-    replay(&["numbers", "view", "clip", "triangle", "pipeline", "sampler", "mipmap", "surface", "baked"]);
+    replay(&[
+        "numbers",
+        "view",
+        "clip",
+        "triangle",
+        "pipeline",
+        "sampler",
+        "mipmap",
+        "surface",
+        "displacement",
+        "baked",
+    ]);
 }
 
 /// One after the other, since they have one folder.
@@ -35,7 +46,7 @@ fn the_application_keeps_its_invariants() {
 
 #[test]
 fn all_targets_are_replayed() {
-    assert_eq!(TARGETS.len(), 9 + 5);
+    assert_eq!(TARGETS.len(), 10 + 5);
     assert!(
         cases("00ff\n\n0a\n") == Ok(vec![vec![0, 255], vec![10]])
             && cases("0\n").is_err()

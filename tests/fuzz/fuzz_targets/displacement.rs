@@ -1,0 +1,4 @@
+//! The fuzz target `displacement`.
+#![no_main]
+
+alberti_fuzz::program!("displacement");
