@@ -49,6 +49,7 @@ pub fn scene(stones: &Stones) -> BuiltIn {
             eye: [0.0, 1.0, 0.0],
             target: [0.366, 0.5, -0.785],
             up: [0.0, 1.0, 0.0],
+            roll: 0.0,
             fov: 50.0,
             near: 0.1,
             far: 100.0,

@@ -83,7 +83,7 @@ fn any_view(camera: &Camera, projection: Projection) -> Result<View<AnyProjectio
 
 pub(crate) fn frame(camera: &Camera) -> Result<Frame<Eye, World>, ViewError> {
     let point = |p: [f32; 3]| Point3::new(Vec3::from_array(p));
-    look_at(point(camera.eye), point(camera.target), Vector3::new(Vec3::from_array(camera.up)))
+    look_at(point(camera.eye), point(camera.target), Vector3::new(Vec3::from_array(camera.picture_up())))
 }
 
 /// The direction towards the light, in world space: from beside, above and behind the camera.

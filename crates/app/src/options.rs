@@ -43,6 +43,9 @@ pub const DEFAULT_SIZE: values::Size = values::Size(640, 480);
 /// The colour behind a model, unless the user gives one.
 pub const DEFAULT_BACKGROUND: [u8; 3] = [0x20, 0x24, 0x2c];
 
+/// The same where a ground is to show a shadow.
+pub const GROUND_BACKGROUND: [u8; 3] = [0xa8, 0xb0, 0xb8];
+
 /// The vertical opening angle of a camera and of a projector, unless the user gives one, in degrees.
 pub const DEFAULT_FOV: f32 = 40.0;
 

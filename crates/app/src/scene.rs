@@ -166,8 +166,11 @@ pub struct Camera {
     pub eye: [f32; 3],
     /// The point looked at.
     pub target: [f32; 3],
-    /// Upwards.
+    /// Upwards in the world.
     pub up: [f32; 3],
+    /// Degrees by which the camera leans to the right. Where it looks along `up`, they are counted from the view of one
+    /// who has come from the front.
+    pub roll: f64,
     /// Full vertical opening angle, degrees.
     pub fov: f32,
     /// The front clipping plane, z = A.

@@ -141,12 +141,12 @@ fn projections_and_projectors_are_those_of_the_library() {
     let place = look_at(
         Point3::new(Vec3::from_array(projector.eye)),
         Point3::new(Vec3::from_array(projector.target)),
-        Vector3::new(Vec3::from_array(projector.up)),
+        Vector3::new(Vec3::from_array(projector.picture_up())),
     );
     let thrown = Projector::new(place.expect("a place"), 60f32.to_radians(), 1.0).expect("a projector");
     let scene::Camera { near, far, .. } = scene.camera;
     let point = |p: [f32; 3]| Point3::new(Vec3::from_array(p));
-    let up = Vector3::new(Vec3::from_array(scene.camera.up));
+    let up = Vector3::new(Vec3::from_array(scene.camera.picture_up()));
     let camera = alberti::Camera::look_at(point(scene.camera.eye), point(scene.camera.target), up);
     let parallel = camera.expect("a camera").parallel(4.0, near..far).expect("a box");
     let mesh = Mesh::new(&scene.model.vertices, &scene.model.parts[0].triangles, |v: &Vertex| {

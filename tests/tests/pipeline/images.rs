@@ -152,8 +152,15 @@ fn a_real_model_from_three_cameras() {
     let options =
         RenderOptions { filter: Filter::Bilinear, shading: Shading::Lambert, ..options(&scene, 640, 480) };
     for eye in [[2.0, 1.0, -2.5], [-1.5, 2.0, 2.0], [0.0, 0.3, -1.2]] {
-        let camera =
-            Camera { eye, target: [0.0, 0.1, 0.0], up: [0.0, 1.0, 0.0], fov: 50.0, near: 0.1, far: 10.0 };
+        let camera = Camera {
+            eye,
+            target: [0.0, 0.1, 0.0],
+            up: [0.0, 1.0, 0.0],
+            roll: 0.0,
+            fov: 50.0,
+            near: 0.1,
+            far: 10.0,
+        };
         check("spot", &model, &camera, &options, Measure::Ideal);
     }
 }

@@ -198,7 +198,7 @@ fn relief() -> Scene {
 
 /// An eye at the origin that looks along -z.
 pub(crate) fn camera(near: f32, far: f32) -> Camera {
-    Camera { eye: [0.0; 3], target: [0.0, 0.0, -1.0], up: [0.0, 1.0, 0.0], fov: 50.0, near, far }
+    Camera { eye: [0.0; 3], target: [0.0, 0.0, -1.0], up: [0.0, 1.0, 0.0], roll: 0.0, fov: 50.0, near, far }
 }
 
 fn share(k: usize, of: u16) -> f32 {

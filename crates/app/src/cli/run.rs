@@ -71,10 +71,17 @@ pub fn attempt(arguments: impl IntoIterator<Item = OsString>) -> Result<u8, Erro
 pub(super) fn command() -> Command {
     Cli::command()
         .args_override_self(true)
+        .mut_subcommands(|command| command.mut_args(in_any_case))
         .mut_subcommand("explain", |command| hidden(command, &OF_PICTURES))
         .mut_subcommand("info", bake::with_defaults)
         .mut_subcommand("bake", bake::with_defaults)
         .mut_subcommand("advise", |command| hidden(hidden(command, &OF_PICTURES), &advise::ADVISED_ON))
+}
+
+/// A choice of words, whatever their case.
+fn in_any_case(argument: Arg) -> Arg {
+    let is_choice = argument.get_action().takes_values() && !argument.get_possible_values().is_empty();
+    argument.ignore_case(is_choice)
 }
 
 /// Whether a command that can be quiet is to be.
@@ -126,11 +133,8 @@ fn usage(error: &clap::Error, renamed: bool) -> Result<u8, Error> {
         ErrorKind::UnknownArgument => {
             let meant = option.as_deref().and_then(words::of_others).map(str::to_owned);
             let similar = meant.or_else(|| context(ContextKind::SuggestedArg));
-            let similar = similar.map(|option| format!(", such as {option}"));
-            (
-                "no such option".to_owned(),
-                format!("one{}", similar.unwrap_or_else(|| " of its help".to_owned())),
-            )
+            let similar = similar.map(|option| format!("one, such as {option}"));
+            ("no such option".to_owned(), similar.unwrap_or_else(|| "one that --help all lists".to_owned()))
         }
         ErrorKind::InvalidValue
             if context(ContextKind::InvalidValue).is_some_and(|value| value.is_empty()) =>

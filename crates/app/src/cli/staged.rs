@@ -18,8 +18,8 @@ use crate::load::{obj, prepare};
 use crate::options::values::{Color, MAX_THREADS, Size, Threads, name_of as name_of_value};
 use crate::options::{
     Background, CameraTable, ColorFormat, Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE,
-    DepthFormat, Filter, Fog, Haze, KeyLight, LightOptions, LightSpace, Profile, Projection, RenderOptions,
-    Samples, Shading, Wrap,
+    DepthFormat, Filter, Fog, GROUND_BACKGROUND, Haze, KeyLight, LightOptions, LightSpace, Profile,
+    Projection, RenderOptions, Samples, Shading, Wrap,
 };
 use crate::output::aov::{self, Beside};
 use crate::output::file::{Output, Whole};
@@ -338,7 +338,7 @@ fn load(arguments: &RenderArgs) -> Result<Scene, Error> {
             model: loaded.model,
             camera: None,
             defaults: of_models(arguments),
-            background: DEFAULT_BACKGROUND,
+            background: background(arguments),
             has_uv: loaded.has_uv,
         });
     }
@@ -360,6 +360,11 @@ fn load(arguments: &RenderArgs) -> Result<Scene, Error> {
 fn of_models(arguments: &RenderArgs) -> (Shading, Filter, Wrap, Cull, DepthFormat) {
     let filter = if is_small(arguments) { Filter::Bilinear } else { Filter::Trilinear };
     (Shading::default(), filter, Wrap::default(), Cull::default(), DepthFormat::default())
+}
+
+/// The colour behind models and scene files.
+fn background(arguments: &RenderArgs) -> [u8; 3] {
+    if arguments.render.ground == Some(true) { GROUND_BACKGROUND } else { DEFAULT_BACKGROUND }
 }
 
 /// Whether a picture is as a small display has it.
@@ -407,7 +412,13 @@ fn load_scene_file(arguments: &RenderArgs, file: &SceneFile) -> Result<Scene, Er
         .build(&arguments.material, arguments, &mut warnings, &mut |done, total| progress.set(done, total))?;
     drop(progress);
     warn_all(&warnings);
-    Ok(Scene { model, camera: None, defaults: of_models(arguments), background: DEFAULT_BACKGROUND, has_uv })
+    Ok(Scene {
+        model,
+        camera: None,
+        defaults: of_models(arguments),
+        background: background(arguments),
+        has_uv,
+    })
 }
 
 /// The first option that puts an image on surfaces.

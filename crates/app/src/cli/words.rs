@@ -58,6 +58,8 @@ pub(super) fn of_others(option: &str) -> Option<&'static str> {
         "--pitch" => "--elevation",
         "--bg" | "--background-color" => "--background",
         "--colour" => "--diffuse",
+        "--ao-map" => "--ao",
+        "--color-map" | "--map" => "--texture",
         "--silent" => "--quiet",
         "--verbose" => "--stats",
         _ => return None,

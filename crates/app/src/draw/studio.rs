@@ -41,7 +41,9 @@ impl Rig {
             let [ambient, lamp] = if linear { LINEAR_LAMP } else { [AMBIENT, DIFFUSE] };
             return Self { ambient, lights: [(super::to_light(camera), lamp), none, none] };
         };
-        let axes = frame(camera).ok().map(|frame| level(camera, frame.axes()));
+        // Lights stay where they are when the camera leans.
+        let camera = camera.upright();
+        let axes = frame(&camera).ok().map(|frame| level(&camera, frame.axes()));
         let towards = |azimuth: f32, elevation: f32| {
             let ((right, near), (up, level)) =
                 (azimuth.to_radians().sin_cos(), elevation.to_radians().sin_cos());
@@ -162,6 +164,7 @@ mod tests {
         eye: [0.0, 0.0, 5.0],
         target: [0.0; 3],
         up: [0.0, 1.0, 0.0],
+        roll: 0.0,
         fov: 40.0,
         near: 1.0,
         far: 9.0,
@@ -207,6 +210,28 @@ mod tests {
                 assert!((a - b).abs() > 0.1, "{right} {top} {front}");
             }
             assert!(right.min(front) > 0.35, "{right} {front}");
+        }
+    }
+
+    /// Lights stay where they are when a camera leans, or comes to look straight down.
+    #[test]
+    fn lights_are_those_of_the_level_camera() {
+        let directions =
+            |camera: Camera| Rig::of(&camera, KeyLight::STUDIO, false).lights.map(|(to_light, _)| to_light);
+        let down = Camera { eye: [0.0, 5.0, 0.0], roll: -40.0, ..CAMERA };
+        let (sin, cos) = 40.0_f32.to_radians().sin_cos();
+        let nearly = Camera { eye: [0.01 * sin, 5.0, 0.01 * cos], ..CAMERA };
+        for (one, other) in [
+            (CAMERA, Camera { roll: 77.0, ..CAMERA }),
+            (
+                Camera { eye: [1.0, -3.0, 5.0], ..CAMERA },
+                Camera { eye: [1.0, -3.0, 5.0], roll: -20.0, ..CAMERA },
+            ),
+            (nearly, down),
+        ] {
+            for (a, b) in directions(one).into_iter().zip(directions(other)) {
+                assert!((a - b).length() < 1e-4, "{a} {b} {other:?}");
+            }
         }
     }
 

@@ -9,9 +9,9 @@ use std::path::{Path, PathBuf};
 use clap::ArgMatches;
 
 use crate::cli::RenderArgs;
-use crate::error::{Error, Warnings};
-use crate::options::{Background, Material, shared};
-use crate::scene::Model;
+use crate::error::{Error, Warnings, quote};
+use crate::options::{Background, Material, Shading, shared};
+use crate::scene::{Glow, Model};
 
 mod lights;
 mod materials;
@@ -131,6 +131,22 @@ impl SceneFile {
         model.source = Some(self.source.path().to_owned());
         model.lights = self.lights(model.origin)?;
         model.ambient = self.ambient();
+        // In all of the light a flat picture is meant.
+        let is_dim = |glow: Glow| glow.intensity < 1.0;
+        if render.shading != Some(Shading::Unlit)
+            && model.lights.is_empty()
+            && model.ambient.is_some_and(is_dim)
+        {
+            let warning = self.source.error("ambient", "it without a [[light]]", "a [[light]] as well");
+            warnings.push(warning.hint("all sides of a surface are as bright"));
+        }
+        for name in self.unused_materials() {
+            let path = format!("material.{name}");
+            let warning = self.source.error(&path, "a material of no object", "one that an object names");
+            warnings.push(
+                warning.hint(format!("an [[object]] takes it by material = {}", quote(name.as_bytes()))),
+            );
+        }
         Ok((model, has_uv))
     }
 

@@ -166,6 +166,11 @@ const ENVIRONMENT: Base = Base {
 };
 
 impl Material {
+    /// Whether it says nothing of its texture's alpha.
+    pub(crate) fn ignores_alpha(&self) -> bool {
+        self.blend.is_none() && self.alpha_test.is_none()
+    }
+
     /// The keys that are given and say something of a map.
     pub(crate) fn about_maps(&self) -> impl Iterator<Item = (&'static str, Base)> {
         let keys = [

@@ -30,7 +30,7 @@ pub struct CameraTable {
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     pub target: Option<Point>,
 
-    /// The direction that is up in the image [default: 0,1,0].
+    /// The direction that is up in the world: lights and the ground follow it [default: 0,1,0].
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     pub up: Option<Point>,
 
@@ -217,8 +217,8 @@ pub struct RenderTable {
     #[arg(short, long, value_name = "WxH", allow_hyphen_values = true)]
     pub size: Option<Size>,
 
-    /// Background: a colour (RRGGBB, RGB or a name), transparent, a gradient TOP..BOTTOM of two colours, or an
-    /// image file, which covers the picture [default: 20242c for a model].
+    /// Background: a colour (RRGGBB, RGB or a name), transparent, a gradient TOP..BOTTOM, or an image file
+    /// [default: 20242c for a model, with --ground a8b0b8].
     #[arg(long, value_name = "WHAT", allow_hyphen_values = true)]
     pub background: Option<Background>,
 

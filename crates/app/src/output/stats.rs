@@ -144,10 +144,11 @@ impl Serialize for Report<'_> {
         for (name, count) in self.counts() {
             fields.serialize_entry(name, &count)?;
         }
-        let Camera { eye, target, up, fov, near, far } = self.camera;
+        let Camera { eye, target, up, roll, fov, near, far } = self.camera;
         let options = as_options(&self.camera, self.origin, self.projection);
         let numbers = json!({
-            "eye": eye, "target": target, "up": up, "fov": fov, "near": near, "far": far, "options": options,
+            "eye": eye, "target": target, "up": up, "roll": roll, "fov": fov, "near": near, "far": far,
+            "options": options,
         });
         fields.serialize_entry("camera", &numbers)?;
         let thousandths = |time| (ms(time) * 1e3).round() / 1e3;
@@ -168,6 +169,7 @@ mod tests {
             eye: [0.0, 1.5, 1e-7],
             target: [0.0; 3],
             up: [0.0, 1.0, 0.0],
+            roll: 0.0,
             fov: 40.0,
             near: 0.1,
             far: 10.0,

@@ -90,6 +90,7 @@ fn edges_cover_as_much_as_they_do() {
         far: 100.0,
         fov: 90.0,
         up: [0.0, 1.0, 0.0],
+        roll: 0.0,
     };
     let at =
         |x: f32, y: f32| crate::scene::Vertex { position: [x - 16.0, 12.0 - y, 0.0], ..Default::default() };

@@ -51,7 +51,7 @@ pub fn bounding_sphere(model: &Model) -> Sphere {
 /// * all is finite, and the model neither too small nor too large to look at;
 /// * the opening angle is between 0 and 180 degrees;
 /// * the eye is apart from its target;
-/// * up is not along the view;
+/// * up is a direction;
 /// * near < far, and 0 < near unless the view is parallel.
 pub fn frame(
     wishes: &CameraTable,
@@ -65,10 +65,12 @@ pub fn frame(
     let fov = wishes.fov.map(f32::from).or(base.map(|b| b.fov)).unwrap_or(usual);
     check_fov(fov, &CAMERA)?;
     let given = point(wishes.target).or(base.map(|b| b.target));
-    let up = point(wishes.up).or(base.map(|b| b.up));
+    let up = point(wishes.up).or(base.map(|b| b.up)).unwrap_or([0.0, 1.0, 0.0]);
+    let mut roll = wishes.roll.map(|roll| <[f64; 1]>::from(roll)[0]).or(base.map(|b| b.roll)).unwrap_or(0.0);
     let own = point(wishes.eye).or(base.filter(|_| !wishes.turns()).map(|b| b.eye));
-    let upright = up.map_or([0.0, 1.0, 0.0], wide);
-    let away = pose::away(wishes, upright);
+    let away = pose::away(wishes, wide(up));
+    let turn =
+        |view| if pose::is_straight(wide(up), view) { pose::turn(wishes, wide(up), view) } else { 0.0 };
     let (eye, target) = match (own, base) {
         (Some(eye), _) => (eye, given.unwrap_or(ball.center.map(narrow))),
         (None, Some(base)) => {
@@ -80,8 +82,8 @@ pub fn frame(
         (None, None) => {
             check_radius(model, ball)?;
             let view = away.map(|x| -x);
-            let right =
-                normalize(cross(view, pose::upwards(wishes, upright, away))).unwrap_or([1.0, 0.0, 0.0]);
+            let upwards = pose::upwards(wide(up), view, roll + turn(view));
+            let right = normalize(cross(view, upwards)).unwrap_or([1.0, 0.0, 0.0]);
             let tangent = (f64::from(fov).to_radians() / 2.0).tan();
             let lens = Lens { tangents: [tangent * aspect, tangent], parallel: wishes.is_parallel() };
             let axes = [right, cross(right, view), view];
@@ -90,13 +92,8 @@ pub fn frame(
         }
     };
     let view = sub(wide(target), wide(eye));
-    let mut up = match (own, up) {
-        (None, _) => pose::upwards(wishes, upright, away).map(narrow),
-        (Some(_), Some(up)) => up,
-        (Some(_), None) => upwards(view),
-    };
-    if let Some(roll) = wishes.roll {
-        up = pose::rolled(wide(up), view, f64::from(f32::from(roll))).map(narrow);
+    if own.is_none() {
+        roll += turn(view);
     }
     let kept = wishes.eye.is_none() && wishes.target.is_none() && !wishes.turns();
     let (near, far) = match base {
@@ -107,6 +104,7 @@ pub fn frame(
         eye,
         target,
         up,
+        roll,
         fov: zoomed(fov, wishes.zoom()),
         near: wishes.near.map_or(near, f32::from),
         far: wishes.far.map_or(far, f32::from),
@@ -118,7 +116,7 @@ pub fn frame(
     let checked = check(&camera, &names).and_then(|()| match base {
         // The planes are those around the ball.
         None if wishes.near.is_none() && wishes.far.is_none() => check_distance(&camera, &names),
-        _ => check_planes(&camera, wishes.is_parallel(), [near, far]),
+        _ => check_planes(&camera, wishes, [near, far]),
     });
     // Of a model that no camera can look at, places are wrong by themselves.
     checked.map_err(|error| check_radius(model, ball).err().unwrap_or(error))?;
@@ -150,9 +148,10 @@ fn zoomed(fov: f32, zoom: f32) -> f32 {
 pub fn as_options(camera: &Camera, origin: [f64; 3], projection: Projection) -> String {
     let point = |point: [f32; 3]| point.map(number).join(",");
     let place = |point| place(point, origin);
-    let Camera { eye, target, up, fov, near, far } = *camera;
+    let Camera { eye, target, up, roll, fov, near, far } = *camera;
+    let leaning = if roll == 0.0 { String::new() } else { format!(" --roll {roll}") };
     let mut options = format!(
-        "--eye {} --target {} --up {} --fov {} --near {} --far {}",
+        "--eye {} --target {} --up {}{leaning} --fov {} --near {} --far {}",
         place(eye),
         place(target),
         point(up),
@@ -185,7 +184,7 @@ pub(crate) fn orbit(places: &CameraTable, ball: Sphere) -> Camera {
     let point = |point: Option<Point>| point.map(<[f32; 3]>::from);
     let target = point(places.target).unwrap_or(ball.center.map(narrow));
     let eye = point(places.eye).unwrap_or(target);
-    Camera { eye, target, up: [0.0, 1.0, 0.0], fov: DEFAULT_FOV, near: 1.0, far: 2.0 }
+    Camera { eye, target, up: [0.0, 1.0, 0.0], roll: 0.0, fov: DEFAULT_FOV, near: 1.0, far: 2.0 }
 }
 
 /// The camera after so many of `turns` equal parts of a turn around its target, about its upward direction. The planes
@@ -198,7 +197,14 @@ pub(crate) fn turned(camera: &Camera, turn: u32, turns: u32) -> Camera {
     // Rodrigues' formula.
     let (across, along) = (cross(axis, arm), dot(axis, arm) * (1.0 - cos));
     let eye = [0, 1, 2].map(|k| target[k] + arm[k] * cos + across[k] * sin + axis[k] * along);
-    if turn == 0 { *camera } else { Camera { eye: eye.map(narrow), ..*camera } }
+    // Seen from above, things turn in the picture.
+    let roll = if pose::is_straight(axis, arm) {
+        let degrees = 360.0 * f64::from(turn) / f64::from(turns.max(1));
+        camera.roll + if dot(axis, arm) > 0.0 { -degrees } else { degrees }
+    } else {
+        camera.roll
+    };
+    if turn == 0 { *camera } else { Camera { eye: eye.map(narrow), roll, ..*camera } }
 }
 
 /// The distance of a model's nearest vertex, along the view.
@@ -219,14 +225,13 @@ pub fn window_height(camera: &Camera) -> f32 {
     narrow(2.0 * distance * (f64::from(camera.fov).to_radians() / 2.0).tan())
 }
 
-/// The place and the opening angle of a projector, upright unless it points straight up or down. Its places are counted
+/// The place and the opening angle of a projector, upright. Its places are counted
 /// from `origin`.
 ///
 /// # Errors
 /// As those of [`frame`], with the options that set them.
 pub fn projector(eye: [f32; 3], target: [f32; 3], fov: f32, origin: [f64; 3]) -> Result<Camera, Error> {
-    let view = sub(target.map(f64::from), eye.map(f64::from));
-    let camera = Camera { eye, target, up: upwards(view), fov, near: 1.0, far: 2.0 };
+    let camera = Camera { eye, target, up: [0.0, 1.0, 0.0], roll: 0.0, fov, near: 1.0, far: 2.0 };
     check(&camera, &Names { origin, ..PROJECTOR })?;
     Ok(camera)
 }
@@ -281,7 +286,7 @@ pub(crate) fn refused(why: ViewError, camera: &Camera, projection: Projection, n
             let found = "an eye and a target between which 32-bit floats have no direction";
             Error::new(found, "two points whose difference fits a 32-bit float").place(names.eye)
         }
-        (ViewError::UpAlongView, _) => up_along_view(camera, names),
+        (ViewError::UpAlongView, _) => no_up(camera, names),
         (ViewError::Angle, _) => {
             let found = format!("{} degrees, too small or too large for 32-bit floats", number(camera.fov));
             Error::new(found, "an angle from 1e-30 to 179 degrees").place(names.fov).hint("40 is usual")
@@ -333,20 +338,20 @@ fn check(camera: &Camera, names: &Names) -> Result<(), Error> {
         let hint = format!("move {} or {}", names.eye, names.target);
         return Err(Error::new(found, "two points").place(names.eye).hint(hint));
     }
-    if parallel(view, up.map(f64::from)) {
-        return Err(up_along_view(camera, names));
+    if normalize(up.map(f64::from)).is_none() {
+        return Err(no_up(camera, names));
     }
     Ok(())
 }
 
-fn up_along_view(camera: &Camera, names: &Names) -> Error {
-    let found = format!("{}, which is 0 or along the view", camera.up.map(number).join(","));
-    Error::new(found, "a direction across the view").place(names.up).hint("choose another axis")
+fn no_up(camera: &Camera, names: &Names) -> Error {
+    let found = format!("{}, which is no direction in 32-bit floats", camera.up.map(number).join(","));
+    Error::new(found, "a direction").place(names.up).hint("0,1,0 is usual")
 }
 
 /// `usable` are the planes that apply unless others are given.
-fn check_planes(camera: &Camera, parallel: bool, usable: [f32; 2]) -> Result<(), Error> {
-    let Camera { near, far, .. } = *camera;
+fn check_planes(camera: &Camera, wishes: &CameraTable, usable: [f32; 2]) -> Result<(), Error> {
+    let (Camera { near, far, .. }, parallel) = (*camera, wishes.is_parallel());
     let hint = format!("try --near {} --far {}", number(usable[0]), number(usable[1]));
     if !near.is_finite() || (near <= 0.0 && !parallel) {
         let expected = if parallel { "a finite number" } else { "a finite number above 0" };
@@ -355,7 +360,8 @@ fn check_planes(camera: &Camera, parallel: bool, usable: [f32; 2]) -> Result<(),
     }
     if !(far > near && far.is_finite()) {
         let found = format!("near {} and far {}", number(near), number(far));
-        return Err(Error::new(found, "near < far, both finite").place("--far").hint(hint));
+        let given = if wishes.far.is_none() && wishes.near.is_some() { "--near" } else { "--far" };
+        return Err(Error::new(found, "near < far, both finite").place(given).hint(hint));
     }
     Ok(())
 }
@@ -372,12 +378,6 @@ fn check_fov(fov: f32, names: &Names) -> Result<(), Error> {
     Err(Error::new(format!("{} degrees", number(fov)), "an angle above 0 and below 180 degrees")
         .place(names.fov)
         .hint("40 is usual"))
-}
-
-/// The direction upwards in a picture whose user has not said it: y, unless that is no direction across the view. When
-/// looking straight up or down, it is away from a viewer in front of the model.
-fn upwards(view: [f64; 3]) -> [f32; 3] {
-    if parallel(view, [0.0, 1.0, 0.0]) { [0.0, 0.0, -1.0] } else { [0.0, 1.0, 0.0] }
 }
 
 /// Near and far planes around a ball, with a little room. From within the ball, near is a thousandth of far: the
@@ -397,14 +397,6 @@ fn before(model: &Model, camera: &Camera) -> f32 {
     let within = camera.near <= camera.far / 999.0;
     let nearest = if within { 0.99 * nearest(model, camera) } else { 0.0 };
     if nearest < f64::from(camera.far) { camera.near.max(narrow(nearest)) } else { camera.near }
-}
-
-/// Whether two directions are so close that their cross product says nothing in f32, or one of them is 0.
-fn parallel(a: [f64; 3], b: [f64; 3]) -> bool {
-    match (normalize(a), normalize(b)) {
-        (Some(a), Some(b)) => length(cross(a, b)) < 2e-5,
-        _ => true,
-    }
 }
 
 /// A place as its author has it, whose coordinates are counted from `origin`.

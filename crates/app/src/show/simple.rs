@@ -36,8 +36,8 @@ pub(super) fn error(
     // The least difference is seen beside none.
     let mut steps = vec![Step::new(along(0, 11), "0, the same")];
     steps.extend(doubling(128).enumerate().map(|(k, meaning)| Step::new(along(k + 3, 11), meaning)));
-    let title = "error: greatest difference of a channel to exact, float, f32-reversed, rgba8, subpixel 8, \
-                 in steps of 1/255";
+    let title = "error of each pixel: greatest difference of a channel to exact, float, f32-reversed, rgba8, \
+                 subpixel 8, in steps of 1/255";
     paint(options, [title, "difference of a pixel"], steps, |index| {
         let difference = |k: usize| found[index][k].abs_diff(expected[index][k]);
         let greatest = difference(0).max(difference(1)).max(difference(2));

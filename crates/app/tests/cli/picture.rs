@@ -49,9 +49,9 @@ fn scene_files_have_samples_backgrounds_and_views() {
         ("d.toml", scene("[camera]\nview = \"top\"\neye = [1, 2, 3]").as_bytes()),
     ]);
     let run = folder.succeeds(&["a.toml"]);
-    assert!(run.stdout.contains("--up 0,0,-1"), "{run:?}");
+    assert!(run.stdout.contains("--eye 0,3.9213307,0 "), "{run:?}");
     let run = folder.succeeds(&["a.toml", "--azimuth", "0"]);
-    assert!(run.stdout.contains("--up 0,1,0"), "{run:?}");
+    assert!(!run.stdout.contains("--eye 0,3.9213307,0 "), "{run:?}");
     let seen = picture(&folder, "s.png");
     let [top, bottom] = [0, 23].map(|y| seen.get_pixel(0, y).0);
     assert!(top[0] > 240 && top[2] < 16 && bottom[0] < 16 && bottom[2] > 240, "{top:?} {bottom:?}");
@@ -98,8 +98,7 @@ fn scenes_are_turned_around_their_target() {
     let leaning = camera(&["--view", "front"]);
     let half = (leaning("--fov")[0] / 2.0).to_radians().tan();
     assert!((half - 20_f64.to_radians().tan() / 2.0).abs() < 1e-4);
-    let up = leaning("--up");
-    assert!((up[1] - 30_f64.to_radians().cos()).abs() < 1e-4 && (up[0].abs() - 0.5).abs() < 1e-4, "{up:?}");
+    assert_eq!((leaning("--up"), leaning("--roll")), (vec![0.0, 1.0, 0.0], vec![30.0]));
     fs::write(folder.path("a.toml"), scene.replace("[0, 0, 3]", "[0, 3, 0]")).expect("a file");
     assert_eq!(camera(&["--view", "front"])("--eye"), [0.0, 0.0, 3.0]);
     let fixed = camera(&["--azimuth", "90", "--far", "77"]);
@@ -133,6 +132,8 @@ fn the_printed_camera_makes_the_same_picture() {
         "",
         "--azimuth 200 --elevation -33 --zoom 1.7",
         "--view top --roll 12",
+        "--elevation 90",
+        "--elevation -90 --azimuth 40 --roll 1e-3",
         "--view iso --projection parallel",
         "--eye 1,2,3 --roll -170",
         "--target 0.1,0.2,0.3 --up 0,0,1 --fov 11.3",
@@ -150,6 +151,38 @@ fn the_printed_camera_makes_the_same_picture() {
             .succeeds(&size.into_iter().chain(options.split_whitespace()).chain(more).collect::<Vec<_>>());
         let json: serde_json::Value = serde_json::from_str(&json.stdout).expect("JSON");
         assert_eq!(json["camera"]["options"], told);
+    }
+}
+
+/// A block that leans is wholly in view, and the ground is below it and not below the picture's lower edge.
+#[test]
+fn leaning_moves_neither_the_model_out_nor_the_ground() {
+    let block = "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv -1 1 -1\nv 1 1 -1\nv 1 1 1\nv -1 1 1\n\
+        f 5 8 7 6\nf 4 3 7 8\nf 3 2 6 7\nf 2 1 5 6\nf 1 4 8 5\n";
+    let folder = Folder::with(&[("block.obj", block.as_bytes())]);
+    let pixels = |options: &str| {
+        let words = ["block.obj", "--size", "120x120", "--background", "white", "-o", "a.png"];
+        let words: Vec<_> = words.into_iter().chain(options.split_whitespace()).collect();
+        folder.succeeds(&words);
+        picture(&folder, "a.png")
+    };
+    for roll in ["20", "-45", "90"] {
+        let leaning = pixels(&format!("--roll {roll}"));
+        let border = (0..120).flat_map(|k| [(k, 0), (k, 119), (0, k), (119, k)]);
+        assert!(border.into_iter().all(|(x, y)| leaning.get_pixel(x, y).0[0] == 255), "{roll}");
+        assert!(pixels("--roll 0") == pixels("") && pixels("--roll 360") == pixels(""));
+    }
+    // From above there is a shadow on all sides.
+    for options in ["--view top", "--elevation 90 --azimuth 0 --roll 180"] {
+        let above = pixels(&format!("{options} --ground --zoom 0.7"));
+        let dark = |x: u32, y: u32| above.get_pixel(x, y).0[0] < 250;
+        let beside =
+            |along: &dyn Fn(u32) -> (u32, u32)| (0..60).map(along).filter(|&(x, y)| dark(x, y)).count();
+        let sides: [&dyn Fn(u32) -> (u32, u32); 4] =
+            [&|k| (k, 60), &|k| (119 - k, 60), &|k| (60, k), &|k| (60, 119 - k)];
+        let counts = sides.map(beside);
+        let [least, most] = [counts.iter().min(), counts.iter().max()].map(|count| *count.expect("four"));
+        assert!(most - least <= 2 && least < 60 && least > 42, "{options}: {counts:?}");
     }
 }
 

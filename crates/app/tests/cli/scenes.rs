@@ -63,7 +63,7 @@ fn what_is_wrong_with_a_scene_is_named_with_line_and_key() {
         ),
         ("[camera]\nnear = 5\nfar = 2\n", "s.toml:5: camera.far: found near 5 and far 2"),
         ("[camera]\nnear = 1e9\n", "s.toml:4: camera.near: found near 1000000000 and far"),
-        ("[camera]\nup = [0, 0, 0]\n", "s.toml:4: camera.up: found 0,0,0, which is 0 or along the view"),
+        ("[camera]\nup = [0, 0, 0]\n", "s.toml:4: camera.up: found 0,0,0, which is no direction"),
         ("[render]\narithmetic = \"fixed\"\n", "s.toml:4: render.arithmetic: found fixed with exact"),
         ("[render]\noutput = \"a.gif\"\n", "s.toml:4: render.output: found the extension \".gif\""),
         ("[render]\noutput = \"s.toml\"\n", "s.toml:4: render.output: found the extension \".toml\""),
@@ -161,4 +161,32 @@ fn light_by_vertex_says_what_it_leaves_out() {
                    out, expected phong or blinn for these\n";
     assert_eq!(folder.succeeds(&["s.toml", "--shading", "gouraud"]).stderr, warning);
     assert_eq!(folder.succeeds(&["s.toml", "--shading", "phong"]).stderr, "");
+}
+
+/// Things that a file says and that do nothing: one warning each, and a picture.
+#[test]
+fn what_does_nothing_is_told() {
+    let mut png = std::io::Cursor::new(Vec::new());
+    let leaf = image::RgbaImage::from_pixel(2, 2, image::Rgba([0, 200, 0, 90]));
+    leaf.write_to(&mut png, image::ImageFormat::Png).expect("a picture in memory");
+    let scene = "[ambient]\nintensity = 0.4\n[[object]]\nsurface = \"plane\"\nmaterial = \"leaf\"\n\
+        [material.leaf]\ncolor-map = \"leaf.png\"\n[material.spare]\ncolor = \"red\"\n";
+    let other = scene.replace("[material.leaf]", "[material.leaf]\nblend = \"over\"");
+    let other = other.replace("0.4", "1").replace("spare", "two").replace("[[object]]", "[[object]]\n");
+    let other = other + "[[object]]\nsurface = \"sphere\"\nmaterial = \"two\"\n";
+    let folder = Folder::with(&[
+        ("s.toml", scene.as_bytes()),
+        ("t.toml", other.as_bytes()),
+        ("leaf.png", png.get_ref().as_slice()),
+    ]);
+    let told = folder.succeeds(&["s.toml", "--size", "32x24"]).stderr;
+    for part in [
+        "s.toml:1: ambient: found it without a [[light]], expected a [[light]] as well",
+        "s.toml:7: material.leaf.color-map: found an image with alpha, which is left out, expected blend",
+        "s.toml:8: material.spare: found a material of no object",
+    ] {
+        assert!(told.contains(part), "{part}: {told}");
+    }
+    assert_eq!(told.lines().count(), 3, "{told}");
+    assert_eq!(folder.succeeds(&["t.toml", "--size", "32x24"]).stderr, "");
 }

@@ -69,7 +69,7 @@ fn layers(distances: &[f32]) -> (Model, Camera) {
         model.parts.push(Part { triangles, ..Part::default() });
     }
     let (eye, target, up) = ([0.0; 3], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]);
-    (model, Camera { eye, target, up, fov: 90.0, near: 0.5, far: 50.0 })
+    (model, Camera { eye, target, up, roll: 0.0, fov: 90.0, near: 0.5, far: 50.0 })
 }
 
 #[test]

@@ -19,6 +19,7 @@ const CAMERA: Camera = Camera {
     eye: [0.5, 1.75, 4.0],
     target: [0.25, 0.0, 0.0],
     up: [0.125, 1.0, 0.0],
+    roll: 0.0,
     fov: 50.0,
     near: 0.5,
     far: 20.0,
@@ -42,7 +43,7 @@ fn unit(a: Vec3) -> Vec3 {
 
 /// The ray through a place on the picture, in pixels, with a step of 1 forward.
 fn ray([x, y]: [f64; 2]) -> [Vec3; 2] {
-    let [eye, target, up] = [CAMERA.eye, CAMERA.target, CAMERA.up].map(|p| p.map(f64::from));
+    let [eye, target, up] = [CAMERA.eye, CAMERA.target, CAMERA.picture_up()].map(|p| p.map(f64::from));
     let forward = unit(add(target, eye, -1.0));
     let right = unit(cross(forward, up));
     let above = cross(right, forward);

@@ -29,7 +29,7 @@ fn unit(a: V) -> V {
 
 /// A ray: its origin, and its direction, which is one unit long along the view.
 fn ray(camera: &Camera, options: &RenderOptions, place: [f64; 2]) -> [V; 2] {
-    let [eye, target, up] = [camera.eye, camera.target, camera.up].map(|v| v.map(f64::from));
+    let [eye, target, up] = [camera.eye, camera.target, camera.picture_up()].map(|v| v.map(f64::from));
     let forward = unit(sub(target, eye));
     let right = unit(cross(forward, up));
     let above = cross(right, forward);
@@ -167,7 +167,7 @@ fn light(model: &Model, camera: &Camera, json: &Value, (weights, triangle): ([f6
     let normals =
         model.parts[0].triangles[triangle].map(|i| model.vertices[i as usize].normal.map(f64::from));
     let normal = unit([0, 1, 2].map(|axis| (0..3).map(|k| weights[k] * normals[k][axis]).sum()));
-    let [eye, target, up] = [camera.eye, camera.target, camera.up].map(|v| v.map(f64::from));
+    let [eye, target, up] = [camera.eye, camera.target, camera.picture_up()].map(|v| v.map(f64::from));
     let forward = unit(sub(target, eye));
     let right = unit(cross(forward, up));
     let above = cross(right, forward);

@@ -40,10 +40,11 @@ pub(crate) enum Event {
 }
 
 /// The things that are not drawn: one, and several.
-pub(crate) const UNDRAWN: [[&str; 2]; 3] = [
+pub(crate) const UNDRAWN: [[&str; 2]; 4] = [
     ["line (`l`)", "lines (`l`)"],
     ["point (`p`)", "points (`p`)"],
     ["curve or surface", "curves or surfaces"],
+    ["face with fewer than 3 corners", "faces with fewer than 3 corners"],
 ];
 
 /// Faces and the statements between them.
@@ -100,7 +101,7 @@ pub(crate) struct Block {
     pub(crate) corners_with_uv: usize,
     pub(crate) colors_out_of_range: usize,
     /// Statements of things that are no faces: [`UNDRAWN`].
-    pub(crate) undrawn: [usize; 3],
+    pub(crate) undrawn: [usize; 4],
     /// Physical lines.
     pub(crate) lines: usize,
     /// The first error, and its line.
@@ -110,8 +111,9 @@ pub(crate) struct Block {
 impl Block {
     /// Reads a block, up to its first error. Lines count from 1 in it.
     ///
-    /// Counted: lines, points, curves and surfaces. Ignored is whatever else the word at the start of a line
-    /// may be. An index may point to a later line, as some exporters write it, unless it is negative.
+    /// Counted: lines, points, curves, surfaces, and faces of one or two corners. Ignored is whatever else the
+    /// word at the start of a line may be. An index may point to a later line, as some exporters write it,
+    /// unless it is negative.
     pub(crate) fn read(bytes: &[u8]) -> Self {
         let mut block = Self::default();
         let mut lines = Lines::new(bytes);
@@ -194,9 +196,12 @@ impl Block {
         }
         let corners = self.faces.corners.len() - first;
         if corners < 3 {
-            let plural = if corners == 1 { "corner" } else { "corners" };
-            let error = Error::new(format!("a face with {corners} {plural}"), "at least 3 corners");
-            return Err(error.hint("correct or delete the line").into());
+            self.undrawn[3] += 1;
+            let with_uv = self.faces.corners[first..].iter().filter(|corner| corner[1] > 0).count();
+            self.corners_with_uv -= with_uv;
+            self.relative.retain(|relative| relative.corner < first);
+            self.faces.corners.truncate(first);
+            return Ok(());
         }
         // A line has fewer corners than bytes, and a file fewer of both than 4 billion.
         let [corners, line] = [corners, line.line].map(|x| u32::try_from(x).unwrap_or(u32::MAX));
@@ -291,7 +296,10 @@ fn numbers<const N: usize>(
     let (mut numbers, mut n) = ([0.0; N], 0);
     for word in line.words() {
         let x = number(word).ok_or_else(|| {
-            Error::new(quote(word), format!("a finite number in {form}")).hint("correct the line")
+            let too_large =
+                std::str::from_utf8(word).is_ok_and(|word| word.parse().is_ok_and(f64::is_finite));
+            let kind = if too_large { "a number within ±3.4e38" } else { "a finite number" };
+            Error::new(quote(word), format!("{kind} in {form}")).hint("correct the line")
         })?;
         if let Some(slot) = numbers.get_mut(n) {
             *slot = x;

@@ -45,7 +45,7 @@ pub(crate) struct ObjText {
     pub(crate) corners_with_uv: usize,
     /// The number of colours that had to be clamped.
     pub(crate) colors_out_of_range: usize,
-    undrawn: [usize; 3],
+    undrawn: [usize; 4],
     known: HashSet<String>,
     greatest: [u32; 3],
     huge: Option<i64>,

@@ -20,6 +20,20 @@ impl SceneFile {
         })
     }
 
+    /// The names of materials that no object has.
+    pub(super) fn unused_materials(&self) -> impl Iterator<Item = &str> {
+        let is_used =
+            |name: &str| self.file.object.iter().any(|object| object.material.as_deref() == Some(name));
+        self.file.material.keys().map(String::as_str).filter(move |name| !is_used(name))
+    }
+
+    /// The warning of a texture's alpha that its material does nothing with.
+    pub(super) fn unused_alpha(&self, name: &str) -> Error {
+        let path = format!("material.{name}.color-map");
+        let found = "an image with alpha, which is left out";
+        self.source.error(&path, found, "blend = \"over\" or alpha-test = 0.5 in the material as well")
+    }
+
     /// Checks all materials, used or not, and finds the files that they name.
     ///
     /// # Errors

@@ -4,6 +4,7 @@ use super::SceneFile;
 use super::tables::{Object, SurfaceKind};
 use crate::error::{Error, Warnings, quote};
 use crate::load::images::Images;
+use crate::load::mtl::Alpha;
 use crate::load::{obj, prepare};
 use crate::options::values::{Tuple, name_of};
 use crate::options::{Material, Normals, Wrap};
@@ -84,6 +85,11 @@ impl SceneFile {
                     model.vertices.iter_mut().for_each(|v| v.uv = [v.uv[0] * su, v.uv[1] * sv]);
                 }
                 prepare::replace_materials(&mut model, material, &mut images)?;
+                let has_alpha =
+                    |part: &Part| part.texture.is_some_and(|map| images.alpha(map) != Alpha::Opaque);
+                if material.ignores_alpha() && model.parts.iter().any(has_alpha) {
+                    warnings.push(self.unused_alpha(object.material.as_deref().unwrap_or_default()));
+                }
                 let name = object.material.clone().unwrap_or_default();
                 model.notes.materials = vec![MaterialNote { name, maps: images.notes(material.maps()) }];
             }

@@ -1,42 +1,87 @@
 //! Directions from which a model is seen, as angles around it.
 
-use super::{cross, dot, normalize, parallel};
+use super::{cross, dot, length, narrow, normalize, sub};
 use crate::options::{CameraTable, ViewSide};
+use crate::scene::Camera;
 
 /// The azimuth and the elevation of a model that is seen from the front, a third to the right, and a little above.
 const USUAL: [f64; 2] = [30.963_756_532_073_52, 21.100_196_024_093_02];
 
+impl Camera {
+    /// The direction upwards in the picture.
+    #[must_use]
+    pub fn picture_up(&self) -> [f32; 3] {
+        if self.roll == 0.0 && !is_straight(self.up.map(f64::from), self.view()) {
+            return self.up;
+        }
+        upwards(self.up.map(f64::from), self.view(), self.roll).map(narrow)
+    }
+
+    /// The same camera, upright; one that looks straight up or down stays as it is.
+    pub(crate) fn upright(self) -> Self {
+        let straight = is_straight(self.up.map(f64::from), self.view());
+        Self { roll: if straight { self.roll } else { 0.0 }, ..self }
+    }
+
+    fn view(&self) -> [f64; 3] {
+        sub(self.target.map(f64::from), self.eye.map(f64::from))
+    }
+}
+
+/// The azimuth and the elevation that are wished for.
+fn angles(wishes: &CameraTable) -> [f64; 2] {
+    let [azimuth, elevation] = wishes.view.map_or(USUAL, side);
+    let given = |angle: Option<f32>, other: f64| angle.map_or(other, f64::from);
+    [given(wishes.azimuth.map(f32::from), azimuth), given(wishes.elevation.map(f32::from), elevation)]
+}
+
+/// The horizontal unit vector from a model's front towards one who looks at it.
+fn front(up: [f64; 3]) -> [f64; 3] {
+    normalize(cross([1.0, 0.0, 0.0], up)).unwrap_or([0.0, 0.0, 1.0])
+}
+
 /// The unit vector towards the viewer. The front is +z when y is up, and -y when z is up, as modelling programs have
 /// it.
 pub(super) fn away(wishes: &CameraTable, up: [f64; 3]) -> [f64; 3] {
-    let [azimuth, elevation] = wishes.view.map_or(USUAL, side);
-    let given = |angle: Option<f32>, other: f64| angle.map_or(other, f64::from);
-    let azimuth = given(wishes.azimuth.map(f32::from), azimuth);
-    let elevation = given(wishes.elevation.map(f32::from), elevation);
+    let [azimuth, elevation] = angles(wishes);
     let up = normalize(up).unwrap_or([0.0, 1.0, 0.0]);
-    let front = normalize(cross([1.0, 0.0, 0.0], up)).unwrap_or([0.0, 0.0, 1.0]);
+    let front = front(up);
     let right = cross(up, front);
     let ([sin, cos], [above, along]) = (sin_cos(azimuth), sin_cos(elevation));
     let away = [0, 1, 2].map(|k| along * (cos * front[k] + sin * right[k]) + above * up[k]);
     normalize(away).unwrap_or(front)
 }
 
-/// The direction upwards in the picture of a model whose own is `up`. Seen from above or below, it is that of the
-/// azimuth.
-pub(super) fn upwards(wishes: &CameraTable, up: [f64; 3], away: [f64; 3]) -> [f64; 3] {
-    if normalize(up).is_none() || !parallel(up, away) {
-        return up;
+/// Whether two directions are so close that their cross product says nothing in f32, or one of them is 0: a view
+/// straight up or down.
+pub(super) fn is_straight(up: [f64; 3], view: [f64; 3]) -> bool {
+    match (normalize(up), normalize(view)) {
+        (Some(up), Some(view)) => length(cross(up, view)) < 2e-5,
+        _ => true,
     }
-    let level = CameraTable { elevation: Some(0.0.into()), view: None, ..*wishes };
-    let azimuth = wishes.azimuth.map_or(0.0, f32::from);
-    let front = self::away(&CameraTable { azimuth: Some(azimuth.into()), ..level }, up);
-    let sign = if dot(up, away) > 0.0 { -1.0 } else { 1.0 };
-    // Without zeros that are below 0.
-    front.map(|x| sign * x + 0.0)
 }
 
-/// A camera's direction upwards after a turn to the right about its view.
-pub(super) fn rolled(up: [f64; 3], view: [f64; 3], degrees: f64) -> [f64; 3] {
+/// The roll of a camera that looks straight up or down, and has come there from the azimuth that is wished for.
+pub(super) fn turn(wishes: &CameraTable, up: [f64; 3], view: [f64; 3]) -> f64 {
+    let [azimuth, _] = angles(wishes);
+    // Without zeros that are below 0.
+    (if dot(up, view) < 0.0 { -azimuth } else { azimuth }) + 0.0
+}
+
+/// The direction upwards in the picture of a camera that leans to the right by `roll` degrees. One that looks straight
+/// up or down has come from the front.
+pub(super) fn upwards(up: [f64; 3], view: [f64; 3], roll: f64) -> [f64; 3] {
+    let upright = if is_straight(up, view) {
+        let sign = if dot(up, view) < 0.0 { -1.0 } else { 1.0 };
+        front(up).map(|x| sign * x + 0.0)
+    } else {
+        up
+    };
+    if roll == 0.0 { upright } else { rolled(upright, view, roll) }
+}
+
+/// A direction after a turn to the right about the view.
+fn rolled(up: [f64; 3], view: [f64; 3], degrees: f64) -> [f64; 3] {
     let (Some(forward), Some(right)) = (normalize(view), normalize(cross(view, up))) else { return up };
     let upright = cross(right, forward);
     let [sin, cos] = sin_cos(degrees);
@@ -105,7 +150,8 @@ mod tests {
                 elevation: Some(elevation.into()),
                 ..CameraTable::default()
             };
-            upwards(&wishes, Y, away(&wishes, Y))
+            let view = away(&wishes, Y).map(|x| -x);
+            upwards(Y, view, if is_straight(Y, view) { turn(&wishes, Y, view) } else { 0.0 })
         };
         close(from(0.0, 90.0), [0.0, 0.0, -1.0]);
         close(from(90.0, 90.0), [-1.0, 0.0, 0.0]);

@@ -71,6 +71,7 @@ pub(super) fn hero() -> BuiltIn {
             eye: [0.0, eye_y, eye_z],
             target: [0.0, eye_y, 0.0],
             up: [0.0, 1.0, 0.0],
+            roll: 0.0,
             fov: 50.0,
             near: 1.0,
             far: 160.0,

@@ -130,7 +130,7 @@ fn about_64_percent_of_fill_passes_the_depth_test() {
 
 /// A point's excess over the six planes of the view volume at an aspect of 4:3: positive inside.
 fn inside_planes(camera: &Camera, p: Vec3) -> [f64; 6] {
-    let [eye, target, up] = [camera.eye, camera.target, camera.up].map(|v| v.map(f64::from));
+    let [eye, target, up] = [camera.eye, camera.target, camera.picture_up()].map(|v| v.map(f64::from));
     let forward = unit(sub(target, eye));
     let right = unit(cross(forward, up));
     let [x, y, z] = [right, cross(right, forward), forward].map(|axis| dot(axis, sub(p, eye)));

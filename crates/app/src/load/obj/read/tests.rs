@@ -108,6 +108,7 @@ fn coordinates_are_finite_numbers() {
             );
         }
     }
+    assert!(message("v 0 1e39 0").starts_with("m.obj:1: found \"1e39\", expected a number within ±3.4e38"));
     assert!(message("v 1e20 0 0").starts_with("m.obj:1: found a coordinate of 1e20, expected"));
     assert!(message("v 0 0 0 0").starts_with("m.obj:1: found a coordinate of NaN, expected"));
     assert!(run(format!("v {MAX_COORDINATE} 0 0\nf 1 1 1").as_bytes()).is_ok());
@@ -122,13 +123,24 @@ fn numbers_are_counted() {
         ("v 1 2 3 4 5 6 7", "`v` with 7 numbers"),
         ("vt", "`vt` with 0 numbers"),
         ("vn 0 1", "`vn` with 2 numbers"),
-        ("f 1 2", "a face with 2 corners"),
-        ("f 1", "a face with 1 corner,"),
-        ("f", "a face with 0 corners"),
     ] {
         let message = message(&format!("{TRIANGLE}{line}\n"));
         assert!(message.starts_with(&format!("m.obj:4: found {found}")), "{message}");
     }
+}
+
+/// Faces of one or two corners are counted, and nothing of them is kept.
+#[test]
+fn faces_of_fewer_corners_are_left_out() {
+    let text = format!("{TRIANGLE}vt 0 0\nf 1/1 2/1 3/1\nf 1/1 -1/-1\nf -2\nf\nf -1 -2 -3\n");
+    let read = run(text.as_bytes()).unwrap();
+    assert_eq!(read.undrawn().as_deref(), Some("3 faces with fewer than 3 corners"));
+    assert_eq!(read.corners_with_uv, 3);
+    let corners: Vec<_> =
+        read.faces.iter().flat_map(|faces| &faces.corners).map(|corner| corner[0]).collect();
+    assert!(corners.ends_with(&[1, 2, 3, 3, 2, 1]), "{corners:?}");
+    let faces = read.faces.iter().flat_map(|faces| &faces.faces);
+    assert!(faces.map(|face| face.corners).eq([3; 2]));
 }
 
 #[test]
