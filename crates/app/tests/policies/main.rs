@@ -1,5 +1,7 @@
 //! Policies named at run time draw what the library draws with the types of those names, bit for bit.
 
+mod materials;
+
 use alberti::glam::{Vec2, Vec3};
 use alberti::lanes::One;
 use alberti::shaders::{Mix, Slide, Sunlit, Unlit};
