@@ -55,6 +55,15 @@ pub const DIFFUSE: f32 = 0.7;
 /// Triangles drawn between two reports of progress.
 const CHUNK: usize = 1 << 20;
 
+/// The bytes that the vertices and triangles of a model take while they are drawn: copies for both sides, vertices on
+/// the screen, lists. Of a large part these are as many as its share.
+pub(crate) fn bytes_of(model: &Model) -> u64 {
+    let counts = model.parts.iter().map(|part| part.triangles.len());
+    let most = counts.clone().max().unwrap_or(0).min(CHUNK) as u64;
+    let vertices = model.vertices.len() as u64 * most / counts.sum::<usize>().max(1) as u64;
+    4 * size_of::<Vertex>() as u64 * vertices.min(3 * most) + 48 * most
+}
+
 /// A target whose depth format is chosen at run time.
 pub(crate) type Canvas<'a> = Target<'a, Rgba8888, AnyDepth>;
 

@@ -12,6 +12,7 @@ pub mod explain;
 pub mod info;
 pub mod load;
 pub mod measure;
+pub mod memory;
 pub mod options;
 pub mod output;
 pub mod probe;
@@ -19,6 +20,7 @@ pub mod render;
 pub mod samples;
 pub mod scene;
 pub mod show;
+mod threads;
 
 pub use load::{image_file, obj};
 pub use scene::{camera, scenes, slide};

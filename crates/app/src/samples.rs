@@ -1,7 +1,6 @@
 //! Anti-aliased pictures: an ordered grid of samples a pixel, whose light is averaged, in bands of few samples.
 
 use std::num::NonZero;
-use std::thread;
 
 use alberti::raster::color::{Average, resolve};
 use alberti::{AnyDepth, DepthFormat as _, Rgba8888, Stats, Target};
@@ -13,6 +12,7 @@ use crate::options::{RenderOptions, Samples};
 use crate::render::{Picture, any_depth, buffer, room};
 use crate::scene::backdrop::Backdrop;
 use crate::scene::{Camera, Image, Model};
+use crate::threads::{Task, by_threads};
 
 mod straight;
 
@@ -66,6 +66,13 @@ fn added(all: Stats, Stats { missed, drawn, fragments, written, .. }: Stats) -> 
         written: all.written + written,
         ..all
     }
+}
+
+/// The bytes that a picture of so many samples a pixel takes while it is drawn, at most.
+pub(crate) fn bytes([width, height]: [u32; 2], samples: Samples, transparent: bool) -> u64 {
+    let row = u64::from(width) * u64::from(samples.side() * samples.side());
+    let band = (row * u64::from(height)).min(row.max(BAND as u64));
+    4 * u64::from(width) * u64::from(height) + band * if transparent { 12 } else { 8 }
 }
 
 /// The samples of some rows.
@@ -151,18 +158,17 @@ impl<'a> Band<'a> {
         let row = self.options.width as usize;
         let samples = row * (self.side * self.side) as usize;
         let rows = (texels.len() / row).div_ceil(self.options.threads.min(MOST).get());
-        thread::scope(|scope| {
-            for (texels, k) in texels.chunks_mut(row * rows).zip(0..) {
-                scope.spawn(move || {
-                    for (texels, r) in texels.chunks_mut(row).zip(k * rows..) {
-                        let of = r * samples..(r + 1) * samples;
-                        let place = first_row + u32::try_from(r).unwrap_or_default();
-                        let white = self.white.get(of.clone());
-                        self.resolve_row(place, self.color.get(of).unwrap_or_default(), white, texels);
-                    }
-                });
-            }
+        let work = texels.chunks_mut(row * rows).zip(0..).map(|(texels, k)| -> Task<'_> {
+            Box::new(move || {
+                for (texels, r) in texels.chunks_mut(row).zip(k * rows..) {
+                    let of = r * samples..(r + 1) * samples;
+                    let place = first_row + u32::try_from(r).unwrap_or_default();
+                    let white = self.white.get(of.clone());
+                    self.resolve_row(place, self.color.get(of).unwrap_or_default(), white, texels);
+                }
+            })
         });
+        by_threads(work.collect(), MOST.get());
     }
 
     fn resolve_row(&self, place: u32, color: &[u32], white: Option<&[u32]>, texels: &mut [[u8; 4]]) {

@@ -139,6 +139,12 @@ pub struct MapNote {
 }
 
 impl Model {
+    /// Bytes of its vertices and triangles.
+    pub(crate) fn bytes(&self) -> u64 {
+        let triangles: usize = self.parts.iter().map(|part| size_of_val(&part.triangles[..])).sum();
+        (size_of_val(&self.vertices[..]) + triangles) as u64
+    }
+
     /// The longest side of the textures, or, without any, the steps of a colour.
     #[must_use]
     pub fn largest_side(&self) -> u16 {

@@ -13,7 +13,7 @@ use crate::bake::{Asked, Format, Report, Wish, bake, bytes, left_out, missing, s
 use crate::error::Error;
 use crate::options::values::Size;
 use crate::options::{LightOptions, MAX_SIDE, Profile};
-use crate::output::file::{STANDARD, Whole};
+use crate::output::file::{STANDARD, Whole, make_folder};
 use crate::output::stats::Source;
 
 pub(super) const HELP: &str = "\
@@ -143,7 +143,7 @@ fn baked(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
     if folder.exists() && !folder.is_dir() {
         return Err(Error::new("a file", "a folder").file(folder).hint("choose another with --out"));
     }
-    fs::create_dir_all(folder).map_err(|error| {
+    make_folder(folder).map_err(|error| {
         Error::new(format!("a folder that cannot be made ({error})"), "one that can be written").file(folder)
     })?;
     let name = name(request);

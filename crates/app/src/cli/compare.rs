@@ -11,6 +11,7 @@ use super::run::print;
 use crate::error::Error;
 use crate::image_file::{self, MAX_TEXELS};
 use crate::measure::{Comparison, MaxError, Measures, OUTLIER};
+use crate::memory;
 use crate::output::file::Output;
 
 /// The exit status for pictures that differ by more than `--max-error`.
@@ -104,6 +105,7 @@ pub(super) fn run(matches: &ArgMatches) -> Result<u8, Error> {
         return Err(error.hint("two pictures do not tell texels: `alberti advise` knows them from the scene"));
     }
     let output = output(&arguments)?;
+    memory::begin(None);
     let first = image_file::load(&arguments.first, MAX_TEXELS)?;
     let second = image_file::load(&arguments.second, MAX_TEXELS)?;
     if (first.width, first.height) != (second.width, second.height) {

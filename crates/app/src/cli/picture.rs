@@ -1,17 +1,54 @@
 //! Pictures beyond their scenes: a ground, and warnings.
 
 use super::partners;
-use super::staged::{Request, Staged, told, warn};
-use crate::error::Error;
+use super::staged::{Request, Staged, samples, told, warn};
+use crate::error::{Error, counted};
+use crate::memory;
 use crate::options::values::{Size, name_of};
 use crate::options::{
-    CameraTable, ColorFormat, Cull, DEFAULT_SIZE, Dither, Interpolation, Projection, Samples, Shading,
+    Background, CameraTable, ColorFormat, Cull, DEFAULT_SIZE, Dither, Interpolation, Projection, Samples,
+    Shading,
 };
+use crate::samples::bytes;
 use crate::scene::normals::sub;
 use crate::scene::{ground, order};
 use alberti::Stats;
 
+/// Bytes a pixel to encode: the colours, and twice as many where nothing is packed and the list has grown by halves.
+const ENCODED: u64 = 9;
+/// The same of numbers beside the picture: those of all pixels with a target; and each kind, in three copies at most.
+const NUMBERS: u64 = 48;
+const NUMBERS_EACH: u64 = 24;
+/// The same of a picture of numbers in false colours.
+const SHOWN: u64 = 48;
+
 impl Request {
+    /// Asks for the memory of the picture, before anything is read.
+    ///
+    /// # Errors
+    /// There is less.
+    pub(super) fn hold_picture(&self) -> Result<(), Error> {
+        let render = &self.arguments.render;
+        let Size(width, height) = render.size.unwrap_or(DEFAULT_SIZE);
+        let samples = samples(&self.arguments, [width, height])?;
+        let kinds = render.aov.as_ref().map_or(0, |aovs| aovs.iter().count() as u64);
+        let numbers = if kinds > 0 { NUMBERS + NUMBERS_EACH * (kinds + 1) } else { 0 };
+        let pixels = u64::from(width) * u64::from(height);
+        let (drawn, what) = match self.arguments.show {
+            Some(_) => (SHOWN * pixels, format!("a picture of {width}x{height}")),
+            None => {
+                let transparent = render.background == Some(Background::Transparent);
+                let count = (samples.side() * samples.side()) as usize;
+                let what = format!(
+                    "a picture of {width}x{height} with {} a pixel",
+                    counted(count, "sample", "samples")
+                );
+                (bytes([width, height], samples, transparent), what)
+            }
+        };
+        memory::hold(drawn + (ENCODED + numbers) * pixels, what).map_err(|error| error.place("--size"))
+    }
+
     /// [`stage`](Self::stage) for a picture: warns of colours that are not seen, and has glass in glass in order.
     ///
     /// # Errors

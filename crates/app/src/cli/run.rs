@@ -12,7 +12,9 @@ use clap::{Arg, ArgMatches, Command, CommandFactory as _};
 use super::staged::{OF_PICTURES, Request, Staged, forget, hidden, warn};
 use super::{Cli, StatsFormat, advise, bake, compare, explain, help, info, watch, words};
 use crate::aov::layers;
+use crate::draw::bytes_of;
 use crate::error::{Error, quote};
+use crate::memory;
 use crate::options::{RenderOptions, Samples};
 use crate::output::clock::{Work, spent};
 use crate::output::progress::{Progress, is_silent, silence, waiting};
@@ -179,6 +181,7 @@ fn draw_from(request: &Request) -> Result<(), Error> {
     let before = [Work::Maps, Work::MipMaps].map(spent);
     let output = request.output()?;
     let beside = request.beside(&output)?;
+    request.hold_picture()?;
     let mut staged = request.stage_picture()?;
     // Numbers are those of the model, without a ground.
     let seen = staged.camera;
@@ -187,6 +190,7 @@ fn draw_from(request: &Request) -> Result<(), Error> {
     let triangles = staged.model.parts.iter().map(|part| part.triangles.len()).sum();
     request.add_ground(&mut staged);
     let Staged { model, camera, options, samples, backdrop, load } = staged;
+    memory::need(bytes_of(&model), "the drawing of a model").map_err(|error| error.place("--memory"))?;
     let start = Instant::now();
     let mut progress = Progress::new("drawing");
     let hear = &mut |done, total| progress.set(done, total);

@@ -15,6 +15,7 @@ use crate::error::{Error, Warnings, number, quote};
 use crate::load::images::Images;
 use crate::load::scene_file::{self, SceneFile};
 use crate::load::{obj, prepare};
+use crate::memory;
 use crate::options::values::{Color, MAX_THREADS, Size, Threads, name_of as name_of_value};
 use crate::options::{
     Background, CameraTable, ColorFormat, Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE,
@@ -95,6 +96,7 @@ impl Request {
         }
         // A texture is shown as it is, whatever the materials' colours.
         arguments.material.whiten();
+        memory::begin(arguments.render.memory);
         Ok(Self { arguments, file: scene_file, orbit })
     }
 
@@ -285,7 +287,7 @@ impl Request {
         if let Some(warning) = partners::unused_light(arguments, &scene.model) {
             warn(&warning.to_string());
         }
-        let samples = samples(arguments, &options)?;
+        let samples = samples(arguments, [width, height])?;
         let backdrop = Backdrop::new(arguments.render.background.as_ref(), &options)?;
         Ok(Staged { model: scene.model, camera, options, samples, backdrop, load })
     }
@@ -312,8 +314,7 @@ fn threads(arguments: &RenderArgs) -> NonZero<usize> {
 }
 
 /// Samples a pixel: several unless the picture is as a small display has it.
-fn samples(arguments: &RenderArgs, options: &RenderOptions) -> Result<Samples, Error> {
-    let (width, height) = (options.width, options.height);
+pub(super) fn samples(arguments: &RenderArgs, [width, height]: [u32; 2]) -> Result<Samples, Error> {
     match arguments.render.samples {
         Some(samples) => samples.check(width, height).map(|()| samples),
         None if is_small(arguments) => Ok(Samples::One),

@@ -2,10 +2,12 @@
 //! the samples that are worked on together; the colours are those of the library's samplers.
 
 use crate::error::Error;
+use crate::memory;
 use crate::options::{Filter, RenderOptions, Wrap};
 use crate::output::clock::{Work, timed};
 use crate::output::progress::waiting;
 use crate::scene::{EnvironmentKind, HeightImage, Image, Map, Model, Part};
+use crate::threads::{Task, by_threads};
 use alberti::glam::Vec2;
 use alberti::shaders::material::{Called, Times};
 use alberti::texture::format::{Content, L16, Normals, Rgba8888, Scalars};
@@ -16,7 +18,6 @@ use alberti::texture::{
     Texture, TextureError, mipmap,
 };
 use std::collections::{BTreeMap, HashMap};
-use std::sync::{Mutex, PoisonError};
 
 /// The mip maps that a model's surfaces are drawn with.
 #[derive(Debug, Default)]
@@ -40,6 +41,8 @@ impl Chains {
         }
         timed(Work::MipMaps, || {
             waiting("making mip maps", || {
+                let counts = wanted.values().map(|(image, _)| mipmap::texel_count(image.width, image.height));
+                memory::need(4 * counts.sum::<usize>() as u64, "a set of mip maps")?;
                 let mut chains = HashMap::new();
                 for (&(index, _), &(image, content)) in &wanted {
                     let count = mipmap::texel_count(image.width, image.height);
@@ -61,26 +64,6 @@ impl Chains {
             })
         })
     }
-}
-
-/// Work for a thread.
-type Task<'a> = Box<dyn FnOnce() + Send + 'a>;
-
-/// Does all of the work by so many threads, each of which takes what comes next.
-fn by_threads(work: Vec<Task<'_>>, threads: usize) {
-    let threads = threads.min(work.len());
-    let work = Mutex::new(work.into_iter());
-    // None is held while a task runs, so none is poisoned.
-    let next = || work.lock().unwrap_or_else(PoisonError::into_inner).next();
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                while let Some(task) = next() {
-                    task();
-                }
-            });
-        }
-    });
 }
 
 /// The work of copying an image, which is the largest level. Most of it is the memory's first use.

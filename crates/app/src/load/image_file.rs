@@ -7,6 +7,7 @@ use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, Imag
 
 use crate::error::Error;
 use crate::load::input;
+use crate::memory;
 use crate::scene::{HeightImage, Image};
 
 /// The longest side of a texture.
@@ -17,6 +18,9 @@ pub const MAX_TEXELS: u64 = 1 << 27;
 
 /// The largest image file that is read, in bytes.
 pub const MAX_FILE_BYTES: u64 = 1 << 30;
+
+/// The most bytes of a texel that is kept.
+const KEPT: u64 = 4;
 
 const KIND: &str = "a PNG, JPEG, BMP, TGA, WebP, QOI or PPM image";
 
@@ -80,6 +84,10 @@ fn decode(path: &Path, budget: u64) -> Result<DynamicImage, Error> {
     if width == 0 || height == 0 || width > MAX_SIDE || height > MAX_SIDE || texels > budget {
         return Err(too_large(format!("an image of {width}x{height}"), budget).file(path));
     }
+    let what = format!("an image of {width}x{height}");
+    // As it is decoded, as bytes, and as it is kept.
+    let bytes = decoder.total_bytes().saturating_add(2 * KEPT * texels);
+    memory::need(bytes, &what).and_then(|()| memory::hold(KEPT * texels, what)).map_err(|e| e.file(path))?;
     let orientation = decoder.orientation().map_err(broken)?;
     let mut picture = DynamicImage::from_decoder(decoder).map_err(broken)?;
     picture.apply_orientation(orientation);

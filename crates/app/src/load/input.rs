@@ -11,6 +11,7 @@ use flate2::bufread::MultiGzDecoder;
 
 use crate::error::Error;
 use crate::load::seen;
+use crate::memory;
 
 /// The largest OBJ file that is read, in bytes, decompressed. Its model has to fit in memory: about as many bytes, or
 /// six times as many where numbers are as short as can be.
@@ -31,6 +32,7 @@ pub fn read(path: &Path, kind: &'static str, limit: u64) -> Result<Vec<u8>, Erro
     if length > limit {
         return Err(too_long(path, kind, length, limit, ""));
     }
+    memory::need(length, kind).map_err(|error| error.file(path))?;
     let mut bytes = Vec::new();
     // The file may grow between the two looks at it.
     let read = file.take(limit + 1).read_to_end(&mut bytes).map_err(|e| unreadable(path, kind, &e))?;

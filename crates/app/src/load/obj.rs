@@ -10,6 +10,7 @@ use std::path::Path;
 use crate::error::{Error, Warnings};
 use crate::load::input::{self, Stream};
 use crate::load::libraries::{self, Libraries};
+use crate::memory;
 use crate::options::{DEFAULT_CREASE, Normals};
 use crate::scene::Model;
 use crate::scene::{camera, normals};
@@ -67,8 +68,10 @@ pub fn load(
     let has_uv = text.corners_with_uv > 0;
     let corners: usize = text.faces.iter().map(|faces| faces.corners.len()).sum();
     let some_uv = has_uv && text.corners_with_uv < corners;
+    memory::need(text.bytes() + text.bytes_of_model(), "a model").map_err(|error| error.file(path))?;
     let Built { mut model, materials, groups, crossing, has_area } =
         build(text, libraries.names(), normals).map_err(|error| error.file(path))?;
+    memory::hold(model.bytes(), "a model").map_err(|error| error.file(path))?;
     if crossing.0 > 0 {
         let (count, line) = crossing;
         let (found, hint) = match count {
@@ -97,7 +100,7 @@ pub fn load(
     libraries.give_images(&mut model);
     model.notes.normals = model.vertices.iter().filter(|vertex| vertex.normal != [0.0; 3]).count();
     let crease = if let Some(Normals::Crease(degrees)) = normals { degrees } else { DEFAULT_CREASE };
-    normals::complete(&mut model, &groups, crease);
+    normals::complete(&mut model, &groups, crease).map_err(|error| error.file(path))?;
     Ok(Loaded { model, warnings, has_uv })
 }
 

@@ -47,10 +47,12 @@ pub(crate) fn existing(folder: &Path, name: &str) -> Option<Found> {
     let found = relative.then(|| without_case(folder, &slashed)).flatten();
     let found = found.or_else(|| Some(folder.join(base)).filter(|path| path.exists()));
     let path = found.or_else(|| without_case(folder, base))?;
-    Some(Found { path, renamed: true })
+    // Bytes that are no text have been replaced in the name, and that is no other name.
+    let renamed = path.to_string_lossy() != folder.join(slashed).to_string_lossy();
+    Some(Found { path, renamed })
 }
 
-/// The file whose name is this but for capitals, folder by folder.
+/// The file whose name is this but for capitals, and for bytes that are no text, folder by folder.
 fn without_case(folder: &Path, name: &str) -> Option<PathBuf> {
     let mut path = folder.to_owned();
     for part in name.split('/').filter(|part| !part.is_empty() && *part != ".") {
@@ -63,8 +65,8 @@ fn without_case(folder: &Path, name: &str) -> Option<PathBuf> {
         let lower = part.to_lowercase();
         let mut names: Vec<_> = fs::read_dir(here)
             .ok()?
-            .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
-            .filter(|name| name.to_lowercase() == lower)
+            .filter_map(|entry| Some(entry.ok()?.file_name()))
+            .filter(|name| name.to_string_lossy().to_lowercase() == lower)
             .collect();
         // The order in a folder is none.
         names.sort();

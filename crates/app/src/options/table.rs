@@ -16,6 +16,7 @@ use super::{
     Subpixel, ViewSide, Wrap,
 };
 use crate::error::Error;
+use crate::memory::Memory;
 
 /// `[camera]`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Args, Deserialize)]
@@ -216,6 +217,12 @@ pub struct RenderTable {
     /// Width and height of the image in pixels, each up to 16384 [default: 640x480].
     #[arg(short, long, value_name = "WxH", allow_hyphen_values = true)]
     pub size: Option<Size>,
+
+    /// Memory that all may take at a time, in bytes or with K, M or G: more is an error [default: what is free].
+    ///
+    /// It is estimated before it is taken: of the picture with its samples, of models, of images and their mip maps.
+    #[arg(long, value_name = "BYTES", allow_hyphen_values = true)]
+    pub memory: Option<Memory>,
 
     /// Background: a colour (RRGGBB, RGB or a name), transparent, a gradient TOP..BOTTOM, or an image file
     /// [default: 20242c for a model, with --ground a8b0b8].

@@ -37,6 +37,18 @@ fn temporary_files() -> MutexGuard<'static, Vec<PathBuf>> {
     TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// Makes a folder, and those that it is in. Those that are new go after a signal, as long as they are empty.
+///
+/// # Errors
+/// Those of [`fs::create_dir_all`].
+pub(crate) fn make_folder(folder: &Path) -> io::Result<()> {
+    let is_missing = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.exists();
+    let missing: Vec<_> = folder.ancestors().take_while(is_missing).map(Path::to_owned).collect();
+    let mut files = temporary_files();
+    files.extend(missing.into_iter().rev());
+    fs::create_dir_all(folder)
+}
+
 /// From now on SIGINT and SIGTERM, unless they are ignored, end the process as always, but remove temporary files
 /// before. Files that belong together are either all replaced by then, or none. Other systems than Unix have no such
 /// signals.
@@ -47,14 +59,19 @@ pub fn clean_up_on_signals() {
         use signal_hook::iterator::Signals;
         use signal_hook::low_level::emulate_default_handler;
 
+        // A file that grows beyond what is allowed is an error of writing then, and no end.
+        _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default());
         // Without it, signals are what they were.
         let heeded = [SIGINT, SIGTERM].into_iter().filter(|&signal| !is_ignored(signal));
         let Ok(mut signals) = Signals::new(heeded) else { return };
         std::thread::spawn(move || {
             for signal in signals.forever() {
                 let files = temporary_files();
-                // Most of them are gone already.
-                files.iter().for_each(|file| _ = fs::remove_file(file));
+                // Most of them are gone already. The last comes first, before the folder that it is in.
+                files
+                    .iter()
+                    .rev()
+                    .for_each(|file| _ = fs::remove_file(file).or_else(|_| fs::remove_dir(file)));
                 let _ = emulate_default_handler(signal);
             }
         });

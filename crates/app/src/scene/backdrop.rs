@@ -5,6 +5,7 @@ use image::{ImageBuffer, Rgba};
 
 use crate::error::Error;
 use crate::load::image_file;
+use crate::memory;
 use crate::options::values::Color;
 use crate::options::{Background, RenderOptions};
 use alberti::raster::color::{BlueNoise, Pattern as _};
@@ -33,6 +34,10 @@ impl Backdrop {
             Some(Background::Gradient(ends)) => Self::Gradient(ends.map(Color::bytes)),
             Some(Background::Image(path)) => {
                 let image = image_file::load(path, image_file::MAX_TEXELS)?;
+                // A middle step has as many columns as the image, and as many rows as the picture, of four floats.
+                let [width, height] = [options.width, options.height].map(u64::from);
+                let bytes = height * (16 * u64::from(image.width) + 8 * width);
+                memory::need(bytes, "a background").map_err(|error| error.place("--size"))?;
                 Self::Image(covering(image, options.width, options.height))
             }
             _ => Self::Color(options.background),

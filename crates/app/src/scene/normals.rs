@@ -2,7 +2,9 @@
 
 use std::collections::HashMap;
 
-use crate::scene::Model;
+use crate::error::Error;
+use crate::memory;
+use crate::scene::{Model, Vertex};
 
 /// The company in which a triangle's corners are smooth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,7 +50,10 @@ const NEIGHBOURS: usize = 8;
 /// # Cost
 /// Linear in vertices and triangles, but for sorting the edges at each vertex. While it runs, it takes some 60 bytes a
 /// triangle and 40 a vertex. Where no normal is missing it takes nothing.
-pub fn complete(model: &mut Model, groups: &[Group], crease: f32) {
+///
+/// # Errors
+/// There is no memory for that.
+pub fn complete(model: &mut Model, groups: &[Group], crease: f32) -> Result<(), Error> {
     let mut missing = false;
     for vertex in &mut model.vertices {
         let unit = normalize(vertex.normal.map(f64::from)).unwrap_or([0.0; 3]);
@@ -56,9 +61,16 @@ pub fn complete(model: &mut Model, groups: &[Group], crease: f32) {
         missing |= unit == [0.0; 3];
     }
     if !missing {
-        return;
+        return Ok(());
     }
+    let (before, triangles) = (model.vertices.len(), all(model).count());
+    let what = "a model without normals";
+    memory::need((40 * before + 60 * triangles) as u64, what)?;
     let (sets, count) = sets(model, groups, crease);
+    // Vertices that become several are a list that grows by halves, and a table.
+    let new = count.saturating_sub(before);
+    let grown = if new > 0 { 2 * (size_of::<Vertex>() + 4) * (before + new) + 48 * new } else { 4 * before };
+    memory::need((24 * count + 12 * triangles + grown) as u64, what)?;
     let mut sums = vec![[0.0; 3]; count];
     for (triangle, sets) in all(model).zip(sets.chunks_exact(3)) {
         let points = triangle.map(|i| model.vertices[i as usize].position.map(f64::from));
@@ -75,6 +87,7 @@ pub fn complete(model: &mut Model, groups: &[Group], crease: f32) {
         }
     }
     give(model, groups, &sets, &sums);
+    Ok(())
 }
 
 /// All triangles, in the parts' order.
@@ -91,7 +104,7 @@ fn normal_of(model: &Model, triangle: [u32; 3]) -> Option<[f64; 3]> {
 /// For each corner the number of the set whose normal it gets, and how many sets there are.
 fn sets(model: &Model, groups: &[Group], crease: f32) -> (Vec<u32>, usize) {
     let mut places = HashMap::with_capacity(model.vertices.len());
-    let place_of = |vertex: &crate::scene::Vertex| {
+    let place_of = |vertex: &Vertex| {
         // Adding 0 makes -0 and 0 the same position.
         let next = u32::try_from(places.len()).unwrap_or(u32::MAX);
         *places.entry(vertex.position.map(|x| (x + 0.0).to_bits())).or_insert(next)

@@ -17,6 +17,7 @@ mod policies;
 mod projection;
 mod scenes;
 mod show;
+mod stress;
 mod success;
 mod usage;
 mod watch;

@@ -43,7 +43,7 @@ fn wait_for(name: &str, mut is: impl FnMut() -> bool) {
 }
 
 /// Whether these tests run in the background of a script, whose processes ignore SIGINT.
-fn ignores_sigint() -> bool {
+pub(crate) fn ignores_sigint() -> bool {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
     ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).is_some_and(|mask| mask & 2 != 0)

@@ -4,16 +4,25 @@
 
 use std::collections::HashSet;
 use std::path::Path;
-use std::thread;
+use std::thread::available_parallelism;
 
 use super::KIND;
 use super::block::{Block, Event, Faces, Fault, UNDRAWN, WHITE};
 use crate::error::{Error, counted};
 use crate::load::input::Stream;
 use crate::load::statements::not_text;
+use crate::memory;
+use crate::scene::Vertex;
+use crate::threads::{Task, by_threads};
 
 /// Bytes that a thread reads at a time.
 const BLOCK: usize = 1 << 22;
+
+/// Bytes that are read at a time where memory is short.
+const SMALL: usize = 1 << 16;
+
+/// The most bytes that one of text becomes: a short line is three indices or numbers, in lists that grow by halves.
+const PARSED: u64 = 12;
 
 /// The most threads that read.
 const MAX_THREADS: usize = 16;
@@ -66,18 +75,22 @@ impl ObjText {
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<Self, Error> {
         let mut text = Self::default();
-        let threads = thread::available_parallelism().map_or(1, usize::from).min(MAX_THREADS);
+        let threads = available_parallelism().map_or(1, usize::from).min(MAX_THREADS);
         let (mut bytes, mut offset, mut ended) = (Vec::new(), 0, false);
         while !ended {
             let start = bytes.len();
             // The rest is of one line, which may be a long one.
-            let wanted = (2 * start).max(threads * BLOCK);
+            let block = usize::try_from(memory::left() / (4 * PARSED)).unwrap_or(usize::MAX);
+            let wanted = (2 * start).max((threads * BLOCK).min(block).max(SMALL));
             ended = stream.fill(&mut bytes, wanted)?;
             if let Some(found) = not_text(&bytes[start..], offset) {
                 return Err(Error::new(found, KIND).file(path).hint("export the model as OBJ text"));
             }
             offset += (bytes.len() - start) as u64;
             let end = if ended { bytes.len() } else { cut(&bytes) };
+            // Lists grow by halves that stay empty.
+            let read = 2 * text.bytes() + bytes.capacity() as u64 + PARSED * end as u64;
+            memory::need(read, "a model").map_err(|error| error.file(path))?;
             let blocks = split(&bytes[..end], threads);
             for block in read_all(&blocks) {
                 text.append(block).map_err(|error| error.file(path))?;
@@ -109,6 +122,29 @@ impl ObjText {
         let kinds = self.undrawn.into_iter().zip(UNDRAWN).filter(|(count, _)| *count > 0);
         let words: Vec<_> = kinds.map(|(count, [one, many])| counted(count, one, many)).collect();
         (!words.is_empty()).then(|| words.join(" and "))
+    }
+
+    /// Bytes of all that has been read.
+    pub(crate) fn bytes(&self) -> u64 {
+        let faces = self.faces.iter().map(|faces| {
+            size_of_val(&faces.corners[..]) + size_of_val(&faces.faces[..]) + 64 * faces.events.len()
+        });
+        let names = 64 * (self.libraries.len() + self.materials.len());
+        let numbers = size_of_val(&self.positions[..])
+            + size_of_val(&self.colors[..])
+            + size_of_val(&self.uvs[..])
+            + size_of_val(&self.normals[..]);
+        (numbers + names + faces.sum::<usize>()) as u64
+    }
+
+    /// Bytes of the model that it becomes, while that is made, if each position is one vertex.
+    pub(crate) fn bytes_of_model(&self) -> u64 {
+        let vertices = self.counts().into_iter().max().unwrap_or(0);
+        let corners: usize = self.faces.iter().map(|faces| faces.corners.len()).sum();
+        let faces: usize = self.faces.iter().map(|faces| faces.faces.len()).sum();
+        let triangles = corners.saturating_sub(2 * faces);
+        // With their keys and companies. Lists grow by halves that stay empty.
+        2 * (vertices * (size_of::<Vertex>() + 16) + triangles * 16) as u64
     }
 
     fn counts(&self) -> [usize; 3] {
@@ -221,23 +257,19 @@ fn out_of_range(shown: &str, which: usize, have: usize) -> Error {
 
 /// The blocks, each read by a thread of its own.
 fn read_all(blocks: &[&[u8]]) -> Vec<Block> {
-    let [one] = blocks else {
-        return thread::scope(|scope| {
-            let threads: Vec<_> =
-                blocks.iter().map(|&bytes| scope.spawn(move || Block::read(bytes))).collect();
-            let join = |thread: thread::ScopedJoinHandle<'_, Block>| {
-                thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-            };
-            threads.into_iter().map(join).collect()
-        });
-    };
-    vec![Block::read(one)]
+    let mut read: Vec<_> = blocks.iter().map(|_| Block::default()).collect();
+    let work = read
+        .iter_mut()
+        .zip(blocks)
+        .map(|(read, bytes)| -> Task<'_> { Box::new(move || *read = Block::read(bytes)) });
+    by_threads(work.collect(), blocks.len());
+    read
 }
 
 /// About equal blocks of whole lines, in order; none is empty.
 fn split(bytes: &[u8], parts: usize) -> Vec<&[u8]> {
     let (mut rest, mut blocks) = (bytes, Vec::new());
-    let size = (bytes.len() / parts).max(1 << 16);
+    let size = (bytes.len() / parts).max(SMALL);
     while rest.len() > size {
         let end = match cut(&rest[..size]) {
             0 => cut(rest),

@@ -1,5 +1,6 @@
 //! A scene file as text, and messages that name the line and the key of what is wrong in it.
 
+use std::collections::HashMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -9,6 +10,7 @@ use toml::de::{DeTable, DeValue};
 use super::tables::File;
 use crate::error::{Error, quote};
 use crate::load::input;
+use crate::load::statements::not_text;
 use crate::options::{Origin, shared};
 
 /// The name of a scene file in messages.
@@ -23,6 +25,8 @@ pub(super) struct Source {
     path: PathBuf,
     text: String,
     keys: Vec<Key>,
+    /// The first key of each path.
+    index: HashMap<String, usize>,
 }
 
 /// A key and its value.
@@ -50,6 +54,9 @@ impl Source {
     /// The file cannot be read, is no TOML, or has a key that there is none of, or a value of another kind.
     pub(super) fn read(path: &Path) -> Result<(Self, File), Error> {
         let bytes = input::read(path, KIND, MAX_BYTES)?;
+        if let Some(found) = not_text(&bytes, 0).filter(|_| !bytes.is_empty()) {
+            return Err(Error::new(found, KIND).file(path).hint("save it as UTF-8"));
+        }
         let text = String::from_utf8(bytes).map_err(|error| {
             let valid = error.utf8_error().valid_up_to();
             let line = 1 + error.as_bytes()[..valid].iter().filter(|&&byte| byte == b'\n').count();
@@ -61,7 +68,8 @@ impl Source {
         collect(table.get_ref(), "", &mut keys);
         let array = if faults.is_empty() { array_for_table(table.get_ref()) } else { None };
         drop(table);
-        let source = Self { path: path.to_owned(), text, keys };
+        let index = keys.iter().enumerate().rev().map(|(index, key)| (key.path.clone(), index)).collect();
+        let source = Self { path: path.to_owned(), text, keys, index };
         if let Some(path) = array {
             return Err(source.error(&path, "an array", format!("a table, [{path}]")));
         }
@@ -115,7 +123,7 @@ impl Source {
     }
 
     fn key(&self, path: &str) -> Option<&Key> {
-        self.keys.iter().find(|key| key.path == path)
+        self.index.get(path).and_then(|&index| self.keys.get(index))
     }
 
     fn line(&self, at: &Range<usize>) -> usize {

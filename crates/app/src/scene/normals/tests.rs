@@ -15,7 +15,7 @@ fn smooth(model: &mut Model) {
 
 fn by(model: &mut Model, group: Group, crease: f32) {
     let groups = vec![group; model.parts.iter().map(|part| part.triangles.len()).sum()];
-    complete(model, &groups, crease);
+    complete(model, &groups, crease).unwrap();
 }
 
 fn close(a: [f32; 3], b: [f32; 3]) -> bool {
@@ -117,7 +117,7 @@ fn flat_faces_have_their_own_normals() {
     // As polygons of two triangles each, they share corners within.
     let mut quads = prism(5);
     let groups: Vec<_> = (0..10).map(|i| Group::polygon(i / 2)).collect();
-    complete(&mut quads, &groups, 0.0);
+    complete(&mut quads, &groups, 0.0).unwrap();
     assert_eq!(quads.vertices.len(), 20);
     assert!(
         normals(&quads).iter().flatten().zip(normals(&model).iter().flatten()).all(|(a, b)| close(*a, *b))
@@ -128,7 +128,7 @@ fn flat_faces_have_their_own_normals() {
 fn groups_end_where_another_begins() {
     let mut model = prism(4);
     let groups: Vec<_> = [1, 1, 1, 1, 2, 2, 3, 3].map(Group::numbered).to_vec();
-    complete(&mut model, &groups, 0.0);
+    complete(&mut model, &groups, 0.0).unwrap();
     // The edge within group 1 is smooth, the other three are sharp.
     assert_eq!(model.vertices.len(), 2 + 3 * 4);
     assert!(close(normals(&model)[0][1], [0.0, 1.0, 0.0]));
