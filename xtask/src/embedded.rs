@@ -18,16 +18,17 @@ pub(crate) const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
 /// The library source that matches it (package `rust-web-src`).
 const DEBIAN_SOURCE: &str = "/usr/lib/rustlib/src/rust/library/core";
 
-/// A target, and the processor that code is made for where it is not the target's least.
+/// A target, and the processor and the feature that code is made for where these are not the target's least.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Target {
     pub(crate) triple: &'static str,
     pub(crate) processor: Option<&'static str>,
+    pub(crate) feature: Option<&'static str>,
 }
 
 impl Target {
     pub(crate) const fn of(triple: &'static str) -> Self {
-        Self { triple, processor: None }
+        Self { triple, processor: None, feature: None }
     }
 }
 
@@ -67,8 +68,10 @@ impl Toolchain {
     pub(crate) fn cargo_in(&self, directory: &Path, subcommand: &str, target: Target) -> Command {
         let mut command = cargo();
         command.args([subcommand, "--target", target.triple]);
-        if let Some(processor) = target.processor {
-            command.env("RUSTFLAGS", format!("-C target-cpu={processor}"));
+        let processor = target.processor.map(|processor| format!("-C target-cpu={processor}"));
+        let feature = target.feature.map(|feature| format!("-C target-feature=+{feature}"));
+        if processor.is_some() || feature.is_some() {
+            command.env("RUSTFLAGS", processor.into_iter().chain(feature).collect::<Vec<_>>().join(" "));
         }
         if let Toolchain::BuildStd { linker } = self {
             command
@@ -83,17 +86,17 @@ impl Toolchain {
         command
     }
 
-    /// Cargo's target directory in builds for `target`, for packages outside this workspace too. Each processor has its
-    /// own, since programs for two of them have the same names.
+    /// Cargo's target directory in builds for `target`, for packages outside this workspace too. Each processor and each
+    /// feature has its own, since programs for two of them have the same names.
     pub(crate) fn directory(&self, target: Target) -> PathBuf {
         let directory = workspace::target_directory();
-        let Target { triple, processor } = target;
-        match (self, processor) {
+        let own = target.processor.or(target.feature);
+        match (self, own) {
             (Toolchain::Installed, None) => directory,
-            (Toolchain::Installed, Some(processor)) => directory.join(processor),
+            (Toolchain::Installed, Some(own)) => directory.join(own),
             // One of its own, or each build would throw away what the other compiler has built; and one for each
             // target, so that none waits for another.
-            (Toolchain::BuildStd { .. }, _) => directory.join("build-std").join(processor.unwrap_or(triple)),
+            (Toolchain::BuildStd { .. }, _) => directory.join("build-std").join(own.unwrap_or(target.triple)),
         }
     }
 }

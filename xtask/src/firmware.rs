@@ -7,6 +7,7 @@
 mod boards;
 mod divides;
 mod emulator;
+mod fingerprint;
 mod frames;
 mod page;
 mod prices;
@@ -27,6 +28,7 @@ use page::PAGE;
 use programs::read_program;
 use table::{PLACE, Row, Unit};
 
+pub(crate) use fingerprint::run as fingerprint;
 pub(crate) use prices::prices;
 
 /// Scenes that must take the same instructions: what a material has not costs nothing.

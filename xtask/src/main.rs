@@ -97,6 +97,12 @@ const CHORES: &[Chore] = &[
         run: firmware::run,
     },
     Chore {
+        name: "fingerprint",
+        arguments: "[machine...]",
+        about: "draw small scenes on all machines that can be had here: the same bits on each",
+        run: firmware::fingerprint,
+    },
+    Chore {
         name: "boards",
         arguments: "[board | qemu | check]",
         about: "build the programs of crates/alberti/examples/boards, or one, or run the demo in an emulator, or all",
@@ -129,9 +135,9 @@ const CHORES: &[Chore] = &[
     },
     Chore {
         name: "sweep",
-        arguments: "",
-        about: "the tests that can look at every f32, or at ten million triangles, for minutes",
-        run: |_| checks::sweep(),
+        arguments: "[name] [--shard K/N] [--seed S] [--time SECONDS]",
+        about: "look at every case, or at as many hard ones as there is time for; goes on where it was stopped",
+        run: checks::sweep,
     },
     Chore {
         name: "fuzz",

@@ -69,6 +69,9 @@ pub(crate) const TESTS: &str = "alberti-tests";
 pub(crate) const FIRMWARE: (&str, [&str; 2]) =
     ("tests/firmware/Cargo.toml", ["alberti-firmware", "alberti-firmware-scenes"]);
 
+/// The package of that workspace whose scenes are hashed on all machines.
+pub(crate) const FINGERPRINT: &str = "alberti-fingerprint";
+
 /// Every package that would be published, each after the packages that it uses.
 pub(crate) fn published() -> impl Iterator<Item = &'static str> {
     let libraries = LIBRARIES.iter().map(|library| library.package);

@@ -47,6 +47,9 @@ memories! {
     /// That of a frame by any policy.
     memory: Memory = Memory::EMPTY;
 
+    /// That of a small scene.
+    small: fingerprint::Memory = fingerprint::Memory::EMPTY;
+
     /// Room for a scene that is read.
     loaded: Loaded = Loaded::EMPTY;
 }

@@ -70,7 +70,7 @@ pub(super) const BOARDS: &[Board] = &[
         name: "m7",
         also: &[],
         core: "Cortex-M7, in the order of its instructions and with those of `f64`",
-        target: Target { triple: "thumbv7em-none-eabihf", processor: Some("cortex-m7") },
+        target: Target { triple: "thumbv7em-none-eabihf", processor: Some("cortex-m7"), feature: None },
         machine: mps2(&["-machine", "mps2-an500"]),
         is_weighed: false,
     },
