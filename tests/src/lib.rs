@@ -1,5 +1,6 @@
 //! The common part of the tests across crates.
 
+pub mod attributes;
 pub mod derivatives;
 pub mod errors;
 pub mod narrow;

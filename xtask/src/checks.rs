@@ -99,9 +99,31 @@ pub(crate) fn lanes() -> Outcome {
     }
 }
 
+/// A sweep by its name: every case there is, or hard ones; without a name the list, and `tests` for the tests that look
+/// at more when they are asked to.
+pub(crate) fn sweep(words: &[String]) -> Outcome {
+    if words.first().is_some_and(|name| name == "tests") {
+        return swept_tests();
+    }
+    let folder = workspace::target_directory().join("sweeps");
+    fs::create_dir_all(&folder).map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
+    let mut sweep = cargo();
+    sweep.args(["run", "--release", "--package", "alberti-sweeps", "--bin", "sweep", "--"]).args(words);
+    if !words.is_empty() {
+        sweep.arg("--folder").arg(folder);
+    }
+    run(&mut sweep)?;
+    if words.is_empty() {
+        println!(
+            "tests       the tests that look at every f32, or at ten million triangles, when they are asked to"
+        );
+    }
+    Ok(())
+}
+
 /// Runs the tests that can look at every single `f32`, or at ten million triangles and samples, instead of at some: on
 /// every kind of lanes that the machine has.
-pub(crate) fn sweep() -> Outcome {
+fn swept_tests() -> Outcome {
     let sweep = |arguments: &[&str]| run(cargo().env("ALBERTI_SWEEP", "1").arg("test").args(arguments));
     sweep(&["--package", "alberti-texture", "every_257th_float"])?;
     let pipeline = ["--package", "alberti-tests", "--features", "alberti/avx512,alberti/sse2"];

@@ -9,137 +9,21 @@
     reason = "pixels and subpixels are within the guard band"
 )]
 
-use alberti_math::{GUARD_PIXELS, Subpixel};
+use alberti_math::Subpixel;
 use alberti_oracle::climb::climb;
 use alberti_oracle::coverage::{Triangle, covers, weights};
 use alberti_oracle::dd::{self, Dd};
 use alberti_oracle::rational::{self, Rational};
 use alberti_oracle::rng::{Rng, run_seed};
-use alberti_oracle::{cases, cases::pixel_centre};
-use alberti_raster::Vertex;
+use alberti_tests::attributes::{Case, any_case, within};
 use alberti_tests::errors::Errors;
-use alberti_tests::probe::{LARGEST, Probe, Recorded, steps, vertex};
+use alberti_tests::probe::{Probe, Recorded};
 use alberti_tests::sweep::or_swept;
 
 /// The documented bounds, in ε: of a varying against 1/z as given and against z, and of depth.
 const FROM_Q: f64 = 9.0;
 const FROM_Z: f64 = 10.0;
 const DEPTH: f64 = 6.0;
-
-/// A triangle with what it carries, and a pixel that it covers.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Case {
-    pub(crate) tri: Triangle,
-    pub(crate) pixel: [i32; 2],
-    pub(crate) z: [f32; 3],
-    pub(crate) zs: [f32; 3],
-    pub(crate) u: [f32; 3],
-}
-
-impl Case {
-    pub(crate) fn sample(&self, subpixel: Subpixel) -> [i64; 2] {
-        center(subpixel, self.pixel)
-    }
-
-    pub(crate) fn q(&self) -> [f32; 3] {
-        self.z.map(|z| 1.0 / z)
-    }
-
-    fn vertices(&self) -> [Vertex<f32>; 3] {
-        let q = self.q();
-        [0, 1, 2].map(|i| vertex(self.tri[i], self.zs[i], q[i], self.u[i]))
-    }
-
-    fn with_other_values(self, rng: &mut Rng) -> Self {
-        Self { z: any_z(rng), zs: any_zs(rng), u: any_u(rng), ..self }
-    }
-
-    /// The scale of errors: max|u|, not zero.
-    pub(crate) fn largest(&self) -> f64 {
-        self.u.iter().fold(0.0, |largest, u| f64::max(largest, f64::from(u.abs())))
-    }
-}
-
-pub(crate) fn any_case(subpixel: Subpixel, rng: &mut Rng) -> Case {
-    loop {
-        let found = if rng.one_in(4) { thin(subpixel, rng) } else { Some(around(subpixel, rng)) };
-        if let Some((tri, pixel)) = found
-            && covers(tri, center(subpixel, pixel))
-        {
-            return Case { tri, pixel, z: [1.0; 3], zs: [0.0; 3], u: [1.0; 3] }.with_other_values(rng);
-        }
-    }
-}
-
-fn center(subpixel: Subpixel, [column, row]: [i32; 2]) -> [i64; 2] {
-    pixel_centre(i64::from(column), i64::from(row), subpixel.bits())
-}
-
-/// Three vertices around a pixel of the frame, from a pixel to a frame away, and sometimes much flatter than wide.
-fn around(subpixel: Subpixel, rng: &mut Rng) -> (Triangle, [i32; 2]) {
-    let largest = f64::from(LARGEST);
-    let pixel = [(); 2].map(|()| match rng.index(3) {
-        0 => rng.range(0, 99),
-        1 => i64::from(LARGEST) - 1 - rng.range(0, 99),
-        _ => rng.range(0, i64::from(LARGEST) - 1),
-    });
-    let one = steps(subpixel)[0];
-    let guard = i64::from(GUARD_PIXELS) * one;
-    let sample = pixel_centre(pixel[0], pixel[1], subpixel.bits());
-    let mut reach = [f64::from(rng.log_uniform(1.0, LARGEST as f32)).min(largest) * one as f64; 2];
-    if rng.one_in(3) {
-        reach[rng.index(2)] /= f64::from(rng.log_uniform(1.0, 1e6));
-    }
-    let tri = [(); 3].map(|()| {
-        [0, 1].map(|k| (sample[k] + rng.uniform(-reach[k], reach[k]).round() as i64).clamp(-guard, guard))
-    });
-    (tri, pixel.map(|c| c as i32))
-}
-
-/// The oracle's hard cases, mirrored into the frame.
-fn thin(subpixel: Subpixel, rng: &mut Rng) -> Option<(Triangle, [i32; 2])> {
-    let case = cases::any(rng, subpixel.bits(), i64::from(GUARD_PIXELS) << subpixel.bits());
-    let mirror = case.sample.map(|c| c.signum());
-    let flip = |p: [i64; 2]| [p[0] * mirror[0], p[1] * mirror[1]];
-    let pixel = flip(case.sample).map(|c| (c >> subpixel.bits()) as i32);
-    pixel.iter().all(|&c| c < LARGEST).then(|| (case.tri.map(flip), pixel))
-}
-
-/// Depths in any ratio from 1 to 10^12.
-fn any_z(rng: &mut Rng) -> [f32; 3] {
-    let near = rng.log_uniform(1e-3, 1e3);
-    let ratio = rng.log_uniform(1.0, 1e12);
-    let mut z = [near, near * ratio, near * rng.log_uniform(1.0, ratio)];
-    z.rotate_left(rng.index(3));
-    z
-}
-
-/// Screen depths: near one another, near 1 as forward maps make them, or of any size as reversed ones do.
-pub(crate) fn any_zs(rng: &mut Rng) -> [f32; 3] {
-    let base = rng.unit() as f32;
-    let kind = rng.index(3);
-    [(); 3].map(|()| match kind {
-        0 => (base + rng.uniform(-1e-4, 1e-4) as f32).clamp(0.0, 1.0),
-        1 => 1.0 - rng.log_uniform(1e-7, 1.0),
-        _ => rng.log_uniform(2f32.powi(-77), 1.0),
-    })
-}
-
-/// Values of both signs over 80 binary orders, or alike, or the texels of a tiled texture.
-pub(crate) fn any_u(rng: &mut Rng) -> [f32; 3] {
-    let kind = rng.index(4);
-    let base = rng.log_uniform(2f32.powi(-40), 2f32.powi(40));
-    let spread = f64::from(rng.log_uniform(1e-6, 1.0));
-    [(); 3].map(|()| {
-        let sign = if rng.one_in(2) { -1.0 } else { 1.0 };
-        match kind {
-            0 => sign * rng.log_uniform(2f32.powi(-40), 2f32.powi(40)),
-            1 => sign * base,
-            2 => base * (1.0 + rng.uniform(-spread, spread)) as f32,
-            _ => (sign * rng.range(1, 4096) as f32) / 16.0,
-        }
-    })
-}
 
 #[test]
 fn varyings_and_depths_with_eight_bits() {
@@ -201,10 +85,6 @@ fn interpolated(subpixel: Subpixel, stream: u64, samples: u64) {
     let [varying, depth] = [shares(0), shares(1)];
     println!("  climbed: varyings {varying:?}, depth {depth:?}");
     assert!(varying.most <= FROM_Q && depth.most <= DEPTH, "{varying:?} {depth:?}");
-}
-
-pub(crate) fn within(x: f32, [a, b, c]: [f32; 3]) -> bool {
-    a.min(b).min(c) <= x && x <= a.max(b).max(c)
 }
 
 fn ratio([a, b, c]: [f32; 3]) -> f32 {

@@ -9,7 +9,6 @@
     reason = "subpixels are within the guard band"
 )]
 
-use crate::attributes::{any_case, any_u, any_zs, within};
 use alberti_math::{Fixed, Linear, Subpixel};
 use alberti_oracle::cases::pixel_centre;
 use alberti_oracle::climb::climb;
@@ -17,6 +16,7 @@ use alberti_oracle::coverage::{Triangle, area2, covers};
 use alberti_oracle::dd::{self, Dd};
 use alberti_oracle::rng::{Rng, run_seed};
 use alberti_raster::Vertex;
+use alberti_tests::attributes::{any_case, any_u, any_zs, within};
 use alberti_tests::probe::{LARGEST, Probe, Recorded, snapped, unsnapped};
 use alberti_tests::sweep::or_swept;
 
