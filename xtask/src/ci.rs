@@ -8,7 +8,9 @@ use std::time::{Duration, Instant};
 use std::{env, fs, io, thread};
 
 use crate::command::Outcome;
-use crate::{assets, checks, extremes, gallery, guide, package, seeded, tidy, trade, workspace};
+use crate::{
+    assets, checks, extremes, firmware, fuzz, gallery, guide, package, seeded, supply, tidy, trade, workspace,
+};
 use passed::Passed;
 
 /// The name that the summary and a failure use, and the check.
@@ -95,6 +97,9 @@ const STEPS: &[Step] = &[
     ("registers", checks::registers),
     ("extremes", extremes::check),
     ("package", package::run),
+    ("supply", supply::check),
+    ("fingerprint", || firmware::fingerprint(&[])),
+    ("fuzz", fuzz::check),
     ("guide", guide::run),
 ];
 

@@ -86,8 +86,8 @@ impl Toolchain {
         command
     }
 
-    /// Cargo's target directory in builds for `target`, for packages outside this workspace too. Each processor and each
-    /// feature has its own, since programs for two of them have the same names.
+    /// Cargo's target directory in builds for `target`, for packages outside this workspace too. Each processor
+    /// and each feature has its own, since programs for two of them have the same names.
     pub(crate) fn directory(&self, target: Target) -> PathBuf {
         let directory = workspace::target_directory();
         let own = target.processor.or(target.feature);

@@ -135,6 +135,11 @@ pub(crate) fn fuzz(arguments: &[String]) -> Outcome {
     Ok(())
 }
 
+/// Each target for a short time.
+pub(crate) fn check() -> Outcome {
+    fuzz(&["--time", "10"].map(str::to_owned))
+}
+
 /// The names of the targets: those of the kept cases.
 fn targets() -> Result<Vec<String>, String> {
     let folder = workspace::root().join(CORPUS);

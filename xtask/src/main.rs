@@ -24,6 +24,7 @@ mod nostd;
 mod package;
 mod peers;
 mod seeded;
+mod supply;
 mod tidy;
 mod trade;
 mod wasm;
@@ -144,6 +145,12 @@ const CHORES: &[Chore] = &[
         arguments: "[target...] [--time S] [--jobs N] [--shard K/N] [--keep]",
         about: "fuzz the targets of tests/hostile, guided by coverage; --keep adds cases to the corpora",
         run: fuzz::fuzz,
+    },
+    Chore {
+        name: "supply",
+        arguments: "",
+        about: "check dependencies by deny.toml, and that the oldest compiler of the manifests is enough",
+        run: |_| supply::check(),
     },
     Chore {
         name: "seeded-bugs",

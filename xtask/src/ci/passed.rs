@@ -28,8 +28,15 @@ const CHIPS: &[&str] = &[
 const TOOLS: &[&str] = &["Cargo.lock", "crates/app/", "docs/extremes", "docs/trade", "tests/"];
 
 /// The checks that may stand, and the beginnings of the names of the files that they read.
-const LONG: [(&str, &[&[&str]]); 4] =
-    [("firmware", &[CHIPS]), ("boards", &[CHIPS]), ("trade", &[CHIPS, TOOLS]), ("guide", &[CHIPS, TOOLS])];
+const LONG: [(&str, &[&[&str]]); 7] = [
+    ("firmware", &[CHIPS]),
+    ("boards", &[CHIPS]),
+    ("fingerprint", &[CHIPS]),
+    ("trade", &[CHIPS, TOOLS]),
+    ("guide", &[CHIPS, TOOLS]),
+    ("fuzz", &[CHIPS, TOOLS]),
+    ("supply", &[CHIPS, TOOLS, &["deny.toml", "benches/Cargo.toml"]]),
+];
 
 /// The digests of what the long checks read now, and those of when they passed last.
 pub(super) struct Passed {

@@ -1,8 +1,8 @@
 //! Small scenes of any kind, each of which is one number: the hash of its frame, the same on every machine.
 //!
-//! A scene is its number: from it come the mesh, textures, lights and all policies that are values ([`seed`]). Its kind,
-//! which is `number % KINDS`, says which kernel draws it ([`kinds`]) or which functions are called ([`functions`]).
-//! Nothing of it depends on a platform's mathematical library.
+//! A scene is its number: from it come the mesh, textures, lights and all policies that are values ([`seed`]). Its
+//! kind, which is `number % KINDS`, says which kernel draws it ([`kinds`]) or which functions are called
+//! ([`functions`]). Nothing of it depends on a platform's mathematical library.
 
 #![no_std]
 
