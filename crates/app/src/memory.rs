@@ -22,16 +22,20 @@ impl FromStr for Memory {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let shift = match text.bytes().last().map(|last| last.to_ascii_uppercase()) {
-            Some(b'K') => 10,
-            Some(b'M') => 20,
-            Some(b'G') => 30,
-            _ => 0,
+        // As 512M, 512MB or 512MiB.
+        let lower = text.to_ascii_lowercase();
+        let unit = lower.find(|c: char| !c.is_ascii_digit()).unwrap_or(lower.len());
+        let (digits, unit) = lower.split_at(unit);
+        let shift = match unit {
+            "" | "b" => 0,
+            "k" | "kb" | "kib" => 10,
+            "m" | "mb" | "mib" => 20,
+            "g" | "gb" | "gib" => 30,
+            _ => u32::MAX,
         };
-        let digits = text.get(..text.len() - usize::from(shift > 0)).unwrap_or_default();
-        let bytes = digits.parse().ok().and_then(|number: u64| number.checked_mul(1 << shift));
-        let bytes = bytes.filter(|&bytes| bytes > 0 && digits.bytes().all(|b| b.is_ascii_digit()));
-        bytes.map(Self).ok_or_else(|| "a number of bytes above 0, such as 512M or 2G".to_owned())
+        let bytes = digits.parse().ok().and_then(|number: u64| number.checked_mul(1_u64.checked_shl(shift)?));
+        let bytes = bytes.filter(|&bytes| bytes > 0);
+        bytes.map(Self).ok_or_else(|| "a whole number of bytes below 2^64, such as 512M or 2G".to_owned())
     }
 }
 
@@ -121,12 +125,8 @@ fn of_machine() -> u64 {
     let space = limits.lines().find_map(|line| line.strip_prefix("Max address space"));
     let space = space.and_then(|space| space.split_whitespace().next()?.parse::<u64>().ok());
     let used = field(&read("/proc/self/status"), "VmSize:").unwrap_or(0);
-    // Allocators reserve more addresses than they use: those of Linux 64 MiB for a thread, and halves of lists.
-    let threads = std::thread::available_parallelism().map_or(1, usize::from) as u64;
-    let space = space.map(|space| {
-        let rest = space.saturating_sub(used);
-        (rest.saturating_sub(threads << 26) / 2).max(rest / 16)
-    });
+    // Allocators reserve more addresses than they use, and halves of lists are free.
+    let space = space.map(|space| space.saturating_sub(used) / 2);
     let number = |file: &str| read(file).trim().parse::<u64>().ok();
     let group = number("/sys/fs/cgroup/memory.max").map(|most| {
         let used = number("/sys/fs/cgroup/memory.current").unwrap_or(0);
@@ -141,7 +141,9 @@ mod tests {
 
     #[test]
     fn bytes_are_read_and_told() {
-        for (text, bytes) in [("1", 1), ("9k", 9 << 10), ("512M", 512 << 20), ("2G", 2 << 30)] {
+        for (text, bytes) in
+            [("1", 1), ("9k", 9 << 10), ("512M", 512 << 20), ("512mb", 512 << 20), ("2GiB", 2 << 30)]
+        {
             assert_eq!(text.parse(), Ok(Memory(bytes)), "{text}");
         }
         for text in ["", "0", "0G", "G", "-1", "+1", "1.5G", "2T", "99999999999G", "1 M", "é"] {

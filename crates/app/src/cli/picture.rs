@@ -111,7 +111,9 @@ impl Request {
         let Staged { model, camera, options, .. } = staged;
         let CameraTable { near, far, .. } = self.arguments.camera;
         let affine = options.policies.interpolation == Interpolation::Affine;
-        if !ground::add(model, camera, [near.is_some(), far.is_some()], affine) {
+        let fixed = [near.is_some(), far.is_some()];
+        let manner = ground::Manner { fixed, affine, depth: options.depth, wrap: options.wrap };
+        if !ground::add(model, camera, manner) {
             return left_out("a camera below the model's lowest point", "one above the ground");
         }
         if options.policies.color != ColorFormat::Rgba8 && options.policies.dither == Dither::None {

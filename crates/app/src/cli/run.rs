@@ -237,6 +237,7 @@ fn draw_from(request: &Request) -> Result<(), Error> {
         camera,
         origin: model.origin,
         projection,
+        wishes: request.arguments.camera,
     };
     let summary = || {
         let files = beside.as_ref().map(|beside| beside.summary(&seen)).unwrap_or_default();

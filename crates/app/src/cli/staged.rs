@@ -93,6 +93,11 @@ impl Request {
                 orbit = Some(before).filter(|camera| given.turns() && camera.eye.is_some());
             }
             arguments.update_from_arg_matches(matches).map_err(refused)?;
+            let is_given = |id| matches.value_source(id) == Some(ValueSource::CommandLine);
+            if is_given("projection") && !arguments.camera.is_parallel() && !is_given("view_height") {
+                // The file's is of the projection that it has.
+                arguments.camera.view_height = None;
+            }
         }
         // A texture is shown as it is, whatever the materials' colours.
         arguments.material.whiten();

@@ -354,7 +354,7 @@ impl<T, P: Fn(&str) -> Result<T, String>> Visitor<'_> for Text<T, P> {
 
 /// The choice of that name.
 pub(crate) fn one_of<T: ValueEnum>(text: &str) -> Result<T, String> {
-    T::from_str(text, false).map_err(|_| {
+    T::from_str(text, true).map_err(|_| {
         let values = T::value_variants().iter().filter_map(ValueEnum::to_possible_value);
         let names: Vec<_> = values.map(|value| value.get_name().to_owned()).collect();
         format!("one of {}", names.join(", "))

@@ -2,7 +2,7 @@
 
 use crate::camera::as_options;
 use crate::error::counted;
-use crate::options::{Projection, Samples};
+use crate::options::{CameraTable, Projection, Samples};
 use crate::scene::Camera;
 use alberti::Stats;
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
@@ -50,6 +50,8 @@ pub struct Report<'a> {
     pub origin: [f64; 3],
     /// Its projection.
     pub projection: Projection,
+    /// That of the options, which the camera's have to go over.
+    pub wishes: CameraTable,
 }
 
 /// The origin of the triangles.
@@ -81,7 +83,7 @@ impl Report<'_> {
             "{source}: {}, {width}x{height} pixels in {}{times}\ncamera: {}",
             counted(self.triangles, "triangle", "triangles"),
             self.output.display(),
-            as_options(&self.camera, self.origin, self.projection)
+            as_options(&self.camera, self.origin, self.projection, &self.wishes)
         )
     }
 
@@ -145,7 +147,7 @@ impl Serialize for Report<'_> {
             fields.serialize_entry(name, &count)?;
         }
         let Camera { eye, target, up, roll, fov, near, far } = self.camera;
-        let options = as_options(&self.camera, self.origin, self.projection);
+        let options = as_options(&self.camera, self.origin, self.projection, &self.wishes);
         let numbers = json!({
             "eye": eye, "target": target, "up": up, "roll": roll, "fov": fov, "near": near, "far": far,
             "options": options,
@@ -187,6 +189,7 @@ mod tests {
             camera,
             origin: [0.0; 3],
             projection,
+            wishes: CameraTable::default(),
         }
     }
 

@@ -143,13 +143,15 @@ fn zoomed(fov: f32, zoom: f32) -> f32 {
     narrow(2.0 * tangent.atan().to_degrees())
 }
 
-/// The options that make this camera again, bit for bit, for a model whose coordinates are counted from `origin`.
+/// The options that make this camera again, bit for bit, for a model whose coordinates are counted from `origin`, and
+/// with a scene file that has `wishes` of its own.
 #[must_use]
-pub fn as_options(camera: &Camera, origin: [f64; 3], projection: Projection) -> String {
+pub fn as_options(camera: &Camera, origin: [f64; 3], projection: Projection, wishes: &CameraTable) -> String {
     let point = |point: [f32; 3]| point.map(number).join(",");
     let place = |point| place(point, origin);
     let Camera { eye, target, up, roll, fov, near, far } = *camera;
-    let leaning = if roll == 0.0 { String::new() } else { format!(" --roll {roll}") };
+    let upright = roll == 0.0 && wishes.roll.is_none();
+    let leaning = if upright { String::new() } else { format!(" --roll {roll}") };
     let mut options = format!(
         "--eye {} --target {} --up {}{leaning} --fov {} --near {} --far {}",
         place(eye),
@@ -159,8 +161,16 @@ pub fn as_options(camera: &Camera, origin: [f64; 3], projection: Projection) -> 
         number(near),
         number(far)
     );
-    if let Projection::Parallel { height } = projection {
-        options += &format!(" --projection parallel --view-height {}", number(height));
+    if wishes.zoom.is_some() {
+        // It is in the angle.
+        options += " --zoom 1";
+    }
+    match projection {
+        Projection::Parallel { height } => {
+            options += &format!(" --projection parallel --view-height {}", number(height));
+        }
+        Projection::Perspective if wishes.projection.is_some() => options += " --projection perspective",
+        Projection::Perspective => {}
     }
     options
 }

@@ -4,7 +4,7 @@
 //! ground within a narrow rim, what is higher farther around, and less. It is a texture of alpha, made once.
 
 use super::{Camera, Image, Map, Model, Part, Vertex, order};
-use crate::options::{Filter, Wrap};
+use crate::options::{DepthFormat, Filter, Wrap};
 use crate::scene::normals::{dot, narrow, normalize, sub};
 use alberti::raster::color::AnyBlend;
 use opacity::{alpha, threshold};
@@ -37,12 +37,27 @@ struct Ground {
     low: f64,
 }
 
+/// The way in which a ground is drawn.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Manner {
+    /// Whether the user has set the near and the far plane.
+    pub(crate) fixed: [bool; 2],
+    /// Whether attributes are affine.
+    pub(crate) affine: bool,
+    pub(crate) depth: DepthFormat,
+    /// The continuation of textures that say none.
+    pub(crate) wrap: Wrap,
+}
+
 /// Adds a ground at the model's lowest point, unless the camera is below it, and says whether it did. Planes of the
-/// camera that the user has not set, as `fixed` says of near and far, are moved so that all of it is between them.
-/// Where attributes are `affine`, it is of so many squares that none shows that.
-pub(crate) fn add(model: &mut Model, camera: &mut Camera, fixed: [bool; 2], affine: bool) -> bool {
-    let Some(ground) = Ground::under(model, camera) else { return false };
-    let texels = ground.shadow(model).into_iter().map(|alpha| [0, 0, 0, alpha]).collect();
+/// camera that are not fixed are moved so that all of it is between them. Where attributes are affine, it is of so many
+/// squares that none shows that.
+pub(crate) fn add(model: &mut Model, camera: &mut Camera, manner: Manner) -> bool {
+    let Manner { fixed, affine, depth, wrap } = manner;
+    // So many shares of the model's radius below it, as depths can tell.
+    let below = if depth == DepthFormat::U16 { 2e-3 } else { 1e-4 };
+    let Some(ground) = Ground::under(model, camera, below) else { return false };
+    let texels = ground.shadow(model, wrap).into_iter().map(|alpha| [0, 0, 0, alpha]).collect();
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|uv| ground.place(uv));
     stretch(camera, &corners, fixed);
     let first = u32::try_from(model.vertices.len()).unwrap_or(u32::MAX);
@@ -73,7 +88,11 @@ pub(crate) fn add(model: &mut Model, camera: &mut Camera, fixed: [bool; 2], affi
     let mut part = Part { name: "ground".to_owned(), triangles, texture: Some(map.image), ..Part::default() };
     (part.detail.filter, part.detail.wrap) = (map.filter, map.wrap);
     (part.detail.blend, part.detail.specular) = (AnyBlend::Over, [0.0; 3]);
-    order::behind_all(model, part);
+    if depth == DepthFormat::None {
+        model.parts.insert(0, part);
+    } else {
+        order::behind_all(model, part);
+    }
     true
 }
 
@@ -99,7 +118,7 @@ fn stretch(camera: &mut Camera, points: &[[f64; 3]], fixed: [bool; 2]) {
 }
 
 impl Ground {
-    fn under(model: &Model, camera: &Camera) -> Option<Self> {
+    fn under(model: &Model, camera: &Camera, below: f64) -> Option<Self> {
         let up = (0..3).max_by(|&a, &b| camera.up[a].abs().total_cmp(&camera.up[b].abs()))?;
         let sign = f64::from(camera.up[up].signum());
         let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
@@ -116,7 +135,7 @@ impl Ground {
             return None;
         }
         // Just below, so that what stands on it hides it.
-        let low = if sign > 0.0 { least[up] } else { most[up] } - sign * 1e-4 * radius;
+        let low = if sign > 0.0 { least[up] } else { most[up] } - sign * below * radius;
         let above = sign * (f64::from(camera.eye[up]) - low);
         let axes = others(up);
         let side = size[axes[0]].max(size[axes[1]]) + 2.0 * RIM * radius;
@@ -142,8 +161,8 @@ impl Ground {
     }
 
     /// The alpha of each cell, rows from the one with the greatest coordinate.
-    fn shadow(&self, model: &Model) -> Vec<u8> {
-        let lowest = self.lowest(model);
+    fn shadow(&self, model: &Model, wrap: Wrap) -> Vec<u8> {
+        let lowest = self.lowest(model, wrap);
         let mut dark = vec![0.0; SIDE * SIDE];
         for (level, &(height, radius, strength)) in LEVELS.iter().enumerate() {
             // Shares fall linearly to the next levels.
@@ -177,7 +196,7 @@ impl Ground {
     }
 
     /// The height of the lowest surface over each cell, in cells; infinite where there is none.
-    fn lowest(&self, model: &Model) -> Vec<f64> {
+    fn lowest(&self, model: &Model, wrap: Wrap) -> Vec<f64> {
         let mut lowest = vec![f64::INFINITY; SIDE * SIDE];
         let mut put = |column: f64, row: f64, height: f64| {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
@@ -187,7 +206,7 @@ impl Ground {
             }
         };
         for part in &model.parts {
-            let alpha = alpha(model, part);
+            let alpha = alpha(model, part, wrap);
             for triangle in &part.triangles {
                 let [Some(a), Some(b), Some(c)] = triangle.map(|k| model.vertices.get(k as usize)) else {
                     continue;
@@ -329,9 +348,9 @@ mod tests {
     }
 
     fn alpha(model: &Model, [x, z]: [f64; 2]) -> u8 {
-        let ground = Ground::under(model, &CAMERA).expect("a ground");
+        let ground = Ground::under(model, &CAMERA, 1e-4).expect("a ground");
         let [column, row, _] = ground.cells([x, 0.0, z]);
-        let cells = ground.shadow(model);
+        let cells = ground.shadow(model, Wrap::Repeat);
         // Rows come from the top of the image.
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 255")]
         let (column, row) = (column as usize, row as usize);
@@ -359,7 +378,7 @@ mod tests {
     fn the_ground_is_under_all_and_between_the_planes() {
         let mut model = square(0.5);
         let mut camera = CAMERA;
-        add(&mut model, &mut camera, [false; 2], false);
+        add(&mut model, &mut camera, Manner::default());
         let part = model.parts.last().expect("a part");
         assert_eq!((model.parts.len(), part.triangles.len(), model.textures.len()), (2, 2, 1));
         let eye = CAMERA.eye.map(f64::from);
@@ -374,7 +393,7 @@ mod tests {
         assert!(crate::scene::normals::cross(sub(b, a), sub(c, a))[1] > 0.0);
         let below = Camera { eye: [3.0, -2.0, 4.0], ..CAMERA };
         let mut model = square(0.5);
-        add(&mut model, &mut { below }, [false; 2], true);
+        add(&mut model, &mut { below }, Manner { affine: true, ..Manner::default() });
         assert_eq!(model.parts.len(), 1);
     }
 
@@ -382,10 +401,10 @@ mod tests {
     #[test]
     fn a_ground_up_to_the_eye_is_not_cut_off() {
         let mut camera = Camera { eye: [0.4, 0.5, 0.4], target: [0.0, 0.5, 0.0], near: 0.3, ..CAMERA };
-        add(&mut square(0.5), &mut camera, [false; 2], false);
+        add(&mut square(0.5), &mut camera, Manner::default());
         assert!(camera.near > 0.0 && camera.near < 0.01, "{camera:?}");
         let mut fixed = Camera { near: 0.3, ..camera };
-        add(&mut square(0.5), &mut fixed, [true, false], false);
+        add(&mut square(0.5), &mut fixed, Manner { fixed: [true, false], ..Manner::default() });
         assert!((fixed.near - 0.3).abs() < f32::EPSILON);
     }
 
@@ -394,7 +413,7 @@ mod tests {
     fn squares_are_the_ground() {
         let grounds = [false, true].map(|affine| {
             let mut model = square(0.5);
-            add(&mut model, &mut { CAMERA }, [false; 2], affine);
+            add(&mut model, &mut { CAMERA }, Manner { affine, ..Manner::default() });
             model
         });
         let area = |model: &Model| -> f64 {

@@ -186,6 +186,50 @@ fn leaning_moves_neither_the_model_out_nor_the_ground() {
     }
 }
 
+/// The same where a scene file turns, narrows or flattens the view; its height is that of its own projection alone.
+#[test]
+fn the_printed_camera_goes_over_a_scene_files() {
+    let camera = "[camera]\nzoom = 2\nroll = 20\nprojection = \"parallel\"\nview-height = 3\n";
+    let scene = format!("size = [40, 30]\n{camera}[[object]]\nmodel = \"m.obj\"\n");
+    let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes()), ("s.toml", scene.as_bytes())]);
+    for options in
+        ["", "--roll 0", "--projection perspective", "--zoom 1 --view top --projection perspective"]
+    {
+        let words = ["s.toml", "-o", "a.png"].into_iter().chain(options.split_whitespace());
+        let run = folder.succeeds(&words.collect::<Vec<_>>());
+        let told = run.stdout.lines().find_map(|line| line.strip_prefix("camera: ")).expect("a camera");
+        let words = ["s.toml", "-o", "b.png"].into_iter().chain(told.split(' '));
+        folder.succeeds(&words.collect::<Vec<_>>());
+        let [first, second] = ["a.png", "b.png"].map(|name| fs::read(folder.path(name)).expect("a picture"));
+        assert!(first == second, "{options}: {told}");
+    }
+    folder.fails(
+        &["s.toml", "--projection", "perspective", "--view-height", "2"],
+        &["--view-height: found it without --projection parallel"],
+    );
+}
+
+/// A flat model hides the ground that is just below it, whatever depths can tell.
+#[test]
+fn flat_models_lie_on_their_ground() {
+    let flat = "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nf 1 4 3 2\n";
+    let folder = Folder::with(&[("flat.obj", flat.as_bytes())]);
+    for profile in ["desktop", "mcu", "tiny"] {
+        let words =
+            ["flat.obj", "--diffuse", "ff0000", "--shading", "unlit", "--ground", "-q", "-s", "240x180"];
+        let words: Vec<_> = words.into_iter().chain(["--profile", profile, "-o", "a.png"]).collect();
+        for elevation in ["20", "60"] {
+            folder.succeeds(&[&words[..], &["--elevation", elevation]].concat());
+            let seen = picture(&folder, "a.png");
+            let red = |pixel: &&image::Rgba<u8>| pixel.0[0] > 240 && pixel.0[1] < 20;
+            // Nothing of it is darkened: red, or no red at all.
+            let dark = |pixel: &&image::Rgba<u8>| pixel.0[0] > pixel.0[1] + 40 && !red(pixel);
+            let [whole, dark] = [seen.pixels().filter(red).count(), seen.pixels().filter(dark).count()];
+            assert!(whole > 3000 && dark * 20 < whole, "{profile} {elevation}: {whole} {dark}");
+        }
+    }
+}
+
 #[test]
 fn cameras_that_contradict_themselves_are_refused() {
     let folder = folder();

@@ -298,7 +298,7 @@ fn numbers<const N: usize>(
         let x = number(word).ok_or_else(|| {
             let too_large =
                 std::str::from_utf8(word).is_ok_and(|word| word.parse().is_ok_and(f64::is_finite));
-            let kind = if too_large { "a number within ±3.4e38" } else { "a finite number" };
+            let kind = if too_large { "a smaller number" } else { "a finite number" };
             Error::new(quote(word), format!("{kind} in {form}")).hint("correct the line")
         })?;
         if let Some(slot) = numbers.get_mut(n) {

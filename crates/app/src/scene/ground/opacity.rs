@@ -1,5 +1,6 @@
 //! The share of a surface that has a shadow: glass little, and holes none.
 
+use crate::options::Wrap;
 use crate::scene::{Image, Model, Part};
 use alberti::raster::color::AnyBlend;
 
@@ -8,12 +9,22 @@ const PLACES: [f64; 6] = [-5.0, -3.0, -1.0, 1.0, 3.0, 5.0];
 
 /// The mean opacity of a part, from 0 to 1, over the cell around texture coordinates. These go by `across` to the next
 /// cell in a row, and by `along` to the next row.
-pub(super) fn alpha<'a>(model: &'a Model, part: &'a Part) -> impl Fn([f64; 2], [[f64; 2]; 2]) -> f64 + 'a {
+pub(super) fn alpha<'a>(
+    model: &'a Model,
+    part: &'a Part,
+    wrap: Wrap,
+) -> impl Fn([f64; 2], [[f64; 2]; 2]) -> f64 + 'a {
     let image =
         part.texture.filter(|_| part.detail.is_seen_through()).and_then(|index| model.textures.get(index));
-    let texel = |image: &Image, [u, v]: [f64; 2]| {
+    let wrap = part.detail.wrap.unwrap_or(wrap);
+    let texel = move |image: &Image, [u, v]: [f64; 2]| {
         let at = |c: f64, side: u32| {
-            let share = c.rem_euclid(1.0) * f64::from(side);
+            let within = match wrap {
+                Wrap::Repeat => c.rem_euclid(1.0),
+                Wrap::Clamp => c.clamp(0.0, 1.0),
+                Wrap::Mirror => 1.0 - (c.rem_euclid(2.0) - 1.0).abs(),
+            };
+            let share = within * f64::from(side);
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
             let texel = share as usize;
             texel.min(side as usize - 1)
@@ -49,6 +60,7 @@ pub(super) fn threshold(column: f64, row: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Detail;
 
     #[test]
     fn opacity_is_that_of_the_texture_or_of_the_blend() {
@@ -59,13 +71,34 @@ mod tests {
             (part.detail.blend, part.detail.alpha_test) = (blend, alpha_test);
             // The upper row, then the lower, and once around.
             [[0.2, 0.9], [0.7, 0.9], [0.2, 0.1], [-0.2, 1.1]]
-                .map(|uv| (alpha(&model, &part)(uv, [[0.0; 2]; 2]) * 255.0).round())
+                .map(|uv| (alpha(&model, &part, Wrap::Repeat)(uv, [[0.0; 2]; 2]) * 255.0).round())
         };
         assert_eq!(of(AnyBlend::Replace, 0), [255.0; 4]);
         assert_eq!(of(AnyBlend::Replace, 100), [0.0, 255.0, 0.0, 255.0]);
         assert_eq!(of(AnyBlend::Over, 0), [0.0, 255.0, 51.0, 128.0]);
         assert_eq!(of(AnyBlend::Constant(51), 0), [51.0; 4]);
         assert_eq!(of(AnyBlend::Additive, 0), [0.0; 4]);
+    }
+
+    #[test]
+    fn textures_continue_as_on_the_surface() {
+        let texels = vec![[0, 0, 0, 0], [0, 0, 0, 255]];
+        let model = Model { textures: vec![Image { width: 2, height: 1, texels }], ..Model::default() };
+        let mut part = Part { texture: Some(0), ..Part::default() };
+        part.detail.blend = AnyBlend::Over;
+        for (wrap, expected) in [
+            (Wrap::Repeat, [0.0, 1.0, 0.0, 1.0]),
+            (Wrap::Clamp, [0.0, 1.0, 1.0, 1.0]),
+            (Wrap::Mirror, [0.0, 1.0, 1.0, 0.0]),
+        ] {
+            let found = [0.25, 0.75, 1.25, 1.75].map(|u| alpha(&model, &part, wrap)([u, 0.5], [[0.0; 2]; 2]));
+            assert_eq!(found.map(f64::round), expected, "{wrap:?}");
+            // The part's own goes before.
+            let own = Part { detail: Detail { wrap: Some(wrap), ..part.detail }, ..part.clone() };
+            let found =
+                [0.25, 0.75, 1.25, 1.75].map(|u| alpha(&model, &own, Wrap::Repeat)([u, 0.5], [[0.0; 2]; 2]));
+            assert_eq!(found.map(f64::round), expected, "{wrap:?}");
+        }
     }
 
     /// A net of threads of which each second is none, below and above the size of cells.
@@ -75,7 +108,7 @@ mod tests {
         let model = Model { textures: vec![Image { width: 2, height: 1, texels }], ..Model::default() };
         let mut part = Part { texture: Some(0), ..Part::default() };
         (part.detail.blend, part.detail.alpha_test) = (AnyBlend::Replace, 128);
-        let alpha = alpha(&model, &part);
+        let alpha = alpha(&model, &part, Wrap::Repeat);
         for start in [0.0, 0.1, 0.37, 0.5, 0.81] {
             for cell in [[[1.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [1.0, 0.0]], [[5.0, 0.3], [-0.3, 2.0]]] {
                 let found = alpha([start, 0.4], cell);

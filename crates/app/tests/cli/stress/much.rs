@@ -68,11 +68,11 @@ fn memory_is_asked_for_before_it_is_taken() {
         ),
         (
             "u.toml",
-            "error: u.toml:2: render.memory: found integer 3, expected text in quotes: a number of bytes",
+            "error: u.toml:2: render.memory: found integer 3, expected text in quotes: a whole number of bytes",
         ),
         (
             "m.obj --memory 1.5G",
-            "error: --memory: found \"1.5G\", expected a number of bytes above 0, such as 512M",
+            "error: --memory: found \"1.5G\", expected a whole number of bytes below 2^64, such as 512M",
         ),
     ] {
         let arguments: Vec<_> = arguments.split(' ').collect();
