@@ -2,7 +2,7 @@
 
 use crate::command::{Outcome, cargo, run};
 use crate::elf::Program;
-use crate::workspace::{self, FIRMWARE};
+use crate::workspace::{self, FINGERPRINT, FIRMWARE};
 use std::fs;
 
 /// Checks the formatting of every member, and of the firmware.
@@ -19,6 +19,8 @@ pub(crate) fn fmt() -> Outcome {
         programs,
         "--package",
         scenes,
+        "--package",
+        FINGERPRINT,
     ]))
 }
 
@@ -35,6 +37,8 @@ pub(crate) fn lint() -> Outcome {
         manifest,
         "--package",
         scenes,
+        "--package",
+        FINGERPRINT,
         "--features",
         "std",
         "--all-targets",

@@ -118,7 +118,6 @@ impl Seed {
     }
 
     /// Any word: SplitMix64, by Sebastiano Vigna.
-    #[expect(clippy::cast_possible_truncation, reason = "the upper half")]
     pub fn word(&mut self) -> u32 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
