@@ -23,7 +23,7 @@ pub use indexed::{Indexed, Indexed1, Indexed2, Indexed4, Indexed8, PaletteColor}
 pub use pairs::Rgb565Pairs;
 pub use storage::Storage;
 
-use crate::mipmap::mean;
+use crate::mipmap::{Weights, mean};
 use core::fmt::Debug;
 
 /// A way of storing colours, each by itself.
@@ -78,11 +78,10 @@ pub trait TexelFormat: Copy + Debug + 'static {
         mean::addends(content, self.decode(texel))
     }
 
-    /// The mean of texels by the sums of their [`addends`](Self::addends), each as often as its texel counts, together
-    /// `count` times, from 1 to 2^28.
+    /// The mean of texels by the sums of their [`addends`](Self::addends), each times its texel's weight.
     #[inline]
-    fn mean(self, content: Content, sums: [u64; 4], count: u64) -> Self::Texel {
-        self.encode(mean::of_colors(content, sums, count))
+    fn mean(self, content: Content, sums: [u64; 4], weights: Weights) -> Self::Texel {
+        self.encode(mean::of_colors(content, sums, weights))
     }
 }
 
@@ -318,8 +317,8 @@ impl TexelFormat for L16 {
     }
 
     #[inline]
-    fn mean(self, _: Content, [sum, ..]: [u64; 4], count: u64) -> u16 {
-        mean::rounded(sum, count)
+    fn mean(self, _: Content, [sum, ..]: [u64; 4], weights: Weights) -> u16 {
+        weights.mean(sum)
     }
 }
 

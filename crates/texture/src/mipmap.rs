@@ -16,9 +16,12 @@
 mod alpha;
 mod build;
 pub(crate) mod mean;
+mod squares;
+mod strips;
 
 pub use alpha::preserve_coverage;
 pub use build::{Piece, Pieces, build, pieces};
+pub use mean::Weights;
 
 use core::fmt;
 

@@ -89,7 +89,7 @@ fn pieces(
         let mut pieces: Vec<_> = mipmap::pieces(format, texels, width, height)?.collect();
         // Halves of halves, until there are some for each thread, or nothing can be split.
         let mut before = 0;
-        while threads > 1 && before < pieces.len() && pieces.len() < 4 * threads {
+        while threads > 1 && before < pieces.len() && pieces.len() < 16 * threads {
             before = pieces.len();
             let lower: Vec<_> = pieces.iter_mut().filter_map(Piece::split).collect();
             pieces.extend(lower);

@@ -3,7 +3,7 @@
 use std::io::{self, Cursor};
 use std::path::Path;
 
-use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
+use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits, Rgb};
 
 use crate::error::Error;
 use crate::load::input;
@@ -31,9 +31,13 @@ const KIND: &str = "a PNG, JPEG, BMP, TGA, WebP, QOI or PPM image";
 /// The file cannot be read, is not an image, is broken, or is too large. The size is taken from the header and
 /// checked before anything is decoded.
 pub fn load(path: &Path, budget: u64) -> Result<Image, Error> {
-    let picture = decode(path, budget)?.into_rgba8();
-    let (width, height) = picture.dimensions();
-    let texels = picture.pixels().map(|p| p.0).collect();
+    let picture = decode(path, budget)?;
+    let (width, height) = (picture.width(), picture.height());
+    let texels = match picture {
+        // Most are such, and `into_rgba8` takes longer.
+        DynamicImage::ImageRgb8(picture) => picture.pixels().map(|&Rgb([r, g, b])| [r, g, b, 255]).collect(),
+        picture => picture.into_rgba8().pixels().map(|p| p.0).collect(),
+    };
     Ok(Image { width, height, texels })
 }
 

@@ -2,6 +2,7 @@
 
 use super::{Content, L16, Rgb565, Rgb565Alpha, Rgb565Be, Rgb565Le, Rgb565Pairs, Rgba4444, TexelFormat};
 use crate::Packed;
+use crate::mipmap::Weights;
 use alberti_math::lanes::Lanes;
 use alberti_math::{Rgba8, Rgba565};
 
@@ -67,8 +68,8 @@ macro_rules! in_bytes {
             }
 
             #[inline]
-            fn mean(self, content: Content, sums: [u64; 4], count: u64) -> [u8; size_of::<$word>()] {
-                self.0.mean(content, sums, count).$to()
+            fn mean(self, content: Content, sums: [u64; 4], weights: Weights) -> [u8; size_of::<$word>()] {
+                self.0.mean(content, sums, weights).$to()
             }
         }
     )*};

@@ -3,6 +3,7 @@
 use alberti_math::Rgba8;
 
 use super::TexelFormat;
+use crate::mipmap::Weights;
 
 /// The meaning of a format's texels, and so of their mean: the texels of smaller levels of a mip map, which
 /// [`build`](crate::mipmap::build) makes.
@@ -87,8 +88,8 @@ macro_rules! stands_for {
             }
 
             #[inline]
-            fn mean(self, content: Content, sums: [u64; 4], count: u64) -> F::Texel {
-                self.0.mean(content, sums, count)
+            fn mean(self, content: Content, sums: [u64; 4], weights: Weights) -> F::Texel {
+                self.0.mean(content, sums, weights)
             }
         }
     )*};
