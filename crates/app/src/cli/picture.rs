@@ -6,8 +6,8 @@ use crate::error::{Error, counted};
 use crate::memory;
 use crate::options::values::{Size, name_of};
 use crate::options::{
-    Background, CameraTable, ColorFormat, Cull, DEFAULT_SIZE, Dither, Interpolation, Projection, Samples,
-    Shading,
+    AovFormat, Background, CameraTable, ColorFormat, Cull, DEFAULT_SIZE, Dither, Interpolation, Projection,
+    Samples, Shading,
 };
 use crate::samples::bytes;
 use crate::scene::normals::sub;
@@ -16,9 +16,10 @@ use alberti::Stats;
 
 /// Bytes a pixel to encode: the colours, and twice as many where nothing is packed and the list has grown by halves.
 const ENCODED: u64 = 9;
-/// The same of numbers beside the picture: those of all pixels with a target; and each kind, in three copies at most.
-const NUMBERS: u64 = 48;
-const NUMBERS_EACH: u64 = 24;
+/// The same of numbers beside the picture: those of all pixels, and of a file at a time.
+const NUMBERS: u64 = 52;
+/// And of each kind where all are in one file.
+const NUMBERS_EACH: u64 = 14;
 /// The same of a picture of numbers in false colours.
 const SHOWN: u64 = 48;
 
@@ -32,7 +33,11 @@ impl Request {
         let Size(width, height) = render.size.unwrap_or(DEFAULT_SIZE);
         let samples = samples(&self.arguments, [width, height])?;
         let kinds = render.aov.as_ref().map_or(0, |aovs| aovs.iter().count() as u64);
-        let numbers = if kinds > 0 { NUMBERS + NUMBERS_EACH * (kinds + 1) } else { 0 };
+        let numbers = match render.aov_format.unwrap_or_default() {
+            _ if kinds == 0 => 0,
+            AovFormat::Png16 => NUMBERS,
+            AovFormat::Exr => NUMBERS + NUMBERS_EACH * kinds,
+        };
         let pixels = u64::from(width) * u64::from(height);
         let (drawn, what) = match self.arguments.show {
             Some(_) => (SHOWN * pixels, format!("a picture of {width}x{height}")),

@@ -328,7 +328,12 @@ pub(super) fn samples(arguments: &RenderArgs, [width, height]: [u32; 2]) -> Resu
 }
 
 fn name_of(arguments: &RenderArgs) -> &str {
-    arguments.scene.as_deref().or(scenes::NAMES.first().copied()).unwrap_or_default()
+    let given = arguments.scene.as_deref().unwrap_or_default();
+    scenes::NAMES
+        .iter()
+        .copied()
+        .find(|name| given.is_empty() || name.eq_ignore_ascii_case(given))
+        .unwrap_or(given)
 }
 
 fn load(arguments: &RenderArgs) -> Result<Scene, Error> {

@@ -56,6 +56,7 @@ impl FromStr for Fog {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
+        let text = &*text.to_ascii_lowercase();
         let number = |text: &str| text.parse().ok().filter(|x: &f32| x.is_finite());
         let density = |text: &str| number(text).filter(|&density| density > 0.0);
         if text == "none" {
@@ -104,6 +105,7 @@ impl FromStr for Blend {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
+        let text = &*text.to_ascii_lowercase();
         let share = |text: &str| text.parse().ok().filter(|x: &f32| (0.0..=1.0).contains(x));
         let blend = match (text, text.split_once(':')) {
             ("over", _) => Some(AnyBlend::Over),

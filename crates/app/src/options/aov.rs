@@ -42,6 +42,7 @@ impl FromStr for Aovs {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
+        let text = &*text.to_ascii_lowercase();
         let all = Aov::value_variants();
         let mut named = Vec::new();
         for name in text.split(',').map(str::trim) {

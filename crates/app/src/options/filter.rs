@@ -33,6 +33,7 @@ impl FromStr for Filter {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
+        let text = &*text.to_ascii_lowercase();
         let found = Self::NAMES.into_iter().find(|(name, _)| *name == text);
         found
             .map(|(_, filter)| filter)

@@ -47,6 +47,7 @@ impl FromStr for KeyLight {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
+        let text = &*text.to_ascii_lowercase();
         let number = |text: &str, most: f32| text.trim().parse().ok().filter(|x: &f32| x.abs() <= most);
         let angles =
             |(azimuth, elevation): (&str, &str)| Some([number(azimuth, 360.0)?, number(elevation, 90.0)?]);

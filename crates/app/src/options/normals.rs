@@ -22,6 +22,7 @@ impl FromStr for Normals {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
+        let text = &*text.to_ascii_lowercase();
         let angle = |text: &str| text.parse().ok().filter(|angle| (0.0..=180.0).contains(angle));
         let found = match text {
             "smooth" => Some(Self::Smooth),
@@ -48,10 +49,11 @@ mod tests {
             ("crease:0", Normals::Crease(0.0)),
             ("crease:30.5", Normals::Crease(30.5)),
             ("crease:180", Normals::Crease(180.0)),
+            ("Crease:60", Normals::Crease(60.0)),
         ] {
             assert_eq!(text.parse(), Ok(wanted), "{text}");
         }
-        for bad in ["", "Smooth", "crease:", "crease:-1", "crease:181", "crease:nan", "crease 60", "60"] {
+        for bad in ["", "smoother", "crease:", "crease:-1", "crease:181", "crease:nan", "crease 60", "60"] {
             assert!(bad.parse::<Normals>().is_err(), "{bad}");
         }
     }

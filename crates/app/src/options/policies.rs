@@ -52,6 +52,7 @@ impl FromStr for Interpolation {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
+        let text = &*text.to_ascii_lowercase();
         let texels = |text: &str| text.parse().ok().filter(|x: &f32| x.is_finite() && *x >= 0.0);
         let found = match text.split_once(':') {
             None => [Self::Exact, Self::Plane, Self::Affine].into_iter().find(|i| i.to_string() == text),

@@ -350,6 +350,11 @@ impl<T, P: Fn(&str) -> Result<T, String>> Visitor<'_> for Text<T, P> {
         let refused = |expected| E::custom(format_args!("{}, expected {expected}", quote(text.as_bytes())));
         (self.1)(text).map_err(refused)
     }
+
+    /// A number is as good without quotes.
+    fn visit_i64<E: Error>(self, number: i64) -> Result<T, E> {
+        (self.1)(&number.to_string()).map_err(|_| E::invalid_type(Unexpected::Signed(number), &self))
+    }
 }
 
 /// The choice of that name.

@@ -94,8 +94,8 @@ pub(crate) struct Block {
     pub(crate) relative: Vec<Relative>,
     /// The greatest index of each kind.
     pub(crate) greatest: [u32; 3],
-    /// The first index that is too large for its type, there the greatest.
-    pub(crate) huge: Option<i64>,
+    /// The text of the first index that is too large for its type, there the greatest.
+    pub(crate) huge: Option<String>,
     /// The arguments of `mtllib`, and their lines.
     pub(crate) libraries: Vec<(String, usize)>,
     pub(crate) corners_with_uv: usize,
@@ -232,7 +232,7 @@ impl Block {
             let missing = || Fault::Index(shown(field), which, counts[which]);
             if index > 0 {
                 *slot = u32::try_from(index).ok().filter(|&i| i < u32::MAX).unwrap_or_else(|| {
-                    self.huge.get_or_insert(index);
+                    self.huge.get_or_insert_with(|| shown(field));
                     u32::MAX
                 });
             } else {

@@ -57,7 +57,7 @@ pub(crate) struct ObjText {
     undrawn: [usize; 4],
     known: HashSet<String>,
     greatest: [u32; 3],
-    huge: Option<i64>,
+    huge: Option<String>,
     lines: usize,
 }
 
@@ -197,7 +197,7 @@ impl ObjText {
         self.corners_with_uv += block.corners_with_uv;
         self.colors_out_of_range += block.colors_out_of_range;
         self.greatest = [0, 1, 2].map(|which| self.greatest[which].max(block.greatest[which]));
-        self.huge = self.huge.or(block.huge);
+        self.huge = self.huge.take().or(block.huge);
         self.lines += block.lines;
         // A file has fewer lines than 4 billion.
         let lines = u32::try_from(lines).unwrap_or(u32::MAX);
@@ -218,8 +218,9 @@ impl ObjText {
             for (at, corner) in faces.corners.iter().enumerate() {
                 let missing = corner.iter().enumerate().find(|&(which, &index)| beyond(which, index));
                 if let Some((which, &index)) = missing {
-                    let index = self.huge.filter(|_| index == u32::MAX).unwrap_or(index.into());
-                    let error = out_of_range(&index.to_string(), which, counts[which]);
+                    let text = self.huge.clone().filter(|_| index == u32::MAX);
+                    let text = text.unwrap_or_else(|| index.to_string());
+                    let error = out_of_range(&text, which, counts[which]);
                     return Err(error.line(faces.line_of(at).unwrap_or_default()));
                 }
             }

@@ -37,7 +37,8 @@ fn memory_is_asked_for_before_it_is_taken() {
         ("grey.png", png(1024, true)),
         ("s.toml", scene("[render]\nmemory = \"3M\"\nsize = [32, 24]\n").into_bytes()),
         ("t.toml", scene("[render]\nmemory = \"3M\"\nsize = [640, 480]\n").into_bytes()),
-        ("u.toml", scene("[render]\nmemory = 3\n").into_bytes()),
+        ("u.toml", scene("[render]\nmemory = 3.5\n").into_bytes()),
+        ("v.toml", scene("[render]\nmemory = 3145728\nsize = [640, 480]\n").into_bytes()),
     ];
     let folder = Folder::with(&files.each_ref().map(|(name, bytes)| (*name, &bytes[..])));
     let small = "-s 32x24 --memory 3M";
@@ -68,8 +69,9 @@ fn memory_is_asked_for_before_it_is_taken() {
         ),
         (
             "u.toml",
-            "error: u.toml:2: render.memory: found integer 3, expected text in quotes: a whole number of bytes",
+            "error: u.toml:2: render.memory: found floating point 3.5, expected text in quotes: a whole number of ",
         ),
+        ("v.toml", "samples a pixel that takes 13.2 MiB of memory, expected at most 3.0 MiB in all"),
         (
             "m.obj --memory 1.5G",
             "error: --memory: found \"1.5G\", expected a whole number of bytes below 2^64, such as 512M",
