@@ -1,4 +1,4 @@
-//! Random triangles on the screen.
+//! Random numbers, and triangles on the screen.
 
 use alberti::glam::Vec3;
 use alberti_math::Fixed;
@@ -23,4 +23,27 @@ pub fn triangle(rng: &mut Rng) -> [Vertex<Vec3>; 3] {
         let varying = Vec3::new(component(), component(), component());
         Vertex { x, y, zs: rng.unit() as f32, q: rng.log_uniform(1e-6, 1e3), varying }
     })
+}
+
+/// Either sign, over many sizes or few.
+#[must_use]
+#[expect(clippy::cast_possible_truncation, reason = "f32 by choice")]
+pub fn any_number(rng: &mut Rng) -> f32 {
+    let size = match rng.index(3) {
+        0 => rng.log_uniform(1e-12, 1e12),
+        1 => rng.log_uniform(0.1, 10.0),
+        _ => rng.unit() as f32,
+    };
+    if rng.one_in(2) { -size } else { size }
+}
+
+/// A depth on one side of a plane, anywhere from next to it to far away.
+#[must_use]
+pub fn beside(rng: &mut Rng, plane: f32, sign: f32) -> f32 {
+    loop {
+        let z = plane + sign * plane * rng.log_uniform(1e-7, 1e7);
+        if (z - plane) * sign > 0.0 {
+            return z;
+        }
+    }
 }

@@ -11,6 +11,7 @@ use alberti_projection::{
     EyeVertex, MAX_POLYGON, Perspective, Polygon, ProjectedVertex, SideBounds, clip_near_far, clip_sides,
 };
 use alberti_tests::errors::Errors;
+use alberti_tests::random::{any_number, beside};
 use std::iter;
 
 /// The documented bounds, in ε of the larger of the two ends.
@@ -39,26 +40,6 @@ fn side_values(v: &ProjectedVertex<f32>) -> [f32; 5] {
 
 fn side_bits(v: &ProjectedVertex<f32>) -> [u32; 5] {
     side_values(v).map(f32::to_bits)
-}
-
-/// Either sign, over many sizes or few.
-fn any_number(rng: &mut Rng) -> f32 {
-    let size = match rng.index(3) {
-        0 => rng.log_uniform(1e-12, 1e12),
-        1 => rng.log_uniform(0.1, 10.0),
-        _ => rng.unit() as f32,
-    };
-    if rng.one_in(2) { -size } else { size }
-}
-
-/// A depth on one side of a plane, anywhere from next to it to far away.
-fn beside(rng: &mut Rng, plane: f32, sign: f32) -> f32 {
-    loop {
-        let z = plane + sign * plane * rng.log_uniform(1e-7, 1e7);
-        if (z - plane) * sign > 0.0 {
-            return z;
-        }
-    }
 }
 
 /// The number at which the distance, `di` at one end and `dj` at the other, is zero; to 100 bits.

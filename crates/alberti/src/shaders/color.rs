@@ -30,7 +30,7 @@ impl<V: Varying, C: FragmentColor> FragmentStage<V> for Solid<C> {
 /// The interpolated colour of the vertices; components outside [0, 1] are clamped.
 ///
 /// # Precision
-/// To the nearest byte.
+/// Within half a byte and 2^-16.
 #[derive(Clone, Copy, Debug)]
 pub struct VertexColor;
 

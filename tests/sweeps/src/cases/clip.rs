@@ -7,29 +7,15 @@ use alberti_math::glam::Vec3;
 use alberti_math::{Eye, Point3};
 use alberti_oracle::rng::Rng;
 use alberti_projection::{EyeVertex, clip_near_far};
+use alberti_tests::random::{any_number, beside};
 
 /// Edges of a block.
 const EDGES: u64 = 500_000;
 
-/// Either sign, over many sizes or few.
-fn any_number(rng: &mut Rng) -> f32 {
-    let size = match rng.index(4) {
-        0 => rng.log_uniform(1e-12, 1e12),
-        1 => rng.log_uniform(0.1, 10.0),
-        2 => rng.log_uniform(1e-37, 1e30),
-        _ => rng.unit() as f32,
-    };
-    if rng.one_in(2) { -size } else { size }
-}
-
-/// A depth on one side of a plane, anywhere from next to it to far away.
-fn beside(rng: &mut Rng, plane: f32, sign: f32) -> f32 {
-    loop {
-        let z = plane + sign * plane * rng.log_uniform(1e-7, 1e7);
-        if (z - plane) * sign > 0.0 {
-            return z;
-        }
-    }
+/// Or of any size at all.
+fn anything(rng: &mut Rng) -> f32 {
+    let number = any_number(rng);
+    if rng.one_in(4) { number.signum() * rng.log_uniform(1e-37, 1e30) } else { number }
 }
 
 /// So many edges.
@@ -42,7 +28,7 @@ pub fn block(block: u64, seed: u64) -> Result<Found, String> {
         let plane = rng.log_uniform(1e-3, 1e3);
         let (range, inward) = if rng.one_in(2) { ([plane, 1e30], 1.0) } else { ([-1e30, plane], -1.0) };
         let mut at = |side: f32| {
-            let [x, y, varying] = [(); 3].map(|()| any_number(&mut rng));
+            let [x, y, varying] = [(); 3].map(|()| anything(&mut rng));
             EyeVertex {
                 position: Point3::<Eye>::new(Vec3::new(x, y, beside(&mut rng, plane, side))),
                 varying,
