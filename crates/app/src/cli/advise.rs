@@ -20,7 +20,7 @@ use crate::scene::{Camera, Model};
 /// The text after the options.
 pub(super) const HELP: &str = "\
 Examples:
-  alberti advise teapot.obj --max-error 0.5texel
+  alberti advise teapot.obj --max-error 2lsb
   alberti advise --scene floor --max-error 2lsb --size 320x240
   alberti advise wet.toml --max-error 0.01flip --image differences
   alberti advise --scene mesh --max-error 1texel --target m4f

@@ -16,6 +16,7 @@ use crate::draw::bytes_of;
 use crate::error::{Error, quote};
 use crate::memory;
 use crate::options::{RenderOptions, Samples};
+use crate::output::aov::Beside;
 use crate::output::clock::{Work, spent};
 use crate::output::progress::{Progress, is_silent, silence, waiting};
 use crate::output::stats::{Report, Times};
@@ -183,6 +184,9 @@ fn draw_from(request: &Request) -> Result<(), Error> {
     let beside = request.beside(&output)?;
     request.hold_picture()?;
     let mut staged = request.stage_picture()?;
+    // Before the work, since textures and materials are known.
+    output.check_unread()?;
+    beside.as_ref().map_or(Ok(()), Beside::check_unread)?;
     // Numbers are those of the model, without a ground.
     let seen = staged.camera;
     let numbers = || waiting("drawing numbers", || layers(&staged.model, &seen, &staged.options));

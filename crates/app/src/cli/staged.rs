@@ -129,7 +129,10 @@ impl Request {
     /// # Errors
     /// Options that do not go together.
     pub(super) fn check(&self) -> Result<(), Error> {
-        self.arguments.render.policies(self.arguments.camera.is_parallel()).0.check()?;
+        let render = &self.arguments.render;
+        let of_profile = render.profile.is_some() && render.arithmetic.is_none();
+        let placed = |error: Error| if of_profile { error.place("--profile") } else { error };
+        render.policies(self.arguments.camera.is_parallel()).0.check().map_err(placed)?;
         partners::check(&self.arguments)
     }
 

@@ -1,5 +1,5 @@
 //! The files that a picture is made of, as they were just before they were opened: a change after that is noticed,
-//! however soon it comes.
+//! however soon it comes, and none of them is written.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -10,33 +10,36 @@ use std::time::SystemTime;
 /// A file as it was; `None` for one that was not there.
 type Stamp = Option<(Option<SystemTime>, u64, u64)>;
 
-/// Files by their paths. `None`: nobody asks.
-static SEEN: Mutex<Option<BTreeMap<PathBuf, Stamp>>> = Mutex::new(None);
+/// Files by their paths.
+static SEEN: Mutex<BTreeMap<PathBuf, Stamp>> = Mutex::new(BTreeMap::new());
 
-fn all() -> MutexGuard<'static, Option<BTreeMap<PathBuf, Stamp>>> {
+fn all() -> MutexGuard<'static, BTreeMap<PathBuf, Stamp>> {
     SEEN.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Remembers files from now on, and forgets those of before.
+/// Forgets the files of before.
 pub(crate) fn begin() {
-    *all() = Some(BTreeMap::new());
+    all().clear();
 }
 
-/// Remembers a file that is about to be opened, if that is asked for. Of several times the first counts.
+/// Remembers a file that is about to be opened. Of several times the first counts.
 pub(crate) fn see(path: &Path) {
-    if let Some(seen) = &mut *all() {
-        seen.entry(path.to_owned()).or_insert_with(|| stamp(path));
-    }
+    all().entry(path.to_owned()).or_insert_with(|| stamp(path));
+}
+
+/// Whether one of the files that were there is such.
+pub(crate) fn any(is: impl Fn(&Path) -> bool) -> bool {
+    all().iter().any(|(path, then)| then.is_some() && is(path))
 }
 
 /// Whether the files are no longer as they were.
 pub(crate) fn changed() -> bool {
-    all().iter().flatten().any(|(path, then)| stamp(path) != *then)
+    all().iter().any(|(path, then)| stamp(path) != *then)
 }
 
 /// All files as they are.
 pub(crate) fn now() -> Vec<Stamp> {
-    all().iter().flatten().map(|(path, _)| stamp(path)).collect()
+    all().keys().map(|path| stamp(path)).collect()
 }
 
 fn stamp(path: &Path) -> Stamp {

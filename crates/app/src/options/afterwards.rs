@@ -154,10 +154,11 @@ mod tests {
         }
         let read = |text: &str| text.parse::<Blend>().map(|blend| blend.0);
         assert_eq!(read("over"), Ok(AnyBlend::Over));
+        assert_eq!(read("Over"), Ok(AnyBlend::Over));
         assert_eq!(read("constant:0.5"), Ok(AnyBlend::Constant(128)));
         assert_eq!(read("constant:1"), Ok(AnyBlend::Constant(255)));
         for text in
-            ["", "constant", "constant:", "constant:1.5", "constant:-0.1", "constant:nan", "Over", "replace"]
+            ["", "constant", "constant:", "constant:1.5", "constant:-0.1", "constant:nan", "overs", "replace"]
         {
             assert!(read(text).is_err(), "{text}");
         }

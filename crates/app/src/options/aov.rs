@@ -74,9 +74,9 @@ mod tests {
 
     #[test]
     fn names_are_read_in_any_order() {
-        assert_eq!("lod, depth,lod".parse(), Ok(Aovs(vec![Aov::Depth, Aov::Lod])));
+        assert_eq!("lod, Depth,lod".parse(), Ok(Aovs(vec![Aov::Depth, Aov::Lod])));
         assert!("id,uv,normal".parse::<Aovs>().is_ok_and(|aovs| aovs.has(Aov::Uv) && !aovs.has(Aov::Lod)));
-        for bad in ["", "depth,", "Depth", "z", "depth normal"] {
+        for bad in ["", "depth,", "depths", "z", "depth normal"] {
             let message = bad.parse::<Aovs>().unwrap_err();
             assert_eq!(message, "one or more of depth, normal, uv, id, lod, with commas between", "{bad}");
         }

@@ -76,9 +76,9 @@ mod tests {
     #[test]
     fn filters_have_names() {
         assert_eq!("nearest".parse(), Ok(Filter::Nearest));
-        assert_eq!("trilinear".parse(), Ok(Filter::Trilinear));
+        assert_eq!("Trilinear".parse(), Ok(Filter::Trilinear));
         assert_eq!("anisotropic:16".parse(), Ok(Filter::Anisotropic(Probes::Sixteen)));
-        for text in ["", "cubic", "anisotropic", "anisotropic:", "anisotropic:3", "anisotropic:02", "Nearest"]
+        for text in ["", "cubic", "anisotropic", "anisotropic:", "anisotropic:3", "anisotropic:02", "nearer"]
         {
             assert!(text.parse::<Filter>().is_err(), "{text}");
         }

@@ -9,7 +9,7 @@ use clap::builder::Resettable;
 use clap::{Args, Command};
 use serde::{Deserialize, Deserializer};
 
-use super::values::{Color, Elevation, Finite, Number, Point, Size, Zoom};
+use super::values::{Color, Elevation, Finite, Number, Point, Size, Zoom, truth};
 use super::{
     AovFormat, Aovs, Arithmetic, Background, ColorFormat, Cull, DepthFormat, Dither, FileFormat, Filter, Fog,
     Interpolation, KeyLight, LightSpace, Lod, Normals, Policies, Profile, ProjectionKind, Samples, Shading,
@@ -265,7 +265,7 @@ pub struct RenderTable {
     pub normals: Option<Normals>,
 
     /// Whether surfaces that are seen from behind are lit as if they faced the viewer [default: true].
-    #[arg(long, value_name = "true|false", help_heading = SURFACE)]
+    #[arg(long, value_name = "true|false", value_parser = truth(), help_heading = SURFACE)]
     pub two_sided: Option<bool>,
 
     /// Direction of the main light of a model without lights, as lamp or two angles [default: -35,50].
@@ -283,7 +283,7 @@ pub struct RenderTable {
     pub light_space: Option<LightSpace>,
 
     /// A ground at the lowest point, of which a soft shadow is seen. In pictures alone.
-    #[arg(long, value_name = "true|false", num_args = 0..=1, require_equals = true, default_missing_value = "true", help_heading = SURFACE)]
+    #[arg(long, value_name = "true|false", num_args = 0..=1, require_equals = true, default_missing_value = "true", value_parser = truth(), help_heading = SURFACE)]
     pub ground: Option<bool>,
 
     /// Fog, by distances before the camera: none, linear:START,END, exp:DENSITY or exp2:DENSITY [default: none]

@@ -7,6 +7,7 @@ use std::num::NonZero;
 use std::str::FromStr;
 
 use clap::ValueEnum;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use serde::de::{Deserialize, Deserializer, Error, Expected, SeqAccess, Unexpected, Visitor};
 
 use crate::error::quote;
@@ -369,6 +370,11 @@ pub(crate) fn one_of<T: ValueEnum>(text: &str) -> Result<T, String> {
 /// The option's word for a value.
 pub(crate) fn name_of(value: impl ValueEnum) -> String {
     value.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
+}
+
+/// `true` or `false` on the command line, as words whose case may be ignored.
+pub(crate) fn truth() -> impl TypedValueParser<Value = bool> {
+    PossibleValuesParser::new(["true", "false"]).map(|word| word.eq_ignore_ascii_case("true"))
 }
 
 /// Types that scene files write as the command line does, read by one function.

@@ -50,6 +50,12 @@ pub fn names(output: &Output, aovs: &Aovs, format: AovFormat) -> Result<Vec<Path
 }
 
 impl Beside {
+    /// # Errors
+    /// One of the files has been read.
+    pub fn check_unread(&self) -> Result<(), Error> {
+        self.files.iter().try_for_each(Whole::check_unread)
+    }
+
     /// Files of [`names`].
     #[must_use]
     pub fn new(aovs: Aovs, format: AovFormat, files: Vec<Whole>) -> Self {

@@ -10,6 +10,7 @@ use image::{ExtendedColorType, ImageEncoder as _, ImageFormat};
 use tempfile::NamedTempFile;
 
 use crate::error::Error;
+use crate::load::seen;
 use crate::scene::Image;
 
 const FORMATS: [(&str, ImageFormat); 8] = [
@@ -142,10 +143,22 @@ impl Whole {
         fs::canonicalize(other).is_ok_and(|other| other == self.path)
     }
 
+    /// Refuses a file that has been read.
+    ///
+    /// # Errors
+    /// It has been: a texture, for example.
+    pub fn check_unread(&self) -> Result<(), Error> {
+        if !seen::any(|other| self.is(other)) {
+            return Ok(());
+        }
+        let error = Error::new("a file that is also read", "another").file(&self.named);
+        Err(error.hint(format!("choose another with {}", self.option)))
+    }
+
     /// Writes these bytes. A failure at any point leaves whatever was there before.
     ///
     /// # Errors
-    /// Writing fails: the disk is full, for example.
+    /// Writing fails: the disk is full, for example. Or the file has been read.
     pub fn write(&self, bytes: &[u8]) -> Result<(), Error> {
         Self::write_all(&[(self, bytes)])
     }
@@ -166,6 +179,7 @@ impl Whole {
 
     /// A new file of these bytes in the output's folder.
     fn written(&self, bytes: &[u8]) -> Result<NamedTempFile, Error> {
+        self.check_unread()?;
         let mut file = self.temporary()?;
         file.write_all(bytes)
             .and_then(|()| match fs::metadata(&self.path) {
@@ -284,6 +298,15 @@ impl Output {
     /// Whether `other` is the same file.
     pub fn is(&self, other: &Path) -> bool {
         matches!(&self.sink, Sink::File(file) if file.is(other))
+    }
+
+    /// # Errors
+    /// It is a file that has been read.
+    pub fn check_unread(&self) -> Result<(), Error> {
+        match &self.sink {
+            Sink::File(file) => file.check_unread(),
+            _ => Ok(()),
+        }
     }
 
     /// # Errors

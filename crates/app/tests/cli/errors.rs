@@ -62,7 +62,7 @@ fn indices_that_do_not_exist() {
         ("f 1//6148914691236517206 2//1 3//1", "found normal index 6148914691236517206"),
         ("f 1//-9223372036854775808 2//1 3//1", "found normal index -9223372036854775808"),
         ("f -4 -2 -1", "found vertex index -4, expected -1 to -3"),
-        ("f 99999999999999999999999 1 2", "found vertex index 9223372036854775807"),
+        ("f 99999999999999999999999 1 2", "found vertex index 99999999999999999999999"),
         ("f a b c", "found \"a\" in a face, expected whole numbers"),
         ("f 1/1/1/1 2 3", "found \"1/1/1/1\" in a face"),
     ] {
@@ -287,6 +287,36 @@ fn outputs_that_cannot_be_written() {
         &["error: file/out.png: found a file in the place of its folder"],
     );
     folder.fails(&["--texture", "t.png", "-o", "t.png"], &["error: t.png: found a file that is also read"]);
+}
+
+/// Textures and materials are known when they have been read.
+#[test]
+fn none_of_a_models_own_files_is_written() {
+    let model = format!("mtllib m.mtl\nusemtl a\n{TRIANGLE}");
+    let scene = "[render]\nsize = [32, 24]\n[[object]]\nmodel = \"m.obj\"\n";
+    let folder = Folder::with(&[
+        ("m.obj", model.as_bytes()),
+        ("m.mtl", b"newmtl a\nmap_Kd my.depth.png\n"),
+        ("s.toml", scene.as_bytes()),
+    ]);
+    folder.succeeds(&["--scene", "cube", "-s", "8x8", "-o", "my.depth.png"]);
+    let before = folder.names();
+    let texture = std::fs::read(folder.path("my.depth.png")).expect("a picture");
+    for (arguments, name) in [
+        ("m.obj -o my.depth.png", "my.depth.png"),
+        ("m.obj -o ./my.depth.png", "./my.depth.png"),
+        ("m.obj -o m.mtl --output-format png", "m.mtl"),
+        ("m.obj -o my.png --aov depth", "my.depth.png"),
+        ("s.toml -o my.depth.png", "my.depth.png"),
+        ("s.toml -o m.obj --output-format png", "m.obj"),
+    ] {
+        let told = format!(
+            "error: {name}: found a file that is also read, expected another; choose another with -o"
+        );
+        folder.fails(&arguments.split(' ').collect::<Vec<_>>(), &[&told]);
+    }
+    assert_eq!(folder.names(), before);
+    assert_eq!(std::fs::read(folder.path("my.depth.png")).expect("a picture"), texture);
 }
 
 #[test]
