@@ -184,8 +184,8 @@ pub trait Lanes: Copy + Debug + Send + Sync {
     }
     /// The nearest word from 0 to 255, of halves the upper; 0 for NaN.
     fn nearest_byte(self, x: Self::Number) -> Self::U32;
-    /// A word within 1/2 + `greatest`·2^-24 of `greatest` times x, from 0 to `greatest`, which is at most 2^15 - 1; 0 for
-    /// NaN. The product is rounded first, so that next to a half it may be the other of the two.
+    /// A word within 1/2 + `greatest`·2^-24 of `greatest` times x, from 0 to `greatest`, which is at most 2^15 - 1.
+    /// The product is rounded first, so that next to a half it may be the other of the two. 0 for NaN.
     fn of_unit(self, x: Self::Number, greatest: u16) -> Self::U32;
     /// Words from 0 to 255 as numbers.
     fn to_numbers(self, x: Self::U32) -> Self::Number;

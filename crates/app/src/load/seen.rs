@@ -1,5 +1,5 @@
 //! The files that a picture is made of, as they were just before they were opened: a change after that is noticed,
-//! however soon it comes, and none of them is written.
+//! however soon it comes. None of them is written.
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -50,9 +50,8 @@ pub fn names(output: &Output, aovs: &Aovs, format: AovFormat) -> Result<Vec<Path
 }
 
 impl Beside {
-    /// # Errors
-    /// One of the files has been read.
-    pub fn check_unread(&self) -> Result<(), Error> {
+    /// Refuses files of which one has been read.
+    pub(crate) fn check_unread(&self) -> Result<(), Error> {
         self.files.iter().try_for_each(Whole::check_unread)
     }
 

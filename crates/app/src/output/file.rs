@@ -143,16 +143,11 @@ impl Whole {
         fs::canonicalize(other).is_ok_and(|other| other == self.path)
     }
 
-    /// Refuses a file that has been read.
-    ///
-    /// # Errors
-    /// It has been: a texture, for example.
-    pub fn check_unread(&self) -> Result<(), Error> {
-        if !seen::any(|other| self.is(other)) {
-            return Ok(());
-        }
+    /// Refuses a file that has been read, such as a texture.
+    pub(crate) fn check_unread(&self) -> Result<(), Error> {
         let error = Error::new("a file that is also read", "another").file(&self.named);
-        Err(error.hint(format!("choose another with {}", self.option)))
+        let error = error.hint(format!("choose another with {}", self.option));
+        if seen::any(|other| self.is(other)) { Err(error) } else { Ok(()) }
     }
 
     /// Writes these bytes. A failure at any point leaves whatever was there before.
@@ -300,13 +295,9 @@ impl Output {
         matches!(&self.sink, Sink::File(file) if file.is(other))
     }
 
-    /// # Errors
-    /// It is a file that has been read.
-    pub fn check_unread(&self) -> Result<(), Error> {
-        match &self.sink {
-            Sink::File(file) => file.check_unread(),
-            _ => Ok(()),
-        }
+    /// The same of a picture, if it is a file.
+    pub(crate) fn check_unread(&self) -> Result<(), Error> {
+        if let Sink::File(file) = &self.sink { file.check_unread() } else { Ok(()) }
     }
 
     /// # Errors

@@ -14,8 +14,8 @@ pub(crate) fn addends(content: Content, color: Rgba8) -> [u16; 4] {
     }
 }
 
-/// Sums of four addends, two in a word: of the first and the second, and of the others. What is below 2^32 in the end may
-/// be the difference of sums that are not.
+/// Sums of four addends, two in a word: of the first and the second, and of the others. What is below 2^32 in the end
+/// may be the difference of sums that are not.
 pub(super) type Packed = [u64; 2];
 
 /// The first, or third, of such sums.
@@ -92,8 +92,8 @@ impl Weights {
     /// A sum of numbers, each times its weight, divided by that of the weights and rounded to nearest, halves up. The
     /// numbers are at most 65535.
     ///
-    /// The upper bits of the dividend times the reciprocal are less than 2^-14 too little, so that the quotient is right
-    /// or 1 too little. Chips divide 64 bits by hundreds of instructions.
+    /// The upper bits of the dividend times the reciprocal are less than 2^-14 too little, so that the quotient is
+    /// right or 1 too little. Chips divide 64 bits by hundreds of instructions.
     #[inline]
     #[expect(
         clippy::cast_possible_truncation,
