@@ -10,6 +10,7 @@ use serde::Serialize;
 use super::run::print;
 use crate::error::Error;
 use crate::image_file::{self, MAX_TEXELS};
+use crate::load::seen;
 use crate::measure::{Comparison, MaxError, Measures, OUTLIER};
 use crate::memory;
 use crate::output::file::Output;
@@ -144,8 +145,7 @@ fn output(arguments: &CompareArgs) -> Result<Option<Output>, Error> {
     let Some(named) = &arguments.heat else { return Ok(None) };
     let output = Output::new(named, None).map_err(|error| error.hint(ANOTHER))?;
     if output.is(&arguments.first) || output.is(&arguments.second) {
-        let found = "a file that is also read";
-        return Err(Error::new(found, "another").file(output.name()).hint(ANOTHER));
+        return Err(seen::refused(output.name(), "--heat"));
     }
     Ok(Some(output))
 }

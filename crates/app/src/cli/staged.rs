@@ -14,7 +14,7 @@ use super::{RenderArgs, partners};
 use crate::error::{Error, Warnings, number, quote};
 use crate::load::images::Images;
 use crate::load::scene_file::{self, SceneFile};
-use crate::load::{obj, prepare};
+use crate::load::{obj, prepare, seen};
 use crate::memory;
 use crate::options::values::{Color, MAX_THREADS, Size, Threads, name_of as name_of_value};
 use crate::options::{
@@ -189,8 +189,7 @@ impl Request {
     fn check_apart(&self, name: &Path, is: impl Fn(&Path) -> bool, option: &str) -> Result<(), Error> {
         let named = self.file.as_ref().map(SceneFile::inputs).unwrap_or_default();
         if inputs(&self.arguments).chain(named).any(|input| is(&input)) {
-            let error = Error::new("a file that is also read", "another").file(name);
-            return Err(error.hint(format!("choose another with {option}")));
+            return Err(seen::refused(name, option));
         }
         Ok(())
     }
@@ -331,12 +330,10 @@ pub(super) fn samples(arguments: &RenderArgs, [width, height]: [u32; 2]) -> Resu
 }
 
 fn name_of(arguments: &RenderArgs) -> &str {
-    let given = arguments.scene.as_deref().unwrap_or_default();
-    scenes::NAMES
-        .iter()
-        .copied()
-        .find(|name| given.is_empty() || name.eq_ignore_ascii_case(given))
-        .unwrap_or(given)
+    let Some(given) = arguments.scene.as_deref() else {
+        return scenes::NAMES.first().copied().unwrap_or_default();
+    };
+    scenes::NAMES.iter().copied().find(|name| name.eq_ignore_ascii_case(given)).unwrap_or(given)
 }
 
 fn load(arguments: &RenderArgs) -> Result<Scene, Error> {

@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
+use crate::error::Error;
+
 /// A file as it was; `None` for one that was not there.
 type Stamp = Option<(Option<SystemTime>, u64, u64)>;
 
@@ -30,6 +32,12 @@ pub(crate) fn see(path: &Path) {
 /// Whether one of the files that were there is such.
 pub(crate) fn any(is: impl Fn(&Path) -> bool) -> bool {
     all().iter().any(|(path, then)| then.is_some() && is(path))
+}
+
+/// The error of a name under which one of them would be written; `option` names another.
+pub(crate) fn refused(name: &Path, option: &str) -> Error {
+    let error = Error::new("a file that is also read", "another").file(name);
+    error.hint(format!("choose another with {option}"))
 }
 
 /// Whether the files are no longer as they were.

@@ -145,9 +145,7 @@ impl Whole {
 
     /// Refuses a file that has been read, such as a texture.
     pub(crate) fn check_unread(&self) -> Result<(), Error> {
-        let error = Error::new("a file that is also read", "another").file(&self.named);
-        let error = error.hint(format!("choose another with {}", self.option));
-        if seen::any(|other| self.is(other)) { Err(error) } else { Ok(()) }
+        if seen::any(|other| self.is(other)) { Err(seen::refused(&self.named, self.option)) } else { Ok(()) }
     }
 
     /// Writes these bytes. A failure at any point leaves whatever was there before.
