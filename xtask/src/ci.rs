@@ -37,20 +37,28 @@ struct Options<'a> {
     all: bool,
     /// These checks alone, whether they stand or not.
     named: Vec<&'a str>,
+    /// Long checks begin within that time alone: the others are told, and are left to a later run.
+    within: Option<Duration>,
 }
 
 impl<'a> Options<'a> {
     fn read(arguments: &'a [String]) -> Result<Self, String> {
         let mut options = Self::default();
-        for word in arguments {
+        let mut words = arguments.iter();
+        while let Some(word) = words.next() {
             match word.as_str() {
+                "--within" => {
+                    let minutes = words.next().and_then(|minutes| minutes.parse::<u64>().ok());
+                    let minutes = minutes.ok_or("expected minutes after `--within`")?;
+                    options.within = Some(Duration::from_secs(60 * minutes));
+                }
                 "--tests-done" => options.tests_done = true,
                 "--all" => options.all = true,
                 name if names().any(|known| known == name) => options.named.push(name),
                 _ => {
                     let names = names().collect::<Vec<_>>().join(", ");
                     return Err(format!(
-                        "expected `--tests-done`, `--all` or one of {names}, found `{word}`"
+                        "expected `--tests-done`, `--all`, `--within MINUTES` or one of {names}, found `{word}`"
                     ));
                 }
             }
@@ -81,8 +89,8 @@ struct Done {
 }
 
 /// The checks in order, by the price of finding a failure: text first, then one compilation, then the tests, then the
-/// builds that start from nothing. Little is compiled twice: `docs` and `package` share the metadata of most
-/// dependencies with `lint`; `lanes`, `trade` and `guide` have the app that `gallery` has compiled.
+/// builds that start from nothing, which may stand. Little is compiled twice: `docs` and `package` share the metadata
+/// of most dependencies with `lint`; `lanes`, `trade` and `guide` have the app that `gallery` has compiled.
 const STEPS: &[Step] = &[
     ("tidy", tidy::run),
     ("assets", assets::check),
@@ -93,14 +101,14 @@ const STEPS: &[Step] = &[
     (TEST, checks::test),
     ("gallery", gallery::check),
     ("lanes", checks::lanes),
-    ("trade", trade::check),
     ("registers", checks::registers),
     ("extremes", extremes::check),
     ("package", package::run),
     ("supply", supply::check),
-    ("fingerprint", || firmware::fingerprint(&[])),
-    ("fuzz", fuzz::check),
+    ("trade", trade::check),
     ("guide", guide::run),
+    ("fuzz", fuzz::check),
+    ("fingerprint", || firmware::fingerprint(&[])),
 ];
 
 /// Runs the checks and stops at the first that fails. Long ones stand if they have passed on the same files before.
@@ -115,25 +123,33 @@ pub(crate) fn run(arguments: &[String]) -> Outcome {
         println!("{} passed on these files ({}): `--all` repeats them", standing.join(", "), passed::PLACE);
         beside.extend(standing.contains(&SAMPLE[0]).then_some(SAMPLE));
     }
-    let (mut done, outcome) = run_steps(&steps, &beside, chore);
+    let end = options.within.map(|time| Instant::now() + time);
+    let is_late = |name: &str| passed::is_long(name) && end.is_some_and(|end| Instant::now() > end);
+    let (mut done, outcome) = run_steps(&steps, &beside, chore, &is_late);
     // A sample is not the whole.
     done.retain(|name| takes(name));
+    let late: Vec<_> = names().filter(|name| takes(name) && !done.iter().any(|done| done == name)).collect();
     passed.keep(&done)?;
+    if outcome.is_ok() && !late.is_empty() {
+        println!("\nNOT CHECKED on these files, for want of time: {}", late.join(", "));
+        println!("    cargo xtask ci {}", late.join(" "));
+    }
     outcome
 }
 
 /// Runs the steps, and chores beside them, of which is told at the end: the names of those that passed, and the first
-/// failure.
+/// failure. What is late is left out.
 fn run_steps(
     steps: &[Step],
     beside: &[Chore],
     chore: fn(&[&str]) -> Result<String, String>,
+    is_late: &(dyn Fn(&str) -> bool + Sync),
 ) -> (Vec<String>, Outcome) {
     let start = Instant::now();
     let failed = AtomicBool::new(false);
     let ((mut passed, outcome), done) = thread::scope(|scope| {
-        let others = scope.spawn(|| run_beside(beside, chore, &failed));
-        let own = in_order(steps, &failed);
+        let others = scope.spawn(|| run_beside(beside, chore, &failed, is_late));
+        let own = in_order(steps, &failed, is_late);
         (own, others.join())
     });
     let Ok(done) = done else { return (Vec::new(), Err("a chore beside the others panicked".to_owned())) };
@@ -159,11 +175,18 @@ fn run_steps(
 }
 
 /// Runs steps up to the first that fails, or after which another has: those that passed, and the outcome.
-fn in_order(steps: &[Step], failed: &AtomicBool) -> (Vec<(String, Duration)>, Outcome) {
+fn in_order(
+    steps: &[Step],
+    failed: &AtomicBool,
+    is_late: &dyn Fn(&str) -> bool,
+) -> (Vec<(String, Duration)>, Outcome) {
     let mut passed = Vec::new();
     for (index, (name, step)) in steps.iter().enumerate() {
         if failed.load(Ordering::Relaxed) {
             break;
+        }
+        if is_late(name) {
+            continue;
         }
         println!("\n==> {name} ({} of {})", index + 1, steps.len());
         let start = Instant::now();
@@ -184,11 +207,15 @@ fn run_beside(
     chores: &[Chore],
     chore: fn(&[&str]) -> Result<String, String>,
     failed: &AtomicBool,
+    is_late: &dyn Fn(&str) -> bool,
 ) -> Vec<Done> {
     let mut all = Vec::new();
     for words in chores {
         if failed.load(Ordering::Relaxed) {
             break;
+        }
+        if is_late(words[0]) {
+            continue;
         }
         let start = Instant::now();
         let (printed, outcome) = match chore(words) {
@@ -233,7 +260,7 @@ mod tests {
             ("bad", || Err("no".into())),
             ("never", || panic!("a step after the failure ran")),
         ];
-        let (passed, outcome) = run_steps(&steps, &[], |_| Ok(String::new()));
+        let (passed, outcome) = run_steps(&steps, &[], |_| Ok(String::new()), &|_| false);
         assert_eq!((passed, outcome), (vec!["good".to_owned()], Err("step `bad`: no".into())));
     }
 
@@ -244,14 +271,30 @@ mod tests {
             "bad" => Err("no".to_owned()),
             _ => panic!("a chore after the failure ran"),
         };
-        let (passed, outcome) = run_steps(&[], &[&["good"], &["bad", "check"], &["never"]], chore);
+        let (passed, outcome) =
+            run_steps(&[], &[&["good"], &["bad", "check"], &["never"]], chore, &|_| false);
         assert_eq!((passed, outcome), (vec!["good".to_owned()], Err("step `bad`: see above".into())));
         let wait = || {
             std::thread::sleep(Duration::from_millis(200));
             Ok(())
         };
         let steps: [Step; 2] = [("wait", wait), ("never", || panic!("a step after the failure ran"))];
-        assert_eq!(run_steps(&steps, &[&["bad"]], chore).1, Err("step `bad`: see above".into()));
+        assert_eq!(run_steps(&steps, &[&["bad"]], chore, &|_| false).1, Err("step `bad`: see above".into()));
+    }
+
+    #[test]
+    fn what_is_late_is_left_out() {
+        let steps: [Step; 2] = [("short", || Ok(())), ("long", || panic!("a late step ran"))];
+        let (passed, outcome) =
+            run_steps(&steps, &[&["long", "check"]], |_| panic!("a late chore ran"), &|name| name == "long");
+        assert_eq!((passed, outcome), (vec!["short".to_owned()], Ok(())));
+        let within = |text: &str| {
+            let words: Vec<String> = text.split_whitespace().map(str::to_owned).collect();
+            Options::read(&words).map(|options| options.within)
+        };
+        assert_eq!(within("--within 30"), Ok(Some(Duration::from_secs(1800))));
+        assert_eq!(within("lint"), Ok(None));
+        assert!(within("--within").is_err() && within("--within soon").is_err());
     }
 
     #[test]

@@ -50,7 +50,7 @@ struct Chore {
 const CHORES: &[Chore] = &[
     Chore {
         name: "ci",
-        arguments: "[--tests-done] [--all] [CHECK...]",
+        arguments: "[--tests-done] [--all] [--within MINUTES] [CHECK...]",
         about: "the checks below, or those named, up to the first failure",
         run: ci::run,
     },
