@@ -128,6 +128,7 @@ impl FromStr for Asked {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
+        let text = &*text.to_ascii_lowercase();
         if text == "auto" {
             return Ok(Self::Auto);
         }

@@ -14,6 +14,7 @@ pub mod advise;
 pub mod bake;
 pub mod compare;
 mod explain;
+mod film;
 mod help;
 mod info;
 mod manual;
@@ -21,6 +22,8 @@ pub(crate) mod partners;
 mod picture;
 pub mod run;
 mod staged;
+mod told;
+pub mod turntable;
 mod watch;
 mod words;
 
@@ -68,6 +71,15 @@ pub enum Command {
     /// the colour is compared with that of the picture.
     #[command(after_help = explain::EXAMPLES)]
     Explain(Box<explain::ExplainArgs>),
+    /// Draw a film of a model that turns, or its frames.
+    ///
+    /// Takes the options of `render`. The camera goes round the target, and the light with it. All of the model is in
+    /// view at all times unless --eye is given. The last frame is before the first one.
+    #[command(after_help = turntable::HELP)]
+    Turntable(Box<turntable::TurntableArgs>),
+    /// Join pictures to a film: the frames that processes have drawn apart.
+    #[command(after_help = turntable::ASSEMBLE_HELP)]
+    Assemble(turntable::AssembleArgs),
     /// Tell of a model: its size, materials and maps, and what it takes on boards.
     ///
     /// Triangles, extents, parts, materials with their files, memory, and flash, RAM and instructions as `alberti bake`

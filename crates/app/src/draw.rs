@@ -38,6 +38,7 @@ mod used;
 
 use facing::Viewpoint;
 pub(crate) use general::Studio;
+pub(crate) use maps::Chains;
 pub(crate) use runs::Counted;
 use studio::Rig;
 pub(crate) use surveyed::{KNOWN, Known};

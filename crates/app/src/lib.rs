@@ -9,6 +9,7 @@ mod display;
 pub mod draw;
 pub mod error;
 pub mod explain;
+mod film;
 pub mod info;
 pub mod load;
 pub mod measure;

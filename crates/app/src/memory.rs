@@ -35,7 +35,9 @@ impl FromStr for Memory {
         };
         let bytes = digits.parse().ok().and_then(|number: u64| number.checked_mul(1_u64.checked_shl(shift)?));
         let bytes = bytes.filter(|&bytes| bytes > 0);
-        bytes.map(Self).ok_or_else(|| "a whole number of bytes below 2^64, such as 512M or 2G".to_owned())
+        bytes
+            .map(Self)
+            .ok_or_else(|| "a whole number of bytes from 1 to 2^64 - 1, such as 512M or 2G".to_owned())
     }
 }
 
@@ -45,6 +47,7 @@ words!(str::parse: Memory);
 impl fmt::Display for Memory {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (shift, unit) = match self.0 {
+            1 => return f.write_str("1 byte"),
             0..0x400 => return write!(f, "{} bytes", self.0),
             0x400..0x10_0000 => (10, "KiB"),
             0x10_0000..0x4000_0000 => (20, "MiB"),
@@ -102,6 +105,14 @@ pub(crate) fn need(bytes: u64, what: impl fmt::Display) -> Result<(), Error> {
     let found = format!("{what} that takes {} of memory{beside}", Memory(bytes));
     let error = Error::new(found, format!("at most {} in all, {who}", Memory(allowed)));
     Err(error.hint("make it smaller, or allow more with --memory"))
+}
+
+/// Does work after which nothing of what it asks for is held.
+pub(crate) fn for_once<T>(work: impl FnOnce() -> T) -> T {
+    let before = LEDGER.get();
+    let result = work();
+    LEDGER.set(before);
+    result
 }
 
 /// The bytes that there are to ask for.

@@ -1,9 +1,9 @@
-//! The command's output: the picture's file, counts and times, and a bar for people who wait.
+//! The command's output: the picture's file, counts and times, and the stages that people wait for.
 
 pub mod aov;
 pub mod exr;
 pub mod file;
 pub mod stats;
 
-pub(crate) mod clock;
-pub(crate) mod progress;
+pub(crate) mod folder;
+pub(crate) mod stage;

@@ -1,12 +1,13 @@
 //! Anti-aliased pictures: an ordered grid of samples a pixel, whose light is averaged, in bands of few samples.
 
 use std::num::NonZero;
+use std::sync::Arc;
 
 use alberti::raster::color::{Average, resolve};
 use alberti::{AnyDepth, DepthFormat as _, Rgba8888, Stats, Target};
 
 use crate::display::stored;
-use crate::draw::{Drawing, Studio};
+use crate::draw::{Chains, Drawing, Studio};
 use crate::error::Error;
 use crate::options::{RenderOptions, Samples};
 use crate::render::{Picture, any_depth, buffer, room};
@@ -39,9 +40,25 @@ pub fn supersampled(
     backdrop: &Backdrop,
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<Picture, Error> {
+    let chains = Arc::new(Chains::new(model, options)?);
+    supersampled_with(&chains, (model, camera), options, samples, backdrop, progress)
+}
+
+/// The same with mip maps that are there.
+///
+/// # Errors
+/// As those of [`supersampled`].
+pub(crate) fn supersampled_with(
+    chains: &Arc<Chains>,
+    (model, camera): (&Model, &Camera),
+    options: &RenderOptions,
+    samples: Samples,
+    backdrop: &Backdrop,
+    progress: &mut dyn FnMut(u64, u64),
+) -> Result<Picture, Error> {
     options.policies.check()?;
     samples.check(options.width, options.height)?;
-    let studio = Studio::new(model, camera, options)?;
+    let studio = Studio::with(chains.clone(), model, camera, options);
     let mut drawing = Drawing::new(model, camera, options, &studio)?;
     let mut band = Band::new(options, samples, backdrop)?;
     let mut texels = buffer(options, [0; 4])?;

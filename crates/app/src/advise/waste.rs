@@ -54,7 +54,7 @@ fn triangles(
     let mut seen = vec![false; total];
     let (mut shaded, mut covered, mut pixels) = (0_u64, 0_u64, 0_u64);
     for turn in 0..turns {
-        let mut turned = camera::turned(camera, turn, turns);
+        let mut turned = camera::turned(camera, None, 360.0 * f64::from(turn) / f64::from(turns.max(1)));
         if turn > 0 {
             // From there something may be nearer.
             let nearest = narrow(0.99 * camera::nearest(model, &turned));

@@ -144,21 +144,6 @@ impl Grids {
         (packed, losses)
     }
 
-    /// The integers of all, and what they lose together.
-    pub(super) fn pack_all<'a>(
-        &self,
-        vertices: impl Iterator<Item = &'a Vertex>,
-        attributes: Attributes,
-    ) -> (Vec<Packed>, Losses) {
-        let mut all = Losses::default();
-        let packed = vertices.map(|vertex| {
-            let (packed, losses) = self.pack(vertex, attributes);
-            all = all.and(losses);
-            packed
-        });
-        (packed.collect(), all)
-    }
-
     /// The place that integers stand for.
     pub(super) fn place(&self, packed: &Packed) -> Vec3 {
         Vec3::from_array(packed.place.map(|c| f32::from(c) * self.unit))
@@ -190,7 +175,9 @@ mod tests {
         let attributes = Attributes::UV | Attributes::NORMAL;
         let grids = Grids::new(unit(shape.iter()), shape.iter(), attributes).expect("grids");
         assert_eq!((grids.unit, grids.origin, grids.shifts), (3.0 / 32767.0, [0, -81920], [0, 2]));
-        let (packed, losses) = grids.pack_all(shape.iter(), attributes);
+        let (packed, losses): (Vec<_>, Vec<_>) =
+            shape.iter().map(|vertex| grids.pack(vertex, attributes)).unzip();
+        let losses = losses.into_iter().fold(Losses::default(), Losses::and);
         assert_eq!(packed[0].place, [-32767, 10922, 5461]);
         // 3.75 · 65536 / 4 steps, and the end of a whole texture.
         assert_eq!((packed[0].uv, packed[1].uv), ([0, 0], [65535, 61440]));

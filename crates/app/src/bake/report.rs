@@ -133,15 +133,19 @@ impl<'a> Report<'a> {
         // Prices are those of these pixels.
         let format = if self.color == ColorFormat::Rgb565 { "" } else { " in rgb565" };
         let is_alternative = self.estimates.iter().any(|estimate| estimate.at_vertices.is_some());
-        let alternative =
-            if is_alternative { ",\nand with that light at the vertices, on the nearest texel" } else { "" };
+        let (alternative, heads) = if is_alternative {
+            (",\nfound at pixels, or at the vertices and then on the nearest texel", "   pixels vertices")
+        } else {
+            ("", "    frame")
+        };
         line(format!(
             "\nMillions of instructions for a frame of {width}x{height}{format}, {light}{alternative}:\n"
         ));
+        line(format!("{heads}  chip  mostly within"));
         for Estimate { chip, instructions, at_vertices, off } in &self.estimates {
             let all = [Some(*instructions), *at_vertices].into_iter().flatten();
             let millions: String = all.map(|count| format!("{:>9.2}", count / 1e6)).collect();
-            line(format!("{millions}  {chip}, within {off:.0} % mostly"));
+            line(format!("{millions}  {chip:<5}{off:>3.0} %"));
         }
         if !self.unpriced.is_empty() {
             line(format!("\nNot in these: {}.", self.unpriced.join(", ")));
@@ -274,7 +278,7 @@ impl<'a> Report<'a> {
     }
 }
 
-/// Estimates for chips of the model, each before those that are its kin, of frames with light or without.
+/// Estimates for chips of the model and their kin, by family and size, of frames with light or without.
 fn estimates(
     options: &RenderOptions,
     is_lit: bool,
@@ -299,8 +303,12 @@ fn estimates(
             Estimate { chip: kin.name, instructions, at_vertices, off }
         }));
     }
+    all.sort_by_key(|estimate| ORDER.iter().position(|&chip| chip == estimate.chip));
     Ok(all)
 }
+
+/// The chips in the order of the table: what is not among them comes first.
+const ORDER: [&str; 6] = ["m0", "m3", "m4f", "m7", "m33", "rv32"];
 
 /// The light that estimates of frames have, in words; `None` where normals are not read. Highlights and maps beside the
 /// surface's colour are not in them.

@@ -169,17 +169,31 @@ impl Alone {
 
     /// The vertices in integers, those that are equal as one, and the triangles that are left between them.
     fn pack(&self, grids: &Grids, attributes: Attributes) -> (Vec<Packed>, Vec<[u32; 3]>, Losses) {
-        let (corners, losses) = grids.pack_all(self.corners(), attributes);
-        let mut numbers = HashMap::new();
-        let mut vertices = vec![];
-        let mut number = |packed: &Packed| {
-            *numbers.entry(*packed).or_insert_with(|| {
-                vertices.push(*packed);
-                small(vertices.len() - 1)
+        let mut losses = Losses::default();
+        // Each vertex once, though six triangles may share it.
+        let mut packed: Vec<Option<Packed>> = vec![None; self.vertices.len()];
+        for &index in self.triangles.as_flattened() {
+            packed[index as usize].get_or_insert_with(|| {
+                let (packed, lost) = grids.pack(&self.vertices[index as usize], attributes);
+                losses = losses.and(lost);
+                packed
+            });
+        }
+        let (mut of_packed, mut numbers, mut vertices) = (HashMap::new(), vec![None; packed.len()], vec![]);
+        let mut number = |index: u32, packed: Packed| {
+            *numbers[index as usize].get_or_insert_with(|| {
+                *of_packed.entry(packed).or_insert_with(|| {
+                    vertices.push(packed);
+                    small(vertices.len() - 1)
+                })
             })
         };
-        let areas = corners.as_chunks().0.iter().filter(|[a, b, c]| !is_flat([a.place, b.place, c.place]));
-        let triangles = areas.map(|corners| corners.each_ref().map(&mut number)).collect();
+        let corners = self
+            .triangles
+            .iter()
+            .map(|triangle| triangle.map(|index| (index, packed[index as usize].unwrap_or_default())));
+        let areas = corners.filter(|corners| !is_flat(corners.map(|(_, packed)| packed.place)));
+        let triangles = areas.map(|corners| corners.map(|(index, packed)| number(index, packed))).collect();
         (vertices, triangles, losses)
     }
 }
@@ -273,7 +287,6 @@ pub(super) fn asset(
     let (mut pieces, mut lost_parts, mut losses) = (vec![], vec![], Losses::default());
     for (k, mesh, moved) in alone {
         let part = &model.parts[k];
-        let before = transformed(&mesh.triangles, mesh.vertices.len())?;
         let grids = Grids::new(unit, mesh.corners(), attributes)?;
         let (vertices, triangles, lost) = mesh.pack(&grids, attributes);
         losses = losses.and(lost);
@@ -282,6 +295,7 @@ pub(super) fn asset(
             let error = Error::new(found, format!("at most {MAX_VERTICES}"));
             return Err(error.hint("choose fewer triangles with --triangles"));
         }
+        let before = transformed(&mesh.triangles, mesh.vertices.len())?;
         if triangles.is_empty() {
             lost_parts.push(k);
         } else {
@@ -292,6 +306,14 @@ pub(super) fn asset(
         }
     }
     if pieces.is_empty() {
+        let area = |model: &Model, triangle: &[u32; 3]| {
+            let [a, b, c] = triangle.map(|index| Vec3::from_array(model.vertices[index as usize].position));
+            (b - a).cross(c - a).length_squared() > 0.0
+        };
+        let mut triangles = model.parts.iter().flat_map(|part| &part.triangles);
+        if !triangles.any(|triangle| area(model, triangle)) {
+            return Err(Error::new("no triangle with an area", "some"));
+        }
         let found = format!("no triangle with an area in steps of {}", number(unit));
         return Err(
             Error::new(found, "some").hint("leave out what lies far from it: the farthest is 32767 steps")

@@ -1,7 +1,6 @@
 //! `alberti advise`: a scene and a budget of error in, the cheapest policies out.
 
 use std::ffi::OsString;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::{ArgMatches, Args, CommandFactory as _, FromArgMatches as _};
@@ -14,7 +13,8 @@ use crate::error::Error;
 use crate::measure::{Comparison, MaxError};
 use crate::options::{LightOptions, RenderOptions};
 use crate::output::file::Output;
-use crate::output::progress::Progress;
+use crate::output::folder::in_folder;
+use crate::output::stage::{Stage, during};
 use crate::scene::{Camera, Model};
 
 /// The text after the options.
@@ -134,13 +134,10 @@ pub(super) fn run(matches: &ArgMatches) -> Result<u8, Error> {
 
 fn advise_on(arguments: &AdviseArgs, request: &Request) -> Result<(), Error> {
     request.check()?;
-    let missing = arguments.image.as_deref().filter(|folder| !folder.exists());
-    let outcome = advise_and_print(arguments, request);
-    if let (Err(_), Some(folder)) = (&outcome, missing) {
-        // A folder that was made is empty. If it cannot be removed, that is no error of the advice.
-        let _ = fs::remove_dir(folder);
+    match &arguments.image {
+        Some(folder) => in_folder(folder, "--image", || advise_and_print(arguments, request)),
+        None => advise_and_print(arguments, request),
     }
-    outcome
 }
 
 fn advise_and_print(arguments: &AdviseArgs, request: &Request) -> Result<(), Error> {
@@ -148,12 +145,12 @@ fn advise_and_print(arguments: &AdviseArgs, request: &Request) -> Result<(), Err
     let Staged { model, camera, mut options, .. } = request.stage()?;
     // A program has one lamp, and surfaces of one side.
     options.light = LightOptions::default();
-    let mut progress = Progress::new("trying");
-    let mut hear = |done, total| progress.set(done, total);
     let AdviseArgs { max_error: budget, machine, thorough, turntable, .. } = *arguments;
-    let advice = advise(&model, &camera, &options, Wish { budget, machine, thorough }, &mut hear)?;
-    let wastes = waste(&model, &camera, &options, &advice, turntable)?;
-    drop(progress);
+    let (advice, wastes) = during(Stage::Try, |progress| {
+        let hear = &mut |done, total| progress.set(done, total);
+        let advice = advise(&model, &camera, &options, Wish { budget, machine, thorough }, hear)?;
+        waste(&model, &camera, &options, &advice, turntable).map(|wastes| (advice, wastes))
+    })?;
     if let Some(outputs) = outputs {
         write(&advice, outputs)?;
     }
@@ -165,11 +162,8 @@ fn advise_and_print(arguments: &AdviseArgs, request: &Request) -> Result<(), Err
     })
 }
 
-/// The files of a folder, which is made if it is not there.
+/// The files of a folder.
 fn outputs(folder: &Path, request: &Request) -> Result<[Output; 3], Error> {
-    fs::create_dir_all(folder).map_err(|error| {
-        Error::new(format!("a folder that cannot be made ({error})"), "one that can be written").file(folder)
-    })?;
     let file = |name: &str| request.writable(&folder.join(name), "--image");
     Ok([file("pick.png")?, file("right.png")?, file("difference.png")?])
 }

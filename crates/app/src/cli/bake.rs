@@ -1,6 +1,5 @@
 //! `alberti bake`.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::builder::{Resettable, StyledStr};
@@ -8,12 +7,15 @@ use clap::{ArgMatches, Args, Command, FromArgMatches as _};
 
 use super::RenderArgs;
 use super::run::print;
-use super::staged::{OF_PICTURES, Request, Staged, hidden, refuse, warn};
+use super::staged::{OF_PICTURES, Request, Staged, hidden, refuse};
+use super::told::warn;
 use crate::bake::{Asked, Format, Report, Wish, bake, bytes, left_out, missing, source};
 use crate::error::Error;
 use crate::options::values::Size;
 use crate::options::{LightOptions, MAX_SIDE, Profile};
-use crate::output::file::{STANDARD, Whole, make_folder};
+use crate::output::file::{STANDARD, Whole};
+use crate::output::folder::in_folder;
+use crate::output::stage::{Stage, during};
 use crate::output::stats::Source;
 
 pub(super) const HELP: &str = "\
@@ -119,15 +121,7 @@ pub(super) fn run(matches: &ArgMatches) -> Result<(), Error> {
     let mut request = Request::read(matches)?;
     refuse(matches, "bake", &OF_PICTURES, "the files are those of --out")?;
     frame(&mut request);
-    let out = &arguments.out;
-    let is_missing = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.exists();
-    let missing: Vec<&Path> = out.ancestors().take_while(is_missing).collect();
-    let outcome = baked(&arguments, &request);
-    if outcome.is_err() {
-        // Folders that were made are empty, the deepest first. If one cannot be removed, that is no error.
-        missing.into_iter().for_each(|folder| _ = fs::remove_dir(folder));
-    }
-    outcome.map_err(|error| request.relocate(error))
+    bake_into(&arguments, &request).map_err(|error| request.relocate(error))
 }
 
 /// The frame of a board, as far as the options leave it open.
@@ -137,15 +131,13 @@ pub(super) fn frame(request: &mut Request) {
     render.profile.get_or_insert(Profile::Mcu);
 }
 
-fn baked(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
+fn bake_into(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
     request.check()?;
+    in_folder(&arguments.out, "--out", || baked(arguments, request))
+}
+
+fn baked(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
     let folder = &arguments.out;
-    if folder.exists() && !folder.is_dir() {
-        return Err(Error::new("a file", "a folder").file(folder).hint("choose another with --out"));
-    }
-    make_folder(folder).map_err(|error| {
-        Error::new(format!("a folder that cannot be made ({error})"), "one that can be written").file(folder)
-    })?;
     let name = name(request);
     let file = |extension: &str| request.whole(&folder.join(format!("{name}.{extension}")), "--out");
     let (binary, module) = (file("bin")?, file("rs")?);
@@ -168,14 +160,14 @@ fn baked(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
     };
     let told = |warning: Error| warn(&request.relocate(own(warning)).to_string());
     missing(&model, &options, attributes).into_iter().for_each(told);
-    let asset = bake((&model, &camera), &options, &wish).map_err(own)?;
+    let asset = during(Stage::Bake, |_| bake((&model, &camera), &options, &wish)).map_err(own)?;
     left_out(&model, &asset).into_iter().for_each(told);
     if let Some(most) = triangles.filter(|&most| asset.triangles() > most) {
         let found = format!("{} triangles that cannot be fewer", asset.triangles());
         warn(&Error::new(found, format!("at most {most}")).place("--triangles").to_string());
     }
     let bytes = bytes(&asset);
-    let report = Report::new(&asset, &bytes, (&model, &camera, &options), band)?;
+    let report = during(Stage::Count, |_| Report::new(&asset, &bytes, (&model, &camera, &options), band))?;
     Whole::write_all(&[(&binary, &bytes), (&module, source(&asset, &from(request)).as_bytes())])?;
     let names = [&binary, &module].map(|file: &Whole| file.name().display().to_string());
     print(&if arguments.json {

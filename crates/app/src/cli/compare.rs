@@ -10,10 +10,11 @@ use serde::Serialize;
 use super::run::print;
 use crate::error::Error;
 use crate::image_file::{self, MAX_TEXELS};
-use crate::load::seen;
+use crate::load::{input, seen};
 use crate::measure::{Comparison, MaxError, Measures, OUTLIER};
 use crate::memory;
 use crate::output::file::Output;
+use crate::output::stage::{Stage, during};
 
 /// The exit status for pictures that differ by more than `--max-error`.
 pub const EXCEEDED: u8 = 1;
@@ -45,7 +46,7 @@ Exit status:
 /// The options of `alberti compare`.
 #[derive(Clone, Debug, Args)]
 pub struct CompareArgs {
-    /// A picture: PNG, JPEG, BMP, TGA, WebP, QOI or PPM.
+    /// A picture: PNG, JPEG, BMP, TGA, WebP, QOI or PPM; - is standard input.
     #[arg(value_name = "A.png")]
     pub first: PathBuf,
 
@@ -105,30 +106,42 @@ pub(super) fn run(matches: &ArgMatches) -> Result<u8, Error> {
         let error = Error::new("a limit in texels", "one in lsb, flip or db").place("--max-error");
         return Err(error.hint("two pictures do not tell texels: `alberti advise` knows them from the scene"));
     }
+    let standard = |path: &PathBuf| path.as_os_str() == input::STDIN;
+    if standard(&arguments.first) && standard(&arguments.second) {
+        let error = Error::new("standard input for both", "a file as one of the two").place("-");
+        return Err(error.hint("it is read but once"));
+    }
     let output = output(&arguments)?;
+    let is_piped = output.as_ref().is_some_and(Output::is_standard);
     memory::begin(None);
-    let first = image_file::load(&arguments.first, MAX_TEXELS)?;
-    let second = image_file::load(&arguments.second, MAX_TEXELS)?;
+    let read = |path| during(Stage::Maps, |_| image_file::load_given(path, MAX_TEXELS));
+    let (first, second) = (read(&arguments.first)?, read(&arguments.second)?);
     if (first.width, first.height) != (second.width, second.height) {
         let found = format!("{}x{} pixels", second.width, second.height);
         let expected = format!("{}x{} as in {}", first.width, first.height, arguments.first.display());
         let error = Error::new(found, expected).file(&arguments.second);
         return Err(error.hint("only pictures of one size can be compared"));
     }
-    let comparison = Comparison::new(&first, &second)?;
+    let comparison = during(Stage::Compare, |_| Comparison::new(&first, &second))?;
     drop((first, second));
     if let Some(output) = output {
-        output.write(&comparison.heat()).map_err(|error| error.hint(ANOTHER))?;
+        during(Stage::Encode, |_| output.write(&comparison.heat())).map_err(|error| error.hint(ANOTHER))?;
     }
     let measures = &comparison.measures;
     let excess = arguments.max_error.and_then(|limit| limit.excess(measures));
-    print(&if arguments.json {
+    let told = if arguments.json {
         json(&arguments, measures, excess.is_none())
     } else if arguments.quiet {
         String::new()
     } else {
         text(&arguments, measures)
-    })?;
+    };
+    if is_piped {
+        // The picture has the other way.
+        let _ = io::stderr().write_all(told.as_bytes());
+    } else {
+        print(&told)?;
+    }
     let Some(excess) = excess else { return Ok(0) };
     if arguments.quiet {
         return Ok(EXCEEDED);
@@ -166,7 +179,7 @@ fn text(arguments: &CompareArgs, measures: &Measures) -> String {
         ("PSNR", decibels(measures.psnr()), "dB", "fidelity, more is better".to_owned()),
         ("FLIP", format!("{:.6}", measures.flip), "mean", "visibility, 0 is equal, 1 the most".to_owned()),
     ];
-    let (first, second) = (arguments.first.display(), arguments.second.display());
+    let [first, second] = [&arguments.first, &arguments.second].map(|path| input::shown(path).display());
     let mut text = format!("{first} and {second}: {width}x{height} pixels\n");
     for (name, figure, unit, meaning) in rows {
         // Writing to a string cannot fail.

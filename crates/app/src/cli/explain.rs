@@ -10,6 +10,7 @@ use super::run::print;
 use super::staged::{OF_PICTURES, Request, Staged, refuse};
 use crate::error::Error;
 use crate::explain::explain;
+use crate::output::stage::{Stage, during};
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -74,7 +75,7 @@ fn run_for(request: &Request, matches: &ArgMatches) -> Result<(), Error> {
     refuse(matches, "explain", &OF_PICTURES, "no picture is written")?;
     request.check()?;
     let Staged { model, camera, options, .. } = request.stage()?;
-    let journey = explain(&model, &camera, &options, pixel)?;
+    let journey = during(Stage::Explain, |_| explain(&model, &camera, &options, pixel))?;
     print(&if json { format!("{}\n", journey.json()) } else { journey.text() })
 }
 

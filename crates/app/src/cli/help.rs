@@ -1,5 +1,6 @@
 //! Help: a page for each command, with examples first and the common options, and one for each group of options.
 
+use std::borrow::Cow;
 use std::ffi::OsString;
 
 use clap::builder::{Resettable, StyledStr};
@@ -15,12 +16,12 @@ const COMMON: [&str; 12] = [
     "output",
     "size",
     "scene",
+    "background",
     "color_map",
     "eye",
-    "fov",
+    "view",
+    "ground",
     "shading",
-    "filter",
-    "threads",
     "quiet",
     "stats",
 ];
@@ -64,6 +65,7 @@ Help:
 /// There is no such topic.
 pub(super) fn asked(given: &[OsString], command: &Command) -> Option<Result<String, Error>> {
     let words: Vec<_> = before_files(given).map(|word| word.to_string_lossy()).collect();
+    let lower = |word: Option<&Cow<'_, str>>| word.map(|word| word.to_lowercase());
     let named = |word: &&str| command.find_subcommand(word).is_some();
     let first = words.first().map(|word| &**word);
     if given.len() <= 1 {
@@ -71,18 +73,23 @@ pub(super) fn asked(given: &[OsString], command: &Command) -> Option<Result<Stri
     }
     let first = first?;
     if first == "help" {
-        let Some(topic) = words.get(1) else { return Some(Ok(first_page(command))) };
-        let more = words.get(2).map(|word| &**word);
-        return Some(if named(&&**topic) {
-            of_command(command, topic, more)
+        let Some(topic) = lower(words.get(1)) else { return Some(Ok(first_page(command))) };
+        let more = lower(words.get(2));
+        let last = if named(&&*topic) { 2 } else { 1 };
+        if let Some(word) = words.get(last + 1) {
+            let error = Error::new("one word too many", "one command or topic").place(&**word);
+            return Some(Err(error.hint(format!("see alberti help {}", words[1..=last].join(" ")))));
+        }
+        return Some(if last == 2 {
+            of_command(command, &topic, more.as_deref())
         } else {
-            of_topic(command, topic)
+            of_topic(command, &topic)
         });
     }
     let at = words.iter().position(|word| word == "--help" || word == "-h")?;
-    let more = words.get(at + 1).map(|word| &**word).filter(|word| is_topic(command, word));
-    match (Some(first).filter(named), more) {
-        (Some(name), _) => Some(of_command(command, name, more)),
+    let more = lower(words.get(at + 1)).filter(|word| is_topic(command, word));
+    match (Some(first).filter(named), more.as_deref()) {
+        (Some(name), more) => Some(of_command(command, name, more)),
         (None, Some(topic)) => Some(of_topic(command, topic)),
         (None, None) if at == 0 => Some(Ok(first_page(command))),
         (None, None) => Some(of_command(command, "render", None)),
@@ -212,9 +219,14 @@ fn no_topic(command: &Command, topic: &str) -> Error {
     let error =
         Error::new("no such command or topic", format!("one of {}", known().collect::<Vec<_>>().join(", ")));
     let error = error.place(topic);
-    match nearest(topic, known()) {
-        Some(name) => error.hint(format!("did you mean {name}?")),
-        None => error,
+    let option = topic.trim_start_matches('-');
+    let options = command.find_subcommand("render").into_iter().flat_map(Command::get_arguments);
+    match options.filter(|argument| argument.get_long() == Some(option)).map(topic_of).next() {
+        Some(of) => error.hint(format!("--{option} is in alberti help {of}")),
+        None => match nearest(topic, known()) {
+            Some(name) => error.hint(format!("did you mean {name}?")),
+            None => error,
+        },
     }
 }
 

@@ -5,13 +5,14 @@ use clap::{ArgMatches, Args, FromArgMatches as _};
 use super::RenderArgs;
 use super::bake::frame;
 use super::run::print;
-use super::staged::{OF_PICTURES, Request, Staged, refuse, told};
+use super::staged::{OF_PICTURES, Request, Staged, refuse};
+use super::told::told;
 use crate::bake::{Asked, Asset, Report, Wish, bake, bytes, left_out, missing};
 use crate::error::Error;
 use crate::info::Info;
 use crate::load::input;
 use crate::options::{LightOptions, RenderOptions};
-use crate::output::progress::waiting;
+use crate::output::stage::{Stage, during};
 use crate::output::stats::Source;
 use crate::scene::{Camera, Model};
 
@@ -52,7 +53,7 @@ fn report(request: &Request, json: bool) -> Result<(), Error> {
     // A program has one lamp, and surfaces of one side.
     options.light = LightOptions::default();
     let wish = Wish { dither: options.policies.dither, ..Wish::default() };
-    let asset = waiting("baking", || bake((&model, &camera), &options, &wish));
+    let asset = during(Stage::Bake, |_| bake((&model, &camera), &options, &wish));
     let (costs, left_out) = match &asset {
         Ok(asset) => priced(asset, (&model, &camera, &options)),
         Err(error) => (Err(error.clone()), vec![]),
@@ -71,7 +72,7 @@ fn priced<'a>(
     (model, camera, options): (&Model, &Camera, &RenderOptions),
 ) -> (Result<Report<'a>, Error>, Vec<String>) {
     let file = bytes(asset);
-    let report = waiting("counting", || Report::new(asset, &file, (model, camera, options), BAND));
+    let report = during(Stage::Count, |_| Report::new(asset, &file, (model, camera, options), BAND));
     let lost = missing(model, options, Asked::Auto).into_iter().chain(left_out(model, asset));
     (report, lost.map(|error| error.to_string()).collect())
 }

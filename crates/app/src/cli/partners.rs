@@ -2,7 +2,8 @@
 
 use crate::cli::RenderArgs;
 use crate::error::{Error, quote};
-use crate::options::{Base, Shading};
+use crate::options::values::name_of;
+use crate::options::{Base, ColorFormat, Dither, Filter, RenderOptions, Shading};
 use crate::scene::{Model, Part, Relief};
 
 /// An option that does nothing without another is a mistake. Options of maps may be meant for those of a model.
@@ -57,6 +58,60 @@ pub(crate) fn unused_light(arguments: &RenderArgs, model: &Model) -> Option<Erro
     arguments.render.light.filter(|_| !model.lights.is_empty() || model.ambient.is_some())?;
     let error = Error::new("it in a scene with lights of its own", "a scene without").place("--light");
     Some(error.hint("the scene's are used"))
+}
+
+/// The warnings of options that change nothing in a picture with these, one for each reason.
+pub(crate) fn idle(arguments: &RenderArgs, model: &Model, options: &RenderOptions) -> Vec<Error> {
+    let (render, material) = (&arguments.render, &arguments.material);
+    let highlights = [
+        ("--specular", material.specular.is_some()),
+        ("--shininess", material.shininess.is_some()),
+        ("--shininess-map", material.shininess_map.is_some()),
+    ];
+    let light = [
+        ("--light", render.light.is_some()),
+        ("--light-space", render.light_space.is_some()),
+        ("--two-sided", render.two_sided.is_some()),
+        ("--normal-map", material.normal_map.is_some()),
+    ];
+    let smaller = |filter| !matches!(filter, Filter::Nearest | Filter::Bilinear);
+    let mapped = || model.parts.iter().flat_map(Part::maps).filter_map(|(map, _)| map.filter);
+    let shading = options.shading;
+    let (lit, matte) = (shading.is_lit(), shading == Shading::Lambert);
+    let reasons = [
+        (!lit, [&light[..], &highlights].concat(), "without light", "lambert, phong or blinn"),
+        (lit && matte, highlights.to_vec(), "without highlights", "phong or blinn"),
+    ];
+    let of_shading = reasons.into_iter().filter(|(holds, ..)| *holds).map(|(_, idle, lacks, others)| {
+        (idle, format!("with --shading {}, which is {lacks}", name_of(shading)), format!("{others} for it"))
+    });
+    let filter = if options.filter == Filter::Nearest { "nearest" } else { "bilinear" };
+    let of_filter = Some((
+        vec![("--lod", render.lod.is_some())],
+        format!("with --filter {filter}, which has one level"),
+        "trilinear or anisotropic for it".to_owned(),
+    ));
+    let of_filter = of_filter.filter(|_| !smaller(options.filter) && !mapped().any(smaller));
+    let of_color = Some((
+        vec![("--dither", render.dither.is_some_and(|dither| dither != Dither::None))],
+        "with --color rgba8, whose steps are those of the picture".to_owned(),
+        "fewer bits, such as --color rgb565, for it".to_owned(),
+    ));
+    let of_color = of_color.filter(|_| options.policies.color == ColorFormat::Rgba8);
+    let of_show = Some((
+        vec![("--samples", render.samples.is_some())],
+        "with --show, which has one sample a pixel".to_owned(),
+        "a picture in true colours for it".to_owned(),
+    ));
+    let of_show = of_show.filter(|_| arguments.show.is_some());
+    let warning = |(options, found, expected): (Vec<(&'static str, bool)>, String, String)| {
+        let mut given = options.into_iter().filter(|(_, given)| *given).map(|(option, _)| option);
+        let first = given.next()?;
+        let others: Vec<&str> = given.collect();
+        let them = if others.is_empty() { "it".to_owned() } else { format!("it and {}", others.join(", ")) };
+        Some(Error::new(format!("{them} {found}"), expected).place(first).hint("nothing changes"))
+    };
+    of_shading.chain(of_filter).chain(of_color).chain(of_show).filter_map(warning).collect()
 }
 
 /// The warning of colours of vertices that are asked for and not there, or there and not shown.

@@ -1,7 +1,8 @@
 //! Pictures beyond their scenes: a ground, and warnings.
 
 use super::partners;
-use super::staged::{Request, Staged, samples, told, warn};
+use super::staged::{Request, Staged, samples, threads};
+use super::told::{told, warn};
 use crate::error::{Error, counted};
 use crate::memory;
 use crate::options::values::{Size, name_of};
@@ -9,9 +10,10 @@ use crate::options::{
     AovFormat, Background, CameraTable, ColorFormat, Cull, DEFAULT_SIZE, Dither, Interpolation, Projection,
     Samples, Shading,
 };
+use crate::output::stage::{Stage, during};
 use crate::samples::bytes;
 use crate::scene::normals::sub;
-use crate::scene::{ground, order};
+use crate::scene::{Camera, ground, order};
 use alberti::Stats;
 
 /// Bytes a pixel to encode: the colours, and twice as many where nothing is packed and the list has grown by halves.
@@ -51,7 +53,22 @@ impl Request {
                 (bytes([width, height], samples, transparent), what)
             }
         };
-        memory::hold(drawn + (ENCODED + numbers) * pixels, what).map_err(|error| error.place("--size"))
+        let option = if render.size.is_none() && render.memory.is_some() { "--memory" } else { "--size" };
+        memory::hold(drawn + (ENCODED + numbers) * pixels, what).map_err(|error| error.place(option))
+    }
+
+    /// Asks for the memory of a film's frames that are drawn at a time, before anything is read.
+    ///
+    /// # Errors
+    /// There is less.
+    pub(super) fn hold_film(&self, transparent: bool) -> Result<(), Error> {
+        let Size(width, height) = self.arguments.render.size.unwrap_or(DEFAULT_SIZE);
+        let samples = samples(&self.arguments, [width, height])?;
+        let threads = threads(&self.arguments).get() as u64;
+        let each =
+            bytes([width, height], samples, transparent) + ENCODED * u64::from(width) * u64::from(height);
+        let what = format!("frames of {width}x{height} by {threads} threads");
+        memory::hold(threads * each, what).map_err(|error| error.place("--size"))
     }
 
     /// [`stage`](Self::stage) for a picture: warns of colours that are not seen, and has glass in glass in order.
@@ -59,6 +76,10 @@ impl Request {
     /// # Errors
     /// As those of [`stage`](Self::stage).
     pub(super) fn stage_picture(&self) -> Result<Staged, Error> {
+        during(Stage::Load, |_| self.stage_ordered())
+    }
+
+    fn stage_ordered(&self) -> Result<Staged, Error> {
         let mut staged = self.stage()?;
         let Staged { model, camera, options, .. } = &mut staged;
         let eye = camera.eye.map(f64::from);
@@ -100,6 +121,13 @@ impl Request {
 
     /// Puts a ground under the model of a picture, if that is asked for.
     pub(super) fn add_ground(&self, staged: &mut Staged) {
+        let mut camera = staged.camera;
+        self.add_ground_for(staged, std::slice::from_mut(&mut camera));
+        staged.camera = camera;
+    }
+
+    /// The same for these cameras.
+    pub(super) fn add_ground_for(&self, staged: &mut Staged, cameras: &mut [Camera]) {
         if self.arguments.render.ground != Some(true) {
             return;
         }
@@ -113,12 +141,12 @@ impl Request {
         if staged.options.shading == Shading::VertexColor {
             return left_out("it with vertex-color, which has no shadows", "another shading");
         }
-        let Staged { model, camera, options, .. } = staged;
+        let Staged { model, options, .. } = staged;
         let CameraTable { near, far, .. } = self.arguments.camera;
         let affine = options.policies.interpolation == Interpolation::Affine;
         let fixed = [near.is_some(), far.is_some()];
         let manner = ground::Manner { fixed, affine, depth: options.depth, wrap: options.wrap };
-        if !ground::add(model, camera, manner) {
+        if !during(Stage::Shadow, |_| ground::add(model, cameras, manner)) {
             return left_out("a camera below the model's lowest point", "one above the ground");
         }
         if options.policies.color != ColorFormat::Rgba8 && options.policies.dither == Dither::None {

@@ -3,23 +3,23 @@
 use std::ffi::OsString;
 use std::io::{self, IsTerminal as _, Write as _};
 use std::num::NonZero;
-use std::time::Instant;
+use std::path::Path;
 
 use clap::builder::PossibleValuesParser;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, ArgMatches, Command, CommandFactory as _};
 
-use super::staged::{OF_PICTURES, Request, Staged, forget, hidden, warn};
-use super::{Cli, StatsFormat, advise, bake, compare, explain, help, info, watch, words};
+use super::staged::{OF_PICTURES, Request, Staged, hidden};
+use super::told::{forget, warn};
+use super::{Cli, StatsFormat, advise, bake, compare, explain, help, info, turntable, watch, words};
 use crate::aov::layers;
 use crate::draw::bytes_of;
 use crate::error::{Error, quote};
 use crate::memory;
 use crate::options::{RenderOptions, Samples};
 use crate::output::aov::Beside;
-use crate::output::clock::{Work, spent};
-use crate::output::progress::{Progress, is_silent, silence, waiting};
-use crate::output::stats::{Report, Times};
+use crate::output::stage::{self, Stage, during, is_silent, silence};
+use crate::output::stats::Report;
 use crate::samples::supersampled;
 use crate::scene::backdrop::Backdrop;
 use crate::scene::scenes;
@@ -64,6 +64,8 @@ pub fn attempt(arguments: impl IntoIterator<Item = OsString>) -> Result<u8, Erro
         Some(("info", model)) => info::run(model).map(|()| 0),
         Some(("watch", render)) => watch::run(render).map(|()| 0),
         Some(("explain", pixel)) => explain::run(pixel).map(|()| 0),
+        Some(("turntable", film)) => turntable::run(film).map(|()| 0),
+        Some(("assemble", pictures)) => turntable::assemble(pictures).map(|()| 0),
         Some((_, render)) => draw(render).map(|()| 0),
         // Words without a command ask for help.
         None => Ok(0),
@@ -72,13 +74,16 @@ pub fn attempt(arguments: impl IntoIterator<Item = OsString>) -> Result<u8, Erro
 
 /// The command as it is read and explained.
 pub(super) fn command() -> Command {
-    Cli::command()
-        .args_override_self(true)
-        .mut_subcommands(|command| command.mut_args(in_any_case))
-        .mut_subcommand("explain", |command| hidden(command, &OF_PICTURES))
-        .mut_subcommand("info", bake::with_defaults)
-        .mut_subcommand("bake", bake::with_defaults)
-        .mut_subcommand("advise", |command| hidden(hidden(command, &OF_PICTURES), &advise::ADVISED_ON))
+    Cli::command().args_override_self(true).mut_subcommands(|command| {
+        let command = command.mut_args(in_any_case);
+        match command.get_name() {
+            "explain" => hidden(command, &OF_PICTURES),
+            "turntable" => turntable::without_pictures(command),
+            "info" | "bake" => bake::with_defaults(command),
+            "advise" => hidden(hidden(command, &OF_PICTURES), &advise::ADVISED_ON),
+            _ => command,
+        }
+    })
 }
 
 /// A choice of words, whatever their case.
@@ -108,7 +113,8 @@ fn usage(error: &clap::Error, renamed: bool) -> Result<u8, Error> {
         _ => text.trim_start_matches('[').trim_end_matches(']').to_owned(),
     };
     let option = context(ContextKind::InvalidArg).map(|option| named(&option));
-    let value = context(ContextKind::InvalidValue).map(|value| quote(value.as_bytes()));
+    let given = context(ContextKind::InvalidValue);
+    let value = given.as_ref().map(|value| quote(value.as_bytes()));
     let or_nothing = |value: Option<String>| value.unwrap_or_else(|| "nothing".to_owned());
     let (found, expected) = match error.kind() {
         ErrorKind::DisplayHelp
@@ -137,6 +143,8 @@ fn usage(error: &clap::Error, renamed: bool) -> Result<u8, Error> {
             let meant = option.as_deref().and_then(words::of_others).map(str::to_owned);
             let similar = meant.or_else(|| context(ContextKind::SuggestedArg));
             let similar = similar.map(|option| format!("one, such as {option}"));
+            let owner = option.as_deref().and_then(owner).map(|name| format!("it with alberti {name} alone"));
+            let similar = owner.or(similar);
             ("no such option".to_owned(), similar.unwrap_or_else(|| "one that --help all lists".to_owned()))
         }
         ErrorKind::InvalidValue
@@ -151,11 +159,31 @@ fn usage(error: &clap::Error, renamed: bool) -> Result<u8, Error> {
         ErrorKind::InvalidUtf8 => ("text that is not Unicode".to_owned(), "Unicode".to_owned()),
         _ => ("words that are not understood".to_owned(), "those of --help".to_owned()),
     };
-    let error = Error::new(found, expected).hint("see --help");
+    let is_file = given.is_some_and(|value| Path::new(&value).is_file());
+    let hint = match option.as_deref() {
+        Some("true" | "false") => format!(
+            "a truth is joined to its option, as in --ground={}",
+            option.as_deref().unwrap_or_default()
+        ),
+        Some(option @ ("--stats" | "--two-sided")) if is_file => {
+            format!("the file is taken for the value of {option}: put it first")
+        }
+        _ => "see --help".to_owned(),
+    };
+    let error = Error::new(found, expected).hint(hint);
     Err(match option {
         Some(option) => error.place(option),
         None => error,
     })
+}
+
+/// The command that alone has an option of that name.
+fn owner(option: &str) -> Option<String> {
+    let name = option.strip_prefix("--")?;
+    let command = command();
+    let has = |command: &&Command| command.get_arguments().any(|argument| argument.get_long() == Some(name));
+    let mut owners = command.get_subcommands().filter(has).map(|command| command.get_name().to_owned());
+    owners.next().filter(|_| owners.next().is_none())
 }
 
 /// Values of which an option takes one, as words.
@@ -179,7 +207,7 @@ pub(super) fn draw(matches: &ArgMatches) -> Result<(), Error> {
 fn draw_from(request: &Request) -> Result<(), Error> {
     forget();
     request.check()?;
-    let before = [Work::Maps, Work::MipMaps].map(spent);
+    stage::begin();
     let output = request.output()?;
     let beside = request.beside(&output)?;
     request.hold_picture()?;
@@ -189,45 +217,39 @@ fn draw_from(request: &Request) -> Result<(), Error> {
     beside.as_ref().map_or(Ok(()), Beside::check_unread)?;
     // Numbers are those of the model, without a ground.
     let seen = staged.camera;
-    let numbers = || waiting("drawing numbers", || layers(&staged.model, &seen, &staged.options));
+    let numbers = || during(Stage::Numbers, |_| layers(&staged.model, &seen, &staged.options));
     let layers = beside.as_ref().map(|_| numbers()).transpose()?;
     let triangles = staged.model.parts.iter().map(|part| part.triangles.len()).sum();
     request.add_ground(&mut staged);
-    let Staged { model, camera, options, samples, backdrop, load } = staged;
+    let Staged { model, camera, options, samples, backdrop } = staged;
     memory::need(bytes_of(&model), "the drawing of a model").map_err(|error| error.place("--memory"))?;
-    let start = Instant::now();
-    let mut progress = Progress::new("drawing");
-    let hear = &mut |done, total| progress.set(done, total);
-    let (mut picture, legend) = match request.arguments.show {
-        None => (supersampled(&model, &camera, &options, samples, &backdrop, hear)?, None),
-        Some(what) => {
-            let Shown { picture, legend, warning } = show(what, &model, &camera, &options, hear)?;
-            warning.iter().for_each(|warning| warn(&warning.to_string()));
-            (picture, Some(legend.text(io::stdout().is_terminal())))
-        }
-    };
-    drop(progress);
+    let (mut picture, legend) = during(Stage::Draw, |progress| {
+        let hear = &mut |done, total| progress.set(done, total);
+        Ok(match request.arguments.show {
+            None => (supersampled(&model, &camera, &options, samples, &backdrop, hear)?, None),
+            Some(what) => {
+                let Shown { picture, legend, warning } = show(what, &model, &camera, &options, hear)?;
+                warning.iter().for_each(|warning| warn(&warning.to_string()));
+                (picture, Some(legend.text(io::stdout().is_terminal())))
+            }
+        })
+    })?;
     request.warn_of_nothing(&picture.stats, options.cull);
-    let (maps, mip_maps) = (spent(Work::Maps) - before[0], spent(Work::MipMaps) - before[1]);
-    let render_time = start.elapsed().saturating_sub(mip_maps);
     if request.arguments.stats.is_some() && options.threads.get() > 1 {
         // A triangle counts once, however many threads drew it.
         let alone = RenderOptions { threads: NonZero::<usize>::MIN, ..options };
         let counted = || supersampled(&model, &camera, &alone, samples, &backdrop, &mut |_, _| ());
-        picture.stats = waiting("counting", counted)?.stats;
+        picture.stats = during(Stage::Count, |_| counted())?.stats;
     }
 
-    let start = Instant::now();
     let seen_through = request.arguments.show.is_none() && backdrop == Backdrop::Transparent;
-    waiting("encoding", || {
+    during(Stage::Encode, |_| {
         let others = match beside.as_ref().zip(layers.as_ref()) {
             Some((beside, layers)) => beside.encoded(layers, &picture.image, &seen)?,
             None => Vec::new(),
         };
         output.write_beside(&output.encoded(&picture.image, seen_through)?, &others)
     })?;
-    let load = load.saturating_sub(maps);
-    let times = Times { load, maps, mip_maps, render: render_time, write: start.elapsed() };
     let size = (options.width, options.height);
     let projection = options.projection;
     let report = Report {
@@ -237,7 +259,7 @@ fn draw_from(request: &Request) -> Result<(), Error> {
         samples: if request.arguments.show.is_some() { Samples::One } else { samples },
         triangles,
         stats: picture.stats,
-        times,
+        times: stage::times(),
         camera,
         origin: model.origin,
         projection,
@@ -300,29 +322,43 @@ fn with_options(command: Command) -> Command {
     command.args(render.get_arguments())
 }
 
+/// The uses of the command, as the manual page has them.
+const SYNOPSIS: &str = "\
+.SH SYNOPSIS
+\\fBalberti\\fR [\\fBrender\\fR] [\\fIMODEL.obj\\fR | \\fISCENE.toml\\fR] [\\fIOPTIONS\\fR]
+.br
+\\fBalberti\\fR \\fICOMMAND\\fR ...
+.br
+\\fBalberti help\\fR [\\fICOMMAND\\fR | \\fITOPIC\\fR]
+";
+
 /// The manual page: all options of `render`, and the other commands.
 fn man() -> Result<(), Error> {
     let all = with_options(command());
     let names = all.get_subcommands().filter(|command| command.get_name() != "render");
     let about = |command: &Command| {
-        format!("  alberti {:<12} {}", command.get_name(), command.get_about().cloned().unwrap_or_default())
+        let said = command.get_about().cloned().unwrap_or_default();
+        format!(".TP\n\\fBalberti {}\\fR\n{said}\n", command.get_name())
     };
-    let commands: Vec<_> = names.map(about).collect();
+    let commands: String = names.map(about).collect();
     // Other pages there are none: each command has its help.
     let alone = Command::new("alberti")
         .version(env!("CARGO_PKG_VERSION"))
         .about(all.get_about().cloned().unwrap_or_default())
         .args(
             all.get_arguments().filter(|argument| !["help", "version"].contains(&argument.get_id().as_str())),
-        )
-        .after_help(format!(
-            "Commands, of which alberti help COMMAND tells more:\n\n{}",
-            commands.join("\n\n")
-        ));
-    let mut page = Vec::new();
+        );
+    let page = clap_mangen::Man::new(alone);
+    let mut text = Vec::new();
     // Writing to memory does not fail.
-    let _ = clap_mangen::Man::new(alone).render(&mut page);
-    print(&String::from_utf8_lossy(&page))
+    let _ = page.render_title(&mut text);
+    let _ = page.render_name_section(&mut text);
+    text.extend_from_slice(SYNOPSIS.as_bytes());
+    let _ = page.render_options_section(&mut text);
+    text.extend_from_slice(
+        format!(".SH COMMANDS\nalberti help COMMAND tells more of each.\n{commands}").as_bytes(),
+    );
+    print(&String::from_utf8_lossy(&text))
 }
 
 /// Standard output that nobody reads any more is no failure: the picture is there.

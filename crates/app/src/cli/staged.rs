@@ -1,15 +1,13 @@
 //! From options to all that a picture is made of: the model with its materials, the camera, and the policies.
 
-use std::io::{self, Write as _};
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
 use std::thread::available_parallelism;
-use std::time::{Duration, Instant};
 
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Command, FromArgMatches as _};
 
+use super::told::{warn, warn_all};
 use super::{RenderArgs, partners};
 use crate::error::{Error, Warnings, number, quote};
 use crate::load::images::Images;
@@ -24,7 +22,7 @@ use crate::options::{
 };
 use crate::output::aov::{self, Beside};
 use crate::output::file::{Output, Whole};
-use crate::output::progress::{Progress, is_silent, waiting};
+use crate::output::stage::{Stage, during};
 use crate::output::stats::Source;
 use crate::scene::backdrop::Backdrop;
 use crate::scene::{Camera, Model, Part, Relief, camera, order, scenes, slide};
@@ -69,8 +67,6 @@ pub(super) struct Staged {
     pub(super) options: RenderOptions,
     pub(super) samples: Samples,
     pub(super) backdrop: Backdrop,
-    /// The time that loading took.
-    pub(super) load: Duration,
 }
 
 impl Request {
@@ -194,6 +190,12 @@ impl Request {
         Ok(())
     }
 
+    /// Whether the camera stands where all of the model is in view.
+    pub(super) fn is_fitted(&self) -> bool {
+        let (arguments, camera) = (&self.arguments, &self.arguments.camera);
+        arguments.model.is_some() && camera.eye.is_none() && self.orbit.is_none()
+    }
+
     /// The origin of the triangles.
     pub(super) fn source(&self) -> Source<'_> {
         match &self.arguments.model {
@@ -207,15 +209,18 @@ impl Request {
     /// # Errors
     /// A file cannot be used, or options do not suit the model.
     pub(super) fn stage(&self) -> Result<Staged, Error> {
+        during(Stage::Load, |progress| self.stage_heard(&mut |done, total| progress.set(done, total)))
+    }
+
+    fn stage_heard(&self, hear: &mut dyn FnMut(u64, u64)) -> Result<Staged, Error> {
         let (arguments, file) = (&self.arguments, self.file.as_ref());
         let (policies, depth) = arguments.render.policies(arguments.camera.is_parallel());
-        let start = Instant::now();
         let mut scene = match file {
-            Some(file) => load_scene_file(arguments, file)?,
-            None => load(arguments)?,
+            Some(file) => load_scene_file(arguments, file, hear)?,
+            None => load(arguments, hear)?,
         };
         if file.is_none() {
-            waiting("reading maps", || put_materials(arguments, &mut scene))?;
+            put_materials(arguments, &mut scene)?;
         }
         partners::check_maps(arguments, &scene.model)?;
         if let Some(warning) = partners::unused_heights(&scene.model) {
@@ -232,7 +237,6 @@ impl Request {
         }
         let origin = scene.model.origin;
         scene.model.slide = slide::load(&arguments.projector, origin)?;
-        let load = start.elapsed();
 
         let Size(width, height) = arguments.render.size.unwrap_or(DEFAULT_SIZE);
         let ball = camera::bounding_sphere(&scene.model);
@@ -292,11 +296,14 @@ impl Request {
             warn(&Error::new(found, "phong or blinn for these").place("--shading").to_string());
         }
         if let Some(warning) = partners::unused_light(arguments, &scene.model) {
-            warn(&warning.to_string());
+            warn(&self.relocate(warning).to_string());
+        }
+        for warning in partners::idle(arguments, &scene.model, &options) {
+            warn(&self.relocate(warning).to_string());
         }
         let samples = samples(arguments, [width, height])?;
         let backdrop = Backdrop::new(arguments.render.background.as_ref(), &options)?;
-        Ok(Staged { model: scene.model, camera, options, samples, backdrop, load })
+        Ok(Staged { model: scene.model, camera, options, samples, backdrop })
     }
 }
 
@@ -312,7 +319,7 @@ struct Scene {
 }
 
 /// As many threads as are asked for, or as the machine runs at once.
-fn threads(arguments: &RenderArgs) -> NonZero<usize> {
+pub(super) fn threads(arguments: &RenderArgs) -> NonZero<usize> {
     let most = NonZero::new(MAX_THREADS).unwrap_or(NonZero::<usize>::MIN);
     match arguments.threads {
         Some(Threads(threads)) => threads,
@@ -336,11 +343,9 @@ fn name_of(arguments: &RenderArgs) -> &str {
     scenes::NAMES.iter().copied().find(|name| name.eq_ignore_ascii_case(given)).unwrap_or(given)
 }
 
-fn load(arguments: &RenderArgs) -> Result<Scene, Error> {
+fn load(arguments: &RenderArgs, hear: &mut dyn FnMut(u64, u64)) -> Result<Scene, Error> {
     if let Some(path) = &arguments.model {
-        let mut progress = Progress::new("loading");
-        let loaded = obj::load(path, arguments.render.normals, &mut |done, total| progress.set(done, total))?;
-        drop(progress);
+        let loaded = obj::load(path, arguments.render.normals, hear)?;
         // Of what an option replaces there is nothing to say.
         let replaced = arguments.material.maps().into_iter();
         let warnings = replaced.fold(loaded.warnings, |warnings, (key, _)| warnings.without(key));
@@ -416,12 +421,13 @@ fn put_materials(arguments: &RenderArgs, scene: &mut Scene) -> Result<(), Error>
 }
 
 /// The scene of a scene file.
-fn load_scene_file(arguments: &RenderArgs, file: &SceneFile) -> Result<Scene, Error> {
+fn load_scene_file(
+    arguments: &RenderArgs,
+    file: &SceneFile,
+    hear: &mut dyn FnMut(u64, u64),
+) -> Result<Scene, Error> {
     let mut warnings = Warnings::default();
-    let mut progress = Progress::new("loading");
-    let (model, has_uv) = file
-        .build(&arguments.material, arguments, &mut warnings, &mut |done, total| progress.set(done, total))?;
-    drop(progress);
+    let (model, has_uv) = file.build(&arguments.material, arguments, &mut warnings, hear)?;
     warn_all(&warnings);
     Ok(Scene {
         model,
@@ -453,7 +459,7 @@ fn inputs(arguments: &RenderArgs) -> impl Iterator<Item = PathBuf> {
 }
 
 /// The projection that was asked for; a parallel one shows as much as the perspective one does around its target.
-fn projection(arguments: &RenderArgs, camera: &Camera) -> Result<Projection, Error> {
+pub(super) fn projection(arguments: &RenderArgs, camera: &Camera) -> Result<Projection, Error> {
     if !arguments.camera.is_parallel() {
         return Ok(Projection::Perspective);
     }
@@ -465,32 +471,4 @@ fn projection(arguments: &RenderArgs, camera: &Camera) -> Result<Projection, Err
         return Err(Error::new(found, "a finite number above 0").place("--view-height"));
     }
     Ok(Projection::Parallel { height })
-}
-
-fn warn_all(warnings: &Warnings) {
-    for line in warnings.lines() {
-        warn(&line);
-    }
-}
-
-/// Warnings so far.
-static TOLD: Mutex<Vec<String>> = Mutex::new(Vec::new());
-
-/// Begins a run without warnings.
-pub(super) fn forget() {
-    TOLD.lock().unwrap_or_else(PoisonError::into_inner).clear();
-}
-
-/// Warnings of this run, printed or not.
-pub(super) fn told() -> Vec<String> {
-    TOLD.lock().unwrap_or_else(PoisonError::into_inner).clone()
-}
-
-pub(super) fn warn(line: &str) {
-    TOLD.lock().unwrap_or_else(PoisonError::into_inner).push(line.to_owned());
-    if is_silent() {
-        return;
-    }
-    // Without standard error there is nobody to tell.
-    let _ = writeln!(io::stderr(), "warning: {line}");
 }

@@ -22,6 +22,7 @@ use alberti::shaders::material::{AnyLight, AnyLightSpace, Framed, Gouraud, InSpa
 use alberti::shaders::{Mix, Slide, Unlit, VertexColor};
 use alberti::texture::{AnyFilter, Clamp, Sampler, format::Rgba8888};
 use alberti::{FixedPoint, FragmentStage, Fragments, Lines, Planes, Rgba8, Stats, for_lanes};
+use std::sync::Arc;
 
 /// Whether a part is more than a plain surface in a picture with these options.
 pub(super) fn is_lit(part: &Part, model: &Model, options: &RenderOptions) -> bool {
@@ -37,7 +38,7 @@ pub(super) fn is_lit(part: &Part, model: &Model, options: &RenderOptions) -> boo
 /// The maps and the lights that all surfaces share.
 #[derive(Debug)]
 pub(crate) struct Studio {
-    pub(super) chains: Chains,
+    pub(super) chains: Arc<Chains>,
     pub(super) lamps: Lamps,
 }
 
@@ -47,10 +48,12 @@ impl Studio {
     /// # Errors
     /// A texture that cannot be drawn.
     pub(crate) fn new(model: &Model, camera: &Camera, options: &RenderOptions) -> Result<Self, Error> {
-        Ok(Self {
-            chains: Chains::new(model, options)?,
-            lamps: Lamps::new(model, camera, options, &Rig::new(camera, options)),
-        })
+        Ok(Self::with(Arc::new(Chains::new(model, options)?), model, camera, options))
+    }
+
+    /// The same with mip maps that are there.
+    pub(crate) fn with(chains: Arc<Chains>, model: &Model, camera: &Camera, options: &RenderOptions) -> Self {
+        Self { chains, lamps: Lamps::new(model, camera, options, &Rig::new(camera, options)) }
     }
 }
 

@@ -4,8 +4,7 @@
 use crate::error::Error;
 use crate::memory;
 use crate::options::{Filter, RenderOptions, Wrap};
-use crate::output::clock::{Work, timed};
-use crate::output::progress::waiting;
+use crate::output::stage::{Stage, during};
 use crate::scene::{EnvironmentKind, HeightImage, Image, Map, Model, Part};
 use crate::threads::{Task, by_threads};
 use alberti::glam::Vec2;
@@ -39,29 +38,27 @@ impl Chains {
                 }
             }
         }
-        timed(Work::MipMaps, || {
-            waiting("making mip maps", || {
-                let counts = wanted.values().map(|(image, _)| mipmap::texel_count(image.width, image.height));
-                memory::need(4 * counts.sum::<usize>() as u64, "a set of mip maps")?;
-                let mut chains = HashMap::new();
-                for (&(index, _), &(image, content)) in &wanted {
-                    let count = mipmap::texel_count(image.width, image.height);
-                    chains.insert((index, content), vec![[0; 4]; count]);
-                }
-                let threads = options.threads.get();
-                let mut work = vec![];
-                for (&(index, content), texels) in &mut chains {
-                    work.extend(copies(&wanted[&(index, content as u8)].0.texels, texels));
-                }
-                by_threads(work, threads);
-                let mut work = vec![];
-                for ((index, content), texels) in &mut chains {
-                    let (image, _) = wanted[&(*index, *content as u8)];
-                    work.extend(pieces(*content, texels, [image.width, image.height], threads)?);
-                }
-                by_threads(work, threads);
-                Ok(Self(chains))
-            })
+        during(Stage::MipMaps, |_| {
+            let counts = wanted.values().map(|(image, _)| mipmap::texel_count(image.width, image.height));
+            memory::need(4 * counts.sum::<usize>() as u64, "a set of mip maps")?;
+            let mut chains = HashMap::new();
+            for (&(index, _), &(image, content)) in &wanted {
+                let count = mipmap::texel_count(image.width, image.height);
+                chains.insert((index, content), vec![[0; 4]; count]);
+            }
+            let threads = options.threads.get();
+            let mut work = vec![];
+            for (&(index, content), texels) in &mut chains {
+                work.extend(copies(&wanted[&(index, content as u8)].0.texels, texels));
+            }
+            by_threads(work, threads);
+            let mut work = vec![];
+            for ((index, content), texels) in &mut chains {
+                let (image, _) = wanted[&(*index, *content as u8)];
+                work.extend(pieces(*content, texels, [image.width, image.height], threads)?);
+            }
+            by_threads(work, threads);
+            Ok(Self(chains))
         })
     }
 }
@@ -113,7 +110,7 @@ impl Part {
     }
 
     /// All images on it that may have mip maps, and what their texels stand for.
-    fn maps(&self) -> impl Iterator<Item = (Map, Content)> {
+    pub(crate) fn maps(&self) -> impl Iterator<Item = (Map, Content)> {
         let detail = &self.detail;
         let colors = [self.color_map(), detail.specular_map, detail.emissive_map];
         let numbers = [detail.occlusion, detail.wetness_map, detail.shininess_map, detail.reflection_map];

@@ -31,14 +31,35 @@ const KIND: &str = "a PNG, JPEG, BMP, TGA, WebP, QOI or PPM image";
 /// The file cannot be read, is not an image, is broken, or is too large. The size is taken from the header and
 /// checked before anything is decoded.
 pub fn load(path: &Path, budget: u64) -> Result<Image, Error> {
-    let picture = decode(path, budget)?;
+    let bytes = input::read(path, KIND, MAX_FILE_BYTES)?;
+    decode(path, bytes, budget).map(as_texels)
+}
+
+/// The same of a picture that the user names, which may be a pipe, or [`input::STDIN`].
+///
+/// # Errors
+/// As those of [`load`].
+pub(crate) fn load_given(path: &Path, budget: u64) -> Result<Image, Error> {
+    let bytes = input::read_given(path, KIND, MAX_FILE_BYTES)?;
+    decode(input::shown(path), bytes, budget).map(as_texels)
+}
+
+/// The same of a picture that is not held: its memory is given back.
+///
+/// # Errors
+/// As those of [`load`].
+pub(crate) fn load_for_once(path: &Path) -> Result<Image, Error> {
+    memory::for_once(|| load(path, MAX_TEXELS))
+}
+
+fn as_texels(picture: DynamicImage) -> Image {
     let (width, height) = (picture.width(), picture.height());
     let texels = match picture {
         // Most are such, and `into_rgba8` takes longer.
         DynamicImage::ImageRgb8(picture) => picture.pixels().map(|&Rgb([r, g, b])| [r, g, b, 255]).collect(),
         picture => picture.into_rgba8().pixels().map(|p| p.0).collect(),
     };
-    Ok(Image { width, height, texels })
+    Image { width, height, texels }
 }
 
 /// Reads an image as heights: its grey, or the luminance of its colours. 16 bits stay as they are, 8 bits are widened
@@ -47,7 +68,7 @@ pub fn load(path: &Path, budget: u64) -> Result<Image, Error> {
 /// # Errors
 /// As those of [`load`].
 pub fn load_heights(path: &Path, budget: u64) -> Result<HeightImage, Error> {
-    let picture = decode(path, budget)?;
+    let picture = decode(path, input::read(path, KIND, MAX_FILE_BYTES)?, budget)?;
     let wide = matches!(
         picture.color(),
         ColorType::L16 | ColorType::La16 | ColorType::Rgb16 | ColorType::Rgba16 | ColorType::Rgb32F
@@ -61,8 +82,7 @@ pub fn load_heights(path: &Path, budget: u64) -> Result<HeightImage, Error> {
     Ok(HeightImage { width, height, heights })
 }
 
-fn decode(path: &Path, budget: u64) -> Result<DynamicImage, Error> {
-    let bytes = input::read(path, KIND, MAX_FILE_BYTES)?;
+fn decode(path: &Path, bytes: Vec<u8>, budget: u64) -> Result<DynamicImage, Error> {
     // Of the others, the name does not count.
     let unmarked = || ImageFormat::from_path(path).ok().filter(|format| *format == ImageFormat::Tga);
     let format = image::guess_format(&bytes).ok().or_else(unmarked);

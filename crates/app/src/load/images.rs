@@ -7,7 +7,7 @@ use crate::error::{Error, quote};
 use crate::load::image_file;
 use crate::load::mtl::Alpha;
 use crate::options::{MapFile, byte};
-use crate::output::clock::{Work, timed};
+use crate::output::stage::{Stage, during};
 use crate::scene::{HeightImage, Image, MapNote, Model};
 
 /// Images read so far.
@@ -109,7 +109,7 @@ impl Images {
     pub(crate) fn texture(&mut self, map: &MapFile) -> Result<Option<usize>, Error> {
         let left = &mut self.texels_left;
         let index = self.textures.index(map, |path| {
-            let image = timed(Work::Maps, || image_file::load(path, *left))?;
+            let image = during(Stage::Maps, |_| image_file::load(path, *left))?;
             *left = left.saturating_sub(image.texels.len() as u64);
             Ok(image)
         })?;
@@ -126,7 +126,7 @@ impl Images {
     pub(crate) fn heights(&mut self, map: &MapFile) -> Result<Option<usize>, Error> {
         let left = &mut self.texels_left;
         self.heights.index(map, |path| {
-            let image = timed(Work::Maps, || image_file::load_heights(path, *left))?;
+            let image = during(Stage::Maps, |_| image_file::load_heights(path, *left))?;
             *left = left.saturating_sub(image.heights.len() as u64);
             Ok(image)
         })

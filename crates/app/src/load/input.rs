@@ -1,5 +1,5 @@
-//! Files as bytes: of a size that fits in memory, and no devices. Text may be compressed, and may come from standard
-//! input.
+//! Files as bytes: of a size that fits in memory, and no devices. Text may be compressed, and what the user names may
+//! come from a pipe or from standard input.
 
 use std::cell::Cell;
 use std::fs::{self, File};
@@ -28,7 +28,23 @@ const GZIP: [u8; 2] = [0x1f, 0x8b];
 /// # Errors
 /// The file is missing, cannot be read, is a directory or a device, or is too long.
 pub fn read(path: &Path, kind: &'static str, limit: u64) -> Result<Vec<u8>, Error> {
-    let (file, length) = open(path, kind)?;
+    read_all(open(path, kind)?, path, kind, limit)
+}
+
+/// The same of a file that the user names, which may be a pipe, or [`STDIN`].
+///
+/// # Errors
+/// Those of [`read`].
+pub(crate) fn read_given(path: &Path, kind: &'static str, limit: u64) -> Result<Vec<u8>, Error> {
+    read_all(open_given(path, kind)?, shown(path), kind, limit)
+}
+
+fn read_all(
+    (file, length): (impl Read, u64),
+    path: &Path,
+    kind: &'static str,
+    limit: u64,
+) -> Result<Vec<u8>, Error> {
     if length > limit {
         return Err(too_long(path, kind, length, limit, ""));
     }
@@ -66,6 +82,12 @@ pub(crate) fn shown(path: &Path) -> &Path {
     if path == Path::new(STDIN) { Path::new("standard input") } else { path }
 }
 
+/// The folder in which files are that a file names: of what has no folder of its own, the current one.
+pub(crate) fn folder(path: &Path) -> &Path {
+    let is_command = ["/dev/fd", "/proc/self/fd"].iter().any(|of_pipes| path.starts_with(of_pipes));
+    path.parent().filter(|_| !is_command).unwrap_or(Path::new(""))
+}
+
 /// A text that is read piece by piece: a regular file, or standard input. One that begins as gzip files do is
 /// decompressed, whatever its name.
 pub(crate) struct Stream {
@@ -87,16 +109,7 @@ impl Stream {
     /// # Errors
     /// Those of [`read`].
     pub(crate) fn open(path: &Path, kind: &'static str, limit: u64) -> Result<Self, Error> {
-        let (file, total): (Box<dyn Read>, _) = if path == Path::new(STDIN) {
-            if io::stdin().is_terminal() {
-                let error = Error::new("a terminal as standard input", kind).file(shown(path));
-                return Err(error.hint("name a file, or pipe one in"));
-            }
-            (Box::new(io::stdin()), 0)
-        } else {
-            let (file, length) = open(path, kind)?;
-            (Box::new(file), length)
-        };
+        let (file, total) = open_given(path, kind)?;
         let path = shown(path);
         let done = Rc::new(Cell::new(0));
         let mut file = BufReader::with_capacity(1 << 18, Counted { inner: file, done: done.clone() });
@@ -152,6 +165,34 @@ impl<R: Read> Read for Counted<R> {
         self.done.set(self.done.get() + bytes as u64);
         Ok(bytes)
     }
+}
+
+/// A file that the user names, and its length, 0 where that is not known: a regular one, a pipe, or standard input.
+fn open_given(path: &Path, kind: &str) -> Result<(Box<dyn Read>, u64), Error> {
+    if path == Path::new(STDIN) {
+        if io::stdin().is_terminal() {
+            let error = Error::new("a terminal as standard input", kind).file(shown(path));
+            return Err(error.hint("name a file, or pipe one in"));
+        }
+        return Ok((Box::new(io::stdin()), 0));
+    }
+    if is_pipe(path) {
+        return Ok((Box::new(File::open(path).map_err(|error| unreadable(path, kind, &error))?), 0));
+    }
+    let (file, length) = open(path, kind)?;
+    Ok((Box::new(file), length))
+}
+
+/// Whether a file is a pipe with a name, such as a shell makes of a command.
+#[cfg(unix)]
+fn is_pipe(path: &Path) -> bool {
+    use std::os::unix::fs::FileTypeExt as _;
+    fs::metadata(path).is_ok_and(|metadata| metadata.file_type().is_fifo())
+}
+
+#[cfg(not(unix))]
+fn is_pipe(_: &Path) -> bool {
+    false
 }
 
 /// A regular file and its length.

@@ -17,8 +17,7 @@ use crate::scene::{MaterialNote, Model, Part, Vertex};
 /// The largest material library that is read, in bytes.
 const MAX_LIBRARY_BYTES: u64 = 1 << 26;
 
-/// The libraries of a model and the textures read so far. What is missing or broken becomes a warning, but for the
-/// numbers of a `Kd`.
+/// The libraries of a model and the textures read so far. What is missing or broken becomes a warning.
 #[derive(Debug)]
 pub(crate) struct Libraries {
     checked: CheckedMtl,
@@ -29,13 +28,10 @@ pub(crate) struct Libraries {
 
 impl Libraries {
     /// Reads the libraries that the model at `path` names, and looks for the materials that it uses.
-    ///
-    /// # Errors
-    /// A `Kd` whose numbers are missing or are none.
-    pub(crate) fn read(path: &Path, obj: &ObjText, warnings: &mut Warnings) -> Result<Self, Error> {
+    pub(crate) fn read(path: &Path, obj: &ObjText, warnings: &mut Warnings) -> Self {
         let mut libraries =
             Self { checked: CheckedMtl::default(), images: Images::new(), notes: BTreeMap::new() };
-        let folder = path.parent().unwrap_or(Path::new(""));
+        let folder = input::folder(path);
         let mut complete = true;
         for named in &obj.libraries {
             for Found { path: file, renamed } in files_of(folder, named) {
@@ -46,7 +42,7 @@ impl Libraries {
                     warnings.push(error.hint(format!("{} is used", quote(shown.as_bytes()))));
                 }
                 match bytes_of(path, named, &file) {
-                    Ok(bytes) => libraries.checked.add(&bytes, &file, warnings)?,
+                    Ok(bytes) => libraries.checked.add(&bytes, &file, warnings),
                     Err(warning) => {
                         warnings.push(warning);
                         complete = false;
@@ -58,7 +54,7 @@ impl Libraries {
         if complete {
             libraries.look_up(path, obj, warnings);
         }
-        Ok(libraries)
+        libraries
     }
 
     /// The materials' names and indices.
@@ -192,5 +188,7 @@ fn files_of(folder: &Path, named: &Named) -> Vec<Found> {
     }
     let words = name.split_whitespace();
     let words: Vec<_> = words.map(|word| existing(folder, word).unwrap_or_else(|| missing(word))).collect();
-    if words.iter().any(|found| found.path.exists()) { words } else { vec![missing(name)] }
+    let is_library = |found: &Found| found.path.extension().is_some_and(|of| of.eq_ignore_ascii_case("mtl"));
+    let several = words.iter().any(|found| found.path.exists()) || words.iter().all(is_library);
+    if several { words } else { vec![missing(name)] }
 }

@@ -1,7 +1,7 @@
 //! MTL files: the lines that are used, checked.
 //!
-//! Keywords count in any letters. A `Kd` whose numbers are missing or are none is an error. What else is broken or
-//! missing becomes a warning, and the material keeps its default: a picture with a wrong colour is better than none.
+//! Keywords count in any letters. What is broken or missing becomes a warning, and the material keeps its default: a
+//! picture with a wrong colour is better than none.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -30,24 +30,20 @@ pub(crate) struct CheckedMtl {
 
 impl CheckedMtl {
     /// Adds a library. `warnings` gets what had to be left out.
-    ///
-    /// # Errors
-    /// A `Kd` whose numbers are missing or are none.
-    pub(crate) fn add(&mut self, bytes: &[u8], path: &Path, warnings: &mut Warnings) -> Result<(), Error> {
+    pub(crate) fn add(&mut self, bytes: &[u8], path: &Path, warnings: &mut Warnings) {
         if let Some(found) = not_text(bytes, 0) {
             warnings.push(Error::new(found, KIND).file(path).hint("its materials are left out"));
-            return Ok(());
+            return;
         }
         let mut named = None;
         let mut ignored = Ignored::default();
         for (number, line) in Lines::new(bytes) {
             let place = |error: Error| error.file(path).line(number);
             let statement = Statement::new(number, &line);
-            let found = self.statement(&statement, path, &mut named, &mut ignored).map_err(place)?;
+            let found = self.statement(&statement, path, &mut named, &mut ignored);
             found.into_iter().for_each(|warning| warnings.push(place(warning)));
         }
         ignored.told(path, warnings);
-        Ok(())
     }
 
     /// Takes a line, and returns what there is to warn of. `named` is whether the last `newmtl` had a name.
@@ -57,17 +53,17 @@ impl CheckedMtl {
         path: &Path,
         named: &mut Option<bool>,
         ignored: &mut Ignored,
-    ) -> Result<Vec<Error>, Error> {
+    ) -> Vec<Error> {
         if line.word.eq_ignore_ascii_case(b"newmtl") {
             let name = line.name();
             *named = Some(!name.is_empty());
             if name.is_empty() {
                 let warning = Error::new("`newmtl` without a name", "`newmtl NAME`");
-                return Ok(vec![warning.hint("the lines up to the next one are left out")]);
+                return vec![warning.hint("the lines up to the next one are left out")];
             }
             self.names.insert(name.clone(), self.materials.len());
             self.materials.push(Entry { name, ..Entry::default() });
-            return Ok(Vec::new());
+            return Vec::new();
         }
         let lower = line.word.to_ascii_lowercase();
         let numbers = match lower.as_slice() {
@@ -76,32 +72,31 @@ impl CheckedMtl {
             b"map_kd" | b"map_ks" | b"map_ns" | b"map_ke" | b"map_d" | b"map_pr" | b"map_pm" => 0,
             b"map_bump" | b"bump" | b"disp" | b"norm" | b"map_norm" | b"refl" | b"map_refl" => 0,
             // Ambient light is the scene's.
-            b"map_ka" => return Ok(Vec::new()),
+            b"map_ka" => return Vec::new(),
             _ => {
                 ignored.add(&format!("`{}`", line.keyword()), line.line);
-                return Ok(Vec::new());
+                return Vec::new();
             }
         };
         if *named == Some(false) {
-            return Ok(Vec::new());
+            return Vec::new();
         }
         let Some(entry) = self.materials.last_mut().filter(|_| named.is_some()) else {
             let warning = Error::new(format!("{} before `newmtl`", quote(line.word)), "`newmtl NAME` first");
-            return Ok(vec![warning.hint("the line is left out")]);
+            return vec![warning.hint("the line is left out")];
         };
         if numbers == 0 {
             let origin = Origin { file: path.to_owned(), line: line.line, ..Origin::default() };
-            return Ok(maps::read(entry, &lower, line, origin, ignored));
+            return maps::read(entry, &lower, line, origin, ignored);
         }
         let values = match values(line, numbers) {
             Ok(values) => values,
-            Err(error) if lower == b"kd" => return Err(error.hint("correct the line")),
-            Err(warning) => return Ok(vec![warning.hint("the line is left out")]),
+            Err(warning) => return vec![warning.hint("the line is left out")],
         };
         let Some([r, g, b]) = values else {
             let form = String::from_utf8_lossy(keyword(line.rest).0).into_owned();
             ignored.add(&format!("`{} {form}`", line.keyword()), line.line);
-            return Ok(Vec::new());
+            return Vec::new();
         };
         let material = &mut entry.material;
         let color = Some(Color([r, g, b].map(|x| x.clamp(0.0, 1.0))));
@@ -120,14 +115,14 @@ impl CheckedMtl {
             b"d" if r <= 0.0 => {
                 entry.opacity = Some(0.0);
                 let found = format!("`{} {}`, nothing to be seen", line.keyword(), number(r));
-                return Ok(vec![Error::new(found, "more").hint("a picture shows none of it")]);
+                return vec![Error::new(found, "more").hint("a picture shows none of it")];
             }
             b"d" => entry.opacity = Some(r.min(1.0)),
             // Some exporters mean the opacity.
             b"tr" if r >= 1.0 && entry.opacity.is_none() => {
                 let warning =
                     Error::new(format!("`{} {}`, nothing to be seen", line.keyword(), number(r)), "less");
-                return Ok(vec![warning.hint("the line is left out")]);
+                return vec![warning.hint("the line is left out")];
             }
             b"tr" => entry.transparency = Some(r.clamp(0.0, 1.0)),
             b"illum" => entry.illumination = Some(r),
@@ -136,10 +131,10 @@ impl CheckedMtl {
             _ => {}
         }
         let beyond = used.iter().find(|x| !(0.0..=most).contains(*x));
-        Ok(Vec::from_iter(beyond.map(|x| {
+        Vec::from_iter(beyond.map(|x| {
             let found = format!("{} after `{}`", number(*x), line.keyword());
             Error::new(found, format!("a number from 0 to {most}")).hint("it is clamped")
-        })))
+        }))
     }
 }
 

@@ -64,7 +64,10 @@ pub fn load(
     if let Some(undrawn) = text.undrawn() {
         warnings.push(Error::new(undrawn, "faces").file(path).hint("they are not drawn"));
     }
-    let mut libraries = Libraries::read(path, &text, &mut warnings)?;
+    if let Some(warning) = text.unknown() {
+        warnings.push(warning.file(path));
+    }
+    let mut libraries = Libraries::read(path, &text, &mut warnings);
     let has_uv = text.corners_with_uv > 0;
     let corners: usize = text.faces.iter().map(|faces| faces.corners.len()).sum();
     let some_uv = has_uv && text.corners_with_uv < corners;

@@ -18,6 +18,9 @@ pub enum Background {
     Image(PathBuf),
 }
 
+/// Extensions of images.
+const EXTENSIONS: [&str; 10] = ["png", "jpg", "jpeg", "bmp", "tga", "webp", "qoi", "ppm", "pgm", "pbm"];
+
 impl Background {
     /// The colour of a fog, and of pictures in false colours: of a gradient its middle.
     pub(crate) fn flat(&self) -> Option<[u8; 3]> {
@@ -56,7 +59,7 @@ impl FromStr for Background {
         }
         let extension =
             Path::new(text).extension().map(|extension| extension.to_string_lossy().to_lowercase());
-        if extension.is_some_and(|extension| ["png", "jpg", "jpeg", "bmp", "tga"].contains(&&*extension)) {
+        if extension.is_some_and(|extension| EXTENSIONS.contains(&&*extension)) {
             return Ok(Self::Image(text.into()));
         }
         Err(format!("{}, transparent, TOP..BOTTOM of two colours, or an image file", Color::EXPECTED))
@@ -78,6 +81,7 @@ mod tests {
         assert_eq!(read("transparent"), Ok(Background::Transparent));
         assert_eq!(read("Transparent"), Ok(Background::Transparent));
         assert_eq!(read("a/sky.JPG"), Ok(Background::Image("a/sky.JPG".into())));
+        assert_eq!(read("sky.webp"), Ok(Background::Image("sky.webp".into())));
         for text in ["", "ff", "whitee", "white..", "..", "white..ff", "transparent..white", "sky", "sky.gif"]
         {
             assert!(read(text).is_err_and(|expected| expected.contains("transparent")), "{text}");

@@ -35,11 +35,11 @@ pub struct CameraTable {
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     pub up: Option<Point>,
 
-    /// Degrees around the model, from the front to the right; instead of --eye [default: 31].
+    /// Degrees around the model, from the front to the right; instead of --eye [default: about 31].
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub azimuth: Option<Number<Finite>>,
 
-    /// Degrees above the model, -90 to 90; instead of --eye [default: 21].
+    /// Degrees above the model, -90 to 90; instead of --eye [default: about 21].
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub elevation: Option<Number<Elevation>>,
 
@@ -229,8 +229,10 @@ pub struct RenderTable {
     #[arg(long, value_name = "WHAT", allow_hyphen_values = true)]
     pub background: Option<Background>,
 
-    /// Samples a pixel, averaged in linear light: 4 and 16 smooth edges. `explain`, `advise`, `bake` and --show have
-    /// one [default: 4; with --profile mcu or a --color of fewer bits 1].
+    /// Samples a pixel, averaged in linear light: 4 and 16 smooth edges [default: 4; with --profile mcu or a --color
+    /// of fewer bits 1].
+    ///
+    /// `explain`, `advise`, `bake` and --show have one.
     #[arg(long, value_enum, value_name = "N", hide_possible_values = true)]
     pub samples: Option<Samples>,
 

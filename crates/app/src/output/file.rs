@@ -34,20 +34,8 @@ pub(crate) const STANDARD: &str = "-";
 /// Temporary files that may be there. Who has it makes files, or gives them their names; after a signal, nobody.
 static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-fn temporary_files() -> MutexGuard<'static, Vec<PathBuf>> {
+pub(super) fn temporary_files() -> MutexGuard<'static, Vec<PathBuf>> {
     TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// Makes a folder, and those that it is in. Those that are new go after a signal, as long as they are empty.
-///
-/// # Errors
-/// Those of [`fs::create_dir_all`].
-pub(crate) fn make_folder(folder: &Path) -> io::Result<()> {
-    let is_missing = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.exists();
-    let missing: Vec<_> = folder.ancestors().take_while(is_missing).map(Path::to_owned).collect();
-    let mut files = temporary_files();
-    files.extend(missing.into_iter().rev());
-    fs::create_dir_all(folder)
 }
 
 /// From now on SIGINT and SIGTERM, unless they are ignored, end the process as always, but remove temporary files

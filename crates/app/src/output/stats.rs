@@ -1,5 +1,6 @@
 //! The cost of a picture: counts from the pipeline and times from the clock, as text or as JSON.
 
+use super::stage;
 use crate::camera::as_options;
 use crate::error::counted;
 use crate::options::{CameraTable, Projection, Samples};
@@ -7,25 +8,9 @@ use crate::scene::Camera;
 use alberti::Stats;
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
 use serde_json::json;
-use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Duration;
-
-/// Wall-clock times.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Times {
-    /// Reading the model, or making it, but for its maps.
-    pub load: Duration,
-    /// Reading and decoding its maps.
-    pub maps: Duration,
-    /// Making mip maps of them.
-    pub mip_maps: Duration,
-    /// Drawing.
-    pub render: Duration,
-    /// Encoding and writing the file.
-    pub write: Duration,
-}
 
 /// A report of one run.
 #[derive(Clone, Copy, Debug)]
@@ -42,8 +27,8 @@ pub struct Report<'a> {
     pub triangles: usize,
     /// Counts.
     pub stats: Stats,
-    /// Times.
-    pub times: Times,
+    /// The wall-clock time of each stage of the work, in their order.
+    pub times: [(&'static str, Duration); 8],
     /// The camera that was used.
     pub camera: Camera,
     /// The point from which its coordinates are counted.
@@ -63,22 +48,23 @@ pub enum Source<'a> {
     Scene(&'a str),
 }
 
+impl Source<'_> {
+    /// Its name in a summary.
+    #[must_use]
+    pub fn name(self) -> String {
+        match self {
+            Self::Model(path) => path.display().to_string(),
+            Self::Scene(name) => format!("built-in scene {name}"),
+        }
+    }
+}
+
 impl Report<'_> {
     /// A line of what was made from what, with the times that are not 0, and one of the camera's options.
     pub fn summary(&self) -> String {
-        let source = match self.source {
-            Source::Model(path) => path.display().to_string(),
-            Source::Scene(name) => format!("built-in scene {name}"),
-        };
+        let source = self.source.name();
         let (width, height) = self.size;
-        let names = ["load", "maps", "mip maps", "draw", "encode"];
-        let times = names.into_iter().zip(self.durations()).map(|(name, (_, time))| (name, ms(time)));
-        let times =
-            times.filter(|(_, time)| *time >= 0.05).map(|(name, time)| format!("{name} {time:.1} ms"));
-        let mut times = times.collect::<Vec<_>>().join(", ");
-        if !times.is_empty() {
-            times.insert_str(0, "; ");
-        }
+        let times = stage::summary(&self.times);
         format!(
             "{source}: {}, {width}x{height} pixels in {}{times}\ncamera: {}",
             counted(self.triangles, "triangle", "triangles"),
@@ -94,7 +80,7 @@ impl Report<'_> {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "{name:<14}{count:>12}");
         }
-        for (name, time) in self.durations() {
+        for (name, time) in self.times {
             let _ = writeln!(text, "{name:<14}{:>12.3} ms", ms(time));
         }
         text
@@ -102,7 +88,7 @@ impl Report<'_> {
 
     /// One JSON object on one line: `output`, `model` or `scene`, `width`, `height`, `samples`, the counts (see
     /// [`Stats`]), `camera` and `ms`. The camera has its numbers and, as `options`, the words that make it
-    /// again; `ms` has `load`, `maps`, `mip_maps`, `render` and `write`.
+    /// again; `ms` has `load`, `maps`, `mip_maps`, `numbers`, `shadow`, `draw`, `count` and `encode`.
     pub fn json(&self) -> String {
         // Strings and finite numbers cannot be refused.
         serde_json::to_string(self).unwrap_or_default()
@@ -120,11 +106,6 @@ impl Report<'_> {
             ("fragments", s.fragments),
             ("written", s.written),
         ]
-    }
-
-    fn durations(&self) -> [(&'static str, Duration); 5] {
-        let Times { load, maps, mip_maps, render, write } = self.times;
-        [("load", load), ("maps", maps), ("mip_maps", mip_maps), ("render", render), ("write", write)]
     }
 }
 
@@ -154,9 +135,18 @@ impl Serialize for Report<'_> {
         });
         fields.serialize_entry("camera", &numbers)?;
         let thousandths = |time| (ms(time) * 1e3).round() / 1e3;
-        let times = self.durations().map(|(name, time)| (name, thousandths(time)));
-        fields.serialize_entry("ms", &BTreeMap::from(times))?;
+        let times = self.times.map(|(name, time)| (name, thousandths(time)));
+        fields.serialize_entry("ms", &InOrder(&times))?;
         fields.end()
+    }
+}
+
+/// Numbers by name, in their order.
+struct InOrder<'a>(&'a [(&'static str, f64)]);
+
+impl Serialize for InOrder<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().copied())
     }
 }
 
@@ -166,7 +156,10 @@ mod tests {
 
     fn report<'a>(output: &'a Path, source: Source<'a>) -> Report<'a> {
         let stats = Stats { submitted: 5, clipped: 4, culled: 3, drawn: 2, fragments: 1, ..Stats::default() };
-        let times = Times { load: Duration::from_micros(1500), ..Times::default() };
+        let names = ["load", "maps", "mip_maps", "numbers", "shadow", "draw", "count", "encode"];
+        let mut times = names.map(|name| (name, Duration::ZERO));
+        times[0].1 = Duration::from_micros(1500);
+        times[2].1 = Duration::from_micros(700);
         let camera = Camera {
             eye: [0.0, 1.5, 1e-7],
             target: [0.0; 3],
@@ -215,8 +208,11 @@ mod tests {
             "load",
             "maps",
             "mip_maps",
-            "render",
-            "write",
+            "numbers",
+            "shadow",
+            "draw",
+            "count",
+            "encode",
         ];
         assert!(names.map(|name| text.find(&format!("\"{name}\":"))).is_sorted(), "{text}");
     }
@@ -224,8 +220,8 @@ mod tests {
     #[test]
     fn text_names_everything() {
         let report = report(Path::new("a.png"), Source::Model(Path::new("m.obj")));
-        assert_eq!(report.text().lines().count(), 13);
-        let summary = "m.obj: 5 triangles, 7x6 pixels in a.png; load 1.5 ms\n\
+        assert_eq!(report.text().lines().count(), 16);
+        let summary = "m.obj: 5 triangles, 7x6 pixels in a.png; load 1.5 ms, mip maps 0.7 ms\n\
                        camera: --eye 0,1.5,1e-7 --target 0,0,0 --up 0,1,0 --fov 40 --near 0.1 --far 10 \
                        --projection parallel --view-height 2.5";
         assert_eq!(report.summary(), summary);

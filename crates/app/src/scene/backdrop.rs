@@ -8,6 +8,7 @@ use crate::load::image_file;
 use crate::memory;
 use crate::options::values::Color;
 use crate::options::{Background, RenderOptions};
+use crate::output::stage::{Stage, during};
 use alberti::raster::color::{BlueNoise, Pattern as _};
 
 /// All that is behind the model.
@@ -33,7 +34,7 @@ impl Backdrop {
             Some(Background::Transparent) => Self::Transparent,
             Some(Background::Gradient(ends)) => Self::Gradient(ends.map(Color::bytes)),
             Some(Background::Image(path)) => {
-                let image = image_file::load(path, image_file::MAX_TEXELS)?;
+                let image = during(Stage::Maps, |_| image_file::load(path, image_file::MAX_TEXELS))?;
                 // A middle step has as many columns as the image, and as many rows as the picture, of four floats.
                 let [width, height] = [options.width, options.height].map(u64::from);
                 let bytes = height * (16 * u64::from(image.width) + 8 * width);

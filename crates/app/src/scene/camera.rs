@@ -8,8 +8,11 @@ use crate::scene::{Camera, Model};
 use alberti::ViewError;
 use fit::{Lens, fit};
 
+pub(crate) use turns::{Turn, turned};
+
 mod fit;
 mod pose;
+mod turns;
 
 /// A ball around a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -195,26 +198,6 @@ pub(crate) fn orbit(places: &CameraTable, ball: Sphere) -> Camera {
     let target = point(places.target).unwrap_or(ball.center.map(narrow));
     let eye = point(places.eye).unwrap_or(target);
     Camera { eye, target, up: [0.0, 1.0, 0.0], roll: 0.0, fov: DEFAULT_FOV, near: 1.0, far: 2.0 }
-}
-
-/// The camera after so many of `turns` equal parts of a turn around its target, about its upward direction. The planes
-/// stay as far away.
-pub(crate) fn turned(camera: &Camera, turn: u32, turns: u32) -> Camera {
-    let wide = |v: [f32; 3]| v.map(f64::from);
-    let (axis, target) = (normalize(wide(camera.up)).unwrap_or([0.0, 1.0, 0.0]), wide(camera.target));
-    let arm = sub(wide(camera.eye), target);
-    let (sin, cos) = (std::f64::consts::TAU * f64::from(turn) / f64::from(turns.max(1))).sin_cos();
-    // Rodrigues' formula.
-    let (across, along) = (cross(axis, arm), dot(axis, arm) * (1.0 - cos));
-    let eye = [0, 1, 2].map(|k| target[k] + arm[k] * cos + across[k] * sin + axis[k] * along);
-    // Seen from above, things turn in the picture.
-    let roll = if pose::is_straight(axis, arm) {
-        let degrees = 360.0 * f64::from(turn) / f64::from(turns.max(1));
-        camera.roll + if dot(axis, arm) > 0.0 { -degrees } else { degrees }
-    } else {
-        camera.roll
-    };
-    if turn == 0 { *camera } else { Camera { eye: eye.map(narrow), roll, ..*camera } }
 }
 
 /// The distance of a model's nearest vertex, along the view.

@@ -49,17 +49,18 @@ pub(crate) struct Manner {
     pub(crate) wrap: Wrap,
 }
 
-/// Adds a ground at the model's lowest point, unless the camera is below it, and says whether it did. Planes of the
-/// camera that are not fixed are moved so that all of it is between them. Where attributes are affine, it is of so many
+/// Adds a ground at the model's lowest point, unless one of the cameras is below it, and says whether it did. Their
+/// planes that are not fixed are moved so that all of it is between them. Where attributes are affine, it is of so many
 /// squares that none shows that.
-pub(crate) fn add(model: &mut Model, camera: &mut Camera, manner: Manner) -> bool {
+pub(crate) fn add(model: &mut Model, cameras: &mut [Camera], manner: Manner) -> bool {
     let Manner { fixed, affine, depth, wrap } = manner;
     // So many shares of the model's radius below it, as depths can tell.
     let below = if depth == DepthFormat::U16 { 2e-3 } else { 1e-4 };
-    let Some(ground) = Ground::under(model, camera, below) else { return false };
+    let all: Option<Vec<_>> = cameras.iter().map(|camera| Ground::under(model, camera, below)).collect();
+    let Some(ground) = all.and_then(|all| all.into_iter().next()) else { return false };
     let texels = ground.shadow(model, wrap).into_iter().map(|alpha| [0, 0, 0, alpha]).collect();
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|uv| ground.place(uv));
-    stretch(camera, &corners, fixed);
+    cameras.iter_mut().for_each(|camera| stretch(camera, &corners, fixed));
     let first = u32::try_from(model.vertices.len()).unwrap_or(u32::MAX);
     let mut normal = [0.0; 3];
     normal[ground.up.0] = narrow(ground.up.1);
@@ -378,7 +379,7 @@ mod tests {
     fn the_ground_is_under_all_and_between_the_planes() {
         let mut model = square(0.5);
         let mut camera = CAMERA;
-        add(&mut model, &mut camera, Manner::default());
+        add(&mut model, std::slice::from_mut(&mut camera), Manner::default());
         let part = model.parts.last().expect("a part");
         assert_eq!((model.parts.len(), part.triangles.len(), model.textures.len()), (2, 2, 1));
         let eye = CAMERA.eye.map(f64::from);
@@ -393,7 +394,7 @@ mod tests {
         assert!(crate::scene::normals::cross(sub(b, a), sub(c, a))[1] > 0.0);
         let below = Camera { eye: [3.0, -2.0, 4.0], ..CAMERA };
         let mut model = square(0.5);
-        add(&mut model, &mut { below }, Manner { affine: true, ..Manner::default() });
+        add(&mut model, &mut [below], Manner { affine: true, ..Manner::default() });
         assert_eq!(model.parts.len(), 1);
     }
 
@@ -401,10 +402,14 @@ mod tests {
     #[test]
     fn a_ground_up_to_the_eye_is_not_cut_off() {
         let mut camera = Camera { eye: [0.4, 0.5, 0.4], target: [0.0, 0.5, 0.0], near: 0.3, ..CAMERA };
-        add(&mut square(0.5), &mut camera, Manner::default());
+        add(&mut square(0.5), std::slice::from_mut(&mut camera), Manner::default());
         assert!(camera.near > 0.0 && camera.near < 0.01, "{camera:?}");
         let mut fixed = Camera { near: 0.3, ..camera };
-        add(&mut square(0.5), &mut fixed, Manner { fixed: [true, false], ..Manner::default() });
+        add(
+            &mut square(0.5),
+            std::slice::from_mut(&mut fixed),
+            Manner { fixed: [true, false], ..Manner::default() },
+        );
         assert!((fixed.near - 0.3).abs() < f32::EPSILON);
     }
 
@@ -413,7 +418,7 @@ mod tests {
     fn squares_are_the_ground() {
         let grounds = [false, true].map(|affine| {
             let mut model = square(0.5);
-            add(&mut model, &mut { CAMERA }, Manner { affine, ..Manner::default() });
+            add(&mut model, &mut [CAMERA], Manner { affine, ..Manner::default() });
             model
         });
         let area = |model: &Model| -> f64 {

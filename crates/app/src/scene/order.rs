@@ -47,13 +47,18 @@ pub(crate) fn shells(model: &mut Model, camera: &Camera, eye: Result<[f64; 3], [
     sort(model, camera, &ends);
 }
 
+/// Whether something of a model is mixed with what is behind it, so that the order of its parts counts.
+pub(crate) fn counts(model: &Model) -> bool {
+    model.parts.iter().any(is_mixed)
+}
+
 /// Whether a part is mixed with what is behind it.
 fn is_mixed(part: &Part) -> bool {
     part.detail.blend != AnyBlend::Replace
 }
 
 fn sort(model: &mut Model, camera: &Camera, ends: &[End]) {
-    if !model.parts.iter().any(is_mixed) {
+    if !counts(model) {
         return;
     }
     let forward = [0, 1, 2].map(|axis| f64::from(camera.target[axis]) - f64::from(camera.eye[axis]));

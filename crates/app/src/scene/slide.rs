@@ -4,6 +4,7 @@ use crate::draw::{aspect, frame};
 use crate::error::Error;
 use crate::load::image_file;
 use crate::options::{DEFAULT_FOV, Projection, ProjectorTable};
+use crate::output::stage::{Stage, during};
 use crate::scene::camera::{self, PROJECTOR};
 use crate::scene::{Model, Slide};
 use alberti::glam::Vec3;
@@ -20,7 +21,8 @@ pub fn load(table: &ProjectorTable, origin: [f64; 3]) -> Result<Option<Slide>, E
     let [eye, target] = [eye, target].map(|point| point.counted_from(origin));
     let fov = fov.map_or(DEFAULT_FOV, f32::from);
     let projector = camera::projector(eye.into(), target.into(), fov, origin)?;
-    Ok(Some(Slide { image: image_file::load(path, image_file::MAX_TEXELS)?, projector }))
+    let image = during(Stage::Maps, |_| image_file::load(path, image_file::MAX_TEXELS))?;
+    Ok(Some(Slide { image, projector }))
 }
 
 /// The library's projector for it.

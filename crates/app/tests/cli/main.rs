@@ -7,6 +7,7 @@ mod bake;
 mod compare;
 mod errors;
 mod explain;
+mod film;
 mod info;
 mod light;
 mod materials;

@@ -262,3 +262,17 @@ fn textures_are_found_under_other_names() {
     let warnings = seen(&folder, &["--texture", "blue.png"]).1;
     assert!(warnings.contains("m.mtl:3: found `Tf`") && warnings.lines().count() == 1, "{warnings}");
 }
+
+/// An option that no texture has is told, and the file behind it is used.
+#[test]
+fn unknown_options_of_textures_are_told() {
+    let folder = folder(SQUARE, "newmtl a\nmap_Kd -zz 3 c.png\n");
+    image::RgbImage::from_pixel(2, 2, image::Rgb([200, 100, 50]))
+        .save(folder.path("c.png"))
+        .expect("an image");
+    let run = folder.succeeds(&["m.obj", "-s", "32x32", "--shading", "unlit", "-o", "a.png"]);
+    let expected = "warning: m.mtl:2: found \"-zz 3\" before the file, expected an option of textures";
+    assert!(run.stderr.starts_with(expected) && run.stderr.lines().count() == 1, "{run:?}");
+    let picture = image::open(folder.path("a.png")).expect("a picture").into_rgb8();
+    assert_eq!(picture.get_pixel(16, 16).0, [200, 100, 50]);
+}

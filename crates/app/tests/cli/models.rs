@@ -212,6 +212,16 @@ fn a_model_comes_from_standard_input() {
         assert!(output_of.status.success() && output_of.stderr.is_empty(), "{output_of:?}");
         assert_eq!(difference(&folder, ["a.png", output]), (0, 0));
     }
+    if cfg!(unix) {
+        let command = format!(
+            "mkfifo p.obj && (cat m.obj > p.obj & {0} p.obj -o d.png -s 64x48 -q && {0} compare - a.png -q \
+             --max-error 0lsb < d.png; s=$?; wait; exit $s) && bash -c '{0} <(cat m.obj) -o e.png -s 64x48 -q && cmp \
+             a.png e.png'",
+            env!("CARGO_BIN_EXE_alberti")
+        );
+        let status = Command::new("sh").current_dir(folder.path("")).args(["-c", &command]).status();
+        assert!(status.is_ok_and(|status| status.success()));
+    }
     for (bytes, wanted) in [
         (&b""[..], "error: standard input: found an empty file, expected a Wavefront OBJ model"),
         (&b"v 1 2 x\n"[..], "error: standard input:1: found \"x\", expected a finite number"),
@@ -250,4 +260,22 @@ fn holes_stay_open() {
     assert!(
         [(25, 40), (55, 40), (40, 25), (40, 55), (25, 25), (55, 55)].iter().all(|&(x, y)| !is_hole(x, y))
     );
+}
+
+/// Exporters have statements of their own. What is none of the format's is told once.
+#[test]
+fn statements_that_are_none_are_told() {
+    let told = |obj: &str| {
+        let folder = Folder::with(&[("m.obj", obj.as_bytes())]);
+        let run = folder.succeeds(&["m.obj", "-s", "16x12"]);
+        (run.stdout.contains("m.obj: 1 triangle,"), run.stderr)
+    };
+    let quiet = format!("#no space\nvp 0 0 0\nlod 1\n\tbevel off\n{TRIANGLE}");
+    assert_eq!(told(&quiet), (true, String::new()));
+    assert_eq!(told(&TRIANGLE.replace("\nf", "\nfo")), (true, String::new()));
+    let (_, one) = told(&format!("V 1 2 3\n{TRIANGLE}"));
+    assert!(one.starts_with("warning: m.obj:1: found \"V\", expected a statement of OBJ"), "{one}");
+    let (_, many) = told(&format!("{TRIANGLE}{}", "F 1 2 3\nweight 1\n".repeat(20_000)));
+    let expected = "warning: m.obj:9: found \"F\", the first of 40000 such lines, expected ";
+    assert!(many.starts_with(expected) && many.lines().count() == 1, "{many}");
 }

@@ -1,4 +1,5 @@
-//! Pictures of which something is missing: all of the model, smooth edges, or the order of glass.
+//! Pictures of which something is missing: all of the model, smooth edges, the order of glass, or the effect of an
+//! option.
 
 use crate::{Folder, TRIANGLE};
 
@@ -73,5 +74,77 @@ fn glass_in_glass_is_mixed_from_behind() {
             let off = [0, 1, 2].map(|k: usize| (f64::from(found[k]) - color[k]).abs());
             assert!(off.iter().all(|off| *off < 2.5), "{projection}: {found:?} for {color:?}");
         }
+    }
+}
+
+/// Options without an effect are told, and are without one.
+#[test]
+fn options_that_change_nothing_are_told() {
+    let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
+    let folder = Folder::with(&[("m.obj", square.as_bytes())]);
+    let steep = image::RgbImage::from_fn(4, 4, |x, y| {
+        image::Rgb([[10, 90, 180, 250][x as usize], 60 + u8::from(y > 1) * 90, 200])
+    });
+    steep.save(folder.path("n.png")).expect("a map for the test");
+    let draw = |options: &str, output: &str| {
+        let words: Vec<&str> = options.split_whitespace().chain(["-s", "40x30", "-o", output]).collect();
+        folder.succeeds(&[&["m.obj"], &words[..]].concat()).stderr
+    };
+    let picture = |name: &str| std::fs::read(folder.path(name)).expect("a picture");
+    for (base, idle, told) in [
+        (
+            "--shading unlit",
+            "--light 10,20",
+            "--light: found it with --shading unlit, which is without light",
+        ),
+        (
+            "--shading unlit",
+            "--light-space linear --normal-map n.png",
+            "--light-space: found it and --normal-map ",
+        ),
+        ("--shading unlit", "--two-sided=false", "--two-sided: found it with"),
+        ("--shading unlit", "--specular fff --shininess 3", "--specular: found it and --shininess with"),
+        (
+            "--shading lambert",
+            "--shininess 3",
+            "--shininess: found it with --shading lambert, which is without hi",
+        ),
+        (
+            "--shading lambert",
+            "--specular fff --shininess-map n.png",
+            "--specular: found it and --shininess-map",
+        ),
+        (
+            "--texture n.png --filter nearest",
+            "--lod run",
+            "--lod: found it with --filter nearest, which has one",
+        ),
+        ("--texture n.png", "--dither bayer", "--dither: found it with --color rgba8, whose steps are"),
+        ("--show overdraw", "--samples 16", "--samples: found it with --show, which has one sample a pixel"),
+    ] {
+        assert_eq!(draw(base, "a.png"), "", "{base}");
+        let warning = draw(&format!("{base} {idle}"), "b.png");
+        assert!(warning.starts_with(&format!("warning: {told}")), "{idle}: {warning}");
+        assert!(
+            warning.ends_with("; nothing changes\n") && warning.lines().count() == 1,
+            "{idle}: {warning}"
+        );
+        assert!(picture("a.png") == picture("b.png"), "{base} {idle}");
+    }
+    let scene = "[render]\nlight = \"lamp\"\n[[object]]\nsurface = \"sphere\"\n[ambient]\n[[light]]\n\
+        kind = \"directional\"\ndirection = [0, -1, 0]\n";
+    std::fs::write(folder.path("s.toml"), scene).expect("a scene");
+    let warning = folder.succeeds(&["s.toml", "-s", "40x30"]).stderr;
+    assert!(
+        warning.starts_with("warning: s.toml:2: render.light: found it in a scene with lights"),
+        "{warning}"
+    );
+    for used in [
+        "--shading blinn --specular fff --shininess 3 --light 10,20 --light-space linear",
+        "--shading lambert --normal-map n.png --ao n.png --two-sided=false",
+        "--texture n.png --lod run",
+        "--texture n.png --color rgb565 --dither bayer",
+    ] {
+        assert_eq!(draw(used, "c.png"), "", "{used}");
     }
 }

@@ -103,7 +103,7 @@ fn statistics_come_as_text_or_json() {
     for count in ["clipped", "culled", "drawn", "fragments"] {
         assert!(json[count].is_u64(), "{json}");
     }
-    for time in ["load", "render", "write"] {
+    for time in ["load", "draw", "encode"] {
         assert!(json["ms"][time].is_f64(), "{json}");
     }
     let run = folder.succeeds(&["m.obj", "--stats"]);
@@ -201,7 +201,7 @@ fn help_and_version_are_printed() {
         (&[][..], "Usage: alberti"),
         (&["--help"], "Usage: alberti"),
         (&["--version"], env!("CARGO_PKG_VERSION")),
-        (&["render", "--help"], "--fov <DEG>"),
+        (&["render", "--help"], "--view <SIDE>"),
         (&["render", "-h"], "Examples:"),
     ] {
         let run = run(arguments);

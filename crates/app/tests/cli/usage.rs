@@ -77,12 +77,16 @@ fn times_are_told_by_work() {
     let folder = Folder::with(&[]);
     let made = run(&folder, "--scene floor -s 64x48 --filter trilinear --stats json");
     let json: serde_json::Value = serde_json::from_str(&made.stdout).expect("JSON");
-    for work in ["load", "maps", "mip_maps", "render", "write"] {
+    for work in ["load", "maps", "mip_maps", "numbers", "shadow", "draw", "count", "encode"] {
         assert!(json["ms"][work].is_f64(), "{json}");
     }
     assert!(json["ms"]["mip_maps"].as_f64() > Some(0.0), "{json}");
     let made = run(&folder, "--scene floor -s 64x48 --filter trilinear");
     assert!(made.stdout.contains(" pixels in alberti.png; load "), "{made:?}");
+    let made = run(&folder, "--scene mesh -s 64x48 --ground --aov depth");
+    let told = made.stdout.lines().next().unwrap_or_default();
+    let places = [" load ", " numbers ", " shadow ", " draw ", " encode "].map(|stage| told.find(stage));
+    assert!(places.is_sorted() && places[0].is_some(), "{told}");
 }
 
 #[test]
@@ -105,6 +109,27 @@ fn mistakes_of_usage_are_one_line() {
         ("help compare camera", "error: camera: found no such options of `compare`, expected"),
         ("help compare compare", "error: compare: found no such options of `compare`, expected"),
         ("help camra", "error: camra: found no such command or topic, expected one of "),
+        (
+            "help all camera",
+            "error: camera: found one word too many, expected one command or topic; see alberti help all",
+        ),
+        ("help render camera lens", "error: lens: found one word too many, "),
+        (
+            "m.obj --ground false",
+            "error: false: found one file too many, expected no other file or word; a truth is joined to its option, as in --ground=false",
+        ),
+        (
+            "--stats m.obj",
+            "error: --stats: found \"m.obj\", expected one of text, json; the file is taken for the value of --stats: put it first",
+        ),
+        ("m.obj -s 9x9 --memory 1K", "error: --size: found a picture of 9x9 "),
+        ("m.obj --memory 1K", "error: --memory: found a picture of 640x480 "),
+        ("m.obj --pixel 3,3", "error: --pixel: found no such option, expected it with alberti explain alone"),
+        ("compare - -", "error: -: found standard input for both, expected a file as one of the two"),
+        (
+            "advise m.obj --image m.obj",
+            "error: m.obj: found a file, expected a folder; choose another with --image",
+        ),
         ("completions fisch", "error: <SHELL>: found \"fisch\", expected one of bash, "),
     ] {
         let made = run(&folder, line);
@@ -147,6 +172,9 @@ fn help_is_short_and_has_the_rest_behind_topics() {
     assert_eq!(page("m.obj --help"), page("render --help"));
     assert!(page("help camera").contains("--near <A>") && !page("help camera").contains("--wrap"));
     assert_eq!(page("help camera"), page("render --help camera"));
+    assert_eq!(page("help Camera"), page("help camera"));
+    let lod = run(&folder, "help lod").stderr;
+    assert!(lod.ends_with("; --lod is in alberti help precision\n"), "{lod}");
     let all = page("help all");
     for option in
         ["--near", "--wrap", "--lod", "--height-map", "--show", "--projector-fov", "affine: straight"]
@@ -193,15 +221,19 @@ fn shells_and_man_have_their_texts() {
         assert!(made.status == Some(0) && made.stdout.contains("projector-fov"), "{shell}");
     }
     let script = run(&folder, "completions bash").stdout;
-    for suggested in
-        ["\"nearest bilinear trilinear anisotropic:4 ", " render compare watch ", " scene-files\""]
-    {
+    for suggested in [
+        "\"nearest bilinear trilinear anisotropic:4 ",
+        " render advise bake compare explain ",
+        " scene-files\"",
+    ] {
         assert!(script.contains(suggested), "{suggested}");
     }
     let page = run(&folder, "man").stdout;
-    for part in [".TH alberti 1", "advise", "projector\\-fov"] {
+    for part in [".TH alberti 1", ".SH COMMANDS", "\\fBalberti advise\\fR", "projector\\-fov"] {
         assert!(page.contains(part), "{part}");
     }
+    let (_, synopsis) = page.split_once(".SH SYNOPSIS").expect("uses");
+    assert!(synopsis.split(".SH").next().is_some_and(|uses| uses.lines().count() < 12), "{synopsis}");
 }
 
 /// At the moment when there is a temporary file, and at others.

@@ -20,9 +20,13 @@ pub(super) fn read(
     ignored: &mut Ignored,
 ) -> Vec<Error> {
     let word = line.keyword();
-    let (name, options) = options(line.rest);
+    let (name, mut options) = options(line.rest);
     let folder = origin.file.parent().unwrap_or(Path::new(""));
-    let name = file_name(folder, &String::from_utf8_lossy(name)).to_owned();
+    let mut name = file_name(folder, &String::from_utf8_lossy(name)).to_owned();
+    if let Some((option, rest)) = unknown_option(folder, &name) {
+        options.unknown = Some(option.to_owned());
+        name = rest.to_owned();
+    }
     if name.is_empty() {
         let (found, expected) = (format!("`{word}` without a file"), format!("`{word} FILE`"));
         return vec![Error::new(found, expected).hint("the line is left out")];
@@ -88,6 +92,11 @@ pub(super) fn read(
     if options.range.is_some() && directions {
         ignored.add(&format!("`-mm` of `{word}`"), line_number);
     }
+    if let Some(option) = &options.unknown {
+        let error =
+            Error::new(format!("{} before the file", quote(option.as_bytes())), "an option of textures");
+        warnings.push(error.hint("it is left out"));
+    }
     for option in &options.skipped {
         ignored.add(&format!("`{}` of textures", String::from_utf8_lossy(option)), line_number);
     }
@@ -108,7 +117,8 @@ fn place(entry: &mut Entry, lower: &[u8], placed: [[f32; 2]; 2]) -> Option<&'sta
     if lower == b"map_kd" || entry.placed.is_none() {
         entry.placed = Some(placed);
     }
-    (before != placed).then_some(match lower {
+    let said = placed != UNPLACED || lower == b"map_kd";
+    (before != placed && said).then_some(match lower {
         b"map_kd" => "`-s` or `-o` before `MAP`, another than of it",
         _ => "`-s` or `-o` of `MAP`, another than of the texture",
     })
@@ -129,6 +139,8 @@ struct Options<'a> {
     /// `-s` and `-o`.
     scale: Option<[f32; 2]>,
     offset: Option<[f32; 2]>,
+    /// One that the format has not.
+    unknown: Option<String>,
     /// Others.
     skipped: Vec<&'a [u8]>,
 }
@@ -139,6 +151,16 @@ impl Options<'_> {
         let [scale, offset] = UNPLACED;
         [self.scale.unwrap_or(scale), self.offset.unwrap_or(offset)]
     }
+}
+
+/// An option that the format has not and its words, before a file that is there.
+fn unknown_option<'n>(folder: &Path, name: &'n str) -> Option<(&'n str, &'n str)> {
+    if !name.starts_with('-') || existing(folder, name).is_some() {
+        return None;
+    }
+    let ends = name.char_indices().filter(|(_, c)| c.is_whitespace()).map(|(at, _)| at);
+    let split = |at: usize| (name[..at].trim(), name[at..].trim());
+    ends.map(split).find(|(_, rest)| existing(folder, rest).is_some())
 }
 
 /// The file's name after the options of a texture line, and those. Names may hold spaces.

@@ -47,6 +47,40 @@ pub(crate) const UNDRAWN: [[&str; 2]; 4] = [
     ["face with fewer than 3 corners", "faces with fewer than 3 corners"],
 ];
 
+/// The statements of the format that say nothing of faces, or more of a curve or surface that is counted.
+const QUIET: [&[u8]; 30] = [
+    b"vp",
+    b"cstype",
+    b"deg",
+    b"bmat",
+    b"step",
+    b"parm",
+    b"trim",
+    b"hole",
+    b"scrv",
+    b"sp",
+    b"end",
+    b"con",
+    b"mg",
+    b"bevel",
+    b"c_interp",
+    b"d_interp",
+    b"lod",
+    b"maplib",
+    b"usemap",
+    b"shadow_obj",
+    b"trace_obj",
+    b"ctech",
+    b"stech",
+    b"call",
+    b"csh",
+    b"bsp",
+    b"bzp",
+    b"cdc",
+    b"cdp",
+    b"res",
+];
+
 /// Faces and the statements between them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Faces {
@@ -102,6 +136,8 @@ pub(crate) struct Block {
     pub(crate) colors_out_of_range: usize,
     /// Statements of things that are no faces: [`UNDRAWN`].
     pub(crate) undrawn: [usize; 4],
+    /// The word of the first statement that the format has not, its line, and how many there are.
+    pub(crate) unknown: Option<(String, usize, usize)>,
     /// Physical lines.
     pub(crate) lines: usize,
     /// The first error, and its line.
@@ -111,8 +147,8 @@ pub(crate) struct Block {
 impl Block {
     /// Reads a block, up to its first error. Lines count from 1 in it.
     ///
-    /// Counted: lines, points, curves, surfaces, and faces of one or two corners. Ignored is whatever else the
-    /// word at the start of a line may be. An index may point to a later line, as some exporters write it,
+    /// Counted: lines, points, curves, surfaces, faces of one or two corners, and what the format has not. Ignored is
+    /// what [`QUIET`] has. An index may point to a later line, as some exporters write it,
     /// unless it is negative.
     pub(crate) fn read(bytes: &[u8]) -> Self {
         let mut block = Self::default();
@@ -142,7 +178,8 @@ impl Block {
                 let (normal, _) = numbers::<3>(line, 3..=3, "`vn x y z`", "3 (x y z)")?;
                 self.normals.push(normal.map(narrow));
             }
-            b"f" => self.face(line)?,
+            // The second is of files older than the format's last edition.
+            b"f" | b"fo" => self.face(line)?,
             b"o" | b"g" => event(Event::Object(line.name())),
             b"s" => event(Event::Smoothing(smoothing(line))),
             b"usemtl" => event(Event::Material(line.name(), line.line)),
@@ -150,7 +187,10 @@ impl Block {
             b"l" => self.undrawn[0] += 1,
             b"p" => self.undrawn[1] += 1,
             b"curv" | b"curv2" | b"surf" => self.undrawn[2] += 1,
-            _ => {}
+            word if word.is_empty() || word[0] == b'#' || QUIET.contains(&word) => {}
+            word => {
+                self.unknown.get_or_insert_with(|| (quote(word), line.line, 0)).2 += 1;
+            }
         }
         Ok(())
     }

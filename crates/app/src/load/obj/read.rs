@@ -55,6 +55,8 @@ pub(crate) struct ObjText {
     /// The number of colours that had to be clamped.
     pub(crate) colors_out_of_range: usize,
     undrawn: [usize; 4],
+    /// The word of the first statement that the format has not, its line, and how many there are.
+    unknown: Option<(String, usize, usize)>,
     known: HashSet<String>,
     greatest: [u32; 3],
     huge: Option<String>,
@@ -105,7 +107,7 @@ impl ObjText {
             let other = path.extension().is_some_and(|of| !of.eq_ignore_ascii_case("obj"));
             let hint = match text.undrawn() {
                 Some(undrawn) => {
-                    found = format!("no faces, but {undrawn}");
+                    found = format!("nothing but {undrawn}");
                     "points, lines and curves are not drawn"
                 }
                 None if other => "export the model as OBJ",
@@ -122,6 +124,15 @@ impl ObjText {
         let kinds = self.undrawn.into_iter().zip(UNDRAWN).filter(|(count, _)| *count > 0);
         let words: Vec<_> = kinds.map(|(count, [one, many])| counted(count, one, many)).collect();
         (!words.is_empty()).then(|| words.join(" and "))
+    }
+
+    /// The warning of statements that the format has not.
+    pub(crate) fn unknown(&self) -> Option<Error> {
+        let (word, line, count) = self.unknown.as_ref()?;
+        let more = if *count > 1 { format!(", the first of {count} such lines") } else { String::new() };
+        let warning =
+            Error::new(format!("{word}{more}"), "a statement of OBJ, such as `v`, `vt`, `vn` or `f`");
+        Some(warning.line(*line).hint("left out"))
     }
 
     /// Bytes of all that has been read.
@@ -154,6 +165,9 @@ impl ObjText {
     fn append(&mut self, mut block: Block) -> Result<(), Error> {
         let (before, lines) = (self.counts(), self.lines);
         self.undrawn.iter_mut().zip(block.undrawn).for_each(|(sum, count)| *sum += count);
+        if let Some((word, line, count)) = block.unknown {
+            self.unknown.get_or_insert((word, lines + line, 0)).2 += count;
+        }
         for relative in &block.relative {
             let (which, have) = (usize::from(relative.which), relative.have as usize);
             let index = (before[which] + have + 1).checked_sub(relative.back as usize).filter(|&i| i > 0);

@@ -232,7 +232,7 @@ fn estimates_are_of_the_size_and_say_what_they_leave_out() {
             assert_eq!(vertices.is_some(), is_told, "{arguments:?}");
             assert!(vertices.is_none_or(|count| count > 1e5 && Some(count * 2.0) < pixels), "{chip}");
         }
-        let words = ",\nand with that light at the vertices, on the nearest texel:";
+        let words = ",\nfound at pixels, or at the vertices and then on the nearest texel:";
         assert_eq!(bake(&folder, &arguments).stdout.contains(words), is_told, "{arguments:?}");
     }
     let of = |arguments: &[&str]| {

@@ -74,7 +74,7 @@ fn memory_is_asked_for_before_it_is_taken() {
         ("v.toml", "samples a pixel that takes 13.2 MiB of memory, expected at most 3.0 MiB in all"),
         (
             "m.obj --memory 1.5G",
-            "error: --memory: found \"1.5G\", expected a whole number of bytes below 2^64, such as 512M",
+            "error: --memory: found \"1.5G\", expected a whole number of bytes from 1 to 2^64 - 1, such as 512M",
         ),
     ] {
         let arguments: Vec<_> = arguments.split(' ').collect();

@@ -1,0 +1,162 @@
+//! The file of a film, or those of its frames.
+
+use std::fs;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use crate::error::{Error, quote};
+use crate::film::format::{Film, Format};
+use crate::film::names::Names;
+use crate::output::file::{Output, Whole};
+use crate::output::folder::in_folder;
+use crate::scene::Image;
+
+/// The program that encodes what films are commonly sent as.
+const ENCODER: &str = "ffmpeg";
+
+/// Pictures may begin with a number up to this.
+const FIRST: u32 = 1000;
+
+/// The way that a film's frames take.
+#[derive(Debug)]
+pub(super) enum FilmFile {
+    Whole(Whole, Format),
+    Frames(Names),
+}
+
+impl FilmFile {
+    /// Checks the name, of which the folder is there. `whole` has a file that can be written.
+    ///
+    /// # Errors
+    /// The extension is of no film, or the file cannot be written.
+    pub(super) fn new(
+        named: &Path,
+        whole: impl FnOnce(&Path) -> Result<Whole, Error>,
+    ) -> Result<Self, Error> {
+        if let Some(names) = Names::of(named) {
+            Output::new(&names.name(0), None)?;
+            return Ok(Self::Frames(names));
+        }
+        let extension = named.extension().map(|extension| extension.to_string_lossy().into_owned());
+        let format = extension.as_deref().and_then(Format::of).ok_or_else(|| {
+            let found = extension.map_or("no extension".to_owned(), |e| format!("the extension \".{e}\""));
+            let expected = format!("one of {}, or pictures such as frames/%04d.png", Format::extensions());
+            Error::new(found, expected).file(named).hint("name the film so with -o")
+        })?;
+        if let Format::Encoded(_) = format {
+            let found =
+                Command::new(ENCODER).arg("-version").stdout(Stdio::null()).stderr(Stdio::null()).status();
+            found.map_err(|_| {
+                let found = format!("no {ENCODER}, which encodes such films");
+                Error::new(found, "it installed, or a gif, png or webp").file(named)
+            })?;
+        }
+        Ok(Self::Whole(whole(named)?, format))
+    }
+
+    /// # Errors
+    /// Its format has no alpha.
+    pub(super) fn check_alpha(&self) -> Result<(), Error> {
+        match self {
+            Self::Whole(file, format) if !format.has_alpha() => {
+                let error = Error::new("a format without transparency", "gif, png or webp").file(file.name());
+                Err(error.hint("choose another with -o, or another --background"))
+            }
+            Self::Whole(..) => Ok(()),
+            Self::Frames(names) => Output::new(&names.name(0), None)?.check_alpha(),
+        }
+    }
+
+    /// Whether a frame is there already.
+    pub(super) fn has(&self, frame: u32) -> bool {
+        matches!(self, Self::Frames(names) if names.name(frame).exists())
+    }
+
+    /// A film of so many frames, if this is one file.
+    pub(super) fn film(&self, frames: u32, rate: u32) -> Option<Film> {
+        match self {
+            Self::Whole(_, format) => Some(Film::new(*format, frames, rate)),
+            Self::Frames(..) => None,
+        }
+    }
+
+    /// Writes a frame into its own file.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub(super) fn write_frame(&self, frame: u32, image: &Image, alpha: bool) -> Result<(), Error> {
+        let Self::Frames(names) = self else { return Ok(()) };
+        let output = Output::new(&names.name(frame), None)?;
+        if alpha { output.write_with_alpha(image) } else { output.write(image) }
+    }
+
+    /// Writes the film.
+    ///
+    /// # Errors
+    /// It cannot be encoded or written.
+    pub(super) fn write(&self, film: Film) -> Result<(), Error> {
+        let Self::Whole(file, format) = self else { return Ok(()) };
+        let bytes = film.finish().map_err(|error| error.file(file.name()))?;
+        match format {
+            Format::Encoded(muxer) => file.write(&encoded(&bytes, muxer, file.name())?),
+            _ => file.write(&bytes),
+        }
+    }
+}
+
+/// Does work within the folder of frames of these names, which is made if it is not there.
+///
+/// # Errors
+/// It cannot be made, or the work fails.
+pub(super) fn beside(named: &Path, work: impl FnOnce() -> Result<(), Error>) -> Result<(), Error> {
+    match Names::of(named).map(|names| names.name(0)).as_deref().and_then(Path::parent) {
+        Some(folder) => in_folder(folder, "-o", work),
+        None => work(),
+    }
+}
+
+/// The file that the encoder makes of a stream of pictures.
+fn encoded(stream: &[u8], muxer: &str, name: &Path) -> Result<Vec<u8>, Error> {
+    let failed = |why: &str| {
+        let found = format!("that {ENCODER} fails ({})", quote(why.trim().as_bytes()));
+        Error::new(found, "a film that it encodes, of an even width and height").file(name)
+    };
+    let folder = tempfile::tempdir().map_err(|error| failed(&error.to_string()))?;
+    let (file, words) = (folder.path().join("film"), ["-hide_banner", "-loglevel", "error", "-y"]);
+    let mut child = Command::new(ENCODER)
+        .args(words)
+        .args(["-f", "yuv4mpegpipe", "-i", "-", "-pix_fmt", "yuv420p", "-colorspace", "bt709"])
+        .args(["-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-f", muxer])
+        .arg(&file)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .map_err(|error| failed(&error.to_string()))?;
+    // If it ends before it has read everything, it says why.
+    let _ = child.stdin.take().map(|mut stdin| stdin.write_all(stream));
+    let ended = child.wait_with_output().map_err(|error| failed(&error.to_string()))?;
+    if !ended.status.success() {
+        let said = String::from_utf8_lossy(&ended.stderr).into_owned();
+        return Err(failed(said.lines().last().unwrap_or("without a word")));
+    }
+    fs::read(&file).map_err(|error| failed(&error.to_string()))
+}
+
+/// The pictures of these names that are there, from the first on.
+///
+/// # Errors
+/// There is none.
+pub(super) fn pictures(named: &Path) -> Result<Vec<PathBuf>, Error> {
+    let names = Names::of(named).ok_or_else(|| {
+        let error = Error::new("a name without a number", "one for all pictures, such as frames/%04d.png");
+        error.file(named)
+    })?;
+    let first = (0..=FIRST).find(|&frame| names.name(frame).exists());
+    let first = first.ok_or_else(|| {
+        Error::new("no picture", format!("one from {} on", names.name(0).display())).file(named)
+    })?;
+    let all = (first..).map(|frame| names.name(frame)).take_while(|path| path.exists());
+    Ok(all.collect())
+}

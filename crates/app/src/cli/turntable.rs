@@ -1,0 +1,251 @@
+//! `alberti turntable`: a film of a model that turns, and `alberti assemble`: a film of pictures.
+
+use std::env;
+use std::path::{Path, PathBuf};
+
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Args, Command, FromArgMatches as _};
+
+use super::RenderArgs;
+use super::film::{FilmFile, beside, pictures};
+use super::run::print;
+use super::staged::{Request, Staged, hidden, projection, refuse};
+use crate::error::{Error, counted};
+use crate::film::Set;
+use crate::film::format::Format;
+use crate::film::names::Shard;
+use crate::load::image_file;
+use crate::memory;
+use crate::options::Background;
+use crate::options::values::{Finite, Number, Point};
+use crate::output::file::Whole;
+use crate::output::stage::{self, Stage, during, is_silent};
+use crate::scene::Camera;
+use crate::scene::camera::{self, Turn};
+
+pub(super) const HELP: &str = "\
+Examples:
+  alberti turntable teapot.obj                       60 frames into alberti.gif
+  alberti turntable cow.obj --texture cow.png -o cow.webp --frames 90 --ground
+  alberti turntable wet.toml -o wet.mp4 --degrees -360
+  alberti turntable cow.obj -o frames/%04d.png --shard 0/4    and 1/4, 2/4, 3/4 elsewhere; then
+  alberti assemble frames/%04d.png -o cow.gif";
+
+/// The heading of its own options.
+const OWN: &str = "Film";
+
+/// The film that is written where none is named.
+const DEFAULT: &str = "alberti.gif";
+
+/// Options of pictures that films have not.
+const NOT_OF_FILMS: [&str; 5] = ["output_format", "aov", "aov_format", "stats", "show"];
+
+/// The greatest numbers of frames, and of frames a second, of which some formats count hundredths.
+const MOST: u32 = 100_000;
+const FASTEST: u32 = 100;
+
+/// The options of `alberti turntable`: those of `render`, and these.
+#[derive(Clone, Debug, Args)]
+pub struct TurntableArgs {
+    /// The scene, as `render` takes it. The extension of --output says what the film is, a name with %04d that it is
+    /// pictures, one for each frame.
+    #[command(flatten)]
+    pub render: RenderArgs,
+
+    /// Frames of the turn.
+    #[arg(long, value_name = "N", default_value_t = 60, allow_hyphen_values = true, value_parser = frames)]
+    #[arg(help_heading = OWN)]
+    pub frames: u32,
+
+    /// Frames a second.
+    #[arg(long, value_name = "N", default_value_t = 30, allow_hyphen_values = true, value_parser = rate)]
+    #[arg(help_heading = OWN)]
+    pub fps: u32,
+
+    /// Degrees that the camera goes to the right in all [default: 360].
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, help_heading = OWN)]
+    pub degrees: Option<Number<Finite>>,
+
+    /// The axis of the turn, through the target [default: that of --up].
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, help_heading = OWN)]
+    pub axis: Option<Point>,
+
+    /// Draw one of N shares of the pictures, those that are not there yet: K/N with K from 0 on.
+    ///
+    /// The default is that of a task of a Slurm array. /N has the index of a Kubernetes Indexed Job.
+    #[arg(long, value_name = "K/N", allow_hyphen_values = true, help_heading = OWN)]
+    pub shard: Option<Shard>,
+}
+
+fn number(text: &str, most: u32) -> Result<u32, String> {
+    let number = text.parse().ok().filter(|number| (1..=most).contains(number));
+    number.ok_or_else(|| format!("a whole number from 1 to {most}"))
+}
+
+fn frames(text: &str) -> Result<u32, String> {
+    number(text, MOST)
+}
+
+fn rate(text: &str) -> Result<u32, String> {
+    number(text, FASTEST)
+}
+
+/// The command without options of pictures in its help.
+pub(super) fn without_pictures(command: Command) -> Command {
+    hidden(command, &NOT_OF_FILMS)
+}
+
+/// Draws a film.
+pub(super) fn run(matches: &ArgMatches) -> Result<(), Error> {
+    let arguments = TurntableArgs::from_arg_matches(matches)
+        .map_err(|error| Error::new(error.to_string(), "what --help lists"))?;
+    let request = Request::read(matches)?;
+    refuse(matches, "turntable", &NOT_OF_FILMS, "a film is written")?;
+    // A scene file's output is a picture.
+    let is_given = matches.value_source("output") == Some(ValueSource::CommandLine);
+    let output = request.arguments.render.output.clone().filter(|_| is_given);
+    let output = output.as_deref().unwrap_or(Path::new(DEFAULT));
+    beside(output, || film(&arguments, &request, output)).map_err(|error| request.relocate(error))
+}
+
+fn film(arguments: &TurntableArgs, request: &Request, output: &Path) -> Result<(), Error> {
+    stage::begin();
+    request.check()?;
+    if arguments.axis.is_some_and(|axis| <[f32; 3]>::from(axis) == [0.0; 3]) {
+        return Err(Error::new("no direction", "one, such as 0,1,0").place("--axis"));
+    }
+    let shard = match arguments.shard {
+        Some(shard) => shard,
+        None => Shard::of_job(&|name| env::var(name).ok())?.unwrap_or(Shard::ALL),
+    };
+    let file = FilmFile::new(output, |path| request.whole(path, "-o"))?;
+    let transparent = request.arguments.render.background == Some(Background::Transparent);
+    if transparent {
+        file.check_alpha()?;
+    }
+    let range = match &file {
+        FilmFile::Frames(..) => shard.frames(arguments.frames),
+        FilmFile::Whole(..) if arguments.shard.is_some() && shard.is_part() => {
+            let error = Error::new("a share of a film in one file", "pictures, such as -o frames/%04d.png");
+            return Err(error.place("--shard").hint("alberti assemble joins them"));
+        }
+        FilmFile::Whole(..) => 0..arguments.frames,
+    };
+    let wanted: Vec<u32> = range.filter(|&frame| !(shard.is_part() && file.has(frame))).collect();
+    request.hold_film(transparent)?;
+    let mut staged = request.stage()?;
+    let turn = Turn {
+        axis: arguments.axis.map(|axis| <[f32; 3]>::from(axis).map(f64::from)),
+        degrees: arguments.degrees.map_or(360.0, |degrees| <[f64; 1]>::from(degrees)[0]),
+        frames: arguments.frames,
+    };
+    let mut cameras = cameras(request, &staged, &turn);
+    staged.options.projection = projection(&request.arguments, &cameras[0])?;
+    let size = [staged.options.width, staged.options.height];
+    let mut film = file.film(arguments.frames, arguments.fps);
+    film.as_ref().map_or(Ok(()), |film| film.need(size))?;
+    let triangles = staged.model.parts.iter().map(|part| part.triangles.len()).sum();
+    request.add_ground_for(&mut staged, &mut cameras);
+    let Staged { model, options, samples, backdrop, .. } = staged;
+    let chosen: Vec<_> = wanted.iter().filter_map(|&frame| cameras.get(frame as usize).copied()).collect();
+    let set = Set { model: &model, options: &options, samples, backdrop: &backdrop };
+    let total = chosen.len() as u64;
+    during(Stage::Draw, |progress| {
+        set.draw(&chosen, &mut |at, image| {
+            progress.set(at as u64, total);
+            during(Stage::Encode, |_| match &mut film {
+                Some(film) => film.push(image),
+                None => file.write_frame(wanted[at], &image, transparent),
+            })
+        })
+    })?;
+    during(Stage::Encode, |_| film.map_or(Ok(()), |film| file.write(film)))?;
+    if is_silent() {
+        return Ok(());
+    }
+    let source = request.source().name();
+    let times = stage::summary(&stage::times());
+    let frames = counted(chosen.len(), "frame", "frames");
+    print(&format!(
+        "{source}: {}, {frames} of {}x{} pixels in {}{times}\n",
+        counted(triangles, "triangle", "triangles"),
+        options.width,
+        options.height,
+        output.display()
+    ))
+}
+
+/// The cameras of all frames.
+fn cameras(request: &Request, staged: &Staged, turn: &Turn) -> Vec<Camera> {
+    let Staged { model, camera, options, .. } = staged;
+    let wishes = request.arguments.camera.counted_from(model.origin);
+    let aspect = f64::from(options.width) / f64::from(options.height);
+    let ball = camera::bounding_sphere(model);
+    turn.cameras((model, ball), camera, &wishes, (aspect, request.is_fitted()))
+}
+
+/// The options of `alberti assemble`.
+#[derive(Clone, Debug, Args)]
+pub struct AssembleArgs {
+    /// Names of the pictures, such as frames/%04d.png: from the first, 0 to 1000, up to the last in a row.
+    #[arg(value_name = "NAMES")]
+    pub names: PathBuf,
+
+    /// Film to write; the extension says the format: gif, png or apng, webp, y4m, mp4, mkv or webm.
+    #[arg(short, long, value_name = "FILE", default_value = DEFAULT)]
+    pub output: PathBuf,
+
+    /// Frames a second.
+    #[arg(long, value_name = "N", default_value_t = 30, allow_hyphen_values = true, value_parser = rate)]
+    pub fps: u32,
+
+    /// Print errors alone.
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+pub(super) const ASSEMBLE_HELP: &str = "\
+Examples:
+  alberti assemble frames/%04d.png -o cow.gif
+  alberti assemble frames/%04d.png -o cow.mp4 --fps 25";
+
+/// Joins pictures to a film.
+pub(super) fn assemble(matches: &ArgMatches) -> Result<(), Error> {
+    let arguments = AssembleArgs::from_arg_matches(matches)
+        .map_err(|error| Error::new(error.to_string(), "what --help lists"))?;
+    stage::begin();
+    memory::begin(None);
+    let pictures = pictures(&arguments.names)?;
+    let count = u32::try_from(pictures.len()).unwrap_or(u32::MAX);
+    let file = FilmFile::new(&arguments.output, |path| Whole::new(path, "-o"))?;
+    let Some(mut film) = file.film(count, arguments.fps) else {
+        let expected = format!("a film: {}", Format::extensions());
+        return Err(Error::new("names of pictures", expected).file(&arguments.output));
+    };
+    let mut size = None;
+    during(Stage::Encode, |progress| {
+        for (path, done) in pictures.iter().zip(0..) {
+            progress.set(done, u64::from(count));
+            let image = during(Stage::Maps, |_| image_file::load_for_once(path))?;
+            let [width, height] = *size.get_or_insert([image.width, image.height]);
+            if [width, height] != [image.width, image.height] {
+                let found = format!("{}x{} pixels", image.width, image.height);
+                let error = Error::new(found, format!("{width}x{height} as in {}", pictures[0].display()));
+                return Err(error.file(path));
+            }
+            film.push(image)?;
+        }
+        file.write(film)
+    })?;
+    if is_silent() {
+        return Ok(());
+    }
+    let [width, height] = size.unwrap_or_default();
+    let frames = counted(pictures.len(), "frame", "frames");
+    print(&format!(
+        "{}: {frames} of {width}x{height} pixels in {}{}\n",
+        arguments.names.display(),
+        arguments.output.display(),
+        stage::summary(&stage::times())
+    ))
+}

@@ -1,0 +1,184 @@
+//! Cameras that go round a model.
+
+use super::fit::{Lens, fit};
+use super::{Camera, CameraTable, Model, Sphere, planes, pose, zoomed};
+use super::{cross, dot, length, narrow, normalize, sub};
+
+/// Directions from which all of a model has to be in view.
+const LOOKS: u32 = 16;
+
+/// A way round a model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Turn {
+    /// The axis through the target; the upward direction without it.
+    pub(crate) axis: Option<[f64; 3]>,
+    /// Degrees from the first frame to the one after the last.
+    pub(crate) degrees: f64,
+    /// Frames.
+    pub(crate) frames: u32,
+}
+
+impl Turn {
+    /// The cameras of all frames, of which the first is `first`. But where `fits` says that all of the model has to be
+    /// in view, they are as far away as that takes. Then they turn about the model's middle, unless the wishes have a
+    /// target. Planes that the wishes leave open are those around the ball, the same in all frames.
+    pub(crate) fn cameras(
+        &self,
+        (model, ball): (&Model, Sphere),
+        first: &Camera,
+        wishes: &CameraTable,
+        (aspect, fits): (f64, bool),
+    ) -> Vec<Camera> {
+        let mut first = *first;
+        if fits {
+            let target = wishes.target.map_or(ball.center.map(narrow), <[f32; 3]>::from);
+            let arm = sub(wide(first.eye), wide(first.target));
+            let (from, distance) = (wide(target), length(arm));
+            first.target = target;
+            first.eye = [0, 1, 2].map(|k| narrow(from[k] + arm[k]));
+            let looks = (0..LOOKS).map(|k| self.at(&first, f64::from(k) / f64::from(LOOKS)));
+            let lens = lens(&first, wishes, aspect);
+            let needed = looks.map(|camera| needed((model, ball), &camera, lens)).fold(0.0, f64::max);
+            first.eye = [0, 1, 2].map(|k| narrow(from[k] + arm[k] * (needed / distance)));
+        }
+        let frames = f64::from(self.frames.max(1));
+        let mut cameras: Vec<Camera> =
+            (0..self.frames).map(|frame| self.at(&first, f64::from(frame) / frames)).collect();
+        let around = cameras.iter().map(|camera| {
+            let (eye, view) = (wide(camera.eye), sub(wide(camera.target), wide(camera.eye)));
+            planes(sub(ball.center, eye), view, ball.radius, wishes.is_parallel())
+        });
+        let (near, far) = around.fold((f32::MAX, f32::MIN), |(near, far), (n, f)| (near.min(n), far.max(f)));
+        for camera in &mut cameras {
+            camera.near = wishes.near.map_or(near, f32::from);
+            camera.far = wishes.far.map_or(far, f32::from);
+        }
+        cameras
+    }
+
+    /// The camera after a share of the turn.
+    fn at(&self, camera: &Camera, share: f64) -> Camera {
+        turned(camera, self.axis, share * self.degrees)
+    }
+}
+
+/// The opening of a picture, without its zoom.
+fn lens(camera: &Camera, wishes: &CameraTable, aspect: f64) -> Lens {
+    let fov = zoomed(camera.fov, 1.0 / wishes.zoom());
+    let tangent = (f64::from(fov).to_radians() / 2.0).tan();
+    Lens { tangents: [tangent * aspect, tangent], parallel: wishes.is_parallel() }
+}
+
+/// The distance of a camera from its target at which all of a model is in view.
+fn needed(of: (&Model, Sphere), camera: &Camera, lens: Lens) -> f64 {
+    let target = wide(camera.target);
+    let view = sub(target, wide(camera.eye));
+    let (Some(forward), Some(right)) = (normalize(view), normalize(cross(view, wide(camera.picture_up()))))
+    else {
+        return 0.0;
+    };
+    let (eye, _) = fit(of, [right, cross(right, forward), forward], lens, Some(target));
+    length(sub(eye, target))
+}
+
+/// The camera after a turn of so many degrees around its target, about an axis, or else about its upward direction. The
+/// planes stay as far away.
+pub(crate) fn turned(camera: &Camera, axis: Option<[f64; 3]>, degrees: f64) -> Camera {
+    if degrees == 0.0 {
+        return *camera;
+    }
+    let up = normalize(wide(camera.up)).unwrap_or([0.0, 1.0, 0.0]);
+    let given = axis.and_then(normalize);
+    let (axis, target) = (given.unwrap_or(up), wide(camera.target));
+    let arm = sub(wide(camera.eye), target);
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    // Rodrigues' formula.
+    let rotated = |arm: [f64; 3]| {
+        let (across, along) = (cross(axis, arm), dot(axis, arm) * (1.0 - cos));
+        [0, 1, 2].map(|k| arm[k] * cos + across[k] * sin + axis[k] * along)
+    };
+    let moved = rotated(arm);
+    let eye = [0, 1, 2].map(|k| narrow(target[k] + moved[k]));
+    if given.is_some() {
+        return Camera { eye, up: rotated(wide(camera.up)).map(narrow), ..*camera };
+    }
+    // Seen from above, things turn in the picture.
+    let roll = if pose::is_straight(axis, arm) {
+        camera.roll + if dot(axis, arm) > 0.0 { -degrees } else { degrees }
+    } else {
+        camera.roll
+    };
+    Camera { eye, roll, ..*camera }
+}
+
+fn wide(v: [f32; 3]) -> [f64; 3] {
+    v.map(f64::from)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Vertex;
+
+    const CAMERA: Camera = Camera {
+        eye: [0.0, 1.0, 5.0],
+        target: [0.0, 1.0, 0.0],
+        up: [0.0, 1.0, 0.0],
+        roll: 0.0,
+        fov: 40.0,
+        near: 1.0,
+        far: 9.0,
+    };
+
+    fn close(found: [f32; 3], right: [f32; 3]) {
+        assert!(found.iter().zip(right).all(|(f, r)| (f - r).abs() < 1e-5), "{found:?} {right:?}");
+    }
+
+    #[test]
+    fn a_quarter_is_a_quarter() {
+        let quarter = turned(&CAMERA, None, 90.0);
+        close(quarter.eye, [5.0, 1.0, 0.0]);
+        close(quarter.up, [0.0, 1.0, 0.0]);
+        let over = turned(&CAMERA, Some([2.0, 0.0, 0.0]), -90.0);
+        close(over.eye, [0.0, 6.0, 0.0]);
+        close(over.up, [0.0, 0.0, -1.0]);
+        close(turned(&CAMERA, Some([0.0, 0.0, 1.0]), 33.0).eye, CAMERA.eye);
+        // From above, the picture turns.
+        let above = Camera { eye: [0.0, 6.0, 0.0], ..CAMERA };
+        assert!((turned(&above, None, 30.0).roll + 30.0).abs() < 1e-9);
+    }
+
+    /// A long box, seen along it first: each of its corners is in each picture, and reaches an edge in one.
+    #[test]
+    fn all_of_the_model_is_in_all_pictures() {
+        let corners = [[-3.0, 0.0], [3.0, 0.5]].map(|[x, y]: [f32; 2]| [[x, y, -0.2], [x, y, 0.2]]).concat();
+        let vertices = corners.iter().map(|&position| Vertex { position, ..Vertex::default() }).collect();
+        let mut model = Model { vertices, ..Model::default() };
+        model.parts =
+            vec![crate::scene::Part { triangles: vec![[0, 1, 2], [1, 2, 3]], ..Default::default() }];
+        let ball = super::super::bounding_sphere(&model);
+        let turn = Turn { axis: None, degrees: 360.0, frames: 36 };
+        let along = Camera { eye: [4.0, 1.0, 0.0], target: [0.0; 3], ..CAMERA };
+        let cameras = turn.cameras((&model, ball), &along, &CameraTable::default(), (1.0, true));
+        assert_eq!(cameras.len(), 36);
+        let tangent = 20.0_f64.to_radians().tan();
+        let mut most = 0.0_f64;
+        for camera in &cameras {
+            let view = normalize(sub(wide(camera.target), wide(camera.eye))).unwrap();
+            let right = normalize(cross(view, wide(camera.up))).unwrap();
+            let axes = [right, cross(right, view)];
+            for corner in &corners {
+                let from = sub(wide(*corner), wide(camera.eye));
+                let depth = dot(from, view);
+                assert!(
+                    depth > f64::from(camera.near) && depth < f64::from(camera.far),
+                    "{depth} {camera:?}"
+                );
+                most =
+                    axes.iter().map(|axis| (dot(from, *axis) / depth / tangent).abs()).fold(most, f64::max);
+            }
+            assert!((camera.near, camera.far) == (cameras[0].near, cameras[0].far));
+        }
+        assert!((0.85..1.0).contains(&most), "{most}");
+    }
+}
