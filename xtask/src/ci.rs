@@ -9,7 +9,8 @@ use std::{env, fs, io, thread};
 
 use crate::command::Outcome;
 use crate::{
-    assets, checks, extremes, firmware, fuzz, gallery, guide, package, seeded, supply, tidy, trade, workspace,
+    assets, checks, extremes, film, firmware, fuzz, gallery, guide, package, seeded, supply, tidy, trade,
+    workspace,
 };
 use passed::Passed;
 
@@ -90,7 +91,7 @@ struct Done {
 
 /// The checks in order, by the price of finding a failure: text first, then one compilation, then the tests, then the
 /// builds that start from nothing, which may stand. Little is compiled twice: `docs` and `package` share the metadata
-/// of most dependencies with `lint`; `lanes`, `trade` and `guide` have the app that `gallery` has compiled.
+/// of most dependencies with `lint`; `lanes`, `film`, `trade` and `guide` have the app that `gallery` has compiled.
 const STEPS: &[Step] = &[
     ("tidy", tidy::run),
     ("assets", assets::check),
@@ -101,6 +102,7 @@ const STEPS: &[Step] = &[
     (TEST, checks::test),
     ("gallery", gallery::check),
     ("lanes", checks::lanes),
+    ("film", film::check),
     ("registers", checks::registers),
     ("extremes", extremes::check),
     ("package", package::run),

@@ -47,12 +47,12 @@ fn parallel(program: &Path, folder: &Path) -> Command {
 }
 
 /// Whether the `parallel` that would be started is GNU's: moreutils has another one.
-fn gnu_parallel() -> Outcome {
+pub(crate) fn gnu_parallel() -> Outcome {
     let version = output(Command::new("parallel").arg("--version"));
     if version.is_ok_and(|version| version.contains("GNU parallel")) {
         return Ok(());
     }
-    Err("GNU parallel is not here, which runs the shards of the small sweep side by side; install it, on Debian \
+    Err("GNU parallel is not here, which runs shards of a sweep or a film side by side; install it, on Debian \
          and Ubuntu by `apt-get install parallel`, on macOS by `brew install parallel`"
         .into())
 }

@@ -14,6 +14,7 @@ mod command;
 mod elf;
 mod embedded;
 mod extremes;
+mod film;
 mod firmware;
 mod fuzz;
 mod gallery;
@@ -133,6 +134,12 @@ const CHORES: &[Chore] = &[
         arguments: "[scene|--check]",
         about: "render the scenes of crates/app/scenes, and write docs/gallery.md, or check that all is current",
         run: gallery::run,
+    },
+    Chore {
+        name: "film",
+        arguments: "",
+        about: "draw a film by four processes, one of which fails at first, and compare it with that of one",
+        run: |_| film::check(),
     },
     Chore {
         name: "sweep",
