@@ -7,6 +7,7 @@ use crate::workspace;
 const TOP_LEVEL: &[&str] = &[
     "ARCHITECTURE.md",
     "CHANGELOG.md",
+    "CITATION.cff",
     "CONVENTIONS.md",
     "Cargo.lock",
     "Cargo.toml",
