@@ -8,9 +8,8 @@ mod y4m;
 
 use std::collections::BTreeMap;
 use std::num::NonZero;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc;
+use std::sync::{Arc, Condvar, Mutex, PoisonError, mpsc};
 use std::thread::{self, Builder};
 
 use crate::draw::Chains;
@@ -21,6 +20,9 @@ use crate::samples::supersampled_with;
 use crate::scene::backdrop::Backdrop;
 use crate::scene::normals::sub;
 use crate::scene::{Camera, Image, Model, order};
+
+/// Frames that a thread may be ahead of those that are handed on.
+pub(crate) const EARLY: usize = 2;
 
 /// All of a film but its cameras.
 #[derive(Clone, Copy, Debug)]
@@ -44,11 +46,17 @@ impl Set<'_> {
     ) -> Result<(), Error> {
         let chains = Arc::new(Chains::new(self.model, self.options)?);
         let alone = RenderOptions { threads: NonZero::<usize>::MIN, ..*self.options };
+        let threads = self.options.threads.get().min(cameras.len()).max(1);
         let next = AtomicUsize::new(0);
+        let (handed, more) = (Mutex::new(0), Condvar::new());
         let frames = |hand: &mut dyn FnMut(usize, Result<Picture, Error>) -> bool| {
             let mut own = order::counts(self.model).then(|| self.model.clone());
             loop {
                 let number = next.fetch_add(1, Ordering::Relaxed);
+                // Frames that are early wait in memory, so none may be earlier than that.
+                let is_early = |handed: &mut usize| number >= handed.saturating_add(EARLY * threads);
+                let count = handed.lock().unwrap_or_else(PoisonError::into_inner);
+                drop(more.wait_while(count, is_early));
                 let Some(camera) = cameras.get(number) else { break };
                 let model = own.as_mut().map(|own| self.ordered(own, camera)).unwrap_or(self.model);
                 let (samples, backdrop) = (self.samples, self.backdrop);
@@ -59,7 +67,10 @@ impl Set<'_> {
                 }
             }
         };
-        let threads = self.options.threads.get().min(cameras.len());
+        let hand_on = |count: usize| {
+            *handed.lock().unwrap_or_else(PoisonError::into_inner) = count;
+            more.notify_all();
+        };
         let (done, arrived) = mpsc::sync_channel(threads);
         thread::scope(|scope| {
             let work = |done: mpsc::SyncSender<_>| {
@@ -76,20 +87,28 @@ impl Set<'_> {
                 let mut outcome = Ok(());
                 frames(&mut |number, drawn| {
                     outcome = drawn.and_then(|picture| take(number, picture.image));
+                    hand_on(number + 1);
                     outcome.is_ok()
                 });
                 return outcome;
             }
             let (mut early, mut wanted) = (BTreeMap::new(), 0);
-            // Where this returns early, the channel closes, which ends the threads.
-            for (number, drawn) in arrived {
-                early.insert(number, drawn?.image);
-                while let Some(image) = early.remove(&wanted) {
-                    take(wanted, image)?;
+            let mut outcome = Ok(());
+            for (number, drawn) in arrived.iter() {
+                outcome = drawn.map(|picture| _ = early.insert(number, picture.image));
+                while let (true, Some(image)) = (outcome.is_ok(), early.remove(&wanted)) {
+                    outcome = take(wanted, image);
                     wanted += 1;
+                    hand_on(wanted);
+                }
+                if outcome.is_err() {
+                    break;
                 }
             }
-            Ok(())
+            // After a failure, threads that wait go on, and end at the closed channel.
+            drop(arrived);
+            hand_on(usize::MAX);
+            outcome
         })
     }
 

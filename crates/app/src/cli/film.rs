@@ -15,6 +15,9 @@ use crate::scene::Image;
 /// The program that encodes what films are commonly sent as.
 const ENCODER: &str = "ffmpeg";
 
+/// Pictures that may be missing between others without being told.
+const GAP: u32 = 10_000;
+
 /// Pictures may begin with a number up to this.
 const FIRST: u32 = 1000;
 
@@ -68,15 +71,15 @@ impl FilmFile {
         }
     }
 
-    /// Whether a frame is there already.
-    pub(super) fn has(&self, frame: u32) -> bool {
-        matches!(self, Self::Frames(names) if names.name(frame).exists())
+    /// Whether a frame is there already, as a picture of that size.
+    pub(super) fn has(&self, frame: u32, size: (u32, u32)) -> bool {
+        matches!(self, Self::Frames(names) if image::image_dimensions(names.name(frame)).is_ok_and(|of| of == size))
     }
 
-    /// A film of so many frames, if this is one file.
-    pub(super) fn film(&self, frames: u32, rate: u32) -> Option<Film> {
+    /// A film of so many frames, and so many a second, if this is one file.
+    pub(super) fn film(&self, counts: [u32; 2], alpha: bool) -> Option<Film> {
         match self {
-            Self::Whole(_, format) => Some(Film::new(*format, frames, rate)),
+            Self::Whole(_, format) => Some(Film::new(*format, counts, alpha)),
             Self::Frames(..) => None,
         }
     }
@@ -144,11 +147,11 @@ fn encoded(stream: &[u8], muxer: &str, name: &Path) -> Result<Vec<u8>, Error> {
     fs::read(&file).map_err(|error| failed(&error.to_string()))
 }
 
-/// The pictures of these names that are there, from the first on.
+/// The pictures of these names that are there, and the number of the first.
 ///
 /// # Errors
-/// There is none.
-pub(super) fn pictures(named: &Path) -> Result<Vec<PathBuf>, Error> {
+/// There is none, or one is missing between others.
+pub(super) fn pictures(named: &Path) -> Result<(Vec<PathBuf>, u32), Error> {
     let names = Names::of(named).ok_or_else(|| {
         let error = Error::new("a name without a number", "one for all pictures, such as frames/%04d.png");
         error.file(named)
@@ -157,6 +160,13 @@ pub(super) fn pictures(named: &Path) -> Result<Vec<PathBuf>, Error> {
     let first = first.ok_or_else(|| {
         Error::new("no picture", format!("one from {} on", names.name(0).display())).file(named)
     })?;
-    let all = (first..).map(|frame| names.name(frame)).take_while(|path| path.exists());
-    Ok(all.collect())
+    let all: Vec<_> = (first..).map(|frame| names.name(frame)).take_while(|path| path.exists()).collect();
+    let end = first + u32::try_from(all.len()).unwrap_or(u32::MAX);
+    match (end..end.saturating_add(GAP)).map(|frame| names.name(frame)).find(|path| path.exists()) {
+        Some(later) => {
+            let expected = format!("all up to the last, since {} is there", later.display());
+            Err(Error::new("no such picture", expected).file(&names.name(end)))
+        }
+        None => Ok((all, first)),
+    }
 }

@@ -4,6 +4,7 @@ use super::partners;
 use super::staged::{Request, Staged, samples, threads};
 use super::told::{told, warn};
 use crate::error::{Error, counted};
+use crate::film::EARLY;
 use crate::memory;
 use crate::options::values::{Size, name_of};
 use crate::options::{
@@ -65,8 +66,8 @@ impl Request {
         let Size(width, height) = self.arguments.render.size.unwrap_or(DEFAULT_SIZE);
         let samples = samples(&self.arguments, [width, height])?;
         let threads = threads(&self.arguments).get() as u64;
-        let each =
-            bytes([width, height], samples, transparent) + ENCODED * u64::from(width) * u64::from(height);
+        let pixels = u64::from(width) * u64::from(height);
+        let each = bytes([width, height], samples, transparent) + (ENCODED + 4 * EARLY as u64) * pixels;
         let what = format!("frames of {width}x{height} by {threads} threads");
         memory::hold(threads * each, what).map_err(|error| error.place("--size"))
     }

@@ -16,8 +16,8 @@ use crate::film::format::Format;
 use crate::film::names::Shard;
 use crate::load::image_file;
 use crate::memory;
-use crate::options::Background;
-use crate::options::values::{Finite, Number, Point};
+use crate::options::values::{Finite, Number, Point, Size};
+use crate::options::{Background, DEFAULT_SIZE};
 use crate::output::file::Whole;
 use crate::output::stage::{self, Stage, during, is_silent};
 use crate::scene::Camera;
@@ -114,10 +114,11 @@ fn film(arguments: &TurntableArgs, request: &Request, output: &Path) -> Result<(
     if arguments.axis.is_some_and(|axis| <[f32; 3]>::from(axis) == [0.0; 3]) {
         return Err(Error::new("no direction", "one, such as 0,1,0").place("--axis"));
     }
-    let shard = match arguments.shard {
-        Some(shard) => shard,
-        None => Shard::of_job(&|name| env::var(name).ok())?.unwrap_or(Shard::ALL),
+    let share = match arguments.shard {
+        Some(shard) => Some(shard),
+        None => Shard::of_job(&|name| env::var(name).ok())?,
     };
+    let shard = share.unwrap_or(Shard::ALL);
     let file = FilmFile::new(output, |path| request.whole(path, "-o"))?;
     let transparent = request.arguments.render.background == Some(Background::Transparent);
     if transparent {
@@ -131,7 +132,9 @@ fn film(arguments: &TurntableArgs, request: &Request, output: &Path) -> Result<(
         }
         FilmFile::Whole(..) => 0..arguments.frames,
     };
-    let wanted: Vec<u32> = range.filter(|&frame| !(shard.is_part() && file.has(frame))).collect();
+    let Size(width, height) = request.arguments.render.size.unwrap_or(DEFAULT_SIZE);
+    let (there, wanted): (Vec<u32>, Vec<u32>) =
+        range.partition(|&frame| share.is_some() && file.has(frame, (width, height)));
     request.hold_film(transparent)?;
     let mut staged = request.stage()?;
     let turn = Turn {
@@ -141,9 +144,8 @@ fn film(arguments: &TurntableArgs, request: &Request, output: &Path) -> Result<(
     };
     let mut cameras = cameras(request, &staged, &turn);
     staged.options.projection = projection(&request.arguments, &cameras[0])?;
-    let size = [staged.options.width, staged.options.height];
-    let mut film = file.film(arguments.frames, arguments.fps);
-    film.as_ref().map_or(Ok(()), |film| film.need(size))?;
+    let mut film = file.film([arguments.frames, arguments.fps], transparent);
+    film.as_ref().map_or(Ok(()), |film| film.need([width, height]))?;
     let triangles = staged.model.parts.iter().map(|part| part.triangles.len()).sum();
     request.add_ground_for(&mut staged, &mut cameras);
     let Staged { model, options, samples, backdrop, .. } = staged;
@@ -165,12 +167,16 @@ fn film(arguments: &TurntableArgs, request: &Request, output: &Path) -> Result<(
     }
     let source = request.source().name();
     let times = stage::summary(&stage::times());
-    let frames = counted(chosen.len(), "frame", "frames");
+    let mut frames = counted(chosen.len(), "frame", "frames");
+    if let Some(share) = share.filter(|share| share.is_part()) {
+        frames += &format!(" of share {share}");
+    }
+    if !there.is_empty() {
+        frames += &format!(" beside {} that were there", there.len());
+    }
     print(&format!(
-        "{source}: {}, {frames} of {}x{} pixels in {}{times}\n",
+        "{source}: {}, {frames} of {width}x{height} pixels in {}{times}\n",
         counted(triangles, "triangle", "triangles"),
-        options.width,
-        options.height,
         output.display()
     ))
 }
@@ -215,10 +221,11 @@ pub(super) fn assemble(matches: &ArgMatches) -> Result<(), Error> {
         .map_err(|error| Error::new(error.to_string(), "what --help lists"))?;
     stage::begin();
     memory::begin(None);
-    let pictures = pictures(&arguments.names)?;
+    let (pictures, first) = pictures(&arguments.names)?;
     let count = u32::try_from(pictures.len()).unwrap_or(u32::MAX);
     let file = FilmFile::new(&arguments.output, |path| Whole::new(path, "-o"))?;
-    let Some(mut film) = file.film(count, arguments.fps) else {
+    let alpha = image_file::has_alpha(&pictures[0]);
+    let Some(mut film) = file.film([count, arguments.fps], alpha) else {
         let expected = format!("a film: {}", Format::extensions());
         return Err(Error::new("names of pictures", expected).file(&arguments.output));
     };
@@ -241,7 +248,10 @@ pub(super) fn assemble(matches: &ArgMatches) -> Result<(), Error> {
         return Ok(());
     }
     let [width, height] = size.unwrap_or_default();
-    let frames = counted(pictures.len(), "frame", "frames");
+    let mut frames = counted(pictures.len(), "frame", "frames");
+    if first > 0 {
+        frames += &format!(" from {first} on");
+    }
     print(&format!(
         "{}: {frames} of {width}x{height} pixels in {}{}\n",
         arguments.names.display(),

@@ -71,7 +71,9 @@ pub(crate) struct Film {
     /// Frames in all, and a second.
     frames: u32,
     rate: u32,
-    /// Those so far.
+    /// Whether alpha counts.
+    alpha: bool,
+    /// Frames so far.
     count: u32,
     state: State,
 }
@@ -100,12 +102,12 @@ impl Write for Shared {
 }
 
 impl Film {
-    /// A film of so many frames, so many of them a second.
-    pub(crate) fn new(format: Format, frames: u32, rate: u32) -> Self {
-        Self { format, frames, rate, count: 0, state: State::Empty }
+    /// A film of so many frames, so many of them a second, with alpha where the format has one.
+    pub(crate) fn new(format: Format, [frames, rate]: [u32; 2], alpha: bool) -> Self {
+        Self { format, frames, rate, alpha: alpha && format.has_alpha(), count: 0, state: State::Empty }
     }
 
-    /// Appends a frame. The first says the size, and whether alpha counts.
+    /// Appends a frame. The first says the size.
     ///
     /// # Errors
     /// It cannot be encoded, or memory is short.
@@ -152,8 +154,12 @@ impl Film {
     /// Asks for the memory that frames of a size take, before there is one.
     ///
     /// # Errors
-    /// There is less.
+    /// There is less, or the format has no such size.
     pub(crate) fn need(&self, [width, height]: [u32; 2]) -> Result<(), Error> {
+        if matches!(self.format, Format::Encoded(_)) && (width | height) % 2 == 1 {
+            let found = format!("{width}x{height}");
+            return Err(Error::new(found, "an even width and height for such a film").place("--size"));
+        }
         let pixels = u64::from(width) * u64::from(height) * u64::from(self.frames);
         let what = format!("a film of {} frames", self.frames);
         memory::need(self.format.kept() * pixels, what).map_err(|error| error.place("--frames"))
@@ -162,7 +168,7 @@ impl Film {
     fn begun(&self, first: &Image) -> Result<State, Error> {
         let size = [first.width, first.height];
         self.need(size)?;
-        let alpha = self.format.has_alpha() && first.texels.iter().any(|texel| texel[3] < 255);
+        let alpha = self.alpha;
         Ok(match self.format {
             Format::Gif => State::Kept(Vec::new(), alpha),
             Format::Apng => {

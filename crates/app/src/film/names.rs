@@ -17,18 +17,19 @@ pub(crate) struct Names {
 }
 
 impl Names {
-    /// The names that a path with `%d` or `%04d` stands for; none if it has neither.
+    /// The names that a path stands for whose file has `%d` or `%04d` in its name, the last of which counts; none if it
+    /// has neither.
     pub(crate) fn of(path: &Path) -> Option<Self> {
         let text = path.to_str()?;
-        let (before, rest) = text.split_once('%')?;
-        let (digits, after) = rest.split_once('d')?;
-        let is_number = digits.is_empty() || digits.starts_with('0');
-        let digits = if digits.is_empty() { 1 } else { digits.parse().ok()? };
-        (is_number && (1..=DIGITS).contains(&digits)).then(|| Self {
-            before: before.to_owned(),
-            digits,
-            after: after.to_owned(),
-        })
+        let folder = text.len() - path.file_name()?.len();
+        let at = |(start, _): (usize, &str)| {
+            let (digits, after) = text[start + 1..].split_once('d')?;
+            let is_number = digits.is_empty() || digits.starts_with('0');
+            let digits = if digits.is_empty() { 1 } else { digits.parse().ok()? };
+            let names = Self { before: text[..start].to_owned(), digits, after: after.to_owned() };
+            (start >= folder && is_number && (1..=DIGITS).contains(&digits)).then_some(names)
+        };
+        text.rmatch_indices('%').find_map(at)
     }
 
     /// The name of a frame.
@@ -75,9 +76,23 @@ impl Shard {
         let first = number("SLURM_ARRAY_TASK_MIN")?.unwrap_or(0);
         let Some(count) = number("SLURM_ARRAY_TASK_COUNT")? else { return Ok(None) };
         let step = number("SLURM_ARRAY_TASK_STEP")?.unwrap_or(1).max(1);
-        let index = id.checked_sub(first).map(|index| index / step).filter(|&index| index < count);
-        let found = || Error::new(format!("task {id} of {count} from {first} on"), "one of these tasks");
-        index.map(|index| Some(Self { index, count })).ok_or_else(|| found().place("SLURM_ARRAY_TASK_ID"))
+        let last = number("SLURM_ARRAY_TASK_MAX")?
+            .unwrap_or_else(|| first.saturating_add((count.max(1) - 1) * step));
+        let place =
+            |task: u32| task.checked_sub(first).filter(|past| past % step == 0).map(|past| past / step);
+        let index = place(id).filter(|&index| index < count && place(last) == Some(count - 1));
+        let gaps = || {
+            let error =
+                Error::new(format!("task {id} of an array of {count} with gaps"), "tasks in even steps");
+            error.place("SLURM_ARRAY_TASK_ID").hint("say the share by --shard K/N")
+        };
+        index.map(|index| Some(Self { index, count })).ok_or_else(gaps)
+    }
+}
+
+impl std::fmt::Display for Shard {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}/{}", self.index, self.count)
     }
 }
 
@@ -109,7 +124,8 @@ mod tests {
         assert_eq!(name("f/%04d.png", 7), Some("f/0007.png".into()));
         assert_eq!(name("%d.png", 12), Some("12.png".into()));
         assert_eq!(name("a%02d", 123), Some("a123".into()));
-        for other in ["a.png", "%4d.png", "%00d.png", "%x.png", "%099d.png", "100%", "%-1d"] {
+        assert_eq!(name("50%/5%done/%b%02d.%d.x", 3), Some("50%/5%done/%b%02d.3.x".into()));
+        for other in ["%02d/x.png", "a.png", "%4d.png", "%00d.png", "%x.png", "%099d.png", "100%", "%-1d"] {
             assert_eq!(name(other, 0), None, "{other}");
         }
     }
@@ -148,6 +164,15 @@ mod tests {
             ("SLURM_ARRAY_TASK_STEP", "5"),
         ];
         assert_eq!(of(&from_one), third);
+        let gaps = [
+            ("SLURM_ARRAY_TASK_ID", "7"),
+            ("SLURM_ARRAY_TASK_COUNT", "2"),
+            ("SLURM_ARRAY_TASK_MIN", "3"),
+            ("SLURM_ARRAY_TASK_MAX", "7"),
+        ];
+        assert!(of(&gaps).is_err_and(|told| told.contains("--shard K/N")));
+        let first_of_gaps = [("SLURM_ARRAY_TASK_ID", "3"), gaps[1], gaps[2], gaps[3]];
+        assert!(of(&first_of_gaps).is_err());
         assert!(of(&[("SLURM_ARRAY_TASK_ID", "4"), ("SLURM_ARRAY_TASK_COUNT", "4")]).is_err());
         assert!(of(&[("SLURM_ARRAY_TASK_ID", "x"), ("SLURM_ARRAY_TASK_COUNT", "4")]).is_err());
     }

@@ -44,6 +44,13 @@ pub(crate) fn load_given(path: &Path, budget: u64) -> Result<Image, Error> {
     decode(input::shown(path), bytes, budget).map(as_texels)
 }
 
+/// Whether a picture has an alpha, by its header. One that is none has not: [`load`] says what it is.
+pub(crate) fn has_alpha(path: &Path) -> bool {
+    let reader = ImageReader::open(path).and_then(ImageReader::with_guessed_format);
+    let decoder = reader.map(ImageReader::into_decoder);
+    matches!(decoder, Ok(Ok(decoder)) if decoder.color_type().has_alpha())
+}
+
 /// The same of a picture that is not held: its memory is given back.
 ///
 /// # Errors

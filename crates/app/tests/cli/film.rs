@@ -153,13 +153,31 @@ fn shares_make_the_film_of_one_process() {
         let (one, all) = (one.expect("a film"), all.expect("a film"));
         assert!(one == all && one.len() > 1000, "{name}");
     }
-    // What is there is not drawn again.
-    fs::write(folder.path("f/000.png"), "kept").expect("a file");
-    fs::remove_file(folder.path("f/001.png")).expect("a file");
+    // A picture of that size is not drawn again, whatever it shows; all else is.
+    let blank = image::RgbImage::new(40, 30);
+    blank.save(folder.path("f/000.png")).expect("a picture");
+    image::RgbImage::new(30, 40).save(folder.path("f/001.png")).expect("a picture");
+    fs::write(folder.path("f/002.png"), "cut off").expect("a file");
     let told = made(&folder, &format!("{film} --shard 0/2 -o f/%03d.png"));
-    assert!(told.contains(", 1 frame of 40x30 pixels"), "{told}");
-    assert!(fs::read(folder.path("f/000.png")).is_ok_and(|bytes| bytes == b"kept"));
-    assert!(picture(&folder, "f/001.png").len() == 3600);
+    assert!(told.contains(", 2 frames of share 0/2 beside 1 that were there of 40x30 pixels"), "{told}");
+    assert!(picture(&folder, "f/000.png") == blank.into_raw());
+    let told = made(&folder, &format!("{film} --shard 0/1 -o f/%03d.png"));
+    assert!(told.contains(", 0 frames beside 7 that were there of"), "{told}");
+    let told = made(&folder, &format!("{film} -o f/%03d.png"));
+    assert!(told.contains(", 7 frames of 40x30 pixels"), "{told}");
+
+    // A film without a picture in its middle is none.
+    fs::remove_file(folder.path("f/003.png")).expect("a picture");
+    let run = run(&folder, "assemble f/%03d.png -o gap.gif");
+    let expected =
+        "error: f/003.png: found no such picture, expected all up to the last, since f/004.png is there\n";
+    assert_eq!((run.status, &run.stderr[..]), (Some(2), expected));
+    assert!(!folder.path("gap.gif").exists());
+    for name in ["f/000.png", "f/001.png", "f/002.png"] {
+        fs::remove_file(folder.path(name)).expect("a picture");
+    }
+    let told = made(&folder, "assemble f/%03d.png -o rest.gif");
+    assert!(told.starts_with("f/%03d.png: 3 frames from 4 on of 40x30 pixels"), "{told}");
 }
 
 #[test]
@@ -172,6 +190,16 @@ fn what_is_seen_through_stays_so() {
     let (frames, _) = apng(&folder, "a.png");
     let first = image::open(folder.path("f/0.png")).expect("a picture").into_rgba8().into_raw();
     assert!(frames[0] == first && first.chunks(4).any(|texel| texel[3] == 0));
+    // Also if the first frame is full.
+    let full =
+        "turntable m.obj -s 40x30 --frames 2 --eye 0,0.3,1.4 --target 0,0.3,0 --background transparent";
+    for name in ["b.png", "g/%d.png"] {
+        made(&folder, &format!("{full} -o {name}"));
+    }
+    made(&folder, "assemble g/%d.png -o c.png");
+    let [pictures, joined] = ["b.png", "c.png"].map(|name| apng(&folder, name).0);
+    assert!(pictures == joined && pictures[1].len() == 4800);
+
     let mut options = gif::DecodeOptions::new();
     options.set_color_output(gif::ColorOutput::RGBA);
     let mut decoder = options.read_info(File::open(folder.path("a.gif")).expect("a film")).expect("a header");
@@ -212,6 +240,8 @@ fn other_formats_are_made_by_ffmpeg() {
     let expected = "error: a.mp4: found that ffmpeg fails (\"odd width\"), expected a film that it encodes, ";
     assert!(output.status.code() == Some(2) && told.starts_with(expected), "{told}");
     assert!(!folder.path("a.mp4").exists());
+    let output = play("exit 0");
+    assert!(output.status.code() == Some(2), "{output:?}");
 }
 
 #[test]

@@ -4,8 +4,8 @@ use super::fit::{Lens, fit};
 use super::{Camera, CameraTable, Model, Sphere, planes, pose, zoomed};
 use super::{cross, dot, length, narrow, normalize, sub};
 
-/// Directions from which all of a model has to be in view.
-const LOOKS: u32 = 16;
+/// The most directions from which it is seen how far away a camera has to be.
+const LOOKS: u32 = 64;
 
 /// A way round a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,7 +36,11 @@ impl Turn {
             let (from, distance) = (wide(target), length(arm));
             first.target = target;
             first.eye = [0, 1, 2].map(|k| narrow(from[k] + arm[k]));
-            let looks = (0..LOOKS).map(|k| self.at(&first, f64::from(k) / f64::from(LOOKS)));
+            // Those of the frames, or as many of one turn.
+            let looks = self.frames.clamp(1, LOOKS);
+            let degrees = if self.frames > LOOKS { self.degrees.clamp(-360.0, 360.0) } else { self.degrees };
+            let looks =
+                (0..looks).map(|k| turned(&first, self.axis, degrees * f64::from(k) / f64::from(looks)));
             let lens = lens(&first, wishes, aspect);
             let needed = looks.map(|camera| needed((model, ball), &camera, lens)).fold(0.0, f64::max);
             first.eye = [0, 1, 2].map(|k| narrow(from[k] + arm[k] * (needed / distance)));
@@ -157,17 +161,23 @@ mod tests {
         model.parts =
             vec![crate::scene::Part { triangles: vec![[0, 1, 2], [1, 2, 3]], ..Default::default() }];
         let ball = super::super::bounding_sphere(&model);
-        let turn = Turn { axis: None, degrees: 360.0, frames: 36 };
+        for (degrees, frames) in [(360.0, 36), (1440.0, 77), (-90.0, 200)] {
+            whole((&model, ball), &corners, &Turn { axis: None, degrees, frames });
+        }
+    }
+
+    /// Whether all corners are in all pictures of a turn, and nearly fill one of a whole turn.
+    fn whole((model, ball): (&Model, Sphere), corners: &[[f32; 3]], turn: &Turn) {
         let along = Camera { eye: [4.0, 1.0, 0.0], target: [0.0; 3], ..CAMERA };
-        let cameras = turn.cameras((&model, ball), &along, &CameraTable::default(), (1.0, true));
-        assert_eq!(cameras.len(), 36);
+        let cameras = turn.cameras((model, ball), &along, &CameraTable::default(), (1.0, true));
+        assert_eq!(cameras.len(), turn.frames as usize);
         let tangent = 20.0_f64.to_radians().tan();
         let mut most = 0.0_f64;
         for camera in &cameras {
             let view = normalize(sub(wide(camera.target), wide(camera.eye))).unwrap();
             let right = normalize(cross(view, wide(camera.up))).unwrap();
             let axes = [right, cross(right, view)];
-            for corner in &corners {
+            for corner in corners {
                 let from = sub(wide(*corner), wide(camera.eye));
                 let depth = dot(from, view);
                 assert!(
@@ -179,6 +189,6 @@ mod tests {
             }
             assert!((camera.near, camera.far) == (cameras[0].near, cameras[0].far));
         }
-        assert!((0.85..1.0).contains(&most), "{most}");
+        assert!((0.85..1.0).contains(&most), "{most} {turn:?}");
     }
 }
