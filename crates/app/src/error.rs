@@ -103,43 +103,71 @@ impl Error {
 
 impl std::error::Error for Error {}
 
-/// Repairs to report. Only the first few are kept: a file may have a million broken lines.
+/// Repairs to report. Of each kind only the first few are kept: a file may have a million broken lines.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Warnings {
+    kinds: Vec<Kind>,
+}
+
+/// Warnings of one file that expect the same.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+struct Kind {
     first: Vec<Error>,
     more: usize,
 }
 
+impl Kind {
+    fn is_of(&self, warning: &Error) -> bool {
+        self.first.first().is_some_and(|of| (&of.place, &of.expected) == (&warning.place, &warning.expected))
+    }
+}
+
 impl Warnings {
-    /// The number that is kept.
+    /// The number that is kept of a kind.
     pub const KEPT: usize = 10;
+
+    /// The number of kinds. Whatever else there is counts as of the last one.
+    const KINDS: usize = 50;
 
     /// Adds a warning, or counts it.
     pub fn push(&mut self, warning: Error) {
-        if self.first.len() < Self::KEPT {
-            self.first.push(warning);
+        let known = self.kinds.iter().position(|kind| kind.is_of(&warning));
+        let index = known.unwrap_or_else(|| {
+            if self.kinds.len() < Self::KINDS {
+                self.kinds.push(Kind::default());
+            }
+            self.kinds.len() - 1
+        });
+        let kind = &mut self.kinds[index];
+        if kind.first.len() < Self::KEPT {
+            kind.first.push(warning);
         } else {
-            self.more += 1;
+            kind.more += 1;
         }
     }
 
     /// Hands each on that is kept.
     pub(crate) fn each(self, hear: impl FnMut(Error)) {
-        self.first.into_iter().for_each(hear);
+        self.kinds.into_iter().flat_map(|kind| kind.first).for_each(hear);
     }
 
     /// Those that are not about this key of a material.
     #[must_use]
     pub(crate) fn without(mut self, key: &str) -> Self {
         let about = |warning: &Error| warning.about.and_then(|index| MAPS.get(usize::from(index)).copied());
-        self.first.retain(|warning| about(warning) != Some(key));
+        self.kinds.retain_mut(|kind| {
+            kind.first.retain(|warning| about(warning) != Some(key));
+            !kind.first.is_empty()
+        });
         self
     }
 
-    /// One line each, and one for those that were only counted.
+    /// One line each, and after a kind one for those that were only counted.
     pub fn lines(&self) -> impl Iterator<Item = String> {
-        let more = (self.more > 0).then(|| format!("{} more of this kind", self.more));
-        self.first.iter().map(ToString::to_string).chain(more)
+        self.kinds.iter().flat_map(|kind| {
+            let more = (kind.more > 0).then(|| format!("{} more of this kind", kind.more));
+            kind.first.iter().map(ToString::to_string).chain(more)
+        })
     }
 }
 
@@ -181,6 +209,11 @@ pub fn quote(bytes: &[u8]) -> String {
 /// A number for a message: not with dozens of zeros.
 pub fn number(x: f32) -> String {
     if x == 0.0 || (1e-5..1e10).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") }
+}
+
+/// A number for JSON: the shortest decimal that stands for it, as a reader of `f64` takes it.
+pub(crate) fn decimal(x: f32) -> f64 {
+    x.to_string().parse().unwrap_or_else(|_| x.into())
 }
 
 /// A number of things, in words.
@@ -228,12 +261,19 @@ mod tests {
         let lines: Vec<_> = warnings.lines().collect();
         assert_eq!(lines.len(), 11);
         assert_eq!(lines[9..], ["found 9, expected b", "3 more of this kind"]);
+        warnings.push(Error::new("13", "c"));
+        warnings.push(Error::new("14", "b"));
+        let lines: Vec<_> = warnings.lines().collect();
+        assert_eq!(lines[10..], ["4 more of this kind", "found 13, expected c"]);
+        (0..1_000_000).for_each(|i| warnings.push(Error::new("e", i.to_string())));
+        assert_eq!(warnings.lines().last().as_deref(), Some("999943 more of this kind"));
     }
 
     #[test]
     fn numbers_are_short() {
         let shown = [0.0, -0.25, 1e6, 1e-40, -3e38, f32::INFINITY].map(number);
         assert_eq!(shown, ["0", "-0.25", "1000000", "1e-40", "-3e38", "inf"]);
+        assert_eq!([0.1, -1e-40, 16_777_216.0].map(decimal), [0.1, -1e-40, 16_777_216.0]);
     }
 
     #[test]

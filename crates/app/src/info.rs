@@ -6,8 +6,7 @@ use std::path::{Component, Path, PathBuf};
 use serde_json::{Value, json};
 
 use crate::bake::Report;
-use crate::error::counted;
-use crate::error::{Error, quote};
+use crate::error::{Error, counted, decimal, quote};
 use crate::options::byte;
 use crate::scene::{Image, MapNote, Model, Part, Vertex};
 
@@ -60,22 +59,14 @@ impl Info<'_> {
             "  memory   {bytes} bytes: {vertices} of vertices, {triangles} of triangles, {maps} of maps"
         ));
         line(format!("\n{}:\n", counted(model.parts.len(), "part", "parts")));
-        for part in model.parts.iter().take(LISTED) {
-            let named =
-                |name: &str, of: &str| (!name.is_empty()).then(|| format!("{of}{}", quote(name.as_bytes())));
-            let name = [
-                named(&part.name, ""),
-                named(&part.material, "material "),
-                Some(format!("color {}", hexadecimal(part.diffuse))),
-                exponents(part).map(|range| format!("exponent {range}")),
-                look(part).map(str::to_owned),
-            ];
-            let name = name.into_iter().flatten().collect::<Vec<_>>().join(", ");
-            line(format!("{:>9}  {name}", part.triangles.len()).trim_end().to_owned());
+        let mut left = model.parts.len();
+        for equal in model.parts.chunk_by(|a, b| told(a) == told(b)).take(LISTED) {
+            left -= equal.len();
+            let times = if equal.len() > 1 { format!(", {} times", equal.len()) } else { String::new() };
+            line(format!("{}{times}", told(&equal[0])));
         }
-        let more = |count: usize| count.checked_sub(LISTED).filter(|&more| more > 0);
-        if let Some(more) = more(model.parts.len()) {
-            line(format!("           and {more} more"));
+        if left > 0 {
+            line(format!("           and {left} more"));
         }
         let materials = &model.notes.materials;
         if !materials.is_empty() {
@@ -95,7 +86,7 @@ impl Info<'_> {
                 line(format!("    {key:<15}{}, {size}", plain(path)));
             }
         }
-        if let Some(more) = more(materials.len()) {
+        if let Some(more) = materials.len().checked_sub(LISTED).filter(|&more| more > 0) {
             line(format!("  and {more} more"));
         }
         line(match &self.costs {
@@ -119,8 +110,8 @@ impl Info<'_> {
                 "name": part.name,
                 "material": part.material,
                 "triangles": part.triangles.len(),
-                "color": part.diffuse,
-                "specular": part.detail.specular,
+                "color": part.diffuse.map(decimal),
+                "specular": part.detail.specular.map(decimal),
                 "exponent": exponents(part),
                 "look": look(part),
             })
@@ -170,15 +161,14 @@ fn triangles(model: &Model) -> usize {
 
 /// The least and the greatest coordinates, as the file has them.
 fn extents(model: &Model) -> [[f64; 3]; 2] {
-    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
     for vertex in &model.vertices {
         for axis in 0..3 {
-            let place = f64::from(vertex.position[axis]);
-            low[axis] = low[axis].min(place);
-            high[axis] = high[axis].max(place);
+            low[axis] = low[axis].min(vertex.position[axis]);
+            high[axis] = high[axis].max(vertex.position[axis]);
         }
     }
-    [low, high].map(|point| [0, 1, 2].map(|axis| point[axis] + model.origin[axis]))
+    [low, high].map(|point| [0, 1, 2].map(|axis| decimal(point[axis]) + model.origin[axis]))
 }
 
 /// A coordinate in six digits, or as many as stand before its point.
@@ -220,6 +210,20 @@ fn memory(model: &Model) -> [usize; 3] {
     let heights: usize = model.heights.iter().map(|image| size_of_val(image.heights.as_slice())).sum();
     let maps = model.textures.iter().map(texels).sum::<usize>() + heights;
     [model.vertices.len() * size_of::<Vertex>(), triangles(model) * size_of::<[u32; 3]>(), maps]
+}
+
+/// The line of a part.
+fn told(part: &Part) -> String {
+    let named = |name: &str, of: &str| (!name.is_empty()).then(|| format!("{of}{}", quote(name.as_bytes())));
+    let words = [
+        named(&part.name, ""),
+        named(&part.material, "material "),
+        Some(format!("color {}", hexadecimal(part.diffuse))),
+        exponents(part).map(|range| format!("exponent {range}")),
+        look(part).map(str::to_owned),
+    ];
+    let words = words.into_iter().flatten().collect::<Vec<_>>().join(", ");
+    format!("{:>9}  {words}", part.triangles.len())
 }
 
 /// A colour as options have it.

@@ -123,27 +123,35 @@ pub(crate) fn left() -> u64 {
 
 /// The memory that is free, as far as Linux tells: no more than the limits of this process and of its group.
 fn of_machine() -> u64 {
-    let read = |file: &str| fs::read_to_string(file).unwrap_or_default();
-    // In KiB.
-    let field = |text: &str, name: &str| {
-        let line = text.lines().find_map(|line| line.strip_prefix(name))?;
-        line.split_whitespace().next()?.parse::<u64>().ok()?.checked_mul(1 << 10)
-    };
     let machine = read("/proc/meminfo");
     let free = field(&machine, "MemAvailable:")
         .map(|free| free.saturating_add(field(&machine, "SwapFree:").unwrap_or(0)));
-    let limits = read("/proc/self/limits");
-    let space = limits.lines().find_map(|line| line.strip_prefix("Max address space"));
-    let space = space.and_then(|space| space.split_whitespace().next()?.parse::<u64>().ok());
-    let used = field(&read("/proc/self/status"), "VmSize:").unwrap_or(0);
     // Allocators reserve more addresses than they use, and halves of lists are free.
-    let space = space.map(|space| space.saturating_sub(used) / 2);
+    let space = addresses().map(|space| space / 2);
     let number = |file: &str| read(file).trim().parse::<u64>().ok();
     let group = number("/sys/fs/cgroup/memory.max").map(|most| {
         let used = number("/sys/fs/cgroup/memory.current").unwrap_or(0);
         most.saturating_sub(used)
     });
     [free, space, group].into_iter().flatten().min().unwrap_or(UNKNOWN)
+}
+
+/// The addresses that this process may still have, if they are limited.
+pub(crate) fn addresses() -> Option<u64> {
+    let limits = read("/proc/self/limits");
+    let space = limits.lines().find_map(|line| line.strip_prefix("Max address space"))?;
+    let space: u64 = space.split_whitespace().next()?.parse().ok()?;
+    Some(space.saturating_sub(field(&read("/proc/self/status"), "VmSize:").unwrap_or(0)))
+}
+
+fn read(file: &str) -> String {
+    fs::read_to_string(file).unwrap_or_default()
+}
+
+/// The bytes of a field, which are in KiB.
+fn field(text: &str, name: &str) -> Option<u64> {
+    let line = text.lines().find_map(|line| line.strip_prefix(name))?;
+    line.split_whitespace().next()?.parse::<u64>().ok()?.checked_mul(1 << 10)
 }
 
 #[cfg(test)]

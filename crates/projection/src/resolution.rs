@@ -126,22 +126,26 @@ impl DepthMap {
     /// That is of zs of the two depths, as surfaces have that face the eye, or that are made of the same triangles. Of
     /// others [`drawn_resolution`](Self::drawn_resolution) tells.
     ///
-    /// z(z − gap) = gap·|β|/δ, thus z = gap/2 + √(gap·(gap/4 + |β|/δ)), and not beyond 2^23·gap, where the spacing of
-    /// `f32` is all there is.
+    /// z(z − gap) = gap·|β|/δ, thus z = gap·(1/2 + √(1/4 + |β|/(δ·gap))), and not beyond 2^23·gap, where the spacing
+    /// of `f32` is all there is.
     ///
     /// # Precision
-    /// With `D16` the resolution there is within 8ε of `gap`, relatively. Where the step varies with zs, as it does for
-    /// `F32`, the largest is taken. Then the resolution is at most `gap`·(1 + 8ε) up to there, and more than `gap` at
-    /// twice that depth. That is for maps onto [0, 1] or [−1, 1] either way round, from four times the near plane on.
+    /// With `D16` the resolution there is within 6ε of `gap`, relatively. That is twice what z is off by: half an ε of
+    /// β's rounding, half an ε of the radicand's, one of the root's and one of its own. Where the step varies with zs,
+    /// as it does for `F32`, the largest is taken. Then the resolution is at most `gap`·(1 + 10ε) up to there, of which
+    /// 4ε are its own, and more than `gap` at twice that depth. That is for maps onto [0, 1] or [−1, 1] either way
+    /// round, from four times the near plane on.
     #[must_use]
     pub fn separable_until(&self, steps: DepthSteps, gap: f32) -> f32 {
         let [least, most] = self.range();
         // With α <= 0 <= zs, zs is at most β/z, and so is its spacing.
         let fine = self.alpha() <= 0.0 && least >= 0.0;
         let float = if fine { 0.0 } else { spacing(most.max(-least)) };
-        let reach = narrow(f64::from(self.beta().abs()) / self.step(steps).max(float));
-        let z = 0.5 * gap + One.sqrt(gap) * One.sqrt(0.25 * gap + reach);
-        z.min(gap * 8_388_608.0)
+        let reach = f64::from(self.beta().abs()) / self.step(steps).max(float);
+        // More than 2^46 gaps are more than 2^23 after the root; and so is what a gap of 0 makes.
+        let gaps = (reach / f64::from(gap)).min(MOST * MOST);
+        let root = f64::from(One.sqrt(narrow(0.25 + gaps)));
+        narrow(f64::from(gap) * (0.5 + root).min(MOST))
     }
 
     /// The cheapest of [`DepthSteps::FORMATS`] that tells surfaces `gap` apart at the far plane for certain, and the
@@ -212,6 +216,9 @@ impl DepthMap {
         (f64::from(most) - f64::from(least)) * steps.even()
     }
 }
+
+/// The most steps of an `f32` that a depth is away from 0, as far as gaps of one step are told apart.
+const MOST: f64 = 8_388_608.0;
 
 /// The distance from `x` to the next `f32` towards 0.
 fn spacing(x: f32) -> f64 {

@@ -227,7 +227,7 @@ fn resolution() -> Vec<Row> {
                 Sample::relative(map.resolution(steps, z), &distance(exact(kind, planes), z, step))
             }));
         }
-        rows.push(Row::new("DepthMap::separable_until, D16", about(ratio), 8.0, move |rng| {
+        rows.push(Row::new("DepthMap::separable_until, D16", about(ratio), 6.0, move |rng| {
             let planes = planes(rng, ratio);
             let wanted = any_z(rng, planes) * rng.log_uniform(1e-4, 1e-1);
             let reach = FORWARD.of(planes).separable_until(DepthSteps::D16, wanted);

@@ -114,7 +114,7 @@ fn surfaces_are_separable_until_the_depth_that_is_named() {
         if until > near {
             let z = rng.log_uniform(near, until.min(far));
             let resolution = map.resolution(format.steps, z);
-            let allowed = gap * (1.0 + 8.0 / 16_777_216.0);
+            let allowed = gap * (1.0 + 10.0 / 16_777_216.0);
             assert!(resolution <= allowed, "{resolution} of {gap} at {z}, until {until}, {format:?} {map:?}");
             inside += 1;
         }

@@ -60,6 +60,16 @@ pub struct Estimate {
     pub off: f64,
 }
 
+/// A count that an estimate gives.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "instructions of a frame, which saturate"
+)]
+fn whole(estimate: f64) -> u64 {
+    estimate.round() as u64
+}
+
 impl<'a> Report<'a> {
     /// The report on the asset of a scene, and on its file, in bands of so many rows, or those of the frame.
     /// Instructions are those of the options' policies. Frames are compared by the most precise ones, without what the
@@ -232,9 +242,9 @@ impl<'a> Report<'a> {
             let Estimate { chip, instructions, at_vertices, off } = estimate;
             json!({
                 "chip": chip,
-                "instructions": instructions.round(),
-                "instructions_lit_at_vertices": at_vertices.map(f64::round),
-                "off_percent": off,
+                "instructions": whole(*instructions),
+                "instructions_lit_at_vertices": at_vertices.map(whole),
+                "off_percent": (off * 100.0).round() / 100.0,
             })
         });
         let [before, after] = self.order();

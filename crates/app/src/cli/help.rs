@@ -150,7 +150,7 @@ fn of_command(command: &Command, name: &str, topic: Option<&str>) -> Result<Stri
 }
 
 /// Whether an option belongs to a command alone.
-fn own(command: &Command, name: &str, argument: &Arg) -> bool {
+pub(super) fn own(command: &Command, name: &str, argument: &Arg) -> bool {
     let shared = command.find_subcommand("render");
     let shared =
         shared.is_some_and(|render| render.get_arguments().any(|of| of.get_id() == argument.get_id()));

@@ -2,9 +2,11 @@
 
 use crate::cli::RenderArgs;
 use crate::error::{Error, quote};
+use crate::load::scene_file;
 use crate::options::values::name_of;
 use crate::options::{Base, ColorFormat, Dither, Filter, RenderOptions, Shading};
 use crate::scene::{Model, Part, Relief};
+use crate::show::Show;
 
 /// An option that does nothing without another is a mistake. Options of maps may be meant for those of a model.
 ///
@@ -60,6 +62,12 @@ pub(crate) fn unused_light(arguments: &RenderArgs, model: &Model) -> Option<Erro
     Some(error.hint("the scene's are used"))
 }
 
+/// The reason why options change nothing: `found` and `expected`.
+type Reason = (String, String);
+
+/// An option, and whether it is given.
+type Given = (&'static str, bool);
+
 /// The warnings of options that change nothing in a picture with these, one for each reason.
 pub(crate) fn idle(arguments: &RenderArgs, model: &Model, options: &RenderOptions) -> Vec<Error> {
     let (render, material) = (&arguments.render, &arguments.material);
@@ -68,50 +76,91 @@ pub(crate) fn idle(arguments: &RenderArgs, model: &Model, options: &RenderOption
         ("--shininess", material.shininess.is_some()),
         ("--shininess-map", material.shininess_map.is_some()),
     ];
+    let bumps = material.height_map.is_some() && material.relief.unwrap_or_default() == Relief::Bump;
     let light = [
         ("--light", render.light.is_some()),
         ("--light-space", render.light_space.is_some()),
         ("--two-sided", render.two_sided.is_some()),
         ("--normal-map", material.normal_map.is_some()),
+        ("--height-map", bumps),
     ];
-    let smaller = |filter| !matches!(filter, Filter::Nearest | Filter::Bilinear);
-    let mapped = || model.parts.iter().flat_map(Part::maps).filter_map(|(map, _)| map.filter);
+    let looks = [
+        // A texture makes it white.
+        ("--diffuse", material.color.is_some() && material.color_map.is_none()),
+        ("--texture", material.color_map.is_some()),
+        ("--ao", material.ao_map.is_some()),
+        ("--wetness-map", material.wetness_map.is_some()),
+        ("--environment", material.environment.is_some()),
+    ];
+    // A scene file's are of textures that it has or may get.
+    let alone = !arguments.model.as_deref().is_some_and(scene_file::is_scene);
+    let sampled =
+        [("--filter", alone && render.filter.is_some()), ("--wrap", alone && render.wrap.is_some())];
+    let lod = [("--lod", alone && render.lod.is_some())];
+    let around = [("--background", render.background.is_some())];
+    let fog = [("--fog", render.fog.is_some())];
+    let dither = [("--dither", render.dither.is_some_and(|dither| dither != Dither::None))];
+    let samples = [("--samples", render.samples.is_some())];
+
     let shading = options.shading;
-    let (lit, matte) = (shading.is_lit(), shading == Shading::Lambert);
-    let reasons = [
-        (!lit, [&light[..], &highlights].concat(), "without light", "lambert, phong or blinn"),
-        (lit && matte, highlights.to_vec(), "without highlights", "phong or blinn"),
-    ];
-    let of_shading = reasons.into_iter().filter(|(holds, ..)| *holds).map(|(_, idle, lacks, others)| {
-        (idle, format!("with --shading {}, which is {lacks}", name_of(shading)), format!("{others} for it"))
-    });
-    let filter = if options.filter == Filter::Nearest { "nearest" } else { "bilinear" };
-    let of_filter = Some((
-        vec![("--lod", render.lod.is_some())],
-        format!("with --filter {filter}, which has one level"),
-        "trilinear or anisotropic for it".to_owned(),
-    ));
-    let of_filter = of_filter.filter(|_| !smaller(options.filter) && !mapped().any(smaller));
-    let of_color = Some((
-        vec![("--dither", render.dither.is_some_and(|dither| dither != Dither::None))],
-        "with --color rgba8, whose steps are those of the picture".to_owned(),
-        "fewer bits, such as --color rgb565, for it".to_owned(),
-    ));
-    let of_color = of_color.filter(|_| options.policies.color == ColorFormat::Rgba8);
-    let of_show = Some((
-        vec![("--samples", render.samples.is_some())],
-        "with --show, which has one sample a pixel".to_owned(),
-        "a picture in true colours for it".to_owned(),
-    ));
-    let of_show = of_show.filter(|_| arguments.show.is_some());
-    let warning = |(options, found, expected): (Vec<(&'static str, bool)>, String, String)| {
-        let mut given = options.into_iter().filter(|(_, given)| *given).map(|(option, _)| option);
-        let first = given.next()?;
-        let others: Vec<&str> = given.collect();
-        let them = if others.is_empty() { "it".to_owned() } else { format!("it and {}", others.join(", ")) };
-        Some(Error::new(format!("{them} {found}"), expected).place(first).hint("nothing changes"))
+    let of_shading = |lacks: &str, others: &str| -> Reason {
+        (format!("with --shading {}, which is {lacks}", name_of(shading)), format!("{others} for it"))
     };
-    of_shading.chain(of_filter).chain(of_color).chain(of_show).filter_map(warning).collect()
+    let fixed = |found: &str, expected: &str| -> Reason { (found.to_owned(), format!("{expected} for it")) };
+    let smaller = |filter| !matches!(filter, Filter::Nearest | Filter::Bilinear);
+    let filtered = || model.parts.iter().flat_map(Part::maps).filter_map(|(map, _)| map.filter);
+    let one_level = if options.filter == Filter::Nearest { "nearest" } else { "bilinear" };
+    let unmapped = model.textures.is_empty() && model.heights.is_empty();
+    let (white, matte) = (shading == Shading::VertexColor, shading == Shading::Lambert);
+    let colorless = arguments.show.is_some_and(|show| !matches!(show, Show::Error | Show::Policy));
+    let reasons: [(bool, Vec<Given>, Reason); 8] = [
+        (
+            colorless,
+            [&fog[..], &light[..3], &highlights, &looks[..1]].concat(),
+            fixed("with --show of a number that is none of colours", "a picture in true colours"),
+        ),
+        (
+            arguments.show.is_some(),
+            [&samples[..], &around].concat(),
+            fixed(
+                "with --show, which has one sample a pixel of the model alone",
+                "a picture in true colours",
+            ),
+        ),
+        (white, [&looks[..], &sampled].concat(), of_shading("of the vertices alone", "another")),
+        (
+            !shading.is_lit(),
+            [&light[..], &highlights].concat(),
+            of_shading("without light", "lambert, phong or blinn"),
+        ),
+        (matte, highlights.to_vec(), of_shading("without highlights", "phong or blinn")),
+        (unmapped, [&sampled[..], &lod].concat(), fixed("on a model without textures", "one that has some")),
+        (
+            !smaller(options.filter) && !filtered().any(smaller),
+            lod.to_vec(),
+            fixed(&format!("with --filter {one_level}, which has one level"), "trilinear or anisotropic"),
+        ),
+        (
+            options.policies.color == ColorFormat::Rgba8,
+            dither.to_vec(),
+            fixed(
+                "with --color rgba8, whose steps are those of the picture",
+                "fewer bits, such as --color rgb565,",
+            ),
+        ),
+    ];
+    let mut told: Vec<&str> = Vec::new();
+    let mut warnings = Vec::new();
+    for (_, options, (found, expected)) in reasons.into_iter().filter(|(holds, ..)| *holds) {
+        let given = options.into_iter().filter(|(option, given)| *given && !told.contains(option));
+        let given: Vec<&'static str> = given.map(|(option, _)| option).collect();
+        let [first, others @ ..] = given.as_slice() else { continue };
+        let them = if others.is_empty() { "it".to_owned() } else { format!("it and {}", others.join(", ")) };
+        let warning = Error::new(format!("{them} {found}"), expected).place(*first);
+        warnings.push(warning.hint("nothing changes"));
+        told.extend(given);
+    }
+    warnings
 }
 
 /// The warning of colours of vertices that are asked for and not there, or there and not shown.

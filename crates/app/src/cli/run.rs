@@ -4,6 +4,7 @@ use std::ffi::OsString;
 use std::io::{self, IsTerminal as _, Write as _};
 use std::num::NonZero;
 use std::path::Path;
+use std::sync::Arc;
 
 use clap::builder::PossibleValuesParser;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -13,14 +14,14 @@ use super::staged::{OF_PICTURES, Request, Staged, hidden};
 use super::told::{forget, warn};
 use super::{Cli, StatsFormat, advise, bake, compare, explain, help, info, turntable, watch, words};
 use crate::aov::layers;
-use crate::draw::bytes_of;
+use crate::draw::{Chains, bytes_of};
 use crate::error::{Error, quote};
 use crate::memory;
 use crate::options::{RenderOptions, Samples};
 use crate::output::aov::Beside;
 use crate::output::stage::{self, Stage, during, is_silent, silence};
 use crate::output::stats::Report;
-use crate::samples::supersampled;
+use crate::samples::supersampled_with;
 use crate::scene::backdrop::Backdrop;
 use crate::scene::scenes;
 use crate::show::{Shown, show};
@@ -168,13 +169,23 @@ fn usage(error: &clap::Error, renamed: bool) -> Result<u8, Error> {
         Some(option @ ("--stats" | "--two-sided")) if is_file => {
             format!("the file is taken for the value of {option}: put it first")
         }
-        _ => "see --help".to_owned(),
+        _ => match meant(error) {
+            Some(word) => format!("did you mean {word}?"),
+            None => "see --help".to_owned(),
+        },
     };
     let error = Error::new(found, expected).hint(hint);
     Err(match option {
         Some(option) => error.place(option),
         None => error,
     })
+}
+
+/// The value that is most like a wrong one.
+fn meant(error: &clap::Error) -> Option<String> {
+    let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidValue) else { return None };
+    let Some(ContextValue::Strings(values)) = error.get(ContextKind::ValidValue) else { return None };
+    words::nearest(word, values.iter().map(String::as_str)).map(str::to_owned)
 }
 
 /// The command that alone has an option of that name.
@@ -223,10 +234,16 @@ fn draw_from(request: &Request) -> Result<(), Error> {
     request.add_ground(&mut staged);
     let Staged { model, camera, options, samples, backdrop } = staged;
     memory::need(bytes_of(&model), "the drawing of a model").map_err(|error| error.place("--memory"))?;
+    // The mip maps are those of the picture and of its counts.
+    let plain = request.arguments.show.is_none();
+    let chains = Arc::new(if plain { Chains::new(&model, &options)? } else { Chains::default() });
+    let drawn = |options: &RenderOptions, hear: &mut dyn FnMut(u64, u64)| {
+        supersampled_with(&chains, (&model, &camera), options, samples, &backdrop, hear)
+    };
     let (mut picture, legend) = during(Stage::Draw, |progress| {
         let hear = &mut |done, total| progress.set(done, total);
         Ok(match request.arguments.show {
-            None => (supersampled(&model, &camera, &options, samples, &backdrop, hear)?, None),
+            None => (drawn(&options, hear)?, None),
             Some(what) => {
                 let Shown { picture, legend, warning } = show(what, &model, &camera, &options, hear)?;
                 warning.iter().for_each(|warning| warn(&warning.to_string()));
@@ -238,8 +255,7 @@ fn draw_from(request: &Request) -> Result<(), Error> {
     if request.arguments.stats.is_some() && options.threads.get() > 1 {
         // A triangle counts once, however many threads drew it.
         let alone = RenderOptions { threads: NonZero::<usize>::MIN, ..options };
-        let counted = || supersampled(&model, &camera, &alone, samples, &backdrop, &mut |_, _| ());
-        picture.stats = during(Stage::Count, |_| counted())?.stats;
+        picture.stats = during(Stage::Count, |_| drawn(&alone, &mut |_, _| ()))?.stats;
     }
 
     let seen_through = request.arguments.show.is_none() && backdrop == Backdrop::Transparent;
@@ -287,7 +303,7 @@ fn draw_from(request: &Request) -> Result<(), Error> {
 fn completions(words: &ArgMatches) -> Result<(), Error> {
     let mut script = Vec::new();
     if let Some(&shell) = words.get_one::<clap_complete::Shell>("shell") {
-        let command = with_suggestions(with_options(command()));
+        let command = offered(with_suggestions(with_options(command())));
         clap_complete::generate(shell, &mut { command }, "alberti", &mut script);
     }
     print(&String::from_utf8_lossy(&script))
@@ -316,6 +332,18 @@ fn with_suggestions(command: Command) -> Command {
     command.mut_subcommand("help", |help| help.mut_arg("topic", |topic| topic.value_parser(topics)))
 }
 
+/// The command without what is hidden.
+fn offered(command: Command) -> Command {
+    let page = |command: &Command| {
+        let shown = command.get_arguments().filter(|argument| !argument.is_hide_set());
+        let about = command.get_about().cloned().unwrap_or_default();
+        let page = Command::new(command.get_name().to_owned()).about(about).args(shown);
+        page.disable_help_subcommand(true)
+    };
+    let pages: Vec<_> = command.get_subcommands().map(page).collect();
+    page(&command).subcommands(pages)
+}
+
 /// The command with the options of `render`, whose word may be left out.
 fn with_options(command: Command) -> Command {
     let render = command.find_subcommand("render").cloned().unwrap_or_default();
@@ -332,33 +360,60 @@ const SYNOPSIS: &str = "\
 \\fBalberti help\\fR [\\fICOMMAND\\fR | \\fITOPIC\\fR]
 ";
 
-/// The manual page: all options of `render`, and the other commands.
+/// The end of the manual page.
+const STATUSES: &str = "\
+.SH EXIT STATUS
+.TP
+0
+What was asked for is done.
+.TP
+1
+A comparison is beyond its limit.
+.TP
+2
+An error, told in one line; no file is changed by halves.
+";
+
+/// The manual page: all options of `render`, and of the other commands what they have of their own.
 fn man() -> Result<(), Error> {
     let all = with_options(command());
-    let names = all.get_subcommands().filter(|command| command.get_name() != "render");
-    let about = |command: &Command| {
-        let said = command.get_about().cloned().unwrap_or_default();
-        format!(".TP\n\\fBalberti {}\\fR\n{said}\n", command.get_name())
+    let plain = |argument: &&Arg| !["help", "version"].contains(&argument.get_id().as_str());
+    let options = |page: Command| {
+        let mut text = Vec::new();
+        // Writing to memory does not fail.
+        let _ = clap_mangen::Man::new(page).render_options_section(&mut text);
+        String::from_utf8_lossy(&text).into_owned()
     };
-    let commands: String = names.map(about).collect();
-    // Other pages there are none: each command has its help.
     let alone = Command::new("alberti")
         .version(env!("CARGO_PKG_VERSION"))
         .about(all.get_about().cloned().unwrap_or_default())
-        .args(
-            all.get_arguments().filter(|argument| !["help", "version"].contains(&argument.get_id().as_str())),
-        );
-    let page = clap_mangen::Man::new(alone);
+        .args(all.get_arguments().filter(plain));
     let mut text = Vec::new();
-    // Writing to memory does not fail.
-    let _ = page.render_title(&mut text);
-    let _ = page.render_name_section(&mut text);
-    text.extend_from_slice(SYNOPSIS.as_bytes());
-    let _ = page.render_options_section(&mut text);
-    text.extend_from_slice(
-        format!(".SH COMMANDS\nalberti help COMMAND tells more of each.\n{commands}").as_bytes(),
-    );
-    print(&String::from_utf8_lossy(&text))
+    let page = clap_mangen::Man::new(alone.clone());
+    let _ = page.render_title(&mut text).and_then(|()| page.render_name_section(&mut text));
+    let mut text = String::from_utf8_lossy(&text).into_owned();
+    text.push_str(SYNOPSIS);
+    text.push_str(&options(alone));
+    for page in all.get_subcommands().filter(|page| page.get_name() != "render") {
+        let name = page.get_name().to_owned();
+        let about = page.get_about().cloned().unwrap_or_default();
+        text.push_str(&format!(".SH ALBERTI {}\n{about}.\n", name.to_uppercase()));
+        let taken = page.get_arguments().filter(|of| plain(of) && !of.is_hide_set());
+        let (own, shared): (Vec<&Arg>, Vec<&Arg>) = taken.partition(|of| help::own(&all, &name, of));
+        let named: Vec<_> =
+            shared.iter().filter_map(|of| of.get_long()).map(|of| format!("\\-\\-{of}")).collect();
+        text.push_str(&match named.as_slice() {
+            [] => String::new(),
+            few @ [_, ..] if few.len() < 8 => {
+                format!("Of the options of render it takes {}.\n", few.join(", "))
+            }
+            _ => "It takes options of render as well.\n".to_owned(),
+        });
+        let listed = options(Command::new(name).args(own).disable_help_flag(true));
+        text.push_str(&listed.replace(".SH OPTIONS\n", "").replace(".SH ", ".SS "));
+    }
+    text.push_str(STATUSES);
+    print(&text)
 }
 
 /// Standard output that nobody reads any more is no failure: the picture is there.

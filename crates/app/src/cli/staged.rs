@@ -2,7 +2,6 @@
 
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
-use std::thread::available_parallelism;
 
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Command, FromArgMatches as _};
@@ -25,7 +24,8 @@ use crate::output::file::{Output, Whole};
 use crate::output::stage::{Stage, during};
 use crate::output::stats::Source;
 use crate::scene::backdrop::Backdrop;
-use crate::scene::{Camera, Model, Part, Relief, camera, order, scenes, slide};
+use crate::scene::{Camera, Model, Part, Relief, camera, ground, order, scenes, slide};
+use crate::threads::available;
 
 /// The options of pictures alone, which other commands refuse.
 pub(super) const OF_PICTURES: [&str; 8] =
@@ -85,7 +85,7 @@ impl Request {
             // The file's options, and over them those of the command line.
             arguments = options;
             if given.turns() || given.eye.is_some() {
-                let before = arguments.camera.forget_place();
+                let before = arguments.camera.forget_place(&given);
                 orbit = Some(before).filter(|camera| given.turns() && camera.eye.is_some());
             }
             arguments.update_from_arg_matches(matches).map_err(refused)?;
@@ -94,6 +94,14 @@ impl Request {
                 // The file's is of the projection that it has.
                 arguments.camera.view_height = None;
             }
+        }
+        // A camera that is told, as the summary has it, may follow the options that made it.
+        let last = |id: &str| matches.indices_of(id).and_then(Iterator::last);
+        if let Some(eye) = last("eye") {
+            let CameraTable { azimuth, elevation, view, .. } = &mut arguments.camera;
+            azimuth.take_if(|_| last("azimuth") < Some(eye));
+            elevation.take_if(|_| last("elevation") < Some(eye));
+            view.take_if(|_| last("view") < Some(eye));
         }
         // A texture is shown as it is, whatever the materials' colours.
         arguments.material.whiten();
@@ -243,7 +251,11 @@ impl Request {
         let aspect = f64::from(width) / f64::from(height);
         let wishes = arguments.camera.counted_from(origin);
         let base = scene.camera.or(self.orbit.map(|table| camera::orbit(&table.counted_from(origin), ball)));
-        let camera = camera::frame(&wishes, base.as_ref(), (&scene.model, ball), aspect)?;
+        let up = || wishes.up.map(<[f32; 3]>::from).or(base.map(|base| base.up)).unwrap_or([0.0, 1.0, 0.0]);
+        let grounded = (arguments.render.ground == Some(true)).then(up);
+        let camera = ground::in_view(&mut scene.model, grounded, |model| {
+            camera::frame(&wishes, base.as_ref(), (model, ball), aspect)
+        })?;
         order::back_to_front(&mut scene.model, &camera);
         if camera::is_behind(&camera, ball) {
             let error = Error::new("a camera that looks away from the model", "the model in view");
@@ -323,7 +335,7 @@ pub(super) fn threads(arguments: &RenderArgs) -> NonZero<usize> {
     let most = NonZero::new(MAX_THREADS).unwrap_or(NonZero::<usize>::MIN);
     match arguments.threads {
         Some(Threads(threads)) => threads,
-        None => available_parallelism().unwrap_or(NonZero::<usize>::MIN).min(most),
+        None => available().min(most),
     }
 }
 

@@ -148,7 +148,10 @@ impl Images {
 
     /// The alpha of a texture.
     pub(crate) fn alpha(&self, index: usize) -> Alpha {
-        self.textures.all.get(index).map_or(Alpha::Opaque, |image| Alpha::of(&image.texels))
+        self.textures
+            .all
+            .get(index)
+            .map_or(Alpha::Opaque, |image| Alpha::of(&image.texels, image.width as usize))
     }
 
     /// The texture of 255 less its colours: of roughness, smoothness.

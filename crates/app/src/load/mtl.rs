@@ -138,7 +138,7 @@ impl CheckedMtl {
     }
 }
 
-/// The kinds of statements and options of a library that have no effect, each told once.
+/// The kinds of statements and options of a library that have no effect.
 #[derive(Debug, Default)]
 struct Ignored(Vec<(String, usize, usize)>);
 
@@ -151,13 +151,19 @@ impl Ignored {
         }
     }
 
-    /// Warns of each kind, where it stands first.
+    /// Warns of all of them at once, where the first stands.
     fn told(self, path: &Path, warnings: &mut Warnings) {
-        for (kind, line, count) in self.0 {
-            let found = if count > 1 { format!("{kind}, {count} times") } else { kind };
-            let warning = Error::new(found, "a statement that is drawn").file(path).line(line);
-            warnings.push(warning.hint("it is left out"));
-        }
+        let Some(&(_, line, _)) = self.0.first() else { return };
+        let kind = |(kind, _, count): &(String, usize, usize)| match count {
+            1 => kind.clone(),
+            _ => format!("{kind}, {count} times"),
+        };
+        let kinds: Vec<_> = self.0.iter().map(kind).collect();
+        let (expected, hint) = match kinds.len() {
+            1 => ("a statement that is drawn", "it is left out"),
+            _ => ("statements that are drawn", "they are left out"),
+        };
+        warnings.push(Error::new(kinds.join("; "), expected).file(path).line(line).hint(hint));
     }
 }
 

@@ -5,7 +5,6 @@
 //! [`REACH`] rows, so that a band which has these above and below has the values that the whole picture has, bit for
 //! bit. Bands go to threads, and keep what large pictures need of memory to a few of them.
 
-use std::num::NonZero;
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
@@ -13,6 +12,7 @@ use flip_rs::{DEFAULT_PPD, FlipError, RgbImage, ldr_flip};
 
 use crate::error::Error;
 use crate::scene::Image;
+use crate::threads::available;
 
 /// The rows of a band: enough that those around it add little to the time.
 const BAND: usize = 128;
@@ -33,7 +33,7 @@ pub(super) fn map(first: &Image, second: &Image) -> Result<Vec<f32>, Error> {
             fill(errors, number * BAND, width, first, second)?;
         }
     };
-    let threads = thread::available_parallelism().map_or(1, NonZero::get).min(rows.div_ceil(BAND));
+    let threads = available().get().min(rows.div_ceil(BAND));
     thread::scope(|scope| {
         // A thread that does not start leaves its bands to the others.
         let start = |_| thread::Builder::new().spawn_scoped(scope, work).ok();

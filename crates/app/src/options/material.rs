@@ -20,7 +20,7 @@ use crate::scene::{Detail, EnvironmentKind, NormalSpace, Relief};
 #[command(next_help_heading = "Material")]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 pub struct Material {
-    /// Colour of every surface, as hexadecimal sRGB [default: the materials', else grey].
+    /// Colour of every surface, a name or hexadecimal sRGB [default: the materials', else grey].
     #[arg(long = "diffuse", value_name = "COLOR", allow_hyphen_values = true, help_heading = SURFACE)]
     pub color: Option<Color>,
 

@@ -102,12 +102,13 @@ impl CameraTable {
         self.zoom.map_or(1.0, f32::from)
     }
 
-    /// Leaves the place of the eye open, and the planes before it, for options that say it in another way. The eye and
-    /// the target are handed back.
-    pub(crate) fn forget_place(&mut self) -> Self {
-        let Self { eye, target, .. } = *self;
-        *self =
-            Self { eye: None, azimuth: None, elevation: None, view: None, near: None, far: None, ..*self };
+    /// Leaves the place of the eye open, and the planes before it, for `given` options that say it in another way: one
+    /// angle leaves the other. The eye and the target are handed back.
+    pub(crate) fn forget_place(&mut self, given: &Self) -> Self {
+        let Self { eye, target, azimuth, elevation, .. } = *self;
+        let turned = given.eye.is_none() && given.view.is_none();
+        let (azimuth, elevation) = (azimuth.filter(|_| turned), elevation.filter(|_| turned));
+        *self = Self { eye: None, azimuth, elevation, view: None, near: None, far: None, ..*self };
         Self { eye, target, ..Self::default() }
     }
 

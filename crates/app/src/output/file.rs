@@ -169,7 +169,7 @@ impl Whole {
                 Err(_) => Ok(()),
             })
             .and_then(|()| file.as_file().sync_all())
-            .map_err(|e| self.refused(&format!("that writing fails ({e})")))?;
+            .map_err(|e| self.refused(&format!("that writing fails ({})", cause(&e))))?;
         Ok(file)
     }
 
@@ -248,10 +248,16 @@ impl Output {
         let extension = extension.or_else(|| (standard || is_stream).then(|| "png".to_owned()));
         let known = FORMATS.iter().find(|(name, _)| extension.as_deref() == Some(name));
         let &(_, format) = known.ok_or_else(|| {
+            let hint = match extension.as_deref() {
+                Some("gif" | "apng" | "mp4" | "mkv" | "webm" | "y4m") => {
+                    "films are made by alberti turntable"
+                }
+                Some("exr") => "EXR files are of numbers: --aov depth --aov-format exr",
+                _ => "name the output so, or give --output-format",
+            };
             let found = extension.map_or("no extension".to_owned(), |e| format!("the extension \".{e}\""));
             let all = FORMATS.map(|(name, _)| format!(".{name}")).join(", ");
-            let error = Error::new(found, format!("one of {all}")).file(named);
-            error.hint("name the output so, or give --output-format")
+            Error::new(found, format!("one of {all}")).file(named).hint(hint)
         })?;
         let sink = match (standard, is_stream) {
             (true, _) => Sink::Standard,
@@ -370,8 +376,14 @@ fn write_stream(out: &mut dyn io::Write, bytes: &[u8], place: &str) -> Result<()
     out.write_all(bytes).and_then(|()| out.flush()).map_err(|error| unwritten(&error, place))
 }
 
+/// An error without the name of a temporary file.
+fn cause(error: &io::Error) -> String {
+    let text = error.to_string();
+    text.split(" at path ").next().unwrap_or_default().to_owned()
+}
+
 fn unwritten(error: &io::Error, place: &str) -> Error {
-    Error::new(format!("that writing fails ({error})"), "to write the picture").place(place)
+    Error::new(format!("that writing fails ({})", cause(error)), "to write the picture").place(place)
 }
 
 #[cfg(test)]
@@ -418,6 +430,8 @@ mod tests {
         for (name, found) in [
             ("a", "found no extension, expected one of .png"),
             ("a.gif", "found the extension \".gif\", expected one of .png"),
+            ("a.exr", "numbers: --aov depth --aov-format exr"),
+            ("a.mp4", "films are made by alberti turntable"),
             ("d.png", "found a directory"),
             ("no/a.png", "found no such folder"),
             ("file/a.png", "found a file in the place of its folder"),

@@ -2,7 +2,7 @@
 
 use super::stage;
 use crate::camera::as_options;
-use crate::error::counted;
+use crate::error::{counted, decimal};
 use crate::options::{CameraTable, Projection, Samples};
 use crate::scene::Camera;
 use alberti::Stats;
@@ -53,6 +53,7 @@ impl Source<'_> {
     #[must_use]
     pub fn name(self) -> String {
         match self {
+            Self::Model(path) if path == Path::new("-") => "standard input".to_owned(),
             Self::Model(path) => path.display().to_string(),
             Self::Scene(name) => format!("built-in scene {name}"),
         }
@@ -130,7 +131,8 @@ impl Serialize for Report<'_> {
         let Camera { eye, target, up, roll, fov, near, far } = self.camera;
         let options = as_options(&self.camera, self.origin, self.projection, &self.wishes);
         let numbers = json!({
-            "eye": eye, "target": target, "up": up, "roll": roll, "fov": fov, "near": near, "far": far,
+            "eye": eye.map(decimal), "target": target.map(decimal), "up": up.map(decimal), "roll": roll,
+            "fov": decimal(fov), "near": decimal(near), "far": decimal(far),
             "options": options,
         });
         fields.serialize_entry("camera", &numbers)?;

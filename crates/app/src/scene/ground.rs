@@ -9,7 +9,10 @@ use crate::scene::normals::{dot, narrow, normalize, sub};
 use alberti::raster::color::AnyBlend;
 use opacity::{alpha, threshold};
 
+mod framed;
 mod opacity;
+
+pub(crate) use framed::in_view;
 
 /// Cells along a side of the ground.
 const SIDE: usize = 256;
@@ -118,18 +121,31 @@ fn stretch(camera: &mut Camera, points: &[[f64; 3]], fixed: [bool; 2]) {
     }
 }
 
-impl Ground {
-    fn under(model: &Model, camera: &Camera, below: f64) -> Option<Self> {
-        let up = (0..3).max_by(|&a, &b| camera.up[a].abs().total_cmp(&camera.up[b].abs()))?;
-        let sign = f64::from(camera.up[up].signum());
-        let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
-        for place in places(model) {
-            for axis in 0..3 {
-                bounds[0][axis] = bounds[0][axis].min(place[axis]);
-                bounds[1][axis] = bounds[1][axis].max(place[axis]);
-            }
+/// The least and the greatest coordinates of what is drawn.
+fn bounds(model: &Model) -> [[f64; 3]; 2] {
+    let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+    for place in places(model) {
+        for axis in 0..3 {
+            bounds[0][axis] = bounds[0][axis].min(place[axis]);
+            bounds[1][axis] = bounds[1][axis].max(place[axis]);
         }
-        let [least, most] = bounds;
+    }
+    bounds
+}
+
+impl Ground {
+    /// That of a model, if the eye is above it.
+    fn under(model: &Model, camera: &Camera, below: f64) -> Option<Self> {
+        let ground = Self::of(model, camera.up, below)?;
+        let (up, sign) = ground.up;
+        let above = sign * (f64::from(camera.eye[up]) - ground.low);
+        (above > 0.0).then_some(ground)
+    }
+
+    fn of(model: &Model, upwards: [f32; 3], below: f64) -> Option<Self> {
+        let up = (0..3).max_by(|&a, &b| upwards[a].abs().total_cmp(&upwards[b].abs()))?;
+        let sign = f64::from(upwards[up].signum());
+        let [least, most] = bounds(model);
         let size = sub(most, least);
         let radius = dot(size, size).sqrt() / 2.0;
         if !(radius > 0.0 && radius.is_finite()) {
@@ -137,11 +153,10 @@ impl Ground {
         }
         // Just below, so that what stands on it hides it.
         let low = if sign > 0.0 { least[up] } else { most[up] } - sign * below * radius;
-        let above = sign * (f64::from(camera.eye[up]) - low);
         let axes = others(up);
         let side = size[axes[0]].max(size[axes[1]]) + 2.0 * RIM * radius;
         let corner = axes.map(|axis| f64::midpoint(least[axis], most[axis]) - side / 2.0);
-        (above > 0.0).then_some(Self { up: (up, sign), corner, side, low })
+        Some(Self { up: (up, sign), corner, side, low })
     }
 
     /// A place on it, of shares of its sides.

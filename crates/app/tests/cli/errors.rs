@@ -191,7 +191,11 @@ fn options_that_take_one_of_some_values() {
     let folder = Folder::with(&[]);
     for (arguments, expected) in [
         (&["--subpixel", "7"][..], "--subpixel: found \"7\", expected one of 4, 8; see --help"),
-        (&["--cull", "nope"], "--cull: found \"nope\", expected one of back, front, none; see --help"),
+        (&["--cull", "all"], "--cull: found \"all\", expected one of back, front, none; see --help"),
+        (
+            &["--cull", "frnt"],
+            "--cull: found \"frnt\", expected one of back, front, none; did you mean front?",
+        ),
         (&["--filter"], "--filter: found nothing, expected a value; see --help"),
     ] {
         folder.fails(arguments, &[&format!("error: {expected}")]);

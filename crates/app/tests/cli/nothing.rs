@@ -121,6 +121,20 @@ fn options_that_change_nothing_are_told() {
         ),
         ("--texture n.png", "--dither bayer", "--dither: found it with --color rgba8, whose steps are"),
         ("--show overdraw", "--samples 16", "--samples: found it with --show, which has one sample a pixel"),
+        ("--show error", "--background red", "--background: found it with --show, which"),
+        (
+            "--texture n.png --show lod",
+            "--light 10,20 --fog linear:1,9",
+            "--fog: found it and --light with --show of a number",
+        ),
+        ("--show overdraw", "--diffuse f00", "--diffuse: found it with --show of a number"),
+        ("--shading unlit", "--height-map n.png", "--height-map: found it with --shading unlit"),
+        (
+            "--shading unlit",
+            "--filter nearest --wrap mirror",
+            "--filter: found it and --wrap on a model without",
+        ),
+        ("", "--lod run", "--lod: found it on a model without textures"),
     ] {
         assert_eq!(draw(base, "a.png"), "", "{base}");
         let warning = draw(&format!("{base} {idle}"), "b.png");

@@ -141,11 +141,15 @@ fn the_printed_camera_makes_the_same_picture() {
         let words = size.into_iter().chain(options.split_whitespace());
         let run = folder.succeeds(&words.chain(["-o", "a.png"]).collect::<Vec<_>>());
         let told = run.stdout.lines().find_map(|line| line.strip_prefix("camera: ")).expect("a camera");
-        let again = folder
-            .succeeds(&size.into_iter().chain(told.split(' ')).chain(["-o", "b.png"]).collect::<Vec<_>>());
-        assert!(again.stdout.contains(told), "{again:?}\n{told}");
-        let [first, second] = ["a.png", "b.png"].map(|name| fs::read(folder.path(name)).expect("a picture"));
-        assert!(first == second, "{options}: {told}");
+        // Alone, and behind the options that it goes over.
+        for before in ["", options] {
+            let words = size.into_iter().chain(before.split_whitespace()).chain(told.split(' '));
+            let again = folder.succeeds(&words.chain(["-o", "b.png"]).collect::<Vec<_>>());
+            assert!(again.stdout.contains(told), "{again:?}\n{told}");
+            let [first, second] =
+                ["a.png", "b.png"].map(|name| fs::read(folder.path(name)).expect("a picture"));
+            assert!(first == second, "{before} {options}: {told}");
+        }
         let more = ["--stats", "json"];
         let json = folder
             .succeeds(&size.into_iter().chain(options.split_whitespace()).chain(more).collect::<Vec<_>>());
@@ -207,6 +211,22 @@ fn the_printed_camera_goes_over_a_scene_files() {
         &["s.toml", "--projection", "perspective", "--view-height", "2"],
         &["--view-height: found it without --projection parallel"],
     );
+}
+
+/// One angle of the command line leaves the file's other one.
+#[test]
+fn an_angle_of_a_scene_file_is_kept_beside_another() {
+    let scene = "size = [40, 30]\n[camera]\nazimuth = 70\nelevation = 50\n[[object]]\nmodel = \"m.obj\"\n";
+    let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes()), ("s.toml", scene.as_bytes())]);
+    let camera = |options: &[&str]| {
+        let run = folder.succeeds(&[&["s.toml"], options].concat());
+        run.stdout.lines().find_map(|line| line.strip_prefix("camera: ")).expect("a camera").to_owned()
+    };
+    let own = camera(&[]);
+    assert_eq!([camera(&["--azimuth", "70"]), camera(&["--elevation", "50"])], [own.clone(), own.clone()]);
+    let turned = camera(&["--azimuth", "-10"]);
+    assert_eq!(turned, camera(&["--azimuth", "-10", "--elevation", "50"]));
+    assert!(turned != own && turned != camera(&["--azimuth", "-10", "--elevation", "20"]));
 }
 
 /// A flat model hides the ground that is just below it, whatever depths can tell.

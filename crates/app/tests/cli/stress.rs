@@ -106,6 +106,17 @@ fn files_may_be_limited() {
     assert_eq!(fs::read(folder.path("out.bmp")).expect("the picture"), b"old");
 }
 
+/// Allocators reserve addresses for each thread, and the end of them is no error of Rust's: an abort.
+#[cfg(target_os = "linux")]
+#[test]
+fn addresses_may_be_limited() {
+    let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes())]);
+    for kib in [150_000, 200_000, 250_000, 300_000, 350_000, 600_000] {
+        let run = sh(&folder, &format!("ulimit -v {kib} && exec \"$A\" m.obj -q -s 64x48"));
+        assert_eq!((run.status, run.stderr.as_str()), (Some(0), ""), "{kib}");
+    }
+}
+
 /// While a model is read, whose end does not come; while much is drawn; and while files are written.
 #[cfg(unix)]
 #[test]

@@ -228,8 +228,18 @@ fn shells_and_man_have_their_texts() {
     ] {
         assert!(script.contains(suggested), "{suggested}");
     }
+    let info = script.split_once("__info)").and_then(|(_, rest)| rest.split_once("opts=\"")).expect("a case");
+    let offered = info.1.lines().next().unwrap_or_default();
+    assert!(offered.contains("--json") && !offered.contains("--output"), "{offered}");
     let page = run(&folder, "man").stdout;
-    for part in [".TH alberti 1", ".SH COMMANDS", "\\fBalberti advise\\fR", "projector\\-fov"] {
+    for part in [
+        ".TH alberti 1",
+        ".SH ALBERTI ADVISE",
+        ".SH EXIT STATUS",
+        "\\-\\-heat",
+        "Of the options of render it takes \\-\\-quiet.",
+        "projector\\-fov",
+    ] {
         assert!(page.contains(part), "{part}");
     }
     let (_, synopsis) = page.split_once(".SH SYNOPSIS").expect("uses");

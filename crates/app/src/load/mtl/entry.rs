@@ -179,8 +179,8 @@ fn height(exponent: f32) -> f32 {
 
 /// Has what is behind a part show through it: where it is glass, or where its texture has holes.
 ///
-/// A texture whose alpha is nearly everywhere all or nothing is cut out, in any order and with depths. Others are mixed
-/// with what is behind them, from the back to the front.
+/// A texture whose alpha is all or nothing, but for narrow rims, is cut out, in any order and with depths. Others are
+/// mixed with what is behind them, from the back to the front.
 pub(crate) fn see_through(part: &mut Part, opacity: f32, images: &mut Images) {
     let alpha = part.texture.map_or(Alpha::Opaque, |image| images.alpha(image));
     let byte = byte(opacity);
@@ -209,15 +209,24 @@ pub(crate) enum Alpha {
 }
 
 impl Alpha {
-    /// Of these texels: holes, if at most a tenth of those that show are between.
-    pub(crate) fn of(texels: &[[u8; 4]]) -> Self {
+    /// Of these texels, rows of so many: holes, if at most a tenth of those that show are between, and at most a
+    /// fiftieth have none but such around them. Rims are narrow.
+    pub(crate) fn of(texels: &[[u8; 4]], width: usize) -> Self {
         let count = |is: &dyn Fn(u8) -> bool| texels.iter().filter(|&&[.., alpha]| is(alpha)).count();
         let (shown, least) = (count(&|alpha| alpha >= 8), count(&|alpha| alpha < 255));
         if shown == 0 || least == 0 {
             return Self::Opaque;
         }
-        let between = count(&|alpha| (8..248).contains(&alpha));
-        if 10 * between > shown {
+        let is_between = |&[.., alpha]: &[u8; 4]| (8..248).contains(&alpha);
+        let between = texels.iter().filter(|texel| is_between(texel)).count();
+        let all = |texels: Option<&[[u8; 4]]>| texels.is_some_and(|texels| texels.iter().all(is_between));
+        let is_inner = |at: usize| {
+            let across = all(at.checked_sub(1).and_then(|left| texels.get(left..left + 3)));
+            let rows = [at.checked_sub(width), at.checked_add(width)];
+            across && rows.into_iter().all(|at| all(at.and_then(|at| texels.get(at..=at))))
+        };
+        let inner = (0..texels.len()).filter(|&at| is_inner(at)).count();
+        if 10 * between > shown || 50 * inner > shown {
             Self::Shades
         } else if between == 0 && shown == texels.len() {
             Self::Opaque

@@ -138,6 +138,8 @@ pub(crate) struct Block {
     pub(crate) undrawn: [usize; 4],
     /// The word of the first statement that the format has not, its line, and how many there are.
     pub(crate) unknown: Option<(String, usize, usize)>,
+    /// Whether there are lines as tables of a scene file have them.
+    pub(crate) has_tables: bool,
     /// Physical lines.
     pub(crate) lines: usize,
     /// The first error, and its line.
@@ -189,6 +191,7 @@ impl Block {
             b"curv" | b"curv2" | b"surf" => self.undrawn[2] += 1,
             word if word.is_empty() || word[0] == b'#' || QUIET.contains(&word) => {}
             word => {
+                self.has_tables |= word[0] == b'[';
                 self.unknown.get_or_insert_with(|| (quote(word), line.line, 0)).2 += 1;
             }
         }

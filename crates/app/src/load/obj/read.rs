@@ -4,7 +4,6 @@
 
 use std::collections::HashSet;
 use std::path::Path;
-use std::thread::available_parallelism;
 
 use super::KIND;
 use super::block::{Block, Event, Faces, Fault, UNDRAWN, WHITE};
@@ -13,7 +12,7 @@ use crate::load::input::Stream;
 use crate::load::statements::not_text;
 use crate::memory;
 use crate::scene::Vertex;
-use crate::threads::{Task, by_threads};
+use crate::threads::{Task, available, by_threads};
 
 /// Bytes that a thread reads at a time.
 const BLOCK: usize = 1 << 22;
@@ -57,6 +56,7 @@ pub(crate) struct ObjText {
     undrawn: [usize; 4],
     /// The word of the first statement that the format has not, its line, and how many there are.
     unknown: Option<(String, usize, usize)>,
+    has_tables: bool,
     known: HashSet<String>,
     greatest: [u32; 3],
     huge: Option<String>,
@@ -77,7 +77,7 @@ impl ObjText {
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<Self, Error> {
         let mut text = Self::default();
-        let threads = available_parallelism().map_or(1, usize::from).min(MAX_THREADS);
+        let threads = available().get().min(MAX_THREADS);
         let (mut bytes, mut offset, mut ended) = (Vec::new(), 0, false);
         while !ended {
             let start = bytes.len();
@@ -110,6 +110,7 @@ impl ObjText {
                     found = format!("nothing but {undrawn}");
                     "points, lines and curves are not drawn"
                 }
+                None if text.has_tables => "a scene file is told by its name, which ends in .toml",
                 None if other => "export the model as OBJ",
                 None => "check that this is the right file",
             };
@@ -165,6 +166,7 @@ impl ObjText {
     fn append(&mut self, mut block: Block) -> Result<(), Error> {
         let (before, lines) = (self.counts(), self.lines);
         self.undrawn.iter_mut().zip(block.undrawn).for_each(|(sum, count)| *sum += count);
+        self.has_tables |= block.has_tables;
         if let Some((word, line, count)) = block.unknown {
             self.unknown.get_or_insert((word, lines + line, 0)).2 += count;
         }

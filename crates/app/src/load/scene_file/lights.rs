@@ -71,6 +71,10 @@ impl SceneFile {
                     "one of both",
                 ));
             }
+            (Some(_), Some(_), None) if light.kind == Some(LightKind::Directional) => {
+                let (place, found) = (format!("{path}.position"), "a position and a direction");
+                return Err(self.source.error(&place, found, "one of both"));
+            }
             (Some(direction), _, None) => (wide(direction), "direction"),
             (None, Some(from), Some(to)) => (sub(wide(to), wide(from)), "target"),
             (None, _, _) => {

@@ -141,8 +141,8 @@ impl Source {
     /// The key of a line that cannot be read.
     fn key_on_line(&self, at: &Range<usize>) -> Option<&str> {
         let start = self.text.get(..at.start)?.rfind('\n').map_or(0, |end| end + 1);
-        let (key, _) = self.text.get(start..)?.lines().next()?.split_once('=')?;
-        let key = key.trim();
+        let line = self.text.get(start..)?.lines().next()?;
+        let key = line.split_once('=').map(|(key, _)| key).or_else(|| line.strip_prefix('['))?.trim();
         let usual = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
         (!key.is_empty() && key.chars().all(usual)).then_some(key)
     }
@@ -165,7 +165,9 @@ impl Source {
             (None, None) if found.is_empty() => (self.found(&at), plain(expected)),
             (None, None) => (found.to_owned(), plain(expected)),
         };
-        let key = self.key_at(&at).or_else(|| self.key_on_line(&at).map(str::to_owned));
+        // Tables that have no end reach into the next.
+        let within = self.key_at(&at).filter(|_| !found.starts_with("unclosed"));
+        let key = within.or_else(|| self.key_on_line(&at).map(str::to_owned));
         let is_date =
             || self.text.get(at.clone()).is_some_and(|text| text.starts_with(|c: char| c.is_ascii_digit()));
         let found = match in_words(&plain(&found)) {

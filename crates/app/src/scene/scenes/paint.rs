@@ -2,6 +2,7 @@
 
 use super::build::Vec3;
 use crate::scene::Image;
+use crate::threads::available;
 
 /// An image from a colour (sRGB, 0..=1) for each texel's centre in 0..1 by 0..1, v up.
 ///
@@ -16,7 +17,7 @@ pub(super) fn paint(width: u32, height: u32, color: impl Fn(f64, f64) -> Vec3 + 
         };
         (0..width).map(texel).collect::<Vec<_>>()
     };
-    let threads = std::thread::available_parallelism().map_or(1, |n| u32::try_from(n.get()).unwrap_or(1));
+    let threads = u32::try_from(available().get()).unwrap_or(1);
     let share = height.div_ceil(threads);
     let texels = std::thread::scope(|scope| {
         let painters: Vec<_> = (0..height)

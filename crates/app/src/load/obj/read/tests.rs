@@ -94,6 +94,10 @@ fn files_that_are_not_models_are_refused() {
     assert!(message("a\0b").starts_with("m.obj: found a binary file (a zero byte at offset 1)"));
     assert!(message("Dear reader,\n\nhello\n").starts_with("m.obj: found no faces in 3 lines, expected"));
     assert!(message(TRIANGLE).contains("no faces"));
+    assert!(
+        message("size = [9, 9]\n[camera]\neye = [0, 0, 9]\n")
+            .ends_with("told by its name, which ends in .toml")
+    );
     assert!(run(b"\xff\xfev\0").unwrap_err().to_string().contains("UTF-16"));
 }
 

@@ -166,6 +166,14 @@ fn errors_name_line_and_key() {
             "s.toml:4: material.a.colour: found the unknown key \"colour\", expected one of color, color-map,",
         ),
         (
+            &with("[[light]]\nkind = \"directional\"\ndirection = [0, -1, 0]\nposition = [1, 2, 3]\n"),
+            "s.toml:6: light.position: found a position and a direction, expected one of both",
+        ),
+        (
+            &with("[ambient\n[[light]]\nkind = \"point\"\n"),
+            "s.toml:3: ambient: found unclosed table, expected ]",
+        ),
+        (
             &with("[material.a]\nnormal-space = \"object\"\n"),
             "s.toml:4: material.a.normal-space: found it without normal-map, expected normal-map as well",
         ),

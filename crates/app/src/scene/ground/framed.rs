@@ -1,0 +1,36 @@
+//! A picture in which the shadow around a model is seen, and not cut off by its edge.
+
+use super::{Ground, bounds, others};
+use crate::scene::normals::narrow;
+use crate::scene::{Model, Part, Vertex};
+use std::f64::consts::TAU;
+
+/// The share of a ground's side that what stands on it darkens around it, for an eye to see.
+const SHADOW: f64 = 1.0 / 16.0;
+
+/// The points of the ellipse that stands for that in a frame.
+const AROUND: u32 = 16;
+
+/// Frames a model so that what its ground has of a shadow around it is in the picture, if it has one.
+pub(crate) fn in_view<T>(model: &mut Model, up: Option<[f32; 3]>, frame: impl FnOnce(&Model) -> T) -> T {
+    let kept = (model.vertices.len(), model.parts.len());
+    if let Some(ground) = up.and_then(|up| Ground::of(model, up, 0.0)) {
+        let [least, most] = bounds(model);
+        let first = u32::try_from(model.vertices.len()).unwrap_or(u32::MAX - AROUND);
+        for k in 0..AROUND {
+            let (sin, cos) = (f64::from(k) / f64::from(AROUND) * TAU).sin_cos();
+            let mut place = [ground.low; 3];
+            for (axis, along) in others(ground.up.0).into_iter().zip([cos, sin]) {
+                let half = (most[axis] - least[axis]) / 2.0 + ground.side * SHADOW;
+                place[axis] = f64::midpoint(least[axis], most[axis]) + along * half;
+            }
+            model.vertices.push(Vertex { position: place.map(narrow), ..Vertex::default() });
+        }
+        let triangles = (2..AROUND).map(|k| [first, first + k - 1, first + k]).collect();
+        model.parts.push(Part { triangles, ..Part::default() });
+    }
+    let framed = frame(model);
+    model.vertices.truncate(kept.0);
+    model.parts.truncate(kept.1);
+    framed
+}
