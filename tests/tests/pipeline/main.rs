@@ -15,6 +15,7 @@ mod images;
 mod invariance;
 mod lanes;
 mod lines;
+mod parts;
 mod resolution;
 mod rows;
 mod silhouettes;

@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 use crate::error::{Error, quote};
 use crate::film::format::{Film, Format};
 use crate::film::names::Names;
-use crate::output::file::{Output, Whole};
+use crate::output::file::{Output, Whole, temporary_files};
 use crate::output::folder::in_folder;
 use crate::scene::Image;
 
@@ -127,6 +127,7 @@ fn encoded(stream: &[u8], muxer: &str, name: &Path) -> Result<Vec<u8>, Error> {
     };
     let folder = tempfile::tempdir().map_err(|error| failed(&error.to_string()))?;
     let (file, words) = (folder.path().join("film"), ["-hide_banner", "-loglevel", "error", "-y"]);
+    temporary_files().extend([folder.path().to_owned(), file.clone()]);
     let mut child = Command::new(ENCODER)
         .args(words)
         .args(["-f", "yuv4mpegpipe", "-i", "-", "-pix_fmt", "yuv420p", "-colorspace", "bt709"])

@@ -21,7 +21,7 @@ Examples:
   alberti info teapot.obj
   gunzip -c scan.obj.gz | alberti info -
   alberti info wet.toml --size 240x240 --profile tiny     what a frame takes with these
-  alberti info cow.obj --json | jq .triangles             crates/app/README.md has its keys";
+  alberti info cow.obj --json | jq .triangles             the manual has its keys";
 
 /// The rows of a band of the report, as those of `alberti bake` without options.
 const BAND: u32 = 16;

@@ -87,7 +87,7 @@ pub(crate) fn idle(arguments: &RenderArgs, model: &Model, options: &RenderOption
     let looks = [
         // A texture makes it white.
         ("--diffuse", material.color.is_some() && material.color_map.is_none()),
-        ("--texture", material.color_map.is_some()),
+        ("--texture", material.color_map.is_some() && arguments.show != Some(Show::Lod)),
         ("--ao", material.ao_map.is_some()),
         ("--wetness-map", material.wetness_map.is_some()),
         ("--environment", material.environment.is_some()),
@@ -97,7 +97,8 @@ pub(crate) fn idle(arguments: &RenderArgs, model: &Model, options: &RenderOption
     let sampled =
         [("--filter", alone && render.filter.is_some()), ("--wrap", alone && render.wrap.is_some())];
     let lod = [("--lod", alone && render.lod.is_some())];
-    let around = [("--background", render.background.is_some())];
+    let around = [("--background", render.background.is_some() && arguments.show != Some(Show::Error))];
+    let normals = [("--normals", model.heights.is_empty() && render.normals.is_some())];
     let fog = [("--fog", render.fog.is_some())];
     let dither = [("--dither", render.dither.is_some_and(|dither| dither != Dither::None))];
     let samples = [("--samples", render.samples.is_some())];
@@ -110,13 +111,15 @@ pub(crate) fn idle(arguments: &RenderArgs, model: &Model, options: &RenderOption
     let smaller = |filter| !matches!(filter, Filter::Nearest | Filter::Bilinear);
     let filtered = || model.parts.iter().flat_map(Part::maps).filter_map(|(map, _)| map.filter);
     let one_level = if options.filter == Filter::Nearest { "nearest" } else { "bilinear" };
-    let unmapped = model.textures.is_empty() && model.heights.is_empty();
+    let unmapped = model.textures.is_empty() && model.heights.is_empty() && model.slide.is_none();
     let (white, matte) = (shading == Shading::VertexColor, shading == Shading::Lambert);
     let colorless = arguments.show.is_some_and(|show| !matches!(show, Show::Error | Show::Policy));
+    // Levels are those of the texture.
+    let textures = if arguments.show == Some(Show::Lod) { vec![] } else { [&sampled[..], &lod].concat() };
     let reasons: [(bool, Vec<Given>, Reason); 8] = [
         (
             colorless,
-            [&fog[..], &light[..3], &highlights, &looks[..1]].concat(),
+            [&fog[..], &light, &normals, &highlights, &looks, &textures].concat(),
             fixed("with --show of a number that is none of colours", "a picture in true colours"),
         ),
         (
@@ -130,7 +133,7 @@ pub(crate) fn idle(arguments: &RenderArgs, model: &Model, options: &RenderOption
         (white, [&looks[..], &sampled].concat(), of_shading("of the vertices alone", "another")),
         (
             !shading.is_lit(),
-            [&light[..], &highlights].concat(),
+            [&light[..], &normals, &highlights].concat(),
             of_shading("without light", "lambert, phong or blinn"),
         ),
         (matte, highlights.to_vec(), of_shading("without highlights", "phong or blinn")),

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use clap::builder::PossibleValuesParser;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{Arg, ArgMatches, Command, CommandFactory as _};
+use clap::{Arg, ArgMatches, Command, CommandFactory as _, ValueHint};
 
 use super::staged::{OF_PICTURES, Request, Staged, hidden};
 use super::told::{forget, warn};
@@ -324,9 +324,14 @@ const SUGGESTED: [(&str, &[&str]); 8] = [
 /// The command with values that a shell may suggest.
 fn with_suggestions(command: Command) -> Command {
     let topics = PossibleValuesParser::new(help::all_topics(&command));
+    // As files, folders get their slash, and spaces are escaped.
+    let hinted = |argument: Arg| match argument.get_value_hint() {
+        ValueHint::AnyPath => argument.value_hint(ValueHint::FilePath),
+        _ => argument,
+    };
     let suggested = |argument: Arg| match SUGGESTED.iter().find(|(id, _)| argument.get_id() == id) {
         Some((_, values)) => argument.value_parser(PossibleValuesParser::new(*values)),
-        None => argument,
+        None => hinted(argument),
     };
     let command = command.mut_args(suggested).mut_subcommands(|command| command.mut_args(suggested));
     command.mut_subcommand("help", |help| help.mut_arg("topic", |topic| topic.value_parser(topics)))

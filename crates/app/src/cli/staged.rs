@@ -252,7 +252,9 @@ impl Request {
         let wishes = arguments.camera.counted_from(origin);
         let base = scene.camera.or(self.orbit.map(|table| camera::orbit(&table.counted_from(origin), ball)));
         let up = || wishes.up.map(<[f32; 3]>::from).or(base.map(|base| base.up)).unwrap_or([0.0, 1.0, 0.0]);
-        let grounded = (arguments.render.ground == Some(true)).then(up);
+        let shading = arguments.render.shading.unwrap_or(scene.defaults.0);
+        let is_seen = arguments.show.is_none() && shading != Shading::VertexColor;
+        let grounded = (arguments.render.ground == Some(true) && is_seen).then(up);
         let camera = ground::in_view(&mut scene.model, grounded, |model| {
             camera::frame(&wishes, base.as_ref(), (model, ball), aspect)
         })?;

@@ -1,5 +1,6 @@
 //! `alberti watch`: a picture that follows its files.
 
+use std::io::{self, Write as _};
 use std::path::Path;
 use std::thread::sleep;
 use std::time::Duration;
@@ -8,9 +9,10 @@ use clap::ArgMatches;
 
 use super::run::{draw, fail};
 use super::staged::Request;
-use crate::error::Error;
+use crate::error::{Error, counted};
 use crate::load::{input, obj, scene_file, seen};
 use crate::output::file::STANDARD;
+use crate::output::stage::is_silent;
 
 pub(super) const HELP: &str = "\
 Examples:
@@ -34,6 +36,11 @@ pub(super) fn run(matches: &ArgMatches) -> Result<(), Error> {
         seen::see(&model);
         if let Err(error) = draw(matches) {
             fail(&error);
+        }
+        if !is_silent() {
+            let files = counted(seen::now().len(), "file", "files");
+            // Without standard error there is nobody to tell.
+            _ = writeln!(io::stderr(), "watching {files}; Ctrl-C ends it");
         }
         while !seen::changed() {
             sleep(POLL);

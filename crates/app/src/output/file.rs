@@ -34,7 +34,7 @@ pub(crate) const STANDARD: &str = "-";
 /// Temporary files that may be there. Who has it makes files, or gives them their names; after a signal, nobody.
 static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-pub(super) fn temporary_files() -> MutexGuard<'static, Vec<PathBuf>> {
+pub(crate) fn temporary_files() -> MutexGuard<'static, Vec<PathBuf>> {
     TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

@@ -121,12 +121,18 @@ fn options_that_change_nothing_are_told() {
         ),
         ("--texture n.png", "--dither bayer", "--dither: found it with --color rgba8, whose steps are"),
         ("--show overdraw", "--samples 16", "--samples: found it with --show, which has one sample a pixel"),
-        ("--show error", "--background red", "--background: found it with --show, which"),
+        ("--show overdraw", "--background red", "--background: found it with --show, which"),
         (
             "--texture n.png --show lod",
-            "--light 10,20 --fog linear:1,9",
-            "--fog: found it and --light with --show of a number",
+            "--light 10,20 --fog linear:1,9 --ao n.png --normal-map n.png",
+            "--fog: found it and --light, --normal-map, --ao with --show of a number",
         ),
+        (
+            "--show triangles",
+            "--texture n.png --filter nearest --wrap clamp --lod run --normals flat",
+            "--normals: found it and --texture, --filter, --wrap, --lod with --show of a number",
+        ),
+        ("--shading unlit", "--normals flat", "--normals: found it with --shading unlit"),
         ("--show overdraw", "--diffuse f00", "--diffuse: found it with --show of a number"),
         ("--shading unlit", "--height-map n.png", "--height-map: found it with --shading unlit"),
         (
@@ -157,6 +163,8 @@ fn options_that_change_nothing_are_told() {
         "--shading blinn --specular fff --shininess 3 --light 10,20 --light-space linear",
         "--shading lambert --normal-map n.png --ao n.png --two-sided=false",
         "--texture n.png --lod run",
+        "--show error --background red",
+        "--projector n.png --projector-eye 0,0,3 --projector-target 0.5,0.5,0 --filter nearest --wrap clamp",
         "--texture n.png --color rgb565 --dither bayer",
     ] {
         assert_eq!(draw(used, "c.png"), "", "{used}");

@@ -117,11 +117,11 @@ fn place(entry: &mut Entry, lower: &[u8], placed: [[f32; 2]; 2]) -> Option<&'sta
     if lower == b"map_kd" || entry.placed.is_none() {
         entry.placed = Some(placed);
     }
-    let said = placed != UNPLACED || lower == b"map_kd";
-    (before != placed && said).then_some(match lower {
-        b"map_kd" => "`-s` or `-o` before `MAP`, another than of it",
-        _ => "`-s` or `-o` of `MAP`, another than of the texture",
-    })
+    let (said, kind) = match lower {
+        b"map_kd" => (before, "`-s` or `-o` of the map before `MAP`, another than of that"),
+        _ => (placed, "`-s` or `-o` of `MAP`, another than of the texture"),
+    };
+    (before != placed && said != UNPLACED).then_some(kind)
 }
 
 /// The options before the file's name.

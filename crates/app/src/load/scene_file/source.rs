@@ -184,7 +184,7 @@ impl Source {
         }
         let meant = unknown.and_then(|key| {
             let near = nearest(key, &expected).map(|near| format!("did you mean {near}?"));
-            near.or_else(|| elsewhere(key)).or_else(|| of_others(key, &expected))
+            elsewhere(key).or(near).or_else(|| of_others(key, &expected))
         });
         match meant.or_else(|| remedy.map(str::to_owned)) {
             Some(hint) => error.hint(hint),
