@@ -160,11 +160,11 @@ impl Board {
     }
 }
 
-/// Does something for each board, some at once, in their order: a program of one is compiled by one thread, and takes
-/// up to 1 GB.
-pub(super) fn each<T: Send>(boards: &[&Board], work: impl Fn(&Board) -> T + Sync) -> Vec<T> {
+/// Does something for each board or other place, some at once, in their order: a program of one is compiled by one
+/// thread, and takes up to 2 GB.
+pub(super) fn each<P: Sync, T: Send>(places: &[P], work: impl Fn(&P) -> T + Sync) -> Vec<T> {
     const AT_ONCE: usize = 3;
-    let waiting = std::sync::Mutex::new(boards.iter().enumerate());
+    let waiting = std::sync::Mutex::new(places.iter().enumerate());
     let next = || waiting.lock().expect("no chore panics").next();
     let worker = || std::iter::from_fn(next).map(|(place, board)| (place, work(board))).collect::<Vec<_>>();
     let mut done = std::thread::scope(|scope| {

@@ -8,7 +8,7 @@
 
 use std::process::Command;
 
-use super::boards::{BOARDS, Board};
+use super::boards::{BOARDS, Board, each};
 use super::emulator::Machine;
 use crate::command::{Outcome, cargo, output, run as run_command};
 use crate::embedded::{Target, Toolchain};
@@ -111,14 +111,20 @@ pub(crate) fn run(arguments: &[String]) -> Outcome {
     let first = places.next().ok_or("there is no machine")?;
     let expected = first.hashes()?;
     println!("{} scenes on {}", expected.len(), first.name());
-    let mut failures = Vec::new();
-    for place in places.filter(|place| arguments.is_empty() || arguments.contains(&place.name())) {
-        match place.hashes().map(|found| differences(&expected, &found)) {
-            Ok(None) => println!("{}: equal", place.name()),
-            Ok(Some(difference)) => failures.push(format!("{}: {difference}", place.name())),
-            Err(message) => failures.push(format!("{}: {message}", place.name())),
+    let chosen: Vec<_> =
+        places.filter(|place| arguments.is_empty() || arguments.contains(&place.name())).collect();
+    let failures = each(&chosen, |place| {
+        let difference = match place.hashes() {
+            Ok(found) => differences(&expected, &found),
+            Err(message) => Some(message),
+        };
+        match difference {
+            None => println!("{}: equal", place.name()),
+            Some(_) => println!("{}: fails", place.name()),
         }
-    }
+        difference.map(|difference| format!("{}: {difference}", place.name()))
+    });
+    let failures: Vec<_> = failures.into_iter().flatten().collect();
     if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
 }
 
