@@ -42,7 +42,8 @@ Usage: alberti MODEL.obj|SCENE.toml [OPTIONS]
 
 Examples:
   alberti teapot.obj                a model, all of it in view, into alberti.png
-  alberti cow.obj --texture cow.png -o cow.jpg -s 1920x1080
+  alberti cow.obj -s 1920x1080      a larger picture
+  alberti cow.obj -o cow.webp       another file, whose name says the format
   alberti wet.toml --shading phong  a scene file, drawn with other light
   alberti --scene floor             a built-in scene
   alberti compare a.png b.png       the difference of two pictures
@@ -58,6 +59,16 @@ Help:
   alberti help all                  all options
   alberti help scene-files          what a scene file can say
 ";
+
+/// The examples of the first page: lines to type, each with what it makes.
+pub(super) fn examples() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let (_, rest) = FIRST.split_once("Examples:\n").unwrap_or_default();
+    let examples = rest.split("\n\n").next().unwrap_or_default();
+    examples
+        .lines()
+        .filter_map(|line| line.trim().split_once("  "))
+        .map(|(line, meaning)| (line, meaning.trim()))
+}
 
 /// The help that these words ask for, if they do.
 ///

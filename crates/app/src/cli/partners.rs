@@ -4,7 +4,7 @@ use crate::cli::RenderArgs;
 use crate::error::{Error, quote};
 use crate::load::scene_file;
 use crate::options::values::name_of;
-use crate::options::{Base, ColorFormat, Dither, Filter, RenderOptions, Shading};
+use crate::options::{Aov, Base, ColorFormat, Dither, Filter, RenderOptions, Shading};
 use crate::scene::{Model, Part, Relief};
 use crate::show::Show;
 
@@ -68,8 +68,14 @@ type Reason = (String, String);
 /// An option, and whether it is given.
 type Given = (&'static str, bool);
 
-/// The warnings of options that change nothing in a picture with these, one for each reason.
-pub(crate) fn idle(arguments: &RenderArgs, model: &Model, options: &RenderOptions) -> Vec<Error> {
+/// The warnings of options that change nothing in a picture with these, one for each reason. Of options that stand
+/// `in_file`, a scene's, there is nothing to say where the command line asks for another picture of it.
+pub(crate) fn idle(
+    arguments: &RenderArgs,
+    model: &Model,
+    options: &RenderOptions,
+    in_file: &dyn Fn(&str) -> bool,
+) -> Vec<Error> {
     let (render, material) = (&arguments.render, &arguments.material);
     let highlights = [
         ("--specular", material.specular.is_some()),
@@ -102,6 +108,10 @@ pub(crate) fn idle(arguments: &RenderArgs, model: &Model, options: &RenderOption
     let fog = [("--fog", render.fog.is_some())];
     let dither = [("--dither", render.dither.is_some_and(|dither| dither != Dither::None))];
     let samples = [("--samples", render.samples.is_some())];
+    let fog_color = [("--fog-color", render.fog_color.is_some())];
+    // Tones and images are of pictures in true colours.
+    let tones =
+        [("--color", render.color_format.is_some()), ("--projector", arguments.projector.image.is_some())];
 
     let shading = options.shading;
     let of_shading = |lacks: &str, others: &str| -> Reason {
@@ -116,35 +126,53 @@ pub(crate) fn idle(arguments: &RenderArgs, model: &Model, options: &RenderOption
     let colorless = arguments.show.is_some_and(|show| !matches!(show, Show::Error | Show::Policy));
     // Levels are those of the texture.
     let textures = if arguments.show == Some(Show::Lod) { vec![] } else { [&sampled[..], &lod].concat() };
-    let reasons: [(bool, Vec<Given>, Reason); 8] = [
+    let shaded = ("--shading", render.shading.is_some());
+    let reasons: [(bool, Given, Vec<Given>, Reason); 9] = [
         (
             colorless,
-            [&fog[..], &light, &normals, &highlights, &looks, &textures].concat(),
+            ("--show", true),
+            [&fog[..], &fog_color, &tones, &light, &normals, &highlights, &looks, &textures].concat(),
             fixed("with --show of a number that is none of colours", "a picture in true colours"),
         ),
         (
             arguments.show.is_some(),
+            ("--show", true),
             [&samples[..], &around].concat(),
             fixed(
                 "with --show, which has one sample a pixel of the model alone",
                 "a picture in true colours",
             ),
         ),
-        (white, [&looks[..], &sampled].concat(), of_shading("of the vertices alone", "another")),
+        (white, shaded, [&looks[..], &sampled].concat(), of_shading("of the vertices alone", "another")),
         (
             !shading.is_lit(),
+            shaded,
             [&light[..], &normals, &highlights].concat(),
             of_shading("without light", "lambert, phong or blinn"),
         ),
-        (matte, highlights.to_vec(), of_shading("without highlights", "phong or blinn")),
-        (unmapped, [&sampled[..], &lod].concat(), fixed("on a model without textures", "one that has some")),
+        (
+            options.haze.is_none(),
+            // In a file the colour waits for a fog.
+            ("", true),
+            fog_color.to_vec(),
+            fixed("with --fog none", "a fog"),
+        ),
+        (matte, shaded, highlights.to_vec(), of_shading("without highlights", "phong or blinn")),
+        (
+            unmapped,
+            ("", false),
+            [&sampled[..], &lod].concat(),
+            fixed("on a model without textures", "one that has some"),
+        ),
         (
             !smaller(options.filter) && !filtered().any(smaller),
+            ("--filter", render.filter.is_some()),
             lod.to_vec(),
             fixed(&format!("with --filter {one_level}, which has one level"), "trilinear or anisotropic"),
         ),
         (
             options.policies.color == ColorFormat::Rgba8,
+            ("--color", render.color_format.is_some()),
             dither.to_vec(),
             fixed(
                 "with --color rgba8, whose steps are those of the picture",
@@ -154,8 +182,10 @@ pub(crate) fn idle(arguments: &RenderArgs, model: &Model, options: &RenderOption
     ];
     let mut told: Vec<&str> = Vec::new();
     let mut warnings = Vec::new();
-    for (_, options, (found, expected)) in reasons.into_iter().filter(|(holds, ..)| *holds) {
+    for (_, (by, on_line), options, (found, expected)) in reasons.into_iter().filter(|(holds, ..)| *holds) {
+        let asked = on_line && !in_file(by);
         let given = options.into_iter().filter(|(option, given)| *given && !told.contains(option));
+        let given = given.filter(|(option, _)| !(asked && in_file(option)));
         let given: Vec<&'static str> = given.map(|(option, _)| option).collect();
         let [first, others @ ..] = given.as_slice() else { continue };
         let them = if others.is_empty() { "it".to_owned() } else { format!("it and {}", others.join(", ")) };
@@ -164,6 +194,23 @@ pub(crate) fn idle(arguments: &RenderArgs, model: &Model, options: &RenderOption
         told.extend(given);
     }
     warnings
+}
+
+/// The warnings of numbers beside the picture that are the same everywhere.
+pub(crate) fn empty_layers(arguments: &RenderArgs, model: &Model) -> Vec<Error> {
+    let asked = |aov| arguments.render.aov.as_ref().is_some_and(|aovs| aovs.has(aov));
+    let has_uv = model.vertices.iter().any(|vertex| vertex.uv != [0.0; 2]);
+    let untextured = model.parts.iter().all(|part| part.texture.is_none());
+    let layers = [
+        (Aov::Uv, !has_uv, "a model without texture coordinates"),
+        (Aov::Lod, untextured, "a model without a texture"),
+    ];
+    let empty = layers.into_iter().filter(|(aov, empty, _)| *empty && asked(*aov));
+    let warning = |(aov, _, found): (_, _, &str)| {
+        let error = Error::new(format!("{} of {found}", name_of(aov)), "a model with some").place("--aov");
+        error.hint("it is 0 everywhere")
+    };
+    empty.map(warning).collect()
 }
 
 /// The warning of colours of vertices that are asked for and not there, or there and not shown.

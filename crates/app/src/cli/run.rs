@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use clap::builder::PossibleValuesParser;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{Arg, ArgMatches, Command, CommandFactory as _, ValueHint};
+use clap::{Arg, ArgMatches, Command, CommandFactory as _, ValueEnum as _, ValueHint};
 
 use super::staged::{OF_PICTURES, Request, Staged, hidden};
 use super::told::{forget, warn};
@@ -127,7 +127,11 @@ fn usage(error: &clap::Error, renamed: bool) -> Result<u8, Error> {
         }
         ErrorKind::MissingRequiredArgument => {
             let missing = context(ContextKind::InvalidArg).unwrap_or_default();
-            return Err(Error::new("too few words", format!("{missing} as well")).hint("see --help"));
+            let expected = match missing.as_str() {
+                "<SHELL>" => format!("a shell as well, one of {}", shells()),
+                _ => format!("{missing} as well"),
+            };
+            return Err(Error::new("too few words", expected).hint("see --help"));
         }
         ErrorKind::ArgumentConflict => {
             let other = context(ContextKind::PriorArg).map(|other| named(&other)).unwrap_or_default();
@@ -309,6 +313,13 @@ fn completions(words: &ArgMatches) -> Result<(), Error> {
     print(&String::from_utf8_lossy(&script))
 }
 
+/// The shells that there are completions for.
+fn shells() -> String {
+    let names: Vec<_> =
+        clap_complete::Shell::value_variants().iter().map(|shell| shell.to_string()).collect();
+    names.join(", ")
+}
+
 /// Values to choose from, of options that take others as well.
 const SUGGESTED: [(&str, &[&str]); 8] = [
     ("filter", &["nearest", "bilinear", "trilinear", "anisotropic:4", "anisotropic:16"]),
@@ -398,6 +409,10 @@ fn man() -> Result<(), Error> {
     let _ = page.render_title(&mut text).and_then(|()| page.render_name_section(&mut text));
     let mut text = String::from_utf8_lossy(&text).into_owned();
     text.push_str(SYNOPSIS);
+    text.push_str(".SH EXAMPLES\n");
+    for (line, meaning) in help::examples() {
+        text.push_str(&format!(".TP\n{}\n{meaning}.\n", line.replace('-', "\\-")));
+    }
     text.push_str(&options(alone));
     for page in all.get_subcommands().filter(|page| page.get_name() != "render") {
         let name = page.get_name().to_owned();

@@ -312,7 +312,10 @@ impl Request {
         if let Some(warning) = partners::unused_light(arguments, &scene.model) {
             warn(&self.relocate(warning).to_string());
         }
-        for warning in partners::idle(arguments, &scene.model, &options) {
+        let idle = partners::idle(arguments, &scene.model, &options, &|option| {
+            self.file.as_ref().is_some_and(|file| file.has(option))
+        });
+        for warning in idle.into_iter().chain(partners::empty_layers(arguments, &scene.model)) {
             warn(&self.relocate(warning).to_string());
         }
         let samples = samples(arguments, [width, height])?;

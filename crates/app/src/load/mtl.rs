@@ -61,9 +61,14 @@ impl CheckedMtl {
                 let warning = Error::new("`newmtl` without a name", "`newmtl NAME`");
                 return vec![warning.hint("the lines up to the next one are left out")];
             }
-            self.names.insert(name.clone(), self.materials.len());
+            let first = self.names.insert(name.clone(), self.materials.len());
+            let again = || {
+                let found = format!("a second material {}", quote(name.as_bytes()));
+                Error::new(found, "a name for each").hint("the last of them counts")
+            };
+            let warning = first.map(|_| again());
             self.materials.push(Entry { name, ..Entry::default() });
-            return Vec::new();
+            return Vec::from_iter(warning);
         }
         let lower = line.word.to_ascii_lowercase();
         let numbers = match lower.as_slice() {

@@ -95,6 +95,11 @@ impl SceneFile {
         Ok(RenderArgs { camera: *camera, projector, render, ..RenderArgs::default() })
     }
 
+    /// Whether an option stands here, and not on the command line.
+    pub(crate) fn has(&self, option: &str) -> bool {
+        self.keys.contains_key(option)
+    }
+
     /// Puts an error that names an option, or a file of the options, where this file has it.
     pub(crate) fn relocate(&self, error: Error) -> Error {
         let together = [

@@ -103,12 +103,13 @@ impl CameraTable {
     }
 
     /// Leaves the place of the eye open, and the planes before it, for `given` options that say it in another way: one
-    /// angle leaves the other. The eye and the target are handed back.
+    /// angle leaves the other, and what it has of a side. The eye and the target are handed back.
     pub(crate) fn forget_place(&mut self, given: &Self) -> Self {
-        let Self { eye, target, azimuth, elevation, .. } = *self;
+        let Self { eye, target, azimuth, elevation, view, .. } = *self;
         let turned = given.eye.is_none() && given.view.is_none();
         let (azimuth, elevation) = (azimuth.filter(|_| turned), elevation.filter(|_| turned));
-        *self = Self { eye: None, azimuth, elevation, view: None, near: None, far: None, ..*self };
+        let view = view.filter(|_| turned);
+        *self = Self { eye: None, azimuth, elevation, view, near: None, far: None, ..*self };
         Self { eye, target, ..Self::default() }
     }
 
@@ -118,17 +119,12 @@ impl CameraTable {
         let angle = self.azimuth.map(|_| "--azimuth").or(self.elevation.map(|_| "--elevation"));
         let eye = self.eye.map(|_| "--eye");
         let view = self.view.map(|_| "--view");
-        let twice = match (view.or(angle), eye, view.and(angle)) {
-            (Some(option), Some(eye), _) => Some((option, eye)),
-            (Some(view), None, Some(angle)) => Some((angle, view)),
-            _ => None,
-        };
-        match twice {
-            Some((option, other)) => {
-                let found = format!("it with {other}, which says where the camera is as well");
+        match (view.or(angle), eye) {
+            (Some(option), Some(eye)) => {
+                let found = format!("it with {eye}, which says where the camera is as well");
                 Err(Error::new(found, "one of the two").place(option))
             }
-            None => Ok(()),
+            _ => Ok(()),
         }
     }
 }

@@ -215,7 +215,8 @@ impl<'de, const N: usize, K: Kind> Visitor<'de> for Components<N, K> {
     }
 }
 
-/// The exponents of highlights: a least and a greatest, or one for both.
+/// The exponents of highlights: a least and a greatest, which is that of surfaces without a map of them. Of a single
+/// one the least is 1, or less if it is.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize)]
 #[serde(try_from = "Tuple<2, Exponent>")]
 pub struct Shininess(pub [f32; 2]);
@@ -228,7 +229,8 @@ impl TryFrom<Tuple<2, Exponent>> for Shininess {
     type Error = String;
 
     fn try_from(pair: Tuple<2, Exponent>) -> Result<Self, String> {
-        let pair @ [least, greatest] = pair.into();
+        let pair @ [least, greatest]: [f32; 2] = pair.into();
+        let pair = if least == greatest { [least.min(1.0), greatest] } else { pair };
         let ordered = (least <= greatest).then_some(Self(pair));
         ordered.ok_or_else(|| format!("{least} and {greatest}, expected {}", Self::EXPECTED))
     }
@@ -410,9 +412,10 @@ mod tests {
         assert_eq!(read("#2aC").map(Color::bytes), Ok([0x22, 0xaa, 0xcc]));
         assert_eq!(read("0x20242c").map(Color::bytes), Ok([0x20, 0x24, 0x2c]));
         assert_eq!(read("-0.5,1"), Ok(Tuple::<2, Finite>::from([-0.5, 1.0])));
-        assert_eq!(read("8"), Ok(Shininess([8.0, 8.0])));
+        assert_eq!(read("8"), Ok(Shininess([1.0, 8.0])));
         assert_eq!(read("8,64"), Ok(Shininess([8.0, 64.0])));
-        assert_eq!(read("65536"), Ok(Shininess([65536.0; 2])));
+        assert_eq!(read("65536"), Ok(Shininess([1.0, 65536.0])));
+        assert_eq!(read("0.5"), Ok(Shininess([0.5; 2])));
         assert!((0..=255).all(|byte| Color::from([byte; 3]).bytes() == [byte; 3]));
     }
 

@@ -33,15 +33,20 @@ pub(super) fn error(
         RenderOptions { policies: Policies::default(), depth: DepthFormat::F32Reversed, ..*options };
     let found = render(model, camera, options, progress)?.image.texels;
     let expected = render(model, camera, &precise, progress)?.image.texels;
+    // What only one of the two has is a difference as well.
+    let [of_found, of_expected] = [probe(model, camera, options)?, probe(model, camera, &precise)?];
     // The least difference is seen beside none.
-    let mut steps = vec![Step::new(along(0, 11), "0, the same")];
+    let mut steps = vec![nothing(), Step::new(along(0, 11), "0, the same")];
     steps.extend(doubling(128).enumerate().map(|(k, meaning)| Step::new(along(k + 3, 11), meaning)));
     let title = "error of each pixel: greatest difference of a channel to exact, float, f32-reversed, rgba8, \
                  subpixel 8, in steps of 1/255";
     paint(options, [title, "difference of a pixel"], steps, |index| {
+        if of_found.shaded(index) + of_expected.shaded(index) == 0 {
+            return Number::none(0);
+        }
         let difference = |k: usize| found[index][k].abs_diff(expected[index][k]);
         let greatest = difference(0).max(difference(1)).max(difference(2));
-        Number::new(greatest.checked_ilog2().map_or(0, |log| log as usize + 1), greatest.into())
+        Number::new(greatest.checked_ilog2().map_or(1, |log| log as usize + 2), greatest.into())
     })
 }
 

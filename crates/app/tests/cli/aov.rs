@@ -211,6 +211,19 @@ fn holes_are_seen_through() {
     assert!(glass > 1000, "{glass}");
 }
 
+/// Numbers that a model cannot have are told, and are 0.
+#[test]
+fn numbers_of_nothing_are_told() {
+    let folder = Folder::with(&[("m.obj", &b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"[..])]);
+    let run = folder.succeeds(&["m.obj", "-s", "40x30", "--aov", "depth,uv,lod"]);
+    let told = "warning: --aov: found uv of a model without texture coordinates, expected a model with some; it is 0 \
+                everywhere\nwarning: --aov: found lod of a model without a texture, expected a model with some; it is \
+                0 everywhere\n";
+    assert_eq!(run.stderr, told);
+    let lod = image::open(folder.path("alberti.lod.png")).expect("numbers").to_luma16();
+    assert!(lod.pixels().all(|pixel| pixel.0 == [0]));
+}
+
 #[test]
 fn none_is_written_where_one_cannot_be() {
     let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes())]);

@@ -141,6 +141,12 @@ fn options_that_change_nothing_are_told() {
             "--filter: found it and --wrap on a model without",
         ),
         ("", "--lod run", "--lod: found it on a model without textures"),
+        ("--fog none", "--fog-color f00", "--fog-color: found it with --fog none"),
+        (
+            "--show triangles",
+            "--color rgb565 --projector n.png --projector-eye 0,0,9 --projector-target 0,0,0",
+            "--color: found it and --projector with --show of a number",
+        ),
     ] {
         assert_eq!(draw(base, "a.png"), "", "{base}");
         let warning = draw(&format!("{base} {idle}"), "b.png");
@@ -159,6 +165,20 @@ fn options_that_change_nothing_are_told() {
         warning.starts_with("warning: s.toml:2: render.light: found it in a scene with lights"),
         "{warning}"
     );
+    // But not where the command line asks for another picture of it.
+    for (file, line, told) in [
+        ("light = \"lamp\"\nshading = \"unlit\"", "", 1),
+        ("light = \"lamp\"", "--shading unlit", 0),
+        ("light = \"lamp\"\nsamples = 1\nbackground = \"red\"", "--show overdraw", 0),
+        ("shading = \"unlit\"", "--light lamp", 1),
+        ("", "--shading unlit --light lamp", 1),
+    ] {
+        let scene = format!("[render]\n{file}\n[[object]]\nsurface = \"sphere\"\n");
+        std::fs::write(folder.path("s.toml"), scene).expect("a scene");
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let run = folder.succeeds(&[&["s.toml", "-s", "40x30"], &words[..]].concat());
+        assert_eq!(run.stderr.matches("nothing changes").count(), told, "{file} {line}: {run:?}");
+    }
     for used in [
         "--shading blinn --specular fff --shininess 3 --light 10,20 --light-space linear",
         "--shading lambert --normal-map n.png --ao n.png --two-sided=false",

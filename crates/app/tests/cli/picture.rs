@@ -50,8 +50,17 @@ fn scene_files_have_samples_backgrounds_and_views() {
     ]);
     let run = folder.succeeds(&["a.toml"]);
     assert!(run.stdout.contains("--eye 0,3.9213307,0 "), "{run:?}");
-    let run = folder.succeeds(&["a.toml", "--azimuth", "0"]);
-    assert!(!run.stdout.contains("--eye 0,3.9213307,0 "), "{run:?}");
+    // The other angle is the view's.
+    for (more, roll) in [("--azimuth=0", false), ("--azimuth=90", true)] {
+        let run = folder.succeeds(&["a.toml", more]);
+        assert!(
+            run.stdout.contains("--eye 0,3.9213307,0 ") && run.stdout.contains("--roll") == roll,
+            "{run:?}"
+        );
+    }
+    let [view, angles] = [&["--elevation", "0"][..], &["--elevation", "0", "--azimuth", "0"]]
+        .map(|more| folder.succeeds(&[&["a.toml"], more].concat()).stdout);
+    assert!(view.lines().nth(1) == angles.lines().nth(1) && !view.contains("--eye 0,3.9213307,0 "), "{view}");
     let seen = picture(&folder, "s.png");
     let [top, bottom] = [0, 23].map(|y| seen.get_pixel(0, y).0);
     assert!(top[0] > 240 && top[2] < 16 && bottom[0] < 16 && bottom[2] > 240, "{top:?} {bottom:?}");
@@ -256,13 +265,17 @@ fn cameras_that_contradict_themselves_are_refused() {
     for (options, told) in [
         ("--eye 1,2,3 --azimuth 20", "--azimuth: found it with --eye"),
         ("--eye 1,2,3 --view top", "--view: found it with --eye"),
-        ("--view top --elevation 3", "--elevation: found it with --view"),
         ("--elevation 91", "--elevation: found \"91\", expected an angle from -90 to 90 degrees"),
         ("--zoom 0", "--zoom: found \"0\", expected a number from 0.01 to 100"),
         ("--fov 1e-30", "--fov: found 1e-30 degrees, expected an angle of at least 0.001 degrees"),
     ] {
         folder.fails(&["m.obj"].into_iter().chain(options.split(' ')).collect::<Vec<_>>(), &[told]);
     }
+    let [view, angle] = ["--view back", "--azimuth 180"].map(|side| {
+        let run = folder.succeeds(&["m.obj --elevation 30", side].join(" ").split(' ').collect::<Vec<_>>());
+        run.stdout.lines().nth(1).map(str::to_owned)
+    });
+    assert!(view.is_some() && view == angle, "{view:?} {angle:?}");
     let tiny = Folder::with(&[("t.obj", &b"v 0 0 0\nv 1e-40 0 0\nv 0 1e-40 0\nf 1 2 3\n"[..])]);
     tiny.fails(&["t.obj"], &["t.obj: found a model of radius "]);
 }

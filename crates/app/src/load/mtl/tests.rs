@@ -34,6 +34,17 @@ fn all_that_is_ignored_is_told_once() {
 }
 
 #[test]
+fn of_equal_names_the_last_counts_and_says_so() {
+    let (checked, warnings) = run(b"newmtl a\nKd 1 0 0\nnewmtl b\nnewmtl a\nKd 0 1 0\n");
+    assert_eq!(
+        warnings,
+        ["m.mtl:4: found a second material \"a\", expected a name for each; the last of them counts"]
+    );
+    let named = &checked.materials[checked.names["a"]];
+    assert_eq!(named.material.color, Some(Color([0.0, 1.0, 0.0])));
+}
+
+#[test]
 fn keywords_count_in_any_letters() {
     let text = "newmtl a\nKd 1 0 0\nKs 0 1 0\nNs 9\nd 0.25\nPr 0.5\nPm 0\nillum 2\nmap_Kd A.png\nmap_d D.png\nnorm N\n";
     let lower = text.replace("Kd", "kd").replace("Ks", "ks").replace("Ns", "ns").replace('P', "p");
