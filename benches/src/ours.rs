@@ -88,7 +88,7 @@ pub fn renderer(policy: &str, scene: &Scene, size: Size) -> Option<Box<dyn Rende
             _ => None,
         };
     }
-    let image = model.textures.first().filter(|_| scene.texture.is_some()).cloned();
+    let image = model.textures.first().filter(|_| scene.texture.is_some()).map(|image| Image::clone(image));
     let filter = scene.built_in.filter;
     Some(match policy {
         "Exact" | BY_TWO | BY_BANDS => boxed(canvas, image, filter, Exact),

@@ -42,7 +42,7 @@ pub fn scene(stones: &Stones) -> BuiltIn {
         model: Model {
             vertices: corners.map(vertex).to_vec(),
             parts: vec![part],
-            textures: vec![Image { width: SIDE, height: SIDE, texels }],
+            textures: vec![Image { width: SIDE, height: SIDE, texels }.into()],
             ..Model::default()
         },
         camera: Camera {

@@ -1,6 +1,6 @@
 //! The command line: the options that scene files have as well ([`crate::options`]), and its own.
 
-use crate::options::values::Threads;
+use crate::options::values::{Finite, Number, Threads};
 use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
@@ -20,6 +20,7 @@ mod info;
 mod manual;
 pub(crate) mod partners;
 mod picture;
+mod request;
 pub mod run;
 mod staged;
 mod told;
@@ -144,6 +145,10 @@ pub struct RenderArgs {
     /// `[render]` of a scene file.
     #[command(flatten)]
     pub render: RenderTable,
+
+    /// The time in seconds at which a scene file is seen whose [[animation]] moves something [default: 0].
+    #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = "Camera")]
+    pub time: Option<Number<Finite>>,
 
     /// List the built-in scenes.
     #[arg(long)]

@@ -18,6 +18,7 @@ use alberti::{
     Projector, Rgba8, Slot, Stats, Subpixel, Target, Vector3, View, ViewError, World, clear_by_threads,
     look_at,
 };
+use std::sync::Arc;
 
 mod clothed;
 mod erased;
@@ -130,7 +131,7 @@ impl<'a> Drawing<'a> {
     ) -> Result<Self, Error> {
         let refused = |e| camera::refused(e, camera, options.projection, &CAMERA);
         let view = any_view(camera, options.projection).map_err(refused)?;
-        let borrow = |image: &'a Image| Texture::new(Rgba8888, &image.texels, image.width, image.height);
+        let borrow = |image: &'a Arc<Image>| Texture::new(Rgba8888, &image.texels, image.width, image.height);
         let textures: Result<Vec<_>, TextureError> = model.textures.iter().map(borrow).collect();
         let in_words = |e: TextureError| Error::new(e.to_string(), "textures that can be drawn");
         let textures = textures.map_err(in_words)?;

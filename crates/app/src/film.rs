@@ -6,6 +6,7 @@ mod palette;
 mod webp;
 mod y4m;
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::num::NonZero;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -24,7 +25,7 @@ use crate::scene::{Camera, Image, Model, order};
 /// Frames that a thread may be ahead of those that are handed on.
 pub(crate) const EARLY: usize = 2;
 
-/// All of a film but its cameras.
+/// The common part of all frames of a film: textures and materials of a model, wherever its vertices are, and options.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Set<'a> {
     pub(crate) model: &'a Model,
@@ -33,36 +34,43 @@ pub(crate) struct Set<'a> {
     pub(crate) backdrop: &'a Backdrop,
 }
 
-impl Set<'_> {
-    /// Draws a frame for each camera, and hands them on in order. A thread draws a frame: the pictures are those of
+/// The rest of a frame.
+pub(crate) struct Shot<'a> {
+    pub(crate) model: Cow<'a, Model>,
+    pub(crate) camera: Camera,
+    pub(crate) projection: Projection,
+}
+
+impl<'a> Set<'a> {
+    /// Draws so many frames, and hands them on in order. A thread draws a frame: the pictures are those of
     /// [`supersampled_with`], whatever their number.
     ///
     /// # Errors
     /// A frame cannot be drawn, or `take` fails.
     pub(crate) fn draw(
         self,
-        cameras: &[Camera],
+        count: usize,
+        shot: &(dyn Fn(usize) -> Result<Shot<'a>, Error> + Sync),
         take: &mut dyn FnMut(usize, Image) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let chains = Arc::new(Chains::new(self.model, self.options)?);
         let alone = RenderOptions { threads: NonZero::<usize>::MIN, ..*self.options };
-        let threads = self.options.threads.get().min(cameras.len()).max(1);
+        let threads = self.options.threads.get().min(count).max(1);
         let next = AtomicUsize::new(0);
         let (handed, more) = (Mutex::new(0), Condvar::new());
+        let drawn = |number: usize| {
+            let Shot { model, camera, projection } = shot(number)?;
+            let (options, samples) = (RenderOptions { projection, ..alone }, self.samples);
+            supersampled_with(&chains, (&model, &camera), &options, samples, self.backdrop, &mut |_, _| ())
+        };
         let frames = |hand: &mut dyn FnMut(usize, Result<Picture, Error>) -> bool| {
-            let mut own = order::counts(self.model).then(|| self.model.clone());
             loop {
                 let number = next.fetch_add(1, Ordering::Relaxed);
                 // Frames that are early wait in memory, so none may be earlier than that.
                 let is_early = |handed: &mut usize| number >= handed.saturating_add(EARLY * threads);
-                let count = handed.lock().unwrap_or_else(PoisonError::into_inner);
-                drop(more.wait_while(count, is_early));
-                let Some(camera) = cameras.get(number) else { break };
-                let model = own.as_mut().map(|own| self.ordered(own, camera)).unwrap_or(self.model);
-                let (samples, backdrop) = (self.samples, self.backdrop);
-                let drawn =
-                    supersampled_with(&chains, (model, camera), &alone, samples, backdrop, &mut |_, _| ());
-                if !hand(number, drawn) {
+                let before = handed.lock().unwrap_or_else(PoisonError::into_inner);
+                drop(more.wait_while(before, is_early));
+                if number >= count || !hand(number, drawn(number)) {
                     break;
                 }
             }
@@ -112,12 +120,20 @@ impl Set<'_> {
         })
     }
 
-    /// A copy of the model whose surfaces that are seen through are in the order of a camera.
-    fn ordered<'m>(&self, own: &'m mut Model, camera: &Camera) -> &'m Model {
-        own.parts.clone_from(&self.model.parts);
-        let (eye, target) = (camera.eye.map(f64::from), camera.target.map(f64::from));
-        let is_perspective = self.options.projection == Projection::Perspective;
-        order::shells(own, camera, if is_perspective { Ok(eye) } else { Err(sub(eye, target)) });
-        own
+    /// The model before a camera, with what is seen through in its order.
+    pub(crate) fn shot(self, camera: Camera) -> Shot<'a> {
+        let projection = self.options.projection;
+        let mut model = Cow::Borrowed(self.model);
+        if order::counts(self.model) {
+            ordered(model.to_mut(), &camera, projection);
+        }
+        Shot { model, camera, projection }
     }
+}
+
+/// Has surfaces that are seen through in the order of a camera.
+pub(crate) fn ordered(model: &mut Model, camera: &Camera, projection: Projection) {
+    let (eye, target) = (camera.eye.map(f64::from), camera.target.map(f64::from));
+    let is_perspective = projection == Projection::Perspective;
+    order::shells(model, camera, if is_perspective { Ok(eye) } else { Err(sub(eye, target)) });
 }

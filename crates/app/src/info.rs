@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
 
 use serde_json::{Value, json};
 
@@ -206,7 +207,7 @@ fn has_colors(model: &Model) -> bool {
 
 /// Bytes of vertices, of triangles, and of maps without their smaller levels.
 fn memory(model: &Model) -> [usize; 3] {
-    let texels = |image: &Image| size_of_val(image.texels.as_slice());
+    let texels = |image: &Arc<Image>| size_of_val(image.texels.as_slice());
     let heights: usize = model.heights.iter().map(|image| size_of_val(image.heights.as_slice())).sum();
     let maps = model.textures.iter().map(texels).sum::<usize>() + heights;
     [model.vertices.len() * size_of::<Vertex>(), triangles(model) * size_of::<[u32; 3]>(), maps]

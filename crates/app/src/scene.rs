@@ -2,6 +2,7 @@
 //! hand the same scene to an independent renderer.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 pub mod backdrop;
 pub mod camera;
@@ -90,10 +91,10 @@ pub struct Model {
     pub vertices: Vec<Vertex>,
     /// In drawing order.
     pub parts: Vec<Part>,
-    /// Shared by all parts.
-    pub textures: Vec<Image>,
-    /// Shared by all parts.
-    pub heights: Vec<HeightImage>,
+    /// Shared by all parts, and by copies of the model.
+    pub textures: Vec<Arc<Image>>,
+    /// Shared in the same way.
+    pub heights: Vec<Arc<HeightImage>>,
     /// Without any, there is a lamp beside the camera.
     pub lights: Vec<Light>,
     /// Light from everywhere; `None`: as much as suits the lamp beside the camera.
@@ -160,7 +161,7 @@ pub(crate) const COLOR_STEPS: u16 = 255;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slide {
     /// The image.
-    pub image: Image,
+    pub image: Arc<Image>,
     /// The projector's place, direction and vertical opening angle; its planes have no meaning.
     pub projector: Camera,
 }

@@ -142,8 +142,9 @@ fn a_real_model_from_three_cameras() {
     }
     let loaded = obj::load(&folder.join("spot_triangulated.obj"), None, &mut |_, _| {}).expect("a model");
     let mut model = loaded.model;
-    model.textures =
-        vec![image_file::load(&folder.join("spot_texture.png"), image_file::MAX_TEXELS).expect("a texture")];
+    model.textures = vec![
+        image_file::load(&folder.join("spot_texture.png"), image_file::MAX_TEXELS).expect("a texture").into(),
+    ];
     for part in &mut model.parts {
         part.texture = Some(0);
         part.diffuse = [1.0; 3];

@@ -236,7 +236,7 @@ pub(crate) fn tiled(model: Model) -> Model {
 
 fn textured(model: Model, image: Image) -> Model {
     let parts = model.parts.into_iter().map(|part| Part { texture: Some(0), ..part }).collect();
-    Model { parts, textures: vec![image], ..model }
+    Model { parts, textures: vec![image.into()], ..model }
 }
 
 /// Tiles of two colours with fine lines and grain: detail of every size.

@@ -211,8 +211,8 @@ mod tests {
         };
         let model = Model {
             parts: vec![part.clone(), Part { texture: Some(1), ..Part::default() }],
-            textures: vec![image(512, 512), image(16, 8)],
-            heights: vec![HeightImage { width: 4, height: 2, heights: vec![] }],
+            textures: vec![image(512, 512).into(), image(16, 8).into()],
+            heights: vec![HeightImage { width: 4, height: 2, heights: vec![] }.into()],
             ..Model::default()
         };
         assert_eq!(texels(&model), 128.0 + 8.0);

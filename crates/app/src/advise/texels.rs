@@ -75,7 +75,7 @@ mod tests {
             ..Part::default()
         };
         let parts = triangles.chunks(4 / parts).map(part).collect();
-        Model { vertices, parts, textures: vec![texture], ..Model::default() }
+        Model { vertices, parts, textures: vec![texture.into()], ..Model::default() }
     }
 
     fn probes(model: &Model, depth: DepthFormat, subpixel: Subpixel) -> Probes {

@@ -41,7 +41,7 @@ pub fn restored(file: &[u8], asset: &Asset, original: &Model) -> Result<Model, E
             && let Some(texels) = baked.texture(number)
         {
             place.texture = Some(model.textures.len());
-            model.textures.push(largest(&texels));
+            model.textures.push(largest(&texels).into());
         }
     }
     Ok(model)

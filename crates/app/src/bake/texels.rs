@@ -157,13 +157,13 @@ fn texture(model: &Model, role: Role, image: usize, mips: bool, wish: &Wish) -> 
         levels,
     };
     if role == Role::Heights {
-        let HeightImage { width, height, heights } = &model.heights[image];
+        let HeightImage { width, height, heights } = &*model.heights[image];
         let levels = chain(L16, heights, [*width, *height]).map_err(broken)?;
         let levels = kept(levels, false, wish.texture_size);
         let bytes = levels.iter().map(|level| level.texels.iter().flat_map(|h| h.to_le_bytes()).collect());
         return Ok(texture(levels[0].size, vec![], bytes.collect()));
     }
-    let Image { width, height, texels } = &model.textures[image];
+    let Image { width, height, texels } = &*model.textures[image];
     let size = [*width, *height];
     // Numbers are what no wish changes.
     let numbers = role.format(Format::Rgb565) != Format::Rgb565;

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgMatches, Args, CommandFactory as _, FromArgMatches as _};
 
+use super::request::{OF_PICTURES, Request, refuse};
 use super::run::print;
-use super::staged::{OF_PICTURES, Request, Staged, refuse};
+use super::staged::Staged;
 use super::{Cli, RenderArgs};
 use crate::advise::{Advice, Machine, Wish, advise, json, text, waste};
 use crate::error::Error;

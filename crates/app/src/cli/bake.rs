@@ -6,8 +6,9 @@ use clap::builder::{Resettable, StyledStr};
 use clap::{ArgMatches, Args, Command, FromArgMatches as _};
 
 use super::RenderArgs;
+use super::request::{OF_PICTURES, Request, hidden, refuse};
 use super::run::print;
-use super::staged::{OF_PICTURES, Request, Staged, hidden, refuse};
+use super::staged::Staged;
 use super::told::warn;
 use crate::bake::{Asked, Format, Report, Wish, bake, bytes, left_out, missing, source};
 use crate::error::Error;

@@ -6,8 +6,9 @@ use std::str::FromStr;
 use clap::{ArgMatches, Args, FromArgMatches as _};
 
 use super::RenderArgs;
+use super::request::{OF_PICTURES, Request, refuse};
 use super::run::print;
-use super::staged::{OF_PICTURES, Request, Staged, refuse};
+use super::staged::Staged;
 use crate::error::Error;
 use crate::explain::explain;
 use crate::output::stage::{Stage, during};

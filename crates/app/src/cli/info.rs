@@ -4,8 +4,9 @@ use clap::{ArgMatches, Args, FromArgMatches as _};
 
 use super::RenderArgs;
 use super::bake::frame;
+use super::request::{OF_PICTURES, Request, refuse};
 use super::run::print;
-use super::staged::{OF_PICTURES, Request, Staged, refuse};
+use super::staged::Staged;
 use super::told::told;
 use crate::bake::{Asked, Asset, Report, Wish, bake, bytes, left_out, missing};
 use crate::error::Error;

@@ -1,7 +1,8 @@
 //! Pictures beyond their scenes: a ground, and warnings.
 
 use super::partners;
-use super::staged::{Request, Staged, samples, threads};
+use super::request::Request;
+use super::staged::{Staged, samples, threads};
 use super::told::{told, warn};
 use crate::error::{Error, counted};
 use crate::film::EARLY;

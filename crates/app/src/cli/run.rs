@@ -10,7 +10,8 @@ use clap::builder::PossibleValuesParser;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, ArgMatches, Command, CommandFactory as _, ValueEnum as _, ValueHint};
 
-use super::staged::{OF_PICTURES, Request, Staged, hidden};
+use super::request::{OF_PICTURES, Request, hidden};
+use super::staged::Staged;
 use super::told::{forget, warn};
 use super::{Cli, StatsFormat, advise, bake, compare, explain, help, info, turntable, watch, words};
 use crate::aov::layers;

@@ -1,63 +1,57 @@
 //! From options to all that a picture is made of: the model with its materials, the camera, and the policies.
 
 use std::num::NonZero;
-use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use clap::parser::ValueSource;
-use clap::{ArgMatches, Command, FromArgMatches as _};
-
+use super::request::{Request, name_of};
 use super::told::{warn, warn_all};
 use super::{RenderArgs, partners};
 use crate::error::{Error, Warnings, number, quote};
 use crate::load::images::Images;
-use crate::load::scene_file::{self, SceneFile};
-use crate::load::{obj, prepare, seen};
-use crate::memory;
-use crate::options::values::{Color, MAX_THREADS, Size, Threads, name_of as name_of_value};
+use crate::load::scene_file::{Gathered, SceneFile};
+use crate::load::{obj, prepare};
+use crate::options::values::{Color, MAX_THREADS, Size, Threads};
 use crate::options::{
-    Background, CameraTable, ColorFormat, Cull, DEFAULT_BACKGROUND, DEFAULT_OUTPUT, DEFAULT_SIZE,
-    DepthFormat, Filter, Fog, GROUND_BACKGROUND, Haze, KeyLight, LightOptions, LightSpace, Profile,
-    Projection, RenderOptions, Samples, Shading, Wrap,
+    Background, ColorFormat, Cull, DEFAULT_BACKGROUND, DEFAULT_SIZE, DepthFormat, Filter, Fog,
+    GROUND_BACKGROUND, Haze, KeyLight, LightOptions, LightSpace, Profile, Projection, RenderOptions, Samples,
+    Shading, Wrap,
 };
-use crate::output::aov::{self, Beside};
-use crate::output::file::{Output, Whole};
 use crate::output::stage::{Stage, during};
-use crate::output::stats::Source;
 use crate::scene::backdrop::Backdrop;
-use crate::scene::{Camera, Model, Part, Relief, camera, ground, order, scenes, slide};
+use crate::scene::normals::narrow;
+use crate::scene::{Camera, Image, Model, Part, Relief, camera, ground, order, scenes, slide};
 use crate::threads::available;
 
-/// The options of pictures alone, which other commands refuse.
-pub(super) const OF_PICTURES: [&str; 8] =
-    ["output", "output_format", "aov", "aov_format", "samples", "stats", "show", "ground"];
-
-/// A command without some options in its help.
-pub(super) fn hidden(command: Command, ids: &[&'static str]) -> Command {
-    ids.iter().fold(command, |command, id| command.mut_arg(id, |option| option.hide(true)))
+/// All that has been loaded for a picture, or for the frames of a film.
+#[derive(Clone)]
+pub(super) struct Cast {
+    scene: Loaded,
+    /// The projector's image, if it has been read.
+    pub(super) slide: Option<Arc<Image>>,
 }
 
-/// Refuses options of `render` that a command has not.
-///
-/// # Errors
-/// One of them stands on the command line.
-pub(super) fn refuse(matches: &ArgMatches, name: &str, ids: &[&str], reason: &str) -> Result<(), Error> {
-    let given = |id: &&&str| matches.value_source(id) == Some(ValueSource::CommandLine);
-    match ids.iter().find(given) {
-        None => Ok(()),
-        Some(id) => {
-            let found = format!("an option that `{name}` has not");
-            let error = Error::new(found, "those of `render` that it uses");
-            Err(error.place(format!("--{}", id.replace('_', "-"))).hint(format!("leave it out: {reason}")))
-        }
+#[derive(Clone)]
+enum Loaded {
+    /// A model, or a built-in scene.
+    Scene(Scene),
+    /// The objects of a scene file, before they are where they stand.
+    Objects(Gathered),
+}
+
+/// The camera at the start of what moves, and the point that it is counted from.
+#[derive(Clone, Copy)]
+pub(super) struct Still {
+    camera: Camera,
+    origin: [f64; 3],
+}
+
+impl Still {
+    /// The camera with places that are counted from another point.
+    fn counted_from(self, origin: [f64; 3]) -> Camera {
+        let Self { camera, origin: own } = self;
+        let moved = |place: [f32; 3]| [0, 1, 2].map(|k| narrow(f64::from(place[k]) + own[k] - origin[k]));
+        Camera { eye: moved(camera.eye), target: moved(camera.target), ..camera }
     }
-}
-
-/// The options, and the scene file that some of them come from.
-pub(super) struct Request {
-    pub(super) arguments: RenderArgs,
-    pub(super) file: Option<SceneFile>,
-    /// The eye and the target of the file, if the command line turns its camera.
-    orbit: Option<CameraTable>,
 }
 
 /// All that a picture is made of.
@@ -70,148 +64,6 @@ pub(super) struct Staged {
 }
 
 impl Request {
-    /// The options of a command that has those of [`RenderArgs`].
-    ///
-    /// # Errors
-    /// An option that cannot be understood, here or in the scene file.
-    pub(super) fn read(matches: &ArgMatches) -> Result<Self, Error> {
-        let refused = |error: clap::Error| Error::new(error.to_string(), "what --help lists");
-        let mut arguments = RenderArgs::from_arg_matches(matches).map_err(refused)?;
-        let (mut scene_file, mut orbit) = (None, None);
-        if let Some(path) = arguments.model.as_deref().filter(|path| scene_file::is_scene(path)) {
-            let (file, options) = SceneFile::read(path, matches)?;
-            scene_file = Some(file);
-            let given = arguments.camera;
-            // The file's options, and over them those of the command line.
-            arguments = options;
-            if given.turns() || given.eye.is_some() {
-                let before = arguments.camera.forget_place(&given);
-                orbit = Some(before).filter(|camera| given.turns() && camera.eye.is_some());
-            }
-            arguments.update_from_arg_matches(matches).map_err(refused)?;
-            let is_given = |id| matches.value_source(id) == Some(ValueSource::CommandLine);
-            if is_given("projection") && !arguments.camera.is_parallel() && !is_given("view_height") {
-                // The file's is of the projection that it has.
-                arguments.camera.view_height = None;
-            }
-        }
-        // A camera that is told, as the summary has it, may follow the options that made it.
-        let last = |id: &str| matches.indices_of(id).and_then(Iterator::last);
-        if let Some(eye) = last("eye") {
-            let CameraTable { azimuth, elevation, view, .. } = &mut arguments.camera;
-            azimuth.take_if(|_| last("azimuth") < Some(eye));
-            elevation.take_if(|_| last("elevation") < Some(eye));
-            view.take_if(|_| last("view") < Some(eye));
-        }
-        // A texture is shown as it is, whatever the materials' colours.
-        arguments.material.whiten();
-        memory::begin(arguments.render.memory);
-        Ok(Self { arguments, file: scene_file, orbit })
-    }
-
-    /// The options of the command line alone.
-    ///
-    /// # Errors
-    /// One that cannot be understood.
-    pub(super) fn given(matches: &ArgMatches) -> Result<Self, Error> {
-        let refused = |error: clap::Error| Error::new(error.to_string(), "what --help lists");
-        RenderArgs::from_arg_matches(matches).map_err(refused).map(|arguments| Self {
-            arguments,
-            file: None,
-            orbit: None,
-        })
-    }
-
-    /// Puts an error in the scene file, if its cause is there.
-    pub(super) fn relocate(&self, error: Error) -> Error {
-        match &self.file {
-            Some(file) => file.relocate(error),
-            None => error,
-        }
-    }
-
-    /// # Errors
-    /// Options that do not go together.
-    pub(super) fn check(&self) -> Result<(), Error> {
-        let render = &self.arguments.render;
-        let of_profile = render.profile.is_some() && render.arithmetic.is_none();
-        let placed = |error: Error| if of_profile { error.place("--profile") } else { error };
-        render.policies(self.arguments.camera.is_parallel()).0.check().map_err(placed)?;
-        partners::check(&self.arguments)
-    }
-
-    /// The picture's file.
-    ///
-    /// # Errors
-    /// It cannot be written, or is one that is also read.
-    pub(super) fn output(&self) -> Result<Output, Error> {
-        let render = &self.arguments.render;
-        let named = render.output.as_deref().unwrap_or(Path::new(DEFAULT_OUTPUT));
-        let format = render.output_format.map(name_of_value);
-        let output = Output::new(named, format.as_deref())?;
-        if render.background == Some(Background::Transparent) {
-            output.check_alpha()?;
-        }
-        self.check_apart(output.name(), |input| output.is(input), "-o")?;
-        Ok(output)
-    }
-
-    /// The files beside the picture, if there are some.
-    ///
-    /// # Errors
-    /// One cannot be written, or is one that is also read.
-    pub(super) fn beside(&self, output: &Output) -> Result<Option<Beside>, Error> {
-        let render = &self.arguments.render;
-        let Some(aovs) = render.aov.clone() else { return Ok(None) };
-        let format = render.aov_format.unwrap_or_default();
-        let names = aov::names(output, &aovs, format)?;
-        let files = names.iter().map(|name| self.whole(name, "-o")).collect::<Result<Vec<_>, _>>()?;
-        Ok(Some(Beside::new(aovs, format, files)))
-    }
-
-    /// A file that the command writes, as `option` names it.
-    ///
-    /// # Errors
-    /// It cannot be written, or is one that is also read.
-    pub(super) fn writable(&self, path: &Path, option: &str) -> Result<Output, Error> {
-        let output = Output::new(path, None)?;
-        self.check_apart(output.name(), |input| output.is(input), option)?;
-        Ok(output)
-    }
-
-    /// The same of a file that is no picture.
-    ///
-    /// # Errors
-    /// It cannot be written, or is one that is also read.
-    pub(super) fn whole(&self, path: &Path, option: &'static str) -> Result<Whole, Error> {
-        let output = Whole::new(path, option)?;
-        self.check_apart(output.name(), |input| output.is(input), option)?;
-        Ok(output)
-    }
-
-    /// Refuses to write what is also read.
-    fn check_apart(&self, name: &Path, is: impl Fn(&Path) -> bool, option: &str) -> Result<(), Error> {
-        let named = self.file.as_ref().map(SceneFile::inputs).unwrap_or_default();
-        if inputs(&self.arguments).chain(named).any(|input| is(&input)) {
-            return Err(seen::refused(name, option));
-        }
-        Ok(())
-    }
-
-    /// Whether the camera stands where all of the model is in view.
-    pub(super) fn is_fitted(&self) -> bool {
-        let (arguments, camera) = (&self.arguments, &self.arguments.camera);
-        arguments.model.is_some() && camera.eye.is_none() && self.orbit.is_none()
-    }
-
-    /// The origin of the triangles.
-    pub(super) fn source(&self) -> Source<'_> {
-        match &self.arguments.model {
-            Some(path) => Source::Model(path),
-            None => Source::Scene(name_of(&self.arguments)),
-        }
-    }
-
     /// Loads everything, and warns of repairs.
     ///
     /// # Errors
@@ -221,15 +73,62 @@ impl Request {
     }
 
     fn stage_heard(&self, hear: &mut dyn FnMut(u64, u64)) -> Result<Staged, Error> {
+        let cast = self.cast_heard(hear)?;
+        let still = match &self.first {
+            Some(first) => Some(first.still(&first.stage_with(cast.clone(), None)?)),
+            None => None,
+        };
+        self.stage_with(cast, still)
+    }
+
+    /// The camera of what this is staged as, without its zoom.
+    pub(super) fn still(&self, Staged { camera, model, .. }: &Staged) -> Still {
+        let fov = camera::unzoomed(camera, &self.arguments.camera);
+        Still { camera: Camera { fov, ..*camera }, origin: model.origin }
+    }
+
+    /// Loads what the frames of a film share, and warns of repairs.
+    ///
+    /// # Errors
+    /// A file cannot be used.
+    pub(super) fn cast(&self) -> Result<Cast, Error> {
+        during(Stage::Load, |progress| self.cast_heard(&mut |done, total| progress.set(done, total)))
+    }
+
+    fn cast_heard(&self, hear: &mut dyn FnMut(u64, u64)) -> Result<Cast, Error> {
+        let arguments = &self.arguments;
+        let scene = match &self.file {
+            Some(file) => {
+                let mut warnings = Warnings::default();
+                let gathered = file.gather(&arguments.material, arguments, &mut warnings, hear)?;
+                warn_all(&warnings);
+                Loaded::Objects(gathered)
+            }
+            None => Loaded::Scene(load(arguments, hear)?),
+        };
+        Ok(Cast { scene, slide: None })
+    }
+
+    /// [`stage`](Self::stage) of what has been loaded. Without an eye, a camera stands where it stood when what moves
+    /// was `still`.
+    ///
+    /// # Errors
+    /// Options do not suit the model.
+    pub(super) fn stage_with(
+        &self,
+        Cast { scene, slide }: Cast,
+        still: Option<Still>,
+    ) -> Result<Staged, Error> {
         let (arguments, file) = (&self.arguments, self.file.as_ref());
         let (policies, depth) = arguments.render.policies(arguments.camera.is_parallel());
-        let mut scene = match file {
-            Some(file) => load_scene_file(arguments, file, hear)?,
-            None => load(arguments, hear)?,
+        let mut scene = match (scene, file) {
+            (Loaded::Objects(gathered), Some(file)) => of_file(arguments, file, gathered)?,
+            (Loaded::Scene(mut scene), _) => {
+                put_materials(arguments, &mut scene)?;
+                scene
+            }
+            (Loaded::Objects(_), None) => return Err(Error::new("objects without a scene file", "one")),
         };
-        if file.is_none() {
-            put_materials(arguments, &mut scene)?;
-        }
         partners::check_maps(arguments, &scene.model)?;
         if let Some(warning) = partners::unused_heights(&scene.model) {
             warn(&warning.to_string());
@@ -244,13 +143,18 @@ impl Request {
             warn(&error.hint("all of a surface gets the same texel").to_string());
         }
         let origin = scene.model.origin;
-        scene.model.slide = slide::load(&arguments.projector, origin)?;
+        scene.model.slide = slide::load(&arguments.projector, slide, origin)?;
 
         let Size(width, height) = arguments.render.size.unwrap_or(DEFAULT_SIZE);
         let ball = camera::bounding_sphere(&scene.model);
         let aspect = f64::from(width) / f64::from(height);
-        let wishes = arguments.camera.counted_from(origin);
-        let base = scene.camera.or(self.orbit.map(|table| camera::orbit(&table.counted_from(origin), ball)));
+        let mut wishes = arguments.camera.counted_from(origin);
+        let orbit = self.orbit.map(|table| camera::orbit(&table.counted_from(origin), ball));
+        let still = still.filter(|_| wishes.eye.is_none()).map(|still| still.counted_from(origin));
+        if !wishes.turns() {
+            wishes.eye = wishes.eye.or(still.map(|still| still.eye.into()));
+        }
+        let base = scene.camera.or(orbit).or(still);
         let up = || wishes.up.map(<[f32; 3]>::from).or(base.map(|base| base.up)).unwrap_or([0.0, 1.0, 0.0]);
         let shading = arguments.render.shading.unwrap_or(scene.defaults.0);
         let is_seen = arguments.show.is_none() && shading != Shading::VertexColor;
@@ -325,6 +229,7 @@ impl Request {
 }
 
 /// The model, and defaults for options that the command line leaves open.
+#[derive(Clone)]
 struct Scene {
     model: Model,
     /// A scene's own camera; models have none.
@@ -351,13 +256,6 @@ pub(super) fn samples(arguments: &RenderArgs, [width, height]: [u32; 2]) -> Resu
         None if is_small(arguments) => Ok(Samples::One),
         None => Ok(Samples::usual(width, height)),
     }
-}
-
-fn name_of(arguments: &RenderArgs) -> &str {
-    let Some(given) = arguments.scene.as_deref() else {
-        return scenes::NAMES.first().copied().unwrap_or_default();
-    };
-    scenes::NAMES.iter().copied().find(|name| name.eq_ignore_ascii_case(given)).unwrap_or(given)
 }
 
 fn load(arguments: &RenderArgs, hear: &mut dyn FnMut(u64, u64)) -> Result<Scene, Error> {
@@ -438,16 +336,10 @@ fn put_materials(arguments: &RenderArgs, scene: &mut Scene) -> Result<(), Error>
 }
 
 /// The scene of a scene file.
-fn load_scene_file(
-    arguments: &RenderArgs,
-    file: &SceneFile,
-    hear: &mut dyn FnMut(u64, u64),
-) -> Result<Scene, Error> {
-    let mut warnings = Warnings::default();
-    let (model, has_uv) = file.build(&arguments.material, arguments, &mut warnings, hear)?;
-    warn_all(&warnings);
+fn of_file(arguments: &RenderArgs, file: &SceneFile, gathered: Gathered) -> Result<Scene, Error> {
+    let has_uv = gathered.has_uv;
     Ok(Scene {
-        model,
+        model: file.build(gathered)?,
         camera: None,
         defaults: of_models(arguments),
         background: background(arguments),
@@ -464,15 +356,6 @@ fn mapped(arguments: &RenderArgs) -> Option<String> {
         "ao-map" => "--ao".to_owned(),
         key => format!("--{key}"),
     })
-}
-
-/// All files that are read, as far as the command line names them.
-fn inputs(arguments: &RenderArgs) -> impl Iterator<Item = PathBuf> {
-    let maps = arguments.material.maps().into_iter().map(|(_, map)| map.path);
-    let background =
-        arguments.render.background.clone().and_then(|mut background| background.file().cloned());
-    let named = [&arguments.model, &arguments.projector.image].into_iter().flatten().cloned();
-    maps.chain(named).chain(background)
 }
 
 /// The projection that was asked for; a parallel one shows as much as the perspective one does around its target.

@@ -19,8 +19,14 @@ pub(super) fn told() -> Vec<String> {
     TOLD.lock().unwrap_or_else(PoisonError::into_inner).clone()
 }
 
+/// Tells a warning, once.
 pub(super) fn warn(line: &str) {
-    TOLD.lock().unwrap_or_else(PoisonError::into_inner).push(line.to_owned());
+    let mut told = TOLD.lock().unwrap_or_else(PoisonError::into_inner);
+    if told.iter().any(|other| other == line) {
+        return;
+    }
+    told.push(line.to_owned());
+    drop(told);
     if is_silent() {
         return;
     }

@@ -1,5 +1,6 @@
 //! `alberti turntable`: a film of a model that turns, and `alberti assemble`: a film of pictures.
 
+use std::borrow::Cow;
 use std::env;
 use std::path::{Path, PathBuf};
 
@@ -8,13 +9,15 @@ use clap::{ArgMatches, Args, Command, FromArgMatches as _};
 
 use super::RenderArgs;
 use super::film::{FilmFile, beside, pictures};
+use super::request::{Request, hidden, refuse};
 use super::run::print;
-use super::staged::{Request, Staged, hidden, projection, refuse};
+use super::staged::{Cast, Staged, projection, threads};
 use crate::error::{Error, counted};
-use crate::film::Set;
 use crate::film::format::Format;
 use crate::film::names::Shard;
+use crate::film::{EARLY, Set, Shot, ordered};
 use crate::load::image_file;
+use crate::load::scene_file::SceneFile;
 use crate::memory;
 use crate::options::values::{Finite, Number, Point, Size};
 use crate::options::{Background, DEFAULT_SIZE};
@@ -38,7 +41,7 @@ const OWN: &str = "Film";
 const DEFAULT: &str = "alberti.gif";
 
 /// Options of pictures that films have not.
-const NOT_OF_FILMS: [&str; 5] = ["output_format", "aov", "aov_format", "stats", "show"];
+const NOT_OF_FILMS: [&str; 6] = ["output_format", "aov", "aov_format", "stats", "show", "time"];
 
 /// The greatest numbers of frames, and of frames a second, of which some formats count hundredths.
 const MOST: u32 = 100_000;
@@ -52,17 +55,17 @@ pub struct TurntableArgs {
     #[command(flatten)]
     pub render: RenderArgs,
 
-    /// Frames of the turn.
-    #[arg(long, value_name = "N", default_value_t = 60, allow_hyphen_values = true, value_parser = frames)]
+    /// Frames of the turn [default: 60, or as many as an [[animation]] lasts].
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = frames)]
     #[arg(help_heading = OWN)]
-    pub frames: u32,
+    pub frames: Option<u32>,
 
     /// Frames a second.
     #[arg(long, value_name = "N", default_value_t = 30, allow_hyphen_values = true, value_parser = rate)]
     #[arg(help_heading = OWN)]
     pub fps: u32,
 
-    /// Degrees that the camera goes to the right in all [default: 360].
+    /// Degrees that the camera goes to the right in all [default: 360, or 0 where an [[animation]] moves something].
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, help_heading = OWN)]
     pub degrees: Option<Number<Finite>>,
 
@@ -105,10 +108,14 @@ pub(super) fn run(matches: &ArgMatches) -> Result<(), Error> {
     let is_given = matches.value_source("output") == Some(ValueSource::CommandLine);
     let output = request.arguments.render.output.clone().filter(|_| is_given);
     let output = output.as_deref().unwrap_or(Path::new(DEFAULT));
-    beside(output, || film(&arguments, &request, output)).map_err(|error| request.relocate(error))
+    beside(output, || film(&arguments, (&request, matches), output)).map_err(|error| request.relocate(error))
 }
 
-fn film(arguments: &TurntableArgs, request: &Request, output: &Path) -> Result<(), Error> {
+fn film(
+    arguments: &TurntableArgs,
+    (request, matches): (&Request, &ArgMatches),
+    output: &Path,
+) -> Result<(), Error> {
     stage::begin();
     request.check()?;
     if arguments.axis.is_some_and(|axis| <[f32; 3]>::from(axis) == [0.0; 3]) {
@@ -119,41 +126,71 @@ fn film(arguments: &TurntableArgs, request: &Request, output: &Path) -> Result<(
         None => Shard::of_job(&|name| env::var(name).ok())?,
     };
     let shard = share.unwrap_or(Shard::ALL);
+    let end = request.file.as_ref().and_then(SceneFile::end);
+    let frames = arguments.frames.unwrap_or_else(|| end.map_or(60, |end| lasting(end, arguments.fps)));
     let file = FilmFile::new(output, |path| request.whole(path, "-o"))?;
     let transparent = request.arguments.render.background == Some(Background::Transparent);
     if transparent {
         file.check_alpha()?;
     }
     let range = match &file {
-        FilmFile::Frames(..) => shard.frames(arguments.frames),
+        FilmFile::Frames(..) => shard.frames(frames),
         FilmFile::Whole(..) if arguments.shard.is_some() && shard.is_part() => {
             let error = Error::new("a share of a film in one file", "pictures, such as -o frames/%04d.png");
             return Err(error.place("--shard").hint("alberti assemble joins them"));
         }
-        FilmFile::Whole(..) => 0..arguments.frames,
+        FilmFile::Whole(..) => 0..frames,
     };
     let Size(width, height) = request.arguments.render.size.unwrap_or(DEFAULT_SIZE);
     let (there, wanted): (Vec<u32>, Vec<u32>) =
         range.partition(|&frame| share.is_some() && file.has(frame, (width, height)));
     request.hold_film(transparent)?;
-    let mut staged = request.stage()?;
+    // Things that are loaded are kept for frames that are staged anew.
+    let mut cast = end.map(|_| request.cast()).transpose()?;
+    let mut staged = match &cast {
+        Some(cast) => request.stage_with(cast.clone(), None)?,
+        None => request.stage()?,
+    };
+    if let (Some(cast), Some(slide)) = (&mut cast, &staged.model.slide) {
+        cast.slide = Some(slide.image.clone());
+    }
+    let whole = if end.is_some() { 0.0 } else { 360.0 };
     let turn = Turn {
         axis: arguments.axis.map(|axis| <[f32; 3]>::from(axis).map(f64::from)),
-        degrees: arguments.degrees.map_or(360.0, |degrees| <[f64; 1]>::from(degrees)[0]),
-        frames: arguments.frames,
+        degrees: arguments.degrees.map_or(whole, |degrees| <[f64; 1]>::from(degrees)[0]),
+        frames,
     };
-    let mut cameras = cameras(request, &staged, &turn);
+    let still = request.still(&staged);
+    let mut cameras = if end.is_some() { vec![staged.camera] } else { cameras(request, &staged, &turn) };
     staged.options.projection = projection(&request.arguments, &cameras[0])?;
-    let mut film = file.film([arguments.frames, arguments.fps], transparent);
+    let mut film = file.film([frames, arguments.fps], transparent);
     film.as_ref().map_or(Ok(()), |film| film.need([width, height]))?;
     let triangles = staged.model.parts.iter().map(|part| part.triangles.len()).sum();
-    request.add_ground_for(&mut staged, &mut cameras);
+    if end.is_some() {
+        let copies = EARLY as u64 * threads(&request.arguments).get() as u64;
+        memory::need(copies * staged.model.bytes(), "the places of what moves")?;
+    } else {
+        request.add_ground_for(&mut staged, &mut cameras);
+    }
     let Staged { model, options, samples, backdrop, .. } = staged;
-    let chosen: Vec<_> = wanted.iter().filter_map(|&frame| cameras.get(frame as usize).copied()).collect();
     let set = Set { model: &model, options: &options, samples, backdrop: &backdrop };
-    let total = chosen.len() as u64;
+    let moved = |frame: u32, cast: &Cast| {
+        let request = request.at(matches, f64::from(frame) / f64::from(arguments.fps))?;
+        let mut staged = request.stage_with(cast.clone(), Some(still))?;
+        staged.camera = turn.at(&staged.camera, f64::from(frame) / f64::from(frames));
+        let projection = projection(&request.arguments, &staged.camera)?;
+        ordered(&mut staged.model, &staged.camera, projection);
+        request.add_ground(&mut staged);
+        Ok(Shot { model: Cow::Owned(staged.model), camera: staged.camera, projection })
+    };
+    let shot = |at: usize| match (wanted.get(at), &cast) {
+        (Some(&frame), Some(cast)) => moved(frame, cast),
+        (Some(&frame), None) => Ok(set.shot(cameras[frame as usize])),
+        (None, _) => Err(Error::new("a frame that is none", "one")),
+    };
+    let total = wanted.len() as u64;
     during(Stage::Draw, |progress| {
-        set.draw(&chosen, &mut |at, image| {
+        set.draw(wanted.len(), &shot, &mut |at, image| {
             progress.set(at as u64, total);
             during(Stage::Encode, |_| match &mut film {
                 Some(film) => film.push(image),
@@ -167,7 +204,7 @@ fn film(arguments: &TurntableArgs, request: &Request, output: &Path) -> Result<(
     }
     let source = request.source().name();
     let times = stage::summary(&stage::times());
-    let mut frames = counted(chosen.len(), "frame", "frames");
+    let mut frames = counted(wanted.len(), "frame", "frames");
     if let Some(share) = share.filter(|share| share.is_part()) {
         frames += &format!(" of share {share}");
     }
@@ -179,6 +216,13 @@ fn film(arguments: &TurntableArgs, request: &Request, output: &Path) -> Result<(
         counted(triangles, "triangle", "triangles"),
         output.display()
     ))
+}
+
+/// The frames of so many seconds, one at least.
+fn lasting(seconds: f64, fps: u32) -> u32 {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within these limits")]
+    let frames = (seconds * f64::from(fps)).round().clamp(1.0, f64::from(MOST)) as u32;
+    frames
 }
 
 /// The cameras of all frames.

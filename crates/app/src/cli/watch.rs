@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use clap::ArgMatches;
 
+use super::request::Request;
 use super::run::{draw, fail};
-use super::staged::Request;
 use crate::error::{Error, counted};
 use crate::load::{input, obj, scene_file, seen};
 use crate::output::file::STANDARD;

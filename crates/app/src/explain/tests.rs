@@ -181,7 +181,7 @@ fn ground() -> (Model, Camera) {
     let model = Model {
         vertices: corners.map(vertex).to_vec(),
         parts: vec![part],
-        textures: vec![Image { width: 8, height: 8, texels }],
+        textures: vec![Image { width: 8, height: 8, texels }.into()],
         ..Model::default()
     };
     let camera = Camera {

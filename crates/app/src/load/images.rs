@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::error::{Error, quote};
 use crate::load::image_file;
@@ -11,10 +12,10 @@ use crate::output::stage::{Stage, during};
 use crate::scene::{HeightImage, Image, MapNote, Model};
 
 /// Images read so far.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Images {
-    textures: Read<Image>,
-    heights: Read<HeightImage>,
+    textures: Read<Arc<Image>>,
+    heights: Read<Arc<HeightImage>>,
     texels_left: u64,
     /// Textures that were made of others, by what they were made of.
     made: HashMap<Made, usize>,
@@ -57,7 +58,7 @@ pub(crate) const DIELECTRIC: f32 = 0.04;
 const SMOOTH: [bool; 3] = [true; 3];
 
 /// Images of a kind, and their indices by file. `None` is a file of which an error has been told.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Read<T> {
     all: Vec<T>,
     at: HashMap<PathBuf, Option<usize>>,
@@ -111,7 +112,7 @@ impl Images {
         let index = self.textures.index(map, |path| {
             let image = during(Stage::Maps, |_| image_file::load(path, *left))?;
             *left = left.saturating_sub(image.texels.len() as u64);
-            Ok(image)
+            Ok(Arc::new(image))
         })?;
         Ok(match map.range {
             Some(range) => index.map(|index| self.ranged(index, range)),
@@ -128,7 +129,7 @@ impl Images {
         self.heights.index(map, |path| {
             let image = during(Stage::Maps, |_| image_file::load_heights(path, *left))?;
             *left = left.saturating_sub(image.heights.len() as u64);
-            Ok(image)
+            Ok(Arc::new(image))
         })
     }
 
@@ -173,9 +174,9 @@ impl Images {
     }
 
     fn changed(&mut self, index: usize, made: Made, change: impl Fn([u8; 4]) -> [u8; 4]) -> usize {
-        let make = |all: &[Image]| {
+        let make = |all: &[Arc<Image>]| {
             let image = all.get(index)?;
-            Some(Image { texels: image.texels.iter().map(|&texel| change(texel)).collect(), ..*image })
+            Some(Image { texels: image.texels.iter().map(|&texel| change(texel)).collect(), ..**image })
         };
         self.made(made, make).unwrap_or(index)
     }
@@ -273,13 +274,13 @@ impl Images {
     }
 
     /// The index of a texture that is made of others; `None` where there is no room for it.
-    fn made(&mut self, made: Made, make: impl FnOnce(&[Image]) -> Option<Image>) -> Option<usize> {
+    fn made(&mut self, made: Made, make: impl FnOnce(&[Arc<Image>]) -> Option<Image>) -> Option<usize> {
         if let Some(&known) = self.made.get(&made) {
             return Some(known);
         }
         let image = make(&self.textures.all).filter(|image| image.texels.len() as u64 <= self.texels_left)?;
         self.texels_left -= image.texels.len() as u64;
-        self.textures.all.push(image);
+        self.textures.all.push(Arc::new(image));
         let index = self.textures.all.len() - 1;
         self.made.insert(made, index);
         Some(index)
@@ -287,7 +288,7 @@ impl Images {
 
     /// Heights that have been read.
     pub(crate) fn height_image(&self, index: usize) -> Option<&HeightImage> {
-        self.heights.all.get(index)
+        self.heights.all.get(index).map(Arc::as_ref)
     }
 
     /// Whether a texture is blue all over, as normals in tangent space are and heights are not.

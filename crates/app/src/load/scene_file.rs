@@ -9,16 +9,20 @@ use std::path::{Path, PathBuf};
 use clap::ArgMatches;
 
 use crate::cli::RenderArgs;
-use crate::error::{Error, Warnings, quote};
+use crate::error::{Error, Warnings, number, quote};
 use crate::options::{Background, Material, Shading, shared};
+use crate::scene::normals::narrow;
 use crate::scene::{Glow, Model};
 
+mod animation;
 mod lights;
 mod materials;
 mod objects;
 mod source;
 mod tables;
 
+use animation::Track;
+pub(crate) use objects::Gathered;
 pub(crate) use source::KIND;
 use source::Source;
 use tables::File;
@@ -30,7 +34,9 @@ mod tests;
 #[derive(Debug)]
 pub(crate) struct SceneFile {
     source: Source,
+    /// As it is at a time, if something moves.
     file: File,
+    tracks: Vec<Track>,
     /// The keys of options that the command line leaves to the file, by the options' names and, of files, their paths.
     keys: BTreeMap<String, String>,
 }
@@ -41,22 +47,49 @@ pub(crate) fn is_scene(path: &Path) -> bool {
 }
 
 impl SceneFile {
-    /// Reads a scene file, and its options. Those that the command line gives in `matches` go over them later.
+    /// Reads a scene file, and its options, at a time in seconds. Those of the command line, `matches`, go over them
+    /// later.
     ///
     /// # Errors
     /// The file cannot be read or has an error, which is named with its line and key.
-    pub(crate) fn read(path: &Path, matches: &ArgMatches) -> Result<(Self, RenderArgs), Error> {
-        let (source, file) = Source::read(path)?;
-        let mut scene = Self { source, file, keys: BTreeMap::new() };
-        if scene.file.object.is_empty() {
+    pub(crate) fn read(path: &Path, matches: &ArgMatches, time: f64) -> Result<(Self, RenderArgs), Error> {
+        let (mut source, file) = Source::read(path)?;
+        if file.object.is_empty() {
             let error = Error::new("no [[object]]", "at least one").file(path);
             return Err(error.hint("see alberti help scene-files"));
         }
-        scene.complete_materials()?;
-        scene.lights([0.0; 3])?;
-        scene.check_objects()?;
-        let options = scene.options(matches)?;
-        Ok((scene, options))
+        let tracks = animation::tracks(&source, &file)?;
+        for (track, index) in tracks.iter().zip(0..) {
+            source.stand_for(track.path(), &format!("animation[{index}].values"));
+        }
+        let scene = Self { source, file, tracks, keys: BTreeMap::new() };
+        if scene.tracks.is_empty() { scene.complete(matches) } else { scene.at(matches, time) }
+    }
+
+    /// The same file at another time.
+    ///
+    /// # Errors
+    /// A value of that time cannot be.
+    pub(crate) fn at(&self, matches: &ArgMatches, time: f64) -> Result<(Self, RenderArgs), Error> {
+        let file = self.source.changed(|file| self.tracks.iter().for_each(|track| track.write(time, file)));
+        let file = file.map_err(|error| {
+            let is_wrong = |track: &Track| self.source.changed(|file| track.write(time, file)).is_err();
+            let index = self.tracks.iter().position(is_wrong).unwrap_or_default();
+            let error = self.source.refused_at(&error, &format!("animation[{index}].values"));
+            error.hint(format!("that is at {} s, by its easing", number(narrow(time))))
+        })?;
+        let (source, tracks) = (self.source.clone(), self.tracks.clone());
+        Self { source, file, tracks, keys: BTreeMap::new() }.complete(matches)
+    }
+
+    /// # Errors
+    /// Keys that do not go together.
+    fn complete(mut self, matches: &ArgMatches) -> Result<(Self, RenderArgs), Error> {
+        self.complete_materials()?;
+        self.lights([0.0; 3])?;
+        self.check_objects()?;
+        let options = self.options(matches)?;
+        Ok((self, options))
     }
 
     /// The options of the file.
@@ -95,6 +128,11 @@ impl SceneFile {
         Ok(RenderArgs { camera: *camera, projector, render, ..RenderArgs::default() })
     }
 
+    /// The time at which the last thing stops, if something moves.
+    pub(crate) fn end(&self) -> Option<f64> {
+        self.tracks.iter().map(Track::end).reduce(f64::max)
+    }
+
     /// Whether an option stands here, and not on the command line.
     pub(crate) fn has(&self, option: &str) -> bool {
         self.keys.contains_key(option)
@@ -117,30 +155,25 @@ impl SceneFile {
         }
     }
 
-    /// All objects with their materials, where they stand, and the lights. `over` is what the command line says of
-    /// materials.
+    /// All objects with their materials. `over` is what the command line says of these.
     ///
     /// # Errors
     /// A file cannot be used.
-    pub(crate) fn build(
+    pub(crate) fn gather(
         &self,
         over: &Material,
         arguments: &RenderArgs,
         warnings: &mut Warnings,
         progress: &mut dyn FnMut(u64, u64),
-    ) -> Result<(Model, bool), Error> {
+    ) -> Result<Gathered, Error> {
         let render = &arguments.render;
         let normals = render.normals.filter(|_| !self.keys.contains_key("--normals"));
-        let (mut model, has_uv) =
-            self.objects(over, (render.wrap.unwrap_or_default(), normals), warnings, progress)?;
-        model.source = Some(self.source.path().to_owned());
-        model.lights = self.lights(model.origin)?;
-        model.ambient = self.ambient();
+        let gathered = self.objects(over, (render.wrap.unwrap_or_default(), normals), warnings, progress)?;
         // In all of the light a flat picture is meant.
         let is_dim = |glow: Glow| glow.intensity < 1.0;
         if render.shading != Some(Shading::Unlit)
-            && model.lights.is_empty()
-            && model.ambient.is_some_and(is_dim)
+            && self.file.light.is_empty()
+            && self.ambient().is_some_and(is_dim)
         {
             let warning = self.source.error("ambient", "it without a [[light]]", "a [[light]] as well");
             warnings.push(warning.hint("all sides of a surface are as bright"));
@@ -152,7 +185,19 @@ impl SceneFile {
                 warning.hint(format!("an [[object]] takes it by material = {}", quote(name.as_bytes()))),
             );
         }
-        Ok((model, has_uv))
+        Ok(gathered)
+    }
+
+    /// The objects where they stand, and the lights.
+    ///
+    /// # Errors
+    /// There are too many vertices.
+    pub(crate) fn build(&self, gathered: Gathered) -> Result<Model, Error> {
+        let mut model = self.placed(gathered)?;
+        model.source = Some(self.source.path().to_owned());
+        model.lights = self.lights(model.origin)?;
+        model.ambient = self.ambient();
+        Ok(model)
     }
 
     /// The files that it names, and itself.

@@ -102,7 +102,7 @@ impl CameraTable {
         self.zoom.map_or(1.0, f32::from)
     }
 
-    /// Leaves the place of the eye open, and the planes before it, for `given` options that say it in another way: one
+    /// Leaves the place of the eye open, and the planes before it, for `given` options that say it in another way. One
     /// angle leaves the other, and what it has of a side. The eye and the target are handed back.
     pub(crate) fn forget_place(&mut self, given: &Self) -> Self {
         let Self { eye, target, azimuth, elevation, view, .. } = *self;

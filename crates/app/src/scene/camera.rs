@@ -146,6 +146,11 @@ fn zoomed(fov: f32, zoom: f32) -> f32 {
     narrow(2.0 * tangent.atan().to_degrees())
 }
 
+/// The opening angle of a camera without the zoom of these wishes.
+pub(crate) fn unzoomed(camera: &Camera, wishes: &CameraTable) -> f32 {
+    zoomed(camera.fov, 1.0 / wishes.zoom())
+}
+
 /// The options that make this camera again, bit for bit, for a model whose coordinates are counted from `origin`, and
 /// with a scene file that has `wishes` of its own.
 #[must_use]

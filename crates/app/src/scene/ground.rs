@@ -77,7 +77,7 @@ pub(crate) fn add(model: &mut Model, cameras: &mut [Camera], manner: Manner) -> 
         ..Vertex::default()
     }));
     let side = u32::try_from(SIDE).unwrap_or(0);
-    model.textures.push(Image { width: side, height: side, texels });
+    model.textures.push(Image { width: side, height: side, texels }.into());
     let map =
         Map { image: model.textures.len() - 1, filter: Some(Filter::Bilinear), wrap: Some(Wrap::Clamp) };
     let squares = u32::from(squares);

@@ -6,22 +6,31 @@ use crate::load::image_file;
 use crate::options::{DEFAULT_FOV, Projection, ProjectorTable};
 use crate::output::stage::{Stage, during};
 use crate::scene::camera::{self, PROJECTOR};
-use crate::scene::{Model, Slide};
+use crate::scene::{Image, Model, Slide};
 use alberti::glam::Vec3;
 use alberti::{Homogeneous, Point3, Projector};
+use std::sync::Arc;
 
-/// The projector that was asked for, with its image, in places that are counted from `origin`.
+/// The projector that was asked for, with its image, in places that are counted from `origin`. An image that is `read`
+/// is not read again.
 ///
 /// # Errors
 /// The projector or its image cannot be.
-pub fn load(table: &ProjectorTable, origin: [f64; 3]) -> Result<Option<Slide>, Error> {
+pub fn load(
+    table: &ProjectorTable,
+    read: Option<Arc<Image>>,
+    origin: [f64; 3],
+) -> Result<Option<Slide>, Error> {
     let ProjectorTable { image: Some(path), eye: Some(eye), target: Some(target), fov } = table else {
         return Ok(None);
     };
     let [eye, target] = [eye, target].map(|point| point.counted_from(origin));
     let fov = fov.map_or(DEFAULT_FOV, f32::from);
     let projector = camera::projector(eye.into(), target.into(), fov, origin)?;
-    let image = during(Stage::Maps, |_| image_file::load(path, image_file::MAX_TEXELS))?;
+    let image = match read {
+        Some(image) => image,
+        None => during(Stage::Maps, |_| image_file::load(path, image_file::MAX_TEXELS))?.into(),
+    };
     Ok(Some(Slide { image, projector }))
 }
 
@@ -59,7 +68,7 @@ mod tests {
         let image = Image { width: 2, height: 1, texels: vec![[0; 4]; 2] };
         // At a distance of 1, it is 2 units high and 4 wide.
         let projector = camera::projector(eye, target, 90.0, [0.0; 3]).expect("a projector");
-        misses(&projector_of(Slide { image, projector }), &model)
+        misses(&projector_of(Slide { image: image.into(), projector }), &model)
     }
 
     fn projector_of(slide: Slide) -> Projector {

@@ -33,7 +33,7 @@ pub(super) fn error(
         RenderOptions { policies: Policies::default(), depth: DepthFormat::F32Reversed, ..*options };
     let found = render(model, camera, options, progress)?.image.texels;
     let expected = render(model, camera, &precise, progress)?.image.texels;
-    // What only one of the two has is a difference as well.
+    // Things that only one of the two has are differences as well.
     let [of_found, of_expected] = [probe(model, camera, options)?, probe(model, camera, &precise)?];
     // The least difference is seen beside none.
     let mut steps = vec![nothing(), Step::new(along(0, 11), "0, the same")];

@@ -290,3 +290,86 @@ fn the_first_page_shows_its_film() {
     let [found, right] = [folder.path("alberti.gif"), root.join("docs/pictures/turntable.gif")].map(fs::read);
     assert!(found.expect("a film") == right.expect("the page's film"));
 }
+
+/// What moves in a scene, with these values written in, if `moves` is false.
+fn scene(moves: bool, [ball, light, eye]: [&str; 3]) -> String {
+    let animation = |of: &str, key: &str, values: &str, easing: &str| {
+        format!(
+            "[[animation]]\nof = \"{of}\"\nkey = \"{key}\"\ntimes = [0, 1]\nvalues = {values}\neasing = \"{easing}\"\n"
+        )
+    };
+    let moving = [
+        animation("ball", "position", "[[-1, 0.5, 0], [1, 0.5, 0]]", "linear"),
+        animation("lamp", "color", "[\"ff0000\", \"00ff80\"]", "ease-in"),
+        animation("camera", "eye", "[[0, 2, 5], [4, 2, 5]]", "ease-out"),
+    ];
+    let moving = if moves { moving.concat() } else { String::new() };
+    format!(
+        "size = [40, 30]\n[camera]\neye = {eye}\ntarget = [0, 0.5, 0]\n[render]\nsamples = 1\n\
+         [[object]]\nsurface = \"plane\"\nsize = [4, 4]\nmaterial = \"glass\"\n\
+         [[object]]\nname = \"ball\"\nsurface = \"sphere\"\nradius = 0.5\nposition = {ball}\n\
+         [material.glass]\nblend = \"constant:0.5\"\n\
+         [[light]]\nname = \"lamp\"\nkind = \"point\"\nposition = [0, 3, 2]\ncolor = \"{light}\"\n{moving}"
+    )
+}
+
+/// Each frame of what moves is the picture of a file with the values of its time.
+#[test]
+fn frames_of_what_moves_are_files_with_the_values_of_their_times() {
+    // After half of the time a quarter of the way is gone by easing in, and three quarters by easing out.
+    let start = ["[-1, 0.5, 0]", "ff0000", "[0, 2, 5]"];
+    let half = ["[0, 0.5, 0]", "bf4020", "[3, 2, 5]"];
+    let files =
+        [("a.toml", scene(true, start)), ("0.toml", scene(false, start)), ("5.toml", scene(false, half))];
+    let folder = Folder::with(&files.each_ref().map(|(name, text)| (*name, text.as_bytes())));
+    let told = made(&folder, "turntable a.toml --fps 10 -o %d.png");
+    assert!(told.starts_with("a.toml: 4098 triangles, 10 frames of 40x30"), "{told}");
+    for (number, time) in [(0, "0"), (5, "0.5")] {
+        made(&folder, &format!("render {number}.toml -o still.png"));
+        made(&folder, &format!("render a.toml --time {time} -o moved.png"));
+        let [frame, still, moved] = ["0.png", "still.png", "moved.png"]
+            .map(|name| picture(&folder, &name.replace('0', &number.to_string())));
+        assert!(frame == still && moved == still, "{number}");
+    }
+    assert!(picture(&folder, "0.png") != picture(&folder, "5.png"));
+    // On a ground, and with a turn of the camera beside it.
+    made(&folder, "turntable a.toml --fps 10 --ground --degrees 90 -o g%d.png --threads 3");
+    made(&folder, "turntable a.toml --fps 10 --ground --degrees 90 -o h%d.png --threads 1");
+    made(&folder, "render a.toml --ground -o moved.png");
+    assert!(picture(&folder, "g0.png") == picture(&folder, "moved.png"));
+    assert!(picture(&folder, "g7.png") == picture(&folder, "h7.png"));
+    assert!(picture(&folder, "g7.png") != picture(&folder, "7.png"));
+    let failed = run(&folder, "turntable a.toml --time 1 -o x.gif");
+    assert!(
+        failed.stderr.starts_with("error: --time: found an option that `turntable` has not"),
+        "{failed:?}"
+    );
+    let failed = run(&folder, "render 0.toml --time 1 -o x.png");
+    assert!(
+        failed.stderr.starts_with("error: --time: found it for a scene in which nothing moves"),
+        "{failed:?}"
+    );
+}
+
+/// A camera that nobody has placed does not follow what moves, and turns at the same distance.
+#[test]
+fn a_camera_stays_where_it_was_at_the_start() {
+    let moving = |of: &str, key: &str, values: &str| {
+        format!("[[animation]]\nof = \"{of}\"\nkey = \"{key}\"\ntimes = [0, 1]\nvalues = {values}\n")
+    };
+    let objects = "size = [40, 30]\n[[object]]\nname = \"ball\"\nsurface = \"sphere\"\n";
+    let rises = moving("ball", "position", "[[0, 0, 0], [0, 0.5, 0]]");
+    let a = format!("{objects}{rises}");
+    let b = format!("{a}{}", moving("camera", "azimuth", "[0, 90]"));
+    let folder = Folder::with(&[("a.toml", a.as_bytes()), ("b.toml", b.as_bytes())]);
+    let eye = |line: &str| {
+        let told = made(&folder, &format!("{line} --far 100 -o x.png"));
+        let eye = told.split("--eye ").nth(1).and_then(|rest| rest.split(' ').next()).expect("an eye");
+        eye.split(',').map(|number| number.parse().expect("a number")).collect::<Vec<f64>>()
+    };
+    assert_eq!(eye("render a.toml"), eye("render a.toml --time 0.001"));
+    let [start, end] = [eye("render b.toml"), eye("render b.toml --time 1")];
+    for (found, expected) in end.iter().zip([start[2], start[1], -start[0]]) {
+        assert!((found - expected).abs() < 1e-3, "{start:?} {end:?}");
+    }
+}

@@ -84,7 +84,7 @@ fn model() -> Model {
     let texture = Image { width, height, texels: vec![[255; 4]; (width * height) as usize] };
     let hidden = Part { triangles: vec![[0, 0, 0]; 3], ..Part::default() };
     let quad = Part { triangles: vec![[1, 2, 3], [1, 3, 4]], texture: Some(0), ..Part::default() };
-    Model { vertices, parts: vec![hidden, quad], textures: vec![texture], ..Model::default() }
+    Model { vertices, parts: vec![hidden, quad], textures: vec![texture.into()], ..Model::default() }
 }
 
 /// Its probes.

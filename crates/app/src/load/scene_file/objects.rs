@@ -17,6 +17,15 @@ use crate::scene::{MaterialNote, Model, Part, Relief};
 /// The most cells along u or v.
 const MAX_SEGMENTS: u32 = 1 << 14;
 
+/// The objects of a file with their materials, each about its own origin, and the images of them all.
+#[derive(Clone, Debug)]
+pub(crate) struct Gathered {
+    models: Vec<Model>,
+    images: Images,
+    /// Whether all have coordinates for their textures.
+    pub(crate) has_uv: bool,
+}
+
 impl SceneFile {
     /// # Errors
     /// Keys of an object that do not go together.
@@ -38,17 +47,17 @@ impl SceneFile {
         name.map(|name| self.material(name, &format!("{path}.material"))).transpose()
     }
 
-    /// All objects as one model, and whether all have coordinates for their textures. `over` and `normals` are what the
-    /// command line says, which goes over what objects say.
+    /// All objects with their materials. `over` and `normals` are what the command line says, which goes over what
+    /// objects say.
     pub(super) fn objects(
         &self,
         over: &Material,
         (wrap, normals): (Wrap, Option<Normals>),
         warnings: &mut Warnings,
         progress: &mut dyn FnMut(u64, u64),
-    ) -> Result<(Model, bool), Error> {
+    ) -> Result<Gathered, Error> {
         let mut images = Images::new();
-        let (mut placed, mut has_uv) = (Vec::new(), true);
+        let (mut models, mut has_uv) = (Vec::new(), true);
         for (object, path) in self.all() {
             let material = self.material_of(object, &path)?;
             let mut coordinates = true;
@@ -57,8 +66,9 @@ impl SceneFile {
                     let segments =
                         self.segments(surface, object, &path, [Some(over), material], &mut images)?;
                     let mut model = surface.mesh(segments, uv_scale(material));
-                    let kind = object.surface.filter(|_| object.material.is_none());
-                    model.parts.iter_mut().for_each(|part| part.name = kind.map(name_of).unwrap_or_default());
+                    let kind = object.surface.filter(|_| object.material.is_none()).map(name_of);
+                    let name = object.name.clone().or(kind).unwrap_or_default();
+                    model.parts.iter_mut().for_each(|part| part.name.clone_from(&name));
                     model
                 }
                 None => {
@@ -96,18 +106,27 @@ impl SceneFile {
             prepare::replace_materials(&mut model, over, &mut images)?;
             has_uv &= coordinates || !model.parts.iter().any(Part::has_maps);
             prepare::complete(&mut model, &mut images, wrap, warnings);
-            placed.push((model, placement(object), path));
+            models.push(model);
         }
-        let points = placed.iter().flat_map(|(model, placement, _)| {
+        Ok(Gathered { models, images, has_uv })
+    }
+
+    /// All objects as one model.
+    ///
+    /// # Errors
+    /// There are too many vertices.
+    pub(super) fn placed(&self, Gathered { models, images, .. }: Gathered) -> Result<Model, Error> {
+        let places = || self.file.object.iter().map(placement);
+        let points = models.iter().zip(places()).flat_map(|(model, placement)| {
             model.vertices.iter().map(|vertex| vertex.position).map(placement.places(model, [0.0; 3]))
         });
         let mut all = Model { origin: origin::of(points), ..Model::default() };
-        for (mut model, placement, path) in placed {
+        for ((mut model, placement), (_, path)) in models.into_iter().zip(places()).zip(self.all()) {
             placement.apply(&mut model, all.origin);
             append(&mut all, model, || self.source.error(&path, "more than 4 billion vertices", "fewer"))?;
         }
         images.give(&mut all);
-        Ok((all, has_uv))
+        Ok(all)
     }
 
     /// The surface that an object is, if it is no model.

@@ -4,8 +4,9 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use toml::Spanned;
+use serde::Deserialize as _;
 use toml::de::{DeTable, DeValue};
+use toml::{Spanned, Table, Value};
 
 use super::tables::File;
 use crate::error::{Error, quote};
@@ -20,7 +21,7 @@ pub(crate) const KIND: &str = "a scene file in TOML";
 const MAX_BYTES: u64 = 1 << 24;
 
 /// The text, and where its keys are.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Source {
     path: PathBuf,
     text: String,
@@ -30,7 +31,7 @@ pub(super) struct Source {
 }
 
 /// A key and its value.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Key {
     key: Range<usize>,
     value: Range<usize>,
@@ -75,8 +76,36 @@ impl Source {
         }
         match toml::from_str(&source.text) {
             Ok(file) => Ok((source, file)),
-            Err(error) => Err(source.refused(&error)),
+            Err(error) => Err(source.refused(&error, error.span().unwrap_or(0..0))),
         }
+    }
+
+    /// The file as it would be after a change.
+    ///
+    /// # Errors
+    /// A value cannot be.
+    pub(super) fn changed(&self, change: impl FnOnce(&mut Table)) -> Result<File, toml::de::Error> {
+        let mut table: Table = toml::from_str(&self.text)?;
+        change(&mut table);
+        File::deserialize(Value::Table(table))
+    }
+
+    /// Has a key, where there is none, stand where another does.
+    pub(super) fn stand_for(&mut self, path: String, other: &str) {
+        if let Some(&index) = self.index.get(other) {
+            self.index.entry(path).or_insert(index);
+        }
+    }
+
+    /// The value of this key as it is written.
+    pub(super) fn shown(&self, path: &str) -> String {
+        let text = self.key(path).and_then(|key| self.text.get(key.value.clone()));
+        text.filter(|text| !text.contains(char::is_control)).unwrap_or("several lines").to_owned()
+    }
+
+    /// A message of the reader's on a value that is that of this key.
+    pub(super) fn refused_at(&self, error: &toml::de::Error, path: &str) -> Error {
+        self.refused(error, self.key(path).map_or(0..0, |key| key.value.clone()))
     }
 
     /// A path in the file, which starts where the file is.
@@ -147,10 +176,10 @@ impl Source {
         (!key.is_empty() && key.chars().all(usual)).then_some(key)
     }
 
-    /// A message of the reader's, in the form that all messages have.
-    fn refused(&self, error: &toml::de::Error) -> Error {
+    /// A message of the reader's on this place, in the form that all messages have.
+    fn refused(&self, error: &toml::de::Error, at: Range<usize>) -> Error {
         let message = error.message().replace('\n', ", ");
-        let before = error.span().and_then(|at| self.text.get(..at.start));
+        let before = self.text.get(..at.start).filter(|_| error.span().is_some());
         let (message, remedy) = mended(&message, before.is_some_and(|before| before.ends_with('[')));
         let (found, expected) = message.split_once("expected ").unwrap_or((message, KIND));
         let found = found.trim_end_matches([',', ' ']);
@@ -158,7 +187,6 @@ impl Source {
         let found = kinds.iter().find_map(|kind| found.strip_prefix(kind)).unwrap_or(found);
         let unknown = found.strip_prefix("unknown field ").map(|key| key.trim_matches('`'));
         let missing = found.strip_prefix("missing field ");
-        let at = error.span().unwrap_or(0..0);
         let (found, expected) = match (unknown, missing) {
             (Some(key), _) => (format!("the unknown key {}", quote(key.as_bytes())), plain(expected)),
             (None, Some(key)) => (format!("no {key}"), "one".to_owned()),

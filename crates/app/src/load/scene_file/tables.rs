@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use clap::ValueEnum;
 use serde::Deserialize;
 
+use super::animation::Easing;
 use crate::options::values::{
-    Color, HalfAngle, Intensity, Length, Number, Place, Scale, Side, Size, Tuple, one_of, words,
+    Color, Finite, HalfAngle, Intensity, Length, Number, Place, Scale, Side, Size, Tuple, one_of, words,
 };
 use crate::options::{Background, CameraTable, Material, Normals, ProjectorTable, RenderTable};
 
@@ -24,12 +25,14 @@ pub(super) struct File {
     pub(super) material: BTreeMap<String, Material>,
     pub(super) ambient: Option<Ambient>,
     pub(super) light: Vec<Light>,
+    pub(super) animation: Vec<Animation>,
 }
 
 /// `[[object]]`.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct Object {
+    pub(super) name: Option<String>,
     pub(super) model: Option<String>,
     pub(super) normals: Option<Normals>,
     pub(super) surface: Option<SurfaceKind>,
@@ -65,6 +68,7 @@ pub(super) struct Ambient {
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct Light {
+    pub(super) name: Option<String>,
     pub(super) kind: Option<LightKind>,
     pub(super) direction: Option<Tuple<3, Place>>,
     pub(super) position: Option<Tuple<3, Place>>,
@@ -73,6 +77,18 @@ pub(super) struct Light {
     pub(super) intensity: Option<Number<Intensity>>,
     pub(super) angle: Option<Tuple<2, HalfAngle>>,
     pub(super) range: Option<Number<Length>>,
+}
+
+/// `[[animation]]`.
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct Animation {
+    pub(super) of: Option<String>,
+    pub(super) key: Option<String>,
+    pub(super) times: Option<Vec<Number<Finite>>>,
+    pub(super) values: Option<Vec<toml::Value>>,
+    pub(super) easing: Option<Easing>,
+    pub(super) repeat: Option<bool>,
 }
 
 /// The values of `kind`.

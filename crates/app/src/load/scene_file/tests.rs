@@ -27,7 +27,7 @@ fn read(files: &[(&str, &[u8])]) -> Result<(tempfile::TempDir, SceneFile, Render
     for (name, bytes) in files {
         fs::write(folder.path().join(name), bytes).expect("a file for the test");
     }
-    let (scene, arguments) = SceneFile::read(&folder.path().join(files[0].0), &words(""))?;
+    let (scene, arguments) = SceneFile::read(&folder.path().join(files[0].0), &words(""), 0.0)?;
     crate::cli::partners::check(&arguments).map_err(|error| scene.relocate(error))?;
     Ok((folder, scene, arguments))
 }
@@ -35,7 +35,8 @@ fn read(files: &[(&str, &[u8])]) -> Result<(tempfile::TempDir, SceneFile, Render
 fn build(files: &[(&str, &[u8])]) -> Result<Model, Error> {
     let (_folder, scene, arguments) = read(files)?;
     let mut warnings = Warnings::default();
-    let (model, _) = scene.build(&Material::default(), &arguments, &mut warnings, &mut |_, _| ())?;
+    let model =
+        scene.build(scene.gather(&Material::default(), &arguments, &mut warnings, &mut |_, _| ())?)?;
     assert_eq!(warnings.lines().collect::<Vec<_>>(), Vec::<String>::new());
     Ok(model)
 }
@@ -67,10 +68,11 @@ fn normals_are_those_of_the_command_line_then_of_the_object_then_of_all() {
         let path = folder.path().join("s.toml");
         fs::write(&path, format!("{all}{OBJECTS}")).unwrap();
         let given = words(given);
-        let (scene, mut arguments) = SceneFile::read(&path, &given).unwrap();
+        let (scene, mut arguments) = SceneFile::read(&path, &given, 0.0).unwrap();
         arguments.update_from_arg_matches(&given).unwrap();
         let warnings = &mut Warnings::default();
-        let (model, _) = scene.build(&Material::default(), &arguments, warnings, &mut |_, _| ()).unwrap();
+        let gathered = scene.gather(&Material::default(), &arguments, warnings, &mut |_, _| ()).unwrap();
+        let model = scene.build(gathered).unwrap();
         model.vertices.len()
     };
     let flat = "[render]\nnormals = \"flat\"\n";
@@ -95,7 +97,7 @@ fn options_are_filled_in_and_the_command_line_comes_first() {
     assert_eq!(render.filter, Some(Filter::Anisotropic(Probes::Eight)));
     assert_eq!(render.color_format, Some(crate::options::ColorFormat::Rgb565));
     let given = words("--fov 50 --shading unlit");
-    let (scene, mut filled) = SceneFile::read(&folder.path().join("s.toml"), &given).unwrap();
+    let (scene, mut filled) = SceneFile::read(&folder.path().join("s.toml"), &given, 0.0).unwrap();
     filled.update_from_arg_matches(&given).unwrap();
     assert_eq!((filled.camera.fov, filled.render.shading), (Some(50.0.into()), Some(Shading::Unlit)));
     assert_eq!(filled.render.size, Some(Size(320, 200)));
@@ -205,7 +207,8 @@ fn another_map_is_used_as_the_one_before() {
         ..Material::default()
     };
     let build = |over: &Material| {
-        let (model, _) = scene.build(over, &arguments, &mut Warnings::default(), &mut |_, _| ()).unwrap();
+        let gathered = scene.gather(over, &arguments, &mut Warnings::default(), &mut |_, _| ()).unwrap();
+        let model = scene.build(gathered).unwrap();
         (model.parts[0].detail.clone(), model.textures[0].texels[0][0], model.heights[0].heights[0])
     };
     let (before, after) = (build(&Material::default()), build(&over));

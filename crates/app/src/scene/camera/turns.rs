@@ -1,7 +1,7 @@
 //! Cameras that go round a model.
 
 use super::fit::{Lens, fit};
-use super::{Camera, CameraTable, Model, Sphere, planes, pose, zoomed};
+use super::{Camera, CameraTable, Model, Sphere, planes, pose, unzoomed};
 use super::{cross, dot, length, narrow, normalize, sub};
 
 /// The most directions from which it is seen how far away a camera has to be.
@@ -61,15 +61,14 @@ impl Turn {
     }
 
     /// The camera after a share of the turn.
-    fn at(&self, camera: &Camera, share: f64) -> Camera {
+    pub(crate) fn at(&self, camera: &Camera, share: f64) -> Camera {
         turned(camera, self.axis, share * self.degrees)
     }
 }
 
 /// The opening of a picture, without its zoom.
 fn lens(camera: &Camera, wishes: &CameraTable, aspect: f64) -> Lens {
-    let fov = zoomed(camera.fov, 1.0 / wishes.zoom());
-    let tangent = (f64::from(fov).to_radians() / 2.0).tan();
+    let tangent = (f64::from(unzoomed(camera, wishes)).to_radians() / 2.0).tan();
     Lens { tangents: [tangent * aspect, tangent], parallel: wishes.is_parallel() }
 }
 

@@ -6,7 +6,7 @@ const ROUGH: [u16; 16] = [0, 9000, 40000, 65535, 1, 2, 3, 50000, 60000, 7, 8, 9,
 fn images(heights: &[u16], width: u32) -> Images {
     let height = u32::try_from(heights.len()).unwrap() / width;
     let mut model = Model::default();
-    model.heights.push(HeightImage { width, height, heights: heights.to_vec() });
+    model.heights.push(HeightImage { width, height, heights: heights.to_vec() }.into());
     let mut images = Images::new();
     images.adopt(&mut model);
     images

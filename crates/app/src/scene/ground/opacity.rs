@@ -65,7 +65,8 @@ mod tests {
     #[test]
     fn opacity_is_that_of_the_texture_or_of_the_blend() {
         let texels = vec![[0, 0, 0, 0], [0, 0, 0, 255], [0, 0, 0, 51], [0, 0, 0, 128]];
-        let model = Model { textures: vec![Image { width: 2, height: 2, texels }], ..Model::default() };
+        let model =
+            Model { textures: vec![Image { width: 2, height: 2, texels }.into()], ..Model::default() };
         let of = |blend: AnyBlend, alpha_test: u8| {
             let mut part = Part { texture: Some(0), ..Part::default() };
             (part.detail.blend, part.detail.alpha_test) = (blend, alpha_test);
@@ -83,7 +84,8 @@ mod tests {
     #[test]
     fn textures_continue_as_on_the_surface() {
         let texels = vec![[0, 0, 0, 0], [0, 0, 0, 255]];
-        let model = Model { textures: vec![Image { width: 2, height: 1, texels }], ..Model::default() };
+        let model =
+            Model { textures: vec![Image { width: 2, height: 1, texels }.into()], ..Model::default() };
         let mut part = Part { texture: Some(0), ..Part::default() };
         part.detail.blend = AnyBlend::Over;
         for (wrap, expected) in [
@@ -105,7 +107,8 @@ mod tests {
     #[test]
     fn a_fine_net_is_its_mean_and_a_coarse_one_is_not() {
         let texels = vec![[0, 0, 0, 0], [0, 0, 0, 255]];
-        let model = Model { textures: vec![Image { width: 2, height: 1, texels }], ..Model::default() };
+        let model =
+            Model { textures: vec![Image { width: 2, height: 1, texels }.into()], ..Model::default() };
         let mut part = Part { texture: Some(0), ..Part::default() };
         (part.detail.blend, part.detail.alpha_test) = (AnyBlend::Replace, 128);
         let alpha = alpha(&model, &part, Wrap::Repeat);

@@ -77,7 +77,7 @@ pub(super) struct Builder {
 impl Builder {
     /// Adds a texture and returns its index.
     pub(super) fn texture(&mut self, image: Image) -> usize {
-        self.model.textures.push(image);
+        self.model.textures.push(image.into());
         self.model.textures.len() - 1
     }
 

@@ -248,7 +248,7 @@ fn images_fogs_and_holes_are_those_of_the_library() {
     };
     let with = |scene: &Scene| {
         let mut scene = scene.clone();
-        scene.model.slide = Some(scene::Slide { image: slide.clone(), projector: thrower });
+        scene.model.slide = Some(scene::Slide { image: slide.clone().into(), projector: thrower });
         scene
     };
     let (image, mix) = (texture.sampler(Bilinear, Clamp), Mix::Modulate);

@@ -164,10 +164,10 @@ impl Scene {
         part.detail.specular = shares(SHINE);
         part.detail.shininess = EXPONENTS.map(|exponent| exponent as f32);
         model.parts.push(part);
-        model.textures = (0..).zip(SIDES).map(|(number, sides)| image(number, sides)).collect();
+        model.textures = (0..).zip(SIDES).map(|(number, sides)| image(number, sides).into()).collect();
         let [width, height] = HEIGHTS;
         let heights = (0..width * height).map(|k| noise(k + 77) as u16).collect();
-        model.heights.push(HeightImage { width, height, heights });
+        model.heights.push(HeightImage { width, height, heights }.into());
         model.lights = vec![
             Light::Directional { to_light: TO_SUN.to_array(), color: glow(SUN) },
             Light::Point { position: BULB_AT, color: glow(BULB), range: BULB_RANGE },
@@ -250,7 +250,7 @@ impl Scene {
     }
 
     pub(crate) fn texture(&self, number: usize) -> Texture<'_, Rgba8888> {
-        let Image { width, height, texels } = &self.model.textures[number];
+        let Image { width, height, texels } = &*self.model.textures[number];
         Texture::new(Rgba8888, texels, *width, *height).expect("a texture")
     }
 
@@ -266,7 +266,7 @@ impl Scene {
 
     /// The heights.
     pub(crate) fn relief<W: Wrap>(&self, wrap: W) -> Relief<BilinearHeights<'_, L16, W>> {
-        let HeightImage { width, height, heights } = &self.model.heights[0];
+        let HeightImage { width, height, heights } = &*self.model.heights[0];
         let texture = Texture::new(L16, heights, *width, *height).expect("heights");
         let ([low, high], extent) = (RANGE, EXTENT);
         Relief { map: BilinearHeights::new(texture, wrap), low, high, extent }
@@ -288,7 +288,7 @@ impl Scene {
             .expect("levels");
             all
         };
-        self.model.textures.iter().enumerate().map(chain).collect()
+        self.model.textures.iter().map(AsRef::as_ref).enumerate().map(chain).collect()
     }
 
     pub(crate) fn place(&self) -> Frame<Eye, World> {

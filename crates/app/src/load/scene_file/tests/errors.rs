@@ -282,3 +282,74 @@ fn unknown_keys_get_a_suggestion() {
     let message = refused(&format!("{MINIMAL}[zebra]\n"));
     assert!(!message.contains("did you mean"), "{message}");
 }
+
+#[test]
+fn animations_name_what_is_wrong_in_them() {
+    let head = "[[object]]\nname = \"b\"\nsurface = \"sphere\"\n[[animation]]\n";
+    for (text, wanted) in [
+        ("", "s.toml:4: animation: found an animation without of, expected of = \"camera\""),
+        (
+            "of = \"c\"",
+            "s.toml:5: animation.of: found the unknown name \"c\", expected one of camera, projector, ambient, b;",
+        ),
+        (
+            "of = \"b\"",
+            "s.toml:4: animation: found an animation without key, expected key, one of position, rot",
+        ),
+        (
+            "of = \"b\"\nkey = \"radius\"",
+            "s.toml:6: animation.key: found \"radius\", which does not move, expected one of",
+        ),
+        ("of = \"b\"\nkey = \"scale\"", "s.toml:4: animation: found an animation without times"),
+        ("of = \"b\"\nkey = \"scale\"\ntimes = []\nvalues = []", "s.toml:7: animation.times: found no times"),
+        (
+            "of = \"b\"\nkey = \"scale\"\ntimes = [0, 1]",
+            "s.toml:4: animation: found an animation without values",
+        ),
+        (
+            "of = \"b\"\nkey = \"scale\"\ntimes = [0, 1]\nvalues = [1]",
+            "s.toml:8: animation.values: found 1 value for 2 times, expected one for each",
+        ),
+        (
+            "of = \"b\"\nkey = \"scale\"\ntimes = [0,\n0]\nvalues = [1, 2]",
+            "s.toml:8: animation.times: found 0 s, expected a time after",
+        ),
+        (
+            "of = \"b\"\nkey = \"scale\"\ntimes = [-1]\nvalues = [1]",
+            "s.toml:7: animation.times: found -1 s, expected 0 or later",
+        ),
+        (
+            "of = \"b\"\nkey = \"scale\"\ntimes = [0, 1]\nvalues = [1,\n\"x\"]",
+            "s.toml:9: animation.values: found \"x\", expected a number, numbers in brackets, or a colour",
+        ),
+        (
+            "of = \"b\"\nkey = \"scale\"\ntimes = [0, 1]\nvalues = [1, [1, 2, 3]]",
+            "s.toml:8: animation.values: found [1, 2, 3], expected a value like the first",
+        ),
+        (
+            "of = \"b\"\nkey = \"position\"\ntimes = [0]\nvalues = [1]",
+            "s.toml:8: animation.values: found 1, expected three numbers from -1e9 to 1e9",
+        ),
+        (
+            "easing = \"fast\"",
+            "s.toml:5: animation.easing: found \"fast\", expected one of linear, ease-in, ease-out,",
+        ),
+        (
+            "of = \"b\"\nkey = \"scale\"\ntimes = [0]\nvalues = [1]\n[[animation]]\nof = \"b\"\nkey = \"scale\"\n\
+             times = [0]\nvalues = [1]",
+            "s.toml:11: animation.key: found a second animation of object[0].scale",
+        ),
+        (
+            "of = \"camera\"\nkey = \"zoom\"\ntimes = [0, 1, 2, 3]\nvalues = [0.01, 100, 0.01, 0.01]\neasing = \"hold\"\n\
+             [[object]]\nname = \"b\"\nsurface = \"plane\"",
+            "s.toml:11: object.name: found the name \"b\" for the second time",
+        ),
+        (
+            "of = \"camera\"\nkey = \"elevation\"\ntimes = [0, 1]\nvalues = [80, 95]",
+            "s.toml:8: animation.values: found 95, expected an angle from -90 to 90 degrees",
+        ),
+    ] {
+        let message = refused(&format!("{head}{text}\n"));
+        assert!(message.starts_with(wanted), "{message}");
+    }
+}
