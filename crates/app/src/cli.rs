@@ -26,7 +26,7 @@ mod staged;
 mod told;
 pub mod turntable;
 mod watch;
-mod words;
+pub(crate) mod words;
 
 /// Draws 3D models on the CPU, with perspective done right.
 #[derive(Clone, Debug, Parser)]

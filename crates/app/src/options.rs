@@ -147,6 +147,21 @@ pub enum ViewSide {
     Iso,
 }
 
+impl ViewSide {
+    /// Its azimuth and its elevation, in degrees; `None` of one that is no number of degrees.
+    pub(crate) fn angles(self) -> Option<[f32; 2]> {
+        Some(match self {
+            Self::Front => [0.0, 0.0],
+            Self::Right => [90.0, 0.0],
+            Self::Back => [180.0, 0.0],
+            Self::Left => [-90.0, 0.0],
+            Self::Top => [0.0, 90.0],
+            Self::Bottom => [0.0, -90.0],
+            Self::Iso => return None,
+        })
+    }
+}
+
 /// The projection, as options have it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum ProjectionKind {

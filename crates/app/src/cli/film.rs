@@ -41,6 +41,10 @@ impl FilmFile {
             Output::new(&names.name(0), None)?;
             return Ok(Self::Frames(names));
         }
+        if named == Path::new("-") {
+            let error = Error::new("standard output", "a file, as films are written whole").place("-o");
+            return Err(error);
+        }
         let extension = named.extension().map(|extension| extension.to_string_lossy().into_owned());
         let format = extension.as_deref().and_then(Format::of).ok_or_else(|| {
             let found = extension.map_or("no extension".to_owned(), |e| format!("the extension \".{e}\""));
@@ -56,6 +60,14 @@ impl FilmFile {
             })?;
         }
         Ok(Self::Whole(whole(named)?, format))
+    }
+
+    /// The warning of frames that are too fast for a format, if they are.
+    pub(super) fn too_fast(&self, fps: u32) -> Option<Error> {
+        let Self::Whole(file, Format::Gif) = self else { return None };
+        let found = format!("{fps} frames a second");
+        let error = Error::new(found, "at most 50 in a GIF, which viewers show").file(file.name());
+        (fps > 50).then(|| error.hint("they show others slowly: take webp or png"))
     }
 
     /// # Errors

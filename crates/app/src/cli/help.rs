@@ -147,6 +147,9 @@ fn of_command(command: &Command, name: &str, topic: Option<&str>) -> Result<Stri
                 "render" => COMMON.contains(&argument.get_id().as_str()),
                 _ => own(argument) || argument.get_id() == "model",
             };
+            // With options, of which the page may have none.
+            let usage = page.render_usage().to_string();
+            let page = page.override_usage(usage.trim_start_matches("Usage: ").to_owned());
             let page = page.mut_args(|argument| {
                 let hidden = argument.is_hide_set() || !common(&argument);
                 let takes_values = argument.get_action().takes_values();
@@ -227,8 +230,10 @@ fn no_topic(command: &Command, topic: &str) -> Error {
     let topics = topics(command);
     let topics = || topics.iter().map(String::as_str).chain([SCENE_FILES.0]);
     let known = || command.get_subcommands().map(Command::get_name).chain(topics());
-    let error =
-        Error::new("no such command or topic", format!("one of {}", known().collect::<Vec<_>>().join(", ")));
+    let error = Error::new(
+        "no such command or topic",
+        format!("one of {}", known().chain([ALL]).collect::<Vec<_>>().join(", ")),
+    );
     let error = error.place(topic);
     let option = topic.trim_start_matches('-');
     let options = command.find_subcommand("render").into_iter().flat_map(Command::get_arguments);

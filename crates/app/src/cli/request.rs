@@ -8,7 +8,7 @@ use clap::{ArgMatches, Command, FromArgMatches as _};
 use super::{RenderArgs, partners};
 use crate::error::Error;
 use crate::load::scene_file::{self, SceneFile};
-use crate::load::seen;
+use crate::load::{image_file, seen};
 use crate::memory;
 use crate::options::values::name_of as name_of_value;
 use crate::options::{Background, CameraTable, DEFAULT_OUTPUT};
@@ -113,7 +113,8 @@ impl Request {
         }
         // A camera that is told, as the summary has it, may follow the options that made it.
         let last = |id: &str| matches.indices_of(id).and_then(Iterator::last);
-        if let Some(eye) = last("eye") {
+        let is_told = ["target", "up", "fov", "near", "far"].iter().all(|id| last(id).is_some());
+        if let Some(eye) = last("eye").filter(|_| is_told) {
             let CameraTable { azimuth, elevation, view, .. } = &mut arguments.camera;
             azimuth.take_if(|_| last("azimuth") < Some(eye));
             elevation.take_if(|_| last("elevation") < Some(eye));
@@ -152,7 +153,19 @@ impl Request {
         let of_profile = render.profile.is_some() && render.arithmetic.is_none();
         let placed = |error: Error| if of_profile { error.place("--profile") } else { error };
         render.policies(self.arguments.camera.is_parallel()).0.check().map_err(placed)?;
+        self.arguments.camera.check_numbers()?;
+        self.check_files()?;
         partners::check(&self.arguments)
+    }
+
+    /// # Errors
+    /// An image is not there, which is told before a model is loaded.
+    fn check_files(&self) -> Result<(), Error> {
+        let maps = self.arguments.material.maps().into_iter().map(|(_, map)| map.path);
+        let background = self.arguments.render.background.clone();
+        let background = background.and_then(|mut background| background.file().cloned());
+        let missing = maps.chain(background).filter(|path| !path.exists());
+        missing.map(|path| image_file::check(&path)).collect()
     }
 
     /// The picture's file.

@@ -54,6 +54,7 @@ pub fn attempt(arguments: impl IntoIterator<Item = OsString>) -> Result<u8, Erro
     let renamed = read != given;
     let matches = match command.try_get_matches_from_mut(read) {
         Ok(matches) => matches,
+        Err(error) if error.kind() == ErrorKind::InvalidUtf8 => return Err(not_unicode(&given)),
         Err(error) => return usage(&error, renamed),
     };
     silence(matches.subcommand().is_some_and(|(_, options)| is_quiet(options)));
@@ -77,7 +78,10 @@ pub fn attempt(arguments: impl IntoIterator<Item = OsString>) -> Result<u8, Erro
 /// The command as it is read and explained.
 pub(super) fn command() -> Command {
     Cli::command().args_override_self(true).mut_subcommands(|command| {
-        let command = command.mut_args(in_any_case);
+        let command = command.mut_args(|argument| {
+            let takes_values = argument.get_action().takes_values() && !argument.is_positional();
+            in_any_case(argument).allow_negative_numbers(takes_values)
+        });
         match command.get_name() {
             "explain" => hidden(command, &OF_PICTURES),
             "turntable" => turntable::without_pictures(command),
@@ -111,6 +115,7 @@ fn usage(error: &clap::Error, renamed: bool) -> Result<u8, Error> {
     // An option without its value's name. A model stands for itself, in brackets.
     let named = |text: &str| match text.split(' ').next().unwrap_or_default() {
         "--machine" if renamed => "--target".to_owned(),
+        "[MODEL.obj" => "a model".to_owned(),
         option if option.starts_with('-') => option.split('[').next().unwrap_or(option).to_owned(),
         _ => text.trim_start_matches('[').trim_end_matches(']').to_owned(),
     };
@@ -162,7 +167,6 @@ fn usage(error: &clap::Error, renamed: bool) -> Result<u8, Error> {
             (or_nothing(value), expected.unwrap_or_else(|| "a value".to_owned()))
         }
         ErrorKind::TooManyValues => (or_nothing(value), "no value".to_owned()),
-        ErrorKind::InvalidUtf8 => ("text that is not Unicode".to_owned(), "Unicode".to_owned()),
         _ => ("words that are not understood".to_owned(), "those of --help".to_owned()),
     };
     let is_file = given.is_some_and(|value| Path::new(&value).is_file());
@@ -184,6 +188,16 @@ fn usage(error: &clap::Error, renamed: bool) -> Result<u8, Error> {
         Some(option) => error.place(option),
         None => error,
     })
+}
+
+/// The error of a word that is no text, and no file either.
+fn not_unicode(words: &[OsString]) -> Error {
+    let at = words.iter().position(|word| word.to_str().is_none()).unwrap_or_default();
+    let before = at.checked_sub(1).and_then(|before| words[before].to_str());
+    let option = before.filter(|word| word.starts_with('-')).map(str::to_owned);
+    let place = option
+        .unwrap_or_else(|| words[at].to_string_lossy().split('=').next().unwrap_or_default().to_owned());
+    Error::new("text that is not Unicode", "Unicode").place(place).hint("see --help")
 }
 
 /// The value that is most like a wrong one.
@@ -225,6 +239,10 @@ fn draw_from(request: &Request) -> Result<(), Error> {
     request.check()?;
     stage::begin();
     let output = request.output()?;
+    if output.is_standard() && io::stdout().is_terminal() {
+        let error = Error::new("a terminal", "a file or a pipe for the picture").place("standard output");
+        return Err(error.hint("name a file with -o"));
+    }
     let beside = request.beside(&output)?;
     request.hold_picture()?;
     let mut staged = request.stage_picture()?;

@@ -12,6 +12,7 @@ use super::film::{FilmFile, beside, pictures};
 use super::request::{Request, hidden, refuse};
 use super::run::print;
 use super::staged::{Cast, Staged, projection, threads};
+use super::told::{forget, warn};
 use crate::error::{Error, counted};
 use crate::film::format::Format;
 use crate::film::names::Shard;
@@ -117,6 +118,7 @@ fn film(
     output: &Path,
 ) -> Result<(), Error> {
     stage::begin();
+    forget();
     request.check()?;
     if arguments.axis.is_some_and(|axis| <[f32; 3]>::from(axis) == [0.0; 3]) {
         return Err(Error::new("no direction", "one, such as 0,1,0").place("--axis"));
@@ -129,6 +131,7 @@ fn film(
     let end = request.file.as_ref().and_then(SceneFile::end);
     let frames = arguments.frames.unwrap_or_else(|| end.map_or(60, |end| lasting(end, arguments.fps)));
     let file = FilmFile::new(output, |path| request.whole(path, "-o"))?;
+    file.too_fast(arguments.fps).iter().for_each(|warning| warn(&warning.to_string()));
     let transparent = request.arguments.render.background == Some(Background::Transparent);
     if transparent {
         file.check_alpha()?;
@@ -264,10 +267,12 @@ pub(super) fn assemble(matches: &ArgMatches) -> Result<(), Error> {
     let arguments = AssembleArgs::from_arg_matches(matches)
         .map_err(|error| Error::new(error.to_string(), "what --help lists"))?;
     stage::begin();
+    forget();
     memory::begin(None);
     let (pictures, first) = pictures(&arguments.names)?;
     let count = u32::try_from(pictures.len()).unwrap_or(u32::MAX);
     let file = FilmFile::new(&arguments.output, |path| Whole::new(path, "-o"))?;
+    file.too_fast(arguments.fps).iter().for_each(|warning| warn(&warning.to_string()));
     let alpha = image_file::has_alpha(&pictures[0]);
     let Some(mut film) = file.film([count, arguments.fps], alpha) else {
         let expected = format!("a film: {}", Format::extensions());

@@ -78,7 +78,7 @@ pub(super) fn of_others(option: &str) -> Option<&'static str> {
 }
 
 /// The name that is most like a word, if one is at all.
-pub(super) fn nearest<'a>(word: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(word: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let (distance, name) = names.map(|name| (strsim::damerau_levenshtein(word, name), name)).min()?;
     (3 * distance <= word.chars().count().max(name.len())).then_some(name)
 }

@@ -24,6 +24,12 @@ const KEPT: u64 = 4;
 
 const KIND: &str = "a PNG, JPEG, BMP, TGA, WebP, QOI or PPM image";
 
+/// # Errors
+/// The file cannot be opened.
+pub(crate) fn check(path: &Path) -> Result<(), Error> {
+    input::check(path, KIND)
+}
+
 /// Reads an image of at most `budget` texels, and of [`MAX_SIDE`] a side. The format is told by the contents, or
 /// else by the extension (TGA files have no mark of their own).
 ///

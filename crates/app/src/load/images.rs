@@ -11,6 +11,8 @@ use crate::options::{MapFile, byte};
 use crate::output::stage::{Stage, during};
 use crate::scene::{HeightImage, Image, MapNote, Model};
 
+mod holes;
+
 /// Images read so far.
 #[derive(Clone, Debug)]
 pub(crate) struct Images {
@@ -28,6 +30,8 @@ enum Made {
     Inverted(usize),
     /// The colours of the first, white without one, and as its alpha the second.
     WithAlpha(Option<usize>, usize),
+    /// It with colours in its holes.
+    Filled(usize),
     /// Its alpha times this.
     Faded(usize, u8),
     /// Its colours by a factor, as an `f32`'s bits, and more by a term.
@@ -158,6 +162,11 @@ impl Images {
     /// The texture of 255 less its colours: of roughness, smoothness.
     pub(crate) fn inverted(&mut self, index: usize) -> usize {
         self.changed(index, Made::Inverted(index), |[r, g, b, a]| [255 - r, 255 - g, 255 - b, a])
+    }
+
+    /// A texture without other colours at the rims of its holes.
+    pub(crate) fn filled(&mut self, index: usize) -> usize {
+        self.made(Made::Filled(index), |all| holes::filled(all.get(index)?)).unwrap_or(index)
     }
 
     /// A texture whose alpha is multiplied by a share, a byte.
@@ -298,9 +307,14 @@ impl Images {
             [r + u64::from(x), g + u64::from(y), b + u64::from(z)]
         });
         let count = image.texels.len() as u64;
-        // Means as of bytes: blue above 0.8, red and green within 0.1 of 0.5.
+        // Means as of bytes: blue above 0.8, red and green within 0.1 of 0.5. Nearly all are of about unit length.
         let [red, green, blue] = sums.map(|sum| sum / count.max(1));
-        blue > 204 && (102..=153).contains(&red) && (102..=153).contains(&green)
+        let is_unit = |[r, g, b, _]: &&[u8; 4]| {
+            let square: f32 = [*r, *g, *b].map(|byte| (2.0 * share(byte) - 1.0).powi(2)).iter().sum();
+            (0.6..1.4).contains(&square)
+        };
+        let units = image.texels.iter().filter(is_unit).count() as u64;
+        blue > 204 && (102..=153).contains(&red) && (102..=153).contains(&green) && 10 * units >= 9 * count
     }
 
     /// Takes over the images of a model, whose parts are told their new indices.

@@ -4,11 +4,12 @@
 use std::cell::Cell;
 use std::fs::{self, File};
 use std::io::{self, BufRead as _, BufReader, IsTerminal as _, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use flate2::bufread::MultiGzDecoder;
 
+use crate::cli::words::nearest;
 use crate::error::Error;
 use crate::load::seen;
 use crate::memory;
@@ -99,7 +100,7 @@ pub(crate) struct Stream {
     given: u64,
     limit: u64,
     compressed: bool,
-    path: std::path::PathBuf,
+    path: PathBuf,
     kind: &'static str,
 }
 
@@ -216,10 +217,31 @@ fn too_long(path: &Path, kind: &str, length: u64, limit: u64, how: &str) -> Erro
         .hint("reduce it")
 }
 
+/// The file in the same folder, and with the same extension, that is named most like a missing one, if one is at all.
+fn similar(path: &Path) -> Option<String> {
+    /// Names that are looked at.
+    const MOST: usize = 4096;
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let extension = path.extension()?;
+    let alike = |file: &PathBuf| file.extension().is_some_and(|other| other.eq_ignore_ascii_case(extension));
+    let files = fs::read_dir(folder).ok()?.take(MOST).filter_map(|file| Some(file.ok()?.path()));
+    let stems: Vec<(String, PathBuf)> = files
+        .filter(|file| alike(file) && file.is_file())
+        .filter_map(|file| Some((file.file_stem()?.to_str()?.to_owned(), file)))
+        .collect();
+    let stem = nearest(path.file_stem()?.to_str()?, stems.iter().map(|(stem, _)| stem.as_str()))?;
+    let (_, file) = stems.iter().find(|(other, _)| other == stem)?;
+    Some(path.with_file_name(file.file_name()?).display().to_string())
+}
+
 /// An error of the system while reading, as a message.
 pub(crate) fn unreadable(path: &Path, kind: &str, error: &io::Error) -> Error {
     match error.kind() {
-        io::ErrorKind::NotFound => Error::new("no such file", kind).file(path).hint("check its path"),
+        io::ErrorKind::NotFound => {
+            let hint =
+                similar(path).map_or("check its path".to_owned(), |name| format!("did you mean {name}?"));
+            Error::new("no such file", kind).file(path).hint(hint)
+        }
         io::ErrorKind::PermissionDenied => {
             Error::new("a file that may not be read", kind).file(path).hint("check its permissions")
         }

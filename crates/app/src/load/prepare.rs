@@ -53,6 +53,9 @@ pub(crate) fn unmix(model: &mut Model, material: &Material, images: &mut Images)
 pub(crate) fn complete(model: &mut Model, images: &mut Images, wrap: Wrap, warnings: &mut Warnings) {
     for part in &mut model.parts {
         fade(&mut part.detail, images);
+        if part.detail.is_seen_through() {
+            part.texture = part.texture.map(|texture| images.filled(texture));
+        }
         let extent = tangents::extent(&model.vertices, part);
         part.detail.height.iter_mut().for_each(|height| height.extent = extent);
     }

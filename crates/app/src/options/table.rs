@@ -9,14 +9,15 @@ use clap::builder::Resettable;
 use clap::{Args, Command};
 use serde::{Deserialize, Deserializer};
 
-use super::values::{Color, Elevation, Finite, Number, Point, Size, Zoom, truth};
+use super::values::{Color, Elevation, Finite, Number, Point, Size, Zoom, name_of, truth};
 use super::{
     AovFormat, Aovs, Arithmetic, Background, ColorFormat, Cull, DepthFormat, Dither, FileFormat, Filter, Fog,
     Interpolation, KeyLight, LightSpace, Lod, Normals, Policies, Profile, ProjectionKind, Samples, Shading,
     Subpixel, ViewSide, Wrap,
 };
-use crate::error::Error;
+use crate::error::{Error, number};
 use crate::memory::Memory;
+use crate::scene::camera;
 
 /// `[camera]`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Args, Deserialize)]
@@ -27,7 +28,7 @@ pub struct CameraTable {
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     pub eye: Option<Point>,
 
-    /// The point that the camera looks at [default: the model's middle].
+    /// The point that the camera looks at [default: the middle of what is seen of the model].
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     pub target: Option<Point>,
 
@@ -108,9 +109,29 @@ impl CameraTable {
         let Self { eye, target, azimuth, elevation, view, .. } = *self;
         let turned = given.eye.is_none() && given.view.is_none();
         let (azimuth, elevation) = (azimuth.filter(|_| turned), elevation.filter(|_| turned));
-        let view = view.filter(|_| turned);
+        let mut view = view.filter(|_| turned);
+        let (mut azimuth, mut elevation) = (azimuth, elevation);
+        if let Some([around, above]) = view.filter(|_| given.turns()).and_then(ViewSide::angles) {
+            // It is said by angles, of which one may be another.
+            (view, azimuth, elevation) =
+                (None, azimuth.or(Some(around.into())), elevation.or(Some(above.into())));
+        }
         *self = Self { eye: None, azimuth, elevation, view, near: None, far: None, ..*self };
         Self { eye, target, ..Self::default() }
+    }
+
+    /// # Errors
+    /// A number that no camera has, whatever it looks at.
+    pub(crate) fn check_numbers(&self) -> Result<(), Error> {
+        self.fov.map_or(Ok(()), |fov| camera::check_fov(fov.into(), &camera::CAMERA))?;
+        match (self.eye, self.target) {
+            (Some(eye), Some(target)) if eye == target => {
+                let [x, y, z] = <[f32; 3]>::from(eye).map(number);
+                let found = format!("the eye and its target both at {x},{y},{z}");
+                Err(Error::new(found, "two points").place("--eye").hint("move --eye or --target"))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// # Errors
@@ -119,12 +140,22 @@ impl CameraTable {
         let angle = self.azimuth.map(|_| "--azimuth").or(self.elevation.map(|_| "--elevation"));
         let eye = self.eye.map(|_| "--eye");
         let view = self.view.map(|_| "--view");
-        match (view.or(angle), eye) {
-            (Some(option), Some(eye)) => {
-                let found = format!("it with {eye}, which says where the camera is as well");
+        let twice = match (view.or(angle), eye) {
+            (Some(option), Some(eye)) => Some((option, eye.to_owned())),
+            // A side is one of the two angles, and leaves the other to be said.
+            _ => match self.view {
+                Some(ViewSide::Top | ViewSide::Bottom) => self.elevation.map(|_| "--elevation"),
+                Some(ViewSide::Iso) | None => None,
+                Some(_) => self.azimuth.map(|_| "--azimuth"),
+            }
+            .map(|option| (option, format!("--view {}", self.view.map(name_of).unwrap_or_default()))),
+        };
+        match twice {
+            Some((option, other)) => {
+                let found = format!("it with {other}, which says where the camera is as well");
                 Err(Error::new(found, "one of the two").place(option))
             }
-            _ => Ok(()),
+            None => Ok(()),
         }
     }
 }

@@ -364,7 +364,9 @@ fn check_planes(camera: &Camera, wishes: &CameraTable, usable: [f32; 2]) -> Resu
     Ok(())
 }
 
-fn check_fov(fov: f32, names: &Names) -> Result<(), Error> {
+/// # Errors
+/// An angle that no camera has.
+pub(crate) fn check_fov(fov: f32, names: &Names) -> Result<(), Error> {
     if (LEAST_FOV..180.0).contains(&fov) {
         return Ok(());
     }

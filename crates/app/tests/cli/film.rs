@@ -57,6 +57,23 @@ fn apng(folder: &Folder, name: &str) -> (Vec<Vec<u8>>, [u16; 2]) {
 }
 
 #[test]
+fn films_that_cannot_be_shown_say_so() {
+    let folder = folder();
+    let told = run(&folder, "turntable m.obj --frames 2 -s 8x8 --fps 60 -o a.gif");
+    assert!(
+        told.stderr.starts_with("warning: a.gif: found 60 frames a second, expected at most 50"),
+        "{told:?}"
+    );
+    made(&folder, "turntable m.obj --frames 2 -s 8x8 --fps 50 -o a.gif");
+    made(&folder, "turntable m.obj --frames 2 -s 8x8 --fps 60 -o a.webp");
+    let failed = run(&folder, "turntable m.obj -o -");
+    assert_eq!(
+        failed.stderr,
+        "error: -o: found standard output, expected a file, as films are written whole\n"
+    );
+}
+
+#[test]
 fn frames_are_the_pictures_from_around() {
     let folder = folder();
     let planes = "--target 0,0.5,0 --near 1 --far 9 -s 40x30";

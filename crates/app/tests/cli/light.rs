@@ -3,7 +3,7 @@
 use std::ffi::OsStr;
 use std::fs;
 
-use crate::{Folder, alberti};
+use crate::{Folder, TRIANGLE, alberti};
 
 /// A bent sheet of two squares, with or against its winding.
 fn sheet(turned: bool) -> String {
@@ -159,6 +159,17 @@ fn three_lights_are_explained() {
             "{run:?}"
         );
     }
+}
+
+/// A ground that is left out leaves no room for its shadow either.
+#[test]
+fn a_ground_that_is_not_seen_does_not_move_the_camera() {
+    let folder = Folder::with(&[("m.obj", TRIANGLE.as_bytes())]);
+    let camera = |more: &[&str]| {
+        let told = folder.succeeds(&[&["m.obj", "-s", "40x30", "--elevation", "-20"], more].concat()).stdout;
+        told.lines().nth(1).map(str::to_owned).expect("a camera")
+    };
+    assert_eq!(camera(&["--ground"]), camera(&[]));
 }
 
 /// A box that stands on a ground has a shadow around it, and nothing changes far from it.

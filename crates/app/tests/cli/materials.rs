@@ -276,3 +276,26 @@ fn unknown_options_of_textures_are_told() {
     let picture = image::open(folder.path("a.png")).expect("a picture").into_rgb8();
     assert_eq!(picture.get_pixel(16, 16).0, [200, 100, 50]);
 }
+
+/// A disc in a texture whose clear texels are black, as programs write them, has no dark rim.
+#[test]
+fn holes_have_no_rims_of_their_own_colour() {
+    let disc = |hole: [u8; 4]| {
+        move |x: u32, y: u32| {
+            let square = (2 * i64::from(x) - 31).pow(2) + (2 * i64::from(y) - 31).pow(2);
+            if square < 700 { [40, 160, 40, 255] } else { hole }
+        }
+    };
+    let drawn = |hole: [u8; 4], blend: &str| {
+        let folder = folder(SQUARE, "newmtl a\nmap_Kd d.png\n");
+        fs::write(folder.path("d.png"), png(32, 32, disc(hole))).expect("a texture");
+        let words = ["--size", "160x160", "--background", "white", "--shading", "unlit", "--filter", blend];
+        seen(&folder, &words).0
+    };
+    for filter in ["bilinear", "trilinear"] {
+        let [black, green] = [[0; 4], [40, 160, 40, 0]].map(|hole| drawn(hole, filter));
+        assert!(black == green, "{filter}");
+        // Between the disc and white, nothing is darker than the disc.
+        assert!(black.pixels().all(|pixel| pixel.0[1] >= 159), "{filter}");
+    }
+}

@@ -265,12 +265,26 @@ fn cameras_that_contradict_themselves_are_refused() {
     for (options, told) in [
         ("--eye 1,2,3 --azimuth 20", "--azimuth: found it with --eye"),
         ("--eye 1,2,3 --view top", "--view: found it with --eye"),
+        ("--view top --elevation 3", "--elevation: found it with --view top"),
+        ("--view left --azimuth 3", "--azimuth: found it with --view left"),
+        ("--view top --eye 1,2,3", "--view: found it with --eye"),
+        ("--samples -1", "--samples: found \"-1\", expected one of 1, 4, 16"),
         ("--elevation 91", "--elevation: found \"91\", expected an angle from -90 to 90 degrees"),
         ("--zoom 0", "--zoom: found \"0\", expected a number from 0.01 to 100"),
         ("--fov 1e-30", "--fov: found 1e-30 degrees, expected an angle of at least 0.001 degrees"),
     ] {
         folder.fails(&["m.obj"].into_iter().chain(options.split(' ')).collect::<Vec<_>>(), &[told]);
     }
+    // Before a model is looked for.
+    folder.fails(&["no.obj", "--fov", "180"], &["--fov: found 180 degrees"]);
+    folder.fails(
+        &["no.obj", "--eye", "1,2,3", "--target", "1,2,3"],
+        &["--eye: found the eye and its target both"],
+    );
+    folder.fails(&["no.obj", "--texture", "no.png"], &["no.png: found no such file, expected a PNG"]);
+    let teapot = Folder::with(&[("Teapot.obj", TRIANGLE.as_bytes()), ("teapo.png", b"")]);
+    teapot.fails(&["teapo.obj"], &["teapo.obj: found no such file", "did you mean Teapot.obj?"]);
+    folder.fails(&["no.obj"], &["no.obj: found no such file", "check its path"]);
     let [view, angle] = ["--view back", "--azimuth 180"].map(|side| {
         let run = folder.succeeds(&["m.obj --elevation 30", side].join(" ").split(' ').collect::<Vec<_>>());
         run.stdout.lines().nth(1).map(str::to_owned)

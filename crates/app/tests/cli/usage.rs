@@ -101,7 +101,7 @@ fn mistakes_of_usage_are_one_line() {
         ("m.obj --siez 3x3", "error: --siez: found no such option, expected one, such as --size; see --help"),
         (
             "m.obj --scene cube",
-            "error: MODEL.obj or SCENE.toml: found it beside --scene, expected one of the two; see --help",
+            "error: a model: found it beside --scene, expected one of the two; see --help",
         ),
         ("m.obj --eye 1 2 3", "error: 2: found a number on its own, expected an option, or numbers that "),
         ("m.obj -o", "error: --output: found nothing, expected a value; see --help"),

@@ -89,16 +89,9 @@ fn rolled(up: [f64; 3], view: [f64; 3], degrees: f64) -> [f64; 3] {
 }
 
 fn side(side: ViewSide) -> [f64; 2] {
-    match side {
-        ViewSide::Front => [0.0, 0.0],
-        ViewSide::Right => [90.0, 0.0],
-        ViewSide::Back => [180.0, 0.0],
-        ViewSide::Left => [-90.0, 0.0],
-        ViewSide::Top => [0.0, 90.0],
-        ViewSide::Bottom => [0.0, -90.0],
-        // Along the diagonal of a cube, whose three faces look alike.
-        ViewSide::Iso => [45.0, 0.5_f64.sqrt().atan().to_degrees()],
-    }
+    // Along the diagonal of a cube, whose three faces look alike.
+    let diagonal = || [45.0, 0.5_f64.sqrt().atan().to_degrees()];
+    side.angles().map_or_else(diagonal, |angles| angles.map(f64::from))
 }
 
 /// Exact at right angles.

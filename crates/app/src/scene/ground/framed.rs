@@ -1,8 +1,9 @@
 //! A picture in which the shadow around a model is seen, and not cut off by its edge.
 
 use super::{Ground, bounds, others};
+use crate::error::Error;
 use crate::scene::normals::narrow;
-use crate::scene::{Model, Part, Vertex};
+use crate::scene::{Camera, Model, Part, Vertex};
 use std::f64::consts::TAU;
 
 /// The share of a ground's side that what stands on it darkens around it, for an eye to see.
@@ -11,8 +12,22 @@ const SHADOW: f64 = 1.0 / 16.0;
 /// The points of the ellipse that stands for that in a frame.
 const AROUND: u32 = 16;
 
-/// Frames a model so that what its ground has of a shadow around it is in the picture, if it has one.
-pub(crate) fn in_view<T>(model: &mut Model, up: Option<[f32; 3]>, frame: impl FnOnce(&Model) -> T) -> T {
+/// Frames a model so that what its ground has of a shadow around it is in the picture, if it has one: not if the camera
+/// is below it.
+///
+/// # Errors
+/// Those of `frame`.
+pub(crate) fn in_view(
+    model: &mut Model,
+    up: Option<[f32; 3]>,
+    frame: impl Fn(&Model) -> Result<Camera, Error>,
+) -> Result<Camera, Error> {
+    if up.is_some()
+        && let Ok(camera) = frame(model)
+        && Ground::under(model, &camera, 0.0).is_none()
+    {
+        return Ok(camera);
+    }
     let kept = (model.vertices.len(), model.parts.len());
     if let Some(ground) = up.and_then(|up| Ground::of(model, up, 0.0)) {
         let [least, most] = bounds(model);

@@ -58,10 +58,7 @@ fn mistakes_are_told_in_one_line() {
             &["--meshlets: found \"-1\", expected a whole number"],
         ),
         (&["m.obj", "--out", "out", "--band", "-1"], &["--band: found \"-1\", expected a whole number"]),
-        (
-            &["m.obj", "--out", "out", "--scene", "cube"],
-            &["error: MODEL.obj or SCENE.toml: found it beside --scene"],
-        ),
+        (&["m.obj", "--out", "out", "--scene", "cube"], &["error: a model: found it beside --scene"]),
         // Triangles of one unit at a distance of which that is a millionth, and one on a line.
         (
             &["far.obj", "--out", "out"],

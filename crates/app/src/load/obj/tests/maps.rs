@@ -55,7 +55,7 @@ fn normals_that_are_called_bumps_are_normals() {
     assert!(
         warnings[0].starts_with("m.mtl:2: found normals in \"n.png\" of `bump`, expected heights; they are")
     );
-    for color in [[255; 3], [0; 3], [128; 3], [0, 0, 255]] {
+    for color in [[255; 3], [0; 3], [128; 3], [0, 0, 255], [110, 110, 210]] {
         let (model, warnings) = files(color);
         assert!(model.parts[0].detail.height.is_some() && model.textures.is_empty() && warnings.is_empty());
     }
