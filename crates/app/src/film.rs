@@ -3,6 +3,7 @@
 pub(crate) mod format;
 pub(crate) mod names;
 mod palette;
+pub(crate) mod rate;
 mod webp;
 mod y4m;
 

@@ -8,6 +8,7 @@ use std::process::{Command, Stdio};
 use crate::error::{Error, quote};
 use crate::film::format::{Film, Format};
 use crate::film::names::Names;
+use crate::film::rate::Rate;
 use crate::output::file::{Output, Whole, temporary_files};
 use crate::output::folder::in_folder;
 use crate::scene::Image;
@@ -63,11 +64,11 @@ impl FilmFile {
     }
 
     /// The warning of frames that are too fast for a format, if they are.
-    pub(super) fn too_fast(&self, fps: u32) -> Option<Error> {
+    pub(super) fn too_fast(&self, fps: Rate) -> Option<Error> {
         let Self::Whole(file, Format::Gif) = self else { return None };
         let found = format!("{fps} frames a second");
         let error = Error::new(found, "at most 50 in a GIF, which viewers show").file(file.name());
-        (fps > 50).then(|| error.hint("they show others slowly: take webp or png"))
+        fps.is_above(50).then(|| error.hint("they show others slowly: take webp or png"))
     }
 
     /// # Errors
@@ -89,9 +90,9 @@ impl FilmFile {
     }
 
     /// A film of so many frames, and so many a second, if this is one file.
-    pub(super) fn film(&self, counts: [u32; 2], alpha: bool) -> Option<Film> {
+    pub(super) fn film(&self, (frames, rate): (u32, Rate), alpha: bool) -> Option<Film> {
         match self {
-            Self::Whole(_, format) => Some(Film::new(*format, counts, alpha)),
+            Self::Whole(_, format) => Some(Film::new(*format, (frames, rate), alpha)),
             Self::Frames(..) => None,
         }
     }

@@ -164,8 +164,8 @@ impl Request {
         let maps = self.arguments.material.maps().into_iter().map(|(_, map)| map.path);
         let background = self.arguments.render.background.clone();
         let background = background.and_then(|mut background| background.file().cloned());
-        let missing = maps.chain(background).filter(|path| !path.exists());
-        missing.map(|path| image_file::check(&path)).collect()
+        let mut missing = maps.chain(background).filter(|path| !path.exists());
+        missing.try_for_each(|path| image_file::check(&path))
     }
 
     /// The picture's file.

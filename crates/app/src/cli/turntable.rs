@@ -16,6 +16,7 @@ use super::told::{forget, warn};
 use crate::error::{Error, counted};
 use crate::film::format::Format;
 use crate::film::names::Shard;
+use crate::film::rate::Rate;
 use crate::film::{EARLY, Set, Shot, ordered};
 use crate::load::image_file;
 use crate::load::scene_file::SceneFile;
@@ -44,9 +45,8 @@ const DEFAULT: &str = "alberti.gif";
 /// Options of pictures that films have not.
 const NOT_OF_FILMS: [&str; 6] = ["output_format", "aov", "aov_format", "stats", "show", "time"];
 
-/// The greatest numbers of frames, and of frames a second, of which some formats count hundredths.
+/// The greatest number of frames.
 const MOST: u32 = 100_000;
-const FASTEST: u32 = 100;
 
 /// The options of `alberti turntable`: those of `render`, and these.
 #[derive(Clone, Debug, Args)]
@@ -61,10 +61,9 @@ pub struct TurntableArgs {
     #[arg(help_heading = OWN)]
     pub frames: Option<u32>,
 
-    /// Frames a second.
-    #[arg(long, value_name = "N", default_value_t = 30, allow_hyphen_values = true, value_parser = rate)]
-    #[arg(help_heading = OWN)]
-    pub fps: u32,
+    /// Frames a second, such as 24 or 29.97.
+    #[arg(long, value_name = "N", default_value = "30", allow_hyphen_values = true, help_heading = OWN)]
+    pub fps: Rate,
 
     /// Degrees that the camera goes to the right in all [default: 360, or 0 where an [[animation]] moves something].
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, help_heading = OWN)]
@@ -81,17 +80,9 @@ pub struct TurntableArgs {
     pub shard: Option<Shard>,
 }
 
-fn number(text: &str, most: u32) -> Result<u32, String> {
-    let number = text.parse().ok().filter(|number| (1..=most).contains(number));
-    number.ok_or_else(|| format!("a whole number from 1 to {most}"))
-}
-
 fn frames(text: &str) -> Result<u32, String> {
-    number(text, MOST)
-}
-
-fn rate(text: &str) -> Result<u32, String> {
-    number(text, FASTEST)
+    let number = text.parse().ok().filter(|number| (1..=MOST).contains(number));
+    number.ok_or_else(|| format!("a whole number from 1 to {MOST}"))
 }
 
 /// The command without options of pictures in its help.
@@ -129,7 +120,7 @@ fn film(
     };
     let shard = share.unwrap_or(Shard::ALL);
     let end = request.file.as_ref().and_then(SceneFile::end);
-    let frames = arguments.frames.unwrap_or_else(|| end.map_or(60, |end| lasting(end, arguments.fps)));
+    let frames = arguments.frames.unwrap_or_else(|| end.map_or(60, |end| arguments.fps.lasting(end, MOST)));
     let file = FilmFile::new(output, |path| request.whole(path, "-o"))?;
     file.too_fast(arguments.fps).iter().for_each(|warning| warn(&warning.to_string()));
     let transparent = request.arguments.render.background == Some(Background::Transparent);
@@ -166,7 +157,7 @@ fn film(
     let still = request.still(&staged);
     let mut cameras = if end.is_some() { vec![staged.camera] } else { cameras(request, &staged, &turn) };
     staged.options.projection = projection(&request.arguments, &cameras[0])?;
-    let mut film = file.film([frames, arguments.fps], transparent);
+    let mut film = file.film((frames, arguments.fps), transparent);
     film.as_ref().map_or(Ok(()), |film| film.need([width, height]))?;
     let triangles = staged.model.parts.iter().map(|part| part.triangles.len()).sum();
     if end.is_some() {
@@ -178,7 +169,7 @@ fn film(
     let Staged { model, options, samples, backdrop, .. } = staged;
     let set = Set { model: &model, options: &options, samples, backdrop: &backdrop };
     let moved = |frame: u32, cast: &Cast| {
-        let request = request.at(matches, f64::from(frame) / f64::from(arguments.fps))?;
+        let request = request.at(matches, arguments.fps.time(frame))?;
         let mut staged = request.stage_with(cast.clone(), Some(still))?;
         staged.camera = turn.at(&staged.camera, f64::from(frame) / f64::from(frames));
         let projection = projection(&request.arguments, &staged.camera)?;
@@ -221,13 +212,6 @@ fn film(
     ))
 }
 
-/// The frames of so many seconds, one at least.
-fn lasting(seconds: f64, fps: u32) -> u32 {
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within these limits")]
-    let frames = (seconds * f64::from(fps)).round().clamp(1.0, f64::from(MOST)) as u32;
-    frames
-}
-
 /// The cameras of all frames.
 fn cameras(request: &Request, staged: &Staged, turn: &Turn) -> Vec<Camera> {
     let Staged { model, camera, options, .. } = staged;
@@ -248,9 +232,9 @@ pub struct AssembleArgs {
     #[arg(short, long, value_name = "FILE", default_value = DEFAULT)]
     pub output: PathBuf,
 
-    /// Frames a second.
-    #[arg(long, value_name = "N", default_value_t = 30, allow_hyphen_values = true, value_parser = rate)]
-    pub fps: u32,
+    /// Frames a second, such as 24 or 29.97.
+    #[arg(long, value_name = "N", default_value = "30", allow_hyphen_values = true)]
+    pub fps: Rate,
 
     /// Print errors alone.
     #[arg(short, long)]
@@ -274,7 +258,7 @@ pub(super) fn assemble(matches: &ArgMatches) -> Result<(), Error> {
     let file = FilmFile::new(&arguments.output, |path| Whole::new(path, "-o"))?;
     file.too_fast(arguments.fps).iter().for_each(|warning| warn(&warning.to_string()));
     let alpha = image_file::has_alpha(&pictures[0]);
-    let Some(mut film) = file.film([count, arguments.fps], alpha) else {
+    let Some(mut film) = file.film((count, arguments.fps), alpha) else {
         let expected = format!("a film: {}", Format::extensions());
         return Err(Error::new("names of pictures", expected).file(&arguments.output));
     };

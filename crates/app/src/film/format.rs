@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use std::rc::Rc;
 
 use super::palette::Palette;
+use super::rate::Rate;
 use super::{webp, y4m};
 use crate::error::Error;
 use crate::memory;
@@ -70,7 +71,7 @@ pub(crate) struct Film {
     format: Format,
     /// Frames in all, and a second.
     frames: u32,
-    rate: u32,
+    rate: Rate,
     /// Whether alpha counts.
     alpha: bool,
     /// Frames so far.
@@ -103,7 +104,7 @@ impl Write for Shared {
 
 impl Film {
     /// A film of so many frames, so many of them a second, with alpha where the format has one.
-    pub(crate) fn new(format: Format, [frames, rate]: [u32; 2], alpha: bool) -> Self {
+    pub(crate) fn new(format: Format, (frames, rate): (u32, Rate), alpha: bool) -> Self {
         Self { format, frames, rate, alpha: alpha && format.has_alpha(), count: 0, state: State::Empty }
     }
 
@@ -115,7 +116,7 @@ impl Film {
         if matches!(self.state, State::Empty) {
             self.state = self.begun(&frame)?;
         }
-        let duration = self.spent(self.count + 1, 1000) - self.spent(self.count, 1000);
+        let duration = self.rate.parts(self.count + 1, 1000) - self.rate.parts(self.count, 1000);
         self.count += 1;
         match &mut self.state {
             State::Empty => {}
@@ -175,22 +176,16 @@ impl Film {
                 let bytes = Shared::default();
                 let mut encoder = png::Encoder::new(bytes.clone(), size[0], size[1]);
                 encoder.set_color(if alpha { png::ColorType::Rgba } else { png::ColorType::Rgb });
-                let delay = u16::try_from(self.rate).unwrap_or(u16::MAX);
+                let Rate { frames, seconds } = self.rate;
                 let writer = encoder
                     .set_animated(self.frames, 0)
-                    .and_then(|()| encoder.set_frame_delay(1, delay))
+                    .and_then(|()| encoder.set_frame_delay(seconds, frames))
                     .and_then(|()| encoder.write_header());
                 State::Apng(writer.map_err(|error| refused(&error))?, bytes, alpha)
             }
             Format::WebP => State::Bytes(webp::header(size, alpha)),
             Format::Y4m | Format::Encoded(_) => State::Bytes(y4m::header(size, self.rate)),
         })
-    }
-
-    /// The time up to a frame, in parts of a second: rounded from the beginning, so that no error grows.
-    fn spent(&self, frame: u32, parts: u64) -> u32 {
-        let rate = u64::from(self.rate.max(1));
-        u32::try_from((u64::from(frame) * parts + rate / 2) / rate).unwrap_or(u32::MAX)
     }
 
     /// All frames in one palette; of each the rectangle that differs from the one before.
@@ -206,7 +201,7 @@ impl Film {
         let mut before: Option<Vec<u8>> = None;
         for (frame, number) in frames.iter().zip(0..) {
             let indices = palette.indices(frame);
-            let delay = self.spent(number + 1, 100) - self.spent(number, 100);
+            let delay = self.rate.parts(number + 1, 100) - self.rate.parts(number, 100);
             let all = [0, 0, width, height];
             // Clear pixels would show the frame before.
             let [left, top, right, bottom] = match &before {

@@ -1,10 +1,12 @@
 //! YUV4MPEG2, which programs for films read: planes of full size, colours by ITU-R BT.709 from 16 to 235 or 240.
 
+use super::rate::Rate;
 use crate::scene::Image;
 
 /// The stream's first line.
-pub(super) fn header([width, height]: [u32; 2], rate: u32) -> Vec<u8> {
-    format!("YUV4MPEG2 W{width} H{height} F{rate}:1 Ip A1:1 C444 XCOLORRANGE=LIMITED\n").into_bytes()
+pub(super) fn header([width, height]: [u32; 2], Rate { frames, seconds }: Rate) -> Vec<u8> {
+    format!("YUV4MPEG2 W{width} H{height} F{frames}:{seconds} Ip A1:1 C444 XCOLORRANGE=LIMITED\n")
+        .into_bytes()
 }
 
 /// Appends a frame.
@@ -42,7 +44,7 @@ mod tests {
             let [r, g, b] = rgb;
             assert_eq!(converted([r, g, b, 255]), yuv, "{rgb:?}");
         }
-        let mut stream = header([2, 1], 24);
+        let mut stream = header([2, 1], Rate { frames: 24, seconds: 1 });
         push(&mut stream, &Image { width: 2, height: 1, texels: vec![[255; 4], [0, 0, 0, 255]] });
         let (head, frame) = stream.split_at(stream.iter().position(|&b| b == b'\n').unwrap() + 1);
         assert!(head.starts_with(b"YUV4MPEG2 W2 H1 F24:1 "));

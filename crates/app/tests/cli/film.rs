@@ -66,6 +66,10 @@ fn films_that_cannot_be_shown_say_so() {
     );
     made(&folder, "turntable m.obj --frames 2 -s 8x8 --fps 50 -o a.gif");
     made(&folder, "turntable m.obj --frames 2 -s 8x8 --fps 60 -o a.webp");
+    made(&folder, "turntable m.obj --frames 2 -s 40x30 --fps 29.97 -o a.png");
+    assert_eq!(apng(&folder, "a.png").1, [1001, 30_000]);
+    made(&folder, "turntable m.obj --frames 2 -s 8x8 --fps 29.97 -o a.y4m");
+    assert!(fs::read(folder.path("a.y4m")).expect("a film").starts_with(b"YUV4MPEG2 W8 H8 F30000:1001 "));
     let failed = run(&folder, "turntable m.obj -o -");
     assert_eq!(
         failed.stderr,
@@ -275,7 +279,10 @@ fn mistakes_are_told() {
         ("turntable m.obj -o m.obj/%d.png", "m.obj: found a file, expected a folder; choose another with -o"),
         ("turntable m.obj -o %d.tif", "0.tif: found the extension \".tif\""),
         ("turntable m.obj --frames 0", "--frames: found \"0\", expected a whole number from 1 to 100000"),
-        ("turntable m.obj --fps 101", "--fps: found \"101\", expected a whole number from 1 to 100"),
+        (
+            "turntable m.obj --fps 101",
+            "--fps: found \"101\", expected a number from 0.01 to 100, of at most two decimals",
+        ),
         ("turntable m.obj --shard 4/4", "--shard: found \"4/4\", expected K/N with K from 0 to N - 1"),
         ("turntable m.obj --shard 0/2", "--shard: found a share of a film in one file, expected pictures"),
         ("turntable m.obj --stats", "--stats: found an option that `turntable` has not"),
