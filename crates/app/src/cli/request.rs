@@ -64,6 +64,9 @@ impl Request {
     pub(super) fn read(matches: &ArgMatches) -> Result<Self, Error> {
         let arguments = RenderArgs::from_arg_matches(matches).map_err(refused)?;
         let time = arguments.time.map_or(0.0, |time| <[f64; 1]>::from(time)[0]);
+        if time < 0.0 {
+            return Err(Error::new(format!("{time}"), "a number of seconds, 0 or more").place("--time"));
+        }
         let named = arguments.model.as_deref().filter(|path| scene_file::is_scene(path));
         let file = named.map(|path| SceneFile::read(path, matches, time)).transpose()?;
         if arguments.time.is_some() && file.as_ref().is_none_or(|(file, _)| file.end().is_none()) {

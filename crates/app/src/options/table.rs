@@ -44,7 +44,7 @@ pub struct CameraTable {
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub elevation: Option<Number<Elevation>>,
 
-    /// The side that is seen; instead of --eye, --azimuth and --elevation.
+    /// The side that is seen; instead of --eye, and of --azimuth or, from above and below, --elevation.
     #[arg(long, value_enum, value_name = "SIDE")]
     pub view: Option<ViewSide>,
 

@@ -315,7 +315,23 @@ fn the_first_page_shows_its_film() {
     assert!(found.expect("a film") == right.expect("the page's film"));
 }
 
-/// What moves in a scene, with these values written in, if `moves` is false.
+/// The picture on the first page is the one that its command draws.
+#[test]
+fn the_first_page_shows_its_picture() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let page = fs::read_to_string(root.join("README.md")).expect("the page");
+    assert!(
+        page.contains("](docs/pictures/hero.png)")
+            && page.contains("\ncargo run --release -- render\n```\n\ndraws")
+    );
+    let folder = Folder::with(&[]);
+    made(&folder, "render");
+    let [found, right] = [folder.path("alberti.png"), root.join("docs/pictures/hero.png")]
+        .map(|path| image::open(path).expect("a picture").into_rgb8());
+    assert!(found == right);
+}
+
+/// Things that move in a scene, with these values written in, if `moves` is false.
 fn scene(moves: bool, [ball, light, eye]: [&str; 3]) -> String {
     let animation = |of: &str, key: &str, values: &str, easing: &str| {
         format!(
@@ -368,6 +384,8 @@ fn frames_of_what_moves_are_files_with_the_values_of_their_times() {
         failed.stderr.starts_with("error: --time: found an option that `turntable` has not"),
         "{failed:?}"
     );
+    let failed = run(&folder, "render a.toml --time -1 -o x.png");
+    assert!(failed.stderr.starts_with("error: --time: found -1, expected a number of seconds"), "{failed:?}");
     let failed = run(&folder, "render 0.toml --time 1 -o x.png");
     assert!(
         failed.stderr.starts_with("error: --time: found it for a scene in which nothing moves"),
