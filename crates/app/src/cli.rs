@@ -146,7 +146,7 @@ pub struct RenderArgs {
     #[command(flatten)]
     pub render: RenderTable,
 
-    /// The time in seconds at which a scene file is seen whose [[animation]] moves something [default: 0].
+    /// The time in seconds at which a scene file is seen in which something moves [default: 0].
     #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = "Camera")]
     pub time: Option<Number<Finite>>,
 

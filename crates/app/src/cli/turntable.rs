@@ -56,7 +56,7 @@ pub struct TurntableArgs {
     #[command(flatten)]
     pub render: RenderArgs,
 
-    /// Frames of the turn [default: 60, or as many as an [[animation]] lasts].
+    /// Frames of the turn [default: 60, or as many as the motion of a scene file takes].
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = frames)]
     #[arg(help_heading = OWN)]
     pub frames: Option<u32>,
@@ -65,7 +65,7 @@ pub struct TurntableArgs {
     #[arg(long, value_name = "N", default_value = "30", allow_hyphen_values = true, help_heading = OWN)]
     pub fps: Rate,
 
-    /// Degrees that the camera goes to the right in all [default: 360, or 0 where an [[animation]] moves something].
+    /// Degrees that the camera goes to the right in all [default: 360, or 0 where a scene file moves something].
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, help_heading = OWN)]
     pub degrees: Option<Number<Finite>>,
 
