@@ -5,17 +5,16 @@ use super::request::Request;
 use super::staged::{Staged, samples, threads};
 use super::told::{told, warn};
 use crate::error::{Error, counted};
-use crate::film::EARLY;
+use crate::film::{EARLY, ordered};
 use crate::memory;
 use crate::options::values::{Size, name_of};
 use crate::options::{
-    AovFormat, Background, CameraTable, ColorFormat, Cull, DEFAULT_SIZE, Dither, Interpolation, Projection,
-    Samples, Shading,
+    AovFormat, Background, CameraTable, ColorFormat, Cull, DEFAULT_SIZE, Dither, Interpolation, Samples,
+    Shading,
 };
 use crate::output::stage::{Stage, during};
 use crate::samples::bytes;
-use crate::scene::normals::sub;
-use crate::scene::{Camera, ground, order};
+use crate::scene::{Camera, ground};
 use alberti::Stats;
 
 /// Bytes a pixel to encode: the colours, and twice as many where nothing is packed and the list has grown by halves.
@@ -84,10 +83,7 @@ impl Request {
     fn stage_ordered(&self) -> Result<Staged, Error> {
         let mut staged = self.stage()?;
         let Staged { model, camera, options, .. } = &mut staged;
-        let eye = camera.eye.map(f64::from);
-        let towards = sub(eye, camera.target.map(f64::from));
-        let eye = if options.projection == Projection::Perspective { Ok(eye) } else { Err(towards) };
-        order::shells(model, camera, eye);
+        ordered(model, camera, options.projection);
         let of_file = self.file.is_none() && self.arguments.model.is_some() && self.arguments.show.is_none();
         let unseen = || partners::unseen_colors(&staged.model, staged.options.shading);
         if let Some(warning) = of_file.then(unseen).flatten() {

@@ -49,11 +49,13 @@ impl FromStr for Rate {
         if let Some((_, whole)) = Self::BROADCAST.iter().find(|(name, _)| *name == text) {
             return Ok(Self { frames: whole * 1000, seconds: 1001 });
         }
-        let hundredths = text.parse::<f64>().ok().map(|rate| rate * 100.0);
-        let hundredths = hundredths.filter(|of| of.fract() == 0.0 && (1.0..=10_000.0).contains(of));
+        let hundredths = text.parse::<f64>().ok().map(|rate| (rate * 100.0, (rate * 100.0).round()));
+        // The product is rounded: 1.1 times 100 is 110.00000000000001.
+        let hundredths =
+            hundredths.filter(|(of, whole)| (of - whole).abs() < 1e-9 && (1.0..=10_000.0).contains(whole));
         let expected = || format!("a number from 0.01 to {}, of at most two decimals", Self::FASTEST);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole and in range")]
-        let frames = hundredths.ok_or_else(expected)? as u16;
+        let frames = hundredths.ok_or_else(expected)?.1 as u16;
         let common = |mut a: u16, mut b: u16| {
             while b != 0 {
                 (a, b) = (b, a % b);
@@ -88,6 +90,8 @@ mod tests {
             ("0.01", 1, 100),
             ("100", 100, 1),
             ("33.33", 3333, 100),
+            ("1.1", 11, 10),
+            ("0.29", 29, 100),
         ] {
             let rate: Rate = text.parse().expect(text);
             assert_eq!((rate, rate.to_string()), (Rate { frames, seconds }, text.to_owned()));
@@ -100,7 +104,7 @@ mod tests {
     #[test]
     fn times_are_those_of_the_fraction() {
         let rate: Rate = "29.97".parse().expect("a rate");
-        // 1000 seconds of it are 30000/1.001 frames.
+        // 30000 frames of it take 1001 seconds.
         assert_eq!(
             (rate.lasting(1001.0, 100_000), rate.lasting(0.0, 9), rate.lasting(9.0, 9)),
             (30_000, 1, 9)

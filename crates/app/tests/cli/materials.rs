@@ -286,15 +286,19 @@ fn holes_have_no_rims_of_their_own_colour() {
             if square < 700 { [40, 160, 40, 255] } else { hole }
         }
     };
-    let drawn = |hole: [u8; 4], blend: &str| {
+    let drawn = |hole: [u8; 4], filter: &str| {
         let folder = folder(SQUARE, "newmtl a\nmap_Kd d.png\n");
         fs::write(folder.path("d.png"), png(32, 32, disc(hole))).expect("a texture");
-        let words = ["--size", "160x160", "--background", "white", "--shading", "unlit", "--filter", blend];
-        seen(&folder, &words).0
+        // All of the square is seen, the rim of the disc with it.
+        let words =
+            ["--size", "160x160", "--fov", "90", "--background", "white", "--shading", "unlit", "--filter"];
+        seen(&folder, &[&words[..], &[filter]].concat()).0
     };
     for filter in ["bilinear", "trilinear"] {
         let [black, green] = [[0; 4], [40, 160, 40, 0]].map(|hole| drawn(hole, filter));
         assert!(black == green, "{filter}");
+        let is_white = |pixel: &&image::Rgb<u8>| pixel.0 == [255; 3];
+        assert!(black.pixels().filter(is_white).count() > 2000, "{filter}");
         // Between the disc and white, nothing is darker than the disc.
         assert!(black.pixels().all(|pixel| pixel.0[1] >= 159), "{filter}");
     }
