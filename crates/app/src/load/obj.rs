@@ -53,7 +53,7 @@ pub fn load(
 ) -> Result<Loaded, Error> {
     let mut stream = Stream::open(path, KIND, input::MAX_TEXT_BYTES)?;
     let path = input::shown(path);
-    let text = ObjText::read(&mut stream, path, progress)?;
+    let mut text = ObjText::read(&mut stream, path, progress)?;
     drop(stream);
 
     let mut warnings = Warnings::default();
@@ -65,6 +65,9 @@ pub fn load(
         warnings.push(Error::new(undrawn, "faces").file(path).hint("they are not drawn"));
     }
     if let Some(warning) = text.unknown() {
+        warnings.push(warning.file(path));
+    }
+    for warning in std::mem::take(&mut text.left_out) {
         warnings.push(warning.file(path));
     }
     let mut libraries = Libraries::read(path, &text, &mut warnings);

@@ -20,7 +20,7 @@ pub enum Backdrop {
     Transparent,
     /// From the top to the bottom, in even steps of sRGB, dithered by blue noise: it shows no bands.
     Gradient([[u8; 3]; 2]),
-    /// An image as large as the picture: its pixels, row by row.
+    /// An image as large as the picture: its pixels, row by row, all opaque.
     Image(Vec<[u8; 4]>),
 }
 
@@ -34,7 +34,8 @@ impl Backdrop {
             Some(Background::Transparent) => Self::Transparent,
             Some(Background::Gradient(ends)) => Self::Gradient(ends.map(Color::bytes)),
             Some(Background::Image(path)) => {
-                let image = during(Stage::Maps, |_| image_file::load(path, image_file::MAX_TEXELS))?;
+                let mut image = during(Stage::Maps, |_| image_file::load(path, image_file::MAX_TEXELS))?;
+                image.texels.iter_mut().for_each(|texel| *texel = over(*texel, options.background));
                 // A middle step has as many columns as the image, and as many rows as the picture, of four floats.
                 let [width, height] = [options.width, options.height].map(u64::from);
                 let bytes = height * (16 * u64::from(image.width) + 8 * width);
@@ -72,6 +73,15 @@ impl Backdrop {
             }
         }
     }
+}
+
+/// A texel before a colour, both sRGB: mixed as browsers do, in sRGB.
+fn over([r, g, b, alpha]: [u8; 4], behind: [u8; 3]) -> [u8; 4] {
+    let mixed = |front: u8, back: u8| {
+        let sum = u32::from(front) * u32::from(alpha) + u32::from(back) * u32::from(255 - alpha);
+        u8::try_from((sum + 127) / 255).unwrap_or(u8::MAX)
+    };
+    [mixed(r, behind[0]), mixed(g, behind[1]), mixed(b, behind[2]), 255]
 }
 
 /// The middle of an image, as much as has the picture's shape, as large as the picture.
@@ -114,6 +124,22 @@ mod tests {
                 assert!(bytes().all(|byte| (byte - right).abs() < 1.0), "{y}");
                 let mean = bytes().sum::<f64>() / 512.0;
                 assert!((mean - right).abs() < 0.25, "{y} {mean} {right}");
+            }
+        }
+    }
+
+    #[test]
+    fn images_are_opaque() {
+        for alpha in 0..=255_u8 {
+            for (front, back) in [(0, 255), (255, 0), (10, 200), (77, 77), (255, 255)] {
+                let [red, green, _, opaque] = over([front, back, 0, alpha], [back, front, 0]);
+                let right = |front: u8, back: u8| {
+                    let share = f64::from(alpha) / 255.0;
+                    f64::from(front) * share + f64::from(back) * (1.0 - share)
+                };
+                assert!((f64::from(red) - right(front, back)).abs() <= 0.5);
+                assert!((f64::from(green) - right(back, front)).abs() <= 0.5);
+                assert_eq!(opaque, 255);
             }
         }
     }

@@ -56,6 +56,8 @@ pub(crate) struct ObjText {
     undrawn: [usize; 4],
     /// The word of the first statement that the format has not, its line, and how many there are.
     unknown: Option<(String, usize, usize)>,
+    /// The warnings of indices of what the file has not at all.
+    pub(crate) left_out: Vec<Error>,
     has_tables: bool,
     known: HashSet<String>,
     greatest: [u32; 3],
@@ -102,6 +104,7 @@ impl ObjText {
             progress(done, total);
         }
         text.check_indices().map_err(|error| error.file(path))?;
+        text.leave_out();
         if text.faces.iter().all(|faces| faces.faces.is_empty()) {
             let mut found = format!("no faces in {}", counted(text.lines, "line", "lines"));
             let other = path.extension().is_some_and(|of| !of.eq_ignore_ascii_case("obj"));
@@ -223,10 +226,12 @@ impl ObjText {
         Ok(())
     }
 
-    /// Refuses the first index that no line of the file has.
+    /// Refuses the first index that no line of the file has. Kinds of which the file has no line at all, but those of
+    /// positions, pass.
     fn check_indices(&self) -> Result<(), Error> {
         let counts = self.counts();
-        let beyond = |which: usize, index: u32| index as usize > counts[which];
+        let beyond =
+            |which: usize, index: u32| index as usize > counts[which] && (which == 0 || counts[which] > 0);
         if !(0..3).any(|which| beyond(which, self.greatest[which])) {
             return Ok(());
         }
@@ -242,6 +247,33 @@ impl ObjText {
             }
         }
         Ok(())
+    }
+}
+
+impl ObjText {
+    /// Forgets the indices of texture coordinates and normals if the file has none of these at all.
+    fn leave_out(&mut self) {
+        let counts = self.counts();
+        for which in [1, 2] {
+            if counts[which] > 0 || self.greatest[which] == 0 {
+                continue;
+            }
+            let mut first = None;
+            for faces in &mut self.faces {
+                let named = faces.corners.iter().position(|corner| corner[which] > 0);
+                first = first.or_else(|| faces.line_of(named?));
+                faces.corners.iter_mut().for_each(|corner| corner[which] = 0);
+            }
+            let (line_of, name) = (LINE_OF[which], NAME_OF[which]);
+            let error =
+                Error::new(format!("an index of a {name} in a face"), format!("`{line_of}` lines, or none"));
+            self.left_out.push(
+                error.line(first.unwrap_or_default()).hint("the file has no such lines; they are left out"),
+            );
+            if which == 1 {
+                self.corners_with_uv = 0;
+            }
+        }
     }
 }
 

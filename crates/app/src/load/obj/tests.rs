@@ -175,6 +175,24 @@ fn what_is_not_drawn_is_told() {
     assert_eq!(warnings, [told]);
 }
 
+/// Exporters write such files.
+#[test]
+fn indices_of_what_a_file_has_not_at_all_are_left_out() {
+    let obj = format!("{CORNERS}f 1 2 3\nf 1/4/5 2/4/6 3/9/99999999999\n");
+    let (model, warnings) = load_files(&[("m.obj", obj.as_bytes())]);
+    let told = |name, line| {
+        format!(
+            "m.obj:{LINE}: found an index of a {name} in a face, expected `{line}` lines, or none; the file has no \
+             such lines; they are left out",
+            LINE = CORNERS.lines().count() + 2
+        )
+    };
+    assert_eq!(warnings, [told("texture coordinate", "vt"), told("normal", "vn")]);
+    let bare = load_text(&format!("{CORNERS}f 1 2 3\nf 1 2 3\n"));
+    assert_eq!(corners(&model), corners(&bare));
+    assert_eq!(model.vertices, bare.vertices);
+}
+
 #[test]
 fn degenerate_faces_are_kept() {
     assert_eq!(load_text(&format!("{CORNERS}f 1 1 1\nf 1 2 3\n")).parts[0].triangles.len(), 2);

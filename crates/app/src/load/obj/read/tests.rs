@@ -155,9 +155,8 @@ fn indices_exist() {
         ("f -4 1 2", "vertex index -4, expected -1 to -3"),
         ("f 1/-5 2/1 3/1", "texture coordinate index -5, expected -1 to -1"),
         ("f 1/1 2/2 3/1", "texture coordinate index 2, expected 1 to 1"),
-        ("f 1//1 2//1 3//1", "normal index 1, expected none"),
-        ("f 1//9223372036854775807 2 3", "normal index 9223372036854775807, expected none"),
-        ("f 1//-9223372036854775808 2 3", "normal index -9223372036854775808, expected none"),
+        ("f 1//9223372036854775807 2 3", "normal index 9223372036854775807, expected 1 to 1"),
+        ("f 1//-9223372036854775808 2 3", "normal index -9223372036854775808, expected -1 to -1"),
         ("f 1 2 99999999999999999999", "vertex index 99999999999999999999, expected"),
         ("f 1 2 -99999999999999999999", "vertex index -99999999999999999999, expected"),
         ("f 1 2 x", "\"x\" in a face, expected whole numbers"),
@@ -168,8 +167,8 @@ fn indices_exist() {
         ("f 1 2 -9/x", "vertex index -9, expected -1 to -3"),
         ("f -9 2 x", "vertex index -9, expected -1 to -3"),
     ] {
-        let message = message(&format!("{TRIANGLE}vt 0 0\n{face}\n"));
-        assert!(message.starts_with(&format!("m.obj:5: found {found}")), "{message}");
+        let message = message(&format!("{TRIANGLE}vt 0 0\nvn 0 0 1\n{face}\n"));
+        assert!(message.starts_with(&format!("m.obj:6: found {found}")), "{message}");
     }
 }
 
