@@ -196,13 +196,18 @@ impl fmt::Display for Error {
 /// A piece of input for a message: quoted, without control characters, and not longer than a message bears.
 pub fn quote(bytes: &[u8]) -> String {
     const LONGEST: usize = 40;
+    // The part at the end, where paths have the name of a file.
+    const END: usize = 24;
     // Cut before the conversion: a megabyte without a space is one word.
-    let head = &bytes[..bytes.len().min(4 * LONGEST + 4)];
-    let text = String::from_utf8_lossy(head);
-    let mut short: String = text.chars().take(LONGEST).collect();
-    if short.len() < bytes.len() && text.chars().count() > LONGEST {
-        short.push('…');
-    }
+    let (head, tail) = (bytes.len().min(4 * LONGEST + 4), bytes.len().saturating_sub(4 * END + 4));
+    let text = String::from_utf8_lossy(&bytes[..head]);
+    let short = if text.chars().count() > LONGEST {
+        let end = String::from_utf8_lossy(&bytes[tail..]);
+        let end: String = end.chars().skip(end.chars().count().saturating_sub(END)).collect();
+        format!("{}…{end}", text.chars().take(LONGEST - 1 - END).collect::<String>())
+    } else {
+        text.into_owned()
+    };
     format!("\"{}\"", one_line(&short))
 }
 
@@ -278,7 +283,14 @@ mod tests {
 
     #[test]
     fn long_input_is_cut() {
-        assert_eq!(quote(&[b'x'; 1000]), format!("\"{}…\"", "x".repeat(40)));
+        assert_eq!(quote(&[b'x'; 1000]), format!("\"{}…{}\"", "x".repeat(15), "x".repeat(24)));
+        let path = "D:\\models\\of\\a\\very\\long\\name\\visual\\colors.png";
+        assert_eq!(quote(path.as_bytes()), "\"D:\\models\\of\\a\\…g\\name\\visual\\colors.png\"");
+        // Cut within a letter of several bytes.
+        for length in 35..60 {
+            let quoted = quote("ä€".repeat(length).as_bytes());
+            assert!(quoted.chars().count() == 42 && !quoted.contains('\u{fffd}'), "{quoted}");
+        }
         assert_eq!(quote(&[b'x'; 40]), format!("\"{}\"", "x".repeat(40)));
     }
 }

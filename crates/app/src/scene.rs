@@ -9,6 +9,7 @@ pub mod camera;
 pub mod normals;
 pub mod scenes;
 pub mod slide;
+pub(crate) mod swept;
 
 pub(crate) mod displace;
 pub(crate) mod ground;

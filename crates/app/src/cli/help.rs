@@ -166,9 +166,13 @@ fn of_command(command: &Command, name: &str, topic: Option<&str>) -> Result<Stri
 /// Whether an option belongs to a command alone.
 pub(super) fn own(command: &Command, name: &str, argument: &Arg) -> bool {
     let shared = command.find_subcommand("render");
-    let shared =
-        shared.is_some_and(|render| render.get_arguments().any(|of| of.get_id() == argument.get_id()));
+    let shared = shared.is_some_and(|render| render.get_arguments().any(|of| is_same(of, argument)));
     name == "render" || !shared
+}
+
+/// Whether two commands have an option in common, which stands in the same topic.
+fn is_same(of: &Arg, other: &Arg) -> bool {
+    of.get_id() == other.get_id() && of.get_help_heading() == other.get_help_heading()
 }
 
 /// The options of other pages, by name.
@@ -201,7 +205,11 @@ fn of_topic(command: &Command, topic: &str) -> Result<String, Error> {
     match command.find_subcommand("render").cloned() {
         _ if topic == ALL => of_command(command, "render", Some(ALL)),
         _ if topic == SCENE_FILES.0 => Ok(manual::section(SCENE_FILES.1)),
-        Some(render) if is_topic(command, topic) => Ok(options(render, topic)),
+        Some(render) if is_topic(command, topic) => {
+            let page = options(render, topic);
+            let more = if topic == "scene" { "\nOf scene files: alberti help scene-files\n" } else { "" };
+            Ok(page + more)
+        }
         _ => Err(no_topic(command, topic)),
     }
 }

@@ -139,12 +139,12 @@ impl Request {
         if staged.options.shading == Shading::VertexColor {
             return left_out("it with vertex-color, which has no shadows", "another shading");
         }
-        let Staged { model, options, .. } = staged;
+        let Staged { model, swept, options, .. } = staged;
         let CameraTable { near, far, .. } = self.arguments.camera;
         let affine = options.policies.interpolation == Interpolation::Affine;
         let fixed = [near.is_some(), far.is_some()];
         let manner = ground::Manner { fixed, affine, depth: options.depth, wrap: options.wrap };
-        if !during(Stage::Shadow, |_| ground::add(model, cameras, manner)) {
+        if !during(Stage::Shadow, |_| ground::add(model, swept.as_ref(), cameras, manner)) {
             return left_out("a camera below the model's lowest point", "one above the ground");
         }
         if options.policies.color != ColorFormat::Rgba8 && options.policies.dither == Dither::None {

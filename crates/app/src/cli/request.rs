@@ -52,8 +52,8 @@ pub(super) struct Request {
     pub(super) file: Option<SceneFile>,
     /// The eye and the target of the file, if the command line turns its camera.
     pub(super) orbit: Option<CameraTable>,
-    /// The same at the start of what moves.
-    pub(super) first: Option<Box<Request>>,
+    /// The same at some moments of what moves, the first of which is its start.
+    pub(super) moments: Vec<Request>,
 }
 
 impl Request {
@@ -75,9 +75,9 @@ impl Request {
             return Err(error.place("--time"));
         }
         let mut request = Self::of(arguments, file, matches)?;
-        if time != 0.0 {
-            request.first = Some(Box::new(request.at(matches, 0.0)?));
-        }
+        let moments = request.file.as_ref().map(SceneFile::moments).unwrap_or_default();
+        let moments: Result<_, _> = moments.into_iter().map(|time| request.at(matches, time)).collect();
+        request.moments = moments?;
         memory::begin(request.arguments.render.memory);
         Ok(request)
     }
@@ -125,7 +125,7 @@ impl Request {
         }
         // A texture is shown as it is, whatever the materials' colours.
         arguments.material.whiten();
-        Ok(Self { arguments, file: scene_file, orbit, first: None })
+        Ok(Self { arguments, file: scene_file, orbit, moments: Vec::new() })
     }
 
     /// The options of the command line alone.
@@ -134,7 +134,7 @@ impl Request {
     /// One that cannot be understood.
     pub(super) fn given(matches: &ArgMatches) -> Result<Self, Error> {
         RenderArgs::from_arg_matches(matches).map_err(refused).map(|arguments| Self {
-            first: None,
+            moments: Vec::new(),
             arguments,
             file: None,
             orbit: None,

@@ -19,6 +19,7 @@ use crate::options::{
 use crate::output::stage::{Stage, during};
 use crate::scene::backdrop::Backdrop;
 use crate::scene::normals::narrow;
+use crate::scene::swept::Swept;
 use crate::scene::{Camera, Image, Model, Part, Relief, camera, ground, order, scenes, slide};
 use crate::threads::available;
 
@@ -38,25 +39,29 @@ enum Loaded {
     Objects(Gathered),
 }
 
-/// The camera at the start of what moves, and the point that it is counted from.
-#[derive(Clone, Copy)]
-pub(super) struct Still {
-    camera: Camera,
-    origin: [f64; 3],
+/// All frames of what moves together.
+#[derive(Default)]
+pub(super) struct Motion {
+    /// The places that things come to.
+    swept: Swept,
+    /// The camera at the start, without its zoom, and the point that it is counted from.
+    still: Option<(Camera, [f64; 3])>,
 }
 
-impl Still {
-    /// The camera with places that are counted from another point.
-    fn counted_from(self, origin: [f64; 3]) -> Camera {
-        let Self { camera, origin: own } = self;
+impl Motion {
+    /// The camera at the start, counted from another point.
+    fn camera(&self, origin: [f64; 3]) -> Option<Camera> {
+        let (camera, own) = self.still?;
         let moved = |place: [f32; 3]| [0, 1, 2].map(|k| narrow(f64::from(place[k]) + own[k] - origin[k]));
-        Camera { eye: moved(camera.eye), target: moved(camera.target), ..camera }
+        Some(Camera { eye: moved(camera.eye), target: moved(camera.target), ..camera })
     }
 }
 
 /// All that a picture is made of.
 pub(super) struct Staged {
     pub(super) model: Model,
+    /// The places that the model comes to, if it moves.
+    pub(super) swept: Option<Model>,
     pub(super) camera: Camera,
     pub(super) options: RenderOptions,
     pub(super) samples: Samples,
@@ -74,17 +79,26 @@ impl Request {
 
     fn stage_heard(&self, hear: &mut dyn FnMut(u64, u64)) -> Result<Staged, Error> {
         let cast = self.cast_heard(hear)?;
-        let still = match &self.first {
-            Some(first) => Some(first.still(&first.stage_with(cast.clone(), None)?)),
-            None => None,
-        };
-        self.stage_with(cast, still)
+        let motion = self.motion(&cast)?;
+        self.stage_with(cast, motion.as_ref())
     }
 
-    /// The camera of what this is staged as, without its zoom.
-    pub(super) fn still(&self, Staged { camera, model, .. }: &Staged) -> Still {
-        let fov = camera::unzoomed(camera, &self.arguments.camera);
-        Still { camera: Camera { fov, ..*camera }, origin: model.origin }
+    /// How what has been loaded moves, if it does.
+    ///
+    /// # Errors
+    /// As those of [`stage`](Self::stage).
+    pub(super) fn motion(&self, cast: &Cast) -> Result<Option<Motion>, Error> {
+        let Some(first) = self.moments.first() else { return Ok(None) };
+        let mut motion = Motion::default();
+        for moment in &self.moments {
+            if let (Loaded::Objects(gathered), Some(file)) = (cast.scene.clone(), &moment.file) {
+                motion.swept.add(&file.build(gathered)?);
+            }
+        }
+        let Staged { camera, model, .. } = first.stage_with(cast.clone(), Some(&motion))?;
+        let fov = camera::unzoomed(&camera, &first.arguments.camera);
+        motion.still = Some((Camera { fov, ..camera }, model.origin));
+        Ok(Some(motion))
     }
 
     /// Loads what the frames of a film share, and warns of repairs.
@@ -109,15 +123,15 @@ impl Request {
         Ok(Cast { scene, slide: None })
     }
 
-    /// [`stage`](Self::stage) of what has been loaded. Without an eye, a camera stands where it stood when what moves
-    /// was `still`.
+    /// [`stage`](Self::stage) of what has been loaded. Without an eye, a camera stands where it stood at the start of a
+    /// motion, which sees all of it.
     ///
     /// # Errors
     /// Options do not suit the model.
     pub(super) fn stage_with(
         &self,
         Cast { scene, slide }: Cast,
-        still: Option<Still>,
+        motion: Option<&Motion>,
     ) -> Result<Staged, Error> {
         let (arguments, file) = (&self.arguments, self.file.as_ref());
         let (policies, depth) = arguments.render.policies(arguments.camera.is_parallel());
@@ -146,11 +160,12 @@ impl Request {
         scene.model.slide = slide::load(&arguments.projector, slide, origin)?;
 
         let Size(width, height) = arguments.render.size.unwrap_or(DEFAULT_SIZE);
-        let ball = camera::bounding_sphere(&scene.model);
+        let mut swept = motion.map(|motion| motion.swept.model(origin));
+        let ball = camera::bounding_sphere(swept.as_ref().unwrap_or(&scene.model));
         let aspect = f64::from(width) / f64::from(height);
         let mut wishes = arguments.camera.counted_from(origin);
         let orbit = self.orbit.map(|table| camera::orbit(&table.counted_from(origin), ball));
-        let still = still.filter(|_| wishes.eye.is_none()).map(|still| still.counted_from(origin));
+        let still = motion.filter(|_| wishes.eye.is_none()).and_then(|motion| motion.camera(origin));
         if !wishes.turns() {
             wishes.eye = wishes.eye.or(still.map(|still| still.eye.into()));
         }
@@ -159,7 +174,8 @@ impl Request {
         let shading = arguments.render.shading.unwrap_or(scene.defaults.0);
         let is_seen = arguments.show.is_none() && shading != Shading::VertexColor;
         let grounded = (arguments.render.ground == Some(true) && is_seen).then(up);
-        let camera = ground::in_view(&mut scene.model, grounded, |model| {
+        let whole = swept.as_mut().unwrap_or(&mut scene.model);
+        let camera = ground::in_view(whole, grounded, |model| {
             camera::frame(&wishes, base.as_ref(), (model, ball), aspect)
         })?;
         order::back_to_front(&mut scene.model, &camera);
@@ -224,7 +240,7 @@ impl Request {
         }
         let samples = samples(arguments, [width, height])?;
         let backdrop = Backdrop::new(arguments.render.background.as_ref(), &options)?;
-        Ok(Staged { model: scene.model, camera, options, samples, backdrop })
+        Ok(Staged { model: scene.model, swept, camera, options, samples, backdrop })
     }
 }
 

@@ -56,7 +56,8 @@ pub struct TurntableArgs {
     #[command(flatten)]
     pub render: RenderArgs,
 
-    /// Frames of the turn [default: 60, or as many as the motion of a scene file takes].
+    /// Frames of the turn, or of the motion of a scene file [default: 60, or as many as that takes]. With --fps, a
+    /// motion ends with the last of them.
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = frames)]
     #[arg(help_heading = OWN)]
     pub frames: Option<u32>,
@@ -87,7 +88,12 @@ fn frames(text: &str) -> Result<u32, String> {
 
 /// The command without options of pictures in its help.
 pub(super) fn without_pictures(command: Command) -> Command {
+    let output = format!(
+        "Film to write; the extension says the format: {}. A name with %04d is that of pictures, one for each frame [default: {DEFAULT}]",
+        Format::extensions()
+    );
     hidden(command, &NOT_OF_FILMS)
+        .mut_arg("output", |option| option.help(output.clone()).long_help(output).help_heading(OWN))
 }
 
 /// Draws a film.
@@ -121,8 +127,16 @@ fn film(
     let shard = share.unwrap_or(Shard::ALL);
     let end = request.file.as_ref().and_then(SceneFile::end);
     let frames = arguments.frames.unwrap_or_else(|| end.map_or(60, |end| arguments.fps.lasting(end, MOST)));
+    let is_timed = matches.value_source("fps") == Some(ValueSource::CommandLine);
+    // Frames without a rate are all of a motion.
+    let whole_motion = end.filter(|_| arguments.frames.is_some() && !is_timed);
+    let fps = whole_motion.map_or(arguments.fps, |end| Rate::of(frames, end));
+    let time = |frame: u32| match whole_motion {
+        Some(end) => end * f64::from(frame) / f64::from(frames),
+        None => fps.time(frame),
+    };
     let file = FilmFile::new(output, |path| request.whole(path, "-o"))?;
-    file.too_fast(arguments.fps).iter().for_each(|warning| warn(&warning.to_string()));
+    file.too_fast(fps).iter().for_each(|warning| warn(&warning.to_string()));
     let transparent = request.arguments.render.background == Some(Background::Transparent);
     if transparent {
         file.check_alpha()?;
@@ -141,9 +155,12 @@ fn film(
     request.hold_film(transparent)?;
     // Things that are loaded are kept for frames that are staged anew.
     let mut cast = end.map(|_| request.cast()).transpose()?;
-    let mut staged = match &cast {
-        Some(cast) => request.stage_with(cast.clone(), None)?,
-        None => request.stage()?,
+    let (mut staged, motion) = match &cast {
+        Some(cast) => {
+            let motion = during(Stage::Load, |_| request.motion(cast))?;
+            (request.stage_with(cast.clone(), motion.as_ref())?, motion)
+        }
+        None => (request.stage()?, None),
     };
     if let (Some(cast), Some(slide)) = (&mut cast, &staged.model.slide) {
         cast.slide = Some(slide.image.clone());
@@ -154,10 +171,9 @@ fn film(
         degrees: arguments.degrees.map_or(whole, |degrees| <[f64; 1]>::from(degrees)[0]),
         frames,
     };
-    let still = request.still(&staged);
     let mut cameras = if end.is_some() { vec![staged.camera] } else { cameras(request, &staged, &turn) };
     staged.options.projection = projection(&request.arguments, &cameras[0])?;
-    let mut film = file.film((frames, arguments.fps), transparent);
+    let mut film = file.film((frames, fps), transparent);
     film.as_ref().map_or(Ok(()), |film| film.need([width, height]))?;
     let triangles = staged.model.parts.iter().map(|part| part.triangles.len()).sum();
     if end.is_some() {
@@ -169,9 +185,9 @@ fn film(
     let Staged { model, options, samples, backdrop, .. } = staged;
     let set = Set { model: &model, options: &options, samples, backdrop: &backdrop };
     let moved = |frame: u32, cast: &Cast| {
-        let request = request.at(matches, arguments.fps.time(frame))?;
-        let mut staged = request.stage_with(cast.clone(), Some(still))?;
-        staged.camera = turn.at(&staged.camera, f64::from(frame) / f64::from(frames));
+        let request = request.at(matches, time(frame))?;
+        let mut staged = request.stage_with(cast.clone(), motion.as_ref())?;
+        staged.camera = turned(&request, &staged, &turn, frame);
         let projection = projection(&request.arguments, &staged.camera)?;
         ordered(&mut staged.model, &staged.camera, projection);
         request.add_ground(&mut staged);
@@ -219,6 +235,17 @@ fn cameras(request: &Request, staged: &Staged, turn: &Turn) -> Vec<Camera> {
     let aspect = f64::from(options.width) / f64::from(options.height);
     let ball = camera::bounding_sphere(model);
     turn.cameras((model, ball), camera, &wishes, (aspect, request.is_fitted()))
+}
+
+/// The camera of a frame in which things move.
+fn turned(request: &Request, staged: &Staged, turn: &Turn, frame: u32) -> Camera {
+    let Staged { model, swept, camera, options, .. } = staged;
+    let wishes = request.arguments.camera.counted_from(model.origin);
+    let aspect = f64::from(options.width) / f64::from(options.height);
+    let whole = swept.as_ref().unwrap_or(model);
+    let ball = camera::bounding_sphere(whole);
+    let share = f64::from(frame) / f64::from(turn.frames);
+    turn.moved((whole, ball), camera, &wishes, (aspect, request.is_fitted()), share)
 }
 
 /// The options of `alberti assemble`.

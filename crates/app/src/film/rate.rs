@@ -17,6 +17,13 @@ impl Rate {
     /// Broadcasting's rates: 1000/1001 of whole ones.
     const BROADCAST: [(&str, u16); 4] = [("23.976", 24), ("23.98", 24), ("29.97", 30), ("59.94", 60)];
 
+    /// The rate at which so many frames take so many seconds, to a hundredth.
+    pub(crate) fn of(frames: u32, seconds: f64) -> Self {
+        let rate = (f64::from(frames) / seconds).clamp(0.01, f64::from(Self::FASTEST));
+        let hundredth = format!("{rate:.2}").parse();
+        hundredth.unwrap_or(Self { frames: Self::FASTEST, seconds: 1 })
+    }
+
     /// The time at which a frame begins, in seconds.
     pub(crate) fn time(self, frame: u32) -> f64 {
         f64::from(frame) * f64::from(self.seconds) / f64::from(self.frames)
@@ -79,6 +86,20 @@ impl fmt::Display for Rate {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_rate_is_that_of_frames_in_a_time() {
+        for (frames, seconds, rate) in [
+            (8, 1.0, (8, 1)),
+            (1, 3.0, (33, 100)),
+            (25, 0.1, (100, 1)),
+            (1, 1e9, (1, 100)),
+            (90, 2.0, (45, 1)),
+        ] {
+            let found = Rate::of(frames, seconds);
+            assert_eq!((found.frames, found.seconds), rate, "{frames} in {seconds} s");
+        }
+    }
 
     #[test]
     fn rates_are_fractions() {

@@ -3,6 +3,7 @@
 use std::io::{self, Cursor};
 use std::path::Path;
 
+use image::metadata::Orientation;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits, Rgb};
 
 use crate::error::Error;
@@ -22,7 +23,7 @@ pub const MAX_FILE_BYTES: u64 = 1 << 30;
 /// The most bytes of a texel that is kept.
 const KEPT: u64 = 4;
 
-const KIND: &str = "a PNG, JPEG, BMP, TGA, WebP, QOI or PPM image";
+const KIND: &str = "a PNG, JPEG, BMP, TGA, GIF, WebP, QOI or PPM image";
 
 /// # Errors
 /// The file cannot be opened.
@@ -31,23 +32,24 @@ pub(crate) fn check(path: &Path) -> Result<(), Error> {
 }
 
 /// Reads an image of at most `budget` texels, and of [`MAX_SIDE`] a side. The format is told by the contents, or
-/// else by the extension (TGA files have no mark of their own).
+/// else by the extension (TGA files have no mark of their own). A photograph's note of how the camera was held is left
+/// aside, since texture coordinates count from the image as it is stored.
 ///
 /// # Errors
 /// The file cannot be read, is not an image, is broken, or is too large. The size is taken from the header and
 /// checked before anything is decoded.
 pub fn load(path: &Path, budget: u64) -> Result<Image, Error> {
     let bytes = input::read(path, KIND, MAX_FILE_BYTES)?;
-    decode(path, bytes, budget).map(as_texels)
+    decode(path, bytes, budget, false).map(as_texels)
 }
 
-/// The same of a picture that the user names, which may be a pipe, or [`input::STDIN`].
+/// The same of a picture that the user names, which may be a pipe, or [`input::STDIN`]. It is turned as its note says.
 ///
 /// # Errors
 /// As those of [`load`].
 pub(crate) fn load_given(path: &Path, budget: u64) -> Result<Image, Error> {
     let bytes = input::read_given(path, KIND, MAX_FILE_BYTES)?;
-    decode(input::shown(path), bytes, budget).map(as_texels)
+    decode(input::shown(path), bytes, budget, true).map(as_texels)
 }
 
 /// Whether a picture has an alpha, by its header. One that is none has not: [`load`] says what it is.
@@ -81,7 +83,7 @@ fn as_texels(picture: DynamicImage) -> Image {
 /// # Errors
 /// As those of [`load`].
 pub fn load_heights(path: &Path, budget: u64) -> Result<HeightImage, Error> {
-    let picture = decode(path, input::read(path, KIND, MAX_FILE_BYTES)?, budget)?;
+    let picture = decode(path, input::read(path, KIND, MAX_FILE_BYTES)?, budget, false)?;
     let wide = matches!(
         picture.color(),
         ColorType::L16 | ColorType::La16 | ColorType::Rgb16 | ColorType::Rgba16 | ColorType::Rgb32F
@@ -95,7 +97,8 @@ pub fn load_heights(path: &Path, budget: u64) -> Result<HeightImage, Error> {
     Ok(HeightImage { width, height, heights })
 }
 
-fn decode(path: &Path, bytes: Vec<u8>, budget: u64) -> Result<DynamicImage, Error> {
+/// Decodes an image, and `turns` it as its note says.
+fn decode(path: &Path, bytes: Vec<u8>, budget: u64, turns: bool) -> Result<DynamicImage, Error> {
     // Of the others, the name does not count.
     let unmarked = || ImageFormat::from_path(path).ok().filter(|format| *format == ImageFormat::Tga);
     let format = image::guess_format(&bytes).ok().or_else(unmarked);
@@ -125,7 +128,7 @@ fn decode(path: &Path, bytes: Vec<u8>, budget: u64) -> Result<DynamicImage, Erro
     // As it is decoded, as bytes, and as it is kept.
     let bytes = decoder.total_bytes().saturating_add(2 * KEPT * texels);
     memory::need(bytes, &what).and_then(|()| memory::hold(KEPT * texels, what)).map_err(|e| e.file(path))?;
-    let orientation = decoder.orientation().map_err(broken)?;
+    let orientation = if turns { decoder.orientation().map_err(broken)? } else { Orientation::NoTransforms };
     let mut picture = DynamicImage::from_decoder(decoder).map_err(broken)?;
     picture.apply_orientation(orientation);
     Ok(picture)
@@ -177,6 +180,7 @@ fn broken(path: &Path, format: ImageFormat, error: &ImageError) -> Error {
         ImageFormat::Bmp => "BMP",
         ImageFormat::Qoi => "QOI",
         ImageFormat::Tga => "TGA",
+        ImageFormat::Gif => "GIF",
         _ => "PNG",
     };
     Error::new(format!("a {name} image {fault}"), "a whole one").file(path).hint("save it again")
@@ -316,6 +320,46 @@ mod tests {
         }
     }
 
+    /// A photograph that was held on its side: texture coordinates count from what is stored, and a viewer turns it.
+    #[test]
+    fn notes_of_how_a_camera_was_held_are_for_viewers() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.jpg");
+        let picture =
+            image::RgbImage::from_fn(
+                32,
+                16,
+                |x, _| if x < 16 { image::Rgb([250; 3]) } else { image::Rgb([5; 3]) },
+            );
+        picture.save(&path).unwrap();
+        let bytes = fs::read(&path).unwrap();
+        // One entry, 0x112, a short of 6: the first row is at the right.
+        let note = b"\xff\xe1\0\x22Exif\0\0II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0\x06\0\0\0\0\0\0\0";
+        let path = file(&folder, "noted.jpg", &[&bytes[..2], note, &bytes[2..]].concat());
+        let stored = load(&path, MAX_TEXELS).unwrap();
+        assert_eq!((stored.width, stored.height), (32, 16));
+        assert_eq!(stored, load(&folder.path().join("a.jpg"), MAX_TEXELS).unwrap());
+        assert_eq!(load_heights(&path, MAX_TEXELS).unwrap().width, 32);
+        let seen = load_given(&path, MAX_TEXELS).unwrap();
+        assert_eq!((seen.width, seen.height), (16, 32));
+        assert!(seen.texels[0][0] > 200 && seen.texels[16 * 31][0] < 50);
+    }
+
+    /// Of a film, the first frame.
+    #[test]
+    fn gif_images_are_read() {
+        let mut bytes = Vec::new();
+        let mut encoder = gif::Encoder::new(&mut bytes, 2, 1, &[10, 20, 30, 200, 100, 50]).unwrap();
+        for pixels in [vec![0, 1], vec![1, 1]] {
+            encoder.write_frame(&gif::Frame::from_indexed_pixels(2, 1, pixels, None)).unwrap();
+        }
+        drop(encoder);
+        let folder = tempfile::tempdir().unwrap();
+        let image = load(&file(&folder, "a.gif", &bytes), MAX_TEXELS).unwrap();
+        let texels = vec![[10, 20, 30, 255], [200, 100, 50, 255]];
+        assert_eq!(image, Image { width: 2, height: 1, texels });
+    }
+
     #[test]
     fn what_is_not_an_image_is_refused() {
         let folder = tempfile::tempdir().unwrap();
@@ -324,7 +368,8 @@ mod tests {
         {
             let path = file(&folder, name, bytes);
             let message = load(&path, MAX_TEXELS).unwrap_err().to_string();
-            let expected = ["expected a PNG, JPEG, BMP, TGA, WebP, QOI or PPM image", "expected a whole one"];
+            let expected =
+                ["expected a PNG, JPEG, BMP, TGA, GIF, WebP, QOI or PPM image", "expected a whole one"];
             assert!(expected.iter().any(|expected| message.contains(expected)), "{message}");
             assert_eq!(message.lines().count(), 1);
         }

@@ -68,9 +68,6 @@ impl Libraries {
         if let Some(warning) = normals_as_bump(&mut entry.material, &mut self.images) {
             warnings.push(warning);
         }
-        if !self.notes.contains_key(&index) {
-            blackened(&entry.material).into_iter().for_each(|warning| warnings.push(warning));
-        }
         let mut warn = |error: Error| {
             warnings.push(error.hint("the surface goes without"));
             Ok(())
@@ -78,6 +75,11 @@ impl Libraries {
         // Errors have become warnings.
         let _ = entry.drawn().apply(part, radius, &mut self.images, &mut warn);
         let _ = entry.complete(part, &mut self.images, &mut warn);
+        if let (None, Some(Color(color))) = (part.texture, entry.material.color) {
+            // Beside a texture that is not there, it is the colour.
+            part.diffuse =
+                if entry.has_grey() && entry.material.color_map.is_some() { color } else { part.diffuse };
+        }
         part.material.clone_from(&entry.name);
         self.notes.entry(index).or_insert_with(|| entry.note(&self.images));
     }
@@ -145,13 +147,6 @@ pub(crate) fn bare(model: &Model) -> Option<Error> {
     Some(Error::new(found, "some for its texture").hint("all of each gets the same texel"))
 }
 
-/// Some exporters write a black `Kd` beside a texture, whose colours it multiplies.
-fn blackened(material: &Material) -> Option<Error> {
-    let map = material.color_map.as_ref().filter(|_| material.color == Some(Color([0.0; 3])))?;
-    let error = Error::new("`map_Kd` under `Kd 0 0 0`", "a colour that is multiplied by that of the texture");
-    Some(map.place(error).hint("it is black, unless `--diffuse` says another"))
-}
-
 /// Exporters write normal maps into `bump` as well. They are used as normal maps.
 fn normals_as_bump(material: &mut Material, images: &mut Images) -> Option<Error> {
     let map = material.height_map.as_ref().filter(|_| material.normal_map.is_none())?;
@@ -163,7 +158,7 @@ fn normals_as_bump(material: &mut Material, images: &mut Images) -> Option<Error
     let origin = map.origin.clone()?;
     material.normal_map = material.height_map.take();
     material.normal_strength = material.height_scale.map(|scale| scale.clamp(0.0, 100.0).into());
-    let found = format!("normals in {} of `bump`", quote(origin.text.as_bytes()));
+    let found = format!("normals in {} as a bump map", quote(origin.text.as_bytes()));
     let warning = Error::new(found, "heights").file(&origin.file).line(origin.line);
     Some(warning.hint("they are used as `norm` has them"))
 }

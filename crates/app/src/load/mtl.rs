@@ -78,8 +78,12 @@ impl CheckedMtl {
             b"map_bump" | b"bump" | b"disp" | b"norm" | b"map_norm" | b"refl" | b"map_refl" => 0,
             // Ambient light is the scene's.
             b"map_ka" => return Vec::new(),
+            // The thickness of a coat, and the turn of an anisotropy: these are told.
+            b"pcr" | b"anisor" => return Vec::new(),
             _ => {
-                ignored.add(&format!("`{}`", line.keyword()), line.line);
+                if !is_idle(&lower, line) {
+                    ignored.add(&format!("`{}`", line.keyword()), line.line);
+                }
                 return Vec::new();
             }
         };
@@ -135,12 +139,28 @@ impl CheckedMtl {
             b"pm" => entry.metallic = Some(r.clamp(0.0, 1.0)),
             _ => {}
         }
+        if lower == b"ns" && r < 0.0 {
+            // A formula of one exporter has such, for surfaces that are quite rough.
+            ignored.add(&format!("`{}` below 0", line.keyword()), line.line);
+            return Vec::new();
+        }
         let beyond = used.iter().find(|x| !(0.0..=most).contains(*x));
         Vec::from_iter(beyond.map(|x| {
             let found = format!("{} after `{}`", number(*x), line.keyword());
             Error::new(found, format!("a number from 0 to {most}")).hint("it is clamped")
         }))
     }
+}
+
+/// Whether a statement that is not drawn says nothing either: a filter that lets all through, no sheen, no coat, no
+/// anisotropy.
+fn is_idle(lower: &[u8], line: &Statement<'_>) -> bool {
+    let neutral = match lower {
+        b"tf" => 1.0,
+        b"ps" | b"pc" | b"aniso" => 0.0,
+        _ => return false,
+    };
+    matches!(values(line, 1), Ok(Some(all)) if all.iter().all(|&x| x == neutral))
 }
 
 /// The kinds of statements and options of a library that have no effect.

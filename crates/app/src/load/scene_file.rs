@@ -133,6 +133,19 @@ impl SceneFile {
         self.tracks.iter().map(Track::end).reduce(f64::max)
     }
 
+    /// Times at which what moves is far out: those of its values, and some between. None where nothing moves.
+    pub(crate) fn moments(&self) -> Vec<f64> {
+        const BETWEEN: u32 = 16;
+        const MOST: usize = 64;
+        let Some(end) = self.end() else { return Vec::new() };
+        let between = (0..=BETWEEN).map(|k| end * f64::from(k) / f64::from(BETWEEN));
+        let mut times: Vec<_> = between.chain(self.tracks.iter().flat_map(Track::times)).collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        let step = times.len().div_ceil(MOST);
+        times.into_iter().step_by(step).collect()
+    }
+
     /// Whether an option stands here, and not on the command line.
     pub(crate) fn has(&self, option: &str) -> bool {
         self.keys.contains_key(option)

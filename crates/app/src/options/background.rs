@@ -19,7 +19,8 @@ pub enum Background {
 }
 
 /// Extensions of images.
-const EXTENSIONS: [&str; 10] = ["png", "jpg", "jpeg", "bmp", "tga", "webp", "qoi", "ppm", "pgm", "pbm"];
+const EXTENSIONS: [&str; 11] =
+    ["png", "jpg", "jpeg", "bmp", "tga", "gif", "webp", "qoi", "ppm", "pgm", "pbm"];
 
 impl Background {
     /// The colour of a fog, and of pictures in false colours: of a gradient its middle.
@@ -82,7 +83,8 @@ mod tests {
         assert_eq!(read("Transparent"), Ok(Background::Transparent));
         assert_eq!(read("a/sky.JPG"), Ok(Background::Image("a/sky.JPG".into())));
         assert_eq!(read("sky.webp"), Ok(Background::Image("sky.webp".into())));
-        for text in ["", "ff", "whitee", "white..", "..", "white..ff", "transparent..white", "sky", "sky.gif"]
+        for text in
+            ["", "ff", "whitee", "white..", "..", "white..ff", "transparent..white", "sky", "sky.tiff"]
         {
             assert!(read(text).is_err_and(|expected| expected.contains("transparent")), "{text}");
         }

@@ -36,15 +36,17 @@ pub struct CameraTable {
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     pub up: Option<Point>,
 
-    /// Degrees around the model, from the front to the right; instead of --eye [default: about 31].
+    /// Degrees around the model, from the front to the right; instead of --eye [default: 30; of a
+    /// scene's own camera, its].
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub azimuth: Option<Number<Finite>>,
 
-    /// Degrees above the model, -90 to 90; instead of --eye [default: about 21].
+    /// Degrees above the model, -90 to 90; instead of --eye [default: 25; of a scene's own camera,
+    /// its].
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub elevation: Option<Number<Elevation>>,
 
-    /// The side that is seen; instead of --eye, and of --azimuth or, from above and below, --elevation.
+    /// The side that is seen; instead of --eye, and of --azimuth, --elevation or, of iso, both.
     #[arg(long, value_enum, value_name = "SIDE")]
     pub view: Option<ViewSide>,
 
@@ -145,7 +147,8 @@ impl CameraTable {
             // A side is one of the two angles, and leaves the other to be said.
             _ => match self.view {
                 Some(ViewSide::Top | ViewSide::Bottom) => self.elevation.map(|_| "--elevation"),
-                Some(ViewSide::Iso) | None => None,
+                Some(ViewSide::Iso) => angle,
+                None => None,
                 Some(_) => self.azimuth.map(|_| "--azimuth"),
             }
             .map(|option| (option, format!("--view {}", self.view.map(name_of).unwrap_or_default()))),
@@ -264,7 +267,8 @@ pub struct RenderTable {
     #[arg(long, value_enum, value_name = "N", hide_possible_values = true)]
     pub samples: Option<Samples>,
 
-    /// How textures are read: nearest, bilinear, trilinear or anisotropic:N [default: trilinear]
+    /// How textures are read: nearest, bilinear, trilinear or anisotropic:N [default: trilinear; of a
+    /// built-in scene its own]
     ///
     /// nearest: the texel that contains the point.
     /// bilinear: a weighted mean of the four texels around the point.
@@ -312,7 +316,8 @@ pub struct RenderTable {
     #[arg(long, value_enum, value_name = "SPACE", help_heading = SURFACE)]
     pub light_space: Option<LightSpace>,
 
-    /// A ground at the lowest point, of which a soft shadow is seen. In pictures alone.
+    /// A ground at the lowest point, of which a soft shadow is seen: that of a sky, wherever --light is. In pictures
+    /// alone.
     #[arg(long, value_name = "true|false", num_args = 0..=1, require_equals = true, default_missing_value = "true", value_parser = truth(), help_heading = SURFACE)]
     pub ground: Option<bool>,
 

@@ -34,7 +34,8 @@ impl Backdrop {
             Some(Background::Transparent) => Self::Transparent,
             Some(Background::Gradient(ends)) => Self::Gradient(ends.map(Color::bytes)),
             Some(Background::Image(path)) => {
-                let mut image = during(Stage::Maps, |_| image_file::load(path, image_file::MAX_TEXELS))?;
+                let mut image =
+                    during(Stage::Maps, |_| image_file::load_given(path, image_file::MAX_TEXELS))?;
                 image.texels.iter_mut().for_each(|texel| *texel = over(*texel, options.background));
                 // A middle step has as many columns as the image, and as many rows as the picture, of four floats.
                 let [width, height] = [options.width, options.height].map(u64::from);

@@ -71,9 +71,10 @@ pub fn frame(
     let up = point(wishes.up).or(base.map(|b| b.up)).unwrap_or([0.0, 1.0, 0.0]);
     let mut roll = wishes.roll.map(|roll| <[f64; 1]>::from(roll)[0]).or(base.map(|b| b.roll)).unwrap_or(0.0);
     let own = point(wishes.eye).or(base.filter(|_| !wishes.turns()).map(|b| b.eye));
-    let away = pose::away(wishes, wide(up));
+    let angles = pose::angles(wishes, base, wide(up));
+    let away = pose::away(angles, wide(up));
     let turn =
-        |view| if pose::is_straight(wide(up), view) { pose::turn(wishes, wide(up), view) } else { 0.0 };
+        |view| if pose::is_straight(wide(up), view) { pose::turn(angles, wide(up), view) } else { 0.0 };
     let (eye, target) = match (own, base) {
         (Some(eye), _) => (eye, given.unwrap_or(ball.center.map(narrow))),
         (None, Some(base)) => {

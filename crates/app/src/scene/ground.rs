@@ -1,16 +1,16 @@
 //! A ground under a model, of which only its soft shadow is seen: the background shows through all else.
 //!
-//! The shadow is that of a sky without a sun. The lowest surface over each cell of a grid darkens it: what touches the
-//! ground within a narrow rim, what is higher farther around, and less. It is a texture of alpha, made once.
+//! The shadow is that of a sky without a sun: a texture of alpha, made once, of how much of the sky the model hides.
 
 use super::{Camera, Image, Map, Model, Part, Vertex, order};
 use crate::options::{DepthFormat, Filter, Wrap};
 use crate::scene::normals::{dot, narrow, normalize, sub};
 use alberti::raster::color::AnyBlend;
-use opacity::{alpha, threshold};
+use sky::Columns;
 
 mod framed;
 mod opacity;
+mod sky;
 
 pub(crate) use framed::in_view;
 
@@ -20,14 +20,14 @@ const SIDE: usize = 256;
 /// The same as a number.
 const CELLS: f64 = 256.0;
 
-/// Heights in cells, how far around what is so high darkens the ground, and how much.
-const LEVELS: [(f64, usize, f64); 4] = [(0.0, 2, 0.62), (6.0, 6, 0.5), (24.0, 14, 0.34), (64.0, 26, 0.2)];
+/// Texels along a side of the shadow, each of 2 by 2 cells.
+const TEXELS: usize = SIDE / 2;
 
-/// The least area of a triangle that covers cells, in cells.
-const LEAST: f64 = 1e-9;
+/// The alpha of a place that sees no sky.
+const DARKEST: f64 = 0.8;
 
-/// The share of a ball's radius that the ground reaches beyond what stands on it.
-const RIM: f64 = 0.6;
+/// The share of a ball's radius that the ground and the shadow reach beyond what stands on it.
+const RIM: f64 = 0.9;
 
 /// A ground before the eyes of a camera.
 struct Ground {
@@ -38,6 +38,10 @@ struct Ground {
     side: f64,
     /// The height along the upward axis.
     low: f64,
+    /// How high the model is above it.
+    height: f64,
+    /// How far away the model still darkens it.
+    reach: f64,
 }
 
 /// The way in which a ground is drawn.
@@ -52,14 +56,15 @@ pub(crate) struct Manner {
     pub(crate) wrap: Wrap,
 }
 
-/// Adds a ground at the model's lowest point, unless one of the cameras is below it, and says whether it did. Their
-/// planes that are not fixed are moved so that all of it is between them. Where attributes are affine, it is of so many
-/// squares that none shows that.
-pub(crate) fn add(model: &mut Model, cameras: &mut [Camera], manner: Manner) -> bool {
+/// Adds a ground at the lowest point of a model, or of all places that it comes to, and says whether it did. It does
+/// not if one of the cameras is below it. Their planes that are not fixed are moved so that all of it is between them.
+/// Where attributes are affine, it is of so many squares that none shows that.
+pub(crate) fn add(model: &mut Model, swept: Option<&Model>, cameras: &mut [Camera], manner: Manner) -> bool {
     let Manner { fixed, affine, depth, wrap } = manner;
     // So many shares of the model's radius below it, as depths can tell.
     let below = if depth == DepthFormat::U16 { 2e-3 } else { 1e-4 };
-    let all: Option<Vec<_>> = cameras.iter().map(|camera| Ground::under(model, camera, below)).collect();
+    let all: Option<Vec<_>> =
+        cameras.iter().map(|camera| Ground::under(swept.unwrap_or(model), camera, below)).collect();
     let Some(ground) = all.and_then(|all| all.into_iter().next()) else { return false };
     let texels = ground.shadow(model, wrap).into_iter().map(|alpha| [0, 0, 0, alpha]).collect();
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|uv| ground.place(uv));
@@ -76,7 +81,7 @@ pub(crate) fn add(model: &mut Model, cameras: &mut [Camera], manner: Manner) -> 
         uv: uv.map(narrow),
         ..Vertex::default()
     }));
-    let side = u32::try_from(SIDE).unwrap_or(0);
+    let side = u32::try_from(TEXELS).unwrap_or(0);
     model.textures.push(Image { width: side, height: side, texels }.into());
     let map =
         Map { image: model.textures.len() - 1, filter: Some(Filter::Bilinear), wrap: Some(Wrap::Clamp) };
@@ -154,9 +159,10 @@ impl Ground {
         // Just below, so that what stands on it hides it.
         let low = if sign > 0.0 { least[up] } else { most[up] } - sign * below * radius;
         let axes = others(up);
-        let side = size[axes[0]].max(size[axes[1]]) + 2.0 * RIM * radius;
+        let reach = RIM * radius;
+        let side = size[axes[0]].max(size[axes[1]]) + 2.0 * reach;
         let corner = axes.map(|axis| f64::midpoint(least[axis], most[axis]) - side / 2.0);
-        Some(Self { up: (up, sign), corner, side, low })
+        Some(Self { up: (up, sign), corner, side, low, height: size[up] + below * radius, reach })
     }
 
     /// A place on it, of shares of its sides.
@@ -176,154 +182,32 @@ impl Ground {
         [(place[a] - self.corner[0]) * scale, (place[b] - self.corner[1]) * scale, height * scale]
     }
 
-    /// The alpha of each cell, rows from the one with the greatest coordinate.
+    /// The alpha of each texel, rows from the one with the greatest coordinate.
     fn shadow(&self, model: &Model, wrap: Wrap) -> Vec<u8> {
-        let lowest = self.lowest(model, wrap);
-        let mut dark = vec![0.0; SIDE * SIDE];
-        for (level, &(height, radius, strength)) in LEVELS.iter().enumerate() {
-            // Shares fall linearly to the next levels.
-            let below = level.checked_sub(1).map(|k| LEVELS[k].0);
-            let above = LEVELS.get(level + 1).map(|next| next.0);
-            let share = |h: f64| {
-                let of = |other: Option<f64>| {
-                    other.map_or(1.0, |other| ((h - other) / (height - other)).clamp(0.0, 1.0))
-                };
-                if h < height { of(below) } else { of(above.or(Some(2.0 * height))) }
-            };
-            let mut mask: Vec<f64> = lowest.iter().map(|&h| strength * share(h)).collect();
-            for _ in 0..3 {
-                blur(&mut mask, radius);
-            }
-            dark.iter_mut().zip(&mask).for_each(|(sum, share)| *sum += share);
-        }
-        let rows = dark.chunks(SIDE).enumerate().rev();
-        rows.flat_map(|(row, cells)| {
-            cells.iter().enumerate().map(move |(column, &dark)| {
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "the cast saturates"
-                )]
-                let alpha = (dark.min(0.7) * edge(row) * edge(column) * 255.0).round() as u8;
-                alpha
-            })
-        })
-        .collect()
-    }
-
-    /// The height of the lowest surface over each cell, in cells; infinite where there is none.
-    fn lowest(&self, model: &Model, wrap: Wrap) -> Vec<f64> {
-        let mut lowest = vec![f64::INFINITY; SIDE * SIDE];
-        let mut put = |column: f64, row: f64, height: f64| {
+        let scale = CELLS / self.side;
+        let columns = Columns::of(model, self, wrap, self.height * scale);
+        let mut dark = columns.darkness(self.reach * scale);
+        // Neighbours look in different directions.
+        blur(&mut dark);
+        let alpha = |&dark: &f64| {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
-            let (column, row) = (column as usize, row as usize);
-            if let Some(cell) = lowest.get_mut(row * SIDE + column).filter(|_| column < SIDE) {
-                *cell = cell.min(height.max(0.0));
-            }
+            let alpha = (dark * DARKEST * 255.0).round() as u8;
+            alpha
         };
-        for part in &model.parts {
-            let alpha = alpha(model, part, wrap);
-            for triangle in &part.triangles {
-                let [Some(a), Some(b), Some(c)] = triangle.map(|k| model.vertices.get(k as usize)) else {
-                    continue;
-                };
-                let corner = |v: &Vertex| {
-                    let [column, row, height] = self.cells(v.position.map(f64::from));
-                    let [u, v] = v.uv.map(f64::from);
-                    [column, row, height, u, v]
-                };
-                let corners = [a, b, c].map(corner);
-                let steps = steps(corners);
-                let mut put = |[column, row, height, u, v]: [f64; 5]| {
-                    if alpha([u, v], steps) > threshold(column, row) {
-                        put(column, row, height);
-                    }
-                };
-                // Walls and triangles smaller than a cell are there as well.
-                for (from, to) in [(0, 1), (1, 2), (2, 0)] {
-                    follow(corners[from], corners[to], &mut put);
-                }
-                cover(corners, &mut put);
-            }
-        }
-        lowest
+        dark.chunks(TEXELS).rev().flatten().map(alpha).collect()
     }
 }
 
-/// Hands on places along an edge, no more than a cell apart.
-fn follow(from: [f64; 5], to: [f64; 5], put: &mut impl FnMut([f64; 5])) {
-    let across = [0, 1, 2, 3, 4].map(|k: usize| to[k] - from[k]);
-    let steps = across[0].abs().max(across[1].abs()).ceil().clamp(1.0, CELLS);
-    let along = std::iter::successors(Some(0.0), |k| Some(k + 1.0)).take_while(|k| *k <= steps);
-    for share in along.map(|k| k / steps) {
-        put([0, 1, 2, 3, 4].map(|k: usize| from[k] + share * across[k]));
-    }
-}
-
-/// How far texture coordinates go from one cell to the next, and from one row of cells to the next.
-fn steps([a, b, c]: [[f64; 5]; 3]) -> [[f64; 2]; 2] {
-    let area = area([a, b, c]);
-    if area.abs() <= LEAST || !area.is_finite() {
-        return [[0.0; 2]; 2];
-    }
-    let along = |k: usize| {
-        let [p, q] = [b[k] - a[k], c[k] - a[k]];
-        [(p * (c[1] - a[1]) - q * (b[1] - a[1])) / area, (q * (b[0] - a[0]) - p * (c[0] - a[0])) / area]
-    };
-    let [[ux, uy], [vx, vy]] = [along(3), along(4)];
-    [[ux, vx], [uy, vy]]
-}
-
-/// Twice the area of a triangle on the ground, in cells.
-fn area([a, b, c]: [[f64; 5]; 3]) -> f64 {
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-}
-
-/// Hands on the middles of all cells in a triangle, its height there, and its coordinates.
-fn cover([a, b, c]: [[f64; 5]; 3], put: &mut impl FnMut([f64; 5])) {
-    let area = area([a, b, c]);
-    // Places that are not finite are none either.
-    if area.abs() <= LEAST || !area.is_finite() {
-        return;
-    }
-    let range = |axis: usize| {
-        let least = a[axis].min(b[axis]).min(c[axis]).floor().max(0.0);
-        let most = a[axis].max(b[axis]).max(c[axis]).ceil().min(CELLS);
-        std::iter::successors(Some(least + 0.5), |x| Some(x + 1.0)).take_while(move |x| *x < most)
-    };
-    for row in range(1) {
-        for column in range(0) {
-            let beside = |p: [f64; 5], q: [f64; 5]| {
-                ((q[0] - p[0]) * (row - p[1]) - (q[1] - p[1]) * (column - p[0])) / area
-            };
-            let weights = [beside(b, c), beside(c, a), beside(a, b)];
-            if weights.iter().all(|&weight| weight >= 0.0) {
-                let mean = |k: usize| weights[0] * a[k] + weights[1] * b[k] + weights[2] * c[k];
-                put([column, row, mean(2), mean(3), mean(4)]);
-            }
-        }
-    }
-}
-
-/// From 0 at the sides of the ground to 1 an eighth of it within.
-fn edge(cell: usize) -> f64 {
-    let within = u32::try_from(cell.min(SIDE - 1 - cell)).map_or(0.0, f64::from);
-    let share = (within / (CELLS / 8.0)).min(1.0);
-    share * share * (3.0 - 2.0 * share)
-}
-
-/// The mean of so many cells on each side, along rows and then along columns; beyond the sides there is nothing.
-fn blur(cells: &mut [f64], radius: usize) {
-    let mut line = vec![0.0; SIDE];
-    let width = u32::try_from(2 * radius + 1).map_or(1.0, f64::from);
-    for (stride, step) in [(1, SIDE), (SIDE, 1)] {
-        for start in (0..SIDE).map(|k| k * step) {
-            line.iter_mut().enumerate().for_each(|(k, x)| *x = cells[start + k * stride]);
-            let mut sum: f64 = line[..radius].iter().sum();
-            for k in 0..SIDE {
-                sum += line.get(k + radius).copied().unwrap_or(0.0);
-                cells[start + k * stride] = (sum / width).max(0.0);
-                sum -= k.checked_sub(radius).map_or(0.0, |k| line[k]);
+/// Twice each texel and its neighbours, over four: along rows, then along columns. Beyond the sides there is nothing.
+fn blur(texels: &mut [f64]) {
+    for (stride, step) in [(1, TEXELS), (TEXELS, 1)] {
+        for start in (0..TEXELS).map(|k| k * step) {
+            let mut before = 0.0;
+            for k in 0..TEXELS {
+                let at = start + k * stride;
+                let (own, after) = (texels[at], if k + 1 < TEXELS { texels[at + stride] } else { 0.0 });
+                texels[at] = (before + 2.0 * own + after) / 4.0;
+                before = own;
             }
         }
     }
@@ -366,11 +250,11 @@ mod tests {
     fn alpha(model: &Model, [x, z]: [f64; 2]) -> u8 {
         let ground = Ground::under(model, &CAMERA, 1e-4).expect("a ground");
         let [column, row, _] = ground.cells([x, 0.0, z]);
-        let cells = ground.shadow(model, Wrap::Repeat);
+        let texels = ground.shadow(model, Wrap::Repeat);
         // Rows come from the top of the image.
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 255")]
-        let (column, row) = (column as usize, row as usize);
-        cells[(SIDE - 1 - row) * SIDE + column]
+        let (column, row) = (column as usize / 2, row as usize / 2);
+        texels[(TEXELS - 1 - row) * TEXELS + column]
     }
 
     #[test]
@@ -379,7 +263,9 @@ mod tests {
         assert!(alpha(&low, [0.0, 0.0]) > 120, "{}", alpha(&low, [0.0, 0.0]));
         assert!(alpha(&low, [0.9, 0.0]) > alpha(&high, [0.9, 0.0]));
         // Beyond the rim there is nothing of what is near, and something of what is high.
-        assert!(alpha(&low, [1.2, 0.0]) < 5 && alpha(&high, [1.2, 0.0]) > 5);
+        assert!(alpha(&low, [1.2, 0.0]) < 5 && alpha(&high, [1.2, 0.0]) > 10);
+        // Nothing ends at the sides of the ground.
+        assert_eq!([[2.2, 0.0], [0.0, -2.2]].map(|at| alpha(&high, at)), [0; 2]);
         for model in [&low, &high] {
             assert_eq!(
                 [[0.7, 0.0], [0.0, 0.7], [-0.7, 0.0]]
@@ -394,7 +280,7 @@ mod tests {
     fn the_ground_is_under_all_and_between_the_planes() {
         let mut model = square(0.5);
         let mut camera = CAMERA;
-        add(&mut model, std::slice::from_mut(&mut camera), Manner::default());
+        add(&mut model, None, std::slice::from_mut(&mut camera), Manner::default());
         let part = model.parts.last().expect("a part");
         assert_eq!((model.parts.len(), part.triangles.len(), model.textures.len()), (2, 2, 1));
         let eye = CAMERA.eye.map(f64::from);
@@ -409,7 +295,7 @@ mod tests {
         assert!(crate::scene::normals::cross(sub(b, a), sub(c, a))[1] > 0.0);
         let below = Camera { eye: [3.0, -2.0, 4.0], ..CAMERA };
         let mut model = square(0.5);
-        add(&mut model, &mut [below], Manner { affine: true, ..Manner::default() });
+        add(&mut model, None, &mut [below], Manner { affine: true, ..Manner::default() });
         assert_eq!(model.parts.len(), 1);
     }
 
@@ -417,11 +303,12 @@ mod tests {
     #[test]
     fn a_ground_up_to_the_eye_is_not_cut_off() {
         let mut camera = Camera { eye: [0.4, 0.5, 0.4], target: [0.0, 0.5, 0.0], near: 0.3, ..CAMERA };
-        add(&mut square(0.5), std::slice::from_mut(&mut camera), Manner::default());
+        add(&mut square(0.5), None, std::slice::from_mut(&mut camera), Manner::default());
         assert!(camera.near > 0.0 && camera.near < 0.01, "{camera:?}");
         let mut fixed = Camera { near: 0.3, ..camera };
         add(
             &mut square(0.5),
+            None,
             std::slice::from_mut(&mut fixed),
             Manner { fixed: [true, false], ..Manner::default() },
         );
@@ -433,7 +320,7 @@ mod tests {
     fn squares_are_the_ground() {
         let grounds = [false, true].map(|affine| {
             let mut model = square(0.5);
-            add(&mut model, &mut [CAMERA], Manner { affine, ..Manner::default() });
+            add(&mut model, None, &mut [CAMERA], Manner { affine, ..Manner::default() });
             model
         });
         let area = |model: &Model| -> f64 {
@@ -457,21 +344,24 @@ mod tests {
         }
     }
 
-    /// The means of rows and columns, one by one.
+    /// The weights of a texel and its eight neighbours, one by one.
     #[test]
-    fn a_blur_is_a_mean() {
-        let mut cells: Vec<f64> = (0..65536_u32).map(|k| f64::from(k * 7919 % 101)).collect();
-        let before = cells.clone();
-        blur(&mut cells, 3);
-        for (row, column) in [(0, 0), (100, 37), (255, 254), (2, 250)] {
-            let near = |k: usize| move |&other: &usize| other.abs_diff(k) <= 3;
-            let rows = (0..SIDE).filter(near(row));
-            let sum: f64 = rows
-                .flat_map(|y| (0..SIDE).filter(near(column)).map(move |x| y * SIDE + x))
-                .map(|index| before[index])
-                .sum();
-            let found: f64 = cells[row * SIDE + column];
-            assert!((found - sum / 49.0).abs() < 1e-9, "{found} {}", sum / 49.0);
+    fn a_blur_is_a_weighted_mean() {
+        let mut texels: Vec<f64> = (0..16384_u32).map(|k| f64::from(k * 7919 % 101)).collect();
+        let before = texels.clone();
+        blur(&mut texels);
+        for (row, column) in [(0, 0), (100, 37), (127, 126), (2, 127)] {
+            let mut sum = 0.0;
+            for (k, &texel) in before.iter().enumerate() {
+                let weight = |at: usize, of: usize| match at.abs_diff(of) {
+                    0 => 2.0,
+                    1 => 1.0,
+                    _ => 0.0,
+                };
+                sum += texel * weight(k / TEXELS, row) * weight(k % TEXELS, column);
+            }
+            let found: f64 = texels[row * TEXELS + column];
+            assert!((found - sum / 16.0).abs() < 1e-9, "{found} {}", sum / 16.0);
         }
     }
 }

@@ -199,11 +199,11 @@ fn a_ground_has_a_soft_shadow() {
     for corner in [(0, 0), (89, 0)] {
         assert_eq!(ground.get_pixel(corner.0, corner.1).0, [0xc0; 3]);
     }
-    // A picture that is framed has all of the shadow that is seen.
+    // A picture that is framed has most of the shadow.
     folder.succeeds(&["box.obj", "--ground", "--size", "90x90", "--background", "c0c0c0"]);
     let framed = image::open(folder.path("alberti.png")).expect("a picture").to_rgb8();
     let edge = framed.enumerate_pixels().filter(|(x, y, _)| [0, 89].contains(x) || [0, 89].contains(y));
-    assert!(edge.map(|(.., p)| p.0[0]).min() >= Some(0xb8));
+    assert!(edge.map(|(.., p)| p.0[0]).min() >= Some(0x98));
     assert!(framed.pixels().any(|p| p.0[0] == p.0[1] && (0x60..0xa0).contains(&p.0[0])));
     let run = alberti(
         folder.path("").as_path(),

@@ -168,7 +168,7 @@ fn highlights_need_not_be_asked_for() {
     assert_eq!(bright("Ks 0.8 0.8 0.8\nNs 1", &["--shininess", "64"]), bright("Ks 0.8 0.8 0.8\nNs 64", &[]));
 }
 
-/// The texture is multiplied by `Kd`, which is white where there is none. A black one is said.
+/// The texture is multiplied by `Kd`, unless that is grey. Where the texture is not there, it is the colour.
 #[test]
 fn textures_are_multiplied_by_kd() {
     let shown = |kd: &str, more: &[&str]| {
@@ -180,9 +180,13 @@ fn textures_are_multiplied_by_kd() {
     assert_eq!(shown("", &[]), ([200, 100, 50], String::new()));
     let (found, warnings) = shown("Kd 0.5 1 0", &[]);
     assert!(near(found, [100.0, 100.0, 0.0]) && warnings.is_empty(), "{found:?} {warnings}");
-    let (found, warnings) = shown("Kd 0 0 0", &[]);
-    assert!(found == [0; 3] && warnings.contains("m.mtl:3: found `map_Kd` under `Kd 0 0 0`"), "{warnings}");
-    assert_eq!(shown("Kd 0 0 0", &["--diffuse", "ffffff"]).0, [200, 100, 50]);
+    for grey in ["Kd 0 0 0", "Kd 0.64"] {
+        assert_eq!(shown(grey, &[]), ([200, 100, 50], String::new()));
+        assert_eq!(shown(grey, &["--diffuse", "00ff00"]).0, [0, 100, 0]);
+    }
+    let folder = folder(SQUARE, "newmtl a\nKd 0.5\nmap_Kd gone.png\n");
+    let (picture, warnings) = seen(&folder, &["--shading", "unlit"]);
+    assert!(picture.get_pixel(8, 8).0 == [128; 3] && warnings.contains("gone.png"), "{warnings}");
 }
 
 /// Colours of vertices multiply the material's, under the light that falls on white.
@@ -256,7 +260,7 @@ fn textures_are_found_under_other_names() {
         assert_eq!(warnings.is_empty(), !warned, "{name} {warnings}");
         assert_eq!(seen(&folder, &["--texture", "blue.png"]).1, "", "{name}");
     }
-    let folder = folder(SQUARE, "newmtl a\nmap_Kd gone.png\nTf 1 1 1\n");
+    let folder = folder(SQUARE, "newmtl a\nmap_Kd gone.png\nTf 1 0 1\n");
     fs::write(folder.path("blue.png"), &blue).expect("a file");
     assert_eq!(seen(&folder, &[]).1.lines().count(), 2);
     let warnings = seen(&folder, &["--texture", "blue.png"]).1;

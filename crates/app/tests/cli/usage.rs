@@ -294,7 +294,7 @@ fn signals_leave_no_temporary_file() {
 #[test]
 fn a_bar_is_shown_on_terminals_alone() {
     let folder = Folder::with(&[]);
-    let long = ["--scene", "hero", "-s", "800x500", "--samples", "16", "--threads", "1", "-o", "p.bmp"];
+    let long = ["--scene", "hero", "-s", "1600x1000", "--samples", "16", "--threads", "1", "-o", "p.bmp"];
     let on_terminal = |more: &str| {
         let command = format!("{} {} {more}", env!("CARGO_BIN_EXE_alberti"), long.join(" "));
         let mut script = Command::new("script");

@@ -41,8 +41,8 @@ impl Entry {
     /// The material that is drawn: with highlights where the file has such.
     pub(crate) fn drawn(&self) -> Material {
         let mut drawn = self.material.clone();
-        if drawn.color_map.is_some() && drawn.color.is_none() {
-            // Nothing says that the texture is darker than its image.
+        if drawn.color_map.is_some() && self.has_grey() {
+            // Exporters write their own default, such as 0.8, 0.64, 0.588 or 0, and mean the image.
             drawn.color = Some(Color([1.0; 3]));
         }
         let matt = self.is_matt();
@@ -81,6 +81,11 @@ impl Entry {
             drawn.reflection = drawn.reflection.or(Some(self.metallic.unwrap_or(1.0).into()));
         }
         drawn
+    }
+
+    /// Whether its colour has no hue, or it has none.
+    pub(crate) fn has_grey(&self) -> bool {
+        self.material.color.is_none_or(|Color([r, g, b])| r.max(g).max(b) - r.min(g).min(b) < 0.004)
     }
 
     /// Whether it says that there are no highlights.

@@ -25,11 +25,21 @@ fn only_what_is_used_is_passed_on() {
 
 #[test]
 fn all_that_is_ignored_is_told_once() {
-    let text = b"newmtl a\nTf 1 1 1\nNi 1\nKa 0 0 0\nmap_Ka x\nKM 1\nnewmtl b\ntf 0 0 0\nbump b\ndisp d\nbump -t 1 c\n\
+    let text = b"newmtl a\nTf 1 .9 1\nNi 1\nKa 0 0 0\nmap_Ka x\nKM 1\nnewmtl b\ntf 0 0 0\nbump b\ndisp d\nbump -t 1 c\n\
         Kd spectral k.rfl 2\nKs xyz 1 1 1\n";
     let (_, warnings) = run(text);
     let told = "m.mtl:2: found `Tf`, 2 times; `KM`; `disp` beside `bump`; `-t` of textures; `Kd spectral`; `Ks xyz`, \
         expected statements that are drawn; they are left out";
+    assert_eq!(warnings, [told]);
+}
+
+/// Statements that say what a surface is without them.
+#[test]
+fn what_says_nothing_is_not_told() {
+    let (_, warnings) = run(b"newmtl a\nTf 1 1 1\nPs 0\nPc 0.0\nPcr 0.03\naniso 0\nanisor 0\ntf 1\n");
+    assert_eq!(warnings, [""; 0]);
+    let (_, warnings) = run(b"newmtl a\nNs -1.96\nPs 0\nPc 0.5\nnewmtl b\nNs -1.97\nTf 1 x\n");
+    let told = "m.mtl:2: found `Ns` below 0, 2 times; `Pc`; `Tf`, expected statements that are drawn; they are left out";
     assert_eq!(warnings, [told]);
 }
 
@@ -92,7 +102,12 @@ fn highlights_are_those_of_the_file() {
 fn a_texture_without_a_colour_is_as_bright_as_its_image() {
     let color = |text: &str| run(format!("newmtl a\n{text}\n").as_bytes()).0.materials[0].drawn().color;
     assert_eq!(color("map_Kd a.png"), Some(Color([1.0; 3])));
-    assert_eq!(color("Kd .5 .5 .5\nmap_Kd a.png"), Some(Color([0.5; 3])));
+    // Nor is it meant by what exporters write beside it, unless that has a hue.
+    for grey in ["0", ".5", ".8 .8 .8", "0.588 0.589 0.587"] {
+        assert_eq!(color(&format!("Kd {grey}\nmap_Kd a.png")), Some(Color([1.0; 3])));
+    }
+    assert_eq!(color("Kd .5 .51 .5\nmap_Kd a.png"), Some(Color([0.5, 0.51, 0.5])));
+    assert_eq!(color("Kd .5 .5 .5"), Some(Color([0.5; 3])));
     assert_eq!(color("Ks 1 1 1"), None);
 }
 
@@ -232,7 +247,7 @@ fn options_of_textures_are_skipped() {
 #[test]
 fn numbers_out_of_range_are_clamped_and_named() {
     for (line, found) in [
-        ("Ns -3", "found -3 after `Ns`, expected a number from 0 to 65536; it is clamped"),
+        ("Ns -3", "found `Ns` below 0, expected a statement that is drawn; it is left out"),
         ("Ns 1e9", "found 1000000000 after `Ns`, expected a number from 0 to 65536"),
         ("Ke 2 2 2", "found 2 after `Ke`, expected a number from 0 to 1; it is clamped"),
         ("Ks 0 -1 0", "found -1 after `Ks`, expected a number from 0 to 1"),

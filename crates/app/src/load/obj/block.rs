@@ -138,6 +138,8 @@ pub(crate) struct Block {
     pub(crate) undrawn: [usize; 4],
     /// The word of the first statement that the format has not, its line, and how many there are.
     pub(crate) unknown: Option<(String, usize, usize)>,
+    /// The first line of a normal or of texture coordinates that are no numbers, and how many there are.
+    pub(crate) no_numbers: Option<(usize, usize)>,
     /// Whether there are lines as tables of a scene file have them.
     pub(crate) has_tables: bool,
     /// Physical lines.
@@ -173,11 +175,19 @@ impl Block {
         match line.word {
             b"v" => self.vertex(line)?,
             b"vt" => {
-                let ([u, v, _], _) = numbers(line, 1..=3, "`vt u v`", "1 to 3 (u v w)")?;
-                self.uvs.push([narrow(u), narrow(v)]);
+                let uvw = if self.has_no_number(line) {
+                    [0.0; 3]
+                } else {
+                    numbers(line, 1..=3, "`vt u v`", "1 to 3 (u v w)")?.0
+                };
+                self.uvs.push([narrow(uvw[0]), narrow(uvw[1])]);
             }
             b"vn" => {
-                let (normal, _) = numbers::<3>(line, 3..=3, "`vn x y z`", "3 (x y z)")?;
+                let normal = if self.has_no_number(line) {
+                    [0.0; 3]
+                } else {
+                    numbers(line, 3..=3, "`vn x y z`", "3 (x y z)")?.0
+                };
                 self.normals.push(normal.map(narrow));
             }
             // The second is of files older than the format's last edition.
@@ -196,6 +206,22 @@ impl Block {
             }
         }
         Ok(())
+    }
+
+    /// Whether the line has one of the words that programs write for what is no number, or for one beyond all. Such
+    /// lines are counted.
+    fn has_no_number(&mut self, line: &Statement<'_>) -> bool {
+        let is_none = |word: &[u8]| {
+            let word = word.strip_prefix(b"-").or(word.strip_prefix(b"+")).unwrap_or(word);
+            [&b"nan"[..], b"inf", b"1.#"]
+                .iter()
+                .any(|of| word.get(..3).is_some_and(|w| w.eq_ignore_ascii_case(of)))
+        };
+        let found = line.words().any(is_none);
+        if found {
+            self.no_numbers.get_or_insert((line.line, 0)).1 += 1;
+        }
+        found
     }
 
     fn vertex(&mut self, line: &Statement<'_>) -> Result<(), Error> {

@@ -56,7 +56,8 @@ pub(crate) struct ObjText {
     undrawn: [usize; 4],
     /// The word of the first statement that the format has not, its line, and how many there are.
     unknown: Option<(String, usize, usize)>,
-    /// The warnings of indices of what the file has not at all.
+    no_numbers: Option<(usize, usize)>,
+    /// The warnings of what was left out to read on.
     pub(crate) left_out: Vec<Error>,
     has_tables: bool,
     known: HashSet<String>,
@@ -173,6 +174,9 @@ impl ObjText {
         if let Some((word, line, count)) = block.unknown {
             self.unknown.get_or_insert((word, lines + line, 0)).2 += count;
         }
+        if let Some((line, count)) = block.no_numbers {
+            self.no_numbers.get_or_insert((lines + line, 0)).1 += count;
+        }
         for relative in &block.relative {
             let (which, have) = (usize::from(relative.which), relative.have as usize);
             let index = (before[which] + have + 1).checked_sub(relative.back as usize).filter(|&i| i > 0);
@@ -251,9 +255,20 @@ impl ObjText {
 }
 
 impl ObjText {
-    /// Forgets the indices of texture coordinates and normals if the file has none of these at all.
+    /// Forgets the indices of texture coordinates and normals if the file has none of these at all, and tells what was
+    /// left out.
     fn leave_out(&mut self) {
         let counts = self.counts();
+        if let Some((line, count)) = self.no_numbers {
+            let found = match count {
+                1 => "a normal or texture coordinates that are no numbers".to_owned(),
+                _ => format!(
+                    "{count} normals or texture coordinates that are no numbers, of which this is the first"
+                ),
+            };
+            let error = Error::new(found, "finite numbers").line(line);
+            self.left_out.push(error.hint("such normals are made, and such coordinates are 0"));
+        }
         for which in [1, 2] {
             if counts[which] > 0 || self.greatest[which] == 0 {
                 continue;

@@ -175,6 +175,20 @@ fn what_is_not_drawn_is_told() {
     assert_eq!(warnings, [told]);
 }
 
+/// Programs write such of what has no area.
+#[test]
+fn normals_and_coordinates_that_are_no_numbers_are_made() {
+    let obj =
+        format!("{CORNERS}vt nan 1\nvn -nan(ind) 0 1\nvn 0 1.#QNAN 0\nvn 0 0 -Inf\nf 1/1/1 2/1/2 3/1/3\n");
+    let (model, warnings) = load_files(&[("m.obj", obj.as_bytes())]);
+    let told = "m.obj:5: found 4 normals or texture coordinates that are no numbers, of which this is the first, \
+        expected finite numbers; such normals are made, and such coordinates are 0";
+    assert_eq!(warnings, [told]);
+    let bare = load_text(&format!("{CORNERS}f 1 2 3\n"));
+    assert_eq!(model.vertices, bare.vertices);
+    assert!(model.vertices.iter().all(|vertex| vertex.normal == [0.0, 0.0, 1.0]));
+}
+
 /// Exporters write such files.
 #[test]
 fn indices_of_what_a_file_has_not_at_all_are_left_out() {

@@ -78,6 +78,11 @@ impl Track {
         }
     }
 
+    /// The times of its values.
+    pub(super) fn times(&self) -> impl Iterator<Item = f64> {
+        self.times.iter().copied()
+    }
+
     /// The time of its last value.
     pub(super) fn end(&self) -> f64 {
         self.times.last().copied().unwrap_or_default()

@@ -5,7 +5,7 @@ use crate::options::{CameraTable, ViewSide};
 use crate::scene::Camera;
 
 /// The azimuth and the elevation of a model that is seen from the front, a third to the right, and a little above.
-const USUAL: [f64; 2] = [30.963_756_532_073_52, 21.100_196_024_093_02];
+const USUAL: [f64; 2] = [30.0, 25.0];
 
 impl Camera {
     /// The direction upwards in the picture.
@@ -28,11 +28,20 @@ impl Camera {
     }
 }
 
-/// The azimuth and the elevation that are wished for.
-fn angles(wishes: &CameraTable) -> [f64; 2] {
-    let [azimuth, elevation] = wishes.view.map_or(USUAL, side);
+/// The azimuth and the elevation that are wished for. What is not is that of a `base` from its target, or the usual.
+pub(super) fn angles(wishes: &CameraTable, base: Option<&Camera>, up: [f64; 3]) -> [f64; 2] {
+    let usual = base.and_then(|base| angles_of(up, base.view().map(|x| -x))).unwrap_or(USUAL);
+    let [azimuth, elevation] = wishes.view.map_or(usual, side);
     let given = |angle: Option<f32>, other: f64| angle.map_or(other, f64::from);
     [given(wishes.azimuth.map(f32::from), azimuth), given(wishes.elevation.map(f32::from), elevation)]
+}
+
+/// The azimuth and the elevation of a direction.
+fn angles_of(up: [f64; 3], away: [f64; 3]) -> Option<[f64; 2]> {
+    let (up, away) = (normalize(up)?, normalize(away)?);
+    let front = front(up);
+    let azimuth = f64::atan2(dot(away, cross(up, front)), dot(away, front));
+    Some([azimuth, dot(away, up).clamp(-1.0, 1.0).asin()].map(f64::to_degrees))
 }
 
 /// The horizontal unit vector from a model's front towards one who looks at it.
@@ -42,8 +51,7 @@ fn front(up: [f64; 3]) -> [f64; 3] {
 
 /// The unit vector towards the viewer. The front is +z when y is up, and -y when z is up, as modelling programs have
 /// it.
-pub(super) fn away(wishes: &CameraTable, up: [f64; 3]) -> [f64; 3] {
-    let [azimuth, elevation] = angles(wishes);
+pub(super) fn away([azimuth, elevation]: [f64; 2], up: [f64; 3]) -> [f64; 3] {
     let up = normalize(up).unwrap_or([0.0, 1.0, 0.0]);
     let front = front(up);
     let right = cross(up, front);
@@ -62,8 +70,7 @@ pub(super) fn is_straight(up: [f64; 3], view: [f64; 3]) -> bool {
 }
 
 /// The roll of a camera that looks straight up or down, and has come there from the azimuth that is wished for.
-pub(super) fn turn(wishes: &CameraTable, up: [f64; 3], view: [f64; 3]) -> f64 {
-    let [azimuth, _] = angles(wishes);
+pub(super) fn turn([azimuth, _]: [f64; 2], up: [f64; 3], view: [f64; 3]) -> f64 {
     // Without zeros that are below 0.
     (if dot(up, view) < 0.0 { -azimuth } else { azimuth }) + 0.0
 }
@@ -118,7 +125,7 @@ mod tests {
 
     #[test]
     fn sides_are_where_they_are_said_to_be() {
-        let of = |view| away(&CameraTable { view: Some(view), ..CameraTable::default() }, Y);
+        let of = |view| side_of(Some(view), None, Y);
         close(of(ViewSide::Front), [0.0, 0.0, 1.0]);
         close(of(ViewSide::Right), [1.0, 0.0, 0.0]);
         close(of(ViewSide::Back), [0.0, 0.0, -1.0]);
@@ -126,13 +133,42 @@ mod tests {
         close(of(ViewSide::Top), Y);
         close(of(ViewSide::Bottom), [0.0, -1.0, 0.0]);
         close(of(ViewSide::Iso), [1.0 / 3.0_f64.sqrt(); 3]);
-        let usual = away(&CameraTable::default(), Y);
-        close(usual, normalize([0.6, 0.45, 1.0]).unwrap());
+        // Half of a right angle's sine is that of 30 degrees.
+        let [x, y, z] = side_of(None, None, Y);
+        assert!((x / x.hypot(z) - 0.5).abs() < 1e-9 && (y - 0.422_618_261_740_699_4).abs() < 1e-9);
         // Where z is up, the front is -y.
-        close(
-            away(&CameraTable { view: Some(ViewSide::Front), ..CameraTable::default() }, [0.0, 0.0, 1.0]),
-            [0.0, -1.0, 0.0],
-        );
+        close(side_of(Some(ViewSide::Front), None, [0.0, 0.0, 1.0]), [0.0, -1.0, 0.0]);
+    }
+
+    /// The direction from which a side is seen, or a base without one.
+    fn side_of(view: Option<ViewSide>, base: Option<&Camera>, up: [f64; 3]) -> [f64; 3] {
+        away(angles(&CameraTable { view, ..CameraTable::default() }, base, up), up)
+    }
+
+    /// A camera that has its place leaves what is not said as it is.
+    #[test]
+    fn angles_are_those_of_the_base() {
+        let camera = |eye: [f32; 3]| Camera {
+            eye,
+            target: [1.0; 3],
+            up: [0.0, 1.0, 0.0],
+            roll: 0.0,
+            fov: 40.0,
+            near: 1.0,
+            far: 9.0,
+        };
+        for eye in [[3.0, 2.0, 5.0], [-3.0, 0.5, 0.0], [1.0, 1.0, -4.0], [-2.0, -3.0, -1.0]] {
+            let right = normalize(sub(eye.map(f64::from), [1.0; 3])).unwrap();
+            for up in [Y, [0.0, 0.0, 1.0], [1.0, 2.0, -1.0]] {
+                close(side_of(None, Some(&camera(eye)), up), right);
+                let wishes = CameraTable { azimuth: Some(10.0.into()), ..CameraTable::default() };
+                let [azimuth, elevation] = angles(&wishes, Some(&camera(eye)), up);
+                let height = dot(right, normalize(up).unwrap());
+                assert!(azimuth == 10.0 && (elevation.to_radians().sin() - height).abs() < 1e-9);
+            }
+        }
+        // One that stands in its target has no direction.
+        close(side_of(None, Some(&camera([1.0; 3])), Y), side_of(None, None, Y));
     }
 
     #[test]
@@ -143,8 +179,9 @@ mod tests {
                 elevation: Some(elevation.into()),
                 ..CameraTable::default()
             };
-            let view = away(&wishes, Y).map(|x| -x);
-            upwards(Y, view, if is_straight(Y, view) { turn(&wishes, Y, view) } else { 0.0 })
+            let angles = angles(&wishes, None, Y);
+            let view = away(angles, Y).map(|x| -x);
+            upwards(Y, view, if is_straight(Y, view) { turn(angles, Y, view) } else { 0.0 })
         };
         close(from(0.0, 90.0), [0.0, 0.0, -1.0]);
         close(from(90.0, 90.0), [-1.0, 0.0, 0.0]);

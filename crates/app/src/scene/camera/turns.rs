@@ -29,29 +29,11 @@ impl Turn {
         wishes: &CameraTable,
         (aspect, fits): (f64, bool),
     ) -> Vec<Camera> {
-        let mut first = *first;
-        if fits {
-            let target = wishes.target.map_or(ball.center.map(narrow), <[f32; 3]>::from);
-            let arm = sub(wide(first.eye), wide(first.target));
-            let (from, distance) = (wide(target), length(arm));
-            first.target = target;
-            first.eye = [0, 1, 2].map(|k| narrow(from[k] + arm[k]));
-            // Those of the frames, or as many of one turn.
-            let looks = self.frames.clamp(1, LOOKS);
-            let degrees = if self.frames > LOOKS { self.degrees.clamp(-360.0, 360.0) } else { self.degrees };
-            let looks =
-                (0..looks).map(|k| turned(&first, self.axis, degrees * f64::from(k) / f64::from(looks)));
-            let lens = lens(&first, wishes, aspect);
-            let needed = looks.map(|camera| needed((model, ball), &camera, lens)).fold(0.0, f64::max);
-            first.eye = [0, 1, 2].map(|k| narrow(from[k] + arm[k] * (needed / distance)));
-        }
+        let first = if fits { self.fitted((model, ball), *first, wishes, aspect) } else { *first };
         let frames = f64::from(self.frames.max(1));
         let mut cameras: Vec<Camera> =
             (0..self.frames).map(|frame| self.at(&first, f64::from(frame) / frames)).collect();
-        let around = cameras.iter().map(|camera| {
-            let (eye, view) = (wide(camera.eye), sub(wide(camera.target), wide(camera.eye)));
-            planes(sub(ball.center, eye), view, ball.radius, wishes.is_parallel())
-        });
+        let around = cameras.iter().map(|camera| around(camera, ball, wishes));
         let (near, far) = around.fold((f32::MAX, f32::MIN), |(near, far), (n, f)| (near.min(n), far.max(f)));
         for camera in &mut cameras {
             camera.near = wishes.near.map_or(near, f32::from);
@@ -60,10 +42,53 @@ impl Turn {
         cameras
     }
 
+    /// The camera after a share of the turn, where things move, and perhaps the camera as well. At that time it would
+    /// be `here` without the turn. `swept` is where things come to.
+    pub(crate) fn moved(
+        &self,
+        (swept, ball): (&Model, Sphere),
+        here: &Camera,
+        wishes: &CameraTable,
+        (aspect, fits): (f64, bool),
+        share: f64,
+    ) -> Camera {
+        if self.degrees == 0.0 {
+            return *here;
+        }
+        let here = if fits { self.fitted((swept, ball), *here, wishes, aspect) } else { *here };
+        let camera = self.at(&here, share);
+        let (near, far) = around(&camera, ball, wishes);
+        let (near, far) = (wishes.near.map_or(near, f32::from), wishes.far.map_or(far, f32::from));
+        Camera { near, far, ..camera }
+    }
+
+    /// A camera as far away as it takes to have all in view in all frames.
+    fn fitted(&self, of: (&Model, Sphere), mut first: Camera, wishes: &CameraTable, aspect: f64) -> Camera {
+        let target = wishes.target.map_or(of.1.center.map(narrow), <[f32; 3]>::from);
+        let arm = sub(wide(first.eye), wide(first.target));
+        let (from, distance) = (wide(target), length(arm));
+        first.target = target;
+        first.eye = [0, 1, 2].map(|k| narrow(from[k] + arm[k]));
+        // Those of the frames, or as many of one turn.
+        let looks = self.frames.clamp(1, LOOKS);
+        let degrees = if self.frames > LOOKS { self.degrees.clamp(-360.0, 360.0) } else { self.degrees };
+        let looks = (0..looks).map(|k| turned(&first, self.axis, degrees * f64::from(k) / f64::from(looks)));
+        let lens = lens(&first, wishes, aspect);
+        let needed = looks.map(|camera| needed(of, &camera, lens)).fold(0.0, f64::max);
+        first.eye = [0, 1, 2].map(|k| narrow(from[k] + arm[k] * (needed / distance)));
+        first
+    }
+
     /// The camera after a share of the turn.
     pub(crate) fn at(&self, camera: &Camera, share: f64) -> Camera {
         turned(camera, self.axis, share * self.degrees)
     }
+}
+
+/// The planes of a camera around a ball.
+fn around(camera: &Camera, ball: Sphere, wishes: &CameraTable) -> (f32, f32) {
+    let (eye, view) = (wide(camera.eye), sub(wide(camera.target), wide(camera.eye)));
+    planes(sub(ball.center, eye), view, ball.radius, wishes.is_parallel())
 }
 
 /// The opening of a picture, without its zoom.

@@ -1,6 +1,6 @@
 //! A picture in which the shadow around a model is seen, and not cut off by its edge.
 
-use super::{Ground, bounds, others};
+use super::{Ground, others, places};
 use crate::error::Error;
 use crate::scene::normals::narrow;
 use crate::scene::{Camera, Model, Part, Vertex};
@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 /// The share of a ground's side that what stands on it darkens around it, for an eye to see.
 const SHADOW: f64 = 1.0 / 16.0;
 
-/// The points of the ellipse that stands for that in a frame.
+/// The directions in which that is beside the outermost place, in a frame.
 const AROUND: u32 = 16;
 
 /// Frames a model so that what its ground has of a shadow around it is in the picture, if it has one: not if the camera
@@ -30,15 +30,16 @@ pub(crate) fn in_view(
     }
     let kept = (model.vertices.len(), model.parts.len());
     if let Some(ground) = up.and_then(|up| Ground::of(model, up, 0.0)) {
-        let [least, most] = bounds(model);
+        let axes = others(ground.up.0);
         let first = u32::try_from(model.vertices.len()).unwrap_or(u32::MAX - AROUND);
         for k in 0..AROUND {
             let (sin, cos) = (f64::from(k) / f64::from(AROUND) * TAU).sin_cos();
-            let mut place = [ground.low; 3];
-            for (axis, along) in others(ground.up.0).into_iter().zip([cos, sin]) {
-                let half = (most[axis] - least[axis]) / 2.0 + ground.side * SHADOW;
-                place[axis] = f64::midpoint(least[axis], most[axis]) + along * half;
-            }
+            let along = |place: &[f64; 3]| place[axes[0]] * cos + place[axes[1]] * sin;
+            let farthest = places(model).max_by(|a, b| along(a).total_cmp(&along(b)));
+            let Some(mut place) = farthest else { continue };
+            place[axes[0]] += cos * ground.side * SHADOW;
+            place[axes[1]] += sin * ground.side * SHADOW;
+            place[ground.up.0] = ground.low;
             model.vertices.push(Vertex { position: place.map(narrow), ..Vertex::default() });
         }
         let triangles = (2..AROUND).map(|k| [first, first + k - 1, first + k]).collect();

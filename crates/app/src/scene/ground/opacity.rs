@@ -4,6 +4,9 @@ use crate::options::Wrap;
 use crate::scene::{Image, Model, Part};
 use alberti::raster::color::AnyBlend;
 
+/// The least area of a triangle from above that has steps, in cells.
+const LEAST: f64 = 1e-9;
+
 /// Places on each side of a cell of which the opacity is the mean: nets are finer than cells.
 const PLACES: [f64; 6] = [-5.0, -3.0, -1.0, 1.0, 3.0, 5.0];
 
@@ -50,10 +53,26 @@ pub(super) fn alpha<'a>(
     }
 }
 
+/// How far texture coordinates go from one cell to the next, and from one row of cells to the next. Corners are a
+/// column, a row, a height and texture coordinates.
+pub(super) fn steps([a, b, c]: [[f64; 5]; 3]) -> [[f64; 2]; 2] {
+    let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    if area.abs() <= LEAST || !area.is_finite() {
+        return [[0.0; 2]; 2];
+    }
+    let along = |k: usize| {
+        let [p, q] = [b[k] - a[k], c[k] - a[k]];
+        [(p * (c[1] - a[1]) - q * (b[1] - a[1])) / area, (q * (b[0] - a[0]) - p * (c[0] - a[0])) / area]
+    };
+    let [[ux, uy], [vx, vy]] = [along(3), along(4)];
+    [[ux, vx], [uy, vy]]
+}
+
 /// The opacity from which on a cell counts as covered: of cells side by side, as many as the opacity says.
-pub(super) fn threshold(column: f64, row: f64) -> f64 {
+pub(super) fn threshold(column: usize, row: usize) -> f64 {
+    let [column, row] = [column, row].map(|k| u32::try_from(k).map_or(0.0, f64::from));
     // Fractions of multiples of two numbers that are as far as can be from any ratio.
-    let share = (0.754_877_666 * column.floor() + 0.569_840_291 * row.floor()).rem_euclid(1.0);
+    let share = (0.754_877_666 * column + 0.569_840_291 * row).rem_euclid(1.0);
     share.clamp(1.0 / 512.0, 511.0 / 512.0)
 }
 
@@ -129,8 +148,7 @@ mod tests {
         for opacity in [0.02, 0.2, 0.5, 0.9] {
             for corner in [[0, 0], [100, 37]] {
                 let cells = (0..400).map(|k| [corner[0] + k % 20, corner[1] + k / 20]);
-                let covered =
-                    cells.filter(|cell| opacity > threshold(cell[0].into(), cell[1].into())).count();
+                let covered = cells.filter(|cell| opacity > threshold(cell[0], cell[1])).count();
                 let share = f64::from(u32::try_from(covered).unwrap()) / 400.0;
                 assert!((share - opacity).abs() < 0.03, "{opacity}: {share}");
             }

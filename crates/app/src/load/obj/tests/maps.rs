@@ -53,7 +53,8 @@ fn normals_that_are_called_bumps_are_normals() {
     assert_eq!((detail.normal.map(|n| n.strength), detail.height), (Some(3.0), None));
     assert_eq!(warnings.len(), 1);
     assert!(
-        warnings[0].starts_with("m.mtl:2: found normals in \"n.png\" of `bump`, expected heights; they are")
+        warnings[0]
+            .starts_with("m.mtl:2: found normals in \"n.png\" as a bump map, expected heights; they are")
     );
     for color in [[255; 3], [0; 3], [128; 3], [0, 0, 255], [110, 110, 210]] {
         let (model, warnings) = files(color);
