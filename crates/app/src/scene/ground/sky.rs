@@ -4,6 +4,7 @@
 //! a texel, columns are looked at outwards in some directions. What stands in a column hides an interval of
 //! elevations. Of an elevation e, a ground sees by sin² e: in bits of that, equal parts of its light, hidden ones are
 //! joined by `|`.
+
 use super::{CELLS, Ground, SIDE, TEXELS, opacity};
 use crate::options::Wrap;
 use crate::scene::{Model, Vertex};
