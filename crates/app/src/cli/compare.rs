@@ -8,6 +8,7 @@ use clap::{ArgMatches, Args, FromArgMatches as _};
 use serde::Serialize;
 
 use super::run::print;
+use super::told::warn;
 use crate::error::Error;
 use crate::image_file::{self, MAX_TEXELS};
 use crate::load::{input, seen};
@@ -46,7 +47,7 @@ Exit status:
 /// The options of `alberti compare`.
 #[derive(Clone, Debug, Args)]
 pub struct CompareArgs {
-    /// A picture: PNG, JPEG, BMP, TGA, WebP, QOI or PPM; - is standard input.
+    /// A picture: PNG, JPEG, BMP, TGA, GIF, WebP, QOI or PPM, of a film the first frame; - is standard input.
     #[arg(value_name = "A.png")]
     pub first: PathBuf,
 
@@ -114,7 +115,14 @@ pub(super) fn run(matches: &ArgMatches) -> Result<u8, Error> {
     let output = output(&arguments)?;
     let is_piped = output.as_ref().is_some_and(Output::is_standard);
     memory::begin(None);
-    let read = |path| during(Stage::Maps, |_| image_file::load_given(path, MAX_TEXELS));
+    let read = |path: &PathBuf| {
+        let (image, is_film) = during(Stage::Maps, |_| image_file::load_frame(path, MAX_TEXELS))?;
+        if is_film {
+            let warning = Error::new("a film", "a picture").file(input::shown(path));
+            warn(&warning.hint("its first frame is compared").to_string());
+        }
+        Ok::<_, Error>(image)
+    };
     let (first, second) = (read(&arguments.first)?, read(&arguments.second)?);
     if (first.width, first.height) != (second.width, second.height) {
         let found = format!("{}x{} pixels", second.width, second.height);

@@ -124,7 +124,17 @@ impl Request {
         staged.camera = camera;
     }
 
-    /// The same for these cameras.
+    /// Whether each of these cameras sees a ground from above, which is drawn for it; all do where there is none.
+    pub(super) fn above_ground(&self, staged: &Staged, cameras: &[Camera]) -> Vec<bool> {
+        let Staged { model, swept, options, .. } = staged;
+        let whole = swept.as_ref().unwrap_or(model);
+        match ground::above(whole, cameras, options.depth) {
+            Some(above) if self.arguments.render.ground == Some(true) => above,
+            _ => vec![true; cameras.len()],
+        }
+    }
+
+    /// The same as [`add_ground`](Self::add_ground) for these cameras, but those below it.
     pub(super) fn add_ground_for(&self, staged: &mut Staged, cameras: &mut [Camera]) {
         if self.arguments.render.ground != Some(true) {
             return;
@@ -139,6 +149,7 @@ impl Request {
         if staged.options.shading == Shading::VertexColor {
             return left_out("it with vertex-color, which has no shadows", "another shading");
         }
+        let above = self.above_ground(staged, cameras);
         let Staged { model, swept, options, .. } = staged;
         let CameraTable { near, far, .. } = self.arguments.camera;
         let affine = options.policies.interpolation == Interpolation::Affine;
@@ -146,6 +157,12 @@ impl Request {
         let manner = ground::Manner { fixed, affine, depth: options.depth, wrap: options.wrap };
         if !during(Stage::Shadow, |_| ground::add(model, swept.as_ref(), cameras, manner)) {
             return left_out("a camera below the model's lowest point", "one above the ground");
+        }
+        let below = above.iter().filter(|above| !**above).count();
+        if below > 0 {
+            let found = format!("{below} of {} frames from below the model's lowest point", above.len());
+            let error = Error::new(found, "views from above the ground").place("--ground");
+            warn(&error.hint("it is left out of those").to_string());
         }
         if options.policies.color != ColorFormat::Rgba8 && options.policies.dither == Dither::None {
             let found = format!("a shadow in {} without a dither", name_of(options.policies.color));

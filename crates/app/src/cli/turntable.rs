@@ -56,8 +56,8 @@ pub struct TurntableArgs {
     #[command(flatten)]
     pub render: RenderArgs,
 
-    /// Frames of the turn, or of the motion of a scene file [default: 60, or as many as that takes]. With --fps, a
-    /// motion ends with the last of them.
+    /// Frames of the turn, or of the whole motion of a scene file [default: 60, or as many as that takes]. With --fps,
+    /// the first ones of the motion.
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = frames)]
     #[arg(help_heading = OWN)]
     pub frames: Option<u32>,
@@ -126,13 +126,17 @@ fn film(
     };
     let shard = share.unwrap_or(Shard::ALL);
     let end = request.file.as_ref().and_then(SceneFile::end);
-    let frames = arguments.frames.unwrap_or_else(|| end.map_or(60, |end| arguments.fps.lasting(end, MOST)));
+    // A motion that does not end as it began is shown up to its end; of a round the first frame comes after the last.
+    let last = u32::from(request.file.as_ref().is_some_and(|file| end.is_some() && !file.goes_round()));
+    let lasting = |end| arguments.fps.lasting(end, MOST - 1) + last;
+    let frames = arguments.frames.unwrap_or_else(|| end.map_or(60, lasting));
     let is_timed = matches.value_source("fps") == Some(ValueSource::CommandLine);
     // Frames without a rate are all of a motion.
     let whole_motion = end.filter(|_| arguments.frames.is_some() && !is_timed);
-    let fps = whole_motion.map_or(arguments.fps, |end| Rate::of(frames, end));
+    let steps = (frames - last.min(frames - 1)).max(1);
+    let fps = whole_motion.map_or(arguments.fps, |end| Rate::of(steps, end));
     let time = |frame: u32| match whole_motion {
-        Some(end) => end * f64::from(frame) / f64::from(frames),
+        Some(end) => end * f64::from(frame) / f64::from(steps),
         None => fps.time(frame),
     };
     let file = FilmFile::new(output, |path| request.whole(path, "-o"))?;
@@ -175,11 +179,15 @@ fn film(
     staged.options.projection = projection(&request.arguments, &cameras[0])?;
     let mut film = file.film((frames, fps), transparent);
     film.as_ref().map_or(Ok(()), |film| film.need([width, height]))?;
+    // The model without its ground, for cameras below that.
+    let mut bare = None;
     let triangles = staged.model.parts.iter().map(|part| part.triangles.len()).sum();
     if end.is_some() {
         let copies = EARLY as u64 * threads(&request.arguments).get() as u64;
         memory::need(copies * staged.model.bytes(), "the places of what moves")?;
     } else {
+        let grounded = request.above_ground(&staged, &cameras);
+        bare = grounded.contains(&false).then(|| (staged.model.clone(), grounded));
         request.add_ground_for(&mut staged, &mut cameras);
     }
     let Staged { model, options, samples, backdrop, .. } = staged;
@@ -195,7 +203,11 @@ fn film(
     };
     let shot = |at: usize| match (wanted.get(at), &cast) {
         (Some(&frame), Some(cast)) => moved(frame, cast),
-        (Some(&frame), None) => Ok(set.shot(cameras[frame as usize])),
+        (Some(&frame), None) => {
+            let below = bare.as_ref().filter(|(_, grounded)| !grounded[frame as usize]);
+            let set = below.map_or(set, |(model, _)| Set { model, ..set });
+            Ok(set.shot(cameras[frame as usize]))
+        }
         (None, _) => Err(Error::new("a frame that is none", "one")),
     };
     let total = wanted.len() as u64;

@@ -67,9 +67,13 @@ impl Palette {
     pub(super) fn indices(&self, frame: &Image) -> Vec<u8> {
         let mut indices = Vec::with_capacity(frame.texels.len());
         for (texels, row) in frame.texels.chunks(frame.width.max(1) as usize).zip(0..) {
-            indices.extend(texels.iter().zip(0..).map(|(&[r, g, b, a], column)| match self.clear {
-                Some(clear) if a < 128 => clear,
-                _ => self.index([r, g, b].map(i32::from), Dither::BlueNoise.threshold([column, row])),
+            indices.extend(texels.iter().zip(0..).map(|(&[r, g, b, a], column)| {
+                let threshold = Dither::BlueNoise.threshold([column, row]);
+                match self.clear {
+                    // Of pixels that are half clear each second one.
+                    Some(clear) if u32::from(a) <= threshold => clear,
+                    _ => self.index([r, g, b].map(i32::from), threshold),
+                }
             }));
         }
         indices

@@ -3,8 +3,14 @@
 use std::io::{self, Cursor};
 use std::path::Path;
 
+use image::codecs::gif::GifDecoder;
+use image::codecs::png::PngDecoder;
+use image::codecs::webp::WebPDecoder;
 use image::metadata::Orientation;
-use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits, Rgb};
+use image::{
+    AnimationDecoder, ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits,
+    Rgb,
+};
 
 use crate::error::Error;
 use crate::load::input;
@@ -57,6 +63,30 @@ pub(crate) fn has_alpha(path: &Path) -> bool {
     let reader = ImageReader::open(path).and_then(ImageReader::with_guessed_format);
     let decoder = reader.map(ImageReader::into_decoder);
     matches!(decoder, Ok(Ok(decoder)) if decoder.color_type().has_alpha())
+}
+
+/// The same, and whether it is the first frame of a film.
+///
+/// # Errors
+/// As those of [`load`].
+pub(crate) fn load_frame(path: &Path, budget: u64) -> Result<(Image, bool), Error> {
+    let bytes = input::read_given(path, KIND, MAX_FILE_BYTES)?;
+    let is_film = is_film(&bytes);
+    decode(input::shown(path), bytes, budget, true).map(|picture| (as_texels(picture), is_film))
+}
+
+/// Whether an image has more than one frame.
+fn is_film(bytes: &[u8]) -> bool {
+    let film = match image::guess_format(bytes) {
+        Ok(ImageFormat::Png) => PngDecoder::new(Cursor::new(bytes)).and_then(|decoder| decoder.is_apng()),
+        Ok(ImageFormat::WebP) => WebPDecoder::new(Cursor::new(bytes)).map(|decoder| decoder.has_animation()),
+        Ok(ImageFormat::Gif) => {
+            let frames = GifDecoder::new(Cursor::new(bytes)).map(AnimationDecoder::into_frames);
+            frames.map(|frames| frames.take(2).filter(Result::is_ok).count() == 2)
+        }
+        _ => return false,
+    };
+    film.unwrap_or(false)
 }
 
 /// The same of a picture that is not held: its memory is given back.
@@ -355,7 +385,9 @@ mod tests {
         }
         drop(encoder);
         let folder = tempfile::tempdir().unwrap();
-        let image = load(&file(&folder, "a.gif", &bytes), MAX_TEXELS).unwrap();
+        let path = file(&folder, "a.gif", &bytes);
+        let image = load(&path, MAX_TEXELS).unwrap();
+        assert!(load_frame(&path, MAX_TEXELS).unwrap().1);
         let texels = vec![[10, 20, 30, 255], [200, 100, 50, 255]];
         assert_eq!(image, Image { width: 2, height: 1, texels });
     }

@@ -133,6 +133,12 @@ impl SceneFile {
         self.tracks.iter().map(Track::end).reduce(f64::max)
     }
 
+    /// Whether all is at the end as it was at the start, so that a film of it goes round.
+    pub(crate) fn goes_round(&self) -> bool {
+        let end = self.end().unwrap_or_default();
+        self.tracks.iter().all(|track| track.is_same(0.0, end))
+    }
+
     /// Times at which what moves is far out: those of its values, and some between. None where nothing moves.
     pub(crate) fn moments(&self) -> Vec<f64> {
         const BETWEEN: u32 = 16;

@@ -60,7 +60,9 @@ impl FromStr for Background {
         }
         let extension =
             Path::new(text).extension().map(|extension| extension.to_string_lossy().to_lowercase());
-        if extension.is_some_and(|extension| EXTENSIONS.contains(&&*extension)) {
+        // The contents of a file of another name say whether it is one.
+        let is_named = extension.is_some_and(|extension| EXTENSIONS.contains(&&*extension));
+        if is_named || Path::new(text).is_file() {
             return Ok(Self::Image(text.into()));
         }
         Err(format!("{}, transparent, TOP..BOTTOM of two colours, or an image file", Color::EXPECTED))

@@ -6,7 +6,7 @@ use super::{Camera, Image, Map, Model, Part, Vertex, order};
 use crate::options::{DepthFormat, Filter, Wrap};
 use crate::scene::normals::{dot, narrow, normalize, sub};
 use alberti::raster::color::AnyBlend;
-use sky::Columns;
+use sky::Sky;
 
 mod framed;
 mod opacity;
@@ -14,20 +14,20 @@ mod sky;
 
 pub(crate) use framed::in_view;
 
-/// Cells along a side of the ground.
-const SIDE: usize = 256;
+/// Cells along a side of the ground, at least and at most: powers of two.
+const CELLS: [u32; 2] = [256, 1024];
 
-/// The same as a number.
-const CELLS: f64 = 256.0;
-
-/// Texels along a side of the shadow, each of 2 by 2 cells.
-const TEXELS: usize = SIDE / 2;
+/// Cells that a shadow reaches, if there may be so many.
+const FINENESS: f64 = 60.0;
 
 /// The alpha of a place that sees no sky.
 const DARKEST: f64 = 0.8;
 
 /// The share of a ball's radius that the ground and the shadow reach beyond what stands on it.
 const RIM: f64 = 0.9;
+
+/// The multiple of its height beyond which a thing hides next to nothing: so far they reach at most.
+const SLANT: f64 = 2.5;
 
 /// A ground before the eyes of a camera.
 struct Ground {
@@ -42,6 +42,8 @@ struct Ground {
     height: f64,
     /// How far away the model still darkens it.
     reach: f64,
+    /// Cells along a side, a power of two. Texels of the shadow have two by two.
+    cells: u32,
 }
 
 /// The way in which a ground is drawn.
@@ -57,18 +59,22 @@ pub(crate) struct Manner {
 }
 
 /// Adds a ground at the lowest point of a model, or of all places that it comes to, and says whether it did. It does
-/// not if one of the cameras is below it. Their planes that are not fixed are moved so that all of it is between them.
+/// not if all of the cameras are below it. Planes of the others that are not fixed are moved so that all of it is
+/// between them.
 /// Where attributes are affine, it is of so many squares that none shows that.
 pub(crate) fn add(model: &mut Model, swept: Option<&Model>, cameras: &mut [Camera], manner: Manner) -> bool {
     let Manner { fixed, affine, depth, wrap } = manner;
-    // So many shares of the model's radius below it, as depths can tell.
-    let below = if depth == DepthFormat::U16 { 2e-3 } else { 1e-4 };
-    let all: Option<Vec<_>> =
-        cameras.iter().map(|camera| Ground::under(swept.unwrap_or(model), camera, below)).collect();
-    let Some(ground) = all.and_then(|all| all.into_iter().next()) else { return false };
+    let whole = swept.unwrap_or(model);
+    let Some(above) = above(whole, cameras, depth).filter(|above| above.contains(&true)) else {
+        return false;
+    };
+    let Some(ground) = cameras.first().and_then(|first| Ground::of(whole, first.up, below(depth))) else {
+        return false;
+    };
     let texels = ground.shadow(model, wrap).into_iter().map(|alpha| [0, 0, 0, alpha]).collect();
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|uv| ground.place(uv));
-    cameras.iter_mut().for_each(|camera| stretch(camera, &corners, fixed));
+    let seen = cameras.iter_mut().zip(above).filter(|(_, above)| *above);
+    seen.for_each(|(camera, _)| stretch(camera, &corners, fixed));
     let first = u32::try_from(model.vertices.len()).unwrap_or(u32::MAX);
     let mut normal = [0.0; 3];
     normal[ground.up.0] = narrow(ground.up.1);
@@ -81,7 +87,7 @@ pub(crate) fn add(model: &mut Model, swept: Option<&Model>, cameras: &mut [Camer
         uv: uv.map(narrow),
         ..Vertex::default()
     }));
-    let side = u32::try_from(TEXELS).unwrap_or(0);
+    let side = ground.cells / 2;
     model.textures.push(Image { width: side, height: side, texels }.into());
     let map =
         Map { image: model.textures.len() - 1, filter: Some(Filter::Bilinear), wrap: Some(Wrap::Clamp) };
@@ -103,6 +109,18 @@ pub(crate) fn add(model: &mut Model, swept: Option<&Model>, cameras: &mut [Camer
         order::behind_all(model, part);
     }
     true
+}
+
+/// The shares of a model's radius that its ground is below it: as many as depths can tell.
+fn below(depth: DepthFormat) -> f64 {
+    if depth == DepthFormat::U16 { 2e-3 } else { 1e-4 }
+}
+
+/// Whether cameras are above the ground of a model, which is across the first one's upward direction. None if there is
+/// nothing to stand on it.
+pub(crate) fn above(model: &Model, cameras: &[Camera], depth: DepthFormat) -> Option<Vec<bool>> {
+    let ground = Ground::of(model, cameras.first()?.up, below(depth))?;
+    Some(cameras.iter().map(|camera| ground.is_below(camera)).collect())
 }
 
 /// Moves the planes of a camera so that these points are between them.
@@ -141,10 +159,12 @@ fn bounds(model: &Model) -> [[f64; 3]; 2] {
 impl Ground {
     /// That of a model, if the eye is above it.
     fn under(model: &Model, camera: &Camera, below: f64) -> Option<Self> {
-        let ground = Self::of(model, camera.up, below)?;
-        let (up, sign) = ground.up;
-        let above = sign * (f64::from(camera.eye[up]) - ground.low);
-        (above > 0.0).then_some(ground)
+        Self::of(model, camera.up, below).filter(|ground| ground.is_below(camera))
+    }
+
+    fn is_below(&self, camera: &Camera) -> bool {
+        let (up, sign) = self.up;
+        sign * (f64::from(camera.eye[up]) - self.low) > 0.0
     }
 
     fn of(model: &Model, upwards: [f32; 3], below: f64) -> Option<Self> {
@@ -159,10 +179,15 @@ impl Ground {
         // Just below, so that what stands on it hides it.
         let low = if sign > 0.0 { least[up] } else { most[up] } - sign * below * radius;
         let axes = others(up);
-        let reach = RIM * radius;
+        let reach = (RIM * radius).min(SLANT * size[up]).max(1e-3 * radius);
         let side = size[axes[0]].max(size[axes[1]]) + 2.0 * reach;
         let corner = axes.map(|axis| f64::midpoint(least[axis], most[axis]) - side / 2.0);
-        Some(Self { up: (up, sign), corner, side, low, height: size[up] + below * radius, reach })
+        let [least, most] = CELLS;
+        let is_fine = |cells: &u32| f64::from(*cells) * reach >= FINENESS * side;
+        let cells =
+            std::iter::successors(Some(least), |cells| Some(2 * cells)).find(|c| is_fine(c) || *c >= most);
+        let height = size[up] + below * radius;
+        Some(Self { up: (up, sign), corner, side, low, height, reach, cells: cells.unwrap_or(most) })
     }
 
     /// A place on it, of shares of its sides.
@@ -176,7 +201,7 @@ impl Ground {
 
     /// A place in cells: columns, rows, and how high.
     fn cells(&self, place: [f64; 3]) -> [f64; 3] {
-        let scale = CELLS / self.side;
+        let scale = f64::from(self.cells) / self.side;
         let [a, b] = others(self.up.0);
         let height = self.up.1 * (place[self.up.0] - self.low);
         [(place[a] - self.corner[0]) * scale, (place[b] - self.corner[1]) * scale, height * scale]
@@ -184,28 +209,29 @@ impl Ground {
 
     /// The alpha of each texel, rows from the one with the greatest coordinate.
     fn shadow(&self, model: &Model, wrap: Wrap) -> Vec<u8> {
-        let scale = CELLS / self.side;
-        let columns = Columns::of(model, self, wrap, self.height * scale);
-        let mut dark = columns.darkness(self.reach * scale);
+        let scale = f64::from(self.cells) / self.side;
+        let sky = Sky::over(self, model, wrap, self.height * scale);
+        let mut dark = sky.darkness(self.reach * scale);
+        let side = self.cells as usize / 2;
         // Neighbours look in different directions.
-        blur(&mut dark);
+        blur(&mut dark, side);
         let alpha = |&dark: &f64| {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
             let alpha = (dark * DARKEST * 255.0).round() as u8;
             alpha
         };
-        dark.chunks(TEXELS).rev().flatten().map(alpha).collect()
+        dark.chunks(side).rev().flatten().map(alpha).collect()
     }
 }
 
 /// Twice each texel and its neighbours, over four: along rows, then along columns. Beyond the sides there is nothing.
-fn blur(texels: &mut [f64]) {
-    for (stride, step) in [(1, TEXELS), (TEXELS, 1)] {
-        for start in (0..TEXELS).map(|k| k * step) {
+fn blur(texels: &mut [f64], side: usize) {
+    for (stride, step) in [(1, side), (side, 1)] {
+        for start in (0..side).map(|k| k * step) {
             let mut before = 0.0;
-            for k in 0..TEXELS {
+            for k in 0..side {
                 let at = start + k * stride;
-                let (own, after) = (texels[at], if k + 1 < TEXELS { texels[at + stride] } else { 0.0 });
+                let (own, after) = (texels[at], if k + 1 < side { texels[at + stride] } else { 0.0 });
                 texels[at] = (before + 2.0 * own + after) / 4.0;
                 before = own;
             }
@@ -254,13 +280,16 @@ mod tests {
         // Rows come from the top of the image.
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 255")]
         let (column, row) = (column as usize / 2, row as usize / 2);
-        texels[(TEXELS - 1 - row) * TEXELS + column]
+        let side = ground.cells as usize / 2;
+        // Beside the ground there is no shadow.
+        let index = (side - 1).checked_sub(row).map(|row| row * side + column).filter(|_| column < side);
+        index.map_or(0, |index| texels[index])
     }
 
     #[test]
     fn what_is_near_is_darker_and_sharper() {
         let [low, high] = [0.01, 0.8].map(square);
-        assert!(alpha(&low, [0.0, 0.0]) > 120, "{}", alpha(&low, [0.0, 0.0]));
+        assert!(alpha(&low, [0.0, 0.0]) > 100, "{}", alpha(&low, [0.0, 0.0]));
         assert!(alpha(&low, [0.9, 0.0]) > alpha(&high, [0.9, 0.0]));
         // Beyond the rim there is nothing of what is near, and something of what is high.
         assert!(alpha(&low, [1.2, 0.0]) < 5 && alpha(&high, [1.2, 0.0]) > 10);
@@ -349,7 +378,7 @@ mod tests {
     fn a_blur_is_a_weighted_mean() {
         let mut texels: Vec<f64> = (0..16384_u32).map(|k| f64::from(k * 7919 % 101)).collect();
         let before = texels.clone();
-        blur(&mut texels);
+        blur(&mut texels, 128);
         for (row, column) in [(0, 0), (100, 37), (127, 126), (2, 127)] {
             let mut sum = 0.0;
             for (k, &texel) in before.iter().enumerate() {
@@ -358,9 +387,9 @@ mod tests {
                     1 => 1.0,
                     _ => 0.0,
                 };
-                sum += texel * weight(k / TEXELS, row) * weight(k % TEXELS, column);
+                sum += texel * weight(k / 128, row) * weight(k % 128, column);
             }
-            let found: f64 = texels[row * TEXELS + column];
+            let found: f64 = texels[row * 128 + column];
             assert!((found - sum / 16.0).abs() < 1e-9, "{found} {}", sum / 16.0);
         }
     }

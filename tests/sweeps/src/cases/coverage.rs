@@ -27,6 +27,10 @@ pub fn block(block: u64, seed: u64) -> Result<Found, String> {
         let flip = |p: [i64; 2]| [p[0] * mirror[0], p[1] * mirror[1]];
         let (tri, sample) = (case.tri.map(flip), flip(case.sample));
         let [column, row] = sample.map(|c| (c >> bits) as i32);
+        // The guard band has its lower end alone, which a mirror makes the upper one.
+        if tri.iter().flatten().any(|&x| x >= guard) {
+            continue;
+        }
         if column >= LARGEST || row >= LARGEST {
             continue;
         }

@@ -78,6 +78,11 @@ impl Track {
         }
     }
 
+    /// Whether it has one value at two times.
+    pub(super) fn is_same(&self, a: f64, b: f64) -> bool {
+        self.at(a) == self.at(b)
+    }
+
     /// The times of its values.
     pub(super) fn times(&self) -> impl Iterator<Item = f64> {
         self.times.iter().copied()

@@ -44,7 +44,7 @@ pub(super) fn alpha<'a>(
             places.map(|place| of(texel(image, place))).sum::<f64>() / 36.0
         };
         match (part.detail.blend, part.detail.alpha_test) {
-            (AnyBlend::Constant(alpha), _) => f64::from(alpha) / 255.0,
+            (AnyBlend::Constant(_), _) => 1.0,
             (AnyBlend::Replace, least) => mean(&|alpha| f64::from(u8::from(alpha >= least))),
             (AnyBlend::Over, _) => mean(&|alpha| f64::from(alpha) / 255.0),
             // Light that is added or taken away is no shadow.
@@ -68,14 +68,6 @@ pub(super) fn steps([a, b, c]: [[f64; 5]; 3]) -> [[f64; 2]; 2] {
     [[ux, vx], [uy, vy]]
 }
 
-/// The opacity from which on a cell counts as covered: of cells side by side, as many as the opacity says.
-pub(super) fn threshold(column: usize, row: usize) -> f64 {
-    let [column, row] = [column, row].map(|k| u32::try_from(k).map_or(0.0, f64::from));
-    // Fractions of multiples of two numbers that are as far as can be from any ratio.
-    let share = (0.754_877_666 * column + 0.569_840_291 * row).rem_euclid(1.0);
-    share.clamp(1.0 / 512.0, 511.0 / 512.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -96,7 +88,7 @@ mod tests {
         assert_eq!(of(AnyBlend::Replace, 0), [255.0; 4]);
         assert_eq!(of(AnyBlend::Replace, 100), [0.0, 255.0, 0.0, 255.0]);
         assert_eq!(of(AnyBlend::Over, 0), [0.0, 255.0, 51.0, 128.0]);
-        assert_eq!(of(AnyBlend::Constant(51), 0), [51.0; 4]);
+        assert_eq!(of(AnyBlend::Constant(51), 0), [255.0; 4]);
         assert_eq!(of(AnyBlend::Additive, 0), [0.0; 4]);
     }
 
@@ -140,18 +132,5 @@ mod tests {
         let cell = [[0.1, 0.0], [0.0, 0.1]];
         let ends = [0.25, 0.75].map(|u| alpha([u, 0.4], cell));
         assert!(ends[0] == 0.0 && ends[1] > 0.999, "{ends:?}");
-    }
-
-    /// In any square of cells about as many are covered as the opacity says.
-    #[test]
-    fn as_many_cells_are_covered_as_the_opacity_says() {
-        for opacity in [0.02, 0.2, 0.5, 0.9] {
-            for corner in [[0, 0], [100, 37]] {
-                let cells = (0..400).map(|k| [corner[0] + k % 20, corner[1] + k / 20]);
-                let covered = cells.filter(|cell| opacity > threshold(cell[0], cell[1])).count();
-                let share = f64::from(u32::try_from(covered).unwrap()) / 400.0;
-                assert!((share - opacity).abs() < 0.03, "{opacity}: {share}");
-            }
-        }
     }
 }

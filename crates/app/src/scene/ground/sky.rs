@@ -4,11 +4,16 @@
 //! a texel, columns are looked at outwards in some directions. What stands in a column hides an interval of
 //! elevations. Of an elevation e, a ground sees by sin² e: in bits of that, equal parts of its light, hidden ones are
 //! joined by `|`.
+//!
+//! A surface that is narrower than a cell, or full of holes, has as many of its boxes as it has area. Glass has
+//! columns of its own, and lets through what it is said to.
 
-use super::{CELLS, Ground, SIDE, TEXELS, opacity};
+use super::{Ground, opacity};
 use crate::options::Wrap;
-use crate::scene::{Model, Vertex};
+use crate::scene::normals::{cross, length, narrow};
+use crate::scene::{Model, Part, Vertex};
 use crate::threads::{Task, available, by_threads};
+use alberti::raster::color::AnyBlend;
 
 /// A corner over the ground: columns, rows, height, all in cells, and its texture coordinates.
 type Corner = [f64; 5];
@@ -16,20 +21,35 @@ type Corner = [f64; 5];
 /// Boxes of a column.
 const BOXES: f64 = 64.0;
 
-/// The directions that a cell looks in.
+/// The directions that a texel looks in.
 const DIRECTIONS: u8 = 16;
 
 /// So many steps are made of each length, which doubles.
 const STEPS: u32 = 20;
 
-/// The boxes over all cells, and over squares of 2, 4, … cells.
-pub(super) struct Columns {
+/// The height in boxes up to which a surface is on the ground.
+const FLAT: f64 = 0.25;
+
+/// The share of the area of a surface through a cell from which on it counts as whole.
+const WHOLE: f64 = 0.5;
+
+/// All that hides the sky of a ground.
+pub(super) struct Sky {
+    layers: Vec<Layer>,
+    /// Cells along a side.
+    side: usize,
+}
+
+/// Surfaces that hide the same share.
+struct Layer {
+    opacity: f64,
+    /// The boxes over all cells, and over squares of 2, 4, … cells.
     levels: Vec<Vec<u64>>,
     /// The height of a box, in cells.
     height: f64,
 }
 
-/// A place outwards of a cell.
+/// A place outwards of a texel.
 struct Step {
     level: usize,
     /// How far away it is, and where it begins and ends.
@@ -40,60 +60,28 @@ struct Step {
     weight: f64,
 }
 
-impl Columns {
-    /// Those of what stands on a ground, up to a height in cells.
-    pub(super) fn of(model: &Model, ground: &Ground, wrap: Wrap, height: f64) -> Self {
+impl Sky {
+    /// That over a ground, of what stands on it up to a height in cells.
+    pub(super) fn over(ground: &Ground, model: &Model, wrap: Wrap, height: f64) -> Self {
         let height = (height / BOXES).max(f64::MIN_POSITIVE);
-        let mut cells = vec![0_u64; SIDE * SIDE];
-        for part in &model.parts {
-            let alpha = opacity::alpha(model, part, wrap);
-            for triangle in &part.triangles {
-                let [Some(a), Some(b), Some(c)] = triangle.map(|k| model.vertices.get(k as usize)) else {
-                    continue;
-                };
-                let corner = |v: &Vertex| {
-                    let [column, row, height] = ground.cells(v.position.map(f64::from));
-                    let [u, v] = v.uv.map(f64::from);
-                    [column, row, height, u, v]
-                };
-                let corners = [a, b, c].map(corner);
-                let steps = opacity::steps(corners);
-                over_cells(&corners, &mut |[column, row]: [usize; 2], piece: &[Corner]| {
-                    let Some(cell) = cells.get_mut(row * SIDE + column).filter(|_| column < SIDE) else {
-                        return;
-                    };
-                    let middle = |k: usize| mean(piece.iter().map(|corner| corner[k]));
-                    if alpha([middle(3), middle(4)], steps) > opacity::threshold(column, row) {
-                        let heights = piece.iter().map(|corner| corner[2] / height);
-                        let least = heights.clone().fold(f64::INFINITY, f64::min);
-                        let most = heights.fold(0.0, f64::max);
-                        // A box of which half is used, and one at least.
-                        let first = least.round().min(BOXES - 1.0);
-                        *cell |= bits(first, most.round().max(first + 1.0));
-                    }
-                });
-            }
-        }
-        let mut levels = vec![cells];
-        while let Some(finer) = levels.last().filter(|finer| finer.len() > 1) {
-            let side = SIDE >> (levels.len() - 1);
-            let square = |k: usize| {
-                let (row, column) = (2 * (k / (side / 2)), 2 * (k % (side / 2)));
-                let of = |row: usize| finer[row * side + column] | finer[row * side + column + 1];
-                of(row) | of(row + 1)
-            };
-            let coarser = (0..finer.len() / 4).map(square).collect();
-            levels.push(coarser);
-        }
-        Self { levels, height }
+        let mut alphas: Vec<u8> = model.parts.iter().map(alpha_of).collect();
+        alphas.sort_unstable();
+        alphas.dedup();
+        let layer = |&alpha: &u8| {
+            let parts = model.parts.iter().filter(|part| alpha_of(part) == alpha);
+            let cells = columns(ground, parts, (model, wrap), height);
+            let levels = pyramid(cells, ground.cells as usize);
+            Layer { opacity: f64::from(alpha) / 255.0, levels, height }
+        };
+        Self { layers: alphas.iter().map(layer).collect(), side: ground.cells as usize }
     }
 
-    /// The share of the sky's light that each texel does not have, row by row. What is farther than `reach` cells away
-    /// darkens none, and what is near it little.
+    /// The share of the sky's light that each texel of two by two cells does not have, row by row. What is farther than
+    /// `reach` cells away darkens none, and what is near it little.
     pub(super) fn darkness(&self, reach: f64) -> Vec<f64> {
-        let mut steps = vec![Step { level: 0, along: 0.0, from: 0.0, to: 0.5, weight: 1.0 }];
+        let mut steps = vec![Step { level: 0, along: 0.0, from: 0.25, to: 0.5, weight: 1.0 }];
         let (mut from, mut length, mut level) = (0.5, 1.0, 0);
-        while from < reach && level < self.levels.len() {
+        while from < reach && self.side >> level > 0 {
             for _ in 0..STEPS {
                 let along: f64 = from + length / 2.0;
                 let left = (1.0 - (along / reach).powi(2)).max(0.0);
@@ -103,25 +91,125 @@ impl Columns {
             (length, level) = (2.0 * length, level + 1);
         }
         steps.retain(|step| step.weight > 0.0);
-        let mut dark = vec![0.0; TEXELS * TEXELS];
+        let texels = self.side / 2;
+        let mut dark = vec![0.0; texels * texels];
         let steps = &steps;
-        let threads = available();
-        let rows = dark.chunks_mut(TEXELS).zip(0_u8..).map(|(texels, row)| {
+        let rows = dark.chunks_mut(texels).zip(0_u32..).map(|(texels, row)| {
             Box::new(move || {
-                texels
-                    .iter_mut()
-                    .zip(0_u8..)
-                    .for_each(|(dark, column)| *dark = self.dark([column, row], steps));
+                for (dark, column) in texels.iter_mut().zip(0_u32..) {
+                    let light = self.layers.iter().map(|layer| {
+                        let of = |steps| layer.dark([column, row], steps, self.side);
+                        1.0 - layer.opacity
+                            * if layer.is_empty([column, row], reach, self.side) { 0.0 } else { of(steps) }
+                    });
+                    *dark = 1.0 - light.product::<f64>();
+                }
             }) as Task<'_>
         });
-        by_threads(rows.collect(), threads.get());
+        by_threads(rows.collect(), available().get());
         dark
     }
+}
 
-    fn dark(&self, texel: [u8; 2], steps: &[Step]) -> f64 {
+/// The share that a part hides: of glass less than all.
+fn alpha_of(part: &Part) -> u8 {
+    if let AnyBlend::Constant(alpha) = part.detail.blend { alpha } else { u8::MAX }
+}
+
+/// The boxes that these parts pass through, over each cell.
+fn columns<'a>(
+    ground: &Ground,
+    parts: impl Iterator<Item = &'a Part>,
+    (model, wrap): (&Model, Wrap),
+    height: f64,
+) -> Vec<u64> {
+    let side = ground.cells as usize;
+    let mut cells = vec![(0_u64, 0.0_f32); side * side];
+    for part in parts {
+        let alpha = opacity::alpha(model, part, wrap);
+        for triangle in &part.triangles {
+            let [Some(a), Some(b), Some(c)] = triangle.map(|k| model.vertices.get(k as usize)) else {
+                continue;
+            };
+            let corner = |v: &Vertex| {
+                let [column, row, height] = ground.cells(v.position.map(f64::from));
+                let [u, v] = v.uv.map(f64::from);
+                [column, row, height, u, v]
+            };
+            let corners = [a, b, c].map(corner);
+            let steps = opacity::steps(corners);
+            over_cells(&corners, side, &mut |[column, row]: [usize; 2], piece: &[Corner]| {
+                let Some((boxes, seen)) = cells.get_mut(row * side + column).filter(|_| column < side) else {
+                    return;
+                };
+                let middle = |k: usize| mean(piece.iter().map(|corner| corner[k]));
+                let opaque = alpha([middle(3), middle(4)], steps) * area(piece);
+                if opaque > 0.0 {
+                    let heights = piece.iter().map(|corner| corner[2] / height);
+                    let least = heights.clone().fold(f64::INFINITY, f64::min);
+                    let most = heights.fold(0.0, f64::max);
+                    // It lies on the ground, and hides what it darkens.
+                    if most < FLAT {
+                        return;
+                    }
+                    // A box of which half is used, and one at least.
+                    let first = least.round().min(BOXES - 1.0);
+                    *boxes |= bits(first, most.round().max(first + 1.0));
+                    *seen += narrow(opaque);
+                }
+            });
+        }
+    }
+    let kept = |(index, (boxes, seen)): (usize, (u64, f32))| {
+        // A level surface has the area of its cell, and a wall its height.
+        let whole = (f64::from(boxes.count_ones()) * height).max(1.0);
+        let share = f64::from(seen) / (WHOLE * whole);
+        if share >= 1.0 { boxes } else { boxes & some([index % side, index / side], share) }
+    };
+    cells.into_iter().enumerate().map(kept).collect()
+}
+
+/// A share of the boxes of a column: of boxes side by side in all directions, as many as it says.
+fn some([column, row]: [usize; 2], share: f64) -> u64 {
+    let [column, row] = [column, row].map(|k| u32::try_from(k).map_or(0.0, f64::from));
+    // Fractions of multiples of three numbers that are as far as can be from any ratio.
+    let start = 0.819_172_513_396 * column + 0.671_043_606_704 * row;
+    let is_kept = |k: u32| (start + 0.549_700_477_902 * f64::from(k)).fract() < share;
+    (0..64).filter(|&k| is_kept(k)).fold(0, |boxes, k| boxes | 1 << k)
+}
+
+/// The boxes over squares of cells that are larger by two.
+fn pyramid(cells: Vec<u64>, side: usize) -> Vec<Vec<u64>> {
+    let mut levels = vec![cells];
+    while let Some(finer) = levels.last().filter(|finer| finer.len() > 1) {
+        let side = side >> (levels.len() - 1);
+        let square = |k: usize| {
+            let (row, column) = (2 * (k / (side / 2)), 2 * (k % (side / 2)));
+            let of = |row: usize| finer[row * side + column] | finer[row * side + column + 1];
+            of(row) | of(row + 1)
+        };
+        let coarser = (0..finer.len() / 4).map(square).collect();
+        levels.push(coarser);
+    }
+    levels
+}
+
+impl Layer {
+    /// Whether nothing is within reach of a texel.
+    fn is_empty(&self, texel: [u32; 2], reach: f64, side: usize) -> bool {
+        let far = |level: &usize| f64::from(1_u32 << *level) >= reach;
+        let level = (0..self.levels.len()).find(far).unwrap_or(self.levels.len() - 1);
+        let [column, row] = texel.map(|k| (2 * k as usize + 1) >> level);
+        let last = (side >> level) - 1;
+        let around = |k: usize| k.saturating_sub(1)..=(k + 1).min(last);
+        around(row).all(|row| around(column).all(|column| self.levels[level][row * (last + 1) + column] == 0))
+    }
+
+    fn dark(&self, texel: [u32; 2], steps: &[Step], side: usize) -> f64 {
         // Neighbours look in directions between those of each other.
         let turned = f64::from((texel[0] & 1) * 2 + (texel[1] & 1)) / 4.0;
         let place = texel.map(|k| 2.0 * f64::from(k) + 1.0);
+        let beside = u32::try_from(side).map_or(0.0, f64::from);
         let mut sum = 0.0;
         for k in 0..DIRECTIONS {
             let angle = (f64::from(k) + turned) / f64::from(DIRECTIONS) * std::f64::consts::TAU;
@@ -129,12 +217,12 @@ impl Columns {
             let mut hidden = 0_u64;
             for step in steps {
                 let [x, y] = [place[0] + step.along * cos, place[1] + step.along * sin];
-                if !(0.0..CELLS).contains(&x) || !(0.0..CELLS).contains(&y) || hidden == u64::MAX {
+                if !(0.0..beside).contains(&x) || !(0.0..beside).contains(&y) || hidden == u64::MAX {
                     break;
                 }
                 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "they are cells")]
                 let (column, row) = (x as usize >> step.level, y as usize >> step.level);
-                let boxes = self.levels[step.level][row * (SIDE >> step.level) + column];
+                let boxes = self.levels[step.level][row * (side >> step.level) + column];
                 if boxes != 0 {
                     let now = self.elevations(boxes, step) & !hidden;
                     hidden |= now;
@@ -176,8 +264,21 @@ fn mean(values: impl Iterator<Item = f64> + Clone) -> f64 {
     values.sum::<f64>() / f64::max(count, 1.0)
 }
 
-/// Hands on the pieces of a triangle over each cell of the ground. One without any area from above has some as well.
-fn over_cells(corners: &[Corner; 3], each: &mut impl FnMut([usize; 2], &[Corner])) {
+/// The area of a flat outline, in cells.
+fn area(piece: &[Corner]) -> f64 {
+    let from = |k: usize, corner: &Corner| corner[k] - piece[0][k];
+    let pairs = piece.iter().skip(1).zip(piece.iter().skip(2));
+    let crossed = pairs.fold([0.0; 3], |sum, (a, b)| {
+        let [a, b] = [a, b].map(|corner| [0, 1, 2].map(|k| from(k, corner)));
+        let cross = cross(a, b);
+        [0, 1, 2].map(|k| sum[k] + cross[k])
+    });
+    length(crossed) / 2.0
+}
+
+/// Hands on the pieces of a triangle over each cell of a ground of so many a side. One without any area from above has
+/// some as well.
+fn over_cells(corners: &[Corner; 3], side: usize, each: &mut impl FnMut([usize; 2], &[Corner])) {
     if !corners.iter().flatten().all(|x| x.is_finite()) {
         return;
     }
@@ -185,8 +286,8 @@ fn over_cells(corners: &[Corner; 3], each: &mut impl FnMut([usize; 2], &[Corner]
         let least = piece.iter().map(|corner| corner[axis]).fold(f64::INFINITY, f64::min).floor();
         let most = piece.iter().map(|corner| corner[axis]).fold(f64::NEG_INFINITY, f64::max).floor();
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "they are cells")]
-        let [least, most] = [least.max(0.0), most.min(CELLS - 1.0) + 1.0].map(|k| k as usize);
-        least..most
+        let [least, most] = [least.max(0.0), (most + 1.0).max(0.0)].map(|k| k as usize);
+        least..most.min(side)
     };
     let (columns, rows) = (range(corners, 0), range(corners, 1));
     if columns.len() == 1 && rows.len() == 1 {
@@ -236,22 +337,27 @@ fn between(outline: &[Corner], axis: usize, cell: usize) -> Vec<Corner> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Part;
-    use crate::scene::normals::narrow;
     use std::f64::consts::{PI, TAU};
 
-    const GROUND: Ground =
-        Ground { up: (1, 1.0), corner: [-2.0, -2.0], side: 4.0, low: 0.0, height: 2.0, reach: 4.0 };
+    const GROUND: Ground = Ground {
+        up: (1, 1.0),
+        corner: [-2.0, -2.0],
+        side: 4.0,
+        low: 0.0,
+        height: 2.0,
+        reach: 4.0,
+        cells: 256,
+    };
 
     /// The share that a place on the ground does not see of the sky, of a model under which nothing is left out.
     fn dark(model: &Model, [x, z]: [f64; 2]) -> f64 {
-        let columns = Columns::of(model, &GROUND, Wrap::Repeat, CELLS / 2.0);
-        let dark = columns.darkness(f64::INFINITY);
+        let sky = Sky::over(&GROUND, model, Wrap::Repeat, 128.0);
+        let dark = sky.darkness(f64::INFINITY);
         let [column, row, _] = GROUND.cells([x, 0.0, z]);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 255")]
         let [column, row] = [column, row].map(|cell| cell as usize / 2);
         // With the neighbours, which look between its directions.
-        let square = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(a, b)| dark[(row + a) * TEXELS + column + b]);
+        let square = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(a, b)| dark[(row + a) * 128 + column + b]);
         mean(square.into_iter())
     }
 
@@ -318,5 +424,67 @@ mod tests {
             [[f64::NAN, 1.0, 0.0], [1e30, 1.0, 1.0], [-1.0, 1.0, 1e30], [5.0, 1.0, 5.0], [6.0, 1.0, 5.0]];
         let none = model(&far, vec![[0, 1, 2], [3, 4, 4], [0, 0, 0], [9, 1, 2]]);
         assert!(dark(&none, [0.0, 0.0]).abs() < f64::EPSILON);
+    }
+
+    /// Glass hides as much as it says of what a wall hides, and wires as much as they have area.
+    #[test]
+    fn glass_and_wires_hide_their_share() {
+        let rectangle = |left: f64, right: f64, first: u32| {
+            let corners = [[0.0, left], [0.0, right], [1.0, right], [1.0, left]];
+            (
+                corners.map(|[y, z]| [0.0, y, z]),
+                [[first, first + 1, first + 2], [first, first + 2, first + 3]],
+            )
+        };
+        let wall = rectangle(-1.5, 1.5, 0);
+        let mut glass = model(&wall.0, wall.1.to_vec());
+        let whole = dark(&glass, [0.4, 0.0]);
+        glass.parts[0].detail.blend = AnyBlend::Constant(51);
+        let found = dark(&glass, [0.4, 0.0]);
+        assert!((found - 0.2 * whole).abs() < 1e-9, "{found} {whole}");
+        // A twentieth of a cell wide, each second cell: with half of the area of a surface a cell counts as whole.
+        let wires = (0..96_u32).map(|k| {
+            let left = -1.5 + f64::from(k) / 32.0;
+            rectangle(left + 0.001, left + 0.001 + 1.0 / 1280.0, 4 * k)
+        });
+        let (corners, triangles): (Vec<_>, Vec<_>) = wires.unzip();
+        let wires = model(&corners.concat(), triangles.concat());
+        let found = dark(&wires, [0.4, 0.0]) / whole;
+        assert!((0.02..0.3).contains(&found), "{found}");
+    }
+
+    /// In any block of boxes about as many are kept as the share says.
+    #[test]
+    fn as_many_boxes_are_kept_as_the_share_says() {
+        for share in [0.02, 0.2, 0.5, 0.9] {
+            for corner in [[0, 0], [100, 37]] {
+                let cells = (0..100).map(|k| [corner[0] + k % 10, corner[1] + k / 10]);
+                let kept: u32 = cells.map(|cell| some(cell, share).count_ones()).sum();
+                assert!((f64::from(kept) / 6400.0 - share).abs() < 0.01, "{share}: {kept}");
+            }
+        }
+    }
+
+    /// A sheet that lies on the ground has no rim, and nothing is dark where nothing is near.
+    #[test]
+    fn sheets_on_the_ground_and_far_places_are_not_dark() {
+        let sheet = model(
+            &[-1.0, 1.0].map(|x| [-1.0, 1.0].map(|z| [x, 1e-5, z])).concat(),
+            vec![[0, 1, 3], [0, 3, 2]],
+        );
+        for at in [[0.0, 1.02], [1.02, 0.5], [-1.02, 0.0], [1.5, 1.5]] {
+            assert!(dark(&sheet, at) < 0.02, "{at:?}: {}", dark(&sheet, at));
+        }
+        let raised = model(
+            &[-1.0, 1.0].map(|x| [-1.0, 1.0].map(|z| [x, 0.5, z])).concat(),
+            vec![[0, 1, 3], [0, 3, 2]],
+        );
+        let sky = Sky::over(&GROUND, &raised, Wrap::Repeat, 128.0);
+        let near = sky.darkness(20.0);
+        assert!(
+            near[0] == 0.0
+                && sky.layers[0].is_empty([0, 0], 20.0, 256)
+                && !sky.layers[0].is_empty([64, 64], 20.0, 256)
+        );
     }
 }

@@ -1,0 +1,134 @@
+//! A copy of the repository, and the switch in it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::LIBRARIES;
+
+/// The folder of a copy.
+pub(crate) struct Tree {
+    pub(crate) root: PathBuf,
+    /// The folder of what is compiled, and of the state.
+    pub(crate) folder: PathBuf,
+}
+
+/// The switch. Its variable is set before `main`, by the environment. With `record` it notes which switches are passed,
+/// in the file that `MUTANT_REACHED` names.
+const SWITCH: &str = r#"
+#[doc(hidden)]
+#[allow(missing_docs, clippy::all, reason = "not of the library")]
+pub mod mutant_switch {
+    use core::ffi::{c_char, c_int, c_void};
+    const RECORD: u32 = u32::MAX;
+    const MOST: usize = 1 << 15;
+    static mut ALIVE: u32 = u32::MAX - 1;
+    static mut REACHED: [u8; MOST] = [0; MOST];
+    unsafe extern "C" {
+        fn getenv(name: *const c_char) -> *const c_char;
+        fn atoi(text: *const c_char) -> c_int;
+        fn atexit(end: extern "C" fn()) -> c_int;
+        fn fopen(name: *const c_char, mode: *const c_char) -> *mut c_void;
+        fn fwrite(bytes: *const u8, size: usize, count: usize, file: *mut c_void) -> usize;
+        fn fclose(file: *mut c_void) -> c_int;
+    }
+    #[inline(always)]
+    pub const fn mutant(number: u32) -> bool {
+        unsafe {
+            if ALIVE == RECORD {
+                (&raw mut REACHED).cast::<u8>().add(number as usize).write(1);
+            }
+            ALIVE == number
+        }
+    }
+    extern "C" fn end() {
+        unsafe {
+            let name = getenv(c"MUTANT_REACHED".as_ptr());
+            if name.is_null() {
+                return;
+            }
+            let file = fopen(name, c"wb".as_ptr());
+            fwrite((&raw const REACHED).cast(), 1, MOST, file);
+            fclose(file);
+        }
+    }
+    extern "C" fn begin() {
+        unsafe {
+            if !getenv(c"MUTANT_REACHED".as_ptr()).is_null() {
+                ALIVE = RECORD;
+                atexit(end);
+                return;
+            }
+            let alive = getenv(c"MUTANT".as_ptr());
+            if !alive.is_null() {
+                ALIVE = atoi(alive) as u32;
+            }
+        }
+    }
+    #[used]
+    #[unsafe(link_section = ".init_array")]
+    static BEGIN: extern "C" fn() = begin;
+}
+#[doc(hidden)]
+pub use mutant_switch::mutant;
+"#;
+
+impl Tree {
+    /// Copies what git knows of the repository, as it is in the folder, and puts in the switch.
+    pub(crate) fn new(from: &Path, folder: &Path) -> Result<Self, String> {
+        let failed = |what: &Path, error: std::io::Error| format!("{}: {error}", what.display());
+        fs::create_dir_all(folder).map_err(|error| failed(folder, error))?;
+        let folder = folder.canonicalize().map_err(|error| failed(folder, error))?;
+        let root = folder.join("tree");
+        let listed = Command::new("git")
+            .current_dir(from)
+            .args(["ls-files", "-z", "--cached", "--others", "--exclude-standard"])
+            .output();
+        let listed = listed.map_err(|error| format!("cannot run git: {error}"))?;
+        for name in String::from_utf8_lossy(&listed.stdout).split('\0').filter(|name| !name.is_empty()) {
+            let (source, target) = (from.join(name), root.join(name));
+            let Ok(bytes) = fs::read(&source) else { continue };
+            let parent = target.parent().unwrap_or(&root);
+            fs::create_dir_all(parent).map_err(|error| failed(parent, error))?;
+            write(&target, &bytes)?;
+        }
+        let tree = Self { root, folder };
+        tree.change("Cargo.toml", |text| {
+            text.replace("unsafe_code = \"forbid\"", "unsafe_code = \"allow\"")
+        })?;
+        for library in LIBRARIES {
+            let switch = if library == "math" {
+                SWITCH
+            } else {
+                "\n#[doc(hidden)]\npub use alberti_math::mutant_switch::mutant;\n"
+            };
+            tree.change(&format!("crates/{library}/src/lib.rs"), |text| {
+                text.replace("#![forbid(unsafe_code)]", "") + switch
+            })?;
+        }
+        Ok(tree)
+    }
+
+    fn change(&self, name: &str, change: impl Fn(String) -> String) -> Result<(), String> {
+        let path = self.root.join(name);
+        let text = fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+        write(&path, change(text).as_bytes())
+    }
+
+    /// A command in the copy, with its own folder of what is compiled.
+    pub(crate) fn cargo(&self) -> Command {
+        let mut cargo = Command::new("cargo");
+        cargo.current_dir(&self.root).env("CARGO_TARGET_DIR", self.folder.join("target"));
+        // The pieces between switches look odd to the compiler.
+        cargo.env("RUSTFLAGS", "--cap-lints allow");
+        cargo
+    }
+}
+
+/// Writes a file, unless it is so already: what has not changed is not compiled again.
+pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
+    if fs::read(path).is_ok_and(|before| before == bytes) {
+        return Ok(());
+    }
+    fs::write(path, bytes).map_err(|error| format!("{}: {error}", path.display()))
+}
