@@ -4,6 +4,7 @@ use crate::command::{Outcome, cargo, run};
 use crate::elf::Program;
 use crate::workspace::{self, FINGERPRINT, FIRMWARE};
 use std::fs;
+use std::process::Command;
 
 /// Checks the formatting of every member, and of the firmware.
 pub(crate) fn fmt() -> Outcome {
@@ -29,6 +30,7 @@ pub(crate) fn fmt() -> Outcome {
 /// Every feature is on: members are compiled together, and the application asks for all, as `tidy` makes sure.
 pub(crate) fn lint() -> Outcome {
     run(cargo().args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]))?;
+    run(with_mutants("clippy").args(["--all-targets", "--", "-D", "warnings"]))?;
     let (manifest, [_, scenes]) = FIRMWARE;
     let mut clippy = cargo();
     clippy.args([
@@ -123,6 +125,20 @@ pub(crate) fn sweep(words: &[String]) -> Outcome {
         );
     }
     Ok(())
+}
+
+/// A command of cargo for the program with all mutants.
+pub(crate) fn with_mutants(command: &str) -> Command {
+    let mut cargo = cargo();
+    cargo.args([command, "--manifest-path", "tests/mutants/Cargo.toml", "--target-dir"]);
+    cargo.arg(workspace::target_directory());
+    cargo
+}
+
+/// The mutants of cargo-mutants, and the tests that notice them.
+pub(crate) fn mutants(words: &[String]) -> Outcome {
+    let folder = workspace::target_directory().join("mutants");
+    run(with_mutants("run").args(["--release", "--"]).args(words).arg("--folder").arg(folder))
 }
 
 /// Runs the tests that can look at every single `f32`, or at ten million triangles and samples, instead of at some: on

@@ -36,13 +36,16 @@ struct Options<'a> {
     jobs: u32,
     /// Whether few cases that reach as much as all are to be kept in the repository.
     keep: bool,
+    /// Whether the compiler's checks of addresses are on, which a nightly one has.
+    address: bool,
     /// One of so many machines, counted from 1: each takes other targets.
     shard: [usize; 2],
 }
 
 impl<'a> Options<'a> {
     fn read(arguments: &'a [String]) -> Result<Self, String> {
-        let mut options = Self { targets: Vec::new(), time: 60, jobs: 1, keep: false, shard: [1, 1] };
+        let mut options =
+            Self { targets: Vec::new(), time: 60, jobs: 1, keep: false, address: false, shard: [1, 1] };
         let mut words = arguments.iter().map(String::as_str);
         while let Some(word) = words.next() {
             let mut number = || {
@@ -53,10 +56,11 @@ impl<'a> Options<'a> {
                 "--time" => options.time = number()?,
                 "--jobs" => options.jobs = number()?,
                 "--keep" => options.keep = true,
+                "--address" => options.address = true,
                 "--shard" => options.shard = shard(words.next())?,
                 option if option.starts_with('-') => {
                     return Err(format!(
-                        "expected targets, `--time S`, `--jobs N`, `--shard K/N` or `--keep`, found `{option}`"
+                        "expected targets, `--time S`, `--jobs N`, `--shard K/N`, `--address` or `--keep`, found `{option}`"
                     ));
                 }
                 target => options.targets.push(target),
@@ -110,9 +114,14 @@ pub(crate) fn fuzz(arguments: &[String]) -> Outcome {
     // A target has flags of its own, which build scripts and macros do not get.
     let version = output(Command::new("rustc").arg("-vV"))?;
     let host = embedded::host(&version).ok_or("`rustc -vV` names no host")?;
-    let built = workspace::target_directory().join("fuzz");
-    let mut build = cargo();
-    build.env("RUSTFLAGS", FLAGS).args(["build", "--release", "--target", host, "--manifest-path", MANIFEST]);
+    let built = workspace::target_directory().join(if options.address { "fuzz-address" } else { "fuzz" });
+    let (mut build, mut flags) = (cargo(), FLAGS.to_owned());
+    if options.address {
+        build = Command::new("cargo");
+        build.arg("+nightly");
+        flags += " -Zsanitizer=address";
+    }
+    build.env("RUSTFLAGS", flags).args(["build", "--release", "--target", host, "--manifest-path", MANIFEST]);
     run(build.arg("--target-dir").arg(&built))?;
     let names: Vec<_> = all
         .iter()
@@ -167,7 +176,8 @@ fn one(program: &Path, name: &str, work: &Path, options: &Options<'_>) -> Result
     command.args([
         "-artifact_prefix=found/",
         "-timeout=10",
-        "-rss_limit_mb=2500",
+        // Memory that is given back is kept apart for a while by the checks of addresses.
+        if options.address { "-rss_limit_mb=6000" } else { "-rss_limit_mb=2500" },
         "-max_len=2000",
         "-close_fd_mask=3",
     ]);

@@ -149,9 +149,15 @@ const CHORES: &[Chore] = &[
     },
     Chore {
         name: "fuzz",
-        arguments: "[target...] [--time S] [--jobs N] [--shard K/N] [--keep]",
-        about: "fuzz the targets of tests/hostile, guided by coverage; --keep adds cases to the corpora",
+        arguments: "[target...] [--time S] [--jobs N] [--shard K/N] [--address] [--keep]",
+        about: "fuzz the targets of tests/hostile, guided by coverage; --address has a sanitizer, of nightly; --keep adds cases",
         run: fuzz::fuzz,
+    },
+    Chore {
+        name: "mutants",
+        arguments: "[--seconds S] [--only TEXT]",
+        about: "have the tests meet the mutants of cargo-mutants, all in one program; goes on where it was stopped",
+        run: checks::mutants,
     },
     Chore {
         name: "supply",

@@ -20,7 +20,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
-use crate::command::{Outcome, cargo, output};
+use crate::checks::with_mutants;
+use crate::command::{Outcome, cargo, output, run as run_command};
 use crate::{tidy, workspace};
 use bug::{Bug, Results};
 use tree::Tree;
@@ -39,9 +40,10 @@ pub(crate) fn run(arguments: &[String]) -> Outcome {
     if flags.is_empty() { catch(&bugs) } else { apply(&bugs) }
 }
 
-/// Checks that every patch applies to the tree, and names a test that there is.
+/// Checks that every patch applies to the tree, and names a test that there is; and the program with all mutants.
 pub(crate) fn check() -> Outcome {
-    apply(&all()?)
+    apply(&all()?)?;
+    run_command(with_mutants("test").arg("--quiet"))
 }
 
 /// The bugs of the folder, those of a package and target together.

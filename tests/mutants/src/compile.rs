@@ -47,7 +47,20 @@ pub(crate) fn compile(tree: &Tree, mutants: &[Mutant]) -> Result<Compiled, Strin
         }
         let before = left_out.len();
         for fault in &faults {
-            let numbers = blamed(tree, &files, fault);
+            let mut numbers = blamed(tree, &files, fault);
+            if fault.is_constant {
+                // All of the function is computed while compiling.
+                let whole = |number: &usize| {
+                    let Mutant { file, function, .. } = &mutants[*number];
+                    let same = move |other: &Mutant| (&other.file, &other.function) == (file, function);
+                    let all = mutants
+                        .iter()
+                        .enumerate()
+                        .filter(move |(_, other)| function.is_some() && same(other));
+                    all.map(|(other, _)| other)
+                };
+                numbers = numbers.iter().flat_map(whole).chain(numbers.iter().copied()).collect();
+            }
             if numbers.is_empty() {
                 eprintln!("nothing is to blame for: {}", fault.message);
             }

@@ -285,7 +285,8 @@ mod tests {
     use super::*;
 
     fn mutant(genre: Genre, replacement: &str, place: (usize, usize)) -> Mutant {
-        Mutant { name: String::new(), file: "a.rs".into(), genre, replacement: replacement.to_owned(), place }
+        let replacement = replacement.to_owned();
+        Mutant { name: String::new(), file: "a.rs".into(), function: None, genre, replacement, place }
     }
 
     fn written(source: &str, mutants: &[Mutant]) -> String {

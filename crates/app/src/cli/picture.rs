@@ -103,11 +103,13 @@ impl Request {
     }
 
     /// Warns of a picture in which nothing of the model is seen, and why.
-    pub(super) fn warn_of_nothing(&self, stats: &Stats, cull: Cull) {
+    pub(super) fn warn_of_nothing(&self, stats: &Stats, (camera, cull): (&Camera, Cull)) {
         if stats.written > 0 || !told().is_empty() || self.arguments.show.is_some() {
             return;
         }
-        let hint = if stats.dropped >= stats.submitted {
+        let hint = if camera.near > 0.0 && camera.near < 1e-7 * camera.far {
+            "from so near a front plane on, depths have no bits left: see --near"
+        } else if stats.dropped >= stats.submitted {
             "all of it is outside the view: see --eye, --target, --zoom, --near and --far"
         } else if cull != Cull::None && stats.culled + stats.dropped >= stats.submitted {
             "its faces are left out by --cull"
@@ -151,6 +153,9 @@ impl Request {
         }
         let above = self.above_ground(staged, cameras);
         let Staged { model, swept, options, .. } = staged;
+        if ground::above(swept.as_ref().unwrap_or(model), cameras, options.depth).is_none() {
+            return left_out("it under a model without extent", "one that stands on it");
+        }
         let CameraTable { near, far, .. } = self.arguments.camera;
         let affine = options.policies.interpolation == Interpolation::Affine;
         let fixed = [near.is_some(), far.is_some()];
@@ -159,15 +164,20 @@ impl Request {
             return left_out("a camera below the model's lowest point", "one above the ground");
         }
         let below = above.iter().filter(|above| !**above).count();
-        if below > 0 {
-            let found = format!("{below} of {} frames from below the model's lowest point", above.len());
-            let error = Error::new(found, "views from above the ground").place("--ground");
-            warn(&error.hint("it is left out of those").to_string());
-        }
+        warn_of_frames_below(below, above.len());
         if options.policies.color != ColorFormat::Rgba8 && options.policies.dither == Dither::None {
             let found = format!("a shadow in {} without a dither", name_of(options.policies.color));
             let error = Error::new(found, "a smooth one").place("--ground");
             warn(&error.hint("--dither blue-noise leaves no rings").to_string());
         }
+    }
+}
+
+/// Warns of frames that have no ground.
+pub(super) fn warn_of_frames_below(below: usize, all: usize) {
+    if below > 0 {
+        let found = format!("{below} of {all} frames from below the model's lowest point");
+        let error = Error::new(found, "views from above the ground").place("--ground");
+        warn(&error.hint("it is left out of those").to_string());
     }
 }

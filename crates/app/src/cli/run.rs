@@ -274,7 +274,7 @@ fn draw_from(request: &Request) -> Result<(), Error> {
             }
         })
     })?;
-    request.warn_of_nothing(&picture.stats, options.cull);
+    request.warn_of_nothing(&picture.stats, (&seen, options.cull));
     if request.arguments.stats.is_some() && options.threads.get() > 1 {
         // A triangle counts once, however many threads drew it.
         let alone = RenderOptions { threads: NonZero::<usize>::MIN, ..options };

@@ -3,12 +3,14 @@
 use std::borrow::Cow;
 use std::env;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command, FromArgMatches as _};
 
 use super::RenderArgs;
 use super::film::{FilmFile, beside, pictures};
+use super::picture::warn_of_frames_below;
 use super::request::{Request, hidden, refuse};
 use super::run::print;
 use super::staged::{Cast, Staged, projection, threads};
@@ -128,8 +130,17 @@ fn film(
     let end = request.file.as_ref().and_then(SceneFile::end);
     // A motion that does not end as it began is shown up to its end; of a round the first frame comes after the last.
     let last = u32::from(request.file.as_ref().is_some_and(|file| end.is_some() && !file.goes_round()));
-    let lasting = |end| arguments.fps.lasting(end, MOST - 1) + last;
+    let lasting = |end| arguments.fps.lasting(end, MOST + 1) + last;
     let frames = arguments.frames.unwrap_or_else(|| end.map_or(60, lasting));
+    if frames > MOST {
+        let found = format!("a motion of more than {MOST} frames");
+        return Err(Error::new(found, "fewer").place("--fps").hint("see --frames and --fps"));
+    }
+    let stands = arguments.degrees.map_or(end.is_some(), |degrees| <[f64; 1]>::from(degrees)[0] == 0.0);
+    if arguments.axis.is_some() && stands {
+        let error = Error::new("it for a camera that does not turn", "--degrees of a turn").place("--axis");
+        warn(&error.hint("it has no effect").to_string());
+    }
     let is_timed = matches.value_source("fps") == Some(ValueSource::CommandLine);
     // Frames without a rate are all of a motion.
     let whole_motion = end.filter(|_| arguments.frames.is_some() && !is_timed);
@@ -192,13 +203,18 @@ fn film(
     }
     let Staged { model, options, samples, backdrop, .. } = staged;
     let set = Set { model: &model, options: &options, samples, backdrop: &backdrop };
+    let below = AtomicUsize::new(0);
     let moved = |frame: u32, cast: &Cast| {
         let request = request.at(matches, time(frame))?;
         let mut staged = request.stage_with(cast.clone(), motion.as_ref())?;
         staged.camera = turned(&request, &staged, &turn, frame);
         let projection = projection(&request.arguments, &staged.camera)?;
         ordered(&mut staged.model, &staged.camera, projection);
-        request.add_ground(&mut staged);
+        if request.above_ground(&staged, &[staged.camera]) == [true] {
+            request.add_ground(&mut staged);
+        } else {
+            below.fetch_add(1, Ordering::Relaxed);
+        }
         Ok(Shot { model: Cow::Owned(staged.model), camera: staged.camera, projection })
     };
     let shot = |at: usize| match (wanted.get(at), &cast) {
@@ -221,6 +237,7 @@ fn film(
         })
     })?;
     during(Stage::Encode, |_| film.map_or(Ok(()), |film| file.write(film)))?;
+    warn_of_frames_below(below.into_inner(), wanted.len());
     if is_silent() {
         return Ok(());
     }

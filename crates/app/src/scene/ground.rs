@@ -157,11 +157,7 @@ fn bounds(model: &Model) -> [[f64; 3]; 2] {
 }
 
 impl Ground {
-    /// That of a model, if the eye is above it.
-    fn under(model: &Model, camera: &Camera, below: f64) -> Option<Self> {
-        Self::of(model, camera.up, below).filter(|ground| ground.is_below(camera))
-    }
-
+    /// Whether a camera sees it from above.
     fn is_below(&self, camera: &Camera) -> bool {
         let (up, sign) = self.up;
         sign * (f64::from(camera.eye[up]) - self.low) > 0.0
@@ -274,7 +270,7 @@ mod tests {
     }
 
     fn alpha(model: &Model, [x, z]: [f64; 2]) -> u8 {
-        let ground = Ground::under(model, &CAMERA, 1e-4).expect("a ground");
+        let ground = Ground::of(model, CAMERA.up, 1e-4).expect("a ground");
         let [column, row, _] = ground.cells([x, 0.0, z]);
         let texels = ground.shadow(model, Wrap::Repeat);
         // Rows come from the top of the image.

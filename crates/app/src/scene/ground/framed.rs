@@ -6,8 +6,8 @@ use crate::scene::normals::narrow;
 use crate::scene::{Camera, Model, Part, Vertex};
 use std::f64::consts::TAU;
 
-/// The share of a ground's side that what stands on it darkens around it, for an eye to see.
-const SHADOW: f64 = 1.0 / 16.0;
+/// The share of a shadow's reach that is dark enough for an eye to see.
+const SHADOW: f64 = 0.2;
 
 /// The directions in which that is beside the outermost place, in a frame.
 const AROUND: u32 = 16;
@@ -22,31 +22,32 @@ pub(crate) fn in_view(
     up: Option<[f32; 3]>,
     frame: impl Fn(&Model) -> Result<Camera, Error>,
 ) -> Result<Camera, Error> {
-    if up.is_some()
-        && let Ok(camera) = frame(model)
-        && Ground::under(model, &camera, 0.0).is_none()
-    {
-        return Ok(camera);
-    }
+    let Some(ground) = up.and_then(|up| Ground::of(model, up, 0.0)) else { return frame(model) };
     let kept = (model.vertices.len(), model.parts.len());
-    if let Some(ground) = up.and_then(|up| Ground::of(model, up, 0.0)) {
-        let axes = others(ground.up.0);
-        let first = u32::try_from(model.vertices.len()).unwrap_or(u32::MAX - AROUND);
-        for k in 0..AROUND {
-            let (sin, cos) = (f64::from(k) / f64::from(AROUND) * TAU).sin_cos();
-            let along = |place: &[f64; 3]| place[axes[0]] * cos + place[axes[1]] * sin;
-            let farthest = places(model).max_by(|a, b| along(a).total_cmp(&along(b)));
-            let Some(mut place) = farthest else { continue };
-            place[axes[0]] += cos * ground.side * SHADOW;
-            place[axes[1]] += sin * ground.side * SHADOW;
-            place[ground.up.0] = ground.low;
-            model.vertices.push(Vertex { position: place.map(narrow), ..Vertex::default() });
+    let axes = others(ground.up.0);
+    let first = u32::try_from(model.vertices.len()).unwrap_or(u32::MAX - AROUND);
+    let ways = (0..AROUND).map(|k| (f64::from(k) / f64::from(AROUND) * TAU).sin_cos());
+    // The outermost place of each way, and how far out it is.
+    let mut farthest: Vec<_> = ways.map(|way| (way, f64::NEG_INFINITY, [0.0; 3])).collect();
+    for place in places(model) {
+        for ((sin, cos), most, at) in &mut farthest {
+            let along = place[axes[0]] * *cos + place[axes[1]] * *sin;
+            if along > *most {
+                (*most, *at) = (along, place);
+            }
         }
-        let triangles = (2..AROUND).map(|k| [first, first + k - 1, first + k]).collect();
-        model.parts.push(Part { triangles, ..Part::default() });
     }
+    for ((sin, cos), _, mut place) in farthest {
+        place[axes[0]] += cos * ground.reach * SHADOW;
+        place[axes[1]] += sin * ground.reach * SHADOW;
+        place[ground.up.0] = ground.low;
+        model.vertices.push(Vertex { position: place.map(narrow), ..Vertex::default() });
+    }
+    let triangles = (2..AROUND).map(|k| [first, first + k - 1, first + k]).collect();
+    model.parts.push(Part { triangles, ..Part::default() });
     let framed = frame(model);
     model.vertices.truncate(kept.0);
     model.parts.truncate(kept.1);
-    framed
+    // From below there is none.
+    if framed.as_ref().is_ok_and(|camera| !ground.is_below(camera)) { frame(model) } else { framed }
 }

@@ -141,3 +141,18 @@ fn all_of_a_motion_is_framed_and_stands_on_one_ground() {
     made(&folder, "render a.toml --time 1 -o moved.png");
     assert!(open("f1.png") == open("moved.png"));
 }
+
+/// Options that say nothing of a motion, and a motion that is too long.
+#[test]
+fn films_of_motions_tell_what_is_amiss() {
+    let text = "size = [40, 30]\n[[object]]\nsurface = \"sphere\"\n[camera]\neye = [0, 2, 5]\n\
+        [[animation]]\nof = \"camera\"\nkey = \"eye\"\ntimes = [0, 4000]\nvalues = [[0, 2, 5], [0, -3, 5]]\n";
+    let folder = Folder::with(&[("a.toml", text.as_bytes())]);
+    let failed = run(&folder, "turntable a.toml -o a.gif");
+    assert_eq!(failed.status, Some(2));
+    assert!(failed.stderr.contains("--fps: found a motion of more than 100000 frames"), "{failed:?}");
+    let said = run(&folder, "turntable a.toml --frames 6 --ground --axis 1,0,0 -o a%d.png").stderr;
+    assert!(said.contains("--axis: found it for a camera that does not turn"), "{said}");
+    assert!(said.contains("--ground: found 2 of 6 frames from below the model's lowest point"), "{said}");
+    assert_eq!(said.lines().count(), 2, "{said}");
+}
