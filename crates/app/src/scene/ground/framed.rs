@@ -9,6 +9,9 @@ use std::f64::consts::TAU;
 /// The share of a shadow's reach that is dark enough for an eye to see.
 const SHADOW: f64 = 0.2;
 
+/// The share of a model's height up to which its shadow is dark enough.
+const LOW: f64 = 0.3;
+
 /// The directions in which that is beside the outermost place, in a frame.
 const AROUND: u32 = 16;
 
@@ -29,7 +32,11 @@ pub(crate) fn in_view(
     let ways = (0..AROUND).map(|k| (f64::from(k) / f64::from(AROUND) * TAU).sin_cos());
     // The outermost place of each way, and how far out it is.
     let mut farthest: Vec<_> = ways.map(|way| (way, f64::NEG_INFINITY, [0.0; 3])).collect();
-    for place in places(model) {
+    let is_low = |place: &[f64; 3]| {
+        let height = ground.up.1 * (place[ground.up.0] - ground.low);
+        height <= LOW * ground.height
+    };
+    for place in places(model).filter(is_low) {
         for ((sin, cos), most, at) in &mut farthest {
             let along = place[axes[0]] * *cos + place[axes[1]] * *sin;
             if along > *most {
