@@ -11,6 +11,7 @@ mod build_cost;
 mod checks;
 mod ci;
 mod command;
+mod coverage;
 mod elf;
 mod embedded;
 mod extremes;
@@ -158,6 +159,12 @@ const CHORES: &[Chore] = &[
         arguments: "[--seconds S] [--only TEXT]",
         about: "have the tests meet the mutants of cargo-mutants, all in one program; goes on where it was stopped",
         run: checks::mutants,
+    },
+    Chore {
+        name: "coverage",
+        arguments: "[--list]",
+        about: "run the tests with counters: lines of the libraries that ran (--list: those that did not)",
+        run: coverage::coverage,
     },
     Chore {
         name: "supply",

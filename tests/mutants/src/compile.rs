@@ -47,20 +47,7 @@ pub(crate) fn compile(tree: &Tree, mutants: &[Mutant]) -> Result<Compiled, Strin
         }
         let before = left_out.len();
         for fault in &faults {
-            let mut numbers = blamed(tree, &files, fault);
-            if fault.is_constant {
-                // All of the function is computed while compiling.
-                let whole = |number: &usize| {
-                    let Mutant { file, function, .. } = &mutants[*number];
-                    let same = move |other: &Mutant| (&other.file, &other.function) == (file, function);
-                    let all = mutants
-                        .iter()
-                        .enumerate()
-                        .filter(move |(_, other)| function.is_some() && same(other));
-                    all.map(|(other, _)| other)
-                };
-                numbers = numbers.iter().flat_map(whole).chain(numbers.iter().copied()).collect();
-            }
+            let numbers = blamed(tree, &files, fault);
             if numbers.is_empty() {
                 eprintln!("nothing is to blame for: {}", fault.message);
             }
@@ -107,14 +94,8 @@ fn rewrite_all(
     for (name, of_file) in by_file {
         let path = root.join(&name);
         let source = fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
-        let mut rewritten =
+        let rewritten =
             rewrite(&source, &of_file).map_err(|error| format!("{}: {error}", name.display()))?;
-        if name.ends_with("lib.rs") {
-            // The copy has the switch there.
-            let copy = fs::read_to_string(tree.root.join(&name)).unwrap_or_default();
-            let at = copy.find("\n#[doc(hidden)]").unwrap_or(copy.len());
-            rewritten.text.push_str(&copy[at..]);
-        }
         write(&tree.root.join(&name), rewritten.text.as_bytes())?;
         files.insert(name, rewritten);
     }
@@ -149,8 +130,6 @@ struct Fault {
     message: String,
     /// Files and bytes in them, the first place first.
     places: Vec<(PathBuf, usize)>,
-    /// Whether a value was needed while compiling.
-    is_constant: bool,
 }
 
 fn fault(message: &Value) -> Option<Fault> {
@@ -159,7 +138,6 @@ fn fault(message: &Value) -> Option<Fault> {
         return None;
     }
     let text = message.get("message")?.as_str()?.lines().next().unwrap_or_default().to_owned();
-    let code = message.get("code").and_then(|code| code.get("code")).and_then(Value::as_str);
     let mut places = Vec::new();
     let children = message.get("children").and_then(Value::as_array).into_iter().flatten();
     for part in std::iter::once(message).chain(children) {
@@ -175,12 +153,11 @@ fn fault(message: &Value) -> Option<Fault> {
     if places.is_empty() {
         return None;
     }
-    Some(Fault { message: text, places, is_constant: code == Some("E0080") })
+    Some(Fault { message: text, places })
 }
 
-/// The mutants of the smallest switch around the first place that is in one. Of a constant all places count.
+/// The mutants of the smallest switch around the first place that is in one.
 fn blamed(tree: &Tree, files: &BTreeMap<PathBuf, Rewritten>, fault: &Fault) -> BTreeSet<usize> {
-    let mut all = BTreeSet::new();
     for (file, at) in &fault.places {
         let name = file.strip_prefix(&tree.root).unwrap_or(file);
         let Some(rewritten) = files.get(name) else { continue };
@@ -192,10 +169,7 @@ fn blamed(tree: &Tree, files: &BTreeMap<PathBuf, Rewritten>, fault: &Fault) -> B
             after.min_by_key(|(range, _)| range.start).filter(|_| fault.message.starts_with("non-exhaustive"))
         };
         let Some((_, numbers)) = around.or_else(next) else { continue };
-        all.extend(numbers);
-        if !fault.is_constant {
-            break;
-        }
+        return numbers.iter().copied().collect();
     }
-    all
+    BTreeSet::new()
 }

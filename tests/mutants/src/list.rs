@@ -13,8 +13,6 @@ pub(crate) struct Mutant {
     pub(crate) name: String,
     /// From the root of the repository.
     pub(crate) file: PathBuf,
-    /// The function, of those in the file.
-    pub(crate) function: Option<String>,
     pub(crate) genre: Genre,
     /// The text for the one that is there.
     pub(crate) replacement: String,
@@ -60,7 +58,6 @@ fn read(value: &Value) -> Option<Mutant> {
     Some(Mutant {
         name: text("name")?,
         file: text("file")?.into(),
-        function: value.get("function").and_then(|of| Some(of.get("function_name")?.as_str()?.to_owned())),
         genre: match text("genre")?.as_str() {
             "FnValue" => Genre::Value,
             "BinaryOperator" => Genre::Binary,

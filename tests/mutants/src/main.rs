@@ -68,7 +68,7 @@ fn all(options: &Options) -> Result<(), String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let mutants = list::mutants(&root)?;
     println!("{} mutants", mutants.len());
-    let tree = tree::Tree::new(&root, &options.folder)?;
+    let tree = tree::Tree::new(&root, &options.folder, &mutants)?;
     let compiled = compile::compile(&tree, &mutants)?;
     println!("{} of them are in the program", compiled.alive.len());
     let suite = suite::Suite::measured(&tree, &compiled.programs, mutants.len())?;

@@ -286,7 +286,7 @@ mod tests {
 
     fn mutant(genre: Genre, replacement: &str, place: (usize, usize)) -> Mutant {
         let replacement = replacement.to_owned();
-        Mutant { name: String::new(), file: "a.rs".into(), function: None, genre, replacement, place }
+        Mutant { name: String::new(), file: "a.rs".into(), genre, replacement, place }
     }
 
     fn written(source: &str, mutants: &[Mutant]) -> String {

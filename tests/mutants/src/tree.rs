@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::LIBRARIES;
+use crate::list::Mutant;
 
 /// The folder of a copy.
 pub(crate) struct Tree {
@@ -13,8 +14,12 @@ pub(crate) struct Tree {
     pub(crate) folder: PathBuf,
 }
 
+/// What the crate with the switch begins with: a constant's value cannot depend on the variable.
+const FEATURES: &str =
+    "#![feature(core_intrinsics, const_eval_select)]\n#![allow(internal_features)]\n";
+
 /// The switch. Its variable is set before `main`, by the environment. With `record` it notes which switches are passed,
-/// in the file that `MUTANT_REACHED` names.
+/// in the file that `MUTANT_REACHED` names. No mutant is alive in what is computed while compiling.
 const SWITCH: &str = r#"
 #[doc(hidden)]
 #[allow(missing_docs, clippy::all, reason = "not of the library")]
@@ -34,6 +39,13 @@ pub mod mutant_switch {
     }
     #[inline(always)]
     pub const fn mutant(number: u32) -> bool {
+        core::intrinsics::const_eval_select((number,), while_compiling, while_running)
+    }
+    const fn while_compiling(_: u32) -> bool {
+        false
+    }
+    #[inline(always)]
+    fn while_running(number: u32) -> bool {
         unsafe {
             if ALIVE == RECORD {
                 (&raw mut REACHED).cast::<u8>().add(number as usize).write(1);
@@ -74,8 +86,9 @@ pub use mutant_switch::mutant;
 "#;
 
 impl Tree {
-    /// Copies what git knows of the repository, as it is in the folder, and puts in the switch.
-    pub(crate) fn new(from: &Path, folder: &Path) -> Result<Self, String> {
+    /// Copies what git knows of the repository, as it is in the folder, and puts in the switch. Files with mutants are
+    /// written later, so that they change only if their mutants do.
+    pub(crate) fn new(from: &Path, folder: &Path, mutants: &[Mutant]) -> Result<Self, String> {
         let failed = |what: &Path, error: std::io::Error| format!("{}: {error}", what.display());
         fs::create_dir_all(folder).map_err(|error| failed(folder, error))?;
         let folder = folder.canonicalize().map_err(|error| failed(folder, error))?;
@@ -86,33 +99,14 @@ impl Tree {
             .output();
         let listed = listed.map_err(|error| format!("cannot run git: {error}"))?;
         for name in String::from_utf8_lossy(&listed.stdout).split('\0').filter(|name| !name.is_empty()) {
+            if mutants.iter().any(|mutant| mutant.file == Path::new(name)) {
+                continue;
+            }
             let (source, target) = (from.join(name), root.join(name));
             let Ok(bytes) = fs::read(&source) else { continue };
-            let parent = target.parent().unwrap_or(&root);
-            fs::create_dir_all(parent).map_err(|error| failed(parent, error))?;
-            write(&target, &bytes)?;
+            write(&target, &with_switch(name, bytes))?;
         }
-        let tree = Self { root, folder };
-        tree.change("Cargo.toml", |text| {
-            text.replace("unsafe_code = \"forbid\"", "unsafe_code = \"allow\"")
-        })?;
-        for library in LIBRARIES {
-            let switch = if library == "math" {
-                SWITCH
-            } else {
-                "\n#[doc(hidden)]\npub use alberti_math::mutant_switch::mutant;\n"
-            };
-            tree.change(&format!("crates/{library}/src/lib.rs"), |text| {
-                text.replace("#![forbid(unsafe_code)]", "") + switch
-            })?;
-        }
-        Ok(tree)
-    }
-
-    fn change(&self, name: &str, change: impl Fn(String) -> String) -> Result<(), String> {
-        let path = self.root.join(name);
-        let text = fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
-        write(&path, change(text).as_bytes())
+        Ok(Self { root, folder })
     }
 
     /// A command in the copy, with its own folder of what is compiled.
@@ -120,8 +114,27 @@ impl Tree {
         let mut cargo = Command::new("cargo");
         cargo.current_dir(&self.root).env("CARGO_TARGET_DIR", self.folder.join("target"));
         // The pieces between switches look odd to the compiler.
-        cargo.env("RUSTFLAGS", "--cap-lints allow");
+        cargo.env("RUSTFLAGS", "--cap-lints allow").env("RUSTC_BOOTSTRAP", "1");
         cargo
+    }
+}
+
+/// A file of the copy: the roots of the libraries have the switch.
+fn with_switch(name: &str, bytes: Vec<u8>) -> Vec<u8> {
+    let changed = |change: &dyn Fn(&str) -> String| change(&String::from_utf8_lossy(&bytes)).into_bytes();
+    let library = name.strip_prefix("crates/").and_then(|name| name.strip_suffix("/src/lib.rs"));
+    match library.filter(|library| LIBRARIES.contains(library)) {
+        _ if name == "Cargo.toml" => {
+            changed(&|text| text.replace("unsafe_code = \"forbid\"", "unsafe_code = \"allow\""))
+        }
+        None => bytes,
+        Some(library) => changed(&|text| {
+            let text = text.replace("#![forbid(unsafe_code)]", "");
+            match library {
+                "math" => format!("{FEATURES}{text}{SWITCH}"),
+                _ => text + "\n#[doc(hidden)]\npub use alberti_math::mutant_switch::mutant;\n",
+            }
+        }),
     }
 }
 
@@ -130,5 +143,6 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
     if fs::read(path).is_ok_and(|before| before == bytes) {
         return Ok(());
     }
-    fs::write(path, bytes).map_err(|error| format!("{}: {error}", path.display()))
+    let made = path.parent().map_or(Ok(()), fs::create_dir_all);
+    made.and_then(|()| fs::write(path, bytes)).map_err(|error| format!("{}: {error}", path.display()))
 }

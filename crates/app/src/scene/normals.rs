@@ -29,7 +29,15 @@ impl Group {
     pub const fn polygon(number: u32) -> Self {
         Self(Self::POLYGONS | (number % (Self::POLYGONS - 2)))
     }
+
+    /// Whether neighbours across edges say something of the corners' normals.
+    fn has_edges(self) -> bool {
+        self == Self::BY_ANGLE || self.0 < Self::POLYGONS
+    }
 }
+
+/// The turn in radians below which two triangles are parts of a flat face.
+const FLAT: f64 = 1e-3;
 
 /// Triangles at one edge, each of which is compared with so many after it. More than two share it only where a surface
 /// has branches, or two sides that both are modelled.
@@ -37,8 +45,10 @@ const NEIGHBOURS: usize = 8;
 
 /// Normalizes the model's normals, and gives each vertex whose normal is (0, 0, 0) one of its own making. That is the
 /// mean of the normals of the triangles there that belong together, weighted by their angles (Thürmer and Wüthrich,
-/// Computing vertex normals from polygonal facets, 1998). So the result depends on the surface alone. It is the same
-/// however a polygon was cut, and where a seam in the texture parts two vertices. Triangles of all parts count.
+/// Computing vertex normals from polygonal facets, 1998) and by the areas of the flat faces that they are parts of. So
+/// a large face beside a narrow bevel stays flat, and the bevel is what is round. The result depends on the surface
+/// alone. It is the same however a face was cut, and where a seam in the texture parts two vertices. Triangles of all
+/// parts count. A flat face is all that is joined across edges at which it turns by less than 1/1000.
 ///
 /// Triangles belong together that share a number in `groups`, which has one for each triangle, in the parts' order. Of
 /// [`Group::BY_ANGLE`], those do that share an edge at which they turn by less than `crease` degrees. So do those that
@@ -48,7 +58,7 @@ const NEIGHBOURS: usize = 8;
 /// Where the mean vanishes, at a vertex of degenerate triangles only or of a folded surface, it is (0, 0, 1).
 ///
 /// # Cost
-/// Linear in vertices and triangles, but for sorting the edges at each vertex. While it runs, it takes some 60 bytes a
+/// Linear in vertices and triangles, but for sorting the edges at each vertex. While it runs, it takes some 64 bytes a
 /// triangle and 40 a vertex. Where no normal is missing it takes nothing.
 ///
 /// # Errors
@@ -65,25 +75,27 @@ pub fn complete(model: &mut Model, groups: &[Group], crease: f32) -> Result<(), 
     }
     let (before, triangles) = (model.vertices.len(), all(model).count());
     let what = "a model without normals";
-    memory::need((40 * before + 60 * triangles) as u64, what)?;
-    let (sets, count) = sets(model, groups, crease);
+    memory::need((40 * before + 64 * triangles) as u64, what)?;
+    let Joined { sets, count, areas } = joined(model, groups, crease);
     // Vertices that become several are a list that grows by halves, and a table.
     let new = count.saturating_sub(before);
     let grown = if new > 0 { 2 * (size_of::<Vertex>() + 4) * (before + new) + 48 * new } else { 4 * before };
-    memory::need((24 * count + 12 * triangles + grown) as u64, what)?;
-    let mut sums = vec![[0.0; 3]; count];
-    for (triangle, sets) in all(model).zip(sets.chunks_exact(3)) {
+    memory::need((32 * count + 20 * triangles + grown) as u64, what)?;
+    // Of each set the sum of normals, and that of their weights.
+    let mut sums = vec![[0.0; 4]; count];
+    for ((triangle, sets), area) in all(model).zip(sets.chunks_exact(3)).zip(areas) {
         let points = triangle.map(|i| model.vertices[i as usize].position.map(f64::from));
         for (i, &set) in sets.iter().enumerate() {
             let to_next = sub(points[(i + 1) % 3], points[i]);
             let to_last = sub(points[(i + 2) % 3], points[i]);
             let across = cross(to_next, to_last);
             let (Some(normal), sine) = (normalize(across), length(across)) else { continue };
-            let angle = sine.atan2(dot(to_next, to_last));
+            let weight = sine.atan2(dot(to_next, to_last)) * area;
             let sum = &mut sums[set as usize];
             for axis in 0..3 {
-                sum[axis] += normal[axis] * angle;
+                sum[axis] += normal[axis] * weight;
             }
+            sum[3] += weight;
         }
     }
     give(model, groups, &sets, &sums);
@@ -95,14 +107,23 @@ fn all(model: &Model) -> impl Iterator<Item = [u32; 3]> {
     model.parts.iter().flat_map(|part| part.triangles.iter().copied())
 }
 
-/// The unit normal of a triangle with an area.
-fn normal_of(model: &Model, triangle: [u32; 3]) -> Option<[f64; 3]> {
+/// The normal of a triangle, as long as twice its area.
+fn across(model: &Model, triangle: [u32; 3]) -> [f64; 3] {
     let [a, b, c] = triangle.map(|i| model.vertices[i as usize].position.map(f64::from));
-    normalize(cross(sub(b, a), sub(c, a)))
+    cross(sub(b, a), sub(c, a))
 }
 
-/// For each corner the number of the set whose normal it gets, and how many sets there are.
-fn sets(model: &Model, groups: &[Group], crease: f32) -> (Vec<u32>, usize) {
+/// The corners and the triangles that belong together.
+struct Joined {
+    /// For each corner the number of the set whose normal it gets.
+    sets: Vec<u32>,
+    /// The number of sets.
+    count: usize,
+    /// For each triangle twice the area of the flat face that it is of.
+    areas: Vec<f64>,
+}
+
+fn joined(model: &Model, groups: &[Group], crease: f32) -> Joined {
     let mut places = HashMap::with_capacity(model.vertices.len());
     let place_of = |vertex: &Vertex| {
         // Adding 0 makes -0 and 0 the same position.
@@ -117,9 +138,9 @@ fn sets(model: &Model, groups: &[Group], crease: f32) -> (Vec<u32>, usize) {
     let mut sets = Sets((0..u32::try_from(corners).unwrap_or(u32::MAX)).collect());
 
     let (mut numbered, mut polygon) = (HashMap::new(), (Group::ALONE, HashMap::new()));
-    let mut by_angle = false;
+    let mut has_edges = false;
     for ((triangle, &group), first) in all(model).zip(groups).zip((0_u32..).step_by(3)) {
-        by_angle |= group == Group::BY_ANGLE;
+        has_edges |= group.has_edges();
         if group == Group::ALONE {
             // One sum serves all three.
             sets.join(first, first + 1);
@@ -141,24 +162,39 @@ fn sets(model: &Model, groups: &[Group], crease: f32) -> (Vec<u32>, usize) {
         }
     }
     drop((numbered, polygon));
-    if by_angle {
-        sets.join_across(model, groups, f64::from(crease), count, place);
+    let mut faces = Sets((0..u32::try_from(corners / 3).unwrap_or(u32::MAX)).collect());
+    if has_edges {
+        sets.join_across(&mut faces, model, groups, f64::from(crease), count, place);
     }
-    sets.number()
+    let mut areas = vec![0.0; corners / 3];
+    for (number, triangle) in all(model).enumerate() {
+        areas[faces.first_of(narrowed(number)) as usize] += length(across(model, triangle));
+    }
+    for number in (0..areas.len()).rev() {
+        // The first of a face comes before its others.
+        areas[number] = areas[faces.first_of(narrowed(number)) as usize];
+    }
+    let (sets, count) = sets.number();
+    Joined { sets, count, areas }
 }
 
-/// Corners that belong together: each has another of its set, with a lower number, or itself.
+/// The number of a triangle.
+fn narrowed(number: usize) -> u32 {
+    u32::try_from(number).unwrap_or(u32::MAX)
+}
+
+/// Things that belong together: each has another of its set, with a lower number, or itself.
 struct Sets(Vec<u32>);
 
 impl Sets {
-    fn first_of(&mut self, mut corner: u32) -> u32 {
+    fn first_of(&mut self, mut one: u32) -> u32 {
         loop {
-            let next = self.0[corner as usize];
-            if next == corner {
-                return corner;
+            let next = self.0[one as usize];
+            if next == one {
+                return one;
             }
-            self.0[corner as usize] = self.0[next as usize];
-            corner = next;
+            self.0[one as usize] = self.0[next as usize];
+            one = next;
         }
     }
 
@@ -167,9 +203,10 @@ impl Sets {
         self.0[a.max(b) as usize] = a.min(b);
     }
 
-    /// Joins the corners at both ends of edges that are not sharp.
+    /// Joins the corners at both ends of edges that are not sharp, and the triangles of flat faces.
     fn join_across(
         &mut self,
+        faces: &mut Sets,
         model: &Model,
         groups: &[Group],
         crease: f64,
@@ -179,8 +216,7 @@ impl Sets {
         // Each edge is known by its lower place: there, its other place, and the corner from which its triangle has it.
         let edges = || {
             let triangles = all(model).zip(groups).zip((0_u32..).step_by(3));
-            let smooth = triangles.filter(|((_, group), _)| **group == Group::BY_ANGLE);
-            smooth.flat_map(|((triangle, _), first)| {
+            triangles.filter(|((_, group), _)| group.has_edges()).flat_map(|((triangle, _), first)| {
                 let [a, b, c] = triangle.map(&place);
                 [(a, b, first), (b, c, first + 1), (c, a, first + 2)]
             })
@@ -210,13 +246,16 @@ impl Sets {
                 for (i, &(_, one)) in edge.iter().enumerate() {
                     for &(_, other) in edge[i + 1..].iter().take(NEIGHBOURS) {
                         let of = |corner: u32| triangles[corner as usize / 3];
-                        let (Some(a), Some(b)) = (normal_of(model, of(one)), normal_of(model, of(other)))
-                        else {
-                            continue;
-                        };
+                        let normals = [one, other].map(|corner| normalize(across(model, of(corner))));
+                        let [Some(a), Some(b)] = normals else { continue };
                         // Right for small angles too, where a cosine is not. A turn of the very angle is sharp,
                         // although its corners have been rounded.
-                        if length(cross(a, b)).atan2(dot(a, b)) >= sharp - 1e-5 {
+                        let turn = length(cross(a, b)).atan2(dot(a, b));
+                        if turn < FLAT {
+                            faces.join(one / 3, other / 3);
+                        }
+                        let by_angle = |corner: u32| groups[corner as usize / 3] == Group::BY_ANGLE;
+                        if turn >= sharp - 1e-5 || !by_angle(one) || !by_angle(other) {
                             continue;
                         }
                         let ends = |corner: u32| {
@@ -254,7 +293,7 @@ impl Sets {
 }
 
 /// Gives the corners without normals those of their sets.
-fn give(model: &mut Model, groups: &[Group], sets: &[u32], sums: &[[f64; 3]]) {
+fn give(model: &mut Model, groups: &[Group], sets: &[u32], sums: &[[f64; 4]]) {
     const NONE: u32 = u32::MAX;
     let Model { vertices, parts, .. } = model;
     let missing = |normal: [f32; 3]| normal.iter().all(|x| x.abs() <= 0.0);
@@ -292,8 +331,9 @@ fn give(model: &mut Model, groups: &[Group], sets: &[u32], sums: &[[f64; 3]]) {
     }
     for (vertex, &set) in vertices.iter_mut().zip(&set_of) {
         if missing(vertex.normal) {
-            let sum = sums.get(set as usize).copied().unwrap_or_default();
-            vertex.normal = normalize(sum).unwrap_or([0.0, 0.0, 1.0]).map(narrow);
+            let [x, y, z, weight] = sums.get(set as usize).copied().unwrap_or_default();
+            vertex.normal =
+                normalize([x, y, z].map(|sum| sum / weight)).unwrap_or([0.0, 0.0, 1.0]).map(narrow);
         }
     }
 }

@@ -34,6 +34,110 @@ fn a_cube_corner_is_diagonal_however_its_faces_are_cut() {
     assert!(close(model.vertices[0].normal, [d, d, d]), "{:?}", model.vertices[0].normal);
 }
 
+/// A cube of edges 2 whose edges are cut at 45 degrees, so far from them, as one polygon of triangles for each face.
+fn bevelled(cut: f32) -> Model {
+    let mut positions = Vec::new();
+    let mut faces: Vec<Vec<u32>> = Vec::new();
+    // A corner of the cube has three places, each on one face: the axis of which the coordinate is whole.
+    let mut place = |signs: [f32; 3], axis: usize| {
+        let position = [0, 1, 2].map(|k| signs[k] * if k == axis { 1.0 } else { 1.0 - cut });
+        let found = positions.iter().position(|known| *known == position);
+        u32::try_from(found.unwrap_or_else(|| {
+            positions.push(position);
+            positions.len() - 1
+        }))
+        .unwrap()
+    };
+    let signed = |axis: usize, own: f32, [a, b]: [f32; 2]| {
+        let mut signs = [own; 3];
+        (signs[(axis + 1) % 3], signs[(axis + 2) % 3]) = (a, b);
+        signs
+    };
+    for axis in 0..3 {
+        for own in [-1.0, 1.0] {
+            let around = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+            faces.push(around.map(|ab| place(signed(axis, own, ab), axis)).to_vec());
+        }
+        // The edges along this axis, between the faces of the other two.
+        for [a, b] in [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]] {
+            let [one, other] = [-1.0, 1.0].map(|own| signed(axis, own, [a, b]));
+            let next = (axis + 1) % 3;
+            let last = (axis + 2) % 3;
+            faces.push(vec![place(one, next), place(other, next), place(other, last), place(one, last)]);
+        }
+    }
+    for corner in 0..8 {
+        let signs = [0, 1, 2].map(|k| if corner >> k & 1 == 0 { -1.0 } else { 1.0 });
+        faces.push([0, 1, 2].map(|axis| place(signs, axis)).to_vec());
+    }
+    let mut triangles = Vec::new();
+    for face in faces {
+        for pair in face[1..].windows(2) {
+            let triangle = [face[0], pair[0], pair[1]];
+            let [a, b, c] = triangle.map(|i| positions[i as usize].map(f64::from));
+            let outwards = dot(cross(sub(b, a), sub(c, a)), a) > 0.0;
+            triangles.push(if outwards { triangle } else { [face[0], pair[1], pair[0]] });
+        }
+    }
+    model(&positions, &triangles)
+}
+
+/// Large faces beside narrow bevels stay flat: no normal there turns by more than the bevel's share of the face.
+#[test]
+fn a_bevelled_cube_is_no_cushion() {
+    for cut in [0.5, 0.2, 0.05, 0.001] {
+        for group in [Group::BY_ANGLE, Group::numbered(1)] {
+            let mut model = bevelled(cut);
+            assert_eq!((model.vertices.len(), model.parts[0].triangles.len()), (24, 12 + 24 + 8));
+            by(&mut model, group, 60.0);
+            assert_eq!(model.vertices.len(), 24);
+            for vertex in &model.vertices {
+                let axis = (0..3).find(|&k| (vertex.position[k].abs() - 1.0).abs() < 1e-6).unwrap();
+                let mut flat = [0.0; 3];
+                flat[axis] = vertex.position[axis];
+                let turn = length(cross(flat.map(f64::from), vertex.normal.map(f64::from))).asin();
+                // A bevel is cut*sqrt(2) wide: its area is that share of the face's, and it turns by 45 degrees.
+                assert!(turn < 2.0 * f64::from(cut), "{cut} {group:?}: {turn}");
+                assert!(turn > 0.1 * f64::from(cut), "{cut} {group:?}: {turn}");
+            }
+        }
+    }
+}
+
+/// A face that is cut into many triangles weighs as much as one of two.
+#[test]
+fn faces_weigh_alike_however_they_are_cut() {
+    // A step: a floor one unit wide and a wall two units high, in so many triangles each.
+    let step = |floor: u32, wall: u32| {
+        let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+        let mut strip = |count: u32, at: &dyn Fn(f32, f32) -> [f32; 3]| {
+            let first = u32::try_from(positions.len()).unwrap();
+            for i in 0..=count {
+                let along = narrow(f64::from(i) / f64::from(count));
+                positions.extend([at(along, 0.0), at(along, 1.0)]);
+            }
+            for i in 0..count {
+                let [a, b, c, d] = [0, 1, 2, 3].map(|k| first + 2 * i + k);
+                triangles.extend([[a, b, c], [b, d, c]]);
+            }
+        };
+        strip(floor, &|x, y| [x, y, 0.0]);
+        strip(wall, &|z, y| [0.0, y, -2.0 * z]);
+        let mut model = model(&positions, &triangles);
+        for triangle in &mut model.parts[0].triangles[2 * floor as usize..] {
+            triangle.swap(1, 2);
+        }
+        smooth(&mut model);
+        model.vertices[0].normal
+    };
+    let plain = step(1, 1);
+    let slope = plain[0].abs() / plain[2].abs();
+    assert!((slope - 2.0).abs() < 1e-5, "{plain:?}");
+    for (floor, wall) in [(1, 7), (16, 1), (5, 64)] {
+        assert!(close(step(floor, wall), plain), "{floor} {wall}");
+    }
+}
+
 #[test]
 fn vertices_at_one_position_share_a_normal() {
     let positions = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [-0., 0., 0.], [0., 1., 0.], [0., 0., 1.]];
@@ -165,7 +269,7 @@ fn an_edge_of_many_triangles_joins_neighbours() {
     let mut model = model(&positions, &triangles);
     by(&mut model, Group::BY_ANGLE, 60.0);
     for (triangle, normals) in all(&model).zip(normals(&model)) {
-        let face = normal_of(&model, triangle).unwrap();
+        let face = normalize(across(&model, triangle)).unwrap();
         let along = dot(face, normals[2].map(f64::from));
         assert!(along > 0.99, "{along}");
     }
