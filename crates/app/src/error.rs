@@ -20,6 +20,9 @@ pub struct Error {
 /// The keys of a material that warnings are about.
 const MAPS: [&str; 3] = ["color-map", "normal-map", "environment"];
 
+/// The beginning of a hint to another name.
+pub(crate) const MEANT: &str = "did you mean ";
+
 impl Error {
     /// `found …, expected …`: the parts that no message lacks.
     pub fn new(found: impl Into<String>, expected: impl Into<String>) -> Self {
@@ -90,7 +93,14 @@ impl Error {
     #[must_use]
     pub(crate) fn of(self, named: &str) -> Self {
         let found = format!("{} for {named}", self.found);
-        Self { place: None, line: None, key: None, found, ..self }
+        // A name to try instead is one in the same folder, and starts where the other one does.
+        let start = |path: &str| path.rfind('/').map_or(0, |at| at + 1);
+        let folder = named.split('"').nth(1).map_or("", |name| &name[..start(name)]);
+        let hint = self.hint.map(|hint| match hint.strip_prefix(MEANT) {
+            Some(path) => format!("{MEANT}{folder}{}", &path[start(path)..]).into(),
+            None => hint,
+        });
+        Self { place: None, line: None, key: None, found, hint, ..self }
     }
 
     /// The remedy, or the repair that was made.

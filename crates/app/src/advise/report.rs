@@ -56,13 +56,17 @@ pub fn text(advice: &Advice, wastes: &[Waste], side: u16) -> String {
     if trials.iter().any(|trial| trial.error.is_infinite() && matches!(budget, MaxError::Texel(_))) {
         text.push_str("  other: more than one pixel in a thousand shows another part or the background.\n");
     }
-    let pick: &Trial = &trials[*pick];
+    let index = *pick;
+    let pick: &Trial = &trials[index];
     let of = if machine.is_chip() { "instructions" } else { "time" };
     let _ = write!(
         text,
         "\nThe pick takes {:.2} of the {of} of the most precise policies.",
         pick.cost.frame / reference.cost.frame
     );
+    if trials.iter().position(|trial| budget.admits(trial.error)) != Some(index) {
+        text.push_str(" Of those that cost as little within a fiftieth, it is the least wrong.");
+    }
     if trials.iter().all(|trial| trial.candidate == reference.candidate || !budget.admits(trial.error)) {
         text.push_str(" Nothing else keeps the budget.");
     }

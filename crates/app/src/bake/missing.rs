@@ -14,10 +14,14 @@ use alberti::raster::color::AnyBlend;
 /// The words on what only the report's frames have.
 const DRAWN: &str = "the file and the instructions have none, the report's frames have it";
 
-/// A warning for each of them, and for attributes that are asked of a model without. Those without a place are about
-/// the model.
-pub fn missing(model: &Model, options: &RenderOptions, asked: Asked) -> Vec<Error> {
+/// A warning for each of them, for motion where the scene `moves`, and for attributes that are asked of a model
+/// without. Those without a place are about the model.
+pub fn missing(model: &Model, options: &RenderOptions, asked: Asked, moves: bool) -> Vec<Error> {
     let mut all = vec![];
+    if moves {
+        let error = Error::new("a scene in which something moves", "one that stands");
+        all.push(error.hint("the file has it as it is at the start: a program moves the parts"));
+    }
     if let Asked::These(attributes) = asked
         && attributes.contains(Attributes::UV)
         && model.vertices.iter().all(|vertex| vertex.uv == [0.0; 2])

@@ -11,6 +11,7 @@ use super::report::named;
 use super::texels::Texture;
 use super::{Asset, Wish};
 use crate::error::{Error, number};
+use crate::scene::normals::narrow;
 use crate::scene::{Model, Part, Vertex};
 use alberti::baked::{Attributes, MAX_VERTICES};
 use alberti::glam::Vec3;
@@ -253,23 +254,32 @@ fn equally_wrong(
     let nearest =
         |mesh: &Alone| mesh.vertices.iter().map(distance).fold(farthest, f32::min).max(farthest / 64.0);
     let distances: Vec<f32> = parts.iter().map(|(_, mesh, _)| nearest(mesh)).collect();
-    // A power of two of it. Eleven halvings leave an exponent to 0.014, a hundredth of the error.
-    let (mut lower, mut upper) = (-24.0_f32, 4.0_f32);
+    // A power of two of it. Triangles are about as one over the error, so between two of them a line of logarithms is
+    // near the curve.
+    let log = |count: usize| narrow(f64::from(small(count)).log2()) - narrow(f64::from(small(most)).log2());
+    let total: usize = parts.iter().map(|(_, mesh, _)| mesh.triangles.len()).sum();
+    let (mut lower, mut upper) = ((-24.0_f32, log(total)), (4.0_f32, 0.0));
     let mut found = None;
-    let mut exponent = upper;
+    let mut exponent = upper.0;
     for _ in 0..12 {
         let mut meshes = alone();
         for ((_, mesh, moved), distance) in meshes.iter_mut().zip(&distances) {
             *moved = mesh.simplify(LEAST, distance * exponent.exp2(), &[way], attributes)?;
         }
-        if meshes.iter().map(|(_, mesh, _)| mesh.triangles.len()).sum::<usize>() <= most {
-            (found, upper) = (Some(meshes), exponent);
+        let count = meshes.iter().map(|(_, mesh, _)| mesh.triangles.len()).sum::<usize>();
+        if count <= most {
+            (found, upper) = (Some(meshes), (exponent, log(count)));
         } else if found.is_none() {
             return Ok(None);
         } else {
-            lower = exponent;
+            lower = (exponent, log(count));
         }
-        exponent = f32::midpoint(lower, upper);
+        // A fiftieth of the triangles, or a hundredth of the error.
+        if (count <= most && 50 * (most - count) <= most) || upper.0 - lower.0 < 0.014 {
+            break;
+        }
+        let share = (lower.1 / (lower.1 - upper.1)).clamp(0.1, 0.9);
+        exponent = lower.0 + share * (upper.0 - lower.0);
     }
     Ok(found)
 }

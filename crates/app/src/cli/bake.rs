@@ -38,7 +38,7 @@ const FRAME: Size = Size(320, 240);
 pub(super) fn with_defaults(command: Command) -> Command {
     let of_profile = ["interpolation", "arithmetic", "depth", "subpixel", "color_format"];
     let of_profile = of_profile.map(|id| (id, "the profile's"));
-    let own = [("size", "320x240"), ("profile", "mcu")];
+    let own = [("size", "320x240"), ("profile", "mcu"), ("filter", "bilinear; of a built-in scene its own")];
     own.into_iter().chain(of_profile).fold(hidden(command, &OF_PICTURES), |command, (id, default)| {
         command.mut_arg(id, |option| {
             let new = |help: &StyledStr| StyledStr::from(defaulting(&help.to_string(), default));
@@ -160,7 +160,7 @@ fn baked(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
         _ => error,
     };
     let told = |warning: Error| warn(&request.relocate(own(warning)).to_string());
-    missing(&model, &options, attributes).into_iter().for_each(told);
+    missing(&model, &options, attributes, request.moves()).into_iter().for_each(told);
     let asset = during(Stage::Bake, |_| bake((&model, &camera), &options, &wish)).map_err(own)?;
     left_out(&model, &asset).into_iter().for_each(told);
     if let Some(most) = triangles.filter(|&most| asset.triangles() > most) {

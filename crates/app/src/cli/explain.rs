@@ -75,6 +75,10 @@ fn run_for(request: &Request, matches: &ArgMatches) -> Result<(), Error> {
         ExplainArgs::from_arg_matches(matches).map_err(refused)?;
     refuse(matches, "explain", &OF_PICTURES, "no picture is written")?;
     request.check()?;
+    if request.arguments.render.ground == Some(true) {
+        let error = Error::new("a ground", "a picture without").place("--ground");
+        return Err(error.hint("explain ends at the model's own surfaces"));
+    }
     let Staged { model, camera, options, .. } = request.stage()?;
     let journey = during(Stage::Explain, |_| explain(&model, &camera, &options, pixel))?;
     print(&if json { format!("{}\n", journey.json()) } else { journey.text() })

@@ -56,7 +56,7 @@ fn report(request: &Request, json: bool) -> Result<(), Error> {
     let wish = Wish { dither: options.policies.dither, ..Wish::default() };
     let asset = during(Stage::Bake, |_| bake((&model, &camera), &options, &wish));
     let (costs, left_out) = match &asset {
-        Ok(asset) => priced(asset, (&model, &camera, &options)),
+        Ok(asset) => priced(asset, (&model, &camera, &options), request),
         Err(error) => (Err(error.clone()), vec![]),
     };
     let source = match request.source() {
@@ -71,9 +71,11 @@ fn report(request: &Request, json: bool) -> Result<(), Error> {
 fn priced<'a>(
     asset: &'a Asset,
     (model, camera, options): (&Model, &Camera, &RenderOptions),
+    request: &Request,
 ) -> (Result<Report<'a>, Error>, Vec<String>) {
     let file = bytes(asset);
     let report = during(Stage::Count, |_| Report::new(asset, &file, (model, camera, options), BAND));
-    let lost = missing(model, options, Asked::Auto).into_iter().chain(left_out(model, asset));
-    (report, lost.map(|error| error.to_string()).collect())
+    let lost =
+        missing(model, options, Asked::Auto, request.moves()).into_iter().chain(left_out(model, asset));
+    (report, lost.map(|error| request.relocate(error).to_string()).collect())
 }

@@ -86,6 +86,7 @@ pub(crate) fn idle(
     let light = [
         ("--light", render.light.is_some()),
         ("--light-space", render.light_space.is_some()),
+        ("--brightness", render.brightness.is_some()),
         ("--two-sided", render.two_sided.is_some()),
         ("--normal-map", material.normal_map.is_some()),
         ("--height-map", bumps),

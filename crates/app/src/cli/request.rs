@@ -6,7 +6,7 @@ use clap::parser::ValueSource;
 use clap::{ArgMatches, Command, FromArgMatches as _};
 
 use super::{RenderArgs, partners};
-use crate::error::Error;
+use crate::error::{Error, number};
 use crate::load::scene_file::{self, SceneFile};
 use crate::load::{image_file, seen};
 use crate::memory;
@@ -15,6 +15,7 @@ use crate::options::{Background, CameraTable, DEFAULT_OUTPUT};
 use crate::output::aov::{self, Beside};
 use crate::output::file::{Output, Whole};
 use crate::output::stats::Source;
+use crate::scene::normals::narrow;
 use crate::scene::scenes;
 
 /// The options of pictures alone, which other commands refuse.
@@ -157,6 +158,15 @@ impl Request {
         let placed = |error: Error| if of_profile { error.place("--profile") } else { error };
         render.policies(self.arguments.camera.is_parallel()).0.check().map_err(placed)?;
         self.arguments.camera.check_numbers()?;
+        let (times, written) =
+            self.file.as_ref().map(|file| (file.moments(), file.times())).unwrap_or_default();
+        let moments = self.moments.iter().zip(times);
+        // Of a value that is wrong itself, others on the way to it say nothing.
+        let (first, others): (Vec<_>, Vec<_>) = moments.partition(|(_, time)| written.contains(time));
+        for (moment, time) in first.into_iter().chain(others) {
+            let checked = moment.arguments.camera.check_moving();
+            checked.map_err(|error| error.hint(format!("that is at {} s", number(narrow(time)))))?;
+        }
         self.check_files()?;
         partners::check(&self.arguments)
     }
@@ -233,6 +243,11 @@ impl Request {
     pub(super) fn is_fitted(&self) -> bool {
         let (arguments, camera) = (&self.arguments, &self.arguments.camera);
         arguments.model.is_some() && camera.eye.is_none() && self.orbit.is_none()
+    }
+
+    /// Whether something moves in time.
+    pub(super) fn moves(&self) -> bool {
+        !self.moments.is_empty()
     }
 
     /// The origin of the triangles.

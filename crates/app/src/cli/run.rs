@@ -55,7 +55,7 @@ pub fn attempt(arguments: impl IntoIterator<Item = OsString>) -> Result<u8, Erro
     let matches = match command.try_get_matches_from_mut(read) {
         Ok(matches) => matches,
         Err(error) if error.kind() == ErrorKind::InvalidUtf8 => return Err(not_unicode(&given)),
-        Err(error) => return usage(&error, renamed),
+        Err(error) => return usage(&error, renamed, &given),
     };
     silence(matches.subcommand().is_some_and(|(_, options)| is_quiet(options)));
     match matches.subcommand() {
@@ -105,7 +105,7 @@ fn is_quiet(options: &ArgMatches) -> bool {
 
 /// Help and version are no errors. All others get one line like any other input, with clap's suggestions. `renamed`
 /// says that the machine was given as a target.
-fn usage(error: &clap::Error, renamed: bool) -> Result<u8, Error> {
+fn usage(error: &clap::Error, renamed: bool, words: &[OsString]) -> Result<u8, Error> {
     let expected = match error.kind() {
         ErrorKind::ValueValidation => std::error::Error::source(error).map(ToString::to_string),
         ErrorKind::InvalidValue => error.get(ContextKind::ValidValue).map(one_of),
@@ -147,6 +147,13 @@ fn usage(error: &clap::Error, renamed: bool) -> Result<u8, Error> {
             "a number on its own".to_owned(),
             "an option, or numbers that belong together with commas, as 0,1.5,-3".to_owned(),
         ),
+        ErrorKind::UnknownArgument
+            if words.get(1).is_some_and(|word| word == "assemble")
+                && option.as_ref().is_some_and(|option| !option.starts_with('-')) =>
+        {
+            let expected = "one name for all pictures, such as frames/%04d.png";
+            ("the names of several pictures".to_owned(), expected.to_owned())
+        }
         ErrorKind::UnknownArgument if option.as_ref().is_some_and(|option| !option.starts_with('-')) => {
             ("one file too many".to_owned(), "no other file or word".to_owned())
         }
@@ -170,11 +177,15 @@ fn usage(error: &clap::Error, renamed: bool) -> Result<u8, Error> {
         _ => ("words that are not understood".to_owned(), "those of --help".to_owned()),
     };
     let is_file = given.is_some_and(|value| Path::new(&value).is_file());
+    let truth = match option.as_deref() {
+        Some("true" | "yes" | "on") => Some("true"),
+        Some("false" | "no" | "off") => Some("false"),
+        _ => None,
+    };
     let hint = match option.as_deref() {
-        Some("true" | "false") => format!(
-            "a truth is joined to its option, as in --ground={}",
-            option.as_deref().unwrap_or_default()
-        ),
+        _ if truth.is_some() => {
+            format!("a truth is joined to its option, as in --ground={}", truth.unwrap_or_default())
+        }
         Some(option @ ("--stats" | "--two-sided")) if is_file => {
             format!("the file is taken for the value of {option}: put it first")
         }

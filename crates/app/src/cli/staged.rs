@@ -12,9 +12,8 @@ use crate::load::scene_file::{Gathered, SceneFile};
 use crate::load::{obj, prepare};
 use crate::options::values::{Color, MAX_THREADS, Size, Threads};
 use crate::options::{
-    Background, ColorFormat, Cull, DEFAULT_BACKGROUND, DEFAULT_SIZE, DepthFormat, Filter, Fog,
-    GROUND_BACKGROUND, Haze, KeyLight, LightOptions, LightSpace, Profile, Projection, RenderOptions, Samples,
-    Shading, Wrap,
+    Background, Cull, DEFAULT_BACKGROUND, DEFAULT_SIZE, DepthFormat, Filter, Fog, GROUND_BACKGROUND, Haze,
+    KeyLight, LightOptions, LightSpace, Profile, Projection, RenderOptions, Samples, Shading, Wrap,
 };
 use crate::output::stage::{Stage, during};
 use crate::scene::backdrop::Backdrop;
@@ -181,15 +180,14 @@ impl Request {
         order::back_to_front(&mut scene.model, &camera);
         if camera::is_behind(&camera, ball) {
             let error = Error::new("a camera that looks away from the model", "the model in view");
-            warn(&error.place("--eye").to_string());
+            warn(&self.relocate(error.place("--eye")).to_string());
         }
         if let Some(slide) = &scene.model.slide
             && slide::misses(&slide::projector(slide)?, &scene.model)
         {
-            let found = "an image that falls nowhere on the model";
-            warn(
-                &Error::new(found, "the model before the projector").place("--projector-target").to_string(),
-            );
+            let error =
+                Error::new("an image that falls nowhere on the model", "the model before the projector");
+            warn(&self.relocate(error.place("--projector-target")).to_string());
         }
 
         let (shading, filter, wrap, cull, scene_depth) = scene.defaults;
@@ -215,6 +213,7 @@ impl Request {
                     KeyLight::Lamp
                 }),
                 space: arguments.render.light_space.unwrap_or(LightSpace::Srgb),
+                brightness: arguments.render.brightness.map_or(1.0, f32::from),
             },
             shading: arguments.render.shading.unwrap_or(if shiny { Shading::Blinn } else { shading }),
             filter: arguments.render.filter.unwrap_or(filter),
@@ -316,9 +315,7 @@ fn background(arguments: &RenderArgs) -> [u8; 3] {
 
 /// Whether a picture is as a small display has it.
 fn is_small(arguments: &RenderArgs) -> bool {
-    let (policies, _) = arguments.render.policies(arguments.camera.is_parallel());
-    policies.color != ColorFormat::Rgba8
-        || matches!(arguments.render.profile, Some(Profile::Mcu | Profile::Tiny))
+    matches!(arguments.render.profile, Some(Profile::Mcu | Profile::Tiny))
 }
 
 /// Whether light by vertex leaves out something of a part.

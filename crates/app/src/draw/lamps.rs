@@ -21,8 +21,9 @@ pub(crate) struct Lamps {
 impl Lamps {
     /// The lighting of a model, or else of a rig.
     pub(super) fn new(model: &Model, camera: &Camera, options: &RenderOptions, rig: &Rig) -> Self {
-        let linear = options.in_linear_light();
-        let lights: Vec<AnyLight> = model.lights.iter().map(|light| lamp(light, linear)).collect();
+        let amount =
+            |glow: Glow| Vec3::from_array(glow.factors(options.in_linear_light())) * options.light.brightness;
+        let lights: Vec<AnyLight> = model.lights.iter().map(|light| lamp(light, &amount)).collect();
         let own = lights.is_empty() && model.ambient.is_none();
         let beside = |(to_light, strength)| {
             AnyLight::Directional(Directional::new(Vector3::new(to_light), Vec3::splat(strength)))
@@ -30,7 +31,7 @@ impl Lamps {
         let ambient = model.ambient.unwrap_or(Glow { color: [AMBIENT; 3], intensity: 1.0 });
         let [eye, target] = [camera.eye, camera.target].map(Vec3::from_array);
         Self {
-            ambient: if own { Vec3::splat(rig.ambient) } else { amount(ambient, linear) },
+            ambient: if own { Vec3::splat(rig.ambient) } else { amount(ambient) },
             lights: if own { rig.shining().map(beside).collect() } else { lights },
             viewer: if options.projection != Projection::Perspective {
                 Viewer::towards(Vector3::new(eye - target))
@@ -41,21 +42,17 @@ impl Lamps {
     }
 }
 
-fn amount(glow: Glow, linear: bool) -> Vec3 {
-    Vec3::from_array(glow.factors(linear))
-}
-
 /// A model's light.
-fn lamp(light: &scene::Light, linear: bool) -> AnyLight {
+fn lamp(light: &scene::Light, amount: &dyn Fn(Glow) -> Vec3) -> AnyLight {
     let point = |position: [f32; 3], color: Glow, range: f32| PointLight {
         position: Point3::new(Vec3::from_array(position)),
-        color: amount(color, linear),
+        color: amount(color),
         falloff: [1.0, 0.0, 1.0 / (range * range)],
     };
     match *light {
         scene::Light::Directional { to_light, color } => {
             let to_light = Vector3::new(Vec3::from_array(to_light));
-            AnyLight::Directional(Directional::new(to_light, amount(color, linear)))
+            AnyLight::Directional(Directional::new(to_light, amount(color)))
         }
         scene::Light::Point { position, color, range } => AnyLight::Point(point(position, color, range)),
         scene::Light::Spot { position, direction, color, range, inner, outer } => {

@@ -32,7 +32,9 @@ const BESIDE: [[f32; 2]; 2] = [[85.0, 5.0], [190.0, 35.0]];
 impl Rig {
     /// That of a camera.
     pub(super) fn new(camera: &Camera, options: &RenderOptions) -> Self {
-        Self::of(camera, options.light.key, options.in_linear_light())
+        let Self { ambient, lights } = Self::of(camera, options.light.key, options.in_linear_light());
+        let factor = options.light.brightness;
+        Self { ambient: ambient * factor, lights: lights.map(|(to, strength)| (to, strength * factor)) }
     }
 
     fn of(camera: &Camera, key: KeyLight, linear: bool) -> Self {

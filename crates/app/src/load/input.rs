@@ -10,7 +10,7 @@ use std::rc::Rc;
 use flate2::bufread::MultiGzDecoder;
 
 use crate::cli::words::nearest;
-use crate::error::Error;
+use crate::error::{Error, MEANT};
 use crate::load::seen;
 use crate::memory;
 
@@ -238,8 +238,7 @@ fn similar(path: &Path) -> Option<String> {
 pub(crate) fn unreadable(path: &Path, kind: &str, error: &io::Error) -> Error {
     match error.kind() {
         io::ErrorKind::NotFound => {
-            let hint =
-                similar(path).map_or("check its path".to_owned(), |name| format!("did you mean {name}?"));
+            let hint = similar(path).map_or("check its path".to_owned(), |name| format!("{MEANT}{name}?"));
             Error::new("no such file", kind).file(path).hint(hint)
         }
         io::ErrorKind::PermissionDenied => {

@@ -10,6 +10,7 @@ use crate::error::{Error, Warnings, number, quote};
 use crate::load::statements::{Lines, Statement, keyword, not_text};
 use crate::options::Origin;
 use crate::options::values::{Color, MAX_SHININESS, Shininess};
+use crate::scene::normals::narrow;
 
 mod entry;
 mod maps;
@@ -35,6 +36,7 @@ impl CheckedMtl {
             warnings.push(Error::new(found, KIND).file(path).hint("its materials are left out"));
             return;
         }
+        let first = self.materials.len();
         let mut named = None;
         let mut ignored = Ignored::default();
         for (number, line) in Lines::new(bytes) {
@@ -44,6 +46,13 @@ impl CheckedMtl {
             found.into_iter().for_each(|warning| warnings.push(place(warning)));
         }
         ignored.told(path, warnings);
+        // Blender writes amounts of light, as its own colours are.
+        if bytes.trim_ascii_start().starts_with(b"# Blender") {
+            for Entry { material, .. } in &mut self.materials[first..] {
+                let colors = [&mut material.color, &mut material.emissive];
+                colors.into_iter().flatten().for_each(|Color(color)| *color = color.map(encoded));
+            }
+        }
     }
 
     /// Takes a line, and returns what there is to warn of. `named` is whether the last `newmtl` had a name.
@@ -150,6 +159,12 @@ impl CheckedMtl {
             Error::new(found, format!("a number from 0 to {most}")).hint("it is clamped")
         }))
     }
+}
+
+/// A share of light as sRGB has it.
+fn encoded(light: f32) -> f32 {
+    let light = f64::from(light);
+    narrow(if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 })
 }
 
 /// Whether a statement that is not drawn says nothing either: a filter that lets all through, no sheen, no coat, no

@@ -1,5 +1,6 @@
 //! Files by the names that models give them, which were often written on another machine.
 
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -30,7 +31,8 @@ pub(crate) fn file_name<'a>(folder: &Path, rest: &'a str) -> &'a str {
 }
 
 /// The file of that name in the folder. Files written on Windows may have `\` between folders. What is not there may be
-/// there with other capitals, or beside the file that names it, without the folders of another machine.
+/// there with other capitals, or beside the file that names it, without the folders of another machine, or in a folder
+/// there. Of an image it may be another format.
 pub(crate) fn existing(folder: &Path, name: &str) -> Option<Found> {
     if name.is_empty() {
         return None;
@@ -46,10 +48,46 @@ pub(crate) fn existing(folder: &Path, name: &str) -> Option<Found> {
     let relative = !slashed.starts_with('/') && slashed.as_bytes().get(1) != Some(&b':');
     let found = relative.then(|| without_case(folder, &slashed)).flatten();
     let found = found.or_else(|| Some(folder.join(base)).filter(|path| path.exists()));
-    let path = found.or_else(|| without_case(folder, base))?;
+    let path = found.or_else(|| without_case(folder, base)).or_else(|| elsewhere(folder, base))?;
     // Bytes that are no text have been replaced in the name, and that is no other name.
     let renamed = path.to_string_lossy() != folder.join(slashed).to_string_lossy();
     Some(Found { path, renamed })
+}
+
+/// Extensions of images that are read, and of others that textures have.
+const READ: [&str; 11] = ["png", "jpg", "jpeg", "bmp", "tga", "webp", "qoi", "ppm", "pgm", "pnm", "gif"];
+const OTHERS: [&str; 5] = ["tif", "tiff", "dds", "psd", "exr"];
+
+/// The file of this name in a folder of the folder, or the image of this name in another format, here or there.
+fn elsewhere(folder: &Path, base: &str) -> Option<PathBuf> {
+    let folders = names_in(folder).into_iter().map(|name| folder.join(name)).filter(|path| path.is_dir());
+    let places: Vec<_> = std::iter::once(folder.to_owned()).chain(folders).collect();
+    let named = places[1..].iter().find_map(|place| without_case(place, base));
+    named.or_else(|| {
+        let stem = stem(base, &[&READ[..], &OTHERS].concat())?;
+        places.iter().find_map(|place| {
+            let other = names_in(place).into_iter().find(|name| {
+                let name = name.to_string_lossy();
+                self::stem(&name, &READ).as_ref() == Some(&stem)
+            })?;
+            Some(place.join(other))
+        })
+    })
+}
+
+/// The name of an image in small letters, without its extension, which is one of these.
+fn stem(name: &str, extensions: &[&str]) -> Option<String> {
+    let (stem, extension) = name.rsplit_once('.')?;
+    extensions.iter().any(|known| extension.eq_ignore_ascii_case(known)).then(|| stem.to_lowercase())
+}
+
+/// The names in a folder, in order: that of the system is none.
+fn names_in(folder: &Path) -> Vec<OsString> {
+    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let entries = fs::read_dir(here).into_iter().flatten();
+    let mut names: Vec<_> = entries.filter_map(|entry| Some(entry.ok()?.file_name())).collect();
+    names.sort();
+    names
 }
 
 /// The file whose name is this but for capitals, and for bytes that are no text, folder by folder.
@@ -61,16 +99,9 @@ fn without_case(folder: &Path, name: &str) -> Option<PathBuf> {
             path = next;
             continue;
         }
-        let here = if path.as_os_str().is_empty() { Path::new(".") } else { &path };
         let lower = part.to_lowercase();
-        let mut names: Vec<_> = fs::read_dir(here)
-            .ok()?
-            .filter_map(|entry| Some(entry.ok()?.file_name()))
-            .filter(|name| name.to_string_lossy().to_lowercase() == lower)
-            .collect();
-        // The order in a folder is none.
-        names.sort();
-        path = path.join(names.first()?);
+        let is_it = |name: &OsString| name.to_string_lossy().to_lowercase() == lower;
+        path = path.join(names_in(&path).into_iter().find(is_it)?);
     }
     path.exists().then_some(path)
 }
@@ -97,11 +128,15 @@ mod tests {
             ("/home/x/wood.png", "wood.png", true),
             ("textures/wood.png", "wood.png", true),
             ("..\\nowhere\\wood.png", "wood.png", true),
+            ("stone.png", "Maps/Stone.PNG", true),
+            ("C:\\x\\STONE.png", "Maps/Stone.PNG", true),
+            ("wood.jpg", "wood.png", true),
+            ("stone.tif", "Maps/Stone.PNG", true),
         ] {
             let expected = Found { path: folder.path().join(found), renamed };
             assert_eq!(existing(folder.path(), name), Some(expected), "{name}");
         }
-        for name in ["", "stone.png", "C:\\x\\other.png", "maps\\other.png"] {
+        for name in ["", "stone.mtl", "wood", "wood.png.jpg", "C:\\x\\other.png", "maps\\other.png"] {
             assert_eq!(existing(folder.path(), name), None, "{name}");
         }
         fs::write(folder.path().join("Wood #1.png"), "x").expect("a file");

@@ -19,6 +19,7 @@ mod lights;
 mod materials;
 mod objects;
 mod source;
+mod syntax;
 mod tables;
 
 use animation::Track;
@@ -139,13 +140,18 @@ impl SceneFile {
         self.tracks.iter().all(|track| track.is_same(0.0, end))
     }
 
+    /// The times of all values of what moves.
+    pub(crate) fn times(&self) -> Vec<f64> {
+        self.tracks.iter().flat_map(Track::times).collect()
+    }
+
     /// Times at which what moves is far out: those of its values, and some between. None where nothing moves.
     pub(crate) fn moments(&self) -> Vec<f64> {
         const BETWEEN: u32 = 16;
         const MOST: usize = 64;
         let Some(end) = self.end() else { return Vec::new() };
         let between = (0..=BETWEEN).map(|k| end * f64::from(k) / f64::from(BETWEEN));
-        let mut times: Vec<_> = between.chain(self.tracks.iter().flat_map(Track::times)).collect();
+        let mut times: Vec<_> = between.chain(self.times()).collect();
         times.sort_by(f64::total_cmp);
         times.dedup();
         let step = times.len().div_ceil(MOST);

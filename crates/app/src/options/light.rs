@@ -7,7 +7,7 @@ use super::values::{one_of, words};
 use clap::ValueEnum;
 
 /// Policies of light. The default is that of a program that does without: surfaces of one side, and one lamp.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightOptions {
     /// Whether surfaces that are seen from behind are lit as if they faced the viewer.
     pub two_sided: bool,
@@ -15,6 +15,14 @@ pub struct LightOptions {
     pub key: KeyLight,
     /// The space in which it is computed.
     pub space: LightSpace,
+    /// A factor of all light, from 0 to 100.
+    pub brightness: f32,
+}
+
+impl Default for LightOptions {
+    fn default() -> Self {
+        Self { two_sided: false, key: KeyLight::Lamp, space: LightSpace::Srgb, brightness: 1.0 }
+    }
 }
 
 /// The space in which light is computed.

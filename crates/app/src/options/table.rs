@@ -9,7 +9,7 @@ use clap::builder::Resettable;
 use clap::{Args, Command};
 use serde::{Deserialize, Deserializer};
 
-use super::values::{Color, Elevation, Finite, Number, Point, Size, Zoom, name_of, truth};
+use super::values::{Color, Elevation, Finite, Number, Point, Size, Strength, Zoom, name_of, truth};
 use super::{
     AovFormat, Aovs, Arithmetic, Background, ColorFormat, Cull, DepthFormat, Dither, FileFormat, Filter, Fog,
     Interpolation, KeyLight, LightSpace, Lod, Normals, Policies, Profile, ProjectionKind, Samples, Shading,
@@ -136,6 +136,32 @@ impl CameraTable {
         }
     }
 
+    /// The same of a camera that moves, before anything is drawn.
+    ///
+    /// # Errors
+    /// A number that no camera has, whatever it looks at.
+    pub(crate) fn check_moving(&self) -> Result<(), Error> {
+        self.check_numbers()?;
+        if let Some(up) = self.up.map(<[f32; 3]>::from).filter(|up| *up == [0.0; 3]) {
+            let error =
+                Error::new(format!("the direction {}", up.map(number).join(",")), "one above 0 in length");
+            return Err(error.place("--up"));
+        }
+        let near = self.near.map(f32::from);
+        if let Some(near) = near.filter(|near| *near <= 0.0 && !self.is_parallel()) {
+            return Err(
+                Error::new(format!("near {}", number(near)), "a finite number above 0").place("--near")
+            );
+        }
+        match near.zip(self.far.map(f32::from)) {
+            Some((near, far)) if near >= far => {
+                let found = format!("near {} and far {}", number(near), number(far));
+                Err(Error::new(found, "near < far").place("--near"))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// # Errors
     /// The place of the eye is said in two ways.
     pub(crate) fn check(&self) -> Result<(), Error> {
@@ -245,7 +271,7 @@ pub struct RenderTable {
     #[arg(long, value_enum, value_name = "FORMAT", hide_possible_values = true, verbatim_doc_comment)]
     pub aov_format: Option<AovFormat>,
 
-    /// Width and height of the image in pixels, each up to 16384 [default: 640x480].
+    /// Width and height in pixels, each up to 16384 [default: 640x480].
     #[arg(short, long, value_name = "WxH", allow_hyphen_values = true)]
     pub size: Option<Size>,
 
@@ -260,15 +286,14 @@ pub struct RenderTable {
     #[arg(long, value_name = "WHAT", allow_hyphen_values = true)]
     pub background: Option<Background>,
 
-    /// Samples a pixel, averaged in linear light: 4 and 16 smooth edges [default: 4; with --profile mcu or a --color
-    /// of fewer bits 1].
+    /// Samples a pixel, averaged in linear light: 4 and 16 smooth edges [default: 4; with --profile mcu or tiny 1].
     ///
     /// `explain`, `advise`, `bake` and --show have one.
     #[arg(long, value_enum, value_name = "N", hide_possible_values = true)]
     pub samples: Option<Samples>,
 
-    /// How textures are read: nearest, bilinear, trilinear or anisotropic:N [default: trilinear; of a
-    /// built-in scene its own]
+    /// How textures are read: nearest, bilinear, trilinear or anisotropic:N [default: trilinear; with
+    /// --profile mcu or tiny bilinear; of a built-in scene its own]
     ///
     /// nearest: the texel that contains the point.
     /// bilinear: a weighted mean of the four texels around the point.
@@ -316,8 +341,13 @@ pub struct RenderTable {
     #[arg(long, value_enum, value_name = "SPACE", help_heading = SURFACE)]
     pub light_space: Option<LightSpace>,
 
-    /// A ground at the lowest point, of which a soft shadow is seen: that of a sky, wherever --light is. In pictures
-    /// alone.
+    /// Factor of all light, 0 to 100: of a scene's own lights too, and of what comes from all sides [default: 1].
+    #[arg(long, value_name = "FACTOR", allow_hyphen_values = true, help_heading = SURFACE)]
+    pub brightness: Option<Number<Strength>>,
+
+    /// A ground with a soft shadow at the lowest point, in pictures alone.
+    ///
+    /// The shadow is that of a sky, wherever --light is.
     #[arg(long, value_name = "true|false", num_args = 0..=1, require_equals = true, default_missing_value = "true", value_parser = truth(), help_heading = SURFACE)]
     pub ground: Option<bool>,
 
@@ -333,6 +363,8 @@ pub struct RenderTable {
     pub fog_color: Option<Color>,
 
     /// A choice of all that follow, each of which overrides it [default: the scene's depth, else desktop].
+    ///
+    /// With mcu and tiny, --filter is bilinear and --samples 1 unless they are given.
     #[arg(long, value_enum, value_name = "PROFILE", help_heading = PRECISION)]
     pub profile: Option<Profile>,
 

@@ -44,11 +44,11 @@ const FLAT: f64 = 1e-3;
 const NEIGHBOURS: usize = 8;
 
 /// Normalizes the model's normals, and gives each vertex whose normal is (0, 0, 0) one of its own making. That is the
-/// mean of the normals of the triangles there that belong together, weighted by their angles (Thürmer and Wüthrich,
-/// Computing vertex normals from polygonal facets, 1998) and by the areas of the flat faces that they are parts of. So
-/// a large face beside a narrow bevel stays flat, and the bevel is what is round. The result depends on the surface
-/// alone. It is the same however a face was cut, and where a seam in the texture parts two vertices. Triangles of all
-/// parts count. A flat face is all that is joined across edges at which it turns by less than 1/1000.
+/// mean of the normals of the triangles there that belong together. Weights are their angles (Thürmer and Wüthrich,
+/// Computing vertex normals from polygonal facets, 1998) times the areas of their flat faces. So a large face beside a
+/// narrow bevel stays flat, and the bevel is what is round. A flat face is all that is joined across edges at which it
+/// turns by less than 1/1000. The result depends on the surface alone. It is the same however a face was cut, and where
+/// a seam in the texture parts two vertices. Triangles of all parts count.
 ///
 /// Triangles belong together that share a number in `groups`, which has one for each triangle, in the parts' order. Of
 /// [`Group::BY_ANGLE`], those do that share an edge at which they turn by less than `crease` degrees. So do those that

@@ -184,7 +184,9 @@ fn a_chips_colours_have_16_bits() {
     let advice = folder.advice(&[&scene[..], &["--target", "m4f", "--max-error", "8lsb"]].concat());
     let render = |options: &str, output: &str| {
         let options: Vec<&str> = options.split(' ').collect();
-        folder.succeeds(&[&scene[..], &options, &["--color", "rgb565", "-o", output]].concat());
+        folder.succeeds(
+            &[&scene[..], &options, &["--color", "rgb565", "--samples", "1", "-o", output]].concat(),
+        );
     };
     render("--interpolation exact --arithmetic float --depth f32-reversed --subpixel 8", "right.png");
     for trial in advice["trials"].as_array().expect("trials").iter().step_by(4) {

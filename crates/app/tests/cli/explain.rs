@@ -67,6 +67,17 @@ fn scene_files_and_built_in_scenes_are_explained_too() {
     assert!(run.status == Some(0) && run.stdout.contains("red"), "{run:?}");
 }
 
+/// A shadow is none of the surfaces that are explained, also where the file asks for it.
+#[test]
+fn a_ground_is_refused() {
+    let scene = b"[[object]]\nsurface = \"sphere\"\n[render]\nground = true\n";
+    let folder = Folder::with(&[("s.toml", scene)]);
+    let run = explain(&folder, &["s.toml", "--pixel", "10,5"]);
+    assert_eq!(run.status, Some(2));
+    let told = "error: s.toml:4: render.ground: found a ground, expected a picture without; ";
+    assert!(run.stderr.starts_with(told), "{run:?}");
+}
+
 #[test]
 fn wrong_pixels_are_one_error() {
     let folder = folder();

@@ -294,6 +294,10 @@ fn mistakes_are_told() {
         ("turntable m.obj --frames 90000 --memory 64M", "--frames: found a film of 90000 frames that takes "),
         ("assemble f/%d.png", "f/%d.png: found no picture, expected one from f/0.png on"),
         ("assemble f.png", "f.png: found a name without a number"),
+        (
+            "assemble 0.png m.mtl -o a.gif",
+            "m.mtl: found the names of several pictures, expected one name for all pictures, such as frames/%04d.png",
+        ),
         ("assemble %d.png -o %d.png", "%d.png: found names of pictures, expected a film"),
         ("assemble %d.png", "0.png: found a file of another format"),
     ] {

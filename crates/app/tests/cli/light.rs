@@ -145,6 +145,42 @@ fn models_without_lights_get_three() {
     folder.fails(&["box.obj", "--ground=north"], &["--ground: found \"north\"", "one of true, false"]);
 }
 
+/// A factor of all light: of three lights, of one beside the camera, and of a scene's own, in every shading.
+#[test]
+fn brightness_is_a_factor_of_light() {
+    let scene = b"[[object]]\nmodel = \"sheet.obj\"\n[[light]]\nkind = \"point\"\nposition = [0, 3, 5]\n\
+        intensity = 0.4\n[ambient]\nintensity = 0.1\n";
+    let folder = Folder::with(&[("sheet.obj", sheet(true).as_bytes()), ("s.toml", scene)]);
+    let picture = |name: &str, more: &[&str]| {
+        let common =
+            [name, "--size", "64x48", "--background", "000", "--diffuse", "505050", "--samples", "1"];
+        let run = folder.succeeds(&[&common[..], more].concat());
+        (image::open(folder.path("alberti.png")).expect("a picture").to_rgb8(), run.stderr)
+    };
+    for (name, more) in [
+        ("sheet.obj", &["--shading", "lambert"][..]),
+        ("sheet.obj", &["--shading", "lambert", "--light", "lamp"]),
+        ("sheet.obj", &["--shading", "gouraud"]),
+        ("sheet.obj", &["--shading", "phong", "--specular", "000000"]),
+        ("s.toml", &["--shading", "lambert"]),
+        ("s.toml", &["--shading", "blinn", "--specular", "000000"]),
+    ] {
+        let with = |factor: &str| picture(name, &[more, &["--brightness", factor]].concat()).0;
+        let [dark, usual, double] = ["0", "1", "2"].map(with);
+        assert!(usual == picture(name, more).0, "{name} {more:?}");
+        assert!(dark.pixels().all(|pixel| pixel.0 == [0; 3]), "{name} {more:?}");
+        assert!(usual.pixels().any(|pixel| pixel.0[0] > 20), "{name} {more:?}");
+        for (one, two) in usual.pixels().zip(double.pixels()) {
+            // Each byte is off by a half at most.
+            let apart = i32::from(two.0[0]) - 2 * i32::from(one.0[0]);
+            assert!(apart.abs() <= 1 || two.0[0] == 255, "{name} {more:?}: {one:?} {two:?}");
+        }
+    }
+    let (_, warnings) = picture("sheet.obj", &["--shading", "unlit", "--brightness", "2"]);
+    assert!(warnings.contains("--brightness: found it with --shading unlit"), "{warnings}");
+    folder.fails(&["sheet.obj", "--brightness", "-1"], &["--brightness", "a number from 0 to 100"]);
+}
+
 /// What is said of a pixel under three lights is what is drawn there.
 #[test]
 fn three_lights_are_explained() {

@@ -26,8 +26,8 @@ fn edges_are_smooth_unless_a_display_is_shown() {
     };
     assert_eq!(colors("--samples 1"), 2);
     assert_eq!(colors("--profile mcu"), 2);
-    assert_eq!(colors("--color rgb565"), 2);
     let (four, sixteen) = (colors(""), colors("--samples 16"));
+    assert_eq!(colors("--color rgb888"), four);
     assert!((3..=5).contains(&four) && (8..=17).contains(&sixteen), "{four} {sixteen}");
     folder.fails(&["m.obj", "--samples", "2"], &["--samples: found \"2\", expected one of 1, 4, 16"]);
     let large = ["m.obj", "--samples", "16", "--size", "4097x1"];

@@ -165,3 +165,28 @@ fn what_does_not_go_together_is_refused() {
     }
     assert!(folder.names().is_empty());
 }
+
+/// A format of colours changes no filter and no samples, so that pictures show what it costs alone; profiles do.
+#[test]
+fn formats_keep_filters_and_samples() {
+    let model = "v 0 0 0\nv 1 0 0\nv 1 0 9\nv 0 0 9\nvt 0 0\nvt 9 0\nvt 9 70\nvt 0 70\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+    let texels =
+        RgbImage::from_fn(16, 16, |x, y| image::Rgb([if (x / 4 + y / 4) % 2 == 0 { 250 } else { 20 }; 3]));
+    let folder = Folder::with(&[("m.obj", model.as_bytes())]);
+    texels.save(folder.path("t.png")).expect("an image");
+    let picture = |arguments: &str| {
+        let all = format!("m.obj --texture t.png -s 64x48 --two-sided true {arguments}");
+        folder.succeeds(&all.split_whitespace().collect::<Vec<_>>());
+        image::open(folder.path("alberti.png")).expect("a picture").to_rgb8()
+    };
+    for (given, same, other) in [
+        ("--color rgb565", "--filter trilinear --samples 4", "--filter bilinear"),
+        ("--color xrgb8888", "--filter trilinear --samples 4", "--samples 1"),
+        ("--profile mcu", "--filter bilinear --samples 1", "--samples 4"),
+        ("--profile tiny", "--filter bilinear --samples 1", "--samples 4"),
+    ] {
+        let usual = picture(given);
+        assert!(usual == picture(&format!("{given} {same}")), "{given} {same}");
+        assert!(usual != picture(&format!("{given} {other}")), "{given} {other}");
+    }
+}

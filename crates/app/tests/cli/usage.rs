@@ -104,6 +104,15 @@ fn mistakes_of_usage_are_one_line() {
             "error: a model: found it beside --scene, expected one of the two; see --help",
         ),
         ("m.obj --eye 1 2 3", "error: 2: found a number on its own, expected an option, or numbers that "),
+        (
+            "turntable m.obj --duration 2",
+            "error: --duration: found no such option, expected one, such as --frames; see --help",
+        ),
+        (
+            "m.obj --ground yes",
+            "error: yes: found one file too many, expected no other file or word; a truth is joined to its option, as in \
+             --ground=true",
+        ),
         ("m.obj -o", "error: --output: found nothing, expected a value; see --help"),
         ("compare a.png", "error: found too few words, expected <B.png> as well; see --help"),
         ("help compare camera", "error: camera: found no such options of `compare`, expected"),

@@ -309,3 +309,21 @@ fn binary_libraries_are_left_out_whole() {
     assert!(checked.materials.is_empty() && checked.names.is_empty());
     assert!(warnings[0].starts_with("m.mtl: found a binary file"));
 }
+
+/// Blender's colours are amounts of light: 0.2140411 is half of what sRGB has (IEC 61966-2-1).
+#[test]
+fn colours_of_blender_are_light() {
+    let text = b"newmtl a\nKd 0.2140411 0 1\nKs 0.5 0.5 0.5\nKe 0.0030353 0.5 0.05\n";
+    let (other, _) = run(text);
+    let (own, warnings) = run(&[&b"# Blender 3.4.1 MTL File: 'x.blend'\n"[..], text].concat());
+    assert_eq!(warnings, [""; 0]);
+    let close = |a: Option<Color>, b: [f32; 3]| {
+        a.is_some_and(|Color(a)| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-5))
+    };
+    let [other, own] = [other, own].map(|checked| checked.materials[0].material.clone());
+    assert!(close(other.color, [0.214_041_1, 0.0, 1.0]), "{other:?}");
+    assert!(close(own.color, [0.5, 0.0, 1.0]), "{own:?}");
+    // 10, 188 and 63 of 255.
+    assert!(close(own.emissive, [0.039_215_6, 0.735_356_9, 0.247_801_2]), "{own:?}");
+    assert_eq!(own.specular, other.specular);
+}

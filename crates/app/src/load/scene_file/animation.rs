@@ -78,9 +78,17 @@ impl Track {
         }
     }
 
-    /// Whether it has one value at two times.
+    /// Whether it is the same at two times: equal values, or angles that are whole turns apart.
     pub(super) fn is_same(&self, a: f64, b: f64) -> bool {
-        self.at(a) == self.at(b)
+        let (a, b) = (self.at(a), self.at(b));
+        let turns = ["rotation", "azimuth", "roll"].contains(&self.key.as_str());
+        match (Numbers::of(&a), Numbers::of(&b)) {
+            (Some(from), Some(to)) if turns => {
+                let apart = |(from, to): (&f64, &f64)| (to - from).rem_euclid(360.0).abs();
+                from.numbers.iter().zip(&to.numbers).all(|pair| apart(pair) <= 0.0)
+            }
+            _ => a == b,
+        }
     }
 
     /// The times of its values.
@@ -310,6 +318,7 @@ fn track(source: &Source, animation: &Animation, path: &str, names: &Names<'_>) 
         let wanted = *form.get_or_insert(of);
         if of.is_none() || of != wanted {
             let expected = match of {
+                None if key == "color" => "a colour: rrggbb, rgb or a name",
                 None => "a number, numbers in brackets, or a colour in quotes",
                 Some(_) => "a value like the first",
             };

@@ -8,6 +8,7 @@ use serde::Deserialize as _;
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 
+use super::syntax;
 use super::tables::File;
 use crate::error::{Error, quote};
 use crate::load::input;
@@ -90,10 +91,10 @@ impl Source {
         File::deserialize(Value::Table(table))
     }
 
-    /// Has a key, where there is none, stand where another does.
+    /// Has a key stand where another does, from which it gets its values.
     pub(super) fn stand_for(&mut self, path: String, other: &str) {
         if let Some(&index) = self.index.get(other) {
-            self.index.entry(path).or_insert(index);
+            self.index.insert(path, index);
         }
     }
 
@@ -179,10 +180,12 @@ impl Source {
     /// A message of the reader's on this place, in the form that all messages have.
     fn refused(&self, error: &toml::de::Error, at: Range<usize>) -> Error {
         let message = error.message().replace('\n', ", ");
-        let before = self.text.get(..at.start).filter(|_| error.span().is_some());
-        let (message, remedy) = mended(&message, before.is_some_and(|before| before.ends_with('[')));
-        let (found, expected) = message.split_once("expected ").unwrap_or((message, KIND));
-        let found = found.trim_end_matches([',', ' ']);
+        let around = self.text.get(..at.start).zip(self.text.get(at.start..));
+        let around = around.filter(|_| error.span().is_some()).unwrap_or_default();
+        let (message, remedy) = syntax::mended(&message, around);
+        let parted = message.split_once(", expected ");
+        let parted = parted.or_else(|| message.strip_prefix("expected ").map(|expected| ("", expected)));
+        let (found, expected) = parted.unwrap_or((&message, KIND));
         let kinds = ["invalid type: ", "invalid value: "];
         let found = kinds.iter().find_map(|kind| found.strip_prefix(kind)).unwrap_or(found);
         let unknown = found.strip_prefix("unknown field ").map(|key| key.trim_matches('`'));
@@ -214,7 +217,7 @@ impl Source {
             let near = nearest(key, &expected).map(|near| format!("did you mean {near}?"));
             elsewhere(key).or(near).or_else(|| of_others(key, &expected))
         });
-        match meant.or_else(|| remedy.map(str::to_owned)) {
+        match meant.or(remedy) {
             Some(hint) => error.hint(hint),
             None => error,
         }
@@ -227,25 +230,6 @@ impl Source {
             None => "the end of the line".to_owned(),
         }
     }
-}
-
-/// The reader's messages on what is no TOML in the words of all others, with a remedy.
-fn mended(message: &str, is_table: bool) -> (&str, Option<&'static str>) {
-    let begins = |start: &str| message.starts_with(start);
-    if begins("string values must be quoted") {
-        return (
-            "expected a value",
-            Some("text has quotes around it, and values in brackets have commas between"),
-        );
-    }
-    if ["invalid literal string", "invalid basic string", "invalid multi-line"].into_iter().any(begins) {
-        return ("text without its closing quotes, expected these", None);
-    }
-    if begins("duplicate key") {
-        let remedy = "of tables that there may be several of, each begins with two brackets, as [[object]]";
-        return ("a key for the second time, expected it once", is_table.then_some(remedy));
-    }
-    (message, None)
 }
 
 /// A hint to the table of a key that stands in another one, or at the top.

@@ -156,3 +156,81 @@ fn films_of_motions_tell_what_is_amiss() {
     assert!(said.contains("--ground: found 2 of 6 frames from below the model's lowest point"), "{said}");
     assert_eq!(said.lines().count(), 2, "{said}");
 }
+
+/// Angles that end whole turns after their start are where they were: the last frame would be the first again.
+#[test]
+fn whole_turns_go_round() {
+    let turning = |of: &str, key: &str, values: &str| {
+        format!(
+            "size = [40, 30]\n[render]\nsamples = 1\n[[object]]\nname = \"b\"\nsurface = \"torus\"\n\
+             [[animation]]\nof = \"{of}\"\nkey = \"{key}\"\ntimes = [0, 1]\nvalues = {values}\n"
+        )
+    };
+    for (of, key, values, frames) in [
+        ("b", "rotation", "[[0, 0, 0], [0, 360, 0]]", 10),
+        ("b", "rotation", "[[10, 0, 0], [-710, 0, 360]]", 10),
+        ("b", "rotation", "[[0, 0, 0], [0, 359, 0]]", 11),
+        ("camera", "azimuth", "[-180, 180]", 10),
+        ("camera", "roll", "[0, 90]", 11),
+        // A place is another one, however far.
+        ("b", "position", "[[0, 0, 0], [360, 0, 0]]", 11),
+    ] {
+        let folder = Folder::with(&[("a.toml", turning(of, key, values).as_bytes())]);
+        made(&folder, "turntable a.toml --fps 10 -o %d.png");
+        let count = folder.names().iter().filter(|name| name.ends_with(".png")).count();
+        assert_eq!(count, frames, "{key} {values}");
+    }
+}
+
+/// Values that no camera has are told before anything is drawn, where they stand, with their time.
+#[test]
+fn values_of_cameras_are_looked_at_first() {
+    let text = |key: &str, values: &str| {
+        format!(
+            "[[object]]\nsurface = \"sphere\"\n[camera]\neye = [0, 0, 3]\ntarget = [0, 0, 0]\nfov = 40\n\
+             [[animation]]\nof = \"camera\"\nkey = \"{key}\"\ntimes = [0, 2]\nvalues = {values}\n"
+        )
+    };
+    for (key, values, told) in [
+        (
+            "fov",
+            "[40, 190]",
+            "found 190 degrees, expected an angle above 0 and below 180 degrees; that is at 2 s",
+        ),
+        ("fov", "[40, -5]", "found -5 degrees, expected an angle above 0"),
+        ("near", "[0.1, -5]", "found near -5, expected a finite number above 0; that is at 2 s"),
+        (
+            "up",
+            "[[0, 1, 0], [0, 0, 0]]",
+            "found the direction 0,0,0, expected one above 0 in length; that is at 2 s",
+        ),
+        (
+            "eye",
+            "[[0, 0, 3], [0, 0, 0]]",
+            "found the eye and its target both at 0,0,0, expected two points; that is",
+        ),
+    ] {
+        let folder = Folder::with(&[("a.toml", text(key, values).as_bytes())]);
+        for line in ["turntable a.toml --fps 10 -o %d.png", "render a.toml", "info a.toml"] {
+            let failed = run(&folder, line);
+            let place = "error: a.toml:11: animation.values: ";
+            assert!(failed.stderr.starts_with(&format!("{place}{told}")), "{line}: {failed:?}");
+            assert_eq!(folder.names(), ["a.toml"]);
+        }
+    }
+}
+
+/// Assets are of the start, and say so.
+#[test]
+fn assets_of_what_moves_are_told() {
+    let start = ["[-1, 0.5, 0]", "ff0000", "[0, 2, 5]"];
+    let files = [("a.toml", scene(true, start)), ("0.toml", scene(false, start))];
+    let folder = Folder::with(&files.each_ref().map(|(name, text)| (*name, text.as_bytes())));
+    let told = "found a scene in which something moves, expected one that stands; the file has it as it is at the start";
+    for (line, name) in [("info a.toml", "a.toml"), ("bake a.toml --out b", "a.toml")] {
+        let moving = run(&folder, line);
+        assert!(format!("{}{}", moving.stdout, moving.stderr).contains(told), "{moving:?}");
+        let still = run(&folder, &line.replace(name, "0.toml"));
+        assert!(!format!("{}{}", still.stdout, still.stderr).contains("moves"), "{still:?}");
+    }
+}

@@ -283,6 +283,50 @@ fn unknown_keys_get_a_suggestion() {
     assert!(!message.contains("did you mean"), "{message}");
 }
 
+/// Slips of syntax are told in the words of all messages, with their remedies.
+#[test]
+fn slips_of_syntax_have_their_remedies() {
+    let quotes = "expected a value; text has quotes around it, and values in brackets have commas between";
+    let point =
+        "expected the end of the line; decimals have a point, as in 1.5, and numbers that belong together";
+    for (text, wanted) in [
+        ("radius = 1,5", format!("found more after a value: \",5\", {point}")),
+        ("position = 1,2,3", format!("found more after a value: \",2,3\", {point}")),
+        (
+            "rotation = [0, 05, 0]",
+            "found a zero before a number, expected none; 5 is not written 05".to_owned(),
+        ),
+        ("material = ff0000", format!("found \"ff0000\", {quotes}")),
+        ("model = tex/check.png", format!("found \"tex/check.png\", {quotes}")),
+        ("model = check.png", format!("found \"check.png\", {quotes}")),
+        ("model = \"C:\\models\\new.obj\"", "found a single \\ in text, expected two of them".to_owned()),
+        ("segments = [3, 3", "found unclosed array, expected ]".to_owned()),
+        (
+            "size = 3, radius = 3",
+            "found more after a value: \", radius = 3\", expected the end of the line; each key has"
+                .to_owned(),
+        ),
+    ] {
+        let message = refused(&format!("{MINIMAL}{text}\n"));
+        let key = text.split(' ').next().unwrap();
+        let line = MINIMAL.lines().count() + 1;
+        let place = [format!("s.toml:{line}: object.{key}: "), format!("s.toml:{line}: {key}: ")];
+        let rest = place.iter().find_map(|place| message.strip_prefix(place.as_str()));
+        assert!(rest.is_some_and(|rest| rest.starts_with(&wanted)), "{text}: {message}");
+    }
+    let message = refused("[object]]\n");
+    assert!(message.contains("a head has as many brackets at its end as at its start"), "{message}");
+}
+
+/// A name to try is written as the wrong one is: from the folder of the file.
+#[test]
+fn suggested_files_start_where_the_scene_does() {
+    let image = png(&[[1, 2, 3]]);
+    let text = format!("{MINIMAL}material = \"m\"\n[material.m]\ncolor-map = \"./chek.png\"\n");
+    let error = build(&[("s.toml", text.as_bytes()), ("check.png", &image)]).expect_err("a missing image");
+    assert!(error.to_string().ends_with("; did you mean ./check.png?"), "{error}");
+}
+
 #[test]
 fn animations_name_what_is_wrong_in_them() {
     let head = "[[object]]\nname = \"b\"\nsurface = \"sphere\"\n[[animation]]\n";
@@ -347,6 +391,10 @@ fn animations_name_what_is_wrong_in_them() {
         (
             "of = \"camera\"\nkey = \"elevation\"\ntimes = [0, 1]\nvalues = [80, 95]",
             "s.toml:8: animation.values: found 95, expected an angle from -90 to 90 degrees",
+        ),
+        (
+            "of = \"ambient\"\nkey = \"color\"\ntimes = [0, 1]\nvalues = [\"red\", \"blurple\"]",
+            "s.toml:8: animation.values: found \"blurple\", expected a colour: rrggbb, rgb or a name",
         ),
     ] {
         let message = refused(&format!("{head}{text}\n"));
