@@ -14,6 +14,9 @@ use crate::tree::{Tree, write};
 const TESTED: [&str; 8] =
     ["-math", "-projection", "-raster", "-texture", "", "-tests", "-accuracy", "-hostile"];
 
+/// A program of tests that takes more than a quarter of an hour to compile with all switches.
+const LEFT_OUT: &str = "fragments";
+
 /// The most times that it is compiled: each time, a few more mutants are left out.
 const MOST: u32 = 60;
 
@@ -94,8 +97,7 @@ fn rewrite_all(
     for (name, of_file) in by_file {
         let path = root.join(&name);
         let source = fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
-        let rewritten =
-            rewrite(&source, &of_file).map_err(|error| format!("{}: {error}", name.display()))?;
+        let rewritten = rewrite(&source, &of_file).map_err(|error| format!("{}: {error}", name.display()))?;
         write(&tree.root.join(&name), rewritten.text.as_bytes())?;
         files.insert(name, rewritten);
     }
@@ -106,7 +108,8 @@ fn rewrite_all(
 fn cargo(tree: &Tree, build: bool) -> Result<Vec<Value>, String> {
     let mut cargo = tree.cargo();
     cargo.arg(if build { "build" } else { "check" });
-    cargo.args(["--tests", "--profile", "test", "--keep-going", "--message-format=json"]);
+    cargo.args(["--lib", "--profile", "test", "--keep-going", "--message-format=json"]);
+    cargo.args(tests(tree)?.iter().flat_map(|name| ["--test", name]));
     cargo.args(TESTED.iter().flat_map(|package| ["-p".to_owned(), format!("alberti{package}")]));
     let output = cargo.output().map_err(|error| format!("cannot run cargo: {error}"))?;
     let text = String::from_utf8_lossy(&output.stdout);
@@ -115,6 +118,23 @@ fn cargo(tree: &Tree, build: bool) -> Result<Vec<Value>, String> {
         return Err(String::from_utf8_lossy(&output.stderr).into_owned());
     }
     Ok(messages)
+}
+
+/// The names of the programs of tests in folders of their own.
+fn tests(tree: &Tree) -> Result<Vec<String>, String> {
+    let mut cargo = tree.cargo();
+    let output = cargo.args(["metadata", "--no-deps", "--format-version", "1"]).output();
+    let output = output.map_err(|error| format!("cannot run cargo: {error}"))?;
+    let told: Value =
+        serde_json::from_slice(&output.stdout).map_err(|error| format!("the packages: {error}"))?;
+    let all =
+        |value: &Value, key: &str| value.get(key).and_then(Value::as_array).cloned().unwrap_or_default();
+    let text = |value: &Value| value.get("name").and_then(Value::as_str).unwrap_or_default().to_owned();
+    let packages = all(&told, "packages").into_iter();
+    let packages = packages.filter(|package| TESTED.contains(&text(package).trim_start_matches("alberti")));
+    let targets = packages.flat_map(|package| all(&package, "targets"));
+    let targets = targets.filter(|target| all(target, "kind").iter().any(|kind| kind == "test"));
+    Ok(targets.map(|target| text(&target)).filter(|name| name != LEFT_OUT).collect())
 }
 
 fn programs(messages: &[Value]) -> Vec<PathBuf> {

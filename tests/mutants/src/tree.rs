@@ -15,8 +15,7 @@ pub(crate) struct Tree {
 }
 
 /// What the crate with the switch begins with: a constant's value cannot depend on the variable.
-const FEATURES: &str =
-    "#![feature(core_intrinsics, const_eval_select)]\n#![allow(internal_features)]\n";
+const FEATURES: &str = "#![feature(core_intrinsics, const_eval_select)]\n#![allow(internal_features)]\n";
 
 /// The switch. Its variable is set before `main`, by the environment. With `record` it notes which switches are passed,
 /// in the file that `MUTANT_REACHED` names. No mutant is alive in what is computed while compiling.

@@ -39,6 +39,12 @@ impl Group {
 /// The turn in radians below which two triangles are parts of a flat face.
 const FLAT: f64 = 1e-3;
 
+/// The creases by which triangles that share a normal turn at most.
+const WIDE: f64 = 1.25;
+
+/// The most triangles at a place that are compared with each other.
+const MOST_AT_A_PLACE: usize = 128;
+
 /// Triangles at one edge, each of which is compared with so many after it. More than two share it only where a surface
 /// has branches, or two sides that both are modelled.
 const NEIGHBOURS: usize = 8;
@@ -52,8 +58,9 @@ const NEIGHBOURS: usize = 8;
 ///
 /// Triangles belong together that share a number in `groups`, which has one for each triangle, in the parts' order. Of
 /// [`Group::BY_ANGLE`], those do that share an edge at which they turn by less than `crease` degrees. So do those that
-/// follow from these: around the tip of a cone all sides belong together. A vertex where several normals meet becomes
-/// several.
+/// follow from these, unless they turn by a quarter more than that: the sides of a box do not, whatever lies between
+/// them. Of more than 128 triangles at a place, such as the tip of a cone, all do. A vertex where several normals meet
+/// becomes several.
 ///
 /// Where the mean vanishes, at a vertex of degenerate triangles only or of a folded surface, it is (0, 0, 1).
 ///
@@ -77,29 +84,104 @@ pub fn complete(model: &mut Model, groups: &[Group], crease: f32) -> Result<(), 
     let what = "a model without normals";
     memory::need((40 * before + 64 * triangles) as u64, what)?;
     let Joined { sets, count, areas } = joined(model, groups, crease);
-    // Vertices that become several are a list that grows by halves, and a table.
-    let new = count.saturating_sub(before);
-    let grown = if new > 0 { 2 * (size_of::<Vertex>() + 4) * (before + new) + 48 * new } else { 4 * before };
-    memory::need((32 * count + 20 * triangles + grown) as u64, what)?;
+    memory::need((32 * count + 20 * triangles) as u64, what)?;
     // Of each set the sum of normals, and that of their weights.
     let mut sums = vec![[0.0; 4]; count];
-    for ((triangle, sets), area) in all(model).zip(sets.chunks_exact(3)).zip(areas) {
-        let points = triangle.map(|i| model.vertices[i as usize].position.map(f64::from));
-        for (i, &set) in sets.iter().enumerate() {
-            let to_next = sub(points[(i + 1) % 3], points[i]);
-            let to_last = sub(points[(i + 2) % 3], points[i]);
-            let across = cross(to_next, to_last);
-            let (Some(normal), sine) = (normalize(across), length(across)) else { continue };
-            let weight = sine.atan2(dot(to_next, to_last)) * area;
-            let sum = &mut sums[set as usize];
-            for axis in 0..3 {
-                sum[axis] += normal[axis] * weight;
-            }
-            sum[3] += weight;
+    for ((triangle, sets), &area) in all(model).zip(sets.chunks_exact(3)).zip(&areas) {
+        for (sum, &set) in said(model, triangle, area).into_iter().zip(sets) {
+            add(&mut sums[set as usize], sum);
         }
     }
+    let (mut sets, areas) = (sets, areas);
+    part_wide(model, groups, crease, &areas, (&mut sets, &mut sums));
+    drop(areas);
+    // Vertices that become several are a list that grows by halves, and a table.
+    let new = sums.len().saturating_sub(before);
+    let grown = if new > 0 { 2 * (size_of::<Vertex>() + 4) * (before + new) + 48 * new } else { 4 * before };
+    memory::need(grown as u64, what)?;
     give(model, groups, &sets, &sums);
     Ok(())
+}
+
+/// The normals of a triangle at its three corners, times their weights, and these.
+fn said(model: &Model, triangle: [u32; 3], area: f64) -> [[f64; 4]; 3] {
+    let points = triangle.map(|i| model.vertices[i as usize].position.map(f64::from));
+    [0, 1, 2].map(|i| {
+        let to_next = sub(points[(i + 1) % 3], points[i]);
+        let to_last = sub(points[(i + 2) % 3], points[i]);
+        let across = cross(to_next, to_last);
+        let Some([x, y, z]) = normalize(across) else { return [0.0; 4] };
+        let weight = length(across).atan2(dot(to_next, to_last)) * area;
+        [x * weight, y * weight, z * weight, weight]
+    })
+}
+
+fn add(sum: &mut [f64; 4], other: [f64; 4]) {
+    sum.iter_mut().zip(other).for_each(|(sum, other)| *sum += other);
+}
+
+/// Parts the sets in which triangles turn by [`WIDE`] creases or more, although each edge between is smooth. There a
+/// corner gets the mean of those that do not turn so far from its own.
+fn part_wide(
+    model: &Model,
+    groups: &[Group],
+    crease: f32,
+    areas: &[f64],
+    (sets, sums): (&mut [u32], &mut Vec<[f64; 4]>),
+) {
+    let most = (WIDE * f64::from(crease)).min(180.0).to_radians();
+    let turn = |a: [f64; 3], b: [f64; 3]| length(cross(a, b)).atan2(dot(a, b));
+    // All that are within a half of that from the mean are within all of it from each other.
+    let mut wide: HashMap<u32, Vec<u32>> = HashMap::new();
+    let corners = all(model).zip(groups).zip((0_u32..).step_by(3));
+    for ((triangle, _), first) in corners.filter(|((_, group), _)| **group == Group::BY_ANGLE) {
+        let Some(own) = normalize(across(model, triangle)) else { continue };
+        for corner in first..first + 3 {
+            let set = sets[corner as usize];
+            let [x, y, z, _] = sums[set as usize];
+            if normalize([x, y, z]).is_none_or(|mean| turn(own, mean) >= most / 2.0) {
+                wide.entry(set).or_default();
+            }
+        }
+    }
+    for (corner, set) in (0_u32..).zip(sets.iter()) {
+        if let Some(corners) = wide.get_mut(set) {
+            corners.push(corner);
+        }
+    }
+    let triangles: Vec<[u32; 3]> = if wide.is_empty() { Vec::new() } else { all(model).collect() };
+    let mut wide: Vec<_> = wide.into_iter().filter(|(_, corners)| corners.len() <= MOST_AT_A_PLACE).collect();
+    wide.sort_unstable_by_key(|&(set, _)| set);
+    for (set, corners) in wide {
+        let of = |corner: u32| triangles[corner as usize / 3];
+        let normals: Vec<_> = corners.iter().map(|&corner| normalize(across(model, of(corner)))).collect();
+        // The corners that count for others, a bit for each; those with equal ones share a normal.
+        let mut known: Vec<(u128, u32)> = Vec::new();
+        for (&corner, own) in corners.iter().zip(&normals) {
+            let counts = |other: &Option<[f64; 3]>| own.zip(*other).is_some_and(|(a, b)| turn(a, b) < most);
+            let bits = normals.iter().zip(0..).filter(|(other, _)| counts(other));
+            let bits = bits.fold(0_u128, |bits, (_, k)| bits | 1 << k);
+            let new = match known.iter().find(|(other, _)| *other == bits) {
+                Some(&(_, new)) => new,
+                None => {
+                    let mut sum = [0.0; 4];
+                    for (&other, _) in corners.iter().zip(0..).filter(|(_, k)| bits >> k & 1 == 1) {
+                        let said = said(model, of(other), areas[other as usize / 3]);
+                        add(&mut sum, said[other as usize % 3]);
+                    }
+                    let new = if known.is_empty() { set } else { narrowed(sums.len()) };
+                    if known.is_empty() {
+                        sums[set as usize] = sum;
+                    } else {
+                        sums.push(sum);
+                    }
+                    known.push((bits, new));
+                    new
+                }
+            };
+            sets[corner as usize] = new;
+        }
+    }
 }
 
 /// All triangles, in the parts' order.

@@ -104,6 +104,47 @@ fn a_bevelled_cube_is_no_cushion() {
     }
 }
 
+/// Smooth edges one after the other do not join the sides of a box; those of an icosahedron all belong together.
+#[test]
+fn normals_are_of_what_turns_little() {
+    // Two sides of a box, and a facet between them that ends in a point. It turns by 48 degrees from each.
+    let positions = [[0.0; 3], [-1.0, 0.0, 0.0], [-0.5, -1.0, 0.0], [0.0, -1.0, -0.5], [0.0, 0.0, -1.0]];
+    let mut corner = model(&positions, &[[0, 1, 2], [0, 2, 3], [0, 3, 4]]);
+    by(&mut corner, Group::BY_ANGLE, 60.0);
+    let at_point = |k: usize| corner.vertices[corner.parts[0].triangles[k][0] as usize].normal;
+    let [[x0, _, z0], facet, [x2, _, z2]] = [0, 1, 2].map(at_point);
+    assert!(x0 < 0.8 * z0 && z2 < 0.8 * x2 && (x0 - z2).abs() < 1e-6, "{x0} {z0} {x2} {z2}");
+    assert!((facet[0] - facet[2]).abs() < 1e-6, "{facet:?}");
+    assert_eq!(corner.vertices.len(), 7);
+
+    let g = f32::midpoint(1.0, 5.0_f32.sqrt());
+    let corners = [-1.0_f32, 1.0].map(|a| [-g, g].map(|b| [[0.0, a, b], [a, b, 0.0], [b, 0.0, a]]));
+    let positions: Vec<[f32; 3]> = corners.into_iter().flatten().flatten().collect();
+    let near = |a: usize, b: usize| {
+        let apart = sub(positions[a].map(f64::from), positions[b].map(f64::from));
+        (dot(apart, apart) - 4.0).abs() < 1e-3
+    };
+    let mut triangles = Vec::new();
+    for a in 0..12 {
+        for b in a + 1..12 {
+            for c in (b + 1..12).filter(|&c| near(a, b) && near(b, c) && near(c, a)) {
+                let [p, q, r] = [a, b, c].map(|k| positions[k].map(f64::from));
+                let outwards = dot(cross(sub(q, p), sub(r, p)), p) > 0.0;
+                let [a, b, c] = [a, b, c].map(|k| u32::try_from(k).unwrap());
+                triangles.push(if outwards { [a, b, c] } else { [a, c, b] });
+            }
+        }
+    }
+    assert_eq!(triangles.len(), 20);
+    let mut ball = model(&positions, &triangles);
+    by(&mut ball, Group::BY_ANGLE, 60.0);
+    assert_eq!(ball.vertices.len(), 12);
+    for vertex in &ball.vertices {
+        let along = dot(normalize(vertex.position.map(f64::from)).unwrap(), vertex.normal.map(f64::from));
+        assert!(along > 1.0 - 1e-6, "{along}");
+    }
+}
+
 /// A face that is cut into many triangles weighs as much as one of two.
 #[test]
 fn faces_weigh_alike_however_they_are_cut() {
