@@ -27,9 +27,14 @@ pub(crate) fn fmt() -> Outcome {
 
 /// Runs clippy on every member and target, benchmarks included, and on the firmware's scenes, with warnings as errors.
 ///
-/// Every feature is on: members are compiled together, and the application asks for all, as `tidy` makes sure.
+/// Every feature is on: members are compiled together, and the application asks for all, as `tidy` makes sure, but for
+/// its window.
 pub(crate) fn lint() -> Outcome {
-    run(cargo().args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]))?;
+    let window = ["--features", "alberti-app/window"];
+    run(cargo()
+        .args(["clippy", "--workspace", "--all-targets"])
+        .args(window)
+        .args(["--", "-D", "warnings"]))?;
     run(with_mutants("clippy").args(["--all-targets", "--", "-D", "warnings"]))?;
     let (manifest, [_, scenes]) = FIRMWARE;
     let mut clippy = cargo();

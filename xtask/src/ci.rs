@@ -10,7 +10,7 @@ use std::{env, fs, io, thread};
 use crate::command::Outcome;
 use crate::{
     assets, checks, extremes, film, firmware, fuzz, gallery, guide, package, seeded, supply, tidy, trade,
-    workspace,
+    window, workspace,
 };
 use passed::Passed;
 
@@ -103,6 +103,7 @@ const STEPS: &[Step] = &[
     ("gallery", gallery::check),
     ("lanes", checks::lanes),
     ("film", film::check),
+    ("window", window::check),
     ("registers", checks::registers),
     ("extremes", extremes::check),
     ("package", package::run),

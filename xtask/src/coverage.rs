@@ -80,11 +80,11 @@ fn add(lines: &mut Lines, report: &str) {
     for line in report.lines() {
         if let Some(name) = line.strip_prefix("SF:") {
             file = name.into();
-        } else if let Some((line, count)) = line.strip_prefix("DA:").and_then(|rest| rest.split_once(',')) {
-            if let (Ok(line), Ok(count)) = (line.parse(), count.parse::<u64>()) {
-                let before = lines.entry(file.clone()).or_default().entry(line).or_default();
-                *before = count.max(*before);
-            }
+        } else if let Some((line, count)) = line.strip_prefix("DA:").and_then(|rest| rest.split_once(','))
+            && let (Ok(line), Ok(count)) = (line.parse(), count.parse::<u64>())
+        {
+            let before = lines.entry(file.clone()).or_default().entry(line).or_default();
+            *before = count.max(*before);
         }
     }
 }
@@ -124,7 +124,8 @@ fn report(lines: &Lines, list: bool) -> String {
     }
     let (mut all, mut all_missed) = (0, 0);
     let mut share = |name: &str, lines: usize, missed: usize| {
-        let percent = 100.0 * (lines - missed) as f64 / lines.max(1) as f64;
+        let [ran, all] = [lines - missed, lines.max(1)].map(|n| u32::try_from(n).map_or(f64::MAX, f64::from));
+        let percent = 100.0 * ran / all;
         _ = writeln!(text, "{name:<12}{percent:>6.1} % of {lines} lines");
     };
     for library in workspace::LIBRARIES {

@@ -30,6 +30,7 @@ mod supply;
 mod tidy;
 mod trade;
 mod wasm;
+mod window;
 mod workspace;
 
 use std::ffi::OsString;
@@ -141,6 +142,12 @@ const CHORES: &[Chore] = &[
         arguments: "",
         about: "draw a film by four processes, one of which fails at first, and compare it with that of one",
         run: |_| film::check(),
+    },
+    Chore {
+        name: "window",
+        arguments: "",
+        about: "open `alberti view` in an X server without a screen, press keys, and compare its pictures",
+        run: |_| window::check(),
     },
     Chore {
         name: "sweep",

@@ -25,6 +25,8 @@ pub mod run;
 mod staged;
 mod told;
 pub mod turntable;
+#[cfg(feature = "window")]
+mod view;
 mod watch;
 pub(crate) mod words;
 
@@ -93,6 +95,13 @@ pub enum Command {
     /// has an error is told, and the last picture stays. Ctrl-C ends it.
     #[command(after_help = watch::HELP)]
     Watch(Box<RenderArgs>),
+    /// Look at a scene in a window.
+    ///
+    /// Takes the options of `render`. The mouse turns, moves and zooms, keys choose options: H lists them. The picture
+    /// follows its files, and those that are dropped on the window. P keeps it as `render` draws it.
+    #[cfg(feature = "window")]
+    #[command(after_help = view::HELP)]
+    View(Box<RenderArgs>),
     /// Print a shell's completions of this command.
     #[command(
         after_help = "Examples:\n  alberti completions bash > ~/.local/share/bash-completion/completions/alberti\n  \

@@ -14,8 +14,9 @@ use crate::tree::{Tree, write};
 const TESTED: [&str; 8] =
     ["-math", "-projection", "-raster", "-texture", "", "-tests", "-accuracy", "-hostile"];
 
-/// A program of tests that takes more than a quarter of an hour to compile with all switches.
-const LEFT_OUT: &str = "fragments";
+/// Programs of tests that are not run: one that takes more than a quarter of an hour to compile with all switches, and
+/// one that runs examples.
+const LEFT_OUT: [&str; 2] = ["fragments", "pictures"];
 
 /// The most times that it is compiled: each time, a few more mutants are left out.
 const MOST: u32 = 60;
@@ -134,7 +135,7 @@ fn tests(tree: &Tree) -> Result<Vec<String>, String> {
     let packages = packages.filter(|package| TESTED.contains(&text(package).trim_start_matches("alberti")));
     let targets = packages.flat_map(|package| all(&package, "targets"));
     let targets = targets.filter(|target| all(target, "kind").iter().any(|kind| kind == "test"));
-    Ok(targets.map(|target| text(&target)).filter(|name| name != LEFT_OUT).collect())
+    Ok(targets.map(|target| text(&target)).filter(|name| !LEFT_OUT.contains(&name.as_str())).collect())
 }
 
 fn programs(messages: &[Value]) -> Vec<PathBuf> {

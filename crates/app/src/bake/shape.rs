@@ -303,7 +303,7 @@ pub(super) fn asset(
         if vertices.len() > MAX_VERTICES as usize {
             let found = format!("{} vertices of a part{}", vertices.len(), named(part));
             let error = Error::new(found, format!("at most {MAX_VERTICES}"));
-            return Err(error.hint("choose fewer triangles with --triangles"));
+            return Err(error.hint("alberti bake --triangles makes fewer"));
         }
         let before = transformed(&mesh.triangles, mesh.vertices.len())?;
         if triangles.is_empty() {
@@ -332,6 +332,23 @@ pub(super) fn asset(
     Ok(Asset { attributes, unit, pieces, lost_parts, textures, losses })
 }
 
+/// Triangles in an order that suits a cache.
+fn cached(triangles: &[[u32; 3]], vertices: usize) -> Result<Vec<[u32; 3]>, Error> {
+    let ordered = optimize_vertex_cache(triangles.as_flattened(), vertices, &mut Workspace::default());
+    Ok(ordered.map_err(not_ordered)?.as_chunks().0.to_vec())
+}
+
+/// The same of a few triangles, whose vertices have numbers of all the mesh: it takes as long as these are many.
+fn cached_alone(triangles: &[[u32; 3]]) -> Result<Vec<[u32; 3]>, Error> {
+    let mut used = triangles.as_flattened().to_vec();
+    used.sort_unstable();
+    used.dedup();
+    let own = |index: u32| small(used.binary_search(&index).unwrap_or_default());
+    let alone: Vec<_> = triangles.iter().map(|triangle| triangle.map(own)).collect();
+    let ordered = cached(&alone, used.len())?;
+    Ok(ordered.into_iter().map(|triangle| triangle.map(|index| used[index as usize])).collect())
+}
+
 /// A piece with its triangles in the order of meshlets, or of a cache, and its vertices in the order of their use.
 fn ordered(
     part: usize,
@@ -341,20 +358,15 @@ fn ordered(
     (color, texture): (Rgba8, Option<usize>),
     before: f32,
 ) -> Result<Piece, Error> {
-    let cached = |triangles: &[[u32; 3]]| {
-        let ordered =
-            optimize_vertex_cache(triangles.as_flattened(), vertices.len(), &mut Workspace::default());
-        Ok::<_, Error>(ordered.map_err(not_ordered)?.as_chunks().0.to_vec())
-    };
     // Meshlets grow from the first triangles that are left, in this order.
-    let mut triangles = cached(&triangles)?;
+    let mut triangles = cached(&triangles, vertices.len())?;
     let mut ranges = vec![];
     if most > 0 {
         let places: Vec<_> = vertices.iter().map(|vertex| grids.place(vertex)).collect();
         let split = Split::new(&places, &triangles, most);
         triangles.clear();
         for range in &split.meshlets {
-            triangles.extend(cached(&split.triangles[range.start as usize..range.end as usize])?);
+            triangles.extend(cached_alone(&split.triangles[range.start as usize..range.end as usize])?);
         }
         ranges = split.meshlets;
     }

@@ -9,6 +9,7 @@ use super::RenderArgs;
 use super::request::{OF_PICTURES, Request, refuse};
 use super::run::print;
 use super::staged::Staged;
+use super::told::warn;
 use crate::error::Error;
 use crate::explain::explain;
 use crate::output::stage::{Stage, during};
@@ -76,8 +77,8 @@ fn run_for(request: &Request, matches: &ArgMatches) -> Result<(), Error> {
     refuse(matches, "explain", &OF_PICTURES, "no picture is written")?;
     request.check()?;
     if request.arguments.render.ground == Some(true) {
-        let error = Error::new("a ground", "a picture without").place("--ground");
-        return Err(error.hint("explain ends at the model's own surfaces"));
+        let error = Error::new("it with explain, which has the model alone", "a picture").place("--ground");
+        warn(&request.relocate(error.hint("it is left out")).to_string());
     }
     let Staged { model, camera, options, .. } = request.stage()?;
     let journey = during(Stage::Explain, |_| explain(&model, &camera, &options, pixel))?;

@@ -84,7 +84,8 @@ pub(super) fn asked(given: &[OsString], command: &Command) -> Option<Result<Stri
     }
     let first = first?;
     if first == "help" {
-        let Some(topic) = lower(words.get(1)) else { return Some(Ok(first_page(command))) };
+        let topic = lower(words.get(1)).filter(|word| word != "--help" && word != "-h");
+        let Some(topic) = topic else { return Some(Ok(first_page(command))) };
         let more = lower(words.get(2));
         let last = if named(&&*topic) { 2 } else { 1 };
         if let Some(word) = words.get(last + 1) {

@@ -156,6 +156,11 @@ impl Request {
         if ground::above(swept.as_ref().unwrap_or(model), cameras, options.depth).is_none() {
             return left_out("it under a model without extent", "one that stands on it");
         }
+        if ground::has_floor(swept.as_ref().unwrap_or(model), &cameras[0], options.depth) {
+            let error =
+                Error::new("a floor at the lowest point, which hides it", "a model that stands on it");
+            warn(&error.place("--ground").hint("take the floor out of the scene").to_string());
+        }
         let CameraTable { near, far, .. } = self.arguments.camera;
         let affine = options.policies.interpolation == Interpolation::Affine;
         let fixed = [near.is_some(), far.is_some()];

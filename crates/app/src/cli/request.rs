@@ -32,7 +32,9 @@ pub(super) fn hidden(command: Command, ids: &[&'static str]) -> Command {
 /// # Errors
 /// One of them stands on the command line.
 pub(super) fn refuse(matches: &ArgMatches, name: &str, ids: &[&str], reason: &str) -> Result<(), Error> {
-    let given = |id: &&&str| matches.value_source(id) == Some(ValueSource::CommandLine);
+    // A ground may be taken away from a scene file.
+    let is_harmless = |id: &str| id == "ground" && matches.get_one::<bool>(id) == Some(&false);
+    let given = |id: &&&str| matches.value_source(id) == Some(ValueSource::CommandLine) && !is_harmless(id);
     match ids.iter().find(given) {
         None => Ok(()),
         Some(id) => {

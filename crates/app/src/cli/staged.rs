@@ -12,8 +12,9 @@ use crate::load::scene_file::{Gathered, SceneFile};
 use crate::load::{obj, prepare};
 use crate::options::values::{Color, MAX_THREADS, Size, Threads};
 use crate::options::{
-    Background, Cull, DEFAULT_BACKGROUND, DEFAULT_SIZE, DepthFormat, Filter, Fog, GROUND_BACKGROUND, Haze,
-    KeyLight, LightOptions, LightSpace, Profile, Projection, RenderOptions, Samples, Shading, Wrap,
+    Background, CameraTable, Cull, DEFAULT_BACKGROUND, DEFAULT_SIZE, DepthFormat, Filter, Fog,
+    GROUND_BACKGROUND, Haze, KeyLight, LightOptions, LightSpace, Profile, Projection, RenderOptions, Samples,
+    Shading, Wrap,
 };
 use crate::output::stage::{Stage, during};
 use crate::scene::backdrop::Backdrop;
@@ -94,7 +95,30 @@ impl Request {
                 motion.swept.add(&file.build(gathered)?);
             }
         }
-        let Staged { camera, model, .. } = first.stage_with(cast.clone(), Some(&motion))?;
+        let Staged { mut camera, model, options, .. } = first.stage_with(cast.clone(), Some(&motion))?;
+        // A camera that goes round a model is as far away as all of its views take.
+        let turns = |moment: &Self| {
+            let CameraTable { azimuth, elevation, roll, view, .. } = moment.arguments.camera;
+            (azimuth, elevation, roll, view)
+        };
+        let places = |moment: &Self| moment.arguments.camera.counted_from(model.origin);
+        let goes_round = self.moments.iter().any(|moment| turns(moment) != turns(first));
+        if goes_round
+            && self
+                .moments
+                .iter()
+                .all(|moment| moment.arguments.camera.eye.is_none() && moment.orbit.is_none())
+        {
+            let whole = motion.swept.model(model.origin);
+            let ball = camera::bounding_sphere(&whole);
+            let aspect = f64::from(options.width) / f64::from(options.height);
+            let views = self.moments.iter().map(|moment| {
+                let wishes = places(moment);
+                camera::frame(&wishes, None, (&whole, ball), aspect).map(|camera| (camera, wishes))
+            });
+            let views = views.collect::<Result<Vec<_>, _>>()?;
+            camera = camera::fitted_at_all_times((&whole, ball), &views, aspect).unwrap_or(camera);
+        }
         let fov = camera::unzoomed(&camera, &first.arguments.camera);
         motion.still = Some((Camera { fov, ..camera }, model.origin));
         Ok(Some(motion))
@@ -137,6 +161,10 @@ impl Request {
         let mut scene = match (scene, file) {
             (Loaded::Objects(gathered), Some(file)) => of_file(arguments, file, gathered)?,
             (Loaded::Scene(mut scene), _) => {
+                if arguments.model.is_some() {
+                    // It may have been loaded for other options.
+                    (scene.defaults, scene.background) = (of_models(arguments), background(arguments));
+                }
                 put_materials(arguments, &mut scene)?;
                 scene
             }
@@ -227,6 +255,11 @@ impl Request {
         if options.shading == Shading::Gouraud && scene.model.parts.iter().any(needs_fragments) {
             let found = "gouraud with relief, normals, occlusion or reflections, which are left out";
             warn(&Error::new(found, "phong or blinn for these").place("--shading").to_string());
+        }
+        if arguments.render.normals.is_some() && file.is_some_and(|file| !file.has_models()) {
+            let error =
+                Error::new("it in a scene without a model", "a model: surfaces have normals of their own");
+            warn(&self.relocate(error.place("--normals").hint("nothing changes")).to_string());
         }
         if let Some(warning) = partners::unused_light(arguments, &scene.model) {
             warn(&self.relocate(warning).to_string());

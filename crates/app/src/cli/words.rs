@@ -39,6 +39,7 @@ pub(super) fn with_command(mut words: Vec<OsString>, command: &Command) -> Resul
     }
     let commands = command.get_subcommands().map(Command::get_name);
     let hint = match nearest(&text, commands) {
+        None if &*text == "view" => "a program with a window is built with --features window".to_owned(),
         Some(command) => format!("did you mean {command}?"),
         None if scenes::NAMES.contains(&&*text) => format!("did you mean --scene {text}?"),
         None => "see --help".to_owned(),
@@ -111,6 +112,12 @@ mod tests {
             (
                 "alberti rednr m.obj",
                 "rednr: found no such command and no file, expected one of the two; did you mean render?",
+            ),
+            #[cfg(not(feature = "window"))]
+            (
+                "alberti view",
+                "view: found no such command and no file, expected one of the two; a program with a window is built with \
+                 --features window",
             ),
             (
                 "alberti floor",

@@ -158,6 +158,11 @@ impl SceneFile {
         times.into_iter().step_by(step).collect()
     }
 
+    /// Whether an object is a model, and not only surfaces are.
+    pub(crate) fn has_models(&self) -> bool {
+        self.file.object.iter().any(|object| object.model.is_some())
+    }
+
     /// Whether an option stands here, and not on the command line.
     pub(crate) fn has(&self, option: &str) -> bool {
         self.keys.contains_key(option)

@@ -8,7 +8,7 @@ use crate::scene::{Camera, Model};
 use alberti::ViewError;
 use fit::{Lens, fit};
 
-pub(crate) use turns::{Turn, turned};
+pub(crate) use turns::{Turn, fitted_at_all_times, turned};
 
 mod fit;
 mod pose;

@@ -123,6 +123,34 @@ pub(crate) fn above(model: &Model, cameras: &[Camera], depth: DepthFormat) -> Op
     Some(cameras.iter().map(|camera| ground.is_below(camera)).collect())
 }
 
+/// Whether a floor of the model's own lies at its lowest point, and hides a ground below. A floor is of faces that look
+/// up, and has a quarter of the model's extent at least.
+pub(crate) fn has_floor(model: &Model, camera: &Camera, depth: DepthFormat) -> bool {
+    let Some(Ground { up: (up, sign), low, .. }) = Ground::of(model, camera.up, below(depth)) else {
+        return false;
+    };
+    let [least, most] = bounds(model);
+    let [a, b] = others(up);
+    let (size, [width, length]) = (sub(most, least), [a, b].map(|axis| most[axis] - least[axis]));
+    let near = 2.0 * below(depth) * dot(size, size).sqrt();
+    let area: f64 = model
+        .parts
+        .iter()
+        .flat_map(|part| &part.triangles)
+        .filter_map(|triangle| {
+            let corners = triangle.map(|index| model.vertices.get(index as usize));
+            let [Some(p), Some(q), Some(r)] = corners else { return None };
+            let is_low = |v: &&Vertex| (f64::from(v.position[up]) - low).abs() < near;
+            let looks_up = |v: &&Vertex| f64::from(v.normal[up]) * sign > 0.9;
+            let all = [p, q, r];
+            let [p, q, r] = all.map(|vertex| [a, b].map(|axis| f64::from(vertex.position[axis])));
+            let doubled = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+            all.iter().all(|v| is_low(v) && looks_up(v)).then_some(doubled.abs() / 2.0)
+        })
+        .sum();
+    area > 0.25 * width * length
+}
+
 /// Moves the planes of a camera so that these points are between them.
 fn stretch(camera: &mut Camera, points: &[[f64; 3]], fixed: [bool; 2]) {
     let eye = camera.eye.map(f64::from);

@@ -67,15 +67,19 @@ fn scene_files_and_built_in_scenes_are_explained_too() {
     assert!(run.status == Some(0) && run.stdout.contains("red"), "{run:?}");
 }
 
-/// A shadow is none of the surfaces that are explained, also where the file asks for it.
+/// A shadow is none of the surfaces that are explained, which is told where the file asks for it.
 #[test]
-fn a_ground_is_refused() {
+fn a_ground_is_left_out() {
     let scene = b"[[object]]\nsurface = \"sphere\"\n[render]\nground = true\n";
     let folder = Folder::with(&[("s.toml", scene)]);
-    let run = explain(&folder, &["s.toml", "--pixel", "10,5"]);
-    assert_eq!(run.status, Some(2));
-    let told = "error: s.toml:4: render.ground: found a ground, expected a picture without; ";
-    assert!(run.stderr.starts_with(told), "{run:?}");
+    let pixel = ["s.toml", "--pixel", "320,240"];
+    let with = explain(&folder, &pixel);
+    let told = "warning: s.toml:4: render.ground: found it with explain, which has the model alone";
+    assert!(with.status == Some(0) && with.stderr.starts_with(told), "{with:?}");
+    let without = explain(&folder, &[&pixel[..], &["--ground=false"]].concat());
+    assert_eq!((without.status, without.stderr.as_str()), (Some(0), ""));
+    // The camera leaves room for the shadow of the picture.
+    assert!(without.stdout != with.stdout && with.stdout.ends_with("to the bit\n"), "{with:?}");
 }
 
 #[test]

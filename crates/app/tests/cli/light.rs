@@ -270,6 +270,25 @@ fn a_ground_has_a_soft_shadow() {
     }
 }
 
+/// A floor of the scene's own hides the ground, which is told; the underside of a box is none.
+#[test]
+fn floors_over_the_ground_are_told() {
+    let scene = |floor: &str| {
+        format!(
+            "size = [64, 48]\n[render]\nsamples = 1\nground = true\n{floor}[[object]]\nsurface = \"sphere\"\nposition = [0, 1, 0]\n"
+        )
+    };
+    let floor = "[[object]]\nsurface = \"plane\"\nsize = [4, 4]\n";
+    let shelf = "[[object]]\nsurface = \"plane\"\nsize = [4, 4]\nposition = [0, 3, 0]\n";
+    let upside_down = "[[object]]\nsurface = \"plane\"\nsize = [4, 4]\nrotation = [180, 0, 0]\n";
+    for (floor, told) in [(floor, true), (shelf, false), (upside_down, false), ("", false)] {
+        let folder = Folder::with(&[("s.toml", scene(floor).as_bytes())]);
+        let run = folder.succeeds(&["s.toml"]);
+        assert_eq!(run.stderr.contains("--ground: found a floor at the lowest point"), told, "{run:?}");
+        assert_eq!(run.stderr.is_empty(), !told, "{run:?}");
+    }
+}
+
 /// The same face in either space, by the relations of each in `f64`; by an option and by a key of a scene.
 #[test]
 fn light_is_added_up_in_linear_space() {

@@ -31,7 +31,9 @@ type Map = (&'static str, fn(&Detail) -> bool, fn(&mut Detail));
 
 const MAPS: [Map; 8] = [
     ("normal maps", |d| d.normal.is_some(), |d| d.normal = None),
-    ("height maps", |d| d.height.is_some(), |d| d.height = None),
+    ("height maps", has_relief, |d| {
+        d.height = d.height.filter(|height| height.relief == Relief::Displacement);
+    }),
     ("ambient occlusion maps", |d| d.occlusion.is_some(), |d| d.occlusion = None),
     ("specular maps", |d| d.specular_map.is_some(), |d| d.specular_map = None),
     ("shininess maps", |d| d.shininess_map.is_some(), |d| d.shininess_map = None),
@@ -39,6 +41,11 @@ const MAPS: [Map; 8] = [
     ("emission", |d| d.emissive != [0.0; 3], |d| (d.emissive, d.emissive_map) = ([0.0; 3], None)),
     ("reflections", |d| d.environment.is_some(), |d| d.environment = None),
 ];
+
+/// Whether heights are read when it is drawn. Of a displacement map the surface has been made before.
+fn has_relief(detail: &Detail) -> bool {
+    detail.height.is_some_and(|height| height.relief != Relief::Displacement)
+}
 
 /// An attribute of vertices, its bytes as floats, and how to leave it out.
 type Attribute = (&'static str, f64, fn(&mut Vertex));

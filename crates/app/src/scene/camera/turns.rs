@@ -85,6 +85,27 @@ impl Turn {
     }
 }
 
+/// The first of these cameras, which look at a model from all the sides of a motion, as far away as each of them takes
+/// to have all in view. It looks at the model's middle, unless the wishes have a target.
+pub(crate) fn fitted_at_all_times(
+    (model, ball): (&Model, Sphere),
+    cameras: &[(Camera, CameraTable)],
+    aspect: f64,
+) -> Option<Camera> {
+    let (mut first, wishes) = *cameras.first()?;
+    let target = wishes.target.map_or(ball.center.map(narrow), <[f32; 3]>::from);
+    let needed = cameras.iter().map(|(camera, wishes)| {
+        let arm = sub(wide(camera.eye), wide(camera.target));
+        let eye = [0, 1, 2].map(|k| narrow(f64::from(target[k]) + arm[k]));
+        needed((model, ball), &Camera { eye, target, ..*camera }, lens(camera, wishes, aspect))
+    });
+    let needed = needed.fold(0.0, f64::max);
+    let arm = normalize(sub(wide(first.eye), wide(first.target)))?;
+    first.eye = [0, 1, 2].map(|k| narrow(f64::from(target[k]) + arm[k] * needed));
+    first.target = target;
+    Some(first)
+}
+
 /// The planes of a camera around a ball.
 fn around(camera: &Camera, ball: Sphere, wishes: &CameraTable) -> (f32, f32) {
     let (eye, view) = (wide(camera.eye), sub(wide(camera.target), wide(camera.eye)));

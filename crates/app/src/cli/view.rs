@@ -1,0 +1,375 @@
+//! `alberti view`: a window on a scene, whose picture follows keys, the mouse and the files.
+//!
+//! Its picture is that of a command line: of the words that it was opened with, of options that keys have chosen, and
+//! of the camera as options. A picture that is kept is therefore one of `render`, with options that can be typed.
+
+use std::borrow::Cow;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::ArgMatches;
+
+use super::request::Request;
+use super::run::{command, draw};
+use super::staged::{Cast, Staged};
+use crate::draw::Chains;
+use crate::error::Error;
+use crate::film::{Set, ordered};
+use crate::load::{input, seen};
+use crate::options::{CameraTable, Projection, Samples};
+use crate::output::stats::Source;
+use crate::samples::supersampled_with;
+use crate::scene::camera::{self, as_options};
+use crate::scene::normals::narrow;
+use crate::scene::{Camera, Image, Model};
+use crate::show::{Shown, show};
+use alberti::Stats;
+
+mod keys;
+mod orbit;
+mod overlay;
+mod window;
+
+use keys::Action;
+
+pub(super) const HELP: &str = "\
+Examples:
+  alberti view cow.obj --texture cow.png      a window: drag turns, the wheel zooms, H lists the keys
+  alberti view wet.toml --ground              drawn again whenever wet.toml, a model or an image changes
+  alberti view --scene floor -o floor.png     P keeps the picture in floor.png, and prints its options";
+
+/// The size of a window for which none is asked.
+const SIZE: [u32; 2] = [960, 640];
+
+/// Opens a window, until it is closed.
+///
+/// # Errors
+/// The scene cannot be used, or there is no display.
+pub(super) fn run(matches: &ArgMatches, words: &[OsString]) -> Result<(), Error> {
+    let given = Request::given(matches)?;
+    if given.arguments.model.as_deref() == Some(Path::new(input::STDIN)) {
+        let error = Error::new("standard input", "a file to look at").hint("it is read but once");
+        return Err(error);
+    }
+    let size = given.arguments.render.size.map_or(SIZE, |size| [size.0, size.1]);
+    let viewer = Viewer::new(words.get(2..).unwrap_or_default(), size)?;
+    window::open(viewer)
+}
+
+/// A scene that is looked at.
+struct Viewer {
+    /// The command line, without the program and the command.
+    words: Vec<OsString>,
+    /// Options that keys have chosen, which go over those.
+    chosen: Vec<(&'static str, &'static str)>,
+    /// The camera, once it has been moved.
+    moved: Option<Camera>,
+    size: [u32; 2],
+    cast: Cast,
+    scene: Scene,
+}
+
+/// All that a picture of it takes.
+struct Scene {
+    request: Request,
+    /// The camera's options without a camera that has been moved.
+    wishes: CameraTable,
+    staged: Staged,
+    /// The model without its ground, for cameras below that.
+    bare: Option<Model>,
+    chains: Arc<Chains>,
+}
+
+/// A picture, and what its false colours mean.
+struct Seen {
+    image: Image,
+    stats: Stats,
+    legend: Vec<String>,
+}
+
+impl Viewer {
+    /// # Errors
+    /// The scene cannot be used.
+    fn new(words: &[OsString], size: [u32; 2]) -> Result<Self, Error> {
+        seen::begin();
+        let words = words.to_vec();
+        let request = requested(&words, &[], None, size)?;
+        let cast = request.cast().map_err(|error| request.relocate(error))?;
+        let scene = Scene::new((request.arguments.camera, request), &cast, None)?;
+        Ok(Self { words, chosen: Vec::new(), moved: None, size, cast, scene })
+    }
+
+    /// The name of the scene, without the way to it.
+    fn name(&self) -> String {
+        match self.scene.request.source() {
+            Source::Model(path) => path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+            scene @ Source::Scene(_) => scene.name(),
+        }
+    }
+
+    /// The options beside those of the command line, as they are typed.
+    fn options(&self) -> Vec<String> {
+        self.chosen.iter().map(|(option, value)| format!("{option}={value}")).collect()
+    }
+
+    /// The words of a picture of this size.
+    fn all_words(&self) -> Vec<OsString> {
+        words_of(&self.words, &self.chosen, self.camera_words().as_deref(), self.size)
+    }
+
+    fn camera_words(&self) -> Option<String> {
+        let Scene { request, staged, .. } = &self.scene;
+        let projection = staged.options.projection;
+        self.moved
+            .map(|camera| as_options(&camera, staged.model.origin, projection, &request.arguments.camera))
+    }
+
+    /// Has the scene as it is with other words, or leaves all as it was.
+    ///
+    /// # Errors
+    /// An option cannot be used with this scene.
+    fn restage(&mut self, chosen: Vec<(&'static str, &'static str)>, keeps_maps: bool) -> Result<(), Error> {
+        let requests = self.requests(&chosen)?;
+        let chains = keeps_maps.then(|| self.scene.chains.clone());
+        self.scene = Scene::new(requests, &self.cast, chains)?;
+        if self.moved.is_some() {
+            self.moved = Some(self.scene.staged.camera);
+        }
+        self.chosen = chosen;
+        Ok(())
+    }
+
+    /// Reads all files again.
+    ///
+    /// # Errors
+    /// One cannot be used; the scene stays as it was.
+    fn reload(&mut self) -> Result<(), Error> {
+        seen::begin();
+        if let Some(model) = &self.scene.request.arguments.model {
+            seen::see(model);
+        }
+        let (wishes, request) = self.requests(&self.chosen)?;
+        let cast = request.cast().map_err(|error| request.relocate(error))?;
+        self.scene = Scene::new((wishes, request), &cast, None)?;
+        self.cast = cast;
+        Ok(())
+    }
+
+    /// The request of a picture with these options, and the camera's options without one that has been moved.
+    fn requests(&self, chosen: &[(&'static str, &'static str)]) -> Result<(CameraTable, Request), Error> {
+        let first = requested(&self.words, chosen, None, self.size)?;
+        let request = match self.camera_words() {
+            Some(camera) => requested(&self.words, chosen, Some(&camera), self.size)?,
+            None => return Ok((first.arguments.camera, first)),
+        };
+        Ok((first.arguments.camera, request))
+    }
+
+    /// Looks at another model or scene file, with what keys have chosen.
+    ///
+    /// # Errors
+    /// It cannot be used; the scene stays as it was.
+    fn open(&mut self, path: PathBuf) -> Result<(), Error> {
+        let mut other = Self::new(&[path.into()], self.size)?;
+        // Options that the other scene cannot have are left out.
+        _ = other.restage(self.chosen.clone(), false);
+        *self = other;
+        Ok(())
+    }
+
+    /// # Errors
+    /// No picture of that size can be drawn.
+    fn resize(&mut self, size: [u32; 2]) -> Result<(), Error> {
+        let before = self.size;
+        self.size = size;
+        let outcome = self.restage(self.chosen.clone(), true);
+        if outcome.is_err() {
+            self.size = before;
+        }
+        outcome
+    }
+
+    /// Draws the picture: with one sample a pixel if it is a draft.
+    ///
+    /// # Errors
+    /// It cannot be drawn with these options.
+    fn picture(&self, is_draft: bool) -> Result<Seen, Error> {
+        let Scene { request, staged, bare, chains, .. } = &self.scene;
+        let Staged { model, options, samples, backdrop, .. } = staged;
+        let camera = self.camera();
+        let below = bare.as_ref().filter(|_| request.above_ground(staged, &[camera]) == [false]);
+        let set = Set { model: below.unwrap_or(model), options, samples: *samples, backdrop };
+        let shot = set.shot(camera);
+        match request.arguments.show {
+            Some(what) => {
+                let Shown { picture, legend, .. } =
+                    show(what, &shot.model, &shot.camera, options, &mut |_, _| ())?;
+                let legend = legend.text(false).lines().map(str::to_owned).collect();
+                Ok(Seen { image: picture.image, stats: picture.stats, legend })
+            }
+            None => {
+                let samples = if is_draft { Samples::One } else { *samples };
+                let of = (&*shot.model, &shot.camera);
+                let picture = supersampled_with(chains, of, options, samples, backdrop, &mut |_, _| ())?;
+                Ok(Seen { image: picture.image, stats: picture.stats, legend: Vec::new() })
+            }
+        }
+    }
+
+    fn camera(&self) -> Camera {
+        self.moved.unwrap_or(self.scene.staged.camera)
+    }
+
+    /// Writes the picture as `render` does, and prints its options.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    fn keep(&self) -> Result<(), Error> {
+        draw(&matches_of(self.all_words())?)
+    }
+
+    /// Does what a key or the mouse asks for. The window does the rest: it says whether there is a new picture.
+    ///
+    /// # Errors
+    /// An option cannot be used with this scene; all is as it was.
+    fn act(&mut self, action: Action) -> Result<bool, Error> {
+        match action {
+            Action::Turn(degrees) => self.move_to(orbit::turned(&self.camera(), degrees)),
+            Action::Pan(heights) => {
+                let projection = self.scene.staged.options.projection;
+                self.move_to(orbit::panned(&self.camera(), projection, heights))
+            }
+            Action::Zoom(factor) => self.zoom(factor),
+            Action::Fit => {
+                self.moved = None;
+                let without = |(option, _): &(&str, &str)| !keys::is_view(option);
+                let chosen = self.chosen.iter().copied().filter(without).collect();
+                self.restage(chosen, true).map(|()| true)
+            }
+            Action::View(side) => {
+                self.moved = None;
+                self.choose("--view", Some(side), true)
+            }
+            Action::Cycle(cycle, forwards) => {
+                let value = cycle.next(self.chosen_value(cycle.option), forwards);
+                self.choose(cycle.option, value, cycle.keeps_maps)
+            }
+            Action::Picture => self.keep().map(|()| false),
+            Action::Help | Action::Text | Action::Quit => Ok(false),
+        }
+    }
+
+    fn chosen_value(&self, option: &str) -> Option<&'static str> {
+        self.chosen.iter().find(|(other, _)| *other == option).map(|(_, value)| *value)
+    }
+
+    fn choose(
+        &mut self,
+        option: &'static str,
+        value: Option<&'static str>,
+        keeps_maps: bool,
+    ) -> Result<bool, Error> {
+        let mut chosen = self.chosen.clone();
+        chosen.retain(|(other, _)| *other != option);
+        chosen.extend(value.map(|value| (option, value)));
+        self.restage(chosen, keeps_maps).map(|()| true)
+    }
+
+    /// Nearer by a factor, or larger where there is no nearness.
+    fn zoom(&mut self, factor: f64) -> Result<bool, Error> {
+        let camera = self.camera();
+        let Projection::Parallel { height } = &mut self.scene.staged.options.projection else {
+            return self.move_to(orbit::nearer(&camera, factor));
+        };
+        let wanted = narrow(f64::from(*height) / factor);
+        if wanted.is_normal() {
+            (*height, self.moved) = (wanted, Some(camera));
+        }
+        Ok(true)
+    }
+
+    /// Has the camera there, with planes around the model unless the command line has others.
+    fn move_to(&mut self, place: Camera) -> Result<bool, Error> {
+        let Scene { wishes, staged, .. } = &mut self.scene;
+        let mut wishes = wishes.counted_from(staged.model.origin);
+        let Camera { eye, target, up, roll, fov, .. } = place;
+        (wishes.eye, wishes.target, wishes.up) = (Some(eye.into()), Some(target.into()), Some(up.into()));
+        let roll = (roll != 0.0).then(|| narrow(roll).into());
+        (wishes.fov, wishes.roll, wishes.zoom) = (Some(fov.into()), roll, None);
+        (wishes.azimuth, wishes.elevation, wishes.view) = (None, None, None);
+        let Staged { model, options, .. } = staged;
+        let aspect = f64::from(options.width) / f64::from(options.height);
+        let ball = camera::bounding_sphere(model);
+        let camera = camera::frame(&wishes, None, (model, ball), aspect)?;
+        self.moved = Some(camera);
+        Ok(true)
+    }
+}
+
+impl Scene {
+    fn new(
+        (wishes, request): (CameraTable, Request),
+        cast: &Cast,
+        chains: Option<Arc<Chains>>,
+    ) -> Result<Self, Error> {
+        let staged = request.check().and_then(|()| {
+            let motion = request.motion(cast)?;
+            request.stage_with(cast.clone(), motion.as_ref())
+        });
+        let mut staged = staged.map_err(|error| request.relocate(error))?;
+        ordered(&mut staged.model, &staged.camera, staged.options.projection);
+        let bare = (request.arguments.render.ground == Some(true)).then(|| staged.model.clone());
+        request.add_ground(&mut staged);
+        let chains = match chains {
+            Some(chains) => chains,
+            None => Arc::new(Chains::new(&staged.model, &staged.options)?),
+        };
+        Ok(Self { request, wishes, staged, bare, chains })
+    }
+}
+
+/// The command line of `render` with these words.
+fn words_of(
+    words: &[OsString],
+    chosen: &[(&str, &str)],
+    camera: Option<&str>,
+    [width, height]: [u32; 2],
+) -> Vec<OsString> {
+    // Behind these two there are files alone.
+    let end = words.iter().position(|word| word == "--").unwrap_or(words.len());
+    let mut all: Vec<OsString> = ["alberti", "render"].map(OsString::from).to_vec();
+    all.extend_from_slice(&words[..end]);
+    all.extend(chosen.iter().map(|(option, value)| format!("{option}={value}").into()));
+    all.extend(camera.into_iter().flat_map(str::split_whitespace).map(OsString::from));
+    all.extend(["--size".to_owned(), format!("{width}x{height}")].map(OsString::from));
+    all.extend_from_slice(&words[end..]);
+    all
+}
+
+fn matches_of(words: Vec<OsString>) -> Result<ArgMatches, Error> {
+    let matches = command().try_get_matches_from(words);
+    let matches = matches.map_err(|error| Error::new(error.to_string(), "what --help lists"))?;
+    let render = matches.subcommand_matches("render").cloned();
+    render.ok_or_else(|| Error::new("no command", "render"))
+}
+
+fn requested(
+    words: &[OsString],
+    chosen: &[(&str, &str)],
+    camera: Option<&str>,
+    size: [u32; 2],
+) -> Result<Request, Error> {
+    Request::read(&matches_of(words_of(words, chosen, camera, size))?)
+}
+
+/// A text for two lines at most: what is long is cut.
+fn shortened(text: &str, most: usize) -> Cow<'_, str> {
+    match text.char_indices().nth(most) {
+        Some((at, _)) => format!("{}…", &text[..at]).into(),
+        None => text.into(),
+    }
+}
+
+#[cfg(test)]
+mod tests;

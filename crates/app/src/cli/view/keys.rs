@@ -1,0 +1,168 @@
+//! The keys of a window, and what each does.
+
+/// The wish of a key or of the mouse.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Action {
+    /// A turn about the target: degrees to the right, and upwards.
+    Turn([f64; 2]),
+    /// A move across the view, in heights of the picture.
+    Pan([f64; 2]),
+    /// A factor of nearness.
+    Zoom(f64),
+    /// The camera of the beginning.
+    Fit,
+    /// A side of the model.
+    View(&'static str),
+    /// The next value of an option, or the one before.
+    Cycle(&'static Cycle, bool),
+    /// The picture in a file.
+    Picture,
+    /// The list of keys, shown or not.
+    Help,
+    /// All text, shown or not.
+    Text,
+    /// The end.
+    Quit,
+}
+
+/// An option whose values a key goes through, after which comes that of the command line.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Cycle {
+    key: char,
+    pub(super) option: &'static str,
+    values: &'static [&'static str],
+    /// Whether mip maps stay as they are.
+    pub(super) keeps_maps: bool,
+}
+
+/// The cycles, in the order of the list of keys.
+const CYCLES: [Cycle; 12] = [
+    cycle('i', "--interpolation", &["exact", "plane", "spans:16", "bounded:0.0625", "affine"], true),
+    cycle('f', "--filter", &["nearest", "bilinear", "trilinear", "anisotropic:4", "anisotropic:16"], false),
+    cycle('r', "--relief", &["bump", "parallax", "steep", "occlusion", "displacement"], false),
+    cycle('d', "--depth", &["f32", "f32-reversed", "u24", "u16"], true),
+    cycle('v', "--show", &["error", "lod", "depth-step", "overdraw", "triangles", "policy"], true),
+    cycle('s', "--shading", &["lambert", "gouraud", "phong", "blinn", "unlit"], false),
+    cycle('a', "--samples", &["1", "4", "16"], true),
+    cycle('c', "--color", &["rgb565", "rgb666", "rgba8"], true),
+    cycle('t', "--dither", &["bayer", "blue-noise", "none"], true),
+    cycle('l', "--light-space", &["linear", "srgb"], false),
+    cycle('g', "--ground", &["true", "false"], false),
+    cycle('o', "--projection", &["parallel", "perspective"], true),
+];
+
+const fn cycle(key: char, option: &'static str, values: &'static [&'static str], keeps_maps: bool) -> Cycle {
+    Cycle { key, option, values, keeps_maps }
+}
+
+impl Cycle {
+    /// The value after this one, of which `None` is that of the command line.
+    pub(super) fn next(&self, value: Option<&str>, forwards: bool) -> Option<&'static str> {
+        let at = value.and_then(|value| self.values.iter().position(|other| *other == value));
+        let count = self.values.len() + 1;
+        let next = (at.map_or(0, |at| at + 1) + if forwards { 1 } else { count - 1 }) % count;
+        next.checked_sub(1).map(|index| self.values[index])
+    }
+}
+
+/// Whether an option says where the camera is.
+pub(super) fn is_view(option: &str) -> bool {
+    option == "--view"
+}
+
+/// The degrees of a turn by a key, and the share of the picture's height of a move.
+const STEP: [f64; 2] = [7.5, 0.05];
+
+/// The factor of a zoom by a key.
+pub(super) const NEARER: f64 = 1.15;
+
+/// The wish of a letter.
+pub(super) fn of_letter(letter: &str, shift: bool) -> Option<Action> {
+    let letter = letter.chars().next()?.to_ascii_lowercase();
+    Some(match letter {
+        '+' | '=' => Action::Zoom(NEARER),
+        '-' | '_' => Action::Zoom(1.0 / NEARER),
+        '0' => Action::Fit,
+        '1' => Action::View("front"),
+        '2' => Action::View("back"),
+        '3' => Action::View("right"),
+        '4' => Action::View("left"),
+        '5' => Action::View("top"),
+        '6' => Action::View("bottom"),
+        '7' => Action::View("iso"),
+        'p' => Action::Picture,
+        'h' | '?' => Action::Help,
+        'q' => Action::Quit,
+        letter => Action::Cycle(CYCLES.iter().find(|cycle| cycle.key == letter)?, !shift),
+    })
+}
+
+/// The wish of an arrow in this direction, to the right and upwards. The camera goes there.
+pub(super) fn of_arrow([right, upwards]: [f64; 2], shift: bool) -> Action {
+    if shift {
+        Action::Pan([right * STEP[1], upwards * STEP[1]])
+    } else {
+        Action::Turn([right * STEP[0], upwards * STEP[0]])
+    }
+}
+
+/// The list of keys.
+pub(super) fn list() -> Vec<String> {
+    let mut lines: Vec<String> = [
+        "drag, arrows         turn",
+        "right drag, shift    move across",
+        "wheel, + -           nearer, farther",
+        "0, Home              the first camera",
+        "1 2 3 4 5 6 7        front back right left top bottom iso",
+    ]
+    .map(str::to_owned)
+    .to_vec();
+    for Cycle { key, option, values, .. } in &CYCLES {
+        lines.push(format!("{}  {:<18}{}", key.to_ascii_uppercase(), &option[2..], values.join(" ")));
+    }
+    lines.push("shift goes back through these".to_owned());
+    lines.push("P  the picture in a file, its options on standard output".to_owned());
+    lines.push("Tab  without text     H  this list     Q, Esc  the end".to_owned());
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cycles_come_back_to_the_command_line() {
+        for cycle in &CYCLES {
+            for forwards in [true, false] {
+                let (mut value, mut seen) = (None, Vec::new());
+                loop {
+                    value = cycle.next(value, forwards);
+                    let Some(value) = value else { break };
+                    seen.push(value);
+                }
+                if !forwards {
+                    seen.reverse();
+                }
+                assert_eq!(seen, cycle.values, "{}", cycle.option);
+            }
+        }
+    }
+
+    #[test]
+    fn each_letter_has_one_meaning() {
+        let letters: Vec<char> =
+            CYCLES.iter().map(|cycle| cycle.key).chain("+-01234567phq".chars()).collect();
+        for (k, letter) in letters.iter().enumerate() {
+            assert!(!letters[..k].contains(letter), "{letter}");
+            let text = letter.to_string();
+            assert!(of_letter(&text, false).is_some());
+            assert_eq!(of_letter(&text.to_uppercase(), false), of_letter(&text, false));
+        }
+        assert_eq!(of_letter("z", false), None);
+        // The list has them all.
+        let list = list().join("\n");
+        for cycle in &CYCLES {
+            assert!(list.contains(&cycle.option[2..]), "{}", cycle.option);
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! Tests of what a window shows: the picture of the command line that it prints.
+
+use std::fs;
+use std::path::Path;
+
+use super::keys::of_letter;
+use super::*;
+use crate::scene::Image;
+
+const SIZE: [u32; 2] = [96, 72];
+
+const MODEL: &str = "mtllib m.mtl\nv -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv 0 1.5 0\nvt 0 0\nvt 1 0\nvt 0.5 1\n\
+    usemtl a\nf 1/1 5/3 2/2\nf 2/1 5/3 3/2\nf 3/1 5/3 4/2\nusemtl b\nf 4/1 5/3 1/2\nf 1/1 2/2 3/3\nf 1/1 3/2 4/3\n";
+
+const LIBRARY: &str = "newmtl a\nKd 0.8 0.4 0.2\nmap_Kd t.png\nnewmtl b\nKd 0.2 0.5 0.9\nd 0.6\n";
+
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("m.obj"), MODEL).expect("a model");
+    fs::write(folder.path().join("m.mtl"), LIBRARY).expect("a library");
+    let texels =
+        image::RgbImage::from_fn(8, 8, |x, y| image::Rgb([if (x + y) % 2 == 0 { 250 } else { 30 }; 3]));
+    texels.save(folder.path().join("t.png")).expect("a texture");
+    folder
+}
+
+fn viewer(folder: &Path, options: &str) -> Viewer {
+    let model = folder.join("m.obj").into_os_string();
+    let words: Vec<_> = std::iter::once(model).chain(options.split_whitespace().map(Into::into)).collect();
+    Viewer::new(&words, SIZE).expect("a scene")
+}
+
+/// The picture of `render` with the words of a viewer.
+fn rendered(viewer: &Viewer, folder: &Path) -> Image {
+    let path = folder.join("p.png");
+    let mut words = viewer.all_words();
+    words.extend(["-q".into(), "-o".into(), path.clone().into_os_string()]);
+    let status = crate::cli::run::attempt(words).expect("a picture");
+    assert_eq!(status, 0);
+    let image = image::open(path).expect("a picture").to_rgba8();
+    let texels = image.pixels().map(|pixel| pixel.0).collect();
+    Image { width: image.width(), height: image.height(), texels }
+}
+
+fn act(viewer: &mut Viewer, keys: &str) {
+    for key in keys.chars() {
+        let action = match key {
+            '<' => Action::Turn([-20.0, 0.0]),
+            '>' => Action::Turn([35.0, 10.0]),
+            '^' => Action::Pan([0.1, -0.2]),
+            'P' => panic!("a picture is written by the tests"),
+            key => of_letter(&key.to_string(), false).expect("a key"),
+        };
+        viewer.act(action).unwrap_or_else(|error| panic!("{keys}: {error}"));
+    }
+}
+
+#[test]
+fn the_window_shows_what_its_words_draw() {
+    let folder = folder();
+    for (options, keys) in [
+        ("", ""),
+        ("", "<"),
+        ("", ">+^"),
+        ("", "iiiii"),
+        ("--ground", ">"),
+        ("", ">g+++i>"),
+        ("--near 0.2 --far 60", ">+"),
+        ("", "o+>^"),
+        ("--samples 1", "gg<"),
+        ("--zoom 1.5 --roll 20", ">-"),
+        ("", "5>"),
+        ("", "o>"),
+        ("--projection parallel --view-height 3", "+"),
+        ("--background red..blue", "f<ff"),
+        ("--azimuth 70", "v"),
+        ("", "vvvv>"),
+        ("", "sl>"),
+        ("", "ct>0"),
+    ] {
+        let mut viewer = viewer(folder.path(), options);
+        act(&mut viewer, keys);
+        let shown = viewer.picture(false).expect("a picture").image;
+        assert!(shown == rendered(&viewer, folder.path()), "{options} {keys}: {:?}", viewer.all_words());
+    }
+}
+
+#[test]
+fn keys_and_the_mouse_change_the_picture() {
+    let folder = folder();
+    let mut viewer = viewer(folder.path(), "--samples 1");
+    let picture = |viewer: &Viewer| viewer.picture(false).expect("a picture").image;
+    let first = picture(&viewer);
+    for keys in ["<", "+", "^", "1", "v", "sssss", "o", "f", "l", "g"] {
+        act(&mut viewer, keys);
+        assert!(picture(&viewer) != first, "{keys}");
+        viewer = super::tests::viewer(folder.path(), "--samples 1");
+    }
+    // Planes follow the camera, also when an option has been chosen.
+    act(&mut viewer, "<i");
+    let before = viewer.camera();
+    act(&mut viewer, "++");
+    assert!(viewer.camera().near < 0.9 * before.near);
+    act(&mut viewer, "iiiii0");
+    // The first camera comes back, and so do the first options.
+    act(&mut viewer, ">^0");
+    assert!(picture(&viewer) == first);
+    act(&mut viewer, "iiiiii");
+    assert!(viewer.options().is_empty() && picture(&viewer) == first);
+}
+
+#[test]
+fn sizes_and_files_are_followed() {
+    let folder = folder();
+    let mut viewer = viewer(folder.path(), "");
+    act(&mut viewer, ">");
+    viewer.resize([120, 60]).expect("a size");
+    let shown = viewer.picture(false).expect("a picture").image;
+    assert_eq!([shown.width, shown.height], [120, 60]);
+    assert!(shown == rendered(&viewer, folder.path()));
+    // A draft has the same size.
+    let draft = viewer.picture(true).expect("a picture").image;
+    assert!(draft != shown && draft.texels.len() == shown.texels.len());
+
+    fs::write(folder.path().join("m.mtl"), LIBRARY.replace("map_Kd t.png", "")).expect("a library");
+    viewer.reload().expect("a model");
+    let changed = viewer.picture(false).expect("a picture").image;
+    assert!(changed != shown && changed == rendered(&viewer, folder.path()));
+    // A broken file is told, and the picture stays.
+    fs::write(folder.path().join("m.obj"), "f 1 2 9\n").expect("a model");
+    let told = viewer.reload().expect_err("a broken model").to_string();
+    assert!(told.contains("m.obj:1"), "{told}");
+    assert!(viewer.picture(false).expect("a picture").image == changed);
+
+    fs::write(folder.path().join("n.obj"), MODEL.replace("1.5", "2.5")).expect("a model");
+    viewer.open(folder.path().join("n.obj")).expect("a model");
+    assert!(viewer.name().ends_with("n.obj"));
+    assert!(viewer.picture(false).expect("a picture").image == rendered(&viewer, folder.path()));
+    let told = viewer.open(folder.path().join("none.obj")).expect_err("no model").to_string();
+    assert!(told.contains("none.obj") && viewer.name().ends_with("n.obj"), "{told}");
+}
+
+#[test]
+fn options_that_cannot_be_are_told_and_change_nothing() {
+    let folder = folder();
+    let mut viewer = viewer(folder.path(), "--arithmetic fixed --interpolation affine");
+    let before = viewer.picture(false).expect("a picture").image;
+    let exact = of_letter("i", false).expect("a key");
+    let told = viewer.act(exact).expect_err("fixed is for straight lines").to_string();
+    assert!(told.contains("--arithmetic"), "{told}");
+    assert!(viewer.options().is_empty());
+    assert!(viewer.picture(false).expect("a picture").image == before);
+}

@@ -1,0 +1,350 @@
+//! The window: events in, pixels out.
+
+use std::num::NonZero;
+use std::rc::Rc;
+use std::time::{Duration, Instant};
+
+use softbuffer::{Context, Surface};
+use winit::application::ApplicationHandler;
+use winit::dpi::PhysicalSize;
+use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
+use winit::keyboard::{Key, NamedKey};
+use winit::window::{Window, WindowId};
+
+use super::keys::{self, Action};
+use super::overlay::Canvas;
+use super::{Seen, Viewer, shortened};
+use crate::cli::run::fail;
+use crate::error::{Error, counted};
+use crate::load::seen;
+
+/// The time between two looks at the files.
+const POLL: Duration = Duration::from_millis(250);
+
+/// The time of a message.
+const READ: Duration = Duration::from_secs(6);
+
+/// A picture that takes longer is drawn as a draft while the camera moves.
+const SLOW: Duration = Duration::from_millis(30);
+
+/// The time without a move after which a draft is drawn in full.
+const REST: Duration = Duration::from_millis(150);
+
+/// Degrees of a turn by a drag across the height of the window.
+const DRAG: f64 = 240.0;
+
+const INK: [u8; 3] = [235; 3];
+const ALARM: [u8; 3] = [255, 170, 90];
+
+/// Shows the viewer until the window is closed.
+///
+/// # Errors
+/// There is no display, or the window cannot be drawn into.
+pub(super) fn open(viewer: Viewer) -> Result<(), Error> {
+    let no_display = |error: &dyn std::fmt::Display| {
+        let error = Error::new(format!("no window ({error})"), "a display").place("alberti view");
+        error.hint("alberti render draws without one")
+    };
+    let event_loop = EventLoop::new().map_err(|error| no_display(&error))?;
+    let mut shown = Shown::new(viewer);
+    event_loop.run_app(&mut shown).map_err(|error| no_display(&error))?;
+    shown.outcome
+}
+
+/// The pixels of a window.
+type Target = Surface<Rc<Window>, Rc<Window>>;
+
+/// A window with a viewer in it.
+struct Shown {
+    viewer: Viewer,
+    target: Option<(Rc<Window>, Target)>,
+    picture: Option<Seen>,
+    /// Whether the picture is no longer that of the viewer.
+    is_old: bool,
+    /// Whether it is a draft.
+    is_draft: bool,
+    took: Duration,
+    moved: Option<Instant>,
+    message: Option<(String, Instant)>,
+    has_help: bool,
+    has_text: bool,
+    cursor: [f64; 2],
+    held: Option<MouseButton>,
+    shift: bool,
+    looked: Instant,
+    outcome: Result<(), Error>,
+}
+
+impl Shown {
+    fn new(viewer: Viewer) -> Self {
+        Self {
+            viewer,
+            target: None,
+            picture: None,
+            is_old: true,
+            is_draft: false,
+            took: Duration::ZERO,
+            moved: None,
+            message: None,
+            has_help: false,
+            has_text: true,
+            cursor: [0.0; 2],
+            held: None,
+            shift: false,
+            looked: Instant::now(),
+            outcome: Ok(()),
+        }
+    }
+
+    /// # Errors
+    /// The system has no window.
+    fn begin(&mut self, event_loop: &ActiveEventLoop) -> Result<(), Box<dyn std::error::Error>> {
+        let [width, height] = self.viewer.size;
+        let attributes = Window::default_attributes()
+            .with_title(format!("alberti: {}", self.viewer.name()))
+            .with_inner_size(PhysicalSize::new(width, height));
+        let window = Rc::new(event_loop.create_window(attributes)?);
+        let context = Context::new(window.clone())?;
+        let surface = Surface::new(&context, window.clone())?;
+        window.request_redraw();
+        self.target = Some((window, surface));
+        Ok(())
+    }
+
+    fn end(&mut self, event_loop: &ActiveEventLoop, outcome: Result<(), Error>) {
+        self.outcome = outcome;
+        event_loop.exit();
+    }
+
+    /// Says something in the window, and an error on standard error as well.
+    fn say(&mut self, text: String) {
+        self.message = Some((text, Instant::now()));
+        self.redraw();
+    }
+
+    fn hear<T>(&mut self, outcome: Result<T, Error>) -> Option<T> {
+        match outcome {
+            Ok(value) => Some(value),
+            Err(error) => {
+                fail(&error);
+                self.say(error.to_string());
+                None
+            }
+        }
+    }
+
+    fn redraw(&self) {
+        if let Some((window, _)) = &self.target {
+            window.request_redraw();
+        }
+    }
+
+    fn act(&mut self, action: Action, event_loop: &ActiveEventLoop) {
+        match action {
+            Action::Quit => return event_loop.exit(),
+            Action::Help => (self.has_help, self.has_text) = (!self.has_help, true),
+            Action::Text => self.has_text = !self.has_text,
+            _ => {}
+        }
+        if matches!(action, Action::Turn(_) | Action::Pan(_) | Action::Zoom(_)) {
+            self.moved = Some(Instant::now());
+        }
+        let outcome = self.viewer.act(action);
+        let is_kept = action == Action::Picture && outcome.is_ok();
+        self.is_old |= self.hear(outcome) == Some(true);
+        if is_kept {
+            self.say("the picture is kept".to_owned());
+        }
+        self.redraw();
+    }
+
+    /// Draws what is old, and shows the picture with the text over it.
+    ///
+    /// # Errors
+    /// The window cannot be drawn into.
+    fn show(&mut self) -> Result<(), Box<dyn std::error::Error>> {
+        let Some((window, _)) = &self.target else { return Ok(()) };
+        let PhysicalSize { width, height } = window.inner_size();
+        let scale = if window.scale_factor() >= 1.5 { 2 } else { 1 };
+        let (Some(columns), Some(rows)) = (NonZero::new(width), NonZero::new(height)) else { return Ok(()) };
+        if [width, height] != self.viewer.size {
+            let outcome = self.viewer.resize([width, height]);
+            self.hear(outcome);
+            self.is_old = true;
+        }
+        if self.is_old {
+            let is_moving = self.moved.is_some_and(|moved| moved.elapsed() < REST);
+            self.is_draft = is_moving && self.took > SLOW;
+            let begin = Instant::now();
+            let outcome = self.viewer.picture(self.is_draft);
+            if let Some(picture) = self.hear(outcome) {
+                self.picture = Some(picture);
+            }
+            // Whether the whole is slow is known from it alone.
+            if !self.is_draft {
+                self.took = begin.elapsed();
+            }
+            self.is_old = false;
+        }
+        let lines = self.lines();
+        let message = self.message.as_ref().map(|(text, _)| text.clone());
+        let (help, text) = (self.has_help, self.has_text);
+        let Some((window, surface)) = &mut self.target else { return Ok(()) };
+        surface.resize(columns, rows)?;
+        let mut pixels = surface.buffer_mut()?;
+        match &self.picture {
+            Some(Seen { image, .. }) if [image.width, image.height] == [width, height] => {
+                for (pixel, [red, green, blue, alpha]) in pixels.iter_mut().zip(image.texels.iter().copied())
+                {
+                    // A clear background is black.
+                    let [red, green, blue] = [red, green, blue].map(|c| over(c, alpha));
+                    *pixel = u32::from_be_bytes([0, red, green, blue]);
+                }
+            }
+            _ => pixels.fill(0),
+        }
+        let mut canvas = Canvas { pixels: &mut pixels, size: [width, height], scale };
+        let columns = canvas.columns();
+        if text {
+            canvas.write(&lines, 0, INK);
+            if help {
+                canvas.write(&keys::list(), lines.len() + 1, INK);
+            }
+        }
+        if let Some(message) = message {
+            let mut rest: Vec<char> = message.chars().collect();
+            let mut told = Vec::new();
+            while !rest.is_empty() && columns > 0 {
+                let next = rest.split_off(rest.len().min(columns));
+                told.push(rest.into_iter().collect::<String>());
+                rest = next;
+            }
+            canvas.write(&told, if text { lines.len() + 1 } else { 0 }, ALARM);
+        }
+        window.pre_present_notify();
+        pixels.present()?;
+        Ok(())
+    }
+
+    /// The text of the upper left corner.
+    fn lines(&self) -> Vec<String> {
+        let stats = self.picture.as_ref().map(|picture| picture.stats).unwrap_or_default();
+        let took = self.took.as_secs_f64() * 1e3;
+        let triangles = usize::try_from(stats.submitted).unwrap_or(usize::MAX);
+        let mut line = format!("{}: {}", self.viewer.name(), counted(triangles, "triangle", "triangles"));
+        if stats.fragments > 0 {
+            line += &format!(", {} fragments", stats.fragments);
+        }
+        line += &format!(", {took:.1} ms   H: keys");
+        let options = self.viewer.options().join(" ");
+        let legend = self.picture.iter().flat_map(|picture| picture.legend.iter().cloned());
+        let lines = [line, options].into_iter().filter(|line| !line.is_empty()).chain(legend);
+        lines.map(|line| shortened(&line, 150).into_owned()).collect()
+    }
+
+    fn key(&mut self, event: KeyEvent, event_loop: &ActiveEventLoop) {
+        if event.state != ElementState::Pressed {
+            return;
+        }
+        let action = match event.logical_key {
+            Key::Named(NamedKey::Escape) => Some(Action::Quit),
+            Key::Named(NamedKey::Tab) => Some(Action::Text),
+            Key::Named(NamedKey::Home) => Some(Action::Fit),
+            Key::Named(NamedKey::ArrowLeft) => Some(keys::of_arrow([-1.0, 0.0], self.shift)),
+            Key::Named(NamedKey::ArrowRight) => Some(keys::of_arrow([1.0, 0.0], self.shift)),
+            Key::Named(NamedKey::ArrowUp) => Some(keys::of_arrow([0.0, 1.0], self.shift)),
+            Key::Named(NamedKey::ArrowDown) => Some(keys::of_arrow([0.0, -1.0], self.shift)),
+            Key::Character(letter) => keys::of_letter(&letter, self.shift),
+            _ => None,
+        };
+        if let Some(action) = action {
+            self.act(action, event_loop);
+        }
+    }
+
+    fn drag(&mut self, [x, y]: [f64; 2], event_loop: &ActiveEventLoop) {
+        let [before_x, before_y] = std::mem::replace(&mut self.cursor, [x, y]);
+        let height = f64::from(self.viewer.size[1]).max(1.0);
+        // The thing goes with the mouse, the camera the other way.
+        let moved = [(before_x - x) / height, (y - before_y) / height];
+        match self.held {
+            Some(MouseButton::Left) if !self.shift => {
+                self.act(Action::Turn(moved.map(|share| share * DRAG)), event_loop);
+            }
+            Some(_) => self.act(Action::Pan(moved), event_loop),
+            None => {}
+        }
+    }
+}
+
+/// A colour over black.
+fn over(color: u8, alpha: u8) -> u8 {
+    u8::try_from(u32::from(color) * u32::from(alpha) / 255).unwrap_or(color)
+}
+
+impl ApplicationHandler for Shown {
+    fn resumed(&mut self, event_loop: &ActiveEventLoop) {
+        if let Err(error) = self.begin(event_loop) {
+            let error = Error::new(format!("no window ({error})"), "a display").place("alberti view");
+            self.end(event_loop, Err(error.hint("alberti render draws without one")));
+        }
+    }
+
+    fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        match event {
+            WindowEvent::CloseRequested => event_loop.exit(),
+            WindowEvent::RedrawRequested => {
+                if let Err(error) = self.show() {
+                    let error = Error::new(format!("a window that cannot be drawn into ({error})"), "one");
+                    self.end(event_loop, Err(error.place("alberti view")));
+                }
+            }
+            WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } => self.redraw(),
+            WindowEvent::ModifiersChanged(modifiers) => self.shift = modifiers.state().shift_key(),
+            WindowEvent::KeyboardInput { event, .. } => self.key(event, event_loop),
+            WindowEvent::CursorMoved { position, .. } => self.drag([position.x, position.y], event_loop),
+            WindowEvent::MouseInput { state: ElementState::Pressed, button, .. } => self.held = Some(button),
+            WindowEvent::MouseInput { state: ElementState::Released, .. } => self.held = None,
+            WindowEvent::MouseWheel { delta, .. } => {
+                let notches = match delta {
+                    MouseScrollDelta::LineDelta(_, y) => f64::from(y),
+                    MouseScrollDelta::PixelDelta(by) => by.y / 40.0,
+                };
+                self.act(Action::Zoom(keys::NEARER.powf(notches)), event_loop);
+            }
+            WindowEvent::DroppedFile(path) => {
+                let outcome = self.viewer.open(path);
+                if self.hear(outcome).is_some() {
+                    self.is_old = true;
+                    if let Some((window, _)) = &self.target {
+                        window.set_title(&format!("alberti: {}", self.viewer.name()));
+                    }
+                }
+                self.redraw();
+            }
+            _ => {}
+        }
+    }
+
+    fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
+        let now = Instant::now();
+        if self.is_draft && self.moved.is_none_or(|moved| now - moved >= REST) {
+            (self.is_old, self.is_draft) = (true, false);
+            self.redraw();
+        }
+        if self.message.take_if(|(_, since)| now - *since >= READ).is_some() {
+            self.redraw();
+        }
+        if now - self.looked >= POLL {
+            self.looked = now;
+            if seen::changed() {
+                let outcome = self.viewer.reload();
+                self.is_old |= self.hear(outcome).is_some();
+                self.redraw();
+            }
+        }
+        let rest = self.moved.filter(|_| self.is_draft).map(|moved| moved + REST);
+        event_loop.set_control_flow(ControlFlow::WaitUntil(rest.unwrap_or(now + POLL).min(now + POLL)));
+    }
+}
