@@ -33,19 +33,21 @@ pub(crate) fn coverage(words: &[String]) -> Outcome {
     let profiles = folder.join("profiles");
     // Counts of an earlier run are those of other programs.
     _ = fs::remove_dir_all(&profiles);
-    let tests = |rest: &[&str]| {
+    let with_counters = |words: &[&str]| {
         let mut tests = cargo();
         tests.env("RUSTFLAGS", "-Cinstrument-coverage");
         tests.env("LLVM_PROFILE_FILE", profiles.join("%m_%p.profraw"));
-        tests.args(["test", "--workspace", "--tests", "--target-dir"]).arg(&folder);
-        tests.args(WITHOUT.iter().flat_map(|package| ["--exclude", package])).args(rest);
+        tests.args(words).args(["--workspace", "--target-dir"]).arg(&folder);
+        tests.args(WITHOUT.iter().flat_map(|package| ["--exclude", package]));
         tests
     };
-    let built = output(&mut tests(&["--no-run", "--message-format=json"]))?;
+    let built = output(&mut with_counters(&["test", "--tests", "--no-run", "--message-format=json"]))?;
+    // One of the tests runs the examples.
+    run(&mut with_counters(&["build", "--examples", "--profile", "test"]))?;
     let messages = built.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok());
     let programs: Vec<PathBuf> =
         messages.filter_map(|message| Some(message.get("executable")?.as_str()?.into())).collect();
-    run(&mut tests(&[]))?;
+    run(&mut with_counters(&["test", "--tests"]))?;
     let counted = folder.join("all.profdata");
     let entries = fs::read_dir(&profiles).map_err(|error| format!("{}: {error}", profiles.display()))?;
     let counts = entries.flatten().map(|entry| entry.path());

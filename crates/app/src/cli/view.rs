@@ -3,7 +3,6 @@
 //! Its picture is that of a command line: of the words that it was opened with, of options that keys have chosen, and
 //! of the camera as options. A picture that is kept is therefore one of `render`, with options that can be typed.
 
-use std::borrow::Cow;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -361,14 +360,6 @@ fn requested(
     size: [u32; 2],
 ) -> Result<Request, Error> {
     Request::read(&matches_of(words_of(words, chosen, camera, size))?)
-}
-
-/// A text for two lines at most: what is long is cut.
-fn shortened(text: &str, most: usize) -> Cow<'_, str> {
-    match text.char_indices().nth(most) {
-        Some((at, _)) => format!("{}…", &text[..at]).into(),
-        None => text.into(),
-    }
 }
 
 #[cfg(test)]

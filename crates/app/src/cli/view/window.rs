@@ -14,7 +14,7 @@ use winit::window::{Window, WindowId};
 
 use super::keys::{self, Action};
 use super::overlay::Canvas;
-use super::{Seen, Viewer, shortened};
+use super::{Seen, Viewer};
 use crate::cli::run::fail;
 use crate::error::{Error, counted};
 use crate::load::seen;
@@ -47,7 +47,7 @@ pub(super) fn open(viewer: Viewer) -> Result<(), Error> {
         error.hint("alberti render draws without one")
     };
     let event_loop = EventLoop::new().map_err(|error| no_display(&error))?;
-    let mut shown = Shown::new(viewer);
+    let mut shown = Screen::new(viewer);
     event_loop.run_app(&mut shown).map_err(|error| no_display(&error))?;
     shown.outcome
 }
@@ -56,7 +56,7 @@ pub(super) fn open(viewer: Viewer) -> Result<(), Error> {
 type Target = Surface<Rc<Window>, Rc<Window>>;
 
 /// A window with a viewer in it.
-struct Shown {
+struct Screen {
     viewer: Viewer,
     target: Option<(Rc<Window>, Target)>,
     picture: Option<Seen>,
@@ -76,7 +76,7 @@ struct Shown {
     outcome: Result<(), Error>,
 }
 
-impl Shown {
+impl Screen {
     fn new(viewer: Viewer) -> Self {
         Self {
             viewer,
@@ -117,12 +117,13 @@ impl Shown {
         event_loop.exit();
     }
 
-    /// Says something in the window, and an error on standard error as well.
+    /// Says something in the window.
     fn say(&mut self, text: String) {
         self.message = Some((text, Instant::now()));
         self.redraw();
     }
 
+    /// Says an error in the window, and on standard error.
     fn hear<T>(&mut self, outcome: Result<T, Error>) -> Option<T> {
         match outcome {
             Ok(value) => Some(value),
@@ -240,7 +241,7 @@ impl Shown {
         let options = self.viewer.options().join(" ");
         let legend = self.picture.iter().flat_map(|picture| picture.legend.iter().cloned());
         let lines = [line, options].into_iter().filter(|line| !line.is_empty()).chain(legend);
-        lines.map(|line| shortened(&line, 150).into_owned()).collect()
+        lines.map(|line| shortened(&line, 150)).collect()
     }
 
     fn key(&mut self, event: KeyEvent, event_loop: &ActiveEventLoop) {
@@ -278,12 +279,20 @@ impl Shown {
     }
 }
 
+/// A line that is cut if it is long.
+fn shortened(text: &str, most: usize) -> String {
+    match text.char_indices().nth(most) {
+        Some((at, _)) => format!("{}...", &text[..at]),
+        None => text.to_owned(),
+    }
+}
+
 /// A colour over black.
 fn over(color: u8, alpha: u8) -> u8 {
     u8::try_from(u32::from(color) * u32::from(alpha) / 255).unwrap_or(color)
 }
 
-impl ApplicationHandler for Shown {
+impl ApplicationHandler for Screen {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         if let Err(error) = self.begin(event_loop) {
             let error = Error::new(format!("no window ({error})"), "a display").place("alberti view");
