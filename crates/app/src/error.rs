@@ -89,6 +89,15 @@ impl Error {
         self.line.is_some()
     }
 
+    /// With this name for an `it` that is found.
+    #[must_use]
+    pub(crate) fn reworded_subject(mut self, name: &str) -> Self {
+        if let Some(rest) = self.found.strip_prefix("it ") {
+            self.found = format!("{name} {rest}");
+        }
+        self
+    }
+
     /// The same of a file that another one names: it is told there.
     #[must_use]
     pub(crate) fn of(self, named: &str) -> Self {

@@ -3,7 +3,8 @@
 use std::borrow::Cow;
 use std::env;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
 
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command, FromArgMatches as _};
@@ -91,7 +92,7 @@ fn frames(text: &str) -> Result<u32, String> {
 /// The command without options of pictures in its help.
 pub(super) fn without_pictures(command: Command) -> Command {
     let output = format!(
-        "Film to write; the extension says the format: {}. A name with %04d is that of pictures, one for each frame [default: {DEFAULT}]",
+        "Film to write; the extension says the format: {}. A name with %04d is that of pictures, one for each frame, in a folder that is made [default: {DEFAULT}]",
         Format::extensions()
     );
     hidden(command, &NOT_OF_FILMS)
@@ -167,6 +168,11 @@ fn film(
     let Size(width, height) = request.arguments.render.size.unwrap_or(DEFAULT_SIZE);
     let (there, wanted): (Vec<u32>, Vec<u32>) =
         range.partition(|&frame| share.is_some() && file.has(frame, (width, height)));
+    if share.is_none() && file.has(frames, (width, height)) {
+        let FilmFile::Frames(names) = &file else { return Err(Error::new("no pictures", "some")) };
+        let error = Error::new("a picture of a longer film", "none after the last").file(&names.name(frames));
+        warn(&error.hint("alberti assemble would join it").to_string());
+    }
     request.hold_film(transparent)?;
     // Things that are loaded are kept for frames that are staged anew.
     let mut cast = end.map(|_| request.cast()).transpose()?;
@@ -203,7 +209,7 @@ fn film(
     }
     let Staged { model, options, samples, backdrop, .. } = staged;
     let set = Set { model: &model, options: &options, samples, backdrop: &backdrop };
-    let below = AtomicUsize::new(0);
+    let (below, shadows) = (AtomicUsize::new(0), AtomicU64::new(0));
     let moved = |frame: u32, cast: &Cast| {
         let request = request.at(matches, time(frame))?;
         let mut staged = request.stage_with(cast.clone(), motion.as_ref())?;
@@ -211,7 +217,10 @@ fn film(
         let projection = projection(&request.arguments, &staged.camera)?;
         ordered(&mut staged.model, &staged.camera, projection);
         if request.above_ground(&staged, &[staged.camera]) == [true] {
+            let begin = Instant::now();
             request.add_ground(&mut staged);
+            let took = u64::try_from(begin.elapsed().as_nanos()).unwrap_or(u64::MAX);
+            shadows.fetch_add(took, Ordering::Relaxed);
         } else {
             below.fetch_add(1, Ordering::Relaxed);
         }
@@ -236,6 +245,9 @@ fn film(
             })
         })
     })?;
+    // Threads draw shadows side by side, each for its frames.
+    let at_a_time = threads(&request.arguments).get().min(wanted.len().max(1)) as u64;
+    stage::move_time([Stage::Draw, Stage::Shadow], Duration::from_nanos(shadows.into_inner() / at_a_time));
     during(Stage::Encode, |_| film.map_or(Ok(()), |film| file.write(film)))?;
     warn_of_frames_below(below.into_inner(), wanted.len());
     if is_silent() {

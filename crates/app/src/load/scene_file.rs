@@ -180,6 +180,11 @@ impl SceneFile {
         let place = error.place_name().unwrap_or_default();
         let partners = together.iter().filter(|group| group.contains(&place)).copied().flatten().copied();
         match std::iter::once(place).chain(partners).find_map(|name| self.keys.get(name)) {
+            // A file is told by its name.
+            Some(key) if !place.starts_with("--") => {
+                let named = format!("the image {}", self.source.shown(key));
+                self.source.place(error.reworded(in_keys).of(&named), key)
+            }
             Some(key) => self.source.place(error.reworded(in_keys), key),
             None => error,
         }
@@ -205,7 +210,9 @@ impl SceneFile {
             && self.file.light.is_empty()
             && self.ambient().is_some_and(is_dim)
         {
-            let warning = self.source.error("ambient", "it without a [[light]]", "a [[light]] as well");
+            let keys = ["ambient", "ambient.intensity", "ambient.color"];
+            let key = keys.into_iter().find(|key| self.source.has(key)).unwrap_or_default();
+            let warning = self.source.error(key, "it without a [[light]]", "a [[light]] as well");
             warnings.push(warning.hint("all sides of a surface are as bright"));
         }
         for name in self.unused_materials() {

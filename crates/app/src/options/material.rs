@@ -190,6 +190,15 @@ impl Material {
         self.about_maps().find(|(_, base)| !(base.said)(self)).map(|(key, base)| (key, base.key))
     }
 
+    /// The first key that says something of the alpha of a colour map, where there is none.
+    pub(crate) fn unmapped_alpha(&self) -> Option<&'static str> {
+        let over = self
+            .blend
+            .is_some_and(|Blend(blend)| blend == alberti::raster::color::AnyBlend::Over)
+            .then_some("blend");
+        over.or(self.alpha_test.map(|_| "alpha-test")).filter(|_| self.color_map.is_none())
+    }
+
     /// All maps that are given, with their keys.
     pub(crate) fn maps_mut(&mut self) -> impl Iterator<Item = (&'static str, &mut MapFile)> {
         let maps = [

@@ -108,6 +108,15 @@ pub(crate) fn begin() {
     RUN.with_borrow_mut(|run| run.spent = [Duration::ZERO; WORDS.len()]);
 }
 
+/// Has time of one stage count as that of another, whose work other threads have done in it.
+pub(crate) fn move_time([from, to]: [Stage; 2], time: Duration) {
+    RUN.with_borrow_mut(|run| {
+        let time = time.min(run.spent[from as usize]);
+        run.spent[from as usize] -= time;
+        run.spent[to as usize] += time;
+    });
+}
+
 /// The names of a picture's stages, and the time of each since [`begin`].
 pub(crate) fn times() -> [(&'static str, Duration); OF_PICTURES] {
     RUN.with_borrow(|run| std::array::from_fn(|k| (WORDS[k].0, run.spent[k])))

@@ -329,6 +329,37 @@ mod tests {
         }
     }
 
+    /// Steps of alpha by which neighbours differ that look in different directions.
+    const NOISE: u8 = 3;
+
+    /// A foot that stands flat on the ground below an overhang: darker and darker up to where they meet, and below it.
+    #[test]
+    fn contacts_are_darkest() {
+        let ring = |half: f32, y: f32| {
+            [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+                .map(|[x, z]: [f32; 2]| Vertex { position: [half * x, y, half * z], ..Vertex::default() })
+        };
+        let vertices = [ring(0.5, 0.0), ring(0.9, 0.2), ring(1.0, 0.5)].concat();
+        let mut triangles = vec![[0, 1, 2], [0, 2, 3]];
+        for level in [0, 4] {
+            for k in 0..4 {
+                let [a, b, c, d] = [k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k].map(|corner| level + corner);
+                triangles.extend([[a, b, c], [a, c, d]]);
+            }
+        }
+        let model =
+            Model { vertices, parts: vec![Part { triangles, ..Part::default() }], ..Model::default() };
+        for along in [[1.0, 0.0], [0.0, -1.0]] {
+            // From under the rim to just below the foot.
+            let from = |k: i32| 0.95 - f64::from(k) / 100.0;
+            let found: Vec<u8> = (0..48).map(|k| alpha(&model, along.map(|x: f64| x * from(k)))).collect();
+            let rises = |pair: &[u8]| pair[0] <= pair[1].saturating_add(NOISE);
+            assert!(found.windows(2).all(rises), "{along:?} {found:?}");
+            let most = found.iter().max().copied().unwrap_or_default();
+            assert!(most > 150 && found[47] + NOISE >= most, "{along:?} {found:?}");
+        }
+    }
+
     #[test]
     fn the_ground_is_under_all_and_between_the_planes() {
         let mut model = square(0.5);

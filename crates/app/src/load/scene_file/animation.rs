@@ -6,6 +6,7 @@ use toml::{Table, Value};
 
 use super::source::Source;
 use super::tables::{Animation, File};
+use crate::cli::words::nearest;
 use crate::error::{Error, counted, number, quote};
 use crate::options::values::{Color, one_of, words};
 use crate::scene::normals::narrow;
@@ -292,7 +293,11 @@ fn track(source: &Source, animation: &Animation, path: &str, names: &Names<'_>) 
     let key = key.as_ref().ok_or_else(|| missing("key", &format!("key, {}", expected())))?;
     if !keys.contains(&key.as_str()) {
         let found = format!("{}, which does not move", quote(key.as_bytes()));
-        return Err(wrong("key", found, expected()));
+        let error = wrong("key", found, expected());
+        return Err(match nearest(key, keys.iter().copied()) {
+            Some(near) => error.hint(format!("did you mean {near}?")),
+            None => error,
+        });
     }
     let times =
         times.as_ref().ok_or_else(|| missing("times", "times in seconds, such as times = [0, 2.5]"))?;

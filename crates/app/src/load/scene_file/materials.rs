@@ -39,8 +39,15 @@ impl SceneFile {
     /// # Errors
     /// A key needs another, or means nothing for its map.
     pub(super) fn complete_materials(&mut self) -> Result<(), Error> {
+        // Models may have textures of their own.
+        let models = self.file.object.iter().filter(|object| object.model.is_some());
+        let of_models: Vec<_> = models.filter_map(|object| object.material.clone()).collect();
         for (name, material) in &mut self.file.material {
             let path = |key: &str| format!("material.{name}.{key}");
+            if let Some(key) = material.unmapped_alpha().filter(|_| !of_models.contains(name)) {
+                let expected = "color-map as well, whose alpha counts, or blend = \"constant:0.5\"";
+                return Err(self.source.error(&path(key), "it without color-map", expected));
+            }
             if let Some((key, partner)) = material.lonely() {
                 let found = format!("it without {partner}");
                 return Err(self.source.error(&path(key), found, format!("{partner} as well")));

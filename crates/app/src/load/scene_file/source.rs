@@ -128,6 +128,10 @@ impl Source {
     pub(super) fn place(&self, error: Error, path: &str) -> Error {
         let error = error.file(&self.path);
         match self.key(path) {
+            // It gets its values from there.
+            Some(key) if key.path != path => {
+                error.line(self.line(&key.value)).key(key.name()).reworded_subject(path)
+            }
             Some(key) => error.line(self.line(&key.value)).key(key.name()),
             None => error,
         }

@@ -30,12 +30,21 @@ const STEPS: u32 = 20;
 /// The height in boxes up to which a surface is on the ground.
 const FLAT: f64 = 0.25;
 
+/// The texels below a surface on the ground that are seen at its rim, by blur and filter.
+const RIM: u32 = 4;
+
+/// The heights in boxes below which a surface touches the ground, and is low over all of a cell: too low for boxes.
+const TOUCHING: f64 = 0.5;
+const LOW: f64 = 2.0;
+
 /// The share of the area of a surface through a cell from which on it counts as whole.
 const WHOLE: f64 = 0.5;
 
 /// All that hides the sky of a ground.
 pub(super) struct Sky {
     layers: Vec<Layer>,
+    /// The cells on which a surface lies.
+    covered: Vec<bool>,
     /// Cells along a side.
     side: usize,
 }
@@ -67,13 +76,14 @@ impl Sky {
         let mut alphas: Vec<u8> = model.parts.iter().map(alpha_of).collect();
         alphas.sort_unstable();
         alphas.dedup();
+        let side = ground.cells as usize;
+        let mut covered = vec![false; side * side];
         let layer = |&alpha: &u8| {
             let parts = model.parts.iter().filter(|part| alpha_of(part) == alpha);
-            let cells = columns(ground, parts, (model, wrap), height);
-            let levels = pyramid(cells, ground.cells as usize);
-            Layer { opacity: f64::from(alpha) / 255.0, levels, height }
+            let cells = columns(ground, parts, (model, wrap), height, &mut covered);
+            Layer { opacity: f64::from(alpha) / 255.0, levels: pyramid(cells, side), height }
         };
-        Self { layers: alphas.iter().map(layer).collect(), side: ground.cells as usize }
+        Self { layers: alphas.iter().map(layer).collect(), covered, side }
     }
 
     /// The share of the sky's light that each texel of two by two cells does not have, row by row. What is farther than
@@ -107,7 +117,36 @@ impl Sky {
             }) as Task<'_>
         });
         by_threads(rows.collect(), available().get());
+        self.go_on_below(&mut dark);
         dark
+    }
+
+    /// Gives texels below surfaces on the ground, which see what they cannot see from there, the mean of those beside
+    /// them: no rim is lighter than what is around it.
+    fn go_on_below(&self, dark: &mut [f64]) {
+        let side = self.side / 2;
+        let cell = |column: usize, row: usize| u8::from(self.covered[row * self.side + column]);
+        let is_covered = |k: usize| {
+            let (column, row) = (2 * (k % side), 2 * (k / side));
+            cell(column, row) + cell(column + 1, row) + cell(column, row + 1) + cell(column + 1, row + 1) > 1
+        };
+        let mut unknown: Vec<usize> = (0..dark.len()).filter(|&k| is_covered(k)).collect();
+        let mut is_known = vec![true; dark.len()];
+        unknown.iter().for_each(|&k| is_known[k] = false);
+        for _ in 0..RIM {
+            let beside = |&k: &usize| {
+                let (column, row) = (k % side, k / side);
+                let around = |k: usize| k.saturating_sub(1)..=(k + 1).min(side - 1);
+                let all = around(row).flat_map(|row| around(column).map(move |column| row * side + column));
+                let known = all.filter(|&other| is_known[other]).map(|other| dark[other]);
+                known.clone().next().map(|_| (k, mean(known)))
+            };
+            let found: Vec<_> = unknown.iter().filter_map(beside).collect();
+            for (k, value) in found {
+                (dark[k], is_known[k]) = (value, true);
+            }
+            unknown.retain(|&k| !is_known[k]);
+        }
     }
 }
 
@@ -116,15 +155,16 @@ fn alpha_of(part: &Part) -> u8 {
     if let AnyBlend::Constant(alpha) = part.detail.blend { alpha } else { u8::MAX }
 }
 
-/// The boxes that these parts pass through, over each cell.
+/// The boxes that these parts pass through, over each cell; cells on which they lie are `covered`.
 fn columns<'a>(
     ground: &Ground,
     parts: impl Iterator<Item = &'a Part>,
     (model, wrap): (&Model, Wrap),
     height: f64,
+    covered: &mut [bool],
 ) -> Vec<u64> {
     let side = ground.cells as usize;
-    let mut cells = vec![(0_u64, 0.0_f32); side * side];
+    let mut cells = vec![(0_u64, 0.0_f32, 0.0_f32); side * side];
     for part in parts {
         let alpha = opacity::alpha(model, part, wrap);
         for triangle in &part.triangles {
@@ -139,7 +179,8 @@ fn columns<'a>(
             let corners = [a, b, c].map(corner);
             let steps = opacity::steps(corners);
             over_cells(&corners, side, &mut |[column, row]: [usize; 2], piece: &[Corner]| {
-                let Some((boxes, seen)) = cells.get_mut(row * side + column).filter(|_| column < side) else {
+                let Some((boxes, seen, lying)) = cells.get_mut(row * side + column).filter(|_| column < side)
+                else {
                     return;
                 };
                 let middle = |k: usize| mean(piece.iter().map(|corner| corner[k]));
@@ -148,6 +189,9 @@ fn columns<'a>(
                     let heights = piece.iter().map(|corner| corner[2] / height);
                     let least = heights.clone().fold(f64::INFINITY, f64::min);
                     let most = heights.fold(0.0, f64::max);
+                    if least < TOUCHING && most < LOW {
+                        *lying += narrow(opaque);
+                    }
                     // It lies on the ground, and hides what it darkens.
                     if most < FLAT {
                         return;
@@ -160,7 +204,10 @@ fn columns<'a>(
             });
         }
     }
-    let kept = |(index, (boxes, seen)): (usize, (u64, f32))| {
+    for (covered, (.., lying)) in covered.iter_mut().zip(&cells) {
+        *covered |= f64::from(*lying) > WHOLE;
+    }
+    let kept = |(index, (boxes, seen, _)): (usize, (u64, f32, f32))| {
         // A level surface has the area of its cell, and a wall its height.
         let whole = (f64::from(boxes.count_ones()) * height).max(1.0);
         let share = f64::from(seen) / (WHOLE * whole);
@@ -244,7 +291,9 @@ impl Layer {
                 let square = height * height;
                 if square > 0.0 { BOXES * square / (square + far * far) } else { 0.0 }
             };
-            hidden |= bits(share(first, step.to).round(), share(first + count, step.from).round());
+            // A surface over the place itself hides all that is higher.
+            let from = if first > 0 && step.level == 0 && step.from < 0.5 { 0.0 } else { step.from };
+            hidden |= bits(share(first, step.to).round(), share(first + count, from).round());
             boxes = boxes.checked_shr(first + count).map_or(0, |rest| rest << (first + count));
         }
         hidden

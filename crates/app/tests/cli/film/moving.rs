@@ -205,6 +205,47 @@ fn whole_turns_go_round() {
     }
 }
 
+/// What an animation clashes with names its key; light that an animation alone gives has a place.
+#[test]
+fn keys_of_animations_are_named() {
+    let ball = "size = [40, 30]\n[[object]]\nsurface = \"sphere\"\n";
+    let text = format!(
+        "{ball}[camera]\neye = [0, 1, 4]\n[[animation]]\nof = \"camera\"\nkey = \"azimuth\"\ntimes = [0, 1]\n\
+         values = [0, 90]\n"
+    );
+    let folder = Folder::with(&[("a.toml", text.as_bytes())]);
+    let failed = run(&folder, "render a.toml --time 1");
+    let told = "error: a.toml:10: animation.values: found camera.azimuth with camera.eye, which says where";
+    assert!(failed.stderr.starts_with(told), "{failed:?}");
+    let text = format!(
+        "{ball}[[animation]]\nof = \"ambient\"\nkey = \"intensity\"\ntimes = [0, 1]\nvalues = [0, 1]\n"
+    );
+    let folder = Folder::with(&[
+        ("a.toml", text.as_bytes()),
+        ("b.toml", format!("background = \"sky.png\"\n{ball}").as_bytes()),
+    ]);
+    let told = "warning: a.toml:8: animation.values: found ambient.intensity without a [[light]]";
+    let said = run(&folder, "render a.toml").stderr;
+    assert!(said.starts_with(told), "{said}");
+    let failed = run(&folder, "render b.toml").stderr;
+    assert!(
+        failed.starts_with("error: b.toml:1: background: found no such file for the image \"sky.png\""),
+        "{failed}"
+    );
+}
+
+/// Pictures of a longer film after the last are told, and the time of shadows is their own.
+#[test]
+fn pictures_of_longer_films_are_told() {
+    let folder = Folder::with(&[("a.toml", scene(true, ["[-1, 0.5, 0]", "ff0000", "[0, 2, 5]"]).as_bytes())]);
+    made(&folder, "turntable a.toml --frames 4 -o %d.png");
+    let shorter = run(&folder, "turntable a.toml --frames 3 --ground -o %d.png");
+    assert!(shorter.stderr.starts_with("warning: 3.png: found a picture of a longer film"), "{shorter:?}");
+    assert!(shorter.stdout.contains(" shadow "), "{shorter:?}");
+    let all = run(&folder, "turntable a.toml --frames 4 -o %d.png");
+    assert!(all.stderr.is_empty() && !all.stdout.contains(" shadow "), "{all:?}");
+}
+
 /// Values that no camera has are told before anything is drawn, where they stand, with their time.
 #[test]
 fn values_of_cameras_are_looked_at_first() {

@@ -318,6 +318,23 @@ fn slips_of_syntax_have_their_remedies() {
     assert!(message.contains("a head has as many brackets at its end as at its start"), "{message}");
 }
 
+/// Keys about an alpha that no map has are told; a model may have one of its own.
+#[test]
+fn alpha_needs_a_map() {
+    for line in ["blend = \"over\"", "alpha-test = 0.5"] {
+        let text = format!("{MINIMAL}material = \"m\"\n[material.m]\ncolor = \"red\"\n{line}\n");
+        let message = refused(&text);
+        let key = line.split(' ').next().unwrap();
+        let wanted =
+            format!("s.toml:6: material.m.{key}: found it without color-map, expected color-map as well");
+        assert!(message.starts_with(&wanted), "{message}");
+        let triangle = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+        let text = text.replace("surface = \"plane\"", "model = \"b.obj\"");
+        assert!(text.contains("b.obj"), "{text}");
+        build(&[("s.toml", text.as_bytes()), ("b.obj", triangle)]).unwrap();
+    }
+}
+
 /// A name to try is written as the wrong one is: from the folder of the file.
 #[test]
 fn suggested_files_start_where_the_scene_does() {
@@ -345,6 +362,11 @@ fn animations_name_what_is_wrong_in_them() {
             "s.toml:6: animation.key: found \"radius\", which does not move, expected one of",
         ),
         ("of = \"b\"\nkey = \"scale\"", "s.toml:4: animation: found an animation without times"),
+        (
+            "of = \"b\"\nkey = \"positon\"",
+            "s.toml:6: animation.key: found \"positon\", which does not move, expected one of position, rotation, scale; \
+             did you mean position?",
+        ),
         ("of = \"b\"\nkey = \"scale\"\ntimes = []\nvalues = []", "s.toml:7: animation.times: found no times"),
         (
             "of = \"b\"\nkey = \"scale\"\ntimes = [0, 1]",
