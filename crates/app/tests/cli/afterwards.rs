@@ -146,11 +146,11 @@ fn blends_are_their_formulas() {
 /// In a fog that hides all, a pane changes nothing: what is added or multiplied fades, too.
 #[test]
 fn mixtures_fade_in_fog() {
-    let folder = Folder::with(&[]);
+    let folder = Folder::with(&[("green.png", &halves([30, 220, 90], ALPHAS))]);
     for (blend, _) in BLENDS {
         let scene = format!(
             "{HEAD}fog = \"linear:1,2\"\nfog-color = \"10c8f0\"\n{}{}[material.wall]\ncolor = \"c86432\"\n\
-             [material.pane]\ncolor = \"1edc5a\"\nblend = \"{blend}\"\n",
+             [material.pane]\ncolor-map = \"green.png\"\nblend = \"{blend}\"\n",
             pane(3.0, "pane"),
             pane(6.0, "wall"),
         );

@@ -23,13 +23,18 @@ fn what_a_file_has_not_is_told() {
     };
     let panes = pane(0, "wall") + &pane(1, "glass") + &pane(2, "glass") + &pane(3, "lace");
     let materials = |glass: &str, lace: &str| {
-        format!("[material.wall]\n[material.glass]\ncolor = \"4080c0\"\n{glass}[material.lace]\n{lace}")
+        format!(
+            "[material.wall]\n[material.glass]\ncolor = \"4080c0\"\n{glass}[material.lace]\n\
+             color-map = \"white.png\"\n{lace}"
+        )
     };
     let rest = "[render]\nshading = \"unlit\"\n";
     let full = materials("blend = \"constant:0.5\"\n", "blend = \"over\"\nalpha-test = 0.5\n");
     let full = format!("{panes}{full}{rest}fog = \"exp:0.1\"\n");
     let bare = format!("{panes}{}{rest}", materials("", ""));
-    let folder = Folder::with(&[("s.toml", full.as_bytes()), ("bare.toml", bare.as_bytes())]);
+    let files = [("s.toml", full.as_bytes()), ("bare.toml", bare.as_bytes())];
+    let folder = Folder::with(&files);
+    image::RgbImage::from_pixel(1, 1, image::Rgb([255; 3])).save(folder.path("white.png")).expect("an image");
     let run = bake(&folder, &["s.toml", "--json"]);
     assert_eq!(run.status, Some(0), "{run:?}");
     let lines: Vec<_> = run.stderr.lines().collect();
