@@ -27,14 +27,12 @@ pub(crate) fn fmt() -> Outcome {
 
 /// Runs clippy on every member and target, benchmarks included, and on the firmware's scenes, with warnings as errors.
 ///
-/// Every feature is on: members are compiled together, and the application asks for all, as `tidy` makes sure, but for
-/// its window.
+/// Every feature is on: members are compiled together, and the application asks for all, as `tidy` makes sure. It is
+/// looked at without its window as well.
 pub(crate) fn lint() -> Outcome {
-    let window = ["--features", "alberti-app/window"];
-    run(cargo()
-        .args(["clippy", "--workspace", "--all-targets"])
-        .args(window)
-        .args(["--", "-D", "warnings"]))?;
+    run(cargo().args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]))?;
+    let bare = ["clippy", "--package", "alberti-app", "--no-default-features", "--", "-D", "warnings"];
+    run(cargo().args(bare))?;
     run(with_mutants("clippy").args(["--all-targets", "--", "-D", "warnings"]))?;
     let (manifest, [_, scenes]) = FIRMWARE;
     let mut clippy = cargo();

@@ -10,7 +10,7 @@ use std::{env, fs, io, thread};
 use crate::command::Outcome;
 use crate::{
     assets, checks, extremes, film, firmware, fuzz, gallery, guide, package, seeded, supply, tidy, trade,
-    window, workspace,
+    web, window, workspace,
 };
 use passed::Passed;
 
@@ -104,6 +104,7 @@ const STEPS: &[Step] = &[
     ("lanes", checks::lanes),
     ("film", film::check),
     ("window", window::check),
+    ("web", web::check),
     ("registers", checks::registers),
     ("extremes", extremes::check),
     ("package", package::run),

@@ -30,6 +30,7 @@ mod supply;
 mod tidy;
 mod trade;
 mod wasm;
+mod web;
 mod window;
 mod workspace;
 
@@ -148,6 +149,12 @@ const CHORES: &[Chore] = &[
         arguments: "",
         about: "open `alberti view` in an X server without a screen, press keys, and compare its pictures",
         run: |_| window::check(),
+    },
+    Chore {
+        name: "web",
+        arguments: "[--check | --speed]",
+        about: "build the page of crates/web, and look at it in a browser, or time its pictures",
+        run: web::web,
     },
     Chore {
         name: "sweep",

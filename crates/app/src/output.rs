@@ -5,5 +5,4 @@ pub mod exr;
 pub mod file;
 pub mod stats;
 
-pub(crate) mod folder;
 pub(crate) mod stage;

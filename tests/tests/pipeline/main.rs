@@ -10,6 +10,7 @@ mod drivers;
 mod features;
 mod frames;
 mod golden;
+mod handed_on;
 mod hostile;
 mod images;
 mod invariance;

@@ -157,6 +157,7 @@ fn surfaces_of_simple_numbers_are_exact() {
 fn texels_of_a_constant_are_encoded() {
     const COLORS: [[u8; 4]; 3] = [[255, 0, 0, 128], [1, 2, 3, 255], [0; 4]];
     const TEXELS: [u32; 3] = Rgb565Alpha::of(&COLORS);
+    assert_eq!(Rgb565Alpha::of(&std::hint::black_box(COLORS)), TEXELS, "of an image that is read");
     assert_eq!(TEXELS, COLORS.map(|[r, g, b, a]| Rgb565Alpha.encode(Rgba8::new(r, g, b, a))));
     assert_eq!(Rgb565Alpha.decode(TEXELS[2]).to_bytes(), [0; 4]);
 }
@@ -266,6 +267,8 @@ fn memory_is_as_large_as_it_says() {
     const MEMORY: Small = Small::new(0x1234, 7);
     let Memory { colors, depths, .. } = MEMORY;
     assert!(colors.iter().flatten().all(|&pixel| pixel == 0x1234) && depths == [7; 64]);
+    let Memory { colors, depths, .. } = Small::new(std::hint::black_box(5), 9);
+    assert!(colors.iter().flatten().all(|&pixel| pixel == 5) && depths == [9; 64]);
     assert_eq!(Small::BYTES, 64 * (2 * 2 + 2));
     Small::must_fit(Small::BYTES);
     let told = std::panic::catch_unwind(|| Small::must_fit(383)).expect_err("one byte more");

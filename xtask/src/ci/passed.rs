@@ -11,14 +11,14 @@ use crate::{tidy, workspace};
 /// The file with a line for each long check: its name, and the digest of what it passed on.
 pub(super) const PLACE: &str = ".ci/passed";
 
-/// What each program for chips depends on.
+/// The manifest of the workspace.
+const MANIFEST: &str = "Cargo.toml";
+
+/// What is drawn with.
+const LIBRARIES: &[&str] =
+    &[MANIFEST, "crates/alberti/", "crates/math/", "crates/projection/", "crates/raster/", "crates/texture/"];
+/// What each program for chips depends on, beside these.
 const CHIPS: &[&str] = &[
-    "Cargo.toml",
-    "crates/alberti/",
-    "crates/math/",
-    "crates/projection/",
-    "crates/raster/",
-    "crates/texture/",
     "docs/firmware",
     "docs/pictures/demo.gif",
     "tests/firmware/",
@@ -42,14 +42,15 @@ const TOOLS: &[&str] = &[
 ];
 
 /// The checks that may stand, and the beginnings of the names of the files that they read.
-const LONG: [(&str, &[&[&str]]); 7] = [
-    ("firmware", &[CHIPS]),
-    ("boards", &[CHIPS]),
-    ("fingerprint", &[CHIPS]),
-    ("trade", &[CHIPS, TOOLS]),
-    ("guide", &[CHIPS, TOOLS]),
-    ("fuzz", &[CHIPS, TOOLS]),
-    ("supply", &[CHIPS, TOOLS, &["deny.toml", "benches/Cargo.toml", "xtask/src/supply.rs"]]),
+const LONG: [(&str, &[&[&str]]); 8] = [
+    ("firmware", &[LIBRARIES, CHIPS]),
+    ("boards", &[LIBRARIES, CHIPS]),
+    ("fingerprint", &[LIBRARIES, CHIPS]),
+    ("web", &[LIBRARIES, &["crates/web/", "docs/theory.md", "xtask/src/web"]]),
+    ("trade", &[LIBRARIES, CHIPS, TOOLS]),
+    ("guide", &[LIBRARIES, CHIPS, TOOLS]),
+    ("fuzz", &[LIBRARIES, CHIPS, TOOLS]),
+    ("supply", &[LIBRARIES, CHIPS, TOOLS, &["deny.toml", "benches/Cargo.toml", "xtask/src/supply.rs"]]),
 ];
 
 /// The digests of what the long checks read now, and those of when they passed last.
@@ -73,7 +74,8 @@ impl Passed {
                 digest.add(file.as_bytes());
                 let path = workspace::root().join(file);
                 let read = fs::read(&path);
-                digest.add(&read.map_err(|error| format!("cannot read {}: {error}", path.display()))?);
+                let read = read.map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+                digest.add(&if file == MANIFEST { of_all(&read) } else { read });
             }
             now.insert(name, digest.0);
         }
@@ -104,6 +106,25 @@ impl Passed {
 /// Whether a check is long, and may stand.
 pub(super) fn is_long(name: &str) -> bool {
     LONG.iter().any(|(long, _)| *long == name)
+}
+
+/// The workspace's manifest without its comments, and without how much single packages are optimised: those are of the
+/// application, and no bit of a picture depends on it.
+fn of_all(manifest: &[u8]) -> Vec<u8> {
+    let text = String::from_utf8_lossy(manifest);
+    let is_of_one = |table: &str| table.starts_with("[profile.") && table.contains(".package.");
+    let mut left_out = false;
+    let mut kept = String::new();
+    for line in text.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
+        if line.starts_with('[') {
+            left_out = is_of_one(line);
+        }
+        if !left_out {
+            kept += line;
+            kept.push('\n');
+        }
+    }
+    kept.into_bytes()
 }
 
 fn reads(group: &[&str], file: &str) -> bool {
@@ -159,6 +180,16 @@ mod tests {
         };
         let all = [of(&["ab", "c"]), of(&["a", "bc"]), of(&["abc"]), of(&["ab", "d"]), of(&["ab", ""])];
         assert!(all.iter().enumerate().all(|(i, one)| !all[..i].contains(one)));
+    }
+
+    #[test]
+    fn a_package_may_be_optimised_more() {
+        let of = |text: &str| of_all(text.as_bytes());
+        let manifest = "# Members.\n[workspace]\nmembers = []\n\n[profile.release]\nlto = true\n";
+        let more = "[profile.release.package.image]\nopt-level = 1\n";
+        assert_eq!(of(manifest), of(&format!("{more}{manifest}")));
+        assert_eq!(of(manifest), of(&manifest.replace("[profile", &format!("{more}[profile"))));
+        assert_eq!(of(manifest), b"[workspace]\nmembers = []\n[profile.release]\nlto = true\n");
     }
 
     #[test]

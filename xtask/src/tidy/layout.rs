@@ -8,6 +8,7 @@ const TOP_LEVEL: &[&str] = &[
     "ARCHITECTURE.md",
     "CHANGELOG.md",
     "CITATION.cff",
+    "CONTRIBUTING.md",
     "CONVENTIONS.md",
     "Cargo.lock",
     "Cargo.toml",
@@ -23,6 +24,9 @@ const TOP_LEVEL: &[&str] = &[
     "tests",
     "xtask",
 ];
+
+/// The crates that are workspaces of their own, and are not published.
+const APART: [&str; 1] = ["web"];
 
 /// Checks the top level, and that each crate's folder is known and complete.
 pub(super) fn check(files: &[String]) -> Vec<Problem> {
@@ -45,7 +49,10 @@ pub(super) fn check(files: &[String]) -> Vec<Problem> {
         let Some((folder, _)) = file.strip_prefix("crates/").and_then(|rest| rest.split_once('/')) else {
             continue;
         };
-        if folder != reported && !workspace::crate_folders().any(|known| known == folder) {
+        if folder != reported
+            && !APART.contains(&folder)
+            && !workspace::crate_folders().any(|known| known == folder)
+        {
             problems.push(Problem::new(
                 file,
                 1,

@@ -14,7 +14,6 @@ use crate::error::Error;
 use crate::measure::{Comparison, MaxError};
 use crate::options::{LightOptions, RenderOptions};
 use crate::output::file::Output;
-use crate::output::folder::in_folder;
 use crate::output::stage::{Stage, during};
 use crate::scene::{Camera, Model};
 
@@ -135,13 +134,6 @@ pub(super) fn run(matches: &ArgMatches) -> Result<u8, Error> {
 
 fn advise_on(arguments: &AdviseArgs, request: &Request) -> Result<(), Error> {
     request.check()?;
-    match &arguments.image {
-        Some(folder) => in_folder(folder, "--image", || advise_and_print(arguments, request)),
-        None => advise_and_print(arguments, request),
-    }
-}
-
-fn advise_and_print(arguments: &AdviseArgs, request: &Request) -> Result<(), Error> {
     let outputs = arguments.image.as_deref().map(|folder| outputs(folder, request)).transpose()?;
     let Staged { model, camera, mut options, .. } = request.stage()?;
     // A program has one lamp, and surfaces of one side.

@@ -15,7 +15,6 @@ use crate::error::Error;
 use crate::options::values::Size;
 use crate::options::{LightOptions, MAX_SIDE, Profile};
 use crate::output::file::{STANDARD, Whole};
-use crate::output::folder::in_folder;
 use crate::output::stage::{Stage, during};
 use crate::output::stats::Source;
 
@@ -134,10 +133,6 @@ pub(super) fn frame(request: &mut Request) {
 
 fn bake_into(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
     request.check()?;
-    in_folder(&arguments.out, "--out", || baked(arguments, request))
-}
-
-fn baked(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
     let folder = &arguments.out;
     let name = name(request);
     let file = |extension: &str| request.whole(&folder.join(format!("{name}.{extension}")), "--out");
@@ -181,7 +176,7 @@ fn baked(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
 }
 
 /// The name of the files: that of the model or the scene.
-fn name(request: &Request) -> String {
+pub(super) fn name(request: &Request) -> String {
     let stem = |path: &Path| path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     match request.source() {
         // Standard input has no name.

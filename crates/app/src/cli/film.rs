@@ -10,7 +10,6 @@ use crate::film::format::{Film, Format};
 use crate::film::names::Names;
 use crate::film::rate::Rate;
 use crate::output::file::{Output, Whole, temporary_files};
-use crate::output::folder::in_folder;
 use crate::scene::Image;
 
 /// The program that encodes what films are commonly sent as.
@@ -30,7 +29,7 @@ pub(super) enum FilmFile {
 }
 
 impl FilmFile {
-    /// Checks the name, of which the folder is there. `whole` has a file that can be written.
+    /// Checks the name. `whole` has a file that can be written.
     ///
     /// # Errors
     /// The extension is of no film, or the file cannot be written.
@@ -118,17 +117,6 @@ impl FilmFile {
             Format::Encoded(muxer) => file.write(&encoded(&bytes, muxer, file.name())?),
             _ => file.write(&bytes),
         }
-    }
-}
-
-/// Does work within the folder of frames of these names, which is made if it is not there.
-///
-/// # Errors
-/// It cannot be made, or the work fails.
-pub(super) fn beside(named: &Path, work: impl FnOnce() -> Result<(), Error>) -> Result<(), Error> {
-    match Names::of(named).map(|names| names.name(0)).as_deref().and_then(Path::parent) {
-        Some(folder) => in_folder(folder, "-o", work),
-        None => work(),
     }
 }
 

@@ -129,8 +129,7 @@ impl Request {
     /// Whether each of these cameras sees a ground from above, which is drawn for it; all do where there is none.
     pub(super) fn above_ground(&self, staged: &Staged, cameras: &[Camera]) -> Vec<bool> {
         let Staged { model, swept, options, .. } = staged;
-        let whole = swept.as_ref().unwrap_or(model);
-        match ground::above(whole, cameras, options.depth) {
+        match ground::above(model, swept.as_ref(), cameras, options.depth) {
             Some(above) if self.arguments.render.ground == Some(true) => above,
             _ => vec![true; cameras.len()],
         }
@@ -153,13 +152,8 @@ impl Request {
         }
         let above = self.above_ground(staged, cameras);
         let Staged { model, swept, options, .. } = staged;
-        if ground::above(swept.as_ref().unwrap_or(model), cameras, options.depth).is_none() {
+        if ground::above(model, swept.as_ref(), cameras, options.depth).is_none() {
             return left_out("it under a model without extent", "one that stands on it");
-        }
-        if ground::has_floor(swept.as_ref().unwrap_or(model), &cameras[0], options.depth) {
-            let error =
-                Error::new("a floor at the lowest point, which hides it", "a model that stands on it");
-            warn(&error.place("--ground").hint("take the floor out of the scene").to_string());
         }
         let CameraTable { near, far, .. } = self.arguments.camera;
         let affine = options.policies.interpolation == Interpolation::Affine;

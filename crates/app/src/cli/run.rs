@@ -20,6 +20,7 @@ use crate::error::{Error, quote};
 use crate::memory;
 use crate::options::{RenderOptions, Samples};
 use crate::output::aov::Beside;
+use crate::output::file::Output;
 use crate::output::stage::{self, Stage, during, is_silent, silence};
 use crate::output::stats::Report;
 use crate::samples::supersampled_with;
@@ -157,7 +158,18 @@ fn usage(error: &clap::Error, renamed: bool, words: &[OsString]) -> Result<u8, E
             ("the names of several pictures".to_owned(), expected.to_owned())
         }
         ErrorKind::UnknownArgument if option.as_ref().is_some_and(|option| !option.starts_with('-')) => {
-            ("one file too many".to_owned(), "no other file or word".to_owned())
+            let another = option.as_deref().unwrap_or_default();
+            let has_picture = words
+                .get(1)
+                .is_some_and(|word| ["render", "watch", "view"].map(OsString::from).contains(word));
+            let expected = if has_picture && Output::is_format_of(Path::new(another)) {
+                format!("-o {another} for the picture")
+            } else if another.to_ascii_lowercase().ends_with(".obj") {
+                "no other file: a scene file has several models".to_owned()
+            } else {
+                "no other file or word".to_owned()
+            };
+            ("one file too many".to_owned(), expected)
         }
         ErrorKind::UnknownArgument => {
             let meant = option.as_deref().and_then(words::of_others).map(str::to_owned);

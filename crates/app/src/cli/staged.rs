@@ -201,6 +201,8 @@ impl Request {
         let shading = arguments.render.shading.unwrap_or(scene.defaults.0);
         let is_seen = arguments.show.is_none() && shading != Shading::VertexColor;
         let grounded = (arguments.render.ground == Some(true) && is_seen).then(up);
+        // A shadow on a floor does not reach beyond it.
+        let grounded = grounded.filter(|up| !ground::has_floor(&scene.model, swept.as_ref(), *up));
         let whole = swept.as_mut().unwrap_or(&mut scene.model);
         let camera = ground::in_view(whole, grounded, |model| {
             camera::frame(&wishes, base.as_ref(), (model, ball), aspect)

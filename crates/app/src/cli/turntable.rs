@@ -10,7 +10,7 @@ use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command, FromArgMatches as _};
 
 use super::RenderArgs;
-use super::film::{FilmFile, beside, pictures};
+use super::film::{FilmFile, pictures};
 use super::picture::warn_of_frames_below;
 use super::request::{Request, hidden, refuse};
 use super::run::print;
@@ -92,7 +92,7 @@ fn frames(text: &str) -> Result<u32, String> {
 /// The command without options of pictures in its help.
 pub(super) fn without_pictures(command: Command) -> Command {
     let output = format!(
-        "Film to write; the extension says the format: {}. A name with %04d is that of pictures, one for each frame, in a folder that is made [default: {DEFAULT}]",
+        "Film to write; the extension says the format: {}. A name with %04d is that of pictures, one for each frame [default: {DEFAULT}]",
         Format::extensions()
     );
     hidden(command, &NOT_OF_FILMS)
@@ -109,7 +109,7 @@ pub(super) fn run(matches: &ArgMatches) -> Result<(), Error> {
     let is_given = matches.value_source("output") == Some(ValueSource::CommandLine);
     let output = request.arguments.render.output.clone().filter(|_| is_given);
     let output = output.as_deref().unwrap_or(Path::new(DEFAULT));
-    beside(output, || film(&arguments, (&request, matches), output)).map_err(|error| request.relocate(error))
+    film(&arguments, (&request, matches), output).map_err(|error| request.relocate(error))
 }
 
 fn film(

@@ -3,19 +3,21 @@
 //! Its picture is that of a command line: of the words that it was opened with, of options that keys have chosen, and
 //! of the camera as options. A picture that is kept is therefore one of `render`, with options that can be typed.
 
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::ArgMatches;
 
+use super::bake::name as stem;
 use super::request::Request;
-use super::run::{command, draw};
+use super::run::{command, draw, print};
 use super::staged::{Cast, Staged};
 use crate::draw::Chains;
 use crate::error::Error;
 use crate::film::{Set, ordered};
 use crate::load::{input, seen};
+use crate::options::values::name_of;
 use crate::options::{CameraTable, Projection, Samples};
 use crate::output::stats::Source;
 use crate::samples::supersampled_with;
@@ -36,9 +38,9 @@ pub(super) const HELP: &str = "\
 Examples:
   alberti view cow.obj --texture cow.png      a window: drag turns, the wheel zooms, H lists the keys
   alberti view wet.toml --ground              drawn again whenever wet.toml, a model or an image changes
-  alberti view --scene floor -o floor.png     P keeps the picture in floor.png, and prints its options";
+  alberti view --scene floor -o floor.png     P keeps the picture in floor.png, and prints its command";
 
-/// The size of a window for which none is asked.
+/// The size of a window for which none is asked, nor one in the scene file.
 const SIZE: [u32; 2] = [960, 640];
 
 /// Opens a window, until it is closed.
@@ -46,13 +48,14 @@ const SIZE: [u32; 2] = [960, 640];
 /// # Errors
 /// The scene cannot be used, or there is no display.
 pub(super) fn run(matches: &ArgMatches, words: &[OsString]) -> Result<(), Error> {
-    let given = Request::given(matches)?;
-    if given.arguments.model.as_deref() == Some(Path::new(input::STDIN)) {
+    let given = Request::given(matches)?.arguments;
+    if given.model.as_deref() == Some(Path::new(input::STDIN)) {
         let error = Error::new("standard input", "a file to look at").hint("it is read but once");
         return Err(error);
     }
-    let size = given.arguments.render.size.map_or(SIZE, |size| [size.0, size.1]);
-    let viewer = Viewer::new(words.get(2..).unwrap_or_default(), size)?;
+    let size = Request::read(matches)?.arguments.render.size.map_or(SIZE, |size| [size.0, size.1]);
+    let mut viewer = Viewer::new(words.get(2..).unwrap_or_default(), size)?;
+    viewer.output = given.render.output;
     window::open(viewer)
 }
 
@@ -62,6 +65,10 @@ struct Viewer {
     words: Vec<OsString>,
     /// Options that keys have chosen, which go over those.
     chosen: Vec<(&'static str, &'static str)>,
+    /// The values of the command line, in the order of the cycles.
+    first: Vec<Option<String>>,
+    /// The file of the command line for pictures that are kept.
+    output: Option<PathBuf>,
     /// The camera, once it has been moved.
     moved: Option<Camera>,
     size: [u32; 2],
@@ -96,7 +103,8 @@ impl Viewer {
         let request = requested(&words, &[], None, size)?;
         let cast = request.cast().map_err(|error| request.relocate(error))?;
         let scene = Scene::new((request.arguments.camera, request), &cast, None)?;
-        Ok(Self { words, chosen: Vec::new(), moved: None, size, cast, scene })
+        let first = keys::CYCLES.iter().map(|cycle| scene.value(cycle.option)).collect();
+        Ok(Self { words, chosen: Vec::new(), first, output: None, moved: None, size, cast, scene })
     }
 
     /// The name of the scene, without the way to it.
@@ -173,6 +181,7 @@ impl Viewer {
         let mut other = Self::new(&[path.into()], self.size)?;
         // Options that the other scene cannot have are left out.
         _ = other.restage(self.chosen.clone(), false);
+        other.output = self.output.take();
         *self = other;
         Ok(())
     }
@@ -198,6 +207,7 @@ impl Viewer {
         let Staged { model, options, samples, backdrop, .. } = staged;
         let camera = self.camera();
         let below = bare.as_ref().filter(|_| request.above_ground(staged, &[camera]) == [false]);
+        let from_below = below.map(|_| "from below there is no ground".to_owned());
         let set = Set { model: below.unwrap_or(model), options, samples: *samples, backdrop };
         let shot = set.shot(camera);
         match request.arguments.show {
@@ -211,7 +221,11 @@ impl Viewer {
                 let samples = if is_draft { Samples::One } else { *samples };
                 let of = (&*shot.model, &shot.camera);
                 let picture = supersampled_with(chains, of, options, samples, backdrop, &mut |_, _| ())?;
-                Ok(Seen { image: picture.image, stats: picture.stats, legend: Vec::new() })
+                Ok(Seen {
+                    image: picture.image,
+                    stats: picture.stats,
+                    legend: from_below.into_iter().collect(),
+                })
             }
         }
     }
@@ -220,15 +234,25 @@ impl Viewer {
         self.moved.unwrap_or(self.scene.staged.camera)
     }
 
-    /// Writes the picture as `render` does, and prints its options.
+    /// Writes the picture as `render` does, and prints the command that does. It returns the file: that of the command
+    /// line, or one more in the current folder.
     ///
     /// # Errors
     /// It cannot be written.
-    fn keep(&self) -> Result<(), Error> {
-        draw(&matches_of(self.all_words())?)
+    fn keep(&self) -> Result<PathBuf, Error> {
+        let mut words = self.all_words();
+        let file = self.output.clone().unwrap_or_else(|| unused(&stem(&self.scene.request)));
+        if self.output.is_none() {
+            let end = end_of_options(&words);
+            words.splice(end..end, ["-o".into(), file.clone().into_os_string()]);
+        }
+        let typed: Vec<_> = words.iter().map(|word| typed(word)).collect();
+        draw(&matches_of(words)?)?;
+        print(&format!("command: {}\n", typed.join(" ")))?;
+        Ok(file)
     }
 
-    /// Does what a key or the mouse asks for. The window does the rest: it says whether there is a new picture.
+    /// Does what a key or the mouse asks for, but for the window's part: it says whether there is a new picture.
     ///
     /// # Errors
     /// An option cannot be used with this scene; all is as it was.
@@ -251,11 +275,12 @@ impl Viewer {
                 self.choose("--view", Some(side), true)
             }
             Action::Cycle(cycle, forwards) => {
-                let value = cycle.next(self.chosen_value(cycle.option), forwards);
+                let at = keys::CYCLES.iter().position(|other| other == cycle);
+                let first = at.and_then(|at| self.first.get(at)).and_then(Option::as_deref);
+                let value = cycle.next(self.chosen_value(cycle.option), first, forwards);
                 self.choose(cycle.option, value, cycle.keeps_maps)
             }
-            Action::Picture => self.keep().map(|()| false),
-            Action::Help | Action::Text | Action::Quit => Ok(false),
+            Action::Picture | Action::Help | Action::Text | Action::Quit => Ok(false),
         }
     }
 
@@ -278,11 +303,12 @@ impl Viewer {
     /// Nearer by a factor, or larger where there is no nearness.
     fn zoom(&mut self, factor: f64) -> Result<bool, Error> {
         let camera = self.camera();
+        let radius = camera::bounding_sphere(&self.scene.staged.model).radius;
         let Projection::Parallel { height } = &mut self.scene.staged.options.projection else {
-            return self.move_to(orbit::nearer(&camera, factor));
+            return self.move_to(orbit::nearer(&camera, radius, factor));
         };
         let wanted = narrow(f64::from(*height) / factor);
-        if wanted.is_normal() {
+        if wanted.is_normal() && orbit::is_useful(wanted.into(), radius, factor) {
             (*height, self.moved) = (wanted, Some(camera));
         }
         Ok(true)
@@ -326,6 +352,49 @@ impl Scene {
         };
         Ok(Self { request, wishes, staged, bare, chains })
     }
+
+    /// The value that an option has, as it is typed, if it is one for the whole scene.
+    fn value(&self, option: &str) -> Option<String> {
+        let Staged { options, samples, .. } = &self.staged;
+        let policies = &options.policies;
+        Some(match option {
+            "--interpolation" => policies.interpolation.to_string(),
+            "--filter" => options.filter.to_string(),
+            "--depth" => name_of(options.depth),
+            "--shading" => name_of(options.shading),
+            "--samples" => name_of(*samples),
+            "--color" => name_of(policies.color),
+            "--dither" => name_of(policies.dither),
+            "--light-space" => name_of(options.light.space),
+            "--ground" => self.bare.is_some().to_string(),
+            "--projection" => match options.projection {
+                Projection::Parallel { .. } => "parallel".to_owned(),
+                Projection::Perspective => "perspective".to_owned(),
+            },
+            _ => return None,
+        })
+    }
+}
+
+/// The first of the pictures `STEM-1.png`, `STEM-2.png` and so on that is not there.
+fn unused(stem: &str) -> PathBuf {
+    let mut names = (1_u32..).map(|k| PathBuf::from(format!("{stem}-{k}.png")));
+    names.find(|name| !name.exists()).unwrap_or_default()
+}
+
+/// A word as a shell takes it.
+fn typed(word: &OsStr) -> String {
+    let text = word.to_string_lossy();
+    let is_plain = |c: char| c.is_alphanumeric() || "-_./:=,+@%#".contains(c);
+    if !text.is_empty() && !text.starts_with('#') && text.chars().all(is_plain) {
+        return text.into_owned();
+    }
+    format!("'{}'", text.replace('\'', "'\\''"))
+}
+
+/// The place before the `--` behind which there are files alone.
+fn end_of_options(words: &[OsString]) -> usize {
+    words.iter().position(|word| word == "--").unwrap_or(words.len())
 }
 
 /// The command line of `render` with these words.
@@ -335,8 +404,7 @@ fn words_of(
     camera: Option<&str>,
     [width, height]: [u32; 2],
 ) -> Vec<OsString> {
-    // Behind these two there are files alone.
-    let end = words.iter().position(|word| word == "--").unwrap_or(words.len());
+    let end = end_of_options(words);
     let mut all: Vec<OsString> = ["alberti", "render"].map(OsString::from).to_vec();
     all.extend_from_slice(&words[..end]);
     all.extend(chosen.iter().map(|(option, value)| format!("{option}={value}").into()));

@@ -39,7 +39,7 @@ pub(super) fn with_command(mut words: Vec<OsString>, command: &Command) -> Resul
     }
     let commands = command.get_subcommands().map(Command::get_name);
     let hint = match nearest(&text, commands) {
-        None if &*text == "view" => "a program with a window is built with --features window".to_owned(),
+        None if &*text == "view" => "this program is built without a window".to_owned(),
         Some(command) => format!("did you mean {command}?"),
         None if scenes::NAMES.contains(&&*text) => format!("did you mean --scene {text}?"),
         None => "see --help".to_owned(),
@@ -58,6 +58,7 @@ pub(super) fn of_others(option: &str) -> Option<&'static str> {
         "--rotate" | "--angle" | "--yaw" => "--azimuth",
         "--pitch" => "--elevation",
         "--bg" | "--background-color" => "--background",
+        "--transparent" | "--alpha" => "--background transparent",
         "--colour" => "--diffuse",
         "--ao-map" => "--ao",
         "--color-map" | "--map" => "--texture",
@@ -116,8 +117,7 @@ mod tests {
             #[cfg(not(feature = "window"))]
             (
                 "alberti view",
-                "view: found no such command and no file, expected one of the two; a program with a window is built with \
-                 --features window",
+                "view: found no such command and no file, expected one of the two; this program is built without a window",
             ),
             (
                 "alberti floor",

@@ -30,9 +30,17 @@ pub(crate) fn file_name<'a>(folder: &Path, rest: &'a str) -> &'a str {
     }
 }
 
+/// The image of that name in the folder: as any file, or in a folder there, or in another format.
+pub(crate) fn existing_image(folder: &Path, name: &str) -> Option<Found> {
+    existing(folder, name).or_else(|| {
+        let slashed = name.replace('\\', "/");
+        let base = slashed.rsplit('/').next().filter(|base| !base.is_empty())?;
+        Some(Found { path: elsewhere(folder, base)?, renamed: true })
+    })
+}
+
 /// The file of that name in the folder. Files written on Windows may have `\` between folders. What is not there may be
-/// there with other capitals, or beside the file that names it, without the folders of another machine, or in a folder
-/// there. Of an image it may be another format.
+/// there with other capitals, or beside the file that names it, without the folders of another machine.
 pub(crate) fn existing(folder: &Path, name: &str) -> Option<Found> {
     if name.is_empty() {
         return None;
@@ -48,7 +56,7 @@ pub(crate) fn existing(folder: &Path, name: &str) -> Option<Found> {
     let relative = !slashed.starts_with('/') && slashed.as_bytes().get(1) != Some(&b':');
     let found = relative.then(|| without_case(folder, &slashed)).flatten();
     let found = found.or_else(|| Some(folder.join(base)).filter(|path| path.exists()));
-    let path = found.or_else(|| without_case(folder, base)).or_else(|| elsewhere(folder, base))?;
+    let path = found.or_else(|| without_case(folder, base))?;
     // Bytes that are no text have been replaced in the name, and that is no other name.
     let renamed = path.to_string_lossy() != folder.join(slashed).to_string_lossy();
     Some(Found { path, renamed })
@@ -134,11 +142,14 @@ mod tests {
             ("stone.tif", "Maps/Stone.PNG", true),
         ] {
             let expected = Found { path: folder.path().join(found), renamed };
-            assert_eq!(existing(folder.path(), name), Some(expected), "{name}");
+            assert_eq!(existing_image(folder.path(), name), Some(expected), "{name}");
         }
         for name in ["", "stone.mtl", "wood", "wood.png.jpg", "C:\\x\\other.png", "maps\\other.png"] {
-            assert_eq!(existing(folder.path(), name), None, "{name}");
+            assert_eq!(existing_image(folder.path(), name), None, "{name}");
         }
+        // A library in a folder is that of another model.
+        fs::write(folder.path().join("Maps/m.mtl"), "x").expect("a file");
+        assert_eq!(existing(folder.path(), "m.mtl"), None);
         fs::write(folder.path().join("Wood #1.png"), "x").expect("a file");
         for (rest, name) in [
             ("wood.png # oak", "wood.png"),

@@ -1,5 +1,6 @@
 //! Filters of textures.
 
+use std::fmt;
 use std::str::FromStr;
 
 /// A filter, for places between a texture's texels and for textures smaller on the screen than in memory.
@@ -27,6 +28,13 @@ impl Filter {
         ("anisotropic:8", Self::Anisotropic(Probes::Eight)),
         ("anisotropic:16", Self::Anisotropic(Probes::Sixteen)),
     ];
+}
+
+impl fmt::Display for Filter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = Self::NAMES.into_iter().find(|(_, filter)| filter == self);
+        f.write_str(name.map_or("", |(name, _)| name))
+    }
 }
 
 impl FromStr for Filter {

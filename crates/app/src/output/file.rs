@@ -89,7 +89,7 @@ pub struct Whole {
 }
 
 impl Whole {
-    /// Checks the folder and the file that may be there already. Nothing is left behind.
+    /// Checks the folder, which need not be there, and the file that may be there already. Nothing is left behind.
     ///
     /// # Errors
     /// The file cannot be written: choose another with `option`.
@@ -152,13 +152,14 @@ impl Whole {
         let written = files.iter().map(|(file, bytes)| file.written(bytes)).collect::<Result<Vec<_>, _>>()?;
         let _undisturbed = temporary_files();
         for ((file, _), new) in files.iter().zip(written) {
+            file.make_folder()?;
             new.persist(&file.path)
                 .map_err(|e| file.refused(&format!("that renaming fails ({})", e.error)))?;
         }
         Ok(())
     }
 
-    /// A new file of these bytes in the output's folder.
+    /// A new file of these bytes, in or near the output's folder.
     fn written(&self, bytes: &[u8]) -> Result<NamedTempFile, Error> {
         self.check_unread()?;
         let mut file = self.temporary()?;
@@ -173,12 +174,17 @@ impl Whole {
         Ok(file)
     }
 
-    /// A new file in the output's folder, deleted when dropped.
+    /// Makes the output's folder, and those that it is in, where they are missing.
+    fn make_folder(&self) -> Result<(), Error> {
+        let folder = self.path.parent().unwrap_or(Path::new(""));
+        fs::create_dir_all(folder)
+            .map_err(|error| self.refused(&format!("a folder that cannot be made ({error})")))
+    }
+
+    /// A new file, deleted when dropped, in the output's folder, or the nearest around it that is there.
     fn temporary(&self) -> Result<NamedTempFile, Error> {
-        let folder = match self.path.parent() {
-            Some(folder) if !folder.as_os_str().is_empty() => folder,
-            _ => Path::new("."),
-        };
+        let mut around = self.path.ancestors().skip(1);
+        let folder = around.find(|folder| folder.exists()).unwrap_or(Path::new("."));
         let mut builder = tempfile::Builder::new();
         builder.prefix(".alberti-");
         // As for any new file, not private as for most temporary ones.
@@ -189,7 +195,6 @@ impl Whole {
             // Some folders are there, and answer that a new file is not: those of the system's own files.
             self.refused(&match (error.kind(), folder.is_dir()) {
                 (ErrorKind::NotFound, true) => "a folder that takes no new files".to_owned(),
-                (ErrorKind::NotFound, false) => "no such folder".to_owned(),
                 (ErrorKind::NotADirectory, _) => "a file in the place of its folder".to_owned(),
                 (ErrorKind::PermissionDenied, _) => "a folder that may not be written".to_owned(),
                 _ => format!("a folder that cannot be written ({error})"),
@@ -242,6 +247,10 @@ impl Output {
     /// The extension is unknown, or the file cannot be written.
     pub fn new(named: &Path, format: Option<&str>) -> Result<Self, Error> {
         let standard = named.as_os_str() == STANDARD;
+        if named.is_dir() {
+            let hint = format!("name a file in it, such as {}", named.join("picture.png").display());
+            return Err(Error::new("a directory", "a file that can be written").file(named).hint(hint));
+        }
         let extension = named.extension().map(|e| e.to_string_lossy().to_lowercase());
         let extension = format.map(str::to_owned).or(extension);
         let is_stream = fs::metadata(named).is_ok_and(|is| !is.is_file() && !is.is_dir());
@@ -265,6 +274,12 @@ impl Output {
             (..) => Sink::File(Whole::new(named, "-o")?),
         };
         Ok(Self { named: named.to_owned(), sink, format })
+    }
+
+    /// Whether a name has the extension of a picture.
+    pub(crate) fn is_format_of(named: &Path) -> bool {
+        let extension = named.extension().map(|e| e.to_string_lossy().to_lowercase());
+        FORMATS.iter().any(|(name, _)| extension.as_deref() == Some(name))
     }
 
     /// The path as the user gave it, for messages.
@@ -387,112 +402,4 @@ fn unwritten(error: &io::Error, place: &str) -> Error {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn picture() -> Image {
-        Image { width: 2, height: 1, texels: vec![[255, 0, 0, 255], [0, 0, 255, 255]] }
-    }
-
-    #[test]
-    fn every_format_reads_back() {
-        let folder = tempfile::tempdir().unwrap();
-        for (extension, format) in FORMATS {
-            let path = folder.path().join(format!("a.{}", extension.to_uppercase()));
-            Output::new(&path, None).unwrap().write(&picture()).unwrap();
-            let back = image::load_from_memory_with_format(&fs::read(&path).unwrap(), format).unwrap();
-            assert_eq!((back.width(), back.height()), (2, 1));
-            if format != ImageFormat::Jpeg {
-                assert_eq!(back.to_rgba8().as_raw(), &[255, 0, 0, 255, 0, 0, 255, 255]);
-            }
-            let clear = Image { width: 1, height: 2, texels: vec![[9, 8, 7, 6], [255, 0, 0, 255]] };
-            let output = Output::new(&path, None).unwrap();
-            assert_eq!(output.write_with_alpha(&clear).is_ok(), WITH_ALPHA.contains(&format));
-            if WITH_ALPHA.contains(&format) {
-                let back = image::load_from_memory_with_format(&fs::read(&path).unwrap(), format).unwrap();
-                assert_eq!(back.to_rgba8().as_raw(), clear.texels.as_flattened());
-            }
-            fs::remove_file(path).unwrap();
-        }
-        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
-    }
-
-    #[test]
-    fn what_cannot_be_written_is_known_early() {
-        let folder = tempfile::tempdir().unwrap();
-        let at = |name: &str| folder.path().join(name);
-        fs::create_dir(at("d.png")).unwrap();
-        fs::write(at("file"), "").unwrap();
-        fs::write(at("r.png"), "").unwrap();
-        let mut permissions = fs::metadata(at("r.png")).unwrap().permissions();
-        permissions.set_readonly(true);
-        fs::set_permissions(at("r.png"), permissions).unwrap();
-        for (name, found) in [
-            ("a", "found no extension, expected one of .png"),
-            ("a.gif", "found the extension \".gif\", expected one of .png"),
-            ("a.exr", "numbers: --aov depth --aov-format exr"),
-            ("a.mp4", "films are made by alberti turntable"),
-            ("d.png", "found a directory"),
-            ("no/a.png", "found no such folder"),
-            ("file/a.png", "found a file in the place of its folder"),
-            ("r.png", "found a file that is read-only"),
-            ("x.png/", "found the name of a folder"),
-            (&format!("{}.png", "x".repeat(300)), "found a name that no file can have"),
-        ] {
-            let message = Output::new(&at(name), None).unwrap_err().to_string();
-            assert!(message.contains(found), "{message}");
-        }
-        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3);
-    }
-
-    #[test]
-    fn files_that_belong_together_are_written_together() {
-        let folder = tempfile::tempdir().unwrap();
-        let (first, gone) = (folder.path().join("a"), folder.path().join("gone"));
-        fs::write(&first, "old").unwrap();
-        fs::create_dir(&gone).unwrap();
-        let files = [&first, &gone.join("b")].map(|path| Whole::new(path, "--out").unwrap());
-        let write = || Whole::write_all(&[(&files[0], b"new"), (&files[1], b"new")]);
-        fs::remove_dir(&gone).unwrap();
-        let message = write().unwrap_err().to_string();
-        assert!(message.contains("found no such folder"), "{message}");
-        assert_eq!(fs::read(&first).unwrap(), b"old");
-        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
-        fs::create_dir(&gone).unwrap();
-        write().unwrap();
-        assert_eq!([fs::read(&first).unwrap(), fs::read(gone.join("b")).unwrap()], [b"new", b"new"]);
-    }
-
-    /// A folder that exists is never said to be missing.
-    #[cfg(target_os = "linux")]
-    #[test]
-    fn folders_of_the_system_take_no_new_files() {
-        let message = Output::new(Path::new("/proc/x.png"), None).unwrap_err().to_string();
-        let expected =
-            "/proc/x.png: found a folder that takes no new files, expected a file that can be written";
-        assert!(message.starts_with(expected), "{message}");
-    }
-
-    #[cfg(unix)]
-    #[test]
-    fn links_are_written_through() {
-        let folder = tempfile::tempdir().unwrap();
-        let (file, link) = (folder.path().join("a.png"), folder.path().join("l.png"));
-        fs::write(&file, "old").unwrap();
-        std::os::unix::fs::symlink(&file, &link).unwrap();
-        let output = Output::new(&link, None).unwrap();
-        assert_eq!(fs::read(&file).unwrap(), b"old");
-        output.write(&picture()).unwrap();
-        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
-        assert!(fs::read(&file).unwrap().starts_with(b"\x89PNG"));
-        assert!(output.is(&file));
-        // Permissions stay, and a link to nothing yet is followed as well.
-        use std::os::unix::fs::PermissionsExt as _;
-        fs::set_permissions(&file, fs::Permissions::from_mode(0o640)).unwrap();
-        output.write(&picture()).unwrap();
-        assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o640);
-        fs::remove_file(&file).unwrap();
-        Output::new(&link, None).unwrap().write(&picture()).unwrap();
-        assert!(fs::symlink_metadata(&link).unwrap().is_symlink() && file.is_file());
-    }
-}
+mod tests;

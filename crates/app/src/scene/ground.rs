@@ -1,4 +1,5 @@
-//! A ground under a model, of which only its soft shadow is seen: the background shows through all else.
+//! A ground under a model, of which only its soft shadow is seen: the background shows through all else, or a floor of
+//! the model's own, on which it lies.
 //!
 //! The shadow is that of a sky without a sun: a texture of alpha, made once, of how much of the sky the model hides.
 
@@ -8,6 +9,7 @@ use crate::scene::normals::{dot, narrow, normalize, sub};
 use alberti::raster::color::AnyBlend;
 use sky::Sky;
 
+mod floor;
 mod framed;
 mod opacity;
 mod sky;
@@ -38,6 +40,10 @@ struct Ground {
     side: f64,
     /// The height along the upward axis.
     low: f64,
+    /// The distance up to which a face is at that height.
+    near: f64,
+    /// Whether it is over a floor of the model's own.
+    on_floor: bool,
     /// How high the model is above it.
     height: f64,
     /// How far away the model still darkens it.
@@ -58,97 +64,76 @@ pub(crate) struct Manner {
     pub(crate) wrap: Wrap,
 }
 
-/// Adds a ground at the lowest point of a model, or of all places that it comes to, and says whether it did. It does
-/// not if all of the cameras are below it. Planes of the others that are not fixed are moved so that all of it is
-/// between them.
-/// Where attributes are affine, it is of so many squares that none shows that.
+/// Adds a ground at the lowest point of a model, or of all places that it comes to, and says whether it did. A floor of
+/// its own has the shadow on it. There is none if all of the cameras are below it. Planes of the others that are not
+/// fixed are moved so that all of it is between them. Where attributes are affine, a ground is of so many squares that
+/// none shows that.
 pub(crate) fn add(model: &mut Model, swept: Option<&Model>, cameras: &mut [Camera], manner: Manner) -> bool {
     let Manner { fixed, affine, depth, wrap } = manner;
-    let whole = swept.unwrap_or(model);
-    let Some(above) = above(whole, cameras, depth).filter(|above| above.contains(&true)) else {
+    let first = cameras.first().map(|first| first.up);
+    let Some(ground) = first.and_then(|up| floor::ground(model, swept, up, depth)) else { return false };
+    let above: Vec<bool> = cameras.iter().map(|camera| ground.is_below(camera)).collect();
+    if !above.contains(&true) {
         return false;
-    };
-    let Some(ground) = cameras.first().and_then(|first| Ground::of(whole, first.up, below(depth))) else {
-        return false;
-    };
+    }
     let texels = ground.shadow(model, wrap).into_iter().map(|alpha| [0, 0, 0, alpha]).collect();
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|uv| ground.place(uv));
-    let seen = cameras.iter_mut().zip(above).filter(|(_, above)| *above);
+    // Beyond a floor nothing of it is seen.
+    let seen = cameras.iter_mut().zip(above).filter(|(_, above)| *above && !ground.on_floor);
     seen.for_each(|(camera, _)| stretch(camera, &corners, fixed));
     let first = u32::try_from(model.vertices.len()).unwrap_or(u32::MAX);
     let mut normal = [0.0; 3];
     normal[ground.up.0] = narrow(ground.up.1);
-    let squares: u16 = if affine { 48 } else { 1 };
-    let shares = || (0..=squares).map(|k| f64::from(k) / f64::from(squares));
-    let uvs = shares().flat_map(|v| shares().map(move |u| [u, v]));
-    model.vertices.extend(uvs.map(|uv| Vertex {
-        position: ground.place(uv).map(narrow),
+    let (places, triangles) = if ground.on_floor {
+        let places = floor::places(model, &ground);
+        let count = u32::try_from(places.len()).unwrap_or(0);
+        (places, (0..count).step_by(3).map(|k| [k, k + 1, k + 2]).collect())
+    } else {
+        ground.squares(if affine { 48 } else { 1 })
+    };
+    model.vertices.extend(places.into_iter().map(|place| Vertex {
+        position: place.map(narrow),
         normal,
-        uv: uv.map(narrow),
+        uv: ground.shares(place).map(narrow),
         ..Vertex::default()
     }));
+    let triangles = triangles.into_iter().map(|triangle| triangle.map(|k| first + k)).collect();
     let side = ground.cells / 2;
     model.textures.push(Image { width: side, height: side, texels }.into());
     let map =
         Map { image: model.textures.len() - 1, filter: Some(Filter::Bilinear), wrap: Some(Wrap::Clamp) };
-    let squares = u32::from(squares);
-    let corner = |row: u32, column: u32| first + row * (squares + 1) + column;
-    let square = |(row, column): (u32, u32)| {
-        let [a, b] = [0, 1].map(|right| corner(row, column + right));
-        let [d, c] = [0, 1].map(|right| corner(row + 1, column + right));
-        [[a, b, c], [a, c, d]]
-    };
-    let places = (0..squares).flat_map(|row| (0..squares).map(move |column| (row, column)));
-    let triangles = places.flat_map(square).collect();
     let mut part = Part { name: "ground".to_owned(), triangles, texture: Some(map.image), ..Part::default() };
     (part.detail.filter, part.detail.wrap) = (map.filter, map.wrap);
     (part.detail.blend, part.detail.specular) = (AnyBlend::Over, [0.0; 3]);
     if depth == DepthFormat::None {
-        model.parts.insert(0, part);
+        let at = if ground.on_floor { floor::after(model, &ground) } else { 0 };
+        model.parts.insert(at, part);
     } else {
         order::behind_all(model, part);
     }
     true
 }
 
-/// The shares of a model's radius that its ground is below it: as many as depths can tell.
+/// The shares of a model's radius that its ground is below it, or over its floor: as many as depths can tell.
 fn below(depth: DepthFormat) -> f64 {
     if depth == DepthFormat::U16 { 2e-3 } else { 1e-4 }
 }
 
-/// Whether cameras are above the ground of a model, which is across the first one's upward direction. None if there is
-/// nothing to stand on it.
-pub(crate) fn above(model: &Model, cameras: &[Camera], depth: DepthFormat) -> Option<Vec<bool>> {
-    let ground = Ground::of(model, cameras.first()?.up, below(depth))?;
+/// Whether cameras are above the ground of a model, or of all places that it comes to, which is across the first one's
+/// upward direction. None if there is nothing to stand on it.
+pub(crate) fn above(
+    model: &Model,
+    swept: Option<&Model>,
+    cameras: &[Camera],
+    depth: DepthFormat,
+) -> Option<Vec<bool>> {
+    let ground = floor::ground(model, swept, cameras.first()?.up, depth)?;
     Some(cameras.iter().map(|camera| ground.is_below(camera)).collect())
 }
 
-/// Whether a floor of the model's own lies at its lowest point, and hides a ground below. A floor is of faces that look
-/// up, and has a quarter of the model's extent at least.
-pub(crate) fn has_floor(model: &Model, camera: &Camera, depth: DepthFormat) -> bool {
-    let Some(Ground { up: (up, sign), low, .. }) = Ground::of(model, camera.up, below(depth)) else {
-        return false;
-    };
-    let [least, most] = bounds(model);
-    let [a, b] = others(up);
-    let (size, [width, length]) = (sub(most, least), [a, b].map(|axis| most[axis] - least[axis]));
-    let near = 2.0 * below(depth) * dot(size, size).sqrt();
-    let area: f64 = model
-        .parts
-        .iter()
-        .flat_map(|part| &part.triangles)
-        .filter_map(|triangle| {
-            let corners = triangle.map(|index| model.vertices.get(index as usize));
-            let [Some(p), Some(q), Some(r)] = corners else { return None };
-            let is_low = |v: &&Vertex| (f64::from(v.position[up]) - low).abs() < near;
-            let looks_up = |v: &&Vertex| f64::from(v.normal[up]) * sign > 0.9;
-            let all = [p, q, r];
-            let [p, q, r] = all.map(|vertex| [a, b].map(|axis| f64::from(vertex.position[axis])));
-            let doubled = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
-            all.iter().all(|v| is_low(v) && looks_up(v)).then_some(doubled.abs() / 2.0)
-        })
-        .sum();
-    area > 0.25 * width * length
+/// Whether a model has a floor of its own, on which a shadow lies.
+pub(crate) fn has_floor(model: &Model, swept: Option<&Model>, up: [f32; 3]) -> bool {
+    floor::ground(model, swept, up, DepthFormat::default()).is_some_and(|ground| ground.on_floor)
 }
 
 /// Moves the planes of a camera so that these points are between them.
@@ -191,6 +176,7 @@ impl Ground {
         sign * (f64::from(camera.eye[up]) - self.low) > 0.0
     }
 
+    /// The ground that many radii below a model.
     fn of(model: &Model, upwards: [f32; 3], below: f64) -> Option<Self> {
         let up = (0..3).max_by(|&a, &b| upwards[a].abs().total_cmp(&upwards[b].abs()))?;
         let sign = f64::from(upwards[up].signum());
@@ -211,7 +197,9 @@ impl Ground {
         let cells =
             std::iter::successors(Some(least), |cells| Some(2 * cells)).find(|c| is_fine(c) || *c >= most);
         let height = size[up] + below * radius;
-        Some(Self { up: (up, sign), corner, side, low, height, reach, cells: cells.unwrap_or(most) })
+        let near = 4.0 * below.abs() * radius;
+        let cells = cells.unwrap_or(most);
+        Some(Self { up: (up, sign), corner, side, low, near, on_floor: false, height, reach, cells })
     }
 
     /// A place on it, of shares of its sides.
@@ -221,6 +209,26 @@ impl Ground {
             place[axis] = corner + share * self.side;
         }
         place
+    }
+
+    /// The shares of its sides at which a place is.
+    fn shares(&self, place: [f64; 3]) -> [f64; 2] {
+        let [a, b] = others(self.up.0);
+        [(place[a] - self.corner[0]) / self.side, (place[b] - self.corner[1]) / self.side]
+    }
+
+    /// So many squares along each side: their corners, and triangles of these.
+    fn squares(&self, count: u16) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
+        let shares = || (0..=count).map(|k| f64::from(k) / f64::from(count));
+        let places = shares().flat_map(|v| shares().map(move |u| self.place([u, v]))).collect();
+        let count = u32::from(count);
+        let square = |(row, column): (u32, u32)| {
+            let corner = |up: u32, right: u32| (row + up) * (count + 1) + column + right;
+            let [a, b, c, d] = [corner(0, 0), corner(0, 1), corner(1, 1), corner(1, 0)];
+            [[a, b, c], [a, c, d]]
+        };
+        let squares = (0..count).flat_map(|row| (0..count).map(move |column| (row, column)));
+        (places, squares.flat_map(square).collect())
     }
 
     /// A place in cells: columns, rows, and how high.

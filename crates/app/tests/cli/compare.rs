@@ -210,7 +210,7 @@ fn pictures_are_not_written_over() {
     let also_read = "found a file that is also read, expected another; choose another with --heat";
     folder.refuses("grey.png three.png --heat grey.png", &["error: grey.png: ", also_read]);
     folder.refuses("grey.png three.png --heat ./three.png", &["error: ./three.png: ", also_read]);
-    folder.refuses("grey.png three.png --heat no/h.png", &["error: no/h.png: ", "with --heat"]);
+    folder.refuses("grey.png three.png --heat grey.png/h.png", &["error: grey.png/h.png: ", "with --heat"]);
     folder.refuses("grey.png three.png --heat h.gif", &["error: h.gif: ", ".png, .jpg"]);
     folder.refuses("grey.png wide.png --heat h.png", &["51x40"]);
 }

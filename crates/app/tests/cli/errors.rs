@@ -290,7 +290,6 @@ fn outputs_that_cannot_be_written() {
     );
     folder.fails(&["-o", "out"], &["error: out: found no extension"]);
     folder.fails(&["-o", "d.png"], &["error: d.png: found a directory"]);
-    folder.fails(&["-o", "no/out.png"], &["error: no/out.png: found no such folder"]);
     // Before anything is read, so that nobody waits for a picture that has no place.
     folder.fails(
         &["m.obj", "-o", "file/out.png"],

@@ -278,8 +278,10 @@ fn mistakes_are_told() {
             "a.jpg: found the extension \".jpg\", expected one of .gif, .png, .apng, ",
         ),
         ("turntable m.obj -o a", "a: found no extension, expected one of .gif, "),
-        ("turntable m.obj -o no/a.gif", "no/a.gif: found no such folder"),
-        ("turntable m.obj -o m.obj/%d.png", "m.obj: found a file, expected a folder; choose another with -o"),
+        (
+            "turntable m.obj -o m.obj/%d.png",
+            "m.obj/0.png: found a file in the place of its folder, expected a file that can be written; choose another",
+        ),
         ("turntable m.obj -o %d.tif", "0.tif: found the extension \".tif\""),
         ("turntable m.obj --frames 0", "--frames: found \"0\", expected a whole number from 1 to 100000"),
         (

@@ -164,7 +164,10 @@ fn wrong_input_is_one_error() {
         (&["no.obj"][..], "no.obj: found no such file, expected a Wavefront OBJ model"),
         (&["a.obj"], "a.obj:1: found vertex index 1"),
         (&["p.png"], "p.png: found "),
-        (&["t.obj", "t.obj"], "found one file too many, expected no other file or word"),
+        (
+            &["t.obj", "t.obj"],
+            "found one file too many, expected no other file: a scene file has several models",
+        ),
         (&["t.obj", "--output", "x.png"], "--output: found an option that `info` has not"),
         (&["t.obj", "--sizes", "3"], "--sizes: found no such option, expected one, such as --size"),
     ] {

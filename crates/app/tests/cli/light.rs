@@ -270,22 +270,43 @@ fn a_ground_has_a_soft_shadow() {
     }
 }
 
-/// A floor of the scene's own hides the ground, which is told; the underside of a box is none.
+/// A floor of the scene's own has the shadow on it, and nothing else changes. What is no floor stands on a ground.
 #[test]
-fn floors_over_the_ground_are_told() {
-    let scene = |floor: &str| {
+fn floors_have_shadows_on_them() {
+    let scene = |floor: &str, ground: bool| {
         format!(
-            "size = [64, 48]\n[render]\nsamples = 1\nground = true\n{floor}[[object]]\nsurface = \"sphere\"\nposition = [0, 1, 0]\n"
+            "size = [64, 48]\nbackground = \"a0a0a0\"\n[render]\nsamples = 1\nground = {ground}\n[camera]\nelevation = 40\n\
+             {floor}[[object]]\nsurface = \"sphere\"\nname = \"ball\"\nposition = [0, 1, 0]\n"
         )
     };
-    let floor = "[[object]]\nsurface = \"plane\"\nsize = [4, 4]\n";
+    let floor = "[[object]]\nsurface = \"plane\"\nsize = [6, 6]\n";
     let shelf = "[[object]]\nsurface = \"plane\"\nsize = [4, 4]\nposition = [0, 3, 0]\n";
     let upside_down = "[[object]]\nsurface = \"plane\"\nsize = [4, 4]\nrotation = [180, 0, 0]\n";
-    for (floor, told) in [(floor, true), (shelf, false), (upside_down, false), ("", false)] {
-        let folder = Folder::with(&[("s.toml", scene(floor).as_bytes())]);
-        let run = folder.succeeds(&["s.toml"]);
-        assert_eq!(run.stderr.contains("--ground: found a floor at the lowest point"), told, "{run:?}");
-        assert_eq!(run.stderr.is_empty(), !told, "{run:?}");
+    let camera = |run: &crate::Run| run.stdout.lines().nth(1).map(str::to_owned);
+    let sunk = "[[object]]\nsurface = \"plane\"\nsize = [6, 6]\nposition = [0, 0.1, 0]\n";
+    let motion = "[[animation]]\nof = \"ball\"\nkey = \"position\"\ntimes = [0, 1]\nvalues = [[0, 1, 0], [0, 1.5, 0]]\n";
+    for (floor, motion, is_floor) in [
+        (floor, "", true),
+        (floor, motion, true),
+        (sunk, "", true),
+        (shelf, "", false),
+        (upside_down, "", false),
+        ("", "", false),
+    ] {
+        let texts = [true, false].map(|ground| scene(floor, ground) + motion);
+        let folder = Folder::with(&[("s.toml", texts[0].as_bytes()), ("bare.toml", texts[1].as_bytes())]);
+        let runs = ["s", "bare"]
+            .map(|name| folder.succeeds(&[&format!("{name}.toml"), "-o", &format!("{name}.png")]));
+        assert!(runs.iter().all(|run| run.stderr.is_empty()), "{runs:?}");
+        assert_eq!(camera(&runs[0]) == camera(&runs[1]), is_floor, "{runs:?}");
+        if is_floor {
+            let [with, without] = ["s.png", "bare.png"]
+                .map(|name| image::open(folder.path(name)).expect("a picture").to_rgb8());
+            let pairs = || with.pixels().zip(without.pixels()).map(|(a, b)| [a.0, b.0]);
+            assert!(pairs().all(|[with, without]| with.iter().zip(without).all(|(a, b)| *a <= b)));
+            let darker = pairs().filter(|[with, without]| u32::from(with[0]) * 5 < u32::from(without[0]) * 4);
+            assert!((40..800).contains(&darker.count()));
+        }
     }
 }
 

@@ -130,7 +130,7 @@ fn signals_leave_all_files_as_they_were() {
     for (arguments, is_begun) in [
         ("- -o out.bmp", None),
         ("- -o out.bmp --aov depth --aov-format exr", None),
-        ("bake - --out new/deep", Some("new/deep")),
+        ("bake - --out new/deep", None),
         ("--scene hero -s 900x900 --samples 16 -j 1 -o out.bmp", None),
         (
             "--scene cube -s 700x700 --samples 1 -o out.bmp --aov depth,normal --aov-format exr",

@@ -32,7 +32,7 @@ fn a_file_is_rendered_without_the_word() {
         ("no.obj", "error: no.obj: found no such file, expected a Wavefront OBJ model"),
         (
             "m.obj other.obj",
-            "error: other.obj: found one file too many, expected no other file or word; see --help",
+            "error: other.obj: found one file too many, expected no other file: a scene file has several models; see --help",
         ),
     ] {
         let made = run(&folder, line);
@@ -135,9 +135,15 @@ fn mistakes_of_usage_are_one_line() {
         ("m.obj --memory 1K", "error: --memory: found a picture of 640x480 "),
         ("m.obj --pixel 3,3", "error: --pixel: found no such option, expected it with alberti explain alone"),
         ("compare - -", "error: -: found standard input for both, expected a file as one of the two"),
+        ("advise m.obj --image m.obj", "error: m.obj/pick.png: found a file in the place of its folder, "),
+        ("m.obj out.PNG", "error: out.PNG: found one file too many, expected -o out.PNG for the picture"),
         (
-            "advise m.obj --image m.obj",
-            "error: m.obj: found a file, expected a folder; choose another with --image",
+            "m.obj n.obj",
+            "error: n.obj: found one file too many, expected no other file: a scene file has several",
+        ),
+        (
+            "m.obj --transparent",
+            "error: --transparent: found no such option, expected one, such as --background",
         ),
         ("completions fisch", "error: <SHELL>: found \"fisch\", expected one of bash, "),
     ] {

@@ -142,7 +142,7 @@ fn there_is_something_to_watch() {
         (&["no.obj"], "no.obj: found no such file"),
         (&["m.obj", "-o", "-"], "-o: found standard output, expected a file"),
         (&["m.obj", "-o", "m.gif"], "m.gif: found the extension"),
-        (&["m.obj", "-o", "no/m.png"], "no/m.png: found no such folder"),
+        (&["m.obj", "-o", "m.obj/m.png"], "m.obj/m.png: found a file in the place of its folder"),
     ] {
         let run = alberti(folder.0.path(), &[OsStr::new("watch")], arguments);
         assert_eq!(run.status, Some(2), "{run:?}");

@@ -25,7 +25,8 @@ pub(super) enum Action {
     Quit,
 }
 
-/// An option whose values a key goes through, after which comes that of the command line.
+/// An option whose values a key goes through, from that of the command line on, which is one more if it is not among
+/// them.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Cycle {
     key: char,
@@ -36,7 +37,7 @@ pub(super) struct Cycle {
 }
 
 /// The cycles, in the order of the list of keys.
-const CYCLES: [Cycle; 12] = [
+pub(super) const CYCLES: [Cycle; 12] = [
     cycle('i', "--interpolation", &["exact", "plane", "spans:16", "bounded:0.0625", "affine"], true),
     cycle('f', "--filter", &["nearest", "bilinear", "trilinear", "anisotropic:4", "anisotropic:16"], false),
     cycle('r', "--relief", &["bump", "parallax", "steep", "occlusion", "displacement"], false),
@@ -56,12 +57,20 @@ const fn cycle(key: char, option: &'static str, values: &'static [&'static str],
 }
 
 impl Cycle {
-    /// The value after this one, of which `None` is that of the command line.
-    pub(super) fn next(&self, value: Option<&str>, forwards: bool) -> Option<&'static str> {
-        let at = value.and_then(|value| self.values.iter().position(|other| *other == value));
-        let count = self.values.len() + 1;
-        let next = (at.map_or(0, |at| at + 1) + if forwards { 1 } else { count - 1 }) % count;
-        next.checked_sub(1).map(|index| self.values[index])
+    /// The value after the chosen one, of which `None` is that of the command line, which is `first`.
+    pub(super) fn next(
+        &self,
+        chosen: Option<&str>,
+        first: Option<&str>,
+        forwards: bool,
+    ) -> Option<&'static str> {
+        let place = |value: &str| self.values.iter().position(|other| *other == value);
+        let first = first.and_then(place);
+        let own = self.values.len();
+        let at = chosen.and_then(place).or(first).unwrap_or(own);
+        let count = own + usize::from(first.is_none());
+        let next = (at + if forwards { 1 } else { count - 1 }) % count;
+        self.values.get(next).copied().filter(|_| first != Some(next))
     }
 }
 
@@ -121,7 +130,7 @@ pub(super) fn list() -> Vec<String> {
         lines.push(format!("{}  {:<18}{}", key.to_ascii_uppercase(), &option[2..], values.join(" ")));
     }
     lines.push("shift goes back through these".to_owned());
-    lines.push("P  the picture in a file, its options on standard output".to_owned());
+    lines.push("P  the picture in a file, its command on standard output".to_owned());
     lines.push("Tab  without text     H  this list     Q, Esc  the end".to_owned());
     lines
 }
@@ -134,16 +143,26 @@ mod tests {
     fn cycles_come_back_to_the_command_line() {
         for cycle in &CYCLES {
             for forwards in [true, false] {
-                let (mut value, mut seen) = (None, Vec::new());
-                loop {
-                    value = cycle.next(value, forwards);
-                    let Some(value) = value else { break };
-                    seen.push(value);
+                let all = |first: Option<&str>| {
+                    let (mut value, mut seen) = (None, Vec::new());
+                    loop {
+                        value = cycle.next(value, first, forwards);
+                        let Some(value) = value else { break };
+                        seen.push(value);
+                    }
+                    if !forwards {
+                        seen.reverse();
+                    }
+                    seen
+                };
+                for first in [None, Some("of another kind")] {
+                    assert_eq!(all(first), cycle.values, "{}", cycle.option);
                 }
-                if !forwards {
-                    seen.reverse();
+                // From one of them on, the others follow.
+                for k in 0..cycle.values.len() {
+                    let (before, after) = cycle.values.split_at(k);
+                    assert_eq!(all(Some(after[0])), [&after[1..], before].concat(), "{}", cycle.option);
                 }
-                assert_eq!(seen, cycle.values, "{}", cycle.option);
             }
         }
     }

@@ -55,12 +55,25 @@ pub(super) fn panned(camera: &Camera, projection: Projection, [right, upwards]: 
     Camera { eye: moved(camera.eye), target: moved(camera.target), ..*camera }
 }
 
-/// The camera so many times as near to its target.
-pub(super) fn nearer(camera: &Camera, factor: f64) -> Camera {
+/// The distances between which a model of radius 1 is looked at.
+const DISTANCES: [f64; 2] = [1e-3, 300.0];
+
+/// Whether a distance from a model is one to look from, after it was made so many times less. One that is too far away
+/// may come back.
+pub(super) fn is_useful(distance: f64, radius: f64, factor: f64) -> bool {
+    let [least, most] = DISTANCES.map(|distance| distance * radius);
+    if factor > 1.0 { distance >= least } else { distance <= most }
+}
+
+/// The camera so many times as near to its target, before a model of this radius.
+pub(super) fn nearer(camera: &Camera, radius: f64, factor: f64) -> Camera {
     let target = camera.target.map(f64::from);
     let arm = sub(camera.eye.map(f64::from), target);
     let eye = [0, 1, 2].map(|k| narrow(target[k] + arm[k] / factor));
-    if eye == camera.target || eye.iter().any(|x| !x.is_finite()) {
+    if eye == camera.target
+        || !is_useful(length(arm) / factor, radius, factor)
+        || eye.iter().any(|x| !x.is_finite())
+    {
         return *camera;
     }
     Camera { eye, ..*camera }
@@ -112,8 +125,16 @@ mod tests {
 
     #[test]
     fn a_factor_is_one_of_distance() {
-        close(nearer(&CAMERA, 2.0).eye, [1.0, 2.0, 3.5]);
+        close(nearer(&CAMERA, 1.0, 2.0).eye, [1.0, 2.0, 3.5]);
+        // A model is neither entered to its middle nor lost out of sight, and a lost one comes back.
+        let mut camera = CAMERA;
+        (0..200).for_each(|_| camera = nearer(&camera, 1.0, 0.8));
+        assert!((200.0..=300.0).contains(&(camera.eye[2] - 1.0)), "{camera:?}");
+        (0..200).for_each(|_| camera = nearer(&camera, 1.0, 1.25));
+        assert!((0.001..0.002).contains(&(camera.eye[2] - 1.0)), "{camera:?}");
+        let lost = Camera { eye: [1.0, 2.0, 9e3], ..CAMERA };
+        assert!(nearer(&lost, 1.0, 1.25).eye[2] < 8e3);
         // An eye that rounds to the target stays where it is.
-        assert_eq!(nearer(&CAMERA, 1e12), CAMERA);
+        assert_eq!(nearer(&CAMERA, 1e-12, 1e12), CAMERA);
     }
 }

@@ -91,7 +91,8 @@ fn keys_and_the_mouse_change_the_picture() {
     let mut viewer = viewer(folder.path(), "--samples 1");
     let picture = |viewer: &Viewer| viewer.picture(false).expect("a picture").image;
     let first = picture(&viewer);
-    for keys in ["<", "+", "^", "1", "v", "sssss", "o", "f", "l", "g"] {
+    // From what the command line has on, no press is without effect; faces that are flat are alike in three shadings.
+    for keys in ["<", "+", "^", "1", "v", "i", "ssss", "a", "o", "f", "l", "g"] {
         act(&mut viewer, keys);
         assert!(picture(&viewer) != first, "{keys}");
         viewer = super::tests::viewer(folder.path(), "--samples 1");
@@ -101,11 +102,11 @@ fn keys_and_the_mouse_change_the_picture() {
     let before = viewer.camera();
     act(&mut viewer, "++");
     assert!(viewer.camera().near < 0.9 * before.near);
-    act(&mut viewer, "iiiii0");
+    act(&mut viewer, "iiii0");
     // The first camera comes back, and so do the first options.
     act(&mut viewer, ">^0");
     assert!(picture(&viewer) == first);
-    act(&mut viewer, "iiiiii");
+    act(&mut viewer, "iiiii");
     assert!(viewer.options().is_empty() && picture(&viewer) == first);
 }
 
@@ -150,4 +151,39 @@ fn options_that_cannot_be_are_told_and_change_nothing() {
     assert!(told.contains("--arithmetic"), "{told}");
     assert!(viewer.options().is_empty());
     assert!(viewer.picture(false).expect("a picture").image == before);
+}
+
+/// Pictures that are kept replace none, unless `-o` names their file, and their command makes them again.
+#[test]
+fn kept_pictures_have_their_command() {
+    let folder = folder();
+    let mut viewer = viewer(folder.path(), "--samples 1 -q");
+    act(&mut viewer, ">gs");
+    let shown = viewer.picture(false).expect("a picture").image;
+    let output = folder.path().join("kept one.png");
+    viewer.output = Some(output.clone());
+    viewer.words.extend(["-o".into(), output.clone().into_os_string()]);
+    assert_eq!(viewer.keep().expect("a picture"), output);
+    let kept = image::open(&output).expect("a picture").to_rgba8();
+    assert!(kept.pixels().map(|pixel| pixel.0).eq(shown.texels.iter().copied()));
+    let words = viewer.all_words();
+    let command = words.iter().map(|word| typed(word)).collect::<Vec<_>>().join(" ");
+    for part in ["--ground=true", "--shading=gouraud", "--size 96x72", "--eye ", "'", "kept one.png'"] {
+        assert!(command.contains(part), "{part}: {command}");
+    }
+    // A shell has the same words of it.
+    #[cfg(unix)]
+    {
+        let script = format!("printf '%s\\n' {command}");
+        let told = std::process::Command::new("sh").args(["-c", &script]).output().expect("a shell").stdout;
+        let words: Vec<_> = words.iter().map(|word| word.to_string_lossy().into_owned()).collect();
+        assert_eq!(String::from_utf8_lossy(&told).lines().collect::<Vec<_>>(), words);
+    }
+    assert_eq!(typed(OsStr::new("a'b c")), r"'a'\''b c'");
+    let stem = folder.path().join("m").to_string_lossy().into_owned();
+    for k in 1..4 {
+        let name = folder.path().join(format!("m-{k}.png"));
+        assert_eq!(unused(&stem), name);
+        fs::write(name, "").expect("a file");
+    }
 }

@@ -67,6 +67,8 @@ struct Screen {
     took: Duration,
     moved: Option<Instant>,
     message: Option<(String, Instant)>,
+    /// The error of the files, as long as they have it.
+    fault: Option<String>,
     has_help: bool,
     has_text: bool,
     cursor: [f64; 2],
@@ -87,6 +89,7 @@ impl Screen {
             took: Duration::ZERO,
             moved: None,
             message: None,
+            fault: None,
             has_help: false,
             has_text: true,
             cursor: [0.0; 2],
@@ -135,6 +138,17 @@ impl Screen {
         }
     }
 
+    /// Reads all files again. An error stays in the window until they are mended.
+    fn reload(&mut self) {
+        self.fault = self.viewer.reload().err().map(|error| {
+            fail(&error);
+            error.to_string()
+        });
+        self.is_old |= self.fault.is_none();
+        self.message = None;
+        self.redraw();
+    }
+
     fn redraw(&self) {
         if let Some((window, _)) = &self.target {
             window.request_redraw();
@@ -151,11 +165,14 @@ impl Screen {
         if matches!(action, Action::Turn(_) | Action::Pan(_) | Action::Zoom(_)) {
             self.moved = Some(Instant::now());
         }
-        let outcome = self.viewer.act(action);
-        let is_kept = action == Action::Picture && outcome.is_ok();
-        self.is_old |= self.hear(outcome) == Some(true);
-        if is_kept {
-            self.say("the picture is kept".to_owned());
+        if action == Action::Picture {
+            let outcome = self.viewer.keep();
+            if let Some(file) = self.hear(outcome) {
+                self.say(format!("kept in {}", file.display()));
+            }
+        } else {
+            let outcome = self.viewer.act(action);
+            self.is_old |= self.hear(outcome) == Some(true);
         }
         self.redraw();
     }
@@ -189,7 +206,7 @@ impl Screen {
             self.is_old = false;
         }
         let lines = self.lines();
-        let message = self.message.as_ref().map(|(text, _)| text.clone());
+        let message = self.message.as_ref().map(|(text, _)| text.clone()).or_else(|| self.fault.clone());
         let (help, text) = (self.has_help, self.has_text);
         let Some((window, surface)) = &mut self.target else { return Ok(()) };
         surface.resize(columns, rows)?;
@@ -348,9 +365,7 @@ impl ApplicationHandler for Screen {
         if now - self.looked >= POLL {
             self.looked = now;
             if seen::changed() {
-                let outcome = self.viewer.reload();
-                self.is_old |= self.hear(outcome).is_some();
-                self.redraw();
+                self.reload();
             }
         }
         let rest = self.moved.filter(|_| self.is_draft).map(|moved| moved + REST);

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::entry::UNPLACED;
 use super::{Entry, Ignored};
 use crate::error::{Error, quote};
-use crate::load::paths::{existing, file_name};
+use crate::load::paths::{existing_image, file_name};
 use crate::load::statements::{Statement, keyword, number};
 use crate::options::{MapFile, Origin, Wrap};
 use crate::scene::EnvironmentKind;
@@ -32,7 +32,7 @@ pub(super) fn read(
         return vec![Error::new(found, expected).hint("the line is left out")];
     }
     let mut warnings = Vec::new();
-    let found = existing(folder, &name);
+    let found = existing_image(folder, &name);
     if let Some(found) = found.as_ref().filter(|found| found.renamed) {
         let shown = found.path.strip_prefix(folder).unwrap_or(&found.path).display().to_string();
         let error = Error::new(format!("no file {}", quote(name.as_bytes())), "the name of an image");
@@ -155,12 +155,12 @@ impl Options<'_> {
 
 /// An option that the format has not and its words, before a file that is there.
 fn unknown_option<'n>(folder: &Path, name: &'n str) -> Option<(&'n str, &'n str)> {
-    if !name.starts_with('-') || existing(folder, name).is_some() {
+    if !name.starts_with('-') || existing_image(folder, name).is_some() {
         return None;
     }
     let ends = name.char_indices().filter(|(_, c)| c.is_whitespace()).map(|(at, _)| at);
     let split = |at: usize| (name[..at].trim(), name[at..].trim());
-    ends.map(split).find(|(_, rest)| existing(folder, rest).is_some())
+    ends.map(split).find(|(_, rest)| existing_image(folder, rest).is_some())
 }
 
 /// The file's name after the options of a texture line, and those. Names may hold spaces.

@@ -10,7 +10,7 @@ use toml::{Spanned, Table, Value};
 
 use super::syntax;
 use super::tables::File;
-use crate::error::{Error, quote};
+use crate::error::{Error, MEANT, quote};
 use crate::load::input;
 use crate::load::statements::not_text;
 use crate::options::{Origin, shared};
@@ -213,14 +213,18 @@ impl Source {
             (expected, Some(key)) if expected == ARRAY => format!("tables under [[{key}]]"),
             (expected, _) => expected,
         };
-        let mut error = Error::new(found, expected.as_str()).file(&self.path).line(self.line(&at));
+        let meant = unknown.and_then(|key| {
+            let near = || nearest(key, &expected).map(|near| format!("did you mean {near}?"));
+            elsewhere(key).or_else(near).or_else(|| of_others(key, &expected))
+        });
+        // A long list would hide what is meant.
+        let is_clear = meant.as_ref().is_some_and(|meant| meant.starts_with(MEANT));
+        let is_long = expected.split(", ").count() > MANY;
+        let told = if is_clear && is_long { "one that is known there" } else { &expected };
+        let mut error = Error::new(found, told).file(&self.path).line(self.line(&at));
         if let Some(key) = key {
             error = error.key(key);
         }
-        let meant = unknown.and_then(|key| {
-            let near = nearest(key, &expected).map(|near| format!("did you mean {near}?"));
-            elsewhere(key).or(near).or_else(|| of_others(key, &expected))
-        });
         match meant.or(remedy) {
             Some(hint) => error.hint(hint),
             None => error,
@@ -235,6 +239,9 @@ impl Source {
         }
     }
 }
+
+/// So many names are told where one of them is meant.
+const MANY: usize = 8;
 
 /// A hint to the table of a key that stands in another one, or at the top.
 fn elsewhere(key: &str) -> Option<String> {

@@ -15,6 +15,10 @@ pub(super) fn mended(message: &str, (before, after): (&str, &str)) -> (String, O
     let word = format!("{}{}", &line[begins..], rest.split([',', ']', ' ', '#']).next().unwrap_or_default());
     let is_number = |text: &str| text.starts_with(|c: char| c.is_ascii_digit() || c == '-');
     match what {
+        _ if ["yes", "no", "on", "off", "true", "false"].contains(&&*word.to_lowercase()) => remedied(
+            &format!("{}, expected a value", quote(word.as_bytes())),
+            "what is so is true, and what is not is false, without quotes",
+        ),
         "string values must be quoted" => remedied("expected a value", QUOTES),
         "invalid boolean" | "invalid value" | "invalid integer" | "invalid float" | "invalid date-time"
             if !word.is_empty() =>

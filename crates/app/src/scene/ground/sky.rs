@@ -8,7 +8,7 @@
 //! A surface that is narrower than a cell, or full of holes, has as many of its boxes as it has area. Glass has
 //! columns of its own, and lets through what it is said to.
 
-use super::{Ground, opacity};
+use super::{Ground, floor, opacity};
 use crate::options::Wrap;
 use crate::scene::normals::{cross, length, narrow};
 use crate::scene::{Model, Part, Vertex};
@@ -171,6 +171,9 @@ fn columns<'a>(
             let [Some(a), Some(b), Some(c)] = triangle.map(|k| model.vertices.get(k as usize)) else {
                 continue;
             };
+            if ground.on_floor && floor::floor_of(model, ground, triangle).is_some() {
+                continue;
+            }
             let corner = |v: &Vertex| {
                 let [column, row, height] = ground.cells(v.position.map(f64::from));
                 let [u, v] = v.uv.map(f64::from);

@@ -29,8 +29,11 @@ fn mistakes_are_told_in_one_line() {
             &["--format: found \"rgb566\", expected one of rgb565,"][..],
         ),
         (&["m.obj"], &["found too few words, expected --out <FOLDER> as well"]),
-        (&["m.obj", "--out", "file"], &["file: found a file, expected a folder; choose another with --out"]),
-        (&["m.obj", "--out", "file/in"], &["found a folder that cannot be made"]),
+        (
+            &["m.obj", "--out", "file"],
+            &["file/m.bin: found a file in the place of its folder", "another with --out"],
+        ),
+        (&["m.obj", "--out", "file/in"], &["found a file in the place of its folder"]),
         (&["no.obj", "--out", "out"], &["no.obj: found no such file"]),
         (&["m.obj", "--texture", "no.png", "--out", "out"], &["no.png: found no such file"]),
         (

@@ -49,6 +49,14 @@ fn kinds_of_values_have_the_words_of_toml() {
             &with("[render]\ntwo-sided = 1\n"),
             "s.toml:2: render.two-sided: found integer 1, expected true or false",
         ),
+        (
+            &with("[render]\nground = Yes\n"),
+            "s.toml:2: render.ground: found \"Yes\", expected a value; what is so is true, and what is not is false",
+        ),
+        (
+            &with("[material.a]\nshinines = 80\n"),
+            "s.toml:2: material.a.shinines: found the unknown key \"shinines\", expected one that is known there; did",
+        ),
     ] {
         let message = refused(text);
         assert!(message.starts_with(wanted), "{message}");
@@ -66,7 +74,7 @@ fn errors_name_line_and_key() {
         ("[camera]\nfov = 1\nfov = 2\n", "s.toml:3: fov: found a key for the second time, expected it once"),
         (
             &with("[camera]\nfow = 40\n"),
-            "s.toml:4: camera.fow: found the unknown key \"fow\", expected one of eye, ",
+            "s.toml:4: camera.fow: found the unknown key \"fow\", expected one that is known there; did you mean fov?",
         ),
         (
             &with("[camera]\n\n\nfov = \"wide\"\n"),
@@ -163,7 +171,7 @@ fn errors_name_line_and_key() {
         ),
         (
             &with("[material.a]\ncolour = \"ffffff\"\n"),
-            "s.toml:4: material.a.colour: found the unknown key \"colour\", expected one of color, color-map,",
+            "s.toml:4: material.a.colour: found the unknown key \"colour\", expected one that is known there; did you mean color?",
         ),
         (
             &with("[[light]]\nkind = \"directional\"\ndirection = [0, -1, 0]\nposition = [1, 2, 3]\n"),

@@ -3,8 +3,17 @@
 use super::*;
 use std::f64::consts::{PI, TAU};
 
-const GROUND: Ground =
-    Ground { up: (1, 1.0), corner: [-2.0, -2.0], side: 4.0, low: 0.0, height: 2.0, reach: 4.0, cells: 256 };
+const GROUND: Ground = Ground {
+    up: (1, 1.0),
+    corner: [-2.0, -2.0],
+    side: 4.0,
+    low: 0.0,
+    near: 0.0,
+    on_floor: false,
+    height: 2.0,
+    reach: 4.0,
+    cells: 256,
+};
 
 /// The share that a place on the ground does not see of the sky, of a model under which nothing is left out.
 fn dark(model: &Model, [x, z]: [f64; 2]) -> f64 {

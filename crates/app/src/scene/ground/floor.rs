@@ -1,0 +1,221 @@
+//! A floor of the model's own, on which a shadow lies instead of on a ground.
+
+use super::{Ground, Model, below, bounds, others};
+use crate::options::DepthFormat;
+use crate::scene::{Part, Vertex};
+
+/// The share of a model's height that things may reach below its floor.
+const DIP: f64 = 0.25;
+
+/// The share of a model's extent that a floor has at least, and that of a floor which all below it has at most.
+const LARGE: f64 = 0.25;
+const LITTLE: f64 = 0.5;
+
+/// The ground of a model, or of all places that it comes to. It is just over a floor of the model's own, if it has one,
+/// and just below the lowest point otherwise. None if there is nothing to stand on it.
+pub(super) fn ground(
+    model: &Model,
+    swept: Option<&Model>,
+    upwards: [f32; 3],
+    depth: DepthFormat,
+) -> Option<Ground> {
+    let whole = swept.unwrap_or(model);
+    let ground = Ground::of(whole, upwards, below(depth))?;
+    let [a, b] = others(ground.up.0);
+    let [least, most] = bounds(whole);
+    let extent = (most[a] - least[a]) * (most[b] - least[b]);
+    Some(match height(model, &ground, extent) {
+        // As far over the floor as the other is below the lowest point.
+        Some(height) => Ground {
+            low: ground.low + ground.up.1 * (height + ground.near / 4.0),
+            height: (ground.height - height).max(ground.near),
+            on_floor: true,
+            ..ground
+        },
+        None => ground,
+    })
+}
+
+/// How high a floor is over a ground: the lowest level of faces that look up and have much of the model's extent. There
+/// is little below it, such as the feet of things, or it is the upper side of a slab, or a board.
+fn height(model: &Model, ground: &Ground, extent: f64) -> Option<f64> {
+    let (up, sign) = ground.up;
+    let [a, b] = others(up);
+    let over = |v: &Vertex| sign * (f64::from(v.position[up]) - ground.low);
+    let plan = |[p, q, r]: [&Vertex; 3]| {
+        let [p, q, r] = [p, q, r].map(|v| [a, b].map(|k| f64::from(v.position[k])));
+        ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])).abs() / 2.0
+    };
+    let triangles = || {
+        let all = model.parts.iter().flat_map(|part| &part.triangles);
+        all.filter_map(|triangle| corners(model, triangle))
+    };
+    let range = |corners: [&Vertex; 3]| {
+        let [x, y, z] = corners.map(over);
+        [x.min(y).min(z), x.max(y).max(z)]
+    };
+    let level = |all: [&Vertex; 3]| {
+        let [least, most] = range(all);
+        let is_level = most - least < ground.near && all.iter().all(|v| looks_up(v, ground));
+        (is_level && least < DIP * ground.height).then(|| (least, plan(all)))
+    };
+    let mut levels: Vec<(f64, f64)> = triangles().filter_map(level).collect();
+    levels.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let mut rest = &levels[..];
+    while let Some(&(height, _)) = rest.first() {
+        let count = rest.partition_point(|(other, _)| *other < height + ground.near);
+        let area: f64 = rest[..count].iter().map(|(_, area)| area).sum();
+        rest = &rest[count..];
+        if area > LARGE * extent {
+            let is_below = |all: &[&Vertex; 3]| range(*all)[1] < height - ground.near;
+            let below: f64 = triangles().filter(is_below).map(plan).sum();
+            return (below < LITTLE * area).then_some(height);
+        }
+    }
+    None
+}
+
+fn looks_up(v: &Vertex, ground: &Ground) -> bool {
+    f64::from(v.normal[ground.up.0]) * ground.up.1 > 0.9
+}
+
+fn corners<'a>(model: &'a Model, triangle: &[u32; 3]) -> Option<[&'a Vertex; 3]> {
+    let [a, b, c] = triangle.map(|index| model.vertices.get(index as usize));
+    Some([a?, b?, c?])
+}
+
+/// The corners of a triangle that belongs to a floor: it is at the height of a ground, and looks up.
+pub(super) fn floor_of<'a>(
+    model: &'a Model,
+    ground: &Ground,
+    triangle: &[u32; 3],
+) -> Option<[&'a Vertex; 3]> {
+    let is_low = |v: &Vertex| (f64::from(v.position[ground.up.0]) - ground.low).abs() < ground.near;
+    corners(model, triangle).filter(|all| all.iter().all(|v| is_low(v) && looks_up(v, ground)))
+}
+
+/// The place after the last part that has some of the floor.
+pub(super) fn after(model: &Model, ground: &Ground) -> usize {
+    let has_some = |part: &Part| part.triangles.iter().any(|all| floor_of(model, ground, all).is_some());
+    model.parts.iter().rposition(has_some).map_or(0, |last| last + 1)
+}
+
+/// The corners of the floor's triangles, three by three, moved to a ground.
+pub(super) fn places(model: &Model, ground: &Ground) -> Vec<[f64; 3]> {
+    let triangles = model.parts.iter().flat_map(|part| &part.triangles);
+    let corners = triangles.filter_map(|triangle| floor_of(model, ground, triangle)).flatten();
+    let moved = |v: &Vertex| {
+        let mut place = v.position.map(f64::from);
+        place[ground.up.0] = ground.low;
+        place
+    };
+    corners.map(moved).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Camera;
+    use crate::scene::ground::{Manner, add};
+
+    /// Squares of these halves at these heights, which look up.
+    fn squares(all: &[(f32, f32)]) -> Model {
+        let mut model = Model::default();
+        for &(half, y) in all {
+            let first = u32::try_from(model.vertices.len()).expect("a few");
+            let corner = |[x, z]: [f32; 2]| Vertex {
+                position: [half * x, y, half * z],
+                normal: [0.0, 1.0, 0.0],
+                ..Vertex::default()
+            };
+            model.vertices.extend([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(corner));
+            let triangles = [[0, 1, 2], [0, 2, 3]].map(|all| all.map(|k: u32| first + k)).to_vec();
+            model.parts.push(Part { triangles, ..Part::default() });
+        }
+        model
+    }
+
+    fn alpha(model: &Model, ground: &Ground, [x, z]: [f64; 2]) -> u8 {
+        let [column, row, _] = ground.cells([x, 0.0, z]);
+        let side = ground.cells as usize / 2;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 255")]
+        let (column, row) = (column as usize / 2, row as usize / 2);
+        ground.shadow(model, Default::default())[(side - 1 - row) * side + column]
+    }
+
+    /// A plate over a floor darkens it where it is above, as it does a ground.
+    #[test]
+    fn shadows_lie_on_a_floor() {
+        let up = [0.0, 1.0, 0.0];
+        let model = squares(&[(1.0, 0.0), (0.7, 0.4), (0.3, 0.2)]);
+        let ground = ground(&model, None, up, DepthFormat::F32).expect("a ground");
+        assert!(ground.on_floor && ground.low > 0.0 && ground.low < 1e-3, "{}", ground.low);
+        let dark = alpha(&model, &ground, [0.0, 0.0]);
+        assert!(dark > 60, "{dark}");
+        assert!(alpha(&model, &ground, [0.8, 0.8]) < dark);
+        assert!(alpha(&model, &ground, [0.97, 0.0]) > 4);
+        // Without the floor the plates have a ground, whose shadow goes on there.
+        let plates = squares(&[(0.01, 0.0), (0.7, 0.4), (0.3, 0.2)]);
+        let below = super::ground(&plates, None, up, DepthFormat::F32).expect("a ground");
+        assert!(!below.on_floor && below.low < 0.0);
+        assert!(alpha(&plates, &below, [0.0, 0.0]).abs_diff(dark) < 20);
+    }
+
+    /// Things may dip into a floor, also in motion. Boards, upper sides of slabs, and a high floor are none.
+    #[test]
+    fn floors_are_low_and_have_little_below() {
+        let up = [0.0, 1.0, 0.0];
+        let found = |model: &Model, swept: Option<&Model>| {
+            let ground = ground(model, swept, up, DepthFormat::F32).expect("a ground");
+            (ground.on_floor, ground.low)
+        };
+        let dipped = squares(&[(0.2, -0.1), (0.2, 1.0), (1.0, 0.0)]);
+        let (is_floor, low) = found(&dipped, None);
+        assert!(is_floor && low > 0.0 && low < 1e-3, "{low}");
+        // Of all places that a model comes to there are no normals.
+        let mut swept = dipped.clone();
+        swept.vertices.iter_mut().for_each(|v| v.normal = [0.0; 3]);
+        assert_eq!(found(&dipped, Some(&swept)), (is_floor, low));
+        // The squares that look down stand first.
+        for (down, none) in [
+            (1, &[(0.9, -0.1), (1.0, 0.0), (0.2, 1.0)][..]),
+            (0, &[(1.0, 0.8), (0.2, 0.0), (0.2, 1.0)]),
+            (0, &[(0.3, 0.0), (1.0, 0.5)]),
+            (1, &[(1.0, 0.0), (0.2, 1.0)]),
+        ] {
+            let mut model = squares(none);
+            model.vertices[..4 * down].iter_mut().for_each(|v| v.normal[1] = -1.0);
+            let (is_floor, low) = found(&model, None);
+            assert!(!is_floor && low < 0.0, "{none:?} {low}");
+        }
+    }
+
+    /// Without a depth buffer it is drawn after the floor, and before what stands on it.
+    #[test]
+    fn a_shadow_is_drawn_after_its_floor() {
+        let mut model = squares(&[(1.0, 0.0), (0.3, 0.2)]);
+        let mut camera = Camera {
+            eye: [3.0, 2.0, 4.0],
+            target: [0.0; 3],
+            up: [0.0, 1.0, 0.0],
+            roll: 0.0,
+            fov: 40.0,
+            near: 4.0,
+            far: 6.0,
+        };
+        let manner = Manner { depth: DepthFormat::None, ..Manner::default() };
+        assert!(add(&mut model, None, std::slice::from_mut(&mut camera), manner));
+        assert_eq!(model.parts.len(), 3);
+        assert_eq!(model.parts[1].name, "ground");
+        // It ends where the floor does, and has the texel of each place: the middle is in the middle.
+        assert_eq!([camera.near, camera.far], [4.0, 6.0]);
+        let shadow = model.parts[1].triangles.iter().flatten().map(|k| model.vertices[*k as usize]);
+        let corners: Vec<_> = shadow.map(|v| (v.position, v.uv)).collect();
+        assert_eq!(corners.len(), 6);
+        for ([x, y, z], [u, v]) in corners {
+            assert!((x.abs() - 1.0).abs() < 1e-6 && (z.abs() - 1.0).abs() < 1e-6 && y > 0.0 && y < 1e-3);
+            // The axes across the upward one are z and x.
+            assert!((u - 0.5) * z > 0.1 && (v - 0.5) * x > 0.1, "{x} {z}: {u} {v}");
+        }
+    }
+}
