@@ -66,8 +66,8 @@ pub(crate) struct Manner {
 
 /// Adds a ground at the lowest point of a model, or of all places that it comes to, and says whether it did. A floor of
 /// its own has the shadow on it. There is none if all of the cameras are below it. Planes of the others that are not
-/// fixed are moved so that all of it is between them. Where attributes are affine, a ground is of so many squares that
-/// none shows that.
+/// fixed are moved so that all of it is between them. Where attributes are affine, it is of so many parts that none
+/// shows that.
 pub(crate) fn add(model: &mut Model, swept: Option<&Model>, cameras: &mut [Camera], manner: Manner) -> bool {
     let Manner { fixed, affine, depth, wrap } = manner;
     let first = cameras.first().map(|first| first.up);
@@ -84,12 +84,14 @@ pub(crate) fn add(model: &mut Model, swept: Option<&Model>, cameras: &mut [Camer
     let first = u32::try_from(model.vertices.len()).unwrap_or(u32::MAX);
     let mut normal = [0.0; 3];
     normal[ground.up.0] = narrow(ground.up.1);
+    // Few, where attributes are right anywhere.
+    let squares = if affine { 48 } else { 1 };
     let (places, triangles) = if ground.on_floor {
-        let places = floor::places(model, &ground);
+        let places = floor::places(model, &ground, squares);
         let count = u32::try_from(places.len()).unwrap_or(0);
         (places, (0..count).step_by(3).map(|k| [k, k + 1, k + 2]).collect())
     } else {
-        ground.squares(if affine { 48 } else { 1 })
+        ground.squares(squares)
     };
     model.vertices.extend(places.into_iter().map(|place| Vertex {
         position: place.map(narrow),

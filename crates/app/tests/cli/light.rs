@@ -296,7 +296,7 @@ fn floors_have_shadows_on_them() {
         let texts = [true, false].map(|ground| scene(floor, ground) + motion);
         let folder = Folder::with(&[("s.toml", texts[0].as_bytes()), ("bare.toml", texts[1].as_bytes())]);
         let runs = ["s", "bare"]
-            .map(|name| folder.succeeds(&[&format!("{name}.toml"), "-o", &format!("{name}.png")]));
+            .map(|name| folder.succeeds(&[format!("{name}.toml"), "-o".to_owned(), format!("{name}.png")]));
         assert!(runs.iter().all(|run| run.stderr.is_empty()), "{runs:?}");
         assert_eq!(camera(&runs[0]) == camera(&runs[1]), is_floor, "{runs:?}");
         if is_floor {

@@ -3,6 +3,7 @@
 use super::{Ground, Model, below, bounds, others};
 use crate::options::DepthFormat;
 use crate::scene::{Part, Vertex};
+use alberti::texture::surface::Subdivision;
 
 /// The share of a model's height that things may reach below its floor.
 const DIP: f64 = 0.25;
@@ -100,16 +101,29 @@ pub(super) fn after(model: &Model, ground: &Ground) -> usize {
     model.parts.iter().rposition(has_some).map_or(0, |last| last + 1)
 }
 
-/// The corners of the floor's triangles, three by three, moved to a ground.
-pub(super) fn places(model: &Model, ground: &Ground) -> Vec<[f64; 3]> {
+/// The floor's triangles on a ground, their corners three by three. A floor of few is in parts: as many as so many
+/// squares along each side have.
+pub(super) fn places(model: &Model, ground: &Ground, squares: u16) -> Vec<[f64; 3]> {
     let triangles = model.parts.iter().flat_map(|part| &part.triangles);
-    let corners = triangles.filter_map(|triangle| floor_of(model, ground, triangle)).flatten();
     let moved = |v: &Vertex| {
         let mut place = v.position.map(f64::from);
         place[ground.up.0] = ground.low;
         place
     };
-    corners.map(moved).collect()
+    let floor: Vec<[[f64; 3]; 3]> =
+        triangles.filter_map(|triangle| Some(floor_of(model, ground, triangle)?.map(moved))).collect();
+    let wanted = 2 * usize::from(squares).pow(2) / floor.len().max(1);
+    let parts = Subdivision::new(u32::try_from(wanted.isqrt()).unwrap_or(1));
+    let mut places = Vec::new();
+    for corners in floor {
+        for k in (0..).take(parts.triangles()) {
+            places.extend(parts.triangle(k).map(|vertex| {
+                let weights = parts.weights(vertex).map(f64::from);
+                [0, 1, 2].map(|axis| weights.iter().zip(corners).map(|(w, corner)| w * corner[axis]).sum())
+            }));
+        }
+    }
+    places
 }
 
 #[cfg(test)]
@@ -117,6 +131,7 @@ mod tests {
     use super::*;
     use crate::scene::Camera;
     use crate::scene::ground::{Manner, add};
+    use crate::scene::normals::sub;
 
     /// Squares of these halves at these heights, which look up.
     fn squares(all: &[(f32, f32)]) -> Model {
@@ -217,5 +232,23 @@ mod tests {
             // The axes across the upward one are z and x.
             assert!((u - 0.5) * z > 0.1 && (v - 0.5) * x > 0.1, "{x} {z}: {u} {v}");
         }
+    }
+
+    /// Parts of a floor are as large as all of it, and lie where it does.
+    #[test]
+    fn a_floor_in_parts_is_the_floor() {
+        let model = squares(&[(1.0, 0.0), (0.3, 0.2)]);
+        let ground = ground(&model, None, [0.0, 1.0, 0.0], DepthFormat::F32).expect("a ground");
+        let area = |places: &[[f64; 3]]| -> f64 {
+            let triangles = places.as_chunks::<3>().0.iter();
+            triangles.map(|[a, b, c]| crate::scene::normals::cross(sub(*b, *a), sub(*c, *a))[1] / 2.0).sum()
+        };
+        let [one, many] = [1, 48].map(|squares| places(&model, &ground, squares));
+        assert_eq!((one.len(), many.len()), (6, 2 * 48 * 48 * 3));
+        // As the model's triangles they face down here; all of them do.
+        assert!((area(&one).abs() - 4.0).abs() < 1e-6 && (area(&many) - area(&one)).abs() < 1e-5);
+        assert!(
+            many.iter().all(|[x, y, z]| x.abs().max(z.abs()) <= 1.0 + 1e-6 && (y - ground.low).abs() < 1e-9)
+        );
     }
 }
