@@ -1,4 +1,4 @@
-//! A window in an X server without a screen: it opens, keys change its picture, and what is kept is what was seen.
+//! A window in an X server without a screen: keys and the mouse change its picture, and what is kept is what was seen.
 
 use std::fs;
 use std::io::{BufRead as _, BufReader};
@@ -15,6 +15,13 @@ const SCENE: [&str; 6] = ["--scene", "mesh", "--size", "320x240", "-o", "kept.pn
 
 /// Keys after which the picture is another one.
 const KEYS: [&str; 8] = ["Right", "plus", "s", "v", "V", "a", "0", "o"];
+
+/// What the mouse does after these, each of which changes the picture as well.
+const GESTURES: [(&str, &[&str]); 3] = [
+    ("the wheel", &["mousemove", "--window", "%1", "90", "80", "click", "4"]),
+    ("a drag", &["mousedown", "1", "mousemove_relative", "30", "15", "mouseup", "1"]),
+    ("a drag of the right button", &["mousedown", "3", "mousemove_relative", "20", "-10", "mouseup", "3"]),
+];
 
 /// The longest wait for the window.
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -88,7 +95,12 @@ pub(crate) fn check() -> Outcome {
     let mut seen = screen.seen()?;
     for key in KEYS {
         screen.press(key)?;
-        seen = screen.wait_for_another(key, &seen)?;
+        seen = screen.wait_for_another(&format!("the key `{key}`"), &seen)?;
+    }
+    for (gesture, words) in GESTURES {
+        // `%1` is the window that a search has found.
+        screen.tool(&[&["search", "--name", "alberti: "], words].concat())?;
+        seen = screen.wait_for_another(gesture, &seen)?;
     }
     screen.press("p")?;
     let begin = Instant::now();
@@ -119,7 +131,7 @@ pub(crate) fn check() -> Outcome {
             None => sleep(Duration::from_millis(20)),
         }
     }
-    println!("a window, {} keys, and its picture kept: all as `render` draws it", KEYS.len());
+    println!("a window, {} keys, the mouse, and its picture kept: all as `render` draws it", KEYS.len());
     Ok(())
 }
 
@@ -190,7 +202,7 @@ impl Screen {
     }
 
     /// A picture that is not this one, and stays for a while: it is no draft.
-    fn wait_for_another(&self, key: &str, picture: &Picture) -> Result<Picture, String> {
+    fn wait_for_another(&self, what: &str, picture: &Picture) -> Result<Picture, String> {
         let begin = Instant::now();
         let mut last = picture.clone();
         while begin.elapsed() < PATIENCE {
@@ -201,7 +213,7 @@ impl Screen {
             }
             last = next;
         }
-        Err(format!("the key `{key}` does not change the picture"))
+        Err(format!("{what} does not change the picture"))
     }
 }
 

@@ -45,7 +45,9 @@ fn plain(markdown: &str) -> String {
         } else {
             // A paragraph, up to what is none.
             let mut words = line.to_owned();
-            while let Some(next) = lines.next_if(|next| !next.is_empty() && !next.starts_with(['|', '`'])) {
+            let is_of_it =
+                |next: &&str| !next.is_empty() && !next.starts_with('|') && !next.starts_with("```");
+            while let Some(next) = lines.next_if(is_of_it) {
                 words.push(' ');
                 words.push_str(next);
             }
@@ -91,7 +93,7 @@ mod tests {
 
     #[test]
     fn markdown_becomes_plain() {
-        let markdown = "See [the *rest*](#rest) of `it`,\nand more.\n\n```toml\na = 1\n```\n\n| key | value | default |\n|---|---|---|\n| `b` | a [link](x) | `2` |\n| `c` | none | |\n";
+        let markdown = "See [the *rest*](#rest) of\n`it`,\nand more.\n\n```toml\na = 1\n```\n\n| key | value | default |\n|---|---|---|\n| `b` | a [link](x) | `2` |\n| `c` | none | |\n";
         let expected =
             "See the rest of it, and more.\n\n  a = 1\n\n  b\n      a link [default: 2]\n  c\n      none\n";
         assert_eq!(plain(markdown), expected);

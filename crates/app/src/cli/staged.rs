@@ -63,6 +63,8 @@ pub(super) struct Staged {
     /// The places that the model comes to, if it moves.
     pub(super) swept: Option<Model>,
     pub(super) camera: Camera,
+    /// The point about which a zoom is, and turns by hand are: the model's middle, or a target that is given.
+    pub(super) middle: [f64; 3],
     pub(super) options: RenderOptions,
     pub(super) samples: Samples,
     pub(super) backdrop: Backdrop,
@@ -95,7 +97,8 @@ impl Request {
                 motion.swept.add(&file.build(gathered)?);
             }
         }
-        let Staged { mut camera, model, options, .. } = first.stage_with(cast.clone(), Some(&motion))?;
+        let Staged { camera, middle, model, options, .. } = first.stage_with(cast.clone(), Some(&motion))?;
+        let mut camera = camera::unzoomed(&camera, middle, first.arguments.camera.zoom());
         // A camera that goes round a model is as far away as all of its views take.
         let turns = |moment: &Self| {
             let CameraTable { azimuth, elevation, roll, view, .. } = moment.arguments.camera;
@@ -113,14 +116,13 @@ impl Request {
             let ball = camera::bounding_sphere(&whole);
             let aspect = f64::from(options.width) / f64::from(options.height);
             let views = self.moments.iter().map(|moment| {
-                let wishes = places(moment);
+                let wishes = CameraTable { zoom: None, ..places(moment) };
                 camera::frame(&wishes, None, (&whole, ball), aspect).map(|camera| (camera, wishes))
             });
             let views = views.collect::<Result<Vec<_>, _>>()?;
             camera = camera::fitted_at_all_times((&whole, ball), &views, aspect).unwrap_or(camera);
         }
-        let fov = camera::unzoomed(&camera, &first.arguments.camera);
-        motion.still = Some((Camera { fov, ..camera }, model.origin));
+        motion.still = Some((camera, model.origin));
         Ok(Some(motion))
     }
 
@@ -193,6 +195,7 @@ impl Request {
         let mut wishes = arguments.camera.counted_from(origin);
         let orbit = self.orbit.map(|table| camera::orbit(&table.counted_from(origin), ball));
         let still = motion.filter(|_| wishes.eye.is_none()).and_then(|motion| motion.camera(origin));
+        let is_free = (wishes.eye, wishes.target, scene.camera, orbit) == (None, None, None, None);
         if !wishes.turns() {
             wishes.eye = wishes.eye.or(still.map(|still| still.eye.into()));
         }
@@ -207,6 +210,8 @@ impl Request {
         let camera = ground::in_view(whole, grounded, |model| {
             camera::frame(&wishes, base.as_ref(), (model, ball), aspect)
         })?;
+        let middle = if is_free { ball.center } else { camera.target.map(f64::from) };
+        let camera = camera::zoomed_about(&camera, middle, wishes.zoom());
         order::back_to_front(&mut scene.model, &camera);
         if camera::is_behind(&camera, ball) {
             let error = Error::new("a camera that looks away from the model", "the model in view");
@@ -274,7 +279,7 @@ impl Request {
         }
         let samples = samples(arguments, [width, height])?;
         let backdrop = Backdrop::new(arguments.render.background.as_ref(), &options)?;
-        Ok(Staged { model: scene.model, swept, camera, options, samples, backdrop })
+        Ok(Staged { model: scene.model, swept, camera, middle, options, samples, backdrop })
     }
 }
 

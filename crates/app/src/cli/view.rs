@@ -32,7 +32,8 @@ mod orbit;
 mod overlay;
 mod window;
 
-use keys::Action;
+use keys::{Action, Place};
+use orbit::Orbit;
 
 pub(super) const HELP: &str = "\
 Examples:
@@ -69,8 +70,8 @@ struct Viewer {
     first: Vec<Option<String>>,
     /// The file of the command line for pictures that are kept.
     output: Option<PathBuf>,
-    /// The camera, once it has been moved.
-    moved: Option<Camera>,
+    /// The camera and its pivot, once it has been moved.
+    moved: Option<(Camera, [f64; 3])>,
     size: [u32; 2],
     cast: Cast,
     scene: Scene,
@@ -128,8 +129,9 @@ impl Viewer {
     fn camera_words(&self) -> Option<String> {
         let Scene { request, staged, .. } = &self.scene;
         let projection = staged.options.projection;
-        self.moved
-            .map(|camera| as_options(&camera, staged.model.origin, projection, &request.arguments.camera))
+        self.moved.map(|(camera, _)| {
+            as_options(&camera, staged.model.origin, projection, &request.arguments.camera)
+        })
     }
 
     /// Has the scene as it is with other words, or leaves all as it was.
@@ -139,12 +141,19 @@ impl Viewer {
     fn restage(&mut self, chosen: Vec<(&'static str, &'static str)>, keeps_maps: bool) -> Result<(), Error> {
         let requests = self.requests(&chosen)?;
         let chains = keeps_maps.then(|| self.scene.chains.clone());
-        self.scene = Scene::new(requests, &self.cast, chains)?;
-        if self.moved.is_some() {
-            self.moved = Some(self.scene.staged.camera);
-        }
+        self.take(Scene::new(requests, &self.cast, chains)?);
         self.chosen = chosen;
         Ok(())
+    }
+
+    /// Has another scene, with a camera that has been moved where it was.
+    fn take(&mut self, scene: Scene) {
+        let (before, now) = (self.scene.staged.model.origin, scene.staged.model.origin);
+        self.moved = self.moved.map(|(_, pivot)| {
+            let pivot = [0, 1, 2].map(|k| pivot[k] + before[k] - now[k]);
+            (scene.staged.camera, pivot)
+        });
+        self.scene = scene;
     }
 
     /// Reads all files again.
@@ -158,7 +167,7 @@ impl Viewer {
         }
         let (wishes, request) = self.requests(&self.chosen)?;
         let cast = request.cast().map_err(|error| request.relocate(error))?;
-        self.scene = Scene::new((wishes, request), &cast, None)?;
+        self.take(Scene::new((wishes, request), &cast, None)?);
         self.cast = cast;
         Ok(())
     }
@@ -203,13 +212,12 @@ impl Viewer {
     /// # Errors
     /// It cannot be drawn with these options.
     fn picture(&self, is_draft: bool) -> Result<Seen, Error> {
-        let Scene { request, staged, bare, chains, .. } = &self.scene;
-        let Staged { model, options, samples, backdrop, .. } = staged;
-        let camera = self.camera();
-        let below = bare.as_ref().filter(|_| request.above_ground(staged, &[camera]) == [false]);
-        let from_below = below.map(|_| "from below there is no ground".to_owned());
-        let set = Set { model: below.unwrap_or(model), options, samples: *samples, backdrop };
-        let shot = set.shot(camera);
+        let Scene { request, staged, chains, .. } = &self.scene;
+        let Staged { options, samples, backdrop, .. } = staged;
+        let (model, is_below) = self.drawn();
+        let from_below = is_below.then(|| "from below there is no ground".to_owned());
+        let set = Set { model, options, samples: *samples, backdrop };
+        let shot = set.shot(self.camera());
         match request.arguments.show {
             Some(what) => {
                 let Shown { picture, legend, .. } =
@@ -231,7 +239,20 @@ impl Viewer {
     }
 
     fn camera(&self) -> Camera {
-        self.moved.unwrap_or(self.scene.staged.camera)
+        self.moved.map_or(self.scene.staged.camera, |(camera, _)| camera)
+    }
+
+    /// The point about which the camera turns.
+    fn pivot(&self) -> [f64; 3] {
+        self.moved.map_or(self.scene.staged.middle, |(_, pivot)| pivot)
+    }
+
+    /// The model as the camera sees it, and whether that is below its ground, which is left out then.
+    fn drawn(&self) -> (&Model, bool) {
+        let Scene { request, staged, bare, .. } = &self.scene;
+        let is_below = |_: &&Model| request.above_ground(staged, &[self.camera()]) == [false];
+        let below = bare.as_ref().filter(is_below);
+        (below.unwrap_or(&staged.model), below.is_some())
     }
 
     /// Writes the picture as `render` does, and prints the command that does. It returns the file: that of the command
@@ -258,12 +279,9 @@ impl Viewer {
     /// An option cannot be used with this scene; all is as it was.
     fn act(&mut self, action: Action) -> Result<bool, Error> {
         match action {
-            Action::Turn(degrees) => self.move_to(orbit::turned(&self.camera(), degrees)),
-            Action::Pan(heights) => {
-                let projection = self.scene.staged.options.projection;
-                self.move_to(orbit::panned(&self.camera(), projection, heights))
-            }
-            Action::Zoom(factor) => self.zoom(factor),
+            Action::Turn(degrees) => self.move_to(self.orbit().turned(degrees)),
+            Action::Pan(heights) => self.move_to(self.orbit().panned(heights)),
+            Action::Zoom(factor, place) => self.zoom(factor, place),
             Action::Fit => {
                 self.moved = None;
                 let without = |(option, _): &(&str, &str)| !keys::is_view(option);
@@ -300,22 +318,22 @@ impl Viewer {
         self.restage(chosen, keeps_maps).map(|()| true)
     }
 
-    /// Nearer by a factor, or larger where there is no nearness.
-    fn zoom(&mut self, factor: f64) -> Result<bool, Error> {
-        let camera = self.camera();
+    fn orbit(&self) -> Orbit {
+        let projection = self.scene.staged.options.projection;
+        Orbit { camera: self.camera(), pivot: self.pivot(), projection }
+    }
+
+    /// Nearer by a factor to what is seen at a place, or larger where there is no nearness.
+    fn zoom(&mut self, factor: f64, place: Option<Place>) -> Result<bool, Error> {
+        let (model, _) = self.drawn();
         let radius = camera::bounding_sphere(&self.scene.staged.model).radius;
-        let Projection::Parallel { height } = &mut self.scene.staged.options.projection else {
-            return self.move_to(orbit::nearer(&camera, radius, factor));
-        };
-        let wanted = narrow(f64::from(*height) / factor);
-        if wanted.is_normal() && orbit::is_useful(wanted.into(), radius, factor) {
-            (*height, self.moved) = (wanted, Some(camera));
-        }
-        Ok(true)
+        let cull = self.scene.staged.options.cull;
+        let nearer = self.orbit().nearer((model, radius), cull, (factor, place));
+        self.move_to(nearer)
     }
 
     /// Has the camera there, with planes around the model unless the command line has others.
-    fn move_to(&mut self, place: Camera) -> Result<bool, Error> {
+    fn move_to(&mut self, Orbit { camera: place, pivot, projection }: Orbit) -> Result<bool, Error> {
         let Scene { wishes, staged, .. } = &mut self.scene;
         let mut wishes = wishes.counted_from(staged.model.origin);
         let Camera { eye, target, up, roll, fov, .. } = place;
@@ -327,7 +345,8 @@ impl Viewer {
         let aspect = f64::from(options.width) / f64::from(options.height);
         let ball = camera::bounding_sphere(model);
         let camera = camera::frame(&wishes, None, (model, ball), aspect)?;
-        self.moved = Some(camera);
+        options.projection = projection;
+        self.moved = Some((camera, pivot));
         Ok(true)
     }
 }

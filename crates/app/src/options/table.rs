@@ -28,7 +28,8 @@ pub struct CameraTable {
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     pub eye: Option<Point>,
 
-    /// The point that the camera looks at [default: the middle of what is seen of the model].
+    /// The point that the camera looks at [default: the middle of what is seen of the model; with --eye,
+    /// of the model].
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     pub target: Option<Point>,
 
@@ -54,7 +55,8 @@ pub struct CameraTable {
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub roll: Option<Number<Finite>>,
 
-    /// Factor by which things are larger in the picture; it narrows the opening angle [default: 1].
+    /// Factor by which things are larger in the picture, about the middle of the model, or a target that
+    /// is given; it narrows the opening angle [default: 1].
     #[arg(long, value_name = "FACTOR", allow_hyphen_values = true)]
     pub zoom: Option<Number<Zoom>>,
 
@@ -292,8 +294,8 @@ pub struct RenderTable {
     #[arg(long, value_enum, value_name = "N", hide_possible_values = true)]
     pub samples: Option<Samples>,
 
-    /// How textures are read: nearest, bilinear, trilinear or anisotropic:N [default: trilinear; with
-    /// --profile mcu or tiny bilinear; of a built-in scene its own]
+    /// How textures are read: nearest, bilinear, trilinear or anisotropic:N [default:
+    /// trilinear; with --profile mcu or tiny bilinear; of a built-in scene its own]
     ///
     /// nearest: the texel that contains the point.
     /// bilinear: a weighted mean of the four texels around the point.

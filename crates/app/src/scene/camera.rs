@@ -147,9 +147,24 @@ fn zoomed(fov: f32, zoom: f32) -> f32 {
     narrow(2.0 * tangent.atan().to_degrees())
 }
 
-/// The opening angle of a camera without the zoom of these wishes.
-pub(crate) fn unzoomed(camera: &Camera, wishes: &CameraTable) -> f32 {
-    zoomed(camera.fov, 1.0 / wishes.zoom())
+/// A zoomed camera so far aside that `middle` is where it is in the picture without the zoom. The middle of the picture
+/// may be beside the model.
+pub(crate) fn zoomed_about(camera: &Camera, middle: [f64; 3], zoom: f32) -> Camera {
+    let wide = |v: [f32; 3]| v.map(f64::from);
+    let (eye, target) = (wide(camera.eye), wide(camera.target));
+    let share = 1.0 - 1.0 / f64::from(zoom);
+    let Some(forward) = normalize(sub(target, eye)).filter(|_| share != 0.0) else { return *camera };
+    let to = sub(middle, target);
+    let depth = dot(to, forward);
+    let by = [0, 1, 2].map(|k| share * (to[k] - depth * forward[k]));
+    let [eye, target] = [eye, target].map(|point| [0, 1, 2].map(|k| narrow(point[k] + by[k])));
+    Camera { eye, target, ..*camera }
+}
+
+/// The camera before a zoom about `middle`.
+pub(crate) fn unzoomed(camera: &Camera, middle: [f64; 3], zoom: f32) -> Camera {
+    let camera = zoomed_about(camera, middle, 1.0 / zoom);
+    Camera { fov: zoomed(camera.fov, 1.0 / zoom), ..camera }
 }
 
 /// The options that make this camera again, bit for bit, for a model whose coordinates are counted from `origin`, and

@@ -114,6 +114,57 @@ fn scenes_are_turned_around_their_target() {
     assert_eq!(fixed("--far"), [77.0]);
 }
 
+/// A floor in perspective, whose middle is above that of its picture, has a mark at the middle. So many times as large,
+/// the mark is where it was, in a still, in each frame of a motion, and along parallel lines.
+#[test]
+fn a_zoom_is_about_the_middle_of_the_model() {
+    let floor = "v -9 0 -9\nv -9 0 9\nv 9 0 9\nv 9 0 -9\nusemtl grey\nf 1 2 3 4\n";
+    let mark = "v -.2 .4 0\nv .2 .4 0\nv .2 .8 0\nv -.2 .8 0\nusemtl red\nf 5 6 7 8\nv 0 1.2 0\nv 0 1.2 .01\nf 7 9 10\n";
+    let library = "newmtl grey\nKd .5 .5 .5\nnewmtl red\nKd 1 0 0\n";
+    let scene = "[[object]]\nmodel = \"m.obj\"\n[[animation]]\nof = \"camera\"\nkey = \"zoom\"\ntimes = [0, 1]\nvalues = [1.5, 3]\n";
+    let folder = Folder::with(&[
+        ("m.obj", format!("mtllib m.mtl\n{floor}{mark}").as_bytes()),
+        ("m.mtl", library.as_bytes()),
+        ("m.toml", scene.as_bytes()),
+    ]);
+    // The middle of what is red, and its area.
+    let seen = |options: &str| {
+        let options: Vec<_> = options.split(' ').chain(["--size", "400x300", "--shading", "unlit"]).collect();
+        folder.succeeds(&[&options[..], &["-o", "a.png"]].concat());
+        let mut sum = [0.0; 3];
+        for (x, y, pixel) in picture(&folder, "a.png").enumerate_pixels() {
+            let [red, green, ..] = pixel.0.map(f64::from);
+            if red - green > 180.0 {
+                sum = [sum[0] + f64::from(x), sum[1] + f64::from(y), sum[2] + 1.0];
+            }
+        }
+        [sum[0] / sum[2] - 199.5, 149.5 - sum[1] / sum[2], sum[2]]
+    };
+    for (first, second, factor) in [
+        ("m.obj --zoom 2", "m.obj --zoom 6", 3.0),
+        ("m.obj --zoom .9", "m.obj --zoom 4.5", 5.0),
+        ("m.obj --zoom 1.5", "m.toml", 1.0),
+        ("m.toml", "m.toml --time 1", 2.0),
+        (
+            "m.obj --projection parallel --azimuth 10",
+            "m.obj --projection parallel --azimuth 10 --zoom 3",
+            3.0,
+        ),
+    ] {
+        let [[x, y, area], [other_x, other_y, larger]] = [first, second].map(seen);
+        assert!(
+            (x - other_x).abs() < 0.7 && (y - other_y).abs() < 0.7,
+            "{second}: {x} {y} {other_x} {other_y}"
+        );
+        let growth = (larger / area).sqrt() / factor;
+        assert!((growth - 1.0).abs() < 0.2, "{second}: {growth}");
+        assert!(first.contains("parallel") || y > 10.0, "{first}: {y}");
+    }
+    // A target that is given stays the middle of the picture.
+    let [x, y, _] = seen("m.obj --target 0,0.6,0 --zoom 4");
+    assert!(x.abs() < 1.5 && y.abs() < 1.5, "{x} {y}");
+}
+
 #[test]
 fn a_transparent_picture_has_an_alpha_where_the_format_has() {
     let folder = folder();

@@ -1,14 +1,17 @@
 //! The keys of a window, and what each does.
 
+/// A place of a picture, from its middle to the right and upwards, in heights of the picture.
+pub(super) type Place = [f64; 2];
+
 /// The wish of a key or of the mouse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Action {
-    /// A turn about the target: degrees to the right, and upwards.
+    /// A turn about the pivot: degrees to the right, and upwards.
     Turn([f64; 2]),
     /// A move across the view, in heights of the picture.
     Pan([f64; 2]),
-    /// A factor of nearness.
-    Zoom(f64),
+    /// A factor of nearness to what is seen at a place of the picture, or else towards the pivot.
+    Zoom(f64, Option<Place>),
     /// The camera of the beginning.
     Fit,
     /// A side of the model.
@@ -89,8 +92,8 @@ pub(super) const NEARER: f64 = 1.15;
 pub(super) fn of_letter(letter: &str, shift: bool) -> Option<Action> {
     let letter = letter.chars().next()?.to_ascii_lowercase();
     Some(match letter {
-        '+' | '=' => Action::Zoom(NEARER),
-        '-' | '_' => Action::Zoom(1.0 / NEARER),
+        '+' | '=' => Action::Zoom(NEARER, None),
+        '-' | '_' => Action::Zoom(1.0 / NEARER, None),
         '0' => Action::Fit,
         '1' => Action::View("front"),
         '2' => Action::View("back"),
@@ -120,7 +123,8 @@ pub(super) fn list() -> Vec<String> {
     let mut lines: Vec<String> = [
         "drag, arrows         turn",
         "right drag, shift    move across",
-        "wheel, + -           nearer, farther",
+        "wheel                nearer to what is under the mouse, farther",
+        "+ -                  nearer, farther",
         "0, Home              the first camera",
         "1 2 3 4 5 6 7        front back right left top bottom iso",
     ]
@@ -144,12 +148,10 @@ mod tests {
         for cycle in &CYCLES {
             for forwards in [true, false] {
                 let all = |first: Option<&str>| {
-                    let (mut value, mut seen) = (None, Vec::new());
-                    loop {
-                        value = cycle.next(value, first, forwards);
-                        let Some(value) = value else { break };
-                        seen.push(value);
-                    }
+                    let from = |value| cycle.next(value, first, forwards);
+                    let values = std::iter::successors(from(None), |value| from(Some(value)));
+                    // As many as would be too many.
+                    let mut seen: Vec<_> = values.take(cycle.values.len() + 1).collect();
                     if !forwards {
                         seen.reverse();
                     }

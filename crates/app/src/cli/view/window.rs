@@ -12,7 +12,7 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::keyboard::{Key, NamedKey};
 use winit::window::{Window, WindowId};
 
-use super::keys::{self, Action};
+use super::keys::{self, Action, Place};
 use super::overlay::Canvas;
 use super::{Seen, Viewer};
 use crate::cli::run::fail;
@@ -42,14 +42,19 @@ const ALARM: [u8; 3] = [255, 170, 90];
 /// # Errors
 /// There is no display, or the window cannot be drawn into.
 pub(super) fn open(viewer: Viewer) -> Result<(), Error> {
-    let no_display = |error: &dyn std::fmt::Display| {
-        let error = Error::new(format!("no window ({error})"), "a display").place("alberti view");
-        error.hint("alberti render draws without one")
-    };
     let event_loop = EventLoop::new().map_err(|error| no_display(&error))?;
     let mut shown = Screen::new(viewer);
     event_loop.run_app(&mut shown).map_err(|error| no_display(&error))?;
     shown.outcome
+}
+
+/// An error with its cause, but without the line of a source file that it begins with.
+fn no_display(error: &dyn std::fmt::Display) -> Error {
+    let text = error.to_string();
+    let cause = text.strip_prefix("os error at ").and_then(|text| text.split_once(": "));
+    let cause = cause.map_or(&*text, |(_, cause)| cause).trim_end_matches('.');
+    let error = Error::new(format!("no window ({cause})"), "a display").place("alberti view");
+    error.hint("alberti render draws without one")
 }
 
 /// The pixels of a window.
@@ -162,7 +167,7 @@ impl Screen {
             Action::Text => self.has_text = !self.has_text,
             _ => {}
         }
-        if matches!(action, Action::Turn(_) | Action::Pan(_) | Action::Zoom(_)) {
+        if matches!(action, Action::Turn(_) | Action::Pan(_) | Action::Zoom(..)) {
             self.moved = Some(Instant::now());
         }
         if action == Action::Picture {
@@ -281,6 +286,13 @@ impl Screen {
         }
     }
 
+    /// The mouse's place in the picture.
+    fn place(&self) -> Place {
+        let [width, height] = self.viewer.size.map(f64::from);
+        let [x, y] = self.cursor;
+        [(x - width / 2.0) / height.max(1.0), (height / 2.0 - y) / height.max(1.0)]
+    }
+
     fn drag(&mut self, [x, y]: [f64; 2], event_loop: &ActiveEventLoop) {
         let [before_x, before_y] = std::mem::replace(&mut self.cursor, [x, y]);
         let height = f64::from(self.viewer.size[1]).max(1.0);
@@ -312,8 +324,7 @@ fn over(color: u8, alpha: u8) -> u8 {
 impl ApplicationHandler for Screen {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         if let Err(error) = self.begin(event_loop) {
-            let error = Error::new(format!("no window ({error})"), "a display").place("alberti view");
-            self.end(event_loop, Err(error.hint("alberti render draws without one")));
+            self.end(event_loop, Err(no_display(&error)));
         }
     }
 
@@ -337,7 +348,8 @@ impl ApplicationHandler for Screen {
                     MouseScrollDelta::LineDelta(_, y) => f64::from(y),
                     MouseScrollDelta::PixelDelta(by) => by.y / 40.0,
                 };
-                self.act(Action::Zoom(keys::NEARER.powf(notches)), event_loop);
+                let at = self.place();
+                self.act(Action::Zoom(keys::NEARER.powf(notches), Some(at)), event_loop);
             }
             WindowEvent::DroppedFile(path) => {
                 let outcome = self.viewer.open(path);

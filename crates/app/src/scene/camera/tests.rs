@@ -60,6 +60,23 @@ fn the_automatic_camera_shows_the_whole_ball() {
     assert_eq!(frame(&from, None, (&model(), BALL), 4.0).unwrap().fov, DEFAULT_FOV);
     let zoomed = of(CameraTable { zoom: Some(2.0.into()), ..CameraTable::default() });
     assert_eq!((zoomed.eye, zoomed.target), (camera.eye, camera.target));
+    // A point beside the target is where it was in the picture, by similar triangles.
+    let (before, after) = (camera, zoomed_about(&zoomed, [1.5, 2.5, 2.0], 2.0));
+    let seen = |camera: Camera| {
+        let wide = |v: [f32; 3]| v.map(f64::from);
+        let forward = normalize(sub(wide(camera.target), wide(camera.eye))).unwrap();
+        let right = normalize(cross(forward, wide(camera.up))).unwrap();
+        let to = sub([1.5, 2.5, 2.0], wide(camera.eye));
+        let half = dot(to, forward) * (f64::from(camera.fov).to_radians() / 2.0).tan();
+        [dot(to, right) / half, dot(to, cross(right, forward)) / half, dot(to, forward)]
+    };
+    let places = [seen(before), seen(after)];
+    assert!(places[0].iter().zip(places[1]).all(|(a, b)| (a - b).abs() < 1e-5), "{places:?}");
+    assert!(places[0][0].hypot(places[0][1]) > 0.1 && before.eye != after.eye);
+    let back = unzoomed(&after, [1.5, 2.5, 2.0], 2.0);
+    let pairs = [(back.eye, before.eye), (back.target, before.target)];
+    assert!(pairs.iter().all(|(a, b)| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-5)), "{back:?}");
+    assert!((back.fov - before.fov).abs() < 1e-4);
     let tangents = [camera, zoomed].map(|camera| (f64::from(camera.fov).to_radians() / 2.0).tan());
     assert!((tangents[0] / tangents[1] - 2.0).abs() < 1e-6);
     assert!(camera.eye[0] > 1.0 && camera.eye[1] > 2.0 && camera.eye[2] > 3.0);

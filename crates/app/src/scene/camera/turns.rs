@@ -1,7 +1,7 @@
 //! Cameras that go round a model.
 
 use super::fit::{Lens, fit};
-use super::{Camera, CameraTable, Model, Sphere, planes, pose, unzoomed};
+use super::{Camera, CameraTable, Model, Sphere, planes, pose, zoomed};
 use super::{cross, dot, length, narrow, normalize, sub};
 
 /// The most directions from which it is seen how far away a camera has to be.
@@ -114,7 +114,7 @@ fn around(camera: &Camera, ball: Sphere, wishes: &CameraTable) -> (f32, f32) {
 
 /// The opening of a picture, without its zoom.
 fn lens(camera: &Camera, wishes: &CameraTable, aspect: f64) -> Lens {
-    let tangent = (f64::from(unzoomed(camera, wishes)).to_radians() / 2.0).tan();
+    let tangent = (f64::from(zoomed(camera.fov, 1.0 / wishes.zoom())).to_radians() / 2.0).tan();
     Lens { tangents: [tangent * aspect, tangent], parallel: wishes.is_parallel() }
 }
 
