@@ -1,5 +1,5 @@
-//! Alberti beside all its peers in one run, as a table in Markdown. Programs of other languages are arguments,
-//! `NAME=PATH`: `cargo xtask peers` builds those that the machine can build, and calls this.
+//! Alberti beside all its peers in one run: a line of figures for each scene, size and renderer. Programs of other
+//! languages are arguments, `NAME=PATH`: `cargo xtask peers` builds those that the machine can build, and calls this.
 //!
 //! Each picture is verified before anything is timed. All take turns, so that what slows the machine down for a while
 //! slows down all; a time is the least of all frames.
@@ -16,8 +16,6 @@ use std::io;
 use std::path::Path;
 use std::time::Instant;
 
-/// The first column, with which all others are compared.
-const FIRST: &str = "Exact";
 /// Renderers that `frames` times and this does not.
 const LEFT_OUT: [&str; 5] = [ours::WITHOUT_SLOTS, ours::BY_BANDS, "Spans16", "Affine", "App"];
 /// The part of all pixels that may be off: enough to tell a picture from a blank, or from one that is upside down.
@@ -32,7 +30,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let programs: Vec<[String; 2]> = std::env::args()
         .filter_map(|argument| argument.split_once('=').map(|(name, path)| [name.into(), path.into()]))
         .collect();
-    println!("alberti by {:?}", Machine::all().next());
+    eprintln!("alberti by {:?}", Machine::all().next());
+    println!("scene,size,renderer,milliseconds,off");
     // Where texels are smaller than pixels.
     let minified = [Filter::Trilinear, Filter::Anisotropic(Probes::Sixteen)];
     let floors = ["floor-trilinear", "floor-anisotropic"].into_iter().zip(minified);
@@ -40,14 +39,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scenes = descriptions.map(Scene::load).chain([Scene::normal_mapped()]);
     let scenes: Vec<_> = scenes.collect();
     for size in SIZES {
-        let mut table = Table::default();
         for scene in &scenes {
             let mut all = contestants(scene, size, &programs)?;
             verify(scene, size, &mut all)?;
             take_turns(&mut all)?;
-            table.rows.push((scene.name, all));
+            for Contestant { name, off, least, .. } in all {
+                println!("{},{size},{name},{least:.5},{off}", scene.name);
+            }
         }
-        println!("\n{}", table.markdown(size));
     }
     Ok(())
 }
@@ -146,44 +145,4 @@ fn take_turns(all: &mut [Contestant]) -> io::Result<()> {
         }
     }
     Ok(())
-}
-
-/// The scenes of one size, with all who drew them.
-#[derive(Default)]
-struct Table {
-    rows: Vec<(&'static str, Vec<Contestant>)>,
-}
-
-impl Table {
-    fn markdown(&self, size: Size) -> String {
-        let mut names: Vec<&str> = Vec::new();
-        for contestant in self.rows.iter().flat_map(|(_, all)| all) {
-            if !names.contains(&contestant.name.as_str()) {
-                names.push(&contestant.name);
-            }
-        }
-        let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
-        let mut head = vec![format!("scene, {size}")];
-        head.extend(names.iter().map(|&name| name.to_owned()));
-        let mut text = line(&head);
-        text.push_str(&line(&vec!["---".to_owned(); head.len()]).replace(' ', ""));
-        for (scene, all) in &self.rows {
-            let first = all.iter().find(|one| one.name == FIRST).map_or(f64::NAN, |one| one.least);
-            let mut cells = vec![(*scene).to_owned()];
-            cells.extend(names.iter().map(|&name| {
-                all.iter().find(|one| one.name == name).map_or_else(|| "-".into(), |one| one.cell(first))
-            }));
-            text.push_str(&line(&cells));
-        }
-        text
-    }
-}
-
-impl Contestant {
-    /// Milliseconds to three digits, how many times those of the first, and pixels off.
-    fn cell(&self, first: f64) -> String {
-        let digits = (2.0 - self.least.log10().floor()).max(0.0) as usize;
-        let ratio = if self.name == FIRST { String::new() } else { format!(" ({:.2})", self.least / first) };
-        format!("{:.digits$}{ratio}, {} off", self.least, self.off)
-    }
 }

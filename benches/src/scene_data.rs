@@ -52,10 +52,7 @@ impl Scene {
     #[must_use]
     pub fn normal_mapped() -> Self {
         let stones = Stones::new();
-        Self {
-            stones: Some(stones.clone()),
-            ..Self::new("normal-mapped, trilinear", pavement::scene(&stones))
-        }
+        Self { stones: Some(stones.clone()), ..Self::new("normal-mapped", pavement::scene(&stones)) }
     }
 
     /// The scene of that name.

@@ -64,11 +64,6 @@ pub(crate) fn test() -> Outcome {
     run(cargo().args(["test", "--workspace"]))
 }
 
-/// Runs the benchmarks whose names contain the filter, or all of them.
-pub(crate) fn bench(arguments: &[String]) -> Outcome {
-    run(cargo().args(["bench", "--package", "alberti-benches", "--"]).args(arguments))
-}
-
 /// Checks the code that only the features `avx512` and `sse2` compile, and the lanes of such machines against one lane.
 /// All else is the same code over other lanes, and would take minutes to compile once more.
 pub(crate) fn registers() -> Outcome {

@@ -9,8 +9,8 @@ use std::{env, fs, io, thread};
 
 use crate::command::Outcome;
 use crate::{
-    assets, checks, extremes, film, firmware, fuzz, gallery, guide, package, seeded, supply, tidy, trade,
-    web, window, workspace,
+    assets, bench, checks, extremes, film, firmware, fuzz, gallery, guide, package, seeded, supply, tidy,
+    trade, web, window, workspace,
 };
 use passed::Passed;
 
@@ -109,6 +109,7 @@ const STEPS: &[Step] = &[
     ("extremes", extremes::check),
     ("package", package::run),
     ("supply", supply::check),
+    ("bench", bench::check),
     ("trade", trade::check),
     ("guide", guide::run),
     ("fuzz", fuzz::check),

@@ -6,6 +6,7 @@
 
 mod accuracy;
 mod assets;
+mod bench;
 mod boards;
 mod build_cost;
 mod checks;
@@ -198,7 +199,12 @@ const CHORES: &[Chore] = &[
         about: "measure building from nothing beside its goals (parts: command, tests, edit)",
         run: build_cost::run,
     },
-    Chore { name: "bench", arguments: "[filter]", about: "run the benchmarks", run: checks::bench },
+    Chore {
+        name: "bench",
+        arguments: "[counts | --check] [--raylib dir]",
+        about: "measure instructions, times and peers, and write docs/benchmarks.md (--check: instructions alone)",
+        run: bench::run,
+    },
     Chore {
         name: "peers",
         arguments: "[--avx512] [--raylib dir]",

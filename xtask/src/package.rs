@@ -41,6 +41,9 @@ pub(crate) fn run() -> Outcome {
         command::run(Command::new("tar").arg("-xzmf").arg(archives.join(&archive)).arg("-C").arg(&unpacked))?;
         members.push(archive.trim_end_matches(".crate").to_string());
     }
+    for member in &members {
+        of_its_own(&unpacked.join(member))?;
+    }
     let count = workspace::published().count();
     if members.len() != count {
         return Err(format!("{} archives in {}, expected {count}", members.len(), archives.display()));
@@ -57,6 +60,33 @@ pub(crate) fn run() -> Outcome {
         .arg(unpacked.join("Cargo.toml"));
     // The same target directory as the repository's own builds: the dependencies are compiled there already.
     command::run(check.arg("--target-dir").arg(workspace::target_directory()))
+}
+
+/// Checks that a package has all that its page shows: both licences, and a README whose links lead somewhere without a
+/// repository around it.
+fn of_its_own(package: &Path) -> Outcome {
+    let read = |name: &str| {
+        let path = package.join(name);
+        fs::read_to_string(&path).map_err(|error| format!("cannot read {}: {error}", path.display()))
+    };
+    for (name, words) in [("LICENSE-MIT", "MIT License"), ("LICENSE-APACHE", "Apache License")] {
+        if !read(name)?.contains(words) {
+            return Err(format!("{}/{name} is not that licence", package.display()));
+        }
+    }
+    match dead_link(&read("README.md")?, |link| package.join(link).exists()) {
+        Some(link) => Err(format!(
+            "{}/README.md: found a link to `{link}`, expected a whole address, or a file of the package",
+            package.display()
+        )),
+        None => Ok(()),
+    }
+}
+
+/// The first link of a text in Markdown that is neither a whole address nor a file that is there.
+fn dead_link(markdown: &str, is_there: impl Fn(&str) -> bool) -> Option<&str> {
+    let links = markdown.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+    links.into_iter().find(|link| !link.starts_with("https://") && !link.starts_with('#') && !is_there(link))
 }
 
 /// The names of the archives in `folder`, sorted; none where there is no such folder.
@@ -90,6 +120,13 @@ fn write(path: &Path, text: &str) -> Outcome {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn links_lead_somewhere() {
+        let dead = |text| dead_link(text, |link| link == "README.md");
+        assert_eq!(dead("[a](https://docs.rs) [b](#part) [c](README.md) (d)"), None);
+        assert_eq!(dead("[a](https://docs.rs), [b](../alberti) and [c](x)"), Some("../alberti"));
+    }
 
     #[test]
     fn the_unpacked_crates_replace_one_another() {

@@ -2,9 +2,10 @@
 
 use std::fs;
 use std::path::{self, Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 
-use crate::command::{self, Outcome, cargo};
+use crate::bench::ratios;
+use crate::command::{self, Outcome, cargo, output};
 use crate::workspace;
 
 /// The flag with which alberti takes AVX-512 too.
@@ -15,9 +16,14 @@ const RAYLIB: &str = "--raylib";
 const EXTERNAL: &str = "src/external";
 const HEADER: &str = "rlsw.h";
 
-/// Builds the peers, draws all scenes by all, and prints the tables of benches/README.md.
+/// Draws all scenes by all peers, and prints a table for each size.
 pub(crate) fn run(arguments: &[String]) -> Outcome {
-    let options = Options::parse(arguments)?;
+    print!("{}", ratios::markdown(&measure(&Options::parse(arguments)?)?)?);
+    Ok(())
+}
+
+/// Builds the peers and draws all scenes by all: lines of figures.
+pub(crate) fn measure(options: &Options) -> Result<String, String> {
     let rlsw = options.raylib.as_deref().map(rlsw).transpose()?;
     let folder = workspace::target_directory().join("peers");
     fs::create_dir_all(&folder).map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
@@ -35,18 +41,19 @@ pub(crate) fn run(arguments: &[String]) -> Outcome {
             "llvmpipe is left out: {message}; it needs a C compiler and Mesa's OSMesa (Debian: libosmesa6-dev)"
         ),
     }
-    command::run(bench.args(rlsw))
+    output(bench.args(rlsw).stderr(Stdio::inherit()))
 }
 
+/// The wishes of the caller.
 #[derive(Debug, Default, PartialEq, Eq)]
-struct Options {
+pub(crate) struct Options {
     avx512: bool,
     /// The folder of raylib that the user names.
     raylib: Option<PathBuf>,
 }
 
 impl Options {
-    fn parse(arguments: &[String]) -> Result<Self, String> {
+    pub(crate) fn parse(arguments: &[String]) -> Result<Self, String> {
         let mut options = Self::default();
         let mut rest = arguments.iter();
         while let Some(flag) = rest.next() {

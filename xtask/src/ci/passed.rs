@@ -42,11 +42,19 @@ const TOOLS: &[&str] = &[
 ];
 
 /// The checks that may stand, and the beginnings of the names of the files that they read.
-const LONG: [(&str, &[&[&str]]); 8] = [
+const LONG: [(&str, &[&[&str]]); 9] = [
     ("firmware", &[LIBRARIES, CHIPS]),
     ("boards", &[LIBRARIES, CHIPS]),
     ("fingerprint", &[LIBRARIES, CHIPS]),
     ("web", &[LIBRARIES, &["crates/web/", "docs/theory.md", "xtask/src/web"]]),
+    (
+        "bench",
+        &[
+            LIBRARIES,
+            CHIPS,
+            &["Cargo.lock", "benches/", "crates/app/", "docs/benchmarks.md", "xtask/src/bench"],
+        ],
+    ),
     ("trade", &[LIBRARIES, CHIPS, TOOLS]),
     ("guide", &[LIBRARIES, CHIPS, TOOLS]),
     ("fuzz", &[LIBRARIES, CHIPS, TOOLS]),

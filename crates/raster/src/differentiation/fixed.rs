@@ -21,6 +21,7 @@
 //!
 //! All sums fit 32 bits. N is the most that ∂u is, and comes to lie below 2^30. A ∂p is the ∂u of a component that is 1
 //! at its vertex, and 0 at the others.
+#![expect(missing_debug_implementations, reason = "states of drawing, which have no name outside")]
 
 use super::{Quotients, Samples, of_pairs};
 use crate::edge::EdgeInt;
@@ -29,7 +30,6 @@ use crate::spans::Span;
 use crate::triangle::Corners;
 use alberti_math::lanes::OneFixed;
 use alberti_math::{Gradient, LOW_WORDS_ONLY, Mode, Q16, Varying, high, map2, map3, reciprocal_of_half};
-use core::fmt::{self, Debug};
 
 /// Bits of distances.
 const DISTANCE: u32 = 14;
@@ -45,12 +45,6 @@ pub struct FixedQuotients<V: Varying> {
     distances: Distances,
     /// Of each component the differences of the second and the third vertex from the first.
     differences: V::Of<[i32; 2]>,
-}
-
-impl<V: Varying> Debug for FixedQuotients<V> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("FixedQuotients").finish_non_exhaustive()
-    }
 }
 
 impl<V: Varying> Quotients<OneFixed, V> for FixedQuotients<V> {

@@ -1,4 +1,5 @@
 //! Derivatives in `f32`.
+#![expect(missing_debug_implementations, reason = "states of drawing, which have no name outside")]
 
 use super::{Quotients, Samples, of_pairs};
 use crate::edge::EdgeInt;
@@ -7,7 +8,6 @@ use crate::spans::Span;
 use crate::triangle::Corners;
 use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Gradient, Mode, Varying};
-use core::fmt::{self, Debug};
 
 /// The quotients of a triangle, in floats.
 #[derive(Clone, Copy)]
@@ -19,12 +19,6 @@ pub struct FloatQuotients<V: Varying> {
     /// Of hyperbolic components twice the area times ga, gb and gc, for distances in subpixels and derivatives by
     /// pixels; of others the derivatives themselves.
     numerators: V::Of<[f32; 3]>,
-}
-
-impl<V: Varying> Debug for FloatQuotients<V> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("FloatQuotients").finish_non_exhaustive()
-    }
 }
 
 impl<L: Floating, V: Varying> Quotients<L, V> for FloatQuotients<V> {
@@ -161,10 +155,4 @@ pub struct RunQuotients<L: Lanes, V: Varying> {
     /// The numerators by column and by row at `start`, and what the second loses by column, of hyperbolic components;
     /// of others the derivatives themselves.
     numerators: V::Of<[L::Number; 3]>,
-}
-
-impl<L: Lanes, V: Varying> Debug for RunQuotients<L, V> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("RunQuotients").finish_non_exhaustive()
-    }
 }

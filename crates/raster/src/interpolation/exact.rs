@@ -1,4 +1,5 @@
 //! Hyperbolic (perspective-correct) interpolation from the exact integer edges.
+#![expect(missing_debug_implementations, reason = "states of drawing, which have no name outside")]
 
 use crate::differentiation::FloatQuotients;
 use crate::edge::EdgeInt;
@@ -7,7 +8,6 @@ use crate::spans::Span;
 use crate::triangle::Corner;
 use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Mode, Varying, hull3, in_line, map3};
-use core::fmt;
 
 /// Hyperbolic interpolation from the exact integer edges: at a sample, ti = Ei qi and u = Σ ti ui / Σ ti. Ei is the
 /// edge function opposite vertex i, and qi = 1/zi. Screen depth is Σ Ei zsi / Σ Ei.
@@ -162,12 +162,6 @@ impl<L: Floating, V: Varying> Interpolate<L, V> for ExactTriangle<L, V> {
     #[inline(always)]
     fn reciprocal(&self, weights: &[L::Number; 3]) -> Option<L::Number> {
         Some(self.shares(*weights).1)
-    }
-}
-
-impl<L: Lanes, V: Varying> fmt::Debug for ExactTriangle<L, V> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("ExactTriangle").finish_non_exhaustive()
     }
 }
 

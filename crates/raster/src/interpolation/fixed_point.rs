@@ -1,4 +1,5 @@
 //! Lines in fixed point: integers only, from the vertices' numbers to the pixel.
+#![expect(missing_debug_implementations, reason = "states of drawing, which have no name outside")]
 
 use super::budget::{on_screen, units};
 use super::fixed_plane::{Area, FixedPlane, Shape};
@@ -15,7 +16,6 @@ use crate::{ColorFormat, Counters, DepthFormat, Paint};
 use alberti_math::lanes::{Floating, OneFixed};
 use alberti_math::{Mode, Q16, Sub8, Varying, map2, map3, reciprocal};
 use core::cell::Cell;
-use core::fmt;
 
 /// The policy `R` of straight lines ([`Spans16`](crate::Spans16), [`Affine`](crate::Affine) or [`Lines`]) in fixed
 /// point: for machines without floating point. One sample at a time, with as many additions as there are numbers; the
@@ -415,29 +415,5 @@ impl<V: Varying> LineNumbers<OneFixed, V> for FixedLines<V> {
     #[inline(always)]
     fn attributes(&self, cursor: &FixedCursor<V>) -> V::Of<Q16> {
         V::map(&cursor.components, &Q16::from_bits)
-    }
-}
-
-impl<V: Varying> fmt::Debug for FixedLines<V> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("FixedLines").finish_non_exhaustive()
-    }
-}
-
-impl<V: Varying> fmt::Debug for FixedRow<V> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("FixedRow").finish_non_exhaustive()
-    }
-}
-
-impl<V: Varying> fmt::Debug for FixedCursor<V> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("FixedCursor").finish_non_exhaustive()
-    }
-}
-
-impl<V: Varying> fmt::Debug for FixedEnds<V> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("FixedEnds").finish_non_exhaustive()
     }
 }

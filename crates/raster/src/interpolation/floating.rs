@@ -1,4 +1,5 @@
 //! Lines in `f32`: of components that are linear on the screen by their slopes, of others between two ends.
+#![expect(missing_debug_implementations, reason = "states of drawing, which have no name outside")]
 
 use super::bends::Bends;
 use super::linear::{FloatComponent, FloatPlane, Ramp, Slant, along, count, middle, scaled_q};
@@ -9,7 +10,6 @@ use crate::interpolation::{Chosen, Interpolation, Oriented, Prepare, Row, Values
 use crate::setup::Waiting;
 use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Mode, Varying};
-use core::fmt;
 
 /// A triangle's depth, q and components, and their parabolas where `BENT` is 1 and not 0.
 #[derive(Clone, Copy)]
@@ -212,22 +212,4 @@ interpolations!(Spans16, 0 Affine, 0 Lines, 1);
 #[inline(always)]
 pub(super) fn one_run(runs: impl Runs) -> i32 {
     if runs.budget().is_some() { 1 } else { runs.length() }
-}
-
-impl<L: Lanes, V: Varying, const BENT: usize> fmt::Debug for FloatingLines<L, V, BENT> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("FloatingLines").finish_non_exhaustive()
-    }
-}
-
-impl<L: Lanes, V: Varying, const BENT: usize> fmt::Debug for FloatingCursor<L, V, BENT> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("FloatingCursor").finish_non_exhaustive()
-    }
-}
-
-impl<V: Varying> fmt::Debug for FloatingEnds<V> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("FloatingEnds").finish_non_exhaustive()
-    }
 }

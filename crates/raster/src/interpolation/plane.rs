@@ -1,4 +1,5 @@
 //! Hyperbolic interpolation from plane equations, in each sample.
+#![expect(missing_debug_implementations, reason = "states of drawing, which have no name outside")]
 
 use super::exact::power_of_two_near;
 use super::linear::{FloatComponent, FloatPlane, Ramp, Slant, along, count, middle, scaled_q};
@@ -8,7 +9,6 @@ use crate::interpolation::{Interpolate, Interpolation, Oriented, Prepare, Row, V
 use crate::spans::Span;
 use alberti_math::lanes::{Floating, Lanes};
 use alberti_math::{Mode, Varying};
-use core::fmt;
 
 /// Hyperbolic interpolation from plane equations: q and every q·u are linear on the screen, and u = (q·u)/q. So each is
 /// a value in the middle of a run of samples and an increment by column. Runs have at most 64 columns of the triangle,
@@ -152,17 +152,5 @@ impl<L: Floating, V: Varying> Interpolate<L, V> for PlaneTriangle<L, V> {
                 Mode::Flat => component.constant(lanes),
             }
         })
-    }
-}
-
-impl<L: Lanes, V: Varying> fmt::Debug for PlaneTriangle<L, V> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("PlaneTriangle").finish_non_exhaustive()
-    }
-}
-
-impl<L: Lanes, V: Varying> fmt::Debug for PlaneCursor<L, V> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("PlaneCursor").finish_non_exhaustive()
     }
 }
