@@ -5,6 +5,7 @@
 
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 use std::sync::Arc;
 
 use clap::ArgMatches;
@@ -12,10 +13,11 @@ use clap::ArgMatches;
 use super::bake::name as stem;
 use super::request::Request;
 use super::run::{command, draw, print};
-use super::staged::{Cast, Staged};
+use super::staged::{Cast, Motion, Staged};
 use crate::draw::Chains;
 use crate::error::Error;
 use crate::film::{Set, ordered};
+use crate::load::scene_file::SceneFile;
 use crate::load::{input, seen};
 use crate::options::values::name_of;
 use crate::options::{CameraTable, Projection, Samples};
@@ -39,7 +41,9 @@ pub(super) const HELP: &str = "\
 Examples:
   alberti view cow.obj --texture cow.png      a window: drag turns, the wheel zooms, H lists the keys
   alberti view wet.toml --ground              drawn again whenever wet.toml, a model or an image changes
-  alberti view --scene floor -o floor.png     P keeps the picture in floor.png, and prints its command";
+  alberti view clock.toml                     Space plays what [[animation]] moves
+  alberti view --scene floor -o floor.png     P keeps the picture in floor.png instead of in floor-1.png,
+                                              floor-2.png and so on, and prints its command";
 
 /// The size of a window for which none is asked, nor one in the scene file.
 const SIZE: [u32; 2] = [960, 640];
@@ -72,6 +76,8 @@ struct Viewer {
     output: Option<PathBuf>,
     /// The camera and its pivot, once it has been moved.
     moved: Option<(Camera, [f64; 3])>,
+    /// The time, once it is not that of the command line.
+    time: Option<f64>,
     size: [u32; 2],
     cast: Cast,
     scene: Scene,
@@ -86,7 +92,18 @@ struct Scene {
     /// The model without its ground, for cameras below that.
     bare: Option<Model>,
     chains: Arc<Chains>,
+    motion: Option<Rc<Motion>>,
 }
+
+/// Parts of a scene that another has as well.
+#[derive(Default)]
+struct Kept {
+    chains: Option<Arc<Chains>>,
+    motion: Option<Rc<Motion>>,
+}
+
+/// Steps of time that words have: a thousandth of a second.
+const TICKS: f64 = 1e3;
 
 /// A picture, and what its false colours mean.
 struct Seen {
@@ -101,11 +118,12 @@ impl Viewer {
     fn new(words: &[OsString], size: [u32; 2]) -> Result<Self, Error> {
         seen::begin();
         let words = words.to_vec();
-        let request = requested(&words, &[], None, size)?;
+        let request = Request::read(&matches_of(words_of(&words, &Chosen::default(), size))?)?;
         let cast = request.cast().map_err(|error| request.relocate(error))?;
-        let scene = Scene::new((request.arguments.camera, request), &cast, None)?;
+        let scene = Scene::new((request.arguments.camera, request), &cast, Kept::default())?;
         let first = keys::CYCLES.iter().map(|cycle| scene.value(cycle.option)).collect();
-        Ok(Self { words, chosen: Vec::new(), first, output: None, moved: None, size, cast, scene })
+        let chosen = Vec::new();
+        Ok(Self { words, chosen, first, output: None, moved: None, time: None, size, cast, scene })
     }
 
     /// The name of the scene, without the way to it.
@@ -123,7 +141,16 @@ impl Viewer {
 
     /// The words of a picture of this size.
     fn all_words(&self) -> Vec<OsString> {
-        words_of(&self.words, &self.chosen, self.camera_words().as_deref(), self.size)
+        words_of(&self.words, &self.chosen(&self.chosen, true), self.size)
+    }
+
+    /// What has been chosen beside the command line, with or without a camera that has been moved.
+    fn chosen(&self, options: &[(&'static str, &'static str)], with_camera: bool) -> Chosen {
+        Chosen {
+            options: options.to_vec(),
+            camera: self.camera_words().filter(|_| with_camera),
+            time: self.time,
+        }
     }
 
     fn camera_words(&self) -> Option<String> {
@@ -141,7 +168,7 @@ impl Viewer {
     fn restage(&mut self, chosen: Vec<(&'static str, &'static str)>, keeps_maps: bool) -> Result<(), Error> {
         let requests = self.requests(&chosen)?;
         let chains = keeps_maps.then(|| self.scene.chains.clone());
-        self.take(Scene::new(requests, &self.cast, chains)?);
+        self.take(Scene::new(requests, &self.cast, Kept { chains, motion: None })?);
         self.chosen = chosen;
         Ok(())
     }
@@ -167,19 +194,60 @@ impl Viewer {
         }
         let (wishes, request) = self.requests(&self.chosen)?;
         let cast = request.cast().map_err(|error| request.relocate(error))?;
-        self.take(Scene::new((wishes, request), &cast, None)?);
+        self.take(Scene::new((wishes, request), &cast, Kept::default())?);
         self.cast = cast;
         Ok(())
     }
 
     /// The request of a picture with these options, and the camera's options without one that has been moved.
     fn requests(&self, chosen: &[(&'static str, &'static str)]) -> Result<(CameraTable, Request), Error> {
-        let first = requested(&self.words, chosen, None, self.size)?;
-        let request = match self.camera_words() {
-            Some(camera) => requested(&self.words, chosen, Some(&camera), self.size)?,
-            None => return Ok((first.arguments.camera, first)),
+        let read = |with_camera| {
+            let words = words_of(&self.words, &self.chosen(chosen, with_camera), self.size);
+            Request::read(&matches_of(words)?)
         };
-        Ok((first.arguments.camera, request))
+        let first = read(false)?;
+        let wishes = first.arguments.camera;
+        Ok((wishes, if self.moved.is_some() { read(true)? } else { first }))
+    }
+
+    /// The end of what moves, and the time.
+    fn motion(&self) -> Option<[f64; 2]> {
+        let Request { arguments, file, .. } = &self.scene.request;
+        let end = file.as_ref().and_then(SceneFile::end).filter(|end| *end > 0.0)?;
+        let first = arguments.time.map_or(0.0, |time| <[f64; 1]>::from(time)[0]);
+        Some([end, self.time.unwrap_or(first)])
+    }
+
+    /// Has the scene so many seconds later, of a motion that goes round.
+    ///
+    /// # Errors
+    /// Nothing moves, or a frame cannot be; all is as it was.
+    fn advance(&mut self, seconds: f64) -> Result<bool, Error> {
+        let Some([end, now]) = self.motion() else {
+            return Err(Error::new("a scene in which nothing moves", "one with [[animation]]"));
+        };
+        let before = self.time.replace(((now + seconds).rem_euclid(end) * TICKS).round() / TICKS);
+        let outcome = self.stage_at_time();
+        if outcome.is_err() {
+            self.time = before;
+        }
+        outcome.map(|()| true)
+    }
+
+    /// Stages the scene at its time: as a frame of a film, with all that its frames share.
+    fn stage_at_time(&mut self) -> Result<(), Error> {
+        let time = self.time.unwrap_or_default();
+        let of = |words| self.scene.request.at(&matches_of(words)?, time);
+        let request = of(self.all_words())?;
+        let own = self.chosen(&self.chosen, false);
+        let wishes = of(words_of(&self.words, &own, self.size))?.arguments.camera;
+        // A ground's shadow is a map of its own.
+        let chains = self.scene.bare.is_none().then(|| self.scene.chains.clone());
+        let motion = self.scene.motion.clone();
+        let mut scene = Scene::new((wishes, request), &self.cast, Kept { chains, motion })?;
+        scene.request.moments = std::mem::take(&mut self.scene.request.moments);
+        self.take(scene);
+        Ok(())
     }
 
     /// Looks at another model or scene file, with what keys have chosen.
@@ -298,7 +366,8 @@ impl Viewer {
                 let value = cycle.next(self.chosen_value(cycle.option), first, forwards);
                 self.choose(cycle.option, value, cycle.keeps_maps)
             }
-            Action::Picture | Action::Help | Action::Text | Action::Quit => Ok(false),
+            Action::Step(frames) => self.advance(f64::from(frames) / keys::FRAMES),
+            Action::Picture | Action::Play | Action::Help | Action::Text | Action::Quit => Ok(false),
         }
     }
 
@@ -355,11 +424,13 @@ impl Scene {
     fn new(
         (wishes, request): (CameraTable, Request),
         cast: &Cast,
-        chains: Option<Arc<Chains>>,
+        Kept { chains, mut motion }: Kept,
     ) -> Result<Self, Error> {
         let staged = request.check().and_then(|()| {
-            let motion = request.motion(cast)?;
-            request.stage_with(cast.clone(), motion.as_ref())
+            if motion.is_none() {
+                motion = request.motion(cast)?.map(Rc::new);
+            }
+            request.stage_with(cast.clone(), motion.as_deref())
         });
         let mut staged = staged.map_err(|error| request.relocate(error))?;
         ordered(&mut staged.model, &staged.camera, staged.options.projection);
@@ -369,7 +440,7 @@ impl Scene {
             Some(chains) => chains,
             None => Arc::new(Chains::new(&staged.model, &staged.options)?),
         };
-        Ok(Self { request, wishes, staged, bare, chains })
+        Ok(Self { request, wishes, staged, bare, chains, motion })
     }
 
     /// The value that an option has, as it is typed, if it is one for the whole scene.
@@ -416,18 +487,22 @@ fn end_of_options(words: &[OsString]) -> usize {
     words.iter().position(|word| word == "--").unwrap_or(words.len())
 }
 
+/// Words that are chosen beside those of the command line.
+#[derive(Default)]
+struct Chosen {
+    options: Vec<(&'static str, &'static str)>,
+    camera: Option<String>,
+    time: Option<f64>,
+}
+
 /// The command line of `render` with these words.
-fn words_of(
-    words: &[OsString],
-    chosen: &[(&str, &str)],
-    camera: Option<&str>,
-    [width, height]: [u32; 2],
-) -> Vec<OsString> {
+fn words_of(words: &[OsString], chosen: &Chosen, [width, height]: [u32; 2]) -> Vec<OsString> {
     let end = end_of_options(words);
     let mut all: Vec<OsString> = ["alberti", "render"].map(OsString::from).to_vec();
     all.extend_from_slice(&words[..end]);
-    all.extend(chosen.iter().map(|(option, value)| format!("{option}={value}").into()));
-    all.extend(camera.into_iter().flat_map(str::split_whitespace).map(OsString::from));
+    all.extend(chosen.options.iter().map(|(option, value)| format!("{option}={value}").into()));
+    all.extend(chosen.camera.iter().flat_map(|camera| camera.split_whitespace()).map(OsString::from));
+    all.extend(chosen.time.map(|time| format!("--time={time}").into()));
     all.extend(["--size".to_owned(), format!("{width}x{height}")].map(OsString::from));
     all.extend_from_slice(&words[end..]);
     all
@@ -438,15 +513,6 @@ fn matches_of(words: Vec<OsString>) -> Result<ArgMatches, Error> {
     let matches = matches.map_err(|error| Error::new(error.to_string(), "what --help lists"))?;
     let render = matches.subcommand_matches("render").cloned();
     render.ok_or_else(|| Error::new("no command", "render"))
-}
-
-fn requested(
-    words: &[OsString],
-    chosen: &[(&str, &str)],
-    camera: Option<&str>,
-    size: [u32; 2],
-) -> Result<Request, Error> {
-    Request::read(&matches_of(words_of(words, chosen, camera, size))?)
 }
 
 #[cfg(test)]

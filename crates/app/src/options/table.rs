@@ -33,8 +33,9 @@ pub struct CameraTable {
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     pub target: Option<Point>,
 
-    /// The direction that is up in the world: lights and the ground follow it [default: 0,1,0].
-    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    /// The direction that is up in the world, or an axis such as z: lights and the ground follow it
+    /// [default: 0,1,0].
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = upwards)]
     pub up: Option<Point>,
 
     /// Degrees around the model, from the front to the right; instead of --eye [default: 30; of a
@@ -80,6 +81,18 @@ pub struct CameraTable {
     /// Height that a parallel projection shows [default: that of the perspective view, at the target].
     #[arg(long, value_name = "HEIGHT", allow_hyphen_values = true)]
     pub view_height: Option<Number<Finite>>,
+}
+
+/// A direction, or an axis that has a name.
+fn upwards(text: &str) -> Result<Point, String> {
+    let (name, sign) = text.strip_prefix('-').map_or((text, 1.0), |name| (name, -1.0));
+    let axis = match name {
+        "x" | "X" => [sign, 0.0, 0.0],
+        "y" | "Y" => [0.0, sign, 0.0],
+        "z" | "Z" => [0.0, 0.0, sign],
+        _ => return text.parse().map_err(|error| format!("{error}, or one of x, y, z, -x, -y, -z")),
+    };
+    Ok(axis.into())
 }
 
 impl CameraTable {

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use image::codecs::pnm::{PnmEncoder, PnmSubtype, SampleEncoding};
+use image::codecs::tga::TgaEncoder;
 use image::{ExtendedColorType, ImageEncoder as _, ImageFormat};
 use tempfile::NamedTempFile;
 
@@ -350,13 +351,18 @@ impl Output {
         // Encoded in memory first, so that there is a temporary file only for as long as a copy takes.
         let mut encoded = Cursor::new(Vec::new());
         let (width, height) = (picture.width, picture.height);
-        let written = if self.format == ImageFormat::Pnm {
-            // P6: the kind that all programs read.
-            let encoder = PnmEncoder::new(&mut encoded);
-            let encoder = encoder.with_subtype(PnmSubtype::Pixmap(SampleEncoding::Binary));
-            encoder.write_image(bytes, width, height, colors)
-        } else {
-            image::write_buffer_with_format(&mut encoded, bytes, width, height, colors, self.format)
+        let written = match self.format {
+            ImageFormat::Pnm => {
+                // P6: the kind that all programs read.
+                let encoder = PnmEncoder::new(&mut encoded);
+                let encoder = encoder.with_subtype(PnmSubtype::Pixmap(SampleEncoding::Binary));
+                encoder.write_image(bytes, width, height, colors)
+            }
+            // Its runs would go on from row to row, which not all programs read.
+            ImageFormat::Tga => {
+                TgaEncoder::new(&mut encoded).disable_rle().write_image(bytes, width, height, colors)
+            }
+            format => image::write_buffer_with_format(&mut encoded, bytes, width, height, colors, format),
         };
         written.map_err(|error| {
             let found = format!("that encoding fails ({error})");

@@ -42,8 +42,10 @@ struct Ground {
     low: f64,
     /// The distance up to which a face is at that height.
     near: f64,
-    /// Whether it is over a floor of the model's own.
+    /// Whether it is just over a floor of the model's own, and has the shadow there.
     on_floor: bool,
+    /// Whether it is all around, and not on the floor alone.
+    goes_on: bool,
     /// How high the model is above it.
     height: f64,
     /// How far away the model still darkens it.
@@ -65,53 +67,50 @@ pub(crate) struct Manner {
 }
 
 /// Adds a ground at the lowest point of a model, or of all places that it comes to, and says whether it did. A floor of
-/// its own has the shadow on it. There is none if all of the cameras are below it. Planes of the others that are not
-/// fixed are moved so that all of it is between them. Where attributes are affine, it is of so many parts that none
-/// shows that.
+/// its own has the shadow on it, which goes on beyond. There is none if all of the cameras are below it. Planes of the
+/// others that are not fixed are moved so that all of it is between them. Where attributes are affine, it is of so many
+/// parts that none shows that.
 pub(crate) fn add(model: &mut Model, swept: Option<&Model>, cameras: &mut [Camera], manner: Manner) -> bool {
     let Manner { fixed, affine, depth, wrap } = manner;
-    let first = cameras.first().map(|first| first.up);
-    let Some(ground) = first.and_then(|up| floor::ground(model, swept, up, depth)) else { return false };
-    let above: Vec<bool> = cameras.iter().map(|camera| ground.is_below(camera)).collect();
+    let Some(first) = cameras.first().map(|first| first.up) else { return false };
+    let grounds = floor::grounds(model, swept, first, depth);
+    let Some(seen) = grounds.first() else { return false };
+    let above: Vec<bool> = cameras.iter().map(|camera| seen.is_below(camera)).collect();
     if !above.contains(&true) {
         return false;
     }
-    let texels = ground.shadow(model, wrap).into_iter().map(|alpha| [0, 0, 0, alpha]).collect();
-    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|uv| ground.place(uv));
-    // Beyond a floor nothing of it is seen.
-    let seen = cameras.iter_mut().zip(above).filter(|(_, above)| *above && !ground.on_floor);
-    seen.for_each(|(camera, _)| stretch(camera, &corners, fixed));
-    let first = u32::try_from(model.vertices.len()).unwrap_or(u32::MAX);
-    let mut normal = [0.0; 3];
-    normal[ground.up.0] = narrow(ground.up.1);
     // Few, where attributes are right anywhere.
     let squares = if affine { 48 } else { 1 };
-    let (places, triangles) = if ground.on_floor {
-        let places = floor::places(model, &ground, squares);
-        let count = u32::try_from(places.len()).unwrap_or(0);
-        (places, (0..count).step_by(3).map(|k| [k, k + 1, k + 2]).collect())
-    } else {
-        ground.squares(squares)
-    };
-    model.vertices.extend(places.into_iter().map(|place| Vertex {
-        position: place.map(narrow),
-        normal,
-        uv: ground.shares(place).map(narrow),
-        ..Vertex::default()
-    }));
-    let triangles = triangles.into_iter().map(|triangle| triangle.map(|k| first + k)).collect();
-    let side = ground.cells / 2;
-    model.textures.push(Image { width: side, height: side, texels }.into());
-    let map =
-        Map { image: model.textures.len() - 1, filter: Some(Filter::Bilinear), wrap: Some(Wrap::Clamp) };
-    let mut part = Part { name: "ground".to_owned(), triangles, texture: Some(map.image), ..Part::default() };
-    (part.detail.filter, part.detail.wrap) = (map.filter, map.wrap);
-    (part.detail.blend, part.detail.specular) = (AnyBlend::Over, [0.0; 3]);
-    if depth == DepthFormat::None {
-        let at = if ground.on_floor { floor::after(model, &ground) } else { 0 };
-        model.parts.insert(at, part);
-    } else {
-        order::behind_all(model, part);
+    // All of them before one is a part of the model.
+    let all: Vec<_> = grounds
+        .iter()
+        .map(|ground| {
+            let texels = ground.shadow(model, wrap).into_iter().map(|alpha| [0, 0, 0, alpha]).collect();
+            let floor = ground.on_floor.then(|| {
+                let places = floor::places(model, ground, squares);
+                let count = u32::try_from(places.len()).unwrap_or(0);
+                (
+                    places,
+                    (0..count).step_by(3).map(|k| [k, k + 1, k + 2]).collect(),
+                    floor::after(model, ground),
+                )
+            });
+            (ground, texels, floor)
+        })
+        .collect();
+    // What is drawn last comes first, since each is put before what there is.
+    for (ground, texels, floor) in all {
+        let side = ground.cells / 2;
+        model.textures.push(Image { width: side, height: side, texels }.into());
+        if let Some((places, triangles, after)) = floor {
+            ground.put(model, (places, triangles), (depth == DepthFormat::None).then_some(after));
+        }
+        if ground.goes_on {
+            let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|uv| ground.place(uv));
+            let seen = cameras.iter_mut().zip(&above).filter(|(_, above)| **above);
+            seen.for_each(|(camera, _)| stretch(camera, &corners, fixed));
+            ground.put(model, ground.squares(squares), (depth == DepthFormat::None).then_some(0));
+        }
     }
     true
 }
@@ -129,13 +128,14 @@ pub(crate) fn above(
     cameras: &[Camera],
     depth: DepthFormat,
 ) -> Option<Vec<bool>> {
-    let ground = floor::ground(model, swept, cameras.first()?.up, depth)?;
+    let grounds = floor::grounds(model, swept, cameras.first()?.up, depth);
+    let ground = grounds.first()?;
     Some(cameras.iter().map(|camera| ground.is_below(camera)).collect())
 }
 
 /// Whether a model has a floor of its own, on which a shadow lies.
 pub(crate) fn has_floor(model: &Model, swept: Option<&Model>, up: [f32; 3]) -> bool {
-    floor::ground(model, swept, up, DepthFormat::default()).is_some_and(|ground| ground.on_floor)
+    floor::grounds(model, swept, up, DepthFormat::default()).iter().any(|ground| ground.on_floor)
 }
 
 /// Moves the planes of a camera so that these points are between them.
@@ -171,6 +171,9 @@ fn bounds(model: &Model) -> [[f64; 3]; 2] {
     bounds
 }
 
+/// Places, and triangles of these.
+type Surface = (Vec<[f64; 3]>, Vec<[u32; 3]>);
+
 impl Ground {
     /// Whether a camera sees it from above.
     fn is_below(&self, camera: &Camera) -> bool {
@@ -201,12 +204,39 @@ impl Ground {
         let height = size[up] + below * radius;
         let near = 4.0 * below.abs() * radius;
         let cells = cells.unwrap_or(most);
-        Some(Self { up: (up, sign), corner, side, low, near, on_floor: false, height, reach, cells })
+        let up = (up, sign);
+        Some(Self { up, corner, side, low, near, on_floor: false, goes_on: true, height, reach, cells })
     }
 
-    /// A place on it, of shares of its sides.
+    /// Puts a part with its shadow into a model, whose last texture that is: at this place among the parts, or behind
+    /// all that depth orders.
+    fn put(&self, model: &mut Model, (places, triangles): Surface, at: Option<usize>) {
+        let first = u32::try_from(model.vertices.len()).unwrap_or(u32::MAX);
+        let mut normal = [0.0; 3];
+        normal[self.up.0] = narrow(self.up.1);
+        model.vertices.extend(places.into_iter().map(|place| Vertex {
+            position: place.map(narrow),
+            normal,
+            uv: self.shares(place).map(narrow),
+            ..Vertex::default()
+        }));
+        let triangles = triangles.into_iter().map(|triangle| triangle.map(|k| first + k)).collect();
+        let map =
+            Map { image: model.textures.len() - 1, filter: Some(Filter::Bilinear), wrap: Some(Wrap::Clamp) };
+        let mut part =
+            Part { name: "ground".to_owned(), triangles, texture: Some(map.image), ..Part::default() };
+        (part.detail.filter, part.detail.wrap) = (map.filter, map.wrap);
+        (part.detail.blend, part.detail.specular) = (AnyBlend::Over, [0.0; 3]);
+        match at {
+            Some(at) => model.parts.insert(at, part),
+            None => order::behind_all(model, part),
+        }
+    }
+
+    /// A place on it, of shares of its sides. Around a floor it is as far below that as it is above on it.
     fn place(&self, shares: [f64; 2]) -> [f64; 3] {
-        let mut place = [self.low; 3];
+        let beside = if self.on_floor { self.near / 2.0 } else { 0.0 };
+        let mut place = [self.low - self.up.1 * beside; 3];
         for ((axis, corner), share) in others(self.up.0).into_iter().zip(self.corner).zip(shares) {
             place[axis] = corner + share * self.side;
         }
@@ -220,7 +250,7 @@ impl Ground {
     }
 
     /// So many squares along each side: their corners, and triangles of these.
-    fn squares(&self, count: u16) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
+    fn squares(&self, count: u16) -> Surface {
         let shares = || (0..=count).map(|k| f64::from(k) / f64::from(count));
         let places = shares().flat_map(|v| shares().map(move |u| self.place([u, v]))).collect();
         let count = u32::from(count);

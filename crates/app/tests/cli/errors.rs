@@ -163,6 +163,7 @@ fn cameras_that_see_nothing() {
         ("--eye 1,2", "error: --eye: found \"1,2\", expected three finite numbers"),
         ("--target 1e400,0,0", "error: --target: found \"1e400,0,0\""),
         ("--up -inf,0,0", "error: --up: found \"-inf,0,0\""),
+        ("--up w", "such as 0,1.5,-3, or one of x, y, z, -x, -y, -z"),
         ("--fov 0", "error: --fov: found 0 degrees, expected an angle above 0 and below 180"),
         ("--fov 180", "error: --fov: found 180 degrees"),
         ("--fov -20", "error: --fov: found -20 degrees"),

@@ -134,6 +134,13 @@ fn text_has_all_of_it() {
     let map = json!({ "key": "color-map", "file": "wood.png", "size": [3, 2], "found": true });
     assert_eq!(told["materials"], json!([{ "name": "stone", "maps": [map] }]));
     assert_eq!(json_of(&folder, &["--scene", "floor"])["triangles"], 2);
+    // Copies of a model are told apart by their names.
+    let copies = "[[object]]\nname = \"a\"\nmodel = \"b.obj\"\n[[object]]\nname = \"c\"\nmodel = \"b.obj\"\n";
+    std::fs::write(folder.path("t.toml"), copies).expect("a file");
+    let run = info(&folder, &["t.toml"]);
+    for part in ["\"a/floor\"", "\"a/wall\"", "\"c/floor\"", "\"c/wall\""] {
+        assert!(run.stdout.contains(part), "{part:?} is not in {}", run.stdout);
+    }
 }
 
 #[test]

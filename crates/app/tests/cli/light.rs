@@ -270,7 +270,8 @@ fn a_ground_has_a_soft_shadow() {
     }
 }
 
-/// A floor of the scene's own has the shadow on it, and nothing else changes. What is no floor stands on a ground.
+/// A floor of the scene's own has the shadow on it, and the ground beside it, and nothing else changes. Things that are
+/// no floor stand on a ground.
 #[test]
 fn floors_have_shadows_on_them() {
     let scene = |floor: &str, ground: bool| {
@@ -282,13 +283,19 @@ fn floors_have_shadows_on_them() {
     let floor = "[[object]]\nsurface = \"plane\"\nsize = [6, 6]\n";
     let shelf = "[[object]]\nsurface = \"plane\"\nsize = [4, 4]\nposition = [0, 3, 0]\n";
     let upside_down = "[[object]]\nsurface = \"plane\"\nsize = [4, 4]\nrotation = [180, 0, 0]\n";
-    let camera = |run: &crate::Run| run.stdout.lines().nth(1).map(str::to_owned);
+    // But for the planes, between which there is more.
+    let camera = |run: &crate::Run| {
+        let line = run.stdout.lines().nth(1)?;
+        Some(line.split(" --near").next()?.to_owned())
+    };
+    let beside = "[[object]]\nsurface = \"plane\"\nsize = [6, 6]\nposition = [-5, 0, 0]\n";
     let sunk = "[[object]]\nsurface = \"plane\"\nsize = [6, 6]\nposition = [0, 0.1, 0]\n";
     let motion = "[[animation]]\nof = \"ball\"\nkey = \"position\"\ntimes = [0, 1]\nvalues = [[0, 1, 0], [0, 1.5, 0]]\n";
     for (floor, motion, is_floor) in [
         (floor, "", true),
         (floor, motion, true),
         (sunk, "", true),
+        (beside, "", true),
         (shelf, "", false),
         (upside_down, "", false),
         ("", "", false),

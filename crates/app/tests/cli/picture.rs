@@ -197,6 +197,7 @@ fn the_printed_camera_makes_the_same_picture() {
         "--view iso --projection parallel",
         "--eye 1,2,3 --roll -170",
         "--target 0.1,0.2,0.3 --up 0,0,1 --fov 11.3",
+        "--up -z --azimuth 20",
     ] {
         let words = size.into_iter().chain(options.split_whitespace());
         let run = folder.succeeds(&words.chain(["-o", "a.png"]).collect::<Vec<_>>());

@@ -18,6 +18,10 @@ pub(super) enum Action {
     View(&'static str),
     /// The next value of an option, or the one before.
     Cycle(&'static Cycle, bool),
+    /// A motion that goes on, or stands.
+    Play,
+    /// So many frames of it, on or back.
+    Step(i8),
     /// The picture in a file.
     Picture,
     /// The list of keys, shown or not.
@@ -85,6 +89,9 @@ pub(super) fn is_view(option: &str) -> bool {
 /// The degrees of a turn by a key, and the share of the picture's height of a move.
 const STEP: [f64; 2] = [7.5, 0.05];
 
+/// The frames of a motion that there are in a second.
+pub(super) const FRAMES: f64 = 30.0;
+
 /// The factor of a zoom by a key.
 pub(super) const NEARER: f64 = 1.15;
 
@@ -102,6 +109,9 @@ pub(super) fn of_letter(letter: &str, shift: bool) -> Option<Action> {
         '5' => Action::View("top"),
         '6' => Action::View("bottom"),
         '7' => Action::View("iso"),
+        ' ' => Action::Play,
+        ',' | '<' => Action::Step(-1),
+        '.' | '>' => Action::Step(1),
         'p' => Action::Picture,
         'h' | '?' => Action::Help,
         'q' => Action::Quit,
@@ -127,6 +137,7 @@ pub(super) fn list() -> Vec<String> {
         "+ -                  nearer, farther",
         "0, Home              the first camera",
         "1 2 3 4 5 6 7        front back right left top bottom iso",
+        "Space , .            plays what moves, a frame back, on",
     ]
     .map(str::to_owned)
     .to_vec();
@@ -172,7 +183,7 @@ mod tests {
     #[test]
     fn each_letter_has_one_meaning() {
         let letters: Vec<char> =
-            CYCLES.iter().map(|cycle| cycle.key).chain("+-01234567phq".chars()).collect();
+            CYCLES.iter().map(|cycle| cycle.key).chain("+-01234567 ,.phq".chars()).collect();
         for (k, letter) in letters.iter().enumerate() {
             assert!(!letters[..k].contains(letter), "{letter}");
             let text = letter.to_string();

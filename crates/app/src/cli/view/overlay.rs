@@ -23,9 +23,9 @@ pub(super) struct Canvas<'a> {
 }
 
 impl Canvas<'_> {
-    /// Letters in a line.
-    pub(super) fn columns(&self) -> usize {
-        (self.size[0] / (LETTER[0] * self.scale)).saturating_sub(2) as usize
+    /// Letters in a line of a window of that width.
+    pub(super) fn columns(width: u32, scale: u32) -> usize {
+        (width / (LETTER[0] * scale)).saturating_sub(2) as usize
     }
 
     /// Lines on a darkened patch in the upper left corner, after so many others.
@@ -95,7 +95,7 @@ mod tests {
                 let mut pixels = vec![0x00ff_ffff; (size[0] * size[1]) as usize];
                 let mut canvas = Canvas { pixels: &mut pixels, size, scale };
                 canvas.write(&["Ag|\u{e9}\u{2026}".to_owned(), String::new()], 0, [255, 200, 100]);
-                assert!(canvas.columns() <= size[0] as usize);
+                assert!(Canvas::columns(size[0], scale) <= size[0] as usize);
                 if size[0] == 300 {
                     let inked = pixels.iter().filter(|pixel| **pixel == 0x00ff_c864).count();
                     assert!(inked > 20 * (scale * scale) as usize, "{inked}");

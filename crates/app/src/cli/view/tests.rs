@@ -187,3 +187,41 @@ fn kept_pictures_have_their_command() {
         fs::write(name, "").expect("a file");
     }
 }
+
+/// A motion goes on as its command line draws it, and round; a camera that has been moved stays.
+#[test]
+fn a_motion_is_that_of_its_frames() {
+    let folder = folder();
+    let scene = "[[object]]\nname = \"a\"\nmodel = \"m.obj\"\n[[object]]\nsurface = \"sphere\"\nposition = [1, 1, 1]\n\
+        [[animation]]\nof = \"a\"\nkey = \"position\"\ntimes = [0, 2]\nvalues = [[0, 0, 0], [1, 0, 1]]\n\
+        [[animation]]\nof = \"camera\"\nkey = \"azimuth\"\ntimes = [0, 1]\nvalues = [0, 40]\n";
+    fs::write(folder.path().join("s.toml"), scene).expect("a scene");
+    let words = |options: &str| -> Vec<OsString> {
+        let scene = folder.path().join("s.toml").into_os_string();
+        std::iter::once(scene).chain(options.split_whitespace().map(Into::into)).collect()
+    };
+    let picture = |viewer: &Viewer| viewer.picture(false).expect("a picture").image;
+    for (options, keys) in [("", ""), ("--ground", ""), ("--time 0.5", ""), ("", ">+")] {
+        let mut viewer = Viewer::new(&words(options), SIZE).expect("a scene");
+        act(&mut viewer, keys);
+        let first = picture(&viewer);
+        let before = viewer.camera();
+        let [end, start] = viewer.motion().expect("a motion");
+        viewer.advance(0.25).expect("a frame");
+        assert_eq!((end, viewer.motion()), (2.0, Some([2.0, start + 0.25])));
+        let next = picture(&viewer);
+        assert!(next != first && next == rendered(&viewer, folder.path()), "{options} {keys}");
+        assert_eq!(viewer.camera().eye == before.eye, !keys.is_empty());
+        // Other keys keep the time, and all of it is gone through.
+        act(&mut viewer, "i");
+        assert_eq!(viewer.motion(), Some([2.0, start + 0.25]));
+        assert!(picture(&viewer) == rendered(&viewer, folder.path()));
+        act(&mut viewer, "iiii");
+        viewer.advance(1.75).expect("a frame");
+        assert_eq!(viewer.motion(), Some([2.0, start]));
+        assert!(picture(&viewer) == first, "{options} {keys}");
+    }
+    let mut viewer = viewer(folder.path(), "");
+    let told = viewer.advance(0.1).expect_err("nothing moves").to_string();
+    assert!(viewer.motion().is_none() && told.contains("[[animation]]"), "{told}");
+}

@@ -22,6 +22,9 @@ use crate::load::seen;
 /// The time between two looks at the files.
 const POLL: Duration = Duration::from_millis(250);
 
+/// The least time between two frames of a motion.
+const FRAME: Duration = Duration::from_millis(16);
+
 /// The time of a message.
 const READ: Duration = Duration::from_secs(6);
 
@@ -71,6 +74,8 @@ struct Screen {
     is_draft: bool,
     took: Duration,
     moved: Option<Instant>,
+    /// The time from which a motion is to go on, if it plays.
+    played: Option<Instant>,
     message: Option<(String, Instant)>,
     /// The error of the files, as long as they have it.
     fault: Option<String>,
@@ -93,6 +98,7 @@ impl Screen {
             is_draft: false,
             took: Duration::ZERO,
             moved: None,
+            played: None,
             message: None,
             fault: None,
             has_help: false,
@@ -165,6 +171,9 @@ impl Screen {
             Action::Quit => return event_loop.exit(),
             Action::Help => (self.has_help, self.has_text) = (!self.has_help, true),
             Action::Text => self.has_text = !self.has_text,
+            Action::Play if self.played.is_some() => self.played = None,
+            Action::Play => self.play(0.0),
+            Action::Step(_) => self.played = None,
             _ => {}
         }
         if matches!(action, Action::Turn(_) | Action::Pan(_) | Action::Zoom(..)) {
@@ -180,6 +189,13 @@ impl Screen {
             self.is_old |= self.hear(outcome) == Some(true);
         }
         self.redraw();
+    }
+
+    /// Has a motion go on, so many seconds later.
+    fn play(&mut self, seconds: f64) {
+        let outcome = self.viewer.advance(seconds);
+        self.played = self.hear(outcome).map(|_| Instant::now());
+        (self.is_old, self.moved) = (true, Some(Instant::now()));
     }
 
     /// Draws what is old, and shows the picture with the text over it.
@@ -210,7 +226,8 @@ impl Screen {
             }
             self.is_old = false;
         }
-        let lines = self.lines();
+        let letters = Canvas::columns(width, scale);
+        let lines = self.lines(letters);
         let message = self.message.as_ref().map(|(text, _)| text.clone()).or_else(|| self.fault.clone());
         let (help, text) = (self.has_help, self.has_text);
         let Some((window, surface)) = &mut self.target else { return Ok(()) };
@@ -228,22 +245,19 @@ impl Screen {
             _ => pixels.fill(0),
         }
         let mut canvas = Canvas { pixels: &mut pixels, size: [width, height], scale };
-        let columns = canvas.columns();
+        let mut row = 0;
+        let mut write = |lines: &[String], color| {
+            canvas.write(lines, row, color);
+            row += lines.len() + 1;
+        };
         if text {
-            canvas.write(&lines, 0, INK);
-            if help {
-                canvas.write(&keys::list(), lines.len() + 1, INK);
-            }
+            write(&lines, INK);
         }
         if let Some(message) = message {
-            let mut rest: Vec<char> = message.chars().collect();
-            let mut told = Vec::new();
-            while !rest.is_empty() && columns > 0 {
-                let next = rest.split_off(rest.len().min(columns));
-                told.push(rest.into_iter().collect::<String>());
-                rest = next;
-            }
-            canvas.write(&told, if text { lines.len() + 1 } else { 0 }, ALARM);
+            write(&wrapped(&message, letters), ALARM);
+        }
+        if text && help {
+            write(&keys::list(), INK);
         }
         window.pre_present_notify();
         pixels.present()?;
@@ -251,7 +265,7 @@ impl Screen {
     }
 
     /// The text of the upper left corner.
-    fn lines(&self) -> Vec<String> {
+    fn lines(&self, columns: usize) -> Vec<String> {
         let stats = self.picture.as_ref().map(|picture| picture.stats).unwrap_or_default();
         let took = self.took.as_secs_f64() * 1e3;
         let triangles = usize::try_from(stats.submitted).unwrap_or(usize::MAX);
@@ -260,10 +274,14 @@ impl Screen {
             line += &format!(", {} fragments", stats.fragments);
         }
         line += &format!(", {took:.1} ms   H: keys");
+        if let Some([end, now]) = self.viewer.motion() {
+            let does = if self.played.is_some() { "stands" } else { "plays" };
+            line += &format!("   {now:.2} of {end:.2} s, Space: {does}");
+        }
         let options = self.viewer.options().join(" ");
         let legend = self.picture.iter().flat_map(|picture| picture.legend.iter().cloned());
         let lines = [line, options].into_iter().filter(|line| !line.is_empty()).chain(legend);
-        lines.map(|line| shortened(&line, 150)).collect()
+        lines.flat_map(|line| wrapped(&line, columns)).collect()
     }
 
     fn key(&mut self, event: KeyEvent, event_loop: &ActiveEventLoop) {
@@ -274,6 +292,7 @@ impl Screen {
             Key::Named(NamedKey::Escape) => Some(Action::Quit),
             Key::Named(NamedKey::Tab) => Some(Action::Text),
             Key::Named(NamedKey::Home) => Some(Action::Fit),
+            Key::Named(NamedKey::Space) => Some(Action::Play),
             Key::Named(NamedKey::ArrowLeft) => Some(keys::of_arrow([-1.0, 0.0], self.shift)),
             Key::Named(NamedKey::ArrowRight) => Some(keys::of_arrow([1.0, 0.0], self.shift)),
             Key::Named(NamedKey::ArrowUp) => Some(keys::of_arrow([0.0, 1.0], self.shift)),
@@ -308,12 +327,18 @@ impl Screen {
     }
 }
 
-/// A line that is cut if it is long.
-fn shortened(text: &str, most: usize) -> String {
-    match text.char_indices().nth(most) {
-        Some((at, _)) => format!("{}...", &text[..at]),
-        None => text.to_owned(),
+/// A text in lines of so many columns, between words where that can be.
+fn wrapped(text: &str, columns: usize) -> Vec<String> {
+    let mut lines = Vec::new();
+    let mut rest: Vec<char> = text.chars().collect();
+    while !rest.is_empty() && columns > 0 {
+        let is_long = rest.len() > columns;
+        let space = rest.iter().take(columns + 1).rposition(|c| *c == ' ').filter(|at| is_long && *at > 0);
+        let next = rest.split_off(space.unwrap_or(columns).min(rest.len()));
+        lines.push(rest.into_iter().collect());
+        rest = next.into_iter().skip(usize::from(space.is_some())).collect();
     }
+    lines
 }
 
 /// A colour over black.
@@ -367,6 +392,10 @@ impl ApplicationHandler for Screen {
 
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
         let now = Instant::now();
+        if let Some(before) = self.played {
+            self.play((now - before).as_secs_f64());
+            self.redraw();
+        }
         if self.is_draft && self.moved.is_none_or(|moved| now - moved >= REST) {
             (self.is_old, self.is_draft) = (true, false);
             self.redraw();
@@ -381,6 +410,20 @@ impl ApplicationHandler for Screen {
             }
         }
         let rest = self.moved.filter(|_| self.is_draft).map(|moved| moved + REST);
-        event_loop.set_control_flow(ControlFlow::WaitUntil(rest.unwrap_or(now + POLL).min(now + POLL)));
+        let next = self.played.map(|_| now + FRAME).or(rest).unwrap_or(now + POLL).min(now + POLL);
+        event_loop.set_control_flow(ControlFlow::WaitUntil(next));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::wrapped;
+
+    #[test]
+    fn lines_end_between_words() {
+        assert_eq!(wrapped("one of many words", 10), ["one of", "many words"]);
+        assert_eq!(wrapped("a_word_that_is_long is", 8), ["a_word_t", "hat_is_l", "ong is"]);
+        assert_eq!(wrapped("short", 10), ["short"]);
+        assert_eq!(wrapped("none", 0), [""; 0]);
     }
 }

@@ -75,7 +75,17 @@ impl SceneFile {
                     let loaded = self.model(object, &path, normals, progress)?;
                     loaded.warnings.each(|warning| warnings.push(warning));
                     coordinates = loaded.has_uv;
-                    loaded.model
+                    let mut model = loaded.model;
+                    let is_one = model.parts.len() == 1;
+                    for (part, object) in model.parts.iter_mut().zip(std::iter::repeat(object.name.as_ref()))
+                    {
+                        match object {
+                            Some(object) if is_one || part.name.is_empty() => part.name.clone_from(object),
+                            Some(object) => part.name = format!("{object}/{}", part.name),
+                            None => {}
+                        }
+                    }
+                    model
                 }
             };
             images.adopt(&mut model);

@@ -12,7 +12,10 @@ fn every_format_reads_back() {
     for (extension, format) in FORMATS {
         let path = folder.path().join(format!("a.{}", extension.to_uppercase()));
         Output::new(&path, None).unwrap().write(&picture()).unwrap();
-        let back = image::load_from_memory_with_format(&fs::read(&path).unwrap(), format).unwrap();
+        let bytes = fs::read(&path).unwrap();
+        // Colours without runs, which would go on from row to row: not all programs read those.
+        assert!(format != ImageFormat::Tga || bytes[2] == 2);
+        let back = image::load_from_memory_with_format(&bytes, format).unwrap();
         assert_eq!((back.width(), back.height()), (2, 1));
         if format != ImageFormat::Jpeg {
             assert_eq!(back.to_rgba8().as_raw(), &[255, 0, 0, 255, 0, 0, 255, 255]);

@@ -34,6 +34,114 @@ pub(super) struct Lens {
     pub(super) parallel: bool,
 }
 
+/// A model as it is seen from a direction: what tells how far away all of it is in the picture.
+pub(super) struct View {
+    ball: Sphere,
+    axes: Axes,
+    /// Within the margins.
+    tangents: [f64; 2],
+    depths: [f64; 2],
+    sides: [[f64; 2]; 2],
+    /// The depth before which the eye is, and its least distance.
+    clear: f64,
+    least: f64,
+}
+
+impl View {
+    pub(super) fn new((model, ball): (&Model, Sphere), axes: Axes, lens: Lens) -> Self {
+        let tangents = lens.tangents.map(|tangent| tangent * (1.0 - MARGIN));
+        let depths = if lens.parallel { [0.0; 2] } else { tangents };
+        let Extremes { sides, nearest } = extremes(points(model, ball, &used(model)), ball, axes, depths);
+        // Parallel lines see what is behind the eye as well.
+        let (clear, least) = if lens.parallel {
+            (f64::INFINITY, 1e-3 * ball.radius)
+        } else {
+            (nearest - CLEARANCE * ball.radius, CLEARANCE * ball.radius)
+        };
+        Self { ball, axes, tangents, depths, sides, clear, least }
+    }
+
+    /// How far away all is within the left and the right side, and the lower and the upper one.
+    fn distances(&self, target: [f64; 3]) -> [f64; 2] {
+        let [right, up, forward] = self.axes;
+        let from = sub(target, self.ball.center);
+        let depth = dot(from, forward);
+        let distance = |k: usize, place: f64| {
+            let side =
+                |side: f64, sign: f64| (side - sign * place + self.depths[k] * depth) / self.tangents[k];
+            side(self.sides[k][0], 1.0).max(side(self.sides[k][1], -1.0))
+        };
+        [distance(0, dot(from, right)), distance(1, dot(from, up))]
+    }
+
+    /// How far from a target, which is in the middle of the picture, all is in view.
+    pub(super) fn distance(&self, target: [f64; 3]) -> f64 {
+        let depth = dot(sub(target, self.ball.center), self.axes[2]);
+        let [across, upright] = self.distances(target);
+        across.max(upright).max(depth - self.clear).max(self.least)
+    }
+}
+
+/// The least and the greatest height in a view at each of so many depths, with that depth, from the ball's middle.
+const OUTLINE: usize = 256;
+
+impl View {
+    /// The points that are at the upper or lower edge of the model, from whatever distance.
+    pub(super) fn outline(&self, model: &Model) -> Vec<[f64; 2]> {
+        let [_, up, forward] = self.axes;
+        let mut ends = vec![[None::<[f64; 2]>; 2]; OUTLINE];
+        for from in points(model, self.ball, &used(model)) {
+            let [depth, height] = [dot(from, forward), dot(from, up)];
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
+            let at = ((depth / self.ball.radius + 1.0) / 2.0 * OUTLINE as f64) as usize;
+            let [low, high] = &mut ends[at.min(OUTLINE - 1)];
+            if low.is_none_or(|low| height < low[1]) {
+                *low = Some([depth, height]);
+            }
+            if high.is_none_or(|high| height > high[1]) {
+                *high = Some([depth, height]);
+            }
+        }
+        ends.into_iter().flatten().flatten().collect()
+    }
+}
+
+/// The point on an axis through the middle of a model at which as much room is left below as above in all pictures: for
+/// cameras that turn about it, as far away as all of them take. Views have their outlines.
+///
+/// It is found as [`centred`] finds a place.
+pub(super) fn balanced(views: &[(View, Vec<[f64; 2]>)], middle: [f64; 3], axis: [f64; 3]) -> [f64; 3] {
+    const STEPS: usize = 16;
+    let mut target = middle;
+    for _ in 0..STEPS {
+        let distance = views.iter().map(|(view, _)| view.distance(target)).fold(0.0, f64::max);
+        // The least and the greatest tangent, with the height, the nearness and the axis's share of height there.
+        let mut ends = [(f64::INFINITY, [0.0; 3]), (f64::NEG_INFINITY, [0.0; 3])];
+        for (view, outline) in views {
+            let [_, up, forward] = view.axes;
+            let from = sub(target, view.ball.center);
+            let (place, depth, share) = (dot(from, up), dot(from, forward) - distance, dot(axis, up));
+            for [z, y] in outline {
+                let near = if view.depths[1] > 0.0 { 1.0 / (z - depth) } else { 1.0 };
+                let (height, tangent) = (y - place, (y - place) * near);
+                if tangent < ends[0].0 {
+                    ends[0] = (tangent, [height, near, share]);
+                }
+                if tangent > ends[1].0 {
+                    ends[1] = (tangent, [height, near, share]);
+                }
+            }
+        }
+        let [(_, [low, near_low, share_low]), (_, [high, near_high, share_high])] = ends;
+        let by = (low * near_low + high * near_high) / (near_low * share_low + near_high * share_high);
+        if !by.is_finite() {
+            break;
+        }
+        target = [0, 1, 2].map(|k| target[k] + by * axis[k]);
+    }
+    target
+}
+
 /// The eye and its target. A `target` that is given stays in the middle of the picture; else the silhouette is.
 pub(super) fn fit(
     (model, ball): (&Model, Sphere),
@@ -41,38 +149,23 @@ pub(super) fn fit(
     lens: Lens,
     target: Option<[f64; 3]>,
 ) -> ([f64; 3], [f64; 3]) {
-    let tangents = lens.tangents.map(|tangent| tangent * (1.0 - MARGIN));
-    let used = used(model);
-    let depths = if lens.parallel { [0.0; 2] } else { tangents };
-    let points = || points(model, ball, &used);
-    let Extremes { sides, nearest } = extremes(points(), ball, axes, depths);
-    // Parallel lines see what is behind the eye as well.
-    let (clear, least) = if lens.parallel {
-        (f64::INFINITY, 1e-3 * ball.radius)
-    } else {
-        (nearest - CLEARANCE * ball.radius, CLEARANCE * ball.radius)
-    };
+    let view = View::new((model, ball), axes, lens);
     let [right, up, forward] = axes;
     let at =
         |[x, y, z]: [f64; 3]| [0, 1, 2].map(|k| ball.center[k] + x * right[k] + y * up[k] + z * forward[k]);
     if let Some(target) = target {
         let from = sub(target, ball.center);
-        let (place, depth) = ([dot(from, right), dot(from, up)], dot(from, forward));
-        let mut distance = (depth - clear).max(least);
-        for k in 0..2 {
-            for (side, sign) in sides[k].into_iter().zip([1.0, -1.0]) {
-                distance = distance.max((side - sign * place[k] + depths[k] * depth) / tangents[k]);
-            }
-        }
-        return (at([place[0], place[1], depth - distance]), target);
+        let depth = dot(from, forward) - view.distance(target);
+        return (at([dot(from, right), dot(from, up), depth]), target);
     }
-    let mut depth = clear.min(-least);
-    for (pair, tangent) in sides.into_iter().zip(tangents) {
+    let mut depth = view.clear.min(-view.least);
+    for (pair, tangent) in view.sides.into_iter().zip(view.tangents) {
         depth = depth.min(-(pair[0] + pair[1]) / (2.0 * tangent));
     }
-    let mut place = sides.map(|[high, low]| (high - low) / 2.0);
+    let mut place = view.sides.map(|[high, low]| (high - low) / 2.0);
     if !lens.parallel {
-        place = centred(points, axes, place, depth);
+        let used = used(model);
+        place = centred(|| points(model, ball, &used), axes, place, depth);
     }
     let [x, y] = place;
     (at([x, y, depth]), at([x, y, 0.0]))

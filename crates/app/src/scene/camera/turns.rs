@@ -1,8 +1,8 @@
 //! Cameras that go round a model.
 
-use super::fit::{Lens, fit};
+use super::fit::{Lens, View, balanced};
 use super::{Camera, CameraTable, Model, Sphere, planes, pose, zoomed};
-use super::{cross, dot, length, narrow, normalize, sub};
+use super::{cross, dot, narrow, normalize, sub};
 
 /// The most directions from which it is seen how far away a camera has to be.
 const LOOKS: u32 = 64;
@@ -62,21 +62,20 @@ impl Turn {
         Camera { near, far, ..camera }
     }
 
-    /// A camera as far away as it takes to have all in view in all frames.
+    /// A camera as far away as it takes to have all in view in all frames, with as much room below as above.
     fn fitted(&self, of: (&Model, Sphere), mut first: Camera, wishes: &CameraTable, aspect: f64) -> Camera {
-        let target = wishes.target.map_or(of.1.center.map(narrow), <[f32; 3]>::from);
         let arm = sub(wide(first.eye), wide(first.target));
-        let (from, distance) = (wide(target), length(arm));
+        let target = wishes.target.map_or(of.1.center.map(narrow), <[f32; 3]>::from);
         first.target = target;
-        first.eye = [0, 1, 2].map(|k| narrow(from[k] + arm[k]));
+        first.eye = [0, 1, 2].map(|k| narrow(f64::from(target[k]) + arm[k]));
         // Those of the frames, or as many of one turn.
         let looks = self.frames.clamp(1, LOOKS);
         let degrees = if self.frames > LOOKS { self.degrees.clamp(-360.0, 360.0) } else { self.degrees };
         let looks = (0..looks).map(|k| turned(&first, self.axis, degrees * f64::from(k) / f64::from(looks)));
         let lens = lens(&first, wishes, aspect);
-        let needed = looks.map(|camera| needed(of, &camera, lens)).fold(0.0, f64::max);
-        first.eye = [0, 1, 2].map(|k| narrow(from[k] + arm[k] * (needed / distance)));
-        first
+        let views: Vec<_> = looks.filter_map(|camera| view(of, &camera, lens)).collect();
+        let axis = self.axis.unwrap_or(wide(first.up));
+        placed(first, arm, &views, axis, wishes.target.is_some())
     }
 
     /// The camera after a share of the turn.
@@ -86,24 +85,39 @@ impl Turn {
 }
 
 /// The first of these cameras, which look at a model from all the sides of a motion, as far away as each of them takes
-/// to have all in view. It looks at the model's middle, unless the wishes have a target.
+/// to have all in view. It looks at the model's middle, or as far above or below that as leaves as much room on both
+/// sides, unless the wishes have a target.
 pub(crate) fn fitted_at_all_times(
     (model, ball): (&Model, Sphere),
     cameras: &[(Camera, CameraTable)],
     aspect: f64,
 ) -> Option<Camera> {
     let (mut first, wishes) = *cameras.first()?;
-    let target = wishes.target.map_or(ball.center.map(narrow), <[f32; 3]>::from);
-    let needed = cameras.iter().map(|(camera, wishes)| {
-        let arm = sub(wide(camera.eye), wide(camera.target));
-        let eye = [0, 1, 2].map(|k| narrow(f64::from(target[k]) + arm[k]));
-        needed((model, ball), &Camera { eye, target, ..*camera }, lens(camera, wishes, aspect))
-    });
-    let needed = needed.fold(0.0, f64::max);
+    let views = cameras
+        .iter()
+        .filter_map(|(camera, wishes)| view((model, ball), camera, lens(camera, wishes, aspect)))
+        .collect::<Vec<_>>();
     let arm = normalize(sub(wide(first.eye), wide(first.target)))?;
-    first.eye = [0, 1, 2].map(|k| narrow(f64::from(target[k]) + arm[k] * needed));
-    first.target = target;
-    Some(first)
+    first.target = wishes.target.map_or(ball.center.map(narrow), <[f32; 3]>::from);
+    Some(placed(first, arm, &views, wide(first.up), wishes.target.is_some()))
+}
+
+/// A camera on an arm, as far away as all views take from its target. That may be moved along an axis unless it `is_given`.
+fn placed(
+    first: Camera,
+    arm: [f64; 3],
+    views: &[(View, Vec<[f64; 2]>)],
+    axis: [f64; 3],
+    is_given: bool,
+) -> Camera {
+    let (Some(arm), Some(axis)) = (normalize(arm), normalize(axis)) else { return first };
+    let mut target = wide(first.target);
+    if !is_given && !views.is_empty() {
+        target = balanced(views, target, axis).map(narrow).map(f64::from);
+    }
+    let needed = views.iter().map(|(view, _)| view.distance(target)).fold(0.0, f64::max);
+    let eye = [0, 1, 2].map(|k| narrow(target[k] + arm[k] * needed));
+    Camera { eye, target: target.map(narrow), ..first }
 }
 
 /// The planes of a camera around a ball.
@@ -118,16 +132,13 @@ fn lens(camera: &Camera, wishes: &CameraTable, aspect: f64) -> Lens {
     Lens { tangents: [tangent * aspect, tangent], parallel: wishes.is_parallel() }
 }
 
-/// The distance of a camera from its target at which all of a model is in view.
-fn needed(of: (&Model, Sphere), camera: &Camera, lens: Lens) -> f64 {
-    let target = wide(camera.target);
-    let view = sub(target, wide(camera.eye));
-    let (Some(forward), Some(right)) = (normalize(view), normalize(cross(view, wide(camera.picture_up()))))
-    else {
-        return 0.0;
-    };
-    let (eye, _) = fit(of, [right, cross(right, forward), forward], lens, Some(target));
-    length(sub(eye, target))
+/// A model as a camera sees it, with its outline.
+fn view(of: (&Model, Sphere), camera: &Camera, lens: Lens) -> Option<(View, Vec<[f64; 2]>)> {
+    let forward = normalize(sub(wide(camera.target), wide(camera.eye)))?;
+    let right = normalize(cross(forward, wide(camera.picture_up())))?;
+    let view = View::new(of, [right, cross(right, forward), forward], lens);
+    let outline = view.outline(of.0);
+    Some((view, outline))
 }
 
 /// The camera after a turn of so many degrees around its target, about an axis, or else about its upward direction. The
@@ -217,7 +228,7 @@ mod tests {
         let cameras = turn.cameras((model, ball), &along, &CameraTable::default(), (1.0, true));
         assert_eq!(cameras.len(), turn.frames as usize);
         let tangent = 20.0_f64.to_radians().tan();
-        let mut most = 0.0_f64;
+        let (mut most, mut rooms) = (0.0_f64, [0.0_f64; 2]);
         for camera in &cameras {
             let view = normalize(sub(wide(camera.target), wide(camera.eye))).unwrap();
             let right = normalize(cross(view, wide(camera.up))).unwrap();
@@ -229,11 +240,15 @@ mod tests {
                     depth > f64::from(camera.near) && depth < f64::from(camera.far),
                     "{depth} {camera:?}"
                 );
+                let height = dot(from, axes[1]) / depth / tangent;
+                rooms = [rooms[0].max(height), rooms[1].max(-height)];
                 most =
                     axes.iter().map(|axis| (dot(from, *axis) / depth / tangent).abs()).fold(most, f64::max);
             }
             assert!((camera.near, camera.far) == (cameras[0].near, cameras[0].far));
         }
         assert!((0.85..1.0).contains(&most), "{most} {turn:?}");
+        // As much room below as above.
+        assert!((rooms[0] - rooms[1]).abs() < 0.03, "{rooms:?} {turn:?}");
     }
 }

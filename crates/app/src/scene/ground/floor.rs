@@ -1,5 +1,6 @@
 //! A floor of the model's own, on which a shadow lies instead of on a ground.
 
+use super::places as all_places;
 use super::{Ground, Model, below, bounds, others};
 use crate::options::DepthFormat;
 use crate::scene::{Part, Vertex};
@@ -12,34 +13,43 @@ const DIP: f64 = 0.25;
 const LARGE: f64 = 0.25;
 const LITTLE: f64 = 0.5;
 
-/// The ground of a model, or of all places that it comes to. It is just over a floor of the model's own, if it has one,
-/// and just below the lowest point otherwise. None if there is nothing to stand on it.
-pub(super) fn ground(
+/// The grounds of a model, or of all places that it comes to: the one that is seen first is the first. It is just over a
+/// floor of the model's own, if it has one, and just below the lowest point otherwise. Where things beside the floor
+/// reach below it, there are both. None if there is nothing to stand on it.
+pub(super) fn grounds(
     model: &Model,
     swept: Option<&Model>,
     upwards: [f32; 3],
     depth: DepthFormat,
-) -> Option<Ground> {
+) -> Vec<Ground> {
     let whole = swept.unwrap_or(model);
-    let ground = Ground::of(whole, upwards, below(depth))?;
+    let Some(ground) = Ground::of(whole, upwards, below(depth)) else { return Vec::new() };
     let [a, b] = others(ground.up.0);
     let [least, most] = bounds(whole);
     let extent = (most[a] - least[a]) * (most[b] - least[b]);
-    Some(match height(model, &ground, extent) {
-        // As far over the floor as the other is below the lowest point.
-        Some(height) => Ground {
-            low: ground.low + ground.up.1 * (height + ground.near / 4.0),
-            height: (ground.height - height).max(ground.near),
-            on_floor: true,
-            ..ground
-        },
-        None => ground,
-    })
+    let Some((height, [low, high])) = found(model, &ground, extent) else { return vec![ground] };
+    // As far over the floor as the other is below the lowest point.
+    let on_floor = Ground {
+        low: ground.low + ground.up.1 * (height + ground.near / 4.0),
+        height: (ground.height - height).max(ground.near),
+        on_floor: true,
+        ..ground
+    };
+    let is_deep = |place: &[f64; 3]| ground.up.1 * (place[ground.up.0] - ground.low) < height - ground.near;
+    let is_beside = |place: &[f64; 3]| {
+        let beside =
+            |k: usize, axis: usize| place[axis] < low[k] - ground.near || place[axis] > high[k] + ground.near;
+        beside(0, a) || beside(1, b)
+    };
+    if all_places(whole).any(|place| is_deep(&place) && is_beside(&place)) {
+        return vec![Ground { goes_on: false, ..on_floor }, ground];
+    }
+    vec![on_floor]
 }
 
-/// How high a floor is over a ground: the lowest level of faces that look up and have much of the model's extent. There
+/// How high a floor is over a ground, and the corners of all of it along the other axes: the lowest level of faces that look up and have much of the model's extent. There
 /// is little below it, such as the feet of things, or it is the upper side of a slab, or a board.
-fn height(model: &Model, ground: &Ground, extent: f64) -> Option<f64> {
+fn found(model: &Model, ground: &Ground, extent: f64) -> Option<(f64, [[f64; 2]; 2])> {
     let (up, sign) = ground.up;
     let [a, b] = others(up);
     let over = |v: &Vertex| sign * (f64::from(v.position[up]) - ground.low);
@@ -70,7 +80,18 @@ fn height(model: &Model, ground: &Ground, extent: f64) -> Option<f64> {
         if area > LARGE * extent {
             let is_below = |all: &[&Vertex; 3]| range(*all)[1] < height - ground.near;
             let below: f64 = triangles().filter(is_below).map(plan).sum();
-            return (below < LITTLE * area).then_some(height);
+            if below >= LITTLE * area {
+                return None;
+            }
+            let is_of_it =
+                |all: &[&Vertex; 3]| level(*all).is_some_and(|(at, _)| (at - height).abs() < ground.near);
+            let corners = triangles().filter(is_of_it).flatten();
+            let none = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+            let sides = corners.fold(none, |[low, high], v| {
+                let at = [a, b].map(|k| f64::from(v.position[k]));
+                [[0, 1].map(|k| low[k].min(at[k])), [0, 1].map(|k| high[k].max(at[k]))]
+            });
+            return Some((height, sides));
         }
     }
     None
@@ -150,6 +171,10 @@ mod tests {
         model
     }
 
+    fn first(model: &Model, swept: Option<&Model>) -> Ground {
+        grounds(model, swept, [0.0, 1.0, 0.0], DepthFormat::F32).into_iter().next().expect("a ground")
+    }
+
     fn alpha(model: &Model, ground: &Ground, [x, z]: [f64; 2]) -> u8 {
         let [column, row, _] = ground.cells([x, 0.0, z]);
         let side = ground.cells as usize / 2;
@@ -161,9 +186,8 @@ mod tests {
     /// A plate over a floor darkens it where it is above, as it does a ground.
     #[test]
     fn shadows_lie_on_a_floor() {
-        let up = [0.0, 1.0, 0.0];
         let model = squares(&[(1.0, 0.0), (0.7, 0.4), (0.3, 0.2)]);
-        let ground = ground(&model, None, up, DepthFormat::F32).expect("a ground");
+        let ground = first(&model, None);
         assert!(ground.on_floor && ground.low > 0.0 && ground.low < 1e-3, "{}", ground.low);
         let dark = alpha(&model, &ground, [0.0, 0.0]);
         assert!(dark > 60, "{dark}");
@@ -171,7 +195,7 @@ mod tests {
         assert!(alpha(&model, &ground, [0.97, 0.0]) > 4);
         // Without the floor the plates have a ground, whose shadow goes on there.
         let plates = squares(&[(0.01, 0.0), (0.7, 0.4), (0.3, 0.2)]);
-        let below = super::ground(&plates, None, up, DepthFormat::F32).expect("a ground");
+        let below = first(&plates, None);
         assert!(!below.on_floor && below.low < 0.0);
         assert!(alpha(&plates, &below, [0.0, 0.0]).abs_diff(dark) < 20);
     }
@@ -179,9 +203,8 @@ mod tests {
     /// Things may dip into a floor, also in motion. Boards, upper sides of slabs, and a high floor are none.
     #[test]
     fn floors_are_low_and_have_little_below() {
-        let up = [0.0, 1.0, 0.0];
         let found = |model: &Model, swept: Option<&Model>| {
-            let ground = ground(model, swept, up, DepthFormat::F32).expect("a ground");
+            let ground = first(model, swept);
             (ground.on_floor, ground.low)
         };
         let dipped = squares(&[(0.2, -0.1), (0.2, 1.0), (1.0, 0.0)]);
@@ -205,6 +228,25 @@ mod tests {
         }
     }
 
+    /// Beside a floor, things that reach below it have a ground of their own; all others have one with it.
+    #[test]
+    fn a_ground_goes_on_beyond_a_floor() {
+        let of = |model: &Model| -> Vec<(bool, bool)> {
+            let grounds = grounds(model, None, [0.0, 1.0, 0.0], DepthFormat::F32);
+            grounds.iter().map(|ground| (ground.on_floor, ground.goes_on)).collect()
+        };
+        let mut model = squares(&[(1.0, 0.0), (0.2, 0.3), (0.3, 0.6)]);
+        assert_eq!(of(&model), [(true, true)]);
+        model.vertices[4..8].iter_mut().for_each(|v| v.position[0] += 1.1);
+        assert_eq!(of(&model), [(true, true)]);
+        // The shadow of what is beside the floor is there.
+        let ground = first(&model, None);
+        assert!(alpha(&model, &ground, [1.1, 0.0]) > 30, "{}", alpha(&model, &ground, [1.1, 0.0]));
+        model.vertices[4..8].iter_mut().for_each(|v| v.position[1] = -0.1);
+        assert_eq!(of(&model), [(true, false), (false, true)]);
+        assert_eq!(of(&squares(&[(0.3, 0.0), (1.0, 0.5)])), [(false, true)]);
+    }
+
     /// Without a depth buffer it is drawn after the floor, and before what stands on it.
     #[test]
     fn a_shadow_is_drawn_after_its_floor() {
@@ -220,11 +262,15 @@ mod tests {
         };
         let manner = Manner { depth: DepthFormat::None, ..Manner::default() };
         assert!(add(&mut model, None, std::slice::from_mut(&mut camera), manner));
-        assert_eq!(model.parts.len(), 3);
-        assert_eq!(model.parts[1].name, "ground");
+        let names: Vec<&str> = model.parts.iter().map(|part| &*part.name).collect();
+        assert_eq!(names, ["ground", "", "ground", ""]);
+        // Around the floor it is below that, and between the planes.
+        let around: Vec<_> =
+            model.parts[0].triangles.iter().flatten().map(|k| model.vertices[*k as usize].position).collect();
+        assert!(around.iter().all(|[x, y, _]| x.abs() > 1.2 && *y < 0.0 && *y > -1e-3), "{around:?}");
+        assert!(camera.far > 6.0 && camera.near <= 4.0);
         // It ends where the floor does, and has the texel of each place: the middle is in the middle.
-        assert_eq!([camera.near, camera.far], [4.0, 6.0]);
-        let shadow = model.parts[1].triangles.iter().flatten().map(|k| model.vertices[*k as usize]);
+        let shadow = model.parts[2].triangles.iter().flatten().map(|k| model.vertices[*k as usize]);
         let corners: Vec<_> = shadow.map(|v| (v.position, v.uv)).collect();
         assert_eq!(corners.len(), 6);
         for ([x, y, z], [u, v]) in corners {
@@ -238,7 +284,7 @@ mod tests {
     #[test]
     fn a_floor_in_parts_is_the_floor() {
         let model = squares(&[(1.0, 0.0), (0.3, 0.2)]);
-        let ground = ground(&model, None, [0.0, 1.0, 0.0], DepthFormat::F32).expect("a ground");
+        let ground = first(&model, None);
         let area = |places: &[[f64; 3]]| -> f64 {
             let triangles = places.as_chunks::<3>().0.iter();
             triangles.map(|[a, b, c]| crate::scene::normals::cross(sub(*b, *a), sub(*c, *a))[1] / 2.0).sum()

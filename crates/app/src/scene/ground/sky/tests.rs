@@ -4,6 +4,7 @@ use super::*;
 use std::f64::consts::{PI, TAU};
 
 const GROUND: Ground = Ground {
+    goes_on: true,
     up: (1, 1.0),
     corner: [-2.0, -2.0],
     side: 4.0,
