@@ -1,6 +1,7 @@
 //! A plot of ratios: a bar for each renderer of each scene, on a logarithmic axis, as SVG.
 
 use super::ratios::{FIRST, Time, all, of};
+use super::results::real;
 
 /// The room for names, the axis, and figures, in pixels.
 const NAMES: f64 = 130.0;
@@ -16,7 +17,7 @@ const ENDS: [f64; 2] = [0.5, 20.0];
 const TICKS: [f64; 6] = [0.5, 1.0, 2.0, 5.0, 10.0, 20.0];
 
 /// Colours that people with any sight tell apart, after Okabe and Ito.
-const COLORS: [&str; 6] = ["#0072b2", "#e69f00", "#d55e00", "#cc79a7", "#009e73", "#56b4e9"];
+const COLORS: [&str; 7] = ["#0072b2", "#e69f00", "#d55e00", "#cc79a7", "#009e73", "#56b4e9", "#888888"];
 
 /// The place of a ratio on the axis; of one beyond, its end.
 fn place(ratio: f64) -> f64 {
@@ -55,11 +56,11 @@ pub(super) fn plot(times: &[Time], size: &str) -> String {
         axis += &text(x, y + 14.0, "middle", &tick.to_string());
     }
     let mut legend = String::new();
-    let mut x = NAMES;
+    let mut x = 8.0;
     for (name, color) in others.iter().zip(COLORS.iter().cycle()) {
         legend += &format!("<rect x=\"{x:.1}\" y=\"9\" width=\"10\" height=\"10\" fill=\"{color}\"/>\n");
         legend += &text(x + 14.0, 18.0, "start", name);
-        x += 26.0 + 6.5 * name.len() as f64;
+        x += 26.0 + 6.0 * real(name.len() as u64);
     }
     let (width, height) = (NAMES + AXIS + FIGURES, y + 24.0);
     format!(

@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 
 use serde_json::Value;
 
-use super::results::{number, rows};
+use super::results::{number, real, rows};
 use crate::command::{self, Outcome, cargo, output};
 use crate::workspace;
 
@@ -98,7 +98,7 @@ pub(super) fn compare(committed: &str, found: &str) -> Outcome {
             wrong.push(format!("{name}: counted, and not in {PLACE}"));
             continue;
         };
-        let change = *instructions as f64 / before.instructions as f64 - 1.0;
+        let change = real(*instructions) / real(before.instructions) - 1.0;
         let told = format!("{name}: {instructions}, {:+.1} % of {}", 100.0 * change, before.instructions);
         if instructions * 100 > before.instructions * (100 + GATE) {
             wrong.push(told);

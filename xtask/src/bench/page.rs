@@ -29,8 +29,9 @@ against pixels and triangles. Each picture is held against rays in `f64` before 
 const RATIOS: &str = "\
 ## Beside other rasterizers
 
-Least milliseconds of a frame on one thread; in brackets how many times as long as `Exact`; and pixels that differ by
-more than 8/255 from rays in `f64`. All take turns in one run. Bars to the right of 1 are slower than alberti.
+Least milliseconds of a frame on one thread, but for `two threads`; in brackets how many times as long as `Exact`; and
+pixels that differ by more than 8/255 from rays in `f64`. All take turns in one run. Bars to the right of 1 are slower
+than alberti.
 
 ![Times of 1280x720 as multiples of alberti's](pictures/benchmarks_1280x720.svg)
 
@@ -43,8 +44,9 @@ const FRAMES: &str = "\
 
 Medians of Criterion in milliseconds, each with the interval in which it is with a confidence of 95 %, and as a multiple
 of the time of `Exact`. `two threads` is `Exact` by two; `Exact-without-slots` transforms vertices when triangles need
-them; `Exact-by-bands` has depths for some rows; `App` is `Exact` by the kernels of the `alberti` command, whose policies
-are chosen at run time. `Spans16` and `Affine` save divisions, which a desktop has to spare.
+them; `Exact-by-bands` has depths for some rows; `App` is `Exact` by the kernels of the `alberti` command, whose
+policies are chosen at run time. `Spans16` and `Affine` save divisions, which a desktop has to spare. These follow one
+another, so that a busy neighbour shows; where both have a figure, that of those who take turns is the better one.
 
 ";
 
@@ -61,8 +63,8 @@ of each; mip maps are those of 512x512 texels. With another compiler they differ
 const CHIPS: &str = "\
 ## Instructions on chips
 
-Millions of instructions for a frame of 320x240 on emulated cores; [firmware-counts.md](firmware-counts.md) has all scenes,
-divisions, flash and RAM.
+Millions of instructions for a frame of 320x240 on emulated cores; [firmware-counts.md](firmware-counts.md) has all
+scenes, divisions, flash and RAM.
 
 ";
 
@@ -159,7 +161,7 @@ fn on_chips(counts: &[chips::Count]) -> String {
     for scene in SCENES {
         let cells = BOARDS.map(|board| {
             let count = counts.iter().find(|count| (&*count.board, &*count.scene) == (board, scene));
-            count.map_or("-".into(), |count| three_digits(count.instructions as f64 / 1e6))
+            count.map_or("-".into(), |count| three_digits(results::real(count.instructions) / 1e6))
         });
         text += &format!("| {scene} | {} |\n", cells.join(" | "));
     }
@@ -172,7 +174,7 @@ fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::new();
     for (k, digit) in digits.chars().enumerate() {
-        if k > 0 && (digits.len() - k) % 3 == 0 {
+        if k > 0 && (digits.len() - k).is_multiple_of(3) {
             text.push(',');
         }
         text.push(digit);

@@ -47,6 +47,12 @@ pub(super) fn number<T: std::str::FromStr>(place: &str, field: &str) -> Result<T
     field.parse().map_err(|_| format!("{place}: found `{field}`, expected a number"))
 }
 
+/// A count as a number that can be divided.
+#[expect(clippy::cast_precision_loss, reason = "counts below 2^53")]
+pub(super) fn real(count: u64) -> f64 {
+    count as f64
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -3,7 +3,7 @@
 //! Its picture is that of a command line: of the words that it was opened with, of options that keys have chosen, and
 //! of the camera as options. A picture that is kept is therefore one of `render`, with options that can be typed.
 
-use std::ffi::{OsStr, OsString};
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use clap::ArgMatches;
 
 use super::bake::name as stem;
 use super::request::Request;
-use super::run::{command, draw, print};
+use super::run::{draw, print};
 use super::staged::{Cast, Motion, Staged};
 use crate::draw::Chains;
 use crate::error::Error;
@@ -30,11 +30,13 @@ use crate::show::{Shown, show};
 use alberti::Stats;
 
 mod keys;
+mod line;
 mod orbit;
 mod overlay;
 mod window;
 
 use keys::{Action, Place};
+use line::{Chosen, end_of_options, matches_of, typed, words_of};
 use orbit::Orbit;
 
 pub(super) const HELP: &str = "\
@@ -144,7 +146,7 @@ impl Viewer {
         words_of(&self.words, &self.chosen(&self.chosen, true), self.size)
     }
 
-    /// What has been chosen beside the command line, with or without a camera that has been moved.
+    /// Words beside those of the command line, with or without a camera that has been moved.
     fn chosen(&self, options: &[(&'static str, &'static str)], with_camera: bool) -> Chosen {
         Chosen {
             options: options.to_vec(),
@@ -470,49 +472,6 @@ impl Scene {
 fn unused(stem: &str) -> PathBuf {
     let mut names = (1_u32..).map(|k| PathBuf::from(format!("{stem}-{k}.png")));
     names.find(|name| !name.exists()).unwrap_or_default()
-}
-
-/// A word as a shell takes it.
-fn typed(word: &OsStr) -> String {
-    let text = word.to_string_lossy();
-    let is_plain = |c: char| c.is_alphanumeric() || "-_./:=,+@%#".contains(c);
-    if !text.is_empty() && !text.starts_with('#') && text.chars().all(is_plain) {
-        return text.into_owned();
-    }
-    format!("'{}'", text.replace('\'', "'\\''"))
-}
-
-/// The place before the `--` behind which there are files alone.
-fn end_of_options(words: &[OsString]) -> usize {
-    words.iter().position(|word| word == "--").unwrap_or(words.len())
-}
-
-/// Words that are chosen beside those of the command line.
-#[derive(Default)]
-struct Chosen {
-    options: Vec<(&'static str, &'static str)>,
-    camera: Option<String>,
-    time: Option<f64>,
-}
-
-/// The command line of `render` with these words.
-fn words_of(words: &[OsString], chosen: &Chosen, [width, height]: [u32; 2]) -> Vec<OsString> {
-    let end = end_of_options(words);
-    let mut all: Vec<OsString> = ["alberti", "render"].map(OsString::from).to_vec();
-    all.extend_from_slice(&words[..end]);
-    all.extend(chosen.options.iter().map(|(option, value)| format!("{option}={value}").into()));
-    all.extend(chosen.camera.iter().flat_map(|camera| camera.split_whitespace()).map(OsString::from));
-    all.extend(chosen.time.map(|time| format!("--time={time}").into()));
-    all.extend(["--size".to_owned(), format!("{width}x{height}")].map(OsString::from));
-    all.extend_from_slice(&words[end..]);
-    all
-}
-
-fn matches_of(words: Vec<OsString>) -> Result<ArgMatches, Error> {
-    let matches = command().try_get_matches_from(words);
-    let matches = matches.map_err(|error| Error::new(error.to_string(), "what --help lists"))?;
-    let render = matches.subcommand_matches("render").cloned();
-    render.ok_or_else(|| Error::new("no command", "render"))
 }
 
 #[cfg(test)]

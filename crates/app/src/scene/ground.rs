@@ -98,7 +98,7 @@ pub(crate) fn add(model: &mut Model, swept: Option<&Model>, cameras: &mut [Camer
             (ground, texels, floor)
         })
         .collect();
-    // What is drawn last comes first, since each is put before what there is.
+    // The last to be drawn comes first, since each is put before what there is.
     for (ground, texels, floor) in all {
         let side = ground.cells / 2;
         model.textures.push(Image { width: side, height: side, texels }.into());

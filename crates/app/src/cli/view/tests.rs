@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use std::ffi::OsStr;
+
 use super::keys::of_letter;
 use super::*;
 use crate::scene::Image;

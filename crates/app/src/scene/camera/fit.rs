@@ -83,18 +83,18 @@ impl View {
 }
 
 /// The least and the greatest height in a view at each of so many depths, with that depth, from the ball's middle.
-const OUTLINE: usize = 256;
+const OUTLINE: u16 = 256;
 
 impl View {
     /// The points that are at the upper or lower edge of the model, from whatever distance.
     pub(super) fn outline(&self, model: &Model) -> Vec<[f64; 2]> {
         let [_, up, forward] = self.axes;
-        let mut ends = vec![[None::<[f64; 2]>; 2]; OUTLINE];
+        let mut ends = vec![[None::<[f64; 2]>; 2]; usize::from(OUTLINE)];
         for from in points(model, self.ball, &used(model)) {
             let [depth, height] = [dot(from, forward), dot(from, up)];
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
-            let at = ((depth / self.ball.radius + 1.0) / 2.0 * OUTLINE as f64) as usize;
-            let [low, high] = &mut ends[at.min(OUTLINE - 1)];
+            let at = ((depth / self.ball.radius + 1.0) / 2.0 * f64::from(OUTLINE)) as usize;
+            let [low, high] = &mut ends[at.min(usize::from(OUTLINE) - 1)];
             if low.is_none_or(|low| height < low[1]) {
                 *low = Some([depth, height]);
             }
@@ -106,8 +106,8 @@ impl View {
     }
 }
 
-/// The point on an axis through the middle of a model at which as much room is left below as above in all pictures: for
-/// cameras that turn about it, as far away as all of them take. Views have their outlines.
+/// The point on an axis through the middle of a model at which as much room is left below as above in all pictures.
+/// They are those of cameras that turn about it, as far away as all of them take. Views have their outlines.
 ///
 /// It is found as [`centred`] finds a place.
 pub(super) fn balanced(views: &[(View, Vec<[f64; 2]>)], middle: [f64; 3], axis: [f64; 3]) -> [f64; 3] {

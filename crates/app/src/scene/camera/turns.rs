@@ -102,7 +102,8 @@ pub(crate) fn fitted_at_all_times(
     Some(placed(first, arm, &views, wide(first.up), wishes.target.is_some()))
 }
 
-/// A camera on an arm, as far away as all views take from its target. That may be moved along an axis unless it `is_given`.
+/// A camera on an arm, as far away as all views take from its target. That may be moved along an axis unless it
+/// `is_given`.
 fn placed(
     first: Camera,
     arm: [f64; 3],

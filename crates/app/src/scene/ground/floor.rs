@@ -1,6 +1,5 @@
 //! A floor of the model's own, on which a shadow lies instead of on a ground.
 
-use super::places as all_places;
 use super::{Ground, Model, below, bounds, others};
 use crate::options::DepthFormat;
 use crate::scene::{Part, Vertex};
@@ -13,9 +12,9 @@ const DIP: f64 = 0.25;
 const LARGE: f64 = 0.25;
 const LITTLE: f64 = 0.5;
 
-/// The grounds of a model, or of all places that it comes to: the one that is seen first is the first. It is just over a
-/// floor of the model's own, if it has one, and just below the lowest point otherwise. Where things beside the floor
-/// reach below it, there are both. None if there is nothing to stand on it.
+/// The grounds of a model, or of all places that it comes to, the upper one first. It is just over a floor of the
+/// model's own, if it has one, and just below the lowest point otherwise. Where things beside the floor reach below it,
+/// there are both. None if there is nothing to stand on it.
 pub(super) fn grounds(
     model: &Model,
     swept: Option<&Model>,
@@ -41,14 +40,15 @@ pub(super) fn grounds(
             |k: usize, axis: usize| place[axis] < low[k] - ground.near || place[axis] > high[k] + ground.near;
         beside(0, a) || beside(1, b)
     };
-    if all_places(whole).any(|place| is_deep(&place) && is_beside(&place)) {
+    if super::places(whole).any(|place| is_deep(&place) && is_beside(&place)) {
         return vec![Ground { goes_on: false, ..on_floor }, ground];
     }
     vec![on_floor]
 }
 
-/// How high a floor is over a ground, and the corners of all of it along the other axes: the lowest level of faces that look up and have much of the model's extent. There
-/// is little below it, such as the feet of things, or it is the upper side of a slab, or a board.
+/// How high a floor is over a ground, and the corners of it along the other axes. It is the lowest level of faces that
+/// look up and have much of the model's extent. There is little below it, such as the feet of things, or it is the
+/// upper side of a slab, or a board.
 fn found(model: &Model, ground: &Ground, extent: f64) -> Option<(f64, [[f64; 2]; 2])> {
     let (up, sign) = ground.up;
     let [a, b] = others(up);
