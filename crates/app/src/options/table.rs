@@ -56,8 +56,8 @@ pub struct CameraTable {
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub roll: Option<Number<Finite>>,
 
-    /// Factor by which things are larger in the picture, about the middle of the model, or a target that
-    /// is given; it narrows the opening angle [default: 1].
+    /// Factor by which things are larger in the picture, above 1 about the middle of the model, or a
+    /// target that is given; it narrows the opening angle [default: 1].
     #[arg(long, value_name = "FACTOR", allow_hyphen_values = true)]
     pub zoom: Option<Number<Zoom>>,
 

@@ -147,24 +147,28 @@ fn zoomed(fov: f32, zoom: f32) -> f32 {
     narrow(2.0 * tangent.atan().to_degrees())
 }
 
-/// A zoomed camera so far aside that `middle` is where it is in the picture without the zoom. The middle of the picture
-/// may be beside the model.
+/// A camera of such a zoom so far aside that `middle` is where it is in the picture without it, if that makes things
+/// larger. The middle of the picture may be beside the model. Smaller ones are all in view as it is.
 pub(crate) fn zoomed_about(camera: &Camera, middle: [f64; 3], zoom: f32) -> Camera {
-    let wide = |v: [f32; 3]| v.map(f64::from);
-    let (eye, target) = (wide(camera.eye), wide(camera.target));
-    let share = 1.0 - 1.0 / f64::from(zoom);
-    let Some(forward) = normalize(sub(target, eye)).filter(|_| share != 0.0) else { return *camera };
-    let to = sub(middle, target);
-    let depth = dot(to, forward);
-    let by = [0, 1, 2].map(|k| share * (to[k] - depth * forward[k]));
-    let [eye, target] = [eye, target].map(|point| [0, 1, 2].map(|k| narrow(point[k] + by[k])));
-    Camera { eye, target, ..*camera }
+    beside(camera, middle, 1.0 - 1.0 / f64::from(zoom).max(1.0))
 }
 
 /// The camera before a zoom about `middle`.
 pub(crate) fn unzoomed(camera: &Camera, middle: [f64; 3], zoom: f32) -> Camera {
-    let camera = zoomed_about(camera, middle, 1.0 / zoom);
+    let camera = beside(camera, middle, 1.0 - f64::from(zoom).max(1.0));
     Camera { fov: zoomed(camera.fov, 1.0 / zoom), ..camera }
+}
+
+/// A camera that has gone aside by a share of the way to where a point is in the middle of its picture.
+fn beside(camera: &Camera, point: [f64; 3], share: f64) -> Camera {
+    let wide = |v: [f32; 3]| v.map(f64::from);
+    let (eye, target) = (wide(camera.eye), wide(camera.target));
+    let Some(forward) = normalize(sub(target, eye)).filter(|_| share != 0.0) else { return *camera };
+    let to = sub(point, target);
+    let depth = dot(to, forward);
+    let by = [0, 1, 2].map(|k| share * (to[k] - depth * forward[k]));
+    let [eye, target] = [eye, target].map(|place| [0, 1, 2].map(|k| narrow(place[k] + by[k])));
+    Camera { eye, target, ..*camera }
 }
 
 /// The options that make this camera again, bit for bit, for a model whose coordinates are counted from `origin`, and

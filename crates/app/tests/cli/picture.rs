@@ -142,7 +142,7 @@ fn a_zoom_is_about_the_middle_of_the_model() {
     };
     for (first, second, factor) in [
         ("m.obj --zoom 2", "m.obj --zoom 6", 3.0),
-        ("m.obj --zoom .9", "m.obj --zoom 4.5", 5.0),
+        ("m.obj", "m.obj --zoom 5", 5.0),
         ("m.obj --zoom 1.5", "m.toml", 1.0),
         ("m.toml", "m.toml --time 1", 2.0),
         (

@@ -72,7 +72,9 @@ struct Screen {
     is_old: bool,
     /// Whether it is a draft.
     is_draft: bool,
+    /// The time that the picture took, and the one in full before it.
     took: Duration,
+    whole: Duration,
     moved: Option<Instant>,
     /// The time from which a motion is to go on, if it plays.
     played: Option<Instant>,
@@ -97,6 +99,7 @@ impl Screen {
             is_old: true,
             is_draft: false,
             took: Duration::ZERO,
+            whole: Duration::ZERO,
             moved: None,
             played: None,
             message: None,
@@ -193,9 +196,11 @@ impl Screen {
 
     /// Has a motion go on, so many seconds later.
     fn play(&mut self, seconds: f64) {
+        // The time that it takes to have the frame counts for the next.
+        let now = Instant::now();
         let outcome = self.viewer.advance(seconds);
-        self.played = self.hear(outcome).map(|_| Instant::now());
-        (self.is_old, self.moved) = (true, Some(Instant::now()));
+        self.played = self.hear(outcome).map(|_| now);
+        (self.is_old, self.moved) = (true, Some(now));
     }
 
     /// Draws what is old, and shows the picture with the text over it.
@@ -214,15 +219,16 @@ impl Screen {
         }
         if self.is_old {
             let is_moving = self.moved.is_some_and(|moved| moved.elapsed() < REST);
-            self.is_draft = is_moving && self.took > SLOW;
+            self.is_draft = is_moving && self.whole > SLOW;
             let begin = Instant::now();
             let outcome = self.viewer.picture(self.is_draft);
             if let Some(picture) = self.hear(outcome) {
                 self.picture = Some(picture);
             }
+            self.took = begin.elapsed();
             // Whether the whole is slow is known from it alone.
             if !self.is_draft {
-                self.took = begin.elapsed();
+                self.whole = self.took;
             }
             self.is_old = false;
         }

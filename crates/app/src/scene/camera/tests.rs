@@ -73,6 +73,8 @@ fn the_automatic_camera_shows_the_whole_ball() {
     let places = [seen(before), seen(after)];
     assert!(places[0].iter().zip(places[1]).all(|(a, b)| (a - b).abs() < 1e-5), "{places:?}");
     assert!(places[0][0].hypot(places[0][1]) > 0.1 && before.eye != after.eye);
+    // A smaller model is seen from where it was.
+    assert_eq!(zoomed_about(&camera, [1.5, 2.5, 2.0], 0.3), camera);
     let back = unzoomed(&after, [1.5, 2.5, 2.0], 2.0);
     let pairs = [(back.eye, before.eye), (back.target, before.target)];
     assert!(pairs.iter().all(|(a, b)| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-5)), "{back:?}");
