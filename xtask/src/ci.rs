@@ -9,8 +9,8 @@ use std::{env, fs, io, thread};
 
 use crate::command::Outcome;
 use crate::{
-    assets, bench, checks, extremes, film, firmware, fuzz, gallery, guide, package, seeded, supply, tidy,
-    trade, web, window, workspace,
+    assets, bench, book, checks, extremes, film, firmware, fuzz, gallery, guide, package, seeded, supply,
+    tidy, trade, web, window, workspace,
 };
 use passed::Passed;
 
@@ -105,6 +105,7 @@ const STEPS: &[Step] = &[
     ("film", film::check),
     ("window", window::check),
     ("web", web::check),
+    ("book", book::check),
     ("registers", checks::registers),
     ("extremes", extremes::check),
     ("package", package::run),

@@ -8,6 +8,7 @@ mod accuracy;
 mod assets;
 mod bench;
 mod boards;
+mod book;
 mod build_cost;
 mod checks;
 mod ci;
@@ -18,6 +19,7 @@ mod embedded;
 mod extremes;
 mod film;
 mod firmware;
+mod formulas;
 mod fuzz;
 mod gallery;
 mod golden;
@@ -29,6 +31,7 @@ mod peers;
 mod seeded;
 mod supply;
 mod tidy;
+mod tool;
 mod trade;
 mod wasm;
 mod web;
@@ -156,6 +159,12 @@ const CHORES: &[Chore] = &[
         arguments: "[--check | --speed]",
         about: "build the page of crates/web, and look at it in a browser, or time its pictures",
         run: web::web,
+    },
+    Chore {
+        name: "book",
+        arguments: "",
+        about: "make one book of docs/ and the pages beside it, which can be searched, and follow its links",
+        run: |_| book::check(),
     },
     Chore {
         name: "sweep",

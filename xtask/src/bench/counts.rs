@@ -6,8 +6,8 @@ use std::process::{Command, Stdio};
 use serde_json::Value;
 
 use super::results::{number, real, rows};
-use crate::command::{self, Outcome, cargo, output};
-use crate::workspace;
+use crate::command::{Outcome, cargo, output};
+use crate::{tool, workspace};
 
 /// The table.
 pub(super) const PLACE: &str = "benches/results/counts.csv";
@@ -67,7 +67,7 @@ fn counted(line: &str) -> Option<Count> {
     Some(Count { name: name.join("/"), instructions: total["values"]["new"].as_u64()? })
 }
 
-/// The runner of the version that the library needs. It is installed beside what is built, if it is not there.
+/// The runner of the version that the library needs.
 fn runner() -> Result<PathBuf, String> {
     if output(Command::new("valgrind").arg("--version")).is_err() {
         return Err("valgrind is not here; install it, on Debian with `apt-get install valgrind`".into());
@@ -76,17 +76,7 @@ fn runner() -> Result<PathBuf, String> {
         .map_err(|error| format!("cannot read Cargo.lock: {error}"))?;
     let version = lock.split_once(&format!("name = \"{RUNNER}\"\nversion = \""));
     let version = version.and_then(|(_, rest)| rest.split('"').next()).ok_or("Cargo.lock has no gungraun")?;
-    let is_it = |path: &PathBuf| {
-        let told = output(Command::new(path).arg("--version"));
-        told.is_ok_and(|told| told.split_whitespace().any(|word| word == version))
-    };
-    let root = workspace::target_directory().join("tools");
-    let installed = root.join("bin").join(RUNNER);
-    if let Some(path) = [RUNNER.into(), installed.clone()].into_iter().find(is_it) {
-        return Ok(path);
-    }
-    command::run(cargo().args(["install", "--locked", RUNNER, "--version", version, "--root"]).arg(root))?;
-    Ok(installed)
+    tool::find(RUNNER, version, &[])
 }
 
 /// Holds what was found against what is committed.

@@ -42,11 +42,27 @@ const TOOLS: &[&str] = &[
 ];
 
 /// The checks that may stand, and the beginnings of the names of the files that they read.
-const LONG: [(&str, &[&[&str]]); 9] = [
+const LONG: [(&str, &[&[&str]]); 10] = [
     ("firmware", &[LIBRARIES, CHIPS]),
     ("boards", &[LIBRARIES, CHIPS]),
     ("fingerprint", &[LIBRARIES, CHIPS]),
-    ("web", &[LIBRARIES, &["crates/web/", "docs/theory.md", "xtask/src/web"]]),
+    ("web", &[LIBRARIES, &["crates/web/", "docs/theory.md", "xtask/src/formulas.rs", "xtask/src/web"]]),
+    (
+        "book",
+        &[&[
+            "ARCHITECTURE.md",
+            "CHANGELOG.md",
+            "CONTRIBUTING.md",
+            "CONVENTIONS.md",
+            "README.md",
+            "SECURITY.md",
+            "crates/",
+            "docs/",
+            "xtask/src/book",
+            "xtask/src/formulas.rs",
+            "xtask/src/tool.rs",
+        ]],
+    ),
     (
         "bench",
         &[

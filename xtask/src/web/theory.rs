@@ -4,11 +4,10 @@ use std::fs;
 use std::path::Path;
 
 use pulldown_cmark::{CodeBlockKind, CowStr, Event, LinkType, Options, Parser, Tag, TagEnd, html};
-use pulldown_latex::config::DisplayMode;
-use pulldown_latex::{RenderConfig, Storage, push_mathml};
 
 use super::failed;
 use crate::command::Outcome;
+use crate::formulas::{self, mathml};
 
 /// Writes theory.html, and the pictures that it shows, into a folder.
 pub(super) fn write(docs: &Path, folder: &Path) -> Outcome {
@@ -36,7 +35,9 @@ fn page(text: &str) -> Result<(String, Vec<String>), String> {
     let mut heading: Option<(usize, String)> = None;
     for event in Parser::new_ext(text, Options::ENABLE_TABLES) {
         match event {
-            Event::Start(Tag::CodeBlock(CodeBlockKind::Fenced(language))) if &*language == "math" => {
+            Event::Start(Tag::CodeBlock(CodeBlockKind::Fenced(language)))
+                if &*language == formulas::LANGUAGE =>
+            {
                 formula = Some(String::new());
             }
             Event::Text(text) if formula.is_some() => formula.iter_mut().for_each(|all| all.push_str(&text)),
@@ -103,28 +104,13 @@ const HEAD: &str = "<!DOCTYPE html>
 <meta name=\"color-scheme\" content=\"light dark\">
 <title>Theory – alberti</title>
 <link rel=\"stylesheet\" href=\"style.css\">
+<link rel=\"stylesheet\" href=\"formulas.css\">
 </head>
 <body>
 <header><div class=\"name\"><a href=\"index.html\">alberti</a> <span>a rasterizer to touch</span></div>
 <p class=\"more\"><a href=\"index.html\">Back to the stations</a></p></header>
 <main class=\"theory\">
 ";
-
-/// A formula of LaTeX in MathML.
-fn mathml(formula: &str) -> Result<String, String> {
-    let storage = Storage::new();
-    // Faults would be part of the page otherwise.
-    let events: Vec<_> = pulldown_latex::Parser::new(formula, &storage)
-        .collect::<Result<_, _>>()
-        .map_err(|error| format!("a formula that is no LaTeX: {error}"))?;
-    let mut text = String::from("<div class=\"formulas\">");
-    let config = RenderConfig { display_mode: DisplayMode::Block, ..RenderConfig::default() };
-    let events = events.into_iter().map(Ok::<_, std::convert::Infallible>);
-    push_mathml(&mut text, events, config).map_err(|error| error.to_string())?;
-    text.push_str("</div>\n");
-    // Its spaces come out as the name of a character, which is escaped once more.
-    Ok(text.replace("&amp;nbsp;", "&#160;"))
-}
 
 /// The anchor of a heading, as GitHub makes it.
 fn anchor(words: &str) -> String {
