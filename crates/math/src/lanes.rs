@@ -1,5 +1,5 @@
 //! The number of samples at a time, and the kind of numbers: `f32` in [`One`], fixed point in [`OneFixed`]. Behind the
-//! feature `simd` there are the vector registers of `Eight` and `Sixteen`.
+//! feature `simd` there are the vector registers of `Four`, `Eight` and `Sixteen`.
 //!
 //! A kernel is written once, over a value of a [`Lanes`] type. Every lane of `f32` does the same IEEE operations in the
 //! same order as one lane alone, so the width never changes a bit.
@@ -15,7 +15,7 @@ pub use machine::Machine;
 pub use one::One;
 pub use one_fixed::OneFixed;
 #[cfg(feature = "simd")]
-pub use several::{Eight, Sixteen};
+pub use several::{Eight, Four, Sixteen};
 
 use crate::map2;
 use core::fmt::Debug;
@@ -61,6 +61,12 @@ pub trait Lanes: Copy + Debug + Send + Sync {
 
     /// Runs `f`, into which the code over these lanes is inlined.
     fn vectorize<R>(self, f: impl FnOnce() -> R) -> R;
+    /// Runs `f`, once in a program where code over these lanes need not be inlined: in WebAssembly, whose vectors are on
+    /// everywhere or nowhere, a texture's samples would otherwise be there for each place that takes them.
+    #[inline(always)]
+    fn apart<R>(self, f: impl FnOnce() -> R) -> R {
+        f()
+    }
 
     /// A slice as whole groups of lanes, and the rest.
     fn groups<T: Copy>(slice: &mut [T]) -> (&mut [Self::Each<T>], &mut [T]);

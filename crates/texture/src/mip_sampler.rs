@@ -83,7 +83,10 @@ impl<'a, F: Storage, M: MipFilter, U: Wrap, V: Wrap, Z: Size, const N: usize>
         uv: [L::Number; 2],
         gradient: Gradient<[L::Number; 2]>,
     ) -> [L::U32; N] {
-        self.filter.in_footprint(lanes, &self.mipmap, self.wrap, uv, gradient, |lambda| lambda)
+        lanes.apart(
+            #[inline(always)]
+            || self.filter.in_footprint(lanes, &self.mipmap, self.wrap, uv, gradient, |lambda| lambda),
+        )
     }
 }
 

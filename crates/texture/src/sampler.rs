@@ -54,7 +54,10 @@ impl<'a, F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size> Sampler<'a, F, Fl, U
     /// [`sample`](Self::sample) at several places: the colours as words, as [`Rgba8::to_bits`] makes them.
     #[inline(always)]
     pub fn sample_lanes<L: Lanes>(&self, lanes: L, u: L::Number, v: L::Number) -> L::U32 {
-        let [colors] = self.filter.sample(lanes, &self.texture, self.wrap, [u, v]);
+        let [colors] = lanes.apart(
+            #[inline(always)]
+            || self.filter.sample(lanes, &self.texture, self.wrap, [u, v]),
+        );
         colors
     }
 
@@ -67,7 +70,10 @@ impl<'a, F: Storage, Fl: Filter, U: Wrap, V: Wrap, Z: Size> Sampler<'a, F, Fl, U
     /// filter in real numbers. In fixed point rounded down.
     #[inline(always)]
     pub fn scalar_lanes<L: Lanes>(&self, lanes: L, u: L::Number, v: L::Number) -> L::Number {
-        scalar_number(lanes, self.filter.scalars(lanes, &self.texture, self.wrap, [u, v]))
+        lanes.apart(
+            #[inline(always)]
+            || scalar_number(lanes, self.filter.scalars(lanes, &self.texture, self.wrap, [u, v])),
+        )
     }
 }
 

@@ -17,6 +17,7 @@ use crate::shading::{QUAD, plain};
 use crate::textures::{BOARD, Textures};
 use crate::{Drawn, Fault, Parameters};
 use alberti::glam::{DVec2, DVec3, Vec2, Vec3};
+use alberti::lanes::One;
 use alberti::texture::format::Rgba8888 as Texels;
 use alberti::texture::{Nearest, Repeat, Sampler};
 use alberti::*;
@@ -146,7 +147,7 @@ impl Board {
             Shown::V => Some(Rgba8::from_bits(uv.y.to_bits())),
         };
         let pass = Pass::new(&view, &mesh, stage).viewport(*viewport).cull(Cull::None);
-        pass.interpolation(policy).draw(target);
+        pass.interpolation(policy).draw_by(One, target);
         Ok(())
     }
 

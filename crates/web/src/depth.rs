@@ -14,6 +14,7 @@ use crate::numbers::{float, power_of_ten, whole};
 use crate::shading::{QUAD, plain};
 use crate::{Drawn, Fault, Parameters};
 use alberti::glam::{Vec2, Vec3};
+use alberti::lanes::One;
 use alberti::projection::{DepthMap, DepthSteps};
 use alberti::*;
 use alloc::vec::Vec;
@@ -78,7 +79,13 @@ fn scene(canvas: &mut Canvas, format: AnyDepth, [near, far, gap]: [f32; 3]) -> R
         let mesh = plain(&corners, &QUAD);
         // Stripes of equal ratios of depth, two for each doubling, from the number's bits.
         let stage = move |z: f32| Some(Rgba8::from_rgb24(colors[(z.to_bits() >> 22 & 1) as usize]));
-        Pass::new(&view, &mesh, stage).viewport(viewport).cull(Cull::None).draw_counted(&mut target)
+        let mut stats = Stats::default();
+        Pass::new(&view, &mesh, stage).viewport(viewport).cull(Cull::None).count_by(
+            One,
+            &mut target,
+            &mut stats,
+        );
+        stats
     };
     draw(ground, [0x34_6a_b8, 0x2d_5c_a2]);
     let stats = draw(road, [0xf2_a5_3c, 0xd9_8c_28]);

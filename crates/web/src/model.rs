@@ -87,8 +87,8 @@ pub struct Model {
     vertices: Vec<Framed>,
     triangles: Vec<[u32; 3]>,
     has_uvs: bool,
-    colors: Option<Levels<Rgba8888>>,
-    normals: Option<Levels<Normals<Rgba8888>>>,
+    colors: Option<Levels>,
+    normals: Option<Levels>,
 }
 
 impl Model {

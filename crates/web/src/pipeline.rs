@@ -13,6 +13,7 @@ use crate::numbers::{float, turn};
 use crate::shading::plain;
 use crate::{Drawn, Parameters};
 use alberti::glam::{Mat3, Vec3};
+use alberti::lanes::One;
 use alberti::projection::{EyeVertex, ProjectedVertex, SideBounds, clip_near_far, clip_sides};
 use alberti::shaders::VertexColor;
 use alberti::*;
@@ -41,7 +42,8 @@ pub(crate) fn draw(canvas: &mut Canvas, results: &mut Vec<f32>, parameters: &Par
     let mut target = canvas.target()?;
     let mesh = plain(&TRIANGLE, &[[0, 1, 2]]);
     let pass = Pass::new(&view, &mesh, VertexColor).at(model).cull(Cull::None);
-    let stats = pass.sides(Sides::Cube).draw_counted(&mut target);
+    let mut stats = Stats::default();
+    pass.sides(Sides::Cube).count_by(One, &mut target, &mut stats);
 
     let [width, height] = canvas.size();
     let viewport = Viewport::new(0, 0, width, height)?;

@@ -15,11 +15,10 @@ use crate::shading::{self, Heights, detail, lit};
 use crate::textures::{RISE, Textures, WALL};
 use crate::{Drawn, Fault, Parameters};
 use alberti::glam::{Vec2, Vec3};
+use alberti::lanes::{Lanes, Machine};
 use alberti::shaders::material::{Bump, Framed, Parallax};
 use alberti::texture::format::Rgba8888;
-use alberti::texture::surface::{
-    AnyParallax, Grid, HeightMap, MeshBuffers, ParallaxSearch, Plane, Relief, displaced_mesh,
-};
+use alberti::texture::surface::{AnyParallax, Grid, HeightMap, MeshBuffers, Plane, Relief, displaced_mesh};
 use alberti::texture::{Bilinear, Repeat, Texture};
 use alberti::*;
 use alloc::vec;
@@ -113,13 +112,24 @@ fn displaced_wall(relief: &Relief<Heights<'_>>) -> Result<Surface, Fault> {
 }
 
 /// The shift of the coordinates in a joint in texels, the height where it leads, and the slant of the ray.
-fn joint(relief: &Relief<Heights<'_>>, policy: Option<impl ParallaxSearch>, eye: Vec3) -> [f32; 4] {
+fn joint(relief: &Relief<Heights<'_>>, policy: Option<AnyParallax>, eye: Vec3) -> [f32; 4] {
     // In a joint between two bricks of a row: their faces are where the wall is, and do not shift.
     let uv = Vec2::new(0.25, 0.125);
     let to_eye = (eye - uv.extend(0.0)).normalize();
-    let found = policy.map_or(uv, |policy| relief.parallax(policy, uv, Vector3::new(to_eye)));
+    let found = policy.map_or(uv, |policy| place(relief, policy, uv, to_eye));
     let shift = (found - uv) * float(WALL as usize);
     [shift.x, shift.y, relief.height(found), slant(to_eye)]
+}
+
+/// The place that is seen, by the search of the picture's kernel.
+fn place(relief: &Relief<Heights<'_>>, policy: AnyParallax, uv: Vec2, to_eye: Vec3) -> Vec2 {
+    let Some(machine) = Machine::all().next() else { return uv };
+    for_lanes!(machine, lanes => {
+        let everywhere = |x: f32| lanes.splat(x);
+        let (uv, to_eye) = (uv.to_array().map(everywhere), to_eye.to_array().map(everywhere));
+        let found = relief.parallax_lanes(policy, lanes, uv, to_eye);
+        Vec2::from(found.map(|x| lanes.store(x)[0]))
+    })
 }
 
 /// k = |V_xy|/V_z, in `f64`.

@@ -9,14 +9,14 @@ use alberti::projection::EyeVertex;
 use alberti::shaders::material::{
     BlinnPhong, Bump, Color, Framed, Lighting, Material, NormalMap, Parallax, PointLight, Specular, Viewer,
 };
-use alberti::texture::format::{Normals, Rgba8888};
+use alberti::texture::format::Rgba8888;
 use alberti::texture::surface::{AnyParallax, NormalEncoding::Centred};
 use alberti::texture::{Bilinear, MipSampler, Repeat, Sampler, TextureError, Trilinear};
 use alberti::*;
 use alloc::vec;
 
-/// A map of one of the two formats.
-type Map<'a, F> = MipSampler<'a, F, Trilinear, Repeat>;
+/// A map of colours or normals.
+type Map<'a> = MipSampler<'a, Rgba8888, Trilinear, Repeat>;
 
 /// A map of heights.
 pub(crate) type Heights<'a> = Sampler<'a, Rgba8888, Bilinear, Repeat>;
@@ -24,17 +24,17 @@ pub(crate) type Heights<'a> = Sampler<'a, Rgba8888, Bilinear, Repeat>;
 /// The place to look at, colours, a highlight, and normals from a map or from heights.
 pub(crate) type Detail<'a> = (
     Option<Parallax<Heights<'a>, AnyParallax>>,
-    Color<Map<'a, Rgba8888>>,
+    Color<Map<'a>>,
     Specular<Rgba8>,
-    Option<NormalMap<Map<'a, Normals<Rgba8888>>>>,
+    Option<NormalMap<Map<'a>>>,
     Option<Bump<Heights<'a>>>,
 );
 
 /// The layers of a surface with a normal map, whose slopes are `strength` times as steep as the map says. Without any
 /// strength there is none.
 pub(crate) fn detail<'a>(
-    colors: &'a Levels<Rgba8888>,
-    normals: &'a Levels<Normals<Rgba8888>>,
+    colors: &'a Levels,
+    normals: &'a Levels,
     strength: f32,
 ) -> Result<Detail<'a>, TextureError> {
     let normals = normals.mipmap()?.sampler(Trilinear, Repeat);

@@ -17,29 +17,33 @@ pub(crate) const WALL: u32 = 128;
 /// The size of the slide, in texels.
 pub(crate) const SLIDE: [u32; 2] = [96, 64];
 
-/// A mip map's texels, level after level, and the size of the first.
+/// A mip map's texels, level after level, and the size of the first. Whatever their means are of, they are read as
+/// colours, so that one filter in the program samples all.
 #[derive(Debug)]
-pub(crate) struct Levels<F> {
-    format: F,
+pub(crate) struct Levels {
     texels: Vec<Texel>,
     size: [u32; 2],
 }
 
-impl<F: TexelFormat<Texel = Texel> + Copy> Levels<F> {
+impl Levels {
     /// The mip map of a texture, its first row the top one.
-    pub(crate) fn build(format: F, largest: &[Texel], size: [u32; 2]) -> Result<Self, TextureError> {
+    pub(crate) fn build(
+        format: impl TexelFormat<Texel = Texel> + Copy,
+        largest: &[Texel],
+        size: [u32; 2],
+    ) -> Result<Self, TextureError> {
         let [width, height] = size;
         let mut texels = vec![[0; 4]; mipmap::texel_count(width, height)];
         if let Some(level) = texels.get_mut(..largest.len()) {
             level.copy_from_slice(largest);
         }
         mipmap::build(format, &mut texels, width, height)?;
-        Ok(Self { format, texels, size })
+        Ok(Self { texels, size })
     }
 
     /// The mip map.
-    pub(crate) fn mipmap(&self) -> Result<Mipmap<'_, F>, TextureError> {
-        Mipmap::new(self.format, &self.texels, self.size[0], self.size[1])
+    pub(crate) fn mipmap(&self) -> Result<Mipmap<'_, Rgba8888>, TextureError> {
+        Mipmap::new(Rgba8888, &self.texels, self.size[0], self.size[1])
     }
 
     /// The colours of each level replaced by one.
@@ -69,8 +73,8 @@ impl<F: TexelFormat<Texel = Texel> + Copy> Levels<F> {
 /// The maps of the brick wall.
 #[derive(Debug)]
 pub(crate) struct Wall {
-    pub(crate) colors: Levels<Rgba8888>,
-    pub(crate) normals: Levels<Normals<Rgba8888>>,
+    pub(crate) colors: Levels,
+    pub(crate) normals: Levels,
     /// Heights from 0 to 255 in each channel.
     pub(crate) heights: Vec<Texel>,
 }
@@ -78,8 +82,8 @@ pub(crate) struct Wall {
 /// The textures that have been asked for.
 #[derive(Debug)]
 pub(crate) struct Textures {
-    board: Option<Levels<Rgba8888>>,
-    levels: Option<Levels<Rgba8888>>,
+    board: Option<Levels>,
+    levels: Option<Levels>,
     wall: Option<Wall>,
     slide: Option<Vec<Texel>>,
 }
@@ -90,12 +94,12 @@ impl Textures {
     }
 
     /// A board of 8 x 8 fields, with a thin line in each, so that its sides can be told apart.
-    pub(crate) fn board(&mut self) -> Result<&Levels<Rgba8888>, TextureError> {
+    pub(crate) fn board(&mut self) -> Result<&Levels, TextureError> {
         kept(&mut self.board, || Levels::build(Rgba8888, &board(), [BOARD; 2]))
     }
 
     /// The same board, each level of its mip map in a colour of its own.
-    pub(crate) fn levels(&mut self) -> Result<&Levels<Rgba8888>, TextureError> {
+    pub(crate) fn levels(&mut self) -> Result<&Levels, TextureError> {
         const COLORS: [Texel; 8] = [
             [255, 255, 255, 255],
             [235, 90, 70, 255],

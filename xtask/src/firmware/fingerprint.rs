@@ -194,7 +194,9 @@ impl Board {
     /// The lines that the board's program prints.
     fn print(&self) -> Result<String, String> {
         let toolchain = self.find()?;
-        let folder = self.build(&toolchain, "release", &["fingerprint"])?;
+        // By its lanes, where it has any.
+        let lanes = if self.target.feature.is_some() { &["simd"][..] } else { &[] };
+        let folder = self.build_with(&toolchain, "release", &["fingerprint"], lanes, None)?;
         self.machine.run(&self.image(&folder, "fingerprint"))
     }
 }

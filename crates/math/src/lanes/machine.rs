@@ -130,7 +130,45 @@ mod here {
     }
 }
 
-#[cfg(not(all(feature = "simd", any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[cfg(all(feature = "simd", target_arch = "wasm32", target_feature = "simd128"))]
+mod here {
+    use crate::lanes::Four;
+    use fearless_simd::{Level, WasmSimd128};
+
+    /// The lanes of a machine, which [`for_lanes!`](crate::for_lanes) turns into a [`Lanes`](super::super::Lanes) type.
+    #[derive(Clone, Copy, Debug)]
+    pub enum Machine {
+        /// Four in a vector of 128 bits.
+        Simd128(Four<WasmSimd128>),
+    }
+
+    impl Machine {
+        /// The lanes that every machine has on which such a program starts.
+        pub fn all() -> impl Iterator<Item = Self> {
+            Level::baseline().as_wasm_simd128().map(|proof| Self::Simd128(Four(proof))).into_iter()
+        }
+    }
+
+    /// The expansion of [`for_lanes!`](crate::for_lanes).
+    #[doc(hidden)]
+    #[macro_export]
+    macro_rules! __for_lanes {
+        ($machine:expr, $lanes:ident => $body:expr) => {
+            match $machine {
+                $crate::lanes::Machine::Simd128($lanes) => $body,
+            }
+        };
+    }
+}
+
+#[cfg(not(all(
+    feature = "simd",
+    any(
+        target_arch = "x86_64",
+        target_arch = "aarch64",
+        all(target_arch = "wasm32", target_feature = "simd128")
+    )
+)))]
 mod here {
     use crate::lanes::One;
 
@@ -173,7 +211,7 @@ pub use here::Machine;
 /// }
 /// for machine in Machine::all() {
 ///     let lanes = for_lanes!(machine, lanes => count(lanes));
-///     assert!(lanes == 1 || lanes == 8);
+///     assert!(matches!(lanes, 1 | 4 | 8));
 /// }
 /// ```
 #[macro_export]

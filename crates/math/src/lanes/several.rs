@@ -6,8 +6,9 @@ use core::fmt::{Debug, Formatter, Result};
 #[cfg(target_arch = "x86_64")]
 use fearless_simd::Level;
 use fearless_simd::{
-    Bytes, Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdInt, SimdInto, SimdMask, f32x8, f32x16, f64x4,
-    f64x8, i32x8, i32x16, mask32x8, mask32x16, u16x16, u16x32, u32x4, u32x8, u32x16, u64x4, u64x8,
+    Bytes, Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdInt, SimdInto, SimdMask, f32x4, f32x8, f32x16,
+    f64x2, f64x4, f64x8, i32x4, i32x8, i32x16, mask32x4, mask32x8, mask32x16, u16x8, u16x16, u16x32, u32x4,
+    u32x8, u32x16, u64x2, u64x4, u64x8,
 };
 
 /// A type of lanes: its name, their number, and the types of its vectors. Then the numbers of all lanes, of half and of
@@ -92,6 +93,12 @@ macro_rules! several {
             #[inline(always)]
             fn vectorize<R>(self, f: impl FnOnce() -> R) -> R {
                 self.0.vectorize(f)
+            }
+
+            #[cfg_attr(target_arch = "wasm32", inline(never))]
+            #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+            fn apart<R>(self, f: impl FnOnce() -> R) -> R {
+                f()
             }
 
             #[inline(always)]
@@ -377,6 +384,13 @@ macro_rules! several {
 }
 
 several! {
+    /// Four samples at a time, on a machine with the instructions `S`, in one register of 128 bits.
+    Four, 4,
+    [f32x4, i32x4, u32x4, u16x8, mask32x4, f64x2, u64x2, narrow_f64x2],
+    [0 1 2 3], [0 1], [0], of_one
+}
+
+several! {
     /// Eight samples at a time, on a machine with the instructions `S`: in one register of 256 bits, or pairs of 128.
     Eight, 8,
     [f32x8, i32x8, u32x8, u16x16, mask32x8, f64x4, u64x4, narrow_f64x4],
@@ -391,7 +405,7 @@ several! {
     [0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15], [0 1 2 3 4 5 6 7], [0 1 2 3], of_four
 }
 
-/// The samples that are best in long rows. SSE2 and Neon take pairs of registers for eight, and have no more.
+/// The samples that are best in long rows. SSE2, Neon and WebAssembly take pairs for eight, and have no more.
 macro_rules! floating {
     ($($lanes:ident<$machine:ident>: $wide:ident),+) => {
         $(
@@ -410,9 +424,17 @@ macro_rules! floating {
 #[cfg(all(target_arch = "x86_64", feature = "avx512"))]
 floating!(Eight<Avx512>: Sixteen, Sixteen<Avx512>: Sixteen);
 #[cfg(target_arch = "x86_64")]
-floating!(Eight<Avx2>: Sixteen, Sixteen<Avx2>: Sixteen, Eight<Sse2>: Eight);
+floating!(Eight<Avx2>: Sixteen, Sixteen<Avx2>: Sixteen, Eight<Sse2>: Eight, Four<Sse2>: Four);
 #[cfg(target_arch = "aarch64")]
 floating!(Eight<Neon>: Eight);
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+floating!(Four<WasmSimd128>: Four);
+
+/// A vector of one part.
+#[inline(always)]
+fn of_one<S: Simd>([a]: [u32x4<S>; 1]) -> u32x4<S> {
+    a
+}
 
 /// A vector of these parts, in order.
 #[inline(always)]

@@ -196,6 +196,15 @@ fn lanes_do_not_mix() {
     }
 }
 
+/// The lanes of WebAssembly, by the registers of this machine.
+#[test]
+#[cfg(all(feature = "simd", target_arch = "x86_64"))]
+fn four_lanes_do_not_mix() {
+    let lanes = Four(fearless_simd::Level::baseline().as_sse2().unwrap());
+    together_as_alone(lanes);
+    found_and_counted(lanes);
+}
+
 /// By bits, over the binades of lengths from 2^-63 to 2^63; all kinds of lanes have the same bits.
 #[test]
 fn log2_length_of_floats() {

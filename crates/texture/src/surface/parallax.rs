@@ -149,7 +149,11 @@ impl<H: HeightMap> Relief<H> {
         // 0 times what is not finite is NaN.
         let finite = |[u, v]: [L::Number; 2]| lanes.less(u * zero, one) & lanes.less(v * zero, one);
         let seen = finite(slant) & lanes.less(zero, z);
-        let found = policy.meet(lanes, self, uv, slant.map(|along| lanes.select(seen, along, zero)));
+        let slant = slant.map(|along| lanes.select(seen, along, zero));
+        let found = lanes.apart(
+            #[inline(always)]
+            || policy.meet(lanes, self, uv, slant),
+        );
         let met = seen & finite(found);
         [lanes.select(met, found[0], uv[0]), lanes.select(met, found[1], uv[1])]
     }
