@@ -143,8 +143,8 @@ impl<'a, M: Geometry, F, P: Interpolation, Pr: Projection> Pass<'a, M, F, P, Pr>
     /// Draws into a target, triangles in order.
     ///
     /// With the feature `simd` it works on eight samples at a time, or sixteen in long rows; in WebAssembly on four. It
-    /// takes the widest vector registers that the machine turns out to have (with `std`) or is known to have. The pixels are those of
-    /// [`draw_by`](Self::draw_by) one sample at a time.
+    /// takes the widest vector registers that the machine turns out to have (with `std`) or is known to have. The
+    /// pixels are those of [`draw_by`](Self::draw_by) one sample at a time.
     pub fn draw<C: ColorFormat, D: DepthFormat>(&mut self, target: &mut Target<'_, C, D>)
     where
         F: FragmentStage<M::Varying>,

@@ -61,8 +61,9 @@ pub trait Lanes: Copy + Debug + Send + Sync {
 
     /// Runs `f`, into which the code over these lanes is inlined.
     fn vectorize<R>(self, f: impl FnOnce() -> R) -> R;
-    /// Runs `f`, once in a program where code over these lanes need not be inlined: in WebAssembly, whose vectors are on
-    /// everywhere or nowhere, a texture's samples would otherwise be there for each place that takes them.
+    /// Runs `f`, which is a function of its own where code over these lanes need not be inlined. That is in
+    /// WebAssembly, where all of a program has vectors: it has a texture's samples once, not for each place that takes
+    /// them.
     #[inline(always)]
     fn apart<R>(self, f: impl FnOnce() -> R) -> R {
         f()

@@ -28,7 +28,7 @@ pub(crate) struct Levels {
 impl Levels {
     /// The mip map of a texture, its first row the top one.
     pub(crate) fn build(
-        format: impl TexelFormat<Texel = Texel> + Copy,
+        format: impl TexelFormat<Texel = Texel>,
         largest: &[Texel],
         size: [u32; 2],
     ) -> Result<Self, TextureError> {
