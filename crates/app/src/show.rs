@@ -40,7 +40,7 @@ impl Show {
     ///
     /// # Errors
     /// There is nothing that it could show.
-    fn check(self, model: &Model, options: &RenderOptions) -> Result<Option<Error>, Error> {
+    pub(crate) fn check(self, model: &Model, options: &RenderOptions) -> Result<Option<Error>, Error> {
         let wrong = |found: String, expected: &str| Error::new(found, expected).place("--show");
         let textured = || model.parts.iter().any(|part| part.texture.is_some());
         match self {

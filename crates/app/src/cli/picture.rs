@@ -9,12 +9,13 @@ use crate::film::{EARLY, ordered};
 use crate::memory;
 use crate::options::values::{Size, name_of};
 use crate::options::{
-    AovFormat, Background, CameraTable, ColorFormat, Cull, DEFAULT_SIZE, Dither, Interpolation, Samples,
-    Shading,
+    AovFormat, Background, CameraTable, ColorFormat, Cull, DEFAULT_SIZE, Dither, Interpolation, Projection,
+    Samples, Shading,
 };
 use crate::output::stage::{Stage, during};
 use crate::samples::bytes;
-use crate::scene::{Camera, ground};
+use crate::scene::Camera;
+use crate::scene::ground::{self, Stood};
 use alberti::Stats;
 
 /// Bytes a pixel to encode: the colours, and twice as many where nothing is packed and the list has grown by halves.
@@ -120,10 +121,11 @@ impl Request {
     }
 
     /// Puts a ground under the model of a picture, if that is asked for.
-    pub(super) fn add_ground(&self, staged: &mut Staged) {
+    pub(super) fn add_ground(&self, staged: &mut Staged) -> Option<Stood> {
         let mut camera = staged.camera;
-        self.add_ground_for(staged, std::slice::from_mut(&mut camera));
+        let stood = self.add_ground_for(staged, std::slice::from_mut(&mut camera));
         staged.camera = camera;
+        stood
     }
 
     /// Whether each of these cameras sees a ground from above, which is drawn for it; all do where there is none.
@@ -136,13 +138,14 @@ impl Request {
     }
 
     /// The same as [`add_ground`](Self::add_ground) for these cameras, but those below it.
-    pub(super) fn add_ground_for(&self, staged: &mut Staged, cameras: &mut [Camera]) {
+    pub(super) fn add_ground_for(&self, staged: &mut Staged, cameras: &mut [Camera]) -> Option<Stood> {
         if self.arguments.render.ground != Some(true) {
-            return;
+            return None;
         }
         let left_out = |found: &str, expected: &str| {
             let error = Error::new(found, expected).place("--ground");
             warn(&error.hint("it is left out").to_string());
+            None
         };
         if self.arguments.show.is_some() {
             return left_out("it with --show, which has the model alone", "a picture in true colours");
@@ -158,8 +161,11 @@ impl Request {
         let CameraTable { near, far, .. } = self.arguments.camera;
         let affine = options.policies.interpolation == Interpolation::Affine;
         let fixed = [near.is_some(), far.is_some()];
-        let manner = ground::Manner { fixed, affine, depth: options.depth, wrap: options.wrap };
-        if !during(Stage::Shadow, |_| ground::add(model, swept.as_ref(), cameras, manner)) {
+        let aspect = matches!(options.projection, Projection::Perspective)
+            .then(|| f64::from(options.width) / f64::from(options.height));
+        let manner = ground::Manner { fixed, aspect, affine, depth: options.depth, wrap: options.wrap };
+        let stood = during(Stage::Shadow, |_| ground::add(model, swept.as_ref(), cameras, manner));
+        if stood.is_none() {
             return left_out("a camera below the model's lowest point", "one above the ground");
         }
         let below = above.iter().filter(|above| !**above).count();
@@ -169,6 +175,7 @@ impl Request {
             let error = Error::new(found, "a smooth one").place("--ground");
             warn(&error.hint("--dither blue-noise leaves no rings").to_string());
         }
+        stood
     }
 }
 

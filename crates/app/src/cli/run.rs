@@ -172,12 +172,12 @@ fn usage(error: &clap::Error, renamed: bool, words: &[OsString]) -> Result<u8, E
             ("one file too many".to_owned(), expected)
         }
         ErrorKind::UnknownArgument => {
-            let meant = option.as_deref().and_then(words::of_others).map(str::to_owned);
-            let similar = meant.or_else(|| context(ContextKind::SuggestedArg));
-            let similar = similar.map(|option| format!("one, such as {option}"));
+            let such = |option: &str| format!("one, such as {option}");
+            let meant = option.as_deref().and_then(words::of_others).map(such);
             let owner = option.as_deref().and_then(owner).map(|name| format!("it with alberti {name} alone"));
-            let similar = owner.or(similar);
-            ("no such option".to_owned(), similar.unwrap_or_else(|| "one that --help all lists".to_owned()))
+            let similar = || context(ContextKind::SuggestedArg).map(|option| such(&option));
+            let expected = meant.or(owner).or_else(similar);
+            ("no such option".to_owned(), expected.unwrap_or_else(|| "one that --help all lists".to_owned()))
         }
         ErrorKind::InvalidValue
             if context(ContextKind::InvalidValue).is_some_and(|value| value.is_empty()) =>

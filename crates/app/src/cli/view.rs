@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
 
-use clap::ArgMatches;
+use clap::{ArgMatches, ValueEnum as _};
 
 use super::bake::name as stem;
 use super::request::Request;
@@ -24,9 +24,10 @@ use crate::options::{CameraTable, Projection, Samples};
 use crate::output::stats::Source;
 use crate::samples::supersampled_with;
 use crate::scene::camera::{self, as_options};
+use crate::scene::ground::Stood;
 use crate::scene::normals::narrow;
 use crate::scene::{Camera, Image, Model};
-use crate::show::{Shown, show};
+use crate::show::{Show, Shown, show};
 use alberti::Stats;
 
 mod keys;
@@ -91,8 +92,9 @@ struct Scene {
     /// The camera's options without a camera that has been moved.
     wishes: CameraTable,
     staged: Staged,
-    /// The model without its ground, for cameras below that.
+    /// The model without its ground, for cameras below that, and that ground.
     bare: Option<Model>,
+    ground: Option<Stood>,
     chains: Arc<Chains>,
     motion: Option<Rc<Motion>>,
 }
@@ -148,9 +150,12 @@ impl Viewer {
 
     /// Words beside those of the command line, with or without a camera that has been moved.
     fn chosen(&self, options: &[(&'static str, &'static str)], with_camera: bool) -> Chosen {
+        let camera = self.camera_words().filter(|_| with_camera);
+        // It says how it projects.
+        let is_said = |option: &str| camera.is_some() && option == "--projection";
         Chosen {
-            options: options.to_vec(),
-            camera: self.camera_words().filter(|_| with_camera),
+            options: options.iter().copied().filter(|(option, _)| !is_said(option)).collect(),
+            camera,
             time: self.time,
         }
     }
@@ -319,8 +324,8 @@ impl Viewer {
 
     /// The model as the camera sees it, and whether that is below its ground, which is left out then.
     fn drawn(&self) -> (&Model, bool) {
-        let Scene { request, staged, bare, .. } = &self.scene;
-        let is_below = |_: &&Model| request.above_ground(staged, &[self.camera()]) == [false];
+        let Scene { staged, bare, ground, .. } = &self.scene;
+        let is_below = |_: &&Model| ground.as_ref().is_some_and(|ground| !ground.is_below(&self.camera()));
         let below = bare.as_ref().filter(is_below);
         (below.unwrap_or(&staged.model), below.is_some())
     }
@@ -365,12 +370,23 @@ impl Viewer {
             Action::Cycle(cycle, forwards) => {
                 let at = keys::CYCLES.iter().position(|other| other == cycle);
                 let first = at.and_then(|at| self.first.get(at)).and_then(Option::as_deref);
-                let value = cycle.next(self.chosen_value(cycle.option), first, forwards);
+                let mut value = cycle.next(self.chosen_value(cycle.option), first, forwards);
+                // Values are left out that cannot be shown of this model.
+                while value.is_some_and(|value| !self.has(cycle.option, value)) {
+                    value = cycle.next(value, first, forwards);
+                }
                 self.choose(cycle.option, value, cycle.keeps_maps)
             }
             Action::Step(frames) => self.advance(f64::from(frames) / keys::FRAMES),
             Action::Picture | Action::Play | Action::Help | Action::Text | Action::Quit => Ok(false),
         }
+    }
+
+    /// Whether the model has what a value shows of it.
+    fn has(&self, option: &str, value: &str) -> bool {
+        let show = Show::from_str(value, true).ok().filter(|_| option == "--show");
+        let Staged { model, options, .. } = &self.scene.staged;
+        show.is_none_or(|show| show.check(model, options).is_ok())
     }
 
     fn chosen_value(&self, option: &str) -> Option<&'static str> {
@@ -405,7 +421,7 @@ impl Viewer {
 
     /// Has the camera there, with planes around the model unless the command line has others.
     fn move_to(&mut self, Orbit { camera: place, pivot, projection }: Orbit) -> Result<bool, Error> {
-        let Scene { wishes, staged, .. } = &mut self.scene;
+        let Scene { wishes, staged, bare, ground, .. } = &mut self.scene;
         let mut wishes = wishes.counted_from(staged.model.origin);
         let Camera { eye, target, up, roll, fov, .. } = place;
         (wishes.eye, wishes.target, wishes.up) = (Some(eye.into()), Some(target.into()), Some(up.into()));
@@ -414,8 +430,12 @@ impl Viewer {
         (wishes.azimuth, wishes.elevation, wishes.view) = (None, None, None);
         let Staged { model, options, .. } = staged;
         let aspect = f64::from(options.width) / f64::from(options.height);
-        let ball = camera::bounding_sphere(model);
-        let camera = camera::frame(&wishes, None, (model, ball), aspect)?;
+        // As a picture of the command line has them: first those of the model, then for its ground.
+        let model = bare.as_ref().unwrap_or(model);
+        let mut camera = camera::frame(&wishes, None, (model, camera::bounding_sphere(model)), aspect)?;
+        if let Some(ground) = ground {
+            ground.stretch(&mut camera);
+        }
         options.projection = projection;
         self.moved = Some((camera, pivot));
         Ok(true)
@@ -437,12 +457,12 @@ impl Scene {
         let mut staged = staged.map_err(|error| request.relocate(error))?;
         ordered(&mut staged.model, &staged.camera, staged.options.projection);
         let bare = (request.arguments.render.ground == Some(true)).then(|| staged.model.clone());
-        request.add_ground(&mut staged);
+        let ground = request.add_ground(&mut staged);
         let chains = match chains {
             Some(chains) => chains,
             None => Arc::new(Chains::new(&staged.model, &staged.options)?),
         };
-        Ok(Self { request, wishes, staged, bare, chains, motion })
+        Ok(Self { request, wishes, staged, bare, ground, chains, motion })
     }
 
     /// The value that an option has, as it is typed, if it is one for the whole scene.

@@ -51,6 +51,7 @@ pub(super) fn with_command(mut words: Vec<OsString>, command: &Command) -> Resul
 /// The option for what others call so.
 pub(super) fn of_others(option: &str) -> Option<&'static str> {
     Some(match option {
+        "--out" | "--outfile" => "--output",
         "--width" | "--height" | "--resolution" | "-w" => "--size WIDTHxHEIGHT",
         "--msaa" | "--aa" | "--antialias" | "--antialiasing" | "--supersample" => "--samples",
         "--camera" | "--position" | "--from" => "--eye",

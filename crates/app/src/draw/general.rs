@@ -17,7 +17,7 @@ use crate::options::{Arithmetic, Filter, Interpolation, RenderOptions, Shading};
 use crate::scene::{Camera, Detail, Model, Part};
 use alberti::lanes::{Lanes, Machine, One};
 use alberti::raster::PerPixel;
-use alberti::raster::color::{AnyBlend, Blended};
+use alberti::raster::color::{AnyBlend, Blended, BlueNoise, Pattern as _};
 use alberti::shaders::material::{AnyLight, AnyLightSpace, Framed, Gouraud, InSpace, Material};
 use alberti::shaders::{Mix, Slide, Unlit, VertexColor};
 use alberti::texture::{AnyFilter, Clamp, Sampler, format::Rgba8888};
@@ -26,8 +26,8 @@ use std::sync::Arc;
 
 /// Whether a part is more than a plain surface in a picture with these options.
 pub(super) fn is_lit(part: &Part, model: &Model, options: &RenderOptions) -> bool {
-    let Detail { specular, shininess, blend, alpha_test, shiny, .. } = part.detail;
-    let plain = Detail { specular, shininess, blend, alpha_test, shiny, ..Detail::default() };
+    let Detail { specular, shininess, blend, alpha_test, is_share, shiny, .. } = part.detail;
+    let plain = Detail { specular, shininess, blend, alpha_test, is_share, shiny, ..Detail::default() };
     let mipmapped = part.texture.is_some() && !matches!(options.filter, Filter::Nearest | Filter::Bilinear);
     let highlights = !matches!(options.shading, Shading::Unlit | Shading::VertexColor | Shading::Lambert);
     let lamps = options.shading.is_lit() && (!model.lights.is_empty() || model.ambient.is_some());
@@ -94,6 +94,8 @@ pub(super) struct Shown<'a> {
     pub(super) hazy: Option<Hazy>,
     /// The least alpha that is drawn.
     pub(super) least: u8,
+    /// The size of an image in whose smaller levels alpha is the share of samples that are drawn.
+    pub(super) shares: Option<[u32; 2]>,
 }
 
 impl FragmentStage<Attributes> for Shown<'_> {
@@ -105,7 +107,14 @@ impl FragmentStage<Attributes> for Shown<'_> {
         let lanes = fragments.lanes;
         let (mut color, mut mask) = self.surface.shade(&fragments.part(|(_, framed)| *framed));
         if self.least > 0 {
-            mask = mask & !lanes.less_words(lanes.shr(color, 24), lanes.word(self.least.into()));
+            let mut least = lanes.word(self.least.into());
+            if let Some(size) = self.shares {
+                let gradient = fragments.gradient.map(|(_, framed)| framed.uv);
+                let is_smaller = lanes.less(lanes.splat(0.0), gradient.lod_lanes(lanes, size));
+                let any = BlueNoise.thresholds(lanes, fragments.place) + lanes.word(1);
+                least = lanes.select_words(is_smaller, any, least);
+            }
+            mask = mask & !lanes.less_words(lanes.shr(color, 24), least);
         }
         if let Some(image) = self.image {
             let slide = Slide { surface: (), image, mix: Mix::Modulate };
@@ -138,7 +147,23 @@ impl<'a> Drawing<'a> {
     /// A part's surface with all that lies on it and before it.
     pub(super) fn shown(&self, surface: Surface<'a>, part: &Part) -> Shown<'a> {
         let image = self.slide.map(|(_, image)| image.sampler(any_filter(self.options.filter), Clamp));
-        Shown { surface, image, hazy: self.hazy(part.detail.blend), least: part.detail.alpha_test }
+        Shown { image, hazy: self.hazy(part.detail.blend), ..self.surface_alone(surface, part) }
+    }
+
+    /// A part's surface with its holes.
+    fn surface_alone(&self, surface: Surface<'a>, part: &Part) -> Shown<'a> {
+        let detail = &part.detail;
+        let filter = detail.filter.unwrap_or(self.options.filter);
+        let has_levels = !matches!(filter, Filter::Nearest | Filter::Bilinear);
+        let image = part.texture.and_then(|image| self.model.textures.get(image));
+        let shares = image.filter(|_| detail.is_share && has_levels);
+        Shown {
+            surface,
+            image: None,
+            hazy: None,
+            least: detail.alpha_test,
+            shares: shares.map(|image| [image.width, image.height]),
+        }
     }
 
     /// A part's surface, and all that its attributes are made of.
@@ -176,7 +201,7 @@ impl<'a> Drawing<'a> {
         let (lighting, colored) = (material.lighting, part.detail.carries_colors());
         let clothed =
             Clothed { surface, lighting, linear, colored, textured: true, placed: true, projector: None };
-        (clothed, Shown { surface, image: None, hazy: None, least: part.detail.alpha_test })
+        (clothed, self.surface_alone(surface, part))
     }
 
     /// The stage behind a pointer, in one of few kernels, mixed with what is there.

@@ -135,8 +135,18 @@ impl Material {
         if let Some(Color(color)) = self.color {
             part.diffuse = color;
         }
-        let Detail { wetness, specular, shininess, emissive, reflection, blend, alpha_test, shiny, .. } =
-            &mut part.detail;
+        let Detail {
+            wetness,
+            specular,
+            shininess,
+            emissive,
+            reflection,
+            blend,
+            alpha_test,
+            is_share,
+            shiny,
+            ..
+        } = &mut part.detail;
         let none = self.specular == Some(Color([0.0; 3]));
         *shiny = !none && (*shiny || self.specular.is_some() || self.shininess.is_some());
         // A map alone says all.
@@ -147,6 +157,7 @@ impl Material {
         *emissive = self.emissive.map_or(*emissive, |Color(color)| color);
         *reflection = self.reflection.map_or(*reflection, f32::from);
         *blend = self.blend.map_or(*blend, |Blend(blend)| blend);
+        *is_share &= self.alpha_test.is_none();
         *alpha_test = self.alpha_test.map_or(*alpha_test, |least| byte(least.into()));
     }
 }

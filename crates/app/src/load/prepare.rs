@@ -43,6 +43,7 @@ pub(crate) fn unmix(model: &mut Model, material: &Material, images: &mut Images)
         part.detail.colored &= material.color.is_none();
         if material.color_map.is_some() {
             (part.detail.blend, part.detail.alpha_test) = (AnyBlend::Replace, 0);
+            part.detail.is_share = false;
             see_through(part, 1.0, images);
         }
     }

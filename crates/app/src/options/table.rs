@@ -261,8 +261,8 @@ impl ProjectorTable {
 #[command(next_help_heading = Resettable::Reset)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 pub struct RenderTable {
-    /// Image to write; the extension says the format: png, jpg, bmp, tga, webp, qoi or ppm; - is standard output
-    /// [default: alberti.png].
+    /// Image to write, and its folders; the extension says the format: png, jpg, bmp, tga, webp, qoi or ppm; - is
+    /// standard output [default: alberti.png].
     #[arg(short, long, value_name = "FILE")]
     #[serde(deserialize_with = "file")]
     pub output: Option<PathBuf>,

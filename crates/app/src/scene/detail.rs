@@ -62,6 +62,9 @@ pub struct Detail {
     pub blend: AnyBlend,
     /// The least alpha that is drawn, a byte: 0 for all.
     pub alpha_test: u8,
+    /// Whether that is so of the image alone, and not of its smaller levels, whose alpha is a share of texels. Of those
+    /// as large a share of the samples is drawn, so that narrow things do not vanish from afar.
+    pub(crate) is_share: bool,
     /// Whether its file says something of highlights.
     pub shiny: bool,
     /// Whether the vertices' colours multiply its own.
@@ -91,6 +94,7 @@ impl Default for Detail {
             reflection_map: None,
             blend: AnyBlend::Replace,
             alpha_test: 0,
+            is_share: false,
             shiny: false,
             colored: false,
             placed: None,

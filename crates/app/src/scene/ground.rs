@@ -5,16 +5,18 @@
 
 use super::{Camera, Image, Map, Model, Part, Vertex, order};
 use crate::options::{DepthFormat, Filter, Wrap};
-use crate::scene::normals::{dot, narrow, normalize, sub};
+use crate::scene::normals::{dot, narrow, sub};
 use alberti::raster::color::AnyBlend;
 use sky::Sky;
 
 mod floor;
 mod framed;
 mod opacity;
+mod planes;
 mod sky;
 
 pub(crate) use framed::in_view;
+pub(crate) use planes::Stood;
 
 /// Cells along a side of the ground, at least and at most: powers of two.
 const CELLS: [u32; 2] = [256, 1024];
@@ -59,6 +61,8 @@ struct Ground {
 pub(crate) struct Manner {
     /// Whether the user has set the near and the far plane.
     pub(crate) fixed: [bool; 2],
+    /// The width of a picture in perspective to its height; none of one in parallel projection.
+    pub(crate) aspect: Option<f64>,
     /// Whether attributes are affine.
     pub(crate) affine: bool,
     pub(crate) depth: DepthFormat,
@@ -66,19 +70,27 @@ pub(crate) struct Manner {
     pub(crate) wrap: Wrap,
 }
 
-/// Adds a ground at the lowest point of a model, or of all places that it comes to, and says whether it did. A floor of
-/// its own has the shadow on it, which goes on beyond. There is none if all of the cameras are below it. Planes of the
-/// others that are not fixed are moved so that all of it is between them. Where attributes are affine, it is of so many
+/// Adds a ground at the lowest point of a model, or of all places that it comes to. A floor of its own has the shadow
+/// on it, which goes on beyond. There is none if all of the cameras are below it. Planes of the others that are not
+/// fixed are moved so that all that is in the picture is between them. Where attributes are affine, it is of so many
 /// parts that none shows that.
-pub(crate) fn add(model: &mut Model, swept: Option<&Model>, cameras: &mut [Camera], manner: Manner) -> bool {
-    let Manner { fixed, affine, depth, wrap } = manner;
-    let Some(first) = cameras.first().map(|first| first.up) else { return false };
-    let grounds = floor::grounds(model, swept, first, depth);
-    let Some(seen) = grounds.first() else { return false };
-    let above: Vec<bool> = cameras.iter().map(|camera| seen.is_below(camera)).collect();
-    if !above.contains(&true) {
-        return false;
+pub(crate) fn add(
+    model: &mut Model,
+    swept: Option<&Model>,
+    cameras: &mut [Camera],
+    manner: Manner,
+) -> Option<Stood> {
+    let Manner { fixed, aspect, affine, depth, wrap } = manner;
+    let grounds = floor::grounds(model, swept, cameras.first()?.up, depth);
+    let seen = grounds.first()?;
+    let corners =
+        |ground: &Ground| [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|uv| ground.place(uv));
+    let around = grounds.iter().filter(|ground| ground.goes_on).map(corners).collect();
+    let stood = Stood { up: seen.up, low: seen.low, around, aspect, fixed };
+    if !cameras.iter().any(|camera| stood.is_below(camera)) {
+        return None;
     }
+    cameras.iter_mut().for_each(|camera| stood.stretch(camera));
     // Few, where attributes are right anywhere.
     let squares = if affine { 48 } else { 1 };
     // All of them before one is a part of the model.
@@ -106,13 +118,10 @@ pub(crate) fn add(model: &mut Model, swept: Option<&Model>, cameras: &mut [Camer
             ground.put(model, (places, triangles), (depth == DepthFormat::None).then_some(after));
         }
         if ground.goes_on {
-            let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|uv| ground.place(uv));
-            let seen = cameras.iter_mut().zip(&above).filter(|(_, above)| **above);
-            seen.for_each(|(camera, _)| stretch(camera, &corners, fixed));
             ground.put(model, ground.squares(squares), (depth == DepthFormat::None).then_some(0));
         }
     }
-    true
+    Some(stood)
 }
 
 /// The shares of a model's radius that its ground is below it, or over its floor: as many as depths can tell.
@@ -136,27 +145,6 @@ pub(crate) fn above(
 /// Whether a model has a floor of its own, on which a shadow lies.
 pub(crate) fn has_floor(model: &Model, swept: Option<&Model>, up: [f32; 3]) -> bool {
     floor::grounds(model, swept, up, DepthFormat::default()).iter().any(|ground| ground.on_floor)
-}
-
-/// Moves the planes of a camera so that these points are between them.
-fn stretch(camera: &mut Camera, points: &[[f64; 3]], fixed: [bool; 2]) {
-    let eye = camera.eye.map(f64::from);
-    let Some(forward) = normalize(sub(camera.target.map(f64::from), eye)) else { return };
-    let mut behind = false;
-    for &point in points {
-        let along = narrow(dot(sub(point, eye), forward));
-        if !fixed[0] && along > 0.0 {
-            camera.near = camera.near.min(0.99 * along);
-        }
-        behind |= along <= 0.0;
-        if !fixed[1] {
-            camera.far = camera.far.max(1.01 * along);
-        }
-    }
-    if behind && !fixed[0] {
-        // It reaches up to the eye.
-        camera.near = camera.near.min(camera.far / 1000.0);
-    }
 }
 
 /// The least and the greatest coordinates of what is drawn.
@@ -317,6 +305,7 @@ fn places(model: &Model) -> impl Iterator<Item = [f64; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::normals::normalize;
 
     const CAMERA: Camera = Camera {
         eye: [3.0, 2.0, 4.0],
@@ -426,9 +415,11 @@ mod tests {
     /// A camera with the ground on all sides of it.
     #[test]
     fn a_ground_up_to_the_eye_is_not_cut_off() {
-        let mut camera = Camera { eye: [0.4, 0.5, 0.4], target: [0.0, 0.5, 0.0], near: 0.3, ..CAMERA };
-        add(&mut square(0.5), None, std::slice::from_mut(&mut camera), Manner::default());
-        assert!(camera.near > 0.0 && camera.near < 0.01, "{camera:?}");
+        // Its picture begins 0.5/sin 61.5° before the eye, 20° off its middle.
+        let mut camera = Camera { eye: [0.4, 0.5, 0.4], target: [0.0; 3], near: 0.9, ..CAMERA };
+        let manner = Manner { aspect: Some(1.0), ..Manner::default() };
+        add(&mut square(0.5), None, std::slice::from_mut(&mut camera), manner);
+        assert!(camera.near > 0.5 && camera.near < 0.535, "{camera:?}");
         let mut fixed = Camera { near: 0.3, ..camera };
         add(
             &mut square(0.5),

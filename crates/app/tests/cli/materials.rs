@@ -307,3 +307,33 @@ fn holes_have_no_rims_of_their_own_colour() {
         assert!(black.pixels().all(|pixel| pixel.0[1] >= 159), "{filter}");
     }
 }
+
+/// A grating of which an eighth is there, each bar narrower than a pixel: an eighth of the light is held back.
+#[test]
+fn what_is_narrow_does_not_vanish_from_afar() {
+    let folder = folder(SQUARE, "newmtl a\nmap_Kd bars.png\n");
+    let bars = png(128, 128, |x, y| [0, 0, 0, if (x + y) % 16 < 2 { 255 } else { 0 }]);
+    fs::write(folder.path("bars.png"), bars).expect("a texture");
+    let light = |byte: u8| {
+        let share = f64::from(byte) / 255.0;
+        if share <= 0.04045 { share / 12.92 } else { ((share + 0.055) / 1.055).powf(2.4) }
+    };
+    // The square is 18 wide, so 16 of 160 pixels where 180 are seen.
+    let line = "m.obj --eye 0,0,90 --target 0,0,0 --fov 90 --size 160x160 --background white --shading unlit -o a.png";
+    for (samples, filter) in
+        [("1", "trilinear"), ("1", "anisotropic:8"), ("4", "trilinear"), ("16", "trilinear")]
+    {
+        let words: Vec<_> = line.split(' ').chain(["--samples", samples, "--filter", filter]).collect();
+        assert_eq!(folder.succeeds(&words).stderr, "");
+        let picture = image::open(folder.path("a.png")).expect("a picture").into_rgb8();
+        let held_back: f64 = picture.pixels().map(|pixel| 1.0 - light(pixel.0[0])).sum();
+        assert!((held_back / 256.0 - 0.125).abs() < 0.02, "{samples} {filter}: {held_back}");
+    }
+    // The least alpha of a scene file is that of every level: it is what the file says.
+    let scene = b"[[object]]\nmodel = \"m.obj\"\nmaterial = \"a\"\n[material.a]\ncolor-map = \"bars.png\"\n\
+        alpha-test = 0.5\n";
+    fs::write(folder.path("s.toml"), scene).expect("a scene");
+    folder.succeeds(&[&["s.toml"][..], &line.split(' ').skip(1).collect::<Vec<_>>()].concat());
+    let picture = image::open(folder.path("a.png")).expect("a picture").into_rgb8();
+    assert!(picture.pixels().all(|pixel| pixel.0 == [255; 3]));
+}

@@ -98,6 +98,10 @@ fn mistakes_of_usage_are_one_line() {
             "m.obj --width 3",
             "error: --width: found no such option, expected one, such as --size WIDTHxHEIGHT; see --help",
         ),
+        (
+            "m.obj --out a.png",
+            "error: --out: found no such option, expected one, such as --output; see --help",
+        ),
         ("m.obj --siez 3x3", "error: --siez: found no such option, expected one, such as --size; see --help"),
         (
             "m.obj --scene cube",

@@ -79,11 +79,17 @@ fn the_window_shows_what_its_words_draw() {
         ("", "vvvv>"),
         ("", "sl>"),
         ("", "ct>0"),
+        ("--ground", "++^"),
+        ("--ground --projection parallel", "+^"),
     ] {
         let mut viewer = viewer(folder.path(), options);
         act(&mut viewer, keys);
         let shown = viewer.picture(false).expect("a picture").image;
-        assert!(shown == rendered(&viewer, folder.path()), "{options} {keys}: {:?}", viewer.all_words());
+        let words = viewer.all_words();
+        assert!(shown == rendered(&viewer, folder.path()), "{options} {keys}: {words:?}");
+        // Keys' choices are said once.
+        let projections = words.iter().filter(|word| word.to_string_lossy().starts_with("--projection"));
+        assert!(options.contains("projection") || projections.count() <= 1, "{words:?}");
     }
 }
 
@@ -226,4 +232,17 @@ fn a_motion_is_that_of_its_frames() {
     let mut viewer = viewer(folder.path(), "");
     let told = viewer.advance(0.1).expect_err("nothing moves").to_string();
     assert!(viewer.motion().is_none() && told.contains("[[animation]]"), "{told}");
+}
+
+/// Without a texture there are no levels of detail to show.
+#[test]
+fn what_cannot_be_shown_is_passed_over() {
+    let folder = folder();
+    fs::write(folder.path().join("m.mtl"), "newmtl a\n").expect("a library");
+    let mut viewer = viewer(folder.path(), "");
+    for expected in ["error", "depth-step"] {
+        act(&mut viewer, "v");
+        assert_eq!(viewer.options(), [format!("--show={expected}")]);
+        viewer.picture(false).expect("a picture");
+    }
 }

@@ -86,6 +86,10 @@ struct Screen {
     cursor: [f64; 2],
     held: Option<MouseButton>,
     shift: bool,
+    /// Whether a key is held that makes other commands of letters.
+    is_command: bool,
+    /// Notches of the wheel since the last picture.
+    notches: f64,
     looked: Instant,
     outcome: Result<(), Error>,
 }
@@ -109,6 +113,8 @@ impl Screen {
             cursor: [0.0; 2],
             held: None,
             shift: false,
+            is_command: false,
+            notches: 0.0,
             looked: Instant::now(),
             outcome: Ok(()),
         }
@@ -182,6 +188,8 @@ impl Screen {
         if matches!(action, Action::Turn(_) | Action::Pan(_) | Action::Zoom(..)) {
             self.moved = Some(Instant::now());
         }
+        // The last message is about the picture before.
+        self.message = None;
         if action == Action::Picture {
             let outcome = self.viewer.keep();
             if let Some(file) = self.hear(outcome) {
@@ -303,7 +311,7 @@ impl Screen {
             Key::Named(NamedKey::ArrowRight) => Some(keys::of_arrow([1.0, 0.0], self.shift)),
             Key::Named(NamedKey::ArrowUp) => Some(keys::of_arrow([0.0, 1.0], self.shift)),
             Key::Named(NamedKey::ArrowDown) => Some(keys::of_arrow([0.0, -1.0], self.shift)),
-            Key::Character(letter) => keys::of_letter(&letter, self.shift),
+            Key::Character(letter) if !self.is_command => keys::of_letter(&letter, self.shift),
             _ => None,
         };
         if let Some(action) = action {
@@ -369,18 +377,20 @@ impl ApplicationHandler for Screen {
                 }
             }
             WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } => self.redraw(),
-            WindowEvent::ModifiersChanged(modifiers) => self.shift = modifiers.state().shift_key(),
+            WindowEvent::ModifiersChanged(modifiers) => {
+                let state = modifiers.state();
+                self.shift = state.shift_key();
+                self.is_command = state.control_key() || state.alt_key() || state.super_key();
+            }
             WindowEvent::KeyboardInput { event, .. } => self.key(event, event_loop),
             WindowEvent::CursorMoved { position, .. } => self.drag([position.x, position.y], event_loop),
             WindowEvent::MouseInput { state: ElementState::Pressed, button, .. } => self.held = Some(button),
             WindowEvent::MouseInput { state: ElementState::Released, .. } => self.held = None,
             WindowEvent::MouseWheel { delta, .. } => {
-                let notches = match delta {
+                self.notches += match delta {
                     MouseScrollDelta::LineDelta(_, y) => f64::from(y),
                     MouseScrollDelta::PixelDelta(by) => by.y / 40.0,
                 };
-                let at = self.place();
-                self.act(Action::Zoom(keys::NEARER.powf(notches), Some(at)), event_loop);
             }
             WindowEvent::DroppedFile(path) => {
                 let outcome = self.viewer.open(path);
@@ -397,6 +407,12 @@ impl ApplicationHandler for Screen {
     }
 
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
+        // All notches that have come are one move.
+        let notches = std::mem::take(&mut self.notches);
+        if notches != 0.0 {
+            let at = self.place();
+            self.act(Action::Zoom(keys::NEARER.powf(notches), Some(at)), event_loop);
+        }
         let now = Instant::now();
         if let Some(before) = self.played {
             self.play((now - before).as_secs_f64());

@@ -189,11 +189,11 @@ fn height(exponent: f32) -> f32 {
 pub(crate) fn see_through(part: &mut Part, opacity: f32, images: &mut Images) {
     let alpha = part.texture.map_or(Alpha::Opaque, |image| images.alpha(image));
     let byte = byte(opacity);
-    let Detail { blend, alpha_test, .. } = &mut part.detail;
+    let Detail { blend, alpha_test, is_share, .. } = &mut part.detail;
     match (alpha, byte) {
         (Alpha::Opaque, 255) => {}
         (Alpha::Opaque, _) => *blend = AnyBlend::Constant(byte),
-        (Alpha::Holes, 255) => *alpha_test = 128,
+        (Alpha::Holes, 255) => (*alpha_test, *is_share) = (128, true),
         (_, 255) => *blend = AnyBlend::Over,
         (_, _) => {
             part.texture = part.texture.map(|image| images.faded(image, byte));
