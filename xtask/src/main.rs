@@ -197,6 +197,12 @@ const CHORES: &[Chore] = &[
         run: |_| supply::check(),
     },
     Chore {
+        name: "semver",
+        arguments: "[commit]",
+        about: "compare the libraries' interfaces with those of the last version, or of a commit",
+        run: supply::semver,
+    },
+    Chore {
         name: "seeded-bugs",
         arguments: "[--apply] [NAME...]",
         about: "put the bugs of tests/seeded into a copy one by one: a test must notice each (--apply: only look)",

@@ -1,16 +1,46 @@
-//! The supply: dependencies by the rules of deny.toml, and the oldest compiler that the manifests name.
+//! The supply: dependencies by the rules of deny.toml, the oldest compiler that the manifests name, and what users of
+//! the last version rely on.
 //!
-//! Both take a tool that not everybody has. What cannot be checked is said aloud, with what to install.
+//! Each takes a tool that not everybody has. What cannot be checked is said aloud, with what to install.
 
 use std::process::{Command, Stdio};
 
 use crate::command::{Outcome, cargo, output, run};
 use crate::workspace;
 
-/// Checks both.
+/// Checks all.
 pub(crate) fn check() -> Outcome {
     denied()?;
-    oldest()
+    oldest()?;
+    semver(&[])
+}
+
+/// Compares the libraries' interfaces with those of a commit, or of the last tag of a version. A change that breaks
+/// users fails, unless the version says so.
+pub(crate) fn semver(arguments: &[String]) -> Outcome {
+    let mut git = Command::new("git");
+    git.current_dir(workspace::root()).args(["describe", "--tags", "--abbrev=0", "--match", "v[0-9]*"]);
+    let baseline = match arguments {
+        [] => output(git.stderr(Stdio::null())).ok().map(|tag| tag.trim().to_owned()),
+        [commit] => Some(commit.clone()),
+        _ => return Err("expected one commit, or nothing for the last version".into()),
+    };
+    let Some(baseline) = baseline else {
+        println!(
+            "no version has a tag yet, so no interface has to stay; `cargo xtask semver COMMIT` compares"
+        );
+        return Ok(());
+    };
+    if !works(cargo().args(["semver-checks", "--version"])) {
+        println!(
+            "NOT CHECKED: interfaces since {baseline}. `cargo install --locked cargo-semver-checks`, then run this again"
+        );
+        return Ok(());
+    }
+    let mut compare = cargo();
+    compare.args(["semver-checks", "--baseline-rev", &baseline]);
+    let libraries = workspace::LIBRARIES.iter().map(|library| library.package);
+    run(compare.args(libraries.flat_map(|package| ["--package", package])))
 }
 
 /// Licences, sources and duplicates.

@@ -10,7 +10,7 @@
 
 use robust::{Coord, orient2d};
 
-use crate::scene::normals::{cross, sub};
+use crate::scene::normals::{cross, dot, length, normalize, sub};
 
 mod tree;
 
@@ -23,7 +23,8 @@ const SCARCE: usize = 64;
 const EFFORT: [usize; 2] = [500, 25_000_000];
 
 /// Cuts a polygon in space into triangles of its corners' numbers, always two fewer than it has corners, and turned as
-/// it is. Whether it could: what crosses itself on its plane has no inside, and gets some triangles.
+/// it is. Whether it could: what crosses itself on its plane has no inside, and gets some triangles. Four corners that
+/// are not in a plane are two triangles in any case, those that face more alike.
 ///
 /// It is cut on the plane of two axes that its normal (Newell's, the sum over edges) is nearest to. Where all triangles
 /// of a fan about corner 0 have areas of the polygon's sign, as in convex polygons, it is that fan. Otherwise ears are
@@ -47,7 +48,36 @@ pub(crate) fn triangulate(points: &[[f64; 3]], triangles: &mut Vec<[u32; 3]>) ->
         triangles.extend(fan);
         return true;
     }
-    Ears::new(&flat).clip(triangles)
+    let before = triangles.len();
+    if Ears::new(&flat).clip(triangles) {
+        return true;
+    }
+    let Some(two) = two_of_four(points) else { return false };
+    triangles.truncate(before);
+    triangles.extend(two);
+    true
+}
+
+/// The share of the cube over their distances that four corners span which are not in a plane.
+const SKEW: f64 = 1e-4;
+
+/// The two triangles of four corners that are not in a plane.
+fn two_of_four(points: &[[f64; 3]]) -> Option<[[u32; 3]; 2]> {
+    let &[a, b, c, d] = points else { return None };
+    let sides = [b, c, d].map(|corner| sub(corner, a));
+    let size = sides.map(length).into_iter().fold(0.0, f64::max);
+    if dot(cross(sides[0], sides[1]), sides[2]).abs() <= SKEW * size.powi(3) {
+        return None;
+    }
+    let ways = [[[0, 1, 2], [0, 2, 3]], [[0, 1, 3], [1, 2, 3]]];
+    let alike = |way: &[[u32; 3]; 2]| {
+        let normals = way.map(|triangle| {
+            let [a, b, c] = triangle.map(|k| points[k as usize]);
+            normalize(cross(sub(b, a), sub(c, a))).unwrap_or_default()
+        });
+        dot(normals[0], normals[1])
+    };
+    ways.into_iter().max_by(|one, other| alike(one).total_cmp(&alike(other)))
 }
 
 /// The corners on the plane that the polygon's normal is nearest to, counter-clockwise as a whole.

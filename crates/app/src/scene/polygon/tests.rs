@@ -1,7 +1,6 @@
 //! Tests of triangulation against the shoelace formula and crossing numbers.
 
 use super::*;
-use crate::scene::normals::{dot, length, normalize};
 
 type Outline = Vec<[f64; 2]>;
 
@@ -257,4 +256,25 @@ fn large_polygons_end() {
     let mut triangles = Vec::new();
     assert!(!triangulate(&points, &mut triangles));
     assert_eq!(triangles.len(), points.len() - 2);
+}
+
+/// A skew quad of a rough field, whose outline crosses itself on the plane of y and z alone.
+#[test]
+fn four_corners_out_of_a_plane_are_two_triangles() {
+    let quad = [[0.0, 0.0, 5.0], [1.0, 0.0, 0.0], [1.0, 1.0, 2.0], [0.0, 1.0, 1.0]];
+    for turned in 0..4 {
+        let mut corners = quad;
+        corners.rotate_left(turned);
+        let mut triangles = Vec::new();
+        assert!(triangulate(&corners, &mut triangles));
+        // Seen from above it is a square, and both face upwards.
+        let area = |triangle: &[u32; 3]| {
+            let [a, b, c] = triangle.map(|k| corners[k as usize]);
+            cross(sub(b, a), sub(c, a))[2] / 2.0
+        };
+        assert_eq!(triangles.iter().map(area).collect::<Vec<_>>(), [0.5, 0.5], "{triangles:?}");
+    }
+    // A bow tie in a plane is one, however it lies.
+    let bow = [[0.0, 0.0, 1.0], [1.0, 1.0, 3.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]];
+    assert!(!triangulate(&bow, &mut Vec::new()));
 }
