@@ -29,8 +29,8 @@ pub use policies::{
     Arithmetic, ColorFormat, DepthFormat, Interpolation, Lod, Policies, Profile, SpanLength, Subpixel,
 };
 pub use samples::Samples;
-pub(crate) use table::shared;
 pub use table::{CameraTable, ProjectorTable, RenderTable};
+pub(crate) use table::{shared, upwards};
 pub use values::MAX_SIDE;
 use values::{one_of, words};
 

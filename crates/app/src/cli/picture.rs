@@ -15,6 +15,7 @@ use crate::options::{
 use crate::output::stage::{Stage, during};
 use crate::samples::bytes;
 use crate::scene::Camera;
+use crate::scene::camera::Sight;
 use crate::scene::ground::{self, Stood};
 use alberti::Stats;
 
@@ -161,9 +162,8 @@ impl Request {
         let CameraTable { near, far, .. } = self.arguments.camera;
         let affine = options.policies.interpolation == Interpolation::Affine;
         let fixed = [near.is_some(), far.is_some()];
-        let aspect = matches!(options.projection, Projection::Perspective)
-            .then(|| f64::from(options.width) / f64::from(options.height));
-        let manner = ground::Manner { fixed, aspect, affine, depth: options.depth, wrap: options.wrap };
+        let sight = matches!(options.projection, Projection::Perspective).then(|| Sight::of(options));
+        let manner = ground::Manner { fixed, sight, affine, depth: options.depth, wrap: options.wrap };
         let stood = during(Stage::Shadow, |_| ground::add(model, swept.as_ref(), cameras, manner));
         if stood.is_none() {
             return left_out("a camera below the model's lowest point", "one above the ground");

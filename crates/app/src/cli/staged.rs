@@ -18,6 +18,7 @@ use crate::options::{
 };
 use crate::output::stage::{Stage, during};
 use crate::scene::backdrop::Backdrop;
+use crate::scene::camera::Sight;
 use crate::scene::normals::narrow;
 use crate::scene::swept::Swept;
 use crate::scene::{Camera, Image, Model, Part, Relief, camera, ground, order, scenes, slide};
@@ -211,7 +212,7 @@ impl Request {
             camera::frame(&wishes, base.as_ref(), (model, ball), aspect)
         })?;
         let middle = if is_free { ball.center } else { camera.target.map(f64::from) };
-        let camera = camera::zoomed_about(&camera, middle, wishes.zoom());
+        let mut camera = camera::zoomed_about(&camera, middle, wishes.zoom());
         order::back_to_front(&mut scene.model, &camera);
         if camera::is_behind(&camera, ball) {
             let error = Error::new("a camera that looks away from the model", "the model in view");
@@ -259,6 +260,16 @@ impl Request {
             threads: threads(arguments),
             policies,
         };
+        let whole = swept.as_ref().unwrap_or(&scene.model);
+        if let Some(nearest) = camera::clear(&mut camera, whole, &wishes, base.as_ref(), Sight::of(&options))
+        {
+            let [nearest, near] = [narrow(0.99 * nearest), camera.near].map(number);
+            let found = format!("what is as near as {nearest}, and cut away up to {near}");
+            let reversed = if options.depth == DepthFormat::F32 { ", or --depth f32-reversed" } else { "" };
+            let hint = format!("--near {nearest} shows it, with depths that are coarser far away{reversed}");
+            let error = Error::new(found, "an eye farther from what it sees").place("--eye");
+            warn(&self.relocate(error.hint(hint)).to_string());
+        }
         if options.shading == Shading::Gouraud && scene.model.parts.iter().any(needs_fragments) {
             let found = "gouraud with relief, normals, occlusion or reflections, which are left out";
             warn(&Error::new(found, "phong or blinn for these").place("--shading").to_string());

@@ -25,11 +25,11 @@ use crate::load::image_file;
 use crate::load::scene_file::SceneFile;
 use crate::memory;
 use crate::options::values::{Finite, Number, Point, Size};
-use crate::options::{Background, DEFAULT_SIZE};
+use crate::options::{Background, DEFAULT_SIZE, upwards};
 use crate::output::file::Whole;
 use crate::output::stage::{self, Stage, during, is_silent};
 use crate::scene::Camera;
-use crate::scene::camera::{self, Turn};
+use crate::scene::camera::{self, Sight, Turn};
 
 pub(super) const HELP: &str = "\
 Examples:
@@ -73,8 +73,8 @@ pub struct TurntableArgs {
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, help_heading = OWN)]
     pub degrees: Option<Number<Finite>>,
 
-    /// The axis of the turn, through the target [default: that of --up].
-    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, help_heading = OWN)]
+    /// The axis of the turn, through the target: a direction, or the name of one such as z [default: that of --up].
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, help_heading = OWN, value_parser = upwards)]
     pub axis: Option<Point>,
 
     /// Draw one of N shares of the pictures, those that are not there yet: K/N with K from 0 on.
@@ -273,20 +273,18 @@ fn film(
 fn cameras(request: &Request, staged: &Staged, turn: &Turn) -> Vec<Camera> {
     let Staged { model, camera, options, .. } = staged;
     let wishes = request.arguments.camera.counted_from(model.origin);
-    let aspect = f64::from(options.width) / f64::from(options.height);
     let ball = camera::bounding_sphere(model);
-    turn.cameras((model, ball), camera, &wishes, (aspect, request.is_fitted()))
+    turn.cameras((model, ball), camera, &wishes, (Sight::of(options), request.is_fitted()))
 }
 
 /// The camera of a frame in which things move.
 fn turned(request: &Request, staged: &Staged, turn: &Turn, frame: u32) -> Camera {
     let Staged { model, swept, camera, options, .. } = staged;
     let wishes = request.arguments.camera.counted_from(model.origin);
-    let aspect = f64::from(options.width) / f64::from(options.height);
     let whole = swept.as_ref().unwrap_or(model);
     let ball = camera::bounding_sphere(whole);
     let share = f64::from(frame) / f64::from(turn.frames);
-    turn.moved((whole, ball), camera, &wishes, (aspect, request.is_fitted()), share)
+    turn.moved((whole, ball), camera, &wishes, (Sight::of(options), request.is_fitted()), share)
 }
 
 /// The options of `alberti assemble`.

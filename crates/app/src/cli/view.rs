@@ -5,26 +5,21 @@
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
-use std::sync::Arc;
 
 use clap::{ArgMatches, ValueEnum as _};
 
 use super::bake::name as stem;
 use super::request::Request;
 use super::run::{draw, print};
-use super::staged::{Cast, Motion, Staged};
-use crate::draw::Chains;
+use super::staged::{Cast, Staged};
 use crate::error::Error;
-use crate::film::{Set, ordered};
+use crate::film::Set;
 use crate::load::scene_file::SceneFile;
 use crate::load::{input, seen};
-use crate::options::values::name_of;
-use crate::options::{CameraTable, Projection, Samples};
+use crate::options::{CameraTable, Samples};
 use crate::output::stats::Source;
 use crate::samples::supersampled_with;
-use crate::scene::camera::{self, as_options};
-use crate::scene::ground::Stood;
+use crate::scene::camera::{self, Sight, as_options};
 use crate::scene::normals::narrow;
 use crate::scene::{Camera, Image, Model};
 use crate::show::{Show, Shown, show};
@@ -34,11 +29,13 @@ mod keys;
 mod line;
 mod orbit;
 mod overlay;
+mod scene;
 mod window;
 
-use keys::{Action, Place};
+use keys::{Action, Cycle, Place};
 use line::{Chosen, end_of_options, matches_of, typed, words_of};
 use orbit::Orbit;
+use scene::{Kept, Scene};
 
 pub(super) const HELP: &str = "\
 Examples:
@@ -84,26 +81,6 @@ struct Viewer {
     size: [u32; 2],
     cast: Cast,
     scene: Scene,
-}
-
-/// All that a picture of it takes.
-struct Scene {
-    request: Request,
-    /// The camera's options without a camera that has been moved.
-    wishes: CameraTable,
-    staged: Staged,
-    /// The model without its ground, for cameras below that, and that ground.
-    bare: Option<Model>,
-    ground: Option<Stood>,
-    chains: Arc<Chains>,
-    motion: Option<Rc<Motion>>,
-}
-
-/// Parts of a scene that another has as well.
-#[derive(Default)]
-struct Kept {
-    chains: Option<Arc<Chains>>,
-    motion: Option<Rc<Motion>>,
 }
 
 /// Steps of time that words have: a thousandth of a second.
@@ -357,28 +334,42 @@ impl Viewer {
             Action::Turn(degrees) => self.move_to(self.orbit().turned(degrees)),
             Action::Pan(heights) => self.move_to(self.orbit().panned(heights)),
             Action::Zoom(factor, place) => self.zoom(factor, place),
-            Action::Fit => {
-                self.moved = None;
-                let without = |(option, _): &(&str, &str)| !keys::is_view(option);
-                let chosen = self.chosen.iter().copied().filter(without).collect();
-                self.restage(chosen, true).map(|()| true)
-            }
-            Action::View(side) => {
-                self.moved = None;
-                self.choose("--view", Some(side), true)
-            }
-            Action::Cycle(cycle, forwards) => {
-                let at = keys::CYCLES.iter().position(|other| other == cycle);
-                let first = at.and_then(|at| self.first.get(at)).and_then(Option::as_deref);
-                let mut value = cycle.next(self.chosen_value(cycle.option), first, forwards);
-                // Values are left out that cannot be shown of this model.
-                while value.is_some_and(|value| !self.has(cycle.option, value)) {
-                    value = cycle.next(value, first, forwards);
-                }
-                self.choose(cycle.option, value, cycle.keeps_maps)
-            }
+            Action::Fit => self.look_from(None),
+            Action::View(side) => self.look_from(Some(side)),
+            Action::Cycle(cycle, forwards) => self.go_through(cycle, forwards),
             Action::Step(frames) => self.advance(f64::from(frames) / keys::FRAMES),
             Action::Picture | Action::Play | Action::Help | Action::Text | Action::Quit => Ok(false),
+        }
+    }
+
+    /// Looks from a side, or as the command line does, or leaves all as it was.
+    fn look_from(&mut self, side: Option<&'static str>) -> Result<bool, Error> {
+        let moved = self.moved.take();
+        let outcome = self.choose("--view", side, true);
+        if outcome.is_err() {
+            self.moved = moved;
+        }
+        outcome
+    }
+
+    /// Has the next value of a cycle that can be used with this scene. If none can, it tells why the first cannot.
+    fn go_through(&mut self, cycle: &Cycle, forwards: bool) -> Result<bool, Error> {
+        let at = keys::CYCLES.iter().position(|other| other == cycle);
+        let first = at.and_then(|at| self.first.get(at)).cloned().flatten();
+        let now = self.chosen_value(cycle.option);
+        let (mut value, mut refused) = (now, None);
+        loop {
+            value = cycle.next(value, first.as_deref(), forwards);
+            if value == now {
+                return refused.map_or(Ok(false), Err);
+            }
+            if value.is_some_and(|value| !self.has(cycle.option, value)) {
+                continue;
+            }
+            match self.choose(cycle.option, value, cycle.keeps_maps) {
+                Ok(is_new) => return Ok(is_new),
+                Err(error) => refused = refused.or(Some(error)),
+            }
         }
     }
 
@@ -429,62 +420,17 @@ impl Viewer {
         (wishes.fov, wishes.roll, wishes.zoom) = (Some(fov.into()), roll, None);
         (wishes.azimuth, wishes.elevation, wishes.view) = (None, None, None);
         let Staged { model, options, .. } = staged;
-        let aspect = f64::from(options.width) / f64::from(options.height);
+        let aspect = Sight::of(options).aspect;
         // As a picture of the command line has them: first those of the model, then for its ground.
         let model = bare.as_ref().unwrap_or(model);
         let mut camera = camera::frame(&wishes, None, (model, camera::bounding_sphere(model)), aspect)?;
+        camera::clear(&mut camera, model, &wishes, None, Sight::of(options));
         if let Some(ground) = ground {
             ground.stretch(&mut camera);
         }
         options.projection = projection;
         self.moved = Some((camera, pivot));
         Ok(true)
-    }
-}
-
-impl Scene {
-    fn new(
-        (wishes, request): (CameraTable, Request),
-        cast: &Cast,
-        Kept { chains, mut motion }: Kept,
-    ) -> Result<Self, Error> {
-        let staged = request.check().and_then(|()| {
-            if motion.is_none() {
-                motion = request.motion(cast)?.map(Rc::new);
-            }
-            request.stage_with(cast.clone(), motion.as_deref())
-        });
-        let mut staged = staged.map_err(|error| request.relocate(error))?;
-        ordered(&mut staged.model, &staged.camera, staged.options.projection);
-        let bare = (request.arguments.render.ground == Some(true)).then(|| staged.model.clone());
-        let ground = request.add_ground(&mut staged);
-        let chains = match chains {
-            Some(chains) => chains,
-            None => Arc::new(Chains::new(&staged.model, &staged.options)?),
-        };
-        Ok(Self { request, wishes, staged, bare, ground, chains, motion })
-    }
-
-    /// The value that an option has, as it is typed, if it is one for the whole scene.
-    fn value(&self, option: &str) -> Option<String> {
-        let Staged { options, samples, .. } = &self.staged;
-        let policies = &options.policies;
-        Some(match option {
-            "--interpolation" => policies.interpolation.to_string(),
-            "--filter" => options.filter.to_string(),
-            "--depth" => name_of(options.depth),
-            "--shading" => name_of(options.shading),
-            "--samples" => name_of(*samples),
-            "--color" => name_of(policies.color),
-            "--dither" => name_of(policies.dither),
-            "--light-space" => name_of(options.light.space),
-            "--ground" => self.bare.is_some().to_string(),
-            "--projection" => match options.projection {
-                Projection::Parallel { .. } => "parallel".to_owned(),
-                Projection::Perspective => "perspective".to_owned(),
-            },
-            _ => return None,
-        })
     }
 }
 

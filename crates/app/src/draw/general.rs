@@ -96,6 +96,8 @@ pub(super) struct Shown<'a> {
     pub(super) least: u8,
     /// The size of an image in whose smaller levels alpha is the share of samples that are drawn.
     pub(super) shares: Option<[u32; 2]>,
+    /// The place of the pattern that says which samples these are.
+    pub(super) sheet: [i32; 2],
 }
 
 impl FragmentStage<Attributes> for Shown<'_> {
@@ -111,7 +113,9 @@ impl FragmentStage<Attributes> for Shown<'_> {
             if let Some(size) = self.shares {
                 let gradient = fragments.gradient.map(|(_, framed)| framed.uv);
                 let is_smaller = lanes.less(lanes.splat(0.0), gradient.lod_lanes(lanes, size));
-                let any = BlueNoise.thresholds(lanes, fragments.place) + lanes.word(1);
+                let ([column, row], [right, down]) = (fragments.place, self.sheet);
+                let place = [column.wrapping_add(right), row.wrapping_add(down)];
+                let any = BlueNoise.thresholds(lanes, place) + lanes.word(1);
                 least = lanes.select_words(is_smaller, any, least);
             }
             mask = mask & !lanes.less_words(lanes.shr(color, 24), least);
@@ -127,19 +131,47 @@ impl FragmentStage<Attributes> for Shown<'_> {
     }
 }
 
+impl Shown<'_> {
+    /// Whether the triangles of a part are on sheets. They are drawn by these, so those that are mixed with what is
+    /// behind them are all on one.
+    fn has_sheets(self, part: &Part) -> bool {
+        self.shares.is_some() && part.detail.blend == AnyBlend::Replace
+    }
+
+    /// The same for a triangle, on the sheet that it is on. Those are as far from each other as they can be among
+    /// 32 x 32 places.
+    pub(super) fn on(self, part: &Part, triangle: &[u32; 3]) -> Self {
+        let number = if self.has_sheets(part) { sheet(triangle) } else { 0 };
+        Self { sheet: [number % 4, number / 4].map(|step| step.cast_signed() * 8), ..self }
+    }
+}
+
 impl<'a> Drawing<'a> {
     /// A surface by any policies.
     pub(super) fn draw_general(&mut self, part: &Part, triangles: &[[u32; 3]], target: &mut Canvas<'_>) {
         let clothed = self.clothed(part);
         let shown = self.shown(clothed.surface, part);
+        if !shown.has_sheets(part) {
+            return self.draw_dressed(part, triangles, (&clothed, shown), target);
+        }
+        for number in 0..SHEETS {
+            let own: Vec<_> = triangles.iter().copied().filter(|own| sheet(own) == number).collect();
+            if !own.is_empty() {
+                self.draw_dressed(part, &own, (&clothed, shown.on(part, &own[0])), target);
+            }
+        }
+    }
+
+    fn draw_dressed(
+        &mut self,
+        part: &Part,
+        triangles: &[[u32; 3]],
+        (clothed, shown): (&Clothed<'a>, Shown<'a>),
+        target: &mut Canvas<'_>,
+    ) {
         let Used { vertices, triangles } = self.sided(triangles);
-        let mesh = Triangles {
-            clothed: &clothed,
-            vertices: &vertices,
-            triangles: &triangles,
-            numbers: None,
-            bare: false,
-        };
+        let (vertices, triangles) = (&*vertices, &*triangles);
+        let mesh = Triangles { clothed, vertices, triangles, numbers: None, bare: false };
         let stats = self.by_policies(&mesh, shown, part.detail.blend, target);
         self.stats += stats;
     }
@@ -163,6 +195,7 @@ impl<'a> Drawing<'a> {
             hazy: None,
             least: detail.alpha_test,
             shares: shares.map(|image| [image.width, image.height]),
+            sheet: [0; 2],
         }
     }
 
@@ -252,6 +285,15 @@ impl<'a> Drawing<'a> {
             Interpolation::Affine => Some(Lines::affine()),
         }
     }
+}
+
+/// The sheets of a pattern of holes. What is on different ones adds up as if each sample were drawn by chance.
+const SHEETS: u32 = 16;
+
+/// The sheet that a triangle is on. Those of a polygon begin with the same vertex most often, and are on the same.
+fn sheet(triangle: &[u32; 3]) -> u32 {
+    // Numbers near each other get sheets far apart, by the golden ratio (Knuth 1973, 6.4).
+    triangle[0].wrapping_mul(0x9e37_79b9) / (u32::MAX / SHEETS + 1)
 }
 
 /// The space of light.

@@ -217,7 +217,10 @@ impl<'a> Drawing<'a> {
     /// The way of a fragment's numbers to a colour on its part.
     pub(crate) fn look(&self, arrival: &Arrival, place: [u32; 2]) -> Option<Look> {
         let part = self.model.parts.get(arrival.part)?;
-        let (dressed, place) = (self.dressed(part), place.map(u32::cast_signed));
+        let (mut dressed, place) = (self.dressed(part), place.map(u32::cast_signed));
+        if let Some(triangle) = part.triangles.get(arrival.triangle) {
+            dressed.shown = dressed.shown.on(part, triangle);
+        }
         let Arrival { varying, gradient, .. } = arrival;
         Some(if self.options.policies.arithmetic == Arithmetic::Fixed {
             let number = |word: u32| Q16::from_bits(word.cast_signed());

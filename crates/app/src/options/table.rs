@@ -66,7 +66,7 @@ pub struct CameraTable {
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub fov: Option<Number<Finite>>,
 
-    /// Distance of the front clipping plane [default: just before the model].
+    /// Distance of the front clipping plane [default: just before the model, or what is nearest in the picture].
     #[arg(long, value_name = "A", allow_hyphen_values = true)]
     pub near: Option<Number<Finite>>,
 
@@ -84,7 +84,7 @@ pub struct CameraTable {
 }
 
 /// A direction, or an axis that has a name.
-fn upwards(text: &str) -> Result<Point, String> {
+pub(crate) fn upwards(text: &str) -> Result<Point, String> {
     let (name, sign) = text.strip_prefix('-').map_or((text, 1.0), |name| (name, -1.0));
     let axis = match name {
         "x" | "X" => [sign, 0.0, 0.0],

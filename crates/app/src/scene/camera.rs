@@ -8,10 +8,14 @@ use crate::scene::{Camera, Model};
 use alberti::ViewError;
 use fit::{Lens, fit};
 
+pub(crate) use planes::clear;
+pub(crate) use pyramid::{Pyramid, Sight};
 pub(crate) use turns::{Turn, fitted_at_all_times, turned};
 
 mod fit;
+mod planes;
 mod pose;
+mod pyramid;
 mod turns;
 
 /// A ball around a model.
@@ -46,7 +50,7 @@ pub fn bounding_sphere(model: &Model) -> Sphere {
 /// The camera of these options. Parts that they leave open come from `base`, a scene's own camera. Without it the
 /// silhouette of the model fills the picture of `aspect` (width to height). It is seen from the front, the right and
 /// above, or from where the options say. Near and far enclose the ball as seen from the eye that results,
-/// unless eye, target and base leave them as they were made.
+/// unless eye, target and base leave them as they were made. [`clear`] moves near for an eye within the ball.
 ///
 /// # Errors
 /// The first of these that does not hold, with the option that sets it:
@@ -99,12 +103,11 @@ pub fn frame(
     if own.is_none() {
         roll += turn(view);
     }
-    let kept = wishes.eye.is_none() && wishes.target.is_none() && !wishes.turns();
     let (near, far) = match base {
-        Some(base) if kept => (base.near, base.far),
-        _ => planes(sub(ball.center, wide(eye)), view, ball.radius, own.is_none() && wishes.is_parallel()),
+        Some(base) if planes::are_kept(wishes) => (base.near, base.far),
+        _ => planes::around(sub(ball.center, wide(eye)), view, ball.radius, wishes.is_parallel()),
     };
-    let mut camera = Camera {
+    let camera = Camera {
         eye,
         target,
         up,
@@ -113,9 +116,6 @@ pub fn frame(
         near: wishes.near.map_or(near, f32::from),
         far: wishes.far.map_or(far, f32::from),
     };
-    if !kept && wishes.near.is_none() && !wishes.is_parallel() {
-        camera.near = before(model, &camera);
-    }
     let names = Names { origin: model.origin, ..CAMERA };
     let checked = check(&camera, &names).and_then(|()| match base {
         // The planes are those around the ball.
@@ -398,25 +398,6 @@ pub(crate) fn check_fov(fov: f32, names: &Names) -> Result<(), Error> {
     Err(Error::new(format!("{} degrees", number(fov)), "an angle above 0 and below 180 degrees")
         .place(names.fov)
         .hint("40 is usual"))
-}
-
-/// Near and far planes around a ball, with a little room. From within the ball, near is a thousandth of far: the
-/// depth buffer needs a ratio that it can resolve. For a ball behind the viewer, as if it were around him. Planes that
-/// may be `anywhere` are around the ball wherever it is.
-fn planes(to_center: [f64; 3], view: [f64; 3], radius: f64, anywhere: bool) -> (f32, f32) {
-    let depth = dot(to_center, normalize(view).unwrap_or([0.0; 3]));
-    let far = if depth + radius > 0.0 { depth + 1.01 * radius } else { radius };
-    let near = depth - 1.01 * radius;
-    let near = if anywhere { near } else { near.max(far / 1000.0) };
-    (narrow(near), narrow(far))
-}
-
-/// The near plane of a camera that is within the ball about a model. It is just before what is nearest, if nothing is
-/// behind the eye.
-fn before(model: &Model, camera: &Camera) -> f32 {
-    let within = camera.near <= camera.far / 999.0;
-    let nearest = if within { 0.99 * nearest(model, camera) } else { 0.0 };
-    if nearest < f64::from(camera.far) { camera.near.max(narrow(nearest)) } else { camera.near }
 }
 
 /// A place as its author has it, whose coordinates are counted from `origin`.

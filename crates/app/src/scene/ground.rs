@@ -5,6 +5,7 @@
 
 use super::{Camera, Image, Map, Model, Part, Vertex, order};
 use crate::options::{DepthFormat, Filter, Wrap};
+use crate::scene::camera::Sight;
 use crate::scene::normals::{dot, narrow, sub};
 use alberti::raster::color::AnyBlend;
 use sky::Sky;
@@ -61,8 +62,8 @@ struct Ground {
 pub(crate) struct Manner {
     /// Whether the user has set the near and the far plane.
     pub(crate) fixed: [bool; 2],
-    /// The width of a picture in perspective to its height; none of one in parallel projection.
-    pub(crate) aspect: Option<f64>,
+    /// A picture in perspective; none of one in parallel projection.
+    pub(crate) sight: Option<Sight>,
     /// Whether attributes are affine.
     pub(crate) affine: bool,
     pub(crate) depth: DepthFormat,
@@ -80,13 +81,13 @@ pub(crate) fn add(
     cameras: &mut [Camera],
     manner: Manner,
 ) -> Option<Stood> {
-    let Manner { fixed, aspect, affine, depth, wrap } = manner;
+    let Manner { fixed, sight, affine, depth, wrap } = manner;
     let grounds = floor::grounds(model, swept, cameras.first()?.up, depth);
     let seen = grounds.first()?;
     let corners =
         |ground: &Ground| [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|uv| ground.place(uv));
     let around = grounds.iter().filter(|ground| ground.goes_on).map(corners).collect();
-    let stood = Stood { up: seen.up, low: seen.low, around, aspect, fixed };
+    let stood = Stood { up: seen.up, low: seen.low, around, sight, fixed };
     if !cameras.iter().any(|camera| stood.is_below(camera)) {
         return None;
     }
@@ -417,7 +418,7 @@ mod tests {
     fn a_ground_up_to_the_eye_is_not_cut_off() {
         // Its picture begins 0.5/sin 61.5° before the eye, 20° off its middle.
         let mut camera = Camera { eye: [0.4, 0.5, 0.4], target: [0.0; 3], near: 0.9, ..CAMERA };
-        let manner = Manner { aspect: Some(1.0), ..Manner::default() };
+        let manner = Manner { sight: Some(Sight { aspect: 1.0, reach: 1e5 }), ..Manner::default() };
         add(&mut square(0.5), None, std::slice::from_mut(&mut camera), manner);
         assert!(camera.near > 0.5 && camera.near < 0.535, "{camera:?}");
         let mut fixed = Camera { near: 0.3, ..camera };

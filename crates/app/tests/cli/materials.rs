@@ -329,6 +329,36 @@ fn what_is_narrow_does_not_vanish_from_afar() {
         let held_back: f64 = picture.pixels().map(|pixel| 1.0 - light(pixel.0[0])).sum();
         assert!((held_back / 256.0 - 0.125).abs() < 0.02, "{samples} {filter}: {held_back}");
     }
+    // Of several behind each other, each holds back as much of what comes through those behind it, where nothing of its
+    // texels is left to be seen. They are as large as each other for parallel lines.
+    let dots = png(512, 512, |x, y| [0, 0, 0, if x % 4 == 0 && y % 2 == 0 { 255 } else { 0 }]);
+    fs::write(folder.path("dots.png"), dots).expect("a texture");
+    fs::write(folder.path("m.mtl"), "newmtl a\nmap_Kd dots.png\n").expect("a library");
+    let sheets = |count: usize| -> String {
+        (0..count)
+            .map(|k| {
+                let (z, first) = (k as f64 * 0.01, 4 * k);
+                let corner = |x, y| format!("v {x} {y} {z}\n");
+                let corners = [corner(-9, -9), corner(9, -9), corner(9, 9), corner(-9, 9)].concat();
+                let [a, b, c, d] = [1, 2, 3, 4].map(|k| first + k);
+                format!("{corners}f {a}/1 {b}/2 {c}/3 {d}/4\n")
+            })
+            .collect()
+    };
+    let line = line.replace("--fov 90", "--projection parallel --view-height 180");
+    for count in [2, 5, 12] {
+        let model = format!("mtllib m.mtl\nusemtl a\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n{}", sheets(count));
+        fs::write(folder.path("m.obj"), model).expect("a model");
+        for samples in ["4", "16"] {
+            folder.succeeds(&line.split(' ').chain(["--samples", samples]).collect::<Vec<_>>());
+            let picture = image::open(folder.path("a.png")).expect("a picture").into_rgb8();
+            let held_back: f64 = picture.pixels().map(|pixel| 1.0 - light(pixel.0[0])).sum();
+            let expected = 1.0 - 0.875_f64.powi(i32::try_from(count).expect("few"));
+            let ratio = held_back / 256.0 / expected;
+            assert!((ratio - 1.0).abs() < 0.06, "{count} of {samples}: {ratio}");
+        }
+    }
+    fs::write(folder.path("m.obj"), SQUARE).expect("a model");
     // The least alpha of a scene file is that of every level: it is what the file says.
     let scene = b"[[object]]\nmodel = \"m.obj\"\nmaterial = \"a\"\n[material.a]\ncolor-map = \"bars.png\"\n\
         alpha-test = 0.5\n";

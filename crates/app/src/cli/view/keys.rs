@@ -81,11 +81,6 @@ impl Cycle {
     }
 }
 
-/// Whether an option says where the camera is.
-pub(super) fn is_view(option: &str) -> bool {
-    option == "--view"
-}
-
 /// The degrees of a turn by a key, and the share of the picture's height of a move.
 const STEP: [f64; 2] = [7.5, 0.05];
 

@@ -30,17 +30,55 @@ pub(super) struct Chosen {
     pub(super) time: Option<f64>,
 }
 
-/// The command line of `render` with these words.
+/// The command line of `render` with these words, but for those that what is chosen replaces by other options.
 pub(super) fn words_of(words: &[OsString], chosen: &Chosen, [width, height]: [u32; 2]) -> Vec<OsString> {
     let end = end_of_options(words);
     let mut all: Vec<OsString> = ["alberti", "render"].map(OsString::from).to_vec();
-    all.extend_from_slice(&words[..end]);
+    all.extend(without(&words[..end], &chosen.replaced(&words[..end])));
     all.extend(chosen.options.iter().map(|(option, value)| format!("{option}={value}").into()));
     all.extend(chosen.camera.iter().flat_map(|camera| camera.split_whitespace()).map(OsString::from));
     all.extend(chosen.time.map(|time| format!("--time={time}").into()));
     all.extend(["--size".to_owned(), format!("{width}x{height}")].map(OsString::from));
     all.extend_from_slice(&words[end..]);
     all
+}
+
+impl Chosen {
+    /// The options of a command line that would contradict what is chosen.
+    fn replaced(&self, words: &[OsString]) -> Vec<&'static str> {
+        let mut replaced = Vec::new();
+        if self.options.iter().any(|(option, _)| *option == "--view") {
+            replaced.extend(["--view", "--azimuth", "--elevation"]);
+            if words.iter().any(|word| is_option(word, "--eye")) {
+                // The planes are as far from that eye.
+                replaced.extend(["--eye", "--near", "--far"]);
+            }
+        }
+        if self.camera.is_some() || self.options.contains(&("--projection", "perspective")) {
+            replaced.push("--view-height");
+        }
+        replaced
+    }
+}
+
+/// Words without these options and their values.
+fn without(words: &[OsString], options: &[&str]) -> Vec<OsString> {
+    let mut kept = Vec::with_capacity(words.len());
+    let mut words = words.iter();
+    while let Some(word) = words.next() {
+        match options.iter().find(|option| is_option(word, option)) {
+            Some(option) if word == *option => _ = words.next(),
+            Some(_) => {}
+            None => kept.push(word.clone()),
+        }
+    }
+    kept
+}
+
+/// Whether a word is an option, by itself or with its value.
+fn is_option(word: &OsStr, option: &str) -> bool {
+    let rest = word.to_str().and_then(|word| word.strip_prefix(option));
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('='))
 }
 
 /// # Errors

@@ -152,13 +152,55 @@ fn sizes_and_files_are_followed() {
 #[test]
 fn options_that_cannot_be_are_told_and_change_nothing() {
     let folder = folder();
-    let mut viewer = viewer(folder.path(), "--arithmetic fixed --interpolation affine");
+    let mut viewer = viewer(folder.path(), "--projection perspective --near 0.5 --far 90");
+    act(&mut viewer, "<+");
     let before = viewer.picture(false).expect("a picture").image;
-    let exact = of_letter("i", false).expect("a key");
-    let told = viewer.act(exact).expect_err("fixed is for straight lines").to_string();
-    assert!(told.contains("--arithmetic"), "{told}");
-    assert!(viewer.options().is_empty());
+    fs::write(folder.path().join("m.obj"), "f 1 2 9\n").expect("a model");
+    // Files are read when the scene is staged again.
+    let moved = viewer.moved;
+    viewer.words.push("--samples=3".into());
+    for key in ["1", "0", "i", "o"] {
+        let told = viewer.act(of_letter(key, false).expect("a key")).expect_err("no such samples");
+        assert!(told.to_string().contains("samples"), "{told}");
+        assert!(viewer.options().is_empty() && viewer.moved == moved, "{key}");
+    }
+    viewer.words.pop();
     assert!(viewer.picture(false).expect("a picture").image == before);
+}
+
+/// Keys go over options of the command line that say the same, and pass over values that others exclude.
+#[test]
+fn keys_go_over_the_command_line() {
+    let folder = folder();
+    for (options, key, other) in [
+        ("--eye 1,2,4 --near 1 --far 9", "3", "--view right"),
+        ("--eye=1,2,4", "7", "--view iso"),
+        ("--azimuth 20 --elevation 5", "7", "--view iso"),
+        ("--azimuth 20 --elevation=5", "5", "--view top"),
+        ("--view left --elevation 5", "1", "--view front"),
+        ("--eye 1,2,4 --target 0,1,0", "2", "--target 0,1,0 --view back"),
+        ("--near 0.25", "2", "--near 0.25 --view back"),
+        ("--projection parallel --view-height 3", "o", ""),
+        ("--arithmetic fixed --interpolation affine", "i", "--arithmetic fixed --interpolation spans:16"),
+    ] {
+        let mut first = viewer(folder.path(), options);
+        let begun = first.picture(false).expect("a picture").image;
+        for keys in [key, &format!(">{key}")] {
+            act(&mut first, keys);
+            let shown = first.picture(false).expect("a picture").image;
+            if keys == key || key != "o" && key != "i" {
+                let same = viewer(folder.path(), other).picture(false).expect("a picture").image;
+                assert!(shown == same, "{options} {keys}");
+            }
+            assert!(shown == rendered(&first, folder.path()), "{options} {keys}");
+            first = viewer(folder.path(), options);
+        }
+        act(&mut first, key);
+        act(&mut first, if key == "o" { "o" } else { "0" });
+        if key != "i" {
+            assert!(first.picture(false).expect("a picture").image == begun, "{options}");
+        }
+    }
 }
 
 /// Pictures that are kept replace none, unless `-o` names their file, and their command makes them again.

@@ -108,21 +108,61 @@ fn planes_follow_the_eye() {
 /// A long wall, with the eye before its middle: within its ball, and far from all of it.
 #[test]
 fn near_is_just_before_what_is_nearest() {
-    let corners = [[-10.0, 0.0, 0.0], [10.0, 0.0, 0.0], [10.0, 1.0, 0.0]];
-    let vertices = corners.map(|position| Vertex { position, ..Vertex::default() });
-    let part = crate::scene::Part { triangles: vec![[0, 1, 2]], ..crate::scene::Part::default() };
-    let wall = Model { vertices: vertices.into(), parts: vec![part], ..Model::default() };
+    let wall = faces(&[[[-10.0, 0.0, 0.0], [10.0, 0.0, 0.0], [10.0, 1.0, 0.0]]]);
     let seen = |eye: [f32; 3], near: Option<f32>| {
         let near = near.map(Into::into);
         let wishes = CameraTable { eye: Some(eye.into()), near, ..CameraTable::default() };
-        frame(&wishes, None, (&wall, bounding_sphere(&wall)), 1.0).unwrap()
+        cleared(&wall, &wishes, 1e5)
     };
-    let camera = seen([0.0, 0.5, 5.0], None);
+    let (camera, _) = seen([0.0, 0.5, 5.0], None);
     assert!((4.8..5.0).contains(&camera.near) && camera.far > 5.0, "{camera:?}");
-    assert_eq!(seen([0.0, 0.5, 5.0], Some(0.25)).near, 0.25);
-    // Beside the wall something is behind the eye.
-    let within = seen([1.0, 0.5, 0.1], None);
-    assert!(within.near > 0.0 && within.near < 0.1, "{within:?}");
+    assert_eq!(seen([0.0, 0.5, 5.0], Some(0.25)).0.near, 0.25);
+    // Along the wall, part of which is behind the eye, the ray at the picture's edge meets it first.
+    let (within, _) = seen([1.0, 0.5, 0.1], None);
+    let ray = 0.1 / (10_f64.atan() - 20_f64.to_radians()).cos();
+    let depth = ray * 20_f64.to_radians().cos();
+    assert!((0.95..0.995).contains(&(f64::from(within.near) / depth)), "{within:?}");
+}
+
+/// A floor far larger than all else, on which the eye stands: a tree before it is seen.
+#[test]
+fn near_is_before_what_is_in_the_picture() {
+    let floor = [[-1e4, 0.0, -1e4], [1e4, 0.0, -1e4], [0.0, 0.0, 1e4]];
+    let tree = [[-0.5, 1.0, -3.0], [0.5, 1.0, -3.0], [0.0, 2.5, -3.0]];
+    let beside = [[90.0, 1.0, -1e-3], [91.0, 1.0, -1e-3], [90.0, 2.0, -1e-3]];
+    let behind = tree.map(|[x, y, z]: [f32; 3]| [x, y, -z]);
+    let model = faces(&[floor, tree, beside, behind]);
+    let ahead = |eye: [f32; 3]| {
+        let target = Some([eye[0], eye[1], -10.0].into());
+        CameraTable { eye: Some(eye.into()), target, fov: Some(60.0.into()), ..CameraTable::default() }
+    };
+    let (camera, cut) = cleared(&model, &ahead([0.0, 1.5, 0.0]), 1e5);
+    // The floor comes into the picture 30 degrees below its middle, the tree is 3 away.
+    let floor = 1.5 / 30.0_f64.to_radians().tan();
+    assert!((0.95..0.995).contains(&(f64::from(camera.near) / floor)) && cut.is_none(), "{camera:?}");
+    assert!(camera.far > 1e4);
+    let (camera, cut) = cleared(&model, &ahead([0.0, 9.0, 0.0]), 1e5);
+    assert!((f64::from(camera.near) / (6.0 * floor) - 0.98).abs() < 0.02 && cut.is_none(), "{camera:?}");
+    // A floor that depths cannot resolve is told.
+    let (camera, cut) = cleared(&model, &ahead([0.0, 1.5, 0.0]), 1e3);
+    assert!((camera.far / camera.near - 1000.0).abs() < 0.1, "{camera:?}");
+    assert!(cut.is_some_and(|depth| (depth / floor - 0.98).abs() < 0.02), "{cut:?}");
+    // A face in whose plane the eye is is not seen.
+    let (_, cut) = cleared(&model, &ahead([0.0, 0.0, 0.0]), 1e3);
+    assert!(cut.is_some_and(|depth| (depth - 3.0).abs() < 1e-9), "{cut:?}");
+}
+
+fn faces(faces: &[[[f32; 3]; 3]]) -> Model {
+    let vertices = faces.iter().flatten().map(|&position| Vertex { position, ..Vertex::default() });
+    let triangles = (0_u32..).step_by(3).map(|k| [k, k + 1, k + 2]).take(faces.len()).collect();
+    let part = crate::scene::Part { triangles, ..crate::scene::Part::default() };
+    Model { vertices: vertices.collect(), parts: vec![part], ..Model::default() }
+}
+
+fn cleared(model: &Model, wishes: &CameraTable, reach: f64) -> (Camera, Option<f64>) {
+    let mut camera = frame(wishes, None, (model, bounding_sphere(model)), 1.0).unwrap();
+    let cut = clear(&mut camera, model, wishes, None, Sight { aspect: 1.0, reach });
+    (camera, cut)
 }
 
 #[test]

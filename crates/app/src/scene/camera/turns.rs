@@ -1,7 +1,7 @@
 //! Cameras that go round a model.
 
 use super::fit::{Lens, View, balanced};
-use super::{Camera, CameraTable, Model, Sphere, planes, pose, zoomed};
+use super::{Camera, CameraTable, Model, Sight, Sphere, clear, planes, pose, zoomed};
 use super::{cross, dot, narrow, normalize, sub};
 
 /// The most directions from which it is seen how far away a camera has to be.
@@ -27,18 +27,16 @@ impl Turn {
         (model, ball): (&Model, Sphere),
         first: &Camera,
         wishes: &CameraTable,
-        (aspect, fits): (f64, bool),
+        (sight, fits): (Sight, bool),
     ) -> Vec<Camera> {
-        let first = if fits { self.fitted((model, ball), *first, wishes, aspect) } else { *first };
+        let first = if fits { self.fitted((model, ball), *first, wishes, sight.aspect) } else { *first };
         let frames = f64::from(self.frames.max(1));
+        let at = |frame| self.at(&first, f64::from(frame) / frames);
         let mut cameras: Vec<Camera> =
-            (0..self.frames).map(|frame| self.at(&first, f64::from(frame) / frames)).collect();
-        let around = cameras.iter().map(|camera| around(camera, ball, wishes));
-        let (near, far) = around.fold((f32::MAX, f32::MIN), |(near, far), (n, f)| (near.min(n), far.max(f)));
-        for camera in &mut cameras {
-            camera.near = wishes.near.map_or(near, f32::from);
-            camera.far = wishes.far.map_or(far, f32::from);
-        }
+            (0..self.frames).map(|frame| between((model, ball), at(frame), wishes, sight)).collect();
+        let planes = cameras.iter().map(|camera| (camera.near, camera.far));
+        let (near, far) = planes.fold((f32::MAX, f32::MIN), |(near, far), (n, f)| (near.min(n), far.max(f)));
+        cameras.iter_mut().for_each(|camera| (camera.near, camera.far) = (near, far));
         cameras
     }
 
@@ -49,17 +47,14 @@ impl Turn {
         (swept, ball): (&Model, Sphere),
         here: &Camera,
         wishes: &CameraTable,
-        (aspect, fits): (f64, bool),
+        (sight, fits): (Sight, bool),
         share: f64,
     ) -> Camera {
         if self.degrees == 0.0 {
             return *here;
         }
-        let here = if fits { self.fitted((swept, ball), *here, wishes, aspect) } else { *here };
-        let camera = self.at(&here, share);
-        let (near, far) = around(&camera, ball, wishes);
-        let (near, far) = (wishes.near.map_or(near, f32::from), wishes.far.map_or(far, f32::from));
-        Camera { near, far, ..camera }
+        let here = if fits { self.fitted((swept, ball), *here, wishes, sight.aspect) } else { *here };
+        between((swept, ball), self.at(&here, share), wishes, sight)
     }
 
     /// A camera as far away as it takes to have all in view in all frames, with as much room below as above.
@@ -121,10 +116,14 @@ fn placed(
     Camera { eye, target: target.map(narrow), ..first }
 }
 
-/// The planes of a camera around a ball.
-fn around(camera: &Camera, ball: Sphere, wishes: &CameraTable) -> (f32, f32) {
+/// A camera with planes around what it sees of a model, but for those that are given.
+fn between((model, ball): (&Model, Sphere), camera: Camera, wishes: &CameraTable, sight: Sight) -> Camera {
     let (eye, view) = (wide(camera.eye), sub(wide(camera.target), wide(camera.eye)));
-    planes(sub(ball.center, eye), view, ball.radius, wishes.is_parallel())
+    let (near, far) = planes::around(sub(ball.center, eye), view, ball.radius, wishes.is_parallel());
+    let (near, far) = (wishes.near.map_or(near, f32::from), wishes.far.map_or(far, f32::from));
+    let mut camera = Camera { near, far, ..camera };
+    clear(&mut camera, model, wishes, None, sight);
+    camera
 }
 
 /// The opening of a picture, without its zoom.
@@ -226,7 +225,8 @@ mod tests {
     /// Whether all corners are in all pictures of a turn, and nearly fill one of a whole turn.
     fn whole((model, ball): (&Model, Sphere), corners: &[[f32; 3]], turn: &Turn) {
         let along = Camera { eye: [4.0, 1.0, 0.0], target: [0.0; 3], ..CAMERA };
-        let cameras = turn.cameras((model, ball), &along, &CameraTable::default(), (1.0, true));
+        let sight = Sight { aspect: 1.0, reach: 1e5 };
+        let cameras = turn.cameras((model, ball), &along, &CameraTable::default(), (sight, true));
         assert_eq!(cameras.len(), turn.frames as usize);
         let tangent = 20.0_f64.to_radians().tan();
         let (mut most, mut rooms) = (0.0_f64, [0.0_f64; 2]);

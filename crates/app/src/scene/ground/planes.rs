@@ -1,10 +1,8 @@
 //! The planes of a camera, moved for a ground.
 
 use crate::scene::Camera;
-use crate::scene::normals::{cross, dot, narrow, normalize, sub};
-
-/// The share of half of the picture by which more is taken for seen than is.
-const MARGIN: f64 = 0.02;
+use crate::scene::camera::{Pyramid, Sight};
+use crate::scene::normals::narrow;
 
 /// A ground that a model has been given, for the cameras that look at it.
 #[derive(Debug)]
@@ -15,7 +13,7 @@ pub(crate) struct Stood {
     /// The corners of those that go on all around.
     pub(super) around: Vec<[[f64; 3]; 4]>,
     /// Those of [`Manner`](super::Manner).
-    pub(super) aspect: Option<f64>,
+    pub(super) sight: Option<Sight>,
     pub(super) fixed: [bool; 2],
 }
 
@@ -29,68 +27,29 @@ impl Stood {
     /// Moves the planes of a camera above it so that all that is in the picture is between them.
     pub(crate) fn stretch(&self, camera: &mut Camera) {
         if self.is_below(camera) {
-            self.around.iter().for_each(|corners| stretch(camera, corners, self.aspect, self.fixed));
+            self.around.iter().for_each(|corners| stretch(camera, corners, self.sight, self.fixed));
         }
     }
 }
 
 /// Moves the planes of a camera so that all is between them that is seen of the ground with these corners.
 ///
-/// In perspective, with the picture's `aspect`, ground beside the picture does not count. It may be next to the eye,
-/// and depths behind a plane so near would have few bits.
-fn stretch(camera: &mut Camera, corners: &[[f64; 3]; 4], aspect: Option<f64>, fixed: [bool; 2]) {
-    let Some(depths) = depths(camera, corners, aspect) else { return };
-    let [nearest, farthest] = depths;
+/// In perspective, ground beside the picture does not count. It may be next to the eye, and depths behind a plane so
+/// near would have few bits.
+fn stretch(camera: &mut Camera, corners: &[[f64; 3]; 4], sight: Option<Sight>, fixed: [bool; 2]) {
+    let pyramid = Pyramid::new(camera, sight.map(|sight| sight.aspect));
+    let Some([nearest, farthest]) = pyramid.and_then(|pyramid| pyramid.depths(corners)) else { return };
     if !fixed[1] {
         camera.far = camera.far.max(narrow(farthest + 0.01 * farthest.abs()));
     }
     if !fixed[0] {
         let mut near = narrow(nearest - 0.01 * nearest.abs());
-        if aspect.is_some() {
+        if let Some(Sight { reach, .. }) = sight {
             // It may reach up to the eye.
-            near = near.max(camera.far / 1000.0);
+            near = near.max(camera.far / narrow(reach));
         }
         camera.near = camera.near.min(near);
     }
-}
-
-/// The least and the greatest depth of what is seen; none if nothing is.
-fn depths(camera: &Camera, corners: &[[f64; 3]; 4], aspect: Option<f64>) -> Option<[f64; 2]> {
-    let eye = camera.eye.map(f64::from);
-    let forward = normalize(sub(camera.target.map(f64::from), eye))?;
-    let right = normalize(cross(forward, camera.picture_up().map(f64::from)))?;
-    let axes = [right, cross(right, forward), forward];
-    // To the right, upwards, and how deep.
-    let mut places: Vec<_> =
-        corners.iter().map(|corner| axes.map(|axis| dot(sub(*corner, eye), axis))).collect();
-    if let Some(aspect) = aspect {
-        let tangent = (f64::from(camera.fov).to_radians() / 2.0).tan() * (1.0 + MARGIN);
-        for (axis, tangent) in [(0, tangent * aspect), (1, tangent)] {
-            for side in [-1.0, 1.0] {
-                places = within(&places, |place| place[2] * tangent - side * place[axis]);
-            }
-        }
-    }
-    let depths = places.iter().map(|place| place[2]);
-    let [least, greatest] = [depths.clone().reduce(f64::min)?, depths.reduce(f64::max)?];
-    Some([least, greatest])
-}
-
-/// The part of a polygon where a linear function is at least 0 (Sutherland and Hodgman 1974).
-fn within(places: &[[f64; 3]], function: impl Fn(&[f64; 3]) -> f64) -> Vec<[f64; 3]> {
-    let mut kept = Vec::with_capacity(places.len() + 1);
-    for (k, here) in places.iter().enumerate() {
-        let next = &places[(k + 1) % places.len()];
-        let [at, then] = [function(here), function(next)];
-        if at >= 0.0 {
-            kept.push(*here);
-        }
-        if (at >= 0.0) != (then >= 0.0) {
-            let share = at / (at - then);
-            kept.push([0, 1, 2].map(|axis| here[axis] + share * (next[axis] - here[axis])));
-        }
-    }
-    kept
 }
 
 #[cfg(test)]
@@ -110,13 +69,18 @@ mod tests {
     const CORNERS: [[f64; 3]; 4] =
         [[-50.0, 0.0, 50.0], [50.0, 0.0, 50.0], [50.0, 0.0, -50.0], [-50.0, 0.0, -50.0]];
 
+    #[expect(clippy::unnecessary_wraps, reason = "parallel lines have none")]
+    fn seen(aspect: f64) -> Option<Sight> {
+        Some(Sight { aspect, reach: 1e5 })
+    }
+
     /// The camera looks down at 45 degrees, so the lowest ray of its picture is at 75 degrees and the highest at 15.
     /// Rays through the middle of the lower edge meet the ground 2/sin 75° away, of which the depth has cos 30°.
     #[test]
     fn depths_are_those_within_the_picture() {
         for roll in [0.0, 180.0] {
             let mut camera = Camera { roll, ..CAMERA };
-            stretch(&mut camera, &CORNERS, Some(1.5), [false; 2]);
+            stretch(&mut camera, &CORNERS, seen(1.5), [false; 2]);
             let depth = |degrees: f64| 2.0 / degrees.to_radians().sin() * 30f64.to_radians().cos();
             let near = f64::from(camera.near) / depth(75.0);
             assert!((0.97..0.995).contains(&near), "{near}");
@@ -125,7 +89,7 @@ mod tests {
         }
         // On its side it is as high as it was wide.
         let mut camera = Camera { roll: 90.0, ..CAMERA };
-        stretch(&mut camera, &CORNERS, Some(1.5), [false; 2]);
+        stretch(&mut camera, &CORNERS, seen(1.5), [false; 2]);
         assert!(f64::from(camera.near) < 1.7 && camera.near > 1.0, "{camera:?}");
     }
 
@@ -143,11 +107,11 @@ mod tests {
     fn what_is_not_seen_or_fixed_moves_nothing() {
         let away = Camera { target: [0.0, 3.0, -1.0], near: 5.0, far: 6.0, ..CAMERA };
         let mut camera = away;
-        stretch(&mut camera, &CORNERS, Some(1.0), [false; 2]);
+        stretch(&mut camera, &CORNERS, seen(1.0), [false; 2]);
         assert_eq!(camera, away);
         let fixed = Camera { near: 5.0, far: 6.0, ..CAMERA };
         camera = fixed;
-        stretch(&mut camera, &CORNERS, Some(1.0), [true; 2]);
+        stretch(&mut camera, &CORNERS, seen(1.0), [true; 2]);
         assert_eq!(camera, fixed);
     }
 }

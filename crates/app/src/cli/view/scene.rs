@@ -1,0 +1,82 @@
+//! A scene in a window, staged for its pictures.
+
+use std::rc::Rc;
+use std::sync::Arc;
+
+use crate::cli::request::Request;
+use crate::cli::staged::{Cast, Motion, Staged};
+use crate::draw::Chains;
+use crate::error::Error;
+use crate::film::ordered;
+use crate::options::values::name_of;
+use crate::options::{CameraTable, Projection};
+use crate::scene::Model;
+use crate::scene::ground::Stood;
+
+/// All that a picture takes.
+pub(super) struct Scene {
+    pub(super) request: Request,
+    /// The camera's options without a camera that has been moved.
+    pub(super) wishes: CameraTable,
+    pub(super) staged: Staged,
+    /// The model without its ground, for cameras below that, and that ground.
+    pub(super) bare: Option<Model>,
+    pub(super) ground: Option<Stood>,
+    pub(super) chains: Arc<Chains>,
+    pub(super) motion: Option<Rc<Motion>>,
+}
+
+/// Parts of a scene that another has as well.
+#[derive(Default)]
+pub(super) struct Kept {
+    pub(super) chains: Option<Arc<Chains>>,
+    pub(super) motion: Option<Rc<Motion>>,
+}
+
+impl Scene {
+    /// # Errors
+    /// It cannot be staged with these words.
+    pub(super) fn new(
+        (wishes, request): (CameraTable, Request),
+        cast: &Cast,
+        Kept { chains, mut motion }: Kept,
+    ) -> Result<Self, Error> {
+        let staged = request.check().and_then(|()| {
+            if motion.is_none() {
+                motion = request.motion(cast)?.map(Rc::new);
+            }
+            request.stage_with(cast.clone(), motion.as_deref())
+        });
+        let mut staged = staged.map_err(|error| request.relocate(error))?;
+        ordered(&mut staged.model, &staged.camera, staged.options.projection);
+        let bare = (request.arguments.render.ground == Some(true)).then(|| staged.model.clone());
+        let ground = request.add_ground(&mut staged);
+        let chains = match chains {
+            Some(chains) => chains,
+            None => Arc::new(Chains::new(&staged.model, &staged.options)?),
+        };
+        Ok(Self { request, wishes, staged, bare, ground, chains, motion })
+    }
+
+    /// The value that an option has, as it is typed, if it is one for the whole scene.
+    pub(super) fn value(&self, option: &str) -> Option<String> {
+        let Staged { options, samples, .. } = &self.staged;
+        let policies = &options.policies;
+        Some(match option {
+            "--interpolation" => policies.interpolation.to_string(),
+            "--filter" => options.filter.to_string(),
+            "--depth" => name_of(options.depth),
+            "--shading" => name_of(options.shading),
+            "--samples" => name_of(*samples),
+            "--color" => name_of(policies.color),
+            "--dither" => name_of(policies.dither),
+            "--light-space" => name_of(options.light.space),
+            "--ground" => self.bare.is_some().to_string(),
+            "--projection" => match options.projection {
+                Projection::Parallel { .. } => "parallel".to_owned(),
+                Projection::Perspective => "perspective".to_owned(),
+            },
+            _ => return None,
+        })
+    }
+}
