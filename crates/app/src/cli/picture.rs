@@ -157,7 +157,7 @@ impl Request {
         let above = self.above_ground(staged, cameras);
         let Staged { model, swept, options, .. } = staged;
         if ground::above(model, swept.as_ref(), cameras, options.depth).is_none() {
-            return left_out("it under a model without extent", "one that stands on it");
+            return left_out("it under a flat model, beside which there is no shadow", "one that stands on it");
         }
         let CameraTable { near, far, .. } = self.arguments.camera;
         let affine = options.policies.interpolation == Interpolation::Affine;

@@ -125,6 +125,9 @@ pub(crate) fn add(
     Some(stood)
 }
 
+/// The share of a model's radius up to which it is flat: there is no shadow beside it.
+const FLAT: f64 = 1e-3;
+
 /// The shares of a model's radius that its ground is below it, or over its floor: as many as depths can tell.
 fn below(depth: DepthFormat) -> f64 {
     if depth == DepthFormat::U16 { 2e-3 } else { 1e-4 }
@@ -177,13 +180,13 @@ impl Ground {
         let [least, most] = bounds(model);
         let size = sub(most, least);
         let radius = dot(size, size).sqrt() / 2.0;
-        if !(radius > 0.0 && radius.is_finite()) {
+        if !(size[up] > FLAT * radius && radius.is_finite()) {
             return None;
         }
         // Just below, so that what stands on it hides it.
         let low = if sign > 0.0 { least[up] } else { most[up] } - sign * below * radius;
         let axes = others(up);
-        let reach = (RIM * radius).min(SLANT * size[up]).max(1e-3 * radius);
+        let reach = (RIM * radius).min(SLANT * size[up]);
         let side = size[axes[0]].max(size[axes[1]]) + 2.0 * reach;
         let corner = axes.map(|axis| f64::midpoint(least[axis], most[axis]) - side / 2.0);
         let [least, most] = CELLS;
