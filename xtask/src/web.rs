@@ -122,23 +122,32 @@ fn need(program: &str, package: &str) -> Outcome {
     }
 }
 
+/// The programs of all drivers.
+fn need_all() -> Outcome {
+    let programs = [(CHROMIUM, "chromium"), ("node", "nodejs"), ("npm", "npm")];
+    programs.into_iter().try_for_each(|(program, package)| need(program, package))
+}
+
 /// Opens the page in a browser, and compares its pictures with native ones.
 pub(crate) fn check() -> Outcome {
-    for (program, package) in [(CHROMIUM, "chromium"), ("node", "nodejs"), ("npm", "npm")] {
-        need(program, package)?;
-    }
+    need_all()?;
     build()?;
     let screenshots = workspace::target_directory().join("web-check");
     _ = fs::remove_dir_all(&screenshots);
     fs::create_dir_all(&screenshots).map_err(failed(&screenshots))?;
     let hashes = screenshots.join("hashes");
     fs::write(&hashes, native("hashes")?).map_err(failed(&hashes))?;
-    let mut driver = Command::new("node");
-    driver.current_dir(workspace::root()).env("NODE_PATH", playwright()?);
-    driver.args(["crates/web/driver/driver.js", CHROMIUM]).arg(folder()).arg(hashes).arg(&screenshots);
-    run(&mut driver)?;
+    run(driver("driver.js")?.arg(folder()).arg(hashes).arg(&screenshots))?;
     println!("screenshots are in {}", screenshots.display());
     Ok(())
+}
+
+/// A script that drives the browser.
+fn driver(script: &str) -> Result<Command, String> {
+    let mut driver = Command::new("node");
+    driver.current_dir(workspace::root()).env("NODE_PATH", playwright()?);
+    driver.arg(Path::new("crates/web/driver").join(script)).arg(CHROMIUM);
+    Ok(driver)
 }
 
 /// Installs the driver's one package, as its lock file says, and returns where it is.
@@ -160,15 +169,16 @@ fn playwright() -> Result<PathBuf, String> {
     Ok(modules)
 }
 
-/// Times pictures in Node beside those of native code, one sample at a time.
+/// Times pictures in Node beside those of native code, one sample at a time, and those of the page in a browser.
 fn speed() -> Outcome {
-    need("node", "nodejs")?;
+    need_all()?;
     let programs = build()?;
     let times = workspace::target_directory().join("web-times");
     fs::write(&times, native("times")?).map_err(failed(&times))?;
     let mut node = Command::new("node");
     node.current_dir(workspace::root()).arg("crates/web/driver/speed.js").args(programs);
-    run(node.stdin(fs::File::open(&times).map_err(failed(&times))?))
+    run(node.stdin(fs::File::open(&times).map_err(failed(&times))?))?;
+    run(driver("frames.js")?.arg(folder()))
 }
 
 /// Bytes in base64, as RFC 4648 has it.

@@ -17,6 +17,11 @@ const index = pathToFileURL(path.join(folder, "index.html")).href;
 const inPage = () => {
   const station = (name) => document.getElementById(name);
   const frame = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+  /** Waits for the picture of what has been set. */
+  const drawn = async () => {
+    do await frame();
+    while (["waiting", "drawing"].includes(document.documentElement.dataset.state));
+  };
   const pixels = (section) => {
     const canvas = section.querySelector("canvas");
     return canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
@@ -33,8 +38,7 @@ const inPage = () => {
         if (found !== position) wrong.push(`${k}: ${found} instead of ${position}`);
         input.dispatchEvent(new Event("input", { bubbles: true }));
       }
-      await frame();
-      await frame();
+      await drawn();
       return wrong;
     },
     hash(name) {
@@ -87,6 +91,9 @@ async function checkStation({ page, show, sound }, name, simd) {
   await show(name);
   const loaded = await page.evaluate(() => document.documentElement.dataset.simd);
   assert(loaded === simd, `${what}: the page has loaded the other program`);
+  const shared = simd === "1" && !["affine", "depth", "pipeline"].includes(name);
+  const workers = (await page.locator("#speed").textContent()).includes("by 3 workers");
+  assert(workers === shared, `${what}: ${shared ? "workers do not draw it" : "workers draw it"}`);
   const set = (positions) => page.evaluate(([name, positions]) => check.set(name, positions), [name, positions]);
   const of = (f) => page.evaluate(([name, f]) => check[f](name), [name, f]);
 
@@ -252,7 +259,8 @@ async function run() {
   // Without the sandbox, since a check may run as root in a container.
   const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] });
   try {
-    for (const [query, simd] of [["", "1"], ["?simd=0", "0"]]) {
+    // By one thread, and by workers, of which there are as many on any machine.
+    for (const [query, simd] of [["?workers=3", "1"], ["?simd=0&workers=1", "0"]]) {
       const opened = await open(browser, query);
       for (const name of stations) {
         const { sets, controls } = await checkStation(opened, name, simd);

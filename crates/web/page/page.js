@@ -3,10 +3,18 @@
 
 (() => {
   const NAMES = ["affine", "depth", "pipeline", "mipmaps", "relief", "projector", "frames", "model"];
+  /** Those that workers draw together. */
+  const SHARED = ["mipmaps", "relief", "projector", "frames", "model"];
+  const MOST_WORKERS = 8;
+  /** The results that are sums over the rows of a picture. */
+  const SUMS = { model: [2] };
   const message = document.getElementById("message");
+  const root = document.documentElement;
   let program;
+  let crew;
   let current;
   let waiting = false;
+  let drawing = false;
   let begun = false;
 
   function bytes(text) {
@@ -15,12 +23,19 @@
   }
 
   async function load() {
-    const wanted = new URLSearchParams(location.search).get("simd") !== "0";
+    const query = new URLSearchParams(location.search);
     let code = bytes(SIMD128);
-    const simd = wanted && WebAssembly.validate(code);
+    const simd = query.get("simd") !== "0" && WebAssembly.validate(code);
     if (!simd) code = bytes(PLAIN);
-    program = (await WebAssembly.instantiate(code)).instance.exports;
-    document.documentElement.dataset.simd = simd ? "1" : "0";
+    const compiled = await WebAssembly.compile(code);
+    program = (await WebAssembly.instantiate(compiled)).exports;
+    root.dataset.simd = simd ? "1" : "0";
+    const workers = Math.min(Number(query.get("workers") ?? navigator.hardwareConcurrency), MOST_WORKERS);
+    try {
+      if (workers > 1) crew = new Crew(compiled, workers);
+    } catch {
+      // A browser that has no workers here draws by itself.
+    }
   }
 
   function say(text, place = message) {
@@ -48,47 +63,81 @@
     return found;
   }
 
+  /** Draws as soon as the screen is ready for it and the picture before is done. */
   function invalidate() {
-    if (waiting || !program) return;
+    if (!program) return;
+    root.dataset.state = "waiting";
+    if (waiting || drawing) return;
     waiting = true;
-    requestAnimationFrame(() => {
+    requestAnimationFrame(async () => {
       waiting = false;
+      drawing = true;
+      root.dataset.state = "drawing";
       try {
-        if (program) draw();
+        if (program) await draw();
       } catch (error) {
         stop(error);
       }
+      drawing = false;
+      if (root.dataset.state === "drawing") root.dataset.state = "drawn";
+      else invalidate();
     });
   }
 
   /** After a fault of the program itself nothing of it can be trusted. */
   function stop(error) {
     program = undefined;
+    root.dataset.state = "stopped";
+    crew?.end();
     say(`The program has stopped: ${error.message}. Load the page again.`);
   }
 
-  function draw() {
-    const section = current;
-    const [width, height] = [Number(section.dataset.width), Number(section.dataset.height)];
-    const found = positions(section);
+  /** A picture by this thread: its pixels, its results, or why there is none. */
+  function drawAlone({ station, width, height, found }) {
     const controls = new Float32Array(program.memory.buffer, program.parameters(), 16);
     controls.fill(0);
     controls.set(found);
+    const address = program.pixels(station, width, height);
+    if (!address) return { fault: told() };
+    const pixels = new Uint8ClampedArray(program.memory.buffer, address, 4 * width * height);
+    const results = new Float32Array(program.memory.buffer, program.results(), program.result_count()).slice();
+    return { pixels, results: [results] };
+  }
+
+  async function drawTogether(picture) {
+    try {
+      return await crew.draw(picture);
+    } catch (error) {
+      // Workers that do not work are not asked again.
+      crew.end();
+      crew = undefined;
+      return drawAlone(picture);
+    }
+  }
+
+  async function draw() {
+    const section = current;
+    const [width, height] = [Number(section.dataset.width), Number(section.dataset.height)];
+    const found = positions(section);
+    const picture = { station: NAMES.indexOf(section.id), width, height, found };
     const begin = performance.now();
-    const address = program.pixels(NAMES.indexOf(section.id), width, height);
+    const shared = crew && SHARED.includes(section.id);
+    const { pixels, results, fault } = shared ? await drawTogether(picture) : drawAlone(picture);
     const time = performance.now() - begin;
-    document.getElementById("speed").textContent = `The last took ${time.toFixed(1)} ms.`;
-    if (!address) {
-      say(`No picture: ${told()}.`);
+    root.dataset.milliseconds = String(time);
+    const by = shared && crew ? ` by ${crew.workers.length} workers` : "";
+    document.getElementById("speed").textContent = `The last took ${time.toFixed(1)} ms${by}.`;
+    if (fault) {
+      say(`No picture: ${fault}.`);
       return;
     }
     say("");
     const canvas = section.querySelector("canvas");
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
-    const pixels = new Uint8ClampedArray(program.memory.buffer, address, 4 * width * height);
     canvas.getContext("2d", { willReadFrequently: true }).putImageData(new ImageData(pixels, width, height), 0, 0);
-    const results = new Float32Array(program.memory.buffer, program.results(), program.result_count()).slice();
-    show(section, found, Stations[section.id](section, results, found));
+    const all = results[0].slice();
+    for (const k of SUMS[section.id] ?? []) all[k] = results.reduce((sum, of) => sum + of[k], 0);
+    show(section, found, Stations[section.id](section, all, found));
     section.dataset.drawn = String(Number(section.dataset.drawn ?? 0) + 1);
   }
 
@@ -216,6 +265,7 @@
     const room = program.reserve(data.length);
     if (room || data.length === 0) new Uint8Array(program.memory.buffer).set(data, room);
     if ((!room && data.length > 0) || !program.load(kind, width, height)) throw new Error(told());
+    crew?.take({ kind, data, width, height });
   }
 
   async function take(file) {
@@ -265,7 +315,7 @@
   });
   model.querySelector("input[type=file]").addEventListener("change", (event) => takeAll(event.target.files));
   model.querySelector(".forget").addEventListener("click", () => {
-    program.load(3, 0, 0);
+    hand(3, new Uint8Array());
     say("", fault);
     invalidate();
   });

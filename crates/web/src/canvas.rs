@@ -5,6 +5,7 @@ use alberti::{AnyDepth, F32, NoDepth, Rgba8, Rgba8888, Target, TargetError};
 use alloc::vec;
 use alloc::vec::Vec;
 use core::fmt;
+use core::ops::Range;
 
 /// The most pixels of a picture: 640 x 480.
 pub const MAX_PIXELS: usize = 640 * 480;
@@ -16,6 +17,8 @@ pub(crate) const BACKGROUND: Rgba8 = Rgba8::from_rgb24(0x1b_20_2a);
 #[derive(Debug)]
 pub struct Canvas {
     size: [u32; 2],
+    /// The rows that are drawn.
+    rows: Range<u32>,
     pixels: Vec<u32>,
     depths: Vec<f32>,
     /// Depths of any format.
@@ -39,16 +42,24 @@ impl core::error::Error for SizeError {}
 
 impl Canvas {
     pub(crate) const fn new() -> Self {
-        Self { size: [0; 2], pixels: Vec::new(), depths: Vec::new(), words: Vec::new(), none: Vec::new() }
+        Self {
+            size: [0; 2],
+            rows: 0..0,
+            pixels: Vec::new(),
+            depths: Vec::new(),
+            words: Vec::new(),
+            none: Vec::new(),
+        }
     }
 
-    /// Makes it a picture of this size.
-    pub(crate) fn resize(&mut self, size: [u32; 2]) -> Result<(), SizeError> {
+    /// Makes it a picture of this size, of which these rows are drawn, as far as it has them.
+    pub(crate) fn resize(&mut self, size: [u32; 2], rows: Range<u32>) -> Result<(), SizeError> {
         let count = size[0].checked_mul(size[1]).map_or(0, |count| count as usize);
         if !(1..=MAX_PIXELS).contains(&count) {
             return Err(SizeError(size));
         }
-        self.size = size;
+        let end = rows.end.min(size[1]);
+        (self.size, self.rows) = (size, rows.start.min(end)..end);
         self.pixels.resize(count, 0);
         self.depths.resize(count, 1.0);
         self.words.resize(count, u32::MAX);
@@ -68,14 +79,26 @@ impl Canvas {
         &self.pixels
     }
 
+    /// The pixels of the rows that are drawn.
+    #[must_use]
+    pub fn drawn(&self) -> &[u32] {
+        self.pixels.get(self.places_of_rows()).unwrap_or_default()
+    }
+
+    fn places_of_rows(&self) -> Range<usize> {
+        let [start, end] = [self.rows.start, self.rows.end].map(|row| row as usize * self.size[0] as usize);
+        start..end
+    }
+
     pub(crate) fn pixels_mut(&mut self) -> &mut [u32] {
         &mut self.pixels
     }
 
     /// A cleared target with depths that are taught: 0 at the near plane, 1 at the far one.
     pub(crate) fn target(&mut self) -> Result<Target<'_, Rgba8888, F32>, TargetError> {
-        let [width, height] = self.size;
-        let mut target = Target::new(Rgba8888, F32, width, height, &mut self.pixels, &mut self.depths)?;
+        let (size, first, places) = (self.size, self.rows.start, self.places_of_rows());
+        let (pixels, depths) = (&mut self.pixels[places.clone()], &mut self.depths[places]);
+        let mut target = Target::band(Rgba8888, F32, size, first, pixels, depths)?;
         target.clear(BACKGROUND);
         Ok(target)
     }
@@ -85,16 +108,18 @@ impl Canvas {
         &mut self,
         depth: AnyDepth,
     ) -> Result<Target<'_, Rgba8888, AnyDepth>, TargetError> {
-        let [width, height] = self.size;
-        let mut target = Target::new(Rgba8888, depth, width, height, &mut self.pixels, &mut self.words)?;
+        let (size, first, places) = (self.size, self.rows.start, self.places_of_rows());
+        let (pixels, depths) = (&mut self.pixels[places.clone()], &mut self.words[places]);
+        let mut target = Target::band(Rgba8888, depth, size, first, pixels, depths)?;
         target.clear(BACKGROUND);
         Ok(target)
     }
 
     /// A cleared target without depths.
     pub(crate) fn flat(&mut self) -> Result<Target<'_, Rgba8888, NoDepth>, TargetError> {
-        let [width, height] = self.size;
-        let mut target = Target::new(Rgba8888, NoDepth, width, height, &mut self.pixels, &mut self.none)?;
+        let (size, first, places) = (self.size, self.rows.start, self.places_of_rows());
+        let (pixels, depths) = (&mut self.pixels[places.clone()], &mut self.none[places]);
+        let mut target = Target::band(Rgba8888, NoDepth, size, first, pixels, depths)?;
         target.clear(BACKGROUND);
         Ok(target)
     }
@@ -128,9 +153,9 @@ mod tests {
     fn sizes_are_checked() {
         let mut canvas = Canvas::new();
         for size in [[0, 1], [641, 480], [u32::MAX, u32::MAX]] {
-            assert_eq!(canvas.resize(size), Err(SizeError(size)));
+            assert_eq!(canvas.resize(size, 0..1), Err(SizeError(size)));
         }
-        assert_eq!(canvas.resize([640, 480]), Ok(()));
+        assert_eq!(canvas.resize([640, 480], 0..480), Ok(()));
         assert_eq!(canvas.pixels().len(), MAX_PIXELS);
     }
 

@@ -31,15 +31,23 @@ pub extern "C" fn parameters() -> *const f32 {
 /// Draws a station, and returns the address of its pixels, or 0 and a message.
 #[unsafe(no_mangle)]
 pub extern "C" fn pixels(station: u32, width: u32, height: u32) -> *const u32 {
+    rows(station, width, height, 0, height)
+}
+
+/// Draws some rows of a station, and returns the address of their pixels, or 0 and a message.
+#[unsafe(no_mangle)]
+pub extern "C" fn rows(station: u32, width: u32, height: u32, first: u32, end: u32) -> *const u32 {
     let page = &mut *PAGE.lock();
     let drawn = match Station::ALL.get(station as usize) {
-        Some(station) => page.draw(*station, [width, height], &CONTROLS.lock()).map_err(|Fault(words)| words),
+        Some(station) => page
+            .draw_rows(*station, ([width, height], first..end), &CONTROLS.lock())
+            .map_err(|Fault(words)| words),
         None => Err(format!("there is no station {station}")),
     };
     match drawn {
         Ok(()) => {
             page.message = String::new();
-            page.canvas.pixels().as_ptr()
+            page.canvas.drawn().as_ptr()
         }
         Err(message) => {
             page.message = message;
@@ -118,6 +126,9 @@ mod tests {
         CONTROLS.lock()[0] = 4.0;
         assert!(!pixels(0, 64, 48).is_null() && !parameters().is_null());
         assert_eq!(message_length(), 0);
+        assert!(rows(0, 64, 48, 48, 50).is_null() && message_length() > 0);
+        assert!(!rows(3, 64, 48, 40, 50).is_null());
+        assert!(!pixels(0, 64, 48).is_null());
         assert!(result_count() > 8 && !results().is_null());
         assert!(reserve(model::MAX_BYTES + 1).is_null());
         assert!(!reserve(8).is_null());

@@ -22,6 +22,7 @@ pub use canvas::{Canvas, MAX_PIXELS, SizeError, hash};
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt;
+use core::ops::Range;
 
 /// The most parameters of a station.
 pub const PARAMETERS: usize = 16;
@@ -84,6 +85,12 @@ impl Station {
         Self::Model,
     ];
 
+    /// Whether rows can be drawn on their own: the others compare pictures with each other.
+    #[must_use]
+    pub const fn has_bands(self) -> bool {
+        !matches!(self, Self::Affine | Self::Depth)
+    }
+
     /// The name, by which the page links to it.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -131,8 +138,21 @@ impl Page {
     /// # Errors
     /// When the size is out of range, or when the parameters leave no view.
     pub fn draw(&mut self, station: Station, size: [u32; 2], parameters: &Parameters) -> Drawn {
+        self.draw_rows(station, (size, 0..size[1]), parameters)
+    }
+
+    /// Draws some rows of it. Together they are the picture, of a station [in bands](Station::has_bands).
+    ///
+    /// # Errors
+    /// As [`draw`](Self::draw), and when there are no such rows.
+    pub fn draw_rows(
+        &mut self,
+        station: Station,
+        (size, rows): ([u32; 2], Range<u32>),
+        parameters: &Parameters,
+    ) -> Drawn {
         let Self { canvas, results, textures, model, .. } = self;
-        canvas.resize(size)?;
+        canvas.resize(size, rows)?;
         results.clear();
         match station {
             Station::Affine => affine::draw(canvas, results, textures, parameters),
@@ -155,5 +175,39 @@ impl Page {
 impl Default for Page {
     fn default() -> Self {
         Self::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bands_are_rows_of_the_picture() {
+        let size = [160, 120];
+        let mut parameters = [0.4; PARAMETERS];
+        parameters[..7].copy_from_slice(&[6.0, 0.9, 0.2, 2.0, 40.0, 1.0, 9.0]);
+        for station in Station::ALL.into_iter().filter(|station| station.has_bands()) {
+            let (mut whole, mut part) = (Page::new(), Page::new());
+            whole.draw(station, size, &parameters).unwrap();
+            let (mut pixels, mut sums, mut bands) = (Vec::new(), whole.results.clone(), 0.0);
+            sums.fill(0.0);
+            for rows in [0..7, 7..60, 60..119, 119..200] {
+                part.draw_rows(station, (size, rows), &parameters).unwrap();
+                pixels.extend_from_slice(part.canvas.drawn());
+                for (sum, number) in sums.iter_mut().zip(&part.results) {
+                    *sum += number;
+                }
+                bands += 1.0;
+            }
+            assert!(pixels == whole.canvas.pixels(), "{}", station.name());
+            // Numbers are those of the picture, but for pixels, of which each band has its own.
+            for (sum, number) in sums.iter().zip(&whole.results) {
+                let same = (sum / bands - number).abs() <= 1e-6 * number.abs();
+                assert!(same || sum == number || number.is_nan(), "{}: {sum} {number}", station.name());
+            }
+            assert!(whole.canvas.pixels().iter().any(|pixel| *pixel != pixels[0]), "{}", station.name());
+        }
+        assert!(Page::new().draw_rows(Station::Model, (size, 120..121), &parameters).is_err());
     }
 }

@@ -10,6 +10,7 @@
 //!
 //! Each test is run once on its own, and says which switches it passes. Then each mutant meets the tests that pass its
 //! switch, the quickest first, until one of them fails. The state is kept in a file: a run that was stopped goes on.
+//! Mutants come in an order of chance, so that those of a part of a run stand for all.
 
 mod compile;
 mod list;
@@ -33,6 +34,8 @@ struct Options {
     seconds: f64,
     /// A part of names; the mutants with others are left out.
     only: Option<String>,
+    /// Minutes after which no other mutant is begun.
+    minutes: f64,
 }
 
 fn main() -> ExitCode {
@@ -46,22 +49,29 @@ fn main() -> ExitCode {
 }
 
 fn options() -> Result<Options, String> {
-    let mut options = Options { folder: PathBuf::from("target/mutants"), seconds: 60.0, only: None };
+    let mut options = Options {
+        folder: PathBuf::from("target/mutants"),
+        seconds: 60.0,
+        only: None,
+        minutes: f64::INFINITY,
+    };
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
         let value = words.next().ok_or_else(|| format!("expected a value after `{word}`"))?;
         match word.as_str() {
             "--folder" => options.folder = value.into(),
             "--only" => options.only = Some(value),
-            "--seconds" => {
-                let seconds = value.parse().ok().filter(|seconds| *seconds > 0.0);
-                options.seconds =
-                    seconds.ok_or_else(|| format!("expected --seconds above 0, found `{value}`"))?;
-            }
-            _ => return Err(format!("expected --folder, --seconds or --only, found `{word}`")),
+            "--seconds" => options.seconds = above_0(&word, &value)?,
+            "--minutes" => options.minutes = above_0(&word, &value)?,
+            _ => return Err(format!("expected --folder, --seconds, --minutes or --only, found `{word}`")),
         }
     }
     Ok(options)
+}
+
+fn above_0(option: &str, value: &str) -> Result<f64, String> {
+    let number = value.parse().ok().filter(|number| *number > 0.0);
+    number.ok_or_else(|| format!("expected {option} above 0, found `{value}`"))
 }
 
 fn all(options: &Options) -> Result<(), String> {

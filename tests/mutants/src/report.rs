@@ -26,7 +26,7 @@ pub(crate) fn report(
             _ => _ = writeln!(text, "{verdict:?}: {}", mutants[number].name),
         }
     }
-    for library in LIBRARIES {
+    for library in LIBRARIES.into_iter().chain([""]) {
         let of_library = |number: &usize| mutants[*number].file.starts_with(format!("crates/{library}"));
         let mut counts = [0_u32; 4];
         for (_, verdict) in verdicts.iter().filter(|(number, _)| of_library(number)) {
@@ -39,10 +39,15 @@ pub(crate) fn report(
         }
         let all: u32 = counts.iter().sum();
         let [killed, survived, unsettled, unreached] = counts;
-        let share = 100.0 * f64::from(killed) / f64::from(all.max(1));
+        let share = f64::from(killed) / f64::from(all.max(1));
+        // Twice the standard error, if these stand for more.
+        let error = 2.0 * (share * (1.0 - share) / f64::from(all.max(1))).sqrt();
+        let name = if library.is_empty() { "all" } else { library };
         _ = writeln!(
             text,
-            "{library}: {share:.1} % of {all} killed; {survived} survived, {unsettled} unsettled, {unreached} unreached"
+            "{name}: {:.1} % of {all} killed (± {:.1}); {survived} survived, {unsettled} unsettled, {unreached} unreached",
+            100.0 * share,
+            100.0 * error
         );
     }
     text

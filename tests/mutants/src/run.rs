@@ -6,7 +6,7 @@ use std::io::Write as _;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crate::Options;
 use crate::list::Mutant;
@@ -72,6 +72,7 @@ pub(crate) fn run(
             _ => left.push(number),
         }
     }
+    left.sort_by_cached_key(|&number| chance(&mutants[number].name));
     let mut tests_of: HashMap<usize, Vec<usize>> = HashMap::new();
     for (index, test) in suite.tests.iter().enumerate() {
         for &number in &test.reached {
@@ -80,9 +81,12 @@ pub(crate) fn run(
     }
     let file = OpenOptions::new().create(true).append(true).open(&path);
     let state = Mutex::new((verdicts, file.map_err(|error| format!("{}: {error}", path.display()))?));
-    let next = AtomicUsize::new(0);
+    let (next, begin) = (AtomicUsize::new(0), Instant::now());
     let work = || -> Result<(), String> {
         while let Some(&number) = left.get(next.fetch_add(1, Ordering::Relaxed)) {
+            if begin.elapsed().as_secs_f64() > 60.0 * options.minutes {
+                break;
+            }
             let tests = tests_of.get(&number).map_or(&[][..], Vec::as_slice);
             let verdict = judge(tree, suite, number, tests, options.seconds)?;
             let mut state = state.lock().map_err(|_| "another thread failed")?;
@@ -103,6 +107,14 @@ pub(crate) fn run(
         others.into_iter().try_for_each(|other| other.join().map_err(|_| "a thread failed".to_owned())?)
     })?;
     state.into_inner().map(|(verdicts, _)| verdicts).map_err(|_| "a thread failed".to_owned())
+}
+
+/// A number that a name has by chance: FNV-1a, whose high bits are mixed into the low ones.
+fn chance(name: &str) -> u64 {
+    let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    });
+    (hash ^ hash >> 32).wrapping_mul(0x9e37_79b9_7f4a_7c15)
 }
 
 fn judge(

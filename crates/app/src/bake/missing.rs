@@ -101,8 +101,8 @@ pub(super) fn as_filed(model: &Model, attributes: Attributes) -> Cow<'_, Model> 
     }
     let mut filed = model.clone();
     for part in &mut filed.parts {
-        let Detail { blend, alpha_test, is_share, .. } = Detail::default();
-        (part.detail.blend, part.detail.alpha_test, part.detail.is_share) = (blend, alpha_test, is_share);
+        let Detail { blend, alpha_test, .. } = Detail::default();
+        (part.detail.blend, part.detail.alpha_test) = (blend, alpha_test);
         part.detail.colored &= has_colors;
     }
     Cow::Owned(filed)

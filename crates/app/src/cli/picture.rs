@@ -14,10 +14,11 @@ use crate::options::{
 };
 use crate::output::stage::{Stage, during};
 use crate::samples::bytes;
-use crate::scene::Camera;
 use crate::scene::camera::Sight;
 use crate::scene::ground::{self, Stood};
+use crate::scene::{Camera, Image};
 use alberti::Stats;
+use std::sync::Arc;
 
 /// Bytes a pixel to encode: the colours, and twice as many where nothing is packed and the list has grown by halves.
 const ENCODED: u64 = 9;
@@ -121,10 +122,10 @@ impl Request {
         warn(&Error::new("nothing of the model in the picture", "some of it").hint(hint).to_string());
     }
 
-    /// Puts a ground under the model of a picture, if that is asked for.
-    pub(super) fn add_ground(&self, staged: &mut Staged) -> Option<Stood> {
+    /// Puts a ground under the model of a picture, if that is asked for, with shadows that are `kept` of the same model.
+    pub(super) fn add_ground(&self, staged: &mut Staged, kept: &[Arc<Image>]) -> Option<Stood> {
         let mut camera = staged.camera;
-        let stood = self.add_ground_for(staged, std::slice::from_mut(&mut camera));
+        let stood = self.add_ground_for(staged, std::slice::from_mut(&mut camera), kept);
         staged.camera = camera;
         stood
     }
@@ -139,7 +140,12 @@ impl Request {
     }
 
     /// The same as [`add_ground`](Self::add_ground) for these cameras, but those below it.
-    pub(super) fn add_ground_for(&self, staged: &mut Staged, cameras: &mut [Camera]) -> Option<Stood> {
+    pub(super) fn add_ground_for(
+        &self,
+        staged: &mut Staged,
+        cameras: &mut [Camera],
+        kept: &[Arc<Image>],
+    ) -> Option<Stood> {
         if self.arguments.render.ground != Some(true) {
             return None;
         }
@@ -157,13 +163,17 @@ impl Request {
         let above = self.above_ground(staged, cameras);
         let Staged { model, swept, options, .. } = staged;
         if ground::above(model, swept.as_ref(), cameras, options.depth).is_none() {
-            return left_out("it under a flat model, beside which there is no shadow", "one that stands on it");
+            return left_out(
+                "it under a flat model, beside which there is no shadow",
+                "one that stands on it",
+            );
         }
         let CameraTable { near, far, .. } = self.arguments.camera;
         let affine = options.policies.interpolation == Interpolation::Affine;
         let fixed = [near.is_some(), far.is_some()];
         let sight = matches!(options.projection, Projection::Perspective).then(|| Sight::of(options));
-        let manner = ground::Manner { fixed, sight, affine, depth: options.depth, wrap: options.wrap };
+        let (depth, wrap) = (options.depth, options.wrap);
+        let manner = ground::Manner { fixed, sight, affine, depth, wrap, kept };
         let stood = during(Stage::Shadow, |_| ground::add(model, swept.as_ref(), cameras, manner));
         if stood.is_none() {
             return left_out("a camera below the model's lowest point", "one above the ground");

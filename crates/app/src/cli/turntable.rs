@@ -205,7 +205,7 @@ fn film(
     } else {
         let grounded = request.above_ground(&staged, &cameras);
         bare = grounded.contains(&false).then(|| (staged.model.clone(), grounded));
-        request.add_ground_for(&mut staged, &mut cameras);
+        request.add_ground_for(&mut staged, &mut cameras, &[]);
     }
     let Staged { model, options, samples, backdrop, .. } = staged;
     let set = Set { model: &model, options: &options, samples, backdrop: &backdrop };
@@ -218,7 +218,7 @@ fn film(
         ordered(&mut staged.model, &staged.camera, projection);
         if request.above_ground(&staged, &[staged.camera]) == [true] {
             let begin = Instant::now();
-            request.add_ground(&mut staged);
+            request.add_ground(&mut staged, &[]);
             let took = u64::try_from(begin.elapsed().as_nanos()).unwrap_or(u64::MAX);
             shadows.fetch_add(took, Ordering::Relaxed);
         } else {

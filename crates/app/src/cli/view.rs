@@ -5,6 +5,7 @@
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use clap::{ArgMatches, ValueEnum as _};
 
@@ -16,7 +17,7 @@ use crate::error::Error;
 use crate::film::Set;
 use crate::load::scene_file::SceneFile;
 use crate::load::{input, seen};
-use crate::options::{CameraTable, Samples};
+use crate::options::{CameraTable, Projection, ProjectionKind, Samples};
 use crate::output::stats::Source;
 use crate::samples::supersampled_with;
 use crate::scene::camera::{self, Sight, as_options};
@@ -32,7 +33,7 @@ mod overlay;
 mod scene;
 mod window;
 
-use keys::{Action, Cycle, Place};
+use keys::{ALL, Action, Cycle, Keeps, Place};
 use line::{Chosen, end_of_options, matches_of, typed, words_of};
 use orbit::Orbit;
 use scene::{Kept, Scene};
@@ -81,6 +82,8 @@ struct Viewer {
     size: [u32; 2],
     cast: Cast,
     scene: Scene,
+    /// Those of the last ground, also while it is not shown.
+    shadows: Vec<Arc<Image>>,
 }
 
 /// Steps of time that words have: a thousandth of a second.
@@ -99,12 +102,15 @@ impl Viewer {
     fn new(words: &[OsString], size: [u32; 2]) -> Result<Self, Error> {
         seen::begin();
         let words = words.to_vec();
-        let request = Request::read(&matches_of(words_of(&words, &Chosen::default(), size))?)?;
+        let matches = matches_of(words_of(&words, &Chosen::default(), size))?;
+        let request = Request::read(&matches)?;
         let cast = request.cast().map_err(|error| request.relocate(error))?;
-        let scene = Scene::new((request.arguments.camera, request), &cast, Kept::default())?;
+        let scene = Scene::new((wishes_of(&request, &matches)?, request), &cast, Kept::default())?;
+        let shadows = scene.ground.as_ref().map(|ground| ground.shadows.clone()).unwrap_or_default();
         let first = keys::CYCLES.iter().map(|cycle| scene.value(cycle.option)).collect();
         let chosen = Vec::new();
-        Ok(Self { words, chosen, first, output: None, moved: None, time: None, size, cast, scene })
+        let (output, moved, time) = (None, None, None);
+        Ok(Self { words, chosen, first, output, moved, time, size, cast, scene, shadows })
     }
 
     /// The name of the scene, without the way to it.
@@ -128,8 +134,8 @@ impl Viewer {
     /// Words beside those of the command line, with or without a camera that has been moved.
     fn chosen(&self, options: &[(&'static str, &'static str)], with_camera: bool) -> Chosen {
         let camera = self.camera_words().filter(|_| with_camera);
-        // It says how it projects.
-        let is_said = |option: &str| camera.is_some() && option == "--projection";
+        // It says where it is, and how it projects.
+        let is_said = |option: &str| camera.is_some() && ["--projection", "--view"].contains(&option);
         Chosen {
             options: options.iter().copied().filter(|(option, _)| !is_said(option)).collect(),
             camera,
@@ -141,7 +147,7 @@ impl Viewer {
         let Scene { request, staged, .. } = &self.scene;
         let projection = staged.options.projection;
         self.moved.map(|(camera, _)| {
-            as_options(&camera, staged.model.origin, projection, &request.arguments.camera)
+            as_options(&camera, staged.model.origin, projection, &request.arguments.camera, false)
         })
     }
 
@@ -149,10 +155,11 @@ impl Viewer {
     ///
     /// # Errors
     /// An option cannot be used with this scene.
-    fn restage(&mut self, chosen: Vec<(&'static str, &'static str)>, keeps_maps: bool) -> Result<(), Error> {
+    fn restage(&mut self, chosen: Vec<(&'static str, &'static str)>, keeps: Keeps) -> Result<(), Error> {
         let requests = self.requests(&chosen)?;
-        let chains = keeps_maps.then(|| self.scene.chains.clone());
-        self.take(Scene::new(requests, &self.cast, Kept { chains, motion: None })?);
+        let chains = keeps.maps.then(|| self.scene.chains.clone());
+        let shadows = if keeps.shadow { self.shadows.clone() } else { Vec::new() };
+        self.take(Scene::new(requests, &self.cast, Kept { chains, motion: None, shadows })?);
         self.chosen = chosen;
         Ok(())
     }
@@ -164,6 +171,9 @@ impl Viewer {
             let pivot = [0, 1, 2].map(|k| pivot[k] + before[k] - now[k]);
             (scene.staged.camera, pivot)
         });
+        if let Some(ground) = &scene.ground {
+            self.shadows.clone_from(&ground.shadows);
+        }
         self.scene = scene;
     }
 
@@ -186,12 +196,12 @@ impl Viewer {
     /// The request of a picture with these options, and the camera's options without one that has been moved.
     fn requests(&self, chosen: &[(&'static str, &'static str)]) -> Result<(CameraTable, Request), Error> {
         let read = |with_camera| {
-            let words = words_of(&self.words, &self.chosen(chosen, with_camera), self.size);
-            Request::read(&matches_of(words)?)
+            let matches = matches_of(words_of(&self.words, &self.chosen(chosen, with_camera), self.size))?;
+            let request = Request::read(&matches)?;
+            Ok((wishes_of(&request, &matches)?, request))
         };
-        let first = read(false)?;
-        let wishes = first.arguments.camera;
-        Ok((wishes, if self.moved.is_some() { read(true)? } else { first }))
+        let (wishes, first) = read(false)?;
+        Ok((wishes, if self.moved.is_some() { read(true)?.1 } else { first }))
     }
 
     /// The end of what moves, and the time.
@@ -221,14 +231,19 @@ impl Viewer {
     /// Stages the scene at its time: as a frame of a film, with all that its frames share.
     fn stage_at_time(&mut self) -> Result<(), Error> {
         let time = self.time.unwrap_or_default();
-        let of = |words| self.scene.request.at(&matches_of(words)?, time);
-        let request = of(self.all_words())?;
+        let of = |words| {
+            let matches = matches_of(words)?;
+            let request = self.scene.request.at(&matches, time)?;
+            Ok((wishes_of(&request, &matches)?, request))
+        };
+        let (_, request) = of(self.all_words())?;
         let own = self.chosen(&self.chosen, false);
-        let wishes = of(words_of(&self.words, &own, self.size))?.arguments.camera;
+        let (wishes, _) = of(words_of(&self.words, &own, self.size))?;
         // A ground's shadow is a map of its own.
         let chains = self.scene.bare.is_none().then(|| self.scene.chains.clone());
         let motion = self.scene.motion.clone();
-        let mut scene = Scene::new((wishes, request), &self.cast, Kept { chains, motion })?;
+        let mut scene =
+            Scene::new((wishes, request), &self.cast, Kept { chains, motion, shadows: Vec::new() })?;
         scene.request.moments = std::mem::take(&mut self.scene.request.moments);
         self.take(scene);
         Ok(())
@@ -241,7 +256,7 @@ impl Viewer {
     fn open(&mut self, path: PathBuf) -> Result<(), Error> {
         let mut other = Self::new(&[path.into()], self.size)?;
         // Options that the other scene cannot have are left out.
-        _ = other.restage(self.chosen.clone(), false);
+        _ = other.restage(self.chosen.clone(), Keeps { maps: false, shadow: false });
         other.output = self.output.take();
         *self = other;
         Ok(())
@@ -252,7 +267,7 @@ impl Viewer {
     fn resize(&mut self, size: [u32; 2]) -> Result<(), Error> {
         let before = self.size;
         self.size = size;
-        let outcome = self.restage(self.chosen.clone(), true);
+        let outcome = self.restage(self.chosen.clone(), ALL);
         if outcome.is_err() {
             self.size = before;
         }
@@ -345,7 +360,7 @@ impl Viewer {
     /// Looks from a side, or as the command line does, or leaves all as it was.
     fn look_from(&mut self, side: Option<&'static str>) -> Result<bool, Error> {
         let moved = self.moved.take();
-        let outcome = self.choose("--view", side, true);
+        let outcome = self.choose("--view", side, ALL);
         if outcome.is_err() {
             self.moved = moved;
         }
@@ -366,10 +381,19 @@ impl Viewer {
             if value.is_some_and(|value| !self.has(cycle.option, value)) {
                 continue;
             }
-            match self.choose(cycle.option, value, cycle.keeps_maps) {
+            let before = (self.moved, self.scene.staged.options.projection);
+            let is_parallel = value.or(first.as_deref()) == Some("parallel");
+            let outcome = match self.moved {
+                Some(_) if cycle.option == "--projection" => {
+                    self.move_to(self.orbit().projected(is_parallel))
+                }
+                _ => Ok(true),
+            };
+            match outcome.and_then(|_| self.choose(cycle.option, value, cycle.keeps)) {
                 Ok(is_new) => return Ok(is_new),
                 Err(error) => refused = refused.or(Some(error)),
             }
+            (self.moved, self.scene.staged.options.projection) = before;
         }
     }
 
@@ -388,12 +412,12 @@ impl Viewer {
         &mut self,
         option: &'static str,
         value: Option<&'static str>,
-        keeps_maps: bool,
+        keeps: Keeps,
     ) -> Result<bool, Error> {
         let mut chosen = self.chosen.clone();
         chosen.retain(|(other, _)| *other != option);
         chosen.extend(value.map(|value| (option, value)));
-        self.restage(chosen, keeps_maps).map(|()| true)
+        self.restage(chosen, keeps).map(|()| true)
     }
 
     fn orbit(&self) -> Orbit {
@@ -419,10 +443,14 @@ impl Viewer {
         let roll = (roll != 0.0).then(|| narrow(roll).into());
         (wishes.fov, wishes.roll, wishes.zoom) = (Some(fov.into()), roll, None);
         (wishes.azimuth, wishes.elevation, wishes.view) = (None, None, None);
-        let Staged { model, options, .. } = staged;
+        wishes.projection = Some(match projection {
+            Projection::Parallel { .. } => ProjectionKind::Parallel,
+            Projection::Perspective => ProjectionKind::Perspective,
+        });
+        let Staged { model, swept, options, .. } = staged;
         let aspect = Sight::of(options).aspect;
-        // As a picture of the command line has them: first those of the model, then for its ground.
-        let model = bare.as_ref().unwrap_or(model);
+        // As a picture of the command line has them: first those of all places of the model, then for its ground.
+        let model = swept.as_ref().or(bare.as_ref()).unwrap_or(model);
         let mut camera = camera::frame(&wishes, None, (model, camera::bounding_sphere(model)), aspect)?;
         camera::clear(&mut camera, model, &wishes, None, Sight::of(options));
         if let Some(ground) = ground {
@@ -432,6 +460,13 @@ impl Viewer {
         self.moved = Some((camera, pivot));
         Ok(true)
     }
+}
+
+/// The options of a camera that is moved by hand, but for its place. The planes of a scene file are those of its own
+/// camera, and do not count.
+fn wishes_of(request: &Request, matches: &ArgMatches) -> Result<CameraTable, Error> {
+    let CameraTable { near, far, .. } = Request::given(matches)?.arguments.camera;
+    Ok(CameraTable { near, far, ..request.arguments.camera })
 }
 
 /// The first of the pictures `STEM-1.png`, `STEM-2.png` and so on that is not there.

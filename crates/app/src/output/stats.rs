@@ -70,7 +70,7 @@ impl Report<'_> {
             "{source}: {}, {width}x{height} pixels in {}{times}\ncamera: {}",
             counted(self.triangles, "triangle", "triangles"),
             self.output.display(),
-            as_options(&self.camera, self.origin, self.projection, &self.wishes)
+            as_options(&self.camera, self.origin, self.projection, &self.wishes, true)
         )
     }
 
@@ -129,7 +129,7 @@ impl Serialize for Report<'_> {
             fields.serialize_entry(name, &count)?;
         }
         let Camera { eye, target, up, roll, fov, near, far } = self.camera;
-        let options = as_options(&self.camera, self.origin, self.projection, &self.wishes);
+        let options = as_options(&self.camera, self.origin, self.projection, &self.wishes, true);
         let numbers = json!({
             "eye": eye.map(decimal), "target": target.map(decimal), "up": up.map(decimal), "roll": roll,
             "fov": decimal(fov), "near": decimal(near), "far": decimal(far),

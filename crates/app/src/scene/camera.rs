@@ -172,23 +172,25 @@ fn beside(camera: &Camera, point: [f64; 3], share: f64) -> Camera {
 }
 
 /// The options that make this camera again, bit for bit, for a model whose coordinates are counted from `origin`, and
-/// with a scene file that has `wishes` of its own.
+/// with a scene file that has `wishes` of its own. Without its planes, they are those that such a camera gets.
 #[must_use]
-pub fn as_options(camera: &Camera, origin: [f64; 3], projection: Projection, wishes: &CameraTable) -> String {
+pub fn as_options(
+    camera: &Camera,
+    origin: [f64; 3],
+    projection: Projection,
+    wishes: &CameraTable,
+    has_planes: bool,
+) -> String {
     let point = |point: [f32; 3]| point.map(number).join(",");
     let place = |point| place(point, origin);
     let Camera { eye, target, up, roll, fov, near, far } = *camera;
     let upright = roll == 0.0 && wishes.roll.is_none();
     let leaning = if upright { String::new() } else { format!(" --roll {roll}") };
-    let mut options = format!(
-        "--eye {} --target {} --up {}{leaning} --fov {} --near {} --far {}",
-        place(eye),
-        place(target),
-        point(up),
-        number(fov),
-        number(near),
-        number(far)
-    );
+    let [eye, target, up, fov] = [place(eye), place(target), point(up), number(fov)];
+    let mut options = format!("--eye {eye} --target {target} --up {up}{leaning} --fov {fov}");
+    if has_planes {
+        options += &format!(" --near {} --far {}", number(near), number(far));
+    }
     if wishes.zoom.is_some() {
         // It is in the angle.
         options += " --zoom 1";

@@ -9,6 +9,7 @@ use crate::scene::camera::Sight;
 use crate::scene::normals::{dot, narrow, sub};
 use alberti::raster::color::AnyBlend;
 use sky::Sky;
+use std::sync::Arc;
 
 mod floor;
 mod framed;
@@ -35,6 +36,7 @@ const RIM: f64 = 0.9;
 const SLANT: f64 = 2.5;
 
 /// A ground before the eyes of a camera.
+#[derive(Clone, Copy, Debug)]
 struct Ground {
     /// The upward axis and its sign.
     up: (usize, f64),
@@ -59,7 +61,7 @@ struct Ground {
 
 /// The way in which a ground is drawn.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Manner {
+pub(crate) struct Manner<'a> {
     /// Whether the user has set the near and the far plane.
     pub(crate) fixed: [bool; 2],
     /// A picture in perspective; none of one in parallel projection.
@@ -69,25 +71,27 @@ pub(crate) struct Manner {
     pub(crate) depth: DepthFormat,
     /// The continuation of textures that say none.
     pub(crate) wrap: Wrap,
+    /// The images of shadows of the same model, if there are.
+    pub(crate) kept: &'a [Arc<Image>],
 }
 
 /// Adds a ground at the lowest point of a model, or of all places that it comes to. A floor of its own has the shadow
 /// on it, which goes on beyond. There is none if all of the cameras are below it. Planes of the others that are not
 /// fixed are moved so that all that is in the picture is between them. Where attributes are affine, it is of so many
-/// parts that none shows that.
+/// parts that none shows that. Shadows that are kept of the same model are not looked for again.
 pub(crate) fn add(
     model: &mut Model,
     swept: Option<&Model>,
     cameras: &mut [Camera],
-    manner: Manner,
+    manner: Manner<'_>,
 ) -> Option<Stood> {
-    let Manner { fixed, sight, affine, depth, wrap } = manner;
+    let Manner { fixed, sight, affine, depth, wrap, kept } = manner;
     let grounds = floor::grounds(model, swept, cameras.first()?.up, depth);
     let seen = grounds.first()?;
     let corners =
         |ground: &Ground| [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|uv| ground.place(uv));
     let around = grounds.iter().filter(|ground| ground.goes_on).map(corners).collect();
-    let stood = Stood { up: seen.up, low: seen.low, around, sight, fixed };
+    let mut stood = Stood { seen: *seen, shadows: Vec::new(), around, sight, fixed };
     if !cameras.iter().any(|camera| stood.is_below(camera)) {
         return None;
     }
@@ -97,8 +101,14 @@ pub(crate) fn add(
     // All of them before one is a part of the model.
     let all: Vec<_> = grounds
         .iter()
-        .map(|ground| {
-            let texels = ground.shadow(model, wrap).into_iter().map(|alpha| [0, 0, 0, alpha]).collect();
+        .enumerate()
+        .map(|(number, ground)| {
+            let side = ground.cells / 2;
+            let is_its_own = |image: &&Arc<Image>| kept.len() == grounds.len() && image.width == side;
+            let shadow = kept.get(number).filter(is_its_own).cloned().unwrap_or_else(|| {
+                let texels = ground.shadow(model, wrap).into_iter().map(|alpha| [0, 0, 0, alpha]).collect();
+                Image { width: side, height: side, texels }.into()
+            });
             let floor = ground.on_floor.then(|| {
                 let places = floor::places(model, ground, squares);
                 let count = u32::try_from(places.len()).unwrap_or(0);
@@ -108,13 +118,13 @@ pub(crate) fn add(
                     floor::after(model, ground),
                 )
             });
-            (ground, texels, floor)
+            (ground, shadow, floor)
         })
         .collect();
     // The last to be drawn comes first, since each is put before what there is.
-    for (ground, texels, floor) in all {
-        let side = ground.cells / 2;
-        model.textures.push(Image { width: side, height: side, texels }.into());
+    for (ground, shadow, floor) in all {
+        stood.shadows.push(Arc::clone(&shadow));
+        model.textures.push(shadow);
         if let Some((places, triangles, after)) = floor {
             ground.put(model, (places, triangles), (depth == DepthFormat::None).then_some(after));
         }

@@ -39,28 +39,46 @@ pub(super) struct Cycle {
     key: char,
     pub(super) option: &'static str,
     values: &'static [&'static str],
-    /// Whether mip maps stay as they are.
-    pub(super) keeps_maps: bool,
+    pub(super) keeps: Keeps,
 }
+
+/// Parts of a scene that stay as they are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Keeps {
+    /// Mip maps.
+    pub(super) maps: bool,
+    /// The shadow on the ground.
+    pub(super) shadow: bool,
+}
+
+/// All of them, and all but the maps.
+pub(super) const ALL: Keeps = Keeps { maps: true, shadow: true };
+const SHADOW: Keeps = Keeps { maps: false, shadow: true };
 
 /// The cycles, in the order of the list of keys.
 pub(super) const CYCLES: [Cycle; 12] = [
-    cycle('i', "--interpolation", &["exact", "plane", "spans:16", "bounded:0.0625", "affine"], true),
-    cycle('f', "--filter", &["nearest", "bilinear", "trilinear", "anisotropic:4", "anisotropic:16"], false),
-    cycle('r', "--relief", &["bump", "parallax", "steep", "occlusion", "displacement"], false),
-    cycle('d', "--depth", &["f32", "f32-reversed", "u24", "u16"], true),
-    cycle('v', "--show", &["error", "lod", "depth-step", "overdraw", "triangles", "policy"], true),
-    cycle('s', "--shading", &["lambert", "gouraud", "phong", "blinn", "unlit"], false),
-    cycle('a', "--samples", &["1", "4", "16"], true),
-    cycle('c', "--color", &["rgb565", "rgb666", "rgba8"], true),
-    cycle('t', "--dither", &["bayer", "blue-noise", "none"], true),
-    cycle('l', "--light-space", &["linear", "srgb"], false),
-    cycle('g', "--ground", &["true", "false"], false),
-    cycle('o', "--projection", &["parallel", "perspective"], true),
+    cycle('i', "--interpolation", &["exact", "plane", "spans:16", "bounded:0.0625", "affine"], ALL),
+    cycle('f', "--filter", &["nearest", "bilinear", "trilinear", "anisotropic:4", "anisotropic:16"], SHADOW),
+    cycle(
+        'r',
+        "--relief",
+        &["bump", "parallax", "steep", "occlusion", "displacement"],
+        Keeps { maps: false, shadow: false },
+    ),
+    // A ground is as far below a model as depths can tell.
+    cycle('d', "--depth", &["f32", "f32-reversed", "u24", "u16"], Keeps { maps: true, shadow: false }),
+    cycle('v', "--show", &["error", "lod", "depth-step", "overdraw", "triangles", "policy"], ALL),
+    cycle('s', "--shading", &["lambert", "gouraud", "phong", "blinn", "unlit"], SHADOW),
+    cycle('a', "--samples", &["1", "4", "16"], ALL),
+    cycle('c', "--color", &["rgb565", "rgb666", "rgba8"], ALL),
+    cycle('t', "--dither", &["bayer", "blue-noise", "none"], ALL),
+    cycle('l', "--light-space", &["linear", "srgb"], SHADOW),
+    cycle('g', "--ground", &["true", "false"], SHADOW),
+    cycle('o', "--projection", &["parallel", "perspective"], ALL),
 ];
 
-const fn cycle(key: char, option: &'static str, values: &'static [&'static str], keeps_maps: bool) -> Cycle {
-    Cycle { key, option, values, keeps_maps }
+const fn cycle(key: char, option: &'static str, values: &'static [&'static str], keeps: Keeps) -> Cycle {
+    Cycle { key, option, values, keeps }
 }
 
 impl Cycle {

@@ -43,9 +43,27 @@ pub(super) fn words_of(words: &[OsString], chosen: &Chosen, [width, height]: [u3
     all
 }
 
+/// All options that say how a camera stands, but for its planes.
+const PLACES: [&str; 11] = [
+    "--eye",
+    "--target",
+    "--up",
+    "--azimuth",
+    "--elevation",
+    "--view",
+    "--roll",
+    "--zoom",
+    "--fov",
+    "--projection",
+    "--view-height",
+];
+
 impl Chosen {
     /// The options of a command line that would contradict what is chosen.
     fn replaced(&self, words: &[OsString]) -> Vec<&'static str> {
+        if self.camera.is_some() {
+            return PLACES.to_vec();
+        }
         let mut replaced = Vec::new();
         if self.options.iter().any(|(option, _)| *option == "--view") {
             replaced.extend(["--view", "--azimuth", "--elevation"]);
@@ -54,7 +72,7 @@ impl Chosen {
                 replaced.extend(["--eye", "--near", "--far"]);
             }
         }
-        if self.camera.is_some() || self.options.contains(&("--projection", "perspective")) {
+        if self.options.contains(&("--projection", "perspective")) {
             replaced.push("--view-height");
         }
         replaced

@@ -2,7 +2,7 @@
 
 use super::keys::Place;
 use crate::options::{Cull, Projection};
-use crate::scene::camera::turned as around;
+use crate::scene::camera::{turned as around, window_height};
 use crate::scene::normals::{cross, dot, length, narrow, normalize, sub};
 use crate::scene::{Camera, Model};
 
@@ -93,6 +93,22 @@ impl Orbit {
             return self;
         }
         Self { camera, pivot: nearer(self.pivot), projection }
+    }
+
+    /// The same by another projection, which has as much in view at the target.
+    pub(super) fn projected(self, is_parallel: bool) -> Self {
+        match self.projection {
+            Projection::Perspective if is_parallel => {
+                Self { projection: Projection::Parallel { height: window_height(&self.camera) }, ..self }
+            }
+            Projection::Parallel { height } if !is_parallel => {
+                let Some(axes) = axes(&self.camera) else { return self };
+                let by = length(view(&self.camera)) - f64::from(height) / self.opening();
+                let eye = add(wide(self.camera.eye), axes[2].map(|x| x * by)).map(narrow);
+                Self { camera: Camera { eye, ..self.camera }, projection: Projection::Perspective, ..self }
+            }
+            _ => self,
+        }
     }
 
     /// The height of what a camera with perspective sees, as a share of its distance.

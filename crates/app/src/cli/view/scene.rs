@@ -10,13 +10,13 @@ use crate::error::Error;
 use crate::film::ordered;
 use crate::options::values::name_of;
 use crate::options::{CameraTable, Projection};
-use crate::scene::Model;
 use crate::scene::ground::Stood;
+use crate::scene::{Image, Model};
 
 /// All that a picture takes.
 pub(super) struct Scene {
     pub(super) request: Request,
-    /// The camera's options without a camera that has been moved.
+    /// The options of a camera that is moved, but for its place.
     pub(super) wishes: CameraTable,
     pub(super) staged: Staged,
     /// The model without its ground, for cameras below that, and that ground.
@@ -31,6 +31,8 @@ pub(super) struct Scene {
 pub(super) struct Kept {
     pub(super) chains: Option<Arc<Chains>>,
     pub(super) motion: Option<Rc<Motion>>,
+    /// The images of the shadows on the ground.
+    pub(super) shadows: Vec<Arc<Image>>,
 }
 
 impl Scene {
@@ -39,7 +41,7 @@ impl Scene {
     pub(super) fn new(
         (wishes, request): (CameraTable, Request),
         cast: &Cast,
-        Kept { chains, mut motion }: Kept,
+        Kept { chains, mut motion, shadows }: Kept,
     ) -> Result<Self, Error> {
         let staged = request.check().and_then(|()| {
             if motion.is_none() {
@@ -50,7 +52,7 @@ impl Scene {
         let mut staged = staged.map_err(|error| request.relocate(error))?;
         ordered(&mut staged.model, &staged.camera, staged.options.projection);
         let bare = (request.arguments.render.ground == Some(true)).then(|| staged.model.clone());
-        let ground = request.add_ground(&mut staged);
+        let ground = request.add_ground(&mut staged, &shadows);
         let chains = match chains {
             Some(chains) => chains,
             None => Arc::new(Chains::new(&staged.model, &staged.options)?),

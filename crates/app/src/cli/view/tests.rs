@@ -288,3 +288,105 @@ fn what_cannot_be_shown_is_passed_over() {
         viewer.picture(false).expect("a picture");
     }
 }
+
+/// Pixels that differ from those of planes far before and far behind all there is.
+fn cut_away(viewer: &Viewer, folder: &Path) -> usize {
+    let shown = viewer.picture(false).expect("a picture").image;
+    assert!(shown == rendered(viewer, folder), "{:?}", viewer.all_words());
+    let mut other = viewer.all_words();
+    other.drain(..2);
+    other.extend(["--near=0.05", "--far=400", "--depth=f32-reversed"].map(OsString::from));
+    let whole = Viewer::new(&other, SIZE).expect("a scene").picture(false).expect("a picture").image;
+    let is_far = |(a, b): &(&[u8; 4], &[u8; 4])| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 24);
+    shown.texels.iter().zip(&whole.texels).filter(is_far).count()
+}
+
+/// The planes of a camera that has been moved are around what there is now: later, in another file, with a ground.
+#[test]
+fn planes_follow_what_is_seen() {
+    let folder = folder();
+    let scene = |text: &str| {
+        let path = folder.path().join("s.toml");
+        fs::write(&path, text).expect("a scene");
+        path.into_os_string()
+    };
+    let moving = "[camera]\nazimuth = 20\n[[object]]\nname = \"a\"\nsurface = \"sphere\"\n[[object]]\nname = \"b\"\n\
+        surface = \"sphere\"\nradius = 0.3\nposition = [0, 0, 1.5]\n[[animation]]\nof = \"b\"\nkey = \"position\"\n\
+        times = [0, 1]\nvalues = [[1.4, 0, 0], [1, 0, 12]]\n";
+    let mut later = Viewer::new(&[scene(moving)], SIZE).expect("a scene");
+    act(&mut later, "<<");
+    for _ in 0..6 {
+        later.advance(0.1).expect("a frame");
+        assert_eq!(cut_away(&later, folder.path()), 0, "{:?}", later.camera());
+    }
+    let own = "[camera]\neye = [6, 4, 8]\nnear = 5\nfar = 20\n[[object]]\nmodel = \"m.obj\"\n";
+    let mut nearer = Viewer::new(&[scene(own)], SIZE).expect("a scene");
+    act(&mut nearer, "++++++");
+    assert_eq!(cut_away(&nearer, folder.path()), 0, "{:?}", nearer.camera());
+    act(&mut nearer, "0");
+    assert_eq!((nearer.camera().near, nearer.camera().far), (5.0, 20.0));
+
+    let mut grounded = viewer(folder.path(), "--elevation 5");
+    act(&mut grounded, "<--g");
+    assert!(cut_away(&grounded, folder.path()) < 3, "{:?}", grounded.camera());
+
+    let mut edited = viewer(folder.path(), "");
+    act(&mut edited, "<---");
+    fs::write(folder.path().join("m.obj"), MODEL.replace("-1", "-3")).expect("a model");
+    edited.reload().expect("a model");
+    assert_eq!(cut_away(&edited, folder.path()), 0, "{:?}", edited.camera());
+}
+
+/// The projection of a camera that has been moved changes, with as much in view at its target, and changes back.
+#[test]
+fn projections_change_after_a_move() {
+    let folder = folder();
+    for options in ["", "--projection parallel", "--projection parallel --view-height 2"] {
+        let mut viewer = viewer(folder.path(), options);
+        act(&mut viewer, ">");
+        let (before, orbit) = (viewer.picture(false).expect("a picture").image, viewer.orbit());
+        let height = |orbit: Orbit| match orbit.projection {
+            Projection::Parallel { height } => height,
+            Projection::Perspective => camera::window_height(&orbit.camera),
+        };
+        act(&mut viewer, "o");
+        let other = viewer.orbit();
+        assert_ne!(
+            matches!(orbit.projection, Projection::Parallel { .. }),
+            matches!(other.projection, Projection::Parallel { .. })
+        );
+        assert!((height(orbit) / height(other) - 1.0).abs() < 1e-5, "{orbit:?} {other:?}");
+        let shown = viewer.picture(false).expect("a picture").image;
+        assert!(shown != before && shown == rendered(&viewer, folder.path()), "{options}");
+        act(&mut viewer, "+<");
+        assert!(viewer.picture(false).expect("a picture").image == rendered(&viewer, folder.path()));
+        act(&mut viewer, "o");
+        assert_eq!(
+            matches!(orbit.projection, Projection::Parallel { .. }),
+            matches!(viewer.orbit().projection, Projection::Parallel { .. })
+        );
+    }
+}
+
+/// A shadow is looked for once, and again when something else may throw it.
+#[test]
+fn shadows_are_kept() {
+    let folder = folder();
+    let mut viewer = viewer(folder.path(), "--ground");
+    let is_kept = |viewer: &mut Viewer, keys: &str| {
+        let before = viewer.shadows.clone();
+        act(viewer, keys);
+        let same = before.iter().zip(&viewer.shadows).all(|(a, b)| Arc::ptr_eq(a, b));
+        assert!(viewer.picture(false).expect("a picture").image == rendered(viewer, folder.path()), "{keys}");
+        same && !before.is_empty() && before.len() == viewer.shadows.len()
+    };
+    for keys in ["i", "f", "s", "a", "l", "o", ">", "3", "gg"] {
+        assert!(is_kept(&mut viewer, keys), "{keys}");
+    }
+    assert!(!is_kept(&mut viewer, "ddd"));
+    fs::write(folder.path().join("m.obj"), MODEL.replace("1.5", "2.5")).expect("a model");
+    let before = viewer.shadows.clone();
+    viewer.reload().expect("a model");
+    assert!(!Arc::ptr_eq(&before[0], &viewer.shadows[0]));
+    assert!(viewer.picture(false).expect("a picture").image == rendered(&viewer, folder.path()));
+}

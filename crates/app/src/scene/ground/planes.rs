@@ -1,15 +1,18 @@
 //! The planes of a camera, moved for a ground.
 
-use crate::scene::Camera;
+use super::Ground;
 use crate::scene::camera::{Pyramid, Sight};
 use crate::scene::normals::narrow;
+use crate::scene::{Camera, Image};
+use std::sync::Arc;
 
 /// A ground that a model has been given, for the cameras that look at it.
 #[derive(Debug)]
 pub(crate) struct Stood {
-    /// The upward axis and its sign, and the height along the axis.
-    pub(super) up: (usize, f64),
-    pub(super) low: f64,
+    /// The upper one.
+    pub(super) seen: Ground,
+    /// The images of the shadows.
+    pub(crate) shadows: Vec<Arc<Image>>,
     /// The corners of those that go on all around.
     pub(super) around: Vec<[[f64; 3]; 4]>,
     /// Those of [`Manner`](super::Manner).
@@ -20,8 +23,7 @@ pub(crate) struct Stood {
 impl Stood {
     /// Whether a camera sees it from above.
     pub(crate) fn is_below(&self, camera: &Camera) -> bool {
-        let (up, sign) = self.up;
-        sign * (f64::from(camera.eye[up]) - self.low) > 0.0
+        self.seen.is_below(camera)
     }
 
     /// Moves the planes of a camera above it so that all that is in the picture is between them.
