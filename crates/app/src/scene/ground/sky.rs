@@ -102,11 +102,16 @@ impl Sky {
         }
         steps.retain(|step| step.weight > 0.0);
         let texels = self.side / 2;
-        let mut dark = vec![0.0; texels * texels];
+        // Below what lies on the ground it is dark.
+        let covered: Vec<bool> =
+            (0..texels * texels).map(|k| self.is_covered([k % texels, k / texels])).collect();
+        let mut dark = vec![1.0; texels * texels];
         let steps = &steps;
-        let rows = dark.chunks_mut(texels).zip(0_u32..).map(|(texels, row)| {
+        let rows = dark.chunks_mut(texels).zip(covered.chunks(texels)).zip(0_u32..);
+        let rows = rows.map(|((texels, covered), row)| {
             Box::new(move || {
-                for (dark, column) in texels.iter_mut().zip(0_u32..) {
+                let open = texels.iter_mut().zip(covered).zip(0_u32..).filter(|((_, covered), _)| !**covered);
+                for ((dark, _), column) in open {
                     let light = self.layers.iter().map(|layer| {
                         let of = |steps| layer.dark([column, row], steps, self.side);
                         1.0 - layer.opacity
@@ -117,22 +122,23 @@ impl Sky {
             }) as Task<'_>
         });
         by_threads(rows.collect(), available().get());
-        self.go_on_below(&mut dark);
+        self.go_on_below(&mut dark, &covered);
         dark
+    }
+
+    /// Whether surfaces lie on most cells of a texel.
+    fn is_covered(&self, [column, row]: [usize; 2]) -> bool {
+        let [first, second] = [0, 1].map(|below| (2 * row + below) * self.side + 2 * column);
+        let cells = [first, first + 1, second, second + 1];
+        cells.into_iter().filter(|&cell| self.covered[cell]).count() > 1
     }
 
     /// Gives texels below surfaces on the ground, which see what they cannot see from there, the mean of those beside
     /// them: no rim is lighter than what is around it.
-    fn go_on_below(&self, dark: &mut [f64]) {
+    fn go_on_below(&self, dark: &mut [f64], covered: &[bool]) {
         let side = self.side / 2;
-        let cell = |column: usize, row: usize| u8::from(self.covered[row * self.side + column]);
-        let is_covered = |k: usize| {
-            let (column, row) = (2 * (k % side), 2 * (k / side));
-            cell(column, row) + cell(column + 1, row) + cell(column, row + 1) + cell(column + 1, row + 1) > 1
-        };
-        let mut unknown: Vec<usize> = (0..dark.len()).filter(|&k| is_covered(k)).collect();
-        let mut is_known = vec![true; dark.len()];
-        unknown.iter().for_each(|&k| is_known[k] = false);
+        let mut unknown: Vec<usize> = (0..dark.len()).filter(|&k| covered[k]).collect();
+        let mut is_known: Vec<bool> = covered.iter().map(|covered| !covered).collect();
         for _ in 0..RIM {
             let beside = |&k: &usize| {
                 let (column, row) = (k % side, k / side);
