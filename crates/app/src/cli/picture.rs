@@ -122,7 +122,7 @@ impl Request {
         warn(&Error::new("nothing of the model in the picture", "some of it").hint(hint).to_string());
     }
 
-    /// Puts a ground under the model of a picture, if that is asked for, with shadows that are `kept` of the same model.
+    /// Puts a ground under the model of a picture, if that is asked for. Shadows may be `kept` of the same model.
     pub(super) fn add_ground(&self, staged: &mut Staged, kept: &[Arc<Image>]) -> Option<Stood> {
         let mut camera = staged.camera;
         let stood = self.add_ground_for(staged, std::slice::from_mut(&mut camera), kept);

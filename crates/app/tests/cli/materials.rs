@@ -334,10 +334,10 @@ fn what_is_narrow_does_not_vanish_from_afar() {
     let dots = png(512, 512, |x, y| [0, 0, 0, if x % 4 == 0 && y % 2 == 0 { 255 } else { 0 }]);
     fs::write(folder.path("dots.png"), dots).expect("a texture");
     fs::write(folder.path("m.mtl"), "newmtl a\nmap_Kd dots.png\n").expect("a library");
-    let sheets = |count: usize| -> String {
+    let sheets = |count: u32| -> String {
         (0..count)
             .map(|k| {
-                let (z, first) = (k as f64 * 0.01, 4 * k);
+                let (z, first) = (f64::from(k) * 0.01, 4 * k);
                 let corner = |x, y| format!("v {x} {y} {z}\n");
                 let corners = [corner(-9, -9), corner(9, -9), corner(9, 9), corner(-9, 9)].concat();
                 let [a, b, c, d] = [1, 2, 3, 4].map(|k| first + k);
