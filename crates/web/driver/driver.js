@@ -91,7 +91,7 @@ async function checkStation({ page, show, sound }, name, simd) {
   await show(name);
   const loaded = await page.evaluate(() => document.documentElement.dataset.simd);
   assert(loaded === simd, `${what}: the page has loaded the other program`);
-  const shared = simd === "1" && !["affine", "depth", "pipeline"].includes(name);
+  const shared = simd === "1" && ["mipmaps", "relief", "model"].includes(name);
   const workers = (await page.locator("#speed").textContent()).includes("by 3 workers");
   assert(workers === shared, `${what}: ${shared ? "workers do not draw it" : "workers draw it"}`);
   const set = (positions) => page.evaluate(([name, positions]) => check.set(name, positions), [name, positions]);

@@ -3,8 +3,8 @@
 
 (() => {
   const NAMES = ["affine", "depth", "pipeline", "mipmaps", "relief", "projector", "frames", "model"];
-  /** Those that workers draw together. */
-  const SHARED = ["mipmaps", "relief", "projector", "frames", "model"];
+  /** Those that take one thread too long, and are drawn by workers together. */
+  const SHARED = ["mipmaps", "relief", "model"];
   const MOST_WORKERS = 8;
   /** The results that are sums over the rows of a picture. */
   const SUMS = { model: [2] };

@@ -132,8 +132,8 @@ impl Request {
 
     /// Whether each of these cameras sees a ground from above, which is drawn for it; all do where there is none.
     pub(super) fn above_ground(&self, staged: &Staged, cameras: &[Camera]) -> Vec<bool> {
-        let Staged { model, swept, options, .. } = staged;
-        match ground::above(model, swept.as_ref(), cameras, options.depth) {
+        let Staged { model, swept, up, options, .. } = staged;
+        match ground::above(model, (swept.as_ref(), *up), cameras, options.depth) {
             Some(above) if self.arguments.render.ground == Some(true) => above,
             _ => vec![true; cameras.len()],
         }
@@ -161,8 +161,8 @@ impl Request {
             return left_out("it with vertex-color, which has no shadows", "another shading");
         }
         let above = self.above_ground(staged, cameras);
-        let Staged { model, swept, options, .. } = staged;
-        if ground::above(model, swept.as_ref(), cameras, options.depth).is_none() {
+        let Staged { model, swept, up, options, .. } = staged;
+        if ground::above(model, (swept.as_ref(), *up), cameras, options.depth).is_none() {
             return left_out(
                 "it under a flat model, beside which there is no shadow",
                 "one that stands on it",
@@ -174,7 +174,7 @@ impl Request {
         let sight = matches!(options.projection, Projection::Perspective).then(|| Sight::of(options));
         let (depth, wrap) = (options.depth, options.wrap);
         let manner = ground::Manner { fixed, sight, affine, depth, wrap, kept };
-        let stood = during(Stage::Shadow, |_| ground::add(model, swept.as_ref(), cameras, manner));
+        let stood = during(Stage::Shadow, |_| ground::add(model, (swept.as_ref(), *up), cameras, manner));
         if stood.is_none() {
             return left_out("a camera below the model's lowest point", "one above the ground");
         }

@@ -64,6 +64,8 @@ pub(super) struct Staged {
     /// The places that the model comes to, if it moves.
     pub(super) swept: Option<Model>,
     pub(super) camera: Camera,
+    /// The world's upward direction, also of a camera that is turned over.
+    pub(super) up: [f32; 3],
     /// The point about which a zoom is, and turns by hand are: the model's middle, or a target that is given.
     pub(super) middle: [f64; 3],
     pub(super) options: RenderOptions,
@@ -201,10 +203,10 @@ impl Request {
             wishes.eye = wishes.eye.or(still.map(|still| still.eye.into()));
         }
         let base = scene.camera.or(orbit).or(still);
-        let up = || wishes.up.map(<[f32; 3]>::from).or(base.map(|base| base.up)).unwrap_or([0.0, 1.0, 0.0]);
+        let up = wishes.up.map(<[f32; 3]>::from).or(base.map(|base| base.up)).unwrap_or([0.0, 1.0, 0.0]);
         let shading = arguments.render.shading.unwrap_or(scene.defaults.0);
         let is_seen = arguments.show.is_none() && shading != Shading::VertexColor;
-        let grounded = (arguments.render.ground == Some(true) && is_seen).then(up);
+        let grounded = (arguments.render.ground == Some(true) && is_seen).then_some(up);
         // A shadow on a floor does not reach beyond it.
         let grounded = grounded.filter(|up| !ground::has_floor(&scene.model, swept.as_ref(), *up));
         let whole = swept.as_mut().unwrap_or(&mut scene.model);
@@ -290,7 +292,7 @@ impl Request {
         }
         let samples = samples(arguments, [width, height])?;
         let backdrop = Backdrop::new(arguments.render.background.as_ref(), &options)?;
-        Ok(Staged { model: scene.model, swept, camera, middle, options, samples, backdrop })
+        Ok(Staged { model: scene.model, swept, camera, up, middle, options, samples, backdrop })
     }
 }
 

@@ -17,6 +17,7 @@ use crate::error::Error;
 use crate::film::Set;
 use crate::load::scene_file::SceneFile;
 use crate::load::{input, seen};
+use crate::options::values::name_of;
 use crate::options::{CameraTable, Projection, ProjectionKind, Samples};
 use crate::output::stats::Source;
 use crate::samples::supersampled_with;
@@ -34,9 +35,9 @@ mod scene;
 mod window;
 
 use keys::{ALL, Action, Cycle, Keeps, Place};
-use line::{Chosen, end_of_options, matches_of, typed, words_of};
+use line::{Chosen, end_of_options, matches_of, typed, unused, words_of};
 use orbit::Orbit;
-use scene::{Kept, Scene};
+use scene::{Kept, Scene, wishes_of};
 
 pub(super) const HELP: &str = "\
 Examples:
@@ -57,6 +58,10 @@ pub(super) fn run(matches: &ArgMatches, words: &[OsString]) -> Result<(), Error>
     let given = Request::given(matches)?.arguments;
     if given.model.as_deref() == Some(Path::new(input::STDIN)) {
         let error = Error::new("standard input", "a file to look at").hint("it is read but once");
+        return Err(error);
+    }
+    if given.render.output.as_deref() == Some(Path::new(input::STDIN)) {
+        let error = Error::new("standard output", "a file for pictures that are kept").place("--output");
         return Err(error);
     }
     let size = Request::read(matches)?.arguments.render.size.map_or(SIZE, |size| [size.0, size.1]);
@@ -177,19 +182,44 @@ impl Viewer {
         self.scene = scene;
     }
 
-    /// Reads all files again.
+    /// Reads all files again. What keys have chosen is let go where the scene cannot have it any more.
     ///
     /// # Errors
     /// One cannot be used; the scene stays as it was.
     fn reload(&mut self) -> Result<(), Error> {
+        let outcome = self.reload_with(self.chosen.clone());
+        let (chosen, time) = (self.chosen.clone(), self.time);
+        let Err(mut error) = outcome else { return Ok(()) };
+        let without = |k: usize| {
+            let kept = chosen.iter().enumerate().filter(|(other, _)| *other != k);
+            kept.map(|(_, option)| *option).collect::<Vec<_>>()
+        };
+        // The time, an option, or all of them.
+        let alone = (0..chosen.len()).map(|k| (time, without(k)));
+        for (time, chosen) in std::iter::once((None, chosen.clone())).chain(alone).chain([(None, Vec::new())])
+        {
+            if (time, &chosen) != (self.time, &self.chosen) {
+                let before = std::mem::replace(&mut self.time, time);
+                match self.reload_with(chosen) {
+                    Ok(()) => return Ok(()),
+                    // The last is that of the files alone.
+                    Err(other) => error = other,
+                }
+                self.time = before;
+            }
+        }
+        Err(error)
+    }
+
+    fn reload_with(&mut self, chosen: Vec<(&'static str, &'static str)>) -> Result<(), Error> {
         seen::begin();
         if let Some(model) = &self.scene.request.arguments.model {
             seen::see(model);
         }
-        let (wishes, request) = self.requests(&self.chosen)?;
+        let (wishes, request) = self.requests(&chosen)?;
         let cast = request.cast().map_err(|error| request.relocate(error))?;
         self.take(Scene::new((wishes, request), &cast, Kept::default())?);
-        self.cast = cast;
+        (self.cast, self.chosen) = (cast, chosen);
         Ok(())
     }
 
@@ -257,7 +287,6 @@ impl Viewer {
         let mut other = Self::new(&[path.into()], self.size)?;
         // Options that the other scene cannot have are left out.
         _ = other.restage(self.chosen.clone(), Keeps { maps: false, shadow: false });
-        other.output = self.output.take();
         *self = other;
         Ok(())
     }
@@ -329,7 +358,9 @@ impl Viewer {
     /// It cannot be written.
     fn keep(&self) -> Result<PathBuf, Error> {
         let mut words = self.all_words();
-        let file = self.output.clone().unwrap_or_else(|| unused(&stem(&self.scene.request)));
+        let format = self.scene.request.arguments.render.output_format;
+        let extension = &*format.map_or("png".to_owned(), name_of);
+        let file = self.output.clone().unwrap_or_else(|| unused(&stem(&self.scene.request), extension));
         if self.output.is_none() {
             let end = end_of_options(&words);
             words.splice(end..end, ["-o".into(), file.clone().into_os_string()]);
@@ -460,19 +491,6 @@ impl Viewer {
         self.moved = Some((camera, pivot));
         Ok(true)
     }
-}
-
-/// The options of a camera that is moved by hand, but for its place. The planes of a scene file are those of its own
-/// camera, and do not count.
-fn wishes_of(request: &Request, matches: &ArgMatches) -> Result<CameraTable, Error> {
-    let CameraTable { near, far, .. } = Request::given(matches)?.arguments.camera;
-    Ok(CameraTable { near, far, ..request.arguments.camera })
-}
-
-/// The first of the pictures `STEM-1.png`, `STEM-2.png` and so on that is not there.
-fn unused(stem: &str) -> PathBuf {
-    let mut names = (1_u32..).map(|k| PathBuf::from(format!("{stem}-{k}.png")));
-    names.find(|name| !name.exists()).unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -75,18 +75,19 @@ pub(crate) struct Manner<'a> {
     pub(crate) kept: &'a [Arc<Image>],
 }
 
-/// Adds a ground at the lowest point of a model, or of all places that it comes to. A floor of its own has the shadow
-/// on it, which goes on beyond. There is none if all of the cameras are below it. Planes of the others that are not
-/// fixed are moved so that all that is in the picture is between them. Where attributes are affine, it is of so many
-/// parts that none shows that. Shadows that are kept of the same model are not looked for again.
+/// Adds a ground at the lowest point of a model, or of all places that it comes to, along the upward direction. A floor
+/// of its own has the shadow on it, which goes on beyond. There is none if all of the cameras are below it. Planes of
+/// the others that are not fixed are moved so that all that is in the picture is between them. Where attributes are
+/// affine, it is of so many parts that none shows that. Shadows that are kept of the same model are not looked for
+/// again.
 pub(crate) fn add(
     model: &mut Model,
-    swept: Option<&Model>,
+    (swept, up): (Option<&Model>, [f32; 3]),
     cameras: &mut [Camera],
     manner: Manner<'_>,
 ) -> Option<Stood> {
     let Manner { fixed, sight, affine, depth, wrap, kept } = manner;
-    let grounds = floor::grounds(model, swept, cameras.first()?.up, depth);
+    let grounds = floor::grounds(model, swept, up, depth);
     let seen = grounds.first()?;
     let corners =
         |ground: &Ground| [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|uv| ground.place(uv));
@@ -143,15 +144,15 @@ fn below(depth: DepthFormat) -> f64 {
     if depth == DepthFormat::U16 { 2e-3 } else { 1e-4 }
 }
 
-/// Whether cameras are above the ground of a model, or of all places that it comes to, which is across the first one's
-/// upward direction. None if there is nothing to stand on it.
+/// Whether cameras are above the ground of a model, or of all places that it comes to, which is across the upward
+/// direction. None if there is nothing to stand on it.
 pub(crate) fn above(
     model: &Model,
-    swept: Option<&Model>,
+    (swept, up): (Option<&Model>, [f32; 3]),
     cameras: &[Camera],
     depth: DepthFormat,
 ) -> Option<Vec<bool>> {
-    let grounds = floor::grounds(model, swept, cameras.first()?.up, depth);
+    let grounds = floor::grounds(model, swept, up, depth);
     let ground = grounds.first()?;
     Some(cameras.iter().map(|camera| ground.is_below(camera)).collect())
 }
@@ -407,7 +408,7 @@ mod tests {
     fn the_ground_is_under_all_and_between_the_planes() {
         let mut model = square(0.5);
         let mut camera = CAMERA;
-        add(&mut model, None, std::slice::from_mut(&mut camera), Manner::default());
+        add(&mut model, (None, CAMERA.up), std::slice::from_mut(&mut camera), Manner::default());
         let part = model.parts.last().expect("a part");
         assert_eq!((model.parts.len(), part.triangles.len(), model.textures.len()), (2, 2, 1));
         let eye = CAMERA.eye.map(f64::from);
@@ -422,7 +423,7 @@ mod tests {
         assert!(crate::scene::normals::cross(sub(b, a), sub(c, a))[1] > 0.0);
         let below = Camera { eye: [3.0, -2.0, 4.0], ..CAMERA };
         let mut model = square(0.5);
-        add(&mut model, None, &mut [below], Manner { affine: true, ..Manner::default() });
+        add(&mut model, (None, CAMERA.up), &mut [below], Manner { affine: true, ..Manner::default() });
         assert_eq!(model.parts.len(), 1);
     }
 
@@ -432,12 +433,12 @@ mod tests {
         // Its picture begins 0.5/sin 61.5° before the eye, 20° off its middle.
         let mut camera = Camera { eye: [0.4, 0.5, 0.4], target: [0.0; 3], near: 0.9, ..CAMERA };
         let manner = Manner { sight: Some(Sight { aspect: 1.0, reach: 1e5 }), ..Manner::default() };
-        add(&mut square(0.5), None, std::slice::from_mut(&mut camera), manner);
+        add(&mut square(0.5), (None, CAMERA.up), std::slice::from_mut(&mut camera), manner);
         assert!(camera.near > 0.5 && camera.near < 0.535, "{camera:?}");
         let mut fixed = Camera { near: 0.3, ..camera };
         add(
             &mut square(0.5),
-            None,
+            (None, CAMERA.up),
             std::slice::from_mut(&mut fixed),
             Manner { fixed: [true, false], ..Manner::default() },
         );
@@ -449,7 +450,7 @@ mod tests {
     fn squares_are_the_ground() {
         let grounds = [false, true].map(|affine| {
             let mut model = square(0.5);
-            add(&mut model, None, &mut [CAMERA], Manner { affine, ..Manner::default() });
+            add(&mut model, (None, CAMERA.up), &mut [CAMERA], Manner { affine, ..Manner::default() });
             model
         });
         let area = |model: &Model| -> f64 {

@@ -405,7 +405,7 @@ several! {
     [0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15], [0 1 2 3 4 5 6 7], [0 1 2 3], of_four
 }
 
-/// The samples that are best in long rows. SSE2 and Neon take pairs for eight, and have no more.
+/// The samples that are best in long rows. SSE2, Neon and WebAssembly take pairs for eight, and have no more.
 macro_rules! floating {
     ($($lanes:ident<$machine:ident>: $wide:ident),+) => {
         $(

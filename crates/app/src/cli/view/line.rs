@@ -1,6 +1,7 @@
 //! Command lines of `render`, as they are made of words, and as a shell takes them.
 
 use std::ffi::{OsStr, OsString};
+use std::path::PathBuf;
 
 use clap::ArgMatches;
 
@@ -61,10 +62,10 @@ const PLACES: [&str; 11] = [
 impl Chosen {
     /// The options of a command line that would contradict what is chosen.
     fn replaced(&self, words: &[OsString]) -> Vec<&'static str> {
+        let mut replaced = vec!["--size"];
         if self.camera.is_some() {
-            return PLACES.to_vec();
+            return [&replaced[..], &PLACES].concat();
         }
-        let mut replaced = Vec::new();
         if self.options.iter().any(|(option, _)| *option == "--view") {
             replaced.extend(["--view", "--azimuth", "--elevation"]);
             if words.iter().any(|word| is_option(word, "--eye")) {
@@ -106,4 +107,10 @@ pub(super) fn matches_of(words: Vec<OsString>) -> Result<ArgMatches, Error> {
     let matches = matches.map_err(|error| Error::new(error.to_string(), "what --help lists"))?;
     let render = matches.subcommand_matches("render").cloned();
     render.ok_or_else(|| Error::new("no command", "render"))
+}
+
+/// The first of the pictures `STEM-1.png`, `STEM-2.png` and so on that is not there.
+pub(super) fn unused(stem: &str, extension: &str) -> PathBuf {
+    let mut names = (1_u32..).map(|k| PathBuf::from(format!("{stem}-{k}.{extension}")));
+    names.find(|name| !name.exists()).unwrap_or_default()
 }

@@ -3,6 +3,8 @@
 use std::rc::Rc;
 use std::sync::Arc;
 
+use clap::ArgMatches;
+
 use crate::cli::request::Request;
 use crate::cli::staged::{Cast, Motion, Staged};
 use crate::draw::Chains;
@@ -73,6 +75,7 @@ impl Scene {
             "--color" => name_of(policies.color),
             "--dither" => name_of(policies.dither),
             "--light-space" => name_of(options.light.space),
+            "--show" => name_of(self.request.arguments.show?),
             "--ground" => self.bare.is_some().to_string(),
             "--projection" => match options.projection {
                 Projection::Parallel { .. } => "parallel".to_owned(),
@@ -81,4 +84,11 @@ impl Scene {
             _ => return None,
         })
     }
+}
+
+/// The options of a camera that is moved by hand, but for its place. The planes of a scene file are those of its own
+/// camera, and do not count.
+pub(super) fn wishes_of(request: &Request, matches: &ArgMatches) -> Result<CameraTable, Error> {
+    let CameraTable { near, far, .. } = Request::given(matches)?.arguments.camera;
+    Ok(CameraTable { near, far, ..request.arguments.camera })
 }

@@ -233,7 +233,7 @@ fn kept_pictures_have_their_command() {
     let stem = folder.path().join("m").to_string_lossy().into_owned();
     for k in 1..4 {
         let name = folder.path().join(format!("m-{k}.png"));
-        assert_eq!(unused(&stem), name);
+        assert_eq!(unused(&stem, "png"), name);
         fs::write(name, "").expect("a file");
     }
 }
@@ -389,4 +389,35 @@ fn shadows_are_kept() {
     viewer.reload().expect("a model");
     assert!(!Arc::ptr_eq(&before[0], &viewer.shadows[0]));
     assert!(viewer.picture(false).expect("a picture").image == rendered(&viewer, folder.path()));
+}
+
+/// Options of keys are let go where an edited scene cannot have them. A file that is dropped has pictures of its own.
+#[test]
+fn scenes_let_go_of_what_they_cannot_have() {
+    let folder = folder();
+    let path = folder.path().join("s.toml");
+    let still = "[[object]]\nname = \"a\"\nmodel = \"m.obj\"\n";
+    let moving = format!(
+        "{still}[[animation]]\nof = \"a\"\nkey = \"position\"\ntimes = [0, 2]\nvalues = [[0, 0, 0], [1, 0, 1]]\n"
+    );
+    fs::write(&path, moving).expect("a scene");
+    let mut viewer = Viewer::new(&[path.clone().into_os_string()], SIZE).expect("a scene");
+    act(&mut viewer, ".i");
+    let broken = still.replace("m.obj", "none.obj");
+    fs::write(&path, broken).expect("a scene");
+    let told = viewer.reload().expect_err("no such model").to_string();
+    assert!(told.contains("none.obj") && viewer.motion().is_some_and(|[_, time]| time > 0.0), "{told}");
+    fs::write(&path, still).expect("a scene");
+    viewer.reload().expect("a scene in which nothing moves");
+    assert!(viewer.motion().is_none() && viewer.options() == ["--interpolation=plane"]);
+    assert!(viewer.picture(false).expect("a picture").image == rendered(&viewer, folder.path()));
+
+    let mut viewer = self::viewer(folder.path(), "-o out.png --size 70x50 --show error");
+    viewer.output = Some("out.png".into());
+    assert_eq!(viewer.first.iter().flatten().filter(|value| *value == "error").count(), 1);
+    viewer.open(folder.path().join("m.obj")).expect("a model");
+    assert_eq!(viewer.output, None);
+    // The size is said once.
+    let words = viewer.all_words();
+    assert_eq!(words.iter().filter(|word| *word == "--size").count(), 1, "{words:?}");
 }

@@ -249,11 +249,8 @@ impl Screen {
         let mut pixels = surface.buffer_mut()?;
         match &self.picture {
             Some(Seen { image, .. }) if [image.width, image.height] == [width, height] => {
-                for (pixel, [red, green, blue, alpha]) in pixels.iter_mut().zip(image.texels.iter().copied())
-                {
-                    // A clear background is black.
-                    let [red, green, blue] = [red, green, blue].map(|c| over(c, alpha));
-                    *pixel = u32::from_be_bytes([0, red, green, blue]);
+                for (k, (pixel, texel)) in pixels.iter_mut().zip(&image.texels).enumerate() {
+                    *pixel = on_board(*texel, [k % image.width as usize, k / image.width as usize]);
                 }
             }
             _ => pixels.fill(0),
@@ -355,9 +352,14 @@ fn wrapped(text: &str, columns: usize) -> Vec<String> {
     lines
 }
 
-/// A colour over black.
-fn over(color: u8, alpha: u8) -> u8 {
-    u8::try_from(u32::from(color) * u32::from(alpha) / 255).unwrap_or(color)
+/// A pixel of the window: a colour over the squares that show through what is transparent.
+fn on_board([red, green, blue, alpha]: [u8; 4], [x, y]: [usize; 2]) -> u32 {
+    let square: u32 = if (x / 8 + y / 8).is_multiple_of(2) { 102 } else { 153 };
+    let over = |color: u8| {
+        let sum = u32::from(color) * u32::from(alpha) + square * u32::from(255 - alpha);
+        u8::try_from(sum / 255).unwrap_or(u8::MAX)
+    };
+    u32::from_be_bytes([0, over(red), over(green), over(blue)])
 }
 
 impl ApplicationHandler for Screen {
@@ -439,7 +441,7 @@ impl ApplicationHandler for Screen {
 
 #[cfg(test)]
 mod tests {
-    use super::wrapped;
+    use super::{on_board, wrapped};
 
     #[test]
     fn lines_end_between_words() {
@@ -447,5 +449,15 @@ mod tests {
         assert_eq!(wrapped("a_word_that_is_long is", 8), ["a_word_t", "hat_is_l", "ong is"]);
         assert_eq!(wrapped("short", 10), ["short"]);
         assert_eq!(wrapped("none", 0), [""; 0]);
+    }
+
+    #[test]
+    fn a_clear_background_shows_squares() {
+        assert_eq!(on_board([1, 2, 3, 255], [5, 9]), 0x0001_0203);
+        assert_eq!(
+            [[0, 7], [8, 15], [9, 7]].map(|at| on_board([0; 4], at)),
+            [0x66_6666, 0x66_6666, 0x99_9999]
+        );
+        assert_eq!(on_board([255, 0, 102, 128], [0, 0]), 0x00b2_3266);
     }
 }

@@ -261,7 +261,9 @@ mod tests {
             far: 6.0,
         };
         let manner = Manner { depth: DepthFormat::None, ..Manner::default() };
-        assert!(add(&mut model, None, std::slice::from_mut(&mut camera), manner).is_some());
+        assert!(
+            add(&mut model, (None, [0.0, 1.0, 0.0]), std::slice::from_mut(&mut camera), manner).is_some()
+        );
         let names: Vec<&str> = model.parts.iter().map(|part| &*part.name).collect();
         assert_eq!(names, ["ground", "", "ground", ""]);
         // Around the floor it is below that, and between the planes.

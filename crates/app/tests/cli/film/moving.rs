@@ -298,3 +298,25 @@ fn assets_of_what_moves_are_told() {
         assert!(!format!("{}{}", still.stdout, still.stderr).contains("moves"), "{still:?}");
     }
 }
+
+/// A film in which something moves, by no way at all, about an axis that is not the upward one: its ground is that of
+/// the still scene.
+#[test]
+fn grounds_stay_below_while_the_camera_turns_over() {
+    let folder = super::folder();
+    let still = "[[object]]\nname = \"a\"\nmodel = \"m.obj\"\n";
+    let moving =
+        "[[animation]]\nof = \"a\"\nkey = \"position\"\ntimes = [0, 1]\nvalues = [[0, 0, 0], [0, 0, 0]]\n";
+    fs::write(folder.path("still.toml"), still).expect("a scene");
+    fs::write(folder.path("moving.toml"), format!("{still}{moving}")).expect("a scene");
+    let line = "--eye 2,1.5,3 --target 0,0.5,0 --size 40x30 --frames 6 --degrees 360 --axis z --ground";
+    let said = ["still", "moving"].map(|name| {
+        let said = run(&folder, &format!("turntable {name}.toml {line} -o {name}-%d.png")).stderr;
+        said.lines().filter(|line| line.contains("below")).map(str::to_owned).collect::<Vec<_>>()
+    });
+    assert!(!said[0].is_empty() && said[0] == said[1], "{said:?}");
+    for frame in 0..6 {
+        let [a, b] = ["still", "moving"].map(|name| picture(&folder, &format!("{name}-{frame}.png")));
+        assert!(a == b, "{frame}");
+    }
+}
