@@ -50,7 +50,7 @@ pub fn bounding_sphere(model: &Model) -> Sphere {
 /// The camera of these options. Parts that they leave open come from `base`, a scene's own camera. Without it the
 /// silhouette of the model fills the picture of `aspect` (width to height). It is seen from the front, the right and
 /// above, or from where the options say. Near and far enclose the ball as seen from the eye that results,
-/// unless eye, target and base leave them as they were made. [`clear`] moves near for an eye within the ball.
+/// unless eye, target and base leave them as they were made. `clear` moves near for an eye within the ball.
 ///
 /// # Errors
 /// The first of these that does not hold, with the option that sets it:
