@@ -349,7 +349,7 @@ const Stations = (() => {
       readout: [
         ["Vertices", number(r[0], 8)],
         ["Triangles", number(r[1], 8)],
-        ["Pixels drawn", number(r[2], 8)],
+        ["Fragments", number(r[2], 8)],
         ["Texture coordinates", r[3] > 0.5 ? "yes" : "none"],
       ],
       outputs: { 2: fixed(p[2]), 3: fixed(p[3], 1) },
