@@ -9,7 +9,7 @@ use alberti::ViewError;
 use fit::{Lens, fit};
 
 pub(crate) use planes::clear;
-pub(crate) use pyramid::{Pyramid, Sight};
+pub(crate) use pyramid::{Pyramid, Sight, within};
 pub(crate) use turns::{Turn, fitted_at_all_times, turned};
 
 mod fit;

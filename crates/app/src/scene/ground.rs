@@ -51,6 +51,8 @@ struct Ground {
     on_floor: bool,
     /// Whether it is all around, and not on the floor alone.
     goes_on: bool,
+    /// Whether nothing on it throws a shadow.
+    is_flat: bool,
     /// How high the model is above it.
     height: f64,
     /// How far away the model still darkens it.
@@ -162,18 +164,6 @@ pub(crate) fn has_floor(model: &Model, swept: Option<&Model>, up: [f32; 3]) -> b
     floor::grounds(model, swept, up, DepthFormat::default()).iter().any(|ground| ground.on_floor)
 }
 
-/// The least and the greatest coordinates of what is drawn.
-fn bounds(model: &Model) -> [[f64; 3]; 2] {
-    let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
-    for place in places(model) {
-        for axis in 0..3 {
-            bounds[0][axis] = bounds[0][axis].min(place[axis]);
-            bounds[1][axis] = bounds[1][axis].max(place[axis]);
-        }
-    }
-    bounds
-}
-
 /// Places, and triangles of these.
 type Surface = (Vec<[f64; 3]>, Vec<[u32; 3]>);
 
@@ -187,17 +177,20 @@ impl Ground {
     /// The ground that many radii below a model.
     fn of(model: &Model, upwards: [f32; 3], below: f64) -> Option<Self> {
         let up = (0..3).max_by(|&a, &b| upwards[a].abs().total_cmp(&upwards[b].abs()))?;
-        let sign = f64::from(upwards[up].signum());
-        let [least, most] = bounds(model);
+        Self::under(floor::bounds(places(model)), (up, f64::from(upwards[up].signum())), below)
+    }
+
+    /// That of things between these least and greatest coordinates, along an axis and its sign.
+    fn under([least, most]: [[f64; 3]; 2], (up, sign): (usize, f64), below: f64) -> Option<Self> {
         let size = sub(most, least);
         let radius = dot(size, size).sqrt() / 2.0;
-        if !(size[up] > FLAT * radius && radius.is_finite()) {
+        if !(radius > 0.0 && radius.is_finite()) {
             return None;
         }
         // Just below, so that what stands on it hides it.
         let low = if sign > 0.0 { least[up] } else { most[up] } - sign * below * radius;
         let axes = others(up);
-        let reach = (RIM * radius).min(SLANT * size[up]);
+        let reach = (RIM * radius).min(SLANT * size[up]).max(1e-3 * radius);
         let side = size[axes[0]].max(size[axes[1]]) + 2.0 * reach;
         let corner = axes.map(|axis| f64::midpoint(least[axis], most[axis]) - side / 2.0);
         let [least, most] = CELLS;
@@ -207,8 +200,10 @@ impl Ground {
         let height = size[up] + below * radius;
         let near = 4.0 * below.abs() * radius;
         let cells = cells.unwrap_or(most);
+        let is_flat = size[up] <= FLAT * radius;
         let up = (up, sign);
-        Some(Self { up, corner, side, low, near, on_floor: false, goes_on: true, height, reach, cells })
+        let (on_floor, goes_on) = (false, true);
+        Some(Self { up, corner, side, low, near, on_floor, goes_on, is_flat, height, reach, cells })
     }
 
     /// Puts a part with its shadow into a model, whose last texture that is: at this place among the parts, or behind

@@ -269,6 +269,14 @@ fn attributes_colours_and_levels_are_told() {
     has(&constant, "colour maps: they change no pixel; to take each one's mean colour instead saves", true);
     // 64 x 64 texels of four bytes on the host, and of two in flash.
     has(&constant, "16 KB of memory", true);
+    // Of a small thing the pattern is seen, however little of the picture it is; of one that is a few pixels it is not.
+    let halves =
+        image::RgbaImage::from_fn(64, 64, |x, _| image::Rgba([if x < 32 { 250 } else { 5 }, 90, 90, 255]));
+    halves.save(folder.path("halves.png")).expect("a texture");
+    let small = wastes(&["--texture", "halves.png", "--zoom", "0.06", "--size", "640x480"]);
+    has(&small, "colour maps: nobody sees them", false);
+    let tiny = wastes(&["--texture", "halves.png", "--zoom", "0.01", "--size", "640x480"]);
+    has(&tiny, "colour maps: nobody sees them", true);
     let on_chip = wastes(&["--texture", "white.png", "--size", "160x120", "--target", "m4f"]);
     has(&on_chip, "instead saves 8192 bytes of flash", true);
 }

@@ -14,6 +14,10 @@ use std::time::Instant;
 /// The mean FLIP below which nobody tells two pictures apart.
 const INVISIBLE: f64 = 0.002;
 
+/// The FLIP of a pixel above which it looks another, and the number of pixels of which one may.
+const SEEN: f32 = 0.1;
+const FEW: usize = 5000;
+
 /// A picture and the milliseconds that it took.
 type Drawn = (Image, f64);
 
@@ -136,10 +140,11 @@ impl<'a> Look<'a> {
 
     /// The change of the picture in words, if it is none that anybody sees.
     fn seen(&self, (picture, _): &Drawn) -> Result<Option<String>, Error> {
-        let change = Comparison::new(picture, &self.whole.0)?.measures;
-        Ok(match (change.largest, change.flip) {
-            (0, _) => Some("they change no pixel".to_owned()),
-            (_, flip) if flip < INVISIBLE => Some(format!("nobody sees them (mean FLIP {flip:.4})")),
+        let change = Comparison::new(picture, &self.whole.0)?;
+        let flip = change.measures.flip;
+        Ok(match change.measures.largest {
+            0 => Some("they change no pixel".to_owned()),
+            _ if is_unseen(&change) => Some(format!("nobody sees them (mean FLIP {flip:.4})")),
             _ => None,
         })
     }
@@ -192,10 +197,17 @@ impl<'a> Look<'a> {
     /// The mean FLIP of textures that are read so, and what that saves, if nobody sees it.
     fn reads_as_well(&self, other: &RenderOptions) -> Result<Option<(f64, String)>, Error> {
         let drawn = draw(self.model, self.camera, other)?;
-        let flip = Comparison::new(&drawn.0, &self.whole.0)?.measures.flip;
+        let change = Comparison::new(&drawn.0, &self.whole.0)?;
         let saved = self.bill.reading(self.whole.1 - drawn.1, self.options, other);
-        Ok((flip < INVISIBLE).then(|| (flip, self.bill.saves(saved))))
+        Ok(is_unseen(&change).then(|| (change.measures.flip, self.bill.saves(saved))))
     }
+}
+
+/// Whether a picture looks like another: all in all, and in its parts, as small as they may be.
+fn is_unseen(change: &Comparison) -> bool {
+    let seen = change.flip.iter().filter(|flip| **flip > SEEN).count();
+    let most = change.flip.len() / FEW;
+    change.measures.flip < INVISIBLE && seen <= most
 }
 
 /// The mean colour of an image, by bytes, as a mip map has it.

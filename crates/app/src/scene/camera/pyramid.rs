@@ -105,7 +105,7 @@ fn is_edge_on([a, b, c]: &[[f64; 3]; 3]) -> bool {
 }
 
 /// The part of a polygon where a linear function is at least 0 (Sutherland and Hodgman 1974).
-fn within(places: &[[f64; 3]], function: impl Fn(&[f64; 3]) -> f64) -> Vec<[f64; 3]> {
+pub(crate) fn within(places: &[[f64; 3]], function: impl Fn(&[f64; 3]) -> f64) -> Vec<[f64; 3]> {
     let mut kept = Vec::with_capacity(places.len() + 1);
     for (k, here) in places.iter().enumerate() {
         let next = &places[(k + 1) % places.len()];

@@ -1,7 +1,8 @@
 //! A floor of the model's own, on which a shadow lies instead of on a ground.
 
-use super::{Ground, Model, below, bounds, others};
+use super::{Ground, Model, below, others};
 use crate::options::DepthFormat;
+use crate::scene::camera::within;
 use crate::scene::{Part, Vertex};
 use alberti::texture::surface::Subdivision;
 
@@ -11,6 +12,9 @@ const DIP: f64 = 0.25;
 /// The share of a model's extent that a floor has at least, and that of a floor which all below it has at most.
 const LARGE: f64 = 0.25;
 const LITTLE: f64 = 0.5;
+
+/// The share of a model's side within which faces are at the same height, whatever the sizes of things.
+const EXACT: f64 = 1e-6;
 
 /// The grounds of a model, or of all places that it comes to, the upper one first. It is just over a floor of the
 /// model's own, if it has one, and just below the lowest point otherwise. Where things beside the floor reach below it,
@@ -24,16 +28,12 @@ pub(super) fn grounds(
     let whole = swept.unwrap_or(model);
     let Some(ground) = Ground::of(whole, upwards, below(depth)) else { return Vec::new() };
     let [a, b] = others(ground.up.0);
-    let [least, most] = bounds(whole);
+    let [least, most] = bounds(super::places(whole));
     let extent = (most[a] - least[a]) * (most[b] - least[b]);
-    let Some((height, [low, high])) = found(model, &ground, extent) else { return vec![ground] };
-    // As far over the floor as the other is below the lowest point.
-    let on_floor = Ground {
-        low: ground.low + ground.up.1 * (height + ground.near / 4.0),
-        height: (ground.height - height).max(ground.near),
-        on_floor: true,
-        ..ground
+    let Some((height, [low, high])) = found(model, &ground, extent) else {
+        return if ground.is_flat { Vec::new() } else { vec![ground] };
     };
+    let Some(on_floor) = of_things(whole, &ground, height, depth) else { return Vec::new() };
     let is_deep = |place: &[f64; 3]| ground.up.1 * (place[ground.up.0] - ground.low) < height - ground.near;
     let is_beside = |place: &[f64; 3]| {
         let beside =
@@ -44,6 +44,22 @@ pub(super) fn grounds(
         return vec![Ground { goes_on: false, ..on_floor }, ground];
     }
     vec![on_floor]
+}
+
+/// The ground of a floor at a height over another, for the things that stand there: as large as their shadow, however
+/// far the floor goes on. It is as far over the floor as the other is below the lowest point, in their own sizes.
+fn of_things(model: &Model, ground: &Ground, height: f64, depth: DepthFormat) -> Option<Ground> {
+    let (up, sign) = ground.up;
+    let level = ground.low + sign * height;
+    let exact = EXACT * ground.side;
+    let is_over = |v: &&Vertex| sign * (f64::from(v.position[up]) - level) > exact;
+    let triangles = model.parts.iter().flat_map(|part| &part.triangles);
+    let things =
+        triangles.filter_map(|triangle| corners(model, triangle)).filter(|all| all.iter().any(is_over));
+    let mut bounds = bounds(things.flatten().map(|v| v.position.map(f64::from)));
+    bounds[usize::from(sign < 0.0)][up] = level;
+    let things = Ground::under(bounds, ground.up, -below(depth)).filter(|things| !things.is_flat)?;
+    Some(Ground { near: things.near.max(exact), on_floor: true, ..things })
 }
 
 /// How high a floor is over a ground, and the corners of it along the other axes. It is the lowest level of faces that
@@ -65,10 +81,12 @@ fn found(model: &Model, ground: &Ground, extent: f64) -> Option<(f64, [[f64; 2];
         let [x, y, z] = corners.map(over);
         [x.min(y).min(z), x.max(y).max(z)]
     };
+    // The ground is so far below the lowest point.
+    let offset = ground.near / 4.0;
     let level = |all: [&Vertex; 3]| {
         let [least, most] = range(all);
         let is_level = most - least < ground.near && all.iter().all(|v| looks_up(v, ground));
-        (is_level && least < DIP * ground.height).then(|| (least, plan(all)))
+        (is_level && least - offset < DIP * (ground.height - offset)).then(|| (least, plan(all)))
     };
     let mut levels: Vec<(f64, f64)> = triangles().filter_map(level).collect();
     levels.sort_by(|one, other| one.0.total_cmp(&other.0));
@@ -95,6 +113,18 @@ fn found(model: &Model, ground: &Ground, extent: f64) -> Option<(f64, [[f64; 2];
         }
     }
     None
+}
+
+/// The least and the greatest coordinates of places.
+pub(super) fn bounds(places: impl Iterator<Item = [f64; 3]>) -> [[f64; 3]; 2] {
+    let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+    for place in places {
+        for axis in 0..3 {
+            bounds[0][axis] = bounds[0][axis].min(place[axis]);
+            bounds[1][axis] = bounds[1][axis].max(place[axis]);
+        }
+    }
+    bounds
 }
 
 fn looks_up(v: &Vertex, ground: &Ground) -> bool {
@@ -131,8 +161,19 @@ pub(super) fn places(model: &Model, ground: &Ground, squares: u16) -> Vec<[f64; 
         place[ground.up.0] = ground.low;
         place
     };
-    let floor: Vec<[[f64; 3]; 3]> =
-        triangles.filter_map(|triangle| Some(floor_of(model, ground, triangle)?.map(moved))).collect();
+    let [a, b] = others(ground.up.0);
+    // As far as the ground goes.
+    let around = |triangle: [[f64; 3]; 3]| {
+        let mut places = triangle.to_vec();
+        for (axis, low) in [a, b].into_iter().zip(ground.corner) {
+            places = within(&places, |place| place[axis] - low);
+            places = within(&places, |place| low + ground.side - place[axis]);
+        }
+        let fan = (2..places.len()).map(|k| [places[0], places[k - 1], places[k]]);
+        fan.collect::<Vec<_>>()
+    };
+    let floor = triangles.filter_map(|triangle| Some(floor_of(model, ground, triangle)?.map(moved)));
+    let floor: Vec<[[f64; 3]; 3]> = floor.flat_map(around).collect();
     let wanted = 2 * usize::from(squares).pow(2) / floor.len().max(1);
     let parts = Subdivision::new(u32::try_from(wanted.isqrt()).unwrap_or(1));
     let mut places = Vec::new();
@@ -150,6 +191,7 @@ pub(super) fn places(model: &Model, ground: &Ground, squares: u16) -> Vec<[f64; 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::options::Wrap;
     use crate::scene::Camera;
     use crate::scene::ground::{Manner, add};
     use crate::scene::normals::sub;
@@ -180,7 +222,7 @@ mod tests {
         let side = ground.cells as usize / 2;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 255")]
         let (column, row) = (column as usize / 2, row as usize / 2);
-        ground.shadow(model, Default::default())[(side - 1 - row) * side + column]
+        ground.shadow(model, Wrap::default())[(side - 1 - row) * side + column]
     }
 
     /// A plate over a floor darkens it where it is above, as it does a ground.
@@ -250,7 +292,7 @@ mod tests {
     /// Without a depth buffer it is drawn after the floor, and before what stands on it.
     #[test]
     fn a_shadow_is_drawn_after_its_floor() {
-        let mut model = squares(&[(1.0, 0.0), (0.3, 0.2)]);
+        let mut model = squares(&[(1.0, 0.0), (0.9, 0.2)]);
         let mut camera = Camera {
             eye: [3.0, 2.0, 4.0],
             target: [0.0; 3],
@@ -285,7 +327,7 @@ mod tests {
     /// Parts of a floor are as large as all of it, and lie where it does.
     #[test]
     fn a_floor_in_parts_is_the_floor() {
-        let model = squares(&[(1.0, 0.0), (0.3, 0.2)]);
+        let model = squares(&[(1.0, 0.0), (0.9, 0.2)]);
         let ground = first(&model, None);
         let area = |places: &[[f64; 3]]| -> f64 {
             let triangles = places.as_chunks::<3>().0.iter();
@@ -298,5 +340,28 @@ mod tests {
         assert!(
             many.iter().all(|[x, y, z]| x.abs().max(z.abs()) <= 1.0 + 1e-6 && (y - ground.low).abs() < 1e-9)
         );
+    }
+    /// However large a floor is, the shadow is that of what stands there, on as much of the floor.
+    #[test]
+    fn a_floor_as_large_as_may_be_has_the_shadow_of_its_things() {
+        let near = squares(&[(1.0, 0.0), (0.3, 0.2)]);
+        let ground = first(&near, None);
+        for half in [20.0, 500.0, 1e4] {
+            let far = squares(&[(half, 0.0), (0.3, 0.2)]);
+            let other = first(&far, None);
+            let off =
+                [(ground.side, other.side), (ground.low, other.low), (ground.corner[0], other.corner[0])];
+            assert!(off.iter().all(|(a, b)| (a - b).abs() < 1e-9), "{half}: {other:?}");
+            assert_eq!(ground.shadow(&near, Wrap::Repeat), other.shadow(&far, Wrap::Repeat));
+            let area: f64 = places(&far, &other, 1)
+                .as_chunks::<3>()
+                .0
+                .iter()
+                .map(|[a, b, c]| crate::scene::normals::cross(sub(*b, *a), sub(*c, *a))[1].abs() / 2.0)
+                .sum();
+            assert!((area / ground.side.powi(2) - 1.0).abs() < 1e-6, "{half}: {area}");
+        }
+        // Without things there is none.
+        assert!(grounds(&squares(&[(1.0, 0.0)]), None, [0.0, 1.0, 0.0], DepthFormat::F32).is_empty());
     }
 }

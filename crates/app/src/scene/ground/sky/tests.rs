@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 const GROUND: Ground = Ground {
     goes_on: true,
+    is_flat: false,
     up: (1, 1.0),
     corner: [-2.0, -2.0],
     side: 4.0,
