@@ -70,7 +70,7 @@ pub(crate) fn check() -> Outcome {
 
     let mut running = Running(Vec::new());
     let mut server = Command::new("Xvfb");
-    server.args(["-displayfd", "1", "-screen", "0", "800x600x24"]).stderr(Stdio::null());
+    server.args(["-displayfd", "1", "-screen", "0", "2000x1400x24"]).stderr(Stdio::null());
     let mut server = server.stdout(Stdio::piped()).spawn().map_err(|error| format!("Xvfb: {error}"))?;
     let told = server.stdout.take().ok_or("Xvfb has no output")?;
     running.0.push(server);
@@ -78,13 +78,17 @@ pub(crate) fn check() -> Outcome {
     BufReader::new(told).read_line(&mut number).map_err(failed)?;
     let display = format!(":{}", number.trim());
 
-    let mut view = Command::new(&program);
-    view.current_dir(&folder).env("DISPLAY", &display).env_remove("WAYLAND_DISPLAY");
-    view.arg("view").args(SCENE).stdout(fs::File::create(folder.join("told")).map_err(failed)?);
-    running.0.push(view.spawn().map_err(|error| format!("{}: {error}", program.display()))?);
-    let screen = Screen::new(display)?;
     // Text off: then all that is seen is the picture.
-    screen.press("Tab")?;
+    let open = |words: &[&str], scale: &str, running: &mut Running| {
+        let mut view = Command::new(&program);
+        view.current_dir(&folder).env("DISPLAY", &display).env_remove("WAYLAND_DISPLAY");
+        view.env("WINIT_X11_SCALE_FACTOR", scale);
+        view.arg("view").args(words).stdout(fs::File::create(folder.join("told")).map_err(failed)?);
+        running.0.push(view.spawn().map_err(|error| format!("{}: {error}", program.display()))?);
+        let screen = Screen::new(display.clone())?;
+        screen.press("Tab").map(|()| screen)
+    };
+    let screen = open(&SCENE, "1", &mut running)?;
 
     let drawn = |words: &[&str], name: &str| {
         let mut render = Command::new(&program);
@@ -131,6 +135,10 @@ pub(crate) fn check() -> Outcome {
             None => sleep(Duration::from_millis(20)),
         }
     }
+    // A window without a size of its own is as large as others on a display with small pixels.
+    let screen = open(&SCENE[..2], "2", &mut running)?;
+    let large = [&SCENE[..2], &["--size", "1920x1280"]].concat();
+    screen.wait_for("the picture of twice its size", &drawn(&large, "large.png")?)?;
     println!("a window, {} keys, the mouse, and its picture kept: all as `render` draws it", KEYS.len());
     Ok(())
 }

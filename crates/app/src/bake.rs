@@ -122,6 +122,21 @@ impl Asked {
         ("color", Attributes::COLOR),
     ];
     const EXPECTED: &str = "auto, none, or some of uv,normal,tangent,color";
+
+    /// The attributes of a file.
+    fn of(self, model: &Model, options: &RenderOptions) -> Attributes {
+        match self {
+            Self::Auto => used(model, options),
+            Self::These(attributes) => attributes,
+        }
+    }
+
+    /// The words that ask for some.
+    fn names(attributes: Attributes) -> String {
+        let all = Self::NAMES.into_iter();
+        let asked = all.filter(|&(_, one)| one != Attributes::NONE && attributes.contains(one));
+        asked.map(|(name, _)| name).collect::<Vec<_>>().join(",")
+    }
 }
 
 impl FromStr for Asked {
@@ -221,10 +236,7 @@ pub fn bake(
     options: &RenderOptions,
     wish: &Wish,
 ) -> Result<Asset, Error> {
-    let attributes = match wish.attributes {
-        Asked::Auto => used(model, options),
-        Asked::These(attributes) => attributes,
-    };
+    let attributes = wish.attributes.of(model, options);
     let mut model = Cow::Borrowed(model);
     if attributes.contains(Attributes::TANGENT) {
         tangents::complete(model.to_mut(), |_| true);

@@ -13,6 +13,7 @@ use std::num::NonZero;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError, mpsc};
 use std::thread::{self, Builder};
+use std::time::{Duration, Instant};
 
 use crate::draw::Chains;
 use crate::error::Error;
@@ -35,6 +36,15 @@ pub(crate) struct Set<'a> {
     pub(crate) backdrop: &'a Backdrop,
 }
 
+/// Sums over the frames of a film.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Drawn {
+    /// The time of all threads together.
+    pub(crate) work: Duration,
+    /// Frames in which nothing of the model is.
+    pub(crate) empty: usize,
+}
+
 /// The rest of a frame.
 pub(crate) struct Shot<'a> {
     pub(crate) model: Cow<'a, Model>,
@@ -53,16 +63,23 @@ impl<'a> Set<'a> {
         count: usize,
         shot: &(dyn Fn(usize) -> Result<Shot<'a>, Error> + Sync),
         take: &mut dyn FnMut(usize, Image) -> Result<(), Error>,
-    ) -> Result<(), Error> {
+    ) -> Result<Drawn, Error> {
         let chains = Arc::new(Chains::new(self.model, self.options)?);
         let alone = RenderOptions { threads: NonZero::<usize>::MIN, ..*self.options };
         let threads = self.options.threads.get().min(count).max(1);
         let next = AtomicUsize::new(0);
         let (handed, more) = (Mutex::new(0), Condvar::new());
+        let sums = Mutex::new(Drawn::default());
         let drawn = |number: usize| {
+            let begin = Instant::now();
             let Shot { model, camera, projection } = shot(number)?;
-            let (options, samples) = (RenderOptions { projection, ..alone }, self.samples);
-            supersampled_with(&chains, (&model, &camera), &options, samples, self.backdrop, &mut |_, _| ())
+            let (options, of) = (RenderOptions { projection, ..alone }, (&*model, &camera));
+            let picture =
+                supersampled_with(&chains, of, &options, self.samples, self.backdrop, &mut |_, _| ())?;
+            let mut sums = sums.lock().unwrap_or_else(PoisonError::into_inner);
+            sums.work += begin.elapsed();
+            sums.empty += usize::from(picture.stats.written == 0);
+            Ok(picture)
         };
         let frames = |hand: &mut dyn FnMut(usize, Result<Picture, Error>) -> bool| {
             loop {
@@ -81,7 +98,7 @@ impl<'a> Set<'a> {
             more.notify_all();
         };
         let (done, arrived) = mpsc::sync_channel(threads);
-        thread::scope(|scope| {
+        let outcome = thread::scope(|scope| {
             let work = |done: mpsc::SyncSender<_>| {
                 frames(&mut |number, drawn| done.send((number, drawn)).is_ok());
             };
@@ -118,7 +135,8 @@ impl<'a> Set<'a> {
             drop(arrived);
             hand_on(usize::MAX);
             outcome
-        })
+        });
+        outcome.map(|()| sums.into_inner().unwrap_or_else(PoisonError::into_inner))
     }
 
     /// The model before a camera, with what is seen through in its order.

@@ -6,7 +6,7 @@ use super::report::named;
 use super::{Asked, Asset};
 use crate::error::counted;
 use crate::error::{Error, number};
-use crate::options::{RenderOptions, Shading};
+use crate::options::RenderOptions;
 use crate::scene::{Detail, Light, Model, Part};
 use alberti::baked::Attributes;
 use alberti::raster::color::AnyBlend;
@@ -29,11 +29,15 @@ pub fn missing(model: &Model, options: &RenderOptions, asked: Asked, moves: bool
         let error = Error::new("uv of a model without texture coordinates", "one that has some");
         all.push(error.place("--attributes").hint("all are 0"));
     }
+    let all_colored = asked.of(model, options) | Attributes::COLOR;
+    let no_colors =
+        format!("no colours of vertices without `bake --attributes {}`", Asked::names(all_colored));
     for part in model.parts.iter().filter(|part| !part.triangles.is_empty()) {
         let of = named(part);
-        let loses_colors = part.detail.carries_colors() && !kept_colors(options, asked);
+        let loses_colors =
+            part.detail.carries_colors() && !asked.of(model, options).contains(Attributes::COLOR);
         let things = [
-            (loses_colors, "that colours of its vertices multiply", "one without", "no colours of vertices"),
+            (loses_colors, "that colours of its vertices multiply", "one without", &*no_colors),
             (part.detail.blend != AnyBlend::Replace, "that is blended", "an opaque one", "no blend"),
             (part.detail.alpha_test > 0, "that has holes", "one without", "no alpha test"),
         ];
@@ -82,14 +86,6 @@ pub fn left_out(model: &Model, asset: &Asset) -> Option<Error> {
     let parts = counted(asset.lost_parts.len(), "part", "parts");
     let found = format!("{parts} without an area in steps of {unit}, from part {first}{of} on");
     Some(Error::new(found, "larger triangles, or a smaller model").hint("the file has none of these"))
-}
-
-/// Whether vertices have their colours in the file.
-fn kept_colors(options: &RenderOptions, asked: Asked) -> bool {
-    match asked {
-        Asked::Auto => options.shading == Shading::VertexColor,
-        Asked::These(attributes) => attributes.contains(Attributes::COLOR),
-    }
 }
 
 /// The model without them, as the file with these attributes has it: nothing is seen through its surfaces.

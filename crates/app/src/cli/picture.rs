@@ -20,6 +20,9 @@ use crate::scene::{Camera, Image};
 use alberti::Stats;
 use std::sync::Arc;
 
+/// Words of warnings that say why nothing is in a picture.
+const WHY_NOTHING: [&str; 2] = ["there is nothing to see", "a camera that looks away from the model"];
+
 /// Bytes a pixel to encode: the colours, and twice as many where nothing is packed and the list has grown by halves.
 const ENCODED: u64 = 9;
 /// The same of numbers beside the picture: those of all pixels, and of a file at a time.
@@ -107,7 +110,9 @@ impl Request {
 
     /// Warns of a picture in which nothing of the model is seen, and why.
     pub(super) fn warn_of_nothing(&self, stats: &Stats, (camera, cull): (&Camera, Cull)) {
-        if stats.written > 0 || !told().is_empty() || self.arguments.show.is_some() {
+        // Other warnings have said why.
+        let is_why = |line: &String| WHY_NOTHING.iter().any(|why| line.contains(why));
+        if stats.written > 0 || self.arguments.show.is_some() || told().iter().any(is_why) {
             return;
         }
         let hint = if camera.near > 0.0 && camera.near < 1e-7 * camera.far {

@@ -20,7 +20,7 @@ use crate::output::stage::{Stage, during};
 use crate::scene::backdrop::Backdrop;
 use crate::scene::camera::Sight;
 use crate::scene::normals::narrow;
-use crate::scene::swept::Swept;
+use crate::scene::swept::{Reached, Swept};
 use crate::scene::{Camera, Image, Model, Part, Relief, camera, ground, order, scenes, slide};
 use crate::threads::available;
 
@@ -44,7 +44,7 @@ enum Loaded {
 #[derive(Default)]
 pub(super) struct Motion {
     /// The places that things come to.
-    swept: Swept,
+    pub(super) swept: Swept,
     /// The camera at the start, without its zoom, and the point that it is counted from.
     still: Option<(Camera, [f64; 3])>,
 }
@@ -62,7 +62,7 @@ impl Motion {
 pub(super) struct Staged {
     pub(super) model: Model,
     /// The places that the model comes to, if it moves.
-    pub(super) swept: Option<Model>,
+    pub(super) swept: Option<Reached>,
     pub(super) camera: Camera,
     /// The world's upward direction, also of a camera that is turned over.
     pub(super) up: [f32; 3],
@@ -95,10 +95,9 @@ impl Request {
     pub(super) fn motion(&self, cast: &Cast) -> Result<Option<Motion>, Error> {
         let Some(first) = self.moments.first() else { return Ok(None) };
         let mut motion = Motion::default();
-        for moment in &self.moments {
-            if let (Loaded::Objects(gathered), Some(file)) = (cast.scene.clone(), &moment.file) {
-                motion.swept.add(&file.build(gathered)?);
-            }
+        if let Loaded::Objects(gathered) = &cast.scene {
+            let moments = self.moments.iter().filter_map(|moment| moment.file.as_ref());
+            motion.swept = SceneFile::swept(gathered, moments);
         }
         let Staged { camera, middle, model, options, .. } = first.stage_with(cast.clone(), Some(&motion))?;
         let mut camera = camera::unzoomed(&camera, middle, first.arguments.camera.zoom());
@@ -115,7 +114,7 @@ impl Request {
                 .iter()
                 .all(|moment| moment.arguments.camera.eye.is_none() && moment.orbit.is_none())
         {
-            let whole = motion.swept.model(model.origin);
+            let whole = motion.swept.counted_from(model.origin).whole;
             let ball = camera::bounding_sphere(&whole);
             let aspect = f64::from(options.width) / f64::from(options.height);
             let views = self.moments.iter().map(|moment| {
@@ -192,8 +191,8 @@ impl Request {
         scene.model.slide = slide::load(&arguments.projector, slide, origin)?;
 
         let Size(width, height) = arguments.render.size.unwrap_or(DEFAULT_SIZE);
-        let mut swept = motion.map(|motion| motion.swept.model(origin));
-        let ball = camera::bounding_sphere(swept.as_ref().unwrap_or(&scene.model));
+        let mut swept = motion.map(|motion| motion.swept.counted_from(origin));
+        let ball = camera::bounding_sphere(swept.as_ref().map_or(&scene.model, |swept| &swept.whole));
         let aspect = f64::from(width) / f64::from(height);
         let mut wishes = arguments.camera.counted_from(origin);
         let orbit = self.orbit.map(|table| camera::orbit(&table.counted_from(origin), ball));
@@ -209,12 +208,17 @@ impl Request {
         let grounded = (arguments.render.ground == Some(true) && is_seen).then_some(up);
         // A shadow on a floor does not reach beyond it.
         let grounded = grounded.filter(|up| !ground::has_floor(&scene.model, swept.as_ref(), *up));
-        let whole = swept.as_mut().unwrap_or(&mut scene.model);
+        let whole = swept.as_mut().map_or(&mut scene.model, |swept| &mut swept.whole);
         let camera = ground::in_view(whole, grounded, |model| {
             camera::frame(&wishes, base.as_ref(), (model, ball), aspect)
         })?;
         let middle = if is_free { ball.center } else { camera.target.map(f64::from) };
         let mut camera = camera::zoomed_about(&camera, middle, wishes.zoom());
+        // All places are in view, and planes are around what is there.
+        if swept.is_some() {
+            let now = camera::bounding_sphere(&scene.model);
+            camera = camera::planed(camera, &wishes, base.as_ref(), (&scene.model, now))?;
+        }
         order::back_to_front(&mut scene.model, &camera);
         if camera::is_behind(&camera, ball) {
             let error = Error::new("a camera that looks away from the model", "the model in view");
@@ -262,9 +266,8 @@ impl Request {
             threads: threads(arguments),
             policies,
         };
-        let whole = swept.as_ref().unwrap_or(&scene.model);
-        if let Some(nearest) = camera::clear(&mut camera, whole, &wishes, base.as_ref(), Sight::of(&options))
-        {
+        let sight = Sight::of(&options);
+        if let Some(nearest) = camera::clear(&mut camera, &scene.model, &wishes, base.as_ref(), sight) {
             let [nearest, near] = [narrow(0.99 * nearest), camera.near].map(number);
             let found = format!("what is as near as {nearest}, and cut away up to {near}");
             let reversed = if options.depth == DepthFormat::F32 { ", or --depth f32-reversed" } else { "" };

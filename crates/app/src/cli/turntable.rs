@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::env;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
@@ -210,6 +211,9 @@ fn film(
     let Staged { model, options, samples, backdrop, .. } = staged;
     let set = Set { model: &model, options: &options, samples, backdrop: &backdrop };
     let (below, shadows) = (AtomicUsize::new(0), AtomicU64::new(0));
+    // The shadow of things that stand while lights or the camera move.
+    let standing = OnceLock::new();
+    let things_move = motion.as_ref().is_some_and(|motion| motion.swept.moves());
     let moved = |frame: u32, cast: &Cast| {
         let request = request.at(matches, time(frame))?;
         let mut staged = request.stage_with(cast.clone(), motion.as_ref())?;
@@ -218,7 +222,11 @@ fn film(
         ordered(&mut staged.model, &staged.camera, projection);
         if request.above_ground(&staged, &[staged.camera]) == [true] {
             let begin = Instant::now();
-            request.add_ground(&mut staged, &[]);
+            let kept = standing.get().map_or(&[][..], Vec::as_slice);
+            if let Some(ground) = request.add_ground(&mut staged, kept).filter(|_| !things_move) {
+                // That of another thread is the same.
+                _ = standing.set(ground.shadows);
+            }
             let took = u64::try_from(begin.elapsed().as_nanos()).unwrap_or(u64::MAX);
             shadows.fetch_add(took, Ordering::Relaxed);
         } else {
@@ -236,7 +244,7 @@ fn film(
         (None, _) => Err(Error::new("a frame that is none", "one")),
     };
     let total = wanted.len() as u64;
-    during(Stage::Draw, |progress| {
+    let drawn = during(Stage::Draw, |progress| {
         set.draw(wanted.len(), &shot, &mut |at, image| {
             progress.set(at as u64, total);
             during(Stage::Encode, |_| match &mut film {
@@ -245,11 +253,17 @@ fn film(
             })
         })
     })?;
-    // Threads draw shadows side by side, each for its frames.
-    let at_a_time = threads(&request.arguments).get().min(wanted.len().max(1)) as u64;
-    stage::move_time([Stage::Draw, Stage::Shadow], Duration::from_nanos(shadows.into_inner() / at_a_time));
+    let shadows = Duration::from_nanos(shadows.into_inner()).min(drawn.work);
+    let encoding = stage::time(Stage::Encode);
+    let works = [(Stage::Draw, drawn.work - shadows), (Stage::Shadow, shadows), (Stage::Encode, encoding)];
+    stage::divide([Stage::Draw, Stage::Encode], works);
     during(Stage::Encode, |_| film.map_or(Ok(()), |film| file.write(film)))?;
     warn_of_frames_below(below.into_inner(), wanted.len());
+    if drawn.empty > 0 {
+        let found = format!("nothing of the model in {} of {} frames", drawn.empty, wanted.len());
+        let hint = "see --eye, --target, --zoom, --near and --far";
+        warn(&Error::new(found, "some of it").hint(hint).to_string());
+    }
     if is_silent() {
         return Ok(());
     }
@@ -281,10 +295,10 @@ fn cameras(request: &Request, staged: &Staged, turn: &Turn) -> Vec<Camera> {
 fn turned(request: &Request, staged: &Staged, turn: &Turn, frame: u32) -> Camera {
     let Staged { model, swept, camera, options, .. } = staged;
     let wishes = request.arguments.camera.counted_from(model.origin);
-    let whole = swept.as_ref().unwrap_or(model);
-    let ball = camera::bounding_sphere(whole);
+    let whole = swept.as_ref().map_or(model, |swept| &swept.whole);
+    let of = [model, whole].map(|model| (model, camera::bounding_sphere(model)));
     let share = f64::from(frame) / f64::from(turn.frames);
-    turn.moved((whole, ball), camera, &wishes, (Sight::of(options), request.is_fitted()), share)
+    turn.moved(of, camera, &wishes, (Sight::of(options), request.is_fitted()), share)
 }
 
 /// The options of `alberti assemble`.

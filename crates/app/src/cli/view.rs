@@ -14,18 +14,15 @@ use super::request::Request;
 use super::run::{draw, print};
 use super::staged::{Cast, Staged};
 use crate::error::Error;
-use crate::film::Set;
 use crate::load::scene_file::SceneFile;
 use crate::load::{input, seen};
 use crate::options::values::name_of;
-use crate::options::{CameraTable, Projection, ProjectionKind, Samples};
+use crate::options::{CameraTable, Projection, ProjectionKind};
 use crate::output::stats::Source;
-use crate::samples::supersampled_with;
 use crate::scene::camera::{self, Sight, as_options};
 use crate::scene::normals::narrow;
-use crate::scene::{Camera, Image, Model};
-use crate::show::{Show, Shown, show};
-use alberti::Stats;
+use crate::scene::{Camera, Image};
+use crate::show::Show;
 
 mod keys;
 mod line;
@@ -37,7 +34,7 @@ mod window;
 use keys::{ALL, Action, Cycle, Keeps, Place};
 use line::{Chosen, end_of_options, matches_of, typed, unused, words_of};
 use orbit::Orbit;
-use scene::{Kept, Scene, wishes_of};
+use scene::{Kept, Scene, Seen, wishes_of};
 
 pub(super) const HELP: &str = "\
 Examples:
@@ -47,7 +44,7 @@ Examples:
   alberti view --scene floor -o floor.png     P keeps the picture in floor.png instead of in floor-1.png,
                                               floor-2.png and so on, and prints its command";
 
-/// The size of a window for which none is asked, nor one in the scene file.
+/// The size of a window for which none is asked, nor one in the scene file, on a display whose scale is 1.
 const SIZE: [u32; 2] = [960, 640];
 
 /// Opens a window, until it is closed.
@@ -64,10 +61,10 @@ pub(super) fn run(matches: &ArgMatches, words: &[OsString]) -> Result<(), Error>
         let error = Error::new("standard output", "a file for pictures that are kept").place("--output");
         return Err(error);
     }
-    let size = Request::read(matches)?.arguments.render.size.map_or(SIZE, |size| [size.0, size.1]);
-    let mut viewer = Viewer::new(words.get(2..).unwrap_or_default(), size)?;
+    let asked = Request::read(matches)?.arguments.render.size.map(|size| [size.0, size.1]);
+    let mut viewer = Viewer::new(words.get(2..).unwrap_or_default(), asked.unwrap_or(SIZE))?;
     viewer.output = given.render.output;
-    window::open(viewer)
+    window::open(viewer, asked.is_none())
 }
 
 /// A scene that is looked at.
@@ -93,13 +90,6 @@ struct Viewer {
 
 /// Steps of time that words have: a thousandth of a second.
 const TICKS: f64 = 1e3;
-
-/// A picture, and what its false colours mean.
-struct Seen {
-    image: Image,
-    stats: Stats,
-    legend: Vec<String>,
-}
 
 impl Viewer {
     /// # Errors
@@ -272,8 +262,9 @@ impl Viewer {
         // A ground's shadow is a map of its own.
         let chains = self.scene.bare.is_none().then(|| self.scene.chains.clone());
         let motion = self.scene.motion.clone();
-        let mut scene =
-            Scene::new((wishes, request), &self.cast, Kept { chains, motion, shadows: Vec::new() })?;
+        let stands = motion.as_ref().is_some_and(|motion| !motion.swept.moves());
+        let shadows = if stands { self.shadows.clone() } else { Vec::new() };
+        let mut scene = Scene::new((wishes, request), &self.cast, Kept { chains, motion, shadows })?;
         scene.request.moments = std::mem::take(&mut self.scene.request.moments);
         self.take(scene);
         Ok(())
@@ -308,30 +299,7 @@ impl Viewer {
     /// # Errors
     /// It cannot be drawn with these options.
     fn picture(&self, is_draft: bool) -> Result<Seen, Error> {
-        let Scene { request, staged, chains, .. } = &self.scene;
-        let Staged { options, samples, backdrop, .. } = staged;
-        let (model, is_below) = self.drawn();
-        let from_below = is_below.then(|| "from below there is no ground".to_owned());
-        let set = Set { model, options, samples: *samples, backdrop };
-        let shot = set.shot(self.camera());
-        match request.arguments.show {
-            Some(what) => {
-                let Shown { picture, legend, .. } =
-                    show(what, &shot.model, &shot.camera, options, &mut |_, _| ())?;
-                let legend = legend.text(false).lines().map(str::to_owned).collect();
-                Ok(Seen { image: picture.image, stats: picture.stats, legend })
-            }
-            None => {
-                let samples = if is_draft { Samples::One } else { *samples };
-                let of = (&*shot.model, &shot.camera);
-                let picture = supersampled_with(chains, of, options, samples, backdrop, &mut |_, _| ())?;
-                Ok(Seen {
-                    image: picture.image,
-                    stats: picture.stats,
-                    legend: from_below.into_iter().collect(),
-                })
-            }
-        }
+        self.scene.picture(&self.camera(), is_draft)
     }
 
     fn camera(&self) -> Camera {
@@ -341,14 +309,6 @@ impl Viewer {
     /// The point about which the camera turns.
     fn pivot(&self) -> [f64; 3] {
         self.moved.map_or(self.scene.staged.middle, |(_, pivot)| pivot)
-    }
-
-    /// The model as the camera sees it, and whether that is below its ground, which is left out then.
-    fn drawn(&self) -> (&Model, bool) {
-        let Scene { staged, bare, ground, .. } = &self.scene;
-        let is_below = |_: &&Model| ground.as_ref().is_some_and(|ground| !ground.is_below(&self.camera()));
-        let below = bare.as_ref().filter(is_below);
-        (below.unwrap_or(&staged.model), below.is_some())
     }
 
     /// Writes the picture as `render` does, and prints the command that does. It returns the file: that of the command
@@ -458,7 +418,7 @@ impl Viewer {
 
     /// Nearer by a factor to what is seen at a place, or larger where there is no nearness.
     fn zoom(&mut self, factor: f64, place: Option<Place>) -> Result<bool, Error> {
-        let (model, _) = self.drawn();
+        let (model, _) = self.scene.drawn(&self.camera());
         let radius = camera::bounding_sphere(&self.scene.staged.model).radius;
         let cull = self.scene.staged.options.cull;
         let nearer = self.orbit().nearer((model, radius), cull, (factor, place));
@@ -478,10 +438,10 @@ impl Viewer {
             Projection::Parallel { .. } => ProjectionKind::Parallel,
             Projection::Perspective => ProjectionKind::Perspective,
         });
-        let Staged { model, swept, options, .. } = staged;
+        let Staged { model, options, .. } = staged;
         let aspect = Sight::of(options).aspect;
-        // As a picture of the command line has them: first those of all places of the model, then for its ground.
-        let model = swept.as_ref().or(bare.as_ref()).unwrap_or(model);
+        // As a picture of the command line has them: first those of the model, then for its ground.
+        let model = bare.as_ref().unwrap_or(model);
         let mut camera = camera::frame(&wishes, None, (model, camera::bounding_sphere(model)), aspect)?;
         camera::clear(&mut camera, model, &wishes, None, Sight::of(options));
         if let Some(ground) = ground {

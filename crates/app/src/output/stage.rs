@@ -108,13 +108,24 @@ pub(crate) fn begin() {
     RUN.with_borrow_mut(|run| run.spent = [Duration::ZERO; WORDS.len()]);
 }
 
-/// Has time of one stage count as that of another, whose work other threads have done in it.
-pub(crate) fn move_time([from, to]: [Stage; 2], time: Duration) {
+/// Divides the time of stages that went on at once by the work that threads did in each of several.
+pub(crate) fn divide(at_once: [Stage; 2], works: [(Stage, Duration); 3]) {
+    let all: f64 = works.iter().map(|(_, work)| work.as_secs_f64()).sum();
+    if all <= 0.0 {
+        return;
+    }
     RUN.with_borrow_mut(|run| {
-        let time = time.min(run.spent[from as usize]);
-        run.spent[from as usize] -= time;
-        run.spent[to as usize] += time;
+        let whole: Duration =
+            at_once.into_iter().map(|stage| std::mem::take(&mut run.spent[stage as usize])).sum();
+        for (stage, work) in works {
+            run.spent[stage as usize] += whole.mul_f64(work.as_secs_f64() / all);
+        }
     });
+}
+
+/// The time of a stage since [`begin`].
+pub(crate) fn time(stage: Stage) -> Duration {
+    RUN.with_borrow(|run| run.spent[stage as usize])
 }
 
 /// The names of a picture's stages, and the time of each since [`begin`].
@@ -266,6 +277,23 @@ fn paint(bar: &ProgressBar, over: &Receiver<()>) {
 mod tests {
     use super::*;
     use std::thread::sleep;
+
+    /// Time that passes while threads draw and one of them encodes: a quarter, a half, and a quarter of it.
+    #[test]
+    fn stages_at_once_share_their_time() {
+        begin();
+        let seconds = Duration::from_secs;
+        RUN.with_borrow_mut(|run| {
+            run.spent[Stage::Shadow as usize] = seconds(1);
+            (run.spent[Stage::Draw as usize], run.spent[Stage::Encode as usize]) = (seconds(1), seconds(7));
+        });
+        let works = [(Stage::Draw, seconds(3)), (Stage::Shadow, seconds(6)), (Stage::Encode, seconds(3))];
+        divide([Stage::Draw, Stage::Encode], works);
+        assert_eq!([Stage::Draw, Stage::Shadow, Stage::Encode].map(time), [2, 5, 2].map(seconds));
+        // Without any work nothing is known of it.
+        divide([Stage::Draw, Stage::Encode], works.map(|(stage, _)| (stage, Duration::ZERO)));
+        assert_eq!([Stage::Draw, Stage::Shadow, Stage::Encode].map(time), [2, 5, 2].map(seconds));
+    }
 
     #[test]
     fn a_stage_has_its_own_time() {

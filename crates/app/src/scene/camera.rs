@@ -103,18 +103,31 @@ pub fn frame(
     if own.is_none() {
         roll += turn(view);
     }
+    let fov = zoomed(fov, wishes.zoom());
+    planed(Camera { eye, target, up, roll, fov, near: 0.0, far: 0.0 }, wishes, base, (model, ball))
+}
+
+/// A camera with planes around the ball of a model, but for those that are given, or that the camera has of one that it
+/// is based on.
+///
+/// # Errors
+/// Those of [`frame`].
+pub(crate) fn planed(
+    camera: Camera,
+    wishes: &CameraTable,
+    base: Option<&Camera>,
+    (model, ball): (&Model, Sphere),
+) -> Result<Camera, Error> {
+    let wide = |v: [f32; 3]| v.map(f64::from);
+    let (eye, target) = (wide(camera.eye), wide(camera.target));
     let (near, far) = match base {
         Some(base) if planes::are_kept(wishes) => (base.near, base.far),
-        _ => planes::around(sub(ball.center, wide(eye)), view, ball.radius, wishes.is_parallel()),
+        _ => planes::around(sub(ball.center, eye), sub(target, eye), ball.radius, wishes.is_parallel()),
     };
     let camera = Camera {
-        eye,
-        target,
-        up,
-        roll,
-        fov: zoomed(fov, wishes.zoom()),
         near: wishes.near.map_or(near, f32::from),
         far: wishes.far.map_or(far, f32::from),
+        ..camera
     };
     let names = Names { origin: model.origin, ..CAMERA };
     let checked = check(&camera, &names).and_then(|()| match base {

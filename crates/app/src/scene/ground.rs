@@ -7,6 +7,7 @@ use super::{Camera, Image, Map, Model, Part, Vertex, order};
 use crate::options::{DepthFormat, Filter, Wrap};
 use crate::scene::camera::Sight;
 use crate::scene::normals::{dot, narrow, sub};
+use crate::scene::swept::Reached;
 use alberti::raster::color::AnyBlend;
 use sky::Sky;
 use std::sync::Arc;
@@ -17,6 +18,7 @@ mod opacity;
 mod planes;
 mod sky;
 
+pub(crate) use floor::bounds;
 pub(crate) use framed::in_view;
 pub(crate) use planes::Stood;
 
@@ -84,7 +86,7 @@ pub(crate) struct Manner<'a> {
 /// again.
 pub(crate) fn add(
     model: &mut Model,
-    (swept, up): (Option<&Model>, [f32; 3]),
+    (swept, up): (Option<&Reached>, [f32; 3]),
     cameras: &mut [Camera],
     manner: Manner<'_>,
 ) -> Option<Stood> {
@@ -150,7 +152,7 @@ fn below(depth: DepthFormat) -> f64 {
 /// direction. None if there is nothing to stand on it.
 pub(crate) fn above(
     model: &Model,
-    (swept, up): (Option<&Model>, [f32; 3]),
+    (swept, up): (Option<&Reached>, [f32; 3]),
     cameras: &[Camera],
     depth: DepthFormat,
 ) -> Option<Vec<bool>> {
@@ -160,7 +162,7 @@ pub(crate) fn above(
 }
 
 /// Whether a model has a floor of its own, on which a shadow lies.
-pub(crate) fn has_floor(model: &Model, swept: Option<&Model>, up: [f32; 3]) -> bool {
+pub(crate) fn has_floor(model: &Model, swept: Option<&Reached>, up: [f32; 3]) -> bool {
     floor::grounds(model, swept, up, DepthFormat::default()).iter().any(|ground| ground.on_floor)
 }
 

@@ -11,6 +11,7 @@ use image::codecs::webp::WebPDecoder;
 use crate::{Folder, Run, alberti};
 
 mod moving;
+mod standing;
 
 /// A roof in two colours, and a triangle before it.
 const MODEL: &str = "mtllib m.mtl\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nv 0 1 1\nv 0 1 -1\n\

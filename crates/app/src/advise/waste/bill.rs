@@ -33,12 +33,12 @@ impl Bill {
     }
 
     /// The saving of so many milliseconds on the host, which a chip has no model of, and of so many bytes of maps or
-    /// vertices.
+    /// vertices. A picture of less that took longer did so by chance.
     pub(super) fn data(&self, time: f64, bytes: f64) -> Cost {
         if self.machine.is_chip() {
             Cost { flash: bytes, ..Cost::default() }
         } else {
-            Cost { frame: time, ram: bytes, ..Cost::default() }
+            Cost { frame: time.max(0.0), ram: bytes, ..Cost::default() }
         }
     }
 

@@ -9,11 +9,15 @@ use crate::cli::request::Request;
 use crate::cli::staged::{Cast, Motion, Staged};
 use crate::draw::Chains;
 use crate::error::Error;
-use crate::film::ordered;
+use crate::film::{Set, ordered};
 use crate::options::values::name_of;
-use crate::options::{CameraTable, Projection};
+use crate::options::{CameraTable, Projection, Samples};
+use crate::render::Picture;
+use crate::samples::supersampled_with;
 use crate::scene::ground::Stood;
-use crate::scene::{Image, Model};
+use crate::scene::{Camera, Image, Model};
+use crate::show::{Shown, show};
+use alberti::Stats;
 
 /// All that a picture takes.
 pub(super) struct Scene {
@@ -26,6 +30,13 @@ pub(super) struct Scene {
     pub(super) ground: Option<Stood>,
     pub(super) chains: Arc<Chains>,
     pub(super) motion: Option<Rc<Motion>>,
+}
+
+/// A picture, and lines on it: what its false colours mean, and what is not in it.
+pub(super) struct Seen {
+    pub(super) image: Image,
+    pub(super) stats: Stats,
+    pub(super) legend: Vec<String>,
 }
 
 /// Parts of a scene that another has as well.
@@ -60,6 +71,38 @@ impl Scene {
             None => Arc::new(Chains::new(&staged.model, &staged.options)?),
         };
         Ok(Self { request, wishes, staged, bare, ground, chains, motion })
+    }
+
+    /// Draws what a camera sees: with one sample a pixel if it is a draft.
+    ///
+    /// # Errors
+    /// It cannot be drawn with these options.
+    pub(super) fn picture(&self, camera: &Camera, is_draft: bool) -> Result<Seen, Error> {
+        let Self { request, staged, chains, .. } = self;
+        let Staged { options, samples, backdrop, .. } = staged;
+        let (model, is_below) = self.drawn(camera);
+        let shot = Set { model, options, samples: *samples, backdrop }.shot(*camera);
+        if let Some(what) = request.arguments.show {
+            let Shown { picture, legend, .. } =
+                show(what, &shot.model, &shot.camera, options, &mut |_, _| ())?;
+            let legend = legend.text(false).lines().map(str::to_owned).collect();
+            return Ok(Seen { image: picture.image, stats: picture.stats, legend });
+        }
+        let samples = if is_draft { Samples::One } else { *samples };
+        let of = (&*shot.model, &shot.camera);
+        let Picture { image, stats, .. } =
+            supersampled_with(chains, of, options, samples, backdrop, &mut |_, _| ())?;
+        let below = is_below.then(|| "from below there is no ground".to_owned());
+        let empty =
+            (stats.written == 0).then(|| "nothing is in the picture; 0 looks at all of it".to_owned());
+        Ok(Seen { image, stats, legend: below.into_iter().chain(empty).collect() })
+    }
+
+    /// The model as a camera sees it, and whether that is below its ground, which is left out then.
+    pub(super) fn drawn(&self, camera: &Camera) -> (&Model, bool) {
+        let is_below = |_: &&Model| self.ground.as_ref().is_some_and(|ground| !ground.is_below(camera));
+        let below = self.bare.as_ref().filter(is_below);
+        (below.unwrap_or(&self.staged.model), below.is_some())
     }
 
     /// The value that an option has, as it is typed, if it is one for the whole scene.

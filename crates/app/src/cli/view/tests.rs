@@ -391,6 +391,22 @@ fn shadows_are_kept() {
     assert!(viewer.picture(false).expect("a picture").image == rendered(&viewer, folder.path()));
 }
 
+/// A model that a moved camera does not see any more is told, with the key that looks at it.
+#[test]
+fn empty_pictures_say_so() {
+    let folder = folder();
+    let mut viewer = viewer(folder.path(), "");
+    act(&mut viewer, ">");
+    assert_eq!(viewer.picture(false).expect("a picture").legend, [""; 0]);
+    let away = MODEL.replace("\nv ", "\nv 500");
+    fs::write(folder.path().join("m.obj"), away.replace("500-", "50")).expect("a model");
+    viewer.reload().expect("a model");
+    let legend = viewer.picture(false).expect("a picture").legend;
+    assert_eq!(legend, ["nothing is in the picture; 0 looks at all of it"]);
+    act(&mut viewer, "0");
+    assert_eq!(viewer.picture(false).expect("a picture").legend, [""; 0]);
+}
+
 /// Options of keys are let go where an edited scene cannot have them. A file that is dropped has pictures of its own.
 #[test]
 fn scenes_let_go_of_what_they_cannot_have() {

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use softbuffer::{Context, Surface};
 use winit::application::ApplicationHandler;
-use winit::dpi::PhysicalSize;
+use winit::dpi::{LogicalSize, PhysicalSize, Size};
 use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::keyboard::{Key, NamedKey};
@@ -40,13 +40,13 @@ const DRAG: f64 = 240.0;
 const INK: [u8; 3] = [235; 3];
 const ALARM: [u8; 3] = [255, 170, 90];
 
-/// Shows the viewer until the window is closed.
+/// Shows the viewer until the window is closed. The display's scale multiplies its size if it `is_scaled`.
 ///
 /// # Errors
 /// There is no display, or the window cannot be drawn into.
-pub(super) fn open(viewer: Viewer) -> Result<(), Error> {
+pub(super) fn open(viewer: Viewer, is_scaled: bool) -> Result<(), Error> {
     let event_loop = EventLoop::new().map_err(|error| no_display(&error))?;
-    let mut shown = Screen::new(viewer);
+    let mut shown = Screen::new(viewer, is_scaled);
     event_loop.run_app(&mut shown).map_err(|error| no_display(&error))?;
     shown.outcome
 }
@@ -66,6 +66,7 @@ type Target = Surface<Rc<Window>, Rc<Window>>;
 /// A window with a viewer in it.
 struct Screen {
     viewer: Viewer,
+    is_scaled: bool,
     target: Option<(Rc<Window>, Target)>,
     picture: Option<Seen>,
     /// Whether the picture is no longer that of the viewer.
@@ -95,9 +96,10 @@ struct Screen {
 }
 
 impl Screen {
-    fn new(viewer: Viewer) -> Self {
+    fn new(viewer: Viewer, is_scaled: bool) -> Self {
         Self {
             viewer,
+            is_scaled,
             target: None,
             picture: None,
             is_old: true,
@@ -124,9 +126,13 @@ impl Screen {
     /// The system has no window.
     fn begin(&mut self, event_loop: &ActiveEventLoop) -> Result<(), Box<dyn std::error::Error>> {
         let [width, height] = self.viewer.size;
+        let size: Size = match self.is_scaled {
+            true => LogicalSize::new(width, height).into(),
+            false => PhysicalSize::new(width, height).into(),
+        };
         let attributes = Window::default_attributes()
             .with_title(format!("alberti: {}", self.viewer.name()))
-            .with_inner_size(PhysicalSize::new(width, height));
+            .with_inner_size(size);
         let window = Rc::new(event_loop.create_window(attributes)?);
         let context = Context::new(window.clone())?;
         let surface = Surface::new(&context, window.clone())?;

@@ -12,6 +12,7 @@ use crate::scene::displace::MAX_VERTICES;
 use crate::scene::origin;
 use crate::scene::place::Placement;
 use crate::scene::surfaces::Surface;
+use crate::scene::swept::Swept;
 use crate::scene::{MaterialNote, Model, Part, Relief};
 
 /// The most cells along u or v.
@@ -137,6 +138,21 @@ impl SceneFile {
         }
         images.give(&mut all);
         Ok(all)
+    }
+
+    /// The places that objects come to, at these moments of the file.
+    pub(crate) fn swept<'a>(
+        Gathered { models, .. }: &Gathered,
+        moments: impl Iterator<Item = &'a Self> + Clone,
+    ) -> Swept {
+        let mut swept = Swept::default();
+        for (index, model) in models.iter().enumerate() {
+            let objects = moments.clone().filter_map(|moment| moment.file.object.get(index));
+            let mut placements: Vec<_> = objects.map(placement).collect();
+            placements.dedup();
+            swept.add(model, &placements);
+        }
+        swept
     }
 
     /// The surface that an object is, if it is no model.

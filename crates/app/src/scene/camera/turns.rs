@@ -41,10 +41,10 @@ impl Turn {
     }
 
     /// The camera after a share of the turn, where things move, and perhaps the camera as well. At that time it would
-    /// be `here` without the turn. `swept` is where things come to.
+    /// be `here` without the turn. Things come to all of `swept`, and its planes are around where they are `now`.
     pub(crate) fn moved(
         &self,
-        (swept, ball): (&Model, Sphere),
+        [now, swept]: [(&Model, Sphere); 2],
         here: &Camera,
         wishes: &CameraTable,
         (sight, fits): (Sight, bool),
@@ -53,8 +53,8 @@ impl Turn {
         if self.degrees == 0.0 {
             return *here;
         }
-        let here = if fits { self.fitted((swept, ball), *here, wishes, sight.aspect) } else { *here };
-        between((swept, ball), self.at(&here, share), wishes, sight)
+        let here = if fits { self.fitted(swept, *here, wishes, sight.aspect) } else { *here };
+        between(now, self.at(&here, share), wishes, sight)
     }
 
     /// A camera as far away as it takes to have all in view in all frames, with as much room below as above.

@@ -3,6 +3,7 @@
 use super::{Ground, Model, below, others};
 use crate::options::DepthFormat;
 use crate::scene::camera::within;
+use crate::scene::swept::Reached;
 use crate::scene::{Part, Vertex};
 use alberti::texture::surface::Subdivision;
 
@@ -21,11 +22,11 @@ const EXACT: f64 = 1e-6;
 /// there are both. None if there is nothing to stand on it.
 pub(super) fn grounds(
     model: &Model,
-    swept: Option<&Model>,
+    swept: Option<&Reached>,
     upwards: [f32; 3],
     depth: DepthFormat,
 ) -> Vec<Ground> {
-    let whole = swept.unwrap_or(model);
+    let whole = swept.map_or(model, |swept| &swept.whole);
     let Some(ground) = Ground::of(whole, upwards, below(depth)) else { return Vec::new() };
     let [a, b] = others(ground.up.0);
     let [least, most] = bounds(super::places(whole));
@@ -33,7 +34,7 @@ pub(super) fn grounds(
     let Some((height, [low, high])) = found(model, &ground, extent) else {
         return if ground.is_flat { Vec::new() } else { vec![ground] };
     };
-    let Some(on_floor) = of_things(whole, &ground, height, depth) else { return Vec::new() };
+    let Some(on_floor) = of_things((model, swept), &ground, height, depth) else { return Vec::new() };
     let is_deep = |place: &[f64; 3]| ground.up.1 * (place[ground.up.0] - ground.low) < height - ground.near;
     let is_beside = |place: &[f64; 3]| {
         let beside =
@@ -46,9 +47,15 @@ pub(super) fn grounds(
     vec![on_floor]
 }
 
-/// The ground of a floor at a height over another, for the things that stand there: as large as their shadow, however
-/// far the floor goes on. It is as far over the floor as the other is below the lowest point, in their own sizes.
-fn of_things(model: &Model, ground: &Ground, height: f64, depth: DepthFormat) -> Option<Ground> {
+/// The ground of a floor at a height over another, for the things that come to stand there: as large as their shadow,
+/// however far the floor goes on. It is as far over the floor as the other is below the lowest point, in their own
+/// sizes.
+fn of_things(
+    (model, swept): (&Model, Option<&Reached>),
+    ground: &Ground,
+    height: f64,
+    depth: DepthFormat,
+) -> Option<Ground> {
     let (up, sign) = ground.up;
     let level = ground.low + sign * height;
     let exact = EXACT * ground.side;
@@ -56,7 +63,10 @@ fn of_things(model: &Model, ground: &Ground, height: f64, depth: DepthFormat) ->
     let triangles = model.parts.iter().flat_map(|part| &part.triangles);
     let things =
         triangles.filter_map(|triangle| corners(model, triangle)).filter(|all| all.iter().any(is_over));
-    let mut bounds = bounds(things.flatten().map(|v| v.position.map(f64::from)));
+    let moving = swept.into_iter().flat_map(|swept| &swept.moving);
+    let moving = moving.filter(|bounds| bounds.iter().any(|place| sign * (place[up] - level) > exact));
+    let places = things.flatten().map(|v| v.position.map(f64::from)).chain(moving.flatten().copied());
+    let mut bounds = bounds(places);
     bounds[usize::from(sign < 0.0)][up] = level;
     let things = Ground::under(bounds, ground.up, -below(depth)).filter(|things| !things.is_flat)?;
     Some(Ground { near: things.near.max(exact), on_floor: true, ..things })
@@ -116,7 +126,7 @@ fn found(model: &Model, ground: &Ground, extent: f64) -> Option<(f64, [[f64; 2];
 }
 
 /// The least and the greatest coordinates of places.
-pub(super) fn bounds(places: impl Iterator<Item = [f64; 3]>) -> [[f64; 3]; 2] {
+pub(crate) fn bounds(places: impl Iterator<Item = [f64; 3]>) -> [[f64; 3]; 2] {
     let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
     for place in places {
         for axis in 0..3 {
@@ -213,7 +223,7 @@ mod tests {
         model
     }
 
-    fn first(model: &Model, swept: Option<&Model>) -> Ground {
+    fn first(model: &Model, swept: Option<&Reached>) -> Ground {
         grounds(model, swept, [0.0, 1.0, 0.0], DepthFormat::F32).into_iter().next().expect("a ground")
     }
 
@@ -245,7 +255,7 @@ mod tests {
     /// Things may dip into a floor, also in motion. Boards, upper sides of slabs, and a high floor are none.
     #[test]
     fn floors_are_low_and_have_little_below() {
-        let found = |model: &Model, swept: Option<&Model>| {
+        let found = |model: &Model, swept: Option<&Reached>| {
             let ground = first(model, swept);
             (ground.on_floor, ground.low)
         };
@@ -253,8 +263,8 @@ mod tests {
         let (is_floor, low) = found(&dipped, None);
         assert!(is_floor && low > 0.0 && low < 1e-3, "{low}");
         // Of all places that a model comes to there are no normals.
-        let mut swept = dipped.clone();
-        swept.vertices.iter_mut().for_each(|v| v.normal = [0.0; 3]);
+        let mut swept = Reached { whole: dipped.clone(), moving: Vec::new() };
+        swept.whole.vertices.iter_mut().for_each(|v| v.normal = [0.0; 3]);
         assert_eq!(found(&dipped, Some(&swept)), (is_floor, low));
         // The squares that look down stand first.
         for (down, none) in [

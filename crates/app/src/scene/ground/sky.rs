@@ -102,9 +102,9 @@ impl Sky {
         }
         steps.retain(|step| step.weight > 0.0);
         let texels = self.side / 2;
-        // Below what lies on the ground it is dark.
         let covered: Vec<bool> =
             (0..texels * texels).map(|k| self.is_covered([k % texels, k / texels])).collect();
+        // Dark texels stay below what lies on the ground, farther in than its rim.
         let mut dark = vec![1.0; texels * texels];
         let steps = &steps;
         let rows = dark.chunks_mut(texels).zip(covered.chunks(texels)).zip(0_u32..);

@@ -64,6 +64,8 @@ fn colours_of_vertices_are_told() {
         assert_eq!((run.status, run.stderr.lines().count()), (Some(0), warnings), "{run:?}");
         let found = "square.obj: found a surface that colours of its vertices multiply";
         assert_eq!(run.stderr.contains(found), warnings > 0, "{run:?}");
+        let remedy = "no colours of vertices without `bake --attributes normal,color`";
+        assert_eq!(run.stderr.contains(remedy), warnings > 0, "{run:?}");
         let report: Value = serde_json::from_str(&run.stdout).expect("one line of JSON");
         assert!(number(&report, "frame") <= 1.0, "{report}");
     };

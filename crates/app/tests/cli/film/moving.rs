@@ -195,8 +195,8 @@ fn whole_turns_go_round() {
         ("b", "rotation", "[[0, 0, 0], [0, 359, 0]]", 11),
         ("camera", "azimuth", "[-180, 180]", 10),
         ("camera", "roll", "[0, 90]", 11),
-        // A place is another one, however far.
-        ("b", "position", "[[0, 0, 0], [360, 0, 0]]", 11),
+        // A place is another one.
+        ("b", "position", "[[0, 0, 0], [18, 0, 0]]", 11),
     ] {
         let folder = Folder::with(&[("a.toml", turning(of, key, values).as_bytes())]);
         made(&folder, "turntable a.toml --fps 10 -o %d.png");

@@ -137,6 +137,8 @@ fn sheets_on_the_ground_and_far_places_are_not_dark() {
     for at in [[0.0, 1.02], [1.02, 0.5], [-1.02, 0.0], [1.5, 1.5]] {
         assert!(dark(&sheet, at) < 0.02, "{at:?}: {}", dark(&sheet, at));
     }
+    // Far below it nothing is seen: a filter that reads from there makes no rim lighter.
+    assert!(dark(&sheet, [0.0, 0.0]) == 1.0);
     let raised =
         model(&[-1.0, 1.0].map(|x| [-1.0, 1.0].map(|z| [x, 0.5, z])).concat(), vec![[0, 1, 3], [0, 3, 2]]);
     let sky = Sky::over(&GROUND, &raised, Wrap::Repeat, 128.0);
