@@ -9,8 +9,9 @@
 //! ```
 //!
 //! Each test is run once on its own, and says which switches it passes. Then each mutant meets the tests that pass its
-//! switch, the quickest first, until one of them fails. The state is kept in a file: a run that was stopped goes on.
-//! Mutants come in an order of chance, so that those of a part of a run stand for all.
+//! switch, until one of them fails: first those that have killed others of its file, then the quickest. The state is
+//! kept in a file: a run that was stopped goes on. Mutants come in an order of chance, so that those of a part of a run
+//! stand for all.
 
 mod compile;
 mod list;
