@@ -6,7 +6,7 @@ use std::str::FromStr;
 use clap::{ArgMatches, Args, FromArgMatches as _};
 
 use super::RenderArgs;
-use super::request::{OF_PICTURES, Request, refuse};
+use super::request::{OF_PICTURES, Request, ground_left_out, refuse};
 use super::run::print;
 use super::staged::Staged;
 use super::told::warn;
@@ -77,8 +77,7 @@ fn run_for(request: &Request, matches: &ArgMatches) -> Result<(), Error> {
     refuse(matches, "explain", &OF_PICTURES, "no picture is written")?;
     request.check()?;
     if request.arguments.render.ground == Some(true) {
-        let error = Error::new("it with explain, which has the model alone", "a picture").place("--ground");
-        warn(&request.relocate(error.hint("it is left out")).to_string());
+        warn(&request.relocate(ground_left_out("explain")).to_string());
     }
     let Staged { model, camera, options, .. } = request.stage()?;
     let journey = during(Stage::Explain, |_| explain(&model, &camera, &options, pixel))?;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Command, FromArgMatches as _};
 
+use super::told::warn;
 use super::{RenderArgs, partners};
 use crate::error::{Error, number};
 use crate::load::scene_file::{self, SceneFile};
@@ -27,15 +28,18 @@ pub(super) fn hidden(command: Command, ids: &[&'static str]) -> Command {
     ids.iter().fold(command, |command, id| command.mut_arg(id, |option| option.hide(true)))
 }
 
-/// Refuses options of `render` that a command has not.
+/// Refuses options of `render` that a command has not, but for a ground, which is left out: a scene file may have one
+/// as well.
 ///
 /// # Errors
 /// One of them stands on the command line.
 pub(super) fn refuse(matches: &ArgMatches, name: &str, ids: &[&str], reason: &str) -> Result<(), Error> {
-    // A ground may be taken away from a scene file.
-    let is_harmless = |id: &str| id == "ground" && matches.get_one::<bool>(id) == Some(&false);
-    let given = |id: &&&str| matches.value_source(id) == Some(ValueSource::CommandLine) && !is_harmless(id);
-    match ids.iter().find(given) {
+    let given = |id: &str| matches.value_source(id) == Some(ValueSource::CommandLine);
+    let ground = ids.iter().find(|id| **id == "ground" && given(id));
+    if ground.is_some_and(|id| matches.get_one::<bool>(id) == Some(&true)) {
+        warn(&ground_left_out(name).to_string());
+    }
+    match ids.iter().find(|id| **id != "ground" && given(id)) {
         None => Ok(()),
         Some(id) => {
             let found = format!("an option that `{name}` has not");
@@ -43,6 +47,12 @@ pub(super) fn refuse(matches: &ArgMatches, name: &str, ids: &[&str], reason: &st
             Err(error.place(format!("--{}", id.replace('_', "-"))).hint(format!("leave it out: {reason}")))
         }
     }
+}
+
+/// The warning of a ground that a command has not.
+pub(super) fn ground_left_out(name: &str) -> Error {
+    let error = Error::new(format!("it with {name}, which has the model alone"), "a picture");
+    error.place("--ground").hint("it is left out")
 }
 
 fn refused(error: clap::Error) -> Error {

@@ -65,7 +65,8 @@ impl FromStr for Background {
         if is_named || Path::new(text).is_file() {
             return Ok(Self::Image(text.into()));
         }
-        Err(format!("{}, transparent, TOP..BOTTOM of two colours, or an image file", Color::EXPECTED))
+        let meant = super::colors::meant(text);
+        Err(format!("{}, transparent, TOP..BOTTOM of two colours, or an image file{meant}", Color::EXPECTED))
     }
 }
 

@@ -1,5 +1,7 @@
 //! The names of colours in CSS (Color Module Level 4, section 6.1).
 
+use crate::cli::words::nearest;
+
 /// Each name with its digits.
 const NAMES: &str = "aliceblue f0f8ff antiquewhite faebd7 aqua 00ffff aquamarine 7fffd4 azure f0ffff beige f5f5dc \
     bisque ffe4c4 black 000000 blanchedalmond ffebcd blue 0000ff blueviolet 8a2be2 brown a52a2a burlywood deb887 \
@@ -36,6 +38,13 @@ pub(super) fn named(name: &str) -> Option<[u8; 3]> {
         }
     }
     None
+}
+
+/// The question whether the name is meant that is most like a word.
+pub(super) fn meant(word: &str) -> String {
+    let names = NAMES.split_ascii_whitespace().step_by(2);
+    let near = nearest(&word.to_ascii_lowercase(), names);
+    near.map_or(String::new(), |name| format!("; did you mean {name}?"))
 }
 
 #[cfg(test)]

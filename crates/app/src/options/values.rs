@@ -322,7 +322,7 @@ impl FromStr for Color {
         match (value.map(u32::to_be_bytes), digits.len()) {
             (Some([_, r, g, b]), 6) => Ok([r, g, b].into()),
             (Some([.., high, low]), 3) => Ok([high & 15, low >> 4, low & 15].map(|digit| 17 * digit).into()),
-            _ => Err(Self::EXPECTED.to_owned()),
+            _ => Err(format!("{}{}", Self::EXPECTED, super::colors::meant(text))),
         }
     }
 }

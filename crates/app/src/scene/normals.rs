@@ -5,6 +5,9 @@ use std::collections::HashMap;
 use crate::error::Error;
 use crate::memory;
 use crate::scene::{Model, Vertex};
+use joined::{Joined, joined};
+
+mod joined;
 
 /// The company in which a triangle's corners are smooth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,25 +39,22 @@ impl Group {
     }
 }
 
-/// The turn in radians below which two triangles are parts of a flat face.
-const FLAT: f64 = 1e-3;
-
 /// The creases by which triangles that share a normal turn at most.
 const WIDE: f64 = 1.25;
 
 /// The most triangles at a place that are compared with each other.
 const MOST_AT_A_PLACE: usize = 128;
 
-/// Triangles at one edge, each of which is compared with so many after it. More than two share it only where a surface
-/// has branches, or two sides that both are modelled.
-const NEIGHBOURS: usize = 8;
-
 /// Normalizes the model's normals, and gives each vertex whose normal is (0, 0, 0) one of its own making. That is the
 /// mean of the normals of the triangles there that belong together. Weights are their angles (Thürmer and Wüthrich,
-/// Computing vertex normals from polygonal facets, 1998) times the areas of their flat faces. So a large face beside a
-/// narrow bevel stays flat, and the bevel is what is round. A flat face is all that is joined across edges at which it
-/// turns by less than 1/1000. The result depends on the surface alone. It is the same however a face was cut, and where
-/// a seam in the texture parts two vertices. Triangles of all parts count.
+/// Computing vertex normals from polygonal facets, 1998) times the widths of their flat faces. So a large face beside
+/// a narrow bevel stays flat, and the bevel is what is round. At edges that turn by 75 degrees and are smooth by a
+/// group's number, angles alone are the weights. So the wall of a cylinder is as strong as its lid.
+///
+/// A flat face is all that is joined across edges at which it turns by less than 1/1000. Its width is four times its
+/// area by the length of its outline. Of a square that is the side, and of a rim twice what it is across, however long
+/// it is around. The result depends on the surface alone. It is the same however a face was cut, and where a seam in
+/// the texture parts two vertices. Triangles of all parts count.
 ///
 /// Triangles belong together that share a number in `groups`, which has one for each triangle, in the parts' order. Of
 /// [`Group::BY_ANGLE`], those do that share an edge at which they turn by less than `crease` degrees. So do those that
@@ -65,7 +65,7 @@ const NEIGHBOURS: usize = 8;
 /// Where the mean vanishes, at a vertex of degenerate triangles only or of a folded surface, it is (0, 0, 1).
 ///
 /// # Cost
-/// Linear in vertices and triangles, but for sorting the edges at each vertex. While it runs, it takes some 64 bytes a
+/// Linear in vertices and triangles, but for sorting the edges at each vertex. While it runs, it takes some 91 bytes a
 /// triangle and 40 a vertex. Where no normal is missing it takes nothing.
 ///
 /// # Errors
@@ -82,19 +82,22 @@ pub fn complete(model: &mut Model, groups: &[Group], crease: f32) -> Result<(), 
     }
     let (before, triangles) = (model.vertices.len(), all(model).count());
     let what = "a model without normals";
-    memory::need((40 * before + 64 * triangles) as u64, what)?;
-    let Joined { sets, count, areas } = joined(model, groups, crease);
+    memory::need((40 * before + 91 * triangles) as u64, what)?;
+    let Joined { mut sets, count, widths, at_sharp } = joined(model, groups, crease);
     memory::need((32 * count + 20 * triangles) as u64, what)?;
     // Of each set the sum of normals, and that of their weights.
     let mut sums = vec![[0.0; 4]; count];
-    for ((triangle, sets), &area) in all(model).zip(sets.chunks_exact(3)).zip(&areas) {
-        for (sum, &set) in said(model, triangle, area).into_iter().zip(sets) {
-            add(&mut sums[set as usize], sum);
+    let mut is_sharp = vec![false; count];
+    for (&set, _) in sets.iter().zip(&at_sharp).filter(|(_, at_sharp)| **at_sharp) {
+        is_sharp[set as usize] = true;
+    }
+    for ((triangle, sets), &width) in all(model).zip(sets.chunks_exact(3)).zip(&widths) {
+        for (said, &set) in said(model, triangle).into_iter().zip(sets) {
+            add(&mut sums[set as usize], said, if is_sharp[set as usize] { 1.0 } else { width });
         }
     }
-    let (mut sets, areas) = (sets, areas);
-    part_wide(model, groups, crease, &areas, (&mut sets, &mut sums));
-    drop(areas);
+    part_wide(model, groups, crease, &widths, (&mut sets, &mut sums));
+    drop(widths);
     // Vertices that become several are a list that grows by halves, and a table.
     let new = sums.len().saturating_sub(before);
     let grown = if new > 0 { 2 * (size_of::<Vertex>() + 4) * (before + new) + 48 * new } else { 4 * before };
@@ -103,21 +106,21 @@ pub fn complete(model: &mut Model, groups: &[Group], crease: f32) -> Result<(), 
     Ok(())
 }
 
-/// The normals of a triangle at its three corners, times their weights, and these.
-fn said(model: &Model, triangle: [u32; 3], area: f64) -> [[f64; 4]; 3] {
+/// The normals of a triangle at its three corners, times its angles there, and these.
+fn said(model: &Model, triangle: [u32; 3]) -> [[f64; 4]; 3] {
     let points = triangle.map(|i| model.vertices[i as usize].position.map(f64::from));
     [0, 1, 2].map(|i| {
         let to_next = sub(points[(i + 1) % 3], points[i]);
         let to_last = sub(points[(i + 2) % 3], points[i]);
         let across = cross(to_next, to_last);
         let Some([x, y, z]) = normalize(across) else { return [0.0; 4] };
-        let weight = length(across).atan2(dot(to_next, to_last)) * area;
-        [x * weight, y * weight, z * weight, weight]
+        let angle = length(across).atan2(dot(to_next, to_last));
+        [x * angle, y * angle, z * angle, angle]
     })
 }
 
-fn add(sum: &mut [f64; 4], other: [f64; 4]) {
-    sum.iter_mut().zip(other).for_each(|(sum, other)| *sum += other);
+fn add(sum: &mut [f64; 4], other: [f64; 4], weight: f64) {
+    sum.iter_mut().zip(other).for_each(|(sum, other)| *sum += weight * other);
 }
 
 /// Parts the sets in which triangles turn by [`WIDE`] creases or more, although each edge between is smooth. There a
@@ -126,7 +129,7 @@ fn part_wide(
     model: &Model,
     groups: &[Group],
     crease: f32,
-    areas: &[f64],
+    widths: &[f64],
     (sets, sums): (&mut [u32], &mut Vec<[f64; 4]>),
 ) {
     let most = (WIDE * f64::from(crease)).min(180.0).to_radians();
@@ -166,8 +169,8 @@ fn part_wide(
                 None => {
                     let mut sum = [0.0; 4];
                     for (&other, _) in corners.iter().zip(0..).filter(|(_, k)| bits >> k & 1 == 1) {
-                        let said = said(model, of(other), areas[other as usize / 3]);
-                        add(&mut sum, said[other as usize % 3]);
+                        let said = said(model, of(other))[other as usize % 3];
+                        add(&mut sum, said, widths[other as usize / 3]);
                     }
                     let new = if known.is_empty() { set } else { narrowed(sums.len()) };
                     if known.is_empty() {
@@ -195,183 +198,9 @@ fn across(model: &Model, triangle: [u32; 3]) -> [f64; 3] {
     cross(sub(b, a), sub(c, a))
 }
 
-/// The corners and the triangles that belong together.
-struct Joined {
-    /// For each corner the number of the set whose normal it gets.
-    sets: Vec<u32>,
-    /// The number of sets.
-    count: usize,
-    /// For each triangle twice the area of the flat face that it is of.
-    areas: Vec<f64>,
-}
-
-fn joined(model: &Model, groups: &[Group], crease: f32) -> Joined {
-    let mut places = HashMap::with_capacity(model.vertices.len());
-    let place_of = |vertex: &Vertex| {
-        // Adding 0 makes -0 and 0 the same position.
-        let next = u32::try_from(places.len()).unwrap_or(u32::MAX);
-        *places.entry(vertex.position.map(|x| (x + 0.0).to_bits())).or_insert(next)
-    };
-    let places_of: Vec<u32> = model.vertices.iter().map(place_of).collect();
-    let count = places.len();
-    drop(places);
-    let place = |index: u32| places_of[index as usize];
-    let corners = 3 * model.parts.iter().map(|part| part.triangles.len()).sum::<usize>();
-    let mut sets = Sets((0..u32::try_from(corners).unwrap_or(u32::MAX)).collect());
-
-    let (mut numbered, mut polygon) = (HashMap::new(), (Group::ALONE, HashMap::new()));
-    let mut has_edges = false;
-    for ((triangle, &group), first) in all(model).zip(groups).zip((0_u32..).step_by(3)) {
-        has_edges |= group.has_edges();
-        if group == Group::ALONE {
-            // One sum serves all three.
-            sets.join(first, first + 1);
-            sets.join(first, first + 2);
-        }
-        if group == Group::BY_ANGLE || group == Group::ALONE {
-            continue;
-        }
-        for (corner, index) in (first..).zip(triangle) {
-            let known = if group.0 < Group::POLYGONS {
-                *numbered.entry((place(index), group.0)).or_insert(corner)
-            } else {
-                if polygon.0 != group {
-                    polygon = (group, HashMap::new());
-                }
-                *polygon.1.entry(place(index)).or_insert(corner)
-            };
-            sets.join(known, corner);
-        }
-    }
-    drop((numbered, polygon));
-    let mut faces = Sets((0..u32::try_from(corners / 3).unwrap_or(u32::MAX)).collect());
-    if has_edges {
-        sets.join_across(&mut faces, model, groups, f64::from(crease), count, place);
-    }
-    let mut areas = vec![0.0; corners / 3];
-    for (number, triangle) in all(model).enumerate() {
-        areas[faces.first_of(narrowed(number)) as usize] += length(across(model, triangle));
-    }
-    for number in (0..areas.len()).rev() {
-        // The first of a face comes before its others.
-        areas[number] = areas[faces.first_of(narrowed(number)) as usize];
-    }
-    let (sets, count) = sets.number();
-    Joined { sets, count, areas }
-}
-
 /// The number of a triangle.
 fn narrowed(number: usize) -> u32 {
     u32::try_from(number).unwrap_or(u32::MAX)
-}
-
-/// Things that belong together: each has another of its set, with a lower number, or itself.
-struct Sets(Vec<u32>);
-
-impl Sets {
-    fn first_of(&mut self, mut one: u32) -> u32 {
-        loop {
-            let next = self.0[one as usize];
-            if next == one {
-                return one;
-            }
-            self.0[one as usize] = self.0[next as usize];
-            one = next;
-        }
-    }
-
-    fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.first_of(a), self.first_of(b));
-        self.0[a.max(b) as usize] = a.min(b);
-    }
-
-    /// Joins the corners at both ends of edges that are not sharp, and the triangles of flat faces.
-    fn join_across(
-        &mut self,
-        faces: &mut Sets,
-        model: &Model,
-        groups: &[Group],
-        crease: f64,
-        places: usize,
-        place: impl Fn(u32) -> u32,
-    ) {
-        // Each edge is known by its lower place: there, its other place, and the corner from which its triangle has it.
-        let edges = || {
-            let triangles = all(model).zip(groups).zip((0_u32..).step_by(3));
-            triangles.filter(|((_, group), _)| group.has_edges()).flat_map(|((triangle, _), first)| {
-                let [a, b, c] = triangle.map(&place);
-                [(a, b, first), (b, c, first + 1), (c, a, first + 2)]
-            })
-        };
-        let mut starts = vec![0_u32; places + 1];
-        for (a, b, _) in edges().filter(|(a, b, _)| a != b) {
-            starts[a.min(b) as usize + 1] += 1;
-        }
-        for i in 0..places {
-            starts[i + 1] += starts[i];
-        }
-        let mut sorted = vec![(0_u32, 0_u32); starts[places] as usize];
-        for (a, b, corner) in edges().filter(|(a, b, _)| a != b) {
-            // The start moves on with each that is filled, and ends as that of the next.
-            let at = &mut starts[a.min(b) as usize];
-            sorted[*at as usize] = (a.max(b), corner);
-            *at += 1;
-        }
-        let triangles: Vec<[u32; 3]> = all(model).collect();
-        let sharp = crease.to_radians();
-        let mut begin = 0;
-        for (low, &end) in (0_u32..).zip(&starts[..places]) {
-            let at_low = &mut sorted[begin..end as usize];
-            begin = end as usize;
-            at_low.sort_unstable();
-            for edge in at_low.chunk_by(|a, b| a.0 == b.0).filter(|edge| edge.len() > 1) {
-                for (i, &(_, one)) in edge.iter().enumerate() {
-                    for &(_, other) in edge[i + 1..].iter().take(NEIGHBOURS) {
-                        let of = |corner: u32| triangles[corner as usize / 3];
-                        let normals = [one, other].map(|corner| normalize(across(model, of(corner))));
-                        let [Some(a), Some(b)] = normals else { continue };
-                        // Right for small angles too, where a cosine is not. A turn of the very angle is sharp,
-                        // although its corners have been rounded.
-                        let turn = length(cross(a, b)).atan2(dot(a, b));
-                        if turn < FLAT {
-                            faces.join(one / 3, other / 3);
-                        }
-                        let by_angle = |corner: u32| groups[corner as usize / 3] == Group::BY_ANGLE;
-                        if turn >= sharp - 1e-5 || !by_angle(one) || !by_angle(other) {
-                            continue;
-                        }
-                        let ends = |corner: u32| {
-                            let next = corner - corner % 3 + (corner + 1) % 3;
-                            let here = place(of(corner)[corner as usize % 3]) == low;
-                            if here { [corner, next] } else { [next, corner] }
-                        };
-                        let (a, b) = (ends(one), ends(other));
-                        self.join(a[0], b[0]);
-                        self.join(a[1], b[1]);
-                    }
-                }
-            }
-        }
-    }
-
-    /// Numbers the sets without gaps.
-    fn number(mut self) -> (Vec<u32>, usize) {
-        for corner in 0..self.0.len() {
-            // That of a lower corner is final.
-            self.0[corner] = self.0[self.0[corner] as usize];
-        }
-        let mut count = 0;
-        for corner in 0..self.0.len() {
-            let first = self.0[corner] as usize;
-            self.0[corner] = if first == corner {
-                count += 1;
-                count - 1
-            } else {
-                self.0[first]
-            };
-        }
-        (self.0, count as usize)
-    }
 }
 
 /// Gives the corners without normals those of their sets.

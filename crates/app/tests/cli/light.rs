@@ -241,12 +241,12 @@ fn a_ground_has_a_soft_shadow() {
     let edge = framed.enumerate_pixels().filter(|(x, y, _)| [0, 89].contains(x) || [0, 89].contains(y));
     assert!(edge.map(|(.., p)| p.0[0]).min() >= Some(0x98));
     assert!(framed.pixels().any(|p| p.0[0] == p.0[1] && (0x60..0xa0).contains(&p.0[0])));
-    let run = alberti(
-        folder.path("").as_path(),
-        &[OsStr::new("explain")],
-        &["box.obj", "--ground", "--pixel", "1,1"],
-    );
-    assert!(run.stderr.contains("--ground: found an option that `explain` has not"), "{run:?}");
+    for command in [&["explain", "--pixel", "1,1"][..], &["info"], &["bake", "--out", "out"]] {
+        let run = alberti(folder.path("").as_path(), &[], &[command, &["box.obj", "--ground"]].concat());
+        let told = format!("warning: --ground: found it with {}, which has the model alone", command[0]);
+        assert!(run.status == Some(0) && run.stderr.starts_with(&told), "{run:?}");
+        assert_eq!(run.stderr.lines().count(), 1, "{run:?}");
+    }
     let run = folder.succeeds(&[&view[..], &["--ground", "--shading", "vertex-color"]].concat());
     assert!(run.stderr.contains("--ground: found it with vertex-color"), "{run:?}");
     // Straight lines bend it a little; numbers of pixels, and false colours, are those of the box.

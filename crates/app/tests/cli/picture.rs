@@ -335,6 +335,8 @@ fn cameras_that_contradict_themselves_are_refused() {
     );
     folder.fails(&["no.obj", "--texture", "no.png"], &["no.png: found no such file, expected a PNG"]);
     let teapot = Folder::with(&[("Teapot.obj", TRIANGLE.as_bytes()), ("teapo.png", b"")]);
+    teapot.fails(&["Teapot.obj", "--background", "wite"], &["--background", "did you mean white?"]);
+    teapot.fails(&["Teapot.obj", "--diffuse", "Rebecapurple"], &["did you mean rebeccapurple?"]);
     teapot.fails(&["teapo.obj"], &["teapo.obj: found no such file", "did you mean Teapot.obj?"]);
     folder.fails(&["no.obj"], &["no.obj: found no such file", "check its path"]);
     let [view, angle] = ["--view back", "--azimuth 180"].map(|side| {

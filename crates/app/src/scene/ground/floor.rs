@@ -280,6 +280,19 @@ mod tests {
         }
     }
 
+    /// The upper side of a thin slab is bright but for the shadow of what stands there.
+    #[test]
+    fn thin_slabs_are_not_dark() {
+        for thickness in [0.0002, 0.001, 0.01] {
+            let mut slab = squares(&[(30.0, -thickness), (30.0, 0.0), (1.0, 1.0)]);
+            slab.vertices[..4].iter_mut().for_each(|v| v.normal[1] = -1.0);
+            let ground = first(&slab, None);
+            assert!(ground.on_floor && ground.low > 0.0, "{thickness}");
+            let [below, beside] = [[0.0, 0.0], [2.1, 2.1]].map(|at| alpha(&slab, &ground, at));
+            assert!(below > 60 && beside < 20, "{thickness}: {below} {beside}");
+        }
+    }
+
     /// Beside a floor, things that reach below it have a ground of their own; all others have one with it.
     #[test]
     fn a_ground_goes_on_beyond_a_floor() {

@@ -161,7 +161,7 @@ fn alpha_of(part: &Part) -> u8 {
     if let AnyBlend::Constant(alpha) = part.detail.blend { alpha } else { u8::MAX }
 }
 
-/// The boxes that these parts pass through, over each cell; cells on which they lie are `covered`.
+/// The boxes that these parts pass through, over each cell; cells on which they lie are `covered`, if they are opaque.
 fn columns<'a>(
     ground: &Ground,
     parts: impl Iterator<Item = &'a Part>,
@@ -171,6 +171,8 @@ fn columns<'a>(
 ) -> Vec<u64> {
     let side = ground.cells as usize;
     let mut cells = vec![(0_u64, 0.0_f32, 0.0_f32); side * side];
+    // All that stands on a floor is a quarter of `near` below its ground.
+    let lowest = -ground.near / 2.0 * f64::from(ground.cells) / ground.side;
     for part in parts {
         let alpha = opacity::alpha(model, part, wrap);
         for triangle in &part.triangles {
@@ -194,11 +196,12 @@ fn columns<'a>(
                 };
                 let middle = |k: usize| mean(piece.iter().map(|corner| corner[k]));
                 let opaque = alpha([middle(3), middle(4)], steps) * area(piece);
-                if opaque > 0.0 {
+                // The lower side of a slab, or a foot in the floor, is below it.
+                if opaque > 0.0 && piece.iter().any(|corner| corner[2] >= lowest) {
                     let heights = piece.iter().map(|corner| corner[2] / height);
                     let least = heights.clone().fold(f64::INFINITY, f64::min);
                     let most = heights.fold(0.0, f64::max);
-                    if least < TOUCHING && most < LOW {
+                    if least < TOUCHING && most < LOW && alpha_of(part) == u8::MAX {
                         *lying += narrow(opaque);
                     }
                     // It lies on the ground, and hides what it darkens.

@@ -96,7 +96,7 @@ fn a_bevelled_cube_is_no_cushion() {
                 let mut flat = [0.0; 3];
                 flat[axis] = vertex.position[axis];
                 let turn = length(cross(flat.map(f64::from), vertex.normal.map(f64::from))).asin();
-                // A bevel is cut*sqrt(2) wide: its area is that share of the face's, and it turns by 45 degrees.
+                // A bevel is cut*sqrt(2) wide, of the face's 2, and turns by 45 degrees.
                 assert!(turn < 2.0 * f64::from(cut), "{cut} {group:?}: {turn}");
                 assert!(turn > 0.1 * f64::from(cut), "{cut} {group:?}: {turn}");
             }
@@ -145,10 +145,28 @@ fn normals_are_of_what_turns_little() {
     }
 }
 
+/// The wall of a cylinder in one group is as strong as its lids, however fine it is.
+#[test]
+fn lids_are_no_stronger_than_walls() {
+    for sides in [8, 32, 128] {
+        let mut tube = prism(sides);
+        let lids = (1..sides - 1).flat_map(|k| [[1, 2 * k + 1, 2 * k + 3], [0, 2 * k + 2, 2 * k]]);
+        tube.parts[0].triangles.extend(lids);
+        smooth(&mut tube);
+        // Angles of a wall are 180 degrees, and those of a lid less by a side's share of a turn.
+        let slope = (1.0 - 2.0 / f64::from(sides)) / (std::f64::consts::PI / f64::from(sides)).cos();
+        for vertex in &tube.vertices {
+            let [x, y, z] = vertex.normal.map(f64::from);
+            let off = z.abs() / (x * x + y * y).sqrt() / slope;
+            assert!((off - 1.0).abs() < 1e-5, "{sides}: {off}");
+        }
+    }
+}
+
 /// A face that is cut into many triangles weighs as much as one of two.
 #[test]
 fn faces_weigh_alike_however_they_are_cut() {
-    // A step: a floor one unit wide and a wall two units high, in so many triangles each.
+    // A ramp of two units behind a floor one unit wide, in so many triangles each. It rises by 45 degrees.
     let step = |floor: u32, wall: u32| {
         let (mut positions, mut triangles) = (Vec::new(), Vec::new());
         let mut strip = |count: u32, at: &dyn Fn(f32, f32) -> [f32; 3]| {
@@ -163,7 +181,7 @@ fn faces_weigh_alike_however_they_are_cut() {
             }
         };
         strip(floor, &|x, y| [x, y, 0.0]);
-        strip(wall, &|z, y| [0.0, y, -2.0 * z]);
+        strip(wall, &|z, y| [-std::f32::consts::SQRT_2 * z, y, -std::f32::consts::SQRT_2 * z]);
         let mut model = model(&positions, &triangles);
         for triangle in &mut model.parts[0].triangles[2 * floor as usize..] {
             triangle.swap(1, 2);
@@ -172,8 +190,10 @@ fn faces_weigh_alike_however_they_are_cut() {
         model.vertices[0].normal
     };
     let plain = step(1, 1);
+    // Widths of 4*1/4 and 4*2/6.
+    let across = 4.0 / 3.0 / std::f32::consts::SQRT_2;
     let slope = plain[0].abs() / plain[2].abs();
-    assert!((slope - 2.0).abs() < 1e-5, "{plain:?}");
+    assert!((slope - across / (1.0 + across)).abs() < 1e-5, "{plain:?}");
     for (floor, wall) in [(1, 7), (16, 1), (5, 64)] {
         assert!(close(step(floor, wall), plain), "{floor} {wall}");
     }
@@ -334,4 +354,35 @@ fn corners_without_area_split_nothing() {
     let mut model = model(&positions, &[[0, 1, 1], [0, 1, 2], [2, 2, 0]]);
     by(&mut model, Group::BY_ANGLE, 60.0);
     assert!(model.vertices.iter().all(|v| v.normal == [0.0, 0.0, 1.0]) && model.vertices.len() == 3);
+}
+
+/// A funnel with a thin rim in one group: all around it, no corner's normal is on the other side of its triangle.
+#[test]
+fn rims_look_where_their_sides_do() {
+    let outline = [(0.2, 0.0), (0.25, 1.0), (1.5, 2.0), (1.45, 2.0), (0.22, 1.0), (0.17, 0.0)];
+    let sides = 48_u32;
+    let places: Vec<[f32; 3]> = outline
+        .iter()
+        .flat_map(|&(radius, height): &(f32, f32)| {
+            (0..sides).map(move |k| {
+                let (sin, cos) = (f64::from(k) / f64::from(sides) * std::f64::consts::TAU).sin_cos();
+                [radius * narrow(cos), height, radius * narrow(sin)]
+            })
+        })
+        .collect();
+    let strips = (0..5).flat_map(|strip| {
+        (0..sides).flat_map(move |k| {
+            let [a, b] = [k, (k + 1) % sides].map(|k| strip * sides + k);
+            [[a, a + sides, b + sides], [a, b + sides, b]]
+        })
+    });
+    let mut funnel = model(&places, &strips.collect::<Vec<_>>());
+    smooth(&mut funnel);
+    for triangle in &funnel.parts[0].triangles {
+        let own = normalize(across(&funnel, *triangle)).unwrap();
+        for index in triangle {
+            let along = dot(own, funnel.vertices[*index as usize].normal.map(f64::from));
+            assert!(along > 0.1, "{triangle:?}: {along}");
+        }
+    }
 }

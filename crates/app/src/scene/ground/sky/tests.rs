@@ -132,13 +132,16 @@ fn as_many_boxes_are_kept_as_the_share_says() {
 /// A sheet that lies on the ground has no rim, and nothing is dark where nothing is near.
 #[test]
 fn sheets_on_the_ground_and_far_places_are_not_dark() {
-    let sheet =
+    let mut sheet =
         model(&[-1.0, 1.0].map(|x| [-1.0, 1.0].map(|z| [x, 1e-5, z])).concat(), vec![[0, 1, 3], [0, 3, 2]]);
     for at in [[0.0, 1.02], [1.02, 0.5], [-1.02, 0.0], [1.5, 1.5]] {
         assert!(dark(&sheet, at) < 0.02, "{at:?}: {}", dark(&sheet, at));
     }
     // Far below it nothing is seen: a filter that reads from there makes no rim lighter.
     assert!(dark(&sheet, [0.0, 0.0]) == 1.0);
+    // Through glass all is seen.
+    sheet.parts[0].detail.blend = AnyBlend::Constant(3);
+    assert!(dark(&sheet, [0.0, 0.0]) == 0.0);
     let raised =
         model(&[-1.0, 1.0].map(|x| [-1.0, 1.0].map(|z| [x, 0.5, z])).concat(), vec![[0, 1, 3], [0, 3, 2]]);
     let sky = Sky::over(&GROUND, &raised, Wrap::Repeat, 128.0);
