@@ -108,8 +108,9 @@ fn rewrite_all(
 /// Checks the tests, or builds them, and hands on what cargo says.
 fn cargo(tree: &Tree, build: bool) -> Result<Vec<Value>, String> {
     let mut cargo = tree.cargo();
-    cargo.arg(if build { "build" } else { "check" });
-    cargo.args(["--lib", "--profile", "test", "--keep-going", "--message-format=json"]);
+    // Only `cargo test` makes programs of the tests within libraries.
+    cargo.args(if build { ["test", "--no-run"] } else { ["check", "--keep-going"] });
+    cargo.args(["--lib", "--profile", "test", "--message-format=json"]);
     cargo.args(tests(tree)?.iter().flat_map(|name| ["--test", name]));
     cargo.args(TESTED.iter().flat_map(|package| ["-p".to_owned(), format!("alberti{package}")]));
     let output = cargo.output().map_err(|error| format!("cannot run cargo: {error}"))?;
