@@ -18,6 +18,7 @@ use std::time::{Duration, Instant};
 use crate::draw::Chains;
 use crate::error::Error;
 use crate::options::{Projection, RenderOptions, Samples};
+use crate::output::stage;
 use crate::render::Picture;
 use crate::samples::supersampled_with;
 use crate::scene::backdrop::Backdrop;
@@ -100,6 +101,7 @@ impl<'a> Set<'a> {
         let (done, arrived) = mpsc::sync_channel(threads);
         let outcome = thread::scope(|scope| {
             let work = |done: mpsc::SyncSender<_>| {
+                stage::hide();
                 frames(&mut |number, drawn| done.send((number, drawn)).is_ok());
             };
             let started = (0..threads).filter(|_| {

@@ -156,7 +156,7 @@ impl Request {
         }
         let left_out = |found: &str, expected: &str| {
             let error = Error::new(found, expected).place("--ground");
-            warn(&error.hint("it is left out").to_string());
+            warn(&self.relocate(error.hint("it is left out")).to_string());
             None
         };
         if self.arguments.show.is_some() {

@@ -204,8 +204,9 @@ impl Request {
         let base = scene.camera.or(orbit).or(still);
         let up = wishes.up.map(<[f32; 3]>::from).or(base.map(|base| base.up)).unwrap_or([0.0, 1.0, 0.0]);
         let shading = arguments.render.shading.unwrap_or(scene.defaults.0);
-        let is_seen = arguments.show.is_none() && shading != Shading::VertexColor;
-        let grounded = (arguments.render.ground == Some(true) && is_seen).then_some(up);
+        // Numbers and false colours, which have no ground, are those of the picture with it.
+        let is_lit = shading != Shading::VertexColor;
+        let grounded = (arguments.render.ground == Some(true) && is_lit).then_some(up);
         // A shadow on a floor does not reach beyond it.
         let grounded = grounded.filter(|up| !ground::has_floor(&scene.model, swept.as_ref(), *up));
         let whole = swept.as_mut().map_or(&mut scene.model, |swept| &mut swept.whole);

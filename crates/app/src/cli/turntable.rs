@@ -247,7 +247,7 @@ fn film(
     let drawn = during(Stage::Draw, |progress| {
         set.draw(wanted.len(), &shot, &mut |at, image| {
             progress.set(at as u64, total);
-            during(Stage::Encode, |_| match &mut film {
+            stage::counted_as(Stage::Encode, || match &mut film {
                 Some(film) => film.push(image),
                 None => file.write_frame(wanted[at], &image, transparent),
             })

@@ -90,6 +90,8 @@ struct Run {
     since: Option<Instant>,
     /// The line that somebody sees of it.
     shown: Option<Shown>,
+    /// Whether it is another thread's that is seen.
+    is_hidden: bool,
 }
 
 impl Run {
@@ -146,7 +148,7 @@ pub(crate) fn during<T>(stage: Stage, work: impl FnOnce(&Progress) -> T) -> T {
     let bar = RUN.with_borrow_mut(|run| {
         run.count();
         run.within.push(stage);
-        if run.shown.is_none() && has_reader() {
+        if run.shown.is_none() && !run.is_hidden && has_reader() {
             run.shown = Shown::new();
         }
         run.shown.as_ref().map(|shown| shown.bar.clone())
@@ -163,6 +165,25 @@ pub(crate) fn during<T>(stage: Stage, work: impl FnOnce(&Progress) -> T) -> T {
         progress.turn_back(before);
     }
     result
+}
+
+/// Does work that counts as a stage while another one is shown, of which it is a part.
+pub(crate) fn counted_as<T>(stage: Stage, work: impl FnOnce() -> T) -> T {
+    let turn = |change: &dyn Fn(&mut Run)| {
+        RUN.with_borrow_mut(|run| {
+            run.count();
+            change(run);
+        });
+    };
+    turn(&|run| run.within.push(stage));
+    let result = work();
+    turn(&|run| _ = run.within.pop());
+    result
+}
+
+/// Shows no stages of this thread, which works for another one's.
+pub(crate) fn hide() {
+    RUN.with_borrow_mut(|run| run.is_hidden = true);
 }
 
 /// Prints something while a stage is shown.
@@ -293,6 +314,18 @@ mod tests {
         // Without any work nothing is known of it.
         divide([Stage::Draw, Stage::Encode], works.map(|(stage, _)| (stage, Duration::ZERO)));
         assert_eq!([Stage::Draw, Stage::Shadow, Stage::Encode].map(time), [2, 5, 2].map(seconds));
+    }
+
+    #[test]
+    fn parts_of_a_stage_have_their_own_time() {
+        begin();
+        let nap = Duration::from_millis(20);
+        during(Stage::Draw, |_| {
+            sleep(nap);
+            counted_as(Stage::Encode, || sleep(3 * nap));
+        });
+        assert!(time(Stage::Draw) >= nap && time(Stage::Encode) >= 3 * nap);
+        assert!(time(Stage::Draw) < time(Stage::Encode));
     }
 
     #[test]

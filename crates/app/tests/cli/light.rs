@@ -259,6 +259,15 @@ fn a_ground_has_a_soft_shadow() {
         image::open(folder.path("alberti.id.png")).expect("numbers").to_rgb16()
     };
     assert_eq!(seen(&[]), seen(&["--ground"]));
+    // False colours are seen by the camera of the picture that they explain.
+    let camera = |more: &[&str]| {
+        let run = folder.succeeds(&[&["box.obj", "--ground", "--size", "90x90"], more].concat());
+        // Its planes are around what is drawn.
+        let told = run.stdout.lines().find(|line| line.starts_with("camera: ")).map(str::to_owned);
+        told.and_then(|line| Some(line.split_once(" --near")?.0.to_owned()))
+    };
+    assert!(camera(&[]).is_some());
+    assert_eq!(camera(&["--show", "triangles"]), camera(&[]));
     for (more, told) in [
         (&["--show", "overdraw"][..], "--ground: found it with --show"),
         (&["--eye", "0,-4,9"], "--ground: found a camera below the model's lowest point"),

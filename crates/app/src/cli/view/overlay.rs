@@ -1,6 +1,7 @@
 //! Text over a picture.
 
 use std::convert::Infallible;
+use std::ops::Range;
 
 use embedded_graphics::Drawable as _;
 use embedded_graphics::Pixel;
@@ -9,6 +10,7 @@ use embedded_graphics::geometry::{OriginDimensions, Point, Size};
 use embedded_graphics::mono_font::MonoTextStyle;
 use embedded_graphics::mono_font::iso_8859_1::FONT_8X13;
 use embedded_graphics::pixelcolor::{Rgb888, RgbColor as _};
+use embedded_graphics::primitives::Rectangle;
 use embedded_graphics::text::{Baseline, Text};
 
 /// A letter's width and height.
@@ -28,7 +30,8 @@ impl Canvas<'_> {
         (width / (LETTER[0] * scale)).saturating_sub(2) as usize
     }
 
-    /// Lines on a darkened patch in the upper left corner, after so many others.
+    /// Lines on a darkened patch in the upper left corner, after so many others. In a line of a legend the colour is
+    /// seen instead of its digits.
     pub(super) fn write(&mut self, lines: &[String], before: usize, color: [u8; 3]) {
         let widest = lines.iter().map(|line| line.chars().count()).max().unwrap_or_default();
         let to_u32 = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
@@ -40,9 +43,17 @@ impl Canvas<'_> {
         }
         let style = MonoTextStyle::new(&FONT_8X13, Rgb888::new(color[0], color[1], color[2]));
         for (line, row) in lines.iter().zip(0_u32..) {
-            let at = [left, top + row * LETTER[1]].map(|x| i32::try_from(x).unwrap_or(i32::MAX));
-            // There is nothing that could fail.
-            _ = Text::with_baseline(line, Point::new(at[0], at[1]), style, Baseline::Top).draw(self);
+            let mut line = line.clone();
+            if let Some(color) = legend_color(&line) {
+                line.replace_range(DIGITS, "      ");
+                let [begin, end] = [DIGITS.start, DIGITS.end].map(to_u32);
+                let corner = point([left + begin * LETTER[0], top + row * LETTER[1] + 1]);
+                let size = Size::new((end - begin) * LETTER[0], LETTER[1] - 2);
+                // There is nothing that could fail.
+                _ = self.fill_solid(&Rectangle::new(corner, size), color);
+            }
+            let at = point([left, top + row * LETTER[1]]);
+            _ = Text::with_baseline(&line, at, style, Baseline::Top).draw(self);
         }
     }
 
@@ -56,6 +67,23 @@ impl Canvas<'_> {
             }
         }
     }
+}
+
+/// The place of a colour's digits in a line of a legend.
+const DIGITS: Range<usize> = 2..8;
+
+/// The colour of a line of a legend.
+fn legend_color(line: &str) -> Option<Rgb888> {
+    let rest = line.strip_prefix("  ")?;
+    let digits = rest.get(..6).filter(|_| rest.get(6..8) == Some("  "))?;
+    let is_color = digits.bytes().all(|byte| byte.is_ascii_hexdigit());
+    let [_, r, g, b] = u32::from_str_radix(digits, 16).ok().filter(|_| is_color)?.to_be_bytes();
+    Some(Rgb888::new(r, g, b))
+}
+
+fn point(at: [u32; 2]) -> Point {
+    let [x, y] = at.map(|x| i32::try_from(x).unwrap_or(i32::MAX));
+    Point::new(x, y)
 }
 
 impl OriginDimensions for Canvas<'_> {
@@ -87,6 +115,19 @@ impl DrawTarget for Canvas<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A colour of a legend is a patch; digits that are none stay.
+    #[test]
+    fn colours_of_legends_are_seen() {
+        let mut pixels = vec![0; 200 * 60];
+        let mut canvas = Canvas { pixels: &mut pixels, size: [200, 60], scale: 1 };
+        let lines = ["title", "  ff8000  0 to 1", "  least 3, greatest 4", "  +12345  none"];
+        canvas.write(&lines.map(str::to_owned), 0, [255; 3]);
+        let count = |color: u32| pixels.iter().filter(|pixel| **pixel == color).count();
+        assert_eq!(count(0x00ff_8000), 48 * 11);
+        assert_eq!(pixels[(3 + 13 + 6) * 200 + 4 + 16 + 24], 0x00ff_8000);
+        assert!(count(0x00ff_ffff) > 200);
+    }
 
     #[test]
     fn letters_are_within_the_window_at_any_size() {

@@ -38,7 +38,7 @@ const TOUCHING: f64 = 0.5;
 const LOW: f64 = 2.0;
 
 /// The share of the area of a surface through a cell from which on it counts as whole.
-const WHOLE: f64 = 0.5;
+const WHOLE: f64 = 0.4;
 
 /// All that hides the sky of a ground.
 pub(super) struct Sky {
@@ -92,11 +92,14 @@ impl Sky {
         let mut steps = vec![Step { level: 0, along: 0.25, from: 0.25, to: 0.5, weight: 1.0 }];
         let (mut from, mut length, mut level) = (0.5, 1.0, 0);
         while from < reach && self.side >> level > 0 {
-            for _ in 0..STEPS {
-                let along: f64 = from + length / 2.0;
+            // Near by, a ray of whole steps would pass between the cells of a wall that stands aslant.
+            let parts = if level == 0 { 2 } else { 1 };
+            for _ in 0..parts * STEPS {
+                let to = from + length / f64::from(parts);
+                let along: f64 = f64::midpoint(from, to);
                 let left = (1.0 - (along / reach).powi(2)).max(0.0);
-                steps.push(Step { level, along, from, to: from + length, weight: left * left });
-                from += length;
+                steps.push(Step { level, along, from, to, weight: left * left });
+                from = to;
             }
             (length, level) = (2.0 * length, level + 1);
         }
