@@ -1,4 +1,4 @@
 //! The fuzz target `baked`.
 #![no_main]
 
-alberti_fuzz::program!("baked");
+alberti_fuzz::program!(baked);

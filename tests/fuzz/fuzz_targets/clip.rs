@@ -1,4 +1,4 @@
 //! The fuzz target `clip`.
 #![no_main]
 
-alberti_fuzz::program!("clip");
+alberti_fuzz::program!(clip);

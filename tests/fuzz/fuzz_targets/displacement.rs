@@ -1,4 +1,4 @@
 //! The fuzz target `displacement`.
 #![no_main]
 
-alberti_fuzz::program!("displacement");
+alberti_fuzz::program!(displacement);

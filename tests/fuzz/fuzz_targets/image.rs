@@ -1,4 +1,4 @@
 //! The fuzz target `image`.
 #![no_main]
 
-alberti_fuzz::program!("image");
+alberti_fuzz::program!(image);

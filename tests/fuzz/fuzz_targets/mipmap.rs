@@ -1,4 +1,4 @@
 //! The fuzz target `mipmap`.
 #![no_main]
 
-alberti_fuzz::program!("mipmap");
+alberti_fuzz::program!(mipmap);

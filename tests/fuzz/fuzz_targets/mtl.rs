@@ -1,4 +1,4 @@
 //! The fuzz target `mtl`.
 #![no_main]
 
-alberti_fuzz::program!("mtl");
+alberti_fuzz::program!(mtl);

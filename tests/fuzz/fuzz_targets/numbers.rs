@@ -1,4 +1,4 @@
 //! The fuzz target `numbers`.
 #![no_main]
 
-alberti_fuzz::program!("numbers");
+alberti_fuzz::program!(numbers);

@@ -1,4 +1,4 @@
 //! The fuzz target `obj`.
 #![no_main]
 
-alberti_fuzz::program!("obj");
+alberti_fuzz::program!(obj);

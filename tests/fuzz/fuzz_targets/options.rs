@@ -1,4 +1,4 @@
 //! The fuzz target `options`.
 #![no_main]
 
-alberti_fuzz::program!("options");
+alberti_fuzz::program!(options);

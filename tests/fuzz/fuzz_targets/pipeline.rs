@@ -1,4 +1,4 @@
 //! The fuzz target `pipeline`.
 #![no_main]
 
-alberti_fuzz::program!("pipeline");
+alberti_fuzz::program!(pipeline);

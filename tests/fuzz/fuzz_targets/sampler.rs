@@ -1,4 +1,4 @@
 //! The fuzz target `sampler`.
 #![no_main]
 
-alberti_fuzz::program!("sampler");
+alberti_fuzz::program!(sampler);

@@ -1,4 +1,4 @@
 //! The fuzz target `scene`.
 #![no_main]
 
-alberti_fuzz::program!("scene");
+alberti_fuzz::program!(scene);

@@ -1,4 +1,4 @@
 //! The fuzz target `surface`.
 #![no_main]
 
-alberti_fuzz::program!("surface");
+alberti_fuzz::program!(surface);

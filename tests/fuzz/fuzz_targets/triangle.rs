@@ -1,4 +1,4 @@
 //! The fuzz target `triangle`.
 #![no_main]
 
-alberti_fuzz::program!("triangle");
+alberti_fuzz::program!(triangle);

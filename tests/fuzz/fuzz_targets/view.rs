@@ -1,4 +1,4 @@
 //! The fuzz target `view`.
 #![no_main]
 
-alberti_fuzz::program!("view");
+alberti_fuzz::program!(view);

@@ -29,30 +29,36 @@ mod view;
 /// A body.
 pub type Body = fn(&[u8]);
 
-/// All targets: the names of the programs and of the folders of corpora, and what they try.
-pub const TARGETS: &[(&str, Body)] = &[
-    ("numbers", numbers::run),
-    ("view", view::run),
-    ("clip", clip::run),
-    ("triangle", triangle::run),
-    ("pipeline", pipeline::run),
-    ("sampler", sampler::run),
-    ("mipmap", mipmap::run),
-    ("surface", surface::run),
-    ("displacement", displacement::run),
-    ("baked", baked::run),
-    ("obj", app::obj),
-    ("mtl", app::mtl),
-    ("scene", app::scene),
-    ("image", app::image),
-    ("options", app::options),
-];
+macro_rules! targets {
+    ($($name:ident: $body:path,)*) => {
+        $(
+            #[doc = concat!("The target `", stringify!($name), "`.")]
+            pub fn $name(bytes: &[u8]) {
+                $body(bytes);
+            }
+        )*
 
-/// Runs the target of that name; `false` if there is none.
-pub fn run(name: &str, bytes: &[u8]) -> bool {
-    let found = TARGETS.iter().find(|(known, _)| *known == name);
-    found.iter().for_each(|(_, body)| body(bytes));
-    found.is_some()
+        /// All targets: the names of the programs and of the folders of corpora, and what they try.
+        pub const TARGETS: &[(&str, Body)] = &[$((stringify!($name), $name)),*];
+    };
+}
+
+targets! {
+    numbers: numbers::run,
+    view: view::run,
+    clip: clip::run,
+    triangle: triangle::run,
+    pipeline: pipeline::run,
+    sampler: sampler::run,
+    mipmap: mipmap::run,
+    surface: surface::run,
+    displacement: displacement::run,
+    baked: baked::run,
+    obj: app::obj,
+    mtl: app::mtl,
+    scene: app::scene,
+    image: app::image,
+    options: app::options,
 }
 
 /// The cases of a target that are kept: a line of hexadecimal digits each.
