@@ -8,6 +8,8 @@
 //! a + b    becomes    match (a, b) { (l, r) => if mutant(17) { l - r } else if mutant(18) { l * r } else { l + r } }
 //! ```
 //!
+//! Tables that a program computes while it is compiled are made when it runs, where nothing needs them before.
+//!
 //! Each test is run once on its own, and says which switches it passes. Then each mutant meets the tests that pass its
 //! switch, until one of them fails: first those that have killed others of its file, then the quickest. The state is
 //! kept in a file: a run that was stopped goes on. Mutants come in an order of chance, so that those of a part of a run
@@ -19,6 +21,7 @@ mod report;
 mod rewrite;
 mod run;
 mod suite;
+mod tables;
 mod tree;
 
 use std::path::{Path, PathBuf};

@@ -9,6 +9,7 @@ use syn::visit::{self, Visit};
 use syn::{BinOp, Expr};
 
 use crate::list::{Genre, Mutant};
+use crate::tables::tables;
 
 /// A file in which mutants are switched.
 pub(crate) struct Rewritten {
@@ -26,6 +27,8 @@ struct Node {
 }
 
 enum Kind {
+    /// The same between two other texts.
+    Within(&'static str, &'static str),
     /// Another value at the beginning of a function.
     Value,
     /// An operator that evaluates both sides. Comparisons borrow them.
@@ -60,6 +63,19 @@ pub(crate) fn rewrite(source: &str, mutants: &[(usize, &Mutant)]) -> Result<Rewr
         } else {
             places.entry((at, mutant.genre == Genre::Arm)).or_default().push((number, mutant));
         }
+    }
+    // Before the others: where both have the same range, this is around.
+    for table in tables(&file) {
+        let pieces = [
+            (table.keyword, ("static /* ", " */")),
+            (table.kind, ("crate::mutant_std::sync::LazyLock<", ">")),
+            (table.value, ("crate::mutant_std::sync::LazyLock::new(|| ", ")")),
+        ];
+        nodes.extend(pieces.map(|(span, (before, after))| Node {
+            range: lines.range(span),
+            ways: Vec::new(),
+            kind: Kind::Within(before, after),
+        }));
     }
     let mut finder = Finder { source, lines: &lines, places, nodes };
     finder.visit_file(&file);
@@ -210,6 +226,12 @@ impl Writer<'_> {
         };
         let switch = |number: usize| format!("crate::mutant({number})");
         match &node.kind {
+            Kind::Within(before, after) => {
+                self.text.push_str(before);
+                self.copy(node.range.clone(), next);
+                self.text.push_str(after);
+                return;
+            }
             Kind::Value => {
                 for (number, value) in &node.ways {
                     self.text.push_str(&format!("if crate::mutant({number}) {{ return {value}; }} "));
@@ -330,6 +352,19 @@ mod tests {
         assert!(text.contains("0 if !crate::mutant(0) => 1"), "{text}");
         let guard = "3 if !crate::mutant(1) && (crate::mutant(2) || !crate::mutant(3) && (x > 2)) => 4";
         assert!(text.contains(guard), "{text}");
+    }
+
+    #[test]
+    fn tables_are_made_while_running() {
+        let source = "const T: [u8; 2] = { [1 + 1; 2] };\nfn f() -> u8 { T[0] }\n";
+        let column = source.find('+').unwrap() + 1;
+        assert_eq!(
+            written(source, &[mutant(Genre::Binary, "-", (1, column))]),
+            "static /* const */ T: crate::mutant_std::sync::LazyLock<[u8; 2]> = \
+             crate::mutant_std::sync::LazyLock::new(|| { [(match ((1), (1)) { (mutant_l, mutant_r) => \
+             if crate::mutant(0) { mutant_l - mutant_r } else { mutant_l + mutant_r } }); 2] });\n\
+             fn f() -> u8 { T[0] }\n"
+        );
     }
 
     /// The switch of `&&` and `||`, by a table of truth.

@@ -6,6 +6,7 @@ use std::process::Command;
 
 use crate::LIBRARIES;
 use crate::list::Mutant;
+use crate::tables::STD;
 
 /// The folder of a copy.
 pub(crate) struct Tree {
@@ -130,8 +131,8 @@ fn with_switch(name: &str, bytes: Vec<u8>) -> Vec<u8> {
         Some(library) => changed(&|text| {
             let text = text.replace("#![forbid(unsafe_code)]", "");
             match library {
-                "math" => format!("{FEATURES}{text}{SWITCH}"),
-                _ => text + "\n#[doc(hidden)]\npub use alberti_math::mutant_switch::mutant;\n",
+                "math" => format!("{FEATURES}{text}{STD}{SWITCH}"),
+                _ => format!("{text}{STD}#[doc(hidden)]\npub use alberti_math::mutant_switch::mutant;\n"),
             }
         }),
     }

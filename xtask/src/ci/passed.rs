@@ -14,7 +14,7 @@ pub(super) const PLACE: &str = ".ci/passed";
 /// The manifest of the workspace.
 const MANIFEST: &str = "Cargo.toml";
 
-/// What is drawn with.
+/// What is drawn with, but for its tests, see [`without_tests`].
 const LIBRARIES: &[&str] =
     &[MANIFEST, "crates/alberti/", "crates/math/", "crates/projection/", "crates/raster/", "crates/texture/"];
 /// What each program for chips depends on, beside these.
@@ -74,7 +74,11 @@ const LONG: [(&str, &[&[&str]]); 10] = [
     ("trade", &[LIBRARIES, CHIPS, TOOLS]),
     ("guide", &[LIBRARIES, CHIPS, TOOLS]),
     ("fuzz", &[LIBRARIES, CHIPS, TOOLS]),
-    ("supply", &[LIBRARIES, CHIPS, TOOLS, &["deny.toml", "benches/Cargo.toml", "xtask/src/supply.rs"]]),
+    // It compiles the libraries' tests as well.
+    (
+        "supply",
+        &[&[MANIFEST, "crates/", "deny.toml", "benches/Cargo.toml", "xtask/src/supply.rs"], CHIPS, TOOLS],
+    ),
 ];
 
 /// The digests of what the long checks read now, and those of when they passed last.
@@ -95,11 +99,20 @@ impl Passed {
             let mut digest = Digest::default();
             digest.add(compilers.as_bytes());
             for file in files.iter().filter(|file| groups.iter().any(|group| reads(group, file))) {
-                digest.add(file.as_bytes());
                 let path = workspace::root().join(file);
                 let read = fs::read(&path);
                 let read = read.map_err(|error| format!("cannot read {}: {error}", path.display()))?;
-                digest.add(&if file == MANIFEST { of_all(&read) } else { read });
+                let is_of_library = !groups.iter().any(|group| *group != LIBRARIES && reads(group, file));
+                let all = of_all(&read);
+                let counts = match is_of_library {
+                    _ if file == MANIFEST => Some(&all[..]),
+                    true => without_tests(file, &read),
+                    false => Some(&read[..]),
+                };
+                if let Some(counts) = counts {
+                    digest.add(file.as_bytes());
+                    digest.add(counts);
+                }
             }
             now.insert(name, digest.0);
         }
@@ -130,6 +143,22 @@ impl Passed {
 /// Whether a check is long, and may stand.
 pub(super) fn is_long(name: &str) -> bool {
     LONG.iter().any(|(long, _)| *long == name)
+}
+
+/// A library's file without its tests, which no program but theirs has: a file of tests, and a module at the end.
+fn without_tests<'a>(file: &str, read: &'a [u8]) -> Option<&'a [u8]> {
+    if file.ends_with("/tests.rs") || file.contains("/tests/") {
+        return None;
+    }
+    // Attributes, and the module's name and what is in it.
+    let is_module = |rest: &str| {
+        let Some((before, inner)) = rest.split_once("\nmod tests") else { return false };
+        let is_block = inner.starts_with(" {\n") && inner.find("\n}\n").map(|at| at + 3) == Some(inner.len());
+        before.lines().all(|line| !line.starts_with(char::is_alphabetic)) && (inner == ";\n" || is_block)
+    };
+    let text = str::from_utf8(read).unwrap_or_default();
+    let module = text.rfind("\n#[cfg(test)]\n").filter(|&at| is_module(&text[at..]));
+    Some(module.map_or(read, |at| &read[..at]))
 }
 
 /// The workspace's manifest without its comments, and without how much single packages are optimised: those are of the
@@ -214,6 +243,30 @@ mod tests {
         assert_eq!(of(manifest), of(&format!("{more}{manifest}")));
         assert_eq!(of(manifest), of(&manifest.replace("[profile", &format!("{more}[profile"))));
         assert_eq!(of(manifest), b"[workspace]\nmembers = []\n[profile.release]\nlto = true\n");
+    }
+
+    #[test]
+    fn tests_of_libraries_are_not_read() {
+        let of = |file: &str, text: &'static str| {
+            without_tests(file, text.as_bytes()).map(|kept| String::from_utf8_lossy(kept).into_owned())
+        };
+        let some = |text: &str| Some(text.to_owned());
+        const CODE: &str = "mod a;\n#[cfg(test)]\nmod tests;\n\nfn a() {\n}\n";
+        assert_eq!(of("crates/raster/src/a.rs", CODE), some(CODE));
+        for (text, kept) in [
+            ("fn a() {}\n\n#[cfg(test)]\nmod tests {\n    fn b() {}\n}\n", "fn a() {}\n"),
+            ("fn a() {}\n\n#[cfg(test)]\n#[expect(x)]\nmod tests;\n", "fn a() {}\n"),
+            ("\n#[cfg(test)]\nuse a;\nmod tests;\n", "\n#[cfg(test)]\nuse a;\nmod tests;\n"),
+            ("#[cfg(test)]\nfn a() {}\n", "#[cfg(test)]\nfn a() {}\n"),
+            (
+                "\n#[cfg(test)]\nmod tests {\n}\nfn a() {\n}\n",
+                "\n#[cfg(test)]\nmod tests {\n}\nfn a() {\n}\n",
+            ),
+        ] {
+            assert_eq!(of("crates/raster/src/a.rs", text), some(kept), "{text}");
+        }
+        assert_eq!(of("crates/raster/src/a/tests.rs", CODE), None);
+        assert_eq!(of("crates/texture/tests/contract.rs", CODE), None);
     }
 
     #[test]

@@ -61,7 +61,12 @@ pub(super) fn run(matches: &ArgMatches, words: &[OsString]) -> Result<(), Error>
         let error = Error::new("standard output", "a file for pictures that are kept").place("--output");
         return Err(error);
     }
-    let asked = Request::read(matches)?.arguments.render.size.map(|size| [size.0, size.1]);
+    let request = Request::read(matches)?;
+    if given.render.output.is_some() {
+        // Before the window, and not with the first picture that is kept.
+        request.output().map_err(|error| request.relocate(error))?;
+    }
+    let asked = request.arguments.render.size.map(|size| [size.0, size.1]);
     let mut viewer = Viewer::new(words.get(2..).unwrap_or_default(), asked.unwrap_or(SIZE))?;
     viewer.output = given.render.output;
     window::open(viewer, asked.is_none())

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
+use crate::cli::words::nearest;
 use crate::error::{Error, Warnings, quote};
 use crate::load::images::Images;
 use crate::load::input;
@@ -16,6 +17,9 @@ use crate::scene::{MaterialNote, Model, Part, Vertex};
 
 /// The largest material library that is read, in bytes.
 const MAX_LIBRARY_BYTES: u64 = 1 << 26;
+
+/// The material of a surface without one.
+const HINT: &str = "the default material is used";
 
 /// The libraries of a model and the textures read so far. What is missing or broken becomes a warning.
 #[derive(Debug)]
@@ -103,9 +107,18 @@ impl Libraries {
                 Error::new(format!("`usemtl` {}", quote(used.name.as_bytes())), expected)
                     .file(path)
                     .line(used.line)
-                    .hint("the default material is used"),
+                    .hint(match self.meant(&used.name) {
+                        Some(name) => format!("{HINT}; did you mean {}?", quote(name.as_bytes())),
+                        None => HINT.to_owned(),
+                    }),
             );
         }
+    }
+
+    /// The name that is most like one that there is not.
+    fn meant(&self, name: &str) -> Option<&str> {
+        let names = || self.names().keys().map(String::as_str);
+        names().find(|known| known.eq_ignore_ascii_case(name)).or_else(|| nearest(name, names()))
     }
 }
 
@@ -165,7 +178,7 @@ fn normals_as_bump(material: &mut Material, images: &mut Images) -> Option<Error
 
 /// The library that `obj` names.
 fn bytes_of(obj: &Path, named: &Named, file: &Path) -> Result<Vec<u8>, Error> {
-    const HINT: &str = "the default material is used";
+    const HINT: &str = "its materials are the default one";
     seen::see(file);
     if !file.exists() {
         let found = format!("no file \"{}\"", file.display());

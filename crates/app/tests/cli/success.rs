@@ -134,6 +134,7 @@ fn broken_materials_are_warnings() {
     let folder = Folder::with(&[("m.obj", obj.as_bytes())]);
     let run = folder.succeeds(&["m.obj"]);
     assert!(run.stderr.starts_with("warning: m.obj:1: found no file \"m.mtl\", expected an MTL"), "{run:?}");
+    assert!(run.stderr.ends_with("; its materials are the default one\n"), "{run:?}");
     assert_eq!(run.stderr.lines().count(), 1);
 }
 

@@ -139,6 +139,7 @@ fn mistakes_of_usage_are_one_line() {
         ("m.obj --memory 1K", "error: --memory: found a picture of 640x480 "),
         ("m.obj --pixel 3,3", "error: --pixel: found no such option, expected it with alberti explain alone"),
         ("compare - -", "error: -: found standard input for both, expected a file as one of the two"),
+        ("view m.obj -o m.xyz", "error: m.xyz: found the extension \".xyz\", expected one of .png, "),
         ("advise m.obj --image m.obj", "error: m.obj/pick.png: found a file in the place of its folder, "),
         ("m.obj out.PNG", "error: out.PNG: found one file too many, expected -o out.PNG for the picture"),
         (

@@ -153,8 +153,9 @@ fn missing_files_leave_the_default() {
     );
     let (model, warnings) = load_files(&[
         ("m.obj", obj.as_bytes()),
-        ("m.mtl", b"newmtl red\nmap_Kd no.png\nnewmtl green\nmap_Kd no2.png"),
+        ("m.mtl", b"newmtl red\nmap_Kd no.png\nnewmtl Blue\nmap_Kd no2.png"),
     ]);
+    assert!(warnings[1].ends_with("; the default material is used; did you mean \"Blue\"?"), "{warnings:?}");
     assert!(model.textures.is_empty() && model.parts.iter().all(|p| p.texture.is_none()));
     let starts = [
         "m.obj:10: found `usemtl` \"\"",
