@@ -46,7 +46,9 @@ impl Info<'_> {
         line(format!("{}: {triangles}, {vertices}\n", self.source));
         for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
             let [low, high] = extents(model).map(|point| point[axis]);
-            line(format!("  {name:<9}{} to {}, {}", short(low), short(high), short(high - low)));
+            // Rounding leaves a little of 0.
+            let [from, to] = [low, high].map(|x| if x.abs() < 1e-7 * (high - low) { 0.0 } else { x });
+            line(format!("  {name:<9}{} to {}, {}", short(from), short(to), short(high - low)));
         }
         if model.origin != [0.0; 3] {
             line(format!("  origin   counted from {}", model.origin.map(short).join(",")));

@@ -14,13 +14,14 @@ use alberti::raster::color::AnyBlend;
 /// The words on what only the report's frames have.
 const DRAWN: &str = "the file and the instructions have none, the report's frames have it";
 
-/// A warning for each of them, for motion where the scene `moves`, and for attributes that are asked of a model
-/// without. Those without a place are about the model.
-pub fn missing(model: &Model, options: &RenderOptions, asked: Asked, moves: bool) -> Vec<Error> {
+/// A warning for each of them, for motion that the file has as it is at a `moment`, and for attributes that are asked
+/// of a model without. Those without a place are about the model.
+pub fn missing(model: &Model, options: &RenderOptions, asked: Asked, moment: Option<f64>) -> Vec<Error> {
     let mut all = vec![];
-    if moves {
+    if let Some(moment) = moment {
         let error = Error::new("a scene in which something moves", "one that stands");
-        all.push(error.hint("the file has it as it is at the start: a program moves the parts"));
+        let at = if moment > 0.0 { format!("{moment} s") } else { "the start".to_owned() };
+        all.push(error.hint(format!("the file has it as it is at {at}: a program moves the parts")));
     }
     if let Asked::These(attributes) = asked
         && attributes.contains(Attributes::UV)

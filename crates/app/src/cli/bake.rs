@@ -155,7 +155,7 @@ fn bake_into(arguments: &BakeArgs, request: &Request) -> Result<(), Error> {
         _ => error,
     };
     let told = |warning: Error| warn(&request.relocate(own(warning)).to_string());
-    missing(&model, &options, attributes, request.moves()).into_iter().for_each(told);
+    missing(&model, &options, attributes, request.moment()).into_iter().for_each(told);
     let asset = during(Stage::Bake, |_| bake((&model, &camera), &options, &wish)).map_err(own)?;
     left_out(&model, &asset).into_iter().for_each(told);
     if let Some(most) = triangles.filter(|&most| asset.triangles() > most) {

@@ -37,16 +37,24 @@ impl FilmFile {
         named: &Path,
         whole: impl FnOnce(&Path) -> Result<Whole, Error>,
     ) -> Result<Self, Error> {
+        let extension = named.extension().map(|extension| extension.to_string_lossy().into_owned());
+        let format = extension.as_deref().and_then(Format::of);
+        let expected = "pictures such as frames/%04d.png, or one film such as spin.gif";
         if let Some(names) = Names::of(named) {
+            if format.is_some() && !Output::is_format_of(named) {
+                return Err(Error::new("a film with a number in its name", expected).file(named));
+            }
             Output::new(&names.name(0), None)?;
             return Ok(Self::Frames(names));
+        }
+        if named.ancestors().skip(1).any(|folder| Names::of(folder).is_some()) {
+            return Err(Error::new("a number in the name of a folder", expected).file(named));
         }
         if named == Path::new("-") {
             let error = Error::new("standard output", "a file, as films are written whole").place("-o");
             return Err(error);
         }
-        let extension = named.extension().map(|extension| extension.to_string_lossy().into_owned());
-        let format = extension.as_deref().and_then(Format::of).ok_or_else(|| {
+        let format = format.ok_or_else(|| {
             let found = extension.map_or("no extension".to_owned(), |e| format!("the extension \".{e}\""));
             let expected = format!("one of {}, or pictures such as frames/%04d.png", Format::extensions());
             Error::new(found, expected).file(named).hint("name the film so with -o")

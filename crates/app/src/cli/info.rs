@@ -76,6 +76,6 @@ fn priced<'a>(
     let file = bytes(asset);
     let report = during(Stage::Count, |_| Report::new(asset, &file, (model, camera, options), BAND));
     let lost =
-        missing(model, options, Asked::Auto, request.moves()).into_iter().chain(left_out(model, asset));
+        missing(model, options, Asked::Auto, request.moment()).into_iter().chain(left_out(model, asset));
     (report, lost.map(|error| request.relocate(error).to_string()).collect())
 }

@@ -14,11 +14,10 @@ use crate::options::{
 };
 use crate::output::stage::{Stage, during};
 use crate::samples::bytes;
+use crate::scene::Camera;
 use crate::scene::camera::Sight;
-use crate::scene::ground::{self, Stood};
-use crate::scene::{Camera, Image};
+use crate::scene::ground::{self, Shadows, Stood};
 use alberti::Stats;
-use std::sync::Arc;
 
 /// Words of warnings that say why nothing is in a picture.
 const WHY_NOTHING: [&str; 2] = ["there is nothing to see", "a camera that looks away from the model"];
@@ -127,10 +126,10 @@ impl Request {
         warn(&Error::new("nothing of the model in the picture", "some of it").hint(hint).to_string());
     }
 
-    /// Puts a ground under the model of a picture, if that is asked for. Shadows may be `kept` of the same model.
-    pub(super) fn add_ground(&self, staged: &mut Staged, kept: &[Arc<Image>]) -> Option<Stood> {
+    /// Puts a ground under the model of a picture, if that is asked for.
+    pub(super) fn add_ground(&self, staged: &mut Staged, shadows: Shadows<'_>) -> Option<Stood> {
         let mut camera = staged.camera;
-        let stood = self.add_ground_for(staged, std::slice::from_mut(&mut camera), kept);
+        let stood = self.add_ground_for(staged, std::slice::from_mut(&mut camera), shadows);
         staged.camera = camera;
         stood
     }
@@ -149,7 +148,7 @@ impl Request {
         &self,
         staged: &mut Staged,
         cameras: &mut [Camera],
-        kept: &[Arc<Image>],
+        shadows: Shadows<'_>,
     ) -> Option<Stood> {
         if self.arguments.render.ground != Some(true) {
             return None;
@@ -178,7 +177,7 @@ impl Request {
         let fixed = [near.is_some(), far.is_some()];
         let sight = matches!(options.projection, Projection::Perspective).then(|| Sight::of(options));
         let (depth, wrap) = (options.depth, options.wrap);
-        let manner = ground::Manner { fixed, sight, affine, depth, wrap, kept };
+        let manner = ground::Manner { fixed, sight, affine, depth, wrap, shadows };
         let stood = during(Stage::Shadow, |_| ground::add(model, (swept.as_ref(), *up), cameras, manner));
         if stood.is_none() {
             return left_out("a camera below the model's lowest point", "one above the ground");

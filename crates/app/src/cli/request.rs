@@ -257,9 +257,9 @@ impl Request {
         arguments.model.is_some() && camera.eye.is_none() && self.orbit.is_none()
     }
 
-    /// Whether something moves in time.
-    pub(super) fn moves(&self) -> bool {
-        !self.moments.is_empty()
+    /// The time of a picture of what moves; none where nothing does.
+    pub(super) fn moment(&self) -> Option<f64> {
+        (!self.moments.is_empty()).then(|| self.arguments.time.map_or(0.0, |time| <[f64; 1]>::from(time)[0]))
     }
 
     /// The origin of the triangles.

@@ -25,6 +25,7 @@ use crate::output::stage::{self, Stage, during, is_silent, silence};
 use crate::output::stats::Report;
 use crate::samples::supersampled_with;
 use crate::scene::backdrop::Backdrop;
+use crate::scene::ground::Shadows;
 use crate::scene::scenes;
 use crate::show::{Shown, show};
 
@@ -279,7 +280,7 @@ fn draw_from(request: &Request) -> Result<(), Error> {
     let numbers = || during(Stage::Numbers, |_| layers(&staged.model, &seen, &staged.options));
     let layers = beside.as_ref().map(|_| numbers()).transpose()?;
     let triangles = staged.model.parts.iter().map(|part| part.triangles.len()).sum();
-    request.add_ground(&mut staged, &[]);
+    request.add_ground(&mut staged, Shadows::Made);
     let Staged { model, camera, options, samples, backdrop, .. } = staged;
     memory::need(bytes_of(&model), "the drawing of a model").map_err(|error| error.place("--memory"))?;
     // The mip maps are those of the picture and of its counts.

@@ -31,6 +31,7 @@ use crate::output::file::Whole;
 use crate::output::stage::{self, Stage, during, is_silent};
 use crate::scene::Camera;
 use crate::scene::camera::{self, Sight, Turn};
+use crate::scene::ground::Shadows;
 
 pub(super) const HELP: &str = "\
 Examples:
@@ -206,7 +207,7 @@ fn film(
     } else {
         let grounded = request.above_ground(&staged, &cameras);
         bare = grounded.contains(&false).then(|| (staged.model.clone(), grounded));
-        request.add_ground_for(&mut staged, &mut cameras, &[]);
+        request.add_ground_for(&mut staged, &mut cameras, Shadows::Made);
     }
     let Staged { model, options, samples, backdrop, .. } = staged;
     let set = Set { model: &model, options: &options, samples, backdrop: &backdrop };
@@ -223,7 +224,9 @@ fn film(
         if request.above_ground(&staged, &[staged.camera]) == [true] {
             let begin = Instant::now();
             let kept = standing.get().map_or(&[][..], Vec::as_slice);
-            if let Some(ground) = request.add_ground(&mut staged, kept).filter(|_| !things_move) {
+            if let Some(ground) =
+                request.add_ground(&mut staged, Shadows::Kept(kept)).filter(|_| !things_move)
+            {
                 // That of another thread is the same.
                 _ = standing.set(ground.shadows);
             }
@@ -337,7 +340,7 @@ pub(super) fn assemble(matches: &ArgMatches) -> Result<(), Error> {
     let count = u32::try_from(pictures.len()).unwrap_or(u32::MAX);
     let file = FilmFile::new(&arguments.output, |path| Whole::new(path, "-o"))?;
     file.too_fast(arguments.fps).iter().for_each(|warning| warn(&warning.to_string()));
-    let alpha = image_file::has_alpha(&pictures[0]);
+    let alpha = pictures.iter().any(|picture| image_file::has_alpha(picture));
     let Some(mut film) = file.film((count, arguments.fps), alpha) else {
         let expected = format!("a film: {}", Format::extensions());
         return Err(Error::new("names of pictures", expected).file(&arguments.output));
@@ -352,6 +355,14 @@ pub(super) fn assemble(matches: &ArgMatches) -> Result<(), Error> {
                 let found = format!("{}x{} pixels", image.width, image.height);
                 let error = Error::new(found, format!("{width}x{height} as in {}", pictures[0].display()));
                 return Err(error.file(path));
+            }
+            if image.texels.iter().any(|texel| texel[3] < u8::MAX) {
+                // Its alpha would be lost.
+                file.check_alpha().map_err(|_| {
+                    let error =
+                        Error::new("a transparent picture", "opaque ones, or -o with gif, png or webp");
+                    error.file(path)
+                })?;
             }
             film.push(image)?;
         }

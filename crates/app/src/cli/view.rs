@@ -159,7 +159,7 @@ impl Viewer {
         let requests = self.requests(&chosen)?;
         let chains = keeps.maps.then(|| self.scene.chains.clone());
         let shadows = if keeps.shadow { self.shadows.clone() } else { Vec::new() };
-        self.take(Scene::new(requests, &self.cast, Kept { chains, motion: None, shadows })?);
+        self.take(Scene::new(requests, &self.cast, Kept { chains, shadows, ..Kept::default() })?);
         self.chosen = chosen;
         Ok(())
     }
@@ -237,16 +237,16 @@ impl Viewer {
         Some([end, self.time.unwrap_or(first)])
     }
 
-    /// Has the scene so many seconds later, of a motion that goes round.
+    /// Has the scene so many seconds later, of a motion that goes round. In haste its shadows are coarse.
     ///
     /// # Errors
     /// Nothing moves, or a frame cannot be; all is as it was.
-    fn advance(&mut self, seconds: f64) -> Result<bool, Error> {
+    fn advance(&mut self, seconds: f64, is_hasty: bool) -> Result<bool, Error> {
         let Some([end, now]) = self.motion() else {
             return Err(Error::new("a scene in which nothing moves", "one with [[animation]]"));
         };
         let before = self.time.replace(((now + seconds).rem_euclid(end) * TICKS).round() / TICKS);
-        let outcome = self.stage_at_time();
+        let outcome = self.stage_at_time(is_hasty);
         if outcome.is_err() {
             self.time = before;
         }
@@ -254,7 +254,7 @@ impl Viewer {
     }
 
     /// Stages the scene at its time: as a frame of a film, with all that its frames share.
-    fn stage_at_time(&mut self) -> Result<(), Error> {
+    fn stage_at_time(&mut self, is_hasty: bool) -> Result<(), Error> {
         let time = self.time.unwrap_or_default();
         let of = |words| {
             let matches = matches_of(words)?;
@@ -269,7 +269,8 @@ impl Viewer {
         let motion = self.scene.motion.clone();
         let stands = motion.as_ref().is_some_and(|motion| !motion.swept.moves());
         let shadows = if stands { self.shadows.clone() } else { Vec::new() };
-        let mut scene = Scene::new((wishes, request), &self.cast, Kept { chains, motion, shadows })?;
+        let mut scene =
+            Scene::new((wishes, request), &self.cast, Kept { chains, motion, shadows, is_hasty })?;
         scene.request.moments = std::mem::take(&mut self.scene.request.moments);
         self.take(scene);
         Ok(())
@@ -348,7 +349,7 @@ impl Viewer {
             Action::Fit => self.look_from(None),
             Action::View(side) => self.look_from(Some(side)),
             Action::Cycle(cycle, forwards) => self.go_through(cycle, forwards),
-            Action::Step(frames) => self.advance(f64::from(frames) / keys::FRAMES),
+            Action::Step(frames) => self.advance(f64::from(frames) / keys::FRAMES, false),
             Action::Picture | Action::Play | Action::Help | Action::Text | Action::Quit => Ok(false),
         }
     }

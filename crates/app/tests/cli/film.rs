@@ -223,6 +223,12 @@ fn what_is_seen_through_stays_so() {
     made(&folder, "assemble g/%d.png -o c.png");
     let [pictures, joined] = ["b.png", "c.png"].map(|name| apng(&folder, name).0);
     assert!(pictures == joined && pictures[1].len() == 4800);
+    // Where it would be lost, nothing is written.
+    let refused = run(&folder, "assemble f/%d.png -o lost.y4m");
+    let told =
+        "error: f/0.png: found a transparent picture, expected opaque ones, or -o with gif, png or webp";
+    assert_eq!((refused.status, refused.stderr.trim_end()), (Some(2), told));
+    assert!(!folder.path("lost.y4m").exists());
 
     let mut options = gif::DecodeOptions::new();
     options.set_color_output(gif::ColorOutput::RGBA);

@@ -139,6 +139,11 @@ fn mistakes_of_usage_are_one_line() {
         ("m.obj --memory 1K", "error: --memory: found a picture of 640x480 "),
         ("m.obj --pixel 3,3", "error: --pixel: found no such option, expected it with alberti explain alone"),
         ("compare - -", "error: -: found standard input for both, expected a file as one of the two"),
+        (
+            "turntable m.obj -o f%03d.gif",
+            "error: f%03d.gif: found a film with a number in its name, expected",
+        ),
+        ("turntable m.obj -o %d/x.png", "error: %d/x.png: found a number in the name of a folder, expected"),
         ("view m.obj -o m.xyz", "error: m.xyz: found the extension \".xyz\", expected one of .png, "),
         ("advise m.obj --image m.obj", "error: m.obj/pick.png: found a file in the place of its folder, "),
         ("m.obj out.PNG", "error: out.PNG: found one file too many, expected -o out.PNG for the picture"),

@@ -183,3 +183,6 @@ pub(super) fn on_screen<V: Varying>(budget: i32, triangle: &Oriented<'_, V>) -> 
 
 /// The columns of the shortest runs that are drawn so.
 const SHORTEST: i32 = 8;
+
+#[cfg(test)]
+mod tests;

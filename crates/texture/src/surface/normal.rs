@@ -130,10 +130,11 @@ pub fn normal_of_two_lanes<L: Lanes>(encoding: NormalEncoding, lanes: L, texels:
 /// negative turns hills into valleys.
 ///
 /// The slopes are −x/z and −y/z, so x and y are multiplied, and the vector made unit again. A `strength` beyond ±65536
-/// counts as that, and NaN as 0.
+/// counts as that, and NaN and what is between ±2^-50 as 0.
 ///
 /// # Precision
-/// For a unit vector, each component is within 5ε of itself (ε = 2^-24), and the length within 4ε of 1.
+/// For a unit vector whose z is 0 or beyond ±2^-50, each component is within 5ε of itself (ε = 2^-24) and 2^-98, and
+/// the length within 4ε of 1.
 ///
 /// # Cost
 /// A square root and three divisions.
@@ -151,7 +152,9 @@ pub fn strengthened(normal: Vector3<Tangent>, strength: f32) -> Vector3<Tangent>
 #[must_use]
 #[inline(always)]
 pub fn strengthened_lanes<L: Lanes>(lanes: L, [x, y, z]: [L::Number; 3], strength: f32) -> [L::Number; 3] {
-    let strength = if strength.is_nan() { 0.0 } else { strength.clamp(-65536.0, 65536.0) };
+    // Squares of less have too few bits.
+    const LEAST: f32 = 1.0 / 1_125_899_906_842_624.0;
+    let strength = if strength.abs() >= LEAST { strength.clamp(-65536.0, 65536.0) } else { 0.0 };
     let strength = lanes.splat(if has_range(lanes) { strength } else { strength.clamp(-16384.0, 16384.0) });
     unit_lanes(lanes, [x * strength, y * strength, z])
 }

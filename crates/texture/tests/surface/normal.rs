@@ -143,6 +143,16 @@ fn strength_multiplies_slopes() {
     println!("components {:.3}ε, lengths {:.3}ε", worst[0], worst[1]);
     assert!(worst[0] <= 5.0 && worst[1] <= 4.0);
     let slanted = Vector3::<Tangent>::new(Vec3::new(0.6, 0.0, 0.8));
+    // Of a steep one, however small it is; next to 0 it is flat.
+    let steep = Vector3::new(Vec3::new(0.6, -0.8, 0.0));
+    for exponent in 0..=149 {
+        for strength in [0.5_f32.powi(exponent), -1.7 * 0.5_f32.powi(exponent)] {
+            let found = strengthened(steep, strength).coords;
+            let right =
+                if strength.abs() >= 0.5_f32.powi(50) { steep.coords * strength.signum() } else { Vec3::Z };
+            assert!((found - right).as_dvec3().abs().max_element() < 5.0 * EPS, "{strength}: {found}");
+        }
+    }
     assert_eq!(strengthened(slanted, 0.0).coords, Vec3::Z);
     assert_eq!(strengthened(slanted, f32::NAN).coords, Vec3::Z);
     assert_eq!(strengthened(slanted, f32::INFINITY), strengthened(slanted, 65536.0));

@@ -14,7 +14,7 @@ use crate::options::values::name_of;
 use crate::options::{CameraTable, Projection, Samples};
 use crate::render::Picture;
 use crate::samples::supersampled_with;
-use crate::scene::ground::Stood;
+use crate::scene::ground::{Shadows, Stood};
 use crate::scene::{Camera, Image, Model};
 use crate::show::{Shown, show};
 use alberti::Stats;
@@ -28,6 +28,8 @@ pub(super) struct Scene {
     /// The model without its ground, for cameras below that, and that ground.
     pub(super) bare: Option<Model>,
     pub(super) ground: Option<Stood>,
+    /// Whether its shadows are.
+    pub(super) is_coarse: bool,
     pub(super) chains: Arc<Chains>,
     pub(super) motion: Option<Rc<Motion>>,
 }
@@ -46,6 +48,8 @@ pub(super) struct Kept {
     pub(super) motion: Option<Rc<Motion>>,
     /// The images of the shadows on the ground.
     pub(super) shadows: Vec<Arc<Image>>,
+    /// Whether others may be coarse.
+    pub(super) is_hasty: bool,
 }
 
 impl Scene {
@@ -54,7 +58,7 @@ impl Scene {
     pub(super) fn new(
         (wishes, request): (CameraTable, Request),
         cast: &Cast,
-        Kept { chains, mut motion, shadows }: Kept,
+        Kept { chains, mut motion, shadows, is_hasty }: Kept,
     ) -> Result<Self, Error> {
         let staged = request.check().and_then(|()| {
             if motion.is_none() {
@@ -65,12 +69,15 @@ impl Scene {
         let mut staged = staged.map_err(|error| request.relocate(error))?;
         ordered(&mut staged.model, &staged.camera, staged.options.projection);
         let bare = (request.arguments.render.ground == Some(true)).then(|| staged.model.clone());
-        let ground = request.add_ground(&mut staged, &shadows);
+        let is_coarse = is_hasty && shadows.is_empty();
+        let shadows = if is_coarse { Shadows::Coarse } else { Shadows::Kept(&shadows) };
+        let ground = request.add_ground(&mut staged, shadows);
+        let is_coarse = is_coarse && ground.is_some();
         let chains = match chains {
             Some(chains) => chains,
             None => Arc::new(Chains::new(&staged.model, &staged.options)?),
         };
-        Ok(Self { request, wishes, staged, bare, ground, chains, motion })
+        Ok(Self { request, wishes, staged, bare, ground, is_coarse, chains, motion })
     }
 
     /// Draws what a camera sees: with one sample a pixel if it is a draft.

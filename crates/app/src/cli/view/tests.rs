@@ -257,7 +257,7 @@ fn a_motion_is_that_of_its_frames() {
         let first = picture(&viewer);
         let before = viewer.camera();
         let [end, start] = viewer.motion().expect("a motion");
-        viewer.advance(0.25).expect("a frame");
+        viewer.advance(0.25, false).expect("a frame");
         assert_eq!((end, viewer.motion()), (2.0, Some([2.0, start + 0.25])));
         let next = picture(&viewer);
         assert!(next != first && next == rendered(&viewer, folder.path()), "{options} {keys}");
@@ -267,12 +267,22 @@ fn a_motion_is_that_of_its_frames() {
         assert_eq!(viewer.motion(), Some([2.0, start + 0.25]));
         assert!(picture(&viewer) == rendered(&viewer, folder.path()));
         act(&mut viewer, "iiii");
-        viewer.advance(1.75).expect("a frame");
+        viewer.advance(1.75, false).expect("a frame");
         assert_eq!(viewer.motion(), Some([2.0, start]));
         assert!(picture(&viewer) == first, "{options} {keys}");
+        // In haste a ground has half as many cells, until the motion stands.
+        let has_ground = options == "--ground";
+        viewer.advance(0.5, true).expect("a frame");
+        assert_eq!(viewer.scene.is_coarse, has_ground);
+        let (hasty, whole) = (picture(&viewer), rendered(&viewer, folder.path()));
+        let off = |(a, b): (&[u8; 4], &[u8; 4])| a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).max();
+        let most = hasty.texels.iter().zip(&whole.texels).filter_map(off).max();
+        assert!((hasty != whole) == has_ground && most < Some(40), "{most:?}");
+        viewer.stage_at_time(false).expect("a frame");
+        assert!(!viewer.scene.is_coarse && picture(&viewer) == whole);
     }
     let mut viewer = viewer(folder.path(), "");
-    let told = viewer.advance(0.1).expect_err("nothing moves").to_string();
+    let told = viewer.advance(0.1, false).expect_err("nothing moves").to_string();
     assert!(viewer.motion().is_none() && told.contains("[[animation]]"), "{told}");
 }
 
@@ -316,7 +326,7 @@ fn planes_follow_what_is_seen() {
     let mut later = Viewer::new(&[scene(moving)], SIZE).expect("a scene");
     act(&mut later, "<<");
     for _ in 0..6 {
-        later.advance(0.1).expect("a frame");
+        later.advance(0.1, false).expect("a frame");
         assert_eq!(cut_away(&later, folder.path()), 0, "{:?}", later.camera());
     }
     let own = "[camera]\neye = [6, 4, 8]\nnear = 5\nfar = 20\n[[object]]\nmodel = \"m.obj\"\n";

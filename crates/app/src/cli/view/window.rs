@@ -77,8 +77,9 @@ struct Screen {
     took: Duration,
     whole: Duration,
     moved: Option<Instant>,
-    /// The time from which a motion is to go on, if it plays.
+    /// The time from which a motion is to go on, if it plays, and what it takes to have a frame of it.
     played: Option<Instant>,
+    staged: Duration,
     message: Option<(String, Instant)>,
     /// The error of the files, as long as they have it.
     fault: Option<String>,
@@ -108,6 +109,7 @@ impl Screen {
             whole: Duration::ZERO,
             moved: None,
             played: None,
+            staged: Duration::ZERO,
             message: None,
             fault: None,
             has_help: false,
@@ -212,7 +214,10 @@ impl Screen {
     fn play(&mut self, seconds: f64) {
         // The time that it takes to have the frame counts for the next.
         let now = Instant::now();
-        let outcome = self.viewer.advance(seconds);
+        // Once too slow, frames are in haste until the motion ends.
+        let is_hasty = self.viewer.scene.is_coarse || self.staged > SLOW;
+        let outcome = self.viewer.advance(seconds, is_hasty);
+        self.staged = now.elapsed();
         self.played = self.hear(outcome).map(|_| now);
         (self.is_old, self.moved) = (true, Some(now));
     }
@@ -290,7 +295,11 @@ impl Screen {
         if stats.fragments > 0 {
             line += &format!(", {} fragments", stats.fragments);
         }
-        line += &format!(", {took:.1} ms   H: keys");
+        line += &format!(", {took:.1} ms");
+        if self.played.is_some() {
+            line += &format!(" and {:.1} ms for what moves", self.staged.as_secs_f64() * 1e3);
+        }
+        line += "   H: keys";
         if let Some([end, now]) = self.viewer.motion() {
             let does = if self.played.is_some() { "stands" } else { "plays" };
             line += &format!("   {now:.2} of {end:.2} s, Space: {does}");
@@ -424,6 +433,11 @@ impl ApplicationHandler for Screen {
         let now = Instant::now();
         if let Some(before) = self.played {
             self.play((now - before).as_secs_f64());
+            self.redraw();
+        }
+        if self.played.is_none() && self.viewer.scene.is_coarse {
+            let outcome = self.viewer.stage_at_time(false);
+            self.is_old |= self.hear(outcome).is_some();
             self.redraw();
         }
         if self.is_draft && self.moved.is_none_or(|moved| now - moved >= REST) {

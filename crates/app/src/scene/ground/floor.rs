@@ -10,7 +10,7 @@ use alberti::texture::surface::Subdivision;
 /// The share of a model's height that things may reach below its floor.
 const DIP: f64 = 0.25;
 
-/// The share of a model's extent that a floor has at least, and that of a floor which all below it has at most.
+/// The share of a model's extent that a floor has at least, and that of a slab's upper side which all below it has.
 const LARGE: f64 = 0.25;
 const LITTLE: f64 = 0.5;
 
@@ -18,8 +18,8 @@ const LITTLE: f64 = 0.5;
 const EXACT: f64 = 1e-6;
 
 /// The grounds of a model, or of all places that it comes to, the upper one first. It is just over a floor of the
-/// model's own, if it has one, and just below the lowest point otherwise. Where things beside the floor reach below it,
-/// there are both. None if there is nothing to stand on it.
+/// model's own, if it has one, and just below the lowest point otherwise. Where the floor is a slab's upper side, or
+/// things beside it reach below it, there are both. None if there is nothing to stand on it.
 pub(super) fn grounds(
     model: &Model,
     swept: Option<&Reached>,
@@ -31,17 +31,20 @@ pub(super) fn grounds(
     let [a, b] = others(ground.up.0);
     let [least, most] = bounds(super::places(whole));
     let extent = (most[a] - least[a]) * (most[b] - least[b]);
-    let Some((height, [low, high])) = found(model, &ground, extent) else {
-        return if ground.is_flat { Vec::new() } else { vec![ground] };
+    let alone = if ground.is_flat { Vec::new() } else { vec![ground] };
+    let Some(Floor { height, sides: [low, high], is_slab }) = found(model, &ground, extent) else {
+        return alone;
     };
-    let Some(on_floor) = of_things((model, swept), &ground, height, depth) else { return Vec::new() };
+    let Some(on_floor) = of_things((model, swept), &ground, height, depth) else {
+        return if is_slab { alone } else { Vec::new() };
+    };
     let is_deep = |place: &[f64; 3]| ground.up.1 * (place[ground.up.0] - ground.low) < height - ground.near;
     let is_beside = |place: &[f64; 3]| {
         let beside =
             |k: usize, axis: usize| place[axis] < low[k] - ground.near || place[axis] > high[k] + ground.near;
         beside(0, a) || beside(1, b)
     };
-    if super::places(whole).any(|place| is_deep(&place) && is_beside(&place)) {
+    if is_slab || super::places(whole).any(|place| is_deep(&place) && is_beside(&place)) {
         return vec![Ground { goes_on: false, ..on_floor }, ground];
     }
     vec![on_floor]
@@ -72,10 +75,17 @@ fn of_things(
     Some(Ground { near: things.near.max(exact), on_floor: true, ..things })
 }
 
-/// How high a floor is over a ground, and the corners of it along the other axes. It is the lowest level of faces that
-/// look up and have much of the model's extent. There is little below it, such as the feet of things, or it is the
-/// upper side of a slab, or a board.
-fn found(model: &Model, ground: &Ground, extent: f64) -> Option<(f64, [[f64; 2]; 2])> {
+/// The lowest level of faces that look up and have much of a model's extent.
+struct Floor {
+    /// How high it is over the ground.
+    height: f64,
+    /// The least and the greatest coordinates along the other axes.
+    sides: [[f64; 2]; 2],
+    /// Whether there is more below it than the feet of things.
+    is_slab: bool,
+}
+
+fn found(model: &Model, ground: &Ground, extent: f64) -> Option<Floor> {
     let (up, sign) = ground.up;
     let [a, b] = others(up);
     let over = |v: &Vertex| sign * (f64::from(v.position[up]) - ground.low);
@@ -108,9 +118,6 @@ fn found(model: &Model, ground: &Ground, extent: f64) -> Option<(f64, [[f64; 2];
         if area > LARGE * extent {
             let is_below = |all: &[&Vertex; 3]| range(*all)[1] < height - ground.near;
             let below: f64 = triangles().filter(is_below).map(plan).sum();
-            if below >= LITTLE * area {
-                return None;
-            }
             let is_of_it =
                 |all: &[&Vertex; 3]| level(*all).is_some_and(|(at, _)| (at - height).abs() < ground.near);
             let corners = triangles().filter(is_of_it).flatten();
@@ -119,7 +126,7 @@ fn found(model: &Model, ground: &Ground, extent: f64) -> Option<(f64, [[f64; 2];
                 let at = [a, b].map(|k| f64::from(v.position[k]));
                 [[0, 1].map(|k| low[k].min(at[k])), [0, 1].map(|k| high[k].max(at[k]))]
             });
-            return Some((height, sides));
+            return Some(Floor { height, sides, is_slab: below >= LITTLE * area });
         }
     }
     None
@@ -252,9 +259,9 @@ mod tests {
         assert!(alpha(&plates, &below, [0.0, 0.0]).abs_diff(dark) < 20);
     }
 
-    /// Things may dip into a floor, also in motion. Boards, upper sides of slabs, and a high floor are none.
+    /// Things may dip into a floor, also in motion. A board that looks down, and a high floor are none.
     #[test]
-    fn floors_are_low_and_have_little_below() {
+    fn floors_are_low() {
         let found = |model: &Model, swept: Option<&Reached>| {
             let ground = first(model, swept);
             (ground.on_floor, ground.low)
@@ -268,8 +275,7 @@ mod tests {
         assert_eq!(found(&dipped, Some(&swept)), (is_floor, low));
         // The squares that look down stand first.
         for (down, none) in [
-            (1, &[(0.9, -0.1), (1.0, 0.0), (0.2, 1.0)][..]),
-            (0, &[(1.0, 0.8), (0.2, 0.0), (0.2, 1.0)]),
+            (0, &[(1.0, 0.8), (0.2, 0.0), (0.2, 1.0)][..]),
             (0, &[(0.3, 0.0), (1.0, 0.5)]),
             (1, &[(1.0, 0.0), (0.2, 1.0)]),
         ] {
@@ -310,6 +316,26 @@ mod tests {
         model.vertices[4..8].iter_mut().for_each(|v| v.position[1] = -0.1);
         assert_eq!(of(&model), [(true, false), (false, true)]);
         assert_eq!(of(&squares(&[(0.3, 0.0), (1.0, 0.5)])), [(false, true)]);
+    }
+
+    /// A slab has the shadow of what stands on it, and throws one around it.
+    #[test]
+    fn a_slab_is_a_floor_on_a_ground() {
+        for thickness in [0.02, 0.1] {
+            let mut model = squares(&[(1.0, -thickness), (1.0, 0.0), (0.3, 0.2), (0.3, 0.9)]);
+            model.vertices[..4].iter_mut().for_each(|v| v.normal[1] = -1.0);
+            let grounds = grounds(&model, None, [0.0, 1.0, 0.0], DepthFormat::F32);
+            let [on_it, below] = grounds[..] else { panic!("{grounds:?}") };
+            assert!(on_it.on_floor && !on_it.goes_on && !below.on_floor && below.goes_on);
+            assert!(on_it.low > 0.0 && below.low < -f64::from(thickness));
+            let [dark, light] = [[0.0, 0.0], [0.8, 0.8]].map(|at| alpha(&model, &on_it, at));
+            assert!(dark > 60 && light < 20, "{dark} {light}");
+            assert!(alpha(&model, &below, [1.02, 0.0]) > 4);
+            // Without things there is the slab's own shadow.
+            model.parts.truncate(2);
+            let alone = super::grounds(&model, None, [0.0, 1.0, 0.0], DepthFormat::F32);
+            assert!(alone.len() == 1 && !alone[0].on_floor, "{alone:?}");
+        }
     }
 
     /// Without a depth buffer it is drawn after the floor, and before what stands on it.

@@ -9,8 +9,8 @@ use std::sync::Arc;
 /// A ground that a model has been given, for the cameras that look at it.
 #[derive(Debug)]
 pub(crate) struct Stood {
-    /// The upper one.
-    pub(super) seen: Ground,
+    /// The lower one, if there are two.
+    pub(super) lowest: Ground,
     /// The images of the shadows.
     pub(crate) shadows: Vec<Arc<Image>>,
     /// The corners of those that go on all around.
@@ -23,7 +23,7 @@ pub(crate) struct Stood {
 impl Stood {
     /// Whether a camera sees it from above.
     pub(crate) fn is_below(&self, camera: &Camera) -> bool {
-        self.seen.is_below(camera)
+        self.lowest.is_below(camera)
     }
 
     /// Moves the planes of a camera above it so that all that is in the picture is between them.

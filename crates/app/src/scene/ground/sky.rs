@@ -14,6 +14,9 @@ use crate::scene::normals::{cross, length, narrow};
 use crate::scene::{Model, Part, Vertex};
 use crate::threads::{Task, available, by_threads};
 use alberti::raster::color::AnyBlend;
+use rays::Rays;
+
+mod rays;
 
 /// A corner over the ground: columns, rows, height, all in cells, and its texture coordinates.
 type Corner = [f64; 5];
@@ -23,9 +26,6 @@ const BOXES: f64 = 64.0;
 
 /// The directions that a texel looks in.
 const DIRECTIONS: u8 = 16;
-
-/// So many steps are made of each length, which doubles.
-const STEPS: u32 = 20;
 
 /// The height in boxes up to which a surface is on the ground.
 const FLAT: f64 = 0.25;
@@ -47,6 +47,8 @@ pub(super) struct Sky {
     covered: Vec<bool>,
     /// Cells along a side.
     side: usize,
+    /// The height of a box, in cells.
+    height: f64,
 }
 
 /// Surfaces that hide the same share.
@@ -54,19 +56,6 @@ struct Layer {
     opacity: f64,
     /// The boxes over all cells, and over squares of 2, 4, … cells.
     levels: Vec<Vec<u64>>,
-    /// The height of a box, in cells.
-    height: f64,
-}
-
-/// A place outwards of a texel.
-struct Step {
-    level: usize,
-    /// How far away it is, and where it begins and ends.
-    along: f64,
-    from: f64,
-    to: f64,
-    /// How much of its shadow is left.
-    weight: f64,
 }
 
 impl Sky {
@@ -81,44 +70,29 @@ impl Sky {
         let layer = |&alpha: &u8| {
             let parts = model.parts.iter().filter(|part| alpha_of(part) == alpha);
             let cells = columns(ground, parts, (model, wrap), height, &mut covered);
-            Layer { opacity: f64::from(alpha) / 255.0, levels: pyramid(cells, side), height }
+            Layer { opacity: f64::from(alpha) / 255.0, levels: pyramid(cells, side) }
         };
-        Self { layers: alphas.iter().map(layer).collect(), covered, side }
+        Self { layers: alphas.iter().map(layer).collect(), covered, side, height }
     }
 
     /// The share of the sky's light that each texel of two by two cells does not have, row by row. What is farther than
     /// `reach` cells away darkens none, and what is near it little.
     pub(super) fn darkness(&self, reach: f64) -> Vec<f64> {
-        let mut steps = vec![Step { level: 0, along: 0.25, from: 0.25, to: 0.5, weight: 1.0 }];
-        let (mut from, mut length, mut level) = (0.5, 1.0, 0);
-        while from < reach && self.side >> level > 0 {
-            // Near by, a ray of whole steps would pass between the cells of a wall that stands aslant.
-            let parts = if level == 0 { 2 } else { 1 };
-            for _ in 0..parts * STEPS {
-                let to = from + length / f64::from(parts);
-                let along: f64 = f64::midpoint(from, to);
-                let left = (1.0 - (along / reach).powi(2)).max(0.0);
-                steps.push(Step { level, along, from, to, weight: left * left });
-                from = to;
-            }
-            (length, level) = (2.0 * length, level + 1);
-        }
-        steps.retain(|step| step.weight > 0.0);
+        let rays = &Rays::new(reach, self.height, self.side);
         let texels = self.side / 2;
         let covered: Vec<bool> =
             (0..texels * texels).map(|k| self.is_covered([k % texels, k / texels])).collect();
         // Dark texels stay below what lies on the ground, farther in than its rim.
         let mut dark = vec![1.0; texels * texels];
-        let steps = &steps;
         let rows = dark.chunks_mut(texels).zip(covered.chunks(texels)).zip(0_u32..);
         let rows = rows.map(|((texels, covered), row)| {
             Box::new(move || {
                 let open = texels.iter_mut().zip(covered).zip(0_u32..).filter(|((_, covered), _)| !**covered);
                 for ((dark, _), column) in open {
                     let light = self.layers.iter().map(|layer| {
-                        let of = |steps| layer.dark([column, row], steps, self.side);
+                        let is_empty = layer.is_empty([column, row], reach, self.side);
                         1.0 - layer.opacity
-                            * if layer.is_empty([column, row], reach, self.side) { 0.0 } else { of(steps) }
+                            * if is_empty { 0.0 } else { layer.dark([column, row], rays, self.side) }
                     });
                     *dark = 1.0 - light.product::<f64>();
                 }
@@ -223,6 +197,9 @@ fn columns<'a>(
         *covered |= f64::from(*lying) > WHOLE;
     }
     let kept = |(index, (boxes, seen, _)): (usize, (u64, f32, f32))| {
+        if boxes == 0 {
+            return 0;
+        }
         // A level surface has the area of its cell, and a wall its height.
         let whole = (f64::from(boxes.count_ones()) * height).max(1.0);
         let share = f64::from(seen) / (WHOLE * whole);
@@ -267,26 +244,19 @@ impl Layer {
         around(row).all(|row| around(column).all(|column| self.levels[level][row * (last + 1) + column] == 0))
     }
 
-    fn dark(&self, texel: [u32; 2], steps: &[Step], side: usize) -> f64 {
-        // Neighbours look in directions between those of each other.
-        let turned = f64::from((texel[0] & 1) * 2 + (texel[1] & 1)) / 4.0;
-        let place = texel.map(|k| 2.0 * f64::from(k) + 1.0);
-        let beside = u32::try_from(side).map_or(0.0, f64::from);
+    fn dark(&self, texel: [u32; 2], rays: &Rays, side: usize) -> f64 {
+        let levels: Vec<&[u64]> = rays.steps.iter().map(|step| &self.levels[step.level][..]).collect();
         let mut sum = 0.0;
-        for k in 0..DIRECTIONS {
-            let angle = (f64::from(k) + turned) / f64::from(DIRECTIONS) * std::f64::consts::TAU;
-            let (sin, cos) = angle.sin_cos();
+        for ray in rays.of(texel) {
             let mut hidden = 0_u64;
-            for step in steps {
-                let [x, y] = [place[0] + step.along * cos, place[1] + step.along * sin];
-                if !(0.0..beside).contains(&x) || !(0.0..beside).contains(&y) || hidden == u64::MAX {
+            for ((step, level), apart) in rays.steps.iter().zip(&levels).zip(ray) {
+                let [x, y] = [0, 1].map(|k| (2 * texel[k] + 1).wrapping_add_signed(apart[k]) as usize);
+                if x >= side || y >= side || hidden == u64::MAX {
                     break;
                 }
-                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "they are cells")]
-                let (column, row) = (x as usize >> step.level, y as usize >> step.level);
-                let boxes = self.levels[step.level][row * (side >> step.level) + column];
+                let boxes = level[(y >> step.level) * (side >> step.level) + (x >> step.level)];
                 if boxes != 0 {
-                    let now = self.elevations(boxes, step) & !hidden;
+                    let now = step.hidden(boxes) & !hidden;
                     hidden |= now;
                     sum += f64::from(now.count_ones()) * step.weight;
                 }
@@ -294,33 +264,18 @@ impl Layer {
         }
         sum / (BOXES * f64::from(DIRECTIONS))
     }
-
-    /// The elevations that boxes hide which are so far away.
-    fn elevations(&self, mut boxes: u64, step: &Step) -> u64 {
-        let mut hidden = 0;
-        while boxes != 0 {
-            let first = boxes.trailing_zeros();
-            let count = (boxes >> first).trailing_ones();
-            let share = |boxes: u32, far: f64| {
-                let height = f64::from(boxes) * self.height;
-                let square = height * height;
-                if square > 0.0 { BOXES * square / (square + far * far) } else { 0.0 }
-            };
-            // A surface over the place itself hides all that is higher.
-            let from = if first > 0 && step.level == 0 && step.from < 0.5 { 0.0 } else { step.from };
-            hidden |= bits(share(first, step.to).round(), share(first + count, from).round());
-            boxes = boxes.checked_shr(first + count).map_or(0, |rest| rest << (first + count));
-        }
-        hidden
-    }
 }
 
 /// The bits from one to another, without that; both whole.
 fn bits(from: f64, to: f64) -> u64 {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
     let [from, to] = [from, to].map(|bit| bit.min(BOXES) as u32);
-    let below = |bit: u32| u64::MAX.checked_shr(64 - bit).unwrap_or(0);
     below(to) & !below(from)
+}
+
+/// So many bits from the lowest on, at most 64.
+fn below(count: u32) -> u64 {
+    u64::MAX.checked_shr(64 - count).unwrap_or(0)
 }
 
 fn mean(values: impl Iterator<Item = f64> + Clone) -> f64 {

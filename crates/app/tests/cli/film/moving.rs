@@ -284,7 +284,7 @@ fn values_of_cameras_are_looked_at_first() {
     }
 }
 
-/// Assets are of the start, and say so.
+/// Assets are of a moment, and say so.
 #[test]
 fn assets_of_what_moves_are_told() {
     let start = ["[-1, 0.5, 0]", "ff0000", "[0, 2, 5]"];
@@ -294,6 +294,9 @@ fn assets_of_what_moves_are_told() {
     for (line, name) in [("info a.toml", "a.toml"), ("bake a.toml --out b", "a.toml")] {
         let moving = run(&folder, line);
         assert!(format!("{}{}", moving.stdout, moving.stderr).contains(told), "{moving:?}");
+        let later = run(&folder, &format!("{line} --time 0.25"));
+        let told = told.replace("the start", "0.25 s");
+        assert!(format!("{}{}", later.stdout, later.stderr).contains(&told), "{later:?}");
         let still = run(&folder, &line.replace(name, "0.toml"));
         assert!(!format!("{}{}", still.stdout, still.stderr).contains("moves"), "{still:?}");
     }
