@@ -84,6 +84,7 @@ pub(crate) enum Shadows<'a> {
     #[default]
     Made,
     /// Made of half as many cells along each side: for what moves, at once.
+    #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "nothing is in haste but a window"))]
     Coarse,
     /// Those of the same model, if they have as many cells.
     Kept(&'a [Arc<Image>]),

@@ -22,7 +22,8 @@ mod rays;
 type Corner = [f64; 5];
 
 /// Boxes of a column.
-const BOXES: f64 = 64.0;
+const COUNT: u8 = 64;
+const BOXES: f64 = COUNT as f64;
 
 /// The directions that a texel looks in.
 const DIRECTIONS: u8 = 16;

@@ -1,13 +1,13 @@
 //! The ways in which texels look outwards, and the elevations that boxes hide from there.
 
-use super::{BOXES, DIRECTIONS, below};
+use super::{BOXES, COUNT, DIRECTIONS, below};
 use std::f64::consts::TAU;
 
 /// So many steps are made of each length, which doubles.
 const STEPS: u32 = 20;
 
 /// The elevations of so many boxes, from none to all.
-type Elevations = [u8; BOXES as usize + 1];
+type Elevations = [u8; COUNT as usize + 1];
 
 /// The steps that all texels make, each in its directions.
 pub(super) struct Rays {
@@ -78,7 +78,7 @@ impl Step {
             let first = boxes.trailing_zeros();
             let count = (boxes >> first).trailing_ones();
             let end = first + count;
-            let to = if self.is_over && first > 0 { BOXES as u32 } else { self.near[end as usize].into() };
+            let to = if self.is_over && first > 0 { COUNT.into() } else { self.near[end as usize].into() };
             hidden |= below(to) & !below(self.far[first as usize].into());
             boxes = boxes.checked_shr(end).map_or(0, |rest| rest << end);
         }
@@ -89,7 +89,7 @@ impl Step {
 /// The elevations that boxes of this height reach at a distance.
 fn elevations(height: f64, far: f64) -> Elevations {
     std::array::from_fn(|boxes| {
-        let square = (boxes as f64 * height).powi(2);
+        let square = (u32::try_from(boxes).map_or(BOXES, f64::from) * height).powi(2);
         let share = if square > 0.0 { BOXES * square / (square + far * far) } else { 0.0 };
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most all")]
         let bits = share.round() as u8;
